@@ -1,0 +1,23 @@
+// Calibration of a stereo vehicle.
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace maploop {
+
+// Rectified stereo pair: both cameras share the intrinsics; the right camera stands `baseline` to
+// the right of the left one.
+struct StereoCalibration {
+  int width = 0;                                  // px
+  int height = 0;                                 // px
+  double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  // px
+  double baseline = 0.0;                          // m
+  Eigen::Isometry3d T_body_cam = Eigen::Isometry3d::Identity();
+};
+
+struct VehicleCalibration {
+  StereoCalibration stereo;
+  Eigen::Isometry3d T_body_velo = Eigen::Isometry3d::Identity();
+};
+
+}  // namespace maploop

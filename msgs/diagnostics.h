@@ -1,0 +1,47 @@
+// What the runtime says of itself.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "msgs/time.h"
+
+namespace maploop {
+
+// Latency of one thread or of one path from sensor stamp to state.
+struct LatencySummary {
+  std::string name;
+  std::uint64_t count = 0;
+  std::uint64_t misses = 0;  // of `deadline`
+  Duration deadline{};       // 0: none declared
+  Duration p50{}, p90{}, p99{}, p999{}, max{};
+};
+
+struct Deadlines {
+  Time stamp{};
+  std::vector<LatencySummary> threads;  // from release to result
+  std::vector<LatencySummary> paths;    // from the sensor's stamp to the state that holds it
+};
+
+struct RingHealth {
+  std::string name;
+  std::uint64_t pushed = 0, popped = 0, lost = 0, held = 0, capacity = 0;
+};
+
+struct ThreadHealth {
+  std::string name;
+  std::string scheduling;   // what the kernel granted: "fifo 50", "other (fifo 50 refused: ...)"
+  std::uint64_t count = 0;  // samples or ticks so far
+  double rate = 0.0;        // Hz of data time, over the last second
+  std::string failure;      // empty while it runs
+};
+
+struct Health {
+  Time stamp{};
+  std::vector<ThreadHealth> threads;
+  std::vector<RingHealth> rings;
+  std::vector<std::string> degraded;  // each a sentence: what, since when, what to do
+};
+
+}  // namespace maploop

@@ -1,0 +1,313 @@
+#include "msgs/lcm/conversions.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace maploop {
+namespace {
+
+std::int64_t microseconds_of(Time t) {
+  return std::chrono::floor<std::chrono::microseconds>(t).time_since_epoch().count();
+}
+
+maploop_lcm::header_t header_of(const Sample& sample) {
+  maploop_lcm::header_t header{};
+  header.utime = microseconds_of(sample.stamp);
+  header.stamp_ns = to_nanoseconds(sample.stamp);
+  header.available_ns = to_nanoseconds(sample.available);
+  header.sequence = static_cast<std::int64_t>(sample.sequence);
+  return header;
+}
+
+void set_sample(Sample& sample, const maploop_lcm::header_t& header) {
+  sample.stamp = from_nanoseconds(header.stamp_ns);
+  sample.available = from_nanoseconds(header.available_ns);
+  sample.sequence = static_cast<std::uint64_t>(header.sequence);
+}
+
+template <int n>
+void write(const Eigen::Matrix<double, n, 1>& v, double (&out)[n]) {
+  for (int i = 0; i < n; ++i) out[i] = v(i);
+}
+
+template <int n>
+void write(const Eigen::Matrix<double, n, n>& m, double (&out)[n][n]) {
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) out[i][j] = m(i, j);
+  }
+}
+
+template <int n>
+void read(const double (&in)[n], Eigen::Matrix<double, n, 1>& v) {
+  for (int i = 0; i < n; ++i) v(i) = in[i];
+}
+
+template <int n>
+void read(const double (&in)[n][n], Eigen::Matrix<double, n, n>& m) {
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) m(i, j) = in[i][j];
+  }
+}
+
+// The enumerations of the messages count like ours; `last` is the largest known.
+template <class Status>
+Status status_from(std::int8_t value, Status last, const char* type) {
+  if (value < 0 || value > static_cast<std::int8_t>(last)) {
+    throw std::invalid_argument(std::string(type) + ".status is " + std::to_string(value) +
+                                ", which this version does not know");
+  }
+  return static_cast<Status>(value);
+}
+
+double to_us(Duration d) {
+  return static_cast<double>(d.count()) * 1e-3;
+}
+Duration from_us(double us) {
+  return from_seconds(us * 1e-6);
+}
+
+maploop_lcm::latency_summary_t to_lcm(const LatencySummary& s) {
+  maploop_lcm::latency_summary_t m{};
+  m.name = s.name;
+  m.count = static_cast<std::int64_t>(s.count);
+  m.misses = static_cast<std::int64_t>(s.misses);
+  m.deadline_us = to_us(s.deadline);
+  m.p50_us = to_us(s.p50);
+  m.p90_us = to_us(s.p90);
+  m.p99_us = to_us(s.p99);
+  m.p999_us = to_us(s.p999);
+  m.max_us = to_us(s.max);
+  return m;
+}
+
+LatencySummary from_lcm(const maploop_lcm::latency_summary_t& m) {
+  return {m.name,
+          static_cast<std::uint64_t>(m.count),
+          static_cast<std::uint64_t>(m.misses),
+          from_us(m.deadline_us),
+          from_us(m.p50_us),
+          from_us(m.p90_us),
+          from_us(m.p99_us),
+          from_us(m.p999_us),
+          from_us(m.max_us)};
+}
+
+maploop_lcm::thread_health_t to_lcm(const ThreadHealth& t) {
+  maploop_lcm::thread_health_t m{};
+  m.name = t.name;
+  m.scheduling = t.scheduling;
+  m.count = static_cast<std::int64_t>(t.count);
+  m.rate_hz = t.rate;
+  m.failure = t.failure;
+  return m;
+}
+
+ThreadHealth from_lcm(const maploop_lcm::thread_health_t& m) {
+  return {m.name, m.scheduling, static_cast<std::uint64_t>(m.count), m.rate_hz, m.failure};
+}
+
+maploop_lcm::ring_health_t to_lcm(const RingHealth& r) {
+  maploop_lcm::ring_health_t m{};
+  m.name = r.name;
+  m.pushed = static_cast<std::int64_t>(r.pushed);
+  m.popped = static_cast<std::int64_t>(r.popped);
+  m.lost = static_cast<std::int64_t>(r.lost);
+  m.held = static_cast<std::int64_t>(r.held);
+  m.capacity = static_cast<std::int64_t>(r.capacity);
+  return m;
+}
+
+RingHealth from_lcm(const maploop_lcm::ring_health_t& m) {
+  return {m.name,
+          static_cast<std::uint64_t>(m.pushed),
+          static_cast<std::uint64_t>(m.popped),
+          static_cast<std::uint64_t>(m.lost),
+          static_cast<std::uint64_t>(m.held),
+          static_cast<std::uint64_t>(m.capacity)};
+}
+
+template <class In, class Out>
+void convert_each(const std::vector<In>& in, std::vector<Out>& out, Out (*convert)(const In&)) {
+  out.resize(in.size());
+  std::transform(in.begin(), in.end(), out.begin(), convert);
+}
+
+}  // namespace
+
+maploop_lcm::nav_state_t to_lcm(const NavState& state) {
+  maploop_lcm::nav_state_t m{};
+  m.header = header_of(state);
+  m.status = static_cast<std::int8_t>(state.status);
+  m.origin_latitude = state.origin.latitude;
+  m.origin_longitude = state.origin.longitude;
+  m.origin_height = state.origin.height;
+  write<3>(state.position_enu, m.position_enu);
+  write<3>(state.velocity_enu, m.velocity_enu);
+  m.azimuth = state.attitude.azimuth;
+  m.pitch = state.attitude.pitch;
+  m.roll = state.attitude.roll;
+  m.forward_speed = state.forward_speed;
+  m.gyro_bias = state.gyro_bias;
+  write<9>(state.covariance, m.covariance);
+  m.imu_stamp_ns = to_nanoseconds(state.imu_stamp);
+  m.odometry_stamp_ns = to_nanoseconds(state.odometry_stamp);
+  m.gnss_stamp_ns = to_nanoseconds(state.gnss_stamp);
+  m.odometry_applied = static_cast<std::int64_t>(state.odometry_applied);
+  m.odometry_refused = static_cast<std::int64_t>(state.odometry_refused);
+  return m;
+}
+
+NavState from_lcm(const maploop_lcm::nav_state_t& m) {
+  NavState state;
+  set_sample(state, m.header);
+  state.status = status_from(m.status, NavStatus::coasting, "nav_state_t");
+  state.origin = {m.origin_latitude, m.origin_longitude, m.origin_height};
+  read<3>(m.position_enu, state.position_enu);
+  read<3>(m.velocity_enu, state.velocity_enu);
+  state.attitude = {m.azimuth, m.pitch, m.roll};
+  state.forward_speed = m.forward_speed;
+  state.gyro_bias = m.gyro_bias;
+  read<9>(m.covariance, state.covariance);
+  state.imu_stamp = from_nanoseconds(m.imu_stamp_ns);
+  state.odometry_stamp = from_nanoseconds(m.odometry_stamp_ns);
+  state.gnss_stamp = from_nanoseconds(m.gnss_stamp_ns);
+  state.odometry_applied = static_cast<std::uint64_t>(m.odometry_applied);
+  state.odometry_refused = static_cast<std::uint64_t>(m.odometry_refused);
+  return state;
+}
+
+maploop_lcm::relative_motion_t to_lcm(const RelativeMotion& motion) {
+  maploop_lcm::relative_motion_t m{};
+  m.header = header_of(motion);
+  m.status = static_cast<std::int8_t>(motion.status);
+  m.from_ns = to_nanoseconds(motion.from);
+  write<3>(motion.translation, m.translation);
+  write<4>(motion.rotation.coeffs(), m.rotation_xyzw);
+  write<6>(motion.covariance, m.covariance);
+  m.tracked = motion.tracked;
+  m.inliers = motion.inliers;
+  return m;
+}
+
+RelativeMotion from_lcm(const maploop_lcm::relative_motion_t& m) {
+  RelativeMotion motion;
+  set_sample(motion, m.header);
+  motion.status = status_from(m.status, OdometryStatus::bad_input, "relative_motion_t");
+  motion.from = from_nanoseconds(m.from_ns);
+  read<3>(m.translation, motion.translation);
+  read<4>(m.rotation_xyzw, motion.rotation.coeffs());
+  read<6>(m.covariance, motion.covariance);
+  motion.tracked = m.tracked;
+  motion.inliers = m.inliers;
+  return motion;
+}
+
+maploop_lcm::imu_t to_lcm(const ImuSample& sample) {
+  maploop_lcm::imu_t m{};
+  m.header = header_of(sample);
+  m.specific_force_forward = sample.specific_force_forward;
+  m.specific_force_left = sample.specific_force_left;
+  m.yaw_rate = sample.yaw_rate;
+  return m;
+}
+
+ImuSample from_lcm(const maploop_lcm::imu_t& m) {
+  ImuSample sample;
+  set_sample(sample, m.header);
+  sample.specific_force_forward = m.specific_force_forward;
+  sample.specific_force_left = m.specific_force_left;
+  sample.yaw_rate = m.yaw_rate;
+  return sample;
+}
+
+maploop_lcm::gnss_fix_t to_lcm(const GnssFix& fix) {
+  maploop_lcm::gnss_fix_t m{};
+  m.header = header_of(fix);
+  m.latitude = fix.position.latitude;
+  m.longitude = fix.position.longitude;
+  m.height = fix.position.height;
+  write<3>(fix.position_covariance, m.position_covariance);
+  m.velocity_stamp_ns = to_nanoseconds(fix.velocity_stamp);
+  write<3>(fix.velocity_enu, m.velocity_enu);
+  write<3>(fix.velocity_covariance, m.velocity_covariance);
+  return m;
+}
+
+GnssFix from_lcm(const maploop_lcm::gnss_fix_t& m) {
+  GnssFix fix;
+  set_sample(fix, m.header);
+  fix.position = {m.latitude, m.longitude, m.height};
+  read<3>(m.position_covariance, fix.position_covariance);
+  fix.velocity_stamp = from_nanoseconds(m.velocity_stamp_ns);
+  read<3>(m.velocity_enu, fix.velocity_enu);
+  read<3>(m.velocity_covariance, fix.velocity_covariance);
+  return fix;
+}
+
+maploop_lcm::reference_pose_t to_lcm(const ReferencePose& pose) {
+  maploop_lcm::reference_pose_t m{};
+  m.header = header_of(pose);
+  m.latitude = pose.position.latitude;
+  m.longitude = pose.position.longitude;
+  m.height = pose.position.height;
+  m.azimuth = pose.attitude.azimuth;
+  m.pitch = pose.attitude.pitch;
+  m.roll = pose.attitude.roll;
+  m.velocity_stamp_ns = to_nanoseconds(pose.velocity_stamp);
+  write<3>(pose.velocity_enu, m.velocity_enu);
+  m.position_accuracy = pose.position_accuracy;
+  return m;
+}
+
+ReferencePose from_lcm(const maploop_lcm::reference_pose_t& m) {
+  ReferencePose pose;
+  set_sample(pose, m.header);
+  pose.position = {m.latitude, m.longitude, m.height};
+  pose.attitude = {m.azimuth, m.pitch, m.roll};
+  pose.velocity_stamp = from_nanoseconds(m.velocity_stamp_ns);
+  read<3>(m.velocity_enu, pose.velocity_enu);
+  pose.position_accuracy = m.position_accuracy;
+  return pose;
+}
+
+maploop_lcm::deadlines_t to_lcm(const Deadlines& deadlines) {
+  maploop_lcm::deadlines_t m{};
+  m.utime = microseconds_of(deadlines.stamp);
+  convert_each(deadlines.threads, m.threads, to_lcm);
+  convert_each(deadlines.paths, m.paths, to_lcm);
+  m.thread_count = static_cast<std::int32_t>(m.threads.size());
+  m.path_count = static_cast<std::int32_t>(m.paths.size());
+  return m;
+}
+
+Deadlines from_lcm(const maploop_lcm::deadlines_t& m) {
+  Deadlines deadlines;
+  deadlines.stamp = Time(std::chrono::microseconds(m.utime));
+  convert_each(m.threads, deadlines.threads, from_lcm);
+  convert_each(m.paths, deadlines.paths, from_lcm);
+  return deadlines;
+}
+
+maploop_lcm::health_t to_lcm(const Health& health) {
+  maploop_lcm::health_t m{};
+  m.utime = microseconds_of(health.stamp);
+  convert_each(health.threads, m.threads, to_lcm);
+  convert_each(health.rings, m.rings, to_lcm);
+  m.degraded = health.degraded;
+  m.thread_count = static_cast<std::int32_t>(m.threads.size());
+  m.ring_count = static_cast<std::int32_t>(m.rings.size());
+  m.degraded_count = static_cast<std::int32_t>(m.degraded.size());
+  return m;
+}
+
+Health from_lcm(const maploop_lcm::health_t& m) {
+  Health health;
+  health.stamp = Time(std::chrono::microseconds(m.utime));
+  convert_each(m.threads, health.threads, from_lcm);
+  convert_each(m.rings, health.rings, from_lcm);
+  health.degraded = m.degraded;
+  return health;
+}
+
+}  // namespace maploop

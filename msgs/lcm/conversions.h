@@ -1,0 +1,39 @@
+// Samples, results and diagnostics as LCM types, and back. Nothing is lost either way but
+// `received`, which is this machine's own.
+#pragma once
+
+#include <maploop_lcm/deadlines_t.hpp>
+#include <maploop_lcm/gnss_fix_t.hpp>
+#include <maploop_lcm/health_t.hpp>
+#include <maploop_lcm/imu_t.hpp>
+#include <maploop_lcm/nav_state_t.hpp>
+#include <maploop_lcm/reference_pose_t.hpp>
+#include <maploop_lcm/relative_motion_t.hpp>
+
+#include "msgs/diagnostics.h"
+#include "msgs/gnss.h"
+#include "msgs/imu.h"
+#include "msgs/nav_state.h"
+#include "msgs/odometry.h"
+#include "msgs/reference.h"
+
+namespace maploop {
+
+maploop_lcm::nav_state_t to_lcm(const NavState& state);
+maploop_lcm::relative_motion_t to_lcm(const RelativeMotion& motion);
+maploop_lcm::imu_t to_lcm(const ImuSample& sample);
+maploop_lcm::gnss_fix_t to_lcm(const GnssFix& fix);
+maploop_lcm::reference_pose_t to_lcm(const ReferencePose& pose);
+maploop_lcm::deadlines_t to_lcm(const Deadlines& deadlines);
+maploop_lcm::health_t to_lcm(const Health& health);
+
+// Throw std::invalid_argument when a status is none of ours.
+NavState from_lcm(const maploop_lcm::nav_state_t& message);
+RelativeMotion from_lcm(const maploop_lcm::relative_motion_t& message);
+ImuSample from_lcm(const maploop_lcm::imu_t& message);
+GnssFix from_lcm(const maploop_lcm::gnss_fix_t& message);
+ReferencePose from_lcm(const maploop_lcm::reference_pose_t& message);
+Deadlines from_lcm(const maploop_lcm::deadlines_t& message);
+Health from_lcm(const maploop_lcm::health_t& message);
+
+}  // namespace maploop

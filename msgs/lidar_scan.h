@@ -1,0 +1,22 @@
+// One turn of a spinning LiDAR.
+#pragma once
+
+#include <vector>
+
+#include "msgs/sample.h"
+
+namespace maploop {
+
+struct LidarPoint {
+  float x, y, z;      // m, in velo; raw: not corrected for the vehicle's motion
+  float reflectance;  // 0..1
+};
+
+// `stamp` is the middle of the turn (the LiDAR faces forward); buffers keep their capacity.
+struct LidarScan : Sample {
+  Time start{};
+  Time end{};
+  std::vector<LidarPoint> points;
+};
+
+}  // namespace maploop

@@ -1,0 +1,37 @@
+// The fused navigation solution.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "msgs/frames.h"
+#include "msgs/local_frame.h"
+#include "msgs/sample.h"
+
+namespace maploop {
+
+enum class NavStatus : std::uint8_t {
+  uninitialized,  // no first fix yet; all else is zero
+  aided,          // odometry is being applied
+  coasting,       // inertial only for longer than the filter's limit
+};
+
+struct NavState : Sample {
+  NavStatus status = NavStatus::uninitialized;
+  Geodetic origin;                                         // of enu
+  Eigen::Vector3d position_enu = Eigen::Vector3d::Zero();  // m, the IMU's
+  Eigen::Vector3d velocity_enu = Eigen::Vector3d::Zero();  // m/s
+  Attitude attitude;
+  double forward_speed = 0.0;  // m/s
+  double gyro_bias = 0.0;      // rad/s
+  // Position (m), velocity (m/s), then azimuth, pitch, roll (rad).
+  Eigen::Matrix<double, 9, 9> covariance = Eigen::Matrix<double, 9, 9>::Zero();
+  // Stamps of the newest measurement of each kind inside this state (epoch 0: none yet).
+  Time imu_stamp{};
+  Time odometry_stamp{};
+  Time gnss_stamp{};
+  std::uint64_t odometry_applied = 0;  // since the start
+  std::uint64_t odometry_refused = 0;
+};
+
+}  // namespace maploop

@@ -1,0 +1,21 @@
+// The reference ("truth") of a recorded drive. Never an input of an estimator.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "msgs/frames.h"
+#include "msgs/local_frame.h"
+#include "msgs/sample.h"
+
+namespace maploop {
+
+// `stamp` is the position's and the attitude's.
+struct ReferencePose : Sample {
+  Geodetic position;
+  Attitude attitude;
+  Time velocity_stamp{};
+  Eigen::Vector3d velocity_enu = Eigen::Vector3d::Zero();  // m/s
+  double position_accuracy = 0.0;                          // m, as the recorder states it
+};
+
+}  // namespace maploop

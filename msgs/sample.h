@@ -1,0 +1,17 @@
+// What every sample and every result carries.
+#pragma once
+
+#include <cstdint>
+
+#include "msgs/time.h"
+
+namespace maploop {
+
+struct Sample {
+  Time stamp{};              // when it was measured (a result: what moment it speaks of)
+  Time available{};          // when the sensor delivers it (a result: trigger's available + budget)
+  MonotonicTime received{};  // when this machine had it; never part of a result's data
+  std::uint64_t sequence = 0;  // counts up by one per sample of a source; a gap is a loss
+};
+
+}  // namespace maploop
