@@ -1,0 +1,145 @@
+// One arrow of the graph: a ring from one producing to one consuming thread, with what the producer
+// promises about the samples to come.
+#pragma once
+
+#include <atomic>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "msgs/diagnostics.h"
+#include "msgs/sample.h"
+#include "runtime/core/doorbell.h"
+#include "runtime/core/ring.h"
+
+namespace maploop::runtime {
+
+enum class Overflow {
+  keep_all,     // the producer waits for room: replay only
+  drop_newest,  // the new sample is dropped and counted
+};
+
+// What was dropped because the ring was full.
+struct Loss {
+  std::uint64_t count = 0;
+  Time first{};  // stamps
+  Time last{};
+};
+
+// What the consuming side needs of an edge whose type it does not know.
+class EdgeBase {
+ public:
+  virtual ~EdgeBase() = default;
+
+  // Everything that the producer will ever send with available <= promised() is in the ring or has
+  // been taken, for whoever reads the promise before the ring. Time::max(): nothing more comes.
+  Time promised() const { return from_nanoseconds(promised_.load(std::memory_order_acquire)); }
+
+  // Producer. Promises only ever grow; a smaller one changes nothing.
+  void promise(Time t) {
+    if (to_nanoseconds(t) <= promised_.load(std::memory_order_relaxed)) return;
+    promised_.store(to_nanoseconds(t), std::memory_order_release);
+    if (bell_ != nullptr) bell_->ring();
+  }
+  void finish() { promise(Time::max()); }
+
+  // Consumer: the oldest sample, or nullptr.
+  virtual const Sample* head() = 0;
+
+  virtual RingHealth health() const = 0;
+
+ protected:
+  explicit EdgeBase(Doorbell* bell) : bell_(bell) {}
+  Doorbell* bell_;
+
+ private:
+  std::atomic<std::int64_t> promised_{to_nanoseconds(Time::min())};
+};
+
+// `available` of the samples must not decrease. One thread calls push(), promise() and finish(), one
+// other thread head(), front() and pop(); health() is for any thread. A `bell`, when given, is rung
+// for the consumer at each push and each new promise.
+template <std::derived_from<Sample> T>
+class Edge final : public EdgeBase {
+ public:
+  Edge(std::string name, std::size_t capacity, Overflow overflow, Doorbell* bell,
+       const T& prototype = T{})
+      : EdgeBase(bell), name_(std::move(name)), overflow_(overflow), ring_(capacity, prototype) {}
+
+  // fill(T& slot) writes the sample in place. False when it was lost: the ring was full and the
+  // policy is to drop, or `stop` came while waiting for room. `stamp` is noted for a loss.
+  template <class Fill>
+  bool push(Time stamp, const std::stop_token& stop, Fill&& fill) {
+    pushed_.fetch_add(1, std::memory_order_relaxed);
+    T* slot = ring_.claim();
+    while (slot == nullptr && overflow_ == Overflow::keep_all && !stop.stop_requested()) {
+      std::this_thread::sleep_for(back_pressure_poll);
+      slot = ring_.claim();
+    }
+    if (slot == nullptr) {
+      count_loss(stamp);
+      return false;
+    }
+    fill(*slot);
+    ring_.publish();
+    if (bell_ != nullptr) bell_->ring();
+    return true;
+  }
+
+  bool push(const T& sample, const std::stop_token& stop) {
+    return push(sample.stamp, stop, [&](T& slot) { slot = sample; });
+  }
+
+  T* front() { return ring_.front(); }
+  const Sample* head() override { return ring_.front(); }
+  void pop() {
+    ring_.pop();
+    popped_.fetch_add(1, std::memory_order_relaxed);
+  }
+
+  // pushed = popped + lost + held, as long as the two threads rest.
+  RingHealth health() const override {
+    RingHealth h;
+    h.name = name_;
+    h.popped = popped_.load(std::memory_order_relaxed);
+    h.lost = lost_.load(std::memory_order_acquire);
+    h.held = ring_.size();
+    h.pushed = pushed_.load(std::memory_order_relaxed);
+    h.capacity = ring_.capacity();
+    return h;
+  }
+
+  Loss loss() const {
+    Loss loss;
+    loss.count = lost_.load(std::memory_order_acquire);
+    loss.first = from_nanoseconds(first_lost_.load(std::memory_order_relaxed));
+    loss.last = from_nanoseconds(last_lost_.load(std::memory_order_relaxed));
+    return loss;
+  }
+
+ private:
+  static constexpr auto back_pressure_poll = std::chrono::microseconds(50);
+
+  void count_loss(Time stamp) {
+    const std::uint64_t before = lost_.load(std::memory_order_relaxed);
+    if (before == 0) first_lost_.store(to_nanoseconds(stamp), std::memory_order_relaxed);
+    last_lost_.store(to_nanoseconds(stamp), std::memory_order_relaxed);
+    lost_.store(before + 1, std::memory_order_release);
+  }
+
+  std::string name_;
+  Overflow overflow_;
+  Ring<T> ring_;
+  std::atomic<std::uint64_t> pushed_{0};
+  std::atomic<std::uint64_t> popped_{0};
+  std::atomic<std::uint64_t> lost_{0};
+  std::atomic<std::int64_t> first_lost_{0};
+  std::atomic<std::int64_t> last_lost_{0};
+};
+
+}  // namespace maploop::runtime

@@ -1,0 +1,83 @@
+// Ordered intake: what a thread takes from its edges depends on the data's times alone, not on which
+// thread ran first.
+#pragma once
+
+#include <functional>
+#include <stop_token>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "runtime/core/edge.h"
+
+namespace maploop::runtime {
+
+// Samples are taken in the order (available, edge as added, order of sending). The consuming
+// thread's own; not shared.
+class Intake {
+ public:
+  explicit Intake(const Doorbell& bell) : bell_(&bell) {}
+
+  // `handle` gets each sample of the edge and may change it (swap its buffers out).
+  template <class T, class Handle>
+  void add(Edge<T>& edge, Handle handle) {
+    inlets_.push_back({&edge, [&edge, handle = std::move(handle)] {
+                         handle(*edge.front());
+                         edge.pop();
+                       }});
+  }
+
+  // Up to which `available` every edge has promised to have sent all.
+  Time promised() const {
+    Time t = Time::max();
+    for (const Inlet& inlet : inlets_) t = std::min(t, inlet.edge->promised());
+    return t;
+  }
+
+  // Waits until promised() >= t. False when stopped before.
+  bool wait(Time t, const std::stop_token& stop) const {
+    for (;;) {
+      const std::uint32_t heard = bell_->listen();
+      if (promised() >= t) return true;
+      if (stop.stop_requested()) return false;
+      bell_->wait(heard);
+    }
+  }
+
+  // Takes every sample with available <= t that is there; all of them when promised() >= t.
+  void take_until(Time t) {
+    for (;;) {
+      Inlet* next = nullptr;
+      Time earliest = Time::max();
+      for (Inlet& inlet : inlets_) {
+        const Sample* head = inlet.edge->head();
+        if (head != nullptr && head->available <= t &&
+            (next == nullptr || head->available < earliest)) {
+          next = &inlet;
+          earliest = head->available;
+        }
+      }
+      if (next == nullptr) return;
+      next->take();
+    }
+  }
+
+  // Nothing is left and nothing more comes.
+  bool finished() const {
+    if (promised() != Time::max()) return false;
+    for (const Inlet& inlet : inlets_) {
+      if (inlet.edge->head() != nullptr) return false;
+    }
+    return true;
+  }
+
+ private:
+  struct Inlet {
+    EdgeBase* edge;
+    std::function<void()> take;
+  };
+  const Doorbell* bell_;
+  std::vector<Inlet> inlets_;
+};
+
+}  // namespace maploop::runtime

@@ -1,0 +1,48 @@
+// A named thread with the scheduling it asked for, and what the kernel granted.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+namespace maploop::runtime {
+
+struct Scheduling {
+  int fifo_priority = 0;  // 1..99: SCHED_FIFO; 0: the kernel's default policy
+};
+
+// Runs `body(stop)` on a thread of its own. An exception that leaves the body ends this thread only:
+// its text is kept in failure(), and `at_end` is called as after a normal end.
+class Thread {
+ public:
+  using Body = std::function<void(const std::stop_token&)>;
+
+  // `name` shows in ps and top, cut to 15 characters.
+  Thread(std::string name, Scheduling scheduling, std::stop_token stop, Body body,
+         std::function<void()> at_end);
+  ~Thread();  // joins
+  Thread(const Thread&) = delete;
+  Thread& operator=(const Thread&) = delete;
+
+  void join();
+  const std::string& name() const { return name_; }
+  std::string scheduling() const;  // "fifo 50", or "default (fifo 50 refused: ...; remedy)"
+  std::string failure() const;     // empty while all is well
+  bool ended() const { return ended_.load(std::memory_order_acquire); }
+
+ private:
+  void run(Scheduling scheduling, const std::stop_token& stop, const Body& body);
+  void set(std::string& member, std::string text);
+
+  std::string name_;
+  mutable std::mutex mutex_;  // of the two texts
+  std::string scheduling_;
+  std::string failure_;
+  std::atomic<bool> ended_{false};
+  std::thread thread_;
+};
+
+}  // namespace maploop::runtime

@@ -1,0 +1,31 @@
+// A hash of everything sent on each channel: two runs with equal hashes had the same bits.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "runtime/vehicle/message_sink.h"
+
+namespace maploop::vehicle {
+
+struct ChannelSummary {
+  std::uint64_t count = 0;
+  std::string hash;  // 16 hexadecimal digits (XXH3); empty for channels that speak of the run
+};
+
+class ChannelHashes final : public MessageSink {
+ public:
+  ChannelHashes();
+  ~ChannelHashes() override;
+
+  void send(const Message& message) override;
+  std::map<std::string, ChannelSummary> summary() const;
+
+ private:
+  struct Channel;
+  std::map<std::string, std::unique_ptr<Channel>, std::less<>> channels_;
+};
+
+}  // namespace maploop::vehicle

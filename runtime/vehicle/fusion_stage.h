@@ -1,0 +1,70 @@
+// The fusion thread: the reduced-IMU filter at a fixed rate.
+#pragma once
+
+#include <atomic>
+#include <stop_token>
+
+#include "estimators/fusion/reduced_imu_filter.h"
+#include "msgs/gnss.h"
+#include "msgs/imu.h"
+#include "msgs/nav_state.h"
+#include "msgs/odometry.h"
+#include "runtime/core/data_clock.h"
+#include "runtime/core/doorbell.h"
+#include "runtime/core/edge.h"
+#include "runtime/core/intake.h"
+#include "runtime/vehicle/meter.h"
+
+namespace maploop::vehicle {
+
+// The edges that end at the fusion thread.
+struct FusionEdges {
+  explicit FusionEdges(runtime::Overflow overflow);
+
+  runtime::Doorbell bell;
+  runtime::Edge<ImuSample> imu;
+  runtime::Edge<GnssFix> gnss;
+  runtime::Edge<RelativeMotion> odometry;
+};
+
+class FusionStage {
+ public:
+  FusionStage(fusion::ReducedImuFilter filter, FusionEdges& inputs,
+              runtime::Edge<NavState>& nav_states, runtime::Edge<NavState>& image_states);
+
+  // Ticks from `first` (data time) until the inputs are finished or stop is requested. Each tick
+  // takes exactly what is available by then; while some of it is late, the data clock is stalled.
+  void run(runtime::DataClock& clock, Time first, const std::stop_token& stop);
+  void finish();
+
+  // Data time of the last tick; any thread may ask.
+  Time position() const { return from_nanoseconds(position_.load(std::memory_order_relaxed)); }
+
+  const Meter& meter() const { return meter_; }              // from the tick's release to its state
+  const Meter& camera_path() const { return camera_path_; }  // from the image's stamp to the state
+  const Meter& imu_path() const { return imu_path_; }        // from the IMU's stamp to the state
+  const fusion::ReducedImuFilter& filter() const { return filter_; }  // after the end
+
+ private:
+  bool tick(Time k, runtime::DataClock& clock, const std::stop_token& stop);
+  void take(const RelativeMotion& motion);
+  void record_paths(const runtime::DataClock& clock, const NavState& state, MonotonicTime now);
+
+  fusion::ReducedImuFilter filter_;
+  FusionEdges& inputs_;
+  runtime::Edge<NavState>& nav_states_;
+  runtime::Edge<NavState>& image_states_;
+  runtime::Intake intake_;
+  std::stop_token stop_;
+  Time tick_{};
+  std::atomic<std::int64_t> position_{0};
+  std::uint64_t ticks_ = 0;
+  std::uint64_t images_ = 0;
+  Time imu_seen_{};
+  Time odometry_seen_{};
+  Meter meter_;
+  Meter camera_path_;
+  Meter imu_path_;
+};
+
+}  // namespace maploop::vehicle

@@ -1,0 +1,59 @@
+#include "runtime/vehicle/health_monitor.h"
+
+#include <utility>
+
+namespace maploop::vehicle {
+
+void HealthMonitor::watch(const runtime::Thread& thread, const Meter& meter, bool latency) {
+  threads_.push_back({&thread, &meter, latency});
+}
+
+Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataClock& clock) {
+  Health health;
+  health.stamp = stamp;
+  for (Watched& watched : threads_) {
+    ThreadHealth t;
+    t.name = watched.thread->name();
+    t.scheduling = watched.thread->scheduling();
+    t.failure = watched.thread->failure();
+    t.count = watched.meter->count();
+    if (elapsed > Duration::zero()) {
+      t.rate = static_cast<double>(t.count - watched.seen) / to_seconds(elapsed);
+    }
+    watched.seen = t.count;
+    if (!t.failure.empty()) {
+      health.degraded.push_back(t.name + " has ended: " + t.failure +
+                                "; its outputs are stale, the rest goes on");
+    }
+    if (t.scheduling.find("refused") != std::string::npos) {
+      health.degraded.push_back(t.name + " runs with scheduling " + t.scheduling);
+    }
+    health.threads.push_back(std::move(t));
+  }
+  for (const auto* edge : edges_) {
+    RingHealth r = edge->health();
+    if (r.lost > 0) {
+      health.degraded.push_back("ring " + r.name + " has lost " + std::to_string(r.lost) + " of " +
+                                std::to_string(r.pushed) + " samples: its reader is too slow");
+    }
+    health.rings.push_back(std::move(r));
+  }
+  if (clock.stalls() > 0) {
+    health.degraded.push_back("the data clock was stalled " + std::to_string(clock.stalls()) +
+                              " times, " + std::to_string(to_seconds(clock.stalled())) +
+                              " s in all: this machine is too slow for this speed, or was busy");
+  }
+  return health;
+}
+
+Deadlines HealthMonitor::deadlines(Time stamp) const {
+  Deadlines deadlines;
+  deadlines.stamp = stamp;
+  for (const Watched& watched : threads_) {
+    if (watched.latency) deadlines.threads.push_back(watched.meter->summary());
+  }
+  for (const Meter* path : paths_) deadlines.paths.push_back(path->summary());
+  return deadlines;
+}
+
+}  // namespace maploop::vehicle

@@ -1,0 +1,42 @@
+// Looks at threads, rings and meters while they run, and says what it sees.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "msgs/diagnostics.h"
+#include "runtime/core/data_clock.h"
+#include "runtime/core/edge.h"
+#include "runtime/core/thread.h"
+#include "runtime/vehicle/meter.h"
+
+namespace maploop::vehicle {
+
+// Set up before the threads run; afterwards one thread calls the const members. What is watched must
+// outlive the monitor.
+class HealthMonitor {
+ public:
+  // `meter` counts what the thread does; `latency` is false where it measures release lateness.
+  void watch(const runtime::Thread& thread, const Meter& meter, bool latency);
+  void watch_path(const Meter& path) { paths_.push_back(&path); }
+  void watch(const runtime::EdgeBase& edge) { edges_.push_back(&edge); }
+
+  // `elapsed`: data time since the last look, for the rates.
+  Health health(Time stamp, Duration elapsed, const runtime::DataClock& clock);
+  Deadlines deadlines(Time stamp) const;
+
+ private:
+  struct Watched {
+    const runtime::Thread* thread;
+    const Meter* meter;
+    bool latency;
+    std::uint64_t seen = 0;
+  };
+  std::vector<Watched> threads_;
+  std::vector<const Meter*> paths_;
+  std::vector<const runtime::EdgeBase*> edges_;
+};
+
+}  // namespace maploop::vehicle

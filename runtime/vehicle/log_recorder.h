@@ -1,0 +1,30 @@
+// Messages in a standard LCM log, readable by every LCM tool.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "runtime/vehicle/message_sink.h"
+
+namespace maploop::vehicle {
+
+// Events carry the data's time, so that a log of the same drive has the same bytes at any speed, but
+// for DEADLINES and HEALTH.
+class LogRecorder final : public MessageSink {
+ public:
+  // Replaces the file. Throws std::runtime_error naming it when it cannot be written.
+  explicit LogRecorder(const std::string& path);
+  ~LogRecorder() override;
+
+  void send(const Message& message) override;
+  std::uint64_t failures() const { return failures_; }
+
+ private:
+  struct File;
+  std::unique_ptr<File> file_;
+  std::string channel_;
+  std::uint64_t failures_ = 0;
+};
+
+}  // namespace maploop::vehicle

@@ -1,0 +1,86 @@
+// Reads ahead, so that decoding is done before a sample falls due.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <stop_token>
+#include <string>
+#include <utility>
+
+#include "runtime/core/doorbell.h"
+#include "runtime/core/ring.h"
+#include "runtime/core/thread.h"
+#include "sensors/source.h"
+
+namespace maploop::vehicle {
+
+// Runs the given source on a loader thread of its own, up to `depth` samples ahead. next() swaps a
+// loaded sample in, waits only when the loader is behind, and throws what ended the loader early.
+// report() is to be read after the end.
+template <class T>
+class PrefetchedSource final : public sensors::Source<T> {
+ public:
+  PrefetchedSource(std::string name, std::unique_ptr<sensors::Source<T>> source, std::size_t depth,
+                   std::stop_token stop)
+      : source_(std::move(source)),
+        loaded_(depth),
+        stopped_(stop, [this] { wake_both(); }),
+        loader_(std::move(name), {}, std::move(stop), [this](const std::stop_token& s) { load(s); },
+                [this] {
+                  ended_.store(true, std::memory_order_release);
+                  filled_.ring();
+                }) {}
+
+  bool next(T& sample) override {
+    for (;;) {
+      const std::uint32_t heard = filled_.listen();
+      const bool ended = ended_.load(std::memory_order_acquire);
+      if (T* slot = loaded_.front()) {
+        std::swap(*slot, sample);
+        loaded_.pop();
+        taken_.ring();
+        return true;
+      }
+      if (ended) {
+        if (!loader_.failure().empty()) throw std::runtime_error(loader_.failure());
+        return false;
+      }
+      filled_.wait(heard);
+    }
+  }
+
+  const sensors::SourceReport& report() const override { return source_->report(); }
+
+ private:
+  void load(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      const std::uint32_t heard = taken_.listen();
+      T* slot = loaded_.claim();
+      if (slot == nullptr) {
+        taken_.wait(heard);
+      } else {
+        if (!source_->next(*slot)) return;
+        loaded_.publish();
+        filled_.ring();
+      }
+    }
+  }
+
+  void wake_both() {
+    filled_.ring();
+    taken_.ring();
+  }
+
+  std::unique_ptr<sensors::Source<T>> source_;
+  runtime::Ring<T> loaded_;
+  runtime::Doorbell filled_;
+  runtime::Doorbell taken_;
+  std::atomic<bool> ended_{false};
+  std::stop_callback<std::function<void()>> stopped_;
+  runtime::Thread loader_;
+};
+
+}  // namespace maploop::vehicle

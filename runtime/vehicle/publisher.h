@@ -1,0 +1,74 @@
+// Encodes what the graph produces and hands it to the bus, the log and the hashes.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <stop_token>
+#include <string_view>
+#include <vector>
+
+#include "msgs/diagnostics.h"
+#include "msgs/gnss.h"
+#include "msgs/imu.h"
+#include "msgs/nav_state.h"
+#include "msgs/odometry.h"
+#include "msgs/reference.h"
+#include "runtime/core/doorbell.h"
+#include "runtime/core/edge.h"
+#include "runtime/core/intake.h"
+#include "runtime/vehicle/message_sink.h"
+
+namespace maploop::vehicle {
+
+// What the health thread has to say, once a second.
+struct RuntimeReport : Sample {
+  Health health;
+  Deadlines deadlines;
+};
+
+// Called on the publisher's thread with each result, for whoever wants values rather than messages.
+// `image_state` is the fused state at the moment of each image, with that image's odometry applied.
+struct Observer {
+  std::function<void(const RelativeMotion&)> odometry = [](const RelativeMotion&) {};
+  std::function<void(const NavState&)> nav_state = [](const NavState&) {};
+  std::function<void(const NavState&)> image_state = [](const NavState&) {};
+};
+
+// The edges that end at the publisher. No bell: it looks by itself, so that nobody upstream pays a
+// system call to wake it.
+struct PublisherEdges {
+  explicit PublisherEdges(runtime::Overflow overflow);
+
+  runtime::Edge<ImuSample> imu;
+  runtime::Edge<GnssFix> gnss;
+  runtime::Edge<ReferencePose> reference;
+  runtime::Edge<RelativeMotion> odometry;
+  runtime::Edge<NavState> nav_state;
+  runtime::Edge<NavState> image_state;
+  runtime::Edge<RuntimeReport> reports;
+};
+
+// One thread's own. Messages of all channels leave in the order of their `available`.
+class Publisher {
+ public:
+  Publisher(PublisherEdges& edges, std::vector<MessageSink*> sinks, Observer observer);
+
+  // Until every edge is finished and empty.
+  void run();
+
+ private:
+  template <class Lcm>
+  void send(std::string_view channel, Time time, const Lcm& message, bool from_data);
+  template <class T>
+  void forward(runtime::Edge<T>& edge, std::string_view channel);
+  void send_reports();
+
+  PublisherEdges& edges_;
+  std::vector<MessageSink*> sinks_;
+  Observer observer_;
+  runtime::Doorbell unused_bell_;
+  runtime::Intake intake_;
+  std::vector<std::uint8_t> buffer_;
+};
+
+}  // namespace maploop::vehicle

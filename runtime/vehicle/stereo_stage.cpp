@@ -1,0 +1,62 @@
+#include "runtime/vehicle/stereo_stage.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "runtime/vehicle/graph.h"
+
+namespace maploop::vehicle {
+
+StereoStage::StereoStage(stereo::StereoOdometry odometry, runtime::Edge<StereoPair>& images,
+                         const runtime::Doorbell& bell, runtime::Edge<RelativeMotion>& to_fusion,
+                         runtime::Edge<RelativeMotion>& to_publisher)
+    : odometry_(std::move(odometry)),
+      images_(images),
+      bell_(bell),
+      to_fusion_(to_fusion),
+      to_publisher_(to_publisher),
+      meter_(std::string(stages::stereo.name), stages::stereo.deadline) {}
+
+void StereoStage::run(const runtime::DataClock& clock, const std::stop_token& stop) {
+  MonotonicTime idle_since{};
+  while (!stop.stop_requested()) {
+    const std::uint32_t heard = bell_.listen();
+    const Time promised = images_.promised();  // before the ring: see EdgeBase::promised()
+    if (const StereoPair* pair = images_.front()) {
+      const MonotonicTime started = runtime::monotonic_now();
+      process(*pair, stop);
+      const MonotonicTime ended = runtime::monotonic_now();
+      if (clock.is_paced()) {
+        const MonotonicTime ready = std::max(pair->received, idle_since);
+        meter_.record({pair->stamp, started - ready, ready - pair->received, ended - started});
+      } else {
+        meter_.record(ended - started);
+      }
+      idle_since = ended;
+      images_.pop();
+    } else if (promised == Time::max()) {
+      return;
+    } else {
+      promise(promised + stages::stereo.budget);
+      bell_.wait(heard);
+    }
+  }
+}
+
+void StereoStage::process(const StereoPair& pair, const std::stop_token& stop) {
+  RelativeMotion motion = odometry_.process(pair);
+  motion.available = pair.available + stages::stereo.budget;
+  to_fusion_.push(motion, stop);
+  to_publisher_.push(motion, stop);
+  promise(motion.available);
+}
+
+void StereoStage::promise(Time t) {
+  to_fusion_.promise(t);
+  to_publisher_.promise(t);
+}
+
+void StereoStage::finish() { promise(Time::max()); }
+
+}  // namespace maploop::vehicle

@@ -1,0 +1,63 @@
+// The vehicle: which thread runs what, and which ring joins them.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "msgs/calibration.h"
+#include "msgs/gnss.h"
+#include "msgs/image.h"
+#include "msgs/imu.h"
+#include "msgs/lidar_scan.h"
+#include "msgs/reference.h"
+#include "runtime/core/data_clock.h"
+#include "runtime/vehicle/message_sink.h"
+#include "runtime/vehicle/publisher.h"
+#include "runtime/vehicle/vehicle_config.h"
+#include "runtime/vehicle/vehicle_report.h"
+#include "sensors/source.h"
+
+namespace maploop::vehicle {
+
+struct Sensors {
+  std::unique_ptr<sensors::Source<StereoPair>> camera;
+  std::unique_ptr<sensors::Source<LidarScan>> velodyne;
+  std::unique_ptr<sensors::Source<ImuSample>> imu;
+  std::unique_ptr<sensors::Source<GnssFix>> gnss;
+  std::unique_ptr<sensors::Source<ReferencePose>> reference;
+};
+
+// One replay of recorded sensors through the graph. On a paced clock samples are released at their
+// due times; on virtual time as fast as the graph takes them. Every channel that is derived from
+// data has the same bits either way.
+class Vehicle {
+ public:
+  // `sinks` must outlive the vehicle.
+  Vehicle(const VehicleConfig& config, const StereoCalibration& calibration, Sensors sensors,
+          const runtime::DataClock& clock, std::vector<MessageSink*> sinks, Observer observer);
+  ~Vehicle();  // stops and waits
+
+  // Starts every thread. Throws std::runtime_error when no sensor has a single sample.
+  void start();
+
+  // Asks every thread to end; any thread may call it. What was produced so far is still published.
+  void stop();
+
+  // False once everything has ended by itself or after stop().
+  bool running() const;
+
+  // Waits for the end; only then report() is complete.
+  void wait();
+  VehicleReport report() const;
+
+  // Data time of the last tick of the fusion, and of the first sample.
+  Time position() const;
+  Time first() const;
+
+ private:
+  struct Graph;
+  std::unique_ptr<Graph> graph_;
+};
+
+}  // namespace maploop::vehicle

@@ -1,0 +1,33 @@
+// Everything that can be set about the vehicle.
+#pragma once
+
+#include <string>
+
+#include "estimators/fusion/fusion_parameters.h"
+#include "estimators/stereo/stereo_parameters.h"
+#include "runtime/core/thread.h"
+#include "runtime/vehicle/lcm_bus.h"
+#include "sensors/replay/kitti_drive.h"
+
+namespace maploop::vehicle {
+
+struct SchedulingParameters {
+  int sensor_priority = 70;  // SCHED_FIFO 1..99, 0: default policy; drivers only sleep and hand over
+  int fusion_priority = 60;  // below the drivers, whose samples it needs
+  int stereo_priority = 0;   // long-running: the default policy lets the rest of the machine live
+};
+
+struct VehicleConfig {
+  std::string lcm_url = LcmBus::default_url;
+  SchedulingParameters scheduling;
+  sensors::KittiDriveParameters replay;
+  sensors::GnssAidParameters gnss;
+  stereo::StereoParameters stereo;
+  fusion::FusionParameters fusion;
+};
+
+// Reads a TOML file; absent keys keep their defaults. Throws runtime::ConfigError naming file, line
+// and key for anything wrong, unknown keys included. runtime/vehicle/maploop.toml lists every key.
+VehicleConfig load_vehicle_config(const std::string& path);
+
+}  // namespace maploop::vehicle

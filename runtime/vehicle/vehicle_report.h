@@ -1,0 +1,39 @@
+// What a run of the vehicle has to say at its end.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "msgs/diagnostics.h"
+#include "runtime/vehicle/meter.h"
+#include "sensors/source.h"
+
+namespace maploop::vehicle {
+
+struct SensorReport {
+  std::string name;
+  sensors::SourceReport source;
+  LatencySummary lateness;  // of release
+};
+
+struct ThreadMisses {
+  std::string thread;
+  std::vector<Miss> misses;  // the first few
+};
+
+struct VehicleReport {
+  std::vector<SensorReport> sensors;
+  LatencySummary lateness;  // of release, all sensors together
+  Deadlines deadlines;
+  std::vector<ThreadMisses> misses;
+  Health health;
+  std::uint64_t stalls = 0;  // how often the data clock had to wait for the graph
+  Duration stalled{};
+  double data_seconds = 0.0;  // length of the drive that was replayed
+  double wall_seconds = 0.0;
+  double cpu_seconds = 0.0;
+  std::uint64_t peak_memory = 0;  // bytes
+};
+
+}  // namespace maploop::vehicle

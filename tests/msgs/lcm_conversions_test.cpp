@@ -1,0 +1,221 @@
+#include "msgs/lcm/conversions.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <vector>
+
+namespace maploop {
+namespace {
+
+// Through the bytes of the wire and back.
+template <class Lcm>
+Lcm over_the_wire(const Lcm& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  const int size = static_cast<int>(bytes.size());
+  EXPECT_EQ(message.encode(bytes.data(), 0, size), size);
+  Lcm received;
+  EXPECT_EQ(received.decode(bytes.data(), 0, size), size);
+  return received;
+}
+
+template <class T>
+T round_trip(const T& value) {
+  return from_lcm(over_the_wire(to_lcm(value)));
+}
+
+void fill(Sample& sample) {
+  sample.stamp = from_nanoseconds(1'317'042'651'174'740'992);
+  sample.available = from_nanoseconds(1'317'042'651'229'740'993);
+  sample.sequence = 4711;
+}
+
+void expect_same_times(const Sample& a, const Sample& b) {
+  EXPECT_EQ(a.stamp, b.stamp);
+  EXPECT_EQ(a.available, b.available);
+  EXPECT_EQ(a.sequence, b.sequence);
+}
+
+TEST(LcmConversions, NavState) {
+  NavState s;
+  fill(s);
+  s.status = NavStatus::coasting;
+  s.origin = {0.855, 0.147, 114.1};
+  s.position_enu = {1.0 / 3.0, -2.0, 3.0};
+  s.velocity_enu = {4.0, -5.0, 6.0};
+  s.attitude = {1.1, 0.01, -0.02};
+  s.forward_speed = 12.3;
+  s.gyro_bias = 1e-5;
+  s.covariance.setRandom();
+  s.imu_stamp = from_nanoseconds(1);
+  s.odometry_stamp = from_nanoseconds(2);
+  s.gnss_stamp = from_nanoseconds(3);
+  s.odometry_applied = 5;
+  s.odometry_refused = 6;
+
+  const NavState r = round_trip(s);
+  expect_same_times(r, s);
+  EXPECT_EQ(r.status, s.status);
+  EXPECT_EQ(r.origin.latitude, s.origin.latitude);
+  EXPECT_EQ(r.origin.longitude, s.origin.longitude);
+  EXPECT_EQ(r.origin.height, s.origin.height);
+  EXPECT_EQ(r.position_enu, s.position_enu);
+  EXPECT_EQ(r.velocity_enu, s.velocity_enu);
+  EXPECT_EQ(r.attitude.azimuth, s.attitude.azimuth);
+  EXPECT_EQ(r.attitude.pitch, s.attitude.pitch);
+  EXPECT_EQ(r.attitude.roll, s.attitude.roll);
+  EXPECT_EQ(r.forward_speed, s.forward_speed);
+  EXPECT_EQ(r.gyro_bias, s.gyro_bias);
+  EXPECT_EQ(r.covariance, s.covariance);
+  EXPECT_EQ(r.imu_stamp, s.imu_stamp);
+  EXPECT_EQ(r.odometry_stamp, s.odometry_stamp);
+  EXPECT_EQ(r.gnss_stamp, s.gnss_stamp);
+  EXPECT_EQ(r.odometry_applied, s.odometry_applied);
+  EXPECT_EQ(r.odometry_refused, s.odometry_refused);
+}
+
+TEST(LcmConversions, RelativeMotion) {
+  RelativeMotion m;
+  fill(m);
+  m.status = OdometryStatus::too_few_inliers;
+  m.from = from_nanoseconds(42);
+  m.translation = {1.2, 0.1, -0.01};
+  m.rotation = Eigen::Quaterniond(0.9, 0.1, -0.2, 0.3).normalized();
+  m.covariance.setRandom();
+  m.tracked = 300;
+  m.inliers = 250;
+
+  const RelativeMotion r = round_trip(m);
+  expect_same_times(r, m);
+  EXPECT_EQ(r.status, m.status);
+  EXPECT_EQ(r.from, m.from);
+  EXPECT_EQ(r.translation, m.translation);
+  EXPECT_EQ(r.rotation.coeffs(), m.rotation.coeffs());
+  EXPECT_EQ(r.covariance, m.covariance);
+  EXPECT_EQ(r.tracked, m.tracked);
+  EXPECT_EQ(r.inliers, m.inliers);
+}
+
+TEST(LcmConversions, ImuSample) {
+  ImuSample s;
+  fill(s);
+  s.specific_force_forward = 0.3;
+  s.specific_force_left = -0.4;
+  s.yaw_rate = 0.05;
+  const ImuSample r = round_trip(s);
+  expect_same_times(r, s);
+  EXPECT_EQ(r.specific_force_forward, s.specific_force_forward);
+  EXPECT_EQ(r.specific_force_left, s.specific_force_left);
+  EXPECT_EQ(r.yaw_rate, s.yaw_rate);
+}
+
+TEST(LcmConversions, GnssFix) {
+  GnssFix f;
+  fill(f);
+  f.position = {0.855, 0.147, 114.1};
+  f.position_covariance.setRandom();
+  f.velocity_stamp = from_nanoseconds(77);
+  f.velocity_enu = {1.0, 2.0, 3.0};
+  f.velocity_covariance.setRandom();
+  const GnssFix r = round_trip(f);
+  expect_same_times(r, f);
+  EXPECT_EQ(r.position.latitude, f.position.latitude);
+  EXPECT_EQ(r.position.longitude, f.position.longitude);
+  EXPECT_EQ(r.position.height, f.position.height);
+  EXPECT_EQ(r.position_covariance, f.position_covariance);
+  EXPECT_EQ(r.velocity_stamp, f.velocity_stamp);
+  EXPECT_EQ(r.velocity_enu, f.velocity_enu);
+  EXPECT_EQ(r.velocity_covariance, f.velocity_covariance);
+}
+
+TEST(LcmConversions, ReferencePose) {
+  ReferencePose p;
+  fill(p);
+  p.position = {0.855, 0.147, 114.1};
+  p.attitude = {2.0, 0.03, -0.04};
+  p.velocity_stamp = from_nanoseconds(77);
+  p.velocity_enu = {1.0, 2.0, 3.0};
+  p.position_accuracy = 0.15;
+  const ReferencePose r = round_trip(p);
+  expect_same_times(r, p);
+  EXPECT_EQ(r.position.latitude, p.position.latitude);
+  EXPECT_EQ(r.attitude.azimuth, p.attitude.azimuth);
+  EXPECT_EQ(r.attitude.pitch, p.attitude.pitch);
+  EXPECT_EQ(r.attitude.roll, p.attitude.roll);
+  EXPECT_EQ(r.velocity_stamp, p.velocity_stamp);
+  EXPECT_EQ(r.velocity_enu, p.velocity_enu);
+  EXPECT_EQ(r.position_accuracy, p.position_accuracy);
+}
+
+TEST(LcmConversions, Deadlines) {
+  Deadlines d;
+  d.stamp = Time(std::chrono::microseconds(1'317'042'651'174'740));
+  LatencySummary s;
+  s.name = "stereo";
+  s.count = 144;
+  s.misses = 1;
+  s.deadline = std::chrono::milliseconds(50);
+  s.p50 = Duration(19'123'456);
+  s.max = Duration(51'000'001);
+  d.threads = {s};
+  d.paths = {s, s};
+  const Deadlines r = round_trip(d);
+  EXPECT_EQ(r.stamp, d.stamp);
+  ASSERT_EQ(r.threads.size(), 1u);
+  ASSERT_EQ(r.paths.size(), 2u);
+  EXPECT_EQ(r.threads[0].name, s.name);
+  EXPECT_EQ(r.threads[0].count, s.count);
+  EXPECT_EQ(r.threads[0].misses, s.misses);
+  EXPECT_EQ(r.threads[0].deadline, s.deadline);
+  EXPECT_EQ(r.threads[0].p50, s.p50);
+  EXPECT_EQ(r.threads[0].max, s.max);
+}
+
+TEST(LcmConversions, Health) {
+  Health h;
+  h.stamp = Time(std::chrono::microseconds(1'317'042'651'174'740));
+  h.threads = {{"fusion", "fifo 60", 1480, 100.0, ""}, {"camera", "default", 10, 9.7, "no file"}};
+  h.rings = {{"camera -> stereo", 10, 8, 1, 1, 4}};
+  h.degraded = {"camera has ended"};
+  const Health r = round_trip(h);
+  EXPECT_EQ(r.stamp, h.stamp);
+  ASSERT_EQ(r.threads.size(), 2u);
+  EXPECT_EQ(r.threads[1].failure, "no file");
+  EXPECT_EQ(r.threads[0].scheduling, "fifo 60");
+  EXPECT_EQ(r.threads[0].rate, 100.0);
+  ASSERT_EQ(r.rings.size(), 1u);
+  EXPECT_EQ(r.rings[0].pushed, 10u);
+  EXPECT_EQ(r.rings[0].popped, 8u);
+  EXPECT_EQ(r.rings[0].lost, 1u);
+  EXPECT_EQ(r.rings[0].held, 1u);
+  EXPECT_EQ(r.rings[0].capacity, 4u);
+  EXPECT_EQ(r.degraded, h.degraded);
+}
+
+TEST(LcmConversions, UtimeIsTheStampInMicroseconds) {
+  ImuSample s;
+  fill(s);
+  EXPECT_EQ(to_lcm(s).header.utime, 1'317'042'651'174'740);
+}
+
+TEST(LcmConversions, AStatusOfAnotherVersionIsRefused) {
+  auto state = to_lcm(NavState{});
+  state.status = 17;
+  EXPECT_THROW(from_lcm(state), std::invalid_argument);
+  auto motion = to_lcm(RelativeMotion{});
+  motion.status = -1;
+  EXPECT_THROW(from_lcm(motion), std::invalid_argument);
+}
+
+// The constants in the .lcm files are those of the enumerations.
+TEST(LcmConversions, StatusConstantsAgree) {
+  EXPECT_EQ(static_cast<int>(NavStatus::coasting), maploop_lcm::nav_state_t::COASTING);
+  EXPECT_EQ(static_cast<int>(NavStatus::aided), maploop_lcm::nav_state_t::AIDED);
+  EXPECT_EQ(static_cast<int>(OdometryStatus::ok), maploop_lcm::relative_motion_t::OK);
+  EXPECT_EQ(static_cast<int>(OdometryStatus::implausible),
+            maploop_lcm::relative_motion_t::IMPLAUSIBLE);
+  EXPECT_EQ(static_cast<int>(OdometryStatus::bad_input), maploop_lcm::relative_motion_t::BAD_INPUT);
+}
+
+}  // namespace
+}  // namespace maploop

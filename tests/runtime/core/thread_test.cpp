@@ -1,0 +1,49 @@
+#include "runtime/core/thread.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+namespace maploop::runtime {
+namespace {
+
+TEST(Thread, AnExceptionEndsTheThreadAloneAndIsKept) {
+  bool at_end = false;
+  Thread thread("failing", {}, {}, [](const std::stop_token&) {
+    throw std::runtime_error("cable pulled");
+  }, [&] { at_end = true; });
+  thread.join();
+  EXPECT_EQ(thread.failure(), "cable pulled");
+  EXPECT_TRUE(at_end);
+  EXPECT_TRUE(thread.ended());
+}
+
+TEST(Thread, StopReachesTheBody) {
+  std::stop_source stop;
+  Thread thread("stopping", {}, stop.get_token(), [](const std::stop_token& token) {
+    while (!token.stop_requested()) std::this_thread::yield();
+  }, [] {});
+  stop.request_stop();
+  thread.join();
+  EXPECT_EQ(thread.failure(), "");
+}
+
+TEST(Thread, SaysWhatTheKernelGrantedOrWhyNot) {
+  Thread thread("fifo", Scheduling{10}, {}, [](const std::stop_token&) {}, [] {});
+  thread.join();
+  const std::string granted = thread.scheduling();
+  EXPECT_TRUE(granted == "fifo 10" || granted.find("fifo 10 refused") != std::string::npos)
+      << granted;
+}
+
+TEST(Thread, APriorityThatDoesNotExistIsRefusedNotFatal) {
+  Thread thread("bad", Scheduling{1000}, {}, [](const std::stop_token&) {}, [] {});
+  thread.join();
+  EXPECT_NE(thread.scheduling().find("refused"), std::string::npos);
+  EXPECT_EQ(thread.failure(), "");
+}
+
+}  // namespace
+}  // namespace maploop::runtime

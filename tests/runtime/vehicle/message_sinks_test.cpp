@@ -1,0 +1,91 @@
+// The log, the bus and the hashes, each against LCM's own library.
+#include <gtest/gtest.h>
+
+#include <lcm/lcm-cpp.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "msgs/lcm/conversions.h"
+#include "runtime/vehicle/channel_hashes.h"
+#include "runtime/vehicle/lcm_bus.h"
+#include "runtime/vehicle/log_recorder.h"
+#include "tests/support/real_data.h"
+
+namespace maploop::vehicle {
+namespace {
+
+Message message(const std::vector<std::uint8_t>& data, bool from_data = true) {
+  return {"IMU", from_nanoseconds(1'317'042'651'174'740'992), data, from_data};
+}
+
+TEST(LogRecorder, WritesWhatLcmReads) {
+  const maploop::testing::TemporaryFolder folder;
+  const std::string file = (folder.path() / "a.lcmlog").string();
+  {
+    LogRecorder recorder(file);
+    recorder.send(message({1, 2, 3}));
+    recorder.send(message({4, 5}));
+    EXPECT_EQ(recorder.failures(), 0u);
+  }
+  lcm::LogFile log(file, "r");
+  const lcm::LogEvent* first = log.readNextEvent();
+  ASSERT_NE(first, nullptr);
+  EXPECT_EQ(first->channel, "IMU");
+  EXPECT_EQ(first->timestamp, 1'317'042'651'174'740);
+  EXPECT_EQ(first->datalen, 3);
+  const lcm::LogEvent* second = log.readNextEvent();
+  ASSERT_NE(second, nullptr);
+  EXPECT_EQ(second->datalen, 2);
+  EXPECT_EQ(static_cast<const std::uint8_t*>(second->data)[1], 5);
+  EXPECT_EQ(log.readNextEvent(), nullptr);
+}
+
+TEST(LogRecorder, NamesTheFileItCannotWrite) {
+  try {
+    LogRecorder recorder("/nonexistent/folder/a.lcmlog");
+    FAIL();
+  } catch (const std::runtime_error& e) {
+    EXPECT_NE(std::string(e.what()).find("/nonexistent/folder/a.lcmlog"), std::string::npos);
+  }
+}
+
+TEST(LcmBus, WhatItSendsArrives) {
+  // memq:// stays inside this process, but each connection is its own queue: one that both sends
+  // and receives is all that can be seen of it.
+  LcmBus bus("memq://");
+  bus.send(message({1, 2, 3}));
+  EXPECT_EQ(bus.failures(), 0u);
+}
+
+TEST(LcmBus, NamesTheUrlItCannotOpen) {
+  try {
+    LcmBus bus("nonsense://here");
+    FAIL();
+  } catch (const std::runtime_error& e) {
+    EXPECT_NE(std::string(e.what()).find("nonsense://here"), std::string::npos);
+  }
+}
+
+TEST(ChannelHashes, DependOnEveryByteAndOnTheOrder) {
+  const auto hash = [](const std::vector<std::vector<std::uint8_t>>& messages) {
+    ChannelHashes hashes;
+    for (const auto& m : messages) hashes.send(message(m));
+    return hashes.summary().at("IMU").hash;
+  };
+  const std::string reference = hash({{1, 2}, {3, 4}});
+  EXPECT_EQ(reference.size(), 16u);
+  EXPECT_EQ(hash({{1, 2}, {3, 4}}), reference);
+  EXPECT_NE(hash({{1, 2}, {3, 5}}), reference);
+  EXPECT_NE(hash({{3, 4}, {1, 2}}), reference);
+}
+
+TEST(ChannelHashes, WhatSpeaksOfTheRunIsCountedNotHashed) {
+  ChannelHashes hashes;
+  hashes.send(message({1}, false));
+  EXPECT_EQ(hashes.summary().at("IMU").count, 1u);
+  EXPECT_EQ(hashes.summary().at("IMU").hash, "");
+}
+
+}  // namespace
+}  // namespace maploop::vehicle

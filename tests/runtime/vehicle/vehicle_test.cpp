@@ -1,0 +1,150 @@
+#include "runtime/vehicle/vehicle.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "runtime/vehicle/channel_hashes.h"
+#include "tests/runtime/vehicle/fake_sensors.h"
+
+namespace maploop::vehicle {
+namespace {
+
+using runtime::DataClock;
+using testing::fake_calibration;
+using testing::fake_sensors;
+
+struct Run {
+  VehicleReport report;
+  std::map<std::string, ChannelSummary> channels;
+};
+
+Run run(const DataClock& clock, Sensors sensors) {
+  ChannelHashes hashes;
+  Vehicle vehicle({}, fake_calibration(), std::move(sensors), clock, {&hashes}, {});
+  vehicle.start();
+  vehicle.wait();
+  return {vehicle.report(), hashes.summary()};
+}
+
+void expect_same_data(const Run& a, const Run& b) {
+  for (const char* channel : {"NAV_STATE", "VO", "IMU", "GNSS_FIX", "TRUTH"}) {
+    const ChannelSummary& x = a.channels.at(channel);
+    const ChannelSummary& y = b.channels.at(channel);
+    EXPECT_EQ(x.count, y.count) << channel;
+    EXPECT_EQ(x.hash, y.hash) << channel;
+    EXPECT_EQ(x.hash.size(), 16u) << channel;
+  }
+}
+
+void expect_rings_balance(const VehicleReport& report) {
+  for (const RingHealth& ring : report.health.rings) {
+    EXPECT_EQ(ring.pushed, ring.popped + ring.lost + ring.held) << ring.name;
+  }
+}
+
+TEST(Vehicle, LockstepGivesTheSameBitsOnEachRun) {
+  const Run first = run(DataClock::virtual_time(), fake_sensors(5.0));
+  for (int i = 0; i < 3; ++i) {
+    expect_same_data(first, run(DataClock::virtual_time(), fake_sensors(5.0)));
+  }
+  EXPECT_EQ(first.channels.at("IMU").count, 500u);
+  EXPECT_EQ(first.channels.at("VO").count, 50u) << "a result, or an explicit none, for each image";
+  EXPECT_EQ(first.channels.at("GNSS_FIX").count, 5u);
+}
+
+TEST(Vehicle, RealTimeAtAnySpeedGivesTheBitsOfLockstep) {
+  const Run lockstep = run(DataClock::virtual_time(), fake_sensors(3.0));
+  for (const double speed : {2.0, 10.0, 1000.0}) {
+    const Run paced = run(DataClock::paced(speed), fake_sensors(3.0));
+    expect_same_data(lockstep, paced);
+    expect_rings_balance(paced.report);
+    EXPECT_EQ(paced.channels.at("HEALTH").hash, "") << "what speaks of the run is not hashed";
+  }
+}
+
+TEST(Vehicle, NavStatesComeAtOneHundredHertz) {
+  const Run r = run(DataClock::virtual_time(), fake_sensors(5.0));
+  const double ticks = static_cast<double>(r.channels.at("NAV_STATE").count);
+  EXPECT_NEAR(ticks / r.report.data_seconds, 100.0, 0.5);
+}
+
+TEST(Vehicle, NothingIsLostAndRingsBalance) {
+  const Run r = run(DataClock::virtual_time(), fake_sensors(20.0));
+  expect_rings_balance(r.report);
+  for (const RingHealth& ring : r.report.health.rings) {
+    EXPECT_EQ(ring.lost + ring.held, 0u) << ring.name;
+  }
+}
+
+TEST(Vehicle, StopEndsInOrderAndPublishesWhatThereIs) {
+  ChannelHashes hashes;
+  Vehicle vehicle({}, fake_calibration(), fake_sensors(3600.0), DataClock::paced(1.0), {&hashes},
+                  {});
+  vehicle.start();
+  while (vehicle.position() < vehicle.first() + std::chrono::milliseconds(300)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_TRUE(vehicle.running());
+  vehicle.stop();
+  vehicle.wait();
+  EXPECT_FALSE(vehicle.running());
+  expect_rings_balance(vehicle.report());
+  EXPECT_GE(hashes.summary().at("NAV_STATE").count, 30u);
+}
+
+TEST(Vehicle, ADriverThatFailsIsNamedAndTheRestGoesOn) {
+  Sensors sensors = fake_sensors(3.0);
+  sensors.imu = std::make_unique<testing::BrokenSource<ImuSample>>(std::move(sensors.imu), 100);
+  const Run r = run(DataClock::virtual_time(), std::move(sensors));
+  EXPECT_EQ(r.channels.at("IMU").count, 100u);
+  EXPECT_EQ(r.channels.at("VO").count, 30u);
+  std::string said;
+  for (const std::string& sentence : r.report.health.degraded) said += sentence;
+  EXPECT_NE(said.find("imu has ended: cable pulled"), std::string::npos) << said;
+}
+
+TEST(Vehicle, ALoaderThatFailsIsNamedAndTheRestGoesOn) {
+  Sensors sensors = fake_sensors(3.0);
+  sensors.camera =
+      std::make_unique<testing::BrokenSource<StereoPair>>(std::move(sensors.camera), 7);
+  const Run r = run(DataClock::virtual_time(), std::move(sensors));
+  EXPECT_EQ(r.channels.at("VO").count, 7u);
+  EXPECT_EQ(r.channels.at("IMU").count, 300u);
+  std::string said;
+  for (const std::string& sentence : r.report.health.degraded) said += sentence;
+  EXPECT_NE(said.find("camera has ended: cable pulled"), std::string::npos) << said;
+}
+
+TEST(Vehicle, SensorsThatTheDriveLacksAreNoError) {
+  Sensors sensors = fake_sensors(2.0);
+  sensors.velodyne = nullptr;
+  sensors.reference = nullptr;
+  sensors.camera = nullptr;
+  const Run r = run(DataClock::virtual_time(), std::move(sensors));
+  EXPECT_EQ(r.channels.at("IMU").count, 200u);
+  EXPECT_EQ(r.channels.count("VO"), 0u);
+  EXPECT_EQ(r.channels.count("TRUTH"), 0u);
+}
+
+TEST(Vehicle, ADriveWithoutASingleSampleIsAnError) {
+  Vehicle vehicle({}, fake_calibration(), Sensors{}, DataClock::virtual_time(), {}, {});
+  EXPECT_THROW(vehicle.start(), std::runtime_error);
+}
+
+TEST(Vehicle, MissedDeadlinesComeWithWhereTheTimeWent) {
+  // Far too fast for the images: stereo must miss, and the data clock must wait for it.
+  const Run r = run(DataClock::paced(2000.0), fake_sensors(5.0));
+  EXPECT_GT(r.report.stalls, 0u);
+  for (const ThreadMisses& thread : r.report.misses) {
+    for (const Miss& miss : thread.misses) {
+      EXPECT_GE(miss.woken_late + miss.waited + miss.ran, std::chrono::milliseconds(2));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace maploop::vehicle

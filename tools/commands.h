@@ -1,0 +1,14 @@
+// The subcommands of `maploop`, one file each.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace maploop::tools {
+
+// What the parsed command line asks for; returns the exit status.
+using Command = std::function<int()>;
+
+void add_replay(CLI::App& app, Command& command);
+
+}  // namespace maploop::tools

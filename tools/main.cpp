@@ -1,0 +1,19 @@
+#include <exception>
+#include <iostream>
+
+#include "tools/commands.h"
+
+int main(int argc, char** argv) {
+  CLI::App app{"maploop: vehicle localization in real time"};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", MAPLOOP_VERSION);
+  maploop::tools::Command command;
+  maploop::tools::add_replay(app, command);
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return command();
+  } catch (const std::exception& e) {
+    std::cerr << "maploop: " << e.what() << '\n';
+    return 1;
+  }
+}

@@ -1,0 +1,181 @@
+// maploop replay: a recorded drive through the whole graph.
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "runtime/core/data_clock.h"
+#include "runtime/vehicle/channel_hashes.h"
+#include "runtime/vehicle/lcm_bus.h"
+#include "runtime/vehicle/log_recorder.h"
+#include "runtime/vehicle/vehicle.h"
+#include "runtime/vehicle/vehicle_config.h"
+#include "sensors/replay/kitti_drive.h"
+#include "sensors/replay/reference_trajectory.h"
+#include "tools/commands.h"
+#include "tools/evaluation/kitti_poses.h"
+#include "tools/replay_result.h"
+#include "tools/trajectory_collector.h"
+
+namespace maploop::tools {
+namespace {
+
+constexpr int exit_interrupted = 130;  // as shells report SIGINT
+constexpr int exit_failed = 1;
+
+struct ReplayOptions {
+  std::filesystem::path drive;
+  double speed = 1.0;
+  bool lockstep = false;
+  bool no_lcm = false;
+  std::filesystem::path record;
+  std::filesystem::path config;
+  std::filesystem::path json;
+  std::filesystem::path poses;
+  std::optional<std::int64_t> seed;
+};
+
+volatile std::sig_atomic_t interrupted = 0;
+
+// The first SIGINT or SIGTERM ends the replay in order, the second one at once.
+void interrupt_once() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { interrupted = 1; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+class ProgressLine {
+ public:
+  ProgressLine(const vehicle::Vehicle& vehicle, Time last) : vehicle_(vehicle), last_(last) {}
+
+  void show() const {
+    const double done = to_seconds(vehicle_.position() - vehicle_.first());
+    const double all = std::max(to_seconds(last_ - vehicle_.first()), 1e-3);
+    std::fprintf(stderr, "\r%8.1f s of %.1f s  %3.0f %%", std::max(done, 0.0), all,
+                 std::min(100.0, 100.0 * std::max(done, 0.0) / all));
+  }
+  void clear() const { std::fprintf(stderr, "\r%40s\r", ""); }
+
+ private:
+  const vehicle::Vehicle& vehicle_;
+  Time last_;
+};
+
+void run_to_end(vehicle::Vehicle& vehicle, Time last) {
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  const ProgressLine progress(vehicle, last);
+  interrupt_once();
+  vehicle.start();
+  for (int i = 0; vehicle.running(); ++i) {
+    if (interrupted != 0) vehicle.stop();
+    if (terminal && i % 10 == 0) progress.show();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  vehicle.wait();
+  if (terminal) progress.clear();
+}
+
+bool any_thread_failed(const ReplayResult& result) {
+  const auto& threads = result.vehicle.health.threads;
+  return std::any_of(threads.begin(), threads.end(),
+                     [](const ThreadHealth& t) { return !t.failure.empty(); });
+}
+
+int replay(const ReplayOptions& options) {
+  vehicle::VehicleConfig config;
+  if (!options.config.empty()) config = vehicle::load_vehicle_config(options.config);
+  if (options.seed) config.gnss.seed = *options.seed;
+
+  const sensors::KittiDrive drive(options.drive, config.replay);
+  vehicle::Sensors sources;
+  sources.camera = drive.camera();
+  if (drive.has_velodyne()) sources.velodyne = drive.velodyne();
+  if (drive.has_oxts()) {
+    sources.imu = drive.imu();
+    sources.gnss = drive.gnss(config.gnss);
+    sources.reference = drive.reference();
+  }
+
+  vehicle::ChannelHashes hashes;
+  std::vector<vehicle::MessageSink*> sinks{&hashes};
+  std::unique_ptr<vehicle::LcmBus> bus;
+  if (!options.no_lcm) {
+    bus = std::make_unique<vehicle::LcmBus>(config.lcm_url);
+    sinks.push_back(bus.get());
+  }
+  std::unique_ptr<vehicle::LogRecorder> recorder;
+  if (!options.record.empty()) {
+    recorder = std::make_unique<vehicle::LogRecorder>(options.record);
+    sinks.push_back(recorder.get());
+  }
+
+  TrajectoryCollector collector(drive.calibration().stereo.T_body_cam);
+  vehicle::Observer observer;
+  observer.odometry = [&](const RelativeMotion& motion) { collector.add(motion); };
+  observer.image_state = [&](const NavState& state) { collector.add(state); };
+
+  const auto clock = options.lockstep ? runtime::DataClock::virtual_time()
+                                      : runtime::DataClock::paced(options.speed);
+  vehicle::Vehicle vehicle(config, drive.calibration().stereo, std::move(sources), clock, sinks,
+                           observer);
+  run_to_end(vehicle, drive.last_stamp());
+
+  ReplayResult result;
+  result.drive = std::filesystem::weakly_canonical(options.drive).filename().string();
+  result.lockstep = options.lockstep;
+  result.speed = options.speed;
+  result.interrupted = interrupted != 0;
+  result.images = drive.frame_count();
+  result.vehicle = vehicle.report();
+  result.channels = hashes.summary();
+  if (bus) result.send_failures += bus->failures();
+  if (recorder) result.send_failures += recorder->failures();
+  if (drive.has_oxts()) {
+    const sensors::ReferenceTrajectory reference = drive.reference_trajectory();
+    const auto pose_at = [&](Time t) { return reference.pose_at(t); };
+    result.vo = collector.score_vo(pose_at);
+    result.fused = collector.score_fused(pose_at);
+  }
+
+  std::cout << format_table(result);
+  if (!options.json.empty()) write_json(options.json, result);
+  if (!options.poses.empty()) evaluation::write_kitti_poses(options.poses, collector.fused());
+  if (result.interrupted) return exit_interrupted;
+  return any_thread_failed(result) ? exit_failed : 0;
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, Command& command) {
+  auto options = std::make_shared<ReplayOptions>();
+  CLI::App* sub = app.add_subcommand(
+      "replay", "Replay a KITTI raw drive (synced and rectified) through the whole graph");
+  sub->add_option("DRIVE", options->drive, "Folder such as 2011_09_26/2011_09_26_drive_0013_sync")
+      ->required();
+  auto* speed = sub->add_option("--speed", options->speed, "Times real time")
+                    ->check(CLI::PositiveNumber)
+                    ->capture_default_str();
+  sub->add_flag("--lockstep", options->lockstep,
+                "On virtual time: no sleeping, no dropping, as fast as the graph goes")
+      ->excludes(speed);
+  sub->add_option("--record", options->record, "Write every message to this LCM log");
+  sub->add_flag("--no-lcm", options->no_lcm, "Publish nothing on LCM");
+  sub->add_option("--config", options->config, "TOML file of parameters")
+      ->check(CLI::ExistingFile);
+  sub->add_option("--json", options->json, "Write the closing table to this file as JSON");
+  sub->add_option("--poses", options->poses,
+                  "Write the fused left-camera poses to this file in KITTI's format");
+  sub->add_option("--seed", options->seed, "Seed of the simulated GNSS noise");
+  sub->callback([options, &command] { command = [options] { return replay(*options); }; });
+}
+
+}  // namespace maploop::tools

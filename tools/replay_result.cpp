@@ -1,0 +1,238 @@
+#include "tools/replay_result.h"
+
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace maploop::tools {
+namespace {
+
+using nlohmann::json;
+
+double to_ms(Duration d) { return to_seconds(d) * 1e3; }
+
+[[gnu::format(printf, 2, 3)]] void append(std::string& text, const char* format, ...) {
+  char line[512];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(line, sizeof line, format, arguments);
+  va_end(arguments);
+  text += line;
+}
+
+void append_accuracy(std::string& text, const char* name, const std::optional<Accuracy>& accuracy) {
+  if (!accuracy) {
+    append(text, "  %-8s too few poses to score\n", name);
+    return;
+  }
+  const evaluation::Score& raw = accuracy->raw;
+  const evaluation::Score& removed = accuracy->common_rotation_removed;
+  append(text, "  %-8s %6d %9.1f %8.2f %6.2f %8.3f %9.5f %12.3f %9.5f %8.2f\n", name, raw.frames,
+         raw.distance_m, raw.end_point_m, raw.end_point_percent, raw.segment.percent,
+         raw.segment.deg_per_m, removed.segment.percent, removed.segment.deg_per_m,
+         removed.end_point_m);
+}
+
+void append_latency(std::string& text, const LatencySummary& s) {
+  append(text, "  %-22s %7llu %9.3f %9.3f %9.3f %9.3f", s.name.c_str(),
+         static_cast<unsigned long long>(s.count), to_ms(s.p50), to_ms(s.p90), to_ms(s.p99),
+         to_ms(s.max));
+  if (s.deadline > Duration::zero()) {
+    append(text, " %9.0f %7llu", to_ms(s.deadline), static_cast<unsigned long long>(s.misses));
+  }
+  text += '\n';
+}
+
+void append_misses(std::string& text, const vehicle::VehicleReport& report) {
+  for (const vehicle::ThreadMisses& thread : report.misses) {
+    for (const vehicle::Miss& m : thread.misses) {
+      append(text,
+             "  missed: %s at %s: woken %.3f ms late, waited %.3f ms for input, ran %.3f ms\n",
+             thread.thread.c_str(), format_time(m.stamp).c_str(), to_ms(m.woken_late),
+             to_ms(m.waited), to_ms(m.ran));
+    }
+  }
+}
+
+void append_findings(std::string& text, const vehicle::SensorReport& sensor) {
+  constexpr std::size_t shown = 5;
+  const auto append_some = [&](const std::vector<sensors::Finding>& findings, std::uint64_t count,
+                               const char* what) {
+    for (std::size_t i = 0; i < findings.size() && i < shown; ++i) {
+      const sensors::Finding& f = findings[i];
+      text += "  " + std::string(what) + ": " + f.file;
+      if (f.line > 0) text += ":" + std::to_string(f.line);
+      text += ": " + f.reason + '\n';
+    }
+    if (count > shown) append(text, "  ... %llu %s of %s in all\n",
+                              static_cast<unsigned long long>(count), what, sensor.name.c_str());
+  };
+  append_some(sensor.source.refusals, sensor.source.refused, "left out");
+  append_some(sensor.source.flaws, sensor.source.flawed, "flawed");
+}
+
+json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+
+json to_json(const std::optional<Accuracy>& accuracy) {
+  if (!accuracy) return nullptr;
+  const evaluation::Score& raw = accuracy->raw;
+  const evaluation::Score& removed = accuracy->common_rotation_removed;
+  return {{"distance_m", number(raw.distance_m)},
+          {"end_point_m", number(raw.end_point_m)},
+          {"segment_100m_percent", number(raw.segment.percent)},
+          {"segment_100m_deg_per_m", number(raw.segment.deg_per_m)},
+          {"frames", raw.frames},
+          {"common_rotation_removed",
+           {{"end_point_m", number(removed.end_point_m)},
+            {"segment_100m_percent", number(removed.segment.percent)},
+            {"segment_100m_deg_per_m", number(removed.segment.deg_per_m)}}}};
+}
+
+json to_json(const LatencySummary& s) {
+  return {{"count", s.count},        {"misses", s.misses},     {"deadline_ms", to_ms(s.deadline)},
+          {"p50_ms", to_ms(s.p50)},  {"p90_ms", to_ms(s.p90)}, {"p99_ms", to_ms(s.p99)},
+          {"p999_ms", to_ms(s.p999)}, {"max_ms", to_ms(s.max)}};
+}
+
+json to_json(const std::vector<LatencySummary>& summaries) {
+  json all = json::object();
+  for (const LatencySummary& s : summaries) all[s.name] = to_json(s);
+  return all;
+}
+
+}  // namespace
+
+std::uint64_t ReplayResult::samples_lost() const {
+  std::uint64_t lost = 0;
+  for (const RingHealth& ring : vehicle.health.rings) lost += ring.lost;
+  return lost;
+}
+
+std::uint64_t ReplayResult::deadline_misses() const {
+  std::uint64_t misses = 0;
+  for (const LatencySummary& thread : vehicle.deadlines.threads) misses += thread.misses;
+  return misses;
+}
+
+std::string format_table(const ReplayResult& r) {
+  const vehicle::VehicleReport& v = r.vehicle;
+  std::string t;
+  append(t, "\n%s%s: %.1f s of data in %.1f s (%s)\n", r.drive.c_str(),
+         r.interrupted ? " (interrupted)" : "", v.data_seconds, v.wall_seconds,
+         r.lockstep ? "lockstep" : ("speed " + std::to_string(r.speed)).c_str());
+  append(t, "CPU %.0f %% of one core, peak memory %.0f MB\n",
+         100.0 * v.cpu_seconds / v.wall_seconds, static_cast<double>(v.peak_memory) * 1e-6);
+
+  t += "\nAccuracy against the reference (left camera, WGS84)\n";
+  t += "                  distance   end point      100 m segments   common rotation removed\n";
+  t += "           frames        m        m      %        %     deg/m            %     deg/m"
+       "  end m\n";
+  append_accuracy(t, "vo", r.vo);
+  append_accuracy(t, "fused", r.fused);
+
+  t += "\nSensors                 count  left out   late p50       p99       max  ms\n";
+  for (const vehicle::SensorReport& s : v.sensors) {
+    append(t, "  %-19s %7llu %9llu", s.name.c_str(),
+           static_cast<unsigned long long>(s.source.delivered),
+           static_cast<unsigned long long>(s.source.refused));
+    if (!r.lockstep) {
+      append(t, "  %9.3f %9.3f %9.3f", to_ms(s.lateness.p50), to_ms(s.lateness.p99),
+             to_ms(s.lateness.max));
+    }
+    t += '\n';
+    append_findings(t, s);
+  }
+  if (!r.lockstep) {
+    append(t, "  %-19s %7llu            %9.3f %9.3f %9.3f\n", "all",
+           static_cast<unsigned long long>(v.lateness.count), to_ms(v.lateness.p50),
+           to_ms(v.lateness.p99), to_ms(v.lateness.max));
+  }
+
+  t += r.lockstep ? "\nRun time                 count       p50       p90       p99       max  ms\n"
+                  : "\nFrom release             count       p50       p90       p99       max"
+                    "  deadline  missed  ms\n";
+  for (const LatencySummary& s : v.deadlines.threads) append_latency(t, s);
+  if (!r.lockstep) {
+    append_misses(t, v);
+    t += "From the sensor's stamp\n";
+    for (const LatencySummary& s : v.deadlines.paths) append_latency(t, s);
+  }
+
+  t += "\nRings                                pushed    popped      lost      held  capacity\n";
+  for (const RingHealth& ring : v.health.rings) {
+    append(t, "  %-30s %10llu %9llu %9llu %9llu %9llu\n", ring.name.c_str(),
+           static_cast<unsigned long long>(ring.pushed),
+           static_cast<unsigned long long>(ring.popped),
+           static_cast<unsigned long long>(ring.lost), static_cast<unsigned long long>(ring.held),
+           static_cast<unsigned long long>(ring.capacity));
+  }
+
+  t += "\nChannels      messages  hash\n";
+  for (const auto& [name, channel] : r.channels) {
+    append(t, "  %-11s %9llu  %s\n", name.c_str(), static_cast<unsigned long long>(channel.count),
+           channel.hash.empty() ? "(of this run)" : channel.hash.c_str());
+  }
+  if (r.send_failures > 0) {
+    append(t, "  %llu messages could not be sent or written\n",
+           static_cast<unsigned long long>(r.send_failures));
+  }
+  for (const std::string& sentence : v.health.degraded) t += "\nNote: " + sentence + '\n';
+  return t;
+}
+
+void write_json(const std::filesystem::path& file, const ReplayResult& r) {
+  const vehicle::VehicleReport& v = r.vehicle;
+  json j;
+  j["drive"] = r.drive;
+  j["interrupted"] = r.interrupted;
+  j["vo"] = to_json(r.vo);
+  j["fused"] = to_json(r.fused);
+  j["replay"] = {{"lockstep", r.lockstep},
+                 {"speed", r.speed},
+                 {"images", r.images},
+                 {"data_s", v.data_seconds},
+                 {"wall_s", v.wall_seconds},
+                 {"cpu_s", v.cpu_seconds},
+                 {"peak_memory_bytes", v.peak_memory},
+                 {"lateness_p50_ms", to_ms(v.lateness.p50)},
+                 {"lateness_p99_ms", to_ms(v.lateness.p99)},
+                 {"lateness_max_ms", to_ms(v.lateness.max)},
+                 {"lost", r.samples_lost()},
+                 {"stalls", v.stalls},
+                 {"stalled_s", to_seconds(v.stalled)},
+                 {"send_failures", r.send_failures}};
+  j["deadlines"] = {{"misses", r.deadline_misses()},
+                    {"threads", to_json(v.deadlines.threads)},
+                    {"paths", to_json(v.deadlines.paths)}};
+  for (const vehicle::SensorReport& s : v.sensors) {
+    j["sensors"][s.name] = {{"delivered", s.source.delivered},
+                            {"left_out", s.source.refused},
+                            {"flawed", s.source.flawed},
+                            {"lateness", to_json(s.lateness)}};
+  }
+  for (const RingHealth& ring : v.health.rings) {
+    j["rings"][ring.name] = {{"pushed", ring.pushed},
+                             {"popped", ring.popped},
+                             {"lost", ring.lost},
+                             {"held", ring.held},
+                             {"capacity", ring.capacity}};
+  }
+  j["channels"] = json::object();
+  for (const auto& [name, channel] : r.channels) {
+    j["channels"][name] = {{"hash", channel.hash}, {"count", channel.count}};
+  }
+  j["degraded"] = v.health.degraded;
+
+  std::ofstream out(file);
+  out << j.dump(2) << '\n';
+  out.close();
+  if (!out) {
+    throw std::runtime_error("cannot write '" + file.string() +
+                             "': check that its folder exists and may be written");
+  }
+}
+
+}  // namespace maploop::tools

@@ -1,0 +1,43 @@
+// What one replay came to: accuracy against the reference, and how the runtime did.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "runtime/vehicle/channel_hashes.h"
+#include "runtime/vehicle/vehicle_report.h"
+#include "tools/evaluation/kitti_metric.h"
+
+namespace maploop::tools {
+
+// Of one trajectory, at the images where it and the reference have a pose.
+struct Accuracy {
+  evaluation::Score raw;
+  evaluation::Score common_rotation_removed;
+};
+
+struct ReplayResult {
+  std::string drive;
+  bool lockstep = false;
+  double speed = 1.0;
+  bool interrupted = false;
+  std::size_t images = 0;          // of the drive
+  std::optional<Accuracy> vo;      // nothing where there is too little to score
+  std::optional<Accuracy> fused;
+  std::map<std::string, vehicle::ChannelSummary> channels;
+  std::uint64_t send_failures = 0;  // messages that LCM or the log did not take
+  vehicle::VehicleReport vehicle;
+
+  std::uint64_t samples_lost() const;  // in rings
+  std::uint64_t deadline_misses() const;
+};
+
+// For a person, on a terminal.
+std::string format_table(const ReplayResult& result);
+
+// The same for a program. Throws std::runtime_error naming the file when it cannot be written.
+void write_json(const std::filesystem::path& file, const ReplayResult& result);
+
+}  // namespace maploop::tools

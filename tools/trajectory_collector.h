@@ -1,0 +1,44 @@
+// Gathers the left camera's trajectories during a replay, and scores them against the reference.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <functional>
+#include <map>
+#include <optional>
+
+#include "msgs/nav_state.h"
+#include "msgs/odometry.h"
+#include "tools/evaluation/kitti_poses.h"
+#include "tools/replay_result.h"
+
+namespace maploop::tools {
+
+// add() on the publisher's thread; the rest after the replay.
+class TrajectoryCollector {
+ public:
+  explicit TrajectoryCollector(const Eigen::Isometry3d& T_body_cam) : T_body_cam_(T_body_cam) {}
+
+  // Odometry is chained; a refused motion leaves the pose where it was.
+  void add(const RelativeMotion& motion);
+  // The fused state at an image.
+  void add(const NavState& image_state);
+
+  // Poses of the camera in `enu`, or in the first camera's frame, at the images that have one.
+  evaluation::Trajectory fused() const;
+
+  // Pose of the body at a stamp, where the reference has one.
+  using Reference = std::function<std::optional<Eigen::Isometry3d>(Time)>;
+  std::optional<Accuracy> score_vo(const Reference& reference) const;
+  std::optional<Accuracy> score_fused(const Reference& reference) const;
+
+ private:
+  using Poses = std::map<Time, Eigen::Isometry3d>;
+  std::optional<Accuracy> score(const Poses& poses, const Reference& reference) const;
+
+  Eigen::Isometry3d T_body_cam_;
+  Eigen::Isometry3d chained_ = Eigen::Isometry3d::Identity();  // body, in its first frame
+  Poses vo_;     // camera
+  Poses fused_;  // camera
+};
+
+}  // namespace maploop::tools
