@@ -37,7 +37,11 @@ Time parse_time(std::string_view text) {
   const int hours = number(text, 11, 2);
   const int minutes = number(text, 14, 2);
   const int seconds = number(text, 17, 2);
-  if (!date.ok() || hours > 23 || minutes > 59 || seconds > 60) reject(text);
+  // The range of years keeps every stamp, and the difference of any two, within 64 bits.
+  if (!date.ok() || date.year() < std::chrono::year(1970) ||
+      date.year() > std::chrono::year(2200) || hours > 23 || minutes > 59 || seconds > 60) {
+    reject(text);
+  }
 
   std::int64_t fraction = 0;
   if (text.size() > whole) {

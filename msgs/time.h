@@ -33,7 +33,8 @@ constexpr Time from_nanoseconds(std::int64_t ns) {
 }
 
 // "2011-09-26 13:10:51.174740992" (any number of fractional digits up to nine), read as UTC.
-// Throws std::invalid_argument naming the text when it is not such a stamp.
+// Throws std::invalid_argument naming the text when it is not such a stamp, or not within the
+// years 1970 to 2200.
 Time parse_time(std::string_view text);
 
 // The same form with nine fractional digits.

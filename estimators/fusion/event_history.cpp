@@ -1,0 +1,47 @@
+#include "estimators/fusion/event_history.h"
+
+#include <algorithm>
+
+namespace maploop::fusion {
+
+EventHistory::EventHistory(std::size_t capacity) : events_(capacity) {
+  order_.reserve(capacity);
+  free_.reserve(capacity);
+  clear();
+}
+
+bool EventHistory::contains(const EventKey& key) const {
+  const std::size_t position = position_after(key);
+  return position > 0 && (*this)[position - 1].key == key;
+}
+
+std::size_t EventHistory::position_after(const EventKey& key) const {
+  const auto place = std::upper_bound(
+      order_.begin(), order_.end(), key,
+      [this](const EventKey& wanted, std::uint32_t i) { return wanted < events_[i].key; });
+  return static_cast<std::size_t>(place - order_.begin());
+}
+
+std::size_t EventHistory::open_slot(const EventKey& key) {
+  const std::size_t position = position_after(key);
+  const std::uint32_t slot = free_.back();
+  free_.pop_back();
+  events_[slot].key = key;
+  order_.insert(order_.begin() + static_cast<std::ptrdiff_t>(position), slot);
+  return position;
+}
+
+void EventHistory::pop_front() {
+  free_.push_back(order_.front());
+  order_.erase(order_.begin());
+}
+
+void EventHistory::clear() {
+  order_.clear();
+  free_.clear();
+  for (std::size_t i = events_.size(); i > 0; --i) {
+    free_.push_back(static_cast<std::uint32_t>(i - 1));
+  }
+}
+
+}  // namespace maploop::fusion

@@ -1,0 +1,73 @@
+// Measurements of the last seconds in the order of their stamps, each with the state after it.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "estimators/fusion/filter_state.h"
+#include "estimators/fusion/outcome.h"
+#include "msgs/imu.h"
+#include "msgs/odometry.h"
+
+namespace maploop::fusion {
+
+// Order of events at one stamp.
+enum class EventKind : std::uint8_t { start, imu, odometry, clone };
+
+struct EventKey {
+  Time stamp{};
+  EventKind kind = EventKind::start;
+  std::uint64_t sequence = 0;
+
+  auto operator<=>(const EventKey&) const = default;
+};
+
+// Asks for a clone at the start of an interval that no odometry known here ends at.
+struct CloneRequest {};
+
+struct Event {
+  EventKey key;
+  std::variant<ImuSample, RelativeMotion, CloneRequest> measurement;
+  FilterState after;  // meaningful once the filter has started
+  Outcome outcome;
+};
+
+// Fixed capacity, all memory taken at construction. Positions count from the oldest event.
+class EventHistory {
+ public:
+  explicit EventHistory(std::size_t capacity);
+
+  std::size_t size() const { return order_.size(); }
+  bool full() const { return free_.empty(); }
+  Event& operator[](std::size_t position) { return events_[order_[position]]; }
+  const Event& operator[](std::size_t position) const { return events_[order_[position]]; }
+
+  bool contains(const EventKey& key) const;
+  // Position of the first event after `key` (after all of its equals).
+  std::size_t position_after(const EventKey& key) const;
+
+  // The new event, in its place; its state and outcome are whatever was there before.
+  // Preconditions: !full(), !contains(key).
+  template <class Measurement>
+  std::size_t insert(const EventKey& key, const Measurement& measurement) {
+    const std::size_t position = open_slot(key);
+    (*this)[position].measurement = measurement;
+    return position;
+  }
+
+  void pop_front();  // precondition: size() > 0
+  void clear();
+
+ private:
+  std::size_t open_slot(const EventKey& key);
+
+  std::vector<Event> events_;
+  std::vector<std::uint32_t> order_;  // into events_, oldest first
+  std::vector<std::uint32_t> free_;
+};
+
+}  // namespace maploop::fusion

@@ -1,0 +1,74 @@
+// Parameters of the reduced-IMU filter, chosen from the physics of a road vehicle and its sensors.
+#pragma once
+
+namespace maploop::fusion {
+
+struct FusionParameters {
+  // History and time.
+  double history_length = 2.0;  // s, late data is applied within it; odometry is < 0.3 s late
+  int history_capacity = 512;   // events; 2 s of 100 Hz IMU and 10 Hz odometry take about 240
+  double confirm_gap = 1.0;     // s, a stamp further ahead needs a second one that agrees
+  double max_gap = 5.0;         // s, beyond it nothing is predicted: the clock jumped
+  int restart_after = 100;      // refusals in a row for their stamps; then the clock really jumped
+  double max_step = 0.05;       // s, a chord of a 30 deg/s turn is 3e-5 shorter than its arc
+  double imu_hold = 0.3;        // s, three missing samples of a 10 Hz IMU; then it is silent
+  double coasting_after = 1.0;  // s without odometry until the state calls itself coasting
+  double max_interval = 1.0;    // s, longest odometry interval; speed is not constant for longer
+  double max_origin_distance = 50e3;  // m, the plumb line is linear in position up to there
+
+  // Start, from one GNSS fix.
+  double min_course_speed = 2.0;       // m/s, 0.1 m/s of velocity noise is 3 deg of course there
+  double max_stamp_offset = 0.2;       // s between a fix's position and its velocity
+  double min_position_sigma = 0.1;     // m, floor; no receiver of a road vehicle is better
+  double min_velocity_sigma = 0.03;    // m/s, floor
+  double start_course_sigma = 0.0087;  // rad (0.5 deg), course against body: side slip, mounting
+  double start_slope_sigma = 0.0175;   // rad (1 deg), climb against pitch: suspension, mounting
+  double start_roll_sigma = 0.035;     // rad (2 deg), cross fall of a road and suspension
+  double start_acceleration = 3.0;     // m/s^2, change of speed between a fix's two stamps
+
+  // Inertial sensors.
+  double gyro_noise = 8.7e-5;        // rad/sqrt(s) (0.3 deg/sqrt(h)), MEMS angle random walk
+  double gyro_bias_sigma = 1.75e-4;  // rad/s (36 deg/h), Gauss-Markov, MEMS after warm-up
+  double gyro_bias_time = 1000.0;    // s, its correlation time
+  double gyro_scale_sigma = 0.003;   // 1, scale and cross-axis error; acts in turns only
+  double turn_time = 3.0;            // s, how long a turn keeps that error
+  double acceleration_noise =
+      0.3;  // m/s/sqrt(s), vibration aliased into 10 Hz; levels pitch in 10 s
+  double accelerometer_bias_sigma = 0.05;  // m/s^2 (0.3 deg of tilt), Gauss-Markov, calibrated MEMS
+  double accelerometer_bias_time = 300.0;  // s, warming and sun
+  double yaw_rate_walk = 0.05;             // rad/s/sqrt(s), steering between samples and while held
+  double acceleration_walk = 1.0;          // m/s^2/sqrt(s), pedals between samples and while held
+  double silent_yaw_noise = 0.3;           // rad/sqrt(s), azimuth without a gyro
+  double silent_speed_noise = 2.0;         // m/s/sqrt(s), speed without an accelerometer
+  double max_specific_force = 50.0;        // m/s^2, beyond is a fault of the sensor (5 g)
+  double max_yaw_rate = 6.0;               // rad/s, beyond is a fault (350 deg/s)
+
+  // Vehicle.
+  double pitch_noise = 0.0175;  // rad/sqrt(s) (1 deg), road and suspension between odometry
+  double roll_noise = 0.0175;   // rad/sqrt(s) (1 deg)
+  double slip_sigma = 0.005;    // rad (0.3 deg), direction of travel against the body's axis
+  double slip_time = 1.0;       // s, how long it lasts
+  double max_tilt = 0.8;        // rad, no road vehicle leans so; a correction beyond is refused
+
+  // Levelling by the accelerometers.
+  double tilt_sigma = 0.0175;     // rad (1 deg), of the roll seen in one independent sample
+  double tilt_time = 3.0;         // s, how long its disturbance lasts; levels roll in about 10 s
+  double max_acceleration = 3.0;  // m/s^2 along, larger: braking hard, no levelling
+  double max_lateral_acceleration = 4.0;  // m/s^2 across, larger: tyres and springs lean
+
+  // Odometry. Its own covariance counts, but not its correlated part: hence floors and a scale.
+  double min_speed_sigma = 0.05;       // m/s, floor; stereo odometry reaches 0.03 to 0.1
+  double min_rotation_sigma = 5.2e-4;  // rad (0.03 deg) a frame, floor; it reaches 0.02 to 0.06
+  double odometry_scale_sigma = 0.01;  // 1, disparity bias: speed too large or small by 1 %
+  double odometry_scale_time = 300.0;  // s, it changes with the depth of the scene
+  double speed_gate = 10.83;           // chi-square, 1 degree of freedom, 0.1 % tail
+  double rotation_gate = 16.27;        // chi-square, 3 degrees of freedom, 0.1 % tail
+  int recover_after = 10;              // gated in a row (1 s); then the filter is the one at fault
+  double recovery_speed_sigma = 5.0;   // m/s, how wrong its speed may then be
+  double recovery_rotation_sigma = 0.05;  // rad (3 deg), and its rotation over one interval
+};
+
+// Throws std::invalid_argument naming the first parameter that cannot work, and its bounds.
+void check(const FusionParameters& parameters);
+
+}  // namespace maploop::fusion

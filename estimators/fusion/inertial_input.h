@@ -1,0 +1,36 @@
+// What the inertial sensors say about a stretch of time between, or after, their samples.
+#pragma once
+
+#include "estimators/fusion/fusion_parameters.h"
+#include "msgs/imu.h"
+
+namespace maploop::fusion {
+
+struct InertialInput {
+  double duration = 0.0;       // s
+  bool inertial = false;       // false: the IMU is silent, the rest is zero
+  double forward_force = 0.0;  // m/s^2, mean over the stretch
+  double yaw_rate = 0.0;       // rad/s, mean over the stretch
+  // Variance of the integral over the stretch, per walk density squared of what is integrated: the
+  // price of not seeing the sensor's input between samples (s^3).
+  double gap_cubed = 0.0;
+};
+
+// Two neighbouring samples; either may be missing (null).
+struct InertialSamples {
+  const ImuSample* before = nullptr;
+  const ImuSample* after = nullptr;
+};
+
+// End of the part of [from, to] that one InertialInput can describe. Precondition: from < to.
+Time end_of_stretch(const InertialSamples& samples, Time from, Time to,
+                    const FusionParameters& parameters);
+
+// Linear interpolation between samples not further apart than `imu_hold`; after a sample without
+// such a successor its value is held for that long; then the IMU counts as silent. So a sample
+// that arrives after a longer silence changes nothing before itself.
+// Precondition: [from, to] ends at or before end_of_stretch.
+InertialInput inertial_input(const InertialSamples& samples, Time from, Time to,
+                             const FusionParameters& parameters);
+
+}  // namespace maploop::fusion

@@ -1,0 +1,83 @@
+#include "estimators/fusion/initial_state.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "estimators/fusion/covariance_check.h"
+
+namespace maploop::fusion {
+
+Time start_stamp(const GnssFix& fix) {
+  return std::min(fix.stamp, fix.velocity_stamp);
+}
+
+Reason check_fix(const GnssFix& fix, const FusionParameters& parameters) {
+  const Eigen::Vector3d position(fix.position.latitude, fix.position.longitude,
+                                 fix.position.height);
+  if (!position.allFinite() || !fix.velocity_enu.allFinite() ||
+      !fix.position_covariance.allFinite() || !fix.velocity_covariance.allFinite()) {
+    return Reason::not_finite;
+  }
+  if (std::abs(fix.position.latitude) > radians(89.0) ||
+      std::abs(fix.position.longitude) > radians(360.0) || std::abs(fix.position.height) > 10e3 ||
+      fix.velocity_enu.norm() > 100.0) {
+    return Reason::out_of_range;
+  }
+  if (!is_covariance(fix.position_covariance) || !is_covariance(fix.velocity_covariance)) {
+    return Reason::invalid_covariance;
+  }
+  if (std::chrono::abs(fix.stamp - fix.velocity_stamp) >
+      from_seconds(parameters.max_stamp_offset)) {
+    return Reason::stamps_apart;
+  }
+  if (fix.velocity_enu.head<2>().norm() < parameters.min_course_speed) return Reason::too_slow;
+  return Reason::none;
+}
+
+FilterState initial_state(const GnssFix& fix, const LocalFrame& frame, const FusionParameters& p) {
+  using namespace index;
+  const Time start = start_stamp(fix);
+  const double position_age = to_seconds(fix.stamp - start);
+  const double velocity_age = to_seconds(fix.velocity_stamp - start);
+  const Eigen::Vector3d v = fix.velocity_enu;
+  const double horizontal = v.head<2>().norm();
+  const double length = v.norm();
+
+  FilterState state;
+  state.stamp = state.start = start;
+  state.x.segment<3>(east) = frame.to_enu(fix.position) - position_age * v;
+  state.x[speed] = length;
+  state.x[azimuth] = std::atan2(v.x(), v.y());
+  state.x[pitch] = std::atan2(v.z(), horizontal);
+
+  // Derivative of position, speed, azimuth and pitch by the fix's position and velocity.
+  Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Zero();
+  J.block<3, 3>(0, 0).setIdentity();
+  J.block<3, 3>(0, 3) = -position_age * Eigen::Matrix3d::Identity();
+  J.block<1, 3>(3, 3) = v.transpose() / length;
+  J.block<1, 3>(4, 3) << v.y() / (horizontal * horizontal), -v.x() / (horizontal * horizontal), 0;
+  J.block<1, 3>(5, 3) << -v.z() * v.x() / (length * length * horizontal),
+      -v.z() * v.y() / (length * length * horizontal), horizontal / (length * length);
+  Eigen::Matrix<double, 6, 6> C = Eigen::Matrix<double, 6, 6>::Zero();
+  C.topLeftCorner<3, 3>() = fix.position_covariance;
+  C.bottomRightCorner<3, 3>() = fix.velocity_covariance;
+  C.diagonal().head<3>().array() += p.min_position_sigma * p.min_position_sigma;
+  C.diagonal().tail<3>().array() += p.min_velocity_sigma * p.min_velocity_sigma;
+
+  static_assert(speed == 3 && azimuth == 4 && pitch == 5 && roll == 6);
+  state.P.topLeftCorner<6, 6>() = J * C * J.transpose();
+  const auto add = [&](int i, double sigma) { state.P(i, i) += sigma * sigma; };
+  add(speed, p.start_acceleration * velocity_age);
+  add(azimuth, p.start_course_sigma);
+  add(pitch, p.start_slope_sigma);
+  add(roll, p.start_roll_sigma);
+  add(gyro_bias, p.gyro_bias_sigma);
+  add(forward_bias, p.accelerometer_bias_sigma);
+  add(left_bias, p.accelerometer_bias_sigma);
+  add(odometry_scale, p.odometry_scale_sigma);
+  take_clone(state);
+  return state;
+}
+
+}  // namespace maploop::fusion

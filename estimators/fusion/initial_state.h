@@ -1,0 +1,23 @@
+// The first state, from one moving GNSS fix.
+#pragma once
+
+#include "estimators/fusion/filter_state.h"
+#include "estimators/fusion/fusion_parameters.h"
+#include "estimators/fusion/outcome.h"
+#include "msgs/gnss.h"
+
+namespace maploop::fusion {
+
+// The earlier of the fix's two stamps: where the filter starts.
+Time start_stamp(const GnssFix& fix);
+
+// Reason::none, or why the fix cannot start a filter.
+Reason check_fix(const GnssFix& fix, const FusionParameters& parameters);
+
+// State at start_stamp(fix): the position is carried there by the velocity; speed, azimuth and
+// pitch are the velocity's length, course and climb (the vehicle is taken to drive forward), with
+// the fix's covariance carried through. Precondition: check_fix says none.
+FilterState initial_state(const GnssFix& fix, const LocalFrame& frame,
+                          const FusionParameters& parameters);
+
+}  // namespace maploop::fusion

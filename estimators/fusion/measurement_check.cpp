@@ -1,0 +1,42 @@
+#include "estimators/fusion/measurement_check.h"
+
+#include <cmath>
+
+#include "estimators/fusion/covariance_check.h"
+
+namespace maploop::fusion {
+
+Reason check_sample(const ImuSample& sample, const FusionParameters& parameters) {
+  if (!std::isfinite(sample.specific_force_forward) || !std::isfinite(sample.specific_force_left) ||
+      !std::isfinite(sample.yaw_rate)) {
+    return Reason::not_finite;
+  }
+  if (std::abs(sample.specific_force_forward) > parameters.max_specific_force ||
+      std::abs(sample.specific_force_left) > parameters.max_specific_force ||
+      std::abs(sample.yaw_rate) > parameters.max_yaw_rate) {
+    return Reason::out_of_range;
+  }
+  return Reason::none;
+}
+
+Reason check_motion(const RelativeMotion& motion, const FusionParameters& parameters) {
+  if (motion.status != OdometryStatus::ok) return Reason::none;
+  if (motion.stamp <= motion.from ||
+      motion.stamp - motion.from > from_seconds(parameters.max_interval)) {
+    return Reason::bad_interval;
+  }
+  if (!motion.translation.allFinite() || !motion.rotation.coeffs().allFinite() ||
+      !motion.covariance.allFinite()) {
+    return Reason::not_finite;
+  }
+  constexpr double rounding = 1e-3;
+  constexpr double max_speed = 100.0;  // m/s; the gate is for what is merely wrong
+  if (std::abs(motion.rotation.norm() - 1.0) > rounding ||
+      motion.translation.norm() > max_speed * to_seconds(motion.stamp - motion.from)) {
+    return Reason::out_of_range;
+  }
+  if (!is_covariance(motion.covariance)) return Reason::invalid_covariance;
+  return Reason::none;
+}
+
+}  // namespace maploop::fusion

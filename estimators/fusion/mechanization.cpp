@@ -1,0 +1,147 @@
+#include "estimators/fusion/mechanization.h"
+
+#include <cmath>
+
+namespace maploop::fusion {
+namespace {
+
+using Eigen::Vector3d;
+
+double squared(double v) {
+  return v * v;
+}
+
+// Forward axis of the body in enu.
+Vector3d forward_axis(double azimuth, double pitch) {
+  const double cp = std::cos(pitch);
+  return {std::sin(azimuth) * cp, std::cos(azimuth) * cp, std::sin(pitch)};
+}
+
+}  // namespace
+
+Step mechanize(const StateVector& x, const InertialInput& input, const LocalEarth& earth,
+               const FusionParameters& parameters) {
+  using namespace index;
+  const double dt = input.duration;
+  const double sA = std::sin(x[azimuth]), cA = std::cos(x[azimuth]);
+  const double sp = std::sin(x[pitch]), cp = std::cos(x[pitch]);
+  const double sr = std::sin(x[roll]), cr = std::cos(x[roll]);
+
+  // Azimuth rate and acceleration, and their derivatives (rows over the state).
+  double azimuth_rate = 0.0;
+  double acceleration = 0.0;
+  Eigen::Matrix<double, 1, count> azimuth_rate_by = Eigen::Matrix<double, 1, count>::Zero();
+  Eigen::Matrix<double, 1, count> acceleration_by = Eigen::Matrix<double, 1, count>::Zero();
+  if (input.inertial) {
+    const double rate = input.yaw_rate - x[gyro_bias];
+    azimuth_rate = -(rate / (cp * cr) - earth.earth_rate_up());
+    azimuth_rate_by[pitch] = -rate * sp / (cp * cp * cr);
+    azimuth_rate_by[roll] = -rate * sr / (cp * cr * cr);
+    azimuth_rate_by[gyro_bias] = 1.0 / (cp * cr);
+
+    const double g = earth.gravity(x[up]);
+    const Vector3d vertical = earth.vertical(x[east], x[north]);
+    const Vector3d forward(sA * cp, cA * cp, sp);
+    acceleration = input.forward_force - x[forward_bias] - g * vertical.dot(forward);
+    acceleration_by[east] = -g * earth.curvature().x() * forward.x();
+    acceleration_by[north] = -g * earth.curvature().y() * forward.y();
+    acceleration_by[azimuth] = -g * vertical.dot(Vector3d(cA * cp, -sA * cp, 0.0));
+    acceleration_by[pitch] = -g * vertical.dot(Vector3d(-sA * sp, -cA * sp, cp));
+    acceleration_by[forward_bias] = -1.0;
+  }
+
+  const double mid_azimuth = x[azimuth] + 0.5 * dt * azimuth_rate;
+  const double mid_speed = x[speed] + 0.5 * dt * acceleration;
+  const Vector3d forward = forward_axis(mid_azimuth, x[pitch]);
+  const double sAm = std::sin(mid_azimuth), cAm = std::cos(mid_azimuth);
+  const Vector3d forward_by_azimuth(cAm * cp, -sAm * cp, 0.0);
+  const Vector3d forward_by_pitch(-sAm * sp, -cAm * sp, cp);
+
+  Step step;
+  step.x = x;
+  step.x.segment<3>(east) += dt * mid_speed * forward;
+  step.x[speed] += dt * acceleration;
+  step.x[azimuth] = wrap_angle(x[azimuth] + dt * azimuth_rate);
+  step.x[distance] += dt * mid_speed;
+
+  StateMatrix& F = step.F;
+  F.setIdentity();
+  F.middleRows<3>(east) += dt * forward * (0.5 * dt * acceleration_by) +
+                           dt * mid_speed * forward_by_azimuth * (0.5 * dt * azimuth_rate_by);
+  F.block<3, 1>(east, speed) += dt * forward;
+  F.block<3, 1>(east, azimuth) += dt * mid_speed * forward_by_azimuth;
+  F.block<3, 1>(east, pitch) += dt * mid_speed * forward_by_pitch;
+  F.row(speed) += dt * acceleration_by;
+  F.row(azimuth) += dt * azimuth_rate_by;
+  F.row(distance) += 0.5 * dt * dt * acceleration_by;
+  F(distance, speed) += dt;
+  const auto decay = [&](int i, double time) {
+    const double factor = std::exp(-dt / time);
+    step.x[i] *= factor;
+    F(i, i) = factor;
+  };
+  decay(gyro_bias, parameters.gyro_bias_time);
+  decay(forward_bias, parameters.accelerometer_bias_time);
+  decay(left_bias, parameters.accelerometer_bias_time);
+  decay(odometry_scale, parameters.odometry_scale_time);
+
+  step.acceleration_effect.setZero();
+  step.acceleration_effect.segment<3>(east) = 0.5 * dt * dt * forward;
+  step.acceleration_effect[speed] = dt;
+  step.acceleration_effect[distance] = 0.5 * dt * dt;
+  step.yaw_rate_effect.setZero();
+  step.yaw_rate_effect[azimuth] = -dt / (cp * cr);
+  step.yaw_rate_effect.segment<3>(east) =
+      -0.5 * dt * dt * mid_speed / (cp * cr) * forward_by_azimuth;
+  return step;
+}
+
+StateMatrix process_noise(const StateVector& x, const Step& step, const InertialInput& input,
+                          const FusionParameters& p) {
+  using namespace index;
+  const double dt = input.duration;
+  StateMatrix Q = StateMatrix::Zero();
+
+  // White noise of density q is a constant error of variance q / dt over the step.
+  double speed_variance = dt * squared(p.silent_speed_noise);
+  double azimuth_variance = dt * squared(p.silent_yaw_noise);
+  if (input.inertial) {
+    speed_variance =
+        dt * squared(p.acceleration_noise) + input.gap_cubed * squared(p.acceleration_walk);
+    azimuth_variance =
+        dt * (squared(p.gyro_noise) + squared(p.gyro_scale_sigma * input.yaw_rate) * p.turn_time) +
+        input.gap_cubed * squared(p.yaw_rate_walk);
+  }
+  Q += step.acceleration_effect * step.acceleration_effect.transpose() *
+       (speed_variance / (dt * dt));
+  Q += step.yaw_rate_effect * step.yaw_rate_effect.transpose() * (azimuth_variance / (dt * dt));
+
+  Q(pitch, pitch) += dt * squared(p.pitch_noise);
+  Q(roll, roll) += dt * squared(p.roll_noise);
+
+  const auto walk = [&](int i, double sigma) {
+    Q(i, i) += squared(sigma) * (1.0 - squared(step.F(i, i)));
+  };
+  walk(gyro_bias, p.gyro_bias_sigma);
+  walk(forward_bias, p.accelerometer_bias_sigma);
+  walk(left_bias, p.accelerometer_bias_sigma);
+  walk(odometry_scale, p.odometry_scale_sigma);
+
+  // Side slip and suspension turn the direction of travel away from the body's axis.
+  const Vector3d forward = forward_axis(x[azimuth], x[pitch]);
+  Q.block<3, 3>(east, east) += dt * squared(x[speed] * p.slip_sigma) * p.slip_time *
+                               (Eigen::Matrix3d::Identity() - forward * forward.transpose());
+  return Q;
+}
+
+void predict(FilterState& state, const InertialInput& input, const LocalEarth& earth,
+             const FusionParameters& parameters) {
+  const Step step = mechanize(state.x, input, earth, parameters);
+  const StateMatrix FP = step.F * state.P;
+  StateMatrix P = FP * step.F.transpose();
+  P += process_noise(state.x, step, input, parameters);
+  state.P = 0.5 * (P + P.transpose());
+  state.x = step.x;
+}
+
+}  // namespace maploop::fusion

@@ -1,0 +1,108 @@
+// What became of one measurement, and why.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace maploop::fusion {
+
+enum class Disposition : std::uint8_t {
+  applied,
+  held,     // kept until the filter starts, then applied
+  refused,  // `reason` says why
+};
+
+enum class Reason : std::uint8_t {
+  none,
+  // At the door: the measurement is forgotten.
+  not_finite,
+  out_of_range,        // beyond what the sensor or a road vehicle does
+  invalid_covariance,  // not symmetric, or a negative variance
+  bad_interval,        // odometry over no time, backwards, or longer than the limit
+  duplicate,           // same stamp and sequence as one known already
+  too_old,             // before the history begins
+  before_start,        // before the moment the filter started at
+  time_jump,           // further ahead of all others than may be, or not confirmed by a second one
+  // Odometry, at its stamp: no correction, but the next interval starts there.
+  odometry_not_ok,   // its own status says so
+  interval_unknown,  // the filter does not know the attitude at the interval's start
+  speed_gate,        // forward speed contradicts the prediction
+  rotation_gate,     // rotation contradicts the prediction
+  implausible_tilt,  // the correction would lean the vehicle over
+  // GNSS fixes, which only start the filter.
+  already_started,
+  too_slow,      // no course without motion: waiting for a fix that moves
+  stamps_apart,  // position and velocity belong to different moments
+  too_far_from_origin,
+};
+
+constexpr std::size_t reason_count = static_cast<std::size_t>(Reason::too_far_from_origin) + 1;
+
+struct Outcome {
+  Disposition disposition = Disposition::applied;
+  Reason reason = Reason::none;
+
+  bool refused() const { return disposition == Disposition::refused; }
+  bool operator==(const Outcome&) const = default;
+};
+
+constexpr Outcome refused(Reason reason) {
+  return {Disposition::refused, reason};
+}
+
+constexpr std::string_view to_string(Disposition disposition) {
+  switch (disposition) {
+    case Disposition::applied:
+      return "applied";
+    case Disposition::held:
+      return "held until the filter starts";
+    case Disposition::refused:
+      return "refused";
+  }
+  return "unknown";
+}
+
+constexpr std::string_view to_string(Reason reason) {
+  switch (reason) {
+    case Reason::none:
+      return "none";
+    case Reason::not_finite:
+      return "a value is not finite";
+    case Reason::out_of_range:
+      return "a value is out of range";
+    case Reason::invalid_covariance:
+      return "invalid covariance";
+    case Reason::bad_interval:
+      return "bad odometry interval";
+    case Reason::duplicate:
+      return "duplicate";
+    case Reason::too_old:
+      return "older than the history";
+    case Reason::before_start:
+      return "before the filter's start";
+    case Reason::time_jump:
+      return "jump of the time stamp";
+    case Reason::odometry_not_ok:
+      return "odometry reports a failure";
+    case Reason::interval_unknown:
+      return "start of the odometry interval unknown";
+    case Reason::speed_gate:
+      return "speed contradicts the prediction";
+    case Reason::rotation_gate:
+      return "rotation contradicts the prediction";
+    case Reason::implausible_tilt:
+      return "implausible tilt";
+    case Reason::already_started:
+      return "filter already started";
+    case Reason::too_slow:
+      return "too slow for a course";
+    case Reason::stamps_apart:
+      return "position and velocity too far apart in time";
+    case Reason::too_far_from_origin:
+      return "too far from the origin";
+  }
+  return "unknown";
+}
+
+}  // namespace maploop::fusion

@@ -1,0 +1,117 @@
+// Reduced-IMU navigation: two horizontal accelerometers, one vertical gyro and odometry in an
+// extended Kalman filter that takes late data at its own stamp (method.md 1.4).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "estimators/fusion/earth.h"
+#include "estimators/fusion/event_history.h"
+#include "estimators/fusion/fusion_parameters.h"
+#include "estimators/fusion/inertial_input.h"
+#include "estimators/fusion/outcome.h"
+#include "msgs/gnss.h"
+#include "msgs/local_frame.h"
+#include "msgs/nav_state.h"
+
+namespace maploop::fusion {
+
+enum class Phase : std::uint8_t {
+  waiting_for_fix,     // no usable GNSS fix yet
+  waiting_for_motion,  // the last fix was too slow to show a course
+  running,
+};
+
+struct FilterStatus {
+  Phase phase = Phase::waiting_for_fix;
+  std::uint64_t recoveries = 0;  // times a row of gated odometry made the filter doubt itself
+  std::uint64_t restarts = 0;    // times a jump of the clock made it begin anew
+  std::uint64_t shortened = 0;   // events that left the history early because it was full
+  std::uint64_t unused = 0;      // held measurements that grew too old before the filter started
+  // Of every measurement added, by its outcome when it was added (a later arrival may change what
+  // the filter makes of it; NavState counts what is inside a state).
+  std::uint64_t applied = 0;
+  std::uint64_t held = 0;
+  std::array<std::uint64_t, reason_count> refused{};  // by Reason
+
+  std::uint64_t refused_for(Reason reason) const {
+    return refused[static_cast<std::size_t>(reason)];
+  }
+};
+
+// Not thread-safe; reads no clock, allocates nothing after construction.
+//
+// Measurements may arrive in any order and late by up to `history_length`: each is applied at its
+// own stamp and everything after it is done again, so that the result has the same bits as if all
+// had arrived in the order of (stamp, kind, sequence). The inertial input is interpolated between
+// samples; after the newest one its value is held.
+//
+// Axes are the body's (x forward, y left, z up; msgs/frames.h); its origin is taken to roll without
+// side slip, as a point near the rear axle does.
+class ReducedImuFilter {
+ public:
+  // Throws std::invalid_argument when a parameter cannot work. Without an origin, the position of
+  // the fix that starts the filter becomes the origin.
+  explicit ReducedImuFilter(const FusionParameters& parameters,
+                            std::optional<Geodetic> origin = std::nullopt);
+
+  Outcome add(const ImuSample& sample);
+  Outcome add(const RelativeMotion& motion);
+  Outcome add(const GnssFix& fix);  // starts the filter; not used afterwards
+
+  bool initialized() const { return initialized_; }
+  // Of the enu coordinates; the default frame before the start when no origin was given.
+  const LocalFrame& frame() const { return frame_; }
+  FilterStatus status() const;
+
+  // State at `t` from every measurement known now with a stamp <= t (and the inertial sample after
+  // t, for the interpolation). Beyond the newest measurement it is predicted. Nothing before the
+  // history begins, or more than `max_gap` beyond its end, or before the start.
+  std::optional<NavState> state_at(Time t) const;
+
+  // Stamp of the newest measurement, or of the start; epoch 0 when there is none.
+  Time newest() const { return newest_; }
+
+ private:
+  Outcome add_before_start(const ImuSample& sample);
+  // Nothing has dropped out of the history since the start.
+  bool started_here() const { return initialized_ && base_key_.kind == EventKind::start; }
+  Outcome count(Outcome outcome);
+  Reason check_stamp(const EventKey& key);
+  Outcome refuse_stamp(Reason reason);
+  void accept_stamp(Time stamp);
+
+  Outcome start(const GnssFix& fix);
+  void restart();
+  void make_room(std::size_t events);
+  void drop_oldest();
+  template <class Measurement>
+  Outcome insert_and_roll(const EventKey& key, const Measurement& measurement, std::size_t redo);
+
+  InertialSamples samples_around(std::size_t position) const;
+  std::size_t next_sample(std::size_t position) const;
+  void advance(FilterState& state, const InertialSamples& samples, Time to) const;
+  Outcome apply(FilterState& state, const Event& event, const InertialSamples& samples) const;
+  void roll_forward(std::size_t position);
+
+  FusionParameters parameters_;
+  bool has_origin_ = false;
+  LocalFrame frame_;
+  LocalEarth earth_;
+  EventHistory history_;
+
+  // What is left of the events that dropped out of the history.
+  FilterState base_;
+  EventKey base_key_;
+  std::optional<ImuSample> base_sample_;  // the newest inertial sample among them
+
+  bool initialized_ = false;
+  Time newest_{};
+  Time gnss_stamp_{};
+  Time unconfirmed_{};  // the last stamp refused for being too far ahead
+  int refused_stamps_in_a_row_ = 0;
+  FilterStatus status_;
+};
+
+}  // namespace maploop::fusion

@@ -1,0 +1,30 @@
+// KITTI's calibration texts ("KEY: numbers").
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "msgs/calibration.h"
+
+namespace maploop::sensors {
+
+// The texts of the three files, each with the name that errors give it.
+struct KittiCalibrationText {
+  std::string_view cam_to_cam, velo_to_cam, imu_to_velo;
+  std::filesystem::path cam_to_cam_file, velo_to_cam_file, imu_to_velo_file;
+};
+
+// The rectified grey cameras (00 left, 01 right) and the LiDAR in the body frame, which is the
+// IMU's. Geiger, Lenz, Stiller, Urtasun, "Vision meets Robotics: The KITTI Dataset", IJRR 2013,
+// eq. 3 to 8:
+//   T_cam_imu = R_rect_00 T_cam0_velo T_velo_imu,   baseline = -P_rect_01(0,3) / P_rect_01(0,0)
+// The printed rotations, rounded to seven digits, are replaced by the nearest true ones. Throws
+// std::runtime_error naming file and key: missing or given twice, not the right count of finite
+// numbers, not a rotation (to 1e-3), cameras that do not form a rectified pair.
+VehicleCalibration parse_kitti_calibration(const KittiCalibrationText& text);
+
+// From calib_cam_to_cam.txt, calib_velo_to_cam.txt, calib_imu_to_velo.txt in `folder`. Throws as
+// above, and where a file is missing.
+VehicleCalibration read_kitti_calibration(const std::filesystem::path& folder);
+
+}  // namespace maploop::sensors

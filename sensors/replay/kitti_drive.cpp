@@ -1,0 +1,125 @@
+#include "sensors/replay/kitti_drive.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include "sensors/replay/kitti_calibration.h"
+#include "sensors/replay/oxts_sources.h"
+
+namespace maploop::sensors {
+namespace {
+
+void check(const KittiDriveParameters& p) {
+  // An hour: nothing here is longer, and it keeps the arithmetic of stamps far from its limits.
+  const auto is_duration = [](double s) { return s >= 0.0 && s <= 3600.0; };
+  const auto require = [](bool ok, const char* name) {
+    if (!ok) {
+      throw std::invalid_argument(std::string("KITTI drive: ") + name + " must be 0 to 3600 s");
+    }
+  };
+  require(is_duration(p.imu_delay), "imu_delay");
+  require(is_duration(p.camera_readout), "camera_readout");
+  require(is_duration(p.max_pair_skew), "max_pair_skew");
+  require(is_duration(p.max_turn), "max_turn");
+}
+
+bool is_folder(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(path, ignored);
+}
+
+// The drive's folder, absolute and without a trailing slash, so that its parent is the day's.
+std::filesystem::path drive_folder(const std::filesystem::path& given) {
+  const auto fail = [&given](const std::string& reason) {
+    throw std::runtime_error("no KITTI drive at '" + given.string() + "': " + reason);
+  };
+  if (given.empty() || !is_folder(given)) {
+    fail(
+        "it is not a folder; name a synced and rectified raw drive, such as "
+        "2011_09_26/2011_09_26_drive_0013_sync");
+  }
+  std::filesystem::path folder = std::filesystem::absolute(given).lexically_normal();
+  if (!folder.has_filename()) folder = folder.parent_path();
+  if (folder.filename().string().ends_with("_extract")) {
+    fail("it is the unsynced form, whose images are not rectified; use the drive's _sync form");
+  }
+  for (const char* camera : {"image_00", "image_01"}) {
+    if (!is_folder(folder / camera)) {
+      fail(std::string("it has no folder ") + camera +
+           "; name the drive itself, synced and rectified, such as "
+           "2011_09_26/2011_09_26_drive_0013_sync");
+    }
+  }
+  return folder;
+}
+
+ImageFolder image_folder(const std::filesystem::path& folder) {
+  return {folder / "data", read_timestamps(folder / "timestamps.txt")};
+}
+
+}  // namespace
+
+KittiDrive::KittiDrive(const std::filesystem::path& folder, const KittiDriveParameters& parameters)
+    : folder_(drive_folder(folder)), parameters_(parameters) {
+  check(parameters_);
+  calibration_ = read_kitti_calibration(folder_.parent_path());
+  left_ = image_folder(folder_ / "image_00");
+  right_ = image_folder(folder_ / "image_01");
+  if (const auto velodyne = folder_ / "velodyne_points"; is_folder(velodyne)) {
+    velodyne_ =
+        VelodyneFolder{velodyne / "data", read_timestamps(velodyne / "timestamps_start.txt"),
+                       read_timestamps(velodyne / "timestamps.txt"),
+                       read_timestamps(velodyne / "timestamps_end.txt")};
+  }
+  if (const auto oxts = folder_ / "oxts"; is_folder(oxts)) {
+    oxts_ = std::make_shared<const OxtsRows>(read_oxts(oxts));
+  }
+}
+
+Time KittiDrive::first_stamp() const {
+  const Timestamps& t = left_.timestamps;
+  std::size_t i = 0;
+  while (t.verdicts[i]) ++i;
+  return t.stamps[i];
+}
+
+Time KittiDrive::last_stamp() const {
+  const Timestamps& t = left_.timestamps;
+  std::size_t i = t.size() - 1;
+  while (t.verdicts[i]) --i;
+  return t.stamps[i];
+}
+
+std::unique_ptr<Source<StereoPair>> KittiDrive::camera() const {
+  return make_stereo_source(left_, right_, calibration_.stereo,
+                            from_seconds(parameters_.camera_readout),
+                            from_seconds(parameters_.max_pair_skew));
+}
+
+std::unique_ptr<Source<LidarScan>> KittiDrive::velodyne() const {
+  if (!velodyne_) {
+    throw std::runtime_error("drive '" + folder_.string() + "' has no folder velodyne_points");
+  }
+  return make_velodyne_source(*velodyne_, from_seconds(parameters_.max_turn));
+}
+
+std::unique_ptr<Source<ImuSample>> KittiDrive::imu() const {
+  return make_imu_source(oxts(), from_seconds(parameters_.imu_delay));
+}
+
+std::unique_ptr<Source<GnssFix>> KittiDrive::gnss(const GnssAidParameters& parameters) const {
+  return make_gnss_source(oxts(), from_seconds(parameters_.imu_delay), parameters);
+}
+
+std::unique_ptr<Source<ReferencePose>> KittiDrive::reference() const {
+  return make_reference_source(oxts(), from_seconds(parameters_.imu_delay));
+}
+
+const std::shared_ptr<const OxtsRows>& KittiDrive::oxts() const {
+  if (!oxts_) throw std::runtime_error("drive '" + folder_.string() + "' has no folder oxts");
+  return oxts_;
+}
+
+}  // namespace maploop::sensors

@@ -1,0 +1,26 @@
+// Normally distributed numbers that are the same with every standard library.
+#pragma once
+
+#include <cstdint>
+#include <random>
+
+#include "msgs/time.h"
+
+namespace maploop::sensors {
+
+// Standard normal numbers that depend on a seed and a stamp alone: std::mt19937_64, whose sequence
+// the C++ standard fixes, seeded with both mixed by splitmix64 (Steele, Lea, Flood, "Fast
+// Splittable Pseudorandom Number Generators", 2014), and the Box-Muller transform. (The transform
+// of std::normal_distribution is each library's own.)
+class NormalGenerator {
+ public:
+  NormalGenerator(std::uint64_t seed, Time stamp);
+  double next();
+
+ private:
+  std::mt19937_64 uniform_;
+  double spare_ = 0.0;
+  bool has_spare_ = false;
+};
+
+}  // namespace maploop::sensors

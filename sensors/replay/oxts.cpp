@@ -1,0 +1,94 @@
+#include "sensors/replay/oxts.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "sensors/replay/files.h"
+
+namespace maploop::sensors {
+namespace {
+
+constexpr std::size_t columns = 30;
+enum Column : std::size_t {
+  lat,
+  lon,
+  alt,
+  roll,
+  pitch,
+  yaw,
+  vn,
+  ve,
+  vu = 10,
+  ax = 11,
+  ay = 12,
+  wz = 19,
+  pos_accuracy = 23
+};
+
+// The ranges of dataformat.txt, with room for the rounding of the text.
+constexpr double half_turn = std::numbers::pi + 1e-3;
+struct Range {
+  Column column;
+  const char* name;
+  double largest;  // in magnitude
+};
+constexpr std::array<Range, 5> ranges{{{lat, "lat", 90.0},
+                                       {lon, "lon", 180.0},
+                                       {roll, "roll", half_turn},
+                                       {pitch, "pitch", half_turn / 2.0},
+                                       {yaw, "yaw", half_turn}}};
+
+}  // namespace
+
+OxtsRow parse_oxts_row(std::string_view text) {
+  const std::vector<double> value = parse_numbers(text);
+  if (value.size() != columns) {
+    throw std::invalid_argument("has " + std::to_string(value.size()) + " columns instead of " +
+                                std::to_string(columns));
+  }
+  for (const Range& range : ranges) {
+    if (std::fabs(value[range.column]) > range.largest) {
+      throw std::invalid_argument(std::string(range.name) +
+                                  " is out of range: " + std::to_string(value[range.column]));
+    }
+  }
+  OxtsRow row;
+  row.position = {radians(value[lat]), radians(value[lon]), value[alt]};
+  row.attitude = {azimuth_from_yaw(value[yaw]), -value[pitch], value[roll]};
+  row.velocity_enu = {value[ve], value[vn], value[vu]};
+  row.specific_force_forward = value[ax];
+  row.specific_force_left = value[ay];
+  row.yaw_rate = value[wz];
+  row.position_accuracy = value[pos_accuracy];
+  return row;
+}
+
+OxtsRows read_oxts(const std::filesystem::path& folder) {
+  Timestamps timestamps = read_timestamps(folder / "timestamps.txt");
+  OxtsRows result;
+  result.rows.resize(timestamps.size());
+  result.verdicts = std::move(timestamps.verdicts);
+  for (std::size_t i = 0; i < timestamps.size(); ++i) {
+    if (result.verdicts[i]) continue;
+    const std::filesystem::path file = folder / "data" / numbered_file(i, ".txt");
+    std::size_t line = 0;
+    try {
+      const std::string text = read_text(file);
+      line = 1;
+      result.rows[i] = parse_oxts_row(text);
+    } catch (const std::exception& error) {
+      result.verdicts[i] = Finding{file.string(), line, error.what()};
+    }
+  }
+  refuse_out_of_order(timestamps.stamps, timestamps.file, result.verdicts);
+  result.stamps = std::move(timestamps.stamps);
+  result.unstamped = files_without_stamp(folder / "data", timestamps.size());
+  return result;
+}
+
+}  // namespace maploop::sensors

@@ -1,0 +1,44 @@
+// The rows of KITTI's inertial and GNSS unit (OXTS RT3003): one text file of 30 numbers each.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "msgs/frames.h"
+#include "msgs/local_frame.h"
+#include "sensors/replay/timestamps.h"
+
+namespace maploop::sensors {
+
+// What we use of a row. Of its rates and accelerations only those about the body's own axes (ax,
+// ay, wz): af, al and wu are levelled with the unit's own attitude, so they would bring the
+// reference into the estimate.
+struct OxtsRow {
+  Geodetic position;
+  Attitude attitude;
+  Eigen::Vector3d velocity_enu = Eigen::Vector3d::Zero();  // m/s
+  double specific_force_forward = 0.0;                     // m/s^2, ax
+  double specific_force_left = 0.0;                        // m/s^2, ay
+  double yaw_rate = 0.0;                                   // rad/s, wz
+  double position_accuracy = 0.0;                          // m
+};
+
+// Columns as the drive's oxts/dataformat.txt lists them. KITTI's attitude is R_enu_imu = Rz(yaw)
+// Ry(pitch) Rx(roll), pitch nose down. Throws std::invalid_argument with the reason alone: not 30
+// columns, not finite, or an angle outside the range that dataformat.txt gives it.
+OxtsRow parse_oxts_row(std::string_view text);
+
+struct OxtsRows {
+  std::vector<OxtsRow> rows;
+  std::vector<Time> stamps;        // of the rows: of their position and attitude
+  Verdicts verdicts;               // as many as rows
+  std::vector<Finding> unstamped;  // row files beyond the last stamp
+};
+
+// All rows of the folder `oxts` of a drive. Throws std::runtime_error where its timestamps.txt is
+// missing or empty; a row that is missing or unusable has a verdict.
+OxtsRows read_oxts(const std::filesystem::path& folder);
+
+}  // namespace maploop::sensors

@@ -1,0 +1,51 @@
+#include "sensors/replay/reference_trajectory.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "msgs/frames.h"
+
+namespace maploop::sensors {
+
+ReferenceTrajectory::ReferenceTrajectory(const std::vector<ReferencePose>& rows,
+                                         const LocalFrame& frame,
+                                         const ReferenceTrajectoryParameters& parameters)
+    : max_extrapolation_(from_seconds(parameters.max_extrapolation)),
+      max_gap_(from_seconds(parameters.max_gap)) {
+  if (rows.size() < 2) {
+    throw std::invalid_argument("reference trajectory: needs at least two rows, has " +
+                                std::to_string(rows.size()));
+  }
+  rows_.reserve(rows.size());
+  for (const ReferencePose& row : rows) {
+    if (!rows_.empty() && row.stamp <= rows_.back().stamp) {
+      throw std::invalid_argument("reference trajectory: time does not increase at " +
+                                  format_time(row.stamp));
+    }
+    rows_.push_back({row.stamp, frame.to_enu(row.position),
+                     Eigen::Quaterniond(rotation_enu_body(row.attitude))});
+  }
+}
+
+std::optional<Eigen::Isometry3d> ReferenceTrajectory::pose(Time stamp) const {
+  if (stamp < rows_.front().stamp - max_extrapolation_ ||
+      stamp > rows_.back().stamp + max_extrapolation_) {
+    return std::nullopt;
+  }
+  // The pair of rows around the stamp; at the ends the outermost pair.
+  auto after = std::lower_bound(rows_.begin() + 1, rows_.end() - 1, stamp,
+                                [](const Row& row, Time t) { return row.stamp < t; });
+  const Row& b = *after;
+  const Row& a = *(after - 1);
+  if (stamp == b.stamp) return Eigen::Translation3d(b.p_enu) * b.q_enu_body;
+  if (stamp == a.stamp) return Eigen::Translation3d(a.p_enu) * a.q_enu_body;
+  if (b.stamp - a.stamp > max_gap_) return std::nullopt;
+
+  const double fraction = to_seconds(stamp - a.stamp) / to_seconds(b.stamp - a.stamp);
+  Eigen::AngleAxisd turn(a.q_enu_body.conjugate() * b.q_enu_body);
+  turn.angle() = fraction * wrap_angle(turn.angle());
+  return Eigen::Translation3d(a.p_enu + fraction * (b.p_enu - a.p_enu)) *
+         (a.q_enu_body * Eigen::Quaterniond(turn));
+}
+
+}  // namespace maploop::sensors

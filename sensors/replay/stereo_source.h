@@ -1,0 +1,27 @@
+// The rectified pairs of a KITTI drive.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "msgs/calibration.h"
+#include "msgs/image.h"
+#include "sensors/replay/timestamps.h"
+#include "sensors/source.h"
+
+namespace maploop::sensors {
+
+// One camera's folder of numbered images.
+struct ImageFolder {
+  std::filesystem::path data;
+  Timestamps timestamps;
+};
+
+// Pairs left and right by number: stamp = left's, available = the later of the two + readout. A
+// pair whose stamps differ by more than `max_skew` is refused, as is an image of another size than
+// the calibration's.
+std::unique_ptr<Source<StereoPair>> make_stereo_source(ImageFolder left, ImageFolder right,
+                                                       const StereoCalibration& calibration,
+                                                       Duration readout, Duration max_skew);
+
+}  // namespace maploop::sensors

@@ -1,0 +1,102 @@
+#include "sensors/replay/timestamps.h"
+
+#include <algorithm>
+#include <charconv>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include "sensors/replay/files.h"
+
+namespace maploop::sensors {
+
+Timestamps parse_timestamps(std::string_view text, const std::filesystem::path& file) {
+  Timestamps result{file, {}, {}};
+  bool any = false;
+  for (const std::string_view line : split_lines(text)) {
+    Time stamp{};
+    std::optional<Finding> verdict;
+    try {
+      stamp = parse_time(line);
+      any = true;
+    } catch (const std::invalid_argument&) {
+      verdict =
+          Finding{file.string(), result.size() + 1,
+                  "not a time stamp of the form YYYY-MM-DD hh:mm:ss.fraction: " + quoted(line)};
+    }
+    result.stamps.push_back(stamp);
+    result.verdicts.push_back(std::move(verdict));
+  }
+  if (!any) {
+    throw std::runtime_error("'" + file.string() +
+                             "' holds no time stamp; restore the file from KITTI's archive");
+  }
+  return result;
+}
+
+Timestamps read_timestamps(const std::filesystem::path& file) {
+  std::string text;
+  try {
+    text = read_text(file);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error("time stamps '" + file.string() + "': " + error.what() +
+                             "; restore the file from KITTI's archive");
+  }
+  return parse_timestamps(text, file);
+}
+
+std::optional<Finding> verdict(const Timestamps& timestamps, std::size_t i) {
+  if (i < timestamps.size()) return timestamps.verdicts[i];
+  return Finding{timestamps.file.string(), i + 1, "the file ends before this line"};
+}
+
+void refuse_out_of_order(const std::vector<Time>& stamps, const std::filesystem::path& file,
+                         Verdicts& verdicts) {
+  // run[i]: length of the longest increasing subsequence that starts at frame i, by the patience
+  // method from the end; heads[n]: the latest start of one of length n + 1.
+  std::vector<std::size_t> run(stamps.size(), 0);
+  std::vector<Time> heads;
+  for (std::size_t i = stamps.size(); i-- > 0;) {
+    if (verdicts[i]) continue;
+    const auto head = std::lower_bound(heads.begin(), heads.end(), stamps[i], std::greater<>());
+    run[i] = static_cast<std::size_t>(head - heads.begin()) + 1;
+    if (head == heads.end()) {
+      heads.push_back(stamps[i]);
+    } else {
+      *head = stamps[i];
+    }
+  }
+  std::size_t wanted = heads.size();
+  const Time* last = nullptr;
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    if (verdicts[i]) continue;
+    if (run[i] == wanted && (last == nullptr || *last < stamps[i])) {
+      last = &stamps[i];
+      --wanted;
+    } else {
+      verdicts[i] = Finding{file.string(), i + 1,
+                            "time does not increase: " + format_time(stamps[i]) +
+                                " is out of order among its neighbours"};
+    }
+  }
+}
+
+std::vector<Finding> files_without_stamp(const std::filesystem::path& folder, std::size_t frames) {
+  std::vector<Finding> findings;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string stem = entry->path().stem().string();
+    std::size_t index = 0;
+    const auto [rest, failed] = std::from_chars(stem.data(), stem.data() + stem.size(), index);
+    if (failed != std::errc() || rest != stem.data() + stem.size() || index < frames) continue;
+    findings.push_back(
+        {entry->path().string(), 0, "no time stamp for it: there are " + std::to_string(frames)});
+  }
+  std::sort(findings.begin(), findings.end(),
+            [](const Finding& a, const Finding& b) { return a.file < b.file; });
+  return findings;
+}
+
+}  // namespace maploop::sensors

@@ -1,0 +1,96 @@
+// Publishes one message of every type on the vehicle's channels, ten times a second, for a bounded
+// time:   publish_every_type SECONDS [LCM_URL]
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+#include <lcm/lcm-cpp.hpp>
+#include <string>
+#include <string_view>
+#include <thread>
+
+#include "msgs/lcm/conversions.h"
+
+namespace maploop {
+namespace {
+
+constexpr double kMaximumSeconds = 600.0;
+
+template <typename T>
+T sample(int tick) {
+  T result;
+  result.stamp = from_nanoseconds(1'317'042'272'000'000'000) + tick * from_seconds(0.1);
+  result.available = result.stamp + from_seconds(0.05);
+  result.sequence = static_cast<std::uint64_t>(tick);
+  return result;
+}
+
+Deadlines deadlines(Time stamp) {
+  LatencySummary fusion{
+      .name = "fusion", .count = 1480, .misses = 1, .deadline = from_seconds(2e-3)};
+  fusion.p50 = from_seconds(40e-6);
+  LatencySummary path{.name = "camera to state", .count = 143};
+  return {.stamp = stamp, .threads = {fusion}, .paths = {path}};
+}
+
+Health health(Time stamp) {
+  ThreadHealth fusion{
+      .name = "fusion", .scheduling = "fifo 50", .count = 1480, .rate = 100.0, .failure = ""};
+  RingHealth ring{
+      .name = "imu -> fusion", .pushed = 144, .popped = 143, .held = 1, .capacity = 256};
+  return {
+      .stamp = stamp, .threads = {fusion}, .rings = {ring}, .degraded = {"no real-time priority"}};
+}
+
+bool publish_all(lcm::LCM& lcm, int tick) {
+  bool sent = true;
+  const auto publish = [&](const std::string& channel, const auto& message) {
+    const auto encoded = to_lcm(message);
+    sent = lcm.publish(channel, &encoded) == 0 && sent;
+  };
+  auto state = sample<NavState>(tick);
+  state.status = NavStatus::aided;
+  state.forward_speed = 11.7;
+  publish("NAV_STATE", state);
+  publish("VO", sample<RelativeMotion>(tick));
+  publish("IMU", sample<ImuSample>(tick));
+  publish("GNSS_FIX", sample<GnssFix>(tick));
+  publish("TRUTH", sample<ReferencePose>(tick));
+  publish("DEADLINES", deadlines(state.stamp));
+  publish("HEALTH", health(state.stamp));
+  return sent;
+}
+
+int run(double seconds, const std::string& url) {
+  lcm::LCM lcm(url);
+  if (!lcm.good()) {
+    std::fprintf(stderr,
+                 "publish_every_type: LCM cannot start; is there a route for its multicast?\n");
+    return 1;
+  }
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::duration<double>(seconds);
+  for (int tick = 0; Clock::now() < end; ++tick) {
+    if (!publish_all(lcm, tick)) {
+      std::fprintf(stderr, "publish_every_type: message %d was not sent\n", tick);
+      return 1;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace maploop
+
+int main(int argc, char** argv) {
+  double seconds = 0.0;
+  if (argc == 2 || argc == 3) {
+    const std::string_view text = argv[1];
+    std::from_chars(text.data(), text.data() + text.size(), seconds);
+  }
+  if (!(seconds > 0.0 && seconds <= maploop::kMaximumSeconds)) {
+    std::fprintf(stderr, "usage: publish_every_type SECONDS [LCM_URL], at most 600 s\n");
+    return 2;
+  }
+  return maploop::run(seconds, argc == 3 ? argv[2] : "");
+}
