@@ -84,6 +84,13 @@ void run_to_end(vehicle::Vehicle& vehicle, Time last) {
   if (terminal) progress.clear();
 }
 
+sensors::ReferenceTrajectory read_reference(sensors::Source<ReferencePose>& source) {
+  std::vector<ReferencePose> rows;
+  for (ReferencePose row; source.next(row);) rows.push_back(row);
+  const LocalFrame frame(rows.empty() ? Geodetic{} : rows.front().position);
+  return {rows, frame};
+}
+
 bool any_thread_failed(const ReplayResult& result) {
   const auto& threads = result.vehicle.health.threads;
   return std::any_of(threads.begin(), threads.end(),
@@ -140,10 +147,10 @@ int replay(const ReplayOptions& options) {
   if (bus) result.send_failures += bus->failures();
   if (recorder) result.send_failures += recorder->failures();
   if (drive.has_oxts()) {
-    const sensors::ReferenceTrajectory reference = drive.reference_trajectory();
-    const auto pose_at = [&](Time t) { return reference.pose_at(t); };
-    result.vo = collector.score_vo(pose_at);
-    result.fused = collector.score_fused(pose_at);
+    const sensors::ReferenceTrajectory reference = read_reference(*drive.reference());
+    const auto pose = [&](Time t) { return reference.pose(t); };
+    result.vo = collector.score_vo(pose);
+    result.fused = collector.score_fused(pose);
   }
 
   std::cout << format_table(result);

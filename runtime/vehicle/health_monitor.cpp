@@ -46,6 +46,10 @@ Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataCl
   return health;
 }
 
+void HealthMonitor::restart_rates() {
+  for (Watched& watched : threads_) watched.seen = 0;
+}
+
 Deadlines HealthMonitor::deadlines(Time stamp) const {
   Deadlines deadlines;
   deadlines.stamp = stamp;

@@ -14,7 +14,7 @@
 
 namespace maploop::vehicle {
 
-// Set up before the threads run; afterwards one thread calls the const members. What is watched must
+// Set up before the threads run; afterwards one thread at a time looks. What is watched must
 // outlive the monitor.
 class HealthMonitor {
  public:
@@ -25,6 +25,8 @@ class HealthMonitor {
 
   // `elapsed`: data time since the last look, for the rates.
   Health health(Time stamp, Duration elapsed, const runtime::DataClock& clock);
+  // The next health() counts from the start.
+  void restart_rates();
   Deadlines deadlines(Time stamp) const;
 
  private:

@@ -17,12 +17,12 @@ using runtime::DataClock;
 using testing::fake_calibration;
 using testing::fake_sensors;
 
-struct Run {
+struct Replayed {
   VehicleReport report;
   std::map<std::string, ChannelSummary> channels;
 };
 
-Run run(const DataClock& clock, Sensors sensors) {
+Replayed replay(const DataClock& clock, Sensors sensors) {
   ChannelHashes hashes;
   Vehicle vehicle({}, fake_calibration(), std::move(sensors), clock, {&hashes}, {});
   vehicle.start();
@@ -30,7 +30,7 @@ Run run(const DataClock& clock, Sensors sensors) {
   return {vehicle.report(), hashes.summary()};
 }
 
-void expect_same_data(const Run& a, const Run& b) {
+void expect_same_data(const Replayed& a, const Replayed& b) {
   for (const char* channel : {"NAV_STATE", "VO", "IMU", "GNSS_FIX", "TRUTH"}) {
     const ChannelSummary& x = a.channels.at(channel);
     const ChannelSummary& y = b.channels.at(channel);
@@ -47,9 +47,9 @@ void expect_rings_balance(const VehicleReport& report) {
 }
 
 TEST(Vehicle, LockstepGivesTheSameBitsOnEachRun) {
-  const Run first = run(DataClock::virtual_time(), fake_sensors(5.0));
+  const Replayed first = replay(DataClock::virtual_time(), fake_sensors(5.0));
   for (int i = 0; i < 3; ++i) {
-    expect_same_data(first, run(DataClock::virtual_time(), fake_sensors(5.0)));
+    expect_same_data(first, replay(DataClock::virtual_time(), fake_sensors(5.0)));
   }
   EXPECT_EQ(first.channels.at("IMU").count, 500u);
   EXPECT_EQ(first.channels.at("VO").count, 50u) << "a result, or an explicit none, for each image";
@@ -57,9 +57,9 @@ TEST(Vehicle, LockstepGivesTheSameBitsOnEachRun) {
 }
 
 TEST(Vehicle, RealTimeAtAnySpeedGivesTheBitsOfLockstep) {
-  const Run lockstep = run(DataClock::virtual_time(), fake_sensors(3.0));
+  const Replayed lockstep = replay(DataClock::virtual_time(), fake_sensors(3.0));
   for (const double speed : {2.0, 10.0, 1000.0}) {
-    const Run paced = run(DataClock::paced(speed), fake_sensors(3.0));
+    const Replayed paced = replay(DataClock::paced(speed), fake_sensors(3.0));
     expect_same_data(lockstep, paced);
     expect_rings_balance(paced.report);
     EXPECT_EQ(paced.channels.at("HEALTH").hash, "") << "what speaks of the run is not hashed";
@@ -67,13 +67,13 @@ TEST(Vehicle, RealTimeAtAnySpeedGivesTheBitsOfLockstep) {
 }
 
 TEST(Vehicle, NavStatesComeAtOneHundredHertz) {
-  const Run r = run(DataClock::virtual_time(), fake_sensors(5.0));
+  const Replayed r = replay(DataClock::virtual_time(), fake_sensors(5.0));
   const double ticks = static_cast<double>(r.channels.at("NAV_STATE").count);
   EXPECT_NEAR(ticks / r.report.data_seconds, 100.0, 0.5);
 }
 
 TEST(Vehicle, NothingIsLostAndRingsBalance) {
-  const Run r = run(DataClock::virtual_time(), fake_sensors(20.0));
+  const Replayed r = replay(DataClock::virtual_time(), fake_sensors(20.0));
   expect_rings_balance(r.report);
   for (const RingHealth& ring : r.report.health.rings) {
     EXPECT_EQ(ring.lost + ring.held, 0u) << ring.name;
@@ -99,7 +99,7 @@ TEST(Vehicle, StopEndsInOrderAndPublishesWhatThereIs) {
 TEST(Vehicle, ADriverThatFailsIsNamedAndTheRestGoesOn) {
   Sensors sensors = fake_sensors(3.0);
   sensors.imu = std::make_unique<testing::BrokenSource<ImuSample>>(std::move(sensors.imu), 100);
-  const Run r = run(DataClock::virtual_time(), std::move(sensors));
+  const Replayed r = replay(DataClock::virtual_time(), std::move(sensors));
   EXPECT_EQ(r.channels.at("IMU").count, 100u);
   EXPECT_EQ(r.channels.at("VO").count, 30u);
   std::string said;
@@ -111,7 +111,7 @@ TEST(Vehicle, ALoaderThatFailsIsNamedAndTheRestGoesOn) {
   Sensors sensors = fake_sensors(3.0);
   sensors.camera =
       std::make_unique<testing::BrokenSource<StereoPair>>(std::move(sensors.camera), 7);
-  const Run r = run(DataClock::virtual_time(), std::move(sensors));
+  const Replayed r = replay(DataClock::virtual_time(), std::move(sensors));
   EXPECT_EQ(r.channels.at("VO").count, 7u);
   EXPECT_EQ(r.channels.at("IMU").count, 300u);
   std::string said;
@@ -124,7 +124,7 @@ TEST(Vehicle, SensorsThatTheDriveLacksAreNoError) {
   sensors.velodyne = nullptr;
   sensors.reference = nullptr;
   sensors.camera = nullptr;
-  const Run r = run(DataClock::virtual_time(), std::move(sensors));
+  const Replayed r = replay(DataClock::virtual_time(), std::move(sensors));
   EXPECT_EQ(r.channels.at("IMU").count, 200u);
   EXPECT_EQ(r.channels.count("VO"), 0u);
   EXPECT_EQ(r.channels.count("TRUTH"), 0u);
@@ -137,7 +137,7 @@ TEST(Vehicle, ADriveWithoutASingleSampleIsAnError) {
 
 TEST(Vehicle, MissedDeadlinesComeWithWhereTheTimeWent) {
   // Far too fast for the images: stereo must miss, and the data clock must wait for it.
-  const Run r = run(DataClock::paced(2000.0), fake_sensors(5.0));
+  const Replayed r = replay(DataClock::paced(2000.0), fake_sensors(5.0));
   EXPECT_GT(r.report.stalls, 0u);
   for (const ThreadMisses& thread : r.report.misses) {
     for (const Miss& miss : thread.misses) {
