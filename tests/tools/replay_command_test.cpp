@@ -1,0 +1,158 @@
+// `maploop replay` as its user runs it, on the recorded drive.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/support/process.h"
+#include "tests/support/real_data.h"
+#include "tools/evaluation/kitti_poses.h"
+
+namespace maploop {
+namespace {
+
+using nlohmann::json;
+using testing::ProcessResult;
+using testing::TemporaryFolder;
+
+std::vector<std::string> command(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), {MAPLOOP_COMMAND, "replay"});
+  return arguments;
+}
+
+ProcessResult replay(const std::vector<std::string>& arguments) {
+  return testing::run(command(arguments));
+}
+
+json replay_json(std::vector<std::string> options) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "result.json").string();
+  options.insert(options.end(), {testing::drive_0013().string(), "--no-lcm", "--json", file});
+  const ProcessResult result = replay(options);
+  EXPECT_EQ(result.status, 0) << result.error;
+  return json::parse(std::ifstream(file));
+}
+
+std::map<std::string, std::string> hashes(const json& result) {
+  std::map<std::string, std::string> all;
+  for (const auto& [name, channel] : result["channels"].items()) {
+    if (channel["hash"] != "") all[name] = channel["hash"];
+  }
+  return all;
+}
+
+TEST(ReplayCommand, RealTimeHasTheBitsOfLockstepAndLosesNothing) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const json lockstep = replay_json({"--lockstep"});
+  const json real_time = replay_json({"--speed", "1"});
+  EXPECT_EQ(hashes(lockstep), hashes(real_time));
+  EXPECT_EQ(hashes(lockstep).size(), 5u);
+  EXPECT_EQ(hashes(lockstep), hashes(replay_json({"--lockstep"})));
+  for (const json& result : {lockstep, real_time}) EXPECT_EQ(result["replay"]["lost"], 0);
+  EXPECT_EQ(real_time["channels"]["VO"]["count"], 144);
+  EXPECT_EQ(real_time["channels"]["IMU"]["count"], 144);
+  EXPECT_EQ(real_time["channels"]["TRUTH"]["count"], 144);
+  EXPECT_GT(real_time["channels"]["HEALTH"]["count"], 10);
+}
+
+TEST(ReplayCommand, TooFastASpeedStallsTheClockNotTheResult) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const json too_fast = replay_json({"--speed", "1000"});
+  EXPECT_GT(too_fast["replay"]["stalls"], 0);
+  EXPECT_EQ(too_fast["replay"]["lost"], 0);
+  EXPECT_EQ(hashes(too_fast), hashes(replay_json({"--lockstep"})));
+}
+
+TEST(ReplayCommand, AnotherSeedIsAnotherDraw) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const json one = replay_json({"--lockstep", "--seed", "1"});
+  const json two = replay_json({"--lockstep", "--seed", "2"});
+  EXPECT_NE(hashes(one)["GNSS_FIX"], hashes(two)["GNSS_FIX"]);
+  EXPECT_EQ(hashes(one)["VO"], hashes(two)["VO"]);
+}
+
+TEST(ReplayCommand, WritesOnePoseAnImage) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "poses.txt").string();
+  const ProcessResult result =
+      replay({testing::drive_0013().string(), "--no-lcm", "--lockstep", "--poses", file});
+  EXPECT_EQ(result.status, 0) << result.error;
+  EXPECT_EQ(evaluation::read_kitti_poses(file).size(), 144u);
+}
+
+TEST(ReplayCommand, InterruptEndsInOrderWithTheTable) {
+  MAPLOOP_REQUIRE_DRIVE();
+  testing::Process process(command({testing::drive_0013().string(), "--no-lcm"}));
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  process.send_signal(SIGINT);
+  const ProcessResult result = process.wait();
+  EXPECT_EQ(result.status, 130);
+  EXPECT_NE(result.out.find("(interrupted)"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("NAV_STATE"), std::string::npos);
+}
+
+TEST(ReplayCommand, NamesAFolderThatIsNoDrive) {
+  const TemporaryFolder folder;
+  const ProcessResult result = replay({folder.path().string(), "--no-lcm"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.error.find(folder.path().string()), std::string::npos) << result.error;
+}
+
+TEST(ReplayCommand, SurvivesADriveWithAHole) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const TemporaryFolder folder;
+  const auto date = folder.path() / "2011_09_26";
+  const auto copy = date / "2011_09_26_drive_0013_sync";
+  std::filesystem::create_directories(date);
+  for (const auto& entry : std::filesystem::directory_iterator(testing::drive_0013().parent_path())) {
+    if (entry.is_regular_file()) std::filesystem::copy(entry, date);
+  }
+  std::filesystem::copy(testing::drive_0013(), copy, std::filesystem::copy_options::recursive);
+  std::filesystem::remove(copy / "image_00/data/0000000050.png");
+  std::filesystem::resize_file(copy / "image_01/data/0000000060.png", 1000);
+  std::filesystem::resize_file(copy / "velodyne_points/data/0000000070.bin", 1001);
+
+  const std::string file = (folder.path() / "result.json").string();
+  const ProcessResult result = replay({copy.string(), "--no-lcm", "--lockstep", "--json", file});
+  EXPECT_EQ(result.status, 0) << result.error;
+  for (const char* name : {"0000000050.png", "0000000060.png", "0000000070.bin"}) {
+    EXPECT_NE(result.out.find(name), std::string::npos) << result.out;
+  }
+  const json r = json::parse(std::ifstream(file));
+  EXPECT_EQ(r["sensors"]["camera"]["delivered"], 142);
+  EXPECT_EQ(r["sensors"]["camera"]["left_out"], 2);
+  EXPECT_EQ(r["sensors"]["velodyne"]["left_out"], 1);
+  EXPECT_LT(r["fused"]["end_point_m"], 10.0) << "two lost images are bridged";
+}
+
+TEST(ReplayCommand, SaysWhatIsWrongWithItsArguments) {
+  EXPECT_NE(replay({}).status, 0);
+  EXPECT_NE(replay({"x", "--speed", "0"}).status, 0);
+  EXPECT_NE(replay({"x", "--speed", "2", "--lockstep"}).status, 0);
+  EXPECT_NE(replay({"x", "--nonsense"}).status, 0);
+  const ProcessResult config = replay({"x", "--config", "/nonexistent.toml"});
+  EXPECT_NE(config.status, 0);
+  EXPECT_NE(config.error.find("/nonexistent.toml"), std::string::npos);
+  EXPECT_EQ(replay({"--help"}).status, 0);
+}
+
+TEST(ReplayCommand, NamesTheUnknownKeyOfAConfiguration) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "bad.toml").string();
+  std::ofstream(file) << "[fusion]\ngyro_nois = 1e-4\n";
+  const ProcessResult result = replay({"x", "--no-lcm", "--config", file});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.error.find("bad.toml:2"), std::string::npos) << result.error;
+  EXPECT_NE(result.error.find("gyro_nois"), std::string::npos) << result.error;
+  EXPECT_NE(result.error.find("gyro_noise"), std::string::npos) << "says the nearest known key";
+}
+
+}  // namespace
+}  // namespace maploop
