@@ -1,0 +1,29 @@
+#include "estimators/stereo/image_pyramid.h"
+
+#include <opencv2/video/tracking.hpp>
+
+namespace maploop::stereo {
+
+void ImagePyramid::build(const GreyImage& image, const StereoParameters& parameters) {
+  // OpenCV has no view of constant pixels; it only reads them here.
+  const cv::Mat view(image.height, image.width, CV_8UC1,
+                     const_cast<unsigned char*>(image.pixels.data()));
+  cv::buildOpticalFlowPyramid(view, levels_, cv::Size(parameters.window, parameters.window),
+                              parameters.pyramid_levels, true, cv::BORDER_REFLECT_101,
+                              cv::BORDER_CONSTANT, false);
+}
+
+void track_points(const ImagePyramid& from_image, const ImagePyramid& to_image, int coarsest,
+                  const StereoParameters& parameters, const std::vector<cv::Point2f>& from,
+                  std::vector<cv::Point2f>* to, std::vector<unsigned char>* found) {
+  found->clear();
+  if (from.empty()) return;
+  cv::calcOpticalFlowPyrLK(
+      from_image.levels(), to_image.levels(), from, *to, *found, cv::noArray(),
+      cv::Size(parameters.window, parameters.window), coarsest,
+      cv::TermCriteria(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, parameters.max_iterations,
+                       parameters.min_step),
+      cv::OPTFLOW_USE_INITIAL_FLOW);
+}
+
+}  // namespace maploop::stereo

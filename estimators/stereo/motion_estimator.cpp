@@ -1,0 +1,75 @@
+#include "estimators/stereo/motion_estimator.h"
+
+#include <cmath>
+
+#include "estimators/stereo/ransac.h"
+#include "estimators/stereo/refine.h"
+
+namespace maploop::stereo {
+namespace {
+
+bool usable(const StereoObservation& seen, const StereoParameters& parameters) {
+  return std::isfinite(seen.u_left) && std::isfinite(seen.v_left) &&
+         std::isfinite(seen.u_right) && std::isfinite(seen.v_right) &&
+         seen.disparity() >= parameters.min_disparity &&
+         seen.disparity() <= parameters.max_disparity &&
+         std::abs(seen.v_left - seen.v_right) <= parameters.max_row_error;
+}
+
+}  // namespace
+
+CameraMotion estimate_motion(const StereoCalibration& camera, const StereoParameters& parameters,
+                             std::span<const StereoTrack> tracks, std::uint64_t seed,
+                             const std::optional<Eigen::Isometry3d>& expected) {
+  CameraMotion motion;
+  std::vector<StereoTrack> good;
+  std::vector<int> index_of;
+  good.reserve(tracks.size());
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    if (!usable(tracks[i].previous, parameters) || !usable(tracks[i].current, parameters)) continue;
+    good.push_back(tracks[i]);
+    index_of.push_back(static_cast<int>(i));
+  }
+  motion.tracked = static_cast<int>(good.size());
+  if (motion.tracked < parameters.min_tracks) return motion;
+
+  const auto enough = [&](const std::vector<int>& inliers) {
+    return static_cast<int>(inliers.size()) >= parameters.min_inliers &&
+           static_cast<double>(inliers.size()) >= parameters.min_inlier_ratio * motion.tracked;
+  };
+  motion.status = OdometryStatus::too_few_inliers;
+  const std::optional<Eigen::Isometry3d> expected_inverse =
+      expected ? std::optional(expected->inverse()) : std::nullopt;
+  const Consensus consensus = ransac_motion(camera, parameters, good, seed, expected_inverse);
+  if (!enough(consensus.inliers)) return motion;
+  const Refinement refined = refine_motion(camera, parameters, good, consensus.inliers,
+                                           consensus.T_current_previous.inverse());
+  if (!refined.ok || !enough(refined.inliers)) return motion;
+
+  motion.status = OdometryStatus::ok;
+  motion.T_previous_current = refined.T_previous_current;
+  motion.covariance = refined.covariance;
+  for (const int i : refined.inliers)
+    motion.inliers.push_back(index_of[static_cast<std::size_t>(i)]);
+  return motion;
+}
+
+void to_body(const Eigen::Isometry3d& T_body_cam, const CameraMotion& motion,
+             RelativeMotion* result) {
+  const Eigen::Isometry3d T = T_body_cam * motion.T_previous_current * T_body_cam.inverse();
+  result->translation = T.translation();
+  result->rotation = Eigen::Quaterniond(T.linear()).normalized();
+  // t_body = R_body_cam t_cam + l - R l with the camera's lever l: a rotation error of the camera
+  // also moves the body, by [R l]x.
+  const Eigen::Matrix3d R_body_cam = T_body_cam.linear();
+  const Eigen::Vector3d lever = T.linear() * T_body_cam.translation();
+  Eigen::Matrix3d lever_cross;
+  lever_cross << 0.0, -lever.z(), lever.y(), lever.z(), 0.0, -lever.x(), -lever.y(), lever.x(), 0.0;
+  Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Zero();
+  J.topLeftCorner<3, 3>() = R_body_cam;
+  J.topRightCorner<3, 3>() = lever_cross * R_body_cam;
+  J.bottomRightCorner<3, 3>() = R_body_cam;
+  result->covariance = J * motion.covariance * J.transpose();
+}
+
+}  // namespace maploop::stereo

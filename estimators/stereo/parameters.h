@@ -1,0 +1,51 @@
+// Everything that can be set in the stereo visual odometry.
+#pragma once
+
+namespace maploop::stereo {
+
+struct StereoParameters {
+  // --- Corner detection
+  int bucket_size = 50;        // px; features spread over the image pin down rotation and translation
+  int features_per_bucket = 3; // 8 x 25 buckets of a 1242 x 375 image: at most 600, typically 350
+  int fast_threshold = 10;     // grey levels; low, for roads have little contrast
+  double min_corner_response = 200.0;  // smaller eigenvalue of the mean gradient tensor (Scharr / 32)
+  int min_feature_distance = 12;       // px; closer windows would measure the same pixels twice
+
+  // --- Lucas-Kanade tracking
+  int window = 15;                // px, odd; side of the compared square
+  int pyramid_levels = 4;         // above the full image; used where no motion is known yet
+  int predicted_levels = 1;       // above the full image, when the last motion predicts the position
+  int max_iterations = 15;        // per level
+  double min_step = 0.02;         // px; an iteration that moves less is the last one
+
+  // --- Stereo match and consistency
+  double min_disparity = 1.0;    // px
+  double max_disparity = 160.0;  // px; 2.4 m at KITTI's calibration
+  double min_correlation = 0.8;  // of a new feature's patch along the right image's row
+  double max_row_error = 1.0;    // px between rectified rows
+  double max_closure = 1.0;      // px between the two ways round the circle
+
+  // --- Measurement noise
+  double sigma_track = 0.15;      // px per axis, position in the left image from one pair to the next
+  double sigma_disparity = 0.2;  // px
+
+  // --- Motion estimate
+  int min_tracks = 25;            // fewer: too_few_features
+  int min_inliers = 25;           // fewer: too_few_inliers
+  double min_inlier_ratio = 0.4;  // less: too_few_inliers
+  double ransac_threshold = 2.0;  // px, in each image
+  double ransac_confidence = 0.999;
+  int ransac_max_hypotheses = 200;
+  double huber = 2.0;              // whitened residual from which a track's weight falls
+  double outlier_sigmas = 4.0;     // whitened residual beyond which a track is left out
+  int refine_max_iterations = 10;  // of each of the two rounds
+
+  // --- Plausibility of a road vehicle
+  double max_speed = 70.0;         // m/s
+  double max_acceleration = 8.0;   // m/s^2, from one motion to the next
+  double max_yaw_rate = 1.5708;    // rad/s (90 deg/s)
+  double max_gap = 1.0;            // s; an older pair is not compared with any more
+  int max_stale_pairs = 10;        // pairs in a row with old stamps after which time starts anew
+};
+
+}  // namespace maploop::stereo

@@ -1,0 +1,34 @@
+// Two-epoch adjustment of the motion and of the points' depths (method.md 2.1 step 4, 5).
+#pragma once
+
+#include <Eigen/Geometry>
+#include <span>
+#include <vector>
+
+#include "estimators/stereo/parameters.h"
+#include "estimators/stereo/tracks.h"
+#include "msgs/calibration.h"
+
+namespace maploop::stereo {
+
+struct Refinement {
+  bool ok = false;  // false: no finite solution (fewer than three usable tracks, degenerate geometry)
+  Eigen::Isometry3d T_previous_current = Eigen::Isometry3d::Identity();  // cam
+  // Of the perturbation of residual.h: translation m, then rotation rad, in cam at the previous
+  // epoch; scaled by the residuals' own variance.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  double variance_factor = 0.0;  // of the residuals against sigma_track and sigma_disparity
+  std::vector<int> inliers;      // indices of tracks within outlier_sigmas
+  int iterations = 0;
+};
+
+// Levenberg-Marquardt on the left position and the disparity of both epochs, starting from
+// `T_previous_current` with the tracks named in `inliers`. The previous left position is what the
+// tracker follows, so it carries no error of its own; the unknown of a point is its disparity
+// there, eliminated by the Schur complement. Huber weights on each track's whitened residual.
+// After the first round every track is judged anew and a second round follows.
+Refinement refine_motion(const StereoCalibration& camera, const StereoParameters& parameters,
+                         std::span<const StereoTrack> tracks, std::span<const int> inliers,
+                         const Eigen::Isometry3d& T_previous_current);
+
+}  // namespace maploop::stereo

@@ -1,0 +1,33 @@
+// The right camera's view of left features (internal: uses OpenCV).
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "estimators/stereo/image_pyramid.h"
+#include "estimators/stereo/parameters.h"
+#include "estimators/stereo/tracks.h"
+
+namespace maploop::stereo {
+
+struct StereoFrame {
+  ImagePyramid left;
+  ImagePyramid right;
+};
+
+// Disparity (px of the full image, to two pixels) of the patch of the half-size left image around
+// `left_point` that correlates best along the same row of the right one; negative where the best
+// is below min_correlation, stands at an end of the range, or is not unique.
+double search_row(const StereoFrame& frame, const StereoParameters& parameters,
+                  const cv::Point2f& left_point);
+
+// Stereo match of new corners: row search, then Lucas-Kanade to the right image and back. Points
+// whose rows differ, whose way back ends elsewhere or whose disparity is out of range are left out.
+void match_new_corners(const StereoFrame& frame, const StereoParameters& parameters,
+                       const std::vector<cv::Point2f>& corners,
+                       std::vector<StereoObservation>* matched);
+
+// Whether the two views can be one point: same row, disparity in range.
+bool consistent(const StereoObservation& seen, const StereoParameters& parameters);
+
+}  // namespace maploop::stereo

@@ -1,0 +1,177 @@
+#include "estimators/stereo/stereo_odometry.h"
+
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "estimators/stereo/detect.h"
+#include "estimators/stereo/motion_estimator.h"
+#include "estimators/stereo/plausibility.h"
+#include "estimators/stereo/track.h"
+#include "estimators/stereo/validate.h"
+
+namespace maploop::stereo {
+
+class StereoOdometry::Implementation {
+ public:
+  Implementation(const StereoCalibration& calibration, const StereoParameters& parameters)
+      : camera_(calibration), parameters_(parameters), detector_(parameters) {}
+
+  RelativeMotion process(const StereoPair& pair) {
+    RelativeMotion result;
+    result.stamp = pair.stamp;
+    result.available = pair.available;
+    result.sequence = pair.sequence;
+    if (!acceptable(pair)) {
+      result.status = OdometryStatus::bad_input;
+      return result;
+    }
+    current_.left.build(pair.left, parameters_);
+    current_.right.build(pair.right, parameters_);
+
+    CameraMotion motion;
+    if (comparable(pair.stamp)) {
+      result.from = reference_stamp_;
+      motion = compare(pair.stamp, &result);
+    }
+    keep_survivors(motion);
+    replenish();
+    adopt_reference(pair.stamp, result.status);
+    return result;
+  }
+
+ private:
+  bool acceptable(const StereoPair& pair) {
+    if (!has_size(pair.left, camera_) || !has_size(pair.right, camera_)) return false;
+    if (has_reference_ && pair.stamp <= reference_stamp_) {
+      if (++stale_pairs_ < parameters_.max_stale_pairs) return false;
+      has_reference_ = false;
+    }
+    stale_pairs_ = 0;
+    return true;
+  }
+
+  bool comparable(Time stamp) const {
+    return has_reference_ && to_seconds(stamp - reference_stamp_) <= parameters_.max_gap;
+  }
+
+  // Track, resect, adjust, judge. On refusal only the status is filled in.
+  CameraMotion compare(Time stamp, RelativeMotion* result) {
+    const double seconds = to_seconds(stamp - reference_stamp_);
+    const std::optional<Eigen::Isometry3d> expected = expected_motion(seconds);
+    const std::optional<Eigen::Isometry3d> expected_inverse =
+        expected ? std::optional(expected->inverse()) : std::nullopt;
+    track_features(camera_, parameters_, reference_, current_, features_, expected_inverse,
+                   &tracks_);
+    CameraMotion motion =
+        estimate_motion(camera_, parameters_, tracks_,
+                        static_cast<std::uint64_t>(to_nanoseconds(stamp)), expected);
+    result->tracked = motion.tracked;
+    result->inliers = static_cast<int>(motion.inliers.size());
+    result->status = motion.status;
+    if (motion.status == OdometryStatus::ok) {
+      RelativeMotion in_body;
+      to_body(camera_.T_body_cam, motion, &in_body);
+      if (plausible(in_body, seconds, last_velocity_, parameters_)) {
+        result->translation = in_body.translation;
+        result->rotation = in_body.rotation;
+        result->covariance = in_body.covariance;
+      } else {
+        result->status = OdometryStatus::implausible;
+      }
+    }
+    remember(motion, *result, seconds);
+    return motion;
+  }
+
+  // The last motion, stretched to the time since the reference: constant velocity.
+  std::optional<Eigen::Isometry3d> expected_motion(double seconds) const {
+    if (!last_velocity_) return std::nullopt;
+    const double ratio = seconds / last_seconds_;
+    const Eigen::AngleAxisd turn(last_motion_.linear());
+    Eigen::Isometry3d expected = Eigen::Isometry3d::Identity();
+    expected.linear() = Eigen::AngleAxisd(turn.angle() * ratio, turn.axis()).toRotationMatrix();
+    expected.translation() = last_motion_.translation() * ratio;
+    return expected;
+  }
+
+  void remember(const CameraMotion& motion, const RelativeMotion& result, double seconds) {
+    if (result.status == OdometryStatus::ok) {
+      last_motion_ = motion.T_previous_current;
+      last_velocity_ = result.translation / seconds;
+      last_seconds_ = seconds;
+    } else {
+      last_velocity_.reset();  // it may be the one that was wrong
+    }
+  }
+
+  // Features that agree with the motion go on; the others may be on a moving object.
+  void keep_survivors(const CameraMotion& motion) {
+    next_features_.clear();
+    std::size_t old = 0;
+    for (const int i : motion.inliers) {
+      const StereoTrack& track = tracks_[static_cast<std::size_t>(i)];
+      while (features_[old].id != track.id) ++old;  // both are in the order of detection
+      next_features_.push_back({track.id, features_[old].age + 1, track.current});
+    }
+  }
+
+  void replenish() {
+    taken_.clear();
+    for (const Feature& feature : next_features_)
+      taken_.emplace_back(static_cast<float>(feature.seen.u_left),
+                          static_cast<float>(feature.seen.v_left));
+    detector_.detect(current_.left, taken_, &corners_);
+    match_new_corners(current_, parameters_, corners_, &matched_);
+    for (const StereoObservation& seen : matched_) next_features_.push_back({next_id_++, 0, seen});
+  }
+
+  // A pair without features of its own (black, covered, swapped) does not replace a good one.
+  void adopt_reference(Time stamp, OdometryStatus status) {
+    const bool usable = static_cast<int>(next_features_.size()) >= parameters_.min_tracks;
+    if (!usable && status != OdometryStatus::ok) return;
+    std::swap(reference_, current_);
+    features_.swap(next_features_);
+    reference_stamp_ = stamp;
+    has_reference_ = true;
+  }
+
+  StereoCalibration camera_;
+  StereoParameters parameters_;
+  CornerDetector detector_;
+
+  bool has_reference_ = false;
+  Time reference_stamp_{};
+  StereoFrame reference_;
+  std::vector<Feature> features_;  // of the reference
+  std::int64_t next_id_ = 0;
+  int stale_pairs_ = 0;
+
+  Eigen::Isometry3d last_motion_ = Eigen::Isometry3d::Identity();  // cam
+  std::optional<Eigen::Vector3d> last_velocity_;                   // m/s, body; none after a refusal
+  double last_seconds_ = 0.0;
+
+  StereoFrame current_;  // buffers of one call, kept
+  std::vector<StereoTrack> tracks_;
+  std::vector<Feature> next_features_;
+  std::vector<cv::Point2f> taken_, corners_;
+  std::vector<StereoObservation> matched_;
+};
+
+StereoOdometry::StereoOdometry(const StereoCalibration& calibration,
+                               const StereoParameters& parameters) {
+  validate(calibration);
+  validate(parameters);
+  implementation_ = std::make_unique<Implementation>(calibration, parameters);
+}
+
+StereoOdometry::~StereoOdometry() = default;
+StereoOdometry::StereoOdometry(StereoOdometry&&) noexcept = default;
+StereoOdometry& StereoOdometry::operator=(StereoOdometry&&) noexcept = default;
+
+RelativeMotion StereoOdometry::process(const StereoPair& pair) {
+  return implementation_->process(pair);
+}
+
+}  // namespace maploop::stereo

@@ -1,0 +1,45 @@
+// Visual odometry from rectified stereo pairs, one motion a pair.
+#pragma once
+
+#include <memory>
+
+#include "estimators/stereo/parameters.h"
+#include "msgs/calibration.h"
+#include "msgs/image.h"
+#include "msgs/odometry.h"
+
+namespace maploop::stereo {
+
+// Corners spread by buckets are followed around a circle of four images, triangulated, resected
+// (P3P in RANSAC) and adjusted (method.md 2.1; after Kitt, Geiger and Lategahn, "Visual Odometry
+// based on Stereo Image Sequences with RANSAC-based Outlier Rejection Scheme", IV 2010).
+//
+// Not thread-safe; the same pairs give the same bits. About 10 MB of buffers for images of 0.5 Mpx.
+class StereoOdometry {
+ public:
+  // Throws std::invalid_argument naming the value where the calibration or a parameter cannot be
+  // used.
+  StereoOdometry(const StereoCalibration& calibration, const StereoParameters& parameters);
+  ~StereoOdometry();
+  StereoOdometry(StereoOdometry&&) noexcept;
+  StereoOdometry& operator=(StereoOdometry&&) noexcept;
+
+  // Motion of the body from the newest usable pair before this one (`from`) to this one. stamp,
+  // available and sequence are the pair's. Never throws on what a camera may deliver; a refusal
+  // carries its reason in `status`, and then pose and covariance are identity and zero:
+  //   first_frame       no usable pair yet, or the last one is older than max_gap
+  //   too_few_features  fewer than min_tracks tracks: dark, blurred, covered, left and right swapped
+  //   too_few_inliers   no motion explains enough of them
+  //   implausible       beyond max_speed, max_acceleration or max_yaw_rate
+  //   bad_input         size differs from the calibration's, or stamp not after the last one. After
+  //                     max_stale_pairs old stamps in a row time is taken to have been set back.
+  // A pair is usable when it shows enough stereo features itself; it is then what the next one is
+  // compared with, whatever became of its own motion.
+  RelativeMotion process(const StereoPair& pair);
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace maploop::stereo

@@ -1,0 +1,22 @@
+// Features seen by both cameras at one or two epochs.
+#pragma once
+
+#include <cstdint>
+
+namespace maploop::stereo {
+
+// Rectified pixels; origin at the centre of the top left pixel.
+struct StereoObservation {
+  double u_left = 0.0, v_left = 0.0;
+  double u_right = 0.0, v_right = 0.0;
+
+  double disparity() const { return u_left - u_right; }
+};
+
+struct StereoTrack {
+  std::int64_t id = 0;
+  StereoObservation previous;
+  StereoObservation current;
+};
+
+}  // namespace maploop::stereo
