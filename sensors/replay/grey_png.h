@@ -7,9 +7,9 @@
 
 namespace maploop::sensors {
 
-// Decodes an 8-bit grey PNG file of exactly width x height pixels into `image`, without allocating
-// where its buffer has that size already. Throws std::runtime_error with the reason alone (no
-// image, cut, another size, colour or 16 bits); the content of `image` is then undefined.
+// Decodes an 8-bit grey PNG file of exactly width x height pixels into `image`, whose buffer is
+// reused. Throws std::runtime_error with the reason alone (no image, cut, another size, colour or
+// 16 bits), and leaves `image` as it was.
 void decode_grey_png(const std::vector<char>& bytes, int width, int height, GreyImage& image);
 
 }  // namespace maploop::sensors

@@ -30,18 +30,27 @@ enum Column : std::size_t {
   pos_accuracy = 23
 };
 
-// The ranges of dataformat.txt, with room for the rounding of the text.
+// The ranges of dataformat.txt, with room for the rounding of the text; and for what it leaves
+// open, limits beyond what the unit can measure (GNSS receivers stop at 515 m/s, its accelerometers
+// at 10 g), so that a damaged number does not pass for a measurement.
 constexpr double half_turn = std::numbers::pi + 1e-3;
 struct Range {
   Column column;
   const char* name;
   double largest;  // in magnitude
 };
-constexpr std::array<Range, 5> ranges{{{lat, "lat", 90.0},
-                                       {lon, "lon", 180.0},
-                                       {roll, "roll", half_turn},
-                                       {pitch, "pitch", half_turn / 2.0},
-                                       {yaw, "yaw", half_turn}}};
+constexpr std::array<Range, 12> ranges{{{lat, "lat", 90.0},
+                                        {lon, "lon", 180.0},
+                                        {alt, "alt", 20000.0},
+                                        {roll, "roll", half_turn},
+                                        {pitch, "pitch", half_turn / 2.0},
+                                        {yaw, "yaw", half_turn},
+                                        {vn, "vn", 515.0},
+                                        {ve, "ve", 515.0},
+                                        {vu, "vu", 515.0},
+                                        {ax, "ax", 100.0},
+                                        {ay, "ay", 100.0},
+                                        {wz, "wz", 10.0}}};
 
 }  // namespace
 
@@ -86,8 +95,8 @@ OxtsRows read_oxts(const std::filesystem::path& folder) {
     }
   }
   refuse_out_of_order(timestamps.stamps, timestamps.file, result.verdicts);
-  result.stamps = std::move(timestamps.stamps);
   result.unstamped = files_without_stamp(folder / "data", timestamps.size());
+  result.stamps = std::move(timestamps.stamps);
   return result;
 }
 

@@ -27,7 +27,7 @@ struct OxtsRow {
 
 // Columns as the drive's oxts/dataformat.txt lists them. KITTI's attitude is R_enu_imu = Rz(yaw)
 // Ry(pitch) Rx(roll), pitch nose down. Throws std::invalid_argument with the reason alone: not 30
-// columns, not finite, or an angle outside the range that dataformat.txt gives it.
+// columns, not finite, or outside the range of its kind.
 OxtsRow parse_oxts_row(std::string_view text);
 
 struct OxtsRows {

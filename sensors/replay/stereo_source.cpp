@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <stdexcept>
+#include <exception>
 #include <string>
 #include <utility>
 #include <vector>
@@ -83,7 +83,7 @@ class StereoSource final : public Source<StereoPair> {
       read_file(file, largest_file, bytes_);
       decode_grey_png(bytes_, calibration_.width, calibration_.height, image);
       return true;
-    } catch (const std::runtime_error& error) {
+    } catch (const std::exception& error) {
       report_.refuse({file.string(), 0, error.what()});
       return false;
     }

@@ -86,7 +86,7 @@ class VelodyneSource final : public Source<LidarScan> {
                           " points are not finite and were dropped"});
       }
       return true;
-    } catch (const std::runtime_error& error) {
+    } catch (const std::exception& error) {
       report_.refuse({file.string(), 0, error.what()});
       return false;
     }

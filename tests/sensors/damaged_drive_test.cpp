@@ -1,0 +1,442 @@
+// Drives with something missing, cut or wrong: refused at the door with a clear error, or the
+// sample left out, named and counted.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "sensors/replay/kitti_drive.h"
+#include "tests/sensors/small_drive.h"
+
+namespace maploop::sensors {
+namespace {
+
+using Sequences = std::vector<std::uint64_t>;
+
+std::string opening_error(const std::filesystem::path& folder) {
+  try {
+    KittiDrive drive(folder);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+void expect_in(const std::string& text, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts) {
+    EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' not in: " << text;
+  }
+}
+
+// What a source delivers and its only refusal.
+template <class T>
+Finding only_refusal(Source<T>& source, const Sequences& delivered) {
+  EXPECT_EQ(sequences(read_all(source)), delivered);
+  const SourceReport& report = source.report();
+  EXPECT_EQ(report.delivered, delivered.size());
+  EXPECT_EQ(report.refused, 1U);
+  EXPECT_EQ(report.refusals.size(), 1U);
+  return report.refusals.empty() ? Finding{} : report.refusals[0];
+}
+
+void expect_finding(const Finding& finding, const std::string& file, std::size_t line,
+                    const std::string& reason) {
+  EXPECT_TRUE(finding.file.ends_with(file)) << finding.file;
+  EXPECT_EQ(finding.line, line);
+  expect_in(finding.reason, {reason});
+}
+
+const Sequences all{0, 1, 2, 3, 4, 5, 6, 7};
+const Sequences without_3{0, 1, 2, 4, 5, 6, 7};
+
+TEST(SmallDrive, IsSound) {
+  const SmallDrive small;
+  const KittiDrive drive(small.folder());
+  EXPECT_EQ(drive.frame_count(), SmallDrive::frames);
+  EXPECT_EQ(sequences(read_all(*drive.camera())), all);
+  EXPECT_EQ(sequences(read_all(*drive.velodyne())), all);
+  EXPECT_EQ(sequences(read_all(*drive.imu())), all);
+  EXPECT_EQ(sequences(read_all(*drive.reference())), all);
+  EXPECT_EQ(sequences(read_all(*drive.gnss())), (Sequences{0}));
+}
+
+// ---- refused at the door
+
+TEST(OpeningADrive, NamesAFolderThatIsNotThere) {
+  const SmallDrive small;
+  expect_in(opening_error(small.day() / "nowhere"), {"nowhere", "not a folder", "_sync"});
+  expect_in(opening_error(""), {"not a folder"});
+  expect_in(opening_error(small.day() / "calib_cam_to_cam.txt"), {"not a folder"});
+}
+
+TEST(OpeningADrive, NamesWhatAnEmptyFolderLacks) {
+  const maploop::testing::TemporaryFolder empty;
+  expect_in(opening_error(empty.path()), {empty.path().string(), "no folder image_00"});
+}
+
+TEST(OpeningADrive, TheFolderOfTheDayIsNotADrive) {
+  const SmallDrive small;
+  expect_in(opening_error(small.day()), {"no folder image_00", "name the drive itself"});
+}
+
+TEST(OpeningADrive, TheUnsyncedFormIsNotRectified) {
+  const SmallDrive small;
+  const auto extract = small.day() / "2011_09_26_drive_0099_extract";
+  std::filesystem::rename(small.folder(), extract);
+  expect_in(opening_error(extract), {"unsynced", "_sync"});
+}
+
+TEST(OpeningADrive, NamesAMissingCalibrationFile) {
+  for (const char* file :
+       {"calib_cam_to_cam.txt", "calib_velo_to_cam.txt", "calib_imu_to_velo.txt"}) {
+    const SmallDrive small;
+    small.remove(std::string("../") + file);
+    expect_in(opening_error(small.folder()), {file, "missing", "beside"});
+  }
+}
+
+TEST(OpeningADrive, NamesAMissingCalibrationKey) {
+  const SmallDrive small;
+  small.write_line("../calib_cam_to_cam.txt", 5, "");
+  expect_in(opening_error(small.folder()),
+            {"calib_cam_to_cam.txt", "'R_rect_00'", "missing", "restore"});
+}
+
+TEST(OpeningADrive, NamesATimeStampFileThatIsMissingEmptyOrWithoutStamps) {
+  for (const char* file : {"image_00/timestamps.txt", "image_01/timestamps.txt",
+                           "velodyne_points/timestamps.txt", "velodyne_points/timestamps_start.txt",
+                           "velodyne_points/timestamps_end.txt", "oxts/timestamps.txt"}) {
+    const SmallDrive small;
+    small.write(file, "");
+    expect_in(opening_error(small.folder()), {file, "no time stamp", "restore"});
+    small.write(file, "not one\n");
+    expect_in(opening_error(small.folder()), {file, "no time stamp"});
+    small.remove(file);
+    expect_in(opening_error(small.folder()), {file, "missing", "restore"});
+  }
+}
+
+TEST(OpeningADrive, LidarAndOxtsMayBeAbsentAsAWhole) {
+  const SmallDrive small;
+  small.remove("velodyne_points");
+  small.remove("oxts");
+  const KittiDrive drive(small.folder());
+  EXPECT_FALSE(drive.has_velodyne() || drive.has_oxts());
+  EXPECT_EQ(read_all(*drive.camera()).size(), SmallDrive::frames);
+  EXPECT_THROW(drive.velodyne(), std::runtime_error);
+  EXPECT_THROW(drive.imu(), std::runtime_error);
+  EXPECT_THROW(drive.gnss(), std::runtime_error);
+  EXPECT_THROW(drive.reference(), std::runtime_error);
+}
+
+TEST(OpeningADrive, RefusesParametersWithoutMeaning) {
+  const SmallDrive small;
+  for (const auto member :
+       {&KittiDriveParameters::imu_delay, &KittiDriveParameters::camera_readout,
+        &KittiDriveParameters::max_pair_skew, &KittiDriveParameters::max_turn}) {
+    for (const double value : {-0.001, 1e9, std::numeric_limits<double>::quiet_NaN()}) {
+      KittiDriveParameters parameters;
+      parameters.*member = value;
+      EXPECT_THROW(KittiDrive(small.folder(), parameters), std::invalid_argument);
+    }
+  }
+}
+
+// ---- tolerated
+
+TEST(ADriveWithOddities, CrlfFewerDigitsAndBlankLastLinesAreFine) {
+  const SmallDrive small;
+  const auto to_crlf = [&small](const std::string& file) {
+    std::string text = small.read(file);
+    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) {
+      text.replace(at, 1, "\r\n");
+    }
+    small.write(file, text + "\r\n");
+  };
+  to_crlf("../calib_cam_to_cam.txt");
+  to_crlf("image_00/timestamps.txt");
+  to_crlf("oxts/timestamps.txt");
+  to_crlf("oxts/data/0000000003.txt");
+  small.write_line("image_01/timestamps.txt", 4, "2011-09-26 13:10:51.3");
+  const KittiDrive drive(small.folder());
+  EXPECT_EQ(drive.frame_count(), SmallDrive::frames);
+  EXPECT_EQ(sequences(read_all(*drive.camera())), all);
+  EXPECT_EQ(sequences(read_all(*drive.imu())), all);
+}
+
+// ---- images
+
+TEST(DamagedCamera, AMissingImageCostsItsPair) {
+  for (const char* file : {"image_00/data/0000000003.png", "image_01/data/0000000003.png"}) {
+    const SmallDrive small;
+    small.remove(file);
+    expect_finding(only_refusal(*KittiDrive(small.folder()).camera(), without_3), file, 0,
+                   "missing");
+  }
+}
+
+TEST(DamagedCamera, AFolderInTheImagesPlace) {
+  const SmallDrive small;
+  small.remove("image_00/data/0000000003.png");
+  std::filesystem::create_directory(small.folder() / "image_00/data/0000000003.png");
+  expect_finding(only_refusal(*KittiDrive(small.folder()).camera(), without_3), "0000000003.png", 0,
+                 "not a regular file");
+}
+
+TEST(DamagedCamera, ACutImageAtAnyLength) {
+  const SmallDrive small;
+  const std::string file = "image_01/data/0000000003.png";
+  const std::string whole = small.read(file);
+  const KittiDrive drive(small.folder());
+  // The last 12 bytes say only that the image ends.
+  for (std::size_t length = 0; length + 12 < whole.size(); length += 1 + whole.size() / 50) {
+    small.write(file, whole.substr(0, length));
+    const Finding finding = only_refusal(*drive.camera(), without_3);
+    expect_finding(finding, file, 0,
+                   length == 0  ? "empty"
+                   : length < 8 ? "is no PNG image"
+                                : "cut or damaged");
+  }
+}
+
+TEST(DamagedCamera, AnImageOfAnotherSizeColourOrDepth) {
+  const struct {
+    int width, height, type;
+    const char* reason;
+  } cases[] = {{33, 24, CV_8UC1, "33 x 24 pixels, the calibration says 32 x 24"},
+               {24, 32, CV_8UC1, "24 x 32"},
+               {32, 24, CV_8UC3, "not an 8-bit grey image"},
+               {32, 24, CV_16UC1, "not an 8-bit grey image"}};
+  for (const auto& c : cases) {
+    const SmallDrive small;
+    std::vector<unsigned char> png;
+    ASSERT_TRUE(cv::imencode(".png", cv::Mat(c.height, c.width, c.type, cv::Scalar::all(9)), png));
+    small.write("image_00/data/0000000003.png", {png.begin(), png.end()});
+    expect_finding(only_refusal(*KittiDrive(small.folder()).camera(), without_3), "0000000003.png",
+                   0, c.reason);
+  }
+}
+
+TEST(DamagedCamera, AnImageInAnotherFormat) {
+  const SmallDrive small;
+  std::vector<unsigned char> jpeg;
+  ASSERT_TRUE(cv::imencode(".jpg", cv::Mat(24, 32, CV_8UC1, cv::Scalar(9)), jpeg));
+  small.write("image_00/data/0000000003.png", {jpeg.begin(), jpeg.end()});
+  expect_finding(only_refusal(*KittiDrive(small.folder()).camera(), without_3), "0000000003.png", 0,
+                 "is no PNG image");
+}
+
+TEST(DamagedCamera, FewerFilesThanStamps) {
+  const SmallDrive small;
+  for (int i = 5; i < 8; ++i) {
+    small.remove("image_00/data/000000000" + std::to_string(i) + ".png");
+  }
+  auto camera = KittiDrive(small.folder()).camera();
+  EXPECT_EQ(sequences(read_all(*camera)), (Sequences{0, 1, 2, 3, 4}));
+  ASSERT_EQ(camera->report().refused, 3U);
+  expect_finding(camera->report().refusals[2], "image_00/data/0000000007.png", 0, "missing");
+}
+
+TEST(DamagedCamera, MoreFilesThanStamps) {
+  const SmallDrive small;
+  small.write("image_01/data/0000000008.png", small.read("image_01/data/0000000007.png"));
+  expect_finding(only_refusal(*KittiDrive(small.folder()).camera(), all), "0000000008.png", 0,
+                 "no time stamp for it");
+}
+
+TEST(DamagedCamera, OneStampFileShorterThanTheOther) {
+  const SmallDrive small;
+  std::string text = small.read("image_01/timestamps.txt");
+  text.resize(text.rfind("2011"));
+  small.write("image_01/timestamps.txt", text);
+  expect_finding(only_refusal(*KittiDrive(small.folder()).camera(), {0, 1, 2, 3, 4, 5, 6}),
+                 "image_01/timestamps.txt", 8, "ends before this line");
+}
+
+TEST(DamagedCamera, AStampThatIsNone) {
+  const SmallDrive small;
+  small.write_line("image_01/timestamps.txt", 4, "2011-09-26 13:1");
+  expect_finding(only_refusal(*KittiDrive(small.folder()).camera(), without_3),
+                 "image_01/timestamps.txt", 4, "not a time stamp");
+}
+
+TEST(DamagedCamera, LeftAndRightOfDifferentMoments) {
+  const SmallDrive small;
+  small.write_line("image_01/timestamps.txt", 4, "2011-09-26 13:10:51.34");
+  expect_finding(only_refusal(*KittiDrive(small.folder()).camera(), without_3),
+                 "image_01/timestamps.txt", 4, "differs from the left image's stamp by 0.04");
+}
+
+// ---- scans
+
+TEST(DamagedVelodyne, AMissingEmptyAndCutScan) {
+  const SmallDrive small;
+  const std::string file = "velodyne_points/data/0000000003.bin";
+  const std::string whole = small.read(file);
+  const KittiDrive drive(small.folder());
+  small.write(file, whole.substr(0, whole.size() - 5));
+  expect_finding(only_refusal(*drive.velodyne(), without_3), file, 0, "cut: 315 bytes");
+  small.write(file, "");
+  expect_finding(only_refusal(*drive.velodyne(), without_3), file, 0, "empty");
+  small.remove(file);
+  expect_finding(only_refusal(*drive.velodyne(), without_3), file, 0, "missing");
+}
+
+TEST(DamagedVelodyne, PointsThatAreNotFiniteAreDroppedAndCounted) {
+  const SmallDrive small;
+  const std::string file = "velodyne_points/data/0000000003.bin";
+  std::string scan = small.read(file);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  std::memcpy(&scan[16 * 4 + 8], &nan, sizeof(nan));
+  std::memcpy(&scan[16 * 9 + 12], &nan, sizeof(nan));
+  small.write(file, scan);
+  auto velodyne = KittiDrive(small.folder()).velodyne();
+  const auto scans = read_all(*velodyne);
+  ASSERT_EQ(sequences(scans), all);
+  EXPECT_EQ(scans[3].points.size(), SmallDrive::points - 2);
+  EXPECT_EQ(scans[4].points.size(), SmallDrive::points);
+  EXPECT_EQ(velodyne->report().refused, 0U);
+  EXPECT_EQ(velodyne->report().flawed, 1U);
+  expect_finding(velodyne->report().flaws.at(0), file, 0, "2 of 20 points are not finite");
+}
+
+TEST(DamagedVelodyne, StampsThatAreNotThoseOfOneTurn) {
+  for (const auto& [file, stamp] :
+       {std::pair{"velodyne_points/timestamps_start.txt", "2011-09-26 13:10:51.29"},
+        std::pair{"velodyne_points/timestamps_end.txt", "2011-09-26 13:10:51.27"},
+        std::pair{"velodyne_points/timestamps_end.txt", "2011-09-26 13:11:51.33"}}) {
+    const SmallDrive small;
+    small.write_line(file, 4, stamp);
+    expect_finding(only_refusal(*KittiDrive(small.folder()).velodyne(), without_3),
+                   "velodyne_points/timestamps.txt", 4, "not the stamps of one turn");
+  }
+}
+
+TEST(DamagedVelodyne, FewerScansThanStampsAsInSomeOfKittisDrives) {
+  const SmallDrive small;
+  small.remove("velodyne_points/data");
+  auto velodyne = KittiDrive(small.folder()).velodyne();
+  LidarScan scan;
+  EXPECT_FALSE(velodyne->next(scan));
+  EXPECT_EQ(velodyne->report().refused, SmallDrive::frames);
+}
+
+// ---- OXTS rows, as each of the three sources sees them
+
+void expect_row_3_refused(const KittiDrive& drive, const std::string& file, std::size_t line,
+                          const std::string& reason) {
+  expect_finding(only_refusal(*drive.imu(), without_3), file, line, reason);
+  expect_finding(only_refusal(*drive.reference(), without_3), file, line, reason);
+  expect_finding(only_refusal(*drive.gnss(), {0}), file, line, reason);
+}
+
+TEST(DamagedOxts, ARowWithANumberThatIsNone) {
+  const SmallDrive small;
+  std::string row = oxts_row_text();
+  row.replace(row.find("-0.43999459306673"), 17, "nan");
+  small.write("oxts/data/0000000003.txt", row);
+  expect_row_3_refused(KittiDrive(small.folder()), "oxts/data/0000000003.txt", 1,
+                       "column 12 is not a finite number: 'nan'");
+}
+
+TEST(DamagedOxts, ARowWithAMissingColumn) {
+  const SmallDrive small;
+  const std::string row = oxts_row_text();
+  small.write("oxts/data/0000000003.txt", row.substr(row.find(' ')));
+  expect_row_3_refused(KittiDrive(small.folder()), "oxts/data/0000000003.txt", 1,
+                       "29 columns instead of 30");
+}
+
+TEST(DamagedOxts, ARowThatIsMissingOrEmpty) {
+  const SmallDrive small;
+  small.write("oxts/data/0000000003.txt", "");
+  expect_row_3_refused(KittiDrive(small.folder()), "oxts/data/0000000003.txt", 1, "0 columns");
+  small.remove("oxts/data/0000000003.txt");
+  expect_row_3_refused(KittiDrive(small.folder()), "oxts/data/0000000003.txt", 0, "missing");
+}
+
+TEST(DamagedOxts, TimeThatDoesNotIncrease) {
+  const SmallDrive small;
+  small.write_line("oxts/timestamps.txt", 4, "2011-09-26 13:10:51.201");  // row 2's
+  expect_row_3_refused(KittiDrive(small.folder()), "oxts/timestamps.txt", 4,
+                       "time does not increase: 2011-09-26 13:10:51.201");
+}
+
+TEST(DamagedOxts, ReversedStampsLeaveOneSampleAndSaySo) {
+  const SmallDrive small;
+  std::string reversed;
+  for (int i = 8; i > 0; --i) reversed += "2011-09-26 13:10:51." + std::to_string(i) + "\n";
+  small.write("oxts/timestamps.txt", reversed);
+  auto imu = KittiDrive(small.folder()).imu();
+  EXPECT_EQ(read_all(*imu).size(), 1U);
+  EXPECT_EQ(imu->report().refused, 7U);
+}
+
+TEST(DamagedOxts, MoreRowsThanStamps) {
+  const SmallDrive small;
+  small.write("oxts/data/0000000012.txt", oxts_row_text());
+  small.write("oxts/data/notes.txt", "not a row");
+  expect_finding(only_refusal(*KittiDrive(small.folder()).imu(), all), "oxts/data/0000000012.txt",
+                 0, "no time stamp for it");
+}
+
+TEST(DamagedOxts, AGnssRowThatIsRefusedIsReplacedByTheNext) {
+  const SmallDrive small;
+  small.write("oxts/data/0000000000.txt", "");
+  auto gnss = KittiDrive(small.folder()).gnss();
+  const auto fixes = read_all(*gnss);
+  ASSERT_EQ(fixes.size(), 1U);
+  EXPECT_EQ(fixes[0].stamp, parse_time("2011-09-26 13:10:51.101"));
+  EXPECT_EQ(gnss->report().refused, 1U);
+}
+
+// ---- the report stays small
+
+TEST(SourceReport, CountsAllButKeepsOnlyTheFirst) {
+  SourceReport report;
+  for (int i = 0; i < 1000; ++i) report.refuse({std::to_string(i), 0, ""});
+  EXPECT_EQ(report.refused, 1000U);
+  ASSERT_EQ(report.refusals.size(), SourceReport::max_findings);
+  EXPECT_EQ(report.refusals.back().file, "99");
+}
+
+// ---- the same on copies of the real drive's files
+
+TEST(DamagedRealFiles, CutImageAndScanOfTheRealDrive) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const SmallDrive small;
+  const auto real = maploop::testing::drive_0013();
+  std::filesystem::copy_file(real.parent_path() / "calib_cam_to_cam.txt",
+                             small.day() / "calib_cam_to_cam.txt",
+                             std::filesystem::copy_options::overwrite_existing);
+  for (const char* sensor : {"image_00", "image_01", "velodyne_points"}) {
+    small.remove(std::string(sensor) + "/data");
+    std::filesystem::create_directory(small.folder() / sensor / "data");
+    for (const char* frame : {"0000000000", "0000000001", "0000000002"}) {
+      const std::string name = std::string(sensor) + "/data/" + frame +
+                               (std::string(sensor) == "velodyne_points" ? ".bin" : ".png");
+      std::filesystem::copy_file(real / name, small.folder() / name);
+      std::filesystem::permissions(small.folder() / name, std::filesystem::perms::owner_all);
+    }
+  }
+  const auto cut = [&small](const std::string& file, std::uintmax_t bytes) {
+    std::filesystem::resize_file(small.folder() / file,
+                                 std::filesystem::file_size(small.folder() / file) - bytes);
+  };
+  cut("image_01/data/0000000001.png", 50000);
+  cut("velodyne_points/data/0000000001.bin", 50001);
+  const KittiDrive drive(small.folder());
+  auto camera = drive.camera();
+  EXPECT_EQ(sequences(read_all(*camera)), (Sequences{0, 2}));
+  expect_finding(camera->report().refusals.at(0), "image_01/data/0000000001.png", 0,
+                 "cut or damaged");
+  auto velodyne = drive.velodyne();
+  EXPECT_EQ(sequences(read_all(*velodyne)), (Sequences{0, 2}));
+  expect_finding(velodyne->report().refusals.at(0), "0000000001.bin", 0, "cut");
+}
+
+}  // namespace
+}  // namespace maploop::sensors

@@ -1,0 +1,58 @@
+// A drive of a few frames in a temporary folder, made to be damaged.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sensors/source.h"
+#include "tests/support/real_data.h"
+
+namespace maploop::sensors {
+
+class SmallDrive {
+ public:
+  static constexpr std::size_t frames = 8;
+  static constexpr int width = 32, height = 24;
+  static constexpr std::size_t points = 20;
+
+  SmallDrive();  // sound: frames 100 ms apart, from 2011-09-26 13:10:51
+
+  std::filesystem::path folder() const { return day() / "2011_09_26_drive_0099_sync"; }
+  std::filesystem::path day() const { return temporary_.path(); }
+
+  std::string read(const std::string& file) const;  // relative to folder()
+  void write(const std::string& file, const std::string& content) const;
+  void write_line(const std::string& file, std::size_t line, const std::string& content) const;
+  void remove(const std::string& file) const;
+
+ private:
+  maploop::testing::TemporaryFolder temporary_;
+};
+
+// A row of a real drive: 30 columns.
+std::string oxts_row_text();
+
+// The calibration of 2011-09-26, rectified cameras and 32 x 24 pixels.
+std::string cam_to_cam_text();
+std::string velo_to_cam_text();
+std::string imu_to_velo_text();
+
+// Everything that a source delivers.
+template <class T>
+std::vector<T> read_all(Source<T>& source) {
+  std::vector<T> samples;
+  for (T sample; source.next(sample);) samples.push_back(sample);
+  return samples;
+}
+
+template <class T>
+std::vector<std::uint64_t> sequences(const std::vector<T>& samples) {
+  std::vector<std::uint64_t> result;
+  for (const T& sample : samples) result.push_back(sample.sequence);
+  return result;
+}
+
+}  // namespace maploop::sensors
