@@ -159,10 +159,18 @@ def check_decoded_fields(row, channel, field, pictures):
     """A double click on the channel's row opens a window with its fields."""
     kind = CHANNELS[channel][0]
     header, height = 20 * SCALE, 16 * SCALE
-    xdotool("mousemove", str(20 * SCALE), str(header + row * height + height // 2), "click", "--repeat",
-            "2", "--delay", "80", "1")
-    window = wait_for(f"the window of {channel}",
-                      lambda: xdotool("search", "--onlyvisible", "--name", f"^{channel}$"))[0]
+
+    def open_window():
+        xdotool("mousemove", str(20 * SCALE), str(header + row * height + height // 2), "click",
+                "--repeat", "2", "--delay", "80", "1")
+        for _ in range(25):  # 5 s: on a loaded machine two clicks may not count as a double one
+            found = xdotool("search", "--onlyvisible", "--name", f"^{channel}$")
+            if found:
+                return found[0]
+            time.sleep(0.2)
+        return None
+
+    window = wait_for(f"the window of {channel}", open_window)
     xdotool("windowmove", window, str(WINDOW[0]), "0")  # off the table
     seen = []
 
