@@ -12,8 +12,6 @@
 
 namespace maploop::vehicle {
 
-LatencySummary summarize(std::string name, const runtime::Histogram& histogram);
-
 // Where the time of one missed deadline went.
 struct Miss {
   Time stamp{};           // of the tick or of the sample that released the thread

@@ -252,7 +252,7 @@ VehicleReport Vehicle::Graph::report() const {
   add(imu);
   add(gnss);
   add(reference);
-  r.lateness = summarize("all sensors", lateness);
+  r.lateness = lateness.summarize("all sensors");
   r.health = last_report.health;
   r.deadlines = last_report.deadlines;
   for (const Meter* meter : {&stereo.meter(), &fusion.meter()}) {

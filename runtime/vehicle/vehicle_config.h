@@ -1,10 +1,11 @@
 // Everything that can be set about the vehicle.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "estimators/fusion/fusion_parameters.h"
-#include "estimators/stereo/stereo_parameters.h"
+#include "estimators/stereo/parameters.h"
 #include "runtime/core/thread.h"
 #include "runtime/vehicle/lcm_bus.h"
 #include "sensors/replay/kitti_drive.h"
@@ -28,6 +29,9 @@ struct VehicleConfig {
 
 // Reads a TOML file; absent keys keep their defaults. Throws runtime::ConfigError naming file, line
 // and key for anything wrong, unknown keys included. runtime/vehicle/maploop.toml lists every key.
-VehicleConfig load_vehicle_config(const std::string& path);
+VehicleConfig load_vehicle_config(const std::filesystem::path& file);
+
+// Every key with its value, as load_vehicle_config() reads it back.
+std::string to_toml(const VehicleConfig& config);
 
 }  // namespace maploop::vehicle
