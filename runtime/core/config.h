@@ -1,0 +1,100 @@
+// Configuration read from TOML, strict: whatever is not understood is an error.
+//
+//   const ConfigDocument document = ConfigDocument::load("vehicle.toml");
+//   const ConfigTable fusion = document.root().table("fusion");
+//   fusion.read_in("rate_hz", parameters.rate_hz, 1.0, 1000.0);
+//   fusion.read("deadline_ms", parameters.deadline);   // a Duration: the key names the unit
+//   document.reject_unknown();                         // last: keys that nobody asked for
+//
+// A key that is absent leaves the variable, and so its default, as it is. TOML 1.0. For one thread.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "msgs/time.h"
+
+namespace maploop::runtime {
+
+// The text is one line a problem: file:line:column, the full dotted key, what is wrong, what is
+// allowed.
+class ConfigError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+namespace detail {
+struct ConfigState;
+struct ConfigNode;
+}  // namespace detail
+
+// A table of the document. Light to copy; keeps the document alive. Every function throws
+// ConfigError where the file is wrong.
+class ConfigTable {
+ public:
+  bool has(std::string_view key) const;
+
+  // Floating-point numbers are finite; an integer is taken for one as well, not the reverse.
+  void read(std::string_view key, double& value) const;
+  void read(std::string_view key, int& value) const;
+  void read(std::string_view key, bool& value) const;
+  void read(std::string_view key, std::string& value) const;
+  // A number in the unit that ends the key: _ns, _us, _ms or _s; rounded to the nanosecond. Throws
+  // std::logic_error where the key ends in none.
+  void read(std::string_view key, Duration& value) const;
+  // An array of exactly values.size() numbers, such as a lever arm.
+  void read(std::string_view key, std::span<double> values) const;
+
+  // The same within lowest..highest, both allowed.
+  void read_in(std::string_view key, double& value, double lowest, double highest) const;
+  void read_in(std::string_view key, int& value, int lowest, int highest) const;
+  void read_in(std::string_view key, Duration& value, Duration lowest, Duration highest) const;
+
+  // A string that is one of `allowed`.
+  void read_one_of(std::string_view key, std::string& value,
+                   std::initializer_list<std::string_view> allowed) const;
+
+  // The sub-table `key`; where it is absent an empty one, so that every default holds.
+  ConfigTable table(std::string_view key) const;
+  // The array of tables `key` ([[key]]), in order; absent: none.
+  std::vector<ConfigTable> tables(std::string_view key) const;
+
+  // Throws ConfigError at the place of `key`, for a rule that only the caller knows: "must be below
+  // fusion.rate_hz".
+  [[noreturn]] void fail(std::string_view key, std::string_view problem) const;
+
+ private:
+  friend class ConfigDocument;
+  ConfigTable(std::shared_ptr<detail::ConfigState> state, detail::ConfigNode* node);
+
+  std::shared_ptr<detail::ConfigState> state_;
+  detail::ConfigNode* node_;
+};
+
+class ConfigDocument {
+ public:
+  // Throws ConfigError where the file cannot be read, or is not TOML (a duplicate key included).
+  static ConfigDocument load(const std::filesystem::path& path);
+  // `name` stands for the file in error texts.
+  static ConfigDocument parse(std::string_view text, std::string name);
+
+  ConfigTable root() const;
+
+  // Throws ConfigError naming every key that was neither read nor asked for, each with the nearest
+  // key that was. Call it when everything has been read.
+  void reject_unknown() const;
+
+ private:
+  explicit ConfigDocument(std::shared_ptr<detail::ConfigState> state);
+
+  std::shared_ptr<detail::ConfigState> state_;
+};
+
+}  // namespace maploop::runtime

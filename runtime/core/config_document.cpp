@@ -1,0 +1,141 @@
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <utility>
+
+#include "runtime/core/config.h"
+#include "runtime/core/config_state.h"
+#include "runtime/core/nearest_name.h"
+
+namespace maploop::runtime {
+namespace detail {
+
+std::string printable(std::string_view text) {
+  constexpr std::size_t kLongest = 80;
+  std::string shown(text.substr(0, kLongest));
+  for (char& c : shown) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
+  return text.size() > kLongest ? shown + "..." : shown;
+}
+
+std::string dotted(const std::string& path, std::string_view key) {
+  const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
+  });
+  const std::string name = bare ? printable(key) : '"' + printable(key) + '"';
+  return path.empty() ? name : path + '.' + name;
+}
+
+std::string place(const std::string& file, const toml::source_position& at) {
+  return file + ':' + std::to_string(at.line) + ':' + std::to_string(at.column) + ": ";
+}
+
+}  // namespace detail
+
+namespace {
+
+using detail::ConfigNode;
+using detail::ConfigState;
+using detail::dotted;
+using detail::place;
+using detail::printable;
+
+std::string known_in(const ConfigNode& node) {
+  std::vector<std::string> known = node.known;
+  std::sort(known.begin(), known.end());
+  std::string text;
+  for (const std::string& key : known) text += (text.empty() ? "" : ", ") + dotted("", key);
+  return (node.path.empty() ? "at the top level" : "in [" + node.path + "]") +
+         (text.empty() ? std::string(" no key is known") : " the keys are: " + text);
+}
+
+// The nearest key of the same table, else the same name in another one, else nothing.
+std::string guess(const ConfigState& state, const ConfigNode& node, std::string_view key) {
+  if (std::string near = nearest_name(key, node.known); !near.empty()) {
+    return dotted(node.path, near);
+  }
+  for (const ConfigNode& other : state.nodes) {
+    if (std::find(other.known.begin(), other.known.end(), key) != other.known.end()) {
+      return dotted(other.path, key);
+    }
+  }
+  return {};
+}
+
+struct Unknown {
+  toml::source_position at;
+  std::string text;
+};
+
+void collect_unknown(const ConfigState& state, const ConfigNode& node, std::vector<Unknown>& all) {
+  if (node.table == nullptr) return;
+  for (const auto& [key, value] : *node.table) {
+    if (std::find(node.known.begin(), node.known.end(), key.str()) != node.known.end()) continue;
+    const std::string near = guess(state, node, key.str());
+    const toml::source_position at = key.source().begin;
+    all.push_back({at, place(state.file, at) + dotted(node.path, key.str()) + ": unknown key; " +
+                           (near.empty() ? "" : "did you mean " + near + "? ") + known_in(node)});
+  }
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  constexpr std::size_t kLargest = 16 << 20;  // bytes: far above any configuration
+  const std::string name = path.string() + ": ";
+  if (std::filesystem::is_directory(path)) {
+    throw ConfigError(name + "is a folder; name a TOML file");
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    throw ConfigError(name + "cannot be opened (" + std::strerror(errno) +
+                      "); name a TOML file that exists and may be read");
+  }
+  std::string text(kLargest + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (file.bad()) throw ConfigError(name + "cannot be read (" + std::strerror(errno) + ")");
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (text.size() > kLargest) {
+    throw ConfigError(name + "is larger than 16 MiB; name a TOML configuration");
+  }
+  return text;
+}
+
+}  // namespace
+
+ConfigDocument::ConfigDocument(std::shared_ptr<ConfigState> state) : state_(std::move(state)) {}
+
+ConfigDocument ConfigDocument::load(const std::filesystem::path& path) {
+  return parse(read_file(path), path.string());
+}
+
+ConfigDocument ConfigDocument::parse(std::string_view text, std::string name) {
+  auto state = std::make_shared<ConfigState>();
+  state->file = std::move(name);
+  try {
+    state->root = toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    throw ConfigError(place(state->file, error.source().begin) + printable(error.description()));
+  }
+  return ConfigDocument(std::move(state));
+}
+
+ConfigTable ConfigDocument::root() const {
+  return {state_, state_->node("", &state_->root)};
+}
+
+void ConfigDocument::reject_unknown() const {
+  std::vector<Unknown> unknown;
+  root();  // a document of which nothing was asked has unknown keys too
+  for (const ConfigNode& node : state_->nodes) collect_unknown(*state_, node, unknown);
+  if (unknown.empty()) return;
+  std::sort(unknown.begin(), unknown.end(), [](const Unknown& a, const Unknown& b) {
+    return std::pair(a.at.line, a.at.column) < std::pair(b.at.line, b.at.column);
+  });
+  std::string text;
+  for (const Unknown& one : unknown) text += (text.empty() ? "" : "\n") + one.text;
+  throw ConfigError(text);
+}
+
+}  // namespace maploop::runtime

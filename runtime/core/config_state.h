@@ -1,0 +1,42 @@
+// What config_document.cpp and config_table.cpp share; not for users of the configuration.
+#pragma once
+
+#include <toml++/toml.h>
+#include <algorithm>
+#include <deque>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace maploop::runtime::detail {
+
+// One table as the program sees it: where it is in the file, and which keys were asked of it.
+struct ConfigNode {
+  std::string path;                    // dotted; empty: the root
+  const toml::table* table = nullptr;  // nullptr: absent from the file
+  std::vector<std::string> known;      // keys asked for, in that order
+};
+
+struct ConfigState {
+  std::string file;
+  toml::table root;
+  std::deque<ConfigNode> nodes;  // a deque: tables point into it
+
+  ConfigNode* node(const std::string& path, const toml::table* table) {
+    const auto found =
+        std::find_if(nodes.begin(), nodes.end(), [&](const auto& n) { return n.path == path; });
+    if (found != nodes.end()) return &*found;
+    return &nodes.emplace_back(ConfigNode{path, table, {}});
+  }
+};
+
+// What the user wrote, on one line and of bounded length.
+std::string printable(std::string_view text);
+
+// "fusion" and "rate" give "fusion.rate"; a key that is not bare is quoted.
+std::string dotted(const std::string& path, std::string_view key);
+
+// "file:line:column: "
+std::string place(const std::string& file, const toml::source_position& at);
+
+}  // namespace maploop::runtime::detail

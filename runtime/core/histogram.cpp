@@ -1,0 +1,155 @@
+#include "runtime/core/histogram.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace maploop::runtime {
+namespace {
+
+// One thread writes: no locked instruction is needed. Release, so that a reader that sees a count
+// also sees the extremes that belong to it.
+void add(std::atomic<std::uint64_t>& counter, std::uint64_t times) {
+  counter.store(counter.load(std::memory_order_relaxed) + times, std::memory_order_release);
+}
+
+void lower(std::atomic<std::int64_t>& extreme, std::int64_t value) {
+  if (value < extreme.load(std::memory_order_relaxed)) {
+    extreme.store(value, std::memory_order_relaxed);
+  }
+}
+
+void raise(std::atomic<std::int64_t>& extreme, std::int64_t value) {
+  if (value > extreme.load(std::memory_order_relaxed)) {
+    extreme.store(value, std::memory_order_relaxed);
+  }
+}
+
+}  // namespace
+
+// Octave k >= 1 holds [2^(k + kPartBits), 2^(k + kPartBits + 1)) in parts of 2^k; what is below it
+// (k = 0) has parts of 1.
+std::size_t Histogram::bucket_of(std::int64_t value) {
+  const auto magnitude = static_cast<std::uint64_t>(value);
+  const int octave = std::max(0, static_cast<int>(std::bit_width(magnitude)) - 1 - kPartBits);
+  return static_cast<std::size_t>(octave) * kParts +
+         static_cast<std::size_t>(magnitude >> static_cast<unsigned>(octave));
+}
+
+std::int64_t Histogram::highest_in(std::size_t bucket) {
+  if (bucket < 2 * kParts) return static_cast<std::int64_t>(bucket);
+  const std::size_t octave = bucket / kParts - 1;
+  const std::size_t part = bucket - octave * kParts;
+  return static_cast<std::int64_t>(((part + 1) << octave) - 1);
+}
+
+void Histogram::record(Duration value) {
+  const std::int64_t ns = value.count();
+  lower(min_, ns);
+  raise(max_, ns);
+  if (ns < 0) add(below_range_, 1);
+  if (value > kHighest) {
+    add(above_range_, 1);
+  } else {
+    add(buckets_[bucket_of(std::max<std::int64_t>(ns, 0))], 1);
+  }
+}
+
+void Histogram::merge(const Histogram& other) {
+  const auto merge_extremes = [this, &other] {
+    lower(min_, other.min_.load(std::memory_order_relaxed));
+    raise(max_, other.max_.load(std::memory_order_relaxed));
+  };
+  merge_extremes();  // so that a reader of this one sees no count without them
+  for (std::size_t i = 0; i < kBuckets; ++i) {
+    const std::uint64_t times = other.buckets_[i].load(std::memory_order_acquire);
+    if (times != 0) add(buckets_[i], times);
+  }
+  add(below_range_, other.below_range_.load(std::memory_order_acquire));
+  add(above_range_, other.above_range_.load(std::memory_order_acquire));
+  merge_extremes();  // of what `other` recorded in between
+}
+
+std::uint64_t Histogram::count() const {
+  std::uint64_t sum = above_range_.load(std::memory_order_acquire);
+  for (const auto& bucket : buckets_) sum += bucket.load(std::memory_order_acquire);
+  return sum;
+}
+
+Duration Histogram::min() const {
+  const std::int64_t value = min_.load(std::memory_order_relaxed);
+  return value == Duration::max().count() ? Duration{} : Duration(value);
+}
+
+Duration Histogram::max() const {
+  const std::int64_t value = max_.load(std::memory_order_relaxed);
+  return value == Duration::min().count() ? Duration{} : Duration(value);
+}
+
+Duration Histogram::percentile(double fraction) const {
+  if (!(fraction >= 0.0 && fraction <= 1.0)) {
+    throw std::invalid_argument("histogram: percentile of fraction " + std::to_string(fraction) +
+                                "; allowed is 0 to 1");
+  }
+  const std::uint64_t n = count();
+  if (n == 0) return Duration{};
+  // One step down before rounding up: 0.07 * 100 is a hair above 7, and means 7.
+  const double rank = std::ceil(std::nextafter(fraction * static_cast<double>(n), 0.0));
+  std::uint64_t left = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(rank), 1, n);
+  for (std::size_t i = 0; i < kBuckets; ++i) {
+    const std::uint64_t here = buckets_[i].load(std::memory_order_acquire);
+    if (here >= left) return std::min(Duration(highest_in(i)), max());
+    left -= here;
+  }
+  return max();  // beyond the range
+}
+
+LatencySummary Histogram::summarize(std::string name) const {
+  const Histogram frozen(*this);
+  LatencySummary summary;
+  summary.name = std::move(name);
+  summary.count = frozen.count();
+  summary.p50 = frozen.percentile(0.5);
+  summary.p90 = frozen.percentile(0.9);
+  summary.p99 = frozen.percentile(0.99);
+  summary.p999 = frozen.percentile(0.999);
+  summary.max = frozen.max();
+  return summary;
+}
+
+Histogram Histogram::with_omitted(Duration interval) const {
+  if (interval <= Duration::zero()) {
+    throw std::invalid_argument("histogram: interval of " + std::to_string(interval.count()) +
+                                " ns between releases; it must be positive");
+  }
+  const Histogram recorded(*this);
+  Histogram result(recorded);
+  for (std::size_t i = 0; i < kBuckets; ++i) {
+    const std::uint64_t times = recorded.buckets_[i].load(std::memory_order_relaxed);
+    const std::int64_t value = std::min(highest_in(i), recorded.max().count());
+    if (times != 0) result.add_omitted(value, times, interval.count());
+  }
+  result.add_omitted(kHighest.count(), recorded.above_range(), interval.count());
+  return result;
+}
+
+// Adds value - k * interval for k = 1, 2, ... down to `interval`, `times` times each: bucket by
+// bucket, since they may be billions.
+void Histogram::add_omitted(std::int64_t value, std::uint64_t times, std::int64_t interval) {
+  const std::int64_t last = value / interval - 1;  // the largest k
+  if (times == 0 || last < 1) return;
+  for (std::size_t i = bucket_of(interval); i <= bucket_of(value - interval); ++i) {
+    const std::int64_t highest = highest_in(i);
+    const std::int64_t lowest = i == 0 ? 0 : highest_in(i - 1) + 1;
+    const std::int64_t to = std::min(last, (value - lowest) / interval);
+    const std::int64_t from =
+        highest >= value ? 1
+                         : std::max<std::int64_t>(1, (value - highest + interval - 1) / interval);
+    if (from <= to) add(buckets_[i], times * static_cast<std::uint64_t>(to - from + 1));
+  }
+  lower(min_, value - last * interval);
+}
+
+}  // namespace maploop::runtime

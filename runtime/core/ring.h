@@ -1,0 +1,198 @@
+// Lock-free ring between one producing and one consuming thread, used in place.
+//
+// Producer:  if (T* slot = ring.claim()) { fill *slot; ring.publish(); }   // nullptr: full
+// Consumer:  if (T* item = ring.front()) { use *item; ring.pop(); }        // nullptr: empty
+//
+// Who may call what. claim, publish, push: one thread at a time, the producer. front, both pop: one
+// thread at a time, the consumer. size, pushed, popped, capacity: any thread. Handing either role
+// to another thread needs a synchronization of the caller's own between the two.
+//
+// What happens before what. Everything the producer did before publish() happens before front()
+// returns that item; everything the consumer did before pop() happens before claim() hands out that
+// slot again. A published item is visible to the next front() without any further call.
+//
+// Slots are constructed once, in memory already mapped, and reused: a claimed slot still holds what
+// an earlier lap left in it. An image swaps its buffer in and out, or resizes it to the size it
+// had; neither allocates. No operation of the ring allocates, locks, waits or enters the kernel.
+//
+// Lamport's circular buffer ("Specifying concurrent program modules", TOPLAS 5(2), 1983) with each
+// side's copy of the other's index (Lee, Bu, Chandranmenon: "MCRingBuffer", IPDPS 2010). As there,
+// the consumer gives slots back in batches: a producer that waits at the full end then writes a
+// batch of lines the consumer has left, and not the line it is reading. Publishing is never
+// deferred.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "runtime/core/cache_line.h"
+#include "runtime/core/prefaulted_allocator.h"
+
+namespace maploop::runtime {
+
+template <typename T>
+class Ring {
+ public:
+  // A ring that never refuses an item while it holds fewer than `capacity`. Below
+  // kSmallestBatchedCapacity it refuses exactly at `capacity`; above, the slots of one batch come
+  // on top (at most an eighth, at most kLargestBatch - 1), and it may hold that many more.
+  // Each slot starts as T(). Throws std::invalid_argument where the capacity is 0.
+  explicit Ring(std::size_t capacity) requires std::default_initializable<T>
+      : Ring(capacity, Slots(slots_for(capacity))) {}
+
+  // The same; each slot starts as a copy of `prototype`, such as an image of the size to come.
+  Ring(std::size_t capacity, const T& prototype) requires std::copy_constructible<T>
+      : Ring(capacity, Slots(slots_for(capacity), Slot{prototype})) {}
+
+  Ring(const Ring&) = delete;
+  Ring& operator=(const Ring&) = delete;
+
+  // Producer. The slot to fill, or nullptr where the ring is full. Again without publish(): the
+  // same slot.
+  T* claim() {
+    if (producer_.tail == producer_.limit) {
+      producer_.limit = freed_.load(std::memory_order_acquire) + slots_.size();
+      if (producer_.tail == producer_.limit) return nullptr;
+    }
+    return &producer_.slot->value;
+  }
+
+  // Producer. Hands over the slot that claim() returned. Precondition: claim() returned one since
+  // the last publish().
+  void publish() {
+    assert(producer_.tail != producer_.limit && "publish() without claim()");
+    producer_.slot = after(producer_.slot);
+    published_.store(++producer_.tail, std::memory_order_release);
+  }
+
+  // Consumer. The oldest item, or nullptr where the ring is empty. Again without pop(): the same
+  // item. The consumer may change it, or swap its buffers out.
+  T* front() {
+    const std::uint64_t head = consumer_.head.load(std::memory_order_relaxed);
+    if (head == consumer_.seen) {
+      consumer_.seen = published_.load(std::memory_order_acquire);
+      if (head == consumer_.seen) return nullptr;
+    }
+    return &consumer_.slot->value;
+  }
+
+  // Consumer. Gives the slot that front() returned back. Precondition: front() returned one since
+  // the last pop().
+  void pop() {
+    std::uint64_t head = consumer_.head.load(std::memory_order_relaxed);
+    assert(head != consumer_.seen && "pop() without front()");
+    consumer_.slot = after(consumer_.slot);
+    consumer_.head.store(++head, std::memory_order_release);
+    if (head == consumer_.next_free || head == consumer_.seen) {
+      freed_.store(head, std::memory_order_release);
+      consumer_.next_free = head + batch_;
+    }
+  }
+
+  // Producer. Copies `item` in; false where the ring is full.
+  bool push(const T& item) {
+    T* slot = claim();
+    if (slot == nullptr) return false;
+    *slot = item;
+    publish();
+    return true;
+  }
+
+  // Consumer. Takes the oldest item out; false where the ring is empty. Swaps where that moves
+  // buffers, so that the slot keeps the one `item` had.
+  bool pop(T& item) {
+    T* slot = front();
+    if (slot == nullptr) return false;
+    if constexpr (std::is_trivially_copyable_v<T>) {
+      item = *slot;
+    } else {
+      using std::swap;
+      swap(item, *slot);
+    }
+    pop();
+    return true;
+  }
+
+  // Items held now, exact where both sides rest. For monitors: a producer or consumer that asks for
+  // every item slows the other.
+  std::size_t size() const {
+    const std::uint64_t out = popped();  // first, so that it is not ahead of what is read next
+    return std::min(static_cast<std::size_t>(pushed() - out), slots_.size());
+  }
+  std::size_t capacity() const { return capacity_; }
+
+  // Items published and taken since the start: pushed = popped + size.
+  std::uint64_t pushed() const { return published_.load(std::memory_order_acquire); }
+  std::uint64_t popped() const { return consumer_.head.load(std::memory_order_acquire); }
+
+  // Rings shorter than this give each slot back at once.
+  static constexpr std::size_t kSmallestBatchedCapacity = 64;
+  // Slots given back together at most: 256 slots are 32 cache lines of 8-byte items, and no gain
+  // was measured beyond.
+  static constexpr std::size_t kLargestBatch = 256;
+
+ private:
+  // An item of a cache line or more has its lines for itself; smaller ones are packed.
+  static constexpr std::size_t kSlotAlignment =
+      std::max(alignof(T), sizeof(T) >= kCacheLine ? kCacheLine : std::size_t{1});
+  struct alignas(kSlotAlignment) Slot {
+    T value{};
+  };
+  using Slots = std::vector<Slot, PrefaultedAllocator<Slot>>;
+
+  // All counts run from 0 upwards and do not wrap in the life of any machine; slot = count modulo
+  // the number of slots, kept as a pointer.
+  struct alignas(kNoSharing) Producer {
+    std::uint64_t tail = 0;   // published so far
+    std::uint64_t limit = 0;  // tail may go up to here, as far as known: slots freed + slots
+    Slot* slot = nullptr;     // of tail
+  };
+  struct alignas(kNoSharing) Consumer {
+    std::atomic<std::uint64_t> head{0};  // taken so far; read by monitors, not by the producer
+    std::uint64_t seen = 0;              // published, as far as known
+    std::uint64_t next_free = 0;         // freed_ is stored when head comes here
+    Slot* slot = nullptr;                // of head
+  };
+
+  Ring(std::size_t capacity, Slots&& slots)
+      : capacity_(capacity), batch_(batch_for(capacity)), slots_(std::move(slots)) {
+    begin_ = slots_.data();
+    end_ = begin_ + slots_.size();
+    producer_.limit = slots_.size();
+    producer_.slot = consumer_.slot = begin_;
+    consumer_.next_free = batch_;
+  }
+
+  static std::size_t batch_for(std::size_t capacity) {
+    return capacity < kSmallestBatchedCapacity ? 1 : std::min(kLargestBatch, capacity / 8);
+  }
+  // Up to batch - 1 slots are free without the producer knowing; these come on top.
+  static std::size_t slots_for(std::size_t capacity) {
+    if (capacity == 0) throw std::invalid_argument("ring: capacity is 0; at least 1 is needed");
+    return capacity + batch_for(capacity) - 1;
+  }
+  Slot* after(Slot* slot) const { return slot + 1 == end_ ? begin_ : slot + 1; }
+
+  // Constant after construction: both sides keep a copy of these lines.
+  const std::size_t capacity_;
+  const std::size_t batch_;
+  Slots slots_;
+  Slot* begin_ = nullptr;
+  Slot* end_ = nullptr;
+
+  Producer producer_;
+  Consumer consumer_;
+  // The two lines through which the sides speak.
+  alignas(kNoSharing) std::atomic<std::uint64_t> published_{0};
+  alignas(kNoSharing) std::atomic<std::uint64_t> freed_{0};
+};
+
+}  // namespace maploop::runtime
