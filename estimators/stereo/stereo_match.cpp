@@ -1,5 +1,6 @@
 #include "estimators/stereo/stereo_match.h"
 
+#include <array>
 #include <cmath>
 
 namespace maploop::stereo {
@@ -57,7 +58,7 @@ double search_row(const StereoFrame& frame, const StereoParameters& parameters,
 
   const Patch wanted = read_patch(left, x, y);
   const int farthest = static_cast<int>(std::ceil(parameters.max_disparity / 2.0));
-  double best = -1.0, previous = -1.0;
+  double best = -1.0;
   int best_disparity = -1;
   std::vector<double> scores;
   scores.reserve(static_cast<std::size_t>(farthest) + 1);
@@ -67,9 +68,7 @@ double search_row(const StereoFrame& frame, const StereoParameters& parameters,
       best = scores.back();
       best_disparity = d;
     }
-    previous = scores.back();
   }
-  static_cast<void>(previous);
   if (best < parameters.min_correlation) return -1.0;
   for (int d = 0; d < static_cast<int>(scores.size()); ++d)
     if (std::abs(d - best_disparity) > 2 && scores[static_cast<std::size_t>(d)] > kSecondBest * best)

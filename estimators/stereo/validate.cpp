@@ -68,4 +68,10 @@ void validate(const StereoParameters& p) {
   require_positive("max_stale_pairs", p.max_stale_pairs);
 }
 
+bool has_size(const GreyImage& image, const StereoCalibration& calibration) {
+  return image.width == calibration.width && image.height == calibration.height &&
+         image.pixels.size() ==
+             static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+}
+
 }  // namespace maploop::stereo
