@@ -22,6 +22,7 @@ enum : int {
   gyro_bias,       // rad/s, added to the yaw rate
   forward_bias,    // m/s^2, added to the forward specific force
   left_bias,       // m/s^2, added to the left specific force
+  climb_offset,    // rad, direction of travel above body x: mounting and load
   odometry_scale,  // 1, odometry reports (1 + scale) times the distance
   distance,        // m, travelled since the clone
   clone_azimuth,   // rad, the attitude at the start of the odometry interval

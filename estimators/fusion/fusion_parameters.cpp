@@ -46,8 +46,8 @@ void check(const FusionParameters& p) {
   require("acceleration_noise", p.acceleration_noise, tiny, huge);
   require("accelerometer_bias_sigma", p.accelerometer_bias_sigma, tiny, 10.0);
   require("accelerometer_bias_time", p.accelerometer_bias_time, 1.0, huge);
-  require("yaw_rate_walk", p.yaw_rate_walk, 0.0, 10.0);
-  require("acceleration_walk", p.acceleration_walk, 0.0, 100.0);
+  require("yaw_acceleration", p.yaw_acceleration, 0.0, 10.0);
+  require("jerk", p.jerk, 0.0, 100.0);
   require("silent_yaw_noise", p.silent_yaw_noise, tiny, 10.0);
   require("silent_speed_noise", p.silent_speed_noise, tiny, 100.0);
   require("max_specific_force", p.max_specific_force, 10.0, huge);
@@ -55,6 +55,9 @@ void check(const FusionParameters& p) {
 
   require("pitch_noise", p.pitch_noise, tiny, 1.0);
   require("roll_noise", p.roll_noise, tiny, 1.0);
+  require("climb_offset_sigma", p.climb_offset_sigma, tiny, 1.0);
+  require("climb_offset_time", p.climb_offset_time, 1.0, huge);
+  require("climb_noise", p.climb_noise, tiny, 1.0);
   require("slip_sigma", p.slip_sigma, tiny, 1.0);
   require("slip_time", p.slip_time, 0.0, huge);
   require("max_tilt", p.max_tilt, 0.1, 1.5);

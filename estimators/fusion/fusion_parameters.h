@@ -22,7 +22,7 @@ struct FusionParameters {
   double min_position_sigma = 0.1;     // m, floor; no receiver of a road vehicle is better
   double min_velocity_sigma = 0.03;    // m/s, floor
   double start_course_sigma = 0.0087;  // rad (0.5 deg), course against body: side slip, mounting
-  double start_slope_sigma = 0.0175;   // rad (1 deg), climb against pitch: suspension, mounting
+  double start_slope_sigma = 0.0087;   // rad (0.5 deg), climb against pitch: suspension
   double start_roll_sigma = 0.035;     // rad (2 deg), cross fall of a road and suspension
   double start_acceleration = 3.0;     // m/s^2, change of speed between a fix's two stamps
 
@@ -36,19 +36,22 @@ struct FusionParameters {
       0.3;  // m/s/sqrt(s), vibration aliased into 10 Hz; levels pitch in 10 s
   double accelerometer_bias_sigma = 0.05;  // m/s^2 (0.3 deg of tilt), Gauss-Markov, calibrated MEMS
   double accelerometer_bias_time = 300.0;  // s, warming and sun
-  double yaw_rate_walk = 0.05;             // rad/s/sqrt(s), steering between samples and while held
-  double acceleration_walk = 1.0;          // m/s^2/sqrt(s), pedals between samples and while held
-  double silent_yaw_noise = 0.3;           // rad/sqrt(s), azimuth without a gyro
-  double silent_speed_noise = 2.0;         // m/s/sqrt(s), speed without an accelerometer
-  double max_specific_force = 50.0;        // m/s^2, beyond is a fault of the sensor (5 g)
-  double max_yaw_rate = 6.0;               // rad/s, beyond is a fault (350 deg/s)
+  double yaw_acceleration = 0.3;     // rad/s^2, steering unseen between samples and while held
+  double jerk = 2.0;                 // m/s^3, pedals unseen between samples and while held
+  double silent_yaw_noise = 0.3;     // rad/sqrt(s), azimuth without a gyro
+  double silent_speed_noise = 2.0;   // m/s/sqrt(s), speed without an accelerometer
+  double max_specific_force = 50.0;  // m/s^2, beyond is a fault of the sensor (5 g)
+  double max_yaw_rate = 6.0;         // rad/s, beyond is a fault (350 deg/s)
 
   // Vehicle.
-  double pitch_noise = 0.0175;  // rad/sqrt(s) (1 deg), road and suspension between odometry
-  double roll_noise = 0.0175;   // rad/sqrt(s) (1 deg)
-  double slip_sigma = 0.005;    // rad (0.3 deg), direction of travel against the body's axis
-  double slip_time = 1.0;       // s, how long it lasts
-  double max_tilt = 0.8;        // rad, no road vehicle leans so; a correction beyond is refused
+  double pitch_noise = 0.0175;         // rad/sqrt(s) (1 deg), road and suspension between odometry
+  double roll_noise = 0.0175;          // rad/sqrt(s) (1 deg)
+  double slip_sigma = 0.005;           // rad (0.3 deg), direction of travel against the body's axis
+  double climb_offset_sigma = 0.0175;  // rad (1 deg), body x against the direction of travel
+  double climb_offset_time = 300.0;    // s, its correlation time: mounting stays, load shifts
+  double climb_noise = 0.02;           // rad (1.1 deg) a frame, heave and vertical odometry error
+  double slip_time = 1.0;              // s, how long it lasts
+  double max_tilt = 0.8;  // rad, no road vehicle leans so; a correction beyond is refused
 
   // Levelling by the accelerometers.
   double tilt_sigma = 0.0175;     // rad (1 deg), of the roll seen in one independent sample

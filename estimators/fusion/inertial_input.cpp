@@ -1,6 +1,7 @@
 #include "estimators/fusion/inertial_input.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace maploop::fusion {
 namespace {
@@ -30,8 +31,8 @@ InertialInput inertial_input(const InertialSamples& samples, Time from, Time to,
   const ImuSample& a = *samples.before;
 
   if (neighbours(samples, parameters)) {
-    // A random walk pinned at both ends (Brownian bridge): its integral over the whole gap T has
-    // variance T^3 / 12, spread evenly.
+    // The triangle between a straight line and a bend in the middle of the gap T: T^2 / 8 over the
+    // whole gap, spread evenly.
     const ImuSample& b = *samples.after;
     const double gap = to_seconds(b.stamp - a.stamp);
     const double weight = to_seconds((from - a.stamp) + (to - a.stamp)) / (2.0 * gap);
@@ -39,18 +40,18 @@ InertialInput inertial_input(const InertialSamples& samples, Time from, Time to,
     input.forward_force =
         a.specific_force_forward + weight * (b.specific_force_forward - a.specific_force_forward);
     input.yaw_rate = a.yaw_rate + weight * (b.yaw_rate - a.yaw_rate);
-    input.gap_cubed = gap * gap * input.duration / 12.0;
+    input.unseen_change = gap * gap * gap * input.duration / 64.0;
     return input;
   }
 
   const double age_from = to_seconds(from - a.stamp);
   const double age_to = to_seconds(to - a.stamp);
   if (to - a.stamp > from_seconds(parameters.imu_hold)) return input;
-  // A random walk from the sample on: the integral's variance grows as age^3 / 3.
+  // A ramp from the sample on: age^2 / 2.
   input.inertial = true;
   input.forward_force = a.specific_force_forward;
   input.yaw_rate = a.yaw_rate;
-  input.gap_cubed = (age_to * age_to * age_to - age_from * age_from * age_from) / 3.0;
+  input.unseen_change = (std::pow(age_to, 4) - std::pow(age_from, 4)) / 4.0;
   return input;
 }
 

@@ -11,9 +11,9 @@ struct InertialInput {
   bool inertial = false;       // false: the IMU is silent, the rest is zero
   double forward_force = 0.0;  // m/s^2, mean over the stretch
   double yaw_rate = 0.0;       // rad/s, mean over the stretch
-  // Variance of the integral over the stretch, per walk density squared of what is integrated: the
-  // price of not seeing the sensor's input between samples (s^3).
-  double gap_cubed = 0.0;
+  // Variance of the integral over the stretch when its integrand changes by 1 per second (sigma)
+  // unseen between or after the samples, s^4.
+  double unseen_change = 0.0;
 };
 
 // Two neighbouring samples; either may be missing (null).

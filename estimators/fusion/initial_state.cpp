@@ -65,12 +65,16 @@ FilterState initial_state(const GnssFix& fix, const LocalFrame& frame, const Fus
   C.diagonal().head<3>().array() += p.min_position_sigma * p.min_position_sigma;
   C.diagonal().tail<3>().array() += p.min_velocity_sigma * p.min_velocity_sigma;
 
+  // Pitch is climb less climb offset.
   static_assert(speed == 3 && azimuth == 4 && pitch == 5 && roll == 6);
   state.P.topLeftCorner<6, 6>() = J * C * J.transpose();
   const auto add = [&](int i, double sigma) { state.P(i, i) += sigma * sigma; };
   add(speed, p.start_acceleration * velocity_age);
   add(azimuth, p.start_course_sigma);
-  add(pitch, p.start_slope_sigma);
+  add(pitch, std::hypot(p.start_slope_sigma, p.climb_offset_sigma));
+  add(climb_offset, p.climb_offset_sigma);
+  state.P(pitch, climb_offset) = -p.climb_offset_sigma * p.climb_offset_sigma;
+  state.P(climb_offset, pitch) = state.P(pitch, climb_offset);
   add(roll, p.start_roll_sigma);
   add(gyro_bias, p.gyro_bias_sigma);
   add(forward_bias, p.accelerometer_bias_sigma);

@@ -11,10 +11,10 @@ double squared(double v) {
   return v * v;
 }
 
-// Forward axis of the body in enu.
-Vector3d forward_axis(double azimuth, double pitch) {
-  const double cp = std::cos(pitch);
-  return {std::sin(azimuth) * cp, std::cos(azimuth) * cp, std::sin(pitch)};
+// Direction in enu at an azimuth and an elevation.
+Vector3d direction(double azimuth, double elevation) {
+  const double c = std::cos(elevation);
+  return {std::sin(azimuth) * c, std::cos(azimuth) * c, std::sin(elevation)};
 }
 
 }  // namespace
@@ -52,25 +52,27 @@ Step mechanize(const StateVector& x, const InertialInput& input, const LocalEart
 
   const double mid_azimuth = x[azimuth] + 0.5 * dt * azimuth_rate;
   const double mid_speed = x[speed] + 0.5 * dt * acceleration;
-  const Vector3d forward = forward_axis(mid_azimuth, x[pitch]);
-  const double sAm = std::sin(mid_azimuth), cAm = std::cos(mid_azimuth);
-  const Vector3d forward_by_azimuth(cAm * cp, -sAm * cp, 0.0);
-  const Vector3d forward_by_pitch(-sAm * sp, -cAm * sp, cp);
+  const double climb = x[pitch] + x[climb_offset];
+  const Vector3d travel = direction(mid_azimuth, climb);
+  const Vector3d travel_by_azimuth(travel.y(), -travel.x(), 0.0);
+  const Vector3d travel_by_climb(-std::sin(mid_azimuth) * std::sin(climb),
+                                 -std::cos(mid_azimuth) * std::sin(climb), std::cos(climb));
 
   Step step;
   step.x = x;
-  step.x.segment<3>(east) += dt * mid_speed * forward;
+  step.x.segment<3>(east) += dt * mid_speed * travel;
   step.x[speed] += dt * acceleration;
   step.x[azimuth] = wrap_angle(x[azimuth] + dt * azimuth_rate);
   step.x[distance] += dt * mid_speed;
 
   StateMatrix& F = step.F;
   F.setIdentity();
-  F.middleRows<3>(east) += dt * forward * (0.5 * dt * acceleration_by) +
-                           dt * mid_speed * forward_by_azimuth * (0.5 * dt * azimuth_rate_by);
-  F.block<3, 1>(east, speed) += dt * forward;
-  F.block<3, 1>(east, azimuth) += dt * mid_speed * forward_by_azimuth;
-  F.block<3, 1>(east, pitch) += dt * mid_speed * forward_by_pitch;
+  F.middleRows<3>(east) += dt * travel * (0.5 * dt * acceleration_by) +
+                           dt * mid_speed * travel_by_azimuth * (0.5 * dt * azimuth_rate_by);
+  F.block<3, 1>(east, speed) += dt * travel;
+  F.block<3, 1>(east, azimuth) += dt * mid_speed * travel_by_azimuth;
+  F.block<3, 1>(east, pitch) += dt * mid_speed * travel_by_climb;
+  F.block<3, 1>(east, climb_offset) += dt * mid_speed * travel_by_climb;
   F.row(speed) += dt * acceleration_by;
   F.row(azimuth) += dt * azimuth_rate_by;
   F.row(distance) += 0.5 * dt * dt * acceleration_by;
@@ -83,16 +85,17 @@ Step mechanize(const StateVector& x, const InertialInput& input, const LocalEart
   decay(gyro_bias, parameters.gyro_bias_time);
   decay(forward_bias, parameters.accelerometer_bias_time);
   decay(left_bias, parameters.accelerometer_bias_time);
+  decay(climb_offset, parameters.climb_offset_time);
   decay(odometry_scale, parameters.odometry_scale_time);
 
   step.acceleration_effect.setZero();
-  step.acceleration_effect.segment<3>(east) = 0.5 * dt * dt * forward;
+  step.acceleration_effect.segment<3>(east) = 0.5 * dt * dt * travel;
   step.acceleration_effect[speed] = dt;
   step.acceleration_effect[distance] = 0.5 * dt * dt;
   step.yaw_rate_effect.setZero();
   step.yaw_rate_effect[azimuth] = -dt / (cp * cr);
   step.yaw_rate_effect.segment<3>(east) =
-      -0.5 * dt * dt * mid_speed / (cp * cr) * forward_by_azimuth;
+      -0.5 * dt * dt * mid_speed / (cp * cr) * travel_by_azimuth;
   return step;
 }
 
@@ -106,11 +109,10 @@ StateMatrix process_noise(const StateVector& x, const Step& step, const Inertial
   double speed_variance = dt * squared(p.silent_speed_noise);
   double azimuth_variance = dt * squared(p.silent_yaw_noise);
   if (input.inertial) {
-    speed_variance =
-        dt * squared(p.acceleration_noise) + input.gap_cubed * squared(p.acceleration_walk);
+    speed_variance = dt * squared(p.acceleration_noise) + input.unseen_change * squared(p.jerk);
     azimuth_variance =
         dt * (squared(p.gyro_noise) + squared(p.gyro_scale_sigma * input.yaw_rate) * p.turn_time) +
-        input.gap_cubed * squared(p.yaw_rate_walk);
+        input.unseen_change * squared(p.yaw_acceleration);
   }
   Q += step.acceleration_effect * step.acceleration_effect.transpose() *
        (speed_variance / (dt * dt));
@@ -125,12 +127,13 @@ StateMatrix process_noise(const StateVector& x, const Step& step, const Inertial
   walk(gyro_bias, p.gyro_bias_sigma);
   walk(forward_bias, p.accelerometer_bias_sigma);
   walk(left_bias, p.accelerometer_bias_sigma);
+  walk(climb_offset, p.climb_offset_sigma);
   walk(odometry_scale, p.odometry_scale_sigma);
 
   // Side slip and suspension turn the direction of travel away from the body's axis.
-  const Vector3d forward = forward_axis(x[azimuth], x[pitch]);
+  const Vector3d travel = direction(x[azimuth], x[pitch] + x[climb_offset]);
   Q.block<3, 3>(east, east) += dt * squared(x[speed] * p.slip_sigma) * p.slip_time *
-                               (Eigen::Matrix3d::Identity() - forward * forward.transpose());
+                               (Eigen::Matrix3d::Identity() - travel * travel.transpose());
   return Q;
 }
 

@@ -8,19 +8,20 @@ namespace maploop::fusion {
 Eigen::Matrix<double, 9, index::count> nav_state_jacobian(const StateVector& x) {
   using namespace index;
   const double sA = std::sin(x[azimuth]), cA = std::cos(x[azimuth]);
-  const double sp = std::sin(x[pitch]), cp = std::cos(x[pitch]);
+  const double climb = x[pitch] + x[climb_offset];
+  const double sc = std::sin(climb), cc = std::cos(climb);
   Eigen::Matrix<double, 9, count> J = Eigen::Matrix<double, 9, count>::Zero();
   J.block<3, 3>(0, east).setIdentity();
-  J.block<3, 1>(3, speed) << sA * cp, cA * cp, sp;
-  J.block<3, 1>(3, azimuth) << x[speed] * cA * cp, -x[speed] * sA * cp, 0.0;
-  J.block<3, 1>(3, pitch) << -x[speed] * sA * sp, -x[speed] * cA * sp, x[speed] * cp;
+  J.block<3, 1>(3, speed) << sA * cc, cA * cc, sc;
+  J.block<3, 1>(3, azimuth) << x[speed] * cA * cc, -x[speed] * sA * cc, 0.0;
+  J.block<3, 1>(3, pitch) << -x[speed] * sA * sc, -x[speed] * cA * sc, x[speed] * cc;
+  J.block<3, 1>(3, climb_offset) = J.block<3, 1>(3, pitch);
   J.block<3, 3>(6, azimuth).setIdentity();
   return J;
 }
 
 NavState nav_state(const FilterState& state, const Geodetic& origin, Time gnss_stamp,
                    const FusionParameters& parameters) {
-  const Eigen::Vector3d forward = rotation_enu_body(state.attitude()).col(0);
   NavState nav;
   nav.stamp = nav.available = state.stamp;
   const Time aided_since = std::max(state.odometry_stamp, state.start);
@@ -30,16 +31,17 @@ NavState nav_state(const FilterState& state, const Geodetic& origin, Time gnss_s
   nav.origin = origin;
   nav.position_enu = state.x.segment<3>(index::east);
   nav.forward_speed = state.x[index::speed];
-  nav.velocity_enu = nav.forward_speed * forward;
   nav.attitude = state.attitude();
   nav.gyro_bias = state.x[index::gyro_bias];
 
   const Eigen::Matrix<double, 9, index::count> J = nav_state_jacobian(state.x);
+  const Eigen::Vector3d travel = J.block<3, 1>(3, index::speed);
+  nav.velocity_enu = nav.forward_speed * travel;
   const Eigen::Matrix<double, 9, 9> covariance = J * state.P * J.transpose();
   nav.covariance = 0.5 * (covariance + covariance.transpose());
   const double slip = parameters.slip_sigma * nav.forward_speed;
   nav.covariance.block<3, 3>(3, 3) +=
-      slip * slip * (Eigen::Matrix3d::Identity() - forward * forward.transpose());
+      slip * slip * (Eigen::Matrix3d::Identity() - travel * travel.transpose());
 
   nav.imu_stamp = state.imu_stamp;
   nav.odometry_stamp = state.odometry_stamp;

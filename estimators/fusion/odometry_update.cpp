@@ -54,6 +54,8 @@ Outcome correct(FilterState& state, const RelativeMotion& motion,
   StateMatrix P = state.P;
   joseph_update(state.x, state.P, distance);
   joseph_update(state.x, state.P, rotation_innovation(state, motion, parameters));
+  const Innovation<1> climb = climb_innovation(state, motion, parameters);
+  if (climb.nis(state.P) <= parameters.speed_gate) joseph_update(state.x, state.P, climb);
   if (std::abs(state.x[index::pitch]) <= parameters.max_tilt &&
       std::abs(state.x[index::roll]) <= parameters.max_tilt) {
     return {};
@@ -65,28 +67,46 @@ Outcome correct(FilterState& state, const RelativeMotion& motion,
 
 }  // namespace
 
-Arc arc_length(const RelativeMotion& motion) {
+Arc arc(const RelativeMotion& motion) {
   const Vector3d turn = rotation_vector(motion.rotation);
   const double half = 0.5 * turn.norm();
-  const double arc_to_chord = half < 1e-6 ? 1.0 : half / std::sin(half);
-  const Vector3d chord_direction =
-      half < 1e-6 ? Vector3d(Vector3d::UnitX())
-                  : Vector3d(Eigen::AngleAxisd(half, turn.normalized()) * Vector3d::UnitX());
-  return {arc_to_chord * chord_direction.dot(motion.translation),
-          chord_direction.dot(motion.covariance.topLeftCorner<3, 3>() * chord_direction)};
+  Matrix3d to_arc = Matrix3d::Identity();
+  if (half > 1e-9) {
+    to_arc = half / std::sin(half) * Eigen::AngleAxisd(-half, turn.normalized()).toRotationMatrix();
+  }
+  return {to_arc * motion.translation,
+          to_arc * motion.covariance.topLeftCorner<3, 3>() * to_arc.transpose()};
 }
 
 Innovation<1> distance_innovation(const FilterState& state, const RelativeMotion& motion,
                                   const FusionParameters& parameters) {
-  const Arc arc = arc_length(motion);
+  const Arc travelled = arc(motion);
   const double floor = parameters.min_speed_sigma * to_seconds(motion.stamp - motion.from);
   const double gain = 1.0 + state.x[index::odometry_scale];
   Innovation<1> innovation;
-  innovation.residual << arc.length - gain * state.x[index::distance];
+  innovation.residual << travelled.displacement.x() - gain * state.x[index::distance];
   innovation.H.setZero();
   innovation.H[index::distance] = gain;
   innovation.H[index::odometry_scale] = state.x[index::distance];
-  innovation.R << arc.variance + floor * floor;
+  innovation.R << travelled.covariance(0, 0) + floor * floor;
+  return innovation;
+}
+
+Innovation<1> climb_innovation(const FilterState& state, const RelativeMotion& motion,
+                               const FusionParameters& parameters) {
+  const Arc travelled = arc(motion);
+  const double distance = state.x[index::distance];
+  const double gain = 1.0 + state.x[index::odometry_scale];
+  const double offset = state.x[index::climb_offset];
+  const double heave = parameters.climb_noise * distance;
+  const double floor = parameters.min_speed_sigma * to_seconds(motion.stamp - motion.from);
+  Innovation<1> innovation;
+  innovation.residual << travelled.displacement.z() - gain * distance * offset;
+  innovation.H.setZero();
+  innovation.H[index::climb_offset] = gain * distance;
+  innovation.H[index::distance] = gain * offset;
+  innovation.H[index::odometry_scale] = distance * offset;
+  innovation.R << travelled.covariance(2, 2) + heave * heave + floor * floor;
   return innovation;
 }
 

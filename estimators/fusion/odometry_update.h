@@ -9,25 +9,32 @@
 
 namespace maploop::fusion {
 
-// Length of the arc from `from` to `stamp` at constant turn rate, m; negative in reverse. The
-// chord lies half the rotation away from the forward axis and is sin(a/2) / (a/2) of the arc.
+// Translation seen from the attitude half-way through the interval, scaled from chord to arc: at a
+// constant turn rate its x is the distance travelled (negative in reverse), and its y and z show
+// the direction of travel in the body. The chord lies half the rotation away from the forward axis
+// and is sin(a/2) / (a/2) of the arc, a being the angle of rotation.
 struct Arc {
-  double length = 0.0;
-  double variance = 0.0;  // m^2
+  Eigen::Vector3d displacement;  // m
+  Eigen::Matrix3d covariance;    // m^2
 };
-Arc arc_length(const RelativeMotion& motion);
+Arc arc(const RelativeMotion& motion);
 
-// z = arc length; h = (1 + scale) distance. Exact for any speed profile over the interval, as the
-// filter integrates its own speed over the same interval.
+// z = forward displacement; h = (1 + scale) distance. Exact for any speed profile, as the filter
+// integrates its own speed over the same interval.
 Innovation<1> distance_innovation(const FilterState& state, const RelativeMotion& motion,
                                   const FusionParameters& parameters);
+
+// z = upward displacement; h = (1 + scale) distance * climb offset.
+Innovation<1> climb_innovation(const FilterState& state, const RelativeMotion& motion,
+                               const FusionParameters& parameters);
 
 // z = rotation; h = R(clone)^T R(now); the residual is a rotation vector in the body frame at
 // `from`, where the odometry's covariance lives too.
 Innovation<3> rotation_innovation(const FilterState& state, const RelativeMotion& motion,
                                   const FusionParameters& parameters);
 
-// Both corrections, or neither: an odometry that is wrong in one is not trusted in the other.
+// All corrections, or none: an odometry that is wrong in speed (gate of 1 degree of freedom) or
+// rotation (3) is not trusted in the rest. Climb has the gate of speed, but only skips itself.
 // After `recover_after` gated motions in a row the prediction is the suspect: its covariance is
 // inflated (`recoveries` counts) before the gates are asked again. Counts in the state; takes the
 // clone in every case. Precondition: state.stamp == motion.stamp.

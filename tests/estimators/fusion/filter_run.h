@@ -1,0 +1,55 @@
+// Runs the filter over recorded or synthetic measurements.
+#pragma once
+
+#include <algorithm>
+#include <variant>
+#include <vector>
+
+#include "estimators/fusion/reduced_imu_filter.h"
+
+namespace maploop::testing {
+
+using Measurement = std::variant<ImuSample, RelativeMotion, GnssFix>;
+
+inline Time available_of(const Measurement& m) {
+  return std::visit([](const auto& v) { return v.available; }, m);
+}
+inline Time stamp_of(const Measurement& m) {
+  return std::visit([](const auto& v) { return v.stamp; }, m);
+}
+
+inline fusion::Outcome add(fusion::ReducedImuFilter& filter, const Measurement& m) {
+  return std::visit([&](const auto& v) { return filter.add(v); }, m);
+}
+
+// In the order in which a real vehicle would have them.
+inline std::vector<Measurement> as_available(const std::vector<ImuSample>& imu,
+                                             const std::vector<RelativeMotion>& odometry,
+                                             const GnssFix& fix) {
+  std::vector<Measurement> all{fix};
+  all.insert(all.end(), imu.begin(), imu.end());
+  all.insert(all.end(), odometry.begin(), odometry.end());
+  std::stable_sort(all.begin(), all.end(), [](const Measurement& a, const Measurement& b) {
+    return available_of(a) < available_of(b);
+  });
+  return all;
+}
+
+inline Eigen::Isometry3d pose_of(const NavState& nav) {
+  return Eigen::Translation3d(nav.position_enu) *
+         Eigen::Quaterniond(rotation_enu_body(nav.attitude));
+}
+
+// State at each odometry stamp, asked for as soon as that odometry has arrived.
+inline std::vector<NavState> states_after_odometry(fusion::ReducedImuFilter& filter,
+                                                   const std::vector<Measurement>& measurements) {
+  std::vector<NavState> states;
+  for (const Measurement& m : measurements) {
+    add(filter, m);
+    if (!std::holds_alternative<RelativeMotion>(m)) continue;
+    if (const auto nav = filter.state_at(stamp_of(m))) states.push_back(*nav);
+  }
+  return states;
+}
+
+}  // namespace maploop::testing

@@ -1,0 +1,64 @@
+// Drives with exactly known truth, and the measurements perfect or noisy sensors would deliver.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <functional>
+#include <vector>
+
+#include "msgs/gnss.h"
+#include "msgs/imu.h"
+#include "msgs/odometry.h"
+
+namespace maploop::testing {
+
+// The vehicle's motion as functions of the time since the start, s. Smooth functions, please: the
+// sensors see derivatives.
+struct MotionProfile {
+  std::function<double(double)> speed = [](double) { return 10.0; };    // m/s
+  std::function<double(double)> yaw_rate = [](double) { return 0.0; };  // rad/s, to the left
+  std::function<double(double)> pitch = [](double) { return 0.0; };     // rad
+  std::function<double(double)> roll = [](double) { return 0.0; };      // rad
+  double azimuth = 0.0;                                                 // rad, at the start
+};
+
+struct SensorNoise {
+  double gyro_bias = 0.0;               // rad/s
+  double gyro_density = 0.0;            // rad/sqrt(s)
+  double force_sigma = 0.0;             // m/s^2 a sample
+  double odometry_speed_sigma = 0.0;    // m/s over one interval
+  double odometry_rotation_sigma = 0.0;  // rad over one interval, each axis
+  unsigned seed = 1;
+};
+
+// Integrated once, at 1 ms, over a flat rotating Earth.
+class SyntheticDrive {
+ public:
+  SyntheticDrive(const MotionProfile& profile, double duration, const Geodetic& origin);
+
+  static Time at(double seconds);  // stamp of a time since the start
+
+  Eigen::Isometry3d pose(double t) const;  // T_enu_body
+  double speed(double t) const { return profile_.speed(t); }
+  double azimuth(double t) const;
+  double pitch(double t) const { return profile_.pitch(t); }
+  double roll(double t) const { return profile_.roll(t); }
+  Eigen::Vector3d velocity(double t) const;  // enu
+  double length(double t) const;             // m, travelled
+
+  std::vector<ImuSample> imu(double rate, const SensorNoise& noise = {}) const;
+  std::vector<RelativeMotion> odometry(double rate, const SensorNoise& noise = {}) const;
+  GnssFix fix(double t, double velocity_delay = 0.0) const;
+
+ private:
+  MotionProfile profile_;
+  double duration_;
+  Geodetic origin_;
+  std::vector<Eigen::Vector3d> positions_;
+  std::vector<double> azimuths_;  // unwrapped
+  std::vector<double> lengths_;
+};
+
+// Karlsruhe.
+Geodetic test_origin();
+
+}  // namespace maploop::testing
