@@ -104,8 +104,8 @@ void visit(Config& config, Table&& table, Field&& field) {
     field("acceleration_noise", p.acceleration_noise);
     field("accelerometer_bias_sigma", p.accelerometer_bias_sigma);
     field("accelerometer_bias_time", p.accelerometer_bias_time);
-    field("yaw_rate_walk", p.yaw_rate_walk);
-    field("acceleration_walk", p.acceleration_walk);
+    field("yaw_acceleration", p.yaw_acceleration);
+    field("jerk", p.jerk);
     field("silent_yaw_noise", p.silent_yaw_noise);
     field("silent_speed_noise", p.silent_speed_noise);
     field("max_specific_force", p.max_specific_force);
@@ -113,6 +113,9 @@ void visit(Config& config, Table&& table, Field&& field) {
     field("pitch_noise", p.pitch_noise);
     field("roll_noise", p.roll_noise);
     field("slip_sigma", p.slip_sigma);
+    field("climb_offset_sigma", p.climb_offset_sigma);
+    field("climb_offset_time", p.climb_offset_time);
+    field("climb_noise", p.climb_noise);
     field("slip_time", p.slip_time);
     field("max_tilt", p.max_tilt);
     field("tilt_sigma", p.tilt_sigma);
