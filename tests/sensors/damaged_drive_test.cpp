@@ -63,6 +63,35 @@ TEST(SmallDrive, IsSound) {
   EXPECT_EQ(sequences(read_all(*drive.gnss())), (Sequences{0}));
 }
 
+TEST(SmallDrive, StampsOfEverySensor) {
+  const SmallDrive small;
+  const KittiDrive drive(small.folder());
+  const auto after = [](int ms) {
+    return parse_time("2011-09-26 13:10:51") + std::chrono::milliseconds(ms);
+  };
+  const auto pairs = read_all(*drive.camera());
+  EXPECT_EQ(pairs.at(3).stamp, after(300));
+  EXPECT_EQ(pairs.at(3).right_stamp, after(302));
+  EXPECT_EQ(pairs.at(3).available, after(307));  // the later image's, and 5 ms of readout
+  EXPECT_NE(pairs.at(3).left.pixels, pairs.at(3).right.pixels);
+  const auto scans = read_all(*drive.velodyne());
+  EXPECT_EQ(scans.at(3).start, after(230));
+  EXPECT_EQ(scans.at(3).stamp, after(280));
+  EXPECT_EQ(scans.at(3).end, after(330));
+  EXPECT_EQ(scans.at(3).available, after(330));
+  const auto imu = read_all(*drive.imu());
+  EXPECT_EQ(imu.at(3).stamp, after(241));
+  EXPECT_EQ(imu.at(3).available, after(301));
+  const auto fixes = read_all(*drive.gnss());
+  EXPECT_EQ(fixes.at(0).stamp, after(1));
+  EXPECT_EQ(fixes.at(0).velocity_stamp, after(-59));
+  EXPECT_EQ(fixes.at(0).available, after(1));
+  const auto reference = read_all(*drive.reference());
+  EXPECT_EQ(reference.at(3).stamp, after(301));
+  EXPECT_EQ(reference.at(3).velocity_stamp, after(241));
+  EXPECT_EQ(reference.at(3).available, after(301));
+}
+
 // ---- refused at the door
 
 TEST(OpeningADrive, NamesAFolderThatIsNotThere) {
