@@ -54,9 +54,11 @@ bool FusionStage::tick(Time k, runtime::DataClock& clock, const std::stop_token&
   state.stamp = k;
   state.available = k + stages::fusion.budget;
   state.sequence = ticks_++;
+  const MonotonicTime computed = runtime::monotonic_now();
   nav_states_.push(state, stop);
 
   const MonotonicTime done = runtime::monotonic_now();
+  if (done - computed > runtime::DataClock::tolerance) clock.stall(k, done);
   if (clock.is_paced()) {
     meter_.record({k, std::max(Duration::zero(), woken - due), ready - woken, done - ready});
     record_paths(clock, state, done);

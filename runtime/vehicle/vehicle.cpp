@@ -66,7 +66,8 @@ struct Vehicle::Graph {
   runtime::DataClock clock;
   Time first = Time::max();
 
-  // Edges, by the thread that they end at.
+  // Edges, by the thread that they end at. A replay loses nothing: a full ring holds its producer up,
+  // and with it the data clock.
   runtime::Doorbell stereo_bell;
   runtime::Edge<StereoPair> images;
   FusionEdges to_fusion;
@@ -102,9 +103,7 @@ Vehicle::Graph::Graph(const VehicleConfig& vehicle_config, const StereoCalibrati
       clock(data_clock),
       images("camera -> stereo", capacity::images, runtime::Overflow::keep_all, &stereo_bell),
       to_fusion(runtime::Overflow::keep_all),
-      // The publisher never holds the graph up in real time; in virtual time nothing is dropped.
-      to_publisher(clock.is_paced() ? runtime::Overflow::drop_newest
-                                    : runtime::Overflow::keep_all),
+      to_publisher(runtime::Overflow::keep_all),
       camera("camera", prefetched(stages::camera, std::move(sensors.camera)), {&images}),
       velodyne("velodyne", prefetched(stages::velodyne, std::move(sensors.velodyne)), {}),
       imu("imu", std::move(sensors.imu), {&to_fusion.imu, &to_publisher.imu}),
