@@ -6,7 +6,8 @@
     msgs <- runtime/core, sensors, estimators/*, mapmatch, ppp <- runtime/vehicle <- tools
 
 A folder may include itself and what ALLOWED names. Includes are written from the repository's root.
-Third-party libraries that would tie every user of a header to them stay in .cpp files.
+A header that another folder includes brings in none of the HEAVY libraries, at no depth: a folder keeps
+those in its .cpp files and in the headers that it alone uses.
 """
 import os
 import re
@@ -15,7 +16,8 @@ import sys
 LCM = ("lcm", "maploop_lcm")
 HEAVY = ("opencv2", "opencv", "pcl", "toml++", "toml.hpp", "nlohmann", *LCM)
 
-EVERYTHING_BELOW_VEHICLE = ["msgs", "msgs/lcm", "runtime/core", "sensors", "estimators", "mapmatch", "ppp"]
+EVERYTHING_BELOW_VEHICLE = ["msgs", "msgs/lcm", "runtime/core", "sensors", "estimators", "mapmatch",
+                            "ppp"]
 
 # Folder -> folders it may include besides itself. The longest name that fits a file counts, so that
 # estimators/stereo and estimators/fusion are two folders; each new one is written down here.
@@ -33,12 +35,11 @@ ALLOWED = {
     "tools": [*EVERYTHING_BELOW_VEHICLE, "runtime/vehicle"],
     "tests": [*EVERYTHING_BELOW_VEHICLE, "runtime/vehicle", "tools"],
 }
-# Where LCM may be included, and where a header may include anything of others.
+# Where LCM may be included, and whose headers may bring in anything.
 USES_LCM = ("msgs/lcm", "sensors", "runtime/vehicle", "tools", "tests")
 FREE_HEADERS = ("msgs/lcm", "tests")
 
 SOURCE = re.compile(r"\.(h|hpp|hh|inl|c|cc|cpp|cxx)$")
-HEADER = re.compile(r"\.(h|hpp|hh|inl)$")
 NOT_OURS = re.compile(r"^(build|\..*)$")  # folders at the root
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 INCLUDE = re.compile(r"^[ \t]*#[ \t]*include[ \t]*(?:([<\"])([^>\"\n]*)[>\"]|(.*))", re.MULTILINE)
@@ -74,23 +75,58 @@ def without_comments(text):
     return COMMENT.sub(lambda match: re.sub(r"[^\n]", " ", match.group()), text)
 
 
-def wrong_include(root, source, quote, name):
+def includes(root, source):
+    """(line, name, whether it is meant to be a file of ours, text of a computed include) of each."""
+    with open(os.path.join(root, source), encoding="utf-8", errors="replace") as file:
+        text = without_comments(file.read())
+    for match in INCLUDE.finditer(text):
+        quote, name, computed = match.groups()
+        # In quotes it is meant to be ours, unless it is a known library.
+        ours = name is not None and (folder_of(name) or (quote == '"' and not is_heavy(name)))
+        yield text.count("\n", 0, match.start()) + 1, name, bool(ours), computed
+
+
+def is_heavy(name):
+    return name.split("/")[0] in HEAVY
+
+
+def chain_to_heavy(root, header, seen):
+    """The includes that lead from a header to a heavy library, the library last; or None."""
+    if header in seen or folder_of(header) in FREE_HEADERS:
+        return None
+    seen.add(header)
+    for _, name, ours, _ in includes(root, header):
+        if name is None:
+            continue
+        if not ours:
+            if is_heavy(name):
+                return [header, name]
+        elif os.path.exists(os.path.join(root, name)):
+            chain = chain_to_heavy(root, name, seen)
+            if chain:
+                return [header, *chain]
+    return None
+
+
+def wrong_include(root, source, name, ours):
     """Why a source must not include `name`, or None."""
     folder = folder_of(source)
-    library = name.split("/")[0]
-    target = folder_of(name)
-    if target is None and not (quote == '"' and library not in HEAVY):
-        if library in LCM and folder not in USES_LCM:
+    if not ours:
+        if name.split("/")[0] in LCM and folder not in USES_LCM:
             return f"{folder} does not know LCM"
-        if library in HEAVY and HEADER.search(source) and folder not in FREE_HEADERS:
-            return f"a header must not include {library}; include it in the .cpp"
         return None
+    target = folder_of(name)
     if not os.path.exists(os.path.join(root, name)):
         return "there is no such file from the repository's root, where includes are written from"
     if target is None:
         return "this folder is not in the table of tests/structure/include_arrows.py"
-    if target != folder and not permits(ALLOWED[folder], target):
+    if target == folder:
+        return None
+    if not permits(ALLOWED[folder], target):
         return f"{folder} must not include {target}"
+    chain = None if folder == "tests" else chain_to_heavy(root, name, set())
+    if chain:
+        return f"it brings in {chain[-1]} ({' -> '.join(chain)}); hide that in a .cpp of {target}"
     return None
 
 
@@ -101,15 +137,8 @@ def violations(root):
         if folder_of(source) is None:
             found.append(f"{source}:1: its folder is not in the table of tests/structure/include_arrows.py")
             continue
-        with open(os.path.join(root, source), encoding="utf-8", errors="replace") as file:
-            text = without_comments(file.read())
-        for match in INCLUDE.finditer(text):
-            line = text.count("\n", 0, match.start()) + 1
-            quote, name, computed = match.groups()
-            if computed is not None:
-                why = "write the file's name"
-            else:
-                why = wrong_include(root, source, quote, name)
+        for line, name, ours, computed in includes(root, source):
+            why = "write the file's name" if name is None else wrong_include(root, source, name, ours)
             if why:
                 found.append(f"{source}:{line}: includes {name or computed.strip()}: {why}")
     return found

@@ -22,10 +22,10 @@ struct MotionProfile {
 };
 
 struct SensorNoise {
-  double gyro_bias = 0.0;               // rad/s
-  double gyro_density = 0.0;            // rad/sqrt(s)
-  double force_sigma = 0.0;             // m/s^2 a sample
-  double odometry_speed_sigma = 0.0;    // m/s over one interval
+  double gyro_bias = 0.0;                // rad/s
+  double gyro_density = 0.0;             // rad/sqrt(s)
+  double force_sigma = 0.0;              // m/s^2 a sample
+  double odometry_speed_sigma = 0.0;     // m/s over one interval
   double odometry_rotation_sigma = 0.0;  // rad over one interval, each axis
   unsigned seed = 1;
 };

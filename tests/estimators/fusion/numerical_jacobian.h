@@ -1,0 +1,65 @@
+// Derivatives to hold the analytical ones against.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "estimators/fusion/filter_state.h"
+
+namespace maploop::testing {
+
+// Central differences of f: StateVector -> Eigen vector, with a step fit for each state.
+template <class F>
+auto numerical_jacobian(const F& f, const fusion::StateVector& x) {
+  using Value = decltype(f(x));
+  Eigen::Matrix<double, Value::RowsAtCompileTime, fusion::index::count> J;
+  for (int i = 0; i < fusion::index::count; ++i) {
+    const double h = i <= fusion::index::up ? 1.0 : 1e-5;
+    fusion::StateVector plus = x, minus = x;
+    plus[i] += h;
+    minus[i] -= h;
+    J.col(i) = (f(plus) - f(minus)) / (2.0 * h);
+  }
+  return J;
+}
+
+// A state with every element at work.
+inline fusion::StateVector busy_state() {
+  using namespace fusion::index;
+  fusion::StateVector x;
+  x[east] = 812.0;
+  x[north] = -455.0;
+  x[up] = 12.0;
+  x[speed] = 13.2;
+  x[azimuth] = -2.1;
+  x[pitch] = 0.07;
+  x[roll] = -0.05;
+  x[gyro_bias] = 2e-3;
+  x[forward_bias] = 0.04;
+  x[left_bias] = -0.03;
+  x[climb_offset] = 0.012;
+  x[odometry_scale] = -0.008;
+  x[distance] = 1.3;
+  x[clone_azimuth] = -2.04;
+  x[clone_pitch] = 0.066;
+  x[clone_roll] = -0.053;
+  return x;
+}
+
+// A covariance of full rank with correlations everywhere.
+inline fusion::StateMatrix busy_covariance() {
+  using namespace fusion::index;
+  fusion::StateMatrix A;
+  for (int i = 0; i < count; ++i) {
+    for (int j = 0; j < count; ++j) A(i, j) = std::sin(1.7 * i + 0.9 * j * j + 0.3);
+  }
+  fusion::StateVector scale = fusion::StateVector::Constant(0.01);
+  scale.head<4>().setConstant(0.5);
+  scale[gyro_bias] = 1e-3;
+  const fusion::StateMatrix P = scale.asDiagonal() *
+                                (A * A.transpose() / count + fusion::StateMatrix::Identity()) *
+                                scale.asDiagonal();
+  return 0.5 * (P + P.transpose());
+}
+
+}  // namespace maploop::testing

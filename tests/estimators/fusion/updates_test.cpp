@@ -1,0 +1,266 @@
+// Measurement equations against numerical derivatives and hand-made cases; the update itself
+// against the information form.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "estimators/fusion/nav_state_output.h"
+#include "estimators/fusion/odometry_update.h"
+#include "estimators/fusion/roll_update.h"
+#include "tests/estimators/fusion/numerical_jacobian.h"
+#include "tests/estimators/fusion/synthetic_drive.h"
+
+namespace maploop::fusion {
+namespace {
+
+using namespace maploop::testing;
+using Eigen::Vector3d;
+
+FilterState busy() {
+  FilterState state;
+  state.stamp = state.clone_stamp = state.start = SyntheticDrive::at(1.0);
+  state.x = busy_state();
+  state.P = busy_covariance();
+  return state;
+}
+
+// A motion that agrees with the state exactly.
+RelativeMotion agreeing_motion(const FilterState& state) {
+  RelativeMotion m;
+  m.status = OdometryStatus::ok;
+  m.from = state.clone_stamp;
+  m.stamp = m.from + from_seconds(0.1);
+  m.rotation = Eigen::Quaterniond(Eigen::Matrix3d(
+      rotation_enu_body(state.clone_attitude()).transpose() * rotation_enu_body(state.attitude())));
+  const Eigen::AngleAxisd turn(m.rotation);
+  const double half = 0.5 * turn.angle();
+  const double forward = (1.0 + state.x[index::odometry_scale]) * state.x[index::distance];
+  m.translation = Eigen::AngleAxisd(half, turn.axis()) *
+                  Vector3d(forward, 0.0, forward * state.x[index::climb_offset]) *
+                  (std::sin(half) / half);
+  m.covariance.diagonal() << 1e-4, 2e-4, 3e-4, 1e-7, 2e-7, 3e-7;
+  return m;
+}
+
+template <int rows, class Make>
+void expect_jacobian(const FilterState& state, const Make& make, double tolerance) {
+  const Innovation<rows> innovation = make(state);
+  const auto numerical = numerical_jacobian(
+      [&](const StateVector& x) {
+        FilterState moved = state;
+        moved.x = x;
+        return Eigen::Matrix<double, rows, 1>(-make(moved).residual);
+      },
+      state.x);
+  EXPECT_LT((innovation.H - numerical).cwiseAbs().maxCoeff(), tolerance)
+      << innovation.H - numerical;
+}
+
+TEST(OdometryJacobians, AgreeWithNumericalDerivatives) {
+  const FilterState state = busy();
+  const RelativeMotion m = agreeing_motion(state);
+  const FusionParameters p;
+  expect_jacobian<1>(
+      state, [&](const FilterState& s) { return distance_innovation(s, m, p); }, 1e-8);
+  expect_jacobian<1>(
+      state, [&](const FilterState& s) { return climb_innovation(s, m, p); }, 1e-8);
+  expect_jacobian<3>(
+      state, [&](const FilterState& s) { return rotation_innovation(s, m, p); }, 1e-8);
+}
+
+TEST(OdometryInnovations, VanishWhereOdometryAgrees) {
+  const FilterState state = busy();
+  const RelativeMotion m = agreeing_motion(state);
+  EXPECT_NEAR(distance_innovation(state, m, {}).residual[0], 0.0, 1e-12);
+  EXPECT_NEAR(climb_innovation(state, m, {}).residual[0], 0.0, 1e-12);
+  EXPECT_LT(rotation_innovation(state, m, {}).residual.norm(), 1e-12);
+}
+
+TEST(OdometryInnovations, RotationIsWrappedAcrossSouth) {
+  FilterState state = busy();
+  state.x[index::clone_azimuth] = std::numbers::pi - 0.01;
+  state.x[index::azimuth] = -std::numbers::pi + 0.02;
+  state.x.segment<2>(index::pitch).setZero();
+  state.x.segment<2>(index::clone_pitch).setZero();
+  RelativeMotion m = agreeing_motion(state);
+  m.rotation = Eigen::AngleAxisd(-0.031, Vector3d::UnitZ());
+  EXPECT_NEAR(rotation_innovation(state, m, {}).residual.z(), -0.001, 1e-12);
+}
+
+TEST(OdometryInnovations, FloorsKeepAnOptimisticOdometryInItsPlace) {
+  const FilterState state = busy();
+  RelativeMotion m = agreeing_motion(state);
+  m.covariance.setZero();
+  const FusionParameters p;
+  EXPECT_NEAR(std::sqrt(distance_innovation(state, m, p).R(0, 0)), 0.1 * p.min_speed_sigma, 1e-12);
+  EXPECT_NEAR(std::sqrt(rotation_innovation(state, m, p).R(2, 2)), p.min_rotation_sigma, 1e-12);
+}
+
+TEST(Arc, OfAConstantTurnIsTheDistance) {
+  for (const double angle : {-0.3, -1e-4, 0.0, 0.05, 0.4}) {
+    RelativeMotion m;
+    const double length = -2.0;  // in reverse
+    m.rotation = Eigen::AngleAxisd(angle, Vector3d::UnitZ());
+    m.translation = std::abs(angle) < 1e-9
+                        ? Vector3d(length, 0.0, 0.0)
+                        : Vector3d(std::sin(angle), 1.0 - std::cos(angle), 0.0) * length / angle;
+    m.covariance.topLeftCorner<3, 3>() = Vector3d(0.01, 0.04, 0.04).asDiagonal();
+    const Arc travelled = arc(m);
+    EXPECT_LT((travelled.displacement - Vector3d(length, 0.0, 0.0)).norm(), 1e-12) << angle;
+    EXPECT_GE(travelled.covariance(0, 0), 0.01) << angle;
+    EXPECT_LE(travelled.covariance(0, 0), 0.012) << angle;
+  }
+}
+
+TEST(RollJacobian, AgreesWithNumericalDerivative) {
+  FilterState state = busy();
+  ImuSample s;
+  s.specific_force_forward = 0.9;
+  s.specific_force_left = 1.0;
+  s.yaw_rate = 0.2;
+  const LocalEarth earth(test_origin());
+  // Gravity's change with height (1.5e-7 here) is left out of the analytical one.
+  expect_jacobian<1>(
+      state, [&](const FilterState& f) { return *roll_innovation(f, s, 0.1, earth, {}); }, 2e-7);
+}
+
+TEST(Roll, IsNotTakenFromHardDriving) {
+  FilterState state = busy();
+  const LocalEarth earth(test_origin());
+  ImuSample gentle;
+  gentle.specific_force_forward = 0.9;
+  EXPECT_TRUE(roll_innovation(state, gentle, 0.1, earth, {}));
+  EXPECT_FALSE(roll_innovation(state, gentle, 0.0, earth, {})) << "no time since the last sample";
+  ImuSample braking = gentle;
+  braking.specific_force_forward = -5.0;
+  EXPECT_FALSE(roll_innovation(state, braking, 0.1, earth, {}));
+  ImuSample cornering = gentle;
+  cornering.yaw_rate = 0.5;  // 6.6 m/s^2
+  EXPECT_FALSE(roll_innovation(state, cornering, 0.1, earth, {}));
+}
+
+TEST(NavStateJacobian, AgreesWithNumericalDerivative) {
+  FilterState state = busy();
+  const auto output = [&](const StateVector& x) {
+    FilterState moved = state;
+    moved.x = x;
+    const NavState nav = nav_state(moved, {}, {}, {});
+    Eigen::Matrix<double, 9, 1> y;
+    y << nav.position_enu, nav.velocity_enu, nav.attitude.azimuth, nav.attitude.pitch,
+        nav.attitude.roll;
+    return y;
+  };
+  EXPECT_LT((nav_state_jacobian(state.x) - numerical_jacobian(output, state.x)).norm(), 1e-7);
+  const NavState nav = nav_state(state, {}, {}, {});
+  EXPECT_EQ(nav.covariance, nav.covariance.transpose());
+  EXPECT_GT((Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>>(nav.covariance)
+                 .eigenvalues()
+                 .minCoeff()),
+            0.0);
+}
+
+TEST(JosephUpdate, EqualsTheInformationForm) {
+  const FilterState prior = busy();
+  Innovation<3> innovation = rotation_innovation(prior, agreeing_motion(prior), {});
+  innovation.residual << 1e-3, -2e-3, 3e-3;
+  StateVector x = prior.x;
+  StateMatrix P = prior.P;
+  joseph_update(x, P, innovation);
+
+  const StateMatrix information =
+      prior.P.inverse() + innovation.H.transpose() * innovation.R.inverse() * innovation.H;
+  const StateMatrix expected = information.inverse();
+  const StateVector correction =
+      expected * innovation.H.transpose() * innovation.R.inverse() * innovation.residual;
+  EXPECT_LT(((P - expected).array() / expected.diagonal().maxCoeff()).abs().maxCoeff(), 1e-9);
+  EXPECT_LT((x - prior.x - correction).norm(), 1e-9);
+  EXPECT_EQ(P, P.transpose());
+}
+
+TEST(Clone, IsFullyCorrelatedAndTakenTwiceTheSame) {
+  FilterState state = busy();
+  take_clone(state);
+  EXPECT_EQ(state.x.segment<3>(index::azimuth), state.x.segment<3>(index::clone_azimuth));
+  const auto block = [&](int i, int j) { return state.P.block<3, 3>(i, j).eval(); };
+  EXPECT_EQ(block(index::azimuth, index::azimuth),
+            block(index::clone_azimuth, index::clone_azimuth));
+  EXPECT_EQ(block(index::azimuth, index::azimuth), block(index::azimuth, index::clone_azimuth));
+  EXPECT_EQ(state.P, state.P.transpose());
+  EXPECT_EQ(state.x[index::distance], 0.0);
+  EXPECT_EQ(state.P.row(index::distance).norm(), 0.0);
+  const FilterState once = state;
+  take_clone(state);
+  EXPECT_EQ(state.x, once.x);
+  EXPECT_EQ(state.P, once.P);
+}
+
+class ApplyOdometry : public ::testing::Test {
+ protected:
+  ApplyOdometry() : state_(busy()), motion_(agreeing_motion(state_)) {
+    state_.P *= 1e-2;
+    state_.stamp = motion_.stamp;
+  }
+  FilterState state_;
+  RelativeMotion motion_;
+  FusionParameters parameters_;
+};
+
+TEST_F(ApplyOdometry, AppliesAndTakesTheClone) {
+  EXPECT_EQ(apply_odometry(state_, motion_, parameters_), Outcome{});
+  EXPECT_EQ(state_.odometry_applied, 1u);
+  EXPECT_EQ(state_.odometry_stamp, motion_.stamp);
+  EXPECT_EQ(state_.clone_stamp, motion_.stamp);
+}
+
+TEST_F(ApplyOdometry, FailedOdometryOnlyTakesTheClone) {
+  motion_.status = OdometryStatus::too_few_inliers;
+  const StateVector before = state_.x;
+  EXPECT_EQ(apply_odometry(state_, motion_, parameters_), refused(Reason::odometry_not_ok));
+  EXPECT_EQ(state_.x.head<index::distance>(), before.head<index::distance>());
+  EXPECT_EQ(state_.odometry_refused, 1u);
+  EXPECT_EQ(state_.gated_in_a_row, 0);
+  EXPECT_EQ(state_.clone_stamp, motion_.stamp);
+}
+
+TEST_F(ApplyOdometry, UnknownIntervalIsRefused) {
+  motion_.from -= from_seconds(0.01);
+  EXPECT_EQ(apply_odometry(state_, motion_, parameters_), refused(Reason::interval_unknown));
+}
+
+TEST_F(ApplyOdometry, GatesSpeedAndRotationApart) {
+  RelativeMotion fast = motion_;
+  fast.translation *= 4.0;
+  FilterState state = state_;
+  EXPECT_EQ(apply_odometry(state, fast, parameters_), refused(Reason::speed_gate));
+  RelativeMotion turned = motion_;
+  turned.rotation = Eigen::AngleAxisd(0.3, Vector3d::UnitZ()) * motion_.rotation;
+  turned.translation = Eigen::AngleAxisd(0.15, Vector3d::UnitZ()) * motion_.translation;
+  state = state_;
+  EXPECT_EQ(apply_odometry(state, turned, parameters_), refused(Reason::rotation_gate));
+  EXPECT_EQ(state.gated_in_a_row, 1);
+  EXPECT_EQ(state.odometry_refused, 1u);
+}
+
+TEST_F(ApplyOdometry, ARowOfGatedMotionsMakesTheFilterDoubtItself) {
+  parameters_.recover_after = 3;
+  motion_.translation *= 1.8;  // 10 m/s
+  for (int i = 0; i < 2; ++i) {
+    FilterState again = state_;
+    EXPECT_EQ(apply_odometry(again, motion_, parameters_), refused(Reason::speed_gate));
+    state_.gated_in_a_row = again.gated_in_a_row;
+  }
+  EXPECT_EQ(apply_odometry(state_, motion_, parameters_), Outcome{});
+  EXPECT_EQ(state_.recoveries, 1u);
+  EXPECT_EQ(state_.gated_in_a_row, 0);
+}
+
+TEST_F(ApplyOdometry, ACorrectionThatLeansTheVehicleOverIsTakenBack) {
+  parameters_.max_tilt = 0.06;  // the state's pitch is 0.07
+  const StateVector before = state_.x;
+  EXPECT_EQ(apply_odometry(state_, motion_, parameters_), refused(Reason::implausible_tilt));
+  EXPECT_EQ(state_.x.head<index::distance>(), before.head<index::distance>());
+}
+
+}  // namespace
+}  // namespace maploop::fusion
