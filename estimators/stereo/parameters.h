@@ -27,7 +27,11 @@ struct StereoParameters {
 
   // --- Measurement noise
   double sigma_track = 0.15;      // px per axis, position in the left image from one pair to the next
-  double sigma_disparity = 0.2;  // px
+  double sigma_disparity = 0.2;   // px, what changes in a match from one pair to the next
+  double sigma_match = 0.4;       // px, what a match keeps wrong while the feature lives
+  double sigma_disparity_offset = 0.3;    // px before any data: what a good rectification leaves;
+                                          // 0: the rectification is taken as perfect
+  double disparity_offset_drift = 0.003;  // px / sqrt(s): 0.2 px in an hour of warming up
 
   // --- Motion estimate
   int min_tracks = 25;            // fewer: too_few_features

@@ -17,6 +17,8 @@ struct Refinement {
   // Of the perturbation of residual.h: translation m, then rotation rad, in cam at the previous
   // epoch; scaled by the residuals' own variance.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  double disparity_offset = 0.0;        // px, to be added to the tracks' disparities
+  double disparity_offset_sigma = 0.0;  // px
   double variance_factor = 0.0;  // of the residuals against sigma_track and sigma_disparity
   std::vector<int> inliers;      // indices of tracks within outlier_sigmas
   int iterations = 0;
@@ -25,10 +27,12 @@ struct Refinement {
 // Levenberg-Marquardt on the left position and the disparity of both epochs, starting from
 // `T_previous_current` with the tracks named in `inliers`. The previous left position is what the
 // tracker follows, so it carries no error of its own; the unknown of a point is its disparity
-// there, eliminated by the Schur complement. Huber weights on each track's whitened residual.
-// After the first round every track is judged anew and a second round follows.
+// there, eliminated by the Schur complement. A constant offset of all disparities is estimated
+// with them, around zero within `offset_sigma` (px; 0 holds it): an offset makes near and far
+// points disagree about the way driven. Huber weights on each track's whitened residual. After the
+// first round every track is judged anew and a second round follows.
 Refinement refine_motion(const StereoCalibration& camera, const StereoParameters& parameters,
                          std::span<const StereoTrack> tracks, std::span<const int> inliers,
-                         const Eigen::Isometry3d& T_previous_current);
+                         const Eigen::Isometry3d& T_previous_current, double offset_sigma);
 
 }  // namespace maploop::stereo

@@ -16,7 +16,9 @@ namespace maploop::stereo {
 class StereoOdometry::Implementation {
  public:
   Implementation(const StereoCalibration& calibration, const StereoParameters& parameters)
-      : camera_(calibration), parameters_(parameters), detector_(parameters) {}
+      : camera_(calibration), parameters_(parameters), detector_(parameters) {
+    offset_.sigma = parameters.sigma_disparity_offset;
+  }
 
   RelativeMotion process(const StereoPair& pair) {
     RelativeMotion result;
@@ -64,9 +66,9 @@ class StereoOdometry::Implementation {
         expected ? std::optional(expected->inverse()) : std::nullopt;
     track_features(camera_, parameters_, reference_, current_, features_, expected_inverse,
                    &tracks_);
-    CameraMotion motion =
-        estimate_motion(camera_, parameters_, tracks_,
-                        static_cast<std::uint64_t>(to_nanoseconds(stamp)), expected);
+    CameraMotion motion = estimate_motion(camera_, parameters_, tracks_,
+                                          static_cast<std::uint64_t>(to_nanoseconds(stamp)),
+                                          drifted(offset_, seconds, parameters_), expected);
     result->tracked = motion.tracked;
     result->inliers = static_cast<int>(motion.inliers.size());
     result->status = motion.status;
@@ -101,6 +103,7 @@ class StereoOdometry::Implementation {
       last_motion_ = motion.T_previous_current;
       last_velocity_ = result.translation / seconds;
       last_seconds_ = seconds;
+      offset_ = motion.offset;
     } else {
       last_velocity_.reset();  // it may be the one that was wrong
     }
@@ -151,6 +154,8 @@ class StereoOdometry::Implementation {
   Eigen::Isometry3d last_motion_ = Eigen::Isometry3d::Identity();  // cam
   std::optional<Eigen::Vector3d> last_velocity_;                   // m/s, body; none after a refusal
   double last_seconds_ = 0.0;
+
+  DisparityOffset offset_;
 
   StereoFrame current_;  // buffers of one call, kept
   std::vector<StereoTrack> tracks_;

@@ -50,6 +50,11 @@ void validate(const StereoParameters& p) {
   require_positive("max_closure", p.max_closure);
   require_positive("sigma_track", p.sigma_track);
   require_positive("sigma_disparity", p.sigma_disparity);
+  require(p.sigma_match >= 0.0, "sigma_match", "0 px or more", p.sigma_match);
+  require(p.sigma_disparity_offset >= 0.0, "sigma_disparity_offset", "0 px or more",
+          p.sigma_disparity_offset);
+  require(p.disparity_offset_drift >= 0.0, "disparity_offset_drift", "0 px/sqrt(s) or more",
+          p.disparity_offset_drift);
   require(p.min_tracks >= 6, "min_tracks", "at least 6", p.min_tracks);
   require(p.min_inliers >= 6, "min_inliers", "at least 6", p.min_inliers);
   require(p.min_inlier_ratio >= 0.0 && p.min_inlier_ratio <= 1.0, "min_inlier_ratio", "0 to 1",

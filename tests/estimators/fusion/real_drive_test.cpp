@@ -1,5 +1,9 @@
-// The filter against odometry alone on recorded drives. The parameters are the defaults, chosen
-// from the physics; the odometry's nominal noise is one figure for all drives.
+// The filter against odometry alone on recorded drives.
+//
+// The parameters are the defaults, chosen from the physics. The odometry's noise is one figure for
+// all drives, taken from drives 0027 and 0035 (0.12 and 0.97 m/s, 0.02 to 0.3 deg a frame), which
+// are not scored here. Odometry alone starts with the filter's own position and azimuth and with
+// the true pitch and roll.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -15,160 +19,112 @@ namespace {
 
 using namespace maploop::testing;
 
+struct Score {
+  double end = 0.0;      // m, horizontal
+  SegmentError at_100m;  // % and deg/m
+  double azimuth = 0.0;  // deg rms
+};
+
 struct Comparison {
-  double length = 0.0;                                 // m
-  double end_fused = 0.0, end_odometry = 0.0;          // m, horizontal
-  SegmentError fused, odometry;                        // 100 m
-  double heading_fused = 0.0, heading_odometry = 0.0;  // deg rms against truth
+  double length = 0.0;  // m
+  Score fused, odometry;
   NavState last;
 };
+
+double travelled(const Trajectory& truth) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < truth.size(); ++i) {
+    sum += (truth[i].translation() - truth[i - 1].translation()).norm();
+  }
+  return sum;
+}
+
+double azimuth_rms(const Trajectory& estimate, const Trajectory& truth) {
+  const auto azimuth = [](const Eigen::Isometry3d& T) {
+    return attitude_from_rotation(T.rotation()).azimuth;
+  };
+  double sum = 0.0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    sum += std::pow(wrap_angle(azimuth(estimate[i]) - azimuth(truth[i])), 2);
+  }
+  return degrees(std::sqrt(sum / static_cast<double>(truth.size())));
+}
+
+Score score(const Trajectory& estimate, const Trajectory& truth) {
+  return {horizontal_end_error(estimate, truth), segment_error(estimate, truth, 100.0),
+          azimuth_rms(estimate, truth)};
+}
+
+Trajectory odometry_alone(const RecordedDrive& drive) {
+  Attitude first = attitude_from_rotation(drive.truth.front().rotation());
+  first.azimuth = std::atan2(drive.start.velocity_enu.x(), drive.start.velocity_enu.y());
+  Eigen::Isometry3d pose =
+      Eigen::Translation3d(LocalFrame(test_origin()).to_enu(drive.start.position)) *
+      Eigen::Quaterniond(rotation_enu_body(first));
+  Trajectory poses;
+  for (const RelativeMotion& m : drive.odometry) poses.push_back(pose = pose * m.T_from_to());
+  return poses;
+}
 
 Comparison compare(const RecordedDrive& drive) {
   ReducedImuFilter filter({}, test_origin());
   const std::vector<NavState> states =
       states_after_odometry(filter, as_available(drive.imu, drive.odometry, drive.start));
   EXPECT_EQ(states.size(), drive.odometry.size());
-  for (int r = 0; r < (int)reason_count; ++r)
-    if (filter.status().refused[(size_t)r])
-      printf("   %s: %llu\n", to_string((Reason)r).data(),
-             (unsigned long long)filter.status().refused[(size_t)r]);
-  printf("   recoveries %llu\n", (unsigned long long)filter.status().recoveries);
-
-  // Odometry alone starts with the same position and azimuth, and with the true pitch and roll.
-  Attitude first = attitude_from_rotation(drive.truth.front().rotation());
-  first.azimuth = std::atan2(drive.start.velocity_enu.x(), drive.start.velocity_enu.y());
-  Eigen::Isometry3d pose =
-      Eigen::Translation3d(LocalFrame(test_origin()).to_enu(drive.start.position)) *
-      Eigen::Quaterniond(rotation_enu_body(first));
-  Trajectory fused, odometry, truth(drive.truth.begin() + 1, drive.truth.end());
-  for (const RelativeMotion& m : drive.odometry) odometry.push_back(pose = pose * m.T_from_to());
+  Trajectory fused;
   for (const NavState& nav : states) fused.push_back(pose_of(nav));
+  const Trajectory truth(drive.truth.begin() + 1, drive.truth.end());
 
-  Comparison c;
-  c.length = 0.0;
-  for (std::size_t i = 1; i < truth.size(); ++i) {
-    c.length += (truth[i].translation() - truth[i - 1].translation()).norm();
-  }
-  c.end_fused = horizontal_end_error(fused, truth);
-  c.end_odometry = horizontal_end_error(odometry, truth);
-  c.fused = segment_error(fused, truth, 100.0);
-  c.odometry = segment_error(odometry, truth, 100.0);
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    const double a = attitude_from_rotation(truth[i].rotation()).azimuth;
-    c.heading_fused +=
-        std::pow(wrap_angle(attitude_from_rotation(fused[i].rotation()).azimuth - a), 2);
-    c.heading_odometry +=
-        std::pow(wrap_angle(attitude_from_rotation(odometry[i].rotation()).azimuth - a), 2);
-  }
-  c.heading_fused = degrees(std::sqrt(c.heading_fused / (double)truth.size()));
-  c.heading_odometry = degrees(std::sqrt(c.heading_odometry / (double)truth.size()));
-  c.last = states.back();
-  std::printf(
-      "%-22s %5.0f m | end %6.2f fused %6.2f odometry m | 100 m %5.2f %5.2f %% | %.4f %.4f deg/m | "
-      "az rms %.2f %.2f deg | sigma E %.1f N %.1f A %.2f deg up err %.1f/%.1f\n",
-      drive.name.c_str(), c.length, c.end_fused, c.end_odometry, c.fused.translation,
-      c.odometry.translation, c.fused.rotation, c.odometry.rotation, c.heading_fused,
-      c.heading_odometry, std::sqrt(c.last.covariance(0, 0)), std::sqrt(c.last.covariance(1, 1)),
-      degrees(std::sqrt(c.last.covariance(6, 6))),
-      fused.back().translation().z() - truth.back().translation().z(),
-      odometry.back().translation().z() - truth.back().translation().z());
+  const Comparison c{travelled(truth), score(fused, truth), score(odometry_alone(drive), truth),
+                     states.back()};
+  std::printf("%-21s %4.0f m | fused %5.2f m %.2f %% %.4f deg/m %.2f deg | ", drive.name.c_str(),
+              c.length, c.fused.end, c.fused.at_100m.translation, c.fused.at_100m.rotation,
+              c.fused.azimuth);
+  std::printf("odometry %5.2f m %.2f %% %.4f deg/m %.2f deg | refused %d of %zu\n", c.odometry.end,
+              c.odometry.at_100m.translation, c.odometry.at_100m.rotation, c.odometry.azimuth,
+              static_cast<int>(c.last.odometry_refused), drive.odometry.size());
   return c;
 }
 
-TEST(RealDrive, Explore) {
+TEST(RealDrives, FusedIsBetterThanOdometryAlone) {
   MAPLOOP_REQUIRE_REAL_DATA();
+  std::printf("horizontal end error, error at 100 m, azimuth rms\n");
+  double end_fused = 0.0, end_odometry = 0.0, percent_fused = 0.0, percent_odometry = 0.0;
   for (const char* name :
-       {"2011_09_26_drive_0001", "2011_09_26_drive_0036", "2011_09_26_drive_0051",
-        "2011_09_26_drive_0009", "2011_09_26_drive_0027", "2011_09_26_drive_0035",
-        "2011_09_30_drive_0020", "2011_10_03_drive_0042"}) {
-    const RecordedDrive d = load_track_drive(real_data(), name, {0.5, radians(0.1)});
-    // noise per frame
-    double n = 0, s2 = 0, sm = 0;
-    Eigen::Vector3d r2 = Eigen::Vector3d::Zero(), rm = r2;
-    for (size_t i = 0; i < d.odometry.size(); ++i) {
-      auto T = d.truth[i].inverse() * d.truth[i + 1];
-      auto& m = d.odometry[i];
-      double dt = to_seconds(m.stamp - m.from);
-      double es = (m.translation.x() - T.translation().x()) / dt;
-      Eigen::AngleAxisd e(
-          Eigen::Matrix3d(m.rotation.toRotationMatrix() * T.rotation().transpose()));
-      Eigen::Vector3d v = degrees(1) * e.angle() * e.axis();
-      s2 += es * es;
-      sm += es;
-      r2 += v.cwiseAbs2();
-      rm += v;
-      n++;
-    }
-    printf(
-        "noise %s: speed rms %.3f mean %.3f; rot rms (r,p,y) %.3f %.3f %.3f mean %.3f %.3f %.3f\n",
-        name, sqrt(s2 / n), sm / n, sqrt(r2[0] / n), sqrt(r2[1] / n), sqrt(r2[2] / n), rm[0] / n,
-        rm[1] / n, rm[2] / n);
-    {
-      double tx = 0, ty = 0, tz = 0, vx = 0, vy = 0, vz = 0;
-      for (size_t i = 0; i < d.odometry.size(); ++i) {
-        auto T = d.truth[i].inverse() * d.truth[i + 1];
-        auto& m = d.odometry[i];
-        Eigen::AngleAxisd h(T.rotation());
-        if (h.angle() > 0.01) continue;
-        tx += T.translation().x();
-        ty += T.translation().y();
-        tz += T.translation().z();
-        vx += m.translation.x();
-        vy += m.translation.y();
-        vz += m.translation.z();
-      }
-      printf(
-          "  travel direction in body (deg): truth left %.2f up %.2f; odometry left %.2f up %.2f; "
-          "truth first pitch %.2f\n",
-          degrees(ty / tx), degrees(tz / tx), degrees(vy / vx), degrees(vz / vx),
-          degrees(attitude_from_rotation(d.truth[0].rotation()).pitch));
-    }
-    compare(d);
+       {"2011_09_26_drive_0001", "2011_09_26_drive_0009", "2011_09_26_drive_0036",
+        "2011_09_26_drive_0051", "2011_09_30_drive_0020"}) {
+    SCOPED_TRACE(name);
+    const Comparison c = compare(load_track_drive(real_data(), name, {0.3, radians(0.1)}));
+    EXPECT_LT(c.fused.at_100m.rotation, 0.65 * c.odometry.at_100m.rotation);
+    EXPECT_LT(c.fused.azimuth, 0.3 * c.odometry.azimuth);
+    EXPECT_LT(c.fused.end, 0.032 * c.length);
+    end_fused += c.fused.end;
+    end_odometry += c.odometry.end;
+    percent_fused += c.fused.at_100m.translation / 5.0;
+    percent_odometry += c.odometry.at_100m.translation / 5.0;
   }
-  for (const char* name : {"seq"}) {
-    const RecordedDrive d = load_sequence_00(real_data(), {0.5, radians(0.15)});
-    double n = 0, s2 = 0, sm = 0;
-    Eigen::Vector3d r2 = Eigen::Vector3d::Zero(), rm = r2;
-    for (size_t i = 0; i < d.odometry.size(); ++i) {
-      auto T = d.truth[i].inverse() * d.truth[i + 1];
-      auto& m = d.odometry[i];
-      double dt = to_seconds(m.stamp - m.from);
-      double es = (m.translation.x() - T.translation().x()) / dt;
-      Eigen::AngleAxisd e(
-          Eigen::Matrix3d(m.rotation.toRotationMatrix() * T.rotation().transpose()));
-      Eigen::Vector3d v = degrees(1) * e.angle() * e.axis();
-      s2 += es * es;
-      sm += es;
-      r2 += v.cwiseAbs2();
-      rm += v;
-      n++;
-    }
-    printf(
-        "noise %s: speed rms %.3f mean %.3f; rot rms (r,p,y) %.3f %.3f %.3f mean %.3f %.3f %.3f\n",
-        name, sqrt(s2 / n), sm / n, sqrt(r2[0] / n), sqrt(r2[1] / n), sqrt(r2[2] / n), rm[0] / n,
-        rm[1] / n, rm[2] / n);
-    compare(d);
-    {
-      double tx = 0, ty = 0, tz = 0, vx = 0, vy = 0, vz = 0;
-      for (size_t i = 0; i < d.odometry.size(); ++i) {
-        auto T = d.truth[i].inverse() * d.truth[i + 1];
-        auto& m = d.odometry[i];
-        Eigen::AngleAxisd h(T.rotation());
-        if (h.angle() > 0.01) continue;
-        tx += T.translation().x();
-        ty += T.translation().y();
-        tz += T.translation().z();
-        vx += m.translation.x();
-        vy += m.translation.y();
-        vz += m.translation.z();
-      }
-      printf(
-          "  travel direction in body (deg): truth left %.2f up %.2f; odometry left %.2f up %.2f; "
-          "truth first pitch %.2f\n",
-          degrees(ty / tx), degrees(tz / tx), degrees(vy / vx), degrees(vz / vx),
-          degrees(attitude_from_rotation(d.truth[0].rotation()).pitch));
-    }
-  }
+  EXPECT_LT(end_fused, 0.8 * end_odometry);
+  EXPECT_LT(percent_fused, 0.9 * percent_odometry);
+}
+
+// On the motorway the sparse tracks are far away: speed is off by 4 %, which nothing here can see.
+TEST(RealDrives, MotorwayIsNoWorseThanOdometryAlone) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const Comparison c =
+      compare(load_track_drive(real_data(), "2011_10_03_drive_0042", {0.3, radians(0.1)}));
+  EXPECT_LT(c.fused.end, 1.1 * c.odometry.end);
+}
+
+// 3.7 km with a 100 Hz IMU that falls silent eight times for 1.6 s. The odometry comes from a
+// system that closes loops, so its end point and azimuth are not odometry's; in turns its azimuth
+// lags by up to 4 degrees, part of which stays where a silence begins or ends in a turn.
+TEST(RealDrives, SilencesOfTheImuAreBridged) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const Comparison c = compare(load_sequence_00(real_data(), {0.3, radians(0.15)}));
+  EXPECT_LT(c.fused.at_100m.translation, 0.8 * c.odometry.at_100m.translation);
+  EXPECT_LT(c.fused.at_100m.rotation, 0.7 * c.odometry.at_100m.rotation);
+  EXPECT_LT(c.fused.end, 0.015 * c.length);
+  EXPECT_LT(c.last.odometry_refused, 10u);
 }
 
 }  // namespace

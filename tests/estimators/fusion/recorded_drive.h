@@ -28,7 +28,8 @@ struct OdometrySigmas {
   double rotation;  // rad
 };
 
-// A drive of kitti_odometry/tracks: 10 Hz inertial data, the sanity odometry of sparse tracks. The
+// A drive of kitti_odometry/tracks: 10 Hz inertial data, the sanity odometry of sparse tracks (its
+// usable frames, where the truth is real). The
 // horizontal axes are those of the vehicle at the first frame (x counts as east), made level by
 // comparing the recorder's levelled accelerations with the body's; the truth's Mercator metres are
 // taken as metres (0.2 %).

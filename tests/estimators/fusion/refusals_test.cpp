@@ -127,13 +127,13 @@ TEST_F(Refusals, OneWildStampDoesNotStopTheOthers) {
 TEST_F(Refusals, ARealGapCostsOneMeasurementAndIsBridged) {
   int refusals = 0;
   for (const ImuSample& s : imu_) {
-    if (s.stamp >= at(13.0)) refusals += filter_.add(s).refused() ? 1 : 0;
+    if (s.stamp >= at(13.0) && s.stamp <= at(14.0)) refusals += filter_.add(s).refused() ? 1 : 0;
   }
   EXPECT_EQ(refusals, 1);
   const NavState after = *filter_.state_at(at(14.0));
   EXPECT_EQ(after.status, NavStatus::coasting);
   EXPECT_NEAR(after.position_enu.y(), 140.0, 1.0);
-  EXPECT_GT(after.covariance(1, 1), 10.0 * before_.covariance(1, 1) / 10.0);
+  EXPECT_GT(after.covariance(1, 1), before_.covariance(1, 1));
 }
 
 TEST_F(Refusals, AClockThatReallyJumpedRestartsTheFilter) {

@@ -1,5 +1,6 @@
 #include "tests/estimators/fusion/synthetic_drive.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -11,12 +12,14 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double step = 1e-3;  // s
+constexpr double step = 1e-3;   // s
+constexpr double margin = 1.0;  // s, before the start and after the end
 constexpr double gravity = 9.809;
 constexpr double earth_rate = 7.292115e-5;
 
-double interpolate(const std::vector<double>& values, double t) {
-  const double place = std::clamp(t / step, 0.0, static_cast<double>(values.size() - 1));
+template <class Value>
+Value interpolate(const std::vector<Value>& values, double t) {
+  const double place = std::clamp((t + margin) / step, 0.0, static_cast<double>(values.size() - 1));
   const auto i = std::min(static_cast<std::size_t>(place), values.size() - 2);
   return values[i] + (place - static_cast<double>(i)) * (values[i + 1] - values[i]);
 }
@@ -30,23 +33,26 @@ Geodetic test_origin() {
 SyntheticDrive::SyntheticDrive(const MotionProfile& profile, double duration,
                                const Geodetic& origin)
     : profile_(profile), duration_(duration), origin_(origin) {
-  Vector3d p = Vector3d::Zero();
-  double azimuth = profile.azimuth;
-  double travelled = 0.0;
-  const auto steps = static_cast<int>(std::lround((duration + 1.0) / step));
-  for (int i = 0; i <= steps; ++i) {
-    positions_.push_back(p);
-    azimuths_.push_back(azimuth);
-    lengths_.push_back(travelled);
-    const double mid = (i + 0.5) * step;
-    const double mid_azimuth = azimuth - 0.5 * step * profile.yaw_rate(mid);
+  const auto total = static_cast<std::size_t>(std::lround((duration + 2.0 * margin) / step)) + 1;
+  const auto start = static_cast<std::size_t>(std::lround(margin / step));
+  positions_.resize(total);
+  azimuths_.resize(total);
+  positions_[start].setZero();
+  azimuths_[start] = profile.azimuth;
+  const auto integrate = [&](std::size_t from, std::size_t to) {
+    const double dt = to > from ? step : -step;
+    const double mid = static_cast<double>(from) * step - margin + 0.5 * dt;
+    const double turn = -dt * profile.yaw_rate(mid);
+    const double azimuth = azimuths_[from] + 0.5 * turn;
     const double pitch = profile.pitch(mid);
-    const double ds = step * profile.speed(mid);
-    p += ds * Vector3d(std::sin(mid_azimuth) * std::cos(pitch),
-                       std::cos(mid_azimuth) * std::cos(pitch), std::sin(pitch));
-    azimuth -= step * profile.yaw_rate(mid);
-    travelled += ds;
-  }
+    const double ds = dt * profile.speed(mid);
+    positions_[to] =
+        positions_[from] + ds * Vector3d(std::sin(azimuth) * std::cos(pitch),
+                                         std::cos(azimuth) * std::cos(pitch), std::sin(pitch));
+    azimuths_[to] = azimuths_[from] + turn;
+  };
+  for (std::size_t i = start; i + 1 < total; ++i) integrate(i, i + 1);
+  for (std::size_t i = start; i > 0; --i) integrate(i, i - 1);
 }
 
 Time SyntheticDrive::at(double seconds) {
@@ -57,16 +63,8 @@ double SyntheticDrive::azimuth(double t) const {
   return wrap_angle(interpolate(azimuths_, t));
 }
 
-double SyntheticDrive::length(double t) const {
-  return interpolate(lengths_, t);
-}
-
 Eigen::Isometry3d SyntheticDrive::pose(double t) const {
-  const double place = std::clamp(t / step, 0.0, static_cast<double>(positions_.size() - 1));
-  const auto i = std::min(static_cast<std::size_t>(place), positions_.size() - 2);
-  const Vector3d p =
-      positions_[i] + (place - static_cast<double>(i)) * (positions_[i + 1] - positions_[i]);
-  return Eigen::Translation3d(p) *
+  return Eigen::Translation3d(interpolate(positions_, t)) *
          Eigen::Quaterniond(rotation_enu_body({azimuth(t), pitch(t), roll(t)}));
 }
 

@@ -30,7 +30,8 @@ struct SensorNoise {
   unsigned seed = 1;
 };
 
-// Integrated once, at 1 ms, over a flat rotating Earth.
+// Integrated once, at 1 ms, over a flat rotating Earth; a second before the start and after the end
+// exists too.
 class SyntheticDrive {
  public:
   SyntheticDrive(const MotionProfile& profile, double duration, const Geodetic& origin);
@@ -43,7 +44,6 @@ class SyntheticDrive {
   double pitch(double t) const { return profile_.pitch(t); }
   double roll(double t) const { return profile_.roll(t); }
   Eigen::Vector3d velocity(double t) const;  // enu
-  double length(double t) const;             // m, travelled
 
   std::vector<ImuSample> imu(double rate, const SensorNoise& noise = {}) const;
   std::vector<RelativeMotion> odometry(double rate, const SensorNoise& noise = {}) const;
@@ -55,7 +55,6 @@ class SyntheticDrive {
   Geodetic origin_;
   std::vector<Eigen::Vector3d> positions_;
   std::vector<double> azimuths_;  // unwrapped
-  std::vector<double> lengths_;
 };
 
 // Karlsruhe.
