@@ -10,13 +10,24 @@
 namespace maploop::runtime {
 namespace {
 
-// Longest sleep without a look at the stop token and at new stalls.
-constexpr Duration longest_sleep = std::chrono::milliseconds(50);
+// Longest sleep without a look at the stop token, at new stalls and at the schedule.
+constexpr Duration longest_sleep = std::chrono::milliseconds(20);
 
 void sleep_until_monotonic(MonotonicTime t) {
   const auto ns = t.time_since_epoch().count();
   const timespec target{ns / 1'000'000'000, ns % 1'000'000'000};
   clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &target, nullptr);
+}
+
+double checked_speed(double speed) {
+  if (!(std::isfinite(speed) && speed > 0.0)) {
+    throw std::invalid_argument("the replay speed must be above 0, not " + std::to_string(speed));
+  }
+  return speed;
+}
+
+Duration scaled(Duration d, double factor) {
+  return Duration(std::llround(static_cast<double>(d.count()) * factor));
 }
 
 }  // namespace
@@ -25,42 +36,68 @@ MonotonicTime monotonic_now() {
   return std::chrono::time_point_cast<Duration>(std::chrono::steady_clock::now());
 }
 
-DataClock::DataClock(double speed, bool paced) : speed_(speed), paced_(paced) {
-  if (!(std::isfinite(speed) && speed > 0.0)) {
-    throw std::invalid_argument("the replay speed must be above 0, not " + std::to_string(speed));
+DataClock::DataClock(double speed, bool paced) : paced_(paced), speed_(checked_speed(speed)) {}
+
+DataClock::DataClock(const DataClock& other) : paced_(other.paced_), speed_(other.speed()) {}
+
+void DataClock::start(Time first, Duration lead) {
+  set_schedule({first, monotonic_now() + lead, speed()});
+}
+
+// Sequence lock after Boehm, "Can seqlocks get along with programming language memory models?"
+// (MSPC 2012).
+DataClock::Schedule DataClock::schedule() const {
+  for (;;) {
+    const std::uint32_t before = version_.load(std::memory_order_acquire);
+    const Schedule s{from_nanoseconds(data_.load(std::memory_order_relaxed)),
+                     MonotonicTime(Duration(wall_.load(std::memory_order_relaxed))),
+                     speed_.load(std::memory_order_relaxed)};
+    std::atomic_thread_fence(std::memory_order_acquire);
+    if (before % 2 == 0 && version_.load(std::memory_order_relaxed) == before) return s;
   }
 }
 
-void DataClock::start(Time first, Duration lead) {
-  first_ = first;
-  start_ = monotonic_now() + lead;
+void DataClock::set_schedule(const Schedule& s) {
+  const std::uint32_t version = version_.load(std::memory_order_relaxed);
+  version_.store(version + 1, std::memory_order_relaxed);
+  std::atomic_thread_fence(std::memory_order_release);
+  data_.store(to_nanoseconds(s.data), std::memory_order_relaxed);
+  wall_.store(s.wall.time_since_epoch().count(), std::memory_order_relaxed);
+  speed_.store(s.speed, std::memory_order_relaxed);
+  version_.store(version + 2, std::memory_order_release);
 }
 
 MonotonicTime DataClock::scheduled(Time t) const {
-  return start_ + Duration(std::llround(static_cast<double>((t - first_).count()) / speed_));
+  const Schedule s = schedule();
+  return s.wall + scaled(t - s.data, 1.0 / s.speed);
 }
 
 MonotonicTime DataClock::due(Time t) const {
-  return paced_ ? scheduled(t) + stalled() : monotonic_now();
+  return paced_ && !skipping(t) ? scheduled(t) + stalled() : monotonic_now();
 }
 
 Time DataClock::now() const {
-  const Duration passed = monotonic_now() - start_ - stalled();
-  return first_ + Duration(std::llround(static_cast<double>(passed.count()) * speed_));
+  const Schedule s = schedule();
+  return std::min(s.data + scaled(monotonic_now() - s.wall - stalled(), s.speed),
+                  from_nanoseconds(pause_at_.load(std::memory_order_relaxed)));
 }
 
 bool DataClock::sleep_until(Time t, const std::stop_token& stop) const {
-  while (paced_ && !stop.stop_requested()) {
-    const MonotonicTime target = due(t);
+  while (!stop.stop_requested()) {
     const MonotonicTime now = monotonic_now();
-    if (now >= target) break;
+    MonotonicTime target = due(t);
+    if (to_nanoseconds(t) > pause_at_.load(std::memory_order_acquire)) {
+      target = now + longest_sleep;
+    } else if (now >= target) {
+      return true;
+    }
     sleep_until_monotonic(std::min(target, now + longest_sleep));
   }
-  return !stop.stop_requested();
+  return false;
 }
 
 bool DataClock::stall(Time t, MonotonicTime when) {
-  if (!paced_) return false;
+  if (!paced_ || skipping(t)) return false;
   const Duration::rep needed = (when - scheduled(t)).count();
   Duration::rep current = stalled_.load(std::memory_order_relaxed);
   while (needed > current + tolerance.count()) {
@@ -70,6 +107,31 @@ bool DataClock::stall(Time t, MonotonicTime when) {
     }
   }
   return false;
+}
+
+void DataClock::set_speed(double speed) {
+  const Time position = now();
+  set_schedule({position, monotonic_now() - stalled(), checked_speed(speed)});
+}
+
+void DataClock::skip_to(Time t) {
+  if (!paced_ || t <= now()) return;
+  skip_to_.store(to_nanoseconds(t), std::memory_order_release);
+}
+
+void DataClock::pause_at(Time t) {
+  const Time from = paced_ ? std::max(t, now()) : t;
+  pause_at_.store(to_nanoseconds(from), std::memory_order_release);
+}
+
+void DataClock::resume() {
+  const Time position = now();
+  set_schedule({position, monotonic_now() - stalled(), speed()});
+  pause_at_.store(to_nanoseconds(Time::max()), std::memory_order_release);
+}
+
+bool DataClock::paused() const {
+  return to_nanoseconds(now()) >= pause_at_.load(std::memory_order_relaxed);
 }
 
 }  // namespace maploop::runtime

@@ -11,31 +11,34 @@ namespace maploop::runtime {
 MonotonicTime monotonic_now();
 
 // Paced: data time t is due at start + (t - first) / speed on the steady clock, later by the stalls
-// so far. Virtual: every t is due at once and nobody sleeps; what happens is then decided by the
-// order of the data alone. All members but start() may be called from any thread.
+// and pauses so far. Virtual: every t is due at once and nobody sleeps; what happens is then decided
+// by the order of the data alone.
+//
+// start(), and then set_speed(), skip_to(), pause_at() and resume() are one controlling thread's; all
+// else is for any thread and takes no lock.
 class DataClock {
  public:
   // Throws std::invalid_argument unless speed is finite and above 0.
   static DataClock paced(double speed) { return DataClock(speed, true); }
   static DataClock virtual_time() { return DataClock(1.0, false); }
 
-  DataClock(const DataClock& other)
-      : speed_(other.speed_), paced_(other.paced_), first_(other.first_), start_(other.start_) {}
+  DataClock(const DataClock& other);  // of a clock that has not been started
   DataClock& operator=(const DataClock&) = delete;
 
-  // Data time `first` is due `lead` from now. Call once, before other threads use the clock.
+  // Data time `first` is due `lead` from now. Before other threads use the clock.
   void start(Time first, Duration lead = {});
 
   bool is_paced() const { return paced_; }
-  double speed() const { return speed_; }
+  double speed() const { return speed_.load(std::memory_order_relaxed); }
 
-  // When t is due; in virtual time: now.
+  // When t is due; in virtual time, and for what is skipped: now.
   MonotonicTime due(Time t) const;
 
   // The data time that is due now; only in paced time.
   Time now() const;
 
-  // Sleeps until t is due (at once in virtual time). False when stopped before.
+  // Sleeps until t is due and not beyond a pause (virtual time: only the latter). False when stopped
+  // before.
   bool sleep_until(Time t, const std::stop_token& stop) const;
 
   // Says that data time t could not be dealt with before `when`, because its input was not there:
@@ -47,14 +50,43 @@ class DataClock {
   Duration stalled() const { return Duration(stalled_.load(std::memory_order_relaxed)); }
   std::uint64_t stalls() const { return stalls_.load(std::memory_order_relaxed); }
 
+  // From now on at another speed. Throws as paced().
+  void set_speed(double speed);
+
+  // Everything up to t is due at once; from t on at the clock's speed. In the past: does nothing.
+  void skip_to(Time t);
+  // What is not yet due and skipped over.
+  bool skipping(Time t) const { return to_nanoseconds(t) < skip_to_.load(std::memory_order_acquire); }
+
+  // Nothing after t falls due until resume() or a later pause_at(); a pause in the past pauses now.
+  void pause_at(Time t);
+  void pause() { pause_at(now()); }
+  void resume();
+  // Reached its pause.
+  bool paused() const;
+
  private:
+  // t is due at wall + (t - data) / speed, and later by the stalls since.
+  struct Schedule {
+    Time data;
+    MonotonicTime wall;
+    double speed;
+  };
+
   DataClock(double speed, bool paced);
+  Schedule schedule() const;
+  void set_schedule(const Schedule& schedule);
   MonotonicTime scheduled(Time t) const;  // without the stalls
 
-  double speed_;
   bool paced_;
-  Time first_{};
-  MonotonicTime start_{};
+  // The schedule, written by one thread: an odd version is being written.
+  std::atomic<std::uint32_t> version_{0};
+  std::atomic<std::int64_t> data_{0};
+  std::atomic<std::int64_t> wall_{0};
+  std::atomic<double> speed_;
+
+  std::atomic<std::int64_t> skip_to_{to_nanoseconds(Time::min())};
+  std::atomic<std::int64_t> pause_at_{to_nanoseconds(Time::max())};
   std::atomic<Duration::rep> stalled_{0};
   std::atomic<std::uint64_t> stalls_{0};
 };
