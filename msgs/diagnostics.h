@@ -16,6 +16,7 @@ struct LatencySummary {
   std::uint64_t misses = 0;  // of `deadline`
   Duration deadline{};       // 0: none declared
   Duration p50{}, p90{}, p99{}, p999{}, max{};
+  std::string guilty;  // of the worst miss: the stage, or what the thread was held up by
 };
 
 struct Deadlines {

@@ -1,5 +1,6 @@
 #include "tools/replay_result.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
@@ -47,12 +48,19 @@ void append_latency(std::string& text, const LatencySummary& s) {
 }
 
 void append_misses(std::string& text, const vehicle::VehicleReport& report) {
-  for (const vehicle::ThreadMisses& thread : report.misses) {
-    for (const vehicle::Miss& m : thread.misses) {
-      append(text,
-             "  missed: %s at %s: woken %.3f ms late, waited %.3f ms for input, ran %.3f ms\n",
-             thread.thread.c_str(), format_time(m.stamp).c_str(), to_ms(m.woken_late),
-             to_ms(m.waited), to_ms(m.ran));
+  for (const vehicle::Misses& misses : report.misses) {
+    constexpr std::size_t shown = 5;
+    for (std::size_t i = 0; i < std::min(misses.misses.size(), shown); ++i) {
+      const vehicle::Miss& m = misses.misses[i];
+      append(text, "  missed: %s at %s: %.3f ms, guilty: %s (", misses.of.c_str(),
+             format_time(m.stamp).c_str(), to_ms(m.latency), m.guilty());
+      const char* separator = "";
+      for (const vehicle::Miss::Part& part : m.parts) {
+        if (*part.name == '\0') continue;
+        append(text, "%s%s %.3f", separator, part.name, to_ms(part.lasted));
+        separator = ", ";
+      }
+      text += ")\n";
     }
   }
 }
@@ -156,9 +164,9 @@ std::string format_table(const ReplayResult& r) {
                     "  deadline  missed  ms\n";
   for (const LatencySummary& s : v.deadlines.threads) append_latency(t, s);
   if (!r.lockstep) {
-    append_misses(t, v);
     t += "From the sensor's stamp\n";
     for (const LatencySummary& s : v.deadlines.paths) append_latency(t, s);
+    append_misses(t, v);
   }
 
   t += "\nRings                                pushed    popped      lost      held  capacity\n";

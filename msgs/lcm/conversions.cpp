@@ -78,6 +78,7 @@ maploop_lcm::latency_summary_t to_lcm(const LatencySummary& s) {
   m.p99_us = to_us(s.p99);
   m.p999_us = to_us(s.p999);
   m.max_us = to_us(s.max);
+  m.guilty = s.guilty;
   return m;
 }
 
@@ -90,7 +91,8 @@ LatencySummary from_lcm(const maploop_lcm::latency_summary_t& m) {
           from_us(m.p90_us),
           from_us(m.p99_us),
           from_us(m.p999_us),
-          from_us(m.max_us)};
+          from_us(m.max_us),
+          m.guilty};
 }
 
 maploop_lcm::thread_health_t to_lcm(const ThreadHealth& t) {

@@ -73,7 +73,7 @@ MonotonicTime DataClock::scheduled(Time t) const {
 }
 
 MonotonicTime DataClock::due(Time t) const {
-  return paced_ && !skipping(t) ? scheduled(t) + stalled() : monotonic_now();
+  return keeps_time(t) ? scheduled(t) + stalled() : monotonic_now();
 }
 
 Time DataClock::now() const {
@@ -84,20 +84,17 @@ Time DataClock::now() const {
 
 bool DataClock::sleep_until(Time t, const std::stop_token& stop) const {
   while (!stop.stop_requested()) {
+    const bool held = to_nanoseconds(t) > pause_at_.load(std::memory_order_acquire);
+    const MonotonicTime target = due(t);
     const MonotonicTime now = monotonic_now();
-    MonotonicTime target = due(t);
-    if (to_nanoseconds(t) > pause_at_.load(std::memory_order_acquire)) {
-      target = now + longest_sleep;
-    } else if (now >= target) {
-      return true;
-    }
-    sleep_until_monotonic(std::min(target, now + longest_sleep));
+    if (!held && now >= target) return true;
+    sleep_until_monotonic(held ? now + longest_sleep : std::min(target, now + longest_sleep));
   }
   return false;
 }
 
 bool DataClock::stall(Time t, MonotonicTime when) {
-  if (!paced_ || skipping(t)) return false;
+  if (!keeps_time(t)) return false;
   const Duration::rep needed = (when - scheduled(t)).count();
   Duration::rep current = stalled_.load(std::memory_order_relaxed);
   while (needed > current + tolerance.count()) {
@@ -117,6 +114,11 @@ void DataClock::set_speed(double speed) {
 void DataClock::skip_to(Time t) {
   if (!paced_ || t <= now()) return;
   skip_to_.store(to_nanoseconds(t), std::memory_order_release);
+}
+
+void DataClock::arrive(Time t) {
+  set_schedule({t, monotonic_now() - stalled(), speed()});
+  skip_to_.store(to_nanoseconds(Time::min()), std::memory_order_release);
 }
 
 void DataClock::pause_at(Time t) {

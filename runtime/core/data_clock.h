@@ -14,7 +14,7 @@ MonotonicTime monotonic_now();
 // and pauses so far. Virtual: every t is due at once and nobody sleeps; what happens is then decided
 // by the order of the data alone.
 //
-// start(), and then set_speed(), skip_to(), pause_at() and resume() are one controlling thread's; all
+// start(), and then set_speed(), skip_to(), arrive(), pause_at() and resume() are one controlling thread's; all
 // else is for any thread and takes no lock.
 class DataClock {
  public:
@@ -29,6 +29,8 @@ class DataClock {
   void start(Time first, Duration lead = {});
 
   bool is_paced() const { return paced_; }
+  // Whether t falls due at a moment of its own: neither in virtual time nor skipped over.
+  bool keeps_time(Time t) const { return paced_ && !skipping(t); }
   double speed() const { return speed_.load(std::memory_order_relaxed); }
 
   // When t is due; in virtual time, and for what is skipped: now.
@@ -55,8 +57,8 @@ class DataClock {
 
   // Everything up to t is due at once; from t on at the clock's speed. In the past: does nothing.
   void skip_to(Time t);
-  // What is not yet due and skipped over.
-  bool skipping(Time t) const { return to_nanoseconds(t) < skip_to_.load(std::memory_order_acquire); }
+  // The graph has come to where it was to skip to: that moment is now.
+  void arrive(Time t);
 
   // Nothing after t falls due until resume() or a later pause_at(); a pause in the past pauses now.
   void pause_at(Time t);
@@ -74,6 +76,7 @@ class DataClock {
   };
 
   DataClock(double speed, bool paced);
+  bool skipping(Time t) const { return to_nanoseconds(t) < skip_to_.load(std::memory_order_acquire); }
   Schedule schedule() const;
   void set_schedule(const Schedule& schedule);
   MonotonicTime scheduled(Time t) const;  // without the stalls

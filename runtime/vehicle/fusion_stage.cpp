@@ -1,6 +1,5 @@
 #include "runtime/vehicle/fusion_stage.h"
 
-#include <string>
 #include <utility>
 
 #include "runtime/core/periodic.h"
@@ -8,10 +7,10 @@
 
 namespace maploop::vehicle {
 
-FusionEdges::FusionEdges(runtime::Overflow overflow)
-    : imu("imu -> fusion", capacity::samples, overflow, &bell),
-      gnss("gnss -> fusion", capacity::samples, overflow, &bell),
-      odometry("stereo -> fusion", capacity::samples, overflow, &bell) {}
+FusionEdges::FusionEdges()
+    : imu(make_edge<ImuSample>(edges::imu_fusion, &bell)),
+      gnss(make_edge<GnssFix>(edges::gnss_fusion, &bell)),
+      odometry(make_edge<RelativeMotion>(edges::stereo_fusion, &bell)) {}
 
 FusionStage::FusionStage(fusion::ReducedImuFilter filter, FusionEdges& inputs,
                          runtime::Edge<NavState>& nav_states,
@@ -21,10 +20,13 @@ FusionStage::FusionStage(fusion::ReducedImuFilter filter, FusionEdges& inputs,
       nav_states_(nav_states),
       image_states_(image_states),
       intake_(inputs.bell),
-      meter_(std::string(stages::fusion.name), stages::fusion.deadline),
-      camera_path_("camera stamp -> state", {}),
-      imu_path_("imu stamp -> state", {}) {
-  intake_.add(inputs_.imu, [this](const ImuSample& sample) { filter_.add(sample); });
+      meter_(stages::fusion.name, stages::fusion.deadline),
+      camera_path_(paths::camera.name, paths::camera.deadline),
+      imu_path_(paths::imu.name, paths::imu.deadline) {
+  intake_.add(inputs_.imu, [this](const ImuSample& sample) {
+    filter_.add(sample);
+    imu_taken_ = sample;
+  });
   intake_.add(inputs_.gnss, [this](const GnssFix& fix) { filter_.add(fix); });
   intake_.add(inputs_.odometry, [this](const RelativeMotion& motion) { take(motion); });
 }
@@ -48,6 +50,8 @@ bool FusionStage::tick(Time k, runtime::DataClock& clock, const std::stop_token&
   if (intake_.finished()) return false;
 
   tick_ = k;
+  imu_taken_.reset();
+  odometry_taken_.reset();
   position_.store(to_nanoseconds(k), std::memory_order_relaxed);
   intake_.take_until(k);
   NavState state = filter_.state_at(k).value_or(NavState{});
@@ -59,9 +63,13 @@ bool FusionStage::tick(Time k, runtime::DataClock& clock, const std::stop_token&
 
   const MonotonicTime done = runtime::monotonic_now();
   if (done - computed > runtime::DataClock::tolerance) clock.stall(k, done);
-  if (clock.is_paced()) {
-    meter_.record({k, std::max(Duration::zero(), woken - due), ready - woken, done - ready});
-    record_paths(clock, state, done);
+  if (clock.keeps_time(k)) {
+    meter_.record({k,
+                   done - due,
+                   {{{"woken late", woken - due},
+                     {"waiting for input", ready - woken},
+                     {"running", done - ready}}}});
+    record_paths(clock, due, done);
   } else {
     meter_.record(done - ready);
   }
@@ -73,6 +81,7 @@ bool FusionStage::tick(Time k, runtime::DataClock& clock, const std::stop_token&
 
 void FusionStage::take(const RelativeMotion& motion) {
   filter_.add(motion);
+  if (motion.status == OdometryStatus::ok) odometry_taken_ = motion;
   std::optional<NavState> state = filter_.state_at(motion.stamp);
   if (!state) return;
   state->available = tick_ + stages::fusion.budget;
@@ -80,14 +89,27 @@ void FusionStage::take(const RelativeMotion& motion) {
   image_states_.push(*state, stop_);
 }
 
-void FusionStage::record_paths(const runtime::DataClock& clock, const NavState& state,
-                               MonotonicTime now) {
-  if (state.imu_stamp != imu_seen_) imu_path_.record(now - clock.due(state.imu_stamp));
-  if (state.odometry_stamp != odometry_seen_) {
-    camera_path_.record(now - clock.due(state.odometry_stamp));
+void FusionStage::record_paths(const runtime::DataClock& clock, MonotonicTime due,
+                               MonotonicTime done) {
+  // What each stage took beyond what the graph's table allows it.
+  const Duration fusion_late = done - due - stages::fusion.deadline;
+  if (odometry_taken_) {
+    const Sample& s = *odometry_taken_;
+    const Time image_available = s.available - stages::stereo.budget;
+    camera_path_.record({s.stamp,
+                         done - clock.due(s.stamp),
+                         {{{"camera", image_available - s.stamp - paths::camera_delay},
+                           {"stereo", s.received - clock.due(s.available)},
+                           {"fusion", fusion_late}}}});
   }
-  imu_seen_ = state.imu_stamp;
-  odometry_seen_ = state.odometry_stamp;
+  if (imu_taken_) {
+    const Sample& s = *imu_taken_;
+    imu_path_.record({s.stamp,
+                      done - clock.due(s.stamp),
+                      {{{"imu", s.received - clock.due(s.stamp) - paths::imu_delay},
+                        {"fusion", fusion_late},
+                        {}}}});
+  }
 }
 
 void FusionStage::finish() {

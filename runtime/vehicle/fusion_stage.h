@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <optional>
 #include <stop_token>
 
 #include "estimators/fusion/reduced_imu_filter.h"
@@ -19,7 +20,7 @@ namespace maploop::vehicle {
 
 // The edges that end at the fusion thread.
 struct FusionEdges {
-  explicit FusionEdges(runtime::Overflow overflow);
+  FusionEdges();
 
   runtime::Doorbell bell;
   runtime::Edge<ImuSample> imu;
@@ -48,7 +49,7 @@ class FusionStage {
  private:
   bool tick(Time k, runtime::DataClock& clock, const std::stop_token& stop);
   void take(const RelativeMotion& motion);
-  void record_paths(const runtime::DataClock& clock, const NavState& state, MonotonicTime now);
+  void record_paths(const runtime::DataClock& clock, MonotonicTime due, MonotonicTime done);
 
   fusion::ReducedImuFilter filter_;
   FusionEdges& inputs_;
@@ -60,8 +61,8 @@ class FusionStage {
   std::atomic<std::int64_t> position_{0};
   std::uint64_t ticks_ = 0;
   std::uint64_t images_ = 0;
-  Time imu_seen_{};
-  Time odometry_seen_{};
+  std::optional<Sample> imu_taken_;       // by this tick, the last one
+  std::optional<Sample> odometry_taken_;  // with a motion
   Meter meter_;
   Meter camera_path_;
   Meter imu_path_;

@@ -1,51 +1,131 @@
 // The vehicle's graph in one table: what runs when, when its result becomes available, by when it has
-// to be done, and which ring joins whom.
+// to be done, which ring joins whom, what goes on which channel. The code, the watchdog and the page
+// GRAPH.md are made from it.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 #include "msgs/time.h"
+#include "runtime/core/edge.h"
 
 namespace maploop::vehicle {
 
 using std::chrono::milliseconds;
 
+// One thread. Rates and periods are of data time; the deadline is of the machine's clock.
 struct Stage {
   std::string_view name;
-  Duration period;    // of data time; 0: released by its input
-  Duration budget;    // the result becomes available this long after the release, in data time
-  Duration deadline;  // from release to result, on the machine's clock; 0: none
+  std::string_view runs;
+  std::string_view released;  // by what
+  Duration period;            // of a fixed-rate thread, else 0
+  Duration budget;            // the result becomes available this long after the release
+  Duration deadline;          // from release to result; 0: none
+  double min_rate;            // Hz, less is reported on HEALTH; 0: not watched
+  double max_rate;            // Hz, more is reported on HEALTH
 };
 
 namespace stages {
-inline constexpr Stage camera{"camera", {}, {}, {}};
-inline constexpr Stage velodyne{"velodyne", {}, {}, {}};
-inline constexpr Stage imu{"imu", {}, {}, {}};
-inline constexpr Stage gnss{"gnss", {}, {}, {}};
-inline constexpr Stage reference{"reference", {}, {}, {}};
-inline constexpr Stage stereo{"stereo", {}, milliseconds(50), milliseconds(50)};
-inline constexpr Stage fusion{"fusion", milliseconds(10), milliseconds(1), milliseconds(2)};
-inline constexpr Stage publisher{"publisher", {}, {}, {}};
-inline constexpr Stage health{"health", std::chrono::seconds(1), {}, {}};
+inline constexpr Stage camera{"camera", "driver", "sensor", {}, {}, {}, 5.0, 40.0};
+inline constexpr Stage velodyne{"velodyne", "driver", "sensor", {}, {}, {}, 5.0, 21.0};
+inline constexpr Stage imu{"imu", "driver", "sensor", {}, {}, {}, 5.0, 1000.0};
+inline constexpr Stage gnss{"gnss", "driver", "sensor", {}, {}, {}, 0.5, 21.0};
+inline constexpr Stage reference{"reference", "driver", "sensor", {}, {}, {}, 0.0, 1000.0};
+inline constexpr Stage stereo{
+    "stereo", "visual odometry", "image pair", {}, milliseconds(50), milliseconds(50), 5.0, 40.0};
+inline constexpr Stage fusion{"fusion",        "reduced-IMU filter", "its period",    milliseconds(10),
+                              milliseconds(1), milliseconds(2),      95.0,            105.0};
+inline constexpr Stage publisher{"publisher", "LCM, log", "looks by itself", {}, {}, {}, 0.0, 0.0};
+inline constexpr Stage health{
+    "health", "watchdog, histograms", "its period", std::chrono::seconds(1), {}, {}, 0.0, 0.0};
+
+inline constexpr std::array all{camera, velodyne, imu,       gnss,  reference,
+                                stereo, fusion,   publisher, health};
 }  // namespace stages
 
-// Capacities in samples: small where samples are large, seconds of data where they are small.
-namespace capacity {
-inline constexpr std::size_t images = 4;
-inline constexpr std::size_t samples = 256;
-inline constexpr std::size_t states = 1024;
-inline constexpr std::size_t reports = 8;
-}  // namespace capacity
+// One ring: single producer, single consumer. A replay keeps all: a full ring holds its producer up,
+// and with it the data clock.
+struct EdgeSpec {
+  std::string_view name;
+  std::string_view carries;
+  std::size_t capacity;  // samples: few where they are large, seconds of data where they are small
+  runtime::Overflow overflow = runtime::Overflow::keep_all;
+};
+
+namespace edges {
+inline constexpr EdgeSpec camera_stereo{"camera -> stereo", "StereoPair", 4};
+inline constexpr EdgeSpec imu_fusion{"imu -> fusion", "ImuSample", 256};
+inline constexpr EdgeSpec gnss_fusion{"gnss -> fusion", "GnssFix", 256};
+inline constexpr EdgeSpec stereo_fusion{"stereo -> fusion", "RelativeMotion", 256};
+inline constexpr EdgeSpec imu_publisher{"imu -> publisher", "ImuSample", 256};
+inline constexpr EdgeSpec gnss_publisher{"gnss -> publisher", "GnssFix", 256};
+inline constexpr EdgeSpec reference_publisher{"reference -> publisher", "ReferencePose", 256};
+inline constexpr EdgeSpec stereo_publisher{"stereo -> publisher", "RelativeMotion", 256};
+inline constexpr EdgeSpec fusion_publisher{"fusion -> publisher", "NavState", 1024};
+inline constexpr EdgeSpec image_states{"fusion at images -> publisher", "NavState", 256};
+inline constexpr EdgeSpec health_publisher{"health -> publisher", "RuntimeReport", 8};
+
+inline constexpr std::array all{camera_stereo,    imu_fusion,          gnss_fusion,
+                                stereo_fusion,    imu_publisher,       gnss_publisher,
+                                reference_publisher, stereo_publisher, fusion_publisher,
+                                image_states,     health_publisher};
+}  // namespace edges
+
+template <class T>
+runtime::Edge<T> make_edge(const EdgeSpec& spec, runtime::Doorbell* bell) {
+  return runtime::Edge<T>(std::string(spec.name), spec.capacity, spec.overflow, bell);
+}
+
+// One LCM channel.
+struct Channel {
+  std::string_view name;
+  std::string_view type;  // in msgs/lcm
+  std::string_view from;  // stage
+  std::string_view shows;
+  std::string_view rate;
+  bool from_data;  // derived from data alone: hashed, and the same bits in each run
+};
 
 namespace channels {
-inline constexpr std::string_view nav_state = "NAV_STATE";
-inline constexpr std::string_view visual_odometry = "VO";
-inline constexpr std::string_view imu = "IMU";
-inline constexpr std::string_view gnss_fix = "GNSS_FIX";
-inline constexpr std::string_view truth = "TRUTH";
-inline constexpr std::string_view deadlines = "DEADLINES";
-inline constexpr std::string_view health = "HEALTH";
+inline constexpr Channel nav_state{
+    "NAV_STATE", "nav_state_t", "fusion", "fused position, velocity, attitude, covariance", "100 Hz",
+    true};
+inline constexpr Channel visual_odometry{
+    "VO", "relative_motion_t", "stereo", "relative pose, covariance, quality", "10 Hz", true};
+inline constexpr Channel imu{"IMU", "imu_t", "imu", "inertial sample", "the sensor's", true};
+inline constexpr Channel gnss_fix{
+    "GNSS_FIX", "gnss_fix_t", "gnss", "position and velocity with covariance", "1 Hz", true};
+inline constexpr Channel truth{
+    "TRUTH", "reference_pose_t", "reference", "reference pose, replay only", "10 Hz", true};
+inline constexpr Channel deadlines{
+    "DEADLINES", "deadlines_t", "health", "latency of each thread and path, misses", "1 Hz", false};
+inline constexpr Channel health{
+    "HEALTH", "health_t", "health", "threads, rings, rates, losses, degraded modes", "1 Hz", false};
+
+inline constexpr std::array all{nav_state, visual_odometry, imu, gnss_fix, truth, deadlines, health};
 }  // namespace channels
+
+// From a sensor's stamp to the state that holds it. The deadline is the sum of what may pass on the
+// way: the sensor's own delay, the budgets, one period of waiting for the tick, and its deadline.
+struct Path {
+  std::string_view name;
+  Duration deadline;
+};
+
+namespace paths {
+inline constexpr Duration camera_delay = milliseconds(10);  // exposure and readout
+inline constexpr Duration imu_delay = milliseconds(62);     // filters inside the sensor, delivery
+inline constexpr Path camera{"camera stamp -> state",
+                             camera_delay + stages::stereo.budget + stages::fusion.period +
+                                 stages::fusion.deadline};
+inline constexpr Path imu{"imu stamp -> state", imu_delay + stages::fusion.period +
+                                                    stages::fusion.deadline};
+inline constexpr std::array all{camera, imu};
+}  // namespace paths
+
+// The table as a Markdown page.
+std::string graph_page();
 
 }  // namespace maploop::vehicle

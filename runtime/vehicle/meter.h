@@ -1,10 +1,13 @@
-// How long one thread takes from release to result, how often it misses its deadline, and why.
+// How long something takes from release to result, how often it misses its deadline, and whose fault
+// that was.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "msgs/diagnostics.h"
@@ -12,35 +15,37 @@
 
 namespace maploop::vehicle {
 
-// Where the time of one missed deadline went.
+// One missed deadline: where the time went. Names are string literals.
 struct Miss {
-  Time stamp{};           // of the tick or of the sample that released the thread
-  Duration woken_late{};  // the kernel started the thread this long after its release
-  Duration waited{};      // for inputs that were due but not there
-  Duration ran{};
+  struct Part {
+    const char* name = "";
+    Duration lasted{};
+  };
+
+  Time stamp{};  // of the tick, or of the sample
+  Duration latency{};
+  std::array<Part, 3> parts{};
+
+  // The largest part.
+  const char* guilty() const;
 };
 
 // One thread records; any thread reads summary(). misses() only after the recording thread ended.
 class Meter {
  public:
   // deadline 0: none.
-  Meter(std::string name, Duration deadline) : name_(std::move(name)), deadline_(deadline) {
+  Meter(std::string_view name, Duration deadline) : name_(name), deadline_(deadline) {
     misses_.reserve(kept_misses);
   }
 
   void record(Duration latency) { histogram_.record(latency); }
 
-  // One release of a thread with a deadline.
-  void record(const Miss& parts) {
-    const Duration latency = parts.woken_late + parts.waited + parts.ran;
-    histogram_.record(latency);
-    if (latency <= deadline_) return;
-    miss_count_.fetch_add(1, std::memory_order_relaxed);
-    if (misses_.size() < kept_misses) misses_.push_back(parts);
-  }
+  // With its parts, for the case that the deadline was missed.
+  void record(const Miss& timing);
 
   const std::string& name() const { return name_; }
   std::uint64_t count() const { return histogram_.count(); }
+  std::uint64_t miss_count() const { return miss_count_.load(std::memory_order_relaxed); }
   const runtime::Histogram& histogram() const { return histogram_; }
   LatencySummary summary() const;
 
@@ -54,6 +59,8 @@ class Meter {
   Duration deadline_;
   runtime::Histogram histogram_;
   std::atomic<std::uint64_t> miss_count_{0};
+  Duration worst_{};
+  std::atomic<const char*> guilty_of_worst_{""};
   std::vector<Miss> misses_;
 };
 

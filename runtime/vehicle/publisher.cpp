@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "msgs/lcm/conversions.h"
-#include "runtime/vehicle/graph.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -15,14 +14,14 @@ constexpr auto look_every = std::chrono::milliseconds(1);
 
 }  // namespace
 
-PublisherEdges::PublisherEdges(runtime::Overflow overflow)
-    : imu("imu -> publisher", capacity::samples, overflow, nullptr),
-      gnss("gnss -> publisher", capacity::samples, overflow, nullptr),
-      reference("reference -> publisher", capacity::samples, overflow, nullptr),
-      odometry("stereo -> publisher", capacity::samples, overflow, nullptr),
-      nav_state("fusion -> publisher", capacity::states, overflow, nullptr),
-      image_state("fusion at images -> publisher", capacity::samples, overflow, nullptr),
-      reports("health -> publisher", capacity::reports, runtime::Overflow::drop_newest, nullptr) {}
+PublisherEdges::PublisherEdges()
+    : imu(make_edge<ImuSample>(edges::imu_publisher, nullptr)),
+      gnss(make_edge<GnssFix>(edges::gnss_publisher, nullptr)),
+      reference(make_edge<ReferencePose>(edges::reference_publisher, nullptr)),
+      odometry(make_edge<RelativeMotion>(edges::stereo_publisher, nullptr)),
+      nav_state(make_edge<NavState>(edges::fusion_publisher, nullptr)),
+      image_state(make_edge<NavState>(edges::image_states, nullptr)),
+      reports(make_edge<RuntimeReport>(edges::health_publisher, nullptr)) {}
 
 Publisher::Publisher(PublisherEdges& edges, std::vector<MessageSink*> sinks, Observer observer)
     : edges_(edges),
@@ -33,37 +32,37 @@ Publisher::Publisher(PublisherEdges& edges, std::vector<MessageSink*> sinks, Obs
   forward(edges_.gnss, channels::gnss_fix);
   forward(edges_.reference, channels::truth);
   intake_.add(edges_.odometry, [this](const RelativeMotion& motion) {
-    send(channels::visual_odometry, motion.available, to_lcm(motion), true);
+    send(channels::visual_odometry, motion.available, to_lcm(motion));
     observer_.odometry(motion);
   });
   intake_.add(edges_.nav_state, [this](const NavState& state) {
-    send(channels::nav_state, state.available, to_lcm(state), true);
+    send(channels::nav_state, state.available, to_lcm(state));
     observer_.nav_state(state);
   });
   intake_.add(edges_.image_state, [this](const NavState& state) { observer_.image_state(state); });
 }
 
 template <class T>
-void Publisher::forward(runtime::Edge<T>& edge, std::string_view channel) {
-  intake_.add(edge, [this, channel](const T& sample) {
-    send(channel, sample.available, to_lcm(sample), true);
+void Publisher::forward(runtime::Edge<T>& edge, const Channel& channel) {
+  intake_.add(edge, [this, &channel](const T& sample) {
+    send(channel, sample.available, to_lcm(sample));
   });
 }
 
 template <class Lcm>
-void Publisher::send(std::string_view channel, Time time, const Lcm& message, bool from_data) {
+void Publisher::send(const Channel& channel, Time time, const Lcm& message) {
   const int size = message.getEncodedSize();
   buffer_.resize(static_cast<std::size_t>(size));
   if (message.encode(buffer_.data(), 0, size) != size) {
-    throw std::logic_error("cannot encode a message for " + std::string(channel));
+    throw std::logic_error("cannot encode a message for " + std::string(channel.name));
   }
-  for (MessageSink* sink : sinks_) sink->send({channel, time, buffer_, from_data});
+  for (MessageSink* sink : sinks_) sink->send({channel.name, time, buffer_, channel.from_data});
 }
 
 void Publisher::send_reports() {
   while (const RuntimeReport* report = edges_.reports.front()) {
-    send(channels::health, report->available, to_lcm(report->health), false);
-    send(channels::deadlines, report->available, to_lcm(report->deadlines), false);
+    send(channels::health, report->available, to_lcm(report->health));
+    send(channels::deadlines, report->available, to_lcm(report->deadlines));
     edges_.reports.pop();
   }
 }

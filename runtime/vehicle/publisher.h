@@ -16,6 +16,7 @@
 #include "runtime/core/doorbell.h"
 #include "runtime/core/edge.h"
 #include "runtime/core/intake.h"
+#include "runtime/vehicle/graph.h"
 #include "runtime/vehicle/message_sink.h"
 
 namespace maploop::vehicle {
@@ -37,7 +38,7 @@ struct Observer {
 // The edges that end at the publisher. No bell: it looks by itself, so that nobody upstream pays a
 // system call to wake it.
 struct PublisherEdges {
-  explicit PublisherEdges(runtime::Overflow overflow);
+  PublisherEdges();
 
   runtime::Edge<ImuSample> imu;
   runtime::Edge<GnssFix> gnss;
@@ -58,9 +59,9 @@ class Publisher {
 
  private:
   template <class Lcm>
-  void send(std::string_view channel, Time time, const Lcm& message, bool from_data);
+  void send(const Channel& channel, Time time, const Lcm& message);
   template <class T>
-  void forward(runtime::Edge<T>& edge, std::string_view channel);
+  void forward(runtime::Edge<T>& edge, const Channel& channel);
   void send_reports();
 
   PublisherEdges& edges_;

@@ -1,7 +1,6 @@
 #include "runtime/vehicle/stereo_stage.h"
 
 #include <algorithm>
-#include <string>
 #include <utility>
 
 #include "runtime/vehicle/graph.h"
@@ -16,7 +15,7 @@ StereoStage::StereoStage(stereo::StereoOdometry odometry, runtime::Edge<StereoPa
       bell_(bell),
       to_fusion_(to_fusion),
       to_publisher_(to_publisher),
-      meter_(std::string(stages::stereo.name), stages::stereo.deadline) {}
+      meter_(stages::stereo.name, stages::stereo.deadline) {}
 
 void StereoStage::run(const runtime::DataClock& clock, const std::stop_token& stop) {
   MonotonicTime idle_since{};
@@ -27,9 +26,13 @@ void StereoStage::run(const runtime::DataClock& clock, const std::stop_token& st
       const MonotonicTime started = runtime::monotonic_now();
       process(*pair, stop);
       const MonotonicTime ended = runtime::monotonic_now();
-      if (clock.is_paced()) {
+      if (clock.keeps_time(pair->available)) {
         const MonotonicTime ready = std::max(pair->received, idle_since);
-        meter_.record({pair->stamp, started - ready, ready - pair->received, ended - started});
+        meter_.record({pair->stamp,
+                       ended - pair->received,
+                       {{{"busy with the pair before", ready - pair->received},
+                         {"woken late", started - ready},
+                         {"running", ended - started}}}});
       } else {
         meter_.record(ended - started);
       }
@@ -47,6 +50,7 @@ void StereoStage::run(const runtime::DataClock& clock, const std::stop_token& st
 void StereoStage::process(const StereoPair& pair, const std::stop_token& stop) {
   RelativeMotion motion = odometry_.process(pair);
   motion.available = pair.available + stages::stereo.budget;
+  motion.received = runtime::monotonic_now();
   to_fusion_.push(motion, stop);
   to_publisher_.push(motion, stop);
   promise(motion.available);

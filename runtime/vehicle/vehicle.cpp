@@ -66,8 +66,7 @@ struct Vehicle::Graph {
   runtime::DataClock clock;
   Time first = Time::max();
 
-  // Edges, by the thread that they end at. A replay loses nothing: a full ring holds its producer up,
-  // and with it the data clock.
+  // Edges, by the thread that they end at.
   runtime::Doorbell stereo_bell;
   runtime::Edge<StereoPair> images;
   FusionEdges to_fusion;
@@ -101,9 +100,7 @@ Vehicle::Graph::Graph(const VehicleConfig& vehicle_config, const StereoCalibrati
                       std::vector<MessageSink*> sinks, Observer observer)
     : config(vehicle_config),
       clock(data_clock),
-      images("camera -> stereo", capacity::images, runtime::Overflow::keep_all, &stereo_bell),
-      to_fusion(runtime::Overflow::keep_all),
-      to_publisher(runtime::Overflow::keep_all),
+      images(make_edge<StereoPair>(edges::camera_stereo, &stereo_bell)),
       camera("camera", prefetched(stages::camera, std::move(sensors.camera)), {&images}),
       velodyne("velodyne", prefetched(stages::velodyne, std::move(sensors.velodyne)), {}),
       imu("imu", std::move(sensors.imu), {&to_fusion.imu, &to_publisher.imu}),
@@ -254,7 +251,8 @@ VehicleReport Vehicle::Graph::report() const {
   r.lateness = lateness.summarize("all sensors");
   r.health = last_report.health;
   r.deadlines = last_report.deadlines;
-  for (const Meter* meter : {&stereo.meter(), &fusion.meter()}) {
+  for (const Meter* meter :
+       {&stereo.meter(), &fusion.meter(), &fusion.camera_path(), &fusion.imu_path()}) {
     r.misses.push_back({meter->name(), meter->misses()});
   }
   r.stalls = clock.stalls();

@@ -17,8 +17,8 @@ struct SensorReport {
   LatencySummary lateness;  // of release
 };
 
-struct ThreadMisses {
-  std::string thread;
+struct Misses {
+  std::string of;  // the thread or the path
   std::vector<Miss> misses;  // the first few
 };
 
@@ -26,7 +26,7 @@ struct VehicleReport {
   std::vector<SensorReport> sensors;
   LatencySummary lateness;  // of release, all sensors together
   Deadlines deadlines;
-  std::vector<ThreadMisses> misses;
+  std::vector<Misses> misses;
   Health health;
   std::uint64_t stalls = 0;  // how often the data clock had to wait for the graph
   Duration stalled{};

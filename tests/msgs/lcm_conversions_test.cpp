@@ -157,6 +157,7 @@ TEST(LcmConversions, Deadlines) {
   s.deadline = std::chrono::milliseconds(50);
   s.p50 = Duration(19'123'456);
   s.max = Duration(51'000'001);
+  s.guilty = "running";
   d.threads = {s};
   d.paths = {s, s};
   const Deadlines r = round_trip(d);
@@ -169,6 +170,7 @@ TEST(LcmConversions, Deadlines) {
   EXPECT_EQ(r.threads[0].deadline, s.deadline);
   EXPECT_EQ(r.threads[0].p50, s.p50);
   EXPECT_EQ(r.threads[0].max, s.max);
+  EXPECT_EQ(r.threads[0].guilty, s.guilty);
 }
 
 TEST(LcmConversions, Health) {
