@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "runtime/core/config.h"
+#include "runtime/core/config_context.h"
 #include "runtime/core/config_state.h"
 #include "runtime/core/nearest_name.h"
 
@@ -82,7 +83,7 @@ void collect_unknown(const ConfigState& state, const ConfigNode& node, std::vect
 }
 
 std::string read_file(const std::filesystem::path& path) {
-  constexpr std::size_t kLargest = 16 << 20;  // bytes: far above any configuration
+  constexpr std::size_t kLargest = 1 << 20;  // bytes: far above any configuration
   const std::string name = path.string() + ": ";
   if (std::filesystem::is_directory(path)) {
     throw ConfigError(name + "is a folder; name a TOML file");
@@ -97,7 +98,7 @@ std::string read_file(const std::filesystem::path& path) {
   if (file.bad()) throw ConfigError(name + "cannot be read (" + std::strerror(errno) + ")");
   text.resize(static_cast<std::size_t>(file.gcount()));
   if (text.size() > kLargest) {
-    throw ConfigError(name + "is larger than 16 MiB; name a TOML configuration");
+    throw ConfigError(name + "is larger than 1 MiB; name a TOML configuration");
   }
   return text;
 }
@@ -116,7 +117,8 @@ ConfigDocument ConfigDocument::parse(std::string_view text, std::string name) {
   try {
     state->root = toml::parse(text);
   } catch (const toml::parse_error& error) {
-    throw ConfigError(place(state->file, error.source().begin) + printable(error.description()));
+    const std::string where = place(state->file, error.source().begin);
+    throw ConfigError(where + detail::context_of(text, error) + printable(error.description()));
   }
   return ConfigDocument(std::move(state));
 }

@@ -120,7 +120,8 @@ Unit unit_of(std::string_view key) {
 
 Duration read_duration(const Entry& entry, Duration lowest, Duration highest) {
   const Unit unit = unit_of(entry.key);
-  const double ns = finite_number(entry, entry.value) * unit.nanoseconds;
+  const double given = finite_number(entry, entry.value);
+  const double ns = given * unit.nanoseconds;
   const auto in_unit = [&unit](Duration d) {
     return number(static_cast<double>(d.count()) / unit.nanoseconds);
   };
@@ -129,7 +130,7 @@ Duration read_duration(const Entry& entry, Duration lowest, Duration highest) {
   const bool held = std::abs(ns) < kBeyond;
   const Duration value = held ? Duration(std::llround(ns)) : Duration{};
   if (!held || value < lowest || value > highest) {
-    entry.out_of_range(number(ns / unit.nanoseconds), in_unit(lowest), in_unit(highest));
+    entry.out_of_range(number(given), in_unit(lowest), in_unit(highest));
   }
   return value;
 }

@@ -44,7 +44,8 @@ class Ring {
   // A ring that never refuses an item while it holds fewer than `capacity`. Below
   // kSmallestBatchedCapacity it refuses exactly at `capacity`; above, the slots of one batch come
   // on top (at most an eighth, at most kLargestBatch - 1), and it may hold that many more.
-  // Each slot starts as T(). Throws std::invalid_argument where the capacity is 0.
+  // Each slot starts as T(). Throws std::invalid_argument where the capacity is 0,
+  // std::length_error or std::bad_alloc where memory does not hold it.
   explicit Ring(std::size_t capacity) requires std::default_initializable<T>
       : Ring(capacity, Slots(slots_for(capacity))) {}
 
@@ -177,7 +178,8 @@ class Ring {
   // Up to batch - 1 slots are free without the producer knowing; these come on top.
   static std::size_t slots_for(std::size_t capacity) {
     if (capacity == 0) throw std::invalid_argument("ring: capacity is 0; at least 1 is needed");
-    return capacity + batch_for(capacity) - 1;
+    const std::size_t slots = capacity + batch_for(capacity) - 1;
+    return std::max(slots, capacity);  // where that wrapped, the allocation refuses the capacity
   }
   Slot* after(Slot* slot) const { return slot + 1 == end_ ? begin_ : slot + 1; }
 

@@ -1,0 +1,273 @@
+#include "runtime/core/config.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "tests/support/real_data.h"
+
+namespace maploop::runtime {
+namespace {
+
+using std::chrono::milliseconds;
+
+ConfigTable table_of(std::string_view text) {
+  return ConfigDocument::parse(text, "a.toml").root();
+}
+
+// The text of the ConfigError that `action` throws; empty where it throws none.
+template <typename Action>
+std::string error_of(Action action) {
+  try {
+    action();
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+template <typename T>
+std::string read_error(std::string_view text, std::string_view key, T value) {
+  const T before = value;
+  const std::string error = error_of([&] { table_of(text).read(key, value); });
+  EXPECT_EQ(value, before) << "an error leaves the variable as it is";
+  return error;
+}
+
+TEST(Config, EveryTypeIsRead) {
+  const ConfigTable table = table_of(R"(
+    rate_hz = 12.5
+    whole = 3
+    count = -4
+    on = true
+    name = "left"
+    lever = [1, -0.5, 2.0]
+  )");
+  double rate = 0, whole = 0;
+  int count = 0;
+  bool on = false;
+  std::string name;
+  std::array<double, 3> lever{};
+  table.read("rate_hz", rate);
+  table.read("whole", whole);
+  table.read("count", count);
+  table.read("on", on);
+  table.read("name", name);
+  table.read("lever", lever);
+  EXPECT_EQ(rate, 12.5);
+  EXPECT_EQ(whole, 3.0);
+  EXPECT_EQ(count, -4);
+  EXPECT_TRUE(on);
+  EXPECT_EQ(name, "left");
+  EXPECT_EQ(lever, (std::array{1.0, -0.5, 2.0}));
+}
+
+TEST(Config, AbsentKeysKeepTheirDefaults) {
+  const ConfigTable table = table_of("").table("fusion").table("gates");
+  double rate = 1.5;
+  Duration deadline = milliseconds(2);
+  std::string mode = "vo";
+  table.read("rate_hz", rate);
+  table.read_in("rate_hz", rate, 0.0, 1.0);
+  table.read("deadline_ms", deadline);
+  table.read_one_of("mode", mode, {"vo", "lidar"});
+  EXPECT_EQ(rate, 1.5);
+  EXPECT_EQ(deadline, milliseconds(2));
+  EXPECT_EQ(mode, "vo");
+  EXPECT_TRUE(table.tables("antenna").empty());
+}
+
+TEST(Config, DurationsAreInTheUnitThatEndsTheKey) {
+  const ConfigTable table =
+      table_of("a_ns = 7\nb_us = 1.5\nc_ms = 50\nd_s = 0.1\ne_s = -2\nf_ms = 0.0000004");
+  for (const auto& [key, expected] :
+       std::initializer_list<std::pair<const char*, Duration>>{{"a_ns", Duration(7)},
+                                                               {"b_us", Duration(1500)},
+                                                               {"c_ms", milliseconds(50)},
+                                                               {"d_s", milliseconds(100)},
+                                                               {"e_s", std::chrono::seconds(-2)},
+                                                               {"f_ms", Duration(0)}}) {
+    Duration value = milliseconds(-99);
+    table.read(key, value);
+    EXPECT_EQ(value, expected) << key;
+  }
+}
+
+TEST(Config, ADurationKeyWithoutUnitIsTheProgramsError) {
+  Duration value{};
+  EXPECT_THROW(table_of("").read("deadline", value), std::logic_error);
+}
+
+TEST(Config, WrongTypeSaysWhereWhatAndWhatIsAllowed) {
+  EXPECT_EQ(read_error("\n[f]\n", "f", 1.0), "a.toml:2:1: f: is a table; it must be a number");
+  EXPECT_EQ(read_error("x = \"5\"", "x", 1.0), "a.toml:1:5: x: is a string; it must be a number");
+  EXPECT_EQ(read_error("x = 5.0", "x", 1),
+            "a.toml:1:5: x: is a floating-point number; it must be an integer");
+  EXPECT_EQ(read_error("x = 1", "x", true),
+            "a.toml:1:5: x: is an integer; it must be true or false");
+  EXPECT_EQ(read_error("x = true", "x", std::string("s")),
+            "a.toml:1:5: x: is a boolean; it must be a string");
+  EXPECT_EQ(read_error("x_ms = 2020-01-01", "x_ms", milliseconds(1) + Duration(0)),
+            "a.toml:1:8: x_ms: is a date or time; it must be a number");
+  EXPECT_EQ(error_of([] { table_of("x = [1]").table("x"); }),
+            "a.toml:1:5: x: is an array; it must be a table");
+  EXPECT_EQ(error_of([] { table_of("x = [1]").tables("x"); }),
+            "a.toml:1:5: x: is an array; it must be an array of tables");
+}
+
+TEST(Config, NotANumberAndInfinityAreRefused) {
+  EXPECT_EQ(read_error("x = nan", "x", 1.0), "a.toml:1:5: x: is nan; it must be a finite number");
+  EXPECT_EQ(read_error("x = -inf", "x", 1.0), "a.toml:1:5: x: is -inf; it must be a finite number");
+  EXPECT_EQ(read_error("x_s = inf", "x_s", Duration(1)),
+            "a.toml:1:7: x_s: is inf; it must be a finite number");
+}
+
+TEST(Config, OutOfRangeNamesTheFullKeyAndTheRange) {
+  const ConfigTable fusion = table_of("[nav.fusion]\nrate_hz = 2000\ncount = 0\nwait_ms = 70.5")
+                                 .table("nav")
+                                 .table("fusion");
+  double rate = 100;
+  int count = 1;
+  Duration wait{};
+  EXPECT_EQ(error_of([&] { fusion.read_in("rate_hz", rate, 0.5, 1000.0); }),
+            "a.toml:2:11: nav.fusion.rate_hz: is 2000; allowed is 0.5 to 1000");
+  EXPECT_EQ(error_of([&] { fusion.read_in("count", count, 1, 8); }),
+            "a.toml:3:9: nav.fusion.count: is 0; allowed is 1 to 8");
+  EXPECT_EQ(error_of([&] { fusion.read_in("wait_ms", wait, Duration(0), milliseconds(50)); }),
+            "a.toml:4:11: nav.fusion.wait_ms: is 70.5; allowed is 0 to 50");
+}
+
+TEST(Config, EndsOfTheRangeAreAllowed) {
+  const ConfigTable table = table_of("a = 1.0\nb = 8\nc_ms = 50");
+  double a = 0;
+  int b = 0;
+  Duration c{};
+  table.read_in("a", a, 1.0, 2.0);
+  table.read_in("b", b, 1, 8);
+  table.read_in("c_ms", c, Duration(0), milliseconds(50));
+  EXPECT_EQ(a, 1.0);
+  EXPECT_EQ(b, 8);
+  EXPECT_EQ(c, milliseconds(50));
+}
+
+TEST(Config, NumbersBeyondTheirTypeAreOutOfRange) {
+  EXPECT_EQ(read_error("x = 3000000000", "x", 1),
+            "a.toml:1:5: x: is 3000000000; allowed is -2147483648 to 2147483647");
+  EXPECT_NE(
+      read_error("x_s = 1e300", "x_s", Duration(1)).find("is 1e+300; allowed is -9223372036.8"),
+      std::string::npos);
+  EXPECT_NE(read_error("x_s = 9223372037", "x_s", Duration(1)).find("allowed is"),
+            std::string::npos);
+  EXPECT_NE(read_error("x = 99999999999999999999", "x", 1).find("a.toml:1:"), std::string::npos);
+}
+
+TEST(Config, OneOfNamesTheChoices) {
+  std::string mode = "vo";
+  const ConfigTable table = table_of("mode = \"lidr\"\nother = \"qqqqqq\"\ngood = \"lidar\"");
+  EXPECT_EQ(error_of([&] {
+              table.read_one_of("mode", mode, {"vo", "lidar"});
+            }),
+            "a.toml:1:8: mode: is \"lidr\"; did you mean \"lidar\"? allowed is \"vo\", \"lidar\"");
+  EXPECT_EQ(error_of([&] {
+              table.read_one_of("other", mode, {"vo", "lidar"});
+            }),
+            "a.toml:2:9: other: is \"qqqqqq\"; allowed is \"vo\", \"lidar\"");
+  EXPECT_EQ(mode, "vo");
+  table.read_one_of("good", mode, {"vo", "lidar"});
+  EXPECT_EQ(mode, "lidar");
+}
+
+TEST(Config, ArraysOfTheWrongLengthOrContentLeaveTheValues) {
+  std::array<double, 3> lever = {7, 8, 9};
+  EXPECT_EQ(error_of([&] { table_of("lever = [1, 2]").read("lever", lever); }),
+            "a.toml:1:9: lever: has 2 elements; it must be an array of 3 numbers");
+  EXPECT_EQ(error_of([&] { table_of("lever = [1, 2,\n \"3\"]").read("lever", lever); }),
+            "a.toml:2:2: lever: is a string; it must be a number");
+  EXPECT_EQ(error_of([&] { table_of("lever = 1").read("lever", lever); }),
+            "a.toml:1:9: lever: is an integer; it must be an array of 3 numbers");
+  EXPECT_EQ(lever, (std::array{7.0, 8.0, 9.0}));
+}
+
+TEST(Config, ArraysOfTablesKeepTheirOrder) {
+  const auto cameras = table_of("[[camera]]\nid = 3\n[[camera]]\nid = 4.5").tables("camera");
+  ASSERT_EQ(cameras.size(), 2u);
+  int id = 0;
+  cameras[0].read("id", id);
+  EXPECT_EQ(id, 3);
+  EXPECT_EQ(error_of([&] { cameras[1].read("id", id); }),
+            "a.toml:4:6: camera[1].id: is a floating-point number; it must be an integer");
+}
+
+TEST(Config, ARuleOfTheCallersOwnFailsAtTheKeysPlace) {
+  const ConfigTable table = table_of("\n  low = 5").table("absent");
+  EXPECT_EQ(error_of([] { table_of("\n  low = 5").fail("low", "must be below high"); }),
+            "a.toml:2:9: low: must be below high");
+  EXPECT_EQ(error_of([&] { table.fail("low", "is needed"); }), "a.toml: absent.low: is needed");
+}
+
+TEST(Config, BrokenSyntaxSaysWhere) {
+  const std::string error = error_of([] { table_of("a = 1\nb = = 2\n"); });
+  EXPECT_EQ(error.rfind("a.toml:2:", 0), 0u) << error;
+  EXPECT_NE(error_of([] { table_of("[[cam.left]]\nb = = 2\n"); }).find("in [cam.left]: "),
+            std::string::npos);
+  for (const char* text : {"[", "a", "a = ", "[a\n", "a = [1, ", "a = \"x", "\xff\xfe",
+                           "a = 1 b = 2", "a = 01", "a = 1979-13-45", "\"\" ", "a = {b = 1"}) {
+    EXPECT_EQ(error_of([&] { table_of(text); }).rfind("a.toml:", 0), 0u) << text;
+  }
+  EXPECT_NE(error_of([] { table_of("a = " + std::string(100000, '[')); }), "")
+      << "nested without end";
+}
+
+TEST(Config, DuplicateKeysAndTablesAreRefused) {
+  const std::string key = error_of([] { table_of("[fusion]\nrate = 1\nrate = 2\n"); });
+  EXPECT_EQ(key.rfind("a.toml:3:", 0), 0u) << key;
+  EXPECT_NE(key.find("fusion.rate"), std::string::npos) << key;
+  EXPECT_NE(error_of([] {
+              table_of("[fusion]\nrate = 1\nlever = [\n[1],\n]\ngate.width = 2\nrate = 2\n");
+            }).find("a.toml:7:8: fusion.rate: "),
+            std::string::npos)
+      << "an array's line that begins with [ is no table";
+  const std::string table = error_of([] { table_of("[fusion.gate]\n[other]\n[fusion.gate]\n"); });
+  EXPECT_EQ(table.rfind("a.toml:3:", 0), 0u) << table;
+  EXPECT_NE(table.find("fusion.gate"), std::string::npos) << table;
+}
+
+TEST(Config, EmptyTextIsAnEmptyDocument) {
+  const ConfigDocument document = ConfigDocument::parse("", "a.toml");
+  EXPECT_FALSE(document.root().has("x"));
+  document.reject_unknown();
+}
+
+TEST(ConfigFile, IsLoadedAndNamedInErrors) {
+  const maploop::testing::TemporaryFolder folder;
+  const std::string path = (folder.path() / "vehicle.toml").string();
+  std::ofstream(path) << "x = 1\r\ny = 'a'\r\n";
+  const ConfigTable table = ConfigDocument::load(path).root();
+  int x = 0;
+  table.read("x", x);
+  EXPECT_EQ(x, 1);
+  EXPECT_EQ(error_of([&] { table.read("y", x); }),
+            path + ":2:5: y: is a string; it must be an integer");
+}
+
+TEST(ConfigFile, MissingIsSaid) {
+  const std::string error = error_of([] { ConfigDocument::load("/nowhere/vehicle.toml"); });
+  EXPECT_EQ(error.rfind("/nowhere/vehicle.toml: cannot be opened (No such file", 0), 0u) << error;
+}
+
+TEST(ConfigFile, AFolderIsSaid) {
+  const maploop::testing::TemporaryFolder folder;
+  EXPECT_NE(error_of([&] { ConfigDocument::load(folder.path()); }).find("is a folder"),
+            std::string::npos);
+}
+
+TEST(ConfigFile, WithoutEndIsRefused) {
+  EXPECT_NE(error_of([] { ConfigDocument::load("/dev/zero"); }).find("larger than"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace maploop::runtime

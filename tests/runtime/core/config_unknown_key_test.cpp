@@ -1,0 +1,86 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "runtime/core/config.h"
+
+namespace maploop::runtime {
+namespace {
+
+// Asks a document as a program with two components would; what reject_unknown says then.
+std::string unknown_in(std::string_view text) {
+  const ConfigDocument document = ConfigDocument::parse(text, "a.toml");
+  double number = 0;
+  Duration duration{};
+  const ConfigTable fusion = document.root().table("fusion");
+  fusion.read("rate_hz", number);
+  fusion.read("deadline_ms", duration);
+  for (const ConfigTable& gate : document.root().table("match").tables("gate")) {
+    gate.read("width", number);
+  }
+  document.root().table("match").read("radius", number);
+  try {
+    document.reject_unknown();
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(ConfigUnknownKey, NothingUnknownIsNoError) {
+  EXPECT_EQ(unknown_in(""), "");
+  EXPECT_EQ(unknown_in("[fusion]\nrate_hz = 1\n[match]\nradius = 2\n[[match.gate]]\nwidth = 1"),
+            "");
+}
+
+TEST(ConfigUnknownKey, MisspelledNamesItsNearest) {
+  EXPECT_EQ(unknown_in("[fusion]\n  rat_hz = 1"),
+            "a.toml:2:3: fusion.rat_hz: unknown key; did you mean fusion.rate_hz? "
+            "in [fusion] the keys are: deadline_ms, rate_hz");
+}
+
+TEST(ConfigUnknownKey, MisspelledTable) {
+  EXPECT_EQ(unknown_in("[fuson]\nrate_hz = 1"),
+            "a.toml:1:2: fuson: unknown key; did you mean fusion? "
+            "at the top level the keys are: fusion, match");
+}
+
+TEST(ConfigUnknownKey, RightNameInTheWrongTable) {
+  EXPECT_EQ(unknown_in("[fusion]\nradius = 1"),
+            "a.toml:2:1: fusion.radius: unknown key; did you mean match.radius? "
+            "in [fusion] the keys are: deadline_ms, rate_hz");
+}
+
+TEST(ConfigUnknownKey, FarFromEverythingHasNoGuess) {
+  EXPECT_EQ(unknown_in("[fusion]\ncolour = 1"),
+            "a.toml:2:1: fusion.colour: unknown key; "
+            "in [fusion] the keys are: deadline_ms, rate_hz");
+}
+
+TEST(ConfigUnknownKey, InsideAnArrayOfTables) {
+  EXPECT_EQ(unknown_in("[[match.gate]]\nwidth = 1\n[[match.gate]]\nwidht = 1"),
+            "a.toml:4:1: match.gate[1].widht: unknown key; did you mean match.gate[1].width? "
+            "in [match.gate[1]] the keys are: width");
+}
+
+TEST(ConfigUnknownKey, AllAreNamedInTheFilesOrder) {
+  const std::string text = unknown_in("zzz = 1\n[match]\nradus = 1\n[fusion]\nrate = 1");
+  const std::size_t first = text.find("a.toml:1:1: zzz:");
+  const std::size_t second = text.find("\na.toml:3:1: match.radus:");
+  const std::size_t third = text.find("\na.toml:5:1: fusion.rate:");
+  EXPECT_EQ(first, 0u) << text;
+  EXPECT_LT(second, third) << text;
+  EXPECT_NE(third, std::string::npos) << text;
+}
+
+TEST(ConfigUnknownKey, ControlCharactersStayOnTheLine) {
+  const std::string text = unknown_in("\"a\\nb\" = 1");
+  EXPECT_EQ(text.rfind("a.toml:1:1: \"a?b\": unknown key", 0), 0u) << text;
+}
+
+TEST(ConfigUnknownKey, ADocumentNobodyAskedIsAllUnknown) {
+  EXPECT_THROW(ConfigDocument::parse("x = 1", "a.toml").reject_unknown(), ConfigError);
+}
+
+}  // namespace
+}  // namespace maploop::runtime

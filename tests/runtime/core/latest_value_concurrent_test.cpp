@@ -1,0 +1,45 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <thread>
+
+#include "runtime/core/latest_value.h"
+
+namespace maploop::runtime {
+namespace {
+
+TEST(LatestValueConcurrent, NeverTornNeverOldAndEveryLossCounted) {
+  using Value = std::array<std::uint64_t, 16>;
+  constexpr std::uint64_t kValues = 300000;
+  LatestValue<Value> cell;
+  std::atomic<bool> done{false};
+  std::thread writer([&] {
+    for (std::uint64_t i = 1; i <= kValues; ++i) {
+      cell.back().fill(i);
+      cell.publish();
+      if (i % 64 == 0) std::this_thread::yield();
+    }
+    done = true;
+  });
+  std::uint64_t last = 0, taken = 0, wrong = 0;
+  for (bool stop = false; !stop;) {
+    stop = done;  // before the last look: what was published by then is seen
+    if (const Value* value = cell.latest()) {
+      ++taken;
+      if (value->front() <= last) ++wrong;
+      last = value->front();
+      for (std::uint64_t word : *value) wrong += word != last ? 1 : 0;
+    }
+  }
+  writer.join();
+  EXPECT_EQ(wrong, 0u);
+  EXPECT_EQ(last, kValues) << "the newest is never lost";
+  EXPECT_EQ(cell.taken(), taken);
+  EXPECT_EQ(cell.published(), kValues);
+  EXPECT_EQ(cell.overwritten(), kValues - taken);
+}
+
+}  // namespace
+}  // namespace maploop::runtime
