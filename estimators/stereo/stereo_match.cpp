@@ -71,7 +71,8 @@ double search_row(const StereoFrame& frame, const StereoParameters& parameters,
   }
   if (best < parameters.min_correlation) return -1.0;
   for (int d = 0; d < static_cast<int>(scores.size()); ++d)
-    if (std::abs(d - best_disparity) > 2 && scores[static_cast<std::size_t>(d)] > kSecondBest * best)
+    if (std::abs(d - best_disparity) > 2 &&
+        scores[static_cast<std::size_t>(d)] > kSecondBest * best)
       return -1.0;
   return 2.0 * best_disparity;
 }
