@@ -21,8 +21,8 @@ class DisparityOffset {
 
   // One pair's own estimate of what is still missing, `correction` px with standard deviation
   // `correction_sigma` from `inliers` features. Pairs that hardly see the offset (standing, few or
-  // only far points) are left out, and so are those that contradict what is known by more than three
-  // standard deviations.
+  // only far points) are left out, and so are those that contradict what is known by more than
+  // three standard deviations.
   void update(double correction, double correction_sigma, int inliers);
 
  private:
@@ -31,7 +31,6 @@ class DisparityOffset {
   double drift_;
   double worst_sigma_;
   int min_inliers_;
-  double repeats_;
 };
 
 }  // namespace maploop::stereo

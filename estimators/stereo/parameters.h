@@ -30,14 +30,16 @@ struct StereoParameters {
   double sigma_track = 0.15;  // px per axis, position in the left image from one pair to the next
   double sigma_disparity = 0.2;  // px, what changes in a match from one pair to the next
   double sigma_match = 0.4;      // px, what a match keeps wrong while the feature lives
+  double correlated_pairs =
+      10.0;  // pairs in which a feature brings the same match error: errors of
+             // successive motions add up, and the covariance is right over them
 
   // --- Disparity offset (disparity_offset.h)
   double sigma_disparity_offset = 0.3;    // px before any data: what a rectification may leave;
                                           // 0: the rectification is taken as perfect
   double disparity_offset_drift = 0.003;  // px / sqrt(s): 0.2 px in an hour of warming up
-  double max_offset_sigma = 0.1;  // px; a pair that sees it worse tells more of its outliers
+  double max_offset_sigma = 0.3;  // px; a pair that sees it worse tells more of its outliers
   int min_offset_inliers = 100;   // with fewer, single match errors outweigh a common one
-  double offset_repeats = 10.0;   // pairs in which a feature shows the same match error
 
   // --- Motion estimate
   int min_tracks = 25;            // fewer: too_few_features

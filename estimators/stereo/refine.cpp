@@ -46,9 +46,10 @@ bool levenberg_marquardt(const Adjustment& adjustment, std::span<const int> inli
 }
 
 // Inverse information times the residuals' variance (Huber, "Robust Statistics", 1981, 7.6 in its
-// simplest form): each track leaves four residuals less its own disparity.
-bool estimate_covariance(const Adjustment& adjustment, double assumed_offset_sigma,
-                         Refinement* result) {
+// simplest form), each track leaving four residuals less its own disparity; and times the pairs in
+// which the errors are the same ones, so that the covariances of successive motions may be added.
+bool estimate_covariance(const Adjustment& adjustment, double correlated_pairs,
+                         double assumed_offset_sigma, Refinement* result) {
   const double freedom = 3.0 * static_cast<double>(result->inliers.size()) - 6.0;
   if (freedom <= 0.0) return false;
   std::vector<double> disparities;
@@ -57,12 +58,13 @@ bool estimate_covariance(const Adjustment& adjustment, double assumed_offset_sig
   result->variance_factor = std::max(kSmallestVarianceFactor, cost / freedom);
   const NormalEquations equations = adjustment.normal_equations(pose, result->inliers, disparities);
 
+  const double variance = result->variance_factor * correlated_pairs;
   const Eigen::LDLT<Matrix6> pose_factor(equations.information.topLeftCorner<6, 6>());
   if (pose_factor.info() != Eigen::Success || !pose_factor.isPositive()) return false;
   const Vector6 by_offset =
       pose_factor.solve(equations.information.topRightCorner<6, 1>()) * assumed_offset_sigma;
-  const Matrix6 covariance = pose_factor.solve(Matrix6::Identity()) * result->variance_factor +
-                             by_offset * by_offset.transpose();
+  const Matrix6 covariance =
+      pose_factor.solve(Matrix6::Identity()) * variance + by_offset * by_offset.transpose();
   result->covariance = 0.5 * (covariance + covariance.transpose());
 
   // The offset with the pose eliminated.
@@ -74,7 +76,7 @@ bool estimate_covariance(const Adjustment& adjustment, double assumed_offset_sig
       equations.gradient[6] - equations.information.bottomLeftCorner<1, 6>().dot(
                                   pose_factor.solve(equations.gradient.head<6>()).transpose());
   result->offset = information > 0.0 ? -gradient / information : 0.0;
-  result->offset_sigma = information > 0.0 ? std::sqrt(result->variance_factor / information)
+  result->offset_sigma = information > 0.0 ? std::sqrt(variance / information)
                                            : std::numeric_limits<double>::infinity();
   return result->covariance.allFinite() && (result->covariance.diagonal().array() > 0.0).all() &&
          std::isfinite(result->offset);
@@ -106,8 +108,8 @@ Refinement refine_motion(const StereoCalibration& camera, const StereoParameters
   if (!adjust(inliers)) return result;
   result.inliers = judge_tracks(adjustment, result.T_previous_current,
                                 static_cast<int>(tracks.size()), parameters.outlier_sigmas);
-  result.ok =
-      adjust(result.inliers) && estimate_covariance(adjustment, assumed_offset_sigma, &result);
+  result.ok = adjust(result.inliers) && estimate_covariance(adjustment, parameters.correlated_pairs,
+                                                            assumed_offset_sigma, &result);
   return result;
 }
 

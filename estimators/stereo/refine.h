@@ -16,7 +16,7 @@ struct Refinement {
       false;  // false: no finite solution (fewer than three usable tracks, degenerate geometry)
   Eigen::Isometry3d T_previous_current = Eigen::Isometry3d::Identity();  // cam
   // Of the perturbation of residual.h: translation m, then rotation rad, in cam at the previous
-  // epoch; scaled by the residuals' own variance.
+  // epoch; scaled by the residuals' own variance and by correlated_pairs.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   // What this pair alone says of a constant offset of all disparities (true = measured + offset),
   // px. An offset makes near and far points disagree about the way driven.
