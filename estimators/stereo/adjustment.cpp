@@ -11,25 +11,18 @@ namespace maploop::stereo {
 namespace {
 
 constexpr double kSmallestDisparity = 0.05;  // px; keeps an adjusted point in front and finite
-constexpr double kHeldWeight = 1e6;          // 1 / px, of an offset that may not move
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-SharedUnknowns perturbed(const SharedUnknowns& unknowns, const Vector7& perturbation) {
-  return {perturbed(unknowns.T_previous_current, perturbation.head<6>()),
-          unknowns.disparity_offset + perturbation[6]};
-}
-
 Adjustment::Adjustment(const StereoCalibration& camera, const StereoParameters& parameters,
-                       std::span<const StereoTrack> tracks, double offset_sigma)
+                       std::span<const StereoTrack> tracks)
     : camera_(camera),
       tracks_(tracks),
       track_weight_(1.0 / parameters.sigma_track),
       change_weight_(1.0 / parameters.sigma_disparity),
       level_weight_(1.0 / std::hypot(parameters.sigma_disparity,
                                      std::numbers::sqrt2 * parameters.sigma_match)),
-      offset_weight_(offset_sigma > 0.0 ? 1.0 / offset_sigma : kHeldWeight),
       huber_(parameters.huber) {}
 
 double Adjustment::huber_cost(double squared) const {
@@ -52,18 +45,17 @@ void Adjustment::whiten(Term* term) const {
   apply(term->by_disparity);
 }
 
-Adjustment::Term Adjustment::linearize(const SharedUnknowns& unknowns, int track,
+Adjustment::Term Adjustment::linearize(const Eigen::Isometry3d& pose, int track,
                                        double disparity) const {
   const StereoTrack& t = tracks_[static_cast<std::size_t>(track)];
-  const Prediction prediction = predict(camera_, unknowns.T_previous_current, t.previous.u_left,
-                                        t.previous.v_left, disparity);
+  const Prediction prediction =
+      predict(camera_, pose, t.previous.u_left, t.previous.v_left, disparity);
   Term term;
   term.valid = prediction.in_front;
   if (!term.valid) return term;
   const StereoObservation& now = t.current;
   term.residual << prediction.image.x() - now.u_left, prediction.image.y() - now.v_left,
-      prediction.image.z() - now.disparity() - unknowns.disparity_offset,
-      disparity - t.previous.disparity() - unknowns.disparity_offset;
+      prediction.image.z() - now.disparity(), disparity - t.previous.disparity();
   term.by_shared.topLeftCorner<3, 6>() = prediction.by_pose;
   term.by_shared.bottomLeftCorner<1, 6>().setZero();
   term.by_shared.col(6) << 0.0, 0.0, -1.0, -1.0;
@@ -72,40 +64,34 @@ Adjustment::Term Adjustment::linearize(const SharedUnknowns& unknowns, int track
   return term;
 }
 
-double Adjustment::settle(const SharedUnknowns& unknowns, int track, double* disparity) const {
+double Adjustment::settle(const Eigen::Isometry3d& pose, int track, double* disparity) const {
   *disparity =
-      std::max(kSmallestDisparity, tracks_[static_cast<std::size_t>(track)].previous.disparity() +
-                                       unknowns.disparity_offset);
+      std::max(kSmallestDisparity, tracks_[static_cast<std::size_t>(track)].previous.disparity());
   for (int i = 0; i < 2; ++i) {  // nearly linear: the second step moves 1e-3 px and less
-    const Term term = linearize(unknowns, track, *disparity);
+    const Term term = linearize(pose, track, *disparity);
     if (!term.valid) return kInfinite;
     *disparity -= term.by_disparity.dot(term.residual) / term.by_disparity.squaredNorm();
     *disparity = std::max(kSmallestDisparity, *disparity);
   }
-  const Term term = linearize(unknowns, track, *disparity);
+  const Term term = linearize(pose, track, *disparity);
   return term.valid ? term.residual.squaredNorm() : kInfinite;
 }
 
-double Adjustment::prior_cost(const SharedUnknowns& unknowns) const {
-  const double whitened = unknowns.disparity_offset * offset_weight_;
-  return whitened * whitened;
-}
-
-double Adjustment::cost(const SharedUnknowns& unknowns, std::span<const int> inliers,
+double Adjustment::cost(const Eigen::Isometry3d& pose, std::span<const int> inliers,
                         std::vector<double>* disparities) const {
   disparities->resize(inliers.size());
   double sum = 0.0;
   for (std::size_t i = 0; i < inliers.size(); ++i)
-    sum += huber_cost(settle(unknowns, inliers[i], &(*disparities)[i]));
+    sum += huber_cost(settle(pose, inliers[i], &(*disparities)[i]));
   return sum;
 }
 
-NormalEquations Adjustment::normal_equations(const SharedUnknowns& unknowns,
+NormalEquations Adjustment::normal_equations(const Eigen::Isometry3d& pose,
                                              std::span<const int> inliers,
                                              const std::vector<double>& disparities) const {
   NormalEquations equations;
   for (std::size_t i = 0; i < inliers.size(); ++i) {
-    const Term term = linearize(unknowns, inliers[i], disparities[i]);
+    const Term term = linearize(pose, inliers[i], disparities[i]);
     if (!term.valid) continue;
     const double weight = huber_weight(term.residual.squaredNorm());
     const Vector7 coupling = term.by_shared.transpose() * term.by_disparity;
@@ -115,8 +101,6 @@ NormalEquations Adjustment::normal_equations(const SharedUnknowns& unknowns,
     equations.gradient += weight * (term.by_shared.transpose() * term.residual -
                                     coupling * (term.by_disparity.dot(term.residual) / own));
   }
-  equations.prior = offset_weight_ * offset_weight_;
-  equations.gradient[6] += unknowns.disparity_offset * equations.prior;
   return equations;
 }
 

@@ -18,12 +18,11 @@ void track_points(const ImagePyramid& from_image, const ImagePyramid& to_image, 
                   std::vector<cv::Point2f>* to, std::vector<unsigned char>* found) {
   found->clear();
   if (from.empty()) return;
-  cv::calcOpticalFlowPyrLK(
-      from_image.levels(), to_image.levels(), from, *to, *found, cv::noArray(),
-      cv::Size(parameters.window, parameters.window), coarsest,
-      cv::TermCriteria(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, parameters.max_iterations,
-                       parameters.min_step),
-      cv::OPTFLOW_USE_INITIAL_FLOW);
+  cv::calcOpticalFlowPyrLK(from_image.levels(), to_image.levels(), from, *to, *found, cv::noArray(),
+                           cv::Size(parameters.window, parameters.window), coarsest,
+                           cv::TermCriteria(cv::TermCriteria::COUNT + cv::TermCriteria::EPS,
+                                            parameters.max_iterations, parameters.min_step),
+                           cv::OPTFLOW_USE_INITIAL_FLOW);
 }
 
 }  // namespace maploop::stereo

@@ -10,36 +10,27 @@ namespace maploop::stereo {
 namespace {
 
 bool usable(const StereoObservation& seen, const StereoParameters& parameters) {
-  return std::isfinite(seen.u_left) && std::isfinite(seen.v_left) &&
-         std::isfinite(seen.u_right) && std::isfinite(seen.v_right) &&
-         seen.disparity() >= parameters.min_disparity &&
+  return std::isfinite(seen.u_left) && std::isfinite(seen.v_left) && std::isfinite(seen.u_right) &&
+         std::isfinite(seen.v_right) && seen.disparity() >= parameters.min_disparity &&
          seen.disparity() <= parameters.max_disparity &&
          std::abs(seen.v_left - seen.v_right) <= parameters.max_row_error;
 }
 
 }  // namespace
 
-DisparityOffset drifted(const DisparityOffset& offset, double seconds,
-                        const StereoParameters& parameters) {
-  if (offset.sigma == 0.0) return offset;
-  return {offset.value,
-          std::hypot(offset.sigma, parameters.disparity_offset_drift * std::sqrt(seconds))};
-}
-
 CameraMotion estimate_motion(const StereoCalibration& camera, const StereoParameters& parameters,
                              std::span<const StereoTrack> tracks, std::uint64_t seed,
                              const DisparityOffset& offset,
                              const std::optional<Eigen::Isometry3d>& expected) {
   CameraMotion motion;
-  motion.offset = offset;
   std::vector<StereoTrack> good;
   std::vector<int> index_of;
   good.reserve(tracks.size());
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     if (!usable(tracks[i].previous, parameters) || !usable(tracks[i].current, parameters)) continue;
     good.push_back(tracks[i]);
-    good.back().previous.u_right -= offset.value;
-    good.back().current.u_right -= offset.value;
+    good.back().previous.u_right -= offset.value();
+    good.back().current.u_right -= offset.value();
     index_of.push_back(static_cast<int>(i));
   }
   motion.tracked = static_cast<int>(good.size());
@@ -55,15 +46,14 @@ CameraMotion estimate_motion(const StereoCalibration& camera, const StereoParame
   const Consensus consensus = ransac_motion(camera, parameters, good, seed, expected_inverse);
   if (!enough(consensus.inliers)) return motion;
   const Refinement refined = refine_motion(camera, parameters, good, consensus.inliers,
-                                           consensus.T_current_previous.inverse(), offset.sigma);
+                                           consensus.T_current_previous.inverse(), offset.sigma());
   if (!refined.ok || !enough(refined.inliers)) return motion;
 
   motion.status = OdometryStatus::ok;
   motion.T_previous_current = refined.T_previous_current;
   motion.covariance = refined.covariance;
-  if (offset.sigma > 0.0)
-    motion.offset = {offset.value + refined.disparity_offset,
-                     std::min(offset.sigma, refined.disparity_offset_sigma)};
+  motion.offset = refined.offset;
+  motion.offset_sigma = refined.offset_sigma;
   for (const int i : refined.inliers)
     motion.inliers.push_back(index_of[static_cast<std::size_t>(i)]);
   return motion;

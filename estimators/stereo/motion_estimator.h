@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "estimators/stereo/disparity_offset.h"
 #include "estimators/stereo/parameters.h"
 #include "estimators/stereo/tracks.h"
 #include "msgs/calibration.h"
@@ -14,30 +15,22 @@
 
 namespace maploop::stereo {
 
-// What the stereo pair itself says about its rectification: true disparity = measured + value.
-struct DisparityOffset {
-  double value = 0.0;  // px
-  double sigma = 0.0;  // px; 0: known, not estimated
-};
-
-// The offset `seconds` later: a random walk of disparity_offset_drift.
-DisparityOffset drifted(const DisparityOffset& offset, double seconds,
-                        const StereoParameters& parameters);
-
 struct CameraMotion {
-  OdometryStatus status = OdometryStatus::too_few_features;  // ok, too_few_features, too_few_inliers
+  OdometryStatus status =
+      OdometryStatus::too_few_features;  // ok, too_few_features, too_few_inliers
   Eigen::Isometry3d T_previous_current = Eigen::Isometry3d::Identity();  // cam
   // Translation (m), then rotation vector (rad), of cam at the current epoch, in cam at the
   // previous one.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  DisparityOffset offset;  // after this pair's measurements; as it came in where status is not ok
-  int tracked = 0;           // tracks with usable, finite measurements
-  std::vector<int> inliers;  // indices of tracks, ascending
+  double offset = 0.0;        // px still missing in the disparities, as this pair sees it,
+  double offset_sigma = 0.0;  // and its standard deviation
+  int tracked = 0;            // tracks with usable, finite measurements
+  std::vector<int> inliers;   // indices of tracks, ascending
 };
 
 // Tracks may come from the images or from a file. Those with a disparity outside the limits, rows
 // that differ by more than max_row_error, or numbers that are not finite, do not count. `seed`
-// makes the sampling repeatable; `offset` is what is known of the disparities' offset so far;
+// makes the sampling repeatable; `offset` is added to every disparity;
 // `expected` is the motion (T_previous_current) a constant velocity would give.
 CameraMotion estimate_motion(const StereoCalibration& camera, const StereoParameters& parameters,
                              std::span<const StereoTrack> tracks, std::uint64_t seed,

@@ -5,18 +5,19 @@ namespace maploop::stereo {
 
 struct StereoParameters {
   // --- Corner detection
-  int bucket_size = 50;        // px; features spread over the image pin down rotation and translation
-  int features_per_bucket = 3; // 8 x 25 buckets of a 1242 x 375 image: at most 600, typically 350
-  int fast_threshold = 10;     // grey levels; low, for roads have little contrast
-  double min_corner_response = 200.0;  // smaller eigenvalue of the mean gradient tensor (Scharr / 32)
-  int min_feature_distance = 12;       // px; closer windows would measure the same pixels twice
+  int bucket_size = 50;  // px; features spread over the image pin down rotation and translation
+  int features_per_bucket = 3;  // 8 x 25 buckets of a 1242 x 375 image: at most 600, typically 350
+  int fast_threshold = 10;      // grey levels; low, for roads have little contrast
+  double min_corner_response =
+      200.0;                      // smaller eigenvalue of the mean gradient tensor (Scharr / 32)
+  int min_feature_distance = 12;  // px; closer windows would measure the same pixels twice
 
   // --- Lucas-Kanade tracking
-  int window = 15;                // px, odd; side of the compared square
-  int pyramid_levels = 4;         // above the full image; used where no motion is known yet
-  int predicted_levels = 1;       // above the full image, when the last motion predicts the position
-  int max_iterations = 15;        // per level
-  double min_step = 0.02;         // px; an iteration that moves less is the last one
+  int window = 15;           // px, odd; side of the compared square
+  int pyramid_levels = 4;    // above the full image; used where no motion is known yet
+  int predicted_levels = 1;  // above the full image, when the last motion predicts the position
+  int max_iterations = 15;   // per level
+  double min_step = 0.02;    // px; an iteration that moves less is the last one
 
   // --- Stereo match and consistency
   double min_disparity = 1.0;    // px
@@ -26,12 +27,19 @@ struct StereoParameters {
   double max_closure = 1.0;      // px between the two ways round the circle
 
   // --- Measurement noise
-  double sigma_track = 0.15;      // px per axis, position in the left image from one pair to the next
-  double sigma_disparity = 0.2;   // px, what changes in a match from one pair to the next
-  double sigma_match = 0.4;       // px, what a match keeps wrong while the feature lives
-  double sigma_disparity_offset = 0.3;    // px before any data: what a good rectification leaves;
+  double sigma_track = 0.15;  // px per axis, position in the left image from one pair to the next
+  double sigma_disparity = 0.2;  // px, what changes in a match from one pair to the next
+  double sigma_match = 0.4;      // px, what a match keeps wrong while the feature lives
+  double correlated_pairs =
+      10.0;  // pairs in which a feature brings the same match error: errors of
+             // successive motions add up, and the covariance is right over them
+
+  // --- Disparity offset (disparity_offset.h)
+  double sigma_disparity_offset = 0.3;    // px before any data: what a rectification may leave;
                                           // 0: the rectification is taken as perfect
   double disparity_offset_drift = 0.003;  // px / sqrt(s): 0.2 px in an hour of warming up
+  double max_offset_sigma = 0.3;  // px; a pair that sees it worse tells more of its outliers
+  int min_offset_inliers = 100;   // with fewer, single match errors outweigh a common one
 
   // --- Motion estimate
   int min_tracks = 25;            // fewer: too_few_features
@@ -45,11 +53,11 @@ struct StereoParameters {
   int refine_max_iterations = 10;  // of each of the two rounds
 
   // --- Plausibility of a road vehicle
-  double max_speed = 70.0;         // m/s
-  double max_acceleration = 8.0;   // m/s^2, from one motion to the next
-  double max_yaw_rate = 1.5708;    // rad/s (90 deg/s)
-  double max_gap = 1.0;            // s; an older pair is not compared with any more
-  int max_stale_pairs = 10;        // pairs in a row with old stamps after which time starts anew
+  double max_speed = 70.0;        // m/s
+  double max_acceleration = 8.0;  // m/s^2, from one motion to the next
+  double max_yaw_rate = 1.5708;   // rad/s (90 deg/s)
+  double max_gap = 1.0;           // s; an older pair is not compared with any more
+  int max_stale_pairs = 10;       // pairs in a row with old stamps after which time starts anew
 };
 
 }  // namespace maploop::stereo

@@ -2,32 +2,38 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "estimators/stereo/adjustment.h"
+#include "estimators/stereo/residual.h"
 
 namespace maploop::stereo {
 namespace {
 
+// Perfect synthetic tracks leave no residual at all; their covariance must stay positive.
+constexpr double kSmallestVarianceFactor = 1e-12;
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
 // One round with a fixed set of tracks; false where the equations have no finite solution.
 bool levenberg_marquardt(const Adjustment& adjustment, std::span<const int> inliers,
-                         int max_iterations, SharedUnknowns* unknowns, int* iterations) {
+                         int max_iterations, Eigen::Isometry3d* pose, int* iterations) {
   std::vector<double> disparities, tried_disparities;
-  double cost =
-      adjustment.cost(*unknowns, inliers, &disparities) + adjustment.prior_cost(*unknowns);
+  double cost = adjustment.cost(*pose, inliers, &disparities);
   double damping = 1e-6;
   for (int i = 0; i < max_iterations; ++i) {
     ++*iterations;
-    NormalEquations equations = adjustment.normal_equations(*unknowns, inliers, disparities);
-    equations.information(6, 6) += equations.prior;
-    equations.information.diagonal() *= 1.0 + damping;
-    const Vector7 step = -equations.information.ldlt().solve(equations.gradient);
+    const NormalEquations equations = adjustment.normal_equations(*pose, inliers, disparities);
+    Matrix6 information = equations.information.topLeftCorner<6, 6>();
+    information.diagonal() *= 1.0 + damping;
+    const Vector6 step = -information.ldlt().solve(equations.gradient.head<6>());
     if (!step.allFinite()) return false;
-    const SharedUnknowns tried = perturbed(*unknowns, step);
-    const double tried_cost =
-        adjustment.cost(tried, inliers, &tried_disparities) + adjustment.prior_cost(tried);
+    const Eigen::Isometry3d tried = perturbed(*pose, step);
+    const double tried_cost = adjustment.cost(tried, inliers, &tried_disparities);
     if (tried_cost <= cost) {
       const bool settled = cost - tried_cost <= 1e-7 * cost;
-      *unknowns = tried;
+      *pose = tried;
       disparities.swap(tried_disparities);
       cost = tried_cost;
       damping *= 0.1;
@@ -40,35 +46,48 @@ bool levenberg_marquardt(const Adjustment& adjustment, std::span<const int> inli
 }
 
 // Inverse information times the residuals' variance (Huber, "Robust Statistics", 1981, 7.6 in its
-// simplest form): each track leaves four residuals less its own disparity.
-bool estimate_covariance(const Adjustment& adjustment, const SharedUnknowns& unknowns,
-                         Refinement* result) {
+// simplest form), each track leaving four residuals less its own disparity; and times the pairs in
+// which the errors are the same ones, so that the covariances of successive motions may be added.
+bool estimate_covariance(const Adjustment& adjustment, double correlated_pairs,
+                         double assumed_offset_sigma, Refinement* result) {
   const double freedom = 3.0 * static_cast<double>(result->inliers.size()) - 6.0;
   if (freedom <= 0.0) return false;
   std::vector<double> disparities;
-  result->variance_factor =
-      adjustment.cost(unknowns, result->inliers, &disparities) / freedom;
-  if (!(result->variance_factor > 0.0)) result->variance_factor = 1e-12;
-  const NormalEquations equations =
-      adjustment.normal_equations(unknowns, result->inliers, disparities);
-  Matrix7 information = equations.information / result->variance_factor;
-  information(6, 6) += equations.prior;
-  const Eigen::LDLT<Matrix7> factor(information);
-  if (factor.info() != Eigen::Success || !factor.isPositive()) return false;
-  Matrix7 covariance = factor.solve(Matrix7::Identity());
-  covariance = (0.5 * (covariance + covariance.transpose())).eval();
-  if (!covariance.allFinite() || !(covariance.diagonal().array() > 0.0).all()) return false;
-  result->covariance = covariance.topLeftCorner<6, 6>();
-  result->disparity_offset_sigma = std::sqrt(covariance(6, 6));
-  return true;
+  const Eigen::Isometry3d& pose = result->T_previous_current;
+  const double cost = adjustment.cost(pose, result->inliers, &disparities);
+  result->variance_factor = std::max(kSmallestVarianceFactor, cost / freedom);
+  const NormalEquations equations = adjustment.normal_equations(pose, result->inliers, disparities);
+
+  const double variance = result->variance_factor * correlated_pairs;
+  const Eigen::LDLT<Matrix6> pose_factor(equations.information.topLeftCorner<6, 6>());
+  if (pose_factor.info() != Eigen::Success || !pose_factor.isPositive()) return false;
+  const Vector6 by_offset =
+      pose_factor.solve(equations.information.topRightCorner<6, 1>()) * assumed_offset_sigma;
+  const Matrix6 covariance =
+      pose_factor.solve(Matrix6::Identity()) * variance + by_offset * by_offset.transpose();
+  result->covariance = 0.5 * (covariance + covariance.transpose());
+
+  // The offset with the pose eliminated.
+  const double information =
+      equations.information(6, 6) -
+      equations.information.bottomLeftCorner<1, 6>().dot(
+          pose_factor.solve(equations.information.topRightCorner<6, 1>()).transpose());
+  const double gradient =
+      equations.gradient[6] - equations.information.bottomLeftCorner<1, 6>().dot(
+                                  pose_factor.solve(equations.gradient.head<6>()).transpose());
+  result->offset = information > 0.0 ? -gradient / information : 0.0;
+  result->offset_sigma = information > 0.0 ? std::sqrt(variance / information)
+                                           : std::numeric_limits<double>::infinity();
+  return result->covariance.allFinite() && (result->covariance.diagonal().array() > 0.0).all() &&
+         std::isfinite(result->offset);
 }
 
-std::vector<int> judge_tracks(const Adjustment& adjustment, const SharedUnknowns& unknowns,
+std::vector<int> judge_tracks(const Adjustment& adjustment, const Eigen::Isometry3d& pose,
                               int count, double outlier_sigmas) {
   std::vector<int> inliers;
   double disparity = 0.0;
   for (int i = 0; i < count; ++i)
-    if (adjustment.settle(unknowns, i, &disparity) < outlier_sigmas * outlier_sigmas)
+    if (adjustment.settle(pose, i, &disparity) < outlier_sigmas * outlier_sigmas)
       inliers.push_back(i);
   return inliers;
 }
@@ -77,22 +96,20 @@ std::vector<int> judge_tracks(const Adjustment& adjustment, const SharedUnknowns
 
 Refinement refine_motion(const StereoCalibration& camera, const StereoParameters& parameters,
                          std::span<const StereoTrack> tracks, std::span<const int> inliers,
-                         const Eigen::Isometry3d& T_previous_current, double offset_sigma) {
+                         const Eigen::Isometry3d& T_previous_current, double assumed_offset_sigma) {
   Refinement result;
-  SharedUnknowns unknowns{T_previous_current, 0.0};
-  const Adjustment adjustment(camera, parameters, tracks, offset_sigma);
-  if (inliers.size() < 3 ||
-      !levenberg_marquardt(adjustment, inliers, parameters.refine_max_iterations, &unknowns,
-                           &result.iterations))
-    return result;
-  result.inliers = judge_tracks(adjustment, unknowns, static_cast<int>(tracks.size()),
-                                parameters.outlier_sigmas);
-  if (result.inliers.size() < 3) return result;
-  result.ok = levenberg_marquardt(adjustment, result.inliers, parameters.refine_max_iterations,
-                                  &unknowns, &result.iterations) &&
-              estimate_covariance(adjustment, unknowns, &result);
-  result.T_previous_current = unknowns.T_previous_current;
-  result.disparity_offset = unknowns.disparity_offset;
+  result.T_previous_current = T_previous_current;
+  const Adjustment adjustment(camera, parameters, tracks);
+  const auto adjust = [&](std::span<const int> chosen) {
+    return chosen.size() >= 3 &&
+           levenberg_marquardt(adjustment, chosen, parameters.refine_max_iterations,
+                               &result.T_previous_current, &result.iterations);
+  };
+  if (!adjust(inliers)) return result;
+  result.inliers = judge_tracks(adjustment, result.T_previous_current,
+                                static_cast<int>(tracks.size()), parameters.outlier_sigmas);
+  result.ok = adjust(result.inliers) && estimate_covariance(adjustment, parameters.correlated_pairs,
+                                                            assumed_offset_sigma, &result);
   return result;
 }
 

@@ -15,14 +15,9 @@ struct StereoFrame {
   ImagePyramid right;
 };
 
-// Disparity (px of the full image, to two pixels) of the patch of the half-size left image around
-// `left_point` that correlates best along the same row of the right one; negative where the best
-// is below min_correlation, stands at an end of the range, or is not unique.
-double search_row(const StereoFrame& frame, const StereoParameters& parameters,
-                  const cv::Point2f& left_point);
-
-// Stereo match of new corners: row search, then Lucas-Kanade to the right image and back. Points
-// whose rows differ, whose way back ends elsewhere or whose disparity is out of range are left out.
+// Stereo match of new corners: search along the row of the half-size images, then Lucas-Kanade to
+// the right image and back. Points whose rows differ, whose way back ends elsewhere or whose
+// disparity is out of range are left out.
 void match_new_corners(const StereoFrame& frame, const StereoParameters& parameters,
                        const std::vector<cv::Point2f>& corners,
                        std::vector<StereoObservation>* matched);

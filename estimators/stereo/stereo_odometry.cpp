@@ -16,9 +16,7 @@ namespace maploop::stereo {
 class StereoOdometry::Implementation {
  public:
   Implementation(const StereoCalibration& calibration, const StereoParameters& parameters)
-      : camera_(calibration), parameters_(parameters), detector_(parameters) {
-    offset_.sigma = parameters.sigma_disparity_offset;
-  }
+      : camera_(calibration), parameters_(parameters), detector_(parameters), offset_(parameters) {}
 
   RelativeMotion process(const StereoPair& pair) {
     RelativeMotion result;
@@ -43,6 +41,8 @@ class StereoOdometry::Implementation {
     return result;
   }
 
+  double disparity_offset() const { return offset_.value(); }
+
  private:
   bool acceptable(const StereoPair& pair) {
     if (!has_size(pair.left, camera_) || !has_size(pair.right, camera_)) return false;
@@ -66,9 +66,10 @@ class StereoOdometry::Implementation {
         expected ? std::optional(expected->inverse()) : std::nullopt;
     track_features(camera_, parameters_, reference_, current_, features_, expected_inverse,
                    &tracks_);
-    CameraMotion motion = estimate_motion(camera_, parameters_, tracks_,
-                                          static_cast<std::uint64_t>(to_nanoseconds(stamp)),
-                                          drifted(offset_, seconds, parameters_), expected);
+    offset_.predict(seconds);
+    CameraMotion motion =
+        estimate_motion(camera_, parameters_, tracks_,
+                        static_cast<std::uint64_t>(to_nanoseconds(stamp)), offset_, expected);
     result->tracked = motion.tracked;
     result->inliers = static_cast<int>(motion.inliers.size());
     result->status = motion.status;
@@ -103,7 +104,7 @@ class StereoOdometry::Implementation {
       last_motion_ = motion.T_previous_current;
       last_velocity_ = result.translation / seconds;
       last_seconds_ = seconds;
-      offset_ = motion.offset;
+      offset_.update(motion.offset, motion.offset_sigma, result.inliers);
     } else {
       last_velocity_.reset();  // it may be the one that was wrong
     }
@@ -152,7 +153,7 @@ class StereoOdometry::Implementation {
   int stale_pairs_ = 0;
 
   Eigen::Isometry3d last_motion_ = Eigen::Isometry3d::Identity();  // cam
-  std::optional<Eigen::Vector3d> last_velocity_;                   // m/s, body; none after a refusal
+  std::optional<Eigen::Vector3d> last_velocity_;  // m/s, body; none after a refusal
   double last_seconds_ = 0.0;
 
   DisparityOffset offset_;
@@ -174,6 +175,10 @@ StereoOdometry::StereoOdometry(const StereoCalibration& calibration,
 StereoOdometry::~StereoOdometry() = default;
 StereoOdometry::StereoOdometry(StereoOdometry&&) noexcept = default;
 StereoOdometry& StereoOdometry::operator=(StereoOdometry&&) noexcept = default;
+
+double StereoOdometry::disparity_offset() const {
+  return implementation_->disparity_offset();
+}
 
 RelativeMotion StereoOdometry::process(const StereoPair& pair) {
   return implementation_->process(pair);

@@ -28,14 +28,18 @@ class StereoOdometry {
   // available and sequence are the pair's. Never throws on what a camera may deliver; a refusal
   // carries its reason in `status`, and then pose and covariance are identity and zero:
   //   first_frame       no usable pair yet, or the last one is older than max_gap
-  //   too_few_features  fewer than min_tracks tracks: dark, blurred, covered, left and right swapped
-  //   too_few_inliers   no motion explains enough of them
-  //   implausible       beyond max_speed, max_acceleration or max_yaw_rate
-  //   bad_input         size differs from the calibration's, or stamp not after the last one. After
+  //   too_few_features  fewer than min_tracks tracks: dark, blurred, covered, left and right
+  //   swapped too_few_inliers   no motion explains enough of them implausible       beyond
+  //   max_speed, max_acceleration or max_yaw_rate bad_input         size differs from the
+  //   calibration's, or stamp not after the last one. After
   //                     max_stale_pairs old stamps in a row time is taken to have been set back.
   // A pair is usable when it shows enough stereo features itself; it is then what the next one is
   // compared with, whatever became of its own motion.
   RelativeMotion process(const StereoPair& pair);
+
+  // What the pairs so far say is missing in every disparity, px (disparity_offset.h); already added
+  // to what the motions use.
+  double disparity_offset() const;
 
  private:
   class Implementation;

@@ -44,8 +44,7 @@ void track_features(const StereoCalibration& camera, const StereoParameters& par
   std::vector<unsigned char> found_left, found_right, found_circle;
   track_points(previous_frame.left, current_frame.left, coarsest, parameters, old_left, &left,
                &found_left);
-  for (std::size_t i = 0; i < count; ++i)
-    right[i] = point(left[i].x - disparity[i], left[i].y);
+  for (std::size_t i = 0; i < count; ++i) right[i] = point(left[i].x - disparity[i], left[i].y);
   track_points(current_frame.left, current_frame.right, parameters.predicted_levels, parameters,
                left, &right, &found_right);
   std::vector<cv::Point2f> circle = right;

@@ -55,6 +55,8 @@ void validate(const StereoParameters& p) {
           p.sigma_disparity_offset);
   require(p.disparity_offset_drift >= 0.0, "disparity_offset_drift", "0 px/sqrt(s) or more",
           p.disparity_offset_drift);
+  require_positive("max_offset_sigma", p.max_offset_sigma);
+  require(p.correlated_pairs >= 1.0, "correlated_pairs", "1 or more", p.correlated_pairs);
   require(p.min_tracks >= 6, "min_tracks", "at least 6", p.min_tracks);
   require(p.min_inliers >= 6, "min_inliers", "at least 6", p.min_inliers);
   require(p.min_inlier_ratio >= 0.0 && p.min_inlier_ratio <= 1.0, "min_inlier_ratio", "0 to 1",

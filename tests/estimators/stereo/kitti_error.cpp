@@ -70,7 +70,8 @@ Trajectory read_kitti_poses(const std::filesystem::path& file) {
     for (int i = 0; i < 12; ++i) stream >> rows(i / 4, i % 4);
     if (!stream) return poses;
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-    pose.linear() = Eigen::Quaterniond(Eigen::Matrix3d(rows.leftCols<3>())).normalized().toRotationMatrix();
+    pose.linear() =
+        Eigen::Quaterniond(Eigen::Matrix3d(rows.leftCols<3>())).normalized().toRotationMatrix();
     pose.translation() = rows.col(3);
     poses.push_back(pose);
   }

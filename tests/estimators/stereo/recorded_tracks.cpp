@@ -86,7 +86,8 @@ RecordedTracks read_recorded_tracks(const std::filesystem::path& folder, const s
     recorded.seconds.push_back(all_seconds[frame]);
     const std::vector<double>& t = truth.at(frame);
     recorded.truth.push_back(pose_of({t[9], t[10], t[11]}, {t[12], t[13], t[14], t[15]}));
-    const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> b(baseline.at(frame).data());
+    const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> b(
+        baseline.at(frame).data());
     recorded.baseline.push_back(
         pose_of(b.col(3), Eigen::Quaterniond(Eigen::Matrix3d(b.leftCols<3>()))));
     if (frame + 1 == all_seconds.size()) break;

@@ -15,7 +15,7 @@ struct RecordedTracks {
   StereoCalibration calibration;
   std::vector<double> seconds;                          // stamp of each frame, from the first
   std::vector<std::vector<stereo::StereoTrack>> pairs;  // [k]: from frame k to k + 1
-  Trajectory truth;     // left camera, one a frame
+  Trajectory truth;                                     // left camera, one a frame
   Trajectory baseline;  // a plain two-frame odometry on the same tracks
 };
 

@@ -1,0 +1,37 @@
+// Where along its row a left patch is seen by the right camera.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace maploop::stereo {
+
+// An 8-bit grey image that somebody else owns.
+struct PixelView {
+  const std::uint8_t* pixels = nullptr;
+  std::ptrdiff_t stride = 0;  // from one row to the next
+  int width = 0;
+  int height = 0;
+
+  const std::uint8_t* row(int y) const { return pixels + y * stride; }
+};
+
+// Normalized correlation of a left patch with right ones at the disparities 0, 1, 2, ... Buffers
+// are kept from call to call.
+class RowSearch {
+ public:
+  // The whole-pixel disparity up to `farthest` at which the patch around (x, y) correlates best;
+  // negative where the best is below `min_correlation` or not unique, or the patch leaves the
+  // image. Both images have one size.
+  int best_disparity(const PixelView& left, const PixelView& right, int x, int y, int farthest,
+                     double min_correlation);
+
+ private:
+  void correlate(const PixelView& left, const PixelView& right, int x, int y, int count);
+
+  std::vector<std::int16_t> strip_;           // the right rows, kSide of them
+  std::vector<std::int32_t> sums_, squares_;  // of each column of the strip
+  std::vector<double> correlation_;           // by disparity
+};
+
+}  // namespace maploop::stereo
