@@ -59,6 +59,12 @@ void visit(Config& config, Table&& table, Field&& field) {
     field("max_closure", p.max_closure);
     field("sigma_track", p.sigma_track);
     field("sigma_disparity", p.sigma_disparity);
+    field("sigma_match", p.sigma_match);
+    field("correlated_pairs", p.correlated_pairs);
+    field("sigma_disparity_offset", p.sigma_disparity_offset);
+    field("disparity_offset_drift", p.disparity_offset_drift);
+    field("max_offset_sigma", p.max_offset_sigma);
+    field("min_offset_inliers", p.min_offset_inliers);
     field("min_tracks", p.min_tracks);
     field("min_inliers", p.min_inliers);
     field("min_inlier_ratio", p.min_inlier_ratio);

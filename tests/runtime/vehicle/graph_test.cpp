@@ -33,7 +33,8 @@ TEST(Graph, EveryEdgeAndChannelComesFromAStage) {
 
 TEST(Graph, ADeadlineLeavesRoomForTheBudget) {
   for (const Stage& stage : stages::all) {
-    if (stage.deadline > Duration::zero()) EXPECT_GE(stage.deadline, stage.budget) << stage.name;
+    if (stage.deadline == Duration::zero()) continue;
+    EXPECT_GE(stage.deadline, stage.budget) << stage.name;
   }
 }
 
