@@ -27,13 +27,12 @@ struct FusionParameters {
   double start_acceleration = 3.0;     // m/s^2, change of speed between a fix's two stamps
 
   // Inertial sensors.
-  double gyro_noise = 8.7e-5;        // rad/sqrt(s) (0.3 deg/sqrt(h)), MEMS angle random walk
-  double gyro_bias_sigma = 1.75e-4;  // rad/s (36 deg/h), Gauss-Markov, MEMS after warm-up
-  double gyro_bias_time = 1000.0;    // s, its correlation time
-  double gyro_scale_sigma = 0.003;   // 1, scale and cross-axis error; acts in turns only
-  double turn_time = 3.0;            // s, how long a turn keeps that error
-  double acceleration_noise =
-      0.3;  // m/s/sqrt(s), vibration aliased into 10 Hz; levels pitch in 10 s
+  double gyro_noise = 8.7e-5;              // rad/sqrt(s) (0.3 deg/sqrt(h)), MEMS angle random walk
+  double gyro_bias_sigma = 1.75e-4;        // rad/s (36 deg/h), Gauss-Markov, MEMS after warm-up
+  double gyro_bias_time = 1000.0;          // s, its correlation time
+  double gyro_scale_sigma = 0.003;         // 1, scale and cross-axis error; acts in turns only
+  double turn_time = 3.0;                  // s, how long a turn keeps that error
+  double acceleration_noise = 0.3;         // m/s/sqrt(s), aliased vibration; levels pitch in 10 s
   double accelerometer_bias_sigma = 0.05;  // m/s^2 (0.3 deg of tilt), Gauss-Markov, calibrated MEMS
   double accelerometer_bias_time = 300.0;  // s, warming and sun
   double yaw_acceleration = 0.3;     // rad/s^2, steering unseen between samples and while held
@@ -47,10 +46,10 @@ struct FusionParameters {
   double pitch_noise = 0.0175;         // rad/sqrt(s) (1 deg), road and suspension between odometry
   double roll_noise = 0.0175;          // rad/sqrt(s) (1 deg)
   double slip_sigma = 0.005;           // rad (0.3 deg), direction of travel against the body's axis
+  double slip_time = 1.0;              // s, how long it lasts
   double climb_offset_sigma = 0.0175;  // rad (1 deg), body x against the direction of travel
   double climb_offset_time = 300.0;    // s, its correlation time: mounting stays, load shifts
   double climb_noise = 0.02;           // rad (1.1 deg) a frame, heave and vertical odometry error
-  double slip_time = 1.0;              // s, how long it lasts
   double max_tilt = 0.8;  // rad, no road vehicle leans so; a correction beyond is refused
 
   // Levelling by the accelerometers.

@@ -1,10 +1,10 @@
 #include "estimators/fusion/initial_state.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "estimators/fusion/covariance_check.h"
+#include "estimators/fusion/stamp_guard.h"
 
 namespace maploop::fusion {
 
@@ -19,7 +19,7 @@ Reason check_fix(const GnssFix& fix, const FusionParameters& parameters) {
       !fix.position_covariance.allFinite() || !fix.velocity_covariance.allFinite()) {
     return Reason::not_finite;
   }
-  if (std::abs(fix.position.latitude) > radians(89.0) ||
+  if (!plausible_stamp(fix.stamp) || std::abs(fix.position.latitude) > radians(89.0) ||
       std::abs(fix.position.longitude) > radians(360.0) || std::abs(fix.position.height) > 10e3 ||
       fix.velocity_enu.norm() > 100.0) {
     return Reason::out_of_range;
@@ -27,8 +27,9 @@ Reason check_fix(const GnssFix& fix, const FusionParameters& parameters) {
   if (!is_covariance(fix.position_covariance) || !is_covariance(fix.velocity_covariance)) {
     return Reason::invalid_covariance;
   }
-  if (std::chrono::abs(fix.stamp - fix.velocity_stamp) >
-      from_seconds(parameters.max_stamp_offset)) {
+  const Duration limit = from_seconds(parameters.max_stamp_offset);
+  if (!plausible_stamp(fix.velocity_stamp) ||
+      start_stamp(fix) < std::max(fix.stamp, fix.velocity_stamp) - limit) {
     return Reason::stamps_apart;
   }
   if (fix.velocity_enu.head<2>().norm() < parameters.min_course_speed) return Reason::too_slow;

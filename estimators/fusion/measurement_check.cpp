@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "estimators/fusion/covariance_check.h"
+#include "estimators/fusion/stamp_guard.h"
 
 namespace maploop::fusion {
 
@@ -21,7 +22,8 @@ Reason check_sample(const ImuSample& sample, const FusionParameters& parameters)
 
 Reason check_motion(const RelativeMotion& motion, const FusionParameters& parameters) {
   if (motion.status != OdometryStatus::ok) return Reason::none;
-  if (motion.stamp <= motion.from ||
+  if (!plausible_stamp(motion.stamp)) return Reason::out_of_range;
+  if (!plausible_stamp(motion.from) || motion.stamp <= motion.from ||
       motion.stamp - motion.from > from_seconds(parameters.max_interval)) {
     return Reason::bad_interval;
   }

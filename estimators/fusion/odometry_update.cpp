@@ -1,6 +1,7 @@
 #include "estimators/fusion/odometry_update.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 namespace maploop::fusion {

@@ -1,8 +1,6 @@
 #include "estimators/fusion/reduced_imu_filter.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -21,11 +19,6 @@ const FusionParameters& checked(const FusionParameters& parameters) {
   return parameters;
 }
 
-// After 1970 and before 2100: differences of such stamps do not overflow.
-bool plausible(Time stamp) {
-  return stamp > Time{} && stamp < Time(std::chrono::sys_days(std::chrono::year(2100) / 1 / 1));
-}
-
 EventKey last_key_at(Time stamp) {
   return {stamp, EventKind::clone, std::numeric_limits<std::uint64_t>::max()};
 }
@@ -38,6 +31,7 @@ ReducedImuFilter::ReducedImuFilter(const FusionParameters& parameters,
       has_origin_(origin.has_value()),
       frame_(origin.value_or(Geodetic{})),
       earth_(frame_.origin()),
+      guard_(parameters_),
       history_(static_cast<std::size_t>(parameters.history_capacity)) {}
 
 Outcome ReducedImuFilter::add(const ImuSample& sample) {
@@ -116,9 +110,6 @@ Outcome ReducedImuFilter::insert_and_roll(const EventKey& key, const Measurement
 }
 
 Outcome ReducedImuFilter::start(const GnssFix& fix) {
-  if (!plausible(fix.stamp) || !plausible(fix.velocity_stamp)) {
-    return count(refused(Reason::out_of_range));
-  }
   const Reason reason = check_fix(fix, parameters_);
   if (reason == Reason::too_slow) status_.phase = Phase::waiting_for_motion;
   if (reason != Reason::none) return count(refused(reason));
@@ -153,8 +144,8 @@ void ReducedImuFilter::restart() {
   base_key_ = {};
   base_sample_.reset();
   initialized_ = false;
-  newest_ = gnss_stamp_ = unconfirmed_ = Time{};
-  refused_stamps_in_a_row_ = 0;
+  gnss_stamp_ = Time{};
+  guard_.reset();
   status_.phase = Phase::waiting_for_fix;
   ++status_.restarts;
 }
@@ -175,34 +166,18 @@ Outcome ReducedImuFilter::count(Outcome outcome) {
 }
 
 Reason ReducedImuFilter::check_stamp(const EventKey& key) {
-  if (!plausible(key.stamp)) return Reason::out_of_range;
-  if (newest_ == Time{}) return Reason::none;
-  if (key.stamp < newest_ - from_seconds(parameters_.history_length)) return Reason::too_old;
-  if (history_.contains(key)) return Reason::duplicate;
-  if (key.stamp - newest_ > from_seconds(parameters_.confirm_gap)) {
-    const bool confirmed =
-        std::chrono::abs(key.stamp - unconfirmed_) <= from_seconds(parameters_.confirm_gap);
-    unconfirmed_ = key.stamp;
-    if (!confirmed || key.stamp - newest_ > from_seconds(parameters_.max_gap)) {
-      return Reason::time_jump;
-    }
-  }
-  return Reason::none;
+  const Reason reason = guard_.check(key.stamp);
+  return reason == Reason::none && history_.contains(key) ? Reason::duplicate : reason;
 }
 
 Outcome ReducedImuFilter::refuse_stamp(Reason reason) {
-  const Outcome outcome = count(refused(reason));
-  const bool out_of_time = reason == Reason::too_old || reason == Reason::time_jump;
-  if (out_of_time && ++refused_stamps_in_a_row_ >= parameters_.restart_after) restart();
-  return outcome;
+  if (guard_.refuse(reason)) restart();
+  return count(refused(reason));
 }
 
 void ReducedImuFilter::accept_stamp(Time stamp) {
-  refused_stamps_in_a_row_ = 0;
-  unconfirmed_ = Time{};
-  newest_ = std::max(newest_, stamp);
-  const Time oldest = newest_ - from_seconds(parameters_.history_length);
-  while (history_.size() > 0 && history_[0].key.stamp < oldest) drop_oldest();
+  guard_.accept(stamp);
+  while (history_.size() > 0 && history_[0].key.stamp < guard_.oldest()) drop_oldest();
 }
 
 void ReducedImuFilter::make_room(std::size_t events) {
@@ -218,7 +193,7 @@ void ReducedImuFilter::drop_oldest() {
   if (const auto* sample = std::get_if<ImuSample>(&event.measurement)) base_sample_ = *sample;
   if (initialized_) {
     base_ = event.after;
-  } else {
+  } else if (!std::holds_alternative<CloneRequest>(event.measurement)) {
     ++status_.unused;
   }
   history_.pop_front();
@@ -233,7 +208,7 @@ FilterStatus ReducedImuFilter::status() const {
 }
 
 std::optional<NavState> ReducedImuFilter::state_at(Time t) const {
-  if (!initialized_ || t < base_.stamp || t > newest_ + from_seconds(parameters_.max_gap)) {
+  if (!initialized_ || t < base_.stamp || t > guard_.newest() + from_seconds(parameters_.max_gap)) {
     return std::nullopt;
   }
   const std::size_t position = history_.position_after(last_key_at(t));

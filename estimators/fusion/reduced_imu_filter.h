@@ -11,6 +11,7 @@
 #include "estimators/fusion/fusion_parameters.h"
 #include "estimators/fusion/inertial_input.h"
 #include "estimators/fusion/outcome.h"
+#include "estimators/fusion/stamp_guard.h"
 #include "msgs/gnss.h"
 #include "msgs/local_frame.h"
 #include "msgs/nav_state.h"
@@ -47,6 +48,10 @@ struct FilterStatus {
 // had arrived in the order of (stamp, kind, sequence). The inertial input is interpolated between
 // samples; after the newest one its value is held.
 //
+// Stamps of a broken clock are refused; when the clock of all data has jumped, the filter restarts
+// with an empty history in the same frame and waits for a fix (StampGuard). Every measurement is
+// counted in the status, as applied, held or refused with its reason.
+//
 // Axes are the body's (x forward, y left, z up; msgs/frames.h); its origin is taken to roll without
 // side slip, as a point near the rear axle does.
 class ReducedImuFilter {
@@ -71,7 +76,7 @@ class ReducedImuFilter {
   std::optional<NavState> state_at(Time t) const;
 
   // Stamp of the newest measurement, or of the start; epoch 0 when there is none.
-  Time newest() const { return newest_; }
+  Time newest() const { return guard_.newest(); }
 
  private:
   Outcome add_before_start(const ImuSample& sample);
@@ -99,6 +104,7 @@ class ReducedImuFilter {
   bool has_origin_ = false;
   LocalFrame frame_;
   LocalEarth earth_;
+  StampGuard guard_;
   EventHistory history_;
 
   // What is left of the events that dropped out of the history.
@@ -107,10 +113,7 @@ class ReducedImuFilter {
   std::optional<ImuSample> base_sample_;  // the newest inertial sample among them
 
   bool initialized_ = false;
-  Time newest_{};
   Time gnss_stamp_{};
-  Time unconfirmed_{};  // the last stamp refused for being too far ahead
-  int refused_stamps_in_a_row_ = 0;
   FilterStatus status_;
 };
 

@@ -106,6 +106,9 @@ TEST(CheckFix, NamesWhatIsWrong) {
             Reason::invalid_covariance);
   EXPECT_EQ(reason([](GnssFix& f) { f.velocity_enu = {1.0, 1.0, 0.0}; }), Reason::too_slow);
   EXPECT_EQ(reason([](GnssFix& f) { f.velocity_stamp = {}; }), Reason::stamps_apart);
+  EXPECT_EQ(reason([](GnssFix& f) { f.velocity_stamp = Time::max(); }), Reason::stamps_apart);
+  EXPECT_EQ(reason([](GnssFix& f) { f.stamp = f.velocity_stamp = Time::min(); }),
+            Reason::out_of_range);
 }
 
 }  // namespace

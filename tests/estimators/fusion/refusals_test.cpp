@@ -1,6 +1,7 @@
 // Bad input of every kind: refused with a reason, counted, and of no consequence.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -88,6 +89,8 @@ TEST_F(Refusals, OfOdometry) {
   expect_refused(spoil([](auto& m) { m.from = m.stamp + from_seconds(0.1); }),
                  Reason::bad_interval);
   expect_refused(spoil([](auto& m) { m.from = {}; }), Reason::bad_interval);
+  expect_refused(spoil([](auto& m) { m.from = Time::min(); }), Reason::bad_interval);
+  expect_refused(spoil([](auto& m) { m.stamp = Time::max(); }), Reason::out_of_range);
 }
 
 TEST_F(Refusals, OfStamps) {
