@@ -55,6 +55,7 @@ void check(const FusionParameters& p) {
 
   require("pitch_noise", p.pitch_noise, tiny, 1.0);
   require("roll_noise", p.roll_noise, tiny, 1.0);
+  require("climb_offset", p.climb_offset, -1.0, 1.0);
   require("climb_offset_sigma", p.climb_offset_sigma, tiny, 1.0);
   require("climb_offset_time", p.climb_offset_time, 1.0, huge);
   require("climb_noise", p.climb_noise, tiny, 1.0);

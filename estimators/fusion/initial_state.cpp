@@ -50,7 +50,8 @@ FilterState initial_state(const GnssFix& fix, const LocalFrame& frame, const Fus
   state.x.segment<3>(east) = frame.to_enu(fix.position) - position_age * v;
   state.x[speed] = length;
   state.x[azimuth] = std::atan2(v.x(), v.y());
-  state.x[pitch] = std::atan2(v.z(), horizontal);
+  state.x[pitch] = std::atan2(v.z(), horizontal) - p.climb_offset;
+  state.x[climb_offset] = p.climb_offset;
 
   // Derivative of position, speed, azimuth and pitch by the fix's position and velocity.
   Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Zero();

@@ -77,15 +77,15 @@ Step mechanize(const StateVector& x, const InertialInput& input, const LocalEart
   F.row(azimuth) += dt * azimuth_rate_by;
   F.row(distance) += 0.5 * dt * dt * acceleration_by;
   F(distance, speed) += dt;
-  const auto decay = [&](int i, double time) {
+  const auto decay = [&](int i, double time, double mean = 0.0) {
     const double factor = std::exp(-dt / time);
-    step.x[i] *= factor;
+    step.x[i] = mean + (step.x[i] - mean) * factor;
     F(i, i) = factor;
   };
   decay(gyro_bias, parameters.gyro_bias_time);
   decay(forward_bias, parameters.accelerometer_bias_time);
   decay(left_bias, parameters.accelerometer_bias_time);
-  decay(climb_offset, parameters.climb_offset_time);
+  decay(climb_offset, parameters.climb_offset_time, parameters.climb_offset);
   decay(odometry_scale, parameters.odometry_scale_time);
 
   step.acceleration_effect.setZero();

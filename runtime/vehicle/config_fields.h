@@ -119,10 +119,11 @@ void visit(Config& config, Table&& table, Field&& field) {
     field("pitch_noise", p.pitch_noise);
     field("roll_noise", p.roll_noise);
     field("slip_sigma", p.slip_sigma);
+    field("slip_time", p.slip_time);
+    field("climb_offset", p.climb_offset);
     field("climb_offset_sigma", p.climb_offset_sigma);
     field("climb_offset_time", p.climb_offset_time);
     field("climb_noise", p.climb_noise);
-    field("slip_time", p.slip_time);
     field("max_tilt", p.max_tilt);
     field("tilt_sigma", p.tilt_sigma);
     field("tilt_time", p.tilt_time);
