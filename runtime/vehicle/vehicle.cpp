@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <deque>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -284,5 +285,28 @@ void Vehicle::wait() { graph_->wait(); }
 VehicleReport Vehicle::report() const { return graph_->report(); }
 Time Vehicle::position() const { return graph_->fusion.position(); }
 Time Vehicle::first() const { return graph_->first; }
+
+namespace {
+
+// A driver promises up to just before its next sample.
+Time next_of(const runtime::EdgeBase& edge) {
+  const Time promised = edge.promised();
+  return promised == Time::max() ? promised : promised + Duration(1);
+}
+
+}  // namespace
+
+Time Vehicle::next_image() const { return next_of(graph_->images); }
+
+Time Vehicle::next_sample() const {
+  return std::min({next_of(graph_->images), next_of(graph_->to_fusion.imu),
+                   next_of(graph_->to_fusion.gnss), next_of(graph_->to_publisher.reference)});
+}
+
+std::uint64_t Vehicle::deadline_misses() const {
+  return graph_->stereo.meter().miss_count() + graph_->fusion.meter().miss_count();
+}
+
+runtime::DataClock& Vehicle::clock() { return graph_->clock; }
 
 }  // namespace maploop::vehicle

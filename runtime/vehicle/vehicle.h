@@ -1,8 +1,8 @@
 // The vehicle: which thread runs what, and which ring joins them.
 #pragma once
 
+#include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "msgs/calibration.h"
@@ -54,6 +54,16 @@ class Vehicle {
   // Data time of the last tick of the fusion, and of the first sample.
   Time position() const;
   Time first() const;
+
+  // When the next image, or the next sample of any sensor, becomes available; Time::max() after the
+  // last one.
+  Time next_image() const;
+  Time next_sample() const;
+
+  // So far, of all threads.
+  std::uint64_t deadline_misses() const;
+
+  runtime::DataClock& clock();
 
  private:
   struct Graph;

@@ -1,0 +1,31 @@
+// A recording cut off at a moment.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "sensors/source.h"
+
+namespace maploop::vehicle {
+
+// Ends with the last sample that is available by `end`.
+template <class T>
+class LimitedSource final : public sensors::Source<T> {
+ public:
+  LimitedSource(std::unique_ptr<sensors::Source<T>> source, Time end)
+      : source_(std::move(source)), end_(end) {}
+
+  bool next(T& sample) override { return source_->next(sample) && sample.available <= end_; }
+  const sensors::SourceReport& report() const override { return source_->report(); }
+
+ private:
+  std::unique_ptr<sensors::Source<T>> source_;
+  Time end_;
+};
+
+template <class T>
+void limit(std::unique_ptr<sensors::Source<T>>& source, Time end) {
+  if (source != nullptr) source = std::make_unique<LimitedSource<T>>(std::move(source), end);
+}
+
+}  // namespace maploop::vehicle
