@@ -20,11 +20,11 @@ struct StereoParameters {
   double min_step = 0.02;    // px; an iteration that moves less is the last one
 
   // --- Stereo match and consistency
-  double min_disparity = 1.0;    // px
-  double max_disparity = 160.0;  // px; 2.4 m at KITTI's calibration
-  double min_correlation = 0.8;  // of a new feature's patch along the right image's row
-  double max_row_error = 1.0;    // px between rectified rows
-  double max_closure = 1.0;      // px between the two ways round the circle
+  double min_disparity = 1.0;     // px
+  double max_disparity = 160.0;   // px; 2.4 m at KITTI's calibration
+  double min_correlation = 0.85;  // of a new feature's patch along the right image's row
+  double max_row_error = 1.0;     // px between rectified rows
+  double max_closure = 1.0;       // px between the two ways round the circle
 
   // --- Measurement noise
   double sigma_track = 0.15;  // px per axis, position in the left image from one pair to the next
