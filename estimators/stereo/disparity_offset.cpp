@@ -18,7 +18,7 @@ void DisparityOffset::update(double correction, double correction_sigma, int inl
   if (sigma_ == 0.0 || inliers < min_inliers_ || !(correction_sigma <= worst_sigma_)) return;
   const double noise = correction_sigma * correction_sigma;
   const double variance = sigma_ * sigma_;
-  if (correction * correction > 9.0 * (variance + noise)) return;
+  if (!(correction * correction <= 9.0 * (variance + noise))) return;
   value_ += correction * variance / (variance + noise);
   sigma_ = std::sqrt(variance * noise / (variance + noise));
 }

@@ -6,10 +6,10 @@ namespace maploop::stereo {
 struct StereoParameters {
   // --- Corner detection
   int bucket_size = 50;  // px; features spread over the image pin down rotation and translation
-  int features_per_bucket = 3;  // 8 x 25 buckets of a 1242 x 375 image: at most 600, typically 350
+  int features_per_bucket = 3;  // 8 x 25 buckets of a 1242 x 375 image; about 210 can be followed
   int fast_threshold = 10;      // grey levels; low, for roads have little contrast
-  double min_corner_response =
-      200.0;                      // smaller eigenvalue of the mean gradient tensor (Scharr / 32)
+  // Squared grey levels per pixel: smaller eigenvalue of the mean gradient tensor.
+  double min_corner_response = 50.0;
   int min_feature_distance = 12;  // px; closer windows would measure the same pixels twice
 
   // --- Lucas-Kanade tracking
@@ -20,26 +20,27 @@ struct StereoParameters {
   double min_step = 0.02;    // px; an iteration that moves less is the last one
 
   // --- Stereo match and consistency
-  double min_disparity = 1.0;    // px
-  double max_disparity = 160.0;  // px; 2.4 m at KITTI's calibration
-  double min_correlation = 0.8;  // of a new feature's patch along the right image's row
-  double max_row_error = 1.0;    // px between rectified rows
-  double max_closure = 1.0;      // px between the two ways round the circle
+  double min_disparity = 1.0;     // px
+  double max_disparity = 160.0;   // px; 2.4 m at KITTI's calibration
+  double min_correlation = 0.85;  // of a new feature's patch along the right image's row
+  double max_row_error = 1.0;     // px between rectified rows
+  double max_closure = 1.0;       // px between the two ways round the circle
 
   // --- Measurement noise
   double sigma_track = 0.15;  // px per axis, position in the left image from one pair to the next
   double sigma_disparity = 0.2;  // px, what changes in a match from one pair to the next
   double sigma_match = 0.4;      // px, what a match keeps wrong while the feature lives
-  double correlated_pairs =
-      10.0;  // pairs in which a feature brings the same match error: errors of
-             // successive motions add up, and the covariance is right over them
+  // Factor on the covariance, for features return with the same match error in pair after pair and
+  // the errors of successive motions add up. Odometries from disjoint halves of the features differ
+  // over a second by what 1.7 predicts; the rest is for what both halves share.
+  double correlated_pairs = 5.0;
 
   // --- Disparity offset (disparity_offset.h)
-  double sigma_disparity_offset = 0.3;    // px before any data: what a rectification may leave;
-                                          // 0: the rectification is taken as perfect
+  // px before any data: what a rectification may leave; 0: it is taken as perfect.
+  double sigma_disparity_offset = 0.3;
   double disparity_offset_drift = 0.003;  // px / sqrt(s): 0.2 px in an hour of warming up
-  double max_offset_sigma = 0.3;  // px; a pair that sees it worse tells more of its outliers
-  int min_offset_inliers = 100;   // with fewer, single match errors outweigh a common one
+  double max_offset_sigma = 0.15;  // px; a pair that sees it worse tells more of its outliers
+  int min_offset_inliers = 100;    // with fewer, single match errors outweigh a common one
 
   // --- Motion estimate
   int min_tracks = 25;            // fewer: too_few_features

@@ -1,0 +1,56 @@
+// Stereo pairs of a textured wall, made without any file.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+#include "msgs/image.h"
+
+namespace maploop::testing {
+
+// A wall of smooth random texture that fills both images: its point at column x + shift, row y of
+// the left image is seen `disparity` columns further left in the right one. The same everywhere,
+// for the texture comes from a fixed table.
+class TexturedWall {
+ public:
+  TexturedWall() {
+    std::mt19937 random(42);
+    for (float& value : grid_) value = static_cast<float>(random() % 200) + 20.0f;
+  }
+
+  StereoPair pair(int width, int height, double shift, double disparity) const {
+    StereoPair pair;
+    draw(width, height, shift, &pair.left);
+    draw(width, height, shift + disparity, &pair.right);
+    return pair;
+  }
+
+ private:
+  static constexpr int kSide = 512;        // grid points a side, then the texture repeats
+  static constexpr double kSpacing = 5.0;  // px between grid points
+
+  float at(int x, int y) const {
+    return grid_[static_cast<std::size_t>((y & 511) * kSide + (x & 511))];
+  }
+
+  void draw(int width, int height, double shift, GreyImage* image) const {
+    image->resize(width, height);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const double gx = (x + shift + 10000.0) / kSpacing, gy = y / kSpacing;
+        const int ix = static_cast<int>(gx), iy = static_cast<int>(gy);
+        const double fx = smooth(gx - ix), fy = smooth(gy - iy);
+        const double top = at(ix, iy) * (1.0 - fx) + at(ix + 1, iy) * fx;
+        const double bottom = at(ix, iy + 1) * (1.0 - fx) + at(ix + 1, iy + 1) * fx;
+        image->pixels[static_cast<std::size_t>(y * width + x)] =
+            static_cast<std::uint8_t>(top * (1.0 - fy) + bottom * fy);
+      }
+  }
+
+  static double smooth(double t) { return t * t * (3.0 - 2.0 * t); }
+
+  std::vector<float> grid_ = std::vector<float>(kSide * kSide);
+};
+
+}  // namespace maploop::testing
