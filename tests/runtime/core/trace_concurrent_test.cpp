@@ -30,7 +30,7 @@ void expect_nested(const TraceDocument& trace) {
 }
 
 TEST(TraceConcurrent, EveryEventOfManyThreadsIsRecordedOrCounted) {
-  constexpr int kThreads = 4, kTurns = 5'000, kEventsATurn = 4, kCapacity = 12'000;
+  constexpr int kThreads = 4, kTurns = 1'000, kEventsATurn = 4, kCapacity = 2'400;
   Tracer tracer({.events_per_thread = kCapacity});
   std::vector<std::thread> threads;
   for (int i = 0; i < kThreads; ++i) {
@@ -53,7 +53,7 @@ TEST(TraceConcurrent, EveryEventOfManyThreadsIsRecordedOrCounted) {
 }
 
 TEST(TraceConcurrent, WrittenWhileThreadsRecordATraceIsWholeAndNested) {
-  Tracer tracer({.events_per_thread = 4'000});
+  Tracer tracer({.events_per_thread = 1'000});
   std::atomic<bool> stop{false};
   std::vector<std::thread> threads;
   for (int i = 0; i < 2; ++i) {
@@ -79,7 +79,7 @@ TEST(TraceConcurrent, WrittenWhileThreadsRecordATraceIsWholeAndNested) {
 }
 
 TEST(TraceConcurrent, EveryFlowThroughARingPointsForward) {
-  constexpr std::uint64_t kSamples = 2'000;
+  constexpr std::uint64_t kSamples = 500;
   Tracer tracer({});
   Ring<std::uint64_t> ring(16);
   std::thread producer([&] {
