@@ -1,23 +1,18 @@
 #include "runtime/core/thread.h"
 
 #include <pthread.h>
-#include <sched.h>
 
-#include <cstring>
 #include <exception>
 #include <utility>
 
 namespace maploop::runtime {
 namespace {
 
-std::string apply(Scheduling scheduling) {
-  if (scheduling.fifo_priority == 0) return "default";
-  const std::string wanted = "fifo " + std::to_string(scheduling.fifo_priority);
-  const sched_param parameters{scheduling.fifo_priority};
-  const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
-  if (error == 0) return wanted;
-  return "default (" + wanted + " refused: " + std::strerror(error) +
-         "; run as root, or give the user an rtprio limit in /etc/security/limits.d)";
+// "GRANTED", or "GRANTED (ASKED refused: WHY; REMEDY)".
+std::string in_one_line(const RealtimeSetting& setting) {
+  if (setting.verdict == Verdict::granted) return setting.granted;
+  return setting.granted + " (" + setting.asked + " refused: " + setting.reason + "; " +
+         setting.remedy + ")";
 }
 
 }  // namespace
@@ -25,37 +20,48 @@ std::string apply(Scheduling scheduling) {
 Thread::Thread(std::string name, Scheduling scheduling, std::stop_token stop, Body body,
                std::function<void()> at_end)
     : name_(std::move(name)),
-      thread_([this, scheduling, stop = std::move(stop), body = std::move(body),
-               at_end = std::move(at_end)] {
+      thread_([this, scheduling = std::move(scheduling), stop = std::move(stop),
+               body = std::move(body), at_end = std::move(at_end)] {
         run(scheduling, stop, body);
         at_end();
         ended_.store(true, std::memory_order_release);
       }) {}
 
-Thread::~Thread() { join(); }
+Thread::~Thread() {
+  join();
+}
 
 void Thread::join() {
   if (thread_.joinable()) thread_.join();
 }
 
-void Thread::run(Scheduling scheduling, const std::stop_token& stop, const Body& body) {
+void Thread::run(const Scheduling& scheduling, const std::stop_token& stop, const Body& body) {
   pthread_setname_np(pthread_self(), name_.substr(0, 15).c_str());
-  set(scheduling_, apply(scheduling));
+  std::vector<RealtimeSetting> settings = apply_scheduling(name_, scheduling);
+  {
+    const std::lock_guard lock(mutex_);
+    settings_ = std::move(settings);
+  }
   try {
     body(stop);
   } catch (const std::exception& e) {
-    set(failure_, e.what());
+    const std::lock_guard lock(mutex_);
+    failure_ = e.what();
   }
 }
 
-void Thread::set(std::string& member, std::string text) {
-  const std::lock_guard lock(mutex_);
-  member = std::move(text);
+std::string Thread::scheduling() const {
+  std::string text;
+  for (const RealtimeSetting& setting : settings()) {
+    if (setting.name == name_ + ": scheduling") text = in_one_line(setting);
+    if (setting.name == name_ + ": CPUs") text += " on CPUs " + in_one_line(setting);
+  }
+  return text;
 }
 
-std::string Thread::scheduling() const {
+std::vector<RealtimeSetting> Thread::settings() const {
   const std::lock_guard lock(mutex_);
-  return scheduling_;
+  return settings_;
 }
 
 std::string Thread::failure() const {

@@ -7,15 +7,14 @@
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <vector>
+
+#include "runtime/core/realtime_scheduling.h"
 
 namespace maploop::runtime {
 
-struct Scheduling {
-  int fifo_priority = 0;  // 1..99: SCHED_FIFO; 0: the kernel's default policy
-};
-
-// Runs `body(stop)` on a thread of its own. An exception that leaves the body ends this thread only:
-// its text is kept in failure(), and `at_end` is called as after a normal end.
+// Runs `body(stop)` on a thread of its own. An exception that leaves the body ends this thread
+// only: its text is kept in failure(), and `at_end` is called as after a normal end.
 class Thread {
  public:
   using Body = std::function<void(const std::stop_token&)>;
@@ -29,17 +28,19 @@ class Thread {
 
   void join();
   const std::string& name() const { return name_; }
-  std::string scheduling() const;  // "fifo 50", or "default (fifo 50 refused: ...; remedy)"
-  std::string failure() const;     // empty while all is well
+  // "fifo 50", or "other (fifo 50 refused: ...; remedy)", and the like for the CPUs.
+  std::string scheduling() const;
+  // All that was asked for this thread; empty until it has been.
+  std::vector<RealtimeSetting> settings() const;
+  std::string failure() const;  // empty while all is well
   bool ended() const { return ended_.load(std::memory_order_acquire); }
 
  private:
-  void run(Scheduling scheduling, const std::stop_token& stop, const Body& body);
-  void set(std::string& member, std::string text);
+  void run(const Scheduling& scheduling, const std::stop_token& stop, const Body& body);
 
   std::string name_;
-  mutable std::mutex mutex_;  // of the two texts
-  std::string scheduling_;
+  mutable std::mutex mutex_;  // of the next two
+  std::vector<RealtimeSetting> settings_;
   std::string failure_;
   std::atomic<bool> ended_{false};
   std::thread thread_;

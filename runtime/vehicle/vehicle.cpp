@@ -133,7 +133,9 @@ std::unique_ptr<sensors::Source<T>> Vehicle::Graph::prefetched(
 runtime::Thread& Vehicle::Graph::start_thread(const Stage& stage, int fifo_priority,
                                               runtime::Thread::Body body,
                                               std::function<void()> at_end) {
-  const runtime::Scheduling scheduling{clock.is_paced() ? fifo_priority : 0};
+  const runtime::Scheduling scheduling = clock.is_paced() && fifo_priority != 0
+                                             ? runtime::Scheduling::fifo(fifo_priority)
+                                             : runtime::Scheduling{};
   return producers.emplace_back(std::string(stage.name), scheduling, stop.get_token(),
                                 std::move(body), std::move(at_end));
 }

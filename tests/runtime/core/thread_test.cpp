@@ -11,9 +11,9 @@ namespace {
 
 TEST(Thread, AnExceptionEndsTheThreadAloneAndIsKept) {
   bool at_end = false;
-  Thread thread("failing", {}, {}, [](const std::stop_token&) {
-    throw std::runtime_error("cable pulled");
-  }, [&] { at_end = true; });
+  Thread thread(
+      "failing", {}, {}, [](const std::stop_token&) { throw std::runtime_error("cable pulled"); },
+      [&] { at_end = true; });
   thread.join();
   EXPECT_EQ(thread.failure(), "cable pulled");
   EXPECT_TRUE(at_end);
@@ -22,16 +22,20 @@ TEST(Thread, AnExceptionEndsTheThreadAloneAndIsKept) {
 
 TEST(Thread, StopReachesTheBody) {
   std::stop_source stop;
-  Thread thread("stopping", {}, stop.get_token(), [](const std::stop_token& token) {
-    while (!token.stop_requested()) std::this_thread::yield();
-  }, [] {});
+  Thread thread(
+      "stopping", {}, stop.get_token(),
+      [](const std::stop_token& token) {
+        while (!token.stop_requested()) std::this_thread::yield();
+      },
+      [] {});
   stop.request_stop();
   thread.join();
   EXPECT_EQ(thread.failure(), "");
 }
 
 TEST(Thread, SaysWhatTheKernelGrantedOrWhyNot) {
-  Thread thread("fifo", Scheduling{10}, {}, [](const std::stop_token&) {}, [] {});
+  Thread thread(
+      "fifo", Scheduling::fifo(10), {}, [](const std::stop_token&) {}, [] {});
   thread.join();
   const std::string granted = thread.scheduling();
   EXPECT_TRUE(granted == "fifo 10" || granted.find("fifo 10 refused") != std::string::npos)
@@ -39,7 +43,8 @@ TEST(Thread, SaysWhatTheKernelGrantedOrWhyNot) {
 }
 
 TEST(Thread, APriorityThatDoesNotExistIsRefusedNotFatal) {
-  Thread thread("bad", Scheduling{1000}, {}, [](const std::stop_token&) {}, [] {});
+  Thread thread(
+      "bad", Scheduling::fifo(1000), {}, [](const std::stop_token&) {}, [] {});
   thread.join();
   EXPECT_NE(thread.scheduling().find("refused"), std::string::npos);
   EXPECT_EQ(thread.failure(), "");

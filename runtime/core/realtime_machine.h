@@ -1,0 +1,33 @@
+// What of this machine makes it less punctual, whatever the process asks for.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/core/realtime_setting.h"
+
+namespace maploop::runtime {
+
+// The files as the kernel wrote them; nothing where one is missing or may not be read.
+struct MachineText {
+  std::optional<std::string> version;                  // /proc/version
+  std::optional<std::string> realtime;                 // /sys/kernel/realtime
+  std::optional<std::string> rt_runtime_us;            // /proc/sys/kernel/sched_rt_runtime_us
+  std::optional<std::string> rt_period_us;             // /proc/sys/kernel/sched_rt_period_us
+  std::optional<std::string> cpuinfo;                  // /proc/cpuinfo
+  std::optional<std::string> stat;                     // /proc/stat
+  std::optional<std::string> online_cpus;              // /sys/devices/system/cpu/online
+  std::optional<std::string> isolated_cpus;            // /sys/devices/system/cpu/isolated
+  std::vector<std::pair<int, std::string>> governors;  // .../cpuN/cpufreq/scaling_governor
+};
+
+// `root` is where /proc and /sys are.
+MachineText read_machine(const std::filesystem::path& root = "/");
+
+// "kernel", "real-time throttling", "CPU frequency", "virtual machine", "isolated CPUs".
+std::vector<RealtimeSetting> assess(const MachineText& machine);
+
+}  // namespace maploop::runtime

@@ -1,0 +1,163 @@
+#include "runtime/core/realtime_memory.h"
+
+#include <alloca.h>
+#include <malloc.h>
+#include <pthread.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+
+#include "runtime/core/realtime_text.h"
+
+namespace maploop::runtime {
+namespace {
+
+constexpr std::size_t kKilobyte = 1024;
+constexpr std::size_t kMegabyte = 1024 * kKilobyte;
+
+std::size_t page_size() {
+  return static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+std::string kilobytes(std::size_t bytes) {
+  return std::to_string(bytes / kKilobyte) + " kB";
+}
+
+// From the high end down, as a stack grows. Volatile: nobody reads what is written.
+void touch(std::byte* memory, std::size_t bytes) {
+  const std::size_t page = page_size();
+  for (std::size_t end = bytes; end > 0; end -= std::min(page, end)) {
+    static_cast<volatile std::byte*>(memory)[end - 1] = std::byte{0};
+  }
+}
+
+// Bytes of the range that are in memory now, whole pages.
+std::size_t resident(const std::byte* memory, std::size_t bytes) {
+  const std::size_t page = page_size();
+  const auto address = reinterpret_cast<std::uintptr_t>(memory);
+  const std::uintptr_t begin = (address + page - 1) / page * page;
+  const std::uintptr_t end = (address + bytes) / page * page;
+  if (end <= begin) return 0;
+  std::vector<unsigned char> pages((end - begin) / page);
+  if (mincore(reinterpret_cast<void*>(begin), end - begin, pages.data()) != 0) return 0;
+  const auto there = std::count_if(pages.begin(), pages.end(), [](auto p) { return (p & 1) != 0; });
+  return static_cast<std::size_t>(there) * page;
+}
+
+// Of the calling thread's stack, what lies below this function's frame; 0 where that is not known.
+std::size_t stack_left() {
+  pthread_attr_t attributes;
+  if (pthread_getattr_np(pthread_self(), &attributes) != 0) return 0;
+  void* lowest = nullptr;
+  std::size_t size = 0;
+  const int error = pthread_attr_getstack(&attributes, &lowest, &size);
+  pthread_attr_destroy(&attributes);
+  const auto here = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
+  const auto end = reinterpret_cast<std::uintptr_t>(lowest);
+  return error == 0 && here > end && here - end <= size ? here - end : 0;
+}
+
+// Not inlined: the memory is given back to the stack at the return.
+[[gnu::noinline]] std::size_t touch_stack(std::size_t bytes) {
+  auto* memory = static_cast<std::byte*>(alloca(bytes));
+  touch(memory, bytes);
+  return resident(memory, bytes);
+}
+
+RealtimeSetting prepare_heap(int mb, int arenas) {
+  RealtimeSetting setting{
+      "heap", std::to_string(mb) + " MB mapped and kept", {}, Verdict::granted, {}, {}};
+  const bool tuned = mallopt(M_TRIM_THRESHOLD, -1) == 1 && mallopt(M_MMAP_MAX, 0) == 1 &&
+                     mallopt(M_ARENA_MAX, arenas) == 1;
+  const std::size_t bytes = static_cast<std::size_t>(mb) * kMegabyte;
+  std::size_t mapped = 0;
+  if (auto* memory = static_cast<std::byte*>(std::malloc(bytes))) {
+    touch(memory, bytes);
+    mapped = resident(memory, bytes);
+    std::free(memory);
+  }
+  const std::size_t kept = std::min(mapped, static_cast<std::size_t>(mallinfo2().fordblks));
+  setting.granted = std::to_string((kept + kMegabyte / 2) / kMegabyte) + " MB mapped and kept";
+  // Less than a page at either end is shared with others.
+  if (kept + 2 * page_size() >= bytes) return setting;
+  setting.verdict = Verdict::refused;
+  if (!tuned || mapped + 2 * page_size() >= bytes) {
+    setting.reason = "malloc is not glibc's, and gives freed memory back";
+    setting.remedy = "start the program without the other malloc (LD_PRELOAD, sanitizer)";
+  } else {
+    setting.reason = "there is not so much memory for this process";
+    setting.remedy =
+        "lower heap_mb, or raise the limit (ulimit -v, the control group's memory.max)";
+  }
+  return setting;
+}
+
+RealtimeSetting lock_memory(const Privileges& privileges) {
+  RealtimeSetting setting{"locked memory", "all, and what comes", {}, Verdict::granted, {}, {}};
+  const bool unlimited = privileges.ipc_lock || privileges.memlock == Privileges::kUnlimited;
+  int error = mlockall(MCL_CURRENT) == 0 ? 0 : errno;
+  if (unlimited && error == 0) {
+    error = mlockall(MCL_FUTURE | MCL_ONFAULT) == 0 ? 0 : errno;
+  }
+  const std::string status = read_system_file("/proc/self/status").value_or("");
+  const std::int64_t locked = parse_integer(line_value(status, "VmLck").value_or("")).value_or(0);
+  setting.granted = std::to_string(locked) + " kB of " +
+                    std::string(line_value(status, "VmSize").value_or("unknown"));
+  if (unlimited && error == 0 && locked > 0) return setting;
+  setting.verdict = Verdict::refused;
+  if (!unlimited) {
+    setting.reason = "no CAP_IPC_LOCK, and RLIMIT_MEMLOCK is " + kilobytes(privileges.memlock) +
+                     (error == 0 ? ": what comes is not locked" : "");
+    setting.remedy =
+        "add '@GROUP - memlock unlimited' to a file in /etc/security/limits.d and log "
+        "in again; or run as root";
+  } else if (error != 0) {
+    setting.reason = std::strerror(error);
+    setting.remedy = "see mlockall(2)";
+  } else {
+    setting.reason = "the kernel accepted it and says otherwise";
+    setting.remedy = "start the program without the sanitizer or tool that intercepts mlockall";
+  }
+  return setting;
+}
+
+}  // namespace
+
+std::vector<RealtimeSetting> prepare_memory(const MemoryParameters& parameters,
+                                            const Privileges& privileges) {
+  std::vector<RealtimeSetting> settings;
+  if (parameters.heap_mb > 0) {
+    settings.push_back(prepare_heap(parameters.heap_mb, parameters.malloc_arenas));
+  }
+  if (parameters.lock_memory) settings.push_back(lock_memory(privileges));
+  return settings;
+}
+
+RealtimeSetting prefault_stack(const std::string& name, int kb) {
+  // Left for what this function and the thread's own frames call meanwhile, and for signals.
+  constexpr std::size_t kMargin = 64 * kKilobyte;
+  RealtimeSetting setting{
+      name + ": stack", std::to_string(kb) + " kB mapped", {}, Verdict::granted, {}, {}};
+  const std::size_t asked = static_cast<std::size_t>(std::max(kb, 0)) * kKilobyte;
+  const std::size_t left = stack_left();
+  const std::size_t bytes = std::min(asked, left > kMargin ? left - kMargin : 0);
+  const std::size_t mapped = bytes > 0 ? touch_stack(bytes) : 0;
+  // mincore counts whole pages: the two at the ends are not seen.
+  const std::size_t granted = mapped + 2 * page_size() >= bytes ? bytes : mapped;
+  setting.granted = kilobytes(granted) + " mapped";
+  if (granted == asked && kb >= 0) return setting;
+  setting.verdict = Verdict::refused;
+  setting.reason = kb < 0 ? "a size must not be negative"
+                          : "the stack has " + kilobytes(left) + " left, of which " +
+                                kilobytes(kMargin) + " are kept free";
+  setting.remedy = "lower prefaulted_stack_kb, or raise the stack limit (ulimit -s)";
+  return setting;
+}
+
+}  // namespace maploop::runtime

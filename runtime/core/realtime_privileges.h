@@ -1,0 +1,28 @@
+// What the kernel lets this process ask for.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+
+namespace maploop::runtime {
+
+struct Privileges {
+  static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
+
+  bool sys_nice = false;                     // CAP_SYS_NICE: any policy, priority, nice value
+  bool ipc_lock = false;                     // CAP_IPC_LOCK: any amount of locked memory
+  std::uint64_t rtprio = 0;                  // RLIMIT_RTPRIO: highest fifo or rr priority
+  std::uint64_t nice = 0;                    // RLIMIT_NICE: 20 - lowest nice value
+  std::uint64_t memlock = 0;                 // RLIMIT_MEMLOCK, bytes
+  std::uint64_t realtime_time = kUnlimited;  // RLIMIT_RTTIME, us of CPU time without sleeping
+};
+
+// Sets the two capabilities as the text of /proc/self/status (CapEff) has them; without one: false.
+void parse_capabilities(std::string_view status, Privileges& privileges);
+
+// Of the calling thread.
+Privileges read_privileges();
+
+}  // namespace maploop::runtime

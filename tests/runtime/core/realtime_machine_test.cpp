@@ -1,0 +1,225 @@
+// Made-up machines.
+#include "runtime/core/realtime_machine.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "runtime/core/realtime_privileges.h"
+#include "runtime/core/realtime_text.h"
+#include "tests/support/real_data.h"
+
+namespace maploop::runtime {
+namespace {
+
+RealtimeSetting item(const MachineText& machine, std::string_view name) {
+  const RealtimeReport report{assess(machine)};
+  const RealtimeSetting* found = report.find(name);
+  return found != nullptr ? *found : RealtimeSetting{};
+}
+
+// A vehicle's computer, set up as well as can be.
+MachineText vehicle_computer() {
+  MachineText machine;
+  machine.version = "Linux version 6.1.0-18-rt-amd64 (debian) #1 SMP PREEMPT_RT Debian 6.1.76-1";
+  machine.realtime = "1";
+  machine.rt_runtime_us = "-1";
+  machine.rt_period_us = "1000000";
+  machine.cpuinfo = "processor\t: 0\nflags\t\t: fpu vme tsc constant_tsc\n";
+  machine.stat = "cpu  100 0 100 1000 0 0 0 0 0 0\ncpu0 50 0 50 500 0 0 0 0 0 0\n";
+  machine.online_cpus = "0-3";
+  machine.isolated_cpus = "2-3";
+  machine.governors = {{0, "performance"}, {1, "performance"}, {2, "performance"}};
+  return machine;
+}
+
+TEST(RealtimeMachine, APreemptRtKernelOnIsolatedCpusLeavesNothingToSay) {
+  const RealtimeReport report{assess(vehicle_computer())};
+  EXPECT_EQ(report.settings.size(), 5u);
+  EXPECT_TRUE(report.all_granted()) << to_text(report);
+  EXPECT_EQ(item(vehicle_computer(), "isolated CPUs").granted, "2-3 of 0-3");
+}
+
+TEST(RealtimeMachine, AnOrdinaryKernelIsNamed) {
+  MachineText machine = vehicle_computer();
+  machine.realtime.reset();
+  machine.version = "Linux version 6.1.0-18-amd64 #1 SMP PREEMPT_DYNAMIC Debian 6.1.76-1";
+  EXPECT_EQ(item(machine, "kernel").verdict, Verdict::limiting);
+  EXPECT_EQ(item(machine, "kernel").granted, "PREEMPT_DYNAMIC");
+  machine.version = "Linux version 4.19.0 #1 SMP Debian";
+  EXPECT_EQ(item(machine, "kernel").granted, "none");
+}
+
+TEST(RealtimeMachine, OldPreemptRtKernelsAreKnownByTheirName) {
+  MachineText machine;
+  machine.version = "Linux version 4.9.0-rt #1 SMP PREEMPT RT Debian";
+  EXPECT_EQ(item(machine, "kernel").verdict, Verdict::granted);
+  machine.version = "Linux version 5.10.0-rt #1 SMP PREEMPT_RT Debian";
+  EXPECT_EQ(item(machine, "kernel").verdict, Verdict::granted);
+}
+
+TEST(RealtimeMachine, ThrottlingBelowNinetyPercentIsLimiting) {
+  MachineText machine = vehicle_computer();
+  machine.rt_runtime_us = "950000";
+  EXPECT_EQ(item(machine, "real-time throttling").verdict, Verdict::granted);
+  EXPECT_EQ(item(machine, "real-time throttling").granted, "950000 of 1000000 us");
+  machine.rt_runtime_us = "500000";
+  EXPECT_EQ(item(machine, "real-time throttling").verdict, Verdict::limiting);
+  machine.rt_runtime_us = "0";
+  EXPECT_EQ(item(machine, "real-time throttling").verdict, Verdict::limiting);
+}
+
+TEST(RealtimeMachine, ThrottlingThatIsNotANumberIsUnknown) {
+  MachineText machine = vehicle_computer();
+  for (const char* text : {"", "much", "-2", "99999999999999999999"}) {
+    machine.rt_runtime_us = text;
+    EXPECT_EQ(item(machine, "real-time throttling").verdict, Verdict::unknown) << text;
+  }
+  machine.rt_runtime_us = "950000";
+  machine.rt_period_us = "0";
+  EXPECT_EQ(item(machine, "real-time throttling").verdict, Verdict::unknown);
+}
+
+TEST(RealtimeMachine, WithoutGovernorFilesTheFrequencyIsUnknown) {
+  MachineText machine = vehicle_computer();
+  machine.governors.clear();
+  EXPECT_EQ(item(machine, "CPU frequency").verdict, Verdict::unknown);
+  EXPECT_EQ(item(machine, "CPU frequency").granted, "unknown");
+}
+
+TEST(RealtimeMachine, CpusThatSaveEnergyAreListed) {
+  MachineText machine = vehicle_computer();
+  machine.governors = {{0, "performance"}, {1, "powersave"}, {2, "schedutil"}, {3, "powersave"}};
+  const RealtimeSetting setting = item(machine, "CPU frequency");
+  EXPECT_EQ(setting.verdict, Verdict::limiting);
+  EXPECT_EQ(setting.granted, "performance, powersave, schedutil");
+  EXPECT_EQ(setting.reason, "CPU 1-3 may run slowly when work comes");
+}
+
+TEST(RealtimeMachine, AVirtualMachineSaysHowMuchWasStolen) {
+  MachineText machine = vehicle_computer();
+  machine.cpuinfo = "processor\t: 0\nflags\t\t: fpu vme hypervisor\n";
+  machine.stat = "cpu  100 0 100 700 0 0 0 100 0 0\n";
+  const RealtimeSetting setting = item(machine, "virtual machine");
+  EXPECT_EQ(setting.verdict, Verdict::limiting);
+  EXPECT_EQ(setting.granted, "virtual, 10.00 % of the time stolen");
+  machine.stat = "cpu  100 0";  // kernels before 2.6.11 have no such column
+  EXPECT_EQ(item(machine, "virtual machine").granted, "virtual");
+}
+
+TEST(RealtimeMachine, StolenTimeBetraysAVirtualMachineThatHidesItself) {
+  MachineText machine = vehicle_computer();
+  machine.stat = "cpu  1 0 1 1 0 0 0 1 0 0\n";
+  EXPECT_EQ(item(machine, "virtual machine").granted, "virtual, 25.00 % of the time stolen");
+}
+
+TEST(RealtimeMachine, WithoutFlagsAVirtualMachineCannotBeTold) {
+  MachineText machine = vehicle_computer();
+  machine.cpuinfo = "processor\t: 0\nFeatures\t: fp asimd\n";
+  EXPECT_EQ(item(machine, "virtual machine").verdict, Verdict::unknown);
+}
+
+TEST(RealtimeMachine, AFlagThatOnlyContainsTheWordIsNotAHypervisor) {
+  MachineText machine = vehicle_computer();
+  machine.cpuinfo = "flags\t: fpu nohypervisor hypervisor2\n";
+  EXPECT_EQ(item(machine, "virtual machine").verdict, Verdict::granted);
+}
+
+TEST(RealtimeMachine, NoIsolatedCpusIsLimitingNoFileIsUnknown) {
+  MachineText machine = vehicle_computer();
+  machine.isolated_cpus = "";
+  EXPECT_EQ(item(machine, "isolated CPUs").verdict, Verdict::limiting);
+  machine.isolated_cpus = "2-";
+  EXPECT_EQ(item(machine, "isolated CPUs").verdict, Verdict::unknown);
+  machine.isolated_cpus.reset();
+  EXPECT_EQ(item(machine, "isolated CPUs").verdict, Verdict::unknown);
+}
+
+TEST(RealtimeMachine, AnEmptyMachineIsUnknownThroughout) {
+  for (const RealtimeSetting& setting : assess({})) {
+    EXPECT_EQ(setting.verdict, Verdict::unknown) << setting.name;
+    EXPECT_FALSE(setting.reason.empty());
+    EXPECT_FALSE(setting.remedy.empty());
+  }
+}
+
+TEST(RealtimeMachine, FilesAreReadFromWhereTheyAre) {
+  const maploop::testing::TemporaryFolder root;
+  const auto put = [&](const std::string& name, const std::string& text) {
+    const std::filesystem::path file = root.path() / name;
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file) << text;
+  };
+  put("proc/version", "Linux version 6 PREEMPT_RT\n");
+  put("proc/sys/kernel/sched_rt_runtime_us", "-1\n");
+  put("sys/devices/system/cpu/online", "0-1\n");
+  put("sys/devices/system/cpu/isolated", "\n");
+  put("sys/devices/system/cpu/cpu1/cpufreq/scaling_governor", "powersave\n");
+  const MachineText machine = read_machine(root.path());
+  EXPECT_EQ(machine.version, "Linux version 6 PREEMPT_RT");
+  EXPECT_EQ(machine.rt_runtime_us, "-1");
+  EXPECT_EQ(machine.isolated_cpus, "");
+  EXPECT_FALSE(machine.realtime.has_value());
+  ASSERT_EQ(machine.governors.size(), 1u);
+  EXPECT_EQ(machine.governors[0].first, 1);
+  EXPECT_EQ(machine.governors[0].second, "powersave");
+}
+
+TEST(RealtimeMachine, ThisMachineIsReadable) {
+  const MachineText machine = read_machine();
+  EXPECT_TRUE(machine.version.has_value());
+  EXPECT_NE(item(machine, "kernel").verdict, Verdict::unknown);
+}
+
+TEST(RealtimePrivileges, CapabilitiesAreReadFromTheStatus) {
+  Privileges privileges;
+  parse_capabilities("Name:\tmaploop\nCapEff:\t0000000000800000\n", privileges);
+  EXPECT_TRUE(privileges.sys_nice);
+  EXPECT_FALSE(privileges.ipc_lock);
+  parse_capabilities("CapEff:\t0000000000004000\n", privileges);
+  EXPECT_FALSE(privileges.sys_nice);
+  EXPECT_TRUE(privileges.ipc_lock);
+  for (const char* text : {"", "CapEff", "CapEff:", "CapEff:\tzz", "CapPrm:\tffffffffffffffff"}) {
+    privileges.sys_nice = privileges.ipc_lock = true;
+    parse_capabilities(text, privileges);
+    EXPECT_FALSE(privileges.sys_nice || privileges.ipc_lock) << text;
+  }
+}
+
+TEST(RealtimeText, CpuListsAreReadAsTheKernelWritesThem) {
+  EXPECT_EQ(parse_cpu_list("0-2,5,7-8"), (std::vector<int>{0, 1, 2, 5, 7, 8}));
+  EXPECT_EQ(parse_cpu_list("3\n"), std::vector<int>{3});
+  EXPECT_EQ(parse_cpu_list(""), std::vector<int>{});
+  for (const char* wrong : {"-1", "1-", "2-1", "1,", "a", "1;2", "0-99999999", "0x3"}) {
+    EXPECT_FALSE(parse_cpu_list(wrong).has_value()) << wrong;
+  }
+  EXPECT_EQ(to_cpu_list({0, 1, 2, 5, 7, 8}), "0-2,5,7-8");
+  EXPECT_EQ(to_cpu_list({}), "");
+}
+
+TEST(RealtimeText, ALineIsFoundByItsWholeKey) {
+  constexpr std::string_view kStatus = "VmLckX:\t 1 kB\nVmLck:\t  12 kB\nVmSize\t: 3 kB";
+  EXPECT_EQ(line_value(kStatus, "VmLck"), "12 kB");
+  EXPECT_EQ(line_value(kStatus, "VmSize"), "3 kB");
+  EXPECT_FALSE(line_value(kStatus, "VmRSS").has_value());
+  EXPECT_FALSE(line_value("", "VmRSS").has_value());
+}
+
+TEST(RealtimeReport, TheTextIsOneItemAParagraph) {
+  const RealtimeReport report{
+      {{"fusion: scheduling", "fifo 60", "fifo 60", Verdict::granted, "", ""},
+       {"heap", "64 MB", "0 MB", Verdict::refused, "no room", "make some"}}};
+  EXPECT_EQ(to_text(report),
+            "granted   fusion: scheduling  fifo 60\n"
+            "refused   heap                0 MB (wanted: 64 MB)\n"
+            "          why: no room\n"
+            "          remedy: make some\n");
+  EXPECT_FALSE(report.all_granted());
+  EXPECT_EQ(report.find("heap")->granted, "0 MB");
+  EXPECT_EQ(report.find("none"), nullptr);
+}
+
+}  // namespace
+}  // namespace maploop::runtime
