@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -18,6 +19,8 @@ enum class OdometryStatus : std::uint8_t {
   implausible,       // the motion found is beyond what a road vehicle does
   bad_input,         // image size wrong, or time not increasing
 };
+
+constexpr std::size_t odometry_status_count = static_cast<std::size_t>(OdometryStatus::bad_input) + 1;
 
 constexpr std::string_view to_string(OdometryStatus status) {
   switch (status) {

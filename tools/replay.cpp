@@ -13,6 +13,7 @@
 
 #include "runtime/core/data_clock.h"
 #include "runtime/vehicle/channel_hashes.h"
+#include "runtime/vehicle/fault_injection.h"
 #include "runtime/vehicle/lcm_bus.h"
 #include "runtime/vehicle/log_recorder.h"
 #include "runtime/vehicle/vehicle.h"
@@ -40,7 +41,18 @@ struct ReplayOptions {
   std::filesystem::path json;
   std::filesystem::path poses;
   std::optional<std::int64_t> seed;
+  std::vector<std::string> faults;
 };
+
+// What is wrong with it, as CLI11's checks say it.
+std::string valid_fault(const std::string& text) {
+  try {
+    vehicle::parse_fault(text);
+    return {};
+  } catch (const std::invalid_argument& e) {
+    return e.what();
+  }
+}
 
 volatile std::sig_atomic_t interrupted = 0;
 
@@ -112,6 +124,11 @@ int replay(const ReplayOptions& options) {
     sources.reference = drive.reference();
   }
 
+  std::vector<vehicle::Fault> asked;
+  for (const std::string& text : options.faults) asked.push_back(vehicle::parse_fault(text));
+  vehicle::FaultInjection faults(std::move(asked), drive.first_stamp());
+  sources = faults.afflict(std::move(sources));
+
   vehicle::ChannelHashes hashes;
   std::vector<vehicle::MessageSink*> sinks{&hashes};
   std::unique_ptr<vehicle::LcmBus> bus;
@@ -134,7 +151,11 @@ int replay(const ReplayOptions& options) {
                                       : runtime::DataClock::paced(options.speed);
   vehicle::Vehicle vehicle(config, drive.calibration().stereo, std::move(sources), clock, sinks,
                            observer);
-  run_to_end(vehicle, drive.last_stamp());
+  vehicle.slow_down(faults.delays());
+  {
+    const auto hogs = faults.hogs([&] { return vehicle.position(); });
+    run_to_end(vehicle, drive.last_stamp());
+  }
 
   ReplayResult result;
   result.drive = std::filesystem::weakly_canonical(options.drive).filename().string();
@@ -144,6 +165,7 @@ int replay(const ReplayOptions& options) {
   result.images = drive.frame_count();
   result.vehicle = vehicle.report();
   result.channels = hashes.summary();
+  result.faults = faults.counts();
   if (bus) result.send_failures += bus->failures();
   if (recorder) result.send_failures += recorder->failures();
   if (drive.has_oxts()) {
@@ -182,6 +204,11 @@ void add_replay(CLI::App& app, Command& command) {
   sub->add_option("--poses", options->poses,
                   "Write the fused left-camera poses to this file in KITTI's format");
   sub->add_option("--seed", options->seed, "Seed of the simulated GNSS noise");
+  sub->add_option("--fault", options->faults,
+                  "Inject KIND@TARGET[:START[:LENGTH]][,key=value...]; more than once for more "
+                  "faults (README: Faults)")
+      ->allow_extra_args(false)
+      ->check(valid_fault, "FAULT");
   sub->callback([options, &command] { command = [options] { return replay(*options); }; });
 }
 

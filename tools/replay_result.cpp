@@ -82,6 +82,24 @@ void append_findings(std::string& text, const vehicle::SensorReport& sensor) {
   append_some(sensor.source.flaws, sensor.source.flawed, "flawed");
 }
 
+void append_faults(std::string& text, const std::vector<vehicle::FaultCount>& faults) {
+  if (faults.empty()) return;
+  text += "\nFaults asked for                  struck\n";
+  for (const vehicle::FaultCount& f : faults) {
+    append(text, "  %-28s %9llu%s\n", f.fault.c_str(), static_cast<unsigned long long>(f.struck),
+           f.struck == 0 ? "  (outside of the drive, or the drive lacks the sensor)" : "");
+  }
+}
+
+void append_refusals(std::string& text, const std::vector<vehicle::RefusalCount>& refusals) {
+  if (refusals.empty()) return;
+  text += "\nNot used by         count\n";
+  for (const vehicle::RefusalCount& r : refusals) {
+    append(text, "  %-12s %10llu  %s\n", r.stage.c_str(),
+           static_cast<unsigned long long>(r.count), r.reason.c_str());
+  }
+}
+
 json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
 json to_json(const std::optional<Accuracy>& accuracy) {
@@ -159,6 +177,9 @@ std::string format_table(const ReplayResult& r) {
            to_ms(v.lateness.p99), to_ms(v.lateness.max));
   }
 
+  append_faults(t, r.faults);
+  append_refusals(t, v.refusals);
+
   t += r.lockstep ? "\nRun time                 count       p50       p90       p99       max  ms\n"
                   : "\nFrom release             count       p50       p90       p99       max"
                     "  deadline  missed  ms\n";
@@ -227,6 +248,14 @@ void write_json(const std::filesystem::path& file, const ReplayResult& r) {
                              {"lost", ring.lost},
                              {"held", ring.held},
                              {"capacity", ring.capacity}};
+  }
+  j["faults"] = json::array();
+  for (const vehicle::FaultCount& f : r.faults) {
+    j["faults"].push_back({{"fault", f.fault}, {"struck", f.struck}});
+  }
+  j["refusals"] = json::object();
+  for (const vehicle::RefusalCount& refusal : v.refusals) {
+    j["refusals"][refusal.stage][refusal.reason] = refusal.count;
   }
   j["channels"] = json::object();
   for (const auto& [name, channel] : r.channels) {

@@ -5,8 +5,10 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "runtime/vehicle/channel_hashes.h"
+#include "runtime/vehicle/fault_injection.h"
 #include "runtime/vehicle/vehicle_report.h"
 #include "tools/evaluation/kitti_metric.h"
 
@@ -27,6 +29,7 @@ struct ReplayResult {
   std::optional<Accuracy> vo;      // nothing where there is too little to score
   std::optional<Accuracy> fused;
   std::map<std::string, vehicle::ChannelSummary> channels;
+  std::vector<vehicle::FaultCount> faults;
   std::uint64_t send_failures = 0;  // messages that LCM or the log did not take
   vehicle::VehicleReport vehicle;
 

@@ -53,6 +53,7 @@ bool FusionStage::tick(Time k, runtime::DataClock& clock, const std::stop_token&
   imu_taken_.reset();
   odometry_taken_.reset();
   position_.store(to_nanoseconds(k), std::memory_order_relaxed);
+  delay_(k);
   intake_.take_until(k);
   NavState state = filter_.state_at(k).value_or(NavState{});
   state.stamp = k;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <optional>
 #include <stop_token>
+#include <utility>
 
 #include "estimators/fusion/reduced_imu_filter.h"
 #include "msgs/gnss.h"
@@ -14,6 +15,7 @@
 #include "runtime/core/doorbell.h"
 #include "runtime/core/edge.h"
 #include "runtime/core/intake.h"
+#include "runtime/vehicle/fault_delay.h"
 #include "runtime/vehicle/meter.h"
 
 namespace maploop::vehicle {
@@ -37,6 +39,8 @@ class FusionStage {
   // takes exactly what is available by then; while some of it is late, the data clock is stalled.
   void run(runtime::DataClock& clock, Time first, const std::stop_token& stop);
   void finish();
+
+  void slow_down(StageDelay delay) { delay_ = std::move(delay); }  // before run()
 
   // Data time of the last tick; any thread may ask.
   Time position() const { return from_nanoseconds(position_.load(std::memory_order_relaxed)); }
@@ -66,6 +70,7 @@ class FusionStage {
   Meter meter_;
   Meter camera_path_;
   Meter imu_path_;
+  StageDelay delay_;
 };
 
 }  // namespace maploop::vehicle

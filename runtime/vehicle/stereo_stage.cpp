@@ -48,7 +48,9 @@ void StereoStage::run(const runtime::DataClock& clock, const std::stop_token& st
 }
 
 void StereoStage::process(const StereoPair& pair, const std::stop_token& stop) {
+  delay_(pair.available);
   RelativeMotion motion = odometry_.process(pair);
+  ++counts_[static_cast<std::size_t>(motion.status)];
   motion.available = pair.available + stages::stereo.budget;
   motion.received = runtime::monotonic_now();
   to_fusion_.push(motion, stop);

@@ -1,7 +1,11 @@
 // The stereo thread: visual odometry at each image pair.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <stop_token>
+#include <utility>
 
 #include "estimators/stereo/stereo_odometry.h"
 #include "msgs/image.h"
@@ -9,6 +13,7 @@
 #include "runtime/core/data_clock.h"
 #include "runtime/core/doorbell.h"
 #include "runtime/core/edge.h"
+#include "runtime/vehicle/fault_delay.h"
 #include "runtime/vehicle/meter.h"
 
 namespace maploop::vehicle {
@@ -23,7 +28,13 @@ class StereoStage {
   void run(const runtime::DataClock& clock, const std::stop_token& stop);
   void finish();
 
+  void slow_down(StageDelay delay) { delay_ = std::move(delay); }  // before run()
+
   const Meter& meter() const { return meter_; }
+  // Results so far with this status; after the end.
+  std::uint64_t count(OdometryStatus status) const {
+    return counts_[static_cast<std::size_t>(status)];
+  }
 
  private:
   void process(const StereoPair& pair, const std::stop_token& stop);
@@ -35,6 +46,8 @@ class StereoStage {
   runtime::Edge<RelativeMotion>& to_fusion_;
   runtime::Edge<RelativeMotion>& to_publisher_;
   Meter meter_;
+  StageDelay delay_;
+  std::array<std::uint64_t, odometry_status_count> counts_{};
 };
 
 }  // namespace maploop::vehicle

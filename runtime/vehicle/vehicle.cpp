@@ -41,6 +41,25 @@ std::uint64_t peak_memory() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
+// What the estimators did not use, by their own reasons.
+std::vector<RefusalCount> refusals(const StereoStage& stereo, const fusion::FilterStatus& filter) {
+  std::vector<RefusalCount> all;
+  const auto add = [&](const Stage& stage, std::string_view reason, std::uint64_t count) {
+    if (count > 0) all.push_back({std::string(stage.name), std::string(reason), count});
+  };
+  for (std::size_t i = 1; i < odometry_status_count; ++i) {
+    const auto status = static_cast<OdometryStatus>(i);
+    add(stages::stereo, to_string(status), stereo.count(status));
+  }
+  for (std::size_t i = 1; i < fusion::reason_count; ++i) {
+    const auto reason = static_cast<fusion::Reason>(i);
+    add(stages::fusion, to_string(reason), filter.refused_for(reason));
+  }
+  add(stages::fusion, "held, and too old before the start", filter.unused);
+  add(stages::fusion, "restart: the clock jumped", filter.restarts);
+  return all;
+}
+
 }  // namespace
 
 struct Vehicle::Graph {
@@ -258,6 +277,7 @@ VehicleReport Vehicle::Graph::report() const {
        {&stereo.meter(), &fusion.meter(), &fusion.camera_path(), &fusion.imu_path()}) {
     r.misses.push_back({meter->name(), meter->misses()});
   }
+  r.refusals = refusals(stereo, fusion.filter().status());
   r.stalls = clock.stalls();
   r.stalled = clock.stalled();
   r.data_seconds = to_seconds(fusion.position() - first);
@@ -274,6 +294,11 @@ Vehicle::Vehicle(const VehicleConfig& config, const StereoCalibration& calibrati
                                      std::move(sinks), std::move(observer))) {}
 
 Vehicle::~Vehicle() = default;
+
+void Vehicle::slow_down(StageDelays delays) {
+  graph_->stereo.slow_down(std::move(delays.stereo));
+  graph_->fusion.slow_down(std::move(delays.fusion));
+}
 
 void Vehicle::start() { graph_->start(); }
 void Vehicle::stop() { graph_->stop.request_stop(); }

@@ -12,6 +12,7 @@
 #include "msgs/lidar_scan.h"
 #include "msgs/reference.h"
 #include "runtime/core/data_clock.h"
+#include "runtime/vehicle/fault_delay.h"
 #include "runtime/vehicle/message_sink.h"
 #include "runtime/vehicle/publisher.h"
 #include "runtime/vehicle/vehicle_config.h"
@@ -37,6 +38,9 @@ class Vehicle {
   Vehicle(const VehicleConfig& config, const StereoCalibration& calibration, Sensors sensors,
           const runtime::DataClock& clock, std::vector<MessageSink*> sinks, Observer observer);
   ~Vehicle();  // stops and waits
+
+  // Slows stages down, for tests of what happens then; before start().
+  void slow_down(StageDelays delays);
 
   // Starts every thread. Throws std::runtime_error when no sensor has a single sample.
   void start();

@@ -1,0 +1,46 @@
+// Makes a stage slow, so that it can be seen what a replay does with a consumer that cannot keep
+// up.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <thread>
+#include <vector>
+
+#include "runtime/vehicle/fault.h"
+
+namespace maploop::vehicle {
+
+// The stage's own; without any delay added it costs one comparison. Changes when results are there,
+// never what they are.
+class StageDelay {
+ public:
+  // `struck` counts the items that were delayed, and must outlive the stage.
+  void add(FaultWindow window, Duration by, std::atomic<std::uint64_t>& struck) {
+    delays_.push_back({window, by, &struck});
+  }
+
+  // Sleeps as long as the item of data time t is to be delayed.
+  void operator()(Time t) const {
+    for (const Delay& delay : delays_) {
+      if (!delay.window.contains(t)) continue;
+      delay.struck->fetch_add(1, std::memory_order_relaxed);
+      std::this_thread::sleep_for(delay.by);
+    }
+  }
+
+ private:
+  struct Delay {
+    FaultWindow window;
+    Duration by;
+    std::atomic<std::uint64_t>* struck;
+  };
+  std::vector<Delay> delays_;
+};
+
+struct StageDelays {
+  StageDelay stereo;
+  StageDelay fusion;
+};
+
+}  // namespace maploop::vehicle
