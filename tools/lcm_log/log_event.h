@@ -20,6 +20,7 @@ struct LogEvent {
   std::string_view channel = {};
   std::span<const std::uint8_t> data = {};
   std::uint64_t offset = 0;  // of its header in the (uncompressed) log
+  bool doubtful = false;     // damage follows it directly, and its last bytes may be damaged too
 };
 
 // Bytes of a log that are no event.

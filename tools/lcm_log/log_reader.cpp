@@ -101,6 +101,7 @@ std::optional<std::string> LogReader::check_what_follows(std::span<const std::ui
   if (followed || begins_nearly_with_sync(after)) return std::nullopt;
   const auto ahead = input_.peek(header.event_bytes() + kSearchBytes);
   const std::size_t looked_at = std::min(ahead.size(), header.event_bytes() + kSearchBytes);
+  event_.doubtful = true;
   if (trusted(ahead.first(looked_at), header)) return std::nullopt;
   return "no event follows it: its length is wrong";
 }

@@ -99,6 +99,10 @@ class LossAccount {
     close({}, {});
     open_ = Loss{.begin = damage.begin, .end = damage.end, .reason = damage.reason};
     open_->after_us = last_us_;
+    if (last_is_doubtful_) {
+      open_->reason += "; event " + std::to_string(last_number_) +
+                       " before it is kept, but may have a damaged end";
+    }
   }
 
   void undecodable(const LogEvent& event, const std::string& reason) {
@@ -109,19 +113,23 @@ class LossAccount {
     loss.after_us = loss.before_us = event.time_us;
     ++result_.lost_events;
     list(std::move(loss));
-    last_number_ = event.number;
-    last_us_ = event.time_us;
+    pass(event);
   }
 
   void event(const LogEvent& event) {
     close(event.number, event.time_us);
-    last_number_ = event.number;
-    last_us_ = event.time_us;
+    pass(event);
   }
 
   void finish() { close({}, {}); }
 
  private:
+  void pass(const LogEvent& event) {
+    last_number_ = event.number;
+    last_us_ = event.time_us;
+    last_is_doubtful_ = event.doubtful;
+  }
+
   // `number` and `time_us`: of the event after the loss.
   void close(std::optional<std::int64_t> number, std::optional<std::int64_t> time_us) {
     if (!open_) return;
@@ -150,6 +158,7 @@ class LossAccount {
   std::optional<Loss> open_;  // its right side is not known yet
   std::int64_t last_number_ = -1;
   std::optional<std::int64_t> last_us_;
+  bool last_is_doubtful_ = false;
 };
 
 }  // namespace
