@@ -1,0 +1,36 @@
+// Which channels a command works on.
+#pragma once
+
+#include <optional>
+#include <regex>
+#include <set>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+namespace maploop::lcm_log {
+
+class ChannelFilter {
+ public:
+  // Every channel.
+  ChannelFilter() = default;
+
+  // Those whose whole name the regular expression (ECMAScript) matches. Throws
+  // std::invalid_argument saying what is wrong with it.
+  explicit ChannelFilter(const std::string& pattern);
+
+  // Every channel but these.
+  explicit ChannelFilter(std::set<std::string, std::less<>> without);
+
+  bool takes(std::string_view channel);
+
+ private:
+  bool decide(const std::string& channel) const;
+
+  std::optional<std::regex> pattern_;
+  std::set<std::string, std::less<>> without_;
+  std::unordered_map<std::string, bool> decided_;  // matching is slow beside reading
+  std::string channel_;                            // reused key
+};
+
+}  // namespace maploop::lcm_log

@@ -1,0 +1,73 @@
+#include "tools/lcm_log/log_header.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+namespace maploop::lcm_log {
+namespace {
+
+constexpr std::array<std::uint8_t, 4> kSyncBytes{0xED, 0xA1, 0xDA, 0x01};
+
+std::uint64_t big_endian(std::span<const std::uint8_t> bytes) {
+  std::uint64_t value = 0;
+  for (const std::uint8_t byte : bytes) value = value << 8 | byte;
+  return value;
+}
+
+void put_big_endian(std::uint64_t value, std::span<std::uint8_t> bytes) {
+  for (std::size_t i = bytes.size(); i-- > 0; value >>= 8) {
+    bytes[i] = static_cast<std::uint8_t>(value);
+  }
+}
+
+}  // namespace
+
+LogHeader read_header(std::span<const std::uint8_t> bytes) {
+  return {.sync = static_cast<std::uint32_t>(big_endian(bytes.first(4))),
+          .number = static_cast<std::int64_t>(big_endian(bytes.subspan(4, 8))),
+          .time_us = static_cast<std::int64_t>(big_endian(bytes.subspan(12, 8))),
+          .channel_bytes = static_cast<std::int32_t>(big_endian(bytes.subspan(20, 4))),
+          .data_bytes = static_cast<std::int32_t>(big_endian(bytes.subspan(24, 4)))};
+}
+
+void write_header(const LogHeader& header, std::span<std::uint8_t, kHeaderBytes> bytes) {
+  put_big_endian(header.sync, bytes.first(4));
+  put_big_endian(static_cast<std::uint64_t>(header.number), bytes.subspan(4, 8));
+  put_big_endian(static_cast<std::uint64_t>(header.time_us), bytes.subspan(12, 8));
+  put_big_endian(static_cast<std::uint32_t>(header.channel_bytes), bytes.subspan(20, 4));
+  put_big_endian(static_cast<std::uint32_t>(header.data_bytes), bytes.subspan(24, 4));
+}
+
+std::optional<std::string> implausible(const LogHeader& header, const LogLimits& limits) {
+  if (header.sync != kSyncWord) return "no event begins here";
+  if (header.channel_bytes < 1 || header.channel_bytes > limits.channel_bytes) {
+    return "a channel name of " + std::to_string(header.channel_bytes) + " bytes";
+  }
+  if (header.data_bytes < 0 || header.data_bytes > limits.data_bytes) {
+    return "data of " + std::to_string(header.data_bytes) + " bytes";
+  }
+  return std::nullopt;
+}
+
+bool begins_with_sync(std::span<const std::uint8_t> bytes) {
+  const std::size_t size = std::min(bytes.size(), kSyncBytes.size());
+  return std::equal(kSyncBytes.begin(), kSyncBytes.begin() + static_cast<std::ptrdiff_t>(size),
+                    bytes.begin());
+}
+
+bool begins_nearly_with_sync(std::span<const std::uint8_t> bytes) {
+  return bytes.size() >= 4 &&
+         std::popcount(static_cast<std::uint32_t>(big_endian(bytes.first(4))) ^ kSyncWord) <= 8;
+}
+
+std::size_t find_sync(std::span<const std::uint8_t> bytes, std::size_t from) {
+  if (from >= bytes.size()) return bytes.size();
+  const void* found =
+      memmem(bytes.data() + from, bytes.size() - from, kSyncBytes.data(), kSyncBytes.size());
+  if (found == nullptr) return bytes.size();
+  return static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - bytes.data());
+}
+
+}  // namespace maploop::lcm_log

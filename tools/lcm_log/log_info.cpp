@@ -1,0 +1,205 @@
+#include "tools/lcm_log/log_info.h"
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "tools/lcm_log/interval_statistics.h"
+#include "tools/lcm_log/log_reader.h"
+#include "tools/lcm_log/log_text.h"
+#include "tools/lcm_log/progress.h"
+
+namespace maploop::lcm_log {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kMaximumChannels = 1000;  // 33 MB
+constexpr std::size_t kMaximumTypes = 8;
+constexpr double kGapFactor = 2.5;  // two messages missing at a steady rate, or one and much jitter
+
+struct Channel {
+  ChannelInfo info;
+  IntervalStatistics intervals;
+};
+using Channels = std::map<std::string, std::unique_ptr<Channel>, std::less<>>;
+
+Channel* find(Channels& channels, std::string_view name) {
+  if (const auto found = channels.find(name); found != channels.end()) return found->second.get();
+  if (channels.size() == kMaximumChannels) return nullptr;
+  auto& channel = channels[std::string(name)];
+  channel = std::make_unique<Channel>();
+  channel->info.name = name;
+  return channel.get();
+}
+
+void count_type(ChannelInfo& info, std::uint64_t fingerprint, const schema::Schema& schema) {
+  const auto found = std::find_if(info.types.begin(), info.types.end(),
+                                  [&](const TypeCount& t) { return t.fingerprint == fingerprint; });
+  if (found != info.types.end()) {
+    ++found->count;
+  } else if (info.types.size() < kMaximumTypes) {
+    const schema::Type* type = schema.find(fingerprint);
+    info.types.push_back({fingerprint, type == nullptr ? "" : type->name, 1});
+  }
+}
+
+void add(Channel& channel, const LogEvent& event, const schema::Schema& schema) {
+  ChannelInfo& info = channel.info;
+  if (info.count == 0) info.first_us = event.time_us;
+  info.last_us = event.time_us;
+  ++info.count;
+  info.bytes += event.data.size();
+  channel.intervals.add(event.time_us);
+  count_type(info, schema::fingerprint_of(event.data), schema);
+}
+
+ChannelInfo finish(Channel& channel) {
+  ChannelInfo info = std::move(channel.info);
+  const double duration = seconds_between(info.first_us, info.last_us);
+  if (duration > 0.0) info.rate_hz = static_cast<double>(info.count - 1) / duration;
+  info.median_s = channel.intervals.median_s();
+  info.jitter_s = channel.intervals.deviation_s();
+  info.longest_s = channel.intervals.longest_s();
+  info.longest_from_us = channel.intervals.longest_from_us();
+  info.gaps = channel.intervals.longer_than_median(kGapFactor);
+  info.backwards = channel.intervals.backwards();
+  return info;
+}
+
+std::string hex(std::uint64_t fingerprint) {
+  std::string text;
+  append(text, "0x%016llx", static_cast<unsigned long long>(fingerprint));
+  return text;
+}
+
+std::string type_text(const ChannelInfo& info) {
+  std::string text;
+  for (const TypeCount& type : info.types) {
+    if (!text.empty()) text += ", ";
+    text += type.name.empty() ? hex(type.fingerprint) : type.name;
+  }
+  return text;
+}
+
+unsigned long long number(std::uint64_t value) {
+  return value;
+}
+
+}  // namespace
+
+LogInfo read_info(const std::filesystem::path& file, const schema::Schema& schema) {
+  LogReader reader(file, schema);
+  Progress progress(reader.input().file_size());
+  LogInfo info;
+  info.file = file.string();
+  Channels channels;
+  for (auto item = reader.next(); item != LogReader::Item::end; item = reader.next()) {
+    progress.at(reader.input().file_position());
+    if (item == LogReader::Item::damage) {
+      ++info.damages;
+      info.damaged_bytes += reader.damage().end - reader.damage().begin;
+      continue;
+    }
+    const LogEvent& event = reader.event();
+    if (info.events == 0) info.first_us = info.last_us = event.time_us;
+    info.first_us = std::min(info.first_us, event.time_us);
+    info.last_us = std::max(info.last_us, event.time_us);
+    ++info.events;
+    if (Channel* channel = find(channels, event.channel)) {
+      add(*channel, event, schema);
+    } else {
+      ++info.events_elsewhere;
+    }
+  }
+  info.bytes = reader.input().position();
+  if (info.events == 0 && info.damages > 0) {
+    throw std::runtime_error("'" + file.string() + "' holds no event: is it an LCM log?");
+  }
+  for (auto& [name, channel] : channels) info.channels.push_back(finish(*channel));
+  return info;
+}
+
+std::string format_table(const LogInfo& info) {
+  std::string text = info.file + ": ";
+  if (info.events == 0) return text + "an empty log\n";
+  append(text, "%llu events, %s, %.3f s from %s to %s\n", number(info.events),
+         size_text(info.bytes).c_str(), seconds_between(info.first_us, info.last_us),
+         time_text(info.first_us).c_str(), time_text(info.last_us).c_str());
+  std::size_t width = 7;
+  for (const ChannelInfo& c : info.channels) width = std::max(width, c.name.size());
+  const int w = static_cast<int>(std::min<std::size_t>(width, 40));
+  append(text, "\n%-*s %9s %9s %10s %10s %9s %9s %5s  %s\n", w, "channel", "count", "rate Hz",
+         "data", "median ms", "jitter ms", "max ms", "gaps", "type");
+  for (const ChannelInfo& c : info.channels) {
+    append(text, "%-*s %9llu %9.2f %10s %10.3f %9.3f %9.1f %5llu  %s\n", w, c.name.c_str(),
+           number(c.count), c.rate_hz, size_text(c.bytes).c_str(), c.median_s * 1e3,
+           c.jitter_s * 1e3, c.longest_s * 1e3, number(c.gaps), type_text(c).c_str());
+  }
+  text += "Intervals are of log time; a gap is an interval above 2.5 times the median.\n";
+  for (const ChannelInfo& c : info.channels) {
+    append(text, "  %s: first %s, last %s", c.name.c_str(), time_text(c.first_us).c_str(),
+           time_text(c.last_us).c_str());
+    if (c.gaps > 0) {
+      append(text, ", longest gap %.3f s from %s", c.longest_s,
+             time_text(c.longest_from_us).c_str());
+    }
+    if (c.backwards > 0) append(text, ", time goes back %llu times", number(c.backwards));
+    text += '\n';
+  }
+  if (info.events_elsewhere > 0) {
+    append(text, "%llu events are on more channels than the %zu shown\n",
+           number(info.events_elsewhere), info.channels.size());
+  }
+  if (info.damages > 0) {
+    append(text, "damaged in %llu places, %s: see 'maploop log verify'\n", number(info.damages),
+           size_text(info.damaged_bytes).c_str());
+  }
+  return text;
+}
+
+void write_json(const std::filesystem::path& file, const LogInfo& info) {
+  json channels = json::object();
+  for (const ChannelInfo& c : info.channels) {
+    json types = json::array();
+    for (const TypeCount& t : c.types) {
+      types.push_back({{"fingerprint", hex(t.fingerprint)},
+                       {"name", t.name.empty() ? json(nullptr) : json(t.name)},
+                       {"count", t.count}});
+    }
+    channels[c.name] = {{"count", c.count},
+                        {"bytes", c.bytes},
+                        {"first_us", c.first_us},
+                        {"last_us", c.last_us},
+                        {"rate_hz", c.rate_hz},
+                        {"interval_median_s", c.median_s},
+                        {"interval_jitter_s", c.jitter_s},
+                        {"interval_longest_s", c.longest_s},
+                        {"interval_longest_from_us", c.longest_from_us},
+                        {"gaps", c.gaps},
+                        {"backwards", c.backwards},
+                        {"types", types}};
+  }
+  const json all = {{"file", info.file},
+                    {"bytes", info.bytes},
+                    {"events", info.events},
+                    {"first_us", info.first_us},
+                    {"last_us", info.last_us},
+                    {"duration_s", seconds_between(info.first_us, info.last_us)},
+                    {"events_elsewhere", info.events_elsewhere},
+                    {"damages", info.damages},
+                    {"damaged_bytes", info.damaged_bytes},
+                    {"channels", channels}};
+  std::ofstream out(file);
+  // A channel's name may be any bytes.
+  out << all.dump(2, ' ', false, json::error_handler_t::replace) << '\n' << std::flush;
+  if (!out) {
+    throw std::runtime_error("cannot write " + file.string() +
+                             ": does its folder exist, and has the disk room?");
+  }
+}
+
+}  // namespace maploop::lcm_log

@@ -1,0 +1,55 @@
+// The bytes of a log, plain or gzip-compressed, through a window that grows only as far as it is
+// asked to.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace maploop::lcm_log {
+
+class LogInput {
+ public:
+  // Throws std::runtime_error naming the file when it is no file or cannot be read.
+  explicit LogInput(const std::filesystem::path& file);
+  ~LogInput();
+  LogInput(LogInput&&) noexcept;
+  LogInput& operator=(LogInput&&) noexcept;
+
+  // At least `size` bytes from position() on, fewer only where the log ends before. Valid until the
+  // next call of a member that is not const.
+  std::span<const std::uint8_t> peek(std::size_t size);
+
+  // Precondition: count <= what peek has shown.
+  void skip(std::size_t count);
+
+  std::uint64_t position() const { return position_; }  // in the uncompressed log
+
+  // Why reading ended before the end of the file (a read error, a damaged or truncated .gz); empty
+  // where it did not.
+  const std::string& failure() const { return failure_; }
+
+  // Of the file as it is on disk, for a progress line.
+  std::uint64_t file_size() const { return file_size_; }
+  std::uint64_t file_position() const;
+
+ private:
+  struct Stream;
+
+  void read_more(std::size_t size);
+  void note_failure();
+
+  std::unique_ptr<Stream> stream_;
+  std::vector<std::uint8_t> window_;
+  std::size_t begin_ = 0, end_ = 0;  // what of the window is filled and not yet skipped
+  std::uint64_t position_ = 0;
+  std::uint64_t file_size_ = 0;
+  bool at_end_ = false;
+  std::string failure_;
+};
+
+}  // namespace maploop::lcm_log

@@ -1,0 +1,246 @@
+#include "tools/lcm_log/log_recover.h"
+
+#include <algorithm>
+#include <deque>
+#include <memory>
+#include <stdexcept>
+
+#include "msgs/lcm/decoded_message.h"
+#include "tools/lcm_log/log_reader.h"
+#include "tools/lcm_log/log_text.h"
+#include "tools/lcm_log/log_writer.h"
+#include "tools/lcm_log/progress.h"
+
+namespace maploop::lcm_log {
+namespace {
+
+constexpr std::uint64_t kSmallestEvent = kHeaderBytes + 1;
+
+// An event of its own, apart from its reader.
+struct HeldEvent {
+  std::int64_t number = 0;
+  std::int64_t time_us = 0;
+  std::string channel;
+  std::vector<std::uint8_t> data;
+};
+
+// Writes events, each when its neighbours are known, with a time that fits theirs.
+class TimeRepairer {
+ public:
+  TimeRepairer(LogWriter& writer, const RecoverParameters& parameters, Recovery& result)
+      : writer_(writer), parameters_(parameters), result_(result) {}
+
+  void write(const LogEvent& event) {
+    held_.push_back({event.number,
+                     event.time_us,
+                     std::string(event.channel),
+                     {event.data.begin(), event.data.end()}});
+    if (held_.size() == 3) write_first();
+  }
+
+  void finish() {
+    while (!held_.empty()) write_first();
+  }
+
+ private:
+  bool earlier(std::int64_t a_us, std::int64_t b_us) const {
+    return seconds_between(a_us, b_us) > parameters_.max_disorder_s;
+  }
+
+  // The time that the first held event ought to have.
+  std::int64_t right_time() const {
+    const std::int64_t time = held_[0].time_us;
+    if (!last_us_) {  // the log's first event: the next two must agree that it is too late
+      const bool late = held_.size() == 3 && earlier(held_[1].time_us, time) &&
+                        earlier(held_[2].time_us, time) &&
+                        !earlier(held_[2].time_us, held_[1].time_us);
+      return late ? held_[1].time_us : time;
+    }
+    if (held_.size() == 1) return earlier(time, *last_us_) ? *last_us_ : time;
+    const std::int64_t next = held_[1].time_us;
+    const bool late = earlier(*last_us_, time) && earlier(next, time);
+    const bool early = earlier(time, *last_us_) && earlier(time, next);
+    return late || early ? *last_us_ : time;
+  }
+
+  void write_first() {
+    HeldEvent event = std::move(held_.front());
+    held_.front().time_us = event.time_us;
+    const std::int64_t time = right_time();
+    held_.pop_front();
+    if (time != event.time_us) {
+      ++result_.repair_count;
+      if (result_.repairs.size() < parameters_.max_listed) {
+        result_.repairs.push_back({event.number, event.time_us, time});
+      }
+    }
+    last_us_ = time;
+    writer_.write({.number = event.number,
+                   .time_us = time,
+                   .channel = event.channel,
+                   .data = event.data,
+                   .offset = 0});
+  }
+
+  LogWriter& writer_;
+  const RecoverParameters& parameters_;
+  Recovery& result_;
+  std::deque<HeldEvent> held_;  // at most three
+  std::optional<std::int64_t> last_us_;
+};
+
+// Joins damage and the events on both its sides to an account of what is lost.
+class LossAccount {
+ public:
+  LossAccount(const RecoverParameters& parameters, Recovery& result)
+      : parameters_(parameters), result_(result) {}
+
+  void damage(const Damage& damage) {
+    close({}, {});
+    open_ = Loss{.begin = damage.begin, .end = damage.end, .reason = damage.reason};
+    open_->after_us = last_us_;
+    if (last_is_doubtful_) {
+      open_->reason += "; event " + std::to_string(last_number_) +
+                       " before it is kept, but may have a damaged end";
+    }
+  }
+
+  void undecodable(const LogEvent& event, const std::string& reason) {
+    close(event.number, event.time_us);
+    const std::uint64_t size = kHeaderBytes + event.channel.size() + event.data.size();
+    Loss loss{.begin = event.offset, .end = event.offset + size, .reason = reason};
+    loss.first_event = loss.last_event = event.number;
+    loss.after_us = loss.before_us = event.time_us;
+    ++result_.lost_events;
+    list(std::move(loss));
+    pass(event);
+  }
+
+  void event(const LogEvent& event) {
+    close(event.number, event.time_us);
+    pass(event);
+  }
+
+  void finish() { close({}, {}); }
+
+ private:
+  void pass(const LogEvent& event) {
+    last_number_ = event.number;
+    last_us_ = event.time_us;
+    last_is_doubtful_ = event.doubtful;
+  }
+
+  // `number` and `time_us`: of the event after the loss.
+  void close(std::optional<std::int64_t> number, std::optional<std::int64_t> time_us) {
+    if (!open_) return;
+    open_->before_us = time_us;
+    // More events than the bytes could hold: one of the numbers is damaged itself.
+    const auto room = static_cast<std::int64_t>((open_->end - open_->begin) / kSmallestEvent);
+    if (number && *number > last_number_ && *number - last_number_ - 1 <= room) {
+      result_.lost_events += static_cast<std::uint64_t>(*number - last_number_ - 1);
+      if (*number > last_number_ + 1) {
+        open_->first_event = last_number_ + 1;
+        open_->last_event = *number - 1;
+      }
+    }
+    list(std::move(*open_));
+    open_.reset();
+  }
+
+  void list(Loss loss) {
+    ++result_.loss_count;
+    result_.lost_bytes += loss.end - loss.begin;
+    if (result_.losses.size() < parameters_.max_listed) result_.losses.push_back(std::move(loss));
+  }
+
+  const RecoverParameters& parameters_;
+  Recovery& result_;
+  std::optional<Loss> open_;  // its right side is not known yet
+  std::int64_t last_number_ = -1;
+  std::optional<std::int64_t> last_us_;
+  bool last_is_doubtful_ = false;
+};
+
+}  // namespace
+
+Recovery recover(const std::filesystem::path& log, const schema::Schema& schema,
+                 const std::filesystem::path& output, const RecoverParameters& parameters) {
+  refuse_same_file(log, output);
+  LogReader reader(log, schema);
+  Progress progress(reader.input().file_size());
+  LogWriter writer(output);
+  Recovery result;
+  result.file = log.string();
+  TimeRepairer repairer(writer, parameters, result);
+  LossAccount account(parameters, result);
+  schema::DecodedMessage decoded;
+  for (auto item = reader.next(); item != LogReader::Item::end; item = reader.next()) {
+    progress.at(reader.input().file_position());
+    if (item == LogReader::Item::damage) {
+      account.damage(reader.damage());
+      continue;
+    }
+    const LogEvent& event = reader.event();
+    if (const auto* type = schema.find(schema::fingerprint_of(event.data))) {
+      if (const auto error = decoded.decode(*type, event.data)) {
+        account.undecodable(event, std::string(event.channel) + " does not decode as " +
+                                       type->name + ": " + error->reason);
+        continue;
+      }
+    }
+    account.event(event);
+    repairer.write(event);
+  }
+  account.finish();
+  repairer.finish();
+  result.bytes = reader.input().position();
+  result.events = static_cast<std::uint64_t>(writer.events());
+  if (result.events == 0) {
+    throw std::runtime_error("'" + log.string() + "' holds no readable event: nothing written");
+  }
+  writer.close();
+  return result;
+}
+
+std::string format_report(const Recovery& r) {
+  std::string text;
+  const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
+  for (const Loss& loss : r.losses) {
+    append(text, "%s: lost bytes %llu to %llu", r.file.c_str(), number(loss.begin),
+           number(loss.end));
+    if (loss.first_event && *loss.first_event == *loss.last_event) {
+      append(text, ", event %lld", static_cast<long long>(*loss.first_event));
+    } else if (loss.first_event) {
+      append(text, ", events %lld to %lld", static_cast<long long>(*loss.first_event),
+             static_cast<long long>(*loss.last_event));
+    }
+    if (loss.after_us && loss.before_us) {
+      append(text, ", between %s and %s (%.6f s)", time_text(*loss.after_us).c_str(),
+             time_text(*loss.before_us).c_str(), seconds_between(*loss.after_us, *loss.before_us));
+    } else if (loss.after_us) {
+      append(text, ", after %s", time_text(*loss.after_us).c_str());
+    } else if (loss.before_us) {
+      append(text, ", before %s", time_text(*loss.before_us).c_str());
+    }
+    text += ": " + loss.reason + '\n';
+  }
+  if (r.loss_count > r.losses.size()) {
+    append(text, "... %llu more losses\n", number(r.loss_count - r.losses.size()));
+  }
+  for (const TimeRepair& t : r.repairs) {
+    append(text, "%s: time of event %lld repaired: was %s, is %s\n", r.file.c_str(),
+           static_cast<long long>(t.event), time_text(t.was_us).c_str(),
+           time_text(t.is_us).c_str());
+  }
+  if (r.repair_count > r.repairs.size()) {
+    append(text, "... %llu more times repaired\n", number(r.repair_count - r.repairs.size()));
+  }
+  append(text,
+         "%s: %llu events recovered; lost %llu bytes of %llu in %llu places, %llu events by "
+         "their numbers; %llu times repaired\n",
+         r.file.c_str(), number(r.events), number(r.lost_bytes), number(r.bytes),
+         number(r.loss_count), number(r.lost_events), number(r.repair_count));
+  return text;
+}
+
+}  // namespace maploop::lcm_log
