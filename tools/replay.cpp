@@ -1,20 +1,16 @@
 // maploop replay: a recorded drive through the whole graph.
-#include <unistd.h>
-
-#include <atomic>
-#include <csignal>
-#include <cstdio>
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "runtime/core/data_clock.h"
 #include "runtime/vehicle/channel_hashes.h"
 #include "runtime/vehicle/fault_injection.h"
 #include "runtime/vehicle/lcm_bus.h"
+#include "runtime/vehicle/limited_source.h"
 #include "runtime/vehicle/log_recorder.h"
 #include "runtime/vehicle/vehicle.h"
 #include "runtime/vehicle/vehicle_config.h"
@@ -22,6 +18,7 @@
 #include "sensors/replay/reference_trajectory.h"
 #include "tools/commands.h"
 #include "tools/evaluation/kitti_poses.h"
+#include "tools/replay_console.h"
 #include "tools/replay_result.h"
 #include "tools/trajectory_collector.h"
 
@@ -42,6 +39,8 @@ struct ReplayOptions {
   std::filesystem::path poses;
   std::optional<std::int64_t> seed;
   std::vector<std::string> faults;
+  PlaybackOptions playback;
+  double end = 0.0;  // s; 0: the whole drive
 };
 
 // What is wrong with it, as CLI11's checks say it.
@@ -52,48 +51,6 @@ std::string valid_fault(const std::string& text) {
   } catch (const std::invalid_argument& e) {
     return e.what();
   }
-}
-
-volatile std::sig_atomic_t interrupted = 0;
-
-// The first SIGINT or SIGTERM ends the replay in order, the second one at once.
-void interrupt_once() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { interrupted = 1; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
-
-class ProgressLine {
- public:
-  ProgressLine(const vehicle::Vehicle& vehicle, Time last) : vehicle_(vehicle), last_(last) {}
-
-  void show() const {
-    const double done = to_seconds(vehicle_.position() - vehicle_.first());
-    const double all = std::max(to_seconds(last_ - vehicle_.first()), 1e-3);
-    std::fprintf(stderr, "\r%8.1f s of %.1f s  %3.0f %%", std::max(done, 0.0), all,
-                 std::min(100.0, 100.0 * std::max(done, 0.0) / all));
-  }
-  void clear() const { std::fprintf(stderr, "\r%40s\r", ""); }
-
- private:
-  const vehicle::Vehicle& vehicle_;
-  Time last_;
-};
-
-void run_to_end(vehicle::Vehicle& vehicle, Time last) {
-  const bool terminal = isatty(STDERR_FILENO) != 0;
-  const ProgressLine progress(vehicle, last);
-  interrupt_once();
-  vehicle.start();
-  for (int i = 0; vehicle.running(); ++i) {
-    if (interrupted != 0) vehicle.stop();
-    if (terminal && i % 10 == 0) progress.show();
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  vehicle.wait();
-  if (terminal) progress.clear();
 }
 
 sensors::ReferenceTrajectory read_reference(sensors::Source<ReferencePose>& source) {
@@ -124,6 +81,8 @@ int replay(const ReplayOptions& options) {
     sources.reference = drive.reference();
   }
 
+  if (options.end > 0.0) limit(sources, drive.first_stamp() + from_seconds(options.end));
+
   std::vector<vehicle::Fault> asked;
   for (const std::string& text : options.faults) asked.push_back(vehicle::parse_fault(text));
   vehicle::FaultInjection faults(std::move(asked), drive.first_stamp());
@@ -152,16 +111,17 @@ int replay(const ReplayOptions& options) {
   vehicle::Vehicle vehicle(config, drive.calibration().stereo, std::move(sources), clock, sinks,
                            observer);
   vehicle.slow_down(faults.delays());
+  PlaybackEnd end = PlaybackEnd::finished;
   {
     const auto hogs = faults.hogs([&] { return vehicle.position(); });
-    run_to_end(vehicle, drive.last_stamp());
+    end = play(vehicle, drive.last_stamp(), options.playback);
   }
 
   ReplayResult result;
   result.drive = std::filesystem::weakly_canonical(options.drive).filename().string();
   result.lockstep = options.lockstep;
   result.speed = options.speed;
-  result.interrupted = interrupted != 0;
+  result.interrupted = end == PlaybackEnd::interrupted;
   result.images = drive.frame_count();
   result.vehicle = vehicle.report();
   result.channels = hashes.summary();
@@ -193,9 +153,20 @@ void add_replay(CLI::App& app, Command& command) {
   auto* speed = sub->add_option("--speed", options->speed, "Times real time")
                     ->check(CLI::PositiveNumber)
                     ->capture_default_str();
-  sub->add_flag("--lockstep", options->lockstep,
-                "On virtual time: no sleeping, no dropping, as fast as the graph goes")
-      ->excludes(speed);
+  auto* lockstep =
+      sub->add_flag("--lockstep", options->lockstep,
+                    "On virtual time: no sleeping, no dropping, as fast as the graph goes")
+          ->excludes(speed);
+  sub->add_option("--start", options->playback.start,
+                  "Go through the first seconds as fast as the graph can")
+      ->check(CLI::NonNegativeNumber)
+      ->excludes(lockstep);
+  sub->add_option("--end", options->end, "End this many seconds into the drive")
+      ->check(CLI::PositiveNumber);
+  sub->add_flag("--paused", options->playback.paused, "Wait for the space bar at the start")
+      ->excludes(lockstep);
+  sub->add_flag("--until-miss", options->playback.until_miss, "Pause at the first missed deadline")
+      ->excludes(lockstep);
   sub->add_option("--record", options->record, "Write every message to this LCM log");
   sub->add_flag("--no-lcm", options->no_lcm, "Publish nothing on LCM");
   sub->add_option("--config", options->config, "TOML file of parameters")

@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "runtime/vehicle/vehicle.h"
 #include "sensors/source.h"
 
 namespace maploop::vehicle {
@@ -23,9 +24,15 @@ class LimitedSource final : public sensors::Source<T> {
   Time end_;
 };
 
-template <class T>
-void limit(std::unique_ptr<sensors::Source<T>>& source, Time end) {
-  if (source != nullptr) source = std::make_unique<LimitedSource<T>>(std::move(source), end);
+inline void limit(Sensors& sensors, Time end) {
+  const auto cut = [end]<class T>(std::unique_ptr<sensors::Source<T>>& source) {
+    if (source != nullptr) source = std::make_unique<LimitedSource<T>>(std::move(source), end);
+  };
+  cut(sensors.camera);
+  cut(sensors.velodyne);
+  cut(sensors.imu);
+  cut(sensors.gnss);
+  cut(sensors.reference);
 }
 
 }  // namespace maploop::vehicle
