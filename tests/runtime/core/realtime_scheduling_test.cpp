@@ -105,11 +105,11 @@ TEST(RealtimeScheduling, DeadlineIsGrantedMayStartThreadsAndIsRefusedWhenTheCpus
             "granted|deadline 0.5/2/10 ms|deadline 0.5/2/10 ms||");
 
   std::string inner = "not started";
-  Thread thread(
-      "thread", deadline(milliseconds(1), milliseconds(10), milliseconds(10)), {},
+  Thread outer(
+      "outer", deadline(milliseconds(1), milliseconds(10), milliseconds(10)), {},
       [&](const std::stop_token&) { inner = first_item({}); }, [] {});
-  thread.join();
-  EXPECT_EQ(thread.failure(), "");
+  outer.join();
+  EXPECT_EQ(outer.failure(), "");
   EXPECT_EQ(inner.substr(0, 8), "granted|");
 
   // Many threads that want a whole CPU each: more than any machine can promise.
