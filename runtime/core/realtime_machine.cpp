@@ -18,6 +18,11 @@ RealtimeSetting unknown(std::string name, std::string asked, std::string reason,
           Verdict::unknown, std::move(reason), std::move(remedy)};
 }
 
+// Of a file that may be missing; lives as long as the machine's text.
+std::string_view view(const std::optional<std::string>& file) {
+  return file ? std::string_view(*file) : std::string_view();
+}
+
 RealtimeSetting assess_kernel(const MachineText& machine) {
   RealtimeSetting setting{"kernel", "PREEMPT_RT", {}, Verdict::granted, {}, {}};
   constexpr const char* kRemedy =
@@ -25,7 +30,7 @@ RealtimeSetting assess_kernel(const MachineText& machine) {
   if (!machine.version && !machine.realtime) {
     return unknown(setting.name, setting.asked, "/proc/version cannot be read", kRemedy);
   }
-  const std::string_view version = machine.version ? std::string_view(*machine.version) : "";
+  const std::string_view version = view(machine.version);
   const auto has = [version](std::string_view word) {
     return version.find(word) != std::string_view::npos;
   };
@@ -48,8 +53,8 @@ RealtimeSetting assess_throttling(const MachineText& machine) {
   constexpr const char* kRemedy = "as root: sysctl kernel.sched_rt_runtime_us=950000";
   RealtimeSetting setting{
       "real-time throttling", "at least 90 % for real-time threads", {}, Verdict::granted, {}, {}};
-  const auto runtime = parse_integer(machine.rt_runtime_us.value_or(""));
-  const auto period = parse_integer(machine.rt_period_us.value_or(""));
+  const auto runtime = parse_integer(view(machine.rt_runtime_us));
+  const auto period = parse_integer(view(machine.rt_period_us));
   if (runtime == -1) {
     setting.granted = "off";
     return setting;
@@ -112,8 +117,8 @@ RealtimeSetting assess_virtual_machine(const MachineText& machine) {
       "run on the machine itself, or give each virtual CPU a core of its own";
   RealtimeSetting setting{"virtual machine", "none", "none", Verdict::granted, {}, {}};
   // x86 says so in the flags; other machines do not say.
-  const auto flags = line_value(machine.cpuinfo.value_or(""), "flags");
-  const auto steal = stolen(machine.stat.value_or(""));
+  const auto flags = line_value(view(machine.cpuinfo), "flags");
+  const auto steal = stolen(view(machine.stat));
   const bool is_virtual =
       flags && (' ' + std::string(*flags) + ' ').find(" hypervisor ") != std::string::npos;
   if (!flags && (!steal || *steal == 0.0)) {
@@ -138,7 +143,7 @@ RealtimeSetting assess_isolation(const MachineText& machine) {
       "spare";
   RealtimeSetting setting{
       "isolated CPUs", "some, for bound threads alone", {}, Verdict::granted, {}, {}};
-  const auto isolated = parse_cpu_list(machine.isolated_cpus.value_or(""));
+  const auto isolated = parse_cpu_list(view(machine.isolated_cpus));
   if (!machine.isolated_cpus || !isolated) {
     return unknown(setting.name, setting.asked, "/sys/devices/system/cpu/isolated is not readable",
                    kRemedy);
@@ -166,8 +171,7 @@ MachineText read_machine(const std::filesystem::path& root) {
   machine.stat = read_system_file(root / "proc/stat");
   machine.online_cpus = read_system_file(cpus / "online");
   machine.isolated_cpus = read_system_file(cpus / "isolated");
-  for (const int cpu :
-       parse_cpu_list(machine.online_cpus.value_or("")).value_or(std::vector<int>{})) {
+  for (const int cpu : parse_cpu_list(view(machine.online_cpus)).value_or(std::vector<int>{})) {
     if (auto governor =
             read_system_file(cpus / ("cpu" + std::to_string(cpu)) / "cpufreq/scaling_governor")) {
       machine.governors.emplace_back(cpu, std::move(*governor));

@@ -38,14 +38,13 @@ void touch(std::byte* memory, std::size_t bytes) {
 }
 
 // Bytes of the range that are in memory now, whole pages.
-std::size_t resident(const std::byte* memory, std::size_t bytes) {
+std::size_t resident(std::byte* memory, std::size_t bytes) {
   const std::size_t page = page_size();
-  const auto address = reinterpret_cast<std::uintptr_t>(memory);
-  const std::uintptr_t begin = (address + page - 1) / page * page;
-  const std::uintptr_t end = (address + bytes) / page * page;
-  if (end <= begin) return 0;
-  std::vector<unsigned char> pages((end - begin) / page);
-  if (mincore(reinterpret_cast<void*>(begin), end - begin, pages.data()) != 0) return 0;
+  const std::size_t misaligned = reinterpret_cast<std::uintptr_t>(memory) % page;
+  const std::size_t skipped = misaligned == 0 ? 0 : page - misaligned;
+  if (bytes < skipped + page) return 0;
+  std::vector<unsigned char> pages((bytes - skipped) / page);
+  if (mincore(memory + skipped, pages.size() * page, pages.data()) != 0) return 0;
   const auto there = std::count_if(pages.begin(), pages.end(), [](auto p) { return (p & 1) != 0; });
   return static_cast<std::size_t>(there) * page;
 }

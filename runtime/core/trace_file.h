@@ -27,7 +27,7 @@ class TraceFile {
   void flush();
   [[noreturn]] void fail(const char* what, int error) const;
 
-  static constexpr std::size_t kBytes = 64 * 1024;
+  static constexpr std::size_t kBytes = std::size_t{64} * 1024;
 
   std::string name_;
   int descriptor_ = -1;
