@@ -42,7 +42,7 @@ std::vector<Feature> features_of(const StereoFrame& frame, const StereoParameter
   match_new_corners(frame, parameters, corners, &matched);
   std::vector<Feature> features;
   for (const StereoObservation& seen : matched)
-    features.push_back({static_cast<std::int64_t>(features.size()), 0, seen});
+    features.push_back({static_cast<std::int64_t>(features.size()), seen});
   return features;
 }
 
