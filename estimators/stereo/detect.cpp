@@ -13,7 +13,7 @@ constexpr int kResponseRadius = 3;
 }  // namespace
 
 double corner_response(const cv::Mat& gradient, int x, int y) {
-  std::int64_t xx = 0, xy = 0, yy = 0;
+  int xx = 0, xy = 0, yy = 0;  // 49 products of at most 4080^2 each: fits
   for (int row = y - kResponseRadius; row <= y + kResponseRadius; ++row) {
     const auto* g = gradient.ptr<cv::Vec2s>(row);
     for (int column = x - kResponseRadius; column <= x + kResponseRadius; ++column) {
@@ -26,8 +26,8 @@ double corner_response(const cv::Mat& gradient, int x, int y) {
   }
   constexpr double kSide = 2 * kResponseRadius + 1;
   constexpr double kScale = 1.0 / (32.0 * 32.0 * kSide * kSide);
-  const double half_trace = 0.5 * kScale * static_cast<double>(xx + yy);
-  const double half_difference = 0.5 * kScale * static_cast<double>(xx - yy);
+  const double half_trace = 0.5 * kScale * (static_cast<double>(xx) + yy);
+  const double half_difference = 0.5 * kScale * (static_cast<double>(xx) - yy);
   return half_trace - std::hypot(half_difference, kScale * static_cast<double>(xy));
 }
 

@@ -20,17 +20,20 @@ class BucketGrid {
   BucketGrid(int width, int height, int bucket_size)
       : size_(bucket_size),
         columns_((width + bucket_size - 1) / bucket_size),
-        count_(static_cast<std::size_t>(columns_ * ((height + bucket_size - 1) / bucket_size))) {}
+        rows_((height + bucket_size - 1) / bucket_size) {}
 
-  std::size_t count() const { return count_; }
+  std::size_t count() const {
+    return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
+  }
   std::size_t bucket_of(int x, int y) const {
-    return static_cast<std::size_t>((y / size_) * columns_ + x / size_);
+    return static_cast<std::size_t>(y / size_) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(x / size_);
   }
 
  private:
   int size_;
   int columns_;
-  std::size_t count_;
+  int rows_;
 };
 
 // New corners for the buckets that hold fewer than features_per_bucket of `taken`, strongest first

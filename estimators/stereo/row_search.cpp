@@ -32,7 +32,7 @@ void RowSearch::correlate(const PixelView& left, const PixelView& right, int x, 
     }
   }
 
-  const auto columns = static_cast<std::size_t>(count - 1 + kSide);
+  const auto columns = static_cast<std::size_t>(count) + kSide - 1;
   strip_.resize(columns * kSide);
   sums_.assign(columns, 0);
   squares_.assign(columns, 0);

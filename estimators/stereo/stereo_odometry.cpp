@@ -1,9 +1,7 @@
 #include "estimators/stereo/stereo_odometry.h"
 
-#include <cmath>
 #include <optional>
-#include <stdexcept>
-#include <string>
+#include <utility>
 
 #include "estimators/stereo/detect.h"
 #include "estimators/stereo/motion_estimator.h"
@@ -35,7 +33,7 @@ class StereoOdometry::Implementation {
       result.from = reference_stamp_;
       motion = compare(pair.stamp, &result);
     }
-    keep_survivors(motion);
+    keep_survivors(motion, result.status);
     replenish();
     adopt_reference(pair.stamp, result.status);
     return result;
@@ -110,14 +108,13 @@ class StereoOdometry::Implementation {
     }
   }
 
-  // Features that agree with the motion go on; the others may be on a moving object.
-  void keep_survivors(const CameraMotion& motion) {
+  // Features that agree with an accepted motion go on; the others may be on a moving object.
+  void keep_survivors(const CameraMotion& motion, OdometryStatus status) {
     next_features_.clear();
-    std::size_t old = 0;
+    if (status != OdometryStatus::ok) return;
     for (const int i : motion.inliers) {
       const StereoTrack& track = tracks_[static_cast<std::size_t>(i)];
-      while (features_[old].id != track.id) ++old;  // both are in the order of detection
-      next_features_.push_back({track.id, features_[old].age + 1, track.current});
+      next_features_.push_back({track.id, track.current});
     }
   }
 
@@ -128,7 +125,7 @@ class StereoOdometry::Implementation {
                           static_cast<float>(feature.seen.v_left));
     detector_.detect(current_.left, taken_, &corners_);
     match_new_corners(current_, parameters_, corners_, &matched_);
-    for (const StereoObservation& seen : matched_) next_features_.push_back({next_id_++, 0, seen});
+    for (const StereoObservation& seen : matched_) next_features_.push_back({next_id_++, seen});
   }
 
   // A pair without features of its own (black, covered, swapped) does not replace a good one.

@@ -14,7 +14,7 @@ namespace maploop::stereo {
 // (P3P in RANSAC) and adjusted (method.md 2.1; after Kitt, Geiger and Lategahn, "Visual Odometry
 // based on Stereo Image Sequences with RANSAC-based Outlier Rejection Scheme", IV 2010).
 //
-// Not thread-safe; the same pairs give the same bits. About 10 MB of buffers for images of 0.5 Mpx.
+// Not thread-safe; the same pairs give the same bits. About 13 MB of buffers for images of 0.5 Mpx.
 class StereoOdometry {
  public:
   // Throws std::invalid_argument naming the value where the calibration or a parameter cannot be

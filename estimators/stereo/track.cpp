@@ -14,7 +14,7 @@ cv::Point2f point(double u, double v) {
 // Where the feature should be seen; its old place where no motion is known.
 ImagePoint foresee(const StereoCalibration& camera, const StereoObservation& seen,
                    const std::optional<Eigen::Isometry3d>& expected) {
-  const ImagePoint old(seen.u_left, seen.v_left, seen.disparity());
+  ImagePoint old(seen.u_left, seen.v_left, seen.disparity());
   if (!expected) return old;
   const Eigen::Vector3d p_current = *expected * triangulate(camera, old);
   return p_current.z() > kNearest ? project(camera, p_current) : old;

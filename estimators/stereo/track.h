@@ -13,7 +13,6 @@ namespace maploop::stereo {
 
 struct Feature {
   std::int64_t id = 0;
-  int age = 0;  // pairs since it was detected
   StereoObservation seen;
 };
 

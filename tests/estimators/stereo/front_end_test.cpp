@@ -130,7 +130,7 @@ TEST(Track, ClosesTheCircleWithAndWithoutAnExpectedMotion) {
   match_new_corners(before, parameters, corners_of(before, parameters), &matched);
   std::vector<Feature> features;
   for (const StereoObservation& seen : matched)
-    features.push_back({static_cast<std::int64_t>(features.size()), 0, seen});
+    features.push_back({static_cast<std::int64_t>(features.size()), seen});
 
   Eigen::Isometry3d sideways = Eigen::Isometry3d::Identity();
   sideways.translation().x() = -(moved - 1.0) / disparity * camera.baseline;  // one pixel wrong

@@ -51,6 +51,10 @@ struct Case {
   double translation;  // bound on the mean error of 50 m segments, a little above what is reached
 };
 
+void PrintTo(const Case& c, std::ostream* stream) {
+  *stream << c.drive;
+}
+
 class RecordedTracksTest : public ::testing::TestWithParam<Case> {};
 
 TEST_P(RecordedTracksTest, EndsNearerToTheReferenceThanAPlainTwoFrameOdometry) {

@@ -1,0 +1,98 @@
+// Does the covariance say how far the motions are wrong? Without any reference: two odometries from
+// disjoint halves of the features of the recorded drive.
+#include <gtest/gtest.h>
+
+#include "estimators/stereo/detect.h"
+#include "estimators/stereo/motion_estimator.h"
+#include "estimators/stereo/track.h"
+#include "tests/estimators/stereo/drive_reader.h"
+#include "tests/estimators/stereo/synthetic_scene.h"
+#include "tests/support/real_data.h"
+
+namespace maploop::stereo {
+namespace {
+
+using maploop::testing::drive_0013;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+// Successive motions joined, with their covariances added as if they were independent.
+struct Joined {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  Matrix6 covariance = Matrix6::Zero();
+
+  void append(const CameraMotion& motion) {
+    const Eigen::Vector3d step = pose.linear() * motion.T_previous_current.translation();
+    Matrix6 carried = Matrix6::Identity();
+    carried.topRightCorner<3, 3>() << 0.0, step.z(), -step.y(), -step.z(), 0.0, step.x(), step.y(),
+        -step.x(), 0.0;
+    Matrix6 turned = Matrix6::Zero();
+    turned.topLeftCorner<3, 3>() = pose.linear();
+    turned.bottomRightCorner<3, 3>() = pose.linear();
+    covariance = carried * covariance * carried.transpose() +
+                 turned * motion.covariance * turned.transpose();
+    pose = pose * motion.T_previous_current;
+  }
+};
+
+std::vector<Feature> features_of(const StereoFrame& frame, const StereoParameters& parameters) {
+  std::vector<cv::Point2f> corners;
+  CornerDetector(parameters).detect(frame.left, {}, &corners);
+  std::vector<StereoObservation> matched;
+  match_new_corners(frame, parameters, corners, &matched);
+  std::vector<Feature> features;
+  for (const StereoObservation& seen : matched)
+    features.push_back({static_cast<std::int64_t>(features.size()), seen});
+  return features;
+}
+
+TEST(Consistency, HalvesOfTheFeaturesDifferOverASecondByNoMoreThanTheirCovariancesSay) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const StereoCalibration camera =
+      maploop::testing::read_stereo_calibration(drive_0013().parent_path());
+  const auto pairs = maploop::testing::read_stereo_pairs(drive_0013());
+  StereoParameters parameters;
+  parameters.features_per_bucket = 4;
+  parameters.sigma_disparity_offset = 0.0;  // the same for both halves
+
+  constexpr int kSecond = 10;  // pairs
+  StereoFrame before, now;
+  std::array<Joined, 2> halves;
+  double nees = 0.0;
+  int seconds = 0;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    now.left.build(pairs[k].left, parameters);
+    now.right.build(pairs[k].right, parameters);
+    if (k > 0) {
+      std::vector<StereoTrack> tracks;
+      track_features(camera, parameters, before, now, features_of(before, parameters), std::nullopt,
+                     &tracks);
+      for (std::size_t half = 0; half < 2; ++half) {
+        std::vector<StereoTrack> mine;
+        for (const StereoTrack& track : tracks)
+          if (static_cast<std::size_t>(track.id % 2) == half) mine.push_back(track);
+        const CameraMotion motion =
+            estimate_motion(camera, parameters, mine, k, DisparityOffset(parameters));
+        ASSERT_EQ(motion.status, OdometryStatus::ok) << "pair " << k;
+        halves[half].append(motion);
+      }
+      if (k % kSecond == 0) {
+        const Vector6 difference = maploop::testing::pose_error(halves[0].pose, halves[1].pose);
+        const Matrix6 covariance = halves[0].covariance + halves[1].covariance;
+        nees += difference.dot(covariance.ldlt().solve(difference)) / 6.0;
+        ++seconds;
+        halves = {};
+      }
+    }
+    std::swap(before, now);
+  }
+  nees /= seconds;
+  RecordProperty("nees", std::to_string(nees));
+  // With correlated_pairs = 5, times five for independent pairs. Errors both halves share, such as
+  // the calibration's, are not seen here.
+  EXPECT_LT(nees, 0.6) << "over " << seconds << " s";
+  EXPECT_GT(nees, 0.1) << "over " << seconds << " s";
+}
+
+}  // namespace
+}  // namespace maploop::stereo
