@@ -171,10 +171,11 @@ def check_decoded_fields(row, channel, field, pictures):
         return None
 
     window = wait_for(f"the window of {channel}", open_window)
-    xdotool("windowmove", window, str(WINDOW[0]), "0")  # off the table
     seen = []
 
     def look():
+        # Off the table and to the front; again each time, for Java may place it after it is shown.
+        xdotool("windowmove", window, str(WINDOW[0]), "0", "windowraise", window)
         picture = photograph(pictures, f"{channel.lower()}.png")
         seen[:] = read_text(picture, (SCREEN[0] - WINDOW[0], 800, WINDOW[0], 0))
         text = "".join(seen)
