@@ -10,7 +10,7 @@
 namespace maploop::lcm_log {
 namespace {
 
-constexpr std::size_t kReadBytes = 256 * 1024;
+constexpr std::size_t kReadBytes = std::size_t{256} * 1024;
 
 }  // namespace
 

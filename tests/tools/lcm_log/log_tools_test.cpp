@@ -243,6 +243,15 @@ TEST_F(LogToolsTest, SplitByChannelMatchesWholeNames) {
   EXPECT_TRUE(contains(error_of<std::invalid_argument>([] { ChannelFilter("("); }), "'('"));
 }
 
+TEST(ChannelFilter, MatchesWholeNames) {
+  ChannelFilter filter("VO|(NAV|IMU)_?[A-Z]*");
+  for (const char* name : {"VO", "NAV_STATE", "IMU"}) EXPECT_TRUE(filter.takes(name)) << name;
+  for (const char* name : {"VOX", "xVO", "NAV_state", ""}) EXPECT_FALSE(filter.takes(name)) << name;
+  EXPECT_TRUE(ChannelFilter("a|ab").takes("ab"));
+  EXPECT_TRUE(ChannelFilter(".*").takes(std::string(999, 'x')));
+  EXPECT_TRUE(ChannelFilter().takes("HEALTH"));
+}
+
 TEST_F(LogToolsTest, PiecesJoinedAreTheLogAgain) {
   const std::vector<std::pair<std::string, std::size_t>> cases{
       {"0.1s", 3}, {"0.05s", 5}, {"0.01s", 24}, {"1h", 1}, {"4kB", 3}, {"0.1kB", 24}};
