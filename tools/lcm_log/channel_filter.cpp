@@ -1,5 +1,9 @@
 #include "tools/lcm_log/channel_filter.h"
 
+// POSIX's and not std::regex, whose recursion a long channel name can drive out of the stack.
+#include <regex.h>
+
+#include <array>
 #include <stdexcept>
 #include <utility>
 
@@ -8,18 +12,33 @@ namespace {
 
 constexpr std::size_t kMaximumDecided = 1000;  // a hostile log may have any number of channels
 
-std::regex compile(const std::string& pattern) {
-  try {
-    return std::regex(pattern, std::regex::ECMAScript | std::regex::optimize);
-  } catch (const std::regex_error& e) {
-    throw std::invalid_argument("the channels '" + pattern +
-                                "' are no regular expression: " + e.what());
-  }
-}
-
 }  // namespace
 
-ChannelFilter::ChannelFilter(const std::string& pattern) : pattern_(compile(pattern)) {}
+struct ChannelFilter::Pattern {
+  explicit Pattern(const std::string& text) {
+    const int error = regcomp(&regex, text.c_str(), REG_EXTENDED);
+    if (error == 0) return;
+    std::array<char, 200> why{};
+    regerror(error, &regex, why.data(), why.size());
+    throw std::invalid_argument("the channels '" + text +
+                                "' are no regular expression: " + why.data());
+  }
+  ~Pattern() { regfree(&regex); }
+  Pattern(const Pattern&) = delete;
+  Pattern& operator=(const Pattern&) = delete;
+
+  // The leftmost match is the longest one: if the whole name matches, it is the whole name.
+  bool matches_whole(const std::string& name) const {
+    regmatch_t match{};
+    return regexec(&regex, name.c_str(), 1, &match, 0) == 0 && match.rm_so == 0 &&
+           static_cast<std::size_t>(match.rm_eo) == name.size();
+  }
+
+  regex_t regex{};
+};
+
+ChannelFilter::ChannelFilter(const std::string& pattern)
+    : pattern_(std::make_shared<const Pattern>(pattern)) {}
 
 ChannelFilter::ChannelFilter(std::set<std::string, std::less<>> without)
     : without_(std::move(without)) {}
@@ -33,7 +52,7 @@ bool ChannelFilter::takes(std::string_view channel) {
 }
 
 bool ChannelFilter::decide(const std::string& channel) const {
-  if (pattern_) return std::regex_match(channel, *pattern_);
+  if (pattern_) return pattern_->matches_whole(channel);
   return !without_.contains(channel);
 }
 

@@ -1,8 +1,7 @@
 // Which channels a command works on.
 #pragma once
 
-#include <optional>
-#include <regex>
+#include <memory>
 #include <set>
 #include <string>
 #include <string_view>
@@ -15,7 +14,7 @@ class ChannelFilter {
   // Every channel.
   ChannelFilter() = default;
 
-  // Those whose whole name the regular expression (ECMAScript) matches. Throws
+  // Those whose whole name the regular expression (POSIX extended) matches. Throws
   // std::invalid_argument saying what is wrong with it.
   explicit ChannelFilter(const std::string& pattern);
 
@@ -25,9 +24,11 @@ class ChannelFilter {
   bool takes(std::string_view channel);
 
  private:
+  struct Pattern;
+
   bool decide(const std::string& channel) const;
 
-  std::optional<std::regex> pattern_;
+  std::shared_ptr<const Pattern> pattern_;  // copies of a filter share it
   std::set<std::string, std::less<>> without_;
   std::unordered_map<std::string, bool> decided_;  // matching is slow beside reading
   std::string channel_;                            // reused key

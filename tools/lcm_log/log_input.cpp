@@ -10,7 +10,7 @@
 namespace maploop::lcm_log {
 namespace {
 
-constexpr std::size_t kReadBytes = 256 * 1024;
+constexpr std::size_t kReadBytes = std::size_t{256} * 1024;
 
 }  // namespace
 
@@ -55,9 +55,9 @@ void LogInput::skip(std::size_t count) {
 
 void LogInput::read_more(std::size_t size) {
   while (end_ - begin_ < size && !at_end_) {
-    // Grows as bytes arrive: a hostile size in a small file allocates nothing. Moves only what is
-    // smaller than what was skipped, so that no byte is moved more than once on average.
-    if (window_.size() - end_ < kReadBytes && begin_ > window_.size() / 2) {
+    // Grows as bytes arrive: a hostile size in a small file allocates nothing. Bytes move only when
+    // at least a third as many were skipped, so that reading stays linear.
+    if (window_.size() - end_ < kReadBytes && begin_ > window_.size() / 4) {
       std::copy(window_.begin() + static_cast<std::ptrdiff_t>(begin_),
                 window_.begin() + static_cast<std::ptrdiff_t>(end_), window_.begin());
       end_ -= begin_;

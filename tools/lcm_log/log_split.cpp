@@ -63,7 +63,9 @@ class Pieces {
   bool begins_piece(const LogEvent& event) {
     if (!parameters_.every) return false;
     if (const auto& seconds = parameters_.every->seconds) {
-      const double piece = std::floor(seconds_between(*first_us_, event.time_us) / *seconds);
+      // In microseconds, which are whole: 0.3 s / 0.1 s would be a little less than 3.
+      const double since_us = std::round(seconds_between(*first_us_, event.time_us) * 1e6);
+      const double piece = std::floor(since_us / std::round(*seconds * 1e6));
       if (piece <= piece_) return false;
       piece_ = piece;
       return true;

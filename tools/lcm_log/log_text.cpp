@@ -30,7 +30,7 @@ std::string size_text(std::uint64_t bytes) {
 }
 
 double seconds_between(std::int64_t a_us, std::int64_t b_us) {
-  return (static_cast<double>(b_us) - static_cast<double>(a_us)) * 1e-6;
+  return (static_cast<double>(b_us) - static_cast<double>(a_us)) / 1e6;
 }
 
 void append(std::string& text, const char* format, ...) {

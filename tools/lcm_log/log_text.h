@@ -13,7 +13,8 @@ std::string time_text(std::int64_t time_us);
 // "1.4 MB".
 std::string size_text(std::uint64_t bytes);
 
-// b - a in seconds; exact to the microsecond for the years 1684 to 2255, no overflow beyond.
+// b - a in seconds: the double nearest to it (0.05 for 50000 us) for the years 1684 to 2255, no
+// overflow beyond.
 double seconds_between(std::int64_t a_us, std::int64_t b_us);
 
 // A line of a table or list, as printf would write it.
