@@ -20,7 +20,8 @@ enum class OdometryStatus : std::uint8_t {
   bad_input,         // image size wrong, or time not increasing
 };
 
-constexpr std::size_t odometry_status_count = static_cast<std::size_t>(OdometryStatus::bad_input) + 1;
+constexpr std::size_t odometry_status_count =
+    static_cast<std::size_t>(OdometryStatus::bad_input) + 1;
 
 constexpr std::string_view to_string(OdometryStatus status) {
   switch (status) {

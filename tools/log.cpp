@@ -94,7 +94,8 @@ int recover(const LogOptions& options) {
 
 int diff(const LogOptions& options) {
   using namespace vehicle;
-  lcm_log::ChannelFilter filter({std::string(channels::deadlines.name), std::string(channels::health.name)});
+  lcm_log::ChannelFilter filter(
+      {std::string(channels::deadlines.name), std::string(channels::health.name)});
   if (options.channels) filter = lcm_log::ChannelFilter(*options.channels);
   const auto result = lcm_log::diff(options.log, options.other, lcm_log::load_types(options.types),
                                     std::move(filter));

@@ -169,8 +169,7 @@ void add_replay(CLI::App& app, Command& command) {
       ->excludes(lockstep);
   sub->add_option("--record", options->record, "Write every message to this LCM log");
   sub->add_flag("--no-lcm", options->no_lcm, "Publish nothing on LCM");
-  sub->add_option("--config", options->config, "TOML file of parameters")
-      ->check(CLI::ExistingFile);
+  sub->add_option("--config", options->config, "TOML file of parameters")->check(CLI::ExistingFile);
   sub->add_option("--json", options->json, "Write the closing table to this file as JSON");
   sub->add_option("--poses", options->poses,
                   "Write the fused left-camera poses to this file in KITTI's format");

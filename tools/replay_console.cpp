@@ -55,20 +55,38 @@ class Keyboard {
   bool terminal_;
 };
 
-constexpr const char* keys = "[space] pause  [.] image  [,] sample  [n] next miss  [+ -] speed  "
-                             "[>] 5 s on  [q] quit";
+constexpr const char* keys =
+    "[space] pause  [.] image  [,] sample  [n] next miss  [+ -] speed  "
+    "[>] 5 s on  [q] quit";
 
 void obey(char key, vehicle::Vehicle& vehicle, vehicle::Player& player) {
   switch (key) {
-    case ' ': player.paused() ? player.resume() : player.pause(); break;
-    case '.': player.step_image(); break;
-    case ',': player.step_sample(); break;
-    case 'n': player.play_to_next_miss(); break;
-    case '+': player.set_speed(player.speed() * 2.0); break;
-    case '-': player.set_speed(player.speed() / 2.0); break;
-    case '>': player.seek(vehicle.position() + std::chrono::seconds(5)); break;
-    case 'q': vehicle.stop(); break;
-    default: break;
+    case ' ':
+      player.paused() ? player.resume() : player.pause();
+      break;
+    case '.':
+      player.step_image();
+      break;
+    case ',':
+      player.step_sample();
+      break;
+    case 'n':
+      player.play_to_next_miss();
+      break;
+    case '+':
+      player.set_speed(player.speed() * 2.0);
+      break;
+    case '-':
+      player.set_speed(player.speed() / 2.0);
+      break;
+    case '>':
+      player.seek(vehicle.position() + std::chrono::seconds(5));
+      break;
+    case 'q':
+      vehicle.stop();
+      break;
+    default:
+      break;
   }
 }
 

@@ -14,8 +14,8 @@ struct PlaybackOptions {
 enum class PlaybackEnd { finished, interrupted };
 
 // Starts the vehicle and waits for its end, or for SIGINT, SIGTERM or the key q, which end it in
-// order (a second signal ends the program at once). `last` is the drive's last stamp. While standard
-// input is a terminal, keys control the player; the progress line names them.
+// order (a second signal ends the program at once). `last` is the drive's last stamp. While
+// standard input is a terminal, keys control the player; the progress line names them.
 PlaybackEnd play(vehicle::Vehicle& vehicle, Time last, const PlaybackOptions& options);
 
 }  // namespace maploop::tools

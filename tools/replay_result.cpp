@@ -13,7 +13,9 @@ namespace {
 
 using nlohmann::json;
 
-double to_ms(Duration d) { return to_seconds(d) * 1e3; }
+double to_ms(Duration d) {
+  return to_seconds(d) * 1e3;
+}
 
 [[gnu::format(printf, 2, 3)]] void append(std::string& text, const char* format, ...) {
   char line[512];
@@ -75,8 +77,9 @@ void append_findings(std::string& text, const vehicle::SensorReport& sensor) {
       if (f.line > 0) text += ":" + std::to_string(f.line);
       text += ": " + f.reason + '\n';
     }
-    if (count > shown) append(text, "  ... %llu %s of %s in all\n",
-                              static_cast<unsigned long long>(count), what, sensor.name.c_str());
+    if (count > shown)
+      append(text, "  ... %llu %s of %s in all\n", static_cast<unsigned long long>(count), what,
+             sensor.name.c_str());
   };
   append_some(sensor.source.refusals, sensor.source.refused, "left out");
   append_some(sensor.source.flaws, sensor.source.flawed, "flawed");
@@ -95,12 +98,14 @@ void append_refusals(std::string& text, const std::vector<vehicle::RefusalCount>
   if (refusals.empty()) return;
   text += "\nNot used by         count\n";
   for (const vehicle::RefusalCount& r : refusals) {
-    append(text, "  %-12s %10llu  %s\n", r.stage.c_str(),
-           static_cast<unsigned long long>(r.count), r.reason.c_str());
+    append(text, "  %-12s %10llu  %s\n", r.stage.c_str(), static_cast<unsigned long long>(r.count),
+           r.reason.c_str());
   }
 }
 
-json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+json number(double value) {
+  return std::isfinite(value) ? json(value) : json(nullptr);
+}
 
 json to_json(const std::optional<Accuracy>& accuracy) {
   if (!accuracy) return nullptr;
@@ -118,8 +123,8 @@ json to_json(const std::optional<Accuracy>& accuracy) {
 }
 
 json to_json(const LatencySummary& s) {
-  return {{"count", s.count},        {"misses", s.misses},     {"deadline_ms", to_ms(s.deadline)},
-          {"p50_ms", to_ms(s.p50)},  {"p90_ms", to_ms(s.p90)}, {"p99_ms", to_ms(s.p99)},
+  return {{"count", s.count},         {"misses", s.misses},     {"deadline_ms", to_ms(s.deadline)},
+          {"p50_ms", to_ms(s.p50)},   {"p90_ms", to_ms(s.p90)}, {"p99_ms", to_ms(s.p99)},
           {"p999_ms", to_ms(s.p999)}, {"max_ms", to_ms(s.max)}};
 }
 
@@ -194,8 +199,8 @@ std::string format_table(const ReplayResult& r) {
   for (const RingHealth& ring : v.health.rings) {
     append(t, "  %-30s %10llu %9llu %9llu %9llu %9llu\n", ring.name.c_str(),
            static_cast<unsigned long long>(ring.pushed),
-           static_cast<unsigned long long>(ring.popped),
-           static_cast<unsigned long long>(ring.lost), static_cast<unsigned long long>(ring.held),
+           static_cast<unsigned long long>(ring.popped), static_cast<unsigned long long>(ring.lost),
+           static_cast<unsigned long long>(ring.held),
            static_cast<unsigned long long>(ring.capacity));
   }
 

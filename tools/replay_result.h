@@ -25,8 +25,8 @@ struct ReplayResult {
   bool lockstep = false;
   double speed = 1.0;
   bool interrupted = false;
-  std::size_t images = 0;          // of the drive
-  std::optional<Accuracy> vo;      // nothing where there is too little to score
+  std::size_t images = 0;      // of the drive
+  std::optional<Accuracy> vo;  // nothing where there is too little to score
   std::optional<Accuracy> fused;
   std::map<std::string, vehicle::ChannelSummary> channels;
   std::vector<vehicle::FaultCount> faults;

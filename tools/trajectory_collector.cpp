@@ -10,8 +10,8 @@ void TrajectoryCollector::add(const RelativeMotion& motion) {
 }
 
 void TrajectoryCollector::add(const NavState& state) {
-  const Eigen::Isometry3d T_enu_body =
-      Eigen::Translation3d(state.position_enu) * Eigen::Isometry3d(rotation_enu_body(state.attitude));
+  const Eigen::Isometry3d T_enu_body = Eigen::Translation3d(state.position_enu) *
+                                       Eigen::Isometry3d(rotation_enu_body(state.attitude));
   fused_[state.stamp] = T_enu_body * T_body_cam_;
 }
 

@@ -37,8 +37,8 @@ class TrajectoryCollector {
 
   Eigen::Isometry3d T_body_cam_;
   Eigen::Isometry3d chained_ = Eigen::Isometry3d::Identity();  // body, in its first frame
-  Poses vo_;     // camera
-  Poses fused_;  // camera
+  Poses vo_;                                                   // camera
+  Poses fused_;                                                // camera
 };
 
 }  // namespace maploop::tools

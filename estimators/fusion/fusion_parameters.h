@@ -43,10 +43,10 @@ struct FusionParameters {
   double max_yaw_rate = 6.0;         // rad/s, beyond is a fault (350 deg/s)
 
   // Vehicle.
-  double pitch_noise = 0.0175;         // rad/sqrt(s) (1 deg), road and suspension between odometry
-  double roll_noise = 0.0175;          // rad/sqrt(s) (1 deg)
-  double slip_sigma = 0.005;           // rad (0.3 deg), direction of travel against the body's axis
-  double slip_time = 1.0;              // s, how long it lasts
+  double pitch_noise = 0.0175;  // rad/sqrt(s) (1 deg), road and suspension between odometry
+  double roll_noise = 0.0175;   // rad/sqrt(s) (1 deg)
+  double slip_sigma = 0.005;    // rad (0.3 deg), direction of travel against the body's axis
+  double slip_time = 1.0;       // s, how long it lasts
   // rad, direction of travel above body x, of the car with its load: mounting of the IMU. KITTI's
   // car: mean of eight odometry sequences (0.14 to 0.86 deg; none of them is the recorded drive).
   double climb_offset = 0.0084;

@@ -11,11 +11,11 @@ namespace maploop::runtime {
 MonotonicTime monotonic_now();
 
 // Paced: data time t is due at start + (t - first) / speed on the steady clock, later by the stalls
-// and pauses so far. Virtual: every t is due at once and nobody sleeps; what happens is then decided
-// by the order of the data alone.
+// and pauses so far. Virtual: every t is due at once and nobody sleeps; what happens is then
+// decided by the order of the data alone.
 //
-// start(), and then set_speed(), skip_to(), arrive(), pause_at() and resume() are one controlling thread's; all
-// else is for any thread and takes no lock.
+// start(), and then set_speed(), skip_to(), arrive(), pause_at() and resume() are one controlling
+// thread's; all else is for any thread and takes no lock.
 class DataClock {
  public:
   // Throws std::invalid_argument unless speed is finite and above 0.
@@ -39,8 +39,8 @@ class DataClock {
   // The data time that is due now; only in paced time.
   Time now() const;
 
-  // Sleeps until t is due and not beyond a pause (virtual time: only the latter). False when stopped
-  // before.
+  // Sleeps until t is due and not beyond a pause (virtual time: only the latter). False when
+  // stopped before.
   bool sleep_until(Time t, const std::stop_token& stop) const;
 
   // Says that data time t could not be dealt with before `when`, because its input was not there:
@@ -76,7 +76,9 @@ class DataClock {
   };
 
   DataClock(double speed, bool paced);
-  bool skipping(Time t) const { return to_nanoseconds(t) < skip_to_.load(std::memory_order_acquire); }
+  bool skipping(Time t) const {
+    return to_nanoseconds(t) < skip_to_.load(std::memory_order_acquire);
+  }
   Schedule schedule() const;
   void set_schedule(const Schedule& schedule);
   MonotonicTime scheduled(Time t) const;  // without the stalls

@@ -61,9 +61,9 @@ class EdgeBase {
   std::atomic<std::int64_t> promised_{to_nanoseconds(Time::min())};
 };
 
-// `available` of the samples must not decrease. One thread calls push(), promise() and finish(), one
-// other thread head(), front() and pop(); health() is for any thread. A `bell`, when given, is rung
-// for the consumer at each push and each new promise.
+// `available` of the samples must not decrease. One thread calls push(), promise() and finish(),
+// one other thread head(), front() and pop(); health() is for any thread. A `bell`, when given, is
+// rung for the consumer at each push and each new promise.
 template <std::derived_from<Sample> T>
 class Edge final : public EdgeBase {
  public:

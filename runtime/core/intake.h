@@ -1,5 +1,5 @@
-// Ordered intake: what a thread takes from its edges depends on the data's times alone, not on which
-// thread ran first.
+// Ordered intake: what a thread takes from its edges depends on the data's times alone, not on
+// which thread ran first.
 #pragma once
 
 #include <functional>

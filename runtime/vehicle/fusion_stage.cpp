@@ -13,8 +13,7 @@ FusionEdges::FusionEdges()
       odometry(make_edge<RelativeMotion>(edges::stereo_fusion, &bell)) {}
 
 FusionStage::FusionStage(fusion::ReducedImuFilter filter, FusionEdges& inputs,
-                         runtime::Edge<NavState>& nav_states,
-                         runtime::Edge<NavState>& image_states)
+                         runtime::Edge<NavState>& nav_states, runtime::Edge<NavState>& image_states)
     : filter_(std::move(filter)),
       inputs_(inputs),
       nav_states_(nav_states),

@@ -27,7 +27,8 @@ std::string row(std::initializer_list<std::string_view> cells) {
 }
 
 std::string_view name(runtime::Overflow overflow) {
-  return overflow == runtime::Overflow::keep_all ? "keep all, the producer waits" : "drop the newest";
+  return overflow == runtime::Overflow::keep_all ? "keep all, the producer waits"
+                                                 : "drop the newest";
 }
 
 }  // namespace

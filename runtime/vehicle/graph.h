@@ -1,6 +1,6 @@
-// The vehicle's graph in one table: what runs when, when its result becomes available, by when it has
-// to be done, which ring joins whom, what goes on which channel. The code, the watchdog and the page
-// GRAPH.md are made from it.
+// The vehicle's graph in one table: what runs when, when its result becomes available, by when it
+// has to be done, which ring joins whom, what goes on which channel. The code, the watchdog and the
+// page GRAPH.md are made from it.
 #pragma once
 
 #include <array>
@@ -33,10 +33,10 @@ inline constexpr Stage velodyne{"velodyne", "driver", "sensor", {}, {}, {}, 5.0,
 inline constexpr Stage imu{"imu", "driver", "sensor", {}, {}, {}, 5.0, 1000.0};
 inline constexpr Stage gnss{"gnss", "driver", "sensor", {}, {}, {}, 0.5, 21.0};
 inline constexpr Stage reference{"reference", "driver", "sensor", {}, {}, {}, 0.0, 1000.0};
-inline constexpr Stage stereo{
-    "stereo", "visual odometry", "image pair", {}, milliseconds(50), milliseconds(50), 5.0, 40.0};
-inline constexpr Stage fusion{"fusion",        "reduced-IMU filter", "its period",    milliseconds(10),
-                              milliseconds(1), milliseconds(2),      95.0,            105.0};
+inline constexpr Stage stereo{"stereo",         "visual odometry", "image pair", {},
+                              milliseconds(50), milliseconds(50),  5.0,          40.0};
+inline constexpr Stage fusion{"fusion",        "reduced-IMU filter", "its period", milliseconds(10),
+                              milliseconds(1), milliseconds(2),      95.0,         105.0};
 inline constexpr Stage publisher{"publisher", "LCM, log", "looks by itself", {}, {}, {}, 0.0, 0.0};
 inline constexpr Stage health{
     "health", "watchdog, histograms", "its period", std::chrono::seconds(1), {}, {}, 0.0, 0.0};
@@ -45,8 +45,8 @@ inline constexpr std::array all{camera, velodyne, imu,       gnss,  reference,
                                 stereo, fusion,   publisher, health};
 }  // namespace stages
 
-// One ring: single producer, single consumer. A replay keeps all: a full ring holds its producer up,
-// and with it the data clock.
+// One ring: single producer, single consumer. A replay keeps all: a full ring holds its producer
+// up, and with it the data clock.
 struct EdgeSpec {
   std::string_view name;
   std::string_view carries;
@@ -67,10 +67,10 @@ inline constexpr EdgeSpec fusion_publisher{"fusion -> publisher", "NavState", 10
 inline constexpr EdgeSpec image_states{"fusion at images -> publisher", "NavState", 256};
 inline constexpr EdgeSpec health_publisher{"health -> publisher", "RuntimeReport", 8};
 
-inline constexpr std::array all{camera_stereo,    imu_fusion,          gnss_fusion,
-                                stereo_fusion,    imu_publisher,       gnss_publisher,
+inline constexpr std::array all{camera_stereo,       imu_fusion,       gnss_fusion,
+                                stereo_fusion,       imu_publisher,    gnss_publisher,
                                 reference_publisher, stereo_publisher, fusion_publisher,
-                                image_states,     health_publisher};
+                                image_states,        health_publisher};
 }  // namespace edges
 
 template <class T>
@@ -89,9 +89,9 @@ struct Channel {
 };
 
 namespace channels {
-inline constexpr Channel nav_state{
-    "NAV_STATE", "nav_state_t", "fusion", "fused position, velocity, attitude, covariance", "100 Hz",
-    true};
+inline constexpr Channel nav_state{"NAV_STATE", "nav_state_t",
+                                   "fusion",    "fused position, velocity, attitude, covariance",
+                                   "100 Hz",    true};
 inline constexpr Channel visual_odometry{
     "VO", "relative_motion_t", "stereo", "relative pose, covariance, quality", "10 Hz", true};
 inline constexpr Channel imu{"IMU", "imu_t", "imu", "inertial sample", "the sensor's", true};
@@ -104,7 +104,8 @@ inline constexpr Channel deadlines{
 inline constexpr Channel health{
     "HEALTH", "health_t", "health", "threads, rings, rates, losses, degraded modes", "1 Hz", false};
 
-inline constexpr std::array all{nav_state, visual_odometry, imu, gnss_fix, truth, deadlines, health};
+inline constexpr std::array all{nav_state, visual_odometry, imu,   gnss_fix,
+                                truth,     deadlines,       health};
 }  // namespace channels
 
 // From a sensor's stamp to the state that holds it. The deadline is the sum of what may pass on the
@@ -117,11 +118,11 @@ struct Path {
 namespace paths {
 inline constexpr Duration camera_delay = milliseconds(10);  // exposure and readout
 inline constexpr Duration imu_delay = milliseconds(62);     // filters inside the sensor, delivery
-inline constexpr Path camera{"camera stamp -> state",
-                             camera_delay + stages::stereo.budget + stages::fusion.period +
-                                 stages::fusion.deadline};
-inline constexpr Path imu{"imu stamp -> state", imu_delay + stages::fusion.period +
-                                                    stages::fusion.deadline};
+inline constexpr Path camera{
+    "camera stamp -> state",
+    camera_delay + stages::stereo.budget + stages::fusion.period + stages::fusion.deadline};
+inline constexpr Path imu{"imu stamp -> state",
+                          imu_delay + stages::fusion.period + stages::fusion.deadline};
 inline constexpr std::array all{camera, imu};
 }  // namespace paths
 

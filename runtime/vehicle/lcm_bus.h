@@ -11,8 +11,8 @@ namespace maploop::vehicle {
 
 class LcmBus final : public MessageSink {
  public:
-  // The default stays on this host (ttl=0). Throws std::runtime_error naming the URL when LCM cannot
-  // open it.
+  // The default stays on this host (ttl=0). Throws std::runtime_error naming the URL when LCM
+  // cannot open it.
   static constexpr const char* default_url = "udpm://239.255.76.67:7667?ttl=0";
   explicit LcmBus(const std::string& url);
   ~LcmBus() override;

@@ -9,8 +9,8 @@
 
 namespace maploop::vehicle {
 
-// Events carry the data's time, so that a log of the same drive has the same bytes at any speed, but
-// for DEADLINES and HEALTH.
+// Events carry the data's time, so that a log of the same drive has the same bytes at any speed,
+// but for DEADLINES and HEALTH.
 class LogRecorder final : public MessageSink {
  public:
   // Replaces the file. Throws std::runtime_error naming it when it cannot be written.

@@ -5,9 +5,8 @@
 namespace maploop::vehicle {
 
 const char* Miss::guilty() const {
-  return std::max_element(
-             parts.begin(), parts.end(),
-             [](const Part& a, const Part& b) { return a.lasted < b.lasted; })
+  return std::max_element(parts.begin(), parts.end(),
+                          [](const Part& a, const Part& b) { return a.lasted < b.lasted; })
       ->name;
 }
 

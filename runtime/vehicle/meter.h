@@ -1,5 +1,5 @@
-// How long something takes from release to result, how often it misses its deadline, and whose fault
-// that was.
+// How long something takes from release to result, how often it misses its deadline, and whose
+// fault that was.
 #pragma once
 
 #include <array>

@@ -7,8 +7,8 @@
 
 namespace maploop::vehicle {
 
-// Only moves the data clock: what is computed stays the same, bit for bit. One thread's own, the one
-// that also calls update() every few tens of milliseconds. For a vehicle on a paced clock.
+// Only moves the data clock: what is computed stays the same, bit for bit. One thread's own, the
+// one that also calls update() every few tens of milliseconds. For a vehicle on a paced clock.
 class Player {
  public:
   explicit Player(Vehicle& vehicle) : vehicle_(vehicle) {}

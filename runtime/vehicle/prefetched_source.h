@@ -28,11 +28,12 @@ class PrefetchedSource final : public sensors::Source<T> {
       : source_(std::move(source)),
         loaded_(depth),
         stopped_(stop, [this] { wake_both(); }),
-        loader_(std::move(name), {}, std::move(stop), [this](const std::stop_token& s) { load(s); },
-                [this] {
-                  ended_.store(true, std::memory_order_release);
-                  filled_.ring();
-                }) {}
+        loader_(
+            std::move(name), {}, std::move(stop), [this](const std::stop_token& s) { load(s); },
+            [this] {
+              ended_.store(true, std::memory_order_release);
+              filled_.ring();
+            }) {}
 
   bool next(T& sample) override {
     for (;;) {

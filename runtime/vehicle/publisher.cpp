@@ -44,9 +44,8 @@ Publisher::Publisher(PublisherEdges& edges, std::vector<MessageSink*> sinks, Obs
 
 template <class T>
 void Publisher::forward(runtime::Edge<T>& edge, const Channel& channel) {
-  intake_.add(edge, [this, &channel](const T& sample) {
-    send(channel, sample.available, to_lcm(sample));
-  });
+  intake_.add(
+      edge, [this, &channel](const T& sample) { send(channel, sample.available, to_lcm(sample)); });
 }
 
 template <class Lcm>

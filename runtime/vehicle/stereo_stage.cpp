@@ -63,6 +63,8 @@ void StereoStage::promise(Time t) {
   to_publisher_.promise(t);
 }
 
-void StereoStage::finish() { promise(Time::max()); }
+void StereoStage::finish() {
+  promise(Time::max());
+}
 
 }  // namespace maploop::vehicle

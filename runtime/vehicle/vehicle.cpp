@@ -78,8 +78,8 @@ struct Vehicle::Graph {
                                                  std::unique_ptr<sensors::Source<T>> source);
   template <class T>
   void start_driver(const Stage& stage, ReplayDriver<T>& driver);
-  runtime::Thread& start_thread(const Stage& stage, int fifo_priority,
-                                runtime::Thread::Body body, std::function<void()> at_end);
+  runtime::Thread& start_thread(const Stage& stage, int fifo_priority, runtime::Thread::Body body,
+                                std::function<void()> at_end);
 
   VehicleConfig config;
   std::stop_source stop;
@@ -176,8 +176,7 @@ void Vehicle::Graph::start() {
   if (first == Time::max()) {
     throw std::runtime_error("the drive has not a single readable sample of any sensor");
   }
-  for (const runtime::EdgeBase* edge :
-       std::initializer_list<const runtime::EdgeBase*>{
+  for (const runtime::EdgeBase* edge : std::initializer_list<const runtime::EdgeBase*>{
            &images, &to_fusion.imu, &to_fusion.gnss, &to_fusion.odometry, &to_publisher.imu,
            &to_publisher.gnss, &to_publisher.reference, &to_publisher.odometry,
            &to_publisher.nav_state, &to_publisher.image_state, &to_publisher.reports}) {
@@ -231,8 +230,8 @@ void Vehicle::Graph::run_health(const std::stop_token& end) {
     looked = now;
   };
   // In virtual time there are no rates to watch: one report at the end.
-  for (Time next = first + stages::health.period;
-       clock.is_paced() && clock.sleep_until(next, end); next += stages::health.period) {
+  for (Time next = first + stages::health.period; clock.is_paced() && clock.sleep_until(next, end);
+       next += stages::health.period) {
     say();
   }
   for (;;) {
@@ -261,8 +260,7 @@ VehicleReport Vehicle::Graph::report() const {
   VehicleReport r;
   runtime::Histogram lateness;
   const auto add = [&](const auto& driver) {
-    r.sensors.push_back(
-        {driver.lateness().name(), driver.report(), driver.lateness().summary()});
+    r.sensors.push_back({driver.lateness().name(), driver.report(), driver.lateness().summary()});
     lateness.merge(driver.lateness().histogram());
   };
   add(camera);
@@ -287,9 +285,9 @@ VehicleReport Vehicle::Graph::report() const {
   return r;
 }
 
-Vehicle::Vehicle(const VehicleConfig& config, const StereoCalibration& calibration,
-                 Sensors sensors, const runtime::DataClock& clock,
-                 std::vector<MessageSink*> sinks, Observer observer)
+Vehicle::Vehicle(const VehicleConfig& config, const StereoCalibration& calibration, Sensors sensors,
+                 const runtime::DataClock& clock, std::vector<MessageSink*> sinks,
+                 Observer observer)
     : graph_(std::make_unique<Graph>(config, calibration, std::move(sensors), clock,
                                      std::move(sinks), std::move(observer))) {}
 
@@ -300,18 +298,30 @@ void Vehicle::slow_down(StageDelays delays) {
   graph_->fusion.slow_down(std::move(delays.fusion));
 }
 
-void Vehicle::start() { graph_->start(); }
-void Vehicle::stop() { graph_->stop.request_stop(); }
+void Vehicle::start() {
+  graph_->start();
+}
+void Vehicle::stop() {
+  graph_->stop.request_stop();
+}
 
 bool Vehicle::running() const {
   return std::any_of(graph_->producers.begin(), graph_->producers.end(),
                      [](const runtime::Thread& thread) { return !thread.ended(); });
 }
 
-void Vehicle::wait() { graph_->wait(); }
-VehicleReport Vehicle::report() const { return graph_->report(); }
-Time Vehicle::position() const { return graph_->fusion.position(); }
-Time Vehicle::first() const { return graph_->first; }
+void Vehicle::wait() {
+  graph_->wait();
+}
+VehicleReport Vehicle::report() const {
+  return graph_->report();
+}
+Time Vehicle::position() const {
+  return graph_->fusion.position();
+}
+Time Vehicle::first() const {
+  return graph_->first;
+}
 
 namespace {
 
@@ -323,7 +333,9 @@ Time next_of(const runtime::EdgeBase& edge) {
 
 }  // namespace
 
-Time Vehicle::next_image() const { return next_of(graph_->images); }
+Time Vehicle::next_image() const {
+  return next_of(graph_->images);
+}
 
 Time Vehicle::next_sample() const {
   return std::min({next_of(graph_->images), next_of(graph_->to_fusion.imu),
@@ -334,6 +346,8 @@ std::uint64_t Vehicle::deadline_misses() const {
   return graph_->stereo.meter().miss_count() + graph_->fusion.meter().miss_count();
 }
 
-runtime::DataClock& Vehicle::clock() { return graph_->clock; }
+runtime::DataClock& Vehicle::clock() {
+  return graph_->clock;
+}
 
 }  // namespace maploop::vehicle

@@ -35,8 +35,12 @@ std::string number(auto value) {
   return {text.data(), end};
 }
 
-std::string toml_value(const std::string& text) { return quoted(text); }
-std::string toml_value(std::integral auto value) { return number(value); }
+std::string toml_value(const std::string& text) {
+  return quoted(text);
+}
+std::string toml_value(std::integral auto value) {
+  return number(value);
+}
 std::string toml_value(double value) {
   std::string text = number(value);
   // TOML takes a number without point and exponent for an integer.

@@ -13,7 +13,8 @@
 namespace maploop::vehicle {
 
 struct SchedulingParameters {
-  int sensor_priority = 70;  // SCHED_FIFO 1..99, 0: default policy; drivers only sleep and hand over
+  int sensor_priority =
+      70;  // SCHED_FIFO 1..99, 0: default policy; drivers only sleep and hand over
   int fusion_priority = 60;  // below the drivers, whose samples it needs
   int stereo_priority = 40;  // below fusion; bounded work, an eighth of one core at 10 Hz
 };

@@ -18,7 +18,7 @@ struct SensorReport {
 };
 
 struct Misses {
-  std::string of;  // the thread or the path
+  std::string of;            // the thread or the path
   std::vector<Miss> misses;  // the first few
 };
 
@@ -36,7 +36,7 @@ struct VehicleReport {
   std::vector<Misses> misses;
   Health health;
   std::vector<RefusalCount> refusals;  // those that happened
-  std::uint64_t stalls = 0;  // how often the data clock had to wait for the graph
+  std::uint64_t stalls = 0;            // how often the data clock had to wait for the graph
   Duration stalled{};
   double data_seconds = 0.0;  // length of the drive that was replayed
   double wall_seconds = 0.0;

@@ -15,18 +15,18 @@ TEST(Frames, AnglesWrapIntoOneTurn) {
 }
 
 TEST(Frames, AzimuthIsClockwiseFromNorthYawCounterClockwiseFromEast) {
-  EXPECT_NEAR(azimuth_from_yaw(0.0), pi / 2.0, 1e-15);   // east
-  EXPECT_NEAR(azimuth_from_yaw(pi / 2.0), 0.0, 1e-15);   // north
-  EXPECT_NEAR(azimuth_from_yaw(pi), -pi / 2.0, 1e-15);   // west
+  EXPECT_NEAR(azimuth_from_yaw(0.0), pi / 2.0, 1e-15);  // east
+  EXPECT_NEAR(azimuth_from_yaw(pi / 2.0), 0.0, 1e-15);  // north
+  EXPECT_NEAR(azimuth_from_yaw(pi), -pi / 2.0, 1e-15);  // west
   EXPECT_NEAR(yaw_from_azimuth(azimuth_from_yaw(2.0)), 2.0, 1e-15);
 }
 
 TEST(Frames, NoseUpPointsForwardUpAndRightSideDownPointsLeftUp) {
   const Eigen::Matrix3d climbing = rotation_enu_body({0.0, 0.1, 0.0});
-  EXPECT_NEAR((climbing * Eigen::Vector3d::UnitX() -
-               Eigen::Vector3d(0.0, std::cos(0.1), std::sin(0.1)))
-                  .norm(),
-              0.0, 1e-15);
+  EXPECT_NEAR(
+      (climbing * Eigen::Vector3d::UnitX() - Eigen::Vector3d(0.0, std::cos(0.1), std::sin(0.1)))
+          .norm(),
+      0.0, 1e-15);
   const Eigen::Matrix3d rolled = rotation_enu_body({0.0, 0.0, 0.1});
   EXPECT_GT((rolled * Eigen::Vector3d::UnitY()).z(), 0.09);
 }

@@ -33,9 +33,9 @@ Process::Process(const std::vector<std::string>& command) {
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT, 0600);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, error.c_str(), O_WRONLY | O_CREAT, 0600);
-  const int failed =
-      posix_spawnp(&id_, arguments[0], &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, error.c_str(), O_WRONLY | O_CREAT,
+                                   0600);
+  const int failed = posix_spawnp(&id_, arguments[0], &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (failed != 0) {
     id_ = 0;
@@ -49,7 +49,9 @@ Process::~Process() {
   waitpid(id_, nullptr, 0);
 }
 
-void Process::send_signal(int signal) const { kill(id_, signal); }
+void Process::send_signal(int signal) const {
+  kill(id_, signal);
+}
 
 ProcessResult Process::wait() {
   int status = 0;

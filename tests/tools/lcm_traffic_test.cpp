@@ -1,5 +1,5 @@
-// What `maploop replay` puts on the wire, seen by another process with LCM's own library. Run it in a
-// network namespace of its own.
+// What `maploop replay` puts on the wire, seen by another process with LCM's own library. Run it in
+// a network namespace of its own.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -55,8 +55,8 @@ TEST(LcmTraffic, EveryChannelArrivesAndDecodes) {
   const testing::TemporaryFolder folder;
   const std::string file = (folder.path() / "result.json").string();
   Listener listener;
-  const testing::ProcessResult result = testing::run(
-      {MAPLOOP_COMMAND, "replay", testing::drive_0013().string(), "--json", file});
+  const testing::ProcessResult result =
+      testing::run({MAPLOOP_COMMAND, "replay", testing::drive_0013().string(), "--json", file});
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   listener.stop();
   ASSERT_EQ(result.status, 0) << result.error;

@@ -25,8 +25,11 @@ T sample(int tick) {
 }
 
 Deadlines deadlines(Time stamp) {
-  LatencySummary fusion{
-      .name = "fusion", .count = 1480, .misses = 1, .deadline = from_seconds(2e-3), .guilty = "woken late"};
+  LatencySummary fusion{.name = "fusion",
+                        .count = 1480,
+                        .misses = 1,
+                        .deadline = from_seconds(2e-3),
+                        .guilty = "woken late"};
   fusion.p50 = from_seconds(40e-6);
   LatencySummary path{.name = "camera to state", .count = 143, .guilty = ""};
   return {.stamp = stamp, .threads = {fusion}, .paths = {path}};

@@ -111,7 +111,8 @@ TEST(ReplayCommand, SurvivesADriveWithAHole) {
   const auto date = folder.path() / "2011_09_26";
   const auto copy = date / "2011_09_26_drive_0013_sync";
   std::filesystem::create_directories(date);
-  for (const auto& entry : std::filesystem::directory_iterator(testing::drive_0013().parent_path())) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(testing::drive_0013().parent_path())) {
     if (entry.is_regular_file()) std::filesystem::copy(entry, date);
   }
   std::filesystem::copy(testing::drive_0013(), copy, std::filesystem::copy_options::recursive);

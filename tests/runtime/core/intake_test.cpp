@@ -70,8 +70,7 @@ TEST(Intake, StopEndsTheWaitForAPromiseThatNeverComes) {
   std::stop_source stop;
   const std::stop_callback ring(stop.get_token(), [&] { e.bell.ring(); });
   bool complete = true;
-  std::thread waiter(
-      [&] { complete = e.intake.wait(from_nanoseconds(1), stop.get_token()); });
+  std::thread waiter([&] { complete = e.intake.wait(from_nanoseconds(1), stop.get_token()); });
   stop.request_stop();
   waiter.join();
   EXPECT_FALSE(complete);

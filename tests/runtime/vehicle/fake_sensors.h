@@ -1,5 +1,5 @@
-// Small made-up sensors: a textured wall driven past at constant speed is not needed to exercise the
-// graph, so the images are plain noise (odometry refuses them by name) and cost little.
+// Small made-up sensors: a textured wall driven past at constant speed is not needed to exercise
+// the graph, so the images are plain noise (odometry refuses them by name) and cost little.
 #pragma once
 
 #include <cstdint>
