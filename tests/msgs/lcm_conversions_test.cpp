@@ -211,12 +211,12 @@ TEST(LcmConversions, AStatusOfAnotherVersionIsRefused) {
 
 // The constants in the .lcm files are those of the enumerations.
 TEST(LcmConversions, StatusConstantsAgree) {
-  EXPECT_EQ(static_cast<int>(NavStatus::coasting), maploop_lcm::nav_state_t::COASTING);
-  EXPECT_EQ(static_cast<int>(NavStatus::aided), maploop_lcm::nav_state_t::AIDED);
-  EXPECT_EQ(static_cast<int>(OdometryStatus::ok), maploop_lcm::relative_motion_t::OK);
+  EXPECT_EQ(static_cast<int>(NavStatus::coasting), +maploop_lcm::nav_state_t::COASTING);
+  EXPECT_EQ(static_cast<int>(NavStatus::aided), +maploop_lcm::nav_state_t::AIDED);
+  EXPECT_EQ(static_cast<int>(OdometryStatus::ok), +maploop_lcm::relative_motion_t::OK);
   EXPECT_EQ(static_cast<int>(OdometryStatus::implausible),
-            maploop_lcm::relative_motion_t::IMPLAUSIBLE);
-  EXPECT_EQ(static_cast<int>(OdometryStatus::bad_input), maploop_lcm::relative_motion_t::BAD_INPUT);
+            +maploop_lcm::relative_motion_t::IMPLAUSIBLE);
+  EXPECT_EQ(static_cast<int>(OdometryStatus::bad_input), +maploop_lcm::relative_motion_t::BAD_INPUT);
 }
 
 }  // namespace
