@@ -22,6 +22,7 @@ void check(const FusionParameters& p) {
   require("history_capacity", p.history_capacity, 8, 100'000);
   require("confirm_gap", p.confirm_gap, 0.01, p.history_length);
   require("max_gap", p.max_gap, p.confirm_gap, 60.0);
+  require("max_stamp_ahead", p.max_stamp_ahead, 0.0, p.confirm_gap);
   require("restart_after", p.restart_after, 2, huge);
   require("max_step", p.max_step, 1e-3, 1.0);
   require("imu_hold", p.imu_hold, 0.0, p.history_length);

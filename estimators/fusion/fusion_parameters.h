@@ -9,6 +9,7 @@ struct FusionParameters {
   int history_capacity = 512;   // events; 2 s of 100 Hz IMU and 10 Hz odometry take about 240
   double confirm_gap = 1.0;     // s, a stamp further ahead needs a second one that agrees
   double max_gap = 5.0;         // s, beyond it nothing is predicted: the clock jumped
+  double max_stamp_ahead = 0.05;  // s, of its delivery: clocks of sensor and host agree better
   int restart_after = 100;      // refusals in a row for their stamps; then the clock really jumped
   double max_step = 0.05;       // s, a chord of a 30 deg/s turn is 3e-5 shorter than its arc
   double imu_hold = 0.3;        // s, three missing samples of a 10 Hz IMU; then it is silent

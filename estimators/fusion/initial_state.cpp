@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "estimators/fusion/covariance_check.h"
+#include "estimators/fusion/measurement_check.h"
 #include "estimators/fusion/stamp_guard.h"
 
 namespace maploop::fusion {
@@ -32,6 +33,7 @@ Reason check_fix(const GnssFix& fix, const FusionParameters& parameters) {
       start_stamp(fix) < std::max(fix.stamp, fix.velocity_stamp) - limit) {
     return Reason::stamps_apart;
   }
+  if (stamped_after_delivery(fix, parameters)) return Reason::after_delivery;
   if (fix.velocity_enu.head<2>().norm() < parameters.min_course_speed) return Reason::too_slow;
   return Reason::none;
 }

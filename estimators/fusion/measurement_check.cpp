@@ -7,6 +7,11 @@
 
 namespace maploop::fusion {
 
+bool stamped_after_delivery(const Sample& sample, const FusionParameters& parameters) {
+  return plausible_stamp(sample.available) && plausible_stamp(sample.stamp) &&
+         sample.stamp > sample.available + from_seconds(parameters.max_stamp_ahead);
+}
+
 Reason check_sample(const ImuSample& sample, const FusionParameters& parameters) {
   if (!std::isfinite(sample.specific_force_forward) || !std::isfinite(sample.specific_force_left) ||
       !std::isfinite(sample.yaw_rate)) {
@@ -17,10 +22,12 @@ Reason check_sample(const ImuSample& sample, const FusionParameters& parameters)
       std::abs(sample.yaw_rate) > parameters.max_yaw_rate) {
     return Reason::out_of_range;
   }
-  return Reason::none;
+  return stamped_after_delivery(sample, parameters) ? Reason::after_delivery : Reason::none;
 }
 
 Reason check_motion(const RelativeMotion& motion, const FusionParameters& parameters) {
+  if (stamped_after_delivery(motion, parameters)) return Reason::after_delivery;
+  if (motion.status == OdometryStatus::bad_input) return Reason::odometry_not_ok;
   if (motion.status != OdometryStatus::ok) return Reason::none;
   if (!plausible_stamp(motion.stamp)) return Reason::out_of_range;
   if (!plausible_stamp(motion.from) || motion.stamp <= motion.from ||

@@ -23,9 +23,10 @@ enum class Reason : std::uint8_t {
   duplicate,           // same stamp and sequence as one known already
   too_old,             // before the history begins
   before_start,        // before the moment the filter started at
+  after_delivery,      // stamped later than it was delivered: its sensor's clock is wrong
   time_jump,           // further ahead of all others than may be, or not confirmed by a second one
   // Odometry, at its stamp: no correction, but the next interval starts there.
-  odometry_not_ok,   // its own status says so
+  odometry_not_ok,   // its own status says so (bad input: at the door)
   interval_unknown,  // the filter does not know the attitude at the interval's start
   speed_gate,        // forward speed contradicts the prediction
   rotation_gate,     // rotation contradicts the prediction
@@ -81,6 +82,8 @@ constexpr std::string_view to_string(Reason reason) {
       return "older than the history";
     case Reason::before_start:
       return "before the filter's start";
+    case Reason::after_delivery:
+      return "stamped later than delivered";
     case Reason::time_jump:
       return "jump of the time stamp";
     case Reason::odometry_not_ok:

@@ -88,6 +88,7 @@ void visit(Config& config, Table&& table, Field&& field) {
     field("history_capacity", p.history_capacity);
     field("confirm_gap", p.confirm_gap);
     field("max_gap", p.max_gap);
+    field("max_stamp_ahead", p.max_stamp_ahead);
     field("restart_after", p.restart_after);
     field("max_step", p.max_step);
     field("imu_hold", p.imu_hold);

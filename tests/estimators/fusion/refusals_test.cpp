@@ -96,7 +96,7 @@ TEST_F(Refusals, OfOdometry) {
 TEST_F(Refusals, OfStamps) {
   const auto with_stamp = [&](Time stamp) {
     ImuSample s = sample_;
-    s.stamp = stamp;
+    s.stamp = s.available = stamp;
     return s;
   };
   expect_refused(with_stamp({}), Reason::out_of_range);
@@ -109,6 +109,48 @@ TEST_F(Refusals, OfStamps) {
   expect_refused(odometry_[95], Reason::duplicate);
 }
 
+TEST_F(Refusals, OfWhatIsStampedLaterThanItWasDelivered) {
+  for (const double ahead : {0.06, 1.5, 3.0, 3600.0}) {
+    ImuSample sample = sample_;
+    sample.stamp = sample.available + from_seconds(ahead);
+    expect_refused(sample, Reason::after_delivery);
+    RelativeMotion motion = motion_;
+    motion.stamp = motion.available + from_seconds(ahead);
+    expect_refused(motion, Reason::after_delivery);
+    GnssFix fix = drive_.fix(0.0);
+    fix.velocity_stamp = fix.stamp = fix.available + from_seconds(ahead);
+    ReducedImuFilter waiting({}, test_origin());
+    EXPECT_EQ(waiting.add(fix), refused(Reason::after_delivery));
+  }
+}
+
+TEST_F(Refusals, ManyFromAClockAheadDoNotRestartTheFilter) {
+  for (int i = 0; i < 2 * FusionParameters{}.restart_after; ++i) {
+    ImuSample sample = sample_;
+    sample.sequence += static_cast<std::uint64_t>(i);
+    sample.stamp = sample.available + from_seconds(10.0 + 0.01 * i);
+    expect_refused(sample, Reason::after_delivery);
+  }
+  EXPECT_TRUE(filter_.initialized());
+}
+
+TEST_F(Refusals, OdometryOfBadInputSaysNothingOfTheIntervalItFellInto) {
+  // The motion spans a moment whose pair came late, and was refused by the odometry.
+  RelativeMotion skipped = motion_;
+  skipped.status = OdometryStatus::bad_input;
+  const std::vector<RelativeMotion> longer = drive_.odometry(5.0);
+  const RelativeMotion across = *std::find_if(longer.begin(), longer.end(), [&](const auto& m) {
+    return m.stamp > skipped.stamp && m.from >= at(10.0);
+  });
+  ASSERT_LT(across.from, skipped.stamp);
+  EXPECT_EQ(filter_.add(across), Outcome{});
+  const NavState before = *filter_.state_at(across.stamp);
+  EXPECT_EQ(filter_.add(skipped), refused(Reason::odometry_not_ok));
+  const NavState after = *filter_.state_at(across.stamp);
+  EXPECT_EQ(after.odometry_stamp, across.stamp);
+  EXPECT_EQ(after.odometry_applied, before.odometry_applied);
+}
+
 TEST_F(Refusals, OfFixesAfterTheStart) {
   expect_refused(drive_.fix(10.0), Reason::already_started);
 }
@@ -116,7 +158,7 @@ TEST_F(Refusals, OfFixesAfterTheStart) {
 TEST_F(Refusals, OneWildStampDoesNotStopTheOthers) {
   EXPECT_EQ(filter_.add([&] {
     ImuSample s = sample_;
-    s.stamp = at(14.0);
+    s.stamp = s.available = at(14.0);
     return s;
   }()),
             refused(Reason::time_jump));
@@ -143,17 +185,18 @@ TEST_F(Refusals, AClockThatReallyJumpedRestartsTheFilter) {
   for (const double jump : {-3600.0, 7200.0}) {
     const std::uint64_t restarts = filter_.status().restarts;
     GnssFix fix = drive_.fix(0.0);
-    fix.stamp = fix.velocity_stamp = at(20.0 + jump);
+    fix.stamp = fix.velocity_stamp = fix.available = at(20.0 + jump);
     int refusals = 0;
     for (ImuSample s : imu_) {
       s.stamp += from_seconds(jump);
+      s.available += from_seconds(jump);
       refusals += filter_.add(s).refused() ? 1 : 0;
     }
     EXPECT_EQ(filter_.status().restarts, restarts + 1);
     EXPECT_EQ(refusals, FusionParameters{}.restart_after);
     EXPECT_FALSE(filter_.initialized());
     EXPECT_EQ(filter_.status().phase, Phase::waiting_for_fix);
-    fix.stamp = fix.velocity_stamp = at(29.0 + jump);
+    fix.stamp = fix.velocity_stamp = fix.available = at(29.0 + jump);
     EXPECT_EQ(filter_.add(fix), Outcome{});
     EXPECT_TRUE(filter_.state_at(at(30.0 + jump)));
     filter_ = ReducedImuFilter({}, test_origin());

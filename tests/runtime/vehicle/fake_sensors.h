@@ -67,12 +67,13 @@ inline Sensors fake_sensors(double seconds) {
       static_cast<std::uint64_t>(seconds * 10), [](std::uint64_t i, LidarScan& scan) {
         scan.stamp = drive_start + i * milliseconds(103);
         scan.available = scan.end = scan.stamp + milliseconds(50);
-        scan.points.resize(100);
+        scan.points.assign(100, {});
       });
   s.imu = std::make_unique<FakeSource<ImuSample>>(
       static_cast<std::uint64_t>(seconds * 100), [](std::uint64_t i, ImuSample& sample) {
         sample.available = drive_start + i * milliseconds(10);
         sample.stamp = sample.available - milliseconds(60);
+        sample.specific_force_forward = sample.specific_force_left = 0.0;
         sample.yaw_rate = 0.01;
       });
   s.gnss = std::make_unique<FakeSource<GnssFix>>(

@@ -179,7 +179,7 @@ TEST(FaultRefusals, OneSensorsClockDoesNotTakeTheStateDown) {
 TEST(FaultRefusals, AnAheadClockIsRefusedSampleBySample) {
   const Replayed r = lockstep({"jump@imu:1:1,by=3"});
   EXPECT_EQ(r.faults.at(0).struck, 100u);
-  EXPECT_EQ(r.refused("fusion", "jump of the time stamp"), 100u);
+  EXPECT_EQ(r.refused("fusion", "stamped later than delivered"), 100u);
 }
 
 }  // namespace

@@ -1,0 +1,251 @@
+// Every fault on the recorded drive: what README's table says of it. The truth is the drive's own;
+// "of the clean run" is against the same replay without the fault.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "runtime/vehicle/channel_hashes.h"
+#include "runtime/vehicle/fault_injection.h"
+#include "sensors/replay/kitti_drive.h"
+#include "sensors/replay/reference_trajectory.h"
+#include "tests/support/real_data.h"
+
+namespace maploop::vehicle {
+namespace {
+
+struct Replayed {
+  VehicleReport report;
+  std::map<std::string, ChannelSummary> channels;
+  std::vector<NavState> states;        // 100 Hz
+  std::map<Time, NavState> at_images;  // by the image's stamp
+  std::map<OdometryStatus, int> odometry;
+  std::vector<FaultCount> faults;
+
+  std::uint64_t refused(const std::string& reason) const {
+    for (const RefusalCount& r : report.refusals) {
+      if (r.stage == "fusion" && r.reason == reason) return r.count;
+    }
+    return 0;
+  }
+  double seconds(NavStatus status) const {
+    return 0.01 *
+           static_cast<double>(std::count_if(states.begin(), states.end(), [&](const NavState& s) {
+             return s.status == status;
+           }));
+  }
+};
+
+Replayed replay(const std::vector<std::string>& texts) {
+  const sensors::KittiDrive drive(maploop::testing::drive_0013());
+  std::vector<Fault> faults;
+  for (const std::string& text : texts) faults.push_back(parse_fault(text));
+  FaultInjection injection(std::move(faults), drive.first_stamp());
+  Sensors sources;
+  sources.camera = drive.camera();
+  sources.velodyne = drive.velodyne();
+  sources.imu = drive.imu();
+  sources.gnss = drive.gnss();
+  sources.reference = drive.reference();
+
+  Replayed r;
+  ChannelHashes hashes;
+  Observer observer;
+  observer.odometry = [&](const RelativeMotion& motion) { ++r.odometry[motion.status]; };
+  observer.nav_state = [&](const NavState& state) { r.states.push_back(state); };
+  observer.image_state = [&](const NavState& state) { r.at_images[state.stamp] = state; };
+  Vehicle vehicle({}, drive.calibration().stereo, injection.afflict(std::move(sources)),
+                  runtime::DataClock::virtual_time(), {&hashes}, observer);
+  vehicle.slow_down(injection.delays());
+  const auto hogs = injection.hogs([&] { return vehicle.position(); });
+  vehicle.start();
+  vehicle.wait();
+  r.report = vehicle.report();
+  r.channels = hashes.summary();
+  r.faults = injection.counts();
+
+  for (const ThreadHealth& thread : r.report.health.threads) {
+    EXPECT_EQ(thread.failure, "") << thread.name;
+  }
+  for (const RingHealth& ring : r.report.health.rings) {
+    EXPECT_EQ(ring.pushed, ring.popped) << ring.name;
+  }
+  for (const NavState& state : r.states) {
+    EXPECT_TRUE(state.position_enu.allFinite() && state.covariance.allFinite());
+  }
+  for (const FaultCount& fault : r.faults) EXPECT_GT(fault.struck, 0u) << fault.fault;
+  return r;
+}
+
+const Replayed& clean() {
+  static const Replayed run = replay({});
+  return run;
+}
+
+// How far the end is from where it should be when the start is laid on the truth, m (of 173 m).
+double end_error(const Replayed& r) {
+  const sensors::KittiDrive drive(maploop::testing::drive_0013());
+  std::vector<ReferencePose> rows;
+  const auto source = drive.reference();
+  for (ReferencePose row; source->next(row);) rows.push_back(row);
+  const NavState& last = r.states.back();
+  const sensors::ReferenceTrajectory truth(rows, LocalFrame(last.origin));
+  const auto first = std::find_if(r.states.begin(), r.states.end(), [&](const NavState& s) {
+    return s.status != NavStatus::uninitialized && truth.pose(s.stamp);
+  });
+  const auto end = std::find_if(r.states.rbegin(), r.states.rend(),
+                                [&](const NavState& s) { return truth.pose(s.stamp).has_value(); });
+  const Eigen::Vector3d travelled = end->position_enu - first->position_enu;
+  const Eigen::Vector3d expected =
+      truth.pose(end->stamp)->translation() - truth.pose(first->stamp)->translation();
+  return (travelled - expected).norm();
+}
+
+// Largest distance of the clean run, and the distance at the end, m.
+double farthest_from_clean(const Replayed& r) {
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < std::min(r.states.size(), clean().states.size()); ++i) {
+    const NavState& a = r.states[i];
+    const NavState& b = clean().states[i];
+    EXPECT_EQ(a.stamp, b.stamp);
+    farthest = std::max(farthest, (a.position_enu - b.position_enu).norm());
+  }
+  return farthest;
+}
+
+double end_from_clean(const Replayed& r) {
+  return (r.states.back().position_enu - clean().states.back().position_enu).norm();
+}
+
+// Bounds of a fault: on the way, and at the end when all is well again.
+void expect_near_clean(const Replayed& r, double on_the_way, double at_the_end) {
+  const std::string fault = r.faults.at(0).fault;
+  EXPECT_LT(farthest_from_clean(r), on_the_way) << fault;
+  EXPECT_LT(end_from_clean(r), at_the_end) << fault;
+}
+
+TEST(FaultDrive, LostImagesAreBridgedByTheInertialSensors) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const Replayed one = replay({"lost@camera:5:1"});
+  expect_near_clean(one, 0.6, 0.2);
+  EXPECT_EQ(one.channels.at("VO").count, 144 - one.faults[0].struck);
+  const Replayed three = replay({"lost@camera:5:3"});
+  expect_near_clean(three, 0.8, 0.5);
+  EXPECT_GT(three.seconds(NavStatus::coasting), 1.5) << "NAV_STATE says so";
+  EXPECT_EQ(three.states.back().status, NavStatus::aided) << "and when it is over";
+}
+
+TEST(FaultDrive, BlackAndNoisyImagesAreRefusedByName) {
+  MAPLOOP_REQUIRE_DRIVE();
+  for (const char* fault : {"black@camera:5:1", "garbage@camera:5:1"}) {
+    const Replayed r = replay({fault});
+    expect_near_clean(r, 0.6, 0.2);
+    EXPECT_EQ(r.odometry.at(OdometryStatus::too_few_features),
+              static_cast<int>(r.faults[0].struck));
+    EXPECT_EQ(r.channels.at("VO").count, 144u) << "a result, or an explicit none, for each image";
+  }
+}
+
+TEST(FaultDrive, LateImagesAreAppliedAtTheirStamps) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const Replayed r = replay({"late@camera:5:3,by=0.5"});
+  expect_near_clean(r, 0.4, 1e-9);
+  const Replayed too_late = replay({"late@camera:5:1,by=3"});
+  expect_near_clean(too_late, 1.0, 0.2);
+  EXPECT_GT(too_late.refused("older than the history"), 0u);
+}
+
+TEST(FaultDrive, DuplicatedImagesChangeNothing) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const Replayed r = replay({"duplicated@camera"});
+  EXPECT_EQ(r.odometry.at(OdometryStatus::bad_input), 144);
+  EXPECT_EQ(r.channels.at("NAV_STATE").hash, clean().channels.at("NAV_STATE").hash);
+}
+
+TEST(FaultDrive, ReorderedImagesCostOneOfTwoMotions) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const Replayed r = replay({"reordered@camera:2:8"});
+  expect_near_clean(r, 0.5, 0.5);
+  EXPECT_EQ(r.odometry.at(OdometryStatus::bad_input), static_cast<int>(r.faults[0].struck));
+  EXPECT_EQ(r.seconds(NavStatus::coasting), 0.0);
+  EXPECT_LE(r.states.back().odometry_refused, clean().states.back().odometry_refused + 2)
+      << "the motions across a refused image are used";
+}
+
+TEST(FaultDrive, LostInertialSamplesAreBridgedByTheOdometry) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const Replayed r = replay({"lost@imu:5:2"});
+  expect_near_clean(r, 0.3, 0.3);
+  EXPECT_EQ(r.seconds(NavStatus::coasting), 0.0);
+  EXPECT_EQ(r.channels.at("IMU").count, 144 - r.faults[0].struck);
+  expect_near_clean(replay({"lost@imu,share=0.3,seed=5"}), 1.2, 1.2);
+}
+
+TEST(FaultDrive, InertialSamplesThatAreNotNumbersAreRefusedOneByOne) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const Replayed r = replay({"nan@imu:5:1"});
+  expect_near_clean(r, 0.2, 0.2);
+  EXPECT_EQ(r.refused("a value is not finite"), r.faults[0].struck);
+}
+
+TEST(FaultDrive, LateAndReorderedInertialSamplesAreAppliedAtTheirStamps) {
+  MAPLOOP_REQUIRE_DRIVE();
+  expect_near_clean(replay({"late@imu:5:3,by=1"}), 0.4, 0.05);
+  expect_near_clean(replay({"reordered@imu:2:8"}), 0.05, 0.01);
+  const Replayed r = replay({"duplicated@imu"});
+  EXPECT_EQ(r.refused("duplicate"), 144u);
+  EXPECT_EQ(r.channels.at("NAV_STATE").hash, clean().channels.at("NAV_STATE").hash);
+}
+
+TEST(FaultDrive, AClockAheadOfItsDeliveryIsRefused) {
+  MAPLOOP_REQUIRE_DRIVE();
+  for (const char* fault : {"jump@imu:5:3,by=1.5", "jump@imu:5:3,by=3", "jump@camera:5:1,by=3"}) {
+    const Replayed r = replay({fault});
+    expect_near_clean(r, 1.0, 0.5);
+    EXPECT_GE(r.refused("stamped later than delivered"), r.faults[0].struck) << fault;
+    EXPECT_EQ(r.seconds(NavStatus::uninitialized), clean().seconds(NavStatus::uninitialized));
+  }
+}
+
+TEST(FaultDrive, AClockBehindTheHistoryIsRefusedAndOneInsideItCostsAccuracy) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const Replayed r = replay({"jump@imu:5:3,by=-10"});
+  expect_near_clean(r, 0.3, 0.2);
+  EXPECT_EQ(r.refused("older than the history"), r.faults[0].struck);
+  // Such samples look like late ones; only their contents contradict the odometry.
+  expect_near_clean(replay({"jump@imu:5:3,by=-1"}), 5.0, 5.0);
+}
+
+TEST(FaultDrive, TheFilterWaitsForTheFirstGoodFix) {
+  MAPLOOP_REQUIRE_DRIVE();
+  for (const char* fault : {"lost@gnss:0:2", "nan@gnss:0:2", "jump@gnss:0:2,by=5"}) {
+    const Replayed r = replay({fault});
+    EXPECT_NEAR(r.seconds(NavStatus::uninitialized), 2.0, 0.1) << fault;
+    EXPECT_LT(end_error(r), 5.0) << fault;std::printf("%s %f\n",fault,end_error(r));
+  }
+  const Replayed never = replay({"lost@gnss"});
+  EXPECT_EQ(never.states.back().status, NavStatus::uninitialized);
+  EXPECT_EQ(never.channels.at("VO").count, 144u) << "odometry does not need it";
+  EXPECT_GT(never.refused("held, and too old before the start"), 0u);
+}
+
+TEST(FaultDrive, TheScansAreOnlyCarriedSoFar) {
+  MAPLOOP_REQUIRE_DRIVE();
+  for (const char* fault : {"nan@velodyne", "lost@velodyne:5:2", "reordered@velodyne"}) {
+    const Replayed r = replay({fault});
+    EXPECT_EQ(r.channels.at("NAV_STATE").hash, clean().channels.at("NAV_STATE").hash) << fault;
+  }
+}
+
+TEST(FaultDrive, SlowStagesAndABusyMachineChangeNoBit) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const Replayed r = replay({"slow@stereo:5:1,by=0.2", "slow@fusion:5:1,by=0.005", "hog@cpu:2:5"});
+  for (const char* channel : {"NAV_STATE", "VO", "IMU", "GNSS_FIX", "TRUTH"}) {
+    EXPECT_EQ(r.channels.at(channel).hash, clean().channels.at(channel).hash) << channel;
+  }
+}
+
+}  // namespace
+}  // namespace maploop::vehicle
