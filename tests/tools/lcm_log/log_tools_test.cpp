@@ -186,7 +186,7 @@ TEST_F(LogToolsTest, VerifyAllowsThreadsToDifferALittleButNotWithinAChannel) {
 
 TEST_F(LogToolsTest, VerifyCountsMoreFindingsThanItLists) {
   auto bytes = read_bytes(log_);
-  bytes.resize(bytes.size() - 1);
+  bytes.pop_back();
   write_bytes(log_, bytes);
   const Verification v = verify(log_, types(), {.max_disorder_s = 1.0, .max_listed = 0});
   EXPECT_EQ(v.finding_count, 1U);
@@ -303,6 +303,11 @@ TEST_F(LogToolsTest, OutputThatCannotBeWrittenLeavesWhatWasThere) {
   EXPECT_TRUE(contains(
       error_of<std::runtime_error>([&] { split(log_, types(), to("/nowhere/out.lcmlog")); }),
       "/nowhere/out.lcmlog"));
+  for (const path& no_file : {path("/dev/null"), folder_.path()}) {
+    EXPECT_TRUE(contains(error_of<std::runtime_error>([&] { split(log_, types(), to(no_file)); }),
+                         "no regular file"));
+  }
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
   record(out_, {drive_[0]});
   SplitParameters parameters = to(out_);
   parameters.start_s = 1000.0;
@@ -369,7 +374,7 @@ TEST_F(LogToolsTest, RecoverSaysWhatWasLost) {
   auto bytes = read_bytes(log_);
   std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(offsets_[4]),
             bytes.begin() + static_cast<std::ptrdiff_t>(offsets_[6]) + 10, std::uint8_t{0});
-  bytes.resize(bytes.size() - 5);
+  bytes.erase(bytes.end() - 5, bytes.end());
   write_bytes(log_, bytes);
   const Recovery r = recover(log_, types(), out_);
   ASSERT_EQ(r.loss_count, 2U) << format_report(r);
