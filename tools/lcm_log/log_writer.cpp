@@ -21,7 +21,12 @@ struct LogWriter::Stream {
 
 LogWriter::LogWriter(const std::filesystem::path& file)
     : file_(file), part_(file.string() + ".part"), stream_(std::make_unique<Stream>()) {
-  if (std::filesystem::is_directory(file)) fail("it is a folder");
+  // A folder, or a device such as /dev/null, which must not be replaced by a file.
+  std::error_code missing;
+  const auto status = std::filesystem::status(file, missing);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    fail("it is no regular file");
+  }
   const bool compressed = file.extension() == ".gz";
   stream_->file = gzopen(part_.c_str(), compressed ? "wb6" : "wbT");
   if (stream_->file == nullptr) fail(std::strerror(errno));
