@@ -5,10 +5,10 @@ namespace maploop::fusion {
 
 struct FusionParameters {
   // History and time.
-  double history_length = 2.0;  // s, late data is applied within it; odometry is < 0.3 s late
-  int history_capacity = 512;   // events; 2 s of 100 Hz IMU and 10 Hz odometry take about 240
-  double confirm_gap = 1.0;     // s, a stamp further ahead needs a second one that agrees
-  double max_gap = 5.0;         // s, beyond it nothing is predicted: the clock jumped
+  double history_length = 2.0;    // s, late data is applied within it; odometry is < 0.3 s late
+  int history_capacity = 512;     // events; 2 s of 100 Hz IMU and 10 Hz odometry take about 240
+  double confirm_gap = 1.0;       // s, a stamp further ahead needs a second one that agrees
+  double max_gap = 5.0;           // s, beyond it nothing is predicted: the clock jumped
   double max_stamp_ahead = 0.05;  // s, of its delivery: clocks of sensor and host agree better
   int restart_after = 100;      // refusals in a row for their stamps; then the clock really jumped
   double max_step = 0.05;       // s, a chord of a 30 deg/s turn is 3e-5 shorter than its arc
@@ -44,14 +44,12 @@ struct FusionParameters {
   double max_yaw_rate = 6.0;         // rad/s, beyond is a fault (350 deg/s)
 
   // Vehicle.
-  double pitch_noise = 0.0175;  // rad/sqrt(s) (1 deg), road and suspension between odometry
-  double roll_noise = 0.0175;   // rad/sqrt(s) (1 deg)
-  double slip_sigma = 0.005;    // rad (0.3 deg), direction of travel against the body's axis
-  double slip_time = 1.0;       // s, how long it lasts
-  // rad, direction of travel above body x, of the car with its load: mounting of the IMU. KITTI's
-  // car: mean of eight odometry sequences (0.14 to 0.86 deg; none of them is the recorded drive).
-  double climb_offset = 0.0084;
-  double climb_offset_sigma = 0.0087;  // rad (0.5 deg), of that
+  double pitch_noise = 0.0175;         // rad/sqrt(s) (1 deg), road and suspension between odometry
+  double roll_noise = 0.0175;          // rad/sqrt(s) (1 deg)
+  double slip_sigma = 0.005;           // rad (0.3 deg), direction of travel against the body's axis
+  double slip_time = 1.0;              // s, how long it lasts
+  double climb_offset = 0.0;           // rad, direction of travel above body x: mounting of the IMU
+  double climb_offset_sigma = 0.0175;  // rad (1 deg), of that
   double climb_offset_time = 300.0;    // s, its correlation time: mounting stays, load shifts
   double climb_noise = 0.02;           // rad (1.1 deg) a frame, heave and vertical odometry error
   double max_tilt = 0.8;  // rad, no road vehicle leans so; a correction beyond is refused
