@@ -45,14 +45,14 @@ void DataClock::start(Time first, Duration lead) {
 }
 
 // Sequence lock after Boehm, "Can seqlocks get along with programming language memory models?"
-// (MSPC 2012).
+// (MSPC 2012); acquire and release on the data itself instead of fences, which the thread sanitizer
+// does not know: whoever reads a value of the new schedule also sees its odd version.
 DataClock::Schedule DataClock::schedule() const {
   for (;;) {
     const std::uint32_t before = version_.load(std::memory_order_acquire);
-    const Schedule s{from_nanoseconds(data_.load(std::memory_order_relaxed)),
-                     MonotonicTime(Duration(wall_.load(std::memory_order_relaxed))),
-                     speed_.load(std::memory_order_relaxed)};
-    std::atomic_thread_fence(std::memory_order_acquire);
+    const Schedule s{from_nanoseconds(data_.load(std::memory_order_acquire)),
+                     MonotonicTime(Duration(wall_.load(std::memory_order_acquire))),
+                     speed_.load(std::memory_order_acquire)};
     if (before % 2 == 0 && version_.load(std::memory_order_relaxed) == before) return s;
   }
 }
@@ -60,10 +60,9 @@ DataClock::Schedule DataClock::schedule() const {
 void DataClock::set_schedule(const Schedule& s) {
   const std::uint32_t version = version_.load(std::memory_order_relaxed);
   version_.store(version + 1, std::memory_order_relaxed);
-  std::atomic_thread_fence(std::memory_order_release);
-  data_.store(to_nanoseconds(s.data), std::memory_order_relaxed);
-  wall_.store(s.wall.time_since_epoch().count(), std::memory_order_relaxed);
-  speed_.store(s.speed, std::memory_order_relaxed);
+  data_.store(to_nanoseconds(s.data), std::memory_order_release);
+  wall_.store(s.wall.time_since_epoch().count(), std::memory_order_release);
+  speed_.store(s.speed, std::memory_order_release);
   version_.store(version + 2, std::memory_order_release);
 }
 
