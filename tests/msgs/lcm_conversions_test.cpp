@@ -216,7 +216,8 @@ TEST(LcmConversions, StatusConstantsAgree) {
   EXPECT_EQ(static_cast<int>(OdometryStatus::ok), +maploop_lcm::relative_motion_t::OK);
   EXPECT_EQ(static_cast<int>(OdometryStatus::implausible),
             +maploop_lcm::relative_motion_t::IMPLAUSIBLE);
-  EXPECT_EQ(static_cast<int>(OdometryStatus::bad_input), +maploop_lcm::relative_motion_t::BAD_INPUT);
+  EXPECT_EQ(static_cast<int>(OdometryStatus::bad_input),
+            +maploop_lcm::relative_motion_t::BAD_INPUT);
 }
 
 }  // namespace

@@ -61,6 +61,31 @@ TEST(ReplayCommand, RealTimeHasTheBitsOfLockstepAndLosesNothing) {
   EXPECT_GT(real_time["channels"]["HEALTH"]["count"], 10);
 }
 
+TEST(ReplayCommand, StaysAsAccurateAsItWas) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const json r = replay_json({"--lockstep"});
+  EXPECT_EQ(r["vo"]["frames"], 144);
+  EXPECT_EQ(r["fused"]["frames"], 144);
+  EXPECT_NEAR(r["vo"]["distance_m"], 172.9, 0.5);
+  // Reached: 0.918, 0.490, 0.00177, 2.07 m.
+  EXPECT_LT(r["vo"]["segment_100m_percent"], 1.0);
+  EXPECT_LT(r["vo"]["common_rotation_removed"]["segment_100m_percent"], 0.55);
+  EXPECT_LT(r["vo"]["segment_100m_deg_per_m"], 0.0021);
+  EXPECT_LT(r["vo"]["end_point_m"], 2.3);
+  // Reached: 0.871, 0.625, 0.00257, 2.19 m.
+  EXPECT_LT(r["fused"]["segment_100m_percent"], 0.95);
+  EXPECT_LT(r["fused"]["common_rotation_removed"]["segment_100m_percent"], 0.7);
+  EXPECT_LT(r["fused"]["segment_100m_deg_per_m"], 0.003);
+  EXPECT_LT(r["fused"]["end_point_m"], 2.4);
+}
+
+TEST(ReplayCommand, StartAndEndChangeNoBitOfWhatLiesBetween) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const json lockstep = replay_json({"--lockstep", "--end", "6"});
+  EXPECT_EQ(hashes(lockstep), hashes(replay_json({"--start", "4", "--end", "6"})));
+  EXPECT_LT(lockstep["channels"]["VO"]["count"], 62);
+}
+
 TEST(ReplayCommand, TooFastASpeedStallsTheClockNotTheResult) {
   MAPLOOP_REQUIRE_DRIVE();
   const json too_fast = replay_json({"--speed", "1000"});

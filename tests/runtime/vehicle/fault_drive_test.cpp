@@ -223,7 +223,8 @@ TEST(FaultDrive, TheFilterWaitsForTheFirstGoodFix) {
   for (const char* fault : {"lost@gnss:0:2", "nan@gnss:0:2", "jump@gnss:0:2,by=5"}) {
     const Replayed r = replay({fault});
     EXPECT_NEAR(r.seconds(NavStatus::uninitialized), 2.0, 0.1) << fault;
-    EXPECT_LT(end_error(r), 5.0) << fault;std::printf("%s %f\n",fault,end_error(r));
+    EXPECT_LT(end_error(r), 5.0) << fault;
+    std::printf("%s %f\n", fault, end_error(r));
   }
   const Replayed never = replay({"lost@gnss"});
   EXPECT_EQ(never.states.back().status, NavStatus::uninitialized);
