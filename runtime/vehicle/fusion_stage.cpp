@@ -6,6 +6,13 @@
 #include "runtime/vehicle/graph.h"
 
 namespace maploop::vehicle {
+namespace {
+
+// The kernel's hiccups are caught up with; a stage that is too slow for the data is not one of
+// them.
+constexpr Duration furthest_behind = 5 * stages::fusion.period;
+
+}  // namespace
 
 FusionEdges::FusionEdges()
     : imu(make_edge<ImuSample>(edges::imu_fusion, &bell)),
@@ -73,6 +80,7 @@ bool FusionStage::tick(Time k, runtime::DataClock& clock, const std::stop_token&
   } else {
     meter_.record(done - ready);
   }
+  if (done - due > furthest_behind) clock.stall(k, done);
   const Time next = k + stages::fusion.period + stages::fusion.budget;
   nav_states_.promise(next - Duration(1));
   image_states_.promise(next - Duration(1));

@@ -36,7 +36,8 @@ class FusionStage {
               runtime::Edge<NavState>& nav_states, runtime::Edge<NavState>& image_states);
 
   // Ticks from `first` (data time) until the inputs are finished or stop is requested. Each tick
-  // takes exactly what is available by then; while some of it is late, the data clock is stalled.
+  // takes exactly what is available by then; while some of it is late, or when the ticks themselves
+  // fall behind by several periods, the data clock is stalled.
   void run(runtime::DataClock& clock, Time first, const std::stop_token& stop);
   void finish();
 

@@ -133,6 +133,14 @@ TEST(FaultOfTiming, ASlowFusionStageMissesItsDeadlines) {
   EXPECT_GE(r.misses("fusion"), 50u);
 }
 
+TEST(FaultOfTiming, AFusionStageTooSlowForTheDataHoldsTheDataClockUp) {
+  // 200 ticks take 4 s instead of two.
+  const Replayed r = replay({"slow@fusion,by=0.02"}, DataClock::paced(1.0), 2.0);
+  expect_healthy(r);
+  EXPECT_GT(r.report.stalls, 0u);
+  EXPECT_GT(r.report.stalled, std::chrono::milliseconds(1500));
+}
+
 TEST(FaultOfTiming, AHogEndsWithTheReplay) {
   const Replayed r = replay({"hog@cpu:0.2:60,threads=3"}, DataClock::paced(4.0), 1.0);
   expect_healthy(r);

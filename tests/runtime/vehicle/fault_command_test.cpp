@@ -1,0 +1,40 @@
+// `maploop replay --fault` as its user types it.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/support/process.h"
+#include "tests/support/real_data.h"
+
+namespace maploop::testing {
+namespace {
+
+TEST(FaultCommand, WhatAFaultStruckAndWhatWasRefusedIsReported) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "result.json").string();
+  const ProcessResult result =
+      run({MAPLOOP_COMMAND, "replay", "--fault", "nan@imu:5:1", "--fault", "lost@camera:100",
+           drive_0013().string(), "--lockstep", "--no-lcm", "--json", file});
+  EXPECT_EQ(result.status, 0) << result.error;
+  const auto r = nlohmann::json::parse(std::ifstream(file));
+  EXPECT_EQ(r["faults"][0]["fault"], "nan@imu:5:1");
+  EXPECT_GT(r["faults"][0]["struck"], 5);
+  EXPECT_EQ(r["refusals"]["fusion"]["a value is not finite"], r["faults"][0]["struck"]);
+  EXPECT_EQ(r["faults"][1]["struck"], 0);
+  EXPECT_NE(result.out.find("outside of the drive"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("a value is not finite"), std::string::npos) << result.out;
+}
+
+TEST(FaultCommand, AWrongFaultIsAnErrorBeforeAnythingRuns) {
+  const ProcessResult result =
+      run({MAPLOOP_COMMAND, "replay", "/nonexistent", "--fault", "lots@camera"});
+  EXPECT_NE(result.status, 0);
+  EXPECT_NE(result.error.find("'lots' is no kind of fault"), std::string::npos) << result.error;
+  EXPECT_EQ(result.error.find("/nonexistent"), std::string::npos) << result.error;
+}
+
+}  // namespace
+}  // namespace maploop::testing
