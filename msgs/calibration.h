@@ -15,6 +15,11 @@ struct StereoCalibration {
   Eigen::Isometry3d T_body_cam = Eigen::Isometry3d::Identity();
 };
 
+template <class Archive>
+void archive(Archive& ar, StereoCalibration& c) {
+  ar(c.width, c.height, c.fx, c.fy, c.cx, c.cy, c.baseline, c.T_body_cam);
+}
+
 struct VehicleCalibration {
   StereoCalibration stereo;
   Eigen::Isometry3d T_body_velo = Eigen::Isometry3d::Identity();

@@ -42,6 +42,11 @@ struct Attitude {
   double roll = 0.0;     // rad, right side down
 };
 
+template <class Archive>
+void archive(Archive& ar, Attitude& a) {
+  ar(a.azimuth, a.pitch, a.roll);
+}
+
 // R_enu_body = Rz(yaw) Ry(-pitch) Rx(roll): yaw, then nose up, then right side down.
 inline Eigen::Matrix3d rotation_enu_body(const Attitude& a) {
   return (Eigen::AngleAxisd(yaw_from_azimuth(a.azimuth), Eigen::Vector3d::UnitZ()) *

@@ -24,6 +24,11 @@ struct GreyImage {
   bool empty() const { return width == 0 || height == 0; }
 };
 
+template <class Archive>
+void archive(Archive& ar, GreyImage& image) {
+  ar(image.width, image.height, image.pixels);
+}
+
 // Rectified pair; `stamp` is the left image's.
 struct StereoPair : Sample {
   Time right_stamp{};

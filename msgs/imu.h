@@ -11,4 +11,9 @@ struct ImuSample : Sample {
   double yaw_rate = 0.0;                // rad/s about body z, positive when turning left
 };
 
+template <class Archive>
+void archive(Archive& ar, ImuSample& s) {
+  ar(static_cast<Sample&>(s), s.specific_force_forward, s.specific_force_left, s.yaw_rate);
+}
+
 }  // namespace maploop

@@ -11,6 +11,11 @@ struct Geodetic {
   double height = 0.0;     // m above the ellipsoid
 };
 
+template <class Archive>
+void archive(Archive& ar, Geodetic& g) {
+  ar(g.latitude, g.longitude, g.height);
+}
+
 class LocalFrame {
  public:
   LocalFrame() = default;

@@ -34,4 +34,11 @@ struct NavState : Sample {
   std::uint64_t odometry_refused = 0;
 };
 
+template <class Archive>
+void archive(Archive& ar, NavState& s) {
+  ar(static_cast<Sample&>(s), s.status, s.origin, s.position_enu, s.velocity_enu, s.attitude,
+     s.forward_speed, s.gyro_bias, s.covariance, s.imu_stamp, s.odometry_stamp, s.gnss_stamp,
+     s.odometry_applied, s.odometry_refused);
+}
+
 }  // namespace maploop

@@ -57,4 +57,10 @@ struct RelativeMotion : Sample {
   Eigen::Isometry3d T_from_to() const { return Eigen::Translation3d(translation) * rotation; }
 };
 
+template <class Archive>
+void archive(Archive& ar, RelativeMotion& m) {
+  ar(static_cast<Sample&>(m), m.status, m.from, m.translation, m.rotation, m.covariance, m.tracked,
+     m.inliers);
+}
+
 }  // namespace maploop

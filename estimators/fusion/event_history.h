@@ -26,8 +26,16 @@ struct EventKey {
   auto operator<=>(const EventKey&) const = default;
 };
 
+template <class Archive>
+void archive(Archive& ar, EventKey& key) {
+  ar(key.stamp, key.kind, key.sequence);
+}
+
 // Asks for a clone at the start of an interval that no odometry known here ends at.
 struct CloneRequest {};
+
+template <class Archive>
+void archive(Archive&, CloneRequest&) {}
 
 struct Event {
   EventKey key;
@@ -61,6 +69,23 @@ class EventHistory {
 
   void pop_front();  // precondition: size() > 0
   void clear();
+
+  template <class Archive>
+  void archive(Archive& ar) {
+    std::uint64_t count = size();
+    ar(count);
+    if constexpr (Archive::loading) {
+      if (count > events_.size()) ar.fail("more events than the history holds");
+      clear();
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      EventKey key;
+      if constexpr (!Archive::loading) key = (*this)[i].key;
+      ar(key);
+      Event& event = (*this)[Archive::loading ? open_slot(key) : i];
+      ar(event.measurement, event.after, event.outcome);
+    }
+  }
 
  private:
   std::size_t open_slot(const EventKey& key);

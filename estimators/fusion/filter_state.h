@@ -56,6 +56,12 @@ struct FilterState {
   }
 };
 
+template <class Archive>
+void archive(Archive& ar, FilterState& s) {
+  ar(s.stamp, s.x, s.P, s.clone_stamp, s.start, s.imu_stamp, s.odometry_stamp, s.odometry_applied,
+     s.odometry_refused, s.gated_in_a_row, s.recoveries);
+}
+
 // Adds a correction, keeping both azimuths in (-pi, pi].
 inline void add_correction(StateVector& x, const StateVector& correction) {
   x += correction;

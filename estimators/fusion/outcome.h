@@ -48,6 +48,11 @@ struct Outcome {
   bool operator==(const Outcome&) const = default;
 };
 
+template <class Archive>
+void archive(Archive& ar, Outcome& o) {
+  ar(o.disposition, o.reason);
+}
+
 constexpr Outcome refused(Reason reason) {
   return {Disposition::refused, reason};
 }

@@ -9,7 +9,9 @@
 #include "estimators/fusion/mechanization.h"
 #include "estimators/fusion/nav_state_output.h"
 #include "estimators/fusion/odometry_update.h"
+#include "estimators/fusion/parameter_fields.h"
 #include "estimators/fusion/roll_update.h"
+#include "msgs/archive.h"
 
 namespace maploop::fusion {
 namespace {
@@ -220,6 +222,33 @@ std::optional<NavState> ReducedImuFilter::state_at(Time t) const {
 std::size_t ReducedImuFilter::next_sample(std::size_t position) const {
   while (position < history_.size() && history_[position].key.kind != EventKind::imu) ++position;
   return position;
+}
+
+template <class Archive, class Filter>
+void ReducedImuFilter::describe(Archive& ar, Filter& f) {
+  ar.section("reduced-IMU filter", 1);
+  archive_same_fields(ar, f.parameters_);
+  Geodetic origin = f.frame_.origin();
+  ar(f.has_origin_, origin, f.guard_, f.history_, f.base_, f.base_key_, f.base_sample_,
+     f.initialized_, f.gnss_stamp_, f.status_);
+  if constexpr (Archive::loading) {
+    f.frame_ = LocalFrame(origin);
+    f.earth_ = LocalEarth(origin);
+  }
+}
+
+std::size_t ReducedImuFilter::largest_archive() const {
+  return (static_cast<std::size_t>(parameters_.history_capacity) + 1) * sizeof(Event) + 4096;
+}
+
+void ReducedImuFilter::archive(ArchiveWriter& ar) const {
+  describe(ar, *this);
+}
+
+void ReducedImuFilter::archive(ArchiveReader& ar) {
+  ReducedImuFilter loaded(parameters_);
+  describe(ar, loaded);
+  *this = std::move(loaded);
 }
 
 InertialSamples ReducedImuFilter::samples_around(std::size_t position) const {

@@ -16,6 +16,11 @@
 #include "msgs/local_frame.h"
 #include "msgs/nav_state.h"
 
+namespace maploop {
+class ArchiveReader;
+class ArchiveWriter;
+}  // namespace maploop
+
 namespace maploop::fusion {
 
 enum class Phase : std::uint8_t {
@@ -40,6 +45,11 @@ struct FilterStatus {
     return refused[static_cast<std::size_t>(reason)];
   }
 };
+
+template <class Archive>
+void archive(Archive& ar, FilterStatus& s) {
+  ar(s.phase, s.recoveries, s.restarts, s.shortened, s.unused, s.applied, s.held, s.refused);
+}
 
 // Not thread-safe; reads no clock, allocates nothing after construction.
 //
@@ -78,7 +88,16 @@ class ReducedImuFilter {
   // Stamp of the newest measurement, or of the start; epoch 0 when there is none.
   Time newest() const { return guard_.newest(); }
 
+  // msgs/archive.h: everything but the parameters, the history included; about 2.4 kB an event.
+  // Loading throws ArchiveError, and changes nothing, where the archive is of other parameters or
+  // of another version, or broken; it allocates.
+  std::size_t largest_archive() const;  // bytes
+  void archive(ArchiveWriter& ar) const;
+  void archive(ArchiveReader& ar);
+
  private:
+  template <class Archive, class Filter>
+  static void describe(Archive& ar, Filter& filter);
   Outcome add_before_start(const ImuSample& sample);
   // Nothing has dropped out of the history since the start.
   bool started_here() const { return initialized_ && base_key_.kind == EventKind::start; }

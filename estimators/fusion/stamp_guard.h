@@ -28,6 +28,11 @@ class StampGuard {
   Time newest() const { return newest_; }  // accepted; epoch 0: none
   Time oldest() const { return newest_ - history_length_; }
 
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(newest_, unconfirmed_, refused_in_a_row_);
+  }
+
  private:
   Duration history_length_;
   Duration confirm_gap_;

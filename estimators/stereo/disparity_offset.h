@@ -25,6 +25,11 @@ class DisparityOffset {
   // three standard deviations.
   void update(double correction, double correction_sigma, int inliers);
 
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(value_, sigma_);
+  }
+
  private:
   double value_ = 0.0;
   double sigma_;

@@ -13,6 +13,11 @@ void ImagePyramid::build(const GreyImage& image, const StereoParameters& paramet
                               cv::BORDER_CONSTANT, false);
 }
 
+void ImagePyramid::copy_image(GreyImage* image) const {
+  image->resize(level(0).cols, level(0).rows);
+  level(0).copyTo(cv::Mat(image->height, image->width, CV_8UC1, image->pixels.data()));
+}
+
 void track_points(const ImagePyramid& from_image, const ImagePyramid& to_image, int coarsest,
                   const StereoParameters& parameters, const std::vector<cv::Point2f>& from,
                   std::vector<cv::Point2f>* to, std::vector<unsigned char>* found) {

@@ -15,6 +15,9 @@ class ImagePyramid {
  public:
   void build(const GreyImage& image, const StereoParameters& parameters);
 
+  // The image it was built from.
+  void copy_image(GreyImage* image) const;
+
   const cv::Mat& level(int i) const { return levels_[2 * static_cast<std::size_t>(i)]; }
   // Scharr derivatives (x, y; 16 bit, 32 times the grey levels per pixel).
   const cv::Mat& gradient(int i) const { return levels_[2 * static_cast<std::size_t>(i) + 1]; }

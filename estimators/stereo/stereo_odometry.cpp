@@ -5,9 +5,11 @@
 
 #include "estimators/stereo/detect.h"
 #include "estimators/stereo/motion_estimator.h"
+#include "estimators/stereo/parameter_fields.h"
 #include "estimators/stereo/plausibility.h"
 #include "estimators/stereo/track.h"
 #include "estimators/stereo/validate.h"
+#include "msgs/archive.h"
 
 namespace maploop::stereo {
 
@@ -41,7 +43,43 @@ class StereoOdometry::Implementation {
 
   double disparity_offset() const { return offset_.value(); }
 
+  // The rest are buffers of one call; the random numbers of a pair come from its stamp alone.
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar.section("stereo odometry", 1);
+    archive_same(ar, "calibration", camera_);
+    archive_same_fields(ar, parameters_);
+    ar(has_reference_, reference_stamp_, features_, next_id_, stale_pairs_, last_motion_,
+       last_velocity_, last_seconds_, offset_);
+    if (!has_reference_) return;
+    archive_image(ar, reference_.left);
+    archive_image(ar, reference_.right);
+  }
+
+  // Two images, and features that keep their distance.
+  std::size_t largest_archive() const {
+    const std::size_t pixels =
+        static_cast<std::size_t>(camera_.width) * static_cast<std::size_t>(camera_.height);
+    const auto apart = static_cast<std::size_t>(parameters_.min_feature_distance) + 1;
+    return 2 * pixels + pixels / (apart * apart) * sizeof(Feature) + 4096;
+  }
+
+  std::unique_ptr<Implementation> fresh() const {
+    return std::make_unique<Implementation>(camera_, parameters_);
+  }
+
  private:
+  // A pyramid is built again from its image, to the same bits.
+  template <class Archive>
+  void archive_image(Archive& ar, ImagePyramid& pyramid) {
+    if constexpr (!Archive::loading) pyramid.copy_image(&archived_);
+    ar(archived_);
+    if constexpr (Archive::loading) {
+      if (!has_size(archived_, camera_)) ar.fail("an image of another size than the calibration's");
+      pyramid.build(archived_, parameters_);
+    }
+  }
+
   bool acceptable(const StereoPair& pair) {
     if (!has_size(pair.left, camera_) || !has_size(pair.right, camera_)) return false;
     if (has_reference_ && pair.stamp <= reference_stamp_) {
@@ -160,6 +198,7 @@ class StereoOdometry::Implementation {
   std::vector<Feature> next_features_;
   std::vector<cv::Point2f> taken_, corners_;
   std::vector<StereoObservation> matched_;
+  GreyImage archived_;
 };
 
 StereoOdometry::StereoOdometry(const StereoCalibration& calibration,
@@ -179,6 +218,20 @@ double StereoOdometry::disparity_offset() const {
 
 RelativeMotion StereoOdometry::process(const StereoPair& pair) {
   return implementation_->process(pair);
+}
+
+std::size_t StereoOdometry::largest_archive() const {
+  return implementation_->largest_archive();
+}
+
+void StereoOdometry::archive(ArchiveWriter& ar) const {
+  implementation_->archive(ar);
+}
+
+void StereoOdometry::archive(ArchiveReader& ar) {
+  auto loaded = implementation_->fresh();
+  loaded->archive(ar);
+  implementation_ = std::move(loaded);
 }
 
 }  // namespace maploop::stereo

@@ -1,12 +1,18 @@
 // Visual odometry from rectified stereo pairs, one motion a pair.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 #include "estimators/stereo/parameters.h"
 #include "msgs/calibration.h"
 #include "msgs/image.h"
 #include "msgs/odometry.h"
+
+namespace maploop {
+class ArchiveReader;
+class ArchiveWriter;
+}  // namespace maploop
 
 namespace maploop::stereo {
 
@@ -40,6 +46,13 @@ class StereoOdometry {
   // What the pairs so far say is missing in every disparity, px (disparity_offset.h); already added
   // to what the motions use.
   double disparity_offset() const;
+
+  // msgs/archive.h: what the pairs so far have left behind, about 1 MB (two images of 0.5 Mpx).
+  // Loading throws ArchiveError, and changes nothing, where the archive is of another calibration,
+  // other parameters or another version, or broken.
+  std::size_t largest_archive() const;  // bytes
+  void archive(ArchiveWriter& ar) const;
+  void archive(ArchiveReader& ar);
 
  private:
   class Implementation;

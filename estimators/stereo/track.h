@@ -16,6 +16,11 @@ struct Feature {
   StereoObservation seen;
 };
 
+template <class Archive>
+void archive(Archive& ar, Feature& f) {
+  ar(f.id, f.seen);
+}
+
 // Follows features by Lucas-Kanade and closes the circle (after Kitt, Geiger, Lategahn, IV 2010):
 // left to left in time, left to right at the current epoch, and right to right in time, which must
 // end where the second one ended. `expected`, T_current_previous in cam, gives the starting points

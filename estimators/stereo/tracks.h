@@ -13,6 +13,11 @@ struct StereoObservation {
   double disparity() const { return u_left - u_right; }
 };
 
+template <class Archive>
+void archive(Archive& ar, StereoObservation& o) {
+  ar(o.u_left, o.v_left, o.u_right, o.v_right);
+}
+
 struct StereoTrack {
   std::int64_t id = 0;
   StereoObservation previous;

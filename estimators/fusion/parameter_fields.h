@@ -1,0 +1,72 @@
+// Every parameter by name: what a configuration file sets, and what an archive must agree with.
+#pragma once
+
+#include <concepts>
+#include <type_traits>
+
+#include "estimators/fusion/fusion_parameters.h"
+
+namespace maploop::fusion {
+
+// Calls f(name, member) for each; Parameters is FusionParameters, const or not.
+template <class Parameters, class F>
+requires std::same_as<std::remove_const_t<Parameters>, FusionParameters>
+void fields(Parameters& p, F&& f) {
+  f("history_length", p.history_length);
+  f("history_capacity", p.history_capacity);
+  f("confirm_gap", p.confirm_gap);
+  f("max_gap", p.max_gap);
+  f("max_stamp_ahead", p.max_stamp_ahead);
+  f("restart_after", p.restart_after);
+  f("max_step", p.max_step);
+  f("imu_hold", p.imu_hold);
+  f("coasting_after", p.coasting_after);
+  f("max_interval", p.max_interval);
+  f("max_origin_distance", p.max_origin_distance);
+  f("min_course_speed", p.min_course_speed);
+  f("max_stamp_offset", p.max_stamp_offset);
+  f("min_position_sigma", p.min_position_sigma);
+  f("min_velocity_sigma", p.min_velocity_sigma);
+  f("start_course_sigma", p.start_course_sigma);
+  f("start_slope_sigma", p.start_slope_sigma);
+  f("start_roll_sigma", p.start_roll_sigma);
+  f("start_acceleration", p.start_acceleration);
+  f("gyro_noise", p.gyro_noise);
+  f("gyro_bias_sigma", p.gyro_bias_sigma);
+  f("gyro_bias_time", p.gyro_bias_time);
+  f("gyro_scale_sigma", p.gyro_scale_sigma);
+  f("turn_time", p.turn_time);
+  f("acceleration_noise", p.acceleration_noise);
+  f("accelerometer_bias_sigma", p.accelerometer_bias_sigma);
+  f("accelerometer_bias_time", p.accelerometer_bias_time);
+  f("yaw_acceleration", p.yaw_acceleration);
+  f("jerk", p.jerk);
+  f("silent_yaw_noise", p.silent_yaw_noise);
+  f("silent_speed_noise", p.silent_speed_noise);
+  f("max_specific_force", p.max_specific_force);
+  f("max_yaw_rate", p.max_yaw_rate);
+  f("pitch_noise", p.pitch_noise);
+  f("roll_noise", p.roll_noise);
+  f("slip_sigma", p.slip_sigma);
+  f("slip_time", p.slip_time);
+  f("climb_offset", p.climb_offset);
+  f("climb_offset_sigma", p.climb_offset_sigma);
+  f("climb_offset_time", p.climb_offset_time);
+  f("climb_noise", p.climb_noise);
+  f("max_tilt", p.max_tilt);
+  f("tilt_sigma", p.tilt_sigma);
+  f("tilt_time", p.tilt_time);
+  f("max_acceleration", p.max_acceleration);
+  f("max_lateral_acceleration", p.max_lateral_acceleration);
+  f("min_speed_sigma", p.min_speed_sigma);
+  f("min_rotation_sigma", p.min_rotation_sigma);
+  f("odometry_scale_sigma", p.odometry_scale_sigma);
+  f("odometry_scale_time", p.odometry_scale_time);
+  f("speed_gate", p.speed_gate);
+  f("rotation_gate", p.rotation_gate);
+  f("recover_after", p.recover_after);
+  f("recovery_speed_sigma", p.recovery_speed_sigma);
+  f("recovery_rotation_sigma", p.recovery_rotation_sigma);
+}
+
+}  // namespace maploop::fusion

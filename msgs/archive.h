@@ -1,0 +1,255 @@
+// Saving values to memory and loading them again: one description for both directions.
+//
+//   struct Track { std::int64_t id; Eigen::Vector3d point; };
+//   template <class Archive> void archive(Archive& ar, Track& t) { ar(t.id, t.point); }
+//
+//   ArchiveWriter writer;  writer(track);            ArchiveReader reader(writer.content());
+//   write(seal(writer.content()));                   reader(track);  reader.finish();
+//
+// A type is described by such a function beside it, or by a member `archive(ar)` where its state is
+// private. Numbers, enumerations, times, std containers and Eigen's fixed-size matrices are
+// described here. `Archive::loading` tells the directions apart where they must differ.
+//
+// What is loaded has the bits of what was saved, on machines of one byte order. Loading takes no
+// more memory than the content's size times that of one element: no length is believed that the
+// content cannot hold. Not thread-safe.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <chrono>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace maploop {
+
+using Bytes = std::vector<std::uint8_t>;
+
+// What is wrong with the content of an archive.
+class ArchiveError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Allocates only where the content outgrows the capacity of the buffer.
+class ArchiveWriter {
+ public:
+  static constexpr bool loading = false;
+
+  // Whatever the buffer holds is replaced.
+  explicit ArchiveWriter(Bytes buffer = {}) : content_(std::move(buffer)) { content_.clear(); }
+
+  template <class... T>
+  void operator()(const T&... values);
+  void bytes(const void* data, std::size_t size) {
+    const auto* begin = static_cast<const std::uint8_t*>(data);
+    content_.insert(content_.end(), begin, begin + size);
+  }
+
+  // What follows, and the version of its description.
+  void section(std::string_view name, std::uint32_t version);
+
+  const Bytes& content() const { return content_; }
+  Bytes take() { return std::exchange(content_, {}); }
+
+ private:
+  Bytes content_;
+};
+
+// Every member throws ArchiveError that says what is wrong, and where.
+class ArchiveReader {
+ public:
+  static constexpr bool loading = true;
+
+  explicit ArchiveReader(std::span<const std::uint8_t> content)
+      : content_(content), left_(content) {}
+
+  template <class... T>
+  void operator()(T&... values);
+  void bytes(void* data, std::size_t size);
+
+  // Refuses another section, and one of another version.
+  void section(std::string_view name, std::uint32_t version);
+
+  // The length of what follows: never more than there are bytes left.
+  std::size_t length();
+  // Refuses content that nobody read.
+  void finish() const;
+  [[noreturn]] void fail(const std::string& what) const;
+
+ private:
+  std::span<const std::uint8_t> content_;
+  std::span<const std::uint8_t> left_;
+  std::string section_;
+};
+
+// Content with a header that says what it is, how long, and its checksum (XXH3).
+Bytes seal(std::span<const std::uint8_t> content);
+// The content again. Throws ArchiveError: no archive, of another version, cut, too long or damaged.
+std::span<const std::uint8_t> unseal(std::span<const std::uint8_t> sealed);
+
+// A number as a message shows it: all its digits, where they are needed.
+std::string shown(double value);
+
+// A value that must be the same on both sides, such as a calibration: loading refuses another.
+template <class T>
+void archive_same(ArchiveWriter& ar, std::string_view, const T& value) {
+  ar(value);
+}
+template <class T>
+void archive_same(ArchiveReader& ar, std::string_view what, const T& value) {
+  ArchiveWriter own;
+  own(value);
+  Bytes saved(own.content().size());
+  ar.bytes(saved.data(), saved.size());
+  if (saved != own.content()) ar.fail("it was saved with another " + std::string(what));
+}
+
+// The same for a number; says both values.
+template <class Archive, class T>
+requires std::is_arithmetic_v<T>
+void archive_same_number(Archive& ar, std::string_view name, const T& own) {
+  T saved = own;
+  ar(saved);
+  if constexpr (Archive::loading) {
+    if (saved != own) {
+      ar.fail("it was saved with " + std::string(name) + " = " + shown(saved) +
+              ", and here it is " + shown(own));
+    }
+  }
+}
+
+// The same for a struct of numbers that fields(value, f) visits by name.
+template <class Archive, class T>
+void archive_same_fields(Archive& ar, const T& value) {
+  fields(value, [&](const char* name, const auto& own) { archive_same_number(ar, name, own); });
+}
+
+// --- Descriptions of what is not ours
+
+template <class Archive, class T>
+requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) void archive(Archive& ar, T& value) {
+  ar.bytes(&value, sizeof value);
+}
+
+template <class Archive>
+void archive(Archive& ar, bool& value) {
+  std::uint8_t byte = value ? 1 : 0;
+  ar.bytes(&byte, 1);
+  value = byte != 0;
+}
+
+template <class Archive, class Rep, class Period>
+void archive(Archive& ar, std::chrono::duration<Rep, Period>& value) {
+  Rep count = value.count();
+  ar(count);
+  value = std::chrono::duration<Rep, Period>(count);
+}
+
+template <class Archive, class Clock, class Duration>
+void archive(Archive& ar, std::chrono::time_point<Clock, Duration>& value) {
+  Duration since = value.time_since_epoch();
+  ar(since);
+  value = std::chrono::time_point<Clock, Duration>(since);
+}
+
+template <class Archive, class Scalar, int rows, int columns>
+requires(rows > 0 && columns > 0) void archive(Archive& ar,
+                                               Eigen::Matrix<Scalar, rows, columns>& value) {
+  ar.bytes(value.data(), sizeof(Scalar) * rows * columns);
+}
+
+template <class Archive>
+void archive(Archive& ar, Eigen::Quaterniond& value) {
+  ar(value.coeffs());
+}
+
+template <class Archive>
+void archive(Archive& ar, Eigen::Isometry3d& value) {
+  ar(value.matrix());
+}
+
+template <class Archive, class T, std::size_t n>
+void archive(Archive& ar, std::array<T, n>& values) {
+  for (T& value : values) ar(value);
+}
+
+template <class Archive, class Sequence>
+requires(std::same_as<Sequence, std::string> ||
+         std::same_as<Sequence,
+                      std::vector<typename Sequence::value_type>>) void archive(Archive& ar,
+                                                                                Sequence& values) {
+  if constexpr (Archive::loading) {
+    values.resize(ar.length());
+  } else {
+    ar(std::uint64_t{values.size()});
+  }
+  if constexpr (std::is_arithmetic_v<typename Sequence::value_type>) {
+    ar.bytes(values.data(), values.size() * sizeof(typename Sequence::value_type));
+  } else {
+    for (auto& value : values) ar(value);
+  }
+}
+
+template <class Archive, class T>
+void archive(Archive& ar, std::optional<T>& value) {
+  bool there = value.has_value();
+  ar(there);
+  if constexpr (Archive::loading) {
+    if (there) {
+      value.emplace();
+    } else {
+      value.reset();
+    }
+  }
+  if (there) ar(*value);
+}
+
+template <class Archive, class... T>
+void archive(Archive& ar, std::variant<T...>& value) {
+  auto index = static_cast<std::uint32_t>(value.index());
+  ar(index);
+  if constexpr (Archive::loading) {
+    std::uint32_t i = 0;
+    if (!((index == i++ ? (value.template emplace<T>(), true) : false) || ...)) {
+      ar.fail("a value of unknown kind");
+    }
+  }
+  std::visit([&](auto& held) { ar(held); }, value);
+}
+
+namespace archive_detail {
+
+template <class Archive, class T>
+void describe(Archive& ar, T& value) {
+  if constexpr (requires { value.archive(ar); }) {
+    value.archive(ar);
+  } else {
+    archive(ar, value);
+  }
+}
+
+}  // namespace archive_detail
+
+template <class... T>
+void ArchiveWriter::operator()(const T&... values) {
+  // A description serves both directions; writing changes nothing.
+  (archive_detail::describe(*this, const_cast<T&>(values)), ...);
+}
+
+template <class... T>
+void ArchiveReader::operator()(T&... values) {
+  (archive_detail::describe(*this, values), ...);
+}
+
+}  // namespace maploop

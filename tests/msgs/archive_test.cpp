@@ -1,0 +1,148 @@
+#include "msgs/archive.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "msgs/image.h"
+#include "msgs/nav_state.h"
+#include "msgs/odometry.h"
+
+namespace maploop {
+namespace {
+
+template <class T>
+T through_archive(const T& value) {
+  ArchiveWriter writer;
+  writer(value);
+  const Bytes sealed = seal(writer.content());
+  ArchiveReader reader(unseal(sealed));
+  T loaded{};
+  reader(loaded);
+  reader.finish();
+  return loaded;
+}
+
+std::string refusal(const std::function<void()>& load) {
+  try {
+    load();
+  } catch (const ArchiveError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(Archive, KeepsValuesOfEveryKind) {
+  EXPECT_EQ(through_archive(std::string("left\0right", 10)), std::string("left\0right", 10));
+  EXPECT_EQ(through_archive(std::vector<double>{}), std::vector<double>{});
+  EXPECT_EQ(through_archive(std::vector<std::vector<int>>{{1, 2}, {}, {3}}),
+            (std::vector<std::vector<int>>{{1, 2}, {}, {3}}));
+  EXPECT_EQ(through_archive(std::optional<int>{}), std::nullopt);
+  EXPECT_EQ(through_archive(std::optional<int>{7}), 7);
+  EXPECT_EQ((through_archive(std::variant<int, std::string, bool>{"two"})),
+            (std::variant<int, std::string, bool>{"two"}));
+  EXPECT_EQ(through_archive(std::array<std::uint64_t, 3>{1, 2, 3}),
+            (std::array<std::uint64_t, 3>{1, 2, 3}));
+  EXPECT_EQ(through_archive(from_nanoseconds(1'317'042'651'174'740'992)),
+            from_nanoseconds(1'317'042'651'174'740'992));
+  EXPECT_EQ(through_archive(OdometryStatus::implausible), OdometryStatus::implausible);
+  EXPECT_EQ(through_archive(true), true);
+}
+
+TEST(Archive, KeepsTheBitsOfNumbersThatDifferByNoComparison) {
+  EXPECT_TRUE(std::signbit(through_archive(-0.0)));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(through_archive(nan)));
+}
+
+TEST(Archive, KeepsSamplesButNotWhenThisMachineHadThem) {
+  RelativeMotion motion;
+  motion.stamp = from_nanoseconds(5);
+  motion.available = from_nanoseconds(6);
+  motion.received = MonotonicTime(Duration(7));
+  motion.sequence = 8;
+  motion.status = OdometryStatus::ok;
+  motion.from = from_nanoseconds(4);
+  motion.translation = {1.0, 2.0, 3.0};
+  motion.rotation = Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ());
+  motion.covariance.setRandom();
+  motion.tracked = 9;
+  motion.inliers = 10;
+  const RelativeMotion loaded = through_archive(motion);
+  EXPECT_EQ(loaded.stamp, motion.stamp);
+  EXPECT_EQ(loaded.available, motion.available);
+  EXPECT_EQ(loaded.received, MonotonicTime{});
+  EXPECT_EQ(loaded.sequence, motion.sequence);
+  EXPECT_EQ(loaded.status, motion.status);
+  EXPECT_EQ(loaded.from, motion.from);
+  EXPECT_EQ(loaded.translation, motion.translation);
+  EXPECT_EQ(loaded.rotation.coeffs(), motion.rotation.coeffs());
+  EXPECT_EQ(loaded.covariance, motion.covariance);
+  EXPECT_EQ(loaded.tracked, motion.tracked);
+  EXPECT_EQ(loaded.inliers, motion.inliers);
+}
+
+TEST(Archive, RefusesWhatIsNoArchive) {
+  const Bytes text{'h', 'e', 'l', 'l', 'o', ' ', 'w', 'o', 'r', 'l', 'd'};
+  EXPECT_EQ(refusal([&] { unseal(text); }), "it is no archive of maploop");
+  EXPECT_EQ(refusal([&] { unseal({}); }), "it is no archive of maploop");
+}
+
+TEST(Archive, RefusesACutOneADamagedOneAndOneOfAnotherFormat) {
+  ArchiveWriter writer;
+  writer(std::vector<int>(100, 1));
+  const Bytes sealed = seal(writer.content());
+  Bytes bad(sealed.begin(), sealed.end() - 1);
+  EXPECT_NE(refusal([&] { unseal(bad); }).find("cut"), std::string::npos);
+  bad = sealed;
+  bad.back() ^= 1;
+  EXPECT_NE(refusal([&] { unseal(bad); }).find("damaged"), std::string::npos);
+  bad = sealed;
+  bad[8] = 99;
+  EXPECT_NE(refusal([&] { unseal(bad); }).find("format is version 99"), std::string::npos);
+}
+
+TEST(Archive, BelievesNoLengthThatItCannotHold) {
+  ArchiveWriter writer;
+  writer(std::uint64_t{1} << 60);
+  std::vector<double> values;
+  ArchiveReader reader(writer.content());
+  EXPECT_NE(refusal([&] { reader(values); }).find("cannot hold"), std::string::npos);
+}
+
+TEST(Archive, RefusesAValueOfUnknownKind) {
+  ArchiveWriter writer;
+  writer(std::uint32_t{2});
+  std::variant<int, double> value;
+  ArchiveReader reader(writer.content());
+  EXPECT_NE(refusal([&] { reader(value); }).find("unknown kind"), std::string::npos);
+}
+
+TEST(Archive, NamesTheSectionThatIsWrong) {
+  ArchiveWriter writer;
+  writer.section("filter", 2);
+  ArchiveReader other_name(writer.content());
+  EXPECT_NE(refusal([&] {
+              other_name.section("odometry", 2);
+            }).find("'odometry' expected, but 'filter' is there"),
+            std::string::npos);
+  ArchiveReader other_version(writer.content());
+  EXPECT_NE(refusal([&] {
+              other_version.section("filter", 3);
+            }).find("version is 2, this program reads version 3"),
+            std::string::npos);
+}
+
+TEST(Archive, WritingIntoABufferKeepsItsMemory) {
+  Bytes buffer;
+  buffer.reserve(1000);
+  const std::uint8_t* memory = buffer.data();
+  ArchiveWriter writer(std::move(buffer));
+  writer(std::vector<int>(100, 1));
+  EXPECT_EQ(writer.content().data(), memory);
+}
+
+}  // namespace
+}  // namespace maploop
