@@ -3,7 +3,6 @@
 #include <xxhash.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include <cstring>
 
@@ -21,11 +20,6 @@ struct Header {
 };
 
 }  // namespace
-
-std::string shown(double value) {
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-}
 
 void ArchiveWriter::section(std::string_view name, std::uint32_t version) {
   (*this)(std::string(name), version);

@@ -17,6 +17,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <charconv>
 #include <chrono>
 #include <concepts>
 #include <cstddef>
@@ -99,7 +100,11 @@ Bytes seal(std::span<const std::uint8_t> content);
 std::span<const std::uint8_t> unseal(std::span<const std::uint8_t> sealed);
 
 // A number as a message shows it: all its digits, where they are needed.
-std::string shown(double value);
+template <class T>
+requires std::is_arithmetic_v<T> std::string shown(T value) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
 
 // A value that must be the same on both sides, such as a calibration: loading refuses another.
 template <class T>

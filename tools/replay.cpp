@@ -1,5 +1,6 @@
 // maploop replay: a recorded drive through the whole graph.
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -7,8 +8,10 @@
 #include <vector>
 
 #include "runtime/core/data_clock.h"
+#include "runtime/core/periodic.h"
 #include "runtime/vehicle/channel_hashes.h"
 #include "runtime/vehicle/fault_injection.h"
+#include "runtime/vehicle/graph.h"
 #include "runtime/vehicle/lcm_bus.h"
 #include "runtime/vehicle/limited_source.h"
 #include "runtime/vehicle/log_recorder.h"
@@ -39,6 +42,8 @@ struct ReplayOptions {
   std::filesystem::path poses;
   std::optional<std::int64_t> seed;
   std::vector<std::string> faults;
+  std::string snapshot;  // SECONDS:FILE
+  std::filesystem::path resume;
   PlaybackOptions playback;
   double end = 0.0;  // s; 0: the whole drive
 };
@@ -47,6 +52,33 @@ struct ReplayOptions {
 std::string valid_fault(const std::string& text) {
   try {
     vehicle::parse_fault(text);
+    return {};
+  } catch (const std::invalid_argument& e) {
+    return e.what();
+  }
+}
+
+struct SnapshotRequest {
+  double seconds = 0.0;  // into the drive
+  std::filesystem::path file;
+};
+
+SnapshotRequest parse_snapshot(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  SnapshotRequest request{-1.0, colon == std::string::npos ? "" : text.substr(colon + 1)};
+  const char* end = text.data() + std::min(colon, text.size());
+  const auto [stopped, error] = std::from_chars(text.data(), end, request.seconds);
+  if (error != std::errc{} || stopped != end || !(request.seconds > 0.0 && request.seconds < 1e6) ||
+      request.file.empty()) {
+    throw std::invalid_argument("'" + text +
+                                "' is not SECONDS:FILE, seconds above 0, such as 8:drive.snapshot");
+  }
+  return request;
+}
+
+std::string valid_snapshot(const std::string& text) {
+  try {
+    parse_snapshot(text);
     return {};
   } catch (const std::invalid_argument& e) {
     return e.what();
@@ -64,6 +96,16 @@ bool any_thread_failed(const ReplayResult& result) {
   const auto& threads = result.vehicle.health.threads;
   return std::any_of(threads.begin(), threads.end(),
                      [](const ThreadHealth& t) { return !t.failure.empty(); });
+}
+
+void resume(vehicle::Vehicle& vehicle, const std::filesystem::path& file,
+            const vehicle::VehicleConfig& config) {
+  const vehicle::Snapshot snapshot = vehicle::read_snapshot(file, config);
+  try {
+    vehicle.resume(snapshot);
+  } catch (const ArchiveError& e) {
+    throw std::runtime_error("cannot resume from '" + file.string() + "': " + e.what());
+  }
 }
 
 int replay(const ReplayOptions& options) {
@@ -101,6 +143,16 @@ int replay(const ReplayOptions& options) {
     sinks.push_back(recorder.get());
   }
 
+  std::optional<SnapshotRequest> request;
+  Time cut{};
+  if (!options.snapshot.empty()) {
+    request = parse_snapshot(options.snapshot);
+    cut = runtime::first_tick(drive.first_stamp() + from_seconds(request->seconds),
+                              vehicle::stages::fusion.period);
+  }
+  vehicle::ChannelHashes hashes_after(cut);
+  if (request) sinks.push_back(&hashes_after);
+
   TrajectoryCollector collector(drive.calibration().stereo.T_body_cam);
   vehicle::Observer observer;
   observer.odometry = [&](const RelativeMotion& motion) { collector.add(motion); };
@@ -111,6 +163,14 @@ int replay(const ReplayOptions& options) {
   vehicle::Vehicle vehicle(config, drive.calibration().stereo, std::move(sources), clock, sinks,
                            observer);
   vehicle.slow_down(faults.delays());
+  if (!options.resume.empty()) resume(vehicle, options.resume, config);
+  bool snapshot_taken = false;
+  if (request) {
+    vehicle.take_snapshots({cut}, [&](const vehicle::Snapshot& snapshot) {
+      vehicle::write_snapshot(request->file, snapshot, config);
+      snapshot_taken = true;
+    });
+  }
   PlaybackEnd end = PlaybackEnd::finished;
   {
     const auto hogs = faults.hogs([&] { return vehicle.position(); });
@@ -125,6 +185,10 @@ int replay(const ReplayOptions& options) {
   result.images = drive.frame_count();
   result.vehicle = vehicle.report();
   result.channels = hashes.summary();
+  if (snapshot_taken) {
+    result.snapshot = {request->file.string(), to_seconds(cut - vehicle.first()),
+                       hashes_after.summary()};
+  }
   result.faults = faults.counts();
   if (bus) result.send_failures += bus->failures();
   if (recorder) result.send_failures += recorder->failures();
@@ -138,6 +202,11 @@ int replay(const ReplayOptions& options) {
   std::cout << format_table(result);
   if (!options.json.empty()) write_json(options.json, result);
   if (!options.poses.empty()) evaluation::write_kitti_poses(options.poses, collector.fused());
+  if (request && !snapshot_taken) {
+    std::cerr << "maploop: no snapshot was written: the replay did not come to " << request->seconds
+              << " s\n";
+    return result.interrupted ? exit_interrupted : exit_failed;
+  }
   if (result.interrupted) return exit_interrupted;
   return any_thread_failed(result) ? exit_failed : 0;
 }
@@ -170,6 +239,12 @@ void add_replay(CLI::App& app, Command& command) {
   sub->add_option("--record", options->record, "Write every message to this LCM log");
   sub->add_flag("--no-lcm", options->no_lcm, "Publish nothing on LCM");
   sub->add_option("--config", options->config, "TOML file of parameters")->check(CLI::ExistingFile);
+  sub->add_option("--snapshot", options->snapshot,
+                  "SECONDS:FILE: save everything at this moment of the drive, and go on")
+      ->check(valid_snapshot, "SECONDS:FILE");
+  sub->add_option("--resume", options->resume,
+                  "Go on from a snapshot of the same drive, with the same bits")
+      ->check(CLI::ExistingFile);
   sub->add_option("--json", options->json, "Write the closing table to this file as JSON");
   sub->add_option("--poses", options->poses,
                   "Write the fused left-camera poses to this file in KITTI's format");

@@ -103,6 +103,16 @@ void append_refusals(std::string& text, const std::vector<vehicle::RefusalCount>
   }
 }
 
+using Channels = std::map<std::string, vehicle::ChannelSummary>;
+
+void append_channels(std::string& text, const Channels& channels) {
+  for (const auto& [name, channel] : channels) {
+    append(text, "  %-11s %9llu  %s\n", name.c_str(),
+           static_cast<unsigned long long>(channel.count),
+           channel.hash.empty() ? "(of this run)" : channel.hash.c_str());
+  }
+}
+
 json number(double value) {
   return std::isfinite(value) ? json(value) : json(nullptr);
 }
@@ -131,6 +141,14 @@ json to_json(const LatencySummary& s) {
 json to_json(const std::vector<LatencySummary>& summaries) {
   json all = json::object();
   for (const LatencySummary& s : summaries) all[s.name] = to_json(s);
+  return all;
+}
+
+json to_json(const Channels& channels) {
+  json all = json::object();
+  for (const auto& [name, channel] : channels) {
+    all[name] = {{"hash", channel.hash}, {"count", channel.count}};
+  }
   return all;
 }
 
@@ -205,9 +223,11 @@ std::string format_table(const ReplayResult& r) {
   }
 
   t += "\nChannels      messages  hash\n";
-  for (const auto& [name, channel] : r.channels) {
-    append(t, "  %-11s %9llu  %s\n", name.c_str(), static_cast<unsigned long long>(channel.count),
-           channel.hash.empty() ? "(of this run)" : channel.hash.c_str());
+  append_channels(t, r.channels);
+  if (r.snapshot) {
+    append(t, "\nAfter the snapshot at %.3f s (%s), and of a run that resumes from it\n",
+           r.snapshot->at, r.snapshot->file.c_str());
+    append_channels(t, r.snapshot->channels);
   }
   if (r.send_failures > 0) {
     append(t, "  %llu messages could not be sent or written\n",
@@ -262,9 +282,11 @@ void write_json(const std::filesystem::path& file, const ReplayResult& r) {
   for (const vehicle::RefusalCount& refusal : v.refusals) {
     j["refusals"][refusal.stage][refusal.reason] = refusal.count;
   }
-  j["channels"] = json::object();
-  for (const auto& [name, channel] : r.channels) {
-    j["channels"][name] = {{"hash", channel.hash}, {"count", channel.count}};
+  j["channels"] = to_json(r.channels);
+  if (r.snapshot) {
+    j["snapshot"] = {{"file", r.snapshot->file},
+                     {"at_s", r.snapshot->at},
+                     {"channels", to_json(r.snapshot->channels)}};
   }
   j["degraded"] = v.health.degraded;
 

@@ -20,6 +20,14 @@ struct Accuracy {
   evaluation::Score common_rotation_removed;
 };
 
+// A snapshot that was taken on the way, and the channels from there on: what a run that resumes
+// from it must have.
+struct SnapshotResult {
+  std::string file;
+  double at = 0.0;  // s since the first sample
+  std::map<std::string, vehicle::ChannelSummary> channels;
+};
+
 struct ReplayResult {
   std::string drive;
   bool lockstep = false;
@@ -29,6 +37,7 @@ struct ReplayResult {
   std::optional<Accuracy> vo;  // nothing where there is too little to score
   std::optional<Accuracy> fused;
   std::map<std::string, vehicle::ChannelSummary> channels;
+  std::optional<SnapshotResult> snapshot;
   std::vector<vehicle::FaultCount> faults;
   std::uint64_t send_failures = 0;  // messages that LCM or the log did not take
   vehicle::VehicleReport vehicle;

@@ -21,10 +21,11 @@ struct ChannelHashes::Channel {
   bool hashed = false;
 };
 
-ChannelHashes::ChannelHashes() = default;
+ChannelHashes::ChannelHashes(Time after) : after_(after) {}
 ChannelHashes::~ChannelHashes() = default;
 
 void ChannelHashes::send(const Message& message) {
+  if (message.time <= after_) return;
   auto found = channels_.find(message.channel);
   if (found == channels_.end()) {
     found = channels_.emplace(message.channel, std::make_unique<Channel>()).first;

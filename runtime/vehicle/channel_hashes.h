@@ -17,7 +17,8 @@ struct ChannelSummary {
 
 class ChannelHashes final : public MessageSink {
  public:
-  ChannelHashes();
+  // Of the messages later than `after` (data time) only.
+  explicit ChannelHashes(Time after = Time::min());
   ~ChannelHashes() override;
 
   void send(const Message& message) override;
@@ -25,6 +26,7 @@ class ChannelHashes final : public MessageSink {
 
  private:
   struct Channel;
+  Time after_;
   std::map<std::string, std::unique_ptr<Channel>, std::less<>> channels_;
 };
 

@@ -12,6 +12,9 @@ namespace {
 // them.
 constexpr Duration furthest_behind = 5 * stages::fusion.period;
 
+// Memory taken beforehand; more, such as after a delay of the camera, is no error.
+constexpr std::size_t most_images_a_tick = 8;
+
 }  // namespace
 
 FusionEdges::FusionEdges()
@@ -29,6 +32,8 @@ FusionStage::FusionStage(fusion::ReducedImuFilter filter, FusionEdges& inputs,
       meter_(stages::fusion.name, stages::fusion.deadline),
       camera_path_(paths::camera.name, paths::camera.deadline),
       imu_path_(paths::imu.name, paths::imu.deadline) {
+  sent_states_.reserve(1);
+  sent_image_states_.reserve(most_images_a_tick);
   intake_.add(inputs_.imu, [this](const ImuSample& sample) {
     filter_.add(sample);
     imu_taken_ = sample;
@@ -39,6 +44,9 @@ FusionStage::FusionStage(fusion::ReducedImuFilter filter, FusionEdges& inputs,
 
 void FusionStage::run(runtime::DataClock& clock, Time first, const std::stop_token& stop) {
   stop_ = stop;
+  // Of the run that this one resumes.
+  for (const NavState& state : sent_states_) nav_states_.push(state, stop);
+  for (const NavState& state : sent_image_states_) image_states_.push(state, stop);
   position_.store(to_nanoseconds(first), std::memory_order_relaxed);
   runtime::run_periodic(clock, first, stages::fusion.period, stop,
                         [&](Time k) { return tick(k, clock, stop); });
@@ -58,6 +66,8 @@ bool FusionStage::tick(Time k, runtime::DataClock& clock, const std::stop_token&
   tick_ = k;
   imu_taken_.reset();
   odometry_taken_.reset();
+  sent_states_.clear();
+  sent_image_states_.clear();
   position_.store(to_nanoseconds(k), std::memory_order_relaxed);
   delay_(k);
   intake_.take_until(k);
@@ -67,6 +77,7 @@ bool FusionStage::tick(Time k, runtime::DataClock& clock, const std::stop_token&
   state.sequence = ticks_++;
   const MonotonicTime computed = runtime::monotonic_now();
   nav_states_.push(state, stop);
+  sent_states_.push_back(state);
 
   const MonotonicTime done = runtime::monotonic_now();
   if (done - computed > runtime::DataClock::tolerance) clock.stall(k, done);
@@ -84,6 +95,7 @@ bool FusionStage::tick(Time k, runtime::DataClock& clock, const std::stop_token&
   const Time next = k + stages::fusion.period + stages::fusion.budget;
   nav_states_.promise(next - Duration(1));
   image_states_.promise(next - Duration(1));
+  save_until(k + stages::fusion.period - Duration(1), stop);
   return true;
 }
 
@@ -95,6 +107,23 @@ void FusionStage::take(const RelativeMotion& motion) {
   state->available = tick_ + stages::fusion.budget;
   state->sequence = images_++;
   image_states_.push(*state, stop_);
+  sent_image_states_.push_back(*state);
+}
+
+// After the tick, in the time that is left until the next one.
+void FusionStage::save_until(Time t, const std::stop_token& stop) {
+  cuts_.save_until(t, stop, [this](ArchiveWriter& ar, Time cut) {
+    ar.section(stages::fusion.name, 1);
+    ar(filter_, ticks_, images_, available_after(sent_states_, cut),
+       available_after(sent_image_states_, cut));
+  });
+}
+
+void FusionStage::resume(std::span<const std::uint8_t> saved) {
+  ArchiveReader ar(saved);
+  ar.section(stages::fusion.name, 1);
+  ar(filter_, ticks_, images_, sent_states_, sent_image_states_);
+  ar.finish();
 }
 
 void FusionStage::record_paths(const runtime::DataClock& clock, MonotonicTime due,
@@ -123,6 +152,7 @@ void FusionStage::record_paths(const runtime::DataClock& clock, MonotonicTime du
 void FusionStage::finish() {
   nav_states_.finish();
   image_states_.finish();
+  cuts_.finish();
 }
 
 }  // namespace maploop::vehicle

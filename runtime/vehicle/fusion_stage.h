@@ -3,8 +3,10 @@
 
 #include <atomic>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <utility>
+#include <vector>
 
 #include "estimators/fusion/reduced_imu_filter.h"
 #include "msgs/gnss.h"
@@ -17,6 +19,7 @@
 #include "runtime/core/intake.h"
 #include "runtime/vehicle/fault_delay.h"
 #include "runtime/vehicle/meter.h"
+#include "runtime/vehicle/stage_cuts.h"
 
 namespace maploop::vehicle {
 
@@ -35,13 +38,23 @@ class FusionStage {
   FusionStage(fusion::ReducedImuFilter filter, FusionEdges& inputs,
               runtime::Edge<NavState>& nav_states, runtime::Edge<NavState>& image_states);
 
-  // Ticks from `first` (data time) until the inputs are finished or stop is requested. Each tick
-  // takes exactly what is available by then; while some of it is late, or when the ticks themselves
-  // fall behind by several periods, the data clock is stalled.
+  // Ticks from the first one at or after `first` (data time) until the inputs are finished or stop
+  // is requested. Each tick takes exactly what is available by then; while some of it is late, or
+  // when the ticks themselves fall behind by several periods, the data clock is stalled.
   void run(runtime::DataClock& clock, Time first, const std::stop_token& stop);
   void finish();
 
-  void slow_down(StageDelay delay) { delay_ = std::move(delay); }  // before run()
+  // Before run().
+  void slow_down(StageDelay delay) { delay_ = std::move(delay); }
+  void save_at(std::vector<Time> moments, runtime::Edge<StageSnapshot>& edge) {
+    cuts_.set(std::move(moments), edge);
+  }
+  // Memory that what it saves usually takes at most.
+  std::size_t saved_bytes() const {
+    return filter_.largest_archive() + sent_image_states_.capacity() * sizeof(NavState) + 4096;
+  }
+  // Goes on from what was saved; throws ArchiveError, as ReducedImuFilter.
+  void resume(std::span<const std::uint8_t> saved);
 
   // Data time of the last tick; any thread may ask.
   Time position() const { return from_nanoseconds(position_.load(std::memory_order_relaxed)); }
@@ -54,6 +67,7 @@ class FusionStage {
  private:
   bool tick(Time k, runtime::DataClock& clock, const std::stop_token& stop);
   void take(const RelativeMotion& motion);
+  void save_until(Time t, const std::stop_token& stop);
   void record_paths(const runtime::DataClock& clock, MonotonicTime due, MonotonicTime done);
 
   fusion::ReducedImuFilter filter_;
@@ -66,6 +80,10 @@ class FusionStage {
   std::atomic<std::int64_t> position_{0};
   std::uint64_t ticks_ = 0;
   std::uint64_t images_ = 0;
+  // What the last tick sent.
+  std::vector<NavState> sent_states_;
+  std::vector<NavState> sent_image_states_;
+  StageCuts cuts_;
   std::optional<Sample> imu_taken_;       // by this tick, the last one
   std::optional<Sample> odometry_taken_;  // with a motion
   Meter meter_;

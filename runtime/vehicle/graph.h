@@ -41,8 +41,11 @@ inline constexpr Stage publisher{"publisher", "LCM, log", "looks by itself", {},
 inline constexpr Stage health{
     "health", "watchdog, histograms", "its period", std::chrono::seconds(1), {}, {}, 0.0, 0.0};
 
-inline constexpr std::array all{camera, velodyne, imu,       gnss,  reference,
-                                stereo, fusion,   publisher, health};
+inline constexpr Stage snapshot{
+    "snapshot", "joins what stages save", "their parts", {}, {}, {}, 0.0, 0.0};
+
+inline constexpr std::array all{camera, velodyne, imu,       gnss,   reference,
+                                stereo, fusion,   publisher, health, snapshot};
 }  // namespace stages
 
 // One ring: single producer, single consumer. A replay keeps all: a full ring holds its producer
@@ -66,11 +69,14 @@ inline constexpr EdgeSpec stereo_publisher{"stereo -> publisher", "RelativeMotio
 inline constexpr EdgeSpec fusion_publisher{"fusion -> publisher", "NavState", 1024};
 inline constexpr EdgeSpec image_states{"fusion at images -> publisher", "NavState", 256};
 inline constexpr EdgeSpec health_publisher{"health -> publisher", "RuntimeReport", 8};
+// Only there where snapshots are taken.
+inline constexpr EdgeSpec stereo_snapshot{"stereo -> snapshot", "StageSnapshot", 2};
+inline constexpr EdgeSpec fusion_snapshot{"fusion -> snapshot", "StageSnapshot", 2};
 
-inline constexpr std::array all{camera_stereo,       imu_fusion,       gnss_fusion,
-                                stereo_fusion,       imu_publisher,    gnss_publisher,
-                                reference_publisher, stereo_publisher, fusion_publisher,
-                                image_states,        health_publisher};
+inline constexpr std::array all{
+    camera_stereo,    imu_fusion,          gnss_fusion,      stereo_fusion,    imu_publisher,
+    gnss_publisher,   reference_publisher, stereo_publisher, fusion_publisher, image_states,
+    health_publisher, stereo_snapshot,     fusion_snapshot};
 }  // namespace edges
 
 template <class T>

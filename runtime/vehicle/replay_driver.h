@@ -31,6 +31,11 @@ class ReplayDriver {
     return more_ ? std::optional(sample_.available) : std::nullopt;
   }
 
+  // Leaves out what becomes available up to t; between load_first() and run().
+  void skip_until(Time t) {
+    while (more_ && sample_.available <= t) more_ = source_->next(sample_);
+  }
+
   void run(runtime::DataClock& clock, const std::stop_token& stop) {
     Time last = Time::min();
     for (; more_; more_ = source_->next(sample_)) {

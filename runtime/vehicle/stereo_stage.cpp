@@ -18,11 +18,13 @@ StereoStage::StereoStage(stereo::StereoOdometry odometry, runtime::Edge<StereoPa
       meter_(stages::stereo.name, stages::stereo.deadline) {}
 
 void StereoStage::run(const runtime::DataClock& clock, const std::stop_token& stop) {
+  for (RelativeMotion& motion : sent_) send(motion, stop);  // of the run that this one resumes
   MonotonicTime idle_since{};
   while (!stop.stop_requested()) {
     const std::uint32_t heard = bell_.listen();
     const Time promised = images_.promised();  // before the ring: see EdgeBase::promised()
     if (const StereoPair* pair = images_.front()) {
+      save_until(pair->available - Duration(1), stop);
       const MonotonicTime started = runtime::monotonic_now();
       process(*pair, stop);
       const MonotonicTime ended = runtime::monotonic_now();
@@ -38,12 +40,12 @@ void StereoStage::run(const runtime::DataClock& clock, const std::stop_token& st
       }
       idle_since = ended;
       images_.pop();
-    } else if (promised == Time::max()) {
-      return;
-    } else {
-      promise(promised + stages::stereo.budget);
-      bell_.wait(heard);
+      continue;
     }
+    save_until(promised, stop);
+    if (promised == Time::max()) return;
+    promise(promised + stages::stereo.budget);
+    bell_.wait(heard);
   }
 }
 
@@ -52,10 +54,30 @@ void StereoStage::process(const StereoPair& pair, const std::stop_token& stop) {
   RelativeMotion motion = odometry_.process(pair);
   ++counts_[static_cast<std::size_t>(motion.status)];
   motion.available = pair.available + stages::stereo.budget;
+  std::erase_if(sent_, [&](const RelativeMotion& m) { return m.available <= pair.available; });
+  sent_.push_back(motion);
+  send(motion, stop);
+}
+
+void StereoStage::send(RelativeMotion& motion, const std::stop_token& stop) {
   motion.received = runtime::monotonic_now();
   to_fusion_.push(motion, stop);
   to_publisher_.push(motion, stop);
   promise(motion.available);
+}
+
+void StereoStage::save_until(Time t, const std::stop_token& stop) {
+  cuts_.save_until(t, stop, [this](ArchiveWriter& ar, Time cut) {
+    ar.section(stages::stereo.name, 1);
+    ar(odometry_, counts_, available_after(sent_, cut));
+  });
+}
+
+void StereoStage::resume(std::span<const std::uint8_t> saved) {
+  ArchiveReader ar(saved);
+  ar.section(stages::stereo.name, 1);
+  ar(odometry_, counts_, sent_);
+  ar.finish();
 }
 
 void StereoStage::promise(Time t) {
@@ -65,6 +87,7 @@ void StereoStage::promise(Time t) {
 
 void StereoStage::finish() {
   promise(Time::max());
+  cuts_.finish();
 }
 
 }  // namespace maploop::vehicle

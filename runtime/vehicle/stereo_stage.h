@@ -4,8 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <stop_token>
 #include <utility>
+#include <vector>
 
 #include "estimators/stereo/stereo_odometry.h"
 #include "msgs/image.h"
@@ -15,6 +17,7 @@
 #include "runtime/core/edge.h"
 #include "runtime/vehicle/fault_delay.h"
 #include "runtime/vehicle/meter.h"
+#include "runtime/vehicle/stage_cuts.h"
 
 namespace maploop::vehicle {
 
@@ -28,7 +31,15 @@ class StereoStage {
   void run(const runtime::DataClock& clock, const std::stop_token& stop);
   void finish();
 
-  void slow_down(StageDelay delay) { delay_ = std::move(delay); }  // before run()
+  // Before run().
+  void slow_down(StageDelay delay) { delay_ = std::move(delay); }
+  void save_at(std::vector<Time> moments, runtime::Edge<StageSnapshot>& edge) {
+    cuts_.set(std::move(moments), edge);
+  }
+  // Memory that what it saves takes at most.
+  std::size_t saved_bytes() const { return odometry_.largest_archive() + 4096; }
+  // Goes on from what was saved; throws ArchiveError, as StereoOdometry.
+  void resume(std::span<const std::uint8_t> saved);
 
   const Meter& meter() const { return meter_; }
   // Results so far with this status; after the end.
@@ -38,6 +49,8 @@ class StereoStage {
 
  private:
   void process(const StereoPair& pair, const std::stop_token& stop);
+  void send(RelativeMotion& motion, const std::stop_token& stop);
+  void save_until(Time t, const std::stop_token& stop);
   void promise(Time t);
 
   stereo::StereoOdometry odometry_;
@@ -47,6 +60,8 @@ class StereoStage {
   runtime::Edge<RelativeMotion>& to_publisher_;
   Meter meter_;
   StageDelay delay_;
+  StageCuts cuts_;
+  std::vector<RelativeMotion> sent_;  // those that were not yet available at the last pair
   std::array<std::uint64_t, odometry_status_count> counts_{};
 };
 

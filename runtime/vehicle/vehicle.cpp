@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "runtime/core/periodic.h"
 #include "runtime/core/thread.h"
 #include "runtime/vehicle/fusion_stage.h"
 #include "runtime/vehicle/graph.h"
@@ -67,7 +68,9 @@ struct Vehicle::Graph {
         const runtime::DataClock& data_clock, std::vector<MessageSink*> sinks, Observer observer);
   ~Graph();
 
+  void find_first();
   void start();
+  void start_snapshots();
   void run_health(const std::stop_token& end);
   RuntimeReport look(Duration elapsed);
   void wait();
@@ -84,7 +87,11 @@ struct Vehicle::Graph {
   VehicleConfig config;
   std::stop_source stop;
   runtime::DataClock clock;
-  Time first = Time::max();
+  Time first = Time::max();         // of the recording
+  Time begin = Time::max();         // of this run
+  std::optional<Snapshot> resumed;  // its parts are with the stages
+  std::vector<Time> cuts;
+  std::unique_ptr<SnapshotStage> snapshots;
 
   // Edges, by the thread that they end at.
   runtime::Doorbell stereo_bell;
@@ -167,7 +174,7 @@ void Vehicle::Graph::start_driver(const Stage& stage, ReplayDriver<T>& driver) {
   monitor.watch(thread, driver.lateness(), false);
 }
 
-void Vehicle::Graph::start() {
+void Vehicle::Graph::find_first() {
   for (const std::optional<Time>& available :
        {camera.load_first(), velodyne.load_first(), imu.load_first(), gnss.load_first(),
         reference.load_first()}) {
@@ -176,6 +183,36 @@ void Vehicle::Graph::start() {
   if (first == Time::max()) {
     throw std::runtime_error("the drive has not a single readable sample of any sensor");
   }
+  begin = first;
+  if (!resumed) return;
+  if (resumed->first != first) {
+    throw std::runtime_error("the snapshot is of another recording: its first sample is from " +
+                             format_time(resumed->first) + ", and here it is from " +
+                             format_time(first));
+  }
+  begin = resumed->at + Duration(1);  // its tick is done
+  camera.skip_until(resumed->at);
+  velodyne.skip_until(resumed->at);
+  imu.skip_until(resumed->at);
+  gnss.skip_until(resumed->at);
+  reference.skip_until(resumed->at);
+}
+
+void Vehicle::Graph::start_snapshots() {
+  if (!snapshots) return;
+  std::erase_if(cuts, [this](Time cut) { return cut <= begin; });
+  stereo.save_at(cuts, snapshots->edges().stereo);
+  fusion.save_at(cuts, snapshots->edges().fusion);
+  monitor.watch(snapshots->edges().stereo);
+  monitor.watch(snapshots->edges().fusion);
+  monitor.watch(
+      start_thread(
+          stages::snapshot, 0, [this](const std::stop_token&) { snapshots->run(first); }, [] {}),
+      snapshots->meter(), false);
+}
+
+void Vehicle::Graph::start() {
+  find_first();
   for (const runtime::EdgeBase* edge : std::initializer_list<const runtime::EdgeBase*>{
            &images, &to_fusion.imu, &to_fusion.gnss, &to_fusion.odometry, &to_publisher.imu,
            &to_publisher.gnss, &to_publisher.reference, &to_publisher.odometry,
@@ -187,7 +224,8 @@ void Vehicle::Graph::start() {
 
   cpu_at_start = cpu_seconds();
   started = runtime::monotonic_now();
-  clock.start(first, lead);
+  clock.start(begin, lead);
+  start_snapshots();
   start_driver(stages::camera, camera);
   start_driver(stages::velodyne, velodyne);
   start_driver(stages::imu, imu);
@@ -200,7 +238,7 @@ void Vehicle::Graph::start() {
                 stereo.meter(), true);
   monitor.watch(start_thread(
                     stages::fusion, config.scheduling.fusion_priority,
-                    [this](const std::stop_token& token) { fusion.run(clock, first, token); },
+                    [this](const std::stop_token& token) { fusion.run(clock, begin, token); },
                     [this] { fusion.finish(); }),
                 fusion.meter(), true);
   // These two end after everybody else has, so that nothing produced is left unsaid.
@@ -223,14 +261,14 @@ RuntimeReport Vehicle::Graph::look(Duration elapsed) {
 }
 
 void Vehicle::Graph::run_health(const std::stop_token& end) {
-  Time looked = first;
+  Time looked = begin;
   const auto say = [&] {
     const Time now = fusion.position();
     to_publisher.reports.push(look(now - looked), end);
     looked = now;
   };
   // In virtual time there are no rates to watch: one report at the end.
-  for (Time next = first + stages::health.period; clock.is_paced() && clock.sleep_until(next, end);
+  for (Time next = begin + stages::health.period; clock.is_paced() && clock.sleep_until(next, end);
        next += stages::health.period) {
     say();
   }
@@ -252,7 +290,7 @@ void Vehicle::Graph::wait() {
     wall = runtime::monotonic_now() - started;
     cpu = cpu_seconds() - cpu_at_start;
     monitor.restart_rates();
-    last_report = look(fusion.position() - first);
+    last_report = look(fusion.position() - begin);
   }
 }
 
@@ -278,7 +316,7 @@ VehicleReport Vehicle::Graph::report() const {
   r.refusals = refusals(stereo, fusion.filter().status());
   r.stalls = clock.stalls();
   r.stalled = clock.stalled();
-  r.data_seconds = to_seconds(fusion.position() - first);
+  r.data_seconds = to_seconds(fusion.position() - begin);
   r.wall_seconds = to_seconds(wall);
   r.cpu_seconds = cpu;
   r.peak_memory = peak_memory();
@@ -296,6 +334,21 @@ Vehicle::~Vehicle() = default;
 void Vehicle::slow_down(StageDelays delays) {
   graph_->stereo.slow_down(std::move(delays.stereo));
   graph_->fusion.slow_down(std::move(delays.fusion));
+}
+
+void Vehicle::take_snapshots(std::vector<Time> moments, SnapshotHandler handler) {
+  for (Time& t : moments) t = runtime::first_tick(t, stages::fusion.period);
+  std::sort(moments.begin(), moments.end());
+  moments.erase(std::unique(moments.begin(), moments.end()), moments.end());
+  graph_->cuts = std::move(moments);
+  graph_->snapshots = std::make_unique<SnapshotStage>(
+      graph_->stereo.saved_bytes(), graph_->fusion.saved_bytes(), std::move(handler));
+}
+
+void Vehicle::resume(const Snapshot& snapshot) {
+  graph_->stereo.resume(snapshot.stereo);
+  graph_->fusion.resume(snapshot.fusion);
+  graph_->resumed = Snapshot{snapshot.at, snapshot.first, {}, {}};
 }
 
 void Vehicle::start() {

@@ -15,6 +15,8 @@
 #include "runtime/vehicle/fault_delay.h"
 #include "runtime/vehicle/message_sink.h"
 #include "runtime/vehicle/publisher.h"
+#include "runtime/vehicle/snapshot.h"
+#include "runtime/vehicle/snapshot_stage.h"
 #include "runtime/vehicle/vehicle_config.h"
 #include "runtime/vehicle/vehicle_report.h"
 #include "sensors/source.h"
@@ -42,6 +44,15 @@ class Vehicle {
   // Slows stages down, for tests of what happens then; before start().
   void slow_down(StageDelays delays);
 
+  // Saves everything at each of these moments: data time, rounded up to the next tick of the
+  // fusion. Those before the start or after the end are never taken. Before start().
+  void take_snapshots(std::vector<Time> moments, SnapshotHandler handler);
+
+  // Goes on from a snapshot of the same recording: what is sent from then on has the bits of a run
+  // that came there from the start. Before start(). Throws ArchiveError that says what does not
+  // fit.
+  void resume(const Snapshot& snapshot);
+
   // Starts every thread. Throws std::runtime_error when no sensor has a single sample.
   void start();
 
@@ -55,7 +66,7 @@ class Vehicle {
   void wait();
   VehicleReport report() const;
 
-  // Data time of the last tick of the fusion, and of the first sample.
+  // Data time of the last tick of the fusion, and of the recording's first sample.
   Time position() const;
   Time first() const;
 

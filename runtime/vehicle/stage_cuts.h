@@ -1,0 +1,61 @@
+// One stage's side of a snapshot: when to save itself, and whom to give it to.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <stop_token>
+#include <utility>
+#include <vector>
+
+#include "runtime/core/edge.h"
+#include "runtime/vehicle/snapshot.h"
+
+namespace maploop::vehicle {
+
+// The stage's own. Saving serializes into the memory of a ring's slot, which is mapped beforehand;
+// files are somebody else's work. Without any cut it costs one comparison.
+class StageCuts {
+ public:
+  // Before the run; `moments` increase.
+  void set(std::vector<Time> moments, runtime::Edge<StageSnapshot>& edge) {
+    moments_ = std::move(moments);
+    edge_ = &edge;
+  }
+
+  // Calls save(ArchiveWriter&, cut) for each cut up to t that is still to come. For a stage that
+  // has taken all inputs up to each of these cuts, and none after it.
+  template <class Save>
+  void save_until(Time t, const std::stop_token& stop, Save&& save) {
+    for (; next_ < moments_.size() && moments_[next_] <= t; ++next_) {
+      const Time cut = moments_[next_];
+      edge_->push(cut, stop, [&](StageSnapshot& slot) {
+        slot.stamp = slot.available = cut;
+        ArchiveWriter writer(std::move(slot.content));
+        save(writer, cut);
+        slot.content = writer.take();
+      });
+    }
+  }
+
+  // The stage has ended.
+  void finish() {
+    if (edge_ != nullptr) edge_->finish();
+  }
+
+ private:
+  std::vector<Time> moments_;
+  std::size_t next_ = 0;
+  runtime::Edge<StageSnapshot>* edge_ = nullptr;
+};
+
+// Of the results that a stage has sent: those that become available after a cut, and so belong to
+// whoever goes on from there.
+template <class T>
+std::vector<T> available_after(const std::vector<T>& sent, Time cut) {
+  std::vector<T> later;
+  std::copy_if(sent.begin(), sent.end(), std::back_inserter(later),
+               [cut](const T& result) { return result.available > cut; });
+  return later;
+}
+
+}  // namespace maploop::vehicle

@@ -1,0 +1,43 @@
+// Keeps every message that is sent.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "runtime/vehicle/message_sink.h"
+
+namespace maploop::testing {
+
+class MessageTape final : public vehicle::MessageSink {
+ public:
+  struct Taped {
+    Time time;
+    std::vector<std::uint8_t> data;
+    bool operator==(const Taped&) const = default;
+  };
+  using Channels = std::map<std::string, std::vector<Taped>>;
+
+  void send(const vehicle::Message& message) override {
+    if (!message.from_data) return;
+    channels_[std::string(message.channel)].push_back(
+        {message.time, {message.data.begin(), message.data.end()}});
+  }
+
+  // What speaks of the data, later than t.
+  Channels after(Time t) const {
+    Channels later;
+    for (const auto& [name, messages] : channels_) {
+      for (const Taped& message : messages) {
+        if (message.time > t) later[name].push_back(message);
+      }
+    }
+    return later;
+  }
+  Channels all() const { return channels_; }
+
+ private:
+  Channels channels_;
+};
+
+}  // namespace maploop::testing
