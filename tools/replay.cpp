@@ -3,6 +3,7 @@
 #include <charconv>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,12 +16,13 @@
 #include "runtime/vehicle/lcm_bus.h"
 #include "runtime/vehicle/limited_source.h"
 #include "runtime/vehicle/log_recorder.h"
+#include "runtime/vehicle/recording.h"
 #include "runtime/vehicle/vehicle.h"
 #include "runtime/vehicle/vehicle_config.h"
-#include "sensors/replay/kitti_drive.h"
 #include "sensors/replay/reference_trajectory.h"
 #include "tools/commands.h"
 #include "tools/evaluation/kitti_poses.h"
+#include "tools/lcm_log/log_writer.h"
 #include "tools/replay_console.h"
 #include "tools/replay_result.h"
 #include "tools/trajectory_collector.h"
@@ -37,6 +39,7 @@ struct ReplayOptions {
   bool lockstep = false;
   bool no_lcm = false;
   std::filesystem::path record;
+  bool record_raw = false;
   std::filesystem::path config;
   std::filesystem::path json;
   std::filesystem::path poses;
@@ -45,7 +48,8 @@ struct ReplayOptions {
   std::string snapshot;  // SECONDS:FILE
   std::filesystem::path resume;
   PlaybackOptions playback;
-  double end = 0.0;  // s; 0: the whole drive
+  std::uint64_t loop = 1;  // 0: for ever
+  double end = 0.0;        // s; 0: the whole drive
 };
 
 // What is wrong with it, as CLI11's checks say it.
@@ -98,117 +102,178 @@ bool any_thread_failed(const ReplayResult& result) {
                      [](const ThreadHealth& t) { return !t.failure.empty(); });
 }
 
-void resume(vehicle::Vehicle& vehicle, const std::filesystem::path& file,
-            const vehicle::VehicleConfig& config) {
-  const vehicle::Snapshot snapshot = vehicle::read_snapshot(file, config);
+// What one pass through the recording comes to; made anew when it begins again.
+struct Pass {
+  Pass(const ReplayOptions& options, const vehicle::Recording& recording, Time cut)
+      : hashes_after_snapshot(cut), collector(recording.calibration.stereo.T_body_cam) {
+    if (!options.record.empty()) {
+      recorder = std::make_unique<vehicle::LogRecorder>(options.record, options.record_raw);
+    }
+  }
+
+  vehicle::ChannelHashes hashes;
+  vehicle::ChannelHashes hashes_after_snapshot;
+  std::unique_ptr<vehicle::LogRecorder> recorder;
+  TrajectoryCollector collector;
+};
+
+class Replay {
+ public:
+  explicit Replay(const ReplayOptions& options)
+      : options_(options),
+        config_(config_of(options)),
+        recording_(vehicle::open_recording(options.drive, config_)),
+        faults_(parse_faults(options.faults), recording_.first_stamp) {
+    if (!options.record.empty()) lcm_log::refuse_same_file(options.drive, options.record);
+    if (!options.no_lcm) bus_ = std::make_unique<vehicle::LcmBus>(config_.lcm_url);
+    if (!options.resume.empty()) resumed_ = vehicle::read_snapshot(options.resume, config_);
+    if (!options.snapshot.empty()) {
+      snapshot_ = parse_snapshot(options.snapshot);
+      cut_ = runtime::first_tick(recording_.first_stamp + from_seconds(snapshot_->seconds),
+                                 vehicle::stages::fusion.period);
+    }
+  }
+
+  int run();
+
+ private:
+  static vehicle::VehicleConfig config_of(const ReplayOptions& options) {
+    vehicle::VehicleConfig config;
+    if (!options.config.empty()) config = vehicle::load_vehicle_config(options.config);
+    if (options.seed) config.gnss.seed = *options.seed;
+    return config;
+  }
+
+  static std::vector<vehicle::Fault> parse_faults(const std::vector<std::string>& texts) {
+    std::vector<vehicle::Fault> faults;
+    for (const std::string& text : texts) faults.push_back(vehicle::parse_fault(text));
+    return faults;
+  }
+
+  std::unique_ptr<vehicle::Vehicle> make_vehicle(const vehicle::Snapshot* from);
+  void resume(vehicle::Vehicle& vehicle) const;
+  vehicle::PlayerParameters player_parameters() const;
+  PlaybackEnd play_all();
+  ReplayResult result(PlaybackEnd end);
+
+  const ReplayOptions& options_;
+  vehicle::VehicleConfig config_;
+  vehicle::Recording recording_;
+  vehicle::FaultInjection faults_;
+  std::unique_ptr<vehicle::LcmBus> bus_;
+  std::optional<vehicle::Snapshot> resumed_;
+  std::optional<SnapshotRequest> snapshot_;
+  Time cut_{};
+  bool snapshot_taken_ = false;
+  std::unique_ptr<Pass> pass_;
+  std::unique_ptr<vehicle::Player> player_;
+};
+
+std::unique_ptr<vehicle::Vehicle> Replay::make_vehicle(const vehicle::Snapshot* from) {
+  if (from == nullptr) {
+    pass_.reset();  // its log is closed before the next one takes its name
+    pass_ = std::make_unique<Pass>(options_, recording_, cut_);
+  }
+  vehicle::Sensors sensors = recording_.sensors();
+  if (options_.end > 0.0) {
+    limit(sensors, recording_.first_stamp + from_seconds(options_.end));
+  }
+  std::vector<vehicle::MessageSink*> sinks{&pass_->hashes};
+  if (snapshot_) sinks.push_back(&pass_->hashes_after_snapshot);
+  if (bus_) sinks.push_back(bus_.get());
+  if (pass_->recorder) sinks.push_back(pass_->recorder.get());
+
+  vehicle::Observer observer;
+  observer.odometry = [this](const RelativeMotion& motion) { pass_->collector.add(motion); };
+  observer.image_state = [this](const NavState& state) { pass_->collector.add(state); };
+
+  const auto clock = options_.lockstep ? runtime::DataClock::virtual_time()
+                                       : runtime::DataClock::paced(options_.speed);
+  auto vehicle = std::make_unique<vehicle::Vehicle>(config_, recording_.calibration,
+                                                    faults_.afflict(std::move(sensors)), clock,
+                                                    std::move(sinks), std::move(observer));
+  vehicle->slow_down(faults_.delays());
+  if (snapshot_) {
+    vehicle->take_snapshots({cut_}, [this](const vehicle::Snapshot& snapshot) {
+      vehicle::write_snapshot(snapshot_->file, snapshot, config_);
+      snapshot_taken_ = true;
+    });
+  }
+  if (from != nullptr) {
+    vehicle->resume(*from);
+  } else if (resumed_) {
+    resume(*vehicle);
+  }
+  return vehicle;
+}
+
+void Replay::resume(vehicle::Vehicle& vehicle) const {
   try {
-    vehicle.resume(snapshot);
+    vehicle.resume(*resumed_);
   } catch (const ArchiveError& e) {
-    throw std::runtime_error("cannot resume from '" + file.string() + "': " + e.what());
+    throw std::runtime_error("cannot resume from '" + options_.resume.string() + "': " + e.what());
   }
 }
 
-int replay(const ReplayOptions& options) {
-  vehicle::VehicleConfig config;
-  if (!options.config.empty()) config = vehicle::load_vehicle_config(options.config);
-  if (options.seed) config.gnss.seed = *options.seed;
-
-  const sensors::KittiDrive drive(options.drive, config.replay);
-  vehicle::Sensors sources;
-  sources.camera = drive.camera();
-  if (drive.has_velodyne()) sources.velodyne = drive.velodyne();
-  if (drive.has_oxts()) {
-    sources.imu = drive.imu();
-    sources.gnss = drive.gnss(config.gnss);
-    sources.reference = drive.reference();
+vehicle::PlayerParameters Replay::player_parameters() const {
+  vehicle::PlayerParameters p;
+  p.first = resumed_ ? resumed_->at : recording_.first_stamp;
+  p.last = recording_.last_stamp;
+  if (options_.end > 0.0) {
+    p.last = std::min(p.last, recording_.first_stamp + from_seconds(options_.end));
   }
+  p.passes = options_.loop == 0 ? std::numeric_limits<std::uint64_t>::max() : options_.loop;
+  return p;
+}
 
-  if (options.end > 0.0) limit(sources, drive.first_stamp() + from_seconds(options.end));
+PlaybackEnd Replay::play_all() {
+  player_ = std::make_unique<vehicle::Player>(
+      [this](const vehicle::Snapshot* from) { return make_vehicle(from); }, player_parameters());
+  std::optional<vehicle::ReplayControl> control;
+  if (bus_) control.emplace(bus_->lcm(), *player_);
+  const auto hogs = faults_.hogs([this] { return player_->position(); });
+  return play(*player_, control ? &*control : nullptr, options_.playback);
+}
 
-  std::vector<vehicle::Fault> asked;
-  for (const std::string& text : options.faults) asked.push_back(vehicle::parse_fault(text));
-  vehicle::FaultInjection faults(std::move(asked), drive.first_stamp());
-  sources = faults.afflict(std::move(sources));
-
-  vehicle::ChannelHashes hashes;
-  std::vector<vehicle::MessageSink*> sinks{&hashes};
-  std::unique_ptr<vehicle::LcmBus> bus;
-  if (!options.no_lcm) {
-    bus = std::make_unique<vehicle::LcmBus>(config.lcm_url);
-    sinks.push_back(bus.get());
-  }
-  std::unique_ptr<vehicle::LogRecorder> recorder;
-  if (!options.record.empty()) {
-    recorder = std::make_unique<vehicle::LogRecorder>(options.record);
-    sinks.push_back(recorder.get());
-  }
-
-  std::optional<SnapshotRequest> request;
-  Time cut{};
-  if (!options.snapshot.empty()) {
-    request = parse_snapshot(options.snapshot);
-    cut = runtime::first_tick(drive.first_stamp() + from_seconds(request->seconds),
-                              vehicle::stages::fusion.period);
-  }
-  vehicle::ChannelHashes hashes_after(cut);
-  if (request) sinks.push_back(&hashes_after);
-
-  TrajectoryCollector collector(drive.calibration().stereo.T_body_cam);
-  vehicle::Observer observer;
-  observer.odometry = [&](const RelativeMotion& motion) { collector.add(motion); };
-  observer.image_state = [&](const NavState& state) { collector.add(state); };
-
-  const auto clock = options.lockstep ? runtime::DataClock::virtual_time()
-                                      : runtime::DataClock::paced(options.speed);
-  vehicle::Vehicle vehicle(config, drive.calibration().stereo, std::move(sources), clock, sinks,
-                           observer);
-  vehicle.slow_down(faults.delays());
-  if (!options.resume.empty()) resume(vehicle, options.resume, config);
-  bool snapshot_taken = false;
-  if (request) {
-    vehicle.take_snapshots({cut}, [&](const vehicle::Snapshot& snapshot) {
-      vehicle::write_snapshot(request->file, snapshot, config);
-      snapshot_taken = true;
-    });
-  }
-  PlaybackEnd end = PlaybackEnd::finished;
-  {
-    const auto hogs = faults.hogs([&] { return vehicle.position(); });
-    end = play(vehicle, drive.last_stamp(), options.playback);
-  }
-
+ReplayResult Replay::result(PlaybackEnd end) {
   ReplayResult result;
-  result.drive = std::filesystem::weakly_canonical(options.drive).filename().string();
-  result.lockstep = options.lockstep;
-  result.speed = options.speed;
+  result.drive = std::filesystem::weakly_canonical(options_.drive).filename().string();
+  result.lockstep = options_.lockstep;
+  result.speed = options_.speed;
   result.interrupted = end == PlaybackEnd::interrupted;
-  result.images = drive.frame_count();
-  result.vehicle = vehicle.report();
-  result.channels = hashes.summary();
-  if (snapshot_taken) {
-    result.snapshot = {request->file.string(), to_seconds(cut - vehicle.first()),
-                       hashes_after.summary()};
+  result.images = recording_.images;
+  result.vehicle = player_->vehicle().report();
+  result.channels = pass_->hashes.summary();
+  if (snapshot_taken_) {
+    result.snapshot = {snapshot_->file.string(), to_seconds(cut_ - player_->vehicle().first()),
+                       pass_->hashes_after_snapshot.summary()};
   }
-  result.faults = faults.counts();
-  if (bus) result.send_failures += bus->failures();
-  if (recorder) result.send_failures += recorder->failures();
-  if (drive.has_oxts()) {
-    const sensors::ReferenceTrajectory reference = read_reference(*drive.reference());
+  result.faults = faults_.counts();
+  if (bus_) result.send_failures += bus_->failures();
+  if (pass_->recorder) result.send_failures += pass_->recorder->failures();
+  if (const auto rows = recording_.sensors().reference) {
+    const sensors::ReferenceTrajectory reference = read_reference(*rows);
     const auto pose = [&](Time t) { return reference.pose(t); };
-    result.vo = collector.score_vo(pose);
-    result.fused = collector.score_fused(pose);
+    result.vo = pass_->collector.score_vo(pose);
+    result.fused = pass_->collector.score_fused(pose);
   }
+  return result;
+}
 
-  std::cout << format_table(result);
-  if (!options.json.empty()) write_json(options.json, result);
-  if (!options.poses.empty()) evaluation::write_kitti_poses(options.poses, collector.fused());
-  if (request && !snapshot_taken) {
-    std::cerr << "maploop: no snapshot was written: the replay did not come to " << request->seconds
-              << " s\n";
-    return result.interrupted ? exit_interrupted : exit_failed;
+int Replay::run() {
+  const ReplayResult r = result(play_all());
+  std::cout << format_table(r);
+  if (!options_.json.empty()) write_json(options_.json, r);
+  if (!options_.poses.empty()) {
+    evaluation::write_kitti_poses(options_.poses, pass_->collector.fused());
   }
-  if (result.interrupted) return exit_interrupted;
-  return any_thread_failed(result) ? exit_failed : 0;
+  if (r.interrupted) return exit_interrupted;
+  if (snapshot_ && !snapshot_taken_) {
+    std::cerr << "maploop: no snapshot was written: the replay did not come to "
+              << snapshot_->seconds << " s, or see above\n";
+    return exit_failed;
+  }
+  return any_thread_failed(r) ? exit_failed : 0;
 }
 
 }  // namespace
@@ -216,8 +281,11 @@ int replay(const ReplayOptions& options) {
 void add_replay(CLI::App& app, Command& command) {
   auto options = std::make_shared<ReplayOptions>();
   CLI::App* sub = app.add_subcommand(
-      "replay", "Replay a KITTI raw drive (synced and rectified) through the whole graph");
-  sub->add_option("DRIVE", options->drive, "Folder such as 2011_09_26/2011_09_26_drive_0013_sync")
+      "replay",
+      "Replay a KITTI raw drive (synced and rectified) or a log of our own through the graph");
+  sub->add_option("DRIVE", options->drive,
+                  "Folder such as 2011_09_26/2011_09_26_drive_0013_sync, or a log (--record); one "
+                  "without images is replayed from its odometry")
       ->required();
   auto* speed = sub->add_option("--speed", options->speed, "Times real time")
                     ->check(CLI::PositiveNumber)
@@ -236,7 +304,15 @@ void add_replay(CLI::App& app, Command& command) {
       ->excludes(lockstep);
   sub->add_flag("--until-miss", options->playback.until_miss, "Pause at the first missed deadline")
       ->excludes(lockstep);
-  sub->add_option("--record", options->record, "Write every message to this LCM log");
+  sub->add_option("--loop", options->loop,
+                  "Play so many times, 0: until it is stopped; results and --record are of the "
+                  "last time")
+      ->capture_default_str();
+  auto* record =
+      sub->add_option("--record", options->record, "Write every message to this LCM log");
+  sub->add_flag("--record-raw", options->record_raw,
+                "With the images and scans, for a replay of the whole graph (30 MB/s)")
+      ->needs(record);
   sub->add_flag("--no-lcm", options->no_lcm, "Publish nothing on LCM");
   sub->add_option("--config", options->config, "TOML file of parameters")->check(CLI::ExistingFile);
   sub->add_option("--snapshot", options->snapshot,
@@ -254,7 +330,7 @@ void add_replay(CLI::App& app, Command& command) {
                   "faults (README: Faults)")
       ->allow_extra_args(false)
       ->check(valid_fault, "FAULT");
-  sub->callback([options, &command] { command = [options] { return replay(*options); }; });
+  sub->callback([options, &command] { command = [options] { return Replay(*options).run(); }; });
 }
 
 }  // namespace maploop::tools

@@ -11,8 +11,6 @@
 #include <optional>
 #include <thread>
 
-#include "runtime/vehicle/player.h"
-
 namespace maploop::tools {
 namespace {
 
@@ -57,9 +55,15 @@ class Keyboard {
 
 constexpr const char* keys =
     "[space] pause  [.] image  [,] sample  [n] next miss  [+ -] speed  "
-    "[>] 5 s on  [q] quit";
+    "[< >] 5 s  [q] quit";
 
-void obey(char key, vehicle::Vehicle& vehicle, vehicle::Player& player) {
+// The nearest moment that the recording has.
+void jump(vehicle::Player& player, Duration by) {
+  player.seek(std::clamp(player.position() + by, player.first(), player.last()));
+}
+
+void obey(char key, vehicle::Player& player) {
+  constexpr auto far = std::chrono::seconds(5);
   switch (key) {
     case ' ':
       player.paused() ? player.resume() : player.pause();
@@ -80,20 +84,23 @@ void obey(char key, vehicle::Vehicle& vehicle, vehicle::Player& player) {
       player.set_speed(player.speed() / 2.0);
       break;
     case '>':
-      player.seek(vehicle.position() + std::chrono::seconds(5));
+      jump(player, far);
+      break;
+    case '<':
+      jump(player, -far);
       break;
     case 'q':
-      vehicle.stop();
+      player.quit();
       break;
     default:
       break;
   }
 }
 
-void show_progress(const vehicle::Vehicle& vehicle, const vehicle::Player& player, Time last,
-                   const char* help) {
-  const double all = std::max(to_seconds(last - vehicle.first()), 1e-3);
-  const double done = std::clamp(to_seconds(vehicle.position() - vehicle.first()), 0.0, all);
+void show_progress(const vehicle::Player& player, const char* help) {
+  const double all = std::max(to_seconds(player.last() - player.vehicle().first()), 1e-3);
+  const double done =
+      std::clamp(to_seconds(player.position() - player.vehicle().first()), 0.0, all);
   const char* state = player.seeking() ? "seeking" : player.paused() ? "paused" : "";
   std::fprintf(stderr, "\r%8.1f s of %.1f s  %3.0f %%  x%-6g %-7s %s\x1b[K", done, all,
                100.0 * done / all, player.speed(), state, help);
@@ -101,37 +108,37 @@ void show_progress(const vehicle::Vehicle& vehicle, const vehicle::Player& playe
 
 }  // namespace
 
-PlaybackEnd play(vehicle::Vehicle& vehicle, Time last, const PlaybackOptions& options) {
+PlaybackEnd play(vehicle::Player& player, vehicle::ReplayControl* control,
+                 const PlaybackOptions& options) {
   constexpr auto look_every = std::chrono::milliseconds(20);
   constexpr int show_every = 10;
   const bool visible = isatty(STDERR_FILENO) != 0;
   const Keyboard keyboard;
-  vehicle::Player player(vehicle);
   interrupt_once();
 
   bool quit = false;
-  vehicle.start();
-  if (vehicle.clock().is_paced()) {
-    if (options.start > 0.0) player.seek(vehicle.first() + from_seconds(options.start));
+  player.start();
+  const bool paced = player.vehicle().clock().is_paced();
+  if (paced) {
+    if (options.start > 0.0) player.seek(player.vehicle().first() + from_seconds(options.start));
     if (options.until_miss) player.play_to_next_miss();
     if (options.paused) player.pause();
   }
-  for (int i = 0; vehicle.running(); ++i) {
-    if (interrupted != 0) vehicle.stop();
-    if (vehicle.clock().is_paced()) {
+  for (int i = 0; player.update(); ++i) {
+    if (interrupted != 0) player.quit();
+    if (paced) {
       while (const auto key = keyboard.pressed()) {
         quit = quit || *key == 'q';
-        obey(*key, vehicle, player);
+        obey(*key, player);
       }
-      player.update();
+      if (control != nullptr) control->update();
     }
-    if (visible && i % show_every == 0) {
-      show_progress(vehicle, player, last, keyboard.is_terminal() ? keys : "");
-    }
+    if (visible && i % show_every == 0) show_progress(player, keyboard.is_terminal() ? keys : "");
     std::this_thread::sleep_for(look_every);
   }
-  vehicle.wait();
+  player.vehicle().wait();
   if (visible) std::fprintf(stderr, "\r\x1b[K");
+  quit = quit || (control != nullptr && control->quit());
   return interrupted != 0 || quit ? PlaybackEnd::interrupted : PlaybackEnd::finished;
 }
 

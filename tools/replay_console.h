@@ -1,7 +1,8 @@
 // A replay on a terminal: progress line, keys, and a clean end at Ctrl-C.
 #pragma once
 
-#include "runtime/vehicle/vehicle.h"
+#include "runtime/vehicle/player.h"
+#include "runtime/vehicle/replay_control.h"
 
 namespace maploop::tools {
 
@@ -13,9 +14,10 @@ struct PlaybackOptions {
 
 enum class PlaybackEnd { finished, interrupted };
 
-// Starts the vehicle and waits for its end, or for SIGINT, SIGTERM or the key q, which end it in
-// order (a second signal ends the program at once). `last` is the drive's last stamp. While
-// standard input is a terminal, keys control the player; the progress line names them.
-PlaybackEnd play(vehicle::Vehicle& vehicle, Time last, const PlaybackOptions& options);
+// Starts the player and waits for its end, or for SIGINT, SIGTERM, the key q or a command to quit,
+// which end it in order (a second signal ends the program at once). While standard input is a
+// terminal, keys control the player; the progress line names them. `control` may be null.
+PlaybackEnd play(vehicle::Player& player, vehicle::ReplayControl* control,
+                 const PlaybackOptions& options);
 
 }  // namespace maploop::tools

@@ -1,23 +1,29 @@
 #include "tools/trajectory_collector.h"
 
+#include <iterator>
+
 #include "msgs/frames.h"
 
 namespace maploop::tools {
 
 void TrajectoryCollector::add(const RelativeMotion& motion) {
-  if (motion.status == OdometryStatus::ok) chained_ = chained_ * motion.T_from_to();
-  vo_[motion.stamp] = chained_ * T_body_cam_;
+  // From the pose before, which is not the last one added where the replay has gone back.
+  const auto next = vo_.lower_bound(motion.stamp);
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  if (next != vo_.begin()) pose = std::prev(next)->second;
+  if (motion.status == OdometryStatus::ok) pose = pose * motion.T_from_to();
+  vo_[motion.stamp] = pose;
 }
 
 void TrajectoryCollector::add(const NavState& state) {
   const Eigen::Isometry3d T_enu_body = Eigen::Translation3d(state.position_enu) *
                                        Eigen::Isometry3d(rotation_enu_body(state.attitude));
-  fused_[state.stamp] = T_enu_body * T_body_cam_;
+  fused_[state.stamp] = T_enu_body;
 }
 
 evaluation::Trajectory TrajectoryCollector::fused() const {
   evaluation::Trajectory trajectory;
-  for (const auto& [stamp, pose] : fused_) trajectory.push_back(pose);
+  for (const auto& [stamp, pose] : fused_) trajectory.push_back(pose * T_body_cam_);
   return trajectory;
 }
 
@@ -34,9 +40,9 @@ std::optional<Accuracy> TrajectoryCollector::score(const Poses& poses,
   constexpr double segment_m = 100.0;
   evaluation::Trajectory estimate;
   evaluation::Trajectory truth;
-  for (const auto& [stamp, T_enu_cam] : poses) {
+  for (const auto& [stamp, body] : poses) {
     if (const auto T_enu_body = reference(stamp)) {
-      estimate.push_back(T_enu_cam);
+      estimate.push_back(body * T_body_cam_);
       truth.push_back(*T_enu_body * T_body_cam_);
     }
   }

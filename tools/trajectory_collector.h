@@ -36,9 +36,8 @@ class TrajectoryCollector {
   std::optional<Accuracy> score(const Poses& poses, const Reference& reference) const;
 
   Eigen::Isometry3d T_body_cam_;
-  Eigen::Isometry3d chained_ = Eigen::Isometry3d::Identity();  // body, in its first frame
-  Poses vo_;                                                   // camera
-  Poses fused_;                                                // camera
+  Poses vo_;     // of the body, in its first frame
+  Poses fused_;  // of the body, in enu
 };
 
 }  // namespace maploop::tools

@@ -4,51 +4,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "msgs/lcm/field_conversions.h"
+
 namespace maploop {
 namespace {
-
-std::int64_t microseconds_of(Time t) {
-  return std::chrono::floor<std::chrono::microseconds>(t).time_since_epoch().count();
-}
-
-maploop_lcm::header_t header_of(const Sample& sample) {
-  maploop_lcm::header_t header{};
-  header.utime = microseconds_of(sample.stamp);
-  header.stamp_ns = to_nanoseconds(sample.stamp);
-  header.available_ns = to_nanoseconds(sample.available);
-  header.sequence = static_cast<std::int64_t>(sample.sequence);
-  return header;
-}
-
-void set_sample(Sample& sample, const maploop_lcm::header_t& header) {
-  sample.stamp = from_nanoseconds(header.stamp_ns);
-  sample.available = from_nanoseconds(header.available_ns);
-  sample.sequence = static_cast<std::uint64_t>(header.sequence);
-}
-
-template <int n>
-void write(const Eigen::Matrix<double, n, 1>& v, double (&out)[n]) {
-  for (int i = 0; i < n; ++i) out[i] = v(i);
-}
-
-template <int n>
-void write(const Eigen::Matrix<double, n, n>& m, double (&out)[n][n]) {
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) out[i][j] = m(i, j);
-  }
-}
-
-template <int n>
-void read(const double (&in)[n], Eigen::Matrix<double, n, 1>& v) {
-  for (int i = 0; i < n; ++i) v(i) = in[i];
-}
-
-template <int n>
-void read(const double (&in)[n][n], Eigen::Matrix<double, n, n>& m) {
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) m(i, j) = in[i][j];
-  }
-}
 
 // The enumerations of the messages count like ours; `last` is the largest known.
 template <class Status>

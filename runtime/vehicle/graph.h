@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "msgs/lcm/channel_names.h"
 #include "msgs/time.h"
 #include "runtime/core/edge.h"
 
@@ -33,6 +34,8 @@ inline constexpr Stage velodyne{"velodyne", "driver", "sensor", {}, {}, {}, 5.0,
 inline constexpr Stage imu{"imu", "driver", "sensor", {}, {}, {}, 5.0, 1000.0};
 inline constexpr Stage gnss{"gnss", "driver", "sensor", {}, {}, {}, 0.5, 21.0};
 inline constexpr Stage reference{"reference", "driver", "sensor", {}, {}, {}, 0.0, 1000.0};
+inline constexpr Stage odometry{
+    "odometry", "driver, of a log without images", "sensor", {}, {}, {}, 5.0, 40.0};
 inline constexpr Stage stereo{"stereo",         "visual odometry", "image pair", {},
                               milliseconds(50), milliseconds(50),  5.0,          40.0};
 inline constexpr Stage fusion{"fusion",        "reduced-IMU filter", "its period", milliseconds(10),
@@ -41,11 +44,13 @@ inline constexpr Stage publisher{"publisher", "LCM, log", "looks by itself", {},
 inline constexpr Stage health{
     "health", "watchdog, histograms", "its period", std::chrono::seconds(1), {}, {}, 0.0, 0.0};
 
+inline constexpr Stage player{
+    "player", "keys, commands of a replay", "looks by itself", {}, {}, {}, 0.0, 0.0};
 inline constexpr Stage snapshot{
     "snapshot", "joins what stages save", "their parts", {}, {}, {}, 0.0, 0.0};
 
-inline constexpr std::array all{camera, velodyne, imu,       gnss,   reference,
-                                stereo, fusion,   publisher, health, snapshot};
+inline constexpr std::array all{camera, velodyne, imu,       gnss,   reference, odometry,
+                                stereo, fusion,   publisher, health, player,    snapshot};
 }  // namespace stages
 
 // One ring: single producer, single consumer. A replay keeps all: a full ring holds its producer
@@ -62,6 +67,9 @@ inline constexpr EdgeSpec camera_stereo{"camera -> stereo", "StereoPair", 4};
 inline constexpr EdgeSpec imu_fusion{"imu -> fusion", "ImuSample", 256};
 inline constexpr EdgeSpec gnss_fusion{"gnss -> fusion", "GnssFix", 256};
 inline constexpr EdgeSpec stereo_fusion{"stereo -> fusion", "RelativeMotion", 256};
+// Only there where a log of raw sensors is written.
+inline constexpr EdgeSpec camera_publisher{"camera -> publisher", "StereoPair", 4};
+inline constexpr EdgeSpec velodyne_publisher{"velodyne -> publisher", "LidarScan", 4};
 inline constexpr EdgeSpec imu_publisher{"imu -> publisher", "ImuSample", 256};
 inline constexpr EdgeSpec gnss_publisher{"gnss -> publisher", "GnssFix", 256};
 inline constexpr EdgeSpec reference_publisher{"reference -> publisher", "ReferencePose", 256};
@@ -84,6 +92,11 @@ runtime::Edge<T> make_edge(const EdgeSpec& spec, runtime::Doorbell* bell) {
   return runtime::Edge<T>(std::string(spec.name), spec.capacity, spec.overflow, bell);
 }
 
+enum class Reach {
+  everyone,
+  log,  // too large for the network; those who ask for it
+};
+
 // One LCM channel.
 struct Channel {
   std::string_view name;
@@ -92,26 +105,74 @@ struct Channel {
   std::string_view shows;
   std::string_view rate;
   bool from_data;  // derived from data alone: hashed, and the same bits in each run
+  Reach reach = Reach::everyone;
 };
 
 namespace channels {
-inline constexpr Channel nav_state{"NAV_STATE", "nav_state_t",
-                                   "fusion",    "fused position, velocity, attitude, covariance",
-                                   "100 Hz",    true};
-inline constexpr Channel visual_odometry{
-    "VO", "relative_motion_t", "stereo", "relative pose, covariance, quality", "10 Hz", true};
-inline constexpr Channel imu{"IMU", "imu_t", "imu", "inertial sample", "the sensor's", true};
-inline constexpr Channel gnss_fix{
-    "GNSS_FIX", "gnss_fix_t", "gnss", "position and velocity with covariance", "1 Hz", true};
-inline constexpr Channel truth{
-    "TRUTH", "reference_pose_t", "reference", "reference pose, replay only", "10 Hz", true};
-inline constexpr Channel deadlines{
-    "DEADLINES", "deadlines_t", "health", "latency of each thread and path, misses", "1 Hz", false};
-inline constexpr Channel health{
-    "HEALTH", "health_t", "health", "threads, rings, rates, losses, degraded modes", "1 Hz", false};
+inline constexpr Channel nav_state{channel_names::nav_state,
+                                   "nav_state_t",
+                                   "fusion",
+                                   "fused position, velocity, attitude, covariance",
+                                   "100 Hz",
+                                   true};
+inline constexpr Channel visual_odometry{channel_names::visual_odometry,
+                                         "relative_motion_t",
+                                         "stereo",
+                                         "relative pose, covariance, quality",
+                                         "10 Hz",
+                                         true};
+inline constexpr Channel imu{channel_names::imu, "imu_t",        "imu",
+                             "inertial sample",  "the sensor's", true};
+inline constexpr Channel gnss_fix{channel_names::gnss_fix,
+                                  "gnss_fix_t",
+                                  "gnss",
+                                  "position and velocity with covariance",
+                                  "1 Hz",
+                                  true};
+inline constexpr Channel truth{channel_names::truth,
+                               "reference_pose_t",
+                               "reference",
+                               "reference pose, replay only",
+                               "10 Hz",
+                               true};
+inline constexpr Channel camera{channel_names::camera,
+                                "stereo_pair_t",
+                                "camera",
+                                "rectified pair, as it is; only in logs",
+                                "10 Hz",
+                                true,
+                                Reach::log};
+inline constexpr Channel velodyne{channel_names::velodyne,
+                                  "lidar_scan_t",
+                                  "velodyne",
+                                  "scan, as it is; only in logs",
+                                  "10 Hz",
+                                  true,
+                                  Reach::log};
+inline constexpr Channel calibration{channel_names::calibration, "calibration_t", "publisher",
+                                     "sensors on the vehicle",   "at the start",  false};
+inline constexpr Channel replay_control{channel_names::replay_control,
+                                        "replay_control_t",
+                                        "player",
+                                        "commands to the player (in), its state (out); not in logs",
+                                        "on change",
+                                        false};
+inline constexpr Channel deadlines{channel_names::deadlines,
+                                   "deadlines_t",
+                                   "health",
+                                   "latency of each thread and path, misses",
+                                   "1 Hz",
+                                   false};
+inline constexpr Channel health{channel_names::health,
+                                "health_t",
+                                "health",
+                                "threads, rings, rates, losses, degraded modes",
+                                "1 Hz",
+                                false};
 
-inline constexpr std::array all{nav_state, visual_odometry, imu,   gnss_fix,
-                                truth,     deadlines,       health};
+inline constexpr std::array all{nav_state,      visual_odometry, imu,      gnss_fix,
+                                truth,          camera,          velodyne, calibration,
+                                replay_control, deadlines,       health};
 }  // namespace channels
 
 // From a sensor's stamp to the state that holds it. The deadline is the sum of what may pass on the

@@ -20,6 +20,10 @@ LcmBus::LcmBus(const std::string& url) : connection_(std::make_unique<Connection
 
 LcmBus::~LcmBus() = default;
 
+lcm::LCM& LcmBus::lcm() {
+  return connection_->lcm;
+}
+
 void LcmBus::send(const Message& message) {
   channel_ = message.channel;
   const auto size = static_cast<unsigned int>(message.data.size());

@@ -7,6 +7,10 @@
 
 #include "runtime/vehicle/message_sink.h"
 
+namespace lcm {
+class LCM;
+}
+
 namespace maploop::vehicle {
 
 class LcmBus final : public MessageSink {
@@ -18,6 +22,8 @@ class LcmBus final : public MessageSink {
   ~LcmBus() override;
 
   void send(const Message& message) override;
+  // For others to publish and subscribe on; LCM itself may be used by several threads.
+  lcm::LCM& lcm();
   std::uint64_t failures() const { return failures_; }
 
  private:

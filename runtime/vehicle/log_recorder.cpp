@@ -10,7 +10,8 @@ struct LogRecorder::File {
   lcm::LogFile log;
 };
 
-LogRecorder::LogRecorder(const std::string& path) : file_(std::make_unique<File>(path)) {
+LogRecorder::LogRecorder(const std::string& path, bool raw)
+    : file_(std::make_unique<File>(path)), raw_(raw) {
   if (!file_->log.good()) {
     throw std::runtime_error("cannot write the log '" + path +
                              "': check that its folder exists and may be written");

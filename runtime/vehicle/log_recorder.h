@@ -13,16 +13,19 @@ namespace maploop::vehicle {
 // but for DEADLINES and HEALTH.
 class LogRecorder final : public MessageSink {
  public:
-  // Replaces the file. Throws std::runtime_error naming it when it cannot be written.
-  explicit LogRecorder(const std::string& path);
+  // Replaces the file. `raw`: with the images and scans, so that the whole graph can be replayed
+  // from the log. Throws std::runtime_error naming it when it cannot be written.
+  explicit LogRecorder(const std::string& path, bool raw = false);
   ~LogRecorder() override;
 
   void send(const Message& message) override;
+  bool wants_raw() const override { return raw_; }
   std::uint64_t failures() const { return failures_; }
 
  private:
   struct File;
   std::unique_ptr<File> file_;
+  bool raw_;
   std::string channel_;
   std::uint64_t failures_ = 0;
 };

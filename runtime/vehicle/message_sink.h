@@ -21,6 +21,8 @@ class MessageSink {
  public:
   virtual ~MessageSink() = default;
   virtual void send(const Message& message) = 0;
+  // Whether it takes raw images and scans too, some 30 MB/s.
+  virtual bool wants_raw() const { return false; }
 };
 
 }  // namespace maploop::vehicle

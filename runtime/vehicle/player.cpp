@@ -1,53 +1,118 @@
 #include "runtime/vehicle/player.h"
 
+#include <optional>
+#include <utility>
+#include <vector>
+
 #include "runtime/vehicle/graph.h"
 
 namespace maploop::vehicle {
 
+Player::Player(Maker make, const PlayerParameters& parameters)
+    : make_(std::move(make)),
+      parameters_(parameters),
+      snapshots_(parameters.snapshots),
+      passes_left_(parameters.passes) {}
+
+void Player::start() {
+  begin(nullptr);
+}
+
+void Player::begin(const Snapshot* from) {
+  if (vehicle_ != nullptr) {
+    vehicle_->stop();
+    vehicle_->wait();
+  }
+  vehicle_ = make_(from);
+  if (parameters_.snapshots > 0 && vehicle_->clock().is_paced()) {
+    std::vector<Time> moments;
+    for (Time t = parameters_.first + parameters_.snapshot_every; t < parameters_.last;
+         t += parameters_.snapshot_every) {
+      moments.push_back(t);
+    }
+    vehicle_->take_snapshots(std::move(moments),
+                             [this](const Snapshot& snapshot) { snapshots_.add(snapshot); });
+  }
+  vehicle_->start();
+  misses_before_ = 0;
+  seeking_ = false;
+  position_.store(to_nanoseconds(vehicle_->position()), std::memory_order_relaxed);
+}
+
 void Player::pause() {
   until_miss_ = false;
-  if (!paused()) vehicle_.clock().pause();
+  if (!paused()) vehicle_->clock().pause();
 }
 
 void Player::resume() {
-  if (paused()) vehicle_.clock().resume();
+  if (paused()) vehicle_->clock().resume();
 }
 
 void Player::step_image() {
-  const Time next = vehicle_.next_image();
+  const Time next = vehicle_->next_image();
   resume();
-  vehicle_.clock().pause_at(next);
+  vehicle_->clock().pause_at(next);
 }
 
 void Player::step_sample() {
-  const Time next = vehicle_.next_sample();
+  const Time next = vehicle_->next_sample();
   resume();
-  vehicle_.clock().pause_at(next);
+  vehicle_->clock().pause_at(next);
+}
+
+void Player::set_speed(double speed) {
+  vehicle_->clock().set_speed(speed);
 }
 
 bool Player::seek(Time t) {
-  if (t < vehicle_.position()) return false;
-  pause_on_arrival_ = paused();
-  resume();
-  vehicle_.clock().skip_to(t);
+  if (t < parameters_.first || t > parameters_.last) return false;
+  const bool was_paused = seeking_ ? pause_on_arrival_ : paused();
+  if (t < vehicle_->position() || (seeking_ && t < target_)) {
+    go_back(t);
+  } else {
+    resume();
+  }
+  pause_on_arrival_ = was_paused;
+  vehicle_->clock().skip_to(t);
   seeking_ = true;
   target_ = t;
   return true;
 }
 
+void Player::go_back(Time t) {
+  const double at_speed = speed();
+  const std::optional<Snapshot> from = snapshots_.before(t);
+  begin(from ? &*from : nullptr);
+  set_speed(at_speed);
+}
+
 void Player::play_to_next_miss() {
   until_miss_ = true;
-  misses_before_ = vehicle_.deadline_misses();
+  misses_before_ = vehicle_->deadline_misses();
   resume();
 }
 
-void Player::update() {
-  if (seeking_ && vehicle_.position() + stages::fusion.period >= target_) {
+void Player::quit() {
+  quit_ = true;
+  vehicle_->stop();
+}
+
+bool Player::update() {
+  const Time position = vehicle_->position();
+  position_.store(to_nanoseconds(position), std::memory_order_relaxed);
+  if (seeking_ && position + stages::fusion.period >= target_) {
     seeking_ = false;
-    vehicle_.clock().arrive(target_);
-    if (pause_on_arrival_) vehicle_.clock().pause_at(target_);
+    vehicle_->clock().arrive(target_);
+    if (pause_on_arrival_) vehicle_->clock().pause_at(target_);
   }
-  if (until_miss_ && vehicle_.deadline_misses() > misses_before_) pause();
+  if (until_miss_ && vehicle_->deadline_misses() > misses_before_) pause();
+  if (vehicle_->running()) return true;
+  if (quit_ || passes_left_ <= 1) return false;
+  --passes_left_;
+  const double at_speed = speed();
+  begin(nullptr);
+  if (vehicle_->clock().is_paced()) set_speed(at_speed);
+  return true;
 }
 
 }  // namespace maploop::vehicle

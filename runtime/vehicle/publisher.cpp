@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "msgs/lcm/conversions.h"
+#include "msgs/lcm/raw_conversions.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -15,7 +16,9 @@ constexpr auto look_every = std::chrono::milliseconds(1);
 }  // namespace
 
 PublisherEdges::PublisherEdges()
-    : imu(make_edge<ImuSample>(edges::imu_publisher, nullptr)),
+    : camera(make_edge<StereoPair>(edges::camera_publisher, nullptr)),
+      velodyne(make_edge<LidarScan>(edges::velodyne_publisher, nullptr)),
+      imu(make_edge<ImuSample>(edges::imu_publisher, nullptr)),
       gnss(make_edge<GnssFix>(edges::gnss_publisher, nullptr)),
       reference(make_edge<ReferencePose>(edges::reference_publisher, nullptr)),
       odometry(make_edge<RelativeMotion>(edges::stereo_publisher, nullptr)),
@@ -23,11 +26,15 @@ PublisherEdges::PublisherEdges()
       image_state(make_edge<NavState>(edges::image_states, nullptr)),
       reports(make_edge<RuntimeReport>(edges::health_publisher, nullptr)) {}
 
-Publisher::Publisher(PublisherEdges& edges, std::vector<MessageSink*> sinks, Observer observer)
-    : edges_(edges),
+Publisher::Publisher(const VehicleCalibration& calibration, PublisherEdges& edges,
+                     std::vector<MessageSink*> sinks, Observer observer)
+    : calibration_(calibration),
+      edges_(edges),
       sinks_(std::move(sinks)),
       observer_(std::move(observer)),
       intake_(unused_bell_) {
+  forward(edges_.camera, channels::camera);
+  forward(edges_.velodyne, channels::velodyne);
   forward(edges_.imu, channels::imu);
   forward(edges_.gnss, channels::gnss_fix);
   forward(edges_.reference, channels::truth);
@@ -55,7 +62,11 @@ void Publisher::send(const Channel& channel, Time time, const Lcm& message) {
   if (message.encode(buffer_.data(), 0, size) != size) {
     throw std::logic_error("cannot encode a message for " + std::string(channel.name));
   }
-  for (MessageSink* sink : sinks_) sink->send({channel.name, time, buffer_, channel.from_data});
+  for (MessageSink* sink : sinks_) {
+    if (channel.reach == Reach::everyone || sink->wants_raw()) {
+      sink->send({channel.name, time, buffer_, channel.from_data});
+    }
+  }
 }
 
 void Publisher::send_reports() {
@@ -66,7 +77,11 @@ void Publisher::send_reports() {
   }
 }
 
-void Publisher::run() {
+void Publisher::run(Time begin) {
+  maploop_lcm::calibration_t calibration = to_lcm(calibration_);
+  calibration.utime =
+      std::chrono::floor<std::chrono::microseconds>(begin).time_since_epoch().count();
+  send(channels::calibration, begin, calibration);
   for (;;) {
     const bool last = intake_.finished() && edges_.reports.promised() == Time::max();
     intake_.take_until(intake_.promised());

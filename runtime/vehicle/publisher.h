@@ -7,9 +7,12 @@
 #include <string_view>
 #include <vector>
 
+#include "msgs/calibration.h"
 #include "msgs/diagnostics.h"
 #include "msgs/gnss.h"
+#include "msgs/image.h"
 #include "msgs/imu.h"
+#include "msgs/lidar_scan.h"
 #include "msgs/nav_state.h"
 #include "msgs/odometry.h"
 #include "msgs/reference.h"
@@ -40,6 +43,8 @@ struct Observer {
 struct PublisherEdges {
   PublisherEdges();
 
+  runtime::Edge<StereoPair> camera;
+  runtime::Edge<LidarScan> velodyne;
   runtime::Edge<ImuSample> imu;
   runtime::Edge<GnssFix> gnss;
   runtime::Edge<ReferencePose> reference;
@@ -52,10 +57,11 @@ struct PublisherEdges {
 // One thread's own. Messages of all channels leave in the order of their `available`.
 class Publisher {
  public:
-  Publisher(PublisherEdges& edges, std::vector<MessageSink*> sinks, Observer observer);
+  Publisher(const VehicleCalibration& calibration, PublisherEdges& edges,
+            std::vector<MessageSink*> sinks, Observer observer);
 
-  // Until every edge is finished and empty.
-  void run();
+  // Says the calibration at `begin`, then whatever comes, until every edge is finished and empty.
+  void run(Time begin);
 
  private:
   template <class Lcm>
@@ -64,6 +70,7 @@ class Publisher {
   void forward(runtime::Edge<T>& edge, const Channel& channel);
   void send_reports();
 
+  VehicleCalibration calibration_;
   PublisherEdges& edges_;
   std::vector<MessageSink*> sinks_;
   Observer observer_;

@@ -13,7 +13,7 @@
 namespace maploop::vehicle {
 
 // Called on the snapshot thread, which may take its time: to write a file, for example.
-using SnapshotHandler = std::function<void(Snapshot)>;
+using SnapshotHandler = std::function<void(const Snapshot&)>;
 
 // The edges that end at the snapshot thread.
 struct SnapshotEdges {

@@ -49,6 +49,11 @@ void StereoStage::run(const runtime::DataClock& clock, const std::stop_token& st
   }
 }
 
+void StereoStage::idle(const std::stop_token& stop) {
+  save_until(Time::max(), stop);
+  cuts_.finish();
+}
+
 void StereoStage::process(const StereoPair& pair, const std::stop_token& stop) {
   delay_(pair.available);
   RelativeMotion motion = odometry_.process(pair);

@@ -29,6 +29,8 @@ class StereoStage {
 
   // Until the images are finished or stop is requested.
   void run(const runtime::DataClock& clock, const std::stop_token& stop);
+  // Instead of it, where the odometry is recorded: no result of its own, and no state that changes.
+  void idle(const std::stop_token& stop);
   void finish();
 
   // Before run().

@@ -6,6 +6,7 @@
 #include <deque>
 #include <functional>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -42,6 +43,19 @@ std::uint64_t peak_memory() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
+template <class T>
+using Edges = std::vector<runtime::Edge<T>*>;
+
+struct SnapshotWish {
+  std::set<Time> moments;
+  SnapshotHandler handler;
+};
+
+bool wants_raw(const std::vector<MessageSink*>& sinks) {
+  return std::any_of(sinks.begin(), sinks.end(),
+                     [](const MessageSink* sink) { return sink->wants_raw(); });
+}
+
 // What the estimators did not use, by their own reasons.
 std::vector<RefusalCount> refusals(const StereoStage& stereo, const fusion::FilterStatus& filter) {
   std::vector<RefusalCount> all;
@@ -64,13 +78,14 @@ std::vector<RefusalCount> refusals(const StereoStage& stereo, const fusion::Filt
 }  // namespace
 
 struct Vehicle::Graph {
-  Graph(const VehicleConfig& config, const StereoCalibration& calibration, Sensors sensors,
+  Graph(const VehicleConfig& config, const VehicleCalibration& calibration, Sensors sensors,
         const runtime::DataClock& data_clock, std::vector<MessageSink*> sinks, Observer observer);
   ~Graph();
 
   void find_first();
   void start();
   void start_snapshots();
+  void start_odometry();
   void run_health(const std::stop_token& end);
   RuntimeReport look(Duration elapsed);
   void wait();
@@ -90,7 +105,7 @@ struct Vehicle::Graph {
   Time first = Time::max();         // of the recording
   Time begin = Time::max();         // of this run
   std::optional<Snapshot> resumed;  // its parts are with the stages
-  std::vector<Time> cuts;
+  std::vector<SnapshotWish> wishes;
   std::unique_ptr<SnapshotStage> snapshots;
 
   // Edges, by the thread that they end at.
@@ -99,11 +114,14 @@ struct Vehicle::Graph {
   FusionEdges to_fusion;
   PublisherEdges to_publisher;
 
+  bool raw;                // images and scans go to the publisher too
+  bool odometry_recorded;  // instead of images
   ReplayDriver<StereoPair> camera;
   ReplayDriver<LidarScan> velodyne;
   ReplayDriver<ImuSample> imu;
   ReplayDriver<GnssFix> gnss;
   ReplayDriver<ReferencePose> reference;
+  ReplayDriver<RelativeMotion> odometry;
   StereoStage stereo;
   FusionStage fusion;
   Publisher publisher;
@@ -122,22 +140,28 @@ struct Vehicle::Graph {
   RuntimeReport last_report;  // of the whole run
 };
 
-Vehicle::Graph::Graph(const VehicleConfig& vehicle_config, const StereoCalibration& calibration,
+Vehicle::Graph::Graph(const VehicleConfig& vehicle_config, const VehicleCalibration& calibration,
                       Sensors sensors, const runtime::DataClock& data_clock,
                       std::vector<MessageSink*> sinks, Observer observer)
     : config(vehicle_config),
       clock(data_clock),
       images(make_edge<StereoPair>(edges::camera_stereo, &stereo_bell)),
-      camera("camera", prefetched(stages::camera, std::move(sensors.camera)), {&images}),
-      velodyne("velodyne", prefetched(stages::velodyne, std::move(sensors.velodyne)), {}),
+      raw(wants_raw(sinks)),
+      odometry_recorded(sensors.odometry != nullptr),
+      camera("camera", prefetched(stages::camera, std::move(sensors.camera)),
+             raw ? Edges<StereoPair>{&to_publisher.camera, &images} : Edges<StereoPair>{&images}),
+      velodyne("velodyne", prefetched(stages::velodyne, std::move(sensors.velodyne)),
+               raw ? Edges<LidarScan>{&to_publisher.velodyne} : Edges<LidarScan>{}),
       imu("imu", std::move(sensors.imu), {&to_fusion.imu, &to_publisher.imu}),
       gnss("gnss", std::move(sensors.gnss), {&to_fusion.gnss, &to_publisher.gnss}),
       reference("reference", std::move(sensors.reference), {&to_publisher.reference}),
-      stereo(stereo::StereoOdometry(calibration, config.stereo), images, stereo_bell,
+      odometry("odometry", std::move(sensors.odometry),
+               {&to_fusion.odometry, &to_publisher.odometry}),
+      stereo(stereo::StereoOdometry(calibration.stereo, config.stereo), images, stereo_bell,
              to_fusion.odometry, to_publisher.odometry),
       fusion(fusion::ReducedImuFilter(config.fusion), to_fusion, to_publisher.nav_state,
              to_publisher.image_state),
-      publisher(to_publisher, std::move(sinks), std::move(observer)),
+      publisher(calibration, to_publisher, std::move(sinks), std::move(observer)),
       wake_all(stop.get_token(), [this] {
         stereo_bell.ring();
         to_fusion.bell.ring();
@@ -177,7 +201,7 @@ void Vehicle::Graph::start_driver(const Stage& stage, ReplayDriver<T>& driver) {
 void Vehicle::Graph::find_first() {
   for (const std::optional<Time>& available :
        {camera.load_first(), velodyne.load_first(), imu.load_first(), gnss.load_first(),
-        reference.load_first()}) {
+        reference.load_first(), odometry.load_first()}) {
     if (available) first = std::min(first, *available);
   }
   if (first == Time::max()) {
@@ -196,11 +220,21 @@ void Vehicle::Graph::find_first() {
   imu.skip_until(resumed->at);
   gnss.skip_until(resumed->at);
   reference.skip_until(resumed->at);
+  odometry.skip_until(resumed->at);
 }
 
 void Vehicle::Graph::start_snapshots() {
-  if (!snapshots) return;
-  std::erase_if(cuts, [this](Time cut) { return cut <= begin; });
+  if (wishes.empty()) return;
+  std::set<Time> moments;
+  for (const SnapshotWish& wish : wishes) moments.insert(wish.moments.begin(), wish.moments.end());
+  const std::vector<Time> cuts(moments.upper_bound(begin), moments.end());
+  snapshots = std::make_unique<SnapshotStage>(stereo.saved_bytes(), fusion.saved_bytes(),
+                                              [this](const Snapshot& snapshot) {
+                                                for (const SnapshotWish& wish : wishes) {
+                                                  if (wish.moments.contains(snapshot.at))
+                                                    wish.handler(snapshot);
+                                                }
+                                              });
   stereo.save_at(cuts, snapshots->edges().stereo);
   fusion.save_at(cuts, snapshots->edges().fusion);
   monitor.watch(snapshots->edges().stereo);
@@ -211,6 +245,21 @@ void Vehicle::Graph::start_snapshots() {
       snapshots->meter(), false);
 }
 
+// From the images, or as it was recorded.
+void Vehicle::Graph::start_odometry() {
+  if (odometry_recorded) {
+    start_driver(stages::odometry, odometry);
+    start_thread(
+        stages::stereo, 0, [this](const std::stop_token& token) { stereo.idle(token); }, [] {});
+  } else {
+    monitor.watch(start_thread(
+                      stages::stereo, config.scheduling.stereo_priority,
+                      [this](const std::stop_token& token) { stereo.run(clock, token); },
+                      [this] { stereo.finish(); }),
+                  stereo.meter(), true);
+  }
+}
+
 void Vehicle::Graph::start() {
   find_first();
   for (const runtime::EdgeBase* edge : std::initializer_list<const runtime::EdgeBase*>{
@@ -218,6 +267,13 @@ void Vehicle::Graph::start() {
            &to_publisher.gnss, &to_publisher.reference, &to_publisher.odometry,
            &to_publisher.nav_state, &to_publisher.image_state, &to_publisher.reports}) {
     monitor.watch(*edge);
+  }
+  if (raw) {
+    monitor.watch(to_publisher.camera);
+    monitor.watch(to_publisher.velodyne);
+  } else {
+    to_publisher.camera.finish();
+    to_publisher.velodyne.finish();
   }
   monitor.watch_path(fusion.camera_path());
   monitor.watch_path(fusion.imu_path());
@@ -231,11 +287,7 @@ void Vehicle::Graph::start() {
   start_driver(stages::imu, imu);
   start_driver(stages::gnss, gnss);
   start_driver(stages::reference, reference);
-  monitor.watch(start_thread(
-                    stages::stereo, config.scheduling.stereo_priority,
-                    [this](const std::stop_token& token) { stereo.run(clock, token); },
-                    [this] { stereo.finish(); }),
-                stereo.meter(), true);
+  start_odometry();
   monitor.watch(start_thread(
                     stages::fusion, config.scheduling.fusion_priority,
                     [this](const std::stop_token& token) { fusion.run(clock, begin, token); },
@@ -248,7 +300,7 @@ void Vehicle::Graph::start() {
       [this] { to_publisher.reports.finish(); });
   publisher_thread = std::make_unique<runtime::Thread>(
       std::string(stages::publisher.name), runtime::Scheduling{}, std::stop_token{},
-      [this](const std::stop_token&) { publisher.run(); }, [] {});
+      [this](const std::stop_token&) { publisher.run(begin); }, [] {});
 }
 
 RuntimeReport Vehicle::Graph::look(Duration elapsed) {
@@ -306,6 +358,7 @@ VehicleReport Vehicle::Graph::report() const {
   add(imu);
   add(gnss);
   add(reference);
+  if (odometry_recorded) add(odometry);
   r.lateness = lateness.summarize("all sensors");
   r.health = last_report.health;
   r.deadlines = last_report.deadlines;
@@ -323,8 +376,8 @@ VehicleReport Vehicle::Graph::report() const {
   return r;
 }
 
-Vehicle::Vehicle(const VehicleConfig& config, const StereoCalibration& calibration, Sensors sensors,
-                 const runtime::DataClock& clock, std::vector<MessageSink*> sinks,
+Vehicle::Vehicle(const VehicleConfig& config, const VehicleCalibration& calibration,
+                 Sensors sensors, const runtime::DataClock& clock, std::vector<MessageSink*> sinks,
                  Observer observer)
     : graph_(std::make_unique<Graph>(config, calibration, std::move(sensors), clock,
                                      std::move(sinks), std::move(observer))) {}
@@ -338,11 +391,7 @@ void Vehicle::slow_down(StageDelays delays) {
 
 void Vehicle::take_snapshots(std::vector<Time> moments, SnapshotHandler handler) {
   for (Time& t : moments) t = runtime::first_tick(t, stages::fusion.period);
-  std::sort(moments.begin(), moments.end());
-  moments.erase(std::unique(moments.begin(), moments.end()), moments.end());
-  graph_->cuts = std::move(moments);
-  graph_->snapshots = std::make_unique<SnapshotStage>(
-      graph_->stereo.saved_bytes(), graph_->fusion.saved_bytes(), std::move(handler));
+  graph_->wishes.push_back({{moments.begin(), moments.end()}, std::move(handler)});
 }
 
 void Vehicle::resume(const Snapshot& snapshot) {
@@ -387,12 +436,14 @@ Time next_of(const runtime::EdgeBase& edge) {
 }  // namespace
 
 Time Vehicle::next_image() const {
-  return next_of(graph_->images);
+  return next_of(graph_->odometry_recorded
+                     ? static_cast<const runtime::EdgeBase&>(graph_->to_fusion.odometry)
+                     : graph_->images);
 }
 
 Time Vehicle::next_sample() const {
-  return std::min({next_of(graph_->images), next_of(graph_->to_fusion.imu),
-                   next_of(graph_->to_fusion.gnss), next_of(graph_->to_publisher.reference)});
+  return std::min({next_image(), next_of(graph_->to_fusion.imu), next_of(graph_->to_fusion.gnss),
+                   next_of(graph_->to_publisher.reference)});
 }
 
 std::uint64_t Vehicle::deadline_misses() const {

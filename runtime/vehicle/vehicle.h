@@ -10,6 +10,7 @@
 #include "msgs/image.h"
 #include "msgs/imu.h"
 #include "msgs/lidar_scan.h"
+#include "msgs/odometry.h"
 #include "msgs/reference.h"
 #include "runtime/core/data_clock.h"
 #include "runtime/vehicle/fault_delay.h"
@@ -29,6 +30,8 @@ struct Sensors {
   std::unique_ptr<sensors::Source<ImuSample>> imu;
   std::unique_ptr<sensors::Source<GnssFix>> gnss;
   std::unique_ptr<sensors::Source<ReferencePose>> reference;
+  // Of a recording without images: takes the place of the camera and the stereo thread.
+  std::unique_ptr<sensors::Source<RelativeMotion>> odometry;
 };
 
 // One replay of recorded sensors through the graph. On a paced clock samples are released at their
@@ -37,7 +40,7 @@ struct Sensors {
 class Vehicle {
  public:
   // `sinks` must outlive the vehicle.
-  Vehicle(const VehicleConfig& config, const StereoCalibration& calibration, Sensors sensors,
+  Vehicle(const VehicleConfig& config, const VehicleCalibration& calibration, Sensors sensors,
           const runtime::DataClock& clock, std::vector<MessageSink*> sinks, Observer observer);
   ~Vehicle();  // stops and waits
 
@@ -45,7 +48,8 @@ class Vehicle {
   void slow_down(StageDelays delays);
 
   // Saves everything at each of these moments: data time, rounded up to the next tick of the
-  // fusion. Those before the start or after the end are never taken. Before start().
+  // fusion. Those before the start or after the end are never taken. Before start(),
+  // and as often as somebody wants some.
   void take_snapshots(std::vector<Time> moments, SnapshotHandler handler);
 
   // Goes on from a snapshot of the same recording: what is sent from then on has the bits of a run

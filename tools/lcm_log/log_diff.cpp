@@ -7,7 +7,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "tools/lcm_log/log_reader.h"
+#include "msgs/lcm/log/log_reader.h"
 #include "tools/lcm_log/log_text.h"
 #include "tools/lcm_log/progress.h"
 

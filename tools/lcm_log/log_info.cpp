@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "msgs/lcm/log/log_reader.h"
 #include "tools/lcm_log/interval_statistics.h"
-#include "tools/lcm_log/log_reader.h"
 #include "tools/lcm_log/log_text.h"
 #include "tools/lcm_log/progress.h"
 

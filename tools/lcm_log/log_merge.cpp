@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "tools/lcm_log/log_reader.h"
+#include "msgs/lcm/log/log_reader.h"
 #include "tools/lcm_log/log_writer.h"
 #include "tools/lcm_log/progress.h"
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "tools/lcm_log/log_reader.h"
+#include "msgs/lcm/log/log_reader.h"
 #include "tools/lcm_log/log_text.h"
 #include "tools/lcm_log/log_writer.h"
 #include "tools/lcm_log/progress.h"

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "tools/lcm_log/log_header.h"
+#include "msgs/lcm/log/log_header.h"
 
 namespace maploop::lcm_log {
 

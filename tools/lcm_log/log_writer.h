@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "tools/lcm_log/log_event.h"
+#include "msgs/lcm/log/log_event.h"
 
 namespace maploop::lcm_log {
 

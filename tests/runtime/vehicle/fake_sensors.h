@@ -38,8 +38,9 @@ class FakeSource final : public sensors::Source<T> {
   sensors::SourceReport report_;
 };
 
-inline StereoCalibration fake_calibration() {
-  StereoCalibration c;
+inline VehicleCalibration fake_calibration() {
+  VehicleCalibration calibration;
+  StereoCalibration& c = calibration.stereo;
   c.width = 320;
   c.height = 120;
   c.fx = c.fy = 200.0;
@@ -47,7 +48,7 @@ inline StereoCalibration fake_calibration() {
   c.cy = 60.0;
   c.baseline = 0.5;
   c.T_body_cam.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  return c;
+  return calibration;
 }
 
 inline Sensors fake_sensors(double seconds) {

@@ -56,7 +56,7 @@ Replayed replay(const std::vector<std::string>& texts) {
   observer.odometry = [&](const RelativeMotion& motion) { ++r.odometry[motion.status]; };
   observer.nav_state = [&](const NavState& state) { r.states.push_back(state); };
   observer.image_state = [&](const NavState& state) { r.at_images[state.stamp] = state; };
-  Vehicle vehicle({}, drive.calibration().stereo, injection.afflict(std::move(sources)),
+  Vehicle vehicle({}, drive.calibration(), injection.afflict(std::move(sources)),
                   runtime::DataClock::virtual_time(), {&hashes}, observer);
   vehicle.slow_down(injection.delays());
   const auto hogs = injection.hogs([&] { return vehicle.position(); });

@@ -32,7 +32,7 @@ struct Driven {
 Driven drive(const DataClock& clock, const std::vector<Time>& cuts) {
   Driven run;
   Vehicle vehicle({}, fake_calibration(), fake_sensors(seconds), clock, {&run.tape}, {});
-  vehicle.take_snapshots(cuts, [&](Snapshot s) { run.snapshots.push_back(std::move(s)); });
+  vehicle.take_snapshots(cuts, [&](const Snapshot& s) { run.snapshots.push_back(s); });
   vehicle.start();
   vehicle.wait();
   run.report = vehicle.report();
@@ -89,7 +89,7 @@ TEST(Snapshot, OfAResumedRunIsTheOneOfTheWholeRun) {
   std::vector<Snapshot> again;
   Vehicle vehicle({}, fake_calibration(), fake_sensors(seconds), DataClock::virtual_time(), {}, {});
   vehicle.resume(whole.snapshots[3]);
-  vehicle.take_snapshots(cuts_everywhere(), [&](Snapshot s) { again.push_back(std::move(s)); });
+  vehicle.take_snapshots(cuts_everywhere(), [&](const Snapshot& s) { again.push_back(s); });
   vehicle.start();
   vehicle.wait();
   ASSERT_EQ(again.size(), whole.snapshots.size() - 4) << "those up to its begin are left out";

@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "tests/tools/lcm_log/log_tools_fixture.h"
-#include "tools/lcm_log/log_header.h"
+#include "msgs/lcm/log/log_header.h"
 #include "tools/lcm_log/log_text.h"
 #include "tools/lcm_log/log_verify.h"
 

@@ -1,5 +1,5 @@
 // The reader on whole, damaged and hostile logs.
-#include "tools/lcm_log/log_reader.h"
+#include "msgs/lcm/log/log_reader.h"
 
 #include <gtest/gtest.h>
 

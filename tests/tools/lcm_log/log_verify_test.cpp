@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "tests/tools/lcm_log/log_tools_fixture.h"
-#include "tools/lcm_log/log_header.h"
+#include "msgs/lcm/log/log_header.h"
 
 namespace maploop::lcm_log {
 namespace {

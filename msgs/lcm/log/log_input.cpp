@@ -1,4 +1,4 @@
-#include "tools/lcm_log/log_input.h"
+#include "msgs/lcm/log/log_input.h"
 
 #include <zlib.h>
 

@@ -1,4 +1,4 @@
-#include "tools/lcm_log/log_header.h"
+#include "msgs/lcm/log/log_header.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "tools/lcm_log/log_reader.h"
+#include "msgs/lcm/log/log_reader.h"
 
 #include <algorithm>
 #include <utility>

@@ -23,10 +23,10 @@
 #include <unordered_map>
 
 #include "msgs/lcm/decoded_message.h"
+#include "msgs/lcm/log/log_event.h"
+#include "msgs/lcm/log/log_header.h"
+#include "msgs/lcm/log/log_input.h"
 #include "msgs/lcm/schema.h"
-#include "tools/lcm_log/log_event.h"
-#include "tools/lcm_log/log_header.h"
-#include "tools/lcm_log/log_input.h"
 
 namespace maploop::lcm_log {
 

@@ -1,0 +1,20 @@
+// What the channels are called, for those who write and those who read them.
+#pragma once
+
+#include <string_view>
+
+namespace maploop::channel_names {
+
+inline constexpr std::string_view nav_state = "NAV_STATE";
+inline constexpr std::string_view visual_odometry = "VO";
+inline constexpr std::string_view imu = "IMU";
+inline constexpr std::string_view gnss_fix = "GNSS_FIX";
+inline constexpr std::string_view truth = "TRUTH";
+inline constexpr std::string_view camera = "CAMERA";
+inline constexpr std::string_view velodyne = "VELODYNE";
+inline constexpr std::string_view calibration = "CALIBRATION";
+inline constexpr std::string_view replay_control = "REPLAY_CONTROL";
+inline constexpr std::string_view deadlines = "DEADLINES";
+inline constexpr std::string_view health = "HEALTH";
+
+}  // namespace maploop::channel_names

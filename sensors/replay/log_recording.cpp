@@ -1,0 +1,181 @@
+#include "sensors/replay/log_recording.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "msgs/lcm/channel_names.h"
+#include "msgs/lcm/conversions.h"
+#include "msgs/lcm/log/log_reader.h"
+#include "msgs/lcm/raw_conversions.h"
+
+namespace maploop::sensors {
+namespace {
+
+using lcm_log::LogReader;
+
+const schema::Schema& own_schema() {
+  static const schema::Schema schema(schema::own_types());
+  return schema;
+}
+
+// False where the bytes are no such message, or not all of it.
+template <class Lcm>
+bool decode(std::span<const std::uint8_t> data, Lcm& message) {
+  const auto size = static_cast<int>(data.size());
+  return message.decode(data.data(), 0, size) == size;
+}
+
+template <class T, class Lcm>
+class LogSource final : public Source<T> {
+ public:
+  LogSource(const std::filesystem::path& log, std::string_view channel)
+      : log_(log), channel_(channel), reader_(log, own_schema()) {}
+
+  bool next(T& sample) override {
+    for (auto item = reader_.next(); item != LogReader::Item::end; item = reader_.next()) {
+      // Damage was refused at the door; a log that has changed since is read as far as it goes.
+      if (item != LogReader::Item::event || reader_.event().channel != channel_) continue;
+      if (!read(sample)) continue;
+      ++report_.delivered;
+      return true;
+    }
+    return false;
+  }
+
+  const SourceReport& report() const override { return report_; }
+
+ private:
+  bool read(T& sample) {
+    const auto refuse = [&](const std::string& why) {
+      report_.refuse({log_.string(), 0,
+                      channel_ + ", event " + std::to_string(reader_.event().number) + ": " + why});
+      return false;
+    };
+    if (!decode(reader_.event().data, message_)) {
+      return refuse("no message of type " + std::string(Lcm::getTypeName()) + " of this version");
+    }
+    try {
+      if constexpr (requires { from_lcm(message_, sample); }) {
+        from_lcm(message_, sample);
+      } else {
+        sample = from_lcm(message_);
+      }
+    } catch (const std::invalid_argument& e) {
+      return refuse(e.what());
+    }
+    if (sample.available <= last_) return refuse("it is not later than the message before it");
+    last_ = sample.available;
+    return true;
+  }
+
+  std::filesystem::path log_;
+  std::string channel_;
+  LogReader reader_;
+  Lcm message_{};
+  Time last_ = Time::min();
+  SourceReport report_;
+};
+
+// Those that can be replayed; the first that is there says when its frames were.
+constexpr std::array sensor_channels{channel_names::camera,   channel_names::visual_odometry,
+                                     channel_names::imu,      channel_names::velodyne,
+                                     channel_names::gnss_fix, channel_names::truth};
+
+// What is known of a channel after one look at the log.
+struct Seen {
+  std::size_t count = 0;
+  Time first{};
+  Time last{};
+};
+
+// Every message of a sensor begins with a header_t.
+std::optional<Time> stamp_of(std::span<const std::uint8_t> data) {
+  constexpr int fingerprint_bytes = 8;
+  maploop_lcm::header_t header{};
+  if (header._decodeNoHash(data.data(), fingerprint_bytes,
+                           static_cast<int>(data.size()) - fingerprint_bytes) < 0) {
+    return std::nullopt;
+  }
+  return from_nanoseconds(header.stamp_ns);
+}
+
+}  // namespace
+
+LogRecording::LogRecording(const std::filesystem::path& log) : log_(log) {
+  const auto refuse = [&log](const std::string& why) {
+    throw std::runtime_error("cannot replay the log '" + log.string() + "': " + why);
+  };
+  std::map<std::string_view, Seen> seen;
+  bool calibrated = false;
+  LogReader reader(log, own_schema());
+  for (auto item = reader.next(); item != LogReader::Item::end; item = reader.next()) {
+    if (item == LogReader::Item::damage) {
+      refuse("it is damaged at byte " + std::to_string(reader.damage().begin) + " (" +
+             reader.damage().reason + "); 'maploop log recover' makes a sound one of it");
+    }
+    const lcm_log::LogEvent& event = reader.event();
+    if (event.channel == channel_names::calibration && !calibrated) {
+      maploop_lcm::calibration_t message{};
+      calibrated = decode(event.data, message);
+      if (calibrated) calibration_ = from_lcm(message);
+    }
+    const auto sensor = std::find(sensor_channels.begin(), sensor_channels.end(), event.channel);
+    if (sensor == sensor_channels.end()) continue;
+    const std::optional<Time> stamp = stamp_of(event.data);
+    if (!stamp) continue;
+    Seen& s = seen[*sensor];
+    if (s.count++ == 0) s.first = *stamp;
+    s.last = *stamp;
+  }
+  if (seen.empty())
+    refuse("it holds no sensor's messages; is it a log of 'maploop replay --record'?");
+  if (!calibrated) {
+    refuse("it holds no calibration; record it again with 'maploop replay DRIVE --record'");
+  }
+  for (const auto& [name, unused] : seen) channels_.emplace(name);
+  for (const std::string_view name : sensor_channels) {
+    const auto found = seen.find(name);
+    if (found == seen.end()) continue;
+    frame_count_ = found->second.count;
+    first_stamp_ = found->second.first;
+    last_stamp_ = found->second.last;
+    break;
+  }
+}
+
+template <class T, class Lcm>
+std::unique_ptr<Source<T>> LogRecording::source(std::string_view channel) const {
+  if (!channels_.contains(channel)) return nullptr;
+  return std::make_unique<LogSource<T, Lcm>>(log_, channel);
+}
+
+std::unique_ptr<Source<StereoPair>> LogRecording::camera() const {
+  return source<StereoPair, maploop_lcm::stereo_pair_t>(channel_names::camera);
+}
+
+std::unique_ptr<Source<LidarScan>> LogRecording::velodyne() const {
+  return source<LidarScan, maploop_lcm::lidar_scan_t>(channel_names::velodyne);
+}
+
+std::unique_ptr<Source<ImuSample>> LogRecording::imu() const {
+  return source<ImuSample, maploop_lcm::imu_t>(channel_names::imu);
+}
+
+std::unique_ptr<Source<GnssFix>> LogRecording::gnss() const {
+  return source<GnssFix, maploop_lcm::gnss_fix_t>(channel_names::gnss_fix);
+}
+
+std::unique_ptr<Source<ReferencePose>> LogRecording::reference() const {
+  return source<ReferencePose, maploop_lcm::reference_pose_t>(channel_names::truth);
+}
+
+std::unique_ptr<Source<RelativeMotion>> LogRecording::odometry() const {
+  return source<RelativeMotion, maploop_lcm::relative_motion_t>(channel_names::visual_odometry);
+}
+
+}  // namespace maploop::sensors
