@@ -22,7 +22,9 @@ struct Header {
 }  // namespace
 
 void ArchiveWriter::section(std::string_view name, std::uint32_t version) {
-  (*this)(std::string(name), version);
+  (*this)(std::uint64_t{name.size()});
+  bytes(name.data(), name.size());
+  (*this)(version);
 }
 
 void ArchiveReader::fail(const std::string& what) const {

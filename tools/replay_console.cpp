@@ -120,7 +120,6 @@ PlaybackEnd play(vehicle::Player& player, vehicle::ReplayControl* control,
   player.start();
   const bool paced = player.vehicle().clock().is_paced();
   if (paced) {
-    if (options.start > 0.0) player.seek(player.vehicle().first() + from_seconds(options.start));
     if (options.until_miss) player.play_to_next_miss();
     if (options.paused) player.pause();
   }

@@ -7,7 +7,6 @@
 namespace maploop::tools {
 
 struct PlaybackOptions {
-  double start = 0.0;       // s into the drive; what lies before goes by as fast as it can
   bool paused = false;      // from the start on
   bool until_miss = false;  // pause at the first missed deadline
 };

@@ -112,17 +112,19 @@ void FusionStage::take(const RelativeMotion& motion) {
 
 // After the tick, in the time that is left until the next one.
 void FusionStage::save_until(Time t, const std::stop_token& stop) {
-  cuts_.save_until(t, stop, [this](ArchiveWriter& ar, Time cut) {
-    ar.section(stages::fusion.name, 1);
-    ar(filter_, ticks_, images_, available_after(sent_states_, cut),
-       available_after(sent_image_states_, cut));
-  });
+  cuts_.save_until(t, stop, [this](ArchiveWriter& ar, Time) { describe(ar, *this); });
+}
+
+// What the tick at the cut has sent becomes available after it: whoever goes on sends it.
+template <class Archive, class Stage>
+void FusionStage::describe(Archive& ar, Stage& stage) {
+  ar.section(stages::fusion.name, 1);
+  ar(stage.filter_, stage.ticks_, stage.images_, stage.sent_states_, stage.sent_image_states_);
 }
 
 void FusionStage::resume(std::span<const std::uint8_t> saved) {
   ArchiveReader ar(saved);
-  ar.section(stages::fusion.name, 1);
-  ar(filter_, ticks_, images_, sent_states_, sent_image_states_);
+  describe(ar, *this);
   ar.finish();
 }
 

@@ -68,6 +68,8 @@ class FusionStage {
   bool tick(Time k, runtime::DataClock& clock, const std::stop_token& stop);
   void take(const RelativeMotion& motion);
   void save_until(Time t, const std::stop_token& stop);
+  template <class Archive, class Stage>
+  static void describe(Archive& ar, Stage& stage);
   void record_paths(const runtime::DataClock& clock, MonotonicTime due, MonotonicTime done);
 
   fusion::ReducedImuFilter filter_;

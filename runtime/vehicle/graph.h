@@ -82,9 +82,9 @@ inline constexpr EdgeSpec stereo_snapshot{"stereo -> snapshot", "StageSnapshot",
 inline constexpr EdgeSpec fusion_snapshot{"fusion -> snapshot", "StageSnapshot", 2};
 
 inline constexpr std::array all{
-    camera_stereo,    imu_fusion,          gnss_fusion,      stereo_fusion,    imu_publisher,
-    gnss_publisher,   reference_publisher, stereo_publisher, fusion_publisher, image_states,
-    health_publisher, stereo_snapshot,     fusion_snapshot};
+    camera_stereo,      imu_fusion,    gnss_fusion,      stereo_fusion,       camera_publisher,
+    velodyne_publisher, imu_publisher, gnss_publisher,   reference_publisher, stereo_publisher,
+    fusion_publisher,   image_states,  health_publisher, stereo_snapshot,     fusion_snapshot};
 }  // namespace edges
 
 template <class T>

@@ -1,5 +1,6 @@
 #include "runtime/vehicle/player.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -15,7 +16,14 @@ Player::Player(Maker make, const PlayerParameters& parameters)
       passes_left_(parameters.passes) {}
 
 void Player::start() {
+  begin_pass();
+}
+
+void Player::begin_pass() {
   begin(nullptr);
+  if (parameters_.start > parameters_.first && vehicle_->clock().is_paced()) {
+    seek(parameters_.start);
+  }
 }
 
 void Player::begin(const Snapshot* from) {
@@ -36,7 +44,13 @@ void Player::begin(const Snapshot* from) {
   vehicle_->start();
   misses_before_ = 0;
   seeking_ = false;
-  position_.store(to_nanoseconds(vehicle_->position()), std::memory_order_relaxed);
+  note_position();
+}
+
+// Before its first tick a vehicle has none.
+void Player::note_position() {
+  const Time position = std::max(parameters_.first, vehicle_->position());
+  position_.store(to_nanoseconds(position), std::memory_order_relaxed);
 }
 
 void Player::pause() {
@@ -98,9 +112,8 @@ void Player::quit() {
 }
 
 bool Player::update() {
-  const Time position = vehicle_->position();
-  position_.store(to_nanoseconds(position), std::memory_order_relaxed);
-  if (seeking_ && position + stages::fusion.period >= target_) {
+  note_position();
+  if (seeking_ && vehicle_->position() + stages::fusion.period >= target_) {
     seeking_ = false;
     vehicle_->clock().arrive(target_);
     if (pause_on_arrival_) vehicle_->clock().pause_at(target_);
@@ -110,7 +123,7 @@ bool Player::update() {
   if (quit_ || passes_left_ <= 1) return false;
   --passes_left_;
   const double at_speed = speed();
-  begin(nullptr);
+  begin_pass();
   if (vehicle_->clock().is_paced()) set_speed(at_speed);
   return true;
 }

@@ -15,7 +15,8 @@ namespace maploop::vehicle {
 struct PlayerParameters {
   Time first{};  // of the recording, or where its replay resumes
   Time last{};   // of the recording
-  Duration snapshot_every = std::chrono::seconds(2);  // going back costs half as much on average
+  Time start{};  // each pass goes up to there as fast as the graph can
+  Duration snapshot_every = std::chrono::seconds(2);  // half of it is computed again, on average
   std::size_t snapshots = 16;                         // some 1 MB each; 0: going back starts again
   std::uint64_t passes = 1;                           // the recording is played so often
 };
@@ -67,7 +68,9 @@ class Player {
 
  private:
   void begin(const Snapshot* from);
+  void begin_pass();
   void go_back(Time t);
+  void note_position();
 
   Maker make_;
   PlayerParameters parameters_;

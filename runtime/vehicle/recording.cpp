@@ -9,17 +9,17 @@ namespace maploop::vehicle {
 namespace {
 
 template <class Opened>
-Recording describe(const Opened& opened, std::function<Sensors()> sensors) {
+Recording describe(const Opened& opened, std::function<Sensors(Time)> sensors) {
   return {opened.calibration(), opened.first_stamp(), opened.last_stamp(), opened.frame_count(),
           std::move(sensors)};
 }
 
 Recording open_drive(const std::filesystem::path& folder, const VehicleConfig& config) {
   auto drive = std::make_shared<const sensors::KittiDrive>(folder, config.replay);
-  return describe(*drive, [drive, gnss = config.gnss] {
+  return describe(*drive, [drive, gnss = config.gnss](Time passed) {
     Sensors s;
-    s.camera = drive->camera();
-    if (drive->has_velodyne()) s.velodyne = drive->velodyne();
+    s.camera = drive->camera(passed);
+    if (drive->has_velodyne()) s.velodyne = drive->velodyne(passed);
     if (drive->has_oxts()) {
       s.imu = drive->imu();
       s.gnss = drive->gnss(gnss);
@@ -31,7 +31,7 @@ Recording open_drive(const std::filesystem::path& folder, const VehicleConfig& c
 
 Recording open_log(const std::filesystem::path& file) {
   auto log = std::make_shared<const sensors::LogRecording>(file);
-  return describe(*log, [log] {
+  return describe(*log, [log](Time) {
     Sensors s;
     s.camera = log->camera();
     s.velodyne = log->velodyne();

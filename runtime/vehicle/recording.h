@@ -16,7 +16,9 @@ struct Recording {
   Time first_stamp{};  // of the images, or of what stands for them
   Time last_stamp{};
   std::size_t images = 0;
-  std::function<Sensors()> sensors;  // anew, each from the start; those that it has
+  // Anew, each from the start; those that it has. Pixels and points of what is available up to
+  // `passed` may be missing, which saves reading them.
+  std::function<Sensors(Time passed)> sensors;
 };
 
 // A KITTI raw drive (a folder), or one of our own logs (a file). A log without images gives the

@@ -1,7 +1,6 @@
 // One stage's side of a snapshot: when to save itself, and whom to give it to.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <stop_token>
 #include <utility>
@@ -47,15 +46,5 @@ class StageCuts {
   std::size_t next_ = 0;
   runtime::Edge<StageSnapshot>* edge_ = nullptr;
 };
-
-// Of the results that a stage has sent: those that become available after a cut, and so belong to
-// whoever goes on from there.
-template <class T>
-std::vector<T> available_after(const std::vector<T>& sent, Time cut) {
-  std::vector<T> later;
-  std::copy_if(sent.begin(), sent.end(), std::back_inserter(later),
-               [cut](const T& result) { return result.available > cut; });
-  return later;
-}
 
 }  // namespace maploop::vehicle

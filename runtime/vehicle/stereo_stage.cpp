@@ -73,15 +73,21 @@ void StereoStage::send(RelativeMotion& motion, const std::stop_token& stop) {
 
 void StereoStage::save_until(Time t, const std::stop_token& stop) {
   cuts_.save_until(t, stop, [this](ArchiveWriter& ar, Time cut) {
-    ar.section(stages::stereo.name, 1);
-    ar(odometry_, counts_, available_after(sent_, cut));
+    std::erase_if(sent_, [cut](const RelativeMotion& m) { return m.available <= cut; });
+    describe(ar, *this);
   });
+}
+
+// With the results that become available after the cut: whoever goes on from there sends them.
+template <class Archive, class Stage>
+void StereoStage::describe(Archive& ar, Stage& stage) {
+  ar.section(stages::stereo.name, 1);
+  ar(stage.odometry_, stage.counts_, stage.sent_);
 }
 
 void StereoStage::resume(std::span<const std::uint8_t> saved) {
   ArchiveReader ar(saved);
-  ar.section(stages::stereo.name, 1);
-  ar(odometry_, counts_, sent_);
+  describe(ar, *this);
   ar.finish();
 }
 

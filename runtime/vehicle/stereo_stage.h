@@ -53,6 +53,8 @@ class StereoStage {
   void process(const StereoPair& pair, const std::stop_token& stop);
   void send(RelativeMotion& motion, const std::stop_token& stop);
   void save_until(Time t, const std::stop_token& stop);
+  template <class Archive, class Stage>
+  static void describe(Archive& ar, Stage& stage);
   void promise(Time t);
 
   stereo::StereoOdometry odometry_;

@@ -48,8 +48,8 @@ class Vehicle {
   void slow_down(StageDelays delays);
 
   // Saves everything at each of these moments: data time, rounded up to the next tick of the
-  // fusion. Those before the start or after the end are never taken. Before start(),
-  // and as often as somebody wants some.
+  // fusion. Those before the start or after the end are never taken. Before start(); more
+  // than one may ask.
   void take_snapshots(std::vector<Time> moments, SnapshotHandler handler);
 
   // Goes on from a snapshot of the same recording: what is sent from then on has the bits of a run

@@ -92,17 +92,17 @@ Time KittiDrive::last_stamp() const {
   return t.stamps[i];
 }
 
-std::unique_ptr<Source<StereoPair>> KittiDrive::camera() const {
+std::unique_ptr<Source<StereoPair>> KittiDrive::camera(Time passed) const {
   return make_stereo_source(left_, right_, calibration_.stereo,
                             from_seconds(parameters_.camera_readout),
-                            from_seconds(parameters_.max_pair_skew));
+                            from_seconds(parameters_.max_pair_skew), passed);
 }
 
-std::unique_ptr<Source<LidarScan>> KittiDrive::velodyne() const {
+std::unique_ptr<Source<LidarScan>> KittiDrive::velodyne(Time passed) const {
   if (!velodyne_) {
     throw std::runtime_error("drive '" + folder_.string() + "' has no folder velodyne_points");
   }
-  return make_velodyne_source(*velodyne_, from_seconds(parameters_.max_turn));
+  return make_velodyne_source(*velodyne_, from_seconds(parameters_.max_turn), passed);
 }
 
 std::unique_ptr<Source<ImuSample>> KittiDrive::imu() const {

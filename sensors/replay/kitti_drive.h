@@ -59,9 +59,10 @@ class KittiDrive {
   bool has_oxts() const { return oxts_ != nullptr; }
 
   // New sources, each from the start of the drive. Those of a folder that the drive lacks throw
-  // std::runtime_error.
-  std::unique_ptr<Source<StereoPair>> camera() const;
-  std::unique_ptr<Source<LidarScan>> velodyne() const;
+  // std::runtime_error. Pixels and points of what is available up to `passed` are not read, and not
+  // to be used: for who only passes over them.
+  std::unique_ptr<Source<StereoPair>> camera(Time passed = Time::min()) const;
+  std::unique_ptr<Source<LidarScan>> velodyne(Time passed = Time::min()) const;
   std::unique_ptr<Source<ImuSample>> imu() const;
   std::unique_ptr<Source<GnssFix>> gnss(const GnssAidParameters& parameters = {}) const;
   std::unique_ptr<Source<ReferencePose>> reference() const;

@@ -16,11 +16,12 @@ namespace {
 class StereoSource final : public Source<StereoPair> {
  public:
   StereoSource(ImageFolder left, ImageFolder right, const StereoCalibration& calibration,
-               Duration readout, Duration max_skew)
+               Duration readout, Duration max_skew, Time passed)
       : left_(std::move(left)),
         right_(std::move(right)),
         calibration_(calibration),
-        readout_(readout) {
+        readout_(readout),
+        passed_(passed) {
     judge_stamps(max_skew);
     for (const ImageFolder* folder : {&left_, &right_}) {
       auto found = files_without_stamp(folder->data, verdicts_.size());
@@ -35,7 +36,8 @@ class StereoSource final : public Source<StereoPair> {
         report_.refuse(*verdicts_[i]);
         continue;
       }
-      if (!read(left_, i, pair.left) || !read(right_, i, pair.right)) continue;
+      const bool wanted = available_[i] > passed_;
+      if (wanted && !(read(left_, i, pair.left) && read(right_, i, pair.right))) continue;
       pair.stamp = left_.timestamps.stamps[i];
       pair.right_stamp = right_.timestamps.stamps[i];
       pair.available = available_[i];
@@ -93,6 +95,7 @@ class StereoSource final : public Source<StereoPair> {
   ImageFolder right_;
   StereoCalibration calibration_;
   Duration readout_;
+  Time passed_;
   std::vector<Time> available_;
   Verdicts verdicts_;
   std::vector<Finding> unstamped_;
@@ -105,9 +108,10 @@ class StereoSource final : public Source<StereoPair> {
 
 std::unique_ptr<Source<StereoPair>> make_stereo_source(ImageFolder left, ImageFolder right,
                                                        const StereoCalibration& calibration,
-                                                       Duration readout, Duration max_skew) {
+                                                       Duration readout, Duration max_skew,
+                                                       Time passed) {
   return std::make_unique<StereoSource>(std::move(left), std::move(right), calibration, readout,
-                                        max_skew);
+                                        max_skew, passed);
 }
 
 }  // namespace maploop::sensors

@@ -20,8 +20,10 @@ struct ImageFolder {
 // Pairs left and right by number: stamp = left's, available = the later of the two + readout. A
 // pair whose stamps differ by more than `max_skew` is refused, as is an image of another size than
 // the calibration's.
+// The pixels of pairs available up to `passed` are not read, for who only passes over them.
 std::unique_ptr<Source<StereoPair>> make_stereo_source(ImageFolder left, ImageFolder right,
                                                        const StereoCalibration& calibration,
-                                                       Duration readout, Duration max_skew);
+                                                       Duration readout, Duration max_skew,
+                                                       Time passed = Time::min());
 
 }  // namespace maploop::sensors

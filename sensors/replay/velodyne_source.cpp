@@ -18,7 +18,8 @@ static_assert(sizeof(LidarPoint) == 16 && std::endian::native == std::endian::li
 
 class VelodyneSource final : public Source<LidarScan> {
  public:
-  VelodyneSource(VelodyneFolder folder, Duration max_turn) : folder_(std::move(folder)) {
+  VelodyneSource(VelodyneFolder folder, Duration max_turn, Time passed)
+      : folder_(std::move(folder)), passed_(passed) {
     judge_stamps(max_turn);
     unstamped_ = files_without_stamp(folder_.data, verdicts_.size());
   }
@@ -30,7 +31,7 @@ class VelodyneSource final : public Source<LidarScan> {
         report_.refuse(*verdicts_[i]);
         continue;
       }
-      if (!read(i, scan.points)) continue;
+      if (folder_.end.stamps[i] > passed_ && !read(i, scan.points)) continue;
       scan.stamp = folder_.middle.stamps[i];
       scan.start = folder_.start.stamps[i];
       scan.end = folder_.end.stamps[i];
@@ -93,6 +94,7 @@ class VelodyneSource final : public Source<LidarScan> {
   }
 
   VelodyneFolder folder_;
+  Time passed_;
   Verdicts verdicts_;
   std::vector<Finding> unstamped_;
   std::size_t index_ = 0;
@@ -118,8 +120,9 @@ std::size_t parse_velodyne_points(const std::vector<char>& bytes, std::vector<Li
   return dropped;
 }
 
-std::unique_ptr<Source<LidarScan>> make_velodyne_source(VelodyneFolder folder, Duration max_turn) {
-  return std::make_unique<VelodyneSource>(std::move(folder), max_turn);
+std::unique_ptr<Source<LidarScan>> make_velodyne_source(VelodyneFolder folder, Duration max_turn,
+                                                        Time passed) {
+  return std::make_unique<VelodyneSource>(std::move(folder), max_turn, passed);
 }
 
 }  // namespace maploop::sensors

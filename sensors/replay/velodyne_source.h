@@ -25,6 +25,8 @@ struct VelodyneFolder {
 
 // LidarScan: stamp = middle, available = end. A scan whose stamps are not start < middle < end
 // within `max_turn` is refused.
-std::unique_ptr<Source<LidarScan>> make_velodyne_source(VelodyneFolder folder, Duration max_turn);
+// The points of scans available up to `passed` are not read.
+std::unique_ptr<Source<LidarScan>> make_velodyne_source(VelodyneFolder folder, Duration max_turn,
+                                                        Time passed = Time::min());
 
 }  // namespace maploop::sensors

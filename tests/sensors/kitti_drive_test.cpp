@@ -97,6 +97,27 @@ TEST_F(RealDrive, Camera) {
   EXPECT_FALSE(camera->next(pair)) << "the end is final";
 }
 
+TEST_F(RealDrive, WhatIsPassedOverIsNotReadAndTheRestIsTheSame) {
+  const auto all = drive->camera();
+  StereoPair expected, pair;
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(all->next(expected));
+  const auto from_there = drive->camera(expected.available - Duration(1));
+  for (std::uint64_t i = 0; i < 4; ++i) {
+    ASSERT_TRUE(from_there->next(pair));
+    EXPECT_EQ(pair.sequence, i);
+    EXPECT_TRUE(pair.left.empty()) << "read for nobody";
+  }
+  ASSERT_TRUE(from_there->next(pair));
+  EXPECT_EQ(pair.stamp, expected.stamp);
+  EXPECT_EQ(pair.left.pixels, expected.left.pixels);
+  EXPECT_EQ(pair.right.pixels, expected.right.pixels);
+
+  const auto scans = drive->velodyne(Time::max());
+  LidarScan scan;
+  ASSERT_TRUE(scans->next(scan));
+  EXPECT_TRUE(scan.points.empty());
+}
+
 TEST_F(RealDrive, Velodyne) {
   auto velodyne = drive->velodyne();
   LidarScan scan;

@@ -3,12 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
 #include <fstream>
+#include <functional>
 #include <lcm/lcm-cpp.hpp>
 #include <map>
+#include <maploop_lcm/replay_control_t.hpp>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "msgs/lcm/conversions.h"
 #include "runtime/vehicle/lcm_bus.h"
@@ -32,12 +37,26 @@ class Listener {
     stop_ = true;
     if (thread_.joinable()) thread_.join();
   }
+  // Whether the player has said such a state, within a bounded time.
+  bool hears(const std::function<bool(const maploop_lcm::replay_control_t&)>& wanted) {
+    for (int i = 0; i < 600; ++i) {
+      {
+        const std::lock_guard lock(mutex_);
+        for (const auto& state : states_) {
+          if (wanted(state)) return true;
+        }
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return false;
+  }
   std::map<std::string, int> counts;  // after stop()
   NavState last_state;
 
  private:
   void hear(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
     ++counts[channel];
+    if (channel == "REPLAY_CONTROL") hear_state(*buffer);
     if (channel != "NAV_STATE") return;
     maploop_lcm::nav_state_t message;
     ASSERT_EQ(message.decode(buffer->data, 0, static_cast<int>(buffer->data_size)),
@@ -45,6 +64,16 @@ class Listener {
     last_state = from_lcm(message);
   }
 
+  void hear_state(const lcm::ReceiveBuffer& buffer) {
+    maploop_lcm::replay_control_t message;
+    ASSERT_EQ(message.decode(buffer.data, 0, static_cast<int>(buffer.data_size)),
+              static_cast<int>(buffer.data_size));
+    const std::lock_guard lock(mutex_);
+    if (message.kind == maploop_lcm::replay_control_t::STATE) states_.push_back(message);
+  }
+
+  std::mutex mutex_;
+  std::vector<maploop_lcm::replay_control_t> states_;
   lcm::LCM lcm_;
   std::atomic<bool> stop_{false};
   std::thread thread_;
@@ -71,6 +100,39 @@ TEST(LcmTraffic, EveryChannelArrivesAndDecodes) {
   }
   EXPECT_EQ(listener.last_state.status, NavStatus::aided);
   EXPECT_NEAR(listener.last_state.forward_speed, 11.0, 5.0);
+}
+
+TEST(LcmTraffic, ThePlayerObeysAnotherProcess) {
+  MAPLOOP_REQUIRE_DRIVE();
+  using Control = maploop_lcm::replay_control_t;
+  Listener listener;
+  testing::Process replay({MAPLOOP_COMMAND, "replay", testing::drive_0013().string(), "--paused"});
+  EXPECT_TRUE(listener.hears([](const Control& s) { return s.paused != 0; }));
+  lcm::LCM lcm(vehicle::LcmBus::default_url);
+  const auto command = [&](std::int8_t kind, double value) {
+    Control message{};
+    message.kind = kind;
+    message.value = value;
+    lcm.publish("REPLAY_CONTROL", &message);
+  };
+  const auto position = [](const Control& s) {
+    return 1e-9 * static_cast<double>(s.position_ns - s.first_ns);
+  };
+  command(Control::SEEK, 6.0);
+  EXPECT_TRUE(listener.hears([&](const Control& s) {
+    return s.seeking == 0 && s.paused != 0 && std::abs(position(s) - 6.0) < 0.05;
+  }));
+  command(Control::SEEK, 3.0);
+  EXPECT_TRUE(listener.hears([&](const Control& s) {
+    return s.seeking == 0 && s.paused != 0 && std::abs(position(s) - 3.0) < 0.05;
+  }));
+  command(Control::SEEK, 100.0);
+  EXPECT_TRUE(listener.hears(
+      [](const Control& s) { return s.refused.find("seek to 100 s") != std::string::npos; }));
+  command(Control::QUIT, 0.0);
+  const testing::ProcessResult result = replay.wait();
+  EXPECT_EQ(result.status, 130) << result.error;
+  EXPECT_NE(result.out.find("(interrupted)"), std::string::npos) << result.out;
 }
 
 }  // namespace

@@ -103,6 +103,39 @@ TEST_F(LogReplay, TakesSnapshotsFaultsAndMomentsAsADriveDoes) {
   EXPECT_EQ(hashes(part), hashes(replay(file("a.lcmlog"), {"--lockstep", "--end", "4"})));
 }
 
+TEST_F(LogReplay, LogsOfRunsAtDifferentSpeedsDifferInNothing) {
+  const std::string drive = testing::drive_0013().string();
+  replay(drive, {"--lockstep", "--end", "5", "--record", file("lockstep.lcmlog")});
+  for (const char* speed : {"1", "7"}) {
+    replay(drive, {"--speed", speed, "--end", "5", "--record", file("paced.lcmlog")});
+    const ProcessResult same =
+        maploop_command({"log", "diff", file("lockstep.lcmlog"), file("paced.lcmlog")});
+    EXPECT_EQ(same.status, 0) << same.out;
+    EXPECT_NE(same.out.find("NAV_STATE: same, "), std::string::npos) << same.out;
+  }
+  replay(drive, {"--lockstep", "--end", "5", "--seed", "2", "--record", file("other.lcmlog")});
+  const ProcessResult other =
+      maploop_command({"log", "diff", file("lockstep.lcmlog"), file("other.lcmlog")});
+  EXPECT_EQ(other.status, 1);
+  EXPECT_NE(other.out.find("GNSS_FIX: different"), std::string::npos) << other.out;
+}
+
+TEST_F(LogReplay, ALogIsNotReplacedByItsOwnReplay) {
+  replay(testing::drive_0013().string(),
+         {"--lockstep", "--end", "1", "--record", file("a.lcmlog")});
+  const auto size = std::filesystem::file_size(file("a.lcmlog"));
+  EXPECT_NE(maploop_command({"replay", file("a.lcmlog"), "--record", file("a.lcmlog")}).status, 0);
+  EXPECT_EQ(std::filesystem::file_size(file("a.lcmlog")), size);
+}
+
+TEST_F(LogReplay, TheLastPassOfALoopIsLikeTheFirst) {
+  const std::string drive = testing::drive_0013().string();
+  EXPECT_EQ(hashes(replay(drive, {"--lockstep", "--end", "2", "--loop", "3"})),
+            hashes(replay(drive, {"--lockstep", "--end", "2"})));
+  EXPECT_EQ(hashes(replay(drive, {"--speed", "4", "--end", "2", "--loop", "2"})),
+            hashes(replay(drive, {"--lockstep", "--end", "2"})));
+}
+
 TEST_F(LogReplay, CompressedLogsAreReadToo) {
   replay(testing::drive_0013().string(),
          {"--lockstep", "--end", "3", "--record", file("a.lcmlog")});

@@ -86,6 +86,15 @@ TEST(ReplayCommand, StartAndEndChangeNoBitOfWhatLiesBetween) {
   EXPECT_LT(lockstep["channels"]["VO"]["count"], 62);
 }
 
+TEST(ReplayCommand, AStartAfterTheEndIsAnError) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const ProcessResult result =
+      replay({testing::drive_0013().string(), "--no-lcm", "--start", "100"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.error.find("--start 100 lies after the end, at 14.8"), std::string::npos)
+      << result.error;
+}
+
 TEST(ReplayCommand, TooFastASpeedStallsTheClockNotTheResult) {
   MAPLOOP_REQUIRE_DRIVE();
   const json too_fast = replay_json({"--speed", "1000"});

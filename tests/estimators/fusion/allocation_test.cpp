@@ -4,7 +4,9 @@
 
 #include <atomic>
 #include <cstdlib>
+#include <utility>
 
+#include "msgs/archive.h"
 #include "tests/estimators/fusion/filter_run.h"
 #include "tests/estimators/fusion/synthetic_drive.h"
 
@@ -63,6 +65,23 @@ TEST(Allocation, ThereIsNoneAfterConstruction) {
   filter.status();
   EXPECT_EQ(allocations, before_use);
   EXPECT_EQ(filter.state_at(SyntheticDrive::at(10.0))->odometry_applied, 100u);
+}
+
+TEST(Allocation, SavingIntoMemoryThatIsThereTakesNoMore) {
+  if (!MAPLOOP_COUNTS_ALLOCATIONS) GTEST_SKIP() << "the sanitizer owns malloc";
+  const SyntheticDrive drive({}, 10.0, test_origin());
+  ReducedImuFilter filter({}, test_origin());
+  for (const Measurement& m :
+       as_available(drive.imu(100.0), drive.odometry(10.0), drive.fix(0.0))) {
+    add(filter, m);
+  }
+  Bytes memory;
+  memory.reserve(filter.largest_archive());
+  const long before = allocations;
+  ArchiveWriter writer(std::move(memory));
+  writer(filter);
+  EXPECT_EQ(allocations, before);
+  EXPECT_GT(writer.content().size(), 200'000u) << "two seconds of history at 110 Hz";
 }
 
 }  // namespace

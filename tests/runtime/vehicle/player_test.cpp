@@ -204,6 +204,17 @@ TEST_F(PlayerTest, EachPassHasTheSameBits) {
   for (const MessageTape& tape : tapes) EXPECT_EQ(tape.all(), lockstep().all());
 }
 
+TEST_F(PlayerTest, EachPassGoesToItsStartAsFastAsItCan) {
+  PlayerParameters parameters;
+  parameters.passes = 2;
+  parameters.start = testing::drive_start + milliseconds(3000);
+  start_again(parameters);
+  EXPECT_TRUE(player().seeking());
+  play_to_end();
+  ASSERT_EQ(tapes.size(), 2u);
+  for (const MessageTape& tape : tapes) EXPECT_EQ(tape.all(), lockstep().all());
+}
+
 TEST_F(PlayerTest, QuitEndsAllPasses) {
   PlayerParameters parameters;
   parameters.passes = 1000;
