@@ -25,7 +25,6 @@ FusionStage::FusionStage(fusion::ReducedImuFilter filter, FusionEdges& inputs,
       inputs_(inputs),
       nav_states_(nav_states),
       image_states_(image_states),
-      intake_(inputs.bell),
       meter_(stages::fusion.name, stages::fusion.deadline),
       camera_path_(paths::camera.name, paths::camera.deadline),
       imu_path_(paths::imu.name, paths::imu.deadline) {
@@ -49,7 +48,7 @@ bool FusionStage::tick(Time k, runtime::DataClock& clock, const std::stop_token&
   const MonotonicTime woken = runtime::monotonic_now();
   MonotonicTime ready = woken;
   if (intake_.promised() < k) {
-    if (!intake_.wait(k, stop)) return false;
+    if (!intake_.wait(k, inputs_.bell, stop)) return false;
     ready = runtime::monotonic_now();
     clock.stall(k, ready);
   }

@@ -24,10 +24,7 @@ PublisherEdges::PublisherEdges()
       reports(make_edge<RuntimeReport>(edges::health_publisher, nullptr)) {}
 
 Publisher::Publisher(PublisherEdges& edges, std::vector<MessageSink*> sinks, Observer observer)
-    : edges_(edges),
-      sinks_(std::move(sinks)),
-      observer_(std::move(observer)),
-      intake_(unused_bell_) {
+    : edges_(edges), sinks_(std::move(sinks)), observer_(std::move(observer)) {
   forward(edges_.imu, channels::imu);
   forward(edges_.gnss, channels::gnss_fix);
   forward(edges_.reference, channels::truth);

@@ -13,7 +13,6 @@
 #include "msgs/nav_state.h"
 #include "msgs/odometry.h"
 #include "msgs/reference.h"
-#include "runtime/core/doorbell.h"
 #include "runtime/core/edge.h"
 #include "runtime/core/intake.h"
 #include "runtime/vehicle/graph.h"
@@ -67,7 +66,6 @@ class Publisher {
   PublisherEdges& edges_;
   std::vector<MessageSink*> sinks_;
   Observer observer_;
-  runtime::Doorbell unused_bell_;
   runtime::Intake intake_;
   std::vector<std::uint8_t> buffer_;
 };

@@ -1,22 +1,12 @@
 #include "runtime/vehicle/vehicle.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
-#include <deque>
-#include <functional>
-#include <optional>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
-#include "runtime/core/thread.h"
-#include "runtime/vehicle/fusion_stage.h"
-#include "runtime/vehicle/graph.h"
-#include "runtime/vehicle/health_monitor.h"
 #include "runtime/vehicle/prefetched_source.h"
-#include "runtime/vehicle/replay_driver.h"
-#include "runtime/vehicle/stereo_stage.h"
+#include "runtime/vehicle/process_usage.h"
+#include "runtime/vehicle/vehicle_graph.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -26,94 +16,7 @@ constexpr Duration lead = milliseconds(100);
 // Samples decoded ahead: longer than a hiccup of the disk.
 constexpr std::size_t decoded_ahead = 6;
 
-double cpu_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-std::uint64_t peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
-}
-
-// What the estimators did not use, by their own reasons.
-std::vector<RefusalCount> refusals(const StereoStage& stereo, const fusion::FilterStatus& filter) {
-  std::vector<RefusalCount> all;
-  const auto add = [&](const Stage& stage, std::string_view reason, std::uint64_t count) {
-    if (count > 0) all.push_back({std::string(stage.name), std::string(reason), count});
-  };
-  for (std::size_t i = 1; i < odometry_status_count; ++i) {
-    const auto status = static_cast<OdometryStatus>(i);
-    add(stages::stereo, to_string(status), stereo.count(status));
-  }
-  for (std::size_t i = 1; i < fusion::reason_count; ++i) {
-    const auto reason = static_cast<fusion::Reason>(i);
-    add(stages::fusion, to_string(reason), filter.refused_for(reason));
-  }
-  add(stages::fusion, "held, and too old before the start", filter.unused);
-  add(stages::fusion, "restart: the clock jumped", filter.restarts);
-  return all;
-}
-
 }  // namespace
-
-struct Vehicle::Graph {
-  Graph(const VehicleConfig& config, const StereoCalibration& calibration, Sensors sensors,
-        const runtime::DataClock& data_clock, std::vector<MessageSink*> sinks, Observer observer);
-  ~Graph();
-
-  void start();
-  void run_health(const std::stop_token& end);
-  RuntimeReport look(Duration elapsed);
-  void wait();
-  VehicleReport report() const;
-
-  template <class T>
-  std::unique_ptr<sensors::Source<T>> prefetched(const Stage& stage,
-                                                 std::unique_ptr<sensors::Source<T>> source);
-  template <class T>
-  void start_driver(const Stage& stage, ReplayDriver<T>& driver);
-  runtime::Thread& start_thread(const Stage& stage, int fifo_priority, runtime::Thread::Body body,
-                                std::function<void()> at_end);
-
-  VehicleConfig config;
-  std::stop_source stop;
-  runtime::DataClock clock;
-  Time first = Time::max();
-
-  // Edges, by the thread that they end at.
-  runtime::Doorbell stereo_bell;
-  runtime::Edge<StereoPair> images;
-  FusionEdges to_fusion;
-  PublisherEdges to_publisher;
-
-  ReplayDriver<StereoPair> camera;
-  ReplayDriver<LidarScan> velodyne;
-  ReplayDriver<ImuSample> imu;
-  ReplayDriver<GnssFix> gnss;
-  ReplayDriver<ReferencePose> reference;
-  StereoStage stereo;
-  FusionStage fusion;
-  Publisher publisher;
-  HealthMonitor monitor;
-
-  std::stop_callback<std::function<void()>> wake_all;
-  std::deque<runtime::Thread> producers;
-  std::stop_source end_health;
-  runtime::Doorbell health_bell;
-  std::unique_ptr<runtime::Thread> health_thread;
-  std::unique_ptr<runtime::Thread> publisher_thread;
-  MonotonicTime started{};
-  Duration wall{};
-  double cpu_at_start = 0.0;
-  double cpu = 0.0;
-  RuntimeReport last_report;  // of the whole run
-};
 
 Vehicle::Graph::Graph(const VehicleConfig& vehicle_config, const StereoCalibration& calibration,
                       Sensors sensors, const runtime::DataClock& data_clock,
@@ -185,7 +88,7 @@ void Vehicle::Graph::start() {
   monitor.watch_path(fusion.camera_path());
   monitor.watch_path(fusion.imu_path());
 
-  cpu_at_start = cpu_seconds();
+  cpu_at_start = process_cpu_seconds();
   started = runtime::monotonic_now();
   clock.start(first, lead);
   start_driver(stages::camera, camera);
@@ -250,39 +153,10 @@ void Vehicle::Graph::wait() {
   if (publisher_thread) publisher_thread->join();
   if (wall == Duration::zero()) {
     wall = runtime::monotonic_now() - started;
-    cpu = cpu_seconds() - cpu_at_start;
+    cpu = process_cpu_seconds() - cpu_at_start;
     monitor.restart_rates();
     last_report = look(fusion.position() - first);
   }
-}
-
-VehicleReport Vehicle::Graph::report() const {
-  VehicleReport r;
-  runtime::Histogram lateness;
-  const auto add = [&](const auto& driver) {
-    r.sensors.push_back({driver.lateness().name(), driver.report(), driver.lateness().summary()});
-    lateness.merge(driver.lateness().histogram());
-  };
-  add(camera);
-  add(velodyne);
-  add(imu);
-  add(gnss);
-  add(reference);
-  r.lateness = lateness.summarize("all sensors");
-  r.health = last_report.health;
-  r.deadlines = last_report.deadlines;
-  for (const Meter* meter :
-       {&stereo.meter(), &fusion.meter(), &fusion.camera_path(), &fusion.imu_path()}) {
-    r.misses.push_back({meter->name(), meter->misses()});
-  }
-  r.refusals = refusals(stereo, fusion.filter().status());
-  r.stalls = clock.stalls();
-  r.stalled = clock.stalled();
-  r.data_seconds = to_seconds(fusion.position() - first);
-  r.wall_seconds = to_seconds(wall);
-  r.cpu_seconds = cpu;
-  r.peak_memory = peak_memory();
-  return r;
 }
 
 Vehicle::Vehicle(const VehicleConfig& config, const StereoCalibration& calibration, Sensors sensors,

@@ -1,0 +1,74 @@
+// What the vehicle owns: its edges, stages and threads. For vehicle.cpp and vehicle_report.cpp
+// alone.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <vector>
+
+#include "runtime/core/thread.h"
+#include "runtime/vehicle/fusion_stage.h"
+#include "runtime/vehicle/graph.h"
+#include "runtime/vehicle/health_monitor.h"
+#include "runtime/vehicle/replay_driver.h"
+#include "runtime/vehicle/stereo_stage.h"
+#include "runtime/vehicle/vehicle.h"
+
+namespace maploop::vehicle {
+
+struct Vehicle::Graph {
+  Graph(const VehicleConfig& config, const StereoCalibration& calibration, Sensors sensors,
+        const runtime::DataClock& data_clock, std::vector<MessageSink*> sinks, Observer observer);
+  ~Graph();
+
+  void start();
+  void run_health(const std::stop_token& end);
+  RuntimeReport look(Duration elapsed);
+  void wait();
+  VehicleReport report() const;
+
+  template <class T>
+  std::unique_ptr<sensors::Source<T>> prefetched(const Stage& stage,
+                                                 std::unique_ptr<sensors::Source<T>> source);
+  template <class T>
+  void start_driver(const Stage& stage, ReplayDriver<T>& driver);
+  runtime::Thread& start_thread(const Stage& stage, int fifo_priority, runtime::Thread::Body body,
+                                std::function<void()> at_end);
+
+  VehicleConfig config;
+  std::stop_source stop;
+  runtime::DataClock clock;
+  Time first = Time::max();
+
+  // Edges, by the thread that they end at.
+  runtime::Doorbell stereo_bell;
+  runtime::Edge<StereoPair> images;
+  FusionEdges to_fusion;
+  PublisherEdges to_publisher;
+
+  ReplayDriver<StereoPair> camera;
+  ReplayDriver<LidarScan> velodyne;
+  ReplayDriver<ImuSample> imu;
+  ReplayDriver<GnssFix> gnss;
+  ReplayDriver<ReferencePose> reference;
+  StereoStage stereo;
+  FusionStage fusion;
+  Publisher publisher;
+  HealthMonitor monitor;
+
+  std::stop_callback<std::function<void()>> wake_all;
+  std::deque<runtime::Thread> producers;
+  std::stop_source end_health;
+  runtime::Doorbell health_bell;
+  std::unique_ptr<runtime::Thread> health_thread;
+  std::unique_ptr<runtime::Thread> publisher_thread;
+  MonotonicTime started{};
+  Duration wall{};
+  double cpu_at_start = 0.0;
+  double cpu = 0.0;
+  RuntimeReport last_report;  // of the whole run
+};
+
+}  // namespace maploop::vehicle
