@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "msgs/realtime_setting.h"
 #include "msgs/time.h"
 
 namespace maploop {
@@ -32,7 +33,7 @@ struct RingHealth {
 
 struct ThreadHealth {
   std::string name;
-  std::string scheduling;   // what the kernel granted: "fifo 50", "other (fifo 50 refused: ...)"
+  std::string scheduling;   // what the kernel granted: "fifo 50", "other"
   std::uint64_t count = 0;  // samples or ticks so far
   double rate = 0.0;        // Hz of data time, over the last second
   std::string failure;      // empty while it runs
@@ -42,6 +43,7 @@ struct Health {
   Time stamp{};
   std::vector<ThreadHealth> threads;
   std::vector<RingHealth> rings;
+  std::vector<RealtimeSetting> settings;
   std::vector<std::string> degraded;  // each a sentence: what, since when, what to do
 };
 

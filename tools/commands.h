@@ -9,6 +9,7 @@ namespace maploop::tools {
 // What the parsed command line asks for; returns the exit status.
 using Command = std::function<int()>;
 
+void add_doctor(CLI::App& app, Command& command);
 void add_log(CLI::App& app, Command& command);
 void add_replay(CLI::App& app, Command& command);
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runtime/core/data_clock.h"
+#include "runtime/core/realtime.h"
 #include "runtime/vehicle/channel_hashes.h"
 #include "runtime/vehicle/fault_injection.h"
 #include "runtime/vehicle/lcm_bus.h"
@@ -70,6 +71,8 @@ int replay(const ReplayOptions& options) {
   vehicle::VehicleConfig config;
   if (!options.config.empty()) config = vehicle::load_vehicle_config(options.config);
   if (options.seed) config.gnss.seed = *options.seed;
+  runtime::RealtimeReport readiness;
+  if (!options.lockstep) readiness = runtime::prepare_process(config.memory);
 
   const sensors::KittiDrive drive(options.drive, config.replay);
   vehicle::Sensors sources;
@@ -111,6 +114,7 @@ int replay(const ReplayOptions& options) {
   vehicle::Vehicle vehicle(config, drive.calibration().stereo, std::move(sources), clock, sinks,
                            observer);
   vehicle.slow_down(faults.delays());
+  vehicle.prepared(readiness);
   PlaybackEnd end = PlaybackEnd::finished;
   {
     const auto hogs = faults.hogs([&] { return vehicle.position(); });
@@ -166,6 +170,9 @@ void add_replay(CLI::App& app, Command& command) {
   sub->add_flag("--paused", options->playback.paused, "Wait for the space bar at the start")
       ->excludes(lockstep);
   sub->add_flag("--until-miss", options->playback.until_miss, "Pause at the first missed deadline")
+      ->excludes(lockstep);
+  sub->add_flag("--verbose", options->playback.verbose,
+                "Say of every real-time setting what was granted, not only of those refused")
       ->excludes(lockstep);
   sub->add_option("--record", options->record, "Write every message to this LCM log");
   sub->add_flag("--no-lcm", options->no_lcm, "Publish nothing on LCM");

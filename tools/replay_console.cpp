@@ -8,6 +8,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <iostream>
 #include <optional>
 #include <thread>
 
@@ -112,6 +113,8 @@ PlaybackEnd play(vehicle::Vehicle& vehicle, Time last, const PlaybackOptions& op
   bool quit = false;
   vehicle.start();
   if (vehicle.clock().is_paced()) {
+    const runtime::RealtimeReport& readiness = vehicle.readiness();
+    std::cerr << (options.verbose ? to_text(readiness) : to_short_text(readiness));
     if (options.start > 0.0) player.seek(vehicle.first() + from_seconds(options.start));
     if (options.until_miss) player.play_to_next_miss();
     if (options.paused) player.pause();

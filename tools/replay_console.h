@@ -9,6 +9,7 @@ struct PlaybackOptions {
   double start = 0.0;       // s into the drive; what lies before goes by as fast as it can
   bool paused = false;      // from the start on
   bool until_miss = false;  // pause at the first missed deadline
+  bool verbose = false;     // every real-time setting, not only what was not granted
 };
 
 enum class PlaybackEnd { finished, interrupted };

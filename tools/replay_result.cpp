@@ -4,9 +4,8 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
+#include "tools/json_output.h"
 
 namespace maploop::tools {
 namespace {
@@ -267,14 +266,8 @@ void write_json(const std::filesystem::path& file, const ReplayResult& r) {
     j["channels"][name] = {{"hash", channel.hash}, {"count", channel.count}};
   }
   j["degraded"] = v.health.degraded;
-
-  std::ofstream out(file);
-  out << j.dump(2) << '\n';
-  out.close();
-  if (!out) {
-    throw std::runtime_error("cannot write '" + file.string() +
-                             "': check that its folder exists and may be written");
-  }
+  j["realtime"] = to_json(v.health.settings);
+  write_json_file(file, j);
 }
 
 }  // namespace maploop::tools

@@ -51,13 +51,13 @@ void read(const double (&in)[n][n], Eigen::Matrix<double, n, n>& m) {
 }
 
 // The enumerations of the messages count like ours; `last` is the largest known.
-template <class Status>
-Status status_from(std::int8_t value, Status last, const char* type) {
+template <class Enumeration>
+Enumeration enumerator_from(std::int8_t value, Enumeration last, const char* field) {
   if (value < 0 || value > static_cast<std::int8_t>(last)) {
-    throw std::invalid_argument(std::string(type) + ".status is " + std::to_string(value) +
+    throw std::invalid_argument(std::string(field) + " is " + std::to_string(value) +
                                 ", which this version does not know");
   }
-  return static_cast<Status>(value);
+  return static_cast<Enumeration>(value);
 }
 
 double to_us(Duration d) {
@@ -129,6 +129,23 @@ RingHealth from_lcm(const maploop_lcm::ring_health_t& m) {
           static_cast<std::uint64_t>(m.capacity)};
 }
 
+maploop_lcm::realtime_setting_t to_lcm(const RealtimeSetting& s) {
+  maploop_lcm::realtime_setting_t m{};
+  m.name = s.name;
+  m.asked = s.asked;
+  m.granted = s.granted;
+  m.verdict = static_cast<std::int8_t>(s.verdict);
+  m.reason = s.reason;
+  m.remedy = s.remedy;
+  return m;
+}
+
+RealtimeSetting from_lcm(const maploop_lcm::realtime_setting_t& m) {
+  return {m.name,    m.asked,
+          m.granted, enumerator_from(m.verdict, Verdict::unknown, "realtime_setting_t.verdict"),
+          m.reason,  m.remedy};
+}
+
 template <class In, class Out>
 void convert_each(const std::vector<In>& in, std::vector<Out>& out, Out (*convert)(const In&)) {
   out.resize(in.size());
@@ -163,7 +180,7 @@ maploop_lcm::nav_state_t to_lcm(const NavState& state) {
 NavState from_lcm(const maploop_lcm::nav_state_t& m) {
   NavState state;
   set_sample(state, m.header);
-  state.status = status_from(m.status, NavStatus::coasting, "nav_state_t");
+  state.status = enumerator_from(m.status, NavStatus::coasting, "nav_state_t.status");
   state.origin = {m.origin_latitude, m.origin_longitude, m.origin_height};
   read<3>(m.position_enu, state.position_enu);
   read<3>(m.velocity_enu, state.velocity_enu);
@@ -195,7 +212,7 @@ maploop_lcm::relative_motion_t to_lcm(const RelativeMotion& motion) {
 RelativeMotion from_lcm(const maploop_lcm::relative_motion_t& m) {
   RelativeMotion motion;
   set_sample(motion, m.header);
-  motion.status = status_from(m.status, OdometryStatus::bad_input, "relative_motion_t");
+  motion.status = enumerator_from(m.status, OdometryStatus::bad_input, "relative_motion_t.status");
   motion.from = from_nanoseconds(m.from_ns);
   read<3>(m.translation, motion.translation);
   read<4>(m.rotation_xyzw, motion.rotation.coeffs());
@@ -296,9 +313,11 @@ maploop_lcm::health_t to_lcm(const Health& health) {
   m.utime = microseconds_of(health.stamp);
   convert_each(health.threads, m.threads, to_lcm);
   convert_each(health.rings, m.rings, to_lcm);
+  convert_each(health.settings, m.settings, to_lcm);
   m.degraded = health.degraded;
   m.thread_count = static_cast<std::int32_t>(m.threads.size());
   m.ring_count = static_cast<std::int32_t>(m.rings.size());
+  m.setting_count = static_cast<std::int32_t>(m.settings.size());
   m.degraded_count = static_cast<std::int32_t>(m.degraded.size());
   return m;
 }
@@ -308,6 +327,7 @@ Health from_lcm(const maploop_lcm::health_t& m) {
   health.stamp = Time(std::chrono::microseconds(m.utime));
   convert_each(m.threads, health.threads, from_lcm);
   convert_each(m.rings, health.rings, from_lcm);
+  convert_each(m.settings, health.settings, from_lcm);
   health.degraded = m.degraded;
   return health;
 }

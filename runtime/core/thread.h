@@ -28,19 +28,17 @@ class Thread {
 
   void join();
   const std::string& name() const { return name_; }
-  // "fifo 50", or "other (fifo 50 refused: ...; remedy)", and the like for the CPUs.
-  std::string scheduling() const;
-  // All that was asked for this thread; empty until it has been.
-  std::vector<RealtimeSetting> settings() const;
+  // All that was asked for this thread, "NAME: scheduling" first. Known from construction on.
+  const std::vector<RealtimeSetting>& settings() const { return settings_; }
   std::string failure() const;  // empty while all is well
   bool ended() const { return ended_.load(std::memory_order_acquire); }
 
  private:
-  void run(const Scheduling& scheduling, const std::stop_token& stop, const Body& body);
+  void run(const std::stop_token& stop, const Body& body);
 
   std::string name_;
-  mutable std::mutex mutex_;  // of the next two
   std::vector<RealtimeSetting> settings_;
+  mutable std::mutex mutex_;  // of failure_
   std::string failure_;
   std::atomic<bool> ended_{false};
   std::thread thread_;

@@ -8,13 +8,14 @@ void HealthMonitor::watch(const runtime::Thread& thread, const Meter& meter, boo
   threads_.push_back({&thread, &meter, latency});
 }
 
-Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataClock& clock) {
+Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataClock& clock,
+                             const runtime::RealtimeReport& readiness) {
   Health health;
   health.stamp = stamp;
   for (Watched& watched : threads_) {
     ThreadHealth t;
     t.name = watched.thread->name();
-    t.scheduling = watched.thread->scheduling();
+    t.scheduling = watched.thread->settings().front().granted;
     t.failure = watched.thread->failure();
     t.count = watched.meter->count();
     if (elapsed > Duration::zero()) {
@@ -25,9 +26,6 @@ Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataCl
       health.degraded.push_back(t.name + " has ended: " + t.failure +
                                 "; its outputs are stale, the rest goes on");
     }
-    if (t.scheduling.find("refused") != std::string::npos) {
-      health.degraded.push_back(t.name + " runs with scheduling " + t.scheduling);
-    }
     health.threads.push_back(std::move(t));
   }
   for (const auto* edge : edges_) {
@@ -37,6 +35,12 @@ Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataCl
                                 std::to_string(r.pushed) + " samples: its reader is too slow");
     }
     health.rings.push_back(std::move(r));
+  }
+  health.settings = readiness.settings;
+  for (const RealtimeSetting& setting : health.settings) {
+    if (setting.verdict == Verdict::refused) {
+      health.degraded.push_back(runtime::to_sentence(setting));
+    }
   }
   if (clock.stalls() > 0) {
     health.degraded.push_back("the data clock was stalled " + std::to_string(clock.stalls()) +

@@ -9,6 +9,7 @@
 #include "msgs/diagnostics.h"
 #include "runtime/core/data_clock.h"
 #include "runtime/core/edge.h"
+#include "runtime/core/realtime_setting.h"
 #include "runtime/core/thread.h"
 #include "runtime/vehicle/meter.h"
 
@@ -24,7 +25,8 @@ class HealthMonitor {
   void watch(const runtime::EdgeBase& edge) { edges_.push_back(&edge); }
 
   // `elapsed`: data time since the last look, for the rates.
-  Health health(Time stamp, Duration elapsed, const runtime::DataClock& clock);
+  Health health(Time stamp, Duration elapsed, const runtime::DataClock& clock,
+                const runtime::RealtimeReport& readiness);
   // The next health() counts from the start.
   void restart_rates();
   Deadlines deadlines(Time stamp) const;

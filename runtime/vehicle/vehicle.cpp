@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "runtime/core/realtime.h"
 #include "runtime/vehicle/prefetched_source.h"
 #include "runtime/vehicle/process_usage.h"
 #include "runtime/vehicle/vehicle_graph.h"
@@ -52,20 +53,23 @@ std::unique_ptr<sensors::Source<T>> Vehicle::Graph::prefetched(
                                                std::move(source), decoded_ahead, stop.get_token());
 }
 
-runtime::Thread& Vehicle::Graph::start_thread(const Stage& stage, int fifo_priority,
-                                              runtime::Thread::Body body,
+runtime::Thread& Vehicle::Graph::start_thread(std::deque<runtime::Thread>& threads,
+                                              const Stage& stage,
+                                              const runtime::Scheduling& scheduling,
+                                              std::stop_token token, runtime::Thread::Body body,
                                               std::function<void()> at_end) {
-  const runtime::Scheduling scheduling = clock.is_paced() && fifo_priority != 0
-                                             ? runtime::Scheduling::fifo(fifo_priority)
-                                             : runtime::Scheduling{};
-  return producers.emplace_back(std::string(stage.name), scheduling, stop.get_token(),
-                                std::move(body), std::move(at_end));
+  runtime::Thread& thread = threads.emplace_back(
+      std::string(stage.name), clock.is_paced() ? scheduling : runtime::Scheduling{},
+      std::move(token), std::move(body), std::move(at_end));
+  runtime::append(readiness, thread.settings());
+  return thread;
 }
 
 template <class T>
-void Vehicle::Graph::start_driver(const Stage& stage, ReplayDriver<T>& driver) {
+void Vehicle::Graph::start_driver(const Stage& stage, const runtime::Scheduling& scheduling,
+                                  ReplayDriver<T>& driver) {
   const runtime::Thread& thread = start_thread(
-      stage, config.scheduling.sensor_priority,
+      producers, stage, scheduling, stop.get_token(),
       [&](const std::stop_token& token) { driver.run(clock, token); }, [&] { driver.finish(); });
   monitor.watch(thread, driver.lateness(), false);
 }
@@ -91,41 +95,44 @@ void Vehicle::Graph::start() {
   cpu_at_start = process_cpu_seconds();
   started = runtime::monotonic_now();
   clock.start(first, lead);
-  start_driver(stages::camera, camera);
-  start_driver(stages::velodyne, velodyne);
-  start_driver(stages::imu, imu);
-  start_driver(stages::gnss, gnss);
-  start_driver(stages::reference, reference);
+  const SchedulingParameters& scheduling = config.scheduling;
+  start_driver(stages::camera, scheduling.camera, camera);
+  start_driver(stages::velodyne, scheduling.velodyne, velodyne);
+  start_driver(stages::imu, scheduling.imu, imu);
+  start_driver(stages::gnss, scheduling.gnss, gnss);
+  start_driver(stages::reference, scheduling.reference, reference);
   monitor.watch(start_thread(
-                    stages::stereo, config.scheduling.stereo_priority,
+                    producers, stages::stereo, scheduling.stereo, stop.get_token(),
                     [this](const std::stop_token& token) { stereo.run(clock, token); },
                     [this] { stereo.finish(); }),
                 stereo.meter(), true);
   monitor.watch(start_thread(
-                    stages::fusion, config.scheduling.fusion_priority,
+                    producers, stages::fusion, scheduling.fusion, stop.get_token(),
                     [this](const std::stop_token& token) { fusion.run(clock, first, token); },
                     [this] { fusion.finish(); }),
                 fusion.meter(), true);
   // These two end after everybody else has, so that nothing produced is left unsaid.
-  health_thread = std::make_unique<runtime::Thread>(
-      std::string(stages::health.name), runtime::Scheduling{}, end_health.get_token(),
+  start_thread(
+      listeners, stages::publisher, scheduling.publisher, {},
+      [this](const std::stop_token&) { publisher.run(); }, [] {});
+  start_thread(
+      listeners, stages::health, scheduling.health, end_health.get_token(),
       [this](const std::stop_token& end) { run_health(end); },
       [this] { to_publisher.reports.finish(); });
-  publisher_thread = std::make_unique<runtime::Thread>(
-      std::string(stages::publisher.name), runtime::Scheduling{}, std::stop_token{},
-      [this](const std::stop_token&) { publisher.run(); }, [] {});
+  started_all.count_down();
 }
 
 RuntimeReport Vehicle::Graph::look(Duration elapsed) {
   const Time stamp = fusion.position();
   RuntimeReport report;
   report.stamp = report.available = stamp;
-  report.health = monitor.health(stamp, elapsed, clock);
+  report.health = monitor.health(stamp, elapsed, clock, readiness);
   report.deadlines = monitor.deadlines(stamp);
   return report;
 }
 
 void Vehicle::Graph::run_health(const std::stop_token& end) {
+  started_all.wait();
   Time looked = first;
   const auto say = [&] {
     const Time now = fusion.position();
@@ -149,8 +156,7 @@ void Vehicle::Graph::wait() {
   for (runtime::Thread& thread : producers) thread.join();
   end_health.request_stop();
   health_bell.ring();
-  if (health_thread) health_thread->join();
-  if (publisher_thread) publisher_thread->join();
+  for (runtime::Thread& thread : listeners) thread.join();
   if (wall == Duration::zero()) {
     wall = runtime::monotonic_now() - started;
     cpu = process_cpu_seconds() - cpu_at_start;
@@ -170,6 +176,14 @@ Vehicle::~Vehicle() = default;
 void Vehicle::slow_down(StageDelays delays) {
   graph_->stereo.slow_down(std::move(delays.stereo));
   graph_->fusion.slow_down(std::move(delays.fusion));
+}
+
+void Vehicle::prepared(const runtime::RealtimeReport& report) {
+  runtime::append(graph_->readiness, report.settings);
+}
+
+const runtime::RealtimeReport& Vehicle::readiness() const {
+  return graph_->readiness;
 }
 
 void Vehicle::start() {

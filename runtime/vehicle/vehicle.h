@@ -12,6 +12,7 @@
 #include "msgs/lidar_scan.h"
 #include "msgs/reference.h"
 #include "runtime/core/data_clock.h"
+#include "runtime/core/realtime_setting.h"
 #include "runtime/vehicle/fault_delay.h"
 #include "runtime/vehicle/message_sink.h"
 #include "runtime/vehicle/publisher.h"
@@ -42,8 +43,14 @@ class Vehicle {
   // Slows stages down, for tests of what happens then; before start().
   void slow_down(StageDelays delays);
 
+  // What prepare_process() and the like have said, for readiness() and HEALTH; before start().
+  void prepared(const runtime::RealtimeReport& report);
+
   // Starts every thread. Throws std::runtime_error when no sensor has a single sample.
   void start();
+
+  // What was prepared, and, after start(), what each thread was granted.
+  const runtime::RealtimeReport& readiness() const;
 
   // Asks every thread to end; any thread may call it. What was produced so far is still published.
   void stop();

@@ -4,6 +4,7 @@
 
 #include <deque>
 #include <functional>
+#include <latch>
 #include <memory>
 #include <stop_token>
 #include <vector>
@@ -33,9 +34,12 @@ struct Vehicle::Graph {
   std::unique_ptr<sensors::Source<T>> prefetched(const Stage& stage,
                                                  std::unique_ptr<sensors::Source<T>> source);
   template <class T>
-  void start_driver(const Stage& stage, ReplayDriver<T>& driver);
-  runtime::Thread& start_thread(const Stage& stage, int fifo_priority, runtime::Thread::Body body,
-                                std::function<void()> at_end);
+  void start_driver(const Stage& stage, const runtime::Scheduling& scheduling,
+                    ReplayDriver<T>& driver);
+  // Makes it an element of `threads`; its settings become part of the readiness.
+  runtime::Thread& start_thread(std::deque<runtime::Thread>& threads, const Stage& stage,
+                                const runtime::Scheduling& scheduling, std::stop_token token,
+                                runtime::Thread::Body body, std::function<void()> at_end);
 
   VehicleConfig config;
   std::stop_source stop;
@@ -57,13 +61,14 @@ struct Vehicle::Graph {
   FusionStage fusion;
   Publisher publisher;
   HealthMonitor monitor;
+  runtime::RealtimeReport readiness;  // complete, and constant, from started_all on
 
   std::stop_callback<std::function<void()>> wake_all;
   std::deque<runtime::Thread> producers;
   std::stop_source end_health;
   runtime::Doorbell health_bell;
-  std::unique_ptr<runtime::Thread> health_thread;
-  std::unique_ptr<runtime::Thread> publisher_thread;
+  std::deque<runtime::Thread> listeners;  // they end after the producers
+  std::latch started_all{1};
   MonotonicTime started{};
   Duration wall{};
   double cpu_at_start = 0.0;

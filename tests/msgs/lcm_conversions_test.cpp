@@ -178,6 +178,8 @@ TEST(LcmConversions, Health) {
   h.stamp = Time(std::chrono::microseconds(1'317'042'651'174'740));
   h.threads = {{"fusion", "fifo 60", 1480, 100.0, ""}, {"camera", "default", 10, 9.7, "no file"}};
   h.rings = {{"camera -> stereo", 10, 8, 1, 1, 4}};
+  h.settings = {{"fusion: scheduling", "fifo 60", "other", Verdict::refused, "no CAP_SYS_NICE",
+                 "run as root"}};
   h.degraded = {"camera has ended"};
   const Health r = round_trip(h);
   EXPECT_EQ(r.stamp, h.stamp);
@@ -191,6 +193,13 @@ TEST(LcmConversions, Health) {
   EXPECT_EQ(r.rings[0].lost, 1u);
   EXPECT_EQ(r.rings[0].held, 1u);
   EXPECT_EQ(r.rings[0].capacity, 4u);
+  ASSERT_EQ(r.settings.size(), 1u);
+  EXPECT_EQ(r.settings[0].name, h.settings[0].name);
+  EXPECT_EQ(r.settings[0].asked, h.settings[0].asked);
+  EXPECT_EQ(r.settings[0].granted, h.settings[0].granted);
+  EXPECT_EQ(r.settings[0].verdict, h.settings[0].verdict);
+  EXPECT_EQ(r.settings[0].reason, h.settings[0].reason);
+  EXPECT_EQ(r.settings[0].remedy, h.settings[0].remedy);
   EXPECT_EQ(r.degraded, h.degraded);
 }
 
@@ -207,6 +216,11 @@ TEST(LcmConversions, AStatusOfAnotherVersionIsRefused) {
   auto motion = to_lcm(RelativeMotion{});
   motion.status = -1;
   EXPECT_THROW(from_lcm(motion), std::invalid_argument);
+  Health health;
+  health.settings.resize(1);
+  auto message = to_lcm(health);
+  message.settings[0].verdict = 9;
+  EXPECT_THROW(from_lcm(message), std::invalid_argument);
 }
 
 // The constants in the .lcm files are those of the enumerations.
@@ -218,6 +232,8 @@ TEST(LcmConversions, StatusConstantsAgree) {
             +maploop_lcm::relative_motion_t::IMPLAUSIBLE);
   EXPECT_EQ(static_cast<int>(OdometryStatus::bad_input),
             +maploop_lcm::relative_motion_t::BAD_INPUT);
+  EXPECT_EQ(static_cast<int>(Verdict::refused), +maploop_lcm::realtime_setting_t::REFUSED);
+  EXPECT_EQ(static_cast<int>(Verdict::unknown), +maploop_lcm::realtime_setting_t::UNKNOWN);
 }
 
 }  // namespace

@@ -37,16 +37,18 @@ TEST(Thread, SaysWhatTheKernelGrantedOrWhyNot) {
   Thread thread(
       "fifo", Scheduling::fifo(10), {}, [](const std::stop_token&) {}, [] {});
   thread.join();
-  const std::string granted = thread.scheduling();
-  EXPECT_TRUE(granted == "fifo 10" || granted.find("fifo 10 refused") != std::string::npos)
-      << granted;
+  const RealtimeSetting& setting = thread.settings().front();
+  EXPECT_EQ(setting.name, "fifo: scheduling");
+  EXPECT_EQ(setting.asked, "fifo 10");
+  EXPECT_EQ(setting.verdict == Verdict::granted, setting.granted == "fifo 10");
+  EXPECT_EQ(setting.verdict == Verdict::granted, setting.remedy.empty());
 }
 
 TEST(Thread, APriorityThatDoesNotExistIsRefusedNotFatal) {
   Thread thread(
       "bad", Scheduling::fifo(1000), {}, [](const std::stop_token&) {}, [] {});
   thread.join();
-  EXPECT_NE(thread.scheduling().find("refused"), std::string::npos);
+  EXPECT_EQ(thread.settings().front().verdict, Verdict::refused);
   EXPECT_EQ(thread.failure(), "");
 }
 
