@@ -4,14 +4,49 @@
 
 namespace maploop::vehicle {
 
-void HealthMonitor::watch(const runtime::Thread& thread, const Meter& meter, bool latency) {
-  threads_.push_back({&thread, &meter, latency});
+void HealthMonitor::start(Time first, MonotonicTime wall) {
+  first_ = first;
+  wall_start_ = wall;
+}
+
+void HealthMonitor::watch_driver(const Stage& stage, const runtime::Thread& thread,
+                                 const Meter& lateness, bool absent) {
+  threads_.push_back({&thread,
+                      &lateness,
+                      absent,
+                      {},
+                      Watchdog(stage, Watchdog::Kind::driver, first_, wall_start_)});
+}
+
+void HealthMonitor::watch_stage(const Stage& stage, const runtime::Thread& thread,
+                                const Meter& latency,
+                                std::vector<const runtime::EdgeBase*> inputs) {
+  threads_.push_back({&thread, &latency, false, std::move(inputs),
+                      Watchdog(stage, Watchdog::Kind::fed, first_, wall_start_)});
+}
+
+StageFacts HealthMonitor::facts(const Watched& watched, std::uint64_t count) {
+  StageFacts facts;
+  facts.absent = watched.absent;
+  facts.count = count;
+  Time furthest_behind = Time::max();
+  for (const runtime::EdgeBase* input : watched.inputs) {
+    const Time promised = input->promised();
+    const RingHealth ring = input->health();
+    facts.waiting += ring.held;
+    if (promised < furthest_behind) {
+      furthest_behind = promised;
+      facts.waits_for = ring.held == 0 ? ring.name : "";
+    }
+  }
+  return facts;
 }
 
 Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataClock& clock,
                              const runtime::RealtimeReport& readiness) {
   Health health;
   health.stamp = stamp;
+  const MonotonicTime now = runtime::monotonic_now();
   for (Watched& watched : threads_) {
     ThreadHealth t;
     t.name = watched.thread->name();
@@ -26,6 +61,8 @@ Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataCl
       health.degraded.push_back(t.name + " has ended: " + t.failure +
                                 "; its outputs are stale, the rest goes on");
     }
+    const auto wrong = watched.watchdog.look(stamp, now, facts(watched, t.count));
+    health.degraded.insert(health.degraded.end(), wrong.begin(), wrong.end());
     health.threads.push_back(std::move(t));
   }
   for (const auto* edge : edges_) {
@@ -58,7 +95,7 @@ Deadlines HealthMonitor::deadlines(Time stamp) const {
   Deadlines deadlines;
   deadlines.stamp = stamp;
   for (const Watched& watched : threads_) {
-    if (watched.latency) deadlines.threads.push_back(watched.meter->summary());
+    if (!watched.inputs.empty()) deadlines.threads.push_back(watched.meter->summary());
   }
   for (const Meter* path : paths_) deadlines.paths.push_back(path->summary());
   return deadlines;

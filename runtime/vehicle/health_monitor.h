@@ -11,7 +11,9 @@
 #include "runtime/core/edge.h"
 #include "runtime/core/realtime_setting.h"
 #include "runtime/core/thread.h"
+#include "runtime/vehicle/graph.h"
 #include "runtime/vehicle/meter.h"
+#include "runtime/vehicle/watchdog.h"
 
 namespace maploop::vehicle {
 
@@ -19,8 +21,14 @@ namespace maploop::vehicle {
 // outlive the monitor.
 class HealthMonitor {
  public:
-  // `meter` counts what the thread does; `latency` is false where it measures release lateness.
-  void watch(const runtime::Thread& thread, const Meter& meter, bool latency);
+  // Of the data, and of the threads. Before watch().
+  void start(Time first, MonotonicTime wall);
+  // A driver: `lateness` of its releases. `absent`: it has no sensor.
+  void watch_driver(const Stage& stage, const runtime::Thread& thread, const Meter& lateness,
+                    bool absent);
+  // A stage that these rings feed: `latency` of its results.
+  void watch_stage(const Stage& stage, const runtime::Thread& thread, const Meter& latency,
+                   std::vector<const runtime::EdgeBase*> inputs);
   void watch_path(const Meter& path) { paths_.push_back(&path); }
   void watch(const runtime::EdgeBase& edge) { edges_.push_back(&edge); }
 
@@ -35,9 +43,15 @@ class HealthMonitor {
   struct Watched {
     const runtime::Thread* thread;
     const Meter* meter;
-    bool latency;
+    bool absent;
+    std::vector<const runtime::EdgeBase*> inputs;  // none: a driver
+    Watchdog watchdog;
     std::uint64_t seen = 0;
   };
+  static StageFacts facts(const Watched& watched, std::uint64_t count);
+
+  Time first_{};
+  MonotonicTime wall_start_{};
   std::vector<Watched> threads_;
   std::vector<const Meter*> paths_;
   std::vector<const runtime::EdgeBase*> edges_;

@@ -48,6 +48,8 @@ class ReplayDriver {
     }
   }
 
+  bool absent() const { return source_ == nullptr; }
+
   // Nothing more comes; also after a failure.
   void finish() {
     for (auto* edge : edges_) edge->finish();

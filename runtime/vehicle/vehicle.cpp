@@ -71,7 +71,7 @@ void Vehicle::Graph::start_driver(const Stage& stage, const runtime::Scheduling&
   const runtime::Thread& thread = start_thread(
       producers, stage, scheduling, stop.get_token(),
       [&](const std::stop_token& token) { driver.run(clock, token); }, [&] { driver.finish(); });
-  monitor.watch(thread, driver.lateness(), false);
+  monitor.watch_driver(stage, thread, driver.lateness(), driver.absent());
 }
 
 void Vehicle::Graph::start() {
@@ -95,22 +95,25 @@ void Vehicle::Graph::start() {
   cpu_at_start = process_cpu_seconds();
   started = runtime::monotonic_now();
   clock.start(first, lead);
+  monitor.start(first, started);
   const SchedulingParameters& scheduling = config.scheduling;
   start_driver(stages::camera, scheduling.camera, camera);
   start_driver(stages::velodyne, scheduling.velodyne, velodyne);
   start_driver(stages::imu, scheduling.imu, imu);
   start_driver(stages::gnss, scheduling.gnss, gnss);
   start_driver(stages::reference, scheduling.reference, reference);
-  monitor.watch(start_thread(
-                    producers, stages::stereo, scheduling.stereo, stop.get_token(),
-                    [this](const std::stop_token& token) { stereo.run(clock, token); },
-                    [this] { stereo.finish(); }),
-                stereo.meter(), true);
-  monitor.watch(start_thread(
-                    producers, stages::fusion, scheduling.fusion, stop.get_token(),
-                    [this](const std::stop_token& token) { fusion.run(clock, first, token); },
-                    [this] { fusion.finish(); }),
-                fusion.meter(), true);
+  monitor.watch_stage(stages::stereo,
+                      start_thread(
+                          producers, stages::stereo, scheduling.stereo, stop.get_token(),
+                          [this](const std::stop_token& token) { stereo.run(clock, token); },
+                          [this] { stereo.finish(); }),
+                      stereo.meter(), {&images});
+  monitor.watch_stage(stages::fusion,
+                      start_thread(
+                          producers, stages::fusion, scheduling.fusion, stop.get_token(),
+                          [this](const std::stop_token& token) { fusion.run(clock, first, token); },
+                          [this] { fusion.finish(); }),
+                      fusion.meter(), {&to_fusion.imu, &to_fusion.gnss, &to_fusion.odometry});
   // These two end after everybody else has, so that nothing produced is left unsaid.
   start_thread(
       listeners, stages::publisher, scheduling.publisher, {},
