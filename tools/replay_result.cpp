@@ -212,6 +212,11 @@ std::string format_table(const ReplayResult& r) {
     append(t, "  %llu messages could not be sent or written\n",
            static_cast<unsigned long long>(r.send_failures));
   }
+  if (r.trace) {
+    append(t, "\nTrace: %llu events in %s, %llu dropped\n",
+           static_cast<unsigned long long>(r.trace->recorded), r.trace->file.c_str(),
+           static_cast<unsigned long long>(r.trace->dropped));
+  }
   for (const std::string& sentence : v.health.degraded) t += "\nNote: " + sentence + '\n';
   return t;
 }
@@ -266,6 +271,9 @@ void write_json(const std::filesystem::path& file, const ReplayResult& r) {
     j["channels"][name] = {{"hash", channel.hash}, {"count", channel.count}};
   }
   j["degraded"] = v.health.degraded;
+  if (r.trace) {
+    j["trace"] = {{"recorded", r.trace->recorded}, {"dropped", r.trace->dropped}};
+  }
   j["realtime"] = to_json(v.health.settings);
   write_json_file(file, j);
 }

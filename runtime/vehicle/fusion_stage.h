@@ -15,6 +15,7 @@
 #include "runtime/core/doorbell.h"
 #include "runtime/core/edge.h"
 #include "runtime/core/intake.h"
+#include "runtime/core/trace_span.h"
 #include "runtime/vehicle/fault_delay.h"
 #include "runtime/vehicle/meter.h"
 
@@ -41,7 +42,8 @@ class FusionStage {
   void run(runtime::DataClock& clock, Time first, const std::stop_token& stop);
   void finish();
 
-  void slow_down(StageDelay delay) { delay_ = std::move(delay); }  // before run()
+  void trace_to(runtime::TraceBuffer* buffer) { trace_ = buffer; }  // before run()
+  void slow_down(StageDelay delay) { delay_ = std::move(delay); }   // before run()
 
   // Data time of the last tick; any thread may ask.
   Time position() const { return from_nanoseconds(position_.load(std::memory_order_relaxed)); }
@@ -72,6 +74,7 @@ class FusionStage {
   Meter camera_path_;
   Meter imu_path_;
   StageDelay delay_;
+  runtime::TraceBuffer* trace_ = nullptr;
 };
 
 }  // namespace maploop::vehicle
