@@ -39,10 +39,17 @@ struct ThreadHealth {
   std::string failure;      // empty while it runs
 };
 
+// Where messages go: the bus, the log.
+struct OutputHealth {
+  std::string name;
+  std::uint64_t sent = 0, unsent = 0;  // messages
+};
+
 struct Health {
   Time stamp{};
   std::vector<ThreadHealth> threads;
   std::vector<RingHealth> rings;
+  std::vector<OutputHealth> outputs;
   std::vector<RealtimeSetting> settings;
   std::vector<std::string> degraded;  // each a sentence: what, since when, what to do
 };

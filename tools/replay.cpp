@@ -99,6 +99,7 @@ int replay(const ReplayOptions& options) {
   if (!options.no_lcm) {
     bus = std::make_unique<vehicle::LcmBus>(config.lcm_url);
     sinks.push_back(bus.get());
+    runtime::append(readiness, bus->settings());
   }
   std::unique_ptr<vehicle::LogRecorder> recorder;
   if (!options.record.empty()) {
@@ -142,8 +143,6 @@ int replay(const ReplayOptions& options) {
     tracer->write(options.trace);
     result.trace = {options.trace.string(), tracer->recorded(), tracer->dropped()};
   }
-  if (bus) result.send_failures += bus->failures();
-  if (recorder) result.send_failures += recorder->failures();
   if (drive.has_oxts()) {
     const sensors::ReferenceTrajectory reference = read_reference(*drive.reference());
     const auto pose = [&](Time t) { return reference.pose(t); };

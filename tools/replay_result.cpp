@@ -141,6 +141,12 @@ std::uint64_t ReplayResult::samples_lost() const {
   return lost;
 }
 
+std::uint64_t ReplayResult::messages_unsent() const {
+  std::uint64_t unsent = 0;
+  for (const OutputHealth& output : vehicle.health.outputs) unsent += output.unsent;
+  return unsent;
+}
+
 std::uint64_t ReplayResult::deadline_misses() const {
   std::uint64_t misses = 0;
   for (const LatencySummary& thread : vehicle.deadlines.threads) misses += thread.misses;
@@ -208,10 +214,6 @@ std::string format_table(const ReplayResult& r) {
     append(t, "  %-11s %9llu  %s\n", name.c_str(), static_cast<unsigned long long>(channel.count),
            channel.hash.empty() ? "(of this run)" : channel.hash.c_str());
   }
-  if (r.send_failures > 0) {
-    append(t, "  %llu messages could not be sent or written\n",
-           static_cast<unsigned long long>(r.send_failures));
-  }
   if (r.trace) {
     append(t, "\nTrace: %llu events in %s, %llu dropped\n",
            static_cast<unsigned long long>(r.trace->recorded), r.trace->file.c_str(),
@@ -241,7 +243,7 @@ void write_json(const std::filesystem::path& file, const ReplayResult& r) {
                  {"lost", r.samples_lost()},
                  {"stalls", v.stalls},
                  {"stalled_s", to_seconds(v.stalled)},
-                 {"send_failures", r.send_failures}};
+                 {"send_failures", r.messages_unsent()}};
   j["deadlines"] = {{"misses", r.deadline_misses()},
                     {"threads", to_json(v.deadlines.threads)},
                     {"paths", to_json(v.deadlines.paths)}};

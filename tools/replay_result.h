@@ -36,11 +36,11 @@ struct ReplayResult {
   std::optional<Accuracy> fused;
   std::map<std::string, vehicle::ChannelSummary> channels;
   std::vector<vehicle::FaultCount> faults;
-  std::uint64_t send_failures = 0;  // messages that LCM or the log did not take
   std::optional<TraceSummary> trace;
   vehicle::VehicleReport vehicle;
 
-  std::uint64_t samples_lost() const;  // in rings
+  std::uint64_t samples_lost() const;     // in rings
+  std::uint64_t messages_unsent() const;  // that LCM or the log did not take
   std::uint64_t deadline_misses() const;
 };
 

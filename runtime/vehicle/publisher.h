@@ -54,6 +54,8 @@ class Publisher {
  public:
   Publisher(PublisherEdges& edges, std::vector<MessageSink*> sinks, Observer observer);
 
+  const std::vector<MessageSink*>& sinks() const { return sinks_; }
+
   void trace_to(runtime::TraceBuffer* buffer) { trace_ = buffer; }  // before run()
 
   // Until every edge is finished and empty.

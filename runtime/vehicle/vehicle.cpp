@@ -106,6 +106,7 @@ void Vehicle::Graph::start() {
            &to_publisher.nav_state, &to_publisher.image_state, &to_publisher.reports}) {
     monitor.watch(*edge);
   }
+  for (const MessageSink* sink : publisher.sinks()) monitor.watch(*sink);
   monitor.watch_path(fusion.camera_path());
   monitor.watch_path(fusion.imu_path());
 
