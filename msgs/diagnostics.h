@@ -39,6 +39,13 @@ struct ThreadHealth {
   std::string failure;      // empty while it runs
 };
 
+// Measurements that an estimator did not use, so far.
+struct RefusalCount {
+  std::string stage;
+  std::string reason;
+  std::uint64_t count = 0;
+};
+
 // Where messages go: the bus, the log.
 struct OutputHealth {
   std::string name;
@@ -49,6 +56,7 @@ struct Health {
   Time stamp{};
   std::vector<ThreadHealth> threads;
   std::vector<RingHealth> rings;
+  std::vector<RefusalCount> refusals;  // those that happened
   std::vector<OutputHealth> outputs;
   std::vector<RealtimeSetting> settings;
   std::vector<std::string> degraded;  // each a sentence: what, since when, what to do

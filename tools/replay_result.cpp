@@ -93,10 +93,10 @@ void append_faults(std::string& text, const std::vector<vehicle::FaultCount>& fa
   }
 }
 
-void append_refusals(std::string& text, const std::vector<vehicle::RefusalCount>& refusals) {
+void append_refusals(std::string& text, const std::vector<RefusalCount>& refusals) {
   if (refusals.empty()) return;
   text += "\nNot used by         count\n";
-  for (const vehicle::RefusalCount& r : refusals) {
+  for (const RefusalCount& r : refusals) {
     append(text, "  %-12s %10llu  %s\n", r.stage.c_str(), static_cast<unsigned long long>(r.count),
            r.reason.c_str());
   }
@@ -188,7 +188,7 @@ std::string format_table(const ReplayResult& r) {
   }
 
   append_faults(t, r.faults);
-  append_refusals(t, v.refusals);
+  append_refusals(t, v.health.refusals);
 
   t += r.lockstep ? "\nRun time                 count       p50       p90       p99       max  ms\n"
                   : "\nFrom release             count       p50       p90       p99       max"
@@ -265,7 +265,7 @@ void write_json(const std::filesystem::path& file, const ReplayResult& r) {
     j["faults"].push_back({{"fault", f.fault}, {"struck", f.struck}});
   }
   j["refusals"] = json::object();
-  for (const vehicle::RefusalCount& refusal : v.refusals) {
+  for (const RefusalCount& refusal : v.health.refusals) {
     j["refusals"][refusal.stage][refusal.reason] = refusal.count;
   }
   j["channels"] = json::object();

@@ -78,6 +78,8 @@ bool FusionStage::tick(Time k, runtime::DataClock& clock, const std::stop_token&
   state.sequence = ticks_++;
   const MonotonicTime computed = runtime::monotonic_now();
   nav_states_.push(state, stop);
+  filter_status_.back() = filter_.status();
+  filter_status_.publish();
   runtime::trace_counter(trace_, "fusion -> publisher", static_cast<double>(nav_states_.held()));
 
   const MonotonicTime done = runtime::monotonic_now();

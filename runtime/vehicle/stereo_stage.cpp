@@ -55,7 +55,7 @@ void StereoStage::process(const StereoPair& pair, const std::stop_token& stop) {
   span.step_flow(flow_of(pair));
   delay_(pair.available);
   RelativeMotion motion = odometry_.process(pair);
-  ++counts_[static_cast<std::size_t>(motion.status)];
+  counts_[static_cast<std::size_t>(motion.status)].fetch_add(1, std::memory_order_relaxed);
   motion.available = pair.available + stages::stereo.budget;
   motion.received = runtime::monotonic_now();
   to_fusion_.push(motion, stop);

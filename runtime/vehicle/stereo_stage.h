@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <stop_token>
@@ -33,9 +34,9 @@ class StereoStage {
   void slow_down(StageDelay delay) { delay_ = std::move(delay); }   // before run()
 
   const Meter& meter() const { return meter_; }
-  // Results so far with this status; after the end.
+  // Results so far with this status; any thread may ask.
   std::uint64_t count(OdometryStatus status) const {
-    return counts_[static_cast<std::size_t>(status)];
+    return counts_[static_cast<std::size_t>(status)].load(std::memory_order_relaxed);
   }
 
  private:
@@ -50,7 +51,7 @@ class StereoStage {
   Meter meter_;
   runtime::TraceBuffer* trace_ = nullptr;
   StageDelay delay_;
-  std::array<std::uint64_t, odometry_status_count> counts_{};
+  std::array<std::atomic<std::uint64_t>, odometry_status_count> counts_{};
 };
 
 }  // namespace maploop::vehicle

@@ -7,6 +7,7 @@
 #include "runtime/core/realtime.h"
 #include "runtime/vehicle/prefetched_source.h"
 #include "runtime/vehicle/process_usage.h"
+#include "runtime/vehicle/refusals.h"
 #include "runtime/vehicle/vehicle_graph.h"
 
 namespace maploop::vehicle {
@@ -145,6 +146,7 @@ RuntimeReport Vehicle::Graph::look(Duration elapsed) {
   RuntimeReport report;
   report.stamp = report.available = stamp;
   report.health = monitor.health(stamp, elapsed, clock, readiness);
+  report.health.refusals = refusals(stereo, fusion.filter_status());
   report.deadlines = monitor.deadlines(stamp);
   return report;
 }
