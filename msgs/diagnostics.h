@@ -39,10 +39,25 @@ struct ThreadHealth {
   std::string failure;      // empty while it runs
 };
 
+// Measurements that an estimator did not use, so far.
+struct RefusalCount {
+  std::string stage;
+  std::string reason;
+  std::uint64_t count = 0;
+};
+
+// Where messages go: the bus, the log.
+struct OutputHealth {
+  std::string name;
+  std::uint64_t sent = 0, unsent = 0;  // messages
+};
+
 struct Health {
   Time stamp{};
   std::vector<ThreadHealth> threads;
   std::vector<RingHealth> rings;
+  std::vector<RefusalCount> refusals;  // those that happened
+  std::vector<OutputHealth> outputs;
   std::vector<RealtimeSetting> settings;
   std::vector<std::string> degraded;  // each a sentence: what, since when, what to do
 };

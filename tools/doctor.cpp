@@ -3,11 +3,15 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <type_traits>
+#include <vector>
 
 #include "runtime/core/realtime.h"
 #include "runtime/core/thread.h"
 #include "runtime/vehicle/config_fields.h"
+#include "runtime/vehicle/lcm_bus.h"
 #include "tools/commands.h"
 #include "tools/json_output.h"
 
@@ -32,11 +36,21 @@ void ask_for_threads(const vehicle::VehicleConfig& config, runtime::RealtimeRepo
       });
 }
 
+std::vector<RealtimeSetting> ask_for_bus(const std::string& url) {
+  try {
+    return vehicle::LcmBus(url).settings();
+  } catch (const std::runtime_error& e) {
+    return {{"LCM: bus", url, "none", Verdict::refused, e.what(),
+             "correct lcm_url or the route, or run maploop replay --no-lcm"}};
+  }
+}
+
 int doctor(const DoctorOptions& options) {
   vehicle::VehicleConfig config;
   if (!options.config.empty()) config = vehicle::load_vehicle_config(options.config);
   runtime::RealtimeReport report = runtime::prepare_process(config.memory);
   ask_for_threads(config, report);
+  runtime::append(report, ask_for_bus(config.lcm_url));
   std::cout << runtime::to_text(report);
   if (!options.json.empty()) {
     write_json_file(options.json, {{"all_granted", report.all_granted()},

@@ -8,6 +8,7 @@
 
 #include "runtime/core/data_clock.h"
 #include "runtime/core/realtime.h"
+#include "runtime/core/trace.h"
 #include "runtime/vehicle/channel_hashes.h"
 #include "runtime/vehicle/fault_injection.h"
 #include "runtime/vehicle/lcm_bus.h"
@@ -37,6 +38,7 @@ struct ReplayOptions {
   std::filesystem::path record;
   std::filesystem::path config;
   std::filesystem::path json;
+  std::filesystem::path trace;
   std::filesystem::path poses;
   std::optional<std::int64_t> seed;
   std::vector<std::string> faults;
@@ -97,6 +99,7 @@ int replay(const ReplayOptions& options) {
   if (!options.no_lcm) {
     bus = std::make_unique<vehicle::LcmBus>(config.lcm_url);
     sinks.push_back(bus.get());
+    runtime::append(readiness, bus->settings());
   }
   std::unique_ptr<vehicle::LogRecorder> recorder;
   if (!options.record.empty()) {
@@ -109,10 +112,16 @@ int replay(const ReplayOptions& options) {
   observer.odometry = [&](const RelativeMotion& motion) { collector.add(motion); };
   observer.image_state = [&](const NavState& state) { collector.add(state); };
 
+  std::optional<runtime::Tracer> tracer;
+  if (!options.trace.empty()) {
+    tracer.emplace(config.trace);
+    tracer->write(options.trace);  // a file that cannot be written is said before the drive
+  }
+
   const auto clock = options.lockstep ? runtime::DataClock::virtual_time()
                                       : runtime::DataClock::paced(options.speed);
   vehicle::Vehicle vehicle(config, drive.calibration().stereo, std::move(sources), clock, sinks,
-                           observer);
+                           observer, tracer ? &*tracer : nullptr);
   vehicle.slow_down(faults.delays());
   vehicle.prepared(readiness);
   PlaybackEnd end = PlaybackEnd::finished;
@@ -130,8 +139,10 @@ int replay(const ReplayOptions& options) {
   result.vehicle = vehicle.report();
   result.channels = hashes.summary();
   result.faults = faults.counts();
-  if (bus) result.send_failures += bus->failures();
-  if (recorder) result.send_failures += recorder->failures();
+  if (tracer) {
+    tracer->write(options.trace);
+    result.trace = {options.trace.string(), tracer->recorded(), tracer->dropped()};
+  }
   if (drive.has_oxts()) {
     const sensors::ReferenceTrajectory reference = read_reference(*drive.reference());
     const auto pose = [&](Time t) { return reference.pose(t); };
@@ -178,6 +189,8 @@ void add_replay(CLI::App& app, Command& command) {
   sub->add_flag("--no-lcm", options->no_lcm, "Publish nothing on LCM");
   sub->add_option("--config", options->config, "TOML file of parameters")->check(CLI::ExistingFile);
   sub->add_option("--json", options->json, "Write the closing table to this file as JSON");
+  sub->add_option("--trace", options->trace,
+                  "Write what each thread did when to this file, for ui.perfetto.dev");
   sub->add_option("--poses", options->poses,
                   "Write the fused left-camera poses to this file in KITTI's format");
   sub->add_option("--seed", options->seed, "Seed of the simulated GNSS noise");

@@ -93,10 +93,10 @@ void append_faults(std::string& text, const std::vector<vehicle::FaultCount>& fa
   }
 }
 
-void append_refusals(std::string& text, const std::vector<vehicle::RefusalCount>& refusals) {
+void append_refusals(std::string& text, const std::vector<RefusalCount>& refusals) {
   if (refusals.empty()) return;
   text += "\nNot used by         count\n";
-  for (const vehicle::RefusalCount& r : refusals) {
+  for (const RefusalCount& r : refusals) {
     append(text, "  %-12s %10llu  %s\n", r.stage.c_str(), static_cast<unsigned long long>(r.count),
            r.reason.c_str());
   }
@@ -141,6 +141,12 @@ std::uint64_t ReplayResult::samples_lost() const {
   return lost;
 }
 
+std::uint64_t ReplayResult::messages_unsent() const {
+  std::uint64_t unsent = 0;
+  for (const OutputHealth& output : vehicle.health.outputs) unsent += output.unsent;
+  return unsent;
+}
+
 std::uint64_t ReplayResult::deadline_misses() const {
   std::uint64_t misses = 0;
   for (const LatencySummary& thread : vehicle.deadlines.threads) misses += thread.misses;
@@ -182,7 +188,7 @@ std::string format_table(const ReplayResult& r) {
   }
 
   append_faults(t, r.faults);
-  append_refusals(t, v.refusals);
+  append_refusals(t, v.health.refusals);
 
   t += r.lockstep ? "\nRun time                 count       p50       p90       p99       max  ms\n"
                   : "\nFrom release             count       p50       p90       p99       max"
@@ -208,9 +214,10 @@ std::string format_table(const ReplayResult& r) {
     append(t, "  %-11s %9llu  %s\n", name.c_str(), static_cast<unsigned long long>(channel.count),
            channel.hash.empty() ? "(of this run)" : channel.hash.c_str());
   }
-  if (r.send_failures > 0) {
-    append(t, "  %llu messages could not be sent or written\n",
-           static_cast<unsigned long long>(r.send_failures));
+  if (r.trace) {
+    append(t, "\nTrace: %llu events in %s, %llu dropped\n",
+           static_cast<unsigned long long>(r.trace->recorded), r.trace->file.c_str(),
+           static_cast<unsigned long long>(r.trace->dropped));
   }
   for (const std::string& sentence : v.health.degraded) t += "\nNote: " + sentence + '\n';
   return t;
@@ -236,7 +243,7 @@ void write_json(const std::filesystem::path& file, const ReplayResult& r) {
                  {"lost", r.samples_lost()},
                  {"stalls", v.stalls},
                  {"stalled_s", to_seconds(v.stalled)},
-                 {"send_failures", r.send_failures}};
+                 {"send_failures", r.messages_unsent()}};
   j["deadlines"] = {{"misses", r.deadline_misses()},
                     {"threads", to_json(v.deadlines.threads)},
                     {"paths", to_json(v.deadlines.paths)}};
@@ -258,7 +265,7 @@ void write_json(const std::filesystem::path& file, const ReplayResult& r) {
     j["faults"].push_back({{"fault", f.fault}, {"struck", f.struck}});
   }
   j["refusals"] = json::object();
-  for (const vehicle::RefusalCount& refusal : v.refusals) {
+  for (const RefusalCount& refusal : v.health.refusals) {
     j["refusals"][refusal.stage][refusal.reason] = refusal.count;
   }
   j["channels"] = json::object();
@@ -266,6 +273,9 @@ void write_json(const std::filesystem::path& file, const ReplayResult& r) {
     j["channels"][name] = {{"hash", channel.hash}, {"count", channel.count}};
   }
   j["degraded"] = v.health.degraded;
+  if (r.trace) {
+    j["trace"] = {{"recorded", r.trace->recorded}, {"dropped", r.trace->dropped}};
+  }
   j["realtime"] = to_json(v.health.settings);
   write_json_file(file, j);
 }

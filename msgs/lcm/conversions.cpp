@@ -129,6 +129,30 @@ RingHealth from_lcm(const maploop_lcm::ring_health_t& m) {
           static_cast<std::uint64_t>(m.capacity)};
 }
 
+maploop_lcm::refusal_count_t to_lcm(const RefusalCount& r) {
+  maploop_lcm::refusal_count_t m{};
+  m.stage = r.stage;
+  m.reason = r.reason;
+  m.count = static_cast<std::int64_t>(r.count);
+  return m;
+}
+
+RefusalCount from_lcm(const maploop_lcm::refusal_count_t& m) {
+  return {m.stage, m.reason, static_cast<std::uint64_t>(m.count)};
+}
+
+maploop_lcm::output_health_t to_lcm(const OutputHealth& o) {
+  maploop_lcm::output_health_t m{};
+  m.name = o.name;
+  m.sent = static_cast<std::int64_t>(o.sent);
+  m.unsent = static_cast<std::int64_t>(o.unsent);
+  return m;
+}
+
+OutputHealth from_lcm(const maploop_lcm::output_health_t& m) {
+  return {m.name, static_cast<std::uint64_t>(m.sent), static_cast<std::uint64_t>(m.unsent)};
+}
+
 maploop_lcm::realtime_setting_t to_lcm(const RealtimeSetting& s) {
   maploop_lcm::realtime_setting_t m{};
   m.name = s.name;
@@ -313,10 +337,14 @@ maploop_lcm::health_t to_lcm(const Health& health) {
   m.utime = microseconds_of(health.stamp);
   convert_each(health.threads, m.threads, to_lcm);
   convert_each(health.rings, m.rings, to_lcm);
+  convert_each(health.refusals, m.refusals, to_lcm);
+  convert_each(health.outputs, m.outputs, to_lcm);
   convert_each(health.settings, m.settings, to_lcm);
   m.degraded = health.degraded;
   m.thread_count = static_cast<std::int32_t>(m.threads.size());
   m.ring_count = static_cast<std::int32_t>(m.rings.size());
+  m.refusal_count = static_cast<std::int32_t>(m.refusals.size());
+  m.output_count = static_cast<std::int32_t>(m.outputs.size());
   m.setting_count = static_cast<std::int32_t>(m.settings.size());
   m.degraded_count = static_cast<std::int32_t>(m.degraded.size());
   return m;
@@ -327,6 +355,8 @@ Health from_lcm(const maploop_lcm::health_t& m) {
   health.stamp = Time(std::chrono::microseconds(m.utime));
   convert_each(m.threads, health.threads, from_lcm);
   convert_each(m.rings, health.rings, from_lcm);
+  convert_each(m.refusals, health.refusals, from_lcm);
+  convert_each(m.outputs, health.outputs, from_lcm);
   convert_each(m.settings, health.settings, from_lcm);
   health.degraded = m.degraded;
   return health;

@@ -33,6 +33,9 @@ void visit(Config& config, Table&& table, Field&& field) {
     field("malloc_arenas", p.malloc_arenas);
   }
 
+  table("trace");
+  field("events_per_thread", config.trace.events_per_thread);
+
   table("replay");
   {
     auto& p = config.replay;

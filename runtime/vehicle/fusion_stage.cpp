@@ -4,6 +4,7 @@
 
 #include "runtime/core/periodic.h"
 #include "runtime/vehicle/graph.h"
+#include "runtime/vehicle/trace_flows.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -29,10 +30,16 @@ FusionStage::FusionStage(fusion::ReducedImuFilter filter, FusionEdges& inputs,
       camera_path_(paths::camera.name, paths::camera.deadline),
       imu_path_(paths::imu.name, paths::imu.deadline) {
   intake_.add(inputs_.imu, [this](const ImuSample& sample) {
+    runtime::TraceSpan span(trace_, "imu");
+    span.step_flow(flow_of(sample));
     filter_.add(sample);
     imu_taken_ = sample;
   });
-  intake_.add(inputs_.gnss, [this](const GnssFix& fix) { filter_.add(fix); });
+  intake_.add(inputs_.gnss, [this](const GnssFix& fix) {
+    runtime::TraceSpan span(trace_, "gnss");
+    span.step_flow(flow_of(fix));
+    filter_.add(fix);
+  });
   intake_.add(inputs_.odometry, [this](const RelativeMotion& motion) { take(motion); });
 }
 
@@ -44,13 +51,18 @@ void FusionStage::run(runtime::DataClock& clock, Time first, const std::stop_tok
 }
 
 bool FusionStage::tick(Time k, runtime::DataClock& clock, const std::stop_token& stop) {
+  const runtime::TraceSpan span(trace_, "tick");
+  const auto stall = [&](MonotonicTime when) {
+    if (clock.stall(k, when)) runtime::trace_instant(trace_, "stall");
+  };
   const MonotonicTime due = clock.due(k);
   const MonotonicTime woken = runtime::monotonic_now();
   MonotonicTime ready = woken;
   if (intake_.promised() < k) {
+    const runtime::TraceSpan waiting(trace_, "waiting for input");
     if (!intake_.wait(k, inputs_.bell, stop)) return false;
     ready = runtime::monotonic_now();
-    clock.stall(k, ready);
+    stall(ready);
   }
   if (intake_.finished()) return false;
 
@@ -66,20 +78,24 @@ bool FusionStage::tick(Time k, runtime::DataClock& clock, const std::stop_token&
   state.sequence = ticks_++;
   const MonotonicTime computed = runtime::monotonic_now();
   nav_states_.push(state, stop);
+  filter_status_.back() = filter_.status();
+  filter_status_.publish();
+  runtime::trace_counter(trace_, "fusion -> publisher", static_cast<double>(nav_states_.held()));
 
   const MonotonicTime done = runtime::monotonic_now();
-  if (done - computed > runtime::DataClock::tolerance) clock.stall(k, done);
+  if (done - computed > runtime::DataClock::tolerance) stall(done);
   if (clock.keeps_time(k)) {
-    meter_.record({k,
-                   done - due,
-                   {{{"woken late", woken - due},
-                     {"waiting for input", ready - woken},
-                     {"running", done - ready}}}});
+    const bool missed = meter_.record({k,
+                                       done - due,
+                                       {{{"woken late", woken - due},
+                                         {"waiting for input", ready - woken},
+                                         {"running", done - ready}}}});
+    if (missed) runtime::trace_instant(trace_, "missed deadline");
     record_paths(clock, due, done);
   } else {
     meter_.record(done - ready);
   }
-  if (done - due > furthest_behind) clock.stall(k, done);
+  if (done - due > furthest_behind) stall(done);
   const Time next = k + stages::fusion.period + stages::fusion.budget;
   nav_states_.promise(next - Duration(1));
   image_states_.promise(next - Duration(1));
@@ -87,6 +103,8 @@ bool FusionStage::tick(Time k, runtime::DataClock& clock, const std::stop_token&
 }
 
 void FusionStage::take(const RelativeMotion& motion) {
+  runtime::TraceSpan span(trace_, "odometry");
+  span.step_flow(flow_of(motion));
   filter_.add(motion);
   if (motion.status == OdometryStatus::ok) odometry_taken_ = motion;
   std::optional<NavState> state = filter_.state_at(motion.stamp);

@@ -15,6 +15,8 @@
 #include "runtime/core/doorbell.h"
 #include "runtime/core/edge.h"
 #include "runtime/core/intake.h"
+#include "runtime/core/latest_value.h"
+#include "runtime/core/trace_span.h"
 #include "runtime/vehicle/fault_delay.h"
 #include "runtime/vehicle/meter.h"
 
@@ -41,7 +43,8 @@ class FusionStage {
   void run(runtime::DataClock& clock, Time first, const std::stop_token& stop);
   void finish();
 
-  void slow_down(StageDelay delay) { delay_ = std::move(delay); }  // before run()
+  void trace_to(runtime::TraceBuffer* buffer) { trace_ = buffer; }  // before run()
+  void slow_down(StageDelay delay) { delay_ = std::move(delay); }   // before run()
 
   // Data time of the last tick; any thread may ask.
   Time position() const { return from_nanoseconds(position_.load(std::memory_order_relaxed)); }
@@ -49,7 +52,12 @@ class FusionStage {
   const Meter& meter() const { return meter_; }              // from the tick's release to its state
   const Meter& camera_path() const { return camera_path_; }  // from the image's stamp to the state
   const Meter& imu_path() const { return imu_path_; }        // from the IMU's stamp to the state
-  const fusion::ReducedImuFilter& filter() const { return filter_; }  // after the end
+
+  // Of the filter at the end of the last tick; one thread at a time may ask, also meanwhile.
+  const fusion::FilterStatus& filter_status() {
+    if (const fusion::FilterStatus* status = filter_status_.latest()) known_status_ = status;
+    return *known_status_;
+  }
 
  private:
   bool tick(Time k, runtime::DataClock& clock, const std::stop_token& stop);
@@ -72,6 +80,10 @@ class FusionStage {
   Meter camera_path_;
   Meter imu_path_;
   StageDelay delay_;
+  runtime::TraceBuffer* trace_ = nullptr;
+  runtime::LatestValue<fusion::FilterStatus> filter_status_;
+  const fusion::FilterStatus* known_status_ = &no_status_;  // the reader's
+  fusion::FilterStatus no_status_;
 };
 
 }  // namespace maploop::vehicle

@@ -102,7 +102,9 @@ inline constexpr Channel truth{
 inline constexpr Channel deadlines{
     "DEADLINES", "deadlines_t", "health", "latency of each thread and path, misses", "1 Hz", false};
 inline constexpr Channel health{
-    "HEALTH", "health_t", "health", "threads, rings, rates, losses, degraded modes", "1 Hz", false};
+    "HEALTH", "health_t",
+    "health", "threads, rings, rates, losses, refusals, real-time settings, degraded modes",
+    "1 Hz",   false};
 
 inline constexpr std::array all{nav_state, visual_odometry, imu,   gnss_fix,
                                 truth,     deadlines,       health};

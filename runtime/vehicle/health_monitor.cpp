@@ -73,6 +73,16 @@ Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataCl
     }
     health.rings.push_back(std::move(r));
   }
+  for (const MessageSink* output : outputs_) {
+    OutputHealth o = output->health();
+    if (o.unsent > 0) {
+      health.degraded.push_back(
+          o.name + " did not take " + std::to_string(o.unsent) + " of " +
+          std::to_string(o.sent + o.unsent) +
+          " messages: is the network (ip route get 224.0.0.1) or the disk (df) gone?");
+    }
+    health.outputs.push_back(std::move(o));
+  }
   health.settings = readiness.settings;
   for (const RealtimeSetting& setting : health.settings) {
     if (setting.verdict == Verdict::refused) {

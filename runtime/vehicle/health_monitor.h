@@ -12,6 +12,7 @@
 #include "runtime/core/realtime_setting.h"
 #include "runtime/core/thread.h"
 #include "runtime/vehicle/graph.h"
+#include "runtime/vehicle/message_sink.h"
 #include "runtime/vehicle/meter.h"
 #include "runtime/vehicle/watchdog.h"
 
@@ -31,6 +32,7 @@ class HealthMonitor {
                    std::vector<const runtime::EdgeBase*> inputs);
   void watch_path(const Meter& path) { paths_.push_back(&path); }
   void watch(const runtime::EdgeBase& edge) { edges_.push_back(&edge); }
+  void watch(const MessageSink& output) { outputs_.push_back(&output); }
 
   // `elapsed`: data time since the last look, for the rates.
   Health health(Time stamp, Duration elapsed, const runtime::DataClock& clock,
@@ -55,6 +57,7 @@ class HealthMonitor {
   std::vector<Watched> threads_;
   std::vector<const Meter*> paths_;
   std::vector<const runtime::EdgeBase*> edges_;
+  std::vector<const MessageSink*> outputs_;
 };
 
 }  // namespace maploop::vehicle

@@ -10,15 +10,16 @@ const char* Miss::guilty() const {
       ->name;
 }
 
-void Meter::record(const Miss& timing) {
+bool Meter::record(const Miss& timing) {
   histogram_.record(timing.latency);
-  if (timing.latency <= deadline_) return;
+  if (timing.latency <= deadline_) return false;
   miss_count_.fetch_add(1, std::memory_order_relaxed);
   if (timing.latency > worst_) {
     worst_ = timing.latency;
     guilty_of_worst_.store(timing.guilty(), std::memory_order_relaxed);
   }
   if (misses_.size() < kept_misses) misses_.push_back(timing);
+  return true;
 }
 
 LatencySummary Meter::summary() const {

@@ -40,8 +40,8 @@ class Meter {
 
   void record(Duration latency) { histogram_.record(latency); }
 
-  // With its parts, for the case that the deadline was missed.
-  void record(const Miss& timing);
+  // With its parts, for the case that the deadline was missed; whether it was.
+  bool record(const Miss& timing);
 
   const std::string& name() const { return name_; }
   std::uint64_t count() const { return histogram_.count(); }

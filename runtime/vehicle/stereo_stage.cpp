@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "runtime/vehicle/graph.h"
+#include "runtime/vehicle/trace_flows.h"
 
 namespace maploop::vehicle {
 
@@ -24,15 +25,17 @@ void StereoStage::run(const runtime::DataClock& clock, const std::stop_token& st
     const Time promised = images_.promised();  // before the ring: see EdgeBase::promised()
     if (const StereoPair* pair = images_.front()) {
       const MonotonicTime started = runtime::monotonic_now();
+      runtime::trace_counter(trace_, "camera -> stereo", static_cast<double>(images_.held()));
       process(*pair, stop);
       const MonotonicTime ended = runtime::monotonic_now();
       if (clock.keeps_time(pair->available)) {
         const MonotonicTime ready = std::max(pair->received, idle_since);
-        meter_.record({pair->stamp,
-                       ended - pair->received,
-                       {{{"busy with the pair before", ready - pair->received},
-                         {"woken late", started - ready},
-                         {"running", ended - started}}}});
+        const bool missed = meter_.record({pair->stamp,
+                                           ended - pair->received,
+                                           {{{"busy with the pair before", ready - pair->received},
+                                             {"woken late", started - ready},
+                                             {"running", ended - started}}}});
+        if (missed) runtime::trace_instant(trace_, "missed deadline");
       } else {
         meter_.record(ended - started);
       }
@@ -48,9 +51,11 @@ void StereoStage::run(const runtime::DataClock& clock, const std::stop_token& st
 }
 
 void StereoStage::process(const StereoPair& pair, const std::stop_token& stop) {
+  runtime::TraceSpan span(trace_, "stereo");
+  span.step_flow(flow_of(pair));
   delay_(pair.available);
   RelativeMotion motion = odometry_.process(pair);
-  ++counts_[static_cast<std::size_t>(motion.status)];
+  counts_[static_cast<std::size_t>(motion.status)].fetch_add(1, std::memory_order_relaxed);
   motion.available = pair.available + stages::stereo.budget;
   motion.received = runtime::monotonic_now();
   to_fusion_.push(motion, stop);

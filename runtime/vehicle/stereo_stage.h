@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <stop_token>
@@ -13,6 +14,7 @@
 #include "runtime/core/data_clock.h"
 #include "runtime/core/doorbell.h"
 #include "runtime/core/edge.h"
+#include "runtime/core/trace_span.h"
 #include "runtime/vehicle/fault_delay.h"
 #include "runtime/vehicle/meter.h"
 
@@ -28,12 +30,13 @@ class StereoStage {
   void run(const runtime::DataClock& clock, const std::stop_token& stop);
   void finish();
 
-  void slow_down(StageDelay delay) { delay_ = std::move(delay); }  // before run()
+  void trace_to(runtime::TraceBuffer* buffer) { trace_ = buffer; }  // before run()
+  void slow_down(StageDelay delay) { delay_ = std::move(delay); }   // before run()
 
   const Meter& meter() const { return meter_; }
-  // Results so far with this status; after the end.
+  // Results so far with this status; any thread may ask.
   std::uint64_t count(OdometryStatus status) const {
-    return counts_[static_cast<std::size_t>(status)];
+    return counts_[static_cast<std::size_t>(status)].load(std::memory_order_relaxed);
   }
 
  private:
@@ -46,8 +49,9 @@ class StereoStage {
   runtime::Edge<RelativeMotion>& to_fusion_;
   runtime::Edge<RelativeMotion>& to_publisher_;
   Meter meter_;
+  runtime::TraceBuffer* trace_ = nullptr;
   StageDelay delay_;
-  std::array<std::uint64_t, odometry_status_count> counts_{};
+  std::array<std::atomic<std::uint64_t>, odometry_status_count> counts_{};
 };
 
 }  // namespace maploop::vehicle

@@ -7,6 +7,7 @@
 #include "runtime/core/realtime.h"
 #include "runtime/vehicle/prefetched_source.h"
 #include "runtime/vehicle/process_usage.h"
+#include "runtime/vehicle/refusals.h"
 #include "runtime/vehicle/vehicle_graph.h"
 
 namespace maploop::vehicle {
@@ -21,9 +22,11 @@ constexpr std::size_t decoded_ahead = 6;
 
 Vehicle::Graph::Graph(const VehicleConfig& vehicle_config, const StereoCalibration& calibration,
                       Sensors sensors, const runtime::DataClock& data_clock,
-                      std::vector<MessageSink*> sinks, Observer observer)
+                      std::vector<MessageSink*> sinks, Observer observer,
+                      runtime::Tracer* run_tracer)
     : config(vehicle_config),
       clock(data_clock),
+      tracer(run_tracer),
       images(make_edge<StereoPair>(edges::camera_stereo, &stereo_bell)),
       camera("camera", prefetched(stages::camera, std::move(sensors.camera)), {&images}),
       velodyne("velodyne", prefetched(stages::velodyne, std::move(sensors.velodyne)), {}),
@@ -38,19 +41,34 @@ Vehicle::Graph::Graph(const VehicleConfig& vehicle_config, const StereoCalibrati
       wake_all(stop.get_token(), [this] {
         stereo_bell.ring();
         to_fusion.bell.ring();
-      }) {}
+      }) {
+  camera.trace_to(trace_buffer(stages::camera.name));
+  velodyne.trace_to(trace_buffer(stages::velodyne.name));
+  imu.trace_to(trace_buffer(stages::imu.name));
+  gnss.trace_to(trace_buffer(stages::gnss.name));
+  reference.trace_to(trace_buffer(stages::reference.name));
+  stereo.trace_to(trace_buffer(stages::stereo.name));
+  fusion.trace_to(trace_buffer(stages::fusion.name));
+  publisher.trace_to(trace_buffer(stages::publisher.name));
+  health_trace = trace_buffer(stages::health.name);
+}
 
 Vehicle::Graph::~Graph() {
   stop.request_stop();
   wait();
 }
 
+runtime::TraceBuffer* Vehicle::Graph::trace_buffer(std::string_view thread) {
+  return tracer != nullptr ? &tracer->thread(std::string(thread)) : nullptr;
+}
+
 template <class T>
 std::unique_ptr<sensors::Source<T>> Vehicle::Graph::prefetched(
     const Stage& stage, std::unique_ptr<sensors::Source<T>> source) {
   if (source == nullptr) return nullptr;
-  return std::make_unique<PrefetchedSource<T>>(std::string(stage.name) + " loader",
-                                               std::move(source), decoded_ahead, stop.get_token());
+  const std::string name = std::string(stage.name) + " loader";
+  return std::make_unique<PrefetchedSource<T>>(name, std::move(source), decoded_ahead,
+                                               stop.get_token(), trace_buffer(name));
 }
 
 runtime::Thread& Vehicle::Graph::start_thread(std::deque<runtime::Thread>& threads,
@@ -89,6 +107,7 @@ void Vehicle::Graph::start() {
            &to_publisher.nav_state, &to_publisher.image_state, &to_publisher.reports}) {
     monitor.watch(*edge);
   }
+  for (const MessageSink* sink : publisher.sinks()) monitor.watch(*sink);
   monitor.watch_path(fusion.camera_path());
   monitor.watch_path(fusion.imu_path());
 
@@ -130,6 +149,7 @@ RuntimeReport Vehicle::Graph::look(Duration elapsed) {
   RuntimeReport report;
   report.stamp = report.available = stamp;
   report.health = monitor.health(stamp, elapsed, clock, readiness);
+  report.health.refusals = refusals(stereo, fusion.filter_status());
   report.deadlines = monitor.deadlines(stamp);
   return report;
 }
@@ -138,6 +158,7 @@ void Vehicle::Graph::run_health(const std::stop_token& end) {
   started_all.wait();
   Time looked = first;
   const auto say = [&] {
+    const runtime::TraceSpan span(health_trace, "health");
     const Time now = fusion.position();
     to_publisher.reports.push(look(now - looked), end);
     looked = now;
@@ -170,9 +191,9 @@ void Vehicle::Graph::wait() {
 
 Vehicle::Vehicle(const VehicleConfig& config, const StereoCalibration& calibration, Sensors sensors,
                  const runtime::DataClock& clock, std::vector<MessageSink*> sinks,
-                 Observer observer)
+                 Observer observer, runtime::Tracer* tracer)
     : graph_(std::make_unique<Graph>(config, calibration, std::move(sensors), clock,
-                                     std::move(sinks), std::move(observer))) {}
+                                     std::move(sinks), std::move(observer), tracer)) {}
 
 Vehicle::~Vehicle() = default;
 

@@ -13,6 +13,7 @@
 #include "msgs/reference.h"
 #include "runtime/core/data_clock.h"
 #include "runtime/core/realtime_setting.h"
+#include "runtime/core/trace.h"
 #include "runtime/vehicle/fault_delay.h"
 #include "runtime/vehicle/message_sink.h"
 #include "runtime/vehicle/publisher.h"
@@ -35,9 +36,11 @@ struct Sensors {
 // data has the same bits either way.
 class Vehicle {
  public:
-  // `sinks` must outlive the vehicle.
+  // `sinks` must outlive the vehicle, and so must `tracer`, to which each thread records what it
+  // does; none: no trace.
   Vehicle(const VehicleConfig& config, const StereoCalibration& calibration, Sensors sensors,
-          const runtime::DataClock& clock, std::vector<MessageSink*> sinks, Observer observer);
+          const runtime::DataClock& clock, std::vector<MessageSink*> sinks, Observer observer,
+          runtime::Tracer* tracer = nullptr);
   ~Vehicle();  // stops and waits
 
   // Slows stages down, for tests of what happens then; before start().

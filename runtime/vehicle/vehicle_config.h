@@ -7,6 +7,7 @@
 #include "estimators/fusion/fusion_parameters.h"
 #include "estimators/stereo/parameters.h"
 #include "runtime/core/realtime_memory.h"
+#include "runtime/core/trace.h"
 #include "runtime/vehicle/lcm_bus.h"
 #include "runtime/vehicle/scheduling_config.h"
 #include "sensors/replay/kitti_drive.h"
@@ -17,6 +18,7 @@ struct VehicleConfig {
   std::string lcm_url = LcmBus::default_url;
   SchedulingParameters scheduling;
   runtime::MemoryParameters memory;
+  runtime::TraceParameters trace;
   sensors::KittiDriveParameters replay;
   sensors::GnssAidParameters gnss;
   stereo::StereoParameters stereo;

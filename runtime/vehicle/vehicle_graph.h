@@ -21,7 +21,8 @@ namespace maploop::vehicle {
 
 struct Vehicle::Graph {
   Graph(const VehicleConfig& config, const StereoCalibration& calibration, Sensors sensors,
-        const runtime::DataClock& data_clock, std::vector<MessageSink*> sinks, Observer observer);
+        const runtime::DataClock& data_clock, std::vector<MessageSink*> sinks, Observer observer,
+        runtime::Tracer* tracer);
   ~Graph();
 
   void start();
@@ -30,6 +31,7 @@ struct Vehicle::Graph {
   void wait();
   VehicleReport report() const;
 
+  runtime::TraceBuffer* trace_buffer(std::string_view thread);
   template <class T>
   std::unique_ptr<sensors::Source<T>> prefetched(const Stage& stage,
                                                  std::unique_ptr<sensors::Source<T>> source);
@@ -44,6 +46,8 @@ struct Vehicle::Graph {
   VehicleConfig config;
   std::stop_source stop;
   runtime::DataClock clock;
+  runtime::Tracer* tracer;  // nullptr: tracing is off
+  runtime::TraceBuffer* health_trace = nullptr;
   Time first = Time::max();
 
   // Edges, by the thread that they end at.

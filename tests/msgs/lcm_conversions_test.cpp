@@ -178,6 +178,8 @@ TEST(LcmConversions, Health) {
   h.stamp = Time(std::chrono::microseconds(1'317'042'651'174'740));
   h.threads = {{"fusion", "fifo 60", 1480, 100.0, ""}, {"camera", "default", 10, 9.7, "no file"}};
   h.rings = {{"camera -> stereo", 10, 8, 1, 1, 4}};
+  h.refusals = {{"fusion", "duplicate", 7}};
+  h.outputs = {{"LCM", 200, 3}};
   h.settings = {{"fusion: scheduling", "fifo 60", "other", Verdict::refused, "no CAP_SYS_NICE",
                  "run as root"}};
   h.degraded = {"camera has ended"};
@@ -193,6 +195,14 @@ TEST(LcmConversions, Health) {
   EXPECT_EQ(r.rings[0].lost, 1u);
   EXPECT_EQ(r.rings[0].held, 1u);
   EXPECT_EQ(r.rings[0].capacity, 4u);
+  ASSERT_EQ(r.refusals.size(), 1u);
+  EXPECT_EQ(r.refusals[0].stage, "fusion");
+  EXPECT_EQ(r.refusals[0].reason, "duplicate");
+  EXPECT_EQ(r.refusals[0].count, 7u);
+  ASSERT_EQ(r.outputs.size(), 1u);
+  EXPECT_EQ(r.outputs[0].name, "LCM");
+  EXPECT_EQ(r.outputs[0].sent, 200u);
+  EXPECT_EQ(r.outputs[0].unsent, 3u);
   ASSERT_EQ(r.settings.size(), 1u);
   EXPECT_EQ(r.settings[0].name, h.settings[0].name);
   EXPECT_EQ(r.settings[0].asked, h.settings[0].asked);

@@ -10,8 +10,8 @@
 
 #include "msgs/lcm/conversions.h"
 #include "runtime/vehicle/fault_injection.h"
-#include "runtime/vehicle/message_sink.h"
 #include "tests/runtime/vehicle/fake_sensors.h"
+#include "tests/runtime/vehicle/memory_bus.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -108,44 +108,43 @@ TEST_F(WatchdogTest, LeavesStagesWithoutRatesAlone) {
   EXPECT_EQ(look(100000, 0), Sentences{});
 }
 
-// The HEALTH messages of a run.
-class HealthLog final : public MessageSink {
- public:
-  void send(const Message& message) override {
-    if (message.channel != channels::health.name) return;
-    maploop_lcm::health_t health;
-    ASSERT_GT(health.decode(message.data.data(), 0, static_cast<int>(message.data.size())), 0);
-    degraded.push_back(health.degraded);
+// What each HEALTH message of a run found wanting.
+std::vector<Sentences> degraded(const testing::MemoryBus& bus) {
+  std::vector<Sentences> all;
+  for (const auto& health : bus.decoded<maploop_lcm::health_t>(channels::health.name)) {
+    all.push_back(health.degraded);
   }
-  // Of how many messages one sentence starts so.
-  std::size_t count(const std::string& start) const {
-    return static_cast<std::size_t>(
-        std::count_if(degraded.begin(), degraded.end(), [&](const Sentences& sentences) {
-          return std::any_of(sentences.begin(), sentences.end(),
-                             [&](const std::string& s) { return s.starts_with(start); });
-        }));
-  }
-  std::vector<Sentences> degraded;
-};
+  return all;
+}
+
+bool any_starts(const Sentences& sentences, const std::string& start) {
+  return std::any_of(sentences.begin(), sentences.end(),
+                     [&](const std::string& s) { return s.starts_with(start); });
+}
+
+// In how many messages a sentence starts so.
+std::size_t count(const std::vector<Sentences>& messages, const std::string& start) {
+  return static_cast<std::size_t>(
+      std::count_if(messages.begin(), messages.end(),
+                    [&](const Sentences& sentences) { return any_starts(sentences, start); }));
+}
 
 TEST(WatchdogInTheGraph, NamesSilentStaleAndMissingSensorsAndTheRestGoesOn) {
   Sensors sensors = testing::fake_sensors(9.0);
   sensors.velodyne = nullptr;
   FaultInjection faults({parse_fault("lost@imu:2:4"), parse_fault("lost@gnss:0:20")}, drive_start);
-  HealthLog log;
+  testing::MemoryBus bus;
   Vehicle vehicle({}, testing::fake_calibration(), faults.afflict(std::move(sensors)),
-                  runtime::DataClock::paced(4.0), {&log}, {});
+                  runtime::DataClock::paced(4.0), {&bus}, {});
   vehicle.start();
   vehicle.wait();
-  ASSERT_GE(log.degraded.size(), 9U);
-  EXPECT_EQ(log.count("velodyne: there is none"), log.degraded.size());
-  EXPECT_GE(log.count("imu: stale, nothing new for"), 2U);
-  EXPECT_GE(log.count("gnss: silent since the start"), 2U);
-  EXPECT_EQ(log.count("camera: "), 0U);
-  const Sentences& last = log.degraded.back();
-  EXPECT_TRUE(std::none_of(last.begin(), last.end(), [](const std::string& s) {
-    return s.starts_with("imu: stale");
-  })) << "the sensor is back";
+  const std::vector<Sentences> messages = degraded(bus);
+  ASSERT_GE(messages.size(), 9U);
+  EXPECT_EQ(count(messages, "velodyne: there is none"), messages.size());
+  EXPECT_GE(count(messages, "imu: stale, nothing new for"), 2U);
+  EXPECT_GE(count(messages, "gnss: silent since the start"), 2U);
+  EXPECT_EQ(count(messages, "camera: "), 0U);
+  EXPECT_FALSE(any_starts(messages.back(), "imu: stale")) << "the sensor is back";
 }
 
 TEST(WatchdogInTheGraph, NamesAStuckStageAndWhoWaitsForIt) {
@@ -153,19 +152,17 @@ TEST(WatchdogInTheGraph, NamesAStuckStageAndWhoWaitsForIt) {
   StageDelays delays;
   delays.stereo.add({drive_start + milliseconds(1000), drive_start + milliseconds(1100)},
                     milliseconds(3500), struck);
-  HealthLog log;
+  testing::MemoryBus bus;
   Vehicle vehicle({}, testing::fake_calibration(), testing::fake_sensors(3.0),
-                  runtime::DataClock::paced(1.0), {&log}, {});
+                  runtime::DataClock::paced(1.0), {&bus}, {});
   vehicle.slow_down(delays);
   vehicle.start();
   vehicle.wait();
   EXPECT_EQ(struck, 1U);
-  EXPECT_GE(log.count("stereo: stuck for "), 1U);
-  EXPECT_GE(log.count("fusion: stuck for "), 1U);
-  const Sentences& last = log.degraded.back();
-  EXPECT_TRUE(std::none_of(last.begin(), last.end(), [](const std::string& s) {
-    return s.find("stuck") != std::string::npos;
-  })) << "it moves again";
+  const std::vector<Sentences> messages = degraded(bus);
+  EXPECT_GE(count(messages, "stereo: stuck for "), 1U);
+  EXPECT_GE(count(messages, "fusion: stuck for "), 1U);
+  EXPECT_FALSE(any_starts(messages.back(), "stereo: stuck")) << "it moves again";
 }
 
 }  // namespace
