@@ -18,7 +18,7 @@ class TrajectoryCollector {
  public:
   explicit TrajectoryCollector(const Eigen::Isometry3d& T_body_cam) : T_body_cam_(T_body_cam) {}
 
-  // Odometry is chained; a refused motion leaves the pose where it was.
+  // Odometry is chained; through a refused motion it goes on as it last went.
   void add(const RelativeMotion& motion);
   // The fused state at an image.
   void add(const NavState& image_state);
@@ -37,8 +37,10 @@ class TrajectoryCollector {
 
   Eigen::Isometry3d T_body_cam_;
   Eigen::Isometry3d chained_ = Eigen::Isometry3d::Identity();  // body, in its first frame
-  Poses vo_;                                                   // camera
-  Poses fused_;                                                // camera
+  Eigen::Isometry3d last_motion_ = Eigen::Isometry3d::Identity();
+  Duration last_interval_ = std::chrono::seconds(1);
+  Poses vo_;     // camera
+  Poses fused_;  // camera
 };
 
 }  // namespace maploop::tools
