@@ -24,9 +24,8 @@ struct GreyImage {
   bool empty() const { return width == 0 || height == 0; }
 };
 
-// Rectified pair; `stamp` is the left image's.
+// Rectified pair, exposed at one moment: `stamp`.
 struct StereoPair : Sample {
-  Time right_stamp{};
   GreyImage left;
   GreyImage right;
 };
