@@ -121,19 +121,23 @@ void FusionStage::record_paths(const runtime::DataClock& clock, MonotonicTime du
   if (odometry_taken_) {
     const Sample& s = *odometry_taken_;
     const Time image_available = s.available - stages::stereo.budget;
-    camera_path_.record({s.stamp,
-                         done - clock.due(s.stamp),
-                         {{{"camera", image_available - s.stamp - paths::camera_delay},
-                           {"stereo", s.received - clock.due(s.available)},
-                           {"fusion", fusion_late}}}});
+    const bool missed =
+        camera_path_.record({s.stamp,
+                             done - clock.due(s.stamp),
+                             {{{"camera", image_available - s.stamp - paths::camera_delay},
+                               {"stereo", s.received - clock.due(s.available)},
+                               {"fusion", fusion_late}}}});
+    if (missed) runtime::trace_instant(trace_, "missed deadline: camera path");
   }
   if (imu_taken_) {
     const Sample& s = *imu_taken_;
-    imu_path_.record({s.stamp,
-                      done - clock.due(s.stamp),
-                      {{{"imu", s.received - clock.due(s.stamp) - paths::imu_delay},
-                        {"fusion", fusion_late},
-                        {}}}});
+    const bool missed =
+        imu_path_.record({s.stamp,
+                          done - clock.due(s.stamp),
+                          {{{"imu", s.received - clock.due(s.stamp) - paths::imu_delay},
+                            {"fusion", fusion_late},
+                            {}}}});
+    if (missed) runtime::trace_instant(trace_, "missed deadline: imu path");
   }
 }
 

@@ -171,6 +171,8 @@ TEST(TraceCommand, AMissedDeadlineIsAnInstant) {
   const int misses = deadlines.at("misses");
   EXPECT_GE(misses, 15);
   EXPECT_EQ(trace.count("i", "missed deadline"), misses);
+  EXPECT_EQ(trace.count("i", "missed deadline: camera path"),
+            deadlines.at("paths").at("camera stamp -> state").at("misses"));
   EXPECT_EQ(trace.count("i", "stall"), trace.result().at("replay").at("stalls"));
 }
 

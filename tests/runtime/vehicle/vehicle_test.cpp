@@ -9,6 +9,7 @@
 
 #include "runtime/vehicle/channel_hashes.h"
 #include "tests/runtime/vehicle/fake_sensors.h"
+#include "tests/support/real_data.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -64,6 +65,21 @@ TEST(Vehicle, RealTimeAtAnySpeedGivesTheBitsOfLockstep) {
     expect_rings_balance(paced.report);
     EXPECT_EQ(paced.channels.at("HEALTH").hash, "") << "what speaks of the run is not hashed";
   }
+}
+
+TEST(Vehicle, ATraceWrittenMeanwhileChangesNoBit) {
+  const maploop::testing::TemporaryFolder folder;
+  const Replayed untraced = replay(DataClock::virtual_time(), fake_sensors(3.0));
+  runtime::Tracer tracer({});
+  ChannelHashes hashes;
+  Vehicle vehicle({}, fake_calibration(), fake_sensors(3.0), DataClock::paced(10.0), {&hashes}, {},
+                  &tracer);
+  vehicle.start();
+  while (vehicle.running()) tracer.write(folder.path() / "trace.json");
+  vehicle.wait();
+  expect_same_data(untraced, {vehicle.report(), hashes.summary()});
+  EXPECT_GT(tracer.recorded(), 1500u);
+  EXPECT_EQ(tracer.dropped(), 0u);
 }
 
 TEST(Vehicle, NavStatesComeAtOneHundredHertz) {
