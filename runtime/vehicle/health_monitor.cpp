@@ -4,8 +4,12 @@
 
 namespace maploop::vehicle {
 
-void HealthMonitor::watch(const runtime::Thread& thread, const Meter& meter, bool latency) {
-  threads_.push_back({&thread, &meter, latency});
+void HealthMonitor::watch(const runtime::Thread& thread, const ThreadMeter& meter) {
+  threads_.push_back({&thread, &meter, nullptr});
+}
+
+void HealthMonitor::watch(const runtime::Thread& thread, const Meter& lateness) {
+  threads_.push_back({&thread, nullptr, &lateness});
 }
 
 Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataClock& clock) {
@@ -16,7 +20,12 @@ Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataCl
     t.name = watched.thread->name();
     t.scheduling = watched.thread->scheduling();
     t.failure = watched.thread->failure();
-    t.count = watched.meter->count();
+    t.cpu = to_seconds(watched.thread->cpu_time());
+    if (watched.meter != nullptr) {
+      t.left_out = watched.meter->left_out();
+      t.shed = watched.meter->shed();
+    }
+    t.count = watched.count();
     if (elapsed > Duration::zero()) {
       t.rate = static_cast<double>(t.count - watched.seen) / to_seconds(elapsed);
     }
@@ -53,8 +62,22 @@ void HealthMonitor::restart_rates() {
 Deadlines HealthMonitor::deadlines(Time stamp) const {
   Deadlines deadlines;
   deadlines.stamp = stamp;
+  const auto add = [](std::vector<LatencySummary>& to, const std::string& thread,
+                      const runtime::Histogram& histogram) {
+    if (histogram.count() > 0) to.push_back(histogram.summarize(thread));
+  };
   for (const Watched& watched : threads_) {
-    if (watched.latency) deadlines.threads.push_back(watched.meter->summary());
+    const std::string& name = watched.thread->name();
+    if (watched.meter == nullptr) {
+      add(deadlines.wake_up, name, watched.lateness->histogram());
+      continue;
+    }
+    if (watched.meter->has_deadline()) {
+      deadlines.threads.push_back(watched.meter->latency().summary());
+    }
+    add(deadlines.wake_up, name, watched.meter->wake_up());
+    add(deadlines.execution, name, watched.meter->execution());
+    add(deadlines.period_jitter, name, watched.meter->period_jitter());
   }
   for (const Meter* path : paths_) deadlines.paths.push_back(path->summary());
   return deadlines;

@@ -10,7 +10,7 @@
 #include "runtime/core/data_clock.h"
 #include "runtime/core/edge.h"
 #include "runtime/core/thread.h"
-#include "runtime/vehicle/meter.h"
+#include "runtime/vehicle/thread_meter.h"
 
 namespace maploop::vehicle {
 
@@ -18,8 +18,10 @@ namespace maploop::vehicle {
 // outlive the monitor.
 class HealthMonitor {
  public:
-  // `meter` counts what the thread does; `latency` is false where it measures release lateness.
-  void watch(const runtime::Thread& thread, const Meter& meter, bool latency);
+  // A thread of a stage.
+  void watch(const runtime::Thread& thread, const ThreadMeter& meter);
+  // A driver, by how late it releases its samples.
+  void watch(const runtime::Thread& thread, const Meter& lateness);
   void watch_path(const Meter& path) { paths_.push_back(&path); }
   void watch(const runtime::EdgeBase& edge) { edges_.push_back(&edge); }
 
@@ -32,8 +34,10 @@ class HealthMonitor {
  private:
   struct Watched {
     const runtime::Thread* thread;
-    const Meter* meter;
-    bool latency;
+    const ThreadMeter* meter;  // null of a driver
+    const Meter* lateness;     // of a driver, else null
+
+    std::uint64_t count() const { return meter != nullptr ? meter->count() : lateness->count(); }
     std::uint64_t seen = 0;
   };
   std::vector<Watched> threads_;

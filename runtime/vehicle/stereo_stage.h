@@ -14,7 +14,7 @@
 #include "runtime/core/doorbell.h"
 #include "runtime/core/edge.h"
 #include "runtime/vehicle/fault_delay.h"
-#include "runtime/vehicle/meter.h"
+#include "runtime/vehicle/thread_meter.h"
 
 namespace maploop::vehicle {
 
@@ -30,7 +30,7 @@ class StereoStage {
 
   void slow_down(StageDelay delay) { delay_ = std::move(delay); }  // before run()
 
-  const Meter& meter() const { return meter_; }
+  const ThreadMeter& meter() const { return meter_; }
   // Results so far with this status; after the end.
   std::uint64_t count(OdometryStatus status) const {
     return counts_[static_cast<std::size_t>(status)];
@@ -45,7 +45,7 @@ class StereoStage {
   const runtime::Doorbell& bell_;
   runtime::Edge<RelativeMotion>& to_fusion_;
   runtime::Edge<RelativeMotion>& to_publisher_;
-  Meter meter_;
+  ThreadMeter meter_;
   StageDelay delay_;
   std::array<std::uint64_t, odometry_status_count> counts_{};
 };

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <deque>
 #include <functional>
+#include <latch>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "runtime/core/periodic.h"
 #include "runtime/core/thread.h"
 #include "runtime/vehicle/fusion_stage.h"
 #include "runtime/vehicle/graph.h"
@@ -101,6 +103,8 @@ struct Vehicle::Graph {
   FusionStage fusion;
   Publisher publisher;
   HealthMonitor monitor;
+  ThreadMeter health_meter{stages::health};
+  std::latch all_watched{1};  // the health thread looks at itself, too
 
   std::stop_callback<std::function<void()>> wake_all;
   std::deque<runtime::Thread> producers;
@@ -164,7 +168,7 @@ void Vehicle::Graph::start_driver(const Stage& stage, ReplayDriver<T>& driver) {
   const runtime::Thread& thread = start_thread(
       stage, config.scheduling.sensor_priority,
       [&](const std::stop_token& token) { driver.run(clock, token); }, [&] { driver.finish(); });
-  monitor.watch(thread, driver.lateness(), false);
+  monitor.watch(thread, driver.lateness());
 }
 
 void Vehicle::Graph::start() {
@@ -197,20 +201,23 @@ void Vehicle::Graph::start() {
                     stages::stereo, config.scheduling.stereo_priority,
                     [this](const std::stop_token& token) { stereo.run(clock, token); },
                     [this] { stereo.finish(); }),
-                stereo.meter(), true);
+                stereo.meter());
   monitor.watch(start_thread(
                     stages::fusion, config.scheduling.fusion_priority,
                     [this](const std::stop_token& token) { fusion.run(clock, first, token); },
                     [this] { fusion.finish(); }),
-                fusion.meter(), true);
+                fusion.meter());
   // These two end after everybody else has, so that nothing produced is left unsaid.
+  publisher_thread = std::make_unique<runtime::Thread>(
+      std::string(stages::publisher.name), runtime::Scheduling{}, std::stop_token{},
+      [this](const std::stop_token&) { publisher.run(); }, [] {});
+  monitor.watch(*publisher_thread, publisher.meter());
   health_thread = std::make_unique<runtime::Thread>(
       std::string(stages::health.name), runtime::Scheduling{}, end_health.get_token(),
       [this](const std::stop_token& end) { run_health(end); },
       [this] { to_publisher.reports.finish(); });
-  publisher_thread = std::make_unique<runtime::Thread>(
-      std::string(stages::publisher.name), runtime::Scheduling{}, std::stop_token{},
-      [this](const std::stop_token&) { publisher.run(); }, [] {});
+  monitor.watch(*health_thread, health_meter);
+  all_watched.count_down();
 }
 
 RuntimeReport Vehicle::Graph::look(Duration elapsed) {
@@ -218,6 +225,8 @@ RuntimeReport Vehicle::Graph::look(Duration elapsed) {
   RuntimeReport report;
   report.stamp = report.available = stamp;
   report.health = monitor.health(stamp, elapsed, clock);
+  report.health.elapsed = to_seconds(runtime::monotonic_now() - started);
+  report.health.cpu = cpu_seconds() - cpu_at_start;
   report.deadlines = monitor.deadlines(stamp);
   return report;
 }
@@ -225,14 +234,24 @@ RuntimeReport Vehicle::Graph::look(Duration elapsed) {
 void Vehicle::Graph::run_health(const std::stop_token& end) {
   Time looked = first;
   const auto say = [&] {
+    const MonotonicTime began = runtime::monotonic_now();
     const Time now = fusion.position();
     to_publisher.reports.push(look(now - looked), end);
     looked = now;
+    health_meter.ran(runtime::monotonic_now() - began);
   };
+  all_watched.wait();
   // In virtual time there are no rates to watch: one report at the end.
-  for (Time next = first + stages::health.period; clock.is_paced() && clock.sleep_until(next, end);
-       next += stages::health.period) {
-    say();
+  if (clock.is_paced()) {
+    const runtime::Schedule schedule{stages::health.period, stages::health.phase,
+                                     stages::health.overrun};
+    runtime::run_periodic(clock, first, schedule, end, [&](const runtime::Tick& tick) {
+      if (clock.keeps_time(tick.time)) {
+        health_meter.woke(tick, clock, clock.due(tick.time), runtime::monotonic_now());
+      }
+      say();
+      return true;
+    });
   }
   for (;;) {
     const std::uint32_t heard = health_bell.listen();
@@ -271,10 +290,6 @@ VehicleReport Vehicle::Graph::report() const {
   r.lateness = lateness.summarize("all sensors");
   r.health = last_report.health;
   r.deadlines = last_report.deadlines;
-  for (const Meter* meter :
-       {&stereo.meter(), &fusion.meter(), &fusion.camera_path(), &fusion.imu_path()}) {
-    r.misses.push_back({meter->name(), meter->misses()});
-  }
   r.refusals = refusals(stereo, fusion.filter().status());
   r.stalls = clock.stalls();
   r.stalled = clock.stalled();
@@ -343,7 +358,8 @@ Time Vehicle::next_sample() const {
 }
 
 std::uint64_t Vehicle::deadline_misses() const {
-  return graph_->stereo.meter().miss_count() + graph_->fusion.meter().miss_count();
+  return graph_->stereo.meter().latency().miss_count() +
+         graph_->fusion.meter().latency().miss_count();
 }
 
 runtime::DataClock& Vehicle::clock() {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "msgs/diagnostics.h"
-#include "runtime/vehicle/meter.h"
 #include "sensors/source.h"
 
 namespace maploop::vehicle {
@@ -15,11 +14,6 @@ struct SensorReport {
   std::string name;
   sensors::SourceReport source;
   LatencySummary lateness;  // of release
-};
-
-struct Misses {
-  std::string of;            // the thread or the path
-  std::vector<Miss> misses;  // the first few
 };
 
 // Measurements that an estimator did not use.
@@ -33,7 +27,6 @@ struct VehicleReport {
   std::vector<SensorReport> sensors;
   LatencySummary lateness;  // of release, all sensors together
   Deadlines deadlines;
-  std::vector<Misses> misses;
   Health health;
   std::vector<RefusalCount> refusals;  // those that happened
   std::uint64_t stalls = 0;            // how often the data clock had to wait for the graph
