@@ -1,6 +1,7 @@
 // What the runtime says of itself.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -31,6 +32,14 @@ struct MissedDeadline {
   Time stamp{};  // of the tick, or of the sample
   Duration latency{};
   std::vector<Part> parts;
+
+  // The name of the longest part.
+  std::string guilty() const {
+    const auto longest =
+        std::max_element(parts.begin(), parts.end(),
+                         [](const Part& a, const Part& b) { return a.lasted < b.lasted; });
+    return longest == parts.end() ? std::string() : longest->name;
+  }
 };
 
 // Latency of one thread or of one path from sensor stamp to state, since the start.

@@ -10,6 +10,7 @@ namespace maploop::tools {
 using Command = std::function<int()>;
 
 void add_log(CLI::App& app, Command& command);
+void add_profile(CLI::App& app, Command& command);
 void add_replay(CLI::App& app, Command& command);
 
 }  // namespace maploop::tools

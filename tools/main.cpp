@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", MAPLOOP_VERSION);
   maploop::tools::Command command;
   maploop::tools::add_log(app, command);
+  maploop::tools::add_profile(app, command);
   maploop::tools::add_replay(app, command);
   CLI11_PARSE(app, argc, argv);
   try {

@@ -1,7 +1,5 @@
 #include "runtime/vehicle/meter.h"
 
-#include <algorithm>
-
 namespace maploop::vehicle {
 namespace {
 
@@ -11,14 +9,6 @@ MissedDeadline message_of(const Timing& timing) {
     if (*part.name != '\0') miss.parts.push_back({part.name, part.lasted});
   }
   return miss;
-}
-
-// The longest part.
-std::string guilty(const MissedDeadline& miss) {
-  const auto longest =
-      std::max_element(miss.parts.begin(), miss.parts.end(),
-                       [](const auto& a, const auto& b) { return a.lasted < b.lasted; });
-  return longest == miss.parts.end() ? std::string() : longest->name;
 }
 
 }  // namespace
@@ -49,7 +39,7 @@ LatencySummary Meter::summary() const {
   for (std::size_t i = 0; heard_ != nullptr && i < heard_->count; ++i) {
     s.worst.push_back(message_of(heard_->misses[i]));
   }
-  if (!s.worst.empty()) s.guilty = guilty(s.worst.front());
+  if (!s.worst.empty()) s.guilty = s.worst.front().guilty();
   return s;
 }
 
