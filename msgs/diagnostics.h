@@ -49,10 +49,10 @@ struct LatencySummary {
   std::uint64_t misses = 0;  // of `deadline`
   Duration deadline{};       // 0: none declared
   Duration p50{}, p90{}, p99{}, p999{}, max{};
-  std::string guilty;                 // of the worst miss: its longest part
-  HistogramData histogram;            // what the figures above are of: as recorded
-  HistogramData omitted;              // waits to be added to correct co-ordinated omission
-  std::vector<MissedDeadline> worst;  // at most ten, the longest first
+  std::string guilty{};                 // of the worst miss: its longest part
+  HistogramData histogram{};            // what the figures above are of: as recorded
+  HistogramData omitted{};              // waits to be added to correct co-ordinated omission
+  std::vector<MissedDeadline> worst{};  // at most ten, the longest first
 };
 
 // Only `threads` has `omitted` waits, deadlines and misses, and `paths` the latter two; the others

@@ -12,5 +12,6 @@ using Command = std::function<int()>;
 void add_log(CLI::App& app, Command& command);
 void add_profile(CLI::App& app, Command& command);
 void add_replay(CLI::App& app, Command& command);
+void add_spy(CLI::App& app, Command& command);
 
 }  // namespace maploop::tools

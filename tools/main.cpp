@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
   maploop::tools::add_log(app, command);
   maploop::tools::add_profile(app, command);
   maploop::tools::add_replay(app, command);
+  maploop::tools::add_spy(app, command);
   CLI11_PARSE(app, argc, argv);
   try {
     return command();

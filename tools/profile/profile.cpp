@@ -4,9 +4,9 @@
 #include <stdexcept>
 
 #include "msgs/lcm/conversions.h"
-#include "msgs/lcm/decoded_message.h"
 #include "runtime/core/histogram.h"
 #include "runtime/vehicle/graph.h"
+#include "tools/checked_decode.h"
 
 namespace maploop::profile {
 namespace {
@@ -16,18 +16,6 @@ constexpr std::size_t shown_misses = 10;
 const schema::Schema& own_schema() {
   static const schema::Schema schema(schema::own_types());
   return schema;
-}
-
-// The schema looks first: LCM's own code takes the sizes in a message at their word.
-template <class Message>
-bool decode(std::span<const std::uint8_t> data, Message& message) {
-  const std::uint64_t fingerprint = schema::fingerprint_of(data);
-  const schema::Type* type = own_schema().find(fingerprint);
-  schema::DecodedMessage checked;
-  return type != nullptr && fingerprint == static_cast<std::uint64_t>(Message::getHash()) &&
-         !checked.decode(*type, data) &&
-         message.decode(data.data(), 0, static_cast<int>(data.size())) ==
-             static_cast<int>(data.size());
 }
 
 Latency corrected(const LatencySummary& s) {
@@ -51,7 +39,7 @@ void add_worst(const std::vector<LatencySummary>& summaries, std::vector<WorstMi
 void ProfileCollector::add(std::string_view channel, std::span<const std::uint8_t> data) {
   if (channel == vehicle::channels::deadlines.name) {
     maploop_lcm::deadlines_t message;
-    if (!decode(data, message)) {
+    if (!tools::checked_decode(own_schema(), data, message)) {
       ++not_understood_;
       return;
     }
@@ -59,7 +47,7 @@ void ProfileCollector::add(std::string_view channel, std::span<const std::uint8_
     heard_deadlines_ = true;
   } else if (channel == vehicle::channels::health.name) {
     maploop_lcm::health_t message;
-    if (!decode(data, message)) {
+    if (!tools::checked_decode(own_schema(), data, message)) {
       ++not_understood_;
       return;
     }
