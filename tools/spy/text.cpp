@@ -42,7 +42,7 @@ std::string array_line(const schema::DecodedMessage& message, std::size_t node) 
   for (std::uint32_t i = 0; i < std::min<std::size_t>(count, shown_values); ++i) {
     line += ' ' + message.text(node, i);
   }
-  if (count > shown_values) line += " ... " + std::to_string(count) + " in all";
+  if (count > shown_values) line += " ...";
   return line;
 }
 

@@ -22,7 +22,7 @@ std::string table_row(const ChannelStatus& status);
 // One line, one JSON object; null where there is nothing to say.
 std::string json_row(const ChannelStatus& status);
 
-// One "path = value" a line; of an array of numbers the first few, and how many there are.
+// One "path = value" a line; of an array of numbers its sizes and the first few values.
 std::vector<std::string> field_lines(const schema::Schema& schema,
                                      std::span<const std::uint8_t> message);
 

@@ -144,7 +144,7 @@ def at_a_terminal():
     spy.press("/NAV\r")
     spy.until("a filter leaves one", lambda p: "NAV_STATE" in p and "GNSS_FIX" not in p)
     spy.until("its fields are shown", lambda p: "header.stamp_ns = 131704" in p
-              and "covariance[9][9] =" in p and "... 81 in all" in p)
+              and "covariance[9][9] = " in p)
     first = re.search(r"header.sequence = (\d+)", spy.picture()).group(1)
     spy.until("they are live", lambda p: f"header.sequence = {first}\x1b" not in p
               and "header.sequence" in p)
