@@ -37,22 +37,18 @@ void add_worst(const std::vector<LatencySummary>& summaries, std::vector<WorstMi
 }  // namespace
 
 void ProfileCollector::add(std::string_view channel, std::span<const std::uint8_t> data) {
+  const auto take = [&](auto message, auto& to, bool& heard) {
+    if (!tools::checked_decode(own_schema(), data, message)) {
+      ++not_understood_;
+      return;
+    }
+    to = from_lcm(message);
+    heard = true;
+  };
   if (channel == vehicle::channels::deadlines.name) {
-    maploop_lcm::deadlines_t message;
-    if (!tools::checked_decode(own_schema(), data, message)) {
-      ++not_understood_;
-      return;
-    }
-    deadlines_ = from_lcm(message);
-    heard_deadlines_ = true;
+    take(maploop_lcm::deadlines_t{}, deadlines_, heard_deadlines_);
   } else if (channel == vehicle::channels::health.name) {
-    maploop_lcm::health_t message;
-    if (!tools::checked_decode(own_schema(), data, message)) {
-      ++not_understood_;
-      return;
-    }
-    health_ = from_lcm(message);
-    heard_health_ = true;
+    take(maploop_lcm::health_t{}, health_, heard_health_);
   }
 }
 
