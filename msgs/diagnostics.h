@@ -55,15 +55,16 @@ struct LatencySummary {
   std::vector<MissedDeadline> worst{};  // at most ten, the longest first
 };
 
+// Period jitter: how far the time between two wake-ups is from that between their due times.
 // Only `threads` has `omitted` waits, deadlines and misses, and `paths` the latter two; the others
 // are as recorded.
 struct Deadlines {
   Time stamp{};
-  std::vector<LatencySummary> threads;        // from release to result
-  std::vector<LatencySummary> paths;          // from the sensor's stamp to the state that holds it
-  std::vector<LatencySummary> wake_up;        // per thread: from when it could run until it did
-  std::vector<LatencySummary> execution;      // per thread: of one tick, sample or message
-  std::vector<LatencySummary> period_jitter;  // per fixed-rate thread: |between wake-ups - period|
+  std::vector<LatencySummary> threads;      // from release to result
+  std::vector<LatencySummary> paths;        // from the sensor's stamp to the state that holds it
+  std::vector<LatencySummary> wake_up{};    // per thread: from when it could run until it did
+  std::vector<LatencySummary> execution{};  // per thread: of one tick, sample or message
+  std::vector<LatencySummary> period_jitter{};  // per fixed-rate thread
 };
 
 struct RingHealth {
