@@ -11,6 +11,8 @@ using Command = std::function<int()>;
 
 void add_doctor(CLI::App& app, Command& command);
 void add_log(CLI::App& app, Command& command);
+void add_profile(CLI::App& app, Command& command);
 void add_replay(CLI::App& app, Command& command);
+void add_spy(CLI::App& app, Command& command);
 
 }  // namespace maploop::tools

@@ -10,7 +10,9 @@ int main(int argc, char** argv) {
   maploop::tools::Command command;
   maploop::tools::add_doctor(app, command);
   maploop::tools::add_log(app, command);
+  maploop::tools::add_profile(app, command);
   maploop::tools::add_replay(app, command);
+  maploop::tools::add_spy(app, command);
   CLI11_PARSE(app, argc, argv);
   try {
     return command();

@@ -48,17 +48,16 @@ void append_latency(std::string& text, const LatencySummary& s) {
   text += '\n';
 }
 
-void append_misses(std::string& text, const vehicle::VehicleReport& report) {
-  for (const vehicle::Misses& misses : report.misses) {
+void append_worst(std::string& text, const std::vector<LatencySummary>& summaries) {
+  for (const LatencySummary& s : summaries) {
     constexpr std::size_t shown = 5;
-    for (std::size_t i = 0; i < std::min(misses.misses.size(), shown); ++i) {
-      const vehicle::Miss& m = misses.misses[i];
-      append(text, "  missed: %s at %s: %.3f ms, guilty: %s (", misses.of.c_str(),
-             format_time(m.stamp).c_str(), to_ms(m.latency), m.guilty());
+    for (std::size_t i = 0; i < std::min(s.worst.size(), shown); ++i) {
+      const MissedDeadline& m = s.worst[i];
+      append(text, "  missed: %s at %s: %.3f ms (", s.name.c_str(), format_time(m.stamp).c_str(),
+             to_ms(m.latency));
       const char* separator = "";
-      for (const vehicle::Miss::Part& part : m.parts) {
-        if (*part.name == '\0') continue;
-        append(text, "%s%s %.3f", separator, part.name, to_ms(part.lasted));
+      for (const MissedDeadline::Part& part : m.parts) {
+        append(text, "%s%s %.3f", separator, part.name.c_str(), to_ms(part.lasted));
         separator = ", ";
       }
       text += ")\n";
@@ -197,7 +196,8 @@ std::string format_table(const ReplayResult& r) {
   if (!r.lockstep) {
     t += "From the sensor's stamp\n";
     for (const LatencySummary& s : v.deadlines.paths) append_latency(t, s);
-    append_misses(t, v);
+    append_worst(t, v.deadlines.threads);
+    append_worst(t, v.deadlines.paths);
   }
 
   t += "\nRings                                pushed    popped      lost      held  capacity\n";

@@ -1,15 +1,12 @@
 #include "msgs/lcm/conversions.h"
 
-#include <algorithm>
 #include <stdexcept>
 #include <string>
 
+#include "msgs/lcm/conversion_parts.h"
+
 namespace maploop {
 namespace {
-
-std::int64_t microseconds_of(Time t) {
-  return std::chrono::floor<std::chrono::microseconds>(t).time_since_epoch().count();
-}
 
 maploop_lcm::header_t header_of(const Sample& sample) {
   maploop_lcm::header_t header{};
@@ -60,41 +57,6 @@ Enumeration enumerator_from(std::int8_t value, Enumeration last, const char* fie
   return static_cast<Enumeration>(value);
 }
 
-double to_us(Duration d) {
-  return static_cast<double>(d.count()) * 1e-3;
-}
-Duration from_us(double us) {
-  return from_seconds(us * 1e-6);
-}
-
-maploop_lcm::latency_summary_t to_lcm(const LatencySummary& s) {
-  maploop_lcm::latency_summary_t m{};
-  m.name = s.name;
-  m.count = static_cast<std::int64_t>(s.count);
-  m.misses = static_cast<std::int64_t>(s.misses);
-  m.deadline_us = to_us(s.deadline);
-  m.p50_us = to_us(s.p50);
-  m.p90_us = to_us(s.p90);
-  m.p99_us = to_us(s.p99);
-  m.p999_us = to_us(s.p999);
-  m.max_us = to_us(s.max);
-  m.guilty = s.guilty;
-  return m;
-}
-
-LatencySummary from_lcm(const maploop_lcm::latency_summary_t& m) {
-  return {m.name,
-          static_cast<std::uint64_t>(m.count),
-          static_cast<std::uint64_t>(m.misses),
-          from_us(m.deadline_us),
-          from_us(m.p50_us),
-          from_us(m.p90_us),
-          from_us(m.p99_us),
-          from_us(m.p999_us),
-          from_us(m.max_us),
-          m.guilty};
-}
-
 maploop_lcm::thread_health_t to_lcm(const ThreadHealth& t) {
   maploop_lcm::thread_health_t m{};
   m.name = t.name;
@@ -102,11 +64,21 @@ maploop_lcm::thread_health_t to_lcm(const ThreadHealth& t) {
   m.count = static_cast<std::int64_t>(t.count);
   m.rate_hz = t.rate;
   m.failure = t.failure;
+  m.cpu_s = t.cpu;
+  m.left_out = static_cast<std::int64_t>(t.left_out);
+  m.shed = static_cast<std::int64_t>(t.shed);
   return m;
 }
 
 ThreadHealth from_lcm(const maploop_lcm::thread_health_t& m) {
-  return {m.name, m.scheduling, static_cast<std::uint64_t>(m.count), m.rate_hz, m.failure};
+  return {m.name,
+          m.scheduling,
+          static_cast<std::uint64_t>(m.count),
+          m.rate_hz,
+          m.failure,
+          m.cpu_s,
+          static_cast<std::uint64_t>(m.left_out),
+          static_cast<std::uint64_t>(m.shed)};
 }
 
 maploop_lcm::ring_health_t to_lcm(const RingHealth& r) {
@@ -168,12 +140,6 @@ RealtimeSetting from_lcm(const maploop_lcm::realtime_setting_t& m) {
   return {m.name,    m.asked,
           m.granted, enumerator_from(m.verdict, Verdict::unknown, "realtime_setting_t.verdict"),
           m.reason,  m.remedy};
-}
-
-template <class In, class Out>
-void convert_each(const std::vector<In>& in, std::vector<Out>& out, Out (*convert)(const In&)) {
-  out.resize(in.size());
-  std::transform(in.begin(), in.end(), out.begin(), convert);
 }
 
 }  // namespace
@@ -314,24 +280,6 @@ ReferencePose from_lcm(const maploop_lcm::reference_pose_t& m) {
   return pose;
 }
 
-maploop_lcm::deadlines_t to_lcm(const Deadlines& deadlines) {
-  maploop_lcm::deadlines_t m{};
-  m.utime = microseconds_of(deadlines.stamp);
-  convert_each(deadlines.threads, m.threads, to_lcm);
-  convert_each(deadlines.paths, m.paths, to_lcm);
-  m.thread_count = static_cast<std::int32_t>(m.threads.size());
-  m.path_count = static_cast<std::int32_t>(m.paths.size());
-  return m;
-}
-
-Deadlines from_lcm(const maploop_lcm::deadlines_t& m) {
-  Deadlines deadlines;
-  deadlines.stamp = Time(std::chrono::microseconds(m.utime));
-  convert_each(m.threads, deadlines.threads, from_lcm);
-  convert_each(m.paths, deadlines.paths, from_lcm);
-  return deadlines;
-}
-
 maploop_lcm::health_t to_lcm(const Health& health) {
   maploop_lcm::health_t m{};
   m.utime = microseconds_of(health.stamp);
@@ -347,6 +295,8 @@ maploop_lcm::health_t to_lcm(const Health& health) {
   m.output_count = static_cast<std::int32_t>(m.outputs.size());
   m.setting_count = static_cast<std::int32_t>(m.settings.size());
   m.degraded_count = static_cast<std::int32_t>(m.degraded.size());
+  m.elapsed_s = health.elapsed;
+  m.cpu_s = health.cpu;
   return m;
 }
 
@@ -359,6 +309,8 @@ Health from_lcm(const maploop_lcm::health_t& m) {
   convert_each(m.outputs, health.outputs, from_lcm);
   convert_each(m.settings, health.settings, from_lcm);
   health.degraded = m.degraded;
+  health.elapsed = m.elapsed_s;
+  health.cpu = m.cpu_s;
   return health;
 }
 

@@ -4,9 +4,20 @@
 
 #include <exception>
 #include <future>
+#include <optional>
 #include <utility>
 
 namespace maploop::runtime {
+namespace {
+
+// Nothing where the clock's thread is no more.
+std::optional<Duration> read(clockid_t clock) {
+  timespec t{};
+  if (clock_gettime(clock, &t) != 0) return {};
+  return std::chrono::seconds(t.tv_sec) + Duration(t.tv_nsec);
+}
+
+}  // namespace
 
 Thread::Thread(std::string name, Scheduling scheduling, std::stop_token stop, Body body,
                std::function<void()> at_end)
@@ -16,10 +27,17 @@ Thread::Thread(std::string name, Scheduling scheduling, std::stop_token stop, Bo
   thread_ = std::thread([this, scheduling = std::move(scheduling), stop = std::move(stop),
                          body = std::move(body), at_end = std::move(at_end),
                          asked = std::move(asked)]() mutable {
+    clockid_t cpu_clock = no_clock;
+    if (pthread_getcpuclockid(pthread_self(), &cpu_clock) == 0) {
+      cpu_clock_.store(cpu_clock, std::memory_order_release);
+    }
     pthread_setname_np(pthread_self(), name_.substr(0, 15).c_str());
     asked.set_value(apply_scheduling(name_, scheduling));
     run(stop, body);
     at_end();
+    cpu_at_end_.store(read(CLOCK_THREAD_CPUTIME_ID).value_or(Duration{}).count(),
+                      std::memory_order_relaxed);
+    cpu_clock_.store(no_clock, std::memory_order_release);
     ended_.store(true, std::memory_order_release);
   });
   settings_ = answer.get();
@@ -45,6 +63,16 @@ void Thread::run(const std::stop_token& stop, const Body& body) {
 std::string Thread::failure() const {
   const std::lock_guard lock(mutex_);
   return failure_;
+}
+
+// The clock is asked by its number, which outlives the thread, and not by the thread's handle.
+// Where the thread ended in between, its last word is there.
+Duration Thread::cpu_time() const {
+  const clockid_t clock = cpu_clock_.load(std::memory_order_acquire);
+  if (clock != no_clock) {
+    if (const std::optional<Duration> used = read(clock)) return *used;
+  }
+  return Duration(cpu_at_end_.load(std::memory_order_relaxed));
 }
 
 }  // namespace maploop::runtime

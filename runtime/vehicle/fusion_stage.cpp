@@ -26,7 +26,7 @@ FusionStage::FusionStage(fusion::ReducedImuFilter filter, FusionEdges& inputs,
       inputs_(inputs),
       nav_states_(nav_states),
       image_states_(image_states),
-      meter_(stages::fusion.name, stages::fusion.deadline),
+      meter_(stages::fusion),
       camera_path_(paths::camera.name, paths::camera.deadline),
       imu_path_(paths::imu.name, paths::imu.deadline) {
   intake_.add(inputs_.imu, [this](const ImuSample& sample) {
@@ -46,11 +46,16 @@ FusionStage::FusionStage(fusion::ReducedImuFilter filter, FusionEdges& inputs,
 void FusionStage::run(runtime::DataClock& clock, Time first, const std::stop_token& stop) {
   stop_ = stop;
   position_.store(to_nanoseconds(first), std::memory_order_relaxed);
-  runtime::run_periodic(clock, first, stages::fusion.period, stop,
-                        [&](Time k) { return tick(k, clock, stop); });
+  // Whatever the graph declares for a live run: the same bits need every tick.
+  const runtime::Schedule schedule{stages::fusion.period, stages::fusion.phase,
+                                   runtime::Overrun::catch_up};
+  runtime::run_periodic(clock, first, schedule, stop,
+                        [&](const runtime::Tick& t) { return tick(t, clock, stop); });
 }
 
-bool FusionStage::tick(Time k, runtime::DataClock& clock, const std::stop_token& stop) {
+bool FusionStage::tick(const runtime::Tick& tick, runtime::DataClock& clock,
+                       const std::stop_token& stop) {
+  const Time k = tick.time;
   const runtime::TraceSpan span(trace_, "tick");
   const auto stall = [&](MonotonicTime when) {
     if (clock.stall(k, when)) runtime::trace_instant(trace_, "stall");
@@ -84,16 +89,18 @@ bool FusionStage::tick(Time k, runtime::DataClock& clock, const std::stop_token&
 
   const MonotonicTime done = runtime::monotonic_now();
   if (done - computed > runtime::DataClock::tolerance) stall(done);
+  meter_.ran(done - ready);
   if (clock.keeps_time(k)) {
-    const bool missed = meter_.record({k,
-                                       done - due,
-                                       {{{"woken late", woken - due},
-                                         {"waiting for input", ready - woken},
-                                         {"running", done - ready}}}});
+    meter_.woke(tick, clock, due, woken);
+    const bool missed = meter_.latency().record({k,
+                                                 done - due,
+                                                 {{{"woken late", woken - due},
+                                                   {"waiting for input", ready - woken},
+                                                   {"running", done - ready}}}});
     if (missed) runtime::trace_instant(trace_, "missed deadline");
     record_paths(clock, due, done);
   } else {
-    meter_.record(done - ready);
+    meter_.latency().record(done - ready);
   }
   if (done - due > furthest_behind) stall(done);
   const Time next = k + stages::fusion.period + stages::fusion.budget;

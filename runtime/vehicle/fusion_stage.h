@@ -19,6 +19,7 @@
 #include "runtime/core/trace_span.h"
 #include "runtime/vehicle/fault_delay.h"
 #include "runtime/vehicle/meter.h"
+#include "runtime/vehicle/thread_meter.h"
 
 namespace maploop::vehicle {
 
@@ -49,7 +50,7 @@ class FusionStage {
   // Data time of the last tick; any thread may ask.
   Time position() const { return from_nanoseconds(position_.load(std::memory_order_relaxed)); }
 
-  const Meter& meter() const { return meter_; }              // from the tick's release to its state
+  const ThreadMeter& meter() const { return meter_; }        // from the tick's release to its state
   const Meter& camera_path() const { return camera_path_; }  // from the image's stamp to the state
   const Meter& imu_path() const { return imu_path_; }        // from the IMU's stamp to the state
 
@@ -60,7 +61,7 @@ class FusionStage {
   }
 
  private:
-  bool tick(Time k, runtime::DataClock& clock, const std::stop_token& stop);
+  bool tick(const runtime::Tick& tick, runtime::DataClock& clock, const std::stop_token& stop);
   void take(const RelativeMotion& motion);
   void record_paths(const runtime::DataClock& clock, MonotonicTime due, MonotonicTime done);
 
@@ -76,7 +77,7 @@ class FusionStage {
   std::uint64_t images_ = 0;
   std::optional<Sample> imu_taken_;       // by this tick, the last one
   std::optional<Sample> odometry_taken_;  // with a motion
-  Meter meter_;
+  ThreadMeter meter_;
   Meter camera_path_;
   Meter imu_path_;
   StageDelay delay_;

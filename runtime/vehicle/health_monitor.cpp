@@ -12,6 +12,7 @@ void HealthMonitor::start(Time first, MonotonicTime wall) {
 void HealthMonitor::watch_driver(const Stage& stage, const runtime::Thread& thread,
                                  const Meter& lateness, bool absent) {
   threads_.push_back({&thread,
+                      nullptr,
                       &lateness,
                       absent,
                       {},
@@ -19,9 +20,9 @@ void HealthMonitor::watch_driver(const Stage& stage, const runtime::Thread& thre
 }
 
 void HealthMonitor::watch_stage(const Stage& stage, const runtime::Thread& thread,
-                                const Meter& latency,
+                                const ThreadMeter& meter,
                                 std::vector<const runtime::EdgeBase*> inputs) {
-  threads_.push_back({&thread, &latency, false, std::move(inputs),
+  threads_.push_back({&thread, &meter, nullptr, false, std::move(inputs),
                       Watchdog(stage, Watchdog::Kind::fed, first_, wall_start_)});
 }
 
@@ -52,7 +53,12 @@ Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataCl
     t.name = watched.thread->name();
     t.scheduling = watched.thread->settings().front().granted;
     t.failure = watched.thread->failure();
-    t.count = watched.meter->count();
+    t.cpu = to_seconds(watched.thread->cpu_time());
+    if (watched.meter != nullptr) {
+      t.left_out = watched.meter->left_out();
+      t.shed = watched.meter->shed();
+    }
+    t.count = watched.count();
     if (elapsed > Duration::zero()) {
       t.rate = static_cast<double>(t.count - watched.seen) / to_seconds(elapsed);
     }
@@ -104,8 +110,22 @@ void HealthMonitor::restart_rates() {
 Deadlines HealthMonitor::deadlines(Time stamp) const {
   Deadlines deadlines;
   deadlines.stamp = stamp;
+  const auto add = [](std::vector<LatencySummary>& to, const std::string& thread,
+                      const runtime::Histogram& histogram) {
+    if (histogram.count() > 0) to.push_back(histogram.summarize(thread));
+  };
   for (const Watched& watched : threads_) {
-    if (!watched.inputs.empty()) deadlines.threads.push_back(watched.meter->summary());
+    const std::string& name = watched.thread->name();
+    if (watched.meter == nullptr) {
+      add(deadlines.wake_up, name, watched.lateness->histogram());
+      continue;
+    }
+    if (watched.meter->has_deadline()) {
+      deadlines.threads.push_back(watched.meter->latency().summary());
+    }
+    add(deadlines.wake_up, name, watched.meter->wake_up());
+    add(deadlines.execution, name, watched.meter->execution());
+    add(deadlines.period_jitter, name, watched.meter->period_jitter());
   }
   for (const Meter* path : paths_) deadlines.paths.push_back(path->summary());
   return deadlines;

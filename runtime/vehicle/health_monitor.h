@@ -13,7 +13,7 @@
 #include "runtime/core/thread.h"
 #include "runtime/vehicle/graph.h"
 #include "runtime/vehicle/message_sink.h"
-#include "runtime/vehicle/meter.h"
+#include "runtime/vehicle/thread_meter.h"
 #include "runtime/vehicle/watchdog.h"
 
 namespace maploop::vehicle {
@@ -22,13 +22,13 @@ namespace maploop::vehicle {
 // outlive the monitor.
 class HealthMonitor {
  public:
-  // Of the data, and of the threads. Before watch().
+  // Of the data, and of the threads. Before watch_...().
   void start(Time first, MonotonicTime wall);
-  // A driver: `lateness` of its releases. `absent`: it has no sensor.
+  // A driver, by how late it releases its samples. `absent`: it has no sensor.
   void watch_driver(const Stage& stage, const runtime::Thread& thread, const Meter& lateness,
                     bool absent);
-  // A stage that these rings feed: `latency` of its results.
-  void watch_stage(const Stage& stage, const runtime::Thread& thread, const Meter& latency,
+  // A stage, and the rings that feed it.
+  void watch_stage(const Stage& stage, const runtime::Thread& thread, const ThreadMeter& meter,
                    std::vector<const runtime::EdgeBase*> inputs);
   void watch_path(const Meter& path) { paths_.push_back(&path); }
   void watch(const runtime::EdgeBase& edge) { edges_.push_back(&edge); }
@@ -44,11 +44,14 @@ class HealthMonitor {
  private:
   struct Watched {
     const runtime::Thread* thread;
-    const Meter* meter;
+    const ThreadMeter* meter;  // null of a driver
+    const Meter* lateness;     // of a driver, else null
     bool absent;
-    std::vector<const runtime::EdgeBase*> inputs;  // none: a driver
+    std::vector<const runtime::EdgeBase*> inputs;
     Watchdog watchdog;
     std::uint64_t seen = 0;
+
+    std::uint64_t count() const { return meter != nullptr ? meter->count() : lateness->count(); }
   };
   static StageFacts facts(const Watched& watched, std::uint64_t count);
 

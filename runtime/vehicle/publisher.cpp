@@ -76,12 +76,14 @@ void Publisher::end_flows(runtime::TraceSpan& span, const NavState& state) {
 
 template <class Lcm>
 void Publisher::send(const Channel& channel, Time time, const Lcm& message) {
+  const MonotonicTime started = runtime::monotonic_now();
   const int size = message.getEncodedSize();
   buffer_.resize(static_cast<std::size_t>(size));
   if (message.encode(buffer_.data(), 0, size) != size) {
     throw std::logic_error("cannot encode a message for " + std::string(channel.name));
   }
   for (MessageSink* sink : sinks_) sink->send({channel.name, time, buffer_, channel.from_data});
+  meter_.ran(runtime::monotonic_now() - started);
 }
 
 void Publisher::send_reports() {

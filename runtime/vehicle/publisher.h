@@ -18,6 +18,7 @@
 #include "runtime/core/trace_span.h"
 #include "runtime/vehicle/graph.h"
 #include "runtime/vehicle/message_sink.h"
+#include "runtime/vehicle/thread_meter.h"
 
 namespace maploop::vehicle {
 
@@ -61,6 +62,9 @@ class Publisher {
   // Until every edge is finished and empty.
   void run();
 
+  // How long sending each message took.
+  const ThreadMeter& meter() const { return meter_; }
+
  private:
   template <class Lcm>
   void send(const Channel& channel, Time time, const Lcm& message);
@@ -76,6 +80,7 @@ class Publisher {
   Observer observer_;
   runtime::Intake intake_;
   std::vector<std::uint8_t> buffer_;
+  ThreadMeter meter_{stages::publisher};
 
   // Samples on their way through the fusion, while a trace is recorded.
   struct Passing {

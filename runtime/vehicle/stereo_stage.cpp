@@ -16,7 +16,7 @@ StereoStage::StereoStage(stereo::StereoOdometry odometry, runtime::Edge<StereoPa
       bell_(bell),
       to_fusion_(to_fusion),
       to_publisher_(to_publisher),
-      meter_(stages::stereo.name, stages::stereo.deadline) {}
+      meter_(stages::stereo) {}
 
 void StereoStage::run(const runtime::DataClock& clock, const std::stop_token& stop) {
   MonotonicTime idle_since{};
@@ -28,16 +28,19 @@ void StereoStage::run(const runtime::DataClock& clock, const std::stop_token& st
       runtime::trace_counter(trace_, "camera -> stereo", static_cast<double>(images_.held()));
       process(*pair, stop);
       const MonotonicTime ended = runtime::monotonic_now();
+      meter_.ran(ended - started);
       if (clock.keeps_time(pair->available)) {
         const MonotonicTime ready = std::max(pair->received, idle_since);
-        const bool missed = meter_.record({pair->stamp,
-                                           ended - pair->received,
-                                           {{{"busy with the pair before", ready - pair->received},
-                                             {"woken late", started - ready},
-                                             {"running", ended - started}}}});
+        meter_.woke(started - ready);
+        const bool missed =
+            meter_.latency().record({pair->stamp,
+                                     ended - pair->received,
+                                     {{{"busy with the pair before", ready - pair->received},
+                                       {"woken late", started - ready},
+                                       {"running", ended - started}}}});
         if (missed) runtime::trace_instant(trace_, "missed deadline");
       } else {
-        meter_.record(ended - started);
+        meter_.latency().record(ended - started);
       }
       idle_since = ended;
       images_.pop();

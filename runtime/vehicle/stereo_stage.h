@@ -16,7 +16,7 @@
 #include "runtime/core/edge.h"
 #include "runtime/core/trace_span.h"
 #include "runtime/vehicle/fault_delay.h"
-#include "runtime/vehicle/meter.h"
+#include "runtime/vehicle/thread_meter.h"
 
 namespace maploop::vehicle {
 
@@ -33,7 +33,7 @@ class StereoStage {
   void trace_to(runtime::TraceBuffer* buffer) { trace_ = buffer; }  // before run()
   void slow_down(StageDelay delay) { delay_ = std::move(delay); }   // before run()
 
-  const Meter& meter() const { return meter_; }
+  const ThreadMeter& meter() const { return meter_; }
   // Results so far with this status; any thread may ask.
   std::uint64_t count(OdometryStatus status) const {
     return counts_[static_cast<std::size_t>(status)].load(std::memory_order_relaxed);
@@ -48,7 +48,7 @@ class StereoStage {
   const runtime::Doorbell& bell_;
   runtime::Edge<RelativeMotion>& to_fusion_;
   runtime::Edge<RelativeMotion>& to_publisher_;
-  Meter meter_;
+  ThreadMeter meter_;
   runtime::TraceBuffer* trace_ = nullptr;
   StageDelay delay_;
   std::array<std::atomic<std::uint64_t>, odometry_status_count> counts_{};

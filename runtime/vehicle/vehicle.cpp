@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "runtime/core/periodic.h"
 #include "runtime/core/realtime.h"
 #include "runtime/vehicle/prefetched_source.h"
 #include "runtime/vehicle/process_usage.h"
@@ -134,13 +135,17 @@ void Vehicle::Graph::start() {
                           [this] { fusion.finish(); }),
                       fusion.meter(), {&to_fusion.imu, &to_fusion.gnss, &to_fusion.odometry});
   // These two end after everybody else has, so that nothing produced is left unsaid.
-  start_thread(
-      listeners, stages::publisher, scheduling.publisher, {},
-      [this](const std::stop_token&) { publisher.run(); }, [] {});
-  start_thread(
-      listeners, stages::health, scheduling.health, end_health.get_token(),
-      [this](const std::stop_token& end) { run_health(end); },
-      [this] { to_publisher.reports.finish(); });
+  monitor.watch_stage(stages::publisher,
+                      start_thread(
+                          listeners, stages::publisher, scheduling.publisher, {},
+                          [this](const std::stop_token&) { publisher.run(); }, [] {}),
+                      publisher.meter(), {});
+  monitor.watch_stage(stages::health,
+                      start_thread(
+                          listeners, stages::health, scheduling.health, end_health.get_token(),
+                          [this](const std::stop_token& end) { run_health(end); },
+                          [this] { to_publisher.reports.finish(); }),
+                      health_meter, {});
   started_all.count_down();
 }
 
@@ -149,6 +154,8 @@ RuntimeReport Vehicle::Graph::look(Duration elapsed) {
   RuntimeReport report;
   report.stamp = report.available = stamp;
   report.health = monitor.health(stamp, elapsed, clock, readiness);
+  report.health.elapsed = to_seconds(runtime::monotonic_now() - started);
+  report.health.cpu = process_cpu_seconds() - cpu_at_start;
   report.health.refusals = refusals(stereo, fusion.filter_status());
   report.deadlines = monitor.deadlines(stamp);
   return report;
@@ -159,14 +166,23 @@ void Vehicle::Graph::run_health(const std::stop_token& end) {
   Time looked = first;
   const auto say = [&] {
     const runtime::TraceSpan span(health_trace, "health");
+    const MonotonicTime began = runtime::monotonic_now();
     const Time now = fusion.position();
     to_publisher.reports.push(look(now - looked), end);
     looked = now;
+    health_meter.ran(runtime::monotonic_now() - began);
   };
   // In virtual time there are no rates to watch: one report at the end.
-  for (Time next = first + stages::health.period; clock.is_paced() && clock.sleep_until(next, end);
-       next += stages::health.period) {
-    say();
+  if (clock.is_paced()) {
+    const runtime::Schedule schedule{stages::health.period, stages::health.phase,
+                                     stages::health.overrun};
+    runtime::run_periodic(clock, first, schedule, end, [&](const runtime::Tick& tick) {
+      if (clock.keeps_time(tick.time)) {
+        health_meter.woke(tick, clock, clock.due(tick.time), runtime::monotonic_now());
+      }
+      say();
+      return true;
+    });
   }
   for (;;) {
     const std::uint32_t heard = health_bell.listen();
@@ -255,7 +271,8 @@ Time Vehicle::next_sample() const {
 }
 
 std::uint64_t Vehicle::deadline_misses() const {
-  return graph_->stereo.meter().miss_count() + graph_->fusion.meter().miss_count();
+  return graph_->stereo.meter().latency().miss_count() +
+         graph_->fusion.meter().latency().miss_count();
 }
 
 runtime::DataClock& Vehicle::clock() {

@@ -65,6 +65,7 @@ struct Vehicle::Graph {
   FusionStage fusion;
   Publisher publisher;
   HealthMonitor monitor;
+  ThreadMeter health_meter{stages::health};
   runtime::RealtimeReport readiness;  // complete, and constant, from started_all on
 
   std::stop_callback<std::function<void()>> wake_all;

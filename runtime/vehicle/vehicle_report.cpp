@@ -20,10 +20,6 @@ VehicleReport Vehicle::Graph::report() const {
   r.lateness = lateness.summarize("all sensors");
   r.health = last_report.health;
   r.deadlines = last_report.deadlines;
-  for (const Meter* meter :
-       {&stereo.meter(), &fusion.meter(), &fusion.camera_path(), &fusion.imu_path()}) {
-    r.misses.push_back({meter->name(), meter->misses()});
-  }
   r.stalls = clock.stalls();
   r.stalled = clock.stalled();
   r.data_seconds = to_seconds(fusion.position() - first);

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "msgs/diagnostics.h"
-#include "runtime/vehicle/meter.h"
 #include "sensors/source.h"
 
 namespace maploop::vehicle {
@@ -17,16 +16,10 @@ struct SensorReport {
   LatencySummary lateness;  // of release
 };
 
-struct Misses {
-  std::string of;            // the thread or the path
-  std::vector<Miss> misses;  // the first few
-};
-
 struct VehicleReport {
   std::vector<SensorReport> sensors;
   LatencySummary lateness;  // of release, all sensors together
   Deadlines deadlines;
-  std::vector<Misses> misses;
   Health health;
   std::uint64_t stalls = 0;  // how often the data clock had to wait for the graph
   Duration stalled{};

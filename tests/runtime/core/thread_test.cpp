@@ -20,6 +20,44 @@ TEST(Thread, AnExceptionEndsTheThreadAloneAndIsKept) {
   EXPECT_TRUE(thread.ended());
 }
 
+TEST(Thread, ItsProcessorTimeIsItsOwnAndStaysAfterItsEnd) {
+  std::stop_source stop;
+  Thread busy(
+      "busy", {}, stop.get_token(),
+      [](const std::stop_token& token) {
+        while (!token.stop_requested()) {
+        }
+      },
+      [] {});
+  Thread idle(
+      "idle", {}, stop.get_token(),
+      [](const std::stop_token& token) {
+        while (!token.stop_requested()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      },
+      [] {});
+  Duration seen{};
+  while (seen < std::chrono::milliseconds(200)) {
+    const Duration now = busy.cpu_time();
+    EXPECT_GE(now, seen);
+    seen = now;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_LT(idle.cpu_time(), seen / 2);
+  stop.request_stop();
+  busy.join();
+  EXPECT_GE(busy.cpu_time(), seen);
+}
+
+TEST(Thread, ProcessorTimeMayBeAskedWhileThreadsEnd) {
+  for (int i = 0; i < 200; ++i) {
+    Thread thread(
+        "short", {}, {}, [](const std::stop_token&) {}, [] {});
+    std::jthread joiner([&] { thread.join(); });
+    while (!thread.ended()) EXPECT_GE(thread.cpu_time(), Duration{});
+    EXPECT_GT(thread.cpu_time(), Duration{});
+  }
+}
+
 TEST(Thread, StopReachesTheBody) {
   std::stop_source stop;
   Thread thread(
