@@ -29,9 +29,8 @@ void archive(Archive& ar, GreyImage& image) {
   ar(image.width, image.height, image.pixels);
 }
 
-// Rectified pair; `stamp` is the left image's.
+// Rectified pair, exposed at one moment: `stamp`.
 struct StereoPair : Sample {
-  Time right_stamp{};
   GreyImage left;
   GreyImage right;
 };

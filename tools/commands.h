@@ -9,7 +9,10 @@ namespace maploop::tools {
 // What the parsed command line asks for; returns the exit status.
 using Command = std::function<int()>;
 
+void add_doctor(CLI::App& app, Command& command);
 void add_log(CLI::App& app, Command& command);
+void add_profile(CLI::App& app, Command& command);
 void add_replay(CLI::App& app, Command& command);
+void add_spy(CLI::App& app, Command& command);
 
 }  // namespace maploop::tools

@@ -8,8 +8,11 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", MAPLOOP_VERSION);
   maploop::tools::Command command;
+  maploop::tools::add_doctor(app, command);
   maploop::tools::add_log(app, command);
+  maploop::tools::add_profile(app, command);
   maploop::tools::add_replay(app, command);
+  maploop::tools::add_spy(app, command);
   CLI11_PARSE(app, argc, argv);
   try {
     return command();

@@ -10,6 +10,8 @@
 
 #include "runtime/core/data_clock.h"
 #include "runtime/core/periodic.h"
+#include "runtime/core/realtime.h"
+#include "runtime/core/trace.h"
 #include "runtime/vehicle/channel_hashes.h"
 #include "runtime/vehicle/fault_injection.h"
 #include "runtime/vehicle/graph.h"
@@ -42,6 +44,7 @@ struct ReplayOptions {
   bool record_raw = false;
   std::filesystem::path config;
   std::filesystem::path json;
+  std::filesystem::path trace;
   std::filesystem::path poses;
   std::optional<std::int64_t> seed;
   std::vector<std::string> faults;
@@ -123,10 +126,15 @@ class Replay {
   explicit Replay(const ReplayOptions& options)
       : options_(options),
         config_(config_of(options)),
+        readiness_(options.lockstep ? runtime::RealtimeReport{}
+                                    : runtime::prepare_process(config_.memory)),
         recording_(vehicle::open_recording(options.drive, config_)),
         faults_(parse_faults(options.faults), recording_.first_stamp) {
     if (!options.record.empty()) lcm_log::refuse_same_file(options.drive, options.record);
-    if (!options.no_lcm) bus_ = std::make_unique<vehicle::LcmBus>(config_.lcm_url);
+    if (!options.no_lcm) {
+      bus_ = std::make_unique<vehicle::LcmBus>(config_.lcm_url);
+      runtime::append(readiness_, bus_->settings());
+    }
     if (!options.resume.empty()) resumed_ = vehicle::read_snapshot(options.resume, config_);
     if (!options.snapshot.empty()) {
       snapshot_ = parse_snapshot(options.snapshot);
@@ -159,6 +167,7 @@ class Replay {
 
   const ReplayOptions& options_;
   vehicle::VehicleConfig config_;
+  runtime::RealtimeReport readiness_;
   vehicle::Recording recording_;
   vehicle::FaultInjection faults_;
   std::unique_ptr<vehicle::LcmBus> bus_;
@@ -167,6 +176,7 @@ class Replay {
   Time cut_{};
   bool snapshot_taken_ = false;
   std::unique_ptr<Pass> pass_;
+  std::unique_ptr<runtime::Tracer> tracer_;  // of the vehicle that runs
   std::unique_ptr<vehicle::Player> player_;
 };
 
@@ -191,12 +201,18 @@ std::unique_ptr<vehicle::Vehicle> Replay::make_vehicle(const vehicle::Snapshot* 
   observer.odometry = [this](const RelativeMotion& motion) { pass_->collector.add(motion); };
   observer.image_state = [this](const NavState& state) { pass_->collector.add(state); };
 
+  if (!options_.trace.empty()) {
+    tracer_ = std::make_unique<runtime::Tracer>(config_.trace);
+    tracer_->write(options_.trace);  // a file that cannot be written is said before the drive
+  }
+
   const auto clock = options_.lockstep ? runtime::DataClock::virtual_time()
                                        : runtime::DataClock::paced(options_.speed);
-  auto vehicle = std::make_unique<vehicle::Vehicle>(config_, recording_.calibration,
-                                                    faults_.afflict(std::move(sensors)), clock,
-                                                    std::move(sinks), std::move(observer));
+  auto vehicle = std::make_unique<vehicle::Vehicle>(
+      config_, recording_.calibration, faults_.afflict(std::move(sensors)), clock,
+      std::move(sinks), std::move(observer), tracer_.get());
   vehicle->slow_down(faults_.delays());
+  vehicle->prepared(readiness_);
   if (snapshot_) {
     vehicle->take_snapshots({cut_}, [this](const vehicle::Snapshot& snapshot) {
       vehicle::write_snapshot(snapshot_->file, snapshot, config_);
@@ -257,9 +273,11 @@ ReplayResult Replay::result(PlaybackEnd end) {
     result.snapshot = {snapshot_->file.string(), to_seconds(cut_ - player_->vehicle().first()),
                        pass_->hashes_after_snapshot.summary()};
   }
+  if (tracer_) {
+    tracer_->write(options_.trace);
+    result.trace = {options_.trace.string(), tracer_->recorded(), tracer_->dropped()};
+  }
   result.faults = faults_.counts();
-  if (bus_) result.send_failures += bus_->failures();
-  if (pass_->recorder) result.send_failures += pass_->recorder->failures();
   if (const auto rows = recording_.sensors(Time::max()).reference) {
     const sensors::ReferenceTrajectory reference = read_reference(*rows);
     const auto pose = [&](Time t) { return reference.pose(t); };
@@ -317,6 +335,9 @@ void add_replay(CLI::App& app, Command& command) {
                   "Play so many times, 0: until it is stopped; results and --record are of the "
                   "last time")
       ->capture_default_str();
+  sub->add_flag("--verbose", options->playback.verbose,
+                "Say of every real-time setting what was granted, not only of those refused")
+      ->excludes(lockstep);
   auto* record =
       sub->add_option("--record", options->record, "Write every message to this LCM log");
   sub->add_flag("--record-raw", options->record_raw,
@@ -331,6 +352,9 @@ void add_replay(CLI::App& app, Command& command) {
                   "Go on from a snapshot of the same drive, with the same bits")
       ->check(CLI::ExistingFile);
   sub->add_option("--json", options->json, "Write the closing table to this file as JSON");
+  sub->add_option("--trace", options->trace,
+                  "Write what each thread did when to this file, for ui.perfetto.dev (after going "
+                  "back: since then)");
   sub->add_option("--poses", options->poses,
                   "Write the fused left-camera poses to this file in KITTI's format");
   sub->add_option("--seed", options->seed, "Seed of the simulated GNSS noise");

@@ -1,57 +1,17 @@
 #include "tools/replay_console.h"
 
-#include <poll.h>
-#include <termios.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
-#include <optional>
+#include <iostream>
 #include <thread>
+
+#include "tools/terminal.h"
 
 namespace maploop::tools {
 namespace {
-
-volatile std::sig_atomic_t interrupted = 0;
-
-void interrupt_once() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { interrupted = 1; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
-
-// Single keys, unechoed, as long as it lives.
-class Keyboard {
- public:
-  Keyboard() : terminal_(isatty(STDIN_FILENO) != 0 && tcgetattr(STDIN_FILENO, &before_) == 0) {
-    if (!terminal_) return;
-    termios raw = before_;
-    raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
-    tcsetattr(STDIN_FILENO, TCSANOW, &raw);
-  }
-  ~Keyboard() {
-    if (terminal_) tcsetattr(STDIN_FILENO, TCSANOW, &before_);
-  }
-  Keyboard(const Keyboard&) = delete;
-  Keyboard& operator=(const Keyboard&) = delete;
-
-  bool is_terminal() const { return terminal_; }
-
-  std::optional<char> pressed() const {
-    pollfd ready{STDIN_FILENO, POLLIN, 0};
-    char key = 0;
-    if (!terminal_ || poll(&ready, 1, 0) != 1 || read(STDIN_FILENO, &key, 1) != 1) return {};
-    return key;
-  }
-
- private:
-  termios before_{};
-  bool terminal_;
-};
 
 constexpr const char* keys =
     "[space] pause  [.] image  [,] sample  [n] next miss  [+ -] speed  "
@@ -114,17 +74,19 @@ PlaybackEnd play(vehicle::Player& player, vehicle::ReplayControl* control,
   constexpr int show_every = 10;
   const bool visible = isatty(STDERR_FILENO) != 0;
   const Keyboard keyboard;
-  interrupt_once();
+  note_interrupts();
 
   bool quit = false;
   player.start();
   const bool paced = player.vehicle().clock().is_paced();
   if (paced) {
+    const runtime::RealtimeReport& readiness = player.vehicle().readiness();
+    std::cerr << (options.verbose ? to_text(readiness) : to_short_text(readiness));
     if (options.until_miss) player.play_to_next_miss();
     if (options.paused) player.pause();
   }
   for (int i = 0; player.update(); ++i) {
-    if (interrupted != 0) player.quit();
+    if (interrupted()) player.quit();
     if (paced) {
       while (const auto key = keyboard.pressed()) {
         quit = quit || *key == 'q';
@@ -138,7 +100,7 @@ PlaybackEnd play(vehicle::Player& player, vehicle::ReplayControl* control,
   player.vehicle().wait();
   if (visible) std::fprintf(stderr, "\r\x1b[K");
   quit = quit || (control != nullptr && control->quit());
-  return interrupted != 0 || quit ? PlaybackEnd::interrupted : PlaybackEnd::finished;
+  return interrupted() || quit ? PlaybackEnd::interrupted : PlaybackEnd::finished;
 }
 
 }  // namespace maploop::tools

@@ -9,6 +9,7 @@ namespace maploop::tools {
 struct PlaybackOptions {
   bool paused = false;      // from the start on
   bool until_miss = false;  // pause at the first missed deadline
+  bool verbose = false;     // every real-time setting, not only what was not granted
 };
 
 enum class PlaybackEnd { finished, interrupted };

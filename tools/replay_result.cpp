@@ -4,9 +4,8 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
+#include "tools/json_output.h"
 
 namespace maploop::tools {
 namespace {
@@ -49,17 +48,16 @@ void append_latency(std::string& text, const LatencySummary& s) {
   text += '\n';
 }
 
-void append_misses(std::string& text, const vehicle::VehicleReport& report) {
-  for (const vehicle::Misses& misses : report.misses) {
+void append_worst(std::string& text, const std::vector<LatencySummary>& summaries) {
+  for (const LatencySummary& s : summaries) {
     constexpr std::size_t shown = 5;
-    for (std::size_t i = 0; i < std::min(misses.misses.size(), shown); ++i) {
-      const vehicle::Miss& m = misses.misses[i];
-      append(text, "  missed: %s at %s: %.3f ms, guilty: %s (", misses.of.c_str(),
-             format_time(m.stamp).c_str(), to_ms(m.latency), m.guilty());
+    for (std::size_t i = 0; i < std::min(s.worst.size(), shown); ++i) {
+      const MissedDeadline& m = s.worst[i];
+      append(text, "  missed: %s at %s: %.3f ms (", s.name.c_str(), format_time(m.stamp).c_str(),
+             to_ms(m.latency));
       const char* separator = "";
-      for (const vehicle::Miss::Part& part : m.parts) {
-        if (*part.name == '\0') continue;
-        append(text, "%s%s %.3f", separator, part.name, to_ms(part.lasted));
+      for (const MissedDeadline::Part& part : m.parts) {
+        append(text, "%s%s %.3f", separator, part.name.c_str(), to_ms(part.lasted));
         separator = ", ";
       }
       text += ")\n";
@@ -94,10 +92,10 @@ void append_faults(std::string& text, const std::vector<vehicle::FaultCount>& fa
   }
 }
 
-void append_refusals(std::string& text, const std::vector<vehicle::RefusalCount>& refusals) {
+void append_refusals(std::string& text, const std::vector<RefusalCount>& refusals) {
   if (refusals.empty()) return;
   text += "\nNot used by         count\n";
-  for (const vehicle::RefusalCount& r : refusals) {
+  for (const RefusalCount& r : refusals) {
     append(text, "  %-12s %10llu  %s\n", r.stage.c_str(), static_cast<unsigned long long>(r.count),
            r.reason.c_str());
   }
@@ -160,6 +158,12 @@ std::uint64_t ReplayResult::samples_lost() const {
   return lost;
 }
 
+std::uint64_t ReplayResult::messages_unsent() const {
+  std::uint64_t unsent = 0;
+  for (const OutputHealth& output : vehicle.health.outputs) unsent += output.unsent;
+  return unsent;
+}
+
 std::uint64_t ReplayResult::deadline_misses() const {
   std::uint64_t misses = 0;
   for (const LatencySummary& thread : vehicle.deadlines.threads) misses += thread.misses;
@@ -201,7 +205,7 @@ std::string format_table(const ReplayResult& r) {
   }
 
   append_faults(t, r.faults);
-  append_refusals(t, v.refusals);
+  append_refusals(t, v.health.refusals);
 
   t += r.lockstep ? "\nRun time                 count       p50       p90       p99       max  ms\n"
                   : "\nFrom release             count       p50       p90       p99       max"
@@ -210,7 +214,8 @@ std::string format_table(const ReplayResult& r) {
   if (!r.lockstep) {
     t += "From the sensor's stamp\n";
     for (const LatencySummary& s : v.deadlines.paths) append_latency(t, s);
-    append_misses(t, v);
+    append_worst(t, v.deadlines.threads);
+    append_worst(t, v.deadlines.paths);
   }
 
   t += "\nRings                                pushed    popped      lost      held  capacity\n";
@@ -229,9 +234,10 @@ std::string format_table(const ReplayResult& r) {
            r.snapshot->at, r.snapshot->file.c_str());
     append_channels(t, r.snapshot->channels);
   }
-  if (r.send_failures > 0) {
-    append(t, "  %llu messages could not be sent or written\n",
-           static_cast<unsigned long long>(r.send_failures));
+  if (r.trace) {
+    append(t, "\nTrace: %llu events in %s, %llu dropped\n",
+           static_cast<unsigned long long>(r.trace->recorded), r.trace->file.c_str(),
+           static_cast<unsigned long long>(r.trace->dropped));
   }
   for (const std::string& sentence : v.health.degraded) t += "\nNote: " + sentence + '\n';
   return t;
@@ -257,7 +263,7 @@ void write_json(const std::filesystem::path& file, const ReplayResult& r) {
                  {"lost", r.samples_lost()},
                  {"stalls", v.stalls},
                  {"stalled_s", to_seconds(v.stalled)},
-                 {"send_failures", r.send_failures}};
+                 {"send_failures", r.messages_unsent()}};
   j["deadlines"] = {{"misses", r.deadline_misses()},
                     {"threads", to_json(v.deadlines.threads)},
                     {"paths", to_json(v.deadlines.paths)}};
@@ -279,7 +285,7 @@ void write_json(const std::filesystem::path& file, const ReplayResult& r) {
     j["faults"].push_back({{"fault", f.fault}, {"struck", f.struck}});
   }
   j["refusals"] = json::object();
-  for (const vehicle::RefusalCount& refusal : v.refusals) {
+  for (const RefusalCount& refusal : v.health.refusals) {
     j["refusals"][refusal.stage][refusal.reason] = refusal.count;
   }
   j["channels"] = to_json(r.channels);
@@ -289,14 +295,11 @@ void write_json(const std::filesystem::path& file, const ReplayResult& r) {
                      {"channels", to_json(r.snapshot->channels)}};
   }
   j["degraded"] = v.health.degraded;
-
-  std::ofstream out(file);
-  out << j.dump(2) << '\n';
-  out.close();
-  if (!out) {
-    throw std::runtime_error("cannot write '" + file.string() +
-                             "': check that its folder exists and may be written");
+  if (r.trace) {
+    j["trace"] = {{"recorded", r.trace->recorded}, {"dropped", r.trace->dropped}};
   }
+  j["realtime"] = to_json(v.health.settings);
+  write_json_file(file, j);
 }
 
 }  // namespace maploop::tools

@@ -28,6 +28,12 @@ struct SnapshotResult {
   std::map<std::string, vehicle::ChannelSummary> channels;
 };
 
+struct TraceSummary {
+  std::string file;
+  std::uint64_t recorded = 0;  // events
+  std::uint64_t dropped = 0;
+};
+
 struct ReplayResult {
   std::string drive;
   bool lockstep = false;
@@ -39,10 +45,11 @@ struct ReplayResult {
   std::map<std::string, vehicle::ChannelSummary> channels;
   std::optional<SnapshotResult> snapshot;
   std::vector<vehicle::FaultCount> faults;
-  std::uint64_t send_failures = 0;  // messages that LCM or the log did not take
+  std::optional<TraceSummary> trace;
   vehicle::VehicleReport vehicle;
 
-  std::uint64_t samples_lost() const;  // in rings
+  std::uint64_t samples_lost() const;     // in rings
+  std::uint64_t messages_unsent() const;  // that LCM or the log did not take
   std::uint64_t deadline_misses() const;
 };
 

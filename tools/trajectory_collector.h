@@ -18,7 +18,7 @@ class TrajectoryCollector {
  public:
   explicit TrajectoryCollector(const Eigen::Isometry3d& T_body_cam) : T_body_cam_(T_body_cam) {}
 
-  // Odometry is chained; a refused motion leaves the pose where it was.
+  // Odometry is chained; through a refused motion it goes on as it last went.
   void add(const RelativeMotion& motion);
   // The fused state at an image.
   void add(const NavState& image_state);
@@ -33,6 +33,7 @@ class TrajectoryCollector {
 
  private:
   using Poses = std::map<Time, Eigen::Isometry3d>;
+  Eigen::Isometry3d gone_on(Poses::const_iterator next, Time stamp) const;
   std::optional<Accuracy> score(const Poses& poses, const Reference& reference) const;
 
   Eigen::Isometry3d T_body_cam_;

@@ -1,57 +1,21 @@
 #include "msgs/lcm/conversions.h"
 
-#include <algorithm>
 #include <stdexcept>
 #include <string>
 
-#include "msgs/lcm/field_conversions.h"
+#include "msgs/lcm/conversion_parts.h"
 
 namespace maploop {
 namespace {
 
 // The enumerations of the messages count like ours; `last` is the largest known.
-template <class Status>
-Status status_from(std::int8_t value, Status last, const char* type) {
+template <class Enumeration>
+Enumeration enumerator_from(std::int8_t value, Enumeration last, const char* field) {
   if (value < 0 || value > static_cast<std::int8_t>(last)) {
-    throw std::invalid_argument(std::string(type) + ".status is " + std::to_string(value) +
+    throw std::invalid_argument(std::string(field) + " is " + std::to_string(value) +
                                 ", which this version does not know");
   }
-  return static_cast<Status>(value);
-}
-
-double to_us(Duration d) {
-  return static_cast<double>(d.count()) * 1e-3;
-}
-Duration from_us(double us) {
-  return from_seconds(us * 1e-6);
-}
-
-maploop_lcm::latency_summary_t to_lcm(const LatencySummary& s) {
-  maploop_lcm::latency_summary_t m{};
-  m.name = s.name;
-  m.count = static_cast<std::int64_t>(s.count);
-  m.misses = static_cast<std::int64_t>(s.misses);
-  m.deadline_us = to_us(s.deadline);
-  m.p50_us = to_us(s.p50);
-  m.p90_us = to_us(s.p90);
-  m.p99_us = to_us(s.p99);
-  m.p999_us = to_us(s.p999);
-  m.max_us = to_us(s.max);
-  m.guilty = s.guilty;
-  return m;
-}
-
-LatencySummary from_lcm(const maploop_lcm::latency_summary_t& m) {
-  return {m.name,
-          static_cast<std::uint64_t>(m.count),
-          static_cast<std::uint64_t>(m.misses),
-          from_us(m.deadline_us),
-          from_us(m.p50_us),
-          from_us(m.p90_us),
-          from_us(m.p99_us),
-          from_us(m.p999_us),
-          from_us(m.max_us),
-          m.guilty};
+  return static_cast<Enumeration>(value);
 }
 
 maploop_lcm::thread_health_t to_lcm(const ThreadHealth& t) {
@@ -61,11 +25,21 @@ maploop_lcm::thread_health_t to_lcm(const ThreadHealth& t) {
   m.count = static_cast<std::int64_t>(t.count);
   m.rate_hz = t.rate;
   m.failure = t.failure;
+  m.cpu_s = t.cpu;
+  m.left_out = static_cast<std::int64_t>(t.left_out);
+  m.shed = static_cast<std::int64_t>(t.shed);
   return m;
 }
 
 ThreadHealth from_lcm(const maploop_lcm::thread_health_t& m) {
-  return {m.name, m.scheduling, static_cast<std::uint64_t>(m.count), m.rate_hz, m.failure};
+  return {m.name,
+          m.scheduling,
+          static_cast<std::uint64_t>(m.count),
+          m.rate_hz,
+          m.failure,
+          m.cpu_s,
+          static_cast<std::uint64_t>(m.left_out),
+          static_cast<std::uint64_t>(m.shed)};
 }
 
 maploop_lcm::ring_health_t to_lcm(const RingHealth& r) {
@@ -88,10 +62,45 @@ RingHealth from_lcm(const maploop_lcm::ring_health_t& m) {
           static_cast<std::uint64_t>(m.capacity)};
 }
 
-template <class In, class Out>
-void convert_each(const std::vector<In>& in, std::vector<Out>& out, Out (*convert)(const In&)) {
-  out.resize(in.size());
-  std::transform(in.begin(), in.end(), out.begin(), convert);
+maploop_lcm::refusal_count_t to_lcm(const RefusalCount& r) {
+  maploop_lcm::refusal_count_t m{};
+  m.stage = r.stage;
+  m.reason = r.reason;
+  m.count = static_cast<std::int64_t>(r.count);
+  return m;
+}
+
+RefusalCount from_lcm(const maploop_lcm::refusal_count_t& m) {
+  return {m.stage, m.reason, static_cast<std::uint64_t>(m.count)};
+}
+
+maploop_lcm::output_health_t to_lcm(const OutputHealth& o) {
+  maploop_lcm::output_health_t m{};
+  m.name = o.name;
+  m.sent = static_cast<std::int64_t>(o.sent);
+  m.unsent = static_cast<std::int64_t>(o.unsent);
+  return m;
+}
+
+OutputHealth from_lcm(const maploop_lcm::output_health_t& m) {
+  return {m.name, static_cast<std::uint64_t>(m.sent), static_cast<std::uint64_t>(m.unsent)};
+}
+
+maploop_lcm::realtime_setting_t to_lcm(const RealtimeSetting& s) {
+  maploop_lcm::realtime_setting_t m{};
+  m.name = s.name;
+  m.asked = s.asked;
+  m.granted = s.granted;
+  m.verdict = static_cast<std::int8_t>(s.verdict);
+  m.reason = s.reason;
+  m.remedy = s.remedy;
+  return m;
+}
+
+RealtimeSetting from_lcm(const maploop_lcm::realtime_setting_t& m) {
+  return {m.name,    m.asked,
+          m.granted, enumerator_from(m.verdict, Verdict::unknown, "realtime_setting_t.verdict"),
+          m.reason,  m.remedy};
 }
 
 }  // namespace
@@ -122,7 +131,7 @@ maploop_lcm::nav_state_t to_lcm(const NavState& state) {
 NavState from_lcm(const maploop_lcm::nav_state_t& m) {
   NavState state;
   set_sample(state, m.header);
-  state.status = status_from(m.status, NavStatus::coasting, "nav_state_t");
+  state.status = enumerator_from(m.status, NavStatus::coasting, "nav_state_t.status");
   state.origin = {m.origin_latitude, m.origin_longitude, m.origin_height};
   read<3>(m.position_enu, state.position_enu);
   read<3>(m.velocity_enu, state.velocity_enu);
@@ -154,7 +163,7 @@ maploop_lcm::relative_motion_t to_lcm(const RelativeMotion& motion) {
 RelativeMotion from_lcm(const maploop_lcm::relative_motion_t& m) {
   RelativeMotion motion;
   set_sample(motion, m.header);
-  motion.status = status_from(m.status, OdometryStatus::bad_input, "relative_motion_t");
+  motion.status = enumerator_from(m.status, OdometryStatus::bad_input, "relative_motion_t.status");
   motion.from = from_nanoseconds(m.from_ns);
   read<3>(m.translation, motion.translation);
   read<4>(m.rotation_xyzw, motion.rotation.coeffs());
@@ -232,33 +241,23 @@ ReferencePose from_lcm(const maploop_lcm::reference_pose_t& m) {
   return pose;
 }
 
-maploop_lcm::deadlines_t to_lcm(const Deadlines& deadlines) {
-  maploop_lcm::deadlines_t m{};
-  m.utime = microseconds_of(deadlines.stamp);
-  convert_each(deadlines.threads, m.threads, to_lcm);
-  convert_each(deadlines.paths, m.paths, to_lcm);
-  m.thread_count = static_cast<std::int32_t>(m.threads.size());
-  m.path_count = static_cast<std::int32_t>(m.paths.size());
-  return m;
-}
-
-Deadlines from_lcm(const maploop_lcm::deadlines_t& m) {
-  Deadlines deadlines;
-  deadlines.stamp = Time(std::chrono::microseconds(m.utime));
-  convert_each(m.threads, deadlines.threads, from_lcm);
-  convert_each(m.paths, deadlines.paths, from_lcm);
-  return deadlines;
-}
-
 maploop_lcm::health_t to_lcm(const Health& health) {
   maploop_lcm::health_t m{};
   m.utime = microseconds_of(health.stamp);
   convert_each(health.threads, m.threads, to_lcm);
   convert_each(health.rings, m.rings, to_lcm);
+  convert_each(health.refusals, m.refusals, to_lcm);
+  convert_each(health.outputs, m.outputs, to_lcm);
+  convert_each(health.settings, m.settings, to_lcm);
   m.degraded = health.degraded;
   m.thread_count = static_cast<std::int32_t>(m.threads.size());
   m.ring_count = static_cast<std::int32_t>(m.rings.size());
+  m.refusal_count = static_cast<std::int32_t>(m.refusals.size());
+  m.output_count = static_cast<std::int32_t>(m.outputs.size());
+  m.setting_count = static_cast<std::int32_t>(m.settings.size());
   m.degraded_count = static_cast<std::int32_t>(m.degraded.size());
+  m.elapsed_s = health.elapsed;
+  m.cpu_s = health.cpu;
   return m;
 }
 
@@ -267,7 +266,12 @@ Health from_lcm(const maploop_lcm::health_t& m) {
   health.stamp = Time(std::chrono::microseconds(m.utime));
   convert_each(m.threads, health.threads, from_lcm);
   convert_each(m.rings, health.rings, from_lcm);
+  convert_each(m.refusals, health.refusals, from_lcm);
+  convert_each(m.outputs, health.outputs, from_lcm);
+  convert_each(m.settings, health.settings, from_lcm);
   health.degraded = m.degraded;
+  health.elapsed = m.elapsed_s;
+  health.cpu = m.cpu_s;
   return health;
 }
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "msgs/lcm/field_conversions.h"
+#include "msgs/lcm/conversion_parts.h"
 
 namespace maploop {
 namespace {

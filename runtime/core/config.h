@@ -52,9 +52,10 @@ class ConfigTable {
   // An array of exactly values.size() numbers, such as a lever arm.
   void read(std::string_view key, std::span<double> values) const;
 
-  // The same within lowest..highest, both allowed.
+  // The same within lowest..highest, both allowed; of an array each of its elements.
   void read_in(std::string_view key, double& value, double lowest, double highest) const;
   void read_in(std::string_view key, int& value, int lowest, int highest) const;
+  void read_in(std::string_view key, std::vector<int>& values, int lowest, int highest) const;
   void read_in(std::string_view key, Duration& value, Duration lowest, Duration highest) const;
 
   // A string that is one of `allowed`.

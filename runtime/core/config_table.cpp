@@ -204,6 +204,19 @@ void ConfigTable::read_in(std::string_view key, int& value, int lowest, int high
   }
 }
 
+void ConfigTable::read_in(std::string_view key, std::vector<int>& values, int lowest,
+                          int highest) const {
+  const toml::node* node = find(*node_, key);
+  if (node == nullptr) return;
+  const auto* array = node->as_array();
+  if (array == nullptr) Entry{*state_, *node_, key, *node}.wrong_type("an array of integers");
+  std::vector<int> read;  // first all, so that an error leaves `values` as they are
+  for (const toml::node& element : *array) {
+    read.push_back(read_integer({*state_, *node_, key, element}, lowest, highest));
+  }
+  values = std::move(read);
+}
+
 void ConfigTable::read_in(std::string_view key, Duration& value, Duration lowest,
                           Duration highest) const {
   unit_of(key);  // a key without a unit is the program's error, also where the file has it not

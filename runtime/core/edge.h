@@ -102,13 +102,15 @@ class Edge final : public EdgeBase {
     popped_.fetch_add(1, std::memory_order_relaxed);
   }
 
+  std::size_t held() const { return ring_.size(); }
+
   // pushed = popped + lost + held, as long as the two threads rest.
   RingHealth health() const override {
     RingHealth h;
     h.name = name_;
     h.popped = popped_.load(std::memory_order_relaxed);
     h.lost = lost_.load(std::memory_order_acquire);
-    h.held = ring_.size();
+    h.held = held();
     h.pushed = pushed_.load(std::memory_order_relaxed);
     h.capacity = ring_.capacity();
     return h;

@@ -45,6 +45,10 @@ std::int64_t Histogram::highest_in(std::size_t bucket) {
   return static_cast<std::int64_t>(((part + 1) << octave) - 1);
 }
 
+std::int64_t Histogram::lowest_in(std::size_t bucket) {
+  return bucket == 0 ? 0 : highest_in(bucket - 1) + 1;
+}
+
 void Histogram::record(Duration value) {
   const std::int64_t ns = value.count();
   lower(min_, ns);
@@ -70,6 +74,58 @@ void Histogram::merge(const Histogram& other) {
   add(below_range_, other.below_range_.load(std::memory_order_acquire));
   add(above_range_, other.above_range_.load(std::memory_order_acquire));
   merge_extremes();  // of what `other` recorded in between
+}
+
+HistogramData Histogram::data() const {
+  const Histogram frozen(*this);
+  HistogramData data;
+  for (std::size_t i = 0; i < kBuckets; ++i) {
+    const std::uint64_t times = frozen.buckets_[i].load(std::memory_order_relaxed);
+    if (times != 0) data.buckets.push_back({Duration(lowest_in(i)), times});
+  }
+  data.below_range = frozen.below_range();
+  data.above_range = frozen.above_range();
+  data.min = frozen.min();
+  data.max = frozen.max();
+  return data;
+}
+
+void Histogram::merge(const HistogramData& data) {
+  check(data);
+  if (data.buckets.empty() && data.above_range == 0) return;
+  lower(min_, data.min.count());
+  raise(max_, data.max.count());
+  for (const HistogramData::Bucket& bucket : data.buckets) {
+    add(buckets_[bucket_of(bucket.lowest.count())], bucket.count);
+  }
+  add(below_range_, data.below_range);
+  add(above_range_, data.above_range);
+}
+
+void Histogram::check(const HistogramData& data) {
+  const auto refuse = [](const std::string& why) {
+    throw std::invalid_argument("histogram: " + why);
+  };
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 53;  // sums of a thousand of them still fit
+  std::uint64_t in_lowest = 0;
+  Duration last{-1};
+  for (const HistogramData::Bucket& bucket : data.buckets) {
+    const std::string name = "bucket of " + std::to_string(bucket.lowest.count()) + " ns";
+    if (bucket.lowest <= last) refuse(name + " is not above the one before");
+    if (bucket.lowest > kHighest ||
+        lowest_in(bucket_of(bucket.lowest.count())) != bucket.lowest.count()) {
+      refuse(name + " is none of its buckets");
+    }
+    if (bucket.count == 0 || bucket.count > kMost) {
+      refuse(name + " has the count " + std::to_string(bucket.count));
+    }
+    if (bucket.lowest == Duration::zero()) in_lowest = bucket.count;
+    last = bucket.lowest;
+  }
+  if (data.below_range > in_lowest || data.above_range > kMost) {
+    refuse("more values out of range than there are");
+  }
+  if (data.min > data.max) refuse("its minimum is above its maximum");
 }
 
 std::uint64_t Histogram::count() const {
@@ -116,7 +172,12 @@ LatencySummary Histogram::summarize(std::string name) const {
   summary.p99 = frozen.percentile(0.99);
   summary.p999 = frozen.percentile(0.999);
   summary.max = frozen.max();
+  summary.histogram = frozen.data();
   return summary;
+}
+
+void Histogram::record_omitted(Duration value, Duration interval) {
+  add_omitted(std::min(value, kHighest).count(), 1, interval.count());
 }
 
 Histogram Histogram::with_omitted(Duration interval) const {
@@ -142,14 +203,14 @@ void Histogram::add_omitted(std::int64_t value, std::uint64_t times, std::int64_
   if (times == 0 || last < 1) return;
   for (std::size_t i = bucket_of(interval); i <= bucket_of(value - interval); ++i) {
     const std::int64_t highest = highest_in(i);
-    const std::int64_t lowest = i == 0 ? 0 : highest_in(i - 1) + 1;
-    const std::int64_t to = std::min(last, (value - lowest) / interval);
+    const std::int64_t to = std::min(last, (value - lowest_in(i)) / interval);
     const std::int64_t from =
         highest >= value ? 1
                          : std::max<std::int64_t>(1, (value - highest + interval - 1) / interval);
     if (from <= to) add(buckets_[i], times * static_cast<std::uint64_t>(to - from + 1));
   }
   lower(min_, value - last * interval);
+  raise(max_, value - interval);
 }
 
 }  // namespace maploop::runtime

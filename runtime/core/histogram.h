@@ -3,11 +3,11 @@
 // Log-linear buckets, as HdrHistogram's: each octave is cut into 128 equal parts, and everything
 // below 256 ns has a bucket of its own. A bucket is at most 1/128 of its values wide.
 //
-// Who may call what. record, merge: one thread at a time, the writer. All else: any thread, also
-// while the writer records; each answer then counts every value recorded before the call and may
-// count those recorded during it. Figures that must agree with each other (a percentile and its
-// count) are asked of a copy. No operation but summarize (its
-// name) allocates; none locks or enters the kernel.
+// Who may call what. record, record_omitted, merge: one thread at a time, the writer. All else: any
+// thread, also while the writer records; each answer then counts every value recorded before the
+// call and may count those recorded during it. Figures that must agree with each other (a
+// percentile and its count) are asked of a copy. Only data() and summarize() allocate; none locks
+// or enters the kernel.
 #pragma once
 
 #include <array>
@@ -31,8 +31,20 @@ class Histogram {
   // beyond kHighest counts in above_range(). min() and max() keep the value itself.
   void record(Duration value);
 
+  // The waits that a stall of `value` hid from a task released every `interval`: value - interval,
+  // value - 2 interval, ... down to `interval`. With record(value) this is HdrHistogram's
+  // recordWithExpectedInterval (Tene's correction of co-ordinated omission). Bounded work: at most
+  // one step a bucket. Precondition: interval > 0.
+  void record_omitted(Duration value, Duration interval);
+
   // Adds all that `other` holds; `other` may be recording meanwhile.
   void merge(const Histogram& other);
+
+  // All that it holds, for another program; merge(data) adds it there without loss. Throws
+  // std::invalid_argument, and adds nothing, where the data are no histogram's: a bucket that none
+  // begins at, or twice or out of order, or counts that do not fit.
+  HistogramData data() const;
+  void merge(const HistogramData& data);
 
   std::uint64_t count() const;  // of all values, those out of range included
   std::uint64_t below_range() const { return below_range_.load(std::memory_order_relaxed); }
@@ -50,7 +62,7 @@ class Histogram {
   // `fraction` is not within 0..1.
   Duration percentile(double fraction) const;
 
-  // Everything but the deadline and its misses, which the thread counts.
+  // Everything but the deadline and its misses, which the thread counts, and the omitted waits.
   LatencySummary summarize(std::string name) const;
 
   // This histogram with the waits added that a late periodic task hid: for each value v longer than
@@ -70,6 +82,8 @@ class Histogram {
 
   static std::size_t bucket_of(std::int64_t value);
   static std::int64_t highest_in(std::size_t bucket);
+  static std::int64_t lowest_in(std::size_t bucket);
+  static void check(const HistogramData& data);
   void add_omitted(std::int64_t value, std::uint64_t times, std::int64_t interval);
 
   std::array<std::atomic<std::uint64_t>, kBuckets> buckets_{};

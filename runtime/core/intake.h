@@ -16,8 +16,6 @@ namespace maploop::runtime {
 // thread's own; not shared.
 class Intake {
  public:
-  explicit Intake(const Doorbell& bell) : bell_(&bell) {}
-
   // `handle` gets each sample of the edge and may change it (swap its buffers out).
   template <class T, class Handle>
   void add(Edge<T>& edge, Handle handle) {
@@ -34,13 +32,13 @@ class Intake {
     return t;
   }
 
-  // Waits until promised() >= t. False when stopped before.
-  bool wait(Time t, const std::stop_token& stop) const {
+  // Waits until promised() >= t. `bell` is the one that the edges ring. False when stopped before.
+  bool wait(Time t, const Doorbell& bell, const std::stop_token& stop) const {
     for (;;) {
-      const std::uint32_t heard = bell_->listen();
+      const std::uint32_t heard = bell.listen();
       if (promised() >= t) return true;
       if (stop.stop_requested()) return false;
-      bell_->wait(heard);
+      bell.wait(heard);
     }
   }
 
@@ -76,7 +74,6 @@ class Intake {
     EdgeBase* edge;
     std::function<void()> take;
   };
-  const Doorbell* bell_;
   std::vector<Inlet> inlets_;
 };
 

@@ -1,27 +1,59 @@
 // Fixed-rate execution on absolute time.
 #pragma once
 
+#include <cstdint>
 #include <stop_token>
 
-#include "runtime/core/data_clock.h"
+#include "msgs/time.h"
 
 namespace maploop::runtime {
 
-// The first multiple of `period` (counted from 1970) at or after t.
-inline Time first_tick(Time t, Duration period) {
-  const Duration since_epoch = t.time_since_epoch();
-  const Duration rest = since_epoch % period;
+// What becomes of ticks that fell due while an earlier one was still at work, or while the thread
+// was not woken. Skipping and shedding depend on the machine's speed: not for what a replay must
+// compute with the same bits.
+enum class Overrun {
+  catch_up,  // each is run, one at once after the other
+  skip,      // only the newest that is due is run; the others are left out and counted
+  shed,      // each is run; those with another one already due behind them are told to do the least
+};
+
+struct Schedule {
+  Duration period;
+  Duration phase{};  // ticks are at whole multiples of the period (since 1970) and this much later
+  Overrun overrun = Overrun::catch_up;
+};
+
+struct Tick {
+  Time time{};                 // when it was due; a multiple of the period, and the phase
+  std::uint64_t left_out = 0;  // ticks between the one before and this one
+  bool shed = false;           // do the least: the next tick is already due
+};
+
+// The first tick at or after t.
+inline Time first_tick(Time t, Duration period, Duration phase = {}) {
+  const Duration since = t.time_since_epoch() - phase;
+  Duration rest = since % period;
+  if (rest < Duration::zero()) rest += period;
   return rest == Duration::zero() ? t : t + (period - rest);
 }
 
-// Calls body(tick) when each tick falls due: first_tick(from), then every `period` of data time.
-// Ticks are absolute, so they never drift; a late tick is followed at once by the ones behind it,
-// and none is left out, because the result of a tick must not depend on the machine's speed.
-// Ends when the body returns false or stop is requested.
-template <class Body>
-void run_periodic(const DataClock& clock, Time from, Duration period, const std::stop_token& stop,
-                  Body&& body) {
-  for (Time tick = first_tick(from, period); clock.sleep_until(tick, stop); tick += period) {
+// Calls body(tick) when each tick falls due: first_tick(from), then every period of data time.
+// Ticks are absolute, so they never drift. Ends when the body returns false or stop is requested.
+// Clock: DataClock, or a test's with its sleep_until(), keeps_time() and now(). Where the clock
+// does not keep time (virtual time, skipping) no tick is ever late.
+template <class Clock, class Body>
+void run_periodic(const Clock& clock, Time from, const Schedule& schedule,
+                  const std::stop_token& stop, Body&& body) {
+  for (Time next = first_tick(from, schedule.period, schedule.phase); clock.sleep_until(next, stop);
+       next += schedule.period) {
+    Tick tick{next};
+    const bool may_be_late = schedule.overrun != Overrun::catch_up && clock.keeps_time(next);
+    const auto due_behind = may_be_late ? (clock.now() - next) / schedule.period : 0;
+    if (due_behind > 0 && schedule.overrun == Overrun::skip) {
+      tick.left_out = static_cast<std::uint64_t>(due_behind);
+      tick.time = next += due_behind * schedule.period;
+    }
+    tick.shed = due_behind > 0 && schedule.overrun == Overrun::shed;
     if (!body(tick)) return;
   }
 }

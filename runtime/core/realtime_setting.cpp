@@ -13,20 +13,6 @@ std::string padded(std::string_view text, std::size_t width) {
 
 }  // namespace
 
-std::string_view to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::granted:
-      return "granted";
-    case Verdict::refused:
-      return "refused";
-    case Verdict::limiting:
-      return "limiting";
-    case Verdict::unknown:
-      return "unknown";
-  }
-  return "unknown";
-}
-
 bool RealtimeReport::all_granted() const {
   return std::all_of(settings.begin(), settings.end(),
                      [](const auto& s) { return s.verdict == Verdict::granted; });
@@ -51,6 +37,23 @@ std::string to_text(const RealtimeReport& report) {
     text += '\n';
     if (!s.reason.empty()) text += indent + "why: " + s.reason + '\n';
     if (!s.remedy.empty()) text += indent + "remedy: " + s.remedy + '\n';
+  }
+  return text;
+}
+
+std::string to_sentence(const RealtimeSetting& s) {
+  return s.name + " is " + s.granted + ", not " + s.asked + ": " + s.reason + "; " + s.remedy;
+}
+
+std::string to_short_text(const RealtimeReport& report) {
+  const auto granted = std::count_if(report.settings.begin(), report.settings.end(),
+                                     [](const auto& s) { return s.verdict == Verdict::granted; });
+  std::string text = "Real time: " + std::to_string(granted) + " of " +
+                     std::to_string(report.settings.size()) + " settings granted\n";
+  for (const RealtimeSetting& s : report.settings) {
+    if (s.verdict == Verdict::granted) continue;
+    text += "  " + padded(to_string(s.verdict), 10) + s.name + ": " + s.granted + ", not " +
+            s.asked + "; " + s.remedy + '\n';
   }
   return text;
 }

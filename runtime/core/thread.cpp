@@ -3,29 +3,45 @@
 #include <pthread.h>
 
 #include <exception>
+#include <future>
+#include <optional>
 #include <utility>
 
 namespace maploop::runtime {
 namespace {
 
-// "GRANTED", or "GRANTED (ASKED refused: WHY; REMEDY)".
-std::string in_one_line(const RealtimeSetting& setting) {
-  if (setting.verdict == Verdict::granted) return setting.granted;
-  return setting.granted + " (" + setting.asked + " refused: " + setting.reason + "; " +
-         setting.remedy + ")";
+// Nothing where the clock's thread is no more.
+std::optional<Duration> read(clockid_t clock) {
+  timespec t{};
+  if (clock_gettime(clock, &t) != 0) return {};
+  return std::chrono::seconds(t.tv_sec) + Duration(t.tv_nsec);
 }
 
 }  // namespace
 
 Thread::Thread(std::string name, Scheduling scheduling, std::stop_token stop, Body body,
                std::function<void()> at_end)
-    : name_(std::move(name)),
-      thread_([this, scheduling = std::move(scheduling), stop = std::move(stop),
-               body = std::move(body), at_end = std::move(at_end)] {
-        run(scheduling, stop, body);
-        at_end();
-        ended_.store(true, std::memory_order_release);
-      }) {}
+    : name_(std::move(name)) {
+  std::promise<std::vector<RealtimeSetting>> asked;
+  std::future<std::vector<RealtimeSetting>> answer = asked.get_future();
+  thread_ = std::thread([this, scheduling = std::move(scheduling), stop = std::move(stop),
+                         body = std::move(body), at_end = std::move(at_end),
+                         asked = std::move(asked)]() mutable {
+    clockid_t cpu_clock = no_clock;
+    if (pthread_getcpuclockid(pthread_self(), &cpu_clock) == 0) {
+      cpu_clock_.store(cpu_clock, std::memory_order_release);
+    }
+    pthread_setname_np(pthread_self(), name_.substr(0, 15).c_str());
+    asked.set_value(apply_scheduling(name_, scheduling));
+    run(stop, body);
+    at_end();
+    cpu_at_end_.store(read(CLOCK_THREAD_CPUTIME_ID).value_or(Duration{}).count(),
+                      std::memory_order_relaxed);
+    cpu_clock_.store(no_clock, std::memory_order_release);
+    ended_.store(true, std::memory_order_release);
+  });
+  settings_ = answer.get();
+}
 
 Thread::~Thread() {
   join();
@@ -35,13 +51,7 @@ void Thread::join() {
   if (thread_.joinable()) thread_.join();
 }
 
-void Thread::run(const Scheduling& scheduling, const std::stop_token& stop, const Body& body) {
-  pthread_setname_np(pthread_self(), name_.substr(0, 15).c_str());
-  std::vector<RealtimeSetting> settings = apply_scheduling(name_, scheduling);
-  {
-    const std::lock_guard lock(mutex_);
-    settings_ = std::move(settings);
-  }
+void Thread::run(const std::stop_token& stop, const Body& body) {
   try {
     body(stop);
   } catch (const std::exception& e) {
@@ -50,23 +60,19 @@ void Thread::run(const Scheduling& scheduling, const std::stop_token& stop, cons
   }
 }
 
-std::string Thread::scheduling() const {
-  std::string text;
-  for (const RealtimeSetting& setting : settings()) {
-    if (setting.name == name_ + ": scheduling") text = in_one_line(setting);
-    if (setting.name == name_ + ": CPUs") text += " on CPUs " + in_one_line(setting);
-  }
-  return text;
-}
-
-std::vector<RealtimeSetting> Thread::settings() const {
-  const std::lock_guard lock(mutex_);
-  return settings_;
-}
-
 std::string Thread::failure() const {
   const std::lock_guard lock(mutex_);
   return failure_;
+}
+
+// The clock is asked by its number, which outlives the thread, and not by the thread's handle.
+// Where the thread ended in between, its last word is there.
+Duration Thread::cpu_time() const {
+  const clockid_t clock = cpu_clock_.load(std::memory_order_acquire);
+  if (clock != no_clock) {
+    if (const std::optional<Duration> used = read(clock)) return *used;
+  }
+  return Duration(cpu_at_end_.load(std::memory_order_relaxed));
 }
 
 }  // namespace maploop::runtime

@@ -1,6 +1,8 @@
 // A named thread with the scheduling it asked for, and what the kernel granted.
 #pragma once
 
+#include <time.h>
+
 #include <atomic>
 #include <functional>
 #include <mutex>
@@ -9,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "msgs/time.h"
 #include "runtime/core/realtime_scheduling.h"
 
 namespace maploop::runtime {
@@ -28,20 +31,24 @@ class Thread {
 
   void join();
   const std::string& name() const { return name_; }
-  // "fifo 50", or "other (fifo 50 refused: ...; remedy)", and the like for the CPUs.
-  std::string scheduling() const;
-  // All that was asked for this thread; empty until it has been.
-  std::vector<RealtimeSetting> settings() const;
+  // All that was asked for this thread, "NAME: scheduling" first. Known from construction on.
+  const std::vector<RealtimeSetting>& settings() const { return settings_; }
   std::string failure() const;  // empty while all is well
+  // Processor time that it has used so far; any thread may ask, also after its end.
+  Duration cpu_time() const;
   bool ended() const { return ended_.load(std::memory_order_acquire); }
 
  private:
-  void run(const Scheduling& scheduling, const std::stop_token& stop, const Body& body);
+  static constexpr clockid_t no_clock = -1;
+
+  void run(const std::stop_token& stop, const Body& body);
 
   std::string name_;
-  mutable std::mutex mutex_;  // of the next two
   std::vector<RealtimeSetting> settings_;
+  mutable std::mutex mutex_;  // of failure_
   std::string failure_;
+  std::atomic<clockid_t> cpu_clock_{no_clock};
+  std::atomic<Duration::rep> cpu_at_end_{0};
   std::atomic<bool> ended_{false};
   std::thread thread_;
 };

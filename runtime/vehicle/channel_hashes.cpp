@@ -24,17 +24,18 @@ struct ChannelHashes::Channel {
 ChannelHashes::ChannelHashes(Time after) : after_(after) {}
 ChannelHashes::~ChannelHashes() = default;
 
-void ChannelHashes::send(const Message& message) {
-  if (message.time <= after_) return;
+bool ChannelHashes::take(const Message& message) {
+  if (message.time <= after_) return true;
   auto found = channels_.find(message.channel);
   if (found == channels_.end()) {
     found = channels_.emplace(message.channel, std::make_unique<Channel>()).first;
   }
   Channel& channel = *found->second;
   ++channel.count;
-  if (!message.from_data) return;
+  if (!message.from_data) return true;
   channel.hashed = true;
   XXH3_64bits_update(channel.state.get(), message.data.data(), message.data.size());
+  return true;
 }
 
 std::map<std::string, ChannelSummary> ChannelHashes::summary() const {

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "runtime/vehicle/message_sink.h"
 
@@ -21,10 +22,12 @@ class ChannelHashes final : public MessageSink {
   explicit ChannelHashes(Time after = Time::min());
   ~ChannelHashes() override;
 
-  void send(const Message& message) override;
+  std::string_view name() const override { return "hashes"; }
   std::map<std::string, ChannelSummary> summary() const;
 
  private:
+  bool take(const Message& message) override;
+
   struct Channel;
   Time after_;
   std::map<std::string, std::unique_ptr<Channel>, std::less<>> channels_;

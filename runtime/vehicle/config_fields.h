@@ -16,10 +16,29 @@ void visit(Config& config, Table&& table, Field&& field) {
   table("scheduling");
   {
     auto& p = config.scheduling;
-    field("sensor_priority", p.sensor_priority);
-    field("fusion_priority", p.fusion_priority);
-    field("stereo_priority", p.stereo_priority);
+    field("camera", p.camera);
+    field("velodyne", p.velodyne);
+    field("imu", p.imu);
+    field("gnss", p.gnss);
+    field("reference", p.reference);
+    field("odometry", p.odometry);
+    field("stereo", p.stereo);
+    field("fusion", p.fusion);
+    field("publisher", p.publisher);
+    field("health", p.health);
+    field("snapshot", p.snapshot);
   }
+
+  table("memory");
+  {
+    auto& p = config.memory;
+    field("lock_memory", p.lock_memory);
+    field("heap_mb", p.heap_mb);
+    field("malloc_arenas", p.malloc_arenas);
+  }
+
+  table("trace");
+  field("events_per_thread", config.trace.events_per_thread);
 
   table("replay");
   {

@@ -20,7 +20,6 @@ std::mt19937_64 generator(std::uint64_t seed, Time stamp) {
 
 void shift_stamps(StereoPair& pair, Duration by) {
   pair.stamp += by;
-  pair.right_stamp += by;
 }
 
 void shift_stamps(LidarScan& scan, Duration by) {

@@ -4,6 +4,7 @@
 
 #include "runtime/core/periodic.h"
 #include "runtime/vehicle/graph.h"
+#include "runtime/vehicle/trace_flows.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -28,17 +29,22 @@ FusionStage::FusionStage(fusion::ReducedImuFilter filter, FusionEdges& inputs,
       inputs_(inputs),
       nav_states_(nav_states),
       image_states_(image_states),
-      intake_(inputs.bell),
-      meter_(stages::fusion.name, stages::fusion.deadline),
+      meter_(stages::fusion),
       camera_path_(paths::camera.name, paths::camera.deadline),
       imu_path_(paths::imu.name, paths::imu.deadline) {
   sent_states_.reserve(1);
   sent_image_states_.reserve(most_images_a_tick);
   intake_.add(inputs_.imu, [this](const ImuSample& sample) {
+    runtime::TraceSpan span(trace_, "imu");
+    span.step_flow(flow_of(sample));
     filter_.add(sample);
     imu_taken_ = sample;
   });
-  intake_.add(inputs_.gnss, [this](const GnssFix& fix) { filter_.add(fix); });
+  intake_.add(inputs_.gnss, [this](const GnssFix& fix) {
+    runtime::TraceSpan span(trace_, "gnss");
+    span.step_flow(flow_of(fix));
+    filter_.add(fix);
+  });
   intake_.add(inputs_.odometry, [this](const RelativeMotion& motion) { take(motion); });
 }
 
@@ -48,18 +54,28 @@ void FusionStage::run(runtime::DataClock& clock, Time first, const std::stop_tok
   for (const NavState& state : sent_states_) nav_states_.push(state, stop);
   for (const NavState& state : sent_image_states_) image_states_.push(state, stop);
   position_.store(to_nanoseconds(first), std::memory_order_relaxed);
-  runtime::run_periodic(clock, first, stages::fusion.period, stop,
-                        [&](Time k) { return tick(k, clock, stop); });
+  // Whatever the graph declares for a live run: the same bits need every tick.
+  const runtime::Schedule schedule{stages::fusion.period, stages::fusion.phase,
+                                   runtime::Overrun::catch_up};
+  runtime::run_periodic(clock, first, schedule, stop,
+                        [&](const runtime::Tick& t) { return tick(t, clock, stop); });
 }
 
-bool FusionStage::tick(Time k, runtime::DataClock& clock, const std::stop_token& stop) {
+bool FusionStage::tick(const runtime::Tick& tick, runtime::DataClock& clock,
+                       const std::stop_token& stop) {
+  const Time k = tick.time;
+  const runtime::TraceSpan span(trace_, "tick");
+  const auto stall = [&](MonotonicTime when) {
+    if (clock.stall(k, when)) runtime::trace_instant(trace_, "stall");
+  };
   const MonotonicTime due = clock.due(k);
   const MonotonicTime woken = runtime::monotonic_now();
   MonotonicTime ready = woken;
   if (intake_.promised() < k) {
-    if (!intake_.wait(k, stop)) return false;
+    const runtime::TraceSpan waiting(trace_, "waiting for input");
+    if (!intake_.wait(k, inputs_.bell, stop)) return false;
     ready = runtime::monotonic_now();
-    clock.stall(k, ready);
+    stall(ready);
   }
   if (intake_.finished()) return false;
 
@@ -78,20 +94,26 @@ bool FusionStage::tick(Time k, runtime::DataClock& clock, const std::stop_token&
   const MonotonicTime computed = runtime::monotonic_now();
   nav_states_.push(state, stop);
   sent_states_.push_back(state);
+  filter_status_.back() = filter_.status();
+  filter_status_.publish();
+  runtime::trace_counter(trace_, "fusion -> publisher", static_cast<double>(nav_states_.held()));
 
   const MonotonicTime done = runtime::monotonic_now();
-  if (done - computed > runtime::DataClock::tolerance) clock.stall(k, done);
+  if (done - computed > runtime::DataClock::tolerance) stall(done);
+  meter_.ran(done - ready);
   if (clock.keeps_time(k)) {
-    meter_.record({k,
-                   done - due,
-                   {{{"woken late", woken - due},
-                     {"waiting for input", ready - woken},
-                     {"running", done - ready}}}});
+    meter_.woke(tick, clock, due, woken);
+    const bool missed = meter_.latency().record({k,
+                                                 done - due,
+                                                 {{{"woken late", woken - due},
+                                                   {"waiting for input", ready - woken},
+                                                   {"running", done - ready}}}});
+    if (missed) runtime::trace_instant(trace_, "missed deadline");
     record_paths(clock, due, done);
   } else {
-    meter_.record(done - ready);
+    meter_.latency().record(done - ready);
   }
-  if (done - due > furthest_behind) clock.stall(k, done);
+  if (done - due > furthest_behind) stall(done);
   const Time next = k + stages::fusion.period + stages::fusion.budget;
   nav_states_.promise(next - Duration(1));
   image_states_.promise(next - Duration(1));
@@ -100,6 +122,8 @@ bool FusionStage::tick(Time k, runtime::DataClock& clock, const std::stop_token&
 }
 
 void FusionStage::take(const RelativeMotion& motion) {
+  runtime::TraceSpan span(trace_, "odometry");
+  span.step_flow(flow_of(motion));
   filter_.add(motion);
   if (motion.status == OdometryStatus::ok) odometry_taken_ = motion;
   std::optional<NavState> state = filter_.state_at(motion.stamp);
@@ -135,19 +159,23 @@ void FusionStage::record_paths(const runtime::DataClock& clock, MonotonicTime du
   if (odometry_taken_) {
     const Sample& s = *odometry_taken_;
     const Time image_available = s.available - stages::stereo.budget;
-    camera_path_.record({s.stamp,
-                         done - clock.due(s.stamp),
-                         {{{"camera", image_available - s.stamp - paths::camera_delay},
-                           {"stereo", s.received - clock.due(s.available)},
-                           {"fusion", fusion_late}}}});
+    const bool missed =
+        camera_path_.record({s.stamp,
+                             done - clock.due(s.stamp),
+                             {{{"camera", image_available - s.stamp - paths::camera_delay},
+                               {"stereo", s.received - clock.due(s.available)},
+                               {"fusion", fusion_late}}}});
+    if (missed) runtime::trace_instant(trace_, "missed deadline: camera path");
   }
   if (imu_taken_) {
     const Sample& s = *imu_taken_;
-    imu_path_.record({s.stamp,
-                      done - clock.due(s.stamp),
-                      {{{"imu", s.received - clock.due(s.stamp) - paths::imu_delay},
-                        {"fusion", fusion_late},
-                        {}}}});
+    const bool missed =
+        imu_path_.record({s.stamp,
+                          done - clock.due(s.stamp),
+                          {{{"imu", s.received - clock.due(s.stamp) - paths::imu_delay},
+                            {"fusion", fusion_late},
+                            {}}}});
+    if (missed) runtime::trace_instant(trace_, "missed deadline: imu path");
   }
 }
 

@@ -17,9 +17,12 @@
 #include "runtime/core/doorbell.h"
 #include "runtime/core/edge.h"
 #include "runtime/core/intake.h"
+#include "runtime/core/latest_value.h"
+#include "runtime/core/trace_span.h"
 #include "runtime/vehicle/fault_delay.h"
 #include "runtime/vehicle/meter.h"
 #include "runtime/vehicle/stage_cuts.h"
+#include "runtime/vehicle/thread_meter.h"
 
 namespace maploop::vehicle {
 
@@ -45,6 +48,7 @@ class FusionStage {
   void finish();
 
   // Before run().
+  void trace_to(runtime::TraceBuffer* buffer) { trace_ = buffer; }
   void slow_down(StageDelay delay) { delay_ = std::move(delay); }
   void save_at(std::vector<Time> moments, runtime::Edge<StageSnapshot>& edge) {
     cuts_.set(std::move(moments), edge);
@@ -59,13 +63,18 @@ class FusionStage {
   // Data time of the last tick; any thread may ask.
   Time position() const { return from_nanoseconds(position_.load(std::memory_order_relaxed)); }
 
-  const Meter& meter() const { return meter_; }              // from the tick's release to its state
+  const ThreadMeter& meter() const { return meter_; }        // from the tick's release to its state
   const Meter& camera_path() const { return camera_path_; }  // from the image's stamp to the state
   const Meter& imu_path() const { return imu_path_; }        // from the IMU's stamp to the state
-  const fusion::ReducedImuFilter& filter() const { return filter_; }  // after the end
+
+  // Of the filter at the end of the last tick; one thread at a time may ask, also meanwhile.
+  const fusion::FilterStatus& filter_status() {
+    if (const fusion::FilterStatus* status = filter_status_.latest()) known_status_ = status;
+    return *known_status_;
+  }
 
  private:
-  bool tick(Time k, runtime::DataClock& clock, const std::stop_token& stop);
+  bool tick(const runtime::Tick& tick, runtime::DataClock& clock, const std::stop_token& stop);
   void take(const RelativeMotion& motion);
   void save_until(Time t, const std::stop_token& stop);
   template <class Archive, class Stage>
@@ -88,10 +97,14 @@ class FusionStage {
   StageCuts cuts_;
   std::optional<Sample> imu_taken_;       // by this tick, the last one
   std::optional<Sample> odometry_taken_;  // with a motion
-  Meter meter_;
+  ThreadMeter meter_;
   Meter camera_path_;
   Meter imu_path_;
   StageDelay delay_;
+  runtime::TraceBuffer* trace_ = nullptr;
+  runtime::LatestValue<fusion::FilterStatus> filter_status_;
+  const fusion::FilterStatus* known_status_ = &no_status_;  // the reader's
+  fusion::FilterStatus no_status_;
 };
 
 }  // namespace maploop::vehicle

@@ -13,6 +13,18 @@ std::string ms(Duration d) {
   return text.data();
 }
 
+std::string_view when_late(const Stage& stage) {
+  if (stage.period == Duration::zero()) return "-";
+  switch (stage.overrun) {
+    case runtime::Overrun::skip:
+      return "leaves ticks out";
+    case runtime::Overrun::shed:
+      return "cuts ticks short";
+    default:
+      return "catches up";
+  }
+}
+
 std::string rates(const Stage& stage) {
   if (stage.max_rate == 0.0) return "-";
   std::array<char, 64> text{};
@@ -38,11 +50,16 @@ std::string graph_page() {
       "# The vehicle's graph\n\n"
       "Made from the table in `graph.h`; a test compares them.\n\n"
       "## Threads\n\n"
-      "The budget and the rates are of data time, the deadline is of the machine's clock.\n\n";
-  page += row({"thread", "runs", "released by", "period", "budget", "deadline", "watched rate"});
-  page += row({"---", "---", "---", "---", "---", "---", "---"});
+      "The budget and the rates are of data time, the deadline is of the machine's clock. What a\n"
+      "thread does when its ticks fall behind is of a live run: a replay catches up with every "
+      "tick\n"
+      "of the fusion, and stalls the data clock.\n\n";
+  page += row({"thread", "runs", "released by", "period", "phase", "when late", "budget",
+               "deadline", "watched rate"});
+  page += row({"---", "---", "---", "---", "---", "---", "---", "---", "---"});
   for (const Stage& s : stages::all) {
-    page += row({s.name, s.runs, s.released, ms(s.period), ms(s.budget), ms(s.deadline), rates(s)});
+    page += row({s.name, s.runs, s.released, ms(s.period), ms(s.phase), when_late(s), ms(s.budget),
+                 ms(s.deadline), rates(s)});
   }
   page += "\n## Rings\n\n";
   page += row({"ring", "carries", "capacity", "when full"});

@@ -11,6 +11,7 @@
 #include "msgs/lcm/channel_names.h"
 #include "msgs/time.h"
 #include "runtime/core/edge.h"
+#include "runtime/core/periodic.h"
 
 namespace maploop::vehicle {
 
@@ -26,6 +27,10 @@ struct Stage {
   Duration deadline;          // from release to result; 0: none
   double min_rate;            // Hz, less is reported on HEALTH; 0: not watched
   double max_rate;            // Hz, more is reported on HEALTH
+  // Of a fixed-rate thread: when within its period, and what a live run does with ticks that fall
+  // behind. A replay catches up with every tick that data come from: the same bits.
+  Duration phase{};
+  runtime::Overrun overrun = runtime::Overrun::catch_up;
 };
 
 namespace stages {
@@ -38,11 +43,20 @@ inline constexpr Stage odometry{
     "odometry", "driver, of a log without images", "sensor", {}, {}, {}, 5.0, 40.0};
 inline constexpr Stage stereo{"stereo",         "visual odometry", "image pair", {},
                               milliseconds(50), milliseconds(50),  5.0,          40.0};
-inline constexpr Stage fusion{"fusion",        "reduced-IMU filter", "its period", milliseconds(10),
-                              milliseconds(1), milliseconds(2),      95.0,         105.0};
+inline constexpr Stage fusion{"fusion",
+                              "reduced-IMU filter",
+                              "its period",
+                              milliseconds(10),
+                              milliseconds(1),
+                              milliseconds(2),
+                              95.0,
+                              105.0,
+                              {},
+                              runtime::Overrun::skip};
 inline constexpr Stage publisher{"publisher", "LCM, log", "looks by itself", {}, {}, {}, 0.0, 0.0};
 inline constexpr Stage health{
-    "health", "watchdog, histograms", "its period", std::chrono::seconds(1), {}, {}, 0.0, 0.0};
+    "health", "watchdog, histograms", "its period",          std::chrono::seconds(1), {}, {}, 0.0,
+    0.0,      milliseconds(5),        runtime::Overrun::skip};  // between two ticks of the fusion
 
 inline constexpr Stage player{
     "player", "keys, commands of a replay", "looks by itself", {}, {}, {}, 0.0, 0.0};
@@ -166,7 +180,7 @@ inline constexpr Channel deadlines{channel_names::deadlines,
 inline constexpr Channel health{channel_names::health,
                                 "health_t",
                                 "health",
-                                "threads, rings, rates, losses, degraded modes",
+                                "threads, rings, rates, losses, refusals, real-time settings, degraded modes",
                                 "1 Hz",
                                 false};
 

@@ -4,19 +4,61 @@
 
 namespace maploop::vehicle {
 
-void HealthMonitor::watch(const runtime::Thread& thread, const Meter& meter, bool latency) {
-  threads_.push_back({&thread, &meter, latency});
+void HealthMonitor::start(Time first, MonotonicTime wall) {
+  first_ = first;
+  wall_start_ = wall;
 }
 
-Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataClock& clock) {
+void HealthMonitor::watch_driver(const Stage& stage, const runtime::Thread& thread,
+                                 const Meter& lateness, bool absent) {
+  threads_.push_back({&thread,
+                      nullptr,
+                      &lateness,
+                      absent,
+                      {},
+                      Watchdog(stage, Watchdog::Kind::driver, first_, wall_start_)});
+}
+
+void HealthMonitor::watch_stage(const Stage& stage, const runtime::Thread& thread,
+                                const ThreadMeter& meter,
+                                std::vector<const runtime::EdgeBase*> inputs) {
+  threads_.push_back({&thread, &meter, nullptr, false, std::move(inputs),
+                      Watchdog(stage, Watchdog::Kind::fed, first_, wall_start_)});
+}
+
+StageFacts HealthMonitor::facts(const Watched& watched, std::uint64_t count) {
+  StageFacts facts;
+  facts.absent = watched.absent;
+  facts.count = count;
+  Time furthest_behind = Time::max();
+  for (const runtime::EdgeBase* input : watched.inputs) {
+    const Time promised = input->promised();
+    const RingHealth ring = input->health();
+    facts.waiting += ring.held;
+    if (promised < furthest_behind) {
+      furthest_behind = promised;
+      facts.waits_for = ring.held == 0 ? ring.name : "";
+    }
+  }
+  return facts;
+}
+
+Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataClock& clock,
+                             const runtime::RealtimeReport& readiness) {
   Health health;
   health.stamp = stamp;
+  const MonotonicTime now = runtime::monotonic_now();
   for (Watched& watched : threads_) {
     ThreadHealth t;
     t.name = watched.thread->name();
-    t.scheduling = watched.thread->scheduling();
+    t.scheduling = watched.thread->settings().front().granted;
     t.failure = watched.thread->failure();
-    t.count = watched.meter->count();
+    t.cpu = to_seconds(watched.thread->cpu_time());
+    if (watched.meter != nullptr) {
+      t.left_out = watched.meter->left_out();
+      t.shed = watched.meter->shed();
+    }
+    t.count = watched.count();
     if (elapsed > Duration::zero()) {
       t.rate = static_cast<double>(t.count - watched.seen) / to_seconds(elapsed);
     }
@@ -25,9 +67,8 @@ Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataCl
       health.degraded.push_back(t.name + " has ended: " + t.failure +
                                 "; its outputs are stale, the rest goes on");
     }
-    if (t.scheduling.find("refused") != std::string::npos) {
-      health.degraded.push_back(t.name + " runs with scheduling " + t.scheduling);
-    }
+    const auto wrong = watched.watchdog.look(stamp, now, facts(watched, t.count));
+    health.degraded.insert(health.degraded.end(), wrong.begin(), wrong.end());
     health.threads.push_back(std::move(t));
   }
   for (const auto* edge : edges_) {
@@ -37,6 +78,22 @@ Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataCl
                                 std::to_string(r.pushed) + " samples: its reader is too slow");
     }
     health.rings.push_back(std::move(r));
+  }
+  for (const MessageSink* output : outputs_) {
+    OutputHealth o = output->health();
+    if (o.unsent > 0) {
+      health.degraded.push_back(
+          o.name + " did not take " + std::to_string(o.unsent) + " of " +
+          std::to_string(o.sent + o.unsent) +
+          " messages: is the network (ip route get 224.0.0.1) or the disk (df) gone?");
+    }
+    health.outputs.push_back(std::move(o));
+  }
+  health.settings = readiness.settings;
+  for (const RealtimeSetting& setting : health.settings) {
+    if (setting.verdict == Verdict::refused) {
+      health.degraded.push_back(runtime::to_sentence(setting));
+    }
   }
   if (clock.stalls() > 0) {
     health.degraded.push_back("the data clock was stalled " + std::to_string(clock.stalls()) +
@@ -53,8 +110,22 @@ void HealthMonitor::restart_rates() {
 Deadlines HealthMonitor::deadlines(Time stamp) const {
   Deadlines deadlines;
   deadlines.stamp = stamp;
+  const auto add = [](std::vector<LatencySummary>& to, const std::string& thread,
+                      const runtime::Histogram& histogram) {
+    if (histogram.count() > 0) to.push_back(histogram.summarize(thread));
+  };
   for (const Watched& watched : threads_) {
-    if (watched.latency) deadlines.threads.push_back(watched.meter->summary());
+    const std::string& name = watched.thread->name();
+    if (watched.meter == nullptr) {
+      add(deadlines.wake_up, name, watched.lateness->histogram());
+      continue;
+    }
+    if (watched.meter->has_deadline()) {
+      deadlines.threads.push_back(watched.meter->latency().summary());
+    }
+    add(deadlines.wake_up, name, watched.meter->wake_up());
+    add(deadlines.execution, name, watched.meter->execution());
+    add(deadlines.period_jitter, name, watched.meter->period_jitter());
   }
   for (const Meter* path : paths_) deadlines.paths.push_back(path->summary());
   return deadlines;

@@ -9,8 +9,12 @@
 #include "msgs/diagnostics.h"
 #include "runtime/core/data_clock.h"
 #include "runtime/core/edge.h"
+#include "runtime/core/realtime_setting.h"
 #include "runtime/core/thread.h"
-#include "runtime/vehicle/meter.h"
+#include "runtime/vehicle/graph.h"
+#include "runtime/vehicle/message_sink.h"
+#include "runtime/vehicle/thread_meter.h"
+#include "runtime/vehicle/watchdog.h"
 
 namespace maploop::vehicle {
 
@@ -18,13 +22,21 @@ namespace maploop::vehicle {
 // outlive the monitor.
 class HealthMonitor {
  public:
-  // `meter` counts what the thread does; `latency` is false where it measures release lateness.
-  void watch(const runtime::Thread& thread, const Meter& meter, bool latency);
+  // Of the data, and of the threads. Before watch_...().
+  void start(Time first, MonotonicTime wall);
+  // A driver, by how late it releases its samples. `absent`: it has no sensor.
+  void watch_driver(const Stage& stage, const runtime::Thread& thread, const Meter& lateness,
+                    bool absent);
+  // A stage, and the rings that feed it.
+  void watch_stage(const Stage& stage, const runtime::Thread& thread, const ThreadMeter& meter,
+                   std::vector<const runtime::EdgeBase*> inputs);
   void watch_path(const Meter& path) { paths_.push_back(&path); }
   void watch(const runtime::EdgeBase& edge) { edges_.push_back(&edge); }
+  void watch(const MessageSink& output) { outputs_.push_back(&output); }
 
   // `elapsed`: data time since the last look, for the rates.
-  Health health(Time stamp, Duration elapsed, const runtime::DataClock& clock);
+  Health health(Time stamp, Duration elapsed, const runtime::DataClock& clock,
+                const runtime::RealtimeReport& readiness);
   // The next health() counts from the start.
   void restart_rates();
   Deadlines deadlines(Time stamp) const;
@@ -32,13 +44,23 @@ class HealthMonitor {
  private:
   struct Watched {
     const runtime::Thread* thread;
-    const Meter* meter;
-    bool latency;
+    const ThreadMeter* meter;  // null of a driver
+    const Meter* lateness;     // of a driver, else null
+    bool absent;
+    std::vector<const runtime::EdgeBase*> inputs;
+    Watchdog watchdog;
     std::uint64_t seen = 0;
+
+    std::uint64_t count() const { return meter != nullptr ? meter->count() : lateness->count(); }
   };
+  static StageFacts facts(const Watched& watched, std::uint64_t count);
+
+  Time first_{};
+  MonotonicTime wall_start_{};
   std::vector<Watched> threads_;
   std::vector<const Meter*> paths_;
   std::vector<const runtime::EdgeBase*> edges_;
+  std::vector<const MessageSink*> outputs_;
 };
 
 }  // namespace maploop::vehicle

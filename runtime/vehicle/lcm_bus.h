@@ -1,9 +1,10 @@
 // Messages on an LCM bus.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "runtime/vehicle/message_sink.h"
 
@@ -16,21 +17,27 @@ namespace maploop::vehicle {
 class LcmBus final : public MessageSink {
  public:
   // The default stays on this host (ttl=0). Throws std::runtime_error naming the URL when LCM
-  // cannot open it.
+  // cannot open it. Asks for a larger send buffer, for which no other thread may open a UDP socket
+  // meanwhile.
   static constexpr const char* default_url = "udpm://239.255.76.67:7667?ttl=0";
   explicit LcmBus(const std::string& url);
   ~LcmBus() override;
 
-  void send(const Message& message) override;
+  std::string_view name() const override { return "LCM"; }
+
   // For others to publish and subscribe on; LCM itself may be used by several threads.
   lcm::LCM& lcm();
-  std::uint64_t failures() const { return failures_; }
+
+  // What the kernel granted for a bus of this URL: "LCM: ..."; nothing where it is no udpm.
+  const std::vector<RealtimeSetting>& settings() const { return settings_; }
 
  private:
+  bool take(const Message& message) override;
+
   struct Connection;
   std::unique_ptr<Connection> connection_;
   std::string channel_;  // reused: LCM wants a terminated string
-  std::uint64_t failures_ = 0;
+  std::vector<RealtimeSetting> settings_;
 };
 
 }  // namespace maploop::vehicle

@@ -20,14 +20,14 @@ LogRecorder::LogRecorder(const std::string& path, bool raw)
 
 LogRecorder::~LogRecorder() = default;
 
-void LogRecorder::send(const Message& message) {
+bool LogRecorder::take(const Message& message) {
   lcm::LogEvent event{};
   event.timestamp =
       std::chrono::floor<std::chrono::microseconds>(message.time).time_since_epoch().count();
   event.channel = message.channel;
   event.datalen = static_cast<std::int32_t>(message.data.size());
   event.data = const_cast<std::uint8_t*>(message.data.data());  // LCM only reads it
-  if (file_->log.writeEvent(&event) != 0) ++failures_;
+  return file_->log.writeEvent(&event) == 0;
 }
 
 }  // namespace maploop::vehicle

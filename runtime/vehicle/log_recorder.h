@@ -1,9 +1,9 @@
 // Messages in a standard LCM log, readable by every LCM tool.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "runtime/vehicle/message_sink.h"
 
@@ -18,16 +18,16 @@ class LogRecorder final : public MessageSink {
   explicit LogRecorder(const std::string& path, bool raw = false);
   ~LogRecorder() override;
 
-  void send(const Message& message) override;
+  std::string_view name() const override { return "log"; }
   bool wants_raw() const override { return raw_; }
-  std::uint64_t failures() const { return failures_; }
 
  private:
+  bool take(const Message& message) override;
+
   struct File;
   std::unique_ptr<File> file_;
   bool raw_;
   std::string channel_;
-  std::uint64_t failures_ = 0;
 };
 
 }  // namespace maploop::vehicle

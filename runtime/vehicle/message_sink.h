@@ -1,10 +1,13 @@
 // Where encoded messages go: the bus, a log, a hash.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
+#include "msgs/diagnostics.h"
 #include "msgs/time.h"
 
 namespace maploop::vehicle {
@@ -16,13 +19,30 @@ struct Message {
   bool from_data;                      // false for what speaks of this run: DEADLINES, HEALTH
 };
 
-// Called by the publisher thread only.
+// The publisher thread sends; any thread may read the name and the counts.
 class MessageSink {
  public:
   virtual ~MessageSink() = default;
-  virtual void send(const Message& message) = 0;
+  virtual std::string_view name() const = 0;
   // Whether it takes raw images and scans too, some 30 MB/s.
   virtual bool wants_raw() const { return false; }
+
+  void send(const Message& message) {
+    std::atomic<std::uint64_t>& count = take(message) ? sent_ : unsent_;
+    count.fetch_add(1, std::memory_order_relaxed);
+  }
+
+  OutputHealth health() const {
+    return {std::string(name()), sent_.load(std::memory_order_relaxed),
+            unsent_.load(std::memory_order_relaxed)};
+  }
+
+ private:
+  // False where the message could not be sent or written; the next one is tried again.
+  virtual bool take(const Message& message) = 0;
+
+  std::atomic<std::uint64_t> sent_{0};
+  std::atomic<std::uint64_t> unsent_{0};
 };
 
 }  // namespace maploop::vehicle

@@ -1,31 +1,46 @@
 #include "runtime/vehicle/meter.h"
 
-#include <algorithm>
-
 namespace maploop::vehicle {
+namespace {
 
-const char* Miss::guilty() const {
-  return std::max_element(parts.begin(), parts.end(),
-                          [](const Part& a, const Part& b) { return a.lasted < b.lasted; })
-      ->name;
+MissedDeadline message_of(const Timing& timing) {
+  MissedDeadline miss{timing.stamp, timing.latency, {}};
+  for (const Timing::Part& part : timing.parts) {
+    if (*part.name != '\0') miss.parts.push_back({part.name, part.lasted});
+  }
+  return miss;
 }
 
-void Meter::record(const Miss& timing) {
+}  // namespace
+
+void Meter::Worst::add(const Timing& timing) {
+  if (count == misses.size() && timing.latency <= misses.back().latency) return;
+  if (count < misses.size()) ++count;
+  std::size_t at = count - 1;
+  for (; at > 0 && misses[at - 1].latency < timing.latency; --at) misses[at] = misses[at - 1];
+  misses[at] = timing;
+}
+
+bool Meter::record(const Timing& timing) {
   histogram_.record(timing.latency);
-  if (timing.latency <= deadline_) return;
+  if (timing.latency <= deadline_) return false;
   miss_count_.fetch_add(1, std::memory_order_relaxed);
-  if (timing.latency > worst_) {
-    worst_ = timing.latency;
-    guilty_of_worst_.store(timing.guilty(), std::memory_order_relaxed);
-  }
-  if (misses_.size() < kept_misses) misses_.push_back(timing);
+  worst_.add(timing);
+  told_.back() = worst_;
+  told_.publish();
+  return true;
 }
 
 LatencySummary Meter::summary() const {
   LatencySummary s = histogram_.summarize(name_);
   s.misses = miss_count();
   s.deadline = deadline_;
-  s.guilty = guilty_of_worst_.load(std::memory_order_relaxed);
+  s.omitted = omitted_.data();
+  if (const Worst* worst = told_.latest()) heard_ = worst;
+  for (std::size_t i = 0; heard_ != nullptr && i < heard_->count; ++i) {
+    s.worst.push_back(message_of(heard_->misses[i]));
+  }
+  if (!s.worst.empty()) s.guilty = s.worst.front().guilty();
   return s;
 }
 

@@ -8,15 +8,15 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "msgs/diagnostics.h"
 #include "runtime/core/histogram.h"
+#include "runtime/core/latest_value.h"
 
 namespace maploop::vehicle {
 
-// One missed deadline: where the time went. Names are string literals.
-struct Miss {
+// What was to be done by a deadline, and where the time went. Names are string literals.
+struct Timing {
   struct Part {
     const char* name = "";
     Duration lasted{};
@@ -25,23 +25,23 @@ struct Miss {
   Time stamp{};  // of the tick, or of the sample
   Duration latency{};
   std::array<Part, 3> parts{};
-
-  // The largest part.
-  const char* guilty() const;
 };
 
-// One thread records; any thread reads summary(). misses() only after the recording thread ended.
+// One thread records, without a lock, an allocation or a system call; one other thread at a time
+// reads summary(), also meanwhile; the rest is for any thread.
 class Meter {
  public:
   // deadline 0: none.
-  Meter(std::string_view name, Duration deadline) : name_(name), deadline_(deadline) {
-    misses_.reserve(kept_misses);
-  }
+  Meter(std::string_view name, Duration deadline) : name_(name), deadline_(deadline) {}
 
   void record(Duration latency) { histogram_.record(latency); }
 
-  // With its parts, for the case that the deadline was missed.
-  void record(const Miss& timing);
+  // With its parts, for the case that the deadline was missed; whether it was.
+  bool record(const Timing& timing);
+
+  // The schedule of a periodic task was moved by `shift`: the ticks that would have been late
+  // meanwhile are now on time, and are added to the omitted waits.
+  void record_shift(Duration shift, Duration interval) { omitted_.record_omitted(shift, interval); }
 
   const std::string& name() const { return name_; }
   std::uint64_t count() const { return histogram_.count(); }
@@ -49,19 +49,23 @@ class Meter {
   const runtime::Histogram& histogram() const { return histogram_; }
   LatencySummary summary() const;
 
-  // The first few, in order.
-  const std::vector<Miss>& misses() const { return misses_; }
-
  private:
-  static constexpr std::size_t kept_misses = 32;
+  // The longest misses so far, the longest first.
+  struct Worst {
+    std::array<Timing, 10> misses{};
+    std::size_t count = 0;
+
+    void add(const Timing& timing);
+  };
 
   std::string name_;
   Duration deadline_;
   runtime::Histogram histogram_;
+  runtime::Histogram omitted_;
   std::atomic<std::uint64_t> miss_count_{0};
-  Duration worst_{};
-  std::atomic<const char*> guilty_of_worst_{""};
-  std::vector<Miss> misses_;
+  Worst worst_;                               // the recording thread's
+  mutable runtime::LatestValue<Worst> told_;  // to the reading one
+  mutable const Worst* heard_ = nullptr;      // by the reading one
 };
 
 }  // namespace maploop::vehicle

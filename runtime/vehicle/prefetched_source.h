@@ -13,6 +13,7 @@
 #include "runtime/core/doorbell.h"
 #include "runtime/core/ring.h"
 #include "runtime/core/thread.h"
+#include "runtime/core/trace_span.h"
 #include "sensors/source.h"
 
 namespace maploop::vehicle {
@@ -24,8 +25,9 @@ template <class T>
 class PrefetchedSource final : public sensors::Source<T> {
  public:
   PrefetchedSource(std::string name, std::unique_ptr<sensors::Source<T>> source, std::size_t depth,
-                   std::stop_token stop)
+                   std::stop_token stop, runtime::TraceBuffer* trace)
       : source_(std::move(source)),
+        trace_(trace),
         loaded_(depth),
         stopped_(stop, [this] { wake_both(); }),
         loader_(
@@ -63,7 +65,10 @@ class PrefetchedSource final : public sensors::Source<T> {
       if (slot == nullptr) {
         taken_.wait(heard);
       } else {
-        if (!source_->next(*slot)) return;
+        {
+          const runtime::TraceSpan span(trace_, "decode");
+          if (!source_->next(*slot)) return;
+        }
         loaded_.publish();
         filled_.ring();
       }
@@ -76,6 +81,7 @@ class PrefetchedSource final : public sensors::Source<T> {
   }
 
   std::unique_ptr<sensors::Source<T>> source_;
+  runtime::TraceBuffer* trace_;
   runtime::Ring<T> loaded_;
   runtime::Doorbell filled_;
   runtime::Doorbell taken_;

@@ -7,11 +7,16 @@
 
 #include "msgs/lcm/conversions.h"
 #include "msgs/lcm/raw_conversions.h"
+#include "runtime/vehicle/trace_flows.h"
 
 namespace maploop::vehicle {
 namespace {
 
 constexpr auto look_every = std::chrono::milliseconds(1);
+
+consteval runtime::TraceName trace_name(const Channel& channel) {
+  return channel.name.data();
+}
 
 }  // namespace
 
@@ -31,32 +36,56 @@ Publisher::Publisher(const VehicleCalibration& calibration, PublisherEdges& edge
     : calibration_(calibration),
       edges_(edges),
       sinks_(std::move(sinks)),
-      observer_(std::move(observer)),
-      intake_(unused_bell_) {
-  forward(edges_.camera, channels::camera);
-  forward(edges_.velodyne, channels::velodyne);
-  forward(edges_.imu, channels::imu);
-  forward(edges_.gnss, channels::gnss_fix);
-  forward(edges_.reference, channels::truth);
+      observer_(std::move(observer)) {
+  forward<channels::camera>(edges_.camera);
+  forward<channels::velodyne>(edges_.velodyne);
+  forward<channels::imu>(edges_.imu);
+  forward<channels::gnss_fix>(edges_.gnss);
+  forward<channels::truth>(edges_.reference);
   intake_.add(edges_.odometry, [this](const RelativeMotion& motion) {
+    const runtime::TraceSpan span(trace_, trace_name(channels::visual_odometry));
+    note_flow(motion);
     send(channels::visual_odometry, motion.available, to_lcm(motion));
     observer_.odometry(motion);
   });
   intake_.add(edges_.nav_state, [this](const NavState& state) {
+    runtime::TraceSpan span(trace_, trace_name(channels::nav_state));
+    end_flows(span, state);
     send(channels::nav_state, state.available, to_lcm(state));
     observer_.nav_state(state);
   });
   intake_.add(edges_.image_state, [this](const NavState& state) { observer_.image_state(state); });
 }
 
+template <const Channel& channel, class T>
+void Publisher::forward(runtime::Edge<T>& edge) {
+  intake_.add(edge, [this](const T& sample) {
+    const runtime::TraceSpan span(trace_, trace_name(channel));
+    note_flow(sample);
+    send(channel, sample.available, to_lcm(sample));
+  });
+}
+
 template <class T>
-void Publisher::forward(runtime::Edge<T>& edge, const Channel& channel) {
-  intake_.add(
-      edge, [this, &channel](const T& sample) { send(channel, sample.available, to_lcm(sample)); });
+void Publisher::note_flow(const T& sample) {
+  if constexpr (requires { flow_of(sample); }) {
+    if (trace_ != nullptr) passing_.push_back({flow_of(sample), sample.available});
+  }
+}
+
+// A state holds exactly what was available by its tick, and everything of that was taken from the
+// edges before it.
+void Publisher::end_flows(runtime::TraceSpan& span, const NavState& state) {
+  std::erase_if(passing_, [&](const Passing& passing) {
+    const bool inside = passing.available <= state.stamp;
+    if (inside) span.end_flow(passing.flow);
+    return inside;
+  });
 }
 
 template <class Lcm>
 void Publisher::send(const Channel& channel, Time time, const Lcm& message) {
+  const MonotonicTime started = runtime::monotonic_now();
   const int size = message.getEncodedSize();
   buffer_.resize(static_cast<std::size_t>(size));
   if (message.encode(buffer_.data(), 0, size) != size) {
@@ -67,10 +96,12 @@ void Publisher::send(const Channel& channel, Time time, const Lcm& message) {
       sink->send({channel.name, time, buffer_, channel.from_data});
     }
   }
+  meter_.ran(runtime::monotonic_now() - started);
 }
 
 void Publisher::send_reports() {
   while (const RuntimeReport* report = edges_.reports.front()) {
+    const runtime::TraceSpan span(trace_, trace_name(channels::health));
     send(channels::health, report->available, to_lcm(report->health));
     send(channels::deadlines, report->available, to_lcm(report->deadlines));
     edges_.reports.pop();

@@ -16,11 +16,12 @@
 #include "msgs/nav_state.h"
 #include "msgs/odometry.h"
 #include "msgs/reference.h"
-#include "runtime/core/doorbell.h"
 #include "runtime/core/edge.h"
 #include "runtime/core/intake.h"
+#include "runtime/core/trace_span.h"
 #include "runtime/vehicle/graph.h"
 #include "runtime/vehicle/message_sink.h"
+#include "runtime/vehicle/thread_meter.h"
 
 namespace maploop::vehicle {
 
@@ -60,23 +61,41 @@ class Publisher {
   Publisher(const VehicleCalibration& calibration, PublisherEdges& edges,
             std::vector<MessageSink*> sinks, Observer observer);
 
+  const std::vector<MessageSink*>& sinks() const { return sinks_; }
+
+  void trace_to(runtime::TraceBuffer* buffer) { trace_ = buffer; }  // before run()
+
   // Says the calibration at `begin`, then whatever comes, until every edge is finished and empty.
   void run(Time begin);
+
+  // How long sending each message took.
+  const ThreadMeter& meter() const { return meter_; }
 
  private:
   template <class Lcm>
   void send(const Channel& channel, Time time, const Lcm& message);
-  template <class T>
-  void forward(runtime::Edge<T>& edge, const Channel& channel);
+  template <const Channel& channel, class T>
+  void forward(runtime::Edge<T>& edge);
   void send_reports();
+  template <class T>
+  void note_flow(const T& sample);
+  void end_flows(runtime::TraceSpan& span, const NavState& state);
 
   VehicleCalibration calibration_;
   PublisherEdges& edges_;
   std::vector<MessageSink*> sinks_;
   Observer observer_;
-  runtime::Doorbell unused_bell_;
   runtime::Intake intake_;
   std::vector<std::uint8_t> buffer_;
+  ThreadMeter meter_{stages::publisher};
+
+  // Samples on their way through the fusion, while a trace is recorded.
+  struct Passing {
+    runtime::TraceFlow flow;
+    Time available;
+  };
+  runtime::TraceBuffer* trace_ = nullptr;
+  std::vector<Passing> passing_;
 };
 
 }  // namespace maploop::vehicle

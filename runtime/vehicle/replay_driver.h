@@ -12,7 +12,9 @@
 
 #include "runtime/core/data_clock.h"
 #include "runtime/core/edge.h"
+#include "runtime/core/trace_span.h"
 #include "runtime/vehicle/meter.h"
+#include "runtime/vehicle/trace_flows.h"
 #include "sensors/source.h"
 
 namespace maploop::vehicle {
@@ -24,6 +26,8 @@ class ReplayDriver {
   ReplayDriver(std::string name, std::unique_ptr<sensors::Source<T>> source,
                std::vector<runtime::Edge<T>*> edges)
       : source_(std::move(source)), edges_(std::move(edges)), lateness_(std::move(name), {}) {}
+
+  void trace_to(runtime::TraceBuffer* buffer) { trace_ = buffer; }  // before run()
 
   // Loads the first sample; when it becomes available, if there is one. Call once, before run().
   std::optional<Time> load_first() {
@@ -53,6 +57,8 @@ class ReplayDriver {
     }
   }
 
+  bool absent() const { return source_ == nullptr; }
+
   // Nothing more comes; also after a failure.
   void finish() {
     for (auto* edge : edges_) edge->finish();
@@ -67,6 +73,8 @@ class ReplayDriver {
 
  private:
   void release(runtime::DataClock& clock, const std::stop_token& stop) {
+    runtime::TraceSpan span(trace_, "release");
+    if constexpr (requires { flow_of(sample_); }) span.start_flow(flow_of(sample_));
     const Time available = sample_.available;
     const MonotonicTime due = clock.due(available);
     sample_.received = runtime::monotonic_now();
@@ -83,12 +91,15 @@ class ReplayDriver {
       });
     }
     const MonotonicTime now = runtime::monotonic_now();
-    if (now - received > runtime::DataClock::tolerance) clock.stall(available, now);
+    if (now - received > runtime::DataClock::tolerance && clock.stall(available, now)) {
+      runtime::trace_instant(trace_, "stall");
+    }
   }
 
   std::unique_ptr<sensors::Source<T>> source_;
   std::vector<runtime::Edge<T>*> edges_;
   Meter lateness_;
+  runtime::TraceBuffer* trace_ = nullptr;
   T sample_{};
   bool more_ = false;
 };

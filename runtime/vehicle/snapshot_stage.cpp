@@ -27,7 +27,7 @@ SnapshotStage::SnapshotStage(std::size_t stereo_bytes, std::size_t fusion_bytes,
                              SnapshotHandler handler)
     : edges_(stereo_bytes, fusion_bytes),
       handler_(std::move(handler)),
-      meter_(stages::snapshot.name, stages::snapshot.deadline) {}
+      meter_(stages::snapshot) {}
 
 void SnapshotStage::run(Time first) {
   std::exception_ptr failure;
@@ -44,7 +44,7 @@ void SnapshotStage::run(Time first) {
       } catch (...) {
         failure = std::current_exception();
       }
-      meter_.record(runtime::monotonic_now() - started);
+      meter_.ran(runtime::monotonic_now() - started);
       edges_.stereo.pop();
       edges_.fusion.pop();
     } else if (stereo != nullptr && fusion_ended) {

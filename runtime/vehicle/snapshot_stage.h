@@ -7,8 +7,8 @@
 
 #include "runtime/core/doorbell.h"
 #include "runtime/core/edge.h"
-#include "runtime/vehicle/meter.h"
 #include "runtime/vehicle/snapshot.h"
+#include "runtime/vehicle/thread_meter.h"
 
 namespace maploop::vehicle {
 
@@ -35,12 +35,12 @@ class SnapshotStage {
   // handler throws is thrown at the end: the stages must not be held up. `first`: Snapshot's.
   void run(Time first);
 
-  const Meter& meter() const { return meter_; }  // of the handler
+  const ThreadMeter& meter() const { return meter_; }  // of the handler
 
  private:
   SnapshotEdges edges_;
   SnapshotHandler handler_;
-  Meter meter_;
+  ThreadMeter meter_;
 };
 
 }  // namespace maploop::vehicle

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "runtime/vehicle/graph.h"
+#include "runtime/vehicle/trace_flows.h"
 
 namespace maploop::vehicle {
 
@@ -15,7 +16,7 @@ StereoStage::StereoStage(stereo::StereoOdometry odometry, runtime::Edge<StereoPa
       bell_(bell),
       to_fusion_(to_fusion),
       to_publisher_(to_publisher),
-      meter_(stages::stereo.name, stages::stereo.deadline) {}
+      meter_(stages::stereo) {}
 
 void StereoStage::run(const runtime::DataClock& clock, const std::stop_token& stop) {
   for (RelativeMotion& motion : sent_) send(motion, stop);  // of the run that this one resumes
@@ -26,17 +27,22 @@ void StereoStage::run(const runtime::DataClock& clock, const std::stop_token& st
     if (const StereoPair* pair = images_.front()) {
       save_until(pair->available - Duration(1), stop);
       const MonotonicTime started = runtime::monotonic_now();
+      runtime::trace_counter(trace_, "camera -> stereo", static_cast<double>(images_.held()));
       process(*pair, stop);
       const MonotonicTime ended = runtime::monotonic_now();
+      meter_.ran(ended - started);
       if (clock.keeps_time(pair->available)) {
         const MonotonicTime ready = std::max(pair->received, idle_since);
-        meter_.record({pair->stamp,
-                       ended - pair->received,
-                       {{{"busy with the pair before", ready - pair->received},
-                         {"woken late", started - ready},
-                         {"running", ended - started}}}});
+        meter_.woke(started - ready);
+        const bool missed =
+            meter_.latency().record({pair->stamp,
+                                     ended - pair->received,
+                                     {{{"busy with the pair before", ready - pair->received},
+                                       {"woken late", started - ready},
+                                       {"running", ended - started}}}});
+        if (missed) runtime::trace_instant(trace_, "missed deadline");
       } else {
-        meter_.record(ended - started);
+        meter_.latency().record(ended - started);
       }
       idle_since = ended;
       images_.pop();
@@ -55,9 +61,11 @@ void StereoStage::idle(const std::stop_token& stop) {
 }
 
 void StereoStage::process(const StereoPair& pair, const std::stop_token& stop) {
+  runtime::TraceSpan span(trace_, "stereo");
+  span.step_flow(flow_of(pair));
   delay_(pair.available);
   RelativeMotion motion = odometry_.process(pair);
-  ++counts_[static_cast<std::size_t>(motion.status)];
+  counts_[static_cast<std::size_t>(motion.status)].fetch_add(1, std::memory_order_relaxed);
   motion.available = pair.available + stages::stereo.budget;
   std::erase_if(sent_, [&](const RelativeMotion& m) { return m.available <= pair.available; });
   sent_.push_back(motion);

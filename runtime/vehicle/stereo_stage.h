@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -15,9 +16,10 @@
 #include "runtime/core/data_clock.h"
 #include "runtime/core/doorbell.h"
 #include "runtime/core/edge.h"
+#include "runtime/core/trace_span.h"
 #include "runtime/vehicle/fault_delay.h"
-#include "runtime/vehicle/meter.h"
 #include "runtime/vehicle/stage_cuts.h"
+#include "runtime/vehicle/thread_meter.h"
 
 namespace maploop::vehicle {
 
@@ -34,6 +36,7 @@ class StereoStage {
   void finish();
 
   // Before run().
+  void trace_to(runtime::TraceBuffer* buffer) { trace_ = buffer; }
   void slow_down(StageDelay delay) { delay_ = std::move(delay); }
   void save_at(std::vector<Time> moments, runtime::Edge<StageSnapshot>& edge) {
     cuts_.set(std::move(moments), edge);
@@ -43,10 +46,10 @@ class StereoStage {
   // Goes on from what was saved; throws ArchiveError, as StereoOdometry.
   void resume(std::span<const std::uint8_t> saved);
 
-  const Meter& meter() const { return meter_; }
-  // Results so far with this status; after the end.
+  const ThreadMeter& meter() const { return meter_; }
+  // Results so far with this status; any thread may ask.
   std::uint64_t count(OdometryStatus status) const {
-    return counts_[static_cast<std::size_t>(status)];
+    return counts_[static_cast<std::size_t>(status)].load(std::memory_order_relaxed);
   }
 
  private:
@@ -62,11 +65,12 @@ class StereoStage {
   const runtime::Doorbell& bell_;
   runtime::Edge<RelativeMotion>& to_fusion_;
   runtime::Edge<RelativeMotion>& to_publisher_;
-  Meter meter_;
+  ThreadMeter meter_;
+  runtime::TraceBuffer* trace_ = nullptr;
   StageDelay delay_;
   StageCuts cuts_;
   std::vector<RelativeMotion> sent_;  // those that were not yet available at the last pair
-  std::array<std::uint64_t, odometry_status_count> counts_{};
+  std::array<std::atomic<std::uint64_t>, odometry_status_count> counts_{};
 };
 
 }  // namespace maploop::vehicle

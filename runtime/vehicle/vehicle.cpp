@@ -1,24 +1,17 @@
 #include "runtime/vehicle/vehicle.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
-#include <deque>
-#include <functional>
-#include <optional>
+#include <initializer_list>
 #include <set>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "runtime/core/periodic.h"
-#include "runtime/core/thread.h"
-#include "runtime/vehicle/fusion_stage.h"
-#include "runtime/vehicle/graph.h"
-#include "runtime/vehicle/health_monitor.h"
+#include "runtime/core/realtime.h"
 #include "runtime/vehicle/prefetched_source.h"
-#include "runtime/vehicle/replay_driver.h"
-#include "runtime/vehicle/stereo_stage.h"
+#include "runtime/vehicle/process_usage.h"
+#include "runtime/vehicle/refusals.h"
+#include "runtime/vehicle/vehicle_graph.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -28,123 +21,23 @@ constexpr Duration lead = milliseconds(100);
 // Samples decoded ahead: longer than a hiccup of the disk.
 constexpr std::size_t decoded_ahead = 6;
 
-double cpu_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-std::uint64_t peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
-}
-
 template <class T>
 using Edges = std::vector<runtime::Edge<T>*>;
-
-struct SnapshotWish {
-  std::set<Time> moments;
-  SnapshotHandler handler;
-};
 
 bool wants_raw(const std::vector<MessageSink*>& sinks) {
   return std::any_of(sinks.begin(), sinks.end(),
                      [](const MessageSink* sink) { return sink->wants_raw(); });
 }
 
-// What the estimators did not use, by their own reasons.
-std::vector<RefusalCount> refusals(const StereoStage& stereo, const fusion::FilterStatus& filter) {
-  std::vector<RefusalCount> all;
-  const auto add = [&](const Stage& stage, std::string_view reason, std::uint64_t count) {
-    if (count > 0) all.push_back({std::string(stage.name), std::string(reason), count});
-  };
-  for (std::size_t i = 1; i < odometry_status_count; ++i) {
-    const auto status = static_cast<OdometryStatus>(i);
-    add(stages::stereo, to_string(status), stereo.count(status));
-  }
-  for (std::size_t i = 1; i < fusion::reason_count; ++i) {
-    const auto reason = static_cast<fusion::Reason>(i);
-    add(stages::fusion, to_string(reason), filter.refused_for(reason));
-  }
-  add(stages::fusion, "held, and too old before the start", filter.unused);
-  add(stages::fusion, "restart: the clock jumped", filter.restarts);
-  return all;
-}
-
 }  // namespace
-
-struct Vehicle::Graph {
-  Graph(const VehicleConfig& config, const VehicleCalibration& calibration, Sensors sensors,
-        const runtime::DataClock& data_clock, std::vector<MessageSink*> sinks, Observer observer);
-  ~Graph();
-
-  void find_first();
-  void start();
-  void start_snapshots();
-  void start_odometry();
-  void run_health(const std::stop_token& end);
-  RuntimeReport look(Duration elapsed);
-  void wait();
-  VehicleReport report() const;
-
-  template <class T>
-  std::unique_ptr<sensors::Source<T>> prefetched(const Stage& stage,
-                                                 std::unique_ptr<sensors::Source<T>> source);
-  template <class T>
-  void start_driver(const Stage& stage, ReplayDriver<T>& driver);
-  runtime::Thread& start_thread(const Stage& stage, int fifo_priority, runtime::Thread::Body body,
-                                std::function<void()> at_end);
-
-  VehicleConfig config;
-  std::stop_source stop;
-  runtime::DataClock clock;
-  Time first = Time::max();         // of the recording
-  Time begin = Time::max();         // of this run
-  std::optional<Snapshot> resumed;  // its parts are with the stages
-  std::vector<SnapshotWish> wishes;
-  std::unique_ptr<SnapshotStage> snapshots;
-
-  // Edges, by the thread that they end at.
-  runtime::Doorbell stereo_bell;
-  runtime::Edge<StereoPair> images;
-  FusionEdges to_fusion;
-  PublisherEdges to_publisher;
-
-  bool raw;                // images and scans go to the publisher too
-  bool odometry_recorded;  // instead of images
-  ReplayDriver<StereoPair> camera;
-  ReplayDriver<LidarScan> velodyne;
-  ReplayDriver<ImuSample> imu;
-  ReplayDriver<GnssFix> gnss;
-  ReplayDriver<ReferencePose> reference;
-  ReplayDriver<RelativeMotion> odometry;
-  StereoStage stereo;
-  FusionStage fusion;
-  Publisher publisher;
-  HealthMonitor monitor;
-
-  std::stop_callback<std::function<void()>> wake_all;
-  std::deque<runtime::Thread> producers;
-  std::stop_source end_health;
-  runtime::Doorbell health_bell;
-  std::unique_ptr<runtime::Thread> health_thread;
-  std::unique_ptr<runtime::Thread> publisher_thread;
-  MonotonicTime started{};
-  Duration wall{};
-  double cpu_at_start = 0.0;
-  double cpu = 0.0;
-  RuntimeReport last_report;  // of the whole run
-};
 
 Vehicle::Graph::Graph(const VehicleConfig& vehicle_config, const VehicleCalibration& calibration,
                       Sensors sensors, const runtime::DataClock& data_clock,
-                      std::vector<MessageSink*> sinks, Observer observer)
+                      std::vector<MessageSink*> sinks, Observer observer,
+                      runtime::Tracer* run_tracer)
     : config(vehicle_config),
       clock(data_clock),
+      tracer(run_tracer),
       images(make_edge<StereoPair>(edges::camera_stereo, &stereo_bell)),
       raw(wants_raw(sinks)),
       odometry_recorded(sensors.odometry != nullptr),
@@ -165,37 +58,56 @@ Vehicle::Graph::Graph(const VehicleConfig& vehicle_config, const VehicleCalibrat
       wake_all(stop.get_token(), [this] {
         stereo_bell.ring();
         to_fusion.bell.ring();
-      }) {}
+      }) {
+  camera.trace_to(trace_buffer(stages::camera.name));
+  velodyne.trace_to(trace_buffer(stages::velodyne.name));
+  imu.trace_to(trace_buffer(stages::imu.name));
+  gnss.trace_to(trace_buffer(stages::gnss.name));
+  reference.trace_to(trace_buffer(stages::reference.name));
+  odometry.trace_to(trace_buffer(stages::odometry.name));
+  stereo.trace_to(trace_buffer(stages::stereo.name));
+  fusion.trace_to(trace_buffer(stages::fusion.name));
+  publisher.trace_to(trace_buffer(stages::publisher.name));
+  health_trace = trace_buffer(stages::health.name);
+}
 
 Vehicle::Graph::~Graph() {
   stop.request_stop();
   wait();
 }
 
+runtime::TraceBuffer* Vehicle::Graph::trace_buffer(std::string_view thread) {
+  return tracer != nullptr ? &tracer->thread(std::string(thread)) : nullptr;
+}
+
 template <class T>
 std::unique_ptr<sensors::Source<T>> Vehicle::Graph::prefetched(
     const Stage& stage, std::unique_ptr<sensors::Source<T>> source) {
   if (source == nullptr) return nullptr;
-  return std::make_unique<PrefetchedSource<T>>(std::string(stage.name) + " loader",
-                                               std::move(source), decoded_ahead, stop.get_token());
+  const std::string name = std::string(stage.name) + " loader";
+  return std::make_unique<PrefetchedSource<T>>(name, std::move(source), decoded_ahead,
+                                               stop.get_token(), trace_buffer(name));
 }
 
-runtime::Thread& Vehicle::Graph::start_thread(const Stage& stage, int fifo_priority,
-                                              runtime::Thread::Body body,
+runtime::Thread& Vehicle::Graph::start_thread(std::deque<runtime::Thread>& threads,
+                                              const Stage& stage,
+                                              const runtime::Scheduling& scheduling,
+                                              std::stop_token token, runtime::Thread::Body body,
                                               std::function<void()> at_end) {
-  const runtime::Scheduling scheduling = clock.is_paced() && fifo_priority != 0
-                                             ? runtime::Scheduling::fifo(fifo_priority)
-                                             : runtime::Scheduling{};
-  return producers.emplace_back(std::string(stage.name), scheduling, stop.get_token(),
-                                std::move(body), std::move(at_end));
+  runtime::Thread& thread = threads.emplace_back(
+      std::string(stage.name), clock.is_paced() ? scheduling : runtime::Scheduling{},
+      std::move(token), std::move(body), std::move(at_end));
+  runtime::append(readiness, thread.settings());
+  return thread;
 }
 
 template <class T>
-void Vehicle::Graph::start_driver(const Stage& stage, ReplayDriver<T>& driver) {
+void Vehicle::Graph::start_driver(const Stage& stage, const runtime::Scheduling& scheduling,
+                                  ReplayDriver<T>& driver) {
   const runtime::Thread& thread = start_thread(
-      stage, config.scheduling.sensor_priority,
+      producers, stage, scheduling, stop.get_token(),
       [&](const std::stop_token& token) { driver.run(clock, token); }, [&] { driver.finish(); });
-  monitor.watch(thread, driver.lateness(), false);
+  monitor.watch_driver(stage, thread, driver.lateness(), driver.absent());
 }
 
 void Vehicle::Graph::find_first() {
@@ -239,24 +151,27 @@ void Vehicle::Graph::start_snapshots() {
   fusion.save_at(cuts, snapshots->edges().fusion);
   monitor.watch(snapshots->edges().stereo);
   monitor.watch(snapshots->edges().fusion);
-  monitor.watch(
-      start_thread(
-          stages::snapshot, 0, [this](const std::stop_token&) { snapshots->run(first); }, [] {}),
-      snapshots->meter(), false);
+  monitor.watch_stage(stages::snapshot,
+                      start_thread(
+                          producers, stages::snapshot, config.scheduling.snapshot, {},
+                          [this](const std::stop_token&) { snapshots->run(first); }, [] {}),
+                      snapshots->meter(), {});
 }
 
 // From the images, or as it was recorded.
 void Vehicle::Graph::start_odometry() {
   if (odometry_recorded) {
-    start_driver(stages::odometry, odometry);
+    start_driver(stages::odometry, config.scheduling.odometry, odometry);
     start_thread(
-        stages::stereo, 0, [this](const std::stop_token& token) { stereo.idle(token); }, [] {});
+        producers, stages::stereo, config.scheduling.stereo, stop.get_token(),
+        [this](const std::stop_token& token) { stereo.idle(token); }, [] {});
   } else {
-    monitor.watch(start_thread(
-                      stages::stereo, config.scheduling.stereo_priority,
-                      [this](const std::stop_token& token) { stereo.run(clock, token); },
-                      [this] { stereo.finish(); }),
-                  stereo.meter(), true);
+    monitor.watch_stage(stages::stereo,
+                        start_thread(
+                            producers, stages::stereo, config.scheduling.stereo, stop.get_token(),
+                            [this](const std::stop_token& token) { stereo.run(clock, token); },
+                            [this] { stereo.finish(); }),
+                        stereo.meter(), {&images});
   }
 }
 
@@ -275,54 +190,77 @@ void Vehicle::Graph::start() {
     to_publisher.camera.finish();
     to_publisher.velodyne.finish();
   }
+  for (const MessageSink* sink : publisher.sinks()) monitor.watch(*sink);
   monitor.watch_path(fusion.camera_path());
   monitor.watch_path(fusion.imu_path());
 
-  cpu_at_start = cpu_seconds();
+  cpu_at_start = process_cpu_seconds();
   started = runtime::monotonic_now();
   clock.start(begin, lead);
+  monitor.start(begin, started);
   start_snapshots();
-  start_driver(stages::camera, camera);
-  start_driver(stages::velodyne, velodyne);
-  start_driver(stages::imu, imu);
-  start_driver(stages::gnss, gnss);
-  start_driver(stages::reference, reference);
+  const SchedulingParameters& scheduling = config.scheduling;
+  start_driver(stages::camera, scheduling.camera, camera);
+  start_driver(stages::velodyne, scheduling.velodyne, velodyne);
+  start_driver(stages::imu, scheduling.imu, imu);
+  start_driver(stages::gnss, scheduling.gnss, gnss);
+  start_driver(stages::reference, scheduling.reference, reference);
   start_odometry();
-  monitor.watch(start_thread(
-                    stages::fusion, config.scheduling.fusion_priority,
-                    [this](const std::stop_token& token) { fusion.run(clock, begin, token); },
-                    [this] { fusion.finish(); }),
-                fusion.meter(), true);
+  monitor.watch_stage(stages::fusion,
+                      start_thread(
+                          producers, stages::fusion, scheduling.fusion, stop.get_token(),
+                          [this](const std::stop_token& token) { fusion.run(clock, begin, token); },
+                          [this] { fusion.finish(); }),
+                      fusion.meter(), {&to_fusion.imu, &to_fusion.gnss, &to_fusion.odometry});
   // These two end after everybody else has, so that nothing produced is left unsaid.
-  health_thread = std::make_unique<runtime::Thread>(
-      std::string(stages::health.name), runtime::Scheduling{}, end_health.get_token(),
-      [this](const std::stop_token& end) { run_health(end); },
-      [this] { to_publisher.reports.finish(); });
-  publisher_thread = std::make_unique<runtime::Thread>(
-      std::string(stages::publisher.name), runtime::Scheduling{}, std::stop_token{},
-      [this](const std::stop_token&) { publisher.run(begin); }, [] {});
+  monitor.watch_stage(stages::publisher,
+                      start_thread(
+                          listeners, stages::publisher, scheduling.publisher, {},
+                          [this](const std::stop_token&) { publisher.run(begin); }, [] {}),
+                      publisher.meter(), {});
+  monitor.watch_stage(stages::health,
+                      start_thread(
+                          listeners, stages::health, scheduling.health, end_health.get_token(),
+                          [this](const std::stop_token& end) { run_health(end); },
+                          [this] { to_publisher.reports.finish(); }),
+                      health_meter, {});
+  started_all.count_down();
 }
 
 RuntimeReport Vehicle::Graph::look(Duration elapsed) {
   const Time stamp = fusion.position();
   RuntimeReport report;
   report.stamp = report.available = stamp;
-  report.health = monitor.health(stamp, elapsed, clock);
+  report.health = monitor.health(stamp, elapsed, clock, readiness);
+  report.health.elapsed = to_seconds(runtime::monotonic_now() - started);
+  report.health.cpu = process_cpu_seconds() - cpu_at_start;
+  report.health.refusals = refusals(stereo, fusion.filter_status());
   report.deadlines = monitor.deadlines(stamp);
   return report;
 }
 
 void Vehicle::Graph::run_health(const std::stop_token& end) {
+  started_all.wait();
   Time looked = begin;
   const auto say = [&] {
+    const runtime::TraceSpan span(health_trace, "health");
+    const MonotonicTime began = runtime::monotonic_now();
     const Time now = fusion.position();
     to_publisher.reports.push(look(now - looked), end);
     looked = now;
+    health_meter.ran(runtime::monotonic_now() - began);
   };
   // In virtual time there are no rates to watch: one report at the end.
-  for (Time next = begin + stages::health.period; clock.is_paced() && clock.sleep_until(next, end);
-       next += stages::health.period) {
-    say();
+  if (clock.is_paced()) {
+    const runtime::Schedule schedule{stages::health.period, stages::health.phase,
+                                     stages::health.overrun};
+    runtime::run_periodic(clock, begin, schedule, end, [&](const runtime::Tick& tick) {
+      if (clock.keeps_time(tick.time)) {
+        health_meter.woke(tick, clock, clock.due(tick.time), runtime::monotonic_now());
+      }
+      say();
+      return true;
+    });
   }
   for (;;) {
     const std::uint32_t heard = health_bell.listen();
@@ -336,51 +274,20 @@ void Vehicle::Graph::wait() {
   for (runtime::Thread& thread : producers) thread.join();
   end_health.request_stop();
   health_bell.ring();
-  if (health_thread) health_thread->join();
-  if (publisher_thread) publisher_thread->join();
+  for (runtime::Thread& thread : listeners) thread.join();
   if (wall == Duration::zero()) {
     wall = runtime::monotonic_now() - started;
-    cpu = cpu_seconds() - cpu_at_start;
+    cpu = process_cpu_seconds() - cpu_at_start;
     monitor.restart_rates();
     last_report = look(fusion.position() - begin);
   }
 }
 
-VehicleReport Vehicle::Graph::report() const {
-  VehicleReport r;
-  runtime::Histogram lateness;
-  const auto add = [&](const auto& driver) {
-    r.sensors.push_back({driver.lateness().name(), driver.report(), driver.lateness().summary()});
-    lateness.merge(driver.lateness().histogram());
-  };
-  add(camera);
-  add(velodyne);
-  add(imu);
-  add(gnss);
-  add(reference);
-  if (odometry_recorded) add(odometry);
-  r.lateness = lateness.summarize("all sensors");
-  r.health = last_report.health;
-  r.deadlines = last_report.deadlines;
-  for (const Meter* meter :
-       {&stereo.meter(), &fusion.meter(), &fusion.camera_path(), &fusion.imu_path()}) {
-    r.misses.push_back({meter->name(), meter->misses()});
-  }
-  r.refusals = refusals(stereo, fusion.filter().status());
-  r.stalls = clock.stalls();
-  r.stalled = clock.stalled();
-  r.data_seconds = to_seconds(fusion.position() - begin);
-  r.wall_seconds = to_seconds(wall);
-  r.cpu_seconds = cpu;
-  r.peak_memory = peak_memory();
-  return r;
-}
-
 Vehicle::Vehicle(const VehicleConfig& config, const VehicleCalibration& calibration,
                  Sensors sensors, const runtime::DataClock& clock, std::vector<MessageSink*> sinks,
-                 Observer observer)
+                 Observer observer, runtime::Tracer* tracer)
     : graph_(std::make_unique<Graph>(config, calibration, std::move(sensors), clock,
-                                     std::move(sinks), std::move(observer))) {}
+                                     std::move(sinks), std::move(observer), tracer)) {}
 
 Vehicle::~Vehicle() = default;
 
@@ -398,6 +305,14 @@ void Vehicle::resume(const Snapshot& snapshot) {
   graph_->stereo.resume(snapshot.stereo);
   graph_->fusion.resume(snapshot.fusion);
   graph_->resumed = Snapshot{snapshot.at, snapshot.first, {}, {}};
+}
+
+void Vehicle::prepared(const runtime::RealtimeReport& report) {
+  runtime::append(graph_->readiness, report.settings);
+}
+
+const runtime::RealtimeReport& Vehicle::readiness() const {
+  return graph_->readiness;
 }
 
 void Vehicle::start() {
@@ -447,7 +362,8 @@ Time Vehicle::next_sample() const {
 }
 
 std::uint64_t Vehicle::deadline_misses() const {
-  return graph_->stereo.meter().miss_count() + graph_->fusion.meter().miss_count();
+  return graph_->stereo.meter().latency().miss_count() +
+         graph_->fusion.meter().latency().miss_count();
 }
 
 runtime::DataClock& Vehicle::clock() {

@@ -13,6 +13,8 @@
 #include "msgs/odometry.h"
 #include "msgs/reference.h"
 #include "runtime/core/data_clock.h"
+#include "runtime/core/realtime_setting.h"
+#include "runtime/core/trace.h"
 #include "runtime/vehicle/fault_delay.h"
 #include "runtime/vehicle/message_sink.h"
 #include "runtime/vehicle/publisher.h"
@@ -39,9 +41,11 @@ struct Sensors {
 // data has the same bits either way.
 class Vehicle {
  public:
-  // `sinks` must outlive the vehicle.
+  // `sinks` must outlive the vehicle, and so must `tracer`, to which each thread records what it
+  // does; none: no trace.
   Vehicle(const VehicleConfig& config, const VehicleCalibration& calibration, Sensors sensors,
-          const runtime::DataClock& clock, std::vector<MessageSink*> sinks, Observer observer);
+          const runtime::DataClock& clock, std::vector<MessageSink*> sinks, Observer observer,
+          runtime::Tracer* tracer = nullptr);
   ~Vehicle();  // stops and waits
 
   // Slows stages down, for tests of what happens then; before start().
@@ -57,8 +61,14 @@ class Vehicle {
   // fit.
   void resume(const Snapshot& snapshot);
 
+  // What prepare_process() and the like have said, for readiness() and HEALTH; before start().
+  void prepared(const runtime::RealtimeReport& report);
+
   // Starts every thread. Throws std::runtime_error when no sensor has a single sample.
   void start();
+
+  // What was prepared, and, after start(), what each thread was granted.
+  const runtime::RealtimeReport& readiness() const;
 
   // Asks every thread to end; any thread may call it. What was produced so far is still published.
   void stop();

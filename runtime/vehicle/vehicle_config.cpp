@@ -10,11 +10,13 @@
 namespace maploop::vehicle {
 namespace {
 
-void read(const runtime::ConfigTable& table, const char* key, auto& value) {
+void read_value(const runtime::ConfigTable& table, const char* key, auto& value) {
   if constexpr (std::same_as<std::remove_cvref_t<decltype(value)>, std::int64_t>) {
     int small = static_cast<int>(value);
     table.read(key, small);
     value = small;
+  } else if constexpr (std::same_as<std::remove_cvref_t<decltype(value)>, runtime::Scheduling>) {
+    vehicle::read(table, key, value);
   } else {
     table.read(key, value);
   }
@@ -38,6 +40,9 @@ std::string number(auto value) {
 std::string toml_value(const std::string& text) {
   return quoted(text);
 }
+std::string toml_value(bool value) {
+  return value ? "true" : "false";
+}
 std::string toml_value(std::integral auto value) {
   return number(value);
 }
@@ -55,7 +60,7 @@ VehicleConfig load_vehicle_config(const std::filesystem::path& file) {
   runtime::ConfigTable table = document.root();
   visit(
       config, [&](const char* name) { table = document.root().table(name); },
-      [&](const char* key, auto& value) { read(table, key, value); });
+      [&](const char* key, auto& value) { read_value(table, key, value); });
   document.reject_unknown();
   return config;
 }

@@ -6,22 +6,19 @@
 
 #include "estimators/fusion/fusion_parameters.h"
 #include "estimators/stereo/parameters.h"
-#include "runtime/core/thread.h"
+#include "runtime/core/realtime_memory.h"
+#include "runtime/core/trace.h"
 #include "runtime/vehicle/lcm_bus.h"
+#include "runtime/vehicle/scheduling_config.h"
 #include "sensors/replay/kitti_drive.h"
 
 namespace maploop::vehicle {
 
-struct SchedulingParameters {
-  int sensor_priority =
-      70;  // SCHED_FIFO 1..99, 0: default policy; drivers only sleep and hand over
-  int fusion_priority = 60;  // below the drivers, whose samples it needs
-  int stereo_priority = 40;  // below fusion; bounded work, an eighth of one core at 10 Hz
-};
-
 struct VehicleConfig {
   std::string lcm_url = LcmBus::default_url;
   SchedulingParameters scheduling;
+  runtime::MemoryParameters memory;
+  runtime::TraceParameters trace;
   sensors::KittiDriveParameters replay;
   sensors::GnssAidParameters gnss;
   stereo::StereoParameters stereo;

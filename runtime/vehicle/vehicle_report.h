@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "msgs/diagnostics.h"
-#include "runtime/vehicle/meter.h"
 #include "sensors/source.h"
 
 namespace maploop::vehicle {
@@ -17,26 +16,12 @@ struct SensorReport {
   LatencySummary lateness;  // of release
 };
 
-struct Misses {
-  std::string of;            // the thread or the path
-  std::vector<Miss> misses;  // the first few
-};
-
-// Measurements that an estimator did not use.
-struct RefusalCount {
-  std::string stage;
-  std::string reason;
-  std::uint64_t count = 0;
-};
-
 struct VehicleReport {
   std::vector<SensorReport> sensors;
   LatencySummary lateness;  // of release, all sensors together
   Deadlines deadlines;
-  std::vector<Misses> misses;
   Health health;
-  std::vector<RefusalCount> refusals;  // those that happened
-  std::uint64_t stalls = 0;            // how often the data clock had to wait for the graph
+  std::uint64_t stalls = 0;  // how often the data clock had to wait for the graph
   Duration stalled{};
   double data_seconds = 0.0;  // length of the drive that was replayed
   double wall_seconds = 0.0;

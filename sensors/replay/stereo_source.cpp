@@ -38,8 +38,7 @@ class StereoSource final : public Source<StereoPair> {
       }
       const bool wanted = available_[i] > passed_;
       if (wanted && !(read(left_, i, pair.left) && read(right_, i, pair.right))) continue;
-      pair.stamp = left_.timestamps.stamps[i];
-      pair.right_stamp = right_.timestamps.stamps[i];
+      pair.stamp = stamps_[i];
       pair.available = available_[i];
       pair.sequence = i;
       ++report_.delivered;
@@ -57,15 +56,16 @@ class StereoSource final : public Source<StereoPair> {
     const Timestamps& left = left_.timestamps;
     const Timestamps& right = right_.timestamps;
     const std::size_t frames = std::max(left.size(), right.size());
-    std::vector<Time> stamps(frames);
+    stamps_.resize(frames);
     available_.resize(frames);
     for (std::size_t i = 0; i < frames; ++i) {
       auto found = verdict(left, i);
       if (!found) found = verdict(right, i);
       if (!found) {
-        stamps[i] = left.stamps[i];
-        available_[i] = std::max(left.stamps[i], right.stamps[i]) + readout_;
-        const Duration skew = std::chrono::abs(left.stamps[i] - right.stamps[i]);
+        const auto [earlier, later] = std::minmax(left.stamps[i], right.stamps[i]);
+        stamps_[i] = earlier;
+        available_[i] = later + readout_;
+        const Duration skew = later - earlier;
         if (skew > max_skew) {
           found = Finding{right.file.string(), i + 1,
                           "differs from the left image's stamp by " +
@@ -74,7 +74,7 @@ class StereoSource final : public Source<StereoPair> {
       }
       verdicts_.push_back(std::move(found));
     }
-    refuse_out_of_order(stamps, left.file, verdicts_);
+    refuse_out_of_order(stamps_, left.file, verdicts_);
     refuse_out_of_order(available_, right.file, verdicts_);
   }
 
@@ -96,6 +96,7 @@ class StereoSource final : public Source<StereoPair> {
   StereoCalibration calibration_;
   Duration readout_;
   Time passed_;
+  std::vector<Time> stamps_;
   std::vector<Time> available_;
   Verdicts verdicts_;
   std::vector<Finding> unstamped_;

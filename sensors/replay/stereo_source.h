@@ -17,9 +17,11 @@ struct ImageFolder {
   Timestamps timestamps;
 };
 
-// Pairs left and right by number: stamp = left's, available = the later of the two + readout. A
-// pair whose stamps differ by more than `max_skew` is refused, as is an image of another size than
-// the calibration's.
+// Pairs left and right by number. One trigger exposes both, and the host notes each a little later
+// than that: stamp = the earlier of the two (against the scanner's clock it scatters by 0.3 ms on
+// drive 0013, the left image's alone by 0.9 ms), available = the later + readout. A pair whose
+// stamps differ by more than `max_skew` is refused, as is an image of another size than the
+// calibration's.
 // The pixels of pairs available up to `passed` are not read, for who only passes over them.
 std::unique_ptr<Source<StereoPair>> make_stereo_source(ImageFolder left, ImageFolder right,
                                                        const StereoCalibration& calibration,

@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 
 #include "estimators/stereo/stereo_odometry.h"
-#include "tests/estimators/stereo/drive_reader.h"
+#include "tests/estimators/stereo/drive_pairs.h"
 #include "tests/support/real_data.h"
 
 namespace maploop {
@@ -17,18 +17,18 @@ void process_pair(benchmark::State& state) {
     return;
   }
   cv::setNumThreads(1);
-  const auto pairs = testing::read_stereo_pairs(testing::drive_0013());
+  const auto pairs = testing::read_pairs(sensors::KittiDrive(testing::drive_0013()));
   stereo::StereoParameters parameters;
   parameters.features_per_bucket = static_cast<int>(state.range(0));
-  stereo::StereoOdometry odometry(
-      testing::read_stereo_calibration(testing::drive_0013().parent_path()), parameters);
+  stereo::StereoOdometry odometry(sensors::KittiDrive(testing::drive_0013()).calibration().stereo,
+                                  parameters);
   std::size_t i = 0;
   int inliers = 0;
   for (auto _ : state) {
     if (i == pairs.size()) {  // the drive begins anew: not a pair to be timed
       state.PauseTiming();
       odometry = stereo::StereoOdometry(
-          testing::read_stereo_calibration(testing::drive_0013().parent_path()), parameters);
+          sensors::KittiDrive(testing::drive_0013()).calibration().stereo, parameters);
       odometry.process(pairs[0]);
       i = 1;
       state.ResumeTiming();

@@ -158,8 +158,17 @@ TEST(LcmConversions, Deadlines) {
   s.p50 = Duration(19'123'456);
   s.max = Duration(51'000'001);
   s.guilty = "running";
+  s.histogram = {
+      {{Duration(100), 3}, {Duration(256), 1}}, 0, 2, Duration(101), Duration(1LL << 40)};
+  s.omitted = {{{Duration(0), 7}}, 7, 0, Duration(-5), Duration(-1)};
+  s.worst = {
+      {from_nanoseconds(5), Duration(6), {{"woken late", Duration(4)}, {"running", Duration(2)}}},
+      {from_nanoseconds(7), Duration(5), {}}};
   d.threads = {s};
   d.paths = {s, s};
+  d.wake_up = {s};
+  d.execution = {s, s, s};
+  d.period_jitter = {s};
   const Deadlines r = round_trip(d);
   EXPECT_EQ(r.stamp, d.stamp);
   ASSERT_EQ(r.threads.size(), 1u);
@@ -171,13 +180,39 @@ TEST(LcmConversions, Deadlines) {
   EXPECT_EQ(r.threads[0].p50, s.p50);
   EXPECT_EQ(r.threads[0].max, s.max);
   EXPECT_EQ(r.threads[0].guilty, s.guilty);
+  EXPECT_EQ(r.wake_up.size(), 1u);
+  EXPECT_EQ(r.execution.size(), 3u);
+  ASSERT_EQ(r.period_jitter.size(), 1u);
+  for (const LatencySummary* t : {&r.threads[0], &r.paths[1], &r.period_jitter[0]}) {
+    ASSERT_EQ(t->histogram.buckets.size(), 2u);
+    EXPECT_EQ(t->histogram.buckets[1].lowest, Duration(256));
+    EXPECT_EQ(t->histogram.buckets[0].count, 3u);
+    EXPECT_EQ(t->histogram.above_range, 2u);
+    EXPECT_EQ(t->histogram.min, Duration(101));
+    EXPECT_EQ(t->histogram.max, Duration(1LL << 40));
+    EXPECT_EQ(t->omitted.below_range, 7u);
+    ASSERT_EQ(t->worst.size(), 2u);
+    EXPECT_EQ(t->worst[0].stamp, from_nanoseconds(5));
+    EXPECT_EQ(t->worst[0].latency, Duration(6));
+    ASSERT_EQ(t->worst[0].parts.size(), 2u);
+    EXPECT_EQ(t->worst[0].parts[1].name, "running");
+    EXPECT_EQ(t->worst[0].parts[1].lasted, Duration(2));
+    EXPECT_TRUE(t->worst[1].parts.empty());
+  }
 }
 
 TEST(LcmConversions, Health) {
   Health h;
   h.stamp = Time(std::chrono::microseconds(1'317'042'651'174'740));
-  h.threads = {{"fusion", "fifo 60", 1480, 100.0, ""}, {"camera", "default", 10, 9.7, "no file"}};
+  h.threads = {{"fusion", "fifo 60", 1480, 100.0, "", 0.25, 3, 4},
+               {"camera", "default", 10, 9.7, "no file"}};
+  h.elapsed = 15.5;
+  h.cpu = 3.75;
   h.rings = {{"camera -> stereo", 10, 8, 1, 1, 4}};
+  h.refusals = {{"fusion", "duplicate", 7}};
+  h.outputs = {{"LCM", 200, 3}};
+  h.settings = {{"fusion: scheduling", "fifo 60", "other", Verdict::refused, "no CAP_SYS_NICE",
+                 "run as root"}};
   h.degraded = {"camera has ended"};
   const Health r = round_trip(h);
   EXPECT_EQ(r.stamp, h.stamp);
@@ -185,12 +220,32 @@ TEST(LcmConversions, Health) {
   EXPECT_EQ(r.threads[1].failure, "no file");
   EXPECT_EQ(r.threads[0].scheduling, "fifo 60");
   EXPECT_EQ(r.threads[0].rate, 100.0);
+  EXPECT_EQ(r.threads[0].cpu, 0.25);
+  EXPECT_EQ(r.threads[0].left_out, 3u);
+  EXPECT_EQ(r.threads[0].shed, 4u);
+  EXPECT_EQ(r.elapsed, 15.5);
+  EXPECT_EQ(r.cpu, 3.75);
   ASSERT_EQ(r.rings.size(), 1u);
   EXPECT_EQ(r.rings[0].pushed, 10u);
   EXPECT_EQ(r.rings[0].popped, 8u);
   EXPECT_EQ(r.rings[0].lost, 1u);
   EXPECT_EQ(r.rings[0].held, 1u);
   EXPECT_EQ(r.rings[0].capacity, 4u);
+  ASSERT_EQ(r.refusals.size(), 1u);
+  EXPECT_EQ(r.refusals[0].stage, "fusion");
+  EXPECT_EQ(r.refusals[0].reason, "duplicate");
+  EXPECT_EQ(r.refusals[0].count, 7u);
+  ASSERT_EQ(r.outputs.size(), 1u);
+  EXPECT_EQ(r.outputs[0].name, "LCM");
+  EXPECT_EQ(r.outputs[0].sent, 200u);
+  EXPECT_EQ(r.outputs[0].unsent, 3u);
+  ASSERT_EQ(r.settings.size(), 1u);
+  EXPECT_EQ(r.settings[0].name, h.settings[0].name);
+  EXPECT_EQ(r.settings[0].asked, h.settings[0].asked);
+  EXPECT_EQ(r.settings[0].granted, h.settings[0].granted);
+  EXPECT_EQ(r.settings[0].verdict, h.settings[0].verdict);
+  EXPECT_EQ(r.settings[0].reason, h.settings[0].reason);
+  EXPECT_EQ(r.settings[0].remedy, h.settings[0].remedy);
   EXPECT_EQ(r.degraded, h.degraded);
 }
 
@@ -207,6 +262,11 @@ TEST(LcmConversions, AStatusOfAnotherVersionIsRefused) {
   auto motion = to_lcm(RelativeMotion{});
   motion.status = -1;
   EXPECT_THROW(from_lcm(motion), std::invalid_argument);
+  Health health;
+  health.settings.resize(1);
+  auto message = to_lcm(health);
+  message.settings[0].verdict = 9;
+  EXPECT_THROW(from_lcm(message), std::invalid_argument);
 }
 
 // The constants in the .lcm files are those of the enumerations.
@@ -218,6 +278,8 @@ TEST(LcmConversions, StatusConstantsAgree) {
             +maploop_lcm::relative_motion_t::IMPLAUSIBLE);
   EXPECT_EQ(static_cast<int>(OdometryStatus::bad_input),
             +maploop_lcm::relative_motion_t::BAD_INPUT);
+  EXPECT_EQ(static_cast<int>(Verdict::refused), +maploop_lcm::realtime_setting_t::REFUSED);
+  EXPECT_EQ(static_cast<int>(Verdict::unknown), +maploop_lcm::realtime_setting_t::UNKNOWN);
 }
 
 }  // namespace

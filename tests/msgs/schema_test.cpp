@@ -103,6 +103,8 @@ TEST(Schema, FingerprintsAreThoseOfTheGeneratedCode) {
       {"maploop_lcm.reference_pose_t", maploop_lcm::reference_pose_t::getHash()},
       {"maploop_lcm.relative_motion_t", maploop_lcm::relative_motion_t::getHash()},
       {"maploop_lcm.latency_summary_t", maploop_lcm::latency_summary_t::getHash()},
+      {"maploop_lcm.histogram_t", maploop_lcm::histogram_t::getHash()},
+      {"maploop_lcm.missed_deadline_t", maploop_lcm::missed_deadline_t::getHash()},
       {"maploop_lcm.thread_health_t", maploop_lcm::thread_health_t::getHash()},
       {"maploop_lcm.ring_health_t", maploop_lcm::ring_health_t::getHash()},
       {"maploop_lcm.deadlines_t", maploop_lcm::deadlines_t::getHash()},

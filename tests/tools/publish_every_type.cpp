@@ -40,8 +40,13 @@ Health health(Time stamp) {
       .name = "fusion", .scheduling = "fifo 50", .count = 1480, .rate = 100.0, .failure = ""};
   RingHealth ring{
       .name = "imu -> fusion", .pushed = 144, .popped = 143, .held = 1, .capacity = 256};
-  return {
-      .stamp = stamp, .threads = {fusion}, .rings = {ring}, .degraded = {"no real-time priority"}};
+  return {.stamp = stamp,
+          .threads = {fusion},
+          .rings = {ring},
+          .refusals = {{"fusion", "duplicate", 2}},
+          .outputs = {{"LCM", 1480, 0}},
+          .settings = {{"fusion: scheduling", "fifo 50", "fifo 50", Verdict::granted, "", ""}},
+          .degraded = {"no real-time priority"}};
 }
 
 bool publish_all(lcm::LCM& lcm, int tick) {

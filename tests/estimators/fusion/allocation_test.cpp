@@ -2,40 +2,12 @@
 // Eigen's own (which do not go through operator new) included.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
 #include <utility>
 
 #include "msgs/archive.h"
 #include "tests/estimators/fusion/filter_run.h"
 #include "tests/estimators/fusion/synthetic_drive.h"
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define MAPLOOP_COUNTS_ALLOCATIONS 0
-#else
-#define MAPLOOP_COUNTS_ALLOCATIONS 1
-#endif
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-#if MAPLOOP_COUNTS_ALLOCATIONS
-// glibc's own entry points, which the replacements below forward to.
-extern "C" {
-void* __libc_malloc(std::size_t size);
-void* __libc_memalign(std::size_t alignment, std::size_t size);
-
-void* malloc(std::size_t size) {
-  ++allocations;
-  return __libc_malloc(size);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  ++allocations;
-  return __libc_memalign(alignment, size);
-}
-}
-#endif
+#include "tests/support/counted_allocations.h"
 
 namespace maploop::fusion {
 namespace {
@@ -43,19 +15,19 @@ namespace {
 using namespace maploop::testing;
 
 TEST(Allocation, ThereIsNoneAfterConstruction) {
-  if (!MAPLOOP_COUNTS_ALLOCATIONS) GTEST_SKIP() << "the sanitizer owns malloc";
+  if (!counts_allocations()) GTEST_SKIP() << "the sanitizer owns malloc";
   const SyntheticDrive drive({}, 10.0, test_origin());
   std::vector<Measurement> all =
       as_available(drive.imu(100.0), drive.odometry(10.0), drive.fix(0.0));
   FusionParameters parameters;
   parameters.history_length = 1.0;  // events drop out, too
-  const long before_construction = allocations;
+  const long before_construction = thread_allocations();
   ReducedImuFilter filter(parameters, test_origin());
-  const long before = allocations;
+  const long before = thread_allocations();
   EXPECT_GT(before, before_construction) << "the counter does not count";
   RelativeMotion bad = std::get<RelativeMotion>(
       all.back().index() == 1 ? all.back() : Measurement(drive.odometry(10.0).back()));
-  const long before_use = allocations;
+  const long before_use = thread_allocations();
   for (const Measurement& m : all) {
     add(filter, m);
     filter.state_at(stamp_of(m) + from_seconds(0.01));
@@ -63,7 +35,7 @@ TEST(Allocation, ThereIsNoneAfterConstruction) {
   bad.translation.setConstant(50.0);
   filter.add(bad);
   filter.status();
-  EXPECT_EQ(allocations, before_use);
+  EXPECT_EQ(thread_allocations(), before_use);
   EXPECT_EQ(filter.state_at(SyntheticDrive::at(10.0))->odometry_applied, 100u);
 }
 

@@ -5,7 +5,7 @@
 #include "estimators/stereo/detect.h"
 #include "estimators/stereo/motion_estimator.h"
 #include "estimators/stereo/track.h"
-#include "tests/estimators/stereo/drive_reader.h"
+#include "tests/estimators/stereo/drive_pairs.h"
 #include "tests/estimators/stereo/synthetic_scene.h"
 #include "tests/support/real_data.h"
 
@@ -48,9 +48,8 @@ std::vector<Feature> features_of(const StereoFrame& frame, const StereoParameter
 
 TEST(Consistency, HalvesOfTheFeaturesDifferOverASecondByNoMoreThanTheirCovariancesSay) {
   MAPLOOP_REQUIRE_DRIVE();
-  const StereoCalibration camera =
-      maploop::testing::read_stereo_calibration(drive_0013().parent_path());
-  const auto pairs = maploop::testing::read_stereo_pairs(drive_0013());
+  const StereoCalibration camera = maploop::sensors::KittiDrive(drive_0013()).calibration().stereo;
+  const auto pairs = maploop::testing::read_pairs(maploop::sensors::KittiDrive(drive_0013()));
   StereoParameters parameters;
   parameters.features_per_bucket = 4;
   parameters.sigma_disparity_offset = 0.0;  // the same for both halves

@@ -5,7 +5,7 @@
 
 #include "estimators/stereo/stereo_odometry.h"
 #include "msgs/frames.h"
-#include "tests/estimators/stereo/drive_reader.h"
+#include "tests/estimators/stereo/drive_pairs.h"
 #include "tests/estimators/stereo/kitti_error.h"
 #include "tests/support/real_data.h"
 
@@ -39,14 +39,15 @@ class DriveTest : public ::testing::Test {
   void SetUp() override {
     MAPLOOP_REQUIRE_DRIVE();
     MAPLOOP_REQUIRE_REAL_DATA();
-    camera_ = maploop::testing::read_stereo_calibration(drive_0013().parent_path());
+    camera_ = maploop::sensors::KittiDrive(drive_0013()).calibration().stereo;
   }
 
   StereoCalibration camera_;
 };
 
 TEST_F(DriveTest, FollowsTheReferenceBetterThanLibviso2) {
-  const DriveResult run = drive(camera_, maploop::testing::read_stereo_pairs(drive_0013()));
+  const DriveResult run =
+      drive(camera_, maploop::testing::read_pairs(maploop::sensors::KittiDrive(drive_0013())));
   ASSERT_EQ(run.motions.size(), 144u);
   for (std::size_t i = 1; i < run.motions.size(); ++i) {
     EXPECT_EQ(run.motions[i].status, OdometryStatus::ok) << "pair " << i;
@@ -67,14 +68,15 @@ TEST_F(DriveTest, FollowsTheReferenceBetterThanLibviso2) {
 }
 
 TEST_F(DriveTest, FindsTheDisparitiesTooSmallAsTheLidarDoes) {
-  const DriveResult run = drive(camera_, maploop::testing::read_stereo_pairs(drive_0013()));
+  const DriveResult run =
+      drive(camera_, maploop::testing::read_pairs(maploop::sensors::KittiDrive(drive_0013())));
   // Projected LiDAR depth says 0.30 to 0.48 px.
   EXPECT_GT(run.disparity_offset, 0.15);
   EXPECT_LT(run.disparity_offset, 0.5);
 }
 
 TEST_F(DriveTest, SamePairsGiveTheSameBitsWithAnyNumberOfOpenCvThreads) {
-  const auto pairs = maploop::testing::read_stereo_pairs(drive_0013(), 40);
+  const auto pairs = maploop::testing::read_pairs(maploop::sensors::KittiDrive(drive_0013()), 40);
   cv::setNumThreads(1);
   const DriveResult one = drive(camera_, pairs);
   cv::setNumThreads(4);
@@ -89,7 +91,8 @@ TEST_F(DriveTest, SamePairsGiveTheSameBitsWithAnyNumberOfOpenCvThreads) {
 }
 
 TEST_F(DriveTest, LosingEveryOtherPairCostsLittle) {
-  std::vector<StereoPair> pairs = maploop::testing::read_stereo_pairs(drive_0013());
+  std::vector<StereoPair> pairs =
+      maploop::testing::read_pairs(maploop::sensors::KittiDrive(drive_0013()));
   const Trajectory truth = maploop::testing::read_kitti_poses(
       maploop::testing::real_data() / "kitti/drive_0013_truth/time_corrected.txt");
   std::vector<StereoPair> kept;
@@ -107,7 +110,7 @@ TEST_F(DriveTest, LosingEveryOtherPairCostsLittle) {
 }
 
 TEST_F(DriveTest, SwappedCamerasAndCoveredLensAreRefusedByName) {
-  auto pairs = maploop::testing::read_stereo_pairs(drive_0013(), 8);
+  auto pairs = maploop::testing::read_pairs(maploop::sensors::KittiDrive(drive_0013()), 8);
   std::swap(pairs[3].left, pairs[3].right);
   std::fill(pairs[5].right.pixels.begin(), pairs[5].right.pixels.end(), std::uint8_t{0});
   const DriveResult run = drive(camera_, pairs);

@@ -191,6 +191,23 @@ TEST(Config, ArraysOfTheWrongLengthOrContentLeaveTheValues) {
   EXPECT_EQ(lever, (std::array{7.0, 8.0, 9.0}));
 }
 
+TEST(Config, ArraysOfIntegersHaveAnyLength) {
+  std::vector<int> values{7};
+  const auto read = [&values](const char* text) {
+    ConfigDocument::parse(text, "a.toml").root().read_in("cpus", values, 0, 9);
+  };
+  read("other = 1");
+  EXPECT_EQ(values, std::vector<int>{7});
+  read("cpus = [0, 9, 3]");
+  EXPECT_EQ(values, (std::vector<int>{0, 9, 3}));
+  for (const char* wrong : {"cpus = [1, 10]", "cpus = [-1]", "cpus = [1, 2.5]", "cpus = 1"}) {
+    EXPECT_THROW(read(wrong), ConfigError) << wrong;
+    EXPECT_EQ(values, (std::vector<int>{0, 9, 3})) << wrong;
+  }
+  read("cpus = []");
+  EXPECT_TRUE(values.empty());
+}
+
 TEST(Config, ArraysOfTablesKeepTheirOrder) {
   const auto cameras = table_of("[[camera]]\nid = 3\n[[camera]]\nid = 4.5").tables("camera");
   ASSERT_EQ(cameras.size(), 2u);

@@ -142,6 +142,75 @@ TEST(Histogram, MergedIsAsIfRecordedInOne) {
   }
 }
 
+void expect_same(const HistogramData& a, const HistogramData& b) {
+  EXPECT_EQ(a.below_range, b.below_range);
+  EXPECT_EQ(a.above_range, b.above_range);
+  EXPECT_EQ(a.min, b.min);
+  EXPECT_EQ(a.max, b.max);
+  ASSERT_EQ(a.buckets.size(), b.buckets.size());
+  for (std::size_t i = 0; i < a.buckets.size(); ++i) {
+    EXPECT_EQ(a.buckets[i].lowest, b.buckets[i].lowest);
+    EXPECT_EQ(a.buckets[i].count, b.buckets[i].count);
+  }
+}
+
+TEST(Histogram, TwoExportsMergeAsIfRecordedInOne) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> exponent(0.0, std::log(3e11));
+  Histogram whole, first, second, imported;
+  for (int i = 0; i < 20000; ++i) {
+    const Duration value(static_cast<std::int64_t>(std::exp(exponent(random))) - 5);
+    whole.record(value);
+    (i % 3 == 0 ? first : second).record(value);
+  }
+  imported.merge(first.data());
+  imported.merge(second.data());
+  imported.merge(HistogramData{});
+  EXPECT_GT(whole.below_range(), 0u);
+  EXPECT_GT(whole.above_range(), 0u);
+  EXPECT_EQ(imported.count(), 20000u);
+  expect_same(imported.data(), whole.data());
+}
+
+TEST(Histogram, EveryBucketIsExportedByItsLowestValue) {
+  Histogram histogram;
+  for (std::int64_t value : {0, 255, 256, 257, 258, 511, 512, 515, 516}) {
+    histogram.record(Duration(value));
+  }
+  std::vector<std::int64_t> lowest;
+  for (const auto& bucket : histogram.data().buckets) lowest.push_back(bucket.lowest.count());
+  EXPECT_EQ(lowest, (std::vector<std::int64_t>{0, 255, 256, 258, 510, 512, 516}));
+}
+
+TEST(Histogram, DataThatAreNoHistogramAreRefusedWhole) {
+  Histogram histogram;
+  using Buckets = std::vector<HistogramData::Bucket>;
+  for (const Buckets& buckets :
+       {Buckets{{Duration(257), 1}}, Buckets{{Duration(-1), 1}}, Buckets{{Duration(4), 0}},
+        Buckets{{Duration(4), 1}, {Duration(4), 1}}, Buckets{{Duration(5), 1}, {Duration(4), 1}},
+        Buckets{{Histogram::kHighest + Duration(1), 1}}, Buckets{{Duration(4), ~0ULL}}}) {
+    HistogramData data;
+    data.buckets = buckets;
+    EXPECT_THROW(histogram.merge(data), std::invalid_argument);
+  }
+  HistogramData more_negative_than_there_are;
+  more_negative_than_there_are.below_range = 1;
+  EXPECT_THROW(histogram.merge(more_negative_than_there_are), std::invalid_argument);
+  EXPECT_EQ(histogram.count(), 0u);
+}
+
+TEST(Histogram, AnOmittedWaitIsThatOfWithOmitted) {
+  Histogram recorded, omitted;
+  for (std::int64_t ms : {3, 19, 20, 21, 105}) {
+    recorded.record(std::chrono::milliseconds(ms));
+    omitted.record_omitted(std::chrono::milliseconds(ms), std::chrono::milliseconds(10));
+  }
+  const Histogram corrected = recorded.with_omitted(std::chrono::milliseconds(10));
+  EXPECT_EQ(omitted.count(), corrected.count() - recorded.count());
+  EXPECT_EQ(omitted.count(), 0u + 0u + 1u + 1u + 9u);
+  EXPECT_EQ(omitted.max(), std::chrono::milliseconds(95));
+}
+
 TEST(Histogram, SummaryHoldsItsPercentiles) {
   Histogram histogram;
   for (int i = 1; i <= 1000; ++i) histogram.record(std::chrono::microseconds(i));
@@ -153,6 +222,7 @@ TEST(Histogram, SummaryHoldsItsPercentiles) {
   EXPECT_EQ(summary.p99, histogram.percentile(0.99));
   EXPECT_EQ(summary.p999, histogram.percentile(0.999));
   EXPECT_EQ(summary.max, std::chrono::milliseconds(1));
+  expect_same(summary.histogram, histogram.data());
 }
 
 // A 10 ms task stalls once for 100 ms: nine releases were hidden, which waited 90, 80, ... 10 ms.

@@ -26,7 +26,7 @@ struct TwoEdges {
   Edge<Letter> first{"first", 64, Overflow::keep_all, &bell};
   Edge<Letter> second{"second", 64, Overflow::keep_all, &bell};
   std::string taken;
-  Intake intake{bell};
+  Intake intake;
 
   TwoEdges() {
     intake.add(first, [this](const Letter& l) { taken += l.letter; });
@@ -70,7 +70,8 @@ TEST(Intake, StopEndsTheWaitForAPromiseThatNeverComes) {
   std::stop_source stop;
   const std::stop_callback ring(stop.get_token(), [&] { e.bell.ring(); });
   bool complete = true;
-  std::thread waiter([&] { complete = e.intake.wait(from_nanoseconds(1), stop.get_token()); });
+  std::thread waiter(
+      [&] { complete = e.intake.wait(from_nanoseconds(1), e.bell, stop.get_token()); });
   stop.request_stop();
   waiter.join();
   EXPECT_FALSE(complete);
@@ -92,7 +93,7 @@ TEST(Intake, TicksTakeTheSameWhateverTheProducersTiming) {
     };
     std::thread a([&] { produce(e.first, 3, 'a', run); });
     std::thread b([&] { produce(e.second, 7, 'b', run + 100); });
-    for (std::int64_t tick = 0; e.intake.wait(from_nanoseconds(tick), {}); tick += 10) {
+    for (std::int64_t tick = 0; e.intake.wait(from_nanoseconds(tick), e.bell, {}); tick += 10) {
       if (e.intake.finished()) break;
       e.intake.take_until(from_nanoseconds(tick));
       e.taken += '|';

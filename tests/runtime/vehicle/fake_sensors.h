@@ -56,7 +56,7 @@ inline Sensors fake_sensors(double seconds) {
   Sensors s;
   s.camera = std::make_unique<FakeSource<StereoPair>>(
       static_cast<std::uint64_t>(seconds * 10), [](std::uint64_t i, StereoPair& pair) {
-        pair.stamp = pair.right_stamp = drive_start + i * milliseconds(103);
+        pair.stamp = drive_start + i * milliseconds(103);
         pair.available = pair.stamp + milliseconds(5);
         std::mt19937 random(static_cast<unsigned>(i));
         for (GreyImage* image : {&pair.left, &pair.right}) {

@@ -25,7 +25,7 @@ struct Replayed {
   std::vector<FaultCount> faults;
 
   std::uint64_t refused(const std::string& reason) const {
-    for (const RefusalCount& r : report.refusals) {
+    for (const RefusalCount& r : report.health.refusals) {
       if (r.stage == "fusion" && r.reason == reason) return r.count;
     }
     return 0;

@@ -30,7 +30,7 @@ struct Replayed {
     return all;
   }
   std::uint64_t refused(const std::string& stage, const std::string& reason) const {
-    for (const RefusalCount& r : report.refusals) {
+    for (const RefusalCount& r : report.health.refusals) {
       if (r.stage == stage && r.reason == reason) return r.count;
     }
     return 0;

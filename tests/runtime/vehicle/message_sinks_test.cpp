@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <lcm/lcm-cpp.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -26,7 +27,7 @@ TEST(LogRecorder, WritesWhatLcmReads) {
     LogRecorder recorder(file);
     recorder.send(message({1, 2, 3}));
     recorder.send(message({4, 5}));
-    EXPECT_EQ(recorder.failures(), 0u);
+    EXPECT_EQ(recorder.health().unsent, 0u);
   }
   lcm::LogFile log(file, "r");
   const lcm::LogEvent* first = log.readNextEvent();
@@ -50,12 +51,33 @@ TEST(LogRecorder, NamesTheFileItCannotWrite) {
   }
 }
 
-TEST(LcmBus, WhatItSendsArrives) {
-  // memq:// stays inside this process, but each connection is its own queue: one that both sends
-  // and receives is all that can be seen of it.
+TEST(LcmBus, CountsWhatItSent) {
   LcmBus bus("memq://");
   bus.send(message({1, 2, 3}));
-  EXPECT_EQ(bus.failures(), 0u);
+  EXPECT_EQ(bus.health().name, "LCM");
+  EXPECT_EQ(bus.health().sent, 1u);
+  EXPECT_EQ(bus.health().unsent, 0u);
+  EXPECT_TRUE(bus.settings().empty()) << "no socket, no buffer";
+}
+
+// Nothing leaves this process: the only message is refused.
+TEST(LcmBus, CountsWhatItCouldNotSendAndSaysItsBuffers) {
+  std::optional<LcmBus> bus;
+  try {
+    bus.emplace(LcmBus::default_url);
+  } catch (const std::runtime_error& e) {
+    GTEST_SKIP() << e.what();
+  }
+  const std::string too_long(1000, 'X');  // LCM's channel names have at most 63 characters
+  Message refused = message({1});
+  refused.channel = too_long;
+  bus->send(refused);
+  EXPECT_EQ(bus->health().unsent, 1u);
+  EXPECT_EQ(bus->health().sent, 0u);
+  ASSERT_EQ(bus->settings().size(), 2u);
+  EXPECT_EQ(bus->settings()[0].name, "LCM: send buffer");
+  EXPECT_EQ(bus->settings()[0].asked, "2048 kB");
+  EXPECT_EQ(bus->settings()[1].name, "LCM: receive buffers");
 }
 
 TEST(LcmBus, NamesTheUrlItCannotOpen) {

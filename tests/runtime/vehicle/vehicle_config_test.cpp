@@ -8,6 +8,7 @@
 #include <string>
 
 #include "runtime/core/config.h"
+#include "runtime/vehicle/graph.h"
 #include "tests/support/real_data.h"
 
 namespace maploop::vehicle {
@@ -49,6 +50,19 @@ TEST(VehicleConfig, WhatIsWrittenIsReadBack) {
   config.fusion.gyro_noise = 1.0 / 3.0;
   config.stereo.bucket_size = 64;
   config.gnss.seed = 77;
+  config.memory.lock_memory = false;
+  config.scheduling.camera = runtime::Scheduling{};
+  config.scheduling.stereo.policy = runtime::SchedulingPolicy::rr;
+  config.scheduling.stereo.cpus = {0, 2};
+  config.scheduling.fusion = {};
+  config.scheduling.fusion.policy = runtime::SchedulingPolicy::deadline;
+  config.scheduling.fusion.runtime = std::chrono::microseconds(1500);
+  config.scheduling.fusion.deadline = milliseconds(2);
+  config.scheduling.fusion.period = milliseconds(10);
+  config.scheduling.health = {};
+  config.scheduling.health.policy = runtime::SchedulingPolicy::other;
+  config.scheduling.health.nice = -3;
+  config.scheduling.health.timer_slack = std::chrono::microseconds(50);
   EXPECT_EQ(to_toml(load_text(to_toml(config))), to_toml(config));
   EXPECT_NE(to_toml(config), to_toml(VehicleConfig{}));
 }
@@ -58,6 +72,41 @@ TEST(VehicleConfig, KeysThatAreAbsentKeepTheirDefaults) {
   VehicleConfig expected;
   expected.stereo.bucket_size = 40;
   EXPECT_EQ(to_toml(config), to_toml(expected));
+}
+
+TEST(VehicleConfig, AThreadsTableChangesOnlyWhatItNames) {
+  const VehicleConfig config = load_text("[scheduling.fusion]\npriority = 55\ncpus = [1]\n");
+  VehicleConfig expected;
+  expected.scheduling.fusion.priority = 55;
+  expected.scheduling.fusion.cpus = {1};
+  EXPECT_EQ(to_toml(config), to_toml(expected));
+  EXPECT_EQ(load_text("[scheduling]\nfusion = { policy = \"other\" }\n").scheduling.fusion.priority,
+            0)
+      << "the default's priority is not left over";
+}
+
+TEST(VehicleConfig, WhatDoesNotGoWithThePolicyIsAnError) {
+  for (const auto& [text, said] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"policy = \"other\"\npriority = 5",
+            "fusion.priority: goes with policy \"fifo\" and \"rr\""},
+           {"nice = 5", "fusion.nice: goes with policy \"other\", not with \"fifo\""},
+           {"priority = 0", "fusion.priority: is 0; allowed is 1 to 99"},
+           {"period_ms = 5", "fusion.period_ms: goes with policy \"deadline\""},
+           {"policy = \"deadline\"\nruntime_ms = 3\ndeadline_ms = 2\nperiod_ms = 10",
+            "runtime_ms <= deadline_ms <= period_ms"},
+           {"policy = \"deadline\"\nruntime_ms = 1\ndeadline_ms = 2\nperiod_ms = 10\ncpus = [0]",
+            "fusion.cpus: must be empty"},
+           {"policy = \"fife\"", "did you mean \"fifo\""},
+           {"prioritty = 5", "did you mean"}}) {
+    try {
+      load_text("[scheduling.fusion]\n" + std::string(text) + '\n');
+      ADD_FAILURE() << text;
+    } catch (const runtime::ConfigError& e) {
+      EXPECT_NE(std::string(e.what()).find(said), std::string::npos) << e.what();
+    }
+  }
+  EXPECT_THROW(load_text("[scheduling.health]\npolicy = \"rr\"\n"), runtime::ConfigError)
+      << "no priority to fall back on";
 }
 
 TEST(VehicleConfig, AnUnknownTableIsAnError) {

@@ -9,6 +9,7 @@
 
 #include "runtime/vehicle/channel_hashes.h"
 #include "tests/runtime/vehicle/fake_sensors.h"
+#include "tests/support/real_data.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -64,6 +65,21 @@ TEST(Vehicle, RealTimeAtAnySpeedGivesTheBitsOfLockstep) {
     expect_rings_balance(paced.report);
     EXPECT_EQ(paced.channels.at("HEALTH").hash, "") << "what speaks of the run is not hashed";
   }
+}
+
+TEST(Vehicle, ATraceWrittenMeanwhileChangesNoBit) {
+  const maploop::testing::TemporaryFolder folder;
+  const Replayed untraced = replay(DataClock::virtual_time(), fake_sensors(3.0));
+  runtime::Tracer tracer({});
+  ChannelHashes hashes;
+  Vehicle vehicle({}, fake_calibration(), fake_sensors(3.0), DataClock::paced(10.0), {&hashes}, {},
+                  &tracer);
+  vehicle.start();
+  while (vehicle.running()) tracer.write(folder.path() / "trace.json");
+  vehicle.wait();
+  expect_same_data(untraced, {vehicle.report(), hashes.summary()});
+  EXPECT_GT(tracer.recorded(), 1500u);
+  EXPECT_EQ(tracer.dropped(), 0u);
 }
 
 TEST(Vehicle, NavStatesComeAtOneHundredHertz) {
@@ -135,14 +151,44 @@ TEST(Vehicle, ADriveWithoutASingleSampleIsAnError) {
   EXPECT_THROW(vehicle.start(), std::runtime_error);
 }
 
+TEST(Vehicle, EveryThreadSaysHowItKeptItsTime) {
+  const Replayed r = replay(DataClock::paced(1.0), fake_sensors(2.5));
+  const auto names = [](const std::vector<LatencySummary>& summaries) {
+    std::string all;
+    for (const LatencySummary& s : summaries) all += s.name + ' ';
+    return all;
+  };
+  EXPECT_EQ(names(r.report.deadlines.threads), "stereo fusion ");
+  EXPECT_EQ(names(r.report.deadlines.wake_up),
+            "camera velodyne imu gnss reference stereo fusion health ");
+  EXPECT_EQ(names(r.report.deadlines.execution), "stereo fusion publisher health ");
+  EXPECT_EQ(names(r.report.deadlines.period_jitter), "fusion health ");
+  double cpu = 0.0;
+  for (const ThreadHealth& thread : r.report.health.threads) {
+    EXPECT_GT(thread.cpu, 0.0) << thread.name;
+    EXPECT_EQ(thread.left_out, thread.name == "health" ? thread.left_out : 0u) << thread.name;
+    cpu += thread.cpu;
+  }
+  EXPECT_EQ(r.report.health.threads.size(), 9u);
+  EXPECT_LE(cpu, r.report.health.cpu);
+  EXPECT_GE(r.report.health.elapsed, 2.4);
+}
+
 TEST(Vehicle, MissedDeadlinesComeWithWhereTheTimeWent) {
   // Far too fast for the images: stereo must miss, and the data clock must wait for it.
   const Replayed r = replay(DataClock::paced(2000.0), fake_sensors(5.0));
   EXPECT_GT(r.report.stalls, 0u);
-  for (const Misses& misses : r.report.misses) {
-    for (const Miss& miss : misses.misses) {
-      EXPECT_GE(miss.latency, std::chrono::milliseconds(2)) << misses.of;
-      EXPECT_STRNE(miss.guilty(), "") << misses.of;
+  for (const auto* summaries : {&r.report.deadlines.threads, &r.report.deadlines.paths}) {
+    for (const LatencySummary& s : *summaries) {
+      EXPECT_EQ(s.worst.size(), std::min<std::uint64_t>(s.misses, 10)) << s.name;
+      EXPECT_EQ(s.guilty.empty(), s.misses == 0) << s.name;
+      Duration longest = s.max;
+      for (const MissedDeadline& miss : s.worst) {
+        EXPECT_GT(miss.latency, s.deadline) << s.name;
+        EXPECT_LE(miss.latency, longest) << s.name << ": the longest first";
+        longest = miss.latency;
+        EXPECT_FALSE(miss.parts.empty()) << s.name;
+      }
     }
   }
 }

@@ -78,7 +78,7 @@ void record(const std::filesystem::path& file, const std::vector<TestEvent>& eve
   for (const TestEvent& event : events) {
     recorder.send({event.channel, from_nanoseconds(event.time_us * 1000), event.data, true});
   }
-  EXPECT_EQ(recorder.failures(), 0U);
+  EXPECT_EQ(recorder.health().unsent, 0U);
 }
 
 std::vector<TestEvent> read_with_lcm(const std::filesystem::path& file) {

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <maploop_lcm/header_t.hpp>
+#include <vector>
 
 #include "msgs/sample.h"
 
@@ -51,6 +53,12 @@ void read(const double (&in)[n][n], Eigen::Matrix<double, n, n>& m) {
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) m(i, j) = in[i][j];
   }
+}
+
+template <class In, class Out>
+void convert_each(const std::vector<In>& in, std::vector<Out>& out, Out (*convert)(const In&)) {
+  out.resize(in.size());
+  std::transform(in.begin(), in.end(), out.begin(), convert);
 }
 
 }  // namespace maploop

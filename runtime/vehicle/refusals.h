@@ -1,0 +1,15 @@
+// What the estimators did not use, by their own reasons.
+#pragma once
+
+#include <vector>
+
+#include "estimators/fusion/reduced_imu_filter.h"
+#include "msgs/diagnostics.h"
+#include "runtime/vehicle/stereo_stage.h"
+
+namespace maploop::vehicle {
+
+// Those that happened, in the order of the reasons.
+std::vector<RefusalCount> refusals(const StereoStage& stereo, const fusion::FilterStatus& filter);
+
+}  // namespace maploop::vehicle

@@ -1,0 +1,51 @@
+// How the kernel is to schedule each thread of the graph, and its form in the configuration:
+//
+//   [scheduling.fusion]
+//   policy = "fifo"           # inherited, other, fifo, rr or deadline
+//   priority = 60             # of fifo and rr: 1 to 99, higher goes first
+//   nice = 0                  # of other: -20 to 19, lower gets a larger share
+//   timer_slack_us = 50       # of other: how late it may be woken
+//   runtime_ms = 1            # of deadline: CPU time within deadline_ms of each period_ms
+//   deadline_ms = 2
+//   period_ms = 10
+//   cpus = [0, 1]             # where it may run; empty: anywhere. Not of deadline.
+//   prefaulted_stack_kb = 256 # of its stack, mapped before it starts its work
+#pragma once
+
+#include <string>
+
+#include "runtime/core/config.h"
+#include "runtime/core/realtime_scheduling.h"
+
+namespace maploop::vehicle {
+
+// fifo with a stack that covers what the stages call.
+inline runtime::Scheduling realtime(int priority) {
+  runtime::Scheduling scheduling = runtime::Scheduling::fifo(priority);
+  scheduling.prefaulted_stack_kb = 256;
+  return scheduling;
+}
+
+// Applied where the clock is paced; on virtual time there is nothing to be punctual for.
+struct SchedulingParameters {
+  runtime::Scheduling camera = realtime(70);  // drivers only sleep and hand over
+  runtime::Scheduling velodyne = realtime(70);
+  runtime::Scheduling imu = realtime(70);
+  runtime::Scheduling gnss = realtime(70);
+  runtime::Scheduling reference = realtime(70);
+  runtime::Scheduling odometry = realtime(70);
+  runtime::Scheduling stereo = realtime(40);  // below fusion; an eighth of one core at 10 Hz
+  runtime::Scheduling fusion = realtime(60);  // below the drivers, whose samples it needs
+  runtime::Scheduling publisher;
+  runtime::Scheduling health;
+  runtime::Scheduling snapshot;
+};
+
+// Reads the table `key`; what it lacks stays as it is, but for what belongs to another policy.
+// Throws runtime::ConfigError, also for a key that does not go with the policy.
+void read(const runtime::ConfigTable& parent, const char* key, runtime::Scheduling& scheduling);
+
+// As an inline table, with the keys that go with the policy.
+std::string toml_value(const runtime::Scheduling& scheduling);
+
+}  // namespace maploop::vehicle

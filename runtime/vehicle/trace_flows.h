@@ -1,0 +1,27 @@
+// Which samples leave a flow in a trace: from their release to the publication of the state that
+// holds them, or that they were refused for. The same number wherever the sample passes.
+#pragma once
+
+#include "msgs/gnss.h"
+#include "msgs/image.h"
+#include "msgs/imu.h"
+#include "msgs/odometry.h"
+#include "runtime/core/trace_event.h"
+
+namespace maploop::vehicle {
+
+inline runtime::TraceFlow flow_of(const StereoPair& pair) {
+  return {"camera", pair.sequence};
+}
+// A motion has the number of its image pair.
+inline runtime::TraceFlow flow_of(const RelativeMotion& motion) {
+  return {"camera", motion.sequence};
+}
+inline runtime::TraceFlow flow_of(const ImuSample& sample) {
+  return {"imu", sample.sequence};
+}
+inline runtime::TraceFlow flow_of(const GnssFix& fix) {
+  return {"gnss", fix.sequence};
+}
+
+}  // namespace maploop::vehicle

@@ -1,0 +1,102 @@
+// What the vehicle owns: its edges, stages and threads. For vehicle.cpp and vehicle_report.cpp
+// alone.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <latch>
+#include <memory>
+#include <optional>
+#include <set>
+#include <stop_token>
+#include <vector>
+
+#include "runtime/core/thread.h"
+#include "runtime/vehicle/fusion_stage.h"
+#include "runtime/vehicle/graph.h"
+#include "runtime/vehicle/health_monitor.h"
+#include "runtime/vehicle/replay_driver.h"
+#include "runtime/vehicle/snapshot_stage.h"
+#include "runtime/vehicle/stereo_stage.h"
+#include "runtime/vehicle/vehicle.h"
+
+namespace maploop::vehicle {
+
+struct SnapshotWish {
+  std::set<Time> moments;
+  SnapshotHandler handler;
+};
+
+struct Vehicle::Graph {
+  Graph(const VehicleConfig& config, const VehicleCalibration& calibration, Sensors sensors,
+        const runtime::DataClock& data_clock, std::vector<MessageSink*> sinks, Observer observer,
+        runtime::Tracer* tracer);
+  ~Graph();
+
+  void find_first();
+  void start();
+  void start_snapshots();
+  void start_odometry();
+  void run_health(const std::stop_token& end);
+  RuntimeReport look(Duration elapsed);
+  void wait();
+  VehicleReport report() const;
+
+  runtime::TraceBuffer* trace_buffer(std::string_view thread);
+  template <class T>
+  std::unique_ptr<sensors::Source<T>> prefetched(const Stage& stage,
+                                                 std::unique_ptr<sensors::Source<T>> source);
+  template <class T>
+  void start_driver(const Stage& stage, const runtime::Scheduling& scheduling,
+                    ReplayDriver<T>& driver);
+  // Makes it an element of `threads`; its settings become part of the readiness.
+  runtime::Thread& start_thread(std::deque<runtime::Thread>& threads, const Stage& stage,
+                                const runtime::Scheduling& scheduling, std::stop_token token,
+                                runtime::Thread::Body body, std::function<void()> at_end);
+
+  VehicleConfig config;
+  std::stop_source stop;
+  runtime::DataClock clock;
+  runtime::Tracer* tracer;  // nullptr: tracing is off
+  runtime::TraceBuffer* health_trace = nullptr;
+  Time first = Time::max();         // of the recording
+  Time begin = Time::max();         // of this run
+  std::optional<Snapshot> resumed;  // its parts are with the stages
+  std::vector<SnapshotWish> wishes;
+  std::unique_ptr<SnapshotStage> snapshots;
+
+  // Edges, by the thread that they end at.
+  runtime::Doorbell stereo_bell;
+  runtime::Edge<StereoPair> images;
+  FusionEdges to_fusion;
+  PublisherEdges to_publisher;
+
+  bool raw;                // images and scans go to the publisher too
+  bool odometry_recorded;  // instead of images
+  ReplayDriver<StereoPair> camera;
+  ReplayDriver<LidarScan> velodyne;
+  ReplayDriver<ImuSample> imu;
+  ReplayDriver<GnssFix> gnss;
+  ReplayDriver<ReferencePose> reference;
+  ReplayDriver<RelativeMotion> odometry;
+  StereoStage stereo;
+  FusionStage fusion;
+  Publisher publisher;
+  HealthMonitor monitor;
+  ThreadMeter health_meter{stages::health};
+  runtime::RealtimeReport readiness;  // complete, and constant, from started_all on
+
+  std::stop_callback<std::function<void()>> wake_all;
+  std::deque<runtime::Thread> producers;
+  std::stop_source end_health;
+  runtime::Doorbell health_bell;
+  std::deque<runtime::Thread> listeners;  // they end after the producers
+  std::latch started_all{1};
+  MonotonicTime started{};
+  Duration wall{};
+  double cpu_at_start = 0.0;
+  double cpu = 0.0;
+  RuntimeReport last_report;  // of the whole run
+};
+
+}  // namespace maploop::vehicle

@@ -1,0 +1,57 @@
+// A bus that keeps what is sent in memory, and refuses on demand.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "runtime/vehicle/message_sink.h"
+
+namespace maploop::vehicle::testing {
+
+class MemoryBus final : public MessageSink {
+ public:
+  struct Kept {
+    std::string channel;
+    Time time;
+    std::vector<std::uint8_t> data;
+  };
+
+  // `refused_from`: this many messages are taken, none after them; 0: all are.
+  explicit MemoryBus(std::uint64_t refused_from = 0) : refused_from_(refused_from) {}
+
+  std::string_view name() const override { return "memory"; }
+
+  // After the vehicle's end.
+  const std::vector<Kept>& messages() const { return messages_; }
+
+  // Every message of one channel, decoded. Throws std::runtime_error where one is not of that type.
+  template <class Lcm>
+  std::vector<Lcm> decoded(std::string_view channel) const {
+    std::vector<Lcm> all;
+    for (const Kept& kept : messages_) {
+      if (kept.channel != channel) continue;
+      const int size = static_cast<int>(kept.data.size());
+      if (all.emplace_back().decode(kept.data.data(), 0, size) != size) {
+        throw std::runtime_error("a message of " + kept.channel + " does not decode");
+      }
+    }
+    return all;
+  }
+
+ private:
+  bool take(const Message& message) override {
+    if (refused_from_ != 0 && messages_.size() == refused_from_) return false;
+    messages_.push_back(
+        {std::string(message.channel), message.time, {message.data.begin(), message.data.end()}});
+    return true;
+  }
+
+  std::uint64_t refused_from_;
+  std::vector<Kept> messages_;
+};
+
+}  // namespace maploop::vehicle::testing

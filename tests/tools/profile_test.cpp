@@ -1,0 +1,204 @@
+// `maploop profile`, on messages made by hand and on a replay of the recorded drive.
+#include "tools/profile/profile.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "msgs/lcm/conversions.h"
+#include "runtime/core/histogram.h"
+#include "tests/support/process.h"
+#include "tests/support/real_data.h"
+
+namespace maploop::profile {
+namespace {
+
+using nlohmann::json;
+using std::chrono::milliseconds;
+using testing::ProcessResult;
+
+template <class Message>
+std::vector<std::uint8_t> encoded(const Message& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+// A thread of 100 ticks of 1 ms, and one of 105 ms whose stall hid nine more.
+Deadlines stalled_thread() {
+  runtime::Histogram recorded, omitted;
+  for (int i = 0; i < 100; ++i) recorded.record(milliseconds(1));
+  recorded.record(milliseconds(105));
+  omitted.record_omitted(milliseconds(105), milliseconds(10));
+  Deadlines d;
+  d.threads = {recorded.summarize("fu<s>ion")};
+  d.threads[0].deadline = milliseconds(2);
+  d.threads[0].misses = 1;
+  d.threads[0].omitted = omitted.data();
+  d.threads[0].worst = {{from_nanoseconds(42),
+                         milliseconds(105),
+                         {{"woken late", milliseconds(100)}, {"running", milliseconds(5)}}}};
+  d.threads[0].guilty = "woken late";
+  return d;
+}
+
+Profile profile_of(const Deadlines& deadlines, const Health& health) {
+  ProfileCollector collector;
+  collector.add("DEADLINES", encoded(to_lcm(deadlines)));
+  collector.add("HEALTH", encoded(to_lcm(health)));
+  return collector.profile("test");
+}
+
+TEST(Profile, TheCorrectedPercentilesHoldTheHiddenWaits) {
+  const Profile p = profile_of(stalled_thread(), {});
+  ASSERT_EQ(p.threads.size(), 1u);
+  EXPECT_EQ(p.threads[0].omitted, 9u);
+  EXPECT_LT(p.threads[0].recorded.p99, milliseconds(2)) << "1 of 101";
+  EXPECT_GT(p.threads[0].corrected_p99, milliseconds(90)) << "10 of 110";
+  EXPECT_EQ(p.threads[0].corrected_p999, milliseconds(105));
+}
+
+TEST(Profile, TheLastMessagesCount) {
+  Health early, late;
+  early.cpu = 1.0;
+  late.cpu = 2.0;
+  ProfileCollector collector;
+  collector.add("HEALTH", encoded(to_lcm(early)));
+  collector.add("DEADLINES", encoded(to_lcm(Deadlines{})));
+  collector.add("DEADLINES", encoded(to_lcm(stalled_thread())));
+  collector.add("HEALTH", encoded(to_lcm(late)));
+  collector.add("NAV_STATE", encoded(to_lcm(NavState{})));
+  EXPECT_EQ(collector.profile("test").health.cpu, 2.0);
+  EXPECT_EQ(collector.profile("test").threads.size(), 1u);
+}
+
+TEST(Profile, DamagedAndForeignMessagesAreNamed) {
+  const auto good = encoded(to_lcm(stalled_thread()));
+  const auto refused = [](std::vector<std::uint8_t> deadlines) -> std::string {
+    ProfileCollector collector;
+    collector.add("HEALTH", encoded(to_lcm(Health{})));
+    if (!deadlines.empty()) collector.add("DEADLINES", deadlines);
+    try {
+      collector.profile("the log");
+    } catch (const std::runtime_error& e) {
+      return e.what();
+    }
+    return "taken";
+  };
+  EXPECT_EQ(refused(good), "taken");
+  EXPECT_EQ(refused({}).substr(0, 24), "the log has no DEADLINES");
+  auto other_version = good;
+  other_version[3] ^= 1;
+  EXPECT_NE(refused(other_version).find("another version"), std::string::npos);
+  auto cut = good;
+  cut.resize(cut.size() / 2);
+  EXPECT_NE(refused(cut).find("damaged"), std::string::npos);
+
+  Deadlines no_histogram = stalled_thread();
+  no_histogram.threads[0].histogram.buckets[0].lowest = Duration(257);
+  EXPECT_NE(refused(encoded(to_lcm(no_histogram))).find("bucket of 257 ns"), std::string::npos);
+}
+
+TEST(Profile, NamesCannotBreakThePage) {
+  const std::string html = to_html(profile_of(stalled_thread(), {}), "a & b.lcmlog");
+  EXPECT_EQ(html.find("fu<s>ion"), std::string::npos);
+  EXPECT_NE(html.find("fu&lt;s&gt;ion"), std::string::npos);
+  EXPECT_NE(html.find("a &amp; b.lcmlog"), std::string::npos);
+}
+
+ProcessResult profile_command(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), {MAPLOOP_COMMAND, "profile"});
+  return testing::run(arguments);
+}
+
+std::string text_of(const std::string& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(ProfileCommand, AgreesWithWhatTheReplaySaidAtItsEnd) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const testing::TemporaryFolder folder;
+  const auto file = [&](const char* name) { return (folder.path() / name).string(); };
+  const ProcessResult replay =
+      testing::run({MAPLOOP_COMMAND, "replay", testing::drive_0013().string(), "--no-lcm", "--end",
+                    "5", "--fault", "slow@fusion:2:0.3,by=0.02", "--record", file("run.lcmlog"),
+                    "--json", file("replay.json")});
+  ASSERT_EQ(replay.status, 0) << replay.error;
+  const ProcessResult result = profile_command(
+      {file("run.lcmlog"), "--json", file("profile.json"), "--html", file("profile.html")});
+  ASSERT_EQ(result.status, 0) << result.error;
+
+  const json said = json::parse(text_of(file("replay.json")))["deadlines"];
+  const json profile = json::parse(text_of(file("profile.json")));
+  for (const char* kind : {"threads", "paths"}) {
+    ASSERT_EQ(profile[kind].size(), said[kind].size());
+    for (const auto& [name, s] : said[kind].items()) {
+      const json& p = profile[kind][name];
+      for (const char* figure : {"count", "misses"}) EXPECT_EQ(p[figure], s[figure]) << name;
+      for (const char* figure : {"p50_ms", "p99_ms", "max_ms", "deadline_ms"}) {
+        EXPECT_NEAR(p[figure].get<double>(), s[figure].get<double>(), 1e-3) << name << figure;
+      }
+    }
+  }
+  // The fault: 30 ticks of 20 ms, each due every 10 ms.
+  const json& fusion = profile["threads"]["fusion"];
+  EXPECT_GE(fusion["misses"], 30);
+  EXPECT_GT(fusion["omitted"], 0) << "the stalls of the data clock hid ticks";
+  EXPECT_GE(fusion["corrected_p99_ms"], fusion["p99_ms"]);
+  EXPECT_EQ(profile["worst"].size(), 10u);
+  double sum = 0.0;
+  for (const auto& [name, thread] : profile["cpu"].items()) {
+    EXPECT_GT(thread["cpu_s"], 0.0) << name;
+    sum += thread["cpu_s"].get<double>();
+  }
+  EXPECT_LE(sum, profile["cpu_s"].get<double>() * 1.01);
+  for (const char* said_so : {"fusion", "camera stamp -> state", "woken late", "publisher",
+                              "Wake-up", "Execution", "Period jitter", "Worst misses"}) {
+    EXPECT_NE(result.out.find(said_so), std::string::npos) << said_so;
+  }
+
+  const std::string html = text_of(file("profile.html"));
+  for (const char* outside : {"<script", "http:", "https:", "src=", "@import"}) {
+    EXPECT_EQ(html.find(outside), std::string::npos) << outside;
+  }
+  EXPECT_NE(html.find("prefers-color-scheme: dark"), std::string::npos);
+  const ProcessResult pictures =
+      testing::run({"/usr/bin/python3", "-c",
+                    "import re, sys, xml.etree.ElementTree as tree\n"
+                    "pictures = re.findall('<svg.*?</svg>', open(sys.argv[1]).read(), re.S)\n"
+                    "print(sum('viewBox' in tree.fromstring(p).attrib for p in pictures))\n",
+                    file("profile.html")});
+  EXPECT_EQ(pictures.status, 0) << pictures.error;
+  EXPECT_GE(std::stoi(pictures.out), 12) << "eleven distributions, the misses, and the keys";
+}
+
+TEST(ProfileCommand, SaysWhatIsWrong) {
+  const testing::TemporaryFolder folder;
+  const std::string missing = (folder.path() / "none.lcmlog").string();
+  ProcessResult result = profile_command({missing});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.error.find("none.lcmlog"), std::string::npos) << result.error;
+  EXPECT_NE(profile_command({}).status, 0);
+  EXPECT_NE(profile_command({missing, "--live"}).status, 0);
+  EXPECT_NE(profile_command({missing, "--seconds", "3"}).status, 0);
+  result = profile_command({"--live", "--seconds", "1", "--url", "nonsense://"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.error.find("nonsense://"), std::string::npos) << result.error;
+}
+
+TEST(ProfileCommand, ALogWithoutOurChannelsIsNamed) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const auto log = testing::real_data() / "lcm/vlp16_and_wheels.lcm";
+  const ProcessResult result = profile_command({log.string()});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.error.find("has no DEADLINES"), std::string::npos) << result.error;
+}
+
+}  // namespace
+}  // namespace maploop::profile

@@ -1,0 +1,25 @@
+// A message of one of our own types, from bytes that anybody may have sent.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "msgs/lcm/decoded_message.h"
+#include "msgs/lcm/schema.h"
+
+namespace maploop::tools {
+
+// False where the bytes are no message of this type. The schema looks first: LCM's own code takes
+// the sizes in a message at their word. `schema` knows our types.
+template <class Message>
+bool checked_decode(const schema::Schema& schema, std::span<const std::uint8_t> data,
+                    Message& message) {
+  const schema::Type* type = schema.find(schema::fingerprint_of(data));
+  schema::DecodedMessage checked;
+  return type != nullptr && type->fingerprint == static_cast<std::uint64_t>(Message::getHash()) &&
+         !checked.decode(*type, data) &&
+         message.decode(data.data(), 0, static_cast<int>(data.size())) ==
+             static_cast<int>(data.size());
+}
+
+}  // namespace maploop::tools

@@ -1,0 +1,75 @@
+// maploop doctor: how ready this machine is for real time, without a drive.
+#include <concepts>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "runtime/core/realtime.h"
+#include "runtime/core/thread.h"
+#include "runtime/vehicle/config_fields.h"
+#include "runtime/vehicle/lcm_bus.h"
+#include "tools/commands.h"
+#include "tools/json_output.h"
+
+namespace maploop::tools {
+namespace {
+
+struct DoctorOptions {
+  std::filesystem::path config;
+  std::filesystem::path json;
+};
+
+// Asks the kernel for each thread of the graph as a paced replay would.
+void ask_for_threads(const vehicle::VehicleConfig& config, runtime::RealtimeReport& report) {
+  vehicle::visit(
+      config, [](const char*) {},
+      [&](const char* name, const auto& value) {
+        if constexpr (std::same_as<std::remove_cvref_t<decltype(value)>, runtime::Scheduling>) {
+          const runtime::Thread thread(
+              name, value, {}, [](const std::stop_token&) {}, [] {});
+          runtime::append(report, thread.settings());
+        }
+      });
+}
+
+std::vector<RealtimeSetting> ask_for_bus(const std::string& url) {
+  try {
+    return vehicle::LcmBus(url).settings();
+  } catch (const std::runtime_error& e) {
+    return {{"LCM: bus", url, "none", Verdict::refused, e.what(),
+             "correct lcm_url or the route, or run maploop replay --no-lcm"}};
+  }
+}
+
+int doctor(const DoctorOptions& options) {
+  vehicle::VehicleConfig config;
+  if (!options.config.empty()) config = vehicle::load_vehicle_config(options.config);
+  runtime::RealtimeReport report = runtime::prepare_process(config.memory);
+  ask_for_threads(config, report);
+  runtime::append(report, ask_for_bus(config.lcm_url));
+  std::cout << runtime::to_text(report);
+  if (!options.json.empty()) {
+    write_json_file(options.json, {{"all_granted", report.all_granted()},
+                                   {"settings", to_json(report.settings)}});
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& app, Command& command) {
+  auto options = std::make_shared<DoctorOptions>();
+  CLI::App* sub = app.add_subcommand(
+      "doctor",
+      "Ask this machine for all that a replay in real time asks for, and say what it "
+      "grants, what not, why, and what to do");
+  sub->add_option("--config", options->config, "TOML file of parameters")->check(CLI::ExistingFile);
+  sub->add_option("--json", options->json, "Write the report to this file as JSON");
+  sub->callback([options, &command] { command = [options] { return doctor(*options); }; });
+}
+
+}  // namespace maploop::tools

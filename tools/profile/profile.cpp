@@ -1,0 +1,89 @@
+#include "tools/profile/profile.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "msgs/lcm/conversions.h"
+#include "runtime/core/histogram.h"
+#include "runtime/vehicle/graph.h"
+#include "tools/checked_decode.h"
+
+namespace maploop::profile {
+namespace {
+
+constexpr std::size_t shown_misses = 10;
+
+const schema::Schema& own_schema() {
+  static const schema::Schema schema(schema::own_types());
+  return schema;
+}
+
+Latency corrected(const LatencySummary& s) {
+  runtime::Histogram all, omitted;
+  all.merge(s.histogram);
+  omitted.merge(s.omitted);
+  all.merge(omitted);
+  return {s, all.percentile(0.99), all.percentile(0.999), omitted.count()};
+}
+
+void add_worst(const std::vector<LatencySummary>& summaries, std::vector<WorstMiss>& worst) {
+  for (const LatencySummary& s : summaries) {
+    for (const MissedDeadline& miss : s.worst) {
+      worst.push_back({s.name, s.deadline, miss});
+    }
+  }
+}
+
+}  // namespace
+
+void ProfileCollector::add(std::string_view channel, std::span<const std::uint8_t> data) {
+  const auto take = [&](auto message, auto& to, bool& heard) {
+    if (!tools::checked_decode(own_schema(), data, message)) {
+      ++not_understood_;
+      return;
+    }
+    to = from_lcm(message);
+    heard = true;
+  };
+  if (channel == vehicle::channels::deadlines.name) {
+    take(maploop_lcm::deadlines_t{}, deadlines_, heard_deadlines_);
+  } else if (channel == vehicle::channels::health.name) {
+    take(maploop_lcm::health_t{}, health_, heard_health_);
+  }
+}
+
+Profile ProfileCollector::profile(const std::string& source) const {
+  if (!heard_deadlines_ || !heard_health_) {
+    throw std::runtime_error(
+        source + " has no " + (heard_deadlines_ ? "HEALTH" : "DEADLINES") +
+        (not_understood_ > 0 ? " of this version, but " + std::to_string(not_understood_) +
+                                   " messages of another version or damaged"
+                             : std::string()) +
+        "; a run publishes both once a second, and writes them with '--record LOG'");
+  }
+  Profile p;
+  p.stamp = deadlines_.stamp;
+  p.health = health_;
+  try {
+    for (const LatencySummary& s : deadlines_.threads) p.threads.push_back(corrected(s));
+    for (const LatencySummary& s : deadlines_.paths) p.paths.push_back(corrected(s));
+    for (const auto* summaries :
+         {&deadlines_.wake_up, &deadlines_.execution, &deadlines_.period_jitter}) {
+      for (const LatencySummary& s : *summaries) runtime::Histogram().merge(s.histogram);
+    }
+  } catch (const std::invalid_argument& e) {
+    throw std::runtime_error("the last DEADLINES of " + source + " is damaged: " + e.what());
+  }
+  p.wake_up = deadlines_.wake_up;
+  p.execution = deadlines_.execution;
+  p.period_jitter = deadlines_.period_jitter;
+  add_worst(deadlines_.threads, p.worst);
+  add_worst(deadlines_.paths, p.worst);
+  std::stable_sort(p.worst.begin(), p.worst.end(), [](const WorstMiss& a, const WorstMiss& b) {
+    return a.miss.latency - a.deadline > b.miss.latency - b.deadline;
+  });
+  if (p.worst.size() > shown_misses) p.worst.resize(shown_misses);
+  return p;
+}
+
+}  // namespace maploop::profile

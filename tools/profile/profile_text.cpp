@@ -1,0 +1,148 @@
+#include <nlohmann/json.hpp>
+
+#include "tools/lcm_log/log_text.h"
+#include "tools/profile/profile.h"
+
+namespace maploop::profile {
+namespace {
+
+using lcm_log::append;
+using nlohmann::json;
+
+double to_ms(Duration d) {
+  return to_seconds(d) * 1e3;
+}
+
+void append_figures(std::string& text, const LatencySummary& s) {
+  append(text, "  %-22s %8llu %9.3f %9.3f %9.3f %9.3f %9.3f", s.name.c_str(),
+         static_cast<unsigned long long>(s.count), to_ms(s.p50), to_ms(s.p90), to_ms(s.p99),
+         to_ms(s.p999), to_ms(s.max));
+}
+
+void append_latencies(std::string& text, const char* title, const std::vector<Latency>& all) {
+  append(text, "\n%-24s %8s %9s %9s %9s %9s %9s %9s %7s %10s %10s   %s\n", title, "count", "p50",
+         "p90", "p99", "p99.9", "max", "deadline", "missed", "p99*", "p99.9*", "guilty");
+  for (const Latency& l : all) {
+    append_figures(text, l.recorded);
+    append(text, " %9.0f %7llu", to_ms(l.recorded.deadline),
+           static_cast<unsigned long long>(l.recorded.misses));
+    if (l.omitted > 0) {
+      append(text, " %10.3f %10.3f   ", to_ms(l.corrected_p99), to_ms(l.corrected_p999));
+    } else {
+      append(text, " %10s %10s   ", "-", "-");
+    }
+    text += l.recorded.guilty + '\n';
+  }
+}
+
+void append_summaries(std::string& text, const char* title,
+                      const std::vector<LatencySummary>& all) {
+  append(text, "\n%-24s %8s %9s %9s %9s %9s %9s\n", title, "count", "p50", "p90", "p99", "p99.9",
+         "max");
+  for (const LatencySummary& s : all) {
+    append_figures(text, s);
+    text += '\n';
+  }
+}
+
+void append_threads(std::string& text, const Health& health) {
+  const double all = std::max(health.elapsed, 1e-9);
+  append(text, "\n%-24s %8s %9s\n", "Processor time", "s", "% of one");
+  double known = 0.0;
+  for (const ThreadHealth& t : health.threads) {
+    append(text, "  %-22s %8.3f %9.2f\n", t.name.c_str(), t.cpu, 100.0 * t.cpu / all);
+    known += t.cpu;
+  }
+  const double rest = std::max(0.0, health.cpu - known);
+  append(text, "  %-22s %8.3f %9.2f\n", "loaders and the rest", rest, 100.0 * rest / all);
+  append(text, "  %-22s %8.3f %9.2f\n", "process", health.cpu, 100.0 * health.cpu / all);
+}
+
+json figures(const LatencySummary& s) {
+  json buckets = json::array();
+  for (const auto& bucket : s.histogram.buckets) {
+    buckets.push_back({bucket.lowest.count(), bucket.count});
+  }
+  return {{"count", s.count},           {"p50_ms", to_ms(s.p50)},   {"p90_ms", to_ms(s.p90)},
+          {"p99_ms", to_ms(s.p99)},     {"p999_ms", to_ms(s.p999)}, {"max_ms", to_ms(s.max)},
+          {"buckets_ns_count", buckets}};
+}
+
+json figures(const std::vector<Latency>& all) {
+  json j = json::object();
+  for (const Latency& l : all) {
+    json one = figures(l.recorded);
+    one["deadline_ms"] = to_ms(l.recorded.deadline);
+    one["misses"] = l.recorded.misses;
+    one["guilty"] = l.recorded.guilty;
+    one["omitted"] = l.omitted;
+    one["corrected_p99_ms"] = to_ms(l.corrected_p99);
+    one["corrected_p999_ms"] = to_ms(l.corrected_p999);
+    j[l.recorded.name] = std::move(one);
+  }
+  return j;
+}
+
+json figures(const std::vector<LatencySummary>& all) {
+  json j = json::object();
+  for (const LatencySummary& s : all) j[s.name] = figures(s);
+  return j;
+}
+
+}  // namespace
+
+std::string to_text(const Profile& p) {
+  std::string text;
+  append(text, "The run up to %s, %.1f s on this machine. Latencies in ms.\n",
+         format_time(p.stamp).c_str(), p.health.elapsed);
+  append_latencies(text, "From release to result", p.threads);
+  append_latencies(text, "From stamp to state", p.paths);
+  text += "  * with the waits that stalls of the data clock hid\n";
+  append_summaries(text, "Wake-up", p.wake_up);
+  append_summaries(text, "Execution", p.execution);
+  append_summaries(text, "Period jitter", p.period_jitter);
+  append_threads(text, p.health);
+  if (p.worst.empty()) return text + "\nNo deadline was missed.\n";
+  text += "\nWorst misses\n";
+  for (const WorstMiss& w : p.worst) {
+    append(text, "  %s  %-22s %9.3f of %.0f ms, guilty: %s (", format_time(w.miss.stamp).c_str(),
+           w.of.c_str(), to_ms(w.miss.latency), to_ms(w.deadline), w.miss.guilty().c_str());
+    const char* separator = "";
+    for (const MissedDeadline::Part& part : w.miss.parts) {
+      append(text, "%s%s %.3f", separator, part.name.c_str(), to_ms(part.lasted));
+      separator = ", ";
+    }
+    text += ")\n";
+  }
+  return text;
+}
+
+std::string to_json(const Profile& p) {
+  json j;
+  j["stamp_ns"] = to_nanoseconds(p.stamp);
+  j["elapsed_s"] = p.health.elapsed;
+  j["cpu_s"] = p.health.cpu;
+  j["threads"] = figures(p.threads);
+  j["paths"] = figures(p.paths);
+  j["wake_up"] = figures(p.wake_up);
+  j["execution"] = figures(p.execution);
+  j["period_jitter"] = figures(p.period_jitter);
+  j["cpu"] = json::object();
+  for (const ThreadHealth& t : p.health.threads) {
+    j["cpu"][t.name] = {{"cpu_s", t.cpu}, {"left_out", t.left_out}, {"shed", t.shed}};
+  }
+  j["worst"] = json::array();
+  for (const WorstMiss& w : p.worst) {
+    json parts = json::object();
+    for (const MissedDeadline::Part& part : w.miss.parts) parts[part.name] = to_ms(part.lasted);
+    j["worst"].push_back({{"of", w.of},
+                          {"stamp_ns", to_nanoseconds(w.miss.stamp)},
+                          {"latency_ms", to_ms(w.miss.latency)},
+                          {"deadline_ms", to_ms(w.deadline)},
+                          {"guilty", w.miss.guilty()},
+                          {"parts_ms", std::move(parts)}});
+  }
+  return j.dump(2) + '\n';
+}
+
+}  // namespace maploop::profile

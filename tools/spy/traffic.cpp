@@ -1,0 +1,148 @@
+#include "tools/spy/traffic.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/lcm_log/log_text.h"
+
+namespace maploop::spy {
+namespace {
+
+constexpr std::size_t maximum_channels = 1000;
+constexpr std::size_t maximum_arrivals = 4096;
+
+// Between the first and the last arrival.
+std::optional<double> rate(const std::deque<Duration>& arrivals) {
+  if (arrivals.size() < 2 || arrivals.back() == arrivals.front()) return {};
+  return static_cast<double>(arrivals.size() - 1) / to_seconds(arrivals.back() - arrivals.front());
+}
+
+std::optional<double> jitter(const std::deque<Duration>& arrivals) {
+  if (arrivals.size() < 3) return {};
+  const auto intervals = static_cast<double>(arrivals.size() - 1);
+  const double mean = to_seconds(arrivals.back() - arrivals.front()) / intervals;
+  double squares = 0.0;
+  for (std::size_t i = 1; i < arrivals.size(); ++i) {
+    squares += std::pow(to_seconds(arrivals[i] - arrivals[i - 1]) - mean, 2);
+  }
+  return std::sqrt(squares / (intervals - 1.0));
+}
+
+std::optional<std::int64_t> integer(const schema::DecodedMessage& message, std::size_t node) {
+  if (message.nodes()[node].count != 1) return {};
+  const schema::Value value = message.value(node);
+  const auto* number = std::get_if<std::int64_t>(&value);
+  return number != nullptr ? std::optional(*number) : std::nullopt;
+}
+
+// Of the message itself or of its `header`: what our types and LCM's custom call time and number.
+struct Header {
+  std::optional<std::int64_t> stamp_ns, utime, sequence;
+};
+
+void read(const schema::DecodedMessage& message, std::size_t parent, Header& header) {
+  for (std::size_t n = parent + 1; n < message.nodes()[parent].end; n = message.nodes()[n].end) {
+    const std::string& name = message.nodes()[n].member->name;
+    if (name == "header" && parent == 0 && message.nodes()[n].count == 0) {
+      read(message, n, header);
+    } else if (name == "stamp_ns") {
+      header.stamp_ns = integer(message, n);
+    } else if (name == "utime" || name == "timestamp") {
+      header.utime = integer(message, n);
+    } else if (name == "sequence") {
+      header.sequence = integer(message, n);
+    }
+  }
+}
+
+std::optional<Time> stamp_of(const Header& header) {
+  if (header.stamp_ns) return from_nanoseconds(*header.stamp_ns);
+  constexpr std::int64_t most = std::int64_t{1} << 53;  // the year 2255; in ns it still fits
+  if (!header.utime || *header.utime < 0 || *header.utime > most) return {};
+  return Time(std::chrono::microseconds(*header.utime));
+}
+
+}  // namespace
+
+Traffic::Channel* Traffic::find(std::string_view name) {
+  if (const auto found = channels_.find(name); found != channels_.end()) return &found->second;
+  if (channels_.size() == maximum_channels) return nullptr;
+  return &channels_[std::string(name)];
+}
+
+void Traffic::add(std::string_view name, std::span<const std::uint8_t> data, Duration arrived) {
+  ++count_;
+  Channel* channel = find(name);
+  if (channel == nullptr) {
+    ++elsewhere_;
+    return;
+  }
+  ++channel->count;
+  channel->last.assign(data.begin(), data.end());
+  std::deque<Duration>& arrivals = channel->arrivals;
+  arrivals.push_back(arrived);
+  while (arrivals.size() > maximum_arrivals || arrivals.front() < arrived - window_) {
+    arrivals.pop_front();
+  }
+  read_header(*channel);
+}
+
+void Traffic::read_header(Channel& channel) {
+  const std::uint64_t fingerprint = schema::fingerprint_of(channel.last);
+  const schema::Type* type = schema_.find(fingerprint);
+  channel.stamp.reset();
+  channel.type.clear();
+  if (type == nullptr) {
+    lcm_log::append(channel.type, "0x%016llx", static_cast<unsigned long long>(fingerprint));
+  } else {
+    channel.type = type->name;
+  }
+  if (type == nullptr || decoded_.decode(*type, channel.last)) {
+    ++channel.bad;
+    return;
+  }
+  Header header;
+  read(decoded_, 0, header);
+  channel.stamp = stamp_of(header);
+  const bool again = header.sequence && channel.sequence && *header.sequence <= *channel.sequence;
+  if (channel.stamp && (again || !newest_ || *channel.stamp > *newest_)) newest_ = channel.stamp;
+  if (header.sequence && channel.sequence && !again) {
+    channel.lost += static_cast<std::uint64_t>(*header.sequence) -
+                    static_cast<std::uint64_t>(*channel.sequence) - 1;
+  }
+  if (header.sequence) channel.sequence = header.sequence;
+}
+
+std::vector<ChannelStatus> Traffic::status(Duration now, lcm_log::ChannelFilter& filter) const {
+  std::vector<ChannelStatus> all;
+  for (const auto& [name, channel] : channels_) {
+    if (!filter.takes(name)) continue;
+    ChannelStatus s;
+    s.name = name;
+    s.type = channel.type;
+    s.count = channel.count;
+    s.silent_s = std::max(0.0, to_seconds(now - channel.arrivals.back()));
+    if (now - channel.arrivals.back() > window_) {
+      s.rate_hz = 0.0;
+    } else {
+      s.rate_hz = rate(channel.arrivals);
+      s.jitter_s = jitter(channel.arrivals);
+    }
+    if (channel.stamp && newest_) {
+      s.age_s = std::max(0.0, to_seconds(*newest_ - *channel.stamp));
+    }
+    s.bytes = channel.last.size();
+    if (channel.sequence) s.lost = channel.lost;
+    s.bad = channel.bad;
+    all.push_back(std::move(s));
+  }
+  return all;
+}
+
+std::span<const std::uint8_t> Traffic::last(std::string_view channel) const {
+  const auto found = channels_.find(channel);
+  return found != channels_.end() ? std::span<const std::uint8_t>(found->second.last)
+                                  : std::span<const std::uint8_t>();
+}
+
+}  // namespace maploop::spy

@@ -1,0 +1,73 @@
+#include <algorithm>
+
+#include "msgs/lcm/conversions.h"
+#include "runtime/vehicle/graph.h"
+#include "tools/checked_decode.h"
+#include "tools/lcm_log/log_text.h"
+#include "tools/spy/text.h"
+
+namespace maploop::spy {
+namespace {
+
+using lcm_log::append;
+
+std::string rings(const Health& health) {
+  std::uint64_t lost = 0;
+  const RingHealth* fullest = nullptr;
+  const auto fill = [](const RingHealth& ring) {
+    return static_cast<double>(ring.held) /
+           static_cast<double>(std::max<std::uint64_t>(ring.capacity, 1));
+  };
+  for (const RingHealth& ring : health.rings) {
+    lost += ring.lost;
+    if (fullest == nullptr || fill(ring) > fill(*fullest)) fullest = &ring;
+  }
+  if (fullest == nullptr) return "rings: none";
+  std::string line;
+  append(line, "rings: %zu, lost %llu, fullest %s %llu of %llu", health.rings.size(),
+         static_cast<unsigned long long>(lost), printable(fullest->name).c_str(),
+         static_cast<unsigned long long>(fullest->held),
+         static_cast<unsigned long long>(fullest->capacity));
+  return line;
+}
+
+std::string deadlines_line(const Deadlines& deadlines) {
+  std::string line = "deadlines:";
+  const auto add = [&](const std::vector<LatencySummary>& summaries) {
+    for (const LatencySummary& s : summaries) {
+      append(line, "%s %s missed %llu of %llu", line.back() == ':' ? "" : ",",
+             printable(s.name).c_str(), static_cast<unsigned long long>(s.misses),
+             static_cast<unsigned long long>(s.count));
+      if (s.misses > 0) {
+        append(line, " (worst %.1f of %.0f ms: %s)", 1e3 * to_seconds(s.max),
+               1e3 * to_seconds(s.deadline), printable(s.guilty).c_str());
+      }
+    }
+  };
+  add(deadlines.threads);
+  add(deadlines.paths);
+  return line;
+}
+
+}  // namespace
+
+std::vector<std::string> vehicle_lines(const schema::Schema& schema, const Traffic& traffic) {
+  std::vector<std::string> lines;
+  maploop_lcm::health_t health_message;
+  if (tools::checked_decode(schema, traffic.last(vehicle::channels::health.name), health_message)) {
+    const Health health = from_lcm(health_message);
+    lines.push_back(rings(health));
+    if (!health.degraded.empty()) {
+      lines.push_back("degraded: " + std::to_string(health.degraded.size()) + ": " +
+                      printable(health.degraded.front()));
+    }
+  }
+  maploop_lcm::deadlines_t deadlines_message;
+  if (tools::checked_decode(schema, traffic.last(vehicle::channels::deadlines.name),
+                            deadlines_message)) {
+    lines.push_back(deadlines_line(from_lcm(deadlines_message)));
+  }
+  return lines;
+}
+
+}  // namespace maploop::spy
