@@ -3,27 +3,9 @@
 #include "msgs/frames.h"
 
 namespace maploop::tools {
-namespace {
-
-// The same velocities for another time. The rotation between images is small.
-Eigen::Isometry3d scaled(const Eigen::Isometry3d& motion, double factor) {
-  Eigen::AngleAxisd turn(motion.linear());
-  turn.angle() *= factor;
-  return Eigen::Translation3d(factor * motion.translation()) * Eigen::Isometry3d(turn);
-}
-
-}  // namespace
 
 void TrajectoryCollector::add(const RelativeMotion& motion) {
-  if (motion.status == OdometryStatus::ok) {
-    last_motion_ = motion.T_from_to();
-    last_interval_ = motion.stamp - motion.from;
-    chained_ = chained_ * last_motion_;
-  } else if (!vo_.empty() && motion.stamp > vo_.rbegin()->first) {
-    const Duration since = motion.stamp - vo_.rbegin()->first;
-    chained_ = chained_ * scaled(last_motion_, to_seconds(since) / to_seconds(last_interval_));
-  }
-  vo_[motion.stamp] = chained_ * T_body_cam_;
+  vo_[motion.stamp] = chain_.add(motion) * T_body_cam_;
 }
 
 void TrajectoryCollector::add(const NavState& state) {

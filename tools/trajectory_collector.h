@@ -9,6 +9,7 @@
 #include "msgs/nav_state.h"
 #include "msgs/odometry.h"
 #include "tools/evaluation/kitti_poses.h"
+#include "tools/evaluation/motion_chain.h"
 #include "tools/replay_result.h"
 
 namespace maploop::tools {
@@ -36,9 +37,7 @@ class TrajectoryCollector {
   std::optional<Accuracy> score(const Poses& poses, const Reference& reference) const;
 
   Eigen::Isometry3d T_body_cam_;
-  Eigen::Isometry3d chained_ = Eigen::Isometry3d::Identity();  // body, in its first frame
-  Eigen::Isometry3d last_motion_ = Eigen::Isometry3d::Identity();
-  Duration last_interval_ = std::chrono::seconds(1);
+  evaluation::MotionChain chain_;
   Poses vo_;     // camera
   Poses fused_;  // camera
 };
