@@ -60,7 +60,8 @@ class StereoOdometry::Implementation {
   // Features that agree with an accepted motion go on; the others may be on a moving object.
   void follow_features(RelativeMotion* result) {
     const double seconds = to_seconds(result->stamp - result->from);
-    const std::optional<Eigen::Isometry3d> expected = back_end_.expected_motion(seconds);
+    const std::optional<Eigen::Isometry3d> expected =
+        back_end_.expected_motion(result->stamp, seconds);
     track_features(camera_, parameters_, reference_, current_, features_,
                    expected ? std::optional(expected->inverse()) : std::nullopt, &tracks_);
     for (const int i : back_end_.process(tracks_, result)) {

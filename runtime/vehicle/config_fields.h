@@ -91,9 +91,16 @@ void visit(Config& config, Table&& table, Field&& field) {
     field("huber", p.huber);
     field("outlier_sigmas", p.outlier_sigmas);
     field("refine_max_iterations", p.refine_max_iterations);
+    field("window_frames", p.window_frames);
+    field("window_max_points", p.window_max_points);
+    field("window_iterations", p.window_iterations);
+    field("window_min_flow", p.window_min_flow);
+    field("window_acceleration", p.window_acceleration);
+    field("window_turn_acceleration", p.window_turn_acceleration);
     field("max_speed", p.max_speed);
     field("max_acceleration", p.max_acceleration);
     field("max_yaw_rate", p.max_yaw_rate);
+    field("max_turn_acceleration", p.max_turn_acceleration);
     field("max_gap", p.max_gap);
     field("max_stale_pairs", p.max_stale_pairs);
   }

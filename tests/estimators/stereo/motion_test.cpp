@@ -261,15 +261,19 @@ TEST(Plausibility, JudgesSpeedYawRateAndAccelerationOfTheBody) {
   RelativeMotion motion;
   motion.translation = {1.0, 0.0, 0.0};
   EXPECT_TRUE(plausible(motion, 0.1, std::nullopt, parameters));
-  EXPECT_TRUE(plausible(motion, 0.1, Eigen::Vector3d(9.5, 0.0, 0.0), parameters));
-  EXPECT_FALSE(plausible(motion, 0.1, Eigen::Vector3d(8.0, 0.0, 0.0), parameters)) << "20 m/s^2";
+  EXPECT_TRUE(
+      plausible(motion, 0.1, LastVelocity{{9.5, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0.1}, parameters));
+  EXPECT_FALSE(
+      plausible(motion, 0.1, LastVelocity{{8.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0.1}, parameters))
+      << "20 m/s^2";
   EXPECT_FALSE(plausible(motion, 0.01, std::nullopt, parameters)) << "100 m/s";
   motion.rotation = Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitZ());
   EXPECT_FALSE(plausible(motion, 0.1, std::nullopt, parameters)) << "2 rad/s";
   motion.rotation = Eigen::AngleAxisd(-0.1, Eigen::Vector3d::UnitZ());
   EXPECT_TRUE(plausible(motion, 0.1, std::nullopt, parameters));
   motion.covariance.topLeftCorner<3, 3>() = Eigen::Matrix3d::Identity() * 0.04;
-  EXPECT_TRUE(plausible(motion, 0.1, Eigen::Vector3d(8.0, 0.0, 0.0), parameters))
+  EXPECT_TRUE(
+      plausible(motion, 0.1, LastVelocity{{8.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0.1}, parameters))
       << "within three standard deviations";
 }
 
