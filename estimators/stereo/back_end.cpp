@@ -24,6 +24,17 @@ std::optional<Eigen::Isometry3d> BackEnd::expected_motion(Time stamp, double sec
   return expected;
 }
 
+std::optional<MotionPrior> BackEnd::prior(Time stamp, double seconds) const {
+  const auto expected = expected_motion(stamp, seconds);
+  if (!expected) return std::nullopt;
+  // From the middle of the last motion to the middle of this one.
+  const double since = to_seconds(stamp - last_stamp_) + 0.5 * (last_seconds_ - seconds);
+  MotionPrior prior{*expected, {}};
+  prior.sigma << Eigen::Vector3d::Constant(parameters_.sigma_acceleration * since * seconds),
+      Eigen::Vector3d::Constant(parameters_.sigma_turn_acceleration * since * seconds);
+  return prior;
+}
+
 // The motion in the body, if a road vehicle can make it.
 bool BackEnd::accept(const CameraMotion& motion, double seconds, RelativeMotion* result) const {
   RelativeMotion in_body;
@@ -40,20 +51,38 @@ bool BackEnd::accept(const CameraMotion& motion, double seconds, RelativeMotion*
   return true;
 }
 
+void BackEnd::remember(const Eigen::Isometry3d& motion, double seconds,
+                       const RelativeMotion& result) {
+  last_motion_ = motion;
+  last_stamp_ = result.stamp;
+  last_seconds_ = seconds;
+  CameraMotion of_camera;
+  of_camera.T_previous_current = motion;
+  RelativeMotion in_body;
+  to_body(camera_.T_body_cam, of_camera, &in_body);
+  last_velocity_ = {in_body.translation / seconds, angular_velocity(in_body, seconds), 0.0};
+  moved_ = true;
+}
+
 void BackEnd::adjust_window(std::span<const StereoTrack> tracks, CameraMotion* motion,
-                            const RelativeMotion& result) {
-  if (window_.empty() || window_.newest().stamp != result.from) {
+                            RelativeMotion* result) {
+  if (window_.empty() || window_.newest().stamp != result->from) {
     window_.clear();
-    window_.poses.push_back({result.from, Eigen::Isometry3d::Identity()});
+    window_.poses.push_back({result->from, Eigen::Isometry3d::Identity()});
   }
   const Eigen::Isometry3d before = window_.newest().T_world_cam;
-  window_.add(camera_, result.stamp, before * motion->T_previous_current, tracks, motion->inliers,
+  window_.add(camera_, result->stamp, before * motion->T_previous_current, tracks, motion->inliers,
               offset_.value());
-  if (adjustment_.adjust(&window_)) {
-    motion->T_previous_current = before.inverse() * window_.newest().T_world_cam;
-  } else {
+  if (!adjustment_.adjust(&window_)) {
     window_.clear();
+    return;
   }
+  const WindowPose& now = window_.newest();
+  const WindowPose& last = window_.poses[window_.poses.size() - 2];
+  remember(last.T_world_cam.inverse() * now.T_world_cam, to_seconds(now.stamp - last.stamp),
+           *result);
+  motion->T_previous_current = before.inverse() * now.T_world_cam;
+  to_body(camera_.T_body_cam, *motion, result);
 }
 
 const std::vector<int>& BackEnd::process(std::span<const StereoTrack> tracks,
@@ -62,7 +91,7 @@ const std::vector<int>& BackEnd::process(std::span<const StereoTrack> tracks,
   offset_.predict(seconds);
   CameraMotion motion = estimate_motion(camera_, parameters_, tracks,
                                         static_cast<std::uint64_t>(to_nanoseconds(result->stamp)),
-                                        offset_, expected_motion(result->stamp, seconds));
+                                        offset_, prior(result->stamp, seconds));
   result->tracked = motion.tracked;
   result->inliers = static_cast<int>(motion.inliers.size());
   result->status = motion.status;
@@ -72,15 +101,10 @@ const std::vector<int>& BackEnd::process(std::span<const StereoTrack> tracks,
     result->status = OdometryStatus::implausible;
     return agreeing_;
   }
-  last_motion_ = motion.T_previous_current;
-  last_stamp_ = result->stamp;
-  last_seconds_ = seconds;
-  last_velocity_ = {result->translation / seconds, angular_velocity(*result, seconds), 0.0};
-  moved_ = true;
   offset_.update(motion.offset, motion.offset_sigma, result->inliers);
+  remember(motion.T_previous_current, seconds, *result);
   if (parameters_.window_frames > 0) {
-    adjust_window(tracks, &motion, *result);
-    to_body(camera_.T_body_cam, motion, result);
+    adjust_window(tracks, &motion, result);
   }
   agreeing_.swap(motion.inliers);
   return agreeing_;

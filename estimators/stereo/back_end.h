@@ -42,10 +42,12 @@ class BackEnd {
   double disparity_offset() const { return offset_.value(); }
 
  private:
+  std::optional<MotionPrior> prior(Time stamp, double seconds) const;
   bool known(Time stamp) const;  // how the body goes
   bool accept(const CameraMotion& motion, double seconds, RelativeMotion* result) const;
+  void remember(const Eigen::Isometry3d& motion, double seconds, const RelativeMotion& result);
   void adjust_window(std::span<const StereoTrack> tracks, CameraMotion* motion,
-                     const RelativeMotion& result);
+                     RelativeMotion* result);
 
   StereoCalibration camera_;
   StereoParameters parameters_;

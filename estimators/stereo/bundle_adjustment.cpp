@@ -69,8 +69,8 @@ BundleAdjustment::BundleAdjustment(const StereoCalibration& camera,
       max_iterations_(parameters.window_iterations),
       equations_(static_cast<std::size_t>(parameters.window_max_points)),
       tried_(parameters) {
-  change_weight_ << Eigen::Vector3d::Constant(1.0 / parameters.window_acceleration),
-      Eigen::Vector3d::Constant(1.0 / parameters.window_turn_acceleration);
+  change_weight_ << Eigen::Vector3d::Constant(1.0 / parameters.sigma_acceleration),
+      Eigen::Vector3d::Constant(1.0 / parameters.sigma_turn_acceleration);
 }
 
 double BundleAdjustment::robust_cost(double squared) const {

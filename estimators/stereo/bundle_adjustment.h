@@ -13,7 +13,7 @@ namespace maploop::stereo {
 // Adjusts all poses of a window but the first, and all its points, by Levenberg-Marquardt: left
 // positions and disparities of every sight, with Huber weights and nothing beyond outlier_sigmas;
 // each point's match error, known to sigma_match; and the change of velocity from one motion to the
-// next, for a vehicle has mass (window_acceleration, window_turn_acceleration). Points are
+// next, for a vehicle has mass (sigma_acceleration, sigma_turn_acceleration). Points are
 // eliminated by the Schur complement. The first pose is the gauge.
 //
 // A point moves in the image of the pose that saw it first (u, v, disparity), where far points are

@@ -58,12 +58,12 @@ struct StereoParameters {
   int window_max_points = 300;  // more features than buckets keep alive
   int window_iterations = 5;
   double window_min_flow = 1.0;  // px, median; a pose that moved less gives way to the next one
-  // One standard deviation of a road vehicle's acceleration, m/s^2 and rad/s^2: ordinary braking,
-  // and the pitching of a car on its springs.
-  double window_acceleration = 3.0;
-  double window_turn_acceleration = 1.0;
 
-  // --- Plausibility of a road vehicle
+  // --- Inertia and plausibility of a road vehicle
+  // One standard deviation of its acceleration, m/s^2 and rad/s^2: ordinary braking, and the
+  // pitching of a car on its springs.
+  double sigma_acceleration = 3.0;
+  double sigma_turn_acceleration = 1.0;
   double max_speed = 70.0;        // m/s
   double max_acceleration = 8.0;  // m/s^2, from one motion to the next
   double max_yaw_rate = 1.5708;   // rad/s (90 deg/s)

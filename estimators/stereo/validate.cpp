@@ -76,8 +76,8 @@ void validate(const StereoParameters& p) {
   require_positive("window_max_points", p.window_max_points);
   require_positive("window_iterations", p.window_iterations);
   require(p.window_min_flow >= 0.0, "window_min_flow", "0 px or more", p.window_min_flow);
-  require_positive("window_acceleration", p.window_acceleration);
-  require_positive("window_turn_acceleration", p.window_turn_acceleration);
+  require_positive("sigma_acceleration", p.sigma_acceleration);
+  require_positive("sigma_turn_acceleration", p.sigma_turn_acceleration);
   require_positive("max_speed", p.max_speed);
   require_positive("max_acceleration", p.max_acceleration);
   require_positive("max_yaw_rate", p.max_yaw_rate);

@@ -95,8 +95,8 @@ void visit(Config& config, Table&& table, Field&& field) {
     field("window_max_points", p.window_max_points);
     field("window_iterations", p.window_iterations);
     field("window_min_flow", p.window_min_flow);
-    field("window_acceleration", p.window_acceleration);
-    field("window_turn_acceleration", p.window_turn_acceleration);
+    field("sigma_acceleration", p.sigma_acceleration);
+    field("sigma_turn_acceleration", p.sigma_turn_acceleration);
     field("max_speed", p.max_speed);
     field("max_acceleration", p.max_acceleration);
     field("max_yaw_rate", p.max_yaw_rate);

@@ -200,8 +200,8 @@ TEST(BundleAdjustment, FindsTheMinimumThatCeresFinds) {
                              nullptr, &match_error[i]);
   }
   Vector6 weight;
-  weight << Eigen::Vector3d::Constant(1.0 / (p.window_acceleration * kPeriod)),
-      Eigen::Vector3d::Constant(1.0 / (p.window_turn_acceleration * kPeriod));
+  weight << Eigen::Vector3d::Constant(1.0 / (p.sigma_acceleration * kPeriod)),
+      Eigen::Vector3d::Constant(1.0 / (p.sigma_turn_acceleration * kPeriod));
   for (std::size_t k = 0; k + 2 < q.size(); ++k)
     problem.AddResidualBlock(
         new ceres::AutoDiffCostFunction<Smoothness, 6, 4, 3, 4, 3, 4, 3>(new Smoothness{weight}),
