@@ -54,7 +54,9 @@ struct StereoParameters {
   int refine_max_iterations = 10;  // of each of the two rounds
 
   // --- Windowed bundle adjustment (bundle_adjustment.h)
-  int window_frames = 6;        // poses adjusted together, at most 12; 0: from pair to pair only
+  // Poses adjusted together, 3 to 12; 0: from pair to pair only. 6 makes some drives better
+  // and others worse (README), and takes more time.
+  int window_frames = 0;
   int window_max_points = 300;  // more features than buckets keep alive
   int window_iterations = 5;
   double window_min_flow = 1.0;  // px, median; a pose that moved less gives way to the next one

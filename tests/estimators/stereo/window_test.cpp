@@ -30,11 +30,17 @@ Eigen::Isometry3d true_pose(int frame) {
   return pose;
 }
 
+StereoParameters with_window() {
+  StereoParameters parameters;
+  parameters.window_frames = 6;
+  return parameters;
+}
+
 // A window of `frames` poses that are off by centimetres, with `count` points seen by all of them.
 // `noise` px on each measured u, v and disparity.
 struct Scene {
   StereoCalibration camera = small_camera();
-  StereoParameters parameters;
+  StereoParameters parameters = with_window();
   Window window{parameters};
 
   Scene(int frames, int count, double noise, unsigned seed = 1) {
