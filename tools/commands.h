@@ -10,7 +10,9 @@ namespace maploop::tools {
 using Command = std::function<int()>;
 
 void add_doctor(CLI::App& app, Command& command);
+void add_evaluate(CLI::App& app, Command& command);
 void add_log(CLI::App& app, Command& command);
+void add_odometry(CLI::App& app, Command& command);
 void add_profile(CLI::App& app, Command& command);
 void add_replay(CLI::App& app, Command& command);
 void add_spy(CLI::App& app, Command& command);

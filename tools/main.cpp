@@ -9,7 +9,9 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", MAPLOOP_VERSION);
   maploop::tools::Command command;
   maploop::tools::add_doctor(app, command);
+  maploop::tools::add_evaluate(app, command);
   maploop::tools::add_log(app, command);
+  maploop::tools::add_odometry(app, command);
   maploop::tools::add_profile(app, command);
   maploop::tools::add_replay(app, command);
   maploop::tools::add_spy(app, command);

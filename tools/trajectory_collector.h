@@ -9,6 +9,7 @@
 #include "msgs/nav_state.h"
 #include "msgs/odometry.h"
 #include "tools/evaluation/kitti_poses.h"
+#include "tools/evaluation/motion_chain.h"
 #include "tools/replay_result.h"
 
 namespace maploop::tools {
@@ -33,10 +34,10 @@ class TrajectoryCollector {
 
  private:
   using Poses = std::map<Time, Eigen::Isometry3d>;
-  Eigen::Isometry3d gone_on(Poses::const_iterator next, Time stamp) const;
   std::optional<Accuracy> score(const Poses& poses, const Reference& reference) const;
 
   Eigen::Isometry3d T_body_cam_;
+  evaluation::MotionChain chain_;
   Poses vo_;     // of the body, in its first frame
   Poses fused_;  // of the body, in enu
 };

@@ -21,7 +21,7 @@ bool usable(const StereoObservation& seen, const StereoParameters& parameters) {
 CameraMotion estimate_motion(const StereoCalibration& camera, const StereoParameters& parameters,
                              std::span<const StereoTrack> tracks, std::uint64_t seed,
                              const DisparityOffset& offset,
-                             const std::optional<Eigen::Isometry3d>& expected) {
+                             const std::optional<MotionPrior>& prior) {
   CameraMotion motion;
   std::vector<StereoTrack> good;
   std::vector<int> index_of;
@@ -42,11 +42,12 @@ CameraMotion estimate_motion(const StereoCalibration& camera, const StereoParame
   };
   motion.status = OdometryStatus::too_few_inliers;
   const std::optional<Eigen::Isometry3d> expected_inverse =
-      expected ? std::optional(expected->inverse()) : std::nullopt;
+      prior ? std::optional(prior->T_previous_current.inverse()) : std::nullopt;
   const Consensus consensus = ransac_motion(camera, parameters, good, seed, expected_inverse);
   if (!enough(consensus.inliers)) return motion;
-  const Refinement refined = refine_motion(camera, parameters, good, consensus.inliers,
-                                           consensus.T_current_previous.inverse(), offset.sigma());
+  const Refinement refined =
+      refine_motion(camera, parameters, good, consensus.inliers,
+                    consensus.T_current_previous.inverse(), offset.sigma(), prior);
   if (!refined.ok || !enough(refined.inliers)) return motion;
 
   motion.status = OdometryStatus::ok;

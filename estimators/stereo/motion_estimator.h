@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "estimators/stereo/disparity_offset.h"
+#include "estimators/stereo/motion_prior.h"
 #include "estimators/stereo/parameters.h"
 #include "estimators/stereo/tracks.h"
 #include "msgs/calibration.h"
@@ -31,11 +32,11 @@ struct CameraMotion {
 // Tracks may come from the images or from a file. Those with a disparity outside the limits, rows
 // that differ by more than max_row_error, or numbers that are not finite, do not count. `seed`
 // makes the sampling repeatable; `offset` is added to every disparity;
-// `expected` is the motion (T_previous_current) a constant velocity would give.
+// `prior` is what the motion before lets expect.
 CameraMotion estimate_motion(const StereoCalibration& camera, const StereoParameters& parameters,
                              std::span<const StereoTrack> tracks, std::uint64_t seed,
                              const DisparityOffset& offset,
-                             const std::optional<Eigen::Isometry3d>& expected = std::nullopt);
+                             const std::optional<MotionPrior>& prior = std::nullopt);
 
 // Carries a motion and its covariance from cam to body.
 void to_body(const Eigen::Isometry3d& T_body_cam, const CameraMotion& motion,

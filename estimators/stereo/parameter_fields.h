@@ -44,9 +44,16 @@ void fields(Parameters& p, F&& f) {
   f("huber", p.huber);
   f("outlier_sigmas", p.outlier_sigmas);
   f("refine_max_iterations", p.refine_max_iterations);
+  f("window_frames", p.window_frames);
+  f("window_max_points", p.window_max_points);
+  f("window_iterations", p.window_iterations);
+  f("window_min_flow", p.window_min_flow);
+  f("sigma_acceleration", p.sigma_acceleration);
+  f("sigma_turn_acceleration", p.sigma_turn_acceleration);
   f("max_speed", p.max_speed);
   f("max_acceleration", p.max_acceleration);
   f("max_yaw_rate", p.max_yaw_rate);
+  f("max_turn_acceleration", p.max_turn_acceleration);
   f("max_gap", p.max_gap);
   f("max_stale_pairs", p.max_stale_pairs);
 }

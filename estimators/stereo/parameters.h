@@ -53,12 +53,26 @@ struct StereoParameters {
   double outlier_sigmas = 4.0;     // whitened residual beyond which a track is left out
   int refine_max_iterations = 10;  // of each of the two rounds
 
-  // --- Plausibility of a road vehicle
+  // --- Windowed bundle adjustment (bundle_adjustment.h)
+  // Poses adjusted together, 3 to 12; 0: from pair to pair only. 6 makes some drives better
+  // and others worse (README), and takes more time.
+  int window_frames = 0;
+  int window_max_points = 300;  // more features than buckets keep alive
+  int window_iterations = 5;
+  double window_min_flow = 1.0;  // px, median; a pose that moved less gives way to the next one
+
+  // --- Inertia and plausibility of a road vehicle
+  // One standard deviation of its acceleration, m/s^2 and rad/s^2: ordinary braking, and the
+  // pitching of a car on its springs.
+  double sigma_acceleration = 3.0;
+  double sigma_turn_acceleration = 1.0;
   double max_speed = 70.0;        // m/s
   double max_acceleration = 8.0;  // m/s^2, from one motion to the next
   double max_yaw_rate = 1.5708;   // rad/s (90 deg/s)
-  double max_gap = 1.0;           // s; an older pair is not compared with any more
-  int max_stale_pairs = 10;       // pairs in a row with old stamps after which time starts anew
+  // rad/s^2, any axis, from one motion to the next; a bump at 30 km/h makes 3.
+  double max_turn_acceleration = 4.0;
+  double max_gap = 1.0;      // s; an older pair is not compared with any more
+  int max_stale_pairs = 10;  // pairs in a row with old stamps after which time starts anew
 };
 
 }  // namespace maploop::stereo

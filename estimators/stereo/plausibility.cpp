@@ -4,9 +4,13 @@
 
 namespace maploop::stereo {
 
+Eigen::Vector3d angular_velocity(const RelativeMotion& motion, double seconds) {
+  const Eigen::AngleAxisd turn(motion.rotation);
+  return turn.angle() / seconds * turn.axis();
+}
+
 bool plausible(const RelativeMotion& motion, double seconds,
-               const std::optional<Eigen::Vector3d>& last_velocity,
-               const StereoParameters& parameters) {
+               const std::optional<LastVelocity>& last, const StereoParameters& parameters) {
   const Eigen::Vector3d velocity = motion.translation / seconds;
   if (!(velocity.norm() <= parameters.max_speed)) return false;
 
@@ -14,9 +18,13 @@ bool plausible(const RelativeMotion& motion, double seconds,
   if (!(std::abs(std::remainder(yaw, 2.0 * M_PI)) <= parameters.max_yaw_rate * seconds))
     return false;
 
-  if (!last_velocity) return true;
-  const double noise = 3.0 * std::sqrt(motion.covariance.topLeftCorner<3, 3>().trace()) / seconds;
-  return (velocity - *last_velocity).norm() <= parameters.max_acceleration * seconds + noise;
+  if (!last) return true;
+  const auto noise = [&](Eigen::Index first) {
+    return 3.0 * std::sqrt(motion.covariance.diagonal().segment<3>(first).sum()) / seconds;
+  };
+  return (velocity - last->linear).norm() <= parameters.max_acceleration * last->age + noise(0) &&
+         (angular_velocity(motion, seconds) - last->angular).norm() <=
+             parameters.max_turn_acceleration * last->age + noise(3);
 }
 
 }  // namespace maploop::stereo

@@ -16,21 +16,35 @@ constexpr double kSmallestVarianceFactor = 1e-12;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
+Matrix6 prior_information(const MotionPrior& prior) {
+  return prior.sigma.cwiseAbs2().cwiseInverse().asDiagonal();
+}
+
 // One round with a fixed set of tracks; false where the equations have no finite solution.
-bool levenberg_marquardt(const Adjustment& adjustment, std::span<const int> inliers,
-                         int max_iterations, Eigen::Isometry3d* pose, int* iterations) {
+bool levenberg_marquardt(const Adjustment& adjustment, const std::optional<MotionPrior>& prior,
+                         std::span<const int> inliers, int max_iterations, Eigen::Isometry3d* pose,
+                         int* iterations) {
   std::vector<double> disparities, tried_disparities;
-  double cost = adjustment.cost(*pose, inliers, &disparities);
+  const auto prior_cost = [&](const Eigen::Isometry3d& at) {
+    return prior ? prior->residual(at).squaredNorm() : 0.0;
+  };
+  double cost = adjustment.cost(*pose, inliers, &disparities) + prior_cost(*pose);
   double damping = 1e-6;
   for (int i = 0; i < max_iterations; ++i) {
     ++*iterations;
     const NormalEquations equations = adjustment.normal_equations(*pose, inliers, disparities);
     Matrix6 information = equations.information.topLeftCorner<6, 6>();
+    Vector6 gradient = equations.gradient.head<6>();
+    if (prior) {
+      information += prior_information(*prior);
+      gradient += prior->residual(*pose).cwiseQuotient(prior->sigma);
+    }
     information.diagonal() *= 1.0 + damping;
-    const Vector6 step = -information.ldlt().solve(equations.gradient.head<6>());
+    const Vector6 step = -information.ldlt().solve(gradient);
     if (!step.allFinite()) return false;
     const Eigen::Isometry3d tried = perturbed(*pose, step);
-    const double tried_cost = adjustment.cost(tried, inliers, &tried_disparities);
+    const double tried_cost =
+        adjustment.cost(tried, inliers, &tried_disparities) + prior_cost(tried);
     if (tried_cost <= cost) {
       const bool settled = cost - tried_cost <= 1e-7 * cost;
       *pose = tried;
@@ -48,8 +62,8 @@ bool levenberg_marquardt(const Adjustment& adjustment, std::span<const int> inli
 // Inverse information times the residuals' variance (Huber, "Robust Statistics", 1981, 7.6 in its
 // simplest form), each track leaving four residuals less its own disparity; and times the pairs in
 // which the errors are the same ones, so that the covariances of successive motions may be added.
-bool estimate_covariance(const Adjustment& adjustment, double correlated_pairs,
-                         double assumed_offset_sigma, Refinement* result) {
+bool estimate_covariance(const Adjustment& adjustment, const std::optional<MotionPrior>& prior,
+                         double correlated_pairs, double assumed_offset_sigma, Refinement* result) {
   const double freedom = 3.0 * static_cast<double>(result->inliers.size()) - 6.0;
   if (freedom <= 0.0) return false;
   std::vector<double> disparities;
@@ -59,25 +73,26 @@ bool estimate_covariance(const Adjustment& adjustment, double correlated_pairs,
   const NormalEquations equations = adjustment.normal_equations(pose, result->inliers, disparities);
 
   const double variance = result->variance_factor * correlated_pairs;
-  const Eigen::LDLT<Matrix6> pose_factor(equations.information.topLeftCorner<6, 6>());
-  if (pose_factor.info() != Eigen::Success || !pose_factor.isPositive()) return false;
-  const Vector6 by_offset =
-      pose_factor.solve(equations.information.topRightCorner<6, 1>()) * assumed_offset_sigma;
-  const Matrix6 covariance =
-      pose_factor.solve(Matrix6::Identity()) * variance + by_offset * by_offset.transpose();
+  const Matrix6 of_tracks = equations.information.topLeftCorner<6, 6>();
+  const Vector6 coupling = equations.information.topRightCorner<6, 1>();
+  Matrix6 information = of_tracks / variance;
+  if (prior) information += prior_information(*prior);
+  const Eigen::LDLT<Matrix6> factor(information);
+  if (factor.info() != Eigen::Success || !factor.isPositive()) return false;
+  const Vector6 by_offset = factor.solve(coupling) * (assumed_offset_sigma / variance);
+  const Matrix6 covariance = factor.solve(Matrix6::Identity()) + by_offset * by_offset.transpose();
   result->covariance = 0.5 * (covariance + covariance.transpose());
 
-  // The offset with the pose eliminated.
-  const double information =
-      equations.information(6, 6) -
-      equations.information.bottomLeftCorner<1, 6>().dot(
-          pose_factor.solve(equations.information.topRightCorner<6, 1>()).transpose());
+  // The offset with the pose eliminated, by the tracks alone.
+  const Eigen::LDLT<Matrix6> tracks_factor(of_tracks);
+  const double offset_information =
+      equations.information(6, 6) - coupling.dot(tracks_factor.solve(coupling));
   const double gradient =
-      equations.gradient[6] - equations.information.bottomLeftCorner<1, 6>().dot(
-                                  pose_factor.solve(equations.gradient.head<6>()).transpose());
-  result->offset = information > 0.0 ? -gradient / information : 0.0;
-  result->offset_sigma = information > 0.0 ? std::sqrt(variance / information)
-                                           : std::numeric_limits<double>::infinity();
+      equations.gradient[6] - coupling.dot(tracks_factor.solve(equations.gradient.head<6>()));
+  const bool seen = tracks_factor.isPositive() && offset_information > 0.0;
+  result->offset = seen ? -gradient / offset_information : 0.0;
+  result->offset_sigma =
+      seen ? std::sqrt(variance / offset_information) : std::numeric_limits<double>::infinity();
   return result->covariance.allFinite() && (result->covariance.diagonal().array() > 0.0).all() &&
          std::isfinite(result->offset);
 }
@@ -96,20 +111,22 @@ std::vector<int> judge_tracks(const Adjustment& adjustment, const Eigen::Isometr
 
 Refinement refine_motion(const StereoCalibration& camera, const StereoParameters& parameters,
                          std::span<const StereoTrack> tracks, std::span<const int> inliers,
-                         const Eigen::Isometry3d& T_previous_current, double assumed_offset_sigma) {
+                         const Eigen::Isometry3d& T_previous_current, double assumed_offset_sigma,
+                         const std::optional<MotionPrior>& prior) {
   Refinement result;
   result.T_previous_current = T_previous_current;
   const Adjustment adjustment(camera, parameters, tracks);
   const auto adjust = [&](std::span<const int> chosen) {
     return chosen.size() >= 3 &&
-           levenberg_marquardt(adjustment, chosen, parameters.refine_max_iterations,
+           levenberg_marquardt(adjustment, prior, chosen, parameters.refine_max_iterations,
                                &result.T_previous_current, &result.iterations);
   };
   if (!adjust(inliers)) return result;
   result.inliers = judge_tracks(adjustment, result.T_previous_current,
                                 static_cast<int>(tracks.size()), parameters.outlier_sigmas);
-  result.ok = adjust(result.inliers) && estimate_covariance(adjustment, parameters.correlated_pairs,
-                                                            assumed_offset_sigma, &result);
+  result.ok =
+      adjust(result.inliers) && estimate_covariance(adjustment, prior, parameters.correlated_pairs,
+                                                    assumed_offset_sigma, &result);
   return result;
 }
 

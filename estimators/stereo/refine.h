@@ -2,9 +2,11 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "estimators/stereo/motion_prior.h"
 #include "estimators/stereo/parameters.h"
 #include "estimators/stereo/tracks.h"
 #include "msgs/calibration.h"
@@ -33,9 +35,11 @@ struct Refinement {
 // there, eliminated by the Schur complement. Huber weights on each track's whitened residual. After
 // the first round every track is judged anew and a second round follows. The disparities' offset is
 // not estimated but considered (Schmidt 1966): the motion takes the tracks as they are, and its
-// covariance carries what `assumed_offset_sigma` (px) leaves open.
+// covariance carries what `assumed_offset_sigma` (px) leaves open. `prior` decides where the tracks
+// leave the motion open (few of them, or all on one side).
 Refinement refine_motion(const StereoCalibration& camera, const StereoParameters& parameters,
                          std::span<const StereoTrack> tracks, std::span<const int> inliers,
-                         const Eigen::Isometry3d& T_previous_current, double assumed_offset_sigma);
+                         const Eigen::Isometry3d& T_previous_current, double assumed_offset_sigma,
+                         const std::optional<MotionPrior>& prior = std::nullopt);
 
 }  // namespace maploop::stereo

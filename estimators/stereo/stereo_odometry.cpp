@@ -3,10 +3,9 @@
 #include <optional>
 #include <utility>
 
+#include "estimators/stereo/back_end.h"
 #include "estimators/stereo/detect.h"
-#include "estimators/stereo/motion_estimator.h"
 #include "estimators/stereo/parameter_fields.h"
-#include "estimators/stereo/plausibility.h"
 #include "estimators/stereo/track.h"
 #include "estimators/stereo/validate.h"
 #include "msgs/archive.h"
@@ -16,7 +15,10 @@ namespace maploop::stereo {
 class StereoOdometry::Implementation {
  public:
   Implementation(const StereoCalibration& calibration, const StereoParameters& parameters)
-      : camera_(calibration), parameters_(parameters), detector_(parameters), offset_(parameters) {}
+      : camera_(calibration),
+        parameters_(parameters),
+        detector_(parameters),
+        back_end_(calibration, parameters) {}
 
   RelativeMotion process(const StereoPair& pair) {
     RelativeMotion result;
@@ -30,18 +32,17 @@ class StereoOdometry::Implementation {
     current_.left.build(pair.left, parameters_);
     current_.right.build(pair.right, parameters_);
 
-    CameraMotion motion;
+    next_features_.clear();
     if (comparable(pair.stamp)) {
       result.from = reference_stamp_;
-      motion = compare(pair.stamp, &result);
+      follow_features(&result);
     }
-    keep_survivors(motion, result.status);
     replenish();
     adopt_reference(pair.stamp, result.status);
     return result;
   }
 
-  double disparity_offset() const { return offset_.value(); }
+  double disparity_offset() const { return back_end_.disparity_offset(); }
 
   // The rest are buffers of one call; the random numbers of a pair come from its stamp alone.
   template <class Archive>
@@ -49,19 +50,19 @@ class StereoOdometry::Implementation {
     ar.section("stereo odometry", 1);
     archive_same(ar, "calibration", camera_);
     archive_same_fields(ar, parameters_);
-    ar(has_reference_, reference_stamp_, features_, next_id_, stale_pairs_, last_motion_,
-       last_velocity_, last_seconds_, offset_);
+    ar(has_reference_, reference_stamp_, features_, next_id_, stale_pairs_, back_end_);
     if (!has_reference_) return;
     archive_image(ar, reference_.left);
     archive_image(ar, reference_.right);
   }
 
-  // Two images, and features that keep their distance.
+  // Two images, features that keep their distance, and the window.
   std::size_t largest_archive() const {
     const std::size_t pixels =
         static_cast<std::size_t>(camera_.width) * static_cast<std::size_t>(camera_.height);
     const auto apart = static_cast<std::size_t>(parameters_.min_feature_distance) + 1;
-    return 2 * pixels + pixels / (apart * apart) * sizeof(Feature) + 4096;
+    return 2 * pixels + pixels / (apart * apart) * sizeof(Feature) +
+           Window::largest_archive(parameters_) + 4096;
   }
 
   std::unique_ptr<Implementation> fresh() const {
@@ -94,63 +95,14 @@ class StereoOdometry::Implementation {
     return has_reference_ && to_seconds(stamp - reference_stamp_) <= parameters_.max_gap;
   }
 
-  // Track, resect, adjust, judge. On refusal only the status is filled in.
-  CameraMotion compare(Time stamp, RelativeMotion* result) {
-    const double seconds = to_seconds(stamp - reference_stamp_);
-    const std::optional<Eigen::Isometry3d> expected = expected_motion(seconds);
-    const std::optional<Eigen::Isometry3d> expected_inverse =
-        expected ? std::optional(expected->inverse()) : std::nullopt;
-    track_features(camera_, parameters_, reference_, current_, features_, expected_inverse,
-                   &tracks_);
-    offset_.predict(seconds);
-    CameraMotion motion =
-        estimate_motion(camera_, parameters_, tracks_,
-                        static_cast<std::uint64_t>(to_nanoseconds(stamp)), offset_, expected);
-    result->tracked = motion.tracked;
-    result->inliers = static_cast<int>(motion.inliers.size());
-    result->status = motion.status;
-    if (motion.status == OdometryStatus::ok) {
-      RelativeMotion in_body;
-      to_body(camera_.T_body_cam, motion, &in_body);
-      if (plausible(in_body, seconds, last_velocity_, parameters_)) {
-        result->translation = in_body.translation;
-        result->rotation = in_body.rotation;
-        result->covariance = in_body.covariance;
-      } else {
-        result->status = OdometryStatus::implausible;
-      }
-    }
-    remember(motion, *result, seconds);
-    return motion;
-  }
-
-  // The last motion, stretched to the time since the reference: constant velocity.
-  std::optional<Eigen::Isometry3d> expected_motion(double seconds) const {
-    if (!last_velocity_) return std::nullopt;
-    const double ratio = seconds / last_seconds_;
-    const Eigen::AngleAxisd turn(last_motion_.linear());
-    Eigen::Isometry3d expected = Eigen::Isometry3d::Identity();
-    expected.linear() = Eigen::AngleAxisd(turn.angle() * ratio, turn.axis()).toRotationMatrix();
-    expected.translation() = last_motion_.translation() * ratio;
-    return expected;
-  }
-
-  void remember(const CameraMotion& motion, const RelativeMotion& result, double seconds) {
-    if (result.status == OdometryStatus::ok) {
-      last_motion_ = motion.T_previous_current;
-      last_velocity_ = result.translation / seconds;
-      last_seconds_ = seconds;
-      offset_.update(motion.offset, motion.offset_sigma, result.inliers);
-    } else {
-      last_velocity_.reset();  // it may be the one that was wrong
-    }
-  }
-
   // Features that agree with an accepted motion go on; the others may be on a moving object.
-  void keep_survivors(const CameraMotion& motion, OdometryStatus status) {
-    next_features_.clear();
-    if (status != OdometryStatus::ok) return;
-    for (const int i : motion.inliers) {
+  void follow_features(RelativeMotion* result) {
+    const double seconds = to_seconds(result->stamp - result->from);
+    const std::optional<Eigen::Isometry3d> expected =
+        back_end_.expected_motion(result->stamp, seconds);
+    track_features(camera_, parameters_, reference_, current_, features_,
+                   expected ? std::optional(expected->inverse()) : std::nullopt, &tracks_);
+    for (const int i : back_end_.process(tracks_, result)) {
       const StereoTrack& track = tracks_[static_cast<std::size_t>(i)];
       next_features_.push_back({track.id, track.current});
     }
@@ -187,11 +139,7 @@ class StereoOdometry::Implementation {
   std::int64_t next_id_ = 0;
   int stale_pairs_ = 0;
 
-  Eigen::Isometry3d last_motion_ = Eigen::Isometry3d::Identity();  // cam
-  std::optional<Eigen::Vector3d> last_velocity_;  // m/s, body; none after a refusal
-  double last_seconds_ = 0.0;
-
-  DisparityOffset offset_;
+  BackEnd back_end_;
 
   StereoFrame current_;  // buffers of one call, kept
   std::vector<StereoTrack> tracks_;

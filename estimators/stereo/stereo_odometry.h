@@ -33,12 +33,12 @@ class StereoOdometry {
   // Motion of the body from the newest usable pair before this one (`from`) to this one. stamp,
   // available and sequence are the pair's. Never throws on what a camera may deliver; a refusal
   // carries its reason in `status`, and then pose and covariance are identity and zero:
-  //   first_frame       no usable pair yet, or the last one is older than max_gap
-  //   too_few_features  fewer than min_tracks tracks: dark, blurred, covered, left and right
-  //   swapped too_few_inliers   no motion explains enough of them implausible       beyond
-  //   max_speed, max_acceleration or max_yaw_rate bad_input         size differs from the
-  //   calibration's, or stamp not after the last one. After
-  //                     max_stale_pairs old stamps in a row time is taken to have been set back.
+  //   first_frame: no usable pair yet, or the last one is older than max_gap;
+  //   too_few_features: fewer than min_tracks tracks (dark, blurred, covered, swapped);
+  //   too_few_inliers: no motion explains enough of them;
+  //   implausible: beyond max_speed, max_acceleration, max_yaw_rate or max_turn_acceleration;
+  //   bad_input: another size than the calibration's, or a stamp not after the last one (after
+  //   max_stale_pairs old stamps in a row time is taken to have been set back).
   // A pair is usable when it shows enough stereo features itself; it is then what the next one is
   // compared with, whatever became of its own motion.
   RelativeMotion process(const StereoPair& pair);

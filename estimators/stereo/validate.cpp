@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "estimators/stereo/window.h"
+
 namespace maploop::stereo {
 namespace {
 
@@ -68,9 +70,18 @@ void validate(const StereoParameters& p) {
   require_positive("huber", p.huber);
   require_positive("outlier_sigmas", p.outlier_sigmas);
   require_positive("refine_max_iterations", p.refine_max_iterations);
+  require(p.window_frames == 0 ||
+              (p.window_frames >= 3 && p.window_frames <= static_cast<int>(kLargestWindow)),
+          "window_frames", "0 or 3 to 12", p.window_frames);
+  require_positive("window_max_points", p.window_max_points);
+  require_positive("window_iterations", p.window_iterations);
+  require(p.window_min_flow >= 0.0, "window_min_flow", "0 px or more", p.window_min_flow);
+  require_positive("sigma_acceleration", p.sigma_acceleration);
+  require_positive("sigma_turn_acceleration", p.sigma_turn_acceleration);
   require_positive("max_speed", p.max_speed);
   require_positive("max_acceleration", p.max_acceleration);
   require_positive("max_yaw_rate", p.max_yaw_rate);
+  require_positive("max_turn_acceleration", p.max_turn_acceleration);
   require_positive("max_gap", p.max_gap);
   require_positive("max_stale_pairs", p.max_stale_pairs);
 }

@@ -3,12 +3,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+
+#include "tools/evaluation/text_file.h"
 
 namespace maploop::evaluation {
 namespace {
@@ -56,8 +57,7 @@ bool is_rotation(const Eigen::Matrix3d& matrix) {
 }  // namespace
 
 Trajectory read_kitti_poses(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) throw std::runtime_error("cannot read " + file.string() + ": is the name right?");
+  std::istringstream in(read_text(file));
   Trajectory trajectory;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
@@ -71,7 +71,6 @@ Trajectory read_kitti_poses(const std::filesystem::path& file) {
     if (!is_rotation(trajectory.back().linear()))
       fail("the left 3x3 block is not a rotation matrix");
   }
-  if (in.bad()) throw std::runtime_error("reading " + file.string() + " failed half-way");
   if (trajectory.empty()) throw std::runtime_error(file.string() + " holds no pose");
   return trajectory;
 }
@@ -92,12 +91,7 @@ void write_kitti_poses(const std::filesystem::path& file, const Trajectory& traj
       }
     }
   }
-  std::ofstream out(file);
-  out << text << std::flush;
-  if (!out) {
-    throw std::runtime_error("cannot write " + file.string() +
-                             ": does its folder exist, and has the disk room?");
-  }
+  write_text(file, text);
 }
 
 }  // namespace maploop::evaluation

@@ -12,9 +12,9 @@ namespace maploop::evaluation {
 // frame.
 using Trajectory = std::vector<Eigen::Isometry3d>;
 
-// Empty lines are skipped. Throws std::runtime_error naming the file, and the line of a pose that
-// has not exactly twelve finite numbers or whose left 3x3 block is no rotation (to 1e-3: files are
-// rounded); also when the file cannot be read or holds no pose.
+// Plain or .gz; empty lines are skipped. Throws std::runtime_error naming the file, and the line of
+// a pose that has not exactly twelve finite numbers or whose left 3x3 block is no rotation (to
+// 1e-3: files are rounded); also when the file cannot be read or holds no pose.
 Trajectory read_kitti_poses(const std::filesystem::path& file);
 
 // Reading gives the same bits back. Throws std::runtime_error naming the file when it cannot be

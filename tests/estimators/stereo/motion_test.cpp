@@ -162,6 +162,32 @@ TEST(Ransac, FewerThanThreeTracksHaveNoConsensus) {
   EXPECT_TRUE(ransac_motion(small_camera(), {}, tracks, 1, std::nullopt).inliers.empty());
 }
 
+TEST(Refine, InertiaDecidesWhereTheTracksLeaveTheMotionOpen) {
+  const StereoCalibration camera = small_camera();
+  const StereoParameters parameters;
+  // Six far points close together: their turn about the vertical looks like a step aside.
+  std::vector<StereoTrack> tracks;
+  for (int i = 0; i < 6; ++i) {
+    const ImagePoint before(300.0 + 4.0 * i, 100.0 + 5.0 * (i % 3), 4.0);
+    const ImagePoint after =
+        project(camera, driving_motion().inverse() * triangulate(camera, before));
+    const double off = i % 2 == 0 ? 0.3 : -0.3;  // px, the tracker's errors
+    tracks.push_back({i,
+                      {before.x(), before.y(), before.x() - before.z(), before.y()},
+                      {after.x() + off, after.y(), after.x() - after.z(), after.y()}});
+  }
+  const auto all = all_of(tracks);
+  MotionPrior prior{driving_motion(), {}};
+  prior.sigma << Eigen::Vector3d::Constant(0.03), Eigen::Vector3d::Constant(0.01);
+  const Refinement without = refine_motion(camera, parameters, tracks, all, driving_motion(), 0.0);
+  const Refinement with =
+      refine_motion(camera, parameters, tracks, all, driving_motion(), 0.0, prior);
+  ASSERT_TRUE(with.ok);
+  EXPECT_GT(pose_error(without.T_previous_current, driving_motion()).norm(), 0.1);
+  EXPECT_LT(pose_error(with.T_previous_current, driving_motion()).norm(), 0.06);
+  EXPECT_LT(with.covariance(0, 0), 0.03 * 0.03 * 1.01) << "no worse than expected beforehand";
+}
+
 TEST(MotionEstimator, ReportsIndicesOfTheTracksThatAgree) {
   auto tracks = synthetic_tracks(small_camera(), driving_motion(), 100, {}, 4);
   tracks[0].current.u_left = std::numeric_limits<double>::quiet_NaN();
@@ -261,15 +287,27 @@ TEST(Plausibility, JudgesSpeedYawRateAndAccelerationOfTheBody) {
   RelativeMotion motion;
   motion.translation = {1.0, 0.0, 0.0};
   EXPECT_TRUE(plausible(motion, 0.1, std::nullopt, parameters));
-  EXPECT_TRUE(plausible(motion, 0.1, Eigen::Vector3d(9.5, 0.0, 0.0), parameters));
-  EXPECT_FALSE(plausible(motion, 0.1, Eigen::Vector3d(8.0, 0.0, 0.0), parameters)) << "20 m/s^2";
+  EXPECT_TRUE(
+      plausible(motion, 0.1, LastVelocity{{9.5, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0.1}, parameters));
+  EXPECT_FALSE(
+      plausible(motion, 0.1, LastVelocity{{8.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0.1}, parameters))
+      << "20 m/s^2";
   EXPECT_FALSE(plausible(motion, 0.01, std::nullopt, parameters)) << "100 m/s";
   motion.rotation = Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitZ());
   EXPECT_FALSE(plausible(motion, 0.1, std::nullopt, parameters)) << "2 rad/s";
   motion.rotation = Eigen::AngleAxisd(-0.1, Eigen::Vector3d::UnitZ());
   EXPECT_TRUE(plausible(motion, 0.1, std::nullopt, parameters));
+  EXPECT_TRUE(
+      plausible(motion, 0.1, LastVelocity{{10.0, 0.0, 0.0}, {0.0, 0.0, -0.9}, 0.1}, parameters));
+  EXPECT_FALSE(
+      plausible(motion, 0.1, LastVelocity{{10.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0.1}, parameters))
+      << "10 rad/s^2";
+  EXPECT_TRUE(
+      plausible(motion, 0.1, LastVelocity{{10.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0.5}, parameters))
+      << "known long ago";
   motion.covariance.topLeftCorner<3, 3>() = Eigen::Matrix3d::Identity() * 0.04;
-  EXPECT_TRUE(plausible(motion, 0.1, Eigen::Vector3d(8.0, 0.0, 0.0), parameters))
+  EXPECT_TRUE(
+      plausible(motion, 0.1, LastVelocity{{8.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, 0.1}, parameters))
       << "within three standard deviations";
 }
 

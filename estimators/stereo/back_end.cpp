@@ -1,0 +1,113 @@
+#include "estimators/stereo/back_end.h"
+
+namespace maploop::stereo {
+
+BackEnd::BackEnd(const StereoCalibration& calibration, const StereoParameters& parameters)
+    : camera_(calibration),
+      parameters_(parameters),
+      offset_(parameters),
+      window_(parameters),
+      adjustment_(calibration, parameters) {}
+
+bool BackEnd::known(Time stamp) const {
+  return moved_ && stamp > last_stamp_ && to_seconds(stamp - last_stamp_) <= parameters_.max_gap;
+}
+
+// Constant velocity: the last motion, stretched.
+std::optional<Eigen::Isometry3d> BackEnd::expected_motion(Time stamp, double seconds) const {
+  if (!known(stamp)) return std::nullopt;
+  const double ratio = seconds / last_seconds_;
+  const Eigen::AngleAxisd turn(last_motion_.linear());
+  Eigen::Isometry3d expected = Eigen::Isometry3d::Identity();
+  expected.linear() = Eigen::AngleAxisd(turn.angle() * ratio, turn.axis()).toRotationMatrix();
+  expected.translation() = last_motion_.translation() * ratio;
+  return expected;
+}
+
+std::optional<MotionPrior> BackEnd::prior(Time stamp, double seconds) const {
+  const auto expected = expected_motion(stamp, seconds);
+  if (!expected) return std::nullopt;
+  // From the middle of the last motion to the middle of this one.
+  const double since = to_seconds(stamp - last_stamp_) + 0.5 * (last_seconds_ - seconds);
+  MotionPrior prior{*expected, {}};
+  prior.sigma << Eigen::Vector3d::Constant(parameters_.sigma_acceleration * since * seconds),
+      Eigen::Vector3d::Constant(parameters_.sigma_turn_acceleration * since * seconds);
+  return prior;
+}
+
+// The motion in the body, if a road vehicle can make it.
+bool BackEnd::accept(const CameraMotion& motion, double seconds, RelativeMotion* result) const {
+  RelativeMotion in_body;
+  to_body(camera_.T_body_cam, motion, &in_body);
+  std::optional<LastVelocity> last;
+  if (known(result->stamp)) {
+    last = last_velocity_;
+    last->age = to_seconds(result->stamp - last_stamp_);
+  }
+  if (!plausible(in_body, seconds, last, parameters_)) return false;
+  result->translation = in_body.translation;
+  result->rotation = in_body.rotation;
+  result->covariance = in_body.covariance;
+  return true;
+}
+
+void BackEnd::remember(const Eigen::Isometry3d& motion, double seconds,
+                       const RelativeMotion& result) {
+  last_motion_ = motion;
+  last_stamp_ = result.stamp;
+  last_seconds_ = seconds;
+  CameraMotion of_camera;
+  of_camera.T_previous_current = motion;
+  RelativeMotion in_body;
+  to_body(camera_.T_body_cam, of_camera, &in_body);
+  last_velocity_ = {in_body.translation / seconds, angular_velocity(in_body, seconds), 0.0};
+  moved_ = true;
+}
+
+void BackEnd::adjust_window(std::span<const StereoTrack> tracks, CameraMotion* motion,
+                            RelativeMotion* result) {
+  if (window_.empty() || window_.newest().stamp != result->from) {
+    window_.clear();
+    window_.poses.push_back({result->from, Eigen::Isometry3d::Identity()});
+  }
+  const Eigen::Isometry3d before = window_.newest().T_world_cam;
+  window_.add(camera_, result->stamp, before * motion->T_previous_current, tracks, motion->inliers,
+              offset_.value());
+  if (!adjustment_.adjust(&window_)) {
+    window_.clear();
+    return;
+  }
+  const WindowPose& now = window_.newest();
+  const WindowPose& last = window_.poses[window_.poses.size() - 2];
+  remember(last.T_world_cam.inverse() * now.T_world_cam, to_seconds(now.stamp - last.stamp),
+           *result);
+  motion->T_previous_current = before.inverse() * now.T_world_cam;
+  to_body(camera_.T_body_cam, *motion, result);
+}
+
+const std::vector<int>& BackEnd::process(std::span<const StereoTrack> tracks,
+                                         RelativeMotion* result) {
+  const double seconds = to_seconds(result->stamp - result->from);
+  offset_.predict(seconds);
+  CameraMotion motion = estimate_motion(camera_, parameters_, tracks,
+                                        static_cast<std::uint64_t>(to_nanoseconds(result->stamp)),
+                                        offset_, prior(result->stamp, seconds));
+  result->tracked = motion.tracked;
+  result->inliers = static_cast<int>(motion.inliers.size());
+  result->status = motion.status;
+  agreeing_.clear();
+  if (result->status != OdometryStatus::ok) return agreeing_;
+  if (!accept(motion, seconds, result)) {
+    result->status = OdometryStatus::implausible;
+    return agreeing_;
+  }
+  offset_.update(motion.offset, motion.offset_sigma, result->inliers);
+  remember(motion.T_previous_current, seconds, *result);
+  if (parameters_.window_frames > 0) {
+    adjust_window(tracks, &motion, result);
+  }
+  agreeing_.swap(motion.inliers);
+  return agreeing_;
+}
+
+}  // namespace maploop::stereo

@@ -1,0 +1,73 @@
+// From stereo tracks of successive pairs to the motions of the body.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "estimators/stereo/bundle_adjustment.h"
+#include "estimators/stereo/disparity_offset.h"
+#include "estimators/stereo/motion_estimator.h"
+#include "estimators/stereo/parameters.h"
+#include "estimators/stereo/plausibility.h"
+#include "estimators/stereo/tracks.h"
+#include "estimators/stereo/window.h"
+#include "msgs/calibration.h"
+#include "msgs/odometry.h"
+
+namespace maploop::stereo {
+
+// What follows the front end, whether the tracks come from images or from a file: resect, adjust
+// the pair, judge, adjust the window, and remember the velocity and the disparities' offset for the
+// next pair.
+//
+// With a window the motions joined are the path of its newest pose: a motion leads from where the
+// previous pose was said to be, so that what the window has learnt of it since is not lost.
+//
+// Not thread-safe; the same tracks give the same bits.
+class BackEnd {
+ public:
+  BackEnd(const StereoCalibration& calibration, const StereoParameters& parameters);
+
+  // T_previous_current over `seconds` if the body goes on as it last went; nothing where that is
+  // not known, or longer ago than max_gap.
+  std::optional<Eigen::Isometry3d> expected_motion(Time stamp, double seconds) const;
+
+  // Motion from result->from to result->stamp, which are set. Fills in status, tracked and inliers,
+  // and where the status is ok pose and covariance of the body. Returns the indices of the tracks
+  // that agree with an accepted motion, ascending; valid until the next call.
+  const std::vector<int>& process(std::span<const StereoTrack> tracks, RelativeMotion* result);
+
+  double disparity_offset() const { return offset_.value(); }
+
+  // The rest are parameters and buffers of one call.
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(moved_, last_stamp_, last_seconds_, last_motion_, last_velocity_, offset_, window_);
+  }
+
+ private:
+  std::optional<MotionPrior> prior(Time stamp, double seconds) const;
+  bool known(Time stamp) const;  // how the body goes
+  bool accept(const CameraMotion& motion, double seconds, RelativeMotion* result) const;
+  void remember(const Eigen::Isometry3d& motion, double seconds, const RelativeMotion& result);
+  void adjust_window(std::span<const StereoTrack> tracks, CameraMotion* motion,
+                     RelativeMotion* result);
+
+  StereoCalibration camera_;
+  StereoParameters parameters_;
+
+  bool moved_ = false;  // the rest is of the last accepted motion
+  Time last_stamp_{};
+  double last_seconds_ = 0.0;
+  Eigen::Isometry3d last_motion_ = Eigen::Isometry3d::Identity();  // cam
+  LastVelocity last_velocity_;
+
+  DisparityOffset offset_;
+  Window window_;
+  BundleAdjustment adjustment_;
+  std::vector<int> agreeing_;
+};
+
+}  // namespace maploop::stereo

@@ -1,0 +1,72 @@
+// Windowed bundle adjustment (method.md 2.1 step 5; thesis section 3.13).
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "estimators/stereo/parameters.h"
+#include "estimators/stereo/window.h"
+
+namespace maploop::stereo {
+
+// Adjusts all poses of a window but the first, and all its points, by Levenberg-Marquardt: left
+// positions and disparities of every sight, with Huber weights and nothing beyond outlier_sigmas;
+// each point's match error, known to sigma_match; and the change of velocity from one motion to the
+// next, for a vehicle has mass (sigma_acceleration, sigma_turn_acceleration). Points are
+// eliminated by the Schur complement. The first pose is the gauge.
+//
+// A point moves in the image of the pose that saw it first (u, v, disparity), where far points are
+// as well-behaved as near ones. Never allocates after construction; at most window_iterations.
+class BundleAdjustment {
+ public:
+  BundleAdjustment(const StereoCalibration& camera, const StereoParameters& parameters);
+
+  // False, and the window as it was, where the equations have no finite solution.
+  bool adjust(Window* window);
+
+  // Half of this is what is minimized.
+  double cost(const Window& window) const;
+
+ private:
+  static constexpr int kLargest = 6 * static_cast<int>(kLargestWindow);
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kLargest, kLargest>;
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kLargest, 1>;
+  using Vector4 = Eigen::Vector4d;  // of a point: u, v, disparity, match error
+
+  struct Term {
+    bool valid = false;
+    Eigen::Vector3d residual;
+    Eigen::Matrix<double, 3, 6> by_pose;
+    Eigen::Matrix<double, 3, 4> by_point;
+  };
+  struct PointEquations {
+    Eigen::Matrix4d information;
+    Vector4 gradient;
+    std::array<Eigen::Matrix<double, 6, 4>, kLargestWindow> coupling;
+  };
+
+  double square(const Window& window, const WindowPoint& point, std::size_t pose) const;
+  Term linearize(const Window& window, const WindowPoint& point, std::size_t pose,
+                 const Eigen::Matrix3d& point_by_image) const;
+  void add_velocity_changes(const Window& window);
+  void add_points(const Window& window);
+  void eliminate_points(const Window& window, double damping);
+  void step(const Window& from, const Vector& of_poses, double damping, Window* to) const;
+  double robust_cost(double squared) const;
+  double robust_weight(double squared) const;
+
+  StereoCalibration camera_;
+  Eigen::Vector3d weight_;                     // of u, v, disparity; 1 / px
+  double match_weight_;                        // 1 / px
+  Eigen::Matrix<double, 6, 1> change_weight_;  // of a velocity's change over one second
+  double huber_, outlier_;                     // whitened
+  int max_iterations_;
+
+  Matrix information_;  // of the poses but the first
+  Vector gradient_;
+  std::vector<PointEquations> equations_;  // one a point
+  Window tried_;
+};
+
+}  // namespace maploop::stereo

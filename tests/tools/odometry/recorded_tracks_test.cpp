@@ -1,0 +1,133 @@
+// The back end on another front end's tracks of other drives: 60 to 100 features a frame.
+#include "tools/odometry/recorded_tracks.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/support/real_data.h"
+#include "tools/evaluation/kitti_metric.h"
+#include "tools/evaluation/motion_chain.h"
+#include "tools/evaluation/trajectory_file.h"
+#include "tools/odometry/stereo_runs.h"
+
+namespace maploop::odometry {
+namespace {
+
+using evaluation::StampedTrajectory;
+
+std::filesystem::path tracks_folder() {
+  return maploop::testing::real_data() / "kitti_odometry/tracks";
+}
+
+struct Case {
+  const char* drive;
+  std::size_t last;       // frame
+  double end_point;       // % of the way: the bound, between what is reached and
+  double frame_to_frame;  // a plain odometry from frame to frame on the same tracks
+};
+
+void PrintTo(const Case& c, std::ostream* stream) {
+  *stream << c.drive;
+}
+
+double end_point_percent(const Case& c, const stereo::StereoParameters& parameters) {
+  const auto tracks = std::make_shared<const RecordedTracks>(
+      read_recorded_tracks(tracks_folder() / (std::string(c.drive) + ".csv.gz")));
+  const Run run = tracks_run(tracks, parameters, {0, c.last});
+  const Eigen::Isometry3d& T_body_cam = tracks->calibration.T_body_cam;
+  StampedTrajectory estimate;
+  evaluation::MotionChain chain;
+  while (const auto step = run()) {
+    estimate.stamps.push_back(step->motion.stamp);
+    estimate.poses.push_back(T_body_cam.inverse() * chain.add(step->motion) * T_body_cam);
+  }
+  const auto matched =
+      match(estimate,
+            evaluation::read_trajectory(tracks_folder() / (std::string(c.drive) + ".truth.csv.gz")),
+            from_seconds(0.001));
+  EXPECT_EQ(matched.estimate.size(), estimate.poses.size());
+  return evaluation::score(matched.estimate, matched.truth, 50.0).end_point_percent;
+}
+
+class RecordedTracksTest : public ::testing::TestWithParam<Case> {};
+
+TEST_P(RecordedTracksTest, EndsNearerToTheTruthThanAPlainOdometryFromFrameToFrame) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  EXPECT_LT(end_point_percent(GetParam(), for_recorded_tracks()), GetParam().end_point);
+  EXPECT_LT(GetParam().end_point, GetParam().frame_to_frame);
+}
+
+constexpr std::size_t kAll = 10000;
+INSTANTIATE_TEST_SUITE_P(Drives, RecordedTracksTest,
+                         ::testing::Values(
+                             // Reached: 2.05, 2.69, 0.62, 1.93, 1.95, 1.43.
+                             Case{"2011_09_26_drive_0001", kAll, 2.4, 2.64},
+                             Case{"2011_09_26_drive_0027", kAll, 4.0, 9.30},
+                             Case{"2011_09_26_drive_0035", kAll, 0.70, 0.76},
+                             Case{"2011_09_26_drive_0036", kAll, 2.4, 3.35},
+                             Case{"2011_09_26_drive_0051", kAll, 2.4, 5.17},
+                             Case{"2011_09_30_drive_0020", kAll, 1.8, 2.19}),
+                         [](const auto& param) { return std::string(param.param.drive); });
+
+TEST(RecordedTracksWithWindow, BundleAdjustmentHalvesTheEndPointErrorOfTheLongestDrive) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  stereo::StereoParameters parameters = for_recorded_tracks();
+  parameters.window_frames = 6;
+  const Case drive{"2011_09_30_drive_0020", kAll, 1.0, 2.19};
+  EXPECT_LT(end_point_percent(drive, parameters), drive.end_point);  // reached 0.62
+}
+
+class TrackFile : public ::testing::Test {
+ protected:
+  void write(const std::string& tracks, const std::string& meta) const {
+    std::ofstream(file()) << tracks;
+    std::ofstream(folder_.path() / "small.meta.json") << meta;
+  }
+  std::filesystem::path file() const { return folder_.path() / "small.csv"; }
+  std::string error() const {
+    try {
+      read_recorded_tracks(file());
+      return "";
+    } catch (const std::runtime_error& e) {
+      return e.what();
+    }
+  }
+
+  const std::string meta_ =
+      R"({"fx": 700, "fy": 700, "cu": 600, "cv": 170, "baseline_m": 0.5,
+          "timestamps": [0.0, 0.1, 0.2], "suspect_tracks": [7]})";
+  maploop::testing::TemporaryFolder folder_;
+};
+
+TEST_F(TrackFile, JoinsWhatTwoFramesShareAndLeavesSuspectTracksOut) {
+  write(
+      "frame,track,uL,vL,uR,vR\n0,9,10,20,8,20\n0,3,1,2,0,2\n0,7,1,1,0,1\n1,3,5,6,3,6\n1,7,1,1,0,"
+      "1\n"
+      "1,9,11,21,9,21\n2,3,7,8,5,8\n",
+      meta_);
+  const RecordedTracks recorded = read_recorded_tracks(file());
+  const auto tracks = recorded.between(0, 1);
+  ASSERT_EQ(tracks.size(), 2u);
+  EXPECT_EQ(tracks[0].id, 3);
+  EXPECT_EQ(tracks[0].current.u_left, 5.0);
+  EXPECT_EQ(tracks[1].id, 9);
+  EXPECT_EQ(recorded.between(1, 2).size(), 1u);
+  EXPECT_EQ(recorded.stamps[2], Time(from_seconds(0.2)));
+}
+
+TEST_F(TrackFile, SaysFileAndLineOfWhatItCannotRead) {
+  write("frame,track,uL,vL,uR,vR\n0,3,1,2,0,2\n0,4,1,2,x,2\n", meta_);
+  EXPECT_NE(error().find("small.csv:3: not frame,track"), std::string::npos) << error();
+  write("frame,track,uL,vL,uR,vR\n3,3,1,2,0,2\n", meta_);
+  EXPECT_NE(error().find("small.csv:2: the frame has no timestamp"), std::string::npos) << error();
+  write("", R"({"fx": 700})");
+  EXPECT_NE(error().find("'fy' not found"), std::string::npos) << error();
+}
+
+TEST_F(TrackFile, AMissingMetaFileIsNamed) {
+  EXPECT_NE(error().find("small.meta.json"), std::string::npos) << error();
+}
+
+}  // namespace
+}  // namespace maploop::odometry

@@ -1,0 +1,99 @@
+// maploop evaluate: a trajectory against the truth.
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+
+#include "tools/commands.h"
+#include "tools/evaluation/evaluation.h"
+#include "tools/evaluation/text_file.h"
+#include "tools/json_output.h"
+
+namespace maploop::tools {
+namespace {
+
+struct EvaluateOptions {
+  std::filesystem::path estimate, truth, json, html;
+  std::vector<double> lengths{5.0, 10.0, 25.0, 50.0, 100.0, 200.0, 400.0, 800.0};
+  double tolerance = 0.010;  // s
+};
+
+nlohmann::json number(double value) {
+  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
+}
+
+nlohmann::json to_json(const evaluation::SegmentError& error) {
+  return {{"percent", number(error.percent)},
+          {"deg_per_m", number(error.deg_per_m)},
+          {"segments", error.segments}};
+}
+
+nlohmann::json to_json(const evaluation::Statistics& s) {
+  return {{"rmse", s.rmse}, {"mean", s.mean}, {"median", s.median}, {"max", s.max}};
+}
+
+nlohmann::json to_json(const evaluation::Evaluation& e) {
+  nlohmann::json lengths = nlohmann::json::array();
+  for (const auto& l : e.lengths)
+    lengths.push_back({{"length_m", l.length_m},
+                       {"raw", to_json(l.raw)},
+                       {"common_rotation_removed", to_json(l.common_rotation_removed)}});
+  return {{"frames", e.matched.truth.size()},
+          {"distance_m", e.raw.distance_m},
+          {"end_point_m", e.raw.end_point_m},
+          {"end_point_percent", number(e.raw.end_point_percent)},
+          {"common_rotation_removed", {{"end_point_m", e.common_rotation_removed.end_point_m}}},
+          {"kitti", to_json(e.kitti)},
+          {"lengths", lengths},
+          {"ape_m", to_json(e.ape)},
+          {"rpe_m", to_json(e.rpe_m)},
+          {"rpe_deg", to_json(e.rpe_deg)}};
+}
+
+int evaluate(const EvaluateOptions& options) {
+  const auto matched = evaluation::match(evaluation::read_trajectory(options.estimate),
+                                         evaluation::read_trajectory(options.truth),
+                                         from_seconds(options.tolerance));
+  if (matched.truth.size() < 3)
+    throw std::runtime_error(options.estimate.string() + " and " + options.truth.string() +
+                             " have " + std::to_string(matched.truth.size()) +
+                             " poses at the same moments, and three are needed: do their stamps "
+                             "have one clock? See --max-difference");
+  const evaluation::Evaluation result = evaluation::evaluate(matched, options.lengths);
+  std::cout << to_text(result);
+  if (!options.json.empty()) write_json_file(options.json, to_json(result));
+  if (!options.html.empty())
+    evaluation::write_text(options.html,
+                           to_html(result, options.estimate.filename().string() + " against " +
+                                               options.truth.filename().string()));
+  return 0;
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& app, Command& command) {
+  auto options = std::make_shared<EvaluateOptions>();
+  CLI::App* sub = app.add_subcommand(
+      "evaluate",
+      "Score a trajectory against the truth: KITTI's metric, APE, RPE, end point. Files: KITTI or "
+      "TUM poses, or recorded truth (*.truth.csv), plain or .gz");
+  sub->add_option("EST", options->estimate, "Trajectory to score")->required();
+  sub->add_option("TRUTH", options->truth,
+                  "The truth; matched by stamps where both have them, else frame by frame")
+      ->required();
+  sub->add_option("--lengths", options->lengths, "Segment lengths in metres")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  sub->add_option("--max-difference", options->tolerance, "Seconds between two stamps that match")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  sub->add_option("--json", options->json, "Write the figures to this file as JSON");
+  sub->add_option("--html", options->html, "Write a page with plots to this file");
+  sub->callback([options, &command] { command = [options] { return evaluate(*options); }; });
+}
+
+}  // namespace maploop::tools

@@ -1,0 +1,115 @@
+#include "tools/evaluation/evaluation.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "tools/evaluation/svg_plot.h"
+
+namespace maploop::evaluation {
+namespace {
+
+template <typename... Values>
+std::string row(const char* format, Values... values) {
+  std::array<char, 200> text{};
+  std::snprintf(text.data(), text.size(), format, values...);
+  return text.data();
+}
+
+std::string of_segments(const SegmentError& error) {
+  if (error.segments == 0) return "        -          -";
+  return row("%9.3f %10.5f", error.percent, error.deg_per_m);
+}
+
+std::string of_statistics(const char* what, const char* unit, const Statistics& s) {
+  return row("%-32s rmse %.4f, mean %.4f, median %.4f, max %.4f %s\n", what, s.rmse, s.mean,
+             s.median, s.max, unit);
+}
+
+// Seen from above: right and forward of the first camera.
+Line path(const std::string& name, const Trajectory& trajectory) {
+  Line line{name, {}, {}};
+  for (const Eigen::Isometry3d& pose : trajectory) {
+    const Eigen::Vector3d p = trajectory.front().inverse() * pose.translation();
+    line.x.push_back(p.x());
+    line.y.push_back(p.z());
+  }
+  return line;
+}
+
+std::vector<double> distances(const Trajectory& truth) {
+  std::vector<double> along{0.0};
+  for (std::size_t i = 1; i < truth.size(); ++i)
+    along.push_back(along.back() + (truth[i].translation() - truth[i - 1].translation()).norm());
+  return along;
+}
+
+}  // namespace
+
+Evaluation evaluate(Matched matched, const std::vector<double>& lengths_m) {
+  Evaluation e;
+  e.matched = std::move(matched);
+  const Trajectory& estimate = e.matched.estimate;
+  const Trajectory& truth = e.matched.truth;
+  e.ape = statistics(absolute_errors(estimate, truth, best_alignment(estimate, truth)));
+  const RelativeErrors relative = relative_errors(estimate, truth);
+  e.rpe_m = statistics(relative.translation_m);
+  e.rpe_deg = statistics(relative.rotation_deg);
+  e.kitti = kitti_odometry_error(estimate, truth);
+  for (const double length : lengths_m) {
+    e.raw = score(estimate, truth, length);
+    e.common_rotation_removed = score(estimate, truth, length, CommonRotation::kRemove);
+    e.lengths.push_back({length, e.raw.segment, e.common_rotation_removed.segment});
+  }
+  return e;
+}
+
+std::string to_text(const Evaluation& e) {
+  std::string text =
+      row("%zu poses, %.1f m\n", e.matched.truth.size(), e.raw.distance_m) +
+      row("end point %.3f m (%.3f %%); one common rotation removed: %.3f m\n\n", e.raw.end_point_m,
+          e.raw.end_point_percent, e.common_rotation_removed.end_point_m) +
+      "segments                      %      deg/m   common rotation removed     number\n";
+  for (const LengthError& l : e.lengths)
+    text += row("%6.0f m          %s   %s %10d\n", l.length_m, of_segments(l.raw).c_str(),
+                of_segments(l.common_rotation_removed).c_str(), l.raw.segments);
+  text += row("KITTI, 100-800 m %s %35d\n\n", of_segments(e.kitti).c_str(), e.kitti.segments);
+  text += of_statistics("APE, best rigid alignment", "m", e.ape);
+  text += of_statistics("RPE, pose to pose", "m", e.rpe_m);
+  text += of_statistics("RPE, pose to pose", "deg", e.rpe_deg);
+  return text;
+}
+
+std::string to_html(const Evaluation& e, const std::string& heading) {
+  const Trajectory& estimate = e.matched.estimate;
+  const Trajectory& truth = e.matched.truth;
+  const std::vector<double> along = distances(truth);
+  const auto ape = absolute_errors(estimate, truth, best_alignment(estimate, truth));
+  const auto from_start =
+      absolute_errors(estimate, truth, truth.front() * estimate.front().inverse());
+  const RelativeErrors relative = relative_errors(estimate, truth);
+  const std::vector<double> after_first(along.begin() + 1, along.end());
+  Line raw{"as it is", {}, {}}, rotated{"one common rotation removed", {}, {}};
+  for (const LengthError& l : e.lengths) {
+    raw.x.push_back(l.length_m);
+    raw.y.push_back(l.raw.percent);
+    rotated.x.push_back(l.length_m);
+    rotated.y.push_back(l.common_rotation_removed.percent);
+  }
+  return to_page(
+      heading, "<pre>" + escaped(to_text(e)) + "</pre>\n",
+      {{"Seen from above",
+        "right of the first camera, m",
+        "ahead, m",
+        {path("truth", truth), path("estimate", estimate)},
+        true},
+       {"Position error",
+        "way, m",
+        "m",
+        {{"from the start", along, from_start}, {"best alignment", along, ape}}},
+       {"Error of segments", "length, m", "%", {raw, rotated}},
+       {"From pose to pose", "way, m", "m", {{"translation", after_first, relative.translation_m}}},
+       {"From pose to pose", "way, m", "deg", {{"rotation", after_first, relative.rotation_deg}}}});
+}
+
+}  // namespace maploop::evaluation

@@ -1,0 +1,32 @@
+// Absolute and relative pose errors (Sturm et al., "A Benchmark for the Evaluation of RGB-D SLAM
+// Systems", IROS 2012; Zhang, Scaramuzza, "A Tutorial on Quantitative Trajectory Evaluation", IROS
+// 2018).
+#pragma once
+
+#include <span>
+
+#include "tools/evaluation/kitti_poses.h"
+
+namespace maploop::evaluation {
+
+struct Statistics {
+  double rmse = 0.0, mean = 0.0, median = 0.0, max = 0.0;
+};
+Statistics statistics(std::vector<double> values);  // all zero of none
+
+// The rigid motion that brings the estimate's positions nearest to the truth's (Umeyama 1991, no
+// scale). Same lengths, at least three poses, else std::invalid_argument.
+Eigen::Isometry3d best_alignment(const Trajectory& estimate, const Trajectory& truth);
+
+// APE: distance of the positions, m, one a pose. The estimate is moved by `alignment` first.
+std::vector<double> absolute_errors(const Trajectory& estimate, const Trajectory& truth,
+                                    const Eigen::Isometry3d& alignment);
+
+// RPE from each pose to the next: m and degrees.
+struct RelativeErrors {
+  std::vector<double> translation_m;
+  std::vector<double> rotation_deg;
+};
+RelativeErrors relative_errors(const Trajectory& estimate, const Trajectory& truth);
+
+}  // namespace maploop::evaluation
