@@ -102,8 +102,12 @@ std::span<const std::uint8_t> unseal(std::span<const std::uint8_t> sealed);
 // A number as a message shows it: all its digits, where they are needed.
 template <class T>
 requires std::is_arithmetic_v<T> std::string shown(T value) {
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+  if constexpr (std::is_same_v<T, bool>)
+    return value ? "true" : "false";
+  else {
+    std::array<char, 32> text{};
+    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+  }
 }
 
 // A value that must be the same on both sides, such as a calibration: loading refuses another.

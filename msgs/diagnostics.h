@@ -75,11 +75,11 @@ struct RingHealth {
 
 struct ThreadHealth {
   std::string name;
-  std::string scheduling;   // what the kernel granted: "fifo 50", "other"
-  std::uint64_t count = 0;  // samples or ticks so far
-  double rate = 0.0;        // Hz of data time, over the last second
-  std::string failure;      // empty while it runs
-  double cpu = 0.0;         // seconds of processor time used so far
+  std::string scheduling;                // what the kernel granted: "fifo 50", "other"
+  std::uint64_t count = 0;               // samples or ticks so far
+  double rate = 0.0;                     // Hz of data time, over the last second
+  std::string failure;                   // empty while it runs
+  double cpu = 0.0;                      // seconds of processor time used so far
   std::uint64_t left_out = 0, shed = 0;  // ticks, by the overrun policy
 };
 

@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "msgs/lcm/log/log_reader.h"
 #include "runtime/vehicle/lcm_bus.h"
 #include "tools/bus_listener.h"
 #include "tools/commands.h"
-#include "msgs/lcm/log/log_reader.h"
 #include "tools/lcm_log/log_types.h"
 #include "tools/lcm_log/progress.h"
 #include "tools/profile/profile.h"

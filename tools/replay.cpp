@@ -209,8 +209,8 @@ std::unique_ptr<vehicle::Vehicle> Replay::make_vehicle(const vehicle::Snapshot* 
   const auto clock = options_.lockstep ? runtime::DataClock::virtual_time()
                                        : runtime::DataClock::paced(options_.speed);
   auto vehicle = std::make_unique<vehicle::Vehicle>(
-      config_, recording_.calibration, faults_.afflict(std::move(sensors)), clock,
-      std::move(sinks), std::move(observer), tracer_.get());
+      config_, recording_.calibration, faults_.afflict(std::move(sensors)), clock, std::move(sinks),
+      std::move(observer), tracer_.get());
   vehicle->slow_down(faults_.delays());
   vehicle->prepared(readiness_);
   if (snapshot_) {

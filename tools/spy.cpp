@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
+#include "msgs/lcm/log/log_reader.h"
 #include "runtime/vehicle/lcm_bus.h"
 #include "tools/bus_listener.h"
 #include "tools/commands.h"
-#include "msgs/lcm/log/log_reader.h"
 #include "tools/lcm_log/log_types.h"
 #include "tools/lcm_log/progress.h"
 #include "tools/spy/screen.h"

@@ -58,7 +58,6 @@ VehicleCalibration from_lcm(const maploop_lcm::calibration_t& m) {
 maploop_lcm::stereo_pair_t to_lcm(const StereoPair& pair) {
   maploop_lcm::stereo_pair_t m{};
   m.header = header_of(pair);
-  m.right_stamp_ns = to_nanoseconds(pair.right_stamp);
   m.width = pair.left.width;
   m.height = pair.left.height;
   m.size = static_cast<std::int32_t>(pair.left.pixels.size());
@@ -77,7 +76,6 @@ void from_lcm(const maploop_lcm::stereo_pair_t& m, StereoPair& pair) {
                                 std::to_string(m.size));
   }
   set_sample(pair, m.header);
-  pair.right_stamp = from_nanoseconds(m.right_stamp_ns);
   for (GreyImage* image : {&pair.left, &pair.right}) {
     image->width = m.width;
     image->height = m.height;

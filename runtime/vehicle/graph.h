@@ -177,12 +177,13 @@ inline constexpr Channel deadlines{channel_names::deadlines,
                                    "latency of each thread and path, misses",
                                    "1 Hz",
                                    false};
-inline constexpr Channel health{channel_names::health,
-                                "health_t",
-                                "health",
-                                "threads, rings, rates, losses, refusals, real-time settings, degraded modes",
-                                "1 Hz",
-                                false};
+inline constexpr Channel health{
+    channel_names::health,
+    "health_t",
+    "health",
+    "threads, rings, rates, losses, refusals, real-time settings, degraded modes",
+    "1 Hz",
+    false};
 
 inline constexpr std::array all{nav_state,      visual_odometry, imu,      gnss_fix,
                                 truth,          camera,          velodyne, calibration,

@@ -25,9 +25,7 @@ SnapshotEdges::SnapshotEdges(std::size_t stereo_bytes, std::size_t fusion_bytes)
 
 SnapshotStage::SnapshotStage(std::size_t stereo_bytes, std::size_t fusion_bytes,
                              SnapshotHandler handler)
-    : edges_(stereo_bytes, fusion_bytes),
-      handler_(std::move(handler)),
-      meter_(stages::snapshot) {}
+    : edges_(stereo_bytes, fusion_bytes), handler_(std::move(handler)), meter_(stages::snapshot) {}
 
 void SnapshotStage::run(Time first) {
   std::exception_ptr failure;

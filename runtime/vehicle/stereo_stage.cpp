@@ -90,7 +90,12 @@ void StereoStage::save_until(Time t, const std::stop_token& stop) {
 template <class Archive, class Stage>
 void StereoStage::describe(Archive& ar, Stage& stage) {
   ar.section(stages::stereo.name, 1);
-  ar(stage.odometry_, stage.counts_, stage.sent_);
+  std::array<std::uint64_t, odometry_status_count> counts{};
+  std::copy(stage.counts_.begin(), stage.counts_.end(), counts.begin());
+  ar(stage.odometry_, counts, stage.sent_);
+  if constexpr (Archive::loading) {
+    std::copy(counts.begin(), counts.end(), stage.counts_.begin());
+  }
 }
 
 void StereoStage::resume(std::span<const std::uint8_t> saved) {

@@ -1,8 +1,9 @@
-// Keeps every message that is sent.
+// Keeps every message that speaks of the data.
 #pragma once
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runtime/vehicle/message_sink.h"
@@ -18,11 +19,7 @@ class MessageTape final : public vehicle::MessageSink {
   };
   using Channels = std::map<std::string, std::vector<Taped>>;
 
-  void send(const vehicle::Message& message) override {
-    if (!message.from_data) return;
-    channels_[std::string(message.channel)].push_back(
-        {message.time, {message.data.begin(), message.data.end()}});
-  }
+  std::string_view name() const override { return "tape"; }
 
   // What speaks of the data, later than t.
   Channels after(Time t) const {
@@ -37,6 +34,14 @@ class MessageTape final : public vehicle::MessageSink {
   Channels all() const { return channels_; }
 
  private:
+  bool take(const vehicle::Message& message) override {
+    if (message.from_data) {
+      channels_[std::string(message.channel)].push_back(
+          {message.time, {message.data.begin(), message.data.end()}});
+    }
+    return true;
+  }
+
   Channels channels_;
 };
 

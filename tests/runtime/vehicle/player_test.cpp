@@ -26,9 +26,9 @@ std::unique_ptr<Vehicle> make_vehicle(const DataClock& clock, MessageTape& tape)
                                    std::vector<MessageSink*>{&tape}, Observer{});
 }
 
-MessageTape lockstep() {
-  MessageTape tape;
-  const auto vehicle = make_vehicle(DataClock::virtual_time(), tape);
+std::unique_ptr<MessageTape> lockstep() {
+  auto tape = std::make_unique<MessageTape>();
+  const auto vehicle = make_vehicle(DataClock::virtual_time(), *tape);
   vehicle->start();
   vehicle->wait();
   return tape;
@@ -95,7 +95,7 @@ TEST_F(PlayerTest, PauseHoldsTimeAndResumeChangesNoBit) {
   player().set_speed(20.0);
   play_to_end();
   EXPECT_GT(vehicle().position(), held);
-  EXPECT_EQ(tapes.back().all(), lockstep().all());
+  EXPECT_EQ(tapes.back().all(), lockstep()->all());
 }
 
 TEST_F(PlayerTest, AStepGoesToTheNextImageAndNoFurther) {
@@ -132,7 +132,7 @@ TEST_F(PlayerTest, SeekArrivesWithTheStateOfHavingDrivenThere) {
   EXPECT_FALSE(player().seek(player().last() + milliseconds(1))) << "after the drive";
   player().set_speed(20.0);
   play_to_end();
-  EXPECT_EQ(tapes.back().all(), lockstep().all());
+  EXPECT_EQ(tapes.back().all(), lockstep()->all());
 }
 
 TEST_F(PlayerTest, SeekWhilePausedIsPausedOnArrival) {
@@ -160,7 +160,7 @@ TEST_F(PlayerTest, SeekBackGoesOnFromTheSnapshotBeforeAsIfItHadComeThereDirectly
   ASSERT_EQ(resumed_at, std::vector<Time>{player().first() + milliseconds(1000)});
   player().set_speed(20.0);
   play_to_end();
-  EXPECT_EQ(tapes.back().all(), lockstep().after(resumed_at.back()));
+  EXPECT_EQ(tapes.back().all(), lockstep()->after(resumed_at.back()));
 }
 
 TEST_F(PlayerTest, SeekBackWithoutASnapshotStartsAgain) {
@@ -175,7 +175,7 @@ TEST_F(PlayerTest, SeekBackWithoutASnapshotStartsAgain) {
   EXPECT_EQ(tapes.size(), 2u);
   player().set_speed(20.0);
   play_to_end();
-  EXPECT_EQ(tapes.back().all(), lockstep().all());
+  EXPECT_EQ(tapes.back().all(), lockstep()->all());
 }
 
 TEST_F(PlayerTest, SeekBackKeepsPauseAndSpeed) {
@@ -202,7 +202,7 @@ TEST_F(PlayerTest, EachPassHasTheSameBits) {
   play_to_end();
   EXPECT_EQ(player().speed(), 20.0);
   ASSERT_EQ(tapes.size(), 3u);
-  for (const MessageTape& tape : tapes) EXPECT_EQ(tape.all(), lockstep().all());
+  for (const MessageTape& tape : tapes) EXPECT_EQ(tape.all(), lockstep()->all());
 }
 
 TEST_F(PlayerTest, EachPassGoesToItsStartAsFastAsItCan) {
@@ -213,7 +213,7 @@ TEST_F(PlayerTest, EachPassGoesToItsStartAsFastAsItCan) {
   EXPECT_TRUE(player().seeking());
   play_to_end();
   ASSERT_EQ(tapes.size(), 2u);
-  for (const MessageTape& tape : tapes) EXPECT_EQ(tape.all(), lockstep().all());
+  for (const MessageTape& tape : tapes) EXPECT_EQ(tape.all(), lockstep()->all());
 }
 
 TEST_F(PlayerTest, QuitEndsAllPasses) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <memory>
 #include <vector>
 
 #include "tests/runtime/vehicle/fake_sensors.h"
@@ -24,14 +25,14 @@ using testing::fake_sensors;
 constexpr double seconds = 3.0;
 
 struct Driven {
-  MessageTape tape;
+  std::unique_ptr<MessageTape> tape = std::make_unique<MessageTape>();
   std::vector<Snapshot> snapshots;
   VehicleReport report;
 };
 
 Driven drive(const DataClock& clock, const std::vector<Time>& cuts) {
   Driven run;
-  Vehicle vehicle({}, fake_calibration(), fake_sensors(seconds), clock, {&run.tape}, {});
+  Vehicle vehicle({}, fake_calibration(), fake_sensors(seconds), clock, {run.tape.get()}, {});
   vehicle.take_snapshots(cuts, [&](const Snapshot& s) { run.snapshots.push_back(s); });
   vehicle.start();
   vehicle.wait();
@@ -59,7 +60,7 @@ TEST(Snapshot, AResumedRunSendsWhatTheWholeRunSends) {
   const Driven whole = drive(DataClock::virtual_time(), cuts_everywhere());
   ASSERT_EQ(whole.snapshots.size(), cuts_everywhere().size());
   for (const Snapshot& snapshot : whole.snapshots) {
-    const auto expected = whole.tape.after(snapshot.at);
+    const auto expected = whole.tape->after(snapshot.at);
     EXPECT_GE(expected.size(), 3u);
     EXPECT_EQ(resume(snapshot, DataClock::virtual_time()), expected)
         << "from " << format_time(snapshot.at);
@@ -67,8 +68,8 @@ TEST(Snapshot, AResumedRunSendsWhatTheWholeRunSends) {
 }
 
 TEST(Snapshot, TakingThemChangesNoBit) {
-  EXPECT_EQ(drive(DataClock::virtual_time(), {}).tape.all(),
-            drive(DataClock::virtual_time(), cuts_everywhere()).tape.all());
+  EXPECT_EQ(drive(DataClock::virtual_time(), {}).tape->all(),
+            drive(DataClock::virtual_time(), cuts_everywhere()).tape->all());
 }
 
 TEST(Snapshot, OneTakenInRealTimeHasTheBitsOfLockstep) {
@@ -81,7 +82,7 @@ TEST(Snapshot, OneTakenInRealTimeHasTheBitsOfLockstep) {
     EXPECT_EQ(paced.snapshots[i].fusion, lockstep.snapshots[i].fusion);
   }
   EXPECT_EQ(resume(paced.snapshots[1], DataClock::paced(4.0)),
-            lockstep.tape.after(paced.snapshots[1].at));
+            lockstep.tape->after(paced.snapshots[1].at));
 }
 
 TEST(Snapshot, OfAResumedRunIsTheOneOfTheWholeRun) {
@@ -114,7 +115,7 @@ TEST(Snapshot, AHandlerThatFailsIsNamedAndHoldsNobodyUp) {
                          [](const Snapshot&) { throw std::runtime_error("disk full"); });
   vehicle.start();
   vehicle.wait();
-  EXPECT_EQ(tape.all(), drive(DataClock::virtual_time(), {}).tape.all());
+  EXPECT_EQ(tape.all(), drive(DataClock::virtual_time(), {}).tape->all());
   std::string said;
   for (const std::string& sentence : vehicle.report().health.degraded) said += sentence;
   EXPECT_NE(said.find("snapshot has ended: disk full"), std::string::npos) << said;
@@ -177,7 +178,7 @@ TEST_F(SnapshotFile, OtherSettingsOfTheSensorsAreRefusedByName) {
   EXPECT_NE(refusal(config).find("[gnss] seed = 1, and here it is 7"), std::string::npos)
       << refusal(config);
   config = {};
-  config.scheduling.fusion_priority = 1;
+  config.scheduling.fusion = runtime::Scheduling::fifo(1);
   config.lcm_url = "memq://";
   EXPECT_EQ(refusal(config), "") << "where it runs decides nothing";
 }
