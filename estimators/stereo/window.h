@@ -73,8 +73,10 @@ class Window {
   template <class Archive>
   void archive(Archive& ar) {
     ar(poses, points);
-    if (poses.size() > most_poses_ || points.size() > most_points_) {
-      ar.fail("a window larger than window_frames and window_max_points");
+    if constexpr (Archive::loading) {
+      if (poses.size() > most_poses_ || points.size() > most_points_) {
+        ar.fail("a window larger than window_frames and window_max_points");
+      }
     }
   }
 
