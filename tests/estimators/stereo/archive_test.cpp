@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "estimators/stereo/stereo_odometry.h"
-#include "tests/estimators/stereo/drive_reader.h"
+#include "tests/estimators/stereo/drive_pairs.h"
 #include "tests/support/broken_archives.h"
 #include "tests/support/real_data.h"
 
@@ -11,7 +11,7 @@ namespace {
 
 using maploop::testing::drive_0013;
 using maploop::testing::load;
-using maploop::testing::read_stereo_pairs;
+using maploop::testing::read_pairs;
 using maploop::testing::refusal;
 using maploop::testing::saved;
 
@@ -26,14 +26,14 @@ class StereoArchive : public ::testing::Test {
  protected:
   void SetUp() override {
     MAPLOOP_REQUIRE_DRIVE();
-    camera_ = maploop::testing::read_stereo_calibration(drive_0013().parent_path());
+    camera_ = sensors::KittiDrive(drive_0013()).calibration().stereo;
   }
 
   StereoCalibration camera_;
 };
 
 TEST_F(StereoArchive, ALoadedOdometryGoesOnWithTheSameBits) {
-  const auto pairs = read_stereo_pairs(drive_0013());
+  const auto pairs = read_pairs(sensors::KittiDrive(drive_0013()));
   ASSERT_EQ(pairs.size(), 144u);
   StereoOdometry first(camera_, {});
   for (std::size_t i = 0; i < 72; ++i) first.process(pairs[i]);
@@ -54,7 +54,7 @@ TEST_F(StereoArchive, ALoadedOdometryGoesOnWithTheSameBits) {
 }
 
 TEST_F(StereoArchive, SavedBeforeTheFirstPairAndAfterARefusedOne) {
-  auto pairs = read_stereo_pairs(drive_0013(), 8);
+  auto pairs = read_pairs(sensors::KittiDrive(drive_0013()), 8);
   std::fill(pairs[4].left.pixels.begin(), pairs[4].left.pixels.end(), std::uint8_t{0});
   for (const std::size_t at : {0u, 1u, 5u}) {
     StereoOdometry first(camera_, {}), second(camera_, {});
@@ -80,7 +80,8 @@ TEST_F(StereoArchive, RefusesOtherParametersAndAnotherCalibrationByName) {
 
 TEST_F(StereoArchive, RefusesBrokenArchives) {
   StereoOdometry odometry(camera_, {});
-  for (const StereoPair& pair : read_stereo_pairs(drive_0013(), 5)) odometry.process(pair);
+  for (const StereoPair& pair : read_pairs(sensors::KittiDrive(drive_0013()), 5))
+    odometry.process(pair);
   maploop::testing::expect_refuses_broken(saved(odometry), odometry);
 }
 
