@@ -40,7 +40,7 @@ TEST(Allocation, ThereIsNoneAfterConstruction) {
 }
 
 TEST(Allocation, SavingIntoMemoryThatIsThereTakesNoMore) {
-  if (!MAPLOOP_COUNTS_ALLOCATIONS) GTEST_SKIP() << "the sanitizer owns malloc";
+  if (!counts_allocations()) GTEST_SKIP() << "the sanitizer owns malloc";
   const SyntheticDrive drive({}, 10.0, test_origin());
   ReducedImuFilter filter({}, test_origin());
   for (const Measurement& m :
@@ -49,10 +49,10 @@ TEST(Allocation, SavingIntoMemoryThatIsThereTakesNoMore) {
   }
   Bytes memory;
   memory.reserve(filter.largest_archive());
-  const long before = allocations;
+  const long before = thread_allocations();
   ArchiveWriter writer(std::move(memory));
   writer(filter);
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(thread_allocations(), before);
   EXPECT_GT(writer.content().size(), 200'000u) << "two seconds of history at 110 Hz";
 }
 
