@@ -64,7 +64,7 @@ Vehicle::Graph::Graph(const VehicleConfig& vehicle_config, const VehicleCalibrat
   imu.trace_to(trace_buffer(stages::imu.name));
   gnss.trace_to(trace_buffer(stages::gnss.name));
   reference.trace_to(trace_buffer(stages::reference.name));
-  odometry.trace_to(trace_buffer(stages::odometry.name));
+  if (odometry_recorded) odometry.trace_to(trace_buffer(stages::odometry.name));
   stereo.trace_to(trace_buffer(stages::stereo.name));
   fusion.trace_to(trace_buffer(stages::fusion.name));
   publisher.trace_to(trace_buffer(stages::publisher.name));
