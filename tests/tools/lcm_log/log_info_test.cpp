@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "tests/tools/lcm_log/log_tools_fixture.h"
 #include "msgs/lcm/log/log_header.h"
+#include "tests/tools/lcm_log/log_tools_fixture.h"
 #include "tools/lcm_log/log_text.h"
 #include "tools/lcm_log/log_verify.h"
 

@@ -7,8 +7,8 @@
 #include <random>
 #include <stdexcept>
 
-#include "tests/tools/lcm_log/log_tools_fixture.h"
 #include "msgs/lcm/log/log_header.h"
+#include "tests/tools/lcm_log/log_tools_fixture.h"
 #include "tools/lcm_log/log_verify.h"
 
 namespace maploop::lcm_log {

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "tests/tools/lcm_log/log_tools_fixture.h"
 #include "msgs/lcm/log/log_header.h"
+#include "tests/tools/lcm_log/log_tools_fixture.h"
 
 namespace maploop::lcm_log {
 namespace {
