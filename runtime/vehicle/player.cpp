@@ -27,10 +27,7 @@ void Player::begin_pass() {
 }
 
 void Player::begin(const Snapshot* from) {
-  if (vehicle_ != nullptr) {
-    vehicle_->stop();
-    vehicle_->wait();
-  }
+  vehicle_.reset();  // ends whatever still uses what the maker makes anew: sinks, tracer
   vehicle_ = make_(from);
   if (parameters_.snapshots > 0 && vehicle_->clock().is_paced()) {
     std::vector<Time> moments;
