@@ -138,7 +138,25 @@ void archive_same_number(Archive& ar, std::string_view name, const T& own) {
   }
 }
 
-// The same for a struct of numbers that fields(value, f) visits by name.
+// The same for an enumeration whose names_of() lists what its values are called.
+template <class Archive, class T>
+requires std::is_enum_v<T>
+void archive_same_number(Archive& ar, std::string_view name, const T& own) {
+  T saved = own;
+  ar(saved);
+  if constexpr (Archive::loading) {
+    if (saved == own) return;
+    const auto names = names_of(own);
+    const auto called = [&](T value) {
+      const auto i = static_cast<std::size_t>(value);
+      return std::string(i < names.size() ? names[i] : "unknown");
+    };
+    ar.fail("it was saved with " + std::string(name) + " = " + called(saved) + ", and here it is " +
+            called(own));
+  }
+}
+
+// The same for a struct of numbers and enumerations that fields(value, f) visits by name.
 template <class Archive, class T>
 void archive_same_fields(Archive& ar, const T& value) {
   fields(value, [&](const char* name, const auto& own) { archive_same_number(ar, name, own); });

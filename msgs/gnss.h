@@ -17,4 +17,10 @@ struct GnssFix : Sample {
   Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();  // m^2/s^2
 };
 
+template <class Archive>
+void archive(Archive& ar, GnssFix& f) {
+  ar(static_cast<Sample&>(f), f.position, f.position_covariance, f.velocity_stamp, f.velocity_enu,
+     f.velocity_covariance);
+}
+
 }  // namespace maploop

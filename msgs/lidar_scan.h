@@ -19,4 +19,14 @@ struct LidarScan : Sample {
   std::vector<LidarPoint> points;
 };
 
+template <class Archive>
+void archive(Archive& ar, LidarPoint& p) {
+  ar(p.x, p.y, p.z, p.reflectance);
+}
+
+template <class Archive>
+void archive(Archive& ar, LidarScan& scan) {
+  ar(static_cast<Sample&>(scan), scan.start, scan.end, scan.points);
+}
+
 }  // namespace maploop

@@ -30,15 +30,19 @@ struct NavState : Sample {
   Time imu_stamp{};
   Time odometry_stamp{};
   Time gnss_stamp{};
+  Time wheel_stamp{};
+  Time zero_velocity_stamp{};          // when the vehicle last stood, and the filter used it
   std::uint64_t odometry_applied = 0;  // since the start
   std::uint64_t odometry_refused = 0;
+  std::uint64_t reinitializations = 0;  // times the filter began anew at a fix
 };
 
 template <class Archive>
 void archive(Archive& ar, NavState& s) {
   ar(static_cast<Sample&>(s), s.status, s.origin, s.position_enu, s.velocity_enu, s.attitude,
      s.forward_speed, s.gyro_bias, s.covariance, s.imu_stamp, s.odometry_stamp, s.gnss_stamp,
-     s.odometry_applied, s.odometry_refused);
+     s.wheel_stamp, s.zero_velocity_stamp, s.odometry_applied, s.odometry_refused,
+     s.reinitializations);
 }
 
 }  // namespace maploop

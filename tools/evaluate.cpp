@@ -1,4 +1,5 @@
 // maploop evaluate: a trajectory against the truth.
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <limits>
@@ -7,8 +8,10 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "msgs/frames.h"
 #include "tools/commands.h"
 #include "tools/evaluation/evaluation.h"
+#include "tools/evaluation/kitti_mercator.h"
 #include "tools/evaluation/text_file.h"
 #include "tools/json_output.h"
 
@@ -16,7 +19,9 @@ namespace maploop::tools {
 namespace {
 
 struct EvaluateOptions {
-  std::filesystem::path estimate, truth, json, html;
+  std::filesystem::path estimate, truth, json, html, tum, csv;
+  std::size_t first = 0, last = std::numeric_limits<std::size_t>::max();  // poses of the estimate
+  std::vector<double> kitti_poses_of;  // deg: latitude and azimuth of the first camera
   std::vector<double> lengths{5.0, 10.0, 25.0, 50.0, 100.0, 200.0, 400.0, 800.0};
   double tolerance = 0.010;  // s
 };
@@ -53,10 +58,48 @@ nlohmann::json to_json(const evaluation::Evaluation& e) {
           {"rpe_deg", to_json(e.rpe_deg)}};
 }
 
+evaluation::StampedTrajectory between(evaluation::StampedTrajectory whole, std::size_t first,
+                                      std::size_t last) {
+  const auto cut = [&](auto& values) {
+    if (last < values.size()) values.resize(last + 1);
+    values.erase(values.begin(),
+                 values.begin() + static_cast<std::ptrdiff_t>(std::min(first, values.size())));
+  };
+  cut(whole.stamps);
+  cut(whole.poses);
+  return whole;
+}
+
+evaluation::StampedTrajectory read_truth(const EvaluateOptions& options) {
+  evaluation::StampedTrajectory truth = evaluation::read_trajectory(options.truth);
+  if (!options.kitti_poses_of.empty())
+    truth.poses = evaluation::from_kitti_mercator(truth.poses, radians(options.kitti_poses_of[0]),
+                                                  radians(options.kitti_poses_of[1]));
+  return truth;
+}
+
+// Frame by frame where one of them has no stamps: then both begin with the same frame.
+evaluation::Matched read_matched(const EvaluateOptions& options) {
+  auto estimate = evaluation::read_trajectory(options.estimate);
+  auto truth = read_truth(options);
+  if (estimate.stamps.empty() || truth.stamps.empty())
+    truth = between(std::move(truth), options.first, options.last);
+  return evaluation::match(between(std::move(estimate), options.first, options.last), truth,
+                           from_seconds(options.tolerance));
+}
+
+void write_tum(const EvaluateOptions& options, const evaluation::Matched& matched) {
+  if (matched.stamps.empty())
+    throw std::runtime_error("--tum: " + options.estimate.string() +
+                             " has no stamps; TUM's format needs them");
+  const Eigen::Isometry3d moved = evaluation::best_alignment(matched.estimate, matched.truth);
+  evaluation::StampedTrajectory aligned{matched.stamps, {}};
+  for (const Eigen::Isometry3d& pose : matched.estimate) aligned.poses.push_back(moved * pose);
+  evaluation::write_tum(options.tum, aligned);
+}
+
 int evaluate(const EvaluateOptions& options) {
-  const auto matched = evaluation::match(evaluation::read_trajectory(options.estimate),
-                                         evaluation::read_trajectory(options.truth),
-                                         from_seconds(options.tolerance));
+  const evaluation::Matched matched = read_matched(options);
   if (matched.truth.size() < 3)
     throw std::runtime_error(options.estimate.string() + " and " + options.truth.string() +
                              " have " + std::to_string(matched.truth.size()) +
@@ -65,6 +108,8 @@ int evaluate(const EvaluateOptions& options) {
   const evaluation::Evaluation result = evaluation::evaluate(matched, options.lengths);
   std::cout << to_text(result);
   if (!options.json.empty()) write_json_file(options.json, to_json(result));
+  if (!options.tum.empty()) write_tum(options, matched);
+  if (!options.csv.empty()) evaluation::write_text(options.csv, to_csv(result));
   if (!options.html.empty())
     evaluation::write_text(options.html,
                            to_html(result, options.estimate.filename().string() + " against " +
@@ -91,6 +136,17 @@ void add_evaluate(CLI::App& app, Command& command) {
   sub->add_option("--max-difference", options->tolerance, "Seconds between two stamps that match")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  sub->add_option("--first", options->first, "First pose of EST that counts, from 0");
+  sub->add_option("--last", options->last, "Last pose of EST that counts");
+  sub->add_option("--kitti-poses-of", options->kitti_poses_of,
+                  "TRUTH is in KITTI's Mercator projection, its first camera at this latitude and "
+                  "azimuth (deg): convert it to metres")
+      ->delimiter(',')
+      ->expected(2)
+      ->type_name("LAT,AZIMUTH");
+  sub->add_option("--csv", options->csv, "Write the errors of every pose to this file");
+  sub->add_option("--tum", options->tum,
+                  "Write EST, moved to its best alignment with TRUTH, to this file");
   sub->add_option("--json", options->json, "Write the figures to this file as JSON");
   sub->add_option("--html", options->html, "Write a page with plots to this file");
   sub->callback([options, &command] { command = [options] { return evaluate(*options); }; });

@@ -8,10 +8,16 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", MAPLOOP_VERSION);
   maploop::tools::Command command;
+  maploop::tools::add_calibrate(app, command);
   maploop::tools::add_doctor(app, command);
   maploop::tools::add_evaluate(app, command);
+  maploop::tools::add_experiment(app, command);
+  maploop::tools::add_gnss(app, command);
   maploop::tools::add_log(app, command);
+  maploop::tools::add_map(app, command);
+  maploop::tools::add_match(app, command);
   maploop::tools::add_odometry(app, command);
+  maploop::tools::add_ppp(app, command);
   maploop::tools::add_profile(app, command);
   maploop::tools::add_replay(app, command);
   maploop::tools::add_spy(app, command);

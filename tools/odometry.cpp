@@ -1,95 +1,151 @@
 // maploop odometry: one odometry alone, from images or from recorded tracks.
 #include <algorithm>
 #include <filesystem>
+#include <iomanip>
 #include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "runtime/vehicle/vehicle_config.h"
+#include "runtime/vehicle/recorded_tracks.h"
 #include "tools/commands.h"
-#include "tools/evaluation/motion_chain.h"
 #include "tools/evaluation/trajectory_file.h"
 #include "tools/odometry/motion_csv.h"
-#include "tools/odometry/stereo_runs.h"
+#include "tools/odometry/odometry_input.h"
+#include "tools/odometry_lidar.h"
 
 namespace maploop::tools {
 namespace {
 
 struct OdometryOptions {
-  std::filesystem::path input, config, poses, tum, csv;
+  std::filesystem::path input, config, poses, tum, csv, tracks;
   odometry::FrameRange frames;
+  std::optional<stereo::Matching> matching;
+  std::optional<stereo::MotionMethod> motion;
+  std::optional<int> window_frames;
+  LidarOdometryOptions lidar;
 };
 
-// What there is to run, and where its camera sits.
-struct Input {
-  odometry::Run run;
-  Eigen::Isometry3d T_body_cam;
-  std::shared_ptr<const void> owner;  // of what the run reads
-};
-
-Input open_drive(const OdometryOptions& options) {
-  vehicle::VehicleConfig config;
-  if (!options.config.empty()) config = vehicle::load_vehicle_config(options.config);
-  auto drive = std::make_shared<const sensors::KittiDrive>(options.input, config.replay);
-  return {odometry::stereo_run(*drive, config.stereo, options.frames),
-          drive->calibration().stereo.T_body_cam, drive};
+void adjust(const OdometryOptions& options, stereo::StereoParameters& parameters) {
+  if (options.matching) parameters.matching = *options.matching;
+  if (options.motion) parameters.motion = *options.motion;
+  if (options.motion == stereo::MotionMethod::image_to_image) parameters.window_frames = 0;
+  if (options.window_frames) parameters.window_frames = *options.window_frames;
 }
 
-Input open_tracks(const OdometryOptions& options) {
-  const stereo::StereoParameters parameters =
-      options.config.empty() ? odometry::for_recorded_tracks()
-                             : vehicle::load_vehicle_config(options.config).stereo;
-  auto tracks = std::make_shared<const odometry::RecordedTracks>(
-      odometry::read_recorded_tracks(options.input));
-  return {odometry::tracks_run(tracks, parameters, options.frames), tracks->calibration.T_body_cam,
-          tracks};
+// An option that takes one of the names of an enumeration.
+template <class Enum>
+void add_choice(CLI::App* sub, const char* flag, std::optional<Enum>& value, const char* what) {
+  std::map<std::string, Enum> by_name;
+  const auto names = names_of(Enum{});
+  for (std::size_t i = 0; i < names.size(); ++i) by_name.emplace(names[i], static_cast<Enum>(i));
+  sub->add_option(flag, value, what)->transform(CLI::CheckedTransformer(by_name));
 }
 
 double percentile(const std::vector<double>& sorted, double share) {
   return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
 }
 
+// Median, p99 and largest.
+std::string figures(std::vector<double> milliseconds) {
+  std::sort(milliseconds.begin(), milliseconds.end());
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2) << std::setw(9) << percentile(milliseconds, 0.5)
+       << std::setw(9) << percentile(milliseconds, 0.99) << std::setw(9) << milliseconds.back();
+  return text.str();
+}
+
+// Of the frames that were compared with another.
+void print_times(const std::vector<odometry::Step>& steps) {
+  std::vector<double> whole;
+  std::vector<std::pair<std::string, std::vector<double>>> stages;  // as they follow each other
+  for (const odometry::Step& step : steps) {
+    if (step.motion.status == OdometryStatus::first_frame) continue;
+    whole.push_back(step.milliseconds);
+    std::map<std::string, double> of_step;
+    for (const auto& [name, milliseconds] : step.stages) {
+      of_step[name] += milliseconds;
+      const auto same = [&n = name](const auto& stage) { return stage.first == n; };
+      if (std::none_of(stages.begin(), stages.end(), same)) stages.push_back({name, {}});
+    }
+    for (auto& [name, times] : stages)
+      if (const auto found = of_step.find(name); found != of_step.end())
+        times.push_back(found->second);
+  }
+  if (whole.empty()) return;
+  std::cout << "processor time of a frame, ms\n              median      p99  largest\n";
+  for (const auto& [name, times] : stages)
+    if (!times.empty())
+      std::cout << "  " << std::left << std::setw(10) << name << std::right << figures(times)
+                << '\n';
+  std::cout << "  " << std::left << std::setw(10) << "all" << std::right << figures(whole) << '\n';
+}
+
 void print_summary(const std::vector<odometry::Step>& steps,
                    const evaluation::StampedTrajectory& trajectory) {
-  std::map<std::string_view, int> by_status;
-  std::vector<double> milliseconds;
+  std::map<std::string, int> by_status;
   double way = 0.0;
   for (const odometry::Step& step : steps) {
-    ++by_status[to_string(step.motion.status)];
-    milliseconds.push_back(step.milliseconds);
-    way += step.motion.translation.norm();
+    const RelativeMotion& motion = step.motion;
+    std::string status(to_string(motion.status));
+    if (motion.condition != OdometryCondition::ordinary)
+      status += " (" + std::string(to_string(motion.condition)) + ")";
+    ++by_status[status];
+    way += motion.translation.norm();
   }
-  std::sort(milliseconds.begin(), milliseconds.end());
   std::cout << "frames " << steps.front().frame << " to " << steps.back().frame << ", "
             << to_seconds(trajectory.stamps.back() - trajectory.stamps.front()) << " s, " << way
             << " m\n";
   for (const auto& [status, count] : by_status)
     std::cout << "  " << status << ": " << count << '\n';
-  std::cout << "time a frame: median " << percentile(milliseconds, 0.5) << " ms, p99 "
-            << percentile(milliseconds, 0.99) << " ms, largest " << milliseconds.back() << " ms\n";
+  print_times(steps);
+}
+
+odometry::RecordedTracks recorded(const StereoCalibration& camera,
+                                  const std::vector<odometry::Step>& steps) {
+  odometry::RecordedTracks result;
+  result.calibration = camera;
+  result.first_good_frame = steps.front().frame;
+  result.frames.resize(steps.back().frame + 1);
+  result.stamps.resize(result.frames.size(), steps.front().motion.stamp);
+  std::map<Time, std::size_t> frame_at;
+  for (const odometry::Step& step : steps) {
+    result.stamps[step.frame] = step.motion.stamp;
+    frame_at[step.motion.stamp] = step.frame;
+    if (!step.tracks.empty()) result.add(frame_at.at(step.motion.from), step.frame, step.tracks);
+  }
+  return result;
 }
 
 int odometry_alone(const OdometryOptions& options) {
-  const Input input =
-      std::filesystem::is_directory(options.input) ? open_drive(options) : open_tracks(options);
-  std::vector<odometry::Step> steps;
-  evaluation::StampedTrajectory trajectory;  // of the camera, in its first frame
-  evaluation::MotionChain chain;
-  while (const auto step = input.run()) {
-    steps.push_back(*step);
-    trajectory.stamps.push_back(step->motion.stamp);
-    trajectory.poses.push_back(input.T_body_cam.inverse() * chain.add(step->motion) *
-                               input.T_body_cam);
+  if (options.lidar.wanted) {
+    return lidar_odometry_alone(
+        options.lidar, {options.input, options.config, options.poses, options.tum, options.csv},
+        options.frames);
   }
+  const odometry::Input input = odometry::open_input(
+      options.input, options.config, options.frames,
+      [&options](stereo::StereoParameters& parameters) { adjust(options, parameters); });
+  std::vector<odometry::Step> steps;
+  odometry::CameraPath path(input.camera.T_body_cam);
+  while (auto step = input.run()) {
+    path.add(step->motion);
+    steps.push_back(std::move(*step));
+  }
+  const evaluation::StampedTrajectory& trajectory = path.trajectory();
   if (steps.empty())
     throw std::runtime_error(options.input.string() +
                              " has no frame between --first and --last that can be read");
   if (!options.poses.empty()) evaluation::write_kitti_poses(options.poses, trajectory.poses);
   if (!options.tum.empty()) evaluation::write_tum(options.tum, trajectory);
   if (!options.csv.empty()) odometry::write_csv(options.csv, steps);
+  if (!options.tracks.empty())
+    odometry::write_recorded_tracks(options.tracks, recorded(input.camera, steps));
   print_summary(steps, trajectory);
   return 0;
 }
@@ -99,7 +155,8 @@ int odometry_alone(const OdometryOptions& options) {
 void add_odometry(CLI::App& app, Command& command) {
   auto options = std::make_shared<OdometryOptions>();
   CLI::App* sub = app.add_subcommand(
-      "odometry", "Visual odometry alone, from a drive's images or from recorded tracks");
+      "odometry",
+      "Visual odometry alone, from a drive's images or from recorded tracks; or LiDAR odometry");
   sub->add_option("DRIVE", options->input,
                   "Folder of a KITTI raw drive, or recorded tracks (<drive>.csv[.gz] with its "
                   "<drive>.meta.json)")
@@ -114,6 +171,16 @@ void add_odometry(CLI::App& app, Command& command) {
                   "Write the left camera's poses to this file in KITTI's format");
   sub->add_option("--tum", options->tum, "The same in TUM's format, with stamps");
   sub->add_option("--csv", options->csv, "Write every motion to this file, one line a frame");
+  add_choice(sub, "--matching", options->matching,
+             "How features are found again: klt or sift, in place of the configuration's");
+  add_choice(sub, "--motion", options->motion,
+             "How the motion is found: 3d-2d, 3d-3d or 2d-2d (left camera alone, length unknown)");
+  sub->add_option("--window", options->window_frames,
+                  "Poses that are adjusted together, 3 to 12; 0: from pair to pair only");
+  sub->add_option("--tracks", options->tracks,
+                  "Write the features followed to this file (.csv or .csv.gz) and its .meta.json, "
+                  "which can be read in place of a drive");
+  add_lidar_options(*sub, options->lidar);
   sub->callback([options, &command] { command = [options] { return odometry_alone(*options); }; });
 }
 

@@ -130,6 +130,31 @@ json to_json(const std::optional<Accuracy>& accuracy) {
             {"segment_100m_deg_per_m", number(removed.segment.deg_per_m)}}}};
 }
 
+json to_json(const fusion_score::Errors& e) {
+  return {{"distance_m", number(e.distance)},
+          {"rmse_m", number(e.rmse)},
+          {"max_m", number(e.max)},
+          {"drift_m", number(e.drift)},
+          {"drift_percent", number(e.percent())},
+          {"azimuth_rms_deg", number(e.azimuth_rms)},
+          {"azimuth_end_deg", number(e.azimuth_end)},
+          {"nees_mean", number(e.nees_mean)},
+          {"nees_end", number(e.nees_end)},
+          {"covered", number(e.covered)}};
+}
+
+json to_json(const fusion_score::Score& s) {
+  json j = to_json(s.whole);
+  j["outages"] = json::array();
+  for (const fusion_score::OutageErrors& o : s.outages) {
+    json one = to_json(o.errors);
+    one["start_s"] = o.start;
+    one["length_s"] = o.length;
+    j["outages"].push_back(one);
+  }
+  return j;
+}
+
 json to_json(const LatencySummary& s) {
   return {{"count", s.count},         {"misses", s.misses},     {"deadline_ms", to_ms(s.deadline)},
           {"p50_ms", to_ms(s.p50)},   {"p90_ms", to_ms(s.p90)}, {"p99_ms", to_ms(s.p99)},
@@ -184,7 +209,13 @@ std::string format_table(const ReplayResult& r) {
   t += "           frames        m        m      %        %     deg/m            %     deg/m"
        "  end m\n";
   append_accuracy(t, "vo", r.vo);
+  if (r.lidar) append_accuracy(t, "lidar", r.lidar);
   append_accuracy(t, "fused", r.fused);
+  if (v.imu_delay.known()) {
+    append(t, "  inertial stamps are %.1f +- %.1f ms late against odometry\n",
+           1e3 * v.imu_delay.delay(), 1e3 * v.imu_delay.sigma());
+  }
+  if (r.navigation) t += fusion_score::to_text(*r.navigation);
 
   t += "\nSensors                 count  left out   late p50       p99       max  ms\n";
   for (const vehicle::SensorReport& s : v.sensors) {
@@ -249,7 +280,12 @@ void write_json(const std::filesystem::path& file, const ReplayResult& r) {
   j["drive"] = r.drive;
   j["interrupted"] = r.interrupted;
   j["vo"] = to_json(r.vo);
+  j["lidar"] = to_json(r.lidar);
   j["fused"] = to_json(r.fused);
+  j["navigation"] = r.navigation ? to_json(*r.navigation) : json(nullptr);
+  if (v.imu_delay.known()) {
+    j["imu_delay_left"] = {{"s", v.imu_delay.delay()}, {"sigma_s", v.imu_delay.sigma()}};
+  }
   j["replay"] = {{"lockstep", r.lockstep},
                  {"speed", r.speed},
                  {"images", r.images},

@@ -11,6 +11,7 @@
 #include "runtime/vehicle/fault_injection.h"
 #include "runtime/vehicle/vehicle_report.h"
 #include "tools/evaluation/kitti_metric.h"
+#include "tools/fusion_score.h"
 
 namespace maploop::tools {
 
@@ -41,7 +42,9 @@ struct ReplayResult {
   bool interrupted = false;
   std::size_t images = 0;      // of the drive
   std::optional<Accuracy> vo;  // nothing where there is too little to score
+  std::optional<Accuracy> lidar;
   std::optional<Accuracy> fused;
+  std::optional<fusion_score::Score> navigation;  // of NAV_STATE, as it was sent
   std::map<std::string, vehicle::ChannelSummary> channels;
   std::optional<SnapshotResult> snapshot;
   std::vector<vehicle::FaultCount> faults;

@@ -14,9 +14,12 @@ void TrajectoryCollector::add(const NavState& state) {
   fused_[state.stamp] = T_enu_body;
 }
 
-evaluation::Trajectory TrajectoryCollector::fused() const {
-  evaluation::Trajectory trajectory;
-  for (const auto& [stamp, pose] : fused_) trajectory.push_back(pose * T_body_cam_);
+evaluation::StampedTrajectory TrajectoryCollector::fused() const {
+  evaluation::StampedTrajectory trajectory;
+  for (const auto& [stamp, pose] : fused_) {
+    trajectory.stamps.push_back(stamp);
+    trajectory.poses.push_back(pose * T_body_cam_);
+  }
   return trajectory;
 }
 

@@ -10,6 +10,7 @@
 #include "msgs/odometry.h"
 #include "tools/evaluation/kitti_poses.h"
 #include "tools/evaluation/motion_chain.h"
+#include "tools/evaluation/trajectory_file.h"
 #include "tools/replay_result.h"
 
 namespace maploop::tools {
@@ -25,7 +26,7 @@ class TrajectoryCollector {
   void add(const NavState& image_state);
 
   // Poses of the camera in `enu`, or in the first camera's frame, at the images that have one.
-  evaluation::Trajectory fused() const;
+  evaluation::StampedTrajectory fused() const;
 
   // Pose of the body at a stamp, where the reference has one.
   using Reference = std::function<std::optional<Eigen::Isometry3d>(Time)>;

@@ -1,5 +1,5 @@
 // The Earth as the mechanization needs it: normal gravity, radii of curvature, rotation
-// (method.md 1.2; WGS84).
+// (WGS84).
 #pragma once
 
 #include <Eigen/Core>

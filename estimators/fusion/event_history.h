@@ -10,13 +10,23 @@
 
 #include "estimators/fusion/filter_state.h"
 #include "estimators/fusion/outcome.h"
+#include "msgs/gnss.h"
 #include "msgs/imu.h"
 #include "msgs/odometry.h"
+#include "msgs/wheel_speed.h"
 
 namespace maploop::fusion {
 
 // Order of events at one stamp.
-enum class EventKind : std::uint8_t { start, imu, odometry, clone };
+enum class EventKind : std::uint8_t {
+  start,
+  imu,
+  wheel,
+  gnss_velocity,
+  gnss_position,
+  odometry,
+  clone
+};
 
 struct EventKey {
   Time stamp{};
@@ -39,7 +49,7 @@ void archive(Archive&, CloneRequest&) {}
 
 struct Event {
   EventKey key;
-  std::variant<ImuSample, RelativeMotion, CloneRequest> measurement;
+  std::variant<ImuSample, WheelSpeed, GnssFix, RelativeMotion, CloneRequest> measurement;
   FilterState after;  // meaningful once the filter has started
   Outcome outcome;
 };

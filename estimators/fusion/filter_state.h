@@ -1,7 +1,8 @@
-// State of the reduced-IMU filter (method.md 1.4, option B: total-state EKF in local metres).
+// State of the reduced-IMU filter (total-state EKF in local metres).
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 
 #include "msgs/frames.h"
@@ -14,26 +15,65 @@ namespace index {
 enum : int {
   east,
   north,
-  up,              // m, enu
-  speed,           // m/s along body x, negative in reverse
-  azimuth,         // rad, in (-pi, pi]
-  pitch,           // rad
-  roll,            // rad
-  gyro_bias,       // rad/s, added to the yaw rate
-  forward_bias,    // m/s^2, added to the forward specific force
-  left_bias,       // m/s^2, added to the left specific force
-  climb_offset,    // rad, direction of travel above body x: mounting and load
-  odometry_scale,  // 1, odometry reports (1 + scale) times the distance
-  distance,        // m, travelled since the clone
-  clone_azimuth,   // rad, the attitude at the start of the odometry interval
+  up,             // m, enu
+  speed,          // m/s along the way as the speed sensor sees it, negative in reverse
+  azimuth,        // rad, in (-pi, pi]
+  pitch,          // rad
+  roll,           // rad
+  gyro_bias,      // rad/s, added to the yaw rate
+  forward_bias,   // m/s^2, added to the forward specific force
+  left_bias,      // m/s^2, added to the left specific force
+  climb_offset,   // rad, direction of travel above body x: mounting and load
+  speed_scale,    // 1, the speed sensor (odometry or wheels) reports (1 + scale) times the speed
+  distance,       // m, travelled since the clone, as the speed sensor sees it
+  clone_azimuth,  // rad, the attitude at the start of the odometry interval
   clone_pitch,
   clone_roll,
+  gnss_offset_east,  // 1, correlated part of a fix's error, in units of its own standard deviation
+  gnss_offset_north,
+  gnss_offset_up,
+  chain_drift,  // rad, the chained azimuth less the azimuth
   count
 };
 }  // namespace index
 
 using StateVector = Eigen::Matrix<double, index::count, 1>;
 using StateMatrix = Eigen::Matrix<double, index::count, index::count>;
+
+// How much later than its stamps say the gyro measures, against odometry: a turning that comes late
+// by d leaves d times the change of the yaw rate in the increment over each interval. Least squares
+// over all intervals.
+struct DelayEstimate {
+  double information = 0.0;  // 1/s^2
+  double weighted = 0.0;     // 1/s
+
+  void add(double rate_change, double residual, double variance) {
+    information += rate_change * rate_change / variance;
+    weighted += rate_change * residual / variance;
+  }
+  bool known() const { return information > 0.0; }
+  double delay() const { return weighted / information; }        // s
+  double sigma() const { return 1.0 / std::sqrt(information); }  // s
+};
+
+template <class Archive>
+void archive(Archive& ar, DelayEstimate& e) {
+  ar(e.information, e.weighted);
+}
+
+// What the zero-velocity detector remembers (zero_velocity.h).
+struct Stillness {
+  double mean_force = 0.0;      // m/s^2, forward, over the last second
+  double force_variance = 1.0;  // m^2/s^4
+  // Newest moment at which odometry or the wheels saw the vehicle stand, or move.
+  Time seen_standing{};
+  Time seen_moving{};
+};
+
+template <class Archive>
+void archive(Archive& ar, Stillness& s) {
+  ar(s.mean_force, s.force_variance, s.seen_standing, s.seen_moving);
+}
 
 // Everything the filter knows at one moment; a copy of it is a snapshot.
 struct FilterState {
@@ -45,11 +85,25 @@ struct FilterState {
   // Newest measurement of each kind inside (epoch 0: none).
   Time imu_stamp{};
   Time odometry_stamp{};
+  Time gnss_stamp{};
+  Time wheel_stamp{};
+  Time zero_velocity_stamp{};
   std::uint64_t odometry_applied = 0;
   std::uint64_t odometry_refused = 0;
+  // Gated in a row, by the kind of measurement.
   int gated_in_a_row = 0;
+  int gnss_gated_in_a_row = 0;
+  int wheel_gated_in_a_row = 0;
   std::uint64_t recoveries = 0;
+  std::uint64_t reinitializations = 0;
+  // Azimuth chained from odometry's rotations alone, as of the clone; used where so configured.
+  double chained_azimuth = 0.0;
+  Stillness stillness;
+  double yaw_rate = 0.0;        // rad/s, the gyro's at this moment
+  double clone_yaw_rate = 0.0;  // and at the clone's
+  DelayEstimate imu_delay;
 
+  double ground_speed() const { return x[index::speed] / (1.0 + x[index::speed_scale]); }
   Attitude attitude() const { return {x[index::azimuth], x[index::pitch], x[index::roll]}; }
   Attitude clone_attitude() const {
     return {x[index::clone_azimuth], x[index::clone_pitch], x[index::clone_roll]};
@@ -58,8 +112,10 @@ struct FilterState {
 
 template <class Archive>
 void archive(Archive& ar, FilterState& s) {
-  ar(s.stamp, s.x, s.P, s.clone_stamp, s.start, s.imu_stamp, s.odometry_stamp, s.odometry_applied,
-     s.odometry_refused, s.gated_in_a_row, s.recoveries);
+  ar(s.stamp, s.x, s.P, s.clone_stamp, s.start, s.imu_stamp, s.odometry_stamp, s.gnss_stamp,
+     s.wheel_stamp, s.zero_velocity_stamp, s.odometry_applied, s.odometry_refused, s.gated_in_a_row,
+     s.gnss_gated_in_a_row, s.wheel_gated_in_a_row, s.recoveries, s.reinitializations,
+     s.chained_azimuth, s.stillness, s.yaw_rate, s.clone_yaw_rate, s.imu_delay);
 }
 
 // Adds a correction, keeping both azimuths in (-pi, pi].
@@ -85,6 +141,17 @@ inline void take_clone(FilterState& state) {
   state.P.row(index::distance).setZero();
   state.P.col(index::distance).setZero();
   state.clone_stamp = state.stamp;
+  state.clone_yaw_rate = state.yaw_rate;
+}
+
+// Begins the chained azimuth at the azimuth: its drift is then all of the azimuth's own error.
+inline void start_chain(FilterState& state) {
+  using namespace index;
+  state.chained_azimuth = state.x[azimuth];
+  state.x[chain_drift] = 0.0;
+  state.P.row(chain_drift) = -state.P.row(azimuth);
+  state.P.col(chain_drift) = -state.P.col(azimuth);
+  state.P(chain_drift, chain_drift) = state.P(azimuth, azimuth);
 }
 
 // Columns: how the body turns, as a rotation vector in enu, per radian of azimuth, pitch and roll.

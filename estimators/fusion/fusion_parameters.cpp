@@ -40,11 +40,13 @@ void check(const FusionParameters& p) {
   require("start_acceleration", p.start_acceleration, 0.0, huge);
 
   require("gyro_noise", p.gyro_noise, tiny, 1.0);
+  require("gyro_turn_on_sigma", p.gyro_turn_on_sigma, tiny, 1.0);
   require("gyro_bias_sigma", p.gyro_bias_sigma, tiny, 1.0);
   require("gyro_bias_time", p.gyro_bias_time, 1.0, huge);
   require("gyro_scale_sigma", p.gyro_scale_sigma, 0.0, 1.0);
   require("turn_time", p.turn_time, 0.0, huge);
   require("acceleration_noise", p.acceleration_noise, tiny, huge);
+  require("accelerometer_turn_on_sigma", p.accelerometer_turn_on_sigma, tiny, 10.0);
   require("accelerometer_bias_sigma", p.accelerometer_bias_sigma, tiny, 10.0);
   require("accelerometer_bias_time", p.accelerometer_bias_time, 1.0, huge);
   require("yaw_acceleration", p.yaw_acceleration, 0.0, 10.0);
@@ -60,6 +62,7 @@ void check(const FusionParameters& p) {
   require("climb_offset_sigma", p.climb_offset_sigma, tiny, 1.0);
   require("climb_offset_time", p.climb_offset_time, 1.0, huge);
   require("climb_noise", p.climb_noise, tiny, 1.0);
+  require("rear_axle_distance", p.rear_axle_distance, -5.0, 5.0);
   require("slip_sigma", p.slip_sigma, tiny, 1.0);
   require("slip_time", p.slip_time, 0.0, huge);
   require("max_tilt", p.max_tilt, 0.1, 1.5);
@@ -69,10 +72,30 @@ void check(const FusionParameters& p) {
   require("max_acceleration", p.max_acceleration, 0.0, huge);
   require("max_lateral_acceleration", p.max_lateral_acceleration, 0.0, huge);
 
+  require("gnss_correlated", p.gnss_correlated, 0.0, 0.99);
+  require("gnss_offset_time", p.gnss_offset_time, 0.1, huge);
+  require("gnss_position_gate", p.gnss_position_gate, tiny, huge);
+  require("gnss_velocity_gate", p.gnss_velocity_gate, tiny, huge);
+  require("gnss_recover_after", p.gnss_recover_after, 1, huge);
+  require("gnss_recovery_sigma", p.gnss_recovery_sigma, tiny, huge);
+  require("gnss_lever_forward", p.gnss_lever_forward, -50.0, 50.0);
+  require("gnss_lever_left", p.gnss_lever_left, -50.0, 50.0);
+  require("gnss_lever_up", p.gnss_lever_up, -50.0, 50.0);
+
+  require("speed_scale_sigma", p.speed_scale_sigma, tiny, 1.0);
+  require("speed_scale_walk", p.speed_scale_walk, 0.0, 1.0);
+  require("min_wheel_sigma", p.min_wheel_sigma, tiny, huge);
+
+  require("still_force", p.still_force, 0.0, huge);
+  require("still_rate", p.still_rate, 0.0, huge);
+  require("still_speed", p.still_speed, 0.0, huge);
+  require("zero_velocity_sigma", p.zero_velocity_sigma, tiny, huge);
+  require("zero_rate_sigma", p.zero_rate_sigma, tiny, 1.0);
+
+  require("chained_azimuth_sigma", p.chained_azimuth_sigma, tiny, 1.0);
+  require("chain_drift", p.chain_drift, tiny, 1.0);
   require("min_speed_sigma", p.min_speed_sigma, tiny, huge);
   require("min_rotation_sigma", p.min_rotation_sigma, tiny, 1.0);
-  require("odometry_scale_sigma", p.odometry_scale_sigma, tiny, 1.0);
-  require("odometry_scale_time", p.odometry_scale_time, 1.0, huge);
   require("speed_gate", p.speed_gate, tiny, huge);
   require("rotation_gate", p.rotation_gate, tiny, huge);
   require("recover_after", p.recover_after, 1, huge);

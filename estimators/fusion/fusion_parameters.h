@@ -4,6 +4,14 @@
 namespace maploop::fusion {
 
 struct FusionParameters {
+  // Which measurements correct the state; configurations by name set these (configuration.h).
+  bool use_gnss = false;                // after the start, which always takes a fix
+  bool use_odometry_speed = true;       // visual or visual-LiDAR odometry's forward speed
+  bool use_odometry_azimuth = true;     // and its turning, as the increment over each interval
+  bool chain_odometry_azimuth = false;  // or added up to an azimuth of its own, as in the thesis
+  bool use_wheel_speed = false;
+  bool use_zero_velocity = true;  // where the detector sees the vehicle stand
+
   // History and time.
   double history_length = 2.0;    // s, late data is applied within it; odometry is < 0.3 s late
   int history_capacity = 512;     // events; 2 s of 100 Hz IMU and 10 Hz odometry take about 240
@@ -28,14 +36,16 @@ struct FusionParameters {
   double start_acceleration = 3.0;     // m/s^2, change of speed between a fix's two stamps
 
   // Inertial sensors.
-  double gyro_noise = 8.7e-5;              // rad/sqrt(s) (0.3 deg/sqrt(h)), MEMS angle random walk
-  double gyro_bias_sigma = 1.75e-4;        // rad/s (36 deg/h), Gauss-Markov, MEMS after warm-up
-  double gyro_bias_time = 1000.0;          // s, its correlation time
-  double gyro_scale_sigma = 0.003;         // 1, scale and cross-axis error; acts in turns only
-  double turn_time = 3.0;                  // s, how long a turn keeps that error
-  double acceleration_noise = 0.3;         // m/s/sqrt(s), aliased vibration; levels pitch in 10 s
-  double accelerometer_bias_sigma = 0.05;  // m/s^2 (0.3 deg of tilt), Gauss-Markov, calibrated MEMS
-  double accelerometer_bias_time = 300.0;  // s, warming and sun
+  double gyro_noise = 8.7e-5;           // rad/sqrt(s) (0.3 deg/sqrt(h)), MEMS angle random walk
+  double gyro_turn_on_sigma = 1.75e-4;  // rad/s (36 deg/h), its bias at the start
+  double gyro_bias_sigma = 4.8e-5;      // rad/s (10 deg/h), how far the bias walks ...
+  double gyro_bias_time = 300.0;        // s, ... in half of this time
+  double gyro_scale_sigma = 0.003;      // 1, scale and cross-axis error; acts in turns only
+  double turn_time = 3.0;               // s, how long a turn keeps that error
+  double acceleration_noise = 0.3;      // m/s/sqrt(s), aliased vibration; levels pitch in 10 s
+  double accelerometer_turn_on_sigma = 0.05;  // m/s^2 (0.3 deg of tilt), at the start, calibrated
+  double accelerometer_bias_sigma = 0.01;     // m/s^2, how far they walk (warming, sun) ...
+  double accelerometer_bias_time = 300.0;     // s, ... in half of this time
   double yaw_acceleration = 0.3;     // rad/s^2, steering unseen between samples and while held
   double jerk = 2.0;                 // m/s^3, pedals unseen between samples and while held
   double silent_yaw_noise = 0.3;     // rad/sqrt(s), azimuth without a gyro
@@ -46,6 +56,7 @@ struct FusionParameters {
   // Vehicle.
   double pitch_noise = 0.0175;         // rad/sqrt(s) (1 deg), road and suspension between odometry
   double roll_noise = 0.0175;          // rad/sqrt(s) (1 deg)
+  double rear_axle_distance = 0.0;     // m, from the rear axle forward to the body's origin
   double slip_sigma = 0.005;           // rad (0.3 deg), direction of travel against the body's axis
   double slip_time = 1.0;              // s, how long it lasts
   double climb_offset = 0.0;           // rad, direction of travel above body x: mounting of the IMU
@@ -60,15 +71,41 @@ struct FusionParameters {
   double max_acceleration = 3.0;  // m/s^2 along, larger: braking hard, no levelling
   double max_lateral_acceleration = 4.0;  // m/s^2 across, larger: tyres and springs lean
 
+  // GNSS. Its stated variance is split: errors of multipath and atmosphere last.
+  double gnss_correlated = 0.7;       // 1, share of a position's variance that lasts ...
+  double gnss_offset_time = 30.0;     // s, ... this long
+  double gnss_position_gate = 16.27;  // chi-square, 3 degrees of freedom, 0.1 % tail
+  double gnss_velocity_gate = 16.27;
+  int gnss_recover_after = 5;         // gated in a row; then doubts itself, and after twice as many
+                                      // begins anew at the fix
+  double gnss_recovery_sigma = 20.0;  // m, how wrong its position may then be
+  double gnss_lever_forward = 0.0;    // m, antenna from the body's origin
+  double gnss_lever_left = 0.0;
+  double gnss_lever_up = 0.0;
+
+  // Scale of the speed sensor: tyres, or disparities that are a little too large or too small.
+  double speed_scale_sigma = 0.015;  // 1, at the start: 1.2 % rms in odometry of six drives
+  double speed_scale_walk = 0.001;   // 1/sqrt(s), odometry's changes with the depth of the scene
+
+  // Wheels.
+  double min_wheel_sigma = 0.02;  // m/s, floor: slip of the tyres on the road
+
+  // Standing still.
+  double still_force = 0.05;          // m/s^2, deviation of the forward force over a second
+  double still_rate = 0.0052;         // rad/s (0.3 deg/s), beyond what the bias may be
+  double still_speed = 0.1;           // m/s, that odometry or wheels may show
+  double zero_velocity_sigma = 0.02;  // m/s, body on its springs
+  double zero_rate_sigma = 1.7e-4;    // rad/s (0.01 deg/s), a second's mean
+
   // Odometry. Its own covariance counts, but not its correlated part: hence floors and a scale.
-  double min_speed_sigma = 0.05;       // m/s, floor; stereo odometry reaches 0.03 to 0.1
-  double min_rotation_sigma = 5.2e-4;  // rad (0.03 deg) a frame, floor; it reaches 0.02 to 0.06
-  double odometry_scale_sigma = 0.01;  // 1, disparity bias: speed too large or small by 1 %
-  double odometry_scale_time = 300.0;  // s, it changes with the depth of the scene
-  double speed_gate = 10.83;           // chi-square, 1 degree of freedom, 0.1 % tail
-  double rotation_gate = 16.27;        // chi-square, 3 degrees of freedom, 0.1 % tail
-  int recover_after = 10;              // gated in a row (1 s); then the filter is the one at fault
-  double recovery_speed_sigma = 5.0;   // m/s, how wrong its speed may then be
+  double min_speed_sigma = 0.05;          // m/s, floor; stereo odometry reaches 0.03 to 0.1
+  double min_rotation_sigma = 5.2e-4;     // rad (0.03 deg) a frame, floor; it reaches 0.02 to 0.06
+  double speed_gate = 10.83;              // chi-square, 1 degree of freedom, 0.1 % tail
+  double rotation_gate = 16.27;           // chi-square, 3 degrees of freedom, 0.1 % tail
+  double chained_azimuth_sigma = 0.0035;  // rad (0.2 deg), of the chained azimuth at a frame
+  double chain_drift = 8.7e-5;            // rad/sqrt(m) (0.005 deg), beyond odometry's covariance
+  int recover_after = 10;             // gated in a row (1 s); then the filter is the one at fault
+  double recovery_speed_sigma = 5.0;  // m/s, how wrong its speed may then be
   double recovery_rotation_sigma = 0.05;  // rad (3 deg), and its rotation over one interval
 };
 

@@ -8,6 +8,62 @@
 #include "estimators/fusion/stamp_guard.h"
 
 namespace maploop::fusion {
+namespace {
+
+// What no start knows: biases, scales and what lasts of the fixes' errors.
+void add_unknown_sensors(FilterState& state, const FusionParameters& p) {
+  using namespace index;
+  const auto add = [&](int i, double sigma) { state.P(i, i) += sigma * sigma; };
+  add(gyro_bias, p.gyro_turn_on_sigma);
+  add(forward_bias, p.accelerometer_turn_on_sigma);
+  add(left_bias, p.accelerometer_turn_on_sigma);
+  // The speed is known over ground, and held as its sensor sees it.
+  const double scale_variance = p.speed_scale_sigma * p.speed_scale_sigma;
+  state.P(speed_scale, speed_scale) = scale_variance;
+  state.P(speed, speed) += state.x[speed] * state.x[speed] * scale_variance;
+  state.P(speed, speed_scale) = state.P(speed_scale, speed) = state.x[speed] * scale_variance;
+  for (int i = gnss_offset_east; i <= gnss_offset_up; ++i) add(i, 1.0);
+}
+
+}  // namespace
+
+Reason check_start(const KnownStart& k) {
+  const Eigen::Vector3d position(k.position.latitude, k.position.longitude, k.position.height);
+  const Eigen::Vector3d attitude(k.attitude.azimuth, k.attitude.pitch, k.attitude.roll);
+  const Eigen::Vector4d sigmas(k.position_sigma, k.azimuth_sigma, k.tilt_sigma, k.speed_sigma);
+  if (!position.allFinite() || !attitude.allFinite() || !sigmas.allFinite() ||
+      !std::isfinite(k.speed)) {
+    return Reason::not_finite;
+  }
+  const bool possible = plausible_stamp(k.stamp) &&
+                        std::abs(k.position.latitude) <= radians(89.0) &&
+                        std::abs(k.attitude.pitch) < 1.0 && std::abs(k.attitude.roll) < 1.0 &&
+                        std::abs(k.speed) <= 100.0 && sigmas.minCoeff() >= 0.0;
+  return possible ? Reason::none : Reason::out_of_range;
+}
+
+FilterState initial_state(const KnownStart& k, const LocalFrame& frame, const FusionParameters& p) {
+  using namespace index;
+  FilterState state;
+  state.stamp = state.start = k.stamp;
+  state.x.segment<3>(east) = frame.to_enu(k.position);
+  state.x[speed] = k.speed;
+  state.x[azimuth] = wrap_angle(k.attitude.azimuth);
+  state.x[pitch] = k.attitude.pitch;
+  state.x[roll] = k.attitude.roll;
+  state.x[climb_offset] = p.climb_offset;
+  const auto add = [&](int i, double sigma) { state.P(i, i) += sigma * sigma; };
+  for (int i = east; i <= up; ++i) add(i, std::max(k.position_sigma, 1e-3));
+  add(speed, std::max(k.speed_sigma, 1e-3));
+  add(azimuth, std::max(k.azimuth_sigma, 1e-5));
+  add(pitch, std::max(k.tilt_sigma, 1e-4));
+  add(roll, std::max(k.tilt_sigma, 1e-4));
+  add(climb_offset, p.climb_offset_sigma);
+  add_unknown_sensors(state, p);
+  take_clone(state);
+  start_chain(state);
+  return state;
+}
 
 Time start_stamp(const GnssFix& fix) {
   return std::min(fix.stamp, fix.velocity_stamp);
@@ -80,11 +136,15 @@ FilterState initial_state(const GnssFix& fix, const LocalFrame& frame, const Fus
   state.P(pitch, climb_offset) = -p.climb_offset_sigma * p.climb_offset_sigma;
   state.P(climb_offset, pitch) = state.P(pitch, climb_offset);
   add(roll, p.start_roll_sigma);
-  add(gyro_bias, p.gyro_bias_sigma);
-  add(forward_bias, p.accelerometer_bias_sigma);
-  add(left_bias, p.accelerometer_bias_sigma);
-  add(odometry_scale, p.odometry_scale_sigma);
+  add_unknown_sensors(state, p);
+  // The lasting part of this fix's error is in the position as well as in the fixes to come.
+  for (int i = 0; i < 3; ++i) {
+    const double shared = std::sqrt(p.gnss_correlated * fix.position_covariance(i, i));
+    state.P(east + i, gnss_offset_east + i) = state.P(gnss_offset_east + i, east + i) = -shared;
+  }
+  state.gnss_stamp = fix.stamp;
   take_clone(state);
+  start_chain(state);
   return state;
 }
 

@@ -8,6 +8,23 @@
 
 namespace maploop::fusion {
 
+// What somebody else knows of the vehicle: a surveyed place, the end of the last drive.
+struct KnownStart {
+  Time stamp{};
+  Geodetic position;
+  Attitude attitude;
+  double speed = 0.0;             // m/s, negative in reverse
+  double position_sigma = 0.1;    // m an axis
+  double azimuth_sigma = 0.0017;  // rad (0.1 deg)
+  double tilt_sigma = 0.0087;     // rad (0.5 deg), pitch and roll
+  double speed_sigma = 0.05;      // m/s
+};
+
+// Reason::none, or out_of_range, not_finite.
+Reason check_start(const KnownStart& known);
+FilterState initial_state(const KnownStart& known, const LocalFrame& frame,
+                          const FusionParameters& parameters);
+
 // The earlier of the fix's two stamps: where the filter starts.
 Time start_stamp(const GnssFix& fix);
 

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <initializer_list>
 
 #include "estimators/fusion/filter_state.h"
+#include "estimators/fusion/outcome.h"
 
 namespace maploop::fusion {
 
@@ -25,17 +27,35 @@ struct Innovation {
   }
 };
 
-// Correction of the state and covariance after it; P stays symmetric and positive semi-definite.
+// The states that an update leaves as they are: considered, what is not known of them counts in
+// the gain and in the covariance (Schmidt 1966).
+using Considered = std::initializer_list<int>;
+
+// Correction of the state and covariance after it: (I - KH) P (I - KH)^T + K R K^T multiplied out,
+// which holds for any gain, so that a gain's rounding is of second order; at the cost of the rows
+// alone.
 template <int rows>
-void joseph_update(StateVector& x, StateMatrix& P, const Innovation<rows>& innovation) {
-  const Eigen::Matrix<double, index::count, rows> K =
-      P * innovation.H.transpose() * innovation.covariance(P).inverse();
-  const StateMatrix A = StateMatrix::Identity() - K * innovation.H;
-  const StateMatrix AP = A * P;
-  StateMatrix updated = AP * A.transpose();
-  updated += K * innovation.R * K.transpose();
-  P = 0.5 * (updated + updated.transpose());
+void joseph_update(StateVector& x, StateMatrix& P, const Innovation<rows>& innovation,
+                   Considered considered = {}) {
+  using Columns = Eigen::Matrix<double, index::count, rows>;
+  const Columns PH = P * innovation.H.transpose();
+  const Eigen::Matrix<double, rows, rows> S = innovation.H * PH + innovation.R;
+  Columns K = PH * S.inverse();
+  for (const int i : considered) K.row(i).setZero();
+  const Columns half = PH - 0.5 * K * S;
+  const StateMatrix change = K * half.transpose();
+  P -= change + change.transpose();  // in one step, so that P stays symmetric to the last bit
   add_correction(x, K * innovation.residual);
+}
+
+// One measurement at the state's stamp, whatever its kind: corrects, or refuses with `reason` what
+// contradicts the prediction by more than `gate` (chi-square of `rows` degrees of freedom).
+template <int rows>
+Outcome apply_gated(FilterState& state, const Innovation<rows>& innovation, double gate,
+                    Reason reason, Considered considered = {}) {
+  if (!(innovation.nis(state.P) <= gate)) return refused(reason);
+  joseph_update(state.x, state.P, innovation, considered);
+  return {};
 }
 
 }  // namespace maploop::fusion

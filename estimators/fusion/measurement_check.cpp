@@ -25,6 +25,14 @@ Reason check_sample(const ImuSample& sample, const FusionParameters& parameters)
   return stamped_after_delivery(sample, parameters) ? Reason::after_delivery : Reason::none;
 }
 
+Reason check_wheel(const WheelSpeed& sample, const FusionParameters& parameters) {
+  if (!std::isfinite(sample.speed) || !std::isfinite(sample.sigma)) return Reason::not_finite;
+  constexpr double max_speed = 100.0;  // m/s
+  if (std::abs(sample.speed) > max_speed) return Reason::out_of_range;
+  if (sample.sigma < 0.0) return Reason::invalid_covariance;
+  return stamped_after_delivery(sample, parameters) ? Reason::after_delivery : Reason::none;
+}
+
 Reason check_motion(const RelativeMotion& motion, const FusionParameters& parameters) {
   if (stamped_after_delivery(motion, parameters)) return Reason::after_delivery;
   if (motion.status == OdometryStatus::bad_input) return Reason::odometry_not_ok;

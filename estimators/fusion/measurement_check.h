@@ -5,6 +5,7 @@
 #include "estimators/fusion/outcome.h"
 #include "msgs/imu.h"
 #include "msgs/odometry.h"
+#include "msgs/wheel_speed.h"
 
 namespace maploop::fusion {
 
@@ -15,6 +16,7 @@ bool stamped_after_delivery(const Sample& sample, const FusionParameters& parame
 // Reason::none, or why not. Odometry that reports a failure itself is not looked at further: its
 // stamp still counts, unless its input was bad: then it says nothing about any interval.
 Reason check_sample(const ImuSample& sample, const FusionParameters& parameters);
+Reason check_wheel(const WheelSpeed& sample, const FusionParameters& parameters);
 Reason check_motion(const RelativeMotion& motion, const FusionParameters& parameters);
 
 }  // namespace maploop::fusion

@@ -17,6 +17,22 @@ Vector3d direction(double azimuth, double elevation) {
   return {std::sin(azimuth) * c, std::cos(azimuth) * c, std::sin(elevation)};
 }
 
+// F P F^T. Only the rows of position, speed, azimuth and distance of F hold more than their
+// diagonal: a third of the full product's work.
+StateMatrix propagated(const StateMatrix& P, const StateMatrix& F) {
+  using namespace index;
+  static_assert(east == 0 && azimuth == 4);
+  constexpr int dense = azimuth + 1;
+  const auto diagonal = F.diagonal();
+  StateMatrix FP = diagonal.asDiagonal() * P;
+  FP.topRows<dense>().noalias() = F.topRows<dense>() * P;
+  FP.row(distance).noalias() = F.row(distance) * P;
+  StateMatrix result = FP * diagonal.asDiagonal();
+  result.leftCols<dense>().noalias() = FP * F.topRows<dense>().transpose();
+  result.col(distance).noalias() = FP * F.row(distance).transpose();
+  return 0.5 * (result + result.transpose());
+}
+
 }  // namespace
 
 Step mechanize(const StateVector& x, const InertialInput& input, const LocalEarth& earth,
@@ -28,12 +44,13 @@ Step mechanize(const StateVector& x, const InertialInput& input, const LocalEart
   const double sr = std::sin(x[roll]), cr = std::cos(x[roll]);
 
   // Azimuth rate and acceleration, and their derivatives (rows over the state).
+  double rate = 0.0;  // rad/s about body up
   double azimuth_rate = 0.0;
   double acceleration = 0.0;
   Eigen::Matrix<double, 1, count> azimuth_rate_by = Eigen::Matrix<double, 1, count>::Zero();
   Eigen::Matrix<double, 1, count> acceleration_by = Eigen::Matrix<double, 1, count>::Zero();
   if (input.inertial) {
-    const double rate = input.yaw_rate - x[gyro_bias];
+    rate = input.yaw_rate - x[gyro_bias];
     azimuth_rate = -(rate / (cp * cr) - earth.earth_rate_up());
     azimuth_rate_by[pitch] = -rate * sp / (cp * cp * cr);
     azimuth_rate_by[roll] = -rate * sr / (cp * cr * cr);
@@ -51,7 +68,11 @@ Step mechanize(const StateVector& x, const InertialInput& input, const LocalEart
   }
 
   const double mid_azimuth = x[azimuth] + 0.5 * dt * azimuth_rate;
-  const double mid_speed = x[speed] + 0.5 * dt * acceleration;
+  // Speed and distance are the speed sensor's; the way over ground is less by its scale. (What its
+  // scale does to an acceleration is lost in the accelerometer's own errors.)
+  const double sensed_speed = x[speed] + 0.5 * dt * acceleration;
+  const double to_ground = 1.0 / (1.0 + x[speed_scale]);
+  const double mid_speed = sensed_speed * to_ground;
   const double climb = x[pitch] + x[climb_offset];
   const Vector3d travel = direction(mid_azimuth, climb);
   const Vector3d travel_by_azimuth(travel.y(), -travel.x(), 0.0);
@@ -61,18 +82,27 @@ Step mechanize(const StateVector& x, const InertialInput& input, const LocalEart
   Step step;
   step.x = x;
   step.x.segment<3>(east) += dt * mid_speed * travel;
+  // What rolls without side slip is the rear axle; the origin ahead of it swings out in turns.
+  const Vector3d left(-std::cos(mid_azimuth), std::sin(mid_azimuth), 0.0);
+  const double swing = rate * parameters.rear_axle_distance;
+  step.x.segment<3>(east) += dt * swing * left;
   step.x[speed] += dt * acceleration;
   step.x[azimuth] = wrap_angle(x[azimuth] + dt * azimuth_rate);
-  step.x[distance] += dt * mid_speed;
+  step.x[distance] += dt * sensed_speed;
 
   StateMatrix& F = step.F;
   F.setIdentity();
-  F.middleRows<3>(east) += dt * travel * (0.5 * dt * acceleration_by) +
+  F.middleRows<3>(east) += dt * to_ground * travel * (0.5 * dt * acceleration_by) +
                            dt * mid_speed * travel_by_azimuth * (0.5 * dt * azimuth_rate_by);
-  F.block<3, 1>(east, speed) += dt * travel;
+  F.block<3, 1>(east, speed) += dt * to_ground * travel;
+  F.block<3, 1>(east, speed_scale) -= dt * mid_speed * to_ground * travel;
   F.block<3, 1>(east, azimuth) += dt * mid_speed * travel_by_azimuth;
   F.block<3, 1>(east, pitch) += dt * mid_speed * travel_by_climb;
   F.block<3, 1>(east, climb_offset) += dt * mid_speed * travel_by_climb;
+  const Vector3d left_by_azimuth(std::sin(mid_azimuth), std::cos(mid_azimuth), 0.0);
+  F.middleRows<3>(east) += dt * swing * left_by_azimuth * (0.5 * dt * azimuth_rate_by);
+  F.block<3, 1>(east, azimuth) += dt * swing * left_by_azimuth;
+  if (input.inertial) F.block<3, 1>(east, gyro_bias) -= dt * parameters.rear_axle_distance * left;
   F.row(speed) += dt * acceleration_by;
   F.row(azimuth) += dt * azimuth_rate_by;
   F.row(distance) += 0.5 * dt * dt * acceleration_by;
@@ -82,20 +112,18 @@ Step mechanize(const StateVector& x, const InertialInput& input, const LocalEart
     step.x[i] = mean + (step.x[i] - mean) * factor;
     F(i, i) = factor;
   };
-  decay(gyro_bias, parameters.gyro_bias_time);
-  decay(forward_bias, parameters.accelerometer_bias_time);
-  decay(left_bias, parameters.accelerometer_bias_time);
   decay(climb_offset, parameters.climb_offset_time, parameters.climb_offset);
-  decay(odometry_scale, parameters.odometry_scale_time);
+  for (int i = gnss_offset_east; i <= gnss_offset_up; ++i) decay(i, parameters.gnss_offset_time);
 
   step.acceleration_effect.setZero();
-  step.acceleration_effect.segment<3>(east) = 0.5 * dt * dt * travel;
+  step.acceleration_effect.segment<3>(east) = 0.5 * dt * dt * to_ground * travel;
   step.acceleration_effect[speed] = dt;
   step.acceleration_effect[distance] = 0.5 * dt * dt;
   step.yaw_rate_effect.setZero();
   step.yaw_rate_effect[azimuth] = -dt / (cp * cr);
   step.yaw_rate_effect.segment<3>(east) =
-      -0.5 * dt * dt * mid_speed / (cp * cr) * travel_by_azimuth;
+      -0.5 * dt * dt / (cp * cr) * (mid_speed * travel_by_azimuth + swing * left_by_azimuth) +
+      dt * parameters.rear_axle_distance * left;
   return step;
 }
 
@@ -121,14 +149,21 @@ StateMatrix process_noise(const StateVector& x, const Step& step, const Inertial
   Q(pitch, pitch) += dt * squared(p.pitch_noise);
   Q(roll, roll) += dt * squared(p.roll_noise);
 
-  const auto walk = [&](int i, double sigma) {
+  // Random walk that departs from a constant by sigma in half of `time`.
+  const auto walk = [&](int i, double sigma, double time) {
+    Q(i, i) += 2.0 * squared(sigma) * dt / time;
+  };
+  walk(gyro_bias, p.gyro_bias_sigma, p.gyro_bias_time);
+  walk(forward_bias, p.accelerometer_bias_sigma, p.accelerometer_bias_time);
+  walk(left_bias, p.accelerometer_bias_sigma, p.accelerometer_bias_time);
+  Q(speed_scale, speed_scale) += dt * squared(p.speed_scale_walk);
+  Q(chain_drift, chain_drift) += squared(p.chain_drift) * std::abs(x[speed]) * dt;
+  // First-order Gauss-Markov about its mean.
+  const auto markov = [&](int i, double sigma) {
     Q(i, i) += squared(sigma) * (1.0 - squared(step.F(i, i)));
   };
-  walk(gyro_bias, p.gyro_bias_sigma);
-  walk(forward_bias, p.accelerometer_bias_sigma);
-  walk(left_bias, p.accelerometer_bias_sigma);
-  walk(climb_offset, p.climb_offset_sigma);
-  walk(odometry_scale, p.odometry_scale_sigma);
+  markov(climb_offset, p.climb_offset_sigma);
+  for (int i = gnss_offset_east; i <= gnss_offset_up; ++i) markov(i, 1.0);
 
   // Side slip and suspension turn the direction of travel away from the body's axis.
   const Vector3d travel = direction(x[azimuth], x[pitch] + x[climb_offset]);
@@ -140,10 +175,8 @@ StateMatrix process_noise(const StateVector& x, const Step& step, const Inertial
 void predict(FilterState& state, const InertialInput& input, const LocalEarth& earth,
              const FusionParameters& parameters) {
   const Step step = mechanize(state.x, input, earth, parameters);
-  const StateMatrix FP = step.F * state.P;
-  StateMatrix P = FP * step.F.transpose();
-  P += process_noise(state.x, step, input, parameters);
-  state.P = 0.5 * (P + P.transpose());
+  state.P = propagated(state.P, step.F);
+  state.P += process_noise(state.x, step, input, parameters);
   state.x = step.x;
 }
 

@@ -1,5 +1,5 @@
-// Reduced-IMU mechanization: forward speed, one gyro, position in local metres (method.md 1.2 and
-// 1.4; Noureldin, Karamat and Georgy 2013, 3D-RISS). The vehicle travels along its azimuth,
+// Reduced-IMU mechanization: forward speed, one gyro, position in local metres
+// (Noureldin, Karamat and Georgy 2013, 3D-RISS). The vehicle travels along its azimuth,
 // climbing by its pitch and the offset between body x and the direction of travel.
 #pragma once
 

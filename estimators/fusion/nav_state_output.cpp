@@ -4,6 +4,15 @@
 #include <cmath>
 
 namespace maploop::fusion {
+namespace {
+
+Eigen::Vector3d direction_of_travel(const StateVector& x) {
+  const double climb = x[index::pitch] + x[index::climb_offset];
+  return {std::sin(x[index::azimuth]) * std::cos(climb),
+          std::cos(x[index::azimuth]) * std::cos(climb), std::sin(climb)};
+}
+
+}  // namespace
 
 Eigen::Matrix<double, 9, index::count> nav_state_jacobian(const StateVector& x) {
   using namespace index;
@@ -11,32 +20,39 @@ Eigen::Matrix<double, 9, index::count> nav_state_jacobian(const StateVector& x) 
   const double climb = x[pitch] + x[climb_offset];
   const double sc = std::sin(climb), cc = std::cos(climb);
   Eigen::Matrix<double, 9, count> J = Eigen::Matrix<double, 9, count>::Zero();
+  const double to_ground = 1.0 / (1.0 + x[speed_scale]);
+  const double ground = x[speed] * to_ground;
+  const Eigen::Vector3d travel = direction_of_travel(x);
   J.block<3, 3>(0, east).setIdentity();
-  J.block<3, 1>(3, speed) << sA * cc, cA * cc, sc;
-  J.block<3, 1>(3, azimuth) << x[speed] * cA * cc, -x[speed] * sA * cc, 0.0;
-  J.block<3, 1>(3, pitch) << -x[speed] * sA * sc, -x[speed] * cA * sc, x[speed] * cc;
+  J.block<3, 1>(3, speed) = to_ground * travel;
+  J.block<3, 1>(3, speed_scale) = -ground * to_ground * travel;
+  J.block<3, 1>(3, azimuth) << ground * cA * cc, -ground * sA * cc, 0.0;
+  J.block<3, 1>(3, pitch) << -ground * sA * sc, -ground * cA * sc, ground * cc;
   J.block<3, 1>(3, climb_offset) = J.block<3, 1>(3, pitch);
   J.block<3, 3>(6, azimuth).setIdentity();
   return J;
 }
 
-NavState nav_state(const FilterState& state, const Geodetic& origin, Time gnss_stamp,
+NavState nav_state(const FilterState& state, const Geodetic& origin,
                    const FusionParameters& parameters) {
   NavState nav;
   nav.stamp = nav.available = state.stamp;
-  const Time aided_since = std::max(state.odometry_stamp, state.start);
+  const Time aided_since = std::max({state.odometry_stamp, state.wheel_stamp,
+                                     parameters.use_gnss ? state.gnss_stamp : Time{}, state.start});
   nav.status = state.stamp - aided_since > from_seconds(parameters.coasting_after)
                    ? NavStatus::coasting
                    : NavStatus::aided;
   nav.origin = origin;
   nav.position_enu = state.x.segment<3>(index::east);
-  nav.forward_speed = state.x[index::speed];
+  nav.forward_speed = state.ground_speed();
   nav.attitude = state.attitude();
   nav.gyro_bias = state.x[index::gyro_bias];
 
   const Eigen::Matrix<double, 9, index::count> J = nav_state_jacobian(state.x);
-  const Eigen::Vector3d travel = J.block<3, 1>(3, index::speed);
-  nav.velocity_enu = nav.forward_speed * travel;
+  const Eigen::Vector3d travel = direction_of_travel(state.x);
+  const Eigen::Vector3d left(-std::cos(nav.attitude.azimuth), std::sin(nav.attitude.azimuth), 0.0);
+  nav.velocity_enu = nav.forward_speed * travel + (state.yaw_rate - state.x[index::gyro_bias]) *
+                                                      parameters.rear_axle_distance * left;
   const Eigen::Matrix<double, 9, 9> covariance = J * state.P * J.transpose();
   nav.covariance = 0.5 * (covariance + covariance.transpose());
   const double slip = parameters.slip_sigma * nav.forward_speed;
@@ -45,7 +61,10 @@ NavState nav_state(const FilterState& state, const Geodetic& origin, Time gnss_s
 
   nav.imu_stamp = state.imu_stamp;
   nav.odometry_stamp = state.odometry_stamp;
-  nav.gnss_stamp = gnss_stamp;
+  nav.gnss_stamp = state.gnss_stamp;
+  nav.wheel_stamp = state.wheel_stamp;
+  nav.zero_velocity_stamp = state.zero_velocity_stamp;
+  nav.reinitializations = state.reinitializations;
   nav.odometry_applied = state.odometry_applied;
   nav.odometry_refused = state.odometry_refused;
   return nav;

@@ -12,7 +12,7 @@ Eigen::Matrix<double, 9, index::count> nav_state_jacobian(const StateVector& x);
 
 // Status, stamps and covariance included; to the velocity's, the side slip is added that the state
 // does not hold. `available` is the stamp; both it and `sequence` are the caller's to change.
-NavState nav_state(const FilterState& state, const Geodetic& origin, Time gnss_stamp,
+NavState nav_state(const FilterState& state, const Geodetic& origin,
                    const FusionParameters& parameters);
 
 }  // namespace maploop::fusion

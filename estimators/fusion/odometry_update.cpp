@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace maploop::fusion {
 namespace {
@@ -44,26 +45,107 @@ void inflate(FilterState& state, const RelativeMotion& motion, const FusionParam
   state.P(gyro_bias, gyro_bias) += p.gyro_bias_sigma * p.gyro_bias_sigma;
 }
 
-Outcome correct(FilterState& state, const RelativeMotion& motion,
-                const FusionParameters& parameters) {
-  const Innovation<1> distance = distance_innovation(state, motion, parameters);
-  if (!(distance.nis(state.P) <= parameters.speed_gate)) return refused(Reason::speed_gate);
-  if (!(rotation_innovation(state, motion, parameters).nis(state.P) <= parameters.rotation_gate)) {
-    return refused(Reason::rotation_gate);
+// Rotation about the horizontal axes alone.
+Innovation<2> tilt_innovation(const FilterState& state, const RelativeMotion& motion,
+                              const FusionParameters& parameters) {
+  const Innovation<3> all = rotation_innovation(state, motion, parameters);
+  Innovation<2> innovation;
+  innovation.residual = all.residual.head<2>();
+  innovation.H = all.H.topRows<2>();
+  innovation.R = all.R.topLeftCorner<2, 2>();
+  return innovation;
+}
+
+// Adds the motion's turning to the chained azimuth.
+void chain(FilterState& state, const RelativeMotion& motion) {
+  Attitude start = state.clone_attitude();
+  start.azimuth = state.chained_azimuth;
+  state.chained_azimuth =
+      attitude_from_rotation(rotation_enu_body(start) * motion.rotation.toRotationMatrix()).azimuth;
+  state.P(index::chain_drift, index::chain_drift) += motion.covariance(5, 5);
+}
+
+Outcome correct_turning(FilterState& state, const RelativeMotion& motion,
+                        const FusionParameters& p) {
+  if (p.use_odometry_azimuth && !p.chain_odometry_azimuth) {
+    return apply_gated(state, rotation_innovation(state, motion, p), p.rotation_gate,
+                       Reason::rotation_gate);
   }
-  StateVector x = state.x;
-  StateMatrix P = state.P;
-  joseph_update(state.x, state.P, distance);
-  joseph_update(state.x, state.P, rotation_innovation(state, motion, parameters));
-  const Innovation<1> climb = climb_innovation(state, motion, parameters);
-  if (climb.nis(state.P) <= parameters.speed_gate) joseph_update(state.x, state.P, climb);
-  if (std::abs(state.x[index::pitch]) <= parameters.max_tilt &&
-      std::abs(state.x[index::roll]) <= parameters.max_tilt) {
-    return {};
+  Outcome outcome =
+      apply_gated(state, tilt_innovation(state, motion, p), p.rotation_gate, Reason::rotation_gate);
+  if (outcome.refused() || !p.use_odometry_azimuth) return outcome;
+  chain(state, motion);
+  return apply_gated(state, chained_azimuth_innovation(state, p), p.speed_gate,
+                     Reason::rotation_gate);
+}
+
+// All of it or nothing.
+Outcome correct(FilterState& state, const RelativeMotion& motion, const FusionParameters& p) {
+  const StateVector x = state.x;
+  const StateMatrix P = state.P;
+  const double chained = state.chained_azimuth;
+  const Innovation<3> turning = rotation_innovation(state, motion, p);
+  const double turning_variance = turning.covariance(P)(2, 2);
+  Outcome outcome;
+  if (p.use_odometry_speed) {
+    outcome =
+        apply_gated(state, distance_innovation(state, motion, p), p.speed_gate, Reason::speed_gate);
   }
-  state.x = x;
-  state.P = P;
-  return refused(Reason::implausible_tilt);
+  if (!outcome.refused()) outcome = correct_turning(state, motion, p);
+  if (!outcome.refused() && p.use_odometry_speed) {
+    // Climb only skips itself.
+    apply_gated(state, climb_innovation(state, motion, p), p.speed_gate, Reason::speed_gate);
+  }
+  if (!outcome.refused() && (std::abs(state.x[index::pitch]) > p.max_tilt ||
+                             std::abs(state.x[index::roll]) > p.max_tilt)) {
+    outcome = refused(Reason::implausible_tilt);
+  }
+  if (outcome.refused()) {
+    state.x = x;
+    state.P = P;
+    state.chained_azimuth = chained;
+  } else {
+    state.imu_delay.add(state.yaw_rate - state.clone_yaw_rate, turning.residual.z(),
+                        turning_variance);
+  }
+  return outcome;
+}
+
+// The vehicle was taken to drive forward when it started from a course. Odometry that sees it go as
+// fast the other way says that it was in reverse: the nose points where the tail was thought to be,
+// and the way travelled stays the same.
+bool drives_backward(const FilterState& state, const RelativeMotion& motion,
+                     const FusionParameters& p) {
+  if (!p.use_odometry_speed) return false;
+  const double expected = state.x[index::distance];
+  const double seen = arc(motion).displacement.x();
+  constexpr double alike = 0.3;
+  return expected * seen < 0.0 && std::abs(seen + expected) < alike * std::abs(seen - expected) &&
+         std::abs(seen) > p.min_course_speed * to_seconds(motion.stamp - motion.from);
+}
+
+void turn_round(FilterState& state) {
+  using namespace index;
+  StateVector& x = state.x;
+  x[azimuth] = wrap_angle(x[azimuth] + std::numbers::pi);
+  x[clone_azimuth] = wrap_angle(x[clone_azimuth] + std::numbers::pi);
+  x[pitch] = -x[pitch] - 2.0 * x[climb_offset];
+  x[clone_pitch] = -x[clone_pitch] - 2.0 * x[climb_offset];
+  state.chained_azimuth = wrap_angle(state.chained_azimuth + std::numbers::pi);
+  for (const int i : {speed, distance, roll, clone_roll}) x[i] = -x[i];
+  for (const int i : {speed, distance, pitch, clone_pitch, roll, clone_roll}) {
+    state.P.row(i) *= -1.0;
+    state.P.col(i) *= -1.0;
+  }
+}
+
+// A disparity is biased, and with it the length of a visual motion; a range is not.
+bool has_scale(const RelativeMotion& motion) {
+  return motion.source == OdometrySource::visual;
+}
+
+double gain_of(const FilterState& state, const RelativeMotion& motion) {
+  return has_scale(motion) ? 1.0 : 1.0 / (1.0 + state.x[index::speed_scale]);
 }
 
 }  // namespace
@@ -83,12 +165,14 @@ Innovation<1> distance_innovation(const FilterState& state, const RelativeMotion
                                   const FusionParameters& parameters) {
   const Arc travelled = arc(motion);
   const double floor = parameters.min_speed_sigma * to_seconds(motion.stamp - motion.from);
-  const double gain = 1.0 + state.x[index::odometry_scale];
+  const double gain = gain_of(state, motion);
   Innovation<1> innovation;
   innovation.residual << travelled.displacement.x() - gain * state.x[index::distance];
   innovation.H.setZero();
   innovation.H[index::distance] = gain;
-  innovation.H[index::odometry_scale] = state.x[index::distance];
+  if (!has_scale(motion)) {
+    innovation.H[index::speed_scale] = -gain * gain * state.x[index::distance];
+  }
   innovation.R << travelled.covariance(0, 0) + floor * floor;
   return innovation;
 }
@@ -97,7 +181,7 @@ Innovation<1> climb_innovation(const FilterState& state, const RelativeMotion& m
                                const FusionParameters& parameters) {
   const Arc travelled = arc(motion);
   const double distance = state.x[index::distance];
-  const double gain = 1.0 + state.x[index::odometry_scale];
+  const double gain = gain_of(state, motion);
   const double offset = state.x[index::climb_offset];
   const double heave = parameters.climb_noise * distance;
   const double floor = parameters.min_speed_sigma * to_seconds(motion.stamp - motion.from);
@@ -106,7 +190,7 @@ Innovation<1> climb_innovation(const FilterState& state, const RelativeMotion& m
   innovation.H.setZero();
   innovation.H[index::climb_offset] = gain * distance;
   innovation.H[index::distance] = gain * offset;
-  innovation.H[index::odometry_scale] = distance * offset;
+  if (!has_scale(motion)) innovation.H[index::speed_scale] = -gain * gain * distance * offset;
   innovation.R << travelled.covariance(2, 2) + heave * heave + floor * floor;
   return innovation;
 }
@@ -129,6 +213,18 @@ Innovation<3> rotation_innovation(const FilterState& state, const RelativeMotion
   return innovation;
 }
 
+Innovation<1> chained_azimuth_innovation(const FilterState& state, const FusionParameters& p) {
+  using namespace index;
+  Innovation<1> innovation;
+  innovation.residual << wrap_angle(state.chained_azimuth - state.x[azimuth] -
+                                    state.x[chain_drift]);
+  innovation.H.setZero();
+  innovation.H[azimuth] = 1.0;
+  innovation.H[chain_drift] = 1.0;
+  innovation.R << p.chained_azimuth_sigma * p.chained_azimuth_sigma;
+  return innovation;
+}
+
 Outcome apply_odometry(FilterState& state, const RelativeMotion& motion,
                        const FusionParameters& parameters) {
   Outcome outcome;
@@ -139,12 +235,15 @@ Outcome apply_odometry(FilterState& state, const RelativeMotion& motion,
   } else {
     outcome = correct(state, motion, parameters);
     if (outcome.refused() && ++state.gated_in_a_row % parameters.recover_after == 0) {
+      if (drives_backward(state, motion, parameters)) turn_round(state);
       inflate(state, motion, parameters);
       ++state.recoveries;
       outcome = correct(state, motion, parameters);
     }
   }
   if (outcome.refused()) {
+    // What was not added is missing from the chain.
+    if (parameters.chain_odometry_azimuth) start_chain(state);
     ++state.odometry_refused;
   } else {
     ++state.odometry_applied;

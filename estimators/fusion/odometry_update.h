@@ -1,5 +1,5 @@
 // Correction by odometry: the distance travelled over its interval and the rotation from the
-// interval's start (stochastic clone: Roumeliotis and Burdick 2002; method.md 1.4).
+// interval's start (stochastic clone: Roumeliotis and Burdick 2002).
 #pragma once
 
 #include "estimators/fusion/fusion_parameters.h"
@@ -19,12 +19,13 @@ struct Arc {
 };
 Arc arc(const RelativeMotion& motion);
 
-// z = forward displacement; h = (1 + scale) distance. Exact for any speed profile, as the filter
-// integrates its own speed over the same interval.
+// z = forward displacement; h = distance as the visual odometry sees it, of a LiDAR's motion
+// without its scale. Exact for any speed profile, as the filter integrates its own speed over the
+// same interval.
 Innovation<1> distance_innovation(const FilterState& state, const RelativeMotion& motion,
                                   const FusionParameters& parameters);
 
-// z = upward displacement; h = (1 + scale) distance * climb offset.
+// z = upward displacement; h = that of the distance * climb offset.
 Innovation<1> climb_innovation(const FilterState& state, const RelativeMotion& motion,
                                const FusionParameters& parameters);
 
@@ -33,11 +34,18 @@ Innovation<1> climb_innovation(const FilterState& state, const RelativeMotion& m
 Innovation<3> rotation_innovation(const FilterState& state, const RelativeMotion& motion,
                                   const FusionParameters& parameters);
 
-// All corrections, or none: an odometry that is wrong in speed (gate of 1 degree of freedom) or
-// rotation (3) is not trusted in the rest. Climb has the gate of speed, but only skips itself.
-// After `recover_after` gated motions in a row the prediction is the suspect: its covariance is
-// inflated (`recoveries` counts) before the gates are asked again. Counts in the state; takes the
-// clone in every case. Precondition: state.stamp == motion.stamp.
+// z = azimuth chained from odometry alone (thesis); h = azimuth + drift of the
+// chain.
+Innovation<1> chained_azimuth_innovation(const FilterState& state,
+                                         const FusionParameters& parameters);
+
+// Those corrections that the configuration asks for, all or none: an odometry that is wrong in
+// speed (gate of 1 degree of freedom) or rotation (3) is not trusted in the rest. Climb has the
+// gate of speed, but only skips itself. After `recover_after` gated motions in a row the prediction
+// is the suspect: its covariance is inflated (`recoveries` counts) before the gates are asked
+// again; where the motion goes as fast the other way, nose and tail were mistaken for each other
+// and change places first. Counts in the state; takes the clone in every case. Precondition:
+// state.stamp == motion.stamp.
 Outcome apply_odometry(FilterState& state, const RelativeMotion& motion,
                        const FusionParameters& parameters);
 

@@ -24,6 +24,7 @@ enum class Reason : std::uint8_t {
   too_old,             // before the history begins
   before_start,        // before the moment the filter started at
   after_delivery,      // stamped later than it was delivered: its sensor's clock is wrong
+  clock_fell_back,     // its sensor's clock has fallen back, and is not right again
   time_jump,           // further ahead of all others than may be, or not confirmed by a second one
   // Odometry, at its stamp: no correction, but the next interval starts there.
   odometry_not_ok,   // its own status says so (bad input: at the door)
@@ -31,10 +32,14 @@ enum class Reason : std::uint8_t {
   speed_gate,        // forward speed contradicts the prediction
   rotation_gate,     // rotation contradicts the prediction
   implausible_tilt,  // the correction would lean the vehicle over
-  // GNSS fixes, which only start the filter.
-  already_started,
-  too_slow,      // no course without motion: waiting for a fix that moves
-  stamps_apart,  // position and velocity belong to different moments
+  wheel_gate,        // the wheels' speed contradicts the prediction
+  not_configured,    // the configuration does not use this sensor
+  // GNSS fixes.
+  position_gate,    // position contradicts the prediction
+  velocity_gate,    // velocity contradicts the prediction
+  already_started,  // the configuration has no use for fixes but to start
+  too_slow,         // no course without motion: waiting for a fix that moves
+  stamps_apart,     // position and velocity belong to different moments
   too_far_from_origin,
 };
 
@@ -89,6 +94,8 @@ constexpr std::string_view to_string(Reason reason) {
       return "before the filter's start";
     case Reason::after_delivery:
       return "stamped later than delivered";
+    case Reason::clock_fell_back:
+      return "the sensor's clock has fallen back";
     case Reason::time_jump:
       return "jump of the time stamp";
     case Reason::odometry_not_ok:
@@ -101,6 +108,14 @@ constexpr std::string_view to_string(Reason reason) {
       return "rotation contradicts the prediction";
     case Reason::implausible_tilt:
       return "implausible tilt";
+    case Reason::wheel_gate:
+      return "wheel speed contradicts the prediction";
+    case Reason::not_configured:
+      return "not used by the configuration";
+    case Reason::position_gate:
+      return "GNSS position contradicts the prediction";
+    case Reason::velocity_gate:
+      return "GNSS velocity contradicts the prediction";
     case Reason::already_started:
       return "filter already started";
     case Reason::too_slow:

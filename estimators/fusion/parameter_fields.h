@@ -12,6 +12,12 @@ namespace maploop::fusion {
 template <class Parameters, class F>
 requires std::same_as<std::remove_const_t<Parameters>, FusionParameters>
 void fields(Parameters& p, F&& f) {
+  f("use_gnss", p.use_gnss);
+  f("use_odometry_speed", p.use_odometry_speed);
+  f("use_odometry_azimuth", p.use_odometry_azimuth);
+  f("chain_odometry_azimuth", p.chain_odometry_azimuth);
+  f("use_wheel_speed", p.use_wheel_speed);
+  f("use_zero_velocity", p.use_zero_velocity);
   f("history_length", p.history_length);
   f("history_capacity", p.history_capacity);
   f("confirm_gap", p.confirm_gap);
@@ -32,11 +38,13 @@ void fields(Parameters& p, F&& f) {
   f("start_roll_sigma", p.start_roll_sigma);
   f("start_acceleration", p.start_acceleration);
   f("gyro_noise", p.gyro_noise);
+  f("gyro_turn_on_sigma", p.gyro_turn_on_sigma);
   f("gyro_bias_sigma", p.gyro_bias_sigma);
   f("gyro_bias_time", p.gyro_bias_time);
   f("gyro_scale_sigma", p.gyro_scale_sigma);
   f("turn_time", p.turn_time);
   f("acceleration_noise", p.acceleration_noise);
+  f("accelerometer_turn_on_sigma", p.accelerometer_turn_on_sigma);
   f("accelerometer_bias_sigma", p.accelerometer_bias_sigma);
   f("accelerometer_bias_time", p.accelerometer_bias_time);
   f("yaw_acceleration", p.yaw_acceleration);
@@ -47,6 +55,7 @@ void fields(Parameters& p, F&& f) {
   f("max_yaw_rate", p.max_yaw_rate);
   f("pitch_noise", p.pitch_noise);
   f("roll_noise", p.roll_noise);
+  f("rear_axle_distance", p.rear_axle_distance);
   f("slip_sigma", p.slip_sigma);
   f("slip_time", p.slip_time);
   f("climb_offset", p.climb_offset);
@@ -58,12 +67,29 @@ void fields(Parameters& p, F&& f) {
   f("tilt_time", p.tilt_time);
   f("max_acceleration", p.max_acceleration);
   f("max_lateral_acceleration", p.max_lateral_acceleration);
+  f("gnss_correlated", p.gnss_correlated);
+  f("gnss_offset_time", p.gnss_offset_time);
+  f("gnss_position_gate", p.gnss_position_gate);
+  f("gnss_velocity_gate", p.gnss_velocity_gate);
+  f("gnss_recover_after", p.gnss_recover_after);
+  f("gnss_recovery_sigma", p.gnss_recovery_sigma);
+  f("gnss_lever_forward", p.gnss_lever_forward);
+  f("gnss_lever_left", p.gnss_lever_left);
+  f("gnss_lever_up", p.gnss_lever_up);
+  f("speed_scale_sigma", p.speed_scale_sigma);
+  f("speed_scale_walk", p.speed_scale_walk);
+  f("min_wheel_sigma", p.min_wheel_sigma);
+  f("still_force", p.still_force);
+  f("still_rate", p.still_rate);
+  f("still_speed", p.still_speed);
+  f("zero_velocity_sigma", p.zero_velocity_sigma);
+  f("zero_rate_sigma", p.zero_rate_sigma);
   f("min_speed_sigma", p.min_speed_sigma);
   f("min_rotation_sigma", p.min_rotation_sigma);
-  f("odometry_scale_sigma", p.odometry_scale_sigma);
-  f("odometry_scale_time", p.odometry_scale_time);
   f("speed_gate", p.speed_gate);
   f("rotation_gate", p.rotation_gate);
+  f("chained_azimuth_sigma", p.chained_azimuth_sigma);
+  f("chain_drift", p.chain_drift);
   f("recover_after", p.recover_after);
   f("recovery_speed_sigma", p.recovery_speed_sigma);
   f("recovery_rotation_sigma", p.recovery_rotation_sigma);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "estimators/fusion/gnss_update.h"
 #include "estimators/fusion/initial_state.h"
 #include "estimators/fusion/measurement_check.h"
 #include "estimators/fusion/mechanization.h"
@@ -11,6 +12,8 @@
 #include "estimators/fusion/odometry_update.h"
 #include "estimators/fusion/parameter_fields.h"
 #include "estimators/fusion/roll_update.h"
+#include "estimators/fusion/wheel_update.h"
+#include "estimators/fusion/zero_velocity.h"
 #include "msgs/archive.h"
 
 namespace maploop::fusion {
@@ -23,6 +26,20 @@ const FusionParameters& checked(const FusionParameters& parameters) {
 
 EventKey last_key_at(Time stamp) {
   return {stamp, EventKind::clone, std::numeric_limits<std::uint64_t>::max()};
+}
+
+}  // namespace
+
+namespace {
+
+// Between samples on a straight line; after the newest one, its own.
+double yaw_rate_at(const InertialSamples& samples, Time t) {
+  if (samples.before == nullptr) return 0.0;
+  const ImuSample& a = *samples.before;
+  if (samples.after == nullptr) return a.yaw_rate;
+  const double gap = to_seconds(samples.after->stamp - a.stamp);
+  const double share = gap > 0.0 ? to_seconds(t - a.stamp) / gap : 0.0;
+  return a.yaw_rate + share * (samples.after->yaw_rate - a.yaw_rate);
 }
 
 }  // namespace
@@ -42,6 +59,9 @@ Outcome ReducedImuFilter::add(const ImuSample& sample) {
   }
   const EventKey key{sample.stamp, EventKind::imu, sample.sequence};
   if (const Reason reason = check_stamp(key); reason != Reason::none) return refuse_stamp(reason);
+  if (const Reason reason = imu_clock_.check(sample); reason != Reason::none) {
+    return count(refused(reason));
+  }
   if (key < base_key_ && started_here()) return add_before_start(sample);
   make_room(1);
   if (key <= base_key_) return refuse_stamp(Reason::too_old);
@@ -71,6 +91,9 @@ Outcome ReducedImuFilter::add_before_start(const ImuSample& sample) {
 }
 
 Outcome ReducedImuFilter::add(const RelativeMotion& motion) {
+  if (!parameters_.use_odometry_speed && !parameters_.use_odometry_azimuth) {
+    return count(refused(Reason::not_configured));
+  }
   if (const Reason reason = check_motion(motion, parameters_); reason != Reason::none) {
     return count(refused(reason));
   }
@@ -93,9 +116,37 @@ Outcome ReducedImuFilter::add(const RelativeMotion& motion) {
   return insert_and_roll(key, motion, redo);
 }
 
+Outcome ReducedImuFilter::add(const WheelSpeed& sample) {
+  if (!parameters_.use_wheel_speed) return count(refused(Reason::not_configured));
+  if (const Reason reason = check_wheel(sample, parameters_); reason != Reason::none) {
+    return count(refused(reason));
+  }
+  const EventKey key{sample.stamp, EventKind::wheel, sample.sequence};
+  if (const Reason reason = check_stamp(key); reason != Reason::none) return refuse_stamp(reason);
+  if (key < base_key_ && started_here()) return count(refused(Reason::before_start));
+  make_room(1);
+  if (key <= base_key_) return refuse_stamp(Reason::too_old);
+  return insert_and_roll(key, sample, history_.position_after(key));
+}
+
 Outcome ReducedImuFilter::add(const GnssFix& fix) {
-  if (initialized_) return count(refused(Reason::already_started));
-  return start(fix);
+  if (!initialized_) return start(fix);
+  return parameters_.use_gnss ? correct(fix) : count(refused(Reason::already_started));
+}
+
+Outcome ReducedImuFilter::correct(const GnssFix& fix) {
+  const Reason reason = check_fix(fix, parameters_);
+  if (reason != Reason::none && reason != Reason::too_slow) return count(refused(reason));
+  const EventKey velocity{fix.velocity_stamp, EventKind::gnss_velocity, fix.sequence};
+  const EventKey position{fix.stamp, EventKind::gnss_position, fix.sequence};
+  for (const EventKey& key : {velocity, position}) {
+    if (const Reason stamp = check_stamp(key); stamp != Reason::none) return refuse_stamp(stamp);
+    if (key < base_key_ && started_here()) return count(refused(Reason::before_start));
+  }
+  make_room(2);
+  if (std::min(velocity, position) <= base_key_) return refuse_stamp(Reason::too_old);
+  const std::size_t first = history_.insert(velocity, fix);
+  return insert_and_roll(position, fix, first);
 }
 
 template <class Measurement>
@@ -115,24 +166,38 @@ Outcome ReducedImuFilter::start(const GnssFix& fix) {
   const Reason reason = check_fix(fix, parameters_);
   if (reason == Reason::too_slow) status_.phase = Phase::waiting_for_motion;
   if (reason != Reason::none) return count(refused(reason));
-  const EventKey key{start_stamp(fix), EventKind::start, 0};
-  if (const Reason stamp = check_stamp(key); stamp != Reason::none) return refuse_stamp(stamp);
+  return start_with(start_stamp(fix), fix.position,
+                    [&] { return initial_state(fix, frame_, parameters_); });
+}
+
+Outcome ReducedImuFilter::start(const KnownStart& known) {
+  if (initialized_) return count(refused(Reason::already_started));
+  if (const Reason reason = check_start(known); reason != Reason::none) {
+    return count(refused(reason));
+  }
+  return start_with(known.stamp, known.position,
+                    [&] { return initial_state(known, frame_, parameters_); });
+}
+
+template <class MakeState>
+Outcome ReducedImuFilter::start_with(Time stamp, const Geodetic& position, MakeState make_state) {
+  const EventKey key{stamp, EventKind::start, 0};
+  if (const Reason reason = check_stamp(key); reason != Reason::none) return refuse_stamp(reason);
   if (key < base_key_) return refuse_stamp(Reason::too_old);
-  if (has_origin_ && !(frame_.to_enu(fix.position).norm() <= parameters_.max_origin_distance)) {
+  if (has_origin_ && !(frame_.to_enu(position).norm() <= parameters_.max_origin_distance)) {
     return count(refused(Reason::too_far_from_origin));
   }
 
   if (!has_origin_) {
-    frame_ = LocalFrame(fix.position);
-    earth_ = LocalEarth(fix.position);
+    frame_ = LocalFrame(position);
+    earth_ = LocalEarth(position);
     has_origin_ = true;
   }
   while (history_.size() > 0 && history_[0].key < key) drop_oldest();
-  base_ = initial_state(fix, frame_, parameters_);
+  base_ = make_state();
   base_key_ = key;
   if (base_sample_) base_.imu_stamp = base_sample_->stamp;
   initialized_ = true;
-  gnss_stamp_ = fix.stamp;
   status_.phase = Phase::running;
   roll_forward(0);
   accept_stamp(key.stamp);
@@ -146,8 +211,8 @@ void ReducedImuFilter::restart() {
   base_key_ = {};
   base_sample_.reset();
   initialized_ = false;
-  gnss_stamp_ = Time{};
   guard_.reset();
+  imu_clock_ = {};
   status_.phase = Phase::waiting_for_fix;
   ++status_.restarts;
 }
@@ -203,9 +268,11 @@ void ReducedImuFilter::drop_oldest() {
 
 FilterStatus ReducedImuFilter::status() const {
   FilterStatus status = status_;
-  status.recoveries = history_.size() > 0 && initialized_
-                          ? history_[history_.size() - 1].after.recoveries
-                          : base_.recoveries;
+  const FilterState& newest =
+      history_.size() > 0 && initialized_ ? history_[history_.size() - 1].after : base_;
+  status.recoveries = newest.recoveries;
+  status.reinitializations = newest.reinitializations;
+  status.imu_delay = newest.imu_delay;
   return status;
 }
 
@@ -216,7 +283,7 @@ std::optional<NavState> ReducedImuFilter::state_at(Time t) const {
   const std::size_t position = history_.position_after(last_key_at(t));
   FilterState state = position == 0 ? base_ : history_[position - 1].after;
   advance(state, samples_around(position), t);
-  return nav_state(state, frame_.origin(), gnss_stamp_, parameters_);
+  return nav_state(state, frame_.origin(), parameters_);
 }
 
 std::size_t ReducedImuFilter::next_sample(std::size_t position) const {
@@ -229,8 +296,8 @@ void ReducedImuFilter::describe(Archive& ar, Filter& f) {
   ar.section("reduced-IMU filter", 1);
   archive_same_fields(ar, f.parameters_);
   Geodetic origin = f.frame_.origin();
-  ar(f.has_origin_, origin, f.guard_, f.history_, f.base_, f.base_key_, f.base_sample_,
-     f.initialized_, f.gnss_stamp_, f.status_);
+  ar(f.has_origin_, origin, f.guard_, f.imu_clock_, f.history_, f.base_, f.base_key_,
+     f.base_sample_, f.initialized_, f.status_);
   if constexpr (Archive::loading) {
     f.frame_ = LocalFrame(origin);
     f.earth_ = LocalEarth(origin);
@@ -266,6 +333,7 @@ InertialSamples ReducedImuFilter::samples_around(std::size_t position) const {
 }
 
 void ReducedImuFilter::advance(FilterState& state, const InertialSamples& samples, Time to) const {
+  if (to > state.stamp) state.yaw_rate = yaw_rate_at(samples, to);
   while (state.stamp < to) {
     const Time end = end_of_stretch(samples, state.stamp, to, parameters_);
     predict(state, inertial_input(samples, state.stamp, end, parameters_), earth_, parameters_);
@@ -276,20 +344,43 @@ void ReducedImuFilter::advance(FilterState& state, const InertialSamples& sample
 Outcome ReducedImuFilter::apply(FilterState& state, const Event& event,
                                 const InertialSamples& samples) const {
   if (const auto* motion = std::get_if<RelativeMotion>(&event.measurement)) {
+    note_motion(state.stillness, *motion, parameters_);
     return apply_odometry(state, *motion, parameters_);
   }
   if (const auto* sample = std::get_if<ImuSample>(&event.measurement)) {
-    if (samples.before != nullptr) {
-      const double interval = to_seconds(sample->stamp - samples.before->stamp);
-      if (const auto roll = roll_innovation(state, *sample, interval, earth_, parameters_)) {
-        joseph_update(state.x, state.P, *roll);
-      }
-    }
+    if (samples.before != nullptr) apply_sample(state, *sample, *samples.before);
     state.imu_stamp = sample->stamp;
     return {};
   }
+  if (const auto* sample = std::get_if<WheelSpeed>(&event.measurement)) {
+    note_motion(state.stillness, *sample, parameters_);
+    return apply_wheel(state, *sample, parameters_);
+  }
+  if (const auto* fix = std::get_if<GnssFix>(&event.measurement)) {
+    if (event.key.kind == EventKind::gnss_position) {
+      return apply_gnss_position(state, *fix, frame_, parameters_);
+    }
+    const double yaw_rate = samples.before != nullptr ? samples.before->yaw_rate : 0.0;
+    return apply_gnss_velocity(state, *fix, yaw_rate, parameters_);
+  }
   take_clone(state);
   return {};
+}
+
+// What a sample says beyond carrying the state on: which way is down, and that nothing moves.
+void ReducedImuFilter::apply_sample(FilterState& state, const ImuSample& sample,
+                                    const ImuSample& before) const {
+  const double interval = to_seconds(sample.stamp - before.stamp);
+  if (interval <= 0.0) return;
+  if (const auto roll = roll_innovation(state, sample, interval, earth_, parameters_)) {
+    // A body leans in turns: what that does to the force must not pass for speed or for the gyro's.
+    joseph_update(state.x, state.P, *roll, {index::speed, index::speed_scale, index::gyro_bias});
+  }
+  if (!stands(state, sample, interval, parameters_) || !parameters_.use_zero_velocity) return;
+  joseph_update(state.x, state.P, zero_velocity_innovation(state, interval, parameters_));
+  joseph_update(state.x, state.P,
+                zero_rate_innovation(state, sample, interval, earth_, parameters_));
+  state.zero_velocity_stamp = sample.stamp;
 }
 
 void ReducedImuFilter::roll_forward(std::size_t position) {

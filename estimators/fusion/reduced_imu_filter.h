@@ -1,5 +1,5 @@
 // Reduced-IMU navigation: two horizontal accelerometers, one vertical gyro and odometry in an
-// extended Kalman filter that takes late data at its own stamp (method.md 1.4).
+// extended Kalman filter that takes late data at its own stamp.
 #pragma once
 
 #include <array>
@@ -10,11 +10,14 @@
 #include "estimators/fusion/event_history.h"
 #include "estimators/fusion/fusion_parameters.h"
 #include "estimators/fusion/inertial_input.h"
+#include "estimators/fusion/initial_state.h"
 #include "estimators/fusion/outcome.h"
+#include "estimators/fusion/sensor_clock.h"
 #include "estimators/fusion/stamp_guard.h"
 #include "msgs/gnss.h"
 #include "msgs/local_frame.h"
 #include "msgs/nav_state.h"
+#include "msgs/wheel_speed.h"
 
 namespace maploop {
 class ArchiveReader;
@@ -32,9 +35,11 @@ enum class Phase : std::uint8_t {
 struct FilterStatus {
   Phase phase = Phase::waiting_for_fix;
   std::uint64_t recoveries = 0;  // times a row of gated odometry made the filter doubt itself
-  std::uint64_t restarts = 0;    // times a jump of the clock made it begin anew
-  std::uint64_t shortened = 0;   // events that left the history early because it was full
-  std::uint64_t unused = 0;      // held measurements that grew too old before the filter started
+  std::uint64_t reinitializations = 0;  // times it began anew at a fix that it could not believe
+  DelayEstimate imu_delay;              // left in the inertial stamps, against odometry
+  std::uint64_t restarts = 0;           // times a jump of the clock made it begin anew
+  std::uint64_t shortened = 0;          // events that left the history early because it was full
+  std::uint64_t unused = 0;  // held measurements that grew too old before the filter started
   // Of every measurement added, by its outcome when it was added (a later arrival may change what
   // the filter makes of it; NavState counts what is inside a state).
   std::uint64_t applied = 0;
@@ -48,7 +53,8 @@ struct FilterStatus {
 
 template <class Archive>
 void archive(Archive& ar, FilterStatus& s) {
-  ar(s.phase, s.recoveries, s.restarts, s.shortened, s.unused, s.applied, s.held, s.refused);
+  ar(s.phase, s.recoveries, s.reinitializations, s.imu_delay, s.restarts, s.shortened, s.unused,
+     s.applied, s.held, s.refused);
 }
 
 // Not thread-safe; reads no clock, allocates nothing after construction.
@@ -73,7 +79,13 @@ class ReducedImuFilter {
 
   Outcome add(const ImuSample& sample);
   Outcome add(const RelativeMotion& motion);
-  Outcome add(const GnssFix& fix);  // starts the filter; not used afterwards
+  Outcome add(const WheelSpeed& sample);
+  // Starts the filter; later ones correct it where the configuration says so: position and velocity
+  // each at its own stamp (the outcome is the position's).
+  Outcome add(const GnssFix& fix);
+
+  // Starts the filter from values that are known otherwise.
+  Outcome start(const KnownStart& known);
 
   bool initialized() const { return initialized_; }
   // Of the enu coordinates; the default frame before the start when no origin was given.
@@ -107,6 +119,9 @@ class ReducedImuFilter {
   void accept_stamp(Time stamp);
 
   Outcome start(const GnssFix& fix);
+  template <class MakeState>
+  Outcome start_with(Time stamp, const Geodetic& position, MakeState make_state);
+  Outcome correct(const GnssFix& fix);
   void restart();
   void make_room(std::size_t events);
   void drop_oldest();
@@ -116,6 +131,7 @@ class ReducedImuFilter {
   InertialSamples samples_around(std::size_t position) const;
   std::size_t next_sample(std::size_t position) const;
   void advance(FilterState& state, const InertialSamples& samples, Time to) const;
+  void apply_sample(FilterState& state, const ImuSample& sample, const ImuSample& before) const;
   Outcome apply(FilterState& state, const Event& event, const InertialSamples& samples) const;
   void roll_forward(std::size_t position);
 
@@ -124,6 +140,7 @@ class ReducedImuFilter {
   LocalFrame frame_;
   LocalEarth earth_;
   StampGuard guard_;
+  SensorClock imu_clock_;
   EventHistory history_;
 
   // What is left of the events that dropped out of the history.
@@ -132,7 +149,6 @@ class ReducedImuFilter {
   std::optional<ImuSample> base_sample_;  // the newest inertial sample among them
 
   bool initialized_ = false;
-  Time gnss_stamp_{};
   FilterStatus status_;
 };
 

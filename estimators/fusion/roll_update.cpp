@@ -12,6 +12,7 @@ std::optional<Innovation<1>> roll_innovation(const FilterState& state, const Imu
   using Eigen::Vector3d;
   if (interval <= 0.0) return std::nullopt;
   const StateVector& x = state.x;
+  const double ground = state.ground_speed();
   const double g = earth.gravity(x[up]);
   const Vector3d vertical = earth.vertical(x[east], x[north]);
   const Eigen::Matrix3d R = rotation_enu_body(state.attitude());
@@ -19,7 +20,7 @@ std::optional<Innovation<1>> roll_innovation(const FilterState& state, const Imu
   const double acceleration =
       sample.specific_force_forward - x[forward_bias] - g * vertical.dot(R.col(0));
   if (std::abs(acceleration) > parameters.max_acceleration ||
-      std::abs(x[speed] * rate) > parameters.max_lateral_acceleration) {
+      std::abs(ground * rate) > parameters.max_lateral_acceleration) {
     return std::nullopt;
   }
 
@@ -27,12 +28,13 @@ std::optional<Innovation<1>> roll_innovation(const FilterState& state, const Imu
   const Eigen::Matrix3d axes = attitude_rate_axes(state.attitude());
   Innovation<1> innovation;
   innovation.residual << sample.specific_force_left -
-                             (x[speed] * rate + g * vertical.dot(left) + x[left_bias]);
+                             (ground * rate + g * vertical.dot(left) + x[left_bias]);
   innovation.H.setZero();
   innovation.H[east] = g * earth.curvature().x() * left.x();
   innovation.H[north] = g * earth.curvature().y() * left.y();
-  innovation.H[speed] = rate;
-  innovation.H[gyro_bias] = -x[speed];
+  innovation.H[speed] = rate / (1.0 + x[speed_scale]);
+  innovation.H[speed_scale] = -ground * rate / (1.0 + x[speed_scale]);
+  innovation.H[gyro_bias] = -ground;
   innovation.H[left_bias] = 1.0;
   for (int i = 0; i < 3; ++i) {
     innovation.H[azimuth + i] = g * vertical.dot(axes.col(i).cross(left));

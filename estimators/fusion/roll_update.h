@@ -1,4 +1,4 @@
-// Levelling of the roll by the left accelerometer (method.md 1.2). The pitch needs no counterpart:
+// Levelling of the roll by the left accelerometer. The pitch needs no counterpart:
 // the forward accelerometer drives the speed, and odometry's correction of the speed levels the
 // pitch through their correlation; (f - a) / g with the filter's own a would be circular.
 #pragma once

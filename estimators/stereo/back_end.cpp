@@ -1,5 +1,9 @@
 #include "estimators/stereo/back_end.h"
 
+#include <algorithm>
+
+#include "estimators/stereo/image_motion.h"
+
 namespace maploop::stereo {
 
 BackEnd::BackEnd(const StereoCalibration& calibration, const StereoParameters& parameters)
@@ -64,6 +68,13 @@ void BackEnd::remember(const Eigen::Isometry3d& motion, double seconds,
   moved_ = true;
 }
 
+// Where features live longer than correlated_pairs, so do the errors that motions have in common.
+void BackEnd::widen(std::span<const StereoTrack> tracks, const CameraMotion& motion,
+                    RelativeMotion* result) {
+  const double pairs = ages_.correlated_pairs(tracks, motion.inliers);
+  result->covariance *= std::max(1.0, pairs / parameters_.correlated_pairs);
+}
+
 void BackEnd::adjust_window(std::span<const StereoTrack> tracks, CameraMotion* motion,
                             RelativeMotion* result) {
   if (window_.empty() || window_.newest().stamp != result->from) {
@@ -82,30 +93,69 @@ void BackEnd::adjust_window(std::span<const StereoTrack> tracks, CameraMotion* m
   remember(last.T_world_cam.inverse() * now.T_world_cam, to_seconds(now.stamp - last.stamp),
            *result);
   motion->T_previous_current = before.inverse() * now.T_world_cam;
+  if (const auto covariance = adjustment_.newest_covariance(window_))
+    motion->covariance = *covariance + motion->by_offset * motion->by_offset.transpose();
   to_body(camera_.T_body_cam, *motion, result);
+}
+
+// Whether the tracks that do not agree with an implausible motion agree on one that is plausible:
+// then the others are on something that moves itself.
+bool BackEnd::other_motion(std::span<const StereoTrack> tracks, const CameraMotion& motion,
+                           const RelativeMotion& result) const {
+  std::vector<StereoTrack> others;
+  auto next = motion.inliers.begin();
+  for (int i = 0; i < static_cast<int>(tracks.size()); ++i) {
+    if (next != motion.inliers.end() && *next == i) {
+      ++next;
+    } else {
+      others.push_back(tracks[static_cast<std::size_t>(i)]);
+    }
+  }
+  const double seconds = to_seconds(result.stamp - result.from);
+  RelativeMotion second = result;
+  const CameraMotion other = estimate(others, second);
+  return other.status == OdometryStatus::ok && accept(other, seconds, &second);
+}
+
+// The camera's motion from result.from to result.stamp.
+CameraMotion BackEnd::estimate(std::span<const StereoTrack> tracks,
+                               const RelativeMotion& result) const {
+  const double seconds = to_seconds(result.stamp - result.from);
+  CameraMotion motion = estimate_motion(camera_, parameters_, tracks,
+                                        static_cast<std::uint64_t>(to_nanoseconds(result.stamp)),
+                                        offset_, prior(result.stamp, seconds), stage_);
+  if (parameters_.motion == MotionMethod::image_to_image)
+    lengthen(&motion, parameters_.assumed_speed * seconds);
+  return motion;
 }
 
 const std::vector<int>& BackEnd::process(std::span<const StereoTrack> tracks,
                                          RelativeMotion* result) {
   const double seconds = to_seconds(result->stamp - result->from);
   offset_.predict(seconds);
-  CameraMotion motion = estimate_motion(camera_, parameters_, tracks,
-                                        static_cast<std::uint64_t>(to_nanoseconds(result->stamp)),
-                                        offset_, prior(result->stamp, seconds));
+  CameraMotion motion = estimate(tracks, *result);
   result->tracked = motion.tracked;
   result->inliers = static_cast<int>(motion.inliers.size());
   result->status = motion.status;
   agreeing_.clear();
   if (result->status != OdometryStatus::ok) return agreeing_;
+  const ImageMotion seen = image_motion(camera_, tracks, motion.inliers, motion.T_previous_current);
+  const bool stands = seen.flow < parameters_.standstill_flow;
+  if (stands && parameters_.motion == MotionMethod::image_to_image) lengthen(&motion, 0.0);
   if (!accept(motion, seconds, result)) {
-    result->status = OdometryStatus::implausible;
+    result->status = other_motion(tracks, motion, *result) ? OdometryStatus::moving_objects
+                                                           : OdometryStatus::implausible;
     return agreeing_;
   }
+  result->parallax = seen.parallax;
+  if (stands) result->condition = OdometryCondition::standstill;
   offset_.update(motion.offset, motion.offset_sigma, result->inliers);
   remember(motion.T_previous_current, seconds, *result);
   if (parameters_.window_frames > 0) {
     adjust_window(tracks, &motion, result);
+    notify(stage_, "window");
   }
+  widen(tracks, motion, result);
   agreeing_.swap(motion.inliers);
   return agreeing_;
 }

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "estimators/stereo/bundle_adjustment.h"
@@ -11,6 +12,7 @@
 #include "estimators/stereo/motion_estimator.h"
 #include "estimators/stereo/parameters.h"
 #include "estimators/stereo/plausibility.h"
+#include "estimators/stereo/track_ages.h"
 #include "estimators/stereo/tracks.h"
 #include "estimators/stereo/window.h"
 #include "msgs/calibration.h"
@@ -35,23 +37,30 @@ class BackEnd {
   std::optional<Eigen::Isometry3d> expected_motion(Time stamp, double seconds) const;
 
   // Motion from result->from to result->stamp, which are set. Fills in status, tracked and inliers,
-  // and where the status is ok pose and covariance of the body. Returns the indices of the tracks
-  // that agree with an accepted motion, ascending; valid until the next call.
+  // and where the status is ok pose and covariance of the body, condition and parallax. Returns the
+  // indices of the tracks that agree with an accepted motion, ascending; valid until the next call.
   const std::vector<int>& process(std::span<const StereoTrack> tracks, RelativeMotion* result);
+
+  void on_stage(StageListener listener) { stage_ = std::move(listener); }
 
   double disparity_offset() const { return offset_.value(); }
 
   // The rest are parameters and buffers of one call.
   template <class Archive>
   void archive(Archive& ar) {
-    ar(moved_, last_stamp_, last_seconds_, last_motion_, last_velocity_, offset_, window_);
+    ar(moved_, last_stamp_, last_seconds_, last_motion_, last_velocity_, offset_, ages_, window_);
   }
 
  private:
   std::optional<MotionPrior> prior(Time stamp, double seconds) const;
   bool known(Time stamp) const;  // how the body goes
+  CameraMotion estimate(std::span<const StereoTrack> tracks, const RelativeMotion& result) const;
+  bool other_motion(std::span<const StereoTrack> tracks, const CameraMotion& motion,
+                    const RelativeMotion& result) const;
   bool accept(const CameraMotion& motion, double seconds, RelativeMotion* result) const;
   void remember(const Eigen::Isometry3d& motion, double seconds, const RelativeMotion& result);
+  void widen(std::span<const StereoTrack> tracks, const CameraMotion& motion,
+             RelativeMotion* result);
   void adjust_window(std::span<const StereoTrack> tracks, CameraMotion* motion,
                      RelativeMotion* result);
 
@@ -65,9 +74,11 @@ class BackEnd {
   LastVelocity last_velocity_;
 
   DisparityOffset offset_;
+  TrackAges ages_;
   Window window_;
   BundleAdjustment adjustment_;
   std::vector<int> agreeing_;
+  StageListener stage_;
 };
 
 }  // namespace maploop::stereo

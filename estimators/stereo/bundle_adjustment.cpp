@@ -12,6 +12,8 @@
 namespace maploop::stereo {
 namespace {
 
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
 constexpr double kSmallestDisparity = 0.05;  // px; keeps a point in front and finite
 
 // Where the first that saw the point sees it now.
@@ -66,6 +68,7 @@ BundleAdjustment::BundleAdjustment(const StereoCalibration& camera,
       match_weight_(1.0 / std::max(1e-3, parameters.sigma_match)),
       huber_(parameters.huber),
       outlier_(parameters.outlier_sigmas),
+      correlated_pairs_(parameters.correlated_pairs),
       max_iterations_(parameters.window_iterations),
       equations_(static_cast<std::size_t>(parameters.window_max_points)),
       tried_(parameters) {
@@ -202,17 +205,51 @@ void BundleAdjustment::step(const Window& from, const Vector& of_poses, double d
   }
 }
 
+void BundleAdjustment::set_up(const Window& window) {
+  const int size = row_of(window.poses.size());
+  information_.setZero(size, size);
+  gradient_.setZero(size);
+  add_velocity_changes(window);
+  add_points(window);
+}
+
+std::optional<Matrix6> BundleAdjustment::newest_covariance(const Window& window) {
+  const std::size_t poses = window.poses.size();
+  if (poses < 3) return std::nullopt;
+  int seen = 0;
+  for (const WindowPoint& point : window.points)
+    for (std::size_t i = 0; i < poses; ++i) seen += point.sights[i].seen ? 1 : 0;
+  const double freedom = 3.0 * seen - 3.0 * static_cast<double>(window.points.size()) - 6.0;
+  if (freedom <= 0.0) return std::nullopt;
+
+  set_up(window);
+  eliminate_points(window, 0.0);
+  const int earlier = row_of(poses - 2), newest = row_of(poses - 1);
+  const Eigen::Isometry3d& from = window.poses[poses - 2].T_world_cam;
+  const Eigen::Isometry3d& to = window.poses[poses - 1].T_world_cam;
+  const Eigen::Matrix3d R = from.linear().transpose();
+  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, kLargest> J;
+  J.setZero(6, row_of(poses));
+  J.block<3, 3>(0, newest) = R;
+  J.block<3, 3>(3, newest + 3) = R;
+  J.block<3, 3>(0, earlier) = -R;
+  J.block<3, 3>(0, earlier + 3) = R * cross_matrix(to.translation() - from.translation());
+  J.block<3, 3>(3, earlier + 3) = -R;
+  const Eigen::LDLT<Matrix> factor(information_);
+  if (factor.info() != Eigen::Success || !factor.isPositive()) return std::nullopt;
+  const Matrix6 covariance =
+      J * factor.solve(J.transpose()) * (cost(window) / freedom * correlated_pairs_);
+  if (!covariance.allFinite()) return std::nullopt;
+  return 0.5 * (covariance + covariance.transpose());
+}
+
 bool BundleAdjustment::adjust(Window* window) {
   const std::size_t poses = window->poses.size();
   if (poses < 3) return true;  // two poses are what the motion was estimated from
-  const int size = row_of(poses);
   double best = cost(*window);
   double damping = 1e-6;
   for (int iteration = 0; iteration < max_iterations_; ++iteration) {
-    information_.setZero(size, size);
-    gradient_.setZero(size);
-    add_velocity_changes(*window);
-    add_points(*window);
+    set_up(*window);
     eliminate_points(*window, damping);
     const Vector of_poses = -information_.ldlt().solve(gradient_);
     if (!of_poses.allFinite()) return false;

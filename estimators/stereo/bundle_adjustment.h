@@ -1,8 +1,9 @@
-// Windowed bundle adjustment (method.md 2.1 step 5; thesis section 3.13).
+// Windowed bundle adjustment (thesis section 3.13).
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "estimators/stereo/parameters.h"
@@ -25,6 +26,12 @@ class BundleAdjustment {
   // False, and the window as it was, where the equations have no finite solution.
   bool adjust(Window* window);
 
+  // Of the motion between the two newest poses of an adjusted window, as they came out of it:
+  // translation (m), then rotation vector (rad), in cam at the earlier one (residual.h). Scaled by
+  // the residuals' own variance and by correlated_pairs, as refine.h. Nothing where the window has
+  // fewer than three poses, or too little in it.
+  std::optional<Eigen::Matrix<double, 6, 6>> newest_covariance(const Window& window);
+
   // Half of this is what is minimized.
   double cost(const Window& window) const;
 
@@ -46,6 +53,7 @@ class BundleAdjustment {
     std::array<Eigen::Matrix<double, 6, 4>, kLargestWindow> coupling;
   };
 
+  void set_up(const Window& window);
   double square(const Window& window, const WindowPoint& point, std::size_t pose) const;
   Term linearize(const Window& window, const WindowPoint& point, std::size_t pose,
                  const Eigen::Matrix3d& point_by_image) const;
@@ -61,6 +69,7 @@ class BundleAdjustment {
   double match_weight_;                        // 1 / px
   Eigen::Matrix<double, 6, 1> change_weight_;  // of a velocity's change over one second
   double huber_, outlier_;                     // whitened
+  double correlated_pairs_;
   int max_iterations_;
 
   Matrix information_;  // of the poses but the first

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimators/stereo/epipolar_motion.h"
+#include "estimators/stereo/point_alignment.h"
 #include "estimators/stereo/ransac.h"
 #include "estimators/stereo/refine.h"
 
@@ -16,12 +18,42 @@ bool usable(const StereoObservation& seen, const StereoParameters& parameters) {
          std::abs(seen.v_left - seen.v_right) <= parameters.max_row_error;
 }
 
+struct Guess {
+  std::span<const StereoTrack> tracks;
+  std::uint64_t seed;
+  double offset_sigma;
+  const std::optional<MotionPrior>& prior;
+};
+
+// The motion by the method that is asked for; `enough` judges the consensus before it is refined.
+template <class Enough>
+Refinement find_motion(const StereoCalibration& camera, const StereoParameters& parameters,
+                       const Guess& guess, const Enough& enough, const StageListener& stage) {
+  if (parameters.motion == MotionMethod::image_to_image) {
+    const Refinement found = epipolar_motion(camera, parameters, guess.tracks, 1.0);
+    notify(stage, "epipolar");
+    return found;
+  }
+  const auto expected =
+      guess.prior ? std::optional(guess.prior->T_previous_current.inverse()) : std::nullopt;
+  const Consensus consensus = ransac_motion(camera, parameters, guess.tracks, guess.seed, expected);
+  notify(stage, "consensus");
+  if (!enough(consensus.inliers)) return {};
+  const Refinement refined =
+      parameters.motion == MotionMethod::points_to_points
+          ? refine_alignment(camera, parameters, guess.tracks, consensus.inliers, guess.prior)
+          : refine_motion(camera, parameters, guess.tracks, consensus.inliers,
+                          consensus.T_current_previous.inverse(), guess.offset_sigma, guess.prior);
+  notify(stage, "refinement");
+  return refined;
+}
+
 }  // namespace
 
 CameraMotion estimate_motion(const StereoCalibration& camera, const StereoParameters& parameters,
                              std::span<const StereoTrack> tracks, std::uint64_t seed,
-                             const DisparityOffset& offset,
-                             const std::optional<MotionPrior>& prior) {
+                             const DisparityOffset& offset, const std::optional<MotionPrior>& prior,
+                             const StageListener& stage) {
   CameraMotion motion;
   std::vector<StereoTrack> good;
   std::vector<int> index_of;
@@ -41,23 +73,28 @@ CameraMotion estimate_motion(const StereoCalibration& camera, const StereoParame
            static_cast<double>(inliers.size()) >= parameters.min_inlier_ratio * motion.tracked;
   };
   motion.status = OdometryStatus::too_few_inliers;
-  const std::optional<Eigen::Isometry3d> expected_inverse =
-      prior ? std::optional(prior->T_previous_current.inverse()) : std::nullopt;
-  const Consensus consensus = ransac_motion(camera, parameters, good, seed, expected_inverse);
-  if (!enough(consensus.inliers)) return motion;
   const Refinement refined =
-      refine_motion(camera, parameters, good, consensus.inliers,
-                    consensus.T_current_previous.inverse(), offset.sigma(), prior);
+      find_motion(camera, parameters, {good, seed, offset.sigma(), prior}, enough, stage);
   if (!refined.ok || !enough(refined.inliers)) return motion;
 
   motion.status = OdometryStatus::ok;
   motion.T_previous_current = refined.T_previous_current;
   motion.covariance = refined.covariance;
+  motion.by_offset = refined.by_offset;
   motion.offset = refined.offset;
   motion.offset_sigma = refined.offset_sigma;
   for (const int i : refined.inliers)
     motion.inliers.push_back(index_of[static_cast<std::size_t>(i)]);
   return motion;
+}
+
+void lengthen(CameraMotion* motion, double length) {
+  constexpr double kStanding = 0.02;  // m, standard deviation: what 0.3 px are 10 m away
+  motion->T_previous_current.translation() *= length;
+  motion->covariance.topRows<3>() *= length;
+  motion->covariance.leftCols<3>() *= length;
+  if (length == 0.0)
+    motion->covariance.topLeftCorner<3, 3>() = kStanding * kStanding * Eigen::Matrix3d::Identity();
 }
 
 void to_body(const Eigen::Isometry3d& T_body_cam, const CameraMotion& motion,

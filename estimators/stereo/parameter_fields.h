@@ -12,6 +12,11 @@ namespace maploop::stereo {
 template <class Parameters, class F>
 requires std::same_as<std::remove_const_t<Parameters>, StereoParameters>
 void fields(Parameters& p, F&& f) {
+  f("matching", p.matching);
+  f("motion", p.motion);
+  f("assumed_speed", p.assumed_speed);
+  f("sift_features", p.sift_features);
+  f("sift_ratio", p.sift_ratio);
   f("bucket_size", p.bucket_size);
   f("features_per_bucket", p.features_per_bucket);
   f("fast_threshold", p.fast_threshold);
@@ -48,6 +53,8 @@ void fields(Parameters& p, F&& f) {
   f("window_max_points", p.window_max_points);
   f("window_iterations", p.window_iterations);
   f("window_min_flow", p.window_min_flow);
+  f("standstill_flow", p.standstill_flow);
+  f("dark_level", p.dark_level);
   f("sigma_acceleration", p.sigma_acceleration);
   f("sigma_turn_acceleration", p.sigma_turn_acceleration);
   f("max_speed", p.max_speed);

@@ -1,9 +1,18 @@
 // Everything that can be set in the stereo visual odometry.
 #pragma once
 
+#include "estimators/stereo/methods.h"
+
 namespace maploop::stereo {
 
 struct StereoParameters {
+  // --- Methods (methods.h)
+  Matching matching = Matching::klt;                    // or "sift"
+  MotionMethod motion = MotionMethod::points_to_image;  // "3d-2d"; or "3d-3d", "2d-2d"
+  double assumed_speed = 10.0;  // m/s, what "2d-2d" takes for the speed it cannot see
+  int sift_features = 1000;     // per image, strongest first
+  double sift_ratio = 0.8;      // of the distances to the nearest and second nearest (Lowe 2004)
+
   // --- Corner detection
   int bucket_size = 50;  // px; features spread over the image pin down rotation and translation
   int features_per_bucket = 3;  // 8 x 25 buckets of a 1242 x 375 image; about 210 can be followed
@@ -30,9 +39,10 @@ struct StereoParameters {
   double sigma_track = 0.15;  // px per axis, position in the left image from one pair to the next
   double sigma_disparity = 0.2;  // px, what changes in a match from one pair to the next
   double sigma_match = 0.4;      // px, what a match keeps wrong while the feature lives
-  // Factor on the covariance, for features return with the same match error in pair after pair and
-  // the errors of successive motions add up. Odometries from disjoint halves of the features differ
-  // over a second by what 1.7 predicts; the rest is for what both halves share.
+  // Least factor on the covariance (track_ages.h says when it is more), for features return with
+  // the same match error in pair after pair and the errors of successive motions add up. Odometries
+  // from disjoint halves of the features differ over a second by what 1.7 predicts; the rest is for
+  // what both halves share.
   double correlated_pairs = 5.0;
 
   // --- Disparity offset (disparity_offset.h)
@@ -54,12 +64,14 @@ struct StereoParameters {
   int refine_max_iterations = 10;  // of each of the two rounds
 
   // --- Windowed bundle adjustment (bundle_adjustment.h)
-  // Poses adjusted together, 3 to 12; 0: from pair to pair only. 6 makes some drives better
-  // and others worse (README), and takes more time.
-  int window_frames = 0;
+  int window_frames = 6;        // poses adjusted together, 3 to 12; 0: from pair to pair only
   int window_max_points = 300;  // more features than buckets keep alive
   int window_iterations = 5;
   double window_min_flow = 1.0;  // px, median; a pose that moved less gives way to the next one
+
+  // --- Names of what is odd
+  double standstill_flow = 0.3;  // px, median; less is called a standstill
+  double dark_level = 15.0;      // grey levels, mean; a pair without features is called dark below
 
   // --- Inertia and plausibility of a road vehicle
   // One standard deviation of its acceleration, m/s^2 and rad/s^2: ordinary braking, and the

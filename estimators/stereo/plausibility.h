@@ -1,4 +1,4 @@
-// What a road vehicle can do between two pairs (method.md 2.1 step 6).
+// What a road vehicle can do between two pairs.
 #pragma once
 
 #include <optional>

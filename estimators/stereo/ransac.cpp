@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "estimators/stereo/p3p.h"
+#include "estimators/stereo/point_alignment.h"
 #include "estimators/stereo/random.h"
 #include "estimators/stereo/triangulate.h"
 
@@ -69,6 +70,28 @@ std::array<int, 3> draw_three(int count, RandomSequence* random) {
   return drawn;
 }
 
+// T_current_previous of three tracks.
+P3pSolutions resect(const StereoCalibration& camera, const MotionScore& score,
+                    std::span<const StereoTrack> tracks, const std::array<int, 3>& drawn) {
+  std::array<Eigen::Vector3d, 3> points, bearings;
+  for (std::size_t j = 0; j < 3; ++j) {
+    const StereoObservation& seen = tracks[static_cast<std::size_t>(drawn[j])].current;
+    points[j] = score.point(drawn[j]);
+    bearings[j] = triangulate(camera, {seen.u_left, seen.v_left, 1.0}).normalized();
+  }
+  return solve_p3p(points, bearings);
+}
+
+P3pSolutions align(const StereoCalibration& camera, const StereoParameters& parameters,
+                   std::span<const StereoTrack> tracks, const std::array<int, 3>& drawn) {
+  P3pSolutions solutions;
+  const auto T_previous_current = align_points(camera, parameters, tracks, drawn);
+  if (!T_previous_current) return solutions;
+  solutions.count = 1;
+  solutions.T_camera_world[0] = T_previous_current->inverse();
+  return solutions;
+}
+
 int hypotheses_needed(double inlier_ratio, const StereoParameters& parameters) {
   const double all_good = inlier_ratio * inlier_ratio * inlier_ratio;
   if (all_good < 1e-9) return parameters.ransac_max_hypotheses;
@@ -103,13 +126,9 @@ Consensus ransac_motion(const StereoCalibration& camera, const StereoParameters&
   RandomSequence random(seed);
   for (; best.hypotheses < needed; ++best.hypotheses) {
     const std::array<int, 3> drawn = draw_three(count, &random);
-    std::array<Eigen::Vector3d, 3> points, bearings;
-    for (std::size_t j = 0; j < 3; ++j) {
-      const StereoObservation& seen = tracks[static_cast<std::size_t>(drawn[j])].current;
-      points[j] = score.point(drawn[j]);
-      bearings[j] = triangulate(camera, {seen.u_left, seen.v_left, 1.0}).normalized();
-    }
-    const P3pSolutions solutions = solve_p3p(points, bearings);
+    const P3pSolutions solutions = parameters.motion == MotionMethod::points_to_points
+                                       ? align(camera, parameters, tracks, drawn)
+                                       : resect(camera, score, tracks, drawn);
     for (int j = 0; j < solutions.count; ++j)
       offer(solutions.T_camera_world[static_cast<std::size_t>(j)]);
   }

@@ -1,4 +1,4 @@
-// The motion most tracks agree on (method.md 2.1 step 4).
+// The motion most tracks agree on.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -20,10 +20,11 @@ struct Consensus {
 };
 
 // P3P on three tracks at a time (points triangulated at the previous epoch, seen from the current
-// left camera), scored on both current images with a truncated square (MSAC; Torr and Zisserman,
-// CVIU 78, 2000). The number of hypotheses follows the best inlier ratio w so far,
-// N = ln(1 - P) / ln(1 - w^3), up to the cap. `expected`, where given, is the first hypothesis.
-// Tracks need positive disparities. The inliers stay empty where no hypothesis can be formed.
+// left camera), or with parameters.motion "3d-3d" the alignment of three points to three; scored on
+// both current images with a truncated square (MSAC; Torr and Zisserman, CVIU 78, 2000). The number
+// of hypotheses follows the best inlier ratio w so far, N = ln(1 - P) / ln(1 - w^3), up to the cap.
+// `expected`, where given, is the first hypothesis. Tracks need positive disparities. The inliers
+// stay empty where no hypothesis can be formed.
 Consensus ransac_motion(const StereoCalibration& camera, const StereoParameters& parameters,
                         std::span<const StereoTrack> tracks, std::uint64_t seed,
                         const std::optional<Eigen::Isometry3d>& expected);

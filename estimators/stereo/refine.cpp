@@ -80,6 +80,7 @@ bool estimate_covariance(const Adjustment& adjustment, const std::optional<Motio
   const Eigen::LDLT<Matrix6> factor(information);
   if (factor.info() != Eigen::Success || !factor.isPositive()) return false;
   const Vector6 by_offset = factor.solve(coupling) * (assumed_offset_sigma / variance);
+  result->by_offset = by_offset;
   const Matrix6 covariance = factor.solve(Matrix6::Identity()) + by_offset * by_offset.transpose();
   result->covariance = 0.5 * (covariance + covariance.transpose());
 

@@ -1,4 +1,4 @@
-// Two-epoch adjustment of the motion and of the points' depths (method.md 2.1 step 4, 5).
+// Two-epoch adjustment of the motion and of the points' depths.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -24,6 +24,9 @@ struct Refinement {
   // px. An offset makes near and far points disagree about the way driven.
   double offset = 0.0;
   double offset_sigma = 0.0;
+  // What the motion changes by with one assumed standard deviation of the offset; in the
+  // covariance.
+  Eigen::Matrix<double, 6, 1> by_offset = Eigen::Matrix<double, 6, 1>::Zero();
   double variance_factor = 0.0;  // of the residuals against sigma_track and sigma_disparity
   std::vector<int> inliers;      // indices of tracks within outlier_sigmas
   int iterations = 0;

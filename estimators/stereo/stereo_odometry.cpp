@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "estimators/stereo/back_end.h"
-#include "estimators/stereo/detect.h"
+#include "estimators/stereo/diagnosis.h"
+#include "estimators/stereo/front_end.h"
 #include "estimators/stereo/parameter_fields.h"
-#include "estimators/stereo/track.h"
 #include "estimators/stereo/validate.h"
 #include "msgs/archive.h"
 
@@ -17,7 +17,7 @@ class StereoOdometry::Implementation {
   Implementation(const StereoCalibration& calibration, const StereoParameters& parameters)
       : camera_(calibration),
         parameters_(parameters),
-        detector_(parameters),
+        front_end_(make_front_end(calibration, parameters)),
         back_end_(calibration, parameters) {}
 
   RelativeMotion process(const StereoPair& pair) {
@@ -25,48 +25,69 @@ class StereoOdometry::Implementation {
     result.stamp = pair.stamp;
     result.available = pair.available;
     result.sequence = pair.sequence;
+    tracks_.clear();
     if (!acceptable(pair)) {
       result.status = OdometryStatus::bad_input;
       return result;
     }
     current_.left.build(pair.left, parameters_);
     current_.right.build(pair.right, parameters_);
+    notify(stage_, "pyramids");
 
-    next_features_.clear();
+    std::span<const int> agreeing;
     if (comparable(pair.stamp)) {
       result.from = reference_stamp_;
-      follow_features(&result);
+      if (repeats(current_, reference_)) {
+        result.status = OdometryStatus::repeated_image;
+        return result;
+      }
+      agreeing = follow_features(&result);
     }
-    replenish();
-    adopt_reference(pair.stamp, result.status);
+    const std::size_t features = front_end_->complete(current_, tracks_, agreeing);
+    notify(stage_, "detection");
+    adopt_reference(pair, static_cast<int>(features), &result);
     return result;
   }
 
+  void on_stage(StageListener listener) {
+    back_end_.on_stage(listener);
+    stage_ = std::move(listener);
+  }
+
+  const std::vector<StereoTrack>& tracks() const { return tracks_; }
   double disparity_offset() const { return back_end_.disparity_offset(); }
 
   // The rest are buffers of one call; the random numbers of a pair come from its stamp alone.
   template <class Archive>
   void archive(Archive& ar) {
-    ar.section("stereo odometry", 1);
+    ar.section("stereo odometry", 2);
     archive_same(ar, "calibration", camera_);
     archive_same_fields(ar, parameters_);
-    ar(has_reference_, reference_stamp_, features_, next_id_, stale_pairs_, back_end_);
-    if (!has_reference_) return;
-    archive_image(ar, reference_.left);
-    archive_image(ar, reference_.right);
+    ar(has_reference_, reference_stamp_, reference_sequence_, stale_pairs_, back_end_);
+    if (has_reference_) {
+      archive_image(ar, reference_.left);
+      archive_image(ar, reference_.right);
+    }
+    if constexpr (Archive::loading) {
+      front_end_->load(ar, reference_);
+    } else {
+      front_end_->save(ar);
+    }
   }
 
-  // Two images, features that keep their distance, and the window.
+  // Two images, the front end's features, and the window.
   std::size_t largest_archive() const {
     const std::size_t pixels =
         static_cast<std::size_t>(camera_.width) * static_cast<std::size_t>(camera_.height);
-    const auto apart = static_cast<std::size_t>(parameters_.min_feature_distance) + 1;
-    return 2 * pixels + pixels / (apart * apart) * sizeof(Feature) +
-           Window::largest_archive(parameters_) + 4096;
+    // A feature's age takes less than the feature.
+    return 2 * pixels + 2 * front_end_->largest_archive() + Window::largest_archive(parameters_) +
+           4096;
   }
 
   std::unique_ptr<Implementation> fresh() const {
-    return std::make_unique<Implementation>(camera_, parameters_);
+    auto other = std::make_unique<Implementation>(camera_, parameters_);
+    other->on_stage(stage_);
+    return other;
   }
 
  private:
@@ -95,58 +116,50 @@ class StereoOdometry::Implementation {
     return has_reference_ && to_seconds(stamp - reference_stamp_) <= parameters_.max_gap;
   }
 
-  // Features that agree with an accepted motion go on; the others may be on a moving object.
-  void follow_features(RelativeMotion* result) {
+  // Those of the tracks that agree with an accepted motion.
+  std::span<const int> follow_features(RelativeMotion* result) {
     const double seconds = to_seconds(result->stamp - result->from);
     const std::optional<Eigen::Isometry3d> expected =
         back_end_.expected_motion(result->stamp, seconds);
-    track_features(camera_, parameters_, reference_, current_, features_,
-                   expected ? std::optional(expected->inverse()) : std::nullopt, &tracks_);
-    for (const int i : back_end_.process(tracks_, result)) {
-      const StereoTrack& track = tracks_[static_cast<std::size_t>(i)];
-      next_features_.push_back({track.id, track.current});
-    }
-  }
-
-  void replenish() {
-    taken_.clear();
-    for (const Feature& feature : next_features_)
-      taken_.emplace_back(static_cast<float>(feature.seen.u_left),
-                          static_cast<float>(feature.seen.v_left));
-    detector_.detect(current_.left, taken_, &corners_);
-    match_new_corners(current_, parameters_, corners_, &matched_);
-    for (const StereoObservation& seen : matched_) next_features_.push_back({next_id_++, seen});
+    front_end_->follow(reference_, current_,
+                       expected ? std::optional(expected->inverse()) : std::nullopt, &tracks_);
+    notify(stage_, "tracking");
+    const std::vector<int>& agreeing = back_end_.process(tracks_, result);
+    if (result->status == OdometryStatus::ok && result->sequence > reference_sequence_ + 1 &&
+        result->condition == OdometryCondition::ordinary)
+      result->condition = OdometryCondition::after_gap;
+    return agreeing;
   }
 
   // A pair without features of its own (black, covered, swapped) does not replace a good one.
-  void adopt_reference(Time stamp, OdometryStatus status) {
-    const bool usable = static_cast<int>(next_features_.size()) >= parameters_.min_tracks;
-    if (!usable && status != OdometryStatus::ok) return;
+  void adopt_reference(const StereoPair& pair, int features, RelativeMotion* result) {
+    if (features < parameters_.min_tracks && result->status != OdometryStatus::ok) {
+      result->status = why_few_features(current_, parameters_);
+      return;
+    }
     std::swap(reference_, current_);
-    features_.swap(next_features_);
-    reference_stamp_ = stamp;
+    front_end_->adopt();
+    reference_stamp_ = pair.stamp;
+    reference_sequence_ = pair.sequence;
     has_reference_ = true;
   }
 
   StereoCalibration camera_;
   StereoParameters parameters_;
-  CornerDetector detector_;
+  std::unique_ptr<FrontEnd> front_end_;
 
   bool has_reference_ = false;
   Time reference_stamp_{};
+  std::uint64_t reference_sequence_ = 0;
   StereoFrame reference_;
-  std::vector<Feature> features_;  // of the reference
-  std::int64_t next_id_ = 0;
   int stale_pairs_ = 0;
 
   BackEnd back_end_;
 
   StereoFrame current_;  // buffers of one call, kept
   std::vector<StereoTrack> tracks_;
-  std::vector<Feature> next_features_;
-  std::vector<cv::Point2f> taken_, corners_;
-  std::vector<StereoObservation> matched_;
   GreyImage archived_;
+  StageListener stage_;
 };
 
 StereoOdometry::StereoOdometry(const StereoCalibration& calibration,
@@ -159,6 +172,14 @@ StereoOdometry::StereoOdometry(const StereoCalibration& calibration,
 StereoOdometry::~StereoOdometry() = default;
 StereoOdometry::StereoOdometry(StereoOdometry&&) noexcept = default;
 StereoOdometry& StereoOdometry::operator=(StereoOdometry&&) noexcept = default;
+
+void StereoOdometry::on_stage(StageListener listener) {
+  implementation_->on_stage(std::move(listener));
+}
+
+std::span<const StereoTrack> StereoOdometry::tracks() const {
+  return implementation_->tracks();
+}
 
 double StereoOdometry::disparity_offset() const {
   return implementation_->disparity_offset();

@@ -1,4 +1,4 @@
-// Geometry of a rectified stereo pair (method.md 2.1 step 3).
+// Geometry of a rectified stereo pair.
 #pragma once
 
 #include <Eigen/Core>

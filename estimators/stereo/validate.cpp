@@ -31,6 +31,14 @@ void validate(const StereoCalibration& calibration) {
 }
 
 void validate(const StereoParameters& p) {
+  require_positive("assumed_speed", p.assumed_speed);
+  require_positive("sift_features", p.sift_features);
+  require(p.sift_ratio > 0.0 && p.sift_ratio <= 1.0, "sift_ratio", "above 0, at most 1",
+          p.sift_ratio);
+  require(p.motion != MotionMethod::image_to_image || p.window_frames == 0, "window_frames",
+          "0 with motion \"2d-2d\", which has no scale", p.window_frames);
+  require(p.standstill_flow >= 0.0, "standstill_flow", "0 px or more", p.standstill_flow);
+  require(p.dark_level >= 0.0, "dark_level", "0 or more", p.dark_level);
   require(p.bucket_size >= 8, "bucket_size", "at least 8 px", p.bucket_size);
   require_positive("features_per_bucket", p.features_per_bucket);
   require(p.fast_threshold >= 1 && p.fast_threshold < 255, "fast_threshold", "1 to 254",

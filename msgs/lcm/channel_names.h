@@ -7,8 +7,11 @@ namespace maploop::channel_names {
 
 inline constexpr std::string_view nav_state = "NAV_STATE";
 inline constexpr std::string_view visual_odometry = "VO";
+inline constexpr std::string_view lidar_odometry = "LIDAR_ODOMETRY";
+inline constexpr std::string_view odometry = "ODOMETRY";
 inline constexpr std::string_view imu = "IMU";
 inline constexpr std::string_view gnss_fix = "GNSS_FIX";
+inline constexpr std::string_view wheel_speed = "WHEEL_SPEED";
 inline constexpr std::string_view truth = "TRUTH";
 inline constexpr std::string_view camera = "CAMERA";
 inline constexpr std::string_view velodyne = "VELODYNE";

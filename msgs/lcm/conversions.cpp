@@ -123,6 +123,9 @@ maploop_lcm::nav_state_t to_lcm(const NavState& state) {
   m.imu_stamp_ns = to_nanoseconds(state.imu_stamp);
   m.odometry_stamp_ns = to_nanoseconds(state.odometry_stamp);
   m.gnss_stamp_ns = to_nanoseconds(state.gnss_stamp);
+  m.wheel_stamp_ns = to_nanoseconds(state.wheel_stamp);
+  m.zero_velocity_stamp_ns = to_nanoseconds(state.zero_velocity_stamp);
+  m.reinitializations = static_cast<std::int64_t>(state.reinitializations);
   m.odometry_applied = static_cast<std::int64_t>(state.odometry_applied);
   m.odometry_refused = static_cast<std::int64_t>(state.odometry_refused);
   return m;
@@ -142,6 +145,9 @@ NavState from_lcm(const maploop_lcm::nav_state_t& m) {
   state.imu_stamp = from_nanoseconds(m.imu_stamp_ns);
   state.odometry_stamp = from_nanoseconds(m.odometry_stamp_ns);
   state.gnss_stamp = from_nanoseconds(m.gnss_stamp_ns);
+  state.wheel_stamp = from_nanoseconds(m.wheel_stamp_ns);
+  state.zero_velocity_stamp = from_nanoseconds(m.zero_velocity_stamp_ns);
+  state.reinitializations = static_cast<std::uint64_t>(m.reinitializations);
   state.odometry_applied = static_cast<std::uint64_t>(m.odometry_applied);
   state.odometry_refused = static_cast<std::uint64_t>(m.odometry_refused);
   return state;
@@ -151,25 +157,54 @@ maploop_lcm::relative_motion_t to_lcm(const RelativeMotion& motion) {
   maploop_lcm::relative_motion_t m{};
   m.header = header_of(motion);
   m.status = static_cast<std::int8_t>(motion.status);
+  m.condition = static_cast<std::int8_t>(motion.condition);
+  m.parallax = motion.parallax;
   m.from_ns = to_nanoseconds(motion.from);
   write<3>(motion.translation, m.translation);
   write<4>(motion.rotation.coeffs(), m.rotation_xyzw);
   write<6>(motion.covariance, m.covariance);
   m.tracked = motion.tracked;
   m.inliers = motion.inliers;
+  m.source = static_cast<std::int8_t>(motion.source);
   return m;
 }
 
 RelativeMotion from_lcm(const maploop_lcm::relative_motion_t& m) {
   RelativeMotion motion;
   set_sample(motion, m.header);
-  motion.status = enumerator_from(m.status, OdometryStatus::bad_input, "relative_motion_t.status");
+  motion.status =
+      enumerator_from(m.status, OdometryStatus::disagreement, "relative_motion_t.status");
+  motion.condition =
+      enumerator_from(m.condition, OdometryCondition::after_gap, "relative_motion_t.condition");
+  motion.parallax = m.parallax;
   motion.from = from_nanoseconds(m.from_ns);
   read<3>(m.translation, motion.translation);
   read<4>(m.rotation_xyzw, motion.rotation.coeffs());
   read<6>(m.covariance, motion.covariance);
   motion.tracked = m.tracked;
   motion.inliers = m.inliers;
+  motion.source =
+      enumerator_from(m.source, OdometrySource::visual_lidar, "relative_motion_t.source");
+  return motion;
+}
+
+maploop_lcm::lidar_motion_t to_lcm(const LidarMotion& motion) {
+  maploop_lcm::lidar_motion_t m{};
+  m.motion = to_lcm(static_cast<const RelativeMotion&>(motion));
+  m.degenerate = static_cast<std::int8_t>(motion.degenerate);
+  m.iterations = motion.iterations;
+  m.seed_translation_error = motion.seed_translation_error;
+  m.seed_rotation_error = motion.seed_rotation_error;
+  return m;
+}
+
+LidarMotion from_lcm(const maploop_lcm::lidar_motion_t& m) {
+  LidarMotion motion;
+  static_cast<RelativeMotion&>(motion) = from_lcm(m.motion);
+  motion.degenerate = static_cast<std::uint8_t>(m.degenerate);
+  motion.iterations = m.iterations;
+  motion.seed_translation_error = m.seed_translation_error;
+  motion.seed_rotation_error = m.seed_rotation_error;
   return motion;
 }
 
@@ -188,6 +223,22 @@ ImuSample from_lcm(const maploop_lcm::imu_t& m) {
   sample.specific_force_forward = m.specific_force_forward;
   sample.specific_force_left = m.specific_force_left;
   sample.yaw_rate = m.yaw_rate;
+  return sample;
+}
+
+maploop_lcm::wheel_speed_t to_lcm(const WheelSpeed& sample) {
+  maploop_lcm::wheel_speed_t m{};
+  m.header = header_of(sample);
+  m.speed = sample.speed;
+  m.sigma = sample.sigma;
+  return m;
+}
+
+WheelSpeed from_lcm(const maploop_lcm::wheel_speed_t& m) {
+  WheelSpeed sample;
+  set_sample(sample, m.header);
+  sample.speed = m.speed;
+  sample.sigma = m.sigma;
   return sample;
 }
 

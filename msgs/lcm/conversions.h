@@ -6,9 +6,11 @@
 #include <maploop_lcm/gnss_fix_t.hpp>
 #include <maploop_lcm/health_t.hpp>
 #include <maploop_lcm/imu_t.hpp>
+#include <maploop_lcm/lidar_motion_t.hpp>
 #include <maploop_lcm/nav_state_t.hpp>
 #include <maploop_lcm/reference_pose_t.hpp>
 #include <maploop_lcm/relative_motion_t.hpp>
+#include <maploop_lcm/wheel_speed_t.hpp>
 
 #include "msgs/diagnostics.h"
 #include "msgs/gnss.h"
@@ -16,12 +18,15 @@
 #include "msgs/nav_state.h"
 #include "msgs/odometry.h"
 #include "msgs/reference.h"
+#include "msgs/wheel_speed.h"
 
 namespace maploop {
 
 maploop_lcm::nav_state_t to_lcm(const NavState& state);
 maploop_lcm::relative_motion_t to_lcm(const RelativeMotion& motion);
+maploop_lcm::lidar_motion_t to_lcm(const LidarMotion& motion);
 maploop_lcm::imu_t to_lcm(const ImuSample& sample);
+maploop_lcm::wheel_speed_t to_lcm(const WheelSpeed& sample);
 maploop_lcm::gnss_fix_t to_lcm(const GnssFix& fix);
 maploop_lcm::reference_pose_t to_lcm(const ReferencePose& pose);
 maploop_lcm::deadlines_t to_lcm(const Deadlines& deadlines);
@@ -30,7 +35,9 @@ maploop_lcm::health_t to_lcm(const Health& health);
 // Throw std::invalid_argument when a status is none of ours.
 NavState from_lcm(const maploop_lcm::nav_state_t& message);
 RelativeMotion from_lcm(const maploop_lcm::relative_motion_t& message);
+LidarMotion from_lcm(const maploop_lcm::lidar_motion_t& message);
 ImuSample from_lcm(const maploop_lcm::imu_t& message);
+WheelSpeed from_lcm(const maploop_lcm::wheel_speed_t& message);
 GnssFix from_lcm(const maploop_lcm::gnss_fix_t& message);
 ReferencePose from_lcm(const maploop_lcm::reference_pose_t& message);
 Deadlines from_lcm(const maploop_lcm::deadlines_t& message);

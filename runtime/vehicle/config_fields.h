@@ -2,6 +2,7 @@
 #pragma once
 
 #include "estimators/fusion/parameter_fields.h"
+#include "estimators/lidar/parameter_fields.h"
 #include "estimators/stereo/parameter_fields.h"
 #include "runtime/vehicle/vehicle_config.h"
 
@@ -12,6 +13,9 @@ namespace maploop::vehicle {
 template <class Config, class Table, class Field>
 void visit(Config& config, Table&& table, Field&& field) {
   field("lcm_url", config.lcm_url);
+  field("configuration", config.configuration);
+  field("imu_grade", config.imu_grade);
+  field("odometry", config.odometry);
 
   table("scheduling");
   {
@@ -20,9 +24,11 @@ void visit(Config& config, Table&& table, Field&& field) {
     field("velodyne", p.velodyne);
     field("imu", p.imu);
     field("gnss", p.gnss);
+    field("wheel", p.wheel);
     field("reference", p.reference);
     field("odometry", p.odometry);
     field("stereo", p.stereo);
+    field("lidar", p.lidar);
     field("fusion", p.fusion);
     field("publisher", p.publisher);
     field("health", p.health);
@@ -39,6 +45,9 @@ void visit(Config& config, Table&& table, Field&& field) {
 
   table("trace");
   field("events_per_thread", config.trace.events_per_thread);
+
+  table("camera");
+  field("calibration", config.camera.calibration);
 
   table("replay");
   {
@@ -58,10 +67,26 @@ void visit(Config& config, Table&& table, Field&& field) {
     field("markov_time", p.markov_time);
     field("white_velocity", p.white_velocity);
     field("seed", p.seed);
+    field("outage", config.gnss_outage);
   }
+
+  table("wheel");
+  {
+    auto& p = config.wheel;
+    field("scale_error", p.scale_error);
+    field("white_speed", p.white_speed);
+    field("seed", p.seed);
+  }
+
+  table("imu");
+  field("noise", config.imu_noise);
+  field("seed", config.imu_seed);
 
   table("stereo");
   fields(config.stereo, field);
+
+  table("lidar");
+  fields(config.lidar, field);
 
   table("fusion");
   fields(config.fusion, field);

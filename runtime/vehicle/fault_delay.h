@@ -40,6 +40,7 @@ class StageDelay {
 
 struct StageDelays {
   StageDelay stereo;
+  StageDelay lidar;
   StageDelay fusion;
 };
 

@@ -77,6 +77,7 @@ Sensors FaultInjection::afflict(Sensors sensors) {
         strike(sensors.gnss);
         break;
       case FaultTarget::stereo:
+      case FaultTarget::lidar:
       case FaultTarget::fusion:
       case FaultTarget::cpu:
         break;  // no sensors
@@ -89,8 +90,9 @@ StageDelays FaultInjection::delays() {
   StageDelays delays;
   for (Injected& injected : faults_) {
     if (injected.fault.kind != FaultKind::slow) continue;
-    StageDelay& delay =
-        injected.fault.target == FaultTarget::stereo ? delays.stereo : delays.fusion;
+    StageDelay& delay = injected.fault.target == FaultTarget::stereo  ? delays.stereo
+                        : injected.fault.target == FaultTarget::lidar ? delays.lidar
+                                                                      : delays.fusion;
     delay.add(injected.window, injected.fault.by, injected.struck);
   }
   return delays;

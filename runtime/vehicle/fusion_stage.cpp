@@ -21,14 +21,17 @@ constexpr std::size_t most_images_a_tick = 8;
 FusionEdges::FusionEdges()
     : imu(make_edge<ImuSample>(edges::imu_fusion, &bell)),
       gnss(make_edge<GnssFix>(edges::gnss_fusion, &bell)),
-      odometry(make_edge<RelativeMotion>(edges::stereo_fusion, &bell)) {}
+      wheel(make_edge<WheelSpeed>(edges::wheel_fusion, &bell)),
+      odometry(make_edge<RelativeMotion>(edges::odometry_fusion, &bell)) {}
 
 FusionStage::FusionStage(fusion::ReducedImuFilter filter, FusionEdges& inputs,
-                         runtime::Edge<NavState>& nav_states, runtime::Edge<NavState>& image_states)
+                         runtime::Edge<NavState>& nav_states, runtime::Edge<NavState>& image_states,
+                         Duration odometry_budget)
     : filter_(std::move(filter)),
       inputs_(inputs),
       nav_states_(nav_states),
       image_states_(image_states),
+      odometry_budget_(odometry_budget),
       meter_(stages::fusion),
       camera_path_(paths::camera.name, paths::camera.deadline),
       imu_path_(paths::imu.name, paths::imu.deadline) {
@@ -44,6 +47,10 @@ FusionStage::FusionStage(fusion::ReducedImuFilter filter, FusionEdges& inputs,
     runtime::TraceSpan span(trace_, "gnss");
     span.step_flow(flow_of(fix));
     filter_.add(fix);
+  });
+  intake_.add(inputs_.wheel, [this](const WheelSpeed& sample) {
+    const runtime::TraceSpan span(trace_, "wheel");
+    filter_.add(sample);
   });
   intake_.add(inputs_.odometry, [this](const RelativeMotion& motion) { take(motion); });
 }
@@ -158,12 +165,12 @@ void FusionStage::record_paths(const runtime::DataClock& clock, MonotonicTime du
   const Duration fusion_late = done - due - stages::fusion.deadline;
   if (odometry_taken_) {
     const Sample& s = *odometry_taken_;
-    const Time image_available = s.available - stages::stereo.budget;
+    const Time image_available = s.available - odometry_budget_;
     const bool missed =
         camera_path_.record({s.stamp,
                              done - clock.due(s.stamp),
                              {{{"camera", image_available - s.stamp - paths::camera_delay},
-                               {"stereo", s.received - clock.due(s.available)},
+                               {"odometry", s.received - clock.due(s.available)},
                                {"fusion", fusion_late}}}});
     if (missed) runtime::trace_instant(trace_, "missed deadline: camera path");
   }

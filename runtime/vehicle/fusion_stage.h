@@ -13,6 +13,7 @@
 #include "msgs/imu.h"
 #include "msgs/nav_state.h"
 #include "msgs/odometry.h"
+#include "msgs/wheel_speed.h"
 #include "runtime/core/data_clock.h"
 #include "runtime/core/doorbell.h"
 #include "runtime/core/edge.h"
@@ -33,13 +34,16 @@ struct FusionEdges {
   runtime::Doorbell bell;
   runtime::Edge<ImuSample> imu;
   runtime::Edge<GnssFix> gnss;
+  runtime::Edge<WheelSpeed> wheel;
   runtime::Edge<RelativeMotion> odometry;
 };
 
 class FusionStage {
  public:
+  // `odometry_budget`: of all stages between a camera and the odometry.
   FusionStage(fusion::ReducedImuFilter filter, FusionEdges& inputs,
-              runtime::Edge<NavState>& nav_states, runtime::Edge<NavState>& image_states);
+              runtime::Edge<NavState>& nav_states, runtime::Edge<NavState>& image_states,
+              Duration odometry_budget);
 
   // Ticks from the first one at or after `first` (data time) until the inputs are finished or stop
   // is requested. Each tick takes exactly what is available by then; while some of it is late, or
@@ -49,6 +53,7 @@ class FusionStage {
 
   // Before run().
   void trace_to(runtime::TraceBuffer* buffer) { trace_ = buffer; }
+  fusion::Outcome start_from(const fusion::KnownStart& known) { return filter_.start(known); }
   void slow_down(StageDelay delay) { delay_ = std::move(delay); }
   void save_at(std::vector<Time> moments, runtime::Edge<StageSnapshot>& edge) {
     cuts_.set(std::move(moments), edge);
@@ -85,6 +90,7 @@ class FusionStage {
   FusionEdges& inputs_;
   runtime::Edge<NavState>& nav_states_;
   runtime::Edge<NavState>& image_states_;
+  Duration odometry_budget_;
   runtime::Intake intake_;
   std::stop_token stop_;
   Time tick_{};

@@ -38,11 +38,24 @@ inline constexpr Stage camera{"camera", "driver", "sensor", {}, {}, {}, 5.0, 40.
 inline constexpr Stage velodyne{"velodyne", "driver", "sensor", {}, {}, {}, 5.0, 21.0};
 inline constexpr Stage imu{"imu", "driver", "sensor", {}, {}, {}, 5.0, 1000.0};
 inline constexpr Stage gnss{"gnss", "driver", "sensor", {}, {}, {}, 0.5, 21.0};
+inline constexpr Stage wheel{"wheel", "driver", "sensor", {}, {}, {}, 0.0, 1000.0};
 inline constexpr Stage reference{"reference", "driver", "sensor", {}, {}, {}, 0.0, 1000.0};
 inline constexpr Stage odometry{
     "odometry", "driver, of a log without images", "sensor", {}, {}, {}, 5.0, 40.0};
+inline constexpr Stage visual_log{
+    "visual log", "driver, of a log without images", "sensor", {}, {}, {}, 0.0, 40.0};
+inline constexpr Stage lidar_log{
+    "lidar log", "driver, of a log without images", "sensor", {}, {}, {}, 0.0, 40.0};
 inline constexpr Stage stereo{"stereo",         "visual odometry", "image pair", {},
                               milliseconds(50), milliseconds(50),  5.0,          40.0};
+inline constexpr Stage lidar{"lidar",
+                             "visual-LiDAR odometry",
+                             "scan and its visual motion",
+                             {},
+                             milliseconds(60),
+                             milliseconds(60),
+                             5.0,
+                             40.0};
 inline constexpr Stage fusion{"fusion",
                               "reduced-IMU filter",
                               "its period",
@@ -63,8 +76,9 @@ inline constexpr Stage player{
 inline constexpr Stage snapshot{
     "snapshot", "joins what stages save", "their parts", {}, {}, {}, 0.0, 0.0};
 
-inline constexpr std::array all{camera, velodyne, imu,       gnss,   reference, odometry,
-                                stereo, fusion,   publisher, health, player,    snapshot};
+inline constexpr std::array all{camera,    velodyne,   imu,       gnss,    wheel, reference,
+                                odometry,  visual_log, lidar_log, stereo,  lidar, fusion,
+                                publisher, health,     player,    snapshot};
 }  // namespace stages
 
 // One ring: single producer, single consumer. A replay keeps all: a full ring holds its producer
@@ -78,27 +92,38 @@ struct EdgeSpec {
 
 namespace edges {
 inline constexpr EdgeSpec camera_stereo{"camera -> stereo", "StereoPair", 4};
+// Only there where the odometry is visual-LiDAR.
+inline constexpr EdgeSpec velodyne_lidar{"velodyne -> lidar", "LidarScan", 4};
+inline constexpr EdgeSpec stereo_lidar{"stereo -> lidar", "RelativeMotion", 256};
 inline constexpr EdgeSpec imu_fusion{"imu -> fusion", "ImuSample", 256};
 inline constexpr EdgeSpec gnss_fusion{"gnss -> fusion", "GnssFix", 256};
-inline constexpr EdgeSpec stereo_fusion{"stereo -> fusion", "RelativeMotion", 256};
+inline constexpr EdgeSpec wheel_fusion{"wheel -> fusion", "WheelSpeed", 256};
+// From stereo instead where `odometry` is "visual" or there is no LiDAR.
+inline constexpr EdgeSpec odometry_fusion{"lidar -> fusion", "RelativeMotion", 256};
 // Only there where a log of raw sensors is written.
 inline constexpr EdgeSpec camera_publisher{"camera -> publisher", "StereoPair", 4};
 inline constexpr EdgeSpec velodyne_publisher{"velodyne -> publisher", "LidarScan", 4};
 inline constexpr EdgeSpec imu_publisher{"imu -> publisher", "ImuSample", 256};
 inline constexpr EdgeSpec gnss_publisher{"gnss -> publisher", "GnssFix", 256};
+inline constexpr EdgeSpec wheel_publisher{"wheel -> publisher", "WheelSpeed", 256};
 inline constexpr EdgeSpec reference_publisher{"reference -> publisher", "ReferencePose", 256};
 inline constexpr EdgeSpec stereo_publisher{"stereo -> publisher", "RelativeMotion", 256};
+inline constexpr EdgeSpec lidar_publisher{"lidar -> publisher", "LidarMotion", 256};
+inline constexpr EdgeSpec odometry_publisher{"lidar, odometry -> publisher", "RelativeMotion", 256};
 inline constexpr EdgeSpec fusion_publisher{"fusion -> publisher", "NavState", 1024};
 inline constexpr EdgeSpec image_states{"fusion at images -> publisher", "NavState", 256};
 inline constexpr EdgeSpec health_publisher{"health -> publisher", "RuntimeReport", 8};
 // Only there where snapshots are taken.
 inline constexpr EdgeSpec stereo_snapshot{"stereo -> snapshot", "StageSnapshot", 2};
+inline constexpr EdgeSpec lidar_snapshot{"lidar -> snapshot", "StageSnapshot", 2};
 inline constexpr EdgeSpec fusion_snapshot{"fusion -> snapshot", "StageSnapshot", 2};
 
 inline constexpr std::array all{
-    camera_stereo,      imu_fusion,    gnss_fusion,      stereo_fusion,       camera_publisher,
-    velodyne_publisher, imu_publisher, gnss_publisher,   reference_publisher, stereo_publisher,
-    fusion_publisher,   image_states,  health_publisher, stereo_snapshot,     fusion_snapshot};
+    camera_stereo,      velodyne_lidar,   stereo_lidar,        imu_fusion,         gnss_fusion,
+    wheel_fusion,       odometry_fusion,  camera_publisher,    velodyne_publisher, imu_publisher,
+    gnss_publisher,     wheel_publisher,  reference_publisher, stereo_publisher,   lidar_publisher,
+    odometry_publisher, fusion_publisher, image_states,        health_publisher,   stereo_snapshot,
+    lidar_snapshot,     fusion_snapshot};
 }  // namespace edges
 
 template <class T>
@@ -135,6 +160,19 @@ inline constexpr Channel visual_odometry{channel_names::visual_odometry,
                                          "relative pose, covariance, quality",
                                          "10 Hz",
                                          true};
+inline constexpr Channel lidar_odometry{
+    channel_names::lidar_odometry,
+    "lidar_motion_t",
+    "lidar",
+    "relative pose of each scan, degenerate directions, what it changed in its seed",
+    "10 Hz",
+    true};
+inline constexpr Channel odometry{channel_names::odometry,
+                                  "relative_motion_t",
+                                  "lidar",
+                                  "the motion that fusion gets, and from which sensors",
+                                  "10 Hz",
+                                  true};
 inline constexpr Channel imu{channel_names::imu, "imu_t",        "imu",
                              "inertial sample",  "the sensor's", true};
 inline constexpr Channel gnss_fix{channel_names::gnss_fix,
@@ -143,6 +181,8 @@ inline constexpr Channel gnss_fix{channel_names::gnss_fix,
                                   "position and velocity with covariance",
                                   "1 Hz",
                                   true};
+inline constexpr Channel wheel_speed{channel_names::wheel_speed,    "wheel_speed_t", "wheel",
+                                     "forward speed of the wheels", "the sensor's",  true};
 inline constexpr Channel truth{channel_names::truth,
                                "reference_pose_t",
                                "reference",
@@ -185,9 +225,9 @@ inline constexpr Channel health{
     "1 Hz",
     false};
 
-inline constexpr std::array all{nav_state,      visual_odometry, imu,      gnss_fix,
-                                truth,          camera,          velodyne, calibration,
-                                replay_control, deadlines,       health};
+inline constexpr std::array all{nav_state,   visual_odometry, lidar_odometry, odometry, imu,
+                                gnss_fix,    wheel_speed,     truth,          camera,   velodyne,
+                                calibration, replay_control,  deadlines,      health};
 }  // namespace channels
 
 // From a sensor's stamp to the state that holds it. The deadline is the sum of what may pass on the
@@ -200,9 +240,9 @@ struct Path {
 namespace paths {
 inline constexpr Duration camera_delay = milliseconds(10);  // exposure and readout
 inline constexpr Duration imu_delay = milliseconds(62);     // filters inside the sensor, delivery
-inline constexpr Path camera{
-    "camera stamp -> state",
-    camera_delay + stages::stereo.budget + stages::fusion.period + stages::fusion.deadline};
+inline constexpr Path camera{"camera stamp -> state",
+                             camera_delay + stages::stereo.budget + stages::lidar.budget +
+                                 stages::fusion.period + stages::fusion.deadline};
 inline constexpr Path imu{"imu stamp -> state",
                           imu_delay + stages::fusion.period + stages::fusion.deadline};
 inline constexpr std::array all{camera, imu};

@@ -32,7 +32,11 @@ inline void limit(Sensors& sensors, Time end) {
   cut(sensors.velodyne);
   cut(sensors.imu);
   cut(sensors.gnss);
+  cut(sensors.wheel);
   cut(sensors.reference);
+  cut(sensors.odometry);
+  cut(sensors.visual);
+  cut(sensors.lidar);
 }
 
 }  // namespace maploop::vehicle

@@ -25,8 +25,11 @@ PublisherEdges::PublisherEdges()
       velodyne(make_edge<LidarScan>(edges::velodyne_publisher, nullptr)),
       imu(make_edge<ImuSample>(edges::imu_publisher, nullptr)),
       gnss(make_edge<GnssFix>(edges::gnss_publisher, nullptr)),
+      wheel(make_edge<WheelSpeed>(edges::wheel_publisher, nullptr)),
       reference(make_edge<ReferencePose>(edges::reference_publisher, nullptr)),
-      odometry(make_edge<RelativeMotion>(edges::stereo_publisher, nullptr)),
+      visual(make_edge<RelativeMotion>(edges::stereo_publisher, nullptr)),
+      lidar(make_edge<LidarMotion>(edges::lidar_publisher, nullptr)),
+      odometry(make_edge<RelativeMotion>(edges::odometry_publisher, nullptr)),
       nav_state(make_edge<NavState>(edges::fusion_publisher, nullptr)),
       image_state(make_edge<NavState>(edges::image_states, nullptr)),
       reports(make_edge<RuntimeReport>(edges::health_publisher, nullptr)) {}
@@ -41,12 +44,22 @@ Publisher::Publisher(const VehicleCalibration& calibration, PublisherEdges& edge
   forward<channels::velodyne>(edges_.velodyne);
   forward<channels::imu>(edges_.imu);
   forward<channels::gnss_fix>(edges_.gnss);
+  forward<channels::wheel_speed>(edges_.wheel);
   forward<channels::truth>(edges_.reference);
-  intake_.add(edges_.odometry, [this](const RelativeMotion& motion) {
+  intake_.add(edges_.visual, [this](const RelativeMotion& motion) {
     const runtime::TraceSpan span(trace_, trace_name(channels::visual_odometry));
-    note_flow(motion);
     send(channels::visual_odometry, motion.available, to_lcm(motion));
     observer_.odometry(motion);
+  });
+  intake_.add(edges_.lidar, [this](const LidarMotion& motion) {
+    const runtime::TraceSpan span(trace_, trace_name(channels::lidar_odometry));
+    send(channels::lidar_odometry, motion.available, to_lcm(motion));
+    observer_.lidar(motion);
+  });
+  intake_.add(edges_.odometry, [this](const RelativeMotion& motion) {
+    const runtime::TraceSpan span(trace_, trace_name(channels::odometry));
+    note_flow(motion);
+    send(channels::odometry, motion.available, to_lcm(motion));
   });
   intake_.add(edges_.nav_state, [this](const NavState& state) {
     runtime::TraceSpan span(trace_, trace_name(channels::nav_state));

@@ -16,6 +16,7 @@
 #include "msgs/nav_state.h"
 #include "msgs/odometry.h"
 #include "msgs/reference.h"
+#include "msgs/wheel_speed.h"
 #include "runtime/core/edge.h"
 #include "runtime/core/intake.h"
 #include "runtime/core/trace_span.h"
@@ -35,6 +36,7 @@ struct RuntimeReport : Sample {
 // `image_state` is the fused state at the moment of each image, with that image's odometry applied.
 struct Observer {
   std::function<void(const RelativeMotion&)> odometry = [](const RelativeMotion&) {};
+  std::function<void(const LidarMotion&)> lidar = [](const LidarMotion&) {};
   std::function<void(const NavState&)> nav_state = [](const NavState&) {};
   std::function<void(const NavState&)> image_state = [](const NavState&) {};
 };
@@ -48,8 +50,11 @@ struct PublisherEdges {
   runtime::Edge<LidarScan> velodyne;
   runtime::Edge<ImuSample> imu;
   runtime::Edge<GnssFix> gnss;
+  runtime::Edge<WheelSpeed> wheel;
   runtime::Edge<ReferencePose> reference;
-  runtime::Edge<RelativeMotion> odometry;
+  runtime::Edge<RelativeMotion> visual;
+  runtime::Edge<LidarMotion> lidar;
+  runtime::Edge<RelativeMotion> odometry;  // what fusion gets
   runtime::Edge<NavState> nav_state;
   runtime::Edge<NavState> image_state;
   runtime::Edge<RuntimeReport> reports;

@@ -1,32 +1,74 @@
 #include "runtime/vehicle/recording.h"
 
 #include <memory>
+#include <optional>
+#include <stdexcept>
+#include <utility>
 
+#include "runtime/vehicle/graph.h"
+#include "runtime/vehicle/recorded_tracks.h"
+#include "runtime/vehicle/stereo_rig_file.h"
+#include "runtime/vehicle/track_odometry.h"
+#include "sensors/replay/imu_noise.h"
 #include "sensors/replay/kitti_drive.h"
 #include "sensors/replay/log_recording.h"
+#include "sensors/replay/odometry_sequence.h"
 
 namespace maploop::vehicle {
 namespace {
 
 template <class Opened>
 Recording describe(const Opened& opened, std::function<Sensors(Time)> sensors) {
-  return {opened.calibration(), opened.first_stamp(), opened.last_stamp(), opened.frame_count(),
-          std::move(sensors)};
+  return {opened.calibration(), opened.first_stamp(), opened.last_stamp(),
+          opened.frame_count(), std::move(sensors),   {}};
 }
 
-Recording open_drive(const std::filesystem::path& folder, const VehicleConfig& config) {
-  auto drive = std::make_shared<const sensors::KittiDrive>(folder, config.replay);
-  return describe(*drive, [drive, gnss = config.gnss](Time passed) {
+// Those of a configuration that uses it.
+std::optional<sensors::WheelOdometerParameters> wheel_of(const VehicleConfig& config) {
+  return config.fusion.use_wheel_speed ? std::optional(config.wheel) : std::nullopt;
+}
+
+Recording open_folder(const std::filesystem::path& folder, const VehicleConfig& config) {
+  auto drive = open_drive(folder, config);
+  return describe(*drive, [drive, gnss = config.gnss, wheel = wheel_of(config)](Time passed) {
     Sensors s;
     s.camera = drive->camera(passed);
     if (drive->has_velodyne()) s.velodyne = drive->velodyne(passed);
     if (drive->has_oxts()) {
       s.imu = drive->imu();
       s.gnss = drive->gnss(gnss);
+      if (wheel) s.wheel = drive->wheel(*wheel);
       s.reference = drive->reference();
     }
     return s;
   });
+}
+
+Recording open_sequence(const std::filesystem::path& path, const VehicleConfig& config) {
+  auto sequence = std::make_shared<const sensors::OdometrySequence>(path, config.replay);
+  std::shared_ptr<const RecordedTracks> tracks;
+  if (const auto& file = sequence->tracks_file()) {
+    tracks = std::make_shared<const RecordedTracks>(read_recorded_tracks(*file));
+  }
+  Recording recording = describe(*sequence, [sequence, tracks, config](Time) {
+    Sensors s;
+    s.imu = sequence->imu();
+    s.gnss = sequence->gnss(config.gnss);
+    if (const auto wheel = wheel_of(config)) s.wheel = sequence->wheel(*wheel);
+    s.reference = sequence->reference();
+    if (tracks != nullptr) {
+      const Duration delay = from_seconds(config.replay.camera_readout) + stages::stereo.budget;
+      const auto odometry = [&] {
+        return make_track_odometry(tracks, sequence->image_stamps(),
+                                   for_recorded_tracks(config.stereo), delay);
+      };
+      s.odometry = odometry();
+      s.visual = odometry();
+    }
+    return s;
+  });
+  if (tracks != nullptr) recording.calibration.stereo = tracks->calibration;
+  return recording;
 }
 
 Recording open_log(const std::filesystem::path& file) {
@@ -37,18 +79,76 @@ Recording open_log(const std::filesystem::path& file) {
     s.velodyne = log->velodyne();
     s.imu = log->imu();
     s.gnss = log->gnss();
+    s.wheel = log->wheel();
     s.reference = log->reference();
-    if (s.camera == nullptr) s.odometry = log->odometry();
+    if (s.camera == nullptr) {
+      s.odometry = log->odometry();
+      s.visual = log->visual_odometry();
+      s.lidar = log->lidar_odometry();
+    }
     return s;
   });
 }
 
-}  // namespace
-
-Recording open_recording(const std::filesystem::path& path, const VehicleConfig& config) {
+Recording open_any(const std::filesystem::path& path, const VehicleConfig& config) {
+  if (sensors::OdometrySequence::is_named(path)) return open_sequence(path, config);
   std::error_code ignored;
   return std::filesystem::is_regular_file(path, ignored) ? open_log(path)
-                                                         : open_drive(path, config);
+                                                         : open_folder(path, config);
+}
+
+std::optional<sensors::ImuNoiseParameters> noise_of(const VehicleConfig& config) {
+  if (config.imu_noise == "recorded") return std::nullopt;
+  if (config.imu_noise == "mems") return sensors::mems_noise(config.imu_seed);
+  throw std::runtime_error("no inertial noise is called '" + config.imu_noise +
+                           "'; there are recorded, mems");
+}
+
+}  // namespace
+
+std::shared_ptr<const sensors::KittiDrive> open_drive(const std::filesystem::path& folder,
+                                                      const VehicleConfig& config) {
+  std::optional<sensors::StereoRig> raw;
+  if (!config.camera.calibration.empty()) raw = read_stereo_rig(config.camera.calibration);
+  return std::make_shared<const sensors::KittiDrive>(folder, config.replay, std::move(raw));
+}
+
+Recording open_recording(const std::filesystem::path& path, const VehicleConfig& config) {
+  Recording recording = open_any(path, config);
+  const std::vector<GnssOutage> outages =
+      config.gnss_outage.empty() ? std::vector<GnssOutage>{}
+                                 : parse_outages(config.gnss_outage, recording.first_stamp,
+                                                 recording.last_stamp, config.gnss.seed);
+  if (!outages.empty() && !config.fusion.use_gnss) {
+    throw std::runtime_error("a GNSS outage needs a configuration that uses GNSS: GNSS+" +
+                             config.configuration + " instead of " + config.configuration);
+  }
+  recording.outages = outages;
+  recording.sensors = [plain = std::move(recording.sensors), outages,
+                       noise = noise_of(config)](Time passed) {
+    Sensors s = plain(passed);
+    s.gnss = with_outages(std::move(s.gnss), outages);
+    if (noise && s.imu != nullptr) s.imu = sensors::with_noise(std::move(s.imu), *noise);
+    return s;
+  };
+  return recording;
+}
+
+fusion::KnownStart start_from_reference(const Recording& recording) {
+  const auto reference = recording.sensors(Time::max()).reference;
+  ReferencePose pose, next;
+  if (reference == nullptr || !reference->next(pose) || !reference->next(next)) {
+    throw std::runtime_error("the recording has no reference to start from");
+  }
+  // Velocities are older than their rows: carried to the pose by how they go on.
+  const double share = to_seconds(pose.stamp - pose.velocity_stamp) /
+                       to_seconds(next.velocity_stamp - pose.velocity_stamp);
+  fusion::KnownStart known;
+  known.stamp = pose.stamp;
+  known.position = pose.position;
+  known.attitude = pose.attitude;
+  known.speed = (pose.velocity_enu + share * (next.velocity_enu - pose.velocity_enu)).norm();
+  return known;
 }
 
 }  // namespace maploop::vehicle

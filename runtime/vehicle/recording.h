@@ -4,8 +4,11 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <memory>
+#include <vector>
 
 #include "msgs/calibration.h"
+#include "runtime/vehicle/gnss_outage.h"
 #include "runtime/vehicle/vehicle.h"
 #include "runtime/vehicle/vehicle_config.h"
 
@@ -19,10 +22,21 @@ struct Recording {
   // Anew, each from the start; those that it has. Pixels and points of what is available up to
   // `passed` may be missing, which saves reading them.
   std::function<Sensors(Time passed)> sensors;
+  std::vector<GnssOutage> outages;  // as configured; the sensors have them
 };
 
-// A KITTI raw drive (a folder), or one of our own logs (a file). A log without images gives the
-// odometry that was made from them. Throws std::runtime_error naming what is wrong with it.
+// A KITTI raw drive, with the raw cameras that the configuration may name.
+std::shared_ptr<const sensors::KittiDrive> open_drive(const std::filesystem::path& folder,
+                                                      const VehicleConfig& config);
+
+// A KITTI raw drive (a folder), a sequence of KITTI's odometry benchmark (its oxts/NN.csv), or one
+// of our own logs (any other file). A log without images gives the odometry that was made from
+// them; a sequence, the stereo back end's from its recorded tracks. Throws std::runtime_error
+// naming what is wrong with it.
 Recording open_recording(const std::filesystem::path& path, const VehicleConfig& config);
+
+// The first pose of the recording's reference, for dead reckoning from a start without error.
+// Throws std::runtime_error where it has none.
+fusion::KnownStart start_from_reference(const Recording& recording);
 
 }  // namespace maploop::vehicle

@@ -6,7 +6,8 @@
 
 namespace maploop::vehicle {
 
-std::vector<RefusalCount> refusals(const StereoStage& stereo, const fusion::FilterStatus& filter) {
+std::vector<RefusalCount> refusals(const StereoStage& stereo, const LidarStage* lidar,
+                                   const fusion::FilterStatus& filter) {
   std::vector<RefusalCount> all;
   const auto add = [&](const Stage& stage, std::string_view reason, std::uint64_t count) {
     if (count > 0) all.push_back({std::string(stage.name), std::string(reason), count});
@@ -14,12 +15,15 @@ std::vector<RefusalCount> refusals(const StereoStage& stereo, const fusion::Filt
   for (std::size_t i = 1; i < odometry_status_count; ++i) {
     const auto status = static_cast<OdometryStatus>(i);
     add(stages::stereo, to_string(status), stereo.count(status));
+    if (lidar != nullptr) add(stages::lidar, to_string(status), lidar->count(status));
   }
   for (std::size_t i = 1; i < fusion::reason_count; ++i) {
     const auto reason = static_cast<fusion::Reason>(i);
     add(stages::fusion, to_string(reason), filter.refused_for(reason));
   }
   add(stages::fusion, "held, and too old before the start", filter.unused);
+  add(stages::fusion, "recovery: the prediction was doubted", filter.recoveries);
+  add(stages::fusion, "begun anew at a fix", filter.reinitializations);
   add(stages::fusion, "restart: the clock jumped", filter.restarts);
   return all;
 }

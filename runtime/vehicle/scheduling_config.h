@@ -32,9 +32,11 @@ struct SchedulingParameters {
   runtime::Scheduling velodyne = realtime(70);
   runtime::Scheduling imu = realtime(70);
   runtime::Scheduling gnss = realtime(70);
+  runtime::Scheduling wheel = realtime(70);
   runtime::Scheduling reference = realtime(70);
   runtime::Scheduling odometry = realtime(70);
   runtime::Scheduling stereo = realtime(40);  // below fusion; an eighth of one core at 10 Hz
+  runtime::Scheduling lidar = realtime(30);   // below stereo, whose motions it waits for
   runtime::Scheduling fusion = realtime(60);  // below the drivers, whose samples it needs
   runtime::Scheduling publisher;
   runtime::Scheduling health;

@@ -18,7 +18,7 @@ namespace {
 constexpr std::uintmax_t largest_file = std::uintmax_t{256} << 20;
 
 // What decides which samples the recording gives. (Where it runs and how fast decides nothing.)
-constexpr std::array<std::string_view, 2> deciding_tables{"replay", "gnss"};
+constexpr std::array<std::string_view, 4> deciding_tables{"replay", "gnss", "wheel", "imu"};
 
 template <class Archive>
 void archive_same_config(Archive& ar, const VehicleConfig& config) {
@@ -39,9 +39,9 @@ void archive_same_config(Archive& ar, const VehicleConfig& config) {
 
 template <class Archive, class S>
 void describe(Archive& ar, S& snapshot, const VehicleConfig& config) {
-  ar.section("vehicle snapshot", 1);
+  ar.section("vehicle snapshot", 2);
   archive_same_config(ar, config);
-  ar(snapshot.at, snapshot.first, snapshot.stereo, snapshot.fusion);
+  ar(snapshot.at, snapshot.first, snapshot.stereo, snapshot.lidar, snapshot.fusion);
 }
 
 }  // namespace

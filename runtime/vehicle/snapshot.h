@@ -18,11 +18,12 @@ struct Snapshot {
   Time at{};     // a tick of the fusion
   Time first{};  // when the recording's first sample becomes available
   Bytes stereo;  // parts, as the stages write and read them
+  Bytes lidar;   // empty where the odometry is visual alone
   Bytes fusion;
 };
 
-// Some 1.5 MB. The file has its name once it is whole; what was there before stays until then.
-// Throws std::runtime_error naming the file.
+// Some 1.5 MB, and 3 more with a LiDAR's map. The file has its name once it is whole; what was
+// there before stays until then. Throws std::runtime_error naming the file.
 void write_snapshot(const std::filesystem::path& file, const Snapshot& snapshot,
                     const VehicleConfig& config);
 

@@ -1,6 +1,8 @@
 #include "runtime/vehicle/snapshot_stage.h"
 
+#include <algorithm>
 #include <exception>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -19,38 +21,58 @@ runtime::Edge<StageSnapshot> make_mapped_edge(const EdgeSpec& spec, runtime::Doo
 
 }  // namespace
 
-SnapshotEdges::SnapshotEdges(std::size_t stereo_bytes, std::size_t fusion_bytes)
-    : stereo(make_mapped_edge(edges::stereo_snapshot, &bell, stereo_bytes)),
-      fusion(make_mapped_edge(edges::fusion_snapshot, &bell, fusion_bytes)) {}
+SnapshotEdges::SnapshotEdges(const PartSizes& bytes)
+    : stereo(make_mapped_edge(edges::stereo_snapshot, &bell, bytes.stereo)),
+      fusion(make_mapped_edge(edges::fusion_snapshot, &bell, bytes.fusion)) {
+  if (!bytes.lidar) return;
+  StageSnapshot prototype;
+  prototype.content.resize(*bytes.lidar);
+  lidar.emplace(std::string(edges::lidar_snapshot.name), edges::lidar_snapshot.capacity,
+                edges::lidar_snapshot.overflow, &bell, prototype);
+}
 
-SnapshotStage::SnapshotStage(std::size_t stereo_bytes, std::size_t fusion_bytes,
-                             SnapshotHandler handler)
-    : edges_(stereo_bytes, fusion_bytes), handler_(std::move(handler)), meter_(stages::snapshot) {}
+SnapshotStage::SnapshotStage(const PartSizes& bytes, SnapshotHandler handler)
+    : edges_(bytes),
+      parts_{&edges_.stereo, &edges_.fusion},
+      handler_(std::move(handler)),
+      meter_(stages::snapshot) {
+  if (edges_.lidar) parts_.push_back(&*edges_.lidar);
+}
+
+Snapshot SnapshotStage::joined(Time first) {
+  const StageSnapshot& fusion = *edges_.fusion.front();
+  return {fusion.stamp, first, edges_.stereo.front()->content,
+          edges_.lidar ? edges_.lidar->front()->content : Bytes{}, fusion.content};
+}
 
 void SnapshotStage::run(Time first) {
+  using Part = runtime::Edge<StageSnapshot>;
+  const auto there = [](Part* part) { return part->front() != nullptr; };
   std::exception_ptr failure;
   for (;;) {
     const std::uint32_t heard = edges_.bell.listen();
-    const bool stereo_ended = edges_.stereo.promised() == Time::max();
-    const bool fusion_ended = edges_.fusion.promised() == Time::max();
-    StageSnapshot* stereo = edges_.stereo.front();
-    StageSnapshot* fusion = edges_.fusion.front();
-    if (stereo != nullptr && fusion != nullptr) {
+    std::vector<Part*> ended;  // read before the rings: see EdgeBase::promised()
+    std::copy_if(parts_.begin(), parts_.end(), std::back_inserter(ended),
+                 [](const Part* part) { return part->promised() == Time::max(); });
+    if (std::all_of(parts_.begin(), parts_.end(), there)) {
       const MonotonicTime started = runtime::monotonic_now();
       try {
-        if (!failure) handler_({fusion->stamp, first, stereo->content, fusion->content});
+        if (!failure) handler_(joined(first));
       } catch (...) {
         failure = std::current_exception();
       }
       meter_.ran(runtime::monotonic_now() - started);
-      edges_.stereo.pop();
-      edges_.fusion.pop();
-    } else if (stereo != nullptr && fusion_ended) {
-      edges_.stereo.pop();
-    } else if (fusion != nullptr && stereo_ended) {
-      edges_.fusion.pop();
-    } else if (stereo_ended && fusion_ended) {
-      break;
+      for (Part* part : parts_) part->pop();
+    } else if (!std::all_of(ended.begin(), ended.end(), there)) {
+      // A stage has ended before this cut: the others' parts are dropped.
+      const auto left = std::find_if(parts_.begin(), parts_.end(), there);
+      if (left != parts_.end()) {
+        (*left)->pop();
+      } else if (ended.size() == parts_.size()) {
+        break;
+      } else {
+        edges_.bell.wait(heard);
+      }
     } else {
       edges_.bell.wait(heard);
     }

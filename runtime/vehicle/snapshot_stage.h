@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "runtime/core/doorbell.h"
@@ -15,30 +16,39 @@ namespace maploop::vehicle {
 // Called on the snapshot thread, which may take its time: to write a file, for example.
 using SnapshotHandler = std::function<void(const Snapshot&)>;
 
+// Bytes to map beforehand for each part.
+struct PartSizes {
+  std::size_t stereo = 0;
+  std::optional<std::size_t> lidar;  // nothing: there is no such part
+  std::size_t fusion = 0;
+};
+
 // The edges that end at the snapshot thread.
 struct SnapshotEdges {
-  // Bytes to map beforehand for each part.
-  SnapshotEdges(std::size_t stereo_bytes, std::size_t fusion_bytes);
+  explicit SnapshotEdges(const PartSizes& bytes);
 
   runtime::Doorbell bell;
   runtime::Edge<StageSnapshot> stereo;
+  std::optional<runtime::Edge<StageSnapshot>> lidar;
   runtime::Edge<StageSnapshot> fusion;
 };
 
 class SnapshotStage {
  public:
-  SnapshotStage(std::size_t stereo_bytes, std::size_t fusion_bytes, SnapshotHandler handler);
+  SnapshotStage(const PartSizes& bytes, SnapshotHandler handler);
 
   SnapshotEdges& edges() { return edges_; }
 
-  // Until both edges are finished and empty; a cut that only one stage reached is dropped. What the
+  // Until all edges are finished and empty; a cut that not every stage reached is dropped. What the
   // handler throws is thrown at the end: the stages must not be held up. `first`: Snapshot's.
   void run(Time first);
 
   const ThreadMeter& meter() const { return meter_; }  // of the handler
 
  private:
+  Snapshot joined(Time first);
   SnapshotEdges edges_;
+  std::vector<runtime::Edge<StageSnapshot>*> parts_;
   SnapshotHandler handler_;
   ThreadMeter meter_;
 };

@@ -9,13 +9,12 @@
 namespace maploop::vehicle {
 
 StereoStage::StereoStage(stereo::StereoOdometry odometry, runtime::Edge<StereoPair>& images,
-                         const runtime::Doorbell& bell, runtime::Edge<RelativeMotion>& to_fusion,
-                         runtime::Edge<RelativeMotion>& to_publisher)
+                         const runtime::Doorbell& bell,
+                         std::vector<runtime::Edge<RelativeMotion>*> outputs)
     : odometry_(std::move(odometry)),
       images_(images),
       bell_(bell),
-      to_fusion_(to_fusion),
-      to_publisher_(to_publisher),
+      outputs_(std::move(outputs)),
       meter_(stages::stereo) {}
 
 void StereoStage::run(const runtime::DataClock& clock, const std::stop_token& stop) {
@@ -74,8 +73,7 @@ void StereoStage::process(const StereoPair& pair, const std::stop_token& stop) {
 
 void StereoStage::send(RelativeMotion& motion, const std::stop_token& stop) {
   motion.received = runtime::monotonic_now();
-  to_fusion_.push(motion, stop);
-  to_publisher_.push(motion, stop);
+  for (auto* output : outputs_) output->push(motion, stop);
   promise(motion.available);
 }
 
@@ -105,8 +103,7 @@ void StereoStage::resume(std::span<const std::uint8_t> saved) {
 }
 
 void StereoStage::promise(Time t) {
-  to_fusion_.promise(t);
-  to_publisher_.promise(t);
+  for (auto* output : outputs_) output->promise(t);
 }
 
 void StereoStage::finish() {

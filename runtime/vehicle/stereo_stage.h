@@ -26,8 +26,7 @@ namespace maploop::vehicle {
 class StereoStage {
  public:
   StereoStage(stereo::StereoOdometry odometry, runtime::Edge<StereoPair>& images,
-              const runtime::Doorbell& bell, runtime::Edge<RelativeMotion>& to_fusion,
-              runtime::Edge<RelativeMotion>& to_publisher);
+              const runtime::Doorbell& bell, std::vector<runtime::Edge<RelativeMotion>*> outputs);
 
   // Until the images are finished or stop is requested.
   void run(const runtime::DataClock& clock, const std::stop_token& stop);
@@ -63,8 +62,7 @@ class StereoStage {
   stereo::StereoOdometry odometry_;
   runtime::Edge<StereoPair>& images_;
   const runtime::Doorbell& bell_;
-  runtime::Edge<RelativeMotion>& to_fusion_;
-  runtime::Edge<RelativeMotion>& to_publisher_;
+  std::vector<runtime::Edge<RelativeMotion>*> outputs_;
   ThreadMeter meter_;
   runtime::TraceBuffer* trace_ = nullptr;
   StageDelay delay_;

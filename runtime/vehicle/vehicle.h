@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "estimators/fusion/initial_state.h"
 #include "msgs/calibration.h"
 #include "msgs/gnss.h"
 #include "msgs/image.h"
@@ -12,6 +13,7 @@
 #include "msgs/lidar_scan.h"
 #include "msgs/odometry.h"
 #include "msgs/reference.h"
+#include "msgs/wheel_speed.h"
 #include "runtime/core/data_clock.h"
 #include "runtime/core/realtime_setting.h"
 #include "runtime/core/trace.h"
@@ -31,9 +33,13 @@ struct Sensors {
   std::unique_ptr<sensors::Source<LidarScan>> velodyne;
   std::unique_ptr<sensors::Source<ImuSample>> imu;
   std::unique_ptr<sensors::Source<GnssFix>> gnss;
+  std::unique_ptr<sensors::Source<WheelSpeed>> wheel;
   std::unique_ptr<sensors::Source<ReferencePose>> reference;
-  // Of a recording without images: takes the place of the camera and the stereo thread.
+  // Of a recording without images: what fusion got takes the place of the camera, and of the stereo
+  // and lidar threads. The other two are shown only.
   std::unique_ptr<sensors::Source<RelativeMotion>> odometry;
+  std::unique_ptr<sensors::Source<RelativeMotion>> visual;
+  std::unique_ptr<sensors::Source<LidarMotion>> lidar;
 };
 
 // One replay of recorded sensors through the graph. On a paced clock samples are released at their
@@ -50,6 +56,10 @@ class Vehicle {
 
   // Slows stages down, for tests of what happens then; before start().
   void slow_down(StageDelays delays);
+
+  // The filter starts from these values instead of a fix; before start(). Throws
+  // std::invalid_argument where they cannot be.
+  void start_from(const fusion::KnownStart& known);
 
   // Saves everything at each of these moments: data time, rounded up to the next tick of the
   // fusion. Those before the start or after the end are never taken. Before start(); more

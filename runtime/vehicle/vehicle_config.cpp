@@ -1,14 +1,35 @@
 #include "runtime/vehicle/vehicle_config.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <concepts>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
 
+#include "estimators/fusion/configuration.h"
 #include "runtime/core/config.h"
 #include "runtime/vehicle/config_fields.h"
 
 namespace maploop::vehicle {
 namespace {
+
+// One of the names of an enumeration.
+template <class Enum>
+void read_name(const runtime::ConfigTable& table, const char* key, Enum& value) {
+  const auto names = names_of(value);
+  std::string name(names[static_cast<std::size_t>(value)]);
+  table.read(key, name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    std::string allowed;
+    for (const std::string_view one : names)
+      allowed += (allowed.empty() ? "\"" : ", \"") + std::string(one) + '"';
+    table.fail(key, "is \"" + name + "\"; allowed is one of " + allowed);
+  }
+  value = static_cast<Enum>(found - names.begin());
+}
 
 void read_value(const runtime::ConfigTable& table, const char* key, auto& value) {
   if constexpr (std::same_as<std::remove_cvref_t<decltype(value)>, std::int64_t>) {
@@ -17,6 +38,8 @@ void read_value(const runtime::ConfigTable& table, const char* key, auto& value)
     value = small;
   } else if constexpr (std::same_as<std::remove_cvref_t<decltype(value)>, runtime::Scheduling>) {
     vehicle::read(table, key, value);
+  } else if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(value)>>) {
+    read_name(table, key, value);
   } else {
     table.read(key, value);
   }
@@ -43,6 +66,10 @@ std::string toml_value(const std::string& text) {
 std::string toml_value(bool value) {
   return value ? "true" : "false";
 }
+template <class Enum>
+requires std::is_enum_v<Enum> std::string toml_value(Enum value) {
+  return quoted(std::string(names_of(value)[static_cast<std::size_t>(value)]));
+}
 std::string toml_value(std::integral auto value) {
   return number(value);
 }
@@ -54,14 +81,42 @@ std::string toml_value(double value) {
 
 }  // namespace
 
+void set_configuration(VehicleConfig& config, const std::string& name) {
+  const fusion::Configuration configuration = fusion::configuration(name);
+  config.configuration = configuration.name;
+  config.odometry = configuration.lidar ? "visual-lidar" : "visual";
+  fusion::apply(configuration, config.fusion);
+}
+
+void set_imu_grade(VehicleConfig& config, const std::string& name) {
+  fusion::apply_grade(name, config.fusion);
+  config.imu_grade = name;
+}
+
 VehicleConfig load_vehicle_config(const std::filesystem::path& file) {
   VehicleConfig config;
   const runtime::ConfigDocument document = runtime::ConfigDocument::load(file);
   runtime::ConfigTable table = document.root();
+  // First the names, then the keys, which may differ from what the names say.
+  std::string configuration = config.configuration, grade = config.imu_grade;
+  table.read("configuration", configuration);
+  table.read("imu_grade", grade);
+  try {
+    set_configuration(config, configuration);
+    set_imu_grade(config, grade);
+  } catch (const std::invalid_argument& e) {
+    throw runtime::ConfigError(file.string() + ": " + e.what());
+  }
   visit(
       config, [&](const char* name) { table = document.root().table(name); },
       [&](const char* key, auto& value) { read_value(table, key, value); });
   document.reject_unknown();
+  if (config.odometry != "visual" && config.odometry != "visual-lidar") {
+    throw runtime::ConfigError(file.string() + ": odometry = \"" + config.odometry +
+                               "\": it must be \"visual\" or \"visual-lidar\"");
+  }
+  if (!config.camera.calibration.empty())
+    config.camera.calibration = (file.parent_path() / config.camera.calibration).string();
   return config;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "estimators/fusion/fusion_parameters.h"
+#include "estimators/lidar/parameters.h"
 #include "estimators/stereo/parameters.h"
 #include "runtime/core/realtime_memory.h"
 #include "runtime/core/trace.h"
@@ -14,18 +15,43 @@
 
 namespace maploop::vehicle {
 
+struct CameraParameters {
+  // File of the raw cameras' calibration, from the configuration's own folder: images are then raw,
+  // and rectified as they are read (stereo_rig_file.h). Empty: images are rectified already.
+  std::string calibration;
+};
+
 struct VehicleConfig {
   std::string lcm_url = LcmBus::default_url;
+  // By name (estimators/fusion/configuration.h): both set keys of [fusion], and the first what
+  // odometry is; those keys may say otherwise.
+  std::string configuration = "VO-L-RI";
+  std::string imu_grade = "tactical";
+  // What fusion gets: "visual", or "visual-lidar" where there is a LiDAR.
+  std::string odometry = "visual-lidar";
   SchedulingParameters scheduling;
   runtime::MemoryParameters memory;
   runtime::TraceParameters trace;
+  CameraParameters camera;
   sensors::KittiDriveParameters replay;
   sensors::GnssAidParameters gnss;
+  std::string gnss_outage;  // gnss_outage.h; empty: none
+  sensors::WheelOdometerParameters wheel;
+  std::string imu_noise = "recorded";  // or "mems": noise of such a unit is added
+  std::int64_t imu_seed = 1;
   stereo::StereoParameters stereo;
+  lidar::LidarParameters lidar;
   // KITTI's car travels 0.48 deg above its IMU's x axis: mean of eight odometry sequences (0.14 to
   // 0.86 deg).
-  fusion::FusionParameters fusion{.climb_offset = 0.0084, .climb_offset_sigma = 0.0087};
+  // Its IMU is 0.25 m ahead of what rolls without side slip: sideways velocity over yaw rate on
+  // five of them (0.23 to 0.29 m).
+  fusion::FusionParameters fusion{
+      .rear_axle_distance = 0.25, .climb_offset = 0.0084, .climb_offset_sigma = 0.0087};
 };
+
+// With what they mean for [fusion]. Throw std::invalid_argument listing the names.
+void set_configuration(VehicleConfig& config, const std::string& name);
+void set_imu_grade(VehicleConfig& config, const std::string& name);
 
 // Reads a TOML file; absent keys keep their defaults. Throws runtime::ConfigError naming file, line
 // and key for anything wrong, unknown keys included. runtime/vehicle/maploop.toml lists every key.

@@ -15,6 +15,7 @@
 #include "runtime/vehicle/fusion_stage.h"
 #include "runtime/vehicle/graph.h"
 #include "runtime/vehicle/health_monitor.h"
+#include "runtime/vehicle/lidar_stage.h"
 #include "runtime/vehicle/replay_driver.h"
 #include "runtime/vehicle/snapshot_stage.h"
 #include "runtime/vehicle/stereo_stage.h"
@@ -37,6 +38,8 @@ struct Vehicle::Graph {
   void start();
   void start_snapshots();
   void start_odometry();
+  std::vector<runtime::Edge<LidarScan>*> scan_edges();
+  std::vector<runtime::Edge<RelativeMotion>*> visual_edges();
   void run_health(const std::stop_token& end);
   RuntimeReport look(Duration elapsed);
   void wait();
@@ -68,18 +71,23 @@ struct Vehicle::Graph {
   // Edges, by the thread that they end at.
   runtime::Doorbell stereo_bell;
   runtime::Edge<StereoPair> images;
+  bool odometry_recorded;              // instead of images
+  std::optional<LidarEdges> to_lidar;  // nothing: fusion gets the visual odometry
   FusionEdges to_fusion;
   PublisherEdges to_publisher;
 
-  bool raw;                // images and scans go to the publisher too
-  bool odometry_recorded;  // instead of images
+  bool raw;  // images and scans go to the publisher too
   ReplayDriver<StereoPair> camera;
   ReplayDriver<LidarScan> velodyne;
   ReplayDriver<ImuSample> imu;
   ReplayDriver<GnssFix> gnss;
+  ReplayDriver<WheelSpeed> wheel;
   ReplayDriver<ReferencePose> reference;
   ReplayDriver<RelativeMotion> odometry;
+  ReplayDriver<RelativeMotion> visual_log;
+  ReplayDriver<LidarMotion> lidar_log;
   StereoStage stereo;
+  std::optional<LidarStage> lidar;  // where there is to_lidar
   FusionStage fusion;
   Publisher publisher;
   HealthMonitor monitor;
@@ -96,6 +104,7 @@ struct Vehicle::Graph {
   Duration wall{};
   double cpu_at_start = 0.0;
   double cpu = 0.0;
+  fusion::DelayEstimate last_imu_delay;
   RuntimeReport last_report;  // of the whole run
 };
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "estimators/fusion/filter_state.h"
 #include "msgs/diagnostics.h"
 #include "sensors/source.h"
 
@@ -21,7 +22,8 @@ struct VehicleReport {
   LatencySummary lateness;  // of release, all sensors together
   Deadlines deadlines;
   Health health;
-  std::uint64_t stalls = 0;  // how often the data clock had to wait for the graph
+  fusion::DelayEstimate imu_delay;  // left in the inertial stamps, against odometry
+  std::uint64_t stalls = 0;         // how often the data clock had to wait for the graph
   Duration stalled{};
   double data_seconds = 0.0;  // length of the drive that was replayed
   double wall_seconds = 0.0;

@@ -1,8 +1,12 @@
 #include "sensors/replay/files.h"
 
+#include <zlib.h>
+
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <memory>
 #include <stdexcept>
 #include <system_error>
 
@@ -26,6 +30,33 @@ double parse_number(std::string_view word, std::size_t column) {
                                 " is not a finite number: " + quoted(word));
   }
   return value;
+}
+
+// Of gzip data, of one member or several.
+std::string inflated(std::vector<char>& bytes, std::size_t limit) {
+  z_stream stream{};
+  constexpr int gzip_alone = 15 + 16;
+  if (inflateInit2(&stream, gzip_alone) != Z_OK) throw std::runtime_error("cannot decompress");
+  const std::unique_ptr<z_stream, int (*)(z_stream*)> end(&stream, inflateEnd);
+  stream.next_in = reinterpret_cast<Bytef*>(bytes.data());
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  std::string text;
+  std::array<char, 1 << 16> part{};
+  for (int state = Z_OK; state != Z_STREAM_END || stream.avail_in > 0;) {
+    if (state == Z_STREAM_END) inflateReset(&stream);
+    stream.next_out = reinterpret_cast<Bytef*>(part.data());
+    stream.avail_out = static_cast<uInt>(part.size());
+    state = inflate(&stream, Z_NO_FLUSH);
+    if (state != Z_OK && state != Z_STREAM_END) {
+      throw std::runtime_error("its compressed data are damaged or cut: get it once more");
+    }
+    text.append(part.data(), part.size() - stream.avail_out);
+    if (text.size() > limit) {
+      throw std::runtime_error("too large: more than " + std::to_string(limit) +
+                               " bytes when decompressed");
+    }
+  }
+  return text;
 }
 
 }  // namespace
@@ -54,9 +85,11 @@ void read_file(const std::filesystem::path& file, std::size_t limit, std::vector
 }
 
 std::string read_text(const std::filesystem::path& file) {
+  constexpr std::size_t limit = std::size_t{64} << 20;
   std::vector<char> bytes;
-  read_file(file, std::size_t{64} << 20, bytes);
-  return {bytes.begin(), bytes.end()};
+  read_file(file, limit, bytes);
+  const bool compressed = bytes.size() > 2 && bytes[0] == '\x1f' && bytes[1] == '\x8b';
+  return compressed ? inflated(bytes, limit) : std::string(bytes.begin(), bytes.end());
 }
 
 std::vector<std::string_view> split_lines(std::string_view text) {

@@ -14,7 +14,7 @@ namespace maploop::sensors {
 // `limit` bytes, or not readable to its end.
 void read_file(const std::filesystem::path& file, std::size_t limit, std::vector<char>& bytes);
 
-// The same for text, of at most 64 MB.
+// The same for text, plain or gzip-compressed, of at most 64 MB.
 std::string read_text(const std::filesystem::path& file);
 
 // The lines of a text without their ends (LF or CRLF) and without the blanks around them; blank

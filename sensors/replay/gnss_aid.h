@@ -10,7 +10,7 @@
 namespace maploop::sensors {
 
 struct GnssAidParameters {
-  double rate = 1.0;            // Hz; of a common receiver, and what design.md scores with
+  double rate = 1.0;            // Hz; of a common receiver
   double white_position = 1.0;  // m, 1 sigma an axis, independent from fix to fix
   // First-order Gauss-Markov error, 1 sigma an axis (m) and correlation time (s): multipath and
   // atmosphere, which do not average out within a turn.

@@ -1,87 +1,18 @@
 #include "sensors/replay/kitti_calibration.h"
 
-#include <Eigen/Dense>
-#include <cmath>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "sensors/replay/files.h"
+#include "sensors/replay/keyed_text.h"
 
 namespace maploop::sensors {
 namespace {
 
-// One file of "KEY: values" lines.
-class KeyedText {
- public:
-  KeyedText(std::string_view text, const std::filesystem::path& file)
-      : lines_(split_lines(text)), file_(file.string()) {}
-
-  std::vector<double> numbers(std::string_view key, std::size_t count) const {
-    std::vector<double> values;
-    try {
-      values = parse_numbers(value(key));
-    } catch (const std::invalid_argument& error) {
-      fail(key, error.what());
-    }
-    if (values.size() != count) {
-      fail(key,
-           "has " + std::to_string(values.size()) + " numbers instead of " + std::to_string(count));
-    }
-    return values;
-  }
-
-  Eigen::Matrix3d rotation(std::string_view key) const {
-    const std::vector<double> values = numbers(key, 9);
-    const Eigen::Matrix3d printed =
-        Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values.data());
-    const double error = (printed * printed.transpose() - Eigen::Matrix3d::Identity()).norm();
-    if (!(error < 1e-3) || printed.determinant() < 0.0) fail(key, "is not a rotation matrix");
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(printed, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    return svd.matrixU() * svd.matrixV().transpose();
-  }
-
-  // The rigid transformation of keys R and T. Sensors of one car are not further apart than 10 m.
-  Eigen::Isometry3d transformation() const {
-    const std::vector<double> values = numbers("T", 3);
-    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-    T.linear() = rotation("R");
-    T.translation() = Eigen::Map<const Eigen::Vector3d>(values.data());
-    if (!(T.translation().norm() < 10.0)) fail("T", "is longer than 10 m");
-    return T;
-  }
-
-  [[noreturn]] void fail(std::string_view key, const std::string& reason) const {
-    throw std::runtime_error("calibration '" + file_ + "', key '" + std::string(key) + "': " +
-                             reason + "; restore the file from KITTI's calibration archive");
-  }
-
- private:
-  std::string_view value(std::string_view key) const {
-    std::optional<std::string_view> found;
-    for (const std::string_view line : lines_) {
-      if (line.size() <= key.size() || !line.starts_with(key) || line[key.size()] != ':') continue;
-      if (found) fail(key, "is given twice");
-      found = line.substr(key.size() + 1);
-    }
-    if (!found) fail(key, "is missing");
-    return *found;
-  }
-
-  std::vector<std::string_view> lines_;
-  std::string file_;
-};
-
-StereoCalibration stereo(const KeyedText& text) {
-  const std::vector<double> size = text.numbers("S_rect_00", 2);
+StereoCalibration rectified_cameras(const KeyedText& text) {
+  const std::vector<double> size = text.size("S_rect_00");
   const std::vector<double> left = text.numbers("P_rect_00", 12);
   const std::vector<double> right = text.numbers("P_rect_01", 12);
-  for (const double side : size) {
-    if (side < 1.0 || side > 16384.0 || side != std::round(side)) {
-      text.fail("S_rect_00", "is not an image size in pixels");
-    }
-  }
   if (text.numbers("S_rect_01", 2) != size) text.fail("S_rect_01", "differs from S_rect_00");
   if (left[3] != 0.0) text.fail("P_rect_00", "has an offset: it is not that of the left camera");
   for (const std::size_t i : {0U, 2U, 5U, 6U}) {  // fx, cx, fy, cy
@@ -105,45 +36,89 @@ StereoCalibration stereo(const KeyedText& text) {
   return calibration;
 }
 
-std::string read_calibration_text(const std::filesystem::path& file) {
-  try {
-    return read_text(file);
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error("calibration '" + file.string() + "': " + error.what() +
-                             "; put the drive's calibration (a separate archive of KITTI raw) "
-                             "beside its folder");
-  }
+CameraModel raw_camera(const KeyedText& text, const std::string& number) {
+  const std::vector<double> k = text.numbers("K_" + number, 9);
+  const std::vector<double> d = text.numbers("D_" + number, 5);
+  return {k[0], k[4], k[2], k[5], {d[0], d[1], d[2], d[3], d[4]}};
 }
+
+Eigen::Isometry3d body_velo(const KittiCalibrationText& text) {
+  return KeyedText(text.imu_to_velo, text.imu_to_velo_file).transformation().inverse();
+}
+
+// Of the raw left camera.
+Eigen::Isometry3d body_left(const KittiCalibrationText& text) {
+  const KeyedText velo_to_cam(text.velo_to_cam, text.velo_to_cam_file);
+  return body_velo(text) * velo_to_cam.transformation().inverse();
+}
+
+// The three files of a day, and what was read of them.
+struct CalibrationFiles {
+  explicit CalibrationFiles(const std::filesystem::path& folder) {
+    text.cam_to_cam_file = folder / "calib_cam_to_cam.txt";
+    text.velo_to_cam_file = folder / "calib_velo_to_cam.txt";
+    text.imu_to_velo_file = folder / "calib_imu_to_velo.txt";
+  }
+  void read_cameras() { text.cam_to_cam = cameras = read_calibration_text(text.cam_to_cam_file); }
+  void read_mounting() {
+    text.velo_to_cam = camera_mounting = read_calibration_text(text.velo_to_cam_file);
+    text.imu_to_velo = scanner_mounting = read_calibration_text(text.imu_to_velo_file);
+  }
+
+  KittiCalibrationText text;
+  std::string cameras, camera_mounting, scanner_mounting;
+};
 
 }  // namespace
 
 VehicleCalibration parse_kitti_calibration(const KittiCalibrationText& text) {
   const KeyedText cameras(text.cam_to_cam, text.cam_to_cam_file);
-  const Eigen::Isometry3d T_cam0_velo =
-      KeyedText(text.velo_to_cam, text.velo_to_cam_file).transformation();
-  const Eigen::Isometry3d T_velo_body =
-      KeyedText(text.imu_to_velo, text.imu_to_velo_file).transformation();
-
   VehicleCalibration calibration;
-  calibration.stereo = stereo(cameras);
+  calibration.stereo = rectified_cameras(cameras);
   const Eigen::Isometry3d T_cam_cam0(cameras.rotation("R_rect_00"));
-  calibration.stereo.T_body_cam = (T_cam_cam0 * T_cam0_velo * T_velo_body).inverse();
-  calibration.T_body_velo = T_velo_body.inverse();
+  calibration.T_body_velo = body_velo(text);
+  calibration.stereo.T_body_cam = body_left(text) * T_cam_cam0.inverse();
   return calibration;
 }
 
 VehicleCalibration read_kitti_calibration(const std::filesystem::path& folder) {
-  KittiCalibrationText text;
-  text.cam_to_cam_file = folder / "calib_cam_to_cam.txt";
-  text.velo_to_cam_file = folder / "calib_velo_to_cam.txt";
-  text.imu_to_velo_file = folder / "calib_imu_to_velo.txt";
-  const std::string cam_to_cam = read_calibration_text(text.cam_to_cam_file);
-  const std::string velo_to_cam = read_calibration_text(text.velo_to_cam_file);
-  const std::string imu_to_velo = read_calibration_text(text.imu_to_velo_file);
-  text.cam_to_cam = cam_to_cam;
-  text.velo_to_cam = velo_to_cam;
-  text.imu_to_velo = imu_to_velo;
-  return parse_kitti_calibration(text);
+  CalibrationFiles files(folder);
+  files.read_cameras();
+  files.read_mounting();
+  return parse_kitti_calibration(files.text);
+}
+
+VehicleCalibration read_kitti_calibration(const std::filesystem::path& folder, const StereoRig& rig,
+                                          bool with_velodyne) {
+  CalibrationFiles files(folder);
+  VehicleCalibration calibration;
+  calibration.stereo = rig.rectified;
+  if (with_velodyne || !rig.T_body_left) files.read_mounting();
+  if (with_velodyne) calibration.T_body_velo = body_velo(files.text);
+  const Eigen::Isometry3d T_body_left = rig.T_body_left ? *rig.T_body_left : body_left(files.text);
+  calibration.stereo.T_body_cam = T_body_left * Eigen::Isometry3d(rig.R_rect_left.transpose());
+  return calibration;
+}
+
+StereoRig parse_kitti_rig(std::string_view cam_to_cam, const std::filesystem::path& file) {
+  const KeyedText text(cam_to_cam, file);
+  StereoRig rig;
+  rig.rectified = rectified_cameras(text);
+  const std::vector<double> size = text.size("S_00");
+  if (text.size("S_01") != size) text.fail("S_01", "differs from S_00");
+  rig.width = static_cast<int>(size[0]);
+  rig.height = static_cast<int>(size[1]);
+  rig.left = raw_camera(text, "00");
+  rig.right = raw_camera(text, "01");
+  const std::vector<double> t = text.numbers("T_01", 3);
+  rig.T_right_left.linear() = text.rotation("R_01");
+  rig.T_right_left.translation() << t[0], t[1], t[2];
+  rig.R_rect_left = text.rotation("R_rect_00");
+  rig.R_rect_right = text.rotation("R_rect_01");
+  if (const auto problem = problem_of(rig)) {
+    throw std::runtime_error("calibration '" + file.string() + "': " + *problem);
+  }
+  return rig;
 }
 
 }  // namespace maploop::sensors

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "msgs/calibration.h"
+#include "sensors/camera/stereo_rig.h"
 
 namespace maploop::sensors {
 
@@ -26,5 +27,14 @@ VehicleCalibration parse_kitti_calibration(const KittiCalibrationText& text);
 // From calib_cam_to_cam.txt, calib_velo_to_cam.txt, calib_imu_to_velo.txt in `folder`. Throws as
 // above, and where a file is missing.
 VehicleCalibration read_kitti_calibration(const std::filesystem::path& folder);
+
+// The same with raw cameras: calib_cam_to_cam.txt is not read; the two others are where there is a
+// scanner, or where the rig does not say itself where it is mounted.
+VehicleCalibration read_kitti_calibration(const std::filesystem::path& folder, const StereoRig& rig,
+                                          bool with_velodyne);
+
+// The raw grey cameras of calib_cam_to_cam.txt (S, K, D, R, T of 00 and 01) and their
+// rectification, without a mounting. Throws as above; `file` names the text.
+StereoRig parse_kitti_rig(std::string_view cam_to_cam, const std::filesystem::path& file);
 
 }  // namespace maploop::sensors

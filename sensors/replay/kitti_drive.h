@@ -1,4 +1,4 @@
-// A KITTI raw drive in its synced and rectified form, as a vehicle that can be replayed.
+// A KITTI raw drive, or raw images in its layout, as a vehicle that can be replayed.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +12,12 @@
 #include "msgs/imu.h"
 #include "msgs/lidar_scan.h"
 #include "msgs/reference.h"
+#include "sensors/camera/stereo_rig.h"
 #include "sensors/replay/gnss_aid.h"
 #include "sensors/replay/oxts.h"
 #include "sensors/replay/stereo_source.h"
 #include "sensors/replay/velodyne_source.h"
+#include "sensors/replay/wheel_odometer.h"
 #include "sensors/source.h"
 
 namespace maploop::sensors {
@@ -34,18 +36,27 @@ struct KittiDriveParameters {
 //   velodyne_points      timestamps{,_start,_end}.txt, data/%010d.bin
 //   oxts                 timestamps.txt, data/%010d.txt
 //   ../calib_cam_to_cam.txt, ../calib_velo_to_cam.txt, ../calib_imu_to_velo.txt
+// Named `..._extract`, the unsynced form, its OXTS rows (100 Hz) take the place of the synced ones;
+// images and scans are those of the `..._sync` folder beside it, for the unsynced images are not
+// rectified.
 // Stamps are the files' own: Karlsruhe's local time read as UTC.
 //
 // Opening it reads the calibration, all stamps and the OXTS rows; images and scans are read one at
 // a time by their source. Sources may outlive the drive, and may each run on a thread of its own.
 // A drive may lack velodyne_points or oxts as a whole folder.
+//
+// With the calibration of raw cameras, image_00 and image_01 hold raw images, which are rectified
+// as they are read. calib_cam_to_cam.txt is then not needed, and the others only where the drive
+// has velodyne_points, or where the calibration does not say where the cameras are mounted: a
+// folder with nothing but image_00 and image_01 is a drive.
 class KittiDrive {
  public:
   // Throws std::runtime_error that names the folder or file and says what to do: no such drive, no
   // calibration beside it, a time stamp file missing or empty; std::invalid_argument for a
   // parameter that is negative or not finite.
   explicit KittiDrive(const std::filesystem::path& folder,
-                      const KittiDriveParameters& parameters = {});
+                      const KittiDriveParameters& parameters = {},
+                      std::optional<StereoRig> raw_cameras = {});
 
   const VehicleCalibration& calibration() const { return calibration_; }
 
@@ -65,6 +76,7 @@ class KittiDrive {
   std::unique_ptr<Source<LidarScan>> velodyne(Time passed = Time::min()) const;
   std::unique_ptr<Source<ImuSample>> imu() const;
   std::unique_ptr<Source<GnssFix>> gnss(const GnssAidParameters& parameters = {}) const;
+  std::unique_ptr<Source<WheelSpeed>> wheel(const WheelOdometerParameters& parameters = {}) const;
   std::unique_ptr<Source<ReferencePose>> reference() const;
 
  private:
@@ -72,6 +84,7 @@ class KittiDrive {
 
   std::filesystem::path folder_;
   KittiDriveParameters parameters_;
+  std::optional<StereoRig> raw_cameras_;
   VehicleCalibration calibration_;
   ImageFolder left_;
   ImageFolder right_;

@@ -82,9 +82,10 @@ class LogSource final : public Source<T> {
 };
 
 // Those that can be replayed; the first that is there says when its frames were.
-constexpr std::array sensor_channels{channel_names::camera,   channel_names::visual_odometry,
-                                     channel_names::imu,      channel_names::velodyne,
-                                     channel_names::gnss_fix, channel_names::truth};
+constexpr std::array sensor_channels{
+    channel_names::camera,   channel_names::odometry,        channel_names::imu,
+    channel_names::velodyne, channel_names::gnss_fix,        channel_names::wheel_speed,
+    channel_names::truth,    channel_names::visual_odometry, channel_names::lidar_odometry};
 
 // What is known of a channel after one look at the log.
 struct Seen {
@@ -170,12 +171,24 @@ std::unique_ptr<Source<GnssFix>> LogRecording::gnss() const {
   return source<GnssFix, maploop_lcm::gnss_fix_t>(channel_names::gnss_fix);
 }
 
+std::unique_ptr<Source<WheelSpeed>> LogRecording::wheel() const {
+  return source<WheelSpeed, maploop_lcm::wheel_speed_t>(channel_names::wheel_speed);
+}
+
 std::unique_ptr<Source<ReferencePose>> LogRecording::reference() const {
   return source<ReferencePose, maploop_lcm::reference_pose_t>(channel_names::truth);
 }
 
 std::unique_ptr<Source<RelativeMotion>> LogRecording::odometry() const {
+  return source<RelativeMotion, maploop_lcm::relative_motion_t>(channel_names::odometry);
+}
+
+std::unique_ptr<Source<RelativeMotion>> LogRecording::visual_odometry() const {
   return source<RelativeMotion, maploop_lcm::relative_motion_t>(channel_names::visual_odometry);
+}
+
+std::unique_ptr<Source<LidarMotion>> LogRecording::lidar_odometry() const {
+  return source<LidarMotion, maploop_lcm::lidar_motion_t>(channel_names::lidar_odometry);
 }
 
 }  // namespace maploop::sensors

@@ -14,13 +14,15 @@
 #include "msgs/lidar_scan.h"
 #include "msgs/odometry.h"
 #include "msgs/reference.h"
+#include "msgs/wheel_speed.h"
 #include "sensors/source.h"
 
 namespace maploop::sensors {
 
-// Reads what `maploop replay --record` wrote, plain or .gz: IMU, GNSS_FIX, TRUTH, VO, and CAMERA
-// and VELODYNE where raw sensors were recorded, each sample with the stamps and the bits it had.
-// Sources may outlive the recording, and may each run on a thread of its own.
+// Reads what `maploop replay --record` wrote, plain or .gz: IMU, GNSS_FIX, WHEEL_SPEED, TRUTH,
+// ODOMETRY, VO, LIDAR_ODOMETRY, and CAMERA and VELODYNE where raw sensors were recorded, each
+// sample with the stamps and the bits it had. Sources may outlive the recording, and may each run
+// on a thread of its own.
 class LogRecording {
  public:
   // Reads through the whole log once. Throws std::runtime_error naming the log and what to do: not
@@ -41,8 +43,11 @@ class LogRecording {
   std::unique_ptr<Source<LidarScan>> velodyne() const;
   std::unique_ptr<Source<ImuSample>> imu() const;
   std::unique_ptr<Source<GnssFix>> gnss() const;
+  std::unique_ptr<Source<WheelSpeed>> wheel() const;
   std::unique_ptr<Source<ReferencePose>> reference() const;
-  std::unique_ptr<Source<RelativeMotion>> odometry() const;
+  std::unique_ptr<Source<RelativeMotion>> odometry() const;  // what fusion got
+  std::unique_ptr<Source<RelativeMotion>> visual_odometry() const;
+  std::unique_ptr<Source<LidarMotion>> lidar_odometry() const;
 
  private:
   template <class T, class Lcm>

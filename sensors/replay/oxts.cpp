@@ -23,6 +23,7 @@ enum Column : std::size_t {
   yaw,
   vn,
   ve,
+  vf = 8,
   vu = 10,
   ax = 11,
   ay = 12,
@@ -39,7 +40,7 @@ struct Range {
   const char* name;
   double largest;  // in magnitude
 };
-constexpr std::array<Range, 12> ranges{{{lat, "lat", 90.0},
+constexpr std::array<Range, 13> ranges{{{lat, "lat", 90.0},
                                         {lon, "lon", 180.0},
                                         {alt, "alt", 20000.0},
                                         {roll, "roll", half_turn},
@@ -47,6 +48,7 @@ constexpr std::array<Range, 12> ranges{{{lat, "lat", 90.0},
                                         {yaw, "yaw", half_turn},
                                         {vn, "vn", 515.0},
                                         {ve, "ve", 515.0},
+                                        {vf, "vf", 515.0},
                                         {vu, "vu", 515.0},
                                         {ax, "ax", 100.0},
                                         {ay, "ay", 100.0},
@@ -55,7 +57,10 @@ constexpr std::array<Range, 12> ranges{{{lat, "lat", 90.0},
 }  // namespace
 
 OxtsRow parse_oxts_row(std::string_view text) {
-  const std::vector<double> value = parse_numbers(text);
+  return oxts_row(parse_numbers(text));
+}
+
+OxtsRow oxts_row(std::span<const double> value) {
   if (value.size() != columns) {
     throw std::invalid_argument("has " + std::to_string(value.size()) + " columns instead of " +
                                 std::to_string(columns));
@@ -73,6 +78,7 @@ OxtsRow parse_oxts_row(std::string_view text) {
   row.specific_force_forward = value[ax];
   row.specific_force_left = value[ay];
   row.yaw_rate = value[wz];
+  row.forward_speed = std::copysign(std::hypot(value[vf], value[vu]), value[vf]);
   row.position_accuracy = value[pos_accuracy];
   return row;
 }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct OxtsRow {
   double specific_force_forward = 0.0;                     // m/s^2, ax
   double specific_force_left = 0.0;                        // m/s^2, ay
   double yaw_rate = 0.0;                                   // rad/s, wz
+  double forward_speed = 0.0;                              // m/s along the way, of vf and vu
   double position_accuracy = 0.0;                          // m
 };
 
@@ -29,6 +31,8 @@ struct OxtsRow {
 // Ry(pitch) Rx(roll), pitch nose down. Throws std::invalid_argument with the reason alone: not 30
 // columns, not finite, or outside the range of its kind.
 OxtsRow parse_oxts_row(std::string_view text);
+// The same of numbers.
+OxtsRow oxts_row(std::span<const double> values);
 
 struct OxtsRows {
   std::vector<OxtsRow> rows;

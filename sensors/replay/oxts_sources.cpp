@@ -76,6 +76,22 @@ class GnssSource final : public OxtsSource<GnssFix> {
   GnssAid aid_;
 };
 
+class WheelSource final : public OxtsSource<WheelSpeed> {
+ public:
+  WheelSource(std::shared_ptr<const OxtsRows> rows, Duration delay,
+              const WheelOdometerParameters& parameters)
+      : OxtsSource(std::move(rows)), delay_(delay), odometer_(parameters) {}
+
+ private:
+  bool fill(const OxtsRow& row, Time stamp, WheelSpeed& sample) override {
+    odometer_.measure(stamp - delay_, row.forward_speed, sample);
+    return true;
+  }
+
+  Duration delay_;
+  WheelOdometer odometer_;
+};
+
 class ReferenceSource final : public OxtsSource<ReferencePose> {
  public:
   ReferenceSource(std::shared_ptr<const OxtsRows> rows, Duration delay)
@@ -106,6 +122,12 @@ std::unique_ptr<Source<GnssFix>> make_gnss_source(std::shared_ptr<const OxtsRows
                                                   Duration delay,
                                                   const GnssAidParameters& parameters) {
   return std::make_unique<GnssSource>(std::move(rows), delay, parameters);
+}
+
+std::unique_ptr<Source<WheelSpeed>> make_wheel_source(std::shared_ptr<const OxtsRows> rows,
+                                                      Duration delay,
+                                                      const WheelOdometerParameters& parameters) {
+  return std::make_unique<WheelSource>(std::move(rows), delay, parameters);
 }
 
 std::unique_ptr<Source<ReferencePose>> make_reference_source(std::shared_ptr<const OxtsRows> rows,

@@ -8,6 +8,7 @@
 #include "msgs/reference.h"
 #include "sensors/replay/gnss_aid.h"
 #include "sensors/replay/oxts.h"
+#include "sensors/replay/wheel_odometer.h"
 #include "sensors/source.h"
 
 namespace maploop::sensors {
@@ -24,6 +25,11 @@ std::unique_ptr<Source<ImuSample>> make_imu_source(std::shared_ptr<const OxtsRow
 std::unique_ptr<Source<GnssFix>> make_gnss_source(std::shared_ptr<const OxtsRows> rows,
                                                   Duration delay,
                                                   const GnssAidParameters& parameters);
+
+// WheelSpeed: stamp = row's - delay, sequence = row.
+std::unique_ptr<Source<WheelSpeed>> make_wheel_source(std::shared_ptr<const OxtsRows> rows,
+                                                      Duration delay,
+                                                      const WheelOdometerParameters& parameters);
 
 // ReferencePose: stamp = row's, velocity_stamp = row's - delay, sequence = row.
 std::unique_ptr<Source<ReferencePose>> make_reference_source(std::shared_ptr<const OxtsRows> rows,

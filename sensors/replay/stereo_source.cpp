@@ -2,117 +2,92 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <exception>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "sensors/replay/files.h"
+#include "sensors/replay/frame_source.h"
 #include "sensors/replay/grey_png.h"
 
 namespace maploop::sensors {
 namespace {
 
-class StereoSource final : public Source<StereoPair> {
- public:
-  StereoSource(ImageFolder left, ImageFolder right, const StereoCalibration& calibration,
-               Duration readout, Duration max_skew, Time passed)
-      : left_(std::move(left)),
-        right_(std::move(right)),
-        calibration_(calibration),
-        readout_(readout),
-        passed_(passed) {
-    judge_stamps(max_skew);
-    for (const ImageFolder* folder : {&left_, &right_}) {
-      auto found = files_without_stamp(folder->data, verdicts_.size());
-      unstamped_.insert(unstamped_.end(), found.begin(), found.end());
-    }
-  }
+struct StereoFrames {
+  FrameList list;
+  std::vector<Time> stamps;
+};
 
-  bool next(StereoPair& pair) override {
-    while (index_ < verdicts_.size()) {
-      const std::size_t i = index_++;
-      if (verdicts_[i]) {
-        report_.refuse(*verdicts_[i]);
-        continue;
+StereoFrames judge(const ImageFolder& left_folder, const ImageFolder& right_folder,
+                   Duration readout, Duration max_skew) {
+  const Timestamps& left = left_folder.timestamps;
+  const Timestamps& right = right_folder.timestamps;
+  StereoFrames frames;
+  const std::size_t count = std::max(left.size(), right.size());
+  frames.stamps.resize(count);
+  frames.list.available.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    auto found = verdict(left, i);
+    if (!found) found = verdict(right, i);
+    if (!found) {
+      const auto [earlier, later] = std::minmax(left.stamps[i], right.stamps[i]);
+      frames.stamps[i] = earlier;
+      frames.list.available[i] = later + readout;
+      const Duration skew = later - earlier;
+      if (skew > max_skew) {
+        found = Finding{right.file.string(), i + 1,
+                        "differs from the left image's stamp by " +
+                            std::to_string(to_seconds(skew)) + " s, more than max_pair_skew"};
       }
-      const bool wanted = available_[i] > passed_;
-      if (wanted && !(read(left_, i, pair.left) && read(right_, i, pair.right))) continue;
-      pair.stamp = stamps_[i];
-      pair.available = available_[i];
-      pair.sequence = i;
-      ++report_.delivered;
-      return true;
     }
-    for (Finding& finding : unstamped_) report_.refuse(std::move(finding));
-    unstamped_.clear();
-    return false;
+    frames.list.verdicts.push_back(std::move(found));
   }
+  refuse_out_of_order(frames.stamps, left.file, frames.list.verdicts);
+  refuse_out_of_order(frames.list.available, right.file, frames.list.verdicts);
+  for (const ImageFolder* folder : {&left_folder, &right_folder}) {
+    auto found = files_without_stamp(folder->data, count);
+    frames.list.unstamped.insert(frames.list.unstamped.end(), found.begin(), found.end());
+  }
+  return frames;
+}
 
-  const SourceReport& report() const override { return report_; }
+class StereoSource final : public FrameSource<StereoPair> {
+ public:
+  StereoSource(std::filesystem::path left, std::filesystem::path right, StereoFrames frames,
+               int width, int height, Time passed)
+      : FrameSource(std::move(frames.list), passed),
+        left_(std::move(left)),
+        right_(std::move(right)),
+        stamps_(std::move(frames.stamps)),
+        width_(width),
+        height_(height) {}
 
  private:
-  void judge_stamps(Duration max_skew) {
-    const Timestamps& left = left_.timestamps;
-    const Timestamps& right = right_.timestamps;
-    const std::size_t frames = std::max(left.size(), right.size());
-    stamps_.resize(frames);
-    available_.resize(frames);
-    for (std::size_t i = 0; i < frames; ++i) {
-      auto found = verdict(left, i);
-      if (!found) found = verdict(right, i);
-      if (!found) {
-        const auto [earlier, later] = std::minmax(left.stamps[i], right.stamps[i]);
-        stamps_[i] = earlier;
-        available_[i] = later + readout_;
-        const Duration skew = later - earlier;
-        if (skew > max_skew) {
-          found = Finding{right.file.string(), i + 1,
-                          "differs from the left image's stamp by " +
-                              std::to_string(to_seconds(skew)) + " s, more than max_pair_skew"};
-        }
-      }
-      verdicts_.push_back(std::move(found));
-    }
-    refuse_out_of_order(stamps_, left.file, verdicts_);
-    refuse_out_of_order(available_, right.file, verdicts_);
+  bool read(std::size_t i, StereoPair& pair) override {
+    return read_image(left_, i, pair.left) && read_image(right_, i, pair.right);
   }
 
-  bool read(const ImageFolder& folder, std::size_t i, GreyImage& image) {
+  void set_stamps(std::size_t i, StereoPair& pair) const override { pair.stamp = stamps_[i]; }
+
+  bool read_image(const std::filesystem::path& folder, std::size_t i, GreyImage& image) {
     constexpr std::size_t largest_file = std::size_t{64} << 20;
-    const std::filesystem::path file = folder.data / numbered_file(i, ".png");
-    try {
-      read_file(file, largest_file, bytes_);
-      decode_grey_png(bytes_, calibration_.width, calibration_.height, image);
-      return true;
-    } catch (const std::exception& error) {
-      report_.refuse({file.string(), 0, error.what()});
-      return false;
-    }
+    return read_and_parse(
+        folder / numbered_file(i, ".png"), largest_file,
+        [&](const std::vector<char>& bytes) { decode_grey_png(bytes, width_, height_, image); });
   }
 
-  ImageFolder left_;
-  ImageFolder right_;
-  StereoCalibration calibration_;
-  Duration readout_;
-  Time passed_;
+  std::filesystem::path left_, right_;
   std::vector<Time> stamps_;
-  std::vector<Time> available_;
-  Verdicts verdicts_;
-  std::vector<Finding> unstamped_;
-  std::size_t index_ = 0;
-  std::vector<char> bytes_;
-  SourceReport report_;
+  int width_, height_;
 };
 
 }  // namespace
 
 std::unique_ptr<Source<StereoPair>> make_stereo_source(ImageFolder left, ImageFolder right,
-                                                       const StereoCalibration& calibration,
-                                                       Duration readout, Duration max_skew,
-                                                       Time passed) {
-  return std::make_unique<StereoSource>(std::move(left), std::move(right), calibration, readout,
-                                        max_skew, passed);
+                                                       int width, int height, Duration readout,
+                                                       Duration max_skew, Time passed) {
+  StereoFrames frames = judge(left, right, readout, max_skew);
+  return std::make_unique<StereoSource>(std::move(left.data), std::move(right.data),
+                                        std::move(frames), width, height, passed);
 }
 
 }  // namespace maploop::sensors

@@ -1,10 +1,9 @@
-// The rectified pairs of a KITTI drive.
+// The pairs of a KITTI drive, as their files have them.
 #pragma once
 
 #include <filesystem>
 #include <memory>
 
-#include "msgs/calibration.h"
 #include "msgs/image.h"
 #include "sensors/replay/timestamps.h"
 #include "sensors/source.h"
@@ -20,12 +19,12 @@ struct ImageFolder {
 // Pairs left and right by number. One trigger exposes both, and the host notes each a little later
 // than that: stamp = the earlier of the two (against the scanner's clock it scatters by 0.3 ms on
 // drive 0013, the left image's alone by 0.9 ms), available = the later + readout. A pair whose
-// stamps differ by more than `max_skew` is refused, as is an image of another size than the
-// calibration's.
+// stamps differ by more than `max_skew` is refused, as is an image of another size than
+// width x height.
 // The pixels of pairs available up to `passed` are not read, for who only passes over them.
 std::unique_ptr<Source<StereoPair>> make_stereo_source(ImageFolder left, ImageFolder right,
-                                                       const StereoCalibration& calibration,
-                                                       Duration readout, Duration max_skew,
+                                                       int width, int height, Duration readout,
+                                                       Duration max_skew,
                                                        Time passed = Time::min());
 
 }  // namespace maploop::sensors

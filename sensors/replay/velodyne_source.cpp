@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "sensors/replay/files.h"
+#include "sensors/replay/frame_source.h"
 
 namespace maploop::sensors {
 namespace {
@@ -16,90 +16,65 @@ namespace {
 static_assert(sizeof(LidarPoint) == 16 && std::endian::native == std::endian::little,
               "a scan file is copied as it is");
 
-class VelodyneSource final : public Source<LidarScan> {
+FrameList judge(const VelodyneFolder& folder, Duration max_turn) {
+  FrameList frames;
+  const std::size_t count =
+      std::max({folder.start.size(), folder.middle.size(), folder.end.size()});
+  for (std::size_t i = 0; i < count; ++i) {
+    auto found = verdict(folder.middle, i);
+    if (!found) found = verdict(folder.start, i);
+    if (!found) found = verdict(folder.end, i);
+    if (!found) {
+      const Time start = folder.start.stamps[i], middle = folder.middle.stamps[i],
+                 end = folder.end.stamps[i];
+      if (!(start < middle && middle < end && end - start <= max_turn)) {
+        found = Finding{folder.middle.file.string(), i + 1,
+                        "start, middle and end are not the stamps of one turn: from middle to "
+                        "start " +
+                            std::to_string(to_seconds(start - middle)) + " s, to end " +
+                            std::to_string(to_seconds(end - middle)) + " s"};
+      }
+    }
+    frames.verdicts.push_back(std::move(found));
+  }
+  for (const Timestamps* timestamps : {&folder.middle, &folder.end}) {
+    std::vector<Time> stamps = timestamps->stamps;
+    stamps.resize(count);
+    refuse_out_of_order(stamps, timestamps->file, frames.verdicts);
+  }
+  frames.available = folder.end.stamps;
+  frames.available.resize(count);
+  frames.unstamped = files_without_stamp(folder.data, count);
+  return frames;
+}
+
+class VelodyneSource final : public FrameSource<LidarScan> {
  public:
   VelodyneSource(VelodyneFolder folder, Duration max_turn, Time passed)
-      : folder_(std::move(folder)), passed_(passed) {
-    judge_stamps(max_turn);
-    unstamped_ = files_without_stamp(folder_.data, verdicts_.size());
-  }
-
-  bool next(LidarScan& scan) override {
-    while (index_ < verdicts_.size()) {
-      const std::size_t i = index_++;
-      if (verdicts_[i]) {
-        report_.refuse(*verdicts_[i]);
-        continue;
-      }
-      if (folder_.end.stamps[i] > passed_ && !read(i, scan.points)) continue;
-      scan.stamp = folder_.middle.stamps[i];
-      scan.start = folder_.start.stamps[i];
-      scan.end = folder_.end.stamps[i];
-      scan.available = scan.end;
-      scan.sequence = i;
-      ++report_.delivered;
-      return true;
-    }
-    for (Finding& finding : unstamped_) report_.refuse(std::move(finding));
-    unstamped_.clear();
-    return false;
-  }
-
-  const SourceReport& report() const override { return report_; }
+      : FrameSource(judge(folder, max_turn), passed), folder_(std::move(folder)) {}
 
  private:
-  void judge_stamps(Duration max_turn) {
-    const VelodyneFolder& f = folder_;
-    const std::size_t frames = std::max({f.start.size(), f.middle.size(), f.end.size()});
-    for (std::size_t i = 0; i < frames; ++i) {
-      auto found = verdict(f.middle, i);
-      if (!found) found = verdict(f.start, i);
-      if (!found) found = verdict(f.end, i);
-      if (!found) {
-        const Time start = f.start.stamps[i], middle = f.middle.stamps[i], end = f.end.stamps[i];
-        if (!(start < middle && middle < end && end - start <= max_turn)) {
-          found = Finding{f.middle.file.string(), i + 1,
-                          "start, middle and end are not the stamps of one turn: from middle to "
-                          "start " +
-                              std::to_string(to_seconds(start - middle)) + " s, to end " +
-                              std::to_string(to_seconds(end - middle)) + " s"};
-        }
-      }
-      verdicts_.push_back(std::move(found));
-    }
-    for (const Timestamps* timestamps : {&f.middle, &f.end}) {
-      std::vector<Time> stamps = timestamps->stamps;
-      stamps.resize(frames);
-      refuse_out_of_order(stamps, timestamps->file, verdicts_);
-    }
-  }
-
-  bool read(std::size_t i, std::vector<LidarPoint>& points) {
+  bool read(std::size_t i, LidarScan& scan) override {
     // A turn of the HDL-64E has 130 000 points; this is eight times as many.
     constexpr std::size_t largest_file = std::size_t{16} << 20;
     const std::filesystem::path file = folder_.data / numbered_file(i, ".bin");
-    try {
-      read_file(file, largest_file, bytes_);
-      const std::size_t dropped = parse_velodyne_points(bytes_, points);
-      if (dropped > 0) {
-        report_.flaw({file.string(), 0,
-                      std::to_string(dropped) + " of " + std::to_string(points.size() + dropped) +
-                          " points are not finite and were dropped"});
-      }
-      return true;
-    } catch (const std::exception& error) {
-      report_.refuse({file.string(), 0, error.what()});
-      return false;
-    }
+    return read_and_parse(file, largest_file, [&](const std::vector<char>& bytes) {
+      const std::size_t dropped = parse_velodyne_points(bytes, scan.points);
+      if (dropped == 0) return;
+      report_.flaw({file.string(), 0,
+                    std::to_string(dropped) + " of " +
+                        std::to_string(scan.points.size() + dropped) +
+                        " points are not finite and were dropped"});
+    });
+  }
+
+  void set_stamps(std::size_t i, LidarScan& scan) const override {
+    scan.stamp = folder_.middle.stamps[i];
+    scan.start = folder_.start.stamps[i];
+    scan.end = folder_.end.stamps[i];
   }
 
   VelodyneFolder folder_;
-  Time passed_;
-  Verdicts verdicts_;
-  std::vector<Finding> unstamped_;
-  std::size_t index_ = 0;
-  std::vector<char> bytes_;
-  SourceReport report_;
 };
 
 }  // namespace

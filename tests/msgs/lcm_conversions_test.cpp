@@ -50,6 +50,9 @@ TEST(LcmConversions, NavState) {
   s.imu_stamp = from_nanoseconds(1);
   s.odometry_stamp = from_nanoseconds(2);
   s.gnss_stamp = from_nanoseconds(3);
+  s.wheel_stamp = from_nanoseconds(4);
+  s.zero_velocity_stamp = from_nanoseconds(7);
+  s.reinitializations = 8;
   s.odometry_applied = 5;
   s.odometry_refused = 6;
 
@@ -68,10 +71,39 @@ TEST(LcmConversions, NavState) {
   EXPECT_EQ(r.gyro_bias, s.gyro_bias);
   EXPECT_EQ(r.covariance, s.covariance);
   EXPECT_EQ(r.imu_stamp, s.imu_stamp);
+  EXPECT_EQ(r.wheel_stamp, s.wheel_stamp);
+  EXPECT_EQ(r.zero_velocity_stamp, s.zero_velocity_stamp);
+  EXPECT_EQ(r.reinitializations, s.reinitializations);
   EXPECT_EQ(r.odometry_stamp, s.odometry_stamp);
   EXPECT_EQ(r.gnss_stamp, s.gnss_stamp);
   EXPECT_EQ(r.odometry_applied, s.odometry_applied);
   EXPECT_EQ(r.odometry_refused, s.odometry_refused);
+}
+
+TEST(LcmConversions, LidarMotion) {
+  LidarMotion m;
+  fill(m);
+  m.status = OdometryStatus::disagreement;
+  m.source = OdometrySource::visual_lidar;
+  m.from = from_nanoseconds(42);
+  m.tracked = 5400;
+  m.degenerate = maploop_lcm::lidar_motion_t::ALONG | maploop_lcm::lidar_motion_t::YAW;
+  m.iterations = 4;
+  m.seed_translation_error = 0.6;
+  m.seed_rotation_error = 0.02;
+
+  const LidarMotion r = round_trip(m);
+  expect_same_times(r, m);
+  EXPECT_EQ(r.status, m.status);
+  EXPECT_EQ(r.source, m.source);
+  EXPECT_EQ(r.from, m.from);
+  EXPECT_EQ(r.tracked, m.tracked);
+  EXPECT_EQ(r.degenerate, m.degenerate);
+  EXPECT_EQ(r.degenerate, 1u << static_cast<int>(MotionDirection::along) |
+                              1u << static_cast<int>(MotionDirection::yaw));
+  EXPECT_EQ(r.iterations, m.iterations);
+  EXPECT_EQ(r.seed_translation_error, m.seed_translation_error);
+  EXPECT_EQ(r.seed_rotation_error, m.seed_rotation_error);
 }
 
 TEST(LcmConversions, RelativeMotion) {
@@ -107,6 +139,17 @@ TEST(LcmConversions, ImuSample) {
   EXPECT_EQ(r.specific_force_forward, s.specific_force_forward);
   EXPECT_EQ(r.specific_force_left, s.specific_force_left);
   EXPECT_EQ(r.yaw_rate, s.yaw_rate);
+}
+
+TEST(LcmConversions, WheelSpeed) {
+  WheelSpeed w;
+  fill(w);
+  w.speed = -3.25;
+  w.sigma = 0.05;
+  const WheelSpeed r = round_trip(w);
+  expect_same_times(r, w);
+  EXPECT_EQ(r.speed, w.speed);
+  EXPECT_EQ(r.sigma, w.sigma);
 }
 
 TEST(LcmConversions, GnssFix) {

@@ -27,8 +27,11 @@ CHANNELS = {
     "GNSS_FIX": ("gnss_fix_t", "latitude"),
     "HEALTH": ("health_t", "scheduling"),
     "IMU": ("imu_t", "yaw_rate"),
+    "LIDAR_ODOMETRY": ("lidar_motion_t", "translation"),
     "NAV_STATE": ("nav_state_t", "origin_latitude"),
+    "ODOMETRY": ("relative_motion_t", "translation"),
     "TRUTH": ("reference_pose_t", "azimuth"),
+    "WHEEL_SPEED": ("wheel_speed_t", "sigma"),
     "VO": ("relative_motion_t", "translation"),
 }
 TOOLS = ["ip", "unshare", "setpriv", "Xvfb", "import", "convert", "tesseract", "xdotool", "java", "javac"]

@@ -56,7 +56,7 @@ std::map<std::string, std::string> hashes(const json& result) {
 TEST_F(LogReplay, ALogOfRawSensorsGivesTheHashesOfTheDrive) {
   const json drive = replay(testing::drive_0013().string(),
                             {"--lockstep", "--record", file("raw.lcmlog"), "--record-raw"});
-  EXPECT_EQ(hashes(drive).size(), 5u) << "raw channels go to the log alone";
+  EXPECT_EQ(hashes(drive).size(), 7u) << "raw channels go to the log alone";
   const json log = replay(file("raw.lcmlog"), {"--lockstep"});
   EXPECT_EQ(hashes(log), hashes(drive));
   EXPECT_EQ(log["sensors"]["camera"]["delivered"], drive["sensors"]["camera"]["delivered"]);
@@ -95,7 +95,7 @@ TEST_F(LogReplay, TakesSnapshotsFaultsAndMomentsAsADriveDoes) {
   for (const auto& [name, channel] : whole["snapshot"]["channels"].items()) {
     if (channel["hash"] != "") expected[name] = channel["hash"];
   }
-  EXPECT_EQ(expected.size(), 5u);
+  EXPECT_EQ(expected.size(), 7u);
   EXPECT_EQ(hashes(replay(file("a.lcmlog"), {"--lockstep", "--resume", file("s")})), expected);
   const json lost = replay(file("a.lcmlog"), {"--lockstep", "--fault", "lost@imu:2:1"});
   EXPECT_NE(hashes(lost)["NAV_STATE"], hashes(whole)["NAV_STATE"]);

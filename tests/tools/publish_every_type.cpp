@@ -60,8 +60,11 @@ bool publish_all(lcm::LCM& lcm, int tick) {
   state.forward_speed = 11.7;
   publish("NAV_STATE", state);
   publish("VO", sample<RelativeMotion>(tick));
+  publish("LIDAR_ODOMETRY", sample<LidarMotion>(tick));
+  publish("ODOMETRY", sample<RelativeMotion>(tick));
   publish("IMU", sample<ImuSample>(tick));
   publish("GNSS_FIX", sample<GnssFix>(tick));
+  publish("WHEEL_SPEED", sample<WheelSpeed>(tick));
   publish("TRUTH", sample<ReferencePose>(tick));
   publish("DEADLINES", deadlines(state.stamp));
   publish("HEALTH", health(state.stamp));

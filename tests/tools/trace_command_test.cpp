@@ -115,8 +115,8 @@ TEST(TraceCommand, EachImageAndInertialSampleFlowsToAPublishedState) {
   std::map<std::string, int> complete;
   for (const auto& [id, steps] : trace.flows()) {
     const std::string& source = id.first;
-    EXPECT_EQ(way(steps),
-              source == "camera" ? "camera stereo fusion publisher" : source + " fusion publisher");
+    EXPECT_EQ(way(steps), source == "camera" ? "camera stereo lidar fusion publisher"
+                                             : source + " fusion publisher");
     EXPECT_TRUE(inside_a_span(trace, steps.front(), "release"));
     EXPECT_TRUE(inside_a_span(trace, steps.back(), "NAV_STATE"));
     ++complete[source];
@@ -133,9 +133,10 @@ TEST(TraceCommand, EachImageAndInertialSampleFlowsToAPublishedState) {
 TEST(TraceCommand, ShowsEveryThreadAndDropsNothing) {
   MAPLOOP_REQUIRE_DRIVE();
   const TracedReplay trace({"--lockstep"});
-  EXPECT_EQ(trace.threads(), (std::set<std::string>{"camera", "camera loader", "fusion", "gnss",
-                                                    "health", "imu", "publisher", "reference",
-                                                    "stereo", "velodyne", "velodyne loader"}));
+  EXPECT_EQ(trace.threads(),
+            (std::set<std::string>{"camera", "camera loader", "fusion", "gnss", "health", "imu",
+                                   "lidar", "publisher", "reference", "stereo", "velodyne",
+                                   "velodyne loader", "wheel"}));
   EXPECT_EQ(trace.other().at("dropped"), 0);
   EXPECT_EQ(trace.result().at("trace").at("dropped"), 0);
   EXPECT_GT(trace.result().at("trace").at("recorded"), 1500);

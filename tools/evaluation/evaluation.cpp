@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "tools/evaluation/svg_plot.h"
+#include "tools/html_text.h"
 
 namespace maploop::evaluation {
 namespace {
@@ -26,8 +26,9 @@ std::string of_statistics(const char* what, const char* unit, const Statistics& 
              s.median, s.max, unit);
 }
 
-// Seen from above: right and forward of the first camera.
-Line path(const std::string& name, const Trajectory& trajectory) {
+}  // namespace
+
+Line seen_from_above(const std::string& name, const Trajectory& trajectory) {
   Line line{name, {}, {}};
   for (const Eigen::Isometry3d& pose : trajectory) {
     const Eigen::Vector3d p = trajectory.front().inverse() * pose.translation();
@@ -43,8 +44,6 @@ std::vector<double> distances(const Trajectory& truth) {
     along.push_back(along.back() + (truth[i].translation() - truth[i - 1].translation()).norm());
   return along;
 }
-
-}  // namespace
 
 Evaluation evaluate(Matched matched, const std::vector<double>& lengths_m) {
   Evaluation e;
@@ -80,6 +79,26 @@ std::string to_text(const Evaluation& e) {
   return text;
 }
 
+std::string to_csv(const Evaluation& e) {
+  const Trajectory& estimate = e.matched.estimate;
+  const Trajectory& truth = e.matched.truth;
+  const std::vector<double> along = distances(truth);
+  const auto from_start =
+      absolute_errors(estimate, truth, truth.front() * estimate.front().inverse());
+  const auto aligned = absolute_errors(estimate, truth, best_alignment(estimate, truth));
+  const RelativeErrors relative = relative_errors(estimate, truth);
+  std::string text = "stamp,way,from_start,aligned,step,step_deg\n";
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (!e.matched.stamps.empty())
+      text += row("%.6f", static_cast<double>(to_nanoseconds(e.matched.stamps[i])) * 1e-9);
+    text += row(",%.4f,%.4f,%.4f,", along[i], from_start[i], aligned[i]);
+    text += i == 0 ? ","
+                   : row("%.5f,%.6f", relative.translation_m[i - 1], relative.rotation_deg[i - 1]);
+    text += '\n';
+  }
+  return text;
+}
+
 std::string to_html(const Evaluation& e, const std::string& heading) {
   const Trajectory& estimate = e.matched.estimate;
   const Trajectory& truth = e.matched.truth;
@@ -97,11 +116,11 @@ std::string to_html(const Evaluation& e, const std::string& heading) {
     rotated.y.push_back(l.common_rotation_removed.percent);
   }
   return to_page(
-      heading, "<pre>" + escaped(to_text(e)) + "</pre>\n",
+      heading, "<pre>" + tools::escaped(to_text(e)) + "</pre>\n",
       {{"Seen from above",
         "right of the first camera, m",
         "ahead, m",
-        {path("truth", truth), path("estimate", estimate)},
+        {seen_from_above("truth", truth), seen_from_above("estimate", estimate)},
         true},
        {"Position error",
         "way, m",

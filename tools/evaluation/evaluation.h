@@ -6,6 +6,7 @@
 
 #include "tools/evaluation/kitti_metric.h"
 #include "tools/evaluation/pose_errors.h"
+#include "tools/evaluation/svg_plot.h"
 #include "tools/evaluation/trajectory_file.h"
 
 namespace maploop::evaluation {
@@ -29,7 +30,15 @@ Evaluation evaluate(Matched matched, const std::vector<double>& lengths_m);
 
 std::string to_text(const Evaluation& evaluation);
 
+// One line a pose, with a heading: stamp (s; empty without), way (m along the truth), error from
+// the start and after the best alignment (m), and from the pose before (m, deg).
+std::string to_csv(const Evaluation& evaluation);
+
 // A page with the table, the two paths seen from above, and the errors along the way.
 std::string to_html(const Evaluation& evaluation, const std::string& heading);
+
+// A path right and ahead of its first camera, and the way to each pose: what pictures are made of.
+Line seen_from_above(const std::string& name, const Trajectory& trajectory);
+std::vector<double> distances(const Trajectory& truth);
 
 }  // namespace maploop::evaluation

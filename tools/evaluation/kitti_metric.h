@@ -3,7 +3,7 @@
 // A segment starts at a frame and ends at the first frame whose distance along the truth is greater
 // than `length`. Its error is E = (T_est_first^-1 T_est_last)^-1 (T_truth_first^-1 T_truth_last);
 // |t(E)| and the angle of R(E) are divided by `length` (Geiger, Lenz, Urtasun, CVPR 2012, and the
-// benchmark's devkit; method.md 3.1). Frame i of one trajectory is frame i of the other; the longer
+// benchmark's devkit). Frame i of one trajectory is frame i of the other; the longer
 // one is cut. Both are taken relative to their own first pose.
 #pragma once
 

@@ -5,8 +5,12 @@
 #include <cmath>
 #include <cstdio>
 
+#include "tools/html_text.h"
+
 namespace maploop::evaluation {
 namespace {
+
+using tools::escaped;
 
 constexpr double kWidth = 640, kHeight = 400;  // px, all
 constexpr double kLeft = 60, kRight = 20, kTop = 30, kBottom = 45;
@@ -79,32 +83,6 @@ std::string grid(const Axis& x, const Axis& y) {
 }
 
 }  // namespace
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 std::string to_svg(const Plot& plot) {
   Axis x = axis_of(plot, &Line::x, kLeft, kWidth - kRight);

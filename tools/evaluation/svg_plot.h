@@ -23,7 +23,4 @@ std::string to_svg(const Plot& plot);
 std::string to_page(const std::string& heading, const std::string& body,
                     const std::vector<Plot>& plots);
 
-// &, <, > and quotes of a text as HTML writes them.
-std::string escaped(const std::string& text);
-
 }  // namespace maploop::evaluation

@@ -8,6 +8,22 @@
 #include <stdexcept>
 
 namespace maploop::evaluation {
+namespace {
+
+bool write_plain(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text << std::flush;
+  return static_cast<bool>(out);
+}
+
+bool write_compressed(const std::filesystem::path& file, const std::string& text) {
+  const gzFile out = gzopen(file.c_str(), "wb");
+  if (!out) return false;
+  const bool written = gzfwrite(text.data(), 1, text.size(), out) == text.size();
+  return gzclose(out) == Z_OK && written;
+}
+
+}  // namespace
 
 std::string read_text(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file))
@@ -27,9 +43,9 @@ std::string read_text(const std::filesystem::path& file) {
 }
 
 void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text << std::flush;
-  if (!out) {
+  const bool written =
+      file.extension() == ".gz" ? write_compressed(file, text) : write_plain(file, text);
+  if (!written) {
     throw std::runtime_error("cannot write " + file.string() +
                              ": does its folder exist, and has the disk room?");
   }

@@ -10,7 +10,8 @@ namespace maploop::evaluation {
 // or its compressed data are damaged.
 std::string read_text(const std::filesystem::path& file);
 
-// Throws std::runtime_error naming the file where it cannot be written.
+// Compressed where the name ends in .gz. Throws std::runtime_error naming the file where it cannot
+// be written.
 void write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace maploop::evaluation

@@ -33,7 +33,7 @@ void write_csv(const std::filesystem::path& file, std::span<const Step> steps) {
   std::ostringstream out;
   out << "frame,stamp,from,status,x,y,z,rx,ry,rz,sigma_x,sigma_y,sigma_z,sigma_rx,sigma_ry,"
          "sigma_rz,tracked,inliers,forward_speed,sigma_forward_speed,azimuth_increment,"
-         "sigma_azimuth_increment,milliseconds\n";
+         "sigma_azimuth_increment,condition,parallax,milliseconds\n";
   const auto seconds = [](Time t) { return static_cast<double>(to_nanoseconds(t)) * 1e-9; };
   for (const Step& step : steps) {
     const RelativeMotion& m = step.motion;
@@ -52,7 +52,7 @@ void write_csv(const std::filesystem::path& file, std::span<const Step> steps) {
     } else {
       out << std::string(4, ',');
     }
-    out << ',' << step.milliseconds << '\n';
+    out << ',' << to_string(m.condition) << ',' << m.parallax << ',' << step.milliseconds << '\n';
   }
   evaluation::write_text(file, out.str());
 }

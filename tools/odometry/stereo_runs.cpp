@@ -1,24 +1,40 @@
 #include "tools/odometry/stereo_runs.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "estimators/stereo/back_end.h"
 #include "estimators/stereo/stereo_odometry.h"
+#include "tools/odometry/processor_time.h"
 
 namespace maploop::odometry {
 namespace {
 
+// The time of one estimate and of its stages.
 class Stopwatch {
  public:
-  double milliseconds() const {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_)
-        .count();
+  explicit Stopwatch(Step* step) : step_(step), start_(processor_milliseconds()), lap_(start_) {}
+
+  void stage(std::string_view name) {
+    const double now = processor_milliseconds();
+    step_->stages.emplace_back(name, now - lap_);
+    lap_ = now;
   }
+  void stop() { step_->milliseconds = processor_milliseconds() - start_; }
 
  private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Step* step_;
+  double start_, lap_;
 };
+
+// Calls what makes one step, with its stages measured.
+template <class Odometry, class Estimate>
+void measure(Odometry& odometry, Step* step, const Estimate& estimate) {
+  Stopwatch watch(step);
+  odometry.on_stage([&watch](std::string_view name) { watch.stage(name); });
+  estimate();
+  watch.stop();
+  odometry.on_stage({});
+}
 
 }  // namespace
 
@@ -36,9 +52,11 @@ Run stereo_run(const sensors::KittiDrive& drive, const stereo::StereoParameters&
       if (!state->camera->next(state->pair)) return std::nullopt;
     while (state->pair.sequence < frames.first);
     if (state->pair.sequence > frames.last) return std::nullopt;
-    const Stopwatch watch;
-    Step step{state->pair.sequence, state->odometry.process(state->pair)};
-    step.milliseconds = watch.milliseconds();
+    Step step;
+    step.frame = state->pair.sequence;
+    measure(state->odometry, &step, [&] { step.motion = state->odometry.process(state->pair); });
+    const auto tracks = state->odometry.tracks();
+    step.tracks.assign(tracks.begin(), tracks.end());
     return step;
   };
 }
@@ -49,15 +67,14 @@ Run tracks_run(std::shared_ptr<const RecordedTracks> tracks,
   const std::size_t first = std::max(frames.first, tracks->first_good_frame);
   return [tracks, back_end, frames, first, frame = first]() mutable -> std::optional<Step> {
     if (frame >= tracks->frames.size() || frame > frames.last) return std::nullopt;
-    Step step{frame, {}};
+    Step step;
+    step.frame = frame;
     step.motion.sequence = frame;
     step.motion.stamp = step.motion.available = tracks->stamps[frame];
     if (frame > first) {
       step.motion.from = tracks->stamps[frame - 1];
-      const auto seen = tracks->between(frame - 1, frame);
-      const Stopwatch watch;
-      back_end->process(seen, &step.motion);
-      step.milliseconds = watch.milliseconds();
+      step.tracks = tracks->between(frame - 1, frame);
+      measure(*back_end, &step, [&] { back_end->process(step.tracks, &step.motion); });
     }
     ++frame;
     return step;

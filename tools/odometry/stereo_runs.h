@@ -5,13 +5,22 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "estimators/stereo/parameters.h"
+#include "estimators/stereo/tracks.h"
 #include "msgs/odometry.h"
+#include "runtime/vehicle/recorded_tracks.h"
 #include "sensors/replay/kitti_drive.h"
-#include "tools/odometry/recorded_tracks.h"
 
 namespace maploop::odometry {
+
+using vehicle::for_recorded_tracks;
+using vehicle::read_recorded_tracks;
+using vehicle::RecordedTracks;
+using vehicle::write_recorded_tracks;
 
 // Frames of a drive, by their numbers; both ends belong to it.
 struct FrameRange {
@@ -22,7 +31,9 @@ struct FrameRange {
 struct Step {
   std::size_t frame = 0;
   RelativeMotion motion;
-  double milliseconds = 0.0;  // that the estimate took, reading not counted
+  double milliseconds = 0.0;  // of processor time that the estimate took, reading not counted
+  std::vector<std::pair<std::string, double>> stages;  // their share of it, ms, as they ended
+  std::vector<stereo::StereoTrack> tracks;             // that it was made from
 };
 
 // The next step; nothing at the end.

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "runtime/core/histogram.h"
+#include "tools/html_text.h"
 #include "tools/lcm_log/log_text.h"
 #include "tools/profile/profile.h"
 #include "tools/profile/svg_chart.h"
@@ -9,6 +10,7 @@ namespace maploop::profile {
 namespace {
 
 using lcm_log::append;
+using tools::escaped;
 
 constexpr const char* style = R"(
 :root { color-scheme: light dark; --surface: #fcfcfb; --ink: #0b0b0b; --soft: #52514e; --line: #e1e0d9;

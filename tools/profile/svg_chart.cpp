@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/html_text.h"
 #include "tools/lcm_log/log_text.h"
 
 namespace maploop::profile {
 namespace {
 
 using lcm_log::append;
+using tools::escaped;
 
 double to_ms(Duration d) {
   return to_seconds(d) * 1e3;
@@ -75,29 +77,6 @@ LogAxis time_axis(const std::vector<Curve>& curves, Duration deadline, double le
 }
 
 }  // namespace
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
 
 std::string latency_chart(const std::string& title, const std::vector<Curve>& curves,
                           Duration deadline) {

@@ -9,9 +9,6 @@
 
 namespace maploop::profile {
 
-// With the characters that mean something in HTML written out.
-std::string escaped(const std::string& text);
-
 struct Curve {
   std::string role;  // class of the style: "latency", "corrected", "wake-up", ...
   HistogramData histogram;

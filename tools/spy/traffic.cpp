@@ -35,16 +35,21 @@ std::optional<std::int64_t> integer(const schema::DecodedMessage& message, std::
   return number != nullptr ? std::optional(*number) : std::nullopt;
 }
 
-// Of the message itself or of its `header`: what our types and LCM's custom call time and number.
+// Of the message itself, of its `header`, or of a message that it begins with: what our types and
+// LCM's custom call time and number.
 struct Header {
   std::optional<std::int64_t> stamp_ns, utime, sequence;
 };
 
 void read(const schema::DecodedMessage& message, std::size_t parent, Header& header) {
   for (std::size_t n = parent + 1; n < message.nodes()[parent].end; n = message.nodes()[n].end) {
-    const std::string& name = message.nodes()[n].member->name;
-    if (name == "header" && parent == 0 && message.nodes()[n].count == 0) {
-      read(message, n, header);
+    const schema::Node& node = message.nodes()[n];
+    const std::string& name = node.member->name;
+    if (node.count == 0) {
+      const bool begins = n == parent + 1;
+      if (node.element < 0 && (begins || (name == "header" && parent == 0))) {
+        read(message, n, header);
+      }
     } else if (name == "stamp_ns") {
       header.stamp_ns = integer(message, n);
     } else if (name == "utime" || name == "timestamp") {

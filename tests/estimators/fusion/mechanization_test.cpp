@@ -30,7 +30,8 @@ class Jacobian : public ::testing::TestWithParam<bool> {};
 
 TEST_P(Jacobian, AgreesWithNumericalDerivative) {
   const LocalEarth earth(test_origin());
-  const FusionParameters parameters;
+  FusionParameters parameters;
+  parameters.rear_axle_distance = 0.9;
   const InertialInput input = some_input(GetParam());
   const StateVector x = busy_state();
   const Step step = mechanize(x, input, earth, parameters);
@@ -42,7 +43,8 @@ TEST_P(Jacobian, AgreesWithNumericalDerivative) {
 
 TEST(Mechanization, EffectOfNoiseAgreesWithNumericalDerivative) {
   const LocalEarth earth(test_origin());
-  const FusionParameters parameters;
+  FusionParameters parameters;
+  parameters.rear_axle_distance = 0.9;
   const StateVector x = busy_state();
   const Step step = mechanize(x, some_input(), earth, parameters);
   const auto with = [&](double force, double rate) {
@@ -96,7 +98,7 @@ TEST(Mechanization, AzimuthStaysWrapped) {
   EXPECT_NEAR(x[index::azimuth], -std::numbers::pi - 1e-3 + 0.05, 1e-5);
 }
 
-// method.md 1.2 in geodetic coordinates, with the transport rate and the azimuth from the local
+// The mechanization in geodetic coordinates, with the transport rate and the azimuth from the local
 // north, must lead to the same places as the frame fixed at the origin.
 TEST(Mechanization, AgreesWithGeodeticMechanizationOverTenKilometres) {
   constexpr double v = 40.0, step = 0.01, earth_rate = 7.2921151467e-5;

@@ -38,7 +38,11 @@ inline fusion::StateVector busy_state() {
   x[forward_bias] = 0.04;
   x[left_bias] = -0.03;
   x[climb_offset] = 0.012;
-  x[odometry_scale] = -0.008;
+  x[speed_scale] = -0.008;
+  x[gnss_offset_east] = 0.4;
+  x[gnss_offset_north] = -1.1;
+  x[gnss_offset_up] = 0.7;
+  x[chain_drift] = 0.02;
   x[distance] = 1.3;
   x[clone_azimuth] = -2.04;
   x[clone_pitch] = 0.066;

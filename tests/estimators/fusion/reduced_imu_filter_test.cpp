@@ -191,7 +191,7 @@ TEST(Covariance, IsHonest) {
     const FusionParameters p;
     SensorNoise noise = usual_noise();
     noise.seed = 100 + seed;
-    noise.gyro_bias = p.gyro_bias_sigma * normal(random);
+    noise.gyro_bias = p.gyro_turn_on_sigma * normal(random);
     GnssFix fix = drive.fix(0.0);
     for (int i = 0; i < 3; ++i) fix.velocity_enu[i] += 0.1 * normal(random);
     Eigen::Vector3d shift;
@@ -199,7 +199,7 @@ TEST(Covariance, IsHonest) {
     const LocalFrame frame(test_origin());
     fix.position = frame.to_geodetic(frame.to_enu(fix.position) + shift);
     std::vector<RelativeMotion> odometry = drive.odometry(10.0, noise);
-    const double scale = 1.0 + p.odometry_scale_sigma * normal(random);
+    const double scale = 1.0 + p.speed_scale_sigma * normal(random);
     for (RelativeMotion& m : odometry) m.translation *= scale;
     ReducedImuFilter filter(p, test_origin());
     const NavState last =

@@ -5,9 +5,11 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "estimators/fusion/gnss_update.h"
 #include "estimators/fusion/nav_state_output.h"
 #include "estimators/fusion/odometry_update.h"
 #include "estimators/fusion/roll_update.h"
+#include "estimators/fusion/wheel_update.h"
 #include "tests/estimators/fusion/numerical_jacobian.h"
 #include "tests/estimators/fusion/synthetic_drive.h"
 
@@ -35,7 +37,7 @@ RelativeMotion agreeing_motion(const FilterState& state) {
       rotation_enu_body(state.clone_attitude()).transpose() * rotation_enu_body(state.attitude())));
   const Eigen::AngleAxisd turn(m.rotation);
   const double half = 0.5 * turn.angle();
-  const double forward = (1.0 + state.x[index::odometry_scale]) * state.x[index::distance];
+  const double forward = state.x[index::distance];
   m.translation = Eigen::AngleAxisd(half, turn.axis()) *
                   Vector3d(forward, 0.0, forward * state.x[index::climb_offset]) *
                   (std::sin(half) / half);
@@ -67,6 +69,60 @@ TEST(OdometryJacobians, AgreeWithNumericalDerivatives) {
       state, [&](const FilterState& s) { return climb_innovation(s, m, p); }, 1e-8);
   expect_jacobian<3>(
       state, [&](const FilterState& s) { return rotation_innovation(s, m, p); }, 1e-8);
+}
+
+TEST(OdometryJacobians, OfALidarsMotionAgreeWithNumericalDerivatives) {
+  const FilterState state = busy();
+  RelativeMotion m = agreeing_motion(state);
+  m.source = OdometrySource::lidar;
+  const FusionParameters p;
+  expect_jacobian<1>(
+      state, [&](const FilterState& s) { return distance_innovation(s, m, p); }, 1e-7);
+  expect_jacobian<1>(
+      state, [&](const FilterState& s) { return climb_innovation(s, m, p); }, 1e-7);
+}
+
+GnssFix busy_fix(const LocalFrame& frame) {
+  GnssFix fix;
+  fix.position = frame.to_geodetic({815.0, -452.0, 13.0});
+  fix.position_covariance = Vector3d(2.0, 3.0, 6.0).asDiagonal();
+  fix.velocity_enu = {-11.0, -6.5, 1.0};
+  fix.velocity_covariance = 0.01 * Eigen::Matrix3d::Identity();
+  return fix;
+}
+
+TEST(OtherJacobians, AgreeWithNumericalDerivatives) {
+  const FilterState state = busy();
+  FusionParameters p;
+  p.gnss_lever_forward = 1.2;
+  p.gnss_lever_left = -0.4;
+  p.gnss_lever_up = 0.9;
+  const LocalFrame frame({0.8552, 0.1465, 112.0});
+  const GnssFix fix = busy_fix(frame);
+  WheelSpeed wheel;
+  wheel.speed = 13.0;
+  wheel.sigma = 0.05;
+  expect_jacobian<3>(
+      state, [&](const FilterState& s) { return position_innovation(s, fix, frame, p); }, 1e-6);
+  expect_jacobian<3>(
+      state, [&](const FilterState& s) { return velocity_innovation(s, fix, 0.3, p); }, 1e-6);
+  expect_jacobian<1>(
+      state, [&](const FilterState& s) { return wheel_innovation(s, wheel, p); }, 1e-8);
+  expect_jacobian<1>(
+      state, [&](const FilterState& s) { return chained_azimuth_innovation(s, p); }, 1e-8);
+}
+
+// The offset takes up what lasts of the stated variance, and R has the rest: together all of it.
+TEST(GnssPosition, ItsVarianceIsSplitAndNotLost) {
+  FilterState state = busy();
+  state.P.setZero();
+  for (int i = index::gnss_offset_east; i <= index::gnss_offset_up; ++i) state.P(i, i) = 1.0;
+  FusionParameters p;
+  p.min_position_sigma = 1e-6;
+  const LocalFrame frame({0.8552, 0.1465, 112.0});
+  const GnssFix fix = busy_fix(frame);
+  const Innovation<3> innovation = position_innovation(state, fix, frame, p);
+  EXPECT_LT((innovation.covariance(state.P) - fix.position_covariance).norm(), 1e-9);
 }
 
 TEST(OdometryInnovations, VanishWhereOdometryAgrees) {
@@ -145,14 +201,14 @@ TEST(NavStateJacobian, AgreesWithNumericalDerivative) {
   const auto output = [&](const StateVector& x) {
     FilterState moved = state;
     moved.x = x;
-    const NavState nav = nav_state(moved, {}, {}, {});
+    const NavState nav = nav_state(moved, {}, {});
     Eigen::Matrix<double, 9, 1> y;
     y << nav.position_enu, nav.velocity_enu, nav.attitude.azimuth, nav.attitude.pitch,
         nav.attitude.roll;
     return y;
   };
   EXPECT_LT((nav_state_jacobian(state.x) - numerical_jacobian(output, state.x)).norm(), 1e-7);
-  const NavState nav = nav_state(state, {}, {}, {});
+  const NavState nav = nav_state(state, {}, {});
   EXPECT_EQ(nav.covariance, nav.covariance.transpose());
   EXPECT_GT((Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>>(nav.covariance)
                  .eigenvalues()

@@ -6,34 +6,14 @@
 #include "estimators/stereo/motion_estimator.h"
 #include "estimators/stereo/track.h"
 #include "tests/estimators/stereo/drive_pairs.h"
-#include "tests/estimators/stereo/synthetic_scene.h"
 #include "tests/support/real_data.h"
+#include "tools/odometry/consistency.h"
 
 namespace maploop::stereo {
 namespace {
 
 using maploop::testing::drive_0013;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-
-// Successive motions joined, with their covariances added as if they were independent.
-struct Joined {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  Matrix6 covariance = Matrix6::Zero();
-
-  void append(const CameraMotion& motion) {
-    const Eigen::Vector3d step = pose.linear() * motion.T_previous_current.translation();
-    Matrix6 carried = Matrix6::Identity();
-    carried.topRightCorner<3, 3>() << 0.0, step.z(), -step.y(), -step.z(), 0.0, step.x(), step.y(),
-        -step.x(), 0.0;
-    Matrix6 turned = Matrix6::Zero();
-    turned.topLeftCorner<3, 3>() = pose.linear();
-    turned.bottomRightCorner<3, 3>() = pose.linear();
-    covariance = carried * covariance * carried.transpose() +
-                 turned * motion.covariance * turned.transpose();
-    pose = pose * motion.T_previous_current;
-  }
-};
+using odometry::JoinedMotion;
 
 std::vector<Feature> features_of(const StereoFrame& frame, const StereoParameters& parameters) {
   std::vector<cv::Point2f> corners;
@@ -56,7 +36,7 @@ TEST(Consistency, HalvesOfTheFeaturesDifferOverASecondByNoMoreThanTheirCovarianc
 
   constexpr int kSecond = 10;  // pairs
   StereoFrame before, now;
-  std::array<Joined, 2> halves;
+  std::array<JoinedMotion, 2> halves;
   double nees = 0.0;
   int seconds = 0;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -73,11 +53,11 @@ TEST(Consistency, HalvesOfTheFeaturesDifferOverASecondByNoMoreThanTheirCovarianc
         const CameraMotion motion =
             estimate_motion(camera, parameters, mine, k, DisparityOffset(parameters));
         ASSERT_EQ(motion.status, OdometryStatus::ok) << "pair " << k;
-        halves[half].append(motion);
+        halves[half].append(motion.T_previous_current, motion.covariance);
       }
       if (k % kSecond == 0) {
-        const Vector6 difference = maploop::testing::pose_error(halves[0].pose, halves[1].pose);
-        const Matrix6 covariance = halves[0].covariance + halves[1].covariance;
+        const auto difference = odometry::pose_difference(halves[0].pose, halves[1].pose);
+        const odometry::Matrix6 covariance = halves[0].covariance + halves[1].covariance;
         nees += difference.dot(covariance.ldlt().solve(difference)) / 6.0;
         ++seconds;
         halves = {};

@@ -52,6 +52,7 @@ RelativeMotion motion(std::int64_t i) {
 
 // Everything in the order of `available`, as drivers and odometry send it.
 void feed(FusionEdges& inputs) {
+  inputs.wheel.finish();  // a vehicle without one
   for (std::int64_t i = 0; i < seconds * 100; ++i) {
     if (i % 100 == 0) inputs.gnss.push(fix(i / 100), {});
     inputs.imu.push(inertial_sample(i), {});
@@ -72,7 +73,7 @@ TEST(FusionStageAllocation, TheWholeThreadAllocatesNothing) {
   auto nav_states = make_edge<NavState>(edges::fusion_publisher, nullptr);
   auto image_states = make_edge<NavState>(edges::image_states, nullptr);
   FusionStage stage(fusion::ReducedImuFilter(fusion::FusionParameters{}), inputs, nav_states,
-                    image_states);
+                    image_states, stages::stereo.budget);
   runtime::Tracer tracer({});
   runtime::TraceBuffer& trace = tracer.thread("fusion");
   stage.trace_to(&trace);

@@ -159,7 +159,7 @@ class SnapshotFile : public ::testing::Test {
 
   TemporaryFolder folder_;
   std::filesystem::path file_ = folder_.path() / "a.snapshot";
-  Snapshot snapshot_{drive_start + milliseconds(500), drive_start, {1, 2, 3}, {4, 5}};
+  Snapshot snapshot_{drive_start + milliseconds(500), drive_start, {1, 2, 3}, {6}, {4, 5}};
 };
 
 TEST_F(SnapshotFile, ComesBackAsItWas) {
@@ -169,6 +169,7 @@ TEST_F(SnapshotFile, ComesBackAsItWas) {
   EXPECT_EQ(read.first, snapshot_.first);
   EXPECT_EQ(read.stereo, snapshot_.stereo);
   EXPECT_EQ(read.fusion, snapshot_.fusion);
+  EXPECT_EQ(read.lidar, snapshot_.lidar);
 }
 
 TEST_F(SnapshotFile, OtherSettingsOfTheSensorsAreRefusedByName) {

@@ -32,7 +32,8 @@ Replayed replay(const DataClock& clock, Sensors sensors) {
 }
 
 void expect_same_data(const Replayed& a, const Replayed& b) {
-  for (const char* channel : {"NAV_STATE", "VO", "IMU", "GNSS_FIX", "TRUTH"}) {
+  for (const char* channel :
+       {"NAV_STATE", "VO", "LIDAR_ODOMETRY", "ODOMETRY", "IMU", "GNSS_FIX", "TRUTH"}) {
     const ChannelSummary& x = a.channels.at(channel);
     const ChannelSummary& y = b.channels.at(channel);
     EXPECT_EQ(x.count, y.count) << channel;
@@ -158,10 +159,10 @@ TEST(Vehicle, EveryThreadSaysHowItKeptItsTime) {
     for (const LatencySummary& s : summaries) all += s.name + ' ';
     return all;
   };
-  EXPECT_EQ(names(r.report.deadlines.threads), "stereo fusion ");
+  EXPECT_EQ(names(r.report.deadlines.threads), "stereo lidar fusion ");
   EXPECT_EQ(names(r.report.deadlines.wake_up),
-            "camera velodyne imu gnss reference stereo fusion health ");
-  EXPECT_EQ(names(r.report.deadlines.execution), "stereo fusion publisher health ");
+            "camera velodyne imu gnss reference stereo lidar fusion health ");
+  EXPECT_EQ(names(r.report.deadlines.execution), "stereo lidar fusion publisher health ");
   EXPECT_EQ(names(r.report.deadlines.period_jitter), "fusion health ");
   double cpu = 0.0;
   for (const ThreadHealth& thread : r.report.health.threads) {
@@ -169,7 +170,7 @@ TEST(Vehicle, EveryThreadSaysHowItKeptItsTime) {
     EXPECT_EQ(thread.left_out, thread.name == "health" ? thread.left_out : 0u) << thread.name;
     cpu += thread.cpu;
   }
-  EXPECT_EQ(r.report.health.threads.size(), 9u);
+  EXPECT_EQ(r.report.health.threads.size(), 11u);
   EXPECT_LE(cpu, r.report.health.cpu);
   EXPECT_GE(r.report.health.elapsed, 2.4);
 }

@@ -1,5 +1,5 @@
 // The back end on another front end's tracks of other drives: 60 to 100 features a frame.
-#include "tools/odometry/recorded_tracks.h"
+#include "runtime/vehicle/recorded_tracks.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +9,8 @@
 #include "tools/evaluation/kitti_metric.h"
 #include "tools/evaluation/motion_chain.h"
 #include "tools/evaluation/trajectory_file.h"
+#include "tools/odometry/consistency.h"
+#include "tools/odometry/odometry_input.h"
 #include "tools/odometry/stereo_runs.h"
 
 namespace maploop::odometry {
@@ -61,21 +63,34 @@ TEST_P(RecordedTracksTest, EndsNearerToTheTruthThanAPlainOdometryFromFrameToFram
 constexpr std::size_t kAll = 10000;
 INSTANTIATE_TEST_SUITE_P(Drives, RecordedTracksTest,
                          ::testing::Values(
-                             // Reached: 2.05, 2.69, 0.62, 1.93, 1.95, 1.43.
+                             // Reached: 1.99, 3.15, 0.64, 2.09, 2.34, 0.76, 3.22.
                              Case{"2011_09_26_drive_0001", kAll, 2.4, 2.64},
                              Case{"2011_09_26_drive_0027", kAll, 4.0, 9.30},
                              Case{"2011_09_26_drive_0035", kAll, 0.70, 0.76},
                              Case{"2011_09_26_drive_0036", kAll, 2.4, 3.35},
-                             Case{"2011_09_26_drive_0051", kAll, 2.4, 5.17},
-                             Case{"2011_09_30_drive_0020", kAll, 1.8, 2.19}),
+                             Case{"2011_09_26_drive_0051", kAll, 2.8, 5.17},
+                             Case{"2011_09_30_drive_0020", kAll, 1.0, 2.19},
+                             Case{"2011_10_03_drive_0042", 199, 3.38, 3.39}),
                          [](const auto& param) { return std::string(param.param.drive); });
 
-TEST(RecordedTracksWithWindow, BundleAdjustmentHalvesTheEndPointErrorOfTheLongestDrive) {
+// Of increments of a second, a degree of freedom: 1 is right. Left out: 0027, whose few features
+// are all far (reached 7), and the stress case 0042 (3.7).
+TEST(RecordedTracksConsistency, CovariancesSayHowFarTheMotionsAreWrong) {
   MAPLOOP_REQUIRE_REAL_DATA();
-  stereo::StereoParameters parameters = for_recorded_tracks();
-  parameters.window_frames = 6;
-  const Case drive{"2011_09_30_drive_0020", kAll, 1.0, 2.19};
-  EXPECT_LT(end_point_percent(drive, parameters), drive.end_point);  // reached 0.62
+  for (const char* drive :
+       {"2011_09_26_drive_0001", "2011_09_26_drive_0009", "2011_09_26_drive_0035",
+        "2011_09_26_drive_0036", "2011_09_26_drive_0051", "2011_09_30_drive_0020"}) {
+    const auto file = tracks_folder() / (std::string(drive) + ".csv.gz");
+    const auto tracks = std::make_shared<const RecordedTracks>(read_recorded_tracks(file));
+    const odometry::Run run = tracks_run(tracks, for_recorded_tracks(), {});
+    std::vector<RelativeMotion> motions;
+    while (const auto step = run()) motions.push_back(step->motion);
+    const Consistency found =
+        consistency(motions, tracks->calibration.T_body_cam, read_truth(file));
+    EXPECT_GT(found.increments, 5) << drive;
+    EXPECT_GT(found.nees, 0.1) << drive;
+    EXPECT_LT(found.nees, 2.5) << drive;  // reached 0.6 to 1.9
+  }
 }
 
 class TrackFile : public ::testing::Test {
@@ -114,6 +129,31 @@ TEST_F(TrackFile, JoinsWhatTwoFramesShareAndLeavesSuspectTracksOut) {
   EXPECT_EQ(tracks[1].id, 9);
   EXPECT_EQ(recorded.between(1, 2).size(), 1u);
   EXPECT_EQ(recorded.stamps[2], Time(from_seconds(0.2)));
+}
+
+TEST_F(TrackFile, WhatIsWrittenIsReadBack) {
+  RecordedTracks recorded;
+  recorded.calibration = {1242,  375,   700.0, 701.0,
+                          600.0, 170.0, 0.5,   Eigen::Isometry3d::Identity()};
+  recorded.calibration.T_body_cam.translation() = Eigen::Vector3d(1.0, 0.25, 0.5);
+  recorded.first_good_frame = 1;
+  for (int i = 0; i < 4; ++i) recorded.stamps.push_back(Time(from_seconds(100.0 + 0.125 * i)));
+  recorded.frames.resize(4);
+  const stereo::StereoObservation a{10.5, 20.25, 8.0, 20.0}, b{11.5, 21.25, 9.0, 21.0};
+  recorded.add(1, 2, std::vector<stereo::StereoTrack>{{4, a, b}, {2, b, a}});
+  recorded.add(2, 3, std::vector<stereo::StereoTrack>{{2, a, b}, {9, b, b}});
+  const auto compressed = folder_.path() / "written.csv.gz";
+  write_recorded_tracks(compressed, recorded);
+  const RecordedTracks back = read_recorded_tracks(compressed);
+  EXPECT_EQ(back.first_good_frame, 1u);
+  EXPECT_EQ(back.stamps[3] - back.stamps[0], from_seconds(0.375));
+  EXPECT_EQ(back.calibration.T_body_cam.matrix(), recorded.calibration.T_body_cam.matrix());
+  ASSERT_EQ(back.frames[2].size(), 3u);  // 9 begins there
+  const auto tracks = back.between(1, 2);
+  ASSERT_EQ(tracks.size(), 2u);
+  EXPECT_EQ(tracks[0].id, 2);
+  EXPECT_EQ(tracks[1].current.v_left, b.v_left);
+  EXPECT_EQ(back.between(2, 3).size(), 2u);
 }
 
 TEST_F(TrackFile, SaysFileAndLineOfWhatItCannotRead) {

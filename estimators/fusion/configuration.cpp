@@ -1,0 +1,76 @@
+#include "estimators/fusion/configuration.h"
+
+#include <array>
+#include <cctype>
+#include <stdexcept>
+
+namespace maploop::fusion {
+namespace {
+
+struct Named {
+  std::string_view name;
+  bool lidar, odometry_speed, odometry_azimuth, wheel_speed;
+};
+constexpr std::array<Named, 4> plain{{{"VO-RI", false, true, true, false},
+                                      {"VO-L-RI", true, true, true, false},
+                                      {"RISS", false, false, false, true},
+                                      {"RISS-VO", false, false, true, true}}};
+constexpr std::string_view with_gnss = "GNSS+";
+
+std::string plain_form(std::string_view text) {
+  std::string name;
+  for (const char c : text) {
+    if (c != ' ') name += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  }
+  if (name.starts_with("GPS+")) name.replace(0, 3, "GNSS");
+  return name;
+}
+
+}  // namespace
+
+std::vector<std::string> configuration_names() {
+  std::vector<std::string> names;
+  for (const Named& n : plain) names.emplace_back(n.name);
+  for (const Named& n : plain) names.push_back(std::string(with_gnss) + std::string(n.name));
+  return names;
+}
+
+Configuration configuration(std::string_view text) {
+  const std::string name = plain_form(text);
+  const bool gnss = name.starts_with(with_gnss);
+  const std::string_view rest = std::string_view(name).substr(gnss ? with_gnss.size() : 0);
+  for (const Named& n : plain) {
+    if (rest == n.name) {
+      return {name, n.lidar, gnss, n.odometry_speed, n.odometry_azimuth, n.wheel_speed};
+    }
+  }
+  std::string all;
+  for (const std::string& n : configuration_names()) all += (all.empty() ? "" : ", ") + n;
+  throw std::invalid_argument("no configuration is called '" + std::string(text) + "'; there are " +
+                              all);
+}
+
+void apply(const Configuration& configuration, FusionParameters& p) {
+  p.use_gnss = configuration.gnss;
+  p.use_odometry_speed = configuration.odometry_speed;
+  p.use_odometry_azimuth = configuration.odometry_azimuth;
+  p.use_wheel_speed = configuration.wheel_speed;
+  p.speed_scale_sigma = configuration.wheel_speed ? 0.02 : 0.015;  // tyres; disparities
+  p.speed_scale_walk = configuration.wheel_speed ? 1.2e-4 : 1e-3;  // 1/sqrt(s), tyres warm up
+}
+
+void apply_grade(std::string_view grade, FusionParameters& p) {
+  if (grade == "tactical") return;
+  if (grade != "mems") {
+    throw std::invalid_argument("no grade of inertial sensors is called '" + std::string(grade) +
+                                "'; there are tactical, mems");
+  }
+  p.gyro_noise = 8.7e-5;                // rad/sqrt(s), 0.3 deg/sqrt(h)
+  p.gyro_turn_on_sigma = 1.45e-3;       // rad/s, 300 deg/h
+  p.gyro_bias_sigma = 4.8e-5;           // rad/s, 10 deg/h
+  p.gyro_bias_time = 300.0;             // s
+  p.gyro_scale_sigma = 0.0036;          // 0.2 % more than the recorded unit's, squared sum
+  p.accelerometer_turn_on_sigma = 0.2;  // m/s^2, 20 mg
+}
+
+}  // namespace maploop::fusion

@@ -1,0 +1,142 @@
+#include "estimators/fusion/gnss_update.h"
+
+#include <cmath>
+
+#include "estimators/fusion/initial_state.h"
+
+namespace maploop::fusion {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+Vector3d lever(const FusionParameters& p) {
+  return {p.gnss_lever_forward, p.gnss_lever_left, p.gnss_lever_up};
+}
+
+// Derivative of R v by azimuth, pitch and roll.
+Matrix3d turned_by_attitude(const Attitude& attitude, const Vector3d& v_enu) {
+  const Matrix3d axes = attitude_rate_axes(attitude);
+  Matrix3d J;
+  for (int i = 0; i < 3; ++i) J.col(i) = axes.col(i).cross(v_enu);
+  return J;
+}
+
+void inflate_position(FilterState& state, const FusionParameters& p) {
+  using namespace index;
+  for (int i = east; i <= up; ++i) {
+    state.P(i, i) += p.gnss_recovery_sigma * p.gnss_recovery_sigma;
+  }
+  state.P(azimuth, azimuth) += p.recovery_rotation_sigma * p.recovery_rotation_sigma;
+}
+
+// Position, speed and attitude of the fix; what was learnt of the sensors is kept.
+void begin_anew(FilterState& state, GnssFix fix, const LocalFrame& frame,
+                const FusionParameters& p) {
+  using namespace index;
+  fix.velocity_stamp = fix.stamp;
+  const FilterState fresh = initial_state(fix, frame, p);
+  const StateMatrix known = state.P;
+  const StateVector x = state.x;
+  state.x = fresh.x;
+  state.P = fresh.P;
+  for (const int i : {gyro_bias, forward_bias, left_bias, climb_offset}) {
+    state.x[i] = x[i];
+    state.P.row(i).setZero();
+    state.P.col(i).setZero();
+    state.P(i, i) = known(i, i);
+  }
+  // The scale begins as unknown as at the start; what is known of it is put back into the speed.
+  state.x[speed] *= 1.0 + x[speed_scale];
+  state.x[speed_scale] = x[speed_scale];
+  take_clone(state);
+  start_chain(state);
+  ++state.reinitializations;
+}
+
+}  // namespace
+
+Innovation<3> position_innovation(const FilterState& state, const GnssFix& fix,
+                                  const LocalFrame& frame, const FusionParameters& p) {
+  using namespace index;
+  const Vector3d arm = rotation_enu_body(state.attitude()) * lever(p);
+  const Vector3d lasting =
+      (p.gnss_correlated * fix.position_covariance.diagonal()).cwiseMax(0.0).cwiseSqrt();
+  Innovation<3> innovation;
+  innovation.residual = frame.to_enu(fix.position) - state.x.segment<3>(east) - arm -
+                        lasting.cwiseProduct(state.x.segment<3>(gnss_offset_east));
+  innovation.H.setZero();
+  innovation.H.middleCols<3>(east).setIdentity();
+  innovation.H.middleCols<3>(azimuth) = turned_by_attitude(state.attitude(), arm);
+  innovation.H.middleCols<3>(gnss_offset_east) = lasting.asDiagonal();
+  innovation.R = fix.position_covariance;
+  innovation.R.diagonal() -= lasting.cwiseAbs2();
+  innovation.R.diagonal().array() += p.min_position_sigma * p.min_position_sigma;
+  return innovation;
+}
+
+Innovation<3> velocity_innovation(const FilterState& state, const GnssFix& fix, double yaw_rate,
+                                  const FusionParameters& p) {
+  using namespace index;
+  const StateVector& x = state.x;
+  const double climb = x[pitch] + x[climb_offset];
+  const double sA = std::sin(x[azimuth]), cA = std::cos(x[azimuth]);
+  const double sc = std::sin(climb), cc = std::cos(climb);
+  const double ground = state.ground_speed();
+  const Vector3d travel(sA * cc, cA * cc, sc);
+  // The antenna swings about the rear axle.
+  const Vector3d arm = lever(p) + Vector3d(p.rear_axle_distance, 0.0, 0.0);
+  const Vector3d swing =
+      rotation_enu_body(state.attitude()) * Vector3d(0.0, 0.0, yaw_rate - x[gyro_bias]).cross(arm);
+
+  Innovation<3> innovation;
+  innovation.residual = fix.velocity_enu - ground * travel - swing;
+  innovation.H.setZero();
+  innovation.H.col(speed) = travel / (1.0 + x[speed_scale]);
+  innovation.H.col(speed_scale) = -ground / (1.0 + x[speed_scale]) * travel;
+  innovation.H.middleCols<3>(azimuth) = turned_by_attitude(state.attitude(), swing);
+  innovation.H.col(azimuth) += ground * Vector3d(cA * cc, -sA * cc, 0.0);
+  innovation.H.col(climb_offset) = ground * Vector3d(-sA * sc, -cA * sc, cc);
+  innovation.H.col(pitch) += innovation.H.col(climb_offset);
+  innovation.H.col(gyro_bias) =
+      -(rotation_enu_body(state.attitude()) * Vector3d::UnitZ().cross(arm));
+  const double slip = p.slip_sigma * ground;
+  innovation.R =
+      fix.velocity_covariance + slip * slip * (Matrix3d::Identity() - travel * travel.transpose());
+  innovation.R.diagonal().array() += p.min_velocity_sigma * p.min_velocity_sigma;
+  return innovation;
+}
+
+Outcome apply_gnss_position(FilterState& state, const GnssFix& fix, const LocalFrame& frame,
+                            const FusionParameters& p) {
+  const auto correct = [&] {
+    return apply_gated(state, position_innovation(state, fix, frame, p), p.gnss_position_gate,
+                       Reason::position_gate);
+  };
+  Outcome outcome = correct();
+  if (outcome.refused()) {
+    ++state.gnss_gated_in_a_row;
+    if (state.gnss_gated_in_a_row == p.gnss_recover_after) {
+      inflate_position(state, p);
+      ++state.recoveries;
+      outcome = correct();
+    } else if (state.gnss_gated_in_a_row >= 2 * p.gnss_recover_after &&
+               check_fix(fix, p) == Reason::none) {
+      begin_anew(state, fix, frame, p);
+      outcome = {};
+    }
+  }
+  if (!outcome.refused()) {
+    state.gnss_gated_in_a_row = 0;
+    state.gnss_stamp = fix.stamp;
+  }
+  return outcome;
+}
+
+Outcome apply_gnss_velocity(FilterState& state, const GnssFix& fix, double yaw_rate,
+                            const FusionParameters& p) {
+  return apply_gated(state, velocity_innovation(state, fix, yaw_rate, p), p.gnss_velocity_gate,
+                     Reason::velocity_gate);
+}
+
+}  // namespace maploop::fusion

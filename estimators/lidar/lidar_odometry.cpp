@@ -1,0 +1,299 @@
+#include "estimators/lidar/lidar_odometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "estimators/lidar/local_map.h"
+#include "estimators/lidar/parameter_fields.h"
+#include "estimators/lidar/scan_preparation.h"
+#include "estimators/lidar/validate.h"
+#include "msgs/archive.h"
+
+namespace maploop::lidar {
+namespace {
+
+using Eigen::Isometry3d;
+
+constexpr double nominal_interval = 0.1;  // s, a turn of the LiDAR
+
+double angle(const Isometry3d& T) {
+  return Eigen::AngleAxisd(T.linear()).angle();
+}
+
+// From body axes at the motion's end (right perturbation) to those at its begin.
+Matrix6d to_from_axes(const Matrix6d& covariance, const Eigen::Matrix3d& R_from_to) {
+  Matrix6d A = Matrix6d::Zero();
+  A.topLeftCorner<3, 3>() = A.bottomRightCorner<3, 3>() = R_from_to;
+  return A * covariance * A.transpose();
+}
+
+void set_pose(const Isometry3d& T_from_to, RelativeMotion* motion) {
+  motion->translation = T_from_to.translation();
+  motion->rotation = Eigen::Quaterniond(T_from_to.linear()).normalized();
+}
+
+void run_in_turn(int count, const std::function<void(int)>& work) {
+  for (int i = 0; i < count; ++i) work(i);
+}
+
+}  // namespace
+
+class LidarOdometry::Implementation {
+ public:
+  Implementation(const Isometry3d& T_body_velo, const LidarParameters& parameters,
+                 ForEachChunk for_each_chunk)
+      : T_body_velo_(T_body_velo),
+        parameters_(parameters),
+        for_each_chunk_(for_each_chunk ? std::move(for_each_chunk) : run_in_turn),
+        preparation_(T_body_velo, parameters),
+        map_(parameters),
+        gicp_(parameters, for_each_chunk_) {
+    prepared_.points.reserve(static_cast<std::size_t>(parameters.max_samples));
+  }
+
+  OdometerResult process(const LidarScan* scan, const RelativeMotion* visual) {
+    OdometerResult result;
+    result.lidar.source = OdometrySource::lidar;
+    result.lidar.status = OdometryStatus::bad_input;
+    if (visual != nullptr) result.odometry = *visual;
+    if (visual != nullptr && visual->status == OdometryStatus::bad_input) visual = nullptr;
+    if (scan == nullptr && visual == nullptr) return result;
+    begin(visual != nullptr ? static_cast<const Sample&>(*visual) : *scan, &result.lidar);
+    if (!in_order(scan, result.lidar.stamp)) {
+      if (visual == nullptr) result.odometry = result.lidar;
+      return result;
+    }
+
+    const Prediction prediction = predict(result.lidar.stamp, visual);
+    Isometry3d T_from_to = prediction.T_from_to;
+    if (scan != nullptr) {
+      register_scan(*scan, prediction, &result.lidar);
+      if (result.lidar.status == OdometryStatus::ok) T_from_to = result.lidar.T_from_to();
+    }
+    if (visual == nullptr || result.lidar.status == OdometryStatus::ok) {
+      result.odometry = result.lidar;
+    }
+    advance(T_from_to, result);
+    if (scan != nullptr) learn(*scan, result.lidar.status);
+    return result;
+  }
+
+  const PreparedScan& prepared() const { return prepared_; }
+  Isometry3d pose() const { return T_map_body_; }
+
+  // The rest are buffers of one call.
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar.section("LiDAR odometry", 1);
+    archive_same(ar, "mounting of the LiDAR", T_body_velo_);
+    archive_same_fields(ar, parameters_);
+    ar(started_, stamp_, aligned_stamp_, T_map_body_, twist_, map_is_sharp_, refused_in_a_row_,
+       stale_, map_);
+  }
+  std::size_t largest_archive() const { return map_.largest_archive() + 4096; }
+
+  std::unique_ptr<Implementation> fresh() const {
+    return std::make_unique<Implementation>(T_body_velo_, parameters_, for_each_chunk_);
+  }
+
+ private:
+  struct Prediction {
+    Isometry3d T_from_to = Isometry3d::Identity();
+    std::optional<Matrix6d> covariance;  // of the visual motion, body axes at its end
+    bool visual = false;
+    bool known = false;  // false: nothing is known of the motion
+  };
+
+  void begin(const Sample& sample, LidarMotion* motion) const {
+    static_cast<Sample&>(*motion) = sample;
+    if (started_) motion->from = stamp_;
+  }
+
+  // A step in order; time set back for good starts anew.
+  bool in_order(const LidarScan* scan, Time stamp) {
+    if (scan != nullptr && !(scan->start < scan->stamp && scan->stamp < scan->end &&
+                             scan->start <= stamp && stamp <= scan->end)) {
+      return false;
+    }
+    if (started_ && stamp <= stamp_) {
+      if (++stale_ < parameters_.max_stale_scans) return false;
+      restart();
+      started_ = false;
+    }
+    stale_ = 0;
+    return true;
+  }
+
+  void restart() {
+    map_.clear();
+    refused_in_a_row_ = 0;
+  }
+
+  Prediction predict(Time stamp, const RelativeMotion* visual) {
+    Prediction p;
+    const double seconds = started_ ? to_seconds(stamp - stamp_) : 0.0;
+    if (seconds > parameters_.max_gap) {
+      restart();
+      twist_.reset();
+    }
+    if (visual != nullptr && visual->status == OdometryStatus::ok) {
+      twist_ = Twist::of(visual->T_from_to(), to_seconds(visual->stamp - visual->from));
+      const Eigen::Matrix3d R_to_from = visual->rotation.toRotationMatrix().transpose();
+      p.covariance = to_from_axes(visual->covariance, R_to_from);
+      p.visual = true;
+    }
+    p.known = p.visual || (twist_ && parameters_.constant_motion);
+    if (p.known) p.T_from_to = twist_->over(seconds);
+    return p;
+  }
+
+  // Prepare, align, judge. On refusal only the status is filled in.
+  void register_scan(const LidarScan& scan, const Prediction& prediction, LidarMotion* motion) {
+    preparation_.prepare(scan, motion->stamp, twist_.value_or(Twist{}), &prepared_);
+    motion->tracked = static_cast<int>(prepared_.points.size());
+    if (prediction.visual && !map_is_sharp_) map_.clear();  // this one can start a sharp map
+    if (map_.empty()) {
+      motion->status = motion->tracked < parameters_.min_points ? OdometryStatus::too_few_features
+                                                                : OdometryStatus::first_frame;
+      return;
+    }
+    const Isometry3d seed = T_map_body_ * prediction.T_from_to;
+    const Alignment alignment = gicp_.align(map_, prepared_, seed, prediction.known);
+    motion->inliers = alignment.partners;
+    motion->iterations = alignment.iterations;
+    motion->degenerate = alignment.degeneracy.directions;
+    motion->status = alignment.status;
+    if (alignment.status != OdometryStatus::ok) return;
+
+    const Isometry3d change = seed.inverse() * alignment.T_map_body;
+    motion->seed_translation_error = change.translation().norm();
+    motion->seed_rotation_error = angle(change);
+    const Isometry3d T_from_to = T_map_body_.inverse() * alignment.T_map_body;
+    motion->status = judge(T_from_to, prediction, *motion);
+    if (motion->status != OdometryStatus::ok) return;
+    set_pose(T_from_to, motion);
+    motion->source = prediction.visual ? OdometrySource::visual_lidar : OdometrySource::lidar;
+    motion->covariance = to_from_axes(covariance(alignment, prediction), T_from_to.linear());
+  }
+
+  OdometryStatus judge(const Isometry3d& T_from_to, const Prediction& prediction,
+                       const LidarMotion& motion) const {
+    const double seconds = to_seconds(motion.stamp - stamp_);
+    if (!(T_from_to.translation().norm() <= parameters_.max_speed * seconds) ||
+        !(angle(T_from_to) <= parameters_.max_yaw_rate * seconds)) {
+      return OdometryStatus::implausible;
+    }
+    // Since the last scan that was used, the seed's errors have added up.
+    const double intervals =
+        std::max(1.0, to_seconds(motion.stamp - aligned_stamp_) / nominal_interval);
+    if (prediction.visual &&
+        (motion.seed_translation_error > parameters_.max_disagreement * intervals ||
+         motion.seed_rotation_error > parameters_.max_disagreement_rotation * intervals)) {
+      return OdometryStatus::disagreement;
+    }
+    return OdometryStatus::ok;
+  }
+
+  // Of the points in the directions that they determine, of the seed in the others.
+  Matrix6d covariance(const Alignment& alignment, const Prediction& prediction) const {
+    const Matrix6d unseen = Matrix6d::Identity() - alignment.degeneracy.seen;
+    Matrix6d seed = Matrix6d::Identity();  // 1 m, 1 rad: nothing is known
+    if (prediction.covariance) seed = *prediction.covariance;
+    return parameters_.correlated_points * alignment.covariance +
+           unseen * seed * unseen.transpose();
+  }
+
+  void advance(const Isometry3d& T_from_to, const OdometerResult& result) {
+    const double seconds = started_ ? to_seconds(result.lidar.stamp - stamp_) : 0.0;
+    T_map_body_ = T_map_body_ * T_from_to;
+    if (result.lidar.status == OdometryStatus::ok) {
+      twist_ = Twist::of(T_from_to, seconds);
+      aligned_stamp_ = result.lidar.stamp;
+    }
+    stamp_ = result.lidar.stamp;
+    started_ = true;
+  }
+
+  // The scan becomes part of the map, or the map's start.
+  void learn(const LidarScan& scan, OdometryStatus status) {
+    if (status == OdometryStatus::first_frame) {
+      map_.insert(prepared_, T_map_body_);
+      map_is_sharp_ = twist_.has_value();
+      aligned_stamp_ = stamp_;
+      return;
+    }
+    if (status != OdometryStatus::ok) {
+      if (!map_.empty() && ++refused_in_a_row_ >= parameters_.restart_after) restart();
+      return;
+    }
+    refused_in_a_row_ = 0;
+    if (!map_is_sharp_) {
+      // The map's only scan was smeared, its motion being unknown: this one takes its place.
+      preparation_.prepare(scan, stamp_, *twist_, &prepared_);
+      map_.clear();
+      map_is_sharp_ = true;
+    }
+    if (parameters_.scan_to_scan) map_.clear();
+    map_.insert(prepared_, T_map_body_);
+    map_.forget(T_map_body_.translation());
+  }
+
+  Isometry3d T_body_velo_;
+  LidarParameters parameters_;
+  ForEachChunk for_each_chunk_;
+  ScanPreparation preparation_;
+  LocalMap map_;
+  Gicp gicp_;
+
+  bool started_ = false;
+  Time stamp_{};                                    // of the last step
+  Time aligned_stamp_{};                            // of the last step whose scan was used
+  Isometry3d T_map_body_ = Isometry3d::Identity();  // at stamp_
+  std::optional<Twist> twist_;                      // the last motion
+  bool map_is_sharp_ = false;
+  int refused_in_a_row_ = 0;
+  int stale_ = 0;
+
+  PreparedScan prepared_;  // buffer, kept
+};
+
+LidarOdometry::LidarOdometry(const Isometry3d& T_body_velo, const LidarParameters& parameters,
+                             ForEachChunk for_each_chunk) {
+  validate(parameters);
+  implementation_ =
+      std::make_unique<Implementation>(T_body_velo, parameters, std::move(for_each_chunk));
+}
+
+LidarOdometry::~LidarOdometry() = default;
+LidarOdometry::LidarOdometry(LidarOdometry&&) noexcept = default;
+LidarOdometry& LidarOdometry::operator=(LidarOdometry&&) noexcept = default;
+
+OdometerResult LidarOdometry::process(const LidarScan* scan, const RelativeMotion* visual) {
+  return implementation_->process(scan, visual);
+}
+
+const PreparedScan& LidarOdometry::prepared() const {
+  return implementation_->prepared();
+}
+
+Isometry3d LidarOdometry::pose() const {
+  return implementation_->pose();
+}
+
+std::size_t LidarOdometry::largest_archive() const {
+  return implementation_->largest_archive();
+}
+
+void LidarOdometry::archive(ArchiveWriter& ar) const {
+  implementation_->archive(ar);
+}
+
+void LidarOdometry::archive(ArchiveReader& ar) {
+  std::unique_ptr<Implementation> loaded = implementation_->fresh();
+  loaded->archive(ar);
+  implementation_ = std::move(loaded);
+}
+
+}  // namespace maploop::lidar

@@ -1,0 +1,68 @@
+// The surfaces seen lately.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "estimators/lidar/parameters.h"
+#include "estimators/lidar/surface_point.h"
+#include "estimators/lidar/voxel_index.h"
+
+namespace maploop {
+class ArchiveReader;
+class ArchiveWriter;
+}  // namespace maploop
+
+namespace maploop::lidar {
+
+// A surface point of the map nearest to a position.
+struct Partner {
+  Eigen::Vector3f offset;  // m, from the position to the point, in the map's axes
+  Eigen::Vector3f normal;  // in the map's axes
+};
+
+// Flat voxel hash of bounded size; positions are kept from their voxel's corner, so that they stay
+// exact far from the origin. Reading is safe from several threads while nobody writes.
+class LocalMap {
+ public:
+  explicit LocalMap(const LidarParameters& parameters);
+
+  void clear();
+  bool empty() const { return voxels_.empty(); }
+  std::size_t size() const { return points_; }
+
+  // Adds what is not there yet: points at least map_spacing from those in their voxel, up to ten a
+  // voxel. Returns how many found no room.
+  int insert(const PreparedScan& scan, const Eigen::Isometry3d& T_map_body);
+  // Forgets what is further than map_radius from here.
+  void forget(const Eigen::Vector3d& position);
+
+  // The nearest point within `distance` (m) of a position.
+  std::optional<Partner> nearest(const Eigen::Vector3d& position, float distance) const;
+
+  // msgs/archive.h. Loading refuses what no map of this size can hold.
+  std::size_t largest_archive() const;  // bytes
+  void archive(ArchiveWriter& ar) const;
+  void archive(ArchiveReader& ar);
+
+ private:
+  static constexpr int per_voxel = 10;
+  struct Voxel {
+    VoxelKey key;
+    int count = 0;
+    std::array<Eigen::Vector3f, per_voxel> positions;  // m, from the lower corner
+    std::array<Eigen::Vector3f, per_voxel> normals;
+  };
+
+  double size_;
+  float spacing_;
+  double radius_;
+  VoxelIndex index_;
+  std::vector<Voxel> voxels_;
+  std::size_t points_ = 0;
+};
+
+}  // namespace maploop::lidar

@@ -1,0 +1,52 @@
+// Number, sum and second moments of the points in each voxel of a scan.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "estimators/lidar/voxel_index.h"
+
+namespace maploop::lidar {
+
+// Positions are counted in whole 1/4096 of a voxel, so that the sums are the same in any order.
+struct Moments {
+  static constexpr int resolution = 4096;
+
+  VoxelKey key;
+  std::int64_t count = 0;
+  std::array<std::int64_t, 3> sum{};     // from the voxel's lower corner
+  std::array<std::int64_t, 6> square{};  // xx, xy, xz, yy, yz, zz
+
+  // Voxels from its lower corner.
+  Eigen::Vector3f mean() const {
+    const float scale = 1.0f / (static_cast<float>(resolution) * static_cast<float>(count));
+    return Eigen::Vector3f(static_cast<float>(sum[0]), static_cast<float>(sum[1]),
+                           static_cast<float>(sum[2])) *
+           scale;
+  }
+};
+
+class VoxelMoments {
+ public:
+  // `size` of a voxel in m. Allocates here alone.
+  VoxelMoments(float size, int max_voxels);
+
+  void clear();
+  // Precondition: |position| is below a million voxels. False where there is no voxel left.
+  bool add(const Eigen::Vector3f& position);
+  // By key; after it voxels() and find() have the same order whatever was added first.
+  void sort();
+
+  float size() const { return size_; }
+  const std::vector<Moments>& voxels() const { return voxels_; }
+  std::int32_t find(VoxelKey key) const { return index_.find(key); }
+
+ private:
+  float size_;
+  VoxelIndex index_;
+  std::vector<Moments> voxels_;
+};
+
+}  // namespace maploop::lidar

@@ -1,0 +1,248 @@
+#include "mapmatch/fll_reader.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <sstream>
+
+namespace maploop::mapmatch {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::vector<std::string> words(std::string_view text) {
+  std::istringstream in{std::string(text)};
+  std::vector<std::string> found;
+  for (std::string word; in >> word;) found.push_back(word);
+  return found;
+}
+
+struct Output {
+  std::string name;
+  std::vector<std::pair<std::string, double>> terms;
+};
+
+class Parser {
+ public:
+  Parser(std::string_view name, std::span<const std::string_view> inputs)
+      : name_(name), inputs_(inputs), variables_(inputs.size()), defined_(inputs.size(), false) {}
+
+  FuzzySystem parse(std::string_view text) {
+    while (!text.empty()) {
+      ++line_;
+      const auto end = text.find('\n');
+      take_line(text.substr(0, end));
+      text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
+    }
+    for (std::size_t i = 0; i < inputs_.size(); ++i)
+      if (!defined_[i]) fail("the input variable '" + std::string(inputs_[i]) + "' is missing");
+    if (!output_) fail("there is no output variable");
+    try {
+      return {std::move(variables_), std::move(rules_)};
+    } catch (const std::invalid_argument& e) {
+      fail(e.what());
+    }
+  }
+
+ private:
+  enum class Block { none, engine, input, output, rules };
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw FllError(std::string(name_) + ":" + std::to_string(line_) + ": " + what);
+  }
+
+  void take_line(std::string_view line) {
+    line = trimmed(line.substr(0, line.find('#')));
+    if (line.empty()) return;
+    const auto colon = line.find(':');
+    if (colon == std::string_view::npos) fail("a line is 'key: value'");
+    const std::string key(trimmed(line.substr(0, colon)));
+    const std::string value(trimmed(line.substr(colon + 1)));
+    if (!take_block(key, value)) take_key(key, value);
+  }
+
+  bool take_block(const std::string& key, const std::string& value) {
+    if (block_ == Block::none && key != "Engine") fail("the file begins with 'Engine: NAME'");
+    if (key == "Engine") {
+      if (block_ != Block::none) fail("the Engine stands first, and once");
+      block_ = Block::engine;
+    } else if (key == "InputVariable") {
+      const auto found = std::find(inputs_.begin(), inputs_.end(), value);
+      if (found == inputs_.end())
+        fail("'" + value +
+             "' is not one of the input variables of this rule base:" + list(inputs_));
+      variable_ = static_cast<std::size_t>(found - inputs_.begin());
+      if (defined_[variable_]) fail("the variable '" + value + "' is there twice");
+      defined_[variable_] = true;
+      variables_[variable_].name = value;
+      block_ = Block::input;
+    } else if (key == "OutputVariable") {
+      if (output_) fail("there is a second output variable");
+      output_ = Output{value, {}};
+      block_ = Block::output;
+    } else if (key == "RuleBlock") {
+      if (!rules_.empty()) fail("there is a second block of rules");
+      block_ = Block::rules;
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  // What a file may say, and the values with which its meaning is the evaluator's.
+  void take_key(const std::string& key, const std::string& value) {
+    using Values = std::vector<std::string_view>;
+    static const std::map<std::string_view, Values> fixed{
+        {"enabled", {"true"}},
+        {"lock-range", {"false"}},
+        {"default", {"nan"}},
+        {"lock-previous", {"false"}},
+        {"aggregation", {"none"}},
+        {"disjunction", {"none", ""}},
+        {"implication", {"none", ""}},
+        {"conjunction", {"Minimum"}},
+        {"activation", {"General"}},
+        {"defuzzifier", {"WeightedAverage TakagiSugeno", "WeightedAverage Automatic"}}};
+    if (key == "description") return;
+    if (key == "range" && (block_ == Block::input || block_ == Block::output)) {
+      numbers(words(value), 0, 2);
+    } else if (key == "term" && block_ == Block::input) {
+      add_term(words(value));
+    } else if (key == "term" && block_ == Block::output) {
+      add_output_term(words(value));
+    } else if (key == "rule" && block_ == Block::rules) {
+      add_rule(value);
+    } else if (const auto found = fixed.find(key); found != fixed.end()) {
+      if (std::find(found->second.begin(), found->second.end(), value) == found->second.end())
+        fail("'" + key + "' can only be '" + std::string(found->second.front()) + "' here");
+    } else {
+      fail("'" + key + "' is not known here");
+    }
+  }
+
+  std::vector<double> numbers(const std::vector<std::string>& given, std::size_t first,
+                              std::size_t count) const {
+    if (given.size() != first + count)
+      fail(std::to_string(count) + " numbers are needed, and " +
+           std::to_string(given.size() - std::min(first, given.size())) + " are there");
+    std::vector<double> values;
+    for (std::size_t i = first; i < given.size(); ++i) {
+      double value = 0.0;
+      const char* const end = given[i].data() + given[i].size();
+      const auto [stop, error] = std::from_chars(given[i].data(), end, value);
+      if (error != std::errc() || stop != end || !std::isfinite(value))
+        fail("'" + given[i] + "' is not a finite number");
+      values.push_back(value);
+    }
+    return values;
+  }
+
+  void add_term(const std::vector<std::string>& given) {
+    using Shape = MembershipFunction::Shape;
+    static const std::map<std::string_view, std::pair<Shape, std::size_t>> shapes{
+        {"Sigmoid", {Shape::sigmoid, 2}},
+        {"Ramp", {Shape::ramp, 2}},
+        {"Triangle", {Shape::triangle, 3}},
+        {"Trapezoid", {Shape::trapezoid, 4}}};
+    if (given.size() < 2) fail("a term is 'NAME SHAPE PARAMETERS'");
+    const auto shape = shapes.find(given[1]);
+    if (shape == shapes.end())
+      fail("the shape '" + given[1] + "' is not Sigmoid, Ramp, Triangle or Trapezoid");
+    FuzzyTerm term{given[0], {shape->second.first, {}}};
+    const auto values = numbers(given, 2, shape->second.second);
+    std::copy(values.begin(), values.end(), term.membership.parameters.begin());
+    if (shape->second.first != Shape::sigmoid && shape->second.first != Shape::ramp &&
+        !std::is_sorted(values.begin(), values.end()))
+      fail("the corners of '" + given[0] + "' go back");
+    auto& terms = variables_[variable_].terms;
+    if (std::any_of(terms.begin(), terms.end(), [&](const auto& t) { return t.name == given[0]; }))
+      fail("the term '" + given[0] + "' is there twice");
+    terms.push_back(std::move(term));
+  }
+
+  void add_output_term(const std::vector<std::string>& given) {
+    if (given.size() < 2 || given[1] != "Constant") fail("an output term is 'NAME Constant VALUE'");
+    if (output_term(given[0])) fail("the term '" + given[0] + "' is there twice");
+    output_->terms.emplace_back(given[0], numbers(given, 2, 1).front());
+  }
+
+  std::optional<double> output_term(const std::string& name) const {
+    for (const auto& [term, value] : output_->terms)
+      if (term == name) return value;
+    return {};
+  }
+
+  void add_rule(const std::string& text) {
+    const auto w = words(text);
+    if (w.empty() || w[0] != "if") fail("a rule begins with 'if'");
+    FuzzyRule rule;
+    rule.text = text;
+    std::size_t at = 1;
+    do {
+      rule.conditions.push_back(condition(w, at));
+      at += 3;
+    } while (at < w.size() && w[at++] == "and");
+    if (w[at - 1] != "then" && (at >= w.size() || w[at] != "then"))
+      fail("'and' or 'then' is expected after word " + std::to_string(at - 1));
+    if (w.size() != at + 3 || w[at + 1] != "is")
+      fail("after 'then' there is 'OUTPUT is TERM', and nothing else");
+    if (!output_ || w[at] != output_->name) fail("'" + w[at] + "' is not the output variable");
+    const auto value = output_term(w[at + 2]);
+    if (!value) fail("'" + w[at + 2] + "' is not a term of '" + w[at] + "'");
+    rule.output = *value;
+    rules_.push_back(std::move(rule));
+  }
+
+  FuzzyCondition condition(const std::vector<std::string>& w, std::size_t at) const {
+    if (w.size() < at + 3 || w[at + 1] != "is") fail("a condition is 'VARIABLE is TERM'");
+    for (std::size_t v = 0; v < variables_.size(); ++v) {
+      if (!defined_[v] || variables_[v].name != w[at]) continue;
+      const auto& terms = variables_[v].terms;
+      for (std::size_t t = 0; t < terms.size(); ++t)
+        if (terms[t].name == w[at + 2]) return {v, t};
+      fail("'" + w[at + 2] + "' is not a term of '" + w[at] + "'");
+    }
+    fail("'" + w[at] + "' is not an input variable");
+  }
+
+  template <class Names>
+  static std::string list(const Names& names) {
+    std::string text;
+    for (const auto& name : names) text += " " + std::string(name);
+    return text;
+  }
+
+  std::string_view name_;
+  std::span<const std::string_view> inputs_;
+  int line_ = 0;
+  Block block_ = Block::none;
+  std::vector<FuzzyVariable> variables_;
+  std::vector<bool> defined_;
+  std::size_t variable_ = 0;  // of the block that is read
+  std::optional<Output> output_;
+  std::vector<FuzzyRule> rules_;
+};
+
+}  // namespace
+
+FuzzySystem parse_fll(std::string_view text, std::string_view name,
+                      std::span<const std::string_view> inputs) {
+  return Parser(name, inputs).parse(text);
+}
+
+FuzzySystem read_fll(const std::filesystem::path& file, std::span<const std::string_view> inputs) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  if (!std::filesystem::is_regular_file(file) || !(text << in.rdbuf()))
+    throw FllError("cannot read the rules " + file.string() + ": is the name right?");
+  return parse_fll(text.str(), file.string(), inputs);
+}
+
+}  // namespace maploop::mapmatch

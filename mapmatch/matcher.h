@@ -1,0 +1,96 @@
+// Fuzzy map matching, fix by fix: initial matching (IMP), subsequent matching along a
+// link (SMP-1) and at a junction (SMP-2), and back; with the evidence of path hypotheses beside the
+// rules' likelihoods.
+//
+// Not thread-safe; one thread a matcher. Allocates nothing after construction. Decides by the fixes
+// and their stamps alone.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "mapmatch/candidate_search.h"
+#include "mapmatch/match_parameters.h"
+#include "mapmatch/match_result.h"
+#include "mapmatch/parameter_fields.h"
+#include "mapmatch/path_filter.h"
+#include "mapmatch/rule_bases.h"
+#include "mapmatch/rule_inputs.h"
+#include "mapmatch/vehicle_motion.h"
+#include "msgs/archive.h"
+
+namespace maploop::mapmatch {
+
+class Matcher {
+ public:
+  // The network and the rules must outlive the matcher.
+  Matcher(const RoadNetwork& network, const RuleBases& rules, const MatchParameters& parameters);
+  Matcher(const Matcher&) = delete;
+  Matcher& operator=(const Matcher&) = delete;
+
+  // Fixes in the order of their stamps. A fix that cannot be used changes nothing but `refusal` of
+  // the result. The result is valid until the next call.
+  const MatchResult& add(const VehicleFix& fix);
+
+  const RoadNetwork& network() const { return *network_; }
+  const RuleBases& rules() const { return *rules_; }
+
+  // The whole state; loading refuses another network or other parameters.
+  template <class Archive>
+  void archive(Archive& ar);
+
+ private:
+  struct Anchor {
+    DirectedLink link;
+    Eigen::Vector2d place = Eigen::Vector2d::Zero();  // matched
+    double odometer = 0.0;                            // m
+    template <class Archive>
+    void archive(Archive& ar) {
+      ar(link, place, odometer);
+    }
+  };
+  static constexpr std::size_t anchor_count = 64;
+
+  static FixRefusal check(const VehicleFix& fix);
+  void restart();
+  void list_candidates(const RuleContext& context);
+  MatchCandidate* candidate_of(DirectedLink link);
+  void judge(const RuleContext& context);
+  const MatchCandidate* choose();
+  void follow(const MatchCandidate* chosen, double interval);
+  void report(const MatchCandidate* chosen);
+  void set_anchor(double sigma);
+  double value(const MatchCandidate& candidate) const;
+
+  const RoadNetwork* network_;
+  const RuleBases* rules_;
+  MatchParameters parameters_;
+  VehicleMotion motion_;
+  PathFilter paths_;
+  NearLinks near_;
+  MatchResult result_;
+  bool started_ = false;
+  LastMatch last_;
+  DirectedLink winner_;  // of initial matching so far
+  bool has_winner_ = false;
+  double agreed_ = 0.0;    // s that it has won
+  double odometer_ = 0.0;  // m
+  std::array<Anchor, anchor_count> anchors_{};
+  std::size_t next_anchor_ = 0;
+};
+
+template <class Archive>
+void Matcher::archive(Archive& ar) {
+  archive_same_number(ar, "links of the road network", network_->size());
+  archive_same_number(ar, "vertices of the road network", network_->data().vertices.size());
+  archive_same_fields(ar, parameters_);
+  ar(motion_, paths_, started_, result_.stamp, result_.phase, last_.there, last_.link, last_.along,
+     last_.has_anchor, last_.anchor, winner_, has_winner_, agreed_, odometer_, anchors_,
+     next_anchor_);
+  if constexpr (Archive::loading) {
+    if (last_.link.link >= network_->size() && network_->size() > 0)
+      ar.fail("the last link is not there");
+  }
+}
+
+}  // namespace maploop::mapmatch

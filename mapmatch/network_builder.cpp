@@ -1,0 +1,235 @@
+#include "mapmatch/network_builder.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <string>
+#include <tuple>
+
+#include "msgs/frames.h"
+
+namespace maploop::mapmatch {
+namespace {
+
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr double min_segment = 0.001;  // m: so that two nodes at one place are apart
+
+// From one node of a way to the next.
+struct Segment {
+  std::uint32_t from = 0, to = 0;  // nodes
+  std::uint32_t road = 0;
+  bool used = false;
+};
+
+class Builder {
+ public:
+  explicit Builder(const MapExtract& map) : map_(map) {
+    place_nodes();
+    make_segments();
+    list_segments_by_node();
+  }
+
+  NetworkData build() {
+    find_junctions();
+    for (std::uint32_t node = 0; node < map_.nodes.size(); ++node)
+      if (junction_[node] != none) trace_from(node);
+    for (const Segment& s : segments_) {  // what is left are rings that meet nothing
+      if (s.used) continue;
+      add_junction(s.from);
+      trace_from(s.from);
+    }
+    list_exits();
+    ban_turns();
+    return std::move(data_);
+  }
+
+ private:
+  void place_nodes() {
+    if (map_.nodes.empty()) return;
+    double south = 90.0, north = -90.0, west = 180.0, east = -180.0;
+    for (const MapNode& n : map_.nodes) {
+      south = std::min(south, n.latitude);
+      north = std::max(north, n.latitude);
+      west = std::min(west, n.longitude);
+      east = std::max(east, n.longitude);
+    }
+    data_.origin = {radians(0.5 * (south + north)), radians(0.5 * (west + east)), 0.0};
+    const LocalFrame frame(data_.origin);
+    place_.reserve(map_.nodes.size());
+    for (const MapNode& n : map_.nodes)
+      place_.push_back(frame.to_enu({radians(n.latitude), radians(n.longitude), 0.0}).head<2>());
+  }
+
+  std::uint32_t find(std::int64_t id) const {
+    const auto found = std::lower_bound(map_.nodes.begin(), map_.nodes.end(), id,
+                                        [](const MapNode& n, std::int64_t i) { return n.id < i; });
+    return found != map_.nodes.end() && found->id == id
+               ? static_cast<std::uint32_t>(found - map_.nodes.begin())
+               : none;
+  }
+
+  void make_segments() {
+    std::size_t missing = 0;
+    for (const MapWay& way : map_.ways) {
+      const auto road = static_cast<std::uint32_t>(data_.roads.size());
+      std::uint32_t last = none;
+      bool drawn = false;
+      for (const std::int64_t id : way.nodes) {
+        const std::uint32_t node = find(id);
+        if (node == none) {
+          ++missing;
+        } else if (last != none) {
+          if (node == last) continue;
+          segments_.push_back({last, node, road});
+          drawn = true;
+        }
+        last = node;
+      }
+      if (drawn) data_.roads.push_back(way.road);
+    }
+    if (missing > 0)
+      data_.warnings.push_back(std::to_string(missing) +
+                               " nodes of roads are not in the map: their roads are cut there");
+  }
+
+  void list_segments_by_node() {
+    first_.assign(map_.nodes.size() + 1, 0);
+    for (const Segment& s : segments_) {
+      ++first_[s.from + 1];
+      ++first_[s.to + 1];
+    }
+    for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+    at_node_.resize(2 * segments_.size());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for (std::uint32_t i = 0; i < segments_.size(); ++i) {
+      at_node_[next[segments_[i].from]++] = i;
+      at_node_[next[segments_[i].to]++] = i;
+    }
+  }
+
+  // Whether traffic may leave a node along a segment, and come from it.
+  std::pair<bool, bool> out_and_in(std::uint32_t node, const Segment& s) const {
+    const Road& road = data_.roads[s.road];
+    return s.from == node ? std::pair(road.forward, road.backward)
+                          : std::pair(road.backward, road.forward);
+  }
+
+  void find_junctions() {
+    junction_.assign(map_.nodes.size(), none);
+    for (std::uint32_t node = 0; node < map_.nodes.size(); ++node) {
+      const std::uint32_t degree = first_[node + 1] - first_[node];
+      if (degree == 0) continue;
+      bool passes = degree == 2;
+      if (passes) {
+        const auto [out, in] = out_and_in(node, segments_[at_node_[first_[node]]]);
+        const auto [next_out, next_in] = out_and_in(node, segments_[at_node_[first_[node] + 1]]);
+        passes = out == next_in && in == next_out;
+      }
+      if (!passes) add_junction(node);
+    }
+  }
+
+  void add_junction(std::uint32_t node) {
+    junction_[node] = static_cast<std::uint32_t>(data_.junctions.size());
+    data_.junctions.push_back({map_.nodes[node].id, 0, 0});
+  }
+
+  void trace_from(std::uint32_t node) {
+    for (std::uint32_t i = first_[node]; i < first_[node + 1]; ++i)
+      if (!segments_[at_node_[i]].used) trace(node, at_node_[i]);
+  }
+
+  // One link, from a junction along its first segment to the next junction.
+  void trace(std::uint32_t node, std::uint32_t segment) {
+    Link link;
+    link.first_vertex = static_cast<std::uint32_t>(data_.vertices.size());
+    link.start_junction = junction_[node];
+    std::tie(link.forward, link.backward) = out_and_in(node, segments_[segment]);
+    double along = 0.0;
+    const auto add_vertex = [&](std::uint32_t at, const Segment& s) {
+      data_.vertices.push_back({place_[at].x(), place_[at].y(), along, map_.nodes[at].id, s.road});
+    };
+    while (true) {
+      Segment& s = segments_[segment];
+      s.used = true;
+      const std::uint32_t next = s.from == node ? s.to : s.from;
+      add_vertex(node, s);
+      along += std::max(min_segment, (place_[next] - place_[node]).norm());
+      node = next;
+      if (junction_[node] != none) {
+        add_vertex(node, s);
+        break;
+      }
+      segment =
+          at_node_[first_[node]] == segment ? at_node_[first_[node] + 1] : at_node_[first_[node]];
+    }
+    link.vertex_count = static_cast<std::uint32_t>(data_.vertices.size()) - link.first_vertex;
+    link.end_junction = junction_[node];
+    link.length = along;
+    data_.links.push_back(link);
+  }
+
+  void list_exits() {
+    std::vector<std::vector<DirectedLink>> exits(data_.junctions.size());
+    for (std::uint32_t i = 0; i < data_.links.size(); ++i) {
+      exits[data_.links[i].start_junction].push_back({i, true});
+      exits[data_.links[i].end_junction].push_back({i, false});
+    }
+    for (std::size_t j = 0; j < exits.size(); ++j) {
+      data_.junctions[j].first_exit = static_cast<std::uint32_t>(data_.exits.size());
+      data_.junctions[j].exit_count = static_cast<std::uint32_t>(exits[j].size());
+      data_.exits.insert(data_.exits.end(), exits[j].begin(), exits[j].end());
+    }
+  }
+
+  // The way of the first segment of a link as it leaves a junction.
+  std::int64_t way_leaving(DirectedLink d) const {
+    const Link& l = data_.links[d.link];
+    const std::uint32_t vertex = d.forward ? l.first_vertex : l.first_vertex + l.vertex_count - 2;
+    return data_.roads[data_.vertices[vertex].road].way_id;
+  }
+
+  void ban_turns() {
+    std::map<std::int64_t, std::uint32_t> junction_of;
+    for (std::uint32_t j = 0; j < data_.junctions.size(); ++j)
+      junction_of[data_.junctions[j].node_id] = j;
+    std::size_t unused = 0;
+    for (const MapRestriction& r : map_.restrictions) {
+      const auto junction = junction_of.find(r.via_node);
+      const std::size_t before = data_.banned.size();
+      if (junction != junction_of.end()) {
+        const Junction& j = data_.junctions[junction->second];
+        for (std::uint32_t i = j.first_exit; i < j.first_exit + j.exit_count; ++i) {
+          if (way_leaving(data_.exits[i]) != r.from_way) continue;
+          for (std::uint32_t k = j.first_exit; k < j.first_exit + j.exit_count; ++k) {
+            const bool named = way_leaving(data_.exits[k]) == r.to_way;
+            if (k != i && named != r.only)
+              data_.banned.push_back({data_.exits[i].reversed(), data_.exits[k]});
+          }
+        }
+      }
+      if (data_.banned.size() == before) ++unused;
+    }
+    std::sort(data_.banned.begin(), data_.banned.end(), [](const auto& a, const auto& b) {
+      return std::tie(a.from.link, a.from.forward) < std::tie(b.from.link, b.from.forward);
+    });
+    if (unused > 0)
+      data_.warnings.push_back(std::to_string(unused) +
+                               " turn restrictions name roads that do not meet where they say");
+  }
+
+  const MapExtract& map_;
+  NetworkData data_;
+  std::vector<Eigen::Vector2d> place_;  // of each node
+  std::vector<Segment> segments_;
+  std::vector<std::uint32_t> first_, at_node_;  // segments of a node
+  std::vector<std::uint32_t> junction_;         // of a node
+};
+
+}  // namespace
+
+NetworkData build_network(const MapExtract& map) {
+  return Builder(map).build();
+}
+
+}  // namespace maploop::mapmatch

@@ -1,0 +1,177 @@
+#include "mapmatch/osm_reader.h"
+
+#include <algorithm>
+#include <osmium/handler.hpp>
+#include <osmium/io/any_input.hpp>
+#include <osmium/osm.hpp>
+#include <osmium/visitor.hpp>
+#include <stdexcept>
+#include <string>
+
+#include "mapmatch/osm_tags.h"
+
+namespace maploop::mapmatch {
+namespace {
+
+constexpr double not_placed = 1000.0;  // degrees
+
+bool inside(const GeographicBox& box, const osmium::Location& l) {
+  return l.lon() >= box.west && l.lon() <= box.east && l.lat() >= box.south && l.lat() <= box.north;
+}
+
+bool by_id(const MapNode& a, const MapNode& b) {
+  return a.id < b.id;
+}
+
+MapNode* find(std::vector<MapNode>& nodes, std::int64_t id) {
+  const auto found = std::lower_bound(nodes.begin(), nodes.end(), MapNode{id, 0.0, 0.0}, by_id);
+  return found != nodes.end() && found->id == id ? &*found : nullptr;
+}
+
+void sort_once(std::vector<MapNode>& nodes) {
+  std::sort(nodes.begin(), nodes.end(), by_id);
+  nodes.erase(std::unique(nodes.begin(), nodes.end(),
+                          [](const MapNode& a, const MapNode& b) { return a.id == b.id; }),
+              nodes.end());
+}
+
+void require_room(const std::vector<MapNode>& nodes, const OsmOptions& options) {
+  if (nodes.size() > options.max_nodes)
+    throw std::runtime_error("more than " + std::to_string(options.max_nodes) +
+                             " nodes; choose a part of it with a box");
+}
+
+// Nodes inside the box.
+class NodesInside : public osmium::handler::Handler {
+ public:
+  NodesInside(MapExtract& map, const OsmOptions& options) : map_(map), options_(options) {}
+  void node(const osmium::Node& n) {
+    if (!n.location().valid() || !inside(*options_.box, n.location())) return;
+    map_.nodes.push_back({n.id(), n.location().lat(), n.location().lon()});
+    require_room(map_.nodes, options_);
+  }
+
+ private:
+  MapExtract& map_;
+  const OsmOptions& options_;
+};
+
+// Drivable ways (with a box: those that touch it) and turn restrictions.
+class Roads : public osmium::handler::Handler {
+ public:
+  Roads(MapExtract& map, const OsmOptions& options) : map_(map), options_(options) {}
+
+  void way(const osmium::Way& w) {
+    const osmium::TagList& tags = w.tags();
+    const auto road = road_from_tags(
+        w.id(), [&](const char* key) { return std::string_view(tags.get_value_by_key(key, "")); });
+    if (!road) return;
+    MapWay way{*road, {}};
+    for (const osmium::NodeRef& n : w.nodes()) way.nodes.push_back(n.ref());
+    if (options_.box) {
+      if (std::none_of(way.nodes.begin(), way.nodes.end(),
+                       [&](std::int64_t id) { return find(map_.nodes, id) != nullptr; }))
+        return;
+    } else {
+      for (const std::int64_t id : way.nodes) map_.nodes.push_back({id, not_placed, 0.0});
+      if (map_.nodes.size() > options_.max_nodes) sort_once(map_.nodes);
+      require_room(map_.nodes, options_);
+    }
+    map_.ways.push_back(std::move(way));
+  }
+
+  void relation(const osmium::Relation& r) {
+    if (!r.tags().has_tag("type", "restriction")) return;
+    const std::string_view kind = r.tags().get_value_by_key("restriction", "");
+    MapRestriction restriction;
+    restriction.only = kind.starts_with("only_");
+    if (!restriction.only && !kind.starts_with("no_")) return;
+    for (const osmium::RelationMember& m : r.members()) {
+      const std::string_view role = m.role();
+      if (role == "from" && m.type() == osmium::item_type::way) restriction.from_way = m.ref();
+      if (role == "to" && m.type() == osmium::item_type::way) restriction.to_way = m.ref();
+      if (role == "via" && m.type() == osmium::item_type::node) restriction.via_node = m.ref();
+    }
+    if (restriction.from_way != 0 && restriction.to_way != 0 && restriction.via_node != 0)
+      map_.restrictions.push_back(restriction);
+  }
+
+ private:
+  MapExtract& map_;
+  const OsmOptions& options_;
+};
+
+// Positions of the nodes that the roads name.
+class Places : public osmium::handler::Handler {
+ public:
+  explicit Places(MapExtract& map) : map_(map) {}
+  void node(const osmium::Node& n) {
+    if (!n.location().valid()) return;
+    if (MapNode* place = find(map_.nodes, n.id())) {
+      place->latitude = n.location().lat();
+      place->longitude = n.location().lon();
+    }
+  }
+
+ private:
+  MapExtract& map_;
+};
+
+template <class Handler>
+void pass(const osmium::io::File& file, osmium::osm_entity_bits::type kinds, Handler handler) {
+  osmium::io::Reader reader(file, kinds);
+  osmium::apply(reader, handler);
+  reader.close();
+}
+
+// Nodes that roads do not use, and those that the file names without a position.
+void drop_unused(MapExtract& map) {
+  std::vector<std::int64_t> used;
+  for (const MapWay& way : map.ways) used.insert(used.end(), way.nodes.begin(), way.nodes.end());
+  std::sort(used.begin(), used.end());
+  std::erase_if(map.nodes, [&](const MapNode& n) {
+    return n.latitude == not_placed || !std::binary_search(used.begin(), used.end(), n.id);
+  });
+}
+
+MapExtract read(const osmium::io::File& file, const OsmOptions& options) {
+  using bits = osmium::osm_entity_bits::type;
+  constexpr bits node = osmium::osm_entity_bits::node;
+  constexpr bits rest = osmium::osm_entity_bits::way | osmium::osm_entity_bits::relation;
+  MapExtract map;
+  if (options.box) {
+    pass(file, node, NodesInside(map, options));
+    sort_once(map.nodes);
+    pass(file, rest, Roads(map, options));
+  } else {
+    pass(file, rest, Roads(map, options));
+    sort_once(map.nodes);
+    pass(file, node, Places(map));
+  }
+  drop_unused(map);
+  return map;
+}
+
+}  // namespace
+
+MapExtract read_osm(const std::filesystem::path& file, const OsmOptions& options) {
+  const auto fail = [&](const std::string& what) {
+    return std::runtime_error("cannot read the map " + file.string() + ": " + what);
+  };
+  if (!std::filesystem::exists(file)) throw fail("there is no such file");
+  if (!std::filesystem::is_regular_file(file)) throw fail("it is no regular file");
+  if (std::filesystem::file_size(file) == 0) throw fail("it is empty");
+  MapExtract map;
+  try {
+    map = read(osmium::io::File(file.string()), options);
+  } catch (const std::bad_alloc&) {
+    throw fail("it does not fit into memory; choose a part of it with a box");
+  } catch (const std::exception& e) {
+    throw fail(std::string(e.what()) + " (expected: .osm.pbf, .osm, .osm.gz or .osm.bz2)");
+  }
+  if (map.ways.empty() || map.nodes.empty())
+    throw fail(options.box ? "it has no road inside the box" : "it has no road");
+  return map;
+}
+
+}  // namespace maploop::mapmatch

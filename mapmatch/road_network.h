@@ -1,0 +1,167 @@
+// The road network: links from junction to junction, with their shape in local metres.
+//
+// A junction is a node where roads meet, end, or where what may be driven changes; a node where one
+// way goes on as another is none: a link can be made of several roads. Immutable once built: any
+// number of threads may read one network at the same time.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "mapmatch/road.h"
+#include "mapmatch/segment_index.h"
+#include "msgs/local_frame.h"
+
+namespace maploop::mapmatch {
+
+// A node of a link's shape.
+struct Vertex {
+  double east = 0.0, north = 0.0;  // m, in the network's frame
+  double along = 0.0;              // m from the link's first vertex
+  std::int64_t node_id = 0;
+  std::uint32_t road =
+      0;  // of the segment that begins here; the last vertex repeats the one before
+
+  Eigen::Vector2d position() const { return {east, north}; }
+};
+
+template <class Archive>
+void archive(Archive& ar, Vertex& v) {
+  ar(v.east, v.north, v.along, v.node_id, v.road);
+}
+
+struct Link {
+  std::uint32_t first_vertex = 0;
+  std::uint32_t vertex_count = 0;    // at least 2
+  std::uint32_t start_junction = 0;  // of its first vertex
+  std::uint32_t end_junction = 0;
+  bool forward = true;   // may be driven from its first vertex to its last
+  bool backward = true;  // and the other way round
+  double length = 0.0;   // m
+};
+
+template <class Archive>
+void archive(Archive& ar, Link& l) {
+  ar(l.first_vertex, l.vertex_count, l.start_junction, l.end_junction, l.forward, l.backward,
+     l.length);
+}
+
+// A link as it is driven: from its first vertex to its last (forward), or the other way round.
+struct DirectedLink {
+  std::uint32_t link = 0;
+  bool forward = true;
+
+  DirectedLink reversed() const { return {link, !forward}; }
+  bool operator==(const DirectedLink&) const = default;
+};
+
+template <class Archive>
+void archive(Archive& ar, DirectedLink& d) {
+  ar(d.link, d.forward);
+}
+
+// A way into a junction's links, as it is left.
+struct Junction {
+  std::int64_t node_id = 0;
+  std::uint32_t first_exit = 0;
+  std::uint32_t exit_count = 0;  // links that begin or end here, forbidden directions included
+};
+
+template <class Archive>
+void archive(Archive& ar, Junction& j) {
+  ar(j.node_id, j.first_exit, j.exit_count);
+}
+
+// `from` must not be followed by `to`.
+struct BannedTurn {
+  DirectedLink from, to;
+};
+
+template <class Archive>
+void archive(Archive& ar, BannedTurn& b) {
+  ar(b.from, b.to);
+}
+
+// A place on a directed link.
+struct LinkPoint {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();    // m, east and north
+  Eigen::Vector2d direction = Eigen::Vector2d::UnitX();  // unit, as driven
+  std::uint32_t vertex = 0;  // of the network: first vertex, as stored, of its segment
+
+  double azimuth() const;  // rad
+};
+
+// What the file of a network holds, besides what can be computed from it.
+struct NetworkData {
+  Geodetic origin;  // of the local frame; its height is 0, as every position's on the map
+  std::vector<Road> roads;
+  std::vector<Vertex> vertices;
+  std::vector<Link> links;
+  std::vector<Junction> junctions;
+  std::vector<DirectedLink> exits;    // by junction
+  std::vector<BannedTurn> banned;     // sorted by `from`
+  std::vector<std::string> warnings;  // what the map had that was left out, a sentence each
+};
+
+template <class Archive>
+void archive(Archive& ar, NetworkData& d) {
+  ar(d.origin, d.roads, d.vertices, d.links, d.junctions, d.exits, d.banned, d.warnings);
+}
+
+class RoadNetwork {
+ public:
+  // Throws std::invalid_argument where the data contradict themselves (an index out of range, a
+  // link without length, positions that are not finite).
+  explicit RoadNetwork(NetworkData data);
+
+  const NetworkData& data() const { return data_; }
+  const LocalFrame& frame() const { return frame_; }
+  const SegmentIndex& index() const { return index_; }
+
+  // East and north of a place, whose height does not matter.
+  Eigen::Vector2d to_local(const Geodetic& place) const;
+  Geodetic to_geodetic(const Eigen::Vector2d& place) const;
+
+  std::size_t size() const { return data_.links.size(); }
+  const Link& link(std::uint32_t i) const { return data_.links[i]; }
+  const Vertex& vertex(std::uint32_t i) const { return data_.vertices[i]; }
+  const Road& road_at(std::uint32_t vertex) const {
+    return data_.roads[data_.vertices[vertex].road];
+  }
+  std::span<const Vertex> shape(std::uint32_t link) const {
+    return {data_.vertices.data() + data_.links[link].first_vertex, data_.links[link].vertex_count};
+  }
+
+  // Whether the map allows it.
+  bool allowed(DirectedLink d) const {
+    return d.forward ? link(d.link).forward : link(d.link).backward;
+  }
+  bool allowed_turn(DirectedLink from, DirectedLink to) const;
+  std::uint32_t end_junction(DirectedLink d) const {
+    return d.forward ? link(d.link).end_junction : link(d.link).start_junction;
+  }
+  std::uint32_t start_junction(DirectedLink d) const { return end_junction(d.reversed()); }
+  // Links that leave a junction, against one-way streets included.
+  std::span<const DirectedLink> exits(std::uint32_t junction) const {
+    const Junction& j = data_.junctions[junction];
+    return {data_.exits.data() + j.first_exit, j.exit_count};
+  }
+
+  // The place s metres along a directed link from where it is entered; outside of it, on the
+  // straight continuation of its first or last segment.
+  LinkPoint at(DirectedLink d, double s) const;
+  // The nodes of the OSM segment of a place, as driven.
+  std::pair<std::int64_t, std::int64_t> nodes(DirectedLink d, std::uint32_t vertex) const;
+
+ private:
+  void check() const;
+
+  NetworkData data_;
+  LocalFrame frame_;
+  SegmentIndex index_;
+};
+
+}  // namespace maploop::mapmatch

@@ -1,0 +1,26 @@
+#include "mapmatch/rule_bases.h"
+
+#include <cstdlib>
+#include <system_error>
+
+#include "mapmatch/fll_reader.h"
+
+namespace maploop::mapmatch {
+
+RuleBases read_rule_bases(const std::filesystem::path& folder) {
+  return {read_fll(folder / "initial_matching.fll", initial_inputs),
+          read_fll(folder / "along_link.fll", along_inputs),
+          read_fll(folder / "along_link_visual.fll", visual_along_inputs),
+          read_fll(folder / "junction.fll", junction_inputs)};
+}
+
+std::filesystem::path default_rules() {
+  if (const char* folder = std::getenv("MAPLOOP_RULES")) return folder;
+  std::error_code unreadable;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", unreadable);
+  const auto installed = program.parent_path().parent_path() / "share/maploop/rules";
+  if (!unreadable && std::filesystem::is_directory(installed)) return installed;
+  return MAPLOOP_SOURCE_RULES;
+}
+
+}  // namespace maploop::mapmatch

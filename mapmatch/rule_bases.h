@@ -1,0 +1,39 @@
+// The rule bases of the matcher, and where their files are.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string_view>
+
+#include "mapmatch/fuzzy_system.h"
+
+namespace maploop::mapmatch {
+
+// Inputs of each, in the order in which they are evaluated (rules/*.fll explain
+// them).
+inline constexpr std::array<std::string_view, 4> initial_inputs{"speed", "heading_error",
+                                                                "distance", "hdop"};
+inline constexpr std::array<std::string_view, 7> along_inputs{
+    "speed", "hdop", "alpha", "beta", "overshoot", "turn", "turn_rate"};
+inline constexpr std::array<std::string_view, 9> visual_along_inputs{
+    "speed", "hdop",      "alpha",        "beta",       "overshoot",
+    "turn",  "turn_rate", "visual_speed", "visual_turn"};
+inline constexpr std::array<std::string_view, 6> junction_inputs{
+    "speed", "heading_error", "distance", "hdop", "connectivity", "distance_error"};
+
+struct RuleBases {
+  FuzzySystem initial;       // IMP: a link near the fix
+  FuzzySystem along;         // SMP-1: still on the link, 13 rules
+  FuzzySystem along_visual;  // the same with 7 rules of visual odometry
+  FuzzySystem junction;      // SMP-2: a link behind a junction
+};
+
+// From initial_matching.fll, along_link.fll, along_link_visual.fll and junction.fll of a folder.
+// Throws FllError.
+RuleBases read_rule_bases(const std::filesystem::path& folder);
+
+// Where the rules are: MAPLOOP_RULES, share/maploop/rules beside the program's folder (installed),
+// or the source tree they were built from.
+std::filesystem::path default_rules();
+
+}  // namespace maploop::mapmatch

@@ -1,0 +1,75 @@
+// The filter's state: what is always there, then one float ambiguity a satellite. Updated one
+// scalar at a time, which suits rows with few entries.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "ppp/satellite.h"
+
+namespace maploop::ppp {
+
+class FilterState {
+ public:
+  static constexpr int position = 0, velocity = 3;              // earth-fixed, m and m/s
+  static constexpr int clock = 6, clock_drift = 7;              // m, m/s
+  static constexpr int zenith_wet = 8;                          // m, on top of the model's guess
+  static constexpr int gradient_north = 9, gradient_east = 10;  // m
+  static constexpr int system_offset = 11;                      // m, of each system's clock
+  static constexpr int fixed = system_offset + system_count;
+  static constexpr int most_ambiguities = 64;
+  static constexpr int capacity = fixed + most_ambiguities;
+
+  FilterState() { clear(); }
+  void clear();
+
+  int size() const { return fixed + static_cast<int>(ambiguities_.size()); }
+  auto x() { return x_.head(size()); }
+  auto x() const { return x_.head(size()); }
+  auto P() { return P_.topLeftCorner(size(), size()); }
+  auto P() const { return P_.topLeftCorner(size(), size()); }
+
+  // Forgets a value: what is known of it, and its correlations.
+  void set(int index, double value, double sigma);
+  // -1: none.
+  int ambiguity(Satellite satellite) const;
+  // The index; -1: there is no room.
+  int add_ambiguity(Satellite satellite, double value, double sigma);
+  void remove_ambiguity(Satellite satellite);
+  const std::vector<Satellite>& ambiguities() const { return ambiguities_; }
+
+  // One measurement: y = h dx + noise, entries of h at the indices. `y` is about the x before all
+  // updates of this epoch; `dx` gathers the updates.
+  void update(std::span<const int> indices, std::span<const double> h, double y, double variance,
+              Eigen::VectorXd& dx);
+
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(ambiguities_);
+    if constexpr (Archive::loading) {
+      if (ambiguities_.size() > most_ambiguities)
+        ar.fail("more ambiguities than there is room for");
+    }
+    const auto n = static_cast<std::size_t>(size());
+    std::vector<double> values(n + n * n);
+    if constexpr (!Archive::loading) {
+      Eigen::Map<Eigen::VectorXd>(values.data(), size()) = x();
+      Eigen::Map<Eigen::MatrixXd>(values.data() + n, size(), size()) = P();
+    }
+    ar(values);
+    if constexpr (Archive::loading) {
+      if (values.size() != n + n * n) ar.fail("a state of another size");
+      x() = Eigen::Map<Eigen::VectorXd>(values.data(), size());
+      P() = Eigen::Map<Eigen::MatrixXd>(values.data() + n, size(), size());
+    }
+  }
+
+ private:
+  std::vector<Satellite> ambiguities_;
+  Eigen::Matrix<double, capacity, 1> x_;
+  Eigen::Matrix<double, capacity, capacity> P_;
+  Eigen::Matrix<double, capacity, 1> column_;
+};
+
+}  // namespace maploop::ppp

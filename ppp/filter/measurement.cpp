@@ -1,0 +1,116 @@
+#include "ppp/filter/measurement.h"
+
+#include <cmath>
+
+namespace maploop::ppp {
+namespace {
+
+// Attributes of a band in the order of preference: what clocks are for comes first.
+std::string_view preference(System system, char band) {
+  switch (system) {
+    case System::gps:
+      return band == '5' ? "QXI" : "WPCLXSYMN";
+    case System::glonass:
+      return "PC";
+    case System::galileo:
+      return "CXQBAI";
+    case System::beidou:
+      return "IXQDP";
+    case System::qzss:
+      return "CLXSZ";
+    default:
+      return "CXI";
+  }
+}
+
+// The carrier of a band; frequency 0 where it lacks code or phase.
+Carrier carrier_of(Satellite satellite, char band, std::span<const Signal> signals,
+                   double frequency) {
+  Carrier c;
+  const Signal *code = nullptr, *phase = nullptr;
+  for (const char attribute : preference(satellite.system, band)) {
+    for (const Signal& s : signals) {
+      if (s.band != band || s.attribute != attribute) continue;
+      if (!code && s.code != 0.0) code = &s;
+      if (!phase && s.phase != 0.0 && !s.half_cycle) phase = &s;
+    }
+  }
+  if (!code || frequency <= 0.0) return c;
+  c.band = band;
+  c.attribute = code->attribute;
+  c.frequency = frequency;
+  c.wavelength = speed_of_light / frequency;
+  c.code = code->code;
+  c.cn0 = code->cn0;
+  if (phase) {
+    c.phase = phase->phase * c.wavelength;
+    c.lost_lock = phase->lost_lock;
+    c.doppler = phase->doppler;
+    c.cn0 = phase->cn0 > 0.0 ? phase->cn0 : c.cn0;
+  }
+  if (c.doppler == 0.0) c.doppler = code->doppler;
+  return c;
+}
+
+}  // namespace
+
+double Measurement::weight1() const {
+  if (!dual()) return 1.0;
+  const double a = first.frequency * first.frequency, b = second.frequency * second.frequency;
+  return a / (a - b);
+}
+
+double Measurement::weight2() const {
+  return dual() ? 1.0 - weight1() : 0.0;
+}
+
+double Measurement::code() const {
+  return weight1() * first.code + weight2() * second.code;
+}
+
+double Measurement::phase() const {
+  if (first.phase == 0.0 || (dual() && second.phase == 0.0)) return 0.0;
+  return weight1() * first.phase + weight2() * second.phase;
+}
+
+double Measurement::noise_factor() const {
+  return std::hypot(weight1(), weight2());
+}
+
+std::array<char, 2> bands_of(System system) {
+  switch (system) {
+    case System::galileo:
+      return {'1', '5'};
+    case System::beidou:
+      return {'2', '6'};
+    case System::sbas:
+    case System::navic:
+      return {'1', '5'};
+    default:
+      return {'1', '2'};
+  }
+}
+
+std::optional<Measurement> measure(Satellite satellite, std::span<const Signal> signals,
+                                   const std::array<std::optional<int>, 100>& glonass_channels,
+                                   const Ephemeris& ephemeris, GpsTime t, bool allow_single) {
+  const auto bands = bands_of(satellite.system);
+  const auto channel = satellite.system == System::glonass ? glonass_channels[satellite.number]
+                                                           : std::optional<int>{};
+  Measurement m;
+  m.satellite = satellite;
+  m.first = carrier_of(satellite, bands[0], signals,
+                       carrier_frequency(satellite.system, bands[0], channel));
+  m.second = carrier_of(satellite, bands[1], signals,
+                        carrier_frequency(satellite.system, bands[1], channel));
+  if (m.first.frequency == 0.0) return {};
+  if (m.second.frequency == 0.0 && !allow_single) return {};
+  for (Carrier* c : {&m.first, &m.second}) {
+    if (c->frequency > 0.0) {
+      c->code -= ephemeris.code_bias(satellite, c->band, c->attribute, t);
+    }
+  }
+  return m;
+}
+
+}  // namespace maploop::ppp

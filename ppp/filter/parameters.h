@@ -1,0 +1,66 @@
+// What the PPP filter can be told. Defaults fit a geodetic receiver with precise products.
+#pragma once
+
+#include <string>
+
+namespace maploop::ppp {
+
+enum class Motion { fixed, kinematic };
+
+struct PppParameters {
+  Motion motion = Motion::kinematic;
+  std::string systems = "GREC";  // letters of RINEX
+  double elevation_mask = 7.0;   // degrees
+  double cn0_mask = 0.0;         // dB-Hz
+  // Standard deviation at the zenith, of one carrier; combinations enlarge it.
+  double code_sigma = 0.4;           // m
+  double phase_sigma = 0.003;        // m
+  double doppler_sigma = 0.10;       // m/s
+  double glonass_code_factor = 3.0;  // channels have biases of their own
+  // Below it, variance doubles every 3 dB; 0: strength does not count.
+  double full_cn0 = 0.0;           // dB-Hz
+  double zenith_wet_sigma = 0.15;  // m
+  double zenith_wet_walk = 1e-4;   // m/sqrt(s)
+  bool gradients = true;
+  double gradient_sigma = 0.001;  // m
+  double gradient_walk = 3e-6;    // m/sqrt(s)
+  // White acceleration, m^2/s^3.
+  double horizontal_acceleration = 2.0;
+  double vertical_acceleration = 0.2;
+  double ambiguity_sigma = 60.0;     // m
+  double ambiguity_walk = 0.0;       // m/sqrt(s), besides that of orbits and clocks
+  double system_offset_walk = 1e-3;  // m/sqrt(s), clocks of systems against each other
+  double position_sigma = 60.0;      // m, about the first position by code
+  double outlier_sigmas = 4.0;       // post-fit
+  double code_gate = 30.0;           // m, pre-fit
+  bool graphic = true;               // one frequency: half the sum of code and phase
+  int longest_gap = 10;              // epochs that a satellite may be away and keep its ambiguity
+};
+
+template <class F>
+void fields(const PppParameters& p, F&& f) {
+  f("elevation_mask", p.elevation_mask);
+  f("cn0_mask", p.cn0_mask);
+  f("code_sigma", p.code_sigma);
+  f("phase_sigma", p.phase_sigma);
+  f("doppler_sigma", p.doppler_sigma);
+  f("glonass_code_factor", p.glonass_code_factor);
+  f("full_cn0", p.full_cn0);
+  f("zenith_wet_sigma", p.zenith_wet_sigma);
+  f("zenith_wet_walk", p.zenith_wet_walk);
+  f("gradients", p.gradients);
+  f("gradient_sigma", p.gradient_sigma);
+  f("gradient_walk", p.gradient_walk);
+  f("horizontal_acceleration", p.horizontal_acceleration);
+  f("vertical_acceleration", p.vertical_acceleration);
+  f("ambiguity_sigma", p.ambiguity_sigma);
+  f("ambiguity_walk", p.ambiguity_walk);
+  f("system_offset_walk", p.system_offset_walk);
+  f("position_sigma", p.position_sigma);
+  f("outlier_sigmas", p.outlier_sigmas);
+  f("code_gate", p.code_gate);
+  f("graphic", p.graphic);
+  f("longest_gap", p.longest_gap);
+}
+
+}  // namespace maploop::ppp

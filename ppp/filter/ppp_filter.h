@@ -1,0 +1,117 @@
+// Precise point positioning with float ambiguities (method 6.1 to 6.5), an epoch at a time. Plain
+// and single-threaded: what it says depends on the epochs alone.
+#pragma once
+
+#include "ppp/filter/filter_state.h"
+#include "ppp/filter/parameters.h"
+#include "ppp/filter/range_model.h"
+#include "ppp/filter/single_point.h"
+#include "ppp/filter/slip_detector.h"
+#include "ppp/filter/solution.h"
+
+namespace maploop::ppp {
+
+class PppFilter {
+ public:
+  PppFilter(const PppParameters& parameters, const Surroundings& surroundings, Earth earth);
+
+  // Epochs in the order of time. The solution is valid until the next call. Work is bounded by the
+  // number of satellites and 10 passes over them.
+  const PppSolution& process(const Epoch& epoch);
+
+  // Forgets everything.
+  void reset();
+
+  // Saves and loads what it knows; loading refuses a filter with other parameters. A filter that
+  // refused is as it was.
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar.section("ppp", 1);
+    archive_same_fields(ar, parameters_);
+    archive_same(ar, "mode", parameters_.motion);
+    archive_same(ar, "choice of systems", parameters_.systems);
+    if constexpr (Archive::loading) {
+      PppFilter loaded = *this;
+      loaded.archive_knowledge(ar);
+      if (loaded.memory_.size() != memory_.size() || loaded.reference_system_ < -1 ||
+          loaded.reference_system_ >= system_count) {
+        ar.fail("no state of this filter");
+      }
+      *this = std::move(loaded);
+    } else {
+      archive_knowledge(ar);
+    }
+  }
+
+ private:
+  template <class Archive>
+  void archive_knowledge(Archive& ar) {
+    ar(state_, memory_, started_, time_, reference_system_, has_offset_, bad_epochs_);
+  }
+
+  struct Memory {  // of a satellite
+    SlipDetector slips;
+    double wind_up = 0.0;
+    int epochs_away = 0;
+    template <class Archive>
+    void archive(Archive& ar) {
+      ar(slips, wind_up, epochs_away);
+    }
+  };
+  struct Tracked {  // a satellite of this epoch
+    Measurement measurement;
+    PredictedRange predicted;
+    std::size_t report;
+    double code_offset;  // m, code minus what is predicted without clocks
+    bool code_good = true;
+    bool phase_good = true;
+  };
+  enum class Kind { code, phase, doppler };
+  struct Row {
+    Kind kind = Kind::code;
+    std::size_t tracked = 0;
+    double y = 0.0, variance = 0.0;
+    int count = 0;
+    std::array<int, 12> indices{};
+    std::array<double, 12> h{};
+    bool active = true;
+    void add(int index, double value) {
+      indices[static_cast<std::size_t>(count)] = index;
+      h[static_cast<std::size_t>(count++)] = value;
+    }
+  };
+
+  void measure_all(const Epoch& epoch);
+  bool start(const Epoch& epoch);
+  void predict(double interval);
+  void predict_ranges(double interval);
+  void set_clocks();
+  void make_rows();
+  void add_phase_row(std::size_t i, const Row& range_part);
+  void update();
+  int worst_row(const Eigen::VectorXd& dx) const;
+  void forget_absent();
+  bool disagrees() const;
+  void report();
+
+  PppParameters parameters_;
+  RangeModel model_;
+  FilterState state_, before_;
+  std::vector<Memory> memory_;
+  bool started_ = false;
+  GpsTime time_{};
+  int reference_system_ = -1;
+  std::array<bool, system_count> has_offset_{};
+  int bad_epochs_ = 0;
+
+  // Of one epoch; members only to reuse their memory.
+  std::vector<Measurement> measurements_;
+  std::vector<std::size_t> report_of_;
+  std::vector<Tracked> tracked_;
+  std::vector<Row> rows_;
+  std::vector<double> sorted_;
+  Eigen::VectorXd dx_;
+  PppSolution solution_;
+};
+
+}  // namespace maploop::ppp

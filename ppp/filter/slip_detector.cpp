@@ -1,0 +1,58 @@
+#include "ppp/filter/slip_detector.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace maploop::ppp {
+
+std::optional<const char*> SlipDetector::next(const Measurement& m, double interval,
+                                              double elevation) {
+  std::optional<const char*> slip;
+  if (m.first.lost_lock || m.second.lost_lock) slip = "loss of lock";
+  const bool low = elevation < 0.26;
+  if (m.dual()) {
+    const double geometry_free = m.first.phase - m.second.phase;
+    const double f1 = m.first.frequency, f2 = m.second.frequency;
+    const double wide = (f1 * m.first.phase - f2 * m.second.phase) / (f1 - f2) -
+                        (f1 * m.first.code + f2 * m.second.code) / (f1 + f2);
+    const double wide_length = speed_of_light / (f1 - f2);
+    if (started_) {
+      // The ionosphere's rate goes on as it was.
+      const double predicted = geometry_free_ + (has_rate_ ? rate_ * interval : 0.0);
+      const double limit =
+          (0.04 + 0.002 * std::min(interval, 30.0)) * (low ? 2.0 : 1.0) * (has_rate_ ? 1.0 : 1.5);
+      const double sigma = std::sqrt(std::max(wide_variance_, 0.01));
+      if (!slip && std::abs(geometry_free - predicted) > limit) slip = "geometry-free jump";
+      if (!slip && wide_count_ >= 5 &&
+          std::abs(wide - wide_mean_) > std::max(5.0 * sigma, (low ? 2.0 : 1.2) * wide_length)) {
+        slip = "wide-lane jump";
+      }
+    }
+    if (slip || !started_) {
+      wide_mean_ = wide;
+      wide_variance_ = 0.25;
+      wide_count_ = 1;
+      has_rate_ = false;
+    } else {
+      rate_ = (geometry_free - geometry_free_) / interval;
+      has_rate_ = true;
+      wide_count_ = std::min(wide_count_ + 1, 100);
+      const double gain = 1.0 / wide_count_, off = wide - wide_mean_;
+      wide_mean_ += gain * off;
+      wide_variance_ += gain * (off * off - wide_variance_);
+    }
+    geometry_free_ = geometry_free;
+  } else if (started_ && !slip && doppler_ != 0.0 && m.first.doppler != 0.0 && interval < 5.0) {
+    const double expected = -0.5 * (doppler_ + m.first.doppler) * m.first.wavelength * interval;
+    if (std::abs(m.first.phase - phase_ - expected) > 0.5 + 0.5 * interval) {
+      slip = "Doppler disagrees";
+    }
+  }
+  phase_ = m.first.phase;
+  doppler_ = m.first.doppler;
+  const bool first = !started_;
+  started_ = true;
+  return first ? std::nullopt : slip;
+}
+
+}  // namespace maploop::ppp

@@ -1,0 +1,33 @@
+// Cycle slips of one satellite: loss of lock, geometry-free and Melbourne-Wuebbena combinations
+// with two carriers, Doppler with one (method 6.5).
+#pragma once
+
+#include <optional>
+
+#include "ppp/filter/measurement.h"
+
+namespace maploop::ppp {
+
+class SlipDetector {
+ public:
+  // Takes the next epoch of the satellite; the reason where the phase slipped. `interval` is the
+  // time since the epoch before.
+  std::optional<const char*> next(const Measurement& m, double interval, double elevation);
+  void reset() { *this = {}; }
+
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(started_, geometry_free_, rate_, has_rate_, wide_mean_, wide_variance_, wide_count_, phase_,
+       doppler_);
+  }
+
+ private:
+  bool started_ = false;
+  double geometry_free_ = 0.0, rate_ = 0.0;  // m, m/s
+  bool has_rate_ = false;
+  double wide_mean_ = 0.0, wide_variance_ = 0.0;  // m
+  int wide_count_ = 0;
+  double phase_ = 0.0, doppler_ = 0.0;  // m, Hz
+};
+
+}  // namespace maploop::ppp

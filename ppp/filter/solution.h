@@ -1,0 +1,40 @@
+// What the PPP filter says of an epoch.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "ppp/gps_time.h"
+#include "ppp/satellite.h"
+
+namespace maploop::ppp {
+
+struct SatelliteReport {
+  Satellite satellite;
+  double azimuth = 0.0, elevation = 0.0;  // rad
+  double cn0 = 0.0;                       // dB-Hz
+  bool code_used = false, phase_used = false;
+  double code_residual = 0.0, phase_residual = 0.0;  // m, after the update
+  const char* slip = "";                             // why its ambiguity began anew
+  const char* refused = "";                          // why not all of it was used
+};
+
+enum class PppStatus { none, single, converging, converged };
+const char* name(PppStatus status);
+
+struct PppSolution {
+  GpsTime time{};
+  PppStatus status = PppStatus::none;
+  std::string message;                // why there is no solution; "started again: ..."
+  Eigen::Vector3d position{0, 0, 0};  // m, of the marker, earth-fixed
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // m^2
+  Eigen::Vector3d velocity{0, 0, 0};                     // m/s
+  Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();
+  double clock = 0.0;                                   // m
+  double zenith_delay = 0.0, zenith_delay_sigma = 0.0;  // m, all of it
+  int satellites_used = 0;
+  std::vector<SatelliteReport> satellites;  // all that were measured
+};
+
+}  // namespace maploop::ppp

@@ -1,0 +1,47 @@
+#include "ppp/gnss_files.h"
+
+namespace maploop::ppp {
+
+FileKind parse_into(std::string_view text, const std::string& name, GnssFiles& files) {
+  const FileKind kind = file_kind(text);
+  switch (kind) {
+    case FileKind::observation:
+      files.observations.push_back(parse_observations(text, name));
+      break;
+    case FileKind::navigation:
+      files.navigation.push_back(parse_navigation(text, name));
+      break;
+    case FileKind::orbit:
+      files.orbits.push_back(parse_sp3(text, name));
+      break;
+    case FileKind::clock:
+      files.clocks.push_back(parse_clock(text, name));
+      break;
+    case FileKind::antenna:
+      files.antennas.push_back(parse_antex(text, name));
+      break;
+    case FileKind::bias:
+      files.biases.push_back(parse_bias_sinex(text, name));
+      break;
+    case FileKind::dcb:
+      files.biases.push_back(parse_dcb(text, name));
+      break;
+    case FileKind::earth_rotation:
+      files.earth_rotation.push_back(parse_erp(text, name));
+      break;
+    case FileKind::ocean_loading:
+      files.ocean_loading.push_back(parse_blq(text, name));
+      break;
+    case FileKind::unknown:
+      throw ReadError(name +
+                      ": none of RINEX observations, navigation or clocks, compact RINEX, SP3, "
+                      "ANTEX, Bias-SINEX, DCB, ERP, BLQ");
+  }
+  return kind;
+}
+
+FileKind read_into(const std::filesystem::path& path, GnssFiles& files) {
+  return parse_into(read_file(path), path.string(), files);
+}
+
+}  // namespace maploop::ppp

@@ -1,0 +1,87 @@
+#include "ppp/models/antenna.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace maploop::ppp {
+namespace {
+
+double in_row(const std::vector<double>& row, double place) {
+  const double p = std::clamp(place, 0.0, static_cast<double>(row.size() - 1));
+  const auto i = std::min(row.size() - 1, static_cast<std::size_t>(p));
+  const auto k = std::min(row.size() - 1, i + 1);
+  return row[i] + (p - static_cast<double>(i)) * (row[k] - row[i]);
+}
+
+}  // namespace
+
+double phase_variation(const Antenna& antenna, const PhaseCentre& carrier, double zenith,
+                       double azimuth) {
+  constexpr double to_degrees = 180.0 / std::numbers::pi;
+  const double place = (zenith * to_degrees - antenna.zenith_first) / antenna.zenith_step;
+  if (carrier.azimuths.empty()) return in_row(carrier.no_azimuth, place);
+  double a = std::fmod(azimuth * to_degrees, 360.0);
+  if (a < 0.0) a += 360.0;
+  a /= antenna.azimuth_step;
+  const auto i = std::min(carrier.azimuths.size() - 2, static_cast<std::size_t>(a));
+  const double low = in_row(carrier.azimuths[i], place);
+  const double high = in_row(carrier.azimuths[i + 1], place);
+  return low + (a - static_cast<double>(i)) * (high - low);
+}
+
+double receiver_phase_centre(const Antenna& antenna, System system, char band,
+                             const Eigen::Vector3d& to_satellite) {
+  const PhaseCentre* carrier = antenna.carrier(system, band);
+  if (!carrier) {
+    const bool upper = band == '1' || (system == System::beidou && band == '2');
+    carrier = antenna.carrier(System::gps, upper ? '1' : '2');
+  }
+  if (!carrier) return 0.0;
+  const Eigen::Vector3d offset(carrier->offset.y(), carrier->offset.x(), carrier->offset.z());
+  return -offset.dot(to_satellite) +
+         phase_variation(antenna, *carrier, std::acos(std::clamp(to_satellite.z(), -1.0, 1.0)),
+                         std::atan2(to_satellite.x(), to_satellite.y()));
+}
+
+double satellite_phase_centre(const Antenna& antenna, System system, char band,
+                              const Eigen::Matrix3d& R_ecef_body,
+                              const Eigen::Vector3d& to_receiver) {
+  const PhaseCentre* carrier = antenna.carrier(system, band);
+  if (!carrier && !antenna.carriers.empty()) carrier = &antenna.carriers.front();
+  if (!carrier) return 0.0;
+  const Eigen::Vector3d body = R_ecef_body.transpose() * to_receiver;
+  return -carrier->offset.dot(body) + phase_variation(antenna, *carrier,
+                                                      std::acos(std::clamp(body.z(), -1.0, 1.0)),
+                                                      std::atan2(body.x(), body.y()));
+}
+
+const Antenna* satellite_antenna(const std::vector<AntennaFile>& files, Satellite satellite,
+                                 GpsTime t) {
+  for (const AntennaFile& file : files) {
+    for (const Antenna& a : file.antennas) {
+      if (a.satellite == satellite && t >= a.valid_from && t < a.valid_until) return &a;
+    }
+  }
+  return nullptr;
+}
+
+const Antenna* receiver_antenna(const std::vector<AntennaFile>& files, const std::string& type,
+                                const std::string& radome) {
+  if (type.empty()) return nullptr;
+  const auto padded = [&](const std::string& dome) {
+    std::string name = type;
+    name.resize(16, ' ');
+    return name + dome;
+  };
+  for (const std::string& name : {padded(radome), padded("NONE")}) {
+    for (const AntennaFile& file : files) {
+      for (const Antenna& a : file.antennas) {
+        if (!a.satellite && a.type == name) return &a;
+      }
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace maploop::ppp

@@ -1,0 +1,34 @@
+// Tropospheric delay: Saastamoinen with a standard atmosphere, Niell's mapping functions (1996).
+#pragma once
+
+#include <array>
+
+#include "msgs/local_frame.h"
+#include "ppp/gps_time.h"
+
+namespace maploop::ppp {
+
+struct ZenithDelay {
+  double hydrostatic = 0.0, wet = 0.0;  // m; the wet one is a first guess
+};
+ZenithDelay saastamoinen(const Geodetic& site);
+
+struct Mapping {
+  double hydrostatic = 0.0, wet = 0.0;
+};
+// At one place, for one epoch: what depends on the elevation alone is left to at().
+class NiellMapping {
+ public:
+  NiellMapping() = default;
+  NiellMapping(const Geodetic& site, GpsTime t);
+  Mapping at(double elevation) const;  // rad, above 0
+
+ private:
+  double hydrostatic_[3] = {}, wet_[3] = {}, height_km_ = 0.0;
+};
+
+// The ionosphere by Klobuchar's model, m on GPS L1. IS-GPS-200.
+double klobuchar_delay(const std::array<double, 8>& coefficients, const Geodetic& site,
+                       double azimuth, double elevation, GpsTime t);
+
+}  // namespace maploop::ppp

@@ -1,0 +1,239 @@
+#include "ppp/products/broadcast.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace maploop::ppp {
+namespace {
+
+constexpr double earth_rotation = 7.2921151467e-5;  // rad/s
+
+// How far from its reference time a message is still used. Galileo allows hours, and is then off by
+// tens of metres; a new one comes every ten minutes.
+Duration longest_age(System system) {
+  using std::chrono::minutes;
+  switch (system) {
+    case System::galileo:
+      return minutes(60);
+    case System::glonass:
+      return minutes(31);
+    case System::beidou:
+      return minutes(90);
+    default:
+      return minutes(121);
+  }
+}
+
+double polynomial(const KeplerMessage& m, GpsTime t) {
+  const double dt = to_seconds(t - m.toc);
+  return m.af0 + m.af1 * dt + m.af2 * dt * dt;
+}
+
+double gravity_constant(System system) {
+  return system == System::gps || system == System::qzss ? 3.9860050e14 : 3.986004418e14;
+}
+
+double rotation_rate(System system) {
+  return system == System::beidou ? 7.292115e-5 : earth_rotation;
+}
+
+struct Orbit {
+  Eigen::Vector3d position;
+  double relativity;  // s
+};
+
+Orbit orbit(const KeplerMessage& m, GpsTime t) {
+  const double mu = gravity_constant(m.satellite.system);
+  const double rate = rotation_rate(m.satellite.system);
+  const double tk = to_seconds(t - m.toe);
+  const double a = m.sqrt_a * m.sqrt_a;
+  const double mean = m.m0 + (std::sqrt(mu / (a * a * a)) + m.delta_n) * tk;
+  double eccentric = mean;
+  for (int i = 0; i < 12; ++i) {
+    eccentric -= (eccentric - m.e * std::sin(eccentric) - mean) / (1.0 - m.e * std::cos(eccentric));
+  }
+  const double sin_e = std::sin(eccentric), cos_e = std::cos(eccentric);
+  const double argument = std::atan2(std::sqrt(1.0 - m.e * m.e) * sin_e, cos_e - m.e) + m.omega;
+  const double s2 = std::sin(2.0 * argument), c2 = std::cos(2.0 * argument);
+  const double u = argument + m.cus * s2 + m.cuc * c2;
+  const double r = a * (1.0 - m.e * cos_e) + m.crs * s2 + m.crc * c2;
+  const double i = m.i0 + m.i_dot * tk + m.cis * s2 + m.cic * c2;
+  const double x = r * std::cos(u), y = r * std::sin(u);
+  // Seconds of the week of the message's own system.
+  const bool beidou = m.satellite.system == System::beidou;
+  const double toe_of_week = seconds_of_week(m.toe) - (beidou ? 14.0 : 0.0);
+  const bool geostationary = beidou && (m.satellite.number <= 5 || m.satellite.number >= 59);
+  const double node =
+      m.omega0 + (geostationary ? m.omega_dot : m.omega_dot - rate) * tk - rate * toe_of_week;
+  Eigen::Vector3d p(x * std::cos(node) - y * std::cos(i) * std::sin(node),
+                    x * std::sin(node) + y * std::cos(i) * std::cos(node), y * std::sin(i));
+  if (geostationary) {
+    // The message is in a frame inclined by five degrees that does not rotate.
+    const double tilt = -5.0 / 180.0 * 3.14159265358979323846, angle = rate * tk;
+    const Eigen::Vector3d q(p.x(), p.y() * std::cos(tilt) + p.z() * std::sin(tilt),
+                            -p.y() * std::sin(tilt) + p.z() * std::cos(tilt));
+    p = {q.x() * std::cos(angle) + q.y() * std::sin(angle),
+         -q.x() * std::sin(angle) + q.y() * std::cos(angle), q.z()};
+  }
+  return {p, -2.0 * std::sqrt(mu * a) * m.e * sin_e / (speed_of_light * speed_of_light)};
+}
+
+using GlonassState = Eigen::Matrix<double, 6, 1>;
+
+GlonassState derivative(const GlonassState& s, const Eigen::Vector3d& acceleration) {
+  constexpr double mu = 3.9860044e14, j2 = 1.0826257e-3, radius = 6378136.0, rate = 7.292115e-5;
+  const Eigen::Vector3d p = s.head<3>();
+  const double r2 = p.squaredNorm(), r3 = r2 * std::sqrt(r2);
+  const double a = 1.5 * j2 * mu * radius * radius / (r2 * r3);
+  const double b = 5.0 * p.z() * p.z() / r2;
+  const double c = -mu / r3 - a * (1.0 - b);
+  GlonassState d;
+  d.head<3>() = s.tail<3>();
+  d[3] = (c + rate * rate) * p.x() + 2.0 * rate * s[4] + acceleration.x();
+  d[4] = (c + rate * rate) * p.y() - 2.0 * rate * s[3] + acceleration.y();
+  d[5] = (c - 2.0 * a) * p.z() + acceleration.z();
+  return d;
+}
+
+GlonassState integrate(const GlonassMessage& m, GpsTime t) {
+  GlonassState s;
+  s << m.position, m.velocity;
+  constexpr double longest_step = 60.0;  // s
+  double left = to_seconds(t - m.toe);
+  while (std::abs(left) > 1e-9) {
+    const double h = std::clamp(left, -longest_step, longest_step);
+    const GlonassState k1 = derivative(s, m.acceleration);
+    const GlonassState k2 = derivative(s + k1 * (h / 2), m.acceleration);
+    const GlonassState k3 = derivative(s + k2 * (h / 2), m.acceleration);
+    const GlonassState k4 = derivative(s + k3 * h, m.acceleration);
+    s += (k1 + 2.0 * k2 + 2.0 * k3 + k4) * (h / 6.0);
+    left -= h;
+  }
+  return s;
+}
+
+template <class Message>
+const Message* nearest(const std::vector<Message>& messages, GpsTime t, Duration longest) {
+  auto at = std::lower_bound(messages.begin(), messages.end(), t,
+                             [](const Message& m, GpsTime moment) { return m.toe < moment; });
+  if (at == messages.end() || (at != messages.begin() && t - (at - 1)->toe < at->toe - t)) {
+    if (at == messages.begin()) return nullptr;
+    --at;
+  }
+  return std::chrono::abs(t - at->toe) <= longest ? &*at : nullptr;
+}
+
+template <class List>
+void sort_by_toe(List& list) {
+  std::stable_sort(list.begin(), list.end(),
+                   [](const auto& a, const auto& b) { return a.toe < b.toe; });
+}
+
+}  // namespace
+
+BroadcastEphemeris::BroadcastEphemeris(const std::vector<NavigationFile>& files) {
+  for (const NavigationFile& file : files) {
+    for (const KeplerMessage& m : file.kepler) {
+      // Galileo's clock for E1 and E5b (I/NAV) is left out where the one for E1 and E5a is there:
+      // both orbits are the same.
+      const bool e5b =
+          m.satellite.system == System::galileo && (static_cast<int>(m.data_sources) & 0x200) != 0;
+      auto& list = kepler_[static_cast<std::size_t>(m.satellite.slot())];
+      const auto same = std::find_if(list.begin(), list.end(), [&](const KeplerMessage& other) {
+        return other.toe == m.toe && other.iode == m.iode;
+      });
+      if (same == list.end()) {
+        list.push_back(m);
+      } else if (!e5b) {
+        *same = m;
+      }
+    }
+    for (const GlonassMessage& m : file.glonass) glonass_[m.satellite.number].push_back(m);
+    if (!klobuchar_ && file.klobuchar[0] != 0.0) klobuchar_ = file.klobuchar;
+  }
+  for (auto& list : kepler_) sort_by_toe(list);
+  for (auto& list : glonass_) sort_by_toe(list);
+}
+
+const KeplerMessage* BroadcastEphemeris::kepler(Satellite satellite, GpsTime t) const {
+  return nearest(kepler_[static_cast<std::size_t>(satellite.slot())], t,
+                 longest_age(satellite.system));
+}
+
+const GlonassMessage* BroadcastEphemeris::glonass(Satellite satellite, GpsTime t) const {
+  return nearest(glonass_[satellite.number], t, longest_age(System::glonass));
+}
+
+std::optional<double> BroadcastEphemeris::clock(Satellite satellite, GpsTime t) const {
+  if (satellite.system == System::glonass) {
+    const GlonassMessage* m = glonass(satellite, t);
+    if (!m) return {};
+    return m->minus_tau + m->gamma * to_seconds(t - m->toe);
+  }
+  const KeplerMessage* m = kepler(satellite, t);
+  if (!m) return {};
+  return polynomial(*m, t);
+}
+
+std::optional<SatelliteState> BroadcastEphemeris::at(Satellite satellite, GpsTime t) const {
+  SatelliteState state;
+  if (satellite.system == System::glonass) {
+    const GlonassMessage* m = glonass(satellite, t);
+    if (!m || m->health != 0.0) return {};
+    const GlonassState s = integrate(*m, t);
+    state.position = s.head<3>();
+    state.velocity = s.tail<3>();
+    state.clock = m->minus_tau + m->gamma * to_seconds(t - m->toe);
+    state.clock_drift = m->gamma;
+    state.sigma = 3.0;
+    return state;
+  }
+  const KeplerMessage* m = kepler(satellite, t);
+  // Galileo's health has bits for each signal; the others' is zero where all is well.
+  if (!m || m->health != 0.0) return {};
+  constexpr double step = 1e-2;  // s
+  const Orbit now = orbit(*m, t), soon = orbit(*m, t + from_seconds(step));
+  state.position = now.position;
+  state.velocity = (soon.position - now.position) / step;
+  state.clock = polynomial(*m, t) + now.relativity;
+  state.clock_drift = m->af1;
+  const bool galileo = satellite.system == System::galileo;
+  state.sigma = galileo ? 0.5 : satellite.system == System::beidou ? 1.5 : 1.0;
+  return state;
+}
+
+double BroadcastEphemeris::code_bias(Satellite satellite, char band, char, GpsTime t) const {
+  if (satellite.system == System::glonass) return 0.0;
+  const KeplerMessage* m = kepler(satellite, t);
+  if (!m) return 0.0;
+  if (satellite.system == System::beidou) {
+    // The clock is the third carrier's.
+    return speed_of_light * (band == '2' ? m->group_delay[0] : band == '7' ? m->group_delay[1] : 0);
+  }
+  const bool e5b =
+      satellite.system == System::galileo && (static_cast<int>(m->data_sources) & 0x200) != 0;
+  const double delay = m->group_delay[e5b ? 1 : 0];
+  if (band == '1') return speed_of_light * delay;
+  const double ratio =
+      carrier_frequency(satellite.system, '1') / carrier_frequency(satellite.system, band);
+  return speed_of_light * delay * ratio * ratio;
+}
+
+std::string BroadcastEphemeris::missing(Satellite satellite, GpsTime t) const {
+  const bool known = satellite.system == System::glonass ? glonass(satellite, t) != nullptr
+                                                         : kepler(satellite, t) != nullptr;
+  return (known ? "unhealthy: " : "no broadcast message for ") + to_string(satellite) + " at " +
+         format_gps_time(t);
+}
+
+std::array<std::optional<int>, 100> BroadcastEphemeris::glonass_channels() const {
+  std::array<std::optional<int>, 100> channels;
+  for (std::size_t n = 0; n < channels.size(); ++n) {
+    if (glonass_[n].empty()) continue;
+    const int channel = glonass_[n].back().channel;
+    channels[n] = channel > 6 ? channel - 14 : channel;  // an old way to write negative channels
+  }
+  return channels;
+}
+
+}  // namespace maploop::ppp

@@ -1,0 +1,181 @@
+#include "ppp/products/precise.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace maploop::ppp {
+namespace {
+
+constexpr double earth_rotation = 7.2921151467e-5;  // rad/s
+constexpr std::size_t nodes = 11;                   // of the interpolating polynomial
+
+// Clocks are joined by lines up to this far apart.
+constexpr Duration longest_clock_gap = std::chrono::seconds(910);
+
+std::size_t slot(Satellite s) {
+  return static_cast<std::size_t>(s.slot());
+}
+
+}  // namespace
+
+PreciseEphemeris::PreciseEphemeris(const std::vector<OrbitFile>& orbits,
+                                   const std::vector<ClockFile>& clocks,
+                                   const std::vector<BiasFile>& biases) {
+  const bool clocks_of_orbits = clocks.empty();
+  for (const OrbitFile& file : orbits) {
+    orbit_interval_ = std::max(orbit_interval_, file.interval);
+    for (const auto& [satellite, points] : file.points) {
+      auto& orbit = orbits_[slot(satellite)];
+      auto& clock = clocks_[slot(satellite)];
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        if (points[i].position.norm() > 0.0) {
+          orbit.push_back({file.epochs[i], points[i].position});
+        }
+        if (clocks_of_orbits && points[i].has_clock) {
+          clock.push_back({file.epochs[i], points[i].clock});
+        }
+      }
+    }
+  }
+  for (const ClockFile& file : clocks) {
+    for (const auto& [satellite, points] : file.points) {
+      auto& clock = clocks_[slot(satellite)];
+      clock.insert(clock.end(), points.begin(), points.end());
+    }
+  }
+  const auto in_order = [](auto& list) {
+    const auto before = [](const auto& a, const auto& b) { return a.time < b.time; };
+    if (!std::is_sorted(list.begin(), list.end(), before)) {
+      std::stable_sort(list.begin(), list.end(), before);
+    }
+    list.erase(std::unique(list.begin(), list.end(),
+                           [](const auto& a, const auto& b) { return a.time == b.time; }),
+               list.end());
+  };
+  for (auto& list : orbits_) in_order(list);
+  // Satellites' clocks wander by a centimetre or two from the line between two that are 5 minutes
+  // apart, and by a tenth of that in 30 s.
+  Duration clock_interval = orbit_interval_;
+  for (const ClockFile& file : clocks) {
+    for (const auto& [satellite, points] : file.points) {
+      if (points.size() > 1)
+        clock_interval = std::min(clock_interval, points[1].time - points[0].time);
+    }
+  }
+  clock_walk_ = clock_interval > std::chrono::seconds(60) ? 1e-3 : 0.0;
+  for (auto& list : clocks_) in_order(list);
+  for (const BiasFile& file : biases) {
+    for (const CodeBias& bias : file.biases) biases_[slot(bias.satellite)].push_back(bias);
+  }
+}
+
+std::optional<Eigen::Vector3d> PreciseEphemeris::position(Satellite satellite, GpsTime t,
+                                                          Eigen::Vector3d* velocity) const {
+  const auto& points = orbits_[slot(satellite)];
+  if (points.size() < nodes || t < points.front().time || t > points.back().time) return {};
+  const auto after = std::upper_bound(points.begin(), points.end(), t,
+                                      [](GpsTime m, const OrbitPoint& p) { return m < p.time; });
+  const auto middle = static_cast<std::size_t>(after - points.begin());
+  const std::size_t first =
+      std::min(middle > nodes / 2 + 1 ? middle - nodes / 2 - 1 : 0, points.size() - nodes);
+  // A gap inside would make the polynomial wrong without a sign of it.
+  if (points[first + nodes - 1].time - points[first].time >
+      orbit_interval_ * static_cast<int>(nodes - 1)) {
+    return {};
+  }
+  // Lagrange's polynomial and its derivative, in units of the interval.
+  const double unit = to_seconds(orbit_interval_);
+  std::array<double, nodes> x{}, offset{};
+  for (std::size_t i = 0; i < nodes; ++i) {
+    offset[i] = to_seconds(t - points[first + i].time);
+    x[i] = offset[i] / unit;
+  }
+  Eigen::Vector3d p = Eigen::Vector3d::Zero(), v = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < nodes; ++i) {
+    double weight = 1.0, slope = 0.0;  // product, and derivative of the product
+    for (std::size_t k = 0; k < nodes; ++k) {
+      if (k == i) continue;
+      const double inverse = 1.0 / (x[k] - x[i]);
+      slope = slope * x[k] * inverse + weight * inverse;
+      weight *= x[k] * inverse;
+    }
+    // Each point in the earth-fixed frame of moment t.
+    const Eigen::Vector3d& q = points[first + i].position;
+    const double angle = earth_rotation * offset[i];
+    const double c = std::cos(angle), s = std::sin(angle);
+    const Eigen::Vector3d turned(c * q.x() + s * q.y(), -s * q.x() + c * q.y(), q.z());
+    // As the frame moves on, a point at rest in it goes the other way.
+    const Eigen::Vector3d turning(earth_rotation * turned.y(), -earth_rotation * turned.x(), 0.0);
+    p += weight * turned;
+    v += slope / unit * turned + weight * turning;
+  }
+  if (velocity) *velocity = v;
+  return p;
+}
+
+std::optional<double> PreciseEphemeris::clock(Satellite satellite, GpsTime t) const {
+  const auto& points = clocks_[slot(satellite)];
+  auto after = std::lower_bound(points.begin(), points.end(), t,
+                                [](const ClockFile::Point& p, GpsTime m) { return p.time < m; });
+  if (after == points.end()) return {};
+  if (after->time == t) return after->offset;
+  if (after == points.begin()) {
+    // What arrives at midnight was sent before the file's first clock.
+    if (points.size() < 2 || after->time - t > std::chrono::seconds(1)) return {};
+    ++after;
+  }
+  const auto before = after - 1;
+  if (after->time - before->time > longest_clock_gap) return {};
+  const double share = to_seconds(t - before->time) / to_seconds(after->time - before->time);
+  return before->offset + share * (after->offset - before->offset);
+}
+
+std::optional<SatelliteState> PreciseEphemeris::at(Satellite satellite, GpsTime t) const {
+  const auto offset = clock(satellite, t);
+  if (!offset) return {};
+  SatelliteState state;
+  const auto p = position(satellite, t, &state.velocity);
+  if (!p) return {};
+  state.position = *p;
+  // The orbit's velocity against the inertial frame is what relativity is about.
+  const Eigen::Vector3d inertial =
+      state.velocity + Eigen::Vector3d(-earth_rotation * p->y(), earth_rotation * p->x(), 0.0);
+  state.clock = *offset - 2.0 * p->dot(inertial) / (speed_of_light * speed_of_light);
+  const auto later = clock(satellite, t + std::chrono::seconds(1));
+  state.clock_drift = later ? *later - *offset : 0.0;
+  return state;
+}
+
+double PreciseEphemeris::code_bias(Satellite satellite, char band, char attribute,
+                                   GpsTime t) const {
+  const char name[3] = {'C', band, attribute};
+  const std::string_view wanted(name, 3);
+  for (const CodeBias& bias : biases_[slot(satellite)]) {
+    if (t < bias.from || t >= bias.until) continue;
+    if (bias.second.empty() && bias.signal == wanted) return bias.metres;
+    // GPS's clocks are for P(Y): another code of the carrier differs by their differential bias.
+    const bool same_band =
+        bias.second.size() == 3 && bias.signal[1] == band && bias.second[1] == band;
+    if (same_band && bias.second == wanted && bias.signal[2] == 'W') return -bias.metres;
+    if (same_band && bias.signal == wanted && bias.second[2] == 'W') return bias.metres;
+  }
+  return 0.0;
+}
+
+std::string PreciseEphemeris::missing(Satellite satellite, GpsTime t) const {
+  if (!position(satellite, t, nullptr)) {
+    return "no precise orbit for " + to_string(satellite) + " at " + format_gps_time(t);
+  }
+  const auto& points = clocks_[slot(satellite)];
+  const auto after =
+      std::lower_bound(points.begin(), points.end(), t,
+                       [](const ClockFile::Point& p, GpsTime m) { return p.time < m; });
+  std::string text = "no clocks for " + to_string(satellite);
+  if (points.empty()) return text;
+  if (after == points.end()) return text + " after " + format_gps_time(points.back().time);
+  if (after == points.begin()) return text + " before " + format_gps_time(points.front().time);
+  return text + " between " + format_gps_time((after - 1)->time) + " and " +
+         format_gps_time(after->time);
+}
+
+}  // namespace maploop::ppp

@@ -1,0 +1,42 @@
+// Precise orbits (SP3) and clocks (RINEX clock, or SP3's own) with code biases.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "ppp/products/ephemeris.h"
+#include "ppp/readers/bias.h"
+#include "ppp/readers/clock.h"
+#include "ppp/readers/sp3.h"
+
+namespace maploop::ppp {
+
+class PreciseEphemeris : public Ephemeris {
+ public:
+  // Orbit files in any order; where two have one epoch, the earlier file counts.
+  PreciseEphemeris(const std::vector<OrbitFile>& orbits, const std::vector<ClockFile>& clocks,
+                   const std::vector<BiasFile>& biases);
+
+  std::optional<SatelliteState> at(Satellite satellite, GpsTime t) const override;
+  std::optional<double> clock(Satellite satellite, GpsTime t) const override;
+  double code_bias(Satellite satellite, char band, char attribute, GpsTime t) const override;
+  double error_walk() const override { return clock_walk_; }
+  bool centre_of_mass() const override { return true; }
+  std::string missing(Satellite satellite, GpsTime t) const override;
+
+ private:
+  struct OrbitPoint {
+    GpsTime time;
+    Eigen::Vector3d position;
+  };
+  std::optional<Eigen::Vector3d> position(Satellite satellite, GpsTime t,
+                                          Eigen::Vector3d* velocity) const;
+
+  std::array<std::vector<OrbitPoint>, satellite_slots> orbits_;
+  std::array<std::vector<ClockFile::Point>, satellite_slots> clocks_;
+  std::array<std::vector<CodeBias>, satellite_slots> biases_;
+  Duration orbit_interval_{0};
+  double clock_walk_ = 0.0;  // m/sqrt(s)
+};
+
+}  // namespace maploop::ppp

@@ -1,0 +1,137 @@
+#include "ppp/readers/antex.h"
+
+#include <cmath>
+
+namespace maploop::ppp {
+namespace {
+
+std::string_view label(const Lines& lines) {
+  return trimmed(lines.column(60, 20));
+}
+
+void advance(Lines& lines) {
+  if (!lines.next()) lines.fail("the file ends inside an antenna");
+}
+
+std::vector<double> read_row(const Lines& lines, std::size_t count) {
+  std::vector<double> row(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    row[i] = lines.number(8 + 8 * i, 8, "phase centre variation in mm") * 1e-3;
+  }
+  return row;
+}
+
+PhaseCentre read_carrier(Lines& lines, const Antenna& antenna) {
+  PhaseCentre carrier;
+  const auto system = system_of(lines.column(3, 1).empty() ? '?' : lines.line()[3]);
+  const int band = lines.integer(4, 2, "carrier");
+  if (!system || band < 1 || band > 9) lines.fail("no carrier");
+  carrier.system = *system;
+  carrier.band = static_cast<char>('0' + band);
+  const auto count = static_cast<std::size_t>(
+      std::lround((antenna.zenith_last - antenna.zenith_first) / antenna.zenith_step) + 1);
+  const std::size_t azimuths =
+      antenna.azimuth_step > 0 ? static_cast<std::size_t>(360.0 / antenna.azimuth_step) + 1 : 0;
+  for (advance(lines); label(lines) != "END OF FREQUENCY"; advance(lines)) {
+    if (label(lines) == "NORTH / EAST / UP") {
+      carrier.offset = {lines.number(0, 10, "offset"), lines.number(10, 10, "offset"),
+                        lines.number(20, 10, "offset")};
+      carrier.offset *= 1e-3;
+    } else if (trimmed(lines.column(0, 8)) == "NOAZI") {
+      carrier.no_azimuth = read_row(lines, count);
+    } else if (label(lines) == "COMMENT") {
+      continue;
+    } else {
+      if (carrier.azimuths.size() >= azimuths) lines.fail("more rows of azimuths than were said");
+      carrier.azimuths.push_back(read_row(lines, count));
+    }
+  }
+  if (carrier.no_azimuth.empty()) lines.fail("a carrier without its NOAZI row");
+  if (!carrier.azimuths.empty() && carrier.azimuths.size() != azimuths) {
+    lines.fail("a carrier without all its rows of azimuths");
+  }
+  return carrier;
+}
+
+void read_zenith_grid(const Lines& lines, Antenna& antenna) {
+  antenna.zenith_first = lines.number(2, 6, "zenith angle");
+  antenna.zenith_last = lines.number(8, 6, "zenith angle");
+  antenna.zenith_step = lines.number(14, 6, "zenith step");
+  if (!(antenna.zenith_first >= 0 && antenna.zenith_last <= 180 &&
+        antenna.zenith_last >= antenna.zenith_first && antenna.zenith_step >= 0.1)) {
+    lines.fail("no grid of zenith angles");
+  }
+}
+
+// An antenna that ends where the next one starts is left out, and counted.
+Antenna read_antenna(Lines& lines, int& refused) {
+  Antenna antenna;
+  for (advance(lines); label(lines) != "END OF ANTENNA"; advance(lines)) {
+    const auto name = label(lines);
+    if (name == "TYPE / SERIAL NO") {
+      antenna.type = std::string(trimmed(lines.column(0, 20)));
+      antenna.serial = std::string(trimmed(lines.column(20, 20)));
+      // A receiver's antenna may have a serial number that looks like a satellite: it has no block.
+      if (antenna.serial.size() == 3 && !blank(lines.column(0, 5))) {
+        antenna.satellite = parse_satellite(antenna.serial);
+      }
+    } else if (name == "DAZI") {
+      antenna.azimuth_step = lines.number(2, 6, "azimuth step");
+      if (antenna.azimuth_step < 0 || (antenna.azimuth_step > 0 && antenna.azimuth_step < 0.1)) {
+        lines.fail("no step of azimuths");
+      }
+    } else if (name == "ZEN1 / ZEN2 / DZEN") {
+      read_zenith_grid(lines, antenna);
+    } else if (name == "VALID FROM") {
+      antenna.valid_from = parse_stamp(lines, lines.column(0, 43));
+    } else if (name == "VALID UNTIL") {
+      antenna.valid_until = parse_stamp(lines, lines.column(0, 43));
+    } else if (name == "START OF FREQUENCY") {
+      antenna.carriers.push_back(read_carrier(lines, antenna));
+    } else if (name == "START OF FREQ RMS") {
+      while (label(lines) != "END OF FREQ RMS") advance(lines);
+    } else if (name == "START OF ANTENNA") {
+      antenna = {};
+      ++refused;
+    } else if (name.empty()) {
+      lines.fail("no line of an antenna");
+    }
+  }
+  if (antenna.type.empty()) lines.fail("an antenna without its type");
+  return antenna;
+}
+
+}  // namespace
+
+const PhaseCentre* Antenna::carrier(System system, char band) const {
+  for (const PhaseCentre& c : carriers) {
+    if (c.system == system && c.band == band) return &c;
+  }
+  return nullptr;
+}
+
+AntennaFile parse_antex(std::string_view text, const std::string& file) {
+  AntennaFile result;
+  result.file = file;
+  Lines lines(text, file);
+  if (!lines.next() || label(lines) != "ANTEX VERSION / SYST") {
+    lines.fail("an ANTEX file starts with ANTEX VERSION / SYST");
+  }
+  const double version = lines.number(0, 8, "version");
+  if (version < 1.2 || version > 1.45) lines.fail("ANTEX 1.3 and 1.4 are read");
+  while (label(lines) != "END OF HEADER") {
+    if (!lines.next()) lines.fail("the file ends inside its header");
+    if (label(lines) == "PCV TYPE / REFANT") result.absolute = lines.column(0, 1) == "A";
+  }
+  while (lines.next()) {
+    if (label(lines) == "START OF ANTENNA") {
+      result.antennas.push_back(read_antenna(lines, result.refused));
+    } else if (label(lines) != "COMMENT" && !blank(lines.line())) {
+      lines.fail("an antenna starts with START OF ANTENNA");
+    }
+  }
+  if (result.antennas.empty()) lines.fail("the file has no antenna");
+  return result;
+}
+
+}  // namespace maploop::ppp

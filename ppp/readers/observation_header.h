@@ -1,0 +1,23 @@
+// The header of a RINEX observation file, 2.10 to 2.12 and 3.00 to 3.05.
+#pragma once
+
+#include "ppp/observations.h"
+#include "ppp/readers/lines.h"
+
+namespace maploop::ppp {
+
+struct HeaderInForce {
+  ObservationHeader header;
+  Duration to_gps{0};  // added to the file's stamps gives GPS time
+
+  bool version3() const { return header.version >= 3.0; }
+};
+
+// Reads up to END OF HEADER.
+HeaderInForce read_observation_header(Lines& lines);
+
+// A header record inside the file (an event). Only what may change there: types of observation,
+// antenna, marker; others are passed over.
+void apply_header_record(Lines& lines, HeaderInForce& in_force);
+
+}  // namespace maploop::ppp

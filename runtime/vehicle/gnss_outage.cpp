@@ -1,0 +1,149 @@
+#include "runtime/vehicle/gnss_outage.h"
+
+#include <algorithm>
+#include <charconv>
+#include <random>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+namespace maploop::vehicle {
+namespace {
+
+[[noreturn]] void refuse(std::string_view part, const std::string& why) {
+  throw std::invalid_argument("outage '" + std::string(part) + "': " + why +
+                              "; it is START:LENGTH in seconds, LENGTH may be 'end', or "
+                              "random:COUNT:LENGTH");
+}
+
+double seconds(std::string_view part, std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !(value >= 0.0 && value <= 1e6)) {
+    refuse(part, "'" + std::string(text) + "' is no number of seconds");
+  }
+  return value;
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const std::size_t end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+// A part as written; `count` is 0 where its start is given.
+struct Part {
+  std::string_view text;
+  double start = 0.0;
+  double length = 0.0;
+  bool to_end = false;
+  int count = 0;
+};
+
+Part parse_part(std::string_view text) {
+  const std::vector<std::string_view> words = split(text, ':');
+  Part part;
+  part.text = text;
+  if (words.size() == 3 && words[0] == "random") {
+    part.count = static_cast<int>(seconds(text, words[1]));
+    if (part.count < 1 || part.count > 1000) refuse(text, "the count must be 1 to 1000");
+  } else if (words.size() == 2) {
+    part.start = seconds(text, words[0]);
+  } else {
+    refuse(text, "not understood");
+  }
+  part.to_end = words.back() == "end" && part.count == 0;
+  if (!part.to_end) {
+    part.length = seconds(text, words.back());
+    if (part.length == 0.0) refuse(text, "the length must not be zero");
+  }
+  return part;
+}
+
+bool overlaps(const std::vector<GnssOutage>& outages, const GnssOutage& one) {
+  return std::any_of(outages.begin(), outages.end(), [&](const GnssOutage& other) {
+    return one.begin < other.end && other.begin < one.end;
+  });
+}
+
+void add_random(const Part& part, Time first, Time last, std::int64_t seed,
+                std::vector<GnssOutage>& outages) {
+  constexpr double settled = 60.0;  // s, the filter has learnt its sensors' errors
+  const double latest = to_seconds(last - first) - part.length;
+  if (latest <= settled) refuse(part.text, "the drive is too short for it");
+  std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+  constexpr int tries = 1000;
+  int left = part.count;
+  for (int i = 0; i < tries && left > 0; ++i) {
+    const double share = static_cast<double>(random() >> 11) * 0x1p-53;
+    const Time begin = first + from_seconds(settled + share * (latest - settled));
+    const GnssOutage one{begin, begin + from_seconds(part.length)};
+    if (overlaps(outages, one)) continue;
+    outages.push_back(one);
+    --left;
+  }
+  if (left > 0) refuse(part.text, "the drive is too short for so many");
+}
+
+class SourceWithOutages final : public sensors::Source<GnssFix> {
+ public:
+  SourceWithOutages(std::unique_ptr<sensors::Source<GnssFix>> source,
+                    std::vector<GnssOutage> outages)
+      : source_(std::move(source)), outages_(std::move(outages)) {}
+
+  bool next(GnssFix& fix) override {
+    while (source_->next(fix)) {
+      const bool lost = std::any_of(outages_.begin(), outages_.end(), [&](const GnssOutage& o) {
+        return fix.stamp >= o.begin && fix.stamp < o.end;
+      });
+      if (!lost) return true;
+    }
+    return false;
+  }
+
+  const sensors::SourceReport& report() const override { return source_->report(); }
+
+ private:
+  std::unique_ptr<sensors::Source<GnssFix>> source_;
+  std::vector<GnssOutage> outages_;
+};
+
+}  // namespace
+
+std::vector<GnssOutage> parse_outages(const std::string& text, Time first, Time last,
+                                      std::int64_t seed) {
+  std::vector<GnssOutage> outages;
+  for (const std::string_view word : split(text, ',')) {
+    const Part part = parse_part(word);
+    if (part.count > 0) {
+      add_random(part, first, last, seed, outages);
+    } else {
+      const Time begin = first + from_seconds(part.start);
+      outages.push_back({begin, part.to_end ? Time::max() : begin + from_seconds(part.length)});
+    }
+  }
+  std::sort(outages.begin(), outages.end(),
+            [](const GnssOutage& a, const GnssOutage& b) { return a.begin < b.begin; });
+  return outages;
+}
+
+std::string check_outages(const std::string& text) {
+  try {
+    for (const std::string_view word : split(text, ',')) parse_part(word);
+    return {};
+  } catch (const std::invalid_argument& e) {
+    return e.what();
+  }
+}
+
+std::unique_ptr<sensors::Source<GnssFix>> with_outages(
+    std::unique_ptr<sensors::Source<GnssFix>> source, std::vector<GnssOutage> outages) {
+  if (source == nullptr || outages.empty()) return source;
+  return std::make_unique<SourceWithOutages>(std::move(source), std::move(outages));
+}
+
+}  // namespace maploop::vehicle

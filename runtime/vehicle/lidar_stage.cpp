@@ -1,0 +1,180 @@
+#include "runtime/vehicle/lidar_stage.h"
+
+#include <algorithm>
+
+#include "runtime/vehicle/graph.h"
+#include "runtime/vehicle/trace_flows.h"
+
+namespace maploop::vehicle {
+namespace {
+
+// Memory taken beforehand for a scan that waits while it is saved; a larger one is no error.
+constexpr std::size_t usual_points = 150'000;
+
+}  // namespace
+
+LidarEdges::LidarEdges()
+    : scans(make_edge<LidarScan>(edges::velodyne_lidar, &bell)),
+      visual(make_edge<RelativeMotion>(edges::stereo_lidar, &bell)) {}
+
+LidarStage::LidarStage(lidar::LidarOdometry odometer, LidarEdges& inputs,
+                       runtime::Edge<LidarMotion>& lidar,
+                       std::vector<runtime::Edge<RelativeMotion>*> odometry)
+    : odometer_(std::move(odometer)),
+      inputs_(inputs),
+      lidar_(lidar),
+      odometry_(std::move(odometry)),
+      meter_(stages::lidar) {
+  intake_.add(inputs_.scans, [this](LidarScan& scan) { take(scan); });
+  intake_.add(inputs_.visual, [this](const RelativeMotion& visual) { take(visual); });
+}
+
+void LidarStage::run(const runtime::DataClock& clock, const std::stop_token& stop) {
+  clock_ = &clock;
+  stop_ = stop;
+  resend();
+  while (!stop.stop_requested()) {
+    const std::uint32_t heard = inputs_.bell.listen();
+    const Time promised = intake_.promised();
+    save_until(promised);
+    take_until(promised);
+    if (promised == Time::max()) return;
+    promise(promised + stages::lidar.budget);
+    inputs_.bell.wait(heard);
+  }
+}
+
+// Of the run that this one resumes.
+void LidarStage::resend() {
+  for (const LidarMotion& motion : sent_lidar_) send(motion);
+  for (const RelativeMotion& motion : sent_odometry_) send(motion);
+  waiting_.received = runtime::monotonic_now();
+}
+
+void LidarStage::take_until(Time t) {
+  intake_.take_until(t);
+  let_go_until(t);
+}
+
+void LidarStage::take(LidarScan& scan) {
+  let_go_until(scan.available - Duration(1));
+  if (has_waiting_) process(nullptr, scan.available, waiting_.received);
+  std::swap(waiting_, scan);  // buffers circulate, nothing is copied
+  has_waiting_ = true;
+}
+
+void LidarStage::take(const RelativeMotion& visual) {
+  let_go_until(visual.available - Duration(1));
+  process(&visual, visual.available, visual.received);
+}
+
+// The scan whose visual motion has not come by then.
+void LidarStage::let_go_until(Time t) {
+  const Time end = waiting_.available + patience;
+  if (!has_waiting_ || end > t) return;
+  process(nullptr, end, clock_->is_paced() ? clock_->due(end) : waiting_.received);
+}
+
+void LidarStage::process(const RelativeMotion* visual, Time trigger, MonotonicTime released) {
+  const bool with_scan =
+      has_waiting_ &&
+      (visual == nullptr || (visual->status != OdometryStatus::bad_input &&
+                             waiting_.start <= visual->stamp && visual->stamp <= waiting_.end));
+  const MonotonicTime started = runtime::monotonic_now();
+  runtime::TraceSpan span(trace_, "lidar");
+  if (visual != nullptr) span.step_flow(flow_of(*visual));
+  delay_(trigger);
+  lidar::OdometerResult result = odometer_.process(with_scan ? &waiting_ : nullptr, visual);
+  if (with_scan) has_waiting_ = false;
+  const MonotonicTime ended = runtime::monotonic_now();
+
+  forget_sent(trigger);
+  result.lidar.available = result.odometry.available = trigger + stages::lidar.budget;
+  result.lidar.received = result.odometry.received = ended;
+  if (with_scan) {
+    counts_[static_cast<std::size_t>(result.lidar.status)].fetch_add(1, std::memory_order_relaxed);
+    sent_lidar_.push_back(result.lidar);
+    send(result.lidar);
+  }
+  // A scan that is out of order is nobody's motion.
+  if (visual != nullptr || result.odometry.status != OdometryStatus::bad_input) {
+    sent_odometry_.push_back(result.odometry);
+    send(result.odometry);
+  }
+  promise(trigger + stages::lidar.budget);
+  measure(trigger, result.odometry.stamp, released, started, ended);
+}
+
+void LidarStage::measure(Time trigger, Time stamp, MonotonicTime released, MonotonicTime started,
+                         MonotonicTime ended) {
+  meter_.ran(ended - started);
+  if (clock_->keeps_time(trigger)) {
+    const MonotonicTime ready = std::max(released, idle_since_);
+    meter_.woke(started - ready);
+    const bool missed = meter_.latency().record({stamp,
+                                                 ended - released,
+                                                 {{{"busy with the scan before", ready - released},
+                                                   {"woken late", started - ready},
+                                                   {"running", ended - started}}}});
+    if (missed) runtime::trace_instant(trace_, "missed deadline");
+  } else {
+    meter_.latency().record(ended - started);
+  }
+  idle_since_ = ended;
+}
+
+void LidarStage::send(const LidarMotion& motion) {
+  lidar_.push(motion, stop_);
+}
+
+void LidarStage::send(const RelativeMotion& motion) {
+  for (auto* edge : odometry_) edge->push(motion, stop_);
+}
+
+void LidarStage::forget_sent(Time t) {
+  std::erase_if(sent_lidar_, [t](const LidarMotion& m) { return m.available <= t; });
+  std::erase_if(sent_odometry_, [t](const RelativeMotion& m) { return m.available <= t; });
+}
+
+void LidarStage::save_until(Time t) {
+  cuts_.save_until(t, stop_, [this](ArchiveWriter& ar, Time cut) {
+    take_until(cut);
+    forget_sent(cut);
+    describe(ar, *this);
+  });
+}
+
+// With the results that become available after the cut: whoever goes on from there sends them.
+template <class Archive, class Stage>
+void LidarStage::describe(Archive& ar, Stage& stage) {
+  ar.section(stages::lidar.name, 1);
+  std::array<std::uint64_t, odometry_status_count> counts{};
+  std::copy(stage.counts_.begin(), stage.counts_.end(), counts.begin());
+  ar(stage.odometer_, counts, stage.sent_lidar_, stage.sent_odometry_, stage.has_waiting_);
+  if (stage.has_waiting_) ar(stage.waiting_);
+  if constexpr (Archive::loading) {
+    std::copy(counts.begin(), counts.end(), stage.counts_.begin());
+  }
+}
+
+std::size_t LidarStage::saved_bytes() const {
+  return odometer_.largest_archive() + usual_points * sizeof(LidarPoint) + 4096;
+}
+
+void LidarStage::resume(std::span<const std::uint8_t> saved) {
+  ArchiveReader ar(saved);
+  describe(ar, *this);
+  ar.finish();
+}
+
+void LidarStage::promise(Time t) {
+  lidar_.promise(t);
+  for (auto* edge : odometry_) edge->promise(t);
+}
+
+void LidarStage::finish() {
+  promise(Time::max());
+  cuts_.finish();
+}
+
+}  // namespace maploop::vehicle

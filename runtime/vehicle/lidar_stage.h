@@ -1,0 +1,106 @@
+// The lidar thread: the visual-LiDAR odometer at each scan and each visual motion.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stop_token>
+#include <utility>
+#include <vector>
+
+#include "estimators/lidar/lidar_odometry.h"
+#include "msgs/lidar_scan.h"
+#include "msgs/odometry.h"
+#include "runtime/core/data_clock.h"
+#include "runtime/core/doorbell.h"
+#include "runtime/core/edge.h"
+#include "runtime/core/intake.h"
+#include "runtime/core/trace_span.h"
+#include "runtime/vehicle/fault_delay.h"
+#include "runtime/vehicle/stage_cuts.h"
+#include "runtime/vehicle/thread_meter.h"
+
+namespace maploop::vehicle {
+
+// The edges that end at the lidar thread.
+struct LidarEdges {
+  LidarEdges();
+
+  runtime::Doorbell bell;
+  runtime::Edge<LidarScan> scans;
+  runtime::Edge<RelativeMotion> visual;
+};
+
+// A scan waits for the visual motion of the image pair taken during its turn, at most `patience` of
+// data time after its own end; then it goes alone. A visual motion without a scan is passed on.
+// What was used, and when, depends on the data's times alone.
+class LidarStage {
+ public:
+  // The delivery of the pair (it may be later than the scan's end) and the budget of its odometry.
+  static constexpr Duration patience = std::chrono::milliseconds(60);
+
+  // `odometry`: what fusion gets, to each of these edges.
+  LidarStage(lidar::LidarOdometry odometer, LidarEdges& inputs, runtime::Edge<LidarMotion>& lidar,
+             std::vector<runtime::Edge<RelativeMotion>*> odometry);
+
+  // Until the inputs are finished or stop is requested.
+  void run(const runtime::DataClock& clock, const std::stop_token& stop);
+  void finish();
+
+  // Before run().
+  void trace_to(runtime::TraceBuffer* buffer) { trace_ = buffer; }
+  void slow_down(StageDelay delay) { delay_ = std::move(delay); }
+  void save_at(std::vector<Time> moments, runtime::Edge<StageSnapshot>& edge) {
+    cuts_.set(std::move(moments), edge);
+  }
+  // Memory that what it saves usually takes at most.
+  std::size_t saved_bytes() const;
+  // Goes on from what was saved; throws ArchiveError, as LidarOdometry.
+  void resume(std::span<const std::uint8_t> saved);
+
+  const ThreadMeter& meter() const { return meter_; }
+  // Scans so far with this status; any thread may ask.
+  std::uint64_t count(OdometryStatus status) const {
+    return counts_[static_cast<std::size_t>(status)].load(std::memory_order_relaxed);
+  }
+
+ private:
+  void take(LidarScan& scan);
+  void take(const RelativeMotion& visual);
+  void take_until(Time t);
+  void let_go_until(Time t);
+  void process(const RelativeMotion* visual, Time trigger, MonotonicTime released);
+  void measure(Time trigger, Time stamp, MonotonicTime released, MonotonicTime started,
+               MonotonicTime ended);
+  void send(const LidarMotion& motion);
+  void send(const RelativeMotion& motion);
+  void resend();
+  void save_until(Time t);
+  void forget_sent(Time t);
+  template <class Archive, class Stage>
+  static void describe(Archive& ar, Stage& stage);
+  void promise(Time t);
+
+  lidar::LidarOdometry odometer_;
+  LidarEdges& inputs_;
+  runtime::Edge<LidarMotion>& lidar_;
+  std::vector<runtime::Edge<RelativeMotion>*> odometry_;
+  runtime::Intake intake_;
+  const runtime::DataClock* clock_ = nullptr;
+  std::stop_token stop_;
+  LidarScan waiting_;  // a scan without its visual motion yet
+  bool has_waiting_ = false;
+  MonotonicTime idle_since_{};
+  // Those that were not yet available at the last step.
+  std::vector<LidarMotion> sent_lidar_;
+  std::vector<RelativeMotion> sent_odometry_;
+  ThreadMeter meter_;
+  runtime::TraceBuffer* trace_ = nullptr;
+  StageDelay delay_;
+  StageCuts cuts_;
+  std::array<std::atomic<std::uint64_t>, odometry_status_count> counts_{};
+};
+
+}  // namespace maploop::vehicle

@@ -1,0 +1,21 @@
+// Visual odometry from recorded stereo tracks: the back end alone.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "estimators/stereo/parameters.h"
+#include "msgs/odometry.h"
+#include "runtime/vehicle/recorded_tracks.h"
+#include "sensors/source.h"
+
+namespace maploop::vehicle {
+
+// One motion a frame from first_good_frame on, stamped by `stamps` (one for each frame) and
+// available `delay` later.
+std::unique_ptr<sensors::Source<RelativeMotion>> make_track_odometry(
+    std::shared_ptr<const RecordedTracks> tracks, std::vector<Time> stamps,
+    const stereo::StereoParameters& parameters, Duration delay);
+
+}  // namespace maploop::vehicle

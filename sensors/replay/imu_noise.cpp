@@ -1,0 +1,74 @@
+#include "sensors/replay/imu_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "msgs/frames.h"
+#include "sensors/replay/normal_generator.h"
+
+namespace maploop::sensors {
+namespace {
+
+constexpr std::uint64_t own_stream = 0x696d'7500'0000'0000;
+
+class NoisyImu final : public Source<ImuSample> {
+ public:
+  NoisyImu(std::unique_ptr<Source<ImuSample>> source, const ImuNoiseParameters& parameters)
+      : source_(std::move(source)), p_(parameters) {}
+
+  bool next(ImuSample& sample) override {
+    if (!source_->next(sample)) return false;
+    NormalGenerator normal(static_cast<std::uint64_t>(p_.seed) ^ own_stream, sample.stamp);
+    if (!last_) {
+      gyro_bias_ = p_.gyro_turn_on * normal.next();
+      scale_ = p_.gyro_scale * normal.next();
+      forward_bias_ = p_.accelerometer_turn_on * normal.next();
+      left_bias_ = p_.accelerometer_turn_on * normal.next();
+      drift_ = p_.gyro_instability * normal.next();
+    }
+    // White noise of a sample that stands for the time since the one before.
+    constexpr double shortest = 1e-3;
+    const double dt = last_ ? std::max(to_seconds(sample.stamp - *last_), shortest) : 0.1;
+    const double kept = std::exp(-dt / p_.instability_time);
+    drift_ = kept * drift_ + p_.gyro_instability * std::sqrt(1.0 - kept * kept) * normal.next();
+    sample.yaw_rate = (1.0 + scale_) * sample.yaw_rate + gyro_bias_ + drift_ +
+                      p_.gyro_white / std::sqrt(dt) * normal.next();
+    sample.specific_force_forward += forward_bias_;
+    sample.specific_force_left += left_bias_;
+    last_ = sample.stamp;
+    return true;
+  }
+
+  const SourceReport& report() const override { return source_->report(); }
+
+ private:
+  std::unique_ptr<Source<ImuSample>> source_;
+  ImuNoiseParameters p_;
+  std::optional<Time> last_;
+  double gyro_bias_ = 0.0, scale_ = 0.0, drift_ = 0.0;
+  double forward_bias_ = 0.0, left_bias_ = 0.0;
+};
+
+}  // namespace
+
+ImuNoiseParameters mems_noise(std::int64_t seed) {
+  constexpr double hour = 3600.0;
+  constexpr double milli_g = 9.81e-3;
+  ImuNoiseParameters p;
+  p.gyro_turn_on = radians(300.0) / hour;
+  p.gyro_instability = radians(10.0) / hour;
+  p.gyro_white = radians(0.3) / std::sqrt(hour);
+  p.gyro_scale = 0.002;
+  p.accelerometer_turn_on = 20.0 * milli_g;
+  p.seed = seed;
+  return p;
+}
+
+std::unique_ptr<Source<ImuSample>> with_noise(std::unique_ptr<Source<ImuSample>> source,
+                                              const ImuNoiseParameters& parameters) {
+  return std::make_unique<NoisyImu>(std::move(source), parameters);
+}
+
+}  // namespace maploop::sensors

@@ -1,0 +1,111 @@
+// Map matching and its parts on real maps: a fix, a search for near links beside Boost.Geometry's
+// R-tree, and loading.
+#include <benchmark/benchmark.h>
+
+#include <boost/geometry.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <iterator>
+
+#include "mapmatch/matcher.h"
+#include "mapmatch/network_file.h"
+#include "tools/match/track_file.h"
+
+namespace maploop {
+namespace {
+
+std::filesystem::path data() {
+  const char* folder = std::getenv("MAPLOOP_DATA");
+  return folder ? folder : "../shared/data";
+}
+
+std::filesystem::path karlsruhe() {
+  return data() / "maps/karlsruhe_2012-04.osm.pbf";
+}
+
+void a_fix_at_10_Hz(benchmark::State& state) {
+  const mapmatch::RoadNetwork network(mapmatch::open_network(karlsruhe()));
+  const mapmatch::RuleBases rules = mapmatch::read_rule_bases(mapmatch::default_rules());
+  const match::Track track = match::read_track(data() / "kitti_odometry/oxts/00.csv.gz", {});
+  mapmatch::Matcher matcher(network, rules, {});
+  std::size_t i = 0;
+  Duration later{};  // the drive again, an hour later
+  for (auto _ : state) {
+    mapmatch::VehicleFix fix = track[i];
+    fix.stamp += later;
+    benchmark::DoNotOptimize(matcher.add(fix).probability);
+    if (++i == track.size()) {
+      i = 0;
+      later += std::chrono::hours(1);
+    }
+  }
+}
+
+mapmatch::Box about(const Eigen::Vector2d& p) {
+  return {p.x() - 40.0, p.y() - 40.0, p.x() + 40.0, p.y() + 40.0};
+}
+
+void near_segments_ours(benchmark::State& state) {
+  const mapmatch::RoadNetwork network(mapmatch::open_network(karlsruhe()));
+  std::size_t i = 0, found = 0;
+  for (auto _ : state) {
+    const auto& v = network.vertex(static_cast<std::uint32_t>(i));
+    network.index().visit(about(v.position()), [&](const mapmatch::IndexedSegment&) { ++found; });
+    i = (i + 7919) % network.data().vertices.size();
+  }
+  benchmark::DoNotOptimize(found);
+}
+
+void near_segments_boost(benchmark::State& state) {
+  namespace geometry = boost::geometry;
+  using Point = geometry::model::point<double, 2, geometry::cs::cartesian>;
+  using Box = geometry::model::box<Point>;
+  using Value = std::pair<Box, std::uint32_t>;
+  const mapmatch::RoadNetwork network(mapmatch::open_network(karlsruhe()));
+  std::vector<Value> values;
+  for (std::uint32_t link = 0; link < network.size(); ++link) {
+    const mapmatch::Link& l = network.link(link);
+    for (std::uint32_t v = l.first_vertex; v + 1 < l.first_vertex + l.vertex_count; ++v) {
+      const auto &a = network.vertex(v), &b = network.vertex(v + 1);
+      values.push_back({{{std::min(a.east, b.east), std::min(a.north, b.north)},
+                         {std::max(a.east, b.east), std::max(a.north, b.north)}},
+                        v});
+    }
+  }
+  const geometry::index::rtree<Value, geometry::index::rstar<16>> tree(values);
+  std::size_t i = 0;
+  std::vector<Value> found;
+  for (auto _ : state) {
+    const mapmatch::Box box = about(network.vertex(static_cast<std::uint32_t>(i)).position());
+    found.clear();
+    tree.query(geometry::index::intersects(Box{{box.west, box.south}, {box.east, box.north}}),
+               std::back_inserter(found));
+    i = (i + 7919) % network.data().vertices.size();
+  }
+  benchmark::DoNotOptimize(found);
+}
+
+void load_pbf(benchmark::State& state) {
+  for (auto _ : state)
+    benchmark::DoNotOptimize(mapmatch::RoadNetwork(mapmatch::open_network(karlsruhe())).size());
+}
+
+void load_own_file(benchmark::State& state) {
+  const auto file = std::filesystem::temp_directory_path() / "maploop_benchmark.network";
+  mapmatch::save_network(file, mapmatch::open_network(karlsruhe()));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(mapmatch::RoadNetwork(mapmatch::open_network(file)).size());
+  std::filesystem::remove(file);
+}
+
+BENCHMARK(a_fix_at_10_Hz);
+BENCHMARK(near_segments_ours);
+BENCHMARK(near_segments_boost);
+BENCHMARK(load_pbf)->Unit(benchmark::kMillisecond);
+BENCHMARK(load_own_file)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace maploop
+
+BENCHMARK_MAIN();

@@ -1,0 +1,98 @@
+#include "mapmatch/fll_reader.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+
+namespace maploop::mapmatch {
+namespace {
+
+constexpr std::array<std::string_view, 2> inputs{"b", "a"};
+
+const std::string good =
+    "Engine: small\n"                                       // 1
+    "InputVariable: a  # a comment\n"                       // 2
+    "  range: 0 10\n"                                       // 3
+    "  term: low Ramp 10 0\n"                               // 4
+    "InputVariable: b\n"                                    // 5
+    "  term: high Sigmoid 5 1\n"                            // 6
+    "OutputVariable: out\n"                                 // 7
+    "  aggregation: none\n"                                 // 8
+    "  defuzzifier: WeightedAverage TakagiSugeno\n"         // 9
+    "  term: bad Constant 10\n"                             // 10
+    "RuleBlock: all\r\n"                                    // 11
+    "  conjunction: Minimum\n"                              // 12
+    "  rule: if a is low and b is high then out is bad\n";  // 13
+
+std::string refusal(const std::string& from, const std::string& to) {
+  std::string text = good;
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  text.replace(at, from.size(), to);
+  try {
+    parse_fll(text, "small.fll", inputs);
+    return "accepted";
+  } catch (const FllError& e) {
+    return e.what();
+  }
+}
+
+TEST(FllReader, ReadsARuleBaseAndTakesValuesInTheOrderAskedFor) {
+  const FuzzySystem system = parse_fll(good, "small.fll", inputs);
+  EXPECT_EQ(system.variables()[0].name, "b");
+  EXPECT_EQ(system.variables()[1].name, "a");
+  const auto result = system.evaluate(std::array{100.0, 2.5});
+  EXPECT_TRUE(result.decided);
+  EXPECT_FLOAT_EQ(result.weights[0], 0.75f);
+  EXPECT_DOUBLE_EQ(result.value, 10.0);
+}
+
+TEST(FllReader, EveryMistakeIsRefusedWithFileAndLine) {
+  using ::testing::HasSubstr;
+  EXPECT_THAT(refusal("a is low", "a is lwo"),
+              HasSubstr("small.fll:13: 'lwo' is not a term of 'a'"));
+  EXPECT_THAT(refusal("if a is", "if c is"),
+              HasSubstr("small.fll:13: 'c' is not an input variable"));
+  EXPECT_THAT(refusal("out is bad", "out is worse"), HasSubstr("small.fll:13: 'worse'"));
+  EXPECT_THAT(refusal("then out", "then ouch"), HasSubstr("'ouch' is not the output"));
+  EXPECT_THAT(refusal("is bad", "is bad with 0.5"), HasSubstr("nothing else"));
+  EXPECT_THAT(refusal("and b", "or b"), HasSubstr("small.fll:13: 'and' or 'then'"));
+  EXPECT_THAT(refusal("and b is high", "and b is not high"), HasSubstr("small.fll:13"));
+  EXPECT_THAT(refusal("if a is low and b is high then out is bad", "if"), HasSubstr("a condition"));
+  EXPECT_THAT(refusal("if a is low and b is high then out is bad", ""),
+              HasSubstr("begins with 'if'"));
+  EXPECT_THAT(refusal(" then out is bad", ""), HasSubstr("small.fll:13"));
+  EXPECT_THAT(refusal("high then out is bad", "high then"), HasSubstr("small.fll:13"));
+  EXPECT_THAT(refusal("high then out is bad", "high and"), HasSubstr("small.fll:13"));
+  EXPECT_THAT(refusal("Ramp 10 0", "Ramp 10"),
+              HasSubstr("small.fll:4: 2 numbers are needed, and 1"));
+  EXPECT_THAT(refusal("Ramp 10 0", "Ramp 10 nan"), HasSubstr("'nan' is not a finite number"));
+  EXPECT_THAT(refusal("Ramp 10 0", "Slope 10 0"), HasSubstr("'Slope' is not Sigmoid"));
+  EXPECT_THAT(refusal("Ramp 10 0", "Triangle 3 2 1"), HasSubstr("go back"));
+  EXPECT_THAT(refusal("InputVariable: b", "InputVariable: bb"), HasSubstr("small.fll:5: 'bb'"));
+  EXPECT_THAT(refusal("InputVariable: b", "InputVariable: a"), HasSubstr("there twice"));
+  EXPECT_THAT(refusal("InputVariable: b\n  term: high Sigmoid 5 1\n", ""),
+              HasSubstr("'b' is not an input variable"));
+  EXPECT_THAT(refusal("Constant 10", "Linear 1 2 3"), HasSubstr("small.fll:10: an output term"));
+  EXPECT_THAT(refusal("Minimum", "AlgebraicProduct"), HasSubstr("small.fll:12: 'conjunction'"));
+  EXPECT_THAT(refusal("range: 0 10", "ragne: 0 10"),
+              HasSubstr("small.fll:3: 'ragne' is not known"));
+  EXPECT_THAT(refusal("Engine: small\n", ""), HasSubstr("begins with 'Engine"));
+  EXPECT_THAT(refusal("RuleBlock: all", "RuleBlock"), HasSubstr("small.fll:11: a line is"));
+  EXPECT_THAT(refusal("  rule: if a is low and b is high then out is bad\n", ""),
+              HasSubstr("no rule"));
+}
+
+TEST(FllReader, AFileThatIsNotThereIsNamed) {
+  try {
+    read_fll("/nowhere/rules.fll", inputs);
+    FAIL();
+  } catch (const FllError& e) {
+    EXPECT_THAT(e.what(), ::testing::HasSubstr("/nowhere/rules.fll"));
+  }
+}
+
+}  // namespace
+}  // namespace maploop::mapmatch

@@ -1,0 +1,15 @@
+// A drive along a line of places, for the matcher.
+#pragma once
+
+#include <vector>
+
+#include "mapmatch/vehicle_fix.h"
+
+namespace maploop::testing {
+
+// From place to place (metres east and north of SmallMap's origin) at a constant speed, a fix every
+// 1/rate s, with speed and azimuth, and offset to the right by `right` metres.
+std::vector<mapmatch::VehicleFix> drive(const std::vector<Eigen::Vector2d>& places, double speed,
+                                        double rate, double right = 0.0);
+
+}  // namespace maploop::testing

@@ -1,0 +1,93 @@
+// maploop ppp and maploop gnss info as their users start them.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "ppp/readers/lines.h"
+#include "tests/support/process.h"
+
+namespace maploop {
+namespace {
+
+using maploop::testing::run;
+
+std::string car(const std::string& name) {
+  return (maploop::testing::real_data() / "gnss/kamakura_kinematic" / name).string();
+}
+
+std::vector<std::string> ppp_of_the_car() {
+  return {MAPLOOP_COMMAND,
+          "ppp",
+          car("SEPT265G.21O.gz"),
+          car("satellites_check_only.atx.gz"),
+          car("COD0MGXFIN_20212650000_01D_05M_ORB.SP3.gz"),
+          car("SEPT2650.21P.gz"),
+          car("COD0MGXFIN_20212650000_01D_01D_OSB.BIA.gz"),
+          "--systems",
+          "GE"};
+}
+
+TEST(PppCommand, WritesEveryFormat) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const maploop::testing::TemporaryFolder folder;
+  const auto file = [&](const char* name) { return (folder.path() / name).string(); };
+  auto command = ppp_of_the_car();
+  for (const std::string& word :
+       {std::string("--truth"), car("rtk_reference.pos.gz"), std::string("--pos"), file("a.pos"),
+        std::string("--ecef"), std::string("--nmea"), file("a.nmea"), std::string("--geojson"),
+        file("a.geojson"), std::string("--kml"), file("a.kml"), std::string("--csv"), file("a.csv"),
+        std::string("--html"), file("a.html"), std::string("--json"), file("a.json")}) {
+    command.push_back(word);
+  }
+  const auto result = run(command);
+  ASSERT_EQ(result.status, 0) << result.error;
+  EXPECT_NE(result.out.find("360 of 360 epochs have a position"), std::string::npos) << result.out;
+  const auto figures = nlohmann::json::parse(ppp::read_file(file("a.json")));
+  EXPECT_EQ(figures["truth"]["coverage"], 1.0);
+  EXPECT_EQ(nlohmann::json::parse(
+                ppp::read_file(file("a.geojson")))["features"][0]["geometry"]["coordinates"]
+                .size(),
+            360U);
+  const std::string pos = ppp::read_file(file("a.pos"));
+  EXPECT_NE(pos.find("\n2021/09/22 06:30:00.000  -39619"), std::string::npos);
+  const std::string nmea = ppp::read_file(file("a.nmea"));
+  EXPECT_EQ(nmea.find("$GNGGA,062942.000,3520.52"), 0U) << nmea.substr(0, 80);
+  EXPECT_NE(ppp::read_file(file("a.html")).find("Sky"), std::string::npos);
+  EXPECT_NE(ppp::read_file(file("a.csv")).find("below the elevation mask"), std::string::npos);
+  EXPECT_NE(ppp::read_file(file("a.kml")).find("</kml>"), std::string::npos);
+}
+
+TEST(PppCommand, StartAndEndCutTheEpochs) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  auto command = ppp_of_the_car();
+  for (const char* word : {"--start", "06:31:00", "--end", "2021-09-22 06:31:59"}) {
+    command.push_back(word);
+  }
+  const auto result = run(command);
+  EXPECT_EQ(result.status, 0) << result.error;
+  EXPECT_NE(result.out.find("60 of 60 epochs"), std::string::npos) << result.out;
+}
+
+TEST(PppCommand, ErrorsNameWhatIsWrong) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const auto no_orbits = run({MAPLOOP_COMMAND, "ppp", car("SEPT265G.21O.gz")});
+  EXPECT_EQ(no_orbits.status, 1);
+  EXPECT_NE(no_orbits.error.find("no orbits: give an SP3 file"), std::string::npos);
+  auto bad_time = ppp_of_the_car();
+  bad_time.insert(bad_time.end(), {"--start", "noon"});
+  EXPECT_NE(run(bad_time).error.find("--start: 'noon'"), std::string::npos);
+}
+
+TEST(GnssInfoCommand, TellsFilesApartAndNamesBadOnes) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const auto result = run({MAPLOOP_COMMAND, "gnss", "info", car("SEPT265G.21O.gz"),
+                           car("rtk_reference.pos.gz"), car("SEPT2650.21P.gz")});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.out.find("epochs        360, every 1.000 s, 0 gaps"), std::string::npos);
+  EXPECT_NE(result.out.find("broadcast navigation"), std::string::npos);
+  EXPECT_NE(result.error.find("rtk_reference.pos.gz: none of RINEX"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace maploop

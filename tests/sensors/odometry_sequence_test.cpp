@@ -1,0 +1,156 @@
+// KITTI's odometry sequences as recordings, and what is made of their rows.
+#include "sensors/replay/odometry_sequence.h"
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "sensors/replay/csv_table.h"
+#include "sensors/replay/imu_noise.h"
+#include "tests/support/real_data.h"
+
+namespace maploop::sensors {
+namespace {
+
+namespace fs = std::filesystem;
+using maploop::testing::real_data;
+
+fs::path sequence(const std::string& name) {
+  return real_data() / "kitti_odometry" / "oxts" / (name + ".csv.gz");
+}
+
+template <class T>
+std::vector<T> all_of(std::unique_ptr<Source<T>> source) {
+  std::vector<T> samples;
+  for (T sample; source->next(sample);) samples.push_back(sample);
+  return samples;
+}
+
+TEST(OdometrySequence, LeavesOutWhatTheRecorderInvented) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const OdometrySequence six(sequence("06"), {});
+  EXPECT_EQ(six.frame_count(), 1101u);
+  const auto reference = all_of(six.reference());
+  ASSERT_EQ(reference.size(), 1101u - 12u);  // rows 0 to 11; row 12 is real
+  EXPECT_EQ(reference.front().sequence, 12u);
+  const auto source = six.imu();
+  for (ImuSample s; source->next(s);) {
+  }
+  EXPECT_EQ(source->report().refused, 12u);
+}
+
+TEST(OdometrySequence, RatesAreStampedBeforeTheirRows) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const OdometrySequence six(sequence("06"), {});
+  const ImuSample first = all_of(six.imu()).front();
+  EXPECT_EQ(first.available - first.stamp, std::chrono::milliseconds(60));
+  const ReferencePose pose = all_of(six.reference()).front();
+  EXPECT_EQ(pose.stamp, first.available);
+}
+
+TEST(OdometrySequence, HasTracksAndFastImuWhereTheyWereRecorded) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const OdometrySequence six(sequence("06"), {}), zero(sequence("00"), {}),
+      four(sequence("04"), {});
+  ASSERT_TRUE(six.tracks_file());
+  EXPECT_EQ(six.tracks_file()->filename(), "2011_09_30_drive_0020.csv.gz");
+  EXPECT_FALSE(zero.tracks_file());
+  EXPECT_GT(all_of(zero.imu()).size(), 45'000u);
+  EXPECT_EQ(all_of(four.imu()).size(), 271u);
+}
+
+TEST(OdometrySequence, IsNamedByItsTableOrItsNumber) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  EXPECT_TRUE(OdometrySequence::is_named(sequence("06")));
+  EXPECT_TRUE(OdometrySequence::is_named(real_data() / "kitti_odometry" / "06"));
+  EXPECT_FALSE(OdometrySequence::is_named(real_data() / "kitti_odometry" / "05"));
+  EXPECT_FALSE(OdometrySequence::is_named(real_data()));
+}
+
+TEST(WheelOdometer, HasTheScaleErrorAndTheNoiseItIsAskedFor) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const OdometrySequence four(sequence("04"), {});
+  const auto exact = all_of(four.wheel({.scale_error = 0.0, .white_speed = 0.0, .seed = 1}));
+  const auto noisy = all_of(four.wheel({.scale_error = 0.01, .white_speed = 0.05, .seed = 1}));
+  ASSERT_EQ(exact.size(), 271u);
+  double mean = 0.0, variance = 0.0, way = 0.0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    const double error = noisy[i].speed - exact[i].speed;
+    mean += error / 271.0;
+    way += exact[i].speed / 271.0;
+    const double white = error - 0.01 * exact[i].speed;
+    variance += white * white / 271.0;
+  }
+  EXPECT_NEAR(mean / way, 0.01, 0.001);
+  EXPECT_NEAR(std::sqrt(variance), 0.05, 0.007);
+  EXPECT_THROW(four.wheel({.scale_error = 2.0}), std::invalid_argument);
+  EXPECT_THROW(four.wheel({.white_speed = -1.0}), std::invalid_argument);
+}
+
+TEST(ImuNoise, OfAMemsUnitIsOfItsGradeAndTheSameForASeed) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const OdometrySequence four(sequence("04"), {});
+  const auto exact = all_of(four.imu());
+  double squares = 0.0;
+  constexpr int seeds = 200;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const auto noisy = all_of(with_noise(four.imu(), mems_noise(seed)));
+    double mean = 0.0;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      mean += (noisy[i].yaw_rate - exact[i].yaw_rate) / static_cast<double>(exact.size());
+    }
+    squares += mean * mean / seeds;
+  }
+  const double deg_per_hour = std::sqrt(squares) * 180.0 / M_PI * 3600.0;
+  EXPECT_NEAR(deg_per_hour, 300.0, 50.0);
+  const auto once = all_of(with_noise(four.imu(), mems_noise(7)));
+  const auto again = all_of(with_noise(four.imu(), mems_noise(7)));
+  for (std::size_t i = 0; i < once.size(); ++i) ASSERT_EQ(once[i].yaw_rate, again[i].yaw_rate);
+}
+
+class CsvTableTest : public ::testing::Test {
+ protected:
+  fs::path write(const std::string& text) {
+    const fs::path file = fs::path(::testing::TempDir()) / "table.csv";
+    std::ofstream(file) << text;
+    return file;
+  }
+  std::string refusal(const std::string& text) {
+    try {
+      CsvTable table(write(text));
+      return "";
+    } catch (const std::runtime_error& e) {
+      return e.what();
+    }
+  }
+};
+
+TEST_F(CsvTableTest, NamesFileLineAndWhatIsWrong) {
+  const CsvTable good(write("a,b\n1,2\r\n3,-4e-1\n"));
+  EXPECT_EQ(good.size(), 2u);
+  EXPECT_EQ(good.row(1)[good.column("b")], -0.4);
+  EXPECT_THROW(good.column("c"), std::runtime_error);
+  EXPECT_NE(refusal("a,b\n1,2\n3\n").find(":3: has 1 columns"), std::string::npos);
+  EXPECT_NE(refusal("a,b\n1,x\n").find(":2: "), std::string::npos);
+  EXPECT_NE(refusal("").find("no heading"), std::string::npos);
+}
+
+TEST_F(CsvTableTest, OfDamagedGzipDataSaysSo) {
+  const fs::path file = fs::path(::testing::TempDir()) / "cut.csv.gz";
+  const gzFile out = gzopen(file.c_str(), "wb");
+  const std::string text = "a,b\n" + std::string(1000, '1') + ",2\n";
+  gzwrite(out, text.data(), static_cast<unsigned>(text.size()));
+  gzclose(out);
+  fs::resize_file(file, fs::file_size(file) - 6);
+  try {
+    CsvTable table(file);
+    FAIL() << "a cut file was read";
+  } catch (const std::runtime_error& e) {
+    EXPECT_NE(std::string(e.what()).find("damaged or cut"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace maploop::sensors

@@ -1,0 +1,97 @@
+#include "tools/match/match_output.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/mapmatch/simulated_drive.h"
+#include "tests/mapmatch/small_map.h"
+#include "tests/support/real_data.h"
+#include "tools/match/match_score.h"
+
+namespace maploop::match {
+namespace {
+
+using maploop::testing::SmallMap;
+using ::testing::HasSubstr;
+
+std::string read(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class MatchOutput : public ::testing::Test {
+ protected:
+  MatchOutput() {
+    mapmatch::Matcher matcher(network, rules, {});
+    track.fixes = maploop::testing::drive({{-90, 0}, {90, 0}}, 10.0, 1.0);
+    track.fixes.push_back(track.fixes.back());  // not later: not used
+    track.fixes.push_back(track.fixes.back());
+    track.fixes.back().stamp += std::chrono::hours(1);
+    track.fixes.back().position = SmallMap::place(4000, 4000);
+    for (const auto& fix : track.fixes) track.results.push_back(matcher.add(fix));
+  }
+
+  mapmatch::Road named() {
+    mapmatch::Road road;
+    road.name = "</script>\xff";
+    return road;
+  }
+  mapmatch::RoadNetwork network = SmallMap()
+                                      .node(1, -100, 0)
+                                      .node(2, 0, 0)
+                                      .node(3, 100, 0)
+                                      .way(10, {1, 2, 3}, named())
+                                      .network();
+  mapmatch::RuleBases rules = mapmatch::read_rule_bases(mapmatch::default_rules());
+  MatchedTrack track;
+  maploop::testing::TemporaryFolder folder;
+};
+
+TEST_F(MatchOutput, CsvHasOneRowAFixAndEmptyIdsWhereThereIsNoRoad) {
+  write_match_csv(folder.path() / "a.csv", track, network);
+  std::istringstream lines(read(folder.path() / "a.csv"));
+  std::vector<std::string> rows;
+  for (std::string line; std::getline(lines, line);) rows.push_back(line);
+  ASSERT_EQ(rows.size(), track.fixes.size() + 1);
+  EXPECT_EQ(rows[0],
+            "t,lat,lon,phase,way_id,node_a,node_b,matched_lat,matched_lon,azimuth_deg,likelihood,"
+            "p_link");
+  for (const std::string& row : rows) EXPECT_EQ(std::count(row.begin(), row.end(), ','), 11) << row;
+  EXPECT_THAT(rows[5], HasSubstr(",along link,10,1,2,"));
+  EXPECT_THAT(rows[15], HasSubstr(",along link,10,2,3,"));
+  EXPECT_THAT(rows[rows.size() - 2], HasSubstr(",not used,,,,,,,,"));
+  EXPECT_THAT(rows.back(), ::testing::EndsWith(",,,,,,,"));
+}
+
+TEST_F(MatchOutput, GeoJsonAndGpxHoldTheMatchedPositions) {
+  write_match_gpx(folder.path() / "a.gpx", track, network);
+  const std::string gpx = read(folder.path() / "a.gpx");
+  std::size_t points = 0;
+  for (std::size_t at = 0; (at = gpx.find("<trkpt", at)) != std::string::npos; ++at) ++points;
+  EXPECT_EQ(points, track.fixes.size() - 2);
+  // The name is no UTF-8: GeoJSON is UTF-8, and says so with a replacement.
+  write_match_geojson(folder.path() / "a.geojson", track, network);
+  const auto json = nlohmann::json::parse(read(folder.path() / "a.geojson"));
+  EXPECT_EQ(json["features"].size(), track.fixes.size() + 1);
+  EXPECT_EQ(json["features"][5]["properties"]["way_id"], 10);
+  EXPECT_EQ(json["features"].back()["geometry"]["coordinates"].size(), track.fixes.size() - 2);
+}
+
+TEST_F(MatchOutput, ThePageNeedsNothingElseAndNoNameEndsItsScript) {
+  write_match_html(folder.path() / "a.html", track, network, rules);
+  const std::string page = read(folder.path() / "a.html");
+  EXPECT_EQ(page.find("http"), std::string::npos) << "nothing is fetched";
+  EXPECT_EQ(page.find("</script>"), page.rfind("</script>"));
+  EXPECT_THAT(page, HasSubstr("way 10"));
+}
+
+TEST_F(MatchOutput, AFolderThatIsNotThereIsNamed) {
+  EXPECT_THROW(write_match_csv(folder.path() / "none/a.csv", track, network), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace maploop::match

@@ -1,0 +1,179 @@
+// Links found on eight recorded drives, against labels of the links driven. The bounds are what
+// maploop experiment match and map-faults reach, with some room.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <set>
+#include <sstream>
+
+#include "mapmatch/network_file.h"
+#include "msgs/frames.h"
+#include "tests/support/real_data.h"
+#include "tools/evaluation/text_file.h"
+#include "tools/match/map_faults.h"
+#include "tools/match/match_score.h"
+#include "tools/match/track_file.h"
+#include "tools/match/track_noise.h"
+
+namespace maploop::match {
+namespace {
+
+using maploop::testing::real_data;
+
+constexpr std::array sequences{"00", "01", "02", "03", "04", "06", "08", "10"};
+
+std::filesystem::path karlsruhe() {
+  return real_data() / "maps/karlsruhe_2012-04.osm.pbf";
+}
+
+const mapmatch::RuleBases& rules() {
+  static const mapmatch::RuleBases bases = mapmatch::read_rule_bases(mapmatch::default_rules());
+  return bases;
+}
+
+struct Recorded {
+  Track track;
+  std::map<std::size_t, Label> labels;
+};
+
+Recorded recorded(const std::string& sequence) {
+  const auto data = real_data() / "kitti_odometry";
+  return {read_track(data / "oxts" / (sequence + ".csv.gz"), {}),
+          read_labels(data / "labels" / (sequence + ".csv.gz"))};
+}
+
+struct Compared {
+  MatchScore ours, baseline;
+};
+
+Compared compare(double interval, const TrackNoise& noise) {
+  const mapmatch::RoadNetwork network(mapmatch::open_network(karlsruhe()));
+  Compared compared;
+  for (const char* sequence : sequences) {
+    const Recorded drive = recorded(sequence);
+    std::vector<std::size_t> rows;
+    const Track track = with_noise(drive.track, interval, noise, &rows);
+    mapmatch::Matcher matcher(network, rules(), {});
+    compared.ours.add(match_track(matcher, track), rows, drive.labels);
+    compared.baseline.add(nearest_segments(network, track), rows, drive.labels);
+  }
+  return compared;
+}
+
+TrackNoise noisy(double white, double markov) {
+  return {white, markov, 30.0, 0.2, radians(3.0), 7};
+}
+
+TEST(RealDrives, WithoutNoise) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  for (const double interval : {1.0, 0.0}) {
+    const Compared c = compare(interval, {});
+    EXPECT_GE(c.ours.all.share(), 0.97);
+    EXPECT_GE(c.ours.certain.share(), 0.998);
+    EXPECT_GE(c.ours.all.coverage(), 0.99);
+  }
+}
+
+TEST(RealDrives, WhiteNoiseCostsLessThanHalfOfWhatItCostsTheNearestSegment) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const Compared five = compare(1.0, noisy(5, 0));
+  EXPECT_GE(five.ours.certain.share(), 0.98);
+  EXPECT_LT(five.ours.all.wrong(), five.baseline.all.wrong());
+  for (const double sigma : {10.0, 15.0}) {
+    const Compared c = compare(1.0, noisy(sigma, 0));
+    EXPECT_GE(c.ours.certain.share(), sigma < 12.0 ? 0.95 : 0.92) << sigma;
+    EXPECT_LE(2 * c.ours.all.wrong(), c.baseline.all.wrong()) << sigma;
+    EXPECT_LE(2 * c.ours.certain.wrong(), c.baseline.certain.wrong()) << sigma;
+  }
+}
+
+TEST(RealDrives, SlowNoise) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const Compared c = compare(1.0, noisy(0, 15));
+  EXPECT_GE(c.ours.certain.share(), 0.97);
+  EXPECT_LE(2 * c.ours.all.wrong(), c.baseline.all.wrong());
+}
+
+TEST(RealDrives, WhatIsSaidWithHighProbabilityIsRight) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  Reliability r;
+  for (const double sigma : {5.0, 15.0}) {
+    const Reliability more = compare(1.0, noisy(sigma, 0)).ours.reliability;
+    for (std::size_t k = 0; k < r.fixes.size(); ++k) {
+      r.fixes[k] += more.fixes[k];
+      r.right[k] += more.right[k];
+      r.p_sum[k] += more.p_sum[k];
+    }
+  }
+  ASSERT_GT(r.fixes[9], 1000u);
+  EXPECT_NEAR(static_cast<double>(r.right[9]) / static_cast<double>(r.fixes[9]),
+              r.p_sum[9] / static_cast<double>(r.fixes[9]), 0.02);
+}
+
+TEST(RealDrives, AWrongMapIsNeverBelievedForLong) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const mapmatch::MapExtract map = mapmatch::read_osm(karlsruhe());
+  const mapmatch::NetworkData right = mapmatch::build_network(map);
+  const Recorded drive = recorded("08");
+  std::vector<std::size_t> rows(drive.track.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = i;
+  const auto score = [&](const mapmatch::NetworkData& wrong, std::int64_t missing) {
+    const mapmatch::RoadNetwork network(wrong);
+    mapmatch::Matcher matcher(network, rules(), {});
+    return score_fault(match_track(matcher, drive.track), drive.track, rows, drive.labels, missing);
+  };
+  EXPECT_LE(score(shifted(right, {5.0, 0.0}), 0).longest_sure_wrong, 3.0);
+  EXPECT_LE(score(one_way_reversed(right), 0).longest_sure_wrong, 3.0);
+  for (const std::int64_t way : {drive.labels.at(1000).way_id, drive.labels.at(3000).way_id}) {
+    const FaultScore missing = score(without_way(map, way), way);
+    EXPECT_LE(missing.longest_sure_wrong, 3.0) << way;
+    EXPECT_LE(missing.recovery, 50.0) << way;
+  }
+}
+
+// Another country, another map, positions alone; a third of the drive is on roads that the map
+// lacks.
+TEST(RealDrives, OffTheMapNoRoadIsSaid) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const auto folder = real_data() / "maps/riverside";
+  const mapmatch::RoadNetwork network(
+      mapmatch::open_network(folder / "riverside_from_2021_drives.osm.pbf"));
+  TrackFileOptions options;
+  options.sigma = 2.0;
+  const Track track = read_track(real_data() / "gnss/riverside_drive/groundtruth.csv.gz", options);
+  mapmatch::Matcher matcher(network, rules(), {});
+  const auto matched = match_track(matcher, track);
+  // gps_tow,class,distance_same_heading,distance_any: "far" has no road near.
+  std::set<long> far;
+  std::istringstream detail(evaluation::read_text(folder / "off_map_detail_2020.csv.gz"));
+  for (std::string line; std::getline(detail, line);)
+    if (line.find(",far") != std::string::npos) far.insert(std::atol(line.c_str()));
+  std::istringstream labels(evaluation::read_text(folder / "labels_2020.csv.gz"));
+  Tally on, off;
+  std::size_t sure = 0;
+  std::string line;
+  std::getline(labels, line);
+  for (std::size_t i = 0; i < matched.size() && std::getline(labels, line); ++i) {
+    long tow = 0, on_map = 0, way = 0;
+    std::sscanf(line.c_str(), "%ld,%ld,%ld", &tow, &on_map, &way);
+    ASSERT_NEAR(to_seconds(track[i].stamp.time_since_epoch()), static_cast<double>(tow), 0.01);
+    if (on_map == 1) {
+      ++on.fixes;
+      on.right += matched[i].way_id == way ? 1 : 0;
+    } else if (far.contains(tow)) {
+      ++off.fixes;
+      off.matched += matched[i].way_id ? 1 : 0;
+      sure += matched[i].way_id && matched[i].p_link > 0.9 ? 1 : 0;
+    }
+  }
+  ASSERT_GT(on.fixes, 2000u);
+  ASSERT_GT(off.fixes, 1000u);
+  EXPECT_GE(on.share(), 0.97);
+  EXPECT_LE(off.coverage(), 0.03);
+  EXPECT_LE(sure, off.fixes / 100);
+}
+
+}  // namespace
+}  // namespace maploop::match

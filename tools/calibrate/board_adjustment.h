@@ -1,0 +1,65 @@
+// Least squares over both cameras, their relative pose and the pose of the board in every view.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "sensors/camera/stereo_rig.h"
+#include "tools/calibrate/board.h"
+
+namespace maploop::calibrate {
+
+// One pair of images in which the board was found. Corners correspond to Board::points().
+struct View {
+  std::string name;
+  Corners left, right;
+};
+
+// What is common to all views, in the order of its standard deviations: left fx fy cx cy k1 k2 p1
+// p2 k3, right the same, rotation of the right camera about its own x y z (rad), t_right_left (m).
+constexpr int kCameraParameters = 9, kCommonParameters = 2 * kCameraParameters + 6;
+using CommonVector = Eigen::Matrix<double, kCommonParameters, 1>;
+
+struct Cameras {
+  sensors::CameraModel left, right;
+  Eigen::Isometry3d T_right_left = Eigen::Isometry3d::Identity();
+};
+
+// Measured - projected, px; of each view, left and right.
+using Residuals = std::vector<std::array<Corners, 2>>;
+Residuals residuals_at(const Board& board, const std::vector<View>& views, const Cameras& cameras,
+                       const std::vector<Eigen::Isometry3d>& T_left_board);
+
+struct Adjustment {
+  Cameras cameras;
+  std::vector<Eigen::Isometry3d> T_left_board;  // of each view
+  Residuals residuals;
+  double rms = 0.0;  // px, of all distances between measured and projected corners
+  // One standard deviation of each common parameter. The corners' noise is the one that the
+  // residuals show, and taken to be independent from corner to corner.
+  CommonVector sigma = CommonVector::Zero();
+  bool converged = false;
+};
+
+// Distances in the left and the right image of one view, root mean square, px.
+std::array<double, 2> rms_of(const std::array<Corners, 2>& residuals);
+// Of both images together.
+double rms_of_view(const std::array<Corners, 2>& residuals);
+
+// Levenberg and Marquardt from `start`, at most 50 steps; the views' poses are eliminated (Schur
+// complement). Throws std::runtime_error where a parameter cannot be told from the views.
+Adjustment adjust(const Board& board, const std::vector<View>& views, const Cameras& start,
+                  std::vector<Eigen::Isometry3d> T_left_board);
+
+// A projected point and its derivatives by the camera's nine parameters and by the point.
+struct Projection {
+  Eigen::Vector2d pixel;
+  Eigen::Matrix<double, 2, kCameraParameters> by_camera;
+  Eigen::Matrix<double, 2, 3> by_point;
+};
+Projection project_with_derivatives(const sensors::CameraModel& camera,
+                                    const Eigen::Vector3d& point);
+
+}  // namespace maploop::calibrate

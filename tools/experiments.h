@@ -1,0 +1,12 @@
+// The comparisons of `maploop experiment`, one function a file.
+#pragma once
+
+#include "tools/commands.h"
+
+namespace maploop::tools {
+
+void add_fusion_experiment(CLI::App& experiment, Command& command);
+void add_match_experiments(CLI::App& experiment, Command& command);
+void add_odometry_experiment(CLI::App& experiment, Command& command);
+
+}  // namespace maploop::tools

@@ -1,0 +1,12 @@
+// What is in a GNSS file, for people.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace maploop::gnss {
+
+// Throws ppp::ReadError.
+std::string info(const std::filesystem::path& path);
+
+}  // namespace maploop::gnss

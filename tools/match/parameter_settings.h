@@ -1,0 +1,14 @@
+// Parameters of map matching from a command line.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mapmatch/match_parameters.h"
+
+namespace maploop::match {
+
+// The defaults with NAME=VALUE of each. Throws std::runtime_error naming what is wrong.
+mapmatch::MatchParameters parameters_with(const std::vector<std::string>& settings);
+
+}  // namespace maploop::match

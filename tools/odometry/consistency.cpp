@@ -1,0 +1,98 @@
+#include "tools/odometry/consistency.h"
+
+#include <Eigen/Cholesky>
+#include <map>
+
+#include "msgs/frames.h"
+#include "tools/evaluation/kitti_metric.h"
+#include "tools/odometry/odometry_input.h"
+
+namespace maploop::odometry {
+namespace {
+
+constexpr double kTruthPosition = 0.03;  // m
+constexpr double kTruthAttitude = 0.05;  // deg
+
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return m;
+}
+
+// Poses of the truth's body by stamp, turned by the rotation common to all.
+std::map<Time, Eigen::Isometry3d> turned_truth(std::span<const RelativeMotion> motions,
+                                               const Eigen::Isometry3d& T_body_cam,
+                                               const evaluation::StampedTrajectory& truth) {
+  CameraPath path(T_body_cam);
+  for (const RelativeMotion& motion : motions) path.add(motion);
+  const auto matched = evaluation::match(path.trajectory(), truth, from_seconds(0.001));
+  std::map<Time, Eigen::Isometry3d> poses;
+  if (matched.truth.size() < 3) return poses;
+  // R t_estimate ~ t_truth: the truth in the estimate's axes.
+  const Eigen::Isometry3d common(
+      evaluation::fit_common_rotation(matched.estimate, matched.truth).transpose());
+  for (std::size_t i = 0; i < matched.truth.size(); ++i)
+    poses[matched.stamps[i]] = T_body_cam * common *
+                               (matched.truth.front().inverse() * matched.truth[i]) *
+                               common.inverse() * T_body_cam.inverse();
+  return poses;
+}
+
+}  // namespace
+
+void JoinedMotion::append(const Eigen::Isometry3d& motion, const Matrix6& motion_covariance) {
+  Matrix6 carried = Matrix6::Identity();
+  carried.topRightCorner<3, 3>() = -cross_matrix(pose.linear() * motion.translation());
+  Matrix6 turned = Matrix6::Zero();
+  turned.topLeftCorner<3, 3>() = pose.linear();
+  turned.bottomRightCorner<3, 3>() = pose.linear();
+  covariance =
+      (carried * covariance * carried.transpose() + turned * motion_covariance * turned.transpose())
+          .eval();
+  pose = pose * motion;
+}
+
+Eigen::Matrix<double, 6, 1> pose_difference(const Eigen::Isometry3d& estimate,
+                                            const Eigen::Isometry3d& truth) {
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(estimate.linear() * truth.linear().transpose()));
+  Eigen::Matrix<double, 6, 1> difference;
+  difference << estimate.translation() - truth.translation(), turn.angle() * turn.axis();
+  return difference;
+}
+
+Consistency consistency(std::span<const RelativeMotion> motions,
+                        const Eigen::Isometry3d& T_body_cam,
+                        const evaluation::StampedTrajectory& truth, double seconds) {
+  const auto poses = turned_truth(motions, T_body_cam, truth);
+  Eigen::Matrix<double, 6, 1> own;
+  own << Eigen::Vector3d::Constant(kTruthPosition),
+      Eigen::Vector3d::Constant(radians(kTruthAttitude));
+  const Matrix6 of_truth = own.cwiseAbs2().asDiagonal();
+
+  Consistency result;
+  JoinedMotion joined;
+  Time from{}, to{};
+  for (const RelativeMotion& motion : motions) {
+    if (motion.status != OdometryStatus::ok || motion.from != to) {  // begins anew
+      joined = {};
+      from = to = motion.status == OdometryStatus::ok ? motion.from : motion.stamp;
+    }
+    if (motion.status != OdometryStatus::ok) continue;
+    joined.append(motion.T_from_to(), motion.covariance);
+    to = motion.stamp;
+    if (to_seconds(to - from) < seconds) continue;
+    const auto first = poses.find(from), last = poses.find(to);
+    if (first != poses.end() && last != poses.end()) {
+      const auto error = pose_difference(joined.pose, first->second.inverse() * last->second);
+      const Matrix6 covariance = joined.covariance + of_truth;
+      result.nees += error.dot(covariance.ldlt().solve(error)) / 6.0;
+      ++result.increments;
+    }
+    joined = {};
+    from = to;
+  }
+  if (result.increments > 0) result.nees /= result.increments;
+  return result;
+}
+
+}  // namespace maploop::odometry

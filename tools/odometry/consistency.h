@@ -1,0 +1,40 @@
+// Does the covariance of an odometry say how far it is wrong?
+#pragma once
+
+#include <Eigen/Geometry>
+#include <span>
+
+#include "msgs/odometry.h"
+#include "tools/evaluation/trajectory_file.h"
+
+namespace maploop::odometry {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+// Successive motions joined, with their covariances added as if they were independent: translation,
+// then rotation vector, of the last frame in the first one.
+struct JoinedMotion {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  Matrix6 covariance = Matrix6::Zero();
+
+  void append(const Eigen::Isometry3d& motion, const Matrix6& motion_covariance);
+};
+
+// `estimate` less `truth`, in the same order.
+Eigen::Matrix<double, 6, 1> pose_difference(const Eigen::Isometry3d& estimate,
+                                            const Eigen::Isometry3d& truth);
+
+struct Consistency {
+  double nees = 0.0;   // normalized estimation error squared a degree of freedom; 1 is right
+  int increments = 0;  // that it is the mean of
+};
+
+// Of the motions of the body, joined to increments of at least `seconds`, against the left camera's
+// truth at the same stamps; increments with a refused motion in them are left out. One common
+// rotation between the truth's axes and the camera's is removed, and the truth's own error of such
+// an increment added (KITTI's OXTS: 3 cm, 0.05 degrees).
+Consistency consistency(std::span<const RelativeMotion> motions,
+                        const Eigen::Isometry3d& T_body_cam,
+                        const evaluation::StampedTrajectory& truth, double seconds = 1.0);
+
+}  // namespace maploop::odometry

@@ -1,0 +1,49 @@
+// What an odometry can be run on alone: a drive's images or recorded tracks.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include "msgs/calibration.h"
+#include "tools/evaluation/motion_chain.h"
+#include "tools/evaluation/trajectory_file.h"
+#include "tools/odometry/stereo_runs.h"
+
+namespace maploop::odometry {
+
+// Last changes to the parameters of a file, or of the defaults.
+using Adjust = std::function<void(stereo::StereoParameters&)>;
+
+struct Input {
+  Run run;
+  StereoCalibration camera;
+  std::shared_ptr<const void> owner;  // of what the run reads
+};
+
+// `input` is the folder of a KITTI raw drive or <drive>.csv[.gz] with its .meta.json. Without a
+// `config` file (empty path) recorded tracks get for_recorded_tracks(). Throws std::runtime_error
+// and std::invalid_argument naming file, key or value.
+Input open_input(const std::filesystem::path& input, const std::filesystem::path& config,
+                 FrameRange frames, const Adjust& adjust);
+
+// The left camera's truth that comes with it: a drive's OXTS at its images' stamps, the
+// <drive>.truth.csv[.gz] beside recorded tracks. Throws std::runtime_error where there is none.
+evaluation::StampedTrajectory read_truth(const std::filesystem::path& input,
+                                         const std::filesystem::path& config = {});
+
+// The left camera's path in its first frame.
+class CameraPath {
+ public:
+  explicit CameraPath(const Eigen::Isometry3d& T_body_cam) : T_body_cam_(T_body_cam) {}
+
+  void add(const RelativeMotion& motion);
+  const evaluation::StampedTrajectory& trajectory() const { return trajectory_; }
+
+ private:
+  Eigen::Isometry3d T_body_cam_;
+  evaluation::MotionChain chain_;
+  evaluation::StampedTrajectory trajectory_;
+};
+
+}  // namespace maploop::odometry

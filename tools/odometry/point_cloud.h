@@ -1,0 +1,39 @@
+// The surfaces of all scans in one frame.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <unordered_set>
+#include <vector>
+
+#include "estimators/lidar/scan_preparation.h"
+
+namespace maploop::odometry {
+
+// Scans are deskewed and sampled finer than odometry needs; of all points in a cell the first
+// stays.
+class PointCloud {
+ public:
+  PointCloud(const Eigen::Isometry3d& T_body_velo, const lidar::LidarParameters& parameters);
+
+  // `T_first_body` at `stamp`, `motion` of the body while the scan was taken.
+  void add(const LidarScan& scan, Time stamp, const lidar::Twist& motion,
+           const Eigen::Isometry3d& T_first_body);
+
+  std::size_t size() const { return points_.size(); }
+
+  // As .ply or .pcd, binary: x y z (m) and the normal. Throws std::runtime_error naming the file:
+  // another ending, or not to be written.
+  void write(const std::filesystem::path& file) const;
+
+ private:
+  lidar::ScanPreparation preparation_;
+  lidar::PreparedScan prepared_;
+  std::unordered_set<std::uint64_t> cells_;
+  std::vector<lidar::SurfacePoint> points_;
+};
+
+// Refuses an ending that write() does not know.
+void check_cloud_name(const std::filesystem::path& file);
+
+}  // namespace maploop::odometry

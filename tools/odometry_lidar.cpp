@@ -1,0 +1,113 @@
+#include "tools/odometry_lidar.h"
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "runtime/vehicle/recording.h"
+#include "runtime/vehicle/vehicle_config.h"
+#include "tools/evaluation/trajectory_file.h"
+#include "tools/odometry/lidar_csv.h"
+#include "tools/odometry/point_cloud.h"
+
+namespace maploop::tools {
+namespace {
+
+using odometry::LidarSeed;
+using odometry::LidarStep;
+
+double percentile(const std::vector<double>& sorted, double share) {
+  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+}
+
+void print_summary(const std::vector<LidarStep>& steps) {
+  std::map<std::string_view, int> by_status;
+  std::vector<double> milliseconds;
+  int iterations = 0;
+  double way = 0.0;
+  for (const LidarStep& step : steps) {
+    ++by_status[step.with_scan ? to_string(step.lidar.status) : "no scan"];
+    way += step.odometry.translation.norm();
+    if (!step.with_scan) continue;
+    milliseconds.push_back(step.milliseconds);
+    iterations += step.lidar.iterations;
+  }
+  std::cout << "frames " << steps.front().frame << " to " << steps.back().frame << ", "
+            << to_seconds(steps.back().odometry.stamp - steps.front().odometry.stamp) << " s, "
+            << way << " m\n";
+  for (const auto& [status, count] : by_status)
+    std::cout << "  " << status << ": " << count << '\n';
+  if (milliseconds.empty()) return;
+  std::sort(milliseconds.begin(), milliseconds.end());
+  std::cout << "processor time a scan: median " << percentile(milliseconds, 0.5) << " ms, p95 "
+            << percentile(milliseconds, 0.95) << " ms, largest " << milliseconds.back()
+            << " ms; iterations a scan: "
+            << static_cast<double>(iterations) / static_cast<double>(milliseconds.size()) << '\n';
+}
+
+}  // namespace
+
+void add_lidar_options(CLI::App& odometry, LidarOdometryOptions& options) {
+  CLI::Option* lidar = odometry.add_flag("--lidar", options.wanted,
+                                         "LiDAR odometry instead, from the drive's scans");
+  const std::map<std::string, LidarSeed> seeds{
+      {"vo", LidarSeed::vo}, {"motion", LidarSeed::motion}, {"none", LidarSeed::none}};
+  odometry
+      .add_option("--seed", options.seed,
+                  "What the registration of a scan starts from: visual odometry (vo), the motion "
+                  "before (motion), or the pose before (none)")
+      ->transform(CLI::CheckedTransformer(seeds))
+      ->needs(lidar);
+  odometry.add_option("--every", options.every, "Use one scan of so many")
+      ->check(CLI::Range(1, 1000))
+      ->needs(lidar);
+  odometry
+      .add_option("--cloud", options.cloud,
+                  "Write the surfaces of all scans to this file, .ply or .pcd")
+      ->needs(lidar);
+}
+
+int lidar_odometry_alone(const LidarOdometryOptions& options, const OdometryFiles& files,
+                         odometry::FrameRange frames) {
+  if (!std::filesystem::is_directory(files.drive))
+    throw std::runtime_error("'" + files.drive.string() +
+                             "' is no folder of a drive, and recorded tracks have no scans");
+  if (!options.cloud.empty()) odometry::check_cloud_name(options.cloud);
+  vehicle::VehicleConfig config;
+  if (!files.config.empty()) config = vehicle::load_vehicle_config(files.config);
+  const auto drive = vehicle::open_drive(files.drive, config);
+  const Eigen::Isometry3d T_body_cam = drive->calibration().stereo.T_body_cam;
+  odometry::LidarRun run(*drive,
+                         {config.stereo, config.lidar, options.seed, options.every, frames});
+  std::optional<odometry::PointCloud> cloud;
+  if (!options.cloud.empty()) cloud.emplace(drive->calibration().T_body_velo, config.lidar);
+
+  std::vector<LidarStep> steps;
+  evaluation::StampedTrajectory trajectory;  // of the camera, in its first frame
+  while (const auto step = run.next()) {
+    steps.push_back(*step);
+    trajectory.stamps.push_back(step->odometry.stamp);
+    trajectory.poses.push_back(T_body_cam.inverse() * step->pose * T_body_cam);
+    if (cloud && step->with_scan && step->lidar.status == OdometryStatus::ok) {
+      const RelativeMotion& m = step->lidar;
+      cloud->add(run.scan(), m.stamp, lidar::Twist::of(m.T_from_to(), to_seconds(m.stamp - m.from)),
+                 step->pose);
+    }
+  }
+  if (steps.empty())
+    throw std::runtime_error(files.drive.string() +
+                             " has no frame between --first and --last that can be read");
+  if (!files.poses.empty()) evaluation::write_kitti_poses(files.poses, trajectory.poses);
+  if (!files.tum.empty()) evaluation::write_tum(files.tum, trajectory);
+  if (!files.csv.empty()) odometry::write_lidar_csv(files.csv, steps);
+  if (cloud) cloud->write(options.cloud);
+  print_summary(steps);
+  if (cloud) std::cout << "cloud: " << cloud->size() << " points\n";
+  return 0;
+}
+
+}  // namespace maploop::tools

@@ -1,0 +1,188 @@
+// maploop ppp: positions from GNSS files.
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "tools/commands.h"
+#include "tools/evaluation/text_file.h"
+#include "tools/json_output.h"
+#include "tools/ppp/page.h"
+#include "tools/ppp/run.h"
+
+namespace maploop::tools {
+namespace {
+
+struct PppOptions {
+  std::vector<std::filesystem::path> files;
+  std::string mode = "kinematic", systems = "GREC", start, end, truth;
+  double mask = 7.0;
+  bool broadcast = false, ecef = false;
+  std::filesystem::path pos, nmea, geojson, kml, residuals, html, json;
+};
+
+// "2020-06-25 01:00:00" of GPS time, or "01:00:00" of the first epoch's day.
+ppp::GpsTime moment(const std::string& text, const std::string& option, ppp::GpsTime first) {
+  const std::string whole =
+      text.find('-') == std::string::npos ? format_gps_time(first).substr(0, 11) + text : text;
+  try {
+    // GPS time's calendar has no leap seconds, as the parser's.
+    return ppp::GpsTime(parse_time(whole) - Time(ppp::gps_epoch_day));
+  } catch (const std::invalid_argument&) {
+    throw std::runtime_error(option + ": '" + text +
+                             "' is neither YYYY-MM-DD HH:MM:SS nor HH:MM:SS of GPS time");
+  }
+}
+
+gnss::RunOptions run_options(const PppOptions& options, ppp::GpsTime first) {
+  gnss::RunOptions run;
+  run.parameters.motion = options.mode == "static" ? ppp::Motion::fixed : ppp::Motion::kinematic;
+  run.parameters.systems = options.systems;
+  run.parameters.elevation_mask = options.mask;
+  run.broadcast = options.broadcast;
+  if (!options.start.empty()) run.start = moment(options.start, "--start", first);
+  if (!options.end.empty()) run.end = moment(options.end, "--end", first);
+  return run;
+}
+
+nlohmann::json to_json(const gnss::Accuracy& a, std::optional<double> below) {
+  return {
+      {"epochs", a.with_truth},
+      {"solved", a.solved},
+      {"coverage", a.coverage()},
+      {"horizontal_rmse_m", a.horizontal_rmse},
+      {"horizontal_95_m", a.horizontal_95},
+      {"up_rmse_m", a.up_rmse},
+      {"mean_enu_m", {a.mean_enu.x(), a.mean_enu.y(), a.mean_enu.z()}},
+      {"horizontal_rmse_without_mean_m", a.horizontal_rmse_without_mean},
+      {"last_3d_m", a.three_d_last},
+      {"nees", a.nees},
+      {"seconds_to_stay_below_0.1_m", below ? nlohmann::json(*below) : nlohmann::json(nullptr)}};
+}
+
+std::string one_line(const char* format, double a, double b, double c) {
+  char text[200];
+  std::snprintf(text, sizeof text, format, a, b, c);
+  return text;
+}
+
+int positions(const PppOptions& options) {
+  ppp::GnssFiles files;
+  for (const auto& file : options.files) ppp::read_into(file, files);
+  const ppp::GpsTime first = files.observations.empty() || files.observations[0].epochs.empty()
+                                 ? ppp::GpsTime{}
+                                 : files.observations[0].epochs[0].time;
+  gnss::PppRun run(files, run_options(options, first));
+  std::unique_ptr<gnss::Truth> truth;
+  std::unique_ptr<gnss::Score> score;
+  if (!options.truth.empty()) {
+    truth = std::make_unique<gnss::Truth>(options.truth, first);
+    score = std::make_unique<gnss::Score>(*truth);
+  }
+  gnss::Solutions solutions;
+  std::size_t solved = 0;
+  run.process([&](const ppp::PppSolution& s) {
+    if (!s.message.empty()) std::cerr << format_gps_time(s.time) << ": " << s.message << '\n';
+    solved += s.status != ppp::PppStatus::none;
+    if (score) score->add(s);
+    solutions.push_back(s);
+  });
+  if (solutions.empty()) throw std::runtime_error("no epoch between --start and --end");
+
+  std::vector<std::string> summary;
+  summary.push_back(std::string(run.precise() ? "precise" : "broadcast") + " orbits and clocks, " +
+                    (run.one_frequency() ? "one frequency, " : "two frequencies, ") + options.mode +
+                    ", systems " + options.systems);
+  summary.push_back(
+      std::to_string(solved) + " of " + std::to_string(solutions.size()) +
+      " epochs have a position" +
+      one_line(" (%.1f %%); filter %.3f s, %.3f ms an epoch",
+               100.0 * static_cast<double>(solved) / static_cast<double>(solutions.size()),
+               run.seconds(), 1e3 * run.seconds() / static_cast<double>(solutions.size())));
+  if (score) {
+    summary.push_back("against the truth: " + to_text(score->accuracy()));
+    const auto below = score->time_to_stay_below(0.1);
+    summary.push_back(
+        below ? one_line("3-D error stays below 0.1 m after %.1f min", *below / 60, 0, 0)
+              : "3-D error does not stay below 0.1 m");
+  }
+  for (const auto& line : run.lacks()) summary.push_back(line);
+  for (const auto& line : run.missing_products()) summary.push_back(line);
+  for (const auto& o : files.observations) {
+    if (o.refused > 0) {
+      summary.push_back(o.file + ": " + std::to_string(o.refused) +
+                        " refused, first: " + o.refusals.front());
+    }
+  }
+  if (leap_seconds(solutions.back().time).out_of_date) {
+    summary.push_back("the table of leap seconds ends before these data: UTC may be a second off");
+  }
+  for (const auto& line : summary) std::cout << line << '\n';
+
+  const auto write = [](const std::filesystem::path& path, auto&& content) {
+    if (!path.empty()) evaluation::write_text(path, content());
+  };
+  const std::string name = run.observations().file;
+  write(options.pos, [&] { return gnss::to_pos(solutions, options.ecef, name); });
+  write(options.nmea, [&] { return gnss::to_nmea(solutions); });
+  write(options.geojson, [&] { return gnss::to_geojson(solutions); });
+  write(options.kml, [&] { return gnss::to_kml(solutions); });
+  write(options.residuals, [&] { return gnss::to_residual_csv(solutions); });
+  write(options.html, [&] {
+    return gnss::to_page("PPP of " + std::filesystem::path(name).filename().string(), summary,
+                         solutions, score.get());
+  });
+  if (!options.json.empty()) {
+    nlohmann::json result = {{"epochs", solutions.size()},
+                             {"solved", solved},
+                             {"filter_seconds", run.seconds()},
+                             {"missing_products", run.missing_products()},
+                             {"lacks", run.lacks()}};
+    if (score) result["truth"] = to_json(score->accuracy(), score->time_to_stay_below(0.1));
+    write_json_file(options.json, result);
+  }
+  return solved > 0 ? 0 : 1;
+}
+
+}  // namespace
+
+void add_ppp(CLI::App& app, Command& command) {
+  auto options = std::make_shared<PppOptions>();
+  CLI::App* sub = app.add_subcommand(
+      "ppp",
+      "Precise point positioning: one observation file and its products (navigation, SP3, clocks, "
+      "ANTEX, biases, ERP, BLQ), in any order, plain or .gz");
+  sub->add_option("FILES", options->files, "The files, told apart by content")->required();
+  sub->add_option("--mode", options->mode, "static or kinematic (with a vehicle's dynamics)")
+      ->check(CLI::IsMember({"static", "kinematic"}))
+      ->capture_default_str();
+  sub->add_option("--systems", options->systems, "Letters of G R E C J S I")
+      ->check([](const std::string& text) {
+        return text.find_first_not_of("GRECJSI") == std::string::npos && !text.empty()
+                   ? std::string{}
+                   : "'" + text + "' has other letters than G R E C J S I";
+      })
+      ->capture_default_str();
+  sub->add_option("--mask", options->mask, "Lowest elevation in degrees")
+      ->check(CLI::Range(1.0, 60.0))
+      ->capture_default_str();
+  sub->add_option("--start", options->start, "First epoch: [YYYY-MM-DD ]HH:MM:SS of GPS time");
+  sub->add_option("--end", options->end, "Last epoch, the same way");
+  sub->add_flag("--broadcast", options->broadcast, "Broadcast orbits even where SP3 is given");
+  sub->add_option("--truth", options->truth,
+                  "X,Y,Z in metres, or a file: RTKLIB's .pos in XYZ, or rows 'index,GPS "
+                  "second,X,Y,Z'");
+  sub->add_option("--pos", options->pos, "Write RTKLIB's .pos");
+  sub->add_flag("--ecef", options->ecef, "XYZ in --pos");
+  sub->add_option("--nmea", options->nmea, "Write NMEA sentences GGA, RMC, GST");
+  sub->add_option("--geojson", options->geojson, "Write the way as GeoJSON");
+  sub->add_option("--kml", options->kml, "Write the way as KML");
+  sub->add_option("--csv", options->residuals, "Write residuals, a row a satellite and epoch");
+  sub->add_option("--html", options->html, "Write a page with plots");
+  sub->add_option("--json", options->json, "Write the figures as JSON");
+  sub->callback([options, &command] { command = [options] { return positions(*options); }; });
+}
+
+}  // namespace maploop::tools

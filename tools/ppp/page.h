@@ -1,0 +1,15 @@
+// A page about a run: error against the truth, satellites, residuals, sky.
+#pragma once
+
+#include <string>
+
+#include "tools/ppp/position_files.h"
+#include "tools/ppp/score.h"
+
+namespace maploop::gnss {
+
+// `score` may be none. `summary`: lines of text that stand above.
+std::string to_page(const std::string& heading, const std::vector<std::string>& summary,
+                    const Solutions& solutions, const Score* score);
+
+}  // namespace maploop::gnss

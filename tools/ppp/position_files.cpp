@@ -1,0 +1,185 @@
+#include "tools/ppp/position_files.h"
+
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+#include "msgs/frames.h"
+#include "ppp/models/geodesy.h"
+
+namespace maploop::gnss {
+
+using namespace maploop::ppp;
+
+namespace {
+
+__attribute__((format(printf, 2, 3))) void append(std::string& text, const char* format, ...) {
+  char line[512];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(line, sizeof line, format, arguments);
+  va_end(arguments);
+  text += line;
+}
+
+double signed_root(double covariance) {
+  return std::copysign(std::sqrt(std::abs(covariance)), covariance);
+}
+
+struct LocalSolution {
+  Geodetic place;
+  Eigen::Matrix3d covariance;  // east north up
+  Eigen::Vector3d velocity;
+};
+
+LocalSolution local(const PppSolution& s) {
+  const Geodetic place = geodetic_from_ecef(s.position);
+  const Eigen::Matrix3d R = rotation_enu_ecef(place);
+  return {place, R * s.covariance * R.transpose(), R * s.velocity};
+}
+
+std::string pos_stamp(GpsTime t) {
+  std::string stamp = format_gps_time(t);
+  stamp[4] = stamp[7] = '/';
+  return stamp;
+}
+
+// "$" and "*hh" around a sentence.
+std::string sentence(const std::string& body) {
+  unsigned sum = 0;
+  for (const char c : body) sum ^= static_cast<unsigned char>(c);
+  char end[8];
+  std::snprintf(end, sizeof end, "*%02X\r\n", sum & 0xffU);
+  return '$' + body + end;
+}
+
+// "3558.9288,N" with degrees of two or three digits. Rounded once, so that no minute is 60.
+std::string nmea_angle(double radians_, int digits, const char* letters) {
+  constexpr double scale = 1e7;
+  const auto all = std::llround(std::abs(degrees(radians_)) * 60.0 * scale);
+  const auto per_degree = static_cast<long long>(60.0 * scale);
+  char text[48];
+  std::snprintf(text, sizeof text, "%0*lld%010.7f,%c", digits, all / per_degree,
+                static_cast<double>(all % per_degree) / scale, letters[radians_ < 0.0 ? 1 : 0]);
+  return text;
+}
+
+// "063001.00" and "220921", UTC.
+std::pair<std::string, std::string> nmea_stamp(GpsTime t) {
+  using namespace std::chrono;
+  const std::string utc = format_time(Time(round<milliseconds>(to_utc(t).time_since_epoch())));
+  return {utc.substr(11, 2) + utc.substr(14, 2) + utc.substr(17, 6),
+          utc.substr(8, 2) + utc.substr(5, 2) + utc.substr(2, 2)};
+}
+
+template <class F>
+void each_solved(const Solutions& solutions, F&& f) {
+  for (const PppSolution& s : solutions) {
+    if (s.status != PppStatus::none) f(s, local(s));
+  }
+}
+
+}  // namespace
+
+std::string to_pos(const Solutions& solutions, bool ecef, const std::string& observations) {
+  std::string text = "% program   : maploop ppp\n% inp file  : " + observations + "\n%\n";
+  text += "% (" + std::string(ecef ? "x/y/z-ecef=WGS84" : "lat/lon/height=WGS84/ellipsoidal") +
+          ",Q=1:fix,2:float,3:sbas,4:dgps,5:single,6:ppp,ns=# of satellites)\n";
+  text +=
+      ecef ? "%  GPST                      x-ecef(m)      y-ecef(m)      z-ecef(m)   Q  ns   "
+             "sdx(m)   "
+             "sdy(m)   sdz(m)  sdxy(m)  sdyz(m)  sdzx(m) age(s)  ratio\n"
+           : "%  GPST                  latitude(deg) longitude(deg)  height(m)   Q  ns   sdn(m)   "
+             "sde(m)   sdu(m)  sdne(m)  sdeu(m)  sdun(m) age(s)  ratio\n";
+  each_solved(solutions, [&](const PppSolution& s, const LocalSolution& l) {
+    const std::string stamp = pos_stamp(s.time);
+    if (ecef) {
+      const auto& P = s.covariance;
+      append(text,
+             "%s %14.4f %14.4f %14.4f %3d %3d %8.4f %8.4f %8.4f %8.4f %8.4f %8.4f %6.2f %6.1f\n",
+             stamp.c_str(), s.position.x(), s.position.y(), s.position.z(), 6, s.satellites_used,
+             std::sqrt(P(0, 0)), std::sqrt(P(1, 1)), std::sqrt(P(2, 2)), signed_root(P(0, 1)),
+             signed_root(P(1, 2)), signed_root(P(2, 0)), 0.0, 0.0);
+    } else {
+      const auto& P = l.covariance;
+      append(text,
+             "%s %14.9f %14.9f %10.4f %3d %3d %8.4f %8.4f %8.4f %8.4f %8.4f %8.4f %6.2f %6.1f\n",
+             stamp.c_str(), degrees(l.place.latitude), degrees(l.place.longitude), l.place.height,
+             6, s.satellites_used, std::sqrt(P(1, 1)), std::sqrt(P(0, 0)), std::sqrt(P(2, 2)),
+             signed_root(P(1, 0)), signed_root(P(0, 2)), signed_root(P(2, 1)), 0.0, 0.0);
+    }
+  });
+  return text;
+}
+
+std::string to_nmea(const Solutions& solutions) {
+  std::string text;
+  each_solved(solutions, [&](const PppSolution& s, const LocalSolution& l) {
+    const auto [clock, date] = nmea_stamp(s.time);
+    const std::string place =
+        nmea_angle(l.place.latitude, 2, "NS") + ',' + nmea_angle(l.place.longitude, 3, "EW");
+    char body[256];
+    // 5: float.
+    std::snprintf(body, sizeof body, "GNGGA,%s,%s,5,%02d,,%.4f,M,,M,,", clock.c_str(),
+                  place.c_str(), std::min(99, s.satellites_used), l.place.height);
+    text += sentence(body);
+    const double knots = l.velocity.head<2>().norm() / 0.514444;
+    double course = degrees(std::atan2(l.velocity.x(), l.velocity.y()));
+    if (course < 0.0) course += 360.0;
+    std::snprintf(body, sizeof body, "GNRMC,%s,A,%s,%.3f,%.2f,%s,,,F", clock.c_str(), place.c_str(),
+                  knots, course, date.c_str());
+    text += sentence(body);
+    const auto& P = l.covariance;
+    const double half = 0.5 * (P(0, 0) + P(1, 1));
+    const double spread = std::hypot(0.5 * (P(0, 0) - P(1, 1)), P(0, 1));
+    double axis = degrees(0.5 * std::atan2(2.0 * P(0, 1), P(1, 1) - P(0, 0)));
+    if (axis < 0.0) axis += 180.0;
+    std::snprintf(body, sizeof body, "GNGST,%s,,%.4f,%.4f,%.2f,%.4f,%.4f,%.4f", clock.c_str(),
+                  std::sqrt(half + spread), std::sqrt(std::max(0.0, half - spread)), axis,
+                  std::sqrt(P(1, 1)), std::sqrt(P(0, 0)), std::sqrt(P(2, 2)));
+    text += sentence(body);
+  });
+  return text;
+}
+
+std::string to_geojson(const Solutions& solutions) {
+  std::string points, stamps;
+  each_solved(solutions, [&](const PppSolution& s, const LocalSolution& l) {
+    append(points, "%s[%.9f,%.9f,%.4f]", points.empty() ? "" : ",", degrees(l.place.longitude),
+           degrees(l.place.latitude), l.place.height);
+    const std::string utc = format_time(to_utc(s.time));
+    append(stamps, "%s\"%sT%sZ\"", stamps.empty() ? "" : ",", utc.substr(0, 10).c_str(),
+           utc.substr(11, 12).c_str());
+  });
+  return R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"name":"maploop ppp","coordTimes":[)" +
+         stamps + R"(]},"geometry":{"type":"LineString","coordinates":[)" + points + "]}}]}\n";
+}
+
+std::string to_kml(const Solutions& solutions) {
+  std::string text =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<kml "
+      "xmlns=\"http://www.opengis.net/kml/2.2\"><Document><name>maploop ppp</name><Placemark>"
+      "<LineString><altitudeMode>clampToGround</altitudeMode><coordinates>\n";
+  each_solved(solutions, [&](const PppSolution&, const LocalSolution& l) {
+    append(text, "%.9f,%.9f,%.4f\n", degrees(l.place.longitude), degrees(l.place.latitude),
+           l.place.height);
+  });
+  return text + "</coordinates></LineString></Placemark></Document></kml>\n";
+}
+
+std::string to_residual_csv(const Solutions& solutions) {
+  std::string text =
+      "gps_time,satellite,azimuth_deg,elevation_deg,cn0_dbhz,code_used,phase_used,code_residual_m,"
+      "phase_residual_m,slip,refused\n";
+  for (const PppSolution& s : solutions) {
+    const std::string stamp = format_gps_time(s.time);
+    for (const SatelliteReport& r : s.satellites) {
+      append(text, "%s,%s,%.2f,%.2f,%.1f,%d,%d,%.4f,%.5f,%s,%s\n", stamp.c_str(),
+             to_string(r.satellite).c_str(), degrees(r.azimuth), degrees(r.elevation), r.cn0,
+             r.code_used, r.phase_used, r.code_residual, r.phase_residual, r.slip, r.refused);
+    }
+  }
+  return text;
+}
+
+}  // namespace maploop::gnss

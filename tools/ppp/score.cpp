@@ -1,0 +1,76 @@
+#include "tools/ppp/score.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "ppp/models/geodesy.h"
+
+namespace maploop::gnss {
+
+using namespace maploop::ppp;
+
+void Score::add(const PppSolution& solution) {
+  const auto truth = truth_.at(solution.time);
+  if (!truth) return;
+  with_truth_.push_back(solution.time);
+  if (solution.status == PppStatus::none) return;
+  const Eigen::Matrix3d R = rotation_enu_ecef(geodetic_from_ecef(*truth));
+  const Eigen::Vector3d e = solution.position - *truth;
+  const Eigen::Matrix3d P = R * solution.covariance * R.transpose();
+  errors_.push_back({solution.time, R * e, P.diagonal().cwiseMax(0.0).cwiseSqrt(),
+                     e.dot(solution.covariance.ldlt().solve(e))});
+}
+
+Accuracy Score::accuracy(std::optional<GpsTime> from) const {
+  Accuracy a;
+  std::vector<double> horizontal;
+  for (const GpsTime t : with_truth_) a.with_truth += !from || t >= *from;
+  for (const ErrorAt& e : errors_) {
+    if (from && e.time < *from) continue;
+    horizontal.push_back(e.enu.head<2>().norm());
+    a.mean_enu += e.enu;
+    a.up_rmse += e.enu.z() * e.enu.z();
+    a.nees += e.nees;
+    a.three_d_last = e.enu.norm();
+  }
+  a.solved = horizontal.size();
+  if (a.solved == 0) return a;
+  const auto n = static_cast<double>(a.solved);
+  a.mean_enu /= n;
+  a.nees /= n;
+  a.up_rmse = std::sqrt(a.up_rmse / n);
+  double sum = 0.0;
+  for (const double h : horizontal) sum += h * h;
+  a.horizontal_rmse = std::sqrt(sum / n);
+  a.horizontal_rmse_without_mean =
+      std::sqrt(std::max(0.0, sum / n - a.mean_enu.head<2>().squaredNorm()));
+  std::sort(horizontal.begin(), horizontal.end());
+  a.horizontal_95 = horizontal[static_cast<std::size_t>(0.95 * (n - 1.0))];
+  return a;
+}
+
+std::optional<double> Score::time_to_stay_below(double limit) const {
+  if (errors_.empty() || errors_.back().enu.norm() > limit) return {};
+  GpsTime since = with_truth_.front();
+  for (const ErrorAt& e : errors_) {
+    if (e.enu.norm() > limit) since = e.time;
+  }
+  return to_seconds(since - with_truth_.front());
+}
+
+std::string to_text(const Accuracy& a) {
+  char text[512];
+  std::snprintf(
+      text, sizeof text,
+      "%zu of %zu epochs (%.1f %%): horizontal RMSE %.3f m, 95 %% %.3f m; up RMSE %.3f m; mean "
+      "east %.3f, north %.3f, up %.3f m; horizontal about its mean %.3f m; last 3-D %.3f m; "
+      "NEES %.2f of 3",
+      a.solved, a.with_truth, 100.0 * a.coverage(), a.horizontal_rmse, a.horizontal_95, a.up_rmse,
+      a.mean_enu.x(), a.mean_enu.y(), a.mean_enu.z(), a.horizontal_rmse_without_mean,
+      a.three_d_last, a.nees);
+  return text;
+}
+
+}  // namespace maploop::gnss

@@ -1,0 +1,53 @@
+// Errors of positions against the truth, with the coverage beside every accuracy.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ppp/filter/solution.h"
+#include "tools/ppp/truth.h"
+
+namespace maploop::gnss {
+
+struct ErrorAt {
+  ppp::GpsTime time{};
+  Eigen::Vector3d enu{0, 0, 0};    // m
+  Eigen::Vector3d sigma{0, 0, 0};  // m, formal
+  double nees = 0.0;               // of three dimensions
+};
+
+struct Accuracy {
+  std::size_t with_truth = 0, solved = 0;                                        // epochs
+  double horizontal_rmse = 0, up_rmse = 0, horizontal_95 = 0, three_d_last = 0;  // m
+  Eigen::Vector3d mean_enu{0, 0, 0};                                             // m
+  double horizontal_rmse_without_mean = 0;  // m: one constant offset removed
+  double nees = 0;                          // mean; 3 where the covariance is right
+
+  double coverage() const {
+    return with_truth > 0 ? static_cast<double>(solved) / static_cast<double>(with_truth) : 0.0;
+  }
+};
+
+class Score {
+ public:
+  explicit Score(const Truth& truth) : truth_(truth) {}
+
+  void add(const ppp::PppSolution& solution);
+
+  // Of the epochs from `from` on, where it is given.
+  Accuracy accuracy(std::optional<ppp::GpsTime> from = {}) const;
+  // Seconds until the 3-D error stays below a limit to the end; nothing: never.
+  std::optional<double> time_to_stay_below(double limit) const;
+  const std::vector<ErrorAt>& errors() const { return errors_; }
+
+ private:
+  const Truth& truth_;
+  std::vector<ErrorAt> errors_;
+  std::vector<ppp::GpsTime> with_truth_;
+};
+
+std::string to_text(const Accuracy& accuracy);
+
+}  // namespace maploop::gnss

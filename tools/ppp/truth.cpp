@@ -1,0 +1,75 @@
+#include "tools/ppp/truth.h"
+
+#include <sstream>
+#include <vector>
+
+#include "ppp/readers/lines.h"
+
+namespace maploop::gnss {
+
+using namespace maploop::ppp;
+
+namespace {
+
+std::vector<double> numbers(const Lines& lines, std::string text) {
+  for (char& c : text) {
+    if (c == ',') c = ' ';
+  }
+  std::istringstream stream(text);
+  std::vector<double> values;
+  for (std::string word; stream >> word;) {
+    const auto value = parse_number(word);
+    if (!value) lines.fail("'" + word + "' is no number");
+    values.push_back(*value);
+  }
+  return values;
+}
+
+}  // namespace
+
+Truth::Truth(const std::string& text, GpsTime near) {
+  std::istringstream triple(text);
+  Eigen::Vector3d p;
+  char comma = 0, other = 0;
+  if (triple >> p.x() >> comma >> p.y() >> other >> p.z() && comma == ',' && other == ',') {
+    fixed_ = p;
+    return;
+  }
+  const std::string content = read_file(text);
+  Lines lines(content, text);
+  while (lines.next()) {
+    const auto line = lines.line();
+    if (line.empty() || line[0] == '%' || line.find_first_of("0123456789") != 0) continue;
+    if (line.size() > 10 && line[4] == '/') {
+      const auto values = numbers(lines, std::string(line.substr(23)));
+      if (values.size() < 5) lines.fail("a row of .pos has a stamp, XYZ, quality and satellites");
+      if (values[3] != 1.0) continue;
+      std::string stamp(line.substr(0, 23));
+      for (char& c : stamp) {
+        if (c == '/' || c == ':') c = ' ';
+      }
+      points_[parse_stamp(lines, stamp)] = {values[0], values[1], values[2]};
+    } else {
+      const auto values = numbers(lines, std::string(line));
+      if (values.size() < 5) lines.fail("a row has an index, GPS seconds and XYZ");
+      points_[gps_week_time(gps_week(near), values[1])] = {values[2], values[3], values[4]};
+    }
+  }
+  if (points_.empty()) throw ReadError(text + ": no rows of truth");
+}
+
+std::optional<Eigen::Vector3d> Truth::at(GpsTime t) const {
+  if (fixed_) return fixed_;
+  const auto after = points_.lower_bound(t);
+  constexpr double same = 0.010;  // s
+  if (after != points_.end() && to_seconds(after->first - t) < same) return after->second;
+  if (after == points_.begin()) return {};
+  const auto before = std::prev(after);
+  if (to_seconds(t - before->first) < same) return before->second;
+  if (after == points_.end()) return {};
+  const double gap = to_seconds(after->first - before->first);
+  if (gap > 1.1) return {};
+  return before->second + (after->second - before->second) * (to_seconds(t - before->first) / gap);
+}
+
+}  // namespace maploop::gnss

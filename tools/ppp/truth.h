@@ -1,0 +1,29 @@
+// Where the antenna's marker was, known by other means.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "ppp/gps_time.h"
+
+namespace maploop::gnss {
+
+class Truth {
+ public:
+  // "X,Y,Z" in metres for a place that does not move, or a file: RTKLIB's .pos with XYZ (fixed
+  // epochs only), or rows "index, GPS seconds of the week, X, Y, Z, ..." of the week of `near`; .gz
+  // too. Throws std::runtime_error.
+  Truth(const std::string& text, ppp::GpsTime near);
+
+  // At an epoch of the truth (to 10 ms), or between two that are at most 1.1 s apart.
+  std::optional<Eigen::Vector3d> at(ppp::GpsTime t) const;
+
+ private:
+  std::optional<Eigen::Vector3d> fixed_;
+  std::map<ppp::GpsTime, Eigen::Vector3d> points_;
+};
+
+}  // namespace maploop::gnss

@@ -1,0 +1,300 @@
+#include "tools/replay_run.h"
+
+#include <algorithm>
+#include <charconv>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "runtime/core/data_clock.h"
+#include "runtime/core/periodic.h"
+#include "runtime/core/realtime.h"
+#include "runtime/core/trace.h"
+#include "runtime/vehicle/channel_hashes.h"
+#include "runtime/vehicle/fault_injection.h"
+#include "runtime/vehicle/graph.h"
+#include "runtime/vehicle/lcm_bus.h"
+#include "runtime/vehicle/limited_source.h"
+#include "runtime/vehicle/log_recorder.h"
+#include "runtime/vehicle/recording.h"
+#include "runtime/vehicle/vehicle.h"
+#include "runtime/vehicle/vehicle_config.h"
+#include "sensors/replay/reference_trajectory.h"
+#include "tools/evaluation/kitti_poses.h"
+#include "tools/fusion_score.h"
+#include "tools/lcm_log/log_writer.h"
+#include "tools/nav_files.h"
+#include "tools/replay_result.h"
+#include "tools/trajectory_collector.h"
+
+namespace maploop::tools {
+namespace {
+
+constexpr int exit_interrupted = 130;  // as shells report SIGINT
+constexpr int exit_failed = 1;
+
+sensors::ReferenceTrajectory read_reference(sensors::Source<ReferencePose>& source) {
+  std::vector<ReferencePose> rows;
+  for (ReferencePose row; source.next(row);) rows.push_back(row);
+  const LocalFrame frame(rows.empty() ? Geodetic{} : rows.front().position);
+  return {rows, frame};
+}
+
+bool any_thread_failed(const ReplayResult& result) {
+  const auto& threads = result.vehicle.health.threads;
+  return std::any_of(threads.begin(), threads.end(),
+                     [](const ThreadHealth& t) { return !t.failure.empty(); });
+}
+
+// What one pass through the recording comes to; made anew when it begins again.
+struct Pass {
+  Pass(const ReplayOptions& options, const vehicle::Recording& recording, Time cut)
+      : hashes_after_snapshot(cut),
+        collector(recording.calibration.stereo.T_body_cam),
+        lidar_collector(recording.calibration.stereo.T_body_cam) {
+    if (!options.record.empty()) {
+      recorder = std::make_unique<vehicle::LogRecorder>(options.record, options.record_raw);
+    }
+  }
+
+  vehicle::ChannelHashes hashes;
+  vehicle::ChannelHashes hashes_after_snapshot;
+  std::unique_ptr<vehicle::LogRecorder> recorder;
+  TrajectoryCollector collector;
+  TrajectoryCollector lidar_collector;
+  fusion_score::NavTrack track;
+};
+
+class Replay {
+ public:
+  explicit Replay(const ReplayOptions& options)
+      : options_(options),
+        config_(config_of(options)),
+        readiness_(options.lockstep ? runtime::RealtimeReport{}
+                                    : runtime::prepare_process(config_.memory)),
+        recording_(vehicle::open_recording(options.drive, config_)),
+        faults_(parse_faults(options.faults), recording_.first_stamp) {
+    if (!options.record.empty()) lcm_log::refuse_same_file(options.drive, options.record);
+    if (!options.no_lcm) {
+      bus_ = std::make_unique<vehicle::LcmBus>(config_.lcm_url);
+      runtime::append(readiness_, bus_->settings());
+    }
+    if (!options.resume.empty()) resumed_ = vehicle::read_snapshot(options.resume, config_);
+    if (options.snapshot) {
+      cut_ = runtime::first_tick(recording_.first_stamp + from_seconds(options.snapshot->seconds),
+                                 vehicle::stages::fusion.period);
+    }
+  }
+
+  int run();
+
+ private:
+  static vehicle::VehicleConfig config_of(const ReplayOptions& options) {
+    vehicle::VehicleConfig config;
+    if (!options.config.empty()) config = vehicle::load_vehicle_config(options.config);
+    if (options.seed) {
+      config.gnss.seed = config.wheel.seed = config.imu_seed = *options.seed;
+    }
+    const std::string configuration = configuration_of(options, config);
+    if (configuration != config.configuration) set_configuration(config, configuration);
+    if (!options.gnss_outage.empty()) config.gnss_outage = options.gnss_outage;
+    if (!options.imu.empty()) {
+      config.imu_noise = options.imu;
+      if (options.imu == "mems") set_imu_grade(config, "mems");
+    }
+    if (options.speed_scale) config.wheel.scale_error = *options.speed_scale - 1.0;
+    return config;
+  }
+
+  // The one asked for; else what the other options make sense with.
+  static std::string configuration_of(const ReplayOptions& options,
+                                      const vehicle::VehicleConfig& config) {
+    if (!options.configuration.empty()) return options.configuration;
+    const std::string name = options.speed_scale ? "RISS" : config.configuration;
+    const bool adds_fixes = !options.gnss_outage.empty() && !name.starts_with("GNSS+");
+    return adds_fixes ? "GNSS+" + name : name;
+  }
+
+  static std::vector<vehicle::Fault> parse_faults(const std::vector<std::string>& texts) {
+    std::vector<vehicle::Fault> faults;
+    for (const std::string& text : texts) faults.push_back(vehicle::parse_fault(text));
+    return faults;
+  }
+
+  std::unique_ptr<vehicle::Vehicle> make_vehicle(const vehicle::Snapshot* from);
+  void resume(vehicle::Vehicle& vehicle) const;
+  vehicle::PlayerParameters player_parameters() const;
+  PlaybackEnd play_all();
+  ReplayResult result(PlaybackEnd end);
+
+  const ReplayOptions& options_;
+  vehicle::VehicleConfig config_;
+  runtime::RealtimeReport readiness_;
+  vehicle::Recording recording_;
+  vehicle::FaultInjection faults_;
+  std::unique_ptr<vehicle::LcmBus> bus_;
+  std::optional<vehicle::Snapshot> resumed_;
+  Time cut_{};
+  bool snapshot_taken_ = false;
+  std::unique_ptr<Pass> pass_;
+  std::unique_ptr<runtime::Tracer> tracer_;  // of the vehicle that runs
+  std::unique_ptr<vehicle::Player> player_;
+};
+
+std::unique_ptr<vehicle::Vehicle> Replay::make_vehicle(const vehicle::Snapshot* from) {
+  if (from == nullptr) {
+    pass_.reset();  // its log is closed before the next one takes its name
+    pass_ = std::make_unique<Pass>(options_, recording_, cut_);
+  }
+  const vehicle::Snapshot* start = from != nullptr ? from : resumed_ ? &*resumed_ : nullptr;
+  // A fault may bring a sample from before the start later.
+  const bool passes_over = start != nullptr && options_.faults.empty();
+  vehicle::Sensors sensors = recording_.sensors(passes_over ? start->at : Time::min());
+  if (options_.end > 0.0) {
+    limit(sensors, recording_.first_stamp + from_seconds(options_.end));
+  }
+  std::vector<vehicle::MessageSink*> sinks{&pass_->hashes};
+  if (options_.snapshot) sinks.push_back(&pass_->hashes_after_snapshot);
+  if (bus_) sinks.push_back(bus_.get());
+  if (pass_->recorder) sinks.push_back(pass_->recorder.get());
+
+  vehicle::Observer observer;
+  observer.odometry = [this](const RelativeMotion& motion) { pass_->collector.add(motion); };
+  observer.lidar = [this](const LidarMotion& motion) { pass_->lidar_collector.add(motion); };
+  observer.nav_state = [this](const NavState& state) { pass_->track.add(state); };
+  observer.image_state = [this](const NavState& state) { pass_->collector.add(state); };
+
+  if (!options_.trace.empty()) {
+    tracer_ = std::make_unique<runtime::Tracer>(config_.trace);
+    tracer_->write(options_.trace);  // a file that cannot be written is said before the drive
+  }
+
+  const auto clock = options_.lockstep ? runtime::DataClock::virtual_time()
+                                       : runtime::DataClock::paced(options_.speed);
+  auto vehicle = std::make_unique<vehicle::Vehicle>(
+      config_, recording_.calibration, faults_.afflict(std::move(sensors)), clock, std::move(sinks),
+      std::move(observer), tracer_.get());
+  vehicle->slow_down(faults_.delays());
+  vehicle->prepared(readiness_);
+  if (options_.start_from_reference && from == nullptr && !resumed_) {
+    vehicle->start_from(vehicle::start_from_reference(recording_));
+  }
+  if (options_.snapshot) {
+    vehicle->take_snapshots({cut_}, [this](const vehicle::Snapshot& snapshot) {
+      vehicle::write_snapshot(options_.snapshot->file, snapshot, config_);
+      snapshot_taken_ = true;
+    });
+  }
+  if (from != nullptr) {
+    vehicle->resume(*from);
+  } else if (resumed_) {
+    resume(*vehicle);
+  }
+  return vehicle;
+}
+
+void Replay::resume(vehicle::Vehicle& vehicle) const {
+  try {
+    vehicle.resume(*resumed_);
+  } catch (const ArchiveError& e) {
+    throw std::runtime_error("cannot resume from '" + options_.resume.string() + "': " + e.what());
+  }
+}
+
+vehicle::PlayerParameters Replay::player_parameters() const {
+  vehicle::PlayerParameters p;
+  p.first = resumed_ ? resumed_->at : recording_.first_stamp;
+  p.last = recording_.last_stamp;
+  if (options_.end > 0.0) {
+    p.last = std::min(p.last, recording_.first_stamp + from_seconds(options_.end));
+  }
+  p.start = recording_.first_stamp + from_seconds(options_.start);
+  if (p.start > p.last) {
+    throw std::runtime_error("--start " + shown(options_.start) + " lies after the end, at " +
+                             shown(to_seconds(p.last - recording_.first_stamp)) + " s");
+  }
+  p.passes = options_.loop == 0 ? std::numeric_limits<std::uint64_t>::max() : options_.loop;
+  return p;
+}
+
+PlaybackEnd Replay::play_all() {
+  player_ = std::make_unique<vehicle::Player>(
+      [this](const vehicle::Snapshot* from) { return make_vehicle(from); }, player_parameters());
+  std::optional<vehicle::ReplayControl> control;
+  if (bus_) control.emplace(bus_->lcm(), *player_);
+  const auto hogs = faults_.hogs([this] { return player_->position(); });
+  return play(*player_, control ? &*control : nullptr, options_.playback);
+}
+
+ReplayResult Replay::result(PlaybackEnd end) {
+  ReplayResult result;
+  result.drive = std::filesystem::weakly_canonical(options_.drive).filename().string();
+  result.lockstep = options_.lockstep;
+  result.speed = options_.speed;
+  result.interrupted = end == PlaybackEnd::interrupted;
+  result.images = recording_.images;
+  result.vehicle = player_->vehicle().report();
+  result.channels = pass_->hashes.summary();
+  if (snapshot_taken_) {
+    result.snapshot = {options_.snapshot->file.string(),
+                       to_seconds(cut_ - player_->vehicle().first()),
+                       pass_->hashes_after_snapshot.summary()};
+  }
+  if (tracer_) {
+    tracer_->write(options_.trace);
+    result.trace = {options_.trace.string(), tracer_->recorded(), tracer_->dropped()};
+  }
+  result.faults = faults_.counts();
+  if (const auto rows = recording_.sensors(Time::max()).reference) {
+    const sensors::ReferenceTrajectory reference = read_reference(*rows);
+    const auto pose = [&](Time t) { return reference.pose(t); };
+    result.vo = pass_->collector.score_vo(pose);
+    result.lidar = pass_->lidar_collector.score_vo(pose);
+    result.fused = pass_->collector.score_fused(pose);
+    result.navigation =
+        fusion_score::score(pass_->track, *recording_.sensors(Time::max()).reference,
+                            recording_.outages, recording_.first_stamp);
+  }
+  return result;
+}
+
+int Replay::run() {
+  const ReplayResult r = result(play_all());
+  std::cout << format_table(r);
+  if (!options_.json.empty()) write_json(options_.json, r);
+  const evaluation::StampedTrajectory fused = pass_->collector.fused();
+  if (!options_.poses.empty()) evaluation::write_kitti_poses(options_.poses, fused.poses);
+  if (!options_.tum.empty()) evaluation::write_tum(options_.tum, fused);
+  if (!options_.csv.empty()) write_nav_csv(options_.csv, pass_->track);
+  if (!options_.nmea.empty()) write_nmea(options_.nmea, pass_->track);
+  const bool snapshot_missing = options_.snapshot && !snapshot_taken_;
+  if (snapshot_missing && !any_thread_failed(r)) {
+    std::cerr << "maploop: no snapshot was written: the replay did not come to "
+              << options_.snapshot->seconds << " s\n";
+  }
+  if (r.interrupted) return exit_interrupted;
+  return snapshot_missing || any_thread_failed(r) ? exit_failed : 0;
+}
+
+}  // namespace
+
+SnapshotRequest parse_snapshot(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  SnapshotRequest request{-1.0, colon == std::string::npos ? "" : text.substr(colon + 1)};
+  const char* end = text.data() + std::min(colon, text.size());
+  const auto [stopped, error] = std::from_chars(text.data(), end, request.seconds);
+  if (error != std::errc{} || stopped != end || !(request.seconds > 0.0 && request.seconds < 1e6) ||
+      request.file.empty()) {
+    throw std::invalid_argument("'" + text +
+                                "' is not SECONDS:FILE, seconds above 0, such as 8:drive.snapshot");
+  }
+  return request;
+}
+
+int replay(const ReplayOptions& options) {
+  return Replay(options).run();
+}
+
+}  // namespace maploop::tools

@@ -1,0 +1,57 @@
+// One replay of a recording: what it was asked for, and how it runs.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/replay_console.h"
+
+namespace maploop::tools {
+
+// Where a snapshot is to be taken, and its file.
+struct SnapshotRequest {
+  double seconds = 0.0;  // into the drive
+  std::filesystem::path file;
+};
+
+// SECONDS:FILE. Throws std::invalid_argument saying what is wrong with it.
+SnapshotRequest parse_snapshot(const std::string& text);
+
+struct ReplayOptions {
+  std::filesystem::path drive;
+  double speed = 1.0;
+  bool lockstep = false;
+  bool no_lcm = false;
+  std::filesystem::path record;
+  bool record_raw = false;
+  std::filesystem::path config;
+  std::filesystem::path json;
+  std::filesystem::path trace;
+  std::filesystem::path poses;
+  std::filesystem::path tum;
+  std::filesystem::path csv;
+  std::filesystem::path nmea;
+  std::string configuration;
+  std::string gnss_outage;
+  std::string imu;
+  std::optional<double> speed_scale;  // 1.01: the wheels read 1 % too much
+  bool start_from_reference = false;
+  std::optional<std::int64_t> seed;
+  std::vector<std::string> faults;
+  std::optional<SnapshotRequest> snapshot;
+  std::filesystem::path resume;
+  PlaybackOptions playback;
+  std::uint64_t loop = 1;  // 0: for ever
+  double start = 0.0;      // s into the drive
+  double end = 0.0;        // s; 0: the whole drive
+};
+
+// Plays the recording to its end, prints the closing table and writes the files asked for. Returns
+// the command's exit status: 1 when a thread failed or the snapshot was not reached, 130 when
+// interrupted. Throws std::runtime_error naming the file that cannot be read or written.
+int replay(const ReplayOptions& options);
+
+}  // namespace maploop::tools
