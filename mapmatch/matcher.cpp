@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "msgs/frames.h"
 
@@ -138,7 +139,10 @@ void Matcher::list_candidates(const RuleContext& c) {
         candidate.along == 0.0)
       candidate.along = std::clamp(last_.along + c.motion.distance, 0.0,
                                    network_->link(candidate.link.link).length);
-    candidate.distance = (network_->at(candidate.link, candidate.along).position - c.place).norm();
+    const LinkPoint point = network_->at(candidate.link, candidate.along);
+    candidate.distance = (point.position - c.place).norm();
+    candidate.way_id = network_->road_at(point.vertex).way_id;
+    std::tie(candidate.node_a, candidate.node_b) = network_->nodes(candidate.link, point.vertex);
   }
 }
 

@@ -20,6 +20,7 @@
 #include "tools/match/map_faults.h"
 #include "tools/match/match_score.h"
 #include "tools/match/parameter_settings.h"
+#include "tools/match/score_output.h"
 #include "tools/match/track_noise.h"
 
 namespace maploop::tools {
@@ -111,13 +112,6 @@ void print_row(const char* name, const Scores& s) {
   std::fflush(stdout);
 }
 
-nlohmann::json to_json(const match::MatchScore& s) {
-  const auto tally = [](const match::Tally& t) {
-    return nlohmann::json{{"fixes", t.fixes}, {"right", t.share()}, {"coverage", t.coverage()}};
-  };
-  return {{"all", tally(s.all)}, {"certain", tally(s.certain)}};
-}
-
 void print_reliability(const match::Reliability& r) {
   std::cout << "P(link) said, mean -> share on the right way (fixes), all conditions:\n";
   for (std::size_t k = 0; k < r.fixes.size(); ++k) {
@@ -154,7 +148,8 @@ int match_experiment(const MatchExperimentOptions& options) {
       }
     }
     print_row(condition.name, pooled);
-    json[condition.name] = {{"ours", to_json(pooled.ours)}, {"baseline", to_json(pooled.baseline)}};
+    json[condition.name] = {{"ours", match::to_json(pooled.ours)},
+                            {"baseline", match::to_json(pooled.baseline)}};
     for (std::size_t k = 0; k < reliability.fixes.size(); ++k) {
       reliability.fixes[k] += pooled.ours.reliability.fixes[k];
       reliability.right[k] += pooled.ours.reliability.right[k];

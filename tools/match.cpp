@@ -15,6 +15,7 @@
 #include "tools/match/match_output.h"
 #include "tools/match/match_score.h"
 #include "tools/match/parameter_settings.h"
+#include "tools/match/score_output.h"
 #include "tools/match/track_file.h"
 
 namespace maploop::tools {
@@ -60,10 +61,7 @@ void print_score(const match::MatchedTrack& track, const mapmatch::RoadNetwork& 
   }
   match::MatchScore score;
   score.add(matched, rows, match::read_labels(labels));
-  for (const auto& [name, tally] :
-       {std::pair("all labels", score.all), std::pair("conf = 1", score.certain)})
-    std::cout << "right way, " << name << ": " << 100.0 * tally.share() << " % of " << tally.fixes
-              << " fixes, coverage " << 100.0 * tally.coverage() << " %\n";
+  std::cout << match::to_text(score);
 }
 
 int match_track(MatchOptions options) {
