@@ -18,7 +18,7 @@ namespace maploop {
 enum class MatchPhase : std::uint8_t {
   initial,      // IMP: no link is established yet
   along_link,   // SMP-1: still on the link
-  at_junction,  // SMP-2: on another link since this fix
+  at_junction,  // SMP-2: on another link since this fix, or not sure yet on which
   off_road,     // on no road of the map
 };
 

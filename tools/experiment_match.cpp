@@ -112,17 +112,6 @@ void print_row(const char* name, const Scores& s) {
   std::fflush(stdout);
 }
 
-void print_reliability(const match::Reliability& r) {
-  std::cout << "P(link) said, mean -> share on the right way (fixes), all conditions:\n";
-  for (std::size_t k = 0; k < r.fixes.size(); ++k) {
-    if (r.fixes[k] == 0) continue;
-    const auto n = static_cast<double>(r.fixes[k]);
-    std::printf("  %.1f to %.1f: %.3f -> %.3f (%zu)\n", 0.1 * static_cast<double>(k),
-                0.1 * static_cast<double>(k + 1), r.p_sum[k] / n,
-                static_cast<double>(r.right[k]) / n, r.fixes[k]);
-  }
-}
-
 int match_experiment(const MatchExperimentOptions& options) {
   const mapmatch::RoadNetwork network(mapmatch::open_network(options.map));
   const mapmatch::RuleBases rules = mapmatch::read_rule_bases(mapmatch::default_rules());
@@ -156,7 +145,7 @@ int match_experiment(const MatchExperimentOptions& options) {
       reliability.p_sum[k] += pooled.ours.reliability.p_sum[k];
     }
   }
-  print_reliability(reliability);
+  std::cout << "all conditions:\n" << match::to_text(reliability);
   if (!options.json.empty()) write_json_file(options.json, json);
   return 0;
 }

@@ -105,7 +105,7 @@ void add_match(CLI::App& app, Command& command) {
   sub->add_option("TRACK", options->track,
                   "CSV with columns t, lat, lon and what else is known (sigma or cov_ee, cov_en, "
                   "cov_nn in m; speed in m/s, azimuth_deg, yaw_rate in rad/s, hdop; OXTS's names, "
-                  "too), GPX, NMEA or TUM; plain or .gz")
+                  "too), GPX, NMEA, TUM or an LCM log (NAV_STATE, or GNSS_FIX); plain or .gz")
       ->required();
   sub->add_option("--csv", options->csv, "Write one line a fix to this file");
   sub->add_option("--geojson", options->geojson, "The same as GeoJSON, with reasons");

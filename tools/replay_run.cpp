@@ -4,6 +4,7 @@
 #include <charconv>
 #include <iostream>
 #include <limits>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -66,7 +67,7 @@ struct Pass {
   TrajectoryCollector collector;
   TrajectoryCollector lidar_collector;
   fusion_score::NavTrack track;
-  match::MatchesByTime matches;
+  std::map<Time, match::TimedMatch> matches;
 };
 
 class Replay {
@@ -181,7 +182,7 @@ std::unique_ptr<vehicle::Vehicle> Replay::make_vehicle(const vehicle::Snapshot* 
   observer.nav_state = [this](const NavState& state) { pass_->track.add(state); };
   observer.map_match = [this](const MapMatch& match) {
     if (match.refusal != FixRefusal::no_position)
-      pass_->matches[match.stamp] = match::matched_fix(match);
+      pass_->matches[match.stamp] = match::timed_match(match);
   };
   observer.image_state = [this](const NavState& state) { pass_->collector.add(state); };
 
@@ -267,7 +268,9 @@ ReplayResult Replay::result(PlaybackEnd end) {
   }
   result.faults = faults_.counts();
   if (map_ && recording_.driven_links) {
-    result.links = match::score_matches(pass_->matches, recording_.driven_links->stamps,
+    std::vector<match::TimedMatch> matches;
+    for (const auto& [stamp, match] : pass_->matches) matches.push_back(match);
+    result.links = match::score_matches(matches, recording_.driven_links->stamps,
                                         match::read_labels(recording_.driven_links->file));
   }
   if (const auto rows = recording_.sensors(Time::max()).reference) {

@@ -1,38 +1,40 @@
 #include "tools/match/driven_links.h"
 
+#include <algorithm>
 #include <chrono>
 #include <iterator>
 
 namespace maploop::match {
 namespace {
 
-constexpr Duration nearest = std::chrono::milliseconds(60);
+constexpr Duration near = std::chrono::milliseconds(60);  // half a period of the frames, and slack
 
 }  // namespace
 
-MatchedFix matched_fix(const MapMatch& match) {
-  if (!match.on_road) return {};
-  return {match.way_id, match.node_a, match.node_b, match.probability};
+TimedMatch timed_match(const MapMatch& match) {
+  if (!match.on_road) return {match.stamp, {}};
+  return {match.stamp, {match.way_id, match.node_a, match.node_b, match.probability}};
 }
 
-MatchScore score_matches(const MatchesByTime& matches, const std::vector<Time>& stamps,
+std::optional<std::size_t> frame_at(Time t, const std::vector<Time>& stamps) {
+  if (stamps.empty()) return std::nullopt;
+  auto at = std::lower_bound(stamps.begin(), stamps.end(), t);
+  if (at == stamps.end() || (at != stamps.begin() && t - *std::prev(at) < *at - t)) --at;
+  if (std::chrono::abs(*at - t) > near) return std::nullopt;
+  return static_cast<std::size_t>(at - stamps.begin());
+}
+
+MatchScore score_matches(const std::vector<TimedMatch>& matches, const std::vector<Time>& stamps,
                          const std::map<std::size_t, Label>& labels) {
-  MatchScore score;
-  if (matches.empty()) return score;
-  const Time first = matches.begin()->first - nearest;
-  const Time last = matches.rbegin()->first + nearest;
   std::vector<MatchedFix> matched;
   std::vector<std::size_t> rows;
-  for (std::size_t row = 0; row < stamps.size(); ++row) {
-    const Time t = stamps[row];
-    if (t < first || t > last) continue;
-    auto at = matches.lower_bound(t);
-    if (at == matches.end() || (at != matches.begin() && t - std::prev(at)->first < at->first - t))
-      --at;
-    const bool near = std::chrono::abs(at->first - t) <= nearest;
-    matched.push_back(near ? at->second : MatchedFix{});
-    rows.push_back(row);
+  for (const TimedMatch& match : matches) {
+    const auto frame = frame_at(match.stamp, stamps);
+    if (!frame) continue;
+    matched.push_back(match.matched);
+    rows.push_back(*frame);
   }
+  MatchScore score;
   score.add(matched, rows, labels);
   return score;
 }

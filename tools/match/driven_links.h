@@ -1,7 +1,9 @@
-// Matches of a run against the links really driven.
+// Matches at their moments against the links really driven.
 #pragma once
 
+#include <cstddef>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "msgs/map_match.h"
@@ -10,13 +12,18 @@
 
 namespace maploop::match {
 
-using MatchesByTime = std::map<Time, MatchedFix>;
+struct TimedMatch {
+  Time stamp{};
+  MatchedFix matched;
+};
 
-MatchedFix matched_fix(const MapMatch& match);
+TimedMatch timed_match(const MapMatch& match);
 
-// `stamps` are the labels' frames. Each frame counts by the match nearest to it in time (none
-// within 60 ms: not matched); those before the first or after the last match do not count.
-MatchScore score_matches(const MatchesByTime& matches, const std::vector<Time>& stamps,
+// The frame nearest to a moment, where there is one within 60 ms. `stamps` increase.
+std::optional<std::size_t> frame_at(Time t, const std::vector<Time>& stamps);
+
+// Each match counts at the labels' frame nearest to it, where there is one.
+MatchScore score_matches(const std::vector<TimedMatch>& matches, const std::vector<Time>& stamps,
                          const std::map<std::size_t, Label>& labels);
 
 }  // namespace maploop::match
