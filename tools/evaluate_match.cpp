@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "mapmatch/network_file.h"
 #include "sensors/replay/odometry_sequence.h"
 #include "tools/commands.h"
 #include "tools/evaluation/text_file.h"
@@ -21,7 +22,7 @@ namespace maploop::tools {
 namespace {
 
 struct EvaluateMatchOptions {
-  std::filesystem::path matched, labels, frames, json, csv;
+  std::filesystem::path matched, labels, frames, map, json, csv;
 };
 
 // When each frame of the labels was, on the clock of the matches.
@@ -44,8 +45,14 @@ std::string row(const match::TimedMatch& m, std::size_t frame, const match::Labe
 }
 
 int evaluate_match(const EvaluateMatchOptions& options) {
-  const std::vector<match::TimedMatch> matches = match::read_matches(options.matched);
-  const auto labels = match::read_labels(options.labels);
+  std::vector<match::TimedMatch> matches = match::read_matches(options.matched);
+  auto labels = match::read_labels(options.labels);
+  if (!options.map.empty()) {
+    const match::SegmentLinks links(mapmatch::RoadNetwork(mapmatch::open_network(options.map)));
+    links.look_up(labels);
+    for (match::TimedMatch& m : matches)
+      if (m.matched.way_id) m.matched.link = links.find(m.matched.node_a, m.matched.node_b);
+  }
   std::vector<Time> stamps;
   if (!options.frames.empty()) {
     stamps = frame_stamps(options);
@@ -97,6 +104,9 @@ void add_evaluate_match(CLI::App& evaluate, Command& command) {
       "--frames", options->frames,
       "Track whose rows are the frames, such as oxts/NN.csv: matches count at the frame "
       "nearest in time. Without it a CSV's rows are the frames");
+  sub->add_option("--map", options->map,
+                  "OpenStreetMap or network file that was matched on: P(link) is then held against "
+                  "the link driven, and not only its way");
   sub->add_option("--csv", options->csv, "Write a row a match: driven, matched, P, right or not");
   sub->add_option("--json", options->json, "Write the figures to this file as JSON");
   sub->callback([options, &command] { command = [options] { return evaluate_match(*options); }; });

@@ -117,8 +117,11 @@ int match_experiment(const MatchExperimentOptions& options) {
   const mapmatch::RuleBases rules = mapmatch::read_rule_bases(mapmatch::default_rules());
   const mapmatch::MatchParameters parameters = match::parameters_with(options.set);
   std::vector<Sequence> sequences;
-  for (const std::string& name : options.sequences)
+  const match::SegmentLinks links(network);
+  for (const std::string& name : options.sequences) {
     sequences.push_back(read_sequence(options.data, name));
+    links.look_up(sequences.back().labels);
+  }
   std::printf("%-26s %7s  %-13s  %-13s  %-13s  %-6s  %s\n", "input", "fixes", "all frames %",
               "conf = 1 %", "coverage %", "wrong", "us a fix");
   std::printf("%-26s %7s  %6s %6s  %6s %6s  %6s %6s  %6s\n", "", "", "ours", "base", "ours", "base",

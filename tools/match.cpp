@@ -60,7 +60,9 @@ void print_score(const match::MatchedTrack& track, const mapmatch::RoadNetwork& 
     matched.push_back(match::matched_fix(r, network));
   }
   match::MatchScore score;
-  score.add(matched, rows, match::read_labels(labels));
+  auto driven = match::read_labels(labels);
+  match::SegmentLinks(network).look_up(driven);
+  score.add(matched, rows, driven);
   std::cout << match::to_text(score);
 }
 

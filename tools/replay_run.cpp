@@ -270,8 +270,9 @@ ReplayResult Replay::result(PlaybackEnd end) {
   if (map_ && recording_.driven_links) {
     std::vector<match::TimedMatch> matches;
     for (const auto& [stamp, match] : pass_->matches) matches.push_back(match);
-    result.links = match::score_matches(matches, recording_.driven_links->stamps,
-                                        match::read_labels(recording_.driven_links->file));
+    auto labels = match::read_labels(recording_.driven_links->file);
+    match::SegmentLinks(map_->network).look_up(labels);
+    result.links = match::score_matches(matches, recording_.driven_links->stamps, labels);
   }
   if (const auto rows = recording_.sensors(Time::max()).reference) {
     const sensors::ReferenceTrajectory reference = read_reference(*rows);

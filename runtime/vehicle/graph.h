@@ -67,7 +67,7 @@ inline constexpr Stage fusion{"fusion",
                               {},
                               runtime::Overrun::skip};
 inline constexpr Stage mapmatch{"mapmatch",
-                                "IMP / SMP",
+                                "map matching",
                                 "its period",
                                 milliseconds(100),
                                 milliseconds(2),

@@ -32,6 +32,8 @@ void MapMatchStage::run(const runtime::DataClock& clock, Time first, const std::
   // Whatever the graph declares for a live run: the same bits need every tick.
   const runtime::Schedule schedule{stages::mapmatch.period, stages::mapmatch.phase,
                                    runtime::Overrun::catch_up};
+  promise(runtime::first_tick(first, schedule.period, schedule.phase) + stages::mapmatch.budget -
+          Duration(1));
   runtime::run_periodic(clock, first, schedule, stop,
                         [&](const runtime::Tick& t) { return tick(t, clock, stop); });
 }

@@ -13,7 +13,7 @@ constexpr Duration near = std::chrono::milliseconds(60);  // half a period of th
 
 TimedMatch timed_match(const MapMatch& match) {
   if (!match.on_road) return {match.stamp, {}};
-  return {match.stamp, {match.way_id, match.node_a, match.node_b, match.probability}};
+  return {match.stamp, {match.way_id, match.node_a, match.node_b, match.probability, match.link}};
 }
 
 std::optional<std::size_t> frame_at(Time t, const std::vector<Time>& stamps) {

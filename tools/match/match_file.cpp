@@ -63,6 +63,8 @@ class Reader {
     time_ = column("t");
     way_ = column("way_id");
     probability_ = column("p_link");
+    node_a_ = column("node_a");
+    node_b_ = column("node_b");
     if (time_ == none || way_ == none)
       fail("no columns t and way_id; is it a file of 'maploop match --csv'?");
   }
@@ -84,6 +86,10 @@ class Reader {
     if (!cells[way_].empty()) {
       matched.way_id = number<std::int64_t>(cells, way_);
       matched.p_link = probability_ == none ? 1.0 : number<double>(cells, probability_);
+      if (node_a_ != none && node_b_ != none) {
+        matched.node_a = number<std::int64_t>(cells, node_a_);
+        matched.node_b = number<std::int64_t>(cells, node_b_);
+      }
       if (!(matched.p_link >= 0.0 && matched.p_link <= 1.0)) fail("p_link is not from 0 to 1");
     }
     matches.push_back({Time(from_seconds(number<double>(cells, time_))), matched});
@@ -91,7 +97,7 @@ class Reader {
 
   std::filesystem::path file_;
   int line_ = 0;
-  std::size_t time_ = none, way_ = none, probability_ = none;
+  std::size_t time_ = none, way_ = none, node_a_ = none, node_b_ = none, probability_ = none;
 };
 
 std::vector<TimedMatch> read_log(const std::filesystem::path& file) {

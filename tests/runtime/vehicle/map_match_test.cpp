@@ -99,7 +99,8 @@ TEST(VehicleMapMatch, ChangesNoBitOfTheRestAndIsTheSameInRealTime) {
   for (const auto& [name, channel] : lockstep.channels) {
     if (channel.hash.empty()) continue;
     EXPECT_EQ(paced.channels.at(name).hash, channel.hash) << name;
-    if (name != "MAP_MATCH") EXPECT_EQ(without.channels.at(name).hash, channel.hash) << name;
+    if (name == "MAP_MATCH") continue;
+    EXPECT_EQ(without.channels.at(name).hash, channel.hash) << name;
   }
   for (const RingHealth& ring : paced.report.health.rings)
     EXPECT_EQ(ring.pushed, ring.popped) << ring.name;
