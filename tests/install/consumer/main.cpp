@@ -1,4 +1,5 @@
-// Dead reckoning for a second, from a fix on the way: what an estimator of maploop needs from its user.
+// Dead reckoning for a second, from a fix on the way: what an estimator of maploop needs from its
+// user.
 #include <cmath>
 #include <iostream>
 

@@ -162,7 +162,7 @@ TEST(Relay, CommandsHaveTheirNames) {
   const auto bytes = encoded_command("seek", 6.5);
   maploop_lcm::replay_control_t command{};
   ASSERT_GT(command.decode(bytes.data(), 0, static_cast<int>(bytes.size())), 0);
-  EXPECT_EQ(command.kind, maploop_lcm::replay_control_t::SEEK);
+  EXPECT_EQ(int{command.kind}, int{maploop_lcm::replay_control_t::SEEK});
   EXPECT_EQ(command.value, 6.5);
   EXPECT_TRUE(encoded_command("explode", 0.0).empty());
 }

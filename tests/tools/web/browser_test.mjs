@@ -97,12 +97,12 @@ test("the dashboard follows a replay, controls it, and survives restarts of eith
   await Promise.all(others.map((other) => other.close()));
 
   await page.keyboard.press("Space");
-  await page.getByRole("button", { name: "▶" }).waitFor(patience);
+  await page.getByRole("button", { name: "Play", exact: true }).waitFor(patience);
   await page.locator("footer input").fill("6");
   await page.locator("footer input").dispatchEvent("change");
   await page.getByText(/^6\.\d of/).waitFor(patience);
   await page.keyboard.press("Space");
-  await page.getByRole("button", { name: "⏸" }).waitFor(patience);
+  await page.getByRole("button", { name: "Pause", exact: true }).waitFor(patience);
   await page.waitForTimeout(1500);
   await page.screenshot({ path: join(pictures, "dashboard-desktop.png") });
 

@@ -4,7 +4,7 @@ import "./dashboard.css";
 import { element } from "./dom";
 import { listen, trail } from "./live";
 import { LiveMap } from "./live_map";
-import { showAids, showDeadlines, showHealth, showState } from "./panels";
+import { showAids, showDeadlines, showHealth, showRoad, showState } from "./panels";
 import { PlayerBar } from "./player";
 
 const silent_after = 3000; // ms
@@ -13,7 +13,7 @@ const main = element("main", document.body);
 const place = element("section", main, "", "place");
 const canvas = element("canvas", place) as HTMLCanvasElement;
 const legend = element("div", place, "", "legend");
-for (const name of ["truth", "fused", "fixes"]) element("span", legend, name, name);
+for (const name of ["truth", "fused", "fixes", "matched"]) element("span", legend, name, name);
 const side = element("aside", main);
 const notice = element("div", side, "Connecting…", "notice");
 
@@ -25,6 +25,9 @@ function panel(title: string): HTMLElement {
 
 const state = panel("State");
 const aids = panel("Aids, newest inside");
+const road = panel("Road");
+road.className = "road";
+road.parentElement!.hidden = true; // until a map is matched
 const deadlines = panel("Deadlines");
 const health = panel("Health");
 const player = new PlayerBar(element("footer", document.body));
@@ -74,6 +77,11 @@ listen(
     },
     TRUTH: (pose) => map.addTruth(pose),
     GNSS_FIX: (fix) => map.addFix(fix),
+    MAP_MATCH: (m) => {
+      road.parentElement!.hidden = false;
+      map.addMatch(m);
+      showRoad(road, m);
+    },
     DEADLINES: (d) => showDeadlines(deadlines, d),
     HEALTH: (h) => showHealth(health, h),
     REPLAY_CONTROL: (p) => player.show(p),

@@ -35,6 +35,29 @@ export interface Fix extends Pose {
   position_covariance: number[][];
 }
 
+export interface Candidate {
+  road: string;
+  way_id: number;
+  likelihood: number;
+  probability: number;
+  rules: string[];
+  objections: string[];
+}
+
+export interface MapMatch {
+  header: Header;
+  phase: number;
+  on_road: boolean;
+  explanation: string;
+  p_link: number;
+  origin_latitude: number; // rad
+  origin_longitude: number;
+  matched_enu: number[];
+  vehicle_enu: number[];
+  cross_track: number;
+  candidates: Candidate[];
+}
+
 export interface Latency {
   name: string;
   count: number;
@@ -81,6 +104,7 @@ export interface Messages {
   NAV_STATE: NavState;
   TRUTH: Pose;
   GNSS_FIX: Fix;
+  MAP_MATCH: MapMatch;
   DEADLINES: Deadlines;
   HEALTH: Health;
   REPLAY_CONTROL: Player;

@@ -1,6 +1,6 @@
 // The map of the dashboard: where the vehicle has been and is, and how sure of it it is.
 import { eastNorth, type Geodetic } from "./geodesy";
-import type { Fix, NavState, Pose, Trail } from "./live";
+import type { Fix, MapMatch, NavState, Pose, Trail } from "./live";
 import { MapView } from "./map";
 import { colour, type Line } from "./plot";
 
@@ -43,6 +43,7 @@ export class LiveMap {
   private readonly fixes = new Way("fixes");
   private origin: Geodetic | undefined;
   private state: NavState | undefined;
+  private match: MapMatch | undefined;
   private fitted = false;
 
   constructor(canvas: HTMLCanvasElement, moved: () => void) {
@@ -91,6 +92,12 @@ export class LiveMap {
     this.addTo(this.fixes, fix);
   }
 
+  addMatch(match: MapMatch): void {
+    const here = match.origin_latitude === this.origin?.latitude && match.origin_longitude === this.origin?.longitude;
+    this.match = match.on_road && here ? match : undefined;
+    this.map.redraw();
+  }
+
   fit(): void {
     this.map.fit();
   }
@@ -118,6 +125,7 @@ export class LiveMap {
       context.arc(map.x(east!), map.y(this.fixes.line.y[i]!), 3, 0, 2 * Math.PI);
       context.fill();
     });
+    if (this.match) this.drawMatch(map, context, this.match);
     if (!this.state) return;
     const x = map.x(this.state.position_enu[0]!);
     const y = map.y(this.state.position_enu[1]!);
@@ -137,6 +145,21 @@ export class LiveMap {
     context.fill();
     context.stroke();
     context.restore();
+  }
+
+  // The point on the road, joined to where the vehicle was thought to be.
+  private drawMatch(map: MapView, context: CanvasRenderingContext2D, match: MapMatch): void {
+    const x = map.x(match.matched_enu[0]!);
+    const y = map.y(match.matched_enu[1]!);
+    context.strokeStyle = context.fillStyle = colour(2);
+    context.lineWidth = 1.5;
+    context.beginPath();
+    context.moveTo(x, y);
+    context.lineTo(map.x(match.vehicle_enu[0]!), map.y(match.vehicle_enu[1]!));
+    context.stroke();
+    context.beginPath();
+    context.arc(x, y, 5, 0, 2 * Math.PI);
+    context.fill();
   }
 
   // Three standard deviations.

@@ -1,6 +1,6 @@
 // The panels beside the map.
 import { element, table } from "./dom";
-import type { Deadlines, Health, Latency, NavState } from "./live";
+import type { Deadlines, Health, Latency, MapMatch, NavState } from "./live";
 
 const statuses = ["waiting for a first fix", "aided", "coasting"];
 
@@ -36,6 +36,21 @@ export function showAids(panel: HTMLElement, s: NavState): void {
     ["wheels", age(now, s.wheel_stamp_ns)],
     ["odometry used, refused", `${s.odometry_applied}, ${s.odometry_refused}`],
   ]);
+}
+
+const phases = ["looking for the first link", "along the link", "at a junction", "off road"];
+
+export function showRoad(panel: HTMLElement, m: MapMatch): void {
+  const rows = m.candidates.slice(0, 6).map((c) => {
+    const road = document.createElement("span");
+    road.textContent = c.road || `way ${c.way_id}`;
+    road.title = [...c.objections, ...c.rules].join("\n");
+    return [road, c.probability.toFixed(3), c.likelihood.toFixed(0), c.objections[0] ?? ""];
+  });
+  table(panel, ["link", "P", "rules", "against it"], rows);
+  const p = document.createElement("p");
+  p.textContent = `${phases[m.phase] ?? ""}: ${m.explanation}`;
+  panel.prepend(p);
 }
 
 // A bar to the deadline: half of all, 99 of 100, the longest.

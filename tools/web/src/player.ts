@@ -13,8 +13,8 @@ export class PlayerBar {
 
   constructor(private readonly bar: HTMLElement) {
     bar.hidden = true;
-    this.play = this.button("⏸", "Pause, or go on (space bar)", () => this.toggle());
-    this.button("⏭", "Next image (.)", () => this.send("step-image"));
+    this.play = this.button("Pause", "Pause, or go on (space bar)", () => this.toggle());
+    this.button("Step", "To the next image (.)", () => this.send("step-image"));
     this.slider = element("input", bar) as HTMLInputElement;
     this.slider.type = "range";
     this.slider.step = "0.1";
@@ -46,7 +46,7 @@ export class PlayerBar {
     this.slider.max = length.toFixed(1);
     if (!this.dragging) this.slider.value = `${at}`;
     this.clock.textContent = `${at.toFixed(1)} of ${length.toFixed(1)} s${state.seeking ? ", seeking" : ""}`;
-    this.play.textContent = state.paused ? "▶" : "⏸";
+    this.play.textContent = state.paused ? "Play" : "Pause";
     this.speed.value = `${state.speed}`;
     this.said.textContent = state.refused;
   }
