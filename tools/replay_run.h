@@ -36,6 +36,7 @@ struct ReplayOptions {
   std::filesystem::path nmea;
   std::filesystem::path map;
   std::string map_mode;
+  std::filesystem::path report;
   std::string configuration;
   std::string gnss_outage;
   std::string imu;
