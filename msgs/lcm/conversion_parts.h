@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cstdint>
 #include <maploop_lcm/header_t.hpp>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "msgs/sample.h"
@@ -29,6 +31,16 @@ inline void set_sample(Sample& sample, const maploop_lcm::header_t& header) {
   sample.stamp = from_nanoseconds(header.stamp_ns);
   sample.available = from_nanoseconds(header.available_ns);
   sample.sequence = static_cast<std::uint64_t>(header.sequence);
+}
+
+// The enumerations of the messages count like ours; `last` is the largest known.
+template <class Enumeration>
+Enumeration enumerator_from(std::int8_t value, Enumeration last, const char* field) {
+  if (value < 0 || value > static_cast<std::int8_t>(last)) {
+    throw std::invalid_argument(std::string(field) + " is " + std::to_string(value) +
+                                ", which this version does not know");
+  }
+  return static_cast<Enumeration>(value);
 }
 
 template <int n>

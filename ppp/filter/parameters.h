@@ -1,11 +1,19 @@
 // What the PPP filter can be told. Defaults fit a geodetic receiver with precise products.
 #pragma once
 
+#include <array>
+#include <concepts>
+#include <cstdint>
 #include <string>
+#include <string_view>
+#include <type_traits>
 
 namespace maploop::ppp {
 
-enum class Motion { fixed, kinematic };
+enum class Motion : std::uint8_t { fixed, kinematic };
+constexpr std::array<std::string_view, 2> names_of(Motion) {
+  return {"static", "kinematic"};
+}
 
 struct PppParameters {
   Motion motion = Motion::kinematic;
@@ -35,10 +43,24 @@ struct PppParameters {
   double code_gate = 30.0;           // m, pre-fit
   bool graphic = true;               // one frequency: half the sum of code and phase
   int longest_gap = 10;              // epochs that a satellite may be away and keep its ambiguity
+  // Of a receiver with one frequency, which mostly is a cheap one.
+  double single_code_sigma = 1.0;     // m
+  double single_phase_sigma = 0.005;  // m
+  double single_full_cn0 = 45.0;      // dB-Hz
 };
 
-template <class F>
-void fields(const PppParameters& p, F&& f) {
+inline PppParameters for_one_frequency(PppParameters p) {
+  p.code_sigma = p.single_code_sigma;
+  p.phase_sigma = p.single_phase_sigma;
+  p.full_cn0 = p.single_full_cn0;
+  return p;
+}
+
+// Calls f(name, member) for each; Parameters is PppParameters, const or not.
+template <class Parameters, class F>
+requires std::same_as<std::remove_const_t<Parameters>, PppParameters>
+void fields(Parameters& p, F&& f) {
+  f("motion", p.motion);
   f("elevation_mask", p.elevation_mask);
   f("cn0_mask", p.cn0_mask);
   f("code_sigma", p.code_sigma);
@@ -61,6 +83,9 @@ void fields(const PppParameters& p, F&& f) {
   f("code_gate", p.code_gate);
   f("graphic", p.graphic);
   f("longest_gap", p.longest_gap);
+  f("single_code_sigma", p.single_code_sigma);
+  f("single_phase_sigma", p.single_phase_sigma);
+  f("single_full_cn0", p.single_full_cn0);
 }
 
 }  // namespace maploop::ppp

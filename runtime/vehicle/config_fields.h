@@ -29,6 +29,7 @@ void visit(Config& config, Table&& table, Field&& field) {
     field("odometry", p.odometry);
     field("stereo", p.stereo);
     field("lidar", p.lidar);
+    field("ppp", p.ppp);
     field("fusion", p.fusion);
     field("publisher", p.publisher);
     field("health", p.health);
@@ -87,6 +88,17 @@ void visit(Config& config, Table&& table, Field&& field) {
 
   table("lidar");
   fields(config.lidar, field);
+
+  table("ppp");
+  {
+    auto& p = config.ppp;
+    field("products", p.products);
+    field("broadcast", p.broadcast);
+    field("latency", p.latency);
+    field("integrity_risk", p.integrity_risk);
+    field("systems", p.filter.systems);
+    fields(p.filter, field);
+  }
 
   table("fusion");
   fields(config.fusion, field);

@@ -7,7 +7,7 @@
 namespace maploop::vehicle {
 
 std::vector<RefusalCount> refusals(const StereoStage& stereo, const LidarStage* lidar,
-                                   const fusion::FilterStatus& filter) {
+                                   const PppStage* ppp, const fusion::FilterStatus& filter) {
   std::vector<RefusalCount> all;
   const auto add = [&](const Stage& stage, std::string_view reason, std::uint64_t count) {
     if (count > 0) all.push_back({std::string(stage.name), std::string(reason), count});
@@ -16,6 +16,10 @@ std::vector<RefusalCount> refusals(const StereoStage& stereo, const LidarStage* 
     const auto status = static_cast<OdometryStatus>(i);
     add(stages::stereo, to_string(status), stereo.count(status));
     if (lidar != nullptr) add(stages::lidar, to_string(status), lidar->count(status));
+  }
+  if (ppp != nullptr) {
+    const std::vector<RefusalCount> own = ppp->refusals();
+    all.insert(all.end(), own.begin(), own.end());
   }
   for (std::size_t i = 1; i < fusion::reason_count; ++i) {
     const auto reason = static_cast<fusion::Reason>(i);

@@ -16,6 +16,7 @@
 #include "runtime/vehicle/graph.h"
 #include "runtime/vehicle/health_monitor.h"
 #include "runtime/vehicle/lidar_stage.h"
+#include "runtime/vehicle/ppp_stage.h"
 #include "runtime/vehicle/replay_driver.h"
 #include "runtime/vehicle/snapshot_stage.h"
 #include "runtime/vehicle/stereo_stage.h"
@@ -38,8 +39,11 @@ struct Vehicle::Graph {
   void start();
   void start_snapshots();
   void start_odometry();
+  void start_stereo();
+  void start_gnss();
   std::vector<runtime::Edge<LidarScan>*> scan_edges();
   std::vector<runtime::Edge<RelativeMotion>*> visual_edges();
+  std::vector<runtime::Edge<GnssFix>*> fix_edges();
   void run_health(const std::stop_token& end);
   RuntimeReport look(Duration elapsed);
   void wait();
@@ -73,6 +77,7 @@ struct Vehicle::Graph {
   runtime::Edge<StereoPair> images;
   bool odometry_recorded;              // instead of images
   std::optional<LidarEdges> to_lidar;  // nothing: fusion gets the visual odometry
+  std::optional<PppEdges> to_ppp;      // nothing: there are no observations
   FusionEdges to_fusion;
   PublisherEdges to_publisher;
 
@@ -81,6 +86,7 @@ struct Vehicle::Graph {
   ReplayDriver<LidarScan> velodyne;
   ReplayDriver<ImuSample> imu;
   ReplayDriver<GnssFix> gnss;
+  ReplayDriver<GnssEpoch> epochs;  // instead of gnss where there is to_ppp
   ReplayDriver<WheelSpeed> wheel;
   ReplayDriver<ReferencePose> reference;
   ReplayDriver<RelativeMotion> odometry;
@@ -88,6 +94,7 @@ struct Vehicle::Graph {
   ReplayDriver<LidarMotion> lidar_log;
   StereoStage stereo;
   std::optional<LidarStage> lidar;  // where there is to_lidar
+  std::optional<PppStage> ppp;      // where there is to_ppp
   FusionStage fusion;
   Publisher publisher;
   HealthMonitor monitor;

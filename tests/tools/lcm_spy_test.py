@@ -30,6 +30,7 @@ CHANNELS = {
     "LIDAR_ODOMETRY": ("lidar_motion_t", "translation"),
     "NAV_STATE": ("nav_state_t", "origin_latitude"),
     "ODOMETRY": ("relative_motion_t", "translation"),
+    "PPP_STATE": ("ppp_state_t", "latitude"),
     "TRUTH": ("reference_pose_t", "azimuth"),
     "WHEEL_SPEED": ("wheel_speed_t", "sigma"),
     "VO": ("relative_motion_t", "translation"),

@@ -64,6 +64,9 @@ bool publish_all(lcm::LCM& lcm, int tick) {
   publish("ODOMETRY", sample<RelativeMotion>(tick));
   publish("IMU", sample<ImuSample>(tick));
   publish("GNSS_FIX", sample<GnssFix>(tick));
+  auto ppp = sample<PppState>(tick);
+  ppp.satellites.resize(1);
+  publish("PPP_STATE", ppp);
   publish("WHEEL_SPEED", sample<WheelSpeed>(tick));
   publish("TRUTH", sample<ReferencePose>(tick));
   publish("DEADLINES", deadlines(state.stamp));

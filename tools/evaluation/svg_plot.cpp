@@ -82,6 +82,22 @@ std::string grid(const Axis& x, const Axis& y) {
   return svg;
 }
 
+// As one path; a dot is a line without length.
+std::string drawn(const Line& line, const Axis& x, const Axis& y, const std::string& colour) {
+  std::string svg = "<path fill='none' stroke-width='" + std::string(line.dots ? "3" : "1.5") +
+                    "' stroke-linecap='round' stroke='" + colour + "' d='";
+  bool broken = true;
+  for (std::size_t k = 0; k < line.x.size(); ++k) {
+    const bool finite = std::isfinite(line.x[k]) && std::isfinite(line.y[k]);
+    if (finite) {
+      svg += (broken ? 'M' : 'L') + number(x.px(line.x[k])) + "," + number(y.px(line.y[k]));
+      if (line.dots) svg += "h0";
+    }
+    broken = !finite || line.dots;
+  }
+  return svg + "'/>\n";
+}
+
 }  // namespace
 
 std::string to_svg(const Plot& plot) {
@@ -102,11 +118,7 @@ std::string to_svg(const Plot& plot) {
   for (std::size_t i = 0; i < plot.lines.size(); ++i) {
     const Line& line = plot.lines[i];
     const std::string colour = kColours[i % kColours.size()];
-    svg += "<polyline fill='none' stroke-width='1.5' stroke='" + colour + "' points='";
-    for (std::size_t k = 0; k < line.x.size(); ++k)
-      if (std::isfinite(line.x[k]) && std::isfinite(line.y[k]))
-        svg += number(x.px(line.x[k])) + "," + number(y.px(line.y[k])) + " ";
-    svg += "'/>\n<g fill='" + colour + "'>" +
+    svg += drawn(line, x, y, colour) + "<g fill='" + colour + "'>" +
            text_at(kLeft + 8, kTop + 16 + 15 * static_cast<double>(i), "start", line.name) +
            "</g>\n";
   }

@@ -8,7 +8,8 @@ namespace maploop::evaluation {
 
 struct Line {
   std::string name;
-  std::vector<double> x, y;  // same lengths; points that are not finite are left out
+  std::vector<double> x, y;  // same lengths; the line is broken at a point that is not finite
+  bool dots = false;         // points without a line between them
 };
 
 struct Plot {
