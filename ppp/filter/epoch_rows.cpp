@@ -55,6 +55,7 @@ std::vector<Row>& EpochRows::make(const std::vector<Tracked>& tracked, int refer
     doppler.add(S::clock_drift, 1.0);
     const double sigma = parameters_.doppler_sigma / std::sin(t.predicted.elevation);
     doppler.variance = sigma * sigma * weakness(t.measurement);
+    doppler.sigma = std::sqrt(doppler.variance);
     rows_.push_back(doppler);
   }
   return rows_;
@@ -97,7 +98,10 @@ Row EpochRows::code_row(std::size_t i, const Tracked& t, int reference_system,
   const double lasting = t.predicted.satellite.sigma;
   const double ionosphere = 0.5 * t.predicted.ionosphere;
   row.y = t.code_offset - predicted;
-  row.variance = sigma * sigma * weakness(m) + lasting * lasting + ionosphere * ionosphere;
+  const double noise = sigma * sigma * weakness(m);
+  const double rest = lasting * lasting + ionosphere * ionosphere;
+  row.variance = noise * t.code_repeats + rest;
+  row.sigma = std::sqrt(noise + rest);
   return row;
 }
 
@@ -125,7 +129,11 @@ void EpochRows::add_phase_row(const Tracked& t, const Row& code, FilterState& st
   row.y = y - predicted - state.x()[index];
   const double sigma = parameters_.phase_sigma * m.noise_factor() / std::sin(t.predicted.elevation);
   row.variance = sigma * sigma * (t.predicted.in_shadow ? 16.0 : 1.0);
-  if (graphic) row.variance += 0.25 * code.variance;
+  row.sigma = std::sqrt(row.variance);
+  if (graphic) {
+    row.variance += 0.25 * code.variance;
+    row.sigma = std::hypot(row.sigma, 0.5 * code.sigma);
+  }
   rows_.push_back(row);
 }
 

@@ -17,19 +17,22 @@ namespace maploop::ppp {
 struct Tracked {
   Measurement measurement;
   PredictedRange predicted;
-  std::size_t report;  // its place among the solution's satellites
-  double code_offset;  // m, code minus what is predicted without clocks
+  std::size_t report;         // its place among the solution's satellites
+  double code_offset;         // m, code minus what is predicted without clocks
+  double code_repeats = 1.0;  // of its variance, for its error lasts longer than an epoch
   bool code_good = true;
   bool phase_good = true;
 };
 
 enum class RowKind { code, phase, doppler };
 
-// y = h dx + noise of the variance; dx is the error of the state before the update.
+// y = h dx + noise; dx is the error of the state before the update. An error that lasts says less
+// than its size: the variance is the one that independent errors would need, epoch for epoch, to
+// say as little; sigma is the size.
 struct Row {
   RowKind kind = RowKind::code;
   std::size_t tracked = 0;  // whose
-  double y = 0.0, variance = 0.0;
+  double y = 0.0, variance = 0.0, sigma = 0.0;
   int count = 0;
   std::array<int, 12> indices{};
   std::array<double, 12> h{};

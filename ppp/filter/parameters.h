@@ -25,6 +25,9 @@ struct PppParameters {
   double phase_sigma = 0.003;        // m
   double doppler_sigma = 0.10;       // m/s
   double glonass_code_factor = 3.0;  // channels have biases of their own
+  // How long errors of code last: multipath, and GLONASS's biases.
+  double code_correlation = 40.0;            // s; 0: not at all
+  double glonass_code_correlation = 7200.0;  // s
   // Below it, variance doubles every 3 dB; 0: strength does not count.
   double full_cn0 = 0.0;           // dB-Hz
   double zenith_wet_sigma = 0.15;  // m
@@ -67,6 +70,8 @@ void fields(Parameters& p, F&& f) {
   f("phase_sigma", p.phase_sigma);
   f("doppler_sigma", p.doppler_sigma);
   f("glonass_code_factor", p.glonass_code_factor);
+  f("code_correlation", p.code_correlation);
+  f("glonass_code_correlation", p.glonass_code_correlation);
   f("full_cn0", p.full_cn0);
   f("zenith_wet_sigma", p.zenith_wet_sigma);
   f("zenith_wet_walk", p.zenith_wet_walk);

@@ -151,6 +151,17 @@ void PppFilter::predict(double interval) {
   for (int i = S::fixed; i < state_.size(); ++i) walk(i, error_walk);
 }
 
+// The first code of a satellite says all it can of a constant, each later one of a first-order
+// Gauss-Markov error only (1 - r) / (1 + r) of that.
+double PppFilter::code_repeats(Satellite satellite, const Memory& memory) const {
+  if (!memory.last_code) return 1.0;
+  const double correlation = satellite.system == System::glonass
+                                 ? parameters_.glonass_code_correlation
+                                 : parameters_.code_correlation;
+  if (correlation <= 0.0) return 1.0;
+  return 1.0 / std::tanh(0.5 * to_seconds(time_ - *memory.last_code) / correlation);
+}
+
 // Ranges, masks and slips.
 void PppFilter::predict_ranges(double interval) {
   tracked_.clear();
@@ -172,6 +183,8 @@ void PppFilter::predict_ranges(double interval) {
     }
     Tracked tracked{m, *predicted, report_of_[i],
                     m.code() - predicted->range - predicted->ionosphere};
+    tracked.code_repeats = code_repeats(m.satellite, memory);
+    memory.last_code = time_;
     tracked.phase_good = m.phase() != 0.0;
     if (tracked.phase_good) {
       const bool away = memory.epochs_away > 1;
@@ -286,7 +299,7 @@ bool PppFilter::disagree(const std::vector<Row>& rows) const {
     left_out += !row.active;
     if (row.kind != RowKind::code) continue;
     const double residual = row.left(update_.dx());
-    sum += residual * residual / row.variance;
+    sum += residual * residual / (row.sigma * row.sigma);
     ++codes;
   }
   for (const Tracked& t : tracked_) left_out += !t.code_good;

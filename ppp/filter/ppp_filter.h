@@ -60,14 +60,16 @@ class PppFilter {
     SlipDetector slips;
     double wind_up = 0.0;
     int epochs_away = 0;
+    std::optional<GpsTime> last_code;
     template <class Archive>
     void archive(Archive& ar) {
-      ar(slips, wind_up, epochs_away);
+      ar(slips, wind_up, epochs_away, last_code);
     }
   };
   void measure_all(const Epoch& epoch);
   bool start(const Epoch& epoch);
   void predict(double interval);
+  double code_repeats(Satellite satellite, const Memory& memory) const;
   void predict_ranges(double interval);
   void set_clocks();
   void update();

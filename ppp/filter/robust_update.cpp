@@ -10,7 +10,7 @@ Row* RobustUpdate::worst(std::vector<Row>& rows) const {
   double largest = outlier_sigmas_;
   for (Row& row : rows) {
     if (!row.active) continue;
-    const double normalized = std::abs(row.left(dx_)) / std::sqrt(row.variance);
+    const double normalized = std::abs(row.left(dx_)) / row.sigma;
     if (normalized > largest) {
       largest = normalized;
       worst = &row;

@@ -26,6 +26,20 @@ bool wants_raw(const std::vector<MessageSink*>& sinks) {
                      [](const MessageSink* sink) { return sink->wants_raw(); });
 }
 
+// A vehicle without cameras has a stereo thread that never sees an image; its estimator wants some
+// camera all the same.
+StereoCalibration camera_of(const VehicleCalibration& calibration) {
+  if (calibration.stereo.width > 0) return calibration.stereo;
+  StereoCalibration any;
+  any.width = 640;
+  any.height = 480;
+  any.fx = any.fy = 500.0;
+  any.cx = 320.0;
+  any.cy = 240.0;
+  any.baseline = 0.5;
+  return any;
+}
+
 // After the start a drive with nothing but GNSS has nothing else to go by.
 VehicleConfig fitted(VehicleConfig config, const Sensors& sensors) {
   if (!sensors.camera && !sensors.imu && !sensors.odometry) config.fusion.use_gnss = true;
@@ -62,7 +76,7 @@ Vehicle::Graph::Graph(const VehicleConfig& vehicle_config, const VehicleCalibrat
                {&to_fusion.odometry, &to_publisher.odometry}),
       visual_log("visual log", std::move(sensors.visual), {&to_publisher.visual}),
       lidar_log("lidar log", std::move(sensors.lidar), {&to_publisher.lidar}),
-      stereo(stereo::StereoOdometry(calibration.stereo, config.stereo), images, stereo_bell,
+      stereo(stereo::StereoOdometry(camera_of(calibration), config.stereo), images, stereo_bell,
              visual_edges()),
       fusion(fusion::ReducedImuFilter(config.fusion), to_fusion, to_publisher.nav_state,
              to_publisher.image_state,

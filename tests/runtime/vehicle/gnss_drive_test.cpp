@@ -36,7 +36,7 @@ Sensors sensors(Duration length) {
   return s;
 }
 
-struct Run {
+struct Driven {
   MessageTape::Channels messages;
   std::vector<PppState> ppp;
   std::vector<NavState> nav;
@@ -44,9 +44,9 @@ struct Run {
   std::vector<Snapshot> snapshots;
 };
 
-Run drive(Sensors given, const DataClock& clock, const std::vector<Time>& cuts = {},
-          const Snapshot* from = nullptr) {
-  Run run;
+Driven drive(Sensors given, const DataClock& clock, const std::vector<Time>& cuts = {},
+             const Snapshot* from = nullptr) {
+  Driven run;
   MessageTape tape;
   Observer observer;
   observer.ppp = [&](const PppState& s) { run.ppp.push_back(s); };
@@ -63,7 +63,7 @@ Run drive(Sensors given, const DataClock& clock, const std::vector<Time>& cuts =
 
 TEST(GnssDrive, EveryEpochIsSaidAndTheFusionFollows) {
   MAPLOOP_REQUIRE_REAL_DATA();
-  const Run run = drive(sensors(seconds(90)), DataClock::virtual_time());
+  const Driven run = drive(sensors(seconds(90)), DataClock::virtual_time());
   ASSERT_EQ(run.ppp.size(), 90u);
   ASSERT_EQ(run.messages.at("GNSS_FIX").size(), 90u);
   const PppState& last = run.ppp.back();
@@ -92,13 +92,13 @@ TEST(GnssDrive, RealTimeHasTheBitsOfLockstepAndSoHasAResumedRun) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const Time cut =
       recording().first_stamp + milliseconds(20'105);  // between an epoch and its result
-  const Run lockstep = drive(sensors(seconds(40)), DataClock::virtual_time(), {cut});
-  const Run paced = drive(sensors(seconds(40)), DataClock::paced(20.0), {cut});
+  const Driven lockstep = drive(sensors(seconds(40)), DataClock::virtual_time(), {cut});
+  const Driven paced = drive(sensors(seconds(40)), DataClock::paced(20.0), {cut});
   EXPECT_EQ(paced.messages, lockstep.messages);
   ASSERT_EQ(lockstep.snapshots.size(), 1u);
   EXPECT_EQ(paced.snapshots.at(0).ppp, lockstep.snapshots.at(0).ppp);
 
-  const Run resumed =
+  const Driven resumed =
       drive(sensors(seconds(40)), DataClock::virtual_time(), {}, &lockstep.snapshots[0]);
   MessageTape::Channels later;
   for (const auto& [channel, messages] : lockstep.messages) {
@@ -112,7 +112,7 @@ TEST(GnssDrive, RealTimeHasTheBitsOfLockstepAndSoHasAResumedRun) {
 TEST(GnssDrive, NumbersThatAreNoneAreNotMeasured) {
   MAPLOOP_REQUIRE_REAL_DATA();
   FaultInjection faults({parse_fault("nan@gnss:10:2")}, recording().first_stamp);
-  const Run run = drive(faults.afflict(sensors(seconds(20))), DataClock::virtual_time());
+  const Driven run = drive(faults.afflict(sensors(seconds(20))), DataClock::virtual_time());
   ASSERT_EQ(run.ppp.size(), 20u);
   EXPECT_EQ(run.ppp[10].status, PppStatus::none);
   EXPECT_EQ(run.ppp[10].satellites.at(0).refusal, PppRefusal::no_signals);
