@@ -26,7 +26,8 @@ struct PppParameters {
   double doppler_sigma = 0.10;       // m/s
   double glonass_code_factor = 3.0;  // channels have biases of their own
   // How long errors of code last: multipath, and GLONASS's biases.
-  double code_correlation = 40.0;            // s; 0: not at all
+  double code_correlation = 40.0;            // s, of an antenna at rest; 0: not at all
+  double code_correlation_distance = 50.0;   // m, that an antenna moves meanwhile
   double glonass_code_correlation = 7200.0;  // s
   // Below it, variance doubles every 3 dB; 0: strength does not count.
   double full_cn0 = 0.0;           // dB-Hz
@@ -38,8 +39,10 @@ struct PppParameters {
   // White acceleration, m^2/s^3.
   double horizontal_acceleration = 2.0;
   double vertical_acceleration = 0.2;
-  double ambiguity_sigma = 60.0;     // m
-  double ambiguity_walk = 0.0;       // m/sqrt(s), besides that of orbits and clocks
+  double ambiguity_sigma = 60.0;  // m
+  // m/sqrt(s), besides that of the clocks: errors of orbits, attitude, antennas and troposphere.
+  // From how post-fit phase residuals of a station change over 10 minutes, alike for all systems.
+  double ambiguity_walk = 1.1e-4;
   double system_offset_walk = 1e-3;  // m/sqrt(s), clocks of systems against each other
   double position_sigma = 60.0;      // m, about the first position by code
   double outlier_sigmas = 4.0;       // post-fit
@@ -71,6 +74,7 @@ void fields(Parameters& p, F&& f) {
   f("doppler_sigma", p.doppler_sigma);
   f("glonass_code_factor", p.glonass_code_factor);
   f("code_correlation", p.code_correlation);
+  f("code_correlation_distance", p.code_correlation_distance);
   f("glonass_code_correlation", p.glonass_code_correlation);
   f("full_cn0", p.full_cn0);
   f("zenith_wet_sigma", p.zenith_wet_sigma);

@@ -147,19 +147,25 @@ void PppFilter::predict(double interval) {
       walk(S::system_offset + s, parameters_.system_offset_walk);
     }
   }
-  const double error_walk = std::hypot(parameters_.ambiguity_walk, model_.ephemeris().error_walk());
-  for (int i = S::fixed; i < state_.size(); ++i) walk(i, error_walk);
+  for (int i = S::fixed; i < state_.size(); ++i) {
+    const Satellite satellite = state_.ambiguities()[static_cast<std::size_t>(i - S::fixed)];
+    walk(i, std::hypot(parameters_.ambiguity_walk, model_.ephemeris().error_walk(satellite)));
+  }
 }
 
 // The first code of a satellite says all it can of a constant, each later one of a first-order
 // Gauss-Markov error only (1 - r) / (1 + r) of that.
 double PppFilter::code_repeats(Satellite satellite, const Memory& memory) const {
   if (!memory.last_code) return 1.0;
-  const double correlation = satellite.system == System::glonass
-                                 ? parameters_.glonass_code_correlation
-                                 : parameters_.code_correlation;
-  if (correlation <= 0.0) return 1.0;
-  return 1.0 / std::tanh(0.5 * to_seconds(time_ - *memory.last_code) / correlation);
+  const double since = to_seconds(time_ - *memory.last_code);
+  if (satellite.system == System::glonass) {
+    return 1.0 / std::tanh(0.5 * since / parameters_.glonass_code_correlation);
+  }
+  if (parameters_.code_correlation <= 0.0) return 1.0;
+  const double speed = state_.x().segment<3>(S::velocity).norm();
+  const double rate =
+      1.0 / parameters_.code_correlation + speed / parameters_.code_correlation_distance;
+  return 1.0 / std::tanh(0.5 * since * rate);
 }
 
 // Ranges, masks and slips.
