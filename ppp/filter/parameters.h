@@ -31,7 +31,7 @@ struct PppParameters {
   double glonass_code_correlation = 7200.0;  // s
   // Below it, variance doubles every 3 dB; 0: strength does not count.
   double full_cn0 = 0.0;           // dB-Hz
-  double zenith_wet_sigma = 0.15;  // m
+  double zenith_wet_sigma = 0.06;  // m, what the climatology leaves: 5 cm and a little
   double zenith_wet_walk = 1e-4;   // m/sqrt(s)
   bool gradients = true;
   double gradient_sigma = 0.001;  // m
@@ -45,10 +45,13 @@ struct PppParameters {
   double ambiguity_walk = 1.1e-4;
   double system_offset_walk = 1e-3;  // m/sqrt(s), clocks of systems against each other
   double position_sigma = 60.0;      // m, about the first position by code
-  double outlier_sigmas = 4.0;       // post-fit
-  double code_gate = 30.0;           // m, pre-fit
-  bool graphic = true;               // one frequency: half the sum of code and phase
-  int longest_gap = 10;              // epochs that a satellite may be away and keep its ambiguity
+  // m, an axis: what calibrations of antennas, tides and frames leave in common to all satellites,
+  // which no residual shows; added to the covariance that is said.
+  double model_sigma = 0.01;
+  double outlier_sigmas = 4.0;  // post-fit
+  double code_gate = 30.0;      // m, pre-fit
+  bool graphic = true;          // one frequency: half the sum of code and phase
+  int longest_gap = 10;         // epochs that a satellite may be away and keep its ambiguity
   // Of a receiver with one frequency, which mostly is a cheap one.
   double single_code_sigma = 1.0;     // m
   double single_phase_sigma = 0.005;  // m
@@ -88,6 +91,7 @@ void fields(Parameters& p, F&& f) {
   f("ambiguity_walk", p.ambiguity_walk);
   f("system_offset_walk", p.system_offset_walk);
   f("position_sigma", p.position_sigma);
+  f("model_sigma", p.model_sigma);
   f("outlier_sigmas", p.outlier_sigmas);
   f("code_gate", p.code_gate);
   f("graphic", p.graphic);

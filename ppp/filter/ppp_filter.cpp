@@ -317,7 +317,9 @@ void PppFilter::report() {
   const auto x = state_.x();
   const auto P = state_.P();
   solution_.position = x.segment<3>(S::position);
-  solution_.covariance = P.block<3, 3>(S::position, S::position);
+  solution_.covariance = P.block<3, 3>(S::position, S::position) + parameters_.model_sigma *
+                                                                       parameters_.model_sigma *
+                                                                       Eigen::Matrix3d::Identity();
   solution_.velocity = x.segment<3>(S::velocity);
   solution_.velocity_covariance = P.block<3, 3>(S::velocity, S::velocity);
   solution_.clock = x[S::clock];
