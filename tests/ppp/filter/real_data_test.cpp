@@ -65,6 +65,7 @@ TEST(PppFilter, StaticStationToCentimetres) {
   EXPECT_EQ(a.solved, a.with_truth);
   EXPECT_LT(a.horizontal_rmse, 0.02);
   EXPECT_LT(a.up_rmse, 0.025);
+  EXPECT_LT(a.nees, 4.0) << "3 where the covariance is right";
 }
 
 TEST(PppFilter, StationAsAVehicleToCentimetres) {
@@ -99,6 +100,8 @@ TEST(PppFilter, ACarInAStreetIsFollowed) {
   EXPECT_EQ(a.solved, a.with_truth);
   EXPECT_LT(a.horizontal_rmse, 0.49);
   EXPECT_LT(a.horizontal_rmse_without_mean, 0.15);
+  EXPECT_LT(a.up_rmse, 0.49);
+  EXPECT_LT(a.nees, 4.0);
 }
 
 TEST(PppFilter, OneFrequencyWithBroadcastOrbits) {
