@@ -37,7 +37,10 @@ void PppFilter::reset() {
 
 const PppSolution& PppFilter::process(const Epoch& epoch) {
   const double interval = started_ ? to_seconds(epoch.time - time_) : 0.0;
+  std::vector<SatelliteReport> reports = std::move(solution_.satellites);  // to reuse its memory
+  reports.clear();
   solution_ = {};
+  solution_.satellites = std::move(reports);
   solution_.time = epoch.time;
   solution_.restarts = restarts_;
   measure_all(epoch);
