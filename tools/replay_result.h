@@ -14,6 +14,7 @@
 #include "runtime/vehicle/vehicle_report.h"
 #include "tools/evaluation/kitti_metric.h"
 #include "tools/fusion_score.h"
+#include "tools/match/match_score.h"
 
 namespace maploop::tools {
 
@@ -62,6 +63,7 @@ struct ReplayResult {
   std::optional<Accuracy> fused;
   std::optional<PppEpochs> ppp;
   std::optional<fusion_score::Score> navigation;  // of NAV_STATE, as it was sent
+  std::optional<match::MatchScore> links;         // of MAP_MATCH, where the links are known
   std::map<std::string, vehicle::ChannelSummary> channels;
   std::optional<SnapshotResult> snapshot;
   std::vector<vehicle::FaultCount> faults;

@@ -67,6 +67,16 @@ void read(const double (&in)[n][n], Eigen::Matrix<double, n, n>& m) {
   }
 }
 
+// The enumerations of the messages count like ours; `last` is the largest known.
+template <class Enumeration>
+Enumeration enumerator_from(std::int8_t value, Enumeration last, const char* field) {
+  if (value < 0 || value > static_cast<std::int8_t>(last)) {
+    throw std::invalid_argument(std::string(field) + " is " + std::to_string(value) +
+                                ", which this version does not know");
+  }
+  return static_cast<Enumeration>(value);
+}
+
 template <class In, class Out>
 void convert_each(const std::vector<In>& in, std::vector<Out>& out, Out (*convert)(const In&)) {
   out.resize(in.size());

@@ -29,8 +29,9 @@ void make_mapped_edge(std::optional<runtime::Edge<StageSnapshot>>& edge, const E
   edge.emplace(std::string(spec.name), spec.capacity, spec.overflow, bell, mapped(*bytes));
 }
 
-Bytes content_of(std::optional<runtime::Edge<StageSnapshot>>& edge) {
-  return edge ? edge->front()->content : Bytes{};
+// Of a part that may not be there.
+Bytes content_of(std::optional<runtime::Edge<StageSnapshot>>& part) {
+  return part ? part->front()->content : Bytes{};
 }
 
 }  // namespace
@@ -40,6 +41,7 @@ SnapshotEdges::SnapshotEdges(const PartSizes& bytes)
       fusion(make_mapped_edge(edges::fusion_snapshot, &bell, bytes.fusion)) {
   make_mapped_edge(lidar, edges::lidar_snapshot, &bell, bytes.lidar);
   make_mapped_edge(ppp, edges::ppp_snapshot, &bell, bytes.ppp);
+  make_mapped_edge(mapmatch, edges::mapmatch_snapshot, &bell, bytes.mapmatch);
 }
 
 SnapshotStage::SnapshotStage(const PartSizes& bytes, SnapshotHandler handler)
@@ -47,7 +49,7 @@ SnapshotStage::SnapshotStage(const PartSizes& bytes, SnapshotHandler handler)
       parts_{&edges_.stereo, &edges_.fusion},
       handler_(std::move(handler)),
       meter_(stages::snapshot) {
-  for (auto* part : {&edges_.lidar, &edges_.ppp}) {
+  for (auto* part : {&edges_.lidar, &edges_.ppp, &edges_.mapmatch}) {
     if (*part) parts_.push_back(&**part);
   }
 }
@@ -59,7 +61,8 @@ Snapshot SnapshotStage::joined(Time first) {
           edges_.stereo.front()->content,
           content_of(edges_.lidar),
           content_of(edges_.ppp),
-          fusion.content};
+          fusion.content,
+          content_of(edges_.mapmatch)};
 }
 
 void SnapshotStage::run(Time first) {

@@ -22,6 +22,7 @@ struct PartSizes {
   std::optional<std::size_t> lidar;  // nothing: there is no such part
   std::optional<std::size_t> ppp;
   std::size_t fusion = 0;
+  std::optional<std::size_t> mapmatch;
 };
 
 // The edges that end at the snapshot thread.
@@ -33,6 +34,7 @@ struct SnapshotEdges {
   std::optional<runtime::Edge<StageSnapshot>> lidar;
   std::optional<runtime::Edge<StageSnapshot>> ppp;
   runtime::Edge<StageSnapshot> fusion;
+  std::optional<runtime::Edge<StageSnapshot>> mapmatch;
 };
 
 class SnapshotStage {
