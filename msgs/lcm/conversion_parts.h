@@ -33,16 +33,6 @@ inline void set_sample(Sample& sample, const maploop_lcm::header_t& header) {
   sample.sequence = static_cast<std::uint64_t>(header.sequence);
 }
 
-// The enumerations of the messages count like ours; `last` is the largest known.
-template <class Enumeration>
-Enumeration enumerator_from(std::int8_t value, Enumeration last, const char* field) {
-  if (value < 0 || value > static_cast<std::int8_t>(last)) {
-    throw std::invalid_argument(std::string(field) + " is " + std::to_string(value) +
-                                ", which this version does not know");
-  }
-  return static_cast<Enumeration>(value);
-}
-
 template <int n>
 void write(const Eigen::Matrix<double, n, 1>& v, double (&out)[n]) {
   for (int i = 0; i < n; ++i) out[i] = v(i);
