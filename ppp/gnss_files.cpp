@@ -1,5 +1,7 @@
 #include "ppp/gnss_files.h"
 
+#include <algorithm>
+
 namespace maploop::ppp {
 
 FileKind parse_into(std::string_view text, const std::string& name, GnssFiles& files) {
@@ -40,8 +42,28 @@ FileKind parse_into(std::string_view text, const std::string& name, GnssFiles& f
   return kind;
 }
 
+std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 FileKind read_into(const std::filesystem::path& path, GnssFiles& files) {
   return parse_into(read_file(path), path.string(), files);
+}
+
+void read_products(const std::filesystem::path& path, GnssFiles& files) {
+  if (!std::filesystem::is_directory(path)) {
+    read_into(path, files);
+    return;
+  }
+  for (const std::filesystem::path& file : files_in(path)) {
+    const FileKind kind = kind_of_file(file);
+    if (kind != FileKind::unknown && kind != FileKind::observation) read_into(file, files);
+  }
 }
 
 }  // namespace maploop::ppp

@@ -40,7 +40,6 @@ struct Epoch {
   std::span<const Signal> of(const SatelliteSignals& s) const {
     return std::span(signals).subspan(s.first, s.count);
   }
-  void clear();
 };
 
 // A column of an observation file.

@@ -69,6 +69,7 @@ struct Pass {
   TrajectoryCollector collector;
   TrajectoryCollector lidar_collector;
   fusion_score::NavTrack track;
+  std::optional<PppEpochs> ppp;
   std::map<Time, match::TimedMatch> matches;
 };
 
@@ -182,6 +183,10 @@ std::unique_ptr<vehicle::Vehicle> Replay::make_vehicle(const vehicle::Snapshot* 
   vehicle::Observer observer;
   observer.odometry = [this](const RelativeMotion& motion) { pass_->collector.add(motion); };
   observer.lidar = [this](const LidarMotion& motion) { pass_->lidar_collector.add(motion); };
+  observer.ppp = [this](const PppState& state) {
+    if (!pass_->ppp) pass_->ppp.emplace();
+    pass_->ppp->add(state);
+  };
   observer.nav_state = [this](const NavState& state) { pass_->track.add(state); };
   observer.map_match = [this](const MapMatch& match) {
     if (match.refusal != FixRefusal::no_position)
@@ -269,6 +274,7 @@ ReplayResult Replay::result(PlaybackEnd end) {
     tracer_->write(options_.trace);
     result.trace = {options_.trace.string(), tracer_->recorded(), tracer_->dropped()};
   }
+  result.ppp = pass_->ppp;
   result.faults = faults_.counts();
   if (map_ && recording_.driven_links) {
     std::vector<match::TimedMatch> matches;

@@ -12,6 +12,7 @@ inline constexpr std::string_view odometry = "ODOMETRY";
 inline constexpr std::string_view map_match = "MAP_MATCH";
 inline constexpr std::string_view imu = "IMU";
 inline constexpr std::string_view gnss_fix = "GNSS_FIX";
+inline constexpr std::string_view ppp_state = "PPP_STATE";
 inline constexpr std::string_view wheel_speed = "WHEEL_SPEED";
 inline constexpr std::string_view truth = "TRUTH";
 inline constexpr std::string_view camera = "CAMERA";

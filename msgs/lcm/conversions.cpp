@@ -1,8 +1,5 @@
 #include "msgs/lcm/conversions.h"
 
-#include <stdexcept>
-#include <string>
-
 #include "msgs/lcm/conversion_parts.h"
 
 namespace maploop {

@@ -9,6 +9,7 @@
 #include <maploop_lcm/lidar_motion_t.hpp>
 #include <maploop_lcm/map_match_t.hpp>
 #include <maploop_lcm/nav_state_t.hpp>
+#include <maploop_lcm/ppp_state_t.hpp>
 #include <maploop_lcm/reference_pose_t.hpp>
 #include <maploop_lcm/relative_motion_t.hpp>
 #include <maploop_lcm/wheel_speed_t.hpp>
@@ -19,6 +20,7 @@
 #include "msgs/map_match.h"
 #include "msgs/nav_state.h"
 #include "msgs/odometry.h"
+#include "msgs/ppp_state.h"
 #include "msgs/reference.h"
 #include "msgs/wheel_speed.h"
 
@@ -30,6 +32,7 @@ maploop_lcm::lidar_motion_t to_lcm(const LidarMotion& motion);
 maploop_lcm::imu_t to_lcm(const ImuSample& sample);
 maploop_lcm::wheel_speed_t to_lcm(const WheelSpeed& sample);
 maploop_lcm::gnss_fix_t to_lcm(const GnssFix& fix);
+maploop_lcm::ppp_state_t to_lcm(const PppState& state);
 maploop_lcm::reference_pose_t to_lcm(const ReferencePose& pose);
 maploop_lcm::map_match_t to_lcm(const MapMatch& match, const MapMatchWords& words);
 maploop_lcm::deadlines_t to_lcm(const Deadlines& deadlines);
@@ -43,6 +46,7 @@ LidarMotion from_lcm(const maploop_lcm::lidar_motion_t& message);
 ImuSample from_lcm(const maploop_lcm::imu_t& message);
 WheelSpeed from_lcm(const maploop_lcm::wheel_speed_t& message);
 GnssFix from_lcm(const maploop_lcm::gnss_fix_t& message);
+PppState from_lcm(const maploop_lcm::ppp_state_t& message);
 ReferencePose from_lcm(const maploop_lcm::reference_pose_t& message);
 MapMatch from_lcm(const maploop_lcm::map_match_t& message);
 Deadlines from_lcm(const maploop_lcm::deadlines_t& message);

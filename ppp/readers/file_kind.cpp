@@ -30,6 +30,10 @@ FileKind file_kind(std::string_view text) {
   return FileKind::unknown;
 }
 
+FileKind kind_of_file(const std::filesystem::path& path) {
+  return file_kind(read_head(path));
+}
+
 const char* name(FileKind kind) {
   switch (kind) {
     case FileKind::observation:

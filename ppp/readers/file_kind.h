@@ -1,6 +1,7 @@
 // What a GNSS file is, told by its content.
 #pragma once
 
+#include <filesystem>
 #include <string_view>
 
 namespace maploop::ppp {
@@ -19,6 +20,8 @@ enum class FileKind {
 };
 
 FileKind file_kind(std::string_view text);
+// Of a file, plain or .gz, from its first kilobytes. Throws ReadError where it cannot be read.
+FileKind kind_of_file(const std::filesystem::path& path);
 const char* name(FileKind kind);
 
 }  // namespace maploop::ppp

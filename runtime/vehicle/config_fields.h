@@ -30,6 +30,7 @@ void visit(Config& config, Table&& table, Field&& field) {
     field("odometry", p.odometry);
     field("stereo", p.stereo);
     field("lidar", p.lidar);
+    field("ppp", p.ppp);
     field("fusion", p.fusion);
     field("mapmatch", p.mapmatch);
     field("publisher", p.publisher);
@@ -89,6 +90,17 @@ void visit(Config& config, Table&& table, Field&& field) {
 
   table("lidar");
   fields(config.lidar, field);
+
+  table("ppp");
+  {
+    auto& p = config.ppp;
+    field("products", p.products);
+    field("broadcast", p.broadcast);
+    field("latency", p.latency);
+    field("integrity_risk", p.integrity_risk);
+    field("systems", p.filter.systems);
+    fields(p.filter, field);
+  }
 
   table("map");
   field("file", config.map.file);

@@ -75,6 +75,7 @@ Sensors FaultInjection::afflict(Sensors sensors) {
         break;
       case FaultTarget::gnss:
         strike(sensors.gnss);
+        strike(sensors.epochs);
         break;
       case FaultTarget::stereo:
       case FaultTarget::lidar:

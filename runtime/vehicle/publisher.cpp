@@ -30,6 +30,7 @@ PublisherEdges::PublisherEdges()
       visual(make_edge<RelativeMotion>(edges::stereo_publisher, nullptr)),
       lidar(make_edge<LidarMotion>(edges::lidar_publisher, nullptr)),
       odometry(make_edge<RelativeMotion>(edges::odometry_publisher, nullptr)),
+      ppp(make_edge<PppState>(edges::ppp_publisher, nullptr)),
       nav_state(make_edge<NavState>(edges::fusion_publisher, nullptr)),
       image_state(make_edge<NavState>(edges::image_states, nullptr)),
       map_match(make_edge<MapMatch>(edges::mapmatch_publisher, nullptr)),
@@ -62,6 +63,11 @@ Publisher::Publisher(const VehicleCalibration& calibration, PublisherEdges& edge
     const runtime::TraceSpan span(trace_, trace_name(channels::odometry));
     note_flow(motion);
     send(channels::odometry, motion.available, to_lcm(motion));
+  });
+  intake_.add(edges_.ppp, [this](const PppState& state) {
+    const runtime::TraceSpan span(trace_, trace_name(channels::ppp_state));
+    send(channels::ppp_state, state.available, to_lcm(state));
+    observer_.ppp(state);
   });
   intake_.add(edges_.nav_state, [this](const NavState& state) {
     runtime::TraceSpan span(trace_, trace_name(channels::nav_state));

@@ -16,6 +16,7 @@
 #include "msgs/map_match.h"
 #include "msgs/nav_state.h"
 #include "msgs/odometry.h"
+#include "msgs/ppp_state.h"
 #include "msgs/reference.h"
 #include "msgs/wheel_speed.h"
 #include "runtime/core/edge.h"
@@ -38,6 +39,7 @@ struct RuntimeReport : Sample {
 struct Observer {
   std::function<void(const RelativeMotion&)> odometry = [](const RelativeMotion&) {};
   std::function<void(const LidarMotion&)> lidar = [](const LidarMotion&) {};
+  std::function<void(const PppState&)> ppp = [](const PppState&) {};
   std::function<void(const NavState&)> nav_state = [](const NavState&) {};
   std::function<void(const NavState&)> image_state = [](const NavState&) {};
   std::function<void(const MapMatch&)> map_match = [](const MapMatch&) {};
@@ -57,6 +59,7 @@ struct PublisherEdges {
   runtime::Edge<RelativeMotion> visual;
   runtime::Edge<LidarMotion> lidar;
   runtime::Edge<RelativeMotion> odometry;  // what fusion gets
+  runtime::Edge<PppState> ppp;
   runtime::Edge<NavState> nav_state;
   runtime::Edge<NavState> image_state;
   runtime::Edge<MapMatch> map_match;

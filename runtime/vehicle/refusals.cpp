@@ -7,7 +7,7 @@
 namespace maploop::vehicle {
 
 std::vector<RefusalCount> refusals(const StereoStage& stereo, const LidarStage* lidar,
-                                   const fusion::FilterStatus& filter,
+                                   const PppStage* ppp, const fusion::FilterStatus& filter,
                                    const MapMatchStage* mapmatch) {
   std::vector<RefusalCount> all;
   const auto add = [&](const Stage& stage, std::string_view reason, std::uint64_t count) {
@@ -17,6 +17,10 @@ std::vector<RefusalCount> refusals(const StereoStage& stereo, const LidarStage* 
     const auto status = static_cast<OdometryStatus>(i);
     add(stages::stereo, to_string(status), stereo.count(status));
     if (lidar != nullptr) add(stages::lidar, to_string(status), lidar->count(status));
+  }
+  if (ppp != nullptr) {
+    const std::vector<RefusalCount> own = ppp->refusals();
+    all.insert(all.end(), own.begin(), own.end());
   }
   for (std::size_t i = 1; i < fusion::reason_count; ++i) {
     const auto reason = static_cast<fusion::Reason>(i);

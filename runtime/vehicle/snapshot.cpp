@@ -41,7 +41,7 @@ template <class Archive, class S>
 void describe(Archive& ar, S& snapshot, const VehicleConfig& config) {
   ar.section("vehicle snapshot", 3);
   archive_same_config(ar, config);
-  ar(snapshot.at, snapshot.first, snapshot.stereo, snapshot.lidar, snapshot.fusion,
+  ar(snapshot.at, snapshot.first, snapshot.stereo, snapshot.lidar, snapshot.ppp, snapshot.fusion,
      snapshot.mapmatch);
 }
 

@@ -24,9 +24,9 @@ runtime::Edge<StageSnapshot> make_mapped_edge(const EdgeSpec& spec, runtime::Doo
 }
 
 void make_mapped_edge(std::optional<runtime::Edge<StageSnapshot>>& edge, const EdgeSpec& spec,
-                      runtime::Doorbell* bell, const std::optional<std::size_t>& bytes) {
-  if (bytes)
-    edge.emplace(std::string(spec.name), spec.capacity, spec.overflow, bell, mapped(*bytes));
+                      runtime::Doorbell* bell, std::optional<std::size_t> bytes) {
+  if (!bytes) return;
+  edge.emplace(std::string(spec.name), spec.capacity, spec.overflow, bell, mapped(*bytes));
 }
 
 // Of a part that may not be there.
@@ -40,6 +40,7 @@ SnapshotEdges::SnapshotEdges(const PartSizes& bytes)
     : stereo(make_mapped_edge(edges::stereo_snapshot, &bell, bytes.stereo)),
       fusion(make_mapped_edge(edges::fusion_snapshot, &bell, bytes.fusion)) {
   make_mapped_edge(lidar, edges::lidar_snapshot, &bell, bytes.lidar);
+  make_mapped_edge(ppp, edges::ppp_snapshot, &bell, bytes.ppp);
   make_mapped_edge(mapmatch, edges::mapmatch_snapshot, &bell, bytes.mapmatch);
 }
 
@@ -48,8 +49,9 @@ SnapshotStage::SnapshotStage(const PartSizes& bytes, SnapshotHandler handler)
       parts_{&edges_.stereo, &edges_.fusion},
       handler_(std::move(handler)),
       meter_(stages::snapshot) {
-  if (edges_.lidar) parts_.push_back(&*edges_.lidar);
-  if (edges_.mapmatch) parts_.push_back(&*edges_.mapmatch);
+  for (auto* part : {&edges_.lidar, &edges_.ppp, &edges_.mapmatch}) {
+    if (*part) parts_.push_back(&**part);
+  }
 }
 
 Snapshot SnapshotStage::joined(Time first) {
@@ -58,6 +60,7 @@ Snapshot SnapshotStage::joined(Time first) {
           first,
           edges_.stereo.front()->content,
           content_of(edges_.lidar),
+          content_of(edges_.ppp),
           fusion.content,
           content_of(edges_.mapmatch)};
 }

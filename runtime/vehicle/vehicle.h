@@ -14,10 +14,12 @@
 #include "msgs/odometry.h"
 #include "msgs/reference.h"
 #include "msgs/wheel_speed.h"
+#include "ppp/ppp_setup.h"
 #include "runtime/core/data_clock.h"
 #include "runtime/core/realtime_setting.h"
 #include "runtime/core/trace.h"
 #include "runtime/vehicle/fault_delay.h"
+#include "runtime/vehicle/gnss_epoch.h"
 #include "runtime/vehicle/message_sink.h"
 #include "runtime/vehicle/publisher.h"
 #include "runtime/vehicle/road_map.h"
@@ -34,6 +36,9 @@ struct Sensors {
   std::unique_ptr<sensors::Source<LidarScan>> velodyne;
   std::unique_ptr<sensors::Source<ImuSample>> imu;
   std::unique_ptr<sensors::Source<GnssFix>> gnss;
+  // Instead of fixes: the receiver's observations, with what the ppp thread makes fixes from.
+  std::unique_ptr<sensors::Source<GnssEpoch>> epochs;
+  std::shared_ptr<const ppp::PppSetup> ppp;
   std::unique_ptr<sensors::Source<WheelSpeed>> wheel;
   std::unique_ptr<sensors::Source<ReferencePose>> reference;
   // Of a recording without images: what fusion got takes the place of the camera, and of the stereo

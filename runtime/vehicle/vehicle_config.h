@@ -6,11 +6,13 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "estimators/fusion/fusion_parameters.h"
 #include "estimators/lidar/parameters.h"
 #include "estimators/stereo/parameters.h"
 #include "mapmatch/match_parameters.h"
+#include "ppp/filter/parameters.h"
 #include "runtime/core/realtime_memory.h"
 #include "runtime/core/trace.h"
 #include "runtime/vehicle/lcm_bus.h"
@@ -23,6 +25,16 @@ struct CameraParameters {
   // File of the raw cameras' calibration, from the configuration's own folder: images are then raw,
   // and rectified as they are read (stereo_rig_file.h). Empty: images are rectified already.
   std::string calibration;
+};
+
+// Of a drive with the observations of a GNSS receiver.
+struct PppConfig {
+  // Files and folders, from the configuration's own folder; none: the folder of the observations.
+  std::vector<std::string> products;
+  bool broadcast = false;  // orbits and clocks of the navigation message even where SP3 is given
+  double latency = 0.1;    // s, from the epoch to its delivery by the receiver
+  double integrity_risk = 1e-4;  // that an error at one epoch is beyond its protection level
+  ppp::PppParameters filter;
 };
 
 enum class MapMode : std::uint8_t {
@@ -60,6 +72,7 @@ struct VehicleConfig {
   std::int64_t imu_seed = 1;
   stereo::StereoParameters stereo;
   lidar::LidarParameters lidar;
+  PppConfig ppp;
   MapParameters map;
   mapmatch::MatchParameters mapmatch;
   // KITTI's car travels 0.48 deg above its IMU's x axis: mean of eight odometry sequences (0.14 to

@@ -17,6 +17,7 @@
 #include "runtime/vehicle/health_monitor.h"
 #include "runtime/vehicle/lidar_stage.h"
 #include "runtime/vehicle/mapmatch_stage.h"
+#include "runtime/vehicle/ppp_stage.h"
 #include "runtime/vehicle/replay_driver.h"
 #include "runtime/vehicle/snapshot_stage.h"
 #include "runtime/vehicle/stereo_stage.h"
@@ -39,9 +40,12 @@ struct Vehicle::Graph {
   void start();
   void start_snapshots();
   void start_odometry();
+  void start_stereo();
+  void start_gnss();
   void start_mapmatch();
   std::vector<runtime::Edge<LidarScan>*> scan_edges();
   std::vector<runtime::Edge<RelativeMotion>*> visual_edges();
+  std::vector<runtime::Edge<GnssFix>*> fix_edges();
   std::vector<runtime::Edge<NavState>*> state_edges();
   MatchDescriber describer() const;
   void run_health(const std::stop_token& end);
@@ -79,6 +83,7 @@ struct Vehicle::Graph {
   runtime::Edge<StereoPair> images;
   bool odometry_recorded;              // instead of images
   std::optional<LidarEdges> to_lidar;  // nothing: fusion gets the visual odometry
+  std::optional<PppEdges> to_ppp;      // nothing: there are no observations
   FusionEdges to_fusion;
   std::optional<MapMatchEdges> to_mapmatch;  // where there is a map
   PublisherEdges to_publisher;
@@ -88,6 +93,7 @@ struct Vehicle::Graph {
   ReplayDriver<LidarScan> velodyne;
   ReplayDriver<ImuSample> imu;
   ReplayDriver<GnssFix> gnss;
+  ReplayDriver<GnssEpoch> epochs;  // instead of gnss where there is to_ppp
   ReplayDriver<WheelSpeed> wheel;
   ReplayDriver<ReferencePose> reference;
   ReplayDriver<RelativeMotion> odometry;
@@ -95,6 +101,7 @@ struct Vehicle::Graph {
   ReplayDriver<LidarMotion> lidar_log;
   StereoStage stereo;
   std::optional<LidarStage> lidar;  // where there is to_lidar
+  std::optional<PppStage> ppp;      // where there is to_ppp
   FusionStage fusion;
   std::optional<MapMatchStage> mapmatch;  // where there is to_mapmatch
   Publisher publisher;

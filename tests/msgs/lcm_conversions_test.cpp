@@ -8,6 +8,8 @@
 #include <tuple>
 #include <vector>
 
+#include "msgs/archive.h"
+
 namespace maploop {
 namespace {
 
@@ -265,6 +267,42 @@ TEST(LcmConversions, GnssFix) {
   EXPECT_EQ(r.velocity_stamp, f.velocity_stamp);
   EXPECT_EQ(r.velocity_enu, f.velocity_enu);
   EXPECT_EQ(r.velocity_covariance, f.velocity_covariance);
+}
+
+TEST(LcmConversions, PppState) {
+  PppState s;
+  fill(s);
+  s.status = PppStatus::converged;
+  s.message = "started again";
+  s.position = {0.62, 2.44, 51.0};
+  s.position_covariance.setRandom();
+  s.velocity_enu = {1.0, -2.0, 0.5};
+  s.velocity_covariance.setRandom();
+  s.protection = {0.1, 0.2, 0.3};
+  s.integrity_risk = 1e-5;
+  s.zenith_delay = 2.41;
+  s.zenith_delay_sigma = 0.02;
+  s.code_rms = 0.7;
+  s.phase_rms = 0.008;
+  s.converging_for = 123.0;
+  s.restarts = 2;
+  s.satellites_used = 9;
+  s.satellites = {
+      {'E', 33, 1.0F, 0.5F, 44.0F, true, false, 0.7F, 0.01F, PppRefusal::phase_misfit,
+       PppSlip::wide_lane},
+      {'G', 5, 0.0F, 0.0F, 0.0F, false, false, 0.0F, 0.0F, PppRefusal::too_many, PppSlip::doppler}};
+  const PppState r = round_trip(s);
+  expect_same_times(r, s);
+  ArchiveWriter sent, received;  // every field, bit for bit
+  sent(s);
+  received(r);
+  EXPECT_EQ(received.content(), sent.content());
+  maploop_lcm::ppp_state_t m = to_lcm(s);
+  m.satellites[0].refusal = 11;
+  EXPECT_THROW(from_lcm(m), std::invalid_argument);
+  m.satellites[0] = to_lcm(s).satellites[0];
+  m.satellites[0].name = "E3";
+  EXPECT_THROW(from_lcm(m), std::invalid_argument);
 }
 
 TEST(LcmConversions, ReferencePose) {

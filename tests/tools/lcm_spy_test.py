@@ -31,6 +31,7 @@ CHANNELS = {
     "MAP_MATCH": ("map_match_t", "explanation"),
     "NAV_STATE": ("nav_state_t", "origin_latitude"),
     "ODOMETRY": ("relative_motion_t", "translation"),
+    "PPP_STATE": ("ppp_state_t", "latitude"),
     "TRUTH": ("reference_pose_t", "azimuth"),
     "WHEEL_SPEED": ("wheel_speed_t", "sigma"),
     "VO": ("relative_motion_t", "translation"),

@@ -70,6 +70,9 @@ bool publish_all(lcm::LCM& lcm, int tick) {
   const auto matched = to_lcm(match, {"Moltkestrasse (way 30982311), P 97 %", {}});
   sent = lcm.publish("MAP_MATCH", &matched) == 0 && sent;
   publish("GNSS_FIX", sample<GnssFix>(tick));
+  auto ppp = sample<PppState>(tick);
+  ppp.satellites.resize(1);
+  publish("PPP_STATE", ppp);
   publish("WHEEL_SPEED", sample<WheelSpeed>(tick));
   publish("TRUTH", sample<ReferencePose>(tick));
   publish("DEADLINES", deadlines(state.stamp));

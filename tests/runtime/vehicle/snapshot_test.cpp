@@ -159,7 +159,8 @@ class SnapshotFile : public ::testing::Test {
 
   TemporaryFolder folder_;
   std::filesystem::path file_ = folder_.path() / "a.snapshot";
-  Snapshot snapshot_{drive_start + milliseconds(500), drive_start, {1, 2, 3}, {6}, {4, 5}, {7}};
+  Snapshot snapshot_{
+      drive_start + milliseconds(500), drive_start, {1, 2, 3}, {6}, {7}, {4, 5}, {8}};
 };
 
 TEST_F(SnapshotFile, ComesBackAsItWas) {
@@ -170,6 +171,7 @@ TEST_F(SnapshotFile, ComesBackAsItWas) {
   EXPECT_EQ(read.stereo, snapshot_.stereo);
   EXPECT_EQ(read.fusion, snapshot_.fusion);
   EXPECT_EQ(read.lidar, snapshot_.lidar);
+  EXPECT_EQ(read.ppp, snapshot_.ppp);
   EXPECT_EQ(read.mapmatch, snapshot_.mapmatch);
 }
 
