@@ -8,6 +8,9 @@ FileKind parse_into(std::string_view text, const std::string& name, GnssFiles& f
     case FileKind::observation:
       files.observations.push_back(parse_observations(text, name));
       break;
+    case FileKind::ubx:
+      files.observations.push_back(parse_ubx(text, name));
+      break;
     case FileKind::navigation:
       files.navigation.push_back(parse_navigation(text, name));
       break;
@@ -35,7 +38,7 @@ FileKind parse_into(std::string_view text, const std::string& name, GnssFiles& f
     case FileKind::unknown:
       throw ReadError(name +
                       ": none of RINEX observations, navigation or clocks, compact RINEX, SP3, "
-                      "ANTEX, Bias-SINEX, DCB, ERP, BLQ");
+                      "ANTEX, Bias-SINEX, DCB, ERP, BLQ, UBX");
   }
   return kind;
 }

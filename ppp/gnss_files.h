@@ -13,6 +13,7 @@
 #include "ppp/readers/observation.h"
 #include "ppp/readers/ocean_loading.h"
 #include "ppp/readers/sp3.h"
+#include "ppp/readers/ubx.h"
 
 namespace maploop::ppp {
 

@@ -1,6 +1,7 @@
 #include "ppp/readers/file_kind.h"
 
 #include "ppp/readers/lines.h"
+#include "ppp/readers/ubx.h"
 
 namespace maploop::ppp {
 
@@ -27,7 +28,7 @@ FileKind file_kind(std::string_view text) {
   if (start.starts_with("$$")) return FileKind::ocean_loading;
   const auto head = text.substr(0, 600);
   if (head.find("DIFFERENTIAL (P") != std::string_view::npos) return FileKind::dcb;
-  return FileKind::unknown;
+  return is_ubx(text) ? FileKind::ubx : FileKind::unknown;
 }
 
 const char* name(FileKind kind) {
@@ -50,6 +51,8 @@ const char* name(FileKind kind) {
       return "earth rotation";
     case FileKind::ocean_loading:
       return "ocean loading";
+    case FileKind::ubx:
+      return "u-blox raw measurements";
     case FileKind::unknown:
       return "unknown";
   }

@@ -15,6 +15,7 @@ enum class FileKind {
   dcb,
   earth_rotation,
   ocean_loading,
+  ubx,
   unknown
 };
 

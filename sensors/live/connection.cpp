@@ -84,7 +84,8 @@ int Connection::open_socket(std::string& problem) {
   }
   if (good) return fd;
   problem = std::string(udp ? "cannot be listened on: " : "cannot be connected to: ") +
-            std::strerror(errno) + (errno == EADDRNOTAVAIL ? "; no interface has this address" : "");
+            std::strerror(errno) +
+            (errno == EADDRNOTAVAIL ? "; no interface has this address" : "");
   if (fd >= 0) ::close(fd);
   return -1;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "msgs/time.h"
 #include "sensors/live/endpoint.h"
@@ -12,7 +13,7 @@ namespace maploop::sensors {
 
 struct ConnectionState {
   bool open = false;
-  std::uint64_t opened = 0;     // times
+  std::uint64_t opened = 0;  // times
   std::uint64_t bytes = 0;
   std::uint64_t too_large = 0;  // datagrams, left out
   std::string problem;          // why it is not open; empty while it is

@@ -11,7 +11,8 @@ namespace maploop::sensors {
 namespace {
 
 [[noreturn]] void reject(std::string_view text, const std::string& why) {
-  throw std::invalid_argument("'" + std::string(text) + "' is no place to read a sensor from: " + why +
+  throw std::invalid_argument("'" + std::string(text) +
+                              "' is no place to read a sensor from: " + why +
                               "; allowed are udp://[ADDRESS]:PORT, tcp://ADDRESS:PORT and "
                               "serial:///dev/NAME?baud=115200");
 }

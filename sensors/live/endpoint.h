@@ -14,11 +14,11 @@ namespace maploop::sensors {
 struct Endpoint {
   enum class Kind : std::uint8_t { udp, tcp, serial };
   Kind kind = Kind::udp;
-  std::string address;
+  std::string address{};
   std::uint16_t port = 0;  // udp: 0 takes any free one
-  std::string device;
+  std::string device{};
   int baud = 115200;
-  std::string text;  // as it was given
+  std::string text{};  // as it was given
 };
 
 // Throws std::invalid_argument naming the text and what is allowed.

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <stdexcept>
@@ -42,9 +43,11 @@ Bytes ipv4_of(Bytes frame, int link) {
 bool read_udp(Bytes ip, CapturedPacket& packet) {
   constexpr std::size_t udp_header = 8;
   if (ip.size() < 20 || ip[0] >> 4 != 4 || ip[9] != 17) return false;
-  const std::size_t header = 4U * (ip[0] & 0xfU), total = u16(ip, 2);
+  const std::size_t header = 4U * (ip[0] & 0xfU);
+  const std::size_t total = std::min<std::size_t>(u16(ip, 2), ip.size());
   const bool fragment = (u16(ip, 6) & 0x3fff) != 0;  // more to come, or not the first
-  if (fragment || header < 20 || total > ip.size() || total < header + udp_header) return false;
+  // A VLP-16 gives its position packets the total of its data packets; UDP's length is right.
+  if (fragment || header < 20 || total < header + udp_header) return false;
   const Bytes udp = ip.subspan(header, total - header);
   const std::size_t length = u16(udp, 4);
   if (length < udp_header || length > udp.size()) return false;

@@ -3,6 +3,8 @@
 #include <pcl/io/hdl_grabber.h>
 #include <pcl/io/vlp_grabber.h>
 
+#include <functional>
+#include <string>
 #include <utility>
 
 namespace maploop::sensors {
@@ -27,22 +29,31 @@ struct Opened {
 };
 template struct Opened<&pcl::HDLGrabber::toPointClouds>;
 
+// With a look at the points of the turn so far.
+template <class Base>
+struct Watched final : Base {
+  using Base::Base;
+  const Cloud& turn() const { return *this->current_sweep_xyzi_; }
+};
+
 }  // namespace
 
 struct PclPackets::Grabber {
-  explicit Grabber(std::unique_ptr<pcl::HDLGrabber> made) : pcl(std::move(made)) {
-    const std::function<void(const Cloud::ConstPtr&)> sweep = [this](const Cloud::ConstPtr& cloud) {
-      done.push_back(cloud);
-    };
-    pcl->registerCallback(sweep);
-    const std::function<void(const Cloud::ConstPtr&, float, float)> scan =
-        [this](const Cloud::ConstPtr& cloud, float, float) { packet = cloud; };
-    pcl->registerCallback(scan);
+  template <class Base, class... Arguments>
+  static std::unique_ptr<Grabber> make(Arguments... arguments) {
+    auto watched = std::make_unique<Watched<Base>>(arguments...);
+    auto grabber = std::make_unique<Grabber>();
+    grabber->turn = [w = watched.get()]() -> const Cloud& { return w->turn(); };
+    grabber->pcl = std::move(watched);
+    const std::function<void(const Cloud::ConstPtr&)> sweep =
+        [g = grabber.get()](const Cloud::ConstPtr& cloud) { g->done.push_back(cloud); };
+    grabber->pcl->registerCallback(sweep);
+    return grabber;
   }
 
+  std::function<const Cloud&()> turn;
   std::unique_ptr<pcl::HDLGrabber> pcl;
-  std::vector<Cloud::ConstPtr> done;
-  Cloud::ConstPtr packet;
+  std::vector<Cloud::ConstPtr> done;  // turns that ended in the packet at hand
 };
 
 PclPackets::PclPackets(std::unique_ptr<Grabber> grabber) : grabber_(std::move(grabber)) {}
@@ -50,23 +61,30 @@ PclPackets::~PclPackets() = default;
 PclPackets::PclPackets(PclPackets&&) noexcept = default;
 
 PclPackets PclPackets::vlp16() {
-  return PclPackets(std::make_unique<Grabber>(std::make_unique<pcl::VLPGrabber>("")));
+  return PclPackets(Grabber::make<pcl::VLPGrabber>(std::string()));
 }
 PclPackets PclPackets::hdl32e() {
-  return PclPackets(std::make_unique<Grabber>(std::make_unique<pcl::HDLGrabber>("", "")));
+  return PclPackets(Grabber::make<pcl::HDLGrabber>(std::string(), std::string()));
 }
 PclPackets PclPackets::hdl64e(const std::filesystem::path& calibration) {
-  return PclPackets(
-      std::make_unique<Grabber>(std::make_unique<pcl::HDLGrabber>(calibration.string(), "")));
+  return PclPackets(Grabber::make<pcl::HDLGrabber>(calibration.string(), std::string()));
 }
 
 std::vector<LidarPoint> PclPackets::decode(std::span<const std::uint8_t> packet) {
   std::vector<std::uint8_t> bytes(packet.begin(), packet.end());
-  grabber_->packet.reset();
-  decode_packet(*grabber_->pcl, bytes.data());
   std::vector<LidarPoint> points;
-  if (grabber_->packet == nullptr) return points;
-  for (const pcl::PointXYZI& p : *grabber_->packet) points.push_back({p.y, -p.x, p.z, p.intensity});
+  std::size_t seen = grabber_->turn().size();
+  const auto take = [&](const Cloud& cloud) {
+    for (std::size_t i = seen; i < cloud.size(); ++i) {
+      const pcl::PointXYZI& p = cloud[i];
+      points.push_back({p.y, -p.x, p.z, p.intensity});
+    }
+    seen = 0;
+  };
+  grabber_->done.clear();
+  decode_packet(*grabber_->pcl, bytes.data());
+  for (const Cloud::ConstPtr& cloud : grabber_->done) take(*cloud);
+  take(grabber_->turn());
   return points;
 }
 

@@ -32,7 +32,7 @@ TEST(VelodyneCapture, Vlp16OnAMovingCar) {
   EXPECT_EQ(counts.lost, 0U);
   EXPECT_EQ(counts.late, 0U);
   EXPECT_EQ(capture.decoder().turns().broken, 0U);
-  ASSERT_EQ(scans.size(), 3U);
+  ASSERT_EQ(scans.size(), 2U);  // 0.38 s from 230 degrees on
   for (const LidarScan& scan : scans) {
     EXPECT_NEAR(to_seconds(scan.end - scan.start), 0.1, 0.002);
     EXPECT_NEAR(to_seconds(scan.stamp - scan.start), 0.05, 0.001);

@@ -28,7 +28,8 @@ class Vlp16 {
 
   void send(int packets, Duration delay = milliseconds(1)) {
     for (int i = 0; i < packets; ++i) {
-      deliver(next(), now_ + delay);
+      const DataBytes packet = next();
+      deliver(packet, now_ + delay);
     }
   }
   DataBytes next() {
@@ -166,7 +167,7 @@ TEST(VelodyneDecoder, StampsDoNotWaverWithTheNetwork) {
   }
   // The least delay is all that cannot be seen.
   EXPECT_NEAR(to_seconds(scanner.scans.back().end - begin -
-                         milliseconds(100) * (scanner.scans.back().sequence)),
+                         milliseconds(100) * (scanner.scans.back().sequence + 1)),
               1e-3, 50e-6);
 }
 
