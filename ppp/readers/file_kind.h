@@ -16,6 +16,7 @@ enum class FileKind {
   earth_rotation,
   ocean_loading,
   ubx,
+  rtcm3,
   unknown
 };
 
