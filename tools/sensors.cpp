@@ -32,6 +32,7 @@ void add_listen(CLI::App& app, Command& command) {
   sub->add_option("--imu", options->imu, "Endpoint of an OXTS unit's NCOM");
   sub->add_option("--gnss", options->gnss, "Endpoint of a receiver's NMEA");
   sub->add_option("--seconds", options->seconds, "How long")->check(CLI::Range(0.1, 86400.0));
+  sub->add_option("--json", options->json, "Write what was heard to this file as JSON");
   sub->callback(
       [options, &command] { command = [options] { return listen_to_sensors(*options); }; });
 }

@@ -6,12 +6,14 @@
 #include <cstdio>
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <thread>
 #include <vector>
 
 #include "sensors/live/live_sensors.h"
+#include "tools/json_output.h"
 
 namespace maploop::tools {
 namespace {
@@ -68,6 +70,21 @@ void print(const Heard& heard) {
     std::printf("  says         %s\n", note.c_str());
 }
 
+nlohmann::json to_json(const Heard& heard) {
+  const sensors::ConnectionState& connection = heard.report.connection;
+  nlohmann::json json{{"endpoint", heard.report.endpoint}, {"open", connection.open},
+                      {"problem", connection.problem},     {"opened", connection.opened},
+                      {"bytes", connection.bytes},         {"samples", heard.samples},
+                      {"refused", heard.report.refused},   {"left_out", heard.report.reasons},
+                      {"notes", heard.report.notes}};
+  if (heard.samples > 0) {
+    json["span_s"] = to_seconds(heard.last - heard.first);
+    json["youngest_s"] = to_seconds(heard.youngest);
+    json["oldest_s"] = to_seconds(heard.oldest);
+  }
+  return json;
+}
+
 std::vector<sensors::Laser> lasers(sensors::VelodyneModel model,
                                    const std::filesystem::path& calibration) {
   return calibration.empty() ? sensors::factory_lasers(model)
@@ -118,14 +135,17 @@ int listen_to_sensors(const ListenOptions& options) {
   std::signal(SIGINT, before);
   std::signal(SIGTERM, terminate_before);
   bool all = true;
+  nlohmann::json json;
   for (const Heard& h : heard) {
     print(h);
+    json[h.name] = to_json(h);
     all = all && h.samples > 0;
   }
   if (const Duration step = clock.step(); std::chrono::abs(step) > std::chrono::milliseconds(10)) {
     std::printf("this machine's clock was set by %+.3f s meanwhile; stamps did not follow it\n",
                 to_seconds(step));
   }
+  if (!options.json.empty()) write_json_file(options.json, json);
   return all ? 0 : 1;
 }
 

@@ -11,6 +11,7 @@ struct ListenOptions {
   std::string model = "VLP-16";
   std::filesystem::path calibration;
   double seconds = 5.0;
+  std::filesystem::path json;  // empty: none
 };
 
 // Prints a block a sensor; 0 where each of them was heard. Ends early at SIGINT or SIGTERM.
