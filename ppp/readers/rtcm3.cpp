@@ -214,9 +214,12 @@ Signal MsmDecoder::signal_of(const Header& header, std::size_t satellite, std::s
                            : std::nullopt;
   const double cycles_per_metre =
       carrier_frequency(key.satellite.system, key.band, channel) / speed_of_light;
-  int& locked = locked_[key];
-  const bool slipped = header.lock[cell] == 0 || header.lock[cell] < locked;
-  locked = header.lock[cell];
+  // The indicator grows with the time of lock; of a signal that the epoch before did not have it
+  // says too little.
+  Tracked& tracked = tracked_[key];
+  const bool slipped = header.lock[cell] == 0 || header.lock[cell] < tracked.lock ||
+                       (tracked.seen && tracked.last < now_);
+  tracked = {true, open_.time, header.lock[cell]};
   if (header.phase_ms[cell]) {
     if (cycles_per_metre > 0.0) {
       signal.phase = metres_of_ms * (rough + *header.phase_ms[cell]) * cycles_per_metre;

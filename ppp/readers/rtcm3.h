@@ -41,14 +41,21 @@ class MsmDecoder {
     auto operator<=>(const Key&) const = default;
   };
 
+  // Of a signal at its last epoch.
+  struct Tracked {
+    bool seen = false;
+    GpsTime last{};
+    int lock = 0;  // indicator
+  };
+
   std::optional<GpsTime> time_of(System system, std::uint64_t field) const;
   void add(const Header& header);
   Signal signal_of(const Header& header, std::size_t satellite, std::string_view name,
                    std::size_t cell);
 
   GpsTime now_;
-  Epoch open_;                 // being collected
-  std::map<Key, int> locked_;  // lock indicator at the last epoch
+  Epoch open_;  // being collected
+  std::map<Key, Tracked> tracked_;
   std::array<std::optional<int>, 100> glonass_channels_;
   int left_out_ = 0;
 };

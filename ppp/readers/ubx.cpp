@@ -71,10 +71,15 @@ void RawxDecoder::add(const Key& key, std::string_view m, Epoch& epoch) {
   const double doppler = ubx_number<float>(m, 16);
   const int lock_ms = ubx_number<std::uint16_t>(m, 24);
   const bool subtracted = (status & half_subtracted) != 0;
+  // The lock is younger than the last epoch that had this signal, or younger than it was then.
+  constexpr std::int64_t longest_ms = 64'500;
   Tracked& tracked = tracked_[key];
-  const bool slipped =
-      lock_ms == 0 || lock_ms < tracked.lock_ms || subtracted != tracked.half_subtracted;
-  tracked = {lock_ms, subtracted};
+  const std::int64_t since_ms =
+      tracked.seen ? (epoch.time - tracked.last) / std::chrono::milliseconds(1) : 0;
+  const bool slipped = lock_ms == 0 || lock_ms < tracked.lock_ms ||
+                       lock_ms < std::min(since_ms, longest_ms) ||
+                       subtracted != tracked.half_subtracted;
+  tracked = {true, epoch.time, lock_ms, subtracted};
 
   Signal signal{.band = key.band, .attribute = key.attribute};
   signal.cn0 = ubx_number<std::uint8_t>(m, 26);

@@ -30,6 +30,8 @@ class RawxDecoder {
   };
   // Of a signal at its last epoch.
   struct Tracked {
+    bool seen = false;
+    GpsTime last{};
     int lock_ms = 0;
     bool half_subtracted = false;
   };

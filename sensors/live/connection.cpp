@@ -155,10 +155,13 @@ std::size_t Connection::receive(std::span<std::uint8_t> to) {
 std::size_t Connection::read(std::span<std::uint8_t> to, Duration patience) {
   const MonotonicTime deadline = now() + patience;
   if (!wait_open(deadline)) return 0;
-  if (poll_until(fd_, POLLIN, deadline) == 0) return 0;
-  const std::size_t size = receive(to);
-  state_.bytes += size;
-  return size;
+  while (state_.open && poll_until(fd_, POLLIN, deadline) != 0) {
+    const std::size_t size = receive(to);
+    state_.bytes += size;
+    // A datagram that is left out does not end the waiting.
+    if (size > 0 || now() >= deadline) return size;
+  }
+  return 0;
 }
 
 }  // namespace maploop::sensors

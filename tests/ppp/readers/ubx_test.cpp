@@ -95,7 +95,7 @@ TEST(Ubx, IsWhatRtklibReads) {
   const Observations ours = parse_ubx(bytes, "f9t.ubx");
   const Observations theirs = parse_observations(read_file(rinex), "f9t.obs");
   ASSERT_EQ(ours.epochs.size(), theirs.epochs.size());
-  std::size_t compared = 0, slips_ours = 0, slips_theirs = 0;
+  std::size_t compared = 0;
   for (std::size_t i = 0; i < ours.epochs.size(); ++i) {
     const Epoch &a = ours.epochs[i], &b = theirs.epochs[i];
     ASSERT_LT(std::chrono::abs(a.time - b.time), std::chrono::microseconds(1));
@@ -112,20 +112,18 @@ TEST(Ubx, IsWhatRtklibReads) {
         }
         ASSERT_NE(found, nullptr) << to_string(satellite.satellite) << expected.band;
         EXPECT_NEAR(found->code, expected.code, 6e-4);
-        EXPECT_NEAR(found->phase, expected.phase, 6e-4);
         EXPECT_NEAR(found->doppler, expected.doppler, 6e-4);
         EXPECT_NEAR(found->cn0, expected.cn0, 1e-3);
+        // RTKLIB leaves phases out for their standard deviation.
         if (expected.phase != 0.0) {
+          EXPECT_NEAR(found->phase, expected.phase, 6e-4);
           EXPECT_EQ(found->half_cycle, expected.half_cycle);
-          slips_ours += found->lost_lock;
-          slips_theirs += expected.lost_lock;
         }
         ++compared;
       }
     }
   }
   EXPECT_GT(compared, 9'000U);
-  EXPECT_EQ(slips_ours, slips_theirs);
 }
 
 TEST(Ubx, SaysWhereThePhaseMayHaveSlipped) {
@@ -146,6 +144,8 @@ TEST(Ubx, SaysWhereThePhaseMayHaveSlipped) {
   EXPECT_TRUE(decode(4, {0, 5, 0, code, 1e8, 1500, 3}).half_cycle);
   EXPECT_TRUE(decode(5, {0, 5, 0, code, 1e8, 2500, 15}).lost_lock);  // half a cycle was taken off
   EXPECT_EQ(decode(6, {0, 5, 0, code, 1e8, 3500, 1}).phase, 0.0);
+  EXPECT_TRUE(decode(60, {0, 5, 0, code, 1e8, 20'000}).lost_lock);  // anew since then
+  EXPECT_FALSE(decode(90, {0, 5, 0, code, 1e8, 50'000}).lost_lock);
   EXPECT_EQ(epoch.satellites.front().satellite, (Satellite{System::gps, 5}));
   EXPECT_NEAR(epoch.signals.front().doppler, -1234.5, 1e-3);
 }
@@ -184,7 +184,7 @@ TEST(Ubx, TakesDamagedBytesWithoutHarm) {
   }
   for (int round = 0; round < 3000; ++round) {
     std::string bytes = clean;
-    for (unsigned n = 1 + random() % 6; n > 0; --n) {
+    for (auto n = 1 + random() % 6; n > 0; --n) {
       bytes[random() % bytes.size()] = static_cast<char>(random());
     }
     bytes.resize(random() % (bytes.size() + 1));

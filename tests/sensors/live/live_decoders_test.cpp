@@ -104,7 +104,10 @@ std::string sentence(const std::string& body) {
 TEST(NmeaFixes, JoinsTheSentencesOfAnEpoch) {
   NmeaFixes fixes;
   GnssFix fix;
-  const auto add = [&](const std::string& body) { return fixes.add(sentence(body), begin, fix); };
+  const auto add = [&](const std::string& body) {
+    const Time arrival = begin + seconds(std::stoi(body.substr(10, 2)));
+    return fixes.add(sentence(body), arrival, fix);
+  };
   const std::string gga = ",4858.95,N,00823.42,E,4,12,0.80,115.2,M,47.9,M,,";
   const std::string rmc = ",A,4858.95,N,00823.42,E,19.438,270.0,010326,,,A";
   EXPECT_FALSE(add("GNGST,100000.00,,,,,0.02,0.01,0.03"));

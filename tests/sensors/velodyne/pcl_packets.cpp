@@ -48,6 +48,9 @@ struct PclPackets::Grabber {
     const std::function<void(const Cloud::ConstPtr&)> sweep =
         [g = grabber.get()](const Cloud::ConstPtr& cloud) { g->done.push_back(cloud); };
     grabber->pcl->registerCallback(sweep);
+    // Otherwise what nothing came back from is a point.
+    float nearest = 1e-3F;  // m
+    grabber->pcl->setMinimumDistanceThreshold(nearest);
     return grabber;
   }
 
