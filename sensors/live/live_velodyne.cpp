@@ -18,9 +18,11 @@ class LiveVelodyne final : public LiveSource<LidarScan> {
   }
 
   bool wait(LidarScan& scan, Duration patience) override {
-    if (position_) {
+    // They are few; a flood of them does not keep the data waiting.
+    for (int i = 0; position_ && i < most_positions; ++i) {
       const std::size_t size = position_->read(buffer_, Duration::zero());
-      if (size > 0) decoder_.add(std::span(buffer_).first(size), clock_.now(), scan);
+      if (size == 0) break;
+      decoder_.add(std::span(buffer_).first(size), clock_.now(), scan);
     }
     // A turn is 75 packets and more: returns now and then although there is more to read.
     const Time end = clock_.now() + patience;
@@ -62,6 +64,8 @@ class LiveVelodyne final : public LiveSource<LidarScan> {
   }
 
  private:
+  static constexpr int most_positions = 32;
+
   bool in_order(const LidarScan& scan) {
     const bool later = scan.stamp > last_stamp_ && scan.available > last_available_;
     if (!later) {
