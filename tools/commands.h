@@ -13,6 +13,7 @@ void add_calibrate(CLI::App& app, Command& command);
 void add_dashboard(CLI::App& app, Command& command);
 void add_doctor(CLI::App& app, Command& command);
 void add_evaluate(CLI::App& app, Command& command);
+void add_evaluate_match(CLI::App& evaluate, Command& command);
 void add_experiment(CLI::App& app, Command& command);
 void add_gnss(CLI::App& app, Command& command);
 void add_log(CLI::App& app, Command& command);

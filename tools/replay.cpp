@@ -104,6 +104,13 @@ void add_replay(CLI::App& app, Command& command) {
                   "Write the fused state every 100 ms to this file, with what its aids said");
   sub->add_option("--nmea", options->nmea,
                   "Write GGA, RMC, GST and HDT sentences of the fused state, once a second");
+  sub->add_option("--map", options->map,
+                  "OpenStreetMap file, or network file of `maploop map build`: the fused state is "
+                  "matched to its roads")
+      ->check(CLI::ExistingFile);
+  sub->add_option("--map-mode", options->map_mode,
+                  "none, or loose (where there is a map): matched, and nothing fed back")
+      ->check(CLI::IsMember({"none", "loose"}));
   sub->add_option("--configuration", options->configuration,
                   "What joins the inertial sensors: VO-RI, VO-L-RI, RISS or RISS-VO; GNSS+ before "
                   "it: fixes are used after the start too. Without it, --speed-scale "

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include "tools/json_output.h"
+#include "tools/match/score_output.h"
 
 namespace maploop::tools {
 namespace {
@@ -216,6 +217,7 @@ std::string format_table(const ReplayResult& r) {
            1e3 * v.imu_delay.delay(), 1e3 * v.imu_delay.sigma());
   }
   if (r.navigation) t += fusion_score::to_text(*r.navigation);
+  if (r.links) t += "\nLinks driven against their labels\n" + match::to_text(*r.links);
 
   t += "\nSensors                 count  left out   late p50       p99       max  ms\n";
   for (const vehicle::SensorReport& s : v.sensors) {
@@ -283,6 +285,7 @@ void write_json(const std::filesystem::path& file, const ReplayResult& r) {
   j["lidar"] = to_json(r.lidar);
   j["fused"] = to_json(r.fused);
   j["navigation"] = r.navigation ? to_json(*r.navigation) : json(nullptr);
+  j["links"] = r.links ? match::to_json(*r.links) : json(nullptr);
   if (v.imu_delay.known()) {
     j["imu_delay_left"] = {{"s", v.imu_delay.delay()}, {"sigma_s", v.imu_delay.sigma()}};
   }

@@ -12,6 +12,7 @@
 #include "runtime/vehicle/vehicle_report.h"
 #include "tools/evaluation/kitti_metric.h"
 #include "tools/fusion_score.h"
+#include "tools/match/match_score.h"
 
 namespace maploop::tools {
 
@@ -45,6 +46,7 @@ struct ReplayResult {
   std::optional<Accuracy> lidar;
   std::optional<Accuracy> fused;
   std::optional<fusion_score::Score> navigation;  // of NAV_STATE, as it was sent
+  std::optional<match::MatchScore> links;         // of MAP_MATCH, where the links are known
   std::map<std::string, vehicle::ChannelSummary> channels;
   std::optional<SnapshotResult> snapshot;
   std::vector<vehicle::FaultCount> faults;

@@ -1,5 +1,5 @@
 // Samples, results and diagnostics as LCM types, and back. Nothing is lost either way but
-// `received`, which is this machine's own.
+// `received`, which is this machine's own, and a match's words, which are for people.
 #pragma once
 
 #include <maploop_lcm/deadlines_t.hpp>
@@ -7,6 +7,7 @@
 #include <maploop_lcm/health_t.hpp>
 #include <maploop_lcm/imu_t.hpp>
 #include <maploop_lcm/lidar_motion_t.hpp>
+#include <maploop_lcm/map_match_t.hpp>
 #include <maploop_lcm/nav_state_t.hpp>
 #include <maploop_lcm/reference_pose_t.hpp>
 #include <maploop_lcm/relative_motion_t.hpp>
@@ -15,6 +16,7 @@
 #include "msgs/diagnostics.h"
 #include "msgs/gnss.h"
 #include "msgs/imu.h"
+#include "msgs/map_match.h"
 #include "msgs/nav_state.h"
 #include "msgs/odometry.h"
 #include "msgs/reference.h"
@@ -29,10 +31,12 @@ maploop_lcm::imu_t to_lcm(const ImuSample& sample);
 maploop_lcm::wheel_speed_t to_lcm(const WheelSpeed& sample);
 maploop_lcm::gnss_fix_t to_lcm(const GnssFix& fix);
 maploop_lcm::reference_pose_t to_lcm(const ReferencePose& pose);
+maploop_lcm::map_match_t to_lcm(const MapMatch& match, const MapMatchWords& words);
 maploop_lcm::deadlines_t to_lcm(const Deadlines& deadlines);
 maploop_lcm::health_t to_lcm(const Health& health);
 
-// Throw std::invalid_argument when a status is none of ours.
+// Throw std::invalid_argument when a status is none of ours, or there are more candidates than a
+// match holds.
 NavState from_lcm(const maploop_lcm::nav_state_t& message);
 RelativeMotion from_lcm(const maploop_lcm::relative_motion_t& message);
 LidarMotion from_lcm(const maploop_lcm::lidar_motion_t& message);
@@ -40,6 +44,7 @@ ImuSample from_lcm(const maploop_lcm::imu_t& message);
 WheelSpeed from_lcm(const maploop_lcm::wheel_speed_t& message);
 GnssFix from_lcm(const maploop_lcm::gnss_fix_t& message);
 ReferencePose from_lcm(const maploop_lcm::reference_pose_t& message);
+MapMatch from_lcm(const maploop_lcm::map_match_t& message);
 Deadlines from_lcm(const maploop_lcm::deadlines_t& message);
 Health from_lcm(const maploop_lcm::health_t& message);
 

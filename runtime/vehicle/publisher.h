@@ -13,6 +13,7 @@
 #include "msgs/image.h"
 #include "msgs/imu.h"
 #include "msgs/lidar_scan.h"
+#include "msgs/map_match.h"
 #include "msgs/nav_state.h"
 #include "msgs/odometry.h"
 #include "msgs/reference.h"
@@ -39,6 +40,7 @@ struct Observer {
   std::function<void(const LidarMotion&)> lidar = [](const LidarMotion&) {};
   std::function<void(const NavState&)> nav_state = [](const NavState&) {};
   std::function<void(const NavState&)> image_state = [](const NavState&) {};
+  std::function<void(const MapMatch&)> map_match = [](const MapMatch&) {};
 };
 
 // The edges that end at the publisher. No bell: it looks by itself, so that nobody upstream pays a
@@ -57,14 +59,18 @@ struct PublisherEdges {
   runtime::Edge<RelativeMotion> odometry;  // what fusion gets
   runtime::Edge<NavState> nav_state;
   runtime::Edge<NavState> image_state;
+  runtime::Edge<MapMatch> map_match;
   runtime::Edge<RuntimeReport> reports;
 };
+
+// What a match means in words.
+using MatchDescriber = std::function<MapMatchWords(const MapMatch&)>;
 
 // One thread's own. Messages of all channels leave in the order of their `available`.
 class Publisher {
  public:
   Publisher(const VehicleCalibration& calibration, PublisherEdges& edges,
-            std::vector<MessageSink*> sinks, Observer observer);
+            std::vector<MessageSink*> sinks, Observer observer, MatchDescriber in_words);
 
   const std::vector<MessageSink*>& sinks() const { return sinks_; }
 
@@ -90,6 +96,7 @@ class Publisher {
   PublisherEdges& edges_;
   std::vector<MessageSink*> sinks_;
   Observer observer_;
+  MatchDescriber in_words_;
   runtime::Intake intake_;
   std::vector<std::uint8_t> buffer_;
   ThreadMeter meter_{stages::publisher};

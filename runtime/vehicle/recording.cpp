@@ -19,8 +19,13 @@ namespace {
 
 template <class Opened>
 Recording describe(const Opened& opened, std::function<Sensors(Time)> sensors) {
-  return {opened.calibration(), opened.first_stamp(), opened.last_stamp(),
-          opened.frame_count(), std::move(sensors),   {}};
+  return {opened.calibration(),
+          opened.first_stamp(),
+          opened.last_stamp(),
+          opened.frame_count(),
+          std::move(sensors),
+          {},
+          {}};
 }
 
 // Those of a configuration that uses it.
@@ -67,6 +72,8 @@ Recording open_sequence(const std::filesystem::path& path, const VehicleConfig& 
     }
     return s;
   });
+  if (const auto& labels = sequence->labels_file())
+    recording.driven_links = {*labels, sequence->image_stamps()};
   if (tracks != nullptr) recording.calibration.stereo = tracks->calibration;
   return recording;
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "msgs/calibration.h"
@@ -14,6 +15,12 @@
 
 namespace maploop::vehicle {
 
+// Of the road links really driven.
+struct DrivenLinksFile {
+  std::filesystem::path file;
+  std::vector<Time> stamps;  // of the frames that it numbers
+};
+
 struct Recording {
   VehicleCalibration calibration;
   Time first_stamp{};  // of the images, or of what stands for them
@@ -22,7 +29,8 @@ struct Recording {
   // Anew, each from the start; those that it has. Pixels and points of what is available up to
   // `passed` may be missing, which saves reading them.
   std::function<Sensors(Time passed)> sensors;
-  std::vector<GnssOutage> outages;  // as configured; the sensors have them
+  std::vector<GnssOutage> outages;              // as configured; the sensors have them
+  std::optional<DrivenLinksFile> driven_links;  // where the recording has one
 };
 
 // A KITTI raw drive, with the raw cameras that the configuration may name.

@@ -7,7 +7,8 @@
 namespace maploop::vehicle {
 
 std::vector<RefusalCount> refusals(const StereoStage& stereo, const LidarStage* lidar,
-                                   const fusion::FilterStatus& filter) {
+                                   const fusion::FilterStatus& filter,
+                                   const MapMatchStage* mapmatch) {
   std::vector<RefusalCount> all;
   const auto add = [&](const Stage& stage, std::string_view reason, std::uint64_t count) {
     if (count > 0) all.push_back({std::string(stage.name), std::string(reason), count});
@@ -25,6 +26,10 @@ std::vector<RefusalCount> refusals(const StereoStage& stereo, const LidarStage* 
   add(stages::fusion, "recovery: the prediction was doubted", filter.recoveries);
   add(stages::fusion, "begun anew at a fix", filter.reinitializations);
   add(stages::fusion, "restart: the clock jumped", filter.restarts);
+  for (std::size_t i = 1; i < fix_refusal_count && mapmatch != nullptr; ++i) {
+    const auto reason = static_cast<FixRefusal>(i);
+    add(stages::mapmatch, to_string(reason), mapmatch->count(reason));
+  }
   return all;
 }
 

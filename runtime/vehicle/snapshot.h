@@ -20,6 +20,7 @@ struct Snapshot {
   Bytes stereo;  // parts, as the stages write and read them
   Bytes lidar;   // empty where the odometry is visual alone
   Bytes fusion;
+  Bytes mapmatch;  // empty where there is no map
 };
 
 // Some 1.5 MB, and 3 more with a LiDAR's map. The file has its name once it is whole; what was

@@ -21,6 +21,7 @@ struct PartSizes {
   std::size_t stereo = 0;
   std::optional<std::size_t> lidar;  // nothing: there is no such part
   std::size_t fusion = 0;
+  std::optional<std::size_t> mapmatch;
 };
 
 // The edges that end at the snapshot thread.
@@ -31,6 +32,7 @@ struct SnapshotEdges {
   runtime::Edge<StageSnapshot> stereo;
   std::optional<runtime::Edge<StageSnapshot>> lidar;
   runtime::Edge<StageSnapshot> fusion;
+  std::optional<runtime::Edge<StageSnapshot>> mapmatch;
 };
 
 class SnapshotStage {

@@ -11,9 +11,10 @@ namespace maploop::vehicle {
 
 Vehicle::Vehicle(const VehicleConfig& config, const VehicleCalibration& calibration,
                  Sensors sensors, const runtime::DataClock& clock, std::vector<MessageSink*> sinks,
-                 Observer observer, runtime::Tracer* tracer)
+                 Observer observer, runtime::Tracer* tracer, std::shared_ptr<const RoadMap> map)
     : graph_(std::make_unique<Graph>(config, calibration, std::move(sensors), clock,
-                                     std::move(sinks), std::move(observer), tracer)) {}
+                                     std::move(sinks), std::move(observer), tracer,
+                                     std::move(map))) {}
 
 Vehicle::~Vehicle() = default;
 
@@ -21,6 +22,7 @@ void Vehicle::slow_down(StageDelays delays) {
   graph_->stereo.slow_down(std::move(delays.stereo));
   if (graph_->lidar) graph_->lidar->slow_down(std::move(delays.lidar));
   graph_->fusion.slow_down(std::move(delays.fusion));
+  if (graph_->mapmatch) graph_->mapmatch->slow_down(std::move(delays.mapmatch));
 }
 
 void Vehicle::start_from(const fusion::KnownStart& known) {
@@ -42,10 +44,16 @@ void Vehicle::resume(const Snapshot& snapshot) {
                            ? "it was saved without LiDAR odometry, and here there is one"
                            : "it was saved with LiDAR odometry, and here there is none");
   }
+  if (graph_->mapmatch.has_value() == snapshot.mapmatch.empty()) {
+    throw ArchiveError(snapshot.mapmatch.empty()
+                           ? "it was saved without a map, and here there is one"
+                           : "it was saved with a map, and here there is none");
+  }
   if (graph_->lidar) graph_->lidar->resume(snapshot.lidar);
+  if (graph_->mapmatch) graph_->mapmatch->resume(snapshot.mapmatch);
   graph_->stereo.resume(snapshot.stereo);
   graph_->fusion.resume(snapshot.fusion);
-  graph_->resumed = Snapshot{snapshot.at, snapshot.first, {}, {}, {}};
+  graph_->resumed = Snapshot{snapshot.at, snapshot.first, {}, {}, {}, {}};
 }
 
 void Vehicle::prepared(const runtime::RealtimeReport& report) {
@@ -105,7 +113,8 @@ Time Vehicle::next_sample() const {
 std::uint64_t Vehicle::deadline_misses() const {
   const std::uint64_t lidar = graph_->lidar ? graph_->lidar->meter().latency().miss_count() : 0;
   return graph_->stereo.meter().latency().miss_count() + lidar +
-         graph_->fusion.meter().latency().miss_count();
+         graph_->fusion.meter().latency().miss_count() +
+         (graph_->mapmatch ? graph_->mapmatch->meter().latency().miss_count() : 0);
 }
 
 runtime::DataClock& Vehicle::clock() {

@@ -20,6 +20,7 @@
 #include "runtime/vehicle/fault_delay.h"
 #include "runtime/vehicle/message_sink.h"
 #include "runtime/vehicle/publisher.h"
+#include "runtime/vehicle/road_map.h"
 #include "runtime/vehicle/snapshot.h"
 #include "runtime/vehicle/snapshot_stage.h"
 #include "runtime/vehicle/vehicle_config.h"
@@ -48,10 +49,10 @@ struct Sensors {
 class Vehicle {
  public:
   // `sinks` must outlive the vehicle, and so must `tracer`, to which each thread records what it
-  // does; none: no trace.
+  // does; none: no trace. Without a map nothing is matched.
   Vehicle(const VehicleConfig& config, const VehicleCalibration& calibration, Sensors sensors,
           const runtime::DataClock& clock, std::vector<MessageSink*> sinks, Observer observer,
-          runtime::Tracer* tracer = nullptr);
+          runtime::Tracer* tracer = nullptr, std::shared_ptr<const RoadMap> map = nullptr);
   ~Vehicle();  // stops and waits
 
   // Slows stages down, for tests of what happens then; before start().

@@ -115,8 +115,8 @@ VehicleConfig load_vehicle_config(const std::filesystem::path& file) {
     throw runtime::ConfigError(file.string() + ": odometry = \"" + config.odometry +
                                "\": it must be \"visual\" or \"visual-lidar\"");
   }
-  if (!config.camera.calibration.empty())
-    config.camera.calibration = (file.parent_path() / config.camera.calibration).string();
+  for (std::string* path : {&config.camera.calibration, &config.map.file, &config.map.rules})
+    if (!path->empty()) *path = (file.parent_path() / *path).string();
   return config;
 }
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "mapmatch/reasons.h"
 #include "runtime/core/realtime.h"
 #include "runtime/vehicle/prefetched_source.h"
 #include "runtime/vehicle/process_usage.h"
@@ -31,16 +32,18 @@ bool wants_raw(const std::vector<MessageSink*>& sinks) {
 Vehicle::Graph::Graph(const VehicleConfig& vehicle_config, const VehicleCalibration& calibration,
                       Sensors sensors, const runtime::DataClock& data_clock,
                       std::vector<MessageSink*> sinks, Observer observer,
-                      runtime::Tracer* run_tracer)
+                      runtime::Tracer* run_tracer, std::shared_ptr<const RoadMap> road_map)
     : config(vehicle_config),
       clock(data_clock),
       tracer(run_tracer),
+      map(std::move(road_map)),
       images(make_edge<StereoPair>(edges::camera_stereo, &stereo_bell)),
       odometry_recorded(sensors.odometry != nullptr),
       to_lidar(config.odometry == "visual-lidar" && sensors.velodyne != nullptr &&
                        !odometry_recorded
                    ? std::optional<LidarEdges>(std::in_place)
                    : std::nullopt),
+      to_mapmatch(map != nullptr ? std::optional<MapMatchEdges>(std::in_place) : std::nullopt),
       raw(wants_raw(sinks)),
       camera("camera", prefetched(stages::camera, std::move(sensors.camera)),
              raw ? Edges<StereoPair>{&to_publisher.camera, &images} : Edges<StereoPair>{&images}),
@@ -55,20 +58,25 @@ Vehicle::Graph::Graph(const VehicleConfig& vehicle_config, const VehicleCalibrat
       lidar_log("lidar log", std::move(sensors.lidar), {&to_publisher.lidar}),
       stereo(stereo::StereoOdometry(calibration.stereo, config.stereo), images, stereo_bell,
              visual_edges()),
-      fusion(fusion::ReducedImuFilter(config.fusion), to_fusion, to_publisher.nav_state,
+      fusion(fusion::ReducedImuFilter(config.fusion), to_fusion, state_edges(),
              to_publisher.image_state,
              stages::stereo.budget + (to_lidar ? stages::lidar.budget : Duration::zero())),
-      publisher(calibration, to_publisher, std::move(sinks), std::move(observer)),
+      publisher(calibration, to_publisher, std::move(sinks), std::move(observer), describer()),
       wake_all(stop.get_token(), [this] {
         stereo_bell.ring();
         if (to_lidar) to_lidar->bell.ring();
         to_fusion.bell.ring();
+        if (to_mapmatch) to_mapmatch->bell.ring();
       }) {
   if (to_lidar) {
     lidar.emplace(lidar::LidarOdometry(calibration.T_body_velo, config.lidar), *to_lidar,
                   to_publisher.lidar,
                   Edges<RelativeMotion>{&to_fusion.odometry, &to_publisher.odometry});
     lidar->trace_to(trace_buffer(stages::lidar.name));
+  }
+  if (to_mapmatch) {
+    mapmatch.emplace(map, config.mapmatch, *to_mapmatch, Edges<MapMatch>{&to_publisher.map_match});
+    mapmatch->trace_to(trace_buffer(stages::mapmatch.name));
   }
   camera.trace_to(trace_buffer(stages::camera.name));
   velodyne.trace_to(trace_buffer(stages::velodyne.name));
@@ -102,6 +110,18 @@ Edges<LidarScan> Vehicle::Graph::scan_edges() {
 Edges<RelativeMotion> Vehicle::Graph::visual_edges() {
   if (to_lidar) return {&to_lidar->visual, &to_publisher.visual};
   return {&to_fusion.odometry, &to_publisher.visual, &to_publisher.odometry};
+}
+
+Edges<NavState> Vehicle::Graph::state_edges() {
+  Edges<NavState> to{&to_publisher.nav_state};
+  if (to_mapmatch) to.push_back(&to_mapmatch->nav_state);
+  return to;
+}
+
+MatchDescriber Vehicle::Graph::describer() const {
+  return [roads = map](const MapMatch& match) {
+    return mapmatch::in_words(match, roads->network, roads->rules);
+  };
 }
 
 runtime::TraceBuffer* Vehicle::Graph::trace_buffer(std::string_view thread) {
@@ -172,8 +192,9 @@ void Vehicle::Graph::start_snapshots() {
   std::set<Time> moments;
   for (const SnapshotWish& wish : wishes) moments.insert(wish.moments.begin(), wish.moments.end());
   const std::vector<Time> cuts(moments.upper_bound(begin), moments.end());
-  PartSizes bytes{stereo.saved_bytes(), std::nullopt, fusion.saved_bytes()};
+  PartSizes bytes{stereo.saved_bytes(), std::nullopt, fusion.saved_bytes(), std::nullopt};
   if (lidar) bytes.lidar = lidar->saved_bytes();
+  if (mapmatch) bytes.mapmatch = mapmatch->saved_bytes();
   snapshots = std::make_unique<SnapshotStage>(bytes, [this](const Snapshot& snapshot) {
     for (const SnapshotWish& wish : wishes) {
       if (wish.moments.contains(snapshot.at)) wish.handler(snapshot);
@@ -187,6 +208,10 @@ void Vehicle::Graph::start_snapshots() {
   if (lidar) {
     lidar->save_at(cuts, *parts.lidar);
     monitor.watch(*parts.lidar);
+  }
+  if (mapmatch) {
+    mapmatch->save_at(cuts, *parts.mapmatch);
+    monitor.watch(*parts.mapmatch);
   }
   monitor.watch_stage(stages::snapshot,
                       start_thread(
@@ -224,6 +249,20 @@ void Vehicle::Graph::start_odometry() {
   }
 }
 
+void Vehicle::Graph::start_mapmatch() {
+  if (!mapmatch) {
+    to_publisher.map_match.finish();
+    return;
+  }
+  monitor.watch_stage(
+      stages::mapmatch,
+      start_thread(
+          producers, stages::mapmatch, config.scheduling.mapmatch, stop.get_token(),
+          [this](const std::stop_token& token) { mapmatch->run(clock, begin, token); },
+          [this] { mapmatch->finish(); }),
+      mapmatch->meter(), {&to_mapmatch->nav_state});
+}
+
 void Vehicle::Graph::start() {
   find_first();
   for (const runtime::EdgeBase* edge : std::initializer_list<const runtime::EdgeBase*>{
@@ -232,6 +271,10 @@ void Vehicle::Graph::start() {
            &to_publisher.visual, &to_publisher.lidar, &to_publisher.odometry,
            &to_publisher.nav_state, &to_publisher.image_state, &to_publisher.reports}) {
     monitor.watch(*edge);
+  }
+  if (to_mapmatch) {
+    monitor.watch(to_mapmatch->nav_state);
+    monitor.watch(to_publisher.map_match);
   }
   if (to_lidar) {
     monitor.watch(to_lidar->scans);
@@ -268,6 +311,7 @@ void Vehicle::Graph::start() {
                           [this] { fusion.finish(); }),
                       fusion.meter(),
                       {&to_fusion.imu, &to_fusion.gnss, &to_fusion.wheel, &to_fusion.odometry});
+  start_mapmatch();
   // These two end after everybody else has, so that nothing produced is left unsaid.
   monitor.watch_stage(stages::publisher,
                       start_thread(

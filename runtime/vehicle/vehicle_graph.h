@@ -16,6 +16,7 @@
 #include "runtime/vehicle/graph.h"
 #include "runtime/vehicle/health_monitor.h"
 #include "runtime/vehicle/lidar_stage.h"
+#include "runtime/vehicle/mapmatch_stage.h"
 #include "runtime/vehicle/replay_driver.h"
 #include "runtime/vehicle/snapshot_stage.h"
 #include "runtime/vehicle/stereo_stage.h"
@@ -31,15 +32,18 @@ struct SnapshotWish {
 struct Vehicle::Graph {
   Graph(const VehicleConfig& config, const VehicleCalibration& calibration, Sensors sensors,
         const runtime::DataClock& data_clock, std::vector<MessageSink*> sinks, Observer observer,
-        runtime::Tracer* tracer);
+        runtime::Tracer* tracer, std::shared_ptr<const RoadMap> road_map);
   ~Graph();
 
   void find_first();
   void start();
   void start_snapshots();
   void start_odometry();
+  void start_mapmatch();
   std::vector<runtime::Edge<LidarScan>*> scan_edges();
   std::vector<runtime::Edge<RelativeMotion>*> visual_edges();
+  std::vector<runtime::Edge<NavState>*> state_edges();
+  MatchDescriber describer() const;
   void run_health(const std::stop_token& end);
   RuntimeReport look(Duration elapsed);
   void wait();
@@ -68,12 +72,15 @@ struct Vehicle::Graph {
   std::vector<SnapshotWish> wishes;
   std::unique_ptr<SnapshotStage> snapshots;
 
+  std::shared_ptr<const RoadMap> map;  // nullptr: none
+
   // Edges, by the thread that they end at.
   runtime::Doorbell stereo_bell;
   runtime::Edge<StereoPair> images;
   bool odometry_recorded;              // instead of images
   std::optional<LidarEdges> to_lidar;  // nothing: fusion gets the visual odometry
   FusionEdges to_fusion;
+  std::optional<MapMatchEdges> to_mapmatch;  // where there is a map
   PublisherEdges to_publisher;
 
   bool raw;  // images and scans go to the publisher too
@@ -89,6 +96,7 @@ struct Vehicle::Graph {
   StereoStage stereo;
   std::optional<LidarStage> lidar;  // where there is to_lidar
   FusionStage fusion;
+  std::optional<MapMatchStage> mapmatch;  // where there is to_mapmatch
   Publisher publisher;
   HealthMonitor monitor;
   ThreadMeter health_meter{stages::health};

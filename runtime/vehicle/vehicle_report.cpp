@@ -45,7 +45,8 @@ RuntimeReport Vehicle::Graph::look(Duration elapsed) {
   report.health = monitor.health(stamp, elapsed, clock, readiness);
   report.health.elapsed = to_seconds(runtime::monotonic_now() - started);
   report.health.cpu = process_cpu_seconds() - cpu_at_start;
-  report.health.refusals = refusals(stereo, lidar ? &*lidar : nullptr, fusion.filter_status());
+  report.health.refusals = refusals(stereo, lidar ? &*lidar : nullptr, fusion.filter_status(),
+                                    mapmatch ? &*mapmatch : nullptr);
   report.deadlines = monitor.deadlines(stamp);
   return report;
 }

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
+#include <string>
+#include <tuple>
 #include <vector>
 
 namespace maploop {
@@ -104,6 +107,99 @@ TEST(LcmConversions, LidarMotion) {
   EXPECT_EQ(r.iterations, m.iterations);
   EXPECT_EQ(r.seed_translation_error, m.seed_translation_error);
   EXPECT_EQ(r.seed_rotation_error, m.seed_rotation_error);
+}
+
+TEST(LcmConversions, MapMatch) {
+  MapMatch match;
+  fill(match);
+  match.phase = MatchPhase::at_junction;
+  match.on_road = true;
+  match.link = {77, false};
+  match.along = 12.5;
+  match.sigma_along = 3.0;
+  match.sigma_across = 4.0;
+  match.likelihood = 81.0;
+  match.probability = 0.97;
+  match.margin = 0.9;
+  match.off_road = 0.01;
+  match.way_id = 10;
+  match.node_a = 1;
+  match.node_b = 2;
+  match.origin = {0.85, 0.14, 110.0};
+  match.vehicle_enu = {3.0, 4.0};
+  match.covariance << 2.0, 0.5, 0.5, 3.0;
+  match.vehicle_azimuth = 0.1;
+  match.speed = 9.0;
+  match.matched_enu = {5.0, 6.0};
+  match.link_azimuth = 0.2;
+  match.cross_track = -1.5;
+  match.half_width = 2.75;
+  match.bend = -0.3;
+  match.to_junction = 30.0;
+  match.candidate_count = 2;
+  match.candidates[1].link = {5, true};
+  match.candidates[1].way_id = 11;
+  match.candidates[1].node_a = 3;
+  match.candidates[1].node_b = 4;
+  match.candidates[1].along = 7.0;
+  match.candidates[1].distance = 8.0;
+  match.candidates[1].azimuth_error = 0.7;
+  match.candidates[1].connectivity = 1.0;
+  match.candidates[1].rules = RuleBase::junction;
+  match.candidates[1].decided = true;
+  match.candidates[1].likelihood = 33.0;
+  match.candidates[1].probability = 0.02;
+  match.candidates[1].weights[31] = 0.25F;
+  const MapMatchWords words{"way 10", {{"way 10", {}, {}}, {"way 11", {"8 m away"}, {"0.25: if"}}}};
+
+  const auto message = to_lcm(match, words);
+  EXPECT_EQ(message.explanation, "way 10");
+  EXPECT_EQ(message.candidates[1].road, "way 11");
+  EXPECT_EQ(message.candidates[1].objections, std::vector<std::string>{"8 m away"});
+  EXPECT_EQ(message.candidates[1].rules, std::vector<std::string>{"0.25: if"});
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  ASSERT_EQ(message.encode(bytes.data(), 0, static_cast<int>(bytes.size())),
+            static_cast<int>(bytes.size()));
+  maploop_lcm::map_match_t received;
+  ASSERT_EQ(received.decode(bytes.data(), 0, static_cast<int>(bytes.size())),
+            static_cast<int>(bytes.size()));
+  const MapMatch r = from_lcm(received);
+  expect_same_times(r, match);
+  EXPECT_EQ(r.phase, match.phase);
+  EXPECT_EQ(r.refusal, match.refusal);
+  EXPECT_EQ(r.on_road, match.on_road);
+  EXPECT_EQ(r.link, match.link);
+  EXPECT_EQ(std::tie(r.along, r.sigma_along, r.sigma_across, r.likelihood, r.probability, r.margin,
+                     r.off_road, r.way_id, r.node_a, r.node_b),
+            std::tie(match.along, match.sigma_along, match.sigma_across, match.likelihood,
+                     match.probability, match.margin, match.off_road, match.way_id, match.node_a,
+                     match.node_b));
+  EXPECT_EQ(std::tie(r.origin.latitude, r.origin.longitude, r.origin.height, r.vehicle_azimuth,
+                     r.speed, r.link_azimuth, r.cross_track, r.half_width, r.bend, r.to_junction),
+            std::tie(match.origin.latitude, match.origin.longitude, match.origin.height,
+                     match.vehicle_azimuth, match.speed, match.link_azimuth, match.cross_track,
+                     match.half_width, match.bend, match.to_junction));
+  EXPECT_EQ(r.vehicle_enu, match.vehicle_enu);
+  EXPECT_EQ(r.covariance, match.covariance);
+  EXPECT_EQ(r.matched_enu, match.matched_enu);
+  ASSERT_EQ(r.candidate_count, 2U);
+  const MatchCandidate& a = r.candidates[1];
+  const MatchCandidate& b = match.candidates[1];
+  EXPECT_EQ(a.link, b.link);
+  EXPECT_EQ(std::tie(a.way_id, a.node_a, a.node_b, a.along, a.distance, a.azimuth_error,
+                     a.connectivity, a.rules, a.decided, a.likelihood, a.probability, a.weights),
+            std::tie(b.way_id, b.node_a, b.node_b, b.along, b.distance, b.azimuth_error,
+                     b.connectivity, b.rules, b.decided, b.likelihood, b.probability, b.weights));
+  EXPECT_TRUE(std::isnan(a.distance_error)) << "not known";
+}
+
+TEST(LcmConversions, AMatchWithMoreCandidatesThanItHoldsIsRefused) {
+  auto message = to_lcm(MapMatch{}, {});
+  message.candidates.resize(LinkMatch::max_candidates + 1);
+  EXPECT_THROW(from_lcm(message), std::invalid_argument);
+  message.candidates.clear();
+  message.phase = 9;
+  EXPECT_THROW(from_lcm(message), std::invalid_argument);
 }
 
 TEST(LcmConversions, RelativeMotion) {
@@ -321,6 +417,9 @@ TEST(LcmConversions, StatusConstantsAgree) {
             +maploop_lcm::relative_motion_t::IMPLAUSIBLE);
   EXPECT_EQ(static_cast<int>(OdometryStatus::bad_input),
             +maploop_lcm::relative_motion_t::BAD_INPUT);
+  EXPECT_EQ(static_cast<int>(MatchPhase::off_road), +maploop_lcm::map_match_t::OFF_ROAD);
+  EXPECT_EQ(static_cast<int>(FixRefusal::no_position), +maploop_lcm::map_match_t::NO_POSITION);
+  EXPECT_EQ(static_cast<int>(RuleBase::junction), +maploop_lcm::map_candidate_t::JUNCTION);
   EXPECT_EQ(static_cast<int>(Verdict::refused), +maploop_lcm::realtime_setting_t::REFUSED);
   EXPECT_EQ(static_cast<int>(Verdict::unknown), +maploop_lcm::realtime_setting_t::UNKNOWN);
 }

@@ -159,7 +159,7 @@ class SnapshotFile : public ::testing::Test {
 
   TemporaryFolder folder_;
   std::filesystem::path file_ = folder_.path() / "a.snapshot";
-  Snapshot snapshot_{drive_start + milliseconds(500), drive_start, {1, 2, 3}, {6}, {4, 5}};
+  Snapshot snapshot_{drive_start + milliseconds(500), drive_start, {1, 2, 3}, {6}, {4, 5}, {7}};
 };
 
 TEST_F(SnapshotFile, ComesBackAsItWas) {
@@ -170,6 +170,7 @@ TEST_F(SnapshotFile, ComesBackAsItWas) {
   EXPECT_EQ(read.stereo, snapshot_.stereo);
   EXPECT_EQ(read.fusion, snapshot_.fusion);
   EXPECT_EQ(read.lidar, snapshot_.lidar);
+  EXPECT_EQ(read.mapmatch, snapshot_.mapmatch);
 }
 
 TEST_F(SnapshotFile, OtherSettingsOfTheSensorsAreRefusedByName) {
