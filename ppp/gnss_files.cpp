@@ -10,6 +10,12 @@ FileKind parse_into(std::string_view text, const std::string& name, GnssFiles& f
     case FileKind::observation:
       files.observations.push_back(parse_observations(text, name));
       break;
+    case FileKind::rtcm3:
+      files.observations.push_back(parse_rtcm3(text, name));
+      break;
+    case FileKind::ubx:
+      files.observations.push_back(parse_ubx(text, name));
+      break;
     case FileKind::navigation:
       files.navigation.push_back(parse_navigation(text, name));
       break;
@@ -37,7 +43,7 @@ FileKind parse_into(std::string_view text, const std::string& name, GnssFiles& f
     case FileKind::unknown:
       throw ReadError(name +
                       ": none of RINEX observations, navigation or clocks, compact RINEX, SP3, "
-                      "ANTEX, Bias-SINEX, DCB, ERP, BLQ");
+                      "ANTEX, Bias-SINEX, DCB, ERP, BLQ, UBX, RTCM 3");
   }
   return kind;
 }

@@ -12,7 +12,9 @@
 #include "ppp/readers/navigation.h"
 #include "ppp/readers/observation.h"
 #include "ppp/readers/ocean_loading.h"
+#include "ppp/readers/rtcm3.h"
 #include "ppp/readers/sp3.h"
+#include "ppp/readers/ubx.h"
 
 namespace maploop::ppp {
 

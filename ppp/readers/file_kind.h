@@ -16,6 +16,8 @@ enum class FileKind {
   dcb,
   earth_rotation,
   ocean_loading,
+  ubx,
+  rtcm3,
   unknown
 };
 
