@@ -231,14 +231,14 @@ TEST(SnapshotRing, KeepsToItsSizeAndReachesOverTheWholeDrive) {
   const auto at = [](int i) { return testing::drive_start + std::chrono::seconds(i); };
   EXPECT_FALSE(ring.before(at(1000)));
   for (int i = 1; i <= 1000; ++i) {
-    ring.add({at(i), at(0), {}, {}, {}, {}});
+    ring.add({at(i), at(0), {}, {}, {}, {}, {}});
     ASSERT_LE(ring.size(), 8u);
   }
   EXPECT_EQ(ring.before(at(2000))->at, at(1000)) << "the last one is there";
   EXPECT_FALSE(ring.before(at(0)));
   ASSERT_TRUE(ring.before(at(999)));
   EXPECT_GE(ring.before(at(999))->at, at(990)) << "close together where it was last";
-  ring.add({at(1000), at(0), {1}, {}, {}, {}});
+  ring.add({at(1000), at(0), {1}, {}, {}, {}, {}});
   EXPECT_TRUE(ring.before(at(1000))->stereo.empty()) << "one that is known is kept";
 }
 
