@@ -137,8 +137,11 @@ void LidarStage::forget_sent(Time t) {
 }
 
 void LidarStage::save_until(Time t) {
-  cuts_.save_until(t, stop_, [this](ArchiveWriter& ar, Time cut) {
+  const auto come_to = [this](Time cut) {
     take_until(cut);
+    promise(cut);
+  };
+  cuts_.save_until(t, stop_, come_to, [this](ArchiveWriter& ar, Time cut) {
     forget_sent(cut);
     describe(ar, *this);
   });

@@ -104,7 +104,8 @@ void PppStage::send(PppState& state, const std::stop_token& stop) {
 }
 
 void PppStage::save_until(Time t, const std::stop_token& stop) {
-  cuts_.save_until(t, stop, [this](ArchiveWriter& ar, Time cut) {
+  const auto promise_until = [this](Time cut) { promise(cut); };
+  cuts_.save_until(t, stop, promise_until, [this](ArchiveWriter& ar, Time cut) {
     std::erase_if(sent_, [cut](const PppState& s) { return s.available <= cut; });
     describe(ar, *this);
   });

@@ -78,7 +78,8 @@ void StereoStage::send(RelativeMotion& motion, const std::stop_token& stop) {
 }
 
 void StereoStage::save_until(Time t, const std::stop_token& stop) {
-  cuts_.save_until(t, stop, [this](ArchiveWriter& ar, Time cut) {
+  const auto promise_until = [this](Time cut) { promise(cut); };
+  cuts_.save_until(t, stop, promise_until, [this](ArchiveWriter& ar, Time cut) {
     std::erase_if(sent_, [cut](const RelativeMotion& m) { return m.available <= cut; });
     describe(ar, *this);
   });
