@@ -73,8 +73,11 @@ class PlayerTest : public ::testing::Test {
     while (player().seeking() && player().update()) tick();
   }
   static void tick() { std::this_thread::sleep_for(milliseconds(5)); }
-  // Long enough for everything that is due to be done.
-  static void settle() { std::this_thread::sleep_for(milliseconds(200)); }
+  // While paused: until everything that is due is done; a slow machine is behind. Bounded.
+  void settle() {
+    for (int i = 0; i < 4000 && vehicle().next_sample() <= vehicle().clock().now(); ++i) tick();
+    std::this_thread::sleep_for(milliseconds(200));
+  }
 
   std::deque<MessageTape> tapes;  // of each vehicle
   std::vector<Time> resumed_at;
