@@ -20,10 +20,11 @@ namespace {
 
 class BitWriter {
  public:
+  // Beyond 64 bits: zeros in front.
   BitWriter& put(std::uint64_t value, std::size_t bits) {
     for (std::size_t i = bits; i-- > 0;) {
       if (count_ % 8 == 0) bytes_ += '\0';
-      if ((value >> i & 1U) != 0) {
+      if (i < 64 && (value >> i & 1U) != 0) {
         bytes_.back() = static_cast<char>(bytes_.back() | 1 << (7 - count_ % 8));
       }
       ++count_;
