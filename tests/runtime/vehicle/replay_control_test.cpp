@@ -108,12 +108,12 @@ TEST_F(ReplayControlTest, StepsByImageAndBySample) {
   look(10);
   const Time next_image = player_.vehicle().next_image();
   command(Control::STEP_IMAGE);
-  look(15);
+  for (int i = 0; i < 1500 && player_.vehicle().next_image() <= next_image; ++i) look(1);
   EXPECT_EQ(state().paused, 1);
   EXPECT_GT(player_.vehicle().next_image(), next_image);
   const Time next_sample = player_.vehicle().next_sample();
   command(Control::STEP_SAMPLE);
-  look(10);
+  for (int i = 0; i < 1500 && player_.vehicle().next_sample() <= next_sample; ++i) look(1);
   EXPECT_EQ(state().paused, 1);
   EXPECT_GT(player_.vehicle().next_sample(), next_sample);
 }
