@@ -108,12 +108,14 @@ TEST_F(ReplayControlTest, StepsByImageAndBySample) {
   look(10);
   const Time next_image = player_.vehicle().next_image();
   command(Control::STEP_IMAGE);
-  for (int i = 0; i < 1500 && player_.vehicle().next_image() <= next_image; ++i) look(1);
+  const auto image_seen = [&] { return player_.vehicle().next_image() > next_image; };
+  for (int i = 0; i < 1500 && !(image_seen() && state().paused == 1); ++i) look(1);
   EXPECT_EQ(state().paused, 1);
   EXPECT_GT(player_.vehicle().next_image(), next_image);
   const Time next_sample = player_.vehicle().next_sample();
   command(Control::STEP_SAMPLE);
-  for (int i = 0; i < 1500 && player_.vehicle().next_sample() <= next_sample; ++i) look(1);
+  const auto sample_seen = [&] { return player_.vehicle().next_sample() > next_sample; };
+  for (int i = 0; i < 1500 && !(sample_seen() && state().paused == 1); ++i) look(1);
   EXPECT_EQ(state().paused, 1);
   EXPECT_GT(player_.vehicle().next_sample(), next_sample);
 }
