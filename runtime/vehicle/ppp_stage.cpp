@@ -6,6 +6,7 @@
 
 #include "ppp/epoch_state.h"
 #include "runtime/vehicle/graph.h"
+#include "runtime/vehicle/take_each.h"
 #include "runtime/vehicle/trace_flows.h"
 
 namespace maploop::vehicle {
@@ -35,38 +36,18 @@ PppStage::PppStage(std::shared_ptr<const ppp::PppSetup> setup, double integrity_
 
 void PppStage::run(const runtime::DataClock& clock, const std::stop_token& stop) {
   for (PppState& state : sent_) send(state, stop);  // of the run that this one resumes
-  MonotonicTime idle_since{};
-  while (!stop.stop_requested()) {
-    const std::uint32_t heard = inputs_.bell.listen();
-    const Time promised = inputs_.epochs.promised();  // before the ring: see EdgeBase::promised()
-    if (const GnssEpoch* epoch = inputs_.epochs.front()) {
-      save_until(epoch->available - Duration(1), stop);
-      const MonotonicTime started = runtime::monotonic_now();
-      process(*epoch, stop);
-      const MonotonicTime ended = runtime::monotonic_now();
-      meter_.ran(ended - started);
-      if (clock.keeps_time(epoch->available)) {
-        const MonotonicTime ready = std::max(epoch->received, idle_since);
-        meter_.woke(started - ready);
-        const bool missed =
-            meter_.latency().record({epoch->stamp,
-                                     ended - epoch->received,
-                                     {{{"busy with the epoch before", ready - epoch->received},
-                                       {"woken late", started - ready},
-                                       {"running", ended - started}}}});
-        if (missed) runtime::trace_instant(trace_, "missed deadline");
-      } else {
-        meter_.latency().record(ended - started);
-      }
-      idle_since = ended;
-      inputs_.epochs.pop();
-      continue;
-    }
-    save_until(promised, stop);
-    if (promised == Time::max()) return;
-    promise(promised + stages::ppp.budget);
-    inputs_.bell.wait(heard);
-  }
+  const auto take = [&](const GnssEpoch& epoch) {
+    const MonotonicTime started = runtime::monotonic_now();
+    process(epoch, stop);
+    const MonotonicTime ended = runtime::monotonic_now();
+    const bool missed =
+        meter_.worked({epoch.stamp, epoch.received, started, ended, "busy with the epoch before"},
+                      clock.keeps_time(epoch.available));
+    if (missed) runtime::trace_instant(trace_, "missed deadline");
+  };
+  take_each(
+      inputs_.epochs, inputs_.bell, stages::ppp.budget, stop, take,
+      [&](Time t) { save_until(t, stop); }, [this](Time t) { promise(t); });
 }
 
 void PppStage::process(const GnssEpoch& epoch, const std::stop_token& stop) {
