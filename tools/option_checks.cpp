@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "runtime/core/number_text.h"
+
 namespace maploop::tools {
 namespace {
 
@@ -28,11 +30,6 @@ CLI::Validator number(const std::string& shown, const std::string& must, Holds h
             return value && holds(*value) ? std::string{} : "'" + text + "' is no number" + must;
           },
           shown};
-}
-
-std::string plain(double value) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
 [[noreturn]] void fail(const char* cannot, const std::string& path, const std::string& reason) {
@@ -56,7 +53,8 @@ CLI::Validator existing(const std::string& shown, const char* kind, const char* 
 }  // namespace
 
 CLI::Validator number_in(double lowest, double highest) {
-  const std::string range = plain(lowest) + " to " + plain(highest);
+  const std::string range =
+      runtime::shortest_text(lowest) + " to " + runtime::shortest_text(highest);
   return number(range, " from " + range, [=](double v) { return v >= lowest && v <= highest; });
 }
 
