@@ -11,7 +11,7 @@ import sys
 import tempfile
 import unittest
 
-MAPLOOP = sys.argv.pop(1) if len(sys.argv) > 1 else sys.exit(__doc__)
+MAPLOOP = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 else sys.exit(__doc__)
 
 # What reads one file, and what stands before and after its name.
 READERS = ["replay FILE --lockstep --no-lcm", "odometry FILE", "odometry FILE --lidar", "match FILE track.csv", "ppp FILE",
