@@ -1,5 +1,6 @@
 #include "tools/simulate/lidar_turn.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -23,15 +24,32 @@ Eigen::Vector3f direction(double azimuth, double up) {
       .cast<float>();
 }
 
+// What is wrong of each laser.
+struct LaserErrors {
+  double azimuth, elevation;  // rad
+  float range;                // m
+};
+
+// The same scanner in every turn of every drive.
+std::array<LaserErrors, lasers> scanner_errors(const LidarParameters& p) {
+  Random random(1, 11);
+  std::array<LaserErrors, lasers> errors{};
+  for (LaserErrors& e : errors) {
+    e.azimuth = static_cast<double>(p.laser_angle) * random.normal();
+    e.elevation = static_cast<double>(p.laser_angle) * random.normal() +
+                  static_cast<double>(p.elevation_error);
+    e.range = p.laser_offset * static_cast<float>(random.normal());
+  }
+  return errors;
+}
+
 }  // namespace
 
 std::vector<LidarPoint> take_turn(const RayScene& scene, const Appearance& appearance,
                                   const std::function<Eigen::Isometry3d(double)>& T_enu_velo,
                                   std::uint64_t seed, const LidarParameters& p) {
   Random random(seed, 10);
-  Random unit_of_its_own(1, 11);  // the same scanner in every turn of every drive
-  std::array<float, lasers> offset{};
-  for (float& o : offset) o = p.laser_offset * static_cast<float>(unit_of_its_own.normal());
+  const auto scanner = scanner_errors(p);
   std::vector<LidarPoint> points;
   points.reserve(lasers * static_cast<std::size_t>(p.firings));
   Rays rays;
@@ -42,8 +60,11 @@ std::vector<LidarPoint> take_turn(const RayScene& scene, const Appearance& appea
     const Eigen::Isometry3f T = T_enu_velo(share).cast<float>();
     for (std::size_t first = 0; first < lasers; first += packet) {
       for (std::size_t i = 0; i < packet; ++i) {
-        const double up = elevation(first + i) + static_cast<double>(p.elevation_error);
-        rays[i] = {T.translation(), T.linear() * direction(azimuth, up), static_cast<float>(share)};
+        const LaserErrors& error = scanner[first + i];
+        rays[i] = {
+            T.translation(),
+            T.linear() * direction(azimuth + error.azimuth, elevation(first + i) + error.elevation),
+            static_cast<float>(share)};
       }
       scene.cast(rays, p.reach, hits);
       for (std::size_t i = 0; i < packet; ++i) {
@@ -60,7 +81,7 @@ std::vector<LidarPoint> take_turn(const RayScene& scene, const Appearance& appea
         const float echo = albedo * slant * 2500.0F / (hit.range * hit.range);
         const bool glass = hit.surface->material == Material::glass;
         if (echo < 0.004F || (echo < 0.012F && faint) || (glass && faint)) continue;
-        const float range = hit.range + noise + offset[first + i];
+        const float range = hit.range * (1.0F + p.range_scale) + noise + scanner[first + i].range;
         const Eigen::Vector3f measured = range * direction(azimuth, elevation(first + i));
         points.push_back({measured.x(), measured.y(), measured.z(), std::min(0.99F, albedo)});
       }

@@ -124,19 +124,22 @@ Mesh make_tree(float height, std::uint32_t seed) {
   mesh.append(make_pole(0.025F * height, 0.6F * height, {Material::bark, 0.16F, seed}), 0.0F,
               Vector3f::Zero());
   const float radius = 0.3F * height;
-  for (int i = 0; i < 420; ++i) {
-    const std::uint32_t leaf =
-        mesh.add({Material::leaf, uniform(random, 0.06, 0.26), seed + static_cast<unsigned>(i)});
-    const auto direction = [&] {
-      const float z = uniform(random, -1.0, 1.0), angle = uniform(random, 0.0, 6.2832);
-      const float r = std::sqrt(1.0F - z * z);
-      return Vector3f(r * std::cos(angle), r * std::sin(angle), z);
-    };
-    const Vector3f out = direction() * radius * std::sqrt(uniform(random, 0.1, 1.0));
+  std::array<std::uint32_t, 16> leaves{};
+  for (std::uint32_t& leaf : leaves)
+    leaf = mesh.add({Material::leaf, uniform(random, 0.07, 0.3),
+                     static_cast<std::uint32_t>(random.bits() >> 40U)});
+  const auto direction = [&] {
+    const float z = uniform(random, -1.0, 1.0), angle = uniform(random, 0.0, 6.2832);
+    const float r = std::sqrt(1.0F - z * z);
+    return Vector3f(r * std::cos(angle), r * std::sin(angle), z);
+  };
+  for (int i = 0; i < 1300; ++i) {
+    const Vector3f out = direction() * radius * std::sqrt(uniform(random, 0.15, 1.0));
     const Vector3f middle(out.x(), out.y(), 0.65F * height + 1.15F * out.z());
     const Vector3f u = direction(), v = u.cross(direction()).normalized();
-    const float size = uniform(random, 0.05, 0.11) * height;
-    mesh.add_triangle(middle + size * u, middle - size * u, middle + size * v, leaf);
+    const float size = uniform(random, 0.025, 0.055) * height;
+    mesh.add_triangle(middle + size * u, middle - size * u, middle + size * v,
+                      leaves[random.below(16)]);
   }
   return mesh;
 }
@@ -166,6 +169,19 @@ Mesh make_car(float tone, std::uint32_t seed) {
   for (std::size_t i = 0; i + 1 < outline.size(); ++i)
     mesh.add_quad(side(-half, i), side(-half, i + 1), side(half, i + 1), side(half, i),
                   i == 3 || i == 5 ? glass : paint);
+  // Plates and lights.
+  const std::uint32_t plate = mesh.add({Material::sign, 0.7F, seed});
+  const std::uint32_t light = mesh.add({Material::metal, 0.5F, seed});
+  const auto patch = [&](float x, float y, float z, float width, float height,
+                         std::uint32_t surface) {
+    mesh.add_quad({x, y, z}, {x, y + width, z}, {x, y + width, z + height}, {x, y, z + height},
+                  surface);
+  };
+  for (const float x : {-2.23F, 2.18F}) {
+    patch(x, -0.26F, 0.45F, 0.52F, 0.12F, plate);
+    patch(x, -0.8F, 0.65F, 0.3F, 0.14F, light);
+    patch(x, 0.5F, 0.65F, 0.3F, 0.14F, light);
+  }
   for (const float y : {-half, half}) {
     const Vector3f waist_front(1.2F, y, 0.92F), waist_back(-1.9F, y, 1.0F);
     for (std::size_t i : {0U, 1U, 2U})

@@ -217,7 +217,7 @@ class TownBuilder {
     const double density = random_.uniform(0.1, 0.7);
     for (double along = 16.0; along < street.length() - 16.0; along += 5.6) {
       const bool there = random_.chance(density);
-      const float tone = uniform(random_, 0.04, 0.7);
+      const float tone = uniform(random_, 0.08, 0.7);
       const std::uint32_t seed = number(random_);
       const double shift = random_.uniform(-0.4, 0.4), skew = random_.uniform(-0.03, 0.03);
       const Spot at = spot(street, side, along + shift, 0.75);  // half on the pavement
