@@ -68,7 +68,7 @@ void add_simulate(CLI::App& app, Command& command) {
   CLI::App* sub = app.add_subcommand(
       "simulate", "Make a drive through a generated town: cameras, LiDAR, IMU, map and truth");
   sub->add_option("--out", options->out,
-                  "New folder for the drive, in KITTI's layout (12 MB a second)")
+                  "New folder for the drive, in KITTI's layout (25 MB a second)")
       ->required();
   sub->add_option("--seconds", options->drive.seconds, "How long the drive takes")
       ->check(CLI::Range(1.0, 3600.0))

@@ -127,25 +127,26 @@ class Sampling {
 
 }  // namespace
 
-cv::Mat take_image(const RayScene& scene, const Appearance& appearance,
-                   const StereoCalibration& camera, const CameraView& view, float time,
-                   float brightness, std::uint64_t seed, const CameraParameters& p) {
+GreyImage take_image(const RayScene& scene, const Appearance& appearance,
+                     const StereoCalibration& camera, const CameraView& view, float time,
+                     float brightness, std::uint64_t seed, const CameraParameters& p) {
   cv::Mat light = cv::Mat::zeros(camera.height, camera.width, CV_32F);
   Sampling sampling(scene, appearance, camera, view, time, p);
   for (std::size_t half = 0; half < 2; ++half) sampling.add(half, mix(seed, half), light);
   const std::array<float, 3> lens{p.blur, 1.0F - 2.0F * p.blur, p.blur};
   const cv::Mat kernel(1, 3, CV_32F, const_cast<float*>(lens.data()));
   cv::sepFilter2D(light, light, CV_32F, kernel, kernel);
-  cv::Mat image(light.size(), CV_8U);
+  GreyImage image;
+  image.resize(camera.width, camera.height);
   const std::uint64_t noise_seed = mix(seed, 12);
-  for (int y = 0; y < image.rows; ++y) {
+  auto to = image.pixels.begin();
+  for (int y = 0; y < image.height; ++y) {
     const auto* from = light.ptr<float>(y);
-    auto* to = image.ptr<std::uint8_t>(y);
-    for (int x = 0; x < image.cols; ++x) {
+    for (int x = 0; x < image.width; ++x) {
       const float grey = std::min(255.0F, p.exposure * brightness * from[x]);
       const float sigma = std::sqrt(p.read_noise * p.read_noise + p.shot_noise * grey);
       const float noise = sigma * normal(mix(noise_seed, static_cast<std::uint64_t>(y * 4096 + x)));
-      to[x] = static_cast<std::uint8_t>(std::clamp(grey + noise + 0.5F, 0.0F, 255.0F));
+      *to++ = static_cast<std::uint8_t>(std::clamp(grey + noise + 0.5F, 0.0F, 255.0F));
     }
   }
   return image;

@@ -3,9 +3,9 @@
 
 #include <array>
 #include <cstdint>
-#include <opencv2/core/mat.hpp>
 
 #include "msgs/calibration.h"
+#include "msgs/image.h"
 #include "tools/simulate/appearance.h"
 #include "tools/simulate/ray_scene.h"
 
@@ -32,8 +32,8 @@ struct CameraView {
 // A rectified grey image, `seed` making its noise: two rays through random places of each pixel in
 // the halves of the exposure, sun and shadow, the blur of a lens, photon and read noise, 8 bits.
 // `time` is that of the moving bodies, `brightness` a factor of the exposure.
-cv::Mat take_image(const RayScene& scene, const Appearance& appearance,
-                   const StereoCalibration& camera, const CameraView& view, float time,
-                   float brightness, std::uint64_t seed, const CameraParameters& parameters = {});
+GreyImage take_image(const RayScene& scene, const Appearance& appearance,
+                     const StereoCalibration& camera, const CameraView& view, float time,
+                     float brightness, std::uint64_t seed, const CameraParameters& parameters = {});
 
 }  // namespace maploop::simulate

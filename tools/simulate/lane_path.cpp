@@ -118,10 +118,11 @@ LanePath::LanePath(const Streets& streets, const std::vector<DirectedStreet>& ro
     points_[i] += left[i] * Eigen::Vector2d(-t.y(), t.x());
   }
   smooth(points_);
+  // The first street begins, and the last ends, a junction's radius outside.
   for (std::size_t i = 0; i < route.size(); ++i) {
-    const double before = i > 0 ? 0.5 * (marks[2 * i - 1] + marks[2 * i]) : 0.0;
-    const double after =
-        i + 1 < route.size() ? 0.5 * (marks[2 * i + 1] + marks[2 * i + 2]) : length();
+    const double before = i > 0 ? 0.5 * (marks[2 * i - 1] + marks[2 * i]) : -junction_radius;
+    const double after = i + 1 < route.size() ? 0.5 * (marks[2 * i + 1] + marks[2 * i + 2])
+                                              : length() + junction_radius;
     stretches_.push_back({route[i], before, after, marks[2 * i + 1]});
   }
 }

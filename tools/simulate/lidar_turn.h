@@ -15,7 +15,7 @@ struct LidarParameters {
   int firings = 2083;                   // a turn, of all 64 lasers
   float reach = 120.0F;                 // m
   float noise = 0.015F;                 // m, 1 sigma along the beam
-  float range_scale = 0.002F;           // 1, too long
+  float range_scale = 0.003F;           // 1, too long
   float laser_offset = 0.02F;           // m, 1 sigma, what each laser measures wrong all the time
   float laser_angle = 0.0008F;          // rad, 1 sigma, what each points beside its known direction
   float elevation_error = 0.00357792F;  // rad (0.205 deg), how much higher all beams really point

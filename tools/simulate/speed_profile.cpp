@@ -61,6 +61,10 @@ double longest_drive(double seconds) {
 
 SpeedProfile::SpeedProfile(const LanePath& path, const Streets& streets, double seconds,
                            std::uint64_t seed, const DriverParameters& parameters) {
+  const auto require = [&](double length) {
+    if (path.length() < length) throw std::runtime_error("the route is too short for the drive");
+  };
+  require(first_way + 2.0);
   Random random(seed, 5);
   std::vector<double> limit = allowed(path, streets, parameters);
   struct Stop {
@@ -80,7 +84,7 @@ SpeedProfile::SpeedProfile(const LanePath& path, const Streets& streets, double 
   auto stop = stops.begin();
   const auto count = static_cast<std::size_t>((seconds + 2.0) / step) + 4;
   while (speed_.size() < count) {
-    if (way + 2.0 > path.length()) throw std::runtime_error("the route is too short for the drive");
+    require(way + 2.0);
     if (stop != stops.end() && way > stop->way - 0.3) {
       speed_.insert(speed_.end(), static_cast<std::size_t>(stop->seconds / step), 0.0);
       way = stop->way + 0.3;

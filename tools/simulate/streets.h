@@ -10,7 +10,7 @@ namespace maploop::simulate {
 
 struct Street {
   std::size_t from = 0, to = 0;             // junctions
-  std::vector<Eigen::Vector2d> centreline;  // m, enu; from the one junction to the other
+  std::vector<Eigen::Vector2d> centreline;  // m, enu; from the one junction to the other, 2 m apart
   std::vector<double> along;                // m from its begin, of each point
   double half_width = 3.5;                  // m
   double speed_limit = 13.9;                // m/s
