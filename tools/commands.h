@@ -16,6 +16,7 @@ void add_evaluate(CLI::App& app, Command& command);
 void add_evaluate_match(CLI::App& evaluate, Command& command);
 void add_experiment(CLI::App& app, Command& command);
 void add_gnss(CLI::App& app, Command& command);
+void add_live(CLI::App& app, Command& command);
 void add_log(CLI::App& app, Command& command);
 void add_map(CLI::App& app, Command& command);
 void add_match(CLI::App& app, Command& command);
@@ -23,6 +24,7 @@ void add_odometry(CLI::App& app, Command& command);
 void add_ppp(CLI::App& app, Command& command);
 void add_profile(CLI::App& app, Command& command);
 void add_replay(CLI::App& app, Command& command);
+void add_send(CLI::App& app, Command& command);
 void add_sensors(CLI::App& app, Command& command);
 void add_spy(CLI::App& app, Command& command);
 

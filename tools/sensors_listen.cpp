@@ -68,6 +68,15 @@ void print(const Heard& heard) {
   }
   for (const std::string& note : heard.report.notes)
     std::printf("  says         %s\n", note.c_str());
+  const SensorClock& clock = heard.report.clock;
+  if (clock.known) {
+    std::printf("  clock        %+.1f ppm against the host's, jumped %llu times",
+                -1e6 * clock.drift, static_cast<unsigned long long>(clock.jumps));
+    if (clock.utc_ahead) {
+      std::printf("; its UTC is %+.3f s ahead of the host's", to_seconds(*clock.utc_ahead));
+    }
+    std::printf("\n");
+  }
 }
 
 nlohmann::json to_json(const Heard& heard) {
@@ -77,6 +86,7 @@ nlohmann::json to_json(const Heard& heard) {
                       {"bytes", connection.bytes},         {"samples", heard.samples},
                       {"refused", heard.report.refused},   {"left_out", heard.report.reasons},
                       {"notes", heard.report.notes}};
+  if (heard.report.clock.known) json["clock"] = to_json(heard.report.clock);
   if (heard.samples > 0) {
     json["span_s"] = to_seconds(heard.last - heard.first);
     json["youngest_s"] = to_seconds(heard.youngest);

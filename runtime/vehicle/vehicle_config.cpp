@@ -127,7 +127,8 @@ VehicleConfig load_vehicle_config(const std::filesystem::path& file) {
     document.root().table("ppp").fail("latency", "must be 0 to 10 s");
   }
   const auto beside = [&](std::string& path) { path = (file.parent_path() / path).string(); };
-  for (std::string* path : {&config.camera.calibration, &config.map.file, &config.map.rules})
+  for (std::string* path : {&config.camera.calibration, &config.live.calibration,
+                            &config.live.velodyne_calibration, &config.map.file, &config.map.rules})
     if (!path->empty()) beside(*path);
   for (std::string& product : config.ppp.products) beside(product);
   return config;

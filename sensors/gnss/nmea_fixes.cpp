@@ -102,7 +102,7 @@ bool NmeaFixes::complete(Time arrival, GnssFix& fix) {
   }
   last_ = motion.time;
   const Duration utc = motion.time.time_since_epoch();
-  clock_.add(utc, arrival - from_seconds(parameters_.latency));
+  if (clock_.add(utc, arrival - from_seconds(parameters_.latency))) ++jumps_;
   utc_offset_ = utc - clock_.to_host(utc).time_since_epoch();
   fix.stamp = fix.velocity_stamp = clock_.to_host(utc);
   if (fix.stamp <= last_stamp_) {

@@ -11,7 +11,7 @@
 #include "sensors/gnss/nmea_fixes.h"
 #include "sensors/imu/ncom.h"
 #include "sensors/live/line_splitter.h"
-#include "tests/sensors/imu/made_ncom.h"
+#include "sensors/imu/ncom_packet.h"
 
 namespace maploop::sensors {
 namespace {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "sensors/live/live_sensors.h"
-#include "tests/sensors/imu/made_ncom.h"
+#include "sensors/imu/ncom_packet.h"
 #include "tests/sensors/velodyne/made_packets.h"
 #include "tests/support/real_data.h"
 
