@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "msgs/gnss.h"
 #include "tools/fusion_score.h"
 
 namespace maploop::tools {

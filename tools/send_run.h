@@ -15,9 +15,9 @@ struct SendOptions {
   double seconds = 0.0;               // of the drive; 0: all of it
 };
 
-// Sends each sample when it would have been delivered, once a second after the start, until the end
-// of the drive, SIGINT or SIGTERM. Throws std::runtime_error naming what is wrong with the drive,
-// an endpoint or a file.
+// Begins a second after the start, and sends each sample when it would have been delivered, until
+// the end of the drive, SIGINT or SIGTERM. Throws std::runtime_error naming what is wrong with the
+// drive, an endpoint or a file.
 int send(const SendOptions& options);
 
 }  // namespace maploop::tools
