@@ -15,6 +15,7 @@
 #include "runtime/vehicle/lcm_bus.h"
 #include "runtime/vehicle/live_config.h"
 #include "runtime/vehicle/vehicle.h"
+#include "tools/service_manager.h"
 #include "tools/terminal.h"
 
 namespace maploop::tools {
@@ -35,12 +36,20 @@ vehicle::Observer observer_of(const LiveOptions& options, RunPass& pass) {
   return states || !options.report.empty() ? pass.observer() : vehicle::Observer{};
 }
 
+// The service manager's watchdog hears of it as long as the fusion ticks.
 void wait_for_end(const vehicle::Vehicle& vehicle, double seconds) {
   constexpr auto look_every = std::chrono::milliseconds(20);
   constexpr int show_every = 10;
+  constexpr Duration tell_every = std::chrono::seconds(1);
+  Time told = vehicle.position();
   const bool visible = isatty(STDERR_FILENO) != 0;
   for (int i = 0; vehicle.running() && !interrupted(); ++i) {
-    const double driven = to_seconds(vehicle.position() - vehicle.first());
+    const Time position = vehicle.position();
+    if (position - told >= tell_every) {
+      tell_service_manager("WATCHDOG=1");
+      told = position;
+    }
+    const double driven = to_seconds(position - vehicle.first());
     if (seconds > 0.0 && driven >= seconds) break;
     if (visible && i % show_every == 0)
       std::fprintf(stderr, "\r%8.1f s  Ctrl-C ends\x1b[K", driven);
@@ -84,7 +93,9 @@ int live(const LiveOptions& options) {
   vehicle.start();
   std::cerr << (options.verbose ? to_text(vehicle.readiness())
                                 : to_short_text(vehicle.readiness()));
+  tell_service_manager("READY=1");
   wait_for_end(vehicle, options.seconds);
+  tell_service_manager("STOPPING=1");
   vehicle.stop();
   vehicle.wait();
 
