@@ -349,8 +349,8 @@ void Vehicle::Graph::start_stereo() {
       producers, stages::stereo, config.scheduling.stereo, stop.get_token(),
       [this](const std::stop_token& token) { stereo.run(clock, token); },
       [this] { stereo.finish(); });
-  // Of a drive with GNSS alone nobody waits for images.
-  if (to_ppp && drivers.camera->absent()) return;
+  // Of a drive with GNSS alone, or a vehicle without cameras, nobody waits for images.
+  if ((to_ppp || host_clock != nullptr) && drivers.camera->absent()) return;
   monitor.watch_stage(stages::stereo, thread, stereo.meter(), {&images});
 }
 
