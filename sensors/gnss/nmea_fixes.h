@@ -55,6 +55,7 @@ class NmeaFixes {
     Time time{};
     double speed = 0.0;    // m/s
     double azimuth = 0.0;  // rad
+    bool leap = false;     // second 60: the next epoch has the same time
   };
   struct Errors {
     Duration time{};
@@ -75,6 +76,7 @@ class NmeaFixes {
   std::optional<Motion> motion_;
   std::optional<Errors> errors_;
   Time last_ = Time::min();        // UTC of the last epoch
+  bool leap_ = false;              // that was a leap second
   Time last_stamp_ = Time::min();  // of the last fix
 };
 
