@@ -5,12 +5,16 @@
 #include <atomic>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "msgs/lcm/conversions.h"
 #include "runtime/vehicle/live_config.h"
 #include "runtime/vehicle/vehicle.h"
+#include "sensors/imu/ncom_packet.h"
 #include "tests/runtime/vehicle/fake_sensors.h"
 #include "tests/runtime/vehicle/memory_bus.h"
+#include "tests/sensors/live/lines.h"
 #include "tests/support/real_data.h"
 
 namespace maploop::vehicle {
@@ -128,6 +132,43 @@ TEST(LiveVehicle, AStageThatIsTooSlowLosesItsOwnSamplesAlone) {
   }
   EXPECT_EQ(report.stalls, 0u);
   EXPECT_GT(bus.decoded<maploop_lcm::nav_state_t>("NAV_STATE").size(), 50u);
+}
+
+TEST(LiveVehicle, GoesOnThroughUnpluggingAndAFloodOfGarbage) {
+  const maploop::testing::TemporaryFolder folder;
+  const auto device = folder.path() / "gnss";
+  const std::uint16_t port = maploop::testing::free_port();
+  VehicleConfig config;
+  config.live.imu = "udp://:" + std::to_string(port);
+  config.live.gnss = "serial://" + device.string();
+  Sensors live;
+  live.live = open_live_sensors(config);
+  MemoryBus bus;
+  Vehicle vehicle(config, {}, std::move(live), runtime::DataClock::live(), {&bus}, {});
+  vehicle.start();
+  const maploop::testing::UdpSender unit(port);
+  const std::vector<std::uint8_t> garbage(1000, 0xe7);
+  std::uint16_t ms = 0;
+  for (int plugged = 0; plugged < 2; ++plugged) {
+    const maploop::testing::PseudoTerminal line(device);
+    for (int i = 0; i < 100; ++i) {
+      unit.send(sensors::ncom_packet(ms += 10, 0.0, 0.0, 0.0));
+      for (int k = 0; k < 50; ++k) unit.send(garbage);
+      if (i % 50 == 40) line.send("garbage" + maploop::testing::epoch(10 * plugged + i / 50));
+      std::this_thread::sleep_for(milliseconds(10));
+    }
+  }
+  std::this_thread::sleep_for(milliseconds(1100));  // until the next HEALTH
+  vehicle.stop();
+  vehicle.wait();
+  const VehicleReport report = vehicle.report();
+  for (const SensorHealth& sensor : report.health.sensors) {
+    EXPECT_EQ(sensor.connections, sensor.name == "gnss" ? 2u : 1u) << sensor.name;
+    EXPECT_GT(sensor.delivered, 0u) << sensor.name;
+    EXPECT_GT(sensor.refused, 0u) << sensor.name;
+  }
+  EXPECT_TRUE(says(report.health, "gnss: serial://")) << "it is unplugged";
+  EXPECT_GT(bus.decoded<maploop_lcm::nav_state_t>("NAV_STATE").size(), 150u);
 }
 
 TEST(LiveConfig, NamesTheKeyThatIsWrong) {
