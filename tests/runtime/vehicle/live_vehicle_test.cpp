@@ -147,14 +147,14 @@ TEST(LiveVehicle, GoesOnThroughUnpluggingAndAFloodOfGarbage) {
   Vehicle vehicle(config, {}, std::move(live), runtime::DataClock::live(), {&bus}, {});
   vehicle.start();
   const maploop::testing::UdpSender unit(port);
-  const std::vector<std::uint8_t> garbage(1000, 0xe7);
+  const std::vector<std::uint8_t> garbage(72, 0xe7);
   std::uint16_t ms = 0;
   for (int plugged = 0; plugged < 2; ++plugged) {
     const maploop::testing::PseudoTerminal line(device);
     for (int i = 0; i < 100; ++i) {
       unit.send(sensors::ncom_packet(ms += 10, 0.0, 0.0, 0.0));
       for (int k = 0; k < 50; ++k) unit.send(garbage);
-      if (i % 50 == 40) line.send("garbage" + maploop::testing::epoch(10 * plugged + i / 50));
+      if (i % 50 == 40) line.send("garbage\r\n" + maploop::testing::epoch(10 * plugged + i / 50));
       std::this_thread::sleep_for(milliseconds(10));
     }
   }
