@@ -10,7 +10,7 @@
 namespace maploop::sensors {
 namespace {
 
-constexpr std::size_t laser_count = 64;
+constexpr std::size_t unit_lasers = 64;
 constexpr std::size_t firings_a_packet = velodyne_blocks / 2;  // upper and lower block
 constexpr Duration firing_period = std::chrono::microseconds(48);
 constexpr double range_unit = 2e-3;  // m
@@ -64,11 +64,11 @@ std::optional<Hdl64Lasers> fit_lasers(std::span<const LidarPoint> points) {
         i == points.size() || (quarter(points[i - 1]) == 3 && quarter(points[i]) == 0);
     if (!ends) continue;
     const auto cone = fit_cone(points.subspan(begin, i - begin));
-    if (!cone || laser == laser_count) return {};
+    if (!cone || laser == unit_lasers) return {};
     lasers[laser++] = *cone;
     begin = i;
   }
-  if (laser != laser_count) return {};
+  if (laser != unit_lasers) return {};
   const bool descending =
       std::is_sorted(lasers.begin(), lasers.end(),
                      [](const auto& a, const auto& b) { return a.elevation > b.elevation; });
@@ -122,7 +122,7 @@ void Hdl64Encoder::encode(const LidarScan& scan, EncodedTurn& turn) {
   const auto packets = static_cast<std::size_t>(
       std::max<std::int64_t>(1, lasts / (static_cast<int>(firings_a_packet) * firing_period)));
   const std::size_t firings = packets * firings_a_packet;
-  returns_.assign(firings * laser_count, {});
+  returns_.assign(firings * unit_lasers, {});
   turn.points = turn.crowded = 0;
   for (const LidarPoint& p : scan.points) {
     const double distance = distance_of(p);
@@ -133,7 +133,7 @@ void Hdl64Encoder::encode(const LidarScan& scan, EncodedTurn& turn) {
     const long units = std::lround(range / range_unit);
     const auto firing =
         static_cast<std::size_t>(std::lround(phase_of(p) * static_cast<double>(firings))) % firings;
-    VelodyneReturn& r = returns_[firing * laser_count + laser];
+    VelodyneReturn& r = returns_[firing * unit_lasers + laser];
     if (units <= 0 || units > 0xffff || r.range != 0) {
       ++turn.crowded;
       continue;
@@ -156,7 +156,7 @@ void Hdl64Encoder::encode(const LidarScan& scan, EncodedTurn& turn) {
       put(packet.bytes, 100 * block + 2, azimuth % velodyne_full_turn, 2);
       for (std::size_t k = 0; k < velodyne_block_returns; ++k) {
         const VelodyneReturn& r =
-            returns_[firing * laser_count + block % 2 * velodyne_block_returns + k];
+            returns_[firing * unit_lasers + block % 2 * velodyne_block_returns + k];
         put(packet.bytes, 100 * block + 4 + 3 * k, r.range, 2);
         packet.bytes[100 * block + 6 + 3 * k] = r.intensity;
       }
