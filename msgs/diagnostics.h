@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -96,12 +97,33 @@ struct OutputHealth {
   std::uint64_t sent = 0, unsent = 0;  // messages
 };
 
+// A sensor's clock against the host's, by when its messages arrive.
+struct SensorClock {
+  bool known = false;
+  std::optional<Duration> utc_ahead;  // its UTC before the host's clock; nothing: it says none
+  double drift = 0.0;                 // how fast the host's clock runs beyond the sensor's, 1
+  Duration delay{};                   // of the last message, beyond the least
+  std::uint64_t jumps = 0;
+};
+
+// A live sensor.
+struct SensorHealth {
+  std::string name;
+  std::string endpoint;
+  bool connected = false;
+  std::uint64_t connections = 0;             // times
+  std::uint64_t delivered = 0, refused = 0;  // samples; packets and lines
+  std::string problem;                       // why it is not connected
+  SensorClock clock;
+};
+
 struct Health {
   Time stamp{};
   std::vector<ThreadHealth> threads;
   std::vector<RingHealth> rings;
   std::vector<RefusalCount> refusals;  // those that happened
   std::vector<OutputHealth> outputs;
+  std::vector<SensorHealth> sensors;  // live ones
   std::vector<RealtimeSetting> settings;
   std::vector<std::string> degraded;  // each a sentence: what, since when, what to do
   double elapsed = 0.0;               // seconds of this machine's time since the start

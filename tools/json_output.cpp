@@ -19,6 +19,13 @@ json to_json(const std::vector<RealtimeSetting>& settings) {
   return all;
 }
 
+json to_json(const SensorClock& c) {
+  return {{"drift", c.drift},
+          {"delay_s", to_seconds(c.delay)},
+          {"jumps", c.jumps},
+          {"utc_ahead_s", c.utc_ahead ? json(to_seconds(*c.utc_ahead)) : json(nullptr)}};
+}
+
 void write_json_file(const std::filesystem::path& file, const json& j) {
   evaluation::write_text(file, j.dump(2, ' ', false, json::error_handler_t::replace) + '\n');
 }

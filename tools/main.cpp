@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   maploop::tools::add_evaluate(app, command);
   maploop::tools::add_experiment(app, command);
   maploop::tools::add_gnss(app, command);
+  maploop::tools::add_live(app, command);
   maploop::tools::add_log(app, command);
   maploop::tools::add_map(app, command);
   maploop::tools::add_match(app, command);
@@ -22,6 +23,7 @@ int main(int argc, char** argv) {
   maploop::tools::add_ppp(app, command);
   maploop::tools::add_profile(app, command);
   maploop::tools::add_replay(app, command);
+  maploop::tools::add_send(app, command);
   maploop::tools::add_sensors(app, command);
   maploop::tools::add_simulate(app, command);
   maploop::tools::add_spy(app, command);

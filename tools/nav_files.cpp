@@ -24,6 +24,8 @@ std::string format(const char* pattern, ...) {
   return line.data();
 }
 
+constexpr double knots = 3600.0 / 1852.0;  // of m/s
+
 std::string age(Time stamp, Time now) {
   return stamp == Time{} ? "" : format("%.3f", to_seconds(now - stamp));
 }
@@ -67,7 +69,6 @@ Clock clock_of(Time t) {
 }
 
 std::string sentences(const NavState& state) {
-  constexpr double knots = 3600.0 / 1852.0;
   const Geodetic g = LocalFrame(state.origin).to_geodetic(state.position_enu);
   const Clock c = clock_of(state.stamp);
   const std::string time = format("%02d%02d%05.2f", c.hour, c.minute, c.second);
@@ -109,6 +110,24 @@ std::string nmea_sentence(const std::string& body) {
   unsigned sum = 0;
   for (const char c : body) sum ^= static_cast<unsigned char>(c);
   return '$' + body + format("*%02X\r\n", sum);
+}
+
+std::string nmea_sentences(const GnssFix& fix) {
+  const Geodetic& g = fix.position;
+  const Clock c = clock_of(fix.stamp);
+  const std::string time = format("%02d%02d%05.2f", c.hour, c.minute, c.second);
+  const std::string place =
+      nmea_angle(g.latitude, 2, 'N', 'S') + ',' + nmea_angle(g.longitude, 3, 'E', 'W');
+  const Eigen::Vector3d sigma = fix.position_covariance.diagonal().cwiseSqrt();
+  const Eigen::Vector2d v = fix.velocity_enu.head<2>();
+  return nmea_sentence("GNGST," + time +
+                       format(",,,,,%.3f,%.3f,%.3f", sigma.y(), sigma.x(), sigma.z())) +
+         nmea_sentence("GNGGA," + time + ',' + place +
+                       format(",1,12,1.0,%.3f,M,0.0,M,,", g.height)) +
+         nmea_sentence(
+             "GNRMC," + time + ",A," + place +
+             format(",%.3f,%.2f,", v.norm() * knots, positive_degrees(std::atan2(v.x(), v.y()))) +
+             format("%02d%02d%02d,,,A", c.day, c.month, c.year % 100));
 }
 
 void write_nav_csv(const std::filesystem::path& file, const fusion_score::NavTrack& track) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "msgs/gnss.h"
 #include "tools/fusion_score.h"
 
 namespace maploop::tools {
@@ -17,6 +18,10 @@ void write_nav_csv(const std::filesystem::path& file, const fusion_score::NavTra
 // NMEA 0183, once a second: GGA (quality 6, dead reckoning, where no fix is younger than 2 s), RMC,
 // GST and HDT, talker GN. Times are the stamps' own. Throws std::runtime_error naming the file.
 void write_nmea(const std::filesystem::path& file, const fusion_score::NavTrack& track);
+
+// A fix as a receiver says it: GST, GGA (height above the ellipsoid, no geoid; of a single receiver,
+// HDOP 1) and RMC, of its stamp to the hundredth of a second.
+std::string nmea_sentences(const GnssFix& fix);
 
 // "$<body>*<checksum>\r\n".
 std::string nmea_sentence(const std::string& body);

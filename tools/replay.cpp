@@ -47,14 +47,14 @@ void add_replay(CLI::App& app, Command& command) {
   auto options = std::make_shared<ReplayOptions>();
   CLI::App* sub = app.add_subcommand("replay",
                                      "Replay a KITTI raw drive, a KITTI odometry sequence, a GNSS "
-                                     "receiver's observations or a log of "
-                                     "our own through the graph");
+                                     "receiver's observations, a capture of a Velodyne scanner or "
+                                     "a log of our own through the graph");
   sub->add_option(
          "DRIVE", options->drive,
          "Folder such as 2011_09_26/2011_09_26_drive_0013_sync, a sequence such as "
          "kitti_odometry/oxts/06.csv.gz, RINEX observations with their products beside "
-         "them (or a folder of both; [ppp] products), or a log (--record); one without images is "
-         "replayed from its odometry")
+         "them (or a folder of both; [ppp] products), a capture (.pcap), or a log (--record); one "
+         "without images is replayed from its odometry")
       ->required();
   auto* speed = sub->add_option("--speed", options->speed, "Times real time")
                     ->check(positive_number())

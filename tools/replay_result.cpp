@@ -115,6 +115,20 @@ void append_faults(std::string& text, const std::vector<vehicle::FaultCount>& fa
   }
 }
 
+void append_live(std::string& text, const std::vector<SensorHealth>& sensors) {
+  if (sensors.empty()) return;
+  text += "\nLive             connected   drift ppm   jumps   UTC ahead of the host's  s\n";
+  for (const SensorHealth& s : sensors) {
+    append(text, "  %-12s %9llu x", s.name.c_str(), static_cast<unsigned long long>(s.connections));
+    if (s.clock.known) {
+      append(text, " %11.2f %7llu", -1e6 * s.clock.drift,
+             static_cast<unsigned long long>(s.clock.jumps));
+      if (s.clock.utc_ahead) append(text, "   %.6f", to_seconds(*s.clock.utc_ahead));
+    }
+    text += "   " + s.endpoint + (s.problem.empty() ? "" : ": " + s.problem) + '\n';
+  }
+}
+
 void append_refusals(std::string& text, const std::vector<RefusalCount>& refusals) {
   if (refusals.empty()) return;
   text += "\nNot used by         count\n";
@@ -223,7 +237,9 @@ std::string format_table(const ReplayResult& r) {
   std::string t;
   append(t, "\n%s%s: %.1f s of data in %.1f s (%s)\n", r.drive.c_str(),
          r.interrupted ? " (interrupted)" : "", v.data_seconds, v.wall_seconds,
-         r.lockstep ? "lockstep" : ("speed " + std::to_string(r.speed)).c_str());
+         r.live       ? "live"
+         : r.lockstep ? "lockstep"
+                      : ("speed " + std::to_string(r.speed)).c_str());
   append(t, "CPU %.0f %% of one core, peak memory %.0f MB\n",
          100.0 * v.cpu_seconds / v.wall_seconds, static_cast<double>(v.peak_memory) * 1e-6);
 
@@ -235,7 +251,7 @@ std::string format_table(const ReplayResult& r) {
     append_accuracy(t, "vo", r.vo);
     if (r.lidar) append_accuracy(t, "lidar", r.lidar);
     append_accuracy(t, "fused", r.fused);
-  } else if (!r.navigation) {
+  } else if (!r.navigation && !r.live) {
     t += "\nAccuracy is not scored: the drive has no reference, or too few poses\n";
   }
   if (v.imu_delay.known()) {
@@ -264,6 +280,7 @@ std::string format_table(const ReplayResult& r) {
            to_ms(v.lateness.p99), to_ms(v.lateness.max));
   }
 
+  append_live(t, v.health.sensors);
   append_faults(t, r.faults);
   append_refusals(t, v.health.refusals);
 
@@ -345,6 +362,14 @@ void write_json(const std::filesystem::path& file, const ReplayResult& r) {
                             {"left_out", s.source.refused},
                             {"flawed", s.source.flawed},
                             {"lateness", to_json(s.lateness)}};
+  }
+  for (const SensorHealth& s : v.health.sensors) {
+    json& one = j["live"][s.name];
+    one = {{"endpoint", s.endpoint},
+           {"connected", s.connected},
+           {"connections", s.connections},
+           {"problem", s.problem}};
+    if (s.clock.known) one["clock"] = to_json(s.clock);
   }
   for (const RingHealth& ring : v.health.rings) {
     j["rings"][ring.name] = {{"pushed", ring.pushed},

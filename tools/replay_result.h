@@ -53,7 +53,8 @@ struct PppEpochs {
 };
 
 struct ReplayResult {
-  std::string drive;
+  std::string drive;  // or a live run's configuration
+  bool live = false;  // no replay at all
   bool lockstep = false;
   double speed = 1.0;
   bool interrupted = false;

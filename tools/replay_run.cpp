@@ -4,7 +4,6 @@
 #include <charconv>
 #include <iostream>
 #include <limits>
-#include <map>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -13,24 +12,19 @@
 #include "runtime/core/periodic.h"
 #include "runtime/core/realtime.h"
 #include "runtime/core/trace.h"
-#include "runtime/vehicle/channel_hashes.h"
 #include "runtime/vehicle/fault_injection.h"
 #include "runtime/vehicle/graph.h"
 #include "runtime/vehicle/lcm_bus.h"
 #include "runtime/vehicle/limited_source.h"
-#include "runtime/vehicle/log_recorder.h"
 #include "runtime/vehicle/recording.h"
 #include "runtime/vehicle/vehicle.h"
 #include "runtime/vehicle/vehicle_config.h"
 #include "sensors/replay/reference_trajectory.h"
-#include "tools/evaluation/kitti_poses.h"
 #include "tools/fusion_score.h"
 #include "tools/lcm_log/log_writer.h"
 #include "tools/match/driven_links.h"
-#include "tools/nav_files.h"
 #include "tools/replay_result.h"
-#include "tools/report/report.h"
-#include "tools/trajectory_collector.h"
+#include "tools/run_pass.h"
 
 namespace maploop::tools {
 namespace {
@@ -46,31 +40,16 @@ std::vector<ReferencePose> read_reference(const vehicle::Recording& recording) {
   return rows;
 }
 
-bool any_thread_failed(const ReplayResult& result) {
-  const auto& threads = result.vehicle.health.threads;
-  return std::any_of(threads.begin(), threads.end(),
-                     [](const ThreadHealth& t) { return !t.failure.empty(); });
-}
-
-// What one pass through the recording comes to; made anew when it begins again.
-struct Pass {
+// Of one pass through the recording; made anew when it begins again.
+struct Pass : RunPass {
   Pass(const ReplayOptions& options, const vehicle::Recording& recording, Time cut)
-      : hashes_after_snapshot(cut),
-        collector(recording.calibration.stereo.T_body_cam),
-        lidar_collector(recording.calibration.stereo.T_body_cam) {
+      : RunPass(recording.calibration), hashes_after_snapshot(cut) {
     if (!options.record.empty()) {
       recorder = std::make_unique<vehicle::LogRecorder>(options.record, options.record_raw);
     }
   }
 
-  vehicle::ChannelHashes hashes;
   vehicle::ChannelHashes hashes_after_snapshot;
-  std::unique_ptr<vehicle::LogRecorder> recorder;
-  TrajectoryCollector collector;
-  TrajectoryCollector lidar_collector;
-  fusion_score::NavTrack track;
-  std::optional<PppEpochs> ppp;
-  std::map<Time, match::TimedMatch> matches;
 };
 
 class Replay {
@@ -146,7 +125,6 @@ class Replay {
   vehicle::PlayerParameters player_parameters() const;
   PlaybackEnd play_all();
   ReplayResult result(PlaybackEnd end);
-  void write_report(const ReplayResult& result) const;
 
   const ReplayOptions& options_;
   vehicle::VehicleConfig config_;
@@ -180,20 +158,6 @@ std::unique_ptr<vehicle::Vehicle> Replay::make_vehicle(const vehicle::Snapshot* 
   if (bus_) sinks.push_back(bus_.get());
   if (pass_->recorder) sinks.push_back(pass_->recorder.get());
 
-  vehicle::Observer observer;
-  observer.odometry = [this](const RelativeMotion& motion) { pass_->collector.add(motion); };
-  observer.lidar = [this](const LidarMotion& motion) { pass_->lidar_collector.add(motion); };
-  observer.ppp = [this](const PppState& state) {
-    if (!pass_->ppp) pass_->ppp.emplace();
-    pass_->ppp->add(state);
-  };
-  observer.nav_state = [this](const NavState& state) { pass_->track.add(state); };
-  observer.map_match = [this](const MapMatch& match) {
-    if (match.refusal != FixRefusal::no_position)
-      pass_->matches[match.stamp] = match::timed_match(match);
-  };
-  observer.image_state = [this](const NavState& state) { pass_->collector.add(state); };
-
   if (!options_.trace.empty()) {
     tracer_ = std::make_unique<runtime::Tracer>(config_.trace);
     tracer_->write(options_.trace);  // a file that cannot be written is said before the drive
@@ -203,7 +167,7 @@ std::unique_ptr<vehicle::Vehicle> Replay::make_vehicle(const vehicle::Snapshot* 
                                        : runtime::DataClock::paced(options_.speed);
   auto vehicle = std::make_unique<vehicle::Vehicle>(
       config_, recording_.calibration, faults_.afflict(std::move(sensors)), clock, std::move(sinks),
-      std::move(observer), tracer_.get(), map_);
+      pass_->observer(), tracer_.get(), map_);
   vehicle->slow_down(faults_.delays());
   vehicle->prepared(readiness_);
   if (options_.start_from_reference && from == nullptr && !resumed_) {
@@ -296,25 +260,14 @@ ReplayResult Replay::result(PlaybackEnd end) {
   return result;
 }
 
-void Replay::write_report(const ReplayResult& result) const {
-  std::vector<report::DeadReckoning> ways{{"stereo odometry", pass_->collector.odometry()}};
-  const auto lidar = pass_->lidar_collector.odometry();
-  if (!lidar.poses.empty()) ways.push_back({"LiDAR odometry", lidar});
-  report::write_report(options_.report,
-                       {result, pass_->track, read_reference(recording_), std::move(ways),
-                        vehicle::to_toml(config_), MAPLOOP_VERSION});
-}
-
 int Replay::run() {
   const ReplayResult r = result(play_all());
   std::cout << format_table(r);
   if (!options_.json.empty()) write_json(options_.json, r);
-  const evaluation::StampedTrajectory fused = pass_->collector.fused();
-  if (!options_.poses.empty()) evaluation::write_kitti_poses(options_.poses, fused.poses);
-  if (!options_.tum.empty()) evaluation::write_tum(options_.tum, fused);
-  if (!options_.csv.empty()) write_nav_csv(options_.csv, pass_->track);
-  if (!options_.nmea.empty()) write_nmea(options_.nmea, pass_->track);
-  if (!options_.report.empty()) write_report(r);
+  write_states({options_.poses, options_.tum, options_.csv, options_.nmea}, *pass_);
+  if (!options_.report.empty()) {
+    write_run_report(options_.report, r, *pass_, read_reference(recording_), config_);
+  }
   const bool snapshot_missing = options_.snapshot && !snapshot_taken_;
   if (snapshot_missing && !any_thread_failed(r)) {
     std::cerr << "maploop: no snapshot was written: the replay did not come to "

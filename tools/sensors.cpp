@@ -65,9 +65,21 @@ void add_pcap(CLI::App& app, Command& command) {
 
 void add_sensors(CLI::App& app, Command& command) {
   CLI::App* sub = app.add_subcommand("sensors", "Look at what sensors send");
-  sub->require_subcommand(1);
+  const auto options = std::make_shared<ListenOptions>();
+  sub->add_option("CONFIG", options->config,
+                  "Listen for a while to the sensors that [live] of this TOML file names, as "
+                  "maploop live would, and say of each what it is")
+      ->check(CLI::ExistingFile);
+  sub->add_option("--seconds", options->seconds, "How long")->check(CLI::Range(0.1, 86400.0));
+  sub->add_option("--json", options->json, "Write what was heard to this file as JSON");
+  sub->require_subcommand(0, 1);
   add_pcap(*sub, command);
   add_listen(*sub, command);
+  sub->callback([sub, options, &command] {
+    if (!sub->get_subcommands().empty()) return;
+    if (options->config.empty()) throw CLI::RequiredError("CONFIG, or one of listen and pcap,");
+    command = [options] { return listen_to_sensors(*options); };
+  });
 }
 
 }  // namespace maploop::tools

@@ -13,7 +13,9 @@
 #include <thread>
 #include <vector>
 
-#include "sensors/live/live_sensors.h"
+#include "runtime/vehicle/live_config.h"
+#include "runtime/vehicle/vehicle.h"
+#include "runtime/vehicle/vehicle_config.h"
 #include "tools/json_output.h"
 
 namespace maploop::tools {
@@ -69,6 +71,15 @@ void print(const Heard& heard) {
   }
   for (const std::string& note : heard.report.notes)
     std::printf("  says         %s\n", note.c_str());
+  const SensorClock& clock = heard.report.clock;
+  if (clock.known) {
+    std::printf("  clock        %+.1f ppm against the host's, jumped %llu times",
+                -1e6 * clock.drift, static_cast<unsigned long long>(clock.jumps));
+    if (clock.utc_ahead) {
+      std::printf("; its UTC is %+.3f s ahead of the host's", to_seconds(*clock.utc_ahead));
+    }
+    std::printf("\n");
+  }
 }
 
 nlohmann::json to_json(const Heard& heard) {
@@ -78,6 +89,7 @@ nlohmann::json to_json(const Heard& heard) {
                       {"bytes", connection.bytes},         {"samples", heard.samples},
                       {"refused", heard.report.refused},   {"left_out", heard.report.reasons},
                       {"notes", heard.report.notes}};
+  if (heard.report.clock.known) json["clock"] = tools::to_json(heard.report.clock);
   if (heard.samples > 0) {
     json["span_s"] = to_seconds(heard.last - heard.first);
     json["youngest_s"] = to_seconds(heard.youngest);
@@ -86,45 +98,42 @@ nlohmann::json to_json(const Heard& heard) {
   return json;
 }
 
-std::vector<sensors::Laser> lasers(sensors::VelodyneModel model,
-                                   const std::filesystem::path& calibration) {
-  return calibration.empty() ? sensors::factory_lasers(model)
-                             : sensors::read_velodyne_calibration(calibration, model);
+vehicle::VehicleConfig config_of(const ListenOptions& options) {
+  if (!options.config.empty()) return vehicle::load_vehicle_config(options.config);
+  vehicle::VehicleConfig config;
+  vehicle::LiveParameters& p = config.live;
+  p.velodyne = options.velodyne;
+  p.velodyne_position = options.velodyne_position;
+  p.velodyne_model = options.model;
+  p.velodyne_calibration = options.calibration.string();
+  p.imu = options.imu;
+  p.imu_delay = 0.0;
+  p.gnss = options.gnss;
+  if (p.velodyne.empty() && p.imu.empty() && p.gnss.empty()) {
+    throw CLI::RequiredError("one of --velodyne, --imu and --gnss");
+  }
+  return config;
 }
 
 }  // namespace
 
 int listen_to_sensors(const ListenOptions& options) {
-  const sensors::HostClock clock;
+  vehicle::LiveSensors live = vehicle::open_live_sensors(config_of(options));
+  const sensors::HostClock& clock = *live.clock;
   const Time end = clock.now() + from_seconds(options.seconds);
   std::vector<Heard> heard;
   heard.reserve(3);
   std::vector<std::function<void()>> listeners;
-  const auto add = [&]<class T>(const char* name, std::shared_ptr<sensors::LiveSource<T>> source) {
+  const auto add = [&]<class T>(const char* name,
+                                const std::unique_ptr<sensors::LiveSource<T>>& source) {
+    if (source == nullptr) return;
     Heard& h = heard.emplace_back();
     h.name = name;
-    listeners.push_back([source, &clock, end, &h] { listen(*source, clock, end, h); });
+    listeners.push_back([&source, &clock, end, &h] { listen(*source, clock, end, h); });
   };
-  if (!options.velodyne.empty()) {
-    sensors::LiveVelodyneOptions velodyne{sensors::parse_endpoint(options.velodyne), {}, {}, {}};
-    if (!options.velodyne_position.empty()) {
-      velodyne.position = sensors::parse_endpoint(options.velodyne_position);
-    }
-    velodyne.model = sensors::velodyne_model(options.model).value();
-    velodyne.lasers = lasers(velodyne.model, options.calibration);
-    add("velodyne", std::shared_ptr(sensors::listen_to_velodyne(std::move(velodyne), clock)));
-  }
-  if (!options.imu.empty()) {
-    add("imu", std::shared_ptr(sensors::listen_to_ncom(sensors::parse_endpoint(options.imu),
-                                                       Duration::zero(), clock)));
-  }
-  if (!options.gnss.empty()) {
-    add("gnss",
-        std::shared_ptr(sensors::listen_to_nmea(sensors::parse_endpoint(options.gnss), {}, clock)));
-  }
-  if (listeners.empty()) {
-    throw CLI::RequiredError("one of --velodyne, --imu and --gnss");
-  }
+  add("velodyne", live.velodyne);
+  add("imu", live.imu);
+  add("gnss", live.gnss);
   interrupted = false;
   const auto interrupt = [](int) { interrupted = true; };
   const auto before = std::signal(SIGINT, interrupt);

@@ -7,6 +7,7 @@
 namespace maploop::tools {
 
 struct ListenOptions {
+  std::filesystem::path config;  // its [live] says what to listen to; empty: the endpoints do
   std::string velodyne, velodyne_position, imu, gnss;  // endpoints; empty: not listened to
   std::string model = "VLP-16";
   std::filesystem::path calibration;

@@ -1,5 +1,8 @@
 #include "msgs/lcm/conversions.h"
 
+#include <cmath>
+#include <limits>
+
 #include "msgs/lcm/conversion_parts.h"
 
 namespace maploop {
@@ -71,6 +74,41 @@ maploop_lcm::output_health_t to_lcm(const OutputHealth& o) {
 
 OutputHealth from_lcm(const maploop_lcm::output_health_t& m) {
   return {m.name, static_cast<std::uint64_t>(m.sent), static_cast<std::uint64_t>(m.unsent)};
+}
+
+maploop_lcm::sensor_health_t to_lcm(const SensorHealth& s) {
+  maploop_lcm::sensor_health_t m{};
+  m.name = s.name;
+  m.endpoint = s.endpoint;
+  m.connected = s.connected ? 1 : 0;
+  m.connections = static_cast<std::int64_t>(s.connections);
+  m.delivered = static_cast<std::int64_t>(s.delivered);
+  m.refused = static_cast<std::int64_t>(s.refused);
+  m.problem = s.problem;
+  m.clock_known = s.clock.known ? 1 : 0;
+  m.utc_ahead_s =
+      s.clock.utc_ahead ? to_seconds(*s.clock.utc_ahead) : std::numeric_limits<double>::quiet_NaN();
+  m.clock_drift = s.clock.drift;
+  m.clock_delay_s = to_seconds(s.clock.delay);
+  m.clock_jumps = static_cast<std::int64_t>(s.clock.jumps);
+  return m;
+}
+
+SensorHealth from_lcm(const maploop_lcm::sensor_health_t& m) {
+  SensorHealth s;
+  s.name = m.name;
+  s.endpoint = m.endpoint;
+  s.connected = m.connected != 0;
+  s.connections = static_cast<std::uint64_t>(m.connections);
+  s.delivered = static_cast<std::uint64_t>(m.delivered);
+  s.refused = static_cast<std::uint64_t>(m.refused);
+  s.problem = m.problem;
+  s.clock.known = m.clock_known != 0;
+  if (std::isfinite(m.utc_ahead_s)) s.clock.utc_ahead = from_seconds(m.utc_ahead_s);
+  s.clock.drift = m.clock_drift;
+  s.clock.delay = from_seconds(m.clock_delay_s);
+  s.clock.jumps = static_cast<std::uint64_t>(m.clock_jumps);
+  return s;
 }
 
 maploop_lcm::realtime_setting_t to_lcm(const RealtimeSetting& s) {
@@ -286,12 +324,14 @@ maploop_lcm::health_t to_lcm(const Health& health) {
   convert_each(health.rings, m.rings, to_lcm);
   convert_each(health.refusals, m.refusals, to_lcm);
   convert_each(health.outputs, m.outputs, to_lcm);
+  convert_each(health.sensors, m.sensors, to_lcm);
   convert_each(health.settings, m.settings, to_lcm);
   m.degraded = health.degraded;
   m.thread_count = static_cast<std::int32_t>(m.threads.size());
   m.ring_count = static_cast<std::int32_t>(m.rings.size());
   m.refusal_count = static_cast<std::int32_t>(m.refusals.size());
   m.output_count = static_cast<std::int32_t>(m.outputs.size());
+  m.sensor_count = static_cast<std::int32_t>(m.sensors.size());
   m.setting_count = static_cast<std::int32_t>(m.settings.size());
   m.degraded_count = static_cast<std::int32_t>(m.degraded.size());
   m.elapsed_s = health.elapsed;
@@ -306,6 +346,7 @@ Health from_lcm(const maploop_lcm::health_t& m) {
   convert_each(m.rings, health.rings, from_lcm);
   convert_each(m.refusals, health.refusals, from_lcm);
   convert_each(m.outputs, health.outputs, from_lcm);
+  convert_each(m.sensors, health.sensors, from_lcm);
   convert_each(m.settings, health.settings, from_lcm);
   health.degraded = m.degraded;
   health.elapsed = m.elapsed_s;

@@ -36,12 +36,14 @@ MonotonicTime monotonic_now() {
   return std::chrono::time_point_cast<Duration>(std::chrono::steady_clock::now());
 }
 
-DataClock::DataClock(double speed, bool paced) : paced_(paced), speed_(checked_speed(speed)) {}
+DataClock::DataClock(double speed, bool paced, bool live)
+    : paced_(paced), live_(live), speed_(checked_speed(speed)) {}
 
-DataClock::DataClock(const DataClock& other) : paced_(other.paced_), speed_(other.speed()) {}
+DataClock::DataClock(const DataClock& other)
+    : paced_(other.paced_), live_(other.live_), speed_(other.speed()) {}
 
-void DataClock::start(Time first, Duration lead) {
-  set_schedule({first, monotonic_now() + lead, speed()});
+void DataClock::start(Time first, MonotonicTime due) {
+  set_schedule({first, due, speed()});
 }
 
 // Sequence lock after Boehm, "Can seqlocks get along with programming language memory models?"
@@ -93,7 +95,7 @@ bool DataClock::sleep_until(Time t, const std::stop_token& stop) const {
 }
 
 bool DataClock::stall(Time t, MonotonicTime when) {
-  if (!keeps_time(t)) return false;
+  if (live_ || !keeps_time(t)) return false;
   const Duration::rep needed = (when - scheduled(t)).count();
   Duration::rep current = stalled_.load(std::memory_order_relaxed);
   while (needed > current + tolerance.count()) {

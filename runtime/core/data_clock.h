@@ -12,23 +12,29 @@ MonotonicTime monotonic_now();
 
 // Paced: data time t is due at start + (t - first) / speed on the steady clock, later by the stalls
 // and pauses so far. Virtual: every t is due at once and nobody sleeps; what happens is then
-// decided by the order of the data alone.
+// decided by the order of the data alone. Live: paced in real time, and never stalled: it waits for
+// nobody.
 //
 // start(), and then set_speed(), skip_to(), arrive(), pause_at(), resume() and resume_until() are
 // one controlling thread's; all else is for any thread and takes no lock.
 class DataClock {
  public:
   // Throws std::invalid_argument unless speed is finite and above 0.
-  static DataClock paced(double speed) { return DataClock(speed, true); }
-  static DataClock virtual_time() { return DataClock(1.0, false); }
+  static DataClock paced(double speed) { return DataClock(speed, true, false); }
+  static DataClock virtual_time() { return DataClock(1.0, false, false); }
+  static DataClock live() { return DataClock(1.0, true, true); }
 
   DataClock(const DataClock& other);  // of a clock that has not been started
   DataClock& operator=(const DataClock&) = delete;
 
-  // Data time `first` is due `lead` from now. Before other threads use the clock.
-  void start(Time first, Duration lead = {});
+  // Data time `first` is due `lead` from now, or at that moment. Before other threads use the
+  // clock.
+  void start(Time first, Duration lead = {}) { start(first, monotonic_now() + lead); }
+  void start(Time first, MonotonicTime due);
 
   bool is_paced() const { return paced_; }
+  // Whether those that find an input missing go on without it.
+  bool is_live() const { return live_; }
   // Whether t falls due at a moment of its own: neither in virtual time nor skipped over.
   bool keeps_time(Time t) const { return paced_ && !skipping(t); }
   double speed() const { return speed_.load(std::memory_order_relaxed); }
@@ -78,7 +84,7 @@ class DataClock {
     double speed;
   };
 
-  DataClock(double speed, bool paced);
+  DataClock(double speed, bool paced, bool live);
   bool skipping(Time t) const {
     return to_nanoseconds(t) < skip_to_.load(std::memory_order_acquire);
   }
@@ -87,6 +93,7 @@ class DataClock {
   MonotonicTime scheduled(Time t) const;  // without the stalls
 
   bool paced_;
+  bool live_;
   // The schedule, written by one thread: an odd version is being written.
   std::atomic<std::uint32_t> version_{0};
   std::atomic<std::int64_t> data_{0};

@@ -20,7 +20,7 @@
 namespace maploop::runtime {
 
 enum class Overflow {
-  keep_all,     // the producer waits for room: replay only
+  keep_all,     // the producer waits for room: replay only, see EdgeBase::drop_when_full()
   drop_newest,  // the new sample is dropped and counted
 };
 
@@ -47,6 +47,9 @@ class EdgeBase {
     if (bell_ != nullptr) bell_->ring();
   }
   void finish() { promise(Time::max()); }
+
+  // From now on Overflow::drop_newest; before the threads run.
+  virtual void drop_when_full() = 0;
 
   // Consumer: the oldest sample, or nullptr.
   virtual const Sample* head() = 0;
@@ -94,6 +97,8 @@ class Edge final : public EdgeBase {
   bool push(const T& sample, const std::stop_token& stop) {
     return push(sample.stamp, stop, [&](T& slot) { slot = sample; });
   }
+
+  void drop_when_full() override { overflow_ = Overflow::drop_newest; }
 
   T* front() { return ring_.front(); }
   const Sample* head() override { return ring_.front(); }

@@ -61,6 +61,20 @@ void visit(Config& config, Table&& table, Field&& field) {
     field("max_turn", p.max_turn);
   }
 
+  table("live");
+  {
+    auto& p = config.live;
+    field("calibration", p.calibration);
+    field("velodyne", p.velodyne);
+    field("velodyne_position", p.velodyne_position);
+    field("velodyne_model", p.velodyne_model);
+    field("velodyne_calibration", p.velodyne_calibration);
+    field("imu", p.imu);
+    field("imu_delay", p.imu_delay);
+    field("gnss", p.gnss);
+    field("gnss_latency", p.gnss_latency);
+  }
+
   table("gnss");
   {
     auto& p = config.gnss;

@@ -61,9 +61,10 @@ void FusionStage::run(runtime::DataClock& clock, Time first, const std::stop_tok
   for (const NavState& state : sent_states_) send(state);
   for (const NavState& state : sent_image_states_) image_states_.push(state, stop);
   position_.store(to_nanoseconds(first), std::memory_order_relaxed);
-  // Whatever the graph declares for a live run: the same bits need every tick.
-  const runtime::Schedule schedule{stages::fusion.period, stages::fusion.phase,
-                                   runtime::Overrun::catch_up};
+  // What the graph declares is of a live run: the same bits need every tick.
+  const runtime::Schedule schedule{
+      stages::fusion.period, stages::fusion.phase,
+      clock.is_live() ? stages::fusion.overrun : runtime::Overrun::catch_up};
   runtime::run_periodic(clock, first, schedule, stop,
                         [&](const runtime::Tick& t) { return tick(t, clock, stop); });
 }
@@ -78,7 +79,7 @@ bool FusionStage::tick(const runtime::Tick& tick, runtime::DataClock& clock,
   const MonotonicTime due = clock.due(k);
   const MonotonicTime woken = runtime::monotonic_now();
   MonotonicTime ready = woken;
-  if (intake_.promised() < k) {
+  if (!clock.is_live() && intake_.promised() < k) {
     const runtime::TraceSpan waiting(trace_, "waiting for input");
     if (!intake_.wait(k, inputs_.bell, stop)) return false;
     ready = runtime::monotonic_now();

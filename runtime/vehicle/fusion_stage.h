@@ -48,7 +48,8 @@ class FusionStage {
 
   // Ticks from the first one at or after `first` (data time) until the inputs are finished or stop
   // is requested. Each tick takes exactly what is available by then; while some of it is late, or
-  // when the ticks themselves fall behind by several periods, the data clock is stalled.
+  // when the ticks themselves fall behind by several periods, the data clock is stalled. On a live
+  // clock it takes what is there, and what is late with a later tick.
   void run(runtime::DataClock& clock, Time first, const std::stop_token& stop);
   void finish();
 

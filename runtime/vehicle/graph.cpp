@@ -61,7 +61,7 @@ std::string graph_page() {
     page += row({s.name, s.runs, s.released, ms(s.period), ms(s.phase), when_late(s), ms(s.budget),
                  ms(s.deadline), rates(s)});
   }
-  page += "\n## Rings\n\n";
+  page += "\n## Rings\n\nA full ring of a live run drops the newest.\n\n";
   page += row({"ring", "carries", "capacity", "when full"});
   page += row({"---", "---", "---", "---"});
   for (const EdgeSpec& e : edges::all) {

@@ -29,9 +29,10 @@ MapMatchStage::MapMatchStage(std::shared_ptr<const RoadMap> map,
 }
 
 void MapMatchStage::run(const runtime::DataClock& clock, Time first, const std::stop_token& stop) {
-  // Whatever the graph declares for a live run: the same bits need every tick.
-  const runtime::Schedule schedule{stages::mapmatch.period, stages::mapmatch.phase,
-                                   runtime::Overrun::catch_up};
+  // What the graph declares is of a live run: the same bits need every tick.
+  const runtime::Schedule schedule{
+      stages::mapmatch.period, stages::mapmatch.phase,
+      clock.is_live() ? stages::mapmatch.overrun : runtime::Overrun::catch_up};
   promise(runtime::first_tick(first, schedule.period, schedule.phase) + stages::mapmatch.budget -
           Duration(1));
   runtime::run_periodic(clock, first, schedule, stop,

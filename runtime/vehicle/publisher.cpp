@@ -1,5 +1,6 @@
 #include "runtime/vehicle/publisher.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -134,14 +135,15 @@ void Publisher::send_reports() {
   }
 }
 
-void Publisher::run(Time begin) {
+void Publisher::run(Time begin, const runtime::DataClock& clock) {
   maploop_lcm::calibration_t calibration = to_lcm(calibration_);
   calibration.utime =
       std::chrono::floor<std::chrono::microseconds>(begin).time_since_epoch().count();
   send(channels::calibration, begin, calibration);
   for (;;) {
     const bool last = intake_.finished() && edges_.reports.promised() == Time::max();
-    intake_.take_until(intake_.promised());
+    const Time given_up = clock.is_live() ? clock.now() - patience : Time::min();
+    intake_.take_until(std::max(intake_.promised(), given_up));
     send_reports();
     if (last) return;
     std::this_thread::sleep_for(look_every);

@@ -19,6 +19,7 @@
 #include "msgs/ppp_state.h"
 #include "msgs/reference.h"
 #include "msgs/wheel_speed.h"
+#include "runtime/core/data_clock.h"
 #include "runtime/core/edge.h"
 #include "runtime/core/intake.h"
 #include "runtime/core/trace_span.h"
@@ -69,7 +70,8 @@ struct PublisherEdges {
 // What a match means in words.
 using MatchDescriber = std::function<MapMatchWords(const MapMatch&)>;
 
-// One thread's own. Messages of all channels leave in the order of their `available`.
+// One thread's own. Messages of all channels leave in the order of their `available`, but for those
+// that come later than a live run waits for them.
 class Publisher {
  public:
   Publisher(const VehicleCalibration& calibration, PublisherEdges& edges,
@@ -80,7 +82,9 @@ class Publisher {
   void trace_to(runtime::TraceBuffer* buffer) { trace_ = buffer; }  // before run()
 
   // Says the calibration at `begin`, then whatever comes, until every edge is finished and empty.
-  void run(Time begin);
+  // On a live clock no longer than `patience` for a stage that hangs.
+  void run(Time begin, const runtime::DataClock& clock);
+  static constexpr Duration patience = milliseconds(500);
 
   // How long sending each message took.
   const ThreadMeter& meter() const { return meter_; }

@@ -14,6 +14,7 @@
 #include "sensors/replay/kitti_drive.h"
 #include "sensors/replay/log_recording.h"
 #include "sensors/replay/odometry_sequence.h"
+#include "sensors/velodyne/capture_source.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -114,6 +115,37 @@ Recording open_gnss(const std::filesystem::path& path, const VehicleConfig& conf
   return recording;
 }
 
+bool is_capture(const std::filesystem::path& path) {
+  std::filesystem::path name = path.filename();
+  if (name.extension() == ".gz") name.replace_extension();
+  return name.extension() == ".pcap" || name.extension() == ".pcapng";
+}
+
+// Its turns stand for the images.
+Recording open_capture(const std::filesystem::path& path, const VehicleConfig& config) {
+  const auto open = [path, calibration = config.live.velodyne_calibration] {
+    return std::make_unique<sensors::VelodyneCapture>(
+        path, sensors::VelodyneCaptureOptions{{}, calibration});
+  };
+  Recording recording;
+  recording.calibration = live_calibration(config.live);
+  const auto capture = open();
+  for (LidarScan scan; capture->next(scan); ++recording.images) {
+    if (recording.images == 0) recording.first_stamp = scan.stamp;
+    recording.last_stamp = scan.stamp;
+  }
+  if (recording.images == 0) {
+    throw std::runtime_error("the capture '" + path.string() +
+                             "' has no whole turn of the scanner to replay");
+  }
+  recording.sensors = [open](Time) {
+    Sensors s;
+    s.velodyne = open();
+    return s;
+  };
+  return recording;
+}
+
 Recording open_any(const std::filesystem::path& path, const VehicleConfig& config) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) {
@@ -121,6 +153,7 @@ Recording open_any(const std::filesystem::path& path, const VehicleConfig& confi
                              "'; 'maploop replay --help' says what can be replayed");
   }
   if (sensors::OdometrySequence::is_named(path)) return open_sequence(path, config);
+  if (is_capture(path)) return open_capture(path, config);
   if (is_gnss_drive(path)) return open_gnss(path, config);
   return std::filesystem::is_regular_file(path, ignored) ? open_log(path)
                                                          : open_folder(path, config);

@@ -105,9 +105,10 @@ Time next_of(const runtime::EdgeBase& edge) {
 
 }  // namespace
 
-// Of a drive without images its GNSS epochs stand for them.
+// Of a drive without images its GNSS epochs or scans stand for them.
 Time Vehicle::next_image() const {
-  if (graph_->to_ppp && graph_->camera.absent()) return next_of(graph_->to_ppp->epochs);
+  if (graph_->to_ppp && graph_->drivers.camera->absent()) return next_of(graph_->to_ppp->epochs);
+  if (graph_->to_lidar && graph_->drivers.camera->absent()) return next_of(graph_->to_lidar->scans);
   return next_of(graph_->odometry_recorded
                      ? static_cast<const runtime::EdgeBase&>(graph_->to_fusion.odometry)
                      : graph_->images);

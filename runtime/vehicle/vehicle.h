@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "estimators/fusion/initial_state.h"
@@ -27,9 +28,19 @@
 #include "runtime/vehicle/snapshot_stage.h"
 #include "runtime/vehicle/vehicle_config.h"
 #include "runtime/vehicle/vehicle_report.h"
+#include "sensors/clock/host_clock.h"
+#include "sensors/live/live_source.h"
 #include "sensors/source.h"
 
 namespace maploop::vehicle {
+
+// Those that the vehicle listens to; null: it has none. GNSS is either fixes or observations.
+struct LiveSensors {
+  std::shared_ptr<const sensors::HostClock> clock;  // that they stamp with
+  std::unique_ptr<sensors::LiveSource<LidarScan>> velodyne;
+  std::unique_ptr<sensors::LiveSource<ImuSample>> imu;
+  std::unique_ptr<sensors::LiveSource<GnssFix>> gnss;
+};
 
 struct Sensors {
   std::unique_ptr<sensors::Source<StereoPair>> camera;
@@ -46,11 +57,16 @@ struct Sensors {
   std::unique_ptr<sensors::Source<RelativeMotion>> odometry;
   std::unique_ptr<sensors::Source<RelativeMotion>> visual;
   std::unique_ptr<sensors::Source<LidarMotion>> lidar;
+  // Instead of all of these, on a live clock.
+  std::optional<LiveSensors> live;
 };
 
 // One replay of recorded sensors through the graph. On a paced clock samples are released at their
 // due times; on virtual time as fast as the graph takes them. Every channel that is derived from
 // data has the same bits either way.
+//
+// Or a drive: on a live clock samples are released when they come, nobody waits for anything that
+// is missing, and a full ring drops what is new. It ends by stop() alone.
 class Vehicle {
  public:
   // `sinks` must outlive the vehicle, and so must `tracer`, to which each thread records what it
@@ -80,7 +96,7 @@ class Vehicle {
   // What prepare_process() and the like have said, for readiness() and HEALTH; before start().
   void prepared(const runtime::RealtimeReport& report);
 
-  // Starts every thread. Throws std::runtime_error when no sensor has a single sample.
+  // Starts every thread. Throws std::runtime_error when no sensor has a single sample to replay.
   void start();
 
   // What was prepared, and, after start(), what each thread was granted.

@@ -141,7 +141,8 @@ VehicleConfig load_vehicle_config(const std::filesystem::path& file) {
   }
   check_values(config, file);
   const auto beside = [&](std::string& path) { path = (file.parent_path() / path).string(); };
-  for (std::string* path : {&config.camera.calibration, &config.map.file, &config.map.rules})
+  for (std::string* path : {&config.camera.calibration, &config.live.calibration,
+                            &config.live.velodyne_calibration, &config.map.file, &config.map.rules})
     if (!path->empty()) beside(*path);
   for (std::string& product : config.ppp.products) beside(product);
   return config;

@@ -16,6 +16,7 @@
 #include "runtime/core/realtime_memory.h"
 #include "runtime/core/trace.h"
 #include "runtime/vehicle/lcm_bus.h"
+#include "runtime/vehicle/live_config.h"
 #include "runtime/vehicle/scheduling_config.h"
 #include "sensors/replay/kitti_drive.h"
 
@@ -65,6 +66,7 @@ struct VehicleConfig {
   runtime::TraceParameters trace;
   CameraParameters camera;
   sensors::KittiDriveParameters replay;
+  LiveParameters live;
   sensors::GnssAidParameters gnss;
   std::string gnss_outage;  // gnss_outage.h; empty: none
   sensors::WheelOdometerParameters wheel;

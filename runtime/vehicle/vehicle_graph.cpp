@@ -8,8 +8,10 @@
 
 #include "mapmatch/reasons.h"
 #include "runtime/core/realtime.h"
+#include "runtime/vehicle/live_driver.h"
 #include "runtime/vehicle/prefetched_source.h"
 #include "runtime/vehicle/process_usage.h"
+#include "runtime/vehicle/replay_driver.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -43,8 +45,13 @@ StereoCalibration camera_of(const VehicleCalibration& calibration) {
 
 // After the start a drive with nothing but GNSS has nothing else to go by.
 VehicleConfig fitted(VehicleConfig config, const Sensors& sensors) {
-  if (!sensors.camera && !sensors.imu && !sensors.odometry) config.fusion.use_gnss = true;
+  const bool inertial = sensors.imu || (sensors.live && sensors.live->imu);
+  if (!sensors.camera && !inertial && !sensors.odometry) config.fusion.use_gnss = true;
   return config;
+}
+
+bool has_velodyne(const Sensors& sensors) {
+  return sensors.velodyne || (sensors.live && sensors.live->velodyne);
 }
 
 }  // namespace
@@ -59,26 +66,14 @@ Vehicle::Graph::Graph(const VehicleConfig& vehicle_config, const VehicleCalibrat
       map(std::move(road_map)),
       images(make_edge<StereoPair>(edges::camera_stereo, &stereo_bell)),
       odometry_recorded(sensors.odometry != nullptr),
-      to_lidar(config.odometry == "visual-lidar" && sensors.velodyne != nullptr &&
-                       !odometry_recorded
+      to_lidar(config.odometry == "visual-lidar" && has_velodyne(sensors) && !odometry_recorded
                    ? std::optional<LidarEdges>(std::in_place)
                    : std::nullopt),
       to_ppp(sensors.epochs != nullptr ? std::optional<PppEdges>(std::in_place) : std::nullopt),
       to_mapmatch(map != nullptr ? std::optional<MapMatchEdges>(std::in_place) : std::nullopt),
       raw(wants_raw(sinks)),
-      camera("camera", prefetched(stages::camera, std::move(sensors.camera)),
-             raw ? Edges<StereoPair>{&to_publisher.camera, &images} : Edges<StereoPair>{&images}),
-      velodyne("velodyne", prefetched(stages::velodyne, std::move(sensors.velodyne)), scan_edges()),
-      imu("imu", std::move(sensors.imu), {&to_fusion.imu, &to_publisher.imu}),
-      gnss("gnss", std::move(sensors.gnss), to_ppp ? Edges<GnssFix>{} : fix_edges()),
-      epochs("gnss", std::move(sensors.epochs),
-             to_ppp ? Edges<GnssEpoch>{&to_ppp->epochs} : Edges<GnssEpoch>{}),
-      wheel("wheel", std::move(sensors.wheel), {&to_fusion.wheel, &to_publisher.wheel}),
-      reference("reference", std::move(sensors.reference), {&to_publisher.reference}),
-      odometry("odometry", std::move(sensors.odometry),
-               {&to_fusion.odometry, &to_publisher.odometry}),
-      visual_log("visual log", std::move(sensors.visual), {&to_publisher.visual}),
-      lidar_log("lidar log", std::move(sensors.lidar), {&to_publisher.lidar}),
+      host_clock(sensors.live ? sensors.live->clock : nullptr),
+      drivers(make_drivers(sensors)),
       stereo(stereo::StereoOdometry(camera_of(calibration), config.stereo), images, stereo_bell,
              visual_edges()),
       fusion(fusion::ReducedImuFilter(config.fusion), to_fusion, state_edges(),
@@ -102,24 +97,24 @@ Vehicle::Graph::Graph(const VehicleConfig& vehicle_config, const VehicleCalibrat
     ppp.emplace(std::move(sensors.ppp), config.ppp.integrity_risk, *to_ppp, to_publisher.ppp,
                 fix_edges());
     ppp->trace_to(trace_buffer(stages::ppp.name));
-    epochs.trace_to(trace_buffer(stages::gnss.name));
+    drivers.epochs->trace_to(trace_buffer(stages::gnss.name));
   } else {
-    gnss.trace_to(trace_buffer(stages::gnss.name));
+    drivers.gnss->trace_to(trace_buffer(stages::gnss.name));
     to_publisher.ppp.finish();
   }
   if (to_mapmatch) {
     mapmatch.emplace(map, config.mapmatch, *to_mapmatch, Edges<MapMatch>{&to_publisher.map_match});
     mapmatch->trace_to(trace_buffer(stages::mapmatch.name));
   }
-  camera.trace_to(trace_buffer(stages::camera.name));
-  velodyne.trace_to(trace_buffer(stages::velodyne.name));
-  imu.trace_to(trace_buffer(stages::imu.name));
-  wheel.trace_to(trace_buffer(stages::wheel.name));
-  reference.trace_to(trace_buffer(stages::reference.name));
+  drivers.camera->trace_to(trace_buffer(stages::camera.name));
+  drivers.velodyne->trace_to(trace_buffer(stages::velodyne.name));
+  drivers.imu->trace_to(trace_buffer(stages::imu.name));
+  drivers.wheel->trace_to(trace_buffer(stages::wheel.name));
+  drivers.reference->trace_to(trace_buffer(stages::reference.name));
   if (odometry_recorded) {
-    odometry.trace_to(trace_buffer(stages::odometry.name));
-    visual_log.trace_to(trace_buffer(stages::visual_log.name));
-    lidar_log.trace_to(trace_buffer(stages::lidar_log.name));
+    drivers.odometry->trace_to(trace_buffer(stages::odometry.name));
+    drivers.visual_log->trace_to(trace_buffer(stages::visual_log.name));
+    drivers.lidar_log->trace_to(trace_buffer(stages::lidar_log.name));
   }
   stereo.trace_to(trace_buffer(stages::stereo.name));
   fusion.trace_to(trace_buffer(stages::fusion.name));
@@ -187,20 +182,61 @@ runtime::Thread& Vehicle::Graph::start_thread(std::deque<runtime::Thread>& threa
 
 template <class T>
 void Vehicle::Graph::start_driver(const Stage& stage, const runtime::Scheduling& scheduling,
-                                  ReplayDriver<T>& driver) {
+                                  Driver<T>& driver) {
   const runtime::Thread& thread = start_thread(
       producers, stage, scheduling, stop.get_token(),
       [&](const std::stop_token& token) { driver.run(clock, token); }, [&] { driver.finish(); });
   monitor.watch_driver(stage, thread, driver.lateness(), driver.absent());
 }
 
-void Vehicle::Graph::find_first() {
-  for (const std::optional<Time>& available :
-       {camera.load_first(), velodyne.load_first(), imu.load_first(), gnss.load_first(),
-        epochs.load_first(), wheel.load_first(), reference.load_first(), odometry.load_first(),
-        visual_log.load_first(), lidar_log.load_first()}) {
-    if (available) first = std::min(first, *available);
+template <class T>
+std::unique_ptr<Driver<T>> Vehicle::Graph::driver(const Stage& stage,
+                                                  std::unique_ptr<sensors::Source<T>> source,
+                                                  std::unique_ptr<sensors::LiveSource<T>> live,
+                                                  Edges<T> to) {
+  std::string name(stage.name);
+  if (live != nullptr) {
+    return std::make_unique<LiveDriver<T>>(std::move(name), std::move(live), std::move(to));
   }
+  return std::make_unique<ReplayDriver<T>>(std::move(name), std::move(source), std::move(to));
+}
+
+Drivers Vehicle::Graph::make_drivers(Sensors& s) {
+  LiveSensors live = s.live ? std::move(*s.live) : LiveSensors{};
+  const auto recorded = [this]<class T>(const Stage& stage,
+                                        std::unique_ptr<sensors::Source<T>>& source, Edges<T> to) {
+    return driver<T>(stage, std::move(source), nullptr, std::move(to));
+  };
+  Edges<StereoPair> to_camera{&images};
+  if (raw) to_camera.insert(to_camera.begin(), &to_publisher.camera);
+  Drivers d;
+  d.camera = driver<StereoPair>(stages::camera, prefetched(stages::camera, std::move(s.camera)),
+                                nullptr, std::move(to_camera));
+  d.velodyne =
+      driver<LidarScan>(stages::velodyne, prefetched(stages::velodyne, std::move(s.velodyne)),
+                        std::move(live.velodyne), scan_edges());
+  d.imu = driver<ImuSample>(stages::imu, std::move(s.imu), std::move(live.imu),
+                            {&to_fusion.imu, &to_publisher.imu});
+  d.gnss = driver<GnssFix>(stages::gnss, std::move(s.gnss), std::move(live.gnss),
+                           to_ppp ? Edges<GnssFix>{} : fix_edges());
+  d.epochs = recorded(stages::gnss, s.epochs,
+                      to_ppp ? Edges<GnssEpoch>{&to_ppp->epochs} : Edges<GnssEpoch>{});
+  d.wheel =
+      recorded(stages::wheel, s.wheel, Edges<WheelSpeed>{&to_fusion.wheel, &to_publisher.wheel});
+  d.reference =
+      recorded(stages::reference, s.reference, Edges<ReferencePose>{&to_publisher.reference});
+  d.odometry = recorded(stages::odometry, s.odometry,
+                        Edges<RelativeMotion>{&to_fusion.odometry, &to_publisher.odometry});
+  d.visual_log =
+      recorded(stages::visual_log, s.visual, Edges<RelativeMotion>{&to_publisher.visual});
+  d.lidar_log = recorded(stages::lidar_log, s.lidar, Edges<LidarMotion>{&to_publisher.lidar});
+  return d;
+}
+
+void Vehicle::Graph::find_first() {
+  drivers.each([this](auto& driver) {
+    if (const auto available = driver.load_first()) first = std::min(first, *available);
+  });
   if (first == Time::max()) {
     throw std::runtime_error("the drive has not a single readable sample of any sensor");
   }
@@ -212,16 +248,37 @@ void Vehicle::Graph::find_first() {
                              format_time(first));
   }
   begin = resumed->at + Duration(1);  // its tick is done
-  camera.skip_until(resumed->at);
-  velodyne.skip_until(resumed->at);
-  imu.skip_until(resumed->at);
-  gnss.skip_until(resumed->at);
-  epochs.skip_until(resumed->at);
-  wheel.skip_until(resumed->at);
-  reference.skip_until(resumed->at);
-  odometry.skip_until(resumed->at);
-  visual_log.skip_until(resumed->at);
-  lidar_log.skip_until(resumed->at);
+  drivers.each([this](auto& driver) { driver.skip_until(resumed->at); });
+}
+
+// Nobody waits for a full ring either.
+void Vehicle::Graph::begin_now() {
+  first = begin = host_clock->now() + lead;
+  for (runtime::EdgeBase* edge : all_edges()) edge->drop_when_full();
+}
+
+// But for those of snapshots; each is used.
+std::vector<runtime::EdgeBase*> Vehicle::Graph::all_edges() {
+  std::vector<runtime::EdgeBase*> edges{&images,
+                                        &to_fusion.imu,
+                                        &to_fusion.gnss,
+                                        &to_fusion.wheel,
+                                        &to_fusion.odometry,
+                                        &to_publisher.imu,
+                                        &to_publisher.gnss,
+                                        &to_publisher.wheel,
+                                        &to_publisher.reference,
+                                        &to_publisher.visual,
+                                        &to_publisher.lidar,
+                                        &to_publisher.odometry,
+                                        &to_publisher.nav_state,
+                                        &to_publisher.image_state,
+                                        &to_publisher.reports};
+  if (to_mapmatch) edges.insert(edges.end(), {&to_mapmatch->nav_state, &to_publisher.map_match});
+  if (to_lidar) edges.insert(edges.end(), {&to_lidar->scans, &to_lidar->visual});
+  if (raw) edges.insert(edges.end(), {&to_publisher.camera, &to_publisher.velodyne});
+  if (to_ppp) edges.insert(edges.end(), {&to_ppp->epochs, &to_publisher.ppp});
+  return edges;
 }
 
 void Vehicle::Graph::start_snapshots() {
@@ -266,9 +323,9 @@ void Vehicle::Graph::start_snapshots() {
 // From the images, or as it was recorded.
 void Vehicle::Graph::start_odometry() {
   if (odometry_recorded) {
-    start_driver(stages::odometry, config.scheduling.odometry, odometry);
-    start_driver(stages::visual_log, config.scheduling.odometry, visual_log);
-    start_driver(stages::lidar_log, config.scheduling.odometry, lidar_log);
+    start_driver(stages::odometry, config.scheduling.odometry, *drivers.odometry);
+    start_driver(stages::visual_log, config.scheduling.odometry, *drivers.visual_log);
+    start_driver(stages::lidar_log, config.scheduling.odometry, *drivers.lidar_log);
     start_thread(
         producers, stages::stereo, config.scheduling.stereo, stop.get_token(),
         [this](const std::stop_token& token) { stereo.idle(token); }, [] {});
@@ -292,20 +349,18 @@ void Vehicle::Graph::start_stereo() {
       producers, stages::stereo, config.scheduling.stereo, stop.get_token(),
       [this](const std::stop_token& token) { stereo.run(clock, token); },
       [this] { stereo.finish(); });
-  // Of a drive with GNSS alone nobody waits for images.
-  if (to_ppp && camera.absent()) return;
+  // Of a drive with GNSS alone, or a vehicle without cameras, nobody waits for images.
+  if ((to_ppp || host_clock != nullptr) && drivers.camera->absent()) return;
   monitor.watch_stage(stages::stereo, thread, stereo.meter(), {&images});
 }
 
 // The receiver's fixes, or its observations and what makes fixes from them.
 void Vehicle::Graph::start_gnss() {
   if (!ppp) {
-    start_driver(stages::gnss, config.scheduling.gnss, gnss);
+    start_driver(stages::gnss, config.scheduling.gnss, *drivers.gnss);
     return;
   }
-  monitor.watch(to_ppp->epochs);
-  monitor.watch(to_publisher.ppp);
-  start_driver(stages::gnss, config.scheduling.gnss, epochs);
+  start_driver(stages::gnss, config.scheduling.gnss, *drivers.epochs);
   monitor.watch_stage(stages::ppp,
                       start_thread(
                           producers, stages::ppp, config.scheduling.ppp, stop.get_token(),
@@ -329,26 +384,9 @@ void Vehicle::Graph::start_mapmatch() {
 }
 
 void Vehicle::Graph::start() {
-  find_first();
-  for (const runtime::EdgeBase* edge : std::initializer_list<const runtime::EdgeBase*>{
-           &images, &to_fusion.imu, &to_fusion.gnss, &to_fusion.wheel, &to_fusion.odometry,
-           &to_publisher.imu, &to_publisher.gnss, &to_publisher.wheel, &to_publisher.reference,
-           &to_publisher.visual, &to_publisher.lidar, &to_publisher.odometry,
-           &to_publisher.nav_state, &to_publisher.image_state, &to_publisher.reports}) {
-    monitor.watch(*edge);
-  }
-  if (to_mapmatch) {
-    monitor.watch(to_mapmatch->nav_state);
-    monitor.watch(to_publisher.map_match);
-  }
-  if (to_lidar) {
-    monitor.watch(to_lidar->scans);
-    monitor.watch(to_lidar->visual);
-  }
-  if (raw) {
-    monitor.watch(to_publisher.camera);
-    monitor.watch(to_publisher.velodyne);
-  } else {
+  host_clock != nullptr ? begin_now() : find_first();
+  for (const runtime::EdgeBase* edge : all_edges()) monitor.watch(*edge);
+  if (!raw) {
     to_publisher.camera.finish();
     to_publisher.velodyne.finish();
   }
@@ -358,16 +396,20 @@ void Vehicle::Graph::start() {
 
   cpu_at_start = process_cpu_seconds();
   started = runtime::monotonic_now();
-  clock.start(begin, lead);
+  if (host_clock != nullptr) {
+    clock.start(begin, host_clock->shows(begin));
+  } else {
+    clock.start(begin, lead);
+  }
   monitor.start(begin, started);
   start_snapshots();
   const SchedulingParameters& scheduling = config.scheduling;
-  start_driver(stages::camera, scheduling.camera, camera);
-  start_driver(stages::velodyne, scheduling.velodyne, velodyne);
-  start_driver(stages::imu, scheduling.imu, imu);
+  start_driver(stages::camera, scheduling.camera, *drivers.camera);
+  start_driver(stages::velodyne, scheduling.velodyne, *drivers.velodyne);
+  start_driver(stages::imu, scheduling.imu, *drivers.imu);
   start_gnss();
-  start_driver(stages::wheel, scheduling.wheel, wheel);
-  start_driver(stages::reference, scheduling.reference, reference);
+  start_driver(stages::wheel, scheduling.wheel, *drivers.wheel);
+  start_driver(stages::reference, scheduling.reference, *drivers.reference);
   start_odometry();
   monitor.watch_stage(stages::fusion,
                       start_thread(
@@ -381,7 +423,7 @@ void Vehicle::Graph::start() {
   monitor.watch_stage(stages::publisher,
                       start_thread(
                           listeners, stages::publisher, scheduling.publisher, {},
-                          [this](const std::stop_token&) { publisher.run(begin); }, [] {}),
+                          [this](const std::stop_token&) { publisher.run(begin, clock); }, [] {}),
                       publisher.meter(), {});
   monitor.watch_stage(stages::health,
                       start_thread(

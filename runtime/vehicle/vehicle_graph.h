@@ -12,13 +12,13 @@
 #include <vector>
 
 #include "runtime/core/thread.h"
+#include "runtime/vehicle/drivers.h"
 #include "runtime/vehicle/fusion_stage.h"
 #include "runtime/vehicle/graph.h"
 #include "runtime/vehicle/health_monitor.h"
 #include "runtime/vehicle/lidar_stage.h"
 #include "runtime/vehicle/mapmatch_stage.h"
 #include "runtime/vehicle/ppp_stage.h"
-#include "runtime/vehicle/replay_driver.h"
 #include "runtime/vehicle/snapshot_stage.h"
 #include "runtime/vehicle/stereo_stage.h"
 #include "runtime/vehicle/vehicle.h"
@@ -36,7 +36,15 @@ struct Vehicle::Graph {
         runtime::Tracer* tracer, std::shared_ptr<const RoadMap> road_map);
   ~Graph();
 
+  // The driver of a recorded sensor, or of a live one where there is that.
+  template <class T>
+  std::unique_ptr<Driver<T>> driver(const Stage& stage, std::unique_ptr<sensors::Source<T>> source,
+                                    std::unique_ptr<sensors::LiveSource<T>> live,
+                                    std::vector<runtime::Edge<T>*> to);
+  Drivers make_drivers(Sensors& sensors);
   void find_first();
+  void begin_now();
+  std::vector<runtime::EdgeBase*> all_edges();
   void start();
   void start_snapshots();
   void start_odometry();
@@ -50,6 +58,7 @@ struct Vehicle::Graph {
   MatchDescriber describer() const;
   void run_health(const std::stop_token& end);
   RuntimeReport look(Duration elapsed);
+  void look_at_sensors(Health& health);
   void wait();
   VehicleReport report() const;
 
@@ -58,8 +67,7 @@ struct Vehicle::Graph {
   std::unique_ptr<sensors::Source<T>> prefetched(const Stage& stage,
                                                  std::unique_ptr<sensors::Source<T>> source);
   template <class T>
-  void start_driver(const Stage& stage, const runtime::Scheduling& scheduling,
-                    ReplayDriver<T>& driver);
+  void start_driver(const Stage& stage, const runtime::Scheduling& scheduling, Driver<T>& driver);
   // Makes it an element of `threads`; its settings become part of the readiness.
   runtime::Thread& start_thread(std::deque<runtime::Thread>& threads, const Stage& stage,
                                 const runtime::Scheduling& scheduling, std::stop_token token,
@@ -88,17 +96,9 @@ struct Vehicle::Graph {
   std::optional<MapMatchEdges> to_mapmatch;  // where there is a map
   PublisherEdges to_publisher;
 
-  bool raw;  // images and scans go to the publisher too
-  ReplayDriver<StereoPair> camera;
-  ReplayDriver<LidarScan> velodyne;
-  ReplayDriver<ImuSample> imu;
-  ReplayDriver<GnssFix> gnss;
-  ReplayDriver<GnssEpoch> epochs;  // instead of gnss where there is to_ppp
-  ReplayDriver<WheelSpeed> wheel;
-  ReplayDriver<ReferencePose> reference;
-  ReplayDriver<RelativeMotion> odometry;
-  ReplayDriver<RelativeMotion> visual_log;
-  ReplayDriver<LidarMotion> lidar_log;
+  bool raw;                                              // images and scans go to the publisher too
+  std::shared_ptr<const sensors::HostClock> host_clock;  // of live sensors; nullptr: a replay
+  Drivers drivers;
   StereoStage stereo;
   std::optional<LidarStage> lidar;  // where there is to_lidar
   std::optional<PppStage> ppp;      // where there is to_ppp

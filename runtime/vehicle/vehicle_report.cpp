@@ -1,5 +1,9 @@
 #include "runtime/vehicle/vehicle_report.h"
 
+#include <optional>
+#include <string>
+#include <utility>
+
 #include "runtime/core/periodic.h"
 #include "runtime/vehicle/process_usage.h"
 #include "runtime/vehicle/refusals.h"
@@ -14,20 +18,20 @@ VehicleReport Vehicle::Graph::report() const {
     r.sensors.push_back({driver.lateness().name(), driver.report(), driver.lateness().summary()});
     lateness.merge(driver.lateness().histogram());
   };
-  add(camera);
-  add(velodyne);
-  add(imu);
+  add(*drivers.camera);
+  add(*drivers.velodyne);
+  add(*drivers.imu);
   if (ppp) {
-    add(epochs);
+    add(*drivers.epochs);
   } else {
-    add(gnss);
+    add(*drivers.gnss);
   }
-  if (!wheel.absent()) add(wheel);
-  add(reference);
+  if (!drivers.wheel->absent()) add(*drivers.wheel);
+  add(*drivers.reference);
   if (odometry_recorded) {
-    add(odometry);
-    add(visual_log);
-    add(lidar_log);
+    add(*drivers.odometry);
+    add(*drivers.visual_log);
+    add(*drivers.lidar_log);
   }
   r.lateness = lateness.summarize("all sensors");
   r.health = last_report.health;
@@ -42,6 +46,23 @@ VehicleReport Vehicle::Graph::report() const {
   return r;
 }
 
+void Vehicle::Graph::look_at_sensors(Health& health) {
+  drivers.each([&](auto& driver) {
+    std::optional<SensorHealth> sensor = driver.health();
+    if (!sensor) return;
+    if (!sensor->problem.empty()) {
+      health.degraded.push_back(sensor->name + ": " + sensor->endpoint + ' ' + sensor->problem);
+    }
+    health.sensors.push_back(std::move(*sensor));
+  });
+  constexpr Duration disciplined = milliseconds(10);  // a clock that is only steered stays within
+  if (const Duration step = host_clock->step(); std::chrono::abs(step) > disciplined) {
+    health.degraded.push_back("this machine's clock was set by " +
+                              std::to_string(to_seconds(step)) +
+                              " s since the start, or it slept: stamps did not follow it");
+  }
+}
+
 RuntimeReport Vehicle::Graph::look(Duration elapsed) {
   const Time stamp = fusion.position();
   RuntimeReport report;
@@ -52,6 +73,7 @@ RuntimeReport Vehicle::Graph::look(Duration elapsed) {
   report.health.refusals = refusals(stereo, lidar ? &*lidar : nullptr, ppp ? &*ppp : nullptr,
                                     fusion.filter_status(), mapmatch ? &*mapmatch : nullptr);
   report.deadlines = monitor.deadlines(stamp);
+  if (host_clock != nullptr) look_at_sensors(report.health);
   return report;
 }
 

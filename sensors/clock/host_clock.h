@@ -13,6 +13,8 @@ class HostClock {
   HostClock() : utc_(utc()), steady_(steady()) {}
 
   Time now() const { return utc_ + (steady() - steady_); }
+  // When it shows t, on the steady clock.
+  MonotonicTime shows(Time t) const { return steady_ + (t - utc_); }
   // How much the machine's clock was set ahead since the start.
   Duration step() const { return utc() - now(); }
 

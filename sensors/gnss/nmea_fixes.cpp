@@ -57,7 +57,8 @@ void NmeaFixes::take_rmc(const NmeaSentence& s) {
   const auto speed = s.number(6);
   if (s.field(1) != "A" || !time || !date || !speed || *speed < 0.0) return;
   // Receivers leave the course out while they stand.
-  motion_ = Motion{*date + *time, knot * *speed, radians(s.number(7).value_or(0.0))};
+  motion_ = Motion{*date + *time, knot * *speed, radians(s.number(7).value_or(0.0)),
+                   s.field(0).substr(4, 2) == "60"};
 }
 
 void NmeaFixes::take_gst(const NmeaSentence& s) {
@@ -89,20 +90,24 @@ bool NmeaFixes::add(std::string_view line, Time arrival, GnssFix& fix) {
 bool NmeaFixes::complete(Time arrival, GnssFix& fix) {
   if (!position_ || !motion_) return false;
   const Duration time_of_day = motion_->time - std::chrono::floor<std::chrono::days>(motion_->time);
-  if (position_->time != time_of_day) return false;
+  if (position_->time % std::chrono::days(1) != time_of_day) return false;
   const Position position = *position_;
   const Motion motion = *motion_;
   position_.reset();
   motion_.reset();
-  if (motion.time <= last_) {
+  if (leap_ && motion.time == last_) {
+    clock_ = ClockOffset();  // UTC was held for a second
+    ++jumps_;
+  } else if (motion.time <= last_) {
     ++counts_.repeated;
     // A receiver that was wrong about its date says an earlier one from then on.
     if (last_ - motion.time > std::chrono::seconds(10)) last_ = motion.time;
     return false;
   }
   last_ = motion.time;
+  leap_ = motion.leap;
   const Duration utc = motion.time.time_since_epoch();
-  clock_.add(utc, arrival - from_seconds(parameters_.latency));
+  if (clock_.add(utc, arrival - from_seconds(parameters_.latency))) ++jumps_;
   utc_offset_ = utc - clock_.to_host(utc).time_since_epoch();
   fix.stamp = fix.velocity_stamp = clock_.to_host(utc);
   if (fix.stamp <= last_stamp_) {

@@ -42,6 +42,8 @@ class NmeaFixes {
   const NmeaCounts& counts() const { return counts_; }
   // UTC of the receiver minus the host's clock, by the latency; nothing until it is known.
   std::optional<Duration> utc_offset() const { return utc_offset_; }
+  const ClockOffset& clock() const { return clock_; }
+  std::uint64_t jumps() const { return jumps_; }  // of the receiver's clock, or the host's
 
  private:
   struct Position {
@@ -53,6 +55,7 @@ class NmeaFixes {
     Time time{};
     double speed = 0.0;    // m/s
     double azimuth = 0.0;  // rad
+    bool leap = false;     // second 60: the next epoch has the same time
   };
   struct Errors {
     Duration time{};
@@ -66,12 +69,14 @@ class NmeaFixes {
 
   NmeaParameters parameters_;
   ClockOffset clock_;
+  std::uint64_t jumps_ = 0;
   NmeaCounts counts_;
   std::optional<Duration> utc_offset_;
   std::optional<Position> position_;
   std::optional<Motion> motion_;
   std::optional<Errors> errors_;
   Time last_ = Time::min();        // UTC of the last epoch
+  bool leap_ = false;              // that was a leap second
   Time last_stamp_ = Time::min();  // of the last fix
 };
 

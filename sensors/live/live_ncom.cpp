@@ -48,7 +48,7 @@ class LiveNcom final : public LiveSource<ImuSample> {
   }
 
   LiveReport report() const override {
-    LiveReport report{connection_.endpoint().text, connection_.state(), delivered_, 0, {}, {}};
+    LiveReport report{connection_.endpoint().text, connection_.state(), delivered_, 0, {}, {}, {}};
     for (std::size_t i = 1; i < counts_.size(); ++i) {
       report.refused += counts_[i];
       note_count(report.reasons, counts_[i], std::string("packets ") + reasons[i]);
@@ -56,11 +56,8 @@ class LiveNcom final : public LiveSource<ImuSample> {
     report.refused += repeated_;
     note_count(report.reasons, repeated_, "packets not later than the one before");
     note_count(report.reasons, connection_.state().too_large, "datagrams too large");
-    note_count(report.reasons, time_.jumps(), "jumps of the unit's clock");
-    if (delivered_ > 0) {
-      report.notes.push_back("host's clock against the unit's: " +
-                             std::to_string(1e6 * time_.offset().drift()) + " ppm fast");
-    }
+    const ClockOffset& offset = time_.offset();
+    report.clock = {offset.known(), {}, offset.drift(), offset.delay(), time_.jumps()};
     return report;
   }
 

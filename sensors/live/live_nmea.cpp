@@ -43,16 +43,16 @@ class LiveNmea final : public LiveSource<GnssFix> {
                       delivered_,
                       counts.damaged + lines_.dropped() + counts.repeated,
                       {},
+                      {},
                       {}};
     note_count(report.reasons, counts.damaged, "lines without a right checksum");
     note_count(report.reasons, lines_.dropped(), "lines too long");
     note_count(report.reasons, counts.repeated, "epochs not later than the one before");
     note_count(report.reasons, counts.no_fix, "epochs without a fix");
     note_count(report.notes, counts.sentences, "sentences");
-    if (const auto offset = fixes_.utc_offset()) {
-      report.notes.push_back("its UTC is " + std::to_string(to_seconds(*offset)) +
-                             " s ahead of the host's clock");
-    }
+    const ClockOffset& offset = fixes_.clock();
+    report.clock = {offset.known(), fixes_.utc_offset(), offset.drift(), offset.delay(),
+                    fixes_.jumps()};
     return report;
   }
 

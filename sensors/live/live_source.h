@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "msgs/diagnostics.h"
 #include "msgs/time.h"
 #include "sensors/live/connection.h"
 
@@ -17,7 +18,8 @@ struct LiveReport {
   std::uint64_t delivered = 0;
   std::uint64_t refused = 0;         // packets and lines
   std::vector<std::string> reasons;  // with their counts: of refusals, losses, interruptions
-  std::vector<std::string> notes;    // what it says of itself and of its clock
+  std::vector<std::string> notes;    // what it says of itself
+  SensorClock clock;
 };
 
 // A sensor that may not be there yet, may be unplugged and come again: nothing of that is an error.

@@ -38,7 +38,7 @@ class LiveVelodyne final : public LiveSource<LidarScan> {
   }
 
   LiveReport report() const override {
-    LiveReport report{data_.endpoint().text, data_.state(), delivered_, 0, {}, {}};
+    LiveReport report{data_.endpoint().text, data_.state(), delivered_, 0, {}, {}, {}};
     const VelodyneCounts& counts = decoder_.counts();
     for (std::size_t i = 0; i < counts.refused.size(); ++i) {
       report.refused += counts.refused[i];
@@ -49,17 +49,15 @@ class LiveVelodyne final : public LiveSource<LidarScan> {
     note_count(report.reasons, counts.lost, "packets lost");
     note_count(report.reasons, counts.late, "packets late");
     note_count(report.reasons, decoder_.turns().broken, "turns broken");
-    note_count(report.reasons, decoder_.clock().jumps(), "jumps of the scanner's clock");
     note_count(report.reasons, out_of_order_, "turns not later than the one before");
     note_count(report.notes, counts.data, "data packets");
     note_count(report.notes, counts.positions, "position packets");
     if (position_ && !position_->state().problem.empty()) {
       report.notes.push_back(position_->endpoint().text + ' ' + position_->state().problem);
     }
-    if (const auto offset = decoder_.clock().gps_offset()) {
-      report.notes.push_back("UTC of its GPS receiver is " + std::to_string(to_seconds(*offset)) +
-                             " s ahead of the host's clock");
-    }
+    const PacketClock& clock = decoder_.clock();
+    report.clock = {clock.has_device_time() && clock.offset().known(), clock.gps_offset(),
+                    clock.offset().drift(), clock.offset().delay(), clock.jumps()};
     return report;
   }
 

@@ -388,6 +388,8 @@ TEST(LcmConversions, Health) {
   h.rings = {{"camera -> stereo", 10, 8, 1, 1, 4}};
   h.refusals = {{"fusion", "duplicate", 7}};
   h.outputs = {{"LCM", 200, 3}};
+  const SensorClock clock{true, from_seconds(-0.25), 1e-6, Duration(1'500'000), 2};
+  h.sensors = {{"imu", "udp://:3000", true, 3, 100, 4, "", clock}, {.problem = "not there"}};
   h.settings = {{"fusion: scheduling", "fifo 60", "other", Verdict::refused, "no CAP_SYS_NICE",
                  "run as root"}};
   h.degraded = {"camera has ended"};
@@ -416,6 +418,20 @@ TEST(LcmConversions, Health) {
   EXPECT_EQ(r.outputs[0].name, "LCM");
   EXPECT_EQ(r.outputs[0].sent, 200u);
   EXPECT_EQ(r.outputs[0].unsent, 3u);
+  ASSERT_EQ(r.sensors.size(), 2u);
+  EXPECT_EQ(r.sensors[0].name, "imu");
+  EXPECT_EQ(r.sensors[0].endpoint, "udp://:3000");
+  EXPECT_TRUE(r.sensors[0].connected);
+  EXPECT_EQ(r.sensors[0].connections, 3u);
+  EXPECT_EQ(r.sensors[0].delivered, 100u);
+  EXPECT_EQ(r.sensors[0].refused, 4u);
+  EXPECT_TRUE(r.sensors[0].clock.known);
+  EXPECT_EQ(r.sensors[0].clock.utc_ahead, clock.utc_ahead);
+  EXPECT_EQ(r.sensors[0].clock.drift, clock.drift);
+  EXPECT_EQ(r.sensors[0].clock.delay, clock.delay);
+  EXPECT_EQ(r.sensors[0].clock.jumps, clock.jumps);
+  EXPECT_EQ(r.sensors[1].problem, "not there");
+  EXPECT_FALSE(r.sensors[1].clock.utc_ahead);
   ASSERT_EQ(r.settings.size(), 1u);
   EXPECT_EQ(r.settings[0].name, h.settings[0].name);
   EXPECT_EQ(r.settings[0].asked, h.settings[0].asked);

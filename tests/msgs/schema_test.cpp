@@ -111,6 +111,7 @@ TEST(Schema, FingerprintsAreThoseOfTheGeneratedCode) {
       {"maploop_lcm.missed_deadline_t", maploop_lcm::missed_deadline_t::getHash()},
       {"maploop_lcm.thread_health_t", maploop_lcm::thread_health_t::getHash()},
       {"maploop_lcm.ring_health_t", maploop_lcm::ring_health_t::getHash()},
+      {"maploop_lcm.sensor_health_t", maploop_lcm::sensor_health_t::getHash()},
       {"maploop_lcm.deadlines_t", maploop_lcm::deadlines_t::getHash()},
       {"maploop_lcm.health_t", maploop_lcm::health_t::getHash()}};
   EXPECT_GE(own().types().size(), generated.size());

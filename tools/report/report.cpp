@@ -34,8 +34,9 @@ std::string folded(const std::string& summary, const std::string& html) {
 std::string summary(const ReplayReport& r) {
   const vehicle::VehicleReport& v = r.result.vehicle;
   std::string text = figure(v.data_seconds, 1, " s of data in ") + figure(v.wall_seconds, 1, " s");
-  text += r.result.lockstep ? ", on virtual time"
-                            : ", at " + figure(r.result.speed, 2, " times real time");
+  text += r.result.live       ? ", live"
+          : r.result.lockstep ? ", on virtual time"
+                              : ", at " + figure(r.result.speed, 2, " times real time");
   if (r.result.interrupted) text += ", interrupted";
   text += "; " + figure(100.0 * v.cpu_seconds / std::max(v.wall_seconds, 1e-9), 0, " %") +
           " of one processor, " + figure(static_cast<double>(v.peak_memory) * 1e-6, 0, " MB") +

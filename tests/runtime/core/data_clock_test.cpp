@@ -72,6 +72,18 @@ TEST(DataClock, LatenessWithinTheToleranceIsNoStall) {
   EXPECT_EQ(clock.stalled(), Duration::zero());
 }
 
+TEST(DataClock, ALiveOneBeginsAtAGivenMomentAndIsNeverStalled) {
+  DataClock clock = DataClock::live();
+  const MonotonicTime due = monotonic_now() + milliseconds(5);
+  clock.start(t0, due);
+  EXPECT_TRUE(DataClock(clock).is_live());
+  EXPECT_FALSE(DataClock::paced(1.0).is_live());
+  EXPECT_EQ(clock.due(t0 + milliseconds(7)), due + milliseconds(7));
+  EXPECT_FALSE(clock.stall(t0, due + milliseconds(50)));
+  EXPECT_EQ(clock.stalls(), 0u);
+  EXPECT_EQ(clock.due(t0), due);
+}
+
 TEST(DataClock, RefusesASpeedThatGoesNowhere) {
   EXPECT_THROW(DataClock::paced(0.0), std::invalid_argument);
   EXPECT_THROW(DataClock::paced(-1.0), std::invalid_argument);

@@ -5,8 +5,8 @@
 
 #include "sensors/gnss/nmea_fixes.h"
 #include "sensors/imu/ncom.h"
+#include "sensors/imu/ncom_packet.h"
 #include "sensors/velodyne/velodyne_decoder.h"
-#include "tests/sensors/imu/made_ncom.h"
 #include "tests/sensors/velodyne/made_packets.h"
 #include "tests/support/counted_allocations.h"
 

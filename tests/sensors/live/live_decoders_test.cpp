@@ -10,8 +10,8 @@
 #include "sensors/clock/clock_offset.h"
 #include "sensors/gnss/nmea_fixes.h"
 #include "sensors/imu/ncom.h"
+#include "sensors/imu/ncom_packet.h"
 #include "sensors/live/line_splitter.h"
-#include "tests/sensors/imu/made_ncom.h"
 
 namespace maploop::sensors {
 namespace {
@@ -99,6 +99,25 @@ std::string sentence(const std::string& body) {
   char text[160];
   std::snprintf(text, sizeof text, "$%s*%02X", body.c_str(), sum);
   return text;
+}
+
+TEST(NmeaFixes, NoFixIsMisstampedAroundALeapSecond) {
+  NmeaFixes fixes;
+  GnssFix fix;
+  const auto add = [&](int at, const std::string& time, const std::string& date) {
+    const Time arrival = begin + seconds(at) + milliseconds(50);
+    fixes.add(sentence("GNGGA," + time + ",4858.95,N,00823.42,E,4,12,0.80,115.2,M,47.9,M,,"),
+              arrival, fix);
+    const bool whole =
+        fixes.add(sentence("GNRMC," + time + ",A,4858.95,N,00823.42,E,19.4,270.0," + date + ",,,A"),
+                  arrival, fix);
+    EXPECT_TRUE(whole) << time;
+    EXPECT_NEAR(to_seconds(fix.stamp - begin), at, 1e-6) << time;
+  };
+  for (int i = 50; i <= 60; ++i) add(i, "2359" + std::to_string(i) + ".00", "311226");
+  for (int i = 0; i < 9; ++i) add(61 + i, "00000" + std::to_string(i) + ".00", "010127");
+  EXPECT_EQ(fixes.jumps(), 1U);
+  EXPECT_EQ(fixes.counts().repeated, 0U);
 }
 
 TEST(NmeaFixes, JoinsTheSentencesOfAnEpoch) {

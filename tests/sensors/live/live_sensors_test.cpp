@@ -1,9 +1,7 @@
 // Sensors on loopback sockets and pseudo-terminals: connected, unplugged, connected again, and
 // hostile.
 #include <arpa/inet.h>
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -14,8 +12,9 @@
 #include <string>
 #include <vector>
 
+#include "sensors/imu/ncom_packet.h"
 #include "sensors/live/live_sensors.h"
-#include "tests/sensors/imu/made_ncom.h"
+#include "tests/sensors/live/lines.h"
 #include "tests/sensors/velodyne/made_packets.h"
 #include "tests/support/real_data.h"
 
@@ -24,81 +23,13 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-using Bytes = std::span<const std::uint8_t>;
-
-sockaddr_in loopback(std::uint16_t port) {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(port);
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  return address;
-}
-
-std::uint16_t port_of(int fd) {
-  sockaddr_in address{};
-  socklen_t size = sizeof address;
-  getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size);
-  return ntohs(address.sin_port);
-}
-
-// A port that nobody listens on.
-std::uint16_t free_port() {
-  const int fd = socket(AF_INET, SOCK_DGRAM, 0);
-  const sockaddr_in any = loopback(0);
-  bind(fd, reinterpret_cast<const sockaddr*>(&any), sizeof any);
-  const std::uint16_t port = port_of(fd);
-  close(fd);
-  return port;
-}
-
-class UdpSender {
- public:
-  explicit UdpSender(std::uint16_t port) : to_(loopback(port)) {}
-  ~UdpSender() { close(fd_); }
-  void send(Bytes bytes) const {
-    sendto(fd_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to_), sizeof to_);
-  }
-
- private:
-  int fd_ = socket(AF_INET, SOCK_DGRAM, 0);
-  sockaddr_in to_;
-};
-
-// A serial line whose device has a name that stays, as udev gives it.
-class PseudoTerminal {
- public:
-  explicit PseudoTerminal(std::filesystem::path name) : name_(std::move(name)) {
-    grantpt(fd_);
-    unlockpt(fd_);
-    std::filesystem::create_symlink(ptsname(fd_), name_);
-  }
-  ~PseudoTerminal() {
-    std::filesystem::remove(name_);
-    close(fd_);
-  }
-  void send(const std::string& text) const { ASSERT_GT(write(fd_, text.data(), text.size()), 0); }
-
- private:
-  std::filesystem::path name_;
-  int fd_ = posix_openpt(O_RDWR | O_NOCTTY);
-};
-
-std::string sentence(const std::string& body) {
-  unsigned sum = 0;
-  for (const char c : body) sum ^= static_cast<unsigned char>(c);
-  char text[160];
-  std::snprintf(text, sizeof text, "$%s*%02X\r\n", body.c_str(), sum);
-  return text;
-}
-
-std::string epoch(int second) {
-  char time[16];
-  std::snprintf(time, sizeof time, "1018%02d.00", second);
-  return sentence(std::string("GNGGA,") + time +
-                  ",4858.9500,N,00823.4200,E,1,12,0.80,115.2,M,47.9,M,,") +
-         sentence(std::string("GNRMC,") + time +
-                  ",A,4858.9500,N,00823.4200,E,19.438,90.0,010326,,,A");
-}
+using testing::Bytes;
+using testing::epoch;
+using testing::free_port;
+using testing::loopback;
+using testing::port_of;
+using testing::PseudoTerminal;
+using testing::UdpSender;
 
 template <class T>
 bool wait_for(LiveSource<T>& source, T& sample, Duration most = seconds(10)) {

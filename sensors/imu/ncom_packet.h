@@ -1,4 +1,4 @@
-// NCOM packets with given values.
+// NCOM as an OXTS unit sends it: the other way round than ncom.h.
 #pragma once
 
 #include <array>
@@ -11,22 +11,22 @@ namespace maploop::sensors {
 
 using NcomBytes = std::array<std::uint8_t, ncom_size>;
 
-inline void put_i24(NcomBytes& bytes, std::size_t at, double value) {
-  const auto v = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(value)));
-  for (std::size_t i = 0; i < 3; ++i) bytes[at + i] = static_cast<std::uint8_t>(v >> 8 * i);
-}
-
-// As a locked unit sends it: m/s^2, rad/s; axes forward, left, up.
+// Of a locked unit. Specific forces in m/s^2, the yaw rate in rad/s; axes forward, left, up. They
+// are rounded to 1e-4 m/s^2 and 1e-5 rad/s.
 inline NcomBytes ncom_packet(std::uint16_t minute_ms, double forward, double left,
                              double yaw_rate) {
   NcomBytes bytes{};
+  const auto put_i24 = [&bytes](std::size_t at, double value) {
+    const auto v = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(value)));
+    for (std::size_t i = 0; i < 3; ++i) bytes[at + i] = static_cast<std::uint8_t>(v >> 8 * i);
+  };
   bytes[0] = 0xe7;
   bytes[1] = static_cast<std::uint8_t>(minute_ms);
   bytes[2] = static_cast<std::uint8_t>(minute_ms >> 8);
-  put_i24(bytes, 3, forward * 1e4);
-  put_i24(bytes, 6, -left * 1e4);
-  put_i24(bytes, 9, -9.81 * 1e4);
-  put_i24(bytes, 18, -yaw_rate * 1e5);
+  put_i24(3, forward * 1e4);
+  put_i24(6, -left * 1e4);
+  put_i24(9, -9.81 * 1e4);
+  put_i24(18, -yaw_rate * 1e5);
   bytes[21] = 4;
   unsigned sum = 0;
   for (std::size_t i = 1; i < 71; ++i) {

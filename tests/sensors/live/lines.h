@@ -1,0 +1,96 @@
+// What sensors are connected with, on this host: datagrams on the loopback, pseudo-terminals.
+#pragma once
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace maploop::testing {
+
+using Bytes = std::span<const std::uint8_t>;
+
+inline sockaddr_in loopback(std::uint16_t port) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(port);
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  return address;
+}
+
+inline std::uint16_t port_of(int fd) {
+  sockaddr_in address{};
+  socklen_t size = sizeof address;
+  getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size);
+  return ntohs(address.sin_port);
+}
+
+// A port that nobody listens on.
+inline std::uint16_t free_port() {
+  const int fd = socket(AF_INET, SOCK_DGRAM, 0);
+  const sockaddr_in any = loopback(0);
+  bind(fd, reinterpret_cast<const sockaddr*>(&any), sizeof any);
+  const std::uint16_t port = port_of(fd);
+  close(fd);
+  return port;
+}
+
+class UdpSender {
+ public:
+  explicit UdpSender(std::uint16_t port) : to_(loopback(port)) {}
+  ~UdpSender() { close(fd_); }
+  void send(Bytes bytes) const {
+    sendto(fd_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to_), sizeof to_);
+  }
+
+ private:
+  int fd_ = socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in to_;
+};
+
+// A serial line whose device has a name that stays, as udev gives it.
+class PseudoTerminal {
+ public:
+  explicit PseudoTerminal(std::filesystem::path name) : name_(std::move(name)) {
+    grantpt(fd_);
+    unlockpt(fd_);
+    std::filesystem::create_symlink(ptsname(fd_), name_);
+  }
+  ~PseudoTerminal() {
+    std::filesystem::remove(name_);
+    close(fd_);
+  }
+  void send(const std::string& text) const { ASSERT_GT(write(fd_, text.data(), text.size()), 0); }
+
+ private:
+  std::filesystem::path name_;
+  int fd_ = posix_openpt(O_RDWR | O_NOCTTY);
+};
+
+inline std::string sentence(const std::string& body) {
+  unsigned sum = 0;
+  for (const char c : body) sum ^= static_cast<unsigned char>(c);
+  char text[160];
+  std::snprintf(text, sizeof text, "$%s*%02X\r\n", body.c_str(), sum);
+  return text;
+}
+
+inline std::string epoch(int second) {
+  char time[16];
+  std::snprintf(time, sizeof time, "1018%02d.00", second);
+  return sentence(std::string("GNGGA,") + time +
+                  ",4858.9500,N,00823.4200,E,1,12,0.80,115.2,M,47.9,M,,") +
+         sentence(std::string("GNRMC,") + time +
+                  ",A,4858.9500,N,00823.4200,E,19.438,90.0,010326,,,A");
+}
+
+}  // namespace maploop::testing

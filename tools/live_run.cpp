@@ -1,0 +1,119 @@
+#include "tools/live_run.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "runtime/core/realtime.h"
+#include "runtime/core/trace.h"
+#include "runtime/vehicle/lcm_bus.h"
+#include "runtime/vehicle/live_config.h"
+#include "runtime/vehicle/vehicle.h"
+#include "tools/service_manager.h"
+#include "tools/terminal.h"
+
+namespace maploop::tools {
+namespace {
+
+constexpr int exit_failed = 1;
+
+vehicle::VehicleConfig config_of(const LiveOptions& options) {
+  vehicle::VehicleConfig config = vehicle::load_vehicle_config(options.config);
+  if (!options.map.empty()) config.map.file = options.map.string();
+  return config;
+}
+
+// A run of days does not gather what nobody asked for.
+vehicle::Observer observer_of(const LiveOptions& options, RunPass& pass) {
+  const StateFiles& s = options.states;
+  const bool states = !(s.poses.empty() && s.tum.empty() && s.csv.empty() && s.nmea.empty());
+  return states || !options.report.empty() ? pass.observer() : vehicle::Observer{};
+}
+
+// The service manager's watchdog hears of it as long as the fusion ticks.
+void wait_for_end(const vehicle::Vehicle& vehicle, double seconds) {
+  constexpr auto look_every = std::chrono::milliseconds(20);
+  constexpr int show_every = 10;
+  constexpr Duration tell_every = std::chrono::seconds(1);
+  Time told = vehicle.position();
+  const bool visible = isatty(STDERR_FILENO) != 0;
+  for (int i = 0; vehicle.running() && !interrupted(); ++i) {
+    const Time position = vehicle.position();
+    if (position - told >= tell_every) {
+      tell_service_manager("WATCHDOG=1");
+      told = position;
+    }
+    const double driven = to_seconds(position - vehicle.first());
+    if (seconds > 0.0 && driven >= seconds) break;
+    if (visible && i % show_every == 0)
+      std::fprintf(stderr, "\r%8.1f s  Ctrl-C ends\x1b[K", driven);
+    std::this_thread::sleep_for(look_every);
+  }
+  if (visible) std::fprintf(stderr, "\r\x1b[K");
+}
+
+}  // namespace
+
+int live(const LiveOptions& options) {
+  const vehicle::VehicleConfig config = config_of(options);
+  vehicle::Sensors sensors;
+  sensors.live = vehicle::open_live_sensors(config);
+  const VehicleCalibration calibration = vehicle::live_calibration(config.live);
+  const auto map = vehicle::load_road_map(config.map);
+  runtime::RealtimeReport readiness = runtime::prepare_process(config.memory);
+
+  RunPass pass(calibration);
+  std::vector<vehicle::MessageSink*> sinks{&pass.hashes};
+  std::unique_ptr<vehicle::LcmBus> bus;
+  if (!options.no_lcm) {
+    bus = std::make_unique<vehicle::LcmBus>(config.lcm_url);
+    runtime::append(readiness, bus->settings());
+    sinks.push_back(bus.get());
+  }
+  if (!options.record.empty()) {
+    pass.recorder = std::make_unique<vehicle::LogRecorder>(options.record, options.record_raw);
+    sinks.push_back(pass.recorder.get());
+  }
+  std::unique_ptr<runtime::Tracer> tracer;
+  if (!options.trace.empty()) {
+    tracer = std::make_unique<runtime::Tracer>(config.trace);
+    tracer->write(options.trace);  // a file that cannot be written is said before the drive
+  }
+
+  note_interrupts();
+  vehicle::Vehicle vehicle(config, calibration, std::move(sensors), runtime::DataClock::live(),
+                           std::move(sinks), observer_of(options, pass), tracer.get(), map);
+  vehicle.prepared(readiness);
+  vehicle.start();
+  std::cerr << (options.verbose ? to_text(vehicle.readiness())
+                                : to_short_text(vehicle.readiness()));
+  tell_service_manager("READY=1");
+  wait_for_end(vehicle, options.seconds);
+  tell_service_manager("STOPPING=1");
+  vehicle.stop();
+  vehicle.wait();
+
+  ReplayResult result;
+  result.drive = options.config.filename().string();
+  result.live = true;
+  result.vehicle = vehicle.report();
+  result.channels = pass.hashes.summary();
+  result.ppp = pass.ppp;
+  if (tracer) {
+    tracer->write(options.trace);
+    result.trace = {options.trace.string(), tracer->recorded(), tracer->dropped()};
+  }
+  std::cout << format_table(result);
+  if (!options.json.empty()) write_json(options.json, result);
+  write_states(options.states, pass);
+  if (!options.report.empty()) write_run_report(options.report, result, pass, {}, config);
+  return any_thread_failed(result) ? exit_failed : 0;
+}
+
+}  // namespace maploop::tools

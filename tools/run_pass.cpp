@@ -1,0 +1,51 @@
+#include "tools/run_pass.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "tools/nav_files.h"
+#include "tools/report/report.h"
+
+namespace maploop::tools {
+
+vehicle::Observer RunPass::observer() {
+  vehicle::Observer o;
+  o.odometry = [this](const RelativeMotion& motion) { collector.add(motion); };
+  o.lidar = [this](const LidarMotion& motion) { lidar_collector.add(motion); };
+  o.ppp = [this](const PppState& state) {
+    if (!ppp) ppp.emplace();
+    ppp->add(state);
+  };
+  o.nav_state = [this](const NavState& state) { track.add(state); };
+  o.map_match = [this](const MapMatch& match) {
+    if (match.refusal != FixRefusal::no_position) matches[match.stamp] = match::timed_match(match);
+  };
+  o.image_state = [this](const NavState& state) { collector.add(state); };
+  return o;
+}
+
+void write_states(const StateFiles& files, const RunPass& pass) {
+  const evaluation::StampedTrajectory fused = pass.collector.fused();
+  if (!files.poses.empty()) evaluation::write_kitti_poses(files.poses, fused.poses);
+  if (!files.tum.empty()) evaluation::write_tum(files.tum, fused);
+  if (!files.csv.empty()) write_nav_csv(files.csv, pass.track);
+  if (!files.nmea.empty()) write_nmea(files.nmea, pass.track);
+}
+
+void write_run_report(const std::filesystem::path& file, const ReplayResult& result,
+                      const RunPass& pass, std::vector<ReferencePose> reference,
+                      const vehicle::VehicleConfig& config) {
+  std::vector<report::DeadReckoning> ways{{"stereo odometry", pass.collector.odometry()}};
+  const auto lidar = pass.lidar_collector.odometry();
+  if (!lidar.poses.empty()) ways.push_back({"LiDAR odometry", lidar});
+  report::write_report(file, {result, pass.track, std::move(reference), std::move(ways),
+                              vehicle::to_toml(config), MAPLOOP_VERSION});
+}
+
+bool any_thread_failed(const ReplayResult& result) {
+  const auto& threads = result.vehicle.health.threads;
+  return std::any_of(threads.begin(), threads.end(),
+                     [](const ThreadHealth& t) { return !t.failure.empty(); });
+}
+
+}  // namespace maploop::tools

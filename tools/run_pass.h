@@ -1,0 +1,56 @@
+// What one run of the vehicle comes to, gathered while it runs.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "runtime/vehicle/channel_hashes.h"
+#include "runtime/vehicle/log_recorder.h"
+#include "runtime/vehicle/publisher.h"
+#include "runtime/vehicle/vehicle_config.h"
+#include "tools/fusion_score.h"
+#include "tools/match/driven_links.h"
+#include "tools/replay_result.h"
+#include "tools/trajectory_collector.h"
+
+namespace maploop::tools {
+
+// Filled on the publisher's thread; to be read after the run.
+struct RunPass {
+  explicit RunPass(const VehicleCalibration& calibration)
+      : collector(calibration.stereo.T_body_cam), lidar_collector(calibration.stereo.T_body_cam) {}
+
+  // Must not outlive the pass.
+  vehicle::Observer observer();
+
+  vehicle::ChannelHashes hashes;
+  std::unique_ptr<vehicle::LogRecorder> recorder;
+  TrajectoryCollector collector;
+  TrajectoryCollector lidar_collector;
+  fusion_score::NavTrack track;
+  std::optional<PppEpochs> ppp;
+  std::map<Time, match::TimedMatch> matches;
+};
+
+// Files that a run can write of its fused states; empty: not.
+struct StateFiles {
+  std::filesystem::path poses;  // KITTI's format, of the left camera
+  std::filesystem::path tum;
+  std::filesystem::path csv;
+  std::filesystem::path nmea;
+};
+
+// Throws std::runtime_error naming the file that cannot be written.
+void write_states(const StateFiles& files, const RunPass& pass);
+
+// The page of --report; `reference` is empty where there is none.
+void write_run_report(const std::filesystem::path& file, const ReplayResult& result,
+                      const RunPass& pass, std::vector<ReferencePose> reference,
+                      const vehicle::VehicleConfig& config);
+
+bool any_thread_failed(const ReplayResult& result);
+
+}  // namespace maploop::tools

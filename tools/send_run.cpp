@@ -1,0 +1,237 @@
+#include "tools/send_run.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <stop_token>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "runtime/vehicle/prefetched_source.h"
+#include "runtime/vehicle/recording.h"
+#include "sensors/clock/host_clock.h"
+#include "sensors/imu/ncom_packet.h"
+#include "sensors/live/datagram_sender.h"
+#include "sensors/replay/reference_trajectory.h"
+#include "sensors/velodyne/packet_encoder.h"
+#include "tools/evaluation/trajectory_file.h"
+#include "tools/nav_files.h"
+#include "tools/terminal.h"
+
+namespace maploop::tools {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr Duration lead = std::chrono::seconds(1);
+// A receiver takes so long from an epoch to its sentences.
+constexpr Duration gnss_latency = milliseconds(50);
+
+struct Turn : Sample {
+  sensors::EncodedTurn packets;
+};
+
+class TurnSource final : public sensors::Source<Turn> {
+ public:
+  TurnSource(std::unique_ptr<sensors::Source<LidarScan>> scans, const sensors::Hdl64Lasers& lasers)
+      : scans_(std::move(scans)), encoder_(lasers) {}
+
+  bool next(Turn& turn) override {
+    if (!scans_->next(scan_)) return false;
+    static_cast<Sample&>(turn) = scan_;
+    turn.available = scan_.start;
+    encoder_.encode(scan_, turn.packets);
+    return true;
+  }
+  const sensors::SourceReport& report() const override { return scans_->report(); }
+
+ private:
+  std::unique_ptr<sensors::Source<LidarScan>> scans_;
+  sensors::Hdl64Encoder encoder_;
+  LidarScan scan_;
+};
+
+// The drive's times, on this machine's clock.
+class Schedule {
+ public:
+  Schedule(Time first, double seconds)
+      : shift_(clock_.now() + lead - first),
+        end_(seconds > 0.0 ? first + from_seconds(seconds) : Time::max()) {}
+
+  Time shifted(Time t) const { return t + shift_; }
+  Duration shift() const { return shift_; }
+  Time end() const { return end_; }
+  // False when it is to end before t.
+  bool wait(Time t) const {
+    if (t > end_) return false;
+    while (!interrupted()) {
+      const Duration left = shifted(t) - clock_.now();
+      if (left <= Duration::zero()) return true;
+      std::this_thread::sleep_for(std::min<Duration>(left, milliseconds(100)));
+    }
+    return false;
+  }
+
+ private:
+  sensors::HostClock clock_;
+  Duration shift_;
+  Time end_;
+};
+
+struct Sent {
+  std::atomic<std::uint64_t> messages{0}, refused{0};
+  void add(bool taken) { ++(taken ? messages : refused); }
+};
+
+void send_turns(sensors::Source<Turn>& turns, const sensors::DatagramSender& to,
+                const Schedule& schedule, Sent& sent) {
+  Turn turn;
+  while (turns.next(turn)) {
+    const auto& packets = turn.packets.packets;
+    for (std::size_t i = 0; i < packets.size(); ++i) {
+      sensors::TimedPacket packet = packets[i];
+      // It leaves when it is full: with the first firing of the next one.
+      const Duration period =
+          packets.size() > 1 ? packets[1].first_firing - packets[0].first_firing : Duration::zero();
+      if (!schedule.wait(packet.first_firing + period)) return;
+      packet.set_time(schedule.shifted(packet.first_firing));
+      sent.add(to.send(packet.bytes));
+    }
+  }
+}
+
+void send_imu(sensors::Source<ImuSample>& samples, const sensors::DatagramSender& to,
+              const Schedule& schedule, Sent& sent) {
+  ImuSample s;
+  while (samples.next(s) && schedule.wait(s.available)) {
+    // The unit stamps what it sends with now, though its filters are late.
+    const Time now = schedule.shifted(s.available);
+    const auto ms = std::chrono::round<milliseconds>(now.time_since_epoch()) % 60'000;
+    sent.add(
+        to.send(sensors::ncom_packet(static_cast<std::uint16_t>(ms.count()),
+                                     s.specific_force_forward, s.specific_force_left, s.yaw_rate)));
+  }
+}
+
+void send_gnss(sensors::Source<GnssFix>& fixes, const sensors::DatagramSender& to,
+               const Schedule& schedule, Sent& sent) {
+  GnssFix fix;
+  while (fixes.next(fix) && schedule.wait(fix.available + gnss_latency)) {
+    GnssFix shifted = fix;
+    shifted.stamp = schedule.shifted(fix.stamp);
+    const std::string text = nmea_sentences(shifted);
+    sent.add(to.send({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
+  }
+}
+
+sensors::Hdl64Lasers lasers_of(const vehicle::Recording& recording) {
+  const auto scans = recording.sensors(Time::min()).velodyne;
+  LidarScan scan;
+  if (scans == nullptr || !scans->next(scan)) {
+    throw std::runtime_error("the drive has no LiDAR scan to send");
+  }
+  const auto lasers = sensors::fit_lasers(scan.points);
+  if (!lasers) {
+    throw std::runtime_error(
+        "the first scan of the drive is not that of an HDL-64E, laser by laser: only KITTI's raw "
+        "drives can be sent as its packets");
+  }
+  return *lasers;
+}
+
+void write_truth(const std::filesystem::path& file, const vehicle::Recording& recording,
+                 Duration shift) {
+  const auto source = recording.sensors(Time::max()).reference;
+  std::vector<ReferencePose> rows;
+  for (ReferencePose row; source && source->next(row);) rows.push_back(row);
+  if (rows.size() < 2) throw std::runtime_error("the drive has no reference for --truth");
+  const sensors::ReferenceTrajectory reference(rows, LocalFrame(rows.front().position));
+  evaluation::StampedTrajectory truth;
+  for (Time t = rows.front().stamp; t <= rows.back().stamp; t += milliseconds(1)) {
+    const auto pose = reference.pose(t);
+    if (!pose) continue;
+    truth.stamps.push_back(t + shift);
+    truth.poses.push_back(*pose * recording.calibration.stereo.T_body_cam);
+  }
+  evaluation::write_tum(file, truth);
+}
+
+}  // namespace
+
+int send(const SendOptions& options) {
+  const vehicle::VehicleConfig config = options.config.empty()
+                                            ? vehicle::VehicleConfig{}
+                                            : vehicle::load_vehicle_config(options.config);
+  const vehicle::Recording recording = vehicle::open_recording(options.drive, config);
+  vehicle::Sensors s = recording.sensors(Time::min());
+
+  std::vector<std::function<void()>> senders;
+  std::stop_source stop;
+  Sent turns_sent, imu_sent, gnss_sent;
+  std::optional<Schedule> schedule;
+  if (!options.velodyne.empty() || !options.calibration.empty()) {
+    const sensors::Hdl64Lasers lasers = lasers_of(recording);
+    if (!options.calibration.empty()) {
+      sensors::write_velodyne_calibration(options.calibration, lasers);
+    }
+    if (!options.velodyne.empty()) {
+      constexpr std::size_t ahead = 4;
+      const auto turns = std::make_shared<vehicle::PrefetchedSource<Turn>>(
+          "encoder", std::make_unique<TurnSource>(std::move(s.velodyne), lasers), ahead,
+          stop.get_token(), nullptr);
+      const auto to =
+          std::make_shared<sensors::DatagramSender>(sensors::parse_endpoint(options.velodyne));
+      senders.push_back(
+          [=, &schedule, &turns_sent] { send_turns(*turns, *to, *schedule, turns_sent); });
+    }
+  }
+  const auto add = [&]<class T>(const std::string& endpoint,
+                                std::unique_ptr<sensors::Source<T>> source, auto send_all,
+                                Sent& sent) {
+    if (endpoint.empty()) return;
+    if (source == nullptr) throw std::runtime_error("the drive has nothing to send to " + endpoint);
+    const auto to = std::make_shared<sensors::DatagramSender>(sensors::parse_endpoint(endpoint));
+    senders.push_back([to, send_all, &schedule, &sent,
+                       from = std::shared_ptr<sensors::Source<T>>(std::move(source))] {
+      send_all(*from, *to, *schedule, sent);
+    });
+  };
+  add(options.imu, std::move(s.imu), send_imu, imu_sent);
+  add(options.gnss, std::move(s.gnss), send_gnss, gnss_sent);
+  if (senders.empty()) {
+    if (options.calibration.empty()) {
+      throw std::runtime_error("nothing to send: give --velodyne, --imu or --gnss");
+    }
+    return 0;
+  }
+  note_interrupts();
+  schedule.emplace(recording.first_stamp, options.seconds);
+  if (!options.truth.empty()) write_truth(options.truth, recording, schedule->shift());
+  {
+    std::vector<std::jthread> threads;
+    for (const auto& sender : senders) threads.emplace_back(sender);
+  }
+  stop.request_stop();
+  const auto print = [](const char* name, const Sent& sent) {
+    if (sent.messages + sent.refused == 0) return;
+    std::printf("%-9s %8llu datagrams", name, static_cast<unsigned long long>(sent.messages));
+    if (sent.refused > 0) {
+      std::printf(", %llu not taken by the system",
+                  static_cast<unsigned long long>(sent.refused.load()));
+    }
+    std::printf("\n");
+  };
+  print("velodyne", turns_sent);
+  print("imu", imu_sent);
+  print("gnss", gnss_sent);
+  return 0;
+}
+
+}  // namespace maploop::tools
