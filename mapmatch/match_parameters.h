@@ -46,6 +46,7 @@ struct MatchParameters {
   double min_speed = 1.0;       // m/s from which azimuths are believed
   double distance_unit = 8.0;   // m: sigma of the fixes that the rules' distances were made for
   double hdop_unit = 4.0;       // m of horizontal sigma that is an HDOP of 1
+  double visual_gate = 0.052;   // rad in a second that visual odometry may differ by; 0: not used
   bool paths = true;            // path hypotheses beside the rules
   double max_gap = 10.0;        // s without a fix, after which matching begins again
 };
