@@ -22,7 +22,7 @@ struct MatchParameters {
 
   // --- Path hypotheses
   double lookahead = 15.0;       // m before a junction where its exits become hypotheses
-  double birth = 7.0;            // -ln P a second that the vehicle is where no hypothesis is
+  double birth = 4.0;            // -ln P a second that the vehicle is where no hypothesis is
   double prune = 14.0;           // -ln of the share below the best's where a hypothesis ends
   double memory = 60.0;          // s in which evidence loses 1 - 1/e of its weight
   double position_weight = 1.0;  // of positions as evidence
@@ -32,8 +32,8 @@ struct MatchParameters {
   double misfit = 12.0;  // sigmas squared of offset and azimuth where a link no longer fits
   double wrong_way_misfit = 6.0;  // of driving against a one-way street
   double misfit_rate = 0.5;       // of offsets as evidence between links, a second
-  double trust = 6.0;             // log odds of a link that fits perfectly; and what
-  double trust_slope = 0.6;       // a unit of misfit takes from them (the reliability diagram)
+  double trust = 5.0;             // log odds of a link that fits perfectly; and what
+  double trust_slope = 0.8;       // a unit of misfit takes from them (the reliability diagram)
   double off_road_rate = 1.0;     // evidence a second, a unit of misfit
 
   // --- Fuzzy process
