@@ -22,7 +22,7 @@ struct MatchParameters {
 
   // --- Path hypotheses
   double lookahead = 15.0;       // m before a junction where its exits become hypotheses
-  double birth = 4.0;            // -ln P a second that the vehicle is where no hypothesis is
+  double birth = 7.0;            // -ln P a second that the vehicle is where no hypothesis is
   double prune = 14.0;           // -ln of the share below the best's where a hypothesis ends
   double memory = 60.0;          // s in which evidence loses 1 - 1/e of its weight
   double position_weight = 1.0;  // of positions as evidence

@@ -124,9 +124,8 @@ class MatchPage {
       if (fix.matched) L.polyline([at(fix.place), at(fix.matched)], { color: "#777", weight: 1, interactive: false }).addTo(this.map);
     this.data.fixes.forEach((fix, i) => {
       const marker = L.circleMarker(at(fix.place), {
-        radius: 4,
-        weight: 1,
-        color: "#fff",
+        radius: 3.5,
+        stroke: false,
         fillColor: colourOf(fix),
         fillOpacity: 1,
       }).addTo(this.map);
@@ -136,7 +135,7 @@ class MatchPage {
   }
 
   private choose(i: number): void {
-    this.markers[this.chosen]?.setRadius(4).setStyle({ color: "#fff", weight: 1 });
+    this.markers[this.chosen]?.setRadius(3.5).setStyle({ stroke: false });
     this.chosen = i;
     const fix = this.data.fixes[i]!;
     this.shown.clearLayers();
@@ -151,7 +150,7 @@ class MatchPage {
       }).addTo(this.shown);
       L.circleMarker(at(c.at), { radius: 3, color: colours.candidate, weight: 2, interactive: false }).addTo(this.shown);
     }
-    this.markers[i]!.setRadius(8).setStyle({ color: "#111", weight: 2 }).bringToFront();
+    this.markers[i]!.setRadius(8).setStyle({ stroke: true, color: "#111", weight: 2 }).bringToFront();
     this.describe(fix);
   }
 
