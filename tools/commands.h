@@ -24,6 +24,7 @@ void add_ppp(CLI::App& app, Command& command);
 void add_profile(CLI::App& app, Command& command);
 void add_replay(CLI::App& app, Command& command);
 void add_sensors(CLI::App& app, Command& command);
+void add_simulate(CLI::App& app, Command& command);
 void add_spy(CLI::App& app, Command& command);
 
 }  // namespace maploop::tools
