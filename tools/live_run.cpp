@@ -112,7 +112,8 @@ int live(const LiveOptions& options) {
   std::cout << format_table(result);
   if (!options.json.empty()) write_json(options.json, result);
   write_states(options.states, pass);
-  if (!options.report.empty()) write_run_report(options.report, result, pass, {}, config);
+  if (!options.report.empty())
+    write_run_report(options.report, result, pass, {}, config, map.get());
   return any_thread_failed(result) ? exit_failed : 0;
 }
 

@@ -19,8 +19,8 @@ void write_nav_csv(const std::filesystem::path& file, const fusion_score::NavTra
 // GST and HDT, talker GN. Times are the stamps' own. Throws std::runtime_error naming the file.
 void write_nmea(const std::filesystem::path& file, const fusion_score::NavTrack& track);
 
-// A fix as a receiver says it: GST, GGA (height above the ellipsoid, no geoid; of a single receiver,
-// HDOP 1) and RMC, of its stamp to the hundredth of a second.
+// A fix as a receiver says it: GST, GGA (height above the ellipsoid, no geoid; of a single
+// receiver, HDOP 1) and RMC, of its stamp to the hundredth of a second.
 std::string nmea_sentences(const GnssFix& fix);
 
 // "$<body>*<checksum>\r\n".

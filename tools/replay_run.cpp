@@ -266,7 +266,7 @@ int Replay::run() {
   if (!options_.json.empty()) write_json(options_.json, r);
   write_states({options_.poses, options_.tum, options_.csv, options_.nmea}, *pass_);
   if (!options_.report.empty()) {
-    write_run_report(options_.report, r, *pass_, read_reference(recording_), config_);
+    write_run_report(options_.report, r, *pass_, read_reference(recording_), config_, map_.get());
   }
   const bool snapshot_missing = options_.snapshot && !snapshot_taken_;
   if (snapshot_missing && !any_thread_failed(r)) {

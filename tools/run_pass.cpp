@@ -34,12 +34,13 @@ void write_states(const StateFiles& files, const RunPass& pass) {
 
 void write_run_report(const std::filesystem::path& file, const ReplayResult& result,
                       const RunPass& pass, std::vector<ReferencePose> reference,
-                      const vehicle::VehicleConfig& config) {
+                      const vehicle::VehicleConfig& config, const vehicle::RoadMap* map) {
   std::vector<report::DeadReckoning> ways{{"stereo odometry", pass.collector.odometry()}};
   const auto lidar = pass.lidar_collector.odometry();
   if (!lidar.poses.empty()) ways.push_back({"LiDAR odometry", lidar});
-  report::write_report(file, {result, pass.track, std::move(reference), std::move(ways),
-                              vehicle::to_toml(config), MAPLOOP_VERSION});
+  report::write_report(
+      file, {result, pass.track, std::move(reference), std::move(ways), vehicle::to_toml(config),
+             MAPLOOP_VERSION, map != nullptr ? &map->network : nullptr});
 }
 
 bool any_thread_failed(const ReplayResult& result) {

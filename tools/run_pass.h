@@ -10,6 +10,7 @@
 #include "runtime/vehicle/channel_hashes.h"
 #include "runtime/vehicle/log_recorder.h"
 #include "runtime/vehicle/publisher.h"
+#include "runtime/vehicle/road_map.h"
 #include "runtime/vehicle/vehicle_config.h"
 #include "tools/fusion_score.h"
 #include "tools/match/driven_links.h"
@@ -46,10 +47,10 @@ struct StateFiles {
 // Throws std::runtime_error naming the file that cannot be written.
 void write_states(const StateFiles& files, const RunPass& pass);
 
-// The page of --report; `reference` is empty where there is none.
+// The page of --report; `reference` is empty and `map` null where there is none.
 void write_run_report(const std::filesystem::path& file, const ReplayResult& result,
                       const RunPass& pass, std::vector<ReferencePose> reference,
-                      const vehicle::VehicleConfig& config);
+                      const vehicle::VehicleConfig& config, const vehicle::RoadMap* map);
 
 bool any_thread_failed(const ReplayResult& result);
 

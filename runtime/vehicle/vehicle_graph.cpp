@@ -135,8 +135,14 @@ Edges<LidarScan> Vehicle::Graph::scan_edges() {
 }
 
 Edges<RelativeMotion> Vehicle::Graph::visual_edges() {
-  if (to_lidar) return {&to_lidar->visual, &to_publisher.visual};
-  return {&to_fusion.odometry, &to_publisher.visual, &to_publisher.odometry};
+  Edges<RelativeMotion> to{&to_publisher.visual};
+  if (to_lidar) {
+    to.push_back(&to_lidar->visual);
+  } else {
+    to.insert(to.end(), {&to_fusion.odometry, &to_publisher.odometry});
+  }
+  if (to_mapmatch) to.push_back(&to_mapmatch->visual);
+  return to;
 }
 
 Edges<GnssFix> Vehicle::Graph::fix_edges() {
@@ -227,8 +233,9 @@ Drivers Vehicle::Graph::make_drivers(Sensors& s) {
       recorded(stages::reference, s.reference, Edges<ReferencePose>{&to_publisher.reference});
   d.odometry = recorded(stages::odometry, s.odometry,
                         Edges<RelativeMotion>{&to_fusion.odometry, &to_publisher.odometry});
-  d.visual_log =
-      recorded(stages::visual_log, s.visual, Edges<RelativeMotion>{&to_publisher.visual});
+  Edges<RelativeMotion> to_visual{&to_publisher.visual};
+  if (to_mapmatch) to_visual.push_back(&to_mapmatch->visual);
+  d.visual_log = recorded(stages::visual_log, s.visual, std::move(to_visual));
   d.lidar_log = recorded(stages::lidar_log, s.lidar, Edges<LidarMotion>{&to_publisher.lidar});
   return d;
 }
@@ -274,7 +281,10 @@ std::vector<runtime::EdgeBase*> Vehicle::Graph::all_edges() {
                                         &to_publisher.nav_state,
                                         &to_publisher.image_state,
                                         &to_publisher.reports};
-  if (to_mapmatch) edges.insert(edges.end(), {&to_mapmatch->nav_state, &to_publisher.map_match});
+  if (to_mapmatch) {
+    edges.insert(edges.end(),
+                 {&to_mapmatch->nav_state, &to_mapmatch->visual, &to_publisher.map_match});
+  }
   if (to_lidar) edges.insert(edges.end(), {&to_lidar->scans, &to_lidar->visual});
   if (raw) edges.insert(edges.end(), {&to_publisher.camera, &to_publisher.velodyne});
   if (to_ppp) edges.insert(edges.end(), {&to_ppp->epochs, &to_publisher.ppp});
@@ -380,7 +390,7 @@ void Vehicle::Graph::start_mapmatch() {
           producers, stages::mapmatch, config.scheduling.mapmatch, stop.get_token(),
           [this](const std::stop_token& token) { mapmatch->run(clock, begin, token); },
           [this] { mapmatch->finish(); }),
-      mapmatch->meter(), {&to_mapmatch->nav_state});
+      mapmatch->meter(), {&to_mapmatch->nav_state, &to_mapmatch->visual});
 }
 
 void Vehicle::Graph::start() {
