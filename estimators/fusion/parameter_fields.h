@@ -76,6 +76,10 @@ void fields(Parameters& p, F&& f) {
   f("gnss_lever_forward", p.gnss_lever_forward);
   f("gnss_lever_left", p.gnss_lever_left);
   f("gnss_lever_up", p.gnss_lever_up);
+  f("map_position_gate", p.map_position_gate);
+  f("map_azimuth_gate", p.map_azimuth_gate);
+  f("lane_length", p.lane_length);
+  f("lane_lasting", p.lane_lasting);
   f("speed_scale_sigma", p.speed_scale_sigma);
   f("speed_scale_walk", p.speed_scale_walk);
   f("min_wheel_sigma", p.min_wheel_sigma);
