@@ -146,7 +146,10 @@ FeedbackReason Feedback::check(const MatchResult& match, const VehicleFix& fix, 
   if (match.phase == MatchPhase::initial) return FeedbackReason::not_established;
   if (match.phase == MatchPhase::at_junction) return FeedbackReason::link_changed;
   if (!(fix.speed >= parameters_.min_speed)) return FeedbackReason::too_slow;
-  if (!(std::abs(azimuth_error) <= parameters_.max_azimuth_error))
+  // A lost azimuth comes back from the road, where the link is beyond doubt.
+  const double lost =
+      std::min(parameters_.azimuth_sigmas * fix.azimuth_sigma, parameters_.max_lost_azimuth);
+  if (!(std::abs(azimuth_error) <= std::max(parameters_.max_azimuth_error, lost)))
     return FeedbackReason::azimuth_differs;
   if (turning) return FeedbackReason::turning;
   const double sigma_along = std::sqrt(variance_along(fix.covariance, direction(line.azimuth)));

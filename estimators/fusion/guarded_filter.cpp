@@ -2,7 +2,10 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include "msgs/archive.h"
 
 namespace maploop::fusion {
 
@@ -18,9 +21,12 @@ Outcome GuardedFilter::add(const MapFeedback& feedback) {
 
   const auto state = aided_.state_at(t);
   if (!state) return outcome;
+  const double interval = last_ == Time{} ? 0.0 : to_seconds(t - last_);
+  last_ = t;
+  for (Copy& copy : copies_) copy.way += std::abs(state->forward_speed) * interval;
   const double far =
       std::max(distance_to(copies_[0], *state, t), distance_to(copies_[1], *state, t));
-  if (far <= parameters_.gate) {
+  if (far <= parameters_.difference_gate) {
     apart_ = false;
   } else if (!apart_) {
     apart_ = true;
@@ -39,6 +45,7 @@ Outcome GuardedFilter::add(const MapFeedback& feedback) {
 void GuardedFilter::copy_to(Copy& copy, Time t) {
   copy.filter = aided_;
   copy.born = t;
+  copy.way = 0.0;
 }
 
 double GuardedFilter::distance_to(const Copy& copy, const NavState& aided, Time t) const {
@@ -48,7 +55,8 @@ double GuardedFilter::distance_to(const Copy& copy, const NavState& aided, Time 
   Eigen::Matrix2d D = (free->covariance - aided.covariance).topLeftCorner<2, 2>();
   // Rounding and linearization may make it indefinite.
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(D);
-  const double least = parameters_.model_sigma * parameters_.model_sigma;
+  const double share = parameters_.model_share * copy.way;
+  const double least = parameters_.model_sigma * parameters_.model_sigma + share * share;
   const Eigen::Vector2d values = eigen.eigenvalues().cwiseMax(0.0).array() + least;
   const Eigen::Vector2d along = eigen.eigenvectors().transpose() * apart;
   return (along.array().square() / values.array()).sum();
@@ -56,10 +64,37 @@ double GuardedFilter::distance_to(const Copy& copy, const NavState& aided, Time 
 
 void GuardedFilter::restore(Time t) {
   aided_ = *copies_[0].filter;
+  copies_[0].born = t - from_seconds(0.5 * parameters_.lifetime);
   copy_to(copies_[1], t);
   apart_ = false;
   paused_until_ = t + from_seconds(parameters_.pause);
   ++restorations_;
+}
+
+template <class Archive, class Filter>
+void GuardedFilter::describe(Archive& ar, Filter& f) {
+  ar.section("guarded filter", 1);
+  ar(f.aided_);
+  for (auto& copy : f.copies_) {
+    bool there = copy.filter.has_value();
+    ar(there);
+    if constexpr (Archive::loading) {
+      if (there) copy.filter = f.aided_;
+    }
+    if (there) ar(*copy.filter);
+    ar(copy.born, copy.way);
+  }
+  ar(f.last_, f.apart_, f.apart_since_, f.paused_until_, f.restorations_);
+}
+
+void GuardedFilter::archive(ArchiveWriter& ar) const {
+  describe(ar, *this);
+}
+
+void GuardedFilter::archive(ArchiveReader& ar) {
+  GuardedFilter loaded(aided_, parameters_);
+  describe(ar, loaded);
+  *this = std::move(loaded);
 }
 
 }  // namespace maploop::fusion

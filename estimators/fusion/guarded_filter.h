@@ -6,20 +6,11 @@
 #include <cstdint>
 #include <optional>
 
+#include "estimators/fusion/guard_parameters.h"
 #include "estimators/fusion/reduced_imu_filter.h"
 #include "msgs/map_feedback.h"
 
 namespace maploop::fusion {
-
-struct GuardParameters {
-  double lifetime = 60.0;  // s of a copy; two of them, half of that apart
-  double gate = 13.8;      // chi-square, 2 degrees of freedom, 0.1 % tail: too far from a copy ...
-  double patience = 5.0;   // s, ... for so long: a wrong road
-  double trusted = 4.6;    // chi-square, 10 % tail: a new copy is made of what is no further away
-  double model_sigma =
-      0.5;              // m, what the difference of two filters may be beyond their covariances
-  double pause = 10.0;  // s without feedback after a restoration
-};
 
 // The aided estimate is the efficient one, a copy without the map the consistent one: their
 // difference has the difference of their covariances (Hausman, "Specification tests in
@@ -45,17 +36,20 @@ class GuardedFilter {
   const ReducedImuFilter& aided() const { return aided_; }
   std::uint64_t restorations() const { return restorations_; }
 
-  template <class Archive>
-  void archive(Archive& ar);
+  // As ReducedImuFilter's.
+  std::size_t largest_archive() const { return 3 * aided_.largest_archive() + 256; }
+  void archive(ArchiveWriter& ar) const;
+  void archive(ArchiveReader& ar);
 
  private:
   struct Copy {
     std::optional<ReducedImuFilter> filter;
     Time born{};
-    template <class Archive>
-    void archive(Archive& ar, const ReducedImuFilter& like);
+    double way = 0.0;  // m since then
   };
 
+  template <class Archive, class Filter>
+  static void describe(Archive& ar, Filter& filter);
   void copy_to(Copy& copy, Time t);
   double distance_to(const Copy& copy, const NavState& aided, Time t) const;
   void restore(Time t);
@@ -63,6 +57,7 @@ class GuardedFilter {
   ReducedImuFilter aided_;
   GuardParameters parameters_;
   std::array<Copy, 2> copies_;  // the older one first
+  Time last_{};                 // compared
   bool apart_ = false;
   Time apart_since_{};
   Time paused_until_{};

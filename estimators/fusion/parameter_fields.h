@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "estimators/fusion/fusion_parameters.h"
+#include "estimators/fusion/guard_parameters.h"
 
 namespace maploop::fusion {
 
@@ -97,6 +98,18 @@ void fields(Parameters& p, F&& f) {
   f("recover_after", p.recover_after);
   f("recovery_speed_sigma", p.recovery_speed_sigma);
   f("recovery_rotation_sigma", p.recovery_rotation_sigma);
+}
+
+template <class Parameters, class F>
+requires std::same_as<std::remove_const_t<Parameters>, GuardParameters>
+void fields(Parameters& p, F&& f) {
+  f("lifetime", p.lifetime);
+  f("difference_gate", p.difference_gate);
+  f("patience", p.patience);
+  f("trusted", p.trusted);
+  f("pause", p.pause);
+  f("model_sigma", p.model_sigma);
+  f("model_share", p.model_share);
 }
 
 }  // namespace maploop::fusion

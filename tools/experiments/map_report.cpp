@@ -100,6 +100,34 @@ bool same_drive(const MapCase& a, const MapCase& b) {
          a.outages == b.outages && a.seed == b.seed;
 }
 
+// The feedback's error against twice that of the filter without the map at the same moment, or,
+// where that one happens to be small, against twice what it says of itself.
+Table against_map_free(const std::vector<MapResult>& results) {
+  Table table{"Against the filter without the map, moment by moment",
+              {"sequence", "unit", "no GNSS", "map fault", "mode", "seed", "map-free rmse m",
+               "max m", "rmse m", "max m", "worse than twice, % of time", "by at most m",
+               "P(link) on the missing way", "else", "restored"},
+              {}};
+  for (const MapResult& r : results) {
+    if (r.setup.mode != MapMode::tight && r.setup.mode != MapMode::hard_reset) continue;
+    const auto free = std::find_if(results.begin(), results.end(), [&](const MapResult& o) {
+      return o.setup.mode == MapMode::none && same_drive(o.setup, r.setup);
+    });
+    if (free == results.end()) continue;
+    const Comparison c = compare(r, *free);
+    const fusion_score::Errors& f = without_gnss(*free);
+    const fusion_score::Errors& e = without_gnss(r);
+    table.rows.push_back({r.setup.sequence, r.setup.mems ? "mems" : "recorded", r.setup.outages,
+                          r.setup.fault.empty() ? "-" : r.setup.fault, to_string(r.setup.mode),
+                          std::to_string(r.setup.seed), number(f.rmse, 2), number(f.max, 2),
+                          number(e.rmse, 2), number(e.max, 2), number(100.0 * c.worse, 1),
+                          number(c.worst_excess, 2),
+                          r.missing != 0 ? number(c.probability_on_missing, 2) : "-",
+                          number(c.probability, 2), std::to_string(r.restorations)});
+  }
+  return table;
+}
+
 Table reasons(const std::vector<MapResult>& results) {
   Table table{"Why nothing was fed back, % of all fixes", {"sequence", "mode", "seed"}, {}};
   for (std::size_t i = 0; i < feedback_reason_count; ++i)
@@ -171,8 +199,30 @@ void add_plots(const MapSetting& setting, const std::vector<const MapResult*>& d
 
 }  // namespace
 
+Comparison compare(const MapResult& aided, const MapResult& free) {
+  Comparison c;
+  double count = 0.0, on_missing = 0.0, elsewhere = 0.0;
+  std::size_t k = 0;
+  for (const MapSample& a : aided.samples) {
+    while (k < free.samples.size() && free.samples[k].time < a.time - 1e-6) ++k;
+    if (k == free.samples.size()) break;
+    const MapSample& f = free.samples[k];
+    if (std::abs(f.time - a.time) > 1e-6) continue;
+    const double excess = a.error.norm() - 2.0 * std::max(f.error.norm(), f.sigma);
+    c.worse += excess > 0.0 ? 1.0 : 0.0;
+    c.worst_excess = std::max(c.worst_excess, excess);
+    count += 1.0;
+    (a.on_missing ? c.probability_on_missing : c.probability) += a.probability;
+    (a.on_missing ? on_missing : elsewhere) += 1.0;
+  }
+  c.worse /= std::max(1.0, count);
+  c.probability_on_missing /= std::max(1.0, on_missing);
+  c.probability /= std::max(1.0, elsewhere);
+  return c;
+}
+
 std::string to_text(const std::vector<MapResult>& results) {
-  return as_text(runs(results)) + as_text(pooled(results));
+  return as_text(runs(results)) + as_text(against_map_free(results)) + as_text(pooled(results));
 }
 
 std::string to_html(const MapSetting& setting, const std::vector<MapResult>& results) {
@@ -190,9 +240,10 @@ std::string to_html(const MapSetting& setting, const std::vector<MapResult>& res
     }
   }
   for (const auto& drive : drives) add_plots(setting, drive, plots);
-  return evaluation::to_page(
-      "The map in the loop",
-      as_html(pooled(results)) + as_html(runs(results)) + as_html(reasons(results)), plots);
+  return evaluation::to_page("The map in the loop",
+                             as_html(pooled(results)) + as_html(runs(results)) +
+                                 as_html(against_map_free(results)) + as_html(reasons(results)),
+                             plots);
 }
 
 }  // namespace maploop::experiments

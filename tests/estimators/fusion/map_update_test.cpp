@@ -3,15 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
 
 #include "estimators/fusion/configuration.h"
+#include "estimators/fusion/guarded_filter.h"
 #include "estimators/fusion/reduced_imu_filter.h"
 #include "tests/estimators/fusion/numerical_jacobian.h"
 #include "tests/estimators/fusion/synthetic_drive.h"
+#include "tests/support/broken_archives.h"
 
 namespace maploop::fusion {
 namespace {
@@ -221,6 +224,105 @@ TEST(MapFeedback, IsRefusedAtTheDoorWithAReason) {
   f.position = true;
   f.available = f.stamp - from_seconds(1.0);
   EXPECT_EQ(filter.add(f), refused(Reason::after_delivery));
+}
+
+// A straight drive whose map has a road that leaves it by 0.03 rad, little enough for every gate.
+struct Misled {
+  double error = 0.0, free_error = 0.0, largest = 0.0, largest_free = 0.0;
+  std::uint64_t restorations = 0;
+};
+
+Misled drive_beside_wrong_road(const GuardParameters& guard, double wrong_from) {
+  const SyntheticDrive drive({}, 200.0, test_origin());
+  FusionParameters p;
+  apply(configuration("RISS"), p);
+  ReducedImuFilter plain(p, test_origin());
+  KnownStart start;
+  start.stamp = SyntheticDrive::at(0.0);
+  start.position = test_origin();
+  start.speed = 10.0;
+  plain.start(start);
+  GuardedFilter filter(plain, guard);
+  const LocalFrame frame(test_origin());
+  std::uint64_t sequence = 0;
+  Misled result;
+  for (const ImuSample& s : drive.imu(10.0)) {
+    const double t = to_seconds(s.stamp - SyntheticDrive::at(0.0));
+    if (t <= 0.0 || t > 200.0) continue;
+    WheelSpeed w;
+    w.stamp = w.available = s.stamp;
+    w.sequence = ++sequence;
+    w.speed = 10.0;
+    w.sigma = 0.05;
+    filter.add(s);
+    filter.add(w);
+    plain.add(s);
+    plain.add(w);
+    if (sequence % 10 != 0) continue;
+    const double right = t > wrong_from ? 0.3 * (t - wrong_from) : 0.0;
+    MapFeedback f = road(frame, drive.pose(t).translation().head<2>(), right);
+    if (t > wrong_from) f.link_azimuth = 0.03;
+    f.stamp = f.available = s.stamp;
+    f.sequence = sequence;
+    filter.add(f);
+    const Eigen::Vector2d truth = drive.pose(t).translation().head<2>();
+    result.error = (filter.aided().state_at(s.stamp)->position_enu.head<2>() - truth).norm();
+    result.free_error = (plain.state_at(s.stamp)->position_enu.head<2>() - truth).norm();
+    result.largest = std::max(result.largest, result.error);
+    result.largest_free = std::max(result.largest_free, result.free_error);
+  }
+  result.restorations = filter.restorations();
+  return result;
+}
+
+TEST(GuardedFilter, IsNotLedAstrayByARoadThatPassesTheGates) {
+  GuardParameters unguarded;
+  unguarded.difference_gate = std::numeric_limits<double>::infinity();
+  const Misled without = drive_beside_wrong_road(unguarded, 60.0);
+  const Misled with = drive_beside_wrong_road({}, 60.0);
+  EXPECT_EQ(without.restorations, 0u);
+  EXPECT_GT(with.restorations, 0u);
+  EXPECT_LT(with.largest, 0.5 * without.largest);
+}
+
+TEST(GuardedFilter, LeavesARightRoadAlone) {
+  const Misled right = drive_beside_wrong_road({}, 1e9);
+  EXPECT_EQ(right.restorations, 0u);
+  EXPECT_LT(right.largest, 1.0);
+}
+
+TEST(GuardedFilter, GoesOnFromAnArchive) {
+  FusionParameters p;
+  apply(configuration("RISS"), p);
+  ReducedImuFilter plain(p, test_origin());
+  KnownStart start;
+  start.stamp = SyntheticDrive::at(0.0);
+  start.position = test_origin();
+  start.speed = 10.0;
+  plain.start(start);
+  GuardedFilter filter(plain, {});
+  const SyntheticDrive drive({}, 20.0, test_origin());
+  const LocalFrame frame(test_origin());
+  const auto add = [&](GuardedFilter& to, const ImuSample& s) {
+    to.add(s);
+    MapFeedback f = road(frame, {0.0, 0.0});
+    f.stamp = f.available = s.stamp;
+    f.sequence = s.sequence;
+    to.add(f);
+  };
+  const auto imu = drive.imu(10.0);
+  for (const ImuSample& s : imu)
+    if (s.stamp > start.stamp && s.stamp < SyntheticDrive::at(10.0)) add(filter, s);
+  GuardedFilter resumed(ReducedImuFilter(p), {});
+  load(saved(filter), resumed);
+  for (const ImuSample& s : imu) {
+    if (s.stamp < SyntheticDrive::at(10.0)) continue;
+    add(filter, s);
+    add(resumed, s);
+  }
+  EXPECT_EQ(saved(filter), saved(resumed));
+  EXPECT_LT(saved(filter).size(), filter.largest_archive());
+  expect_refuses_broken(saved(filter), resumed);
 }
 
 }  // namespace
