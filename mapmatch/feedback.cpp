@@ -9,7 +9,7 @@ namespace maploop::mapmatch {
 namespace {
 
 // Half of the width in which a vehicle may drive beside the mapped line, m.
-double half_width(const Road& road) {
+double room_beside(const Road& road) {
   constexpr double lane = 3.25;
   if (road.lanes > 0) return 0.5 * lane * road.lanes;
   switch (road.road_class) {
@@ -87,7 +87,7 @@ Feedback::Line Feedback::line_beside(DirectedLink link, const Eigen::Vector2d& p
                                    azimuth_of(step_to(line.along - reach, line.along)));
     line.straight = std::abs(bend) < parameters_.straight;
   }
-  line.half_width = half_width(network_->road_at(network_->link(link.link).first_vertex +
+  line.half_width = room_beside(network_->road_at(network_->link(link.link).first_vertex +
                                                  static_cast<std::uint32_t>(segment)));
   return line;
 }
