@@ -88,16 +88,21 @@ Feedback::Line Feedback::line_beside(DirectedLink link, const Eigen::Vector2d& p
     line.straight = std::abs(bend) < parameters_.straight;
   }
   line.half_width = room_beside(network_->road_at(network_->link(link.link).first_vertex +
-                                                 static_cast<std::uint32_t>(segment)));
+                                                  static_cast<std::uint32_t>(segment)));
   return line;
 }
 
+// Whether the filter's azimuth is no longer worth comparing; after a gap of the gyro, say.
+bool Feedback::lost(const VehicleFix& fix) const {
+  return parameters_.azimuth_sigmas * fix.azimuth_sigma > parameters_.max_azimuth_error;
+}
+
 // Whether the azimuth has changed against the link's within the last seconds.
-bool Feedback::turns(Time stamp, double azimuth_error) const {
+bool Feedback::turns(Time stamp, double azimuth_error, double interval) const {
   const std::size_t known = std::min(next_moment_, history_length);
   for (std::size_t i = 1; i <= known; ++i) {
     const Moment& m = history_[(next_moment_ - i) % history_length];
-    if (to_seconds(stamp - m.stamp) > parameters_.turn_interval) break;
+    if (to_seconds(stamp - m.stamp) > interval) break;
     if (std::abs(wrap_angle(azimuth_error - m.azimuth_error)) > parameters_.max_turn) return true;
   }
   return false;
@@ -140,16 +145,18 @@ bool Feedback::consistent() const {
 
 FeedbackReason Feedback::check(const MatchResult& match, const VehicleFix& fix, const Line& line) {
   const double azimuth_error = wrap_angle(fix.azimuth - line.azimuth);
-  const bool turning = turns(fix.stamp, azimuth_error);
+  const bool turning =
+      turns(fix.stamp, azimuth_error,
+            lost(fix) ? parameters_.lost_turn_interval : parameters_.turn_interval);
   history_[next_moment_ % history_length] = {fix.stamp, azimuth_error};
   ++next_moment_;
   if (match.phase == MatchPhase::initial) return FeedbackReason::not_established;
   if (match.phase == MatchPhase::at_junction) return FeedbackReason::link_changed;
   if (!(fix.speed >= parameters_.min_speed)) return FeedbackReason::too_slow;
   // A lost azimuth comes back from the road, where the link is beyond doubt.
-  const double lost =
+  const double lost_azimuth =
       std::min(parameters_.azimuth_sigmas * fix.azimuth_sigma, parameters_.max_lost_azimuth);
-  if (!(std::abs(azimuth_error) <= std::max(parameters_.max_azimuth_error, lost)))
+  if (!(std::abs(azimuth_error) <= std::max(parameters_.max_azimuth_error, lost_azimuth)))
     return FeedbackReason::azimuth_differs;
   if (turning) return FeedbackReason::turning;
   const double sigma_along = std::sqrt(variance_along(fix.covariance, direction(line.azimuth)));
@@ -210,7 +217,9 @@ MapFeedback Feedback::decide(const MatchResult& match, const VehicleFix& fix) {
   const double allowed = variance_along(fix.covariance, right) + out.lane_sigma * out.lane_sigma +
                          out.cross_sigma * out.cross_sigma;
   note_nis(out.cross_track * out.cross_track / allowed);
-  out.azimuth = line.straight && odometer_ - azimuth_fed_at_ >= parameters_.azimuth_spacing;
+  out.azimuth =
+      lost(fix) || (line.straight && odometer_ - azimuth_fed_at_ >= parameters_.azimuth_spacing);
+  if (!line.straight) out.azimuth_sigma = parameters_.bend_sigma;
   if (parallel(match, fix, line)) {
     out.reason = FeedbackReason::ambiguous;
     if (!out.azimuth) return out;
@@ -230,6 +239,7 @@ MapFeedback Feedback::decide(const MatchResult& match, const VehicleFix& fix) {
     road_azimuth_ = fix.azimuth;
   }
   if (out.azimuth) azimuth_fed_at_ = odometer_;
+  if (out.azimuth && lost(fix)) next_moment_ = 0;  // it changes now without a turn
   return out;
 }
 

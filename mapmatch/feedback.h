@@ -62,7 +62,8 @@ class Feedback {
 
   Line line_beside(DirectedLink link, const Eigen::Vector2d& place) const;
   FeedbackReason check(const MatchResult& match, const VehicleFix& fix, const Line& line);
-  bool turns(Time stamp, double azimuth_error) const;
+  bool lost(const VehicleFix& fix) const;
+  bool turns(Time stamp, double azimuth_error, double interval) const;
   bool parallel(const MatchResult& match, const VehicleFix& fix, const Line& line) const;
   bool consistent() const;
   void note_nis(double nis);

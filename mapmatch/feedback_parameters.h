@@ -15,6 +15,7 @@ struct FeedbackParameters {
   double max_lost_azimuth = radians(60.0);   // rad, ... up to this
   double max_turn = radians(5.0);            // rad, turning against the link's own, within ...
   double turn_interval = 2.0;                // s, ... this time
+  double lost_turn_interval = 0.5;           // s, the same while the azimuth is lost
   double junction_distance = 15.0;           // m, at least, and ...
   double junction_sigmas = 2.0;              // 1, ... so many of the position along the link
   double min_probability = 0.8;              // P(link)
@@ -30,6 +31,7 @@ struct FeedbackParameters {
   double cross_sigma = 1.0;              // m, of the line, new at each
   double map_sigma = 1.5;                // m, of the line, along the whole of a road
   double azimuth_sigma = radians(2.0);   // rad, of the vehicle in its lane
+  double bend_sigma = radians(6.0);      // rad, the same in a bend, where the azimuth is lost
   double straight = radians(4.0);        // rad, a road that bends more has no azimuth
   double chord = 8.0;                    // m before and behind, that a line is taken from
   int ramp = 3;                          // feedbacks on a new link with ...

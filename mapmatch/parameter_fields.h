@@ -58,6 +58,7 @@ void fields(Parameters& p, F&& f) {
   f("max_lost_azimuth", p.max_lost_azimuth);
   f("max_turn", p.max_turn);
   f("turn_interval", p.turn_interval);
+  f("lost_turn_interval", p.lost_turn_interval);
   f("junction_distance", p.junction_distance);
   f("junction_sigmas", p.junction_sigmas);
   f("min_probability", p.min_probability);
@@ -71,6 +72,7 @@ void fields(Parameters& p, F&& f) {
   f("cross_sigma", p.cross_sigma);
   f("map_sigma", p.map_sigma);
   f("azimuth_sigma", p.azimuth_sigma);
+  f("bend_sigma", p.bend_sigma);
   f("straight", p.straight);
   f("chord", p.chord);
   f("ramp", p.ramp);

@@ -2,7 +2,7 @@
 // Kirubarajan 2001, 5.2 and 5.4).
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <initializer_list>
 
 #include "estimators/fusion/filter_state.h"
@@ -17,14 +17,10 @@ struct Innovation {
   Eigen::Matrix<double, rows, index::count> H;
   Eigen::Matrix<double, rows, rows> R;
 
-  Eigen::Matrix<double, rows, rows> covariance(const StateMatrix& P) const {
-    return H * P * H.transpose() + R;
-  }
+  Eigen::Matrix<double, rows, rows> covariance(const StateMatrix& P) const;
 
   // Normalized innovation squared: chi-square with `rows` degrees of freedom when all is well.
-  double nis(const StateMatrix& P) const {
-    return residual.dot(covariance(P).inverse() * residual);
-  }
+  double nis(const StateMatrix& P) const;
 };
 
 // The states that an update leaves as they are: considered, what is not known of them counts in
@@ -36,17 +32,7 @@ using Considered = std::initializer_list<int>;
 // alone.
 template <int rows>
 void joseph_update(StateVector& x, StateMatrix& P, const Innovation<rows>& innovation,
-                   Considered considered = {}) {
-  using Columns = Eigen::Matrix<double, index::count, rows>;
-  const Columns PH = P * innovation.H.transpose();
-  const Eigen::Matrix<double, rows, rows> S = innovation.H * PH + innovation.R;
-  Columns K = PH * S.inverse();
-  for (const int i : considered) K.row(i).setZero();
-  const Columns half = PH - 0.5 * K * S;
-  const StateMatrix change = K * half.transpose();
-  P -= change + change.transpose();  // in one step, so that P stays symmetric to the last bit
-  add_correction(x, K * innovation.residual);
-}
+                   Considered considered = {});
 
 // One measurement at the state's stamp, whatever its kind: corrects, or refuses with `reason` what
 // contradicts the prediction by more than `gate` (chi-square of `rows` degrees of freedom).
@@ -57,5 +43,10 @@ Outcome apply_gated(FilterState& state, const Innovation<rows>& innovation, doub
   joseph_update(state.x, state.P, innovation, considered);
   return {};
 }
+
+// Compiled once, in joseph_update.cpp.
+extern template struct Innovation<1>;
+extern template struct Innovation<2>;
+extern template struct Innovation<3>;
 
 }  // namespace maploop::fusion

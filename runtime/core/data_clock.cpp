@@ -125,10 +125,10 @@ void DataClock::pause_at(Time t) {
   pause_at_.store(to_nanoseconds(from), std::memory_order_release);
 }
 
-void DataClock::resume() {
+void DataClock::resume_until(Time t) {
   const Time position = now();
   set_schedule({position, monotonic_now() - stalled(), speed()});
-  pause_at_.store(to_nanoseconds(Time::max()), std::memory_order_release);
+  pause_at_.store(to_nanoseconds(std::max(t, position)), std::memory_order_release);
 }
 
 bool DataClock::paused() const {

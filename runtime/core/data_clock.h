@@ -14,8 +14,8 @@ MonotonicTime monotonic_now();
 // and pauses so far. Virtual: every t is due at once and nobody sleeps; what happens is then
 // decided by the order of the data alone.
 //
-// start(), and then set_speed(), skip_to(), arrive(), pause_at() and resume() are one controlling
-// thread's; all else is for any thread and takes no lock.
+// start(), and then set_speed(), skip_to(), arrive(), pause_at(), resume() and resume_until() are
+// one controlling thread's; all else is for any thread and takes no lock.
 class DataClock {
  public:
   // Throws std::invalid_argument unless speed is finite and above 0.
@@ -63,7 +63,10 @@ class DataClock {
   // Nothing after t falls due until resume() or a later pause_at(); a pause in the past pauses now.
   void pause_at(Time t);
   void pause() { pause_at(now()); }
-  void resume();
+  void resume() { resume_until(Time::max()); }
+  // From a pause to the next at t: not by way of a running clock, which would run past t when the
+  // controlling thread is held up.
+  void resume_until(Time t);
   // Reached its pause.
   bool paused() const;
 

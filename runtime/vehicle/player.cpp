@@ -59,16 +59,17 @@ void Player::resume() {
   if (paused()) vehicle_->clock().resume();
 }
 
+void Player::step_to(Time t) {
+  until_miss_ = false;
+  vehicle_->clock().resume_until(t);
+}
+
 void Player::step_image() {
-  const Time next = vehicle_->next_image();
-  resume();
-  vehicle_->clock().pause_at(next);
+  step_to(vehicle_->next_image());
 }
 
 void Player::step_sample() {
-  const Time next = vehicle_->next_sample();
-  resume();
-  vehicle_->clock().pause_at(next);
+  step_to(vehicle_->next_sample());
 }
 
 void Player::set_speed(double speed) {

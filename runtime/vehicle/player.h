@@ -70,6 +70,7 @@ class Player {
   void begin(const Snapshot* from);
   void begin_pass();
   void go_back(Time t);
+  void step_to(Time t);
   void note_position();
 
   Maker make_;

@@ -79,5 +79,19 @@ TEST(DataClock, RefusesASpeedThatGoesNowhere) {
   EXPECT_THROW(DataClock::paced(std::numeric_limits<double>::infinity()), std::invalid_argument);
 }
 
+TEST(DataClock, GoesFromAPauseToTheNextAndNoFurther) {
+  DataClock clock = DataClock::paced(1000.0);
+  clock.start(t0);
+  clock.pause_at(t0 + milliseconds(10));
+  while (!clock.paused()) std::this_thread::yield();
+  clock.resume_until(t0 + milliseconds(20));
+  EXPECT_TRUE(clock.sleep_until(t0 + milliseconds(20), {}));
+  std::this_thread::sleep_for(milliseconds(1));
+  EXPECT_EQ(clock.now(), t0 + milliseconds(20));
+  EXPECT_TRUE(clock.paused());
+  clock.resume();
+  EXPECT_TRUE(clock.sleep_until(t0 + milliseconds(30), {}));
+}
+
 }  // namespace
 }  // namespace maploop::runtime
