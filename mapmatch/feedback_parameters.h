@@ -30,7 +30,7 @@ struct FeedbackParameters {
   double azimuth_spacing = 25.0;         // m, and between two azimuths
   double cross_sigma = 1.0;              // m, of the line, new at each
   double map_sigma = 1.5;                // m, of the line, along the whole of a road
-  double azimuth_sigma = radians(2.0);   // rad, of the vehicle in its lane
+  double azimuth_sigma = radians(3.0);   // rad, of the vehicle in its lane
   double bend_sigma = radians(6.0);      // rad, the same in a bend, where the azimuth is lost
   double straight = radians(4.0);        // rad, a road that bends more has no azimuth
   double chord = 8.0;                    // m before and behind, that a line is taken from
