@@ -45,16 +45,6 @@ double variance_along(const Eigen::Matrix2d& covariance, const Eigen::Vector2d& 
 
 }  // namespace
 
-void Feedback::reset() {
-  on_link_ = false;
-  fed_on_link_ = 0;
-  has_road_ = false;
-  turned_ = true;
-  next_moment_ = 0;
-  next_nis_ = 0;
-  position_fed_at_ = azimuth_fed_at_ = odometer_;
-}
-
 Feedback::Line Feedback::line_beside(DirectedLink link, const Eigen::Vector2d& place) const {
   const double length = network_->link(link.link).length;
   const auto vertices = network_->shape(link.link);

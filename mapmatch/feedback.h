@@ -28,9 +28,6 @@ class Feedback {
   // nothing goes back.
   MapFeedback decide(const MatchResult& match, const VehicleFix& fix);
 
-  // Forgets the link: what went back to it was undone.
-  void reset();
-
   template <class Archive>
   void archive(Archive& ar) {
     ar(started_, stamp_, sequence_, on_link_, link_, odometer_, position_fed_at_, azimuth_fed_at_,

@@ -288,9 +288,7 @@ MapResult run(const MapSetting& setting, const MapCase& setup) {
         const MapFeedback back = feedback.decide(match, fix);
         sample.reason = back.reason;
         ++result.reasons[static_cast<std::size_t>(back.reason)];
-        const std::uint64_t restored = filter.restorations();
         filter.add(back);
-        if (filter.restorations() > restored) feedback.reset();
       }
     }
     sent.emplace_back(*state, sample);
