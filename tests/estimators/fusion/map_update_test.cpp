@@ -45,6 +45,7 @@ FilterState state_at_origin(double sigma) {
 TEST(MapJacobians, AgreeWithNumericalDerivatives) {
   FilterState state;
   state.x = busy_state();
+  state.x[index::lane_offset] = 0.8;
   const LocalFrame frame(test_origin());
   MapFeedback f = road(frame, {805.0, -450.0});
   f.link_azimuth = -2.2;
