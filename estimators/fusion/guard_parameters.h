@@ -10,6 +10,7 @@ struct GuardParameters {
   double patience = 5.0;  // s, ... for so long: a wrong road
   double trusted = 4.6;   // chi-square, 10 % tail: a new copy is made of what is no further away
   double pause = 10.0;    // s without feedback after a restoration
+  double lost_azimuth = 0.087;  // rad (5 deg), sigma of an azimuth that is lost
   // What the two may differ by beyond their covariances: the copy's model errs, too.
   double model_sigma = 1.0;   // m
   double model_share = 0.02;  // 1, of the copy's way

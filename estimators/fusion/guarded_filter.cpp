@@ -35,11 +35,21 @@ Outcome GuardedFilter::add(const MapFeedback& feedback) {
     restore(t);
     return outcome;
   }
+  // A copy that has lost its azimuth (a gap of the gyro) says nothing more.
+  for (Copy& copy : copies_) {
+    const auto free = copy.filter->state_at(t);
+    if (!lost(*state) && free && lost(*free)) copy_to(copy, t);
+  }
   if (far <= parameters_.trusted && t - copies_[0].born >= from_seconds(parameters_.lifetime)) {
     std::swap(copies_[0], copies_[1]);
     copy_to(copies_[1], t);
   }
   return outcome;
+}
+
+// Beyond, a covariance no longer says where the vehicle may be: the error is not linear in it.
+bool GuardedFilter::lost(const NavState& state) const {
+  return state.covariance(6, 6) > parameters_.lost_azimuth * parameters_.lost_azimuth;
 }
 
 void GuardedFilter::copy_to(Copy& copy, Time t) {
@@ -50,7 +60,7 @@ void GuardedFilter::copy_to(Copy& copy, Time t) {
 
 double GuardedFilter::distance_to(const Copy& copy, const NavState& aided, Time t) const {
   const auto free = copy.filter->state_at(t);
-  if (!free) return 0.0;
+  if (!free || lost(*free)) return 0.0;
   const Eigen::Vector2d apart = (aided.position_enu - free->position_enu).head<2>();
   Eigen::Matrix2d D = (free->covariance - aided.covariance).topLeftCorner<2, 2>();
   // Rounding and linearization may make it indefinite.

@@ -50,6 +50,7 @@ class GuardedFilter {
 
   template <class Archive, class Filter>
   static void describe(Archive& ar, Filter& filter);
+  bool lost(const NavState& state) const;
   void copy_to(Copy& copy, Time t);
   double distance_to(const Copy& copy, const NavState& aided, Time t) const;
   void restore(Time t);

@@ -108,6 +108,7 @@ void fields(Parameters& p, F&& f) {
   f("patience", p.patience);
   f("trusted", p.trusted);
   f("pause", p.pause);
+  f("lost_azimuth", p.lost_azimuth);
   f("model_sigma", p.model_sigma);
   f("model_share", p.model_share);
 }
