@@ -41,6 +41,10 @@ BusListener::BusListener(const std::string& url, const std::string& channels, Ha
 
 BusListener::~BusListener() = default;
 
+bool BusListener::publish(const std::string& channel, std::span<const std::uint8_t> data) {
+  return connection_->lcm.publish(channel, data.data(), static_cast<unsigned>(data.size())) == 0;
+}
+
 void BusListener::listen(int milliseconds) {
   errno = 0;
   if (connection_->lcm.handleTimeout(milliseconds) < 0) {

@@ -1,4 +1,4 @@
-// Messages of an LCM bus, for commands that watch it.
+// Messages of an LCM bus, for commands that watch it and speak to it.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace maploop::tools {
 
-// One thread's own.
+// One thread's own, but for publish().
 class BusListener {
  public:
   using Handler = std::function<void(std::string_view channel, std::span<const std::uint8_t> data)>;
@@ -22,6 +22,9 @@ class BusListener {
 
   // Waits up to `milliseconds` for a message, and hands over what has come.
   void listen(int milliseconds);
+
+  // Sends an encoded message; on any thread. False when LCM does not take it.
+  bool publish(const std::string& channel, std::span<const std::uint8_t> data);
 
  private:
   struct Connection;

@@ -10,6 +10,7 @@ namespace maploop::tools {
 using Command = std::function<int()>;
 
 void add_calibrate(CLI::App& app, Command& command);
+void add_dashboard(CLI::App& app, Command& command);
 void add_doctor(CLI::App& app, Command& command);
 void add_evaluate(CLI::App& app, Command& command);
 void add_experiment(CLI::App& app, Command& command);

@@ -2,13 +2,15 @@
 #include <iostream>
 
 #include "tools/commands.h"
+#include "tools/usage_error.h"
 
 int main(int argc, char** argv) {
-  CLI::App app{"maploop: vehicle localization in real time"};
+  CLI::App app{"maploop: vehicle localization in real time", "maploop"};
   app.require_subcommand(1);
   app.set_version_flag("--version", MAPLOOP_VERSION);
   maploop::tools::Command command;
   maploop::tools::add_calibrate(app, command);
+  maploop::tools::add_dashboard(app, command);
   maploop::tools::add_doctor(app, command);
   maploop::tools::add_evaluate(app, command);
   maploop::tools::add_experiment(app, command);
@@ -21,9 +23,13 @@ int main(int argc, char** argv) {
   maploop::tools::add_profile(app, command);
   maploop::tools::add_replay(app, command);
   maploop::tools::add_spy(app, command);
-  CLI11_PARSE(app, argc, argv);
   try {
+    app.parse(argc, argv);
     return command();
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+    std::cerr << maploop::tools::usage_error(app, e);
+    return maploop::tools::exit_usage;
   } catch (const std::exception& e) {
     std::cerr << "maploop: " << e.what() << '\n';
     return 1;

@@ -92,6 +92,8 @@ void add_replay(CLI::App& app, Command& command) {
                   "Go on from a snapshot of the same drive, with the same bits")
       ->check(CLI::ExistingFile);
   sub->add_option("--json", options->json, "Write the closing table to this file as JSON");
+  sub->add_option("--report", options->report,
+                  "Write a page with all of it to this file: way, errors, latencies, losses");
   sub->add_option("--trace", options->trace,
                   "Write what each thread did when to this file, for ui.perfetto.dev (after going "
                   "back: since then)");

@@ -27,6 +27,7 @@
 #include "tools/lcm_log/log_writer.h"
 #include "tools/nav_files.h"
 #include "tools/replay_result.h"
+#include "tools/report/report.h"
 #include "tools/trajectory_collector.h"
 
 namespace maploop::tools {
@@ -35,11 +36,12 @@ namespace {
 constexpr int exit_interrupted = 130;  // as shells report SIGINT
 constexpr int exit_failed = 1;
 
-sensors::ReferenceTrajectory read_reference(sensors::Source<ReferencePose>& source) {
+// Empty where the recording has none.
+std::vector<ReferencePose> read_reference(const vehicle::Recording& recording) {
   std::vector<ReferencePose> rows;
-  for (ReferencePose row; source.next(row);) rows.push_back(row);
-  const LocalFrame frame(rows.empty() ? Geodetic{} : rows.front().position);
-  return {rows, frame};
+  const auto source = recording.sensors(Time::max()).reference;
+  for (ReferencePose row; source && source->next(row);) rows.push_back(row);
+  return rows;
 }
 
 bool any_thread_failed(const ReplayResult& result) {
@@ -128,6 +130,7 @@ class Replay {
   vehicle::PlayerParameters player_parameters() const;
   PlaybackEnd play_all();
   ReplayResult result(PlaybackEnd end);
+  void write_report(const ReplayResult& result) const;
 
   const ReplayOptions& options_;
   vehicle::VehicleConfig config_;
@@ -247,8 +250,8 @@ ReplayResult Replay::result(PlaybackEnd end) {
     result.trace = {options_.trace.string(), tracer_->recorded(), tracer_->dropped()};
   }
   result.faults = faults_.counts();
-  if (const auto rows = recording_.sensors(Time::max()).reference) {
-    const sensors::ReferenceTrajectory reference = read_reference(*rows);
+  if (const auto rows = read_reference(recording_); rows.size() > 1) {
+    const sensors::ReferenceTrajectory reference(rows, LocalFrame(rows.front().position));
     const auto pose = [&](Time t) { return reference.pose(t); };
     result.vo = pass_->collector.score_vo(pose);
     result.lidar = pass_->lidar_collector.score_vo(pose);
@@ -260,6 +263,15 @@ ReplayResult Replay::result(PlaybackEnd end) {
   return result;
 }
 
+void Replay::write_report(const ReplayResult& result) const {
+  std::vector<report::DeadReckoning> ways{{"stereo odometry", pass_->collector.odometry()}};
+  const auto lidar = pass_->lidar_collector.odometry();
+  if (!lidar.poses.empty()) ways.push_back({"LiDAR odometry", lidar});
+  report::write_report(options_.report,
+                       {result, pass_->track, read_reference(recording_), std::move(ways),
+                        vehicle::to_toml(config_), MAPLOOP_VERSION});
+}
+
 int Replay::run() {
   const ReplayResult r = result(play_all());
   std::cout << format_table(r);
@@ -269,6 +281,7 @@ int Replay::run() {
   if (!options_.tum.empty()) evaluation::write_tum(options_.tum, fused);
   if (!options_.csv.empty()) write_nav_csv(options_.csv, pass_->track);
   if (!options_.nmea.empty()) write_nmea(options_.nmea, pass_->track);
+  if (!options_.report.empty()) write_report(r);
   const bool snapshot_missing = options_.snapshot && !snapshot_taken_;
   if (snapshot_missing && !any_thread_failed(r)) {
     std::cerr << "maploop: no snapshot was written: the replay did not come to "

@@ -34,6 +34,7 @@ struct ReplayOptions {
   std::filesystem::path tum;
   std::filesystem::path csv;
   std::filesystem::path nmea;
+  std::filesystem::path report;
   std::string configuration;
   std::string gnss_outage;
   std::string imu;

@@ -23,6 +23,15 @@ evaluation::StampedTrajectory TrajectoryCollector::fused() const {
   return trajectory;
 }
 
+evaluation::StampedTrajectory TrajectoryCollector::odometry() const {
+  evaluation::StampedTrajectory trajectory;
+  for (const auto& [stamp, pose] : vo_) {
+    trajectory.stamps.push_back(stamp);
+    trajectory.poses.push_back(pose);
+  }
+  return trajectory;
+}
+
 std::optional<Accuracy> TrajectoryCollector::score_vo(const Reference& reference) const {
   return score(vo_, reference);
 }

@@ -28,6 +28,9 @@ class TrajectoryCollector {
   // Poses of the camera in `enu`, or in the first camera's frame, at the images that have one.
   evaluation::StampedTrajectory fused() const;
 
+  // Odometry's poses of the body, in its first frame.
+  evaluation::StampedTrajectory odometry() const;
+
   // Pose of the body at a stamp, where the reference has one.
   using Reference = std::function<std::optional<Eigen::Isometry3d>(Time)>;
   std::optional<Accuracy> score_vo(const Reference& reference) const;

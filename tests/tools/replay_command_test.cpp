@@ -6,6 +6,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -172,6 +173,39 @@ TEST(ReplayCommand, SurvivesADriveWithAHole) {
   EXPECT_EQ(r["sensors"]["camera"]["left_out"], 2);
   EXPECT_EQ(r["sensors"]["velodyne"]["left_out"], 1);
   EXPECT_LT(r["fused"]["end_point_m"], 10.0) << "two lost images are bridged";
+}
+
+TEST(ReplayCommand, TheReportHoldsAllOfIt) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "report.html").string();
+  const std::string drive = testing::drive_0013().string();
+  const ProcessResult result = replay({drive, "--no-lcm", "--lockstep", "--end", "2", "--fault",
+                                       "lost@imu:1:0.1", "--report", file});
+  ASSERT_EQ(result.status, 0) << result.error;
+  std::stringstream page;
+  page << std::ifstream(file).rdbuf();
+  for (const char* part : {"2011_09_26_drive_0013_sync", "Way of the vehicle", "stereo odometry",
+                           "Error azimuth", "lost@imu:1:0.1", "camera -&gt; stereo", "NAV_STATE",
+                           "Processor time", "[fusion]", "\"fused\""}) {
+    EXPECT_NE(page.str().find(part), std::string::npos) << part;
+  }
+  const ProcessResult unwritable =
+      replay({drive, "--no-lcm", "--lockstep", "--end", "1", "--report", "/nonexistent/r.html"});
+  EXPECT_NE(unwritable.status, 0);
+  EXPECT_NE(unwritable.error.find("/nonexistent/r.html"), std::string::npos) << unwritable.error;
+}
+
+TEST(ReplayCommand, SaysWhatWasPerhapsMeant) {
+  const ProcessResult command = testing::run({MAPLOOP_COMMAND, "reply"});
+  EXPECT_EQ(command.status, 2);
+  EXPECT_NE(command.error.find("did you mean 'replay'"), std::string::npos) << command.error;
+  const ProcessResult option = replay({"x", "--lockstp"});
+  EXPECT_EQ(option.status, 2);
+  EXPECT_NE(option.error.find("did you mean '--lockstep'"), std::string::npos) << option.error;
+  const ProcessResult group = testing::run({MAPLOOP_COMMAND, "map"});
+  EXPECT_EQ(group.status, 2);
+  EXPECT_NE(group.error.find("Usage: maploop map"), std::string::npos) << group.error;
 }
 
 TEST(ReplayCommand, SaysWhatIsWrongWithItsArguments) {

@@ -11,8 +11,8 @@
 
 #include "sensors/camera/rectifier.h"
 #include "tools/calibrate/calibration_text.h"
-#include "tools/evaluation/svg_plot.h"
 #include "tools/html_text.h"
+#include "tools/web/page.h"
 
 namespace maploop::calibrate {
 namespace {
@@ -203,7 +203,7 @@ std::string to_page(const StereoResult& r, const std::vector<ImagePair>& pairs,
   body += "<h2>Coverage</h2><p>Fields without a corner are red.</p>" + coverage_plot(r, 0) + " " +
           coverage_plot(r, 1);
   body += pictures_of(r, pairs);
-  return evaluation::to_page("Stereo calibration", body, {});
+  return web::Page("Stereo calibration").add(body).text();
 }
 
 }  // namespace maploop::calibrate

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "tools/html_text.h"
+#include "tools/web/page.h"
 
 namespace maploop::evaluation {
 namespace {
@@ -28,8 +29,8 @@ std::string of_statistics(const char* what, const char* unit, const Statistics& 
 
 }  // namespace
 
-Line seen_from_above(const std::string& name, const Trajectory& trajectory) {
-  Line line{name, {}, {}};
+web::Line seen_from_above(const std::string& name, const Trajectory& trajectory) {
+  web::Line line{name, {}, {}};
   for (const Eigen::Isometry3d& pose : trajectory) {
     const Eigen::Vector3d p = trajectory.front().inverse() * pose.translation();
     line.x.push_back(p.x());
@@ -108,27 +109,30 @@ std::string to_html(const Evaluation& e, const std::string& heading) {
       absolute_errors(estimate, truth, truth.front() * estimate.front().inverse());
   const RelativeErrors relative = relative_errors(estimate, truth);
   const std::vector<double> after_first(along.begin() + 1, along.end());
-  Line raw{"as it is", {}, {}}, rotated{"one common rotation removed", {}, {}};
+  web::Line raw{"as it is", {}, {}}, rotated{"one common rotation removed", {}, {}};
   for (const LengthError& l : e.lengths) {
     raw.x.push_back(l.length_m);
     raw.y.push_back(l.raw.percent);
     rotated.x.push_back(l.length_m);
     rotated.y.push_back(l.common_rotation_removed.percent);
   }
-  return to_page(
-      heading, "<pre>" + tools::escaped(to_text(e)) + "</pre>\n",
-      {{"Seen from above",
-        "right of the first camera, m",
-        "ahead, m",
-        {seen_from_above("truth", truth), seen_from_above("estimate", estimate)},
-        true},
-       {"Position error",
-        "way, m",
-        "m",
-        {{"from the start", along, from_start}, {"best alignment", along, ape}}},
-       {"Error of segments", "length, m", "%", {raw, rotated}},
-       {"From pose to pose", "way, m", "m", {{"translation", after_first, relative.translation_m}}},
-       {"From pose to pose", "way, m", "deg", {{"rotation", after_first, relative.rotation_deg}}}});
+  const std::vector<web::Plot> plots{
+      {"Seen from above",
+       "right of the first camera, m",
+       "ahead, m",
+       {seen_from_above("truth", truth), seen_from_above("estimate", estimate)},
+       true},
+      {"Position error",
+       "way, m",
+       "m",
+       {{"from the start", along, from_start}, {"best alignment", along, ape}}},
+      {"Error of segments", "length, m", "%", {raw, rotated}},
+      {"From pose to pose", "way, m", "m", {{"translation", after_first, relative.translation_m}}},
+      {"From pose to pose", "way, m", "deg", {{"rotation", after_first, relative.rotation_deg}}}};
+  return web::Page(heading)
+      .add("<pre>" + tools::escaped(to_text(e)) + "</pre>\n")
+      .add(plots)
+      .text();
 }
 
 }  // namespace maploop::evaluation

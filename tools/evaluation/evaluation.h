@@ -6,8 +6,8 @@
 
 #include "tools/evaluation/kitti_metric.h"
 #include "tools/evaluation/pose_errors.h"
-#include "tools/evaluation/svg_plot.h"
 #include "tools/evaluation/trajectory_file.h"
+#include "tools/web/plot.h"
 
 namespace maploop::evaluation {
 
@@ -38,7 +38,7 @@ std::string to_csv(const Evaluation& evaluation);
 std::string to_html(const Evaluation& evaluation, const std::string& heading);
 
 // A path right and ahead of its first camera, and the way to each pose: what pictures are made of.
-Line seen_from_above(const std::string& name, const Trajectory& trajectory);
+web::Line seen_from_above(const std::string& name, const Trajectory& trajectory);
 std::vector<double> distances(const Trajectory& truth);
 
 }  // namespace maploop::evaluation

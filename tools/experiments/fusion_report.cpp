@@ -5,9 +5,9 @@
 
 #include "msgs/local_frame.h"
 #include "runtime/vehicle/recording.h"
-#include "tools/evaluation/svg_plot.h"
 #include "tools/experiments/fusion_experiment.h"
 #include "tools/experiments/table.h"
+#include "tools/web/page.h"
 
 namespace maploop::experiments {
 namespace {
@@ -124,8 +124,8 @@ Table outages(const std::vector<FusionResult>& results) {
   return table;
 }
 
-evaluation::Line path_of(const FusionResult& r, const LocalFrame& frame) {
-  evaluation::Line line{r.setup.configuration + (r.setup.mems ? ", mems" : ""), {}, {}};
+web::Line path_of(const FusionResult& r, const LocalFrame& frame) {
+  web::Line line{r.setup.configuration + (r.setup.mems ? ", mems" : ""), {}, {}};
   for (const NavState& s : r.track.states()) {
     const Eigen::Vector3d p = frame.to_enu(LocalFrame(s.origin).to_geodetic(s.position_enu));
     line.x.push_back(p.x());
@@ -135,14 +135,13 @@ evaluation::Line path_of(const FusionResult& r, const LocalFrame& frame) {
 }
 
 // The dead reckoned ways of a sequence and the reference's, seen from above.
-evaluation::Plot map_of(const std::filesystem::path& folder, const std::string& sequence,
-                        const std::vector<FusionResult>& results) {
-  evaluation::Plot plot{
-      "Sequence " + sequence + ", dead reckoning", "east, m", "north, m", {}, true};
+web::Plot map_of(const std::filesystem::path& folder, const std::string& sequence,
+                 const std::vector<FusionResult>& results) {
+  web::Plot plot{"Sequence " + sequence + ", dead reckoning", "east, m", "north, m", {}, true};
   const vehicle::Recording recording = vehicle::open_recording(folder / sequence, {});
   const auto reference = recording.sensors(Time::max()).reference;
   LocalFrame frame;
-  evaluation::Line truth{"reference", {}, {}};
+  web::Line truth{"reference", {}, {}};
   double end = 0.0;
   for (const FusionResult& r : results) {
     if (r.setup.sequence == sequence && r.setup.outages.empty()) end = r.setup.end;
@@ -171,15 +170,18 @@ std::string to_text(const std::vector<FusionResult>& results) {
 }
 
 std::string to_html(const std::filesystem::path& folder, const std::vector<FusionResult>& results) {
-  std::vector<evaluation::Plot> plots;
+  std::vector<web::Plot> plots;
   std::vector<std::string> shown;
   for (const FusionResult& r : results) {
     if (std::find(shown.begin(), shown.end(), r.setup.sequence) != shown.end()) continue;
     shown.push_back(r.setup.sequence);
     plots.push_back(map_of(folder, r.setup.sequence, results));
   }
-  return evaluation::to_page("Fusion: reduced inertial sensors, odometry and GNSS",
-                             as_html(dead_reckoning(results)) + as_html(outages(results)), plots);
+  return web::Page("Fusion: reduced inertial sensors, odometry and GNSS")
+      .add(as_html(dead_reckoning(results)))
+      .add(as_html(outages(results)))
+      .add(plots)
+      .text();
 }
 
 }  // namespace maploop::experiments

@@ -236,7 +236,8 @@ MapResult run(const MapSetting& setting, const MapCase& setup) {
 
   fusion::GuardParameters guard = setting.guard;
   // The thesis's has no guard.
-  if (setup.mode == MapMode::hard_reset) guard.difference_gate = std::numeric_limits<double>::infinity();
+  if (setup.mode == MapMode::hard_reset)
+    guard.difference_gate = std::numeric_limits<double>::infinity();
   fusion::GuardedFilter filter(fusion::ReducedImuFilter(config.fusion), guard);
   std::vector<std::unique_ptr<Feed>> feeds;
   const auto feed = [&]<class T>(const std::unique_ptr<sensors::Source<T>>& source) {

@@ -1,12 +1,14 @@
 // The tables and pictures of the map's experiment.
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
 #include "msgs/local_frame.h"
-#include "tools/evaluation/svg_plot.h"
 #include "tools/experiments/map_experiment.h"
 #include "tools/experiments/table.h"
+#include "tools/web/page.h"
 
 namespace maploop::experiments {
 namespace {
@@ -146,40 +148,46 @@ Table reasons(const std::vector<MapResult>& results) {
   return table;
 }
 
-std::vector<evaluation::Line> roads(const mapmatch::RoadNetwork& network, const Geodetic& origin) {
-  const LocalFrame frame(origin);
-  std::vector<evaluation::Line> lines;
+// Those near a way that was driven.
+std::vector<web::Line> roads(const mapmatch::RoadNetwork& network, const MapResult& driven) {
+  constexpr double margin = 200.0;  // m
+  const LocalFrame frame(driven.origin);
+  Eigen::AlignedBox2d box;
+  for (const MapSample& s : driven.samples) box.extend(s.truth);
+  const Eigen::AlignedBox2d shown(box.min() - Eigen::Vector2d::Constant(margin),
+                                  box.max() + Eigen::Vector2d::Constant(margin));
+  std::vector<web::Line> lines;
   for (std::uint32_t i = 0; i < network.size(); ++i) {
-    evaluation::Line line;
+    web::Line line;
     for (const mapmatch::Vertex& v : network.shape(i)) {
       const Eigen::Vector3d p = frame.to_enu(network.to_geodetic(v.position()));
+      if (!shown.contains(p.head<2>())) continue;
       line.x.push_back(p.x());
       line.y.push_back(p.y());
     }
-    lines.push_back(std::move(line));
+    if (line.x.size() > 1) lines.push_back(std::move(line));
   }
   return lines;
 }
 
 // The ways seen from above, the errors and P(link) against time, of one drive in all its modes.
 void add_plots(const MapSetting& setting, const std::vector<const MapResult*>& drive,
-               std::vector<evaluation::Plot>& plots) {
+               std::vector<web::Plot>& plots) {
   const MapCase& c = drive.front()->setup;
   const std::string title = "Sequence " + c.sequence + ", " + c.configuration +
                             (c.mems ? ", mems" : "") + ", no GNSS " + c.outages +
                             (c.fault.empty() ? "" : ", " + c.fault);
-  evaluation::Plot map{title, "east, m", "north, m",
-                       {},    true,      roads(*setting.network, drive.front()->origin)};
-  evaluation::Plot errors{title, "s", "horizontal error, m", {}, false, {}};
-  evaluation::Plot links{title, "s", "P(link)", {}, false, {}};
-  evaluation::Line truth{"reference", {}, {}};
+  web::Plot map{title, "east, m", "north, m", {}, true, roads(*setting.network, *drive.front())};
+  web::Plot errors{title, "s", "horizontal error, m"};
+  web::Plot links{title, "s", "P(link)"};
+  web::Line truth{"reference", {}, {}};
   for (const MapSample& s : drive.front()->samples) {
     truth.x.push_back(s.truth.x());
     truth.y.push_back(s.truth.y());
   }
   map.lines.push_back(truth);
   for (const MapResult* r : drive) {
-    evaluation::Line way{to_string(r->setup.mode), {}, {}}, error = way, link = way;
+    web::Line way{to_string(r->setup.mode), {}, {}}, error = way, link = way;
     for (const MapSample& s : r->samples) {
       way.x.push_back(s.truth.x() + s.error.x());
       way.y.push_back(s.truth.y() + s.error.y());
@@ -226,7 +234,7 @@ std::string to_text(const std::vector<MapResult>& results) {
 }
 
 std::string to_html(const MapSetting& setting, const std::vector<MapResult>& results) {
-  std::vector<evaluation::Plot> plots;
+  std::vector<web::Plot> plots;
   std::vector<std::vector<const MapResult*>> drives;
   for (const MapResult& r : results) {
     if (r.setup.seed != 1) continue;
@@ -240,10 +248,13 @@ std::string to_html(const MapSetting& setting, const std::vector<MapResult>& res
     }
   }
   for (const auto& drive : drives) add_plots(setting, drive, plots);
-  return evaluation::to_page("The map in the loop",
-                             as_html(pooled(results)) + as_html(runs(results)) +
-                                 as_html(against_map_free(results)) + as_html(reasons(results)),
-                             plots);
+  return web::Page("The map in the loop")
+      .add(as_html(pooled(results)))
+      .add(as_html(runs(results)))
+      .add(as_html(against_map_free(results)))
+      .add(as_html(reasons(results)))
+      .add(plots)
+      .text();
 }
 
 }  // namespace maploop::experiments

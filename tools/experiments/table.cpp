@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "tools/html_text.h"
+#include "tools/web/page.h"
 
 namespace maploop::experiments {
 
@@ -34,15 +35,7 @@ std::string as_text(const Table& table) {
 }
 
 std::string as_html(const Table& table) {
-  std::string html = "<h2>" + tools::escaped(table.title) + "</h2>\n<table>\n<tr>";
-  for (const std::string& cell : table.heading) html += "<th>" + tools::escaped(cell) + "</th>";
-  html += "</tr>\n";
-  for (const Row& row : table.rows) {
-    html += "<tr>";
-    for (const std::string& cell : row) html += "<td>" + tools::escaped(cell) + "</td>";
-    html += "</tr>\n";
-  }
-  return html + "</table>\n";
+  return "<h2>" + tools::escaped(table.title) + "</h2>\n" + web::table(table.heading, table.rows);
 }
 
 }  // namespace maploop::experiments

@@ -7,9 +7,9 @@
 #include <set>
 #include <stdexcept>
 
-#include "tools/evaluation/svg_plot.h"
 #include "tools/html_text.h"
 #include "tools/odometry/odometry_input.h"
+#include "tools/web/page.h"
 
 namespace maploop::odometry {
 namespace {
@@ -163,15 +163,11 @@ std::string to_text(const std::vector<VariantResult>& results) {
 }
 
 std::string to_html(const std::vector<VariantResult>& results, const std::string& heading) {
-  std::string table = "<table><tr>";
-  for (const std::string& head : kHeadings) table += "<th>" + tools::escaped(head) + "</th>";
-  table += "</tr>\n";
-  evaluation::Plot paths{"Seen from above", "right of the first camera, m", "ahead, m", {}, true};
-  evaluation::Plot errors{"Position error", "way, m", "m", {}};
+  std::vector<web::Row> rows;
+  web::Plot paths{"Seen from above", "right of the first camera, m", "ahead, m", {}, true};
+  web::Plot errors{"Position error", "way, m", "m", {}};
   for (const VariantResult& result : results) {
-    table += "<tr>";
-    for (const std::string& cell : cells(result)) table += "<td>" + tools::escaped(cell) + "</td>";
-    table += "</tr>\n";
+    rows.push_back(cells(result));
     const evaluation::Matched& matched = result.score.matched;
     if (paths.lines.empty())
       paths.lines.push_back(evaluation::seen_from_above("truth", matched.truth));
@@ -181,8 +177,10 @@ std::string to_html(const std::vector<VariantResult>& results, const std::string
          evaluation::absolute_errors(matched.estimate, matched.truth,
                                      matched.truth.front() * matched.estimate.front().inverse())});
   }
-  return evaluation::to_page(heading, table + "</table>\n<p>" + tools::escaped(kNotes) + "</p>\n",
-                             {paths, errors});
+  return web::Page(heading)
+      .add(web::table(kHeadings, rows) + "<p>" + tools::escaped(kNotes) + "</p>\n")
+      .add({paths, errors})
+      .text();
 }
 
 }  // namespace maploop::odometry

@@ -1,19 +1,18 @@
 #include "tools/ppp/page.h"
-#include "tools/html_text.h"
 
 #include <cmath>
 #include <map>
 
 #include "msgs/frames.h"
 #include "ppp/models/geodesy.h"
-#include "tools/evaluation/svg_plot.h"
 #include "tools/html_text.h"
+#include "tools/web/page.h"
 
 namespace maploop::gnss {
 
 using namespace maploop::ppp;
-using evaluation::Line;
-using evaluation::Plot;
+using web::Line;
+using web::Plot;
 
 namespace {
 
@@ -171,7 +170,7 @@ std::string to_page(const std::string& heading, const std::vector<std::string>& 
                                [](const auto& r) { return r.code_used ? r.code_residual : nan; }));
     plots.push_back(sky(solutions));
   }
-  return evaluation::to_page(heading, body, plots);
+  return web::Page(heading).add(body).add(plots).text();
 }
 
 }  // namespace maploop::gnss

@@ -36,6 +36,28 @@ void add_worst(const std::vector<LatencySummary>& summaries, std::vector<WorstMi
 
 }  // namespace
 
+Profile profile_of(const Deadlines& deadlines, const Health& health) {
+  Profile p;
+  p.stamp = deadlines.stamp;
+  p.health = health;
+  for (const LatencySummary& s : deadlines.threads) p.threads.push_back(corrected(s));
+  for (const LatencySummary& s : deadlines.paths) p.paths.push_back(corrected(s));
+  for (const auto* summaries :
+       {&deadlines.wake_up, &deadlines.execution, &deadlines.period_jitter}) {
+    for (const LatencySummary& s : *summaries) runtime::Histogram().merge(s.histogram);
+  }
+  p.wake_up = deadlines.wake_up;
+  p.execution = deadlines.execution;
+  p.period_jitter = deadlines.period_jitter;
+  add_worst(deadlines.threads, p.worst);
+  add_worst(deadlines.paths, p.worst);
+  std::stable_sort(p.worst.begin(), p.worst.end(), [](const WorstMiss& a, const WorstMiss& b) {
+    return a.miss.latency - a.deadline > b.miss.latency - b.deadline;
+  });
+  if (p.worst.size() > shown_misses) p.worst.resize(shown_misses);
+  return p;
+}
+
 void ProfileCollector::add(std::string_view channel, std::span<const std::uint8_t> data) {
   const auto take = [&](auto message, auto& to, bool& heard) {
     if (!tools::checked_decode(own_schema(), data, message)) {
@@ -61,29 +83,11 @@ Profile ProfileCollector::profile(const std::string& source) const {
                              : std::string()) +
         "; a run publishes both once a second, and writes them with '--record LOG'");
   }
-  Profile p;
-  p.stamp = deadlines_.stamp;
-  p.health = health_;
   try {
-    for (const LatencySummary& s : deadlines_.threads) p.threads.push_back(corrected(s));
-    for (const LatencySummary& s : deadlines_.paths) p.paths.push_back(corrected(s));
-    for (const auto* summaries :
-         {&deadlines_.wake_up, &deadlines_.execution, &deadlines_.period_jitter}) {
-      for (const LatencySummary& s : *summaries) runtime::Histogram().merge(s.histogram);
-    }
+    return profile_of(deadlines_, health_);
   } catch (const std::invalid_argument& e) {
     throw std::runtime_error("the last DEADLINES of " + source + " is damaged: " + e.what());
   }
-  p.wake_up = deadlines_.wake_up;
-  p.execution = deadlines_.execution;
-  p.period_jitter = deadlines_.period_jitter;
-  add_worst(deadlines_.threads, p.worst);
-  add_worst(deadlines_.paths, p.worst);
-  std::stable_sort(p.worst.begin(), p.worst.end(), [](const WorstMiss& a, const WorstMiss& b) {
-    return a.miss.latency - a.deadline > b.miss.latency - b.deadline;
-  });
-  if (p.worst.size() > shown_misses) p.worst.resize(shown_misses);
-  return p;
 }
 
 }  // namespace maploop::profile

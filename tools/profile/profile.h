@@ -34,6 +34,9 @@ struct Profile {
   Health health;  // processor time
 };
 
+// Throws std::invalid_argument where a histogram is damaged.
+Profile profile_of(const Deadlines& deadlines, const Health& health);
+
 // Takes messages of a run one after the other; the last ones count, since their figures are of all
 // that went before.
 class ProfileCollector {

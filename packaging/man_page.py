@@ -1,0 +1,50 @@
+#!/usr/bin/env python3
+"""Writes a man page from --help of a command and of all its subcommands.
+
+    man_page.py MAPLOOP OUTPUT
+"""
+import re
+import subprocess
+import sys
+
+
+def help_of(*command):
+    return subprocess.run([*command, "--help"], capture_output=True, text=True, check=True).stdout
+
+
+def subcommands(text):
+    """Names below "Subcommands:"."""
+    listed = re.search(r"^Subcommands:\n((?:  .*\n?)*)", text, re.MULTILINE)
+    return re.findall(r"^  ([a-z][a-z-]*)", listed.group(1), re.MULTILINE) if listed else []
+
+
+def escaped(line):
+    line = line.replace("\\", "\\e").replace("-", "\\-")
+    return "\\&" + line if line.startswith((".", "'")) else line
+
+
+def pages(command):
+    """(words of the command, help) of it and of what is below it."""
+    text = help_of(*command)
+    yield command[1:], text
+    for name in subcommands(text):
+        yield from pages([*command, name])
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    program, output = sys.argv[1:]
+    version = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout.strip()
+    lines = [f'.TH MAPLOOP 1 "" "maploop {version}"',
+             ".SH NAME", "maploop \\- vehicle localization in real time",
+             ".SH SYNOPSIS", ".B maploop", "SUBCOMMAND [OPTIONS]"]
+    for words, text in pages([program]):
+        lines += [f'.SH "{" ".join(["maploop", *words]).upper()}"', ".nf",
+                  *(escaped(line) for line in text.strip().replace(program, "maploop").splitlines()), ".fi"]
+    with open(output, "w", encoding="utf-8") as file:
+        file.write("\n".join(lines) + "\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,171 @@
+// What the dashboard's server passes on to browsers, apart from HTTP.
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <maploop_lcm/replay_control_t.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "msgs/lcm/conversions.h"
+#include "tools/dashboard/live_channels.h"
+#include "tools/dashboard/message_json.h"
+#include "tools/dashboard/relay.h"
+
+namespace maploop::dashboard {
+namespace {
+
+using nlohmann::json;
+using std::chrono::milliseconds;
+
+template <class Message>
+std::vector<std::uint8_t> encoded(const Message& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+json as_json(const std::vector<std::uint8_t>& bytes) {
+  static const schema::Schema schema(schema::own_types());
+  schema::DecodedMessage message;
+  const schema::Type* type = schema.find(schema::fingerprint_of(bytes));
+  EXPECT_NE(type, nullptr);
+  EXPECT_FALSE(message.decode(*type, bytes));
+  return json::parse(to_json(message));
+}
+
+NavState state_at(int seconds) {
+  NavState s;
+  s.stamp = from_nanoseconds(std::int64_t{seconds} * 1'000'000'000);
+  s.status = NavStatus::aided;
+  s.origin = {0.85, 0.15, 100.0};
+  s.position_enu = {1.0 * seconds, -2.0 * seconds, 0.0};
+  return s;
+}
+
+TEST(MessageJson, NumbersStructsAndArraysHaveTheirNames) {
+  NavState s = state_at(2);
+  s.covariance(0, 8) = 0.5;
+  s.velocity_enu.x() = std::numeric_limits<double>::quiet_NaN();
+  const json j = as_json(encoded(to_lcm(s)));
+  EXPECT_EQ(j["header"]["stamp_ns"], 2'000'000'000);
+  EXPECT_EQ(j["position_enu"], json::parse("[2.0, -4.0, 0.0]"));
+  EXPECT_EQ(j["covariance"].size(), 9u);
+  EXPECT_EQ(j["covariance"][0][8], 0.5);
+  EXPECT_TRUE(j["velocity_enu"][0].is_null());
+}
+
+TEST(MessageJson, ListsOfStructsAndTextsMayBeEmpty) {
+  Health h;
+  EXPECT_EQ(as_json(encoded(to_lcm(h)))["degraded"], json::array());
+  h.degraded = {"one", "t\xffwo"};
+  h.rings = {{"a -> b", 4, 3, 1, 0, 8}};
+  const json j = as_json(encoded(to_lcm(h)));
+  EXPECT_EQ(j["degraded"][0], "one");
+  EXPECT_EQ(j["degraded"][1], "t\xEF\xBF\xBDwo");
+  EXPECT_EQ(j["rings"][0]["lost"], 1);
+}
+
+TEST(MessageJson, HistogramsAreLeftOut) {
+  Deadlines d;
+  d.threads.resize(1);
+  d.threads[0].name = "fusion";
+  const json thread = as_json(encoded(to_lcm(d)))["threads"][0];
+  EXPECT_EQ(thread["name"], "fusion");
+  EXPECT_FALSE(thread.contains("histogram"));
+}
+
+TEST(LiveChannels, ASlowBrowserGetsTheNewestOfEach) {
+  LiveChannels channels;
+  std::uint64_t seen = 0;
+  EXPECT_TRUE(channels.newer(seen, milliseconds(0)).empty());
+  channels.put("A", "1");
+  channels.put("B", "2");
+  channels.put("A", "3");
+  const auto first = channels.newer(seen, milliseconds(0));
+  ASSERT_EQ(first.size(), 2u);
+  EXPECT_EQ(first[0].json, "3");
+  channels.put("B", "4");
+  const auto second = channels.newer(seen, milliseconds(0));
+  ASSERT_EQ(second.size(), 1u);
+  EXPECT_EQ(second[0].channel, "B");
+  std::uint64_t later = 0;
+  EXPECT_EQ(channels.newer(later, milliseconds(0)).size(), 2u) << "who comes later sees all";
+}
+
+TEST(LiveChannels, EachOfSeveralBrowsersSeesTheLastMessage) {
+  LiveChannels channels;
+  std::vector<std::string> last(3);
+  std::vector<std::thread> browsers;
+  for (std::string& mine : last) {
+    browsers.emplace_back([&channels, &mine] {
+      std::uint64_t seen = 0;
+      while (mine != "999") {
+        for (const auto& m : channels.newer(seen, milliseconds(1000))) mine = m.json;
+      }
+    });
+  }
+  for (int i = 0; i < 1000; ++i) channels.put("A", std::to_string(i));
+  for (std::thread& browser : browsers) browser.join();
+  EXPECT_EQ(last, std::vector<std::string>(3, "999"));
+}
+
+TEST(LiveChannels, ClosingEndsAWait) {
+  LiveChannels channels;
+  std::thread waits([&] {
+    std::uint64_t seen = 0;
+    EXPECT_TRUE(channels.newer(seen, std::chrono::hours(1)).empty());
+  });
+  channels.close();
+  waits.join();
+}
+
+TEST(Relay, PassesOnTheNewestAndLeavesOutCommands) {
+  LiveChannels channels;
+  Relay relay(channels);
+  relay.take("NAV_STATE", encoded(to_lcm(state_at(1))));
+  relay.take("NAV_STATE", encoded(to_lcm(state_at(2))));
+  relay.take("REPLAY_CONTROL", encoded_command("pause", 0.0));
+  relay.take("SOMEBODY", std::vector<std::uint8_t>{1, 2, 3});
+  relay.pass_on();
+  std::uint64_t seen = 0;
+  const auto messages = channels.newer(seen, milliseconds(0));
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_EQ(json::parse(messages[0].json)["header"]["stamp_ns"], 2'000'000'000);
+  EXPECT_EQ(relay.not_understood(), 1u);
+  relay.pass_on();
+  EXPECT_TRUE(channels.newer(seen, milliseconds(0)).empty()) << "nothing new has come";
+}
+
+TEST(Relay, TheTrailForgetsWhatAReplayGoesBackOver) {
+  LiveChannels channels;
+  Relay relay(channels);
+  ReferencePose truth;
+  truth.position = state_at(0).origin;
+  relay.take("TRUTH", encoded(to_lcm(truth)));  // before the first state: not kept
+  for (int t = 1; t <= 10; ++t) relay.take("NAV_STATE", encoded(to_lcm(state_at(t))));
+  truth.stamp = state_at(10).stamp;
+  relay.take("TRUTH", encoded(to_lcm(truth)));
+  json trail = json::parse(relay.trail());
+  EXPECT_EQ(trail["fused"].size(), 10u);
+  ASSERT_EQ(trail["truth"].size(), 1u);
+  EXPECT_NEAR(trail["truth"][0][1].get<double>(), 0.0, 0.01);
+  EXPECT_EQ(trail["origin"][0].get<double>(), 0.85);
+  relay.take("NAV_STATE", encoded(to_lcm(state_at(4))));
+  trail = json::parse(relay.trail());
+  ASSERT_EQ(trail["fused"].size(), 4u);
+  EXPECT_EQ(trail["fused"][3], json::parse("[4.0, 4.0, -8.0]"));
+}
+
+TEST(Relay, CommandsHaveTheirNames) {
+  const auto bytes = encoded_command("seek", 6.5);
+  maploop_lcm::replay_control_t command{};
+  ASSERT_GT(command.decode(bytes.data(), 0, static_cast<int>(bytes.size())), 0);
+  EXPECT_EQ(int{command.kind}, int{maploop_lcm::replay_control_t::SEEK});
+  EXPECT_EQ(command.value, 6.5);
+  EXPECT_TRUE(encoded_command("explode", 0.0).empty());
+}
+
+}  // namespace
+}  // namespace maploop::dashboard

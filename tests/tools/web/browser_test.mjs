@@ -1,0 +1,132 @@
+// maploop's report and its dashboard as people see them.
+//
+//   node browser_test.mjs MAPLOOP PICTURES CHROMIUM
+import assert from "node:assert/strict";
+import { spawn, spawnSync } from "node:child_process";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+import { after, before, test } from "node:test";
+
+import { chromium } from "playwright-core";
+
+const [maploop, pictures, executablePath] = process.argv.slice(2);
+const drive = join(process.env.MAPLOOP_CACHE, "2011_09_26/2011_09_26_drive_0013_sync");
+const desktop = { width: 1280, height: 860 };
+const phone = { width: 390, height: 844 };
+const patience = { timeout: 60000 };
+
+let browser;
+const children = [];
+
+before(async () => {
+  browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "--disable-gpu"] });
+});
+
+after(async () => {
+  await browser?.close();
+  for (const child of children) child.kill("SIGKILL");
+});
+
+function start(...args) {
+  const child = spawn(maploop, args, { stdio: ["ignore", "pipe", "ignore"] });
+  children.push(child);
+  return child;
+}
+
+async function firstLine(child) {
+  for await (const data of child.stdout) return String(data).split("\n")[0];
+  return "";
+}
+
+async function stop(child) {
+  const ended = new Promise((resolve) => child.once("exit", resolve));
+  child.kill("SIGINT");
+  await ended;
+}
+
+// A page that fails the test when its script does.
+async function open(viewport, url) {
+  const page = await browser.newPage({ viewport });
+  page.on("pageerror", (e) => assert.fail(`the page's script failed: ${e}`));
+  await page.goto(url);
+  return page;
+}
+
+const isDrawn = (canvas) =>
+  canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.some((v) => v > 0);
+
+test("the report draws every picture, on a desk, on a phone and on paper", async () => {
+  const file = join(pictures, "report.html");
+  const replay = spawnSync(maploop, ["replay", drive, "--lockstep", "--no-lcm", "--end", "5", "--report", file]);
+  assert.equal(replay.status, 0, String(replay.stderr));
+  for (const [name, viewport] of Object.entries({ desktop, phone })) {
+    const page = await open(viewport, pathToFileURL(file).href);
+    const figures = await page.$$("figure[data-plot]");
+    assert.ok(figures.length > 8, `${figures.length} figures`);
+    for (const figure of figures) {
+      const canvas = await figure.waitForSelector("canvas");
+      assert.ok(await canvas.evaluate(isDrawn), await figure.innerText());
+    }
+    assert.equal(await page.$$eval(".without", (all) => all.length), 0);
+    const overflow = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+    assert.ok(overflow <= 0, `${overflow} px beyond the edge of the ${name}`);
+    await page.screenshot({ path: join(pictures, `report-${name}.png`), fullPage: true });
+    if (name === "desktop") await page.pdf({ path: join(pictures, "report.pdf"), format: "A4" });
+    await page.close();
+  }
+});
+
+test("the dashboard follows a replay, controls it, and survives restarts of either side", async () => {
+  let dashboard = start("dashboard", "--port", "0");
+  const url = (await firstLine(dashboard)).split(" ")[0];
+  const port = new URL(url).port;
+  const page = await open(desktop, url);
+  await page.getByText("Nothing comes on the bus").waitFor(patience);
+
+  const play = () => start("replay", drive, "--loop", "0");
+  let replay = play();
+  await page.getByText("aided").waitFor(patience);
+  assert.equal(await page.locator(".notice").innerText(), "");
+  await page.locator(".strip").first().waitFor(patience);
+  assert.ok((await page.locator(".strip").count()) >= 4);
+  assert.ok(await page.locator(".place canvas").evaluate(isDrawn));
+
+  const others = await Promise.all([open(phone, url), open(desktop, url)]);
+  for (const other of others) await other.getByText("aided").waitFor(patience);
+  await others[0].screenshot({ path: join(pictures, "dashboard-phone.png") });
+  await Promise.all(others.map((other) => other.close()));
+
+  await page.keyboard.press("Space");
+  await page.getByRole("button", { name: "Play", exact: true }).waitFor(patience);
+  await page.locator("footer input").fill("6");
+  await page.locator("footer input").dispatchEvent("change");
+  await page.getByText(/^6\.\d of/).waitFor(patience);
+  await page.keyboard.press("Space");
+  await page.getByRole("button", { name: "Pause", exact: true }).waitFor(patience);
+  await page.waitForTimeout(1500);
+  await page.screenshot({ path: join(pictures, "dashboard-desktop.png") });
+
+  await stop(replay);
+  await page.getByText("Nothing comes on the bus").waitFor(patience);
+  replay = play();
+  await page.waitForFunction(() => document.querySelector(".notice").textContent === "", null, patience);
+
+  await stop(dashboard);
+  await page.getByText("No connection").waitFor(patience);
+  dashboard = start("dashboard", "--port", port);
+  await page.waitForFunction(() => document.querySelector(".notice").textContent === "", null, patience);
+  await stop(replay);
+  await stop(dashboard);
+});
+
+test("a page of another site cannot control the replay", async () => {
+  const dashboard = start("dashboard", "--port", "0");
+  const url = (await firstLine(dashboard)).split(" ")[0];
+  const post = (headers, body) => fetch(`${url}control`, { method: "POST", headers, body });
+  const pause = JSON.stringify({ kind: "pause" });
+  assert.equal((await post({ Origin: "http://elsewhere.example" }, pause)).status, 403);
+  assert.equal((await post({}, pause)).status, 200);
+  assert.equal((await post({}, "nonsense")).status, 400);
+  assert.equal((await post({}, JSON.stringify({ kind: "explode" }))).status, 400);
+  await stop(dashboard);
+});

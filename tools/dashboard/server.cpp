@@ -1,0 +1,133 @@
+#include "tools/dashboard/server.h"
+
+#include <httplib.h>
+
+#include <atomic>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "tools/web/bundle.h"
+
+namespace maploop::dashboard {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr int most_browsers = 24;  // each holds a thread
+constexpr std::size_t threads = most_browsers + 8;
+constexpr milliseconds look_every{100};
+constexpr milliseconds sign_of_life{1000};
+
+std::string page() {
+  return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+         "<title>maploop</title>\n<style>" +
+         std::string(web::dashboard_style()) + "</style></head><body>\n<script>" +
+         std::string(web::dashboard_script()) + "</script>\n</body></html>\n";
+}
+
+// A page of another site may send requests here from a browser on this machine.
+bool from_elsewhere(const httplib::Request& request) {
+  const std::string origin = request.get_header_value("Origin");
+  return !origin.empty() && origin != "http://" + request.get_header_value("Host");
+}
+
+void refuse(httplib::Response& response, int status, const std::string& why) {
+  response.status = status;
+  response.set_content(nlohmann::json{{"refused", why}}.dump(
+                           -1, ' ', false, nlohmann::json::error_handler_t::replace),
+                       "application/json");
+}
+
+}  // namespace
+
+struct Server::Http {
+  Http(LiveChannels& all, Handlers to) : channels(all), handlers(std::move(to)) {}
+
+  void add_routes();
+  void stream(httplib::Response& response);
+  void control(const httplib::Request& request, httplib::Response& response) const;
+
+  LiveChannels& channels;
+  Handlers handlers;
+  httplib::Server server;
+  std::atomic<int> browsers{0};
+  std::thread thread;
+};
+
+void Server::Http::stream(httplib::Response& response) {
+  if (++browsers > most_browsers) {
+    --browsers;
+    refuse(response, 503, "there are " + std::to_string(most_browsers) + " browsers already");
+    return;
+  }
+  response.set_header("Cache-Control", "no-store");
+  auto seen = std::make_shared<std::uint64_t>(0);
+  response.set_chunked_content_provider(
+      "text/event-stream",
+      [this, seen](std::size_t, httplib::DataSink& sink) {
+        std::string text;
+        for (const LiveChannels::Message& m : channels.newer(*seen, sign_of_life)) {
+          text += "data: {\"channel\":\"" + m.channel + "\",\"message\":" + m.json + "}\n\n";
+        }
+        if (channels.closed()) return false;
+        if (text.empty()) text = ": still here\n\n";  // how a connection that is gone is found
+        if (!sink.write(text.data(), text.size())) return false;
+        std::this_thread::sleep_for(look_every);
+        return true;
+      },
+      [this](bool) { --browsers; });
+}
+
+void Server::Http::control(const httplib::Request& request, httplib::Response& response) const {
+  if (from_elsewhere(request)) return refuse(response, 403, "the page is from elsewhere");
+  const auto command = nlohmann::json::parse(request.body, nullptr, false);
+  if (!command.is_object() || !command.contains("kind") || !command["kind"].is_string()) {
+    return refuse(response, 400, "not {\"kind\": ..., \"value\": ...}");
+  }
+  const auto value = command.find("value");
+  const bool number = value != command.end() && value->is_number();
+  const std::string why =
+      handlers.control(command["kind"].get<std::string>(), number ? value->get<double>() : 0.0);
+  if (!why.empty()) return refuse(response, 400, why);
+  response.set_content("{}", "application/json");
+}
+
+void Server::Http::add_routes() {
+  server.new_task_queue = [] { return new httplib::ThreadPool(threads); };
+  server.set_payload_max_length(4096);
+  server.Get("/", [](const httplib::Request&, httplib::Response& response) {
+    response.set_content(page(), "text/html; charset=utf-8");
+  });
+  server.Get("/trail", [this](const httplib::Request&, httplib::Response& response) {
+    response.set_content(handlers.trail(), "application/json");
+  });
+  server.Get("/events",
+             [this](const httplib::Request&, httplib::Response& response) { stream(response); });
+  server.Post("/control", [this](const httplib::Request& request, httplib::Response& response) {
+    control(request, response);
+  });
+}
+
+Server::Server(const std::string& address, int port, LiveChannels& channels, Handlers handlers)
+    : http_(std::make_unique<Http>(channels, std::move(handlers))) {
+  http_->add_routes();
+  port_ = port == 0 ? http_->server.bind_to_any_port(address)
+                    : (http_->server.bind_to_port(address, port) ? port : -1);
+  if (port_ < 0) {
+    throw std::runtime_error("cannot listen at " + address + ":" + std::to_string(port) +
+                             ": is another dashboard there (--port 0 takes a free one), and is the "
+                             "address this machine's?");
+  }
+  http_->thread = std::thread([http = http_.get()] { http->server.listen_after_bind(); });
+}
+
+Server::~Server() {
+  http_->channels.close();
+  http_->server.stop();
+  http_->thread.join();
+}
+
+}  // namespace maploop::dashboard

@@ -1,0 +1,38 @@
+// The dashboard's page, what it shows, and what it asks for, over HTTP.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "tools/dashboard/live_channels.h"
+
+namespace maploop::dashboard {
+
+//   GET  /         the page
+//   GET  /trail    where the vehicle has been
+//   GET  /events   server-sent events, each {"channel": ..., "message": ...}; at most ten looks a
+//   second POST /control  {"kind": "pause", "value": 0}: a command to the player of a replay
+// A request that comes from another site's page is refused.
+class Server {
+ public:
+  struct Handlers {
+    std::function<std::string()> trail;  // JSON; on any thread
+    // Empty: done; otherwise why it is refused. On any thread.
+    std::function<std::string(const std::string& kind, double value)> control;
+  };
+
+  // Port 0: any that is free. Throws std::runtime_error naming address and port when they cannot be
+  // listened at. `channels` must outlive it.
+  Server(const std::string& address, int port, LiveChannels& channels, Handlers handlers);
+  ~Server();  // ends all connections
+
+  int port() const { return port_; }
+
+ private:
+  struct Http;
+  std::unique_ptr<Http> http_;
+  int port_ = 0;
+};
+
+}  // namespace maploop::dashboard

@@ -1,0 +1,103 @@
+// A running vehicle: its way, its state, how well it keeps its time.
+import "./dashboard.css";
+
+import { element } from "./dom";
+import { listen, trail } from "./live";
+import { LiveMap } from "./live_map";
+import { showAids, showDeadlines, showHealth, showRoad, showState } from "./panels";
+import { PlayerBar } from "./player";
+
+const silent_after = 3000; // ms
+
+const main = element("main", document.body);
+const place = element("section", main, "", "place");
+const canvas = element("canvas", place) as HTMLCanvasElement;
+const legend = element("div", place, "", "legend");
+for (const name of ["truth", "fused", "fixes", "matched"]) element("span", legend, name, name);
+const side = element("aside", main);
+const notice = element("div", side, "Connecting…", "notice");
+
+function panel(title: string): HTMLElement {
+  const section = element("section", side);
+  element("h2", section, title);
+  return element("div", section);
+}
+
+const state = panel("State");
+const aids = panel("Aids, newest inside");
+const road = panel("Road");
+road.className = "road";
+road.parentElement!.hidden = true; // until a map is matched
+const deadlines = panel("Deadlines");
+const health = panel("Health");
+const player = new PlayerBar(element("footer", document.body));
+
+const buttons = element("div", place, "", "buttons");
+function button(text: string, title: string, act: () => void): HTMLElement {
+  const b = element("button", buttons, text);
+  b.title = title;
+  b.addEventListener("click", act);
+  return b;
+}
+const follow = button("◎", "Follow the vehicle", () => setFollow(true));
+const map = new LiveMap(canvas, () => setFollow(false));
+button("+", "Nearer", () => map.zoom(1.5));
+button("−", "Farther", () => map.zoom(1 / 1.5));
+button("⤢", "Show all", () => {
+  setFollow(false);
+  map.fit();
+});
+
+function setFollow(yes: boolean): void {
+  map.follow = yes;
+  follow.classList.toggle("on", yes);
+}
+setFollow(true);
+
+let heardAt = -Infinity;
+let isConnected = false;
+
+function showNotice(): void {
+  const silent = performance.now() - heardAt > silent_after;
+  notice.textContent = !isConnected
+    ? "No connection to maploop dashboard: trying again"
+    : silent
+      ? "Nothing comes on the bus: is a replay or a vehicle running?"
+      : "";
+  document.body.classList.toggle("silent", silent || !isConnected);
+}
+setInterval(showNotice, 500);
+
+listen(
+  {
+    NAV_STATE: (s) => {
+      map.addState(s);
+      showState(state, s);
+      showAids(aids, s);
+    },
+    TRUTH: (pose) => map.addTruth(pose),
+    GNSS_FIX: (fix) => map.addFix(fix),
+    MAP_MATCH: (m) => {
+      road.parentElement!.hidden = false;
+      map.addMatch(m);
+      showRoad(road, m);
+    },
+    DEADLINES: (d) => showDeadlines(deadlines, d),
+    HEALTH: (h) => showHealth(health, h),
+    REPLAY_CONTROL: (p) => player.show(p),
+  },
+  (yes) => {
+    isConnected = yes;
+    showNotice();
+    if (yes) {
+      trail().then(
+        (t) => map.load(t),
+        () => undefined, // the trail begins now
+      );
+    }
+  },
+  () => {
+    heardAt = performance.now();
+    showNotice();
+  },
+);

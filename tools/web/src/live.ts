@@ -1,0 +1,145 @@
+// The connection to the dashboard's server, and what comes over it: LCM messages by their fields' names.
+
+export interface Header {
+  stamp_ns: number;
+}
+
+export interface NavState {
+  header: Header;
+  status: number; // 0 uninitialized, 1 aided, 2 coasting
+  origin_latitude: number; // rad
+  origin_longitude: number;
+  origin_height: number;
+  position_enu: number[];
+  velocity_enu: number[];
+  azimuth: number; // rad
+  pitch: number;
+  roll: number;
+  covariance: number[][];
+  imu_stamp_ns: number;
+  odometry_stamp_ns: number;
+  gnss_stamp_ns: number;
+  wheel_stamp_ns: number;
+  odometry_applied: number;
+  odometry_refused: number;
+}
+
+export interface Pose {
+  header: Header;
+  latitude: number; // rad
+  longitude: number;
+  height: number;
+}
+
+export interface Fix extends Pose {
+  position_covariance: number[][];
+}
+
+export interface Candidate {
+  road: string;
+  way_id: number;
+  likelihood: number;
+  probability: number;
+  rules: string[];
+  objections: string[];
+}
+
+export interface MapMatch {
+  header: Header;
+  phase: number;
+  on_road: boolean;
+  explanation: string;
+  p_link: number;
+  origin_latitude: number; // rad
+  origin_longitude: number;
+  matched_enu: number[];
+  vehicle_enu: number[];
+  cross_track: number;
+  candidates: Candidate[];
+}
+
+export interface Latency {
+  name: string;
+  count: number;
+  misses: number;
+  deadline_us: number;
+  p50_us: number;
+  p99_us: number;
+  max_us: number;
+  guilty: string;
+}
+
+export interface Deadlines {
+  threads: Latency[];
+  paths: Latency[];
+}
+
+export interface Health {
+  threads: { name: string; scheduling: string; count: number; rate_hz: number; failure: string }[];
+  rings: { name: string; lost: number; held: number; capacity: number }[];
+  refusals: { stage: string; reason: string; count: number }[];
+  outputs: { name: string; sent: number; unsent: number }[];
+  degraded: string[];
+  elapsed_s: number;
+  cpu_s: number;
+}
+
+export interface Player {
+  paused: boolean;
+  seeking: boolean;
+  speed: number;
+  position_ns: number;
+  first_ns: number;
+  last_ns: number;
+  refused: string;
+}
+
+export interface Trail {
+  origin: [number, number, number];
+  fused: [number, number, number][]; // s, east, north
+  truth: [number, number, number][];
+}
+
+export interface Messages {
+  NAV_STATE: NavState;
+  TRUTH: Pose;
+  GNSS_FIX: Fix;
+  MAP_MATCH: MapMatch;
+  DEADLINES: Deadlines;
+  HEALTH: Health;
+  REPLAY_CONTROL: Player;
+}
+
+type Handlers = { [Channel in keyof Messages]: (message: Messages[Channel]) => void };
+
+// Goes on by itself when the server comes back. `connected` is told of each change.
+export function listen(handlers: Handlers, connected: (yes: boolean) => void, heard: () => void): void {
+  const source = new EventSource("/events");
+  source.onopen = () => connected(true);
+  source.onerror = () => {
+    connected(false);
+    // A server that answered with an error is not asked again by the browser itself.
+    if (source.readyState === EventSource.CLOSED) {
+      source.close();
+      setTimeout(() => listen(handlers, connected, heard), 2000);
+    }
+  };
+  source.onmessage = (event: MessageEvent<string>) => {
+    const { channel, message } = JSON.parse(event.data) as { channel: keyof Messages; message: never };
+    heard();
+    handlers[channel]?.(message);
+  };
+}
+
+// Throws an Error that says why it was refused.
+export async function command(kind: string, value = 0): Promise<void> {
+  const answer = await fetch("/control", { method: "POST", body: JSON.stringify({ kind, value }) });
+  if (!answer.ok) {
+    const said = (await answer.json().catch(() => ({}))) as { refused?: string };
+    throw new Error(said.refused ?? `the server answered ${answer.status}`);
+  }
+}
+
+export async function trail(): Promise<Trail> {
+  return (await (await fetch("/trail")).json()) as Trail;
+}

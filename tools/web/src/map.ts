@@ -1,0 +1,199 @@
+// A map in metres, east to the right: roads, lines and what else is drawn on it. Drag to move, pinch or turn
+// the wheel to zoom.
+import { colour, type Line, type Numbers } from "./plot";
+
+export type Draw = (map: MapView, context: CanvasRenderingContext2D) => void;
+
+interface Box {
+  west: number;
+  south: number;
+  east: number;
+  north: number;
+}
+
+export class MapView {
+  roads: Line[] = [];
+  lines: Line[] = [];
+  extra: Draw = () => undefined; // on top
+
+  private readonly context: CanvasRenderingContext2D;
+  private east = 0; // of the middle
+  private north = 0;
+  private scale = 1; // px a metre
+  private readonly fingers = new Map<number, PointerEvent>();
+  private waiting = false;
+
+  // `wheel`: whether the wheel alone zooms; else with Ctrl, so that a page can be scrolled.
+  constructor(
+    readonly canvas: HTMLCanvasElement,
+    private readonly wheel: boolean,
+  ) {
+    this.context = canvas.getContext("2d")!;
+    canvas.addEventListener("wheel", (e) => this.wheelTurned(e), { passive: false });
+    canvas.addEventListener("pointerdown", (e) => this.down(e));
+    canvas.addEventListener("pointermove", (e) => this.moved(e));
+    for (const end of ["pointerup", "pointercancel"] as const) {
+      canvas.addEventListener(end, (e) => this.fingers.delete(e.pointerId));
+    }
+    new ResizeObserver(() => this.draw()).observe(canvas);
+  }
+
+  x(east: number): number {
+    return this.canvas.clientWidth / 2 + (east - this.east) * this.scale;
+  }
+
+  y(north: number): number {
+    return this.canvas.clientHeight / 2 - (north - this.north) * this.scale;
+  }
+
+  metres(length: number): number {
+    return length * this.scale;
+  }
+
+  centre(east: number, north: number): void {
+    this.east = east;
+    this.north = north;
+    this.redraw();
+  }
+
+  zoom(factor: number, x = this.canvas.clientWidth / 2, y = this.canvas.clientHeight / 2): void {
+    const kept = Math.min(Math.max(this.scale * factor, 1e-3), 1e3);
+    const dx = (x - this.canvas.clientWidth / 2) / this.scale;
+    const dy = (this.canvas.clientHeight / 2 - y) / this.scale;
+    this.east += dx - (dx * this.scale) / kept;
+    this.north += dy - (dy * this.scale) / kept;
+    this.scale = kept;
+    this.redraw();
+  }
+
+  // Shows all lines.
+  fit(): void {
+    const box = boxOf(this.lines);
+    if (!box) return;
+    const width = Math.max(this.canvas.clientWidth, 1);
+    const height = Math.max(this.canvas.clientHeight, 1);
+    this.east = (box.west + box.east) / 2;
+    this.north = (box.south + box.north) / 2;
+    const metres = 20; // at least
+    this.scale =
+      0.88 *
+      Math.min(width / Math.max(box.east - box.west, metres), height / Math.max(box.north - box.south, metres));
+    this.redraw();
+  }
+
+  redraw(): void {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => {
+      this.waiting = false;
+      this.draw();
+    });
+  }
+
+  private draw(): void {
+    const { canvas, context } = this;
+    const ratio = window.devicePixelRatio || 1;
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+    if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
+      canvas.width = Math.round(width * ratio);
+      canvas.height = Math.round(height * ratio);
+    }
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.clearRect(0, 0, width, height);
+    context.lineJoin = context.lineCap = "round";
+    const road = Math.min(Math.max(this.metres(7), 2), 14);
+    for (const [paint, grow] of [["#80808066", 2], ["#b9b6ae55", 0]] as const) {
+      context.strokeStyle = paint;
+      context.lineWidth = road + grow;
+      for (const line of this.roads) this.stroke(line.x, line.y);
+    }
+    this.lines.forEach((line, i) => {
+      context.strokeStyle = colour(i);
+      context.setLineDash(line.look === "dashed" ? [6, 5] : []);
+      context.lineWidth = 2;
+      this.stroke(line.x, line.y);
+    });
+    context.setLineDash([]);
+    this.extra(this, context);
+    this.drawScale();
+  }
+
+  stroke(east: Numbers, north: Numbers): void {
+    const { context } = this;
+    context.beginPath();
+    let pen = false;
+    for (let i = 0; i < east.length; ++i) {
+      const [e, n] = [east[i], north[i]];
+      if (e == null || n == null) {
+        pen = false;
+      } else if (pen) {
+        context.lineTo(this.x(e), this.y(n));
+      } else {
+        context.moveTo(this.x(e), this.y(n));
+        pen = true;
+      }
+    }
+    context.stroke();
+  }
+
+  private drawScale(): void {
+    const { context, canvas } = this;
+    const rough = 90 / this.scale;
+    const power = 10 ** Math.floor(Math.log10(rough));
+    const length = power * (rough / power >= 5 ? 5 : rough / power >= 2 ? 2 : 1);
+    const [x, y] = [12, canvas.clientHeight - 12];
+    context.strokeStyle = context.fillStyle = "#808080";
+    context.lineWidth = 2;
+    context.beginPath();
+    context.moveTo(x, y - 5);
+    context.lineTo(x, y);
+    context.lineTo(x + length * this.scale, y);
+    context.lineTo(x + length * this.scale, y - 5);
+    context.stroke();
+    context.font = "12px system-ui, sans-serif";
+    context.fillText(length >= 1000 ? `${length / 1000} km` : `${length} m`, x + 4, y - 6);
+  }
+
+  private wheelTurned(e: WheelEvent): void {
+    if (!this.wheel && !e.ctrlKey && !e.metaKey) return;
+    e.preventDefault();
+    this.zoom(Math.exp(-0.0015 * e.deltaY), e.offsetX, e.offsetY);
+  }
+
+  private down(e: PointerEvent): void {
+    this.canvas.setPointerCapture(e.pointerId);
+    this.fingers.set(e.pointerId, e);
+  }
+
+  private moved(e: PointerEvent): void {
+    const before = this.fingers.get(e.pointerId);
+    if (!before) return;
+    const other = [...this.fingers.values()].find((f) => f.pointerId !== e.pointerId);
+    const share = other ? 0.5 : 1; // each of two fingers moves the map by half
+    this.east -= (share * (e.offsetX - before.offsetX)) / this.scale;
+    this.north += (share * (e.offsetY - before.offsetY)) / this.scale;
+    if (other) {
+      const apart = (f: PointerEvent) => Math.hypot(f.offsetX - other.offsetX, f.offsetY - other.offsetY);
+      if (apart(before) > 1) {
+        this.zoom(apart(e) / apart(before), (e.offsetX + other.offsetX) / 2, (e.offsetY + other.offsetY) / 2);
+      }
+    }
+    this.fingers.set(e.pointerId, e);
+    this.redraw();
+  }
+}
+
+function boxOf(lines: Line[]): Box | undefined {
+  const box = { west: Infinity, south: Infinity, east: -Infinity, north: -Infinity };
+  for (const line of lines) {
+    for (let i = 0; i < line.x.length; ++i) {
+      const [e, n] = [line.x[i], line.y[i]];
+      if (e == null || n == null) continue;
+      box.west = Math.min(box.west, e);
+      box.east = Math.max(box.east, e);
+      box.south = Math.min(box.south, n);
+      box.north = Math.max(box.north, n);
+    }
+  }
+  return box.west <= box.east ? box : undefined;
+}

@@ -1,0 +1,50 @@
+// Draws the plots of a written page: each figure with data-plot, from the list in the page's own JSON.
+import "./page.css";
+
+import { drawChart } from "./chart";
+import { MapView } from "./map";
+import { colour, type Plot } from "./plot";
+
+function button(parent: HTMLElement, text: string, title: string, act: () => void): void {
+  const b = parent.appendChild(document.createElement("button"));
+  b.type = "button";
+  b.textContent = text;
+  b.title = title;
+  b.addEventListener("click", act);
+}
+
+function drawMap(figure: HTMLElement, plot: Plot): void {
+  const legend = figure.appendChild(document.createElement("div"));
+  legend.className = "legend";
+  plot.lines.forEach((line, i) => {
+    const key = legend.appendChild(document.createElement("span"));
+    key.textContent = line.name;
+    key.style.setProperty("--key", colour(i));
+  });
+  const canvas = figure.appendChild(document.createElement("canvas"));
+  canvas.className = "map";
+  canvas.setAttribute("role", "img");
+  canvas.setAttribute("aria-label", plot.title);
+  const map = new MapView(canvas, false);
+  map.lines = plot.lines;
+  map.roads = plot.roads ?? [];
+  const buttons = figure.appendChild(document.createElement("div"));
+  buttons.className = "buttons";
+  button(buttons, "+", "Nearer", () => map.zoom(1.5));
+  button(buttons, "−", "Farther", () => map.zoom(1 / 1.5));
+  button(buttons, "⤢", "Show all", () => map.fit());
+  map.fit();
+}
+
+const data = document.getElementById("plots")?.textContent;
+const plots: Plot[] = data ? (JSON.parse(data) as Plot[]) : [];
+for (const figure of document.querySelectorAll<HTMLElement>("figure[data-plot]")) {
+  const plot = plots[Number(figure.dataset["plot"])];
+  if (!plot) continue;
+  figure.querySelector(".without")?.remove();
+  if (plot.equal_axes) {
+    drawMap(figure, plot);
+  } else {
+    drawChart(figure, plot);
+  }
+}
