@@ -13,7 +13,7 @@ struct GuardParameters {
   double lost_azimuth = 0.087;  // rad (5 deg), sigma of an azimuth that is lost
   // What the two may differ by beyond their covariances: the copy's model errs, too.
   double model_sigma = 1.0;   // m
-  double model_share = 0.02;  // 1, of the copy's way
+  double model_share = 0.01;  // 1, of the copy's way
 };
 
 }  // namespace maploop::fusion

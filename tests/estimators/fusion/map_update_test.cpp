@@ -227,7 +227,7 @@ TEST(MapFeedback, IsRefusedAtTheDoorWithAReason) {
   EXPECT_EQ(filter.add(f), refused(Reason::after_delivery));
 }
 
-// A straight drive whose map has a road that leaves it by 0.03 rad, little enough for every gate.
+// A straight drive whose map has a road that leaves it by 0.1 rad, little enough for the gates of its line.
 struct Misled {
   double error = 0.0, free_error = 0.0, largest = 0.0, largest_free = 0.0;
   std::uint64_t restorations = 0;
@@ -260,9 +260,9 @@ Misled drive_beside_wrong_road(const GuardParameters& guard, double wrong_from) 
     plain.add(s);
     plain.add(w);
     if (sequence % 10 != 0) continue;
-    const double right = t > wrong_from ? 0.3 * (t - wrong_from) : 0.0;
+    const double right = t > wrong_from ? 1.0 * (t - wrong_from) : 0.0;
     MapFeedback f = road(frame, drive.pose(t).translation().head<2>(), right);
-    if (t > wrong_from) f.link_azimuth = 0.03;
+    if (t > wrong_from) f.link_azimuth = 0.1;
     f.stamp = f.available = s.stamp;
     f.sequence = sequence;
     filter.add(f);
