@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "msgs/map_match.h"
+
 namespace maploop::mapmatch {
 
 struct MembershipFunction {
@@ -49,7 +51,7 @@ struct FuzzyRule {
 
 class FuzzySystem {
  public:
-  static constexpr std::size_t max_rules = 32;
+  static constexpr std::size_t max_rules = MatchCandidate::max_rules;
   static constexpr std::size_t max_terms = 48;  // of all variables together
 
   struct Result {

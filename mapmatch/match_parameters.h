@@ -37,15 +37,17 @@ struct MatchParameters {
   double off_road_rate = 1.0;     // evidence a second, a unit of misfit
 
   // --- Fuzzy process
-  double fuzzy_weight = 0.3;   // of ln(L/100) beside ln P of the paths
-  double stay = 60.0;          // L2 from which the vehicle is still on its link
-  double accept = 60.0;        // L3 of a link behind a junction; below it matching begins again
-  double agreement = 3.0;      // s that one link must win before it is accepted
-  double min_speed = 1.0;      // m/s from which azimuths are believed
-  double distance_unit = 8.0;  // m: sigma of the fixes that the rules' distances were made for
-  double hdop_unit = 4.0;      // m of horizontal sigma that is an HDOP of 1
-  bool paths = true;           // path hypotheses beside the rules
-  double max_gap = 10.0;       // s without a fix, after which matching begins again
+  double fuzzy_weight = 0.3;    // of ln(L/100) beside ln P of the paths
+  double stay = 60.0;           // L2 from which the vehicle is still on its link
+  double accept = 60.0;         // L3 of a link behind a junction; below it matching begins again
+  double sure = 0.5;            // margin of P from which the link behind a junction is settled, ...
+  double settle_within = 60.0;  // m, ... or this far behind it
+  double agreement = 3.0;       // s that one link must win before it is accepted
+  double min_speed = 1.0;       // m/s from which azimuths are believed
+  double distance_unit = 8.0;   // m: sigma of the fixes that the rules' distances were made for
+  double hdop_unit = 4.0;       // m of horizontal sigma that is an HDOP of 1
+  bool paths = true;            // path hypotheses beside the rules
+  double max_gap = 10.0;        // s without a fix, after which matching begins again
 };
 
 }  // namespace maploop::mapmatch

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "msgs/frames.h"
 
@@ -52,6 +53,7 @@ const MatchResult& Matcher::add(const VehicleFix& fix) {
   const Eigen::Vector2d place = network_->to_local(fix.position);
   const Motion motion = motion_.add(fix, place, parameters_);
   odometer_ += motion.distance;
+  travelled_ += motion.distance;
   find_near_links(*network_, place, ErrorEllipse(fix.covariance, region_margin), near_);
   if (parameters_.paths) paths_.step({place, fix.covariance, motion}, near_);
 
@@ -65,7 +67,8 @@ const MatchResult& Matcher::add(const VehicleFix& fix) {
       place,
       sigma,
       std::isfinite(fix.hdop) ? fix.hdop : sigma * std::sqrt(2.0) / parameters_.hdop_unit,
-      last_};
+      last_,
+      travelled_};
   list_candidates(context);
   judge(context);
   const MatchCandidate* chosen = choose();
@@ -136,9 +139,12 @@ void Matcher::list_candidates(const RuleContext& c) {
     MatchCandidate& candidate = result_.candidates[i];
     if (candidate.link == last_.link && last_.there && candidate.probability == 0.0 &&
         candidate.along == 0.0)
-      candidate.along = std::clamp(last_.along + c.motion.distance, 0.0,
-                                   network_->link(candidate.link.link).length);
-    candidate.distance = (network_->at(candidate.link, candidate.along).position - c.place).norm();
+      candidate.along =
+          std::clamp(last_.along + c.travelled, 0.0, network_->link(candidate.link.link).length);
+    const LinkPoint point = network_->at(candidate.link, candidate.along);
+    candidate.distance = (point.position - c.place).norm();
+    candidate.way_id = network_->road_at(point.vertex).way_id;
+    std::tie(candidate.node_a, candidate.node_b) = network_->nodes(candidate.link, point.vertex);
   }
 }
 
@@ -201,9 +207,7 @@ void Matcher::follow(const MatchCandidate* chosen, double interval) {
     has_winner_ = true;
     if (agreed_ >= parameters_.agreement) result_.phase = MatchPhase::along_link;
   }
-  last_.there = true;
-  last_.link = chosen->link;
-  last_.along = chosen->along;
+  settle(*chosen);
   const Eigen::Vector2d matched = network_->at(chosen->link, chosen->along).position;
   const Anchor& newest = anchors_[(next_anchor_ + anchor_count - 1) % anchor_count];
   if (next_anchor_ == 0 || !(newest.link == chosen->link) ||
@@ -211,6 +215,26 @@ void Matcher::follow(const MatchCandidate* chosen, double interval) {
     anchors_[next_anchor_ % anchor_count] = {chosen->link, matched, odometer_};
     ++next_anchor_;
   }
+}
+
+// As long as it is open which link behind a junction is the right one, all of them are judged from
+// the link before it: none is ahead of the others for having been chosen first.
+void Matcher::settle(const MatchCandidate& chosen) {
+  const bool open = parameters_.paths && result_.phase == MatchPhase::at_junction &&
+                    margin_of(chosen) < parameters_.sure && travelled_ < parameters_.settle_within;
+  if (last_.there && open) return;
+  last_.there = true;
+  last_.link = chosen.link;
+  last_.along = chosen.along;
+  travelled_ = 0.0;
+}
+
+double Matcher::margin_of(const MatchCandidate& chosen) const {
+  double second = 0.0;
+  for (std::size_t i = 0; i < result_.candidate_count; ++i)
+    if (!(result_.candidates[i].link == chosen.link))
+      second = std::max(second, result_.candidates[i].probability);
+  return chosen.probability - second;
 }
 
 void Matcher::report(const MatchCandidate* chosen) {
@@ -223,11 +247,7 @@ void Matcher::report(const MatchCandidate* chosen) {
   result_.point = network_->at(chosen->link, chosen->along);
   result_.likelihood = chosen->likelihood;
   result_.probability = chosen->probability;
-  double second = 0.0;
-  for (std::size_t i = 0; i < result_.candidate_count; ++i)
-    if (!(result_.candidates[i].link == chosen->link))
-      second = std::max(second, result_.candidates[i].probability);
-  result_.margin = chosen->probability - second;
+  result_.margin = margin_of(*chosen);
   double variance = 0.0;
   double best = -1.0;
   for (const PathHypothesis& h : paths_.hypotheses()) {

@@ -57,7 +57,9 @@ class Matcher {
   MatchCandidate* candidate_of(DirectedLink link);
   void judge(const RuleContext& context);
   const MatchCandidate* choose();
+  double margin_of(const MatchCandidate& chosen) const;
   void follow(const MatchCandidate* chosen, double interval);
+  void settle(const MatchCandidate& chosen);
   void report(const MatchCandidate* chosen);
   void set_anchor(double sigma);
   double value(const MatchCandidate& candidate) const;
@@ -71,7 +73,8 @@ class Matcher {
   MatchResult result_;
   bool started_ = false;
   LastMatch last_;
-  DirectedLink winner_;  // of initial matching so far
+  double travelled_ = 0.0;  // m since last_
+  DirectedLink winner_;     // of initial matching so far
   bool has_winner_ = false;
   double agreed_ = 0.0;    // s that it has won
   double odometer_ = 0.0;  // m
@@ -85,7 +88,7 @@ void Matcher::archive(Archive& ar) {
   archive_same_number(ar, "vertices of the road network", network_->data().vertices.size());
   archive_same_fields(ar, parameters_);
   ar(motion_, paths_, started_, result_.stamp, result_.phase, last_.there, last_.link, last_.along,
-     last_.has_anchor, last_.anchor, winner_, has_winner_, agreed_, odometer_, anchors_,
+     last_.has_anchor, last_.anchor, travelled_, winner_, has_winner_, agreed_, odometer_, anchors_,
      next_anchor_);
   if constexpr (Archive::loading) {
     if (last_.link.link >= network_->size() && network_->size() > 0)

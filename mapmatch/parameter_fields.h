@@ -40,6 +40,8 @@ void fields(Parameters& p, F&& f) {
   f("fuzzy_weight", p.fuzzy_weight);
   f("stay", p.stay);
   f("accept", p.accept);
+  f("sure", p.sure);
+  f("settle_within", p.settle_within);
   f("agreement", p.agreement);
   f("min_speed", p.min_speed);
   f("distance_unit", p.distance_unit);

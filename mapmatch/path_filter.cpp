@@ -17,7 +17,11 @@ constexpr double max_azimuth_misfit = 16.0;
 constexpr double turn_misfit = 8.0;  // of azimuths, as far as any turn can have it
 constexpr double edge_cost = 0.3;    // a metre driven beyond the end of a road that leads nowhere
 constexpr double turning = radians(120.0);
-constexpr double standing = 0.3;  // m/s
+constexpr double standing = 0.3;     // m/s
+constexpr double sure_odds = 2.197;  // log odds of 0.9, below which ...
+constexpr double doubt_slope =
+    0.15;  // ... a link is doubted less and less (the reliability diagram)
+constexpr double in_a_turn = radians(20.0);  // within a second
 
 double log_add(double a, double b) {
   const double high = std::max(a, b);
@@ -340,9 +344,13 @@ void PathFilter::judge_road(const PathEvidence& e) {
   if (e.motion.speed < parameters_->min_speed && e.motion.interval > 0.0 && count_ > 0) return;
   double misfit = count_ == 0 ? 2.0 * parameters_->misfit : 0.0;
   surprise_ = misfit;
+  // Corners are cut and U-turns are wide: who turns has not left the road by that alone.
+  const bool in_turn = e.motion.turn > in_a_turn;
   for (std::size_t i = 0; i < count_; ++i) {
     const PathHypothesis& h = hypotheses_[i];
-    misfit += share(h) * (h.offset_misfit + h.azimuth_misfit);
+    const double azimuth_misfit =
+        std::min(h.azimuth_misfit, in_turn ? turn_misfit : max_azimuth_misfit);
+    misfit += share(h) * (h.offset_misfit + azimuth_misfit);
     surprise_ += share(h) * (h.offset_misfit + std::min(h.azimuth_misfit, turn_misfit));
   }
   off_road_ += parameters_->off_road_rate * 0.5 * (misfit - parameters_->misfit) *
@@ -351,7 +359,10 @@ void PathFilter::judge_road(const PathEvidence& e) {
 }
 
 double PathFilter::unmapped() const {
-  return 1.0 / (1.0 + std::exp(parameters_->trust - parameters_->trust_slope * surprise_));
+  const double odds = parameters_->trust - parameters_->trust_slope * surprise_;
+  // Most of what fits badly is the road all the same.
+  return 1.0 /
+         (1.0 + std::exp(odds > sure_odds ? odds : sure_odds - doubt_slope * (sure_odds - odds)));
 }
 
 // Two hypotheses that have come to one place and will go one way are one.

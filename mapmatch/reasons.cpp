@@ -34,8 +34,8 @@ const FuzzySystem& system_of(RuleBase base, const RuleBases& rules) {
   return rules.junction;
 }
 
-std::string name_of(const RoadNetwork& network, const LinkPoint& point) {
-  const Road& road = network.road_at(point.vertex);
+std::string name_of(const RoadNetwork& network, DirectedLink link, double along) {
+  const Road& road = network.road_at(network.at(link, along).vertex);
   const std::string way = "way " + std::to_string(road.way_id);
   return road.name.empty() ? way : road.name + " (" + way + ")";
 }
@@ -79,26 +79,42 @@ std::vector<std::pair<std::string, double>> fired_rules(const MatchCandidate& c,
   return fired;
 }
 
-std::string explanation(const MatchResult& r, const RoadNetwork& network) {
+std::string explanation(const LinkMatch& r, const RoadNetwork& network) {
   if (r.refusal != FixRefusal::none) return "not used: " + std::string(to_string(r.refusal));
   if (!r.on_road) {
     if (r.candidate_count == 0) return "no road near";
     const auto against = objections(r.candidates[0], network);
-    const std::string nearest =
-        name_of(network, network.at(r.candidates[0].link, r.candidates[0].along));
+    const std::string nearest = name_of(network, r.candidates[0].link, r.candidates[0].along);
     return against.empty() ? "no road has fitted for some time; nearest in all: " + nearest
                            : "no road fits; " + nearest + ": " + list(against);
   }
-  std::string text = name_of(network, r.point) + ", P " + rounded(100.0 * r.probability) + " %";
+  std::string text =
+      name_of(network, r.link, r.along) + ", P " + rounded(100.0 * r.probability) + " %";
   for (std::size_t i = 0; i < r.candidate_count; ++i) {
     const MatchCandidate& other = r.candidates[i];
     if (other.link == r.link) continue;
     const auto against = objections(other, network);
-    text += "; not " + name_of(network, network.at(other.link, other.along)) + ": " +
+    text += "; not " + name_of(network, other.link, other.along) + ": " +
             (against.empty() ? "less likely by the way so far" : list(against));
     break;
   }
   return text;
+}
+
+MapMatchWords in_words(const LinkMatch& match, const RoadNetwork& network, const RuleBases& rules) {
+  MapMatchWords words;
+  words.explanation = explanation(match, network);
+  for (std::size_t i = 0; i < match.candidate_count; ++i) {
+    const MatchCandidate& c = match.candidates[i];
+    MapMatchWords::Candidate said{name_of(network, c.link, c.along), objections(c, network), {}};
+    for (const auto& [text, weight] : fired_rules(c, rules)) {
+      std::array<char, 16> number{};
+      std::snprintf(number.data(), number.size(), "%.2f: ", weight);
+      said.rules.push_back(number.data() + text);
+    }
+    words.candidates.push_back(std::move(said));
+  }
+  return words;
 }
 
 }  // namespace maploop::mapmatch

@@ -18,6 +18,9 @@ std::vector<std::pair<std::string, double>> fired_rules(const MatchCandidate& ca
                                                         const RuleBases& rules);
 
 // A sentence on the result: the link and why it, or why none.
-std::string explanation(const MatchResult& result, const RoadNetwork& network);
+std::string explanation(const LinkMatch& match, const RoadNetwork& network);
+
+// All of it. Of a match of this network by these rules.
+MapMatchWords in_words(const LinkMatch& match, const RoadNetwork& network, const RuleBases& rules);
 
 }  // namespace maploop::mapmatch

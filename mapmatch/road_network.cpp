@@ -24,7 +24,7 @@ SegmentIndex index_of(const NetworkData& data) {
                        std::max(a.east, b.east), std::max(a.north, b.north)});
     }
   }
-  return {std::move(segments), boxes};
+  return {segments, boxes};
 }
 
 auto order(const DirectedLink& d) {

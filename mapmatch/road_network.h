@@ -14,6 +14,7 @@
 #include "mapmatch/road.h"
 #include "mapmatch/segment_index.h"
 #include "msgs/local_frame.h"
+#include "msgs/map_match.h"
 
 namespace maploop::mapmatch {
 
@@ -49,19 +50,7 @@ void archive(Archive& ar, Link& l) {
      l.length);
 }
 
-// A link as it is driven: from its first vertex to its last (forward), or the other way round.
-struct DirectedLink {
-  std::uint32_t link = 0;
-  bool forward = true;
-
-  DirectedLink reversed() const { return {link, !forward}; }
-  bool operator==(const DirectedLink&) const = default;
-};
-
-template <class Archive>
-void archive(Archive& ar, DirectedLink& d) {
-  ar(d.link, d.forward);
-}
+using maploop::DirectedLink;
 
 // A way into a junction's links, as it is left.
 struct Junction {

@@ -82,7 +82,7 @@ void judge_initially(const RuleContext& c, MatchCandidate& candidate) {
 void judge_along(const RuleContext& c, MatchCandidate& candidate) {
   set_azimuth_error(c, candidate);
   candidate.connectivity = 1.0;
-  candidate.distance_error = std::abs(candidate.along - c.last.along - c.motion.distance);
+  candidate.distance_error = std::abs(candidate.along - c.last.along - c.travelled);
   const double length = c.network.link(candidate.link.link).length;
   double alpha = unknown, beta = unknown;
   if (c.motion.speed >= c.parameters.min_speed) {
@@ -94,7 +94,7 @@ void judge_along(const RuleContext& c, MatchCandidate& candidate) {
                ? 0.0
                : angle_between(end.direction, end.position - c.place);
   }
-  const double overshoot = c.last.along + c.motion.distance - length;
+  const double overshoot = c.last.along + c.travelled - length;
   // A U-turn takes several seconds: where there was one, it is the turn.
   const double turn = degrees(c.motion.reversal > u_turn ? c.motion.reversal : c.motion.turn);
   const double turn_rate = degrees(c.motion.turn_rate);
@@ -115,7 +115,7 @@ void judge_at_junction(const RuleContext& c, MatchCandidate& candidate) {
   set_azimuth_error(c, candidate);
   const Way way = way_to(c, candidate);
   candidate.connectivity = way.found ? way.connectivity : 0.0;
-  candidate.distance_error = way.found ? std::abs(way.length - c.motion.distance) : unreachable;
+  candidate.distance_error = way.found ? std::abs(way.length - c.travelled) : unreachable;
   evaluate(
       c.rules.junction, RuleBase::junction,
       std::array{c.motion.speed, degrees(candidate.azimuth_error), scaled_distance(c, candidate),

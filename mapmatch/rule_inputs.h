@@ -9,7 +9,8 @@
 
 namespace maploop::mapmatch {
 
-// The matched place of the fix before, where there is one.
+// The last matched place whose link was sure, where there is one: the fix before's, or, while it is
+// open which link behind a junction is the right one, the one before the junction.
 struct LastMatch {
   bool there = false;
   DirectedLink link;
@@ -28,6 +29,7 @@ struct RuleContext {
   double sigma = 0.0;     // m an axis, of the fix
   double hdop = unknown;
   LastMatch last;
+  double travelled = 0.0;  // m since then
 };
 
 // Fill in what the candidate's link, along and distance lead to: its inputs, the likelihood and the

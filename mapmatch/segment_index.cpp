@@ -1,68 +1,61 @@
 #include "mapmatch/segment_index.h"
 
-#include <algorithm>
-#include <limits>
-#include <numeric>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <boost/iterator/function_output_iterator.hpp>
+#include <utility>
 
 namespace maploop::mapmatch {
 namespace {
 
-Box join(const Box& a, const Box& b) {
-  return {std::min(a.west, b.west), std::min(a.south, b.south), std::max(a.east, b.east),
-          std::max(a.north, b.north)};
+namespace geometry = boost::geometry;
+using Corner = geometry::model::point<double, 2, geometry::cs::cartesian>;
+using Rectangle = geometry::model::box<Corner>;
+using Entry = std::pair<Rectangle, IndexedSegment>;
+
+struct SameEntry {
+  bool operator()(const Entry& a, const Entry& b) const {
+    return a.second.vertex == b.second.vertex;
+  }
+};
+
+Rectangle rectangle(const Box& b) {
+  return {{b.west, b.south}, {b.east, b.north}};
 }
 
-constexpr Box nothing{
-    std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-    -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-
-// Distance along the Hilbert curve of order 16 (Hilbert, 1891; the usual bitwise form).
-std::uint32_t hilbert(std::uint32_t x, std::uint32_t y) {
-  std::uint32_t d = 0;
-  for (std::uint32_t side = 1U << 15U; side > 0; side /= 2) {
-    const std::uint32_t right = (x & side) != 0 ? 1 : 0;
-    const std::uint32_t up = (y & side) != 0 ? 1 : 0;
-    d += side * side * ((3 * right) ^ up);
-    if (up == 0) {
-      if (right == 1) {
-        x = 0xffffU - x;
-        y = 0xffffU - y;
-      }
-      std::swap(x, y);
-    }
-  }
-  return d;
+std::vector<Entry> entries(const std::vector<IndexedSegment>& segments,
+                           const std::vector<Box>& boxes) {
+  std::vector<Entry> all;
+  all.reserve(segments.size());
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    all.emplace_back(rectangle(boxes[i]), segments[i]);
+  return all;
 }
 
 }  // namespace
 
-SegmentIndex::SegmentIndex(std::vector<IndexedSegment> segments, const std::vector<Box>& boxes) {
-  if (segments.empty()) return;
-  const Box all = std::accumulate(boxes.begin(), boxes.end(), nothing, join);
-  const double side = std::max({all.east - all.west, all.north - all.south, 1e-9});
-  const auto cell = [&](double value, double low) {
-    return static_cast<std::uint32_t>(std::clamp((value - low) / side * 65535.0, 0.0, 65535.0));
-  };
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> order(segments.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) {
-    const Box& b = boxes[i];
-    order[i] = {hilbert(cell(0.5 * (b.west + b.east), all.west),
-                        cell(0.5 * (b.south + b.north), all.south)),
-                i};
-  }
-  std::sort(order.begin(), order.end());
-  for (const auto& [distance, i] : order) {
-    segments_.push_back(segments[i]);
-    boxes_.push_back(boxes[i]);
-  }
-  const std::vector<Box>* below = &boxes_;
-  do {
-    std::vector<Box> level((below->size() + fan_out - 1) / fan_out, nothing);
-    for (std::size_t i = 0; i < below->size(); ++i)
-      level[i / fan_out] = join(level[i / fan_out], (*below)[i]);
-    levels_.push_back(std::move(level));
-    below = &levels_.back();
-  } while (below->size() > 1);
+struct SegmentIndex::Tree {
+  // Made from all entries at once, which packs it.
+  geometry::index::rtree<Entry, geometry::index::rstar<16>, geometry::index::indexable<Entry>,
+                         SameEntry>
+      rtree;
+};
+
+SegmentIndex::SegmentIndex() : SegmentIndex({}, {}) {}
+
+SegmentIndex::SegmentIndex(const std::vector<IndexedSegment>& segments,
+                           const std::vector<Box>& boxes)
+    : tree_(std::make_shared<const Tree>(Tree{decltype(Tree::rtree)(entries(segments, boxes))})) {}
+
+std::size_t SegmentIndex::size() const {
+  return tree_->rtree.size();
+}
+
+void SegmentIndex::query(const Box& box, Found found, void* visitor) const {
+  tree_->rtree.query(geometry::index::intersects(rectangle(box)),
+                     boost::make_function_output_iterator(
+                         [&](const Entry& entry) { found(visitor, entry.second); }));
 }
 
 }  // namespace maploop::mapmatch

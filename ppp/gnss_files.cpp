@@ -1,5 +1,7 @@
 #include "ppp/gnss_files.h"
 
+#include <algorithm>
+
 namespace maploop::ppp {
 
 FileKind parse_into(std::string_view text, const std::string& name, GnssFiles& files) {
@@ -7,6 +9,12 @@ FileKind parse_into(std::string_view text, const std::string& name, GnssFiles& f
   switch (kind) {
     case FileKind::observation:
       files.observations.push_back(parse_observations(text, name));
+      break;
+    case FileKind::rtcm3:
+      files.observations.push_back(parse_rtcm3(text, name));
+      break;
+    case FileKind::ubx:
+      files.observations.push_back(parse_ubx(text, name));
       break;
     case FileKind::navigation:
       files.navigation.push_back(parse_navigation(text, name));
@@ -35,13 +43,33 @@ FileKind parse_into(std::string_view text, const std::string& name, GnssFiles& f
     case FileKind::unknown:
       throw ReadError(name +
                       ": none of RINEX observations, navigation or clocks, compact RINEX, SP3, "
-                      "ANTEX, Bias-SINEX, DCB, ERP, BLQ");
+                      "ANTEX, Bias-SINEX, DCB, ERP, BLQ, UBX, RTCM 3");
   }
   return kind;
 }
 
+std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 FileKind read_into(const std::filesystem::path& path, GnssFiles& files) {
   return parse_into(read_file(path), path.string(), files);
+}
+
+void read_products(const std::filesystem::path& path, GnssFiles& files) {
+  if (!std::filesystem::is_directory(path)) {
+    read_into(path, files);
+    return;
+  }
+  for (const std::filesystem::path& file : files_in(path)) {
+    const FileKind kind = kind_of_file(file);
+    if (kind != FileKind::unknown && kind != FileKind::observation) read_into(file, files);
+  }
 }
 
 }  // namespace maploop::ppp

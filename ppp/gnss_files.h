@@ -12,7 +12,9 @@
 #include "ppp/readers/navigation.h"
 #include "ppp/readers/observation.h"
 #include "ppp/readers/ocean_loading.h"
+#include "ppp/readers/rtcm3.h"
 #include "ppp/readers/sp3.h"
+#include "ppp/readers/ubx.h"
 
 namespace maploop::ppp {
 
@@ -32,5 +34,13 @@ struct GnssFiles {
 FileKind read_into(const std::filesystem::path& path, GnssFiles& files);
 // The same for a text that was read already.
 FileKind parse_into(std::string_view text, const std::string& name, GnssFiles& files);
+
+// Regular files, in the order of their names.
+std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder);
+
+// Products: a file, or a folder's files in the order of their names. In a folder, what is none of
+// these is passed over, and so are observations. Throws as read_into(), and
+// std::filesystem::filesystem_error.
+void read_products(const std::filesystem::path& path, GnssFiles& files);
 
 }  // namespace maploop::ppp

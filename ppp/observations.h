@@ -40,7 +40,15 @@ struct Epoch {
   std::span<const Signal> of(const SatelliteSignals& s) const {
     return std::span(signals).subspan(s.first, s.count);
   }
-  void clear();
+
+  // Keeps the memory.
+  void clear() {
+    time = {};
+    power_failure = false;
+    clock_offset = 0.0;
+    satellites.clear();
+    signals.clear();
+  }
 };
 
 // A column of an observation file.

@@ -13,6 +13,7 @@ void add_calibrate(CLI::App& app, Command& command);
 void add_dashboard(CLI::App& app, Command& command);
 void add_doctor(CLI::App& app, Command& command);
 void add_evaluate(CLI::App& app, Command& command);
+void add_evaluate_match(CLI::App& evaluate, Command& command);
 void add_experiment(CLI::App& app, Command& command);
 void add_gnss(CLI::App& app, Command& command);
 void add_log(CLI::App& app, Command& command);
@@ -22,6 +23,7 @@ void add_odometry(CLI::App& app, Command& command);
 void add_ppp(CLI::App& app, Command& command);
 void add_profile(CLI::App& app, Command& command);
 void add_replay(CLI::App& app, Command& command);
+void add_sensors(CLI::App& app, Command& command);
 void add_spy(CLI::App& app, Command& command);
 
 }  // namespace maploop::tools

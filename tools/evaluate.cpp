@@ -125,10 +125,11 @@ void add_evaluate(CLI::App& app, Command& command) {
       "evaluate",
       "Score a trajectory against the truth: KITTI's metric, APE, RPE, end point. Files: KITTI or "
       "TUM poses, or recorded truth (*.truth.csv), plain or .gz");
-  sub->add_option("EST", options->estimate, "Trajectory to score")->required();
-  sub->add_option("TRUTH", options->truth,
-                  "The truth; matched by stamps where both have them, else frame by frame")
-      ->required();
+  auto* estimate = sub->add_option("EST", options->estimate, "Trajectory to score");
+  auto* truth =
+      sub->add_option("TRUTH", options->truth,
+                      "The truth; matched by stamps where both have them, else frame by frame");
+  add_evaluate_match(*sub, command);
   sub->add_option("--lengths", options->lengths, "Segment lengths in metres")
       ->delimiter(',')
       ->check(CLI::PositiveNumber)
@@ -149,7 +150,12 @@ void add_evaluate(CLI::App& app, Command& command) {
                   "Write EST, moved to its best alignment with TRUTH, to this file");
   sub->add_option("--json", options->json, "Write the figures to this file as JSON");
   sub->add_option("--html", options->html, "Write a page with plots to this file");
-  sub->callback([options, &command] { command = [options] { return evaluate(*options); }; });
+  sub->callback([=, &command] {
+    if (!sub->get_subcommands().empty()) return;
+    for (const CLI::Option* needed : {estimate, truth})
+      if (needed->empty()) throw CLI::RequiredError(needed->get_name());
+    command = [options] { return evaluate(*options); };
+  });
 }
 
 }  // namespace maploop::tools

@@ -20,6 +20,7 @@
 #include "tools/match/map_faults.h"
 #include "tools/match/match_score.h"
 #include "tools/match/parameter_settings.h"
+#include "tools/match/score_output.h"
 #include "tools/match/track_noise.h"
 
 namespace maploop::tools {
@@ -111,31 +112,16 @@ void print_row(const char* name, const Scores& s) {
   std::fflush(stdout);
 }
 
-nlohmann::json to_json(const match::MatchScore& s) {
-  const auto tally = [](const match::Tally& t) {
-    return nlohmann::json{{"fixes", t.fixes}, {"right", t.share()}, {"coverage", t.coverage()}};
-  };
-  return {{"all", tally(s.all)}, {"certain", tally(s.certain)}};
-}
-
-void print_reliability(const match::Reliability& r) {
-  std::cout << "P(link) said, mean -> share on the right way (fixes), all conditions:\n";
-  for (std::size_t k = 0; k < r.fixes.size(); ++k) {
-    if (r.fixes[k] == 0) continue;
-    const auto n = static_cast<double>(r.fixes[k]);
-    std::printf("  %.1f to %.1f: %.3f -> %.3f (%zu)\n", 0.1 * static_cast<double>(k),
-                0.1 * static_cast<double>(k + 1), r.p_sum[k] / n,
-                static_cast<double>(r.right[k]) / n, r.fixes[k]);
-  }
-}
-
 int match_experiment(const MatchExperimentOptions& options) {
   const mapmatch::RoadNetwork network(mapmatch::open_network(options.map));
   const mapmatch::RuleBases rules = mapmatch::read_rule_bases(mapmatch::default_rules());
   const mapmatch::MatchParameters parameters = match::parameters_with(options.set);
   std::vector<Sequence> sequences;
-  for (const std::string& name : options.sequences)
+  const match::SegmentLinks links(network);
+  for (const std::string& name : options.sequences) {
     sequences.push_back(read_sequence(options.data, name));
+    links.look_up(sequences.back().labels);
+  }
   std::printf("%-26s %7s  %-13s  %-13s  %-13s  %-6s  %s\n", "input", "fixes", "all frames %",
               "conf = 1 %", "coverage %", "wrong", "us a fix");
   std::printf("%-26s %7s  %6s %6s  %6s %6s  %6s %6s  %6s\n", "", "", "ours", "base", "ours", "base",
@@ -154,14 +140,15 @@ int match_experiment(const MatchExperimentOptions& options) {
       }
     }
     print_row(condition.name, pooled);
-    json[condition.name] = {{"ours", to_json(pooled.ours)}, {"baseline", to_json(pooled.baseline)}};
+    json[condition.name] = {{"ours", match::to_json(pooled.ours)},
+                            {"baseline", match::to_json(pooled.baseline)}};
     for (std::size_t k = 0; k < reliability.fixes.size(); ++k) {
       reliability.fixes[k] += pooled.ours.reliability.fixes[k];
       reliability.right[k] += pooled.ours.reliability.right[k];
       reliability.p_sum[k] += pooled.ours.reliability.p_sum[k];
     }
   }
-  print_reliability(reliability);
+  std::cout << "all conditions:\n" << match::to_text(reliability);
   if (!options.json.empty()) write_json_file(options.json, json);
   return 0;
 }

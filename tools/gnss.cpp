@@ -32,7 +32,7 @@ void add_gnss(CLI::App& app, Command& command) {
   CLI::App* info = sub->add_subcommand(
       "info",
       "What is in a file: RINEX observations, navigation and clocks, compact RINEX, SP3, ANTEX, "
-      "Bias-SINEX, DCB, ERP, BLQ, plain or .gz, told apart by content");
+      "Bias-SINEX, DCB, ERP, BLQ, UBX (u-blox), RTCM 3, plain or .gz, told apart by content");
   const auto files = std::make_shared<std::vector<std::filesystem::path>>();
   info->add_option("FILE", *files, "Files to look into")->required();
   info->callback([files, &command] { command = [files] { return gnss_info(*files); }; });

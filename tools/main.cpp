@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   maploop::tools::add_ppp(app, command);
   maploop::tools::add_profile(app, command);
   maploop::tools::add_replay(app, command);
+  maploop::tools::add_sensors(app, command);
   maploop::tools::add_spy(app, command);
   try {
     app.parse(argc, argv);

@@ -15,6 +15,7 @@
 #include "tools/match/match_output.h"
 #include "tools/match/match_score.h"
 #include "tools/match/parameter_settings.h"
+#include "tools/match/score_output.h"
 #include "tools/match/track_file.h"
 
 namespace maploop::tools {
@@ -59,11 +60,10 @@ void print_score(const match::MatchedTrack& track, const mapmatch::RoadNetwork& 
     matched.push_back(match::matched_fix(r, network));
   }
   match::MatchScore score;
-  score.add(matched, rows, match::read_labels(labels));
-  for (const auto& [name, tally] :
-       {std::pair("all labels", score.all), std::pair("conf = 1", score.certain)})
-    std::cout << "right way, " << name << ": " << 100.0 * tally.share() << " % of " << tally.fixes
-              << " fixes, coverage " << 100.0 * tally.coverage() << " %\n";
+  auto driven = match::read_labels(labels);
+  match::SegmentLinks(network).look_up(driven);
+  score.add(matched, rows, driven);
+  std::cout << match::to_text(score);
 }
 
 int match_track(MatchOptions options) {
@@ -107,7 +107,7 @@ void add_match(CLI::App& app, Command& command) {
   sub->add_option("TRACK", options->track,
                   "CSV with columns t, lat, lon and what else is known (sigma or cov_ee, cov_en, "
                   "cov_nn in m; speed in m/s, azimuth_deg, yaw_rate in rad/s, hdop; OXTS's names, "
-                  "too), GPX, NMEA or TUM; plain or .gz")
+                  "too), GPX, NMEA, TUM or an LCM log (NAV_STATE, or GNSS_FIX); plain or .gz")
       ->required();
   sub->add_option("--csv", options->csv, "Write one line a fix to this file");
   sub->add_option("--geojson", options->geojson, "The same as GeoJSON, with reasons");

@@ -4,8 +4,10 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 
+#include "runtime/vehicle/vehicle_config.h"
 #include "tools/commands.h"
 #include "tools/evaluation/text_file.h"
 #include "tools/json_output.h"
@@ -17,10 +19,10 @@ namespace {
 
 struct PppOptions {
   std::vector<std::filesystem::path> files;
-  std::string mode = "kinematic", systems = "GREC", start, end, truth;
-  double mask = 7.0;
+  std::string mode, systems, start, end, truth;
+  std::optional<double> mask;
   bool broadcast = false, ecef = false;
-  std::filesystem::path pos, nmea, geojson, kml, residuals, html, json;
+  std::filesystem::path config, pos, nmea, geojson, kml, residuals, html, json;
 };
 
 // "2020-06-25 01:00:00" of GPS time, or "01:00:00" of the first epoch's day.
@@ -36,12 +38,24 @@ ppp::GpsTime moment(const std::string& text, const std::string& option, ppp::Gps
   }
 }
 
-gnss::RunOptions run_options(const PppOptions& options, ppp::GpsTime first) {
+// What the command line does not say is the configuration's.
+vehicle::PppConfig config_of(const PppOptions& options) {
+  vehicle::PppConfig config;
+  if (!options.config.empty()) config = vehicle::load_vehicle_config(options.config).ppp;
+  if (!options.mode.empty()) {
+    config.filter.motion = options.mode == "static" ? ppp::Motion::fixed : ppp::Motion::kinematic;
+  }
+  if (!options.systems.empty()) config.filter.systems = options.systems;
+  if (options.mask) config.filter.elevation_mask = *options.mask;
+  config.broadcast |= options.broadcast;
+  return config;
+}
+
+gnss::RunOptions run_options(const PppOptions& options, const vehicle::PppConfig& config,
+                             ppp::GpsTime first) {
   gnss::RunOptions run;
-  run.parameters.motion = options.mode == "static" ? ppp::Motion::fixed : ppp::Motion::kinematic;
-  run.parameters.systems = options.systems;
-  run.parameters.elevation_mask = options.mask;
-  run.broadcast = options.broadcast;
+  run.parameters = config.filter;
+  run.broadcast = config.broadcast;
   if (!options.start.empty()) run.start = moment(options.start, "--start", first);
   if (!options.end.empty()) run.end = moment(options.end, "--end", first);
   return run;
@@ -69,32 +83,36 @@ std::string one_line(const char* format, double a, double b, double c) {
 }
 
 int positions(const PppOptions& options) {
+  const vehicle::PppConfig config = config_of(options);
   ppp::GnssFiles files;
   for (const auto& file : options.files) ppp::read_into(file, files);
+  for (const auto& product : config.products) ppp::read_products(product, files);
   const ppp::GpsTime first = files.observations.empty() || files.observations[0].epochs.empty()
                                  ? ppp::GpsTime{}
                                  : files.observations[0].epochs[0].time;
-  gnss::PppRun run(files, run_options(options, first));
+  gnss::PppRun run(files, run_options(options, config, first));
   std::unique_ptr<gnss::Truth> truth;
   std::unique_ptr<gnss::Score> score;
   if (!options.truth.empty()) {
     truth = std::make_unique<gnss::Truth>(options.truth, first);
-    score = std::make_unique<gnss::Score>(*truth);
+    score = std::make_unique<gnss::Score>(*truth, config.integrity_risk);
   }
   gnss::Solutions solutions;
   std::size_t solved = 0;
   run.process([&](const ppp::PppSolution& s) {
     if (!s.message.empty()) std::cerr << format_gps_time(s.time) << ": " << s.message << '\n';
-    solved += s.status != ppp::PppStatus::none;
+    solved += s.status != PppStatus::none;
     if (score) score->add(s);
     solutions.push_back(s);
   });
   if (solutions.empty()) throw std::runtime_error("no epoch between --start and --end");
 
   std::vector<std::string> summary;
-  summary.push_back(std::string(run.precise() ? "precise" : "broadcast") + " orbits and clocks, " +
-                    (run.one_frequency() ? "one frequency, " : "two frequencies, ") + options.mode +
-                    ", systems " + options.systems);
+  summary.push_back(
+      std::string(run.setup().precise() ? "precise" : "broadcast") + " orbits and clocks, " +
+      (run.setup().one_frequency() ? "one frequency, " : "two frequencies, ") +
+      std::string(names_of(config.filter.motion)[static_cast<std::size_t>(config.filter.motion)]) +
+      ", systems " + config.filter.systems);
   summary.push_back(
       std::to_string(solved) + " of " + std::to_string(solutions.size()) +
       " epochs have a position" +
@@ -103,12 +121,17 @@ int positions(const PppOptions& options) {
                run.seconds(), 1e3 * run.seconds() / static_cast<double>(solutions.size())));
   if (score) {
     summary.push_back("against the truth: " + to_text(score->accuracy()));
+    summary.push_back(std::to_string(score->misleading()) + " of " +
+                      std::to_string(3 * score->errors().size()) +
+                      one_line(" errors along, across and up are beyond their protection level "
+                               "(integrity risk %g)",
+                               config.integrity_risk, 0, 0));
     const auto below = score->time_to_stay_below(0.1);
     summary.push_back(
         below ? one_line("3-D error stays below 0.1 m after %.1f min", *below / 60, 0, 0)
               : "3-D error does not stay below 0.1 m");
   }
-  for (const auto& line : run.lacks()) summary.push_back(line);
+  for (const auto& line : run.setup().lacks()) summary.push_back(line);
   for (const auto& line : run.missing_products()) summary.push_back(line);
   for (const auto& o : files.observations) {
     if (o.refused > 0) {
@@ -124,7 +147,7 @@ int positions(const PppOptions& options) {
   const auto write = [](const std::filesystem::path& path, auto&& content) {
     if (!path.empty()) evaluation::write_text(path, content());
   };
-  const std::string name = run.observations().file;
+  const std::string name = run.setup().observations().file;
   write(options.pos, [&] { return gnss::to_pos(solutions, options.ecef, name); });
   write(options.nmea, [&] { return gnss::to_nmea(solutions); });
   write(options.geojson, [&] { return gnss::to_geojson(solutions); });
@@ -132,14 +155,14 @@ int positions(const PppOptions& options) {
   write(options.residuals, [&] { return gnss::to_residual_csv(solutions); });
   write(options.html, [&] {
     return gnss::to_page("PPP of " + std::filesystem::path(name).filename().string(), summary,
-                         solutions, score.get());
+                         solutions, score.get(), config.integrity_risk);
   });
   if (!options.json.empty()) {
     nlohmann::json result = {{"epochs", solutions.size()},
                              {"solved", solved},
                              {"filter_seconds", run.seconds()},
                              {"missing_products", run.missing_products()},
-                             {"lacks", run.lacks()}};
+                             {"lacks", run.setup().lacks()}};
     if (score) result["truth"] = to_json(score->accuracy(), score->time_to_stay_below(0.1));
     write_json_file(options.json, result);
   }
@@ -155,19 +178,20 @@ void add_ppp(CLI::App& app, Command& command) {
       "Precise point positioning: one observation file and its products (navigation, SP3, clocks, "
       "ANTEX, biases, ERP, BLQ), in any order, plain or .gz");
   sub->add_option("FILES", options->files, "The files, told apart by content")->required();
-  sub->add_option("--mode", options->mode, "static or kinematic (with a vehicle's dynamics)")
-      ->check(CLI::IsMember({"static", "kinematic"}))
-      ->capture_default_str();
-  sub->add_option("--systems", options->systems, "Letters of G R E C J S I")
+  sub->add_option("--mode", options->mode,
+                  "static or kinematic (with a vehicle's dynamics; the default)")
+      ->check(CLI::IsMember({"static", "kinematic"}));
+  sub->add_option("--systems", options->systems, "Letters of G R E C J S I; GREC without it")
       ->check([](const std::string& text) {
         return text.find_first_not_of("GRECJSI") == std::string::npos && !text.empty()
                    ? std::string{}
                    : "'" + text + "' has other letters than G R E C J S I";
-      })
-      ->capture_default_str();
-  sub->add_option("--mask", options->mask, "Lowest elevation in degrees")
-      ->check(CLI::Range(1.0, 60.0))
-      ->capture_default_str();
+      });
+  sub->add_option("--mask", options->mask, "Lowest elevation in degrees; 7 without it")
+      ->check(CLI::Range(1.0, 60.0));
+  sub->add_option("--config", options->config,
+                  "TOML file whose [ppp] sets what these options do not")
+      ->check(CLI::ExistingFile);
   sub->add_option("--start", options->start, "First epoch: [YYYY-MM-DD ]HH:MM:SS of GPS time");
   sub->add_option("--end", options->end, "Last epoch, the same way");
   sub->add_flag("--broadcast", options->broadcast, "Broadcast orbits even where SP3 is given");

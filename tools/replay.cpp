@@ -44,13 +44,16 @@ std::string valid_snapshot(const std::string& text) {
 
 void add_replay(CLI::App& app, Command& command) {
   auto options = std::make_shared<ReplayOptions>();
-  CLI::App* sub = app.add_subcommand(
-      "replay",
-      "Replay a KITTI raw drive, a KITTI odometry sequence or a log of our own through the graph");
-  sub->add_option("DRIVE", options->drive,
-                  "Folder such as 2011_09_26/2011_09_26_drive_0013_sync, a sequence such as "
-                  "kitti_odometry/oxts/06.csv.gz, or a log (--record); one without images is "
-                  "replayed from its odometry")
+  CLI::App* sub = app.add_subcommand("replay",
+                                     "Replay a KITTI raw drive, a KITTI odometry sequence, a GNSS "
+                                     "receiver's observations or a log of "
+                                     "our own through the graph");
+  sub->add_option(
+         "DRIVE", options->drive,
+         "Folder such as 2011_09_26/2011_09_26_drive_0013_sync, a sequence such as "
+         "kitti_odometry/oxts/06.csv.gz, RINEX observations with their products beside "
+         "them (or a folder of both; [ppp] products), or a log (--record); one without images is "
+         "replayed from its odometry")
       ->required();
   auto* speed = sub->add_option("--speed", options->speed, "Times real time")
                     ->check(CLI::PositiveNumber)
@@ -104,6 +107,13 @@ void add_replay(CLI::App& app, Command& command) {
                   "Write the fused state every 100 ms to this file, with what its aids said");
   sub->add_option("--nmea", options->nmea,
                   "Write GGA, RMC, GST and HDT sentences of the fused state, once a second");
+  sub->add_option("--map", options->map,
+                  "OpenStreetMap file, or network file of `maploop map build`: the fused state is "
+                  "matched to its roads")
+      ->check(CLI::ExistingFile);
+  sub->add_option("--map-mode", options->map_mode,
+                  "none, or loose (where there is a map): matched, and nothing fed back")
+      ->check(CLI::IsMember({"none", "loose"}));
   sub->add_option("--configuration", options->configuration,
                   "What joins the inertial sensors: VO-RI, VO-L-RI, RISS or RISS-VO; GNSS+ before "
                   "it: fixes are used after the start too. Without it, --speed-scale "

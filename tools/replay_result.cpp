@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include "tools/json_output.h"
+#include "tools/match/score_output.h"
 
 namespace maploop::tools {
 namespace {
@@ -36,6 +37,15 @@ void append_accuracy(std::string& text, const char* name, const std::optional<Ac
          raw.distance_m, raw.end_point_m, raw.end_point_percent, raw.segment.percent,
          raw.segment.deg_per_m, removed.segment.percent, removed.segment.deg_per_m,
          removed.end_point_m);
+}
+
+void append_ppp(std::string& text, const PppEpochs& e) {
+  append(
+      text,
+      "\nPrecise point positioning: %zu epochs converged, %zu converging, %zu without a position",
+      e.of(PppStatus::converged), e.of(PppStatus::converging), e.of(PppStatus::none));
+  if (e.converged_after >= 0.0) append(text, "; converged after %.0f s", e.converged_after);
+  text += '\n';
 }
 
 void append_latency(std::string& text, const LatencySummary& s) {
@@ -216,7 +226,9 @@ std::string format_table(const ReplayResult& r) {
            1e3 * v.imu_delay.delay(), 1e3 * v.imu_delay.sigma());
   }
   if (r.navigation) t += fusion_score::to_text(*r.navigation);
+  if (r.links) t += "\nLinks driven against their labels\n" + match::to_text(*r.links);
 
+  if (r.ppp) append_ppp(t, *r.ppp);
   t += "\nSensors                 count  left out   late p50       p99       max  ms\n";
   for (const vehicle::SensorReport& s : v.sensors) {
     append(t, "  %-19s %7llu %9llu", s.name.c_str(),
@@ -282,7 +294,15 @@ void write_json(const std::filesystem::path& file, const ReplayResult& r) {
   j["vo"] = to_json(r.vo);
   j["lidar"] = to_json(r.lidar);
   j["fused"] = to_json(r.fused);
+  if (r.ppp) {
+    j["ppp"] = {{"converged", r.ppp->of(PppStatus::converged)},
+                {"converging", r.ppp->of(PppStatus::converging)},
+                {"none", r.ppp->of(PppStatus::none)},
+                {"converged_after_s",
+                 r.ppp->converged_after < 0.0 ? json(nullptr) : json(r.ppp->converged_after)}};
+  }
   j["navigation"] = r.navigation ? to_json(*r.navigation) : json(nullptr);
+  j["links"] = r.links ? match::to_json(*r.links) : json(nullptr);
   if (v.imu_delay.known()) {
     j["imu_delay_left"] = {{"s", v.imu_delay.delay()}, {"sigma_s", v.imu_delay.sigma()}};
   }

@@ -1,17 +1,20 @@
 // What one replay came to: accuracy against the reference, and how the runtime did.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "msgs/ppp_state.h"
 #include "runtime/vehicle/channel_hashes.h"
 #include "runtime/vehicle/fault_injection.h"
 #include "runtime/vehicle/vehicle_report.h"
 #include "tools/evaluation/kitti_metric.h"
 #include "tools/fusion_score.h"
+#include "tools/match/match_score.h"
 
 namespace maploop::tools {
 
@@ -35,6 +38,20 @@ struct TraceSummary {
   std::uint64_t dropped = 0;
 };
 
+// Of a drive with GNSS observations: its epochs by what the ppp thread said of them.
+struct PppEpochs {
+  std::array<std::size_t, ppp_status_count> by_status{};
+  double converged_after = -1.0;  // s, of the first that was; below 0: none
+
+  void add(const PppState& state) {
+    ++by_status[static_cast<std::size_t>(state.status)];
+    if (state.status == PppStatus::converged && converged_after < 0.0) {
+      converged_after = state.converging_for;
+    }
+  }
+  std::size_t of(PppStatus status) const { return by_status[static_cast<std::size_t>(status)]; }
+};
+
 struct ReplayResult {
   std::string drive;
   bool lockstep = false;
@@ -44,7 +61,9 @@ struct ReplayResult {
   std::optional<Accuracy> vo;  // nothing where there is too little to score
   std::optional<Accuracy> lidar;
   std::optional<Accuracy> fused;
+  std::optional<PppEpochs> ppp;
   std::optional<fusion_score::Score> navigation;  // of NAV_STATE, as it was sent
+  std::optional<match::MatchScore> links;         // of MAP_MATCH, where the links are known
   std::map<std::string, vehicle::ChannelSummary> channels;
   std::optional<SnapshotResult> snapshot;
   std::vector<vehicle::FaultCount> faults;

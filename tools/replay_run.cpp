@@ -4,6 +4,7 @@
 #include <charconv>
 #include <iostream>
 #include <limits>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -25,6 +26,7 @@
 #include "tools/evaluation/kitti_poses.h"
 #include "tools/fusion_score.h"
 #include "tools/lcm_log/log_writer.h"
+#include "tools/match/driven_links.h"
 #include "tools/nav_files.h"
 #include "tools/replay_result.h"
 #include "tools/report/report.h"
@@ -67,6 +69,8 @@ struct Pass {
   TrajectoryCollector collector;
   TrajectoryCollector lidar_collector;
   fusion_score::NavTrack track;
+  std::optional<PppEpochs> ppp;
+  std::map<Time, match::TimedMatch> matches;
 };
 
 class Replay {
@@ -77,6 +81,7 @@ class Replay {
         readiness_(options.lockstep ? runtime::RealtimeReport{}
                                     : runtime::prepare_process(config_.memory)),
         recording_(vehicle::open_recording(options.drive, config_)),
+        map_(vehicle::load_road_map(config_.map)),
         faults_(parse_faults(options.faults), recording_.first_stamp) {
     if (!options.record.empty()) lcm_log::refuse_same_file(options.drive, options.record);
     if (!options.no_lcm) {
@@ -106,8 +111,19 @@ class Replay {
       config.imu_noise = options.imu;
       if (options.imu == "mems") set_imu_grade(config, "mems");
     }
+    if (!options.map.empty()) config.map.file = options.map.string();
+    if (!options.map_mode.empty()) config.map.mode = map_mode_of(options.map_mode);
+    if (options.map_mode == "loose" && config.map.file.empty()) {
+      throw std::runtime_error("--map-mode loose needs a map: --map FILE");
+    }
     if (options.speed_scale) config.wheel.scale_error = *options.speed_scale - 1.0;
     return config;
+  }
+
+  static vehicle::MapMode map_mode_of(const std::string& name) {
+    const auto names = names_of(vehicle::MapMode{});
+    return static_cast<vehicle::MapMode>(std::find(names.begin(), names.end(), name) -
+                                         names.begin());
   }
 
   // The one asked for; else what the other options make sense with.
@@ -136,6 +152,7 @@ class Replay {
   vehicle::VehicleConfig config_;
   runtime::RealtimeReport readiness_;
   vehicle::Recording recording_;
+  std::shared_ptr<const vehicle::RoadMap> map_;
   vehicle::FaultInjection faults_;
   std::unique_ptr<vehicle::LcmBus> bus_;
   std::optional<vehicle::Snapshot> resumed_;
@@ -166,7 +183,15 @@ std::unique_ptr<vehicle::Vehicle> Replay::make_vehicle(const vehicle::Snapshot* 
   vehicle::Observer observer;
   observer.odometry = [this](const RelativeMotion& motion) { pass_->collector.add(motion); };
   observer.lidar = [this](const LidarMotion& motion) { pass_->lidar_collector.add(motion); };
+  observer.ppp = [this](const PppState& state) {
+    if (!pass_->ppp) pass_->ppp.emplace();
+    pass_->ppp->add(state);
+  };
   observer.nav_state = [this](const NavState& state) { pass_->track.add(state); };
+  observer.map_match = [this](const MapMatch& match) {
+    if (match.refusal != FixRefusal::no_position)
+      pass_->matches[match.stamp] = match::timed_match(match);
+  };
   observer.image_state = [this](const NavState& state) { pass_->collector.add(state); };
 
   if (!options_.trace.empty()) {
@@ -178,7 +203,7 @@ std::unique_ptr<vehicle::Vehicle> Replay::make_vehicle(const vehicle::Snapshot* 
                                        : runtime::DataClock::paced(options_.speed);
   auto vehicle = std::make_unique<vehicle::Vehicle>(
       config_, recording_.calibration, faults_.afflict(std::move(sensors)), clock, std::move(sinks),
-      std::move(observer), tracer_.get());
+      std::move(observer), tracer_.get(), map_);
   vehicle->slow_down(faults_.delays());
   vehicle->prepared(readiness_);
   if (options_.start_from_reference && from == nullptr && !resumed_) {
@@ -249,7 +274,15 @@ ReplayResult Replay::result(PlaybackEnd end) {
     tracer_->write(options_.trace);
     result.trace = {options_.trace.string(), tracer_->recorded(), tracer_->dropped()};
   }
+  result.ppp = pass_->ppp;
   result.faults = faults_.counts();
+  if (map_ && recording_.driven_links) {
+    std::vector<match::TimedMatch> matches;
+    for (const auto& [stamp, match] : pass_->matches) matches.push_back(match);
+    auto labels = match::read_labels(recording_.driven_links->file);
+    match::SegmentLinks(map_->network).look_up(labels);
+    result.links = match::score_matches(matches, recording_.driven_links->stamps, labels);
+  }
   if (const auto rows = read_reference(recording_); rows.size() > 1) {
     const sensors::ReferenceTrajectory reference(rows, LocalFrame(rows.front().position));
     const auto pose = [&](Time t) { return reference.pose(t); };

@@ -34,6 +34,8 @@ struct ReplayOptions {
   std::filesystem::path tum;
   std::filesystem::path csv;
   std::filesystem::path nmea;
+  std::filesystem::path map;
+  std::string map_mode;
   std::filesystem::path report;
   std::string configuration;
   std::string gnss_outage;

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cstdint>
 #include <maploop_lcm/header_t.hpp>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "msgs/sample.h"
@@ -53,6 +55,16 @@ void read(const double (&in)[n][n], Eigen::Matrix<double, n, n>& m) {
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) m(i, j) = in[i][j];
   }
+}
+
+// The enumerations of the messages count like ours; `last` is the largest known.
+template <class Enumeration>
+Enumeration enumerator_from(std::int8_t value, Enumeration last, const char* field) {
+  if (value < 0 || value > static_cast<std::int8_t>(last)) {
+    throw std::invalid_argument(std::string(field) + " is " + std::to_string(value) +
+                                ", which this version does not know");
+  }
+  return static_cast<Enumeration>(value);
 }
 
 template <class In, class Out>

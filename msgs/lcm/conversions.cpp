@@ -1,22 +1,9 @@
 #include "msgs/lcm/conversions.h"
 
-#include <stdexcept>
-#include <string>
-
 #include "msgs/lcm/conversion_parts.h"
 
 namespace maploop {
 namespace {
-
-// The enumerations of the messages count like ours; `last` is the largest known.
-template <class Enumeration>
-Enumeration enumerator_from(std::int8_t value, Enumeration last, const char* field) {
-  if (value < 0 || value > static_cast<std::int8_t>(last)) {
-    throw std::invalid_argument(std::string(field) + " is " + std::to_string(value) +
-                                ", which this version does not know");
-  }
-  return static_cast<Enumeration>(value);
-}
 
 maploop_lcm::thread_health_t to_lcm(const ThreadHealth& t) {
   maploop_lcm::thread_health_t m{};

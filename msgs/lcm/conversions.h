@@ -1,5 +1,5 @@
 // Samples, results and diagnostics as LCM types, and back. Nothing is lost either way but
-// `received`, which is this machine's own.
+// `received`, which is this machine's own, and a match's words, which are for people.
 #pragma once
 
 #include <maploop_lcm/deadlines_t.hpp>
@@ -7,7 +7,9 @@
 #include <maploop_lcm/health_t.hpp>
 #include <maploop_lcm/imu_t.hpp>
 #include <maploop_lcm/lidar_motion_t.hpp>
+#include <maploop_lcm/map_match_t.hpp>
 #include <maploop_lcm/nav_state_t.hpp>
+#include <maploop_lcm/ppp_state_t.hpp>
 #include <maploop_lcm/reference_pose_t.hpp>
 #include <maploop_lcm/relative_motion_t.hpp>
 #include <maploop_lcm/wheel_speed_t.hpp>
@@ -15,8 +17,10 @@
 #include "msgs/diagnostics.h"
 #include "msgs/gnss.h"
 #include "msgs/imu.h"
+#include "msgs/map_match.h"
 #include "msgs/nav_state.h"
 #include "msgs/odometry.h"
+#include "msgs/ppp_state.h"
 #include "msgs/reference.h"
 #include "msgs/wheel_speed.h"
 
@@ -28,18 +32,23 @@ maploop_lcm::lidar_motion_t to_lcm(const LidarMotion& motion);
 maploop_lcm::imu_t to_lcm(const ImuSample& sample);
 maploop_lcm::wheel_speed_t to_lcm(const WheelSpeed& sample);
 maploop_lcm::gnss_fix_t to_lcm(const GnssFix& fix);
+maploop_lcm::ppp_state_t to_lcm(const PppState& state);
 maploop_lcm::reference_pose_t to_lcm(const ReferencePose& pose);
+maploop_lcm::map_match_t to_lcm(const MapMatch& match, const MapMatchWords& words);
 maploop_lcm::deadlines_t to_lcm(const Deadlines& deadlines);
 maploop_lcm::health_t to_lcm(const Health& health);
 
-// Throw std::invalid_argument when a status is none of ours.
+// Throw std::invalid_argument when a status is none of ours, or there are more candidates than a
+// match holds.
 NavState from_lcm(const maploop_lcm::nav_state_t& message);
 RelativeMotion from_lcm(const maploop_lcm::relative_motion_t& message);
 LidarMotion from_lcm(const maploop_lcm::lidar_motion_t& message);
 ImuSample from_lcm(const maploop_lcm::imu_t& message);
 WheelSpeed from_lcm(const maploop_lcm::wheel_speed_t& message);
 GnssFix from_lcm(const maploop_lcm::gnss_fix_t& message);
+PppState from_lcm(const maploop_lcm::ppp_state_t& message);
 ReferencePose from_lcm(const maploop_lcm::reference_pose_t& message);
+MapMatch from_lcm(const maploop_lcm::map_match_t& message);
 Deadlines from_lcm(const maploop_lcm::deadlines_t& message);
 Health from_lcm(const maploop_lcm::health_t& message);
 

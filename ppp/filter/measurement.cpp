@@ -23,6 +23,10 @@ std::string_view preference(System system, char band) {
   }
 }
 
+bool measured(double value) {
+  return value != 0.0 && std::isfinite(value);
+}
+
 // The carrier of a band; frequency 0 where it lacks code or phase.
 Carrier carrier_of(Satellite satellite, char band, std::span<const Signal> signals,
                    double frequency) {
@@ -31,8 +35,8 @@ Carrier carrier_of(Satellite satellite, char band, std::span<const Signal> signa
   for (const char attribute : preference(satellite.system, band)) {
     for (const Signal& s : signals) {
       if (s.band != band || s.attribute != attribute) continue;
-      if (!code && s.code != 0.0) code = &s;
-      if (!phase && s.phase != 0.0 && !s.half_cycle) phase = &s;
+      if (!code && measured(s.code)) code = &s;
+      if (!phase && measured(s.phase) && !s.half_cycle) phase = &s;
     }
   }
   if (!code || frequency <= 0.0) return c;
@@ -49,6 +53,8 @@ Carrier carrier_of(Satellite satellite, char band, std::span<const Signal> signa
     c.cn0 = phase->cn0 > 0.0 ? phase->cn0 : c.cn0;
   }
   if (c.doppler == 0.0) c.doppler = code->doppler;
+  if (!measured(c.doppler)) c.doppler = 0.0;
+  if (!measured(c.cn0)) c.cn0 = 0.0;
   return c;
 }
 

@@ -1,11 +1,19 @@
 // What the PPP filter can be told. Defaults fit a geodetic receiver with precise products.
 #pragma once
 
+#include <array>
+#include <concepts>
+#include <cstdint>
 #include <string>
+#include <string_view>
+#include <type_traits>
 
 namespace maploop::ppp {
 
-enum class Motion { fixed, kinematic };
+enum class Motion : std::uint8_t { fixed, kinematic };
+constexpr std::array<std::string_view, 2> names_of(Motion) {
+  return {"static", "kinematic"};
+}
 
 struct PppParameters {
   Motion motion = Motion::kinematic;
@@ -17,9 +25,13 @@ struct PppParameters {
   double phase_sigma = 0.003;        // m
   double doppler_sigma = 0.10;       // m/s
   double glonass_code_factor = 3.0;  // channels have biases of their own
+  // How long errors of code last: multipath, and GLONASS's biases.
+  double code_correlation = 40.0;            // s, of an antenna at rest; 0: not at all
+  double code_correlation_distance = 50.0;   // m, that an antenna moves meanwhile
+  double glonass_code_correlation = 7200.0;  // s
   // Below it, variance doubles every 3 dB; 0: strength does not count.
   double full_cn0 = 0.0;           // dB-Hz
-  double zenith_wet_sigma = 0.15;  // m
+  double zenith_wet_sigma = 0.06;  // m, what the climatology leaves: 5 cm and a little
   double zenith_wet_walk = 1e-4;   // m/sqrt(s)
   bool gradients = true;
   double gradient_sigma = 0.001;  // m
@@ -27,24 +39,46 @@ struct PppParameters {
   // White acceleration, m^2/s^3.
   double horizontal_acceleration = 2.0;
   double vertical_acceleration = 0.2;
-  double ambiguity_sigma = 60.0;     // m
-  double ambiguity_walk = 0.0;       // m/sqrt(s), besides that of orbits and clocks
+  double ambiguity_sigma = 60.0;  // m
+  // m/sqrt(s), besides that of the clocks: errors of orbits, attitude, antennas and troposphere.
+  // From how post-fit phase residuals of a station change over 10 minutes, alike for all systems.
+  double ambiguity_walk = 1.1e-4;
   double system_offset_walk = 1e-3;  // m/sqrt(s), clocks of systems against each other
   double position_sigma = 60.0;      // m, about the first position by code
-  double outlier_sigmas = 4.0;       // post-fit
-  double code_gate = 30.0;           // m, pre-fit
-  bool graphic = true;               // one frequency: half the sum of code and phase
-  int longest_gap = 10;              // epochs that a satellite may be away and keep its ambiguity
+  // m, an axis: what calibrations of antennas, tides and frames leave in common to all satellites,
+  // which no residual shows; added to the covariance that is said.
+  double model_sigma = 0.01;
+  double outlier_sigmas = 4.0;  // post-fit
+  double code_gate = 30.0;      // m, pre-fit
+  bool graphic = true;          // one frequency: half the sum of code and phase
+  int longest_gap = 10;         // epochs that a satellite may be away and keep its ambiguity
+  // Of a receiver with one frequency, which mostly is a cheap one.
+  double single_code_sigma = 1.0;     // m
+  double single_phase_sigma = 0.005;  // m
+  double single_full_cn0 = 45.0;      // dB-Hz
 };
 
-template <class F>
-void fields(const PppParameters& p, F&& f) {
+inline PppParameters for_one_frequency(PppParameters p) {
+  p.code_sigma = p.single_code_sigma;
+  p.phase_sigma = p.single_phase_sigma;
+  p.full_cn0 = p.single_full_cn0;
+  return p;
+}
+
+// Calls f(name, member) for each; Parameters is PppParameters, const or not.
+template <class Parameters, class F>
+requires std::same_as<std::remove_const_t<Parameters>, PppParameters>
+void fields(Parameters& p, F&& f) {
+  f("motion", p.motion);
   f("elevation_mask", p.elevation_mask);
   f("cn0_mask", p.cn0_mask);
   f("code_sigma", p.code_sigma);
   f("phase_sigma", p.phase_sigma);
   f("doppler_sigma", p.doppler_sigma);
   f("glonass_code_factor", p.glonass_code_factor);
+  f("code_correlation", p.code_correlation);
+  f("code_correlation_distance", p.code_correlation_distance);
+  f("glonass_code_correlation", p.glonass_code_correlation);
   f("full_cn0", p.full_cn0);
   f("zenith_wet_sigma", p.zenith_wet_sigma);
   f("zenith_wet_walk", p.zenith_wet_walk);
@@ -57,10 +91,14 @@ void fields(const PppParameters& p, F&& f) {
   f("ambiguity_walk", p.ambiguity_walk);
   f("system_offset_walk", p.system_offset_walk);
   f("position_sigma", p.position_sigma);
+  f("model_sigma", p.model_sigma);
   f("outlier_sigmas", p.outlier_sigmas);
   f("code_gate", p.code_gate);
   f("graphic", p.graphic);
   f("longest_gap", p.longest_gap);
+  f("single_code_sigma", p.single_code_sigma);
+  f("single_phase_sigma", p.single_phase_sigma);
+  f("single_full_cn0", p.single_full_cn0);
 }
 
 }  // namespace maploop::ppp

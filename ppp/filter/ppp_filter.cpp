@@ -2,19 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "msgs/frames.h"
+#include "ppp/filter/median.h"
 
 namespace maploop::ppp {
 namespace {
 
 using S = FilterState;
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::size_t slot(Satellite s) {
   return static_cast<std::size_t>(s.slot());
@@ -22,25 +18,12 @@ std::size_t slot(Satellite s) {
 
 }  // namespace
 
-const char* name(PppStatus status) {
-  switch (status) {
-    case PppStatus::none:
-      return "none";
-    case PppStatus::single:
-      return "single";
-    case PppStatus::converging:
-      return "converging";
-    case PppStatus::converged:
-      return "converged";
-  }
-  return "none";
-}
-
 PppFilter::PppFilter(const PppParameters& parameters, const Surroundings& surroundings, Earth earth)
     : parameters_(parameters),
       model_(surroundings, std::move(earth)),
       memory_(satellite_slots),
-      dx_(S::capacity) {}
+      rows_(parameters),
+      update_(parameters.outlier_sigmas) {}
 
 void PppFilter::reset() {
   state_.clear();
@@ -49,12 +32,17 @@ void PppFilter::reset() {
   reference_system_ = -1;
   has_offset_.fill(false);
   bad_epochs_ = 0;
+  restarts_ = 0;
 }
 
 const PppSolution& PppFilter::process(const Epoch& epoch) {
   const double interval = started_ ? to_seconds(epoch.time - time_) : 0.0;
+  std::vector<SatelliteReport> reports = std::move(solution_.satellites);  // to reuse its memory
+  reports.clear();
   solution_ = {};
+  solution_.satellites = std::move(reports);
   solution_.time = epoch.time;
+  solution_.restarts = restarts_;
   measure_all(epoch);
   if (!started_ && !start(epoch)) return solution_;
   if (interval > 0.0) predict(interval);
@@ -62,15 +50,18 @@ const PppSolution& PppFilter::process(const Epoch& epoch) {
   model_.begin(time_, state_.x().segment<3>(S::position));
   predict_ranges(interval);
   set_clocks();
-  make_rows();
+  disagrees_ = false;
   update();
   forget_absent();
 
-  bad_epochs_ = disagrees() ? bad_epochs_ + 1 : 0;
+  bad_epochs_ = disagrees_ ? bad_epochs_ + 1 : 0;
   report();
   constexpr int patience = 5;  // epochs
   if (bad_epochs_ >= patience) {
+    const std::uint64_t restarts = restarts_ + 1;
     reset();
+    restarts_ = restarts;
+    solution_.restarts = restarts_;
     solution_.status = PppStatus::none;
     solution_.message = "started again: for 5 epochs measurements have disagreed with the position";
   }
@@ -89,10 +80,10 @@ void PppFilter::measure_all(const Epoch& epoch) {
         measure(s.satellite, epoch.of(s), model_.surroundings().glonass_channels,
                 model_.ephemeris(), epoch.time, model_.surroundings().klobuchar != nullptr);
     if (!m) {
-      report.refused = "no code and phase on the carriers used";
+      report.refused = PppRefusal::no_signals;
     } else if (m->first.cn0 > 0.0 && m->first.cn0 < parameters_.cn0_mask) {
       report.cn0 = m->first.cn0;
-      report.refused = "signal too weak";
+      report.refused = PppRefusal::weak;
     } else {
       report.cn0 = m->first.cn0;
       measurements_.push_back(*m);
@@ -123,6 +114,7 @@ bool PppFilter::start(const Epoch& epoch) {
     state_.set(S::gradient_east, 0.0, parameters_.gradient_sigma);
   }
   started_ = true;
+  begun_ = epoch.time;
   return true;
 }
 
@@ -158,8 +150,25 @@ void PppFilter::predict(double interval) {
       walk(S::system_offset + s, parameters_.system_offset_walk);
     }
   }
-  const double error_walk = std::hypot(parameters_.ambiguity_walk, model_.ephemeris().error_walk());
-  for (int i = S::fixed; i < state_.size(); ++i) walk(i, error_walk);
+  for (int i = S::fixed; i < state_.size(); ++i) {
+    const Satellite satellite = state_.ambiguities()[static_cast<std::size_t>(i - S::fixed)];
+    walk(i, std::hypot(parameters_.ambiguity_walk, model_.ephemeris().error_walk(satellite)));
+  }
+}
+
+// The first code of a satellite says all it can of a constant, each later one of a first-order
+// Gauss-Markov error only (1 - r) / (1 + r) of that.
+double PppFilter::code_repeats(Satellite satellite, const Memory& memory) const {
+  if (!memory.last_code) return 1.0;
+  const double since = to_seconds(time_ - *memory.last_code);
+  if (satellite.system == System::glonass) {
+    return 1.0 / std::tanh(0.5 * since / parameters_.glonass_code_correlation);
+  }
+  if (parameters_.code_correlation <= 0.0) return 1.0;
+  const double speed = state_.x().segment<3>(S::velocity).norm();
+  const double rate =
+      1.0 / parameters_.code_correlation + speed / parameters_.code_correlation_distance;
+  return 1.0 / std::tanh(0.5 * since * rate);
 }
 
 // Ranges, masks and slips.
@@ -172,31 +181,33 @@ void PppFilter::predict_ranges(double interval) {
     Memory& memory = memory_[slot(m.satellite)];
     const auto predicted = model_.predict(m, memory.wind_up);
     if (!predicted) {
-      report.refused = "no orbit or clock, or unhealthy";
+      report.refused = PppRefusal::no_ephemeris;
       continue;
     }
     report.azimuth = predicted->azimuth;
     report.elevation = predicted->elevation;
     if (predicted->elevation < radians(parameters_.elevation_mask)) {
-      report.refused = "below the elevation mask";
+      report.refused = PppRefusal::low;
       continue;
     }
     Tracked tracked{m, *predicted, report_of_[i],
                     m.code() - predicted->range - predicted->ionosphere};
+    tracked.code_repeats = code_repeats(m.satellite, memory);
+    memory.last_code = time_;
     tracked.phase_good = m.phase() != 0.0;
     if (tracked.phase_good) {
       const bool away = memory.epochs_away > 1;
       const double since = interval * std::max(1, memory.epochs_away);
       if (memory.epochs_away > parameters_.longest_gap) memory.slips.reset();
-      if (const auto slip = memory.slips.next(m, since, predicted->elevation)) {
-        report.slip = *slip;
+      report.slip = memory.slips.next(m, since, predicted->elevation);
+      if (report.slip != PppSlip::none) {
         state_.remove_ambiguity(m.satellite);
       } else if (away && memory.epochs_away > parameters_.longest_gap) {
         state_.remove_ambiguity(m.satellite);
       }
       memory.epochs_away = 0;
     } else {
-      report.refused = "no phase";
+      report.refused = PppRefusal::no_phase;
     }
     tracked_.push_back(tracked);
   }
@@ -242,182 +253,41 @@ void PppFilter::set_clocks() {
   for (Tracked& t : tracked_) {
     if (std::abs(t.code_offset - offset(t) - *clock) > parameters_.code_gate) {
       t.code_good = t.phase_good = false;
-      solution_.satellites[t.report].refused = "code far from the others";
+      solution_.satellites[t.report].refused = PppRefusal::code_far;
     }
   }
 }
 
-void PppFilter::make_rows() {
-  rows_.clear();
-  double doppler_sum = 0.0;
-  const Eigen::Vector3d velocity = state_.x().segment<3>(S::velocity);
-  sorted_.clear();
-  const auto drift_of = [&](const Tracked& t) {
-    const auto& c = t.measurement.first;
-    const auto& p = t.predicted;
-    const Eigen::Vector3d& s = p.satellite.position;
-    const Eigen::Vector3d r = state_.x().segment<3>(S::position);
-    const double sagnac = earth_rotation_rate / speed_of_light *
-                          (p.satellite.velocity.y() * r.x() + s.y() * velocity.x() -
-                           p.satellite.velocity.x() * r.y() - s.x() * velocity.y());
-    const double rate = p.to_satellite.dot(p.satellite.velocity - velocity) - sagnac -
-                        speed_of_light * p.satellite.clock_drift;
-    return -c.doppler * c.wavelength - rate;
-  };
-  const bool use_doppler = parameters_.motion == Motion::kinematic;
-  if (use_doppler) {
-    for (const Tracked& t : tracked_) {
-      if (t.measurement.first.doppler != 0.0 && t.code_good) sorted_.push_back(drift_of(t));
-    }
-    if (!sorted_.empty()) doppler_sum = median(sorted_);
-    state_.set(S::clock_drift, doppler_sum, 100.0);
-  }
-  for (std::size_t i = 0; i < tracked_.size(); ++i) {
-    Tracked& t = tracked_[i];
-    if (!t.code_good) continue;
-    const Measurement& m = t.measurement;
-    const int system = static_cast<int>(m.satellite.system);
-    const double sine = std::sin(t.predicted.elevation);
-    double weak = 1.0;
-    if (parameters_.full_cn0 > 0.0 && m.first.cn0 > 0.0) {
-      weak = std::pow(10.0, std::max(0.0, parameters_.full_cn0 - m.first.cn0) / 10.0);
-    }
-    Row code;
-    code.kind = Kind::code;
-    code.tracked = i;
-    for (int k = 0; k < 3; ++k) code.add(S::position + k, -t.predicted.to_satellite[k]);
-    code.add(S::clock, 1.0);
-    if (system != reference_system_) code.add(S::system_offset + system, 1.0);
-    code.add(S::zenith_wet, t.predicted.wet_mapping);
-    if (parameters_.gradients) {
-      const double slope = t.predicted.wet_mapping * std::cos(t.predicted.elevation) / sine;
-      code.add(S::gradient_north, slope * std::cos(t.predicted.azimuth));
-      code.add(S::gradient_east, slope * std::sin(t.predicted.azimuth));
-    }
-    // What the state predicts besides range: about the x before the update.
-    double predicted = 0.0;
-    for (int k = 3; k < code.count; ++k) {
-      predicted += code.h[static_cast<std::size_t>(k)] *
-                   state_.x()[code.indices[static_cast<std::size_t>(k)]];
-    }
-    const double glonass =
-        m.satellite.system == System::glonass ? parameters_.glonass_code_factor : 1;
-    const double code_sigma = parameters_.code_sigma * m.noise_factor() * glonass / sine;
-    const double lasting = t.predicted.satellite.sigma;
-    const double iono = 0.5 * t.predicted.ionosphere;
-    code.y = t.code_offset - predicted;
-    code.variance = code_sigma * code_sigma * weak + lasting * lasting + iono * iono;
-    rows_.push_back(code);
-    if (t.phase_good) add_phase_row(i, code);
-    if (use_doppler && m.first.doppler != 0.0) {
-      Row doppler;
-      doppler.kind = Kind::doppler;
-      doppler.tracked = i;
-      doppler.y = drift_of(t) - doppler_sum;
-      for (int k = 0; k < 3; ++k) doppler.add(S::velocity + k, -t.predicted.to_satellite[k]);
-      doppler.add(S::clock_drift, 1.0);
-      const double sigma = parameters_.doppler_sigma / sine;
-      doppler.variance = sigma * sigma * weak;
-      rows_.push_back(doppler);
-    }
-  }
-}
-
-// Phase, or with one frequency GRAPHIC: half the sum of code and phase has no ionosphere, and half
-// the ambiguity (here one of its own, in metres).
-void PppFilter::add_phase_row(std::size_t i, const Row& code) {
-  const Tracked& t = tracked_[i];
-  const Measurement& m = t.measurement;
-  const double sine = std::sin(t.predicted.elevation);
-  const bool graphic = !m.dual() && parameters_.graphic;
-  const double phase = m.phase() - t.predicted.phase_extra - t.predicted.range;
-  const double y =
-      graphic ? 0.5 * (phase + m.code() - t.predicted.range) : phase + t.predicted.ionosphere;
-  const double predicted = t.code_offset - code.y;  // clocks, wet delay, gradients
-  int index = state_.ambiguity(m.satellite);
-  if (index < 0) {
-    index = state_.add_ambiguity(m.satellite, y - predicted, parameters_.ambiguity_sigma);
-    if (index < 0) {
-      solution_.satellites[t.report].refused = "no room for its ambiguity";
-      return;
-    }
-  }
-  Row row = code;
-  row.kind = Kind::phase;
-  row.add(index, 1.0);
-  row.y = y - predicted - state_.x()[index];
-  const double sigma = parameters_.phase_sigma * m.noise_factor() / sine;
-  row.variance = sigma * sigma * (t.predicted.in_shadow ? 16.0 : 1.0);
-  if (graphic) row.variance += 0.25 * code.variance;
-  rows_.push_back(row);
-}
-
-int PppFilter::worst_row(const Eigen::VectorXd& dx) const {
-  int worst = -1;
-  double largest = parameters_.outlier_sigmas;
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    const Row& row = rows_[r];
-    if (!row.active) continue;
-    double left = row.y;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(row.count); ++k) {
-      left -= row.h[k] * dx[row.indices[k]];
-    }
-    const double normalized = std::abs(left) / std::sqrt(row.variance);
-    if (normalized > largest) {
-      largest = normalized;
-      worst = static_cast<int>(r);
-    }
-  }
-  return worst;
-}
-
-// Row by row; then the row that fits worst is left out and all is done again, up to 8 times.
+// Residuals and refusals; a phase that did not fit has slipped: its ambiguity begins anew.
 void PppFilter::update() {
-  constexpr int most_rejections = 8;
-  if (rows_.size() < 4) {
+  std::vector<Row>& rows = rows_.make(tracked_, reference_system_, state_, solution_.satellites);
+  if (rows.size() < 4) {
     solution_.message = "fewer than four measurements";
     return;
   }
-  before_ = state_;
-  for (int pass = 0;; ++pass) {
-    dx_.setZero();
-    for (const Row& row : rows_) {
-      if (!row.active) continue;
-      const auto n = static_cast<std::size_t>(row.count);
-      state_.update(std::span(row.indices).first(n), std::span(row.h).first(n), row.y, row.variance,
-                    dx_);
-    }
-    const int worst = worst_row(dx_);
-    if (worst < 0 || pass == most_rejections) break;
-    Row& row = rows_[static_cast<std::size_t>(worst)];
-    row.active = false;
-    solution_.satellites[tracked_[row.tracked].report].refused =
-        row.kind == Kind::phase  ? "phase does not fit"
-        : row.kind == Kind::code ? "code does not fit"
-                                 : "Doppler does not fit";
-    state_ = before_;
-  }
-  state_.x() += dx_.head(state_.size());
-  for (const Row& row : rows_) {
-    SatelliteReport& report = solution_.satellites[tracked_[row.tracked].report];
-    double left = row.y;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(row.count); ++k) {
-      left -= row.h[k] * dx_[row.indices[k]];
-    }
-    if (row.kind == Kind::code) {
-      report.code_residual = left;
-      report.code_used = row.active;
-    } else if (row.kind == Kind::phase) {
-      report.phase_residual = left;
-      report.phase_used = row.active;
+  update_.apply(state_, rows);
+  for (const Row& row : rows) {
+    const Tracked& t = tracked_[row.tracked];
+    SatelliteReport& report = solution_.satellites[t.report];
+    switch (row.kind) {
+      case RowKind::code:
+        report.code_residual = row.left(update_.dx());
+        report.code_used = row.active;
+        if (!row.active) report.refused = PppRefusal::code_misfit;
+        break;
+      case RowKind::phase:
+        report.phase_residual = row.left(update_.dx());
+        report.phase_used = row.active;
+        if (row.active) break;
+        report.refused = PppRefusal::phase_misfit;
+        state_.remove_ambiguity(t.measurement.satellite);
+        break;
+      case RowKind::doppler:
+        if (!row.active) report.refused = PppRefusal::doppler_misfit;
+        break;
     }
   }
-  // A phase that did not fit has slipped: its ambiguity begins anew.
-  for (const Row& row : rows_) {
-    if (row.kind == Kind::phase && !row.active) {
-      state_.remove_ambiguity(tracked_[row.tracked].measurement.satellite);
-    }
-  }
+  disagrees_ = disagree(rows);
 }
 
 void PppFilter::forget_absent() {
@@ -430,15 +300,15 @@ void PppFilter::forget_absent() {
 }
 
 // Whether codes are far from the position, or most measurements were left out.
-bool PppFilter::disagrees() const {
+bool PppFilter::disagree(const std::vector<Row>& rows) const {
   int codes = 0, left_out = 0;
   double sum = 0.0;
-  for (const Row& row : rows_) {
-    if (row.kind == Kind::doppler) continue;
+  for (const Row& row : rows) {
+    if (row.kind == RowKind::doppler) continue;
     left_out += !row.active;
-    if (row.kind != Kind::code) continue;
-    const double residual = solution_.satellites[tracked_[row.tracked].report].code_residual;
-    sum += residual * residual / row.variance;
+    if (row.kind != RowKind::code) continue;
+    const double residual = row.left(update_.dx());
+    sum += residual * residual / (row.sigma * row.sigma);
     ++codes;
   }
   for (const Tracked& t : tracked_) left_out += !t.code_good;
@@ -450,12 +320,15 @@ void PppFilter::report() {
   const auto x = state_.x();
   const auto P = state_.P();
   solution_.position = x.segment<3>(S::position);
-  solution_.covariance = P.block<3, 3>(S::position, S::position);
+  solution_.covariance = P.block<3, 3>(S::position, S::position) + parameters_.model_sigma *
+                                                                       parameters_.model_sigma *
+                                                                       Eigen::Matrix3d::Identity();
   solution_.velocity = x.segment<3>(S::velocity);
   solution_.velocity_covariance = P.block<3, 3>(S::velocity, S::velocity);
   solution_.clock = x[S::clock];
-  solution_.zenith_delay = saastamoinen(geodetic_from_ecef(solution_.position)).hydrostatic +
-                           model_.wet_guess() + x[S::zenith_wet];
+  solution_.running_for = to_seconds(time_ - begun_);
+  const ZenithDelay& guess = model_.zenith();
+  solution_.zenith_delay = guess.hydrostatic + guess.wet + x[S::zenith_wet];
   solution_.zenith_delay_sigma = std::sqrt(P(S::zenith_wet, S::zenith_wet));
   for (const SatelliteReport& s : solution_.satellites) {
     solution_.satellites_used += s.code_used || s.phase_used;

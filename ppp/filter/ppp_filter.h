@@ -2,9 +2,11 @@
 // and single-threaded: what it says depends on the epochs alone.
 #pragma once
 
+#include "ppp/filter/epoch_rows.h"
 #include "ppp/filter/filter_state.h"
 #include "ppp/filter/parameters.h"
 #include "ppp/filter/range_model.h"
+#include "ppp/filter/robust_update.h"
 #include "ppp/filter/single_point.h"
 #include "ppp/filter/slip_detector.h"
 #include "ppp/filter/solution.h"
@@ -22,13 +24,17 @@ class PppFilter {
   // Forgets everything.
   void reset();
 
+  // Memory that what it saves takes at most.
+  static constexpr std::size_t largest_archive =
+      (FilterState::capacity + 1) * FilterState::capacity * sizeof(double) + satellite_slots * 128 +
+      4096;
+
   // Saves and loads what it knows; loading refuses a filter with other parameters. A filter that
   // refused is as it was.
   template <class Archive>
   void archive(Archive& ar) {
     ar.section("ppp", 1);
     archive_same_fields(ar, parameters_);
-    archive_same(ar, "mode", parameters_.motion);
     archive_same(ar, "choice of systems", parameters_.systems);
     if constexpr (Archive::loading) {
       PppFilter loaded = *this;
@@ -46,71 +52,50 @@ class PppFilter {
  private:
   template <class Archive>
   void archive_knowledge(Archive& ar) {
-    ar(state_, memory_, started_, time_, reference_system_, has_offset_, bad_epochs_);
+    ar(state_, memory_, started_, begun_, time_, reference_system_, has_offset_, bad_epochs_,
+       restarts_);
   }
 
   struct Memory {  // of a satellite
     SlipDetector slips;
     double wind_up = 0.0;
     int epochs_away = 0;
+    std::optional<GpsTime> last_code;
     template <class Archive>
     void archive(Archive& ar) {
-      ar(slips, wind_up, epochs_away);
+      ar(slips, wind_up, epochs_away, last_code);
     }
   };
-  struct Tracked {  // a satellite of this epoch
-    Measurement measurement;
-    PredictedRange predicted;
-    std::size_t report;
-    double code_offset;  // m, code minus what is predicted without clocks
-    bool code_good = true;
-    bool phase_good = true;
-  };
-  enum class Kind { code, phase, doppler };
-  struct Row {
-    Kind kind = Kind::code;
-    std::size_t tracked = 0;
-    double y = 0.0, variance = 0.0;
-    int count = 0;
-    std::array<int, 12> indices{};
-    std::array<double, 12> h{};
-    bool active = true;
-    void add(int index, double value) {
-      indices[static_cast<std::size_t>(count)] = index;
-      h[static_cast<std::size_t>(count++)] = value;
-    }
-  };
-
   void measure_all(const Epoch& epoch);
   bool start(const Epoch& epoch);
   void predict(double interval);
+  double code_repeats(Satellite satellite, const Memory& memory) const;
   void predict_ranges(double interval);
   void set_clocks();
-  void make_rows();
-  void add_phase_row(std::size_t i, const Row& range_part);
   void update();
-  int worst_row(const Eigen::VectorXd& dx) const;
+  bool disagree(const std::vector<Row>& rows) const;
   void forget_absent();
-  bool disagrees() const;
   void report();
 
   PppParameters parameters_;
   RangeModel model_;
-  FilterState state_, before_;
+  FilterState state_;
   std::vector<Memory> memory_;
   bool started_ = false;
-  GpsTime time_{};
+  GpsTime begun_{}, time_{};
   int reference_system_ = -1;
   std::array<bool, system_count> has_offset_{};
   int bad_epochs_ = 0;
+  std::uint64_t restarts_ = 0;
 
   // Of one epoch; members only to reuse their memory.
   std::vector<Measurement> measurements_;
   std::vector<std::size_t> report_of_;
   std::vector<Tracked> tracked_;
-  std::vector<Row> rows_;
   std::vector<double> sorted_;
-  Eigen::VectorXd dx_;
+  EpochRows rows_;
+  RobustUpdate update_;
+  bool disagrees_ = false;
   PppSolution solution_;
 };
 

@@ -16,7 +16,7 @@ void RangeModel::begin(GpsTime t, const Eigen::Vector3d& marker) {
   if (use.ocean_tide && around_.ocean_loading) {
     receiver_ += ocean_tide(marker, *around_.ocean_loading, t);
   }
-  zenith_ = saastamoinen(site_);
+  zenith_ = zenith_delay(site_, t);
   mapping_ = NiellMapping(site_, t);
 }
 

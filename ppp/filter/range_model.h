@@ -3,6 +3,7 @@
 
 #include "ppp/filter/measurement.h"
 #include "ppp/models/antenna.h"
+#include "ppp/models/atmosphere.h"
 #include "ppp/models/attitude.h"
 #include "ppp/models/earth.h"
 #include "ppp/models/geodesy.h"
@@ -54,7 +55,7 @@ class RangeModel {
   const Ephemeris& ephemeris() const { return *around_.ephemeris; }
   const Surroundings& surroundings() const { return around_; }
   const Eigen::Matrix3d& R_enu_ecef() const { return R_enu_ecef_; }
-  double wet_guess() const { return zenith_.wet; }
+  const ZenithDelay& zenith() const { return zenith_; }  // as predict() takes it
 
  private:
   Surroundings around_;

@@ -5,10 +5,9 @@
 
 namespace maploop::ppp {
 
-std::optional<const char*> SlipDetector::next(const Measurement& m, double interval,
-                                              double elevation) {
-  std::optional<const char*> slip;
-  if (m.first.lost_lock || m.second.lost_lock) slip = "loss of lock";
+PppSlip SlipDetector::next(const Measurement& m, double interval, double elevation) {
+  PppSlip slip = PppSlip::none;
+  if (m.first.lost_lock || m.second.lost_lock) slip = PppSlip::lost_lock;
   const bool low = elevation < 0.26;
   if (m.dual()) {
     const double geometry_free = m.first.phase - m.second.phase;
@@ -22,13 +21,14 @@ std::optional<const char*> SlipDetector::next(const Measurement& m, double inter
       const double limit =
           (0.04 + 0.002 * std::min(interval, 30.0)) * (low ? 2.0 : 1.0) * (has_rate_ ? 1.0 : 1.5);
       const double sigma = std::sqrt(std::max(wide_variance_, 0.01));
-      if (!slip && std::abs(geometry_free - predicted) > limit) slip = "geometry-free jump";
-      if (!slip && wide_count_ >= 5 &&
+      if (slip == PppSlip::none && std::abs(geometry_free - predicted) > limit)
+        slip = PppSlip::geometry_free;
+      if (slip == PppSlip::none && wide_count_ >= 5 &&
           std::abs(wide - wide_mean_) > std::max(5.0 * sigma, (low ? 2.0 : 1.2) * wide_length)) {
-        slip = "wide-lane jump";
+        slip = PppSlip::wide_lane;
       }
     }
-    if (slip || !started_) {
+    if (slip != PppSlip::none || !started_) {
       wide_mean_ = wide;
       wide_variance_ = 0.25;
       wide_count_ = 1;
@@ -42,17 +42,18 @@ std::optional<const char*> SlipDetector::next(const Measurement& m, double inter
       wide_variance_ += gain * (off * off - wide_variance_);
     }
     geometry_free_ = geometry_free;
-  } else if (started_ && !slip && doppler_ != 0.0 && m.first.doppler != 0.0 && interval < 5.0) {
+  } else if (started_ && slip == PppSlip::none && doppler_ != 0.0 && m.first.doppler != 0.0 &&
+             interval < 5.0) {
     const double expected = -0.5 * (doppler_ + m.first.doppler) * m.first.wavelength * interval;
     if (std::abs(m.first.phase - phase_ - expected) > 0.5 + 0.5 * interval) {
-      slip = "Doppler disagrees";
+      slip = PppSlip::doppler;
     }
   }
   phase_ = m.first.phase;
   doppler_ = m.first.doppler;
   const bool first = !started_;
   started_ = true;
-  return first ? std::nullopt : slip;
+  return first ? PppSlip::none : slip;
 }
 
 }  // namespace maploop::ppp

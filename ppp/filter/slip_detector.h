@@ -2,17 +2,16 @@
 // with two carriers, Doppler with one (method 6.5).
 #pragma once
 
-#include <optional>
-
+#include "msgs/ppp_state.h"
 #include "ppp/filter/measurement.h"
 
 namespace maploop::ppp {
 
 class SlipDetector {
  public:
-  // Takes the next epoch of the satellite; the reason where the phase slipped. `interval` is the
-  // time since the epoch before.
-  std::optional<const char*> next(const Measurement& m, double interval, double elevation);
+  // Takes the next epoch of the satellite; what told that the phase slipped, if it did. `interval`
+  // is the time since the epoch before.
+  PppSlip next(const Measurement& m, double interval, double elevation);
   void reset() { *this = {}; }
 
   template <class Archive>

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "msgs/ppp_state.h"
 #include "ppp/gps_time.h"
 #include "ppp/satellite.h"
 
@@ -16,12 +18,9 @@ struct SatelliteReport {
   double cn0 = 0.0;                       // dB-Hz
   bool code_used = false, phase_used = false;
   double code_residual = 0.0, phase_residual = 0.0;  // m, after the update
-  const char* slip = "";                             // why its ambiguity began anew
-  const char* refused = "";                          // why not all of it was used
+  PppSlip slip = PppSlip::none;                      // why its ambiguity began anew
+  PppRefusal refused = PppRefusal::none;             // why not all of it was used
 };
-
-enum class PppStatus { none, single, converging, converged };
-const char* name(PppStatus status);
 
 struct PppSolution {
   GpsTime time{};
@@ -33,6 +32,8 @@ struct PppSolution {
   Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();
   double clock = 0.0;                                   // m
   double zenith_delay = 0.0, zenith_delay_sigma = 0.0;  // m, all of it
+  double running_for = 0.0;                             // s since the filter began, or began anew
+  std::uint64_t restarts = 0;                           // times that the filter began anew
   int satellites_used = 0;
   std::vector<SatelliteReport> satellites;  // all that were measured
 };

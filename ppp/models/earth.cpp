@@ -11,6 +11,11 @@ namespace {
 
 constexpr double mjd_zero = 2400000.5;
 
+// Modified Julian date of a moment, in GPS time.
+double mjd_of(GpsTime t) {
+  return 44244.0 + to_seconds(t.time_since_epoch()) / 86400.0;
+}
+
 Eigen::Matrix3d matrix(const double m[3][3]) {
   Eigen::Matrix3d r;
   for (int i = 0; i < 3; ++i) {
@@ -45,11 +50,13 @@ EarthRotation Earth::rotation_at(double mjd) const {
 }
 
 const SunAndMoon& Earth::at(GpsTime t) {
-  const double mjd_gps = 44244.0 + to_seconds(t.time_since_epoch()) / 86400.0;
-  const double mjd_tt = mjd_gps + (19.0 + 32.184) / 86400.0;
+  const double mjd_gps = mjd_of(t);
   const double mjd_utc = mjd_gps - to_seconds(leap_seconds(t).gps_minus_utc) / 86400.0;
   const EarthRotation rotation = rotation_at(mjd_utc);
-  if (slow_time_ == GpsTime::min() || std::chrono::abs(t - slow_time_) > std::chrono::seconds(60)) {
+  // Of the minute's middle, whichever epoch of it comes first: the same time gives the same bits.
+  const GpsTime middle = std::chrono::floor<std::chrono::minutes>(t) + std::chrono::seconds(30);
+  if (slow_time_ != middle) {
+    const double mjd_tt = mjd_of(middle) + (19.0 + 32.184) / 86400.0;
     double bpn[3][3], heliocentric[2][3], barycentric[2][3], moon[2][3];
     eraPnm00b(mjd_zero, mjd_tt, bpn);
     celestial_to_intermediate_ = matrix(bpn);
@@ -59,7 +66,7 @@ const SunAndMoon& Earth::at(GpsTime t) {
       sun_[i] = -heliocentric[0][i] * ERFA_DAU;
       moon_[i] = moon[0][i] * ERFA_DAU;
     }
-    slow_time_ = t;
+    slow_time_ = middle;
   }
   now_.mjd_ut1 = mjd_utc + rotation.ut1_minus_utc / 86400.0;
   now_.sidereal_angle = eraGst00b(mjd_zero, now_.mjd_ut1);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "ppp/models/atmosphere.h"
 #include "ppp/satellite.h"
 
 namespace maploop::ppp {
@@ -38,23 +39,9 @@ constexpr double wet_table[3][5] = {
 
 }  // namespace
 
-ZenithDelay saastamoinen(const Geodetic& site) {
-  const double height = std::clamp(site.height, -500.0, 9000.0);
-  const double pressure = 1013.25 * std::pow(1.0 - 2.2557e-5 * height, 5.2568);
-  const double kelvin = 15.0 - 6.5e-3 * height + 273.16;
-  constexpr double humidity = 0.5;
-  const double vapour = 6.108 * humidity * std::exp((17.15 * kelvin - 4684.0) / (kelvin - 38.45));
-  return {
-      0.0022768 * pressure / (1.0 - 0.00266 * std::cos(2.0 * site.latitude) - 0.00028e-3 * height),
-      0.002277 * (1255.0 / kelvin + 0.05) * vapour};
-}
-
 NiellMapping::NiellMapping(const Geodetic& site, GpsTime t) : height_km_(site.height * 1e-3) {
-  using namespace std::chrono;
-  const sys_days date = floor<days>(Time(gps_epoch_day) + t.time_since_epoch());
-  const sys_days new_year = year_month_day{date}.year() / 1 / 1;
-  const double day = to_seconds(date - new_year) / 86400.0 + (site.latitude < 0 ? 182.6 : 0.0);
-  const double season = std::cos(2.0 * pi * (day + 1.0 - 28.0) / 365.25);
+  const double day = day_of_year(t) + (site.latitude < 0 ? 182.6 : 0.0);
+  const double season = std::cos(2.0 * pi * (day - 28.0) / 365.25);
   const double latitude = std::abs(site.latitude) * 180.0 / pi;
   for (int i = 0; i < 3; ++i) {
     hydrostatic_[i] = between(mean[i], latitude) - between(amplitude[i], latitude) * season;

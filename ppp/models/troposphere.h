@@ -1,4 +1,4 @@
-// Tropospheric delay: Saastamoinen with a standard atmosphere, Niell's mapping functions (1996).
+// Niell's mapping functions of the troposphere (1996), and Klobuchar's ionosphere.
 #pragma once
 
 #include <array>
@@ -7,11 +7,6 @@
 #include "ppp/gps_time.h"
 
 namespace maploop::ppp {
-
-struct ZenithDelay {
-  double hydrostatic = 0.0, wet = 0.0;  // m; the wet one is a first guess
-};
-ZenithDelay saastamoinen(const Geodetic& site);
 
 struct Mapping {
   double hydrostatic = 0.0, wet = 0.0;

@@ -16,7 +16,7 @@ class BroadcastEphemeris : public Ephemeris {
   std::optional<SatelliteState> at(Satellite satellite, GpsTime t) const override;
   std::optional<double> clock(Satellite satellite, GpsTime t) const override;
   double code_bias(Satellite satellite, char band, char attribute, GpsTime t) const override;
-  double error_walk() const override { return 3e-3; }
+  double error_walk(Satellite) const override { return 3e-3; }
   bool centre_of_mass() const override { return false; }
   std::string missing(Satellite satellite, GpsTime t) const override;
 

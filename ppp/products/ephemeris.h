@@ -29,8 +29,8 @@ class Ephemeris {
   virtual std::optional<double> clock(Satellite satellite, GpsTime t) const = 0;
   // What to subtract from the code of a carrier so that it fits the clock; m.
   virtual double code_bias(Satellite satellite, char band, char attribute, GpsTime t) const = 0;
-  // How errors of orbits and clocks change, which ambiguities take up; m/sqrt(s).
-  virtual double error_walk() const = 0;
+  // How errors of an orbit and clock change, which the ambiguity takes up; m/sqrt(s).
+  virtual double error_walk(Satellite satellite) const = 0;
   // Whether positions are the centre of mass, which phase centres are still to be added to.
   virtual bool centre_of_mass() const = 0;
   // "no clock for E12 at 2020-06-25 01:00:00.000".

@@ -16,6 +16,27 @@ std::size_t slot(Satellite s) {
   return static_cast<std::size_t>(s.slot());
 }
 
+// A clock as a random walk, m/sqrt(s): its second differences over steps of T have twice the
+// variance of one step. The median is blind to jumps and gaps.
+double walk_of(const std::vector<ClockFile::Point>& clock) {
+  constexpr Duration close = std::chrono::seconds(60);
+  std::vector<double> differences;
+  for (std::size_t i = 2; i < clock.size(); ++i) {
+    const Duration step = clock[i].time - clock[i - 1].time;
+    if (step <= close || step > longest_clock_gap ||
+        step != clock[i - 1].time - clock[i - 2].time) {
+      continue;
+    }
+    const double bend = clock[i].offset - 2.0 * clock[i - 1].offset + clock[i - 2].offset;
+    differences.push_back(std::abs(bend) / std::sqrt(2.0 * to_seconds(step)));
+  }
+  if (differences.empty()) return 0.0;
+  constexpr double sigma_of_median = 1.4826;  // of normal errors
+  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+  std::nth_element(differences.begin(), middle, differences.end());
+  return speed_of_light * sigma_of_median * *middle;
+}
+
 }  // namespace
 
 PreciseEphemeris::PreciseEphemeris(const std::vector<OrbitFile>& orbits,
@@ -53,17 +74,8 @@ PreciseEphemeris::PreciseEphemeris(const std::vector<OrbitFile>& orbits,
                list.end());
   };
   for (auto& list : orbits_) in_order(list);
-  // Satellites' clocks wander by a centimetre or two from the line between two that are 5 minutes
-  // apart, and by a tenth of that in 30 s.
-  Duration clock_interval = orbit_interval_;
-  for (const ClockFile& file : clocks) {
-    for (const auto& [satellite, points] : file.points) {
-      if (points.size() > 1)
-        clock_interval = std::min(clock_interval, points[1].time - points[0].time);
-    }
-  }
-  clock_walk_ = clock_interval > std::chrono::seconds(60) ? 1e-3 : 0.0;
   for (auto& list : clocks_) in_order(list);
+  std::transform(clocks_.begin(), clocks_.end(), clock_walk_.begin(), walk_of);
   for (const BiasFile& file : biases) {
     for (const CodeBias& bias : file.biases) biases_[slot(bias.satellite)].push_back(bias);
   }
@@ -144,6 +156,10 @@ std::optional<SatelliteState> PreciseEphemeris::at(Satellite satellite, GpsTime 
   const auto later = clock(satellite, t + std::chrono::seconds(1));
   state.clock_drift = later ? *later - *offset : 0.0;
   return state;
+}
+
+double PreciseEphemeris::error_walk(Satellite satellite) const {
+  return clock_walk_[slot(satellite)];
 }
 
 double PreciseEphemeris::code_bias(Satellite satellite, char band, char attribute,

@@ -20,7 +20,8 @@ class PreciseEphemeris : public Ephemeris {
   std::optional<SatelliteState> at(Satellite satellite, GpsTime t) const override;
   std::optional<double> clock(Satellite satellite, GpsTime t) const override;
   double code_bias(Satellite satellite, char band, char attribute, GpsTime t) const override;
-  double error_walk() const override { return clock_walk_; }
+  // What a line leaves of a clock between two that are minutes apart; of closer ones nothing.
+  double error_walk(Satellite satellite) const override;
   bool centre_of_mass() const override { return true; }
   std::string missing(Satellite satellite, GpsTime t) const override;
 
@@ -36,7 +37,7 @@ class PreciseEphemeris : public Ephemeris {
   std::array<std::vector<ClockFile::Point>, satellite_slots> clocks_;
   std::array<std::vector<CodeBias>, satellite_slots> biases_;
   Duration orbit_interval_{0};
-  double clock_walk_ = 0.0;  // m/sqrt(s)
+  std::array<double, satellite_slots> clock_walk_{};  // m/sqrt(s)
 };
 
 }  // namespace maploop::ppp

@@ -1,6 +1,8 @@
 #include "ppp/readers/file_kind.h"
 
 #include "ppp/readers/lines.h"
+#include "ppp/readers/rtcm3.h"
+#include "ppp/readers/ubx.h"
 
 namespace maploop::ppp {
 
@@ -27,7 +29,12 @@ FileKind file_kind(std::string_view text) {
   if (start.starts_with("$$")) return FileKind::ocean_loading;
   const auto head = text.substr(0, 600);
   if (head.find("DIFFERENTIAL (P") != std::string_view::npos) return FileKind::dcb;
-  return FileKind::unknown;
+  if (is_ubx(text)) return FileKind::ubx;
+  return is_rtcm3(text) ? FileKind::rtcm3 : FileKind::unknown;
+}
+
+FileKind kind_of_file(const std::filesystem::path& path) {
+  return file_kind(read_head(path));
 }
 
 const char* name(FileKind kind) {
@@ -50,6 +57,10 @@ const char* name(FileKind kind) {
       return "earth rotation";
     case FileKind::ocean_loading:
       return "ocean loading";
+    case FileKind::ubx:
+      return "u-blox raw measurements";
+    case FileKind::rtcm3:
+      return "RTCM 3 observations";
     case FileKind::unknown:
       return "unknown";
   }

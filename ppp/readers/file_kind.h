@@ -1,6 +1,7 @@
 // What a GNSS file is, told by its content.
 #pragma once
 
+#include <filesystem>
 #include <string_view>
 
 namespace maploop::ppp {
@@ -15,10 +16,14 @@ enum class FileKind {
   dcb,
   earth_rotation,
   ocean_loading,
+  ubx,
+  rtcm3,
   unknown
 };
 
 FileKind file_kind(std::string_view text);
+// Of a file, plain or .gz, from its first kilobytes. Throws ReadError where it cannot be read.
+FileKind kind_of_file(const std::filesystem::path& path);
 const char* name(FileKind kind);
 
 }  // namespace maploop::ppp

@@ -10,12 +10,30 @@
 
 namespace maploop::ppp {
 
+namespace {
+
+struct Close {
+  void operator()(gzFile file) const { gzclose(file); }
+};
+using File = std::unique_ptr<gzFile_s, Close>;
+
+File open(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) throw ReadError(path.string() + ": is a folder");
+  File file(gzopen(path.c_str(), "rb"));
+  if (!file) throw ReadError(path.string() + ": cannot be read (" + std::strerror(errno) + ")");
+  return file;
+}
+
+[[noreturn]] void fail_as_damaged(const std::filesystem::path& path, const File& file) {
+  int code = 0;
+  throw ReadError(path.string() + ": damaged gzip data (" + gzerror(file.get(), &code) + ")");
+}
+
+}  // namespace
+
 std::string read_file(const std::filesystem::path& path) {
   constexpr std::size_t largest = std::size_t{2} << 30U;
-  const auto close = [](gzFile file) { gzclose(file); };
-  if (std::filesystem::is_directory(path)) throw ReadError(path.string() + ": is a folder");
-  const std::unique_ptr<gzFile_s, decltype(close)> file(gzopen(path.c_str(), "rb"), close);
-  if (!file) throw ReadError(path.string() + ": cannot be read (" + std::strerror(errno) + ")");
+  const File file = open(path);
   gzbuffer(file.get(), 1U << 17U);
   std::string text;
   for (;;) {
@@ -23,17 +41,23 @@ std::string read_file(const std::filesystem::path& path) {
     text.resize(had + (had < (1U << 20U) ? 1U << 20U : had));
     const auto room = static_cast<unsigned>(std::min<std::size_t>(text.size() - had, 1U << 30U));
     const int got = gzread(file.get(), text.data() + had, room);
-    if (got < 0) {
-      int code = 0;
-      throw ReadError(path.string() + ": damaged gzip data (" + gzerror(file.get(), &code) + ")");
-    }
+    if (got < 0) fail_as_damaged(path, file);
     text.resize(had + static_cast<std::size_t>(got));
     if (text.size() > largest) throw ReadError(path.string() + ": larger than 2 GB");
     if (static_cast<unsigned>(got) < room) break;
   }
   int code = 0;
-  const char* why = gzerror(file.get(), &code);
-  if (code != Z_OK) throw ReadError(path.string() + ": damaged gzip data (" + why + ")");
+  gzerror(file.get(), &code);
+  if (code != Z_OK) fail_as_damaged(path, file);
+  return text;
+}
+
+std::string read_head(const std::filesystem::path& path) {
+  const File file = open(path);
+  std::string text(4096, '\0');
+  const int got = gzread(file.get(), text.data(), static_cast<unsigned>(text.size()));
+  if (got < 0) fail_as_damaged(path, file);
+  text.resize(static_cast<std::size_t>(got));
   return text;
 }
 

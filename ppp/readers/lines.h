@@ -20,6 +20,8 @@ class ReadError : public std::runtime_error {
 // The whole content, uncompressed where it is gzip (told by content). Throws ReadError naming the
 // file: it cannot be read, is damaged, or is larger than 2 GB.
 std::string read_file(const std::filesystem::path& path);
+// Its first 4096 bytes, or what it has of them.
+std::string read_head(const std::filesystem::path& path);
 
 // Columns [first, first + width) of a line; shorter, or empty, where the line ends before.
 inline std::string_view columns(std::string_view line, std::size_t first, std::size_t width) {

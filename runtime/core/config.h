@@ -46,6 +46,7 @@ class ConfigTable {
   void read(std::string_view key, int& value) const;
   void read(std::string_view key, bool& value) const;
   void read(std::string_view key, std::string& value) const;
+  void read(std::string_view key, std::vector<std::string>& values) const;
   // A number in the unit that ends the key: _ns, _us, _ms or _s; rounded to the nanosecond. Throws
   // std::logic_error where the key ends in none.
   void read(std::string_view key, Duration& value) const;

@@ -173,6 +173,21 @@ void ConfigTable::read(std::string_view key, std::string& value) const {
   value = text->get();
 }
 
+void ConfigTable::read(std::string_view key, std::vector<std::string>& values) const {
+  const toml::node* node = find(*node_, key);
+  if (node == nullptr) return;
+  const Entry entry{*state_, *node_, key, *node};
+  const auto* array = node->as_array();
+  if (array == nullptr) entry.wrong_type("an array of strings");
+  std::vector<std::string> read;  // first all, so that an error leaves `values` as they are
+  for (const toml::node& element : *array) {
+    const auto* text = element.as_string();
+    if (text == nullptr) Entry{*state_, *node_, key, element}.wrong_type("an array of strings");
+    read.push_back(text->get());
+  }
+  values = std::move(read);
+}
+
 void ConfigTable::read(std::string_view key, std::span<double> values) const {
   const toml::node* node = find(*node_, key);
   if (node == nullptr) return;

@@ -4,6 +4,7 @@
 #include "estimators/fusion/parameter_fields.h"
 #include "estimators/lidar/parameter_fields.h"
 #include "estimators/stereo/parameter_fields.h"
+#include "mapmatch/parameter_fields.h"
 #include "runtime/vehicle/vehicle_config.h"
 
 namespace maploop::vehicle {
@@ -29,7 +30,9 @@ void visit(Config& config, Table&& table, Field&& field) {
     field("odometry", p.odometry);
     field("stereo", p.stereo);
     field("lidar", p.lidar);
+    field("ppp", p.ppp);
     field("fusion", p.fusion);
+    field("mapmatch", p.mapmatch);
     field("publisher", p.publisher);
     field("health", p.health);
     field("snapshot", p.snapshot);
@@ -87,6 +90,25 @@ void visit(Config& config, Table&& table, Field&& field) {
 
   table("lidar");
   fields(config.lidar, field);
+
+  table("ppp");
+  {
+    auto& p = config.ppp;
+    field("products", p.products);
+    field("broadcast", p.broadcast);
+    field("latency", p.latency);
+    field("integrity_risk", p.integrity_risk);
+    field("systems", p.filter.systems);
+    fields(p.filter, field);
+  }
+
+  table("map");
+  field("file", config.map.file);
+  field("mode", config.map.mode);
+  field("rules", config.map.rules);
+
+  table("mapmatch");
+  fields(config.mapmatch, field);
 
   table("fusion");
   fields(config.fusion, field);

@@ -11,14 +11,14 @@
 namespace maploop::vehicle {
 namespace {
 
-constexpr std::array<std::string_view, 8> target_names{"camera", "velodyne", "imu",    "gnss",
-                                                       "stereo", "lidar",    "fusion", "cpu"};
+constexpr std::array<std::string_view, 9> target_names{
+    "camera", "velodyne", "imu", "gnss", "stereo", "lidar", "fusion", "mapmatch", "cpu"};
 
 using enum FaultTarget;
 constexpr std::array sensors{camera, velodyne, imu, gnss};
 constexpr std::array numeric_sensors{velodyne, imu, gnss};
 constexpr std::array only_camera{camera};
-constexpr std::array stages{stereo, lidar, fusion};
+constexpr std::array stages{stereo, lidar, fusion, mapmatch};
 constexpr std::array machine{cpu};
 
 constexpr double longest_drive = 1e6;  // s; far below where int64 nanoseconds end

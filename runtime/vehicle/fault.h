@@ -10,7 +10,7 @@
 //   nan         velodyne imu gnss          every number of it is NaN
 //   black       camera                     both images are black
 //   garbage     camera                     both images are noise
-//   slow        stereo lidar fusion        the stage sleeps `by` at each image, scan, tick
+//   slow        stereo lidar fusion mapmatch   the stage sleeps `by` at each image, scan, tick
 //   hog         cpu                        `threads` busy threads for LENGTH, which must be given
 //
 // START and LENGTH are seconds of data time, LENGTH may be `end`; without them the fault is there
@@ -46,7 +46,17 @@ enum class FaultKind : std::uint8_t {
   hog,
 };
 
-enum class FaultTarget : std::uint8_t { camera, velodyne, imu, gnss, stereo, lidar, fusion, cpu };
+enum class FaultTarget : std::uint8_t {
+  camera,
+  velodyne,
+  imu,
+  gnss,
+  stereo,
+  lidar,
+  fusion,
+  mapmatch,
+  cpu
+};
 
 struct Fault {
   std::string text;  // as its user wrote it

@@ -37,6 +37,11 @@ void shift_stamps(GnssFix& fix, Duration by) {
   fix.velocity_stamp += by;
 }
 
+void shift_stamps(GnssEpoch& epoch, Duration by) {
+  epoch.stamp += by;
+  epoch.epoch.time += by;
+}
+
 void fill_with_nan(LidarScan& scan) {
   constexpr float f = std::numeric_limits<float>::quiet_NaN();
   std::fill(scan.points.begin(), scan.points.end(), LidarPoint{f, f, f, f});
@@ -51,6 +56,12 @@ void fill_with_nan(GnssFix& fix) {
   fix.position_covariance.setConstant(nan);
   fix.velocity_enu.setConstant(nan);
   fix.velocity_covariance.setConstant(nan);
+}
+
+void fill_with_nan(GnssEpoch& epoch) {
+  for (ppp::Signal& signal : epoch.epoch.signals) {
+    signal.code = signal.phase = signal.doppler = signal.cn0 = nan;
+  }
 }
 
 void blacken(StereoPair& pair) {

@@ -7,6 +7,7 @@
 #include "msgs/image.h"
 #include "msgs/imu.h"
 #include "msgs/lidar_scan.h"
+#include "runtime/vehicle/gnss_epoch.h"
 
 namespace maploop::vehicle {
 
@@ -15,11 +16,13 @@ void shift_stamps(StereoPair& pair, Duration by);
 void shift_stamps(LidarScan& scan, Duration by);
 void shift_stamps(ImuSample& sample, Duration by);
 void shift_stamps(GnssFix& fix, Duration by);
+void shift_stamps(GnssEpoch& epoch, Duration by);
 
 // Every measured number, and every covariance.
 void fill_with_nan(LidarScan& scan);
 void fill_with_nan(ImuSample& sample);
 void fill_with_nan(GnssFix& fix);
+void fill_with_nan(GnssEpoch& epoch);
 
 void blacken(StereoPair& pair);
 

@@ -42,6 +42,7 @@ struct StageDelays {
   StageDelay stereo;
   StageDelay lidar;
   StageDelay fusion;
+  StageDelay mapmatch;
 };
 
 }  // namespace maploop::vehicle

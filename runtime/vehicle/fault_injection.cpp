@@ -75,10 +75,12 @@ Sensors FaultInjection::afflict(Sensors sensors) {
         break;
       case FaultTarget::gnss:
         strike(sensors.gnss);
+        strike(sensors.epochs);
         break;
       case FaultTarget::stereo:
       case FaultTarget::lidar:
       case FaultTarget::fusion:
+      case FaultTarget::mapmatch:
       case FaultTarget::cpu:
         break;  // no sensors
     }
@@ -90,9 +92,10 @@ StageDelays FaultInjection::delays() {
   StageDelays delays;
   for (Injected& injected : faults_) {
     if (injected.fault.kind != FaultKind::slow) continue;
-    StageDelay& delay = injected.fault.target == FaultTarget::stereo  ? delays.stereo
-                        : injected.fault.target == FaultTarget::lidar ? delays.lidar
-                                                                      : delays.fusion;
+    StageDelay& delay = injected.fault.target == FaultTarget::stereo     ? delays.stereo
+                        : injected.fault.target == FaultTarget::lidar    ? delays.lidar
+                        : injected.fault.target == FaultTarget::mapmatch ? delays.mapmatch
+                                                                         : delays.fusion;
     delay.add(injected.window, injected.fault.by, injected.struck);
   }
   return delays;

@@ -25,11 +25,11 @@ FusionEdges::FusionEdges()
       odometry(make_edge<RelativeMotion>(edges::odometry_fusion, &bell)) {}
 
 FusionStage::FusionStage(fusion::ReducedImuFilter filter, FusionEdges& inputs,
-                         runtime::Edge<NavState>& nav_states, runtime::Edge<NavState>& image_states,
-                         Duration odometry_budget)
+                         std::vector<runtime::Edge<NavState>*> nav_states,
+                         runtime::Edge<NavState>& image_states, Duration odometry_budget)
     : filter_(std::move(filter)),
       inputs_(inputs),
-      nav_states_(nav_states),
+      nav_states_(std::move(nav_states)),
       image_states_(image_states),
       odometry_budget_(odometry_budget),
       meter_(stages::fusion),
@@ -58,7 +58,7 @@ FusionStage::FusionStage(fusion::ReducedImuFilter filter, FusionEdges& inputs,
 void FusionStage::run(runtime::DataClock& clock, Time first, const std::stop_token& stop) {
   stop_ = stop;
   // Of the run that this one resumes.
-  for (const NavState& state : sent_states_) nav_states_.push(state, stop);
+  for (const NavState& state : sent_states_) send(state);
   for (const NavState& state : sent_image_states_) image_states_.push(state, stop);
   position_.store(to_nanoseconds(first), std::memory_order_relaxed);
   // Whatever the graph declares for a live run: the same bits need every tick.
@@ -99,11 +99,12 @@ bool FusionStage::tick(const runtime::Tick& tick, runtime::DataClock& clock,
   state.available = k + stages::fusion.budget;
   state.sequence = ticks_++;
   const MonotonicTime computed = runtime::monotonic_now();
-  nav_states_.push(state, stop);
+  send(state);
   sent_states_.push_back(state);
   filter_status_.back() = filter_.status();
   filter_status_.publish();
-  runtime::trace_counter(trace_, "fusion -> publisher", static_cast<double>(nav_states_.held()));
+  runtime::trace_counter(trace_, "fusion -> publisher",
+                         static_cast<double>(nav_states_.front()->held()));
 
   const MonotonicTime done = runtime::monotonic_now();
   if (done - computed > runtime::DataClock::tolerance) stall(done);
@@ -122,10 +123,14 @@ bool FusionStage::tick(const runtime::Tick& tick, runtime::DataClock& clock,
   }
   if (done - due > furthest_behind) stall(done);
   const Time next = k + stages::fusion.period + stages::fusion.budget;
-  nav_states_.promise(next - Duration(1));
+  for (auto* edge : nav_states_) edge->promise(next - Duration(1));
   image_states_.promise(next - Duration(1));
   save_until(k + stages::fusion.period - Duration(1), stop);
   return true;
+}
+
+void FusionStage::send(const NavState& state) {
+  for (auto* edge : nav_states_) edge->push(state, stop_);
 }
 
 void FusionStage::take(const RelativeMotion& motion) {
@@ -187,7 +192,7 @@ void FusionStage::record_paths(const runtime::DataClock& clock, MonotonicTime du
 }
 
 void FusionStage::finish() {
-  nav_states_.finish();
+  for (auto* edge : nav_states_) edge->finish();
   image_states_.finish();
   cuts_.finish();
 }

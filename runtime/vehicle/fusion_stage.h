@@ -41,9 +41,10 @@ struct FusionEdges {
 class FusionStage {
  public:
   // `odometry_budget`: of all stages between a camera and the odometry.
+  // Each state goes to all of `nav_states`, the publisher's first.
   FusionStage(fusion::ReducedImuFilter filter, FusionEdges& inputs,
-              runtime::Edge<NavState>& nav_states, runtime::Edge<NavState>& image_states,
-              Duration odometry_budget);
+              std::vector<runtime::Edge<NavState>*> nav_states,
+              runtime::Edge<NavState>& image_states, Duration odometry_budget);
 
   // Ticks from the first one at or after `first` (data time) until the inputs are finished or stop
   // is requested. Each tick takes exactly what is available by then; while some of it is late, or
@@ -81,6 +82,7 @@ class FusionStage {
  private:
   bool tick(const runtime::Tick& tick, runtime::DataClock& clock, const std::stop_token& stop);
   void take(const RelativeMotion& motion);
+  void send(const NavState& state);
   void save_until(Time t, const std::stop_token& stop);
   template <class Archive, class Stage>
   static void describe(Archive& ar, Stage& stage);
@@ -88,7 +90,7 @@ class FusionStage {
 
   fusion::ReducedImuFilter filter_;
   FusionEdges& inputs_;
-  runtime::Edge<NavState>& nav_states_;
+  std::vector<runtime::Edge<NavState>*> nav_states_;
   runtime::Edge<NavState>& image_states_;
   Duration odometry_budget_;
   runtime::Intake intake_;

@@ -89,29 +89,6 @@ void add_random(const Part& part, Time first, Time last, std::int64_t seed,
   if (left > 0) refuse(part.text, "the drive is too short for so many");
 }
 
-class SourceWithOutages final : public sensors::Source<GnssFix> {
- public:
-  SourceWithOutages(std::unique_ptr<sensors::Source<GnssFix>> source,
-                    std::vector<GnssOutage> outages)
-      : source_(std::move(source)), outages_(std::move(outages)) {}
-
-  bool next(GnssFix& fix) override {
-    while (source_->next(fix)) {
-      const bool lost = std::any_of(outages_.begin(), outages_.end(), [&](const GnssOutage& o) {
-        return fix.stamp >= o.begin && fix.stamp < o.end;
-      });
-      if (!lost) return true;
-    }
-    return false;
-  }
-
-  const sensors::SourceReport& report() const override { return source_->report(); }
-
- private:
-  std::unique_ptr<sensors::Source<GnssFix>> source_;
-  std::vector<GnssOutage> outages_;
-};
-
 }  // namespace
 
 std::vector<GnssOutage> parse_outages(const std::string& text, Time first, Time last,
@@ -138,12 +115,6 @@ std::string check_outages(const std::string& text) {
   } catch (const std::invalid_argument& e) {
     return e.what();
   }
-}
-
-std::unique_ptr<sensors::Source<GnssFix>> with_outages(
-    std::unique_ptr<sensors::Source<GnssFix>> source, std::vector<GnssOutage> outages) {
-  if (source == nullptr || outages.empty()) return source;
-  return std::make_unique<SourceWithOutages>(std::move(source), std::move(outages));
 }
 
 }  // namespace maploop::vehicle

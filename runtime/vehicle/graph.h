@@ -56,6 +56,9 @@ inline constexpr Stage lidar{"lidar",
                              milliseconds(60),
                              5.0,
                              40.0};
+inline constexpr Stage ppp{
+    "ppp", "precise point positioning", "GNSS epoch", {}, milliseconds(10), milliseconds(10), 0.5,
+    21.0};
 inline constexpr Stage fusion{"fusion",
                               "reduced-IMU filter",
                               "its period",
@@ -66,6 +69,16 @@ inline constexpr Stage fusion{"fusion",
                               105.0,
                               {},
                               runtime::Overrun::skip};
+inline constexpr Stage mapmatch{"mapmatch",
+                                "map matching",
+                                "its period",
+                                milliseconds(100),
+                                milliseconds(2),
+                                milliseconds(2),
+                                9.5,
+                                10.5,
+                                fusion.budget,  // when the state of a tick of the fusion is there
+                                runtime::Overrun::skip};
 inline constexpr Stage publisher{"publisher", "LCM, log", "looks by itself", {}, {}, {}, 0.0, 0.0};
 inline constexpr Stage health{
     "health", "watchdog, histograms", "its period",          std::chrono::seconds(1), {}, {}, 0.0,
@@ -76,9 +89,9 @@ inline constexpr Stage player{
 inline constexpr Stage snapshot{
     "snapshot", "joins what stages save", "their parts", {}, {}, {}, 0.0, 0.0};
 
-inline constexpr std::array all{camera,    velodyne,   imu,       gnss,    wheel, reference,
-                                odometry,  visual_log, lidar_log, stereo,  lidar, fusion,
-                                publisher, health,     player,    snapshot};
+inline constexpr std::array all{camera,   velodyne,   imu,       gnss,   wheel,  reference,
+                                odometry, visual_log, lidar_log, stereo, lidar,  ppp,
+                                fusion,   mapmatch,   publisher, health, player, snapshot};
 }  // namespace stages
 
 // One ring: single producer, single consumer. A replay keeps all: a full ring holds its producer
@@ -96,10 +109,15 @@ inline constexpr EdgeSpec camera_stereo{"camera -> stereo", "StereoPair", 4};
 inline constexpr EdgeSpec velodyne_lidar{"velodyne -> lidar", "LidarScan", 4};
 inline constexpr EdgeSpec stereo_lidar{"stereo -> lidar", "RelativeMotion", 256};
 inline constexpr EdgeSpec imu_fusion{"imu -> fusion", "ImuSample", 256};
+// Only there where the receiver's observations are recorded instead of its fixes.
+inline constexpr EdgeSpec gnss_ppp{"gnss -> ppp", "GnssEpoch", 64};
+// From ppp instead where there are observations, and so to the publisher.
 inline constexpr EdgeSpec gnss_fusion{"gnss -> fusion", "GnssFix", 256};
 inline constexpr EdgeSpec wheel_fusion{"wheel -> fusion", "WheelSpeed", 256};
 // From stereo instead where `odometry` is "visual" or there is no LiDAR.
 inline constexpr EdgeSpec odometry_fusion{"lidar -> fusion", "RelativeMotion", 256};
+// Only there where there is a map.
+inline constexpr EdgeSpec fusion_mapmatch{"fusion -> mapmatch", "NavState", 256};
 // Only there where a log of raw sensors is written.
 inline constexpr EdgeSpec camera_publisher{"camera -> publisher", "StereoPair", 4};
 inline constexpr EdgeSpec velodyne_publisher{"velodyne -> publisher", "LidarScan", 4};
@@ -109,21 +127,26 @@ inline constexpr EdgeSpec wheel_publisher{"wheel -> publisher", "WheelSpeed", 25
 inline constexpr EdgeSpec reference_publisher{"reference -> publisher", "ReferencePose", 256};
 inline constexpr EdgeSpec stereo_publisher{"stereo -> publisher", "RelativeMotion", 256};
 inline constexpr EdgeSpec lidar_publisher{"lidar -> publisher", "LidarMotion", 256};
+inline constexpr EdgeSpec ppp_publisher{"ppp -> publisher", "PppState", 64};
 inline constexpr EdgeSpec odometry_publisher{"lidar, odometry -> publisher", "RelativeMotion", 256};
 inline constexpr EdgeSpec fusion_publisher{"fusion -> publisher", "NavState", 1024};
 inline constexpr EdgeSpec image_states{"fusion at images -> publisher", "NavState", 256};
+inline constexpr EdgeSpec mapmatch_publisher{"mapmatch -> publisher", "MapMatch", 64};
 inline constexpr EdgeSpec health_publisher{"health -> publisher", "RuntimeReport", 8};
 // Only there where snapshots are taken.
 inline constexpr EdgeSpec stereo_snapshot{"stereo -> snapshot", "StageSnapshot", 2};
 inline constexpr EdgeSpec lidar_snapshot{"lidar -> snapshot", "StageSnapshot", 2};
+inline constexpr EdgeSpec ppp_snapshot{"ppp -> snapshot", "StageSnapshot", 2};
 inline constexpr EdgeSpec fusion_snapshot{"fusion -> snapshot", "StageSnapshot", 2};
+inline constexpr EdgeSpec mapmatch_snapshot{"mapmatch -> snapshot", "StageSnapshot", 2};
 
 inline constexpr std::array all{
-    camera_stereo,      velodyne_lidar,   stereo_lidar,        imu_fusion,         gnss_fusion,
-    wheel_fusion,       odometry_fusion,  camera_publisher,    velodyne_publisher, imu_publisher,
-    gnss_publisher,     wheel_publisher,  reference_publisher, stereo_publisher,   lidar_publisher,
-    odometry_publisher, fusion_publisher, image_states,        health_publisher,   stereo_snapshot,
-    lidar_snapshot,     fusion_snapshot};
+    camera_stereo,    velodyne_lidar,      stereo_lidar,       imu_fusion,       gnss_ppp,
+    gnss_fusion,      ppp_publisher,       ppp_snapshot,       wheel_fusion,     odometry_fusion,
+    fusion_mapmatch,  camera_publisher,    velodyne_publisher, imu_publisher,    gnss_publisher,
+    wheel_publisher,  reference_publisher, stereo_publisher,   lidar_publisher,  odometry_publisher,
+    fusion_publisher, image_states,        mapmatch_publisher, health_publisher, stereo_snapshot,
+    lidar_snapshot,   fusion_snapshot,     mapmatch_snapshot};
 }  // namespace edges
 
 template <class T>
@@ -173,14 +196,28 @@ inline constexpr Channel odometry{channel_names::odometry,
                                   "the motion that fusion gets, and from which sensors",
                                   "10 Hz",
                                   true};
+inline constexpr Channel map_match{
+    channel_names::map_match,
+    "map_match_t",
+    "mapmatch",
+    "phase, link, matched point, P(link), candidates with their rules, reasons in words",
+    "10 Hz",
+    true};
 inline constexpr Channel imu{channel_names::imu, "imu_t",        "imu",
                              "inertial sample",  "the sensor's", true};
 inline constexpr Channel gnss_fix{channel_names::gnss_fix,
                                   "gnss_fix_t",
                                   "gnss",
-                                  "position and velocity with covariance",
+                                  "position and velocity with covariance; of observations: ppp's",
                                   "1 Hz",
                                   true};
+inline constexpr Channel ppp_state{
+    channel_names::ppp_state,
+    "ppp_state_t",
+    "ppp",
+    "position, covariance, protection levels, satellites and why not, residuals, convergence",
+    "the receiver's",
+    true};
 inline constexpr Channel wheel_speed{channel_names::wheel_speed,    "wheel_speed_t", "wheel",
                                      "forward speed of the wheels", "the sensor's",  true};
 inline constexpr Channel truth{channel_names::truth,
@@ -225,9 +262,10 @@ inline constexpr Channel health{
     "1 Hz",
     false};
 
-inline constexpr std::array all{nav_state,   visual_odometry, lidar_odometry, odometry, imu,
-                                gnss_fix,    wheel_speed,     truth,          camera,   velodyne,
-                                calibration, replay_control,  deadlines,      health};
+inline constexpr std::array all{
+    nav_state,   visual_odometry, lidar_odometry, odometry, map_match, imu,
+    gnss_fix,    ppp_state,       wheel_speed,    truth,    camera,    velodyne,
+    calibration, replay_control,  deadlines,      health};
 }  // namespace channels
 
 // From a sensor's stamp to the state that holds it. The deadline is the sum of what may pass on the

@@ -107,20 +107,9 @@ void LidarStage::process(const RelativeMotion* visual, Time trigger, MonotonicTi
 
 void LidarStage::measure(Time trigger, Time stamp, MonotonicTime released, MonotonicTime started,
                          MonotonicTime ended) {
-  meter_.ran(ended - started);
-  if (clock_->keeps_time(trigger)) {
-    const MonotonicTime ready = std::max(released, idle_since_);
-    meter_.woke(started - ready);
-    const bool missed = meter_.latency().record({stamp,
-                                                 ended - released,
-                                                 {{{"busy with the scan before", ready - released},
-                                                   {"woken late", started - ready},
-                                                   {"running", ended - started}}}});
-    if (missed) runtime::trace_instant(trace_, "missed deadline");
-  } else {
-    meter_.latency().record(ended - started);
-  }
-  idle_since_ = ended;
+  const bool missed = meter_.worked({stamp, released, started, ended, "busy with the scan before"},
+                                    clock_->keeps_time(trigger));
+  if (missed) runtime::trace_instant(trace_, "missed deadline");
 }
 
 void LidarStage::send(const LidarMotion& motion) {
@@ -137,8 +126,11 @@ void LidarStage::forget_sent(Time t) {
 }
 
 void LidarStage::save_until(Time t) {
-  cuts_.save_until(t, stop_, [this](ArchiveWriter& ar, Time cut) {
+  const auto come_to = [this](Time cut) {
     take_until(cut);
+    promise(cut);
+  };
+  cuts_.save_until(t, stop_, come_to, [this](ArchiveWriter& ar, Time cut) {
     forget_sent(cut);
     describe(ar, *this);
   });

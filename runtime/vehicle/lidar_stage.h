@@ -92,7 +92,6 @@ class LidarStage {
   std::stop_token stop_;
   LidarScan waiting_;  // a scan without its visual motion yet
   bool has_waiting_ = false;
-  MonotonicTime idle_since_{};
   // Those that were not yet available at the last step.
   std::vector<LidarMotion> sent_lidar_;
   std::vector<RelativeMotion> sent_odometry_;

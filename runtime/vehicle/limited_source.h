@@ -32,6 +32,7 @@ inline void limit(Sensors& sensors, Time end) {
   cut(sensors.velodyne);
   cut(sensors.imu);
   cut(sensors.gnss);
+  cut(sensors.epochs);
   cut(sensors.wheel);
   cut(sensors.reference);
   cut(sensors.odometry);

@@ -30,16 +30,19 @@ PublisherEdges::PublisherEdges()
       visual(make_edge<RelativeMotion>(edges::stereo_publisher, nullptr)),
       lidar(make_edge<LidarMotion>(edges::lidar_publisher, nullptr)),
       odometry(make_edge<RelativeMotion>(edges::odometry_publisher, nullptr)),
+      ppp(make_edge<PppState>(edges::ppp_publisher, nullptr)),
       nav_state(make_edge<NavState>(edges::fusion_publisher, nullptr)),
       image_state(make_edge<NavState>(edges::image_states, nullptr)),
+      map_match(make_edge<MapMatch>(edges::mapmatch_publisher, nullptr)),
       reports(make_edge<RuntimeReport>(edges::health_publisher, nullptr)) {}
 
 Publisher::Publisher(const VehicleCalibration& calibration, PublisherEdges& edges,
-                     std::vector<MessageSink*> sinks, Observer observer)
+                     std::vector<MessageSink*> sinks, Observer observer, MatchDescriber in_words)
     : calibration_(calibration),
       edges_(edges),
       sinks_(std::move(sinks)),
-      observer_(std::move(observer)) {
+      observer_(std::move(observer)),
+      in_words_(std::move(in_words)) {
   forward<channels::camera>(edges_.camera);
   forward<channels::velodyne>(edges_.velodyne);
   forward<channels::imu>(edges_.imu);
@@ -61,6 +64,11 @@ Publisher::Publisher(const VehicleCalibration& calibration, PublisherEdges& edge
     note_flow(motion);
     send(channels::odometry, motion.available, to_lcm(motion));
   });
+  intake_.add(edges_.ppp, [this](const PppState& state) {
+    const runtime::TraceSpan span(trace_, trace_name(channels::ppp_state));
+    send(channels::ppp_state, state.available, to_lcm(state));
+    observer_.ppp(state);
+  });
   intake_.add(edges_.nav_state, [this](const NavState& state) {
     runtime::TraceSpan span(trace_, trace_name(channels::nav_state));
     end_flows(span, state);
@@ -68,6 +76,11 @@ Publisher::Publisher(const VehicleCalibration& calibration, PublisherEdges& edge
     observer_.nav_state(state);
   });
   intake_.add(edges_.image_state, [this](const NavState& state) { observer_.image_state(state); });
+  intake_.add(edges_.map_match, [this](const MapMatch& match) {
+    const runtime::TraceSpan span(trace_, trace_name(channels::map_match));
+    send(channels::map_match, match.available, to_lcm(match, in_words_(match)));
+    observer_.map_match(match);
+  });
 }
 
 template <const Channel& channel, class T>

@@ -13,8 +13,10 @@
 #include "msgs/image.h"
 #include "msgs/imu.h"
 #include "msgs/lidar_scan.h"
+#include "msgs/map_match.h"
 #include "msgs/nav_state.h"
 #include "msgs/odometry.h"
+#include "msgs/ppp_state.h"
 #include "msgs/reference.h"
 #include "msgs/wheel_speed.h"
 #include "runtime/core/edge.h"
@@ -37,8 +39,10 @@ struct RuntimeReport : Sample {
 struct Observer {
   std::function<void(const RelativeMotion&)> odometry = [](const RelativeMotion&) {};
   std::function<void(const LidarMotion&)> lidar = [](const LidarMotion&) {};
+  std::function<void(const PppState&)> ppp = [](const PppState&) {};
   std::function<void(const NavState&)> nav_state = [](const NavState&) {};
   std::function<void(const NavState&)> image_state = [](const NavState&) {};
+  std::function<void(const MapMatch&)> map_match = [](const MapMatch&) {};
 };
 
 // The edges that end at the publisher. No bell: it looks by itself, so that nobody upstream pays a
@@ -55,16 +59,21 @@ struct PublisherEdges {
   runtime::Edge<RelativeMotion> visual;
   runtime::Edge<LidarMotion> lidar;
   runtime::Edge<RelativeMotion> odometry;  // what fusion gets
+  runtime::Edge<PppState> ppp;
   runtime::Edge<NavState> nav_state;
   runtime::Edge<NavState> image_state;
+  runtime::Edge<MapMatch> map_match;
   runtime::Edge<RuntimeReport> reports;
 };
+
+// What a match means in words.
+using MatchDescriber = std::function<MapMatchWords(const MapMatch&)>;
 
 // One thread's own. Messages of all channels leave in the order of their `available`.
 class Publisher {
  public:
   Publisher(const VehicleCalibration& calibration, PublisherEdges& edges,
-            std::vector<MessageSink*> sinks, Observer observer);
+            std::vector<MessageSink*> sinks, Observer observer, MatchDescriber in_words);
 
   const std::vector<MessageSink*>& sinks() const { return sinks_; }
 
@@ -90,6 +99,7 @@ class Publisher {
   PublisherEdges& edges_;
   std::vector<MessageSink*> sinks_;
   Observer observer_;
+  MatchDescriber in_words_;
   runtime::Intake intake_;
   std::vector<std::uint8_t> buffer_;
   ThreadMeter meter_{stages::publisher};

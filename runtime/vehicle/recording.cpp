@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "runtime/vehicle/gnss_drive.h"
 #include "runtime/vehicle/graph.h"
 #include "runtime/vehicle/recorded_tracks.h"
 #include "runtime/vehicle/stereo_rig_file.h"
@@ -19,8 +20,13 @@ namespace {
 
 template <class Opened>
 Recording describe(const Opened& opened, std::function<Sensors(Time)> sensors) {
-  return {opened.calibration(), opened.first_stamp(), opened.last_stamp(),
-          opened.frame_count(), std::move(sensors),   {}};
+  return {opened.calibration(),
+          opened.first_stamp(),
+          opened.last_stamp(),
+          opened.frame_count(),
+          std::move(sensors),
+          {},
+          {}};
 }
 
 // Those of a configuration that uses it.
@@ -67,6 +73,8 @@ Recording open_sequence(const std::filesystem::path& path, const VehicleConfig& 
     }
     return s;
   });
+  if (const auto& labels = sequence->labels_file())
+    recording.driven_links = {*labels, sequence->image_stamps()};
   if (tracks != nullptr) recording.calibration.stereo = tracks->calibration;
   return recording;
 }
@@ -90,9 +98,26 @@ Recording open_log(const std::filesystem::path& file) {
   });
 }
 
+// Its epochs stand for the images.
+Recording open_gnss(const std::filesystem::path& path, const VehicleConfig& config) {
+  auto drive = std::make_shared<const GnssDrive>(path, config);
+  Recording recording;
+  recording.first_stamp = drive->first_stamp();
+  recording.last_stamp = drive->last_stamp();
+  recording.images = drive->setup().observations().epochs.size();
+  recording.sensors = [drive](Time) {
+    Sensors s;
+    s.epochs = GnssDrive::epochs(drive);
+    s.ppp = {drive, &drive->setup()};  // shares the drive's life
+    return s;
+  };
+  return recording;
+}
+
 Recording open_any(const std::filesystem::path& path, const VehicleConfig& config) {
   if (sensors::OdometrySequence::is_named(path)) return open_sequence(path, config);
   std::error_code ignored;
+  if (std::filesystem::exists(path, ignored) && is_gnss_drive(path)) return open_gnss(path, config);
   return std::filesystem::is_regular_file(path, ignored) ? open_log(path)
                                                          : open_folder(path, config);
 }
@@ -128,6 +153,7 @@ Recording open_recording(const std::filesystem::path& path, const VehicleConfig&
                        noise = noise_of(config)](Time passed) {
     Sensors s = plain(passed);
     s.gnss = with_outages(std::move(s.gnss), outages);
+    s.epochs = with_outages(std::move(s.epochs), outages);
     if (noise && s.imu != nullptr) s.imu = sensors::with_noise(std::move(s.imu), *noise);
     return s;
   };

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "msgs/calibration.h"
@@ -14,6 +15,12 @@
 
 namespace maploop::vehicle {
 
+// Of the road links really driven.
+struct DrivenLinksFile {
+  std::filesystem::path file;
+  std::vector<Time> stamps;  // of the frames that it numbers
+};
+
 struct Recording {
   VehicleCalibration calibration;
   Time first_stamp{};  // of the images, or of what stands for them
@@ -22,17 +29,18 @@ struct Recording {
   // Anew, each from the start; those that it has. Pixels and points of what is available up to
   // `passed` may be missing, which saves reading them.
   std::function<Sensors(Time passed)> sensors;
-  std::vector<GnssOutage> outages;  // as configured; the sensors have them
+  std::vector<GnssOutage> outages;              // as configured; the sensors have them
+  std::optional<DrivenLinksFile> driven_links;  // where the recording has one
 };
 
 // A KITTI raw drive, with the raw cameras that the configuration may name.
 std::shared_ptr<const sensors::KittiDrive> open_drive(const std::filesystem::path& folder,
                                                       const VehicleConfig& config);
 
-// A KITTI raw drive (a folder), a sequence of KITTI's odometry benchmark (its oxts/NN.csv), or one
-// of our own logs (any other file). A log without images gives the odometry that was made from
-// them; a sequence, the stereo back end's from its recorded tracks. Throws std::runtime_error
-// naming what is wrong with it.
+// A KITTI raw drive (a folder), RINEX observations with their products (gnss_drive.h), a sequence
+// of KITTI's odometry benchmark (its oxts/NN.csv), or one of our own logs (any other file). A log
+// without images gives the odometry that was made from them; a sequence, the stereo back end's from
+// its recorded tracks. Throws std::runtime_error naming what is wrong with it.
 Recording open_recording(const std::filesystem::path& path, const VehicleConfig& config);
 
 // The first pose of the recording's reference, for dead reckoning from a start without error.

@@ -6,12 +6,16 @@
 #include "estimators/fusion/reduced_imu_filter.h"
 #include "msgs/diagnostics.h"
 #include "runtime/vehicle/lidar_stage.h"
+#include "runtime/vehicle/mapmatch_stage.h"
+#include "runtime/vehicle/ppp_stage.h"
 #include "runtime/vehicle/stereo_stage.h"
 
 namespace maploop::vehicle {
 
-// `lidar`: nullptr where there is none. Those that happened, in the order of the reasons.
+// `lidar`, `ppp`, `mapmatch`: nullptr where there is none. Those that happened, in the order of the
+// reasons.
 std::vector<RefusalCount> refusals(const StereoStage& stereo, const LidarStage* lidar,
-                                   const fusion::FilterStatus& filter);
+                                   const PppStage* ppp, const fusion::FilterStatus& filter,
+                                   const MapMatchStage* mapmatch);
 
 }  // namespace maploop::vehicle

@@ -35,9 +35,11 @@ struct SchedulingParameters {
   runtime::Scheduling wheel = realtime(70);
   runtime::Scheduling reference = realtime(70);
   runtime::Scheduling odometry = realtime(70);
-  runtime::Scheduling stereo = realtime(40);  // below fusion; an eighth of one core at 10 Hz
-  runtime::Scheduling lidar = realtime(30);   // below stereo, whose motions it waits for
-  runtime::Scheduling fusion = realtime(60);  // below the drivers, whose samples it needs
+  runtime::Scheduling stereo = realtime(40);    // below fusion; an eighth of one core at 10 Hz
+  runtime::Scheduling lidar = realtime(30);     // below stereo, whose motions it waits for
+  runtime::Scheduling ppp = realtime(50);       // below fusion, whose tick is shorter
+  runtime::Scheduling fusion = realtime(60);    // below the drivers, whose samples it needs
+  runtime::Scheduling mapmatch = realtime(50);  // below fusion, whose states it needs; 10 us a tick
   runtime::Scheduling publisher;
   runtime::Scheduling health;
   runtime::Scheduling snapshot;

@@ -39,9 +39,10 @@ void archive_same_config(Archive& ar, const VehicleConfig& config) {
 
 template <class Archive, class S>
 void describe(Archive& ar, S& snapshot, const VehicleConfig& config) {
-  ar.section("vehicle snapshot", 2);
+  ar.section("vehicle snapshot", 3);
   archive_same_config(ar, config);
-  ar(snapshot.at, snapshot.first, snapshot.stereo, snapshot.lidar, snapshot.fusion);
+  ar(snapshot.at, snapshot.first, snapshot.stereo, snapshot.lidar, snapshot.ppp, snapshot.fusion,
+     snapshot.mapmatch);
 }
 
 }  // namespace

@@ -19,7 +19,9 @@ struct Snapshot {
   Time first{};  // when the recording's first sample becomes available
   Bytes stereo;  // parts, as the stages write and read them
   Bytes lidar;   // empty where the odometry is visual alone
+  Bytes ppp;     // empty where there are no observations of a GNSS receiver
   Bytes fusion;
+  Bytes mapmatch;  // empty where there is no map
 };
 
 // Some 1.5 MB, and 3 more with a LiDAR's map. The file has its name once it is whole; what was

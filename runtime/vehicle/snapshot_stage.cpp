@@ -12,11 +12,26 @@
 namespace maploop::vehicle {
 namespace {
 
-runtime::Edge<StageSnapshot> make_mapped_edge(const EdgeSpec& spec, runtime::Doorbell* bell,
-                                              std::size_t bytes) {
+StageSnapshot mapped(std::size_t bytes) {
   StageSnapshot prototype;
   prototype.content.resize(bytes);
-  return {std::string(spec.name), spec.capacity, spec.overflow, bell, prototype};
+  return prototype;
+}
+
+runtime::Edge<StageSnapshot> make_mapped_edge(const EdgeSpec& spec, runtime::Doorbell* bell,
+                                              std::size_t bytes) {
+  return {std::string(spec.name), spec.capacity, spec.overflow, bell, mapped(bytes)};
+}
+
+void make_mapped_edge(std::optional<runtime::Edge<StageSnapshot>>& edge, const EdgeSpec& spec,
+                      runtime::Doorbell* bell, std::optional<std::size_t> bytes) {
+  if (!bytes) return;
+  edge.emplace(std::string(spec.name), spec.capacity, spec.overflow, bell, mapped(*bytes));
+}
+
+// Of a part that may not be there.
+Bytes content_of(std::optional<runtime::Edge<StageSnapshot>>& part) {
+  return part ? part->front()->content : Bytes{};
 }
 
 }  // namespace
@@ -24,11 +39,9 @@ runtime::Edge<StageSnapshot> make_mapped_edge(const EdgeSpec& spec, runtime::Doo
 SnapshotEdges::SnapshotEdges(const PartSizes& bytes)
     : stereo(make_mapped_edge(edges::stereo_snapshot, &bell, bytes.stereo)),
       fusion(make_mapped_edge(edges::fusion_snapshot, &bell, bytes.fusion)) {
-  if (!bytes.lidar) return;
-  StageSnapshot prototype;
-  prototype.content.resize(*bytes.lidar);
-  lidar.emplace(std::string(edges::lidar_snapshot.name), edges::lidar_snapshot.capacity,
-                edges::lidar_snapshot.overflow, &bell, prototype);
+  make_mapped_edge(lidar, edges::lidar_snapshot, &bell, bytes.lidar);
+  make_mapped_edge(ppp, edges::ppp_snapshot, &bell, bytes.ppp);
+  make_mapped_edge(mapmatch, edges::mapmatch_snapshot, &bell, bytes.mapmatch);
 }
 
 SnapshotStage::SnapshotStage(const PartSizes& bytes, SnapshotHandler handler)
@@ -36,13 +49,20 @@ SnapshotStage::SnapshotStage(const PartSizes& bytes, SnapshotHandler handler)
       parts_{&edges_.stereo, &edges_.fusion},
       handler_(std::move(handler)),
       meter_(stages::snapshot) {
-  if (edges_.lidar) parts_.push_back(&*edges_.lidar);
+  for (auto* part : {&edges_.lidar, &edges_.ppp, &edges_.mapmatch}) {
+    if (*part) parts_.push_back(&**part);
+  }
 }
 
 Snapshot SnapshotStage::joined(Time first) {
   const StageSnapshot& fusion = *edges_.fusion.front();
-  return {fusion.stamp, first, edges_.stereo.front()->content,
-          edges_.lidar ? edges_.lidar->front()->content : Bytes{}, fusion.content};
+  return {fusion.stamp,
+          first,
+          edges_.stereo.front()->content,
+          content_of(edges_.lidar),
+          content_of(edges_.ppp),
+          fusion.content,
+          content_of(edges_.mapmatch)};
 }
 
 void SnapshotStage::run(Time first) {

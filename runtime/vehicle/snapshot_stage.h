@@ -20,7 +20,9 @@ using SnapshotHandler = std::function<void(const Snapshot&)>;
 struct PartSizes {
   std::size_t stereo = 0;
   std::optional<std::size_t> lidar;  // nothing: there is no such part
+  std::optional<std::size_t> ppp;
   std::size_t fusion = 0;
+  std::optional<std::size_t> mapmatch;
 };
 
 // The edges that end at the snapshot thread.
@@ -30,7 +32,9 @@ struct SnapshotEdges {
   runtime::Doorbell bell;
   runtime::Edge<StageSnapshot> stereo;
   std::optional<runtime::Edge<StageSnapshot>> lidar;
+  std::optional<runtime::Edge<StageSnapshot>> ppp;
   runtime::Edge<StageSnapshot> fusion;
+  std::optional<runtime::Edge<StageSnapshot>> mapmatch;
 };
 
 class SnapshotStage {

@@ -22,11 +22,13 @@ class StageCuts {
   }
 
   // Calls save(ArchiveWriter&, cut) for each cut up to t that is still to come. For a stage that
-  // has taken all inputs up to each of these cuts, and none after it.
-  template <class Save>
-  void save_until(Time t, const std::stop_token& stop, Save&& save) {
+  // has taken all inputs up to each of these cuts, and none after it. Before each, promise(cut): a
+  // stage that is far ahead waits here for those behind it, and they must not wait for its outputs.
+  template <class Promise, class Save>
+  void save_until(Time t, const std::stop_token& stop, Promise&& promise, Save&& save) {
     for (; next_ < moments_.size() && moments_[next_] <= t; ++next_) {
       const Time cut = moments_[next_];
+      promise(cut);
       edge_->push(cut, stop, [&](StageSnapshot& slot) {
         slot.stamp = slot.available = cut;
         ArchiveWriter writer(std::move(slot.content));
@@ -34,6 +36,13 @@ class StageCuts {
         slot.content = writer.take();
       });
     }
+  }
+
+  // Of a stage that goes tick by tick and is never far ahead.
+  template <class Save>
+  void save_until(Time t, const std::stop_token& stop, Save&& save) {
+    save_until(
+        t, stop, [](Time) {}, std::forward<Save>(save));
   }
 
   // The stage has ended.

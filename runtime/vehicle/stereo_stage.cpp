@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "runtime/vehicle/graph.h"
+#include "runtime/vehicle/take_each.h"
 #include "runtime/vehicle/trace_flows.h"
 
 namespace maploop::vehicle {
@@ -19,39 +20,19 @@ StereoStage::StereoStage(stereo::StereoOdometry odometry, runtime::Edge<StereoPa
 
 void StereoStage::run(const runtime::DataClock& clock, const std::stop_token& stop) {
   for (RelativeMotion& motion : sent_) send(motion, stop);  // of the run that this one resumes
-  MonotonicTime idle_since{};
-  while (!stop.stop_requested()) {
-    const std::uint32_t heard = bell_.listen();
-    const Time promised = images_.promised();  // before the ring: see EdgeBase::promised()
-    if (const StereoPair* pair = images_.front()) {
-      save_until(pair->available - Duration(1), stop);
-      const MonotonicTime started = runtime::monotonic_now();
-      runtime::trace_counter(trace_, "camera -> stereo", static_cast<double>(images_.held()));
-      process(*pair, stop);
-      const MonotonicTime ended = runtime::monotonic_now();
-      meter_.ran(ended - started);
-      if (clock.keeps_time(pair->available)) {
-        const MonotonicTime ready = std::max(pair->received, idle_since);
-        meter_.woke(started - ready);
-        const bool missed =
-            meter_.latency().record({pair->stamp,
-                                     ended - pair->received,
-                                     {{{"busy with the pair before", ready - pair->received},
-                                       {"woken late", started - ready},
-                                       {"running", ended - started}}}});
-        if (missed) runtime::trace_instant(trace_, "missed deadline");
-      } else {
-        meter_.latency().record(ended - started);
-      }
-      idle_since = ended;
-      images_.pop();
-      continue;
-    }
-    save_until(promised, stop);
-    if (promised == Time::max()) return;
-    promise(promised + stages::stereo.budget);
-    bell_.wait(heard);
-  }
+  const auto take = [&](const StereoPair& pair) {
+    const MonotonicTime started = runtime::monotonic_now();
+    runtime::trace_counter(trace_, "camera -> stereo", static_cast<double>(images_.held()));
+    process(pair, stop);
+    const MonotonicTime ended = runtime::monotonic_now();
+    const bool missed =
+        meter_.worked({pair.stamp, pair.received, started, ended, "busy with the pair before"},
+                      clock.keeps_time(pair.available));
+    if (missed) runtime::trace_instant(trace_, "missed deadline");
+  };
+  take_each(
+      images_, bell_, stages::stereo.budget, stop, take, [&](Time t) { save_until(t, stop); },
+      [this](Time t) { promise(t); });
 }
 
 void StereoStage::idle(const std::stop_token& stop) {
@@ -78,7 +59,8 @@ void StereoStage::send(RelativeMotion& motion, const std::stop_token& stop) {
 }
 
 void StereoStage::save_until(Time t, const std::stop_token& stop) {
-  cuts_.save_until(t, stop, [this](ArchiveWriter& ar, Time cut) {
+  const auto promise_until = [this](Time cut) { promise(cut); };
+  cuts_.save_until(t, stop, promise_until, [this](ArchiveWriter& ar, Time cut) {
     std::erase_if(sent_, [cut](const RelativeMotion& m) { return m.available <= cut; });
     describe(ar, *this);
   });

@@ -30,4 +30,21 @@ void ThreadMeter::woke(const runtime::Tick& tick, const runtime::DataClock& cloc
   stalled_ = stalled;
 }
 
+bool ThreadMeter::worked(const Work& work, bool timed) {
+  const Duration running = work.ended - work.started;
+  const MonotonicTime ready = std::max(work.released, idle_since_);
+  idle_since_ = work.ended;
+  ran(running);
+  if (!timed) {
+    latency_.record(running);
+    return false;
+  }
+  woke(work.started - ready);
+  return latency_.record({work.stamp,
+                          work.ended - work.released,
+                          {{{work.busy_before, ready - work.released},
+                            {"woken late", work.started - ready},
+                            {"running", running}}}});
+}
+
 }  // namespace maploop::vehicle

@@ -33,6 +33,15 @@ class ThreadMeter {
   void woke(const runtime::Tick& tick, const runtime::DataClock& clock, MonotonicTime due,
             MonotonicTime woken);
 
+  // A thread released by samples has dealt with one.
+  struct Work {
+    Time stamp{};
+    MonotonicTime released{}, started{}, ended{};
+    const char* busy_before = "";  // what it waited for: a string literal
+  };
+  // `timed`: while the clock keeps time. Whether the deadline was missed.
+  bool worked(const Work& work, bool timed);
+
   // Any other thread: it could have run for so long.
   void woke(Duration late) { wake_up_.record(late); }
 
@@ -62,7 +71,8 @@ class ThreadMeter {
   std::atomic<std::uint64_t> shed_{0};
   MonotonicTime last_due_{};
   MonotonicTime last_woken_{};
-  Duration stalled_{};  // of the data clock at the last tick
+  Duration stalled_{};          // of the data clock at the last tick
+  MonotonicTime idle_since_{};  // the end of the last work
 };
 
 }  // namespace maploop::vehicle

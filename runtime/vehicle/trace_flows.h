@@ -7,6 +7,7 @@
 #include "msgs/imu.h"
 #include "msgs/odometry.h"
 #include "runtime/core/trace_event.h"
+#include "runtime/vehicle/gnss_epoch.h"
 
 namespace maploop::vehicle {
 
@@ -19,6 +20,10 @@ inline runtime::TraceFlow flow_of(const RelativeMotion& motion) {
 }
 inline runtime::TraceFlow flow_of(const ImuSample& sample) {
   return {"imu", sample.sequence};
+}
+// A fix has the number of its epoch.
+inline runtime::TraceFlow flow_of(const GnssEpoch& epoch) {
+  return {"gnss", epoch.sequence};
 }
 inline runtime::TraceFlow flow_of(const GnssFix& fix) {
   return {"gnss", fix.sequence};

@@ -11,9 +11,10 @@ namespace maploop::vehicle {
 
 Vehicle::Vehicle(const VehicleConfig& config, const VehicleCalibration& calibration,
                  Sensors sensors, const runtime::DataClock& clock, std::vector<MessageSink*> sinks,
-                 Observer observer, runtime::Tracer* tracer)
+                 Observer observer, runtime::Tracer* tracer, std::shared_ptr<const RoadMap> map)
     : graph_(std::make_unique<Graph>(config, calibration, std::move(sensors), clock,
-                                     std::move(sinks), std::move(observer), tracer)) {}
+                                     std::move(sinks), std::move(observer), tracer,
+                                     std::move(map))) {}
 
 Vehicle::~Vehicle() = default;
 
@@ -21,6 +22,7 @@ void Vehicle::slow_down(StageDelays delays) {
   graph_->stereo.slow_down(std::move(delays.stereo));
   if (graph_->lidar) graph_->lidar->slow_down(std::move(delays.lidar));
   graph_->fusion.slow_down(std::move(delays.fusion));
+  if (graph_->mapmatch) graph_->mapmatch->slow_down(std::move(delays.mapmatch));
 }
 
 void Vehicle::start_from(const fusion::KnownStart& known) {
@@ -42,10 +44,22 @@ void Vehicle::resume(const Snapshot& snapshot) {
                            ? "it was saved without LiDAR odometry, and here there is one"
                            : "it was saved with LiDAR odometry, and here there is none");
   }
+  if (graph_->ppp.has_value() == snapshot.ppp.empty()) {
+    throw ArchiveError(snapshot.ppp.empty()
+                           ? "it was saved without GNSS observations, and here there are some"
+                           : "it was saved with GNSS observations, and here there are none");
+  }
+  if (graph_->mapmatch.has_value() == snapshot.mapmatch.empty()) {
+    throw ArchiveError(snapshot.mapmatch.empty()
+                           ? "it was saved without a map, and here there is one"
+                           : "it was saved with a map, and here there is none");
+  }
   if (graph_->lidar) graph_->lidar->resume(snapshot.lidar);
+  if (graph_->ppp) graph_->ppp->resume(snapshot.ppp);
+  if (graph_->mapmatch) graph_->mapmatch->resume(snapshot.mapmatch);
   graph_->stereo.resume(snapshot.stereo);
   graph_->fusion.resume(snapshot.fusion);
-  graph_->resumed = Snapshot{snapshot.at, snapshot.first, {}, {}, {}};
+  graph_->resumed = Snapshot{snapshot.at, snapshot.first, {}, {}, {}, {}, {}};
 }
 
 void Vehicle::prepared(const runtime::RealtimeReport& report) {
@@ -91,21 +105,27 @@ Time next_of(const runtime::EdgeBase& edge) {
 
 }  // namespace
 
+// Of a drive without images its GNSS epochs stand for them.
 Time Vehicle::next_image() const {
+  if (graph_->to_ppp && graph_->camera.absent()) return next_of(graph_->to_ppp->epochs);
   return next_of(graph_->odometry_recorded
                      ? static_cast<const runtime::EdgeBase&>(graph_->to_fusion.odometry)
                      : graph_->images);
 }
 
 Time Vehicle::next_sample() const {
-  return std::min({next_image(), next_of(graph_->to_fusion.imu), next_of(graph_->to_fusion.gnss),
-                   next_of(graph_->to_fusion.wheel), next_of(graph_->to_publisher.reference)});
+  const Time epoch = graph_->to_ppp ? next_of(graph_->to_ppp->epochs) : Time::max();
+  return std::min({next_image(), epoch, next_of(graph_->to_fusion.imu),
+                   next_of(graph_->to_fusion.gnss), next_of(graph_->to_fusion.wheel),
+                   next_of(graph_->to_publisher.reference)});
 }
 
 std::uint64_t Vehicle::deadline_misses() const {
   const std::uint64_t lidar = graph_->lidar ? graph_->lidar->meter().latency().miss_count() : 0;
-  return graph_->stereo.meter().latency().miss_count() + lidar +
-         graph_->fusion.meter().latency().miss_count();
+  const std::uint64_t ppp = graph_->ppp ? graph_->ppp->meter().latency().miss_count() : 0;
+  return graph_->stereo.meter().latency().miss_count() + lidar + ppp +
+         graph_->fusion.meter().latency().miss_count() +
+         (graph_->mapmatch ? graph_->mapmatch->meter().latency().miss_count() : 0);
 }
 
 runtime::DataClock& Vehicle::clock() {

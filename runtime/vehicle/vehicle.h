@@ -14,12 +14,15 @@
 #include "msgs/odometry.h"
 #include "msgs/reference.h"
 #include "msgs/wheel_speed.h"
+#include "ppp/ppp_setup.h"
 #include "runtime/core/data_clock.h"
 #include "runtime/core/realtime_setting.h"
 #include "runtime/core/trace.h"
 #include "runtime/vehicle/fault_delay.h"
+#include "runtime/vehicle/gnss_epoch.h"
 #include "runtime/vehicle/message_sink.h"
 #include "runtime/vehicle/publisher.h"
+#include "runtime/vehicle/road_map.h"
 #include "runtime/vehicle/snapshot.h"
 #include "runtime/vehicle/snapshot_stage.h"
 #include "runtime/vehicle/vehicle_config.h"
@@ -33,6 +36,9 @@ struct Sensors {
   std::unique_ptr<sensors::Source<LidarScan>> velodyne;
   std::unique_ptr<sensors::Source<ImuSample>> imu;
   std::unique_ptr<sensors::Source<GnssFix>> gnss;
+  // Instead of fixes: the receiver's observations, with what the ppp thread makes fixes from.
+  std::unique_ptr<sensors::Source<GnssEpoch>> epochs;
+  std::shared_ptr<const ppp::PppSetup> ppp;
   std::unique_ptr<sensors::Source<WheelSpeed>> wheel;
   std::unique_ptr<sensors::Source<ReferencePose>> reference;
   // Of a recording without images: what fusion got takes the place of the camera, and of the stereo
@@ -48,10 +54,10 @@ struct Sensors {
 class Vehicle {
  public:
   // `sinks` must outlive the vehicle, and so must `tracer`, to which each thread records what it
-  // does; none: no trace.
+  // does; none: no trace. Without a map nothing is matched.
   Vehicle(const VehicleConfig& config, const VehicleCalibration& calibration, Sensors sensors,
           const runtime::DataClock& clock, std::vector<MessageSink*> sinks, Observer observer,
-          runtime::Tracer* tracer = nullptr);
+          runtime::Tracer* tracer = nullptr, std::shared_ptr<const RoadMap> map = nullptr);
   ~Vehicle();  // stops and waits
 
   // Slows stages down, for tests of what happens then; before start().

@@ -63,6 +63,11 @@ std::string number(auto value) {
 std::string toml_value(const std::string& text) {
   return quoted(text);
 }
+std::string toml_value(const std::vector<std::string>& texts) {
+  std::string list;
+  for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + quoted(text);
+  return '[' + list + ']';
+}
 std::string toml_value(bool value) {
   return value ? "true" : "false";
 }
@@ -115,8 +120,16 @@ VehicleConfig load_vehicle_config(const std::filesystem::path& file) {
     throw runtime::ConfigError(file.string() + ": odometry = \"" + config.odometry +
                                "\": it must be \"visual\" or \"visual-lidar\"");
   }
-  if (!config.camera.calibration.empty())
-    config.camera.calibration = (file.parent_path() / config.camera.calibration).string();
+  if (!(config.ppp.integrity_risk > 0.0 && config.ppp.integrity_risk < 1.0)) {
+    document.root().table("ppp").fail("integrity_risk", "is no probability between 0 and 1");
+  }
+  if (!(config.ppp.latency >= 0.0 && config.ppp.latency < 10.0)) {
+    document.root().table("ppp").fail("latency", "must be 0 to 10 s");
+  }
+  const auto beside = [&](std::string& path) { path = (file.parent_path() / path).string(); };
+  for (std::string* path : {&config.camera.calibration, &config.map.file, &config.map.rules})
+    if (!path->empty()) beside(*path);
+  for (std::string& product : config.ppp.products) beside(product);
   return config;
 }
 

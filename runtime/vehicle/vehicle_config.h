@@ -1,12 +1,18 @@
 // Everything that can be set about the vehicle.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "estimators/fusion/fusion_parameters.h"
 #include "estimators/lidar/parameters.h"
 #include "estimators/stereo/parameters.h"
+#include "mapmatch/match_parameters.h"
+#include "ppp/filter/parameters.h"
 #include "runtime/core/realtime_memory.h"
 #include "runtime/core/trace.h"
 #include "runtime/vehicle/lcm_bus.h"
@@ -19,6 +25,31 @@ struct CameraParameters {
   // File of the raw cameras' calibration, from the configuration's own folder: images are then raw,
   // and rectified as they are read (stereo_rig_file.h). Empty: images are rectified already.
   std::string calibration;
+};
+
+// Of a drive with the observations of a GNSS receiver.
+struct PppConfig {
+  // Files and folders, from the configuration's own folder; none: the folder of the observations.
+  std::vector<std::string> products;
+  bool broadcast = false;  // orbits and clocks of the navigation message even where SP3 is given
+  double latency = 0.1;    // s, from the epoch to its delivery by the receiver
+  double integrity_risk = 1e-4;  // that an error at one epoch is beyond its protection level
+  ppp::PppParameters filter;
+};
+
+enum class MapMode : std::uint8_t {
+  none,   // no matching
+  loose,  // the fused state is matched, and nothing is fed back
+};
+constexpr std::array<std::string_view, 2> names_of(MapMode) {
+  return {"none", "loose"};
+}
+
+struct MapParameters {
+  // OpenStreetMap file or network file, from the configuration's own folder; empty: none.
+  std::string file;
+  MapMode mode = MapMode::loose;
+  std::string rules;  // folder of rule bases (.fll), from the configuration's own; empty: shipped
 };
 
 struct VehicleConfig {
@@ -41,6 +72,9 @@ struct VehicleConfig {
   std::int64_t imu_seed = 1;
   stereo::StereoParameters stereo;
   lidar::LidarParameters lidar;
+  PppConfig ppp;
+  MapParameters map;
+  mapmatch::MatchParameters mapmatch;
   // KITTI's car travels 0.48 deg above its IMU's x axis: mean of eight odometry sequences (0.14 to
   // 0.86 deg).
   // Its IMU is 0.25 m ahead of what rolls without side slip: sideways velocity over yaw rate on

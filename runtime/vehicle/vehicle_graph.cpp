@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "mapmatch/reasons.h"
 #include "runtime/core/realtime.h"
 #include "runtime/vehicle/prefetched_source.h"
 #include "runtime/vehicle/process_usage.h"
@@ -26,43 +27,70 @@ bool wants_raw(const std::vector<MessageSink*>& sinks) {
                      [](const MessageSink* sink) { return sink->wants_raw(); });
 }
 
+// A vehicle without cameras has a stereo thread that never sees an image; its estimator wants some
+// camera all the same.
+StereoCalibration camera_of(const VehicleCalibration& calibration) {
+  if (calibration.stereo.width > 0) return calibration.stereo;
+  StereoCalibration any;
+  any.width = 640;
+  any.height = 480;
+  any.fx = any.fy = 500.0;
+  any.cx = 320.0;
+  any.cy = 240.0;
+  any.baseline = 0.5;
+  return any;
+}
+
+// After the start a drive with nothing but GNSS has nothing else to go by.
+VehicleConfig fitted(VehicleConfig config, const Sensors& sensors) {
+  if (!sensors.camera && !sensors.imu && !sensors.odometry) config.fusion.use_gnss = true;
+  return config;
+}
+
 }  // namespace
 
 Vehicle::Graph::Graph(const VehicleConfig& vehicle_config, const VehicleCalibration& calibration,
                       Sensors sensors, const runtime::DataClock& data_clock,
                       std::vector<MessageSink*> sinks, Observer observer,
-                      runtime::Tracer* run_tracer)
-    : config(vehicle_config),
+                      runtime::Tracer* run_tracer, std::shared_ptr<const RoadMap> road_map)
+    : config(fitted(vehicle_config, sensors)),
       clock(data_clock),
       tracer(run_tracer),
+      map(std::move(road_map)),
       images(make_edge<StereoPair>(edges::camera_stereo, &stereo_bell)),
       odometry_recorded(sensors.odometry != nullptr),
       to_lidar(config.odometry == "visual-lidar" && sensors.velodyne != nullptr &&
                        !odometry_recorded
                    ? std::optional<LidarEdges>(std::in_place)
                    : std::nullopt),
+      to_ppp(sensors.epochs != nullptr ? std::optional<PppEdges>(std::in_place) : std::nullopt),
+      to_mapmatch(map != nullptr ? std::optional<MapMatchEdges>(std::in_place) : std::nullopt),
       raw(wants_raw(sinks)),
       camera("camera", prefetched(stages::camera, std::move(sensors.camera)),
              raw ? Edges<StereoPair>{&to_publisher.camera, &images} : Edges<StereoPair>{&images}),
       velodyne("velodyne", prefetched(stages::velodyne, std::move(sensors.velodyne)), scan_edges()),
       imu("imu", std::move(sensors.imu), {&to_fusion.imu, &to_publisher.imu}),
-      gnss("gnss", std::move(sensors.gnss), {&to_fusion.gnss, &to_publisher.gnss}),
+      gnss("gnss", std::move(sensors.gnss), to_ppp ? Edges<GnssFix>{} : fix_edges()),
+      epochs("gnss", std::move(sensors.epochs),
+             to_ppp ? Edges<GnssEpoch>{&to_ppp->epochs} : Edges<GnssEpoch>{}),
       wheel("wheel", std::move(sensors.wheel), {&to_fusion.wheel, &to_publisher.wheel}),
       reference("reference", std::move(sensors.reference), {&to_publisher.reference}),
       odometry("odometry", std::move(sensors.odometry),
                {&to_fusion.odometry, &to_publisher.odometry}),
       visual_log("visual log", std::move(sensors.visual), {&to_publisher.visual}),
       lidar_log("lidar log", std::move(sensors.lidar), {&to_publisher.lidar}),
-      stereo(stereo::StereoOdometry(calibration.stereo, config.stereo), images, stereo_bell,
+      stereo(stereo::StereoOdometry(camera_of(calibration), config.stereo), images, stereo_bell,
              visual_edges()),
-      fusion(fusion::ReducedImuFilter(config.fusion), to_fusion, to_publisher.nav_state,
+      fusion(fusion::ReducedImuFilter(config.fusion), to_fusion, state_edges(),
              to_publisher.image_state,
              stages::stereo.budget + (to_lidar ? stages::lidar.budget : Duration::zero())),
-      publisher(calibration, to_publisher, std::move(sinks), std::move(observer)),
+      publisher(calibration, to_publisher, std::move(sinks), std::move(observer), describer()),
       wake_all(stop.get_token(), [this] {
         stereo_bell.ring();
         if (to_lidar) to_lidar->bell.ring();
+        if (to_ppp) to_ppp->bell.ring();
         to_fusion.bell.ring();
+        if (to_mapmatch) to_mapmatch->bell.ring();
       }) {
   if (to_lidar) {
     lidar.emplace(lidar::LidarOdometry(calibration.T_body_velo, config.lidar), *to_lidar,
@@ -70,10 +98,22 @@ Vehicle::Graph::Graph(const VehicleConfig& vehicle_config, const VehicleCalibrat
                   Edges<RelativeMotion>{&to_fusion.odometry, &to_publisher.odometry});
     lidar->trace_to(trace_buffer(stages::lidar.name));
   }
+  if (to_ppp) {
+    ppp.emplace(std::move(sensors.ppp), config.ppp.integrity_risk, *to_ppp, to_publisher.ppp,
+                fix_edges());
+    ppp->trace_to(trace_buffer(stages::ppp.name));
+    epochs.trace_to(trace_buffer(stages::gnss.name));
+  } else {
+    gnss.trace_to(trace_buffer(stages::gnss.name));
+    to_publisher.ppp.finish();
+  }
+  if (to_mapmatch) {
+    mapmatch.emplace(map, config.mapmatch, *to_mapmatch, Edges<MapMatch>{&to_publisher.map_match});
+    mapmatch->trace_to(trace_buffer(stages::mapmatch.name));
+  }
   camera.trace_to(trace_buffer(stages::camera.name));
   velodyne.trace_to(trace_buffer(stages::velodyne.name));
   imu.trace_to(trace_buffer(stages::imu.name));
-  gnss.trace_to(trace_buffer(stages::gnss.name));
   wheel.trace_to(trace_buffer(stages::wheel.name));
   reference.trace_to(trace_buffer(stages::reference.name));
   if (odometry_recorded) {
@@ -102,6 +142,22 @@ Edges<LidarScan> Vehicle::Graph::scan_edges() {
 Edges<RelativeMotion> Vehicle::Graph::visual_edges() {
   if (to_lidar) return {&to_lidar->visual, &to_publisher.visual};
   return {&to_fusion.odometry, &to_publisher.visual, &to_publisher.odometry};
+}
+
+Edges<GnssFix> Vehicle::Graph::fix_edges() {
+  return {&to_fusion.gnss, &to_publisher.gnss};
+}
+
+Edges<NavState> Vehicle::Graph::state_edges() {
+  Edges<NavState> to{&to_publisher.nav_state};
+  if (to_mapmatch) to.push_back(&to_mapmatch->nav_state);
+  return to;
+}
+
+MatchDescriber Vehicle::Graph::describer() const {
+  return [roads = map](const MapMatch& match) {
+    return mapmatch::in_words(match, roads->network, roads->rules);
+  };
 }
 
 runtime::TraceBuffer* Vehicle::Graph::trace_buffer(std::string_view thread) {
@@ -141,8 +197,8 @@ void Vehicle::Graph::start_driver(const Stage& stage, const runtime::Scheduling&
 void Vehicle::Graph::find_first() {
   for (const std::optional<Time>& available :
        {camera.load_first(), velodyne.load_first(), imu.load_first(), gnss.load_first(),
-        wheel.load_first(), reference.load_first(), odometry.load_first(), visual_log.load_first(),
-        lidar_log.load_first()}) {
+        epochs.load_first(), wheel.load_first(), reference.load_first(), odometry.load_first(),
+        visual_log.load_first(), lidar_log.load_first()}) {
     if (available) first = std::min(first, *available);
   }
   if (first == Time::max()) {
@@ -160,6 +216,7 @@ void Vehicle::Graph::find_first() {
   velodyne.skip_until(resumed->at);
   imu.skip_until(resumed->at);
   gnss.skip_until(resumed->at);
+  epochs.skip_until(resumed->at);
   wheel.skip_until(resumed->at);
   reference.skip_until(resumed->at);
   odometry.skip_until(resumed->at);
@@ -172,8 +229,11 @@ void Vehicle::Graph::start_snapshots() {
   std::set<Time> moments;
   for (const SnapshotWish& wish : wishes) moments.insert(wish.moments.begin(), wish.moments.end());
   const std::vector<Time> cuts(moments.upper_bound(begin), moments.end());
-  PartSizes bytes{stereo.saved_bytes(), std::nullopt, fusion.saved_bytes()};
+  PartSizes bytes{stereo.saved_bytes(), std::nullopt, std::nullopt, fusion.saved_bytes(),
+                  std::nullopt};
   if (lidar) bytes.lidar = lidar->saved_bytes();
+  if (ppp) bytes.ppp = PppStage::saved_bytes();
+  if (mapmatch) bytes.mapmatch = mapmatch->saved_bytes();
   snapshots = std::make_unique<SnapshotStage>(bytes, [this](const Snapshot& snapshot) {
     for (const SnapshotWish& wish : wishes) {
       if (wish.moments.contains(snapshot.at)) wish.handler(snapshot);
@@ -187,6 +247,14 @@ void Vehicle::Graph::start_snapshots() {
   if (lidar) {
     lidar->save_at(cuts, *parts.lidar);
     monitor.watch(*parts.lidar);
+  }
+  if (ppp) {
+    ppp->save_at(cuts, *parts.ppp);
+    monitor.watch(*parts.ppp);
+  }
+  if (mapmatch) {
+    mapmatch->save_at(cuts, *parts.mapmatch);
+    monitor.watch(*parts.mapmatch);
   }
   monitor.watch_stage(stages::snapshot,
                       start_thread(
@@ -205,12 +273,7 @@ void Vehicle::Graph::start_odometry() {
         producers, stages::stereo, config.scheduling.stereo, stop.get_token(),
         [this](const std::stop_token& token) { stereo.idle(token); }, [] {});
   } else {
-    monitor.watch_stage(stages::stereo,
-                        start_thread(
-                            producers, stages::stereo, config.scheduling.stereo, stop.get_token(),
-                            [this](const std::stop_token& token) { stereo.run(clock, token); },
-                            [this] { stereo.finish(); }),
-                        stereo.meter(), {&images});
+    start_stereo();
   }
   if (lidar) {
     monitor.watch_stage(stages::lidar,
@@ -224,6 +287,47 @@ void Vehicle::Graph::start_odometry() {
   }
 }
 
+void Vehicle::Graph::start_stereo() {
+  const runtime::Thread& thread = start_thread(
+      producers, stages::stereo, config.scheduling.stereo, stop.get_token(),
+      [this](const std::stop_token& token) { stereo.run(clock, token); },
+      [this] { stereo.finish(); });
+  // Of a drive with GNSS alone nobody waits for images.
+  if (to_ppp && camera.absent()) return;
+  monitor.watch_stage(stages::stereo, thread, stereo.meter(), {&images});
+}
+
+// The receiver's fixes, or its observations and what makes fixes from them.
+void Vehicle::Graph::start_gnss() {
+  if (!ppp) {
+    start_driver(stages::gnss, config.scheduling.gnss, gnss);
+    return;
+  }
+  monitor.watch(to_ppp->epochs);
+  monitor.watch(to_publisher.ppp);
+  start_driver(stages::gnss, config.scheduling.gnss, epochs);
+  monitor.watch_stage(stages::ppp,
+                      start_thread(
+                          producers, stages::ppp, config.scheduling.ppp, stop.get_token(),
+                          [this](const std::stop_token& token) { ppp->run(clock, token); },
+                          [this] { ppp->finish(); }),
+                      ppp->meter(), {&to_ppp->epochs});
+}
+
+void Vehicle::Graph::start_mapmatch() {
+  if (!mapmatch) {
+    to_publisher.map_match.finish();
+    return;
+  }
+  monitor.watch_stage(
+      stages::mapmatch,
+      start_thread(
+          producers, stages::mapmatch, config.scheduling.mapmatch, stop.get_token(),
+          [this](const std::stop_token& token) { mapmatch->run(clock, begin, token); },
+          [this] { mapmatch->finish(); }),
+      mapmatch->meter(), {&to_mapmatch->nav_state});
+}
+
 void Vehicle::Graph::start() {
   find_first();
   for (const runtime::EdgeBase* edge : std::initializer_list<const runtime::EdgeBase*>{
@@ -232,6 +336,10 @@ void Vehicle::Graph::start() {
            &to_publisher.visual, &to_publisher.lidar, &to_publisher.odometry,
            &to_publisher.nav_state, &to_publisher.image_state, &to_publisher.reports}) {
     monitor.watch(*edge);
+  }
+  if (to_mapmatch) {
+    monitor.watch(to_mapmatch->nav_state);
+    monitor.watch(to_publisher.map_match);
   }
   if (to_lidar) {
     monitor.watch(to_lidar->scans);
@@ -257,7 +365,7 @@ void Vehicle::Graph::start() {
   start_driver(stages::camera, scheduling.camera, camera);
   start_driver(stages::velodyne, scheduling.velodyne, velodyne);
   start_driver(stages::imu, scheduling.imu, imu);
-  start_driver(stages::gnss, scheduling.gnss, gnss);
+  start_gnss();
   start_driver(stages::wheel, scheduling.wheel, wheel);
   start_driver(stages::reference, scheduling.reference, reference);
   start_odometry();
@@ -268,6 +376,7 @@ void Vehicle::Graph::start() {
                           [this] { fusion.finish(); }),
                       fusion.meter(),
                       {&to_fusion.imu, &to_fusion.gnss, &to_fusion.wheel, &to_fusion.odometry});
+  start_mapmatch();
   // These two end after everybody else has, so that nothing produced is left unsaid.
   monitor.watch_stage(stages::publisher,
                       start_thread(

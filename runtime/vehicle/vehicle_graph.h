@@ -16,6 +16,8 @@
 #include "runtime/vehicle/graph.h"
 #include "runtime/vehicle/health_monitor.h"
 #include "runtime/vehicle/lidar_stage.h"
+#include "runtime/vehicle/mapmatch_stage.h"
+#include "runtime/vehicle/ppp_stage.h"
 #include "runtime/vehicle/replay_driver.h"
 #include "runtime/vehicle/snapshot_stage.h"
 #include "runtime/vehicle/stereo_stage.h"
@@ -31,15 +33,21 @@ struct SnapshotWish {
 struct Vehicle::Graph {
   Graph(const VehicleConfig& config, const VehicleCalibration& calibration, Sensors sensors,
         const runtime::DataClock& data_clock, std::vector<MessageSink*> sinks, Observer observer,
-        runtime::Tracer* tracer);
+        runtime::Tracer* tracer, std::shared_ptr<const RoadMap> road_map);
   ~Graph();
 
   void find_first();
   void start();
   void start_snapshots();
   void start_odometry();
+  void start_stereo();
+  void start_gnss();
+  void start_mapmatch();
   std::vector<runtime::Edge<LidarScan>*> scan_edges();
   std::vector<runtime::Edge<RelativeMotion>*> visual_edges();
+  std::vector<runtime::Edge<GnssFix>*> fix_edges();
+  std::vector<runtime::Edge<NavState>*> state_edges();
+  MatchDescriber describer() const;
   void run_health(const std::stop_token& end);
   RuntimeReport look(Duration elapsed);
   void wait();
@@ -68,12 +76,16 @@ struct Vehicle::Graph {
   std::vector<SnapshotWish> wishes;
   std::unique_ptr<SnapshotStage> snapshots;
 
+  std::shared_ptr<const RoadMap> map;  // nullptr: none
+
   // Edges, by the thread that they end at.
   runtime::Doorbell stereo_bell;
   runtime::Edge<StereoPair> images;
   bool odometry_recorded;              // instead of images
   std::optional<LidarEdges> to_lidar;  // nothing: fusion gets the visual odometry
+  std::optional<PppEdges> to_ppp;      // nothing: there are no observations
   FusionEdges to_fusion;
+  std::optional<MapMatchEdges> to_mapmatch;  // where there is a map
   PublisherEdges to_publisher;
 
   bool raw;  // images and scans go to the publisher too
@@ -81,6 +93,7 @@ struct Vehicle::Graph {
   ReplayDriver<LidarScan> velodyne;
   ReplayDriver<ImuSample> imu;
   ReplayDriver<GnssFix> gnss;
+  ReplayDriver<GnssEpoch> epochs;  // instead of gnss where there is to_ppp
   ReplayDriver<WheelSpeed> wheel;
   ReplayDriver<ReferencePose> reference;
   ReplayDriver<RelativeMotion> odometry;
@@ -88,7 +101,9 @@ struct Vehicle::Graph {
   ReplayDriver<LidarMotion> lidar_log;
   StereoStage stereo;
   std::optional<LidarStage> lidar;  // where there is to_lidar
+  std::optional<PppStage> ppp;      // where there is to_ppp
   FusionStage fusion;
+  std::optional<MapMatchStage> mapmatch;  // where there is to_mapmatch
   Publisher publisher;
   HealthMonitor monitor;
   ThreadMeter health_meter{stages::health};

@@ -17,7 +17,11 @@ VehicleReport Vehicle::Graph::report() const {
   add(camera);
   add(velodyne);
   add(imu);
-  add(gnss);
+  if (ppp) {
+    add(epochs);
+  } else {
+    add(gnss);
+  }
   if (!wheel.absent()) add(wheel);
   add(reference);
   if (odometry_recorded) {
@@ -45,7 +49,8 @@ RuntimeReport Vehicle::Graph::look(Duration elapsed) {
   report.health = monitor.health(stamp, elapsed, clock, readiness);
   report.health.elapsed = to_seconds(runtime::monotonic_now() - started);
   report.health.cpu = process_cpu_seconds() - cpu_at_start;
-  report.health.refusals = refusals(stereo, lidar ? &*lidar : nullptr, fusion.filter_status());
+  report.health.refusals = refusals(stereo, lidar ? &*lidar : nullptr, ppp ? &*ppp : nullptr,
+                                    fusion.filter_status(), mapmatch ? &*mapmatch : nullptr);
   report.deadlines = monitor.deadlines(stamp);
   return report;
 }

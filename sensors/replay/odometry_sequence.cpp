@@ -194,6 +194,7 @@ OdometrySequence::OdometrySequence(const fs::path& path, const KittiDriveParamet
   if (const auto imu = existing(name->folder / "imu100" / (day + "_" + number + ".csv"))) {
     imu_rows_ = std::make_shared<const OxtsRows>(read_imu_rows(*imu, start));
   }
+  labels_ = existing(name->folder / "labels" / (name->number + ".csv"));
   tracks_ = existing(name->folder / "tracks" / (day + "_drive_" + number + ".csv"));
 }
 

@@ -26,6 +26,7 @@ namespace maploop::sensors {
 //                      lines: what lies inside is left out, and reported
 //   poses/NN.times.txt when each image was taken, on the clock of oxts/NN.csv
 //   tracks/<drive>.csv stereo tracks in place of images, if there are any
+//   labels/NN.csv      links really driven, if there are any: not read, but found
 //   imu100/<drive>.csv inertial samples at 100 Hz in place of the rows' own, if there are any
 // Stamps are the raw drive's own (KITTI's clock, local time read as UTC).
 class OdometrySequence {
@@ -47,6 +48,9 @@ class OdometrySequence {
   // Of stereo tracks, which have a calibration of their own.
   const std::optional<std::filesystem::path>& tracks_file() const { return tracks_; }
 
+  // Of the links really driven, frame by frame.
+  const std::optional<std::filesystem::path>& labels_file() const { return labels_; }
+
   // New sources, each from the start of the sequence.
   std::unique_ptr<Source<ImuSample>> imu() const;
   std::unique_ptr<Source<GnssFix>> gnss(const GnssAidParameters& parameters) const;
@@ -59,7 +63,7 @@ class OdometrySequence {
   std::vector<Time> image_stamps_;
   std::shared_ptr<const OxtsRows> rows_;
   std::shared_ptr<const OxtsRows> imu_rows_;
-  std::optional<std::filesystem::path> tracks_;
+  std::optional<std::filesystem::path> tracks_, labels_;
 };
 
 }  // namespace maploop::sensors

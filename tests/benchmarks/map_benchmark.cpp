@@ -1,12 +1,8 @@
-// Map matching and its parts on real maps: a fix, a search for near links beside Boost.Geometry's
-// R-tree, and loading.
+// Map matching and its parts on real maps: a fix, a search for near links, and loading.
 #include <benchmark/benchmark.h>
 
-#include <boost/geometry.hpp>
-#include <boost/geometry/index/rtree.hpp>
 #include <cstdlib>
 #include <filesystem>
-#include <iterator>
 
 #include "mapmatch/matcher.h"
 #include "mapmatch/network_file.h"
@@ -46,41 +42,12 @@ mapmatch::Box about(const Eigen::Vector2d& p) {
   return {p.x() - 40.0, p.y() - 40.0, p.x() + 40.0, p.y() + 40.0};
 }
 
-void near_segments_ours(benchmark::State& state) {
+void near_segments(benchmark::State& state) {
   const mapmatch::RoadNetwork network(mapmatch::open_network(karlsruhe()));
   std::size_t i = 0, found = 0;
   for (auto _ : state) {
     const auto& v = network.vertex(static_cast<std::uint32_t>(i));
     network.index().visit(about(v.position()), [&](const mapmatch::IndexedSegment&) { ++found; });
-    i = (i + 7919) % network.data().vertices.size();
-  }
-  benchmark::DoNotOptimize(found);
-}
-
-void near_segments_boost(benchmark::State& state) {
-  namespace geometry = boost::geometry;
-  using Point = geometry::model::point<double, 2, geometry::cs::cartesian>;
-  using Box = geometry::model::box<Point>;
-  using Value = std::pair<Box, std::uint32_t>;
-  const mapmatch::RoadNetwork network(mapmatch::open_network(karlsruhe()));
-  std::vector<Value> values;
-  for (std::uint32_t link = 0; link < network.size(); ++link) {
-    const mapmatch::Link& l = network.link(link);
-    for (std::uint32_t v = l.first_vertex; v + 1 < l.first_vertex + l.vertex_count; ++v) {
-      const auto &a = network.vertex(v), &b = network.vertex(v + 1);
-      values.push_back({{{std::min(a.east, b.east), std::min(a.north, b.north)},
-                         {std::max(a.east, b.east), std::max(a.north, b.north)}},
-                        v});
-    }
-  }
-  const geometry::index::rtree<Value, geometry::index::rstar<16>> tree(values);
-  std::size_t i = 0;
-  std::vector<Value> found;
-  for (auto _ : state) {
-    const mapmatch::Box box = about(network.vertex(static_cast<std::uint32_t>(i)).position());
-    found.clear();
-    tree.query(geometry::index::intersects(Box{{box.west, box.south}, {box.east, box.north}}),
-               std::back_inserter(found));
     i = (i + 7919) % network.data().vertices.size();
   }
   benchmark::DoNotOptimize(found);
@@ -100,8 +67,7 @@ void load_own_file(benchmark::State& state) {
 }
 
 BENCHMARK(a_fix_at_10_Hz);
-BENCHMARK(near_segments_ours);
-BENCHMARK(near_segments_boost);
+BENCHMARK(near_segments);
 BENCHMARK(load_pbf)->Unit(benchmark::kMillisecond);
 BENCHMARK(load_own_file)->Unit(benchmark::kMillisecond);
 

@@ -9,7 +9,7 @@ namespace maploop::mapmatch {
 namespace {
 
 TEST(SegmentIndex, FindsWhatASearchOfAllFinds) {
-  for (const std::size_t count : {1u, 15u, 16u, 17u, 257u, 5000u}) {
+  for (const std::size_t count : {0u, 1u, 15u, 16u, 17u, 257u, 5000u}) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> where(-1000.0, 1000.0);
     std::uniform_real_distribution<double> size(0.0, 60.0);

@@ -2,8 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
+#include <string>
+#include <tuple>
 #include <vector>
+
+#include "msgs/archive.h"
 
 namespace maploop {
 namespace {
@@ -106,6 +111,99 @@ TEST(LcmConversions, LidarMotion) {
   EXPECT_EQ(r.seed_rotation_error, m.seed_rotation_error);
 }
 
+TEST(LcmConversions, MapMatch) {
+  MapMatch match;
+  fill(match);
+  match.phase = MatchPhase::at_junction;
+  match.on_road = true;
+  match.link = {77, false};
+  match.along = 12.5;
+  match.sigma_along = 3.0;
+  match.sigma_across = 4.0;
+  match.likelihood = 81.0;
+  match.probability = 0.97;
+  match.margin = 0.9;
+  match.off_road = 0.01;
+  match.way_id = 10;
+  match.node_a = 1;
+  match.node_b = 2;
+  match.origin = {0.85, 0.14, 110.0};
+  match.vehicle_enu = {3.0, 4.0};
+  match.covariance << 2.0, 0.5, 0.5, 3.0;
+  match.vehicle_azimuth = 0.1;
+  match.speed = 9.0;
+  match.matched_enu = {5.0, 6.0};
+  match.link_azimuth = 0.2;
+  match.cross_track = -1.5;
+  match.half_width = 2.75;
+  match.bend = -0.3;
+  match.to_junction = 30.0;
+  match.candidate_count = 2;
+  match.candidates[1].link = {5, true};
+  match.candidates[1].way_id = 11;
+  match.candidates[1].node_a = 3;
+  match.candidates[1].node_b = 4;
+  match.candidates[1].along = 7.0;
+  match.candidates[1].distance = 8.0;
+  match.candidates[1].azimuth_error = 0.7;
+  match.candidates[1].connectivity = 1.0;
+  match.candidates[1].rules = RuleBase::junction;
+  match.candidates[1].decided = true;
+  match.candidates[1].likelihood = 33.0;
+  match.candidates[1].probability = 0.02;
+  match.candidates[1].weights[31] = 0.25F;
+  const MapMatchWords words{"way 10", {{"way 10", {}, {}}, {"way 11", {"8 m away"}, {"0.25: if"}}}};
+
+  const auto message = to_lcm(match, words);
+  EXPECT_EQ(message.explanation, "way 10");
+  EXPECT_EQ(message.candidates[1].road, "way 11");
+  EXPECT_EQ(message.candidates[1].objections, std::vector<std::string>{"8 m away"});
+  EXPECT_EQ(message.candidates[1].rules, std::vector<std::string>{"0.25: if"});
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  ASSERT_EQ(message.encode(bytes.data(), 0, static_cast<int>(bytes.size())),
+            static_cast<int>(bytes.size()));
+  maploop_lcm::map_match_t received;
+  ASSERT_EQ(received.decode(bytes.data(), 0, static_cast<int>(bytes.size())),
+            static_cast<int>(bytes.size()));
+  const MapMatch r = from_lcm(received);
+  expect_same_times(r, match);
+  EXPECT_EQ(r.phase, match.phase);
+  EXPECT_EQ(r.refusal, match.refusal);
+  EXPECT_EQ(r.on_road, match.on_road);
+  EXPECT_EQ(r.link, match.link);
+  EXPECT_EQ(std::tie(r.along, r.sigma_along, r.sigma_across, r.likelihood, r.probability, r.margin,
+                     r.off_road, r.way_id, r.node_a, r.node_b),
+            std::tie(match.along, match.sigma_along, match.sigma_across, match.likelihood,
+                     match.probability, match.margin, match.off_road, match.way_id, match.node_a,
+                     match.node_b));
+  EXPECT_EQ(std::tie(r.origin.latitude, r.origin.longitude, r.origin.height, r.vehicle_azimuth,
+                     r.speed, r.link_azimuth, r.cross_track, r.half_width, r.bend, r.to_junction),
+            std::tie(match.origin.latitude, match.origin.longitude, match.origin.height,
+                     match.vehicle_azimuth, match.speed, match.link_azimuth, match.cross_track,
+                     match.half_width, match.bend, match.to_junction));
+  EXPECT_EQ(r.vehicle_enu, match.vehicle_enu);
+  EXPECT_EQ(r.covariance, match.covariance);
+  EXPECT_EQ(r.matched_enu, match.matched_enu);
+  ASSERT_EQ(r.candidate_count, 2U);
+  const MatchCandidate& a = r.candidates[1];
+  const MatchCandidate& b = match.candidates[1];
+  EXPECT_EQ(a.link, b.link);
+  EXPECT_EQ(std::tie(a.way_id, a.node_a, a.node_b, a.along, a.distance, a.azimuth_error,
+                     a.connectivity, a.rules, a.decided, a.likelihood, a.probability, a.weights),
+            std::tie(b.way_id, b.node_a, b.node_b, b.along, b.distance, b.azimuth_error,
+                     b.connectivity, b.rules, b.decided, b.likelihood, b.probability, b.weights));
+  EXPECT_TRUE(std::isnan(a.distance_error)) << "not known";
+}
+
+TEST(LcmConversions, AMatchWithMoreCandidatesThanItHoldsIsRefused) {
+  auto message = to_lcm(MapMatch{}, {});
+  message.candidates.resize(LinkMatch::max_candidates + 1);
+  EXPECT_THROW(from_lcm(message), std::invalid_argument);
+  message.candidates.clear();
+  message.phase = 9;
+  EXPECT_THROW(from_lcm(message), std::invalid_argument);
+}
+
 TEST(LcmConversions, RelativeMotion) {
   RelativeMotion m;
   fill(m);
@@ -169,6 +267,42 @@ TEST(LcmConversions, GnssFix) {
   EXPECT_EQ(r.velocity_stamp, f.velocity_stamp);
   EXPECT_EQ(r.velocity_enu, f.velocity_enu);
   EXPECT_EQ(r.velocity_covariance, f.velocity_covariance);
+}
+
+TEST(LcmConversions, PppState) {
+  PppState s;
+  fill(s);
+  s.status = PppStatus::converged;
+  s.message = "started again";
+  s.position = {0.62, 2.44, 51.0};
+  s.position_covariance.setRandom();
+  s.velocity_enu = {1.0, -2.0, 0.5};
+  s.velocity_covariance.setRandom();
+  s.protection = {0.1, 0.2, 0.3};
+  s.integrity_risk = 1e-5;
+  s.zenith_delay = 2.41;
+  s.zenith_delay_sigma = 0.02;
+  s.code_rms = 0.7;
+  s.phase_rms = 0.008;
+  s.converging_for = 123.0;
+  s.restarts = 2;
+  s.satellites_used = 9;
+  s.satellites = {
+      {'E', 33, 1.0F, 0.5F, 44.0F, true, false, 0.7F, 0.01F, PppRefusal::phase_misfit,
+       PppSlip::wide_lane},
+      {'G', 5, 0.0F, 0.0F, 0.0F, false, false, 0.0F, 0.0F, PppRefusal::too_many, PppSlip::doppler}};
+  const PppState r = round_trip(s);
+  expect_same_times(r, s);
+  ArchiveWriter sent, received;  // every field, bit for bit
+  sent(s);
+  received(r);
+  EXPECT_EQ(received.content(), sent.content());
+  maploop_lcm::ppp_state_t m = to_lcm(s);
+  m.satellites[0].refusal = 11;
+  EXPECT_THROW(from_lcm(m), std::invalid_argument);
+  m.satellites[0] = to_lcm(s).satellites[0];
+  m.satellites[0].name = "E3";
+  EXPECT_THROW(from_lcm(m), std::invalid_argument);
 }
 
 TEST(LcmConversions, ReferencePose) {
@@ -321,6 +455,9 @@ TEST(LcmConversions, StatusConstantsAgree) {
             +maploop_lcm::relative_motion_t::IMPLAUSIBLE);
   EXPECT_EQ(static_cast<int>(OdometryStatus::bad_input),
             +maploop_lcm::relative_motion_t::BAD_INPUT);
+  EXPECT_EQ(static_cast<int>(MatchPhase::off_road), +maploop_lcm::map_match_t::OFF_ROAD);
+  EXPECT_EQ(static_cast<int>(FixRefusal::no_position), +maploop_lcm::map_match_t::NO_POSITION);
+  EXPECT_EQ(static_cast<int>(RuleBase::junction), +maploop_lcm::map_candidate_t::JUNCTION);
   EXPECT_EQ(static_cast<int>(Verdict::refused), +maploop_lcm::realtime_setting_t::REFUSED);
   EXPECT_EQ(static_cast<int>(Verdict::unknown), +maploop_lcm::realtime_setting_t::UNKNOWN);
 }

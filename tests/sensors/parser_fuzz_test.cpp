@@ -14,36 +14,12 @@
 #include "sensors/replay/oxts.h"
 #include "sensors/replay/timestamps.h"
 #include "tests/sensors/small_drive.h"
+#include "tests/support/damaged_text.h"
 
 namespace maploop::sensors {
 namespace {
 
-// Cut somewhere, one to four bits flipped, a piece taken out or doubled, or bytes from anywhere.
-std::string damaged(std::string text, std::mt19937& random) {
-  const auto place = [&] { return text.empty() ? 0 : random() % text.size(); };
-  switch (random() % 5) {
-    case 0:
-      text.resize(place());
-      break;
-    case 1:
-      for (unsigned n = 1 + random() % 4; n > 0 && !text.empty(); --n) {
-        char& c = text[place()];
-        c = static_cast<char>(c ^ (1 << random() % 8));
-      }
-      break;
-    case 2:
-      text.erase(place(), random() % 40);
-      break;
-    case 3:
-      text.insert(place(), text.substr(place(), random() % 40));
-      break;
-    default:
-      for (unsigned n = 1 + random() % 8; n > 0 && !text.empty(); --n) {
-        text[place()] = "0123456789.-+eE:naif \n\r\t"[random() % 25];
-      }
-  }
-  return text;
-}
+constexpr std::string_view alphabet("0123456789.-+eE:naif \n\r\t", 25);  // and a zero
 
 struct Tally {
   int accepted = 0, refused = 0;
@@ -56,7 +32,7 @@ Tally feed(const std::string& text, int rounds, const std::function<void(const s
   Tally tally;
   for (int round = 0; round < rounds; ++round) {
     try {
-      f(damaged(text, random));
+      f(maploop::testing::damaged(text, random, 40, alphabet));
       ++tally.accepted;
     } catch (const Error& error) {
       EXPECT_GT(std::string(error.what()).size(), 5U);

@@ -94,6 +94,45 @@ TEST(ReplayCommand, StartAndEndChangeNoBitOfWhatLiesBetween) {
   EXPECT_LT(lockstep["channels"]["VO"]["count"], 62);
 }
 
+TEST(ReplayCommand, MatchesToAMapAndScoresTheLinks) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "result.json").string();
+  const auto data = testing::real_data();
+  const auto run = [&](const std::vector<std::string>& how) {
+    std::vector<std::string> arguments{(data / "kitti_odometry/oxts/04.csv.gz").string(),
+                                       "--no-lcm",
+                                       "--configuration",
+                                       "GNSS+RISS",
+                                       "--map",
+                                       (data / "maps/karlsruhe_2012-04.osm.pbf").string(),
+                                       "--json",
+                                       file};
+    arguments.insert(arguments.end(), how.begin(), how.end());
+    const ProcessResult result = replay(arguments);
+    EXPECT_EQ(result.status, 0) << result.error;
+    return json::parse(std::ifstream(file));
+  };
+  const json lockstep = run({"--lockstep"});
+  EXPECT_EQ(lockstep["channels"]["MAP_MATCH"]["count"], 282);
+  EXPECT_GE(lockstep["links"]["all"]["fixes"], 270);
+  EXPECT_EQ(lockstep["links"]["all"]["right"], 1.0);
+  EXPECT_EQ(lockstep["links"]["certain"]["coverage"], 1.0);
+  EXPECT_EQ(hashes(lockstep), hashes(run({"--lockstep"})));
+  const json unmatched = run({"--lockstep", "--map-mode", "none"});
+  EXPECT_TRUE(unmatched["links"].is_null());
+  EXPECT_FALSE(unmatched["channels"].contains("MAP_MATCH"));
+  EXPECT_EQ(hashes(unmatched)["NAV_STATE"], hashes(lockstep)["NAV_STATE"]);
+}
+
+TEST(ReplayCommand, AMapModeWithoutAMapIsAnError) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const ProcessResult result =
+      replay({testing::drive_0013().string(), "--no-lcm", "--map-mode", "loose"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.error.find("needs a map: --map FILE"), std::string::npos) << result.error;
+}
+
 TEST(ReplayCommand, AStartAfterTheEndIsAnError) {
   MAPLOOP_REQUIRE_DRIVE();
   const ProcessResult result =

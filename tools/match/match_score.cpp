@@ -14,7 +14,7 @@ constexpr double gate = radians(50.0);  // of the baseline
 MatchedFix on_segment(const mapmatch::RoadNetwork& network, mapmatch::DirectedLink link,
                       std::uint32_t vertex, double p) {
   const auto [a, b] = network.nodes(link, vertex);
-  return {network.road_at(vertex).way_id, a, b, p};
+  return {network.road_at(vertex).way_id, a, b, p, link};
 }
 
 }  // namespace
@@ -35,7 +35,9 @@ void MatchScore::add(const std::vector<MatchedFix>& matched, const std::vector<s
     if (!matched[i].way_id) continue;
     const auto bin = std::min<std::size_t>(9, static_cast<std::size_t>(10.0 * matched[i].p_link));
     ++reliability.fixes[bin];
-    reliability.right[bin] += right ? 1 : 0;
+    const auto& driven = label->second.link;
+    const bool same = driven && matched[i].link ? driven == matched[i].link : right;
+    reliability.right[bin] += same ? 1 : 0;
     reliability.p_sum[bin] += matched[i].p_link;
   }
 }

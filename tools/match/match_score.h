@@ -18,6 +18,7 @@ struct MatchedFix {
   std::optional<std::int64_t> way_id;  // none: off the road, or not known
   std::int64_t node_a = 0, node_b = 0;
   double p_link = 0.0;
+  std::optional<mapmatch::DirectedLink> link{};  // where it is known
 };
 
 struct Tally {
@@ -32,7 +33,8 @@ struct Tally {
   }
 };
 
-// Of what is said with P between k/10 and (k+1)/10: how much is right.
+// Of what is said with P between k/10 and (k+1)/10: how much is right; by the link where those
+// matched and driven are known, else by the way.
 struct Reliability {
   std::array<std::size_t, 10> fixes{}, right{};
   std::array<double, 10> p_sum{};

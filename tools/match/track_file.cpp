@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tools/evaluation/text_file.h"
+#include "tools/match/log_messages.h"
 
 namespace maploop::match {
 namespace {
@@ -21,6 +22,7 @@ std::string extension_of(std::filesystem::path file) {
 }  // namespace
 
 Track read_track(const std::filesystem::path& file, const TrackFileOptions& options) {
+  if (is_lcm_log(file)) return read_log_track(file);
   const std::string text = evaluation::read_text(file);
   const std::string name = file.string();
   const std::string extension = extension_of(file);

@@ -38,6 +38,26 @@ Plot errors(const Score& score, GpsTime first) {
   return plot;
 }
 
+// Errors beyond their protection level lie below the diagonal.
+Plot stanford(const Score& score, double integrity_risk) {
+  char title[120];
+  std::snprintf(title, sizeof title, "Stanford plot: %zu of %zu errors beyond their level, risk %g",
+                score.misleading(), 3 * score.errors().size(), integrity_risk);
+  Plot plot{title, "error, m", "protection level, m", {}, false};
+  const char* names[3] = {"along", "across", "up"};
+  double largest = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    Line line{names[i], {}, {}, Line::Look::points};
+    for (const ErrorAt& e : score.errors()) {
+      add(line, std::abs(e.travel[i]), e.protection[i]);
+      largest = std::max(largest, std::abs(e.travel[i]));
+    }
+    plot.lines.push_back(std::move(line));
+  }
+  plot.lines.push_back({"error = level", {0.0, largest}, {0.0, largest}});
+  return plot;
+}
+
 Plot ground_track(const Solutions& solutions) {
   Plot plot{"Way", "east, m", "north, m", {Line{"position", {}, {}}}, true};
   const PppSolution* origin = nullptr;
@@ -137,8 +157,8 @@ std::string refusals(const Solutions& solutions) {
   std::map<std::string, int> counts;
   for (const PppSolution& s : solutions) {
     for (const SatelliteReport& r : s.satellites) {
-      if (*r.refused != '\0') ++counts[r.refused];
-      if (*r.slip != '\0') ++counts[std::string("slip: ") + r.slip];
+      if (r.refused != PppRefusal::none) ++counts[std::string(to_string(r.refused))];
+      if (r.slip != PppSlip::none) ++counts["slip: " + std::string(to_string(r.slip))];
     }
   }
   std::string text =
@@ -152,14 +172,17 @@ std::string refusals(const Solutions& solutions) {
 }  // namespace
 
 std::string to_page(const std::string& heading, const std::vector<std::string>& summary,
-                    const Solutions& solutions, const Score* score) {
+                    const Solutions& solutions, const Score* score, double integrity_risk) {
   std::string body;
   for (const std::string& line : summary) body += "<p>" + tools::escaped(line) + "</p>";
   body += refusals(solutions);
   std::vector<Plot> plots;
   if (!solutions.empty()) {
     const GpsTime first = solutions.front().time;
-    if (score && !score->errors().empty()) plots.push_back(errors(*score, first));
+    if (score && !score->errors().empty()) {
+      plots.push_back(errors(*score, first));
+      plots.push_back(stanford(*score, integrity_risk));
+    }
     plots.push_back(ground_track(solutions));
     plots.push_back(deviations(solutions, first));
     plots.push_back(satellites(solutions, first));

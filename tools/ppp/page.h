@@ -1,4 +1,5 @@
-// A page about a run: error against the truth, satellites, residuals, sky.
+// A page about a run: error against the truth and its protection levels, satellites, residuals,
+// sky.
 #pragma once
 
 #include <string>
@@ -8,8 +9,9 @@
 
 namespace maploop::gnss {
 
-// `score` may be none. `summary`: lines of text that stand above.
+// `score` may be none; `integrity_risk` is that of its levels. `summary`: lines of text that stand
+// above.
 std::string to_page(const std::string& heading, const std::vector<std::string>& summary,
-                    const Solutions& solutions, const Score* score);
+                    const Solutions& solutions, const Score* score, double integrity_risk);
 
 }  // namespace maploop::gnss

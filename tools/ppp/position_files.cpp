@@ -176,7 +176,8 @@ std::string to_residual_csv(const Solutions& solutions) {
     for (const SatelliteReport& r : s.satellites) {
       append(text, "%s,%s,%.2f,%.2f,%.1f,%d,%d,%.4f,%.5f,%s,%s\n", stamp.c_str(),
              to_string(r.satellite).c_str(), degrees(r.azimuth), degrees(r.elevation), r.cn0,
-             r.code_used, r.phase_used, r.code_residual, r.phase_residual, r.slip, r.refused);
+             r.code_used, r.phase_used, r.code_residual, r.phase_residual, to_string(r.slip).data(),
+             to_string(r.refused).data());
     }
   }
   return text;

@@ -19,8 +19,23 @@ void Score::add(const PppSolution& solution) {
   const Eigen::Matrix3d R = rotation_enu_ecef(geodetic_from_ecef(*truth));
   const Eigen::Vector3d e = solution.position - *truth;
   const Eigen::Matrix3d P = R * solution.covariance * R.transpose();
-  errors_.push_back({solution.time, R * e, P.diagonal().cwiseMax(0.0).cwiseSqrt(),
-                     e.dot(solution.covariance.ldlt().solve(e))});
+  const Eigen::Vector3d enu = R * e, velocity = R * solution.velocity;
+  const TravelAxes axes = travel_axes(velocity);
+  const ProtectionLevels levels = protection_levels(P, velocity, factor_);
+  errors_.push_back({solution.time,
+                     enu,
+                     P.diagonal().cwiseMax(0.0).cwiseSqrt(),
+                     e.dot(solution.covariance.ldlt().solve(e)),
+                     {axes.along.dot(enu.head<2>()), axes.across.dot(enu.head<2>()), enu.z()},
+                     {levels.along, levels.across, levels.up}});
+}
+
+std::size_t Score::misleading() const {
+  std::size_t count = 0;
+  for (const ErrorAt& e : errors_) {
+    for (int i = 0; i < 3; ++i) count += std::abs(e.travel[i]) > e.protection[i];
+  }
+  return count;
 }
 
 Accuracy Score::accuracy(std::optional<GpsTime> from) const {

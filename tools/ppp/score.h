@@ -7,15 +7,18 @@
 #include <vector>
 
 #include "ppp/filter/solution.h"
+#include "ppp/protection.h"
 #include "tools/ppp/truth.h"
 
 namespace maploop::gnss {
 
 struct ErrorAt {
   ppp::GpsTime time{};
-  Eigen::Vector3d enu{0, 0, 0};    // m
-  Eigen::Vector3d sigma{0, 0, 0};  // m, formal
-  double nees = 0.0;               // of three dimensions
+  Eigen::Vector3d enu{0, 0, 0};         // m
+  Eigen::Vector3d sigma{0, 0, 0};       // m, formal
+  double nees = 0.0;                    // of three dimensions
+  Eigen::Vector3d travel{0, 0, 0};      // m, along and across the direction of travel, and up
+  Eigen::Vector3d protection{0, 0, 0};  // m, levels of the same
 };
 
 struct Accuracy {
@@ -32,7 +35,9 @@ struct Accuracy {
 
 class Score {
  public:
-  explicit Score(const Truth& truth) : truth_(truth) {}
+  // Protection levels are for this integrity risk.
+  Score(const Truth& truth, double integrity_risk)
+      : truth_(truth), factor_(ppp::integrity_factor(integrity_risk)) {}
 
   void add(const ppp::PppSolution& solution);
 
@@ -40,10 +45,13 @@ class Score {
   Accuracy accuracy(std::optional<ppp::GpsTime> from = {}) const;
   // Seconds until the 3-D error stays below a limit to the end; nothing: never.
   std::optional<double> time_to_stay_below(double limit) const;
+  // Errors beyond their protection level, of the three of each epoch.
+  std::size_t misleading() const;
   const std::vector<ErrorAt>& errors() const { return errors_; }
 
  private:
   const Truth& truth_;
+  double factor_;
   std::vector<ErrorAt> errors_;
   std::vector<ppp::GpsTime> with_truth_;
 };

@@ -49,6 +49,17 @@ std::string deadlines_line(const Deadlines& deadlines) {
   return line;
 }
 
+std::string ppp_line(const PppState& state) {
+  std::string line;
+  append(line, "ppp: %s, %d of %zu satellites", std::string(to_string(state.status)).c_str(),
+         state.satellites_used, state.satellites.size());
+  if (state.status == PppStatus::none) return line + ": " + printable(state.message);
+  append(line, ", within %.2f m along, %.2f across, %.2f up but for a risk of %g",
+         state.protection.along, state.protection.across, state.protection.up,
+         state.integrity_risk);
+  return line;
+}
+
 }  // namespace
 
 std::vector<std::string> vehicle_lines(const schema::Schema& schema, const Traffic& traffic) {
@@ -66,6 +77,10 @@ std::vector<std::string> vehicle_lines(const schema::Schema& schema, const Traff
   if (tools::checked_decode(schema, traffic.last(vehicle::channels::deadlines.name),
                             deadlines_message)) {
     lines.push_back(deadlines_line(from_lcm(deadlines_message)));
+  }
+  maploop_lcm::ppp_state_t ppp_message;
+  if (tools::checked_decode(schema, traffic.last(vehicle::channels::ppp_state.name), ppp_message)) {
+    lines.push_back(ppp_line(from_lcm(ppp_message)));
   }
   return lines;
 }

@@ -44,7 +44,7 @@ Accuracy score(const GnssFiles& files, const RunOptions& options, const std::str
   PppRun run(files, options);
   const GpsTime first = files.observations.at(0).epochs.front().time;
   const Truth truth(truth_text, first);
-  Score result(truth);
+  Score result(truth, 1e-4);
   run.process([&](const PppSolution& s) { result.add(s); });
   if (below) *below = result.time_to_stay_below(0.1);
   return result.accuracy(first + from_seconds(skip_seconds));
@@ -65,6 +65,7 @@ TEST(PppFilter, StaticStationToCentimetres) {
   EXPECT_EQ(a.solved, a.with_truth);
   EXPECT_LT(a.horizontal_rmse, 0.02);
   EXPECT_LT(a.up_rmse, 0.025);
+  EXPECT_LT(a.nees, 4.0) << "3 where the covariance is right";
 }
 
 TEST(PppFilter, StationAsAVehicleToCentimetres) {
@@ -99,6 +100,8 @@ TEST(PppFilter, ACarInAStreetIsFollowed) {
   EXPECT_EQ(a.solved, a.with_truth);
   EXPECT_LT(a.horizontal_rmse, 0.49);
   EXPECT_LT(a.horizontal_rmse_without_mean, 0.15);
+  EXPECT_LT(a.up_rmse, 0.49);
+  EXPECT_LT(a.nees, 4.0);
 }
 
 TEST(PppFilter, OneFrequencyWithBroadcastOrbits) {
@@ -149,7 +152,7 @@ TEST(PppFilter, ACodeThatIsFarOffIsRefusedWithItsReason) {
     if (s.time != epoch.time) return;
     for (const SatelliteReport& r : s.satellites) {
       if (r.satellite == victim.satellite) {
-        EXPECT_STREQ(r.refused, "code far from the others") << to_string(r.satellite);
+        EXPECT_EQ(r.refused, PppRefusal::code_far) << to_string(r.satellite);
         ++refused;
       }
     }

@@ -5,11 +5,13 @@
 
 #include "msgs/frames.h"
 #include "ppp/models/antenna.h"
+#include "ppp/models/atmosphere.h"
 #include "ppp/models/attitude.h"
 #include "ppp/models/earth.h"
 #include "ppp/models/geodesy.h"
 #include "ppp/models/tides.h"
 #include "ppp/models/troposphere.h"
+#include "ppp/protection.h"
 
 namespace maploop::ppp {
 namespace {
@@ -24,6 +26,25 @@ TEST(Geodesy, ThereAndBack) {
     EXPECT_NEAR(back.longitude, g.longitude, 1e-10);
     EXPECT_NEAR(back.height, g.height, 1e-3);
   }
+}
+
+TEST(Protection, FactorsAreThoseOfTheNormalDistribution) {
+  EXPECT_NEAR(integrity_factor(0.3173105), 1.0, 1e-6);
+  EXPECT_NEAR(integrity_factor(1e-4), 3.8905919, 1e-6);
+  EXPECT_NEAR(integrity_factor(1e-7), 5.3267239, 1e-6);
+}
+
+TEST(Protection, AlongAndAcrossFollowTheDirectionOfTravel) {
+  const Eigen::Matrix3d P = Eigen::Vector3d(0.04, 0.09, 0.25).asDiagonal();
+  const auto north = protection_levels(P, {0.0, 10.0, 0.0}, 2.0);
+  EXPECT_NEAR(north.along, 0.6, 1e-12);
+  EXPECT_NEAR(north.across, 0.4, 1e-12);
+  EXPECT_NEAR(north.up, 1.0, 1e-12);
+  const auto north_east = protection_levels(P, {3.0, 3.0, 0.0}, 2.0);
+  EXPECT_NEAR(north_east.along, 2.0 * std::sqrt(0.065), 1e-12);
+  const auto still = protection_levels(P, {0.1, 0.0, 0.0}, 2.0);
+  EXPECT_NEAR(still.along, 0.6, 1e-12) << "the larger one, whatever the direction";
+  EXPECT_NEAR(still.across, 0.6, 1e-12);
 }
 
 // The formula of the Astronomical Almanac, good to 0.01 degrees.
@@ -89,11 +110,22 @@ TEST(Tides, OceanLoadingOfOneConstituentIsItsAmplitude) {
   EXPECT_NEAR(high, 0.010, 1e-5);
 }
 
-TEST(Troposphere, SaastamoinenAtSeaLevel) {
-  const ZenithDelay d = saastamoinen({0.7854, 0.0, 0.0});
-  EXPECT_NEAR(d.hydrostatic, 0.0022768 * 1013.25, 1e-3);
-  EXPECT_GT(d.wet, 0.05);
-  EXPECT_LT(d.wet, 0.3);
+// By hand from the standard's table at 45 degrees on its coldest day, and half a year later.
+TEST(Atmosphere, DelaysFollowLatitudeSeasonAndHeight) {
+  const GpsTime winter = gps_time({2020, 1, 28, 0, 0, 0.0}),
+                summer = gps_time({2020, 7, 28, 0, 0, 0.0});
+  const Geodetic sea{radians(45.0), 0.0, 0.0};
+  EXPECT_NEAR(zenith_delay(sea, winter).hydrostatic, 0.0022768 * 1018.0, 1e-4);
+  const double exponent = 9.784 * (2.11 + 1.0) - 5.26e-3 * 287.054;
+  EXPECT_NEAR(zenith_delay(sea, winter).wet, 0.382 * 287.054 / exponent * 4.42 / 272.15, 1e-6);
+  EXPECT_GT(zenith_delay(sea, summer).wet, 3.0 * zenith_delay(sea, winter).wet);
+  EXPECT_NEAR(zenith_delay({-sea.latitude, 0.0, 0.0}, summer).wet, zenith_delay(sea, winter).wet,
+              0.002)
+      << "the other hemisphere's winter";
+  const Geodetic mountain{radians(45.0), 0.0, 2000.0};
+  EXPECT_NEAR(zenith_delay(mountain, winter).hydrostatic / zenith_delay(sea, winter).hydrostatic,
+              std::exp(-2000.0 / 7900.0), 0.01);
+  EXPECT_LT(zenith_delay(mountain, winter).wet, 0.6 * zenith_delay(sea, winter).wet);
 }
 
 // Values of Niell's own table: 5 degrees, 64.92 N, 0.133 km, day of the year 100.

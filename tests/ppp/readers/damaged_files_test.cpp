@@ -5,41 +5,18 @@
 #include <random>
 
 #include "ppp/gnss_files.h"
+#include "tests/support/damaged_text.h"
 #include "tests/support/real_data.h"
 
 namespace maploop::ppp {
 namespace {
 
+constexpr std::string_view alphabet = "0123456789.-+eE:naif \n\r\t&>*#PGRE";
+
 // The start of a file's text, and of its last lines.
 std::string part(const std::string& name, std::size_t size) {
   std::string text = read_file(maploop::testing::real_data() / "gnss" / name);
   if (text.size() > size) text.resize(text.rfind('\n', size) + 1);
-  return text;
-}
-
-std::string damaged(std::string text, std::mt19937& random) {
-  const auto place = [&] { return text.empty() ? 0 : random() % text.size(); };
-  switch (random() % 5) {
-    case 0:
-      text.resize(place());
-      break;
-    case 1:
-      for (unsigned n = 1 + random() % 4; n > 0 && !text.empty(); --n) {
-        char& c = text[place()];
-        c = static_cast<char>(c ^ (1 << random() % 8));
-      }
-      break;
-    case 2:
-      text.erase(place(), random() % 400);
-      break;
-    case 3:
-      text.insert(place(), text.substr(place(), random() % 400));
-      break;
-    default:
-      for (unsigned n = 1 + random() % 8; n > 0 && !text.empty(); --n) {
-        text[place()] = "0123456789.-+eE:naif \n\r\t&>*#PGRE"[random() % 32];
-      }
-  }
   return text;
 }
 
@@ -71,7 +48,7 @@ void feed(const std::string& name, std::size_t size, int rounds) {
   for (int round = 0; round < rounds; ++round) {
     GnssFiles files;
     try {
-      parse_into(damaged(text, random), "damaged", files);
+      parse_into(maploop::testing::damaged(text, random, 400, alphabet), "damaged", files);
       expect_usable(files);
     } catch (const ReadError& error) {
       ASSERT_EQ(std::string(error.what()).find("damaged:"), 0U) << error.what();

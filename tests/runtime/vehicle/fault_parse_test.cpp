@@ -74,7 +74,7 @@ TEST(FaultParse, WhatIsWrongIsNamedWithWhatIsAllowed) {
            {"lost@stereo", "camera, velodyne, imu, gnss"},
            {"nan@camera", "velodyne, imu, gnss"},
            {"black@imu", "but camera"},
-           {"slow@camera", "stereo, lidar, fusion"},
+           {"slow@camera", "stereo, lidar, fusion, mapmatch"},
            {"lost@imu:", "START"},
            {"lost@imu:x", "START must be a number from 0 to 1000000, not 'x'"},
            {"lost@imu:-1", "START"},

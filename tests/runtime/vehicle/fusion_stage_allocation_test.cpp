@@ -72,7 +72,7 @@ TEST(FusionStageAllocation, TheWholeThreadAllocatesNothing) {
   FusionEdges inputs;
   auto nav_states = make_edge<NavState>(edges::fusion_publisher, nullptr);
   auto image_states = make_edge<NavState>(edges::image_states, nullptr);
-  FusionStage stage(fusion::ReducedImuFilter(fusion::FusionParameters{}), inputs, nav_states,
+  FusionStage stage(fusion::ReducedImuFilter(fusion::FusionParameters{}), inputs, {&nav_states},
                     image_states, stages::stereo.budget);
   runtime::Tracer tracer({});
   runtime::TraceBuffer& trace = tracer.thread("fusion");

@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "msgs/gnss.h"
+
 namespace maploop::vehicle {
 namespace {
 
@@ -62,8 +64,8 @@ class TenFixes final : public sensors::Source<GnssFix> {
 };
 
 TEST(GnssOutages, TakeTheFixesInsideAndNoOthers) {
-  const auto source =
-      with_outages(std::make_unique<TenFixes>(), parse_outages("2:3,8:end", first, last, 1));
+  const auto source = with_outages<GnssFix>(std::make_unique<TenFixes>(),
+                                            parse_outages("2:3,8:end", first, last, 1));
   std::vector<double> seconds;
   for (GnssFix fix; source->next(fix);) seconds.push_back(to_seconds(fix.stamp - first));
   EXPECT_EQ(seconds, (std::vector<double>{0, 1, 5, 6, 7}));

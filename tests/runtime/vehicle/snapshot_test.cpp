@@ -72,6 +72,19 @@ TEST(Snapshot, TakingThemChangesNoBit) {
             drive(DataClock::virtual_time(), cuts_everywhere()).tape->all());
 }
 
+// Stages without input are at the drive's end at once, and hold more cuts than their rings do.
+TEST(Snapshot, IsTakenWhereThereAreNoImagesAndNoScans) {
+  Sensors sensors = fake_sensors(seconds);
+  sensors.camera = std::make_unique<testing::FakeSource<StereoPair>>(0, nullptr);
+  sensors.velodyne = std::make_unique<testing::FakeSource<LidarScan>>(0, nullptr);
+  std::size_t taken = 0;
+  Vehicle vehicle({}, fake_calibration(), std::move(sensors), DataClock::virtual_time(), {}, {});
+  vehicle.take_snapshots(cuts_everywhere(), [&](const Snapshot&) { ++taken; });
+  vehicle.start();
+  vehicle.wait();
+  EXPECT_EQ(taken, cuts_everywhere().size());
+}
+
 TEST(Snapshot, OneTakenInRealTimeHasTheBitsOfLockstep) {
   const std::vector<Time> cuts{drive_start + milliseconds(500), drive_start + milliseconds(1230)};
   const Driven lockstep = drive(DataClock::virtual_time(), cuts);
@@ -159,7 +172,8 @@ class SnapshotFile : public ::testing::Test {
 
   TemporaryFolder folder_;
   std::filesystem::path file_ = folder_.path() / "a.snapshot";
-  Snapshot snapshot_{drive_start + milliseconds(500), drive_start, {1, 2, 3}, {6}, {4, 5}};
+  Snapshot snapshot_{
+      drive_start + milliseconds(500), drive_start, {1, 2, 3}, {6}, {7}, {4, 5}, {8}};
 };
 
 TEST_F(SnapshotFile, ComesBackAsItWas) {
@@ -170,6 +184,8 @@ TEST_F(SnapshotFile, ComesBackAsItWas) {
   EXPECT_EQ(read.stereo, snapshot_.stereo);
   EXPECT_EQ(read.fusion, snapshot_.fusion);
   EXPECT_EQ(read.lidar, snapshot_.lidar);
+  EXPECT_EQ(read.ppp, snapshot_.ppp);
+  EXPECT_EQ(read.mapmatch, snapshot_.mapmatch);
 }
 
 TEST_F(SnapshotFile, OtherSettingsOfTheSensorsAreRefusedByName) {

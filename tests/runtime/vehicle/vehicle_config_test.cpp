@@ -50,6 +50,8 @@ TEST(VehicleConfig, WhatIsWrittenIsReadBack) {
   config.fusion.gyro_noise = 1.0 / 3.0;
   config.stereo.bucket_size = 64;
   config.gnss.seed = 77;
+  config.ppp.filter.systems = "GE";
+  config.ppp.filter.motion = ppp::Motion::fixed;
   config.memory.lock_memory = false;
   config.scheduling.camera = runtime::Scheduling{};
   config.scheduling.stereo.policy = runtime::SchedulingPolicy::rr;
@@ -107,6 +109,20 @@ TEST(VehicleConfig, WhatDoesNotGoWithThePolicyIsAnError) {
   }
   EXPECT_THROW(load_text("[scheduling.health]\npolicy = \"rr\"\n"), runtime::ConfigError)
       << "no priority to fall back on";
+}
+
+TEST(VehicleConfig, ProductsAreBesideTheConfiguration) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / "test.toml";
+  std::ofstream(file) << "[ppp]\nproducts = [\"a.SP3\", \"/data/models\"]\n";
+  const VehicleConfig config = load_vehicle_config(file);
+  EXPECT_EQ(config.ppp.products,
+            (std::vector<std::string>{(folder.path() / "a.SP3").string(), "/data/models"}));
+  EXPECT_EQ(to_toml(load_text(to_toml(config))), to_toml(config));
+  EXPECT_THROW(load_text("[ppp]\nproducts = [3]\n"), runtime::ConfigError);
+  EXPECT_THROW(load_text("[ppp]\nproducts = \"a.SP3\"\n"), runtime::ConfigError);
+  EXPECT_THROW(load_text("[ppp]\nintegrity_risk = 1.0\n"), runtime::ConfigError);
+  EXPECT_THROW(load_text("[ppp]\nlatency = -1.0\n"), runtime::ConfigError);
 }
 
 TEST(VehicleConfig, AnUnknownTableIsAnError) {

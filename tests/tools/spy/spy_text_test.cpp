@@ -93,13 +93,24 @@ TEST(SpyText, RingsDeadlinesAndDegradedModesInALineEach) {
   deadlines.threads = {{.name = "fusion", .count = 100, .misses = 2, .guilty = "woken late"}};
   traffic.add("HEALTH", encoded(to_lcm(health)), seconds(1));
   traffic.add("DEADLINES", encoded(to_lcm(deadlines)), seconds(1));
+  PppState ppp;
+  ppp.status = PppStatus::converged;
+  ppp.satellites_used = 1;
+  ppp.satellites.resize(2);
+  ppp.protection = {0.1, 0.2, 0.3};
+  ppp.integrity_risk = 1e-4;
+  traffic.add("PPP_STATE", encoded(to_lcm(ppp)), seconds(1));
   const auto lines = vehicle_lines(own_schema(), traffic);
-  ASSERT_EQ(lines.size(), 3u);
+  ASSERT_EQ(lines.size(), 4u);
+  EXPECT_EQ(
+      lines[3],
+      "ppp: converged, 1 of 2 satellites, within 0.10 m along, 0.20 across, 0.30 up but for a "
+      "risk of 0.0001");
   EXPECT_EQ(lines[0], "rings: 2, lost 1, fullest camera -> stereo 3 of 4");
   EXPECT_EQ(lines[1], "degraded: 1: the clock was stalled");
   EXPECT_EQ(lines[2], "deadlines: fusion missed 2 of 100 (worst 0.0 of 0 ms: woken late)");
   traffic.add("HEALTH", imu(0, {}), seconds(1));
-  EXPECT_EQ(vehicle_lines(own_schema(), traffic).size(), 1u) << "another type on its channel";
+  EXPECT_EQ(vehicle_lines(own_schema(), traffic).size(), 2u) << "another type on its channel";
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ export class MapView {
   roads: Line[] = [];
   lines: Line[] = [];
   extra: Draw = () => undefined; // on top
+  inMetres = true; // a bar shows the scale
 
   private readonly context: CanvasRenderingContext2D;
   private east = 0; // of the middle
@@ -115,7 +116,7 @@ export class MapView {
     });
     context.setLineDash([]);
     this.extra(this, context);
-    this.drawScale();
+    if (this.inMetres) this.drawScale();
   }
 
   stroke(east: Numbers, north: Numbers): void {

@@ -28,6 +28,7 @@ function drawMap(figure: HTMLElement, plot: Plot): void {
   const map = new MapView(canvas, false);
   map.lines = plot.lines;
   map.roads = plot.roads ?? [];
+  map.inMetres = plot.x_label.endsWith(", m");
   const buttons = figure.appendChild(document.createElement("div"));
   buttons.className = "buttons";
   button(buttons, "+", "Nearer", () => map.zoom(1.5));

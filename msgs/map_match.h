@@ -1,0 +1,145 @@
+// Where on the road map the vehicle is.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "msgs/local_frame.h"
+#include "msgs/sample.h"
+
+namespace maploop {
+
+enum class MatchPhase : std::uint8_t {
+  initial,      // IMP: no link is established yet
+  along_link,   // SMP-1: still on the link
+  at_junction,  // SMP-2: on another link since this fix, or not sure yet on which
+  off_road,     // on no road of the map
+};
+
+constexpr std::string_view to_string(MatchPhase phase) {
+  switch (phase) {
+    case MatchPhase::initial:
+      return "initial";
+    case MatchPhase::along_link:
+      return "along link";
+    case MatchPhase::at_junction:
+      return "at junction";
+    case MatchPhase::off_road:
+      return "off road";
+  }
+  return "unknown";
+}
+
+// Why a fix was not used.
+enum class FixRefusal : std::uint8_t { none, not_later, not_finite, bad_covariance, no_position };
+
+constexpr std::size_t fix_refusal_count = static_cast<std::size_t>(FixRefusal::no_position) + 1;
+
+constexpr std::string_view to_string(FixRefusal refusal) {
+  switch (refusal) {
+    case FixRefusal::none:
+      return "none";
+    case FixRefusal::not_later:
+      return "not later than the fix before";
+    case FixRefusal::not_finite:
+      return "a value is not finite";
+    case FixRefusal::bad_covariance:
+      return "the covariance is not positive";
+    case FixRefusal::no_position:
+      return "there is no position yet";
+  }
+  return "unknown";
+}
+
+// The rule base that a candidate was judged by.
+enum class RuleBase : std::uint8_t { initial, along, along_visual, junction };
+
+// A link as it is driven: from its first vertex to its last (forward), or the other way round.
+struct DirectedLink {
+  std::uint32_t link = 0;  // of the road network in use
+  bool forward = true;
+
+  DirectedLink reversed() const { return {link, !forward}; }
+  bool operator==(const DirectedLink&) const = default;
+};
+
+template <class Archive>
+void archive(Archive& ar, DirectedLink& d) {
+  ar(d.link, d.forward);
+}
+
+// A link that the vehicle may be on. NaN: not known.
+struct MatchCandidate {
+  static constexpr std::size_t max_rules = 32;
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+  DirectedLink link;
+  std::int64_t way_id = 0;          // OpenStreetMap's, of the segment, ...
+  std::int64_t node_a = 0;          // ... which is driven from here
+  std::int64_t node_b = 0;          // to here
+  double along = 0.0;               // m from where the link is entered
+  double distance = 0.0;            // m from the fix
+  double azimuth_error = unknown;   // rad, 0 to pi
+  double connectivity = 0.0;        // 1: legal from the link before; 0: not
+  double distance_error = unknown;  // m between the way along the roads and the distance travelled
+  RuleBase rules = RuleBase::initial;
+  bool decided = false;                    // whether any rule applied
+  double likelihood = 0.0;                 // of the rules, 10 to 100
+  std::array<float, max_rules> weights{};  // of each rule
+  double probability = 0.0;                // P(link)
+};
+
+// What the matcher decides about one fix.
+struct LinkMatch {
+  static constexpr std::size_t max_candidates = 24;
+
+  FixRefusal refusal = FixRefusal::none;  // of this fix; the rest is then of the fix before
+  MatchPhase phase = MatchPhase::initial;
+  bool on_road = false;  // whether there is a link at all; the rest to `margin` is about it
+  DirectedLink link;
+  double along = 0.0;                            // m from where the link is entered
+  double sigma_along = 0.0, sigma_across = 0.0;  // m, of the matched position
+  double likelihood = 0.0;                       // of the rules, 10 to 100
+  double probability = 0.0;                      // P(link), calibrated
+  double margin = 0.0;                           // to that of the second
+  double off_road = 0.0;                         // P that the vehicle is on no road of the map
+  std::array<MatchCandidate, max_candidates> candidates{};  // the most likely first
+  std::size_t candidate_count = 0;
+};
+
+// The match of the fused state at `stamp`. What is in `enu` is in the frame of that state, azimuths
+// are clockwise from its north. Sent for every tick; `refusal` and `on_road` say whether there is a
+// link to speak of.
+struct MapMatch : Sample, LinkMatch {
+  std::int64_t way_id = 0, node_a = 0, node_b = 0;           // OSM segment, as driven
+  Geodetic origin;                                           // of enu
+  Eigen::Vector2d vehicle_enu = Eigen::Vector2d::Zero();     // m, the state that was matched
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  // m^2, of that
+  double vehicle_azimuth = 0.0;                              // rad
+  double speed = 0.0;                                        // m/s, forward
+  Eigen::Vector2d matched_enu = Eigen::Vector2d::Zero();     // m, on the link's line
+  double link_azimuth = 0.0;  // rad, of the link at the matched point, as driven
+  double cross_track = 0.0;   // m, of the vehicle from the line, positive to its right
+  double half_width = 0.0;    // m, of the carriageway
+  double bend = 0.0;          // rad, change of the road's azimuth from 15 m behind to 15 m ahead
+  double to_junction = 0.0;   // m along the link; behind, the junction is `along` metres away
+};
+
+// The same for people.
+struct MapMatchWords {
+  struct Candidate {
+    std::string road;                     // name and way
+    std::vector<std::string> objections;  // what speaks against it
+    std::vector<std::string> rules;       // that applied, the weightiest first, with weights
+  };
+  std::string explanation;
+  std::vector<Candidate> candidates;  // in the order of the match
+};
+
+}  // namespace maploop

@@ -1,0 +1,161 @@
+// What precise point positioning says of one epoch of a GNSS receiver.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "msgs/local_frame.h"
+#include "msgs/sample.h"
+
+namespace maploop {
+
+enum class PppStatus : std::uint8_t {
+  none,        // no position: the message says why
+  converging,  // a position whose ambiguities are still being found
+  converged,   // horizontal standard deviation below 0.1 m
+};
+
+constexpr std::size_t ppp_status_count = static_cast<std::size_t>(PppStatus::converged) + 1;
+
+constexpr std::string_view to_string(PppStatus status) {
+  switch (status) {
+    case PppStatus::none:
+      return "none";
+    case PppStatus::converging:
+      return "converging";
+    case PppStatus::converged:
+      return "converged";
+  }
+  return "unknown";
+}
+
+// Why a satellite, or a part of what was measured of it, was not used.
+enum class PppRefusal : std::uint8_t {
+  none,
+  no_signals,    // a carrier lacks its code or its phase
+  weak,          // below the mask of signal strength
+  no_ephemeris,  // products and messages do not cover it, or call it unhealthy
+  low,           // below the elevation mask
+  no_phase,      // its code was used
+  code_far,      // its code is far from all others
+  code_misfit,   // beyond the limit after the update, as the two below
+  phase_misfit,  // its ambiguity begins anew
+  doppler_misfit,
+  too_many,  // the filter has no room for one more
+};
+
+constexpr std::size_t ppp_refusal_count = static_cast<std::size_t>(PppRefusal::too_many) + 1;
+
+constexpr std::string_view to_string(PppRefusal refusal) {
+  switch (refusal) {
+    case PppRefusal::none:
+      return "";
+    case PppRefusal::no_signals:
+      return "no code and phase on the carriers used";
+    case PppRefusal::weak:
+      return "signal too weak";
+    case PppRefusal::no_ephemeris:
+      return "no orbit or clock, or unhealthy";
+    case PppRefusal::low:
+      return "below the elevation mask";
+    case PppRefusal::no_phase:
+      return "no phase";
+    case PppRefusal::code_far:
+      return "code far from the others";
+    case PppRefusal::code_misfit:
+      return "code does not fit";
+    case PppRefusal::phase_misfit:
+      return "phase does not fit";
+    case PppRefusal::doppler_misfit:
+      return "Doppler does not fit";
+    case PppRefusal::too_many:
+      return "no room for its ambiguity";
+  }
+  return "unknown";
+}
+
+// What told that the phase has slipped, so that its ambiguity begins anew.
+enum class PppSlip : std::uint8_t { none, lost_lock, geometry_free, wide_lane, doppler };
+
+constexpr std::size_t ppp_slip_count = static_cast<std::size_t>(PppSlip::doppler) + 1;
+
+constexpr std::string_view to_string(PppSlip slip) {
+  switch (slip) {
+    case PppSlip::none:
+      return "";
+    case PppSlip::lost_lock:
+      return "loss of lock";
+    case PppSlip::geometry_free:
+      return "geometry-free jump";
+    case PppSlip::wide_lane:
+      return "wide-lane jump";
+    case PppSlip::doppler:
+      return "Doppler disagrees";
+  }
+  return "unknown";
+}
+
+struct PppSatellite {
+  char system = 'G';        // RINEX's letter
+  std::uint8_t number = 0;  // as RINEX 3 writes it
+  float azimuth = 0.0F;     // rad, clockwise from north
+  float elevation = 0.0F;   // rad; both 0 where it has no ephemeris
+  float cn0 = 0.0F;         // dB-Hz
+  bool code_used = false;
+  bool phase_used = false;
+  float code_residual = 0.0F;  // m, after the update
+  float phase_residual = 0.0F;
+  PppRefusal refusal = PppRefusal::none;
+  PppSlip slip = PppSlip::none;
+};
+
+template <class Archive>
+void archive(Archive& ar, PppSatellite& s) {
+  ar(s.system, s.number, s.azimuth, s.elevation, s.cn0, s.code_used, s.phase_used, s.code_residual,
+     s.phase_residual, s.refusal, s.slip);
+}
+
+// Distances from the position that the antenna is within, but with the probability of the integrity
+// risk each; along and across the direction of travel.
+struct ProtectionLevels {
+  double along = 0.0, across = 0.0, up = 0.0;  // m
+};
+
+template <class Archive>
+void archive(Archive& ar, ProtectionLevels& p) {
+  ar(p.along, p.across, p.up);
+}
+
+// `stamp` is the epoch's. Without a position all but satellites and message is zero.
+struct PppState : Sample {
+  PppStatus status = PppStatus::none;
+  std::string message;  // why there is no position; what else is to be said of the epoch
+  Geodetic position;    // of the antenna's marker
+  Eigen::Matrix3d position_covariance = Eigen::Matrix3d::Zero();  // m^2, east north up
+  Eigen::Vector3d velocity_enu = Eigen::Vector3d::Zero();         // m/s
+  Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();  // m^2/s^2
+  ProtectionLevels protection;
+  double integrity_risk = 0.0;  // of each of them, at one epoch
+  double zenith_delay = 0.0;    // m, of the whole troposphere
+  double zenith_delay_sigma = 0.0;
+  double code_rms = 0.0;        // m, of the residuals used
+  double phase_rms = 0.0;       // m
+  double converging_for = 0.0;  // s since the filter began, or began anew
+  std::uint64_t restarts = 0;   // times that it began anew
+  std::int32_t satellites_used = 0;
+  std::vector<PppSatellite> satellites;  // all that were measured
+};
+
+template <class Archive>
+void archive(Archive& ar, PppState& s) {
+  ar(static_cast<Sample&>(s), s.status, s.message, s.position, s.position_covariance,
+     s.velocity_enu, s.velocity_covariance, s.protection, s.integrity_risk, s.zenith_delay,
+     s.zenith_delay_sigma, s.code_rms, s.phase_rms, s.converging_for, s.restarts, s.satellites_used,
+     s.satellites);
+}
+
+}  // namespace maploop

@@ -1,0 +1,140 @@
+#include "ppp/filter/epoch_rows.h"
+
+#include <cmath>
+
+#include "ppp/filter/median.h"
+
+namespace maploop::ppp {
+namespace {
+
+using S = FilterState;
+
+// The receiver's clock drift that one Doppler says, m/s.
+double drift_of(const Tracked& t, const FilterState& state) {
+  const auto& c = t.measurement.first;
+  const auto& p = t.predicted;
+  const Eigen::Vector3d& s = p.satellite.position;
+  const Eigen::Vector3d r = state.x().segment<3>(S::position);
+  const Eigen::Vector3d velocity = state.x().segment<3>(S::velocity);
+  const double sagnac = earth_rotation_rate / speed_of_light *
+                        (p.satellite.velocity.y() * r.x() + s.y() * velocity.x() -
+                         p.satellite.velocity.x() * r.y() - s.x() * velocity.y());
+  const double rate = p.to_satellite.dot(p.satellite.velocity - velocity) - sagnac -
+                      speed_of_light * p.satellite.clock_drift;
+  return -c.doppler * c.wavelength - rate;
+}
+
+bool has_doppler(const Tracked& t) {
+  return t.code_good && t.measurement.first.doppler != 0.0;
+}
+
+}  // namespace
+
+double EpochRows::weakness(const Measurement& m) const {
+  if (parameters_.full_cn0 <= 0.0 || m.first.cn0 <= 0.0) return 1.0;
+  return std::pow(10.0, std::max(0.0, parameters_.full_cn0 - m.first.cn0) / 10.0);
+}
+
+std::vector<Row>& EpochRows::make(const std::vector<Tracked>& tracked, int reference_system,
+                                  FilterState& state, std::vector<SatelliteReport>& reports) {
+  rows_.clear();
+  const bool use_doppler = parameters_.motion == Motion::kinematic;
+  if (use_doppler) set_drift(tracked, state);
+  for (std::size_t i = 0; i < tracked.size(); ++i) {
+    const Tracked& t = tracked[i];
+    if (!t.code_good) continue;
+    const Row code = code_row(i, t, reference_system, state);
+    rows_.push_back(code);
+    if (t.phase_good) add_phase_row(t, code, state, reports);
+    if (!use_doppler || !has_doppler(t)) continue;
+    Row doppler;
+    doppler.kind = RowKind::doppler;
+    doppler.tracked = i;
+    doppler.y = drift_of(t, state) - state.x()[S::clock_drift];
+    for (int k = 0; k < 3; ++k) doppler.add(S::velocity + k, -t.predicted.to_satellite[k]);
+    doppler.add(S::clock_drift, 1.0);
+    const double sigma = parameters_.doppler_sigma / std::sin(t.predicted.elevation);
+    doppler.variance = sigma * sigma * weakness(t.measurement);
+    doppler.sigma = std::sqrt(doppler.variance);
+    rows_.push_back(doppler);
+  }
+  return rows_;
+}
+
+void EpochRows::set_drift(const std::vector<Tracked>& tracked, FilterState& state) {
+  drifts_.clear();
+  for (const Tracked& t : tracked) {
+    if (has_doppler(t)) drifts_.push_back(drift_of(t, state));
+  }
+  constexpr double unknown = 100.0;  // m/s
+  state.set(S::clock_drift, drifts_.empty() ? 0.0 : median(drifts_), unknown);
+}
+
+Row EpochRows::code_row(std::size_t i, const Tracked& t, int reference_system,
+                        const FilterState& state) const {
+  const Measurement& m = t.measurement;
+  const int system = static_cast<int>(m.satellite.system);
+  const double sine = std::sin(t.predicted.elevation);
+  Row row;
+  row.kind = RowKind::code;
+  row.tracked = i;
+  for (int k = 0; k < 3; ++k) row.add(S::position + k, -t.predicted.to_satellite[k]);
+  row.add(S::clock, 1.0);
+  if (system != reference_system) row.add(S::system_offset + system, 1.0);
+  row.add(S::zenith_wet, t.predicted.wet_mapping);
+  if (parameters_.gradients) {
+    const double slope = t.predicted.wet_mapping * std::cos(t.predicted.elevation) / sine;
+    row.add(S::gradient_north, slope * std::cos(t.predicted.azimuth));
+    row.add(S::gradient_east, slope * std::sin(t.predicted.azimuth));
+  }
+  // What the state predicts besides the range, which is about the state's own position.
+  double predicted = 0.0;
+  for (std::size_t k = 3; k < static_cast<std::size_t>(row.count); ++k) {
+    predicted += row.h[k] * state.x()[row.indices[k]];
+  }
+  const double glonass =
+      m.satellite.system == System::glonass ? parameters_.glonass_code_factor : 1.0;
+  const double sigma = parameters_.code_sigma * m.noise_factor() * glonass / sine;
+  const double lasting = t.predicted.satellite.sigma;
+  const double ionosphere = 0.5 * t.predicted.ionosphere;
+  row.y = t.code_offset - predicted;
+  const double noise = sigma * sigma * weakness(m);
+  const double rest = lasting * lasting + ionosphere * ionosphere;
+  row.variance = noise * t.code_repeats + rest;
+  row.sigma = std::sqrt(noise + rest);
+  return row;
+}
+
+// Phase, or with one frequency GRAPHIC: half the sum of code and phase has no ionosphere, and half
+// the ambiguity (here one of its own, in metres).
+void EpochRows::add_phase_row(const Tracked& t, const Row& code, FilterState& state,
+                              std::vector<SatelliteReport>& reports) {
+  const Measurement& m = t.measurement;
+  const bool graphic = !m.dual() && parameters_.graphic;
+  const double phase = m.phase() - t.predicted.phase_extra - t.predicted.range;
+  const double y =
+      graphic ? 0.5 * (phase + m.code() - t.predicted.range) : phase + t.predicted.ionosphere;
+  const double predicted = t.code_offset - code.y;  // clocks, wet delay, gradients
+  int index = state.ambiguity(m.satellite);
+  if (index < 0) {
+    index = state.add_ambiguity(m.satellite, y - predicted, parameters_.ambiguity_sigma);
+    if (index < 0) {
+      reports[t.report].refused = PppRefusal::too_many;
+      return;
+    }
+  }
+  Row row = code;
+  row.kind = RowKind::phase;
+  row.add(index, 1.0);
+  row.y = y - predicted - state.x()[index];
+  const double sigma = parameters_.phase_sigma * m.noise_factor() / std::sin(t.predicted.elevation);
+  row.variance = sigma * sigma * (t.predicted.in_shadow ? 16.0 : 1.0);
+  row.sigma = std::sqrt(row.variance);
+  if (graphic) {
+    row.variance += 0.25 * code.variance;
+    row.sigma = std::hypot(row.sigma, 0.5 * code.sigma);
+  }
+  rows_.push_back(row);
+}
+
+}  // namespace maploop::ppp

@@ -1,0 +1,75 @@
+// The measurements of one epoch, linearized about the state: code, phase and Doppler of each
+// satellite as rows of a Kalman update (method 6.1 and 6.3).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "ppp/filter/filter_state.h"
+#include "ppp/filter/parameters.h"
+#include "ppp/filter/range_model.h"
+#include "ppp/filter/solution.h"
+
+namespace maploop::ppp {
+
+// A satellite of this epoch.
+struct Tracked {
+  Measurement measurement;
+  PredictedRange predicted;
+  std::size_t report;         // its place among the solution's satellites
+  double code_offset;         // m, code minus what is predicted without clocks
+  double code_repeats = 1.0;  // of its variance, for its error lasts longer than an epoch
+  bool code_good = true;
+  bool phase_good = true;
+};
+
+enum class RowKind { code, phase, doppler };
+
+// y = h dx + noise; dx is the error of the state before the update. An error that lasts says less
+// than its size: the variance is the one that independent errors would need, epoch for epoch, to
+// say as little; sigma is the size.
+struct Row {
+  RowKind kind = RowKind::code;
+  std::size_t tracked = 0;  // whose
+  double y = 0.0, variance = 0.0, sigma = 0.0;
+  int count = 0;
+  std::array<int, 12> indices{};
+  std::array<double, 12> h{};
+  bool active = true;
+
+  void add(int index, double value) {
+    indices[static_cast<std::size_t>(count)] = index;
+    h[static_cast<std::size_t>(count++)] = value;
+  }
+  // What dx leaves of y.
+  double left(const Eigen::VectorXd& dx) const {
+    double rest = y;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) rest -= h[k] * dx[indices[k]];
+    return rest;
+  }
+};
+
+class EpochRows {
+ public:
+  explicit EpochRows(const PppParameters& parameters) : parameters_(parameters) {}
+
+  // Gives each new satellite its ambiguity, and the clock drift its first value; a satellite that
+  // finds no room says so in its report. Rows are valid until the next call.
+  std::vector<Row>& make(const std::vector<Tracked>& tracked, int reference_system,
+                         FilterState& state, std::vector<SatelliteReport>& reports);
+
+ private:
+  Row code_row(std::size_t i, const Tracked& t, int reference_system,
+               const FilterState& state) const;
+  void add_phase_row(const Tracked& t, const Row& code, FilterState& state,
+                     std::vector<SatelliteReport>& reports);
+  void set_drift(const std::vector<Tracked>& tracked, FilterState& state);
+  double weakness(const Measurement& m) const;
+
+  PppParameters parameters_;
+  std::vector<Row> rows_;
+  std::vector<double> drifts_;  // m/s, that each Doppler says; to reuse its memory
+};
+
+}  // namespace maploop::ppp

@@ -1,0 +1,68 @@
+#include "sensors/live/endpoint.h"
+
+#include <arpa/inet.h>
+
+#include <charconv>
+#include <stdexcept>
+
+#include "sensors/live/serial_port.h"
+
+namespace maploop::sensors {
+namespace {
+
+[[noreturn]] void reject(std::string_view text, const std::string& why) {
+  throw std::invalid_argument("'" + std::string(text) +
+                              "' is no place to read a sensor from: " + why +
+                              "; allowed are udp://[ADDRESS]:PORT, tcp://ADDRESS:PORT and "
+                              "serial:///dev/NAME?baud=115200");
+}
+
+bool parse_whole(std::string_view digits, auto& value) {
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  return error == std::errc() && end == digits.data() + digits.size();
+}
+
+Endpoint serial(std::string_view text, std::string_view rest) {
+  constexpr std::string_view key = "?baud=";
+  Endpoint endpoint{.kind = Endpoint::Kind::serial, .text = std::string(text)};
+  const std::size_t question = rest.find('?');
+  endpoint.device = rest.substr(0, question);
+  if (question != std::string_view::npos) {
+    const std::string_view query = rest.substr(question);
+    if (!query.starts_with(key) || !parse_whole(query.substr(key.size()), endpoint.baud)) {
+      reject(text, "after the device only ?baud=NUMBER may follow");
+    }
+  }
+  if (!endpoint.device.starts_with("/")) reject(text, "the device is not a path from the root");
+  if (!is_baud_rate(endpoint.baud)) {
+    reject(text, std::to_string(endpoint.baud) + " baud is not a rate of serial lines");
+  }
+  return endpoint;
+}
+
+}  // namespace
+
+Endpoint parse_endpoint(std::string_view text) {
+  const std::size_t scheme = text.find("://");
+  if (scheme == std::string_view::npos) reject(text, "it does not begin with a kind");
+  const std::string_view kind = text.substr(0, scheme), rest = text.substr(scheme + 3);
+  if (kind == "serial") return serial(text, rest);
+  if (kind != "udp" && kind != "tcp") reject(text, "it is of no known kind");
+  Endpoint endpoint{.kind = kind == "udp" ? Endpoint::Kind::udp : Endpoint::Kind::tcp,
+                    .text = std::string(text)};
+  const std::size_t colon = rest.rfind(':');
+  if (colon == std::string_view::npos || !parse_whole(rest.substr(colon + 1), endpoint.port)) {
+    reject(text, "it has no port from 0 to 65535");
+  }
+  endpoint.address = rest.substr(0, colon);
+  if (endpoint.kind == Endpoint::Kind::udp && endpoint.address.empty()) {
+    endpoint.address = "127.0.0.1";
+  }
+  in_addr ignored{};
+  if (inet_pton(AF_INET, endpoint.address.c_str(), &ignored) != 1) {
+    reject(text, "its address is not a numeric one such as 192.168.1.201");
+  }
+  return endpoint;
+}
+
+}  // namespace maploop::sensors

@@ -1,0 +1,308 @@
+// Sensors on loopback sockets and pseudo-terminals: connected, unplugged, connected again, and
+// hostile.
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "sensors/live/live_sensors.h"
+#include "tests/sensors/imu/made_ncom.h"
+#include "tests/sensors/velodyne/made_packets.h"
+#include "tests/support/real_data.h"
+
+namespace maploop::sensors {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using Bytes = std::span<const std::uint8_t>;
+
+sockaddr_in loopback(std::uint16_t port) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(port);
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  return address;
+}
+
+std::uint16_t port_of(int fd) {
+  sockaddr_in address{};
+  socklen_t size = sizeof address;
+  getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size);
+  return ntohs(address.sin_port);
+}
+
+// A port that nobody listens on.
+std::uint16_t free_port() {
+  const int fd = socket(AF_INET, SOCK_DGRAM, 0);
+  const sockaddr_in any = loopback(0);
+  bind(fd, reinterpret_cast<const sockaddr*>(&any), sizeof any);
+  const std::uint16_t port = port_of(fd);
+  close(fd);
+  return port;
+}
+
+class UdpSender {
+ public:
+  explicit UdpSender(std::uint16_t port) : to_(loopback(port)) {}
+  ~UdpSender() { close(fd_); }
+  void send(Bytes bytes) const {
+    sendto(fd_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to_), sizeof to_);
+  }
+
+ private:
+  int fd_ = socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in to_;
+};
+
+// A serial line whose device has a name that stays, as udev gives it.
+class PseudoTerminal {
+ public:
+  explicit PseudoTerminal(std::filesystem::path name) : name_(std::move(name)) {
+    grantpt(fd_);
+    unlockpt(fd_);
+    std::filesystem::create_symlink(ptsname(fd_), name_);
+  }
+  ~PseudoTerminal() {
+    std::filesystem::remove(name_);
+    close(fd_);
+  }
+  void send(const std::string& text) const { ASSERT_GT(write(fd_, text.data(), text.size()), 0); }
+
+ private:
+  std::filesystem::path name_;
+  int fd_ = posix_openpt(O_RDWR | O_NOCTTY);
+};
+
+std::string sentence(const std::string& body) {
+  unsigned sum = 0;
+  for (const char c : body) sum ^= static_cast<unsigned char>(c);
+  char text[160];
+  std::snprintf(text, sizeof text, "$%s*%02X\r\n", body.c_str(), sum);
+  return text;
+}
+
+std::string epoch(int second) {
+  char time[16];
+  std::snprintf(time, sizeof time, "1018%02d.00", second);
+  return sentence(std::string("GNGGA,") + time +
+                  ",4858.9500,N,00823.4200,E,1,12,0.80,115.2,M,47.9,M,,") +
+         sentence(std::string("GNRMC,") + time +
+                  ",A,4858.9500,N,00823.4200,E,19.438,90.0,010326,,,A");
+}
+
+template <class T>
+bool wait_for(LiveSource<T>& source, T& sample, Duration most = seconds(10)) {
+  const HostClock clock;
+  const Time end = clock.now() + most;
+  while (clock.now() < end) {
+    if (source.wait(sample, milliseconds(20))) return true;
+  }
+  return false;
+}
+
+template <class T>
+bool wait_until_open(LiveSource<T>& source, bool open) {
+  T sample;
+  for (int i = 0; i < 500 && source.report().connection.open != open; ++i) {
+    source.wait(sample, milliseconds(20));
+  }
+  return source.report().connection.open == open;
+}
+
+TEST(Endpoint, IsOnTheLoopbackUnlessItSaysOtherwise) {
+  EXPECT_EQ(parse_endpoint("udp://:2368").address, "127.0.0.1");
+  EXPECT_EQ(parse_endpoint("udp://0.0.0.0:2368").address, "0.0.0.0");
+  EXPECT_EQ(parse_endpoint("tcp://192.168.1.7:5000").port, 5000);
+  EXPECT_EQ(parse_endpoint("serial:///dev/ttyUSB0").baud, 115200);
+  EXPECT_EQ(parse_endpoint("serial:///dev/ttyUSB0?baud=9600").baud, 9600);
+  for (const char* text : {"", "udp", "udp://", "udp://:99999", "udp://:-1", "udp://localhost:5",
+                           "tcp://:5", "http://1.2.3.4:5", "serial://ttyUSB0", "udp://1.2.3:4",
+                           "serial:///dev/x?baud=12345", "serial:///dev/x?parity=even"}) {
+    EXPECT_THROW(parse_endpoint(text), std::invalid_argument) << text;
+  }
+}
+
+TEST(LiveNmea, SurvivesUnpluggingOfASerialLine) {
+  const testing::TemporaryFolder folder;
+  const HostClock clock;
+  const auto device = folder.path() / "gnss";
+  const auto gnss = listen_to_nmea(parse_endpoint("serial://" + device.string()), {}, clock);
+  GnssFix fix;
+  EXPECT_FALSE(gnss->wait(fix, milliseconds(5)));  // not there yet
+  EXPECT_NE(gnss->report().connection.problem.find("is it plugged in?"), std::string::npos);
+  Time last{};
+  for (int plugged = 0; plugged < 3; ++plugged) {
+    {
+      const PseudoTerminal line(device);
+      ASSERT_TRUE(wait_until_open(*gnss, true)) << gnss->report().connection.problem;
+      line.send("GGA,half a sentence from before\r\n" + epoch(10 * plugged));
+      ASSERT_TRUE(wait_for(*gnss, fix));
+      EXPECT_NEAR(fix.position.latitude * 180.0 / M_PI, 48.9825, 1e-9);
+      EXPECT_NEAR(fix.position.height, 163.1, 1e-9);
+      EXPECT_NEAR(fix.velocity_enu.x(), 10.0, 1e-3);
+      EXPECT_NEAR(fix.velocity_enu.y(), 0.0, 1e-9);
+      EXPECT_NEAR(std::sqrt(fix.position_covariance(0, 0)), 2.4, 1e-9);
+      EXPECT_GT(fix.available, last);
+      EXPECT_LT(fix.stamp, fix.available);
+      EXPECT_LT(fix.available - clock.now(), seconds(1));
+      last = fix.available;
+      line.send("$GNGGA,half a sen");
+    }
+    ASSERT_TRUE(wait_until_open(*gnss, false));
+  }
+  const LiveReport report = gnss->report();
+  EXPECT_EQ(report.connection.opened, 3U);
+  EXPECT_EQ(report.delivered, 3U);
+  EXPECT_EQ(report.refused, 3U);  // the damaged lines
+}
+
+TEST(LiveNmea, ReconnectsOverTcp) {
+  const HostClock clock;
+  int server = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address = loopback(0);
+  ASSERT_EQ(bind(server, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  ASSERT_EQ(listen(server, 1), 0);
+  const auto gnss = listen_to_nmea(
+      parse_endpoint("tcp://127.0.0.1:" + std::to_string(port_of(server))), {}, clock);
+  for (int connected = 0; connected < 2; ++connected) {
+    ASSERT_TRUE(wait_until_open(*gnss, true)) << gnss->report().connection.problem;
+    const int peer = accept(server, nullptr, nullptr);
+    const auto say = [peer](const std::string& text) {
+      ASSERT_EQ(send(peer, text.data(), text.size(), 0), static_cast<ssize_t>(text.size()));
+    };
+    GnssFix first, second;
+    say(epoch(10 * connected));
+    ASSERT_TRUE(wait_for(*gnss, first));
+    say(epoch(10 * connected + 1));
+    ASSERT_TRUE(wait_for(*gnss, second));
+    EXPECT_GT(second.stamp, first.stamp);
+    EXPECT_GT(second.available, first.available);
+    close(peer);
+    ASSERT_TRUE(wait_until_open(*gnss, false));
+    EXPECT_NE(gnss->report().connection.problem.find("closed by the other side"),
+              std::string::npos);
+  }
+  close(server);
+  for (int i = 0; i < 40; ++i) {
+    GnssFix fix;
+    EXPECT_FALSE(gnss->wait(fix, milliseconds(20)));
+  }
+  EXPECT_NE(gnss->report().connection.problem.find("cannot be connected to"), std::string::npos);
+}
+
+TEST(LiveNcom, StampsByTheUnitsClock) {
+  const HostClock clock;
+  const std::uint16_t port = free_port();
+  const auto imu =
+      listen_to_ncom(parse_endpoint("udp://:" + std::to_string(port)), milliseconds(60), clock);
+  ASSERT_TRUE(wait_until_open(*imu, true)) << imu->report().connection.problem;
+  const UdpSender sender(port);
+  std::vector<ImuSample> samples;
+  for (int i = 0; i < 5; ++i) {
+    // Over the end of the minute; all at once, as after a hiccup of the network.
+    const auto ms = static_cast<std::uint16_t>((59'980 + 10 * i) % 60'000);
+    sender.send(ncom_packet(ms, 1.5, -0.25, 0.125));
+  }
+  sender.send(ncom_packet(20, 1.5, -0.25, 0.125));  // again
+  NcomBytes damaged = ncom_packet(30, 1.5, -0.25, 0.125);
+  damaged[5] ^= 1;
+  sender.send(damaged);
+  sender.send(Bytes(damaged).first(71));
+  sender.send(std::vector<std::uint8_t>(1000, 0xe7));
+  ImuSample sample;
+  for (int i = 0; i < 5; ++i) {
+    ASSERT_TRUE(wait_for(*imu, sample));
+    samples.push_back(sample);
+  }
+  EXPECT_FALSE(imu->wait(sample, milliseconds(100)));
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    EXPECT_NEAR(to_seconds(samples[i].stamp - samples[i - 1].stamp), 0.01, 0.01);
+    EXPECT_GT(samples[i].available, samples[i - 1].available);
+  }
+  EXPECT_LE(samples[4].stamp, samples[4].available - milliseconds(60));
+  EXPECT_NEAR(samples[0].specific_force_forward, 1.5, 1e-4);
+  EXPECT_NEAR(samples[0].specific_force_left, -0.25, 1e-4);
+  EXPECT_NEAR(samples[0].yaw_rate, 0.125, 1e-5);
+  const LiveReport report = imu->report();
+  EXPECT_EQ(report.delivered, 5U);
+  EXPECT_EQ(report.refused, 3U);
+  EXPECT_EQ(report.connection.too_large, 1U);
+}
+
+TEST(LiveVelodyne, MakesScansOfDatagrams) {
+  const HostClock clock;
+  const std::uint16_t port = free_port();
+  const auto velodyne =
+      listen_to_velodyne({parse_endpoint("udp://:" + std::to_string(port)), std::nullopt,
+                          VelodyneModel::vlp16, factory_lasers(VelodyneModel::vlp16)},
+                         clock);
+  ASSERT_TRUE(wait_until_open(*velodyne, true)) << velodyne->report().connection.problem;
+  const UdpSender sender(port);
+  LidarScan scan;
+  int scans = 0;
+  for (int i = 0; i < 300; ++i) {
+    const auto us = static_cast<std::uint32_t>(1327.104 * i);
+    sender.send(data_packet(std::fmod(477.757 * i, 36000.0), 39.8, us));
+    if (i % 10 == 0) sender.send(std::vector<std::uint8_t>(1248, 0xff));  // somebody else's
+    usleep(1327);
+    if (!velodyne->wait(scan, Duration::zero())) continue;
+    ++scans;
+    EXPECT_GT(scan.points.size(), 25'000U);
+    EXPECT_LE(scan.end, scan.available);
+  }
+  EXPECT_EQ(scans, 3);
+  for (int i = 0; i < 100 && velodyne->report().refused < 30; ++i) {
+    velodyne->wait(scan, milliseconds(20));
+  }
+  EXPECT_EQ(velodyne->report().refused, 30U);
+}
+
+TEST(LiveSensors, AFloodOfGarbageNeitherHoldsThemNorFillsMemory) {
+  const HostClock clock;
+  const std::uint16_t port = free_port();
+  const auto imu =
+      listen_to_ncom(parse_endpoint("udp://:" + std::to_string(port)), Duration::zero(), clock);
+  const testing::TemporaryFolder folder;
+  const auto device = folder.path() / "gnss";
+  const PseudoTerminal line(device);
+  const auto gnss = listen_to_nmea(parse_endpoint("serial://" + device.string()), {}, clock);
+  ASSERT_TRUE(wait_until_open(*imu, true));
+  ASSERT_TRUE(wait_until_open(*gnss, true));
+  const UdpSender sender(port);
+  std::mt19937 random(5);
+  ImuSample sample;
+  GnssFix fix;
+  for (int round = 0; round < 50; ++round) {
+    std::vector<std::uint8_t> garbage(1 + random() % 1400);
+    for (auto& b : garbage) b = static_cast<std::uint8_t>(random());
+    for (int i = 0; i < 100; ++i) sender.send(garbage);
+    line.send(std::string(garbage.begin(), garbage.end()));
+    const Time before = clock.now();
+    EXPECT_FALSE(imu->wait(sample, milliseconds(5)));
+    EXPECT_FALSE(gnss->wait(fix, milliseconds(5)));
+    EXPECT_LT(clock.now() - before, seconds(5));
+  }
+  while (imu->wait(sample, milliseconds(5)) || imu->report().refused < 10) {
+  }
+  // And then they go on.
+  for (int i = 0; i < 200 && imu->report().delivered == 0; ++i) {
+    sender.send(ncom_packet(static_cast<std::uint16_t>(1000 + 10 * i), 0, 0, 0));
+    imu->wait(sample, milliseconds(20));
+  }
+  EXPECT_GT(imu->report().delivered, 0U);
+  line.send("\r\n" + epoch(1));
+  EXPECT_TRUE(wait_for(*gnss, fix));
+}
+
+}  // namespace
+}  // namespace maploop::sensors

@@ -1,0 +1,40 @@
+// The messages of an LCM log, one after the other.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+#include "msgs/lcm/conversions.h"
+#include "msgs/lcm/log/log_event.h"
+
+namespace maploop::match {
+
+// Whether a file is one, by its first bytes (.gz: by its name).
+bool is_lcm_log(const std::filesystem::path& file);
+
+// Plain or .gz. Throws std::runtime_error naming the file where it cannot be read or is damaged.
+void visit_log(const std::filesystem::path& file,
+               const std::function<void(const lcm_log::LogEvent&)>& visit);
+
+// As one of our structs. Throws std::runtime_error where it is no such message.
+template <class Lcm>
+auto decoded(const lcm_log::LogEvent& event, const std::filesystem::path& file) {
+  const auto refuse = [&](const std::string& why) {
+    throw std::runtime_error(file.string() + ": event " + std::to_string(event.number) + " on " +
+                             std::string(event.channel) + ": " + why);
+  };
+  Lcm message;
+  const auto size = static_cast<int>(event.data.size());
+  if (message.decode(event.data.data(), 0, size) != size)
+    refuse(std::string("no ") + Lcm::getTypeName() + " of this version");
+  try {
+    return from_lcm(message);
+  } catch (const std::invalid_argument& e) {
+    refuse(e.what());
+    throw;
+  }
+}
+
+}  // namespace maploop::match
