@@ -82,6 +82,11 @@ void check(const FusionParameters& p) {
   require("gnss_lever_left", p.gnss_lever_left, -50.0, 50.0);
   require("gnss_lever_up", p.gnss_lever_up, -50.0, 50.0);
 
+  require("map_position_gate", p.map_position_gate, tiny, huge);
+  require("map_azimuth_gate", p.map_azimuth_gate, tiny, huge);
+  require("lane_length", p.lane_length, 1.0, huge);
+  require("lane_lasting", p.lane_lasting, 0.0, 1.0);
+
   require("speed_scale_sigma", p.speed_scale_sigma, tiny, 1.0);
   require("speed_scale_walk", p.speed_scale_walk, 0.0, 1.0);
   require("min_wheel_sigma", p.min_wheel_sigma, tiny, huge);

@@ -16,6 +16,7 @@
 #include "estimators/fusion/stamp_guard.h"
 #include "msgs/gnss.h"
 #include "msgs/local_frame.h"
+#include "msgs/map_feedback.h"
 #include "msgs/nav_state.h"
 #include "msgs/wheel_speed.h"
 
@@ -83,6 +84,7 @@ class ReducedImuFilter {
   // Starts the filter; later ones correct it where the configuration says so: position and velocity
   // each at its own stamp (the outcome is the position's).
   Outcome add(const GnssFix& fix);
+  Outcome add(const MapFeedback& feedback);
 
   // Starts the filter from values that are known otherwise.
   Outcome start(const KnownStart& known);

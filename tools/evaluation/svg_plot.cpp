@@ -30,6 +30,7 @@ struct Axis {
   double px(double value) const {
     return first_px + (value - low) / (high - low) * (last_px - first_px);
   }
+  bool shows(double value) const { return value >= low && value <= high; }
   double per_px() const { return (high - low) / std::abs(last_px - first_px); }
   void widen_to(double units_per_px) {
     const double middle = 0.5 * (low + high);
@@ -99,6 +100,13 @@ std::string to_svg(const Plot& plot) {
   svg += text_at((kLeft + kWidth - kRight) / 2, kHeight - 8, "middle", plot.x_label);
   svg += "<text transform='translate(14," + number(kHeight / 2) +
          ") rotate(-90)' text-anchor='middle'>" + escaped(plot.y_label) + "</text>\n";
+  for (const Line& line : plot.background) {
+    svg += "<polyline fill='none' stroke-width='0.7' stroke='#999' points='";
+    for (std::size_t k = 0; k < line.x.size(); ++k)
+      if (x.shows(line.x[k]) && y.shows(line.y[k]))
+        svg += number(x.px(line.x[k])) + "," + number(y.px(line.y[k])) + " ";
+    svg += "'/>\n";
+  }
   for (std::size_t i = 0; i < plot.lines.size(); ++i) {
     const Line& line = plot.lines[i];
     const std::string colour = kColours[i % kColours.size()];

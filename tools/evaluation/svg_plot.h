@@ -14,7 +14,8 @@ struct Line {
 struct Plot {
   std::string title, x_label, y_label;
   std::vector<Line> lines;
-  bool equal_axes = false;  // a map: one metre is as long on both axes
+  bool equal_axes = false;       // a map: one metre is as long on both axes
+  std::vector<Line> background{};  // thin and grey, below the lines, where these are; no names
 };
 
 std::string to_svg(const Plot& plot);
