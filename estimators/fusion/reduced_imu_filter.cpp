@@ -299,6 +299,13 @@ std::optional<NavState> ReducedImuFilter::state_at(Time t) const {
   return nav_state(state, frame_.origin(), parameters_);
 }
 
+void ReducedImuFilter::take_over(const ReducedImuFilter& other) {
+  const FilterStatus counted = status_;
+  *this = other;
+  status_ = counted;
+  ++status_.restorations;
+}
+
 std::size_t ReducedImuFilter::next_sample(std::size_t position) const {
   while (position < history_.size() && history_[position].key.kind != EventKind::imu) ++position;
   return position;

@@ -7,6 +7,7 @@
 #include <maploop_lcm/health_t.hpp>
 #include <maploop_lcm/imu_t.hpp>
 #include <maploop_lcm/lidar_motion_t.hpp>
+#include <maploop_lcm/map_feedback_t.hpp>
 #include <maploop_lcm/map_match_t.hpp>
 #include <maploop_lcm/nav_state_t.hpp>
 #include <maploop_lcm/reference_pose_t.hpp>
@@ -16,6 +17,7 @@
 #include "msgs/diagnostics.h"
 #include "msgs/gnss.h"
 #include "msgs/imu.h"
+#include "msgs/map_feedback.h"
 #include "msgs/map_match.h"
 #include "msgs/nav_state.h"
 #include "msgs/odometry.h"
@@ -32,6 +34,7 @@ maploop_lcm::wheel_speed_t to_lcm(const WheelSpeed& sample);
 maploop_lcm::gnss_fix_t to_lcm(const GnssFix& fix);
 maploop_lcm::reference_pose_t to_lcm(const ReferencePose& pose);
 maploop_lcm::map_match_t to_lcm(const MapMatch& match, const MapMatchWords& words);
+maploop_lcm::map_feedback_t to_lcm(const MapFeedback& feedback);
 maploop_lcm::deadlines_t to_lcm(const Deadlines& deadlines);
 maploop_lcm::health_t to_lcm(const Health& health);
 
@@ -45,6 +48,7 @@ WheelSpeed from_lcm(const maploop_lcm::wheel_speed_t& message);
 GnssFix from_lcm(const maploop_lcm::gnss_fix_t& message);
 ReferencePose from_lcm(const maploop_lcm::reference_pose_t& message);
 MapMatch from_lcm(const maploop_lcm::map_match_t& message);
+MapFeedback from_lcm(const maploop_lcm::map_feedback_t& message);
 Deadlines from_lcm(const maploop_lcm::deadlines_t& message);
 Health from_lcm(const maploop_lcm::health_t& message);
 

@@ -8,8 +8,10 @@
 #include <string_view>
 
 #include "estimators/fusion/fusion_parameters.h"
+#include "estimators/fusion/guard_parameters.h"
 #include "estimators/lidar/parameters.h"
 #include "estimators/stereo/parameters.h"
+#include "mapmatch/feedback_parameters.h"
 #include "mapmatch/match_parameters.h"
 #include "runtime/core/realtime_memory.h"
 #include "runtime/core/trace.h"
@@ -26,11 +28,13 @@ struct CameraParameters {
 };
 
 enum class MapMode : std::uint8_t {
-  none,   // no matching
-  loose,  // the fused state is matched, and nothing is fed back
+  none,        // no matching
+  loose,       // the fused state is matched, and nothing is fed back
+  tight,       // the road is fed back to the filter
+  hard_reset,  // position and azimuth of the filter are replaced by the matched ones
 };
-constexpr std::array<std::string_view, 2> names_of(MapMode) {
-  return {"none", "loose"};
+constexpr std::array<std::string_view, 4> names_of(MapMode) {
+  return {"none", "loose", "tight", "hard-reset"};
 }
 
 struct MapParameters {
@@ -62,6 +66,8 @@ struct VehicleConfig {
   lidar::LidarParameters lidar;
   MapParameters map;
   mapmatch::MatchParameters mapmatch;
+  mapmatch::FeedbackParameters feedback;
+  fusion::GuardParameters guard;
   // KITTI's car travels 0.48 deg above its IMU's x axis: mean of eight odometry sequences (0.14 to
   // 0.86 deg).
   // Its IMU is 0.25 m ahead of what rolls without side slip: sideways velocity over yaw rate on

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "mapmatch/matcher.h"
+#include "msgs/frames.h"
 #include "tests/mapmatch/simulated_drive.h"
 #include "tests/mapmatch/small_map.h"
 #include "tests/support/broken_archives.h"
