@@ -8,28 +8,6 @@
 namespace maploop::mapmatch {
 namespace {
 
-// Half of the width in which a vehicle may drive beside the mapped line, m.
-double room_beside(const Road& road) {
-  constexpr double lane = 3.25;
-  if (road.lanes > 0) return 0.5 * lane * road.lanes;
-  switch (road.road_class) {
-    case RoadClass::motorway:
-    case RoadClass::trunk:
-    case RoadClass::primary:
-      return 5.5;
-    case RoadClass::motorway_link:
-    case RoadClass::trunk_link:
-    case RoadClass::primary_link:
-    case RoadClass::secondary:
-    case RoadClass::secondary_link:
-    case RoadClass::tertiary:
-    case RoadClass::tertiary_link:
-      return 3.5;
-    default:
-      return 2.75;
-  }
-}
-
 Eigen::Vector2d direction(double azimuth) {
   return {std::sin(azimuth), std::cos(azimuth)};
 }
@@ -77,8 +55,8 @@ Feedback::Line Feedback::line_beside(DirectedLink link, const Eigen::Vector2d& p
                                    azimuth_of(step_to(line.along - reach, line.along)));
     line.straight = std::abs(bend) < parameters_.straight;
   }
-  line.half_width = room_beside(network_->road_at(network_->link(link.link).first_vertex +
-                                                  static_cast<std::uint32_t>(segment)));
+  line.half_width = half_width(network_->road_at(network_->link(link.link).first_vertex +
+                                                 static_cast<std::uint32_t>(segment)));
   return line;
 }
 
@@ -99,7 +77,7 @@ bool Feedback::turns(Time stamp, double azimuth_error, double interval) const {
 }
 
 // Whether a road in the same direction, that does not go on from this one, may be the one instead.
-bool Feedback::parallel(const MatchResult& match, const VehicleFix& fix, const Line& line) const {
+bool Feedback::parallel(const LinkMatch& match, const VehicleFix& fix, const Line& line) const {
   const Eigen::Vector2d place = network_->to_local(fix.position);
   const Eigen::Vector2d right(std::cos(line.azimuth), -std::sin(line.azimuth));
   const double sigma = std::sqrt(variance_along(fix.covariance, right) +
@@ -133,7 +111,7 @@ bool Feedback::consistent() const {
   return sum / static_cast<double>(length) <= parameters_.max_mean_nis;
 }
 
-FeedbackReason Feedback::check(const MatchResult& match, const VehicleFix& fix, const Line& line) {
+FeedbackReason Feedback::check(const LinkMatch& match, const VehicleFix& fix, const Line& line) {
   const double azimuth_error = wrap_angle(fix.azimuth - line.azimuth);
   const bool turning =
       turns(fix.stamp, azimuth_error,
@@ -159,7 +137,7 @@ FeedbackReason Feedback::check(const MatchResult& match, const VehicleFix& fix, 
   return FeedbackReason::none;
 }
 
-MapFeedback Feedback::decide(const MatchResult& match, const VehicleFix& fix) {
+MapFeedback Feedback::decide(const LinkMatch& match, const VehicleFix& fix) {
   MapFeedback out;
   out.stamp = fix.stamp;
   out.sequence = sequence_++;

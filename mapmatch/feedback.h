@@ -26,7 +26,7 @@ class Feedback {
 
   // Of each match in the order of stamps, with its fix. Always says something: `reason` where
   // nothing goes back.
-  MapFeedback decide(const MatchResult& match, const VehicleFix& fix);
+  MapFeedback decide(const LinkMatch& match, const VehicleFix& fix);
 
   template <class Archive>
   void archive(Archive& ar) {
@@ -58,10 +58,10 @@ class Feedback {
   };
 
   Line line_beside(DirectedLink link, const Eigen::Vector2d& place) const;
-  FeedbackReason check(const MatchResult& match, const VehicleFix& fix, const Line& line);
+  FeedbackReason check(const LinkMatch& match, const VehicleFix& fix, const Line& line);
   bool lost(const VehicleFix& fix) const;
   bool turns(Time stamp, double azimuth_error, double interval) const;
-  bool parallel(const MatchResult& match, const VehicleFix& fix, const Line& line) const;
+  bool parallel(const LinkMatch& match, const VehicleFix& fix, const Line& line) const;
   bool consistent() const;
   void note_nis(double nis);
 

@@ -53,7 +53,6 @@ void fields(Parameters& p, F&& f) {
 template <class Parameters, class F>
 requires std::same_as<std::remove_const_t<Parameters>, FeedbackParameters>
 void fields(Parameters& p, F&& f) {
-  f("hard_reset", p.hard_reset);
   f("min_speed", p.min_speed);
   f("max_azimuth_error", p.max_azimuth_error);
   f("azimuth_sigmas", p.azimuth_sigmas);

@@ -26,6 +26,7 @@ void check(const FusionParameters& p) {
   require("restart_after", p.restart_after, 2, huge);
   require("max_step", p.max_step, 1e-3, 1.0);
   require("imu_hold", p.imu_hold, 0.0, p.history_length);
+  require("imu_bridge", p.imu_bridge, p.imu_hold, p.history_length);
   require("coasting_after", p.coasting_after, 0.0, huge);
   require("max_interval", p.max_interval, 1e-3, p.max_gap);
   require("max_origin_distance", p.max_origin_distance, 0.0, 1e5);

@@ -17,7 +17,11 @@ Outcome GuardedFilter::add(const MapFeedback& feedback) {
     copies_[0].born = t - from_seconds(0.5 * parameters_.lifetime);
   }
   Outcome outcome = refused(Reason::map_not_trusted);
-  if (t >= paused_until_) outcome = aided_.add(feedback);
+  if (!feedback.position && !feedback.azimuth) {
+    outcome = refused(Reason::nothing_fed_back);
+  } else if (t >= paused_until_) {
+    outcome = aided_.add(feedback);
+  }
 
   const auto state = aided_.state_at(t);
   if (!state) return outcome;
@@ -73,12 +77,11 @@ double GuardedFilter::distance_to(const Copy& copy, const NavState& aided, Time 
 }
 
 void GuardedFilter::restore(Time t) {
-  aided_ = *copies_[0].filter;
+  aided_.take_over(*copies_[0].filter);
   copies_[0].born = t - from_seconds(0.5 * parameters_.lifetime);
   copy_to(copies_[1], t);
   apart_ = false;
   paused_until_ = t + from_seconds(parameters_.pause);
-  ++restorations_;
 }
 
 template <class Archive, class Filter>
@@ -94,7 +97,7 @@ void GuardedFilter::describe(Archive& ar, Filter& f) {
     if (there) ar(*copy.filter);
     ar(copy.born, copy.way);
   }
-  ar(f.last_, f.apart_, f.apart_since_, f.paused_until_, f.restorations_);
+  ar(f.last_, f.apart_, f.apart_since_, f.paused_until_);
 }
 
 void GuardedFilter::archive(ArchiveWriter& ar) const {

@@ -19,7 +19,8 @@ namespace maploop::fusion {
 // Not thread-safe. Allocates nothing after the first feedback.
 class GuardedFilter {
  public:
-  GuardedFilter(ReducedImuFilter filter, const GuardParameters& parameters)
+  // A filter is one that nothing is fed back to.
+  GuardedFilter(ReducedImuFilter filter, const GuardParameters& parameters = {})
       : aided_(std::move(filter)), parameters_(parameters) {}
 
   template <class Measurement>
@@ -34,7 +35,7 @@ class GuardedFilter {
 
   Outcome start(const KnownStart& known) { return aided_.start(known); }
   const ReducedImuFilter& aided() const { return aided_; }
-  std::uint64_t restorations() const { return restorations_; }
+  FilterStatus status() const { return aided_.status(); }
 
   // As ReducedImuFilter's.
   std::size_t largest_archive() const { return 3 * aided_.largest_archive() + 256; }
@@ -62,7 +63,6 @@ class GuardedFilter {
   bool apart_ = false;
   Time apart_since_{};
   Time paused_until_{};
-  std::uint64_t restorations_ = 0;
 };
 
 }  // namespace maploop::fusion

@@ -27,6 +27,7 @@ void fields(Parameters& p, F&& f) {
   f("restart_after", p.restart_after);
   f("max_step", p.max_step);
   f("imu_hold", p.imu_hold);
+  f("imu_bridge", p.imu_bridge);
   f("coasting_after", p.coasting_after);
   f("max_interval", p.max_interval);
   f("max_origin_distance", p.max_origin_distance);

@@ -72,7 +72,7 @@ Outcome ReducedImuFilter::add(const ImuSample& sample) {
   while (redo > 0 && history_[redo - 1].key.kind != EventKind::imu) --redo;
   const bool reaches_into_base =
       redo == 0 && base_sample_ && base_sample_->stamp < base_key_.stamp &&
-      sample.stamp - base_sample_->stamp <= from_seconds(parameters_.imu_hold) &&
+      sample.stamp - base_sample_->stamp <= from_seconds(parameters_.imu_bridge) &&
       base_key_.kind != EventKind::start;
   if (reaches_into_base) return refuse_stamp(Reason::too_old);
   return insert_and_roll(key, sample, redo);
@@ -297,6 +297,13 @@ std::optional<NavState> ReducedImuFilter::state_at(Time t) const {
   FilterState state = position == 0 ? base_ : history_[position - 1].after;
   advance(state, samples_around(position), t);
   return nav_state(state, frame_.origin(), parameters_);
+}
+
+void ReducedImuFilter::take_over(const ReducedImuFilter& other) {
+  const FilterStatus counted = status_;
+  *this = other;
+  status_ = counted;
+  ++status_.restorations;
 }
 
 std::size_t ReducedImuFilter::next_sample(std::size_t position) const {

@@ -295,7 +295,7 @@ MapResult run(const MapSetting& setting, const MapCase& setup) {
     sent.emplace_back(*state, sample);
   }
   result.status = filter.aided().status();
-  result.restorations = filter.restorations();
+  result.restorations = filter.status().restorations;
   result.match.add(matched, matched_rows, labels);
 
   const auto again = recording.sensors(Time::max()).reference;

@@ -272,7 +272,7 @@ Misled drive_beside_wrong_road(const GuardParameters& guard, double wrong_from) 
     result.largest = std::max(result.largest, result.error);
     result.largest_free = std::max(result.largest_free, result.free_error);
   }
-  result.restorations = filter.restorations();
+  result.restorations = filter.status().restorations;
   return result;
 }
 
