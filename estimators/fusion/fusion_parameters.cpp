@@ -85,6 +85,8 @@ void check(const FusionParameters& p) {
 
   require("map_position_gate", p.map_position_gate, tiny, huge);
   require("map_azimuth_gate", p.map_azimuth_gate, tiny, huge);
+  require("map_recover_after", p.map_recover_after, 1, huge);
+  require("map_recovery_sigma", p.map_recovery_sigma, 0.0, huge);
   require("lane_length", p.lane_length, 1.0, huge);
   require("lane_lasting", p.lane_lasting, 0.0, 1.0);
 

@@ -85,10 +85,12 @@ struct FusionParameters {
   double gnss_lever_up = 0.0;
 
   // Map feedback. Lane and map error stay along a road, and differ from road to road.
-  double map_position_gate = 6.63;  // chi-square, 1 degree of freedom, 1 % tail
-  double map_azimuth_gate = 6.63;
-  double lane_length = 300.0;  // m of way in which a lane and the map's error change
-  double lane_lasting = 0.3;   // 1, share of them that goes on behind a turn: the side driven on
+  double map_position_gate = 10.83;  // chi-square, 1 degree of freedom, 0.1 % tail
+  double map_azimuth_gate = 6.63;    // the same, 1 %: bends and junctions look like that
+  int map_recover_after = 5;         // lines gated in a row (50 m of way); then doubts itself
+  double map_recovery_sigma = 10.0;  // m, how wrong its position may then be
+  double lane_length = 300.0;        // m of way in which a lane and the map's error change
+  double lane_lasting = 0.3;  // 1, share of them that goes on behind a turn: the side driven on
 
   // Scale of the speed sensor: tyres, or disparities that are a little too large or too small.
   double speed_scale_sigma = 0.015;  // 1, at the start: 1.2 % rms in odometry of six drives

@@ -85,8 +85,18 @@ Outcome apply_map(FilterState& state, const MapFeedback& feedback, const LocalFr
   }
   Outcome outcome = azimuth;
   if (feedback.position) {
-    outcome = apply_gated(state, line_innovation(state, feedback, frame), p.map_position_gate,
-                          Reason::line_gate);
+    const auto correct = [&] {
+      return apply_gated(state, line_innovation(state, feedback, frame), p.map_position_gate,
+                         Reason::line_gate);
+    };
+    outcome = correct();
+    if (outcome.refused() && ++state.map_gated_in_a_row % p.map_recover_after == 0) {
+      const double wrong = p.map_recovery_sigma;
+      for (const int i : {index::east, index::north}) state.P(i, i) += wrong * wrong;
+      ++state.recoveries;
+      outcome = correct();
+    }
+    if (!outcome.refused()) state.map_gated_in_a_row = 0;
   }
   if (!outcome.refused()) state.map_stamp = state.stamp;
   return outcome;

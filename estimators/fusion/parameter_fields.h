@@ -80,6 +80,8 @@ void fields(Parameters& p, F&& f) {
   f("gnss_lever_up", p.gnss_lever_up);
   f("map_position_gate", p.map_position_gate);
   f("map_azimuth_gate", p.map_azimuth_gate);
+  f("map_recover_after", p.map_recover_after);
+  f("map_recovery_sigma", p.map_recovery_sigma);
   f("lane_length", p.lane_length);
   f("lane_lasting", p.lane_lasting);
   f("speed_scale_sigma", p.speed_scale_sigma);

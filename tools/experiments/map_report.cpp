@@ -33,7 +33,7 @@ Row row_of(const MapResult& r) {
           number(e.distance, 0),
           number(e.rmse, 2),
           number(e.max, 2),
-          number(e.distance > 0.0 ? 100.0 * e.rmse / e.distance : 0.0, 3),
+          number(e.rmse_percent(), 3),
           number(e.azimuth_rms, 2),
           number(e.nees_mean, 2),
           matched ? percent(r.match.certain) : "-",

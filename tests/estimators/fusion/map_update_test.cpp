@@ -118,6 +118,20 @@ TEST(MapUpdate, RefusesAnotherRoad) {
   EXPECT_EQ(state.map_stamp, Time{});
 }
 
+TEST(MapUpdate, DoubtsItselfWhenRoadsContradictItInARow) {
+  const LocalFrame frame(test_origin());
+  const FusionParameters p;
+  FilterState state = state_at_origin(1.0);
+  MapFeedback f = road(frame, {0.0, 0.0}, 12.0);
+  f.azimuth = false;
+  for (int i = 1; i < p.map_recover_after; ++i)
+    EXPECT_EQ(apply_map(state, f, frame, p), refused(Reason::line_gate));
+  EXPECT_FALSE(apply_map(state, f, frame, p).refused());
+  EXPECT_GT(state.x[index::east], 10.0);
+  EXPECT_EQ(state.recoveries, 1U);
+  EXPECT_EQ(state.map_gated_in_a_row, 0);
+}
+
 TEST(MapUpdate, AHardResetBecomesTheMatchedPlace) {
   const LocalFrame frame(test_origin());
   const FusionParameters p;
