@@ -1,5 +1,5 @@
 // The measurements of one epoch, linearized about the state: code, phase and Doppler of each
-// satellite as rows of a Kalman update (method 6.1 and 6.3).
+// satellite as rows of a Kalman update.
 #pragma once
 
 #include <array>

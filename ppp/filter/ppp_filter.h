@@ -1,4 +1,4 @@
-// Precise point positioning with float ambiguities (method 6.1 to 6.5), an epoch at a time. Plain
+// Precise point positioning with float ambiguities (ppp/METHOD.md), an epoch at a time. Plain
 // and single-threaded: what it says depends on the epochs alone.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The range that a receiver at a place should measure to a satellite: method 6.1 and 6.4.
+// The range that a receiver at a place should measure to a satellite.
 #pragma once
 
 #include "ppp/filter/measurement.h"

@@ -1,4 +1,4 @@
-// The update of a state by an epoch's rows, without those that do not fit (method 6.5).
+// The update of a state by an epoch's rows, without those that do not fit.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // Cycle slips of one satellite: loss of lock, geometry-free and Melbourne-Wuebbena combinations
-// with two carriers, Doppler with one (method 6.5).
+// with two carriers, Doppler with one.
 #pragma once
 
 #include "msgs/ppp_state.h"

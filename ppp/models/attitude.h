@@ -6,7 +6,7 @@
 namespace maploop::ppp {
 
 // Nominal yaw steering: columns are the body's axes in the earth-fixed frame, z to the earth, y
-// across the sun (method 6.4). m.
+// across the sun (ppp/METHOD.md). m.
 Eigen::Matrix3d nominal_attitude(const Eigen::Vector3d& satellite, const Eigen::Vector3d& sun);
 
 // Whether the satellite is in the earth's shadow (a cylinder).

@@ -20,7 +20,8 @@ namespace maploop::vehicle {
 
 // Runs the given source on a loader thread of its own, up to `depth` samples ahead. next() swaps a
 // loaded sample in, waits only when the loader is behind, and throws what ended the loader early.
-// report() is to be read after the end.
+// The loader ends at a request through `stop`, and with this object. report() is to be read after
+// the end.
 template <class T>
 class PrefetchedSource final : public sensors::Source<T> {
  public:
@@ -29,13 +30,14 @@ class PrefetchedSource final : public sensors::Source<T> {
       : source_(std::move(source)),
         trace_(trace),
         loaded_(depth),
-        stopped_(stop, [this] { wake_both(); }),
+        stopped_(std::move(stop), [this] { end(); }),
         loader_(
-            std::move(name), {}, std::move(stop), [this](const std::stop_token& s) { load(s); },
+            std::move(name), {}, end_.get_token(), [this](const std::stop_token& s) { load(s); },
             [this] {
               ended_.store(true, std::memory_order_release);
               filled_.ring();
             }) {}
+  ~PrefetchedSource() override { end(); }
 
   bool next(T& sample) override {
     for (;;) {
@@ -59,8 +61,9 @@ class PrefetchedSource final : public sensors::Source<T> {
 
  private:
   void load(const std::stop_token& stop) {
-    while (!stop.stop_requested()) {
-      const std::uint32_t heard = taken_.listen();
+    for (;;) {
+      const std::uint32_t heard = taken_.listen();  // before the question: its bell is not missed
+      if (stop.stop_requested()) return;
       T* slot = loaded_.claim();
       if (slot == nullptr) {
         taken_.wait(heard);
@@ -75,7 +78,8 @@ class PrefetchedSource final : public sensors::Source<T> {
     }
   }
 
-  void wake_both() {
+  void end() {
+    end_.request_stop();
     filled_.ring();
     taken_.ring();
   }
@@ -86,6 +90,7 @@ class PrefetchedSource final : public sensors::Source<T> {
   runtime::Doorbell filled_;
   runtime::Doorbell taken_;
   std::atomic<bool> ended_{false};
+  std::stop_source end_;
   std::stop_callback<std::function<void()>> stopped_;
   runtime::Thread loader_;
 };

@@ -9,6 +9,8 @@
 #include <type_traits>
 
 #include "estimators/fusion/configuration.h"
+#include "estimators/lidar/validate.h"
+#include "estimators/stereo/validate.h"
 #include "runtime/core/config.h"
 #include "runtime/vehicle/config_fields.h"
 
@@ -84,6 +86,17 @@ std::string toml_value(double value) {
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
 
+// What a table's own rules say beyond types.
+void check_values(const VehicleConfig& config, const std::filesystem::path& file) {
+  try {
+    stereo::validate(config.stereo);
+    lidar::validate(config.lidar);
+    fusion::check(config.fusion);
+  } catch (const std::invalid_argument& e) {
+    throw runtime::ConfigError(file.string() + ": " + e.what());
+  }
+}
+
 }  // namespace
 
 void set_configuration(VehicleConfig& config, const std::string& name) {
@@ -126,6 +139,7 @@ VehicleConfig load_vehicle_config(const std::filesystem::path& file) {
   if (!(config.ppp.latency >= 0.0 && config.ppp.latency < 10.0)) {
     document.root().table("ppp").fail("latency", "must be 0 to 10 s");
   }
+  check_values(config, file);
   const auto beside = [&](std::string& path) { path = (file.parent_path() / path).string(); };
   for (std::string* path : {&config.camera.calibration, &config.map.file, &config.map.rules})
     if (!path->empty()) beside(*path);

@@ -125,6 +125,20 @@ TEST(VehicleConfig, ProductsAreBesideTheConfiguration) {
   EXPECT_THROW(load_text("[ppp]\nlatency = -1.0\n"), runtime::ConfigError);
 }
 
+TEST(VehicleConfig, AValueThatCannotWorkNamesFileAndKey) {
+  for (const auto& [text, said] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"[fusion]\ngyro_noise = -1.0\n", "test.toml: fusion parameter gyro_noise"},
+           {"[stereo]\nwindow = 14\n", "test.toml: stereo odometry: window"},
+           {"[lidar]\nmap_voxel = 0.0\n", "test.toml: LiDAR odometry: map_voxel"}}) {
+    try {
+      load_text(text);
+      ADD_FAILURE() << text;
+    } catch (const runtime::ConfigError& e) {
+      EXPECT_NE(std::string(e.what()).find(said), std::string::npos) << e.what();
+    }
+  }
+}
+
 TEST(VehicleConfig, AnUnknownTableIsAnError) {
   try {
     load_text("[sterio]\nbucket_size = 40\n");

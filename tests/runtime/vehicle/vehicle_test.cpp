@@ -136,6 +136,14 @@ TEST(Vehicle, ALoaderThatFailsIsNamedAndTheRestGoesOn) {
   EXPECT_NE(said.find("camera has ended: cable pulled"), std::string::npos) << said;
 }
 
+TEST(Vehicle, AParameterThatCannotWorkIsAnErrorAndTheLoadersEnd) {
+  VehicleConfig config;
+  config.fusion.gyro_noise = -1.0;
+  EXPECT_THROW(Vehicle(config, fake_calibration(), fake_sensors(2.0),
+                       runtime::DataClock::virtual_time(), {}, {}),
+               std::invalid_argument);
+}
+
 TEST(Vehicle, SensorsThatTheDriveLacksAreNoError) {
   Sensors sensors = fake_sensors(2.0);
   sensors.velodyne = nullptr;

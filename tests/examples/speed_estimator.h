@@ -1,0 +1,63 @@
+// An estimator: the vehicle's speed and acceleration from speeds that may be wrong now and then.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+
+#include "msgs/archive.h"
+#include "msgs/wheel_speed.h"
+
+namespace maploop::example {
+
+struct SpeedParameters {
+  double jerk = 1.0;                // m/s^3/sqrt(Hz), white: pedals
+  double start_acceleration = 2.0;  // m/s^2, 1 sigma, before anything is known
+  double gate = 10.83;              // chi-square, 1 degree of freedom, 0.1 % tail
+  double max_gap = 5.0;             // s, after which it begins anew
+};
+
+enum class SpeedReason : std::uint8_t { none, not_finite, not_later, gate };
+
+struct SpeedEstimate : Sample {
+  double speed = 0.0;                                        // m/s
+  double acceleration = 0.0;                                 // m/s^2
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  // of the two
+  SpeedReason reason = SpeedReason::none;  // why the sample was not used; then it is predicted
+};
+
+// Constant acceleration under white jerk (Bar-Shalom, Li and Kirubarajan 2001, 6.2.2), a Kalman
+// filter with a gate.
+//
+// Not thread-safe; owns no thread, reads no clock, allocates nothing. The same samples give the
+// same bits.
+class SpeedEstimator {
+ public:
+  // Throws std::invalid_argument naming the parameter that cannot work.
+  explicit SpeedEstimator(const SpeedParameters& parameters);
+
+  // Nothing before the first usable sample.
+  std::optional<SpeedEstimate> add(const WheelSpeed& sample);
+
+  // msgs/archive.h: everything but the parameters, which must be the same.
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar.section("example of an estimator", 1);
+    archive_same_number(ar, "jerk", parameters_.jerk);
+    SpeedEstimator loaded = *this;  // so that a refusal changes nothing
+    ar(loaded.started_, loaded.stamp_, loaded.x_, loaded.P_);
+    if constexpr (Archive::loading) *this = loaded;
+  }
+
+ private:
+  void predict(double seconds);
+  SpeedReason correct(const WheelSpeed& sample);
+
+  SpeedParameters parameters_;
+  bool started_ = false;
+  Time stamp_{};
+  Eigen::Vector2d x_ = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d P_ = Eigen::Matrix2d::Zero();
+};
+
+}  // namespace maploop::example
