@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/estimators/fusion/synthetic_drive.h"
 
 namespace maploop::fusion {

@@ -124,6 +124,10 @@ TEST(MapUpdate, DoubtsItselfWhenRoadsContradictItInARow) {
   FilterState state = state_at_origin(1.0);
   MapFeedback f = road(frame, {0.0, 0.0}, 12.0);
   f.azimuth = false;
+  FilterState aided = state;  // GNSS has just said where it is: then the road is wrong
+  aided.gnss_stamp = aided.stamp - from_seconds(10.0);
+  for (int i = 0; i < 3 * p.map_recover_after; ++i)
+    EXPECT_EQ(apply_map(aided, f, frame, p), refused(Reason::line_gate));
   for (int i = 1; i < p.map_recover_after; ++i)
     EXPECT_EQ(apply_map(state, f, frame, p), refused(Reason::line_gate));
   EXPECT_FALSE(apply_map(state, f, frame, p).refused());
@@ -241,7 +245,8 @@ TEST(MapFeedback, IsRefusedAtTheDoorWithAReason) {
   EXPECT_EQ(filter.add(f), refused(Reason::after_delivery));
 }
 
-// A straight drive whose map has a road that leaves it by 0.1 rad, little enough for the gates of its line.
+// A straight drive whose map has a road that leaves it by 0.1 rad, little enough for the gates of
+// its line.
 struct Misled {
   double error = 0.0, free_error = 0.0, largest = 0.0, largest_free = 0.0;
   std::uint64_t restorations = 0;
