@@ -10,7 +10,6 @@
 namespace maploop::stereo {
 namespace {
 
-constexpr double kSmallestDisparity = 0.05;  // px; keeps an adjusted point in front and finite
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 }  // namespace

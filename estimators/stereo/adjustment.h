@@ -14,6 +14,8 @@ namespace maploop::stereo {
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 using Matrix7 = Eigen::Matrix<double, 7, 7>;
 
+constexpr double kSmallestDisparity = 0.05;  // px; keeps an adjusted point in front and finite
+
 // Of the pose's six perturbations (residual.h) and, last, of a constant offset of all disparities
 // (px; true = measured + offset), at offset zero.
 struct NormalEquations {

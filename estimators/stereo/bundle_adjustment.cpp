@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "estimators/stereo/adjustment.h"
 #include "estimators/stereo/residual.h"
 #include "estimators/stereo/velocity_change.h"
 
@@ -13,8 +14,6 @@ namespace maploop::stereo {
 namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
-constexpr double kSmallestDisparity = 0.05;  // px; keeps a point in front and finite
 
 // Where the first that saw the point sees it now.
 ImagePoint image_of(const StereoCalibration& camera, const Eigen::Isometry3d& T_world_cam,

@@ -8,7 +8,7 @@
 namespace maploop::ppp {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Eigen::Vector3d tide_of(const Eigen::Vector3d& up, double latitude, const Eigen::Vector3d& body,
                         double mass_ratio) {

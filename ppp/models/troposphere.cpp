@@ -10,7 +10,7 @@
 namespace maploop::ppp {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Continued fraction of Marini with Herring's normalization.
 double fraction(double sine, const double (&c)[3]) {
@@ -25,13 +25,14 @@ double between(const double (&table)[5], double latitude_degrees) {
   return table[i] + (place - i) * (table[i + 1] - table[i]);
 }
 
-constexpr double mean[3][5] = {
+constexpr double hydrostatic_mean[3][5] = {
     {1.2769934e-3, 1.2683230e-3, 1.2465397e-3, 1.2196049e-3, 1.2045996e-3},
     {2.9153695e-3, 2.9152299e-3, 2.9288445e-3, 2.9022565e-3, 2.9024912e-3},
     {62.610505e-3, 62.837393e-3, 63.721774e-3, 63.824265e-3, 64.258455e-3}};
-constexpr double amplitude[3][5] = {{0.0, 1.2709626e-5, 2.6523662e-5, 3.4000452e-5, 4.1202191e-5},
-                                    {0.0, 2.1414979e-5, 3.0160779e-5, 7.2562722e-5, 11.723375e-5},
-                                    {0.0, 9.0128400e-5, 4.3497037e-5, 84.795348e-5, 170.37206e-5}};
+constexpr double hydrostatic_amplitude[3][5] = {
+    {0.0, 1.2709626e-5, 2.6523662e-5, 3.4000452e-5, 4.1202191e-5},
+    {0.0, 2.1414979e-5, 3.0160779e-5, 7.2562722e-5, 11.723375e-5},
+    {0.0, 9.0128400e-5, 4.3497037e-5, 84.795348e-5, 170.37206e-5}};
 constexpr double wet_table[3][5] = {
     {5.8021897e-4, 5.6794847e-4, 5.8118019e-4, 5.9727542e-4, 6.1641693e-4},
     {1.4275268e-3, 1.5138625e-3, 1.4572752e-3, 1.5007428e-3, 1.7599082e-3},
@@ -44,7 +45,8 @@ NiellMapping::NiellMapping(const Geodetic& site, GpsTime t) : height_km_(site.he
   const double season = std::cos(2.0 * pi * (day - 28.0) / 365.25);
   const double latitude = std::abs(site.latitude) * 180.0 / pi;
   for (int i = 0; i < 3; ++i) {
-    hydrostatic_[i] = between(mean[i], latitude) - between(amplitude[i], latitude) * season;
+    hydrostatic_[i] = between(hydrostatic_mean[i], latitude) -
+                      between(hydrostatic_amplitude[i], latitude) * season;
     wet_[i] = between(wet_table[i], latitude);
   }
 }

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ppp/models/geodesy.h"
+
 namespace maploop::ppp {
 namespace {
-
-constexpr double earth_rotation = 7.2921151467e-5;  // rad/s
 
 // How far from its reference time a message is still used. Galileo allows hours, and is then off by
 // tens of metres; a new one comes every ten minutes.
@@ -34,7 +34,7 @@ double gravity_constant(System system) {
 }
 
 double rotation_rate(System system) {
-  return system == System::beidou ? 7.292115e-5 : earth_rotation;
+  return system == System::beidou ? 7.292115e-5 : earth_rotation_rate;
 }
 
 struct Orbit {

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ppp/models/geodesy.h"
+
 namespace maploop::ppp {
 namespace {
 
-constexpr double earth_rotation = 7.2921151467e-5;  // rad/s
-constexpr std::size_t nodes = 11;                   // of the interpolating polynomial
+constexpr std::size_t nodes = 11;  // of the interpolating polynomial
 
 // Clocks are joined by lines up to this far apart.
 constexpr Duration longest_clock_gap = std::chrono::seconds(910);
@@ -113,11 +114,12 @@ std::optional<Eigen::Vector3d> PreciseEphemeris::position(Satellite satellite, G
     }
     // Each point in the earth-fixed frame of moment t.
     const Eigen::Vector3d& q = points[first + i].position;
-    const double angle = earth_rotation * offset[i];
+    const double angle = earth_rotation_rate * offset[i];
     const double c = std::cos(angle), s = std::sin(angle);
     const Eigen::Vector3d turned(c * q.x() + s * q.y(), -s * q.x() + c * q.y(), q.z());
     // As the frame moves on, a point at rest in it goes the other way.
-    const Eigen::Vector3d turning(earth_rotation * turned.y(), -earth_rotation * turned.x(), 0.0);
+    const Eigen::Vector3d turning(earth_rotation_rate * turned.y(),
+                                  -earth_rotation_rate * turned.x(), 0.0);
     p += weight * turned;
     v += slope / unit * turned + weight * turning;
   }
@@ -151,7 +153,8 @@ std::optional<SatelliteState> PreciseEphemeris::at(Satellite satellite, GpsTime 
   state.position = *p;
   // The orbit's velocity against the inertial frame is what relativity is about.
   const Eigen::Vector3d inertial =
-      state.velocity + Eigen::Vector3d(-earth_rotation * p->y(), earth_rotation * p->x(), 0.0);
+      state.velocity +
+      Eigen::Vector3d(-earth_rotation_rate * p->y(), earth_rotation_rate * p->x(), 0.0);
   state.clock = *offset - 2.0 * p->dot(inertial) / (speed_of_light * speed_of_light);
   const auto later = clock(satellite, t + std::chrono::seconds(1));
   state.clock_drift = later ? *later - *offset : 0.0;

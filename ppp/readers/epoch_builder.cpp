@@ -4,13 +4,24 @@
 
 namespace maploop::ppp {
 
-void refuse(Observations& observations, const Lines& lines, const std::string& why) {
+namespace {
+
+void refuse_at(Observations& observations, const std::string& place, const std::string& why) {
   constexpr std::size_t most_reasons = 20;
   ++observations.refused;
   if (observations.refusals.size() < most_reasons) {
-    observations.refusals.push_back(lines.file() + ":" + std::to_string(lines.line_number()) +
-                                    ": " + why);
+    observations.refusals.push_back(place + ": " + why);
   }
+}
+
+}  // namespace
+
+void refuse(Observations& observations, const Lines& lines, const std::string& why) {
+  refuse_at(observations, lines.file() + ":" + std::to_string(lines.line_number()), why);
+}
+
+void refuse(Observations& observations, std::size_t offset, const std::string& why) {
+  refuse_at(observations, observations.file + ": byte " + std::to_string(offset), why);
 }
 
 void append_satellite(Observations& observations, const Lines& lines, Satellite satellite,

@@ -12,6 +12,8 @@ struct Value {
 
 // Refused satellites and epochs, with the first reasons.
 void refuse(Observations& observations, const Lines& lines, const std::string& why);
+// The same of what a stream has at a byte.
+void refuse(Observations& observations, std::size_t offset, const std::string& why);
 
 // Appends a satellite; refuses and counts one whose values cannot be.
 void append_satellite(Observations& observations, const Lines& lines, Satellite satellite,

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "ppp/readers/epoch_builder.h"
 #include "ppp/readers/lines.h"
 #include "ppp/readers/rtcm3_signals.h"
 
@@ -55,15 +56,6 @@ GpsTime nearest(GpsTime near, Duration since, Duration period) {
   while (t - near > period / 2) t -= period;
   while (near - t > period / 2) t += period;
   return t;
-}
-
-void refuse(Observations& observations, std::size_t offset, const std::string& why) {
-  constexpr std::size_t most_reasons = 20;
-  ++observations.refused;
-  if (observations.refusals.size() < most_reasons) {
-    observations.refusals.push_back(observations.file + ": byte " + std::to_string(offset) + ": " +
-                                    why);
-  }
 }
 
 }  // namespace

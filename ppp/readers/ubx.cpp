@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "ppp/readers/epoch_builder.h"
 #include "ppp/readers/lines.h"
 
 namespace maploop::ppp {
@@ -40,15 +41,6 @@ std::optional<Satellite> satellite_of(std::uint8_t gnss, std::uint8_t number) {
   const int rinex = number - shift;
   if (rinex < 1 || rinex > 99) return {};  // GLONASS 255: its number is not known yet
   return Satellite{systems[gnss], static_cast<std::uint8_t>(rinex)};
-}
-
-void refuse(Observations& observations, std::size_t offset, const std::string& why) {
-  constexpr std::size_t most_reasons = 20;
-  ++observations.refused;
-  if (observations.refusals.size() < most_reasons) {
-    observations.refusals.push_back(observations.file + ": byte " + std::to_string(offset) + ": " +
-                                    why);
-  }
 }
 
 }  // namespace

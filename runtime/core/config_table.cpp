@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -8,6 +6,7 @@
 #include "runtime/core/config.h"
 #include "runtime/core/config_state.h"
 #include "runtime/core/nearest_name.h"
+#include "runtime/core/number_text.h"
 
 namespace maploop::runtime {
 namespace {
@@ -17,12 +16,6 @@ using detail::ConfigState;
 using detail::dotted;
 using detail::place;
 using detail::printable;
-
-std::string number(double value) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
-}
 
 std::string type_name(const toml::node& node) {
   switch (node.type()) {
@@ -82,7 +75,7 @@ double finite_number(const Entry& entry, const toml::node& value) {
   const auto* floating = value.as_floating_point();
   if (floating == nullptr) entry.fail("is " + type_name(value) + "; it must be a number");
   if (!std::isfinite(floating->get())) {
-    entry.fail("is " + number(floating->get()) + "; it must be a finite number");
+    entry.fail("is " + shortest_text(floating->get()) + "; it must be a finite number");
   }
   return floating->get();
 }
@@ -90,7 +83,7 @@ double finite_number(const Entry& entry, const toml::node& value) {
 double read_number(const Entry& entry, double lowest, double highest) {
   const double value = finite_number(entry, entry.value);
   if (value < lowest || value > highest) {
-    entry.out_of_range(number(value), number(lowest), number(highest));
+    entry.out_of_range(shortest_text(value), shortest_text(lowest), shortest_text(highest));
   }
   return value;
 }
@@ -123,14 +116,14 @@ Duration read_duration(const Entry& entry, Duration lowest, Duration highest) {
   const double given = finite_number(entry, entry.value);
   const double ns = given * unit.nanoseconds;
   const auto in_unit = [&unit](Duration d) {
-    return number(static_cast<double>(d.count()) / unit.nanoseconds);
+    return shortest_text(static_cast<double>(d.count()) / unit.nanoseconds);
   };
   // Within what int64 holds first, then exactly.
   constexpr double kBeyond = 9223372036854775808.0;
   const bool held = std::abs(ns) < kBeyond;
   const Duration value = held ? Duration(std::llround(ns)) : Duration{};
   if (!held || value < lowest || value > highest) {
-    entry.out_of_range(number(given), in_unit(lowest), in_unit(highest));
+    entry.out_of_range(shortest_text(given), in_unit(lowest), in_unit(highest));
   }
   return value;
 }

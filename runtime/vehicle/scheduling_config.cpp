@@ -1,9 +1,10 @@
 #include "runtime/vehicle/scheduling_config.h"
 
 #include <array>
-#include <charconv>
 #include <cstddef>
 #include <string_view>
+
+#include "runtime/core/number_text.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -73,14 +74,8 @@ void refuse(const runtime::ConfigTable& table, std::initializer_list<const char*
   }
 }
 
-std::string number(double value) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
-}
-
 std::string milliseconds_text(Duration d) {
-  return number(static_cast<double>(d.count()) * 1e-6);
+  return runtime::shortest_text(static_cast<double>(d.count()) * 1e-6);
 }
 
 }  // namespace
@@ -118,7 +113,8 @@ std::string toml_value(const Scheduling& s) {
   if (has_priority(s.policy)) text += ", priority = " + std::to_string(s.priority);
   if (s.nice) text += ", nice = " + std::to_string(*s.nice);
   if (s.timer_slack > Duration::zero()) {
-    text += ", timer_slack_us = " + number(static_cast<double>(s.timer_slack.count()) * 1e-3);
+    text += ", timer_slack_us = " +
+            runtime::shortest_text(static_cast<double>(s.timer_slack.count()) * 1e-3);
   }
   if (s.policy == SchedulingPolicy::deadline) {
     text += ", runtime_ms = " + milliseconds_text(s.runtime) +

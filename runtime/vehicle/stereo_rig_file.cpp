@@ -1,13 +1,12 @@
 #include "runtime/vehicle/stereo_rig_file.h"
 
 #include <Eigen/Dense>
-#include <array>
-#include <charconv>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
 
 #include "runtime/core/config.h"
+#include "runtime/core/number_text.h"
 #include "sensors/replay/kitti_calibration.h"
 
 namespace maploop::vehicle {
@@ -98,15 +97,9 @@ sensors::StereoRig read_toml(const std::filesystem::path& file) {
 }
 
 // Written so that it is read back bit for bit.
-std::string number(double value) {
-  std::array<char, 40> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
-}
-
 std::string numbers(const double* values, int count) {
   std::string text = "[";
-  for (int i = 0; i < count; ++i) text += (i == 0 ? "" : ", ") + number(values[i]);
+  for (int i = 0; i < count; ++i) text += (i == 0 ? "" : ", ") + runtime::shortest_text(values[i]);
   return text + "]";
 }
 
@@ -125,7 +118,7 @@ class Writer {
       text += "  # " + found->second;
     text += '\n';
   }
-  void line(const std::string& key, double value) { line(key, number(value)); }
+  void line(const std::string& key, double value) { line(key, runtime::shortest_text(value)); }
   void line(const std::string& key, const Eigen::Vector3d& v) { line(key, numbers(v.data(), 3)); }
   void line(const std::string& key, const Eigen::Matrix3d& m) {
     const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rows = m;

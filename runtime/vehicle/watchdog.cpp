@@ -7,14 +7,14 @@
 namespace maploop::vehicle {
 namespace {
 
-std::string number(double value) {
+std::string rounded(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.3g", value);
   return text.data();
 }
 
 std::string seconds(Duration duration) {
-  return number(to_seconds(duration)) + " s";
+  return rounded(to_seconds(duration)) + " s";
 }
 
 std::string waiting_for(const StageFacts& facts) {
@@ -75,9 +75,9 @@ void Watchdog::judge_rate(Time now, std::uint64_t count) {
   rate_verdict_.clear();
   if ((samples + 1.0) / interval < stage_.min_rate ||
       (samples - 1.0) / interval > stage_.max_rate) {
-    rate_verdict_ = std::string(stage_.name) + ": " + number(samples / interval) + " Hz over " +
-                    seconds(since) + ", " + number(stage_.min_rate) + " to " +
-                    number(stage_.max_rate) + " Hz expected";
+    rate_verdict_ = std::string(stage_.name) + ": " + rounded(samples / interval) + " Hz over " +
+                    seconds(since) + ", " + rounded(stage_.min_rate) + " to " +
+                    rounded(stage_.max_rate) + " Hz expected";
   }
   judged_ = now;
   count_judged_ = count;

@@ -84,10 +84,6 @@ Laser laser_of(const boost::property_tree::ptree& entry) {
   return laser;
 }
 
-std::size_t laser_count(VelodyneModel model) {
-  return model == VelodyneModel::hdl64e ? 64 : model == VelodyneModel::hdl32e ? 32 : 16;
-}
-
 std::vector<Laser> parse_calibration(const std::string& text, std::size_t count) {
   boost::property_tree::ptree tree;
   std::istringstream stream(text);
@@ -114,6 +110,10 @@ std::vector<Laser> parse_calibration(const std::string& text, std::size_t count)
 }
 
 }  // namespace
+
+std::size_t laser_count(VelodyneModel model) {
+  return model == VelodyneModel::hdl64e ? 64 : model == VelodyneModel::hdl32e ? 32 : 16;
+}
 
 std::vector<Laser> factory_lasers(VelodyneModel model) {
   switch (model) {

@@ -1,6 +1,7 @@
 // Where each laser of a Velodyne scanner points.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct Laser {
   double sideways = 0.0;
   double upwards = 0.0;
 };
+
+std::size_t laser_count(VelodyneModel model);
 
 // 64, 32 or 16, by the number of the laser in the packet; of the HDL-64E those of the upper block
 // first. The HDL-32E's and VLP-16's are those of their manuals (VLP-16: revision E, with its

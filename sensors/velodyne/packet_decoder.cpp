@@ -27,10 +27,6 @@ Timing timing(VelodyneModel model) {
   }
 }
 
-std::size_t laser_count(VelodyneModel model) {
-  return model == VelodyneModel::hdl64e ? 64 : model == VelodyneModel::hdl32e ? 32 : 16;
-}
-
 }  // namespace
 
 PacketDecoder::PacketDecoder(VelodyneModel model, std::vector<Laser> lasers)

@@ -17,21 +17,21 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMaximumChannels = 1000;  // 33 MB
+constexpr std::size_t kMaximumCounted = 1000;  // 33 MB
 constexpr std::size_t kMaximumTypes = 8;
 constexpr double kGapFactor = 2.5;  // two messages missing at a steady rate, or one and much jitter
 
-struct Channel {
+struct CountedChannel {
   ChannelInfo info;
   IntervalStatistics intervals;
 };
-using Channels = std::map<std::string, std::unique_ptr<Channel>, std::less<>>;
+using CountedChannels = std::map<std::string, std::unique_ptr<CountedChannel>, std::less<>>;
 
-Channel* find(Channels& channels, std::string_view name) {
+CountedChannel* find(CountedChannels& channels, std::string_view name) {
   if (const auto found = channels.find(name); found != channels.end()) return found->second.get();
-  if (channels.size() == kMaximumChannels) return nullptr;
+  if (channels.size() == kMaximumCounted) return nullptr;
   auto& channel = channels[std::string(name)];
-  channel = std::make_unique<Channel>();
+  channel = std::make_unique<CountedChannel>();
   channel->info.name = name;
   return channel.get();
 }
@@ -47,7 +47,7 @@ void count_type(ChannelInfo& info, std::uint64_t fingerprint, const schema::Sche
   }
 }
 
-void add(Channel& channel, const LogEvent& event, const schema::Schema& schema) {
+void add(CountedChannel& channel, const LogEvent& event, const schema::Schema& schema) {
   ChannelInfo& info = channel.info;
   if (info.count == 0) info.first_us = event.time_us;
   info.last_us = event.time_us;
@@ -57,7 +57,7 @@ void add(Channel& channel, const LogEvent& event, const schema::Schema& schema) 
   count_type(info, schema::fingerprint_of(event.data), schema);
 }
 
-ChannelInfo finish(Channel& channel) {
+ChannelInfo finish(CountedChannel& channel) {
   ChannelInfo info = std::move(channel.info);
   const double duration = seconds_between(info.first_us, info.last_us);
   if (duration > 0.0) info.rate_hz = static_cast<double>(info.count - 1) / duration;
@@ -96,7 +96,7 @@ LogInfo read_info(const std::filesystem::path& file, const schema::Schema& schem
   Progress progress(reader.input().file_size());
   LogInfo info;
   info.file = file.string();
-  Channels channels;
+  CountedChannels channels;
   for (auto item = reader.next(); item != LogReader::Item::end; item = reader.next()) {
     progress.at(reader.input().file_position());
     if (item == LogReader::Item::damage) {
@@ -109,7 +109,7 @@ LogInfo read_info(const std::filesystem::path& file, const schema::Schema& schem
     info.first_us = std::min(info.first_us, event.time_us);
     info.last_us = std::max(info.last_us, event.time_us);
     ++info.events;
-    if (Channel* channel = find(channels, event.channel)) {
+    if (CountedChannel* channel = find(channels, event.channel)) {
       add(*channel, event, schema);
     } else {
       ++info.events_elsewhere;

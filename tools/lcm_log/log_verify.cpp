@@ -10,7 +10,7 @@
 namespace maploop::lcm_log {
 namespace {
 
-constexpr std::size_t kMaximumChannels = 1000;  // whose last time is kept
+constexpr std::size_t kMaximumTimed = 1000;  // whose last time is kept
 
 class Verifier {
  public:
@@ -65,7 +65,7 @@ class Verifier {
 
     const auto known = last_of_.find(event.channel);
     if (known == last_of_.end()) {
-      if (last_of_.size() < kMaximumChannels) last_of_.emplace(event.channel, event.time_us);
+      if (last_of_.size() < kMaximumTimed) last_of_.emplace(event.channel, event.time_us);
       return;
     }
     const double since = seconds_between(known->second, event.time_us);
