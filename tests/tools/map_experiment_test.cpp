@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 
@@ -31,12 +32,14 @@ struct World {
   }
 };
 
-MapResult driven(const std::string& sequence, MapMode mode, const std::string& fault = "") {
+MapResult driven(const std::string& sequence, MapMode mode, const std::string& fault = "",
+                 std::int64_t seed = 1) {
   static const World world;
   MapCase c;
   c.sequence = sequence;
   c.mode = mode;
   c.fault = fault;
+  c.seed = seed;
   return run(world.setting, c);
 }
 
@@ -59,8 +62,7 @@ struct Reached {
 
 class TightOnTurns : public ::testing::TestWithParam<Reached> {};
 
-// Also through the gaps of the inertial sensor in 02. (00 has nine of them, and is lost in the
-// fifth.)
+// Also through the gaps of 1.7 s in the inertial data: nine in 00, three in 02.
 TEST_P(TightOnTurns, StaysNearTheTruthAndOnTheLink) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const MapResult tight = driven(GetParam().sequence, MapMode::tight);
@@ -76,9 +78,19 @@ TEST_P(TightOnTurns, StaysNearTheTruthAndOnTheLink) {
 
 INSTANTIATE_TEST_SUITE_P(
     Sequences, TightOnTurns,
-    ::testing::Values(Reached{"02", 2.6, 12.5, 0.99}, Reached{"06", 2.0, 3.5, 0.99},
-                      Reached{"08", 3.8, 12.5, 0.99}, Reached{"10", 2.4, 4.5, 0.99}),
+    ::testing::Values(Reached{"00", 2.2, 4.5, 0.99}, Reached{"02", 2.6, 7.0, 0.99},
+                      Reached{"06", 1.8, 3.5, 0.99}, Reached{"08", 3.8, 12.5, 0.99},
+                      Reached{"10", 2.2, 4.2, 0.99}),
     [](const auto& reached) { return std::string("Of") + reached.param.sequence; });
+
+// The recorder's speed contradicts its positions by 4 m in the first 40 s of 08: with an unlucky
+// start the first turn comes 15 m from where it is expected, more than three of its sigmas.
+TEST(Tight, FindsItsRoadBehindATurnThatComesUnexpected) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const MapResult r = driven("08", MapMode::tight, "", 4);
+  EXPECT_LT(without_gnss(r).rmse, 5.0);
+  EXPECT_GE(r.match.certain.share(), 0.99);
+}
 
 TEST(TightOnStraightRoads, IsNoWorseAcrossThanWithoutTheMap) {
   MAPLOOP_REQUIRE_REAL_DATA();
