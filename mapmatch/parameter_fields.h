@@ -4,6 +4,7 @@
 #include <concepts>
 #include <type_traits>
 
+#include "mapmatch/feedback_parameters.h"
 #include "mapmatch/match_parameters.h"
 
 namespace maploop::mapmatch {
@@ -48,6 +49,37 @@ void fields(Parameters& p, F&& f) {
   f("visual_gate", p.visual_gate);
   f("paths", p.paths);
   f("max_gap", p.max_gap);
+}
+
+template <class Parameters, class F>
+requires std::same_as<std::remove_const_t<Parameters>, FeedbackParameters>
+void fields(Parameters& p, F&& f) {
+  f("min_speed", p.min_speed);
+  f("max_azimuth_error", p.max_azimuth_error);
+  f("azimuth_sigmas", p.azimuth_sigmas);
+  f("max_lost_azimuth", p.max_lost_azimuth);
+  f("max_turn", p.max_turn);
+  f("turn_interval", p.turn_interval);
+  f("lost_turn_interval", p.lost_turn_interval);
+  f("junction_distance", p.junction_distance);
+  f("junction_sigmas", p.junction_sigmas);
+  f("min_probability", p.min_probability);
+  f("min_margin", p.min_margin);
+  f("parallel_azimuth", p.parallel_azimuth);
+  f("parallel_sigmas", p.parallel_sigmas);
+  f("window", p.window);
+  f("max_mean_nis", p.max_mean_nis);
+  f("spacing", p.spacing);
+  f("azimuth_spacing", p.azimuth_spacing);
+  f("cross_sigma", p.cross_sigma);
+  f("map_sigma", p.map_sigma);
+  f("azimuth_sigma", p.azimuth_sigma);
+  f("bend_sigma", p.bend_sigma);
+  f("straight", p.straight);
+  f("chord", p.chord);
+  f("ramp", p.ramp);
+  f("ramp_factor", p.ramp_factor);
+  f("new_road_turn", p.new_road_turn);
 }
 
 }  // namespace maploop::mapmatch

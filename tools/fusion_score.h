@@ -36,7 +36,9 @@ struct Errors {
   double nees_end = 0.0;
   double covered = 0.0;  // 1, share of the stretch where there is a reference
 
+  // Of the way: the drift, and the root of the mean error squared.
   double percent() const { return distance > 0.0 ? 100.0 * drift / distance : 0.0; }
+  double rmse_percent() const { return distance > 0.0 ? 100.0 * rmse / distance : 0.0; }
 };
 
 struct OutageErrors {

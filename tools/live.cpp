@@ -1,5 +1,6 @@
 // maploop live: the whole graph on live sensors.
 #include "tools/live_run.h"
+#include "tools/option_checks.h"
 
 #include <memory>
 
@@ -15,8 +16,8 @@ void add_live(CLI::App& app, Command& command) {
       "for again. Ends at Ctrl-C");
   sub->add_option("CONFIG", options->config, "TOML file whose [live] names the sensors' endpoints")
       ->required()
-      ->check(CLI::ExistingFile);
-  sub->add_option("--seconds", options->seconds, "End after so long")->check(CLI::PositiveNumber);
+      ->check(existing_file());
+  sub->add_option("--seconds", options->seconds, "End after so long")->check(positive_number());
   sub->add_flag("--verbose", options->verbose,
                 "Say of every real-time setting what was granted, not only of those refused");
   auto* record =
@@ -28,7 +29,7 @@ void add_live(CLI::App& app, Command& command) {
   sub->add_option("--map", options->map,
                   "OpenStreetMap file, or network file of `maploop map build`: the fused state is "
                   "matched to its roads")
-      ->check(CLI::ExistingFile);
+      ->check(existing_file());
   sub->add_option("--json", options->json, "Write the closing table to this file as JSON");
   sub->add_option("--report", options->report,
                   "Write a page with all of it to this file: way, latencies, losses");

@@ -120,9 +120,12 @@ void add_replay(CLI::App& app, Command& command) {
                   "OpenStreetMap file, or network file of `maploop map build`: the fused state is "
                   "matched to its roads")
       ->check(existing_file());
-  sub->add_option("--map-mode", options->map_mode,
-                  "none, or loose (where there is a map): matched, and nothing fed back")
-      ->check(CLI::IsMember({"none", "loose"}));
+  sub->add_option(
+         "--map-mode", options->map_mode,
+         "none; loose, the default where there is a map: matched, and nothing fed back; tight: "
+         "the road goes back to the filter; hard-reset: position and azimuth become the "
+         "matched ones")
+      ->check(CLI::IsMember({"none", "loose", "tight", "hard-reset"}));
   sub->add_option("--configuration", options->configuration,
                   "What joins the inertial sensors: VO-RI, VO-L-RI, RISS or RISS-VO; GNSS+ before "
                   "it: fixes are used after the start too. Without it, --speed-scale "

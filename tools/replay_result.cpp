@@ -170,6 +170,7 @@ json to_json(const std::optional<Accuracy>& accuracy) {
 json to_json(const fusion_score::Errors& e) {
   return {{"distance_m", number(e.distance)},
           {"rmse_m", number(e.rmse)},
+          {"rmse_percent", number(e.rmse_percent())},
           {"max_m", number(e.max)},
           {"drift_m", number(e.drift)},
           {"drift_percent", number(e.percent())},

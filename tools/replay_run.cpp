@@ -92,8 +92,9 @@ class Replay {
     }
     if (!options.map.empty()) config.map.file = options.map.string();
     if (!options.map_mode.empty()) config.map.mode = map_mode_of(options.map_mode);
-    if (options.map_mode == "loose" && config.map.file.empty()) {
-      throw std::runtime_error("--map-mode loose needs a map: --map FILE");
+    if (config.map.mode != vehicle::MapMode::none && !options.map_mode.empty() &&
+        config.map.file.empty()) {
+      throw std::runtime_error("--map-mode " + options.map_mode + " needs a map: --map FILE");
     }
     if (options.speed_scale) config.wheel.scale_error = *options.speed_scale - 1.0;
     return config;

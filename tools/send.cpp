@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "tools/commands.h"
+#include "tools/option_checks.h"
 #include "tools/send_run.h"
 
 namespace maploop::tools {
@@ -24,9 +25,9 @@ void add_send(CLI::App& app, Command& command) {
                   "Write the reference, with the stamps that it is sent with, to this file (TUM, "
                   "left camera, every millisecond)");
   sub->add_option("--seconds", options->seconds, "End so far into the drive")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   sub->add_option("--config", options->config, "TOML file of parameters: noise of the fixes")
-      ->check(CLI::ExistingFile);
+      ->check(existing_file());
   sub->callback([options, &command] { command = [options] { return send(*options); }; });
 }
 

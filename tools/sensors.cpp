@@ -69,7 +69,7 @@ void add_sensors(CLI::App& app, Command& command) {
   sub->add_option("CONFIG", options->config,
                   "Listen for a while to the sensors that [live] of this TOML file names, as "
                   "maploop live would, and say of each what it is")
-      ->check(CLI::ExistingFile);
+      ->check(existing_file());
   sub->add_option("--seconds", options->seconds, "How long")->check(CLI::Range(0.1, 86400.0));
   sub->add_option("--json", options->json, "Write what was heard to this file as JSON");
   sub->require_subcommand(0, 1);

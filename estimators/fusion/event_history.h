@@ -12,6 +12,7 @@
 #include "estimators/fusion/outcome.h"
 #include "msgs/gnss.h"
 #include "msgs/imu.h"
+#include "msgs/map_feedback.h"
 #include "msgs/odometry.h"
 #include "msgs/wheel_speed.h"
 
@@ -24,6 +25,7 @@ enum class EventKind : std::uint8_t {
   wheel,
   gnss_velocity,
   gnss_position,
+  map,
   odometry,
   clone
 };
@@ -49,7 +51,8 @@ void archive(Archive&, CloneRequest&) {}
 
 struct Event {
   EventKey key;
-  std::variant<ImuSample, WheelSpeed, GnssFix, RelativeMotion, CloneRequest> measurement;
+  std::variant<ImuSample, WheelSpeed, GnssFix, RelativeMotion, CloneRequest, MapFeedback>
+      measurement;
   FilterState after;  // meaningful once the filter has started
   Outcome outcome;
 };

@@ -33,6 +33,7 @@ enum : int {
   gnss_offset_north,
   gnss_offset_up,
   chain_drift,  // rad, the chained azimuth less the azimuth
+  lane_offset,  // 1, place to the right of the mapped line, in units of its own standard deviation
   count
 };
 }  // namespace index
@@ -88,12 +89,14 @@ struct FilterState {
   Time gnss_stamp{};
   Time wheel_stamp{};
   Time zero_velocity_stamp{};
+  Time map_stamp{};
   std::uint64_t odometry_applied = 0;
   std::uint64_t odometry_refused = 0;
   // Gated in a row, by the kind of measurement.
   int gated_in_a_row = 0;
   int gnss_gated_in_a_row = 0;
   int wheel_gated_in_a_row = 0;
+  int map_gated_in_a_row = 0;
   std::uint64_t recoveries = 0;
   std::uint64_t reinitializations = 0;
   // Azimuth chained from odometry's rotations alone, as of the clone; used where so configured.
@@ -113,9 +116,10 @@ struct FilterState {
 template <class Archive>
 void archive(Archive& ar, FilterState& s) {
   ar(s.stamp, s.x, s.P, s.clone_stamp, s.start, s.imu_stamp, s.odometry_stamp, s.gnss_stamp,
-     s.wheel_stamp, s.zero_velocity_stamp, s.odometry_applied, s.odometry_refused, s.gated_in_a_row,
-     s.gnss_gated_in_a_row, s.wheel_gated_in_a_row, s.recoveries, s.reinitializations,
-     s.chained_azimuth, s.stillness, s.yaw_rate, s.clone_yaw_rate, s.imu_delay);
+     s.wheel_stamp, s.zero_velocity_stamp, s.map_stamp, s.odometry_applied, s.odometry_refused,
+     s.gated_in_a_row, s.gnss_gated_in_a_row, s.wheel_gated_in_a_row, s.map_gated_in_a_row,
+     s.recoveries, s.reinitializations, s.chained_azimuth, s.stillness, s.yaw_rate,
+     s.clone_yaw_rate, s.imu_delay);
 }
 
 // Adds a correction, keeping both azimuths in (-pi, pi].

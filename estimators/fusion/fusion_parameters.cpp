@@ -26,6 +26,7 @@ void check(const FusionParameters& p) {
   require("restart_after", p.restart_after, 2, huge);
   require("max_step", p.max_step, 1e-3, 1.0);
   require("imu_hold", p.imu_hold, 0.0, p.history_length);
+  require("imu_bridge", p.imu_bridge, p.imu_hold, p.history_length);
   require("coasting_after", p.coasting_after, 0.0, huge);
   require("max_interval", p.max_interval, 1e-3, p.max_gap);
   require("max_origin_distance", p.max_origin_distance, 0.0, 1e5);
@@ -81,6 +82,13 @@ void check(const FusionParameters& p) {
   require("gnss_lever_forward", p.gnss_lever_forward, -50.0, 50.0);
   require("gnss_lever_left", p.gnss_lever_left, -50.0, 50.0);
   require("gnss_lever_up", p.gnss_lever_up, -50.0, 50.0);
+
+  require("map_position_gate", p.map_position_gate, tiny, huge);
+  require("map_azimuth_gate", p.map_azimuth_gate, tiny, huge);
+  require("map_recover_after", p.map_recover_after, 1, huge);
+  require("map_recovery_sigma", p.map_recovery_sigma, 0.0, huge);
+  require("lane_length", p.lane_length, 1.0, huge);
+  require("lane_lasting", p.lane_lasting, 0.0, 1.0);
 
   require("speed_scale_sigma", p.speed_scale_sigma, tiny, 1.0);
   require("speed_scale_walk", p.speed_scale_walk, 0.0, 1.0);

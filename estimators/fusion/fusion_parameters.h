@@ -13,14 +13,15 @@ struct FusionParameters {
   bool use_zero_velocity = true;  // where the detector sees the vehicle stand
 
   // History and time.
-  double history_length = 2.0;    // s, late data is applied within it; odometry is < 0.3 s late
-  int history_capacity = 512;     // events; 2 s of 100 Hz IMU and 10 Hz odometry take about 240
+  double history_length = 3.0;    // s, late data is applied within it; odometry is < 0.3 s late
+  int history_capacity = 512;     // events; 3 s of 100 Hz IMU and 10 Hz odometry take about 360
   double confirm_gap = 1.0;       // s, a stamp further ahead needs a second one that agrees
   double max_gap = 5.0;           // s, beyond it nothing is predicted: the clock jumped
   double max_stamp_ahead = 0.05;  // s, of its delivery: clocks of sensor and host agree better
   int restart_after = 100;      // refusals in a row for their stamps; then the clock really jumped
   double max_step = 0.05;       // s, a chord of a 30 deg/s turn is 3e-5 shorter than its arc
   double imu_hold = 0.3;        // s, three missing samples of a 10 Hz IMU; then it is silent
+  double imu_bridge = 2.0;      // s, a longer gap between two samples may hide a whole turn
   double coasting_after = 1.0;  // s without odometry until the state calls itself coasting
   double max_interval = 1.0;    // s, longest odometry interval; speed is not constant for longer
   double max_origin_distance = 50e3;  // m, the plumb line is linear in position up to there
@@ -82,6 +83,14 @@ struct FusionParameters {
   double gnss_lever_forward = 0.0;    // m, antenna from the body's origin
   double gnss_lever_left = 0.0;
   double gnss_lever_up = 0.0;
+
+  // Map feedback. Lane and map error stay along a road, and differ from road to road.
+  double map_position_gate = 10.83;  // chi-square, 1 degree of freedom, 0.1 % tail
+  double map_azimuth_gate = 6.63;    // the same, 1 %: bends and junctions look like that
+  int map_recover_after = 5;         // lines gated in a row (50 m of way); then doubts itself
+  double map_recovery_sigma = 10.0;  // m, how wrong its position may then be
+  double lane_length = 300.0;        // m of way in which a lane and the map's error change
+  double lane_lasting = 0.3;  // 1, share of them that goes on behind a turn: the side driven on
 
   // Scale of the speed sensor: tyres, or disparities that are a little too large or too small.
   double speed_scale_sigma = 0.015;  // 1, at the start: 1.2 % rms in odometry of six drives

@@ -8,7 +8,7 @@ namespace {
 
 bool neighbours(const InertialSamples& samples, const FusionParameters& parameters) {
   return samples.before != nullptr && samples.after != nullptr &&
-         samples.after->stamp - samples.before->stamp <= from_seconds(parameters.imu_hold);
+         samples.after->stamp - samples.before->stamp <= from_seconds(parameters.imu_bridge);
 }
 
 }  // namespace

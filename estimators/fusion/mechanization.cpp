@@ -114,6 +114,10 @@ Step mechanize(const StateVector& x, const InertialInput& input, const LocalEart
   };
   decay(climb_offset, parameters.climb_offset_time, parameters.climb_offset);
   for (int i = gnss_offset_east; i <= gnss_offset_up; ++i) decay(i, parameters.gnss_offset_time);
+  // A lane lasts for a stretch of road, not for a time.
+  const double lane = std::exp(-dt * std::abs(x[speed]) / parameters.lane_length);
+  step.x[lane_offset] *= lane;
+  F(lane_offset, lane_offset) = lane;
 
   step.acceleration_effect.setZero();
   step.acceleration_effect.segment<3>(east) = 0.5 * dt * dt * to_ground * travel;
@@ -164,6 +168,7 @@ StateMatrix process_noise(const StateVector& x, const Step& step, const Inertial
   };
   markov(climb_offset, p.climb_offset_sigma);
   for (int i = gnss_offset_east; i <= gnss_offset_up; ++i) markov(i, 1.0);
+  markov(lane_offset, 1.0);
 
   // Side slip and suspension turn the direction of travel away from the body's axis.
   const Vector3d travel = direction(x[azimuth], x[pitch] + x[climb_offset]);

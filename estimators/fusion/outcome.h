@@ -41,9 +41,14 @@ enum class Reason : std::uint8_t {
   too_slow,         // no course without motion: waiting for a fix that moves
   stamps_apart,     // position and velocity belong to different moments
   too_far_from_origin,
+  // Map feedback.
+  nothing_fed_back,   // it says why itself
+  map_not_trusted,    // it has led astray a moment ago
+  line_gate,          // the road's line contradicts the prediction
+  link_azimuth_gate,  // its azimuth contradicts the prediction
 };
 
-constexpr std::size_t reason_count = static_cast<std::size_t>(Reason::too_far_from_origin) + 1;
+constexpr std::size_t reason_count = static_cast<std::size_t>(Reason::link_azimuth_gate) + 1;
 
 struct Outcome {
   Disposition disposition = Disposition::applied;
@@ -124,6 +129,14 @@ constexpr std::string_view to_string(Reason reason) {
       return "position and velocity too far apart in time";
     case Reason::too_far_from_origin:
       return "too far from the origin";
+    case Reason::nothing_fed_back:
+      return "the map feeds nothing back";
+    case Reason::map_not_trusted:
+      return "the map has led astray a moment ago";
+    case Reason::line_gate:
+      return "road contradicts the predicted position";
+    case Reason::link_azimuth_gate:
+      return "road contradicts the predicted azimuth";
   }
   return "unknown";
 }

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "estimators/fusion/fusion_parameters.h"
+#include "estimators/fusion/guard_parameters.h"
 
 namespace maploop::fusion {
 
@@ -26,6 +27,7 @@ void fields(Parameters& p, F&& f) {
   f("restart_after", p.restart_after);
   f("max_step", p.max_step);
   f("imu_hold", p.imu_hold);
+  f("imu_bridge", p.imu_bridge);
   f("coasting_after", p.coasting_after);
   f("max_interval", p.max_interval);
   f("max_origin_distance", p.max_origin_distance);
@@ -76,6 +78,12 @@ void fields(Parameters& p, F&& f) {
   f("gnss_lever_forward", p.gnss_lever_forward);
   f("gnss_lever_left", p.gnss_lever_left);
   f("gnss_lever_up", p.gnss_lever_up);
+  f("map_position_gate", p.map_position_gate);
+  f("map_azimuth_gate", p.map_azimuth_gate);
+  f("map_recover_after", p.map_recover_after);
+  f("map_recovery_sigma", p.map_recovery_sigma);
+  f("lane_length", p.lane_length);
+  f("lane_lasting", p.lane_lasting);
   f("speed_scale_sigma", p.speed_scale_sigma);
   f("speed_scale_walk", p.speed_scale_walk);
   f("min_wheel_sigma", p.min_wheel_sigma);
@@ -93,6 +101,19 @@ void fields(Parameters& p, F&& f) {
   f("recover_after", p.recover_after);
   f("recovery_speed_sigma", p.recovery_speed_sigma);
   f("recovery_rotation_sigma", p.recovery_rotation_sigma);
+}
+
+template <class Parameters, class F>
+requires std::same_as<std::remove_const_t<Parameters>, GuardParameters>
+void fields(Parameters& p, F&& f) {
+  f("lifetime", p.lifetime);
+  f("difference_gate", p.difference_gate);
+  f("patience", p.patience);
+  f("trusted", p.trusted);
+  f("pause", p.pause);
+  f("lost_azimuth", p.lost_azimuth);
+  f("model_sigma", p.model_sigma);
+  f("model_share", p.model_share);
 }
 
 }  // namespace maploop::fusion

@@ -6,6 +6,7 @@
 
 #include "estimators/fusion/gnss_update.h"
 #include "estimators/fusion/initial_state.h"
+#include "estimators/fusion/map_update.h"
 #include "estimators/fusion/measurement_check.h"
 #include "estimators/fusion/mechanization.h"
 #include "estimators/fusion/nav_state_output.h"
@@ -71,7 +72,7 @@ Outcome ReducedImuFilter::add(const ImuSample& sample) {
   while (redo > 0 && history_[redo - 1].key.kind != EventKind::imu) --redo;
   const bool reaches_into_base =
       redo == 0 && base_sample_ && base_sample_->stamp < base_key_.stamp &&
-      sample.stamp - base_sample_->stamp <= from_seconds(parameters_.imu_hold) &&
+      sample.stamp - base_sample_->stamp <= from_seconds(parameters_.imu_bridge) &&
       base_key_.kind != EventKind::start;
   if (reaches_into_base) return refuse_stamp(Reason::too_old);
   return insert_and_roll(key, sample, redo);
@@ -132,6 +133,18 @@ Outcome ReducedImuFilter::add(const WheelSpeed& sample) {
 Outcome ReducedImuFilter::add(const GnssFix& fix) {
   if (!initialized_) return start(fix);
   return parameters_.use_gnss ? correct(fix) : count(refused(Reason::already_started));
+}
+
+Outcome ReducedImuFilter::add(const MapFeedback& feedback) {
+  if (const Reason reason = check_feedback(feedback, parameters_); reason != Reason::none) {
+    return count(refused(reason));
+  }
+  const EventKey key{feedback.stamp, EventKind::map, feedback.sequence};
+  if (const Reason reason = check_stamp(key); reason != Reason::none) return refuse_stamp(reason);
+  if (key < base_key_ && started_here()) return count(refused(Reason::before_start));
+  make_room(1);
+  if (key <= base_key_) return refuse_stamp(Reason::too_old);
+  return insert_and_roll(key, feedback, history_.position_after(key));
 }
 
 Outcome ReducedImuFilter::correct(const GnssFix& fix) {
@@ -286,6 +299,13 @@ std::optional<NavState> ReducedImuFilter::state_at(Time t) const {
   return nav_state(state, frame_.origin(), parameters_);
 }
 
+void ReducedImuFilter::take_over(const ReducedImuFilter& other) {
+  const FilterStatus counted = status_;
+  *this = other;
+  status_ = counted;
+  ++status_.restorations;
+}
+
 std::size_t ReducedImuFilter::next_sample(std::size_t position) const {
   while (position < history_.size() && history_[position].key.kind != EventKind::imu) ++position;
   return position;
@@ -362,6 +382,9 @@ Outcome ReducedImuFilter::apply(FilterState& state, const Event& event,
     }
     const double yaw_rate = samples.before != nullptr ? samples.before->yaw_rate : 0.0;
     return apply_gnss_velocity(state, *fix, yaw_rate, parameters_);
+  }
+  if (const auto* feedback = std::get_if<MapFeedback>(&event.measurement)) {
+    return apply_map(state, *feedback, frame_, parameters_);
   }
   take_clone(state);
   return {};

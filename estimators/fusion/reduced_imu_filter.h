@@ -16,6 +16,7 @@
 #include "estimators/fusion/stamp_guard.h"
 #include "msgs/gnss.h"
 #include "msgs/local_frame.h"
+#include "msgs/map_feedback.h"
 #include "msgs/nav_state.h"
 #include "msgs/wheel_speed.h"
 
@@ -39,6 +40,7 @@ struct FilterStatus {
   DelayEstimate imu_delay;              // left in the inertial stamps, against odometry
   std::uint64_t restarts = 0;           // times a jump of the clock made it begin anew
   std::uint64_t shortened = 0;          // events that left the history early because it was full
+  std::uint64_t restorations = 0;       // times what the map had led to was undone
   std::uint64_t unused = 0;  // held measurements that grew too old before the filter started
   // Of every measurement added, by its outcome when it was added (a later arrival may change what
   // the filter makes of it; NavState counts what is inside a state).
@@ -53,8 +55,8 @@ struct FilterStatus {
 
 template <class Archive>
 void archive(Archive& ar, FilterStatus& s) {
-  ar(s.phase, s.recoveries, s.reinitializations, s.imu_delay, s.restarts, s.shortened, s.unused,
-     s.applied, s.held, s.refused);
+  ar(s.phase, s.recoveries, s.reinitializations, s.imu_delay, s.restarts, s.shortened,
+     s.restorations, s.unused, s.applied, s.held, s.refused);
 }
 
 // Not thread-safe; reads no clock, allocates nothing after construction.
@@ -83,6 +85,7 @@ class ReducedImuFilter {
   // Starts the filter; later ones correct it where the configuration says so: position and velocity
   // each at its own stamp (the outcome is the position's).
   Outcome add(const GnssFix& fix);
+  Outcome add(const MapFeedback& feedback);
 
   // Starts the filter from values that are known otherwise.
   Outcome start(const KnownStart& known);
@@ -91,6 +94,9 @@ class ReducedImuFilter {
   // Of the enu coordinates; the default frame before the start when no origin was given.
   const LocalFrame& frame() const { return frame_; }
   FilterStatus status() const;
+
+  // Becomes another one of the same parameters; what was counted stays.
+  void take_over(const ReducedImuFilter& other);
 
   // State at `t` from every measurement known now with a stamp <= t (and the inertial sample after
   // t, for the interpolation). Beyond the newest measurement it is predicted. Nothing before the

@@ -10,6 +10,7 @@ inline constexpr std::string_view visual_odometry = "VO";
 inline constexpr std::string_view lidar_odometry = "LIDAR_ODOMETRY";
 inline constexpr std::string_view odometry = "ODOMETRY";
 inline constexpr std::string_view map_match = "MAP_MATCH";
+inline constexpr std::string_view map_feedback = "MAP_FEEDBACK";
 inline constexpr std::string_view imu = "IMU";
 inline constexpr std::string_view gnss_fix = "GNSS_FIX";
 inline constexpr std::string_view ppp_state = "PPP_STATE";

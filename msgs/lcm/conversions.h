@@ -7,6 +7,7 @@
 #include <maploop_lcm/health_t.hpp>
 #include <maploop_lcm/imu_t.hpp>
 #include <maploop_lcm/lidar_motion_t.hpp>
+#include <maploop_lcm/map_feedback_t.hpp>
 #include <maploop_lcm/map_match_t.hpp>
 #include <maploop_lcm/nav_state_t.hpp>
 #include <maploop_lcm/ppp_state_t.hpp>
@@ -17,6 +18,7 @@
 #include "msgs/diagnostics.h"
 #include "msgs/gnss.h"
 #include "msgs/imu.h"
+#include "msgs/map_feedback.h"
 #include "msgs/map_match.h"
 #include "msgs/nav_state.h"
 #include "msgs/odometry.h"
@@ -35,6 +37,7 @@ maploop_lcm::gnss_fix_t to_lcm(const GnssFix& fix);
 maploop_lcm::ppp_state_t to_lcm(const PppState& state);
 maploop_lcm::reference_pose_t to_lcm(const ReferencePose& pose);
 maploop_lcm::map_match_t to_lcm(const MapMatch& match, const MapMatchWords& words);
+maploop_lcm::map_feedback_t to_lcm(const MapFeedback& feedback);
 maploop_lcm::deadlines_t to_lcm(const Deadlines& deadlines);
 maploop_lcm::health_t to_lcm(const Health& health);
 
@@ -49,6 +52,7 @@ GnssFix from_lcm(const maploop_lcm::gnss_fix_t& message);
 PppState from_lcm(const maploop_lcm::ppp_state_t& message);
 ReferencePose from_lcm(const maploop_lcm::reference_pose_t& message);
 MapMatch from_lcm(const maploop_lcm::map_match_t& message);
+MapFeedback from_lcm(const maploop_lcm::map_feedback_t& message);
 Deadlines from_lcm(const maploop_lcm::deadlines_t& message);
 Health from_lcm(const maploop_lcm::health_t& message);
 

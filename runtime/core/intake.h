@@ -25,6 +25,13 @@ class Intake {
                        }});
   }
 
+  // An edge from a thread that ends after this one: finished() does not wait for its end.
+  template <class T, class Handle>
+  void add_feedback(Edge<T>& edge, Handle handle) {
+    add(edge, std::move(handle));
+    inlets_.back().feedback = true;
+  }
+
   // Up to which `available` every edge has promised to have sent all.
   Time promised() const {
     Time t = Time::max();
@@ -62,9 +69,9 @@ class Intake {
 
   // Nothing is left and nothing more comes.
   bool finished() const {
-    if (promised() != Time::max()) return false;
     for (const Inlet& inlet : inlets_) {
-      if (inlet.edge->head() != nullptr) return false;
+      if (inlet.feedback) continue;
+      if (inlet.edge->promised() != Time::max() || inlet.edge->head() != nullptr) return false;
     }
     return true;
   }
@@ -73,6 +80,7 @@ class Intake {
   struct Inlet {
     EdgeBase* edge;
     std::function<void()> take;
+    bool feedback = false;
   };
   std::vector<Inlet> inlets_;
 };

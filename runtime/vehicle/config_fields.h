@@ -124,6 +124,12 @@ void visit(Config& config, Table&& table, Field&& field) {
   table("mapmatch");
   fields(config.mapmatch, field);
 
+  table("feedback");
+  fields(config.feedback, field);
+
+  table("guard");
+  fields(config.guard, field);
+
   table("fusion");
   fields(config.fusion, field);
 }

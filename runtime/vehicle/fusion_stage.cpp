@@ -18,13 +18,17 @@ constexpr std::size_t most_images_a_tick = 8;
 
 }  // namespace
 
-FusionEdges::FusionEdges()
+FusionEdges::FusionEdges(bool closed)
     : imu(make_edge<ImuSample>(edges::imu_fusion, &bell)),
       gnss(make_edge<GnssFix>(edges::gnss_fusion, &bell)),
       wheel(make_edge<WheelSpeed>(edges::wheel_fusion, &bell)),
-      odometry(make_edge<RelativeMotion>(edges::odometry_fusion, &bell)) {}
+      odometry(make_edge<RelativeMotion>(edges::odometry_fusion, &bell)) {
+  if (!closed) return;
+  const EdgeSpec& spec = edges::mapmatch_fusion;
+  feedback.emplace(std::string(spec.name), spec.capacity, spec.overflow, &bell);
+}
 
-FusionStage::FusionStage(fusion::ReducedImuFilter filter, FusionEdges& inputs,
+FusionStage::FusionStage(fusion::GuardedFilter filter, FusionEdges& inputs,
                          std::vector<runtime::Edge<NavState>*> nav_states,
                          runtime::Edge<NavState>& image_states, Duration odometry_budget)
     : filter_(std::move(filter)),
@@ -53,6 +57,11 @@ FusionStage::FusionStage(fusion::ReducedImuFilter filter, FusionEdges& inputs,
     filter_.add(sample);
   });
   intake_.add(inputs_.odometry, [this](const RelativeMotion& motion) { take(motion); });
+  if (!inputs_.feedback) return;
+  intake_.add_feedback(*inputs_.feedback, [this](const MapFeedback& feedback) {
+    const runtime::TraceSpan span(trace_, "map feedback");
+    filter_.add(feedback);
+  });
 }
 
 void FusionStage::run(runtime::DataClock& clock, Time first, const std::stop_token& stop) {
@@ -65,6 +74,10 @@ void FusionStage::run(runtime::DataClock& clock, Time first, const std::stop_tok
   const runtime::Schedule schedule{
       stages::fusion.period, stages::fusion.phase,
       clock.is_live() ? stages::fusion.overrun : runtime::Overrun::catch_up};
+  // No state before the first tick's: the map matching need not wait for one.
+  const Time before = runtime::first_tick(first, schedule.period, schedule.phase) +
+                      stages::fusion.budget - Duration(1);
+  for (auto* edge : nav_states_) edge->promise(before);
   runtime::run_periodic(clock, first, schedule, stop,
                         [&](const runtime::Tick& t) { return tick(t, clock, stop); });
 }
@@ -95,7 +108,7 @@ bool FusionStage::tick(const runtime::Tick& tick, runtime::DataClock& clock,
   position_.store(to_nanoseconds(k), std::memory_order_relaxed);
   delay_(k);
   intake_.take_until(k);
-  NavState state = filter_.state_at(k).value_or(NavState{});
+  NavState state = filter_.aided().state_at(k).value_or(NavState{});
   state.stamp = k;
   state.available = k + stages::fusion.budget;
   state.sequence = ticks_++;
@@ -139,7 +152,7 @@ void FusionStage::take(const RelativeMotion& motion) {
   span.step_flow(flow_of(motion));
   filter_.add(motion);
   if (motion.status == OdometryStatus::ok) odometry_taken_ = motion;
-  std::optional<NavState> state = filter_.state_at(motion.stamp);
+  std::optional<NavState> state = filter_.aided().state_at(motion.stamp);
   if (!state) return;
   state->available = tick_ + stages::fusion.budget;
   state->sequence = images_++;

@@ -8,9 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "estimators/fusion/reduced_imu_filter.h"
+#include "estimators/fusion/guarded_filter.h"
 #include "msgs/gnss.h"
 #include "msgs/imu.h"
+#include "msgs/map_feedback.h"
 #include "msgs/nav_state.h"
 #include "msgs/odometry.h"
 #include "msgs/wheel_speed.h"
@@ -29,20 +30,22 @@ namespace maploop::vehicle {
 
 // The edges that end at the fusion thread.
 struct FusionEdges {
-  FusionEdges();
+  // `closed`: the map feeds back.
+  explicit FusionEdges(bool closed = false);
 
   runtime::Doorbell bell;
   runtime::Edge<ImuSample> imu;
   runtime::Edge<GnssFix> gnss;
   runtime::Edge<WheelSpeed> wheel;
   runtime::Edge<RelativeMotion> odometry;
+  std::optional<runtime::Edge<MapFeedback>> feedback;
 };
 
 class FusionStage {
  public:
   // `odometry_budget`: of all stages between a camera and the odometry.
   // Each state goes to all of `nav_states`, the publisher's first.
-  FusionStage(fusion::ReducedImuFilter filter, FusionEdges& inputs,
+  FusionStage(fusion::GuardedFilter filter, FusionEdges& inputs,
               std::vector<runtime::Edge<NavState>*> nav_states,
               runtime::Edge<NavState>& image_states, Duration odometry_budget);
 
@@ -89,7 +92,7 @@ class FusionStage {
   static void describe(Archive& ar, Stage& stage);
   void record_paths(const runtime::DataClock& clock, MonotonicTime due, MonotonicTime done);
 
-  fusion::ReducedImuFilter filter_;
+  fusion::GuardedFilter filter_;
   FusionEdges& inputs_;
   std::vector<runtime::Edge<NavState>*> nav_states_;
   runtime::Edge<NavState>& image_states_;

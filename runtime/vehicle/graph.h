@@ -119,6 +119,8 @@ inline constexpr EdgeSpec odometry_fusion{"lidar -> fusion", "RelativeMotion", 2
 // Only there where there is a map.
 inline constexpr EdgeSpec fusion_mapmatch{"fusion -> mapmatch", "NavState", 256};
 inline constexpr EdgeSpec stereo_mapmatch{"stereo -> mapmatch", "RelativeMotion", 256};
+// Only there where the loop is closed.
+inline constexpr EdgeSpec mapmatch_fusion{"mapmatch -> fusion", "MapFeedback", 16};
 // Only there where a log of raw sensors is written.
 inline constexpr EdgeSpec camera_publisher{"camera -> publisher", "StereoPair", 4};
 inline constexpr EdgeSpec velodyne_publisher{"velodyne -> publisher", "LidarScan", 4};
@@ -133,6 +135,7 @@ inline constexpr EdgeSpec odometry_publisher{"lidar, odometry -> publisher", "Re
 inline constexpr EdgeSpec fusion_publisher{"fusion -> publisher", "NavState", 1024};
 inline constexpr EdgeSpec image_states{"fusion at images -> publisher", "NavState", 256};
 inline constexpr EdgeSpec mapmatch_publisher{"mapmatch -> publisher", "MapMatch", 64};
+inline constexpr EdgeSpec feedback_publisher{"mapmatch feedback -> publisher", "MapFeedback", 64};
 inline constexpr EdgeSpec health_publisher{"health -> publisher", "RuntimeReport", 8};
 // Only there where snapshots are taken.
 inline constexpr EdgeSpec stereo_snapshot{"stereo -> snapshot", "StageSnapshot", 2};
@@ -142,12 +145,14 @@ inline constexpr EdgeSpec fusion_snapshot{"fusion -> snapshot", "StageSnapshot",
 inline constexpr EdgeSpec mapmatch_snapshot{"mapmatch -> snapshot", "StageSnapshot", 2};
 
 inline constexpr std::array all{
-    camera_stereo,      velodyne_lidar,   stereo_lidar,        imu_fusion,         gnss_ppp,
-    gnss_fusion,        ppp_publisher,    ppp_snapshot,        wheel_fusion,       odometry_fusion,
-    fusion_mapmatch,    stereo_mapmatch,  camera_publisher,    velodyne_publisher, imu_publisher,
-    gnss_publisher,     wheel_publisher,  reference_publisher, stereo_publisher,   lidar_publisher,
-    odometry_publisher, fusion_publisher, image_states,        mapmatch_publisher, health_publisher,
-    stereo_snapshot,    lidar_snapshot,   fusion_snapshot,     mapmatch_snapshot};
+    camera_stereo,      velodyne_lidar,     stereo_lidar,        imu_fusion,
+    gnss_ppp,           gnss_fusion,        ppp_publisher,       ppp_snapshot,
+    wheel_fusion,       odometry_fusion,    fusion_mapmatch,     stereo_mapmatch,
+    mapmatch_fusion,    camera_publisher,   velodyne_publisher,  imu_publisher,
+    gnss_publisher,     wheel_publisher,    reference_publisher, stereo_publisher,
+    lidar_publisher,    odometry_publisher, fusion_publisher,    image_states,
+    mapmatch_publisher, feedback_publisher, health_publisher,    stereo_snapshot,
+    lidar_snapshot,     fusion_snapshot,    mapmatch_snapshot};
 }  // namespace edges
 
 template <class T>
@@ -204,6 +209,12 @@ inline constexpr Channel map_match{
     "phase, link, matched point, P(link), candidates with their rules, reasons in words",
     "10 Hz",
     true};
+inline constexpr Channel map_feedback{channel_names::map_feedback,
+                                      "map_feedback_t",
+                                      "mapmatch",
+                                      "what was fed back to the filter, or why nothing",
+                                      "10 Hz",
+                                      true};
 inline constexpr Channel imu{channel_names::imu, "imu_t",        "imu",
                              "inertial sample",  "the sensor's", true};
 inline constexpr Channel gnss_fix{channel_names::gnss_fix,
@@ -264,9 +275,9 @@ inline constexpr Channel health{
     false};
 
 inline constexpr std::array all{
-    nav_state,   visual_odometry, lidar_odometry, odometry, map_match, imu,
-    gnss_fix,    ppp_state,       wheel_speed,    truth,    camera,    velodyne,
-    calibration, replay_control,  deadlines,      health};
+    nav_state, visual_odometry, lidar_odometry, odometry,    map_match, map_feedback,
+    imu,       gnss_fix,        ppp_state,      wheel_speed, truth,     camera,
+    velodyne,  calibration,     replay_control, deadlines,   health};
 }  // namespace channels
 
 // From a sensor's stamp to the state that holds it. The deadline is the sum of what may pass on the

@@ -20,13 +20,17 @@ MapMatchEdges::MapMatchEdges()
       visual(make_edge<RelativeMotion>(edges::stereo_mapmatch, &bell)) {}
 
 MapMatchStage::MapMatchStage(std::shared_ptr<const RoadMap> map,
-                             const mapmatch::MatchParameters& parameters, MapMatchEdges& inputs,
-                             std::vector<runtime::Edge<MapMatch>*> matches)
+                             const mapmatch::MatchParameters& parameters,
+                             const std::optional<mapmatch::FeedbackParameters>& feedback,
+                             MapMatchEdges& inputs, std::vector<runtime::Edge<MapMatch>*> matches,
+                             std::vector<runtime::Edge<MapFeedback>*> feedbacks)
     : map_(std::move(map)),
       matcher_(map_->network, map_->rules, parameters),
       inputs_(inputs),
       matches_(std::move(matches)),
+      feedbacks_(std::move(feedbacks)),
       meter_(stages::mapmatch) {
+  if (feedback) feedback_.emplace(map_->network, *feedback);
   intake_.add(inputs_.nav_state, [this](const NavState& state) { newest_ = state; });
   intake_.add(inputs_.visual, [this](const RelativeMotion& motion) { matcher_.add(motion); });
 }
@@ -64,6 +68,11 @@ bool MapMatchStage::tick(const runtime::Tick& tick, const runtime::DataClock& cl
   match.sequence = ticks_++;
   counts_[static_cast<std::size_t>(match.refusal)].fetch_add(1, std::memory_order_relaxed);
   for (auto* edge : matches_) edge->push(match, stop);
+  if (feedback_) {
+    MapFeedback feedback = feedback_->decide(match, mapmatch::fix_of(newest_));
+    feedback.available = match.available;
+    for (auto* edge : feedbacks_) edge->push(feedback, stop);
+  }
 
   const MonotonicTime done = runtime::monotonic_now();
   meter_.ran(done - ready);
@@ -95,7 +104,13 @@ void MapMatchStage::describe(Archive& ar, Stage& stage) {
   ar.section(stages::mapmatch.name, 2);
   std::array<std::uint64_t, fix_refusal_count> counts{};
   std::copy(stage.counts_.begin(), stage.counts_.end(), counts.begin());
-  ar(stage.matcher_, stage.newest_, stage.ticks_, counts);
+  bool closed = stage.feedback_.has_value();
+  ar(stage.matcher_, stage.newest_, stage.ticks_, counts, closed);
+  if constexpr (Archive::loading) {
+    if (closed != stage.feedback_.has_value())
+      ar.fail("the other one feeds the map back, or does not");
+  }
+  if (stage.feedback_) ar(*stage.feedback_);
   if constexpr (Archive::loading) std::copy(counts.begin(), counts.end(), stage.counts_.begin());
 }
 
@@ -106,6 +121,7 @@ void MapMatchStage::resume(std::span<const std::uint8_t> saved) {
 }
 
 void MapMatchStage::promise(Time t) {
+  for (auto* edge : feedbacks_) edge->promise(t);
   for (auto* edge : matches_) edge->promise(t);
 }
 

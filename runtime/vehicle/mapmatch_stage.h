@@ -6,12 +6,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <utility>
 #include <vector>
 
+#include "mapmatch/feedback.h"
 #include "mapmatch/nav_matcher.h"
+#include "msgs/map_feedback.h"
 #include "msgs/map_match.h"
 #include "msgs/nav_state.h"
 #include "runtime/core/data_clock.h"
@@ -38,8 +41,11 @@ struct MapMatchEdges {
 
 class MapMatchStage {
  public:
+  // `feedback`: its parameters, where something is fed back; to `feedbacks`.
   MapMatchStage(std::shared_ptr<const RoadMap> map, const mapmatch::MatchParameters& parameters,
-                MapMatchEdges& inputs, std::vector<runtime::Edge<MapMatch>*> matches);
+                const std::optional<mapmatch::FeedbackParameters>& feedback, MapMatchEdges& inputs,
+                std::vector<runtime::Edge<MapMatch>*> matches,
+                std::vector<runtime::Edge<MapFeedback>*> feedbacks);
 
   // Ticks from the first one at or after `first` (data time) until the states are finished or stop
   // is requested. Each matches the newest state that is available by then, and knows the visual
@@ -54,7 +60,9 @@ class MapMatchStage {
     cuts_.set(std::move(moments), edge);
   }
   // Memory that what it saves takes at most.
-  std::size_t saved_bytes() const { return sizeof(mapmatch::NavMatcher) + 4096; }
+  std::size_t saved_bytes() const {
+    return sizeof(mapmatch::NavMatcher) + sizeof(mapmatch::Feedback) + 4096;
+  }
   // Goes on from what was saved; throws ArchiveError, as NavMatcher.
   void resume(std::span<const std::uint8_t> saved);
 
@@ -74,8 +82,10 @@ class MapMatchStage {
 
   std::shared_ptr<const RoadMap> map_;
   mapmatch::NavMatcher matcher_;
+  std::optional<mapmatch::Feedback> feedback_;
   MapMatchEdges& inputs_;
   std::vector<runtime::Edge<MapMatch>*> matches_;
+  std::vector<runtime::Edge<MapFeedback>*> feedbacks_;
   runtime::Intake intake_;
   NavState newest_;
   std::uint64_t ticks_ = 0;

@@ -35,6 +35,7 @@ PublisherEdges::PublisherEdges()
       nav_state(make_edge<NavState>(edges::fusion_publisher, nullptr)),
       image_state(make_edge<NavState>(edges::image_states, nullptr)),
       map_match(make_edge<MapMatch>(edges::mapmatch_publisher, nullptr)),
+      map_feedback(make_edge<MapFeedback>(edges::feedback_publisher, nullptr)),
       reports(make_edge<RuntimeReport>(edges::health_publisher, nullptr)) {}
 
 Publisher::Publisher(const VehicleCalibration& calibration, PublisherEdges& edges,
@@ -81,6 +82,11 @@ Publisher::Publisher(const VehicleCalibration& calibration, PublisherEdges& edge
     const runtime::TraceSpan span(trace_, trace_name(channels::map_match));
     send(channels::map_match, match.available, to_lcm(match, in_words_(match)));
     observer_.map_match(match);
+  });
+  intake_.add(edges_.map_feedback, [this](const MapFeedback& feedback) {
+    const runtime::TraceSpan span(trace_, trace_name(channels::map_feedback));
+    send(channels::map_feedback, feedback.available, to_lcm(feedback));
+    observer_.map_feedback(feedback);
   });
 }
 

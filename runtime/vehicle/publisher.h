@@ -13,6 +13,7 @@
 #include "msgs/image.h"
 #include "msgs/imu.h"
 #include "msgs/lidar_scan.h"
+#include "msgs/map_feedback.h"
 #include "msgs/map_match.h"
 #include "msgs/nav_state.h"
 #include "msgs/odometry.h"
@@ -44,6 +45,7 @@ struct Observer {
   std::function<void(const NavState&)> nav_state = [](const NavState&) {};
   std::function<void(const NavState&)> image_state = [](const NavState&) {};
   std::function<void(const MapMatch&)> map_match = [](const MapMatch&) {};
+  std::function<void(const MapFeedback&)> map_feedback = [](const MapFeedback&) {};
 };
 
 // The edges that end at the publisher. No bell: it looks by itself, so that nobody upstream pays a
@@ -64,6 +66,7 @@ struct PublisherEdges {
   runtime::Edge<NavState> nav_state;
   runtime::Edge<NavState> image_state;
   runtime::Edge<MapMatch> map_match;
+  runtime::Edge<MapFeedback> map_feedback;
   runtime::Edge<RuntimeReport> reports;
 };
 

@@ -30,6 +30,7 @@ std::vector<RefusalCount> refusals(const StereoStage& stereo, const LidarStage* 
   add(stages::fusion, "recovery: the prediction was doubted", filter.recoveries);
   add(stages::fusion, "begun anew at a fix", filter.reinitializations);
   add(stages::fusion, "restart: the clock jumped", filter.restarts);
+  add(stages::fusion, "undone: the map had led astray", filter.restorations);
   for (std::size_t i = 1; i < fix_refusal_count && mapmatch != nullptr; ++i) {
     const auto reason = static_cast<FixRefusal>(i);
     add(stages::mapmatch, to_string(reason), mapmatch->count(reason));

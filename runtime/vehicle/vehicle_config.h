@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "estimators/fusion/fusion_parameters.h"
+#include "estimators/fusion/guard_parameters.h"
 #include "estimators/lidar/parameters.h"
 #include "estimators/stereo/parameters.h"
+#include "mapmatch/feedback_parameters.h"
 #include "mapmatch/match_parameters.h"
 #include "ppp/filter/parameters.h"
 #include "runtime/core/realtime_memory.h"
@@ -39,11 +41,13 @@ struct PppConfig {
 };
 
 enum class MapMode : std::uint8_t {
-  none,   // no matching
-  loose,  // the fused state is matched, and nothing is fed back
+  none,        // no matching
+  loose,       // the fused state is matched, and nothing is fed back
+  tight,       // the road is fed back to the filter
+  hard_reset,  // position and azimuth of the filter are replaced by the matched ones
 };
-constexpr std::array<std::string_view, 2> names_of(MapMode) {
-  return {"none", "loose"};
+constexpr std::array<std::string_view, 4> names_of(MapMode) {
+  return {"none", "loose", "tight", "hard-reset"};
 }
 
 struct MapParameters {
@@ -77,6 +81,8 @@ struct VehicleConfig {
   PppConfig ppp;
   MapParameters map;
   mapmatch::MatchParameters mapmatch;
+  mapmatch::FeedbackParameters feedback;
+  fusion::GuardParameters guard;
   // KITTI's car travels 0.48 deg above its IMU's x axis: mean of eight odometry sequences (0.14 to
   // 0.86 deg).
   // Its IMU is 0.25 m ahead of what rolls without side slip: sideways velocity over yaw rate on

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <limits>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -54,6 +56,29 @@ bool has_velodyne(const Sensors& sensors) {
   return sensors.velodyne || (sensors.live && sensors.live->velodyne);
 }
 
+bool is_closed(const VehicleConfig& config) {
+  return config.map.mode == MapMode::tight || config.map.mode == MapMode::hard_reset;
+}
+
+bool closes_loop(const VehicleConfig& config, const std::shared_ptr<const RoadMap>& map) {
+  return map != nullptr && is_closed(config);
+}
+
+std::optional<mapmatch::FeedbackParameters> feedback_of(const VehicleConfig& config) {
+  if (!is_closed(config)) return std::nullopt;
+  mapmatch::FeedbackParameters parameters = config.feedback;
+  parameters.hard_reset = config.map.mode == MapMode::hard_reset;
+  return parameters;
+}
+
+// A hard reset has none: it is what the thesis does.
+fusion::GuardParameters guard_of(const VehicleConfig& config) {
+  fusion::GuardParameters parameters = config.guard;
+  if (config.map.mode == MapMode::hard_reset)
+    parameters.difference_gate = std::numeric_limits<double>::infinity();
+  return parameters;
+}
+
 }  // namespace
 
 Vehicle::Graph::Graph(const VehicleConfig& vehicle_config, const VehicleCalibration& calibration,
@@ -70,14 +95,15 @@ Vehicle::Graph::Graph(const VehicleConfig& vehicle_config, const VehicleCalibrat
                    ? std::optional<LidarEdges>(std::in_place)
                    : std::nullopt),
       to_ppp(sensors.epochs != nullptr ? std::optional<PppEdges>(std::in_place) : std::nullopt),
+      to_fusion(closes_loop(config, map)),
       to_mapmatch(map != nullptr ? std::optional<MapMatchEdges>(std::in_place) : std::nullopt),
       raw(wants_raw(sinks)),
       host_clock(sensors.live ? sensors.live->clock : nullptr),
       drivers(make_drivers(sensors)),
       stereo(stereo::StereoOdometry(camera_of(calibration), config.stereo), images, stereo_bell,
              visual_edges()),
-      fusion(fusion::ReducedImuFilter(config.fusion), to_fusion, state_edges(),
-             to_publisher.image_state,
+      fusion(fusion::GuardedFilter(fusion::ReducedImuFilter(config.fusion), guard_of(config)),
+             to_fusion, state_edges(), to_publisher.image_state,
              stages::stereo.budget + (to_lidar ? stages::lidar.budget : Duration::zero())),
       publisher(calibration, to_publisher, std::move(sinks), std::move(observer), describer()),
       wake_all(stop.get_token(), [this] {
@@ -103,7 +129,10 @@ Vehicle::Graph::Graph(const VehicleConfig& vehicle_config, const VehicleCalibrat
     to_publisher.ppp.finish();
   }
   if (to_mapmatch) {
-    mapmatch.emplace(map, config.mapmatch, *to_mapmatch, Edges<MapMatch>{&to_publisher.map_match});
+    Edges<MapFeedback> feedbacks;
+    if (to_fusion.feedback) feedbacks = {&*to_fusion.feedback, &to_publisher.map_feedback};
+    mapmatch.emplace(map, config.mapmatch, feedback_of(config), *to_mapmatch,
+                     Edges<MapMatch>{&to_publisher.map_match}, feedbacks);
     mapmatch->trace_to(trace_buffer(stages::mapmatch.name));
   }
   drivers.camera->trace_to(trace_buffer(stages::camera.name));
@@ -284,6 +313,9 @@ std::vector<runtime::EdgeBase*> Vehicle::Graph::all_edges() {
   if (to_mapmatch) {
     edges.insert(edges.end(),
                  {&to_mapmatch->nav_state, &to_mapmatch->visual, &to_publisher.map_match});
+    if (to_fusion.feedback) {
+      edges.insert(edges.end(), {&*to_fusion.feedback, &to_publisher.map_feedback});
+    }
   }
   if (to_lidar) edges.insert(edges.end(), {&to_lidar->scans, &to_lidar->visual});
   if (raw) edges.insert(edges.end(), {&to_publisher.camera, &to_publisher.velodyne});
@@ -382,8 +414,10 @@ void Vehicle::Graph::start_gnss() {
 void Vehicle::Graph::start_mapmatch() {
   if (!mapmatch) {
     to_publisher.map_match.finish();
+    to_publisher.map_feedback.finish();
     return;
   }
+  if (!to_fusion.feedback) to_publisher.map_feedback.finish();
   monitor.watch_stage(
       stages::mapmatch,
       start_thread(

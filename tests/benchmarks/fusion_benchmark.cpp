@@ -49,7 +49,7 @@ void drive_through(benchmark::State& state, double odometry_late, bool time_odom
   const auto odometry = drive.odometry(10.0);
   FusionParameters p;
   apply(maploop::fusion::configuration("GNSS+VO-RI"), p);
-  p.history_length = 1.0;
+  p.history_length = p.imu_bridge = 1.0;
   std::vector<double> ticks, late;
   for (auto _ : state) {
     ReducedImuFilter filter(p, maploop::testing::test_origin());

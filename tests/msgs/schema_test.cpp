@@ -104,6 +104,7 @@ TEST(Schema, FingerprintsAreThoseOfTheGeneratedCode) {
       {"maploop_lcm.reference_pose_t", maploop_lcm::reference_pose_t::getHash()},
       {"maploop_lcm.relative_motion_t", maploop_lcm::relative_motion_t::getHash()},
       {"maploop_lcm.lidar_motion_t", maploop_lcm::lidar_motion_t::getHash()},
+      {"maploop_lcm.map_feedback_t", maploop_lcm::map_feedback_t::getHash()},
       {"maploop_lcm.map_match_t", maploop_lcm::map_match_t::getHash()},
       {"maploop_lcm.map_candidate_t", maploop_lcm::map_candidate_t::getHash()},
       {"maploop_lcm.latency_summary_t", maploop_lcm::latency_summary_t::getHash()},

@@ -28,6 +28,7 @@ CHANNELS = {
     "HEALTH": ("health_t", "scheduling"),
     "IMU": ("imu_t", "yaw_rate"),
     "LIDAR_ODOMETRY": ("lidar_motion_t", "translation"),
+    "MAP_FEEDBACK": ("map_feedback_t", "cross_track"),
     "MAP_MATCH": ("map_match_t", "explanation"),
     "NAV_STATE": ("nav_state_t", "origin_latitude"),
     "ODOMETRY": ("relative_motion_t", "translation"),

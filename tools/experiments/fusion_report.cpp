@@ -1,32 +1,16 @@
 // The tables and pictures of the fusion's experiment.
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <map>
 #include <tuple>
 
 #include "msgs/local_frame.h"
 #include "runtime/vehicle/recording.h"
 #include "tools/experiments/fusion_experiment.h"
-#include "tools/html_text.h"
+#include "tools/experiments/table.h"
 #include "tools/web/page.h"
 
 namespace maploop::experiments {
 namespace {
-
-using Row = std::vector<std::string>;
-
-struct Table {
-  std::string title;
-  Row heading;
-  std::vector<Row> rows;
-};
-
-std::string number(double value, int digits) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
-  return text.data();
-}
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -138,29 +122,6 @@ Table outages(const std::vector<FusionResult>& results) {
     table.rows.push_back(row);
   }
   return table;
-}
-
-std::string as_text(const Table& table) {
-  std::vector<std::size_t> width(table.heading.size(), 0);
-  const auto measure = [&](const Row& row) {
-    for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
-  };
-  measure(table.heading);
-  for (const Row& row : table.rows) measure(row);
-  std::string text = "\n" + table.title + "\n";
-  const auto line = [&](const Row& row) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      text += std::string(width[i] - row[i].size() + 2, ' ') + row[i];
-    }
-    text += '\n';
-  };
-  line(table.heading);
-  for (const Row& row : table.rows) line(row);
-  return text;
-}
-
-std::string as_html(const Table& table) {
-  return "<h2>" + tools::escaped(table.title) + "</h2>\n" + web::table(table.heading, table.rows);
 }
 
 web::Line path_of(const FusionResult& r, const LocalFrame& frame) {

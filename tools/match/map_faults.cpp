@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "msgs/frames.h"
+
 namespace maploop::match {
 namespace {
 
@@ -21,6 +23,45 @@ mapmatch::NetworkData shifted(mapmatch::NetworkData network, const Eigen::Vector
 mapmatch::NetworkData one_way_reversed(mapmatch::NetworkData network) {
   for (mapmatch::Link& link : network.links) std::swap(link.forward, link.backward);
   return network;
+}
+
+mapmatch::MapExtract with_parallels(const mapmatch::MapExtract& map,
+                                    const std::set<std::int64_t>& ways, double metres) {
+  mapmatch::MapExtract more = map;
+  std::map<std::int64_t, const mapmatch::MapNode*> nodes;
+  std::int64_t next_id = 1, next_way = 1;
+  for (const mapmatch::MapNode& node : map.nodes) {
+    nodes[node.id] = &node;
+    next_id = std::max(next_id, node.id + 1);
+  }
+  for (const mapmatch::MapWay& way : map.ways) next_way = std::max(next_way, way.road.way_id + 1);
+  for (const mapmatch::MapWay& way : map.ways) {
+    if (!ways.contains(way.road.way_id) || way.nodes.size() < 2) continue;
+    if (!std::all_of(way.nodes.begin(), way.nodes.end(),
+                     [&](std::int64_t id) { return nodes.contains(id); }))
+      continue;
+    const auto& first = *nodes[way.nodes.front()];
+    const LocalFrame frame({radians(first.latitude), radians(first.longitude), 0.0});
+    std::vector<Eigen::Vector2d> places;
+    for (const std::int64_t id : way.nodes) {
+      const Geodetic g{radians(nodes[id]->latitude), radians(nodes[id]->longitude), 0.0};
+      places.emplace_back(frame.to_enu(g).head<2>());
+    }
+    mapmatch::MapWay beside = way;
+    beside.road.way_id = next_way++;
+    beside.nodes = {way.nodes.front()};
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const Eigen::Vector2d along =
+          (places[std::min(i + 1, places.size() - 1)] - places[i > 0 ? i - 1 : 0]).normalized();
+      const Eigen::Vector2d p = places[i] + metres * Eigen::Vector2d(along.y(), -along.x());
+      const Geodetic g = frame.to_geodetic({p.x(), p.y(), 0.0});
+      more.nodes.push_back({next_id, degrees(g.latitude), degrees(g.longitude)});
+      beside.nodes.push_back(next_id++);
+    }
+    beside.nodes.push_back(way.nodes.back());
+    more.ways.push_back(beside);
+  }
+  return more;
 }
 
 mapmatch::NetworkData without_way(const mapmatch::MapExtract& map, std::int64_t way_id) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 
 #include "mapmatch/network_builder.h"
 #include "tools/match/match_score.h"
@@ -12,6 +13,10 @@ namespace maploop::match {
 mapmatch::NetworkData shifted(mapmatch::NetworkData network, const Eigen::Vector2d& metres);
 // Every one-way street the other way round.
 mapmatch::NetworkData one_way_reversed(mapmatch::NetworkData network);
+// A made-up road so far to the right of each of these ways, which leaves it and comes back to it at
+// its ends.
+mapmatch::MapExtract with_parallels(const mapmatch::MapExtract& map,
+                                    const std::set<std::int64_t>& ways, double metres);
 mapmatch::NetworkData without_way(const mapmatch::MapExtract& map, std::int64_t way_id);
 
 // Of one drive on a wrong map.

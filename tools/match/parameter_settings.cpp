@@ -10,20 +10,25 @@
 
 namespace maploop::match {
 
+std::pair<std::string, double> parse_setting(const std::string& setting) {
+  const auto equal = setting.find('=');
+  double number = 0.0;
+  const char* const end = setting.data() + setting.size();
+  const bool good = equal != std::string::npos &&
+                    std::from_chars(setting.data() + equal + 1, end, number).ptr == end &&
+                    equal + 1 < setting.size() && std::isfinite(number);
+  if (!good) throw std::runtime_error("--set " + setting + ": it is NAME=NUMBER");
+  return {setting.substr(0, equal), number};
+}
+
 mapmatch::MatchParameters parameters_with(const std::vector<std::string>& settings) {
   mapmatch::MatchParameters parameters;
   for (const std::string& setting : settings) {
-    const auto equal = setting.find('=');
-    double number = 0.0;
-    const char* const end = setting.data() + setting.size();
-    const bool good = equal != std::string::npos &&
-                      std::from_chars(setting.data() + equal + 1, end, number).ptr == end &&
-                      equal + 1 < setting.size() && std::isfinite(number);
-    if (!good) throw std::runtime_error("--set " + setting + ": it is NAME=NUMBER");
+    const auto [wanted, number] = parse_setting(setting);
     bool found = false;
-    mapmatch::fields(parameters, [&](const char* name, auto& value) {
-      if (setting.compare(0, equal, name) != 0) return;
-      value = static_cast<std::remove_reference_t<decltype(value)>>(number);
+    mapmatch::fields(parameters, [&, w = wanted, n = number](const char* name, auto& value) {
+      if (w != name) return;
+      value = static_cast<std::remove_reference_t<decltype(value)>>(n);
       found = true;
     });
     if (!found) throw std::runtime_error("--set " + setting + ": there is no such parameter");

@@ -20,7 +20,7 @@ TEST(Allocation, ThereIsNoneAfterConstruction) {
   std::vector<Measurement> all =
       as_available(drive.imu(100.0), drive.odometry(10.0), drive.fix(0.0));
   FusionParameters parameters;
-  parameters.history_length = 1.0;  // events drop out, too
+  parameters.history_length = parameters.imu_bridge = 1.0;  // events drop out, too
   const long before_construction = thread_allocations();
   ReducedImuFilter filter(parameters, test_origin());
   const long before = thread_allocations();

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/estimators/fusion/synthetic_drive.h"
 
 namespace maploop::fusion {
@@ -37,12 +39,28 @@ TEST(InertialInput, HoldsTheNewestSampleAndDoubtsItMoreAndMore) {
 
 TEST(InertialInput, IsSilentWithoutASampleAndAfterTheHold) {
   EXPECT_FALSE(inertial_input({}, at(1.0), at(1.05), {}).inertial);
-  const ImuSample a = sample(1.0, 0.2, 1.0), after_a_long_gap = sample(3.0, 0.4, 1.0);
+  const ImuSample a = sample(1.0, 0.2, 1.0), after_a_long_gap = sample(3.5, 0.4, 1.0);
   const FusionParameters parameters;
   const Time hold_ends = end_of_stretch({&a, nullptr}, at(1.28), at(1.32), parameters);
   EXPECT_EQ(hold_ends, at(1.0) + from_seconds(parameters.imu_hold));
   EXPECT_FALSE(inertial_input({&a, nullptr}, hold_ends, at(1.32), parameters).inertial);
   EXPECT_FALSE(inertial_input({&a, &after_a_long_gap}, at(2.0), at(2.05), parameters).inertial);
+}
+
+TEST(InertialInput, BridgesAShortGapWithADoubtThatGrowsWithIt) {
+  const ImuSample a = sample(1.0, 0.6, 1.0), b = sample(2.6, 0.2, 1.0);
+  const FusionParameters parameters;
+  double turned = 0.0, unseen = 0.0;
+  for (Time t = at(1.0); t < at(2.6);) {
+    const Time end = end_of_stretch({&a, &b}, t, at(2.6), parameters);
+    const InertialInput input = inertial_input({&a, &b}, t, end, parameters);
+    ASSERT_TRUE(input.inertial);
+    turned += input.yaw_rate * input.duration;
+    unseen += input.unseen_change;
+    t = end;
+  }
+  EXPECT_NEAR(turned, 0.4 * 1.6, 1e-9);
+  EXPECT_NEAR(std::sqrt(unseen), 1.6 * 1.6 / 8.0, 1e-9) << "a triangle on the gap";
 }
 
 TEST(InertialInput, StretchesAreNoLongerThanTheStep) {

@@ -43,6 +43,7 @@ inline fusion::StateVector busy_state() {
   x[gnss_offset_north] = -1.1;
   x[gnss_offset_up] = 0.7;
   x[chain_drift] = 0.02;
+  x[lane_offset] = 0.0;  // how fast it fades with the speed is left out of the derivative
   x[distance] = 1.3;
   x[clone_azimuth] = -2.04;
   x[clone_pitch] = 0.066;

@@ -1,0 +1,107 @@
+#include "estimators/fusion/map_update.h"
+
+#include <cmath>
+
+#include "estimators/fusion/measurement_check.h"
+
+namespace maploop::fusion {
+namespace {
+
+// Known by itself from now on.
+void set_known(FilterState& state, int i, double value, double sigma) {
+  state.x[i] = value;
+  state.P.row(i).setZero();
+  state.P.col(i).setZero();
+  state.P(i, i) = sigma * sigma;
+}
+
+void reset(FilterState& state, const MapFeedback& feedback, const LocalFrame& frame) {
+  using namespace index;
+  const Eigen::Vector3d point = frame.to_enu(feedback.point);
+  set_known(state, east, point.x(), feedback.cross_sigma);
+  set_known(state, north, point.y(), feedback.cross_sigma);
+  set_known(state, azimuth, feedback.link_azimuth, feedback.azimuth_sigma);
+  take_clone(state);
+  start_chain(state);
+}
+
+}  // namespace
+
+Innovation<1> line_innovation(const FilterState& state, const MapFeedback& feedback,
+                              const LocalFrame& frame) {
+  using namespace index;
+  const Eigen::Vector2d right(std::cos(feedback.link_azimuth), -std::sin(feedback.link_azimuth));
+  const Eigen::Vector2d off = state.x.segment<2>(east) - frame.to_enu(feedback.point).head<2>();
+  Innovation<1> innovation;
+  innovation.residual << feedback.lane_sigma * state.x[lane_offset] - right.dot(off);
+  innovation.H.setZero();
+  innovation.H.segment<2>(east) = right;
+  innovation.H[lane_offset] = -feedback.lane_sigma;
+  innovation.R << feedback.cross_sigma * feedback.cross_sigma;
+  return innovation;
+}
+
+Innovation<1> link_azimuth_innovation(const FilterState& state, const MapFeedback& feedback) {
+  Innovation<1> innovation;
+  innovation.residual << wrap_angle(feedback.link_azimuth - state.x[index::azimuth]);
+  innovation.H.setZero();
+  innovation.H[index::azimuth] = 1.0;
+  innovation.R << feedback.azimuth_sigma * feedback.azimuth_sigma;
+  return innovation;
+}
+
+void enter_road(FilterState& state, const FusionParameters& p) {
+  const int b = index::lane_offset;
+  const double keep = p.lane_lasting;
+  state.x[b] *= keep;
+  state.P.row(b) *= keep;
+  state.P.col(b) *= keep;
+  state.P(b, b) += 1.0 - keep * keep;
+}
+
+Reason check_feedback(const MapFeedback& f, const FusionParameters& p) {
+  for (const double value : {f.point.latitude, f.point.longitude, f.point.height, f.link_azimuth,
+                             f.cross_sigma, f.lane_sigma, f.azimuth_sigma}) {
+    if (!std::isfinite(value)) return Reason::not_finite;
+  }
+  if (!f.position && !f.azimuth) return Reason::nothing_fed_back;
+  if (f.position && (f.cross_sigma <= 0.0 || f.lane_sigma < 0.0)) return Reason::invalid_covariance;
+  if (f.azimuth && f.azimuth_sigma <= 0.0) return Reason::invalid_covariance;
+  return stamped_after_delivery(f, p) ? Reason::after_delivery : Reason::none;
+}
+
+Outcome apply_map(FilterState& state, const MapFeedback& feedback, const LocalFrame& frame,
+                  const FusionParameters& p) {
+  if (feedback.reset) {
+    reset(state, feedback, frame);
+    state.map_stamp = state.stamp;
+    return {};
+  }
+  if (feedback.new_road) enter_road(state, p);
+  Outcome azimuth;
+  if (feedback.azimuth) {
+    azimuth = apply_gated(state, link_azimuth_innovation(state, feedback), p.map_azimuth_gate,
+                          Reason::link_azimuth_gate);
+  }
+  Outcome outcome = azimuth;
+  if (feedback.position) {
+    const auto correct = [&] {
+      return apply_gated(state, line_innovation(state, feedback, frame), p.map_position_gate,
+                         Reason::line_gate);
+    };
+    outcome = correct();
+    // As long as what GNSS has said still holds, it is the road that is wrong.
+    const bool on_its_own = state.stamp - state.gnss_stamp > from_seconds(p.gnss_offset_time);
+    if (outcome.refused() && ++state.map_gated_in_a_row % p.map_recover_after == 0 && on_its_own) {
+      const double wrong = p.map_recovery_sigma;
+      for (const int i : {index::east, index::north}) state.P(i, i) += wrong * wrong;
+      ++state.recoveries;
+      outcome = correct();
+    }
+    if (!outcome.refused()) state.map_gated_in_a_row = 0;
+  }
+  if (!outcome.refused()) state.map_stamp = state.stamp;
+  return outcome;
+}
+
+}  // namespace maploop::fusion

@@ -1,0 +1,349 @@
+// The road as a measurement: its equations, and what the filter makes of it.
+#include "estimators/fusion/map_update.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "estimators/fusion/configuration.h"
+#include "estimators/fusion/guarded_filter.h"
+#include "estimators/fusion/reduced_imu_filter.h"
+#include "tests/estimators/fusion/numerical_jacobian.h"
+#include "tests/estimators/fusion/synthetic_drive.h"
+#include "tests/support/broken_archives.h"
+
+namespace maploop::fusion {
+namespace {
+
+using namespace maploop::testing;
+
+// A straight road northwards through a place, whose line is `right` metres right of it.
+MapFeedback road(const LocalFrame& frame, const Eigen::Vector2d& place, double right = 0.0) {
+  MapFeedback f;
+  f.reason = FeedbackReason::none;
+  f.position = f.azimuth = true;
+  f.point = frame.to_geodetic({place.x() + right, place.y(), 0.0});
+  f.cross_sigma = 1.0;
+  f.lane_sigma = 2.0;
+  f.azimuth_sigma = 0.03;
+  return f;
+}
+
+FilterState state_at_origin(double sigma) {
+  FilterState state;
+  state.stamp = SyntheticDrive::at(1.0);
+  for (int i : {index::east, index::north}) state.P(i, i) = sigma * sigma;
+  state.P(index::azimuth, index::azimuth) = 0.01;
+  state.P(index::lane_offset, index::lane_offset) = 1.0;
+  return state;
+}
+
+TEST(MapJacobians, AgreeWithNumericalDerivatives) {
+  FilterState state;
+  state.x = busy_state();
+  state.x[index::lane_offset] = 0.8;
+  const LocalFrame frame(test_origin());
+  MapFeedback f = road(frame, {805.0, -450.0});
+  f.link_azimuth = -2.2;
+  const auto expect = [&](const Innovation<1>& innovation, const auto& make) {
+    const auto numerical = numerical_jacobian(
+        [&](const StateVector& x) {
+          FilterState moved = state;
+          moved.x = x;
+          return Eigen::Matrix<double, 1, 1>(-make(moved).residual);
+        },
+        state.x);
+    EXPECT_LT((innovation.H - numerical).cwiseAbs().maxCoeff(), 1e-8);
+  };
+  expect(line_innovation(state, f, frame),
+         [&](const FilterState& s) { return line_innovation(s, f, frame); });
+  expect(link_azimuth_innovation(state, f),
+         [&](const FilterState& s) { return link_azimuth_innovation(s, f); });
+}
+
+TEST(MapUpdate, MovesAcrossTheRoadAndNotAlongIt) {
+  const LocalFrame frame(test_origin());
+  const FusionParameters p;
+  FilterState state = state_at_origin(5.0);
+  MapFeedback f = road(frame, {0.0, 30.0}, 6.0);  // the matched point 30 m ahead changes nothing
+  f.azimuth = false;
+  ASSERT_EQ(apply_map(state, f, frame, p).disposition, Disposition::applied);
+  // 25 / (25 + 4 + 1) of 6 m.
+  EXPECT_NEAR(state.x[index::east], 5.0, 1e-3);
+  EXPECT_NEAR(state.x[index::north], 0.0, 1e-6);
+  EXPECT_NEAR(state.x[index::lane_offset], -0.4, 1e-3);
+  EXPECT_DOUBLE_EQ(state.P(index::north, index::north), 25.0);
+  EXPECT_EQ(state.map_stamp, state.stamp);
+}
+
+TEST(MapUpdate, RepeatedALaneStaysUnknown) {
+  const LocalFrame frame(test_origin());
+  const FusionParameters p;
+  FilterState state = state_at_origin(5.0);
+  for (int i = 0; i < 100; ++i) apply_map(state, road(frame, {0.0, 0.0}), frame, p);
+  // 1 / (1/25 + 1/4): what the white part averages out to nothing.
+  EXPECT_NEAR(state.P(index::east, index::east), 1.0 / (1.0 / 25.0 + 1.0 / 4.0), 0.02);
+}
+
+TEST(MapUpdate, AnotherRoadBringsAnotherLane) {
+  const LocalFrame frame(test_origin());
+  FusionParameters p;
+  p.lane_lasting = 0.5;
+  FilterState state = state_at_origin(0.1);
+  for (int i = 0; i < 100; ++i) apply_map(state, road(frame, {0.0, 0.0}, -4.0), frame, p);
+  const double offset = state.x[index::lane_offset];
+  EXPECT_NEAR(offset, 2.0, 0.05);
+  EXPECT_LT(state.P(index::lane_offset, index::lane_offset), 0.02);
+  enter_road(state, p);
+  EXPECT_DOUBLE_EQ(state.x[index::lane_offset], 0.5 * offset);
+  EXPECT_NEAR(state.P(index::lane_offset, index::lane_offset), 0.75, 0.01);
+}
+
+TEST(MapUpdate, RefusesAnotherRoad) {
+  const LocalFrame frame(test_origin());
+  const FusionParameters p;
+  FilterState state = state_at_origin(1.0);
+  const FilterState before = state;
+  MapFeedback f = road(frame, {0.0, 0.0}, 12.0);
+  f.link_azimuth = 0.5;
+  EXPECT_EQ(apply_map(state, f, frame, p), refused(Reason::line_gate));
+  EXPECT_EQ(state.x, before.x);
+  EXPECT_EQ(state.P, before.P);
+  f.position = false;
+  EXPECT_EQ(apply_map(state, f, frame, p), refused(Reason::link_azimuth_gate));
+  EXPECT_EQ(state.map_stamp, Time{});
+}
+
+TEST(MapUpdate, DoubtsItselfWhenRoadsContradictItInARow) {
+  const LocalFrame frame(test_origin());
+  const FusionParameters p;
+  FilterState state = state_at_origin(1.0);
+  MapFeedback f = road(frame, {0.0, 0.0}, 12.0);
+  f.azimuth = false;
+  FilterState aided = state;  // GNSS has just said where it is: then the road is wrong
+  aided.gnss_stamp = aided.stamp - from_seconds(10.0);
+  for (int i = 0; i < 3 * p.map_recover_after; ++i)
+    EXPECT_EQ(apply_map(aided, f, frame, p), refused(Reason::line_gate));
+  for (int i = 1; i < p.map_recover_after; ++i)
+    EXPECT_EQ(apply_map(state, f, frame, p), refused(Reason::line_gate));
+  EXPECT_FALSE(apply_map(state, f, frame, p).refused());
+  EXPECT_GT(state.x[index::east], 10.0);
+  EXPECT_EQ(state.recoveries, 1U);
+  EXPECT_EQ(state.map_gated_in_a_row, 0);
+}
+
+TEST(MapUpdate, AHardResetBecomesTheMatchedPlace) {
+  const LocalFrame frame(test_origin());
+  const FusionParameters p;
+  FilterState state = state_at_origin(1.0);
+  state.P(index::east, index::gyro_bias) = state.P(index::gyro_bias, index::east) = 1e-3;
+  MapFeedback f = road(frame, {0.0, 7.0}, 12.0);
+  f.link_azimuth = 0.5;
+  f.reset = true;
+  ASSERT_FALSE(apply_map(state, f, frame, p).refused());
+  EXPECT_NEAR(state.x[index::east], 12.0, 1e-6);
+  EXPECT_NEAR(state.x[index::north], 7.0, 1e-6);
+  EXPECT_DOUBLE_EQ(state.x[index::azimuth], 0.5);
+  EXPECT_DOUBLE_EQ(state.P(index::east, index::gyro_bias), 0.0);
+}
+
+// A drive northwards with wheels, feedback of the road every second of it.
+struct Driven {
+  std::optional<NavState> end;
+  FilterStatus status;
+};
+
+Driven drive_on_road(double delay, bool with_road, double gyro_bias = 0.002) {
+  const SyntheticDrive drive({}, 60.0, test_origin());
+  FusionParameters p;
+  apply(configuration("RISS"), p);
+  apply_grade("mems", p);
+  ReducedImuFilter filter(p, test_origin());
+  KnownStart start;
+  start.stamp = SyntheticDrive::at(0.0);
+  start.position = test_origin();
+  start.speed = 10.0;
+  filter.start(start);
+  SensorNoise noise;
+  noise.gyro_bias = gyro_bias;
+  const LocalFrame frame(test_origin());
+  const auto imu = drive.imu(100.0, noise);
+  std::uint64_t sequence = 0;
+  double fed = 1.0, fed_late = 1.0;
+  std::vector<MapFeedback> pending;
+  for (const ImuSample& s : imu) {
+    const double t = to_seconds(s.stamp - SyntheticDrive::at(0.0));
+    if (t < 0.0 || t > 60.0) continue;
+    filter.add(s);
+    if (sequence % 10 == 0) {
+      WheelSpeed w;
+      w.stamp = s.stamp;
+      w.available = s.stamp + from_seconds(0.02);
+      w.sequence = sequence;
+      w.speed = 10.0;
+      w.sigma = 0.05;
+      filter.add(w);
+    }
+    ++sequence;
+    if (with_road && t >= fed) {
+      MapFeedback f = road(frame, drive.pose(fed).translation().head<2>());
+      f.stamp = SyntheticDrive::at(fed);
+      f.available = f.stamp + from_seconds(delay);
+      f.sequence = static_cast<std::uint64_t>(fed);
+      pending.push_back(f);
+      fed += 1.0;
+    }
+    while (!pending.empty() && t >= fed_late + delay) {
+      filter.add(pending.front());
+      pending.erase(pending.begin());
+      fed_late += 1.0;
+    }
+  }
+  for (const MapFeedback& f : pending) filter.add(f);
+  return {filter.state_at(SyntheticDrive::at(60.0)), filter.status()};
+}
+
+TEST(MapFeedback, BoundsTheDriftAndShowsTheGyrosBias) {
+  const Driven without = drive_on_road(0.0, false);
+  const Driven with = drive_on_road(0.0, true);
+  ASSERT_TRUE(without.end && with.end);
+  EXPECT_GT(std::abs(without.end->position_enu.x()), 20.0);
+  EXPECT_LT(std::abs(with.end->position_enu.x()), 0.5);
+  EXPECT_NEAR(with.end->gyro_bias, 0.002, 2e-4);
+  EXPECT_EQ(with.status.refused_for(Reason::line_gate), 0u);
+}
+
+TEST(MapFeedback, LateHasTheBitsOfTimely) {
+  const Driven timely = drive_on_road(0.0, true);
+  const Driven late = drive_on_road(0.7, true);
+  ASSERT_TRUE(timely.end && late.end);
+  EXPECT_EQ(timely.end->position_enu, late.end->position_enu);
+  EXPECT_EQ(timely.end->covariance, late.end->covariance);
+  EXPECT_EQ(timely.end->gyro_bias, late.end->gyro_bias);
+}
+
+TEST(MapFeedback, IsRefusedAtTheDoorWithAReason) {
+  ReducedImuFilter filter(FusionParameters{}, test_origin());
+  const LocalFrame frame(test_origin());
+  MapFeedback f = road(frame, {0.0, 0.0});
+  f.stamp = f.available = SyntheticDrive::at(1.0);
+  f.point.latitude = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(filter.add(f), refused(Reason::not_finite));
+  f = road(frame, {0.0, 0.0});
+  f.stamp = f.available = SyntheticDrive::at(1.0);
+  f.cross_sigma = 0.0;
+  EXPECT_EQ(filter.add(f), refused(Reason::invalid_covariance));
+  f.cross_sigma = 1.0;
+  f.position = f.azimuth = false;
+  EXPECT_EQ(filter.add(f), refused(Reason::nothing_fed_back));
+  f.position = true;
+  f.available = f.stamp - from_seconds(1.0);
+  EXPECT_EQ(filter.add(f), refused(Reason::after_delivery));
+}
+
+// A straight drive whose map has a road that leaves it by 0.1 rad, little enough for the gates of
+// its line.
+struct Misled {
+  double error = 0.0, free_error = 0.0, largest = 0.0, largest_free = 0.0;
+  std::uint64_t restorations = 0;
+};
+
+Misled drive_beside_wrong_road(const GuardParameters& guard, double wrong_from) {
+  const SyntheticDrive drive({}, 200.0, test_origin());
+  FusionParameters p;
+  apply(configuration("RISS"), p);
+  ReducedImuFilter plain(p, test_origin());
+  KnownStart start;
+  start.stamp = SyntheticDrive::at(0.0);
+  start.position = test_origin();
+  start.speed = 10.0;
+  plain.start(start);
+  GuardedFilter filter(plain, guard);
+  const LocalFrame frame(test_origin());
+  std::uint64_t sequence = 0;
+  Misled result;
+  for (const ImuSample& s : drive.imu(10.0)) {
+    const double t = to_seconds(s.stamp - SyntheticDrive::at(0.0));
+    if (t <= 0.0 || t > 200.0) continue;
+    WheelSpeed w;
+    w.stamp = w.available = s.stamp;
+    w.sequence = ++sequence;
+    w.speed = 10.0;
+    w.sigma = 0.05;
+    filter.add(s);
+    filter.add(w);
+    plain.add(s);
+    plain.add(w);
+    if (sequence % 10 != 0) continue;
+    const double right = t > wrong_from ? 1.0 * (t - wrong_from) : 0.0;
+    MapFeedback f = road(frame, drive.pose(t).translation().head<2>(), right);
+    if (t > wrong_from) f.link_azimuth = 0.1;
+    f.stamp = f.available = s.stamp;
+    f.sequence = sequence;
+    filter.add(f);
+    const Eigen::Vector2d truth = drive.pose(t).translation().head<2>();
+    result.error = (filter.aided().state_at(s.stamp)->position_enu.head<2>() - truth).norm();
+    result.free_error = (plain.state_at(s.stamp)->position_enu.head<2>() - truth).norm();
+    result.largest = std::max(result.largest, result.error);
+    result.largest_free = std::max(result.largest_free, result.free_error);
+  }
+  result.restorations = filter.status().restorations;
+  return result;
+}
+
+TEST(GuardedFilter, IsNotLedAstrayByARoadThatPassesTheGates) {
+  GuardParameters unguarded;
+  unguarded.difference_gate = std::numeric_limits<double>::infinity();
+  const Misled without = drive_beside_wrong_road(unguarded, 60.0);
+  const Misled with = drive_beside_wrong_road({}, 60.0);
+  EXPECT_EQ(without.restorations, 0u);
+  EXPECT_GT(with.restorations, 0u);
+  EXPECT_LT(with.largest, 0.5 * without.largest);
+}
+
+TEST(GuardedFilter, LeavesARightRoadAlone) {
+  const Misled right = drive_beside_wrong_road({}, 1e9);
+  EXPECT_EQ(right.restorations, 0u);
+  EXPECT_LT(right.largest, 1.0);
+}
+
+TEST(GuardedFilter, GoesOnFromAnArchive) {
+  FusionParameters p;
+  apply(configuration("RISS"), p);
+  ReducedImuFilter plain(p, test_origin());
+  KnownStart start;
+  start.stamp = SyntheticDrive::at(0.0);
+  start.position = test_origin();
+  start.speed = 10.0;
+  plain.start(start);
+  GuardedFilter filter(plain, {});
+  const SyntheticDrive drive({}, 20.0, test_origin());
+  const LocalFrame frame(test_origin());
+  const auto add = [&](GuardedFilter& to, const ImuSample& s) {
+    to.add(s);
+    MapFeedback f = road(frame, {0.0, 0.0});
+    f.stamp = f.available = s.stamp;
+    f.sequence = s.sequence;
+    to.add(f);
+  };
+  const auto imu = drive.imu(10.0);
+  for (const ImuSample& s : imu)
+    if (s.stamp > start.stamp && s.stamp < SyntheticDrive::at(10.0)) add(filter, s);
+  GuardedFilter resumed(ReducedImuFilter(p), {});
+  load(saved(filter), resumed);
+  for (const ImuSample& s : imu) {
+    if (s.stamp < SyntheticDrive::at(10.0)) continue;
+    add(filter, s);
+    add(resumed, s);
+  }
+  EXPECT_EQ(saved(filter), saved(resumed));
+  EXPECT_LT(saved(filter).size(), filter.largest_archive());
+  expect_refuses_broken(saved(filter), resumed);
+}
+
+}  // namespace
+}  // namespace maploop::fusion

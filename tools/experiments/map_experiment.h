@@ -1,0 +1,122 @@
+// The map in the loop, on the sequences of KITTI's odometry benchmark: dead reckoning behind a
+// short stretch with GNSS, without the map, beside it and with its feedback.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "estimators/fusion/guarded_filter.h"
+#include "mapmatch/feedback.h"
+#include "mapmatch/match_parameters.h"
+#include "mapmatch/network_builder.h"
+#include "mapmatch/rule_bases.h"
+#include "runtime/vehicle/vehicle_config.h"
+#include "tools/fusion_score.h"
+#include "tools/match/match_score.h"
+
+namespace maploop::experiments {
+
+enum class MapMode { none, loose, tight, hard_reset };
+
+// Throws std::invalid_argument listing the names.
+MapMode map_mode(const std::string& name);
+std::string to_string(MapMode mode);
+
+// One run of one sequence.
+struct MapCase {
+  std::string sequence;  // "06"
+  MapMode mode = MapMode::tight;
+  std::string configuration = "GNSS+RISS";
+  bool mems = true;           // noise of such a unit is added
+  double speed_scale = 0.01;  // of the wheels
+  std::string outages = "10:end";
+  std::string fault;  // one of map_faults(), or empty: the map as it is
+  double end = 0.0;   // s into the drive; 0: the whole
+  std::int64_t seed = 1;
+};
+
+// What can be made wrong in a map: the way driven longest is missing, everything is shifted east by
+// 5 or 10 m, one-way streets are reversed, a road 12 m beside each one driven is made up.
+const std::vector<std::string>& map_faults();
+
+// Everything that the runs have in common.
+struct MapSetting {
+  std::filesystem::path folder;  // kitti_odometry
+  vehicle::VehicleConfig config;
+  const mapmatch::MapExtract* map = nullptr;       // that faults are made in
+  const mapmatch::RoadNetwork* network = nullptr;  // of it
+  const mapmatch::RuleBases* rules = nullptr;
+  mapmatch::MatchParameters match;
+  mapmatch::FeedbackParameters feedback;
+  fusion::GuardParameters guard;
+};
+
+// At one tick, where there is a reference.
+struct MapSample {
+  double time = 0.0;                                // s into the drive
+  Eigen::Vector2d truth = Eigen::Vector2d::Zero();  // m, enu of the drive
+  Eigen::Vector2d error = Eigen::Vector2d::Zero();  // m
+  double azimuth = 0.0;                             // rad, true
+  double azimuth_error = 0.0;                       // rad
+  double sigma = 0.0;                               // m, horizontal, as the filter says
+  double nees = 0.0;
+  bool on_missing = false;   // on the way that the map lacks
+  double probability = 0.0;  // P(link)
+  FeedbackReason reason = FeedbackReason::no_fix;
+};
+
+struct MapResult {
+  MapCase setup;
+  fusion_score::Score score;
+  Geodetic origin;
+  std::vector<MapSample> samples;
+  match::MatchScore match;   // of the time without GNSS
+  std::int64_t missing = 0;  // the way that the map lacks
+  std::array<std::size_t, feedback_reason_count> reasons{};
+  fusion::FilterStatus status;
+  std::uint64_t restorations = 0;
+};
+
+// NAME=VALUE of a parameter of matching, feedback or guard. Throws std::runtime_error naming what
+// is wrong.
+void set_parameter(MapSetting& setting, const std::string& text);
+
+// What is to be compared: every combination that there is data for.
+struct MapCases {
+  std::vector<std::string> sequences{"00", "01", "02", "03", "04", "06", "08", "10"};
+  std::vector<std::string> modes{"none", "loose", "tight", "hard-reset"};
+  std::vector<std::string> units{"mems"};
+  std::vector<std::string> configurations{"GNSS+RISS"};
+  std::vector<std::string> outages{"10:end"};
+  std::vector<std::string> faults;  // beside the map as it is
+  double speed_scale = 1.01;
+  int seeds = 1;
+};
+
+std::vector<MapCase> map_cases(const MapCases& wanted);
+
+// Filter, matcher and feedback in lockstep, in the order and at the moments of the vehicle's graph.
+// Throws std::runtime_error naming a file that cannot be read.
+MapResult run(const MapSetting& setting, const MapCase& setup);
+
+// Of the first time without GNSS; of the whole drive where there is none.
+const fusion_score::Errors& without_gnss(const MapResult& result);
+
+// One run beside the run without the map, at the same moments.
+struct Comparison {
+  double worse = 0.0;         // share of the time with more than twice its error and its sigma
+  double worst_excess = 0.0;  // m, beyond that
+  double probability_on_missing = 0.0;  // P(link), mean, on the way that the map lacks
+  double probability = 0.0;             // and elsewhere
+};
+Comparison compare(const MapResult& aided, const MapResult& free);
+
+std::string to_text(const std::vector<MapResult>& results);
+// One self-contained page.
+std::string to_html(const MapSetting& setting, const std::vector<MapResult>& results);
+
+}  // namespace maploop::experiments
