@@ -26,6 +26,7 @@ void add_profile(CLI::App& app, Command& command);
 void add_replay(CLI::App& app, Command& command);
 void add_send(CLI::App& app, Command& command);
 void add_sensors(CLI::App& app, Command& command);
+void add_simulate(CLI::App& app, Command& command);
 void add_spy(CLI::App& app, Command& command);
 
 }  // namespace maploop::tools

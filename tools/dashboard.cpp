@@ -12,6 +12,7 @@
 #include "tools/dashboard/live_channels.h"
 #include "tools/dashboard/relay.h"
 #include "tools/dashboard/server.h"
+#include "tools/option_checks.h"
 #include "tools/terminal.h"
 #include "tools/web/bundle.h"
 
@@ -83,7 +84,7 @@ void add_dashboard(CLI::App& app, Command& command) {
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
   sub->add_option("--seconds", options->seconds, "End after this long; without it at Ctrl-C")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   sub->callback([options, &command] { command = [options] { return run(*options); }; });
 }
 

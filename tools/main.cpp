@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   maploop::tools::add_replay(app, command);
   maploop::tools::add_send(app, command);
   maploop::tools::add_sensors(app, command);
+  maploop::tools::add_simulate(app, command);
   maploop::tools::add_spy(app, command);
   try {
     app.parse(argc, argv);

@@ -1,5 +1,6 @@
 #include "tools/sensors_listen.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <csignal>
@@ -109,7 +110,7 @@ vehicle::VehicleConfig config_of(const ListenOptions& options) {
   p.imu_delay = 0.0;
   p.gnss = options.gnss;
   if (p.velodyne.empty() && p.imu.empty() && p.gnss.empty()) {
-    throw std::runtime_error("nothing to listen to: give --velodyne, --imu or --gnss");
+    throw CLI::RequiredError("one of --velodyne, --imu and --gnss");
   }
   return config;
 }

@@ -1,0 +1,185 @@
+// Camera, LiDAR and inertial unit in scenes that can be computed by hand.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tools/simulate/camera_image.h"
+#include "tools/simulate/imu_errors.h"
+#include "tools/simulate/lidar_turn.h"
+#include "tools/simulate/test_car.h"
+#include "tools/simulate/town_scene.h"
+
+namespace maploop::simulate {
+namespace {
+
+// A dark wall at x = 12 m, a bright square of 1 m before it, at x = 10 m; walls behind and beside.
+Mesh hand_made_scene() {
+  Mesh mesh;
+  const std::uint32_t dark = mesh.add({Material::metal, 0.1F, 1});
+  const std::uint32_t bright = mesh.add({Material::metal, 0.5F, 1});
+  const float a = 12.0F, z = 40.0F;
+  mesh.add_quad({a, -a, -z}, {a, a, -z}, {a, a, z}, {a, -a, z}, dark);
+  mesh.add_quad({-a, -a, -z}, {-a, a, -z}, {-a, a, z}, {-a, -a, z}, dark);
+  mesh.add_quad({-a, a, -z}, {a, a, -z}, {a, a, z}, {-a, a, z}, dark);
+  mesh.add_quad({-a, -a, -z}, {a, -a, -z}, {a, -a, z}, {-a, -a, z}, dark);
+  mesh.add_quad({10, -0.2F, -0.5F}, {10, 0.8F, -0.5F}, {10, 0.8F, 0.5F}, {10, -0.2F, 0.5F}, bright);
+  return mesh;
+}
+
+class HandMadeScene : public ::testing::Test {
+ protected:
+  HandMadeScene()
+      : index_(streets_, 1.0), appearance_(index_), world_(hand_made_scene(), {}), scene_(world_) {}
+
+  // Column and row of the middle of the bright square.
+  Eigen::Vector2d seen(const Eigen::Isometry3d& T_enu_cam, float shift) const {
+    CameraParameters parameters;
+    parameters.exposure = 600.0F;
+    const GreyImage image = take_image(scene_, appearance_, camera_,
+                                       {{T_enu_cam, T_enu_cam}, shift}, 0.5F, 1.0F, 1, parameters);
+    double sum = 0.0, x = 0.0, y = 0.0;
+    for (int v = 0; v < image.height; ++v)
+      for (int u = 0; u < image.width; ++u) {
+        const double light = std::clamp(
+            image.pixels[static_cast<std::size_t>(v * image.width + u)] - 30.0, 0.0, 70.0);
+        sum += light;
+        x += light * u;
+        y += light * v;
+      }
+    return Eigen::Vector2d(x, y) / sum;
+  }
+
+  Streets streets_{{{0, 0}, {1, 0}}, {Street{0, 1, {{500, 500}, {501, 500}}, {0, 1}, 3, 10}}};
+  StreetIndex index_;
+  Appearance appearance_;
+  World world_;
+  RayScene scene_;
+  StereoCalibration camera_ = test_car().stereo;
+};
+
+TEST_F(HandMadeScene, CamerasSeeASquareWhereItIsProjected) {
+  Eigen::Isometry3d T_enu_cam = Eigen::Isometry3d::Identity();
+  T_enu_cam.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  const Eigen::Vector2d left = seen(T_enu_cam, 0.0F);
+  // Its middle is 0.3 m to the left, 10 m away.
+  EXPECT_NEAR(left.x(), camera_.cx - 0.3 * camera_.fx / 10.0, 0.1);
+  EXPECT_NEAR(left.y(), camera_.cy, 0.1);
+  const Eigen::Isometry3d T_enu_right = T_enu_cam * Eigen::Translation3d(camera_.baseline, 0, 0);
+  const Eigen::Vector2d right = seen(T_enu_right, 0.0F);
+  EXPECT_NEAR(left.x() - right.x(), camera_.fx * camera_.baseline / 10.0, 0.1);
+  // What rectification leaves moves it to the left: 0.3 px and what that column has more or less.
+  const double more = 1.0 + std::cos(7.0 * right.x() / camera_.width);
+  EXPECT_NEAR(right.x() - seen(T_enu_right, 0.3F).x(), 0.3 * more, 0.1);
+}
+
+TEST_F(HandMadeScene, ATurnHasItsPointsOnTheWallsOfTheirMoment) {
+  LidarParameters exact;
+  exact.firings = 360;
+  exact.noise = exact.laser_offset = exact.laser_angle = exact.range_scale = 0.0F;
+  exact.elevation_error = exact.lost = 0.0F;
+  // A metre forward in a turn.
+  const auto pose = [](double share) {
+    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    T.translation().x() = share;
+    return T;
+  };
+  const auto points = take_turn(scene_, appearance_, pose, 1, exact);
+  EXPECT_GT(points.size(), 360U * 60U);
+  for (const LidarPoint& p : points) {
+    const double azimuth = std::atan2(p.y, p.x);
+    const double share = (1.0 - azimuth / M_PI) / 2.0;  // clockwise from the rear
+    const double x = p.x + share, y = p.y;
+    const bool on_wall = std::fabs(std::max(std::fabs(x), std::fabs(y)) - 12.0) < 1e-3;
+    const bool on_square = std::fabs(x - 10.0) < 1e-3 && std::fabs(y - 0.3) < 0.51;
+    EXPECT_TRUE(on_wall || on_square) << p.x << ' ' << p.y;
+  }
+}
+
+TEST_F(HandMadeScene, ARealScannerIsAsFarOffAsItsParametersSay) {
+  const auto pose = [](double) { return Eigen::Isometry3d::Identity(); };
+  LidarParameters parameters;
+  parameters.firings = 720;
+  const auto points = take_turn(scene_, appearance_, pose, 1, parameters);
+  double sum = 0.0, squares = 0.0, count = 0.0;
+  for (const LidarPoint& p : points) {
+    if (std::fabs(p.y) > 2.0F || p.x > 0.0F) continue;  // the wall behind
+    const double error = std::fabs(p.x) / 12.0 - 1.0;
+    sum += error;
+    squares += error * error;
+    count += 1.0;
+  }
+  ASSERT_GT(count, 1000.0);
+  const double sigma = std::sqrt(squares / count - sum * sum / count / count) * 12.0;
+  EXPECT_NEAR(sum / count, 0.003, 0.003);
+  EXPECT_GT(sigma, 0.02);
+  EXPECT_LT(sigma, 0.035);
+}
+
+TEST(MovingBodies, AreWhereTheirTimeSays) {
+  Mesh body = make_box({1, 1, 1}, {Material::metal, 0.5F, 1});
+  Mesh far = make_box({1, 1, 1}, {Material::metal, 0.5F, 1});
+  for (Eigen::Vector3f& v : far.vertices) v.x() += 500.0F;
+  const World world(far, {body});
+  RayScene scene(world);
+  Eigen::Isometry3d begin = Eigen::Isometry3d::Identity(), end = begin;
+  begin.translation() = Eigen::Vector3d(10, 0, 0);
+  end.translation() = Eigen::Vector3d(12, 0, 0);
+  scene.move({{begin, end}});
+  Rays rays;
+  for (std::size_t i = 0; i < packet; ++i)
+    rays[i] = {{0, 0, 0.3F}, {1, 0, 0}, static_cast<float>(i) / 8.0F};
+  Hits hits;
+  scene.cast(rays, 100.0F, hits);
+  for (std::size_t i = 0; i < packet; ++i) {
+    ASSERT_TRUE(hits[i].any);
+    EXPECT_NEAR(hits[i].range, 9.5 + 0.25 * static_cast<double>(i), 1e-4);
+    EXPECT_NEAR(hits[i].normal.x(), -1.0, 1e-5);
+  }
+}
+
+TEST(ImuErrors, WhiteNoiseTurnOnAndSeedsAreAsSaid) {
+  const TriadParameters parameters = imu_parameters(ImuGrade::mems).gyros;
+  constexpr double interval = 0.01;
+  TriadErrors errors(parameters, interval, 1, 1), same(parameters, interval, 1, 1);
+  TriadErrors other(parameters, interval, 2, 1);
+  Eigen::Vector3d before = errors.measure(Eigen::Vector3d::Zero()), sum = before;
+  EXPECT_EQ(before, same.measure(Eigen::Vector3d::Zero()));
+  EXPECT_NE(before, other.measure(Eigen::Vector3d::Zero()));
+  double squares = 0.0;
+  constexpr int count = 20'000;
+  for (int i = 1; i < count; ++i) {
+    const Eigen::Vector3d now = errors.measure(Eigen::Vector3d::Zero());
+    squares += (now - before).squaredNorm();
+    sum += now;
+    before = now;
+  }
+  const double white = std::sqrt(squares / (2.0 * 3.0 * count));
+  EXPECT_NEAR(white / (parameters.white / std::sqrt(interval)), 1.0, 0.02);
+  const double bias = (sum / count).norm();
+  EXPECT_GT(bias, 0.1 * parameters.turn_on);
+  EXPECT_LT(bias, 4.0 * parameters.turn_on);
+}
+
+TEST(TownScene, NothingStandsOnTheRoad) {
+  const Streets streets = make_town(1);
+  const StreetIndex index(streets, 2.5);
+  const Terrain terrain(1);
+  const Mesh scene = make_town_scene(streets, index, terrain, 1);
+  EXPECT_GT(scene.triangles.size(), 50'000U);
+  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+    const Material material = scene.surfaces[scene.surface_of[i]].material;
+    if (material == Material::ground || material == Material::leaf) continue;
+    for (const std::uint32_t corner : scene.triangles[i]) {
+      const Eigen::Vector2d p = scene.vertices[corner].head<2>().cast<double>();
+      // Parked cars stand with two wheels on the road.
+      const double kerb = index.to_kerb(p);
+      ASSERT_GT(kerb, material == Material::bark || material == Material::metal ? -0.7 : -0.5)
+          << static_cast<int>(material) << " at " << p.transpose();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace maploop::simulate

@@ -1,0 +1,39 @@
+// What a camera of the vehicle sees.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "msgs/calibration.h"
+#include "msgs/image.h"
+#include "tools/simulate/appearance.h"
+#include "tools/simulate/ray_scene.h"
+
+namespace maploop::simulate {
+
+struct CameraParameters {
+  float exposure = 400.0F;       // grey levels of a white surface in the sun
+  double exposure_time = 0.002;  // s
+  float ambient = 0.5F;          // light of the sky, as a share of sun and sky
+  float read_noise = 1.0F;       // grey levels, 1 sigma
+  float shot_noise = 0.02F;      // grey levels of variance, each grey level
+  float blur = 0.2F;             // share of a pixel's light in each neighbour along a row or column
+  float reach = 400.0F;          // m
+};
+
+// Where one camera of the pair is during an exposure, and what its calibration does not know.
+struct CameraView {
+  std::array<Eigen::Isometry3d, 2> T_enu_cam;  // at begin and end of the exposure
+  // px, how much further left than by the calibration things are in the image: what rectification
+  // leaves. It varies with the column, up to twice as much and down to nothing.
+  float shift = 0.0F;
+};
+
+// A rectified grey image, `seed` making its noise: two rays through random places of each pixel in
+// the halves of the exposure, sun and shadow, the blur of a lens, photon and read noise, 8 bits.
+// `time` is that of the moving bodies, `brightness` a factor of the exposure.
+GreyImage take_image(const RayScene& scene, const Appearance& appearance,
+                     const StereoCalibration& camera, const CameraView& view, float time,
+                     float brightness, std::uint64_t seed, const CameraParameters& parameters = {});
+
+}  // namespace maploop::simulate

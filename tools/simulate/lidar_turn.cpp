@@ -1,0 +1,93 @@
+#include "tools/simulate/lidar_turn.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "msgs/frames.h"
+#include "tools/simulate/random.h"
+
+namespace maploop::simulate {
+namespace {
+
+constexpr std::size_t lasers = 64;
+
+// HDL-64E: the upper block from +2 degrees in steps of 1/3, the lower from -8.83 in steps of 1/2.
+double elevation(std::size_t laser) {
+  const auto i = static_cast<double>(laser);
+  return radians(laser < 32 ? 2.0 - i / 3.0 : -8.83 - (i - 32.0) / 2.0);
+}
+
+Eigen::Vector3f direction(double azimuth, double up) {
+  return Eigen::Vector3d(std::cos(up) * std::cos(azimuth), std::cos(up) * std::sin(azimuth),
+                         std::sin(up))
+      .cast<float>();
+}
+
+// What is wrong of each laser.
+struct LaserErrors {
+  double azimuth, elevation;  // rad
+  float range;                // m
+};
+
+// The same scanner in every turn of every drive.
+std::array<LaserErrors, lasers> scanner_errors(const LidarParameters& p) {
+  Random random(1, 11);
+  std::array<LaserErrors, lasers> errors{};
+  for (LaserErrors& e : errors) {
+    e.azimuth = static_cast<double>(p.laser_angle) * random.normal();
+    e.elevation = static_cast<double>(p.laser_angle) * random.normal() +
+                  static_cast<double>(p.elevation_error);
+    e.range = p.laser_offset * static_cast<float>(random.normal());
+  }
+  return errors;
+}
+
+}  // namespace
+
+std::vector<LidarPoint> take_turn(const RayScene& scene, const Appearance& appearance,
+                                  const std::function<Eigen::Isometry3d(double)>& T_enu_velo,
+                                  std::uint64_t seed, const LidarParameters& p) {
+  Random random(seed, 10);
+  const auto scanner = scanner_errors(p);
+  std::vector<LidarPoint> points;
+  points.reserve(lasers * static_cast<std::size_t>(p.firings));
+  Rays rays;
+  Hits hits;
+  for (int firing = 0; firing < p.firings; ++firing) {
+    const double share = (firing + 0.5) / p.firings;
+    const double azimuth = std::numbers::pi * (1.0 - 2.0 * share);
+    const Eigen::Isometry3f T = T_enu_velo(share).cast<float>();
+    for (std::size_t first = 0; first < lasers; first += packet) {
+      for (std::size_t i = 0; i < packet; ++i) {
+        const LaserErrors& error = scanner[first + i];
+        rays[i] = {
+            T.translation(),
+            T.linear() * direction(azimuth + error.azimuth, elevation(first + i) + error.elevation),
+            static_cast<float>(share)};
+      }
+      scene.cast(rays, p.reach, hits);
+      for (std::size_t i = 0; i < packet; ++i) {
+        const Hit& hit = hits[i];
+        const float noise = p.noise * static_cast<float>(random.normal());
+        const bool lost = random.chance(static_cast<double>(p.lost));
+        const bool faint = random.chance(0.5);
+        if (!hit.any || lost) continue;
+        const Eigen::Vector3f place = T.translation() + hit.range * rays[i].direction;
+        const float slant = std::max(0.0F, -hit.normal.dot(rays[i].direction));
+        const float albedo = appearance.albedo(*hit.surface, hit.uv, place, 0.003F * hit.range);
+        // What comes back falls with the square of the range; a dark or slanted surface far away,
+        // and the windows of a car, do not return.
+        const float echo = albedo * slant * 2500.0F / (hit.range * hit.range);
+        const bool glass = hit.surface->material == Material::glass;
+        if (echo < 0.004F || (echo < 0.012F && faint) || (glass && faint)) continue;
+        const float range = hit.range * (1.0F + p.range_scale) + noise + scanner[first + i].range;
+        const Eigen::Vector3f measured = range * direction(azimuth, elevation(first + i));
+        points.push_back({measured.x(), measured.y(), measured.z(), std::min(0.99F, albedo)});
+      }
+    }
+  }
+  return points;
+}
+
+}  // namespace maploop::simulate

@@ -1,0 +1,36 @@
+// A drive through a generated town, with everything its sensors saw.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+
+#include "tools/simulate/imu_errors.h"
+
+namespace maploop::simulate {
+
+struct SimulationOptions {
+  double seconds = 60.0;
+  std::uint64_t seed = 1;
+  ImuGrade imu = ImuGrade::tactical;
+  unsigned threads = 0;  // 0: one for each processor; the drive does not depend on it
+};
+
+// Told after each frame how many of how many are written; returns whether to go on.
+using FrameDone = std::function<bool(std::size_t done, std::size_t all)>;
+
+// Makes the new folder `out`:
+//   calib_*.txt        as of a day of KITTI's
+//   town_sync          image_00, image_01, velodyne_points and oxts, 10 Hz each
+//   town_extract       oxts at 100 Hz; names the same drive for a replay
+//   map.osm            the road map, with a mapper's errors (road_map.h)
+//   truth.tum          the left camera, from its first pose
+//   driven_links.csv   the segments of the map that were driven, by frame
+// It is complete or not there: until the end its name has ".partial" after it. Returns whether it
+// was not broken off. Throws std::runtime_error naming a file that is there already or cannot be
+// written, std::invalid_argument for a drive shorter than a second or longer than an hour.
+bool simulate_drive(const std::filesystem::path& out, const SimulationOptions& options,
+                    const FrameDone& frame_done = {});
+
+}  // namespace maploop::simulate

@@ -1,0 +1,49 @@
+// Finds the streets at a place.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "tools/simulate/streets.h"
+
+namespace maploop::simulate {
+
+// Where a place lies beside a street.
+struct StreetPlace {
+  const Street* street = nullptr;
+  double along = 0.0;  // m from the street's begin
+  double left = 0.0;   // m from its centreline
+  double edge = 0.0;   // m from its kerb, negative on the road
+};
+
+class StreetIndex {
+ public:
+  // Knows places up to `reach` metres from a kerb. The streets must outlive it.
+  StreetIndex(const Streets& streets, double reach);
+
+  struct Nearest {
+    StreetPlace first, second;  // by `edge`, of two streets; a street may be missing
+  };
+  Nearest nearest(const Eigen::Vector2d& place) const;
+  // m to the nearest kerb, negative on a road; at most the reach.
+  double to_kerb(const Eigen::Vector2d& place) const;
+
+  const Eigen::Vector2d& least() const { return least_; }  // corners of what it knows
+  Eigen::Vector2d most() const;
+
+ private:
+  struct Segment {
+    std::uint32_t street, point;
+  };
+  const std::vector<Segment>* cell(const Eigen::Vector2d& place) const;
+
+  const Streets* streets_;
+  double reach_;
+  Eigen::Vector2d least_ = Eigen::Vector2d::Zero();
+  std::size_t columns_ = 0, rows_ = 0;
+  std::vector<std::vector<Segment>> cells_;
+};
+
+}  // namespace maploop::simulate

@@ -1,0 +1,17 @@
+// What stands in the town: ground, buildings, hedges, fences, poles, trees, parked cars.
+#pragma once
+
+#include <cstdint>
+
+#include "tools/simulate/mesh.h"
+#include "tools/simulate/street_index.h"
+#include "tools/simulate/terrain.h"
+
+namespace maploop::simulate {
+
+// Along every street, beside the pavement, nothing nearer to a kerb than that; buildings do not
+// overlap.
+Mesh make_town_scene(const Streets& streets, const StreetIndex& index, const Terrain& terrain,
+                     std::uint64_t seed);
+
+}  // namespace maploop::simulate
