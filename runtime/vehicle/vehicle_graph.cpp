@@ -435,7 +435,8 @@ void Vehicle::Graph::start() {
     to_publisher.velodyne.finish();
   }
   for (const MessageSink* sink : publisher.sinks()) monitor.watch(*sink);
-  monitor.watch_path(fusion.camera_path());
+  // Scans alone have no image to count from.
+  if (host_clock == nullptr || !drivers.camera->absent()) monitor.watch_path(fusion.camera_path());
   monitor.watch_path(fusion.imu_path());
 
   cpu_at_start = process_cpu_seconds();

@@ -44,7 +44,8 @@ std::optional<LaserPlace> fit_cone(std::span<const LidarPoint> points) {
     dz += distance * height;
   }
   const double spread = n * dd - d * d;
-  if (spread < n * n) return {};  // all at one distance, to 1 m
+  constexpr double narrowest = 0.1;  // m, of their distances
+  if (spread < narrowest * narrowest * n * n) return {};
   const double slope = (n * dz - d * z) / spread;
   const double elevation = std::atan(slope);
   return LaserPlace{elevation, (z - slope * d) / n * std::cos(elevation)};
