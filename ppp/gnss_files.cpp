@@ -41,7 +41,7 @@ FileKind parse_into(std::string_view text, const std::string& name, GnssFiles& f
       files.ocean_loading.push_back(parse_blq(text, name));
       break;
     case FileKind::unknown:
-      throw ReadError(name +
+      throw ReadError(name + (text.empty() ? ": is empty" : "") +
                       ": none of RINEX observations, navigation or clocks, compact RINEX, SP3, "
                       "ANTEX, Bias-SINEX, DCB, ERP, BLQ, UBX, RTCM 3");
   }

@@ -18,6 +18,7 @@
 #include "tools/commands.h"
 #include "tools/evaluation/text_file.h"
 #include "tools/json_output.h"
+#include "tools/option_checks.h"
 
 namespace maploop::tools {
 namespace {
@@ -137,14 +138,18 @@ void add_calibrate(CLI::App& app, Command& command) {
       ->check(valid_board, "COLUMNSxROWS");
   sub->add_option("--square", options->square, "Side of a square in metres")
       ->required()
-      ->check(CLI::Range(0.001, 1.0));
+      ->check(number_in(0.001, 1.0));
   sub->add_option(
          "--toml", options->toml,
          "Write the calibration to this file, which [camera] calibration of --config names")
-      ->capture_default_str();
-  sub->add_option("--kitti", options->kitti, "The same as KITTI's calib_cam_to_cam.txt");
-  sub->add_option("--json", options->json, "Write all figures to this file as JSON");
-  sub->add_option("--html", options->html, "Write a page with pictures to this file");
+      ->capture_default_str()
+      ->check(writable_file());
+  sub->add_option("--kitti", options->kitti, "The same as KITTI's calib_cam_to_cam.txt")
+      ->check(writable_file());
+  sub->add_option("--json", options->json, "Write all figures to this file as JSON")
+      ->check(writable_file());
+  sub->add_option("--html", options->html, "Write a page with pictures to this file")
+      ->check(writable_file());
   sub->callback(
       [options, &command] { command = [options] { return calibrate_cameras(*options); }; });
 }

@@ -16,6 +16,7 @@
 #include "tools/dashboard/relay.h"
 #include "tools/dashboard/server.h"
 #include "tools/match/road_lines.h"
+#include "tools/option_checks.h"
 #include "tools/terminal.h"
 #include "tools/web/bundle.h"
 #include "tools/web/page.h"
@@ -104,7 +105,7 @@ void add_dashboard(CLI::App& app, Command& command) {
   sub->add_option("--map", options->map,
                   "OpenStreetMap file, or a network file: draw its roads under the way");
   sub->add_option("--seconds", options->seconds, "End after this long; without it at Ctrl-C")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   sub->callback([options, &command] { command = [options] { return run(*options); }; });
 }
 

@@ -14,6 +14,7 @@
 #include "runtime/vehicle/lcm_bus.h"
 #include "tools/commands.h"
 #include "tools/json_output.h"
+#include "tools/option_checks.h"
 
 namespace maploop::tools {
 namespace {
@@ -67,8 +68,9 @@ void add_doctor(CLI::App& app, Command& command) {
       "doctor",
       "Ask this machine for all that a replay in real time asks for, and say what it "
       "grants, what not, why, and what to do");
-  sub->add_option("--config", options->config, "TOML file of parameters")->check(CLI::ExistingFile);
-  sub->add_option("--json", options->json, "Write the report to this file as JSON");
+  sub->add_option("--config", options->config, "TOML file of parameters")->check(existing_file());
+  sub->add_option("--json", options->json, "Write the report to this file as JSON")
+      ->check(writable_file());
   sub->callback([options, &command] { command = [options] { return doctor(*options); }; });
 }
 

@@ -14,6 +14,7 @@
 #include "tools/evaluation/kitti_mercator.h"
 #include "tools/evaluation/text_file.h"
 #include "tools/json_output.h"
+#include "tools/option_checks.h"
 
 namespace maploop::tools {
 namespace {
@@ -132,24 +133,29 @@ void add_evaluate(CLI::App& app, Command& command) {
   add_evaluate_match(*sub, command);
   sub->add_option("--lengths", options->lengths, "Segment lengths in metres")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   sub->add_option("--max-difference", options->tolerance, "Seconds between two stamps that match")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_from_zero())
       ->capture_default_str();
-  sub->add_option("--first", options->first, "First pose of EST that counts, from 0");
-  sub->add_option("--last", options->last, "Last pose of EST that counts");
+  sub->add_option("--first", options->first, "First pose of EST that counts, from 0")
+      ->check(whole_number());
+  sub->add_option("--last", options->last, "Last pose of EST that counts")->check(whole_number());
   sub->add_option("--kitti-poses-of", options->kitti_poses_of,
                   "TRUTH is in KITTI's Mercator projection, its first camera at this latitude and "
                   "azimuth (deg): convert it to metres")
       ->delimiter(',')
       ->expected(2)
       ->type_name("LAT,AZIMUTH");
-  sub->add_option("--csv", options->csv, "Write the errors of every pose to this file");
+  sub->add_option("--csv", options->csv, "Write the errors of every pose to this file")
+      ->check(writable_file());
   sub->add_option("--tum", options->tum,
-                  "Write EST, moved to its best alignment with TRUTH, to this file");
-  sub->add_option("--json", options->json, "Write the figures to this file as JSON");
-  sub->add_option("--html", options->html, "Write a page with plots to this file");
+                  "Write EST, moved to its best alignment with TRUTH, to this file")
+      ->check(writable_file());
+  sub->add_option("--json", options->json, "Write the figures to this file as JSON")
+      ->check(writable_file());
+  sub->add_option("--html", options->html, "Write a page with plots to this file")
+      ->check(writable_file());
   sub->callback([=, &command] {
     if (!sub->get_subcommands().empty()) return;
     for (const CLI::Option* needed : {estimate, truth})

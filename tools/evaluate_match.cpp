@@ -17,6 +17,7 @@
 #include "tools/match/match_file.h"
 #include "tools/match/score_output.h"
 #include "tools/match/track_file.h"
+#include "tools/option_checks.h"
 
 namespace maploop::tools {
 namespace {
@@ -107,8 +108,10 @@ void add_evaluate_match(CLI::App& evaluate, Command& command) {
   sub->add_option("--map", options->map,
                   "OpenStreetMap or network file that was matched on: P(link) is then held against "
                   "the link driven, and not only its way");
-  sub->add_option("--csv", options->csv, "Write a row a match: driven, matched, P, right or not");
-  sub->add_option("--json", options->json, "Write the figures to this file as JSON");
+  sub->add_option("--csv", options->csv, "Write a row a match: driven, matched, P, right or not")
+      ->check(writable_file());
+  sub->add_option("--json", options->json, "Write the figures to this file as JSON")
+      ->check(writable_file());
   sub->callback([options, &command] { command = [options] { return evaluate_match(*options); }; });
 }
 

@@ -6,6 +6,7 @@
 #include "tools/evaluation/text_file.h"
 #include "tools/experiments.h"
 #include "tools/experiments/fusion_experiment.h"
+#include "tools/option_checks.h"
 
 namespace maploop::tools {
 namespace {
@@ -42,13 +43,14 @@ void add_fusion_experiment(CLI::App& experiment, Command& command) {
                                             "sequences: dead reckoning and GNSS outages");
   sub->add_option("FOLDER", options->folder, "Folder kitti_odometry, with oxts, poses, tracks")
       ->required()
-      ->check(CLI::ExistingDirectory);
+      ->check(existing_folder());
   sub->add_option("--config", options->config, "TOML file of the other parameters")
-      ->check(CLI::ExistingFile);
+      ->check(existing_file());
   sub->add_option("--seeds", options->seeds, "Realizations of what is random")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
-  sub->add_option("--html", options->html, "Write a page with tables and pictures to this file");
+  sub->add_option("--html", options->html, "Write a page with tables and pictures to this file")
+      ->check(writable_file());
   sub->callback([options, &command] { command = [options] { return compare_fusion(*options); }; });
 }
 

@@ -13,6 +13,7 @@
 #include "tools/match/map_faults.h"
 #include "tools/match/parameter_settings.h"
 #include "tools/match/recorded_drives.h"
+#include "tools/option_checks.h"
 
 namespace maploop::tools {
 namespace {
@@ -143,7 +144,7 @@ void add_map_fault_experiment(CLI::App& experiment, Command& command) {
   sub->add_option("MAP", options->map, "OpenStreetMap file")->required();
   sub->add_option("DATA", options->data, "Folder with oxts/NN.csv.gz and labels/NN.csv.gz")
       ->required()
-      ->check(CLI::ExistingDirectory);
+      ->check(existing_folder());
   sub->add_option("--sequences", options->sequences, "Which of them")->delimiter(',');
   sub->add_option("--seeds", options->seeds, "Realizations of each noise")
       ->check(CLI::Range(1, 100))

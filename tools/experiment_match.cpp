@@ -17,6 +17,7 @@
 #include "tools/match/parameter_settings.h"
 #include "tools/match/recorded_drives.h"
 #include "tools/match/score_output.h"
+#include "tools/option_checks.h"
 
 namespace maploop::tools {
 namespace {
@@ -117,14 +118,15 @@ void add_match_experiment(CLI::App& experiment, Command& command) {
   sub->add_option("MAP", options->map, "OpenStreetMap file, or a network file")->required();
   sub->add_option("DATA", options->data, "Folder with oxts/NN.csv.gz and labels/NN.csv.gz")
       ->required()
-      ->check(CLI::ExistingDirectory);
+      ->check(existing_folder());
   sub->add_option("--sequences", options->sequences, "Which of them")->delimiter(',');
   sub->add_option("--seeds", options->seeds, "Realizations of each noise")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
   sub->add_option("--set", options->set, "NAME=VALUE of a parameter (mapmatch/match_parameters.h)");
   sub->add_flag("--each", options->each, "A line for each sequence, too");
-  sub->add_option("--json", options->json, "Write the figures to this file as JSON");
+  sub->add_option("--json", options->json, "Write the figures to this file as JSON")
+      ->check(writable_file());
   sub->callback(
       [options, &command] { command = [options] { return match_experiment(*options); }; });
 }

@@ -7,6 +7,7 @@
 #include "tools/experiments.h"
 #include "tools/odometry/comparison.h"
 #include "tools/odometry/odometry_input.h"
+#include "tools/option_checks.h"
 
 namespace maploop::tools {
 namespace {
@@ -43,15 +44,18 @@ void add_odometry_experiment(CLI::App& experiment, Command& command) {
   sub->add_option("DRIVE", options->input,
                   "Folder of a KITTI raw drive, or recorded tracks (<drive>.csv[.gz])")
       ->required()
-      ->check(CLI::ExistingPath);
+      ->check(existing_path());
   sub->add_option("--config", options->config, "TOML file of the other parameters")
-      ->check(CLI::ExistingFile);
+      ->check(existing_file());
   sub->add_option("--truth", options->truth,
                   "Stamped truth of the left camera (TUM, *.truth.csv); without it the drive's own")
-      ->check(CLI::ExistingFile);
-  sub->add_option("--first", options->frames.first, "Number of the first frame");
-  sub->add_option("--last", options->frames.last, "Number of the last frame");
-  sub->add_option("--html", options->html, "Write a page with table and pictures to this file");
+      ->check(existing_file());
+  sub->add_option("--first", options->frames.first, "Number of the first frame")
+      ->check(whole_number());
+  sub->add_option("--last", options->frames.last, "Number of the last frame")
+      ->check(whole_number());
+  sub->add_option("--html", options->html, "Write a page with table and pictures to this file")
+      ->check(writable_file());
   sub->callback(
       [options, &command] { command = [options] { return compare_odometry(*options); }; });
 }

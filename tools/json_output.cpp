@@ -1,8 +1,6 @@
 #include "tools/json_output.h"
 
-#include <fstream>
-#include <stdexcept>
-#include <string>
+#include "tools/evaluation/text_file.h"
 
 namespace maploop::tools {
 
@@ -22,13 +20,7 @@ json to_json(const std::vector<RealtimeSetting>& settings) {
 }
 
 void write_json_file(const std::filesystem::path& file, const json& j) {
-  std::ofstream out(file);
-  out << j.dump(2, ' ', false, json::error_handler_t::replace) << '\n';
-  out.close();
-  if (!out) {
-    throw std::runtime_error("cannot write '" + file.string() +
-                             "': check that its folder exists and may be written");
-  }
+  evaluation::write_text(file, j.dump(2, ' ', false, json::error_handler_t::replace) + '\n');
 }
 
 }  // namespace maploop::tools

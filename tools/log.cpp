@@ -17,6 +17,7 @@
 #include "tools/lcm_log/log_text.h"
 #include "tools/lcm_log/log_types.h"
 #include "tools/lcm_log/log_verify.h"
+#include "tools/option_checks.h"
 
 namespace maploop::tools {
 namespace {
@@ -130,7 +131,7 @@ void add_log_argument(CLI::App* sub, const Options& options) {
 }
 
 void add_output(CLI::App* sub, const Options& options, const char* what) {
-  sub->add_option("-o,--output", options->output, what)->required();
+  sub->add_option("-o,--output", options->output, what)->required()->check(writable_file());
 }
 
 }  // namespace
@@ -142,7 +143,8 @@ void add_log(CLI::App& app, Command& command) {
 
   CLI::App* sub = add(*log, options, "info", "Channels, types, rates, jitter and gaps of a log");
   add_log_argument(sub, options);
-  sub->add_option("--json", options->json, "Write the same to this file as JSON");
+  sub->add_option("--json", options->json, "Write the same to this file as JSON")
+      ->check(writable_file());
   sub->callback([options, &command] { command = [options] { return info(*options); }; });
 
   sub = add(*log, options, "verify",
@@ -153,8 +155,10 @@ void add_log(CLI::App& app, Command& command) {
 
   sub = add(*log, options, "split", "Write a part of a log, or a log in pieces");
   add_log_argument(sub, options);
-  sub->add_option("--start", options->start, "Seconds since the log's first event");
-  sub->add_option("--end", options->end, "Seconds since the log's first event, itself left out");
+  sub->add_option("--start", options->start, "Seconds since the log's first event")
+      ->check(finite_number());
+  sub->add_option("--end", options->end, "Seconds since the log's first event, itself left out")
+      ->check(finite_number());
   sub->add_option("--channels", options->channels, "Regular expression of whole channel names");
   sub->add_option("--every", options->every,
                   "Length of a piece, such as 60s, 5min, 1h or 500kB, 100MB, 2GB");

@@ -14,6 +14,7 @@
 #include "msgs/time.h"
 #include "tools/commands.h"
 #include "tools/json_output.h"
+#include "tools/option_checks.h"
 
 namespace maploop::tools {
 namespace {
@@ -117,16 +118,18 @@ void add_map(CLI::App& app, Command& command) {
     sub->add_option("--box", options->box,
                     "WEST,SOUTH,EAST,NORTH in degrees: only what lies inside")
         ->delimiter(',')
-        ->expected(4);
+        ->expected(4)
+        ->check(finite_number());
   };
   CLI::App* sub = map->add_subcommand("build", "Make a network file, which loads fast, from a map");
   add_input(sub, "OpenStreetMap file: .osm.pbf, .osm, .osm.gz or .osm.bz2");
-  sub->add_option("NETWORK", options->output, "File to write")->required();
+  sub->add_option("NETWORK", options->output, "File to write")->required()->check(writable_file());
   sub->callback([options, &command] { command = [options] { return build(*options); }; });
 
   sub = map->add_subcommand("info", "What a map or network file has");
   add_input(sub, "OpenStreetMap file, or a network file of `maploop map build`");
-  sub->add_option("--json", options->json, "Write it to this file as JSON, too");
+  sub->add_option("--json", options->json, "Write it to this file as JSON, too")
+      ->check(writable_file());
   sub->callback([options, &command] { command = [options] { return info(*options); }; });
 }
 

@@ -17,6 +17,7 @@
 #include "tools/match/parameter_settings.h"
 #include "tools/match/score_output.h"
 #include "tools/match/track_file.h"
+#include "tools/option_checks.h"
 
 namespace maploop::tools {
 namespace {
@@ -112,26 +113,36 @@ void add_match(CLI::App& app, Command& command) {
                   "visual_azimuth_deg; OXTS's names, "
                   "too), GPX, NMEA, TUM or an LCM log (NAV_STATE, or GNSS_FIX); plain or .gz")
       ->required();
-  sub->add_option("--csv", options->csv, "Write one line a fix to this file");
-  sub->add_option("--geojson", options->geojson, "The same as GeoJSON, with reasons");
-  sub->add_option("--gpx", options->gpx, "Write the matched positions as GPX");
-  sub->add_option("--html", options->html, "Write a page with map, fixes, candidates and rules");
+  sub->add_option("--csv", options->csv, "Write one line a fix to this file")
+      ->check(writable_file());
+  sub->add_option("--geojson", options->geojson, "The same as GeoJSON, with reasons")
+      ->check(writable_file());
+  sub->add_option("--gpx", options->gpx, "Write the matched positions as GPX")
+      ->check(writable_file());
+  sub->add_option("--html", options->html, "Write a page with map, fixes, candidates and rules")
+      ->check(writable_file());
   sub->add_option("--sigma", options->track_options.sigma,
                   "Metres an axis, of positions whose accuracy the track does not say")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   sub->add_option("--origin", options->origin, "LAT,LON of a TUM track's local frame, degrees")
       ->delimiter(',')
-      ->expected(2);
+      ->expected(2)
+      ->check(finite_number());
   sub->add_option("--box", options->box, "WEST,SOUTH,EAST,NORTH in degrees: only this part of MAP")
       ->delimiter(',')
-      ->expected(4);
+      ->expected(4)
+      ->check(finite_number());
   sub->add_option("--rules", options->rules, "Folder with rule bases of your own (.fll)")
-      ->check(CLI::ExistingDirectory);
+      ->check(existing_folder());
   sub->add_option("--labels", options->labels,
                   "CSV of the links really driven (frame,way_id,node_a,node_b,conf; plain or .gz; "
                   "frame: number of TRACK's row, from 0): print the share that is right");
   sub->add_option("--set", options->set, "NAME=VALUE of a parameter (mapmatch/match_parameters.h)");
+  sub->footer(
+      "Examples:\n"
+      "    maploop match town.osm.pbf track.gpx --html match.html    # a page with reasons\n"
+      "    maploop match town.net run.lcmlog --csv matched.csv       # of a recorded run");
   sub->callback([options, &command] { command = [options] { return match_track(*options); }; });
 }
 

@@ -18,6 +18,7 @@
 #include "tools/odometry/motion_csv.h"
 #include "tools/odometry/odometry_input.h"
 #include "tools/odometry_lidar.h"
+#include "tools/option_checks.h"
 
 namespace maploop::tools {
 namespace {
@@ -40,11 +41,18 @@ void adjust(const OdometryOptions& options, stereo::StereoParameters& parameters
 
 // An option that takes one of the names of an enumeration.
 template <class Enum>
-void add_choice(CLI::App* sub, const char* flag, std::optional<Enum>& value, const char* what) {
-  std::map<std::string, Enum> by_name;
-  const auto names = names_of(Enum{});
-  for (std::size_t i = 0; i < names.size(); ++i) by_name.emplace(names[i], static_cast<Enum>(i));
-  sub->add_option(flag, value, what)->transform(CLI::CheckedTransformer(by_name));
+CLI::Option* add_choice(CLI::App* sub, const char* flag, std::optional<Enum>& value,
+                        const char* what) {
+  const auto all = names_of(Enum{});
+  const std::vector<std::string> names(all.begin(), all.end());
+  return sub
+      ->add_option_function<std::string>(
+          flag,
+          [&value, names](const std::string& name) {
+            value = static_cast<Enum>(std::find(names.begin(), names.end(), name) - names.begin());
+          },
+          what)
+      ->check(CLI::IsMember(names));
 }
 
 double percentile(const std::vector<double>& sorted, double share) {
@@ -161,26 +169,41 @@ void add_odometry(CLI::App& app, Command& command) {
                   "Folder of a KITTI raw drive, or recorded tracks (<drive>.csv[.gz] with its "
                   "<drive>.meta.json)")
       ->required()
-      ->check(CLI::ExistingPath);
+      ->check(existing_path());
   sub->add_option("--config", options->config,
                   "TOML file of parameters; without it recorded tracks get lower thresholds")
-      ->check(CLI::ExistingFile);
-  sub->add_option("--first", options->frames.first, "Number of the first frame");
-  sub->add_option("--last", options->frames.last, "Number of the last frame");
+      ->check(existing_file());
+  sub->add_option("--first", options->frames.first, "Number of the first frame")
+      ->check(whole_number());
+  sub->add_option("--last", options->frames.last, "Number of the last frame")
+      ->check(whole_number());
   sub->add_option("--poses", options->poses,
-                  "Write the left camera's poses to this file in KITTI's format");
-  sub->add_option("--tum", options->tum, "The same in TUM's format, with stamps");
-  sub->add_option("--csv", options->csv, "Write every motion to this file, one line a frame");
+                  "Write the left camera's poses to this file in KITTI's format")
+      ->check(writable_file());
+  sub->add_option("--tum", options->tum, "The same in TUM's format, with stamps")
+      ->check(writable_file());
+  sub->add_option("--csv", options->csv, "Write every motion to this file, one line a frame")
+      ->check(writable_file());
+  CLI::Option* lidar = add_lidar_options(*sub, options->lidar);
   add_choice(sub, "--matching", options->matching,
-             "How features are found again: klt or sift, in place of the configuration's");
+             "How features are found again: klt or sift, in place of the configuration's")
+      ->excludes(lidar);
   add_choice(sub, "--motion", options->motion,
-             "How the motion is found: 3d-2d, 3d-3d or 2d-2d (left camera alone, length unknown)");
+             "How the motion is found: 3d-2d, 3d-3d or 2d-2d (left camera alone, length unknown)")
+      ->excludes(lidar);
   sub->add_option("--window", options->window_frames,
-                  "Poses that are adjusted together, 3 to 12; 0: from pair to pair only");
+                  "Poses that are adjusted together, 3 to 12; 0: from pair to pair only")
+      ->excludes(lidar);
   sub->add_option("--tracks", options->tracks,
                   "Write the features followed to this file (.csv or .csv.gz) and its .meta.json, "
-                  "which can be read in place of a drive");
-  add_lidar_options(*sub, options->lidar);
+                  "which can be read in place of a drive")
+      ->check(writable_file())
+      ->excludes(lidar);
+  sub->footer(
+      "Examples:\n"
+      "    maploop odometry DRIVE --poses est.txt              # stereo cameras\n"
+      "    maploop odometry DRIVE --lidar --cloud street.ply   # LiDAR, seeded by them\n"
+      "    maploop evaluate est.txt truth.txt --lengths 100    # then score it");
   sub->callback([options, &command] { command = [options] { return odometry_alone(*options); }; });
 }
 

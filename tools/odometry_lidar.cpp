@@ -13,6 +13,7 @@
 #include "tools/evaluation/trajectory_file.h"
 #include "tools/odometry/lidar_csv.h"
 #include "tools/odometry/point_cloud.h"
+#include "tools/option_checks.h"
 
 namespace maploop::tools {
 namespace {
@@ -51,16 +52,17 @@ void print_summary(const std::vector<LidarStep>& steps) {
 
 }  // namespace
 
-void add_lidar_options(CLI::App& odometry, LidarOdometryOptions& options) {
+CLI::Option* add_lidar_options(CLI::App& odometry, LidarOdometryOptions& options) {
   CLI::Option* lidar = odometry.add_flag("--lidar", options.wanted,
                                          "LiDAR odometry instead, from the drive's scans");
   const std::map<std::string, LidarSeed> seeds{
       {"vo", LidarSeed::vo}, {"motion", LidarSeed::motion}, {"none", LidarSeed::none}};
   odometry
-      .add_option("--seed", options.seed,
-                  "What the registration of a scan starts from: visual odometry (vo), the motion "
-                  "before (motion), or the pose before (none)")
-      ->transform(CLI::CheckedTransformer(seeds))
+      .add_option_function<std::string>(
+          "--seed", [&options, seeds](const std::string& name) { options.seed = seeds.at(name); },
+          "What the registration of a scan starts from: visual odometry (vo), the motion before "
+          "(motion), or the pose before (none)")
+      ->check(CLI::IsMember({"vo", "motion", "none"}))
       ->needs(lidar);
   odometry.add_option("--every", options.every, "Use one scan of so many")
       ->check(CLI::Range(1, 1000))
@@ -68,7 +70,9 @@ void add_lidar_options(CLI::App& odometry, LidarOdometryOptions& options) {
   odometry
       .add_option("--cloud", options.cloud,
                   "Write the surfaces of all scans to this file, .ply or .pcd")
-      ->needs(lidar);
+      ->needs(lidar)
+      ->check(writable_file());
+  return lidar;
 }
 
 int lidar_odometry_alone(const LidarOdometryOptions& options, const OdometryFiles& files,

@@ -15,7 +15,8 @@ struct LidarOdometryOptions {
   std::filesystem::path cloud;
 };
 
-void add_lidar_options(CLI::App& odometry, LidarOdometryOptions& options);
+// Returns --lidar.
+CLI::Option* add_lidar_options(CLI::App& odometry, LidarOdometryOptions& options);
 
 // What visual odometry has as well.
 struct OdometryFiles {

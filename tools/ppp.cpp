@@ -11,6 +11,7 @@
 #include "tools/commands.h"
 #include "tools/evaluation/text_file.h"
 #include "tools/json_output.h"
+#include "tools/option_checks.h"
 #include "tools/ppp/page.h"
 #include "tools/ppp/run.h"
 
@@ -188,24 +189,31 @@ void add_ppp(CLI::App& app, Command& command) {
                    : "'" + text + "' has other letters than G R E C J S I";
       });
   sub->add_option("--mask", options->mask, "Lowest elevation in degrees; 7 without it")
-      ->check(CLI::Range(1.0, 60.0));
+      ->check(number_in(1.0, 60.0));
   sub->add_option("--config", options->config,
                   "TOML file whose [ppp] sets what these options do not")
-      ->check(CLI::ExistingFile);
+      ->check(existing_file());
   sub->add_option("--start", options->start, "First epoch: [YYYY-MM-DD ]HH:MM:SS of GPS time");
   sub->add_option("--end", options->end, "Last epoch, the same way");
   sub->add_flag("--broadcast", options->broadcast, "Broadcast orbits even where SP3 is given");
   sub->add_option("--truth", options->truth,
                   "X,Y,Z in metres, or a file: RTKLIB's .pos in XYZ, or rows 'index,GPS "
                   "second,X,Y,Z'");
-  sub->add_option("--pos", options->pos, "Write RTKLIB's .pos");
+  sub->add_option("--pos", options->pos, "Write RTKLIB's .pos")->check(writable_file());
   sub->add_flag("--ecef", options->ecef, "XYZ in --pos");
-  sub->add_option("--nmea", options->nmea, "Write NMEA sentences GGA, RMC, GST");
-  sub->add_option("--geojson", options->geojson, "Write the way as GeoJSON");
-  sub->add_option("--kml", options->kml, "Write the way as KML");
-  sub->add_option("--csv", options->residuals, "Write residuals, a row a satellite and epoch");
-  sub->add_option("--html", options->html, "Write a page with plots");
-  sub->add_option("--json", options->json, "Write the figures as JSON");
+  sub->add_option("--nmea", options->nmea, "Write NMEA sentences GGA, RMC, GST")
+      ->check(writable_file());
+  sub->add_option("--geojson", options->geojson, "Write the way as GeoJSON")
+      ->check(writable_file());
+  sub->add_option("--kml", options->kml, "Write the way as KML")->check(writable_file());
+  sub->add_option("--csv", options->residuals, "Write residuals, a row a satellite and epoch")
+      ->check(writable_file());
+  sub->add_option("--html", options->html, "Write a page with plots")->check(writable_file());
+  sub->add_option("--json", options->json, "Write the figures as JSON")->check(writable_file());
+  sub->footer(
+      "Examples:\n"
+      "    maploop ppp drive.21o.gz brdc.21n.gz --html drive.html         # broadcast orbits\n"
+      "    maploop ppp drive.21o.gz *.SP3.gz *.CLK.gz *.atx.gz --pos out.pos");
   sub->callback([options, &command] { command = [options] { return positions(*options); }; });
 }
 

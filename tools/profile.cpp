@@ -1,18 +1,18 @@
 // maploop profile: where the time of a run went, from its DEADLINES and HEALTH.
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 #include "msgs/lcm/log/log_reader.h"
 #include "runtime/vehicle/lcm_bus.h"
 #include "tools/bus_listener.h"
 #include "tools/commands.h"
+#include "tools/evaluation/text_file.h"
 #include "tools/lcm_log/log_types.h"
 #include "tools/lcm_log/progress.h"
+#include "tools/option_checks.h"
 #include "tools/profile/profile.h"
 #include "tools/terminal.h"
 
@@ -51,19 +51,9 @@ void listen(const ProfileOptions& options, profile::ProfileCollector& collector)
   }
 }
 
-void write(const path& file, const std::string& text) {
-  std::ofstream out(file);
-  out << text;
-  out.close();
-  if (!out) {
-    throw std::runtime_error("cannot write '" + file.string() +
-                             "': check that its folder exists and may be written");
-  }
-}
-
 int run(const ProfileOptions& options) {
   if (options.live != options.log.empty()) {
-    throw std::runtime_error("profile wants either a LOG or --live");
+    throw CLI::RequiredError("either LOG or --live");
   }
   profile::ProfileCollector collector;
   const std::string source =
@@ -75,10 +65,11 @@ int run(const ProfileOptions& options) {
   }
   const profile::Profile result = collector.profile(source);
   std::cout << profile::to_text(result);
-  if (!options.json.empty()) write(options.json, profile::to_json(result));
+  if (!options.json.empty()) evaluation::write_text(options.json, profile::to_json(result));
   if (!options.html.empty()) {
-    write(options.html,
-          profile::to_html(result, options.live ? options.url : options.log.filename().string()));
+    evaluation::write_text(
+        options.html,
+        profile::to_html(result, options.live ? options.url : options.log.filename().string()));
   }
   return 0;
 }
@@ -94,9 +85,11 @@ void add_profile(CLI::App& app, Command& command) {
   sub->add_option("--url", options->url, "LCM's URL")->needs(live)->capture_default_str();
   sub->add_option("--seconds", options->seconds, "Listen this long; without it until Ctrl-C")
       ->needs(live)
-      ->check(CLI::PositiveNumber);
-  sub->add_option("--json", options->json, "Write the same to this file as JSON");
-  sub->add_option("--html", options->html, "Write a page with pictures to this file");
+      ->check(positive_number());
+  sub->add_option("--json", options->json, "Write the same to this file as JSON")
+      ->check(writable_file());
+  sub->add_option("--html", options->html, "Write a page with pictures to this file")
+      ->check(writable_file());
   sub->callback([options, &command] { command = [options] { return run(*options); }; });
 }
 

@@ -7,6 +7,7 @@
 #include "runtime/vehicle/fault_injection.h"
 #include "runtime/vehicle/gnss_outage.h"
 #include "tools/commands.h"
+#include "tools/option_checks.h"
 #include "tools/replay_run.h"
 
 namespace maploop::tools {
@@ -56,7 +57,7 @@ void add_replay(CLI::App& app, Command& command) {
          "replayed from its odometry")
       ->required();
   auto* speed = sub->add_option("--speed", options->speed, "Times real time")
-                    ->check(CLI::PositiveNumber)
+                    ->check(positive_number())
                     ->capture_default_str();
   auto* lockstep =
       sub->add_flag("--lockstep", options->lockstep,
@@ -64,10 +65,10 @@ void add_replay(CLI::App& app, Command& command) {
           ->excludes(speed);
   sub->add_option("--start", options->start,
                   "Go through the first seconds as fast as the graph can")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_from_zero())
       ->excludes(lockstep);
   sub->add_option("--end", options->end, "End this many seconds into the drive")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   sub->add_flag("--paused", options->playback.paused, "Wait for the space bar at the start")
       ->excludes(lockstep);
   sub->add_flag("--until-miss", options->playback.until_miss, "Pause at the first missed deadline")
@@ -75,17 +76,18 @@ void add_replay(CLI::App& app, Command& command) {
   sub->add_option("--loop", options->loop,
                   "Play so many times, 0: until it is stopped; results and --record are of the "
                   "last time")
+      ->check(whole_number())
       ->capture_default_str();
   sub->add_flag("--verbose", options->playback.verbose,
                 "Say of every real-time setting what was granted, not only of those refused")
       ->excludes(lockstep);
-  auto* record =
-      sub->add_option("--record", options->record, "Write every message to this LCM log");
+  auto* record = sub->add_option("--record", options->record, "Write every message to this LCM log")
+                     ->check(writable_file());
   sub->add_flag("--record-raw", options->record_raw,
                 "With the images and scans, for a replay of the whole graph (30 MB/s)")
       ->needs(record);
   sub->add_flag("--no-lcm", options->no_lcm, "Publish nothing on LCM");
-  sub->add_option("--config", options->config, "TOML file of parameters")->check(CLI::ExistingFile);
+  sub->add_option("--config", options->config, "TOML file of parameters")->check(existing_file());
   sub->add_option_function<std::string>(
          "--snapshot",
          [options](const std::string& text) { options->snapshot = parse_snapshot(text); },
@@ -93,24 +95,31 @@ void add_replay(CLI::App& app, Command& command) {
       ->check(valid_snapshot, "SECONDS:FILE");
   sub->add_option("--resume", options->resume,
                   "Go on from a snapshot of the same drive, with the same bits")
-      ->check(CLI::ExistingFile);
-  sub->add_option("--json", options->json, "Write the closing table to this file as JSON");
+      ->check(existing_file());
+  sub->add_option("--json", options->json, "Write the closing table to this file as JSON")
+      ->check(writable_file());
   sub->add_option("--report", options->report,
-                  "Write a page with all of it to this file: way, errors, latencies, losses");
+                  "Write a page with all of it to this file: way, errors, latencies, losses")
+      ->check(writable_file());
   sub->add_option("--trace", options->trace,
                   "Write what each thread did when to this file, for ui.perfetto.dev (after going "
-                  "back: since then)");
+                  "back: since then)")
+      ->check(writable_file());
   sub->add_option("--poses", options->poses,
-                  "Write the fused left-camera poses to this file in KITTI's format");
-  sub->add_option("--tum", options->tum, "The same in TUM's format, with stamps");
+                  "Write the fused left-camera poses to this file in KITTI's format")
+      ->check(writable_file());
+  sub->add_option("--tum", options->tum, "The same in TUM's format, with stamps")
+      ->check(writable_file());
   sub->add_option("--csv", options->csv,
-                  "Write the fused state every 100 ms to this file, with what its aids said");
+                  "Write the fused state every 100 ms to this file, with what its aids said")
+      ->check(writable_file());
   sub->add_option("--nmea", options->nmea,
-                  "Write GGA, RMC, GST and HDT sentences of the fused state, once a second");
+                  "Write GGA, RMC, GST and HDT sentences of the fused state, once a second")
+      ->check(writable_file());
   sub->add_option("--map", options->map,
                   "OpenStreetMap file, or network file of `maploop map build`: the fused state is "
                   "matched to its roads")
-      ->check(CLI::ExistingFile);
+      ->check(existing_file());
   sub->add_option("--map-mode", options->map_mode,
                   "none, or loose (where there is a map): matched, and nothing fed back")
       ->check(CLI::IsMember({"none", "loose"}));
@@ -128,7 +137,7 @@ void add_replay(CLI::App& app, Command& command) {
       ->check(CLI::IsMember({"recorded", "mems"}));
   sub->add_option("--speed-scale", options->speed_scale,
                   "Scale of the wheels' speed, 1.01: 1 % too much")
-      ->check(CLI::Range(0.5, 1.5));
+      ->check(number_in(0.5, 1.5));
   sub->add_flag("--start-from-reference", options->start_from_reference,
                 "Start from the reference's first pose instead of a fix: dead reckoning alone is "
                 "scored");
@@ -139,6 +148,11 @@ void add_replay(CLI::App& app, Command& command) {
                   "faults (tools/README.md: Faults)")
       ->allow_extra_args(false)
       ->check(valid_fault, "FAULT");
+  sub->footer(
+      "Examples:\n"
+      "    maploop replay 2011_09_26/2011_09_26_drive_0013_sync    # as it was driven, on LCM\n"
+      "    maploop replay DRIVE --lockstep --report drive.html     # as fast as it goes; a page\n"
+      "    maploop replay DRIVE --map town.osm.pbf --record run.lcmlog");
   sub->callback([options, &command] { command = [options] { return replay(*options); }; });
 }
 

@@ -26,6 +26,15 @@ double to_ms(Duration d) {
   text += line;
 }
 
+// A dash where the drive is too short for segments.
+void append_figure(std::string& text, int width, int precision, double value) {
+  if (std::isnan(value)) {
+    append(text, "%*s", width, "-");
+  } else {
+    append(text, "%*.*f", width, precision, value);
+  }
+}
+
 void append_accuracy(std::string& text, const char* name, const std::optional<Accuracy>& accuracy) {
   if (!accuracy) {
     append(text, "  %-8s too few poses to score\n", name);
@@ -33,10 +42,14 @@ void append_accuracy(std::string& text, const char* name, const std::optional<Ac
   }
   const evaluation::Score& raw = accuracy->raw;
   const evaluation::Score& removed = accuracy->common_rotation_removed;
-  append(text, "  %-8s %6d %9.1f %8.2f %6.2f %8.3f %9.5f %12.3f %9.5f %8.2f\n", name, raw.frames,
-         raw.distance_m, raw.end_point_m, raw.end_point_percent, raw.segment.percent,
-         raw.segment.deg_per_m, removed.segment.percent, removed.segment.deg_per_m,
-         removed.end_point_m);
+  append(text, "  %-8s %6d %9.1f %8.2f", name, raw.frames, raw.distance_m, raw.end_point_m);
+  append_figure(text, 7, 2, raw.end_point_percent);
+  append_figure(text, 9, 3, raw.segment.percent);
+  append_figure(text, 10, 5, raw.segment.deg_per_m);
+  append_figure(text, 13, 3, removed.segment.percent);
+  append_figure(text, 10, 5, removed.segment.deg_per_m);
+  append_figure(text, 9, 2, removed.end_point_m);
+  text += '\n';
 }
 
 void append_ppp(std::string& text, const PppEpochs& e) {
@@ -214,13 +227,17 @@ std::string format_table(const ReplayResult& r) {
   append(t, "CPU %.0f %% of one core, peak memory %.0f MB\n",
          100.0 * v.cpu_seconds / v.wall_seconds, static_cast<double>(v.peak_memory) * 1e-6);
 
-  t += "\nAccuracy against the reference (left camera, WGS84)\n";
-  t += "                  distance   end point      100 m segments   common rotation removed\n";
-  t += "           frames        m        m      %        %     deg/m            %     deg/m"
-       "  end m\n";
-  append_accuracy(t, "vo", r.vo);
-  if (r.lidar) append_accuracy(t, "lidar", r.lidar);
-  append_accuracy(t, "fused", r.fused);
+  if (r.vo || r.fused) {
+    t += "\nAccuracy against the reference (left camera, WGS84)\n";
+    t += "                  distance   end point      100 m segments   common rotation removed\n";
+    t += "           frames        m        m      %        %     deg/m            %     deg/m"
+         "  end m\n";
+    append_accuracy(t, "vo", r.vo);
+    if (r.lidar) append_accuracy(t, "lidar", r.lidar);
+    append_accuracy(t, "fused", r.fused);
+  } else if (!r.navigation) {
+    t += "\nAccuracy is not scored: the drive has no reference, or too few poses\n";
+  }
   if (v.imu_delay.known()) {
     append(t, "  inertial stamps are %.1f +- %.1f ms late against odometry\n",
            1e3 * v.imu_delay.delay(), 1e3 * v.imu_delay.sigma());

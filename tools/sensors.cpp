@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tools/commands.h"
+#include "tools/option_checks.h"
 #include "tools/sensors_listen.h"
 #include "tools/velodyne_capture_info.h"
 
@@ -28,11 +29,12 @@ void add_listen(CLI::App& app, Command& command) {
   sub->add_option("--model", options->model, "Scanner")->check(CLI::IsMember(models));
   sub->add_option("--calibration", options->calibration,
                   "The scanner's calibration file (db.xml); an HDL-64E needs it")
-      ->check(CLI::ExistingFile);
+      ->check(existing_file());
   sub->add_option("--imu", options->imu, "Endpoint of an OXTS unit's NCOM");
   sub->add_option("--gnss", options->gnss, "Endpoint of a receiver's NMEA");
-  sub->add_option("--seconds", options->seconds, "How long")->check(CLI::Range(0.1, 86400.0));
-  sub->add_option("--json", options->json, "Write what was heard to this file as JSON");
+  sub->add_option("--seconds", options->seconds, "How long")->check(number_in(0.1, 86400.0));
+  sub->add_option("--json", options->json, "Write what was heard to this file as JSON")
+      ->check(writable_file());
   sub->callback(
       [options, &command] { command = [options] { return listen_to_sensors(*options); }; });
 }
@@ -42,16 +44,17 @@ void add_pcap(CLI::App& app, Command& command) {
       "pcap", "Decode a capture (pcap, pcapng, plain or .gz) of a Velodyne scanner's packets");
   const auto options = std::make_shared<CaptureInfoOptions>();
   const auto model = std::make_shared<std::string>();
-  pcap->add_option("FILE", options->file, "Capture")->required()->check(CLI::ExistingFile);
+  pcap->add_option("FILE", options->file, "Capture")->required()->check(existing_file());
   pcap->add_option("--model", *model, "Scanner; else as its packets say")
       ->check(CLI::IsMember(models));
   pcap->add_option("--calibration", options->capture.calibration,
                    "The scanner's calibration file (db.xml); an HDL-64E needs it")
-      ->check(CLI::ExistingFile);
+      ->check(existing_file());
   pcap->add_option("--scans", options->scans,
                    "Write each turn to this folder, as KITTI's: 0000000000.bin with x, y, z, "
                    "reflectance as float32");
-  pcap->add_option("--json", options->json, "Write what was found to this file as JSON");
+  pcap->add_option("--json", options->json, "Write what was found to this file as JSON")
+      ->check(writable_file());
   pcap->callback([options, model, &command] {
     options->capture.model = sensors::velodyne_model(*model);
     command = [options] { return show_capture(*options); };

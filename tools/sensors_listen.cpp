@@ -1,5 +1,6 @@
 #include "tools/sensors_listen.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <csignal>
@@ -122,7 +123,7 @@ int listen_to_sensors(const ListenOptions& options) {
         std::shared_ptr(sensors::listen_to_nmea(sensors::parse_endpoint(options.gnss), {}, clock)));
   }
   if (listeners.empty()) {
-    throw std::runtime_error("nothing to listen to: give --velodyne, --imu or --gnss");
+    throw CLI::RequiredError("one of --velodyne, --imu and --gnss");
   }
   interrupted = false;
   const auto interrupt = [](int) { interrupted = true; };

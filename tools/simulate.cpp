@@ -13,6 +13,7 @@
 
 #include "msgs/time.h"
 #include "tools/commands.h"
+#include "tools/option_checks.h"
 #include "tools/terminal.h"
 
 namespace maploop::tools {
@@ -71,14 +72,17 @@ void add_simulate(CLI::App& app, Command& command) {
                   "New folder for the drive, in KITTI's layout (25 MB a second)")
       ->required();
   sub->add_option("--seconds", options->drive.seconds, "How long the drive takes")
-      ->check(CLI::Range(1.0, 3600.0))
+      ->check(number_in(1.0, 3600.0))
       ->capture_default_str();
   sub->add_option("--seed", options->drive.seed, "Another seed, another town and drive")
       ->capture_default_str();
   const std::map<std::string, simulate::ImuGrade> grades{{"tactical", simulate::ImuGrade::tactical},
                                                          {"mems", simulate::ImuGrade::mems}};
-  sub->add_option("--imu-grade", options->drive.imu, "tactical or mems")
-      ->transform(CLI::CheckedTransformer(grades))
+  sub->add_option_function<std::string>(
+         "--imu-grade",
+         [options, grades](const std::string& name) { options->drive.imu = grades.at(name); },
+         "tactical or mems")
+      ->check(CLI::IsMember({"tactical", "mems"}))
       ->default_str("tactical");
   sub->callback(
       [options, &command] { command = [options] { return simulate_command(*options); }; });

@@ -18,6 +18,7 @@
 #include "tools/commands.h"
 #include "tools/lcm_log/log_types.h"
 #include "tools/lcm_log/progress.h"
+#include "tools/option_checks.h"
 #include "tools/spy/screen.h"
 #include "tools/spy/text.h"
 #include "tools/terminal.h"
@@ -197,7 +198,7 @@ void add_spy(CLI::App& app, Command& command) {
                 "A table each second instead of a screen; so it is, too, where the output is no "
                 "terminal");
   sub->add_flag("--once", options->once, "One table, after listening for 3 s (or for --seconds)");
-  sub->add_option("--seconds", options->seconds, "Listen this long")->check(CLI::PositiveNumber);
+  sub->add_option("--seconds", options->seconds, "Listen this long")->check(positive_number());
   sub->add_flag("--json", options->json, "As --plain, one JSON object a channel and line");
   sub->callback([options, &command] { command = [options] { return run(*options); }; });
 }

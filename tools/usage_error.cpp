@@ -47,7 +47,7 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
   const std::string words = words_of(command);
   const std::vector<std::string> unknown = app.remaining(true);
   const std::vector<std::string> below = names_below(command);
-  if (!below.empty() && unknown.empty()) return app.help();
+  if (command.get_require_subcommand_min() > 0 && unknown.empty()) return app.help();
 
   std::string text = "maploop: ";
   if (unknown.empty()) {

@@ -18,7 +18,8 @@ struct Close {
 using File = std::unique_ptr<gzFile_s, Close>;
 
 File open(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path)) throw ReadError(path.string() + ": is a folder");
+  if (std::filesystem::is_directory(path))
+    throw ReadError(path.string() + ": is a folder; name its files");
   File file(gzopen(path.c_str(), "rb"));
   if (!file) throw ReadError(path.string() + ": cannot be read (" + std::strerror(errno) + ")");
   return file;

@@ -39,7 +39,8 @@ std::filesystem::path meta_beside(std::filesystem::path file) {
   if (file.extension() == ".gz") file.replace_extension();
   if (file.extension() != ".csv")
     throw std::runtime_error(file.string() +
-                             ": recorded tracks are a .csv or .csv.gz with its .meta.json");
+                             ": neither the folder of a drive nor recorded tracks, which are a "
+                             ".csv or .csv.gz with its .meta.json");
   return file.replace_extension(".meta.json");
 }
 

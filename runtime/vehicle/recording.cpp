@@ -115,9 +115,13 @@ Recording open_gnss(const std::filesystem::path& path, const VehicleConfig& conf
 }
 
 Recording open_any(const std::filesystem::path& path, const VehicleConfig& config) {
-  if (sensors::OdometrySequence::is_named(path)) return open_sequence(path, config);
   std::error_code ignored;
-  if (std::filesystem::exists(path, ignored) && is_gnss_drive(path)) return open_gnss(path, config);
+  if (!std::filesystem::exists(path, ignored)) {
+    throw std::runtime_error("there is no file or folder '" + path.string() +
+                             "'; 'maploop replay --help' says what can be replayed");
+  }
+  if (sensors::OdometrySequence::is_named(path)) return open_sequence(path, config);
+  if (is_gnss_drive(path)) return open_gnss(path, config);
   return std::filesystem::is_regular_file(path, ignored) ? open_log(path)
                                                          : open_folder(path, config);
 }

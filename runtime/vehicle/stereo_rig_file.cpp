@@ -151,7 +151,7 @@ void write(Writer& out, const std::string& name, const sensors::CameraModel& cam
 sensors::StereoRig read_stereo_rig(const std::filesystem::path& file) {
   if (file.extension() != ".txt") return read_toml(file);
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw std::runtime_error("cannot read '" + file.string() + "': is the name right?");
+  if (!in) throw std::runtime_error("cannot read '" + file.string() + "': there is no such file");
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   return sensors::parse_kitti_rig(text, file);
 }

@@ -87,7 +87,12 @@ Laser laser_of(const boost::property_tree::ptree& entry) {
 std::vector<Laser> parse_calibration(const std::string& text, std::size_t count) {
   boost::property_tree::ptree tree;
   std::istringstream stream(text);
-  read_xml(stream, tree);
+  try {
+    read_xml(stream, tree);
+  } catch (const boost::property_tree::xml_parser_error& e) {
+    throw std::runtime_error("is no calibration of a scanner: line " + std::to_string(e.line()) +
+                             ": " + e.message());
+  }
   std::vector<Laser> lasers(count);
   std::vector<bool> found(count, false);
   for (const auto& [name, item] : tree.get_child("boost_serialization.DB.points_")) {

@@ -29,7 +29,7 @@ std::string read_text(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file))
     throw std::runtime_error("cannot read " + file.string() + ": it is a folder");
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> stream(gzopen(file.c_str(), "rb"), gzclose);
-  if (!stream) throw std::runtime_error("cannot read " + file.string() + ": is the name right?");
+  if (!stream) throw std::runtime_error("cannot read " + file.string() + ": there is no such file");
   std::string text;
   std::array<char, 1 << 16> buffer{};
   int count = 0;

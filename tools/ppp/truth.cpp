@@ -1,5 +1,6 @@
 #include "tools/ppp/truth.h"
 
+#include <filesystem>
 #include <sstream>
 #include <vector>
 
@@ -34,6 +35,9 @@ Truth::Truth(const std::string& text, GpsTime near) {
   if (triple >> p.x() >> comma >> p.y() >> other >> p.z() && comma == ',' && other == ',') {
     fixed_ = p;
     return;
+  }
+  if (!std::filesystem::exists(text)) {
+    throw ReadError("--truth: '" + text + "' is neither X,Y,Z in metres nor a file");
   }
   const std::string content = read_file(text);
   Lines lines(content, text);

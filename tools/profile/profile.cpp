@@ -76,12 +76,13 @@ void ProfileCollector::add(std::string_view channel, std::span<const std::uint8_
 
 Profile ProfileCollector::profile(const std::string& source) const {
   if (!heard_deadlines_ || !heard_health_) {
-    throw std::runtime_error(
-        source + " has no " + (heard_deadlines_ ? "HEALTH" : "DEADLINES") +
-        (not_understood_ > 0 ? " of this version, but " + std::to_string(not_understood_) +
-                                   " messages of another version or damaged"
-                             : std::string()) +
-        "; a run publishes both once a second, and writes them with '--record LOG'");
+    throw std::runtime_error(source + " has no " + (heard_deadlines_ ? "HEALTH" : "DEADLINES") +
+                             (not_understood_ > 0
+                                  ? " of this version, but " + std::to_string(not_understood_) +
+                                        " messages of another version or damaged"
+                                  : std::string()) +
+                             "; a run publishes DEADLINES and HEALTH once a second, and writes "
+                             "them with '--record LOG'");
   }
   try {
     return profile_of(deadlines_, health_);
