@@ -8,6 +8,7 @@
 #include <set>
 
 #include "mapmatch/network_file.h"
+#include "msgs/frames.h"
 #include "tests/support/real_data.h"
 
 namespace maploop::mapmatch {

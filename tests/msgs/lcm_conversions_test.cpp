@@ -389,7 +389,8 @@ TEST(LcmConversions, Health) {
   h.refusals = {{"fusion", "duplicate", 7}};
   h.outputs = {{"LCM", 200, 3}};
   const SensorClock clock{true, from_seconds(-0.25), 1e-6, Duration(1'500'000), 2};
-  h.sensors = {{"imu", "udp://:3000", true, 3, 100, 4, "", clock}, {.problem = "not there"}};
+  h.sensors = {{"imu", "udp://:3000", true, 3, 100, 4, "", clock},
+               {"gnss", "", false, 0, 0, 0, "not there", {}}};
   h.settings = {{"fusion: scheduling", "fifo 60", "other", Verdict::refused, "no CAP_SYS_NICE",
                  "run as root"}};
   h.degraded = {"camera has ended"};
