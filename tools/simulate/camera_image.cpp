@@ -13,12 +13,12 @@ namespace {
 
 using Eigen::Vector3f;
 
-float uniform(std::uint64_t bits) {
+float unit_float(std::uint64_t bits) {
   return static_cast<float>(unit(bits));
 }
 
 // Standard normal of 64 random bits: the sum of their bytes, nearly.
-float normal(std::uint64_t bits) {
+float grey_noise(std::uint64_t bits) {
   std::uint64_t sum = (bits & 0x00ff00ff00ff00ffU) + (bits >> 8U & 0x00ff00ff00ff00ffU);
   sum = (sum & 0xffffU) + (sum >> 16U & 0xffffU) + (sum >> 32U & 0xffffU) + (sum >> 48U);
   return (static_cast<float>(sum) - 8.0F * 127.5F) / (73.9F * 2.828427F);
@@ -77,10 +77,10 @@ class Sampling {
     for (std::size_t i = 0; i < packet; ++i) {
       const int x = x0 + static_cast<int>(i);
       const std::uint64_t bits = mix(seed, static_cast<std::uint64_t>(y * 4096 + x));
-      const float u = static_cast<float>(x) + side + 0.5F * uniform(bits) - 0.5F +
+      const float u = static_cast<float>(x) + side + 0.5F * unit_float(bits) - 0.5F +
                       shift_[static_cast<std::size_t>(x)];
-      const float v = static_cast<float>(y) + uniform(bits << 24U) - 0.5F;
-      const float moment = side + 0.5F * uniform(bits << 48U);
+      const float v = static_cast<float>(y) + unit_float(bits << 24U) - 0.5F;
+      const float moment = side + 0.5F * unit_float(bits << 48U);
       rays_[i] = {begin_ + moment * way_,
                   R_[half] * Vector3f((u - cx) / fx_, (v - cy) / fy_, 1.0F).normalized(), time_};
     }
@@ -145,7 +145,8 @@ GreyImage take_image(const RayScene& scene, const Appearance& appearance,
     for (int x = 0; x < image.width; ++x) {
       const float grey = std::min(255.0F, p.exposure * brightness * from[x]);
       const float sigma = std::sqrt(p.read_noise * p.read_noise + p.shot_noise * grey);
-      const float noise = sigma * normal(mix(noise_seed, static_cast<std::uint64_t>(y * 4096 + x)));
+      const float noise =
+          sigma * grey_noise(mix(noise_seed, static_cast<std::uint64_t>(y * 4096 + x)));
       *to++ = static_cast<std::uint8_t>(std::clamp(grey + noise + 0.5F, 0.0F, 255.0F));
     }
   }

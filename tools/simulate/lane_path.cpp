@@ -11,9 +11,9 @@ namespace {
 
 using Line = std::vector<Eigen::Vector2d>;
 constexpr double junction_radius = 11.0;  // m; a car leaves its lane's line there
-constexpr int smoothing = 10;             // passes of (1 2 1) / 4 over points 1 m apart: 2.2 m
+constexpr int line_smoothing = 10;        // passes of (1 2 1) / 4 over points 1 m apart: 2.2 m
 
-Eigen::Vector2d direction(const Line& line, std::size_t i) {
+Eigen::Vector2d direction_at(const Line& line, std::size_t i) {
   const std::size_t a = i > 0 ? i - 1 : 0, b = std::min(i + 1, line.size() - 1);
   return (line[b] - line[a]).normalized();
 }
@@ -27,13 +27,13 @@ Line lane_of(const Streets& streets, DirectedStreet d) {
     if ((line[i] - line.front()).norm() < junction_radius ||
         (line[i] - line.back()).norm() < junction_radius)
       continue;
-    const Eigen::Vector2d t = direction(line, i);
+    const Eigen::Vector2d t = direction_at(line, i);
     lane.push_back(line[i] + offset * Eigen::Vector2d(t.y(), -t.x()));
   }
   if (lane.size() >= 2) return lane;
   // A street of hardly more than its junctions: its middle.
   const std::size_t m = line.size() / 2;
-  const Eigen::Vector2d t = direction(line, m), right(t.y(), -t.x());
+  const Eigen::Vector2d t = direction_at(line, m), right(t.y(), -t.x());
   const Eigen::Vector2d middle = 0.5 * (line.front() + line.back()) + offset * right;
   return {middle - 0.5 * t, middle + 0.5 * t};
 }
@@ -41,8 +41,8 @@ Line lane_of(const Streets& streets, DirectedStreet d) {
 void append_curve(Line& line, const Line& next) {
   const Eigen::Vector2d a = line.back(), b = next.front();
   const double reach = 0.5 * (b - a).norm();
-  const Eigen::Vector2d c = a + reach * direction(line, line.size() - 1);
-  const Eigen::Vector2d d = b - reach * direction(next, 0);
+  const Eigen::Vector2d c = a + reach * direction_at(line, line.size() - 1);
+  const Eigen::Vector2d d = b - reach * direction_at(next, 0);
   for (int i = 1; i < 32; ++i) {
     const double t = i / 32.0, s = 1.0 - t;
     line.push_back(s * s * s * a + 3.0 * s * s * t * c + 3.0 * s * t * t * d + t * t * t * b);
@@ -88,8 +88,8 @@ std::vector<double> wander(std::size_t count, std::uint64_t seed) {
   return offset;
 }
 
-void smooth(Line& line) {
-  for (int pass = 0; pass < smoothing; ++pass) {
+void smooth_line(Line& line) {
+  for (int pass = 0; pass < line_smoothing; ++pass) {
     Line next = line;
     for (std::size_t i = 1; i + 1 < line.size(); ++i)
       next[i] = 0.25 * line[i - 1] + 0.5 * line[i] + 0.25 * line[i + 1];
@@ -114,10 +114,10 @@ LanePath::LanePath(const Streets& streets, const std::vector<DirectedStreet>& ro
   const std::vector<double> left = wander(points_.size(), seed);
   const Line lane = points_;
   for (std::size_t i = 0; i < lane.size(); ++i) {
-    const Eigen::Vector2d t = direction(lane, i);
+    const Eigen::Vector2d t = direction_at(lane, i);
     points_[i] += left[i] * Eigen::Vector2d(-t.y(), t.x());
   }
-  smooth(points_);
+  smooth_line(points_);
   // The first street begins, and the last ends, a junction's radius outside.
   for (std::size_t i = 0; i < route.size(); ++i) {
     const double before = i > 0 ? 0.5 * (marks[2 * i - 1] + marks[2 * i]) : -junction_radius;

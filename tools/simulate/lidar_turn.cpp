@@ -18,7 +18,7 @@ double elevation(std::size_t laser) {
   return radians(laser < 32 ? 2.0 - i / 3.0 : -8.83 - (i - 32.0) / 2.0);
 }
 
-Eigen::Vector3f direction(double azimuth, double up) {
+Eigen::Vector3f beam(double azimuth, double up) {
   return Eigen::Vector3d(std::cos(up) * std::cos(azimuth), std::cos(up) * std::sin(azimuth),
                          std::sin(up))
       .cast<float>();
@@ -63,7 +63,7 @@ std::vector<LidarPoint> take_turn(const RayScene& scene, const Appearance& appea
         const LaserErrors& error = scanner[first + i];
         rays[i] = {
             T.translation(),
-            T.linear() * direction(azimuth + error.azimuth, elevation(first + i) + error.elevation),
+            T.linear() * beam(azimuth + error.azimuth, elevation(first + i) + error.elevation),
             static_cast<float>(share)};
       }
       scene.cast(rays, p.reach, hits);
@@ -82,7 +82,7 @@ std::vector<LidarPoint> take_turn(const RayScene& scene, const Appearance& appea
         const bool glass = hit.surface->material == Material::glass;
         if (echo < 0.004F || (echo < 0.012F && faint) || (glass && faint)) continue;
         const float range = hit.range * (1.0F + p.range_scale) + noise + scanner[first + i].range;
-        const Eigen::Vector3f measured = range * direction(azimuth, elevation(first + i));
+        const Eigen::Vector3f measured = range * beam(azimuth, elevation(first + i));
         points.push_back({measured.x(), measured.y(), measured.z(), std::min(0.99F, albedo)});
       }
     }

@@ -14,10 +14,6 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-float uniform(Random& random, double from, double to) {
-  return static_cast<float>(random.uniform(from, to));
-}
-
 // The sides of a prism over corners in counter-clockwise order.
 void add_sides(Mesh& mesh, const std::vector<Vector2f>& corners, float bottom, float top,
                std::uint32_t surface) {
@@ -126,18 +122,18 @@ Mesh make_tree(float height, std::uint32_t seed) {
   const float radius = 0.3F * height;
   std::array<std::uint32_t, 16> leaves{};
   for (std::uint32_t& leaf : leaves)
-    leaf = mesh.add({Material::leaf, uniform(random, 0.07, 0.3),
+    leaf = mesh.add({Material::leaf, random.uniform_float(0.07, 0.3),
                      static_cast<std::uint32_t>(random.bits() >> 40U)});
   const auto direction = [&] {
-    const float z = uniform(random, -1.0, 1.0), angle = uniform(random, 0.0, 6.2832);
+    const float z = random.uniform_float(-1.0, 1.0), angle = random.uniform_float(0.0, 6.2832);
     const float r = std::sqrt(1.0F - z * z);
     return Vector3f(r * std::cos(angle), r * std::sin(angle), z);
   };
   for (int i = 0; i < 1300; ++i) {
-    const Vector3f out = direction() * radius * std::sqrt(uniform(random, 0.15, 1.0));
+    const Vector3f out = direction() * radius * std::sqrt(random.uniform_float(0.15, 1.0));
     const Vector3f middle(out.x(), out.y(), 0.65F * height + 1.15F * out.z());
     const Vector3f u = direction(), v = u.cross(direction()).normalized();
-    const float size = uniform(random, 0.025, 0.055) * height;
+    const float size = random.uniform_float(0.025, 0.055) * height;
     mesh.add_triangle(middle + size * u, middle - size * u, middle + size * v,
                       leaves[random.below(16)]);
   }

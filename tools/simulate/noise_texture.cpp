@@ -8,11 +8,11 @@
 namespace maploop::simulate {
 namespace {
 
-constexpr std::uint32_t side = 256;
+constexpr std::uint32_t tile_side = 256;
 
 }  // namespace
 
-NoiseTexture::NoiseTexture() : tile_(side * side) {
+NoiseTexture::NoiseTexture() : tile_(tile_side * tile_side) {
   Random random(1, 8);  // the same in every world: seeds move it
   for (float& value : tile_) value = static_cast<float>(random.uniform(-1.0, 1.0));
 }
@@ -21,8 +21,8 @@ float NoiseTexture::lattice(float x, float y) const {
   const float fx = std::floor(x), fy = std::floor(y);
   const auto i = static_cast<std::uint32_t>(static_cast<std::int32_t>(fx));
   const auto j = static_cast<std::uint32_t>(static_cast<std::int32_t>(fy));
-  const std::uint32_t x0 = i % side, x1 = (i + 1) % side;
-  const std::uint32_t y0 = j % side * side, y1 = (j + 1) % side * side;
+  const std::uint32_t x0 = i % tile_side, x1 = (i + 1) % tile_side;
+  const std::uint32_t y0 = j % tile_side * tile_side, y1 = (j + 1) % tile_side * tile_side;
   const float s = x - fx, t = y - fy;
   const float a = tile_[y0 + x0] + s * (tile_[y0 + x1] - tile_[y0 + x0]);
   const float b = tile_[y1 + x0] + s * (tile_[y1 + x1] - tile_[y1 + x0]);

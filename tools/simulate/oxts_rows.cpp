@@ -13,15 +13,16 @@ namespace {
 constexpr double gravity = 9.81;     // m/s^2
 constexpr double rate_delay = 0.06;  // s
 
-constexpr const char* columns =
+constexpr const char* row_format =
     "lat: deg\nlon: deg\nalt: m\nroll: rad, left side up\npitch: rad, front down\n"
     "yaw: rad, 0 = east, counter clockwise\nvn: m/s\nve: m/s\nvf: m/s\nvl: m/s\nvu: m/s\n"
     "ax: m/s^2, body\nay: m/s^2\naz: m/s^2\naf: m/s^2, level\nal: m/s^2\nau: m/s^2\n"
     "wx: rad/s, body\nwy: rad/s\nwz: rad/s\nwf: rad/s, level\nwl: rad/s\nwu: rad/s\n"
     "pos_accuracy: m\nvel_accuracy: m/s\nnavstat\nnumsats\nposmode\nvelmode\norimode\n";
 
-std::string row(const VehicleState& now, const VehicleState& before, const LocalFrame& frame,
-                TriadErrors& gyros, TriadErrors& accelerometers) {
+std::string oxts_row_text(const VehicleState& now, const VehicleState& before,
+                          const LocalFrame& frame, TriadErrors& gyros,
+                          TriadErrors& accelerometers) {
   const Geodetic place = frame.to_geodetic(now.T_enu_body.translation());
   const Attitude attitude = attitude_from_rotation(now.T_enu_body.linear());
   const Eigen::Matrix3d& R = before.T_enu_body.linear();
@@ -65,11 +66,12 @@ void write_oxts(const std::filesystem::path& oxts, const VehicleMotion& motion,
   for (std::size_t i = 0; static_cast<double>(i) * interval < seconds; ++i) {
     const double t = static_cast<double>(i) * interval;
     stamps.push_back(start + from_seconds(t));
-    write_file(oxts / "data" / sensors::numbered_file(i, ".txt"),
-               row(motion.state(t), motion.state(t - rate_delay), frame, gyros, accelerometers));
+    write_file(
+        oxts / "data" / sensors::numbered_file(i, ".txt"),
+        oxts_row_text(motion.state(t), motion.state(t - rate_delay), frame, gyros, accelerometers));
   }
   write_timestamps(oxts / "timestamps.txt", stamps);
-  write_file(oxts / "dataformat.txt", columns);
+  write_file(oxts / "dataformat.txt", row_format);
 }
 
 }  // namespace maploop::simulate

@@ -30,6 +30,9 @@ class Random {
 
   constexpr std::uint64_t bits() { return state_ = mix(state_); }
   constexpr double uniform(double from, double to) { return from + (to - from) * unit(bits()); }
+  constexpr float uniform_float(double from, double to) {
+    return static_cast<float>(uniform(from, to));
+  }
   constexpr bool chance(double probability) { return unit(bits()) < probability; }
   constexpr std::uint32_t below(std::uint32_t count) {
     return static_cast<std::uint32_t>(unit(bits()) * count);

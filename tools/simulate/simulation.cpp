@@ -29,15 +29,15 @@
 namespace maploop::simulate {
 namespace {
 
-constexpr double interval = 0.1;        // s between frames; a turn of the scanner takes as long
+constexpr double frame_interval = 0.1;  // s between frames; a turn of the scanner takes as long
 constexpr double first_frame = 0.1;     // s, of the middle of the first turn
 constexpr double fast_interval = 0.01;  // s between rows of the unsynced form
-constexpr std::size_t cars = 30;
+constexpr std::size_t car_count = 30;
 constexpr float disparity_error = 0.2F;  // px too much, mean; as on KITTI's drive 0013
 
 // Where and when: it matters to GNSS and to the sun of nobody.
-const Geodetic origin{radians(49.01), radians(8.43), 115.0};
-const Time start = parse_time("2026-05-04 08:00:00.0");
+const Geodetic town_origin{radians(49.01), radians(8.43), 115.0};
+const Time drive_start = parse_time("2026-05-04 08:00:00.0");
 
 // All that is fixed before the first frame is taken.
 struct Drive {
@@ -48,14 +48,14 @@ struct Drive {
         appearance(index),
         car(test_car()),
         motion(make_motion(options)),
-        traffic(make_traffic(streets, terrain, motion, cars, options.seconds, options.seed)) {
+        traffic(make_traffic(streets, terrain, motion, car_count, options.seconds, options.seed)) {
     std::vector<Mesh> shapes;
     Random random(options.seed, 16);
     for (std::size_t i = 0; i < traffic.size(); ++i)
       shapes.push_back(make_car(static_cast<float>(random.uniform(0.05, 0.7)),
                                 static_cast<std::uint32_t>(1000 + i)));
     world.emplace(make_town_scene(streets, index, terrain, options.seed), std::move(shapes));
-    for (double t = first_frame; t + 0.5 * interval <= options.seconds; t += interval)
+    for (double t = first_frame; t + 0.5 * frame_interval <= options.seconds; t += frame_interval)
       times.push_back(t);
   }
 
@@ -85,8 +85,8 @@ class FrameWriter {
       : drive_(drive), folder_(std::move(folder)), seed_(seed), scene_(*drive.world) {}
 
   void write(std::size_t frame) {
-    const double t = drive_.times[frame], begin = t - 0.5 * interval;
-    scene_.move(bodies(drive_.traffic, begin, begin + interval));
+    const double t = drive_.times[frame], begin = t - 0.5 * frame_interval;
+    scene_.move(bodies(drive_.traffic, begin, begin + frame_interval));
     const std::uint64_t seed = mix(seed_, 1'000'000 + frame);
     const StereoCalibration& camera = drive_.car.stereo;
     const CameraParameters parameters;
@@ -111,7 +111,7 @@ class FrameWriter {
     const auto points = take_turn(
         scene_, drive_.appearance,
         [&](double share) {
-          return drive_.motion.pose(begin + share * interval) * drive_.car.T_body_velo;
+          return drive_.motion.pose(begin + share * frame_interval) * drive_.car.T_body_velo;
         },
         mix(seed, 2));
     write_file(folder_ / "velodyne_points/data" / sensors::numbered_file(frame, ".bin"),
@@ -161,9 +161,9 @@ bool write_frames(const Drive& drive, const std::filesystem::path& folder,
 void write_frame_stamps(const Drive& drive, const std::filesystem::path& folder) {
   std::vector<Time> begin, middle, end;
   for (const double t : drive.times) {
-    begin.push_back(start + from_seconds(t - 0.5 * interval));
-    middle.push_back(start + from_seconds(t));
-    end.push_back(start + from_seconds(t + 0.5 * interval));
+    begin.push_back(drive_start + from_seconds(t - 0.5 * frame_interval));
+    middle.push_back(drive_start + from_seconds(t));
+    end.push_back(drive_start + from_seconds(t + 0.5 * frame_interval));
   }
   write_timestamps(folder / "image_00/timestamps.txt", middle);
   write_timestamps(folder / "image_01/timestamps.txt", middle);
@@ -176,7 +176,7 @@ void write_truth(const Drive& drive, const std::filesystem::path& file) {
   evaluation::StampedTrajectory truth;
   for (const double t : drive.times) {
     const Eigen::Isometry3d T_enu_cam = drive.motion.pose(t) * drive.car.stereo.T_body_cam;
-    truth.stamps.push_back(start + from_seconds(t));
+    truth.stamps.push_back(drive_start + from_seconds(t));
     truth.poses.push_back(T_enu_cam);
   }
   const Eigen::Isometry3d T_first_enu = truth.poses.front().inverse();
@@ -201,13 +201,13 @@ bool simulate_drive(const std::filesystem::path& out, const SimulationOptions& o
   for (const char* sensor : {"image_00", "image_01", "velodyne_points"})
     fs::create_directories(sync / sensor / "data");
   const Drive drive(options);
-  const LocalFrame frame(origin);
+  const LocalFrame frame(town_origin);
   write_calibration(partial);
   write_frame_stamps(drive, sync);
   const ImuParameters imu = imu_parameters(options.imu);
-  write_oxts(sync / "oxts", drive.motion, frame, start, options.seconds, interval, imu,
+  write_oxts(sync / "oxts", drive.motion, frame, drive_start, options.seconds, frame_interval, imu,
              options.seed);
-  write_oxts(partial / "town_extract/oxts", drive.motion, frame, start, options.seconds,
+  write_oxts(partial / "town_extract/oxts", drive.motion, frame, drive_start, options.seconds,
              fast_interval, imu, options.seed);
   write_road_map(partial / "map.osm", drive.streets, frame, options.seed);
   write_driven_links(partial / "driven_links.csv", drive.streets, drive.motion, drive.times);

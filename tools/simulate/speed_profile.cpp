@@ -10,9 +10,9 @@
 namespace maploop::simulate {
 namespace {
 
-constexpr double step = 0.1;      // s between control points
-constexpr double first_way = 15;  // m; nothing of the route is seen before
-constexpr int smoothing = 12;     // passes of (1 2 1) / 4: 0.25 s, within 1.2 s
+constexpr double control_interval = 0.1;  // s between control points
+constexpr double first_way = 15;          // m; nothing of the route is seen before
+constexpr int speed_smoothing = 12;       // passes of (1 2 1) / 4: 0.25 s, within 1.2 s
 
 // m/s at each metre of the way, from limits and curves alone.
 std::vector<double> allowed(const LanePath& path, const Streets& streets,
@@ -37,14 +37,14 @@ void respect_accelerations(std::vector<double>& speed, const DriverParameters& p
     speed[i] = std::min(speed[i], std::sqrt(speed[i - 1] * speed[i - 1] + 2.0 * p.acceleration));
 }
 
-double at(const std::vector<double>& values, double way) {
+double value_at(const std::vector<double>& values, double way) {
   const auto i = std::min(static_cast<std::size_t>(way), values.size() - 2);
   const double t = std::clamp(way - static_cast<double>(i), 0.0, 1.0);
   return (1.0 - t) * values[i] + t * values[i + 1];
 }
 
-void smooth(std::vector<double>& values) {
-  for (int pass = 0; pass < smoothing; ++pass) {
+void smooth_speeds(std::vector<double>& values) {
+  for (int pass = 0; pass < speed_smoothing; ++pass) {
     std::vector<double> next = values;
     for (std::size_t i = 1; i + 1 < values.size(); ++i)
       next[i] = 0.25 * values[i - 1] + 0.5 * values[i] + 0.25 * values[i + 1];
@@ -82,29 +82,30 @@ SpeedProfile::SpeedProfile(const LanePath& path, const Streets& streets, double 
   respect_accelerations(limit, parameters);
   double way = first_way;
   auto stop = stops.begin();
-  const auto count = static_cast<std::size_t>((seconds + 2.0) / step) + 4;
+  const auto count = static_cast<std::size_t>((seconds + 2.0) / control_interval) + 4;
   while (speed_.size() < count) {
     require(way + 2.0);
     if (stop != stops.end() && way > stop->way - 0.3) {
-      speed_.insert(speed_.end(), static_cast<std::size_t>(stop->seconds / step), 0.0);
+      speed_.insert(speed_.end(), static_cast<std::size_t>(stop->seconds / control_interval), 0.0);
       way = stop->way + 0.3;
       ++stop;
       continue;
     }
-    speed_.push_back(std::max(0.5, at(limit, way)));
-    way += step * speed_.back();
+    speed_.push_back(std::max(0.5, value_at(limit, way)));
+    way += control_interval * speed_.back();
   }
-  smooth(speed_);
+  smooth_speeds(speed_);
   way_.push_back(first_way);
   for (std::size_t i = 0; i + 3 < speed_.size(); ++i)
-    way_.push_back(
-        way_.back() +
-        step * (speed_[i] + 11.0 * speed_[i + 1] + 11.0 * speed_[i + 2] + speed_[i + 3]) / 24.0);
+    way_.push_back(way_.back() +
+                   control_interval *
+                       (speed_[i] + 11.0 * speed_[i + 1] + 11.0 * speed_[i + 2] + speed_[i + 3]) /
+                       24.0);
 }
 
 SpeedProfile::Place SpeedProfile::place(double t) const {
   // The first second of control points is before the drive: sensors look back a little.
-  const double u = std::max(0.0, t + 1.0) / step;
+  const double u = std::max(0.0, t + 1.0) / control_interval;
   const auto i = std::min(static_cast<std::size_t>(u), speed_.size() - 4);
   return {i, u - static_cast<double>(i)};
 }
@@ -116,7 +117,7 @@ double SpeedProfile::way(double t) const {
   const double integral =
       a * (1.0 - y * y * y * y) / 4.0 + b * (0.75 * x * x * x * x - 2.0 * x * x * x + 4.0 * x) +
       c * (-0.75 * x * x * x * x + x * x * x + 1.5 * x * x + x) + d * x * x * x * x / 4.0;
-  return way_[i] + step * integral / 6.0;
+  return way_[i] + control_interval * integral / 6.0;
 }
 
 double SpeedProfile::speed(double t) const {
@@ -133,7 +134,7 @@ double SpeedProfile::acceleration(double t) const {
   const double y = 1.0 - x;
   return (-y * y * speed_[i] + (3.0 * x * x - 4.0 * x) * speed_[i + 1] +
           (-3.0 * x * x + 2.0 * x + 1.0) * speed_[i + 2] + x * x * speed_[i + 3]) /
-         (2.0 * step);
+         (2.0 * control_interval);
 }
 
 }  // namespace maploop::simulate

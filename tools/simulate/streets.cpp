@@ -9,11 +9,11 @@
 namespace maploop::simulate {
 namespace {
 
-constexpr std::size_t rows = 6, columns = 6;
-constexpr double spacing = 2.0;  // m, of the points of a centreline
+constexpr std::size_t town_rows = 6, town_columns = 6;
+constexpr double point_spacing = 2.0;  // m, of the points of a centreline
 
 std::size_t junction(std::size_t row, std::size_t column) {
-  return row * columns + column;
+  return row * town_columns + column;
 }
 
 // A curve that leaves both junctions near the grid's direction and bends in between.
@@ -27,7 +27,7 @@ Street bent_street(const Streets& town, std::size_t from, std::size_t to, Random
   Street street;
   street.from = from;
   street.to = to;
-  const auto steps = static_cast<int>(way.norm() / spacing);
+  const auto steps = static_cast<int>(way.norm() / point_spacing);
   for (int i = 0; i <= steps; ++i) {
     const double t = static_cast<double>(i) / steps, s = 1.0 - t;
     street.centreline.push_back(s * s * s * a + 3.0 * s * s * t * c + 3.0 * s * t * t * d +
@@ -63,8 +63,8 @@ void measure(Street& street) {
 Streets make_town(std::uint64_t seed) {
   Random random(seed, 2);
   Streets town;
-  for (std::size_t row = 0; row < rows; ++row)
-    for (std::size_t column = 0; column < columns; ++column)
+  for (std::size_t row = 0; row < town_rows; ++row)
+    for (std::size_t column = 0; column < town_columns; ++column)
       town.junctions.emplace_back(
           105.0 * (static_cast<double>(column) - 2.5) + random.uniform(-14.0, 14.0),
           90.0 * (static_cast<double>(row) - 2.5) + random.uniform(-11.0, 11.0));
@@ -76,14 +76,14 @@ Streets make_town(std::uint64_t seed) {
     measure(street);
     town.streets.push_back(std::move(street));
   };
-  for (std::size_t row = 0; row < rows; ++row)
-    for (std::size_t column = 0; column + 1 < columns; ++column)
+  for (std::size_t row = 0; row < town_rows; ++row)
+    for (std::size_t column = 0; column + 1 < town_columns; ++column)
       connect(junction(row, column), junction(row, column + 1), row % 3 == 1,
-              row == 0 || row + 1 == rows);
-  for (std::size_t column = 0; column < columns; ++column)
-    for (std::size_t row = 0; row + 1 < rows; ++row)
+              row == 0 || row + 1 == town_rows);
+  for (std::size_t column = 0; column < town_columns; ++column)
+    for (std::size_t row = 0; row + 1 < town_rows; ++row)
       connect(junction(row, column), junction(row + 1, column), column % 3 == 1,
-              column == 0 || column + 1 == columns);
+              column == 0 || column + 1 == town_columns);
   return town;
 }
 

@@ -14,11 +14,7 @@ using Eigen::Vector2d;
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-constexpr double pavement = 2.0;  // m
-
-float uniform(Random& random, double from, double to) {
-  return static_cast<float>(random.uniform(from, to));
-}
+constexpr double pavement_width = 2.0;  // m
 
 std::uint32_t number(Random& random) {
   return static_cast<std::uint32_t>(random.bits() >> 40U);
@@ -118,7 +114,7 @@ class TownBuilder {
       constexpr int pieces = 40;
       float before = 16.0F;
       for (int k = 0; k < pieces; ++k) {
-        const float top = uniform(random_, 12.0, 22.0);
+        const float top = random_.uniform_float(12.0, 22.0);
         const Vector3f p = on_ground(a + (b - a) * k / pieces);
         const Vector3f q = on_ground(a + (b - a) * (k + 1) / pieces);
         mesh_.add_quad(p, q, q + Vector3f(0, 0, top), p + Vector3f(0, 0, before), surface);
@@ -140,18 +136,19 @@ class TownBuilder {
     double along = random_.uniform(6.0, 12.0);
     while (along < street.length() - 6.0) {
       const double width = random_.uniform(9.0, 20.0), depth = random_.uniform(9.0, 14.0);
-      const double back = pavement + random_.uniform(0.3, 6.0);
+      const double back = pavement_width + random_.uniform(0.3, 6.0);
       const bool brick = random_.chance(0.35), gable = random_.chance(0.6);
       const float height = 3.0F * static_cast<float>(2 + random_.below(4)) + 0.6F;
-      const float tone = brick ? uniform(random_, 0.2, 0.32) : uniform(random_, 0.3, 0.68);
+      const float tone =
+          brick ? random_.uniform_float(0.2, 0.32) : random_.uniform_float(0.3, 0.68);
       const Surface wall{brick ? Material::brick : Material::plaster, tone, number(random_)};
-      const Surface roof{Material::roof, uniform(random_, 0.12, 0.3), number(random_)};
+      const Surface roof{Material::roof, random_.uniform_float(0.12, 0.3), number(random_)};
       const double gap =
           random_.chance(0.35) ? random_.uniform(4.0, 14.0) : random_.uniform(0.1, 1.0);
       const Spot at = spot(street, side, along + 0.5 * width, back + 0.5 * depth);
       const Vector2d t(std::cos(at.yaw), std::sin(at.yaw));
       const Footprint footprint{at.place, 0.5 * width * t, 0.5 * depth * Vector2d(-t.y(), t.x())};
-      if (is_free(footprint, pavement + 0.2)) {
+      if (is_free(footprint, pavement_width + 0.2)) {
         built_.push_back(footprint);
         put(make_building({static_cast<float>(width), static_cast<float>(depth)}, height, gable,
                           wall, roof),
@@ -163,20 +160,22 @@ class TownBuilder {
     }
   }
 
-  // Hedges and fences between houses and pavement.
+  // Hedges and fences between houses and pavement_width.
   void add_garden_edges(const Street& street, double side) {
     for (double along = 14.0; along < street.length() - 16.0;) {
       const double length = random_.uniform(3.0, 9.0);
       const bool hedge = random_.chance(0.6), there = random_.chance(0.6);
-      const float height = hedge ? uniform(random_, 0.8, 1.8) : uniform(random_, 0.9, 1.3);
-      const float thickness = hedge ? uniform(random_, 0.5, 0.9) : 0.06F;
-      const Surface surface{hedge ? Material::hedge : Material::fence,
-                            hedge ? uniform(random_, 0.09, 0.16) : uniform(random_, 0.2, 0.5),
-                            number(random_)};
-      const Spot at = spot(street, side, along + 0.5 * length, pavement + 0.6);
+      const float height =
+          hedge ? random_.uniform_float(0.8, 1.8) : random_.uniform_float(0.9, 1.3);
+      const float thickness = hedge ? random_.uniform_float(0.5, 0.9) : 0.06F;
+      const Surface surface{
+          hedge ? Material::hedge : Material::fence,
+          hedge ? random_.uniform_float(0.09, 0.16) : random_.uniform_float(0.2, 0.5),
+          number(random_)};
+      const Spot at = spot(street, side, along + 0.5 * length, pavement_width + 0.6);
       const Vector2d t(std::cos(at.yaw), std::sin(at.yaw));
       const Footprint footprint{at.place, 0.5 * length * t, 0.4 * Vector2d(-t.y(), t.x())};
-      if (there && is_free(footprint, pavement + 0.05))
+      if (there && is_free(footprint, pavement_width + 0.05))
         put(make_box({static_cast<float>(length), thickness, height}, surface), at.place, at.yaw);
       along += length + random_.uniform(0.0, 3.0);
     }
@@ -186,10 +185,10 @@ class TownBuilder {
     const bool avenue = random_.chance(0.3);
     for (double along = random_.uniform(14.0, 22.0); along < street.length() - 14.0;
          along += avenue ? random_.uniform(11.0, 16.0) : random_.uniform(14.0, 45.0)) {
-      const float height = uniform(random_, 4.5, 9.0);
+      const float height = random_.uniform_float(4.5, 9.0);
       const std::uint32_t seed = number(random_);
       const Spot at =
-          spot(street, side, along, avenue ? 1.5 : pavement + random_.uniform(1.0, 5.0));
+          spot(street, side, along, avenue ? 1.5 : pavement_width + random_.uniform(1.0, 5.0));
       const Footprint trunk{at.place, Vector2d(0.5, 0.0), Vector2d(0.0, 0.5)};
       if (is_free(trunk, 0.9)) put(make_tree(height, seed), at.place, 0.0);
     }
@@ -200,7 +199,7 @@ class TownBuilder {
          along += random_.uniform(18.0, 32.0)) {
       const Spot at = spot(street, side, along, 0.5);
       const bool lamp = random_.chance(0.5), signed_too = random_.chance(0.6);
-      const float tone = uniform(random_, 0.15, 0.4);
+      const float tone = random_.uniform_float(0.15, 0.4);
       const std::uint32_t seed = number(random_);
       if (index_.to_kerb(at.place) < 0.4) continue;
       put(make_pole(lamp ? 0.08F : 0.04F, lamp ? 6.0F : 2.8F, {Material::metal, tone, seed}),
@@ -217,10 +216,10 @@ class TownBuilder {
     const double density = random_.uniform(0.1, 0.7);
     for (double along = 16.0; along < street.length() - 16.0; along += 5.6) {
       const bool there = random_.chance(density);
-      const float tone = uniform(random_, 0.08, 0.7);
+      const float tone = random_.uniform_float(0.08, 0.7);
       const std::uint32_t seed = number(random_);
       const double shift = random_.uniform(-0.4, 0.4), skew = random_.uniform(-0.03, 0.03);
-      const Spot at = spot(street, side, along + shift, 0.75);  // half on the pavement
+      const Spot at = spot(street, side, along + shift, 0.75);  // half on the pavement_width
       const Vector2d t(std::cos(at.yaw), std::sin(at.yaw));
       const Footprint car{at.place, 2.3 * t, Vector2d(-t.y(), t.x())};
       if (there && is_free(car, -0.4))
