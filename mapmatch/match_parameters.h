@@ -32,8 +32,8 @@ struct MatchParameters {
   double misfit = 12.0;  // sigmas squared of offset and azimuth where a link no longer fits
   double wrong_way_misfit = 6.0;  // of driving against a one-way street
   double misfit_rate = 0.5;       // of offsets as evidence between links, a second
-  double trust = 6.0;             // log odds of a link that fits perfectly; and what
-  double trust_slope = 0.6;       // a unit of misfit takes from them (the reliability diagram)
+  double trust = 5.0;             // log odds of a link that fits perfectly; and what
+  double trust_slope = 0.8;       // a unit of misfit takes from them (the reliability diagram)
   double off_road_rate = 1.0;     // evidence a second, a unit of misfit
 
   // --- Fuzzy process
@@ -46,6 +46,7 @@ struct MatchParameters {
   double min_speed = 1.0;       // m/s from which azimuths are believed
   double distance_unit = 8.0;   // m: sigma of the fixes that the rules' distances were made for
   double hdop_unit = 4.0;       // m of horizontal sigma that is an HDOP of 1
+  double visual_gate = 0.052;   // rad in a second that visual odometry may differ by; 0: not used
   bool paths = true;            // path hypotheses beside the rules
   double max_gap = 10.0;        // s without a fix, after which matching begins again
 };

@@ -42,7 +42,9 @@ MapMatch& NavMatcher::add(const NavState& state) {
     match_.refusal = FixRefusal::no_position;
     return match_;
   }
-  const MatchResult& result = matcher_.add(fix_of(state));
+  VehicleFix fix = fix_of(state);
+  course_.describe(fix);
+  const MatchResult& result = matcher_.add(fix);
   match_.phase = result.phase;
   match_.refusal = result.refusal;
   if (result.refusal != FixRefusal::none) return match_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mapmatch/matcher.h"
+#include "mapmatch/visual_course.h"
 #include "msgs/archive.h"
 #include "msgs/map_match.h"
 #include "msgs/nav_state.h"
@@ -20,6 +21,9 @@ class NavMatcher {
   NavMatcher(const RoadNetwork& network, const RuleBases& rules, const MatchParameters& parameters)
       : matcher_(network, rules, parameters) {}
 
+  // Visual odometry in the order of its stamps: for the rules that ask for it.
+  void add(const RelativeMotion& visual) { course_.add(visual); }
+
   // States in the order of their stamps. Of one that cannot be used, `refusal` says why, and there
   // is no link. `available` and `sequence` are the caller's. Valid until the next call.
   MapMatch& add(const NavState& state);
@@ -30,13 +34,14 @@ class NavMatcher {
   // The whole state; loading refuses another network or other parameters.
   template <class Archive>
   void archive(Archive& ar) {
-    ar(matcher_);
+    ar(matcher_, course_);
   }
 
  private:
   void describe_place(const NavState& state, const LinkPoint& point);
 
   Matcher matcher_;
+  VisualCourse course_;
   MapMatch match_;
 };
 

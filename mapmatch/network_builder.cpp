@@ -1,6 +1,7 @@
 #include "mapmatch/network_builder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <string>
@@ -12,7 +13,9 @@ namespace maploop::mapmatch {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-constexpr double min_segment = 0.001;  // m: so that two nodes at one place are apart
+constexpr double earth_radius = 6.371e6;       // m
+constexpr double far_from_middle = 500'000.0;  // m
+constexpr double min_segment = 0.001;          // m: so that two nodes at one place are apart
 
 // From one node of a way to the next.
 struct Segment {
@@ -46,19 +49,43 @@ class Builder {
  private:
   void place_nodes() {
     if (map_.nodes.empty()) return;
+    const Middle greenwich = middle(0.0), opposite = middle(180.0);
+    data_.origin = (opposite.width < greenwich.width ? opposite : greenwich).place;
+    const LocalFrame frame(data_.origin);
+    double farthest = 0.0;
+    place_.reserve(map_.nodes.size());
+    for (const MapNode& n : map_.nodes) {
+      place_.push_back(frame.to_enu({radians(n.latitude), radians(n.longitude), 0.0}).head<2>());
+      farthest = std::max(farthest, place_.back().norm());
+    }
+    if (farthest > far_from_middle)
+      data_.warnings.push_back("it reaches " + std::to_string(std::lround(farthest / 1000.0)) +
+                               " km from its middle, where distances are wrong by " +
+                               std::to_string(std::lround(1000.0 * distortion(farthest))) +
+                               " m a km: choose a part of it with a box");
+  }
+
+  struct Middle {
+    Geodetic place;
+    double width = 0.0;  // degrees
+  };
+  // Of the box about all nodes, its longitudes counted from a meridian (degrees).
+  Middle middle(double meridian) const {
     double south = 90.0, north = -90.0, west = 180.0, east = -180.0;
     for (const MapNode& n : map_.nodes) {
+      const double longitude = std::remainder(n.longitude - meridian, 360.0);
       south = std::min(south, n.latitude);
       north = std::max(north, n.latitude);
-      west = std::min(west, n.longitude);
-      east = std::max(east, n.longitude);
+      west = std::min(west, longitude);
+      east = std::max(east, longitude);
     }
-    data_.origin = {radians(0.5 * (south + north)), radians(0.5 * (west + east)), 0.0};
-    const LocalFrame frame(data_.origin);
-    place_.reserve(map_.nodes.size());
-    for (const MapNode& n : map_.nodes)
-      place_.push_back(frame.to_enu({radians(n.latitude), radians(n.longitude), 0.0}).head<2>());
+    return {
+        {radians(0.5 * (south + north)), wrap_angle(radians(meridian + 0.5 * (west + east))), 0.0},
+        east - west};
   }
+
+  // Share by which a plane that touches the earth shortens distances this far away.
+  static double distortion(double metres) { return 0.5 * std::pow(metres / earth_radius, 2); }
 
   std::uint32_t find(std::int64_t id) const {
     const auto found = std::lower_bound(map_.nodes.begin(), map_.nodes.end(), id,
@@ -213,6 +240,9 @@ class Builder {
     std::sort(data_.banned.begin(), data_.banned.end(), [](const auto& a, const auto& b) {
       return std::tie(a.from.link, a.from.forward) < std::tie(b.from.link, b.from.forward);
     });
+    if (map_.restrictions_over_ways > 0)
+      data_.warnings.push_back(std::to_string(map_.restrictions_over_ways) +
+                               " turn restrictions over a way between are left out");
     if (unused > 0)
       data_.warnings.push_back(std::to_string(unused) +
                                " turn restrictions name roads that do not meet where they say");

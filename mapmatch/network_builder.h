@@ -28,10 +28,12 @@ struct MapExtract {
   std::vector<MapNode> nodes;  // sorted by id, each once
   std::vector<MapWay> ways;
   std::vector<MapRestriction> restrictions;
+  std::size_t restrictions_over_ways = 0;  // left out: their "via" is a way
 };
 
 // A way is cut where a node is missing (a clipped map); what is left out is counted in the data's
-// warnings. A map without any road gives an empty network.
+// warnings. Places are in one plane about the map's middle, across the 180th meridian too: a map of
+// more than some 1000 km is warned of. A map without any road gives an empty network.
 NetworkData build_network(const MapExtract& map);
 
 }  // namespace maploop::mapmatch

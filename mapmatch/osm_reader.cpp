@@ -81,9 +81,17 @@ class Roads : public osmium::handler::Handler {
   }
 
   void relation(const osmium::Relation& r) {
-    if (!r.tags().has_tag("type", "restriction")) return;
-    const std::string_view kind = r.tags().get_value_by_key("restriction", "");
+    const osmium::TagList& tags = r.tags();
+    if (!tags.has_tag("type", "restriction")) return;
+    const std::string_view except = tags.get_value_by_key("except", "");
+    for (const char* car : {"motorcar", "motor_vehicle"})
+      if (except.find(car) != std::string_view::npos) return;
+    const char* told = "";  // the most special key speaks
+    for (const char* key : {"restriction", "restriction:motor_vehicle", "restriction:motorcar"})
+      told = tags.get_value_by_key(key, told);
+    const std::string_view kind = told;
     MapRestriction restriction;
+    bool over_a_way = false;
     restriction.only = kind.starts_with("only_");
     if (!restriction.only && !kind.starts_with("no_")) return;
     for (const osmium::RelationMember& m : r.members()) {
@@ -91,7 +99,9 @@ class Roads : public osmium::handler::Handler {
       if (role == "from" && m.type() == osmium::item_type::way) restriction.from_way = m.ref();
       if (role == "to" && m.type() == osmium::item_type::way) restriction.to_way = m.ref();
       if (role == "via" && m.type() == osmium::item_type::node) restriction.via_node = m.ref();
+      over_a_way = over_a_way || (role == "via" && m.type() == osmium::item_type::way);
     }
+    map_.restrictions_over_ways += over_a_way ? 1 : 0;
     if (restriction.from_way != 0 && restriction.to_way != 0 && restriction.via_node != 0)
       map_.restrictions.push_back(restriction);
   }

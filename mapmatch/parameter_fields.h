@@ -45,6 +45,7 @@ void fields(Parameters& p, F&& f) {
   f("min_speed", p.min_speed);
   f("distance_unit", p.distance_unit);
   f("hdop_unit", p.hdop_unit);
+  f("visual_gate", p.visual_gate);
   f("paths", p.paths);
   f("max_gap", p.max_gap);
 }

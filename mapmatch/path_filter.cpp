@@ -18,6 +18,7 @@ constexpr double turn_misfit = 8.0;  // of azimuths, as far as any turn can have
 constexpr double edge_cost = 0.3;    // a metre driven beyond the end of a road that leads nowhere
 constexpr double turning = radians(120.0);
 constexpr double standing = 0.3;     // m/s
+constexpr double lost = 9.0;         // sigmas squared along the path, beyond which it tells
 constexpr double sure_odds = 2.197;  // log odds of 0.9, below which ...
 constexpr double doubt_slope =
     0.15;  // ... a link is doubted less and less (the reliability diagram)
@@ -285,9 +286,12 @@ void PathFilter::correct(PathHypothesis& h, const PathEvidence& e) const {
   const Eigen::Vector2d n(u.y(), -u.x());
   const Eigen::Matrix2d slow = slow_covariance(e);
   h.offset_misfit = squared(n.dot(h.offset)) / n.dot(slow * n);
-  h.offset_misfit =
-      std::max(h.offset_misfit, squared(n.dot(e.place - best.point.position)) /
-                                    n.dot((slow + e.motion.white_share * e.covariance) * n));
+  const Eigen::Vector2d beside = e.place - best.point.position;
+  const Eigen::Matrix2d all = slow + e.motion.white_share * e.covariance;
+  h.offset_misfit = std::max(h.offset_misfit, squared(n.dot(beside)) / n.dot(all * n));
+  // Nor can it be far ahead or behind: who is there has lost the vehicle.
+  const double along = squared(u.dot(beside)) / (u.dot(all * u) + h.covariance(0, 0));
+  if (along > lost) h.offset_misfit += along;
   if (!network_->allowed(best.link)) h.offset_misfit += parameters_->wrong_way_misfit;
   // An offset that is taken for the map's error costs as long as it is there.
   h.log_weight -=

@@ -99,9 +99,11 @@ void judge_along(const RuleContext& c, MatchCandidate& candidate) {
   const double turn = degrees(c.motion.reversal > u_turn ? c.motion.reversal : c.motion.turn);
   const double turn_rate = degrees(c.motion.turn_rate);
   if (std::isfinite(c.motion.visual_turn) && std::isfinite(c.motion.visual_speed)) {
+    const double visual_turn = degrees(c.motion.visual_reversal > u_turn ? c.motion.visual_reversal
+                                                                         : c.motion.visual_turn);
     evaluate(c.rules.along_visual, RuleBase::along_visual,
              std::array{c.motion.speed, c.hdop, degrees(alpha), degrees(beta), overshoot, turn,
-                        turn_rate, c.motion.visual_speed, degrees(c.motion.visual_turn)},
+                        turn_rate, c.motion.visual_speed, visual_turn},
              candidate);
   } else {
     evaluate(c.rules.along, RuleBase::along,

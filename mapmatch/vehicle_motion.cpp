@@ -10,9 +10,10 @@
 namespace maploop::mapmatch {
 namespace {
 
-constexpr double acceleration = 1.5;   // m/s^2/sqrt(Hz), of a vehicle whose speed is not told
-constexpr double share_memory = 60.0;  // s
-constexpr double prior_fixes = 4.0;    // what the first guess of the white share counts
+constexpr double acceleration = 1.5;  // m/s^2/sqrt(Hz), of a vehicle whose speed is not told
+constexpr double good_azimuth = radians(1.0);  // sigma that `visual_gate` is made for
+constexpr double share_memory = 60.0;          // s
+constexpr double prior_fixes = 4.0;            // what the first guess of the white share counts
 constexpr double prior_share = 0.5;
 constexpr double floor_variance = 0.25;  // m^2: odometry and the vehicle's way are no better
 
@@ -70,7 +71,33 @@ double VehicleMotion::change(double Moment::*angle, const Moment& now, double se
     if (to_seconds(now.stamp - m.stamp) >= seconds - 0.01) break;
   }
   if (!then) return unknown;
-  return std::abs(wrap_angle(now.*angle - then->*angle));
+  return wrap_angle(now.*angle - then->*angle);
+}
+
+bool VehicleMotion::seen_throughout(const Moment& now, double seconds) const {
+  if (std::isnan(now.visual_azimuth)) return false;
+  const std::size_t known = std::min(next_, history_length);
+  for (std::size_t i = 1; i <= known; ++i) {
+    const Moment& m = history_[(next_ - i) % history_length];
+    if (std::isnan(m.visual_azimuth)) return false;
+    if (to_seconds(now.stamp - m.stamp) >= seconds - 0.01) return true;
+  }
+  return known > 0;
+}
+
+// What the images show is no witness where it contradicts what the fixes say of the same second.
+void VehicleMotion::add_visual(const VehicleFix& fix, const Moment& now,
+                               const MatchParameters& parameters, Motion& motion) const {
+  if (!seen_throughout(now, 1.0)) return;
+  const double turn = change(&Moment::visual_azimuth, now, 1.0);
+  const double difference = wrap_angle(turn - change(&Moment::azimuth, now, 1.0));
+  if (std::abs(difference) >=
+      parameters.visual_gate * std::max(1.0, motion.azimuth_sigma / good_azimuth))
+    return;
+  motion.visual_speed = fix.visual_speed;
+  motion.visual_turn = std::abs(turn);
+  if (seen_throughout(now, 6.0))
+    motion.visual_reversal = std::abs(change(&Moment::visual_azimuth, now, 6.0));
 }
 
 double VehicleMotion::mean_yaw_rate(const Moment& now) const {
@@ -123,10 +150,9 @@ Motion VehicleMotion::add(const VehicleFix& fix, const Eigen::Vector2d& place,
   motion.white_share = std::clamp(jumps_ / expected_, 0.0, 1.0);
 
   const Moment now{fix.stamp, motion.azimuth, fix.visual_azimuth, fix.yaw_rate};
-  motion.turn = change(&Moment::azimuth, now, 1.0);
-  motion.reversal = change(&Moment::azimuth, now, 6.0);
-  motion.visual_turn = change(&Moment::visual_azimuth, now, 1.0);
-  motion.visual_speed = fix.visual_speed;
+  motion.turn = std::abs(change(&Moment::azimuth, now, 1.0));
+  motion.reversal = std::abs(change(&Moment::azimuth, now, 6.0));
+  add_visual(fix, now, parameters, motion);
   motion.turn_rate = mean_yaw_rate(now);
   if (std::isnan(motion.turn_rate)) motion.turn_rate = motion.turn;  // over one second
   history_[next_ % history_length] = now;

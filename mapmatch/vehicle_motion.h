@@ -22,9 +22,11 @@ struct Motion {
   double turn = unknown;                           // |change of azimuth| over the last second
   double turn_rate = unknown;                      // rad/s, its size over the last second
   double reversal = unknown;                       // |change of azimuth| over the last 6 s
+  // Of visual odometry, where it agrees with the rest.
   double visual_speed = unknown;
-  double visual_turn = unknown;
-  double white_share = 0.5;  // of the fixes' variance: what changes from fix to fix
+  double visual_turn = unknown;      // |change of azimuth| over the last second
+  double visual_reversal = unknown;  // over the last 6 s
+  double white_share = 0.5;          // of the fixes' variance: what changes from fix to fix
 };
 
 class VehicleMotion {
@@ -56,6 +58,9 @@ class VehicleMotion {
   void filter_course(const VehicleFix& fix, const Eigen::Vector2d& place, double interval);
   void estimate_white_share(const VehicleFix& fix, const Eigen::Vector2d& jump, double interval);
   double change(double Moment::*angle, const Moment& now, double seconds) const;
+  bool seen_throughout(const Moment& now, double seconds) const;
+  void add_visual(const VehicleFix& fix, const Moment& now, const MatchParameters& parameters,
+                  Motion& motion) const;
   double mean_yaw_rate(const Moment& now) const;
 
   std::size_t count_ = 0;

@@ -1,10 +1,13 @@
 // maploop dashboard: a running vehicle in a browser.
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
+#include "mapmatch/network_file.h"
 #include "msgs/lcm/channel_names.h"
 #include "runtime/vehicle/lcm_bus.h"
 #include "tools/bus_listener.h"
@@ -12,9 +15,11 @@
 #include "tools/dashboard/live_channels.h"
 #include "tools/dashboard/relay.h"
 #include "tools/dashboard/server.h"
+#include "tools/match/road_lines.h"
 #include "tools/option_checks.h"
 #include "tools/terminal.h"
 #include "tools/web/bundle.h"
+#include "tools/web/page.h"
 
 namespace maploop::tools {
 namespace {
@@ -29,7 +34,18 @@ struct DashboardOptions {
   std::string address = "127.0.0.1";
   int port = 8080;
   double seconds = 0.0;  // 0: until interrupted
+  std::filesystem::path map;
 };
+
+constexpr double roads_within = 5000.0;  // m of a drive's origin
+
+// Roads in metres about the origin; none where there is no map.
+std::string roads_about(const mapmatch::RoadNetwork* network, const Geodetic& origin) {
+  web::Plot plot;
+  if (network != nullptr)
+    plot.roads = match::road_lines(*network, origin, {{"", {0.0}, {0.0}}}, roads_within);
+  return web::to_json(plot);
+}
 
 std::string send_command(BusListener& bus, const std::string& kind, double value) {
   const auto command = dashboard::encoded_command(kind, value);
@@ -44,13 +60,16 @@ int run(const DashboardOptions& options) {
         "this maploop was built without npm, which makes the dashboard's page: install npm "
         "(tools/install-packages web) and build again");
   }
+  std::optional<mapmatch::RoadNetwork> network;
+  if (!options.map.empty()) network.emplace(mapmatch::open_network(options.map));
   dashboard::LiveChannels channels;
   dashboard::Relay relay(channels);
   BusListener bus(options.url, ".*", [&](auto channel, auto data) { relay.take(channel, data); });
   const dashboard::Server server(
       options.address, options.port, channels,
       {[&] { return relay.trail(); },
-       [&](const std::string& kind, double value) { return send_command(bus, kind, value); }});
+       [&](const std::string& kind, double value) { return send_command(bus, kind, value); },
+       [&](const Geodetic& origin) { return roads_about(network ? &*network : nullptr, origin); }});
   note_interrupts();
   std::cout << "http://" << options.address << ':' << server.port() << "/  (Ctrl-C ends it)"
             << std::endl;
@@ -83,6 +102,8 @@ void add_dashboard(CLI::App& app, Command& command) {
   sub->add_option("--port", options->port, "Port to listen at, 0: any that is free")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
+  sub->add_option("--map", options->map,
+                  "OpenStreetMap file, or a network file: draw its roads under the way");
   sub->add_option("--seconds", options->seconds, "End after this long; without it at Ctrl-C")
       ->check(positive_number());
   sub->callback([options, &command] { command = [options] { return run(*options); }; });

@@ -8,7 +8,8 @@ void add_experiment(CLI::App& app, Command& command) {
       app.add_subcommand("experiment", "Comparisons of methods on recorded drives");
   experiment->require_subcommand(1);
   add_fusion_experiment(*experiment, command);
-  add_match_experiments(*experiment, command);
+  add_match_experiment(*experiment, command);
+  add_map_fault_experiment(*experiment, command);
   add_odometry_experiment(*experiment, command);
 }
 

@@ -6,7 +6,8 @@
 namespace maploop::tools {
 
 void add_fusion_experiment(CLI::App& experiment, Command& command);
-void add_match_experiments(CLI::App& experiment, Command& command);
+void add_map_fault_experiment(CLI::App& experiment, Command& command);
+void add_match_experiment(CLI::App& experiment, Command& command);
 void add_odometry_experiment(CLI::App& experiment, Command& command);
 
 }  // namespace maploop::tools

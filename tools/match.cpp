@@ -43,6 +43,8 @@ void print_summary(const match::MatchedTrack& track, std::vector<double>& micros
   std::cout << track.fixes.size() << " fixes, " << matched << " on a road\n";
   for (const auto& [phase, count] : phases) std::cout << "  " << phase << ": " << count << '\n';
   if (refused > 0) std::cout << "  not used: " << refused << '\n';
+  if (matched == 0 && refused < track.fixes.size())
+    std::cout << "no fix is near a road of the map: is it the map of this place?\n";
   std::sort(microseconds.begin(), microseconds.end());
   const auto percentile = [&](double share) {
     return microseconds[static_cast<std::size_t>(share *
@@ -107,7 +109,8 @@ void add_match(CLI::App& app, Command& command) {
       ->required();
   sub->add_option("TRACK", options->track,
                   "CSV with columns t, lat, lon and what else is known (sigma or cov_ee, cov_en, "
-                  "cov_nn in m; speed in m/s, azimuth_deg, yaw_rate in rad/s, hdop; OXTS's names, "
+                  "cov_nn in m; speed in m/s, azimuth_deg, yaw_rate in rad/s, hdop, visual_speed, "
+                  "visual_azimuth_deg; OXTS's names, "
                   "too), GPX, NMEA, TUM or an LCM log (NAV_STATE, or GNSS_FIX); plain or .gz")
       ->required();
   sub->add_option("--csv", options->csv, "Write one line a fix to this file")

@@ -300,9 +300,9 @@ void Replay::write_report(const ReplayResult& result) const {
   std::vector<report::DeadReckoning> ways{{"stereo odometry", pass_->collector.odometry()}};
   const auto lidar = pass_->lidar_collector.odometry();
   if (!lidar.poses.empty()) ways.push_back({"LiDAR odometry", lidar});
-  report::write_report(options_.report,
-                       {result, pass_->track, read_reference(recording_), std::move(ways),
-                        vehicle::to_toml(config_), MAPLOOP_VERSION});
+  report::write_report(options_.report, {result, pass_->track, read_reference(recording_),
+                                         std::move(ways), vehicle::to_toml(config_),
+                                         MAPLOOP_VERSION, map_ ? &map_->network : nullptr});
 }
 
 int Replay::run() {

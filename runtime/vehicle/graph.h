@@ -118,6 +118,7 @@ inline constexpr EdgeSpec wheel_fusion{"wheel -> fusion", "WheelSpeed", 256};
 inline constexpr EdgeSpec odometry_fusion{"lidar -> fusion", "RelativeMotion", 256};
 // Only there where there is a map.
 inline constexpr EdgeSpec fusion_mapmatch{"fusion -> mapmatch", "NavState", 256};
+inline constexpr EdgeSpec stereo_mapmatch{"stereo -> mapmatch", "RelativeMotion", 256};
 // Only there where a log of raw sensors is written.
 inline constexpr EdgeSpec camera_publisher{"camera -> publisher", "StereoPair", 4};
 inline constexpr EdgeSpec velodyne_publisher{"velodyne -> publisher", "LidarScan", 4};
@@ -141,12 +142,12 @@ inline constexpr EdgeSpec fusion_snapshot{"fusion -> snapshot", "StageSnapshot",
 inline constexpr EdgeSpec mapmatch_snapshot{"mapmatch -> snapshot", "StageSnapshot", 2};
 
 inline constexpr std::array all{
-    camera_stereo,    velodyne_lidar,      stereo_lidar,       imu_fusion,       gnss_ppp,
-    gnss_fusion,      ppp_publisher,       ppp_snapshot,       wheel_fusion,     odometry_fusion,
-    fusion_mapmatch,  camera_publisher,    velodyne_publisher, imu_publisher,    gnss_publisher,
-    wheel_publisher,  reference_publisher, stereo_publisher,   lidar_publisher,  odometry_publisher,
-    fusion_publisher, image_states,        mapmatch_publisher, health_publisher, stereo_snapshot,
-    lidar_snapshot,   fusion_snapshot,     mapmatch_snapshot};
+    camera_stereo,      velodyne_lidar,   stereo_lidar,        imu_fusion,         gnss_ppp,
+    gnss_fusion,        ppp_publisher,    ppp_snapshot,        wheel_fusion,       odometry_fusion,
+    fusion_mapmatch,    stereo_mapmatch,  camera_publisher,    velodyne_publisher, imu_publisher,
+    gnss_publisher,     wheel_publisher,  reference_publisher, stereo_publisher,   lidar_publisher,
+    odometry_publisher, fusion_publisher, image_states,        mapmatch_publisher, health_publisher,
+    stereo_snapshot,    lidar_snapshot,   fusion_snapshot,     mapmatch_snapshot};
 }  // namespace edges
 
 template <class T>

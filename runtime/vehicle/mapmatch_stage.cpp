@@ -15,7 +15,9 @@ static_assert(stages::mapmatch.phase == stages::fusion.budget &&
 
 }  // namespace
 
-MapMatchEdges::MapMatchEdges() : nav_state(make_edge<NavState>(edges::fusion_mapmatch, &bell)) {}
+MapMatchEdges::MapMatchEdges()
+    : nav_state(make_edge<NavState>(edges::fusion_mapmatch, &bell)),
+      visual(make_edge<RelativeMotion>(edges::stereo_mapmatch, &bell)) {}
 
 MapMatchStage::MapMatchStage(std::shared_ptr<const RoadMap> map,
                              const mapmatch::MatchParameters& parameters, MapMatchEdges& inputs,
@@ -26,6 +28,7 @@ MapMatchStage::MapMatchStage(std::shared_ptr<const RoadMap> map,
       matches_(std::move(matches)),
       meter_(stages::mapmatch) {
   intake_.add(inputs_.nav_state, [this](const NavState& state) { newest_ = state; });
+  intake_.add(inputs_.visual, [this](const RelativeMotion& motion) { matcher_.add(motion); });
 }
 
 void MapMatchStage::run(const runtime::DataClock& clock, Time first, const std::stop_token& stop) {
@@ -78,7 +81,7 @@ bool MapMatchStage::tick(const runtime::Tick& tick, const runtime::DataClock& cl
   return true;
 }
 
-// At the tick after a cut: by then every state up to the cut is here.
+// At the tick after a cut: by then every input up to the cut is here.
 void MapMatchStage::save_until(Time t, const std::stop_token& stop) {
   cuts_.save_until(t, stop, [this](ArchiveWriter& ar, Time cut) {
     intake_.take_until(cut);
@@ -88,7 +91,7 @@ void MapMatchStage::save_until(Time t, const std::stop_token& stop) {
 
 template <class Archive, class Stage>
 void MapMatchStage::describe(Archive& ar, Stage& stage) {
-  ar.section(stages::mapmatch.name, 1);
+  ar.section(stages::mapmatch.name, 2);
   std::array<std::uint64_t, fix_refusal_count> counts{};
   std::copy(stage.counts_.begin(), stage.counts_.end(), counts.begin());
   ar(stage.matcher_, stage.newest_, stage.ticks_, counts);

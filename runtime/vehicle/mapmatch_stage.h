@@ -27,12 +27,13 @@
 
 namespace maploop::vehicle {
 
-// The edge that ends at the mapmatch thread.
+// The edges that end at the mapmatch thread.
 struct MapMatchEdges {
   MapMatchEdges();
 
   runtime::Doorbell bell;
   runtime::Edge<NavState> nav_state;
+  runtime::Edge<RelativeMotion> visual;
 };
 
 class MapMatchStage {
@@ -41,7 +42,8 @@ class MapMatchStage {
                 MapMatchEdges& inputs, std::vector<runtime::Edge<MapMatch>*> matches);
 
   // Ticks from the first one at or after `first` (data time) until the states are finished or stop
-  // is requested. Each matches the newest state that is available by then.
+  // is requested. Each matches the newest state that is available by then, and knows the visual
+  // odometry that is.
   void run(const runtime::DataClock& clock, Time first, const std::stop_token& stop);
   void finish();
 

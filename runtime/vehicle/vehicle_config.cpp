@@ -11,6 +11,7 @@
 #include "estimators/fusion/configuration.h"
 #include "estimators/lidar/validate.h"
 #include "estimators/stereo/validate.h"
+#include "mapmatch/validate.h"
 #include "runtime/core/config.h"
 #include "runtime/vehicle/config_fields.h"
 
@@ -92,6 +93,7 @@ void check_values(const VehicleConfig& config, const std::filesystem::path& file
     stereo::validate(config.stereo);
     lidar::validate(config.lidar);
     fusion::check(config.fusion);
+    mapmatch::validate(config.mapmatch);
   } catch (const std::invalid_argument& e) {
     throw runtime::ConfigError(file.string() + ": " + e.what());
   }

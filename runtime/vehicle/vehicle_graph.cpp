@@ -77,7 +77,9 @@ Vehicle::Graph::Graph(const VehicleConfig& vehicle_config, const VehicleCalibrat
       reference("reference", std::move(sensors.reference), {&to_publisher.reference}),
       odometry("odometry", std::move(sensors.odometry),
                {&to_fusion.odometry, &to_publisher.odometry}),
-      visual_log("visual log", std::move(sensors.visual), {&to_publisher.visual}),
+      visual_log("visual log", std::move(sensors.visual),
+                 to_mapmatch ? Edges<RelativeMotion>{&to_publisher.visual, &to_mapmatch->visual}
+                             : Edges<RelativeMotion>{&to_publisher.visual}),
       lidar_log("lidar log", std::move(sensors.lidar), {&to_publisher.lidar}),
       stereo(stereo::StereoOdometry(camera_of(calibration), config.stereo), images, stereo_bell,
              visual_edges()),
@@ -140,8 +142,14 @@ Edges<LidarScan> Vehicle::Graph::scan_edges() {
 }
 
 Edges<RelativeMotion> Vehicle::Graph::visual_edges() {
-  if (to_lidar) return {&to_lidar->visual, &to_publisher.visual};
-  return {&to_fusion.odometry, &to_publisher.visual, &to_publisher.odometry};
+  Edges<RelativeMotion> to{&to_publisher.visual};
+  if (to_lidar) {
+    to.push_back(&to_lidar->visual);
+  } else {
+    to.insert(to.end(), {&to_fusion.odometry, &to_publisher.odometry});
+  }
+  if (to_mapmatch) to.push_back(&to_mapmatch->visual);
+  return to;
 }
 
 Edges<GnssFix> Vehicle::Graph::fix_edges() {
@@ -325,7 +333,7 @@ void Vehicle::Graph::start_mapmatch() {
           producers, stages::mapmatch, config.scheduling.mapmatch, stop.get_token(),
           [this](const std::stop_token& token) { mapmatch->run(clock, begin, token); },
           [this] { mapmatch->finish(); }),
-      mapmatch->meter(), {&to_mapmatch->nav_state});
+      mapmatch->meter(), {&to_mapmatch->nav_state, &to_mapmatch->visual});
 }
 
 void Vehicle::Graph::start() {
@@ -339,6 +347,7 @@ void Vehicle::Graph::start() {
   }
   if (to_mapmatch) {
     monitor.watch(to_mapmatch->nav_state);
+    monitor.watch(to_mapmatch->visual);
     monitor.watch(to_publisher.map_match);
   }
   if (to_lidar) {

@@ -59,6 +59,17 @@ std::vector<NavState> drive_north() {
   return states;
 }
 
+// From 0.1 s before `seconds`, turning right by `degrees_a_second`.
+RelativeMotion visual_motion(double seconds, double degrees_a_second) {
+  RelativeMotion motion;
+  motion.status = OdometryStatus::ok;
+  motion.stamp = Time(from_seconds(1e9 + seconds));
+  motion.from = motion.stamp - std::chrono::milliseconds(100);
+  motion.translation.x() = 0.8;
+  motion.rotation = Eigen::AngleAxisd(radians(-0.1 * degrees_a_second), Eigen::Vector3d::UnitZ());
+  return motion;
+}
+
 TEST(NavMatcher, SaysWhereOnTheRoadTheStateIs) {
   NavMatcher matcher(network(), rules(), {});
   MapMatch match;
@@ -124,7 +135,10 @@ TEST(NavMatcher, SavedAndLoadedItGoesOnWithTheSameBits) {
   const auto states = drive_north();
   NavMatcher whole(network(), rules(), {});
   NavMatcher resumed(network(), rules(), {});
-  for (std::size_t i = 0; i < 120; ++i) whole.add(states[i]);
+  for (std::size_t i = 0; i < 120; ++i) {
+    whole.add(visual_motion(0.1 * static_cast<double>(i), 0.0));
+    whole.add(states[i]);
+  }
   ArchiveWriter writer;
   writer(whole);
   EXPECT_LE(writer.content().size(), sizeof(NavMatcher)) << "what a stage maps for it";
@@ -132,6 +146,8 @@ TEST(NavMatcher, SavedAndLoadedItGoesOnWithTheSameBits) {
   reader(resumed);
   reader.finish();
   for (std::size_t i = 120; i < states.size(); ++i) {
+    for (NavMatcher* matcher : {&whole, &resumed})
+      matcher->add(visual_motion(0.1 * static_cast<double>(i), 0.0));
     const MapMatch& a = whole.add(states[i]);
     const MapMatch& b = resumed.add(states[i]);
     ASSERT_EQ(a.link, b.link);
@@ -139,6 +155,49 @@ TEST(NavMatcher, SavedAndLoadedItGoesOnWithTheSameBits) {
     ASSERT_EQ(a.matched_enu, b.matched_enu);
     ASSERT_EQ(a.candidate_count, b.candidate_count);
     ASSERT_EQ(a.candidates[0].weights, b.candidates[0].weights);
+    ASSERT_EQ(a.candidates[0].rules, RuleBase::along_visual);
+    ASSERT_EQ(b.candidates[0].rules, RuleBase::along_visual);
+  }
+}
+
+TEST(VisualCourse, IsCarriedOnToTheFix) {
+  VisualCourse course;
+  VehicleFix fix;
+  course.describe(fix);
+  EXPECT_TRUE(std::isnan(fix.visual_speed)) << "nothing seen yet";
+  for (int i = 0; i <= 10; ++i) {
+    course.add(visual_motion(0.1 * i, 20.0));
+    fix.stamp = Time(from_seconds(1e9 + 0.1 * i + 0.06));
+    const double before = fix.visual_azimuth;
+    course.describe(fix);
+    EXPECT_NEAR(fix.visual_speed, 8.0, 1e-9);
+    if (i == 0) {
+      EXPECT_TRUE(std::isnan(fix.visual_azimuth)) << "no change may be taken from here";
+    } else if (i > 1) {
+      EXPECT_NEAR(degrees(wrap_angle(fix.visual_azimuth - before)), 2.0, 1e-5);
+    }
+  }
+  fix.stamp += std::chrono::milliseconds(300);
+  course.describe(fix);
+  EXPECT_TRUE(std::isnan(fix.visual_azimuth)) << "too old";
+}
+
+TEST(VisualCourse, BeginsAnewBehindAMotionThatIsMissingOrRefused) {
+  for (const bool refused : {false, true}) {
+    VisualCourse course;
+    VehicleFix fix;
+    std::vector<bool> known;
+    for (int i = 0; i < 10; ++i) {
+      RelativeMotion motion = visual_motion(0.1 * i, 0.0);
+      if (i == 5) motion.status = OdometryStatus::too_dark;
+      if (refused || i != 5) course.add(motion);
+      fix.stamp = motion.stamp;
+      course.describe(fix);
+      known.push_back(!std::isnan(fix.visual_azimuth));
+    }
+    const std::vector<bool> expected{false,    true,  true, true, true,
+                                     !refused, false, true, true, true};
+    EXPECT_EQ(known, expected) << refused;
   }
 }
 
@@ -147,7 +206,10 @@ TEST(NavMatcher, AllocatesNothing) {
   NavMatcher matcher(network(), rules(), {});
   const auto states = drive_north();
   const long before = testing::thread_allocations();
-  for (const NavState& state : states) matcher.add(state);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    matcher.add(visual_motion(0.1 * static_cast<double>(i), 0.0));
+    matcher.add(states[i]);
+  }
   EXPECT_EQ(testing::thread_allocations() - before, 0);
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "mapmatch/network_file.h"
+#include "msgs/frames.h"
 #include "tests/support/real_data.h"
 
 namespace maploop::mapmatch {
@@ -153,6 +154,64 @@ TEST(OsmReader, PlainXmlIsReadToo) {
   ASSERT_EQ(network.size(), 1u);
   EXPECT_EQ(network.road_at(0).name, "Am See");
   EXPECT_NEAR(network.link(0).length, 111.2, 0.1);
+}
+
+// Left-hand traffic, miles, no names, an area, a road across the 180th meridian, restrictions that
+// are not for cars, over a way, and for cars alone.
+TEST(OsmReader, AnotherCountrysMapIsReadAsItIsMeant) {
+  TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "taveuni.osm";
+  write(file, R"(<osm version="0.6">
+    <node id="1" lat="-16.8" lon="179.998"/><node id="2" lat="-16.8" lon="-179.999"/>
+    <node id="3" lat="-16.8" lon="-179.996"/><node id="4" lat="-16.801" lon="-179.999"/>
+    <node id="5" lat="-16.799" lon="-179.999"/>
+    <way id="10"><nd ref="1"/><nd ref="2"/><tag k="highway" v="trunk"/>
+      <tag k="driving_side" v="left"/><tag k="maxspeed" v="30 mph"/><tag k="ref" v="1"/></way>
+    <way id="11"><nd ref="2"/><nd ref="3"/><tag k="highway" v="residential"/></way>
+    <way id="12"><nd ref="2"/><nd ref="4"/><tag k="highway" v="service"/></way>
+    <way id="13"><nd ref="2"/><nd ref="5"/><tag k="highway" v="track"/></way>
+    <way id="14"><nd ref="3"/><nd ref="4"/><nd ref="5"/><nd ref="3"/>
+      <tag k="highway" v="pedestrian"/><tag k="area" v="yes"/></way>
+    <relation id="20"><member type="way" ref="14" role="outer"/>
+      <tag k="type" v="multipolygon"/><tag k="highway" v="service"/></relation>
+    <relation id="21"><member type="way" ref="10" role="from"/><member type="node" ref="2" role="via"/>
+      <member type="way" ref="11" role="to"/><tag k="type" v="restriction"/>
+      <tag k="restriction" v="no_straight_on"/><tag k="except" v="psv;motorcar"/></relation>
+    <relation id="22"><member type="way" ref="10" role="from"/><member type="way" ref="12" role="via"/>
+      <member type="way" ref="11" role="to"/><tag k="type" v="restriction"/>
+      <tag k="restriction" v="no_u_turn"/></relation>
+    <relation id="23"><member type="way" ref="10" role="from"/><member type="node" ref="2" role="via"/>
+      <member type="way" ref="12" role="to"/><tag k="type" v="restriction"/>
+      <tag k="restriction:motorcar" v="no_left_turn"/></relation>
+    <relation id="24"><member type="way" ref="10" role="from"/><member type="node" ref="2" role="via"/>
+      <member type="way" ref="13" role="to"/><tag k="type" v="restriction"/>
+      <tag k="restriction:hgv" v="no_right_turn"/></relation></osm>)");
+  const RoadNetwork network(build_network(read_osm(file)));
+  ASSERT_EQ(network.size(), 4U) << "the area is no road";
+  double length = 0.0;
+  for (std::uint32_t i = 0; i < network.size(); ++i) length += network.link(i).length;
+  EXPECT_NEAR(length, 320 + 320 + 111 + 111, 5) << "not once round the earth";
+  const Eigen::Vector2d west = network.to_local({radians(-16.8), radians(179.998), 0.0});
+  const Eigen::Vector2d east = network.to_local({radians(-16.8), radians(-179.999), 0.0});
+  EXPECT_NEAR((east - west).norm(), 319.6, 1.0);
+  const Road& trunk = network.data().roads[0];
+  EXPECT_EQ(trunk.name, "1") << "its number, for it has no name";
+  EXPECT_NEAR(trunk.speed_limit, 30 * 0.44704, 1e-9);
+  EXPECT_TRUE(network.data().roads[1].name.empty());
+  ASSERT_EQ(network.data().banned.size(), 1U);
+  EXPECT_EQ(network.road_at(network.link(network.data().banned[0].to.link).first_vertex).way_id,
+            12);
+  ASSERT_EQ(network.data().warnings.size(), 1U);
+  EXPECT_EQ(network.data().warnings[0], "1 turn restrictions over a way between are left out");
+}
+
+TEST(OsmReader, AMapThatIsTooWideForOnePlaneIsWarnedOf) {
+  MapExtract map;
+  map.nodes = {{1, 40.0, -100.0}, {2, 40.0, -99.99}, {3, 40.0, -85.0}, {4, 40.0, -84.99}};
+  map.ways = {{Road{}, {1, 2}}, {Road{}, {3, 4}}};
+  const NetworkData network = build_network(map);
+  ASSERT_EQ(network.warnings.size(), 1U);
+  EXPECT_THAT(network.warnings[0], ::testing::HasSubstr("640 km from its middle"));
 }
 
 }  // namespace

@@ -64,5 +64,48 @@ TEST(VehicleMotion, TurnsAreChangesOfOneSecondAtEveryRateAndWrapped) {
   }
 }
 
+// Turning right at 20 degrees a second for 9 s; the images show `visual` degrees a second, and
+// nothing at all at `dark` s.
+Motion seen_turning(int rate, double visual, double dark = -1.0) {
+  VehicleMotion motion;
+  Motion last;
+  for (int i = 0; i <= 9 * rate; ++i) {
+    VehicleFix fix;
+    const double t = static_cast<double>(i) / rate;
+    fix.stamp = Time(from_seconds(t));
+    fix.speed = 5.0;
+    fix.azimuth = wrap_angle(radians(170.0 + 20.0 * t));
+    fix.azimuth_sigma = radians(0.5);
+    if (std::abs(t - dark) > 1e-3) {
+      fix.visual_speed = 5.2;
+      fix.visual_azimuth = wrap_angle(radians(-60.0 + visual * t));
+    }
+    last = motion.add(fix, {0.0, 0.0}, {});
+  }
+  return last;
+}
+
+TEST(VehicleMotion, VisualTurnsAreOfOneSecondAtEveryRate) {
+  for (const int rate : {1, 5, 10}) {
+    const Motion motion = seen_turning(rate, 21.0);
+    EXPECT_NEAR(degrees(motion.visual_turn), 21.0, 0.1) << rate;
+    EXPECT_NEAR(degrees(motion.visual_reversal), 126.0, 0.1) << rate;
+    EXPECT_EQ(motion.visual_speed, 5.2) << rate;
+  }
+}
+
+TEST(VehicleMotion, ImagesThatContradictTheFixesAreNoWitness) {
+  EXPECT_TRUE(std::isfinite(seen_turning(10, 17.5).visual_turn)) << "2.5 degrees";
+  const Motion motion = seen_turning(10, 16.5);
+  EXPECT_TRUE(std::isnan(motion.visual_turn)) << "3.5 degrees";
+  EXPECT_TRUE(std::isnan(motion.visual_speed));
+}
+
+TEST(VehicleMotion, NoVisualTurnIsTakenAcrossABreak) {
+  EXPECT_TRUE(std::isnan(seen_turning(10, 20.0, 8.5).visual_turn));
+  EXPECT_TRUE(std::isfinite(seen_turning(10, 20.0, 7.5).visual_turn));
+  EXPECT_TRUE(std::isnan(seen_turning(10, 20.0, 7.5).visual_reversal));
+}
+
 }  // namespace
 }  // namespace maploop::mapmatch

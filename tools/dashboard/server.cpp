@@ -3,6 +3,7 @@
 #include <httplib.h>
 
 #include <atomic>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <thread>
@@ -49,6 +50,7 @@ struct Server::Http {
   void add_routes();
   void stream(httplib::Response& response);
   void control(const httplib::Request& request, httplib::Response& response) const;
+  void roads(const httplib::Request& request, httplib::Response& response) const;
 
   LiveChannels& channels;
   Handlers handlers;
@@ -95,6 +97,21 @@ void Server::Http::control(const httplib::Request& request, httplib::Response& r
   response.set_content("{}", "application/json");
 }
 
+void Server::Http::roads(const httplib::Request& request, httplib::Response& response) const {
+  Geodetic origin;
+  try {
+    origin.latitude = std::stod(request.get_param_value("latitude"));
+    origin.longitude = std::stod(request.get_param_value("longitude"));
+    origin.height = std::stod(request.get_param_value("height"));
+  } catch (const std::logic_error&) {
+    return refuse(response, 400, "not latitude=RAD&longitude=RAD&height=M");
+  }
+  const bool on_earth = std::abs(origin.latitude) <= 1.6 && std::abs(origin.longitude) <= 6.3 &&
+                        std::abs(origin.height) <= 1e5;
+  if (!on_earth) return refuse(response, 400, "no place on the earth");
+  response.set_content(handlers.roads(origin), "application/json");
+}
+
 void Server::Http::add_routes() {
   server.new_task_queue = [] { return new httplib::ThreadPool(threads); };
   server.set_payload_max_length(4096);
@@ -103,6 +120,9 @@ void Server::Http::add_routes() {
   });
   server.Get("/trail", [this](const httplib::Request&, httplib::Response& response) {
     response.set_content(handlers.trail(), "application/json");
+  });
+  server.Get("/roads", [this](const httplib::Request& request, httplib::Response& response) {
+    roads(request, response);
   });
   server.Get("/events",
              [this](const httplib::Request&, httplib::Response& response) { stream(response); });

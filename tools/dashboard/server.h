@@ -5,12 +5,14 @@
 #include <memory>
 #include <string>
 
+#include "msgs/local_frame.h"
 #include "tools/dashboard/live_channels.h"
 
 namespace maploop::dashboard {
 
 //   GET  /         the page
 //   GET  /trail    where the vehicle has been
+//   GET  /roads    ?latitude=RAD&longitude=RAD&height=M: roads about this origin, in its metres
 //   GET  /events   server-sent events, each {"channel": ..., "message": ...}; at most ten looks a
 //   second POST /control  {"kind": "pause", "value": 0}: a command to the player of a replay
 // A request that comes from another site's page is refused.
@@ -20,6 +22,7 @@ class Server {
     std::function<std::string()> trail;  // JSON; on any thread
     // Empty: done; otherwise why it is refused. On any thread.
     std::function<std::string(const std::string& kind, double value)> control;
+    std::function<std::string(const Geodetic& origin)> roads;  // JSON; on any thread
   };
 
   // Port 0: any that is free. Throws std::runtime_error naming address and port when they cannot be

@@ -18,6 +18,8 @@ namespace {
 
 using Cells = std::vector<std::string_view>;
 
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blank = " \t\r\"";
   const auto first = text.find_first_not_of(blank);
@@ -57,7 +59,9 @@ enum class Column {
   azimuth_sigma,
   yaw,
   yaw_rate,
-  hdop
+  hdop,
+  visual_speed,
+  visual_azimuth
 };
 
 const std::map<std::string_view, Column>& column_names() {
@@ -90,6 +94,8 @@ const std::map<std::string_view, Column>& column_names() {
                                                         {"v", speed},
                                                         {"vf", speed},
                                                         {"speed_mps", speed},
+                                                        {"forward_speed", speed},
+                                                        {"sigma_speed", speed_sigma},
                                                         {"speed_sigma", speed_sigma},
                                                         {"azimuth_deg", azimuth},
                                                         {"azimuth", azimuth},
@@ -98,10 +104,13 @@ const std::map<std::string_view, Column>& column_names() {
                                                         {"heading_deg", azimuth},
                                                         {"course_deg", azimuth},
                                                         {"azimuth_sigma_deg", azimuth_sigma},
+                                                        {"sigma_azimuth", azimuth_sigma},
                                                         {"yaw", yaw},
                                                         {"yaw_rate", yaw_rate},
                                                         {"wz", yaw_rate},
-                                                        {"hdop", hdop}};
+                                                        {"hdop", hdop},
+                                                        {"visual_speed", visual_speed},
+                                                        {"visual_azimuth_deg", visual_azimuth}};
   return names;
 }
 
@@ -111,6 +120,7 @@ class Reader {
 
   Track read(std::string_view text) {
     Track track;
+    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
     while (!text.empty()) {
       const auto end = text.find('\n');
       const std::string_view line = trimmed(text.substr(0, end));
@@ -184,6 +194,8 @@ class Reader {
     set(fix.azimuth_sigma, Column::azimuth_sigma, radians(1.0));
     set(fix.yaw_rate, Column::yaw_rate);
     set(fix.hdop, Column::hdop);
+    set(fix.visual_speed, Column::visual_speed);
+    set(fix.visual_azimuth, Column::visual_azimuth, radians(1.0));
     return fix;
   }
 

@@ -1,6 +1,7 @@
 #include <stdexcept>
 
 #include "mapmatch/nav_matcher.h"
+#include "mapmatch/visual_course.h"
 #include "msgs/lcm/channel_names.h"
 #include "tools/match/log_messages.h"
 #include "tools/match/track_file.h"
@@ -18,21 +19,38 @@ mapmatch::VehicleFix fix_of(const GnssFix& gnss) {
   return fix;
 }
 
+// Every tenth of a second's, with what visual odometry said by then.
+Track with_visual_course(const std::vector<NavState>& states,
+                         const std::vector<RelativeMotion>& visual) {
+  Track track;
+  mapmatch::VisualCourse course;
+  auto next = visual.begin();
+  for (const NavState& state : states) {
+    if (!track.empty() && state.stamp - track.back().stamp < state_period) continue;
+    for (; next != visual.end() && next->available <= state.available; ++next) course.add(*next);
+    track.push_back(mapmatch::fix_of(state));
+    course.describe(track.back());
+  }
+  return track;
+}
+
 }  // namespace
 
 Track read_log_track(const std::filesystem::path& file) {
-  Track states, fixes;
+  std::vector<NavState> states;
+  std::vector<RelativeMotion> visual;
+  Track fixes;
   visit_log(file, [&](const lcm_log::LogEvent& event) {
     if (event.channel == channel_names::nav_state) {
-      const auto state = decoded<maploop_lcm::nav_state_t>(event, file);
-      if (state.status == NavStatus::uninitialized) return;
-      if (states.empty() || state.stamp - states.back().stamp >= state_period)
-        states.push_back(mapmatch::fix_of(state));
+      states.push_back(decoded<maploop_lcm::nav_state_t>(event, file));
+      if (states.back().status == NavStatus::uninitialized) states.pop_back();
+    } else if (event.channel == channel_names::visual_odometry) {
+      visual.push_back(decoded<maploop_lcm::relative_motion_t>(event, file));
     } else if (event.channel == channel_names::gnss_fix) {
       fixes.push_back(fix_of(decoded<maploop_lcm::gnss_fix_t>(event, file)));
     }
   });
-  if (!states.empty()) return states;
+  if (!states.empty()) return with_visual_course(states, visual);
   if (fixes.empty())
     throw std::runtime_error(file.string() +
                              " holds neither NAV_STATE nor GNSS_FIX; is it a log of 'maploop "

@@ -44,7 +44,13 @@ FaultScore score_fault(const std::vector<MatchedFix>& matched, const Track& trac
     const bool is_missing = label->second.way_id == missing;
     const bool right = matched[i].way_id == label->second.way_id;
     if (was_missing && !is_missing) right_again = way;
-    if (is_missing) right_again = -1.0;
+    if (is_missing) {
+      right_again = -1.0;
+      ++score.missing_fixes;
+      score.missing_said += matched[i].way_id ? 1 : 0;
+      score.missing_sure += matched[i].way_id && matched[i].p_link > sure ? 1 : 0;
+      score.missing_p_sum += matched[i].way_id ? matched[i].p_link : 0.0;
+    }
     was_missing = is_missing;
     if (right_again >= 0.0) {
       score.recovery = std::max(score.recovery, way - right_again);

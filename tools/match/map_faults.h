@@ -18,6 +18,10 @@ mapmatch::NetworkData without_way(const mapmatch::MapExtract& map, std::int64_t 
 struct FaultScore {
   double longest_sure_wrong = 0.0;  // s without a break with a wrong link of P above 0.9
   double recovery = 0.0;  // m, the longest from where the map is right again to the right link
+  // Fixes on the way that is missing, those of them with a link, with one of P above 0.9, and the
+  // sum of P.
+  std::size_t missing_fixes = 0, missing_said = 0, missing_sure = 0;
+  double missing_p_sum = 0.0;
   double worst_at = 0.0;  // s since the track's begin where longest_sure_wrong ended
 };
 

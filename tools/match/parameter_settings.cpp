@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "mapmatch/parameter_fields.h"
+#include "mapmatch/validate.h"
 
 namespace maploop::match {
 
@@ -26,6 +27,11 @@ mapmatch::MatchParameters parameters_with(const std::vector<std::string>& settin
       found = true;
     });
     if (!found) throw std::runtime_error("--set " + setting + ": there is no such parameter");
+  }
+  try {
+    mapmatch::validate(parameters);
+  } catch (const std::invalid_argument& e) {
+    throw std::runtime_error(std::string("--set: ") + e.what());
   }
   return parameters;
 }

@@ -1,14 +1,45 @@
 #include <Eigen/Geometry>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "msgs/frames.h"
 #include "tools/match/track_file.h"
 
 namespace maploop::match {
+namespace {
+
+constexpr double stride = 2.0;     // m of way whose direction is compared with the axes
+constexpr double agreement = 0.9;  // mean cosine from which an axis is the forward one
+
+struct Pose {
+  Eigen::Vector2d place;
+  Eigen::Matrix3d rotation;
+};
+
+// The format does not say which axis looks forward: that of a vehicle (x), or a camera (z). It is
+// the one that looks where the poses go; none where none does.
+int forward_axis(const std::vector<Pose>& poses) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double strides = 0.0;
+  std::size_t last = 0;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const Eigen::Vector2d way = poses[i].place - poses[last].place;
+    if (way.norm() < stride) continue;
+    const std::size_t between = (last + i) / 2;
+    for (int axis = 0; axis < 3; ++axis)
+      sum[axis] += way.normalized().dot(poses[between].rotation.col(axis).head<2>());
+    strides += 1.0;
+    last = i;
+  }
+  int best = 0;
+  if (strides == 0.0 || sum.maxCoeff(&best) < agreement * strides) return -1;
+  return best;
+}
+
+}  // namespace
 
 Track parse_tum_track(std::string_view text, std::string_view name,
                       const TrackFileOptions& options) {
@@ -17,6 +48,7 @@ Track parse_tum_track(std::string_view text, std::string_view name,
                              " is in local metres: say where their origin is (--origin LAT,LON)");
   const LocalFrame frame(*options.origin);
   Track track;
+  std::vector<Pose> poses;
   int line_number = 0;
   while (!text.empty()) {
     ++line_number;
@@ -33,9 +65,14 @@ Track parse_tum_track(std::string_view text, std::string_view name,
     fix.stamp = Time(from_seconds(t));
     fix.position = frame.to_geodetic({x, y, 0.0});
     fix.covariance = options.sigma * options.sigma * Eigen::Matrix2d::Identity();
-    fix.azimuth =
-        azimuth_from_yaw(std::atan2(2.0 * (qw * qz + qx * qy), 1.0 - 2.0 * (qy * qy + qz * qz)));
     track.push_back(fix);
+    poses.push_back({{x, y}, Eigen::Quaterniond(qw, qx, qy, qz).normalized().toRotationMatrix()});
+  }
+  if (const int axis = forward_axis(poses); axis >= 0) {
+    for (std::size_t i = 0; i < track.size(); ++i) {
+      const Eigen::Vector3d forward = poses[i].rotation.col(axis);
+      track[i].azimuth = std::atan2(forward.x(), forward.y());
+    }
   }
   return track;
 }

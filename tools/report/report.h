@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "mapmatch/road_network.h"
 #include "msgs/reference.h"
 #include "tools/evaluation/trajectory_file.h"
 #include "tools/fusion_score.h"
@@ -24,8 +25,9 @@ struct ReplayReport {
   const fusion_score::NavTrack& track;
   std::vector<ReferencePose> reference;  // empty: the recording has none
   std::vector<DeadReckoning> dead_reckoning;
-  std::string configuration;  // TOML
-  std::string version;        // of maploop
+  std::string configuration;                     // TOML
+  std::string version;                           // of maploop
+  const mapmatch::RoadNetwork* roads = nullptr;  // nullptr: there was no map
 };
 
 // Writes one HTML page. Throws std::runtime_error naming the file when it cannot be written.

@@ -7,6 +7,7 @@
 
 #include "msgs/frames.h"
 #include "sensors/replay/reference_trajectory.h"
+#include "tools/match/road_lines.h"
 
 namespace maploop::report {
 namespace {
@@ -16,15 +17,18 @@ using web::Plot;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double sigmas = 3.0;
+constexpr double surroundings = 150.0;  // m about the way, of which roads are drawn
 
 using Truth = std::optional<sensors::ReferenceTrajectory>;
 
-// In the frame of the first state, or of the first reference pose where there is no state.
+// Of the first state, or of the first reference pose where there is no state.
+Geodetic origin_of(const ReplayReport& r) {
+  return r.track.states().empty() ? r.reference.front().position : r.track.states().front().origin;
+}
+
 Truth truth_of(const ReplayReport& r) {
   if (r.reference.size() < 2) return std::nullopt;
-  const Geodetic origin =
-      r.track.states().empty() ? r.reference.front().position : r.track.states().front().origin;
-  return sensors::ReferenceTrajectory(r.reference, LocalFrame(origin));
+  return sensors::ReferenceTrajectory(r.reference, LocalFrame(origin_of(r)));
 }
 
 void add(Line& line, const Eigen::Vector3d& p) {
@@ -166,6 +170,8 @@ web::Plot trajectory_map(const ReplayReport& r) {
     Line line = dead_reckoned_line(r, way, truth);
     if (!line.x.empty()) plot.lines.push_back(std::move(line));
   }
+  if (r.roads != nullptr && (truth || !r.track.states().empty()))
+    plot.roads = match::road_lines(*r.roads, origin_of(r), plot.lines, surroundings);
   return plot;
 }
 

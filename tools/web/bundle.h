@@ -13,4 +13,8 @@ std::string_view page_style();
 std::string_view dashboard_script();
 std::string_view dashboard_style();
 
+// Of the page of `maploop match`.
+std::string_view match_script();
+std::string_view match_style();
+
 }  // namespace maploop::web

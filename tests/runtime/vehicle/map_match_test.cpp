@@ -35,6 +35,28 @@ std::shared_ptr<const RoadMap> north_road() {
   return map;
 }
 
+// Visual odometry that goes as the drive does, or turns where it does not.
+std::unique_ptr<sensors::Source<RelativeMotion>> visual_odometry(double yaw_rate) {
+  return std::make_unique<testing::FakeSource<RelativeMotion>>(
+      60, [yaw_rate](std::uint64_t i, RelativeMotion& motion) {
+        motion.from = drive_start + i * milliseconds(100);
+        motion.stamp = motion.from + milliseconds(100);
+        motion.available = motion.stamp + milliseconds(55);
+        motion.status = OdometryStatus::ok;
+        motion.translation.x() = 1.0;
+        motion.rotation = Eigen::AngleAxisd(0.1 * yaw_rate, Eigen::Vector3d::UnitZ());
+        motion.covariance = 1e-4 * Eigen::Matrix<double, 6, 6>::Identity();
+      });
+}
+
+Sensors with_visual_odometry(double yaw_rate = 0.0) {
+  Sensors sensors = fake_sensors(6.0);
+  sensors.camera = nullptr;
+  sensors.odometry = visual_odometry(yaw_rate);
+  sensors.visual = visual_odometry(yaw_rate);
+  return sensors;
+}
+
 struct Driven {
   std::map<std::string, ChannelSummary> channels;
   MessageTape::Channels tape;
@@ -44,13 +66,14 @@ struct Driven {
 };
 
 Driven drive(const DataClock& clock, std::shared_ptr<const RoadMap> map,
-             const std::vector<Time>& cuts = {}, const Snapshot* from = nullptr) {
+             const std::vector<Time>& cuts = {}, const Snapshot* from = nullptr,
+             Sensors sensors = fake_sensors(6.0)) {
   Driven run;
   ChannelHashes hashes;
   MessageTape tape;
   Observer observer;
   observer.map_match = [&](const MapMatch& match) { run.matches.push_back(match); };
-  Vehicle vehicle({}, fake_calibration(), fake_sensors(6.0), clock, {&hashes, &tape}, observer,
+  Vehicle vehicle({}, fake_calibration(), std::move(sensors), clock, {&hashes, &tape}, observer,
                   nullptr, std::move(map));
   if (from != nullptr) vehicle.resume(*from);
   vehicle.take_snapshots(cuts, [&](const Snapshot& s) { run.snapshots.push_back(s); });
@@ -119,6 +142,38 @@ TEST(VehicleMapMatch, AResumedRunSendsWhatTheWholeRunSends) {
       if (taped.time > snapshot.at) expected.push_back(taped);
     EXPECT_EQ(resumed.tape.at("MAP_MATCH"), expected) << format_time(snapshot.at);
   }
+}
+
+TEST(VehicleMapMatch, VisualOdometryIsAskedTooWithTheSameBitsInEachRun) {
+  const std::vector<Time> cuts{drive_start + milliseconds(3010)};
+  const Driven lockstep =
+      drive(DataClock::virtual_time(), north_road(), cuts, nullptr, with_visual_odometry());
+  std::size_t asked = 0;
+  for (const MapMatch& match : lockstep.matches)
+    asked += match.candidates[0].rules == RuleBase::along_visual;
+  EXPECT_GE(asked, 20U);
+  EXPECT_EQ(lockstep.matches.at(55).candidates[0].rules, RuleBase::along_visual);
+  EXPECT_GT(lockstep.matches.at(55).candidates[0].weights[18], 0.9F)
+      << "fast and no turn in the images";
+
+  const Driven paced =
+      drive(DataClock::paced(4.0), north_road(), {}, nullptr, with_visual_odometry());
+  EXPECT_EQ(paced.channels.at("MAP_MATCH").hash, lockstep.channels.at("MAP_MATCH").hash);
+
+  const Driven resumed = drive(DataClock::virtual_time(), north_road(), {},
+                               &lockstep.snapshots.at(0), with_visual_odometry());
+  std::vector<MessageTape::Taped> expected;
+  for (const auto& taped : lockstep.tape.at("MAP_MATCH"))
+    if (taped.time > lockstep.snapshots.at(0).at) expected.push_back(taped);
+  EXPECT_EQ(resumed.tape.at("MAP_MATCH"), expected);
+}
+
+TEST(VehicleMapMatch, VisualOdometryThatContradictsTheStateIsNotAsked) {
+  const Driven run = drive(DataClock::virtual_time(), north_road(), {}, nullptr,
+                           with_visual_odometry(radians(20.0)));
+  for (const MapMatch& match : run.matches)
+    for (std::size_t i = 0; i < match.candidate_count; ++i)
+      ASSERT_NE(match.candidates[i].rules, RuleBase::along_visual) << match.sequence;
 }
 
 TEST(VehicleMapMatch, ASnapshotWithoutAMapIsRefusedWhereThereIsOne) {

@@ -129,7 +129,9 @@ TEST(VehicleConfig, AValueThatCannotWorkNamesFileAndKey) {
   for (const auto& [text, said] : std::initializer_list<std::pair<const char*, const char*>>{
            {"[fusion]\ngyro_noise = -1.0\n", "test.toml: fusion parameter gyro_noise"},
            {"[stereo]\nwindow = 14\n", "test.toml: stereo odometry: window"},
-           {"[lidar]\nmap_voxel = 0.0\n", "test.toml: LiDAR odometry: map_voxel"}}) {
+           {"[lidar]\nmap_voxel = 0.0\n", "test.toml: LiDAR odometry: map_voxel"},
+           {"[mapmatch]\nmemory = 0.0\n", "test.toml: map matching: memory must be positive"},
+           {"[mapmatch]\nbirth = -1.0\n", "test.toml: map matching: birth must be 0 or more"}}) {
     try {
       load_text(text);
       ADD_FAILURE() << text;

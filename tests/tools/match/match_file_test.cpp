@@ -51,7 +51,7 @@ class MatchLog : public ::testing::Test {
     write("GNSS_FIX", to_lcm(fix));
     for (int i = 0; i < 100; ++i) {
       NavState state;
-      state.stamp = start + i * tick;
+      state.stamp = state.available = start + i * tick;
       state.status = i < 20 ? NavStatus::uninitialized : NavStatus::aided;
       state.origin = fix.position;
       state.position_enu.y() = 0.1 * i;
@@ -77,6 +77,25 @@ TEST_F(MatchLog, ItsStatesAreATrackOfTenFixesASecond) {
   EXPECT_NEAR(track[0].covariance(0, 0), 0.25, 1e-12);
   EXPECT_NEAR(track[0].speed, 10.0, 1e-12);
   EXPECT_NEAR(track[0].speed_sigma, 0.5, 1e-12);
+}
+
+TEST_F(MatchLog, VisualOdometryThatWasThereByThenIsInTheFixes) {
+  for (int i = 0; i < 9; ++i) {
+    RelativeMotion motion;
+    motion.status = OdometryStatus::ok;
+    motion.from = start + i * 10 * tick;
+    motion.stamp = motion.from + 10 * tick;
+    motion.available = motion.stamp + 6 * tick;
+    motion.translation.x() = 0.9;
+    write("VO", to_lcm(motion));
+  }
+  write_states();
+  writer.close();
+  const Track track = read_track(file, {});
+  ASSERT_EQ(track.size(), 8U);
+  EXPECT_NEAR(track[3].visual_speed, 9.0, 1e-12);
+  EXPECT_TRUE(std::isnan(track[0].visual_azimuth)) << "the first one";
+  EXPECT_EQ(track[3].visual_azimuth, 0.0);
 }
 
 TEST_F(MatchLog, WithoutStatesItsFixesAre) {
@@ -117,8 +136,7 @@ TEST_F(MatchLog, ItsMatchesCountAtTheNearestFrames) {
 }
 
 TEST_F(MatchLog, WhatCannotBeReadIsNamed) {
-  NavState state;
-  write("VO", to_lcm(state));
+  write("VO", to_lcm(RelativeMotion{}));
   writer.close();
   EXPECT_THAT(refusal([&] { read_track(file, {}); }), HasSubstr("neither NAV_STATE nor GNSS_FIX"));
   EXPECT_THAT(refusal([&] { read_matches(file); }), HasSubstr("--map"));

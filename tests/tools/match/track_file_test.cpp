@@ -117,8 +117,22 @@ TEST(TumTrack, NeedsAnOrigin) {
   const Track track = parse_tum_track("# x\n1 0 100 5 0 0 0 1\n", "a.tum", options);
   ASSERT_EQ(track.size(), 1u);
   EXPECT_NEAR(degrees(track[0].position.latitude), 49.0009, 1e-5);
-  EXPECT_NEAR(track[0].azimuth, radians(90.0), 1e-9) << "no rotation looks east";
+  EXPECT_TRUE(std::isnan(track[0].azimuth)) << "which way is forward?";
   EXPECT_THAT(refusal([&] { parse_tum_track("1 2 3\n", "a.tum", options); }), HasSubstr("a.tum:1"));
+}
+
+TEST(TumTrack, TheAxisThatLooksWhereThePosesGoIsForward) {
+  TrackFileOptions options;
+  options.origin = Geodetic{radians(49.0), radians(8.0), 0.0};
+  const auto east_with = [&](const std::string& rotation) {
+    std::string text;
+    for (int i = 0; i < 5; ++i)
+      text += std::to_string(i) + " " + std::to_string(3 * i) + " 0 0 " + rotation + "\n";
+    return parse_tum_track(text, "a.tum", options).at(2).azimuth;
+  };
+  EXPECT_NEAR(east_with("0 0 0 1"), radians(90.0), 1e-6) << "a vehicle's x";
+  EXPECT_NEAR(east_with("0.5 -0.5 0.5 -0.5"), radians(90.0), 1e-6) << "a camera's z";
+  EXPECT_TRUE(std::isnan(east_with("0 0 1 0"))) << "backwards";
 }
 
 TEST(ReadTrack, AFileThatIsMissingOrEmptyIsNamed) {

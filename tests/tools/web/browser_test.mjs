@@ -1,4 +1,4 @@
-// maploop's report and its dashboard as people see them.
+// maploop's report, its match page and its dashboard as people see them.
 //
 //   node browser_test.mjs MAPLOOP PICTURES CHROMIUM
 import assert from "node:assert/strict";
@@ -72,6 +72,32 @@ test("the report draws every picture, on a desk, on a phone and on paper", async
     assert.ok(overflow <= 0, `${overflow} px beyond the edge of the ${name}`);
     await page.screenshot({ path: join(pictures, `report-${name}.png`), fullPage: true });
     if (name === "desktop") await page.pdf({ path: join(pictures, "report.pdf"), format: "A4" });
+    await page.close();
+  }
+});
+
+test("the match page shows roads, fixes and the candidates of a fix, by mouse and by key", async () => {
+  const file = join(pictures, "match.html");
+  const data = process.env.MAPLOOP_DATA;
+  const map = join(data, "maps/karlsruhe_2012-04.osm.pbf");
+  const match = spawnSync(maploop, ["match", map, join(data, "kitti_odometry/oxts/04.csv.gz"), "--html", file]);
+  assert.equal(match.status, 0, String(match.stderr));
+  for (const [name, viewport] of Object.entries({ desktop, phone })) {
+    const page = await open(viewport, pathToFileURL(file).href);
+    page.on("request", (request) => assert.fail(`the page asks for ${request.url()}`));
+    const canvas = page.locator("#map canvas");
+    await canvas.waitFor(patience);
+    assert.ok(await canvas.evaluate(isDrawn));
+    await page.keyboard.press("ArrowRight");
+    await page.getByText(/^Fix 1 of \d+/).waitFor(patience);
+    assert.ok((await page.locator(".rule").count()) > 0, "the rules of its candidates");
+    await page.getByRole("button", { name: "next" }).click();
+    await page.getByText(/^Fix 2 of/).waitFor(patience);
+    const box = await canvas.boundingBox();
+    for (let x = 0.1; x < 0.9; x += 0.02) await page.mouse.click(box.x + x * box.width, box.y + 0.5 * box.height);
+    const overflow = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+    assert.ok(overflow <= 0, `${overflow} px beyond the edge of the ${name}`);
+    await page.screenshot({ path: join(pictures, `match-${name}.png`) });
     await page.close();
   }
 });

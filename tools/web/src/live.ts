@@ -1,4 +1,6 @@
 // The connection to the dashboard's server, and what comes over it: LCM messages by their fields' names.
+import type { Geodetic } from "./geodesy";
+import type { Line } from "./plot";
 
 export interface Header {
   stamp_ns: number;
@@ -138,6 +140,13 @@ export async function command(kind: string, value = 0): Promise<void> {
     const said = (await answer.json().catch(() => ({}))) as { refused?: string };
     throw new Error(said.refused ?? `the server answered ${answer.status}`);
   }
+}
+
+// The map's roads about an origin, in metres.
+export async function roads(origin: Geodetic): Promise<Line[]> {
+  const { latitude, longitude, height } = origin;
+  const answer = await fetch(`/roads?latitude=${latitude}&longitude=${longitude}&height=${height}`);
+  return answer.ok ? ((await answer.json()) as { roads: Line[] }).roads : [];
 }
 
 export async function trail(): Promise<Trail> {

@@ -1,6 +1,6 @@
 // The map of the dashboard: where the vehicle has been and is, and how sure of it it is.
 import { eastNorth, type Geodetic } from "./geodesy";
-import type { Fix, MapMatch, NavState, Pose, Trail } from "./live";
+import { roads, type Fix, type MapMatch, type NavState, type Pose, type Trail } from "./live";
 import { MapView } from "./map";
 import { colour, type Line } from "./plot";
 
@@ -109,6 +109,15 @@ export class LiveMap {
   private begin(origin: Geodetic): void {
     this.origin = origin;
     for (const way of [this.truth, this.fused, this.fixes]) way.clear();
+    this.map.roads = [];
+    roads(origin).then(
+      (lines) => {
+        if (this.origin !== origin) return; // there is a later one
+        this.map.roads = lines;
+        this.map.redraw();
+      },
+      () => undefined, // the next origin asks again
+    );
   }
 
   private addTo(way: Way, pose: Pose): void {

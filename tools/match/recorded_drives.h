@@ -1,0 +1,35 @@
+// Recorded drives with labels of the links driven, and the errors that experiments add to them.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tools/match/labels.h"
+#include "tools/match/track.h"
+#include "tools/match/track_noise.h"
+
+namespace maploop::match {
+
+struct RecordedDrive {
+  std::string name;
+  Track track;
+  std::map<std::size_t, Label> labels;  // by the track's row
+};
+
+// FOLDER/oxts/NAME.csv.gz and FOLDER/labels/NAME.csv.gz. Throws std::runtime_error naming the file.
+RecordedDrive read_recorded_drive(const std::filesystem::path& folder, const std::string& name);
+
+struct InputCondition {
+  const char* name;
+  double interval;  // s between fixes; 0: all rows
+  TrackNoise noise;
+
+  bool noisy() const { return noise.white + noise.markov > 0.0; }
+};
+
+// Without noise, with white and with Gauss-Markov noise of 5, 10 and 15 m; at 1 and 10 Hz.
+const std::vector<InputCondition>& input_conditions();
+
+}  // namespace maploop::match

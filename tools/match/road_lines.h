@@ -1,0 +1,16 @@
+// Roads as lines of a picture.
+#pragma once
+
+#include <vector>
+
+#include "mapmatch/road_network.h"
+#include "tools/web/plot.h"
+
+namespace maploop::match {
+
+// The links within `reach` metres of the box about the lines, both in metres east and north of
+// `origin`. None where the lines are empty.
+std::vector<web::Line> road_lines(const mapmatch::RoadNetwork& network, const Geodetic& origin,
+                                  const std::vector<web::Line>& lines, double reach);
+
+}  // namespace maploop::match
