@@ -92,7 +92,7 @@ Outcome apply_map(FilterState& state, const MapFeedback& feedback, const LocalFr
     outcome = correct();
     // As long as what GNSS has said still holds, it is the road that is wrong.
     const bool on_its_own = state.stamp - state.gnss_stamp > from_seconds(p.gnss_offset_time);
-    if (outcome.refused() && ++state.map_gated_in_a_row % p.map_recover_after == 0 && on_its_own) {
+    if (outcome.refused() && ++state.map_gated_in_a_row == p.map_recover_after && on_its_own) {
       const double wrong = p.map_recovery_sigma;
       for (const int i : {index::east, index::north}) state.P(i, i) += wrong * wrong;
       ++state.recoveries;

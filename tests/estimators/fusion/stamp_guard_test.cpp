@@ -14,7 +14,7 @@ TEST(StampGuard, TakesTheFirstStampAndWhatLiesNearIt) {
   EXPECT_EQ(guard.check(at(100.0)), Reason::none);
   guard.accept(at(100.0));
   EXPECT_EQ(guard.check(at(98.5)), Reason::none);
-  EXPECT_EQ(guard.check(at(97.0)), Reason::too_old);
+  EXPECT_EQ(guard.check(at(96.5)), Reason::too_old);
   EXPECT_EQ(guard.check(at(101.0)), Reason::none);
   EXPECT_EQ(guard.check(Time{}), Reason::out_of_range);
   guard.accept(at(99.0));
