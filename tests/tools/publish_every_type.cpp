@@ -45,6 +45,7 @@ Health health(Time stamp) {
           .rings = {ring},
           .refusals = {{"fusion", "duplicate", 2}},
           .outputs = {{"LCM", 1480, 0}},
+          .sensors = {{"imu", "udp://127.0.0.1:3000", true, 1, 1480, 0, "", {}}},
           .settings = {{"fusion: scheduling", "fifo 50", "fifo 50", Verdict::granted, "", ""}},
           .degraded = {"no real-time priority"}};
 }
