@@ -84,6 +84,7 @@ TEST(MapLoop, TightDrawsTheStateToTheRoadAndSaysSo) {
   EXPECT_EQ(tight.channels.at("MAP_FEEDBACK").count, tight.feedbacks.size());
   for (const MapFeedback& f : tight.feedbacks) {
     EXPECT_EQ(f.position || f.azimuth, f.reason == FeedbackReason::none);
+    if (f.stamp == tight.feedbacks.back().stamp) continue;  // of the last tick: after the states
     EXPECT_EQ(f.available - f.stamp, stages::fusion.budget + stages::mapmatch.budget);
   }
   const double off = loose.states.back().position_enu.x() - tight.states.back().position_enu.x();
