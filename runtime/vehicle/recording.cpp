@@ -147,12 +147,12 @@ Recording open_capture(const std::filesystem::path& path, const VehicleConfig& c
 }
 
 Recording open_any(const std::filesystem::path& path, const VehicleConfig& config) {
+  if (sensors::OdometrySequence::is_named(path)) return open_sequence(path, config);
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) {
     throw std::runtime_error("there is no file or folder '" + path.string() +
                              "'; 'maploop replay --help' says what can be replayed");
   }
-  if (sensors::OdometrySequence::is_named(path)) return open_sequence(path, config);
   if (is_capture(path)) return open_capture(path, config);
   if (is_gnss_drive(path)) return open_gnss(path, config);
   return std::filesystem::is_regular_file(path, ignored) ? open_log(path)
