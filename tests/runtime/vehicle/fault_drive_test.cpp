@@ -155,7 +155,7 @@ TEST(FaultDrive, LateImagesAreAppliedAtTheirStamps) {
   MAPLOOP_REQUIRE_DRIVE();
   const Replayed r = replay({"late@camera:5:3,by=0.5"});
   expect_near_clean(r, 0.4, 1e-9);
-  const Replayed too_late = replay({"late@camera:5:1,by=4"});
+  const Replayed too_late = replay({"late@camera:5:1,by=3.5"});
   expect_near_clean(too_late, 1.0, 0.2);
   EXPECT_GT(too_late.refused("older than the history"), 0u);
 }
