@@ -6,9 +6,9 @@
 #include "mapmatch/network_file.h"
 #include "tools/evaluation/text_file.h"
 #include "tools/experiments.h"
-#include "tools/option_checks.h"
 #include "tools/experiments/map_experiment.h"
 #include "tools/experiments/table.h"
+#include "tools/option_checks.h"
 
 namespace maploop::tools {
 namespace {
