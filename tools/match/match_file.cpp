@@ -13,7 +13,7 @@
 namespace maploop::match {
 namespace {
 
-std::vector<std::string_view> split(std::string_view line) {
+std::vector<std::string_view> split_cells(std::string_view line) {
   while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
   std::vector<std::string_view> cells;
   for (;;) {
@@ -24,9 +24,9 @@ std::vector<std::string_view> split(std::string_view line) {
   }
 }
 
-class Reader {
+class MatchFileReader {
  public:
-  explicit Reader(const std::filesystem::path& file) : file_(file) {}
+  explicit MatchFileReader(const std::filesystem::path& file) : file_(file) {}
 
   std::vector<TimedMatch> read() {
     const std::string text = evaluation::read_text(file_);
@@ -34,7 +34,7 @@ class Reader {
     std::string_view rest = text;
     while (!rest.empty()) {
       const auto end = rest.find('\n');
-      const auto cells = split(rest.substr(0, end));
+      const auto cells = split_cells(rest.substr(0, end));
       rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
       ++line_;
       if (line_ == 1) {
@@ -115,7 +115,7 @@ std::vector<TimedMatch> read_log(const std::filesystem::path& file) {
 }  // namespace
 
 std::vector<TimedMatch> read_matches(const std::filesystem::path& file) {
-  return is_lcm_log(file) ? read_log(file) : Reader(file).read();
+  return is_lcm_log(file) ? read_log(file) : MatchFileReader(file).read();
 }
 
 }  // namespace maploop::match

@@ -8,7 +8,7 @@
 namespace maploop::match {
 namespace {
 
-constexpr double reach = 100.0;         // m
+constexpr double search_reach = 100.0;  // m
 constexpr double gate = radians(50.0);  // of the baseline
 
 MatchedFix on_segment(const mapmatch::RoadNetwork& network, mapmatch::DirectedLink link,
@@ -59,9 +59,10 @@ std::vector<MatchedFix> nearest_segments(const mapmatch::RoadNetwork& network, c
   for (const mapmatch::VehicleFix& fix : track) {
     const Eigen::Vector2d place = network.to_local(fix.position);
     MatchedFix best;
-    double best_distance = reach;
+    double best_distance = search_reach;
     network.index().visit(
-        {place.x() - reach, place.y() - reach, place.x() + reach, place.y() + reach},
+        {place.x() - search_reach, place.y() - search_reach, place.x() + search_reach,
+         place.y() + search_reach},
         [&](const mapmatch::IndexedSegment& s) {
           const Eigen::Vector2d a = network.vertex(s.vertex).position();
           const Eigen::Vector2d step = network.vertex(s.vertex + 1).position() - a;
