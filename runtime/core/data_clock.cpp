@@ -133,6 +133,10 @@ void DataClock::resume_until(Time t) {
   pause_at_.store(to_nanoseconds(std::max(t, position)), std::memory_order_release);
 }
 
+bool DataClock::pause_set() const {
+  return pause_at_.load(std::memory_order_relaxed) != to_nanoseconds(Time::max());
+}
+
 bool DataClock::paused() const {
   return to_nanoseconds(now()) >= pause_at_.load(std::memory_order_relaxed);
 }

@@ -73,8 +73,10 @@ class DataClock {
   // From a pause to the next at t: not by way of a running clock, which would run past t when the
   // controlling thread is held up.
   void resume_until(Time t);
-  // Reached its pause.
+  // Reached its pause. A stall noticed late can take the clock back before it for a moment.
   bool paused() const;
+  // There is one, reached or not.
+  bool pause_set() const;
 
  private:
   // t is due at wall + (t - data) / speed, and later by the stalls since.

@@ -56,7 +56,7 @@ void Player::pause() {
 }
 
 void Player::resume() {
-  if (paused()) vehicle_->clock().resume();
+  if (vehicle_->clock().pause_set()) vehicle_->clock().resume();
 }
 
 void Player::step_to(Time t) {
@@ -78,7 +78,7 @@ void Player::set_speed(double speed) {
 
 bool Player::seek(Time t) {
   if (t < parameters_.first || t > parameters_.last) return false;
-  const bool was_paused = seeking_ ? pause_on_arrival_ : paused();
+  const bool was_paused = seeking_ ? pause_on_arrival_ : vehicle_->clock().pause_set();
   if (t < vehicle_->position() || (seeking_ && t < target_)) {
     go_back(t);
   } else {

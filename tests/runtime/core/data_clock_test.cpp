@@ -105,5 +105,16 @@ TEST(DataClock, GoesFromAPauseToTheNextAndNoFurther) {
   EXPECT_TRUE(clock.sleep_until(next + milliseconds(10), {}));
 }
 
+TEST(DataClock, AStallNoticedAfterAPauseDoesNotUnsetIt) {
+  DataClock clock = DataClock::paced(1.0);
+  clock.start(t0);
+  clock.pause();
+  EXPECT_TRUE(clock.stall(t0, monotonic_now() + std::chrono::seconds(100)));
+  EXPECT_FALSE(clock.paused()) << "time stands before the pause";
+  EXPECT_TRUE(clock.pause_set());
+  clock.resume();
+  EXPECT_FALSE(clock.pause_set());
+}
+
 }  // namespace
 }  // namespace maploop::runtime
