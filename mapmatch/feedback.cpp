@@ -141,7 +141,7 @@ MapFeedback Feedback::decide(const LinkMatch& match, const VehicleFix& fix) {
   MapFeedback out;
   out.stamp = fix.stamp;
   out.sequence = sequence_++;
-  if (match.refusal != FixRefusal::none || !std::isfinite(fix.azimuth)) return out;
+  if (match.refusal != FixRefusal::none) return out;
   const double interval = started_ ? to_seconds(fix.stamp - stamp_) : 0.0;
   started_ = true;
   stamp_ = fix.stamp;
@@ -149,6 +149,11 @@ MapFeedback Feedback::decide(const LinkMatch& match, const VehicleFix& fix) {
   if (!match.on_road) {
     out.reason = FeedbackReason::off_road;
     on_link_ = false;
+    return out;
+  }
+  out.probability = match.probability;
+  if (!std::isfinite(fix.azimuth)) {  // of what stands or crawls
+    out.reason = FeedbackReason::too_slow;
     return out;
   }
   if (!on_link_ || !(match.link == link_)) {

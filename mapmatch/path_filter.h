@@ -8,31 +8,22 @@
 // technique", ITSC 2001.) No allocation after construction.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <span>
 
 #include "mapmatch/candidate_search.h"
 #include "mapmatch/match_parameters.h"
-#include "mapmatch/path_hypothesis.h"
-#include "mapmatch/vehicle_motion.h"
+#include "mapmatch/path_kalman.h"
 
 namespace maploop::mapmatch {
-
-// What a fix tells a hypothesis.
-struct PathEvidence {
-  Eigen::Vector2d place = Eigen::Vector2d::Zero();           // m
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  // of the fix
-  Motion motion;
-};
 
 class PathFilter {
  public:
   static constexpr std::size_t capacity = 64;
 
   PathFilter(const RoadNetwork& network, const MatchParameters& parameters)
-      : network_(&network), parameters_(&parameters) {}
+      : network_(&network), parameters_(&parameters), kalman_(network, parameters) {}
 
   void reset();
   void step(const PathEvidence& evidence, const NearLinks& near);
@@ -50,29 +41,21 @@ class PathFilter {
   void archive(Archive& ar);
 
  private:
-  void predict(PathHypothesis& h, const PathEvidence& e) const;
   void divide(const PathEvidence& e);
-  void enter_link(PathHypothesis& h, const PathEvidence& e) const;
   void take_exits(const PathHypothesis& h);
   void add_exit(const PathHypothesis& h, DirectedLink exit, double cost);
   void turn_round(const PathEvidence& e);
-  void correct(PathHypothesis& h, const PathEvidence& e) const;
-  void correct_by_azimuth(PathHypothesis& h, const PathEvidence& e) const;
   void be_born(const PathEvidence& e, const NearLinks& near);
   void judge_road(const PathEvidence& e);
   void merge();
   void normalize();
   void add(const PathHypothesis& h);
 
-  Eigen::Matrix2d slow_covariance(const PathEvidence& e) const;
-  Eigen::Matrix2d fast_covariance(const PathEvidence& e) const;
-  double azimuth_at(const PathHypothesis& h, double s) const;
-  double azimuth_error(const PathHypothesis& h, const PathEvidence& e) const;
-  double corner_cut(const PathEvidence& e) const;
   double cost_of(DirectedLink link) const;
 
   const RoadNetwork* network_;
   const MatchParameters* parameters_;
+  PathKalman kalman_;
   std::array<PathHypothesis, capacity> hypotheses_{};
   std::size_t count_ = 0;
   double off_road_ = -6.0;    // log odds

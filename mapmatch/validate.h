@@ -5,7 +5,7 @@
 
 namespace maploop::mapmatch {
 
-// Throws std::invalid_argument naming the value.
+// Throws std::invalid_argument naming the key, its value and its range.
 void validate(const MatchParameters& parameters);
 
 }  // namespace maploop::mapmatch

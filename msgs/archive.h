@@ -32,6 +32,8 @@
 #include <variant>
 #include <vector>
 
+#include "msgs/named_enum.h"
+
 namespace maploop {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -139,20 +141,14 @@ void archive_same_number(Archive& ar, std::string_view name, const T& own) {
 }
 
 // The same for an enumeration whose names_of() lists what its values are called.
-template <class Archive, class T>
-requires std::is_enum_v<T>
+template <class Archive, NamedEnum T>
 void archive_same_number(Archive& ar, std::string_view name, const T& own) {
   T saved = own;
   ar(saved);
   if constexpr (Archive::loading) {
     if (saved == own) return;
-    const auto names = names_of(own);
-    const auto called = [&](T value) {
-      const auto i = static_cast<std::size_t>(value);
-      return std::string(i < names.size() ? names[i] : "unknown");
-    };
-    ar.fail("it was saved with " + std::string(name) + " = " + called(saved) + ", and here it is " +
-            called(own));
+    ar.fail("it was saved with " + std::string(name) + " = " + std::string(name_of(saved)) +
+            ", and here it is " + std::string(name_of(own)));
   }
 }
 

@@ -1,6 +1,8 @@
 // What the map gives back to the filter that the map matching got its fixes from.
 #pragma once
 
+#include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 
@@ -75,12 +77,33 @@ struct MapFeedback : Sample {
   double cross_sigma = 0.0;    // m, what changes from one feedback to the next
   double lane_sigma = 0.0;     // m, lane and map error, which stay along the road
   double azimuth_sigma = 0.0;  // rad
+  double probability = 0.0;    // P(link)
 };
 
 template <class Archive>
 void archive(Archive& ar, MapFeedback& f) {
   ar(static_cast<Sample&>(f), f.reason, f.position, f.azimuth, f.reset, f.new_road, f.point,
-     f.link_azimuth, f.cross_track, f.cross_sigma, f.lane_sigma, f.azimuth_sigma);
+     f.link_azimuth, f.cross_track, f.cross_sigma, f.lane_sigma, f.azimuth_sigma, f.probability);
+}
+
+// East and north, unit, to the right of the line.
+inline Eigen::Vector2d right_of_line(const MapFeedback& f) {
+  return {std::cos(f.link_azimuth), -std::sin(f.link_azimuth)};
+}
+
+// Whether all that a filter computes with is a number.
+inline bool all_finite(const MapFeedback& f) {
+  for (const double value : {f.point.latitude, f.point.longitude, f.point.height, f.link_azimuth,
+                             f.cross_sigma, f.lane_sigma, f.azimuth_sigma, f.probability}) {
+    if (!std::isfinite(value)) return false;
+  }
+  return true;
+}
+
+// Whether what is fed back has standard deviations that can be.
+inline bool has_sigmas(const MapFeedback& f) {
+  return (!f.position || (f.cross_sigma > 0.0 && f.lane_sigma >= 0.0)) &&
+         (!f.azimuth || f.azimuth_sigma > 0.0);
 }
 
 }  // namespace maploop

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -99,6 +100,27 @@ constexpr std::string_view to_string(PppSlip slip) {
   return "unknown";
 }
 
+// What the road map does for the position (--map-mode tight).
+enum class PppMap : std::uint8_t {
+  none,    // it has said nothing yet, or there is none
+  aiding,  // the position is that of the filter with the map
+  paused,  // left out for a while behind a wrong road
+};
+
+constexpr std::size_t ppp_map_count = static_cast<std::size_t>(PppMap::paused) + 1;
+
+constexpr std::string_view to_string(PppMap map) {
+  switch (map) {
+    case PppMap::none:
+      return "none";
+    case PppMap::aiding:
+      return "aiding";
+    case PppMap::paused:
+      return "paused";
+  }
+  return "unknown";
+}
+
 struct PppSatellite {
   char system = 'G';        // RINEX's letter
   std::uint8_t number = 0;  // as RINEX 3 writes it
@@ -146,15 +168,21 @@ struct PppState : Sample {
   double phase_rms = 0.0;       // m
   double converging_for = 0.0;  // s since the filter began, or began anew
   std::uint64_t restarts = 0;   // times that it began anew
+  PppMap map = PppMap::none;
+  std::uint64_t roads_used = 0;     // lines of the map fed back, so far
+  std::uint64_t roads_refused = 0;  // that were too far away, no help, not usable
   std::int32_t satellites_used = 0;
-  std::vector<PppSatellite> satellites;  // all that were measured
+  std::int32_t satellites_corrected = 0;  // of those measured, by corrections that are received
+  std::optional<double> correction_age;   // s, of the newest of them; nothing: none ever came
+  std::vector<PppSatellite> satellites;   // all that were measured
 };
 
 template <class Archive>
 void archive(Archive& ar, PppState& s) {
   ar(static_cast<Sample&>(s), s.status, s.message, s.position, s.position_covariance,
      s.velocity_enu, s.velocity_covariance, s.protection, s.integrity_risk, s.zenith_delay,
-     s.zenith_delay_sigma, s.code_rms, s.phase_rms, s.converging_for, s.restarts, s.satellites_used,
+     s.zenith_delay_sigma, s.code_rms, s.phase_rms, s.converging_for, s.restarts, s.map,
+     s.roads_used, s.roads_refused, s.satellites_used, s.satellites_corrected, s.correction_age,
      s.satellites);
 }
 

@@ -20,6 +20,10 @@ constexpr double to_seconds(Duration d) {
   return std::chrono::duration<double>(d).count();
 }
 
+constexpr double to_milliseconds(Duration d) {
+  return 1e3 * to_seconds(d);
+}
+
 // Nearest nanosecond. Precondition: |seconds| < 9.2e9.
 constexpr Duration from_seconds(double seconds) {
   return Duration(static_cast<std::int64_t>(seconds * 1e9 + (seconds < 0 ? -0.5 : 0.5)));

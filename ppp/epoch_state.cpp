@@ -77,6 +77,16 @@ void describe(const PppSolution& solution, double integrity_risk, PppState& stat
   state.zenith_delay_sigma = solution.zenith_delay_sigma;
 }
 
+void describe_map(const MapAidedFilter& filter, PppState& state) {
+  state.map = filter.aided() ? PppMap::aiding : filter.paused() ? PppMap::paused : PppMap::none;
+  state.roads_used = filter.count(MapUse::used);
+  state.roads_refused = 0;
+  for (const MapUse use : {MapUse::not_usable, MapUse::no_position, MapUse::not_of_this_epoch,
+                           MapUse::no_help, MapUse::gated, MapUse::paused}) {
+    state.roads_refused += filter.count(use);
+  }
+}
+
 GnssFix to_fix(const PppState& state) {
   GnssFix fix;
   static_cast<Sample&>(fix) = state;

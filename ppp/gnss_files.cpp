@@ -6,15 +6,17 @@ namespace maploop::ppp {
 
 FileKind parse_into(std::string_view text, const std::string& name, GnssFiles& files) {
   const FileKind kind = file_kind(text);
+  NavigationFile sent;  // with the observations of a receiver
+  sent.file = name;
   switch (kind) {
     case FileKind::observation:
       files.observations.push_back(parse_observations(text, name));
       break;
     case FileKind::rtcm3:
-      files.observations.push_back(parse_rtcm3(text, name));
+      files.observations.push_back(parse_rtcm3(text, name, &sent));
       break;
     case FileKind::ubx:
-      files.observations.push_back(parse_ubx(text, name));
+      files.observations.push_back(parse_ubx(text, name, &sent));
       break;
     case FileKind::navigation:
       files.navigation.push_back(parse_navigation(text, name));
@@ -45,6 +47,8 @@ FileKind parse_into(std::string_view text, const std::string& name, GnssFiles& f
                       ": none of RINEX observations, navigation or clocks, compact RINEX, SP3, "
                       "ANTEX, Bias-SINEX, DCB, ERP, BLQ, UBX, RTCM 3");
   }
+  if (!sent.kepler.empty() || !sent.glonass.empty() || sent.refused > 0)
+    files.navigation.push_back(std::move(sent));
   return kind;
 }
 

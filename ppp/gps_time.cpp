@@ -61,6 +61,14 @@ double seconds_of_week(GpsTime t) {
   return to_seconds(t.time_since_epoch() % week_length);
 }
 
+GpsTime nearest_moment(GpsTime near, Duration since, Duration period) {
+  const Duration age = near.time_since_epoch();
+  GpsTime t(age - age % period + since);
+  while (t - near > period / 2) t -= period;
+  while (near - t > period / 2) t += period;
+  return t;
+}
+
 std::string format_gps_time(GpsTime t) {
   const auto rounded = GpsTime(round<milliseconds>(t.time_since_epoch()));
   const CalendarTime c = calendar(rounded);

@@ -36,6 +36,9 @@ GpsTime gps_week_time(int week, double seconds_of_week);
 int gps_week(GpsTime t);
 double seconds_of_week(GpsTime t);
 
+// The moment nearest to `near` that is `since` after the begin of a `period` (a day, a week).
+GpsTime nearest_moment(GpsTime near, Duration since, Duration period);
+
 // "2020-06-25 00:00:30.000" (GPS time).
 std::string format_gps_time(GpsTime t);
 

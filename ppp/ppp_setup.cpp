@@ -41,14 +41,37 @@ PppSetup::PppSetup(const GnssFiles& files, const SetupOptions& options)
       observations_(&only_observations(files)),
       earth_(files.earth_rotation) {
   choose_products(files, options);
-  const ObservationHeader& header = observations_->header;
+  if (surroundings_.ephemeris == nullptr) {
+    throw std::runtime_error("no orbits: give an SP3 file with clocks, or a navigation file");
+  }
+  one_frequency_ = has_one_frequency(*observations_);
+  look_around(files, options, observations_->header);
+}
+
+PppSetup::PppSetup(const GnssFiles& files, const SetupOptions& options,
+                   const LiveReceiver& receiver)
+    : parameters_(options.parameters), earth_(files.earth_rotation) {
+  constexpr std::size_t most_each = 16;  // messages of a satellite, which come for days
+  broadcast_ = std::make_unique<BroadcastEphemeris>(files.navigation, most_each);
+  choose_products(files, options);
+  if (!surroundings_.ephemeris) surroundings_.ephemeris = broadcast_.get();
+  one_frequency_ = receiver.one_frequency;
+  ObservationHeader header;
+  header.antenna = receiver.antenna;
+  header.radome = receiver.radome;
+  look_around(files, options, header);
+}
+
+void PppSetup::look_around(const GnssFiles& files, const SetupOptions& options,
+                           const ObservationHeader& header) {
   surroundings_.antennas = &files.antennas;
   surroundings_.marker_to_antenna_enu = header.antenna_delta_enu;
   surroundings_.glonass_channels = header.glonass_channels;
   if (broadcast_) {
-    const auto channels = broadcast_->glonass_channels();
-    for (std::size_t n = 0; n < channels.size(); ++n) {
-      if (channels[n]) surroundings_.glonass_channels[n] = channels[n];
+    for (int n = 0; n < 100; ++n) {
+      if (const auto channel = broadcast_->glonass_channel(n)) {
+        surroundings_.glonass_channels[static_cast<std::size_t>(n)] = channel;
+      }
     }
   }
   surroundings_.models = options.models;
@@ -65,12 +88,11 @@ PppSetup::PppSetup(const GnssFiles& files, const SetupOptions& options)
     surroundings_.ocean_loading =
         nearest_station(files.ocean_loading, *header.approximate_position, header.marker);
   }
-  one_frequency_ = has_one_frequency(*observations_);
   if (one_frequency_) choose_ionosphere();
 }
 
 void PppSetup::choose_products(const GnssFiles& files, const SetupOptions& options) {
-  if (!files.navigation.empty()) {
+  if (!files.navigation.empty() && !broadcast_) {
     broadcast_ = std::make_unique<BroadcastEphemeris>(files.navigation);
   }
   if (!files.orbits.empty() && !options.broadcast) {
@@ -78,8 +100,6 @@ void PppSetup::choose_products(const GnssFiles& files, const SetupOptions& optio
     surroundings_.ephemeris = precise_.get();
   } else if (broadcast_) {
     surroundings_.ephemeris = broadcast_.get();
-  } else {
-    throw std::runtime_error("no orbits: give an SP3 file with clocks, or a navigation file");
   }
 }
 
@@ -95,8 +115,14 @@ void PppSetup::choose_ionosphere() {
   lacks_.push_back("no ionospheric coefficients in a navigation file: typical ones are used");
 }
 
-PppFilter PppSetup::make_filter() const {
-  return {parameters_, surroundings_, earth_};
+PppFilter PppSetup::make_filter(const Ephemeris* received) const {
+  Surroundings surroundings = surroundings_;
+  if (received != nullptr) surroundings.ephemeris = received;
+  return {parameters_, surroundings, earth_};
+}
+
+MapAidedFilter PppSetup::make_map_aided_filter(const Ephemeris* received) const {
+  return MapAidedFilter(make_filter(received), parameters_);
 }
 
 }  // namespace maploop::ppp

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ppp/filter/ppp_filter.h"
+#include "ppp/filter/map_aided_filter.h"
 #include "ppp/gnss_files.h"
 #include "ppp/products/broadcast.h"
 #include "ppp/products/precise.h"
@@ -19,6 +19,12 @@ struct SetupOptions {
   bool broadcast = false;  // even where precise orbits are given
 };
 
+// One that is listened to: what files would say of it.
+struct LiveReceiver {
+  bool one_frequency = false;
+  std::string antenna, radome;  // as ANTEX names them; empty: not known
+};
+
 // Constant after its construction: any number of threads may use it, each with a filter of its own.
 // It must outlive these filters, and the files must outlive it.
 class PppSetup {
@@ -27,9 +33,19 @@ class PppSetup {
   // with an epoch, no orbits.
   PppSetup(const GnssFiles& files, const SetupOptions& options);
 
-  PppFilter make_filter() const;
+  // Observations come from a receiver, and orbits too unless the files have precise ones; what else
+  // the files have is used as above.
+  PppSetup(const GnssFiles& files, const SetupOptions& options, const LiveReceiver& receiver);
 
+  // `received` takes the place of the files' orbits and clocks, and outlives the filter.
+  PppFilter make_filter(const Ephemeris* received = nullptr) const;
+  MapAidedFilter make_map_aided_filter(const Ephemeris* received = nullptr) const;
+
+  bool live() const { return observations_ == nullptr; }
+  // Precondition: not live.
   const Observations& observations() const { return *observations_; }
+  // Of the files' navigation messages; nullptr: there are none, and no live receiver.
+  const BroadcastEphemeris* broadcast() const { return broadcast_.get(); }
   const Ephemeris& ephemeris() const { return *surroundings_.ephemeris; }
   bool precise() const { return precise_ != nullptr; }
   bool one_frequency() const { return one_frequency_; }
@@ -38,6 +54,8 @@ class PppSetup {
 
  private:
   void choose_products(const GnssFiles& files, const SetupOptions& options);
+  void look_around(const GnssFiles& files, const SetupOptions& options,
+                   const ObservationHeader& header);
   void choose_ionosphere();
 
   PppParameters parameters_;

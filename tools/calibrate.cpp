@@ -45,8 +45,8 @@ nlohmann::json rows_of(const Eigen::Matrix3d& m) {
   return rows;
 }
 
-nlohmann::json to_json(const calibrate::StereoResult& r,
-                       const std::vector<calibrate::Unusable>& unusable) {
+nlohmann::json result_json(const calibrate::StereoResult& r,
+                           const std::vector<calibrate::Unusable>& unusable) {
   nlohmann::json parameters, views = nlohmann::json::array(), bad = views, refused = views;
   for (const calibrate::Parameter& p : parameters_of(r))
     parameters[p.name] = {{"value", p.value}, {"sigma", p.sigma}, {"unit", p.unit}};
@@ -114,7 +114,7 @@ int calibrate_cameras(const CalibrateOptions& options) {
   evaluation::write_text(options.toml, to_toml(result));
   std::cout << "\nwritten: " << options.toml.string() << '\n';
   if (!options.kitti.empty()) evaluation::write_text(options.kitti, to_kitti(result));
-  if (!options.json.empty()) write_json_file(options.json, to_json(result, found.unusable));
+  if (!options.json.empty()) write_json_file(options.json, result_json(result, found.unusable));
   if (!options.html.empty())
     evaluation::write_text(options.html, to_page(result, found.pairs, found.unusable));
   return 0;

@@ -92,8 +92,9 @@ int run(const DashboardOptions& options) {
 
 void add_dashboard(CLI::App& app, Command& command) {
   auto options = std::make_shared<DashboardOptions>();
-  CLI::App* sub = app.add_subcommand(
-      "dashboard", "Show a running replay or vehicle in a browser: way, state, health, deadlines");
+  CLI::App* sub = app.add_subcommand("dashboard",
+                                     "Show a running replay or vehicle in a browser: way, camera, "
+                                     "scan, satellites, state, deadlines");
   sub->add_option("--url", options->url, "LCM's URL")->capture_default_str();
   sub->add_option("--address", options->address,
                   "Address to listen at; other than this machine's own (127.0.0.1) lets others "
@@ -103,7 +104,8 @@ void add_dashboard(CLI::App& app, Command& command) {
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
   sub->add_option("--map", options->map,
-                  "OpenStreetMap file, or a network file: draw its roads under the way");
+                  "OpenStreetMap file, or a network file: draw its roads under the way")
+      ->check(existing_file());
   sub->add_option("--seconds", options->seconds, "End after this long; without it at Ctrl-C")
       ->check(positive_number());
   sub->callback([options, &command] { command = [options] { return run(*options); }; });

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "mapmatch/network_file.h"
+#include "tools/choice_option.h"
 #include "tools/evaluation/text_file.h"
 #include "tools/experiments.h"
 #include "tools/experiments/map_experiment.h"
@@ -29,7 +30,7 @@ std::string samples_csv(const std::vector<experiments::MapResult>& results) {
     const experiments::MapCase& c = r.setup;
     const std::string run = c.sequence + "," + c.configuration + "," +
                             (c.mems ? "mems" : "recorded") + "," + c.outages + "," + c.fault + "," +
-                            to_string(c.mode) + "," + std::to_string(c.seed);
+                            std::string(name_of(c.mode)) + "," + std::to_string(c.seed);
     for (const experiments::MapSample& s : r.samples) {
       text += run;
       for (const double value : {s.time, s.truth.x(), s.truth.y(), s.error.x(), s.error.y(),
@@ -54,12 +55,13 @@ int compare_modes(const MapOptions& options) {
   setting.network = &network;
   setting.rules = &rules;
   experiments::MapCases wanted = options.cases;
+  wanted.poses = !setting.config.odometry_poses.file.empty();
   if (options.faults) wanted.faults = experiments::map_faults();
   const auto cases = experiments::map_cases(wanted);
   std::vector<experiments::MapResult> results;
   for (const experiments::MapCase& c : cases) {
     std::cerr << "\r" << results.size() + 1 << " of " << cases.size() << ": sequence " << c.sequence
-              << ", " << to_string(c.mode) << "        " << std::flush;
+              << ", " << std::string(name_of(c.mode)) << "        " << std::flush;
     results.push_back(experiments::run(setting, c));
   }
   std::cerr << '\n';
@@ -88,10 +90,7 @@ void add_map_experiment(CLI::App& experiment, Command& command) {
   sub->add_option("--sequences", cases.sequences, "Which of them")
       ->delimiter(',')
       ->capture_default_str();
-  sub->add_option("--modes", cases.modes, "Which of none, loose, tight, hard-reset")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"none", "loose", "tight", "hard-reset"}))
-      ->capture_default_str();
+  add_choices(sub, "--modes", cases.modes, "Which of none, loose, tight, hard-reset");
   sub->add_option("--units", cases.units, "Inertial units: mems, recorded")
       ->delimiter(',')
       ->check(CLI::IsMember({"mems", "recorded"}))

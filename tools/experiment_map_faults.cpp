@@ -13,7 +13,7 @@
 #include "tools/match/map_faults.h"
 #include "tools/match/parameter_settings.h"
 #include "tools/match/recorded_drives.h"
-#include "tools/option_checks.h"
+#include "tools/recorded_drive_options.h"
 
 namespace maploop::tools {
 namespace {
@@ -21,13 +21,6 @@ namespace {
 using match::FaultScore;
 using match::InputCondition;
 using match::RecordedDrive;
-
-struct FaultOptions {
-  std::filesystem::path map, data;
-  std::vector<std::string> sequences{"00", "01", "02", "03", "04", "06", "08", "10"};
-  std::vector<std::string> set;
-  int seeds = 3;
-};
 
 // A map, and the way that it lacks.
 struct WrongMap {
@@ -93,7 +86,7 @@ std::vector<std::vector<WrongMap>> wrong_maps(const mapmatch::MapExtract& map,
   return maps;
 }
 
-int fault_experiment(const FaultOptions& options) {
+int fault_experiment(const RecordedDriveOptions& options) {
   const mapmatch::MapExtract map = mapmatch::read_osm(options.map);
   const mapmatch::NetworkData network = mapmatch::build_network(map);
   const mapmatch::RuleBases rules = mapmatch::read_rule_bases(mapmatch::default_rules());
@@ -104,12 +97,8 @@ int fault_experiment(const FaultOptions& options) {
     const RecordedDrive drive = match::read_recorded_drive(options.data, name);
     const auto maps = wrong_maps(map, network, drive);
     for (std::size_t c = 0; c < conditions.size(); ++c) {
-      for (int seed = 1; seed <= (conditions[c].noisy() ? options.seeds : 1); ++seed) {
-        match::TrackNoise noise = conditions[c].noise;
-        noise.seed = static_cast<std::uint64_t>(seed);
-        std::vector<std::size_t> track_rows;
-        const match::Track track =
-            match::with_noise(drive.track, conditions[c].interval, noise, &track_rows);
+      for (int seed = 1; seed <= conditions[c].realizations(options.seeds); ++seed) {
+        const auto [track, track_rows] = match::noisy_track(drive, conditions[c], seed);
         for (std::size_t fault = 0; fault < maps.size(); ++fault) {
           for (const WrongMap& wrong : maps[fault]) {
             mapmatch::Matcher matcher(*wrong.network, rules, parameters);
@@ -136,20 +125,12 @@ int fault_experiment(const FaultOptions& options) {
 }  // namespace
 
 void add_map_fault_experiment(CLI::App& experiment, Command& command) {
-  auto options = std::make_shared<FaultOptions>();
+  auto options = std::make_shared<RecordedDriveOptions>();
   CLI::App* sub = experiment.add_subcommand(
       "map-faults",
       "Map matching on wrong maps: shifted, one-way streets reversed, each driven way missing; "
       "without noise, with white and with Gauss-Markov noise, at 1 and 10 Hz");
-  sub->add_option("MAP", options->map, "OpenStreetMap file")->required();
-  sub->add_option("DATA", options->data, "Folder with oxts/NN.csv.gz and labels/NN.csv.gz")
-      ->required()
-      ->check(existing_folder());
-  sub->add_option("--sequences", options->sequences, "Which of them")->delimiter(',');
-  sub->add_option("--seeds", options->seeds, "Realizations of each noise")
-      ->check(CLI::Range(1, 100))
-      ->capture_default_str();
-  sub->add_option("--set", options->set, "NAME=VALUE of a parameter (mapmatch/match_parameters.h)");
+  add_recorded_drive_options(*sub, *options, "OpenStreetMap file");
   sub->callback(
       [options, &command] { command = [options] { return fault_experiment(*options); }; });
 }

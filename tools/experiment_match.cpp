@@ -18,15 +18,13 @@
 #include "tools/match/recorded_drives.h"
 #include "tools/match/score_output.h"
 #include "tools/option_checks.h"
+#include "tools/recorded_drive_options.h"
 
 namespace maploop::tools {
 namespace {
 
-struct MatchExperimentOptions {
-  std::filesystem::path map, data, json;
-  std::vector<std::string> sequences{"00", "01", "02", "03", "04", "06", "08", "10"};
-  std::vector<std::string> set;
-  int seeds = 3;
+struct MatchExperimentOptions : RecordedDriveOptions {
+  std::filesystem::path json;
   bool each = false;
 };
 
@@ -39,11 +37,8 @@ struct Scores {
 void run(const mapmatch::RoadNetwork& network, const mapmatch::RuleBases& rules,
          const mapmatch::MatchParameters& parameters, const match::RecordedDrive& sequence,
          const match::InputCondition& condition, int seeds, Scores& scores) {
-  for (int seed = 1; seed <= (condition.noisy() ? seeds : 1); ++seed) {
-    match::TrackNoise noise = condition.noise;
-    noise.seed = static_cast<std::uint64_t>(seed);
-    std::vector<std::size_t> rows;
-    const match::Track track = match::with_noise(sequence.track, condition.interval, noise, &rows);
+  for (int seed = 1; seed <= condition.realizations(seeds); ++seed) {
+    const auto [track, rows] = match::noisy_track(sequence, condition, seed);
     mapmatch::Matcher matcher(network, rules, parameters);
     const auto start = std::chrono::steady_clock::now();
     const auto matched = match::match_track(matcher, track);
@@ -115,15 +110,7 @@ void add_match_experiment(CLI::App& experiment, Command& command) {
       "match",
       "Map matching against labels of the links driven, beside the nearest segment with an azimuth "
       "gate: without noise, with white and with Gauss-Markov noise, at 1 and 10 Hz");
-  sub->add_option("MAP", options->map, "OpenStreetMap file, or a network file")->required();
-  sub->add_option("DATA", options->data, "Folder with oxts/NN.csv.gz and labels/NN.csv.gz")
-      ->required()
-      ->check(existing_folder());
-  sub->add_option("--sequences", options->sequences, "Which of them")->delimiter(',');
-  sub->add_option("--seeds", options->seeds, "Realizations of each noise")
-      ->check(CLI::Range(1, 100))
-      ->capture_default_str();
-  sub->add_option("--set", options->set, "NAME=VALUE of a parameter (mapmatch/match_parameters.h)");
+  add_recorded_drive_options(*sub, *options, "OpenStreetMap file, or a network file");
   sub->add_flag("--each", options->each, "A line for each sequence, too");
   sub->add_option("--json", options->json, "Write the figures to this file as JSON")
       ->check(writable_file());

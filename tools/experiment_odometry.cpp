@@ -22,7 +22,8 @@ int compare_odometry(const Options& options) {
                                            : evaluation::read_trajectory(options.truth);
   std::vector<odometry::VariantResult> results;
   for (const odometry::Variant& variant :
-       odometry::variants(std::filesystem::is_directory(options.input))) {
+       odometry::variants(std::filesystem::is_directory(options.input),
+                          std::filesystem::is_directory(options.input / "velodyne_points"))) {
     std::cerr << variant.name << " ...\n";
     results.push_back(
         odometry::run_variant(variant, options.input, options.config, options.frames, truth));
@@ -40,7 +41,8 @@ void add_odometry_experiment(CLI::App& experiment, Command& command) {
   auto options = std::make_shared<Options>();
   CLI::App* sub = experiment.add_subcommand(
       "odometry",
-      "Tracking against matching; 3D-2D, with and without a window, against 3D-3D and 2D-2D");
+      "Tracking against matching; 3D-2D, with and without a window, against 3D-3D and 2D-2D; "
+      "and who says what the disparities lack");
   sub->add_option("DRIVE", options->input,
                   "Folder of a KITTI raw drive, or recorded tracks (<drive>.csv[.gz])")
       ->required()

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "tools/choice_option.h"
 #include "tools/commands.h"
 
 namespace maploop::tools {
@@ -30,6 +31,10 @@ void add_live(CLI::App& app, Command& command) {
                   "OpenStreetMap file, or network file of `maploop map build`: the fused state is "
                   "matched to its roads")
       ->check(existing_file());
+  add_choice(sub, "--map-mode", options->map_mode,
+             "none; loose, the default where there is a map: matched, and nothing fed back; tight: "
+             "the road goes back to the filter; hard-reset: position and azimuth become the "
+             "matched ones");
   sub->add_option("--json", options->json, "Write the closing table to this file as JSON");
   sub->add_option("--report", options->report,
                   "Write a page with all of it to this file: way, latencies, losses");

@@ -15,6 +15,7 @@
 #include "runtime/vehicle/lcm_bus.h"
 #include "runtime/vehicle/live_config.h"
 #include "runtime/vehicle/vehicle.h"
+#include "tools/map_options.h"
 #include "tools/service_manager.h"
 #include "tools/terminal.h"
 
@@ -25,7 +26,7 @@ constexpr int exit_failed = 1;
 
 vehicle::VehicleConfig config_of(const LiveOptions& options) {
   vehicle::VehicleConfig config = vehicle::load_vehicle_config(options.config);
-  if (!options.map.empty()) config.map.file = options.map.string();
+  set_map(config.map, options.map, options.map_mode);
   return config;
 }
 
@@ -64,7 +65,7 @@ int live(const LiveOptions& options) {
   const vehicle::VehicleConfig config = config_of(options);
   vehicle::Sensors sensors;
   sensors.live = vehicle::open_live_sensors(config);
-  const VehicleCalibration calibration = vehicle::live_calibration(config.live);
+  const VehicleCalibration calibration = vehicle::live_calibration(config);
   const auto map = vehicle::load_road_map(config.map);
   runtime::RealtimeReport readiness = runtime::prepare_process(config.memory);
 
@@ -114,7 +115,7 @@ int live(const LiveOptions& options) {
   write_states(options.states, pass);
   if (!options.report.empty())
     write_run_report(options.report, result, pass, {}, config, map.get());
-  return any_thread_failed(result) ? exit_failed : 0;
+  return any_thread_failed(result) || !pass.recorded_all() ? exit_failed : 0;
 }
 
 }  // namespace maploop::tools

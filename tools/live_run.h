@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
+#include "runtime/vehicle/vehicle_config.h"
 #include "tools/run_pass.h"
 
 namespace maploop::tools {
@@ -16,12 +18,14 @@ struct LiveOptions {
   std::filesystem::path record;
   bool record_raw = false;
   std::filesystem::path map;
+  std::optional<vehicle::MapMode> map_mode;
   std::filesystem::path json, report, trace;
   StateFiles states;
 };
 
 // Runs until SIGINT or SIGTERM, or for so long; then prints the closing table and writes the files
-// asked for. Returns the command's exit status: 1 when a thread failed. Throws std::runtime_error
+// asked for. Returns the command's exit status: 1 when a thread failed
+// or the log does not hold everything. Throws std::runtime_error
 // naming the file or the key that is wrong, before it starts.
 int live(const LiveOptions& options);
 

@@ -13,10 +13,12 @@
 #include <vector>
 
 #include "runtime/vehicle/recorded_tracks.h"
+#include "tools/choice_option.h"
 #include "tools/commands.h"
 #include "tools/evaluation/trajectory_file.h"
 #include "tools/odometry/motion_csv.h"
 #include "tools/odometry/odometry_input.h"
+#include "tools/odometry/track_writer.h"
 #include "tools/odometry_lidar.h"
 #include "tools/option_checks.h"
 
@@ -29,6 +31,7 @@ struct OdometryOptions {
   std::optional<stereo::Matching> matching;
   std::optional<stereo::MotionMethod> motion;
   std::optional<int> window_frames;
+  std::optional<odometry::Disparities> disparities;
   LidarOdometryOptions lidar;
 };
 
@@ -37,22 +40,6 @@ void adjust(const OdometryOptions& options, stereo::StereoParameters& parameters
   if (options.motion) parameters.motion = *options.motion;
   if (options.motion == stereo::MotionMethod::image_to_image) parameters.window_frames = 0;
   if (options.window_frames) parameters.window_frames = *options.window_frames;
-}
-
-// An option that takes one of the names of an enumeration.
-template <class Enum>
-CLI::Option* add_choice(CLI::App* sub, const char* flag, std::optional<Enum>& value,
-                        const char* what) {
-  const auto all = names_of(Enum{});
-  const std::vector<std::string> names(all.begin(), all.end());
-  return sub
-      ->add_option_function<std::string>(
-          flag,
-          [&value, names](const std::string& name) {
-            value = static_cast<Enum>(std::find(names.begin(), names.end(), name) - names.begin());
-          },
-          what)
-      ->check(CLI::IsMember(names));
 }
 
 double percentile(const std::vector<double>& sorted, double share) {
@@ -138,6 +125,7 @@ int odometry_alone(const OdometryOptions& options) {
   }
   const odometry::Input input = odometry::open_input(
       options.input, options.config, options.frames,
+      options.disparities.value_or(odometry::Disparities::own),
       [&options](stereo::StereoParameters& parameters) { adjust(options, parameters); });
   std::vector<odometry::Step> steps;
   odometry::CameraPath path(input.camera.T_body_cam);
@@ -193,6 +181,10 @@ void add_odometry(CLI::App& app, Command& command) {
       ->excludes(lidar);
   sub->add_option("--window", options->window_frames,
                   "Poses that are adjusted together, 3 to 12; 0: from pair to pair only")
+      ->excludes(lidar);
+  add_choice(sub, "--disparity", options->disparities,
+             "Who says what all disparities lack: none, the image pairs (own), or they and "
+             "LiDAR odometry (lidar)")
       ->excludes(lidar);
   sub->add_option("--tracks", options->tracks,
                   "Write the features followed to this file (.csv or .csv.gz) and its .meta.json, "

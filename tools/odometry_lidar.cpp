@@ -1,6 +1,5 @@
 #include "tools/odometry_lidar.h"
 
-#include <algorithm>
 #include <iostream>
 #include <map>
 #include <optional>
@@ -10,8 +9,10 @@
 
 #include "runtime/vehicle/recording.h"
 #include "runtime/vehicle/vehicle_config.h"
+#include "tools/evaluation/text_file.h"
 #include "tools/evaluation/trajectory_file.h"
 #include "tools/odometry/lidar_csv.h"
+#include "tools/odometry/lidar_page.h"
 #include "tools/odometry/point_cloud.h"
 #include "tools/option_checks.h"
 
@@ -20,35 +21,6 @@ namespace {
 
 using odometry::LidarSeed;
 using odometry::LidarStep;
-
-double percentile(const std::vector<double>& sorted, double share) {
-  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
-}
-
-void print_summary(const std::vector<LidarStep>& steps) {
-  std::map<std::string_view, int> by_status;
-  std::vector<double> milliseconds;
-  int iterations = 0;
-  double way = 0.0;
-  for (const LidarStep& step : steps) {
-    ++by_status[step.with_scan ? to_string(step.lidar.status) : "no scan"];
-    way += step.odometry.translation.norm();
-    if (!step.with_scan) continue;
-    milliseconds.push_back(step.milliseconds);
-    iterations += step.lidar.iterations;
-  }
-  std::cout << "frames " << steps.front().frame << " to " << steps.back().frame << ", "
-            << to_seconds(steps.back().odometry.stamp - steps.front().odometry.stamp) << " s, "
-            << way << " m\n";
-  for (const auto& [status, count] : by_status)
-    std::cout << "  " << status << ": " << count << '\n';
-  if (milliseconds.empty()) return;
-  std::sort(milliseconds.begin(), milliseconds.end());
-  std::cout << "processor time a scan: median " << percentile(milliseconds, 0.5) << " ms, p95 "
-            << percentile(milliseconds, 0.95) << " ms, largest " << milliseconds.back()
-            << " ms; iterations a scan: "
-            << static_cast<double>(iterations) / static_cast<double>(milliseconds.size()) << '\n';
-}
 
 }  // namespace
 
@@ -72,6 +44,9 @@ CLI::Option* add_lidar_options(CLI::App& odometry, LidarOdometryOptions& options
                   "Write the surfaces of all scans to this file, .ply or .pcd")
       ->needs(lidar)
       ->check(writable_file());
+  odometry.add_option("--html", options.html, "Write a page with a picture of them to this file")
+      ->needs(lidar)
+      ->check(writable_file());
   return lidar;
 }
 
@@ -88,7 +63,8 @@ int lidar_odometry_alone(const LidarOdometryOptions& options, const OdometryFile
   odometry::LidarRun run(*drive,
                          {config.stereo, config.lidar, options.seed, options.every, frames});
   std::optional<odometry::PointCloud> cloud;
-  if (!options.cloud.empty()) cloud.emplace(drive->calibration().T_body_velo, config.lidar);
+  if (!options.cloud.empty() || !options.html.empty())
+    cloud.emplace(drive->calibration().T_body_velo, config.lidar);
 
   std::vector<LidarStep> steps;
   evaluation::StampedTrajectory trajectory;  // of the camera, in its first frame
@@ -108,8 +84,12 @@ int lidar_odometry_alone(const LidarOdometryOptions& options, const OdometryFile
   if (!files.poses.empty()) evaluation::write_kitti_poses(files.poses, trajectory.poses);
   if (!files.tum.empty()) evaluation::write_tum(files.tum, trajectory);
   if (!files.csv.empty()) odometry::write_lidar_csv(files.csv, steps);
-  if (cloud) cloud->write(options.cloud);
-  print_summary(steps);
+  if (!options.cloud.empty()) cloud->write(options.cloud);
+  if (!options.html.empty())
+    evaluation::write_text(
+        options.html, odometry::lidar_page("LiDAR odometry on " + files.drive.filename().string(),
+                                           steps, *cloud));
+  std::cout << odometry::summary(steps);
   if (cloud) std::cout << "cloud: " << cloud->size() << " points\n";
   return 0;
 }

@@ -12,7 +12,7 @@ struct LidarOdometryOptions {
   bool wanted = false;
   odometry::LidarSeed seed = odometry::LidarSeed::vo;
   std::size_t every = 1;
-  std::filesystem::path cloud;
+  std::filesystem::path cloud, html;
 };
 
 // Returns --lidar.

@@ -7,10 +7,14 @@
 #include <optional>
 #include <stdexcept>
 
+#include "ppp/filter/validate.h"
+#include "runtime/vehicle/road_map.h"
 #include "runtime/vehicle/vehicle_config.h"
+#include "tools/choice_option.h"
 #include "tools/commands.h"
 #include "tools/evaluation/text_file.h"
 #include "tools/json_output.h"
+#include "tools/map_options.h"
 #include "tools/option_checks.h"
 #include "tools/ppp/page.h"
 #include "tools/ppp/run.h"
@@ -21,9 +25,10 @@ namespace {
 struct PppOptions {
   std::vector<std::filesystem::path> files;
   std::string mode, systems, start, end, truth;
+  std::optional<vehicle::MapMode> map_mode;
   std::optional<double> mask;
   bool broadcast = false, ecef = false;
-  std::filesystem::path config, pos, nmea, geojson, kml, residuals, html, json;
+  std::filesystem::path map, config, pos, nmea, geojson, kml, residuals, html, json;
 };
 
 // "2020-06-25 01:00:00" of GPS time, or "01:00:00" of the first epoch's day.
@@ -40,23 +45,37 @@ ppp::GpsTime moment(const std::string& text, const std::string& option, ppp::Gps
 }
 
 // What the command line does not say is the configuration's.
-vehicle::PppConfig config_of(const PppOptions& options) {
-  vehicle::PppConfig config;
-  if (!options.config.empty()) config = vehicle::load_vehicle_config(options.config).ppp;
+vehicle::VehicleConfig config_of(const PppOptions& options) {
+  vehicle::VehicleConfig config;
+  if (!options.config.empty()) config = vehicle::load_vehicle_config(options.config);
+  vehicle::PppConfig& p = config.ppp;
   if (!options.mode.empty()) {
-    config.filter.motion = options.mode == "static" ? ppp::Motion::fixed : ppp::Motion::kinematic;
+    p.filter.motion = options.mode == "static" ? ppp::Motion::fixed : ppp::Motion::kinematic;
   }
-  if (!options.systems.empty()) config.filter.systems = options.systems;
-  if (options.mask) config.filter.elevation_mask = *options.mask;
-  config.broadcast |= options.broadcast;
+  if (!options.systems.empty()) p.filter.systems = options.systems;
+  if (options.mask) p.filter.elevation_mask = *options.mask;
+  ppp::validate(p.filter);
+  p.broadcast |= options.broadcast;
+  set_map(config.map, options.map, options.map_mode);
+  if (config.map.mode == vehicle::MapMode::hard_reset) {
+    throw std::runtime_error("[map] mode = \"hard-reset\" is none of PPP: none, loose or tight");
+  }
   return config;
 }
 
+std::optional<gnss::MapOptions> map_of(const vehicle::VehicleConfig& config,
+                                       const vehicle::RoadMap* map) {
+  if (map == nullptr) return std::nullopt;
+  return gnss::MapOptions{&map->network, &map->rules, config.mapmatch, config.feedback,
+                          config.map.mode == vehicle::MapMode::tight};
+}
+
 gnss::RunOptions run_options(const PppOptions& options, const vehicle::PppConfig& config,
-                             ppp::GpsTime first) {
+                             const std::optional<gnss::MapOptions>& map, ppp::GpsTime first) {
   gnss::RunOptions run;
   run.parameters = config.filter;
   run.broadcast = config.broadcast;
+  run.map = map;
   if (!options.start.empty()) run.start = moment(options.start, "--start", first);
   if (!options.end.empty()) run.end = moment(options.end, "--end", first);
   return run;
@@ -69,12 +88,38 @@ nlohmann::json to_json(const gnss::Accuracy& a, std::optional<double> below) {
       {"coverage", a.coverage()},
       {"horizontal_rmse_m", a.horizontal_rmse},
       {"horizontal_95_m", a.horizontal_95},
+      {"across_rmse_m", a.across_rmse},
       {"up_rmse_m", a.up_rmse},
       {"mean_enu_m", {a.mean_enu.x(), a.mean_enu.y(), a.mean_enu.z()}},
       {"horizontal_rmse_without_mean_m", a.horizontal_rmse_without_mean},
       {"last_3d_m", a.three_d_last},
       {"nees", a.nees},
       {"seconds_to_stay_below_0.1_m", below ? nlohmann::json(*below) : nlohmann::json(nullptr)}};
+}
+
+nlohmann::json to_json(const ppp::MapAidedFilter& filter, std::size_t matched) {
+  nlohmann::json feedback;
+  for (std::size_t i = 0; i < ppp::map_use_count; ++i) {
+    const auto use = static_cast<ppp::MapUse>(i);
+    feedback[std::string(to_string(use))] = filter.count(use);
+  }
+  return {{"matched", matched},
+          {"feedback", std::move(feedback)},
+          {"restorations", filter.restorations()}};
+}
+
+std::string map_line(const ppp::MapAidedFilter& filter, std::size_t matched, std::size_t epochs) {
+  std::string line =
+      std::to_string(matched) + " of " + std::to_string(epochs) +
+      " epochs on a road of the map; fed back: " + std::to_string(filter.count(ppp::MapUse::used)) +
+      " used";
+  for (std::size_t i = 1; i < ppp::map_use_count; ++i) {
+    const auto use = static_cast<ppp::MapUse>(i);
+    if (use != ppp::MapUse::nothing_fed_back && filter.count(use) > 0) {
+      line += ", " + std::to_string(filter.count(use)) + " " + std::string(to_string(use));
+    }
+  }
+  return line + "; forgotten as a wrong road's: " + std::to_string(filter.restorations());
 }
 
 std::string one_line(const char* format, double a, double b, double c) {
@@ -84,26 +129,31 @@ std::string one_line(const char* format, double a, double b, double c) {
 }
 
 int positions(const PppOptions& options) {
-  const vehicle::PppConfig config = config_of(options);
+  const vehicle::VehicleConfig vehicle_config = config_of(options);
+  const vehicle::PppConfig& config = vehicle_config.ppp;
+  const auto map = vehicle::load_road_map(vehicle_config.map);
   ppp::GnssFiles files;
   for (const auto& file : options.files) ppp::read_into(file, files);
   for (const auto& product : config.products) ppp::read_products(product, files);
   const ppp::GpsTime first = files.observations.empty() || files.observations[0].epochs.empty()
                                  ? ppp::GpsTime{}
                                  : files.observations[0].epochs[0].time;
-  gnss::PppRun run(files, run_options(options, config, first));
+  gnss::PppRun run(files, run_options(options, config, map_of(vehicle_config, map.get()), first));
   std::unique_ptr<gnss::Truth> truth;
-  std::unique_ptr<gnss::Score> score;
+  std::unique_ptr<gnss::Score> score, without_map;
   if (!options.truth.empty()) {
     truth = std::make_unique<gnss::Truth>(options.truth, first);
     score = std::make_unique<gnss::Score>(*truth, config.integrity_risk);
+    if (map) without_map = std::make_unique<gnss::Score>(*truth, config.integrity_risk);
   }
   gnss::Solutions solutions;
-  std::size_t solved = 0;
+  std::size_t solved = 0, matched = 0;
   run.process([&](const ppp::PppSolution& s) {
     if (!s.message.empty()) std::cerr << format_gps_time(s.time) << ": " << s.message << '\n';
     solved += s.status != PppStatus::none;
     if (score) score->add(s);
+    if (without_map) without_map->add(run.filter().map_free());
+    matched += run.map_step().way_id.has_value();
     solutions.push_back(s);
   });
   if (solutions.empty()) throw std::runtime_error("no epoch between --start and --end");
@@ -112,8 +162,7 @@ int positions(const PppOptions& options) {
   summary.push_back(
       std::string(run.setup().precise() ? "precise" : "broadcast") + " orbits and clocks, " +
       (run.setup().one_frequency() ? "one frequency, " : "two frequencies, ") +
-      std::string(names_of(config.filter.motion)[static_cast<std::size_t>(config.filter.motion)]) +
-      ", systems " + config.filter.systems);
+      std::string(name_of(config.filter.motion)) + ", systems " + config.filter.systems);
   summary.push_back(
       std::to_string(solved) + " of " + std::to_string(solutions.size()) +
       " epochs have a position" +
@@ -127,11 +176,14 @@ int positions(const PppOptions& options) {
                       one_line(" errors along, across and up are beyond their protection level "
                                "(integrity risk %g)",
                                config.integrity_risk, 0, 0));
+    if (without_map)
+      summary.push_back("the same without the map: " + to_text(without_map->accuracy()));
     const auto below = score->time_to_stay_below(0.1);
     summary.push_back(
         below ? one_line("3-D error stays below 0.1 m after %.1f min", *below / 60, 0, 0)
               : "3-D error does not stay below 0.1 m");
   }
+  if (map) summary.push_back(map_line(run.filter(), matched, solutions.size()));
   for (const auto& line : run.setup().lacks()) summary.push_back(line);
   for (const auto& line : run.missing_products()) summary.push_back(line);
   for (const auto& o : files.observations) {
@@ -156,7 +208,7 @@ int positions(const PppOptions& options) {
   write(options.residuals, [&] { return gnss::to_residual_csv(solutions); });
   write(options.html, [&] {
     return gnss::to_page("PPP of " + std::filesystem::path(name).filename().string(), summary,
-                         solutions, score.get(), config.integrity_risk);
+                         solutions, score.get(), without_map.get(), config.integrity_risk);
   });
   if (!options.json.empty()) {
     nlohmann::json result = {{"epochs", solutions.size()},
@@ -165,6 +217,10 @@ int positions(const PppOptions& options) {
                              {"missing_products", run.missing_products()},
                              {"lacks", run.setup().lacks()}};
     if (score) result["truth"] = to_json(score->accuracy(), score->time_to_stay_below(0.1));
+    if (map) result["map"] = to_json(run.filter(), matched);
+    if (without_map)
+      result["map"]["truth_without_map"] =
+          to_json(without_map->accuracy(), without_map->time_to_stay_below(0.1));
     write_json_file(options.json, result);
   }
   return solved > 0 ? 0 : 1;
@@ -190,11 +246,18 @@ void add_ppp(CLI::App& app, Command& command) {
       });
   sub->add_option("--mask", options->mask, "Lowest elevation in degrees; 7 without it")
       ->check(number_in(1.0, 60.0));
-  sub->add_option("--config", options->config,
-                  "TOML file whose [ppp] sets what these options do not")
+  sub->add_option(
+         "--config", options->config,
+         "TOML file whose [ppp], [map], [mapmatch] and [feedback] set what these options do not")
       ->check(existing_file());
   sub->add_option("--start", options->start, "First epoch: [YYYY-MM-DD ]HH:MM:SS of GPS time");
   sub->add_option("--end", options->end, "Last epoch, the same way");
+  sub->add_option("--map", options->map,
+                  "OpenStreetMap file, or a network file of `maploop map build`")
+      ->check(existing_file());
+  add_choice(sub, "--map-mode", options->map_mode,
+             "none; loose, the default where there is a map: matched, and nothing fed back; "
+             "tight: the road corrects the filter");
   sub->add_flag("--broadcast", options->broadcast, "Broadcast orbits even where SP3 is given");
   sub->add_option("--truth", options->truth,
                   "X,Y,Z in metres, or a file: RTKLIB's .pos in XYZ, or rows 'index,GPS "

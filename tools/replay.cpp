@@ -6,6 +6,7 @@
 #include "estimators/fusion/configuration.h"
 #include "runtime/vehicle/fault_injection.h"
 #include "runtime/vehicle/gnss_outage.h"
+#include "tools/choice_option.h"
 #include "tools/commands.h"
 #include "tools/option_checks.h"
 #include "tools/replay_run.h"
@@ -120,12 +121,10 @@ void add_replay(CLI::App& app, Command& command) {
                   "OpenStreetMap file, or network file of `maploop map build`: the fused state is "
                   "matched to its roads")
       ->check(existing_file());
-  sub->add_option(
-         "--map-mode", options->map_mode,
-         "none; loose, the default where there is a map: matched, and nothing fed back; tight: "
-         "the road goes back to the filter; hard-reset: position and azimuth become the "
-         "matched ones")
-      ->check(CLI::IsMember({"none", "loose", "tight", "hard-reset"}));
+  add_choice(sub, "--map-mode", options->map_mode,
+             "none; loose, the default where there is a map: matched, and nothing fed back; tight: "
+             "the road goes back to the filter; hard-reset: position and azimuth become the "
+             "matched ones");
   sub->add_option("--configuration", options->configuration,
                   "What joins the inertial sensors: VO-RI, VO-L-RI, RISS or RISS-VO; GNSS+ before "
                   "it: fixes are used after the start too. Without it, --speed-scale "
@@ -135,6 +134,10 @@ void add_replay(CLI::App& app, Command& command) {
                   "START:LENGTH[,...] in seconds into the drive, LENGTH may be end; "
                   "random:COUNT:LENGTH for some that the seed draws")
       ->check(vehicle::check_outages, "OUTAGES");
+  sub->add_option("--odometry-poses", options->odometry_poses,
+                  "Another system's trajectory of a KITTI odometry sequence (the left camera's "
+                  "poses, 12 numbers a line) in place of visual odometry")
+      ->check(existing_file());
   sub->add_option("--imu", options->imu,
                   "The inertial sensors as recorded, or with the noise of a MEMS unit added")
       ->check(CLI::IsMember({"recorded", "mems"}));

@@ -13,10 +13,6 @@ namespace {
 
 using nlohmann::json;
 
-double to_ms(Duration d) {
-  return to_seconds(d) * 1e3;
-}
-
 [[gnu::format(printf, 2, 3)]] void append(std::string& text, const char* format, ...) {
   char line[512];
   va_list arguments;
@@ -63,10 +59,11 @@ void append_ppp(std::string& text, const PppEpochs& e) {
 
 void append_latency(std::string& text, const LatencySummary& s) {
   append(text, "  %-22s %7llu %9.3f %9.3f %9.3f %9.3f", s.name.c_str(),
-         static_cast<unsigned long long>(s.count), to_ms(s.p50), to_ms(s.p90), to_ms(s.p99),
-         to_ms(s.max));
+         static_cast<unsigned long long>(s.count), to_milliseconds(s.p50), to_milliseconds(s.p90),
+         to_milliseconds(s.p99), to_milliseconds(s.max));
   if (s.deadline > Duration::zero()) {
-    append(text, " %9.0f %7llu", to_ms(s.deadline), static_cast<unsigned long long>(s.misses));
+    append(text, " %9.0f %7llu", to_milliseconds(s.deadline),
+           static_cast<unsigned long long>(s.misses));
   }
   text += '\n';
 }
@@ -77,10 +74,10 @@ void append_worst(std::string& text, const std::vector<LatencySummary>& summarie
     for (std::size_t i = 0; i < std::min(s.worst.size(), shown); ++i) {
       const MissedDeadline& m = s.worst[i];
       append(text, "  missed: %s at %s: %.3f ms (", s.name.c_str(), format_time(m.stamp).c_str(),
-             to_ms(m.latency));
+             to_milliseconds(m.latency));
       const char* separator = "";
       for (const MissedDeadline::Part& part : m.parts) {
-        append(text, "%s%s %.3f", separator, part.name.c_str(), to_ms(part.lasted));
+        append(text, "%s%s %.3f", separator, part.name.c_str(), to_milliseconds(part.lasted));
         separator = ", ";
       }
       text += ")\n";
@@ -194,9 +191,14 @@ json to_json(const fusion_score::Score& s) {
 }
 
 json to_json(const LatencySummary& s) {
-  return {{"count", s.count},         {"misses", s.misses},     {"deadline_ms", to_ms(s.deadline)},
-          {"p50_ms", to_ms(s.p50)},   {"p90_ms", to_ms(s.p90)}, {"p99_ms", to_ms(s.p99)},
-          {"p999_ms", to_ms(s.p999)}, {"max_ms", to_ms(s.max)}};
+  return {{"count", s.count},
+          {"misses", s.misses},
+          {"deadline_ms", to_milliseconds(s.deadline)},
+          {"p50_ms", to_milliseconds(s.p50)},
+          {"p90_ms", to_milliseconds(s.p90)},
+          {"p99_ms", to_milliseconds(s.p99)},
+          {"p999_ms", to_milliseconds(s.p999)},
+          {"max_ms", to_milliseconds(s.max)}};
 }
 
 json to_json(const std::vector<LatencySummary>& summaries) {
@@ -269,16 +271,16 @@ std::string format_table(const ReplayResult& r) {
            static_cast<unsigned long long>(s.source.delivered),
            static_cast<unsigned long long>(s.source.refused));
     if (!r.lockstep) {
-      append(t, "  %9.3f %9.3f %9.3f", to_ms(s.lateness.p50), to_ms(s.lateness.p99),
-             to_ms(s.lateness.max));
+      append(t, "  %9.3f %9.3f %9.3f", to_milliseconds(s.lateness.p50),
+             to_milliseconds(s.lateness.p99), to_milliseconds(s.lateness.max));
     }
     t += '\n';
     append_findings(t, s);
   }
   if (!r.lockstep) {
     append(t, "  %-19s %7llu            %9.3f %9.3f %9.3f\n", "all",
-           static_cast<unsigned long long>(v.lateness.count), to_ms(v.lateness.p50),
-           to_ms(v.lateness.p99), to_ms(v.lateness.max));
+           static_cast<unsigned long long>(v.lateness.count), to_milliseconds(v.lateness.p50),
+           to_milliseconds(v.lateness.p99), to_milliseconds(v.lateness.max));
   }
 
   append_live(t, v.health.sensors);
@@ -348,9 +350,9 @@ void write_json(const std::filesystem::path& file, const ReplayResult& r) {
                  {"wall_s", v.wall_seconds},
                  {"cpu_s", v.cpu_seconds},
                  {"peak_memory_bytes", v.peak_memory},
-                 {"lateness_p50_ms", to_ms(v.lateness.p50)},
-                 {"lateness_p99_ms", to_ms(v.lateness.p99)},
-                 {"lateness_max_ms", to_ms(v.lateness.max)},
+                 {"lateness_p50_ms", to_milliseconds(v.lateness.p50)},
+                 {"lateness_p99_ms", to_milliseconds(v.lateness.p99)},
+                 {"lateness_max_ms", to_milliseconds(v.lateness.max)},
                  {"lost", r.samples_lost()},
                  {"stalls", v.stalls},
                  {"stalled_s", to_seconds(v.stalled)},

@@ -22,6 +22,7 @@
 #include "sensors/replay/reference_trajectory.h"
 #include "tools/fusion_score.h"
 #include "tools/lcm_log/log_writer.h"
+#include "tools/map_options.h"
 #include "tools/match/driven_links.h"
 #include "tools/replay_result.h"
 #include "tools/run_pass.h"
@@ -86,24 +87,14 @@ class Replay {
     const std::string configuration = configuration_of(options, config);
     if (configuration != config.configuration) set_configuration(config, configuration);
     if (!options.gnss_outage.empty()) config.gnss_outage = options.gnss_outage;
+    if (!options.odometry_poses.empty()) config.odometry_poses.file = options.odometry_poses;
     if (!options.imu.empty()) {
       config.imu_noise = options.imu;
       if (options.imu == "mems") set_imu_grade(config, "mems");
     }
-    if (!options.map.empty()) config.map.file = options.map.string();
-    if (!options.map_mode.empty()) config.map.mode = map_mode_of(options.map_mode);
-    if (config.map.mode != vehicle::MapMode::none && !options.map_mode.empty() &&
-        config.map.file.empty()) {
-      throw std::runtime_error("--map-mode " + options.map_mode + " needs a map: --map FILE");
-    }
+    set_map(config.map, options.map, options.map_mode);
     if (options.speed_scale) config.wheel.scale_error = *options.speed_scale - 1.0;
     return config;
-  }
-
-  static vehicle::MapMode map_mode_of(const std::string& name) {
-    const auto names = names_of(vehicle::MapMode{});
-    return static_cast<vehicle::MapMode>(std::find(names.begin(), names.end(), name) -
-                                         names.begin());
   }
 
   // The one asked for; else what the other options make sense with.
@@ -275,7 +266,7 @@ int Replay::run() {
               << options_.snapshot->seconds << " s\n";
   }
   if (r.interrupted) return exit_interrupted;
-  return snapshot_missing || any_thread_failed(r) ? exit_failed : 0;
+  return snapshot_missing || any_thread_failed(r) || !pass_->recorded_all() ? exit_failed : 0;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/vehicle/vehicle_config.h"
 #include "tools/replay_console.h"
 
 namespace maploop::tools {
@@ -35,10 +36,11 @@ struct ReplayOptions {
   std::filesystem::path csv;
   std::filesystem::path nmea;
   std::filesystem::path map;
-  std::string map_mode;
+  std::optional<vehicle::MapMode> map_mode;
   std::filesystem::path report;
   std::string configuration;
   std::string gnss_outage;
+  std::filesystem::path odometry_poses;
   std::string imu;
   std::optional<double> speed_scale;  // 1.01: the wheels read 1 % too much
   bool start_from_reference = false;
@@ -53,8 +55,9 @@ struct ReplayOptions {
 };
 
 // Plays the recording to its end, prints the closing table and writes the files asked for. Returns
-// the command's exit status: 1 when a thread failed or the snapshot was not reached, 130 when
-// interrupted. Throws std::runtime_error naming the file that cannot be read or written.
+// the command's exit status: 1 when a thread failed, the snapshot was not reached or the log does
+// not hold everything, 130 when interrupted. Throws std::runtime_error naming the file that cannot
+// be read or written.
 int replay(const ReplayOptions& options);
 
 }  // namespace maploop::tools

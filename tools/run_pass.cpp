@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "tools/nav_files.h"
-#include "tools/report/report.h"
 
 namespace maploop::tools {
 
@@ -15,10 +14,13 @@ vehicle::Observer RunPass::observer() {
   o.ppp = [this](const PppState& state) {
     if (!ppp) ppp.emplace();
     ppp->add(state);
+    ppp_states[state.stamp] = state;
   };
   o.nav_state = [this](const NavState& state) { track.add(state); };
   o.map_match = [this](const MapMatch& match) {
-    if (match.refusal != FixRefusal::no_position) matches[match.stamp] = match::timed_match(match);
+    if (match.refusal == FixRefusal::no_position) return;
+    matches[match.stamp] = match::timed_match(match);
+    road_moments[match.stamp] = report::road_moment(match);
   };
   o.image_state = [this](const NavState& state) { collector.add(state); };
   return o;
@@ -38,9 +40,11 @@ void write_run_report(const std::filesystem::path& file, const ReplayResult& res
   std::vector<report::DeadReckoning> ways{{"stereo odometry", pass.collector.odometry()}};
   const auto lidar = pass.lidar_collector.odometry();
   if (!lidar.poses.empty()) ways.push_back({"LiDAR odometry", lidar});
-  report::write_report(
-      file, {result, pass.track, std::move(reference), std::move(ways), vehicle::to_toml(config),
-             MAPLOOP_VERSION, map != nullptr ? &map->network : nullptr});
+  const fusion::FusionParameters& p = config.fusion;
+  const Eigen::Vector3d antenna(p.gnss_lever_forward, p.gnss_lever_left, p.gnss_lever_up);
+  report::write_report(file, {result, pass.track, std::move(reference), std::move(ways),
+                              pass.road_moments, pass.ppp_states, antenna, vehicle::to_toml(config),
+                              MAPLOOP_VERSION, map != nullptr ? &map->network : nullptr});
 }
 
 bool any_thread_failed(const ReplayResult& result) {

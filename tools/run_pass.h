@@ -15,6 +15,7 @@
 #include "tools/fusion_score.h"
 #include "tools/match/driven_links.h"
 #include "tools/replay_result.h"
+#include "tools/report/report.h"
 #include "tools/trajectory_collector.h"
 
 namespace maploop::tools {
@@ -28,12 +29,17 @@ struct RunPass {
   vehicle::Observer observer();
 
   vehicle::ChannelHashes hashes;
+  // Whether the log asked for holds every message.
+  bool recorded_all() const { return recorder == nullptr || recorder->health().unsent == 0; }
+
   std::unique_ptr<vehicle::LogRecorder> recorder;
   TrajectoryCollector collector;
   TrajectoryCollector lidar_collector;
   fusion_score::NavTrack track;
   std::optional<PppEpochs> ppp;
+  std::map<Time, PppState> ppp_states;
   std::map<Time, match::TimedMatch> matches;
+  std::map<Time, report::RoadMoment> road_moments;
 };
 
 // Files that a run can write of its fused states; empty: not.

@@ -12,10 +12,14 @@ void add_send(CLI::App& app, Command& command) {
   CLI::App* sub = app.add_subcommand(
       "send",
       "Send a KITTI raw drive as its sensors would: the LiDAR as packets of an HDL-64E, the IMU as "
-      "NCOM, fixes as NMEA, in real time, for maploop live. Endpoints are udp://[ADDRESS]:PORT, "
+      "NCOM, fixes as NMEA, images through a pipeline, in real time, for maploop live. Endpoints "
+      "are udp://[ADDRESS]:PORT, "
       "without an address on this host");
   sub->add_option("DRIVE", options->drive, "Folder such as 2011_09_26/2011_09_26_drive_0013_sync")
       ->required();
+  sub->add_option("--camera", options->camera,
+                  "GStreamer elements that take the pairs, side by side in one grey image: "
+                  "'rtpgstpay ! udpsink host=127.0.0.1 port=5004'");
   sub->add_option("--velodyne", options->velodyne, "Where its data packets go");
   sub->add_option("--imu", options->imu, "Where NCOM goes");
   sub->add_option("--gnss", options->gnss, "Where NMEA goes");

@@ -19,6 +19,7 @@
 #include "sensors/clock/host_clock.h"
 #include "sensors/imu/ncom_packet.h"
 #include "sensors/live/datagram_sender.h"
+#include "sensors/live/video_sender.h"
 #include "sensors/replay/reference_trajectory.h"
 #include "sensors/velodyne/packet_encoder.h"
 #include "tools/evaluation/trajectory_file.h"
@@ -67,6 +68,7 @@ class Schedule {
 
   Time shifted(Time t) const { return t + shift_; }
   Duration shift() const { return shift_; }
+  Duration late(Time t) const { return clock_.now() - shifted(t); }
   Time end() const { return end_; }
   // False when it is to end before t.
   bool wait(Time t) const {
@@ -131,6 +133,14 @@ void send_gnss(sensors::Source<GnssFix>& fixes, const sensors::DatagramSender& t
   }
 }
 
+void send_images(sensors::Source<StereoPair>& pairs, sensors::VideoSender& to,
+                 const Schedule& schedule, Sent& sent) {
+  StereoPair pair;
+  while (pairs.next(pair) && schedule.wait(pair.available)) {
+    sent.add(to.send(pair, schedule.late(pair.available)));
+  }
+}
+
 sensors::Hdl64Lasers lasers_of(const vehicle::Recording& recording) {
   const auto scans = recording.sensors(Time::min()).velodyne;
   LidarScan scan;
@@ -174,8 +184,21 @@ int send(const SendOptions& options) {
 
   std::vector<std::function<void()>> senders;
   std::stop_source stop;
-  Sent turns_sent, imu_sent, gnss_sent;
+  Sent images_sent, turns_sent, imu_sent, gnss_sent;
   std::optional<Schedule> schedule;
+  if (!options.camera.empty()) {
+    if (s.camera == nullptr) throw std::runtime_error("the drive has no images to send");
+    const StereoCalibration& cameras = recording.calibration.stereo;
+    const double rate = static_cast<double>(recording.images - 1) /
+                        to_seconds(recording.last_stamp - recording.first_stamp);
+    const auto to =
+        std::make_shared<sensors::VideoSender>(options.camera, cameras.width, cameras.height, rate);
+    constexpr std::size_t ahead = 6;
+    const auto pairs = std::make_shared<vehicle::PrefetchedSource<StereoPair>>(
+        "decoder", std::move(s.camera), ahead, stop.get_token(), nullptr);
+    senders.push_back(
+        [=, &schedule, &images_sent] { send_images(*pairs, *to, *schedule, images_sent); });
+  }
   if (!options.velodyne.empty() || !options.calibration.empty()) {
     const sensors::Hdl64Lasers lasers = lasers_of(recording);
     if (!options.calibration.empty()) {
@@ -207,7 +230,7 @@ int send(const SendOptions& options) {
   add(options.gnss, std::move(s.gnss), send_gnss, gnss_sent);
   if (senders.empty()) {
     if (options.calibration.empty()) {
-      throw std::runtime_error("nothing to send: give --velodyne, --imu or --gnss");
+      throw std::runtime_error("nothing to send: give --camera, --velodyne, --imu or --gnss");
     }
     return 0;
   }
@@ -221,13 +244,14 @@ int send(const SendOptions& options) {
   stop.request_stop();
   const auto print = [](const char* name, const Sent& sent) {
     if (sent.messages + sent.refused == 0) return;
-    std::printf("%-9s %8llu datagrams", name, static_cast<unsigned long long>(sent.messages));
+    std::printf("%-9s %8llu messages", name, static_cast<unsigned long long>(sent.messages));
     if (sent.refused > 0) {
       std::printf(", %llu not taken by the system",
                   static_cast<unsigned long long>(sent.refused.load()));
     }
     std::printf("\n");
   };
+  print("camera", images_sent);
   print("velodyne", turns_sent);
   print("imu", imu_sent);
   print("gnss", gnss_sent);

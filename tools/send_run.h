@@ -9,6 +9,7 @@ namespace maploop::tools {
 struct SendOptions {
   std::filesystem::path drive;
   std::filesystem::path config;
+  std::string camera;                 // elements of a GStreamer pipeline; empty: not sent
   std::string velodyne, imu, gnss;    // endpoints, udp; empty: not sent
   std::filesystem::path calibration;  // of the scanner, written; empty: not
   std::filesystem::path truth;        // TUM, written; empty: not

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/choice_option.h"
 #include "tools/commands.h"
 #include "tools/option_checks.h"
 #include "tools/sensors_listen.h"
@@ -31,7 +32,9 @@ void add_listen(CLI::App& app, Command& command) {
                   "The scanner's calibration file (db.xml); an HDL-64E needs it")
       ->check(existing_file());
   sub->add_option("--imu", options->imu, "Endpoint of an OXTS unit's NCOM");
-  sub->add_option("--gnss", options->gnss, "Endpoint of a receiver's NMEA");
+  sub->add_option("--gnss", options->gnss, "Endpoint of a receiver");
+  add_choice(sub, "--gnss-protocol", options->gnss_protocol,
+             "nmea, ubx: its fixes; observations: UBX or RTCM 3; default: nmea");
   sub->add_option("--seconds", options->seconds, "How long")->check(number_in(0.1, 86400.0));
   sub->add_option("--json", options->json, "Write what was heard to this file as JSON")
       ->check(writable_file());

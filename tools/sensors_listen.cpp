@@ -2,8 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <functional>
 #include <memory>
@@ -17,11 +15,10 @@
 #include "runtime/vehicle/vehicle.h"
 #include "runtime/vehicle/vehicle_config.h"
 #include "tools/json_output.h"
+#include "tools/terminal.h"
 
 namespace maploop::tools {
 namespace {
-
-std::atomic<bool> interrupted{false};  // lock-free, as a signal handler needs it
 
 // What one sensor delivered.
 struct Heard {
@@ -36,7 +33,7 @@ template <class T>
 void listen(sensors::LiveSource<T>& source, const sensors::HostClock& clock, Time end,
             Heard& heard) {
   T sample{};
-  while (!interrupted && clock.now() < end) {
+  while (!interrupted() && clock.now() < end) {
     if (!source.wait(sample, std::chrono::milliseconds(50))) continue;
     if (heard.samples++ == 0) heard.first = sample.stamp;
     heard.last = sample.stamp;
@@ -64,7 +61,7 @@ void print(const Heard& heard) {
     const double rate = span > 0.0 ? static_cast<double>(heard.samples - 1) / span : 0.0;
     std::printf("  samples      %llu, %.2f Hz, delivered %.1f to %.1f ms after their stamp\n",
                 static_cast<unsigned long long>(heard.samples), rate,
-                1e3 * to_seconds(heard.youngest), 1e3 * to_seconds(heard.oldest));
+                to_milliseconds(heard.youngest), to_milliseconds(heard.oldest));
   }
   for (const std::string& reason : heard.report.reasons) {
     std::printf("  left out     %s\n", reason.c_str());
@@ -109,6 +106,7 @@ vehicle::VehicleConfig config_of(const ListenOptions& options) {
   p.imu = options.imu;
   p.imu_delay = 0.0;
   p.gnss = options.gnss;
+  if (options.gnss_protocol) p.gnss_protocol = *options.gnss_protocol;
   if (p.velodyne.empty() && p.imu.empty() && p.gnss.empty()) {
     throw CLI::RequiredError("one of --velodyne, --imu and --gnss");
   }
@@ -122,7 +120,7 @@ int listen_to_sensors(const ListenOptions& options) {
   const sensors::HostClock& clock = *live.clock;
   const Time end = clock.now() + from_seconds(options.seconds);
   std::vector<Heard> heard;
-  heard.reserve(3);
+  heard.reserve(5);
   std::vector<std::function<void()>> listeners;
   const auto add = [&]<class T>(const char* name,
                                 const std::unique_ptr<sensors::LiveSource<T>>& source) {
@@ -131,19 +129,17 @@ int listen_to_sensors(const ListenOptions& options) {
     h.name = name;
     listeners.push_back([&source, &clock, end, &h] { listen(*source, clock, end, h); });
   };
+  add("camera", live.camera);
   add("velodyne", live.velodyne);
   add("imu", live.imu);
   add("gnss", live.gnss);
-  interrupted = false;
-  const auto interrupt = [](int) { interrupted = true; };
-  const auto before = std::signal(SIGINT, interrupt);
-  const auto terminate_before = std::signal(SIGTERM, interrupt);
+  add("gnss", live.epochs);
+  add("corrections", live.corrections);
+  note_interrupts();
   {
     std::vector<std::jthread> threads;
     for (const auto& listener : listeners) threads.emplace_back(listener);
   }
-  std::signal(SIGINT, before);
-  std::signal(SIGTERM, terminate_before);
   bool all = true;
   nlohmann::json json;
   for (const Heard& h : heard) {

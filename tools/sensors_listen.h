@@ -2,13 +2,17 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+
+#include "runtime/vehicle/live_config.h"
 
 namespace maploop::tools {
 
 struct ListenOptions {
   std::filesystem::path config;  // its [live] says what to listen to; empty: the endpoints do
   std::string velodyne, velodyne_position, imu, gnss;  // endpoints; empty: not listened to
+  std::optional<vehicle::GnssProtocol> gnss_protocol;
   std::string model = "VLP-16";
   std::filesystem::path calibration;
   double seconds = 5.0;

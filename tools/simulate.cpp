@@ -3,14 +3,19 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <map>
 #include <memory>
+#include <sstream>
 #include <string>
+#include <vector>
 
+#include "msgs/frames.h"
 #include "msgs/time.h"
 #include "tools/commands.h"
 #include "tools/option_checks.h"
@@ -44,6 +49,17 @@ class FrameProgress {
   Clock::time_point begin_ = Clock::now(), next_ = begin_ + std::chrono::seconds(1);
 };
 
+// "49.01,8.43"
+Geodetic parse_place(const std::string& text) {
+  double latitude = 0.0, longitude = 0.0;
+  char comma = 0, more = 0;
+  std::istringstream in(text);
+  if (!(in >> latitude >> comma >> longitude) || comma != ',' || in >> more ||
+      !(std::fabs(latitude) <= 85.0 && std::fabs(longitude) <= 180.0))
+    throw CLI::ValidationError("--route", "'" + text + "' is no LATITUDE,LONGITUDE in degrees");
+  return {radians(latitude), radians(longitude), 0.0};
+}
+
 int simulate_command(const SimulateOptions& options) {
   note_interrupts();
   FrameProgress progress;
@@ -56,9 +72,13 @@ int simulate_command(const SimulateOptions& options) {
     std::cerr << "broken off; nothing is left of it\n";
     return 130;
   }
-  const auto drive = options.out / "town_extract", map = options.out / "map.osm";
-  std::cout << "wrote " << options.out.string() << "; to see it:\n  maploop replay "
-            << drive.string() << " --map " << map.string() << '\n';
+  const auto drive = options.out / "town_extract", config = options.out / "vehicle.toml";
+  std::cout << "wrote " << options.out.string();
+  const simulate::SimulatedSensors& made = options.drive.sensors;
+  if (made.camera && made.imu)
+    std::cout << "; to see it:\n  maploop replay " << drive.string() << " --config "
+              << config.string();
+  std::cout << '\n';
   return 0;
 }
 
@@ -66,16 +86,31 @@ int simulate_command(const SimulateOptions& options) {
 
 void add_simulate(CLI::App& app, Command& command) {
   auto options = std::make_shared<SimulateOptions>();
-  CLI::App* sub = app.add_subcommand(
-      "simulate", "Make a drive through a generated town: cameras, LiDAR, IMU, map and truth");
+  CLI::App* sub = app.add_subcommand("simulate",
+                                     "Make a drive through a generated town or on a map's roads: "
+                                     "cameras, LiDAR, IMU, GNSS, map and "
+                                     "truth");
   sub->add_option("--out", options->out,
-                  "New folder for the drive, in KITTI's layout (25 MB a second)")
+                  "New folder for the drive, in KITTI's layout (24 MB a second; --compact)")
       ->required();
   sub->add_option("--seconds", options->drive.seconds, "How long the drive takes")
       ->check(number_in(1.0, 3600.0))
       ->capture_default_str();
   sub->add_option("--seed", options->drive.seed, "Another seed, another town and drive")
       ->capture_default_str();
+  CLI::Option* map =
+      sub->add_option("--map", options->drive.map,
+                      "OpenStreetMap file: along its roads instead of through a generated town")
+          ->check(existing_file());
+  sub->add_option_function<std::vector<std::string>>(
+         "--route",
+         [options](const std::vector<std::string>& places) {
+           for (const std::string& place : places)
+             options->drive.route.push_back(parse_place(place));
+         },
+         "LATITUDE,LONGITUDE ...: the shortest way by these places of the map, and on as the seed "
+         "will")
+      ->needs(map);
   const std::map<std::string, simulate::ImuGrade> grades{{"tactical", simulate::ImuGrade::tactical},
                                                          {"mems", simulate::ImuGrade::mems}};
   sub->add_option_function<std::string>(
@@ -84,6 +119,45 @@ void add_simulate(CLI::App& app, Command& command) {
          "tactical or mems")
       ->check(CLI::IsMember({"tactical", "mems"}))
       ->default_str("tactical");
+  const std::map<std::string, simulate::Environment> environments{
+      {"town", simulate::Environment::town},
+      {"open", simulate::Environment::open},
+      {"suburban", simulate::Environment::suburban},
+      {"urban", simulate::Environment::urban}};
+  sub->add_option_function<std::string>(
+         "--environment",
+         [options, environments](const std::string& name) {
+           options->drive.environment = environments.at(name);
+         },
+         "What stands along the streets: town, open, suburban or urban")
+      ->check(CLI::IsMember({"town", "open", "suburban", "urban"}))
+      ->default_str("town");
+  sub->add_option_function<std::vector<std::string>>(
+         "--sensors",
+         [options](const std::vector<std::string>& names) {
+           const auto has = [&names](const char* name) {
+             return std::find(names.begin(), names.end(), name) != names.end();
+           };
+           options->drive.sensors = {has("camera"), has("lidar"), has("imu"), has("gnss")};
+         },
+         "Those of the drive, of camera,lidar,imu,gnss; the first two are what takes time")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"camera", "lidar", "imu", "gnss"}))
+      ->default_str("camera,lidar,imu,gnss");
+  sub->add_option_function<std::string>(
+         "--scanner",
+         [options](const std::string& name) {
+           options->drive.scanner =
+               name == "vlp-16" ? simulate::Scanner::vlp_16 : simulate::Scanner::hdl_64e;
+         },
+         "hdl-64e or vlp-16")
+      ->check(CLI::IsMember({"hdl-64e", "vlp-16"}))
+      ->default_str("hdl-64e");
+  sub->add_flag("--compact", options->drive.compact,
+                "Scans as the scanner's ranges, images of 86 grey levels: 5 MB a second");
+  sub->add_option("--gnss-rate", options->drive.gnss_rate, "Epochs of the GNSS receiver; Hz")
+      ->check(number_in(0.1, 20.0))
+      ->capture_default_str();
   sub->callback(
       [options, &command] { command = [options] { return simulate_command(*options); }; });
 }

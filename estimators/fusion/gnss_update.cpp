@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "estimators/fusion/fix_error.h"
 #include "estimators/fusion/initial_state.h"
 
 namespace maploop::fusion {
@@ -60,17 +61,15 @@ Innovation<3> position_innovation(const FilterState& state, const GnssFix& fix,
                                   const LocalFrame& frame, const FusionParameters& p) {
   using namespace index;
   const Vector3d arm = rotation_enu_body(state.attitude()) * lever(p);
-  const Vector3d lasting =
-      (p.gnss_correlated * fix.position_covariance.diagonal()).cwiseMax(0.0).cwiseSqrt();
+  const FixError error = split_error(fix.position_covariance, p);
   Innovation<3> innovation;
   innovation.residual = frame.to_enu(fix.position) - state.x.segment<3>(east) - arm -
-                        lasting.cwiseProduct(state.x.segment<3>(gnss_offset_east));
+                        error.lasting * state.x.segment<3>(gnss_offset_east);
   innovation.H.setZero();
   innovation.H.middleCols<3>(east).setIdentity();
   innovation.H.middleCols<3>(azimuth) = turned_by_attitude(state.attitude(), arm);
-  innovation.H.middleCols<3>(gnss_offset_east) = lasting.asDiagonal();
-  innovation.R = fix.position_covariance;
-  innovation.R.diagonal() -= lasting.cwiseAbs2();
+  innovation.H.middleCols<3>(gnss_offset_east) = error.lasting;
+  innovation.R = error.fresh;
   innovation.R.diagonal().array() += p.min_position_sigma * p.min_position_sigma;
   return innovation;
 }

@@ -9,9 +9,9 @@
 
 namespace maploop::fusion {
 
-// z = position in enu; h = position + R lever + sigma offset, where the offset is what lasts of the
-// receiver's error, of variance 1 and with sigma^2 the lasting share of the stated variance; R has
-// the rest.
+// z = position in enu; h = position + R lever + L offset, where the offset is what lasts of the
+// receiver's error, of variance 1 and with L L^T the lasting share of the stated covariance; R has
+// the rest (fix_error.h).
 Innovation<3> position_innovation(const FilterState& state, const GnssFix& fix,
                                   const LocalFrame& frame, const FusionParameters& parameters);
 

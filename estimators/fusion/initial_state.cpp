@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "estimators/fusion/covariance_check.h"
+#include "estimators/fusion/fix_error.h"
 #include "estimators/fusion/measurement_check.h"
 #include "estimators/fusion/stamp_guard.h"
 
@@ -139,10 +140,9 @@ FilterState initial_state(const GnssFix& fix, const LocalFrame& frame, const Fus
   add(roll, p.start_roll_sigma);
   add_unknown_sensors(state, p);
   // The lasting part of this fix's error is in the position as well as in the fixes to come.
-  for (int i = 0; i < 3; ++i) {
-    const double shared = std::sqrt(p.gnss_correlated * fix.position_covariance(i, i));
-    state.P(east + i, gnss_offset_east + i) = state.P(gnss_offset_east + i, east + i) = -shared;
-  }
+  const Eigen::Matrix3d lasting = split_error(fix.position_covariance, p).lasting;
+  state.P.block<3, 3>(east, gnss_offset_east) = -lasting;
+  state.P.block<3, 3>(gnss_offset_east, east) = -lasting.transpose();
   state.gnss_stamp = fix.stamp;
   take_clone(state);
   start_chain(state);

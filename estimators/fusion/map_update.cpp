@@ -30,7 +30,7 @@ void reset(FilterState& state, const MapFeedback& feedback, const LocalFrame& fr
 Innovation<1> line_innovation(const FilterState& state, const MapFeedback& feedback,
                               const LocalFrame& frame) {
   using namespace index;
-  const Eigen::Vector2d right(std::cos(feedback.link_azimuth), -std::sin(feedback.link_azimuth));
+  const Eigen::Vector2d right = right_of_line(feedback);
   const Eigen::Vector2d off = state.x.segment<2>(east) - frame.to_enu(feedback.point).head<2>();
   Innovation<1> innovation;
   innovation.residual << feedback.lane_sigma * state.x[lane_offset] - right.dot(off);
@@ -60,13 +60,9 @@ void enter_road(FilterState& state, const FusionParameters& p) {
 }
 
 Reason check_feedback(const MapFeedback& f, const FusionParameters& p) {
-  for (const double value : {f.point.latitude, f.point.longitude, f.point.height, f.link_azimuth,
-                             f.cross_sigma, f.lane_sigma, f.azimuth_sigma}) {
-    if (!std::isfinite(value)) return Reason::not_finite;
-  }
+  if (!all_finite(f)) return Reason::not_finite;
   if (!f.position && !f.azimuth) return Reason::nothing_fed_back;
-  if (f.position && (f.cross_sigma <= 0.0 || f.lane_sigma < 0.0)) return Reason::invalid_covariance;
-  if (f.azimuth && f.azimuth_sigma <= 0.0) return Reason::invalid_covariance;
+  if (!has_sigmas(f)) return Reason::invalid_covariance;
   return stamped_after_delivery(f, p) ? Reason::after_delivery : Reason::none;
 }
 

@@ -29,10 +29,6 @@ EventKey last_key_at(Time stamp) {
   return {stamp, EventKind::clone, std::numeric_limits<std::uint64_t>::max()};
 }
 
-}  // namespace
-
-namespace {
-
 // Between samples on a straight line; after the newest one, its own.
 double yaw_rate_at(const InertialSamples& samples, Time t) {
   if (samples.before == nullptr) return 0.0;

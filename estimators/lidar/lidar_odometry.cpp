@@ -1,11 +1,13 @@
 #include "estimators/lidar/lidar_odometry.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "estimators/lidar/local_map.h"
+#include "estimators/lidar/motion_covariance.h"
 #include "estimators/lidar/parameter_fields.h"
 #include "estimators/lidar/scan_preparation.h"
 #include "estimators/lidar/validate.h"
@@ -20,13 +22,6 @@ constexpr double nominal_interval = 0.1;  // s, a turn of the LiDAR
 
 double angle(const Isometry3d& T) {
   return Eigen::AngleAxisd(T.linear()).angle();
-}
-
-// From body axes at the motion's end (right perturbation) to those at its begin.
-Matrix6d to_from_axes(const Matrix6d& covariance, const Eigen::Matrix3d& R_from_to) {
-  Matrix6d A = Matrix6d::Zero();
-  A.topLeftCorner<3, 3>() = A.bottomRightCorner<3, 3>() = R_from_to;
-  return A * covariance * A.transpose();
 }
 
 void set_pose(const Isometry3d& T_from_to, RelativeMotion* motion) {
@@ -86,11 +81,11 @@ class LidarOdometry::Implementation {
   // The rest are buffers of one call.
   template <class Archive>
   void archive(Archive& ar) {
-    ar.section("LiDAR odometry", 1);
+    ar.section("LiDAR odometry", 2);
     archive_same(ar, "mounting of the LiDAR", T_body_velo_);
     archive_same_fields(ar, parameters_);
     ar(started_, stamp_, aligned_stamp_, T_map_body_, twist_, map_is_sharp_, refused_in_a_row_,
-       stale_, map_);
+       stale_, seed_covariance_, map_);
   }
   std::size_t largest_archive() const { return map_.largest_archive() + 4096; }
 
@@ -101,7 +96,6 @@ class LidarOdometry::Implementation {
  private:
   struct Prediction {
     Isometry3d T_from_to = Isometry3d::Identity();
-    std::optional<Matrix6d> covariance;  // of the visual motion, body axes at its end
     bool visual = false;
     bool known = false;  // false: nothing is known of the motion
   };
@@ -141,8 +135,15 @@ class LidarOdometry::Implementation {
     if (visual != nullptr && visual->status == OdometryStatus::ok) {
       twist_ = Twist::of(visual->T_from_to(), to_seconds(visual->stamp - visual->from));
       const Eigen::Matrix3d R_to_from = visual->rotation.toRotationMatrix().transpose();
-      p.covariance = to_from_axes(visual->covariance, R_to_from);
       p.visual = true;
+      if (seed_covariance_) {
+        *seed_covariance_ =
+            carried_over(*seed_covariance_, visual->T_from_to()) +
+            to_from_axes(visual->covariance, R_to_from) +
+            mounting_covariance(R_to_from * visual->translation, parameters_.mounting_sigma);
+      }
+    } else {
+      seed_covariance_.reset();
     }
     p.known = p.visual || (twist_ && parameters_.constant_motion);
     if (p.known) p.T_from_to = twist_->over(seconds);
@@ -170,12 +171,15 @@ class LidarOdometry::Implementation {
     const Isometry3d change = seed.inverse() * alignment.T_map_body;
     motion->seed_translation_error = change.translation().norm();
     motion->seed_rotation_error = angle(change);
-    const Isometry3d T_from_to = T_map_body_.inverse() * alignment.T_map_body;
+    Isometry3d T_from_to = T_map_body_.inverse() * alignment.T_map_body;
     motion->status = judge(T_from_to, prediction, *motion);
     if (motion->status != OdometryStatus::ok) return;
+    if (const auto information = seed_information()) {
+      T_from_to = T_map_body_.inverse() * weighed_with(seed, *information, alignment, parameters_);
+    }
     set_pose(T_from_to, motion);
     motion->source = prediction.visual ? OdometrySource::visual_lidar : OdometrySource::lidar;
-    motion->covariance = to_from_axes(covariance(alignment, prediction), T_from_to.linear());
+    motion->covariance = to_from_axes(covariance(alignment), T_from_to.linear());
   }
 
   OdometryStatus judge(const Isometry3d& T_from_to, const Prediction& prediction,
@@ -197,12 +201,20 @@ class LidarOdometry::Implementation {
   }
 
   // Of the points in the directions that they determine, of the seed in the others.
-  Matrix6d covariance(const Alignment& alignment, const Prediction& prediction) const {
+  Matrix6d covariance(const Alignment& alignment) const {
     const Matrix6d unseen = Matrix6d::Identity() - alignment.degeneracy.seen;
     Matrix6d seed = Matrix6d::Identity();  // 1 m, 1 rad: nothing is known
-    if (prediction.covariance) seed = *prediction.covariance;
+    if (seed_covariance_) seed = *seed_covariance_;
     return parameters_.correlated_points * alignment.covariance +
            unseen * seed * unseen.transpose();
+  }
+
+  // Of visual motions that reach from the last scan used to this one; else nothing.
+  std::optional<Matrix6d> seed_information() const {
+    if (!seed_covariance_ || parameters_.independent_points <= 0.0) return std::nullopt;
+    const Eigen::LLT<Matrix6d> factor(*seed_covariance_);
+    if (factor.info() != Eigen::Success) return std::nullopt;
+    return Matrix6d(factor.solve(Matrix6d::Identity()));
   }
 
   void advance(const Isometry3d& T_from_to, const OdometerResult& result) {
@@ -211,6 +223,7 @@ class LidarOdometry::Implementation {
     if (result.lidar.status == OdometryStatus::ok) {
       twist_ = Twist::of(T_from_to, seconds);
       aligned_stamp_ = result.lidar.stamp;
+      seed_covariance_ = Matrix6d::Zero();
     }
     stamp_ = result.lidar.stamp;
     started_ = true;
@@ -222,6 +235,7 @@ class LidarOdometry::Implementation {
       map_.insert(prepared_, T_map_body_);
       map_is_sharp_ = twist_.has_value();
       aligned_stamp_ = stamp_;
+      seed_covariance_ = Matrix6d::Zero();
       return;
     }
     if (status != OdometryStatus::ok) {
@@ -252,6 +266,9 @@ class LidarOdometry::Implementation {
   Time aligned_stamp_{};                            // of the last step whose scan was used
   Isometry3d T_map_body_ = Isometry3d::Identity();  // at stamp_
   std::optional<Twist> twist_;                      // the last motion
+  // Of the visual motions since the last scan used, body axes at stamp_; nothing where one of them
+  // was refused.
+  std::optional<Matrix6d> seed_covariance_;
   bool map_is_sharp_ = false;
   int refused_in_a_row_ = 0;
   int stale_ = 0;

@@ -41,6 +41,12 @@ struct LidarParameters {
   int min_points = 300;            // samples with a normal; fewer: too_few_features
   double min_overlap = 0.4;        // share of them with a partner; less: too_few_inliers
 
+  // --- Visual motion beside the scan
+  // What the scan's points are worth together beside the visual motion: as many independent ones as
+  // an HDL-64E has lasers, for points of one laser share its errors. 0: they decide alone.
+  double independent_points = 64.0;
+  double mounting_sigma = 0.005;  // rad (0.3 deg), how well the cameras stand to the LiDAR
+
   // --- Degeneracy: information a point on a direction, rotations as metres at the mean range.
   double min_information = 0.003;
 
@@ -48,6 +54,13 @@ struct LidarParameters {
   // Factor on the covariance of independent points. Odometries from disjoint halves of the points
   // differ over a second by what 0.05 predicts; the rest is for what both halves share.
   double correlated_points = 1.0;
+
+  // --- Visual motion, given the LiDAR's length (disparity_correction.h)
+  bool correct_disparities = true;
+  // px / sqrt(s): the error depends on the place in the image, so what a constant has to stand for
+  // changes with the scene, by 0.4 px in 10 s of the recorded drive.
+  double disparity_drift = 0.1;
+  double min_disparity_sigma = 0.03;  // px; 0.1 % of the way, what the scans' own scale is good for
 
   // --- Agreement with the seed, of one interval of 0.1 s
   double max_disagreement = 0.5;              // m

@@ -1,6 +1,7 @@
 #include "estimators/stereo/back_end.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "estimators/stereo/image_motion.h"
 
@@ -72,7 +73,16 @@ void BackEnd::remember(const Eigen::Isometry3d& motion, double seconds,
 void BackEnd::widen(std::span<const StereoTrack> tracks, const CameraMotion& motion,
                     RelativeMotion* result) {
   const double pairs = ages_.correlated_pairs(tracks, motion.inliers);
-  result->covariance *= std::max(1.0, pairs / parameters_.correlated_pairs);
+  const double factor = std::max(1.0, pairs / parameters_.correlated_pairs);
+  result->covariance *= factor;
+  by_offset_ = offset_effect_on_body(camera_.T_body_cam, motion);
+  offset_sigma_ = std::sqrt(factor) * offset_.sigma();
+}
+
+void BackEnd::describe_offset(VisualMotion* motion) const {
+  motion->offset = offset_.value();
+  motion->offset_sigma = offset_sigma_;
+  motion->by_offset = by_offset_;
 }
 
 void BackEnd::adjust_window(std::span<const StereoTrack> tracks, CameraMotion* motion,
@@ -93,8 +103,10 @@ void BackEnd::adjust_window(std::span<const StereoTrack> tracks, CameraMotion* m
   remember(last.T_world_cam.inverse() * now.T_world_cam, to_seconds(now.stamp - last.stamp),
            *result);
   motion->T_previous_current = before.inverse() * now.T_world_cam;
-  if (const auto covariance = adjustment_.newest_covariance(window_))
-    motion->covariance = *covariance + motion->by_offset * motion->by_offset.transpose();
+  if (const auto covariance = adjustment_.newest_covariance(window_)) {
+    const Eigen::Matrix<double, 6, 1> open = offset_.sigma() * motion->by_offset;
+    motion->covariance = *covariance + open * open.transpose();
+  }
   to_body(camera_.T_body_cam, *motion, result);
 }
 

@@ -16,7 +16,7 @@
 #include "estimators/stereo/tracks.h"
 #include "estimators/stereo/window.h"
 #include "msgs/calibration.h"
-#include "msgs/odometry.h"
+#include "msgs/visual_motion.h"
 
 namespace maploop::stereo {
 
@@ -40,6 +40,9 @@ class BackEnd {
   // and where the status is ok pose and covariance of the body, condition and parallax. Returns the
   // indices of the tracks that agree with an accepted motion, ascending; valid until the next call.
   const std::vector<int>& process(std::span<const StereoTrack> tracks, RelativeMotion* result);
+
+  // How the last accepted motion depends on the disparities' offset.
+  void describe_offset(VisualMotion* motion) const;
 
   void on_stage(StageListener listener) { stage_ = std::move(listener); }
 
@@ -78,6 +81,8 @@ class BackEnd {
   Window window_;
   BundleAdjustment adjustment_;
   std::vector<int> agreeing_;
+  Eigen::Matrix<double, 6, 1> by_offset_ = Eigen::Matrix<double, 6, 1>::Zero();  // body, 1 / px
+  double offset_sigma_ = 0.0;  // px, as the last covariance has it
   StageListener stage_;
 };
 

@@ -97,13 +97,12 @@ void lengthen(CameraMotion* motion, double length) {
     motion->covariance.topLeftCorner<3, 3>() = kStanding * kStanding * Eigen::Matrix3d::Identity();
 }
 
-void to_body(const Eigen::Isometry3d& T_body_cam, const CameraMotion& motion,
-             RelativeMotion* result) {
-  const Eigen::Isometry3d T = T_body_cam * motion.T_previous_current * T_body_cam.inverse();
-  result->translation = T.translation();
-  result->rotation = Eigen::Quaterniond(T.linear()).normalized();
-  // t_body = R_body_cam t_cam + l - R l with the camera's lever l: a rotation error of the camera
-  // also moves the body, by [R l]x.
+namespace {
+
+// Of the body's motion by the camera's. t_body = R_body_cam t_cam + l - R l with the camera's lever
+// l: a rotation error of the camera also moves the body, by [R l]x.
+Eigen::Matrix<double, 6, 6> body_by_camera(const Eigen::Isometry3d& T_body_cam,
+                                           const Eigen::Isometry3d& T) {
   const Eigen::Matrix3d R_body_cam = T_body_cam.linear();
   const Eigen::Vector3d lever = T.linear() * T_body_cam.translation();
   Eigen::Matrix3d lever_cross;
@@ -112,7 +111,27 @@ void to_body(const Eigen::Isometry3d& T_body_cam, const CameraMotion& motion,
   J.topLeftCorner<3, 3>() = R_body_cam;
   J.topRightCorner<3, 3>() = lever_cross * R_body_cam;
   J.bottomRightCorner<3, 3>() = R_body_cam;
+  return J;
+}
+
+Eigen::Isometry3d of_body(const Eigen::Isometry3d& T_body_cam, const CameraMotion& motion) {
+  return T_body_cam * motion.T_previous_current * T_body_cam.inverse();
+}
+
+}  // namespace
+
+void to_body(const Eigen::Isometry3d& T_body_cam, const CameraMotion& motion,
+             RelativeMotion* result) {
+  const Eigen::Isometry3d T = of_body(T_body_cam, motion);
+  result->translation = T.translation();
+  result->rotation = Eigen::Quaterniond(T.linear()).normalized();
+  const Eigen::Matrix<double, 6, 6> J = body_by_camera(T_body_cam, T);
   result->covariance = J * motion.covariance * J.transpose();
+}
+
+Eigen::Matrix<double, 6, 1> offset_effect_on_body(const Eigen::Isometry3d& T_body_cam,
+                                                  const CameraMotion& motion) {
+  return body_by_camera(T_body_cam, of_body(T_body_cam, motion)) * motion.by_offset;
 }
 
 }  // namespace maploop::stereo

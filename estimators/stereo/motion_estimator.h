@@ -24,7 +24,7 @@ struct CameraMotion {
   // Translation (m), then rotation vector (rad), of cam at the current epoch, in cam at the
   // previous one.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  // What of it stands for the disparities' offset: a standard deviation's effect.
+  // What the motion changes by where the disparities' offset is a px larger.
   Eigen::Matrix<double, 6, 1> by_offset = Eigen::Matrix<double, 6, 1>::Zero();
   double offset = 0.0;        // px still missing in the disparities, as this pair sees it,
   double offset_sigma = 0.0;  // and its standard deviation
@@ -49,5 +49,8 @@ void lengthen(CameraMotion* motion, double length);
 // Carries a motion and its covariance from cam to body.
 void to_body(const Eigen::Isometry3d& T_body_cam, const CameraMotion& motion,
              RelativeMotion* result);
+// by_offset in the body, as its covariance.
+Eigen::Matrix<double, 6, 1> offset_effect_on_body(const Eigen::Isometry3d& T_body_cam,
+                                                  const CameraMotion& motion);
 
 }  // namespace maploop::stereo

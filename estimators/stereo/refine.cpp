@@ -79,9 +79,9 @@ bool estimate_covariance(const Adjustment& adjustment, const std::optional<Motio
   if (prior) information += prior_information(*prior);
   const Eigen::LDLT<Matrix6> factor(information);
   if (factor.info() != Eigen::Success || !factor.isPositive()) return false;
-  const Vector6 by_offset = factor.solve(coupling) * (assumed_offset_sigma / variance);
-  result->by_offset = by_offset;
-  const Matrix6 covariance = factor.solve(Matrix6::Identity()) + by_offset * by_offset.transpose();
+  result->by_offset = -factor.solve(coupling) / variance;
+  const Vector6 open = assumed_offset_sigma * result->by_offset;
+  const Matrix6 covariance = factor.solve(Matrix6::Identity()) + open * open.transpose();
   result->covariance = 0.5 * (covariance + covariance.transpose());
 
   // The offset with the pose eliminated, by the tracks alone.

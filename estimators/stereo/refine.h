@@ -24,8 +24,8 @@ struct Refinement {
   // px. An offset makes near and far points disagree about the way driven.
   double offset = 0.0;
   double offset_sigma = 0.0;
-  // What the motion changes by with one assumed standard deviation of the offset; in the
-  // covariance.
+  // What the motion changes by where the offset is a px larger; in the covariance, times
+  // assumed_offset_sigma.
   Eigen::Matrix<double, 6, 1> by_offset = Eigen::Matrix<double, 6, 1>::Zero();
   double variance_factor = 0.0;  // of the residuals against sigma_track and sigma_disparity
   std::vector<int> inliers;      // indices of tracks within outlier_sigmas

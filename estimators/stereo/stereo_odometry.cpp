@@ -20,8 +20,8 @@ class StereoOdometry::Implementation {
         front_end_(make_front_end(calibration, parameters)),
         back_end_(calibration, parameters) {}
 
-  RelativeMotion process(const StereoPair& pair) {
-    RelativeMotion result;
+  VisualMotion process(const StereoPair& pair) {
+    VisualMotion result;
     result.stamp = pair.stamp;
     result.available = pair.available;
     result.sequence = pair.sequence;
@@ -117,7 +117,7 @@ class StereoOdometry::Implementation {
   }
 
   // Those of the tracks that agree with an accepted motion.
-  std::span<const int> follow_features(RelativeMotion* result) {
+  std::span<const int> follow_features(VisualMotion* result) {
     const double seconds = to_seconds(result->stamp - result->from);
     const std::optional<Eigen::Isometry3d> expected =
         back_end_.expected_motion(result->stamp, seconds);
@@ -128,6 +128,7 @@ class StereoOdometry::Implementation {
     if (result->status == OdometryStatus::ok && result->sequence > reference_sequence_ + 1 &&
         result->condition == OdometryCondition::ordinary)
       result->condition = OdometryCondition::after_gap;
+    if (result->status == OdometryStatus::ok) back_end_.describe_offset(result);
     return agreeing;
   }
 
@@ -185,7 +186,7 @@ double StereoOdometry::disparity_offset() const {
   return implementation_->disparity_offset();
 }
 
-RelativeMotion StereoOdometry::process(const StereoPair& pair) {
+VisualMotion StereoOdometry::process(const StereoPair& pair) {
   return implementation_->process(pair);
 }
 

@@ -10,7 +10,7 @@
 #include "estimators/stereo/tracks.h"
 #include "msgs/calibration.h"
 #include "msgs/image.h"
-#include "msgs/odometry.h"
+#include "msgs/visual_motion.h"
 
 namespace maploop {
 class ArchiveReader;
@@ -52,7 +52,7 @@ class StereoOdometry {
   //
   // A pair is usable when it shows enough stereo features itself; it is then what the next one is
   // compared with, whatever became of its own motion.
-  RelativeMotion process(const StereoPair& pair);
+  VisualMotion process(const StereoPair& pair);
 
   // Called at the end of each stage from the next call of process() on.
   void on_stage(StageListener listener);

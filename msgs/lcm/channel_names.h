@@ -18,6 +18,7 @@ inline constexpr std::string_view wheel_speed = "WHEEL_SPEED";
 inline constexpr std::string_view truth = "TRUTH";
 inline constexpr std::string_view camera = "CAMERA";
 inline constexpr std::string_view velodyne = "VELODYNE";
+inline constexpr std::string_view preview = "PREVIEW";
 inline constexpr std::string_view calibration = "CALIBRATION";
 inline constexpr std::string_view replay_control = "REPLAY_CONTROL";
 inline constexpr std::string_view deadlines = "DEADLINES";

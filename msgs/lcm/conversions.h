@@ -11,6 +11,7 @@
 #include <maploop_lcm/map_match_t.hpp>
 #include <maploop_lcm/nav_state_t.hpp>
 #include <maploop_lcm/ppp_state_t.hpp>
+#include <maploop_lcm/preview_t.hpp>
 #include <maploop_lcm/reference_pose_t.hpp>
 #include <maploop_lcm/relative_motion_t.hpp>
 #include <maploop_lcm/wheel_speed_t.hpp>
@@ -23,6 +24,7 @@
 #include "msgs/nav_state.h"
 #include "msgs/odometry.h"
 #include "msgs/ppp_state.h"
+#include "msgs/preview.h"
 #include "msgs/reference.h"
 #include "msgs/wheel_speed.h"
 
@@ -38,6 +40,7 @@ maploop_lcm::ppp_state_t to_lcm(const PppState& state);
 maploop_lcm::reference_pose_t to_lcm(const ReferencePose& pose);
 maploop_lcm::map_match_t to_lcm(const MapMatch& match, const MapMatchWords& words);
 maploop_lcm::map_feedback_t to_lcm(const MapFeedback& feedback);
+maploop_lcm::preview_t to_lcm(const Preview& preview);
 maploop_lcm::deadlines_t to_lcm(const Deadlines& deadlines);
 maploop_lcm::health_t to_lcm(const Health& health);
 
@@ -53,6 +56,7 @@ PppState from_lcm(const maploop_lcm::ppp_state_t& message);
 ReferencePose from_lcm(const maploop_lcm::reference_pose_t& message);
 MapMatch from_lcm(const maploop_lcm::map_match_t& message);
 MapFeedback from_lcm(const maploop_lcm::map_feedback_t& message);
+Preview from_lcm(const maploop_lcm::preview_t& message);
 Deadlines from_lcm(const maploop_lcm::deadlines_t& message);
 Health from_lcm(const maploop_lcm::health_t& message);
 

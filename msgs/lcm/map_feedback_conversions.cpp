@@ -23,6 +23,7 @@ maploop_lcm::map_feedback_t to_lcm(const MapFeedback& f) {
   m.cross_sigma = f.cross_sigma;
   m.lane_sigma = f.lane_sigma;
   m.azimuth_sigma = f.azimuth_sigma;
+  m.probability = f.probability;
   return m;
 }
 
@@ -40,6 +41,7 @@ MapFeedback from_lcm(const maploop_lcm::map_feedback_t& m) {
   f.cross_sigma = m.cross_sigma;
   f.lane_sigma = m.lane_sigma;
   f.azimuth_sigma = m.azimuth_sigma;
+  f.probability = m.probability;
   return f;
 }
 

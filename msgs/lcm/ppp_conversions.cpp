@@ -1,4 +1,6 @@
 #include <charconv>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "msgs/lcm/conversion_parts.h"
@@ -65,7 +67,12 @@ maploop_lcm::ppp_state_t to_lcm(const PppState& state) {
   m.phase_rms = state.phase_rms;
   m.converging_for = state.converging_for;
   m.restarts = static_cast<std::int64_t>(state.restarts);
+  m.map = static_cast<std::int8_t>(state.map);
+  m.roads_used = static_cast<std::int64_t>(state.roads_used);
+  m.roads_refused = static_cast<std::int64_t>(state.roads_refused);
   m.satellites_used = state.satellites_used;
+  m.satellites_corrected = state.satellites_corrected;
+  m.correction_age = state.correction_age.value_or(std::numeric_limits<double>::quiet_NaN());
   convert_each(state.satellites, m.satellites, to_lcm);
   m.satellite_count = static_cast<std::int32_t>(m.satellites.size());
   return m;
@@ -88,7 +95,12 @@ PppState from_lcm(const maploop_lcm::ppp_state_t& m) {
   state.phase_rms = m.phase_rms;
   state.converging_for = m.converging_for;
   state.restarts = static_cast<std::uint64_t>(m.restarts);
+  state.map = enumerator_from(m.map, PppMap::paused, "ppp_state_t.map");
+  state.roads_used = static_cast<std::uint64_t>(m.roads_used);
+  state.roads_refused = static_cast<std::uint64_t>(m.roads_refused);
   state.satellites_used = m.satellites_used;
+  state.satellites_corrected = m.satellites_corrected;
+  if (!std::isnan(m.correction_age)) state.correction_age = m.correction_age;
   convert_each(m.satellites, state.satellites, from_lcm);
   return state;
 }

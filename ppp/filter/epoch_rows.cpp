@@ -95,11 +95,9 @@ Row EpochRows::code_row(std::size_t i, const Tracked& t, int reference_system,
   const double glonass =
       m.satellite.system == System::glonass ? parameters_.glonass_code_factor : 1.0;
   const double sigma = parameters_.code_sigma * m.noise_factor() * glonass / sine;
-  const double lasting = t.predicted.satellite.sigma;
-  const double ionosphere = 0.5 * t.predicted.ionosphere;
   row.y = t.code_offset - predicted;
   const double noise = sigma * sigma * weakness(m);
-  const double rest = lasting * lasting + ionosphere * ionosphere;
+  const double rest = lasting_variance(t.predicted);
   row.variance = noise * t.code_repeats + rest;
   row.sigma = std::sqrt(noise + rest);
   return row;

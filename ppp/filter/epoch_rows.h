@@ -2,11 +2,11 @@
 // satellite as rows of a Kalman update.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
 #include "ppp/filter/filter_state.h"
+#include "ppp/filter/linear_row.h"
 #include "ppp/filter/parameters.h"
 #include "ppp/filter/range_model.h"
 #include "ppp/filter/solution.h"
@@ -24,30 +24,21 @@ struct Tracked {
   bool phase_good = true;
 };
 
+// m^2, of a range: by errors of orbit, clock and ionosphere.
+inline double lasting_variance(const PredictedRange& p) {
+  const double orbit_and_clock = p.satellite.sigma, ionosphere = 0.5 * p.ionosphere;
+  return orbit_and_clock * orbit_and_clock + ionosphere * ionosphere;
+}
+
 enum class RowKind { code, phase, doppler };
 
-// y = h dx + noise; dx is the error of the state before the update. An error that lasts says less
-// than its size: the variance is the one that independent errors would need, epoch for epoch, to
-// say as little; sigma is the size.
-struct Row {
+// An error that lasts says less than its size: the variance is the one that independent errors
+// would need, epoch for epoch, to say as little; sigma is the size.
+struct Row : LinearRow {
   RowKind kind = RowKind::code;
   std::size_t tracked = 0;  // whose
-  double y = 0.0, variance = 0.0, sigma = 0.0;
-  int count = 0;
-  std::array<int, 12> indices{};
-  std::array<double, 12> h{};
+  double sigma = 0.0;
   bool active = true;
-
-  void add(int index, double value) {
-    indices[static_cast<std::size_t>(count)] = index;
-    h[static_cast<std::size_t>(count++)] = value;
-  }
-  // What dx leaves of y.
-  double left(const Eigen::VectorXd& dx) const {
-    double rest = y;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) rest -= h[k] * dx[indices[k]];
-    return rest;
-  }
 };
 
 class EpochRows {

@@ -16,7 +16,13 @@ class FilterState {
   static constexpr int clock = 6, clock_drift = 7;              // m, m/s
   static constexpr int zenith_wet = 8;                          // m, on top of the model's guess
   static constexpr int gradient_north = 9, gradient_east = 10;  // m
-  static constexpr int system_offset = 11;                      // m, of each system's clock
+  // What only a map observes: the error of the position that lasts (orbits, clocks, ionosphere),
+  // east and north; the map's datum against that of the orbits; and the vehicle's offset from the
+  // map's line in standard deviations (MapFeedback::lane_sigma).
+  static constexpr int lasting_error = 11;  // m
+  static constexpr int map_datum = 13;      // m
+  static constexpr int lane_offset = 15;
+  static constexpr int system_offset = 16;  // m, of each system's clock
   static constexpr int fixed = system_offset + system_count;
   static constexpr int most_ambiguities = 64;
   static constexpr int capacity = fixed + most_ambiguities;

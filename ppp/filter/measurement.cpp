@@ -101,8 +101,11 @@ std::optional<Measurement> measure(Satellite satellite, std::span<const Signal> 
                                    const std::array<std::optional<int>, 100>& glonass_channels,
                                    const Ephemeris& ephemeris, GpsTime t, bool allow_single) {
   const auto bands = bands_of(satellite.system);
-  const auto channel = satellite.system == System::glonass ? glonass_channels[satellite.number]
-                                                           : std::optional<int>{};
+  std::optional<int> channel;
+  if (satellite.system == System::glonass) {
+    channel = glonass_channels[satellite.number];
+    if (!channel) channel = ephemeris.glonass_channel(satellite.number);
+  }
   Measurement m;
   m.satellite = satellite;
   m.first = carrier_of(satellite, bands[0], signals,

@@ -56,6 +56,24 @@ struct PppParameters {
   double single_code_sigma = 1.0;     // m
   double single_phase_sigma = 0.005;  // m
   double single_full_cn0 = 45.0;      // dB-Hz
+
+  // --- The road that map matching has found
+  // Share of the map's standard deviation that the filter's own without the map must exceed across
+  // the road: a map is good to metres, a converged position to decimetres.
+  double map_useful_share = 0.3;
+  double map_gate = 6.63;            // chi-square, 1 degree of freedom, 1 % tail
+  double map_slip = 0.1;             // m/s across a straight road, besides the azimuth's error
+  double map_reach = 0.5;            // s, of an epoch from the feedback's stamp
+  double map_datum_sigma = 1.0;      // m an axis, of the whole map against the orbits' frame
+  double map_lasting_time = 3600.0;  // s, of errors of broadcast orbits, clocks and ionosphere
+  double map_lasting_share = 0.8;    // of the position's variance is theirs at most
+  double map_lane_length = 300.0;    // m of way in which a lane and the map's error change
+  double map_lane_lasting = 0.3;     // share of them that goes on behind a turn: the side driven on
+  // When the filter with the map is too far from the one without to be right.
+  double map_difference_gate = 9.21;  // chi-square, 2 degrees of freedom, 1 % tail
+  double map_patience = 5.0;          // s so far apart, or ...
+  int map_most_gated = 5;             // lines gated in a row: a wrong road
+  double map_pause = 10.0;  // s without the map behind it, doubled each time up to 16 times
 };
 
 inline PppParameters for_one_frequency(PppParameters p) {
@@ -99,6 +117,19 @@ void fields(Parameters& p, F&& f) {
   f("single_code_sigma", p.single_code_sigma);
   f("single_phase_sigma", p.single_phase_sigma);
   f("single_full_cn0", p.single_full_cn0);
+  f("map_useful_share", p.map_useful_share);
+  f("map_gate", p.map_gate);
+  f("map_slip", p.map_slip);
+  f("map_reach", p.map_reach);
+  f("map_datum_sigma", p.map_datum_sigma);
+  f("map_lasting_time", p.map_lasting_time);
+  f("map_lasting_share", p.map_lasting_share);
+  f("map_lane_length", p.map_lane_length);
+  f("map_lane_lasting", p.map_lane_lasting);
+  f("map_difference_gate", p.map_difference_gate);
+  f("map_patience", p.map_patience);
+  f("map_most_gated", p.map_most_gated);
+  f("map_pause", p.map_pause);
 }
 
 }  // namespace maploop::ppp

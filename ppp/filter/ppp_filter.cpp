@@ -23,6 +23,7 @@ PppFilter::PppFilter(const PppParameters& parameters, const Surroundings& surrou
       model_(surroundings, std::move(earth)),
       memory_(satellite_slots),
       rows_(parameters),
+      map_dx_(FilterState::capacity),
       update_(parameters.outlier_sigmas) {}
 
 void PppFilter::reset() {
@@ -33,6 +34,18 @@ void PppFilter::reset() {
   has_offset_.fill(false);
   bad_epochs_ = 0;
   restarts_ = 0;
+  has_map_ = false;
+  lasting_.setZero();
+  solution_.status = PppStatus::none;
+}
+
+MapUse PppFilter::add(const MapFeedback& feedback) {
+  if (solution_.status == PppStatus::none) return MapUse::no_position;
+  const double since = to_seconds(feedback.stamp - to_utc(time_));
+  if (!(std::abs(since) <= parameters_.map_reach)) return MapUse::not_of_this_epoch;
+  const MapUse use = apply_map(state_, feedback, since, level_covariance(), parameters_, map_dx_);
+  has_map_ |= use == MapUse::used;
+  return use;
 }
 
 const PppSolution& PppFilter::process(const Epoch& epoch) {
@@ -50,6 +63,7 @@ const PppSolution& PppFilter::process(const Epoch& epoch) {
   model_.begin(time_, state_.x().segment<3>(S::position));
   predict_ranges(interval);
   set_clocks();
+  weigh_lasting_errors();
   disagrees_ = false;
   update();
   forget_absent();
@@ -113,6 +127,7 @@ bool PppFilter::start(const Epoch& epoch) {
     state_.set(S::gradient_north, 0.0, parameters_.gradient_sigma);
     state_.set(S::gradient_east, 0.0, parameters_.gradient_sigma);
   }
+  begin_map_states(state_, Eigen::Vector2d::Zero(), parameters_);
   started_ = true;
   begun_ = epoch.time;
   return true;
@@ -136,6 +151,7 @@ void PppFilter::predict(double interval) {
     P.block<3, 3>(S::position, S::velocity) += Q * (t * t / 2.0);
     P.block<3, 3>(S::velocity, S::position) += Q * (t * t / 2.0);
     P.block<3, 3>(S::velocity, S::velocity) += Q * t;
+    predict_map_states(state_, interval, lasting_, parameters_);
   }
   const auto walk = [&](int index, double density) {
     P(index, index) += density * density * interval;
@@ -190,6 +206,18 @@ void PppFilter::predict_ranges(double interval) {
       report.refused = PppRefusal::low;
       continue;
     }
+    // The ambiguity has taken up what the other source's orbit and clock were wrong by.
+    constexpr double difference = 2.0;  // m, of the ranges by two sources
+    if (const int at = state_.ambiguity(m.satellite);
+        at >= 0 && memory.source != predicted->satellite.source) {
+      state_.P()(at, at) += difference * difference;
+      // Its clocks count from another moment, too.
+      const int s = static_cast<int>(m.satellite.system);
+      constexpr double unknown = 100.0;  // m
+      if (s != reference_system_)
+        state_.set(S::system_offset + s, state_.x()[S::system_offset + s], unknown);
+    }
+    memory.source = predicted->satellite.source;
     Tracked tracked{m, *predicted, report_of_[i],
                     m.code() - predicted->range - predicted->ionosphere};
     tracked.code_repeats = code_repeats(m.satellite, memory);
@@ -258,6 +286,29 @@ void PppFilter::set_clocks() {
   }
 }
 
+// The position's error by those of the ranges that last, as if there were no others: least squares
+// with position and clock.
+void PppFilter::weigh_lasting_errors() {
+  constexpr double least = 1e-4;  // m^2, of what is modelled to the millimetre
+  Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+  int count = 0;
+  for (const Tracked& t : tracked_) {
+    if (!t.code_good) continue;
+    const Eigen::Vector3d u = model_.R_enu_ecef() * t.predicted.to_satellite;
+    const Eigen::Vector4d h(-u.x(), -u.y(), -u.z(), 1.0);
+    normal += h * h.transpose() / std::max(least, lasting_variance(t.predicted));
+    ++count;
+  }
+  if (count < 5) return;  // as it was
+  const Eigen::Vector2d variance = normal.inverse().diagonal().head<2>();
+  if (!variance.allFinite() || variance.minCoeff() <= 0.0) return;
+  const Eigen::Matrix3d R = model_.R_enu_ecef();
+  const Eigen::Matrix3d all = R * state_.P().block<3, 3>(S::position, S::position) * R.transpose();
+  const bool first = lasting_.isZero();
+  lasting_ = variance.cwiseMin(parameters_.map_lasting_share * all.diagonal().head<2>());
+  if (first) begin_map_states(state_, lasting_, parameters_);
+}
+
 // Residuals and refusals; a phase that did not fit has slipped: its ambiguity begins anew.
 void PppFilter::update() {
   std::vector<Row>& rows = rows_.make(tracked_, reference_system_, state_, solution_.satellites);
@@ -316,6 +367,25 @@ bool PppFilter::disagree(const std::vector<Row>& rows) const {
   return codes >= 4 && (sum > most_variance * codes || 2 * left_out > codes);
 }
 
+// What the map has shown of it. Satellites count the lasting error as noise, so it is in the
+// covariance already, as large as it is without a map.
+void PppFilter::add_lasting_error() {
+  const Eigen::Matrix<double, 2, 3> to_east_north = model_.R_enu_ecef().topRows<2>();
+  const auto P = state_.P();
+  Eigen::Matrix2d known = P.block<2, 2>(S::lasting_error, S::lasting_error);
+  known.diagonal() -= lasting_;
+  const Eigen::Matrix3d crossed = P.block<3, 2>(S::position, S::lasting_error) * to_east_north;
+  solution_.position += to_east_north.transpose() * state_.x().segment<2>(S::lasting_error);
+  solution_.covariance +=
+      crossed + crossed.transpose() + to_east_north.transpose() * known * to_east_north;
+}
+
+Eigen::Matrix2d PppFilter::level_covariance() const {
+  const Eigen::Matrix<double, 2, 3> to_east_north =
+      rotation_enu_ecef(geodetic_from_ecef(solution_.position)).topRows<2>();
+  return to_east_north * solution_.covariance * to_east_north.transpose();
+}
+
 void PppFilter::report() {
   const auto x = state_.x();
   const auto P = state_.P();
@@ -323,6 +393,7 @@ void PppFilter::report() {
   solution_.covariance = P.block<3, 3>(S::position, S::position) + parameters_.model_sigma *
                                                                        parameters_.model_sigma *
                                                                        Eigen::Matrix3d::Identity();
+  if (has_map_) add_lasting_error();
   solution_.velocity = x.segment<3>(S::velocity);
   solution_.velocity_covariance = P.block<3, 3>(S::velocity, S::velocity);
   solution_.clock = x[S::clock];

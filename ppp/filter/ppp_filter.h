@@ -4,6 +4,7 @@
 
 #include "ppp/filter/epoch_rows.h"
 #include "ppp/filter/filter_state.h"
+#include "ppp/filter/map_update.h"
 #include "ppp/filter/parameters.h"
 #include "ppp/filter/range_model.h"
 #include "ppp/filter/robust_update.h"
@@ -21,6 +22,12 @@ class PppFilter {
   // number of satellites and 10 passes over them.
   const PppSolution& process(const Epoch& epoch);
 
+  // The road at the feedback's stamp, about the state of the last epoch. Nothing is forgotten where
+  // it is refused.
+  MapUse add(const MapFeedback& feedback);
+  const PppSolution& solution() const { return solution_; }  // of the last epoch
+  Eigen::Matrix2d level_covariance() const;                  // the same one's, east and north, m^2
+
   // Forgets everything.
   void reset();
 
@@ -33,7 +40,7 @@ class PppFilter {
   // refused is as it was.
   template <class Archive>
   void archive(Archive& ar) {
-    ar.section("ppp", 1);
+    ar.section("ppp", 2);
     archive_same_fields(ar, parameters_);
     archive_same(ar, "choice of systems", parameters_.systems);
     if constexpr (Archive::loading) {
@@ -53,7 +60,8 @@ class PppFilter {
   template <class Archive>
   void archive_knowledge(Archive& ar) {
     ar(state_, memory_, started_, begun_, time_, reference_system_, has_offset_, bad_epochs_,
-       restarts_);
+       restarts_, lasting_, has_map_, solution_.status, solution_.position, solution_.covariance,
+       solution_.restarts);
   }
 
   struct Memory {  // of a satellite
@@ -61,9 +69,10 @@ class PppFilter {
     double wind_up = 0.0;
     int epochs_away = 0;
     std::optional<GpsTime> last_code;
+    std::uint32_t source = 0;  // of orbit and clock
     template <class Archive>
     void archive(Archive& ar) {
-      ar(slips, wind_up, epochs_away, last_code);
+      ar(slips, wind_up, epochs_away, last_code, source);
     }
   };
   void measure_all(const Epoch& epoch);
@@ -72,9 +81,11 @@ class PppFilter {
   double code_repeats(Satellite satellite, const Memory& memory) const;
   void predict_ranges(double interval);
   void set_clocks();
+  void weigh_lasting_errors();
   void update();
   bool disagree(const std::vector<Row>& rows) const;
   void forget_absent();
+  void add_lasting_error();
   void report();
 
   PppParameters parameters_;
@@ -87,6 +98,9 @@ class PppFilter {
   std::array<bool, system_count> has_offset_{};
   int bad_epochs_ = 0;
   std::uint64_t restarts_ = 0;
+  // m^2, east and north: of the position, by errors that last; of the last epoch.
+  Eigen::Vector2d lasting_ = Eigen::Vector2d::Zero();
+  bool has_map_ = false;  // whose states are part of the solution
 
   // Of one epoch; members only to reuse their memory.
   std::vector<Measurement> measurements_;
@@ -94,6 +108,7 @@ class PppFilter {
   std::vector<Tracked> tracked_;
   std::vector<double> sorted_;
   EpochRows rows_;
+  Eigen::VectorXd map_dx_;
   RobustUpdate update_;
   bool disagrees_ = false;
   PppSolution solution_;

@@ -17,7 +17,7 @@ void RangeModel::begin(GpsTime t, const Eigen::Vector3d& marker) {
     receiver_ += ocean_tide(marker, *around_.ocean_loading, t);
   }
   zenith_ = zenith_delay(site_, t);
-  mapping_ = NiellMapping(site_, t);
+  mapping_ = GlobalMapping(site_, t);
 }
 
 std::optional<PredictedRange> RangeModel::predict(const Measurement& m,

@@ -66,7 +66,7 @@ class RangeModel {
   Eigen::Matrix3d R_enu_ecef_ = Eigen::Matrix3d::Identity();
   SunAndMoon bodies_;
   ZenithDelay zenith_;
-  NiellMapping mapping_;
+  GlobalMapping mapping_;
 };
 
 }  // namespace maploop::ppp

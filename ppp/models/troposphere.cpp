@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "ppp/models/atmosphere.h"
+#include "ppp/models/gmf_coefficients.h"
 #include "ppp/satellite.h"
 
 namespace maploop::ppp {
@@ -18,41 +18,63 @@ double fraction(double sine, const double (&c)[3]) {
   return top / (sine + c[0] / (sine + c[1] / (sine + c[2])));
 }
 
-// Tables at 15, 30, 45, 60 and 75 degrees of latitude.
-double between(const double (&table)[5], double latitude_degrees) {
-  const double place = std::clamp(latitude_degrees / 15.0 - 1.0, 0.0, 4.0);
-  const int i = std::min(3, static_cast<int>(place));
-  return table[i] + (place - i) * (table[i + 1] - table[i]);
-}
+// Of the spherical harmonics at a place, without normalization.
+class Harmonics {
+ public:
+  explicit Harmonics(const Geodetic& site) {
+    constexpr int n = gmf::degree;
+    const double x = std::sin(site.latitude), y = std::cos(site.latitude);
+    double p[n + 1][n + 1] = {};
+    p[0][0] = 1.0;
+    for (int m = 1; m <= n; ++m) p[m][m] = (2 * m - 1) * y * p[m - 1][m - 1];
+    for (int m = 0; m < n; ++m) p[m + 1][m] = (2 * m + 1) * x * p[m][m];
+    for (int m = 0; m <= n; ++m) {
+      for (int i = m + 2; i <= n; ++i)
+        p[i][m] = ((2 * i - 1) * x * p[i - 1][m] - (i + m - 1) * p[i - 2][m]) / (i - m);
+    }
+    std::size_t k = 0;
+    for (int i = 0; i <= n; ++i) {
+      for (int m = 0; m <= i; ++m, ++k) {
+        cosine_[k] = 1e-5 * p[i][m] * std::cos(m * site.longitude);
+        sine_[k] = 1e-5 * p[i][m] * std::sin(m * site.longitude);
+      }
+    }
+  }
+  double sum(const gmf::Coefficients& cosine, const gmf::Coefficients& sine) const {
+    double total = 0.0;
+    for (std::size_t k = 0; k < cosine.size(); ++k)
+      total += cosine[k] * cosine_[k] + sine[k] * sine_[k];
+    return total;
+  }
 
-constexpr double hydrostatic_mean[3][5] = {
-    {1.2769934e-3, 1.2683230e-3, 1.2465397e-3, 1.2196049e-3, 1.2045996e-3},
-    {2.9153695e-3, 2.9152299e-3, 2.9288445e-3, 2.9022565e-3, 2.9024912e-3},
-    {62.610505e-3, 62.837393e-3, 63.721774e-3, 63.824265e-3, 64.258455e-3}};
-constexpr double hydrostatic_amplitude[3][5] = {
-    {0.0, 1.2709626e-5, 2.6523662e-5, 3.4000452e-5, 4.1202191e-5},
-    {0.0, 2.1414979e-5, 3.0160779e-5, 7.2562722e-5, 11.723375e-5},
-    {0.0, 9.0128400e-5, 4.3497037e-5, 84.795348e-5, 170.37206e-5}};
-constexpr double wet_table[3][5] = {
-    {5.8021897e-4, 5.6794847e-4, 5.8118019e-4, 5.9727542e-4, 6.1641693e-4},
-    {1.4275268e-3, 1.5138625e-3, 1.4572752e-3, 1.5007428e-3, 1.7599082e-3},
-    {4.3472961e-2, 4.6729510e-2, 4.3908931e-2, 4.4626982e-2, 5.4736038e-2}};
+ private:
+  gmf::Coefficients cosine_{}, sine_{};
+};
 
 }  // namespace
 
-NiellMapping::NiellMapping(const Geodetic& site, GpsTime t) : height_km_(site.height * 1e-3) {
-  const double day = day_of_year(t) + (site.latitude < 0 ? 182.6 : 0.0);
-  const double season = std::cos(2.0 * pi * (day - 28.0) / 365.25);
-  const double latitude = std::abs(site.latitude) * 180.0 / pi;
-  for (int i = 0; i < 3; ++i) {
-    hydrostatic_[i] = between(hydrostatic_mean[i], latitude) -
-                      between(hydrostatic_amplitude[i], latitude) * season;
-    wet_[i] = between(wet_table[i], latitude);
-  }
+GlobalMapping::GlobalMapping(const Geodetic& site, GpsTime t) : height_km_(site.height * 1e-3) {
+  constexpr double seconds_a_day = 86400.0;
+  // Coldest on 28 January, in the north.
+  const double day = to_seconds(t.time_since_epoch()) / seconds_a_day - 22.0;
+  const double season = std::cos(2.0 * pi * day / 365.25);
+  const Harmonics harmonics(site);
+  const bool south = site.latitude < 0.0;
+  const double c10 = south ? 0.002 : 0.001, c11 = south ? 0.007 : 0.005;
+  hydrostatic_[0] =
+      harmonics.sum(gmf::hydrostatic_mean_cosine, gmf::hydrostatic_mean_sine) +
+      season * harmonics.sum(gmf::hydrostatic_amplitude_cosine, gmf::hydrostatic_amplitude_sine);
+  hydrostatic_[1] = 0.0029;
+  hydrostatic_[2] = 0.062 + ((1.0 + (south ? -season : season)) * c11 / 2.0 + c10) *
+                                (1.0 - std::cos(site.latitude));
+  wet_[0] = harmonics.sum(gmf::wet_mean_cosine, gmf::wet_mean_sine) +
+            season * harmonics.sum(gmf::wet_amplitude_cosine, gmf::wet_amplitude_sine);
+  wet_[1] = 0.00146;
+  wet_[2] = 0.04391;
 }
 
-Mapping NiellMapping::at(double elevation) const {
-  static constexpr double by_height[3] = {2.53e-5, 5.49e-3, 1.14e-3};
+Mapping GlobalMapping::at(double elevation) const {
+  static constexpr double by_height[3] = {2.53e-5, 5.49e-3, 1.14e-3};  // Niell 1996
   const double sine = std::sin(elevation);
   return {fraction(sine, hydrostatic_) + (1.0 / sine - fraction(sine, by_height)) * height_km_,
           fraction(sine, wet_)};

@@ -1,4 +1,5 @@
-// Niell's mapping functions of the troposphere (1996), and Klobuchar's ionosphere.
+// Mapping functions of the troposphere (GMF: Boehm, Niell, Tregoning and Schuh 2006), and
+// Klobuchar's ionosphere.
 #pragma once
 
 #include <array>
@@ -12,10 +13,10 @@ struct Mapping {
   double hydrostatic = 0.0, wet = 0.0;
 };
 // At one place, for one epoch: what depends on the elevation alone is left to at().
-class NiellMapping {
+class GlobalMapping {
  public:
-  NiellMapping() = default;
-  NiellMapping(const Geodetic& site, GpsTime t);
+  GlobalMapping() = default;
+  GlobalMapping(const Geodetic& site, GpsTime t);
   Mapping at(double elevation) const;  // rad, above 0
 
  private:

@@ -112,6 +112,52 @@ GlonassState integrate(const GlonassMessage& m, GpsTime t) {
   return s;
 }
 
+int issue_of(const KeplerMessage& m) {
+  return static_cast<int>(m.iode) & 0xff;
+}
+
+int issue_of(const GlonassMessage& m) {
+  const Duration day =
+      (to_utc(m.toe).time_since_epoch() + std::chrono::hours(3)) % Duration(std::chrono::hours(24));
+  return static_cast<int>((day + std::chrono::minutes(7)) / std::chrono::minutes(15));
+}
+
+template <class Message>
+const Message* with_issue(const std::vector<Message>& messages, int issue, GpsTime t,
+                          Duration longest) {
+  const auto found = std::find_if(messages.rbegin(), messages.rend(), [&](const Message& m) {
+    return issue_of(m) == issue && std::chrono::abs(t - m.toe) <= longest;
+  });
+  return found == messages.rend() ? nullptr : &*found;
+}
+
+std::optional<SatelliteState> state_by(const GlonassMessage* m, GpsTime t) {
+  if (!m || m->health != 0.0) return {};
+  const GlonassState s = integrate(*m, t);
+  SatelliteState state;
+  state.position = s.head<3>();
+  state.velocity = s.tail<3>();
+  state.clock = m->minus_tau + m->gamma * to_seconds(t - m->toe);
+  state.clock_drift = m->gamma;
+  state.sigma = 3.0;
+  return state;
+}
+
+std::optional<SatelliteState> state_by(const KeplerMessage* m, GpsTime t) {
+  // Galileo's health has bits for each signal; the others' is zero where all is well.
+  if (!m || m->health != 0.0) return {};
+  constexpr double step = 1e-2;  // s
+  const Orbit now = orbit(*m, t), soon = orbit(*m, t + from_seconds(step));
+  SatelliteState state;
+  state.position = now.position;
+  state.velocity = (soon.position - now.position) / step;
+  state.clock = polynomial(*m, t) + now.relativity;
+  state.clock_drift = m->af1;
+  const System system = m->satellite.system;
+  state.sigma = system == System::galileo ? 0.5 : system == System::beidou ? 1.5 : 1.0;
+  return state;
+}
+
 template <class Message>
 const Message* nearest(const std::vector<Message>& messages, GpsTime t, Duration longest) {
   auto at = std::lower_bound(messages.begin(), messages.end(), t,
@@ -123,45 +169,76 @@ const Message* nearest(const std::vector<Message>& messages, GpsTime t, Duration
   return std::chrono::abs(t - at->toe) <= longest ? &*at : nullptr;
 }
 
-template <class List>
-void sort_by_toe(List& list) {
-  std::stable_sort(list.begin(), list.end(),
-                   [](const auto& a, const auto& b) { return a.toe < b.toe; });
+// In the order of toe; without the earliest where there are too many.
+template <class Message>
+void insert(std::vector<Message>& list, const Message& m, std::size_t most) {
+  list.insert(std::upper_bound(list.begin(), list.end(), m,
+                               [](const Message& a, const Message& b) { return a.toe < b.toe; }),
+              m);
+  if (list.size() > most) list.erase(list.begin());
 }
 
 }  // namespace
 
-BroadcastEphemeris::BroadcastEphemeris(const std::vector<NavigationFile>& files) {
+BroadcastEphemeris::BroadcastEphemeris(const std::vector<NavigationFile>& files,
+                                       std::size_t most_each)
+    : most_each_(most_each) {
   for (const NavigationFile& file : files) {
-    for (const KeplerMessage& m : file.kepler) {
-      // Galileo's clock for E1 and E5b (I/NAV) is left out where the one for E1 and E5a is there:
-      // both orbits are the same.
-      const bool e5b =
-          m.satellite.system == System::galileo && (static_cast<int>(m.data_sources) & 0x200) != 0;
-      auto& list = kepler_[static_cast<std::size_t>(m.satellite.slot())];
-      const auto same = std::find_if(list.begin(), list.end(), [&](const KeplerMessage& other) {
-        return other.toe == m.toe && other.iode == m.iode;
-      });
-      if (same == list.end()) {
-        list.push_back(m);
-      } else if (!e5b) {
-        *same = m;
-      }
-    }
-    for (const GlonassMessage& m : file.glonass) glonass_[m.satellite.number].push_back(m);
+    add(file);
     if (!klobuchar_ && file.klobuchar[0] != 0.0) klobuchar_ = file.klobuchar;
   }
-  for (auto& list : kepler_) sort_by_toe(list);
-  for (auto& list : glonass_) sort_by_toe(list);
 }
 
-const KeplerMessage* BroadcastEphemeris::kepler(Satellite satellite, GpsTime t) const {
-  return nearest(kepler_[static_cast<std::size_t>(satellite.slot())], t,
-                 longest_age(satellite.system));
+void BroadcastEphemeris::add(const BroadcastMessages& messages) {
+  for (const KeplerMessage& m : messages.kepler) add(m);
+  for (const GlonassMessage& m : messages.glonass) add(m);
 }
 
-const GlonassMessage* BroadcastEphemeris::glonass(Satellite satellite, GpsTime t) const {
-  return nearest(glonass_[satellite.number], t, longest_age(System::glonass));
+void BroadcastEphemeris::add(const KeplerMessage& m) {
+  // Galileo's clock for E1 and E5b (I/NAV) is left out where the one for E1 and E5a is there:
+  // both orbits are the same.
+  const auto is_e5b = [](const KeplerMessage& k) {
+    return k.satellite.system == System::galileo && (static_cast<int>(k.data_sources) & 0x200) != 0;
+  };
+  auto& list = kepler_[static_cast<std::size_t>(m.satellite.slot())];
+  const auto same = std::find_if(list.begin(), list.end(), [&](const KeplerMessage& other) {
+    return other.toe == m.toe && other.iode == m.iode;
+  });
+  if (same == list.end()) {
+    insert(list, m, most_each_);
+  } else if (!is_e5b(m) || is_e5b(*same)) {
+    *same = m;
+  }
+}
+
+void BroadcastEphemeris::add(const GlonassMessage& m) {
+  auto& list = glonass_[m.satellite.number];
+  const auto same = std::find_if(list.begin(), list.end(),
+                                 [&](const GlonassMessage& other) { return other.toe == m.toe; });
+  if (same == list.end()) {
+    insert(list, m, most_each_);
+  } else {
+    *same = m;
+  }
+}
+
+const KeplerMessage* BroadcastEphemeris::kepler(Satellite satellite, GpsTime t,
+                                                std::optional<int> issue) const {
+  const auto& messages = kepler_[static_cast<std::size_t>(satellite.slot())];
+  const Duration longest = longest_age(satellite.system);
+  return issue ? with_issue(messages, *issue, t, longest) : nearest(messages, t, longest);
+}
+
+const GlonassMessage* BroadcastEphemeris::glonass(Satellite satellite, GpsTime t,
+                                                  std::optional<int> issue) const {
+  const auto& messages = glonass_[satellite.number];
+  const Duration longest = longest_age(System::glonass);
+  return issue ? with_issue(messages, *issue, t, longest) : nearest(messages, t, longest);
+}
+
+bool BroadcastEphemeris::has_issue(Satellite satellite, int issue, GpsTime t) const {
+  return satellite.system == System::glonass ? glonass(satellite, t, issue) != nullptr
+                                             : kepler(satellite, t, issue) != nullptr;
 }
 
 std::optional<double> BroadcastEphemeris::clock(Satellite satellite, GpsTime t) const {
@@ -176,30 +253,14 @@ std::optional<double> BroadcastEphemeris::clock(Satellite satellite, GpsTime t) 
 }
 
 std::optional<SatelliteState> BroadcastEphemeris::at(Satellite satellite, GpsTime t) const {
-  SatelliteState state;
-  if (satellite.system == System::glonass) {
-    const GlonassMessage* m = glonass(satellite, t);
-    if (!m || m->health != 0.0) return {};
-    const GlonassState s = integrate(*m, t);
-    state.position = s.head<3>();
-    state.velocity = s.tail<3>();
-    state.clock = m->minus_tau + m->gamma * to_seconds(t - m->toe);
-    state.clock_drift = m->gamma;
-    state.sigma = 3.0;
-    return state;
-  }
-  const KeplerMessage* m = kepler(satellite, t);
-  // Galileo's health has bits for each signal; the others' is zero where all is well.
-  if (!m || m->health != 0.0) return {};
-  constexpr double step = 1e-2;  // s
-  const Orbit now = orbit(*m, t), soon = orbit(*m, t + from_seconds(step));
-  state.position = now.position;
-  state.velocity = (soon.position - now.position) / step;
-  state.clock = polynomial(*m, t) + now.relativity;
-  state.clock_drift = m->af1;
-  const bool galileo = satellite.system == System::galileo;
-  state.sigma = galileo ? 0.5 : satellite.system == System::beidou ? 1.5 : 1.0;
-  return state;
+  return satellite.system == System::glonass ? state_by(glonass(satellite, t), t)
+                                             : state_by(kepler(satellite, t), t);
+}
+
+std::optional<SatelliteState> BroadcastEphemeris::at_issue(Satellite satellite, int issue,
+                                                           GpsTime t) const {
+  return satellite.system == System::glonass ? state_by(glonass(satellite, t, issue), t)
+                                             : state_by(kepler(satellite, t, issue), t);
 }
 
 double BroadcastEphemeris::code_bias(Satellite satellite, char band, char, GpsTime t) const {
@@ -226,14 +287,11 @@ std::string BroadcastEphemeris::missing(Satellite satellite, GpsTime t) const {
          format_gps_time(t);
 }
 
-std::array<std::optional<int>, 100> BroadcastEphemeris::glonass_channels() const {
-  std::array<std::optional<int>, 100> channels;
-  for (std::size_t n = 0; n < channels.size(); ++n) {
-    if (glonass_[n].empty()) continue;
-    const int channel = glonass_[n].back().channel;
-    channels[n] = channel > 6 ? channel - 14 : channel;  // an old way to write negative channels
-  }
-  return channels;
+std::optional<int> BroadcastEphemeris::glonass_channel(int number) const {
+  const auto& messages = glonass_[static_cast<std::size_t>(number)];
+  if (messages.empty()) return {};
+  const int channel = messages.back().channel;
+  return channel > 6 ? channel - 14 : channel;  // an old way to write negative channels
 }
 
 }  // namespace maploop::ppp

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "ppp/products/ephemeris.h"
@@ -11,23 +12,37 @@ namespace maploop::ppp {
 
 class BroadcastEphemeris : public Ephemeris {
  public:
-  explicit BroadcastEphemeris(const std::vector<NavigationFile>& files);
+  // `most_each`: messages of a satellite that are kept, the latest; of a file all.
+  explicit BroadcastEphemeris(const std::vector<NavigationFile>& files = {},
+                              std::size_t most_each = static_cast<std::size_t>(-1));
+
+  // As they are received; one with the times and issue of another takes its place.
+  void add(const BroadcastMessages& messages);
 
   std::optional<SatelliteState> at(Satellite satellite, GpsTime t) const override;
+  // By the message with this issue instead of the nearest: the lowest 8 bits of its IODE or IODnav;
+  // of GLONASS the quarter of an hour of Moscow's day.
+  std::optional<SatelliteState> at_issue(Satellite satellite, int issue, GpsTime t) const;
+  bool has_issue(Satellite satellite, int issue, GpsTime t) const;
   std::optional<double> clock(Satellite satellite, GpsTime t) const override;
   double code_bias(Satellite satellite, char band, char attribute, GpsTime t) const override;
   double error_walk(Satellite) const override { return 3e-3; }
   bool centre_of_mass() const override { return false; }
+  std::optional<int> glonass_channel(int number) const override;
   std::string missing(Satellite satellite, GpsTime t) const override;
 
   // Klobuchar's eight, of the first file that has them.
   const std::optional<std::array<double, 8>>& klobuchar() const { return klobuchar_; }
-  std::array<std::optional<int>, 100> glonass_channels() const;
 
  private:
-  const KeplerMessage* kepler(Satellite satellite, GpsTime t) const;
-  const GlonassMessage* glonass(Satellite satellite, GpsTime t) const;
+  void add(const KeplerMessage& message);
+  void add(const GlonassMessage& message);
+  // Of those with this issue, where there is one.
+  const KeplerMessage* kepler(Satellite satellite, GpsTime t, std::optional<int> issue = {}) const;
+  const GlonassMessage* glonass(Satellite satellite, GpsTime t,
+                                std::optional<int> issue = {}) const;
 
+  std::size_t most_each_;
   // By slot; of each the messages in the order of toe.
   std::array<std::vector<KeplerMessage>, satellite_slots> kepler_;
   std::array<std::vector<GlonassMessage>, 100> glonass_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -17,6 +18,7 @@ struct SatelliteState {
   double clock = 0.0;                 // s, with the relativity of an eccentric orbit
   double clock_drift = 0.0;           // s/s
   double sigma = 0.0;                 // m, of range from orbit and clock
+  std::uint32_t source = 0;           // ranges by another one differ by more than they walk
 };
 
 class Ephemeris {
@@ -33,6 +35,8 @@ class Ephemeris {
   virtual double error_walk(Satellite satellite) const = 0;
   // Whether positions are the centre of mass, which phase centres are still to be added to.
   virtual bool centre_of_mass() const = 0;
+  // Of a satellite of GLONASS, 0 to 99, where the message says it.
+  virtual std::optional<int> glonass_channel(int) const { return {}; }
   // "no clock for E12 at 2020-06-25 01:00:00.000".
   virtual std::string missing(Satellite satellite, GpsTime t) const = 0;
 };

@@ -1,6 +1,7 @@
 #include "ppp/readers/navigation.h"
 
 #include <cmath>
+#include <utility>
 
 namespace maploop::ppp {
 namespace {
@@ -103,9 +104,7 @@ class NavigationReader {
                            Eigen::Vector3d(v[5], v[9], v[13]) * 1e3,
                            static_cast<int>(std::lround(std::fmod(v[10], 1e6))),
                            v[6]};
-    const double radius = m.position.norm();
-    if (radius < 2.3e7 || radius > 2.8e7 || m.velocity.norm() > 5e3 || std::abs(v[0]) > 1.0 ||
-        m.channel < -7 || m.channel > 13) {
+    if (!plausible(m)) {
       refuse(to_string(satellite) + ": no orbit of a GLONASS satellite");
       return;
     }
@@ -130,8 +129,7 @@ class NavigationReader {
     m.accuracy = v[23];
     m.health = v[24];
     m.group_delay = {v[25], beidou || galileo ? v[26] : 0.0};
-    if (!(m.e >= 0.0 && m.e < 0.5) || m.sqrt_a < 4000.0 || m.sqrt_a > 8000.0 ||
-        std::abs(v[0]) > 1.0 || v[11] < 0.0 || v[11] > 604800.0 || v[21] < 0.0 || v[21] > 9999.0) {
+    if (!plausible(m) || v[11] < 0.0 || v[11] > 604800.0 || v[21] < 0.0 || v[21] > 9999.0) {
       refuse(to_string(satellite) + ": no orbit of a navigation satellite");
       return;
     }
@@ -145,11 +143,7 @@ class NavigationReader {
   }
 
   void refuse(const std::string& why) {
-    ++result_.refused;
-    if (result_.refusals.size() < 20) {
-      result_.refusals.push_back(lines_.file() + ":" + std::to_string(lines_.line_number()) + ": " +
-                                 why);
-    }
+    ppp::refuse(result_, lines_.file() + ":" + std::to_string(lines_.line_number()), why);
   }
 
   Lines& lines_;
@@ -161,6 +155,39 @@ class NavigationReader {
 };
 
 }  // namespace
+
+void BroadcastMessages::take(BroadcastMessages& from) {
+  std::swap(kepler, from.kepler);
+  std::swap(glonass, from.glonass);
+  from.kepler.clear();
+  from.glonass.clear();
+}
+
+void BroadcastMessages::limit(std::size_t most) {
+  if (kepler.size() > most) kepler.clear();
+  if (glonass.size() > most) glonass.clear();
+}
+
+bool plausible(const KeplerMessage& m) {
+  return m.e >= 0.0 && m.e < 0.5 && m.sqrt_a >= 4000.0 && m.sqrt_a <= 8000.0 &&
+         std::abs(m.af0) <= 1.0;
+}
+
+bool plausible(const GlonassMessage& m) {
+  const double radius = m.position.norm();
+  return radius >= 2.3e7 && radius <= 2.8e7 && m.velocity.norm() <= 5e3 &&
+         std::abs(m.minus_tau) <= 1.0 && m.channel >= -7 && m.channel <= 13;
+}
+
+void refuse(NavigationFile& navigation, const std::string& place, const std::string& why) {
+  constexpr std::size_t most_reasons = 20;
+  ++navigation.refused;
+  if (navigation.refusals.size() < most_reasons) navigation.refusals.push_back(place + ": " + why);
+}
+
+void refuse(NavigationFile& navigation, std::size_t offset, const std::string& why) {
+  refuse(navigation, navigation.file + ": byte " + std::to_string(offset), why);
+}
 
 NavigationFile parse_navigation(std::string_view text, const std::string& file) {
   NavigationFile result;

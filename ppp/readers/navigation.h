@@ -3,12 +3,17 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
+#include <string>
 #include <vector>
 
 #include "ppp/readers/lines.h"
 #include "ppp/satellite.h"
 
 namespace maploop::ppp {
+
+// What data_sources says of Galileo's two messages: the clock is for E1 and E5a, or E1 and E5b.
+inline constexpr double galileo_f_nav = 0x102, galileo_i_nav = 0x205;
 
 // A message of GPS, Galileo, BeiDou or QZSS; names as in IS-GPS-200. rad, m, s.
 struct KeplerMessage {
@@ -35,15 +40,31 @@ struct GlonassMessage {
   double health = 0;
 };
 
-struct NavigationFile {
-  std::string file;
+struct BroadcastMessages {
   std::vector<KeplerMessage> kepler;
   std::vector<GlonassMessage> glonass;
+
+  // All that `from` has, which is empty afterwards; what was here is gone.
+  void take(BroadcastMessages& from);
+  // Of a stream that nobody takes from: a kind with more than `most` begins anew.
+  void limit(std::size_t most);
+};
+
+struct NavigationFile : BroadcastMessages {
+  std::string file;
   std::array<double, 8> klobuchar{};  // alpha, beta; zero: not in the file
   int passed_over = 0;                // messages of SBAS and NavIC, which are not used
   int refused = 0;                    // messages whose values cannot be, and one that was cut
   std::vector<std::string> refusals;
 };
+
+// Whether it can be a message of a navigation satellite.
+bool plausible(const KeplerMessage& message);
+bool plausible(const GlonassMessage& message);
+
+// Counts what is left out, and keeps the first reasons. The same of what a stream has at a byte.
+void refuse(NavigationFile& navigation, const std::string& place, const std::string& why);
+void refuse(NavigationFile& navigation, std::size_t offset, const std::string& why);
 
 NavigationFile parse_navigation(std::string_view text, const std::string& file);
 

@@ -7,6 +7,7 @@
 
 #include "ppp/readers/epoch_builder.h"
 #include "ppp/readers/lines.h"
+#include "ppp/readers/rtcm3_ephemeris.h"
 #include "ppp/readers/rtcm3_signals.h"
 
 namespace maploop::ppp {
@@ -48,15 +49,6 @@ std::optional<double> fine_range(std::int64_t value, std::size_t bits, int power
 }
 
 constexpr Duration week = std::chrono::hours(24 * 7);
-
-// The moment nearest to `near` that is `since` after the begin of a `period`.
-GpsTime nearest(GpsTime near, Duration since, Duration period) {
-  const Duration age = near.time_since_epoch();
-  GpsTime t(age - age % period + since);
-  while (t - near > period / 2) t -= period;
-  while (near - t > period / 2) t += period;
-  return t;
-}
 
 }  // namespace
 
@@ -151,13 +143,13 @@ std::optional<GpsTime> MsmDecoder::time_of(System system, std::uint64_t field) c
     if (ms > 86'401'000) return {};
     const Duration since =
         milliseconds(ms) - std::chrono::hours(3) + leap_seconds(now_).gps_minus_utc;
-    return nearest(now_, since, std::chrono::hours(24));
+    return nearest_moment(now_, since, std::chrono::hours(24));
   }
   const auto ms = static_cast<std::int64_t>(field);
   if (ms >= week / milliseconds(1)) return {};
   const Duration to_gps =
       system == System::beidou ? Duration(std::chrono::seconds(14)) : Duration{};
-  return nearest(now_, milliseconds(ms) + to_gps, week);
+  return nearest_moment(now_, milliseconds(ms) + to_gps, week);
 }
 
 void MsmDecoder::add(const Header& header) {
@@ -264,9 +256,6 @@ bool is_rtcm3(std::string_view bytes) {
   return Rtcm3Frames(bytes.substr(0, far_enough)).next(message);
 }
 
-namespace {
-
-// The middle of the week of an ephemeris.
 std::optional<GpsTime> week_of(const Rtcm3Message& message) {
   constexpr int era = 2048;  // GPS says its weeks modulo 1024: from 2019-04-07 to 2038-11-20
   constexpr int galileo_begin = 1024;
@@ -283,6 +272,8 @@ std::optional<GpsTime> week_of(const Rtcm3Message& message) {
   if (!bits.good()) return {};
   return gps_week_time(number, 0.0) + week / 2;
 }
+
+namespace {
 
 // Of a message 1005 or 1006.
 std::optional<Eigen::Vector3d> position_of(const Rtcm3Message& message) {
@@ -301,7 +292,8 @@ std::optional<Eigen::Vector3d> position_of(const Rtcm3Message& message) {
 
 }  // namespace
 
-Observations parse_rtcm3(std::string_view bytes, const std::string& file) {
+Observations parse_rtcm3(std::string_view bytes, const std::string& file,
+                         NavigationFile* navigation) {
   Observations result;
   result.file = file;
   std::optional<GpsTime> near;
@@ -327,6 +319,10 @@ Observations parse_rtcm3(std::string_view bytes, const std::string& file) {
   while (frames.next(message)) {
     if (const auto position = position_of(message)) {
       result.header.approximate_position = position;
+    }
+    if (navigation != nullptr) {
+      const GpsTime now = result.epochs.empty() ? *near : result.epochs.back().time;
+      if (add_ephemeris(message, now, *navigation)) continue;
     }
     if (decoder.decode(message, epoch, problem)) keep();
     if (!problem.empty()) refuse(result, message.offset, problem);

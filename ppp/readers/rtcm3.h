@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "ppp/observations.h"
+#include "ppp/readers/navigation.h"
 #include "ppp/readers/rtcm3_frames.h"
 
 namespace maploop::ppp {
@@ -60,12 +61,17 @@ class MsmDecoder {
   int left_out_ = 0;
 };
 
+// The middle of the week that an ephemeris of GPS or Galileo (1019, 1045, 1046) says.
+std::optional<GpsTime> week_of(const Rtcm3Message& message);
+
 // Whether a file is a recording of such a stream: a sound message begins in its first kilobytes.
 bool is_rtcm3(std::string_view bytes);
 
 // The epochs of a recording, and the position of messages 1005 and 1006. The week is that of the
 // first ephemeris of GPS or Galileo (1019, 1045, 1046). Throws ReadError where the recording has no
-// such ephemeris, or no MSM.
-Observations parse_rtcm3(std::string_view bytes, const std::string& file);
+// such ephemeris, or no MSM. Its ephemerides (rtcm3_ephemeris.h) go to `navigation`, where there is
+// one.
+Observations parse_rtcm3(std::string_view bytes, const std::string& file,
+                         NavigationFile* navigation = nullptr);
 
 }  // namespace maploop::ppp

@@ -7,6 +7,8 @@ namespace {
 
 constexpr char preamble = '\xd3';
 
+}  // namespace
+
 // CRC-24Q (RTCM 10403, section 4.2).
 std::uint32_t crc24q(std::string_view bytes) {
   static constexpr auto table = [] {
@@ -26,18 +28,18 @@ std::uint32_t crc24q(std::string_view bytes) {
   return crc;
 }
 
-}  // namespace
-
 bool Rtcm3Frames::next(Rtcm3Message& message) {
   constexpr std::size_t head = 3, tail = 3;
   while (at_ < bytes_.size()) {
     at_ = bytes_.find(preamble, at_);
     if (at_ == std::string_view::npos) break;
     Rtcm3Bits frame(bytes_.substr(at_));
+    if (more_follow_ && bytes_.size() - at_ < head) return false;
     frame.skip(8);
     const bool reserved_clear = frame.number(6) == 0;
     const std::size_t length = frame.number(10), size = head + length + tail;
     if (reserved_clear) {
+      if (more_follow_ && bytes_.size() - at_ < size) return false;
       const std::string_view whole = bytes_.substr(at_, size);
       if (whole.size() == size && length >= 2 &&
           Rtcm3Bits(whole.substr(head + length)).number(24) ==

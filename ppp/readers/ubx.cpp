@@ -8,6 +8,7 @@
 
 #include "ppp/readers/epoch_builder.h"
 #include "ppp/readers/lines.h"
+#include "ppp/readers/ubx_subframes.h"
 
 namespace maploop::ppp {
 namespace {
@@ -32,23 +33,12 @@ constexpr std::array named_signals{
     NamedSignal{5, 8, '5', 'I'}, NamedSignal{5, 9, '5', 'Q'}, NamedSignal{6, 0, '1', 'C'},
     NamedSignal{6, 2, '2', 'C'}, NamedSignal{7, 0, '5', 'A'}};
 
-std::optional<Satellite> satellite_of(std::uint8_t gnss, std::uint8_t number) {
-  constexpr std::array<System, 8> systems{System::gps,     System::sbas, System::galileo,
-                                          System::beidou,  System::gps,  System::qzss,
-                                          System::glonass, System::navic};
-  if (gnss >= systems.size() || gnss == 4) return {};  // 4: indoor messaging
-  const int shift = systems[gnss] == System::sbas ? 100 : 0;
-  const int rinex = number - shift;
-  if (rinex < 1 || rinex > 99) return {};  // GLONASS 255: its number is not known yet
-  return Satellite{systems[gnss], static_cast<std::uint8_t>(rinex)};
-}
-
 }  // namespace
 
 std::optional<RawxDecoder::Key> RawxDecoder::key_of(std::string_view m) {
   const auto gnss = ubx_number<std::uint8_t>(m, 20);
   const auto signal = ubx_number<std::uint8_t>(m, 22);
-  const auto satellite = satellite_of(gnss, ubx_number<std::uint8_t>(m, 21));
+  const auto satellite = ubx_satellite(gnss, ubx_number<std::uint8_t>(m, 21));
   const auto named =
       std::find_if(named_signals.begin(), named_signals.end(),
                    [&](const NamedSignal& n) { return n.gnss == gnss && n.signal == signal; });
@@ -156,14 +146,20 @@ bool is_ubx(std::string_view bytes) {
   return UbxFrames(bytes.substr(0, far_enough)).next(frame);
 }
 
-Observations parse_ubx(std::string_view bytes, const std::string& file) {
+Observations parse_ubx(std::string_view bytes, const std::string& file,
+                       NavigationFile* navigation) {
   Observations result;
   result.file = file;
   RawxDecoder decoder;
   UbxFrames frames(bytes);
   std::string problem;
   Epoch epoch;
+  SubframeCollector subframes;
   for (UbxFrame frame; frames.next(frame);) {
+    // Without a time, whose week it is is not known.
+    if (navigation != nullptr && !result.epochs.empty() &&
+        subframes.add(frame, result.epochs.back().time, *navigation))
+      continue;
     if (!decoder.decode(frame, epoch, problem)) {
       if (!problem.empty()) refuse(result, frame.offset, problem);
     } else if (!result.epochs.empty() && epoch.time <= result.epochs.back().time) {

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "ppp/observations.h"
+#include "ppp/readers/navigation.h"
 #include "ppp/readers/ubx_frames.h"
 
 namespace maploop::ppp {
@@ -46,8 +47,9 @@ class RawxDecoder {
 // Whether a file is a recording of such a receiver: a sound frame begins in its first kilobytes.
 bool is_ubx(std::string_view bytes);
 
-// The epochs of a recording. Throws ReadError where it holds no raw measurements at all, saying
-// what to switch on.
-Observations parse_ubx(std::string_view bytes, const std::string& file);
+// The epochs of a recording; its ephemerides (ubx_subframes.h) go to `navigation`, where there is
+// one. Throws ReadError where it holds no raw measurements at all, saying what to switch on.
+Observations parse_ubx(std::string_view bytes, const std::string& file,
+                       NavigationFile* navigation = nullptr);
 
 }  // namespace maploop::ppp

@@ -1,5 +1,7 @@
 #include "ppp/readers/ubx_frames.h"
 
+#include <array>
+
 namespace maploop::ppp {
 namespace {
 
@@ -14,25 +16,47 @@ bool sound(std::string_view checked, std::string_view sum) {
   return a == static_cast<std::uint8_t>(sum[0]) && b == static_cast<std::uint8_t>(sum[1]);
 }
 
+constexpr std::size_t ubx_head = 6, ubx_tail = 2;
+
+// Whether all of a frame is there, or what cannot be one: RAWX, the longest, has 8176 bytes.
+bool ubx_whole(std::string_view rest) {
+  constexpr std::size_t longest_payload = 8192;
+  if (rest.size() < ubx_head) return false;
+  const std::size_t length = ubx_number<std::uint16_t>(rest, 4);
+  return length > longest_payload || rest.size() >= ubx_head + length + ubx_tail;
+}
+
 }  // namespace
 
+std::optional<Satellite> ubx_satellite(std::uint8_t gnss, std::uint8_t number) {
+  constexpr std::array<System, 8> systems{System::gps,     System::sbas, System::galileo,
+                                          System::beidou,  System::gps,  System::qzss,
+                                          System::glonass, System::navic};
+  if (gnss >= systems.size() || gnss == 4) return {};  // 4: indoor messaging
+  const int shift = systems[gnss] == System::sbas ? 100 : 0;
+  const int rinex = number - shift;
+  if (rinex < 1 || rinex > 99) return {};  // GLONASS 255: its number is not known yet
+  return Satellite{systems[gnss], static_cast<std::uint8_t>(rinex)};
+}
+
 bool UbxFrames::next(UbxFrame& frame) {
-  constexpr std::size_t head = 6, tail = 2;
   while (at_ < bytes_.size()) {
     const std::size_t sync = bytes_.find("\xb5\x62", at_);
-    const std::size_t begin = sync == std::string_view::npos ? bytes_.size() : sync;
+    const bool half = more_follow_ && bytes_.back() == '\xb5';
+    const std::size_t begin =
+        sync == std::string_view::npos ? bytes_.size() - (half ? 1 : 0) : sync;
     others_ += begin - at_;
     at_ = begin;
     const std::string_view rest = bytes_.substr(begin);
-    if (rest.empty()) return false;
-    if (rest.size() >= head + tail) {
+    if (rest.empty() || (more_follow_ && !ubx_whole(rest))) return false;
+    if (rest.size() >= ubx_head + ubx_tail) {
       const std::size_t length = ubx_number<std::uint16_t>(rest, 4);
-      const std::size_t size = head + length + tail;
+      const std::size_t size = ubx_head + length + ubx_tail;
       if (size <= rest.size() &&
-          sound(rest.substr(2, head - 2 + length), rest.substr(head + length, tail))) {
+          sound(rest.substr(2, ubx_head - 2 + length), rest.substr(ubx_head + length, ubx_tail))) {
         frame.message_class = static_cast<std::uint8_t>(rest[2]);
         frame.id = static_cast<std::uint8_t>(rest[3]);
-        frame.payload = rest.substr(head, length);
+        frame.payload = rest.substr(ubx_head, length);
         frame.offset = begin;
         at_ = begin + size;
         return true;

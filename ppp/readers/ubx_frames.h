@@ -5,7 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string_view>
+
+#include "ppp/satellite.h"
 
 namespace maploop::ppp {
 
@@ -17,12 +20,17 @@ struct UbxFrame {
 
 class UbxFrames {
  public:
-  // `bytes` must outlive this.
-  explicit UbxFrames(std::string_view bytes) : bytes_(bytes) {}
+  // `bytes` must outlive this. Where more bytes follow them, a frame that is not whole yet is no
+  // damage: see taken(). It then is longer than any that is decoded only by damage.
+  explicit UbxFrames(std::string_view bytes, bool more_follow = false)
+      : bytes_(bytes), more_follow_(more_follow) {}
 
   // The next frame with a right checksum; false at the end. After one with a wrong checksum the
   // search goes on behind its first byte, for its length may be what is damaged.
   bool next(UbxFrame& frame);
+
+  // Bytes that are done with: what follows is to be preceded by the others.
+  std::size_t taken() const { return at_; }
 
   std::size_t damaged() const {
     return damaged_;
@@ -31,10 +39,14 @@ class UbxFrames {
 
  private:
   std::string_view bytes_;
+  bool more_follow_;
   std::size_t at_ = 0;
   std::size_t damaged_ = 0;
   std::size_t others_ = 0;
 };
+
+// By u-blox's numbers of systems and satellites; nothing where RINEX has no name for it.
+std::optional<Satellite> ubx_satellite(std::uint8_t gnss, std::uint8_t number);
 
 // A little-endian number of a payload, which must reach so far.
 template <class T>

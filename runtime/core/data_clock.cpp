@@ -113,7 +113,8 @@ void DataClock::set_speed(double speed) {
 }
 
 void DataClock::skip_to(Time t) {
-  if (!paced_ || t <= now()) return;
+  if (!paced_) return;
+  pause_at_.store(to_nanoseconds(t), std::memory_order_release);
   skip_to_.store(to_nanoseconds(t), std::memory_order_release);
 }
 
@@ -122,9 +123,8 @@ void DataClock::arrive(Time t) {
   skip_to_.store(to_nanoseconds(Time::min()), std::memory_order_release);
 }
 
-void DataClock::pause_at(Time t) {
-  const Time from = paced_ ? std::max(t, now()) : t;
-  pause_at_.store(to_nanoseconds(from), std::memory_order_release);
+void DataClock::pause() {
+  pause_at_.store(to_nanoseconds(now()), std::memory_order_release);
 }
 
 void DataClock::resume_until(Time t) {

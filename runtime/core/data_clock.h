@@ -15,7 +15,7 @@ MonotonicTime monotonic_now();
 // decided by the order of the data alone. Live: paced in real time, and never stalled: it waits for
 // nobody.
 //
-// start(), and then set_speed(), skip_to(), arrive(), pause_at(), resume() and resume_until() are
+// start(), and then set_speed(), skip_to(), arrive(), pause(), resume() and resume_until() are
 // one controlling thread's; all else is for any thread and takes no lock.
 class DataClock {
  public:
@@ -61,14 +61,14 @@ class DataClock {
   // From now on at another speed. Throws as paced().
   void set_speed(double speed);
 
-  // Everything up to t is due at once; from t on at the clock's speed. In the past: does nothing.
+  // Everything up to t is due at once, and nothing after it: however long the way there takes, it
+  // is not passed. Does nothing in virtual time.
   void skip_to(Time t);
-  // The graph has come to where it was to skip to: that moment is now.
+  // The graph has come to where it was to skip to: that moment is now, and the clock paused there.
   void arrive(Time t);
 
-  // Nothing after t falls due until resume() or a later pause_at(); a pause in the past pauses now.
-  void pause_at(Time t);
-  void pause() { pause_at(now()); }
+  // Nothing after this moment falls due before resume() or resume_until(); only in paced time.
+  void pause();
   void resume() { resume_until(Time::max()); }
   // From a pause to the next at t: not by way of a running clock, which would run past t when the
   // controlling thread is held up.

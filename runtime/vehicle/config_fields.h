@@ -36,6 +36,7 @@ void visit(Config& config, Table&& table, Field&& field) {
     field("publisher", p.publisher);
     field("health", p.health);
     field("snapshot", p.snapshot);
+    field("preview", p.preview);
   }
 
   table("memory");
@@ -49,6 +50,15 @@ void visit(Config& config, Table&& table, Field&& field) {
   table("trace");
   field("events_per_thread", config.trace.events_per_thread);
 
+  table("preview");
+  {
+    auto& p = config.preview;
+    field("rate", p.rate);
+    field("width", p.width);
+    field("quality", p.quality);
+    field("points", p.points);
+  }
+
   table("camera");
   field("calibration", config.camera.calibration);
 
@@ -61,18 +71,34 @@ void visit(Config& config, Table&& table, Field&& field) {
     field("max_turn", p.max_turn);
   }
 
+  table("odometry_poses");
+  {
+    auto& p = config.odometry_poses;
+    field("file", p.file);
+    field("speed_sigma", p.speed_sigma);
+    field("rotation_sigma", p.rotation_sigma);
+  }
+
   table("live");
   {
     auto& p = config.live;
     field("calibration", p.calibration);
+    field("camera_left", p.camera_left);
+    field("camera_right", p.camera_right);
+    field("camera_delay", p.camera_delay);
     field("velodyne", p.velodyne);
     field("velodyne_position", p.velodyne_position);
     field("velodyne_model", p.velodyne_model);
     field("velodyne_calibration", p.velodyne_calibration);
     field("imu", p.imu);
+    field("imu_protocol", p.imu_protocol);
     field("imu_delay", p.imu_delay);
     field("gnss", p.gnss);
+    field("gnss_protocol", p.gnss_protocol);
     field("gnss_latency", p.gnss_latency);
+    field("gnss_frequencies", p.gnss_frequencies);
+    field("gnss_antenna", p.gnss_antenna);
+    field("corrections", p.corrections);
   }
 
   table("gnss");
@@ -108,6 +134,7 @@ void visit(Config& config, Table&& table, Field&& field) {
   table("ppp");
   {
     auto& p = config.ppp;
+    field("observations", p.observations);
     field("products", p.products);
     field("broadcast", p.broadcast);
     field("latency", p.latency);

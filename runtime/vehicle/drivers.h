@@ -16,6 +16,7 @@ struct Drivers {
   std::unique_ptr<Driver<ImuSample>> imu;
   std::unique_ptr<Driver<GnssFix>> gnss;
   std::unique_ptr<Driver<GnssEpoch>> epochs;  // instead of gnss where there are observations
+  std::unique_ptr<Driver<GnssCorrections>> corrections;
   std::unique_ptr<Driver<WheelSpeed>> wheel;
   std::unique_ptr<Driver<ReferencePose>> reference;
   std::unique_ptr<Driver<RelativeMotion>> odometry;
@@ -29,6 +30,7 @@ struct Drivers {
     f(*imu);
     f(*gnss);
     f(*epochs);
+    f(*corrections);
     f(*wheel);
     f(*reference);
     f(*odometry);

@@ -9,7 +9,7 @@ namespace {
 std::string ms(Duration d) {
   if (d == Duration::zero()) return "-";
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%g ms", to_seconds(d) * 1e3);
+  std::snprintf(text.data(), text.size(), "%g ms", to_milliseconds(d));
   return text.data();
 }
 
@@ -67,6 +67,10 @@ std::string graph_page() {
   for (const EdgeSpec& e : edges::all) {
     page += row({e.name, e.carries, std::to_string(e.capacity), name(e.overflow)});
   }
+  page += "\n## Newest values, given where their reader asks\n\n";
+  page += row({"from -> to", "carries"});
+  page += row({"---", "---"});
+  for (const CellSpec& c : cells::all) page += row({c.name, c.carries});
   page += "\n## Channels\n\n";
   page += row({"channel", "type", "from", "shows", "rate", "same bits each run"});
   page += row({"---", "---", "---", "---", "---", "---"});

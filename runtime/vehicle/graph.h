@@ -38,6 +38,7 @@ inline constexpr Stage camera{"camera", "driver", "sensor", {}, {}, {}, 5.0, 40.
 inline constexpr Stage velodyne{"velodyne", "driver", "sensor", {}, {}, {}, 5.0, 21.0};
 inline constexpr Stage imu{"imu", "driver", "sensor", {}, {}, {}, 5.0, 1000.0};
 inline constexpr Stage gnss{"gnss", "driver", "sensor", {}, {}, {}, 0.5, 21.0};
+inline constexpr Stage corrections{"corrections", "driver", "sensor", {}, {}, {}, 0.0, 1000.0};
 inline constexpr Stage wheel{"wheel", "driver", "sensor", {}, {}, {}, 0.0, 1000.0};
 inline constexpr Stage reference{"reference", "driver", "sensor", {}, {}, {}, 0.0, 1000.0};
 inline constexpr Stage odometry{
@@ -84,14 +85,17 @@ inline constexpr Stage health{
     "health", "watchdog, histograms", "its period",          std::chrono::seconds(1), {}, {}, 0.0,
     0.0,      milliseconds(5),        runtime::Overrun::skip};  // between two ticks of the fusion
 
+inline constexpr Stage preview{"preview", "pictures for people", "its rate", {}, {}, {}, 0.0, 0.0};
+
 inline constexpr Stage player{
     "player", "keys, commands of a replay", "looks by itself", {}, {}, {}, 0.0, 0.0};
 inline constexpr Stage snapshot{
     "snapshot", "joins what stages save", "their parts", {}, {}, {}, 0.0, 0.0};
 
-inline constexpr std::array all{camera,   velodyne,   imu,       gnss,   wheel,  reference,
-                                odometry, visual_log, lidar_log, stereo, lidar,  ppp,
-                                fusion,   mapmatch,   publisher, health, player, snapshot};
+inline constexpr std::array all{camera,    velodyne,  imu,      gnss,       corrections,
+                                wheel,     reference, odometry, visual_log, lidar_log,
+                                stereo,    lidar,     ppp,      fusion,     mapmatch,
+                                publisher, health,    player,   snapshot,   preview};
 }  // namespace stages
 
 // One ring: single producer, single consumer. A replay keeps all: a full ring holds its producer
@@ -107,10 +111,12 @@ namespace edges {
 inline constexpr EdgeSpec camera_stereo{"camera -> stereo", "StereoPair", 4};
 // Only there where the odometry is visual-LiDAR.
 inline constexpr EdgeSpec velodyne_lidar{"velodyne -> lidar", "LidarScan", 4};
-inline constexpr EdgeSpec stereo_lidar{"stereo -> lidar", "RelativeMotion", 256};
+inline constexpr EdgeSpec stereo_lidar{"stereo -> lidar", "VisualMotion", 256};
 inline constexpr EdgeSpec imu_fusion{"imu -> fusion", "ImuSample", 256};
 // Only there where the receiver's observations are recorded instead of its fixes.
 inline constexpr EdgeSpec gnss_ppp{"gnss -> ppp", "GnssEpoch", 64};
+// Only there where a live receiver's observations are corrected by a stream.
+inline constexpr EdgeSpec corrections_ppp{"corrections -> ppp", "GnssCorrections", 256};
 // From ppp instead where there are observations, and so to the publisher.
 inline constexpr EdgeSpec gnss_fusion{"gnss -> fusion", "GnssFix", 256};
 inline constexpr EdgeSpec wheel_fusion{"wheel -> fusion", "WheelSpeed", 256};
@@ -121,6 +127,7 @@ inline constexpr EdgeSpec fusion_mapmatch{"fusion -> mapmatch", "NavState", 256}
 inline constexpr EdgeSpec stereo_mapmatch{"stereo -> mapmatch", "RelativeMotion", 256};
 // Only there where the loop is closed.
 inline constexpr EdgeSpec mapmatch_fusion{"mapmatch -> fusion", "MapFeedback", 16};
+inline constexpr EdgeSpec mapmatch_ppp{"mapmatch -> ppp", "MapFeedback", 16};
 // Only there where a log of raw sensors is written.
 inline constexpr EdgeSpec camera_publisher{"camera -> publisher", "StereoPair", 4};
 inline constexpr EdgeSpec velodyne_publisher{"velodyne -> publisher", "LidarScan", 4};
@@ -136,6 +143,9 @@ inline constexpr EdgeSpec fusion_publisher{"fusion -> publisher", "NavState", 10
 inline constexpr EdgeSpec image_states{"fusion at images -> publisher", "NavState", 256};
 inline constexpr EdgeSpec mapmatch_publisher{"mapmatch -> publisher", "MapMatch", 64};
 inline constexpr EdgeSpec feedback_publisher{"mapmatch feedback -> publisher", "MapFeedback", 64};
+// Only there where somebody may look on.
+inline constexpr EdgeSpec preview_publisher{"preview -> publisher", "Preview", 2,
+                                            runtime::Overflow::drop_newest};
 inline constexpr EdgeSpec health_publisher{"health -> publisher", "RuntimeReport", 8};
 // Only there where snapshots are taken.
 inline constexpr EdgeSpec stereo_snapshot{"stereo -> snapshot", "StageSnapshot", 2};
@@ -144,15 +154,18 @@ inline constexpr EdgeSpec ppp_snapshot{"ppp -> snapshot", "StageSnapshot", 2};
 inline constexpr EdgeSpec fusion_snapshot{"fusion -> snapshot", "StageSnapshot", 2};
 inline constexpr EdgeSpec mapmatch_snapshot{"mapmatch -> snapshot", "StageSnapshot", 2};
 
-inline constexpr std::array all{
-    camera_stereo,      velodyne_lidar,     stereo_lidar,        imu_fusion,
-    gnss_ppp,           gnss_fusion,        ppp_publisher,       ppp_snapshot,
-    wheel_fusion,       odometry_fusion,    fusion_mapmatch,     stereo_mapmatch,
-    mapmatch_fusion,    camera_publisher,   velodyne_publisher,  imu_publisher,
-    gnss_publisher,     wheel_publisher,    reference_publisher, stereo_publisher,
-    lidar_publisher,    odometry_publisher, fusion_publisher,    image_states,
-    mapmatch_publisher, feedback_publisher, health_publisher,    stereo_snapshot,
-    lidar_snapshot,     fusion_snapshot,    mapmatch_snapshot};
+inline constexpr std::array all{camera_stereo,      velodyne_lidar,     stereo_lidar,
+                                imu_fusion,         gnss_ppp,           corrections_ppp,
+                                gnss_fusion,        ppp_publisher,      ppp_snapshot,
+                                wheel_fusion,       odometry_fusion,    fusion_mapmatch,
+                                stereo_mapmatch,    mapmatch_fusion,    mapmatch_ppp,
+                                camera_publisher,   velodyne_publisher, imu_publisher,
+                                gnss_publisher,     wheel_publisher,    reference_publisher,
+                                stereo_publisher,   lidar_publisher,    odometry_publisher,
+                                fusion_publisher,   image_states,       mapmatch_publisher,
+                                feedback_publisher, preview_publisher,  health_publisher,
+                                stereo_snapshot,    lidar_snapshot,     fusion_snapshot,
+                                mapmatch_snapshot};
 }  // namespace edges
 
 template <class T>
@@ -160,10 +173,23 @@ runtime::Edge<T> make_edge(const EdgeSpec& spec, runtime::Doorbell* bell) {
   return runtime::Edge<T>(std::string(spec.name), spec.capacity, spec.overflow, bell);
 }
 
+// Whom a channel goes to, for some only those who want it (message_sink.h).
 enum class Reach {
   everyone,
-  log,  // too large for the network; those who ask for it
+  log,      // too large for the network
+  lookers,  // people, for whom it is made small
 };
+
+// What a thread gives to another that asks for it: newest value wins, nobody waits.
+struct CellSpec {
+  std::string_view name;
+  std::string_view carries;
+};
+
+namespace cells {
+inline constexpr std::array all{CellSpec{"stereo -> preview", "PreviewImage"},
+                                CellSpec{"lidar -> preview", "PreviewScan"}};
+}  // namespace cells
 
 // One LCM channel.
 struct Channel {
@@ -252,6 +278,13 @@ inline constexpr Channel velodyne{channel_names::velodyne,
                                   "10 Hz",
                                   true,
                                   Reach::log};
+inline constexpr Channel preview{channel_names::preview,
+                                 "preview_t",
+                                 "preview",
+                                 "small picture with tracks, thinned scan; not in logs",
+                                 "2 Hz",
+                                 false,
+                                 Reach::lookers};
 inline constexpr Channel calibration{channel_names::calibration, "calibration_t", "publisher",
                                      "sensors on the vehicle",   "at the start",  false};
 inline constexpr Channel replay_control{channel_names::replay_control,
@@ -275,9 +308,9 @@ inline constexpr Channel health{
     false};
 
 inline constexpr std::array all{
-    nav_state, visual_odometry, lidar_odometry, odometry,    map_match, map_feedback,
-    imu,       gnss_fix,        ppp_state,      wheel_speed, truth,     camera,
-    velodyne,  calibration,     replay_control, deadlines,   health};
+    nav_state, visual_odometry, lidar_odometry, odometry,       map_match, map_feedback,
+    imu,       gnss_fix,        ppp_state,      wheel_speed,    truth,     camera,
+    velodyne,  preview,         calibration,    replay_control, deadlines, health};
 }  // namespace channels
 
 // From a sensor's stamp to the state that holds it. The deadline is the sum of what may pass on the

@@ -24,6 +24,7 @@ class LcmBus final : public MessageSink {
   ~LcmBus() override;
 
   std::string_view name() const override { return "LCM"; }
+  bool wants_preview() const override { return true; }
 
   // For others to publish and subscribe on; LCM itself may be used by several threads.
   lcm::LCM& lcm();

@@ -15,18 +15,19 @@ constexpr std::size_t usual_points = 150'000;
 
 LidarEdges::LidarEdges()
     : scans(make_edge<LidarScan>(edges::velodyne_lidar, &bell)),
-      visual(make_edge<RelativeMotion>(edges::stereo_lidar, &bell)) {}
+      visual(make_edge<VisualMotion>(edges::stereo_lidar, &bell)) {}
 
-LidarStage::LidarStage(lidar::LidarOdometry odometer, LidarEdges& inputs,
-                       runtime::Edge<LidarMotion>& lidar,
+LidarStage::LidarStage(lidar::LidarOdometry odometer, lidar::DisparityCorrection correction,
+                       LidarEdges& inputs, runtime::Edge<LidarMotion>& lidar,
                        std::vector<runtime::Edge<RelativeMotion>*> odometry)
     : odometer_(std::move(odometer)),
+      correction_(std::move(correction)),
       inputs_(inputs),
       lidar_(lidar),
       odometry_(std::move(odometry)),
       meter_(stages::lidar) {
   intake_.add(inputs_.scans, [this](LidarScan& scan) { take(scan); });
-  intake_.add(inputs_.visual, [this](const RelativeMotion& visual) { take(visual); });
+  intake_.add(inputs_.visual, [this](const VisualMotion& visual) { take(visual); });
 }
 
 void LidarStage::run(const runtime::DataClock& clock, const std::stop_token& stop) {
@@ -63,7 +64,7 @@ void LidarStage::take(LidarScan& scan) {
   has_waiting_ = true;
 }
 
-void LidarStage::take(const RelativeMotion& visual) {
+void LidarStage::take(const VisualMotion& visual) {
   let_go_until(visual.available - Duration(1));
   process(&visual, visual.available, visual.received);
 }
@@ -75,7 +76,7 @@ void LidarStage::let_go_until(Time t) {
   process(nullptr, end, clock_->is_paced() ? clock_->due(end) : waiting_.received);
 }
 
-void LidarStage::process(const RelativeMotion* visual, Time trigger, MonotonicTime released) {
+void LidarStage::process(const VisualMotion* visual, Time trigger, MonotonicTime released) {
   const bool with_scan =
       has_waiting_ &&
       (visual == nullptr || (visual->status != OdometryStatus::bad_input &&
@@ -84,7 +85,8 @@ void LidarStage::process(const RelativeMotion* visual, Time trigger, MonotonicTi
   runtime::TraceSpan span(trace_, "lidar");
   if (visual != nullptr) span.step_flow(flow_of(*visual));
   delay_(trigger);
-  lidar::OdometerResult result = odometer_.process(with_scan ? &waiting_ : nullptr, visual);
+  lidar::OdometerResult result =
+      lidar::process(odometer_, correction_, with_scan ? &waiting_ : nullptr, visual);
   if (with_scan) has_waiting_ = false;
   const MonotonicTime ended = runtime::monotonic_now();
 
@@ -103,6 +105,15 @@ void LidarStage::process(const RelativeMotion* visual, Time trigger, MonotonicTi
   }
   promise(trigger + stages::lidar.budget);
   measure(trigger, result.odometry.stamp, released, started, ended);
+  if (with_scan) show(waiting_);
+}
+
+void LidarStage::show(const LidarScan& scan) {
+  if (preview_ == nullptr) return;
+  preview_->offer([&](PreviewScan& slot) {
+    slot.stamp = scan.stamp;
+    thin(scan.points, preview_points_, slot.points);
+  });
 }
 
 void LidarStage::measure(Time trigger, Time stamp, MonotonicTime released, MonotonicTime started,
@@ -139,10 +150,11 @@ void LidarStage::save_until(Time t) {
 // With the results that become available after the cut: whoever goes on from there sends them.
 template <class Archive, class Stage>
 void LidarStage::describe(Archive& ar, Stage& stage) {
-  ar.section(stages::lidar.name, 1);
+  ar.section(stages::lidar.name, 2);
   std::array<std::uint64_t, odometry_status_count> counts{};
   std::copy(stage.counts_.begin(), stage.counts_.end(), counts.begin());
-  ar(stage.odometer_, counts, stage.sent_lidar_, stage.sent_odometry_, stage.has_waiting_);
+  ar(stage.odometer_, stage.correction_, counts, stage.sent_lidar_, stage.sent_odometry_,
+     stage.has_waiting_);
   if (stage.has_waiting_) ar(stage.waiting_);
   if constexpr (Archive::loading) {
     std::copy(counts.begin(), counts.end(), stage.counts_.begin());

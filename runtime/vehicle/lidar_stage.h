@@ -10,15 +10,18 @@
 #include <utility>
 #include <vector>
 
+#include "estimators/lidar/disparity_correction.h"
 #include "estimators/lidar/lidar_odometry.h"
 #include "msgs/lidar_scan.h"
 #include "msgs/odometry.h"
+#include "msgs/visual_motion.h"
 #include "runtime/core/data_clock.h"
 #include "runtime/core/doorbell.h"
 #include "runtime/core/edge.h"
 #include "runtime/core/intake.h"
 #include "runtime/core/trace_span.h"
 #include "runtime/vehicle/fault_delay.h"
+#include "runtime/vehicle/preview_stage.h"
 #include "runtime/vehicle/stage_cuts.h"
 #include "runtime/vehicle/thread_meter.h"
 
@@ -30,11 +33,12 @@ struct LidarEdges {
 
   runtime::Doorbell bell;
   runtime::Edge<LidarScan> scans;
-  runtime::Edge<RelativeMotion> visual;
+  runtime::Edge<VisualMotion> visual;
 };
 
 // A scan waits for the visual motion of the image pair taken during its turn, at most `patience` of
-// data time after its own end; then it goes alone. A visual motion without a scan is passed on.
+// data time after its own end; then it goes alone. A visual motion without a scan is passed on,
+// given the length that the scans so far say.
 // What was used, and when, depends on the data's times alone.
 class LidarStage {
  public:
@@ -42,7 +46,8 @@ class LidarStage {
   static constexpr Duration patience = std::chrono::milliseconds(60);
 
   // `odometry`: what fusion gets, to each of these edges.
-  LidarStage(lidar::LidarOdometry odometer, LidarEdges& inputs, runtime::Edge<LidarMotion>& lidar,
+  LidarStage(lidar::LidarOdometry odometer, lidar::DisparityCorrection correction,
+             LidarEdges& inputs, runtime::Edge<LidarMotion>& lidar,
              std::vector<runtime::Edge<RelativeMotion>*> odometry);
 
   // Until the inputs are finished or stop is requested.
@@ -51,6 +56,11 @@ class LidarStage {
 
   // Before run().
   void trace_to(runtime::TraceBuffer* buffer) { trace_ = buffer; }
+  // At most so many points of a scan.
+  void show_to(AskedScan& preview, std::size_t points) {
+    preview_ = &preview;
+    preview_points_ = points;
+  }
   void slow_down(StageDelay delay) { delay_ = std::move(delay); }
   void save_at(std::vector<Time> moments, runtime::Edge<StageSnapshot>& edge) {
     cuts_.set(std::move(moments), edge);
@@ -68,10 +78,11 @@ class LidarStage {
 
  private:
   void take(LidarScan& scan);
-  void take(const RelativeMotion& visual);
+  void take(const VisualMotion& visual);
   void take_until(Time t);
   void let_go_until(Time t);
-  void process(const RelativeMotion* visual, Time trigger, MonotonicTime released);
+  void process(const VisualMotion* visual, Time trigger, MonotonicTime released);
+  void show(const LidarScan& scan);
   void measure(Time trigger, Time stamp, MonotonicTime released, MonotonicTime started,
                MonotonicTime ended);
   void send(const LidarMotion& motion);
@@ -84,6 +95,7 @@ class LidarStage {
   void promise(Time t);
 
   lidar::LidarOdometry odometer_;
+  lidar::DisparityCorrection correction_;
   LidarEdges& inputs_;
   runtime::Edge<LidarMotion>& lidar_;
   std::vector<runtime::Edge<RelativeMotion>*> odometry_;
@@ -97,6 +109,8 @@ class LidarStage {
   std::vector<RelativeMotion> sent_odometry_;
   ThreadMeter meter_;
   runtime::TraceBuffer* trace_ = nullptr;
+  AskedScan* preview_ = nullptr;  // nullptr: nobody looks on
+  std::size_t preview_points_ = 0;
   StageDelay delay_;
   StageCuts cuts_;
   std::array<std::atomic<std::uint64_t>, odometry_status_count> counts_{};

@@ -5,9 +5,14 @@
 #include <utility>
 #include <vector>
 
+#include "ppp/gnss_files.h"
+#include "runtime/vehicle/live_fixes.h"
+#include "runtime/vehicle/live_receiver.h"
+#include "runtime/vehicle/stereo_rig_file.h"
 #include "runtime/vehicle/vehicle.h"
 #include "runtime/vehicle/vehicle_config.h"
 #include "sensors/live/live_sensors.h"
+#include "sensors/live/ntrip_client.h"
 #include "sensors/replay/kitti_calibration.h"
 
 namespace maploop::vehicle {
@@ -40,37 +45,133 @@ sensors::LiveVelodyneOptions velodyne_options(const LiveParameters& p) {
   return options;
 }
 
+// The setup, with the files that it looks at.
+std::shared_ptr<const ppp::PppSetup> live_ppp(const VehicleConfig& config) {
+  struct Products {
+    ppp::GnssFiles files;
+    std::optional<ppp::PppSetup> setup;
+  };
+  const LiveParameters& p = config.live;
+  if (p.gnss_frequencies != 1 && p.gnss_frequencies != 2) {
+    throw std::runtime_error("[live] gnss_frequencies = " + std::to_string(p.gnss_frequencies) +
+                             " is neither 1 nor 2");
+  }
+  const auto products = std::make_shared<Products>();
+  for (const std::string& product : config.ppp.products) {
+    ppp::read_products(product, products->files);
+  }
+  const std::size_t space = p.gnss_antenna.find(' ');
+  products->setup.emplace(
+      products->files, ppp::SetupOptions{config.ppp.filter, {}, config.ppp.broadcast},
+      ppp::LiveReceiver{p.gnss_frequencies == 1, p.gnss_antenna.substr(0, space),
+                        space == std::string::npos ? "" : p.gnss_antenna.substr(space + 1)});
+  return {products, &*products->setup};
+}
+
+std::optional<sensors::StereoRig> rig_of(const VehicleConfig& config) {
+  if (config.camera.calibration.empty()) return std::nullopt;
+  return read_stereo_rig(config.camera.calibration);
+}
+
+sensors::LiveStereoOptions camera_options(const VehicleConfig& config) {
+  const LiveParameters& p = config.live;
+  sensors::LiveStereoOptions options{p.camera_left,
+                                     p.camera_right,
+                                     0,
+                                     0,
+                                     rig_of(config),
+                                     from_seconds(p.camera_delay),
+                                     from_seconds(config.replay.max_pair_skew)};
+  if (options.rig) {
+    options.width = options.rig->width;
+    options.height = options.rig->height;
+  } else {
+    const StereoCalibration calibration = live_calibration(config).stereo;
+    options.width = calibration.width;
+    options.height = calibration.height;
+  }
+  return options;
+}
+
 }  // namespace
 
-VehicleCalibration live_calibration(const LiveParameters& p) {
-  if (p.calibration.empty()) return {};
-  return of_key("calibration", [&] { return sensors::read_kitti_calibration(p.calibration); });
+VehicleCalibration live_calibration(const VehicleConfig& config) {
+  const std::string& folder = config.live.calibration;
+  const auto rig = rig_of(config);
+  if (!folder.empty()) {
+    return of_key("calibration", [&] {
+      return rig ? sensors::read_kitti_calibration(folder, *rig, !config.live.velodyne.empty())
+                 : sensors::read_kitti_calibration(folder);
+    });
+  }
+  VehicleCalibration calibration;
+  if (!rig) return calibration;
+  if (!rig->T_body_left) {
+    throw std::runtime_error("[camera] calibration: '" + config.camera.calibration +
+                             "' does not say where the camera is on the vehicle: give it a " +
+                             "[mounting], or [live] calibration a folder of KITTI's texts");
+  }
+  calibration.stereo = mounted(*rig, *rig->T_body_left);
+  return calibration;
 }
 
 LiveSensors open_live_sensors(const VehicleConfig& config) {
   const LiveParameters& p = config.live;
   LiveSensors s;
   s.clock = std::make_shared<const sensors::HostClock>();
+  if (!p.camera_left.empty()) {
+    s.camera = of_key("camera_left",
+                      [&] { return sensors::listen_to_cameras(camera_options(config), *s.clock); });
+  } else if (!p.camera_right.empty()) {
+    throw std::runtime_error("[live] camera_right: there is no camera_left beside it");
+  }
   if (!p.velodyne.empty()) {
     s.velodyne = of_key("velodyne",
                         [&] { return sensors::listen_to_velodyne(velodyne_options(p), *s.clock); });
   }
   if (!p.imu.empty()) {
     s.imu = of_key("imu", [&] {
-      return sensors::listen_to_ncom(sensors::parse_endpoint(p.imu), from_seconds(p.imu_delay),
-                                     *s.clock);
+      const sensors::Endpoint endpoint = sensors::parse_endpoint(p.imu);
+      const Duration delay = from_seconds(p.imu_delay);
+      if (p.imu_protocol == "lines") return sensors::listen_to_imu_lines(endpoint, delay, *s.clock);
+      if (p.imu_protocol == "xsens") return sensors::listen_to_xsens(endpoint, delay, *s.clock);
+      if (p.imu_protocol != "ncom")
+        throw std::runtime_error("imu_protocol = \"" + p.imu_protocol +
+                                 "\" is none of ncom, lines, xsens");
+      return sensors::listen_to_ncom(endpoint, delay, *s.clock);
     });
   }
-  if (!p.gnss.empty()) {
+  if (!p.gnss.empty() && p.gnss_protocol == GnssProtocol::observations) {
+    s.epochs = of_key("gnss", [&] {
+      return listen_to_receiver(sensors::open_stream(p.gnss), from_seconds(p.gnss_latency),
+                                *s.clock);
+    });
+    s.ppp = live_ppp(config);
+    if (!p.corrections.empty()) {
+      s.corrections = of_key("corrections", [&] {
+        return listen_to_corrections(sensors::open_stream(p.corrections), *s.clock);
+      });
+    }
+  } else if (!p.gnss.empty() && p.gnss_protocol == GnssProtocol::ubx) {
+    s.gnss = of_key("gnss", [&] {
+      return listen_to_fixes(sensors::open_stream(p.gnss), from_seconds(p.gnss_latency), *s.clock);
+    });
+  } else if (!p.gnss.empty()) {
     s.gnss = of_key("gnss", [&] {
       sensors::NmeaParameters nmea;
       nmea.latency = p.gnss_latency;
       return sensors::listen_to_nmea(sensors::parse_endpoint(p.gnss), nmea, *s.clock);
     });
   }
-  if (!s.velodyne && !s.imu && !s.gnss) {
+  if (!p.corrections.empty() && !s.corrections) {
     throw std::runtime_error(
-        "the configuration names no live sensor: give [live] velodyne, imu or gnss an endpoint, "
+        "[live] corrections: there are no observations to correct: give gnss a receiver, and "
+        "gnss_protocol = \"observations\"");
+  }
+  if (!s.camera && !s.velodyne && !s.imu && !s.gnss && !s.epochs) {
+    throw std::runtime_error(
+        "the configuration names no live sensor: give [live] camera_left a pipeline, or velodyne, "
+        "imu or gnss an endpoint, "
         "such as udp://:2368");
   }
   return s;

@@ -27,6 +27,9 @@ class MessageSink {
   // Whether it takes raw images and scans too, some 30 MB/s.
   virtual bool wants_raw() const { return false; }
 
+  // Whether people look on: pictures for them (PREVIEW).
+  virtual bool wants_preview() const { return false; }
+
   void send(const Message& message) {
     std::atomic<std::uint64_t>& count = take(message) ? sent_ : unsent_;
     count.fetch_add(1, std::memory_order_relaxed);

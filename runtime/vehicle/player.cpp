@@ -52,16 +52,24 @@ void Player::note_position() {
 
 void Player::pause() {
   until_miss_ = false;
-  if (!paused()) vehicle_->clock().pause();
+  if (seeking_) {
+    pause_on_arrival_ = true;
+  } else if (!paused()) {
+    vehicle_->clock().pause();
+  }
 }
 
 void Player::resume() {
-  if (vehicle_->clock().pause_set()) vehicle_->clock().resume();
+  if (seeking_) {
+    pause_on_arrival_ = false;
+  } else if (vehicle_->clock().pause_set()) {
+    vehicle_->clock().resume();
+  }
 }
 
 void Player::step_to(Time t) {
   until_miss_ = false;
-  vehicle_->clock().resume_until(t);
+  if (!seeking_) vehicle_->clock().resume_until(t);
 }
 
 void Player::step_image() {
@@ -79,11 +87,7 @@ void Player::set_speed(double speed) {
 bool Player::seek(Time t) {
   if (t < parameters_.first || t > parameters_.last) return false;
   const bool was_paused = seeking_ ? pause_on_arrival_ : vehicle_->clock().pause_set();
-  if (t < vehicle_->position() || (seeking_ && t < target_)) {
-    go_back(t);
-  } else {
-    resume();
-  }
+  if (t < vehicle_->position() || (seeking_ && t < target_)) go_back(t);
   pause_on_arrival_ = was_paused;
   vehicle_->clock().skip_to(t);
   seeking_ = true;
@@ -114,7 +118,7 @@ bool Player::update() {
   if (seeking_ && vehicle_->position() + stages::fusion.period >= target_) {
     seeking_ = false;
     vehicle_->clock().arrive(target_);
-    if (pause_on_arrival_) vehicle_->clock().pause_at(target_);
+    if (!pause_on_arrival_) vehicle_->clock().resume();
   }
   if (until_miss_ && vehicle_->deadline_misses() > misses_before_) pause();
   if (vehicle_->running()) return true;

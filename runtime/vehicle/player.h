@@ -36,6 +36,7 @@ class Player {
   // Makes and starts the first vehicle; throws what Vehicle::start() throws. Before all else.
   void start();
 
+  // During a seek these two say what happens on arrival, and the steps do nothing.
   void pause();
   void resume();
   // To the release of the next image, or of the next sample of any sensor; then paused.
@@ -57,7 +58,7 @@ class Player {
   // Whether it still plays; begins the next pass where one has ended.
   bool update();
 
-  bool paused() const { return vehicle_->clock().paused(); }
+  bool paused() const { return !seeking_ && vehicle_->clock().paused(); }
   bool seeking() const { return seeking_; }
   double speed() const { return vehicle_->clock().speed(); }
   Time first() const { return parameters_.first; }

@@ -15,6 +15,18 @@ namespace {
 
 constexpr auto look_every = std::chrono::milliseconds(1);
 
+bool reaches(const Channel& channel, const MessageSink& sink) {
+  switch (channel.reach) {
+    case Reach::everyone:
+      return true;
+    case Reach::log:
+      return sink.wants_raw();
+    case Reach::lookers:
+      return sink.wants_preview();
+  }
+  return false;
+}
+
 consteval runtime::TraceName trace_name(const Channel& channel) {
   return channel.name.data();
 }
@@ -36,6 +48,7 @@ PublisherEdges::PublisherEdges()
       image_state(make_edge<NavState>(edges::image_states, nullptr)),
       map_match(make_edge<MapMatch>(edges::mapmatch_publisher, nullptr)),
       map_feedback(make_edge<MapFeedback>(edges::feedback_publisher, nullptr)),
+      preview(make_edge<Preview>(edges::preview_publisher, nullptr)),
       reports(make_edge<RuntimeReport>(edges::health_publisher, nullptr)) {}
 
 Publisher::Publisher(const VehicleCalibration& calibration, PublisherEdges& edges,
@@ -125,7 +138,7 @@ void Publisher::send(const Channel& channel, Time time, const Lcm& message) {
     throw std::logic_error("cannot encode a message for " + std::string(channel.name));
   }
   for (MessageSink* sink : sinks_) {
-    if (channel.reach == Reach::everyone || sink->wants_raw()) {
+    if (reaches(channel, *sink)) {
       sink->send({channel.name, time, buffer_, channel.from_data});
     }
   }
@@ -141,6 +154,14 @@ void Publisher::send_reports() {
   }
 }
 
+void Publisher::send_previews() {
+  while (const Preview* preview = edges_.preview.front()) {
+    const runtime::TraceSpan span(trace_, trace_name(channels::preview));
+    send(channels::preview, preview->available, to_lcm(*preview));
+    edges_.preview.pop();
+  }
+}
+
 void Publisher::run(Time begin, const runtime::DataClock& clock) {
   maploop_lcm::calibration_t calibration = to_lcm(calibration_);
   calibration.utime =
@@ -150,6 +171,7 @@ void Publisher::run(Time begin, const runtime::DataClock& clock) {
     const bool last = intake_.finished() && edges_.reports.promised() == Time::max();
     const Time given_up = clock.is_live() ? clock.now() - patience : Time::min();
     intake_.take_until(std::max(intake_.promised(), given_up));
+    send_previews();
     send_reports();
     if (last) return;
     std::this_thread::sleep_for(look_every);

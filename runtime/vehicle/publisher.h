@@ -18,6 +18,7 @@
 #include "msgs/nav_state.h"
 #include "msgs/odometry.h"
 #include "msgs/ppp_state.h"
+#include "msgs/preview.h"
 #include "msgs/reference.h"
 #include "msgs/wheel_speed.h"
 #include "runtime/core/data_clock.h"
@@ -67,6 +68,7 @@ struct PublisherEdges {
   runtime::Edge<NavState> image_state;
   runtime::Edge<MapMatch> map_match;
   runtime::Edge<MapFeedback> map_feedback;
+  runtime::Edge<Preview> preview;
   runtime::Edge<RuntimeReport> reports;
 };
 
@@ -98,6 +100,7 @@ class Publisher {
   template <const Channel& channel, class T>
   void forward(runtime::Edge<T>& edge);
   void send_reports();
+  void send_previews();
   template <class T>
   void note_flow(const T& sample);
   void end_flows(runtime::TraceSpan& span, const NavState& state);

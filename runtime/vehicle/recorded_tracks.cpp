@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <fstream>
-#include <iomanip>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -27,21 +25,6 @@ std::string read_text(const std::filesystem::path& file) {
   } catch (const std::runtime_error& e) {
     throw std::runtime_error(file.string() + ": " + e.what());
   }
-}
-
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text << std::flush;
-  if (!out) throw std::runtime_error("cannot write " + file.string() + ": does its folder exist?");
-}
-
-std::filesystem::path meta_beside(std::filesystem::path file) {
-  if (file.extension() == ".gz") file.replace_extension();
-  if (file.extension() != ".csv")
-    throw std::runtime_error(file.string() +
-                             ": neither the folder of a drive nor recorded tracks, which are a "
-                             ".csv or .csv.gz with its .meta.json");
-  return file.replace_extension(".meta.json");
 }
 
 Eigen::Isometry3d to_pose(const nlohmann::json& rows) {
@@ -133,6 +116,15 @@ std::vector<stereo::StereoTrack> RecordedTracks::between(std::size_t previous,
   return tracks;
 }
 
+std::filesystem::path meta_beside(std::filesystem::path file) {
+  if (file.extension() == ".gz") file.replace_extension();
+  if (file.extension() != ".csv")
+    throw std::runtime_error(file.string() +
+                             ": neither the folder of a drive nor recorded tracks, which are a "
+                             ".csv or .csv.gz with its .meta.json");
+  return file.replace_extension(".meta.json");
+}
+
 RecordedTracks read_recorded_tracks(const std::filesystem::path& file) {
   const std::filesystem::path meta_file = meta_beside(file);
   RecordedTracks recorded;
@@ -150,32 +142,6 @@ RecordedTracks read_recorded_tracks(const std::filesystem::path& file) {
   recorded.frames.resize(recorded.stamps.size());
   read_rows(file, suspect, &recorded);
   return recorded;
-}
-
-void write_recorded_tracks(const std::filesystem::path& file, const RecordedTracks& recorded) {
-  const StereoCalibration& c = recorded.calibration;
-  nlohmann::json meta{{"fx", c.fx},
-                      {"fy", c.fy},
-                      {"cu", c.cx},
-                      {"cv", c.cy},
-                      {"baseline_m", c.baseline},
-                      {"first_good_frame", recorded.first_good_frame},
-                      {"suspect_tracks", nlohmann::json::array()}};
-  for (int row = 0; row < 4; ++row)
-    for (int column = 0; column < 4; ++column)
-      meta["T_imu_cam"][static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] =
-          c.T_body_cam(row, column);
-  for (const Time stamp : recorded.stamps)
-    meta["timestamps"].push_back(to_seconds(stamp - recorded.stamps.front()));
-  write_text(meta_beside(file), meta.dump(1) + "\n");
-
-  std::ostringstream rows;
-  rows << "frame,track,uL,vL,uR,vR\n" << std::fixed << std::setprecision(4);
-  for (std::size_t frame = 0; frame < recorded.frames.size(); ++frame)
-    for (const RecordedTracks::Seen& seen : recorded.frames[frame])
-      rows << frame << ',' << seen.id << ',' << seen.at.u_left << ',' << seen.at.v_left << ','
-           << seen.at.u_right << ',' << seen.at.v_right << '\n';
-  write_text(file, rows.str());
 }
 
 stereo::StereoParameters for_recorded_tracks(stereo::StereoParameters parameters) {

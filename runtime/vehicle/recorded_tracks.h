@@ -37,9 +37,8 @@ struct RecordedTracks {
 // naming file and line, or key, where something cannot be read.
 RecordedTracks read_recorded_tracks(const std::filesystem::path& file);
 
-// Both files, as read_recorded_tracks reads them; stamps in seconds from frame 0. Throws
-// std::runtime_error naming the file that cannot be written.
-void write_recorded_tracks(const std::filesystem::path& file, const RecordedTracks& recorded);
+// <drive>.csv[.gz] -> <drive>.meta.json. Throws std::runtime_error where the name is another.
+std::filesystem::path meta_beside(std::filesystem::path file);
 
 // For files with 60 to 100 features a frame: thresholds are what the geometry needs, not what a
 // camera should show; noise is what such tracks are published with (inliers within 0.28 to 0.46 px

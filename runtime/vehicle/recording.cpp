@@ -14,6 +14,7 @@
 #include "sensors/replay/kitti_drive.h"
 #include "sensors/replay/log_recording.h"
 #include "sensors/replay/odometry_sequence.h"
+#include "sensors/replay/pose_odometry.h"
 #include "sensors/velodyne/capture_source.h"
 
 namespace maploop::vehicle {
@@ -35,37 +36,66 @@ std::optional<sensors::WheelOdometerParameters> wheel_of(const VehicleConfig& co
   return config.fusion.use_wheel_speed ? std::optional(config.wheel) : std::nullopt;
 }
 
+void use_observations(Sensors& s, const std::shared_ptr<const GnssDrive>& drive) {
+  s.epochs = GnssDrive::epochs(drive);
+  s.ppp = {drive, &drive->setup()};  // shares the drive's life
+}
+
+// A receiver's observations beside the drive's other sensors.
+std::shared_ptr<const GnssDrive> observations_of(const sensors::KittiDrive& drive,
+                                                 const VehicleConfig& config) {
+  const std::filesystem::path gnss = drive.folder() / "gnss";
+  if (!config.ppp.observations || !is_gnss_drive(gnss)) return nullptr;
+  return std::make_shared<const GnssDrive>(gnss, config);
+}
+
 Recording open_folder(const std::filesystem::path& folder, const VehicleConfig& config) {
   auto drive = open_drive(folder, config);
-  return describe(*drive, [drive, gnss = config.gnss, wheel = wheel_of(config)](Time passed) {
-    Sensors s;
-    s.camera = drive->camera(passed);
-    if (drive->has_velodyne()) s.velodyne = drive->velodyne(passed);
-    if (drive->has_oxts()) {
-      s.imu = drive->imu();
-      s.gnss = drive->gnss(gnss);
-      if (wheel) s.wheel = drive->wheel(*wheel);
-      s.reference = drive->reference();
-    }
-    return s;
-  });
+  auto epochs = observations_of(*drive, config);
+  Recording recording =
+      describe(*drive, [drive, epochs, gnss = config.gnss, wheel = wheel_of(config)](Time passed) {
+        Sensors s;
+        s.camera = drive->camera(passed);
+        if (drive->has_velodyne()) s.velodyne = drive->velodyne(passed);
+        if (drive->has_oxts()) {
+          s.imu = drive->imu();
+          if (epochs == nullptr) s.gnss = drive->gnss(gnss);
+          if (wheel) s.wheel = drive->wheel(*wheel);
+          s.reference = drive->reference();
+        }
+        if (epochs != nullptr) use_observations(s, epochs);
+        return s;
+      });
+  std::error_code ignored;
+  const auto labels = drive->folder().parent_path() / "driven_links.csv";
+  if (std::filesystem::exists(labels, ignored))
+    recording.driven_links = {labels, drive->image_stamps()};
+  return recording;
 }
 
 Recording open_sequence(const std::filesystem::path& path, const VehicleConfig& config) {
   auto sequence = std::make_shared<const sensors::OdometrySequence>(path, config.replay);
   std::shared_ptr<const RecordedTracks> tracks;
-  if (const auto& file = sequence->tracks_file()) {
-    tracks = std::make_shared<const RecordedTracks>(read_recorded_tracks(*file));
+  std::shared_ptr<const sensors::CameraPoses> poses;
+  if (!config.odometry_poses.file.empty()) {
+    poses = std::make_shared<const sensors::CameraPoses>(
+        sensors::read_camera_poses(config.odometry_poses.file));
+  } else if (sequence->tracks_file()) {
+    tracks = std::make_shared<const RecordedTracks>(read_recorded_tracks(*sequence->tracks_file()));
   }
-  Recording recording = describe(*sequence, [sequence, tracks, config](Time) {
+  Recording recording = describe(*sequence, [sequence, tracks, poses, config](Time) {
     Sensors s;
     s.imu = sequence->imu();
     s.gnss = sequence->gnss(config.gnss);
     if (const auto wheel = wheel_of(config)) s.wheel = sequence->wheel(*wheel);
     s.reference = sequence->reference();
-    if (tracks != nullptr) {
+    if (tracks != nullptr || poses != nullptr) {
       const Duration delay = from_seconds(config.replay.camera_readout) + stages::stereo.budget;
       const auto odometry = [&] {
+        if (poses != nullptr)
+          return sensors::make_pose_odometry(poses, sequence->image_stamps(),
+                                             sequence->calibration().stereo.T_body_cam,
+                                             config.odometry_poses, delay);
         return make_track_odometry(tracks, sequence->image_stamps(),
                                    for_recorded_tracks(config.stereo), delay);
       };
@@ -108,8 +138,7 @@ Recording open_gnss(const std::filesystem::path& path, const VehicleConfig& conf
   recording.images = drive->setup().observations().epochs.size();
   recording.sensors = [drive](Time) {
     Sensors s;
-    s.epochs = GnssDrive::epochs(drive);
-    s.ppp = {drive, &drive->setup()};  // shares the drive's life
+    use_observations(s, drive);
     return s;
   };
   return recording;
@@ -128,7 +157,7 @@ Recording open_capture(const std::filesystem::path& path, const VehicleConfig& c
         path, sensors::VelodyneCaptureOptions{{}, calibration});
   };
   Recording recording;
-  recording.calibration = live_calibration(config.live);
+  recording.calibration = live_calibration(config);
   const auto capture = open();
   for (LidarScan scan; capture->next(scan); ++recording.images) {
     if (recording.images == 0) recording.first_stamp = scan.stamp;
@@ -148,6 +177,11 @@ Recording open_capture(const std::filesystem::path& path, const VehicleConfig& c
 
 Recording open_any(const std::filesystem::path& path, const VehicleConfig& config) {
   if (sensors::OdometrySequence::is_named(path)) return open_sequence(path, config);
+  if (!config.odometry_poses.file.empty()) {
+    throw std::runtime_error("poses in place of visual odometry go with a sequence of KITTI's " +
+                             std::string("odometry benchmark (oxts/NN.csv), not with '") +
+                             path.string() + "'");
+  }
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) {
     throw std::runtime_error("there is no file or folder '" + path.string() +

@@ -26,6 +26,14 @@ inline runtime::Scheduling realtime(int priority) {
   return scheduling;
 }
 
+// Behind everybody else of the kernel's fair shares.
+inline runtime::Scheduling yielding() {
+  runtime::Scheduling scheduling;
+  scheduling.policy = runtime::SchedulingPolicy::other;
+  scheduling.nice = 19;
+  return scheduling;
+}
+
 // Applied where the clock is paced; on virtual time there is nothing to be punctual for.
 struct SchedulingParameters {
   runtime::Scheduling camera = realtime(70);  // drivers only sleep and hand over
@@ -43,6 +51,7 @@ struct SchedulingParameters {
   runtime::Scheduling publisher;
   runtime::Scheduling health;
   runtime::Scheduling snapshot;
+  runtime::Scheduling preview = yielding();  // when nobody else has work
 };
 
 // Reads the table `key`; what it lacks stays as it is, but for what belongs to another policy.

@@ -21,6 +21,7 @@
 #include "runtime/core/trace.h"
 #include "runtime/vehicle/fault_delay.h"
 #include "runtime/vehicle/gnss_epoch.h"
+#include "runtime/vehicle/live_corrections.h"
 #include "runtime/vehicle/message_sink.h"
 #include "runtime/vehicle/publisher.h"
 #include "runtime/vehicle/road_map.h"
@@ -37,9 +38,13 @@ namespace maploop::vehicle {
 // Those that the vehicle listens to; null: it has none. GNSS is either fixes or observations.
 struct LiveSensors {
   std::shared_ptr<const sensors::HostClock> clock;  // that they stamp with
+  std::unique_ptr<sensors::LiveSource<StereoPair>> camera;
   std::unique_ptr<sensors::LiveSource<LidarScan>> velodyne;
   std::unique_ptr<sensors::LiveSource<ImuSample>> imu;
   std::unique_ptr<sensors::LiveSource<GnssFix>> gnss;
+  std::unique_ptr<sensors::LiveSource<GnssEpoch>> epochs;             // as of Sensors
+  std::unique_ptr<sensors::LiveSource<GnssCorrections>> corrections;  // for them
+  std::shared_ptr<const ppp::PppSetup> ppp;
 };
 
 struct Sensors {

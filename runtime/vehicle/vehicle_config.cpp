@@ -1,6 +1,5 @@
 #include "runtime/vehicle/vehicle_config.h"
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <concepts>
@@ -12,6 +11,8 @@
 #include "estimators/lidar/validate.h"
 #include "estimators/stereo/validate.h"
 #include "mapmatch/validate.h"
+#include "msgs/named_enum.h"
+#include "ppp/filter/validate.h"
 #include "runtime/core/config.h"
 #include "runtime/vehicle/config_fields.h"
 
@@ -21,17 +22,16 @@ namespace {
 // One of the names of an enumeration.
 template <class Enum>
 void read_name(const runtime::ConfigTable& table, const char* key, Enum& value) {
-  const auto names = names_of(value);
-  std::string name(names[static_cast<std::size_t>(value)]);
+  std::string name(name_of(value));
   table.read(key, name);
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) {
+  const auto found = value_named<Enum>(name);
+  if (!found) {
     std::string allowed;
-    for (const std::string_view one : names)
+    for (const std::string_view one : names_of(value))
       allowed += (allowed.empty() ? "\"" : ", \"") + std::string(one) + '"';
     table.fail(key, "is \"" + name + "\"; allowed is one of " + allowed);
   }
-  value = static_cast<Enum>(found - names.begin());
+  value = *found;
 }
 
 void read_value(const runtime::ConfigTable& table, const char* key, auto& value) {
@@ -74,9 +74,9 @@ std::string toml_value(const std::vector<std::string>& texts) {
 std::string toml_value(bool value) {
   return value ? "true" : "false";
 }
-template <class Enum>
-requires std::is_enum_v<Enum> std::string toml_value(Enum value) {
-  return quoted(std::string(names_of(value)[static_cast<std::size_t>(value)]));
+template <NamedEnum Enum>
+std::string toml_value(Enum value) {
+  return quoted(std::string(name_of(value)));
 }
 std::string toml_value(std::integral auto value) {
   return number(value);
@@ -94,6 +94,8 @@ void check_values(const VehicleConfig& config, const std::filesystem::path& file
     lidar::validate(config.lidar);
     fusion::check(config.fusion);
     mapmatch::validate(config.mapmatch);
+    ppp::validate(config.ppp.filter);
+    check(config.preview);
   } catch (const std::invalid_argument& e) {
     throw runtime::ConfigError(file.string() + ": " + e.what());
   }
@@ -141,10 +143,16 @@ VehicleConfig load_vehicle_config(const std::filesystem::path& file) {
   if (!(config.ppp.latency >= 0.0 && config.ppp.latency < 10.0)) {
     document.root().table("ppp").fail("latency", "must be 0 to 10 s");
   }
+  if (!(config.odometry_poses.speed_sigma > 0.0 && config.odometry_poses.rotation_sigma > 0.0)) {
+    document.root()
+        .table("odometry_poses")
+        .fail("speed_sigma", "must be positive, as rotation_sigma");
+  }
   check_values(config, file);
   const auto beside = [&](std::string& path) { path = (file.parent_path() / path).string(); };
-  for (std::string* path : {&config.camera.calibration, &config.live.calibration,
-                            &config.live.velodyne_calibration, &config.map.file, &config.map.rules})
+  for (std::string* path :
+       {&config.camera.calibration, &config.live.calibration, &config.live.velodyne_calibration,
+        &config.odometry_poses.file, &config.map.file, &config.map.rules})
     if (!path->empty()) beside(*path);
   for (std::string& product : config.ppp.products) beside(product);
   return config;

@@ -19,8 +19,10 @@
 #include "runtime/core/trace.h"
 #include "runtime/vehicle/lcm_bus.h"
 #include "runtime/vehicle/live_config.h"
+#include "runtime/vehicle/preview_parameters.h"
 #include "runtime/vehicle/scheduling_config.h"
 #include "sensors/replay/kitti_drive.h"
+#include "sensors/replay/pose_odometry.h"
 
 namespace maploop::vehicle {
 
@@ -32,6 +34,8 @@ struct CameraParameters {
 
 // Of a drive with the observations of a GNSS receiver.
 struct PppConfig {
+  // Whether a drive's own (its folder `gnss`) take the place of the receiver of [gnss].
+  bool observations = true;
   // Files and folders, from the configuration's own folder; none: the folder of the observations.
   std::vector<std::string> products;
   bool broadcast = false;  // orbits and clocks of the navigation message even where SP3 is given
@@ -68,8 +72,11 @@ struct VehicleConfig {
   SchedulingParameters scheduling;
   runtime::MemoryParameters memory;
   runtime::TraceParameters trace;
+  PreviewParameters preview;
   CameraParameters camera;
   sensors::KittiDriveParameters replay;
+  // Of a sequence of KITTI's odometry benchmark: in place of recorded tracks.
+  sensors::PoseOdometryParameters odometry_poses;
   LiveParameters live;
   sensors::GnssAidParameters gnss;
   std::string gnss_outage;  // gnss_outage.h; empty: none

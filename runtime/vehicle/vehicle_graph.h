@@ -1,5 +1,5 @@
-// What the vehicle owns: its edges, stages and threads. For vehicle.cpp and vehicle_report.cpp
-// alone.
+// What the vehicle owns: its edges, stages and threads. For vehicle.cpp, vehicle_report.cpp
+// and vehicle_threads.cpp alone.
 #pragma once
 
 #include <deque>
@@ -19,6 +19,7 @@
 #include "runtime/vehicle/lidar_stage.h"
 #include "runtime/vehicle/mapmatch_stage.h"
 #include "runtime/vehicle/ppp_stage.h"
+#include "runtime/vehicle/preview_stage.h"
 #include "runtime/vehicle/snapshot_stage.h"
 #include "runtime/vehicle/stereo_stage.h"
 #include "runtime/vehicle/vehicle.h"
@@ -51,6 +52,7 @@ struct Vehicle::Graph {
   void start_stereo();
   void start_gnss();
   void start_mapmatch();
+  void start_preview();
   std::vector<runtime::Edge<LidarScan>*> scan_edges();
   std::vector<runtime::Edge<RelativeMotion>*> visual_edges();
   std::vector<runtime::Edge<GnssFix>*> fix_edges();
@@ -104,6 +106,7 @@ struct Vehicle::Graph {
   std::optional<PppStage> ppp;      // where there is to_ppp
   FusionStage fusion;
   std::optional<MapMatchStage> mapmatch;  // where there is to_mapmatch
+  std::optional<PreviewStage> preview;    // where somebody may look on
   Publisher publisher;
   HealthMonitor monitor;
   ThreadMeter health_meter{stages::health};
@@ -111,6 +114,7 @@ struct Vehicle::Graph {
 
   std::stop_callback<std::function<void()>> wake_all;
   std::deque<runtime::Thread> producers;
+  std::stop_source end_preview;
   std::stop_source end_health;
   runtime::Doorbell health_bell;
   std::deque<runtime::Thread> listeners;  // they end after the producers

@@ -23,6 +23,7 @@ VehicleReport Vehicle::Graph::report() const {
   add(*drivers.imu);
   if (ppp) {
     add(*drivers.epochs);
+    if (to_ppp->corrections) add(*drivers.corrections);
   } else {
     add(*drivers.gnss);
   }
@@ -55,6 +56,7 @@ void Vehicle::Graph::look_at_sensors(Health& health) {
     }
     health.sensors.push_back(std::move(*sensor));
   });
+  if (ppp && !ppp->degraded().empty()) health.degraded.push_back(ppp->degraded());
   constexpr Duration disciplined = milliseconds(10);  // a clock that is only steered stays within
   if (const Duration step = host_clock->step(); std::chrono::abs(step) > disciplined) {
     health.degraded.push_back("this machine's clock was set by " +

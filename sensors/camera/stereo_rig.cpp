@@ -81,6 +81,12 @@ std::optional<std::string> problem_of(const StereoRig& rig) {
   return std::nullopt;
 }
 
+StereoCalibration mounted(const StereoRig& rig, const Eigen::Isometry3d& T_body_left) {
+  StereoCalibration calibration = rig.rectified;
+  calibration.T_body_cam = T_body_left * Eigen::Isometry3d(rig.R_rect_left.transpose());
+  return calibration;
+}
+
 Eigen::Matrix3d essential_matrix(const StereoRig& rig) {
   return cross(rig.T_right_left.translation()) * rig.T_right_left.linear();
 }

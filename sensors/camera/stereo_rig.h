@@ -18,11 +18,14 @@ struct StereoRig {
   // Raw to rectified camera.
   Eigen::Matrix3d R_rect_left = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d R_rect_right = Eigen::Matrix3d::Identity();
-  StereoCalibration rectified;  // T_body_cam is not set: see T_body_left
+  StereoCalibration rectified;  // T_body_cam is not set: see mounted()
 
   // Where the raw left camera sits, if that is known.
   std::optional<Eigen::Isometry3d> T_body_left;
 };
+
+// The rectified pair, of a raw left camera that sits there.
+StereoCalibration mounted(const StereoRig& rig, const Eigen::Isometry3d& T_body_left);
 
 // What is wrong with it, or nothing: sizes, focal lengths, a distortion that turns back in most of
 // the image, rotations that are none (to 1e-6), a rectification that does not fit the extrinsics

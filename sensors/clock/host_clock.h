@@ -10,22 +10,26 @@ namespace maploop::sensors {
 // For any thread.
 class HostClock {
  public:
-  HostClock() : utc_(utc()), steady_(steady()) {}
+  // `now_utc`: the machine's clock, or another for a test of what follows when it is set.
+  explicit HostClock(Time (*now_utc)() = machine_utc)
+      : now_utc_(now_utc), utc_(now_utc()), steady_(steady()) {}
 
   Time now() const { return utc_ + (steady() - steady_); }
   // When it shows t, on the steady clock.
   MonotonicTime shows(Time t) const { return steady_ + (t - utc_); }
   // How much the machine's clock was set ahead since the start.
-  Duration step() const { return utc() - now(); }
+  Duration step() const { return now_utc_() - now(); }
 
- private:
-  static Time utc() {
+  static Time machine_utc() {
     return std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
   }
+
+ private:
   static MonotonicTime steady() {
     return std::chrono::time_point_cast<Duration>(std::chrono::steady_clock::now());
   }
 
+  Time (*now_utc_)();
   Time utc_;
   MonotonicTime steady_;
 };

@@ -55,6 +55,11 @@ void Connection::fail(std::string problem) {
   next_attempt_ = now() + between_attempts;
 }
 
+bool Connection::write(std::string_view text) {
+  if (!state_.open || endpoint_.kind != Endpoint::Kind::tcp) return false;
+  return send(fd_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
+}
+
 std::uint16_t Connection::port() const {
   sockaddr_in address{};
   socklen_t size = sizeof address;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "msgs/time.h"
@@ -19,23 +20,36 @@ struct ConnectionState {
   std::string problem;          // why it is not open; empty while it is
 };
 
+// Where a sensor's bytes come from. One thread at a time.
+class ByteStream {
+ public:
+  virtual ~ByteStream() = default;
+  // What has come. Waits at most `patience` for it; 0: nothing. What is read after a reconnection
+  // does not go on from what was read before it: see state().opened.
+  virtual std::size_t read(std::span<std::uint8_t> to, Duration patience) = 0;
+  virtual const ConnectionState& state() const = 0;
+  virtual const std::string& name() const = 0;  // as it was given, without what is secret
+};
+
 // Opens by itself, and again where the sensor was unplugged or its host went away, one attempt
 // every half second; missing it is no error. Never blocks for longer than it is told to. One thread
 // at a time.
-class Connection {
+class Connection final : public ByteStream {
  public:
   explicit Connection(Endpoint endpoint) : endpoint_(std::move(endpoint)) {}
-  ~Connection() { close(); }
+  ~Connection() override { close(); }
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
-  // What has come: one datagram, or bytes of the stream. Waits at most `patience` for it; 0:
-  // nothing. What is read after a reconnection does not go on from what was read before it: see
-  // state().opened.
-  std::size_t read(std::span<std::uint8_t> to, Duration patience);
+  // One datagram, or bytes of the stream.
+  std::size_t read(std::span<std::uint8_t> to, Duration patience) override;
+  // To what a stream is connected with; false where the system does not take all of it at once, or
+  // it is not open.
+  bool write(std::string_view text);
 
   const Endpoint& endpoint() const { return endpoint_; }
-  const ConnectionState& state() const { return state_; }
+  const ConnectionState& state() const override { return state_; }
+  const std::string& name() const override { return endpoint_.text; }
   // The one that a udp endpoint listens on; 0 while it is not open.
   std::uint16_t port() const;
 

@@ -92,11 +92,9 @@ VehicleCalibration read_kitti_calibration(const std::filesystem::path& folder, c
                                           bool with_velodyne) {
   CalibrationFiles files(folder);
   VehicleCalibration calibration;
-  calibration.stereo = rig.rectified;
   if (with_velodyne || !rig.T_body_left) files.read_mounting();
   if (with_velodyne) calibration.T_body_velo = body_velo(files.text);
-  const Eigen::Isometry3d T_body_left = rig.T_body_left ? *rig.T_body_left : body_left(files.text);
-  calibration.stereo.T_body_cam = T_body_left * Eigen::Isometry3d(rig.R_rect_left.transpose());
+  calibration.stereo = mounted(rig, rig.T_body_left ? *rig.T_body_left : body_left(files.text));
   return calibration;
 }
 

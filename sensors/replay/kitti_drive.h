@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "msgs/calibration.h"
 #include "msgs/gnss.h"
@@ -33,7 +34,7 @@ struct KittiDriveParameters {
 
 // Reads `2011_09_26/2011_09_26_drive_0013_sync` with its own layout:
 //   image_00, image_01   timestamps.txt, data/%010d.png   left and right rectified grey
-//   velodyne_points      timestamps{,_start,_end}.txt, data/%010d.bin
+//   velodyne_points      timestamps{,_start,_end}.txt, data/%010d.bin or .scan (packed_scan.h)
 //   oxts                 timestamps.txt, data/%010d.txt
 //   ../calib_cam_to_cam.txt, ../calib_velo_to_cam.txt, ../calib_imu_to_velo.txt
 // Named `..._extract`, the unsynced form, its OXTS rows (100 Hz) take the place of the synced ones;
@@ -59,10 +60,12 @@ class KittiDrive {
                       std::optional<StereoRig> raw_cameras = {});
 
   const VehicleCalibration& calibration() const { return calibration_; }
+  const std::filesystem::path& folder() const { return folder_; }  // of the images, absolute
 
   // Numbers and stamps of the left images, whether or not each can be read; lines that hold no
   // stamp are passed over by first and last.
   std::size_t frame_count() const { return left_.timestamps.size(); }
+  const std::vector<Time>& image_stamps() const { return left_.timestamps.stamps; }
   Time first_stamp() const;
   Time last_stamp() const;
 

@@ -6,9 +6,11 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "sensors/replay/frame_source.h"
+#include "sensors/replay/packed_scan.h"
 
 namespace maploop::sensors {
 namespace {
@@ -57,6 +59,13 @@ class VelodyneSource final : public FrameSource<LidarScan> {
   bool read(std::size_t i, LidarScan& scan) override {
     // A turn of the HDL-64E has 130 000 points; this is eight times as many.
     constexpr std::size_t largest_file = std::size_t{16} << 20;
+    const std::filesystem::path packed = folder_.data / numbered_file(i, ".scan");
+    std::error_code ignored;
+    if (std::filesystem::exists(packed, ignored)) {
+      return read_and_parse(packed, largest_file, [&](const std::vector<char>& bytes) {
+        unpack_scan(bytes, image_, scan.points);
+      });
+    }
     const std::filesystem::path file = folder_.data / numbered_file(i, ".bin");
     return read_and_parse(file, largest_file, [&](const std::vector<char>& bytes) {
       const std::size_t dropped = parse_velodyne_points(bytes, scan.points);
@@ -75,6 +84,7 @@ class VelodyneSource final : public FrameSource<LidarScan> {
   }
 
   VelodyneFolder folder_;
+  RangeImage image_;
 };
 
 }  // namespace

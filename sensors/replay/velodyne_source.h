@@ -17,7 +17,8 @@ namespace maploop::sensors {
 // reason alone: empty, not a multiple of 16 bytes, no finite point.
 std::size_t parse_velodyne_points(const std::vector<char>& bytes, std::vector<LidarPoint>& points);
 
-// The folder of the numbered scans, and the stamps of when the turn began, faced forward and ended.
+// The folder of the numbered scans (.bin, or packed_scan.h's .scan), and the stamps of when the
+// turn began, faced forward and ended.
 struct VelodyneFolder {
   std::filesystem::path data;
   Timestamps start, middle, end;

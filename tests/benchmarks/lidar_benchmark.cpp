@@ -54,7 +54,8 @@ void align_pcl(benchmark::State& state) {
   lidar::ScanPreparation preparation(drive.calibration().T_body_velo, parameters);
   std::vector<lidar::PreparedScan> prepared(scans.size());
   for (std::size_t k = 0; k < scans.size(); ++k)
-    preparation.prepare(scans[k], scans[k].stamp, {{12.5, 0.0, 0.0}, {}}, &prepared[k]);
+    preparation.prepare(scans[k], scans[k].stamp, {{12.5, 0.0, 0.0}, Eigen::Vector3d::Zero()},
+                        &prepared[k]);
   Eigen::Isometry3d seed = Eigen::Isometry3d::Identity();
   seed.translation().x() = 1.25;
   testing::PclGicp gicp;

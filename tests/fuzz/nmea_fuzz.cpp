@@ -1,9 +1,10 @@
-// A stream of NMEA sentences.
+// A stream of NMEA sentences, and of inertial samples as such.
 #include <cmath>
 #include <cstdio>
 #include <string>
 
 #include "sensors/gnss/nmea_fixes.h"
+#include "sensors/imu/imu_line.h"
 #include "sensors/live/line_splitter.h"
 #include "tests/fuzz/fuzz_input.h"
 
@@ -17,6 +18,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Time arrival = parse_time("2026-03-01 10:00:00"), last = Time::min();
   const auto take = [&](std::string_view line) {
     arrival += std::chrono::milliseconds(70);
+    if (const auto sample = parse_imu_line(line))
+      fuzz::require(std::abs(sample->specific_force_forward) <= 500.0 &&
+                    std::abs(sample->yaw_rate) <= 100.0);
     if (!fixes.add(line, arrival, fix)) return;
     fuzz::require(fix.stamp > last && fix.position_covariance.allFinite() &&
                   fix.velocity_enu.allFinite() && std::isfinite(fix.position.height));

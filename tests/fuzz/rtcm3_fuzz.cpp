@@ -12,7 +12,8 @@ using namespace maploop::ppp;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   try {
-    parse_rtcm3(bytes, "input");
+    NavigationFile navigation;
+    parse_rtcm3(bytes, "input", &navigation);
   } catch (const ReadError&) {
   }
   if (size < 1) return 0;

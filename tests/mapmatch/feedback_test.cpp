@@ -9,6 +9,7 @@
 
 #include "mapmatch/matcher.h"
 #include "msgs/frames.h"
+#include "tests/mapmatch/default_rule_bases.h"
 #include "tests/mapmatch/simulated_drive.h"
 #include "tests/mapmatch/small_map.h"
 #include "tests/support/broken_archives.h"
@@ -18,12 +19,8 @@ namespace maploop::mapmatch {
 namespace {
 
 using maploop::testing::drive;
+using maploop::testing::rules;
 using maploop::testing::SmallMap;
-
-const RuleBases& rules() {
-  static const RuleBases bases = read_rule_bases(default_rules());
-  return bases;
-}
 
 // A street of 600 m from west to east (way 10), and one across its end (way 20).
 SmallMap tee() {

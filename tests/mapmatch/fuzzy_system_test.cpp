@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "mapmatch/rule_bases.h"
+#include "tests/mapmatch/default_rule_bases.h"
 #include "tests/support/counted_allocations.h"
 #include "tests/support/process.h"
 
@@ -16,11 +17,7 @@ namespace maploop::mapmatch {
 namespace {
 
 using Inputs = std::vector<double>;
-
-const RuleBases& rules() {
-  static const RuleBases bases = read_rule_bases(default_rules());
-  return bases;
-}
+using maploop::testing::rules;
 
 TEST(RuleBases, InitialMatchingHasTheValuesOfTheMethod) {
   const std::vector<std::pair<Inputs, double>> vectors{

@@ -8,6 +8,7 @@
 
 #include "mapmatch/reasons.h"
 #include "msgs/frames.h"
+#include "tests/mapmatch/default_rule_bases.h"
 #include "tests/mapmatch/simulated_drive.h"
 #include "tests/mapmatch/small_map.h"
 #include "tests/support/broken_archives.h"
@@ -18,13 +19,9 @@ namespace {
 
 using maploop::testing::drive;
 using maploop::testing::one_way;
+using maploop::testing::rules;
 using maploop::testing::SmallMap;
 using Places = std::vector<Eigen::Vector2d>;
-
-const RuleBases& rules() {
-  static const RuleBases bases = read_rule_bases(default_rules());
-  return bases;
-}
 
 std::int64_t way_of(const Matcher& matcher, const MatchResult& r) {
   return r.on_road ? matcher.network().road_at(r.point.vertex).way_id : 0;

@@ -9,19 +9,16 @@
 
 #include "mapmatch/reasons.h"
 #include "msgs/frames.h"
+#include "tests/mapmatch/default_rule_bases.h"
 #include "tests/mapmatch/small_map.h"
 #include "tests/support/counted_allocations.h"
 
 namespace maploop::mapmatch {
 namespace {
 
+using maploop::testing::rules;
+using maploop::testing::SmallMap;
 using ::testing::HasSubstr;
-using testing::SmallMap;
-
-const RuleBases& rules() {
-  static const RuleBases bases = read_rule_bases(default_rules());
-  return bases;
-}
 
 // 300 m to the north, then 200 m to the east.
 const RoadNetwork& network() {

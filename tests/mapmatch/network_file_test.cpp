@@ -21,7 +21,7 @@ Bytes bytes_of(const NetworkData& data) {
   return writer.take();
 }
 
-std::string refusal(const std::filesystem::path& file) {
+std::string refusal_to_load(const std::filesystem::path& file) {
   try {
     load_network(file);
     return "";
@@ -48,7 +48,7 @@ TEST(NetworkFile, DamagedCutForeignAndMissingFilesAreRefused) {
   const std::string whole{std::istreambuf_iterator<char>(in), {}};
   const auto with = [&](const std::string& content) {
     std::ofstream(file, std::ios::binary) << content;
-    return refusal(file);
+    return refusal_to_load(file);
   };
   EXPECT_EQ(with(whole), "");
   EXPECT_THAT(with(whole.substr(0, whole.size() - 1)), ::testing::HasSubstr("a.network"));
@@ -58,7 +58,8 @@ TEST(NetworkFile, DamagedCutForeignAndMissingFilesAreRefused) {
     EXPECT_NE(with(flipped), "") << at;
   }
   EXPECT_NE(with("something else"), "");
-  EXPECT_THAT(refusal(folder.path() / "none"), ::testing::HasSubstr("no such regular file"));
+  EXPECT_THAT(refusal_to_load(folder.path() / "none"),
+              ::testing::HasSubstr("no such regular file"));
   ArchiveWriter other;
   other.section("another thing", 1);
   const Bytes sealed = seal(other.content());

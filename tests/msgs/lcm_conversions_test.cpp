@@ -269,6 +269,31 @@ TEST(LcmConversions, GnssFix) {
   EXPECT_EQ(r.velocity_covariance, f.velocity_covariance);
 }
 
+TEST(LcmConversions, Preview) {
+  Preview p;
+  fill(p);
+  p.width = 3;
+  p.height = 2;
+  p.jpeg = {0xff, 0xd8, 0x00};
+  p.tracks = {{1.0F, 2.0F, 3.0F, 4.0F}, {5.0F, 6.0F, 7.0F, 8.0F}};
+  p.scan_stamp = from_nanoseconds(77);
+  p.points = {{-32767, 0, 32767}};
+  const Preview r = round_trip(p);
+  EXPECT_EQ(r.width, 3);
+  EXPECT_EQ(r.height, 2);
+  EXPECT_EQ(r.jpeg, p.jpeg);
+  ASSERT_EQ(r.tracks.size(), 2u);
+  EXPECT_EQ(r.tracks[1].from_u, 5.0F);
+  EXPECT_EQ(r.tracks[1].from_v, 6.0F);
+  EXPECT_EQ(r.tracks[1].u, 7.0F);
+  EXPECT_EQ(r.tracks[1].v, 8.0F);
+  EXPECT_EQ(r.scan_stamp, p.scan_stamp);
+  ASSERT_EQ(r.points.size(), 1u);
+  EXPECT_EQ(r.points[0].x, -32767);
+  EXPECT_EQ(r.points[0].z, 32767);
+  EXPECT_EQ(round_trip(Preview{}).points.size(), 0u);
+}
+
 TEST(LcmConversions, PppState) {
   PppState s;
   fill(s);
@@ -285,7 +310,12 @@ TEST(LcmConversions, PppState) {
   s.code_rms = 0.7;
   s.phase_rms = 0.008;
   s.converging_for = 123.0;
+  s.satellites_corrected = 7;
+  s.correction_age = 4.5;
   s.restarts = 2;
+  s.map = PppMap::paused;
+  s.roads_used = 12;
+  s.roads_refused = 34;
   s.satellites_used = 9;
   s.satellites = {
       {'E', 33, 1.0F, 0.5F, 44.0F, true, false, 0.7F, 0.01F, PppRefusal::phase_misfit,
@@ -298,6 +328,9 @@ TEST(LcmConversions, PppState) {
   received(r);
   EXPECT_EQ(received.content(), sent.content());
   maploop_lcm::ppp_state_t m = to_lcm(s);
+  m.map = 3;
+  EXPECT_THROW(from_lcm(m), std::invalid_argument);
+  m.map = 0;
   m.satellites[0].refusal = 11;
   EXPECT_THROW(from_lcm(m), std::invalid_argument);
   m.satellites[0] = to_lcm(s).satellites[0];

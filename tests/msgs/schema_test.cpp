@@ -102,6 +102,7 @@ TEST(Schema, FingerprintsAreThoseOfTheGeneratedCode) {
       {"maploop_lcm.wheel_speed_t", maploop_lcm::wheel_speed_t::getHash()},
       {"maploop_lcm.nav_state_t", maploop_lcm::nav_state_t::getHash()},
       {"maploop_lcm.reference_pose_t", maploop_lcm::reference_pose_t::getHash()},
+      {"maploop_lcm.preview_t", maploop_lcm::preview_t::getHash()},
       {"maploop_lcm.relative_motion_t", maploop_lcm::relative_motion_t::getHash()},
       {"maploop_lcm.lidar_motion_t", maploop_lcm::lidar_motion_t::getHash()},
       {"maploop_lcm.map_feedback_t", maploop_lcm::map_feedback_t::getHash()},

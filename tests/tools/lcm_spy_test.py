@@ -33,6 +33,7 @@ CHANNELS = {
     "NAV_STATE": ("nav_state_t", "origin_latitude"),
     "ODOMETRY": ("relative_motion_t", "translation"),
     "PPP_STATE": ("ppp_state_t", "latitude"),
+    "PREVIEW": ("preview_t", "track_count"),
     "TRUTH": ("reference_pose_t", "azimuth"),
     "WHEEL_SPEED": ("wheel_speed_t", "sigma"),
     "VO": ("relative_motion_t", "translation"),

@@ -20,25 +20,33 @@ using testing::Process;
 using testing::ProcessResult;
 using testing::TemporaryFolder;
 
-// Ports of this test alone.
-constexpr const char* endpoints = R"(
-velodyne = "udp://:42368"
-velodyne_model = "HDL-64E"
-velodyne_calibration = "db.xml"
-imu = "udp://:43000"
-gnss = "udp://:43001"
-)";
+// Ports of one test alone: ctest may run the others beside it.
+struct Ports {
+  int camera, velodyne, imu, gnss;
+};
+constexpr Ports driving{42004, 42368, 43000, 43001};
+constexpr Ports silent{42005, 42369, 43002, 43003};
+
+std::string udp(int port) {
+  return "udp://:" + std::to_string(port);
+}
 
 std::vector<std::string> send_command(std::vector<std::string> options) {
   options.insert(options.begin(), {MAPLOOP_COMMAND, "send", testing::drive_0013().string()});
   return options;
 }
 
-std::filesystem::path write_config(const TemporaryFolder& folder) {
+std::filesystem::path write_config(const TemporaryFolder& folder, const Ports& ports) {
   const auto file = folder.path() / "live.toml";
   std::ofstream(file) << "configuration = \"GNSS+VO-L-RI\"\n[live]\ncalibration = \""
-                      << testing::drive_0013().parent_path().string() << "\"\n"
-                      << endpoints;
+                      << testing::drive_0013().parent_path().string()
+                      << "\"\ncamera_left = \"udpsrc address=127.0.0.1 port=" << ports.camera
+                      << " buffer-size=8388608 caps=application/x-rtp,media=application,"
+                         "clock-rate=90000,encoding-name=X-GST ! rtpgstdepay\"\nvelodyne = \""
+                      << udp(ports.velodyne)
+                      << "\"\nvelodyne_model = \"HDL-64E\"\nvelodyne_calibration = \"db.xml\"\n"
+                      << "imu = \"" << udp(ports.imu) << "\"\ngnss = \"" << udp(ports.gnss)
+                      << "\"\n";
   return file;
 }
 
@@ -47,12 +55,15 @@ TEST(LiveCommand, DrivesOnWhatADriveSends) {
   const TemporaryFolder folder;
   const auto in = [&](const char* name) { return (folder.path() / name).string(); };
   ASSERT_EQ(testing::run(send_command({"--calibration", in("db.xml")})).status, 0);
-  Process live({MAPLOOP_COMMAND, "live", write_config(folder).string(), "--no-lcm", "--seconds",
-                "6", "--json", in("live.json"), "--tum", in("live.tum"), "--record",
+  Process live({MAPLOOP_COMMAND, "live", write_config(folder, driving).string(), "--no-lcm",
+                "--seconds", "9", "--json", in("live.json"), "--tum", in("live.tum"), "--record",
                 in("live.lcmlog")});
-  const ProcessResult sent =
-      testing::run(send_command({"--velodyne", "udp://:42368", "--imu", "udp://:43000", "--gnss",
-                                 "udp://:43001", "--truth", in("truth.tum"), "--seconds", "4"}));
+  const ProcessResult sent = testing::run(
+      send_command({"--camera",
+                    "rtpgstpay config-interval=1 mtu=60000 ! udpsink host=127.0.0.1 port=" +
+                        std::to_string(driving.camera),
+                    "--velodyne", udp(driving.velodyne), "--imu", udp(driving.imu), "--gnss",
+                    udp(driving.gnss), "--truth", in("truth.tum"), "--seconds", "4"}));
   EXPECT_EQ(sent.status, 0) << sent.error;
   const ProcessResult result = live.wait();
   ASSERT_EQ(result.status, 0) << result.error;
@@ -60,12 +71,16 @@ TEST(LiveCommand, DrivesOnWhatADriveSends) {
   EXPECT_GT(said["sensors"]["velodyne"]["delivered"], 20) << result.out;
   EXPECT_GT(said["sensors"]["imu"]["delivered"], 20);
   EXPECT_GE(said["sensors"]["gnss"]["delivered"], 2);
-  for (const char* name : {"velodyne", "imu", "gnss"}) {
+  // Images are understood from the next caps on, which are sent every second.
+  EXPECT_GT(said["sensors"]["camera"]["delivered"], 10);
+  for (const char* name : {"camera", "velodyne", "imu", "gnss"}) {
     EXPECT_EQ(said["sensors"][name]["left_out"], 0) << name;
     EXPECT_EQ(said["live"][name]["connections"], 1) << name;
-    EXPECT_EQ(said["live"][name]["clock"]["jumps"], 0) << name;
   }
+  for (const char* name : {"velodyne", "imu", "gnss"})
+    EXPECT_EQ(said["live"][name]["clock"]["jumps"], 0) << name;
   EXPECT_GT(said["channels"]["NAV_STATE"]["count"], 200);
+  EXPECT_GT(said["channels"]["VO"]["count"], 10);
   EXPECT_GT(said["channels"]["LIDAR_ODOMETRY"]["count"], 10);
   const ProcessResult log = testing::run({MAPLOOP_COMMAND, "log", "info", in("live.lcmlog")});
   EXPECT_EQ(log.status, 0) << log.error;
@@ -77,13 +92,13 @@ TEST(LiveCommand, EndsAtCtrlCWithItsTableThoughNothingIsThere) {
   const TemporaryFolder folder;
   ASSERT_EQ(
       testing::run(send_command({"--calibration", (folder.path() / "db.xml").string()})).status, 0);
-  Process live({MAPLOOP_COMMAND, "live", write_config(folder).string(), "--no-lcm"});
+  Process live({MAPLOOP_COMMAND, "live", write_config(folder, silent).string(), "--no-lcm"});
   std::this_thread::sleep_for(std::chrono::milliseconds(2500));
   live.send_signal(SIGINT);
   const ProcessResult result = live.wait();
   EXPECT_EQ(result.status, 0) << result.error;
   EXPECT_NE(result.out.find("imu: silent since the start"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("udp://:42368"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find(udp(silent.velodyne)), std::string::npos) << result.out;
 }
 
 TEST(LiveCommand, RefusesAConfigurationWithoutASensor) {

@@ -10,11 +10,13 @@
 
 #include "tests/support/process.h"
 #include "tests/support/real_data.h"
+#include "tests/tools/channel_hashes.h"
 
 namespace maploop {
 namespace {
 
 using nlohmann::json;
+using testing::hashes;
 using testing::ProcessResult;
 
 ProcessResult maploop_command(std::vector<std::string> arguments) {
@@ -44,14 +46,6 @@ class LogReplay : public ::testing::Test {
 
   testing::TemporaryFolder folder_;
 };
-
-std::map<std::string, std::string> hashes(const json& result) {
-  std::map<std::string, std::string> all;
-  for (const auto& [name, channel] : result["channels"].items()) {
-    if (channel["hash"] != "") all[name] = channel["hash"];
-  }
-  return all;
-}
 
 TEST_F(LogReplay, ALogOfRawSensorsGivesTheHashesOfTheDrive) {
   const json drive = replay(testing::drive_0013().string(),

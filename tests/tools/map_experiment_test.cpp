@@ -152,8 +152,6 @@ TEST(MapExperiment, SaysWhatIsWrongWithASetting) {
   EXPECT_THROW(set_parameter(setting, "no_such_thing=1"), std::runtime_error);
   set_parameter(setting, "spacing=5");
   EXPECT_EQ(setting.feedback.spacing, 5.0);
-  EXPECT_THROW(map_mode("tighter"), std::invalid_argument);
-  EXPECT_EQ(map_mode("hard-reset"), MapMode::hard_reset);
 }
 
 }  // namespace

@@ -75,6 +75,10 @@ bool publish_all(lcm::LCM& lcm, int tick) {
   auto ppp = sample<PppState>(tick);
   ppp.satellites.resize(1);
   publish("PPP_STATE", ppp);
+  auto preview = sample<Preview>(tick);
+  preview.tracks.resize(1);
+  preview.points.resize(1);
+  publish("PREVIEW", preview);
   publish("WHEEL_SPEED", sample<WheelSpeed>(tick));
   publish("TRUTH", sample<ReferencePose>(tick));
   publish("DEADLINES", deadlines(state.stamp));

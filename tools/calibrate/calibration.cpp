@@ -11,6 +11,7 @@
 
 #include "tools/calibrate/rectification.h"
 #include "tools/calibrate/starting_values.h"
+#include "tools/median.h"
 
 namespace maploop::calibrate {
 namespace {
@@ -21,12 +22,6 @@ std::string shown(double value, const char* format = "%.2f") {
   std::array<char, 40> text{};
   std::snprintf(text.data(), text.size(), format, value);
   return text.data();
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 TiltSpread tilt_spread(const std::vector<Eigen::Isometry3d>& T_left_board) {
@@ -63,7 +58,7 @@ std::vector<BadView> take_out_bad(const Residuals& residuals, int round, double 
   constexpr double factor = 2.5;
   std::vector<double> rms;
   for (const auto& of_view : residuals) rms.push_back(rms_of_view(of_view));
-  const double limit = std::max(factor * median(rms), floor);
+  const double limit = std::max(factor * tools::median(rms), floor);
   std::vector<BadView> bad;
   while (views.size() > kMinViews) {
     const auto worst = std::max_element(rms.begin(), rms.end()) - rms.begin();

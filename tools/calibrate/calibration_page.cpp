@@ -11,6 +11,7 @@
 
 #include "sensors/camera/rectifier.h"
 #include "tools/calibrate/calibration_text.h"
+#include "tools/html_image.h"
 #include "tools/html_text.h"
 #include "tools/web/page.h"
 
@@ -25,25 +26,11 @@ std::string number(double value) {
   return text.data();
 }
 
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-  constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k) three = three << 8U | (k < left ? bytes[i + k] : 0U);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += k <= left ? digits[three >> (18U - 6U * k) & 63U] : '=';
-  }
-  return text;
-}
-
 // `width`: px on the page.
 std::string picture(const cv::Mat& image, int width) {
   std::vector<std::uint8_t> jpeg;
   cv::imencode(".jpg", image, jpeg, {cv::IMWRITE_JPEG_QUALITY, 80});
-  return "<img width='" + std::to_string(width) + "' src='data:image/jpeg;base64," + base64(jpeg) +
-         "'>";
+  return tools::image_tag(jpeg, "jpeg", width);
 }
 
 cv::Mat in_colour(const GreyImage& image) {

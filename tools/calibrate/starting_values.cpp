@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "tools/median.h"
+
 namespace maploop::calibrate {
 namespace {
 
@@ -78,12 +80,6 @@ OneCamera calibrate_one(const Board& board, const std::vector<View>& views, Corn
   return result;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 Eigen::Isometry3d median_pose(const std::vector<Eigen::Isometry3d>& poses) {
   Eigen::Vector3d turn, shift;
   for (int axis = 0; axis < 3; ++axis) {
@@ -93,8 +89,8 @@ Eigen::Isometry3d median_pose(const std::vector<Eigen::Isometry3d>& poses) {
       turns.push_back(rotation.angle() * rotation.axis()[axis]);
       shifts.push_back(pose.translation()[axis]);
     }
-    turn[axis] = median(std::move(turns));
-    shift[axis] = median(std::move(shifts));
+    turn[axis] = tools::median(std::move(turns));
+    shift[axis] = tools::median(std::move(shifts));
   }
   Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
   if (turn.norm() > 0.0)

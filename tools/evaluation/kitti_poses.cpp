@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "sensors/replay/files.h"
 #include "tools/evaluation/text_file.h"
 
 namespace maploop::evaluation {
@@ -32,7 +33,7 @@ std::optional<std::string> parse_row(std::string_view line, Row& row) {
       const char* end = word.data() + word.size();
       const auto [stop, error] = std::from_chars(word.data(), end, row[count]);
       if (error != std::errc() || stop != end || !std::isfinite(row[count])) {
-        return std::string("'").append(word).append("' is not a finite number");
+        return sensors::quoted(word) + " is not a finite number";
       }
     }
     ++count;

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "sensors/replay/files.h"
 #include "tools/evaluation/text_file.h"
 
 namespace maploop::evaluation {
@@ -36,7 +37,7 @@ double to_number(std::string_view word) {
   double value = 0.0;
   const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || stop != word.data() + word.size() || !std::isfinite(value))
-    throw LineError("'" + std::string(word) + "' is not a finite number");
+    throw LineError(sensors::quoted(word) + " is not a finite number");
   return value;
 }
 
@@ -44,7 +45,7 @@ double to_number(std::string_view word) {
 Time to_time(std::string_view word) {
   constexpr double kLargest = 9e9;  // s, in range of 64-bit nanoseconds
   if (std::abs(to_number(word)) > kLargest)
-    throw LineError("'" + std::string(word) + "' is no stamp in seconds");
+    throw LineError(sensors::quoted(word) + " is no stamp in seconds");
   const std::size_t point = word.find('.');
   if (point == std::string_view::npos || word.find_first_of("eE") != std::string_view::npos)
     return Time(from_seconds(to_number(word)));

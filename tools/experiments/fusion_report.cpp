@@ -7,17 +7,11 @@
 #include "runtime/vehicle/recording.h"
 #include "tools/experiments/fusion_experiment.h"
 #include "tools/experiments/table.h"
+#include "tools/median.h"
 #include "tools/web/page.h"
 
 namespace maploop::experiments {
 namespace {
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
 
 double mean(const std::vector<double>& values) {
   double sum = 0.0;
@@ -49,13 +43,13 @@ Row figures(const std::vector<fusion_score::Errors>& e, bool nees_at_end) {
   const std::vector<double> percent = column(e, [](const E& x) { return x.percent(); });
   return {std::to_string(e.size()),
           number(mean(column(e, [](const E& x) { return x.distance; })), 0),
-          number(median(percent), 3),
+          number(tools::median(percent), 3),
           number(*std::max_element(percent.begin(), percent.end()), 3),
-          number(median(column(e, [](const E& x) { return x.drift; })), 2),
-          number(median(column(e, [](const E& x) { return x.rmse; })), 2),
-          number(median(column(e, [](const E& x) { return x.max; })), 2),
-          number(median(column(e, [](const E& x) { return x.azimuth_rms; })), 3),
-          number(median(column(e, [](const E& x) { return std::abs(x.azimuth_end); })), 3),
+          number(tools::median(column(e, [](const E& x) { return x.drift; })), 2),
+          number(tools::median(column(e, [](const E& x) { return x.rmse; })), 2),
+          number(tools::median(column(e, [](const E& x) { return x.max; })), 2),
+          number(tools::median(column(e, [](const E& x) { return x.azimuth_rms; })), 3),
+          number(tools::median(column(e, [](const E& x) { return std::abs(x.azimuth_end); })), 3),
           number(nees_at_end ? mean(column(e, [](const E& x) { return x.nees_end; }))
                              : mean(column(e, [](const E& x) { return x.nees_mean; })),
                  1)};

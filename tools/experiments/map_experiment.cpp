@@ -14,6 +14,7 @@
 #include "estimators/fusion/guarded_filter.h"
 #include "estimators/fusion/parameter_fields.h"
 #include "mapmatch/matcher.h"
+#include "mapmatch/nav_matcher.h"
 #include "mapmatch/parameter_fields.h"
 #include "runtime/vehicle/limited_source.h"
 #include "runtime/vehicle/recording.h"
@@ -71,20 +72,6 @@ void deliver_until(std::vector<std::unique_ptr<Feed>>& feeds, Time t) {
   }
 }
 
-mapmatch::VehicleFix fix_of(const NavState& state) {
-  mapmatch::VehicleFix fix;
-  fix.stamp = state.stamp;
-  fix.position = LocalFrame(state.origin).to_geodetic(state.position_enu);
-  fix.covariance = state.covariance.topLeftCorner<2, 2>();
-  const double s = std::sin(state.attitude.azimuth), c = std::cos(state.attitude.azimuth);
-  const Eigen::Vector2d forward(s, c);
-  fix.speed = state.forward_speed;
-  fix.speed_sigma = std::sqrt(forward.dot(state.covariance.block<2, 2>(3, 3) * forward));
-  fix.azimuth = state.attitude.azimuth;
-  fix.azimuth_sigma = std::sqrt(state.covariance(6, 6));
-  return fix;
-}
-
 // How far into a sequence its recorded tracks are good, s; 0: there are none.
 double tracks_end(const std::string& sequence) {
   if (sequence == "06") return 103.5;
@@ -140,27 +127,6 @@ vehicle::VehicleConfig config_of(const vehicle::VehicleConfig& given, const MapC
 
 }  // namespace
 
-MapMode map_mode(const std::string& name) {
-  for (const MapMode mode : {MapMode::none, MapMode::loose, MapMode::tight, MapMode::hard_reset})
-    if (to_string(mode) == name) return mode;
-  throw std::invalid_argument("no map mode is called '" + name +
-                              "'; there are none, loose, tight, hard-reset");
-}
-
-std::string to_string(MapMode mode) {
-  switch (mode) {
-    case MapMode::none:
-      return "none";
-    case MapMode::loose:
-      return "loose";
-    case MapMode::tight:
-      return "tight";
-    case MapMode::hard_reset:
-      return "hard-reset";
-  }
-  return "unknown";
-}
-
 const std::vector<std::string>& map_faults() {
   static const std::vector<std::string> names{"missing", "shifted 5 m", "shifted 10 m", "reversed",
                                               "parallel 12 m"};
@@ -190,7 +156,7 @@ std::vector<MapCase> map_cases(const MapCases& wanted) {
   c.speed_scale = wanted.speed_scale - 1.0;
   for (const std::string& configuration : wanted.configurations) {
     c.configuration = configuration;
-    const bool with_tracks = configuration.find("VO") != std::string::npos;
+    const bool with_tracks = configuration.find("VO") != std::string::npos && !wanted.poses;
     for (const std::string& unit : wanted.units) {
       c.mems = unit == "mems";
       for (const std::string& outage : wanted.outages) {
@@ -201,8 +167,8 @@ std::vector<MapCase> map_cases(const MapCases& wanted) {
           if (with_tracks && c.end == 0.0) continue;
           for (const std::string& fault : faults) {
             c.fault = fault;
-            for (const std::string& mode : wanted.modes) {
-              c.mode = map_mode(mode);
+            for (const MapMode mode : wanted.modes) {
+              c.mode = mode;
               if (c.mode == MapMode::none && !fault.empty()) continue;
               for (c.seed = 1; c.seed <= wanted.seeds; ++c.seed) cases.push_back(c);
             }
@@ -278,7 +244,7 @@ MapResult run(const MapSetting& setting, const MapCase& setup) {
     sample.on_missing =
         result.missing != 0 && label != labels.end() && label->second.way_id == result.missing;
     if (setup.mode != MapMode::none) {
-      const mapmatch::VehicleFix fix = fix_of(*state);
+      const mapmatch::VehicleFix fix = mapmatch::fix_of(*state);
       const mapmatch::MatchResult& match = matcher.add(fix);
       sample.probability = match.on_road ? match.probability : 0.0;
       if (k >= first) {

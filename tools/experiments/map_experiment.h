@@ -20,11 +20,7 @@
 
 namespace maploop::experiments {
 
-enum class MapMode { none, loose, tight, hard_reset };
-
-// Throws std::invalid_argument listing the names.
-MapMode map_mode(const std::string& name);
-std::string to_string(MapMode mode);
+using vehicle::MapMode;
 
 // One run of one sequence.
 struct MapCase {
@@ -88,11 +84,12 @@ void set_parameter(MapSetting& setting, const std::string& text);
 // What is to be compared: every combination that there is data for.
 struct MapCases {
   std::vector<std::string> sequences{"00", "01", "02", "03", "04", "06", "08", "10"};
-  std::vector<std::string> modes{"none", "loose", "tight", "hard-reset"};
+  std::vector<MapMode> modes{MapMode::none, MapMode::loose, MapMode::tight, MapMode::hard_reset};
   std::vector<std::string> units{"mems"};
   std::vector<std::string> configurations{"GNSS+RISS"};
   std::vector<std::string> outages{"10:end"};
   std::vector<std::string> faults;  // beside the map as it is
+  bool poses = false;  // a trajectory stands for visual odometry, in place of recorded tracks
   double speed_scale = 1.01;
   int seeds = 1;
 };

@@ -10,6 +10,9 @@
 
 namespace maploop::match {
 
+// Each place off by a smooth error: so many metres rms an axis, that change within `length` metres.
+mapmatch::NetworkData bent(mapmatch::NetworkData network, double metres, double length,
+                           std::uint64_t seed);
 mapmatch::NetworkData shifted(mapmatch::NetworkData network, const Eigen::Vector2d& metres);
 // Every one-way street the other way round.
 mapmatch::NetworkData one_way_reversed(mapmatch::NetworkData network);

@@ -35,4 +35,12 @@ const std::vector<InputCondition>& input_conditions() {
   return all;
 }
 
+NoisyTrack noisy_track(const RecordedDrive& drive, const InputCondition& condition, int seed) {
+  TrackNoise noise = condition.noise;
+  noise.seed = static_cast<std::uint64_t>(seed);
+  NoisyTrack noisy;
+  noisy.track = with_noise(drive.track, condition.interval, noise, &noisy.rows);
+  return noisy;
+}
+
 }  // namespace maploop::match

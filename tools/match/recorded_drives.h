@@ -27,7 +27,15 @@ struct InputCondition {
   TrackNoise noise;
 
   bool noisy() const { return noise.white + noise.markov > 0.0; }
+  // How many of these seeds differ.
+  int realizations(int seeds) const { return noisy() ? seeds : 1; }
 };
+
+struct NoisyTrack {
+  Track track;
+  std::vector<std::size_t> rows;  // of the drive, of each fix
+};
+NoisyTrack noisy_track(const RecordedDrive& drive, const InputCondition& condition, int seed);
 
 // Without noise, with white and with Gauss-Markov noise of 5, 10 and 15 m; at 1 and 10 Hz.
 const std::vector<InputCondition>& input_conditions();

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "tools/html_text.h"
+#include "tools/median.h"
 #include "tools/odometry/odometry_input.h"
 #include "tools/web/page.h"
 
@@ -42,12 +43,6 @@ void give_length(const Eigen::Isometry3d& T_body_cam, double length, RelativeMot
   if (own > 0.0) of_camera.translation() *= length / own;
   const Eigen::Isometry3d of_body = T_body_cam * of_camera * T_body_cam.inverse();
   motion->translation = of_body.translation();
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 template <typename... Values>
@@ -92,12 +87,18 @@ const char* const kNotes =
 
 }  // namespace
 
-std::vector<Variant> variants(bool images) {
+std::vector<Variant> variants(bool images, bool scans) {
   std::vector<Variant> all{
       {"KLT, 3D-2D", Matching::klt, MotionMethod::points_to_image, 0},
       {"KLT, 3D-2D, window of 6", Matching::klt, MotionMethod::points_to_image, 6},
+      {"the same, disparities as rectified", Matching::klt, MotionMethod::points_to_image, 6,
+       Disparities::none},
       {"KLT, 3D-3D", Matching::klt, MotionMethod::points_to_points, 0},
       {"KLT, 2D-2D", Matching::klt, MotionMethod::image_to_image, 0}};
+  if (scans) {
+    all.insert(all.begin() + 3, {"the same, disparities by LiDAR", Matching::klt,
+                                 MotionMethod::points_to_image, 6, Disparities::lidar});
+  }
   if (images) {
     all.push_back({"SIFT, 3D-2D", Matching::sift, MotionMethod::points_to_image, 0});
     all.push_back({"SIFT, 3D-3D", Matching::sift, MotionMethod::points_to_points, 0});
@@ -108,12 +109,12 @@ std::vector<Variant> variants(bool images) {
 VariantResult run_variant(const Variant& variant, const std::filesystem::path& input,
                           const std::filesystem::path& config, FrameRange frames,
                           const StampedTrajectory& truth) {
-  const Input opened =
-      open_input(input, config, frames, [&variant](stereo::StereoParameters& parameters) {
-        parameters.matching = variant.matching;
-        parameters.motion = variant.motion;
-        parameters.window_frames = variant.window_frames;
-      });
+  const Input opened = open_input(input, config, frames, variant.disparities,
+                                  [&variant](stereo::StereoParameters& parameters) {
+                                    parameters.matching = variant.matching;
+                                    parameters.motion = variant.motion;
+                                    parameters.window_frames = variant.window_frames;
+                                  });
   VariantResult result;
   result.variant = variant;
   CameraPath path(opened.camera.T_body_cam);
@@ -142,7 +143,7 @@ VariantResult run_variant(const Variant& variant, const std::filesystem::path& i
   result.tracks = tracks / result.pairs;
   result.life = features.empty() ? 0.0 : tracks / static_cast<double>(features.size());
   result.inlier_ratio = ratios / std::max(1, result.pairs - result.refused);
-  result.milliseconds = median(times);
+  result.milliseconds = tools::median(times);
   result.consistency = consistency(motions, opened.camera.T_body_cam, truth);
   result.score = evaluation::evaluate(
       evaluation::match(path.trajectory(), truth, from_seconds(0.001)), {kShort, kSegment});
@@ -152,7 +153,7 @@ VariantResult run_variant(const Variant& variant, const std::filesystem::path& i
 std::string to_text(const std::vector<VariantResult>& results) {
   std::string text;
   const auto line = [&text](const std::vector<std::string>& row) {
-    text += format("%-24s", row[0].c_str());
+    text += format("%-34s", row[0].c_str());
     for (std::size_t i = 1; i < row.size(); ++i)
       text += format("%*s", static_cast<int>(kHeadings[i].size()) + 2, row[i].c_str());
     text += '\n';

@@ -18,11 +18,12 @@ struct Variant {
   stereo::Matching matching = stereo::Matching::klt;
   stereo::MotionMethod motion = stereo::MotionMethod::points_to_image;
   int window_frames = 0;
+  Disparities disparities = Disparities::own;
 };
 
-// Tracking against matching, the three ways to find the motion, and the window. Recorded tracks
-// have no images to match in: `images` false leaves those out.
-std::vector<Variant> variants(bool images);
+// Tracking against matching, the three ways to find the motion, the window, and who says what the
+// disparities lack. Recorded tracks have no images to match in, and not every drive has scans.
+std::vector<Variant> variants(bool images, bool scans);
 
 struct VariantResult {
   Variant variant;

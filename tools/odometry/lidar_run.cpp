@@ -1,8 +1,8 @@
 #include "tools/odometry/lidar_run.h"
 
-#include <stdexcept>
-
+#include "estimators/lidar/disparity_correction.h"
 #include "estimators/stereo/stereo_odometry.h"
+#include "tools/odometry/frame_scans.h"
 #include "tools/odometry/processor_time.h"
 
 namespace maploop::odometry {
@@ -20,49 +20,39 @@ struct LidarRun::State {
   State(const sensors::KittiDrive& drive, const LidarRunParameters& p)
       : parameters(p),
         camera(drive.camera(p.seed == LidarSeed::vo ? Time::min() : Time::max())),
-        velodyne(drive.velodyne()),
+        scans(drive),
         stereo(drive.calibration().stereo, p.stereo),
+        correction(p.lidar),
         lidar(drive.calibration().T_body_velo, seeded(p)) {}
 
   // Of the pair; without a visual seed it says the moment alone.
-  RelativeMotion visual() {
+  VisualMotion visual() {
     if (parameters.seed == LidarSeed::vo) return stereo.process(pair);
-    RelativeMotion refused;
+    VisualMotion refused;
     static_cast<Sample&>(refused) = pair;
     refused.status = OdometryStatus::too_few_features;
     return refused;
   }
 
   // The scan of this frame, where the drive has it and it is one of those that are used.
-  bool has_scan(std::size_t frame) {
-    if ((frame - first) % parameters.every != 0) return false;
-    while (!scans_ended && (!scan_loaded || scan.sequence < frame)) {
-      scan_loaded = velodyne->next(scan);
-      scans_ended = !scan_loaded;
-    }
-    return scan_loaded && scan.sequence == frame;
+  const LidarScan* scan_of(std::size_t frame) {
+    return (frame - first) % parameters.every == 0 ? scans.of(frame) : nullptr;
   }
 
   LidarRunParameters parameters;
   std::unique_ptr<sensors::Source<StereoPair>> camera;
-  std::unique_ptr<sensors::Source<LidarScan>> velodyne;
+  FrameScans scans;
   stereo::StereoOdometry stereo;
+  lidar::DisparityCorrection correction;
   lidar::LidarOdometry lidar;
   StereoPair pair;
-  LidarScan scan;
-  bool scan_loaded = false;
-  bool scans_ended = false;
+  const LidarScan* scan = nullptr;
   bool started = false;
   std::size_t first = 0;
 };
 
-LidarRun::LidarRun(const sensors::KittiDrive& drive, const LidarRunParameters& parameters) {
-  if (!drive.has_velodyne())
-    throw std::runtime_error(
-        "the drive has no folder velodyne_points: there is nothing for LiDAR "
-        "odometry; leave --lidar out");
-  state_ = std::make_unique<State>(drive, parameters);
-}
+LidarRun::LidarRun(const sensors::KittiDrive& drive, const LidarRunParameters& parameters)
+    : state_(std::make_unique<State>(drive, parameters)) {}
 
 LidarRun::~LidarRun() = default;
 
@@ -75,12 +65,13 @@ std::optional<LidarStep> LidarRun::next() {
   if (!s.started) s.first = s.pair.sequence;
   s.started = true;
 
-  const RelativeMotion visual = s.visual();
+  const VisualMotion seen = s.visual();
   LidarStep step;
   step.frame = s.pair.sequence;
-  step.with_scan = s.has_scan(step.frame);
+  s.scan = s.scan_of(step.frame);
+  step.with_scan = s.scan != nullptr;
   const double begin = processor_milliseconds();
-  lidar::OdometerResult result = s.lidar.process(step.with_scan ? &s.scan : nullptr, &visual);
+  const lidar::OdometerResult result = lidar::process(s.lidar, s.correction, s.scan, &seen);
   step.milliseconds = processor_milliseconds() - begin;
   step.lidar = result.lidar;
   step.odometry = result.odometry;
@@ -89,7 +80,7 @@ std::optional<LidarStep> LidarRun::next() {
 }
 
 const LidarScan& LidarRun::scan() const {
-  return state_->scan;
+  return *state_->scan;
 }
 
 }  // namespace maploop::odometry

@@ -1,5 +1,6 @@
 #include "tools/odometry/odometry_input.h"
 
+#include <optional>
 #include <stdexcept>
 
 #include "runtime/vehicle/recording.h"
@@ -10,12 +11,14 @@ namespace maploop::odometry {
 namespace {
 
 Input open_drive(const std::filesystem::path& folder, const std::filesystem::path& file,
-                 FrameRange frames, const Adjust& adjust) {
+                 FrameRange frames, Disparities disparities, const Adjust& adjust) {
   vehicle::VehicleConfig config;
   if (!file.empty()) config = vehicle::load_vehicle_config(file);
   adjust(config.stereo);
+  std::optional<lidar::LidarParameters> depth;
+  if (disparities == Disparities::lidar) depth = config.lidar;
   const auto drive = vehicle::open_drive(folder, config);
-  return {stereo_run(*drive, config.stereo, frames), drive->calibration().stereo, drive};
+  return {stereo_run(*drive, config.stereo, frames, depth), drive->calibration().stereo, drive};
 }
 
 Input open_tracks(const std::filesystem::path& file, const std::filesystem::path& config,
@@ -59,9 +62,18 @@ evaluation::StampedTrajectory truth_of_tracks(const std::filesystem::path& file)
 }  // namespace
 
 Input open_input(const std::filesystem::path& input, const std::filesystem::path& config,
-                 FrameRange frames, const Adjust& adjust) {
-  return std::filesystem::is_directory(input) ? open_drive(input, config, frames, adjust)
-                                              : open_tracks(input, config, frames, adjust);
+                 FrameRange frames, Disparities disparities, const Adjust& adjust) {
+  const Adjust with_offset = [&](stereo::StereoParameters& parameters) {
+    adjust(parameters);
+    if (disparities == Disparities::none) parameters.sigma_disparity_offset = 0.0;
+  };
+  if (std::filesystem::is_directory(input))
+    return open_drive(input, config, frames, disparities, with_offset);
+  if (disparities == Disparities::lidar)
+    throw std::runtime_error("'" + input.string() +
+                             "' is no folder of a drive, and recorded tracks have no scans; leave "
+                             "--disparity lidar out");
+  return open_tracks(input, config, frames, with_offset);
 }
 
 evaluation::StampedTrajectory read_truth(const std::filesystem::path& input,

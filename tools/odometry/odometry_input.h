@@ -23,9 +23,10 @@ struct Input {
 
 // `input` is the folder of a KITTI raw drive or <drive>.csv[.gz] with its .meta.json. Without a
 // `config` file (empty path) recorded tracks get for_recorded_tracks(). Throws std::runtime_error
-// and std::invalid_argument naming file, key or value.
+// and std::invalid_argument naming file, key or value, or where there are no scans for
+// Disparities::lidar.
 Input open_input(const std::filesystem::path& input, const std::filesystem::path& config,
-                 FrameRange frames, const Adjust& adjust);
+                 FrameRange frames, Disparities disparities, const Adjust& adjust);
 
 // The left camera's truth that comes with it: a drive's OXTS at its images' stamps, the
 // <drive>.truth.csv[.gz] beside recorded tracks. Throws std::runtime_error where there is none.

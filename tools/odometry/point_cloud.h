@@ -21,6 +21,7 @@ class PointCloud {
            const Eigen::Isometry3d& T_first_body);
 
   std::size_t size() const { return points_.size(); }
+  const std::vector<lidar::SurfacePoint>& points() const { return points_; }  // first body frame
 
   // As .ply or .pcd, binary: x y z (m) and the normal. Throws std::runtime_error naming the file:
   // another ending, or not to be written.

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 
+#include "estimators/lidar/disparity_correction.h"
+#include "estimators/lidar/lidar_odometry.h"
 #include "estimators/stereo/back_end.h"
 #include "estimators/stereo/stereo_odometry.h"
+#include "tools/odometry/frame_scans.h"
 #include "tools/odometry/processor_time.h"
 
 namespace maploop::odometry {
@@ -39,14 +42,25 @@ void measure(Odometry& odometry, Step* step, const Estimate& estimate) {
 }  // namespace
 
 Run stereo_run(const sensors::KittiDrive& drive, const stereo::StereoParameters& parameters,
-               FrameRange frames) {
+               FrameRange frames, const std::optional<lidar::LidarParameters>& depth) {
+  struct Depth {
+    FrameScans scans;
+    lidar::LidarOdometry odometry;
+    lidar::DisparityCorrection correction;
+  };
   struct State {
     stereo::StereoOdometry odometry;
     std::unique_ptr<sensors::Source<StereoPair>> camera;
+    std::optional<Depth> depth;
     StereoPair pair;
   };
+  const VehicleCalibration calibration = drive.calibration();
   auto state =
-      std::make_shared<State>(State{{drive.calibration().stereo, parameters}, drive.camera(), {}});
+      std::make_shared<State>(State{{calibration.stereo, parameters}, drive.camera(), {}, {}});
+  if (depth) {
+    state->depth.emplace(Depth{
+        FrameScans(drive), {calibration.T_body_velo, *depth}, lidar::DisparityCorrection(*depth)});
+  }
   return [state, frames]() -> std::optional<Step> {
     do
       if (!state->camera->next(state->pair)) return std::nullopt;
@@ -54,7 +68,14 @@ Run stereo_run(const sensors::KittiDrive& drive, const stereo::StereoParameters&
     if (state->pair.sequence > frames.last) return std::nullopt;
     Step step;
     step.frame = state->pair.sequence;
-    measure(state->odometry, &step, [&] { step.motion = state->odometry.process(state->pair); });
+    VisualMotion motion;
+    measure(state->odometry, &step, [&] { motion = state->odometry.process(state->pair); });
+    step.motion = motion;
+    if (state->depth) {
+      Depth& known = *state->depth;
+      step.motion = known.correction.correct(motion);
+      lidar::process(known.odometry, known.correction, known.scans.of(step.frame), &motion);
+    }
     const auto tracks = state->odometry.tracks();
     step.tracks.assign(tracks.begin(), tracks.end());
     return step;

@@ -38,6 +38,20 @@ Plot errors(const Score& score, GpsTime first) {
   return plot;
 }
 
+// Of epochs that move.
+Plot across(const Score& score, const Score& without_map, GpsTime first) {
+  Plot plot{"Error across the way", "minutes", "m", {}, false};
+  const auto line_of = [&](const char* name, const Score& of) {
+    Line line{name, {}, {}};
+    for (const ErrorAt& e : of.errors()) {
+      add(line, minutes(e.time, first), e.moves ? e.travel.y() : nan);
+    }
+    return line;
+  };
+  plot.lines = {line_of("with the map", score), line_of("without", without_map)};
+  return plot;
+}
+
 // Errors beyond their protection level lie below the diagonal.
 Plot stanford(const Score& score, double integrity_risk) {
   char title[120];
@@ -172,7 +186,8 @@ std::string refusals(const Solutions& solutions) {
 }  // namespace
 
 std::string to_page(const std::string& heading, const std::vector<std::string>& summary,
-                    const Solutions& solutions, const Score* score, double integrity_risk) {
+                    const Solutions& solutions, const Score* score, const Score* without_map,
+                    double integrity_risk) {
   std::string body;
   for (const std::string& line : summary) body += "<p>" + tools::escaped(line) + "</p>";
   body += refusals(solutions);
@@ -181,6 +196,7 @@ std::string to_page(const std::string& heading, const std::vector<std::string>& 
     const GpsTime first = solutions.front().time;
     if (score && !score->errors().empty()) {
       plots.push_back(errors(*score, first));
+      if (without_map) plots.push_back(across(*score, *without_map, first));
       plots.push_back(stanford(*score, integrity_risk));
     }
     plots.push_back(ground_track(solutions));

@@ -9,9 +9,10 @@
 
 namespace maploop::gnss {
 
-// `score` may be none; `integrity_risk` is that of its levels. `summary`: lines of text that stand
-// above.
+// `score` may be none, and so may that of the same filter without the map; `integrity_risk` is that
+// of its levels. `summary`: lines of text that stand above.
 std::string to_page(const std::string& heading, const std::vector<std::string>& summary,
-                    const Solutions& solutions, const Score* score, double integrity_risk);
+                    const Solutions& solutions, const Score* score, const Score* without_map,
+                    double integrity_risk);
 
 }  // namespace maploop::gnss

@@ -7,24 +7,34 @@ namespace maploop::gnss {
 using namespace maploop::ppp;
 
 PppRun::PppRun(const GnssFiles& files, const RunOptions& options)
-    : options_(options), setup_(files, options), filter_(setup_.make_filter()) {}
+    : options_(options), setup_(files, options), filter_(setup_.make_map_aided_filter()) {
+  if (options.map) map_.emplace(*options.map);
+}
 
 void PppRun::process(const std::function<void(const PppSolution&)>& sink) {
   for (const Epoch& epoch : setup_.observations().epochs) {
     if (options_.start && epoch.time < *options_.start) continue;
     if (options_.end && epoch.time > *options_.end) break;
     const auto begin = std::chrono::steady_clock::now();
-    const PppSolution& solution = filter_.process(epoch);
+    const PppSolution* solution = nullptr;
+    if (options_.change) {
+      Epoch changed = epoch;
+      options_.change(changed);
+      solution = &filter_.process(changed);
+    } else {
+      solution = &filter_.process(epoch);
+    }
     epoch_times_.push_back(
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     seconds_ += epoch_times_.back();
-    for (const SatelliteReport& s : solution.satellites) {
+    for (const SatelliteReport& s : solution->satellites) {
       if (s.refused == PppRefusal::no_ephemeris) {
         auto& [count, why] = missing_[s.satellite];
         if (count++ == 0) why = setup_.ephemeris().missing(s.satellite, epoch.time);
       }
     }
-    sink(solution);
+    step_ = map_ ? map_->close(filter_) : MapStep{};
+    sink(*solution);
   }
 }
 

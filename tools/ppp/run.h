@@ -9,11 +9,14 @@
 #include <vector>
 
 #include "ppp/ppp_setup.h"
+#include "tools/ppp/map_loop.h"
 
 namespace maploop::gnss {
 
 struct RunOptions : ppp::SetupOptions {
   std::optional<ppp::GpsTime> start, end;
+  std::optional<MapOptions> map;
+  std::function<void(ppp::Epoch&)> change;  // where it is set, what happens to each epoch before
 };
 
 class PppRun {
@@ -24,6 +27,10 @@ class PppRun {
   // Every epoch between start and end, in the order of time.
   void process(const std::function<void(const ppp::PppSolution&)>& sink);
 
+  // Of the epoch that the sink is given.
+  const MapStep& map_step() const { return step_; }
+  const ppp::MapAidedFilter& filter() const { return filter_; }
+
   const ppp::PppSetup& setup() const { return setup_; }
   // Why satellites had no orbit or clock, with the number of epochs.
   std::vector<std::string> missing_products() const;
@@ -33,7 +40,9 @@ class PppRun {
  private:
   RunOptions options_;
   ppp::PppSetup setup_;
-  ppp::PppFilter filter_;
+  ppp::MapAidedFilter filter_;
+  std::optional<MapLoop> map_;
+  MapStep step_;
   std::map<ppp::Satellite, std::pair<int, std::string>> missing_;
   std::vector<double> epoch_times_;
   double seconds_ = 0.0;

@@ -26,6 +26,7 @@ void Score::add(const PppSolution& solution) {
                      enu,
                      P.diagonal().cwiseMax(0.0).cwiseSqrt(),
                      e.dot(solution.covariance.ldlt().solve(e)),
+                     axes.known,
                      {axes.along.dot(enu.head<2>()), axes.across.dot(enu.head<2>()), enu.z()},
                      {levels.along, levels.across, levels.up}});
 }
@@ -41,6 +42,8 @@ std::size_t Score::misleading() const {
 Accuracy Score::accuracy(std::optional<GpsTime> from) const {
   Accuracy a;
   std::vector<double> horizontal;
+  double across = 0.0;
+  std::size_t moving = 0;
   for (const GpsTime t : with_truth_) a.with_truth += !from || t >= *from;
   for (const ErrorAt& e : errors_) {
     if (from && e.time < *from) continue;
@@ -48,12 +51,17 @@ Accuracy Score::accuracy(std::optional<GpsTime> from) const {
     a.mean_enu += e.enu;
     a.up_rmse += e.enu.z() * e.enu.z();
     a.nees += e.nees;
+    if (e.moves) {
+      across += e.travel.y() * e.travel.y();
+      ++moving;
+    }
     a.three_d_last = e.enu.norm();
   }
   a.solved = horizontal.size();
   if (a.solved == 0) return a;
   const auto n = static_cast<double>(a.solved);
   a.mean_enu /= n;
+  if (moving > 0) a.across_rmse = std::sqrt(across / static_cast<double>(moving));
   a.nees /= n;
   a.up_rmse = std::sqrt(a.up_rmse / n);
   double sum = 0.0;
@@ -79,12 +87,14 @@ std::string to_text(const Accuracy& a) {
   char text[512];
   std::snprintf(
       text, sizeof text,
-      "%zu of %zu epochs (%.1f %%): horizontal RMSE %.3f m, 95 %% %.3f m; up RMSE %.3f m; mean "
+      "%zu of %zu epochs (%.1f %%): horizontal RMSE %.3f m, 95 %% %.3f m; across the way %.3f m; "
+      "up "
+      "RMSE %.3f m; mean "
       "east %.3f, north %.3f, up %.3f m; horizontal about its mean %.3f m; last 3-D %.3f m; "
       "NEES %.2f of 3",
-      a.solved, a.with_truth, 100.0 * a.coverage(), a.horizontal_rmse, a.horizontal_95, a.up_rmse,
-      a.mean_enu.x(), a.mean_enu.y(), a.mean_enu.z(), a.horizontal_rmse_without_mean,
-      a.three_d_last, a.nees);
+      a.solved, a.with_truth, 100.0 * a.coverage(), a.horizontal_rmse, a.horizontal_95,
+      a.across_rmse, a.up_rmse, a.mean_enu.x(), a.mean_enu.y(), a.mean_enu.z(),
+      a.horizontal_rmse_without_mean, a.three_d_last, a.nees);
   return text;
 }
 

@@ -17,6 +17,7 @@ struct ErrorAt {
   Eigen::Vector3d enu{0, 0, 0};         // m
   Eigen::Vector3d sigma{0, 0, 0};       // m, formal
   double nees = 0.0;                    // of three dimensions
+  bool moves = false;                   // else there is no direction of travel
   Eigen::Vector3d travel{0, 0, 0};      // m, along and across the direction of travel, and up
   Eigen::Vector3d protection{0, 0, 0};  // m, levels of the same
 };
@@ -24,7 +25,8 @@ struct ErrorAt {
 struct Accuracy {
   std::size_t with_truth = 0, solved = 0;                                        // epochs
   double horizontal_rmse = 0, up_rmse = 0, horizontal_95 = 0, three_d_last = 0;  // m
-  Eigen::Vector3d mean_enu{0, 0, 0};                                             // m
+  double across_rmse = 0;                   // m, across the direction of travel, while it moves
+  Eigen::Vector3d mean_enu{0, 0, 0};        // m
   double horizontal_rmse_without_mean = 0;  // m: one constant offset removed
   double nees = 0;                          // mean; 3 where the covariance is right
 

@@ -14,10 +14,6 @@ using tools::escaped;
 
 constexpr std::size_t part_colours = 8;
 
-double to_ms(Duration d) {
-  return to_seconds(d) * 1e3;
-}
-
 std::uint64_t count_of(const HistogramData& h) {
   std::uint64_t count = h.above_range;
   for (const auto& bucket : h.buckets) count += bucket.count;
@@ -30,12 +26,12 @@ web::Line line_of(const Curve& curve) {
   const auto all = static_cast<double>(count_of(h));
   std::uint64_t longer = count_of(h);
   for (const auto& bucket : h.buckets) {
-    line.x.push_back(to_ms(std::max(bucket.lowest, Duration(1))));
+    line.x.push_back(to_milliseconds(std::max(bucket.lowest, Duration(1))));
     line.y.push_back(100.0 * static_cast<double>(longer) / all);
     longer -= bucket.count;
   }
   if (!line.x.empty() && h.max > Duration::zero()) {
-    line.x.push_back(std::max(to_ms(h.max), line.x.back()));
+    line.x.push_back(std::max(to_milliseconds(h.max), line.x.back()));
     line.y.push_back(100.0 / all);
   }
   return line;
@@ -59,20 +55,21 @@ std::string colour(std::size_t part) {
 
 std::string bar(const WorstMiss& w, const std::vector<std::string>& names, double longest) {
   double known = 0.0;
-  for (const auto& part : w.miss.parts) known += std::max(0.0, to_ms(part.lasted));
+  for (const auto& part : w.miss.parts) known += std::max(0.0, to_milliseconds(part.lasted));
   std::string html = "<div class=\"bar\">";
   const auto draw = [&](const std::string& paint, const std::string& name, double ms) {
     append(html, "<i style=\"width:%.2f%%;background:%s\" title=\"%s: %.3f ms\"></i>",
            100.0 * ms / longest, paint.c_str(), escaped(name).c_str(), ms);
   };
-  draw("var(--grey)", "as the graph allows", std::max(0.0, to_ms(w.miss.latency) - known));
+  draw("var(--grey)", "as the graph allows",
+       std::max(0.0, to_milliseconds(w.miss.latency) - known));
   for (const auto& part : w.miss.parts) {
     const auto found = std::find(names.begin(), names.end(), part.name);
     draw(colour(static_cast<std::size_t>(found - names.begin())), part.name,
-         std::max(0.0, to_ms(part.lasted)));
+         std::max(0.0, to_milliseconds(part.lasted)));
   }
   append(html, "<b style=\"left:%.2f%%\" title=\"deadline\"></b></div>",
-         100.0 * to_ms(w.deadline) / longest);
+         100.0 * to_milliseconds(w.deadline) / longest);
   return html;
 }
 
@@ -85,7 +82,7 @@ web::Plot latency_plot(const std::string& title, const std::vector<Curve>& curve
   for (const Curve& curve : curves) {
     if (!curve.histogram.buckets.empty()) plot.lines.push_back(line_of(curve));
   }
-  if (deadline > Duration::zero()) plot.x_mark = web::Mark{to_ms(deadline), "deadline"};
+  if (deadline > Duration::zero()) plot.x_mark = web::Mark{to_milliseconds(deadline), "deadline"};
   return plot;
 }
 
@@ -95,7 +92,7 @@ std::string miss_bars(std::vector<WorstMiss> worst, Time end) {
             [](const auto& a, const auto& b) { return a.miss.stamp < b.miss.stamp; });
   double longest = 1e-3;
   for (const WorstMiss& w : worst) {
-    longest = std::max({longest, to_ms(w.miss.latency), to_ms(w.deadline)});
+    longest = std::max({longest, to_milliseconds(w.miss.latency), to_milliseconds(w.deadline)});
   }
   std::string html = "<div class=\"keys\">";
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -106,7 +103,7 @@ std::string miss_bars(std::vector<WorstMiss> worst, Time end) {
       "<th>ms</th><th style=\"width:60%\"></th></tr>\n";
   for (const WorstMiss& w : worst) {
     append(html, "<tr><td>%s</td><td>%.2f</td><td>%.1f</td><td>", escaped(w.of).c_str(),
-           to_seconds(end - w.miss.stamp), to_ms(w.miss.latency));
+           to_seconds(end - w.miss.stamp), to_milliseconds(w.miss.latency));
     html += bar(w, names, longest) + "</td></tr>\n";
   }
   return html + "</table></div>\n";

@@ -13,10 +13,6 @@ namespace {
 using lcm_log::append;
 using tools::escaped;
 
-double to_ms(Duration d) {
-  return to_seconds(d) * 1e3;
-}
-
 HistogramData sum(const HistogramData& a, const HistogramData& b) {
   runtime::Histogram all, other;
   all.merge(a);
@@ -35,13 +31,13 @@ void append_row(std::string& html, const LatencySummary& s, const Latency* laten
   append(html, "<tr><td>%s</td><td>%llu</td>", escaped(s.name).c_str(),
          static_cast<unsigned long long>(s.count));
   for (const Duration d : {s.p50, s.p90, s.p99, s.p999, s.max}) {
-    append(html, "<td>%.3f</td>", to_ms(d));
+    append(html, "<td>%.3f</td>", to_milliseconds(d));
   }
   if (latency != nullptr) {
-    append(html, "<td>%.0f</td><td%s>%llu</td>", to_ms(s.deadline),
+    append(html, "<td>%.0f</td><td%s>%llu</td>", to_milliseconds(s.deadline),
            s.misses > 0 ? " class=\"missed\"" : "", static_cast<unsigned long long>(s.misses));
     if (latency->omitted > 0) {
-      append(html, "<td>%.3f</td>", to_ms(latency->corrected_p999));
+      append(html, "<td>%.3f</td>", to_milliseconds(latency->corrected_p999));
     } else {
       html += "<td>-</td>";
     }

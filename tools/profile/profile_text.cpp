@@ -9,14 +9,10 @@ namespace {
 using lcm_log::append;
 using nlohmann::json;
 
-double to_ms(Duration d) {
-  return to_seconds(d) * 1e3;
-}
-
 void append_figures(std::string& text, const LatencySummary& s) {
   append(text, "  %-22s %8llu %9.3f %9.3f %9.3f %9.3f %9.3f", s.name.c_str(),
-         static_cast<unsigned long long>(s.count), to_ms(s.p50), to_ms(s.p90), to_ms(s.p99),
-         to_ms(s.p999), to_ms(s.max));
+         static_cast<unsigned long long>(s.count), to_milliseconds(s.p50), to_milliseconds(s.p90),
+         to_milliseconds(s.p99), to_milliseconds(s.p999), to_milliseconds(s.max));
 }
 
 void append_latencies(std::string& text, const char* title, const std::vector<Latency>& all) {
@@ -24,10 +20,11 @@ void append_latencies(std::string& text, const char* title, const std::vector<La
          "p90", "p99", "p99.9", "max", "deadline", "missed", "p99*", "p99.9*", "guilty");
   for (const Latency& l : all) {
     append_figures(text, l.recorded);
-    append(text, " %9.0f %7llu", to_ms(l.recorded.deadline),
+    append(text, " %9.0f %7llu", to_milliseconds(l.recorded.deadline),
            static_cast<unsigned long long>(l.recorded.misses));
     if (l.omitted > 0) {
-      append(text, " %10.3f %10.3f   ", to_ms(l.corrected_p99), to_ms(l.corrected_p999));
+      append(text, " %10.3f %10.3f   ", to_milliseconds(l.corrected_p99),
+             to_milliseconds(l.corrected_p999));
     } else {
       append(text, " %10s %10s   ", "-", "-");
     }
@@ -63,8 +60,12 @@ json figures(const LatencySummary& s) {
   for (const auto& bucket : s.histogram.buckets) {
     buckets.push_back({bucket.lowest.count(), bucket.count});
   }
-  return {{"count", s.count},           {"p50_ms", to_ms(s.p50)},   {"p90_ms", to_ms(s.p90)},
-          {"p99_ms", to_ms(s.p99)},     {"p999_ms", to_ms(s.p999)}, {"max_ms", to_ms(s.max)},
+  return {{"count", s.count},
+          {"p50_ms", to_milliseconds(s.p50)},
+          {"p90_ms", to_milliseconds(s.p90)},
+          {"p99_ms", to_milliseconds(s.p99)},
+          {"p999_ms", to_milliseconds(s.p999)},
+          {"max_ms", to_milliseconds(s.max)},
           {"buckets_ns_count", buckets}};
 }
 
@@ -72,12 +73,12 @@ json figures(const std::vector<Latency>& all) {
   json j = json::object();
   for (const Latency& l : all) {
     json one = figures(l.recorded);
-    one["deadline_ms"] = to_ms(l.recorded.deadline);
+    one["deadline_ms"] = to_milliseconds(l.recorded.deadline);
     one["misses"] = l.recorded.misses;
     one["guilty"] = l.recorded.guilty;
     one["omitted"] = l.omitted;
-    one["corrected_p99_ms"] = to_ms(l.corrected_p99);
-    one["corrected_p999_ms"] = to_ms(l.corrected_p999);
+    one["corrected_p99_ms"] = to_milliseconds(l.corrected_p99);
+    one["corrected_p999_ms"] = to_milliseconds(l.corrected_p999);
     j[l.recorded.name] = std::move(one);
   }
   return j;
@@ -106,10 +107,11 @@ std::string to_text(const Profile& p) {
   text += "\nWorst misses\n";
   for (const WorstMiss& w : p.worst) {
     append(text, "  %s  %-22s %9.3f of %.0f ms, guilty: %s (", format_time(w.miss.stamp).c_str(),
-           w.of.c_str(), to_ms(w.miss.latency), to_ms(w.deadline), w.miss.guilty().c_str());
+           w.of.c_str(), to_milliseconds(w.miss.latency), to_milliseconds(w.deadline),
+           w.miss.guilty().c_str());
     const char* separator = "";
     for (const MissedDeadline::Part& part : w.miss.parts) {
-      append(text, "%s%s %.3f", separator, part.name.c_str(), to_ms(part.lasted));
+      append(text, "%s%s %.3f", separator, part.name.c_str(), to_milliseconds(part.lasted));
       separator = ", ";
     }
     text += ")\n";
@@ -134,11 +136,12 @@ std::string to_json(const Profile& p) {
   j["worst"] = json::array();
   for (const WorstMiss& w : p.worst) {
     json parts = json::object();
-    for (const MissedDeadline::Part& part : w.miss.parts) parts[part.name] = to_ms(part.lasted);
+    for (const MissedDeadline::Part& part : w.miss.parts)
+      parts[part.name] = to_milliseconds(part.lasted);
     j["worst"].push_back({{"of", w.of},
                           {"stamp_ns", to_nanoseconds(w.miss.stamp)},
-                          {"latency_ms", to_ms(w.miss.latency)},
-                          {"deadline_ms", to_ms(w.deadline)},
+                          {"latency_ms", to_milliseconds(w.miss.latency)},
+                          {"deadline_ms", to_milliseconds(w.deadline)},
                           {"guilty", w.miss.guilty()},
                           {"parts_ms", std::move(parts)}});
   }

@@ -4,32 +4,18 @@
 
 #include "tools/evaluation/text_file.h"
 #include "tools/html_text.h"
-#include "tools/lcm_log/log_text.h"
 #include "tools/profile/profile_page.h"
+#include "tools/report/ppp_section.h"
+#include "tools/report/road_section.h"
+#include "tools/report/text.h"
 #include "tools/report/trajectory_plots.h"
 #include "tools/web/page.h"
 
 namespace maploop::report {
 namespace {
 
-using lcm_log::append;
 using tools::escaped;
 using web::Row;
-
-std::string figure(double value, int digits, const char* unit = "") {
-  std::string text;
-  if (!std::isfinite(value)) return "-";
-  append(text, "%.*f%s", digits, value, unit);
-  return text;
-}
-
-std::string paragraph(const std::string& text) {
-  return "<p>" + escaped(text) + "</p>\n";
-}
-
-std::string folded(const std::string& summary, const std::string& html) {
-  return "<details><summary>" + escaped(summary) + "</summary>\n" + html + "</details>\n";
-}
 
 std::string summary(const ReplayReport& r) {
   const vehicle::VehicleReport& v = r.result.vehicle;
@@ -157,11 +143,22 @@ std::string settings(const std::vector<RealtimeSetting>& all) {
 
 }  // namespace
 
+RoadMoment road_moment(const MapMatch& match) {
+  RoadMoment moment{match.phase, match.on_road, {}, match.probability};
+  if (match.on_road) {
+    const Eigen::Vector3d place(match.matched_enu.x(), match.matched_enu.y(), 0.0);
+    moment.place = LocalFrame(match.origin).to_geodetic(place);
+  }
+  return moment;
+}
+
 void write_report(const std::filesystem::path& file, const ReplayReport& r) {
   web::Page page("Replay of " + r.result.drive);
   page.add(summary(r)).add(trajectory_map(r));
   page.add("<h2>Accuracy</h2>\n" + accuracy(r.result) + navigation(r.result.navigation));
   page.add(state_plots(r));
+  add_roads(page, r);
+  add_ppp(page, r);
   page.add("<h2>Health</h2>\n" + notes(r.result.vehicle.health.degraded));
   page.add("<h2>What was lost or not used</h2>\n" + losses(r.result));
   const profile::Profile times =

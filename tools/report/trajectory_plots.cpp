@@ -6,8 +6,9 @@
 #include <optional>
 
 #include "msgs/frames.h"
-#include "sensors/replay/reference_trajectory.h"
 #include "tools/match/road_lines.h"
+#include "tools/report/error_plot.h"
+#include "tools/report/frame.h"
 
 namespace maploop::report {
 namespace {
@@ -16,20 +17,9 @@ using web::Line;
 using web::Plot;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double sigmas = 3.0;
 constexpr double surroundings = 150.0;  // m about the way, of which roads are drawn
 
 using Truth = std::optional<sensors::ReferenceTrajectory>;
-
-// Of the first state, or of the first reference pose where there is no state.
-Geodetic origin_of(const ReplayReport& r) {
-  return r.track.states().empty() ? r.reference.front().position : r.track.states().front().origin;
-}
-
-Truth truth_of(const ReplayReport& r) {
-  if (r.reference.size() < 2) return std::nullopt;
-  return sensors::ReferenceTrajectory(r.reference, LocalFrame(origin_of(r)));
-}
 
 void add(Line& line, const Eigen::Vector3d& p) {
   line.x.push_back(p.x());
@@ -119,26 +109,39 @@ std::vector<Quantity> quantities() {
   };
 }
 
-Plot error_plot(const ReplayReport& r, const Truth& truth, const Quantity& q, Time first) {
-  Plot plot{truth ? std::string("Error ") + q.name : std::string("Uncertainty ") + q.name, "s",
-            q.unit};
-  web::Band band{"3 sigma", {}, {}, {}};
-  Line error{"fused minus truth", {}, {}};
+Line ppp_line(const ReplayReport& r) {
+  Line line{"PPP", {}, {}};
+  const LocalFrame frame(origin_of(r));
+  for (const auto& [stamp, state] : r.ppp) {
+    if (state.status == PppStatus::none) {
+      interrupt(line);
+    } else {
+      add(line, frame.to_enu(state.position));
+    }
+  }
+  return line;
+}
+
+Line matched_line(const ReplayReport& r) {
+  Line line{"matched", {}, {}, Line::Look::points};
+  const LocalFrame frame(origin_of(r));
+  for (const auto& [stamp, moment] : r.matches) {
+    if (moment.on_road) add(line, frame.to_enu(moment.place));
+  }
+  return line;
+}
+
+ErrorSeries error_of(const ReplayReport& r, const Truth& truth, const Quantity& q, Time first) {
+  ErrorSeries series{q.name, q.unit, "fused", {}, {}, {}};
   for (const NavState& s : r.track.states()) {
-    const double t = to_seconds(s.stamp - first);
-    const double spread = sigmas * q.sigma(s);
-    band.x.push_back(t);
-    band.low.push_back(-spread);
-    band.high.push_back(spread);
     const auto pose = truth ? truth->pose(s.stamp) : std::nullopt;
     double off = pose ? q.value(s) - q.truth(*pose) : nan;
     if (q.wraps) off = std::remainder(off, 360.0);
-    error.x.push_back(t);
-    error.y.push_back(off);
+    series.seconds.push_back(to_seconds(s.stamp - first));
+    series.error.push_back(off);
+    series.sigma.push_back(q.sigma(s));
   }
-  plot.bands.push_back(std::move(band));
-  if (truth) plot.lines.push_back(std::move(error));
-  return plot;
+  return series;
 }
 
 Plot speed_plot(const ReplayReport& r, Time first) {
@@ -166,11 +169,13 @@ web::Plot trajectory_map(const ReplayReport& r) {
   Plot plot{"Way of the vehicle", "east, m", "north, m", {}, true};
   if (truth) plot.lines.push_back(truth_line(r, *truth));
   plot.lines.push_back(fused_line(r));
+  if (Line ppp = ppp_line(r); !ppp.x.empty()) plot.lines.push_back(std::move(ppp));
   for (const DeadReckoning& way : r.dead_reckoning) {
     Line line = dead_reckoned_line(r, way, truth);
     if (!line.x.empty()) plot.lines.push_back(std::move(line));
   }
-  if (r.roads != nullptr && (truth || !r.track.states().empty()))
+  if (Line matched = matched_line(r); !matched.x.empty()) plot.lines.push_back(std::move(matched));
+  if (r.roads != nullptr)
     plot.roads = match::road_lines(*r.roads, origin_of(r), plot.lines, surroundings);
   return plot;
 }
@@ -178,10 +183,9 @@ web::Plot trajectory_map(const ReplayReport& r) {
 std::vector<web::Plot> state_plots(const ReplayReport& r) {
   if (r.track.states().empty()) return {};
   const Truth truth = truth_of(r);
-  const Time first =
-      r.reference.empty() ? r.track.states().front().stamp : r.reference.front().stamp;
+  const Time first = first_of(r);
   std::vector<Plot> plots;
-  for (const Quantity& q : quantities()) plots.push_back(error_plot(r, truth, q, first));
+  for (const Quantity& q : quantities()) plots.push_back(error_plot(error_of(r, truth, q, first)));
   plots.push_back(speed_plot(r, first));
   return plots;
 }

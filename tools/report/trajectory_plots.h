@@ -8,8 +8,9 @@
 
 namespace maploop::report {
 
-// Seen from above, in the fused state's own frame: truth, fused, and dead reckoning laid onto the
-// truth's first pose (the fused one without a truth).
+// Seen from above, in the fused state's own frame, over the roads of the replay's map: truth,
+// fused, PPP, matched points, and dead reckoning laid onto the truth's first pose (the fused one
+// without a truth).
 web::Plot trajectory_map(const ReplayReport& report);
 
 // Against seconds of the drive: errors with three standard deviations that the filter claims, and

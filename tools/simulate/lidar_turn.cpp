@@ -1,5 +1,6 @@
 #include "tools/simulate/lidar_turn.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -10,11 +11,17 @@
 namespace maploop::simulate {
 namespace {
 
-constexpr std::size_t lasers = 64;
+constexpr std::size_t most_lasers = 64;
+
+std::size_t lasers_of(Scanner scanner) {
+  return scanner == Scanner::hdl_64e ? 64 : 16;
+}
 
 // HDL-64E: the upper block from +2 degrees in steps of 1/3, the lower from -8.83 in steps of 1/2.
-double elevation(std::size_t laser) {
+// VLP-16: from +15 in steps of 2.
+double elevation(Scanner scanner, std::size_t laser) {
   const auto i = static_cast<double>(laser);
+  if (scanner == Scanner::vlp_16) return radians(15.0 - 2.0 * i);
   return radians(laser < 32 ? 2.0 - i / 3.0 : -8.83 - (i - 32.0) / 2.0);
 }
 
@@ -31,9 +38,9 @@ struct LaserErrors {
 };
 
 // The same scanner in every turn of every drive.
-std::array<LaserErrors, lasers> scanner_errors(const LidarParameters& p) {
+std::array<LaserErrors, most_lasers> scanner_errors(const LidarParameters& p) {
   Random random(1, 11);
-  std::array<LaserErrors, lasers> errors{};
+  std::array<LaserErrors, most_lasers> errors{};
   for (LaserErrors& e : errors) {
     e.azimuth = static_cast<double>(p.laser_angle) * random.normal();
     e.elevation = static_cast<double>(p.laser_angle) * random.normal() +
@@ -45,26 +52,44 @@ std::array<LaserErrors, lasers> scanner_errors(const LidarParameters& p) {
 
 }  // namespace
 
-std::vector<LidarPoint> take_turn(const RayScene& scene, const Appearance& appearance,
-                                  const std::function<Eigen::Isometry3d(double)>& T_enu_velo,
-                                  std::uint64_t seed, const LidarParameters& p) {
+LidarParameters lidar_parameters(Scanner scanner) {
+  LidarParameters p;
+  p.scanner = scanner;
+  if (scanner == Scanner::hdl_64e) return p;
+  p.firings = 1800;
+  p.reach = 100.0F;
+  p.elevation_error = 0.0F;
+  return p;
+}
+
+sensors::RangeImage take_turn(const RayScene& scene, const Appearance& appearance,
+                              const std::function<Eigen::Isometry3d(double)>& T_enu_velo,
+                              std::uint64_t seed, const LidarParameters& p) {
+  using sensors::RangeImage;
   Random random(seed, 10);
   const auto scanner = scanner_errors(p);
-  std::vector<LidarPoint> points;
-  points.reserve(lasers * static_cast<std::size_t>(p.firings));
+  const std::size_t lasers = lasers_of(p.scanner);
+  RangeImage image;
+  for (std::size_t laser = 0; laser < lasers; ++laser)
+    image.elevations.push_back(static_cast<float>(elevation(p.scanner, laser)));
+  const double turn = 2.0 * std::numbers::pi;
+  image.firings = p.firings;
+  image.azimuth_step = -turn / static_cast<double>(p.firings);
+  image.first_azimuth = std::numbers::pi + 0.5 * image.azimuth_step;
+  image.ranges.assign(lasers * p.firings, 0);
+  image.reflectances.assign(lasers * p.firings, 0);
   Rays rays;
   Hits hits;
-  for (int firing = 0; firing < p.firings; ++firing) {
-    const double share = (firing + 0.5) / p.firings;
-    const double azimuth = std::numbers::pi * (1.0 - 2.0 * share);
+  for (std::size_t firing = 0; firing < p.firings; ++firing) {
+    const double share = (static_cast<double>(firing) + 0.5) / static_cast<double>(p.firings);
+    const double azimuth = std::numbers::pi - turn * share;
     const Eigen::Isometry3f T = T_enu_velo(share).cast<float>();
     for (std::size_t first = 0; first < lasers; first += packet) {
       for (std::size_t i = 0; i < packet; ++i) {
         const LaserErrors& error = scanner[first + i];
-        rays[i] = {
-            T.translation(),
-            T.linear() * beam(azimuth + error.azimuth, elevation(first + i) + error.elevation),
-            static_cast<float>(share)};
+        const double up = elevation(p.scanner, first + i) + error.elevation;
+        rays[i] = {T.translation(), T.linear() * beam(azimuth + error.azimuth, up),
+                   static_cast<float>(share)};
       }
       scene.cast(rays, p.reach, hits);
       for (std::size_t i = 0; i < packet; ++i) {
@@ -82,12 +107,15 @@ std::vector<LidarPoint> take_turn(const RayScene& scene, const Appearance& appea
         const bool glass = hit.surface->material == Material::glass;
         if (echo < 0.004F || (echo < 0.012F && faint) || (glass && faint)) continue;
         const float range = hit.range * (1.0F + p.range_scale) + noise + scanner[first + i].range;
-        const Eigen::Vector3f measured = range * beam(azimuth, elevation(first + i));
-        points.push_back({measured.x(), measured.y(), measured.z(), std::min(0.99F, albedo)});
+        const std::size_t at = (first + i) * p.firings + firing;
+        image.ranges[at] = static_cast<std::uint16_t>(
+            std::clamp(std::lround(range / RangeImage::range_unit), 0L, 65535L));
+        image.reflectances[at] = static_cast<std::uint8_t>(
+            std::lround(std::min(0.99F, albedo) / RangeImage::reflectance_unit));
       }
     }
   }
-  return points;
+  return image;
 }
 
 }  // namespace maploop::simulate

@@ -1,18 +1,24 @@
-// What an HDL-64E on the vehicle measures in a turn.
+// What a spinning scanner on the vehicle measures in a turn.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <vector>
 
-#include "msgs/lidar_scan.h"
+#include "sensors/replay/packed_scan.h"
 #include "tools/simulate/appearance.h"
 #include "tools/simulate/ray_scene.h"
 
 namespace maploop::simulate {
 
+enum class Scanner {
+  hdl_64e,
+  vlp_16,
+};
+
 struct LidarParameters {
-  int firings = 2083;                   // a turn, of all 64 lasers
+  Scanner scanner = Scanner::hdl_64e;
+  std::size_t firings = 2083;           // a turn, of all lasers
   float reach = 120.0F;                 // m
   float noise = 0.015F;                 // m, 1 sigma along the beam
   float range_scale = 0.003F;           // 1, too long
@@ -22,11 +28,14 @@ struct LidarParameters {
   float lost = 0.02F;                   // share of beams that do not return, at a perfect target
 };
 
+// An HDL-64E's are above; a VLP-16 fires 1800 times a turn, and its beams are where they should be.
+LidarParameters lidar_parameters(Scanner scanner);
+
 // `T_enu_velo` gives the pose at a share of the turn, 0 to 1: from the rear over the left, the
-// front and the right to the rear, as the scanner spins clockwise. The points are in the scanner's
-// own frame at their own firing, as it measures them.
-std::vector<LidarPoint> take_turn(const RayScene& scene, const Appearance& appearance,
-                                  const std::function<Eigen::Isometry3d(double)>& T_enu_velo,
-                                  std::uint64_t seed, const LidarParameters& parameters = {});
+// front and the right to the rear, as the scanner spins clockwise. Ranges are
+// of the scanner's own frame at their own firing, as it measures them.
+sensors::RangeImage take_turn(const RayScene& scene, const Appearance& appearance,
+                              const std::function<Eigen::Isometry3d(double)>& T_enu_velo,
+                              std::uint64_t seed, const LidarParameters& parameters = {});
 
 }  // namespace maploop::simulate

@@ -92,6 +92,11 @@ std::string way_lines(long long id, const std::vector<long long>& nodes, const S
   return text + "  </way>\n";
 }
 
+const char* oneway_tag(const Street& street) {
+  if (street.forward == street.backward) return nullptr;
+  return street.forward ? "yes" : "-1";
+}
+
 }  // namespace
 
 void write_road_map(const std::filesystem::path& file, const Streets& streets,
@@ -115,7 +120,12 @@ void write_road_map(const std::filesystem::path& file, const Streets& streets,
       const Eigen::Vector2d& p = street.centreline[node.point];
       if (node.id >= 1'000'000) nodes += node_line(node.id, p + shift(p), frame);
     }
-    const char* oneway = wrong && how == 1 ? (random.chance(0.5) ? "yes" : "-1") : nullptr;
+    const char* oneway = oneway_tag(street);
+    if (wrong && how == 1) {
+      const bool ahead = random.chance(0.5);
+      const bool against = street.forward == street.backward ? ahead : street.backward;
+      oneway = against ? "yes" : "-1";
+    }
     ways += way_lines(way_id(i), ids, street, oneway);
     if (!wrong || how != 2 || elsewhere == street.from) continue;
     // A street that is not there.

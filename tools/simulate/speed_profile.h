@@ -17,8 +17,8 @@ struct DriverParameters {
   double longest_stop = 7.0;          // s
 };
 
-// m, at least what a drive of so many seconds needs of a path.
-double longest_drive(double seconds);
+// m, at least what a drive of so many seconds needs of a path, at m/s.
+double longest_drive(double seconds, double fastest = 13.9);
 
 // Speed is a uniform cubic B-spline of time: jerk is continuous nearly everywhere, and a standing
 // car stands exactly. Way is its integral.

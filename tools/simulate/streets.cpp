@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "tools/simulate/random.h"
 
@@ -47,8 +46,8 @@ std::vector<Eigen::Vector2d> Streets::centreline(DirectedStreet d) const {
 std::vector<std::vector<DirectedStreet>> Streets::exits() const {
   std::vector<std::vector<DirectedStreet>> result(junctions.size());
   for (std::size_t i = 0; i < streets.size(); ++i) {
-    result[streets[i].from].push_back({i, true});
-    result[streets[i].to].push_back({i, false});
+    if (streets[i].forward) result[streets[i].from].push_back({i, true});
+    if (streets[i].backward) result[streets[i].to].push_back({i, false});
   }
   return result;
 }
@@ -85,42 +84,6 @@ Streets make_town(std::uint64_t seed) {
       connect(junction(row, column), junction(row + 1, column), column % 3 == 1,
               column == 0 || column + 1 == town_columns);
   return town;
-}
-
-std::size_t nearest_junction(const Streets& streets, const Eigen::Vector2d& place) {
-  const auto nearest = std::min_element(streets.junctions.begin(), streets.junctions.end(),
-                                        [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-                                          return (a - place).norm() < (b - place).norm();
-                                        });
-  return static_cast<std::size_t>(nearest - streets.junctions.begin());
-}
-
-std::vector<DirectedStreet> make_route(const Streets& streets, std::size_t start, double metres,
-                                       std::uint64_t seed) {
-  Random random(seed, 3);
-  const auto exits = streets.exits();
-  std::vector<int> driven(streets.streets.size(), 0);
-  std::size_t place = start;
-  std::vector<DirectedStreet> route;
-  for (double length = 0.0; length < metres;) {
-    const DirectedStreet* best = nullptr;
-    double best_cost = 0.0;
-    for (const DirectedStreet& exit : exits[place]) {
-      const bool back = !route.empty() && exit.street == route.back().street;
-      const double cost = (back ? 1e3 : 0.0) + 2.0 * driven[exit.street] + random.uniform(0.0, 1.5);
-      if (!best || cost < best_cost) {
-        best = &exit;
-        best_cost = cost;
-      }
-    }
-    if (!best || best_cost >= 1e3)
-      throw std::runtime_error("the route comes to a dead end; choose another seed");
-    route.push_back(*best);
-    ++driven[best->street];
-    length += streets.streets[best->street].length();
-    place = streets.end(*best);
-  }
-  return route;
 }
 
 }  // namespace maploop::simulate

@@ -14,6 +14,7 @@ struct Street {
   std::vector<double> along;                // m from its begin, of each point
   double half_width = 3.5;                  // m
   double speed_limit = 13.9;                // m/s
+  bool forward = true, backward = true;     // where it may be driven
 
   double length() const { return along.back(); }
   // m to the right of the centreline, where a car drives.
@@ -35,7 +36,7 @@ struct Streets {
   }
   // As driven.
   std::vector<Eigen::Vector2d> centreline(DirectedStreet d) const;
-  // Those that leave each junction.
+  // Those that leave each junction, as they may be driven.
   std::vector<std::vector<DirectedStreet>> exits() const;
 };
 
@@ -45,13 +46,5 @@ void measure(Street& street);
 // A town of six by six junctions, about 100 m apart: bent streets, some junctions with three arms,
 // every third street a wide one. Needs no map.
 Streets make_town(std::uint64_t seed);
-
-// The junction nearest to a place.
-std::size_t nearest_junction(const Streets& streets, const Eigen::Vector2d& place);
-
-// A walk of at least `metres` without turning back, which prefers streets where it has not been.
-// Throws std::runtime_error where that cannot be done.
-std::vector<DirectedStreet> make_route(const Streets& streets, std::size_t start, double metres,
-                                       std::uint64_t seed);
 
 }  // namespace maploop::simulate

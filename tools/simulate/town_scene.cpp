@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "tools/simulate/random.h"
 
@@ -18,6 +21,32 @@ constexpr double pavement_width = 2.0;  // m
 
 std::uint32_t number(Random& random) {
   return static_cast<std::uint32_t>(random.bits() >> 40U);
+}
+
+struct Range {
+  double least, most;  // m
+};
+struct BuildingStyle {
+  bool buildings;
+  std::uint32_t least_storeys, kinds;  // so many, or up to kinds - 1 more
+  Range setback;                       // from the pavement
+  double gap_chance;
+  Range wide_gap, narrow_gap;
+  double tree_spacing;  // times the town's
+};
+
+constexpr BuildingStyle style_of(Environment environment) {
+  switch (environment) {
+    case Environment::open:
+      return {false, 1, 1, {0.0, 0.0}, 0.0, {0.0, 0.0}, {0.0, 0.0}, 5.0};
+    case Environment::suburban:
+      return {true, 1, 2, {3.0, 9.0}, 1.0, {6.0, 18.0}, {0.0, 0.0}, 1.0};
+    case Environment::urban:
+      return {true, 6, 5, {0.1, 1.5}, 0.1, {4.0, 8.0}, {0.1, 0.4}, 2.0};
+    case Environment::town:
+      break;
+  }
+  return {true, 2, 4, {0.3, 6.0}, 0.35, {4.0, 14.0}, {0.1, 1.0}, 1.0};
 }
 
 // A rectangle on the ground.
@@ -37,18 +66,43 @@ struct Footprint {
   }
 };
 
+// Places up to a quarter of a kilometre from a street: no ground is seen farther away.
+class NearStreets {
+ public:
+  explicit NearStreets(const Streets& streets) {
+    constexpr long long cells = 5;
+    for (const Street& street : streets.streets)
+      for (const Vector2d& p : street.centreline) {
+        const auto [x, y] = cell_of(p);
+        if (!middles_.emplace(x, y).second) continue;
+        for (long long i = -cells; i <= cells; ++i)
+          for (long long k = -cells; k <= cells; ++k) near_.emplace(x + i, y + k);
+      }
+  }
+  bool operator()(const Vector2d& p) const { return near_.contains(cell_of(p)); }
+
+ private:
+  using Cell = std::pair<long long, long long>;
+  static Cell cell_of(const Vector2d& p) {
+    constexpr double size = 50.0;  // m
+    return {std::llround(p.x() / size), std::llround(p.y() / size)};
+  }
+
+  std::set<Cell> middles_, near_;
+};
+
 class TownBuilder {
  public:
   TownBuilder(const Streets& streets, const StreetIndex& index, const Terrain& terrain,
-              std::uint64_t seed)
-      : streets_(streets), index_(index), terrain_(terrain), random_(seed, 9) {}
+              std::uint64_t seed, const BuildingStyle& style)
+      : streets_(streets), index_(index), terrain_(terrain), style_(style), random_(seed, 9) {}
 
   Mesh build() {
     add_ground();
     add_horizon();
     for (const Street& street : streets_.streets)
       for (const double side : {-1.0, 1.0}) {
-        add_buildings(street, side);
+        if (style_.buildings) add_buildings(street, side);
         add_garden_edges(street, side);
         add_trees(street, side);
         add_poles(street, side);
@@ -88,17 +142,23 @@ class TownBuilder {
     const auto columns = static_cast<std::uint32_t>((high.x() - low.x()) / cell) + 1;
     const auto rows = static_cast<std::uint32_t>((high.y() - low.y()) / cell) + 1;
     const std::uint32_t surface = mesh_.add({Material::ground, 0.21F, 0});
-    const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
-    for (std::uint32_t y = 0; y <= rows; ++y)
-      for (std::uint32_t x = 0; x <= columns; ++x) {
+    const NearStreets near(streets_);
+    std::map<std::uint32_t, std::uint32_t> vertices;  // of grid points
+    const auto vertex = [&](std::uint32_t x, std::uint32_t y) {
+      const auto [at, anew] = vertices.try_emplace(y * (columns + 1) + x, mesh_.vertices.size());
+      if (anew) {
         mesh_.vertices.push_back(on_ground(low + cell * Vector2d(x, y)));
         mesh_.uv.emplace_back(0.0F, 0.0F);
       }
+      return at->second;
+    };
     for (std::uint32_t y = 0; y < rows; ++y)
       for (std::uint32_t x = 0; x < columns; ++x) {
-        const std::uint32_t a = first + y * (columns + 1) + x, b = a + columns + 1;
-        mesh_.triangles.push_back({a, a + 1, b + 1});
-        mesh_.triangles.push_back({a, b + 1, b});
+        if (!near(low + cell * Vector2d(x + 0.5, y + 0.5))) continue;
+        const std::uint32_t a = vertex(x, y), b = vertex(x, y + 1);
+        const std::uint32_t c = vertex(x + 1, y), d = vertex(x + 1, y + 1);
+        mesh_.triangles.push_back({a, c, d});
+        mesh_.triangles.push_back({a, d, b});
         mesh_.surface_of.insert(mesh_.surface_of.end(), 2, surface);
       }
   }
@@ -136,15 +196,17 @@ class TownBuilder {
     double along = random_.uniform(6.0, 12.0);
     while (along < street.length() - 6.0) {
       const double width = random_.uniform(9.0, 20.0), depth = random_.uniform(9.0, 14.0);
-      const double back = pavement_width + random_.uniform(0.3, 6.0);
+      const double back =
+          pavement_width + random_.uniform(style_.setback.least, style_.setback.most);
       const bool brick = random_.chance(0.35), gable = random_.chance(0.6);
-      const float height = 3.0F * static_cast<float>(2 + random_.below(4)) + 0.6F;
+      const float height =
+          3.0F * static_cast<float>(style_.least_storeys + random_.below(style_.kinds)) + 0.6F;
       const float tone =
           brick ? random_.uniform_float(0.2, 0.32) : random_.uniform_float(0.3, 0.68);
       const Surface wall{brick ? Material::brick : Material::plaster, tone, number(random_)};
       const Surface roof{Material::roof, random_.uniform_float(0.12, 0.3), number(random_)};
-      const double gap =
-          random_.chance(0.35) ? random_.uniform(4.0, 14.0) : random_.uniform(0.1, 1.0);
+      const Range& gaps = random_.chance(style_.gap_chance) ? style_.wide_gap : style_.narrow_gap;
+      const double gap = random_.uniform(gaps.least, gaps.most);
       const Spot at = spot(street, side, along + 0.5 * width, back + 0.5 * depth);
       const Vector2d t(std::cos(at.yaw), std::sin(at.yaw));
       const Footprint footprint{at.place, 0.5 * width * t, 0.5 * depth * Vector2d(-t.y(), t.x())};
@@ -184,7 +246,8 @@ class TownBuilder {
   void add_trees(const Street& street, double side) {
     const bool avenue = random_.chance(0.3);
     for (double along = random_.uniform(14.0, 22.0); along < street.length() - 14.0;
-         along += avenue ? random_.uniform(11.0, 16.0) : random_.uniform(14.0, 45.0)) {
+         along += style_.tree_spacing *
+                  (avenue ? random_.uniform(11.0, 16.0) : random_.uniform(14.0, 45.0))) {
       const float height = random_.uniform_float(4.5, 9.0);
       const std::uint32_t seed = number(random_);
       const Spot at =
@@ -230,6 +293,7 @@ class TownBuilder {
   const Streets& streets_;
   const StreetIndex& index_;
   const Terrain& terrain_;
+  BuildingStyle style_;
   Random random_;
   Mesh mesh_;
   std::vector<Footprint> built_;
@@ -238,8 +302,8 @@ class TownBuilder {
 }  // namespace
 
 Mesh make_town_scene(const Streets& streets, const StreetIndex& index, const Terrain& terrain,
-                     std::uint64_t seed) {
-  return TownBuilder(streets, index, terrain, seed).build();
+                     std::uint64_t seed, Environment environment) {
+  return TownBuilder(streets, index, terrain, seed, style_of(environment)).build();
 }
 
 }  // namespace maploop::simulate

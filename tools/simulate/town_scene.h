@@ -9,9 +9,16 @@
 
 namespace maploop::simulate {
 
+enum class Environment : std::uint8_t {
+  town,      // houses of two to five storeys, with gaps
+  open,      // no houses, few trees
+  suburban,  // low houses in gardens
+  urban,     // six to ten storeys without gaps
+};
+
 // Along every street, beside the pavement, nothing nearer to a kerb than that; buildings do not
 // overlap.
 Mesh make_town_scene(const Streets& streets, const StreetIndex& index, const Terrain& terrain,
-                     std::uint64_t seed);
+                     std::uint64_t seed, Environment environment = Environment::town);
 
 }  // namespace maploop::simulate

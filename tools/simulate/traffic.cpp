@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "tools/simulate/random.h"
+#include "tools/simulate/route.h"
 
 namespace maploop::simulate {
 namespace {
@@ -22,10 +23,13 @@ std::vector<VehicleMotion> make_traffic(const Streets& streets, const Terrain& t
                                         double seconds, std::uint64_t seed) {
   Random random(seed, 13);
   std::vector<VehicleMotion> cars;
+  const Directions directions(streets);
+  const double way = longest_drive(seconds, fastest(streets));
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint64_t own = mix(seed, 100 + i);
     const std::size_t start = random.below(static_cast<std::uint32_t>(streets.junctions.size()));
-    const auto route = make_route(streets, start, longest_drive(seconds), own);
+    if (!directions.has_exit(start)) continue;
+    const auto route = make_route(streets, start, way, own);
     auto path = std::make_shared<LanePath>(streets, route, own);
     auto profile = std::make_shared<SpeedProfile>(*path, streets, seconds, own);
     VehicleMotion car(std::move(path), std::move(profile), terrain, own);

@@ -39,8 +39,8 @@ std::string deadlines_line(const Deadlines& deadlines) {
              printable(s.name).c_str(), static_cast<unsigned long long>(s.misses),
              static_cast<unsigned long long>(s.count));
       if (s.misses > 0) {
-        append(line, " (worst %.1f of %.0f ms: %s)", 1e3 * to_seconds(s.max),
-               1e3 * to_seconds(s.deadline), printable(s.guilty).c_str());
+        append(line, " (worst %.1f of %.0f ms: %s)", to_milliseconds(s.max),
+               to_milliseconds(s.deadline), printable(s.guilty).c_str());
       }
     }
   };

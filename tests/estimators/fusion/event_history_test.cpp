@@ -10,10 +10,10 @@
 namespace maploop::fusion {
 namespace {
 
-const auto at = maploop::testing::SyntheticDrive::at;
+using maploop::testing::SyntheticDrive;
 
 EventKey key(double t, EventKind kind = EventKind::imu, std::uint64_t sequence = 0) {
-  return {at(t), kind, sequence};
+  return {SyntheticDrive::at(t), kind, sequence};
 }
 
 TEST(EventHistory, KeepsTheOrderOfStampKindAndSequence) {

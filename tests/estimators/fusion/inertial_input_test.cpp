@@ -9,11 +9,11 @@
 namespace maploop::fusion {
 namespace {
 
-const auto at = maploop::testing::SyntheticDrive::at;
+using maploop::testing::SyntheticDrive;
 
 ImuSample sample(double t, double rate, double force) {
   ImuSample s;
-  s.stamp = at(t);
+  s.stamp = SyntheticDrive::at(t);
   s.yaw_rate = rate;
   s.specific_force_forward = force;
   return s;
@@ -21,7 +21,8 @@ ImuSample sample(double t, double rate, double force) {
 
 TEST(InertialInput, InterpolatesBetweenSamples) {
   const ImuSample a = sample(1.0, 0.2, 1.0), b = sample(1.1, 0.4, 3.0);
-  const InertialInput input = inertial_input({&a, &b}, at(1.02), at(1.04), {});
+  const InertialInput input =
+      inertial_input({&a, &b}, SyntheticDrive::at(1.02), SyntheticDrive::at(1.04), {});
   EXPECT_TRUE(input.inertial);
   EXPECT_NEAR(input.duration, 0.02, 1e-12);
   EXPECT_NEAR(input.yaw_rate, 0.26, 1e-12);
@@ -30,29 +31,35 @@ TEST(InertialInput, InterpolatesBetweenSamples) {
 
 TEST(InertialInput, HoldsTheNewestSampleAndDoubtsItMoreAndMore) {
   const ImuSample a = sample(1.0, 0.2, 1.0);
-  const InertialInput early = inertial_input({&a, nullptr}, at(1.0), at(1.05), {});
-  const InertialInput late = inertial_input({&a, nullptr}, at(1.2), at(1.25), {});
+  const InertialInput early =
+      inertial_input({&a, nullptr}, SyntheticDrive::at(1.0), SyntheticDrive::at(1.05), {});
+  const InertialInput late =
+      inertial_input({&a, nullptr}, SyntheticDrive::at(1.2), SyntheticDrive::at(1.25), {});
   EXPECT_EQ(late.yaw_rate, 0.2);
   EXPECT_EQ(late.forward_force, 1.0);
   EXPECT_GT(late.unseen_change, 10.0 * early.unseen_change);
 }
 
 TEST(InertialInput, IsSilentWithoutASampleAndAfterTheHold) {
-  EXPECT_FALSE(inertial_input({}, at(1.0), at(1.05), {}).inertial);
+  EXPECT_FALSE(inertial_input({}, SyntheticDrive::at(1.0), SyntheticDrive::at(1.05), {}).inertial);
   const ImuSample a = sample(1.0, 0.2, 1.0), after_a_long_gap = sample(3.5, 0.4, 1.0);
   const FusionParameters parameters;
-  const Time hold_ends = end_of_stretch({&a, nullptr}, at(1.28), at(1.32), parameters);
-  EXPECT_EQ(hold_ends, at(1.0) + from_seconds(parameters.imu_hold));
-  EXPECT_FALSE(inertial_input({&a, nullptr}, hold_ends, at(1.32), parameters).inertial);
-  EXPECT_FALSE(inertial_input({&a, &after_a_long_gap}, at(2.0), at(2.05), parameters).inertial);
+  const Time hold_ends =
+      end_of_stretch({&a, nullptr}, SyntheticDrive::at(1.28), SyntheticDrive::at(1.32), parameters);
+  EXPECT_EQ(hold_ends, SyntheticDrive::at(1.0) + from_seconds(parameters.imu_hold));
+  EXPECT_FALSE(
+      inertial_input({&a, nullptr}, hold_ends, SyntheticDrive::at(1.32), parameters).inertial);
+  EXPECT_FALSE(inertial_input({&a, &after_a_long_gap}, SyntheticDrive::at(2.0),
+                              SyntheticDrive::at(2.05), parameters)
+                   .inertial);
 }
 
 TEST(InertialInput, BridgesAShortGapWithADoubtThatGrowsWithIt) {
   const ImuSample a = sample(1.0, 0.6, 1.0), b = sample(2.6, 0.2, 1.0);
   const FusionParameters parameters;
   double turned = 0.0, unseen = 0.0;
-  for (Time t = at(1.0); t < at(2.6);) {
-    const Time end = end_of_stretch({&a, &b}, t, at(2.6), parameters);
+  for (Time t = SyntheticDrive::at(1.0); t < SyntheticDrive::at(2.6);) {
+    const Time end = end_of_stretch({&a, &b}, t, SyntheticDrive::at(2.6), parameters);
     const InertialInput input = inertial_input({&a, &b}, t, end, parameters);
     ASSERT_TRUE(input.inertial);
     turned += input.yaw_rate * input.duration;
@@ -67,8 +74,10 @@ TEST(InertialInput, StretchesAreNoLongerThanTheStep) {
   const ImuSample a = sample(1.0, 0.2, 1.0), b = sample(1.2, 0.4, 3.0);
   FusionParameters parameters;
   parameters.max_step = 0.05;
-  EXPECT_EQ(end_of_stretch({&a, &b}, at(1.0), at(1.2), parameters), at(1.05));
-  EXPECT_EQ(end_of_stretch({&a, &b}, at(1.18), at(1.2), parameters), at(1.2));
+  EXPECT_EQ(end_of_stretch({&a, &b}, SyntheticDrive::at(1.0), SyntheticDrive::at(1.2), parameters),
+            SyntheticDrive::at(1.05));
+  EXPECT_EQ(end_of_stretch({&a, &b}, SyntheticDrive::at(1.18), SyntheticDrive::at(1.2), parameters),
+            SyntheticDrive::at(1.2));
 }
 
 }  // namespace

@@ -252,16 +252,26 @@ struct Misled {
   std::uint64_t restorations = 0;
 };
 
-Misled drive_beside_wrong_road(const GuardParameters& guard, double wrong_from) {
-  const SyntheticDrive drive({}, 200.0, test_origin());
+// Goes by wheels and gyro, from the synthetic drives' start.
+FusionParameters dead_reckoning() {
   FusionParameters p;
   apply(configuration("RISS"), p);
-  ReducedImuFilter plain(p, test_origin());
+  return p;
+}
+
+ReducedImuFilter started_filter() {
+  ReducedImuFilter filter(dead_reckoning(), test_origin());
   KnownStart start;
   start.stamp = SyntheticDrive::at(0.0);
   start.position = test_origin();
   start.speed = 10.0;
-  plain.start(start);
+  filter.start(start);
+  return filter;
+}
+
+Misled drive_beside_wrong_road(const GuardParameters& guard, double wrong_from) {
+  const SyntheticDrive drive({}, 200.0, test_origin());
+  ReducedImuFilter plain = started_filter();
   GuardedFilter filter(plain, guard);
   const LocalFrame frame(test_origin());
   std::uint64_t sequence = 0;
@@ -312,15 +322,7 @@ TEST(GuardedFilter, LeavesARightRoadAlone) {
 }
 
 TEST(GuardedFilter, GoesOnFromAnArchive) {
-  FusionParameters p;
-  apply(configuration("RISS"), p);
-  ReducedImuFilter plain(p, test_origin());
-  KnownStart start;
-  start.stamp = SyntheticDrive::at(0.0);
-  start.position = test_origin();
-  start.speed = 10.0;
-  plain.start(start);
-  GuardedFilter filter(plain, {});
+  GuardedFilter filter(started_filter(), {});
   const SyntheticDrive drive({}, 20.0, test_origin());
   const LocalFrame frame(test_origin());
   const auto add = [&](GuardedFilter& to, const ImuSample& s) {
@@ -332,8 +334,8 @@ TEST(GuardedFilter, GoesOnFromAnArchive) {
   };
   const auto imu = drive.imu(10.0);
   for (const ImuSample& s : imu)
-    if (s.stamp > start.stamp && s.stamp < SyntheticDrive::at(10.0)) add(filter, s);
-  GuardedFilter resumed(ReducedImuFilter(p), {});
+    if (s.stamp > SyntheticDrive::at(0.0) && s.stamp < SyntheticDrive::at(10.0)) add(filter, s);
+  GuardedFilter resumed(ReducedImuFilter(dead_reckoning()), {});
   load(saved(filter), resumed);
   for (const ImuSample& s : imu) {
     if (s.stamp < SyntheticDrive::at(10.0)) continue;

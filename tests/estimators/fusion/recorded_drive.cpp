@@ -126,10 +126,11 @@ GnssFix noisy_start(const RecordedDrive& drive, const Vector3d& velocity, unsign
 
 // At the first stamp, of the parabola through the first three positions.
 Vector3d first_velocity(const RecordedDrive& drive) {
-  const double dt = 0.5 * to_seconds(drive.stamps[2] - drive.stamps[0]);
-  return (-3.0 * drive.truth[0].translation() + 4.0 * drive.truth[1].translation() -
-          drive.truth[2].translation()) /
-         (2.0 * dt);
+  const double t1 = to_seconds(drive.stamps[1] - drive.stamps[0]);
+  const double t2 = to_seconds(drive.stamps[2] - drive.stamps[0]);
+  const Vector3d step1 = drive.truth[1].translation() - drive.truth[0].translation();
+  const Vector3d step2 = drive.truth[2].translation() - drive.truth[0].translation();
+  return (t2 / t1 * step1 - t1 / t2 * step2) / (t2 - t1);
 }
 
 // Rotation that makes the first row's body level, from its own accelerations: levelled = R body.

@@ -15,25 +15,24 @@ namespace {
 using namespace maploop::testing;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
-const auto at = SyntheticDrive::at;
 
 class Refusals : public ::testing::Test {
  protected:
   Refusals() : drive_({}, 30.0, test_origin()), filter_({}, test_origin()) {
     for (const Measurement& m : as_available(imu_, odometry_, drive_.fix(0.0))) {
-      if (stamp_of(m) <= at(10.0)) add(filter_, m);
+      if (stamp_of(m) <= SyntheticDrive::at(10.0)) add(filter_, m);
     }
     const auto next = [](const auto& all) {
       return *std::find_if(all.begin(), all.end(),
-                           [](const auto& m) { return m.stamp > at(10.0); });
+                           [](const auto& m) { return m.stamp > SyntheticDrive::at(10.0); });
     };
     sample_ = next(imu_);
     motion_ = next(odometry_);
-    before_ = *filter_.state_at(at(10.2));
+    before_ = *filter_.state_at(SyntheticDrive::at(10.2));
   }
 
   void expect_unmoved() const {
-    const NavState after = *filter_.state_at(at(10.2));
+    const NavState after = *filter_.state_at(SyntheticDrive::at(10.2));
     EXPECT_EQ(after.position_enu, before_.position_enu);
     EXPECT_EQ(after.covariance, before_.covariance);
   }
@@ -102,9 +101,9 @@ TEST_F(Refusals, OfStamps) {
   expect_refused(with_stamp({}), Reason::out_of_range);
   expect_refused(with_stamp(Time::min()), Reason::out_of_range);
   expect_refused(with_stamp(Time::max()), Reason::out_of_range);
-  expect_refused(with_stamp(at(1.0)), Reason::too_old);
-  expect_refused(with_stamp(at(13.0)), Reason::time_jump);
-  expect_refused(with_stamp(at(1e6)), Reason::time_jump);
+  expect_refused(with_stamp(SyntheticDrive::at(1.0)), Reason::too_old);
+  expect_refused(with_stamp(SyntheticDrive::at(13.0)), Reason::time_jump);
+  expect_refused(with_stamp(SyntheticDrive::at(1e6)), Reason::time_jump);
   expect_refused(imu_[950], Reason::duplicate);
   expect_refused(odometry_[95], Reason::duplicate);
 }
@@ -140,7 +139,7 @@ TEST_F(Refusals, OdometryOfBadInputSaysNothingOfTheIntervalItFellInto) {
   skipped.status = OdometryStatus::bad_input;
   const std::vector<RelativeMotion> longer = drive_.odometry(5.0);
   const RelativeMotion across = *std::find_if(longer.begin(), longer.end(), [&](const auto& m) {
-    return m.stamp > skipped.stamp && m.from >= at(10.0);
+    return m.stamp > skipped.stamp && m.from >= SyntheticDrive::at(10.0);
   });
   ASSERT_LT(across.from, skipped.stamp);
   EXPECT_EQ(filter_.add(across), Outcome{});
@@ -158,24 +157,25 @@ TEST_F(Refusals, OfFixesAfterTheStart) {
 TEST_F(Refusals, OneWildStampDoesNotStopTheOthers) {
   EXPECT_EQ(filter_.add([&] {
     ImuSample s = sample_;
-    s.stamp = s.available = at(14.0);
+    s.stamp = s.available = SyntheticDrive::at(14.0);
     return s;
   }()),
             refused(Reason::time_jump));
   for (const Measurement& m : as_available(imu_, odometry_, drive_.fix(0.0))) {
-    if (stamp_of(m) <= at(10.0) || std::holds_alternative<GnssFix>(m)) continue;
+    if (stamp_of(m) <= SyntheticDrive::at(10.0) || std::holds_alternative<GnssFix>(m)) continue;
     EXPECT_FALSE(add(filter_, m).refused());
   }
-  EXPECT_NEAR(filter_.state_at(at(30.0))->position_enu.y(), 300.0, 0.1);
+  EXPECT_NEAR(filter_.state_at(SyntheticDrive::at(30.0))->position_enu.y(), 300.0, 0.1);
 }
 
 TEST_F(Refusals, ARealGapCostsOneMeasurementAndIsBridged) {
   int refusals = 0;
   for (const ImuSample& s : imu_) {
-    if (s.stamp >= at(13.0) && s.stamp <= at(14.0)) refusals += filter_.add(s).refused() ? 1 : 0;
+    if (s.stamp >= SyntheticDrive::at(13.0) && s.stamp <= SyntheticDrive::at(14.0))
+      refusals += filter_.add(s).refused() ? 1 : 0;
   }
   EXPECT_EQ(refusals, 1);
-  const NavState after = *filter_.state_at(at(14.0));
+  const NavState after = *filter_.state_at(SyntheticDrive::at(14.0));
   EXPECT_EQ(after.status, NavStatus::coasting);
   EXPECT_NEAR(after.position_enu.y(), 140.0, 1.0);
   EXPECT_GT(after.covariance(1, 1), before_.covariance(1, 1));
@@ -185,7 +185,7 @@ TEST_F(Refusals, AClockThatReallyJumpedRestartsTheFilter) {
   for (const double jump : {-3600.0, 7200.0}) {
     const std::uint64_t restarts = filter_.status().restarts;
     GnssFix fix = drive_.fix(0.0);
-    fix.stamp = fix.velocity_stamp = fix.available = at(20.0 + jump);
+    fix.stamp = fix.velocity_stamp = fix.available = SyntheticDrive::at(20.0 + jump);
     int refusals = 0;
     for (ImuSample s : imu_) {
       s.stamp += from_seconds(jump);
@@ -196,9 +196,9 @@ TEST_F(Refusals, AClockThatReallyJumpedRestartsTheFilter) {
     EXPECT_EQ(refusals, FusionParameters{}.restart_after);
     EXPECT_FALSE(filter_.initialized());
     EXPECT_EQ(filter_.status().phase, Phase::waiting_for_fix);
-    fix.stamp = fix.velocity_stamp = fix.available = at(29.0 + jump);
+    fix.stamp = fix.velocity_stamp = fix.available = SyntheticDrive::at(29.0 + jump);
     EXPECT_EQ(filter_.add(fix), Outcome{});
-    EXPECT_TRUE(filter_.state_at(at(30.0 + jump)));
+    EXPECT_TRUE(filter_.state_at(SyntheticDrive::at(30.0 + jump)));
     filter_ = ReducedImuFilter({}, test_origin());
     filter_.add(drive_.fix(0.0));
     for (const ImuSample& s : imu_) filter_.add(s);

@@ -4,6 +4,7 @@
 #include <array>
 #include <opencv2/core.hpp>
 
+#include "estimators/lidar/disparity_correction.h"
 #include "estimators/lidar/lidar_odometry.h"
 #include "estimators/stereo/stereo_odometry.h"
 #include "msgs/frames.h"
@@ -73,10 +74,10 @@ class LidarDriveTest : public ::testing::Test {
     return evaluation::score(run.camera, truth(), 100.0, evaluation::CommonRotation::kRemove);
   }
 
-  static std::vector<RelativeMotion> visual_;
+  static std::vector<VisualMotion> visual_;
 };
 
-std::vector<RelativeMotion> LidarDriveTest::visual_;
+std::vector<VisualMotion> LidarDriveTest::visual_;
 
 TEST_F(LidarDriveTest, FollowsTheReferenceWithEverySeed) {
   std::array<int, 3> iterations{};
@@ -89,9 +90,12 @@ TEST_F(LidarDriveTest, FollowsTheReferenceWithEverySeed) {
           << "scan " << i << ": " << to_string(r.motions[i].status);
     }
     const auto e = error(r);
-    EXPECT_LT(e.segment.percent, 0.32);      // reached 0.26 to 0.27
-    EXPECT_LT(e.segment.deg_per_m, 0.0035);  // reached 0.0028 to 0.0030
-    EXPECT_LT(e.end_point_m, 1.3);           // reached 1.0 m
+    std::printf("%.3f %%, %.5f deg/m, %.2f m\n", e.segment.percent, e.segment.deg_per_m,
+                e.end_point_m);
+    const bool visual = seed == Seed::visual;
+    EXPECT_LT(e.segment.percent, visual ? 0.22 : 0.32);        // reached 0.19; 0.27
+    EXPECT_LT(e.segment.deg_per_m, visual ? 0.0025 : 0.0035);  // reached 0.0020; 0.0030
+    EXPECT_LT(e.end_point_m, visual ? 0.7 : 1.3);              // reached 0.6; 1.0 m
     iterations[static_cast<std::size_t>(seed)] = r.iterations;
   }
   EXPECT_LT(iterations[0], iterations[2] * 2 / 3) << "what the seed saves";
@@ -106,6 +110,39 @@ TEST_F(LidarDriveTest, EveryFifthAndTenthScanHoldWithVisualSeeds) {
     }
     EXPECT_NEAR(error(r).segment.percent, all, 0.1) << "every " << every;
   }
+}
+
+// Visual motions whose pairs are taken for perfectly rectified are too long.
+TEST_F(LidarDriveTest, GivesVisualMotionsItsLength) {
+  const sensors::KittiDrive drive(drive_0013());
+  const VehicleCalibration calibration = drive.calibration();
+  stereo::StereoParameters as_rectified;
+  as_rectified.sigma_disparity_offset = 0.0;
+  stereo::StereoOdometry visual(calibration.stereo, as_rectified);
+  LidarParameters points_alone;
+  points_alone.independent_points = 0.0;
+  LidarOdometry odometry(calibration.T_body_velo, points_alone);
+  DisparityCorrection correction(points_alone);
+  const auto camera = drive.camera();
+  const auto velodyne = drive.velodyne();
+  StereoPair pair;
+  LidarScan scan;
+  double raw = 0.0, corrected = 0.0, of_scans = 0.0;  // m, ways after the first five seconds
+  while (camera->next(pair) && velodyne->next(scan)) {
+    const VisualMotion seen = visual.process(pair);
+    const RelativeMotion motion = correction.correct(seen);
+    const LidarMotion by_scan = process(odometry, correction, &scan, &seen).lidar;
+    if (pair.sequence < 50) continue;
+    raw += seen.translation.norm();
+    corrected += motion.translation.norm();
+    of_scans += by_scan.translation.norm();
+  }
+  std::printf(
+      "longer than the scans' way: %.2f %% as rectified, %.2f %% corrected; %.3f +- %.3f px\n",
+      100.0 * (raw / of_scans - 1.0), 100.0 * (corrected / of_scans - 1.0), correction.offset(),
+      correction.sigma());
+  EXPECT_GT(raw / of_scans, 1.004);                // 1.0051
+  EXPECT_NEAR(corrected / of_scans, 1.0, 0.0015);  // reached 0.9996
 }
 
 // The points split in two, each half with a map of its own: two odometries whose motions over a

@@ -133,7 +133,8 @@ TEST(ScanPreparation, NormalsOfTheRoadPointUp) {
   const LidarScan scan = read_scans(drive, 1).front();
   ScanPreparation preparation(drive.calibration().T_body_velo, {});
   PreparedScan prepared;
-  preparation.prepare(scan, scan.stamp, Twist{{13.0, 0.0, 0.0}, {}}, &prepared);
+  preparation.prepare(scan, scan.stamp, Twist{{13.0, 0.0, 0.0}, Eigen::Vector3d::Zero()},
+                      &prepared);
   int road = 0, upright = 0;
   for (const SurfacePoint& p : prepared.points) {
     EXPECT_NEAR(p.normal.norm(), 1.0f, 1e-4f);

@@ -128,14 +128,23 @@ TEST(Atmosphere, DelaysFollowLatitudeSeasonAndHeight) {
   EXPECT_LT(zenith_delay(mountain, winter).wet, 0.6 * zenith_delay(sea, winter).wet);
 }
 
-// Values of Niell's own table: 5 degrees, 64.92 N, 0.133 km, day of the year 100.
-TEST(Troposphere, MappingIsOneOverSineAndLessNearTheHorizon) {
-  const NiellMapping mapping({radians(64.92), 0.0, 133.0}, gps_time({2020, 4, 9, 0, 0, 0.0}));
-  EXPECT_NEAR(mapping.at(radians(90.0)).hydrostatic, 1.0, 1e-6);
-  EXPECT_NEAR(mapping.at(radians(90.0)).wet, 1.0, 1e-9);
-  EXPECT_NEAR(mapping.at(radians(30.0)).hydrostatic, 1.9940, 2e-3);
-  EXPECT_NEAR(mapping.at(radians(5.0)).hydrostatic, 10.15, 0.05);
-  EXPECT_GT(mapping.at(radians(5.0)).wet, mapping.at(radians(5.0)).hydrostatic);
+// The test case of the IERS Conventions (2010), GMF: Green Bank on 2009-08-12.
+TEST(Troposphere, MappingIsThatOfTheConventions) {
+  const GlobalMapping mapping({0.6708665767, -1.393397187, 844.715},
+                              gps_time({2009, 8, 12, 0, 0, 0.0}));
+  const Mapping at = mapping.at(radians(90.0) - 1.278564131);
+  EXPECT_NEAR(at.hydrostatic, 3.425245519339138678, 1e-11);
+  EXPECT_NEAR(at.wet, 3.449589116182419257, 1e-11);
+}
+
+TEST(Troposphere, MappingIsOneAtTheZenithOnBothHemispheres) {
+  for (const double latitude : {-90.0, -45.0, 0.0, 64.92, 90.0}) {
+    const GlobalMapping mapping({radians(latitude), 2.0, 0.0}, gps_time({2020, 4, 9, 0, 0, 0.0}));
+    EXPECT_NEAR(mapping.at(radians(90.0)).hydrostatic, 1.0, 1e-9);
+    EXPECT_NEAR(mapping.at(radians(90.0)).wet, 1.0, 1e-9);
+    EXPECT_NEAR(mapping.at(radians(30.0)).hydrostatic, 1.994, 3e-3);
+    EXPECT_GT(mapping.at(radians(5.0)).wet, mapping.at(radians(5.0)).hydrostatic);
+  }
 }
 
 TEST(Ionosphere, NightIsFiveNanosecondsTimesSlant) {

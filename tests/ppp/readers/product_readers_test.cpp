@@ -7,7 +7,7 @@
 namespace maploop::ppp {
 namespace {
 
-GnssFiles read(const std::string& name) {
+GnssFiles read_product(const std::string& name) {
   GnssFiles files;
   read_into(maploop::testing::real_data() / "gnss" / name, files);
   return files;
@@ -16,7 +16,7 @@ GnssFiles read(const std::string& name) {
 TEST(ProductReaders, OrbitsOfMoreThan99Satellites) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const OrbitFile o =
-      read("kamakura_kinematic/COD0MGXFIN_20212650000_01D_05M_ORB.SP3.gz").orbits.at(0);
+      read_product("kamakura_kinematic/COD0MGXFIN_20212650000_01D_05M_ORB.SP3.gz").orbits.at(0);
   EXPECT_EQ(o.points.size(), 117U);
   EXPECT_EQ(o.epochs.size(), 289U);
   const auto& point = o.points.at({System::gps, 1}).front();
@@ -27,7 +27,8 @@ TEST(ProductReaders, OrbitsOfMoreThan99Satellites) {
 
 TEST(ProductReaders, ClocksOfADay) {
   MAPLOOP_REQUIRE_REAL_DATA();
-  const ClockFile c = read("esbc_static/GRG0MGXFIN_20201770000_01D_30S_CLK.CLK.gz").clocks.at(0);
+  const ClockFile c =
+      read_product("esbc_static/GRG0MGXFIN_20201770000_01D_30S_CLK.CLK.gz").clocks.at(0);
   EXPECT_EQ(c.points.at({System::galileo, 1}).size(), 2880U);
   EXPECT_DOUBLE_EQ(c.points.at({System::galileo, 1}).front().offset, -0.884707516318e-3);
   EXPECT_EQ(c.refused, 0);
@@ -36,7 +37,7 @@ TEST(ProductReaders, ClocksOfADay) {
 TEST(ProductReaders, MessagesOfFiveSystems) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const NavigationFile n =
-      read("esbc_static/ESBC00DNK_R_20201770000_01D_MN.rnx.gz").navigation.at(0);
+      read_product("esbc_static/ESBC00DNK_R_20201770000_01D_MN.rnx.gz").navigation.at(0);
   EXPECT_EQ(n.glonass.size(), 510U);
   EXPECT_EQ(n.kepler.size(), 357U + 1602U + 257U + 15U);
   EXPECT_EQ(n.passed_over, 2130);
@@ -46,11 +47,12 @@ TEST(ProductReaders, MessagesOfFiveSystems) {
 
 TEST(ProductReaders, AntennasOfSatellitesAndReceivers) {
   MAPLOOP_REQUIRE_REAL_DATA();
-  const AntennaFile satellites = read("esbc_static/satellites_check_only.atx.gz").antennas.at(0);
+  const AntennaFile satellites =
+      read_product("esbc_static/satellites_check_only.atx.gz").antennas.at(0);
   EXPECT_EQ(satellites.antennas.size(), 59U);
   EXPECT_EQ(satellites.antennas.front().satellite, (Satellite{System::gps, 2}));
   EXPECT_DOUBLE_EQ(satellites.antennas.front().carriers.at(0).offset.z(), 0.614);
-  const AntennaFile receivers = read("models/igs05_receivers.atx.gz").antennas.at(0);
+  const AntennaFile receivers = read_product("models/igs05_receivers.atx.gz").antennas.at(0);
   bool found = false;
   for (const Antenna& a : receivers.antennas) {
     if (a.type != "ASH701945E_M    SCIS") continue;
@@ -62,7 +64,7 @@ TEST(ProductReaders, AntennasOfSatellitesAndReceivers) {
     EXPECT_DOUBLE_EQ(l1->no_azimuth.at(1), -0.00044);
   }
   EXPECT_TRUE(found);
-  const AntennaFile damaged = read("parser_samples/igs14_small.atx.gz").antennas.at(0);
+  const AntennaFile damaged = read_product("parser_samples/igs14_small.atx.gz").antennas.at(0);
   EXPECT_EQ(damaged.refused, 2) << "antennas without their end";
   EXPECT_GT(damaged.antennas.size(), 1U);
 }
@@ -70,7 +72,7 @@ TEST(ProductReaders, AntennasOfSatellitesAndReceivers) {
 TEST(ProductReaders, BiasesOfCode) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const BiasFile b =
-      read("kamakura_kinematic/COD0MGXFIN_20212650000_01D_01D_OSB.BIA.gz").biases.at(0);
+      read_product("kamakura_kinematic/COD0MGXFIN_20212650000_01D_01D_OSB.BIA.gz").biases.at(0);
   const auto at = std::find_if(b.biases.begin(), b.biases.end(), [](const CodeBias& bias) {
     return bias.satellite == Satellite{System::gps, 5} && bias.signal == "C1C";
   });
@@ -81,7 +83,7 @@ TEST(ProductReaders, BiasesOfCode) {
 
 TEST(ProductReaders, OceanLoadingOfStations) {
   MAPLOOP_REQUIRE_REAL_DATA();
-  EXPECT_GT(read("models/OLOAD_GO.BLQ.gz").ocean_loading.at(0).stations.size(), 100U);
+  EXPECT_GT(read_product("models/OLOAD_GO.BLQ.gz").ocean_loading.at(0).stations.size(), 100U);
 }
 
 TEST(ProductReaders, DifferentialBiasesAsCodePublishesThem) {

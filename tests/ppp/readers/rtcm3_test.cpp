@@ -12,54 +12,14 @@
 
 #include "ppp/gnss_files.h"
 #include "ppp/readers/lines.h"
-#include "tests/support/process.h"
+#include "tests/ppp/readers/rtklib_encoder.h"
+#include "tests/support/gnss_messages.h"
 #include "tests/support/real_data.h"
 
 namespace maploop::ppp {
 namespace {
 
-class BitWriter {
- public:
-  // Beyond 64 bits: zeros in front.
-  BitWriter& put(std::uint64_t value, std::size_t bits) {
-    for (std::size_t i = bits; i-- > 0;) {
-      if (count_ % 8 == 0) bytes_ += '\0';
-      if (i < 64 && (value >> i & 1U) != 0) {
-        bytes_.back() = static_cast<char>(bytes_.back() | 1 << (7 - count_ % 8));
-      }
-      ++count_;
-    }
-    return *this;
-  }
-  // As a whole frame; its checksum bit by bit.
-  std::string frame() const {
-    std::string f{'\xd3', static_cast<char>(bytes_.size() >> 8),
-                  static_cast<char>(bytes_.size() & 0xff)};
-    f += bytes_;
-    std::uint32_t crc = 0;
-    for (const char c : f) {
-      crc ^= static_cast<std::uint32_t>(static_cast<std::uint8_t>(c)) << 16;
-      for (int i = 0; i < 8; ++i) crc = (crc << 1) ^ ((crc & 0x800000U) != 0 ? 0x1864cfbU : 0U);
-      crc &= 0xffffffU;
-    }
-    for (const int shift : {16, 8, 0}) f += static_cast<char>(crc >> shift);
-    return f;
-  }
-
- private:
-  std::string bytes_;
-  std::size_t count_ = 0;
-};
-
-// Ephemeris messages only for their week.
-std::string gps_week_message(int week) {
-  return BitWriter()
-      .put(1019, 12)
-      .put(5, 6)
-      .put(static_cast<std::uint64_t>(week) % 1024, 10)
-      .put(0, 460)
-      .frame();
-}
+using maploop::testing::BitWriter, maploop::testing::gps_week_frame, maploop::testing::rtcm_frame;
 
 struct Made {
   int number = 1074;
@@ -90,7 +50,7 @@ std::string msm4(const Made& m) {
   for (std::size_t i = 0; i < n; ++i) w.put(m.lock, 4);
   for (std::size_t i = 0; i < n; ++i) w.put(0, 1);
   for (std::size_t i = 0; i < n; ++i) w.put(44, 6);
-  return w.frame();
+  return rtcm_frame(w);
 }
 
 std::vector<Epoch> decode(const std::string& bytes, GpsTime near) {
@@ -105,25 +65,6 @@ std::vector<Epoch> decode(const std::string& bytes, GpsTime near) {
   }
   if (decoder.finish(epoch)) epochs.push_back(epoch);
   return epochs;
-}
-
-// What RTKLIB makes of a recording, as messages of these numbers.
-std::string encoded_by_rtklib(const std::filesystem::path& ubx, const std::string& numbers) {
-  const std::string file = ubx.string() + "." + numbers.substr(0, 4);
-  testing::Process str2str({"str2str", "-in", "file://" + ubx.string() + "#ubx", "-out",
-                            "file://" + file + "#rtcm3", "-msg", numbers});
-  // It does not end by itself.
-  std::uintmax_t size = 0;
-  for (int i = 0, still = 0; i < 300 && still < 15; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    std::error_code missing;
-    const std::uintmax_t now = std::filesystem::file_size(file, missing);
-    still = !missing && now == size && now > 0 ? still + 1 : 0;
-    size = missing ? 0 : now;
-  }
-  str2str.send_signal(SIGTERM);
-  str2str.wait();
-  return read_file(file);
 }
 
 const Signal* find(const Epoch& epoch, Satellite satellite, const Signal& like) {
@@ -186,13 +127,13 @@ TEST(Rtcm3, IsWhatRtklibEncoded) {
   const Observations truth = parse_observations(read_file(rinex), "f9t.obs");
   ASSERT_FALSE(truth.epochs.empty());
   const GpsTime near = truth.epochs.front().time + std::chrono::hours(24);
-  const std::string msm7 = encoded_by_rtklib(ubx, "1077,1097,1127");
-  const std::string msm4 = encoded_by_rtklib(ubx, "1074,1094,1124");
+  const std::string msm7 = testing::encoded_by_rtklib(ubx, "1077,1097,1127");
+  const std::string msm4 = testing::encoded_by_rtklib(ubx, "1074,1094,1124");
   compare(truth, decode(msm7, near), 1e-3, 1.2e-3, true);
   compare(truth, decode(msm4, near), 1e-2, 3e-3, false);
   // As a file, with an ephemeris that says the week.
   GnssFiles files;
-  EXPECT_EQ(parse_into(gps_week_message(gps_week(near)) + msm7, "made", files), FileKind::rtcm3);
+  EXPECT_EQ(parse_into(gps_week_frame(gps_week(near)) + msm7, "made", files), FileKind::rtcm3);
   compare(truth, files.observations.front().epochs, 1e-3, 1.2e-3, true);
   EXPECT_EQ(files.observations.front().refused, 0);
 }
@@ -245,11 +186,11 @@ TEST(Rtcm3, SaysWhatIsWrong) {
     return "";
   };
   EXPECT_NE(message(msm4({})).find("do not say their week"), std::string::npos);
-  EXPECT_NE(message(gps_week_message(2400)).find("no observations"), std::string::npos);
+  EXPECT_NE(message(gps_week_frame(2400)).find("no observations"), std::string::npos);
   std::string damaged = msm4({.time = 2000});
   damaged[20] = static_cast<char>(damaged[20] ^ 1);
   const Observations o =
-      parse_rtcm3(gps_week_message(2400) + msm4({}) + damaged + msm4({.time = 604'800'000}) +
+      parse_rtcm3(gps_week_frame(2400) + msm4({}) + damaged + msm4({.time = 604'800'000}) +
                       msm4({.time = 5000, .range_ms = 1}) + msm4({.time = 6000}) +
                       msm4({.time = 4000}) + "\xd3",
                   "made.rtcm3");
@@ -268,7 +209,7 @@ TEST(Rtcm3, TakesDamagedBytesWithoutHarm) {
     Epoch epoch;
     std::string problem;
     Rtcm3Message message;
-    const std::string bytes = w.frame();
+    const std::string bytes = rtcm_frame(w);
     ASSERT_TRUE(Rtcm3Frames(bytes).next(message));
     const bool whole = decoder.decode(message, epoch, problem) || decoder.finish(epoch);
     if (!whole) continue;

@@ -13,24 +13,14 @@
 #include "ppp/readers/lines.h"
 #include "tests/support/process.h"
 #include "tests/support/real_data.h"
+#include "tests/support/ubx_frame.h"
 
 namespace maploop::ppp {
 namespace {
 
-constexpr const char* sample = "gnss/parser_samples/F9T-L2-5min.ubx.gz";
+using testing::ubx_frame;
 
-std::string frame(std::uint8_t message_class, std::uint8_t id, const std::string& payload) {
-  std::string checked{static_cast<char>(message_class), static_cast<char>(id),
-                      static_cast<char>(payload.size() & 0xff),
-                      static_cast<char>(payload.size() >> 8)};
-  checked += payload;
-  std::uint8_t a = 0, b = 0;
-  for (const char c : checked) {
-    a = static_cast<std::uint8_t>(a + static_cast<std::uint8_t>(c));
-    b = static_cast<std::uint8_t>(b + a);
-  }
-  return "\xb5\x62" + checked + static_cast<char>(a) + static_cast<char>(b);
-}
+constexpr const char* sample = "gnss/parser_samples/F9T-L2-5min.ubx.gz";
 
 template <class T>
 void put(std::string& text, std::size_t at, T value) {
@@ -63,7 +53,7 @@ std::string rawx(double tow, const std::vector<Measurement>& measurements) {
     payload[at + 26] = 45;
     payload[at + 30] = static_cast<char>(m.status);
   }
-  return frame(0x02, 0x15, payload);
+  return ubx_frame(0x02, 0x15, payload);
 }
 
 TEST(Ubx, ReadsARecordingOfAnF9T) {
@@ -161,7 +151,7 @@ TEST(Ubx, LeavesOutAndCountsWhatItCannotName) {
                                       {0, 8, 0, 12.0},     // no pseudorange
                                       {0, 9, 99, 2.2e7}})  // no signal
                             + rawx(9, {{0, 7, 0, 2.3e7}}) +
-                            frame(0x01, 0x07, std::string(92, 'x')) +
+                            ubx_frame(0x01, 0x07, std::string(92, 'x')) +
                             rawx(11, {{0, 7, 0, 2.3e7}}).substr(0, 30);
   const Observations o = parse_ubx(bytes, "made.ubx");
   ASSERT_EQ(o.epochs.size(), 1U);
@@ -173,7 +163,7 @@ TEST(Ubx, LeavesOutAndCountsWhatItCannotName) {
   EXPECT_EQ(to_string(e.satellites[2].satellite), "S33");
   EXPECT_EQ(o.refused, 3);  // the epoch that goes back, the cut frame, the measurements
   EXPECT_NE(o.refusals.back().find("4 measurements"), std::string::npos) << o.refusals.back();
-  EXPECT_THROW(parse_ubx(frame(0x01, 0x07, std::string(92, 'x')), "no_raw.ubx"), ReadError);
+  EXPECT_THROW(parse_ubx(ubx_frame(0x01, 0x07, std::string(92, 'x')), "no_raw.ubx"), ReadError);
 }
 
 TEST(Ubx, TakesDamagedBytesWithoutHarm) {

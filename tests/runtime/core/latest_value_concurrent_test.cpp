@@ -10,8 +10,9 @@
 namespace maploop::runtime {
 namespace {
 
+using Value = std::array<std::uint64_t, 16>;
+
 TEST(LatestValueConcurrent, NeverTornNeverOldAndEveryLossCounted) {
-  using Value = std::array<std::uint64_t, 16>;
   constexpr std::uint64_t kValues = 300000;
   LatestValue<Value> cell;
   std::atomic<bool> done{false};

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sched.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -135,20 +136,24 @@ TEST(RealtimeScheduling, DeadlineIsGrantedMayStartThreadsAndIsRefusedWhenTheCpus
 TEST(RealtimeScheduling, AnOrdinaryUserIsRefusedAndToldWhy) {
   const ChildLimits limits;
   MAPLOOP_REQUIRE_ORDINARY_USER(limits);
+  const std::string inherited = read_scheduling().policy;
+  EXPECT_EQ(as_ordinary_user(limits, [] { return first_item(Scheduling::fifo(60)); }),
+            "refused|fifo 60|" + inherited +
+                "|no CAP_SYS_NICE, and RLIMIT_RTPRIO is 0|add '@GROUP - rtprio 99' "
+                "to a file in /etc/security/limits.d and log in again; or run as root");
   EXPECT_EQ(
-      as_ordinary_user(limits, [] { return first_item(Scheduling::fifo(60)); }),
-      "refused|fifo 60|other|no CAP_SYS_NICE, and RLIMIT_RTPRIO is 0|add '@GROUP - rtprio 99' "
-      "to a file in /etc/security/limits.d and log in again; or run as root");
-  EXPECT_EQ(as_ordinary_user(limits, [] { return first_item(nice(-5)); }),
-            "refused|other nice -5|other|no CAP_SYS_NICE, and RLIMIT_NICE allows nice values from "
-            "19|add '@GROUP - nice -20' to a file in /etc/security/limits.d and log in again; or "
-            "run as root");
+      as_ordinary_user(limits, [] { return first_item(nice(-5)); }),
+      "refused|other nice -5|" + inherited +
+          "|no CAP_SYS_NICE, and RLIMIT_NICE allows nice values from "
+          "19|add '@GROUP - nice -20' to a file in /etc/security/limits.d and log in again; or "
+          "run as root");
   EXPECT_EQ(
       as_ordinary_user(
           limits,
           [] { return first_item(deadline(milliseconds(1), milliseconds(5), milliseconds(10))); }),
-      "refused|deadline 1/5/10 ms|other|deadline scheduling needs CAP_SYS_NICE|run as root, "
-      "or give the program the capability: setcap cap_sys_nice+ep PROGRAM");
+      "refused|deadline 1/5/10 ms|" + inherited +
+          "|deadline scheduling needs CAP_SYS_NICE|run as root, "
+          "or give the program the capability: setcap cap_sys_nice+ep PROGRAM");
 }
 
 TEST(RealtimeScheduling, AnOrdinaryUserWithALimitIsGrantedUpToIt) {
@@ -164,10 +169,10 @@ TEST(RealtimeScheduling, AnOrdinaryUserWithALimitIsGrantedUpToIt) {
 
 TEST(RealtimeScheduling, AnInheritedNiceValueIsKept) {
   EXPECT_EQ(in_child([] {
-              if (::nice(7) != 7) return std::string("nice refused");
+              if (setpriority(PRIO_PROCESS, 0, 19) != 0) return std::string("nice refused");
               return first_item(with_policy(SchedulingPolicy::other)) + "\n" + first_item({});
             }),
-            "granted|other|other nice 7||\ngranted|as inherited|other nice 7||");
+            "granted|other|other nice 19||\ngranted|as inherited|other nice 19||");
 }
 
 TEST(RealtimeScheduling, ValuesOutOfRangeAreRefusedBeforeTheKernelSeesThem) {
@@ -238,22 +243,22 @@ TEST(RealtimeScheduling, AThreadSaysWhatItWasRefused) {
   const ChildLimits limits;
   MAPLOOP_REQUIRE_ORDINARY_USER(limits);
   const std::string cpu = std::to_string(read_scheduling().cpus.front());
-  EXPECT_EQ(
-      as_ordinary_user(limits,
-                       [] {
-                         Scheduling scheduling = Scheduling::fifo(60);
-                         scheduling.cpus = {read_scheduling().cpus.front()};
-                         Thread thread(
-                             "thread", scheduling, {}, [](const std::stop_token&) {}, [] {});
-                         thread.join();
-                         std::string text;
-                         for (const RealtimeSetting& s : thread.settings()) {
-                           text += s.name + ' ' + s.granted + '/' + s.asked + ' ' +
-                                   std::string(to_string(s.verdict)) + "; ";
-                         }
-                         return text;
-                       }),
-      "thread: scheduling other/fifo 60 refused; thread: CPUs " + cpu + '/' + cpu + " granted; ");
+  EXPECT_EQ(as_ordinary_user(limits,
+                             [] {
+                               Scheduling scheduling = Scheduling::fifo(60);
+                               scheduling.cpus = {read_scheduling().cpus.front()};
+                               Thread thread(
+                                   "thread", scheduling, {}, [](const std::stop_token&) {}, [] {});
+                               thread.join();
+                               std::string text;
+                               for (const RealtimeSetting& s : thread.settings()) {
+                                 text += s.name + ' ' + s.granted + '/' + s.asked + ' ' +
+                                         std::string(to_string(s.verdict)) + "; ";
+                               }
+                               return text;
+                             }),
+            "thread: scheduling " + read_scheduling().policy + "/fifo 60 refused; thread: CPUs " +
+                cpu + '/' + cpu + " granted; ");
 }
 
 // What this machine cannot be made to say.

@@ -67,9 +67,9 @@ void fill_fix(GnssFix& fix) {
   fix.velocity_stamp = sensors::HostClock().now();
 }
 
-LiveSensors live_sensors() {
+LiveSensors live_sensors(Time (*utc)() = sensors::HostClock::machine_utc) {
   LiveSensors s;
-  s.clock = std::make_shared<const sensors::HostClock>();
+  s.clock = std::make_shared<const sensors::HostClock>(utc);
   s.imu = std::make_unique<FakeLiveSource<ImuSample>>(*s.clock, milliseconds(10));
   s.gnss = std::make_unique<FakeLiveSource<GnssFix>>(*s.clock, milliseconds(200), fill_fix);
   return s;
@@ -116,6 +116,31 @@ TEST(LiveVehicle, GoesOnWithoutASensorThatIsMissingAndNamesIt) {
   for (const RingHealth& ring : report.health.rings) {
     EXPECT_EQ(ring.pushed, ring.popped + ring.lost + ring.held) << ring.name;
   }
+}
+
+std::atomic<bool> clock_was_set{false};
+
+TEST(LiveVehicle, NoStampMovesWhenTheMachinesClockIsSet) {
+  const auto utc = [] {
+    return sensors::HostClock::machine_utc() +
+           (clock_was_set ? milliseconds(1000) : milliseconds(0));
+  };
+  MemoryBus bus;
+  clock_was_set = false;
+  std::jthread setter([] {
+    std::this_thread::sleep_for(milliseconds(800));
+    clock_was_set = true;
+  });
+  const VehicleReport report = drive(bus, live_sensors(utc), milliseconds(2500));
+  EXPECT_TRUE(says(report.health, "this machine's clock was set by 1.0"));
+  const auto states = bus.decoded<maploop_lcm::nav_state_t>("NAV_STATE");
+  ASSERT_GT(states.size(), 100u);
+  for (std::size_t i = 1; i < states.size(); ++i) {
+    const Duration between = from_lcm(states[i]).stamp - from_lcm(states[i - 1]).stamp;
+    ASSERT_GT(between, Duration::zero());
+    ASSERT_LT(between, milliseconds(900)) << "not the second that the clock was set by";
+  }
+  for (const RingHealth& ring : report.health.rings) EXPECT_EQ(ring.lost, 0u) << ring.name;
 }
 
 TEST(LiveVehicle, AStageThatIsTooSlowLosesItsOwnSamplesAlone) {
@@ -177,7 +202,7 @@ TEST(LiveConfig, NamesTheKeyThatIsWrong) {
     set(config.live);
     try {
       open_live_sensors(config);
-      live_calibration(config.live);
+      live_calibration(config);
     } catch (const std::runtime_error& e) {
       return e.what();
     }
@@ -195,6 +220,19 @@ TEST(LiveConfig, NamesTheKeyThatIsWrong) {
               p.velodyne = "udp://:2368";
               p.velodyne_model = "VLP-17";
             }).find("no scanner is called 'VLP-17'"),
+            std::string::npos);
+  EXPECT_NE(error([](LiveParameters& p) {
+              p.camera_left = "videotestsrc";
+            }).find("[live] camera_left: the cameras' calibration is needed"),
+            std::string::npos);
+  EXPECT_NE(error([](LiveParameters& p) {
+              p.camera_right = "videotestsrc";
+            }).find("there is no camera_left"),
+            std::string::npos);
+  EXPECT_NE(error([](LiveParameters& p) {
+              p.imu = "udp://:3000";
+              p.imu_protocol = "morse";
+            }).find("is none of ncom, lines, xsens"),
             std::string::npos);
   EXPECT_NE(error([](LiveParameters& p) {
               p.gnss = "tcp://127.0.0.1:1";

@@ -23,7 +23,7 @@ sensors::StereoRig rig() {
 }
 
 sensors::StereoRig read(const std::string& text, const char* name = "rig.toml") {
-  const testing::TemporaryFolder folder;
+  const maploop::testing::TemporaryFolder folder;
   const auto file = folder.path() / name;
   std::ofstream(file) << text;
   return read_stereo_rig(file);
@@ -82,7 +82,7 @@ TEST(StereoRigFile, CoefficientsOfTheOtherDirectionAreConverted) {
 TEST(StereoRigFile, ReadsKittisOwnCalibration) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const sensors::StereoRig kitti =
-      read_stereo_rig(testing::real_data() / "kitti/2011_09_26/calib_cam_to_cam.txt");
+      read_stereo_rig(maploop::testing::real_data() / "kitti/2011_09_26/calib_cam_to_cam.txt");
   EXPECT_EQ(kitti.width, 1392);
   EXPECT_EQ(kitti.rectified.width, 1242);
   EXPECT_NEAR(kitti.rectified.baseline, 0.5372, 1e-4);

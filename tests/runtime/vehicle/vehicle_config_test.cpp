@@ -17,7 +17,7 @@ namespace {
 const std::filesystem::path shipped = MAPLOOP_SHIPPED_CONFIG;
 
 VehicleConfig load_text(const std::string& text) {
-  const testing::TemporaryFolder folder;
+  const maploop::testing::TemporaryFolder folder;
   const auto file = folder.path() / "test.toml";
   std::ofstream(file) << text;
   return load_vehicle_config(file);
@@ -112,7 +112,7 @@ TEST(VehicleConfig, WhatDoesNotGoWithThePolicyIsAnError) {
 }
 
 TEST(VehicleConfig, ProductsAreBesideTheConfiguration) {
-  const testing::TemporaryFolder folder;
+  const maploop::testing::TemporaryFolder folder;
   const auto file = folder.path() / "test.toml";
   std::ofstream(file) << "[ppp]\nproducts = [\"a.SP3\", \"/data/models\"]\n";
   const VehicleConfig config = load_vehicle_config(file);
@@ -130,8 +130,20 @@ TEST(VehicleConfig, AValueThatCannotWorkNamesFileAndKey) {
            {"[fusion]\ngyro_noise = -1.0\n", "test.toml: fusion parameter gyro_noise"},
            {"[stereo]\nwindow = 14\n", "test.toml: stereo odometry: window"},
            {"[lidar]\nmap_voxel = 0.0\n", "test.toml: LiDAR odometry: map_voxel"},
-           {"[mapmatch]\nmemory = 0.0\n", "test.toml: map matching: memory must be positive"},
-           {"[mapmatch]\nbirth = -1.0\n", "test.toml: map matching: birth must be 0 or more"}}) {
+           {"[mapmatch]\nmemory = 0.0\n",
+            "test.toml: [mapmatch] memory is 0; it must be 0.01 to 1000000 s"},
+           {"[mapmatch]\nbirth = -1.0\n",
+            "test.toml: [mapmatch] birth is -1; it must be 0 to 1000000000"},
+           {"[mapmatch]\nsure = 1.5\n", "test.toml: [mapmatch] sure is 1.5; it must be 0 to 1"},
+           {"[mapmatch]\ngate = nan\n", "test.toml:2:8: mapmatch.gate: is nan"},
+           {"[ppp]\nelevation_mask = 91.0\n",
+            "test.toml: [ppp] elevation_mask is 91; it must be 0 to 90 degrees"},
+           {"[ppp]\ncode_sigma = 0.0\n", "test.toml: [ppp] code_sigma is 0; it must be 0.000001"},
+           {"[ppp]\nlongest_gap = -1\n", "test.toml: [ppp] longest_gap is -1; it must be 0 to"},
+           {"[ppp]\nsystems = \"GX\"\n", "test.toml: [ppp] systems is \"GX\"; 'X' is none of"},
+           {"[ppp]\nsystems = \"\"\n", "test.toml: [ppp] systems is empty"},
+           {"[preview]\nrate = 50.0\n", "test.toml: [preview] rate must be 0 to 5 Hz"},
+           {"[preview]\nwidth = 10\n", "test.toml: [preview] width must be 64 to 1280 px"}}) {
     try {
       load_text(text);
       ADD_FAILURE() << text;

@@ -135,7 +135,7 @@ TEST(WatchdogInTheGraph, NamesSilentStaleAndMissingSensorsAndTheRestGoesOn) {
   FaultInjection faults({parse_fault("lost@imu:2:4"), parse_fault("lost@gnss:0:20")}, drive_start);
   testing::MemoryBus bus;
   Vehicle vehicle({}, testing::fake_calibration(), faults.afflict(std::move(sensors)),
-                  runtime::DataClock::paced(4.0), {&bus}, {});
+                  runtime::DataClock::paced(1.5), {&bus}, {});
   vehicle.start();
   vehicle.wait();
   const std::vector<Sentences> messages = degraded(bus);
@@ -143,7 +143,8 @@ TEST(WatchdogInTheGraph, NamesSilentStaleAndMissingSensorsAndTheRestGoesOn) {
   EXPECT_EQ(count(messages, "velodyne: there is none"), messages.size());
   EXPECT_GE(count(messages, "imu: stale, nothing new for"), 2U);
   EXPECT_GE(count(messages, "gnss: silent since the start"), 2U);
-  EXPECT_EQ(count(messages, "camera: "), 0U);
+  // (It may also say that it got no real-time priority.)
+  EXPECT_EQ(count(messages, "camera: stale") + count(messages, "camera: silent"), 0U);
   EXPECT_FALSE(any_starts(messages.back(), "imu: stale")) << "the sensor is back";
 }
 

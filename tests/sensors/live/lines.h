@@ -4,6 +4,7 @@
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <stdlib.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -13,6 +14,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace maploop::testing {
@@ -74,6 +76,54 @@ class PseudoTerminal {
  private:
   std::filesystem::path name_;
   int fd_ = posix_openpt(O_RDWR | O_NOCTTY);
+};
+
+// A host that is connected to, by one peer at a time.
+class TcpServer {
+ public:
+  TcpServer() {
+    const sockaddr_in any = loopback(0);
+    EXPECT_EQ(bind(fd_, reinterpret_cast<const sockaddr*>(&any), sizeof any), 0);
+    EXPECT_EQ(listen(fd_, 1), 0);
+  }
+  ~TcpServer() {
+    hang_up();
+    close(fd_);
+  }
+  std::uint16_t port() const { return port_of(fd_); }
+  // Waits for the next peer, 10 s at most.
+  bool answer() {
+    hang_up();
+    pollfd waiting{fd_, POLLIN, 0};
+    if (poll(&waiting, 1, 10'000) > 0) peer_ = accept(fd_, nullptr, nullptr);
+    return peer_ >= 0;
+  }
+  void hang_up() {
+    if (peer_ >= 0) close(peer_);
+    peer_ = -1;
+  }
+  bool send(std::string_view bytes) const {
+    while (!bytes.empty()) {
+      const ssize_t sent = ::send(peer_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+      if (sent <= 0) return false;
+      bytes.remove_prefix(static_cast<std::size_t>(sent));
+    }
+    return true;
+  }
+  // What the peer says up to `end`, or within 10 s.
+  std::string receive_until(std::string_view end) const {
+    std::string heard;
+    char c = 0;
+    for (pollfd p{peer_, POLLIN, 0}; poll(&p, 1, 10'000) > 0 && recv(peer_, &c, 1, 0) == 1;) {
+      heard += c;
+      if (heard.ends_with(end)) break;
+    }
+    return heard;
+  }
+
+ private:
+  int fd_ = socket(AF_INET, SOCK_STREAM, 0);
+  int peer_ = -1;
 };
 
 inline std::string sentence(const std::string& body) {

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "sensors/imu/imu_line.h"
 #include "sensors/imu/ncom_packet.h"
 #include "sensors/live/live_sensors.h"
 #include "tests/sensors/live/lines.h"
@@ -168,6 +169,37 @@ TEST(LiveNcom, StampsByTheUnitsClock) {
   EXPECT_EQ(report.delivered, 5U);
   EXPECT_EQ(report.refused, 3U);
   EXPECT_EQ(report.connection.too_large, 1U);
+}
+
+TEST(LiveImuLines, AreStampedByTheUnitsClockOverASerialLine) {
+  const testing::TemporaryFolder folder;
+  const HostClock clock;
+  const auto device = folder.path() / "imu";
+  const PseudoTerminal line(device);
+  const auto imu =
+      listen_to_imu_lines(parse_endpoint("serial://" + device.string()), milliseconds(20), clock);
+  ASSERT_TRUE(wait_until_open(*imu, true)) << imu->report().connection.problem;
+  ImuSample sample;
+  Time last{};
+  for (int i = 0; i < 5; ++i) {
+    // The third is held up on its way.
+    if (i == 3) usleep(50'000);
+    line.send(imu_line({milliseconds(1000 + 10 * i), 1.5, -0.25, 0.125}));
+    ASSERT_TRUE(wait_for(*imu, sample));
+    if (i > 0) {
+      EXPECT_NEAR(to_seconds(sample.stamp - last), 0.01, 0.005);
+    }
+    last = sample.stamp;
+    usleep(10'000);
+  }
+  EXPECT_EQ(sample.specific_force_forward, 1.5);
+  EXPECT_EQ(sample.specific_force_left, -0.25);
+  EXPECT_EQ(sample.yaw_rate, 0.125);
+  EXPECT_GT(sample.available - sample.stamp, milliseconds(20));
+  line.send(imu_line({milliseconds(1000), 0, 0, 0}));  // earlier
+  line.send("$PIMU,2.0,1.0,nan,0.1*00\r\n$PIMU,1,2,3*11\r\n" + imu_line({seconds(2), 900.0, 0, 0}));
+  EXPECT_FALSE(imu->wait(sample, milliseconds(200)));
+  EXPECT_EQ(imu->report().refused, 4U);
 }
 
 TEST(LiveVelodyne, MakesScansOfDatagrams) {

@@ -19,7 +19,7 @@
 namespace maploop::sensors {
 namespace {
 
-const Time begin = parse_time("2026-03-01 10:59:59.95");
+const Time before_the_hour = parse_time("2026-03-01 10:59:59.95");
 
 LidarScan recorded_scan() {
   std::ifstream file(testing::drive_0013() / "velodyne_points/data/0000000060.bin",
@@ -67,7 +67,7 @@ TEST(PacketEncoder, IsTheDecoderTheOtherWayRound) {
   int turns = 0;
   const Duration lasts = std::chrono::microseconds(103'500);
   for (int i = 0; i < 4; ++i) {
-    scan.start = begin + i * lasts;
+    scan.start = before_the_hour + i * lasts;
     scan.end = scan.start + lasts;
     encoder.encode(scan, turn);
     EXPECT_EQ(turn.points + turn.crowded, scan.points.size());
@@ -81,7 +81,7 @@ TEST(PacketEncoder, IsTheDecoderTheOtherWayRound) {
   EXPECT_EQ(decoder.counts().lost, 0u);
   EXPECT_EQ(decoder.counts().late, 0u);
   ASSERT_EQ(turns, 2);  // the first one was begun midway, the last one is not ended
-  EXPECT_NEAR(to_seconds(decoded.start - (begin + 2 * lasts)), 0.0, 1e-3);
+  EXPECT_NEAR(to_seconds(decoded.start - (before_the_hour + 2 * lasts)), 0.0, 1e-3);
   EXPECT_NEAR(to_seconds(decoded.stamp - decoded.start), 0.0517, 1e-3);
   EXPECT_NEAR(static_cast<double>(decoded.points.size()), static_cast<double>(turn.points), 100.0);
 

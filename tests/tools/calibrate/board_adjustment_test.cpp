@@ -10,8 +10,6 @@
 namespace maploop::calibrate {
 namespace {
 
-const Board board{9, 6, 0.03};
-
 class Adjusting : public ::testing::Test {
  protected:
   std::vector<View> views(std::size_t count, double sigma, std::uint32_t seed) const {

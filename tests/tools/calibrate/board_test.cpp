@@ -10,8 +10,6 @@
 namespace maploop::calibrate {
 namespace {
 
-const Board board{9, 6, 0.03};
-
 double rms_error(const Corners& found, const Corners& truth) {
   double squares = 0.0;
   for (std::size_t i = 0; i < found.size(); ++i) squares += (found[i] - truth[i]).squaredNorm();

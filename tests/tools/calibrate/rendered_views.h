@@ -11,6 +11,9 @@
 
 namespace maploop::calibrate {
 
+// Of nearly all tests.
+inline const Board board{9, 6, 0.03};
+
 inline testing::RenderedBoard rendered(const Board& board) {
   return {board.columns, board.rows, board.square};
 }

@@ -10,6 +10,7 @@
 #include "msgs/frames.h"
 #include "msgs/lcm/conversions.h"
 #include "tests/support/real_data.h"
+#include "tests/tools/match/refusal.h"
 #include "tools/lcm_log/log_writer.h"
 #include "tools/match/score_output.h"
 #include "tools/match/track_file.h"
@@ -17,21 +18,12 @@
 namespace maploop::match {
 namespace {
 
+using maploop::testing::refusal;
 using maploop::testing::TemporaryFolder;
 using ::testing::HasSubstr;
 
 constexpr Time start = from_nanoseconds(1'317'042'651'000'000'000);
 constexpr Duration tick = std::chrono::milliseconds(10);
-
-template <class Read>
-std::string refusal(Read&& read) {
-  try {
-    read();
-    return "accepted";
-  } catch (const std::runtime_error& e) {
-    return e.what();
-  }
-}
 
 class MatchLog : public ::testing::Test {
  protected:

@@ -8,21 +8,13 @@
 
 #include "msgs/frames.h"
 #include "tests/support/real_data.h"
+#include "tests/tools/match/refusal.h"
 
 namespace maploop::match {
 namespace {
 
+using maploop::testing::refusal;
 using ::testing::HasSubstr;
-
-template <class Parse>
-std::string refusal(Parse&& parse) {
-  try {
-    parse();
-    return "accepted";
-  } catch (const std::runtime_error& e) {
-    return e.what();
-  }
-}
 
 std::string csv_refusal(const std::string& text) {
   return refusal([&] { parse_csv_track(text, "a.csv", {}); });

@@ -12,6 +12,7 @@
 #include "tools/odometry/consistency.h"
 #include "tools/odometry/odometry_input.h"
 #include "tools/odometry/stereo_runs.h"
+#include "tools/odometry/track_writer.h"
 
 namespace maploop::odometry {
 namespace {
@@ -144,6 +145,8 @@ TEST_F(TrackFile, WhatIsWrittenIsReadBack) {
   recorded.add(2, 3, std::vector<stereo::StereoTrack>{{2, a, b}, {9, b, b}});
   const auto compressed = folder_.path() / "written.csv.gz";
   write_recorded_tracks(compressed, recorded);
+  std::ifstream written(compressed, std::ios::binary);
+  EXPECT_EQ(written.get(), 0x1f) << "not compressed";
   const RecordedTracks back = read_recorded_tracks(compressed);
   EXPECT_EQ(back.first_good_frame, 1u);
   EXPECT_EQ(back.stamps[3] - back.stamps[0], from_seconds(0.375));

@@ -13,6 +13,7 @@
 #include "mapmatch/osm_reader.h"
 #include "msgs/frames.h"
 #include "tests/support/real_data.h"
+#include "tools/simulate/route.h"
 
 namespace maploop::simulate {
 namespace {

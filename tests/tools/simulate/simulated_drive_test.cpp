@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -10,6 +11,7 @@
 #include <string>
 
 #include "sensors/replay/kitti_drive.h"
+#include "sensors/replay/velodyne_source.h"
 #include "tests/support/real_data.h"
 #include "tools/simulate/simulation.h"
 
@@ -41,7 +43,11 @@ class SimulatedDrive : public ::testing::Test {
  protected:
   fs::path folder(const char* name) const { return temporary_.path() / name; }
   static SimulationOptions a_second(unsigned threads) {
-    return {1.0, 7, ImuGrade::tactical, threads};
+    SimulationOptions options;
+    options.seconds = 1.0;
+    options.seed = 7;
+    options.threads = threads;
+    return options;
   }
 
   maploop::testing::TemporaryFolder temporary_;
@@ -81,6 +87,39 @@ TEST_F(SimulatedDrive, SameSeedSameBytesWhateverTheThreads) {
   EXPECT_THROW(simulate_drive(folder("one"), a_second(1)), std::runtime_error);
 }
 
+TEST_F(SimulatedDrive, PackedScansHoldTheSamePointsInATenthOfTheBytes) {
+  SimulationOptions options = a_second(1);
+  options.sensors = {false, true, false, false};
+  ASSERT_TRUE(simulate_drive(folder("plain"), options));
+  options.compact = true;
+  ASSERT_TRUE(simulate_drive(folder("compact"), options));
+  const auto scans = [&](const char* name) {
+    const fs::path velodyne = folder(name) / "town_sync/velodyne_points";
+    const auto stamps = [&](const char* file) { return sensors::read_timestamps(velodyne / file); };
+    return sensors::make_velodyne_source({velodyne / "data", stamps("timestamps_start.txt"),
+                                          stamps("timestamps.txt"), stamps("timestamps_end.txt")},
+                                         std::chrono::milliseconds(250));
+  };
+  const auto plain = scans("plain"), compact = scans("compact");
+  std::size_t count = 0;
+  for (LidarScan a, b; plain->next(a) && compact->next(b); ++count) {
+    ASSERT_EQ(a.points.size(), b.points.size());
+    for (std::size_t i = 0; i < a.points.size(); ++i) {
+      ASSERT_EQ(a.points[i].x, b.points[i].x);
+      ASSERT_EQ(a.points[i].z, b.points[i].z);
+      ASSERT_EQ(a.points[i].reflectance, b.points[i].reflectance);
+    }
+  }
+  EXPECT_EQ(count, 9U);
+  const auto size = [&](const char* name) {
+    std::uintmax_t sum = 0;
+    for (const auto& e : fs::recursive_directory_iterator(folder(name) / "town_sync"))
+      if (e.is_regular_file()) sum += e.file_size();
+    return sum;
+  };
+  EXPECT_LT(10 * size("compact"), size("plain"));
+}
+
 TEST_F(SimulatedDrive, BrokenOffNothingIsLeft) {
   EXPECT_FALSE(simulate_drive(folder("half"), a_second(2),
                               [](std::size_t done, std::size_t) { return done < 2; }));
@@ -88,8 +127,9 @@ TEST_F(SimulatedDrive, BrokenOffNothingIsLeft) {
 }
 
 TEST_F(SimulatedDrive, WhatCannotBeIsRefused) {
-  EXPECT_THROW(simulate_drive(folder("short"), {0.5, 1, ImuGrade::tactical, 1}),
-               std::invalid_argument);
+  SimulationOptions half = a_second(1);
+  half.seconds = 0.5;
+  EXPECT_THROW(simulate_drive(folder("short"), half), std::invalid_argument);
   EXPECT_THROW(simulate_drive("/proc/nowhere/town", a_second(1)), std::exception);
 }
 

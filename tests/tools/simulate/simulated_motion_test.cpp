@@ -7,6 +7,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "tools/simulate/route.h"
 #include "tools/simulate/street_index.h"
 #include "tools/simulate/traffic.h"
 

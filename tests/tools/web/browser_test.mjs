@@ -118,6 +118,12 @@ test("the dashboard follows a replay, controls it, and survives restarts of eith
   await page.locator(".strip").first().waitFor(patience);
   assert.ok((await page.locator(".strip").count()) >= 4);
   assert.ok(await page.locator(".place canvas").evaluate(isDrawn));
+  for (const view of ["camera", "scan"]) {
+    const canvas = page.locator(`.view.${view} canvas`);
+    await canvas.waitFor(patience);
+    assert.ok(await canvas.evaluate(isDrawn), view);
+  }
+  await page.getByText(/[1-9]\d* features followed/).waitFor(patience);
 
   const others = await Promise.all([open(phone, url), open(desktop, url)]);
   for (const other of others) await other.getByText("aided").waitFor(patience);
@@ -143,6 +149,27 @@ test("the dashboard follows a replay, controls it, and survives restarts of eith
   await page.getByText("No connection").waitFor(patience);
   dashboard = start("dashboard", "--port", port);
   await page.waitForFunction(() => document.querySelector(".notice").textContent === "", null, patience);
+  await stop(replay);
+  await stop(dashboard);
+});
+
+test("the dashboard shows the sky of a GNSS receiver and why satellites are not used", async (t) => {
+  const folder = join(process.env.MAPLOOP_DATA, "gnss/riverside_drive");
+  if (!existsSync(folder)) return t.skip(`SKIPPED, NOT TESTED: there is no ${folder}`);
+  const dashboard = start("dashboard", "--port", "0");
+  const url = (await firstLine(dashboard)).split(" ")[0];
+  const replay = start("replay", folder, "--speed", "20", "--loop", "0");
+  for (const [name, viewport] of Object.entries({ desktop, phone })) {
+    const page = await open(viewport, url);
+    await page.getByText(/Sky: \d+ of \d+ satellites/).waitFor(patience);
+    assert.ok(await page.locator(".view.sky canvas").evaluate(isDrawn));
+    await page.locator(".satellites tr").nth(4).waitFor(patience);
+    assert.match(await page.locator(".satellites").innerText(), /used/);
+    const overflow = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+    assert.ok(overflow <= 0, `${overflow} px beyond the edge of the ${name}`);
+    await page.screenshot({ path: join(pictures, `sky-${name}.png`) });
+    await page.close();
+  }
   await stop(replay);
   await stop(dashboard);
 });

@@ -4,16 +4,19 @@ import "./dashboard.css";
 import { element } from "./dom";
 import { listen, trail } from "./live";
 import { LiveMap } from "./live_map";
-import { showAids, showDeadlines, showHealth, showRoad, showState } from "./panels";
+import { showAids, showDeadlines, showHealth, showPpp, showRoad, showState } from "./panels";
 import { PlayerBar } from "./player";
+import { Views } from "./views";
 
 const silent_after = 3000; // ms
 
 const main = element("main", document.body);
-const place = element("section", main, "", "place");
+const left = element("div", main, "", "left");
+const place = element("section", left, "", "place");
 const canvas = element("canvas", place) as HTMLCanvasElement;
 const legend = element("div", place, "", "legend");
 for (const name of ["truth", "fused", "fixes", "matched"]) element("span", legend, name, name);
+const views = new Views(element("section", left, "", "views"));
 const side = element("aside", main);
 const notice = element("div", side, "Connecting…", "notice");
 
@@ -28,6 +31,8 @@ const aids = panel("Aids, newest inside");
 const road = panel("Road");
 road.className = "road";
 road.parentElement!.hidden = true; // until a map is matched
+const ppp = panel("Precise point positioning");
+ppp.parentElement!.hidden = true; // until there are observations
 const deadlines = panel("Deadlines");
 const health = panel("Health");
 const player = new PlayerBar(element("footer", document.body));
@@ -82,6 +87,12 @@ listen(
       map.addMatch(m);
       showRoad(road, m);
     },
+    PPP_STATE: (p) => {
+      ppp.parentElement!.hidden = false;
+      showPpp(ppp, p);
+      views.showSky(p);
+    },
+    PREVIEW: (p) => views.showPreview(p),
     DEADLINES: (d) => showDeadlines(deadlines, d),
     HEALTH: (h) => showHealth(health, h),
     REPLAY_CONTROL: (p) => player.show(p),

@@ -60,6 +60,66 @@ export interface MapMatch {
   candidates: Candidate[];
 }
 
+export interface Satellite {
+  name: string;
+  azimuth: number; // rad
+  elevation: number;
+  cn0: number; // dB-Hz
+  code_used: boolean;
+  phase_used: boolean;
+  refusal: number;
+}
+
+export interface PppState {
+  header: Header;
+  status: number; // 0 none, 1 converging, 2 converged
+  message: string;
+  position_covariance: number[][];
+  protection_along: number;
+  protection_across: number;
+  converging_for: number; // s
+  map: number; // 0 none, 1 aiding, 2 paused
+  roads_used: number;
+  roads_refused: number;
+  satellites_used: number;
+  satellites: Satellite[];
+}
+
+// By ppp_satellite_t.refusal.
+export const refusals = [
+  "",
+  "no code and phase on the carriers used",
+  "signal too weak",
+  "no orbit or clock, or unhealthy",
+  "below the elevation mask",
+  "no phase",
+  "code far from the others",
+  "code does not fit",
+  "phase does not fit",
+  "Doppler does not fit",
+  "no room for its ambiguity",
+];
+
+export function satelliteState(s: Satellite): "used" | "partly" | "refused" {
+  return s.code_used && s.phase_used ? "used" : s.code_used || s.phase_used ? "partly" : "refused";
+}
+
+export interface Preview {
+  header: Header;
+  width: number; // px; 0: no picture
+  height: number;
+  jpeg: string; // base64
+  track_count: number;
+  track_from_u: number[];
+  track_from_v: number[];
+  track_u: number[];
+  track_v: number[];
+  point_count: number; // 0: no scan
+  point_x: number[]; // cm: forward
+  point_y: number[]; // left
+  point_z: number[]; // up
+}
+
 export interface Latency {
   name: string;
   count: number;
@@ -107,6 +167,8 @@ export interface Messages {
   TRUTH: Pose;
   GNSS_FIX: Fix;
   MAP_MATCH: MapMatch;
+  PPP_STATE: PppState;
+  PREVIEW: Preview;
   DEADLINES: Deadlines;
   HEALTH: Health;
   REPLAY_CONTROL: Player;

@@ -109,7 +109,8 @@ export class MapView {
       for (const line of this.roads) this.stroke(line.x, line.y);
     }
     this.lines.forEach((line, i) => {
-      context.strokeStyle = colour(i);
+      context.strokeStyle = context.fillStyle = colour(i);
+      if (line.look === "points") return this.dots(line.x, line.y);
       context.setLineDash(line.look === "dashed" ? [6, 5] : []);
       context.lineWidth = 2;
       this.stroke(line.x, line.y);
@@ -117,6 +118,17 @@ export class MapView {
     context.setLineDash([]);
     this.extra(this, context);
     if (this.inMetres) this.drawScale();
+  }
+
+  dots(east: Numbers, north: Numbers): void {
+    const { context } = this;
+    for (let i = 0; i < east.length; ++i) {
+      const [e, n] = [east[i], north[i]];
+      if (e == null || n == null) continue;
+      context.beginPath();
+      context.arc(this.x(e), this.y(n), 2.5, 0, 2 * Math.PI);
+      context.fill();
+    }
   }
 
   stroke(east: Numbers, north: Numbers): void {

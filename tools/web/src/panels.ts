@@ -1,6 +1,16 @@
 // The panels beside the map.
 import { element, table } from "./dom";
-import type { Deadlines, Health, Latency, MapMatch, NavState } from "./live";
+import {
+  refusals,
+  satelliteState,
+  type Deadlines,
+  type Health,
+  type Latency,
+  type MapMatch,
+  type NavState,
+  type PppState,
+} from "./live";
+import { stateColours } from "./views";
 
 const statuses = ["waiting for a first fix", "aided", "coasting"];
 
@@ -51,6 +61,37 @@ export function showRoad(panel: HTMLElement, m: MapMatch): void {
   const p = document.createElement("p");
   p.textContent = `${phases[m.phase] ?? ""}: ${m.explanation}`;
   panel.prepend(p);
+}
+
+const solutions = ["no position", "converging", "converged"];
+const maps = ["says nothing yet", "corrects it across the road", "is left out for a while: it was a wrong road"];
+
+export function showPpp(panel: HTMLElement, p: PppState): void {
+  const sigma = (i: number) => Math.sqrt(p.position_covariance[i]?.[i] ?? NaN);
+  const satellites = [...p.satellites]
+    .sort((a, b) => b.elevation - a.elevation)
+    .map((s) => {
+      const state = satelliteState(s);
+      const dot = document.createElement("span");
+      dot.textContent = `● ${s.name}`;
+      dot.style.color = stateColours[state];
+      return [dot, `${degrees(s.elevation).toFixed(0)}°`, s.cn0.toFixed(0), refusals[s.refusal] || state];
+    });
+  const list = document.createElement("div");
+  list.className = "satellites";
+  table(list, ["", "elevation", "dB-Hz", "used, or why not"], satellites);
+  const rows = [["position", `${solutions[p.status] ?? ""} for ${p.converging_for.toFixed(0)} s`]];
+  if (p.status > 0) {
+    rows.push(["sigma east, north, up", `${sigma(0).toFixed(2)}, ${sigma(1).toFixed(2)}, ${sigma(2).toFixed(2)} m`]);
+    rows.push(["protection along, across", `${p.protection_along.toFixed(1)}, ${p.protection_across.toFixed(1)} m`]);
+  }
+  rows.push(["road map", maps[p.map] ?? ""]);
+  if (p.roads_used + p.roads_refused > 0) {
+    rows.push(["roads used, refused", `${p.roads_used}, ${p.roads_refused}`]);
+  }
+  table(panel, [], rows);
+  if (p.message) element("p", panel, p.message);
+  panel.append(list);
 }
 
 // A bar to the deadline: half of all, 99 of 100, the longest.

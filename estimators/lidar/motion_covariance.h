@@ -1,0 +1,39 @@
+// Covariances of motions: translation (m), then rotation vector (rad).
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "estimators/lidar/degeneracy.h"
+
+namespace maploop::lidar {
+
+// From body axes at the motion's end (right perturbation) to those at its begin.
+inline Matrix6d to_from_axes(const Matrix6d& covariance, const Eigen::Matrix3d& R_from_to) {
+  Matrix6d A = Matrix6d::Zero();
+  A.topLeftCorner<3, 3>() = A.bottomRightCorner<3, 3>() = R_from_to;
+  return A * covariance * A.transpose();
+}
+
+// The same perturbation of a motion, seen from where it goes on by T.
+inline Matrix6d carried_over(const Matrix6d& covariance, const Eigen::Isometry3d& T) {
+  const Eigen::Isometry3d back = T.inverse();
+  const Eigen::Vector3d t = back.translation();
+  Eigen::Matrix3d cross;
+  cross << 0.0, -t.z(), t.y(), t.z(), 0.0, -t.x(), -t.y(), t.x(), 0.0;
+  Matrix6d A = Matrix6d::Zero();
+  A.topLeftCorner<3, 3>() = A.bottomRightCorner<3, 3>() = back.linear();
+  A.topRightCorner<3, 3>() = cross * back.linear();
+  return A * covariance * A.transpose();
+}
+
+// What a way of `translation` is uncertain by across itself where the sensor that says it is
+// mounted as it is known to `sigma` (rad).
+inline Matrix6d mounting_covariance(const Eigen::Vector3d& translation, double sigma) {
+  Matrix6d covariance = Matrix6d::Zero();
+  covariance.topLeftCorner<3, 3>() = sigma * sigma *
+                                     (translation.squaredNorm() * Eigen::Matrix3d::Identity() -
+                                      translation * translation.transpose());
+  return covariance;
+}
+
+}  // namespace maploop::lidar

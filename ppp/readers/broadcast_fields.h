@@ -1,0 +1,295 @@
+// The fields of broadcast messages as bits: where they are, and their units.
+//
+// Sources: IS-GPS-200 (subframes 1 to 3), Galileo OS SIS ICD 2.0 (I/NAV words 1 to 5), BeiDou
+// BDS-SIS-ICD-B1I 3.0 (D1 subframes 1 to 3), GLONASS ICD 5.1 (strings 1 to 4), RTCM 10403.3 (1019,
+// 1020, 1042, 1044, 1045, 1046).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <optional>
+#include <span>
+
+#include "ppp/readers/navigation.h"
+#include "ppp/readers/rtcm3_frames.h"
+
+namespace maploop::ppp {
+
+enum class Quantity {
+  none,  // passed over
+  week,
+  toc,  // s of the week
+  toe,
+  toe_high,  // BeiDou's is in two subframes: the upper bits
+  af0,
+  af1,
+  af2,
+  iode,
+  crs,
+  delta_n,
+  m0,
+  cuc,
+  e,
+  cus,
+  sqrt_a,
+  cic,
+  omega0,
+  cis,
+  i0,
+  crc,
+  omega,
+  omega_dot,
+  i_dot,
+  group_delay,
+  second_group_delay,
+  accuracy,  // index
+  health,
+  e1_health,  // Galileo's, and whether the data are valid
+  e1_validity,
+  e5a_health,
+  e5a_validity,
+  e5b_health,
+  e5b_validity,
+  // GLONASS
+  channel,
+  day,       // of four years
+  interval,  // of 15 minutes, Moscow's
+  gamma,
+  tau,
+  x,
+  y,
+  z,
+  vx,
+  vy,
+  vz,
+  ax,
+  ay,
+  az,
+  count
+};
+using BroadcastValues = std::array<double, static_cast<std::size_t>(Quantity::count)>;
+
+enum class Coding { plain, twos_complement, sign_and_magnitude };
+
+struct BroadcastField {
+  Quantity what = Quantity::none;
+  int bits = 0;
+  double unit = 1.0;
+  Coding coding = Coding::plain;
+};
+
+// Each field in its order; those that are passed over leave `values` as they are.
+void read_fields(Rtcm3Bits& bits, std::span<const BroadcastField> fields, BroadcastValues& values);
+
+// `now`: a moment of the reception to within half a week (GLONASS: two years). Nothing where it can
+// be no orbit.
+std::optional<KeplerMessage> kepler_message(Satellite satellite, const BroadcastValues& values,
+                                            GpsTime now);
+std::optional<GlonassMessage> glonass_message(Satellite satellite, const BroadcastValues& values,
+                                              GpsTime now);
+
+namespace broadcast_fields {
+
+constexpr double power(int exponent) {
+  double value = 1.0;
+  for (; exponent < 0; ++exponent) value /= 2.0;
+  for (; exponent > 0; --exponent) value *= 2.0;
+  return value;
+}
+constexpr BroadcastField skip(int bits) {
+  return {Quantity::none, bits};
+}
+constexpr BroadcastField number(Quantity q, int bits, double unit = 1.0) {
+  return {q, bits, unit};
+}
+constexpr BroadcastField two(Quantity q, int bits, int exponent) {
+  return {q, bits, power(exponent), Coding::twos_complement};
+}
+// In semicircles.
+constexpr BroadcastField angle(Quantity q, int bits, int exponent) {
+  return {q, bits, power(exponent) * std::numbers::pi, Coding::twos_complement};
+}
+constexpr BroadcastField glonass(Quantity q, int bits, int exponent) {
+  return {q, bits, power(exponent) * 1e3, Coding::sign_and_magnitude};
+}
+
+using Q = Quantity;
+
+template <std::size_t... sizes>
+constexpr auto join(const std::array<BroadcastField, sizes>&... parts) {
+  std::array<BroadcastField, (sizes + ...)> all;
+  auto end = all.begin();
+  ((end = std::copy(parts.begin(), parts.end(), end)), ...);
+  return all;
+}
+
+// What GPS and Galileo say of an orbit has the same bits: around its time, and behind it.
+inline constexpr std::array orbit_before_toe{two(Q::crs, 16, -5),
+                                             angle(Q::delta_n, 16, -43),
+                                             angle(Q::m0, 32, -31),
+                                             two(Q::cuc, 16, -29),
+                                             number(Q::e, 32, power(-33)),
+                                             two(Q::cus, 16, -29),
+                                             number(Q::sqrt_a, 32, power(-19))};
+inline constexpr std::array orbit_behind_toe{two(Q::cic, 16, -29),        angle(Q::omega0, 32, -31),
+                                             two(Q::cis, 16, -29),        angle(Q::i0, 32, -31),
+                                             two(Q::crc, 16, -5),         angle(Q::omega, 32, -31),
+                                             angle(Q::omega_dot, 24, -43)};
+inline constexpr std::array gps_toe{number(Q::toe, 16, 16.0)};
+inline constexpr auto gps_orbit = join(orbit_before_toe, gps_toe, orbit_behind_toe);
+inline constexpr std::array gps_clock{number(Q::toc, 16, 16.0), two(Q::af2, 8, -55),
+                                      two(Q::af1, 16, -43), two(Q::af0, 22, -31)};
+
+// --- IS-GPS-200; without parity, behind the handover word.
+inline constexpr auto gps_subframe_1 =
+    join(std::array{number(Q::week, 10), skip(2), number(Q::accuracy, 4), number(Q::health, 6),
+                    skip(2 + 1 + 87), two(Q::group_delay, 8, -31), skip(8)},
+         gps_clock);
+inline constexpr auto gps_subframe_2 =
+    join(std::array{number(Q::iode, 8)}, orbit_before_toe, gps_toe);
+inline constexpr auto gps_subframe_3 =
+    join(orbit_behind_toe, std::array{skip(8), angle(Q::i_dot, 14, -43)});
+
+// --- RTCM, behind the satellite's number.
+inline constexpr auto rtcm_1019 =
+    join(std::array{number(Q::week, 10), number(Q::accuracy, 4), skip(2), angle(Q::i_dot, 14, -43),
+                    number(Q::iode, 8)},
+         gps_clock, std::array{skip(10)}, gps_orbit,
+         std::array{two(Q::group_delay, 8, -31), number(Q::health, 6)});
+inline constexpr auto rtcm_1044 =
+    join(gps_clock, std::array{number(Q::iode, 8)}, gps_orbit,
+         std::array{angle(Q::i_dot, 14, -43), skip(2), number(Q::week, 10), number(Q::accuracy, 4),
+                    number(Q::health, 6), two(Q::group_delay, 8, -31)});
+inline constexpr std::array rtcm_1042{
+    number(Q::week, 13),
+    number(Q::accuracy, 4),
+    angle(Q::i_dot, 14, -43),
+    number(Q::iode, 5),
+    number(Q::toc, 17, 8.0),
+    two(Q::af2, 11, -66),
+    two(Q::af1, 22, -50),
+    two(Q::af0, 24, -33),
+    skip(5),
+    two(Q::crs, 18, -6),
+    angle(Q::delta_n, 16, -43),
+    angle(Q::m0, 32, -31),
+    two(Q::cuc, 18, -31),
+    number(Q::e, 32, power(-33)),
+    two(Q::cus, 18, -31),
+    number(Q::sqrt_a, 32, power(-19)),
+    number(Q::toe, 17, 8.0),
+    two(Q::cic, 18, -31),
+    angle(Q::omega0, 32, -31),
+    two(Q::cis, 18, -31),
+    angle(Q::i0, 32, -31),
+    two(Q::crc, 18, -6),
+    angle(Q::omega, 32, -31),
+    angle(Q::omega_dot, 24, -43),
+    BroadcastField{Q::group_delay, 10, 1e-10, Coding::twos_complement},
+    BroadcastField{Q::second_group_delay, 10, 1e-10, Coding::twos_complement},
+    number(Q::health, 1)};
+// 1045 and 1046 up to the first group delay.
+inline constexpr auto rtcm_galileo =
+    join(std::array{number(Q::week, 12), number(Q::iode, 10), number(Q::accuracy, 8),
+                    angle(Q::i_dot, 14, -43), number(Q::toc, 14, 60.0), two(Q::af2, 6, -59),
+                    two(Q::af1, 21, -46), two(Q::af0, 31, -34)},
+         orbit_before_toe, std::array{number(Q::toe, 14, 60.0)}, orbit_behind_toe,
+         std::array{two(Q::group_delay, 10, -32)});
+inline constexpr std::array rtcm_1045_end{number(Q::e5a_health, 2), number(Q::e5a_validity, 1)};
+inline constexpr std::array rtcm_1046_end{two(Q::second_group_delay, 10, -32),
+                                          number(Q::e5b_health, 2), number(Q::e5b_validity, 1),
+                                          number(Q::e1_health, 2), number(Q::e1_validity, 1)};
+inline constexpr std::array rtcm_1020{
+    number(Q::channel, 5),
+    skip(1 + 1 + 2 + 12),
+    number(Q::health, 1),
+    skip(1),
+    number(Q::interval, 7),
+    glonass(Q::vx, 24, -20),
+    glonass(Q::x, 27, -11),
+    glonass(Q::ax, 5, -30),
+    glonass(Q::vy, 24, -20),
+    glonass(Q::y, 27, -11),
+    glonass(Q::ay, 5, -30),
+    glonass(Q::vz, 24, -20),
+    glonass(Q::z, 27, -11),
+    glonass(Q::az, 5, -30),
+    skip(1),
+    BroadcastField{Q::gamma, 11, power(-40), Coding::sign_and_magnitude},
+    skip(2 + 1),
+    BroadcastField{Q::tau, 22, power(-30), Coding::sign_and_magnitude},
+    skip(5 + 5 + 1 + 4),
+    number(Q::day, 11)};
+
+// --- Galileo I/NAV words, behind the type.
+inline constexpr std::array galileo_word_1{number(Q::iode, 10), number(Q::toe, 14, 60.0),
+                                           angle(Q::m0, 32, -31), number(Q::e, 32, power(-33)),
+                                           number(Q::sqrt_a, 32, power(-19))};
+inline constexpr std::array galileo_word_2{skip(10), angle(Q::omega0, 32, -31),
+                                           angle(Q::i0, 32, -31), angle(Q::omega, 32, -31),
+                                           angle(Q::i_dot, 14, -43)};
+inline constexpr std::array galileo_word_3{skip(10),
+                                           angle(Q::omega_dot, 24, -43),
+                                           angle(Q::delta_n, 16, -43),
+                                           two(Q::cuc, 16, -29),
+                                           two(Q::cus, 16, -29),
+                                           two(Q::crc, 16, -5),
+                                           two(Q::crs, 16, -5),
+                                           number(Q::accuracy, 8)};
+inline constexpr std::array galileo_word_4{
+    skip(10 + 6),         two(Q::cic, 16, -29), two(Q::cis, 16, -29), number(Q::toc, 14, 60.0),
+    two(Q::af0, 31, -34), two(Q::af1, 21, -46), two(Q::af2, 6, -59)};
+inline constexpr std::array galileo_word_5{
+    skip(11 + 11 + 14 + 5),    two(Q::group_delay, 10, -32), two(Q::second_group_delay, 10, -32),
+    number(Q::e5b_health, 2),  number(Q::e1_health, 2),      number(Q::e5b_validity, 1),
+    number(Q::e1_validity, 1), number(Q::week, 12)};
+
+// --- BeiDou D1; without parity, behind the second of the week.
+inline constexpr std::array beidou_subframe_1{
+    number(Q::health, 1),
+    skip(5),
+    number(Q::accuracy, 4),
+    number(Q::week, 13),
+    number(Q::toc, 17, 8.0),
+    BroadcastField{Q::group_delay, 10, 1e-10, Coding::twos_complement},
+    BroadcastField{Q::second_group_delay, 10, 1e-10, Coding::twos_complement},
+    skip(64),
+    two(Q::af2, 11, -66),
+    two(Q::af0, 24, -33),
+    two(Q::af1, 22, -50),
+    number(Q::iode, 5)};
+inline constexpr std::array beidou_subframe_2{angle(Q::delta_n, 16, -43),
+                                              two(Q::cuc, 18, -31),
+                                              angle(Q::m0, 32, -31),
+                                              number(Q::e, 32, power(-33)),
+                                              two(Q::cus, 18, -31),
+                                              two(Q::crc, 18, -6),
+                                              two(Q::crs, 18, -6),
+                                              number(Q::sqrt_a, 32, power(-19)),
+                                              number(Q::toe_high, 2, 8.0 * 32768.0)};
+inline constexpr std::array beidou_subframe_3{
+    number(Q::toe, 15, 8.0),      angle(Q::i0, 32, -31),   two(Q::cic, 18, -31),
+    angle(Q::omega_dot, 24, -43), two(Q::cis, 18, -31),    angle(Q::i_dot, 14, -43),
+    angle(Q::omega0, 32, -31),    angle(Q::omega, 32, -31)};
+
+// --- GLONASS strings, behind their number.
+inline constexpr std::array glonass_string_1{skip(2 + 2 + 12), glonass(Q::vx, 24, -20),
+                                             glonass(Q::ax, 5, -30), glonass(Q::x, 27, -11)};
+inline constexpr std::array glonass_string_2{number(Q::health, 1),    skip(2 + 1),
+                                             number(Q::interval, 7),  skip(5),
+                                             glonass(Q::vy, 24, -20), glonass(Q::ay, 5, -30),
+                                             glonass(Q::y, 27, -11)};
+inline constexpr std::array glonass_string_3{
+    skip(1),
+    BroadcastField{Q::gamma, 11, power(-40), Coding::sign_and_magnitude},
+    skip(1 + 2 + 1),
+    glonass(Q::vz, 24, -20),
+    glonass(Q::az, 5, -30),
+    glonass(Q::z, 27, -11)};
+inline constexpr std::array glonass_string_4{
+    BroadcastField{Q::tau, 22, power(-30), Coding::sign_and_magnitude},
+    skip(5 + 5 + 14 + 1 + 4 + 3), number(Q::day, 11)};
+
+}  // namespace broadcast_fields
+}  // namespace maploop::ppp

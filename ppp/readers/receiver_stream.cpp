@@ -1,0 +1,87 @@
+#include "ppp/readers/receiver_stream.h"
+
+#include "ppp/readers/epoch_order.h"
+#include "ppp/readers/rtcm3_ephemeris.h"
+
+namespace maploop::ppp {
+namespace {
+
+// Of all satellites there are at most a few new ones between two epochs.
+constexpr std::size_t most_messages = 512;
+
+}  // namespace
+
+void ReceiverStream::push(std::span<const std::uint8_t> bytes) {
+  const auto* text = reinterpret_cast<const char*>(bytes.data());
+  ubx_.append(text, bytes.size());
+  rtcm_.append(text, bytes.size());
+}
+
+void ReceiverStream::restart() {
+  ubx_.clear();
+  rtcm_.clear();
+}
+
+template <class Frames, class Frame>
+bool ReceiverStream::scan(std::string& bytes, std::uint64_t& sound, std::uint64_t& damaged,
+                          Epoch& epoch) {
+  Frames frames(bytes, true);
+  bool whole = false;
+  for (Frame frame; !whole && frames.next(frame);) {
+    ++sound;
+    problem_.clear();
+    whole = take(frame, epoch);
+    counts_.unusable += problem_.empty() ? 0 : 1;
+    navigation_.limit(most_messages);
+  }
+  damaged += frames.damaged();
+  bytes.erase(0, frames.taken());
+  return whole;
+}
+
+// RTCM first: where a receiver sends both, ephemerides are there before the epoch behind them.
+bool ReceiverStream::next(Epoch& epoch) {
+  return scan<Rtcm3Frames, Rtcm3Message>(rtcm_, counts_.rtcm, rtcm_damaged_, epoch) ||
+         scan<UbxFrames, UbxFrame>(ubx_, counts_.ubx, ubx_damaged_, epoch);
+}
+
+bool ReceiverStream::take(const UbxFrame& frame, Epoch& epoch) {
+  // Without a time, whose week it is is not known.
+  if (has_epoch_ && subframes_.add(frame, now_, navigation_)) return false;
+  return rawx_.decode(frame, epoch, problem_) && is_later(epoch);
+}
+
+bool ReceiverStream::take(const Rtcm3Message& message, Epoch& epoch) {
+  if (const auto week = has_week_ ? std::nullopt : week_of(message)) {
+    has_week_ = true;
+    if (std::chrono::abs(*week - now_) > std::chrono::hours(24 * 7)) {
+      now_ = *week;
+      left_out_before_ += msm_.left_out();
+      msm_ = MsmDecoder(now_);
+    }
+  }
+  if (add_ephemeris(message, now_, navigation_)) return false;
+  return msm_.decode(message, epoch, problem_) && is_later(epoch);
+}
+
+bool ReceiverStream::is_later(const Epoch& epoch) {
+  if (has_epoch_ && is_repeated(epoch.time, now_)) {
+    ++counts_.repeated;
+    return false;
+  }
+  now_ = epoch.time;
+  has_epoch_ = true;
+  return true;
+}
+
+// Of frames of the other kind each finds begins in this one's: they are no damage.
+ReceiverStreamCounts ReceiverStream::counts() const {
+  ReceiverStreamCounts c = counts_;
+  c.unusable += static_cast<std::uint64_t>(navigation_.refused);
+  c.left_out = static_cast<std::uint64_t>(rawx_.left_out() + left_out_before_ + msm_.left_out());
+  if (c.ubx > 0 || c.rtcm == 0) c.damaged += ubx_damaged_;
+  if (c.rtcm > 0) c.damaged += rtcm_damaged_;
+  return c;
+}
+
+}  // namespace maploop::ppp

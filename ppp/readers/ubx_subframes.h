@@ -1,0 +1,39 @@
+// Broadcast ephemerides from the subframes that a u-blox receiver hands on (UBX-RXM-SFRBX).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+
+#include "ppp/readers/broadcast_fields.h"
+#include "ppp/readers/navigation.h"
+#include "ppp/readers/ubx_frames.h"
+
+namespace maploop::ppp {
+
+// GPS and QZSS L1 C/A, Galileo I/NAV (E1-B and E5b), BeiDou D1 (B1I; not of geostationary
+// satellites), GLONASS L1 and L2. One receiver's messages in their order.
+class SubframeCollector {
+ public:
+  // Adds what becomes whole to `to`; false where the frame is no SFRBX message. What has a wrong
+  // checksum (Galileo), or cannot be an orbit, is refused there. `now` as in broadcast_fields.h.
+  bool add(const UbxFrame& frame, GpsTime now, NavigationFile& to);
+
+ private:
+  struct Parts {
+    BroadcastValues values{};
+    unsigned seen = 0;           // a bit each
+    std::array<int, 6> issue{};  // of each part, where it says so
+  };
+
+  void add_gps(Satellite satellite, std::string_view words, GpsTime now, NavigationFile& to);
+  void add_galileo(Satellite satellite, std::string_view words, std::size_t offset, GpsTime now,
+                   NavigationFile& to);
+  void add_beidou(Satellite satellite, std::string_view words, GpsTime now, NavigationFile& to);
+  void add_glonass(Satellite satellite, int channel, std::string_view words, GpsTime now,
+                   NavigationFile& to);
+
+  std::map<Satellite, Parts> parts_;
+};
+
+}  // namespace maploop::ppp

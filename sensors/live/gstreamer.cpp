@@ -1,0 +1,30 @@
+#include "sensors/live/gstreamer.h"
+
+#include <stdexcept>
+
+namespace maploop::sensors {
+
+GstOwned<GstElement> parse_pipeline(const std::string& whole, const std::string& given) {
+  static const bool ready = (gst_init(nullptr, nullptr), true);
+  static_cast<void>(ready);
+  GError* raw_error = nullptr;
+  GstElement* pipeline =
+      gst_parse_launch_full(whole.c_str(), nullptr, GST_PARSE_FLAG_FATAL_ERRORS, &raw_error);
+  const GstOwned<GError> error(raw_error);
+  if (pipeline == nullptr) {
+    throw std::invalid_argument("'" + given +
+                                "' is no pipeline: " + (error ? error->message : "it is empty") +
+                                "; gst-launch-1.0 tries one, gst-inspect-1.0 lists the elements");
+  }
+  // A floating reference, which has no owner yet.
+  return GstOwned<GstElement>(GST_ELEMENT(gst_object_ref_sink(pipeline)));
+}
+
+std::string error_text(GstMessage* message) {
+  GError* error = nullptr;
+  gst_message_parse_error(message, &error, nullptr);
+  const GstOwned<GError> owned(error);
+  return error->message;
+}
+
+}  // namespace maploop::sensors

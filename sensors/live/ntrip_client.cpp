@@ -1,0 +1,126 @@
+#include "sensors/live/ntrip_client.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include "sensors/clock/host_clock.h"
+
+namespace maploop::sensors {
+namespace {
+
+using std::chrono::seconds;
+
+constexpr Duration first_pause = seconds(1), longest_pause = seconds(60);
+constexpr Duration longest_quiet = seconds(60);
+constexpr Duration between_positions = seconds(10);
+
+MonotonicTime steady_now() {
+  return std::chrono::time_point_cast<Duration>(std::chrono::steady_clock::now());
+}
+
+Duration utc_of_day() {
+  return HostClock().now().time_since_epoch() % std::chrono::hours(24);
+}
+
+}  // namespace
+
+void NtripClient::give_up(std::string problem) {
+  pause_ = pause_ == Duration::zero() ? first_pause : std::min(2 * pause_, longest_pause);
+  state_.open = false;
+  state_.problem = std::move(problem);
+  // With the lookup: the name may have another address by then.
+  connection_.reset();
+  lookup_.reset();
+  unread_ = {};
+  greeted_ = 0;
+  next_lookup_ = steady_now() + pause_;
+}
+
+bool NtripClient::find_host(Duration patience) {
+  if (connection_) return true;
+  const MonotonicTime now = steady_now();
+  if (now < next_lookup_) {
+    std::this_thread::sleep_for(std::min(patience, next_lookup_ - now));
+    return false;
+  }
+  if (!lookup_) lookup_.emplace(address_.host);
+  const auto answer = lookup_->answer();
+  if (!answer) {
+    std::this_thread::sleep_for(patience);
+    return false;
+  }
+  if (!answer->problem.empty()) {
+    give_up("host '" + address_.host + "' " + answer->problem);
+    return false;
+  }
+  connection_ = std::make_unique<Connection>(
+      parse_endpoint("tcp://" + answer->address + ":" + std::to_string(address_.port)));
+  return true;
+}
+
+void NtripClient::greet() {
+  greeted_ = connection_->state().opened;
+  reply_ = {};
+  heard_ = said_ = steady_now();
+  if (!connection_->write(ntrip_request(address_, utc_of_day()))) {
+    give_up("does not take the request");
+  }
+}
+
+void NtripClient::say_position() {
+  const MonotonicTime now = steady_now();
+  if (!address_.position || !state_.open || now - said_ < between_positions) return;
+  said_ = now;
+  connection_->write(ntrip_gga(*address_.position, utc_of_day()));
+}
+
+std::size_t NtripClient::read(std::span<std::uint8_t> to, Duration patience) {
+  const MonotonicTime end = steady_now() + patience;
+  do {
+    if (!find_host(end - steady_now())) continue;
+    if (unread_.empty()) {
+      const std::size_t size = connection_->read(buffer_, end - steady_now());
+      unread_ = std::span(buffer_).first(size);
+    }
+    const ConnectionState& below = connection_->state();
+    if (below.opened > greeted_ && below.open) {
+      greet();
+      continue;
+    }
+    if (!below.open && unread_.empty()) {
+      // While it connects nothing is wrong yet.
+      if (!below.problem.empty()) give_up(below.problem);
+      continue;
+    }
+    const std::size_t size = reply_.take(unread_, to);
+    const NtripReply::State reply = reply_.state();
+    const bool streams = reply == NtripReply::State::stream || reply == NtripReply::State::ended;
+    if (streams && !state_.open) {
+      state_.open = true;
+      ++state_.opened;
+      state_.problem.clear();
+    }
+    if (reply == NtripReply::State::refused) give_up(reply_.problem());
+    if (reply == NtripReply::State::ended) give_up("has ended the stream");
+    if (size > 0) {
+      state_.bytes += size;
+      pause_ = {};
+      heard_ = steady_now();
+      return size;
+    }
+    if (connection_ && steady_now() - heard_ > longest_quiet) {
+      give_up("has been silent for a minute");
+    }
+    if (connection_) say_position();
+  } while (steady_now() < end);
+  return 0;
+}
+
+std::unique_ptr<ByteStream> open_stream(std::string_view text) {
+  if (is_ntrip(text)) return std::make_unique<NtripClient>(parse_ntrip(text));
+  return std::make_unique<Connection>(parse_endpoint(text));
+}
+
+}  // namespace maploop::sensors

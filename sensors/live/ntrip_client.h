@@ -1,0 +1,53 @@
+// The stream of a mountpoint of an NTRIP caster.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "sensors/live/connection.h"
+#include "sensors/live/name_lookup.h"
+#include "sensors/live/ntrip_reply.h"
+#include "sensors/live/ntrip_request.h"
+
+namespace maploop::sensors {
+
+// Asks by itself, and again where the caster refuses, ends the stream, or is silent for a minute:
+// after one second, two, four, up to a minute. A name is looked up each time. Not encrypted, as
+// NTRIP's port 2101 is. state().open: the caster sends the stream.
+class NtripClient final : public ByteStream {
+ public:
+  explicit NtripClient(NtripAddress address) : address_(std::move(address)) {}
+
+  std::size_t read(std::span<std::uint8_t> to, Duration patience) override;
+  const ConnectionState& state() const override { return state_; }
+  const std::string& name() const override { return address_.text; }
+
+ private:
+  bool find_host(Duration patience);
+  void greet();
+  void say_position();
+  void give_up(std::string problem);
+
+  NtripAddress address_;
+  ConnectionState state_;
+  std::optional<NameLookup> lookup_;
+  std::unique_ptr<Connection> connection_;  // nullptr: the address is not known
+  std::uint64_t greeted_ = 0;               // the connection's opening that the request went to
+  NtripReply reply_;
+  std::array<std::uint8_t, 2048> buffer_{};
+  std::span<const std::uint8_t> unread_;
+  Duration pause_{};  // before the next attempt
+  MonotonicTime next_lookup_{};
+  MonotonicTime heard_{};  // bytes of the stream, or the connection
+  MonotonicTime said_{};   // the position
+};
+
+// An endpoint (endpoint.h), or an NTRIP mountpoint. Throws std::invalid_argument as these do.
+std::unique_ptr<ByteStream> open_stream(std::string_view text);
+
+}  // namespace maploop::sensors

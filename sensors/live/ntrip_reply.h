@@ -1,0 +1,48 @@
+// What an NTRIP caster answers, and the stream inside it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace maploop::sensors {
+
+// Of version 1 ("ICY 200 OK", then the stream) and of version 2 (HTTP 1.1, chunked or not). One
+// thread at a time; memory is that of the answer's head, which is limited.
+class NtripReply {
+ public:
+  enum class State : std::uint8_t {
+    head,    // of the answer, not whole yet
+    stream,  // takes it
+    ended,   // the caster has said that no more comes
+    refused  // problem() says why
+  };
+
+  // Takes bytes off `from`, and copies those of the stream to `to`; returns how many. Call again
+  // while `from` is not empty; after `ended` and `refused` everything is taken, and nothing copied.
+  std::size_t take(std::span<const std::uint8_t>& from, std::span<std::uint8_t> to);
+
+  State state() const { return state_; }
+  const std::string& problem() const { return problem_; }
+
+ private:
+  enum class Chunk : std::uint8_t { size, data, end };
+
+  void take_head(std::span<const std::uint8_t>& from);
+  void judge_head();
+  void take_size(std::uint8_t c);
+  void refuse(std::string problem);
+
+  State state_ = State::head;
+  std::string head_;
+  std::string problem_;
+  bool chunked_ = false;
+  Chunk chunk_ = Chunk::size;
+  std::uint64_t left_ = 0;       // of a chunk
+  std::size_t size_digits_ = 0;  // of its length
+  std::size_t size_line_ = 0;    // bytes of the line with the length
+  bool extension_ = false;       // behind the length
+};
+
+}  // namespace maploop::sensors

@@ -1,0 +1,149 @@
+#include "sensors/live/ntrip_request.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "msgs/frames.h"
+
+namespace maploop::sensors {
+namespace {
+
+constexpr std::string_view ntrip_scheme = "ntrip://";
+
+[[noreturn]] void refuse_address(const std::string& shown, const std::string& why) {
+  throw std::invalid_argument(
+      "'" + shown + "': " + why +
+      "; an NTRIP mountpoint is ntrip://[USER[:PASSWORD]@]HOST[:PORT]/MOUNTPOINT, then, if need "
+      "be, ?version=1 and ?gga=LATITUDE,LONGITUDE,HEIGHT with & between");
+}
+
+// The part before `end`, taken off with it; all of it where there is no `end`.
+std::string_view take_until(std::string_view& text, char end) {
+  const std::size_t at = text.find(end);
+  const std::string_view part = text.substr(0, at);
+  text.remove_prefix(at == std::string_view::npos ? text.size() : at + 1);
+  return part;
+}
+
+template <class T>
+bool read_all(std::string_view text, T& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+std::optional<Geodetic> read_position(std::string_view text) {
+  double latitude = 0.0, longitude = 0.0, height = 0.0;
+  if (!read_all(take_until(text, ','), latitude) || !read_all(take_until(text, ','), longitude) ||
+      !read_all(text, height) || !(std::abs(latitude) <= 90.0 && std::abs(longitude) <= 180.0) ||
+      !(std::abs(height) < 1e5)) {
+    return {};
+  }
+  return Geodetic{radians(latitude), radians(longitude), height};
+}
+
+bool printable(std::string_view text) {
+  return std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c <= '~'; });
+}
+
+std::string base64(std::string_view text) {
+  constexpr std::string_view digits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); i += 3) {
+    std::uint32_t bits = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      bits = bits << 8 | (i + k < text.size() ? static_cast<std::uint8_t>(text[i + k]) : 0U);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      out += i + k > text.size() ? '=' : digits[bits >> (18 - 6 * k) & 63U];
+    }
+  }
+  return out;
+}
+
+// "4858.95000,N"
+std::string angle_field(double value, int degree_digits, const char* signs) {
+  const double minutes = std::abs(degrees(value)) * 60.0;
+  const int whole = static_cast<int>(minutes / 60.0);
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%0*d%010.7f,%c", degree_digits, whole,
+                std::min(minutes - 60.0 * whole, 59.9999999), value < 0.0 ? signs[1] : signs[0]);
+  return text.data();
+}
+
+}  // namespace
+
+bool is_ntrip(std::string_view text) {
+  return text.starts_with(ntrip_scheme);
+}
+
+NtripAddress parse_ntrip(std::string_view text) {
+  NtripAddress a;
+  std::string_view rest = text.substr(std::min(text.size(), ntrip_scheme.size()));
+  // A password may hold anything but a line's end; what follows the last @ is the host.
+  const std::size_t at = rest.rfind('@');
+  std::string_view who = at == std::string_view::npos ? std::string_view{} : rest.substr(0, at);
+  if (at != std::string_view::npos) rest.remove_prefix(at + 1);
+  a.user = take_until(who, ':');
+  a.password = who;
+  a.text = std::string(ntrip_scheme) + (a.user.empty() ? "" : a.user + "@") + std::string(rest);
+  if (!is_ntrip(text)) refuse_address(a.text, "is none");
+  if (!printable(text)) refuse_address(a.text, "has characters that no address has");
+  const bool has_mountpoint = rest.find('/') != std::string_view::npos;
+  std::string_view host = take_until(rest, '/');
+  a.host = take_until(host, ':');
+  if (!host.empty() && (!read_all(host, a.port) || a.port == 0)) {
+    refuse_address(a.text, "has no port between 1 and 65535");
+  }
+  a.mountpoint = take_until(rest, '?');
+  if (a.host.empty()) refuse_address(a.text, "names no host");
+  if (!has_mountpoint || a.mountpoint.empty()) refuse_address(a.text, "names no mountpoint");
+  while (!rest.empty()) {
+    std::string_view value = take_until(rest, '&');
+    const std::string_view key = take_until(value, '=');
+    if (key == "version" && (value == "1" || value == "2")) {
+      a.version = value == "1" ? 1 : 2;
+      continue;
+    }
+    if (key == "gga") a.position = read_position(value);
+    if (key != "gga" || !a.position) {
+      refuse_address(a.text,
+                     "does not understand '" + std::string(key) + "=" + std::string(value) + "'");
+    }
+  }
+  return a;
+}
+
+std::string ntrip_gga(const Geodetic& p, Duration time_of_day) {
+  const auto seconds = static_cast<long>(time_of_day / std::chrono::seconds(1));
+  std::array<char, 160> text{};
+  std::snprintf(text.data(), text.size(), "GPGGA,%02ld%02ld%02ld.00,%s,%s,1,10,1.0,%.3f,M,0.0,M,,",
+                seconds / 3600 % 24, seconds / 60 % 60, seconds % 60,
+                angle_field(p.latitude, 2, "NS").c_str(), angle_field(p.longitude, 3, "EW").c_str(),
+                p.height);
+  unsigned sum = 0;
+  for (const char* c = text.data(); *c != '\0'; ++c) sum ^= static_cast<unsigned char>(*c);
+  std::array<char, 8> end{};
+  std::snprintf(end.data(), end.size(), "*%02X\r\n", sum);
+  return "$" + std::string(text.data()) + end.data();
+}
+
+std::string ntrip_request(const NtripAddress& a, Duration time_of_day) {
+  const bool second = a.version == 2;
+  std::string text = "GET /" + a.mountpoint + (second ? " HTTP/1.1\r\n" : " HTTP/1.0\r\n");
+  if (second) {
+    text += "Host: " + a.host + ":" + std::to_string(a.port) + "\r\nNtrip-Version: Ntrip/2.0\r\n";
+    if (a.position) text += "Ntrip-GGA: " + ntrip_gga(*a.position, time_of_day);
+  }
+  text += "User-Agent: NTRIP maploop\r\nAccept: */*\r\n";
+  if (!a.user.empty()) {
+    text += "Authorization: Basic " + base64(a.user + ":" + a.password) + "\r\n";
+  }
+  return text + "Connection: close\r\n\r\n";
+}
+
+}  // namespace maploop::sensors

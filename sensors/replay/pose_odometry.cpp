@@ -1,0 +1,126 @@
+#include "sensors/replay/pose_odometry.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "msgs/frames.h"
+#include "sensors/replay/files.h"
+
+namespace maploop::sensors {
+namespace {
+
+constexpr double rotation_tolerance = 1e-3;  // files are rounded
+
+Eigen::Isometry3d pose_of(const double* numbers) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.affine() = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(numbers);
+  const Eigen::Matrix3d off =
+      pose.linear().transpose() * pose.linear() - Eigen::Matrix3d::Identity();
+  if (off.cwiseAbs().maxCoeff() > rotation_tolerance || pose.linear().determinant() < 0.0)
+    throw std::invalid_argument("the left 3x3 block is not a rotation matrix");
+  return pose;
+}
+
+void add_line(std::string_view line, CameraPoses& all) {
+  const std::vector<double> numbers = parse_numbers(line);
+  if (numbers.size() != 12 && numbers.size() != 13) {
+    throw std::invalid_argument("a pose has 12 numbers (3x4, row by row) or the frame's before " +
+                                std::string("them, this line has ") +
+                                std::to_string(numbers.size()));
+  }
+  std::size_t frame = all.frames.size();
+  if (numbers.size() == 13) {
+    if (!(numbers[0] >= 0.0 && numbers[0] < 1e9))
+      throw std::invalid_argument("the frame's number is none");
+    frame = static_cast<std::size_t>(numbers[0]);
+  }
+  if (!all.frames.empty() && frame <= all.frames.back())
+    throw std::invalid_argument("frame " + std::to_string(frame) + " comes after frame " +
+                                std::to_string(all.frames.back()));
+  all.poses.push_back(pose_of(numbers.data() + numbers.size() - 12));
+  all.frames.push_back(frame);
+}
+
+class PoseOdometry final : public Source<RelativeMotion> {
+ public:
+  PoseOdometry(std::shared_ptr<const CameraPoses> poses, std::vector<Time> stamps,
+               const Eigen::Isometry3d& T_body_cam, const PoseOdometryParameters& parameters,
+               Duration delay)
+      : poses_(std::move(poses)),
+        stamps_(std::move(stamps)),
+        T_body_cam_(T_body_cam),
+        parameters_(parameters),
+        delay_(delay) {}
+
+  bool next(RelativeMotion& motion) override {
+    if (next_ == poses_->frames.size()) return false;
+    motion = {};
+    const std::size_t frame = poses_->frames[next_];
+    motion.stamp = stamps_[frame];
+    motion.available = motion.stamp + delay_;
+    motion.sequence = frame;
+    if (next_ > 0) describe(motion);
+    ++next_;
+    ++report_.delivered;
+    return true;
+  }
+
+  const SourceReport& report() const override { return report_; }
+
+ private:
+  void describe(RelativeMotion& motion) const {
+    motion.status = OdometryStatus::ok;
+    motion.from = stamps_[poses_->frames[next_ - 1]];
+    const Eigen::Isometry3d T = T_body_cam_ * poses_->poses[next_ - 1].inverse() *
+                                poses_->poses[next_] * T_body_cam_.inverse();
+    motion.translation = T.translation();
+    motion.rotation = Eigen::Quaterniond(T.linear()).normalized();
+    const double translation_sigma =
+        parameters_.speed_sigma * to_seconds(motion.stamp - motion.from);
+    const double rotation_sigma = radians(parameters_.rotation_sigma);
+    motion.covariance.diagonal().head<3>().setConstant(translation_sigma * translation_sigma);
+    motion.covariance.diagonal().tail<3>().setConstant(rotation_sigma * rotation_sigma);
+  }
+
+  std::shared_ptr<const CameraPoses> poses_;
+  std::vector<Time> stamps_;
+  Eigen::Isometry3d T_body_cam_;
+  PoseOdometryParameters parameters_;
+  Duration delay_;
+  std::size_t next_ = 0;
+  SourceReport report_;
+};
+
+}  // namespace
+
+CameraPoses read_camera_poses(const std::filesystem::path& file) {
+  const std::string text = read_text(file);
+  CameraPoses all;
+  int number = 0;
+  for (const std::string_view line : split_lines(text)) {
+    ++number;
+    try {
+      add_line(line, all);
+    } catch (const std::invalid_argument& e) {
+      throw std::runtime_error(file.string() + ":" + std::to_string(number) + ": " + e.what());
+    }
+  }
+  if (all.poses.size() < 2)
+    throw std::runtime_error(file.string() + ": no motion in fewer than two poses");
+  return all;
+}
+
+std::unique_ptr<Source<RelativeMotion>> make_pose_odometry(std::shared_ptr<const CameraPoses> poses,
+                                                           std::vector<Time> stamps,
+                                                           const Eigen::Isometry3d& T_body_cam,
+                                                           const PoseOdometryParameters& parameters,
+                                                           Duration delay) {
+  if (poses->frames.back() >= stamps.size()) {
+    throw std::runtime_error(parameters.file + ": frame " + std::to_string(poses->frames.back()) +
+                             " is beyond the recording's " + std::to_string(stamps.size()));
+  }
+  return std::make_unique<PoseOdometry>(std::move(poses), std::move(stamps), T_body_cam, parameters,
+                                        delay);
+}
+
+}  // namespace maploop::sensors

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace maploop::testing {
+
+// What it throws says; or "accepted".
+template <class Read>
+std::string refusal(Read&& read) {
+  try {
+    read();
+    return "accepted";
+  } catch (const std::runtime_error& e) {
+    return e.what();
+  }
+}
+
+}  // namespace maploop::testing

@@ -1,0 +1,120 @@
+// The replay's page: what its sections say of made-up runs.
+#include "tools/report/report.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "msgs/frames.h"
+#include "tests/support/real_data.h"
+
+namespace maploop::report {
+namespace {
+
+constexpr Geodetic origin{0.855, 0.147, 110.0};
+const Eigen::Vector3d antenna(1.0, -0.5, 1.6);
+
+Time at(double seconds) {
+  return from_nanoseconds(1'317'042'651'000'000'000) + from_seconds(seconds);
+}
+
+// Due east at 10 m/s.
+Eigen::Vector3d place(double seconds) {
+  return {10.0 * seconds, 0.0, 0.0};
+}
+
+std::vector<ReferencePose> straight_drive(double seconds) {
+  std::vector<ReferencePose> rows;
+  for (double t = 0.0; t < seconds; t += 0.1) {
+    ReferencePose row;
+    row.stamp = row.available = at(t);
+    row.position = LocalFrame(origin).to_geodetic(place(t));
+    row.attitude.azimuth = radians(90.0);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+// Off by 0.3 m to the north and 0.4 m up, with sigmas of 0.2 m.
+std::map<Time, PppState> ppp_of(double seconds) {
+  std::map<Time, PppState> states;
+  for (int t = 0; t < static_cast<int>(seconds); ++t) {
+    PppState s;
+    s.stamp = at(t);
+    s.status = t == 0 ? PppStatus::none : t < 3 ? PppStatus::converging : PppStatus::converged;
+    // East is forward, north is left.
+    const Eigen::Vector3d error(0.0, 0.3, 0.4);
+    s.position = LocalFrame(origin).to_geodetic(place(t) + antenna + error);
+    s.position_covariance = 0.04 * Eigen::Matrix3d::Identity();
+    s.satellites_used = 7;
+    s.satellites.resize(9);
+    s.satellites[8].refusal = PppRefusal::weak;
+    states[s.stamp] = s;
+  }
+  return states;
+}
+
+std::string page_of(const tools::ReplayResult& result, const std::map<Time, RoadMoment>& matches,
+                    const std::map<Time, PppState>& ppp, std::vector<ReferencePose> reference) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / "report.html";
+  const fusion_score::NavTrack track;
+  write_report(file, {result, track, std::move(reference), {}, matches, ppp, antenna, "", "1.0"});
+  std::stringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+bool has(const std::string& page, const std::string& part) {
+  return page.find(part) != std::string::npos;
+}
+
+TEST(Report, PppIsScoredAtTheAntenna) {
+  const std::string page = page_of({}, {}, ppp_of(10.0), straight_drive(10.0));
+  EXPECT_TRUE(has(page, "10 epochs, 90.0 % with a position: 7 converged, 2 converging"));
+  EXPECT_TRUE(has(page, "7.0 satellites used on average"));
+  EXPECT_TRUE(has(page,
+                  "<td>all epochs</td><td>9</td><td>0.300</td><td>0.300</td><td>0.400</td>"
+                  "<td>100.0</td><td>6.25</td>"))
+      << page.substr(page.find("Precise"), 1500);
+  EXPECT_TRUE(has(page, "<td>converged</td><td>7</td>"));
+  EXPECT_TRUE(has(page, "<td>signal too weak</td><td>10</td>"));
+  EXPECT_TRUE(has(page, "Error up, PPP"));
+  EXPECT_FALSE(has(page, "Link identification"));
+}
+
+TEST(Report, PppWithoutATruthOrAnyPositionSaysSo) {
+  EXPECT_TRUE(has(page_of({}, {}, ppp_of(10.0), {}), "There is no truth at its epochs"));
+  EXPECT_TRUE(has(page_of({}, {}, ppp_of(1.0), {}), "1 epochs, 0.0 % with a position"));
+}
+
+TEST(Report, LinksAreCountedWhereTheDrivenOnesAreKnown) {
+  std::map<Time, RoadMoment> matches;
+  for (int i = 0; i < 20; ++i) {
+    const MatchPhase phase = i < 5 ? MatchPhase::initial : MatchPhase::along_link;
+    matches[at(0.1 * i)] = {phase, i >= 5, origin, 0.9};
+  }
+  const std::string unknown = page_of({}, matches, {}, straight_drive(2.0));
+  EXPECT_TRUE(has(unknown, "does not say which links were driven"));
+  EXPECT_TRUE(has(unknown, "<td>along link</td><td>15</td><td>75.0</td>"));
+  EXPECT_FALSE(has(unknown, "Precise point positioning"));
+
+  tools::ReplayResult result;
+  result.links.emplace();
+  result.links->all = {20, 15, 12};
+  result.links->reliability.fixes[9] = 15;
+  result.links->reliability.right[9] = 12;
+  result.links->reliability.p_sum[9] = 13.8;
+  const std::string known = page_of(result, matches, {}, straight_drive(2.0));
+  EXPECT_TRUE(has(known, "<td>all labels</td><td>20</td><td>60.00</td><td>75.00</td><td>8</td>"));
+  EXPECT_TRUE(has(known, "Reliability of P(link)"));
+}
+
+TEST(Report, ARunWithoutAnythingHasAPageToo) {
+  EXPECT_TRUE(has(page_of({}, {}, {}, {}), "Way of the vehicle"));
+}
+
+}  // namespace
+}  // namespace maploop::report

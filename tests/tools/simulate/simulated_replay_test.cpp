@@ -1,0 +1,53 @@
+// What a replay makes of a simulated drive's GNSS receiver.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "msgs/frames.h"
+#include "runtime/vehicle/recording.h"
+#include "tests/support/real_data.h"
+#include "tools/simulate/simulation.h"
+
+namespace maploop::simulate {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(SimulatedReplay, ObservationsTakeThePlaceOfTheReferencesGnss) {
+  const maploop::testing::TemporaryFolder folder;
+  SimulationOptions options;
+  options.seconds = 5.0;
+  options.sensors = {false, false, true, true};
+  const fs::path drive = folder.path() / "drive", sync = drive / "town_sync";
+  ASSERT_TRUE(simulate_drive(drive, options));
+  // The stamps of images are enough to open it.
+  for (const char* camera : {"image_00", "image_01"}) {
+    fs::create_directories(sync / camera / "data");
+    fs::copy_file(sync / "oxts/timestamps.txt", sync / camera / "timestamps.txt");
+  }
+  vehicle::VehicleConfig config = vehicle::load_vehicle_config(drive / "vehicle.toml");
+  EXPECT_EQ(config.fusion.gnss_lever_up, 0.75);
+  EXPECT_TRUE(fs::exists(config.map.file));
+
+  const vehicle::Recording recording = vehicle::open_recording(drive / "town_extract", config);
+  vehicle::Sensors sensors = recording.sensors(Time::max());
+  EXPECT_EQ(sensors.gnss, nullptr);
+  ASSERT_NE(sensors.epochs, nullptr);
+  ASSERT_NE(sensors.ppp, nullptr);
+  EXPECT_TRUE(sensors.ppp->precise());
+  vehicle::GnssEpoch epoch;
+  std::size_t count = 0;
+  for (; sensors.epochs->next(epoch); ++count)
+    EXPECT_EQ(epoch.stamp, recording.first_stamp + std::chrono::seconds(count));
+  EXPECT_EQ(count, 5U);
+  ASSERT_TRUE(recording.driven_links.has_value());
+  EXPECT_EQ(recording.driven_links->stamps.size(), recording.images);
+
+  config.ppp.observations = false;
+  sensors = vehicle::open_recording(drive / "town_extract", config).sensors(Time::max());
+  EXPECT_NE(sensors.gnss, nullptr);
+  EXPECT_EQ(sensors.epochs, nullptr);
+}
+
+}  // namespace
+}  // namespace maploop::simulate

@@ -1,0 +1,129 @@
+#include "tools/odometry/lidar_page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <sstream>
+
+#include "tools/html_image.h"
+#include "tools/html_text.h"
+#include "tools/web/page.h"
+
+namespace maploop::odometry {
+namespace {
+
+constexpr double most_px = 1600.0;  // of the picture's longer side
+
+double percentile(const std::vector<double>& sorted, double share) {
+  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+}
+
+// Where the picture's pixels lie: x of the first frame's body up, y to the left.
+struct View {
+  Eigen::Vector2d low, high;  // m
+  double scale;               // px / m
+
+  View(const PointCloud& cloud, const std::vector<LidarStep>& steps)
+      : low(1e9, 1e9), high(-1e9, -1e9) {
+    const auto take = [this](const Eigen::Vector2d& p) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    };
+    for (const lidar::SurfacePoint& point : cloud.points())
+      take(point.position.head<2>().cast<double>());
+    for (const LidarStep& step : steps) take(step.pose.translation().head<2>());
+    scale = std::min(5.0, most_px / std::max(1.0, (high - low).maxCoeff()));
+  }
+  // The way goes from left to right: most are longer than wide.
+  cv::Size size() const {
+    return {std::max(1, static_cast<int>(scale * (high.x() - low.x())) + 1),
+            std::max(1, static_cast<int>(scale * (high.y() - low.y())) + 1)};
+  }
+  cv::Point at(const Eigen::Vector2d& p) const {
+    return {static_cast<int>(scale * (p.x() - low.x())),
+            static_cast<int>(scale * (high.y() - p.y()))};
+  }
+};
+
+// Ground in grey; what stands on it from blue (low) to red (4 m and more above the ground).
+cv::Mat from_above(const PointCloud& cloud, const std::vector<LidarStep>& steps) {
+  const View view(cloud, steps);
+  cv::Mat hue(view.size(), CV_8UC3, cv::Scalar(0, 0, 255));
+  constexpr float upright = 0.7f;   // of the normal's vertical part; less is a wall
+  constexpr float highest = 4.0f;   // m
+  constexpr float of_body = -0.9f;  // m, of the ground under the vehicle's origin
+  for (const lidar::SurfacePoint& point : cloud.points()) {
+    auto& pixel = hue.at<cv::Vec3b>(view.at(point.position.head<2>().cast<double>()));
+    const float above =
+        std::clamp((point.position.z() - of_body) / highest, 0.0f, 1.0f);  // of the first frame
+    if (std::abs(point.normal.z()) < upright) {
+      pixel = {static_cast<std::uint8_t>(120.0f * (1.0f - above)), 255, 200};
+    } else if (pixel[1] == 0) {
+      pixel = {0, 0, 200};
+    }
+  }
+  cv::Mat picture;
+  cv::cvtColor(hue, picture, cv::COLOR_HSV2BGR);
+  for (std::size_t i = 1; i < steps.size(); ++i)
+    cv::line(picture, view.at(steps[i - 1].pose.translation().head<2>()),
+             view.at(steps[i].pose.translation().head<2>()), {0, 0, 0}, 2, cv::LINE_AA);
+  return picture;
+}
+
+}  // namespace
+
+std::string summary(const std::vector<LidarStep>& steps) {
+  std::map<std::string_view, int> by_status, by_direction;
+  std::vector<double> milliseconds;
+  int iterations = 0;
+  double way = 0.0;
+  for (const LidarStep& step : steps) {
+    ++by_status[step.with_scan ? to_string(step.lidar.status) : "no scan"];
+    way += step.odometry.translation.norm();
+    if (!step.with_scan) continue;
+    for (unsigned k = 0; k < 6; ++k)
+      if ((step.lidar.degenerate >> k & 1u) != 0)
+        ++by_direction[to_string(static_cast<MotionDirection>(k))];
+    milliseconds.push_back(step.milliseconds);
+    iterations += step.lidar.iterations;
+  }
+  std::ostringstream text;
+  text << "frames " << steps.front().frame << " to " << steps.back().frame << ", "
+       << to_seconds(steps.back().odometry.stamp - steps.front().odometry.stamp) << " s, " << way
+       << " m\n";
+  for (const auto& [status, count] : by_status) text << "  " << status << ": " << count << '\n';
+  for (const auto& [direction, count] : by_direction)
+    text << "  not determined by the scan, " << direction << ": " << count << '\n';
+  if (milliseconds.empty()) return text.str();
+  std::sort(milliseconds.begin(), milliseconds.end());
+  text << "processor time a scan: median " << percentile(milliseconds, 0.5) << " ms, p95 "
+       << percentile(milliseconds, 0.95) << " ms, largest " << milliseconds.back()
+       << " ms; iterations a scan: "
+       << static_cast<double>(iterations) / static_cast<double>(milliseconds.size()) << '\n';
+  return text.str();
+}
+
+std::string lidar_page(const std::string& heading, const std::vector<LidarStep>& steps,
+                       const PointCloud& cloud) {
+  const cv::Mat picture = from_above(cloud, steps);
+  std::vector<std::uint8_t> png;
+  cv::imencode(".png", picture, png);
+  std::string body = "<pre>" + tools::escaped(summary(steps)) + "</pre>\n";
+  body += "<h2>What the scans saw, from above</h2><p>" + std::to_string(cloud.size()) +
+          " surfaces; grey: lying; blue to red: standing, from the ground to 4 m above that under "
+          "the first frame; black: the way, from left to right as the vehicle stood at first.</p>" +
+          tools::image_tag(png, "png", picture.cols) + "\n";
+  web::Line height{"body", {}, {}};
+  double way = 0.0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (i > 0) way += (steps[i].pose.translation() - steps[i - 1].pose.translation()).norm();
+    height.x.push_back(way);
+    height.y.push_back(steps[i].pose.translation().z());
+  }
+  const web::Plot heights{"Height over the first frame", "way, m", "m", {height}};
+  return web::Page(heading).add(body).add(heights).text();
+}
+
+}  // namespace maploop::odometry

@@ -1,0 +1,25 @@
+#include "tools/ppp/map_loop.h"
+
+#include "mapmatch/ppp_fix.h"
+#include "ppp/epoch_state.h"
+
+namespace maploop::gnss {
+
+MapStep MapLoop::close(ppp::MapAidedFilter& filter) {
+  constexpr double any_risk = 1e-4;  // of protection levels, which nobody reads here
+  MapStep step;
+  ppp::describe(filter.solution(), any_risk, state_);
+  if (state_.status == PppStatus::none) return step;
+  state_.stamp = ppp::to_utc(filter.solution().time);
+  const mapmatch::VehicleFix fix = mapmatch::fix_of(state_);
+  const mapmatch::MatchResult& match = matcher_.add(fix);
+  if (match.on_road && match.refusal == FixRefusal::none) {
+    step.way_id = matcher_.network().road_at(match.point.vertex).way_id;
+    step.probability = match.probability;
+  }
+  step.feedback = feedback_.decide(match, fix);
+  if (tight_) step.use = filter.add(step.feedback);
+  return step;
+}
+
+}  // namespace maploop::gnss

@@ -1,0 +1,12 @@
+// What precise point positioning came to.
+#pragma once
+
+#include "tools/report/report.h"
+#include "tools/web/page.h"
+
+namespace maploop::report {
+
+// Nothing where there were no observations. Errors are those of the antenna against the truth.
+void add_ppp(web::Page& page, const ReplayReport& report);
+
+}  // namespace maploop::report

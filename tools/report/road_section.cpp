@@ -1,0 +1,87 @@
+#include "tools/report/road_section.h"
+
+#include <array>
+#include <limits>
+
+#include "tools/report/frame.h"
+#include "tools/report/text.h"
+
+namespace maploop::report {
+namespace {
+
+using web::Line;
+using web::Plot;
+
+constexpr std::array phases{MatchPhase::initial, MatchPhase::along_link, MatchPhase::at_junction,
+                            MatchPhase::off_road};
+
+std::string phase_table(const ReplayReport& r) {
+  std::array<std::size_t, phases.size()> counts{};
+  for (const auto& [stamp, moment] : r.matches) ++counts[static_cast<std::size_t>(moment.phase)];
+  std::vector<web::Row> rows;
+  for (const MatchPhase phase : phases) {
+    const std::size_t n = counts[static_cast<std::size_t>(phase)];
+    const double share = static_cast<double>(n) / static_cast<double>(r.matches.size());
+    rows.push_back({std::string(to_string(phase)), std::to_string(n), figure(100.0 * share, 1)});
+  }
+  return web::table({"phase", "matches", "%"}, rows);
+}
+
+web::Row tally_row(const char* name, const match::Tally& t) {
+  return {name, std::to_string(t.fixes), figure(100.0 * t.share(), 2),
+          figure(100.0 * t.coverage(), 2), std::to_string(t.wrong())};
+}
+
+std::string identified(const match::MatchScore& score) {
+  std::vector<web::Row> rows{tally_row("all labels", score.all)};
+  if (score.certain.fixes > 0) rows.push_back(tally_row("certain labels", score.certain));
+  return paragraph(
+             "The matched road against the one driven, at the moments with a label; what was not "
+             "matched counts as wrong.") +
+         web::table({"", "moments", "right road, %", "coverage, %", "wrong"}, rows);
+}
+
+Plot reliability(const match::Reliability& r) {
+  Plot plot{"Reliability of P(link)", "P(link) said", "share that is right"};
+  Line line{"right", {}, {}, Line::Look::points};
+  for (std::size_t k = 0; k < r.fixes.size(); ++k) {
+    if (r.fixes[k] == 0) continue;
+    const auto n = static_cast<double>(r.fixes[k]);
+    line.x.push_back(r.p_sum[k] / n);
+    line.y.push_back(static_cast<double>(r.right[k]) / n);
+  }
+  plot.lines = {std::move(line), {"as said", {0.0, 1.0}, {0.0, 1.0}, Line::Look::dashed}};
+  return plot;
+}
+
+Plot probability(const ReplayReport& r) {
+  Plot plot{"P(link)", "s", "1"};
+  Line line{"of the matched link", {}, {}};
+  const Time first = first_of(r);
+  for (const auto& [stamp, moment] : r.matches) {
+    line.x.push_back(to_seconds(stamp - first));
+    line.y.push_back(moment.on_road ? moment.probability
+                                    : std::numeric_limits<double>::quiet_NaN());
+  }
+  plot.lines.push_back(std::move(line));
+  return plot;
+}
+
+}  // namespace
+
+void add_roads(web::Page& page, const ReplayReport& r) {
+  if (r.matches.empty()) return;
+  page.add("<h2>Link identification</h2>\n");
+  std::vector<Plot> plots{probability(r)};
+  if (r.result.links && r.result.links->all.fixes > 0) {
+    page.add(identified(*r.result.links));
+    plots.push_back(reliability(r.result.links->reliability));
+  } else {
+    page.add(
+        paragraph("How much is right is not known: the recording does not say which links "
+                  "were driven."));
+  }
+  page.add(phase_table(r)).add(plots);
+}
+
+}  // namespace maploop::report

@@ -1,0 +1,48 @@
+#include "tools/simulate/drive.h"
+
+#include <chrono>
+#include <utility>
+
+#include "tools/simulate/random.h"
+#include "tools/simulate/test_car.h"
+#include "tools/simulate/town_scene.h"
+#include "tools/simulate/traffic.h"
+
+namespace maploop::simulate {
+namespace {
+
+constexpr double first_frame = 0.1;  // s
+constexpr std::size_t car_count = 30;
+
+// Another seed, another time of the day: noises that depend on the stamp, and the sky, are others.
+Time start_of(std::uint64_t seed) {
+  constexpr std::uint64_t half_day = 43'200;  // s
+  return parse_time("2026-05-04 06:00:00.0") + std::chrono::seconds(mix(seed, 31) % half_day);
+}
+
+}  // namespace
+
+Drive::Drive(const SimulationOptions& options) : Drive(options, choose_site(options)) {}
+
+Drive::Drive(const SimulationOptions& options, Site site)
+    : start(start_of(options.seed)),
+      frame(site.frame),
+      streets(std::move(site.streets)),
+      terrain(options.seed),
+      index(streets, 2.5),
+      appearance(index),
+      car(test_car()),
+      motion(drive_along(streets, site.route, terrain, options.seconds, options.seed)),
+      traffic(make_traffic(streets, terrain, motion, car_count, options.seconds, options.seed)) {
+  std::vector<Mesh> shapes;
+  Random random(options.seed, 16);
+  for (std::size_t i = 0; i < traffic.size(); ++i)
+    shapes.push_back(make_car(static_cast<float>(random.uniform(0.05, 0.7)),
+                              static_cast<std::uint32_t>(1000 + i)));
+  world.emplace(make_town_scene(streets, index, terrain, options.seed, options.environment),
+                std::move(shapes));
+  for (double t = first_frame; t + 0.5 * frame_interval <= options.seconds; t += frame_interval)
+    times.push_back(t);
+}
+
+}  // namespace maploop::simulate

@@ -1,0 +1,41 @@
+// All that is fixed of a drive before its first frame is taken.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "msgs/calibration.h"
+#include "msgs/time.h"
+#include "tools/simulate/appearance.h"
+#include "tools/simulate/ray_scene.h"
+#include "tools/simulate/simulation.h"
+#include "tools/simulate/site.h"
+#include "tools/simulate/street_index.h"
+#include "tools/simulate/terrain.h"
+#include "tools/simulate/vehicle_motion.h"
+
+namespace maploop::simulate {
+
+struct Drive {
+  static constexpr double frame_interval = 0.1;  // s; a turn of the scanner takes as long
+
+  // Throws as choose_site().
+  explicit Drive(const SimulationOptions& options);
+
+  Time start;
+  LocalFrame frame;
+  Streets streets;
+  Terrain terrain;
+  StreetIndex index;
+  Appearance appearance;
+  VehicleCalibration car;
+  VehicleMotion motion;
+  std::vector<VehicleMotion> traffic;
+  std::optional<World> world;
+  std::vector<double> times;  // s, of the frames: of the middles of their turns
+
+ private:
+  Drive(const SimulationOptions& options, Site site);
+};
+
+}  // namespace maploop::simulate

@@ -1,0 +1,87 @@
+#include "tools/simulate/frame_writer.h"
+
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sensors/replay/files.h"
+#include "sensors/replay/packed_scan.h"
+#include "tools/simulate/camera_image.h"
+#include "tools/simulate/output_file.h"
+#include "tools/simulate/random.h"
+#include "tools/simulate/traffic.h"
+
+namespace maploop::simulate {
+namespace {
+
+constexpr float disparity_error = 0.2F;  // px too much, mean; as on KITTI's drive 0013
+
+}  // namespace
+
+FrameWriter::FrameWriter(const Drive& drive, std::filesystem::path folder,
+                         const SimulationOptions& options)
+    : drive_(drive),
+      folder_(std::move(folder)),
+      seed_(options.seed),
+      sensors_(options.sensors),
+      lidar_(lidar_parameters(options.scanner)),
+      compact_(options.compact),
+      scene_(*drive.world) {}
+
+void FrameWriter::write(std::size_t frame) {
+  const double begin = drive_.times[frame] - 0.5 * Drive::frame_interval;
+  scene_.move(bodies(drive_.traffic, begin, begin + Drive::frame_interval));
+  const std::uint64_t seed = mix(seed_, 1'000'000 + frame);
+  if (sensors_.camera) write_images(frame, seed);
+  if (sensors_.lidar) write_turn(frame, begin, seed);
+}
+
+void FrameWriter::write_images(std::size_t frame, std::uint64_t seed) {
+  const double t = drive_.times[frame];
+  const StereoCalibration& camera = drive_.car.stereo;
+  const CameraParameters parameters;
+  const double half = 0.5 * parameters.exposure_time;
+  // What an exposure control leaves.
+  const auto brightness = static_cast<float>(1.0 + 0.08 * std::sin(0.35 * t) * std::sin(0.9 * t));
+  for (int side = 0; side < 2; ++side) {
+    const Eigen::Isometry3d T_body_cam =
+        camera.T_body_cam * Eigen::Translation3d(side * camera.baseline, 0.0, 0.0);
+    const CameraView view{
+        {drive_.motion.pose(t - half) * T_body_cam, drive_.motion.pose(t + half) * T_body_cam},
+        side == 0 ? 0.0F : disparity_error};
+    GreyImage image = take_image(scene_, drive_.appearance, camera, view, 0.5F, brightness,
+                                 mix(seed, static_cast<std::uint64_t>(side)), parameters);
+    if (compact_)
+      for (auto& pixel : image.pixels) pixel = static_cast<std::uint8_t>((pixel + 1) / 3 * 3);
+    std::vector<unsigned char> png;
+    // Noise has no repetitions to look for: without them it is smaller, and sooner done.
+    cv::imencode(".png", cv::Mat(image.height, image.width, CV_8U, image.pixels.data()), png,
+                 {cv::IMWRITE_PNG_COMPRESSION, 6, cv::IMWRITE_PNG_STRATEGY,
+                  cv::IMWRITE_PNG_STRATEGY_HUFFMAN_ONLY});
+    write_file(folder_ / (side == 0 ? "image_00" : "image_01") / "data" /
+                   sensors::numbered_file(frame, ".png"),
+               {reinterpret_cast<const char*>(png.data()), png.size()});
+  }
+}
+
+void FrameWriter::write_turn(std::size_t frame, double begin, std::uint64_t seed) {
+  const sensors::RangeImage turn = take_turn(
+      scene_, drive_.appearance,
+      [&](double share) {
+        return drive_.motion.pose(begin + share * Drive::frame_interval) * drive_.car.T_body_velo;
+      },
+      mix(seed, 2), lidar_);
+  const std::filesystem::path data = folder_ / "velodyne_points/data";
+  if (compact_) {
+    write_file(data / sensors::numbered_file(frame, ".scan"), sensors::pack_scan(turn));
+    return;
+  }
+  std::vector<LidarPoint> points;
+  sensors::points_of(turn, points);
+  write_file(data / sensors::numbered_file(frame, ".bin"),
+             {reinterpret_cast<const char*>(points.data()), points.size() * sizeof(LidarPoint)});
+}
+
+}  // namespace maploop::simulate

@@ -1,0 +1,52 @@
+// What air and ionosphere do to the signals at one place.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "msgs/local_frame.h"
+
+namespace maploop::simulate {
+
+// A standard atmosphere with the day's pressure, temperature and humidity, through which rays are
+// traced layer by layer (Snell's law in spheres): no mapping function. Besides, the wet delay
+// changes by some per cent over half an hours and there is a horizontal gradient.
+class Troposphere {
+ public:
+  Troposphere(double height, std::uint64_t seed);  // m above the sea
+
+  // m; angles in rad, s since the drive's start.
+  double delay(double elevation, double azimuth, double t) const;
+  double zenith_delay(double t) const { return delay(1.5707, 0.0, t); }
+
+ private:
+  struct Row {
+    double elevation, all, wet;  // rad, m, m
+  };
+  std::vector<Row> table_;  // by elevation
+  double wet_number_, wet_phase_, north_, east_;
+};
+
+// A shell 450 km high: its electrons follow the sun, and waves travel through them.
+class Ionosphere {
+ public:
+  // `day_start` is the drive's start in seconds of its UTC day.
+  Ionosphere(const Geodetic& site, double day_start, std::uint64_t seed);
+
+  // Electrons along the way, 1e16/m^2.
+  double electrons(double elevation, double azimuth, double t) const;
+
+ private:
+  struct Wave {
+    double north, east, rate, phase, size;  // rad/m, rad/m, rad/s, rad, 1e16/m^2
+  };
+  Geodetic site_;
+  double day_start_;
+  double level_;
+  std::vector<Wave> waves_;
+};
+
+// m of code delay (and of phase advance) on a carrier.
+double ionospheric_delay(double electrons, double frequency);
+
+}  // namespace maploop::simulate

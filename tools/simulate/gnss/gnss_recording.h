@@ -1,0 +1,34 @@
+// The files of the car's GNSS receiver and of those who watch its satellites.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "msgs/local_frame.h"
+#include "msgs/time.h"
+#include "tools/simulate/ray_scene.h"
+#include "tools/simulate/vehicle_motion.h"
+
+namespace maploop::simulate {
+
+struct GnssSetting {
+  const VehicleMotion& motion;
+  const std::vector<VehicleMotion>& traffic;  // the bodies of the world
+  const World& world;
+  const LocalFrame& frame;
+  Time start;
+  double seconds;
+  double rate;  // Hz
+  std::uint64_t seed;
+};
+
+// Makes the folders `gnss` and `gnss_one_frequency`:
+//   observations.rnx  RINEX 3.04, GPS and Galileo; L1 C/A and L2C, E1 and E5a (the first ones only)
+//   navigation.rnx    broadcast messages
+//   orbits.sp3, clocks.clk, antennas.atx   (gnss alone)
+//   truth.csv         index, GPS seconds of the week, X, Y, Z of the antenna's reference point
+// Throws std::runtime_error naming a file that cannot be written.
+void write_gnss(const std::filesystem::path& folder, const GnssSetting& setting);
+
+}  // namespace maploop::simulate

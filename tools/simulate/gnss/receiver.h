@@ -1,0 +1,98 @@
+// A geodetic receiver with two frequencies on the car's roof.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "msgs/local_frame.h"
+#include "ppp/gps_time.h"
+#include "ppp/models/earth.h"
+#include "tools/simulate/gnss/atmosphere.h"
+#include "tools/simulate/gnss/constellation.h"
+#include "tools/simulate/gnss/scatterers.h"
+#include "tools/simulate/gnss/tracking.h"
+#include "tools/simulate/vehicle_motion.h"
+
+namespace maploop::simulate {
+
+// Phase centre of the receiver's antenna on a carrier, from its reference point; m.
+struct ReceiveAntenna {
+  Eigen::Vector3d offset;              // right, forward, up
+  std::array<double, 19> variation{};  // at 0 to 90 degrees from the zenith
+
+  double delay(const Eigen::Vector3d& to_satellite) const;  // m, of a unit vector in these axes
+};
+// As its calibration says, of both carriers.
+std::array<ReceiveAntenna, 2> calibrated_antenna();
+
+struct ObservedSignal {
+  double code = 0.0;            // m
+  std::optional<double> phase;  // cycles
+  double doppler = 0.0;         // Hz
+  double cn0 = 0.0;             // dB-Hz
+  bool lost_lock = false;
+};
+struct ObservedSatellite {
+  ppp::Satellite satellite;
+  std::array<std::optional<ObservedSignal>, 2> signals;  // of bands()
+};
+
+class Receiver {
+ public:
+  // The antenna from the body's origin, m.
+  static const Eigen::Vector3d& lever();
+
+  // What it refers to must outlive it. `start` is time 0.
+  Receiver(const Constellation& constellation, const VehicleMotion& motion, const LocalFrame& frame,
+           Time start, double seconds, std::uint64_t seed);
+
+  // At a stamp t (s) of its own clock; epochs are `interval` apart and in order. The scene's bodies
+  // stand as they do then.
+  std::vector<ObservedSatellite> observe(double t, double interval, const RayScene& scene);
+
+  // Of the antenna's reference point, without tides; m, ITRF.
+  Eigen::Vector3d antenna_ecef(double t) const;
+
+ private:
+  struct Tracker {
+    std::array<SignalTracker, 2> signals;
+    Scatterers scatterers;
+    std::array<double, 2> code_bias;  // m, of this receiver with this satellite's chips
+    double wind_up = 0.0;             // cycles
+  };
+  // What is the same for all satellites of an epoch.
+  struct Moment {
+    double t, interval, speed;  // s, s, m/s
+    SignalPaths around;
+    ppp::SunAndMoon bodies;
+    Eigen::Vector3d antenna;     // m, earth-fixed, with tides
+    Eigen::Vector3d tide;        // m, the same
+    Eigen::Matrix3d R_enu_ecef;  // at the antenna
+    Eigen::Matrix3d axes;        // rows: right, forward and up of the car, earth-fixed
+  };
+  struct Range {
+    double metres;  // with the clocks
+    Eigen::Vector3d satellite;
+  };
+
+  double clock(double t) const;
+  Range range(std::size_t satellite, double t, const Eigen::Vector3d& tide) const;
+  ObservedSatellite observe(std::size_t satellite, const Moment& now);
+
+  const Constellation& constellation_;
+  const VehicleMotion& motion_;
+  LocalFrame frame_;
+  ppp::GpsTime start_;
+  ppp::Earth earth_;
+  Troposphere troposphere_;
+  Ionosphere ionosphere_;
+  std::array<ReceiveAntenna, 2> antenna_;
+  std::array<Eigen::Vector3d, 2> code_pattern_;  // m, and angles: the antenna's delay of codes
+  std::vector<double> clock_;                    // s, each second from 2 s before the start
+  std::vector<Tracker> trackers_;                // of each satellite
+};
+
+}  // namespace maploop::simulate

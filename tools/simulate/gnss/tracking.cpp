@@ -1,0 +1,108 @@
+#include "tools/simulate/gnss/tracking.h"
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "ppp/satellite.h"
+
+namespace maploop::simulate {
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+constexpr double weakest_tracked = 23.0, weakest_acquired = 29.0;  // dB-Hz
+constexpr double code_bandwidth = 0.5, phase_bandwidth = 12.0;     // Hz
+
+using Complex = std::complex<double>;
+
+// The correlation of the received sum with a copy that is `delay` late; `ahead` seconds later.
+Complex correlation(const std::vector<SignalPath>& paths, const SignalShape& shape,
+                    double wavelength, double delay, double ahead) {
+  Complex sum = 0.0;
+  for (const SignalPath& p : paths) {
+    const double overlap = 1.0 - std::fabs(delay - p.delay) / shape.chip;
+    if (overlap <= 0.0) continue;
+    const double phase = p.phase - two_pi * (p.delay + p.rate * ahead) / wavelength;
+    sum += std::polar(p.amplitude * overlap, phase);
+  }
+  return sum;
+}
+
+// Where early and late are alike: the code loop's lock.
+double code_delay(const std::vector<SignalPath>& paths, const SignalShape& shape, double wavelength,
+                  double ahead) {
+  double delay = paths.front().delay;
+  const double half = 0.5 * shape.spacing * shape.chip;
+  for (int i = 0; i < 15; ++i) {
+    const double early = std::abs(correlation(paths, shape, wavelength, delay - half, ahead));
+    const double late = std::abs(correlation(paths, shape, wavelength, delay + half, ahead));
+    if (early + late <= 0.0) break;
+    delay += 0.5 * (2.0 - shape.spacing) * shape.chip * (late - early) / (late + early);
+  }
+  return delay;
+}
+
+}  // namespace
+
+SignalTracker::SignalTracker(const SignalShape& shape, std::uint64_t seed, std::uint64_t stream)
+    : shape_(shape),
+      wavelength_(ppp::speed_of_light / shape.frequency),
+      random_(mix(seed, 24), stream) {
+  cycles_ = static_cast<std::int64_t>(random_.uniform(-1e6, 1e6));
+}
+
+// The loop goes over to another path, or loses a weak signal for a moment.
+bool SignalTracker::slips(const SignalPath& strongest, double cn0, double interval) {
+  const double hazard = 0.15 * std::exp(-(cn0 - 26.0) / 2.0) * interval;
+  const bool weak = random_.chance(std::min(1.0, hazard));
+  return strongest.surface != surface_ || weak;
+}
+
+std::optional<TrackedSignal> SignalTracker::track(const std::vector<SignalPath>& paths,
+                                                  double elevation, double interval) {
+  const double noise = random_.normal();
+  if (paths.empty()) {
+    tracked_ = locked_ = false;
+    return {};
+  }
+  // Fading is averaged by the code loop, and followed by the phase loop.
+  constexpr int moments = 5;
+  double code = 0.0;
+  for (int i = 0; i < moments; ++i)
+    code += code_delay(paths, shape_, wavelength_, -0.8 * i / moments) / moments;
+  const Complex sum = correlation(paths, shape_, wavelength_, code, 0.0);
+  const double gain = -9.0 * (1.0 - std::pow(std::sin(elevation), 0.6));
+  TrackedSignal result;
+  result.cn0 = shape_.cn0 + gain + 20.0 * std::log10(std::abs(sum) + 1e-6) + 0.6 * noise;
+  if (result.cn0 < (tracked_ ? weakest_tracked : weakest_acquired)) {
+    tracked_ = locked_ = false;
+    return {};
+  }
+  const SignalPath& strongest = paths.front();
+  const double power = std::pow(10.0, result.cn0 / 10.0);
+  const double jitter = std::sqrt(0.5 * code_bandwidth * shape_.spacing / power);
+  const double code_noise = std::hypot(shape_.chip * jitter, 0.05);
+  result.code = code + code_noise * random_.normal();
+  result.rate = strongest.rate + std::hypot(0.02, 2.0 / std::sqrt(power)) * random_.normal();
+  // Phase follows an epoch after the code.
+  const bool was_locked = locked_;
+  locked_ = tracked_;
+  tracked_ = true;
+  const bool slipped = slips(strongest, result.cn0, interval);
+  surface_ = strongest.surface;
+  if (!locked_) return result;
+  if (!was_locked || slipped) {
+    const double size = 1.0 + std::floor(random_.uniform(0.0, was_locked ? 12.0 : 1e6));
+    cycles_ += static_cast<std::int64_t>(random_.chance(0.5) ? size : -size);
+    result.lost_lock = !was_locked || random_.chance(0.85);
+  }
+  const Complex turned =
+      sum * std::polar(1.0, two_pi * strongest.delay / wavelength_ - strongest.phase);
+  const double phase_noise =
+      std::hypot(wavelength_ / two_pi * std::sqrt(phase_bandwidth / power), 5e-4);
+  result.phase = strongest.delay - std::arg(turned) * wavelength_ / two_pi +
+                 static_cast<double>(cycles_) * wavelength_ + phase_noise * random_.normal();
+  return result;
+}
+
+}  // namespace maploop::simulate

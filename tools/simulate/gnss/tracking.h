@@ -1,0 +1,48 @@
+// How a receiver tracks one signal that arrives by several paths.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "tools/simulate/gnss/signal_paths.h"
+#include "tools/simulate/random.h"
+
+namespace maploop::simulate {
+
+struct SignalShape {
+  double frequency = 0.0;  // Hz
+  double chip = 0.0;       // m: half the width of the correlation's triangle
+  double spacing = 0.0;    // of early and late, in chips
+  double cn0 = 0.0;        // dB-Hz at the zenith
+};
+
+// What is measured beyond the straight range, clocks and atmosphere.
+struct TrackedSignal {
+  double code = 0.0;            // m, paths and noise
+  std::optional<double> phase;  // m, the same with whole cycles; none: not locked
+  double rate = 0.0;            // m/s
+  double cn0 = 0.0;             // dB-Hz
+  bool lost_lock = false;       // as the receiver says: it does not notice every slip
+};
+
+class SignalTracker {
+ public:
+  SignalTracker(const SignalShape& shape, std::uint64_t seed, std::uint64_t stream);
+
+  // One epoch, `interval` seconds after the one before. Nothing: not tracked.
+  std::optional<TrackedSignal> track(const std::vector<SignalPath>& paths, double elevation,
+                                     double interval);
+
+ private:
+  bool slips(const SignalPath& strongest, double cn0, double interval);
+
+  SignalShape shape_;
+  double wavelength_;
+  Random random_;
+  bool tracked_ = false, locked_ = false;
+  std::uint64_t surface_ = 0;  // of the strongest path
+  std::int64_t cycles_ = 0;
+};
+
+}  // namespace maploop::simulate
