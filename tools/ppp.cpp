@@ -24,7 +24,7 @@ namespace {
 
 struct PppOptions {
   std::vector<std::filesystem::path> files;
-  std::string mode, systems, start, end, truth;
+  std::string mode, systems, start, end, truth, score_start;
   std::optional<vehicle::MapMode> map_mode;
   std::optional<double> mask;
   bool broadcast = false, ecef = false;
@@ -146,6 +146,10 @@ int positions(const PppOptions& options) {
     score = std::make_unique<gnss::Score>(*truth, config.integrity_risk);
     if (map) without_map = std::make_unique<gnss::Score>(*truth, config.integrity_risk);
   }
+  std::optional<ppp::GpsTime> scored_from;
+  if (!options.score_start.empty()) {
+    scored_from = moment(options.score_start, "--score-start", first);
+  }
   gnss::Solutions solutions;
   std::size_t solved = 0, matched = 0;
   run.process([&](const ppp::PppSolution& s) {
@@ -170,14 +174,14 @@ int positions(const PppOptions& options) {
                100.0 * static_cast<double>(solved) / static_cast<double>(solutions.size()),
                run.seconds(), 1e3 * run.seconds() / static_cast<double>(solutions.size())));
   if (score) {
-    summary.push_back("against the truth: " + to_text(score->accuracy()));
+    summary.push_back("against the truth: " + to_text(score->accuracy(scored_from)));
     summary.push_back(std::to_string(score->misleading()) + " of " +
                       std::to_string(3 * score->errors().size()) +
                       one_line(" errors along, across and up are beyond their protection level "
                                "(integrity risk %g)",
                                config.integrity_risk, 0, 0));
     if (without_map)
-      summary.push_back("the same without the map: " + to_text(without_map->accuracy()));
+      summary.push_back("the same without the map: " + to_text(without_map->accuracy(scored_from)));
     const auto below = score->time_to_stay_below(0.1);
     summary.push_back(
         below ? one_line("3-D error stays below 0.1 m after %.1f min", *below / 60, 0, 0)
@@ -216,11 +220,12 @@ int positions(const PppOptions& options) {
                              {"filter_seconds", run.seconds()},
                              {"missing_products", run.missing_products()},
                              {"lacks", run.setup().lacks()}};
-    if (score) result["truth"] = to_json(score->accuracy(), score->time_to_stay_below(0.1));
+    if (score)
+      result["truth"] = to_json(score->accuracy(scored_from), score->time_to_stay_below(0.1));
     if (map) result["map"] = to_json(run.filter(), matched);
     if (without_map)
       result["map"]["truth_without_map"] =
-          to_json(without_map->accuracy(), without_map->time_to_stay_below(0.1));
+          to_json(without_map->accuracy(scored_from), without_map->time_to_stay_below(0.1));
     write_json_file(options.json, result);
   }
   return solved > 0 ? 0 : 1;
@@ -262,6 +267,10 @@ void add_ppp(CLI::App& app, Command& command) {
   sub->add_option("--truth", options->truth,
                   "X,Y,Z in metres, or a file: RTKLIB's .pos in XYZ, or rows 'index,GPS "
                   "second,X,Y,Z'");
+  sub->add_option("--score-start", options->score_start,
+                  "Accuracy is that of the epochs from this one on, the same way as --start; "
+                  "convergence and protection levels are of all")
+      ->needs("--truth");
   sub->add_option("--pos", options->pos, "Write RTKLIB's .pos")->check(writable_file());
   sub->add_flag("--ecef", options->ecef, "XYZ in --pos");
   sub->add_option("--nmea", options->nmea, "Write NMEA sentences GGA, RMC, GST")

@@ -84,6 +84,8 @@ std::optional<double> Score::time_to_stay_below(double limit) const {
 }
 
 std::string to_text(const Accuracy& a) {
+  if (a.with_truth == 0) return "no epoch at a time of the truth";
+  if (a.solved == 0) return "none of " + std::to_string(a.with_truth) + " epochs has a position";
   char text[512];
   std::snprintf(
       text, sizeof text,
