@@ -30,9 +30,15 @@ bool has_doppler(const Tracked& t) {
 
 }  // namespace
 
-double EpochRows::weakness(const Measurement& m) const {
-  if (parameters_.full_cn0 <= 0.0 || m.first.cn0 <= 0.0) return 1.0;
-  return std::pow(10.0, std::max(0.0, parameters_.full_cn0 - m.first.cn0) / 10.0);
+// Against the zenith: by elevation, and where a signal is weaker than it is there without
+// obstacles as in the SIGMA-delta model (Brunner, Hartinger and Troyer, "GPS signal diffraction
+// modelling", Journal of Geodesy 73, 1999; their factor of 2).
+double EpochRows::variance_factor(const Tracked& t) const {
+  const double sine = std::sin(t.predicted.elevation), cn0 = t.measurement.first.cn0;
+  const double by_elevation = 1.0 / (sine * sine);
+  if (parameters_.full_cn0 <= 0.0 || cn0 <= 0.0) return by_elevation;
+  const double full = parameters_.full_cn0 - parameters_.full_cn0_drop * (1.0 - sine);
+  return by_elevation * std::pow(10.0, 2.0 * std::max(0.0, full - cn0) / 10.0);
 }
 
 std::vector<Row>& EpochRows::make(const std::vector<Tracked>& tracked, int reference_system,
@@ -53,8 +59,8 @@ std::vector<Row>& EpochRows::make(const std::vector<Tracked>& tracked, int refer
     doppler.y = drift_of(t, state) - state.x()[S::clock_drift];
     for (int k = 0; k < 3; ++k) doppler.add(S::velocity + k, -t.predicted.to_satellite[k]);
     doppler.add(S::clock_drift, 1.0);
-    const double sigma = parameters_.doppler_sigma / std::sin(t.predicted.elevation);
-    doppler.variance = sigma * sigma * weakness(t.measurement);
+    const double sigma = parameters_.doppler_sigma;
+    doppler.variance = sigma * sigma * variance_factor(t) * t.level;
     doppler.sigma = std::sqrt(doppler.variance);
     rows_.push_back(doppler);
   }
@@ -74,7 +80,6 @@ Row EpochRows::code_row(std::size_t i, const Tracked& t, int reference_system,
                         const FilterState& state) const {
   const Measurement& m = t.measurement;
   const int system = static_cast<int>(m.satellite.system);
-  const double sine = std::sin(t.predicted.elevation);
   Row row;
   row.kind = RowKind::code;
   row.tracked = i;
@@ -83,7 +88,7 @@ Row EpochRows::code_row(std::size_t i, const Tracked& t, int reference_system,
   if (system != reference_system) row.add(S::system_offset + system, 1.0);
   row.add(S::zenith_wet, t.predicted.wet_mapping);
   if (parameters_.gradients) {
-    const double slope = t.predicted.wet_mapping * std::cos(t.predicted.elevation) / sine;
+    const double slope = t.predicted.wet_mapping / std::tan(t.predicted.elevation);
     row.add(S::gradient_north, slope * std::cos(t.predicted.azimuth));
     row.add(S::gradient_east, slope * std::sin(t.predicted.azimuth));
   }
@@ -94,12 +99,12 @@ Row EpochRows::code_row(std::size_t i, const Tracked& t, int reference_system,
   }
   const double glonass =
       m.satellite.system == System::glonass ? parameters_.glonass_code_factor : 1.0;
-  const double sigma = parameters_.code_sigma * m.noise_factor() * glonass / sine;
+  const double sigma = parameters_.code_sigma * m.noise_factor() * glonass;
   row.y = t.code_offset - predicted;
-  const double noise = sigma * sigma * weakness(m);
+  const double usual = sigma * sigma * variance_factor(t);
   const double rest = lasting_variance(t.predicted);
-  row.variance = noise * t.code_repeats + rest;
-  row.sigma = std::sqrt(noise + rest);
+  row.variance = usual * (t.code_repeats + (t.level - 1.0) * t.level_repeats) + rest;
+  row.sigma = std::sqrt(usual * t.level + rest);
   return row;
 }
 
@@ -125,8 +130,9 @@ void EpochRows::add_phase_row(const Tracked& t, const Row& code, FilterState& st
   row.kind = RowKind::phase;
   row.add(index, 1.0);
   row.y = y - predicted - state.x()[index];
-  const double sigma = parameters_.phase_sigma * m.noise_factor() / std::sin(t.predicted.elevation);
-  row.variance = sigma * sigma * (t.predicted.in_shadow ? 16.0 : 1.0);
+  const double sigma = parameters_.phase_sigma * m.noise_factor();
+  row.variance =
+      sigma * sigma * variance_factor(t) * t.level * (t.predicted.in_shadow ? 16.0 : 1.0);
   row.sigma = std::sqrt(row.variance);
   if (graphic) {
     row.variance += 0.25 * code.variance;

@@ -17,9 +17,11 @@ namespace maploop::ppp {
 struct Tracked {
   Measurement measurement;
   PredictedRange predicted;
-  std::size_t report;         // its place among the solution's satellites
-  double code_offset;         // m, code minus what is predicted without clocks
-  double code_repeats = 1.0;  // of its variance, for its error lasts longer than an epoch
+  std::size_t report;          // its place among the solution's satellites
+  double code_offset;          // m, code minus what is predicted without clocks
+  double code_repeats = 1.0;   // of its variance, for its error lasts longer than an epoch
+  double level = 1.0;          // of all its variances, where its codes' residuals are large
+  double level_repeats = 1.0;  // of what that adds to the code's
   bool code_good = true;
   bool phase_good = true;
 };
@@ -56,7 +58,7 @@ class EpochRows {
   void add_phase_row(const Tracked& t, const Row& code, FilterState& state,
                      std::vector<SatelliteReport>& reports);
   void set_drift(const std::vector<Tracked>& tracked, FilterState& state);
-  double weakness(const Measurement& m) const;
+  double variance_factor(const Tracked& t) const;
 
   PppParameters parameters_;
   std::vector<Row> rows_;

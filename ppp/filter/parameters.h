@@ -29,8 +29,15 @@ struct PppParameters {
   double code_correlation = 40.0;            // s, of an antenna at rest; 0: not at all
   double code_correlation_distance = 50.0;   // m, that an antenna moves meanwhile
   double glonass_code_correlation = 7200.0;  // s
-  // Below it, variance doubles every 3 dB; 0: strength does not count.
-  double full_cn0 = 0.0;           // dB-Hz
+  // Codes whose residuals are larger than that come by reflections, which last longer.
+  double code_level_time = 100.0;      // s, that residuals are remembered
+  double reflection_time = 600.0;      // s, of an antenna at rest
+  double reflection_distance = 500.0;  // m, that an antenna moves meanwhile
+  // At the zenith and its drop to the horizon, with sin E between: a little less than signals have
+  // without obstacles (5 % of those of three receivers under open sky are weaker). Below it,
+  // variances double every 1.5 dB; 0: strength does not count.
+  double full_cn0 = 47.0;          // dB-Hz
+  double full_cn0_drop = 14.5;     // dB
   double zenith_wet_sigma = 0.06;  // m, what the climatology leaves: 5 cm and a little
   double zenith_wet_walk = 1e-4;   // m/sqrt(s)
   bool gradients = true;
@@ -55,7 +62,6 @@ struct PppParameters {
   // Of a receiver with one frequency, which mostly is a cheap one.
   double single_code_sigma = 1.0;     // m
   double single_phase_sigma = 0.005;  // m
-  double single_full_cn0 = 45.0;      // dB-Hz
 
   // --- The road that map matching has found
   // Share of the map's standard deviation that the filter's own without the map must exceed across
@@ -79,7 +85,6 @@ struct PppParameters {
 inline PppParameters for_one_frequency(PppParameters p) {
   p.code_sigma = p.single_code_sigma;
   p.phase_sigma = p.single_phase_sigma;
-  p.full_cn0 = p.single_full_cn0;
   return p;
 }
 
@@ -97,7 +102,11 @@ void fields(Parameters& p, F&& f) {
   f("code_correlation", p.code_correlation);
   f("code_correlation_distance", p.code_correlation_distance);
   f("glonass_code_correlation", p.glonass_code_correlation);
+  f("code_level_time", p.code_level_time);
+  f("reflection_time", p.reflection_time);
+  f("reflection_distance", p.reflection_distance);
   f("full_cn0", p.full_cn0);
+  f("full_cn0_drop", p.full_cn0_drop);
   f("zenith_wet_sigma", p.zenith_wet_sigma);
   f("zenith_wet_walk", p.zenith_wet_walk);
   f("gradients", p.gradients);
@@ -116,7 +125,6 @@ void fields(Parameters& p, F&& f) {
   f("longest_gap", p.longest_gap);
   f("single_code_sigma", p.single_code_sigma);
   f("single_phase_sigma", p.single_phase_sigma);
-  f("single_full_cn0", p.single_full_cn0);
   f("map_useful_share", p.map_useful_share);
   f("map_gate", p.map_gate);
   f("map_slip", p.map_slip);

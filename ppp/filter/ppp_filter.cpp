@@ -29,6 +29,7 @@ PppFilter::PppFilter(const PppParameters& parameters, const Surroundings& surrou
 void PppFilter::reset() {
   state_.clear();
   std::fill(memory_.begin(), memory_.end(), Memory{});
+  levels_.begin(1.0);
   started_ = false;
   reference_system_ = -1;
   has_offset_.fill(false);
@@ -66,6 +67,7 @@ const PppSolution& PppFilter::process(const Epoch& epoch) {
   weigh_lasting_errors();
   disagrees_ = false;
   update();
+  levels_.end_epoch(interval > 0.0 ? interval : 1.0, parameters_.code_level_time);
   forget_absent();
 
   bad_epochs_ = disagrees_ ? bad_epochs_ + 1 : 0;
@@ -109,9 +111,9 @@ void PppFilter::measure_all(const Epoch& epoch) {
 
 bool PppFilter::start(const Epoch& epoch) {
   const Eigen::Vector3d near = state_.x().segment<3>(S::position);
-  const SinglePoint point =
-      solve_single_point(measurements_, epoch.time, near, radians(parameters_.elevation_mask),
-                         std::max(1.0, parameters_.code_sigma), model_);
+  const double sigma = std::max(1.0, parameters_.code_sigma);
+  const SinglePoint point = solve_single_point(measurements_, epoch.time, near,
+                                               radians(parameters_.elevation_mask), sigma, model_);
   if (!point.solved) {
     solution_.message = "no first position: " + point.why_not;
     return false;
@@ -128,6 +130,8 @@ bool PppFilter::start(const Epoch& epoch) {
     state_.set(S::gradient_east, 0.0, parameters_.gradient_sigma);
   }
   begin_map_states(state_, Eigen::Vector2d::Zero(), parameters_);
+  const double ratio = sigma / parameters_.code_sigma;
+  levels_.begin(point.residual_level * ratio * ratio);
   started_ = true;
   begun_ = epoch.time;
   return true;
@@ -174,17 +178,21 @@ void PppFilter::predict(double interval) {
 
 // The first code of a satellite says all it can of a constant, each later one of a first-order
 // Gauss-Markov error only (1 - r) / (1 + r) of that.
-double PppFilter::code_repeats(Satellite satellite, const Memory& memory) const {
-  if (!memory.last_code) return 1.0;
+void PppFilter::weigh_code(Tracked& tracked, const Memory& memory) const {
+  const Satellite satellite = tracked.measurement.satellite;
+  tracked.level = levels_.of(satellite);
+  if (!memory.last_code) return;
   const double since = to_seconds(time_ - *memory.last_code);
-  if (satellite.system == System::glonass) {
-    return 1.0 / std::tanh(0.5 * since / parameters_.glonass_code_correlation);
-  }
-  if (parameters_.code_correlation <= 0.0) return 1.0;
   const double speed = state_.x().segment<3>(S::velocity).norm();
-  const double rate =
-      1.0 / parameters_.code_correlation + speed / parameters_.code_correlation_distance;
-  return 1.0 / std::tanh(0.5 * since * rate);
+  const auto repeats = [since](double rate) { return 1.0 / std::tanh(0.5 * since * rate); };
+  tracked.level_repeats =
+      repeats(1.0 / parameters_.reflection_time + speed / parameters_.reflection_distance);
+  if (satellite.system == System::glonass) {
+    tracked.code_repeats = repeats(1.0 / parameters_.glonass_code_correlation);
+  } else if (parameters_.code_correlation > 0.0) {
+    tracked.code_repeats =
+        repeats(1.0 / parameters_.code_correlation + speed / parameters_.code_correlation_distance);
+  }
 }
 
 // Ranges, masks and slips.
@@ -220,7 +228,7 @@ void PppFilter::predict_ranges(double interval) {
     memory.source = predicted->satellite.source;
     Tracked tracked{m, *predicted, report_of_[i],
                     m.code() - predicted->range - predicted->ionosphere};
-    tracked.code_repeats = code_repeats(m.satellite, memory);
+    weigh_code(tracked, memory);
     memory.last_code = time_;
     tracked.phase_good = m.phase() != 0.0;
     if (tracked.phase_good) {
@@ -338,7 +346,17 @@ void PppFilter::update() {
         break;
     }
   }
+  judge_codes(rows);
   disagrees_ = disagree(rows);
+}
+
+void PppFilter::judge_codes(const std::vector<Row>& rows) {
+  for (const Row& row : rows) {
+    if (row.kind != RowKind::code) continue;
+    const Tracked& t = tracked_[row.tracked];
+    const double residual = row.left(update_.dx());
+    levels_.add(t.measurement.satellite, residual * residual / (row.sigma * row.sigma) * t.level);
+  }
 }
 
 void PppFilter::forget_absent() {

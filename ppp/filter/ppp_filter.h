@@ -2,6 +2,7 @@
 // and single-threaded: what it says depends on the epochs alone.
 #pragma once
 
+#include "ppp/filter/code_levels.h"
 #include "ppp/filter/epoch_rows.h"
 #include "ppp/filter/filter_state.h"
 #include "ppp/filter/map_update.h"
@@ -33,14 +34,14 @@ class PppFilter {
 
   // Memory that what it saves takes at most.
   static constexpr std::size_t largest_archive =
-      (FilterState::capacity + 1) * FilterState::capacity * sizeof(double) + satellite_slots * 128 +
+      (FilterState::capacity + 1) * FilterState::capacity * sizeof(double) + satellite_slots * 144 +
       4096;
 
   // Saves and loads what it knows; loading refuses a filter with other parameters. A filter that
   // refused is as it was.
   template <class Archive>
   void archive(Archive& ar) {
-    ar.section("ppp", 2);
+    ar.section("ppp", 3);
     archive_same_fields(ar, parameters_);
     archive_same(ar, "choice of systems", parameters_.systems);
     if constexpr (Archive::loading) {
@@ -59,9 +60,9 @@ class PppFilter {
  private:
   template <class Archive>
   void archive_knowledge(Archive& ar) {
-    ar(state_, memory_, started_, begun_, time_, reference_system_, has_offset_, bad_epochs_,
-       restarts_, lasting_, has_map_, solution_.status, solution_.position, solution_.covariance,
-       solution_.restarts);
+    ar(state_, memory_, levels_, started_, begun_, time_, reference_system_, has_offset_,
+       bad_epochs_, restarts_, lasting_, has_map_, solution_.status, solution_.position,
+       solution_.covariance, solution_.restarts);
   }
 
   struct Memory {  // of a satellite
@@ -78,11 +79,12 @@ class PppFilter {
   void measure_all(const Epoch& epoch);
   bool start(const Epoch& epoch);
   void predict(double interval);
-  double code_repeats(Satellite satellite, const Memory& memory) const;
+  void weigh_code(Tracked& tracked, const Memory& memory) const;
   void predict_ranges(double interval);
   void set_clocks();
   void weigh_lasting_errors();
   void update();
+  void judge_codes(const std::vector<Row>& rows);
   bool disagree(const std::vector<Row>& rows) const;
   void forget_absent();
   void add_lasting_error();
@@ -92,6 +94,7 @@ class PppFilter {
   RangeModel model_;
   FilterState state_;
   std::vector<Memory> memory_;
+  CodeLevels levels_;
   bool started_ = false;
   GpsTime begun_{}, time_{};
   int reference_system_ = -1;

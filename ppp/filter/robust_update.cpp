@@ -1,16 +1,39 @@
 #include "ppp/filter/robust_update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
 namespace maploop::ppp {
+namespace {
 
-Row* RobustUpdate::worst(std::vector<Row>& rows) const {
+// Of what the row measures, by the state.
+double predicted_variance(const FilterState& state, const Row& row) {
+  const auto P = state.P();
+  double variance = 0.0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(row.count); ++i) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(row.count); ++k) {
+      variance += row.h[i] * P(row.indices[i], row.indices[k]) * row.h[k];
+    }
+  }
+  return variance;
+}
+
+}  // namespace
+
+Row* RobustUpdate::worst(const FilterState& state, std::vector<Row>& rows) const {
   Row* worst = nullptr;
   double largest = outlier_sigmas_;
   for (Row& row : rows) {
     if (!row.active) continue;
-    const double normalized = std::abs(row.left(dx_)) / row.sigma;
+    double sigma = row.sigma;
+    if (row.kind != RowKind::code) {
+      constexpr double least = 1e-3;  // a new ambiguity takes up all: nothing to test
+      const double share = 1.0 - predicted_variance(state, row) / row.variance;
+      if (share < least) continue;
+      sigma *= std::sqrt(share);
+    }
+    const double normalized = std::abs(row.left(dx_)) / sigma;
     if (normalized > largest) {
       largest = normalized;
       worst = &row;
@@ -19,21 +42,62 @@ Row* RobustUpdate::worst(std::vector<Row>& rows) const {
   return worst;
 }
 
+void RobustUpdate::apply_once(FilterState& state, const std::vector<Row>& rows) {
+  dx_.setZero();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Row& row = rows[i];
+    if (!row.active) continue;
+    const auto n = static_cast<std::size_t>(row.count);
+    state.update(std::span(row.indices).first(n), std::span(row.h).first(n), row.y,
+                 row.variance * looser_[i], dx_);
+  }
+}
+
+// Several outliers move the state so far that others fit worse than they do. Weights by the
+// residuals make the sum of absolute values least, which they move less.
+void RobustUpdate::reject_together(FilterState& state, std::vector<Row>& rows) {
+  constexpr int passes = 5;
+  const auto misfit = [this](const Row& row) { return std::abs(row.left(dx_)) / row.sigma; };
+  for (int pass = 0; pass < passes; ++pass) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (rows[i].kind != RowKind::code) looser_[i] = std::max(1.0, misfit(rows[i]));
+    }
+    state = before_;
+    apply_once(state, rows);
+  }
+  for (Row& row : rows) row.active = row.kind == RowKind::code || misfit(row) <= outlier_sigmas_;
+  std::fill(looser_.begin(), looser_.end(), 1.0);
+  state = before_;
+  apply_once(state, rows);
+  readmit(state, rows);
+}
+
+// Rows that fit a state that does not know them.
+void RobustUpdate::readmit(FilterState& state, std::vector<Row>& rows) {
+  bool again = false;
+  for (Row& row : rows) {
+    if (row.active) continue;
+    const double variance = row.sigma * row.sigma + predicted_variance(state, row);
+    row.active = std::abs(row.left(dx_)) <= outlier_sigmas_ * std::sqrt(variance);
+    again |= row.active;
+  }
+  if (!again) return;
+  state = before_;
+  apply_once(state, rows);
+}
+
 void RobustUpdate::apply(FilterState& state, std::vector<Row>& rows) {
   constexpr int most_rejections = 8;
   before_ = state;
+  looser_.assign(rows.size(), 1.0);
+  apply_once(state, rows);
+  if (worst(state, rows) != nullptr) reject_together(state, rows);
   for (int pass = 0;; ++pass) {
-    dx_.setZero();
-    for (const Row& row : rows) {
-      if (!row.active) continue;
-      const auto n = static_cast<std::size_t>(row.count);
-      state.update(std::span(row.indices).first(n), std::span(row.h).first(n), row.y, row.variance,
-                   dx_);
-    }
-    Row* const misfit = worst(rows);
+    Row* const misfit = worst(state, rows);
     if (misfit == nullptr || pass == most_rejections) break;
     misfit->active = false;
     state = before_;
+    apply_once(state, rows);
   }
   state.x() += dx_.head(state.size());
 }

@@ -15,7 +15,8 @@ SinglePoint solve_single_point(const std::vector<Measurement>& measurements, Gps
   for (int rejections = 0;; ++rejections) {
     Eigen::Matrix<double, columns, 1> dx;
     Eigen::Matrix<double, columns, columns> normal;
-    double worst = 0.0;
+    double worst = 0.0, sum = 0.0;
+    int clocks = 0;
     std::size_t worst_at = 0;
     bool settled = false;
     for (int iteration = 0; iteration < 12 && !settled; ++iteration) {
@@ -26,7 +27,7 @@ SinglePoint solve_single_point(const std::vector<Measurement>& measurements, Gps
       Eigen::Matrix<double, columns, 1> right = Eigen::Matrix<double, columns, 1>::Zero();
       result.has_clock.fill(false);
       result.used = 0;
-      worst = 0.0;
+      worst = sum = 0.0;
       for (std::size_t i = 0; i < measurements.size(); ++i) {
         if (left_out[i]) continue;
         const Measurement& m = measurements[i];
@@ -54,12 +55,13 @@ SinglePoint solve_single_point(const std::vector<Measurement>& measurements, Gps
         right += h * (y / variance);
         result.has_clock[system] = true;
         ++result.used;
+        sum += y * y / variance;
         if (std::abs(y) / std::sqrt(variance) > worst) {
           worst = std::abs(y) / std::sqrt(variance);
           worst_at = i;
         }
       }
-      int clocks = 0;
+      clocks = 0;
       for (std::size_t s = 0; s < result.has_clock.size(); ++s) {
         const int at = 3 + static_cast<int>(s);
         if (result.has_clock[s]) {
@@ -96,6 +98,7 @@ SinglePoint solve_single_point(const std::vector<Measurement>& measurements, Gps
       result.why_not = "codes disagree beyond a quarter of the satellites";
       return result;
     }
+    if (const int spare = result.used - 3 - clocks; spare > 0) result.residual_level = sum / spare;
     result.covariance = normal.inverse().topLeftCorner<3, 3>();
     result.solved = true;
     model.begin(t, result.position);

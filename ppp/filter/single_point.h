@@ -16,6 +16,8 @@ struct SinglePoint {
   std::array<double, system_count> clocks{};  // m, of each system
   std::array<bool, system_count> has_clock{};
   int used = 0, refused = 0;
+  // Variance of the residuals against what is expected; 1 where there are none to spare.
+  double residual_level = 1.0;
 };
 
 // Weighted least squares; the largest residual beyond four standard deviations is left out, one

@@ -1,0 +1,45 @@
+#include "ppp/filter/code_levels.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace maploop::ppp {
+namespace {
+
+std::size_t slot(Satellite s) {
+  return static_cast<std::size_t>(s.slot());
+}
+
+}  // namespace
+
+void CodeLevels::begin(double level) {
+  std::fill(own_.begin(), own_.end(), Level{});
+  all_ = level;
+}
+
+double CodeLevels::of(Satellite satellite) const {
+  return std::max(1.0, own_[slot(satellite)].mean.value_or(all_));
+}
+
+void CodeLevels::add(Satellite satellite, double ratio) {
+  constexpr double most = 100.0;
+  own_[slot(satellite)].last = std::min(ratio, most);
+}
+
+void CodeLevels::end_epoch(double interval, double time) {
+  const double gain = 1.0 - std::exp(-interval / time);
+  double sum = 0.0;
+  int count = 0;
+  for (Level& level : own_) {
+    if (!level.last) continue;
+    const double before = level.mean.value_or(all_);
+    level.mean = before + gain * (*level.last - before);
+    sum += *level.last;
+    ++count;
+    level.last.reset();
+  }
+  constexpr int enough = 5;  // fewer codes have next to no residuals
+  if (count >= enough) all_ += gain * (sum / count - all_);
+}
+
+}  // namespace maploop::ppp

@@ -1,0 +1,112 @@
+#include "ppp/filter/robust_update.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace maploop::ppp {
+namespace {
+
+using S = FilterState;
+
+Satellite gps(int number) {
+  return {System::gps, static_cast<std::uint8_t>(number)};
+}
+
+// Phases of nine satellites, whose ambiguities are known to a centimetre, and the codes of all; the
+// vehicle has moved by nobody knows what within a metre.
+class Epoch : public ::testing::Test {
+ protected:
+  static constexpr int satellites = 9;
+
+  Epoch() {
+    for (int i = 0; i < 3; ++i) state.set(S::position + i, 0.0, 1.0);
+    state.set(S::clock, 0.0, 100.0);
+    for (int s = 0; s < satellites; ++s) {
+      state.add_ambiguity(gps(s + 1), 0.0, 0.01);
+      Eigen::Vector3d to_satellite(std::cos(0.7 * s), std::sin(0.7 * s), 0.3 + 0.2 * (s % 5));
+      to_satellite.normalize();
+      Row code;
+      code.kind = RowKind::code;
+      for (int i = 0; i < 3; ++i) code.add(S::position + i, -to_satellite[i]);
+      code.add(S::clock, 1.0);
+      code.y = 7.0 - to_satellite.dot(moved) + 0.8 * normal(random);
+      code.sigma = 1.0;
+      code.variance = 80.0;
+      Row phase = code;
+      phase.kind = RowKind::phase;
+      phase.add(state.ambiguity(gps(s + 1)), 1.0);
+      phase.y = 7.0 - to_satellite.dot(moved) + 0.01 * normal(random);
+      phase.sigma = 0.01;
+      phase.variance = 1e-4;
+      rows.push_back(code);
+      rows.push_back(phase);
+    }
+  }
+  Row& phase(int satellite) { return rows[static_cast<std::size_t>(2 * satellite + 1)]; }
+  Row& code(int satellite) { return rows[static_cast<std::size_t>(2 * satellite)]; }
+  std::vector<int> left_out() const {
+    std::vector<int> which;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (!rows[i].active) which.push_back(static_cast<int>(i));
+    }
+    return which;
+  }
+  double error() const { return (state.x().segment<3>(S::position) - moved).norm(); }
+
+  const Eigen::Vector3d moved{0.7, -0.4, 0.3};
+  std::mt19937 random{3};
+  std::normal_distribution<double> normal;
+  FilterState state;
+  std::vector<Row> rows;
+  RobustUpdate update{4.0};
+};
+
+TEST_F(Epoch, NothingIsLeftOutWhereAllFits) {
+  update.apply(state, rows);
+  EXPECT_EQ(left_out(), std::vector<int>{});
+  EXPECT_LT(error(), 0.03);
+}
+
+TEST_F(Epoch, ASlipIsLeftOutWhosesoeverItIs) {
+  for (int slipped = 0; slipped < satellites; ++slipped) {
+    const FilterState before = state;
+    const std::vector<Row> all = rows;
+    phase(slipped).y += 0.4;
+    update.apply(state, rows);
+    EXPECT_EQ(left_out(), std::vector<int>{2 * slipped + 1});
+    EXPECT_LT(error(), 0.04);
+    state = before;
+    rows = all;
+  }
+}
+
+// Each removal of the worst alone would take good ones first.
+TEST_F(Epoch, ThreeSlipsOfNineAreTheOnesLeftOut) {
+  phase(1).y += 3.0;
+  phase(4).y += 5.0;
+  phase(6).y -= 4.0;
+  update.apply(state, rows);
+  EXPECT_EQ(left_out(), (std::vector<int>{3, 9, 13}));
+  EXPECT_LT(error(), 0.05);
+}
+
+TEST_F(Epoch, ACodeIsJudgedByItsSize) {
+  code(2).y += 3.0;
+  code(5).y += 6.0;
+  update.apply(state, rows);
+  EXPECT_EQ(left_out(), std::vector<int>{10});
+}
+
+// Its phase says what it is, whatever it is.
+TEST_F(Epoch, ANewAmbiguityIsNeverAMisfit) {
+  state.set(state.ambiguity(gps(4)), 0.0, 60.0);
+  phase(3).y += 50.0;
+  update.apply(state, rows);
+  EXPECT_EQ(left_out(), std::vector<int>{});
+  EXPECT_NEAR(state.x()[state.ambiguity(gps(4))], 50.0, 0.1);
+}
+
+}  // namespace
+}  // namespace maploop::ppp
