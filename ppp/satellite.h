@@ -2,6 +2,7 @@
 #pragma once
 
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -26,9 +27,9 @@ struct Satellite {
 
   auto operator<=>(const Satellite&) const = default;
   // Unique and below satellite_slots: the place in a table.
-  int slot() const { return static_cast<int>(system) * 100 + number; }
+  std::size_t slot() const { return static_cast<std::size_t>(system) * 100 + number; }
 };
-inline constexpr int satellite_slots = system_count * 100;
+inline constexpr std::size_t satellite_slots = system_count * 100;
 
 template <class Archive>
 void archive(Archive& ar, Satellite& s) {

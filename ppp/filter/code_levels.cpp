@@ -4,26 +4,18 @@
 #include <cmath>
 
 namespace maploop::ppp {
-namespace {
-
-std::size_t slot(Satellite s) {
-  return static_cast<std::size_t>(s.slot());
-}
-
-}  // namespace
-
 void CodeLevels::begin(double level) {
   std::fill(own_.begin(), own_.end(), Level{});
   all_ = level;
 }
 
 double CodeLevels::of(Satellite satellite) const {
-  return std::max(1.0, own_[slot(satellite)].mean.value_or(all_));
+  return std::max(1.0, own_[satellite.slot()].mean.value_or(all_));
 }
 
 void CodeLevels::add(Satellite satellite, double ratio) {
   constexpr double most = 100.0;
-  own_[slot(satellite)].last = std::min(ratio, most);
+  own_[satellite.slot()].last = std::min(ratio, most);
 }
 
 void CodeLevels::end_epoch(double interval, double time) {

@@ -12,10 +12,6 @@ namespace {
 
 using S = FilterState;
 
-std::size_t slot(Satellite s) {
-  return static_cast<std::size_t>(s.slot());
-}
-
 }  // namespace
 
 PppFilter::PppFilter(const PppParameters& parameters, const Surroundings& surroundings, Earth earth)
@@ -202,7 +198,7 @@ void PppFilter::predict_ranges(double interval) {
   for (std::size_t i = 0; i < measurements_.size(); ++i) {
     const Measurement& m = measurements_[i];
     SatelliteReport& report = solution_.satellites[report_of_[i]];
-    Memory& memory = memory_[slot(m.satellite)];
+    Memory& memory = memory_[m.satellite.slot()];
     const auto predicted = model_.predict(m, memory.wind_up);
     if (!predicted) {
       report.refused = PppRefusal::no_ephemeris;
@@ -362,7 +358,7 @@ void PppFilter::judge_codes(const std::vector<Row>& rows) {
 void PppFilter::forget_absent() {
   for (std::size_t i = state_.ambiguities().size(); i-- > 0;) {
     const Satellite satellite = state_.ambiguities()[i];
-    if (memory_[slot(satellite)].epochs_away > parameters_.longest_gap) {
+    if (memory_[satellite.slot()].epochs_away > parameters_.longest_gap) {
       state_.remove_ambiguity(satellite);
     }
   }

@@ -47,10 +47,11 @@ Orbit orbit(const KeplerMessage& m, GpsTime t) {
   const double rate = rotation_rate(m.satellite.system);
   const double tk = to_seconds(t - m.toe);
   const double a = m.sqrt_a * m.sqrt_a;
-  const double mean = m.m0 + (std::sqrt(mu / (a * a * a)) + m.delta_n) * tk;
-  double eccentric = mean;
+  const double mean_anomaly = m.m0 + (std::sqrt(mu / (a * a * a)) + m.delta_n) * tk;
+  double eccentric = mean_anomaly;
   for (int i = 0; i < 12; ++i) {
-    eccentric -= (eccentric - m.e * std::sin(eccentric) - mean) / (1.0 - m.e * std::cos(eccentric));
+    eccentric -=
+        (eccentric - m.e * std::sin(eccentric) - mean_anomaly) / (1.0 - m.e * std::cos(eccentric));
   }
   const double sin_e = std::sin(eccentric), cos_e = std::cos(eccentric);
   const double argument = std::atan2(std::sqrt(1.0 - m.e * m.e) * sin_e, cos_e - m.e) + m.omega;
@@ -200,7 +201,7 @@ void BroadcastEphemeris::add(const KeplerMessage& m) {
   const auto is_e5b = [](const KeplerMessage& k) {
     return k.satellite.system == System::galileo && (static_cast<int>(k.data_sources) & 0x200) != 0;
   };
-  auto& list = kepler_[static_cast<std::size_t>(m.satellite.slot())];
+  auto& list = kepler_[m.satellite.slot()];
   const auto same = std::find_if(list.begin(), list.end(), [&](const KeplerMessage& other) {
     return other.toe == m.toe && other.iode == m.iode;
   });
@@ -224,7 +225,7 @@ void BroadcastEphemeris::add(const GlonassMessage& m) {
 
 const KeplerMessage* BroadcastEphemeris::kepler(Satellite satellite, GpsTime t,
                                                 std::optional<int> issue) const {
-  const auto& messages = kepler_[static_cast<std::size_t>(satellite.slot())];
+  const auto& messages = kepler_[satellite.slot()];
   const Duration longest = longest_age(satellite.system);
   return issue ? with_issue(messages, *issue, t, longest) : nearest(messages, t, longest);
 }

@@ -6,7 +6,7 @@
 namespace maploop::ppp {
 
 void CorrectedEphemeris::add(const SsrUpdate& u) {
-  Corrections& c = corrections_[static_cast<std::size_t>(u.satellite.slot())];
+  Corrections& c = corrections_[u.satellite.slot()];
   const auto part = [&](auto value) {
     return Part<decltype(value)>{value, u.time, u.interval, u.solution, u.issue};
   };
@@ -56,7 +56,7 @@ std::string CorrectedEphemeris::missing(Satellite satellite, GpsTime t) const {
 
 std::optional<CorrectedEphemeris::Current> CorrectedEphemeris::available(
     Satellite satellite) const {
-  const Corrections& c = corrections_[static_cast<std::size_t>(satellite.slot())];
+  const Corrections& c = corrections_[satellite.slot()];
   if (!fresh(c.clock)) return {};
   for (const auto* orbit : {&c.orbit, &c.orbit_before}) {
     if (fresh(*orbit) && (*orbit)->goes_with(*c.clock) &&

@@ -13,10 +13,6 @@ constexpr std::size_t nodes = 11;  // of the interpolating polynomial
 // Clocks are joined by lines up to this far apart.
 constexpr Duration longest_clock_gap = std::chrono::seconds(910);
 
-std::size_t slot(Satellite s) {
-  return static_cast<std::size_t>(s.slot());
-}
-
 // A clock as a random walk, m/sqrt(s): its second differences over steps of T have twice the
 // variance of one step. The median is blind to jumps and gaps.
 double walk_of(const std::vector<ClockFile::Point>& clock) {
@@ -47,8 +43,8 @@ PreciseEphemeris::PreciseEphemeris(const std::vector<OrbitFile>& orbits,
   for (const OrbitFile& file : orbits) {
     orbit_interval_ = std::max(orbit_interval_, file.interval);
     for (const auto& [satellite, points] : file.points) {
-      auto& orbit = orbits_[slot(satellite)];
-      auto& clock = clocks_[slot(satellite)];
+      auto& orbit = orbits_[satellite.slot()];
+      auto& clock = clocks_[satellite.slot()];
       for (std::size_t i = 0; i < points.size(); ++i) {
         if (points[i].position.norm() > 0.0) {
           orbit.push_back({file.epochs[i], points[i].position});
@@ -61,7 +57,7 @@ PreciseEphemeris::PreciseEphemeris(const std::vector<OrbitFile>& orbits,
   }
   for (const ClockFile& file : clocks) {
     for (const auto& [satellite, points] : file.points) {
-      auto& clock = clocks_[slot(satellite)];
+      auto& clock = clocks_[satellite.slot()];
       clock.insert(clock.end(), points.begin(), points.end());
     }
   }
@@ -78,13 +74,13 @@ PreciseEphemeris::PreciseEphemeris(const std::vector<OrbitFile>& orbits,
   for (auto& list : clocks_) in_order(list);
   std::transform(clocks_.begin(), clocks_.end(), clock_walk_.begin(), walk_of);
   for (const BiasFile& file : biases) {
-    for (const CodeBias& bias : file.biases) biases_[slot(bias.satellite)].push_back(bias);
+    for (const CodeBias& bias : file.biases) biases_[bias.satellite.slot()].push_back(bias);
   }
 }
 
 std::optional<Eigen::Vector3d> PreciseEphemeris::position(Satellite satellite, GpsTime t,
                                                           Eigen::Vector3d* velocity) const {
-  const auto& points = orbits_[slot(satellite)];
+  const auto& points = orbits_[satellite.slot()];
   if (points.size() < nodes || t < points.front().time || t > points.back().time) return {};
   const auto after = std::upper_bound(points.begin(), points.end(), t,
                                       [](GpsTime m, const OrbitPoint& p) { return m < p.time; });
@@ -128,7 +124,7 @@ std::optional<Eigen::Vector3d> PreciseEphemeris::position(Satellite satellite, G
 }
 
 std::optional<double> PreciseEphemeris::clock(Satellite satellite, GpsTime t) const {
-  const auto& points = clocks_[slot(satellite)];
+  const auto& points = clocks_[satellite.slot()];
   auto after = std::lower_bound(points.begin(), points.end(), t,
                                 [](const ClockFile::Point& p, GpsTime m) { return p.time < m; });
   if (after == points.end()) return {};
@@ -162,14 +158,14 @@ std::optional<SatelliteState> PreciseEphemeris::at(Satellite satellite, GpsTime 
 }
 
 double PreciseEphemeris::error_walk(Satellite satellite) const {
-  return clock_walk_[slot(satellite)];
+  return clock_walk_[satellite.slot()];
 }
 
 double PreciseEphemeris::code_bias(Satellite satellite, char band, char attribute,
                                    GpsTime t) const {
   const char name[3] = {'C', band, attribute};
   const std::string_view wanted(name, 3);
-  for (const CodeBias& bias : biases_[slot(satellite)]) {
+  for (const CodeBias& bias : biases_[satellite.slot()]) {
     if (t < bias.from || t >= bias.until) continue;
     if (bias.second.empty() && bias.signal == wanted) return bias.metres;
     // GPS's clocks are for P(Y): another code of the carrier differs by their differential bias.
@@ -185,7 +181,7 @@ std::string PreciseEphemeris::missing(Satellite satellite, GpsTime t) const {
   if (!position(satellite, t, nullptr)) {
     return "no precise orbit for " + to_string(satellite) + " at " + format_gps_time(t);
   }
-  const auto& points = clocks_[slot(satellite)];
+  const auto& points = clocks_[satellite.slot()];
   const auto after =
       std::lower_bound(points.begin(), points.end(), t,
                        [](const ClockFile::Point& p, GpsTime m) { return p.time < m; });
