@@ -282,8 +282,11 @@ void PppFilter::set_clocks() {
   if (!clock) return;
   state_.set(S::clock, *clock, unknown);
   state_.set(S::clock_drift, 0.0, 1e4);
+  // Behind a gap the position may be as far off.
+  const double lost = std::sqrt(state_.P().block<3, 3>(S::position, S::position).trace());
+  const double gate = parameters_.code_gate + 4.0 * lost;
   for (Tracked& t : tracked_) {
-    if (std::abs(t.code_offset - offset(t) - *clock) > parameters_.code_gate) {
+    if (std::abs(t.code_offset - offset(t) - *clock) > gate) {
       t.code_good = t.phase_good = false;
       solution_.satellites[t.report].refused = PppRefusal::code_far;
     }
