@@ -20,7 +20,7 @@ class PppFilter {
   PppFilter(const PppParameters& parameters, const Surroundings& surroundings, Earth earth);
 
   // Epochs in the order of time. The solution is valid until the next call. Work is bounded by the
-  // number of satellites and 10 passes over them.
+  // number of satellites and 16 passes over them.
   const PppSolution& process(const Epoch& epoch);
 
   // The road at the feedback's stamp, about the state of the last epoch. Nothing is forgotten where

@@ -15,6 +15,7 @@ using gnss::PppRun;
 using gnss::RunOptions;
 using gnss::Score;
 using gnss::Truth;
+using std::chrono::seconds;
 
 const std::string esbjerg = "3582104.7678,532590.1740,5232755.1436";
 
@@ -115,6 +116,27 @@ TEST(PppFilter, OneFrequencyWithBroadcastOrbits) {
   EXPECT_GE(a.coverage(), 0.99);
   EXPECT_LT(a.horizontal_rmse, 1.15);
   EXPECT_LT(a.horizontal_rmse_without_mean, 0.5);
+}
+
+// Where satellites come back the position is a hundred metres off, and all codes with it.
+TEST(PppFilter, BehindATunnelAtSpeedItIsFoundAgainAtOnce) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const GnssFiles files = folder("riverside_drive");
+  const GpsTime first = files.observations.at(0).epochs.front().time;
+  RunOptions options;
+  options.parameters.systems = "GEC";
+  options.start = first + seconds(1800);
+  options.end = first + seconds(2700);
+  constexpr int tunnel = 45;  // s
+  options.change = [&](Epoch& epoch) {
+    const Duration since = epoch.time - first;
+    if (since >= seconds(2400) && since < seconds(2400 + tunnel)) epoch.satellites.clear();
+  };
+  const auto truth = maploop::testing::real_data() / "gnss/riverside_drive/groundtruth.csv.gz";
+  const Accuracy a = score(files, options, truth.string(), 2400.0);
+  EXPECT_EQ(a.solved, a.with_truth - tunnel);
+  EXPECT_LT(a.horizontal_rmse, 1.3);
+  EXPECT_LT(a.nees, 6.0);
 }
 
 TEST(PppFilter, GoesOnFromAnArchiveWithTheSameBits) {
