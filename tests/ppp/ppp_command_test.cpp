@@ -69,6 +69,18 @@ TEST(PppCommand, StartAndEndCutTheEpochs) {
   EXPECT_NE(result.out.find("60 of 60 epochs"), std::string::npos) << result.out;
 }
 
+TEST(PppCommand, AccuracyCanBeThatBehindTheConvergence) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  auto command = ppp_of_the_car();
+  command.insert(command.end(), {"--score-start", "06:32:00"});
+  EXPECT_EQ(run(command).status, 2) << "of what, without a truth";
+  command.insert(command.end(), {"--truth", car("rtk_reference.pos.gz")});
+  const auto result = run(command);
+  EXPECT_EQ(result.status, 0) << result.error;
+  EXPECT_NE(result.out.find("360 of 360 epochs have a position"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("truth: 238 of 238 epochs"), std::string::npos) << result.out;
+}
+
 TEST(PppCommand, ErrorsNameWhatIsWrong) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const auto no_orbits = run({MAPLOOP_COMMAND, "ppp", car("SEPT265G.21O.gz")});
