@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace maploop::ppp {
+
 void CodeLevels::begin(double level) {
   std::fill(own_.begin(), own_.end(), Level{});
   all_ = level;

@@ -49,9 +49,10 @@ std::vector<Row>& EpochRows::make(const std::vector<Tracked>& tracked, int refer
   for (std::size_t i = 0; i < tracked.size(); ++i) {
     const Tracked& t = tracked[i];
     if (!t.code_good) continue;
-    const Row code = code_row(i, t, reference_system, state);
+    const double factor = variance_factor(t);
+    const Row code = code_row(i, t, factor, reference_system, state);
     rows_.push_back(code);
-    if (t.phase_good) add_phase_row(t, code, state, reports);
+    if (t.phase_good) add_phase_row(t, factor, code, state, reports);
     if (!use_doppler || !has_doppler(t)) continue;
     Row doppler;
     doppler.kind = RowKind::doppler;
@@ -60,7 +61,7 @@ std::vector<Row>& EpochRows::make(const std::vector<Tracked>& tracked, int refer
     for (int k = 0; k < 3; ++k) doppler.add(S::velocity + k, -t.predicted.to_satellite[k]);
     doppler.add(S::clock_drift, 1.0);
     const double sigma = parameters_.doppler_sigma;
-    doppler.variance = sigma * sigma * variance_factor(t) * t.level;
+    doppler.variance = sigma * sigma * factor * t.level;
     doppler.sigma = std::sqrt(doppler.variance);
     rows_.push_back(doppler);
   }
@@ -76,7 +77,7 @@ void EpochRows::set_drift(const std::vector<Tracked>& tracked, FilterState& stat
   state.set(S::clock_drift, drifts_.empty() ? 0.0 : median(drifts_), unknown);
 }
 
-Row EpochRows::code_row(std::size_t i, const Tracked& t, int reference_system,
+Row EpochRows::code_row(std::size_t i, const Tracked& t, double factor, int reference_system,
                         const FilterState& state) const {
   const Measurement& m = t.measurement;
   const int system = static_cast<int>(m.satellite.system);
@@ -101,7 +102,7 @@ Row EpochRows::code_row(std::size_t i, const Tracked& t, int reference_system,
       m.satellite.system == System::glonass ? parameters_.glonass_code_factor : 1.0;
   const double sigma = parameters_.code_sigma * m.noise_factor() * glonass;
   row.y = t.code_offset - predicted;
-  const double usual = sigma * sigma * variance_factor(t);
+  const double usual = sigma * sigma * factor;
   const double rest = lasting_variance(t.predicted);
   row.variance = usual * (t.code_repeats + (t.level - 1.0) * t.level_repeats) + rest;
   row.sigma = std::sqrt(usual * t.level + rest);
@@ -110,7 +111,7 @@ Row EpochRows::code_row(std::size_t i, const Tracked& t, int reference_system,
 
 // Phase, or with one frequency GRAPHIC: half the sum of code and phase has no ionosphere, and half
 // the ambiguity (here one of its own, in metres).
-void EpochRows::add_phase_row(const Tracked& t, const Row& code, FilterState& state,
+void EpochRows::add_phase_row(const Tracked& t, double factor, const Row& code, FilterState& state,
                               std::vector<SatelliteReport>& reports) {
   const Measurement& m = t.measurement;
   const bool graphic = !m.dual() && parameters_.graphic;
@@ -131,8 +132,7 @@ void EpochRows::add_phase_row(const Tracked& t, const Row& code, FilterState& st
   row.add(index, 1.0);
   row.y = y - predicted - state.x()[index];
   const double sigma = parameters_.phase_sigma * m.noise_factor();
-  row.variance =
-      sigma * sigma * variance_factor(t) * t.level * (t.predicted.in_shadow ? 16.0 : 1.0);
+  row.variance = sigma * sigma * factor * t.level * (t.predicted.in_shadow ? 16.0 : 1.0);
   row.sigma = std::sqrt(row.variance);
   if (graphic) {
     row.variance += 0.25 * code.variance;

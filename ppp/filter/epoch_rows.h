@@ -53,9 +53,10 @@ class EpochRows {
                          FilterState& state, std::vector<SatelliteReport>& reports);
 
  private:
-  Row code_row(std::size_t i, const Tracked& t, int reference_system,
+  // `factor` is the satellite's variance_factor().
+  Row code_row(std::size_t i, const Tracked& t, double factor, int reference_system,
                const FilterState& state) const;
-  void add_phase_row(const Tracked& t, const Row& code, FilterState& state,
+  void add_phase_row(const Tracked& t, double factor, const Row& code, FilterState& state,
                      std::vector<SatelliteReport>& reports);
   void set_drift(const std::vector<Tracked>& tracked, FilterState& state);
   double variance_factor(const Tracked& t) const;

@@ -330,6 +330,8 @@ void PppFilter::update() {
     switch (row.kind) {
       case RowKind::code:
         report.code_residual = row.left(update_.dx());
+        levels_.add(t.measurement.satellite, report.code_residual * report.code_residual /
+                                                 (row.sigma * row.sigma) * t.level);
         report.code_used = row.active;
         if (!row.active) report.refused = PppRefusal::code_misfit;
         break;
@@ -345,17 +347,7 @@ void PppFilter::update() {
         break;
     }
   }
-  judge_codes(rows);
   disagrees_ = disagree(rows);
-}
-
-void PppFilter::judge_codes(const std::vector<Row>& rows) {
-  for (const Row& row : rows) {
-    if (row.kind != RowKind::code) continue;
-    const Tracked& t = tracked_[row.tracked];
-    const double residual = row.left(update_.dx());
-    levels_.add(t.measurement.satellite, residual * residual / (row.sigma * row.sigma) * t.level);
-  }
 }
 
 void PppFilter::forget_absent() {

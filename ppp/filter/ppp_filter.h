@@ -84,7 +84,6 @@ class PppFilter {
   void set_clocks();
   void weigh_lasting_errors();
   void update();
-  void judge_codes(const std::vector<Row>& rows);
   bool disagree(const std::vector<Row>& rows) const;
   void forget_absent();
   void add_lasting_error();

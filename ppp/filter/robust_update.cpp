@@ -53,6 +53,11 @@ void RobustUpdate::apply_once(FilterState& state, const std::vector<Row>& rows) 
   }
 }
 
+void RobustUpdate::apply_anew(FilterState& state, const std::vector<Row>& rows) {
+  state = before_;
+  apply_once(state, rows);
+}
+
 // Several outliers move the state so far that others fit worse than they do. Weights by the
 // residuals make the sum of absolute values least, which they move less.
 void RobustUpdate::reject_together(FilterState& state, std::vector<Row>& rows) {
@@ -62,13 +67,11 @@ void RobustUpdate::reject_together(FilterState& state, std::vector<Row>& rows) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (rows[i].kind != RowKind::code) looser_[i] = std::max(1.0, misfit(rows[i]));
     }
-    state = before_;
-    apply_once(state, rows);
+    apply_anew(state, rows);
   }
   for (Row& row : rows) row.active = row.kind == RowKind::code || misfit(row) <= outlier_sigmas_;
   std::fill(looser_.begin(), looser_.end(), 1.0);
-  state = before_;
-  apply_once(state, rows);
+  apply_anew(state, rows);
   readmit(state, rows);
 }
 
@@ -82,8 +85,7 @@ void RobustUpdate::readmit(FilterState& state, std::vector<Row>& rows) {
     again |= row.active;
   }
   if (!again) return;
-  state = before_;
-  apply_once(state, rows);
+  apply_anew(state, rows);
 }
 
 void RobustUpdate::apply(FilterState& state, std::vector<Row>& rows) {
@@ -96,8 +98,7 @@ void RobustUpdate::apply(FilterState& state, std::vector<Row>& rows) {
     Row* const misfit = worst(state, rows);
     if (misfit == nullptr || pass == most_rejections) break;
     misfit->active = false;
-    state = before_;
-    apply_once(state, rows);
+    apply_anew(state, rows);
   }
   state.x() += dx_.head(state.size());
 }

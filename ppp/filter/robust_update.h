@@ -29,6 +29,7 @@ class RobustUpdate {
 
  private:
   void apply_once(FilterState& state, const std::vector<Row>& rows);
+  void apply_anew(FilterState& state, const std::vector<Row>& rows);
   void reject_together(FilterState& state, std::vector<Row>& rows);
   void readmit(FilterState& state, std::vector<Row>& rows);
   Row* worst(const FilterState& state, std::vector<Row>& rows) const;
