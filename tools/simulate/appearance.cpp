@@ -11,9 +11,9 @@ namespace {
 // The share of a pixel of `footprint` metres at `distance` that a stripe of half width `half`
 // covers.
 float stripe(float distance, float half, float footprint) {
-  const float f = std::max(footprint, 1e-4F);
-  return std::clamp((half - std::fabs(distance)) / f + 0.5F, 0.0F, 1.0F) *
-         std::min(1.0F, 2.0F * half / f);
+  const float pixels = 1.0F / std::max(footprint, 1e-4F);  // in a metre
+  return std::clamp((half - std::fabs(distance)) * pixels + 0.5F, 0.0F, 1.0F) *
+         std::min(1.0F, 2.0F * half * pixels);
 }
 
 float fraction(float x) {

@@ -35,7 +35,7 @@ float gloss(const Hit& hit, const Vector3f& direction) {
                                      : 0.02F + 0.1F * std::max(0.0F, up);
 }
 
-// One sample of every pixel, in one half of the exposure.
+// What falls on the pixels of an image.
 class Sampling {
  public:
   Sampling(const RayScene& scene, const Appearance& appearance, const StereoCalibration& camera,
@@ -45,11 +45,12 @@ class Sampling {
         camera_(camera),
         begin_(view.T_enu_cam[0].translation().cast<float>()),
         way_((view.T_enu_cam[1].translation() - view.T_enu_cam[0].translation()).cast<float>()),
+        R_(view.T_enu_cam[0].linear().cast<float>()),
+        turn_((view.T_enu_cam[1].linear() - view.T_enu_cam[0].linear()).cast<float>()),
         time_(time),
         p_(parameters),
         fx_(static_cast<float>(camera.fx)),
         fy_(static_cast<float>(camera.fy)) {
-    for (std::size_t i = 0; i < 2; ++i) R_[i] = view.T_enu_cam[i].linear().cast<float>();
     shift_.resize(static_cast<std::size_t>(camera.width) + packet);
     for (std::size_t x = 0; x < shift_.size(); ++x)
       shift_[x] =
@@ -57,33 +58,72 @@ class Sampling {
           (1.0F + std::cos(7.0F * static_cast<float>(x) / static_cast<float>(camera.width)));
   }
 
-  // Adds to `light`, where a white surface in the sun is 1 after both halves.
-  void add(std::size_t half, std::uint64_t seed, cv::Mat& light) {
-    for (int y = 0; y < camera_.height; ++y)
-      for (int x = 0; x < camera_.width; x += static_cast<int>(packet)) {
-        aim(half, x, y, seed);
-        scene_.cast(rays_, p_.reach, hits_);
-        find_shadows();
-        const auto count = std::min(packet, static_cast<std::size_t>(camera_.width - x));
-        for (std::size_t i = 0; i < count; ++i)
-          light.at<float>(y, x + static_cast<int>(i)) += 0.5F * seen(i);
+  // A white surface in the sun is 1.
+  cv::Mat light(std::uint64_t seed) {
+    cv::Mat light(camera_.height, camera_.width, CV_32F);
+    for (int y = 0; y < camera_.height; y += rows)
+      for (int x = 0; x < camera_.width; x += columns) {
+        std::array<float, packet> seen = look(x, y, mix(seed, 0));
+        if (!alike(seen)) {
+          const std::array<float, packet> again = look(x, y, mix(seed, 1));
+          for (std::size_t i = 0; i < packet; ++i) seen[i] = 0.5F * (seen[i] + again[i]);
+        }
+        for (std::size_t i = 0; i < packet; ++i) {
+          const int column = x + column_of(i), row = y + row_of(i);
+          if (column < camera_.width && row < camera_.height)
+            light.at<float>(row, column) = seen[i];
+        }
       }
+    return light;
   }
 
  private:
-  void aim(std::size_t half, int x0, int y, std::uint64_t seed) {
-    const auto cx = static_cast<float>(camera_.cx), cy = static_cast<float>(camera_.cy);
-    const float side = 0.5F * static_cast<float>(half);
+  // A packet's pixels are near each other, so that its rays mostly meet the same things.
+  static constexpr int columns = 4, rows = static_cast<int>(packet) / columns;
+  static int column_of(std::size_t i) { return static_cast<int>(i) % columns; }
+  static int row_of(std::size_t i) { return static_cast<int>(i) / columns; }
+
+  // From anywhere in each of a packet's pixels, at any moment of the exposure.
+  void aim(int x0, int y0, std::uint64_t seed) {
     for (std::size_t i = 0; i < packet; ++i) {
-      const int x = x0 + static_cast<int>(i);
+      const int x = x0 + column_of(i), y = y0 + row_of(i);
       const std::uint64_t bits = mix(seed, static_cast<std::uint64_t>(y * 4096 + x));
-      const float u = static_cast<float>(x) + side + 0.5F * unit_float(bits) - 0.5F +
-                      shift_[static_cast<std::size_t>(x)];
-      const float v = static_cast<float>(y) + unit_float(bits << 24U) - 0.5F;
-      const float moment = side + 0.5F * unit_float(bits << 48U);
+      const float u = static_cast<float>(x) + unit_float(bits) - 0.5F +
+                      shift_[static_cast<std::size_t>(x)] - static_cast<float>(camera_.cx);
+      const float v =
+          static_cast<float>(y) + unit_float(bits << 24U) - 0.5F - static_cast<float>(camera_.cy);
+      const float moment = unit_float(bits << 48U);
       rays_[i] = {begin_ + moment * way_,
-                  R_[half] * Vector3f((u - cx) / fx_, (v - cy) / fy_, 1.0F).normalized(), time_};
+                  (R_ + moment * turn_) * Vector3f(u / fx_, v / fy_, 1.0F).normalized(), time_};
     }
+  }
+
+  std::array<float, packet> look(int x0, int y0, std::uint64_t seed) {
+    aim(x0, y0, seed);
+    scene_.cast(rays_, p_.reach, hits_);
+    find_shadows();
+    std::array<float, packet> light;
+    for (std::size_t i = 0; i < packet; ++i) light[i] = seen(i);
+    return light;
+  }
+
+  // Whether all rays have met the same surface, as bright everywhere, and it hardly moves in the
+  // image during the exposure.
+  bool alike(const std::array<float, packet>& seen) const {
+    constexpr float edge = 0.05F;  // of a white surface in the sun
+    const auto [darkest, brightest] = std::minmax_element(seen.begin(), seen.end());
+    if (*brightest - *darkest > edge) return false;
+    const Hit& first = hits_[0];
+    for (std::size_t i = 1; i < packet; ++i) {
+      const Hit& hit = hits_[i];
+      if (hit.any != first.any) return false;
+      if (hit.any && (hit.surface != first.surface || hit.normal != first.normal)) return false;
+    }
+    constexpr float most = 0.5F;  // px
+    const Vector3f& d = rays_[0].direction;
+    Vector3f smear = turn_ * (R_.transpose() * d);
+    if (first.any) smear -= (way_ - way_.dot(d) * d) / first.range;
+    return fx_ * smear.norm() < most;
   }
 
   void find_shadows() {
@@ -115,7 +155,7 @@ class Sampling {
   const Appearance& appearance_;
   const StereoCalibration& camera_;
   Vector3f begin_, way_;
-  std::array<Eigen::Matrix3f, 2> R_;
+  Eigen::Matrix3f R_, turn_;  // at the begin of the exposure, and what it changes by
   float time_;
   const CameraParameters& p_;
   float fx_, fy_;
@@ -130,9 +170,7 @@ class Sampling {
 GreyImage take_image(const RayScene& scene, const Appearance& appearance,
                      const StereoCalibration& camera, const CameraView& view, float time,
                      float brightness, std::uint64_t seed, const CameraParameters& p) {
-  cv::Mat light = cv::Mat::zeros(camera.height, camera.width, CV_32F);
-  Sampling sampling(scene, appearance, camera, view, time, p);
-  for (std::size_t half = 0; half < 2; ++half) sampling.add(half, mix(seed, half), light);
+  cv::Mat light = Sampling(scene, appearance, camera, view, time, p).light(seed);
   const std::array<float, 3> lens{p.blur, 1.0F - 2.0F * p.blur, p.blur};
   const cv::Mat kernel(1, 3, CV_32F, const_cast<float*>(lens.data()));
   cv::sepFilter2D(light, light, CV_32F, kernel, kernel);

@@ -29,8 +29,9 @@ struct CameraView {
   float shift = 0.0F;
 };
 
-// A rectified grey image, `seed` making its noise: two rays through random places of each pixel in
-// the halves of the exposure, sun and shadow, the blur of a lens, photon and read noise, 8 bits.
+// A rectified grey image, `seed` making its noise: a ray through a random place of each pixel at a
+// random moment of the exposure, and another where neighbours see different things or what they see
+// moves meanwhile; sun and shadow, the blur of a lens, photon and read noise, 8 bits.
 // `time` is that of the moving bodies, `brightness` a factor of the exposure.
 GreyImage take_image(const RayScene& scene, const Appearance& appearance,
                      const StereoCalibration& camera, const CameraView& view, float time,

@@ -10,6 +10,16 @@ namespace {
 
 constexpr std::uint32_t tile_side = 256;
 
+// std::floor is a call where the processor need not have an instruction for it.
+std::int32_t floored(float x) {
+  const auto towards_zero = static_cast<std::int32_t>(x);
+  return towards_zero - (x < static_cast<float>(towards_zero));
+}
+
+std::uint32_t wrapped(std::int32_t i) {
+  return static_cast<std::uint32_t>(i) % tile_side;
+}
+
 }  // namespace
 
 NoiseTexture::NoiseTexture() : tile_(tile_side * tile_side) {
@@ -18,12 +28,10 @@ NoiseTexture::NoiseTexture() : tile_(tile_side * tile_side) {
 }
 
 float NoiseTexture::lattice(float x, float y) const {
-  const float fx = std::floor(x), fy = std::floor(y);
-  const auto i = static_cast<std::uint32_t>(static_cast<std::int32_t>(fx));
-  const auto j = static_cast<std::uint32_t>(static_cast<std::int32_t>(fy));
-  const std::uint32_t x0 = i % tile_side, x1 = (i + 1) % tile_side;
-  const std::uint32_t y0 = j % tile_side * tile_side, y1 = (j + 1) % tile_side * tile_side;
-  const float s = x - fx, t = y - fy;
+  const std::int32_t i = floored(x), j = floored(y);
+  const std::uint32_t x0 = wrapped(i), x1 = wrapped(i + 1);
+  const std::uint32_t y0 = wrapped(j) * tile_side, y1 = wrapped(j + 1) * tile_side;
+  const float s = x - static_cast<float>(i), t = y - static_cast<float>(j);
   const float a = tile_[y0 + x0] + s * (tile_[y0 + x1] - tile_[y0 + x0]);
   const float b = tile_[y1 + x0] + s * (tile_[y1 + x1] - tile_[y1 + x0]);
   return a + t * (b - a);
@@ -32,13 +40,15 @@ float NoiseTexture::lattice(float x, float y) const {
 float NoiseTexture::operator()(float u, float v, std::uint32_t seed, float coarsest, int octaves,
                                float gain, float footprint) const {
   const float du = static_cast<float>(seed & 0xffU), dv = static_cast<float>(seed >> 8U & 0xffU);
+  constexpr float finer = 3.0F;  // each octave than the one before
   float sum = 0.0F, weight = 1.0F;
-  for (int i = 0; i < octaves; ++i) {
-    const float seen = std::min(1.0F, coarsest / std::max(footprint, 1e-6F) - 1.0F);
-    if (seen <= 0.0F) break;
-    sum += weight * seen * lattice(u / coarsest + du, v / coarsest + dv);
+  float pixels = coarsest / std::max(footprint, 1e-6F), waves = 1.0F / coarsest;
+  for (int i = 0; i < octaves && pixels > 1.0F; ++i) {
+    const float seen = std::min(1.0F, pixels - 1.0F);
+    sum += weight * seen * lattice(u * waves + du, v * waves + dv);
     weight *= gain;
-    coarsest *= 0.33F;
+    pixels *= 1.0F / finer;
+    waves *= finer;
   }
   return sum;
 }

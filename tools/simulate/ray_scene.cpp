@@ -31,8 +31,20 @@ RTCScene scene_of(RTCDevice device, const Mesh& mesh) {
   RTCGeometry geometry = mesh_geometry(device, mesh);
   rtcAttachGeometry(scene, geometry);
   rtcReleaseGeometry(geometry);
+  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);  // built once, asked for every ray
   rtcCommitScene(scene);
   return scene;
+}
+
+std::vector<Eigen::Vector3f> normals_of(const Mesh& mesh) {
+  std::vector<Eigen::Vector3f> normals;
+  normals.reserve(mesh.triangles.size());
+  for (const auto& corners : mesh.triangles) {
+    const Eigen::Vector3f& a = mesh.vertices[corners[0]];
+    normals.push_back(
+        (mesh.vertices[corners[1]] - a).cross(mesh.vertices[corners[2]] - a).normalized());
+  }
+  return normals;
 }
 
 void set_transform(RTCGeometry instance, unsigned step, const Eigen::Isometry3d& pose) {
@@ -49,7 +61,8 @@ struct World::Implementation {
   RTCDevice device = rtcNewDevice("threads=1");
   RTCScene standing = nullptr;
   std::vector<RTCScene> bodies;
-  std::vector<Mesh> meshes;  // the standing one first
+  std::vector<Mesh> meshes;                           // the standing one first
+  std::vector<std::vector<Eigen::Vector3f>> normals;  // of each one's triangles, unit
 };
 
 World::World(Mesh standing, std::vector<Mesh> bodies)
@@ -58,6 +71,7 @@ World::World(Mesh standing, std::vector<Mesh> bodies)
   if (!world.device) throw std::runtime_error("Embree cannot be started on this machine");
   world.meshes.push_back(std::move(standing));
   for (Mesh& body : bodies) world.meshes.push_back(std::move(body));
+  for (const Mesh& mesh : world.meshes) world.normals.push_back(normals_of(mesh));
   world.standing = scene_of(world.device, world.meshes.front());
   for (std::size_t i = 1; i < world.meshes.size(); ++i)
     world.bodies.push_back(scene_of(world.device, world.meshes[i]));
@@ -147,9 +161,7 @@ void RayScene::cast(const Rays& rays, float reach, Hits& hits) const {
     hit.uv =
         (1.0F - u - v) * mesh.uv[corners[0]] + u * mesh.uv[corners[1]] + v * mesh.uv[corners[2]];
     hit.surface = &mesh.surfaces[mesh.surface_of[triangle]];
-    const Eigen::Vector3f& a = mesh.vertices[corners[0]];
-    Eigen::Vector3f normal =
-        (mesh.vertices[corners[1]] - a).cross(mesh.vertices[corners[2]] - a).normalized();
+    Eigen::Vector3f normal = implementation_->world->normals[instance][triangle];
     if (instance > 0) {
       Eigen::Matrix<float, 3, 4> pose;
       rtcGetGeometryTransform(implementation_->bodies[instance - 1], rays[i].time,

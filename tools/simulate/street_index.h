@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <optional>
+#include <span>
 #include <vector>
 
 #include "tools/simulate/streets.h"
@@ -34,16 +34,18 @@ class StreetIndex {
   Eigen::Vector2d most() const;
 
  private:
+  // Of a centreline.
   struct Segment {
-    std::uint32_t street, point;
+    const Street* street = nullptr;
+    Eigen::Vector2d begin, direction;  // the latter a unit vector
+    double along = 0.0, length = 0.0;  // m, of the begin from the street's, and its own
   };
-  const std::vector<Segment>* cell(const Eigen::Vector2d& place) const;
+  std::span<const Segment> cell(const Eigen::Vector2d& place) const;
 
-  const Streets* streets_;
   double reach_;
   Eigen::Vector2d least_ = Eigen::Vector2d::Zero();
   std::size_t columns_ = 0, rows_ = 0;
-  std::vector<std::vector<Segment>> cells_;
+  std::vector<std::vector<Segment>> cells_;  // segments of one street follow each other
 };
 
 }  // namespace maploop::simulate
