@@ -55,8 +55,11 @@ Feedback::Line Feedback::line_beside(DirectedLink link, const Eigen::Vector2d& p
                                    azimuth_of(step_to(line.along - reach, line.along)));
     line.straight = std::abs(bend) < parameters_.straight;
   }
-  line.half_width = half_width(network_->road_at(network_->link(link.link).first_vertex +
-                                                 static_cast<std::uint32_t>(segment)));
+  const Road& road = network_->road_at(network_->link(link.link).first_vertex +
+                                       static_cast<std::uint32_t>(segment));
+  line.half_width = half_width(road);
+  if (road.forward && road.backward && !parameters_.hard_reset)
+    line.lane = parameters_.lane_share * 0.5 * line.half_width;
   return line;
 }
 
@@ -165,10 +168,10 @@ MapFeedback Feedback::decide(const LinkMatch& match, const VehicleFix& fix) {
   const Eigen::Vector2d place = network_->to_local(fix.position);
   const Line line = line_beside(match.link, place);
   const Eigen::Vector2d right(std::cos(line.azimuth), -std::sin(line.azimuth));
-  out.point = network_->to_geodetic(line.point);
+  out.point = network_->to_geodetic(line.point + line.lane * right);
   out.point.height = fix.position.height;
   out.link_azimuth = line.azimuth;
-  out.cross_track = right.dot(place - line.point);
+  out.cross_track = right.dot(place - line.point) - line.lane;
   const double ramp = fed_on_link_ < parameters_.ramp ? parameters_.ramp_factor : 1.0;
   out.cross_sigma = ramp * parameters_.cross_sigma;
   out.lane_sigma = std::sqrt(parameters_.map_sigma * parameters_.map_sigma +

@@ -46,6 +46,7 @@ class Feedback {
     double azimuth = 0.0;                             // rad, as driven
     bool straight = false;
     double half_width = 0.0;  // m
+    double lane = 0.0;        // m to the right, where a vehicle is expected
   };
   // How the vehicle stood to the link at a fix.
   struct Moment {

@@ -73,6 +73,7 @@ void fields(Parameters& p, F&& f) {
   f("azimuth_spacing", p.azimuth_spacing);
   f("cross_sigma", p.cross_sigma);
   f("map_sigma", p.map_sigma);
+  f("lane_share", p.lane_share);
   f("azimuth_sigma", p.azimuth_sigma);
   f("bend_sigma", p.bend_sigma);
   f("straight", p.straight);

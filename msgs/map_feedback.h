@@ -71,9 +71,9 @@ struct MapFeedback : Sample {
   bool reset = false;     // hard reset: position and azimuth become the matched ones
   bool new_road = false;  // the first on another road than the one before: another lane offset
 
-  Geodetic point;              // matched; its height means nothing
+  Geodetic point;              // beside the matched one, in the lane; its height means nothing
   double link_azimuth = 0.0;   // rad, as driven
-  double cross_track = 0.0;    // m, of the fix, to the right of the line
+  double cross_track = 0.0;    // m, of the fix, to the right of `point`
   double cross_sigma = 0.0;    // m, what changes from one feedback to the next
   double lane_sigma = 0.0;     // m, lane and map error, which stay along the road
   double azimuth_sigma = 0.0;  // rad

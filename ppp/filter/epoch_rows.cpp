@@ -1,5 +1,6 @@
 #include "ppp/filter/epoch_rows.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "ppp/filter/median.h"
@@ -33,23 +34,22 @@ bool has_doppler(const Tracked& t) {
 // Against the zenith: by elevation, and where a signal is weaker than it is there without
 // obstacles as in the SIGMA-delta model (Brunner, Hartinger and Troyer, "GPS signal diffraction
 // modelling", Journal of Geodesy 73, 1999; their factor of 2).
-double EpochRows::variance_factor(const Tracked& t) const {
+double EpochRows::variance_factor(const Tracked& t, const FullStrength& strength) {
   const double sine = std::sin(t.predicted.elevation), cn0 = t.measurement.first.cn0;
-  const double by_elevation = 1.0 / (sine * sine);
-  if (parameters_.full_cn0 <= 0.0 || cn0 <= 0.0) return by_elevation;
-  const double full = parameters_.full_cn0 - parameters_.full_cn0_drop * (1.0 - sine);
-  return by_elevation * std::pow(10.0, 2.0 * std::max(0.0, full - cn0) / 10.0);
+  const double missing = cn0 > 0.0 ? std::max(0.0, strength.of(sine) - cn0) : 0.0;
+  return std::pow(10.0, 2.0 * missing / 10.0) / (sine * sine);
 }
 
 std::vector<Row>& EpochRows::make(const std::vector<Tracked>& tracked, int reference_system,
-                                  FilterState& state, std::vector<SatelliteReport>& reports) {
+                                  const FullStrength& strength, FilterState& state,
+                                  std::vector<SatelliteReport>& reports) {
   rows_.clear();
   const bool use_doppler = parameters_.motion == Motion::kinematic;
   if (use_doppler) set_drift(tracked, state);
   for (std::size_t i = 0; i < tracked.size(); ++i) {
     const Tracked& t = tracked[i];
     if (!t.code_good) continue;
-    const double factor = variance_factor(t);
+    const double factor = variance_factor(t, strength);
     const Row code = code_row(i, t, factor, reference_system, state);
     rows_.push_back(code);
     if (t.phase_good) add_phase_row(t, factor, code, state, reports);
@@ -120,7 +120,8 @@ void EpochRows::add_phase_row(const Tracked& t, double factor, const Row& code, 
       graphic ? 0.5 * (phase + m.code() - t.predicted.range) : phase + t.predicted.ionosphere;
   const double predicted = t.code_offset - code.y;  // clocks, wet delay, gradients
   int index = state.ambiguity(m.satellite);
-  if (index < 0) {
+  const bool is_new = index < 0;
+  if (is_new) {
     index = state.add_ambiguity(m.satellite, y - predicted, parameters_.ambiguity_sigma);
     if (index < 0) {
       reports[t.report].refused = PppRefusal::too_many;
@@ -129,6 +130,7 @@ void EpochRows::add_phase_row(const Tracked& t, double factor, const Row& code, 
   }
   Row row = code;
   row.kind = RowKind::phase;
+  row.new_ambiguity = is_new;
   row.add(index, 1.0);
   row.y = y - predicted - state.x()[index];
   const double sigma = parameters_.phase_sigma * m.noise_factor();

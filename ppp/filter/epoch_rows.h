@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ppp/filter/filter_state.h"
+#include "ppp/filter/full_strength.h"
 #include "ppp/filter/linear_row.h"
 #include "ppp/filter/parameters.h"
 #include "ppp/filter/range_model.h"
@@ -41,6 +42,8 @@ struct Row : LinearRow {
   std::size_t tracked = 0;  // whose
   double sigma = 0.0;
   bool active = true;
+  bool new_ambiguity = false;  // of a phase: it says nothing yet
+  bool doubtful = false;       // not active, but others may be wrong instead
 };
 
 class EpochRows {
@@ -50,7 +53,8 @@ class EpochRows {
   // Gives each new satellite its ambiguity, and the clock drift its first value; a satellite that
   // finds no room says so in its report. Rows are valid until the next call.
   std::vector<Row>& make(const std::vector<Tracked>& tracked, int reference_system,
-                         FilterState& state, std::vector<SatelliteReport>& reports);
+                         const FullStrength& strength, FilterState& state,
+                         std::vector<SatelliteReport>& reports);
 
  private:
   // `factor` is the satellite's variance_factor().
@@ -59,7 +63,7 @@ class EpochRows {
   void add_phase_row(const Tracked& t, double factor, const Row& code, FilterState& state,
                      std::vector<SatelliteReport>& reports);
   void set_drift(const std::vector<Tracked>& tracked, FilterState& state);
-  double variance_factor(const Tracked& t) const;
+  static double variance_factor(const Tracked& t, const FullStrength& strength);
 
   PppParameters parameters_;
   std::vector<Row> rows_;

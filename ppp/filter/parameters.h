@@ -36,8 +36,11 @@ struct PppParameters {
   // At the zenith and its drop to the horizon, with sin E between: a little less than signals have
   // without obstacles (5 % of those of three receivers under open sky are weaker). Below it,
   // variances double every 1.5 dB; 0: strength does not count.
-  double full_cn0 = 47.0;          // dB-Hz
-  double full_cn0_drop = 14.5;     // dB
+  double full_cn0 = 47.0;       // dB-Hz
+  double full_cn0_drop = 14.5;  // dB
+  // What three quarters of a receiver's signals at an elevation do not exceed is so much more than
+  // what they have at least without obstacles (1 to 5 dB with those three).
+  double full_cn0_margin = 4.0;    // dB
   double zenith_wet_sigma = 0.06;  // m, what the climatology leaves: 5 cm and a little
   double zenith_wet_walk = 1e-4;   // m/sqrt(s)
   bool gradients = true;
@@ -107,6 +110,7 @@ void fields(Parameters& p, F&& f) {
   f("reflection_distance", p.reflection_distance);
   f("full_cn0", p.full_cn0);
   f("full_cn0_drop", p.full_cn0_drop);
+  f("full_cn0_margin", p.full_cn0_margin);
   f("zenith_wet_sigma", p.zenith_wet_sigma);
   f("zenith_wet_walk", p.zenith_wet_walk);
   f("gradients", p.gradients);

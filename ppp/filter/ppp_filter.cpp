@@ -18,6 +18,7 @@ PppFilter::PppFilter(const PppParameters& parameters, const Surroundings& surrou
     : parameters_(parameters),
       model_(surroundings, std::move(earth)),
       memory_(satellite_slots),
+      strength_(parameters),
       rows_(parameters),
       map_dx_(FilterState::capacity),
       update_(parameters.outlier_sigmas) {}
@@ -318,7 +319,12 @@ void PppFilter::weigh_lasting_errors() {
 
 // Residuals and refusals; a phase that did not fit has slipped: its ambiguity begins anew.
 void PppFilter::update() {
-  std::vector<Row>& rows = rows_.make(tracked_, reference_system_, state_, solution_.satellites);
+  for (const Tracked& t : tracked_) {
+    const double cn0 = t.measurement.first.cn0;
+    if (t.code_good && cn0 > 0.0) strength_.add(std::sin(t.predicted.elevation), cn0);
+  }
+  std::vector<Row>& rows =
+      rows_.make(tracked_, reference_system_, strength_, state_, solution_.satellites);
   if (rows.size() < 4) {
     solution_.message = "fewer than four measurements";
     return;
@@ -340,7 +346,7 @@ void PppFilter::update() {
         report.phase_used = row.active;
         if (row.active) break;
         report.refused = PppRefusal::phase_misfit;
-        state_.remove_ambiguity(t.measurement.satellite);
+        if (!row.doubtful) state_.remove_ambiguity(t.measurement.satellite);
         break;
       case RowKind::doppler:
         if (!row.active) report.refused = PppRefusal::doppler_misfit;
@@ -381,12 +387,21 @@ bool PppFilter::disagree(const std::vector<Row>& rows) const {
 void PppFilter::add_lasting_error() {
   const Eigen::Matrix<double, 2, 3> to_east_north = model_.R_enu_ecef().topRows<2>();
   const auto P = state_.P();
-  Eigen::Matrix2d known = P.block<2, 2>(S::lasting_error, S::lasting_error);
-  known.diagonal() -= lasting_;
-  const Eigen::Matrix3d crossed = P.block<3, 2>(S::position, S::lasting_error) * to_east_north;
+  const Eigen::Matrix3d R = model_.R_enu_ecef();
+  const Eigen::Matrix3d own = R * solution_.covariance * R.transpose();
+  const Eigen::Matrix2d lasting = P.block<2, 2>(S::lasting_error, S::lasting_error);
+  const Eigen::Matrix<double, 3, 2> crossed = R * P.block<3, 2>(S::position, S::lasting_error);
+  Eigen::Matrix3d sum = own;
+  sum.leftCols<2>() += crossed;
+  sum.topRows<2>() += crossed.transpose();
+  sum.topLeftCorner<2, 2>() += lasting;
+  // The sum of both, made smaller by what it would be if they had nothing to do with each other.
+  const Eigen::Matrix2d once = own.topLeftCorner<2, 2>(), twice = once + lasting;
+  Eigen::Matrix3d shrink = Eigen::Matrix3d::Identity();
+  shrink.topLeftCorner<2, 2>() =
+      Eigen::Matrix2d(once.llt().matrixL()) * Eigen::Matrix2d(twice.llt().matrixL()).inverse();
   solution_.position += to_east_north.transpose() * state_.x().segment<2>(S::lasting_error);
-  solution_.covariance +=
-      crossed + crossed.transpose() + to_east_north.transpose() * known * to_east_north;
+  solution_.covariance = R.transpose() * shrink * sum * shrink.transpose() * R;
 }
 
 Eigen::Matrix2d PppFilter::level_covariance() const {

@@ -5,6 +5,7 @@
 #include "ppp/filter/code_levels.h"
 #include "ppp/filter/epoch_rows.h"
 #include "ppp/filter/filter_state.h"
+#include "ppp/filter/full_strength.h"
 #include "ppp/filter/map_update.h"
 #include "ppp/filter/parameters.h"
 #include "ppp/filter/range_model.h"
@@ -41,7 +42,7 @@ class PppFilter {
   // refused is as it was.
   template <class Archive>
   void archive(Archive& ar) {
-    ar.section("ppp", 3);
+    ar.section("ppp", 4);
     archive_same_fields(ar, parameters_);
     archive_same(ar, "choice of systems", parameters_.systems);
     if constexpr (Archive::loading) {
@@ -60,7 +61,7 @@ class PppFilter {
  private:
   template <class Archive>
   void archive_knowledge(Archive& ar) {
-    ar(state_, memory_, levels_, started_, begun_, time_, reference_system_, has_offset_,
+    ar(state_, memory_, levels_, strength_, started_, begun_, time_, reference_system_, has_offset_,
        bad_epochs_, restarts_, lasting_, has_map_, solution_.status, solution_.position,
        solution_.covariance, solution_.restarts);
   }
@@ -94,6 +95,7 @@ class PppFilter {
   FilterState state_;
   std::vector<Memory> memory_;
   CodeLevels levels_;
+  FullStrength strength_;  // of this receiver: kept when all begins anew
   bool started_ = false;
   GpsTime begun_{}, time_{};
   int reference_system_ = -1;

@@ -88,6 +88,24 @@ void RobustUpdate::readmit(FilterState& state, std::vector<Row>& rows) {
   apply_anew(state, rows);
 }
 
+// Any choice of no more phases than they have to tell, place and clock, fits: which of them have
+// slipped is not known.
+void RobustUpdate::doubt_phases(FilterState& state, std::vector<Row>& rows) {
+  constexpr int unknowns = 4;
+  constexpr double sigma = 1.0;  // m
+  int fit = 0, left_out = 0;
+  for (const Row& row : rows) {
+    if (row.kind == RowKind::phase && !row.new_ambiguity) ++(row.active ? fit : left_out);
+  }
+  if (left_out == 0 || fit > unknowns) return;
+  for (Row& row : rows) {
+    if (row.kind != RowKind::phase || row.new_ambiguity) continue;
+    row.doubtful = !row.active;
+    row.variance += sigma * sigma;
+  }
+  apply_anew(state, rows);
+}
+
 void RobustUpdate::apply(FilterState& state, std::vector<Row>& rows) {
   constexpr int most_rejections = 8;
   before_ = state;
@@ -100,6 +118,7 @@ void RobustUpdate::apply(FilterState& state, std::vector<Row>& rows) {
     misfit->active = false;
     apply_anew(state, rows);
   }
+  doubt_phases(state, rows);
   state.x() += dx_.head(state.size());
 }
 

@@ -22,6 +22,9 @@ class RobustUpdate {
   // taken up a part (Baarda, "A testing procedure for use in geodetic networks", 1968): a row that
   // the state follows shows little of its error. One of code, whose variance is not its size, in
   // that size.
+  //
+  // Where so few phases fit that others would have fitted as well, they say where the vehicle is to
+  // a metre, and none is known to be wrong.
   void apply(FilterState& state, std::vector<Row>& rows);
 
   // m and so on; valid until the next update.
@@ -32,6 +35,7 @@ class RobustUpdate {
   void apply_anew(FilterState& state, const std::vector<Row>& rows);
   void reject_together(FilterState& state, std::vector<Row>& rows);
   void readmit(FilterState& state, std::vector<Row>& rows);
+  void doubt_phases(FilterState& state, std::vector<Row>& rows);
   Row* worst(const FilterState& state, std::vector<Row>& rows) const;
 
   double outlier_sigmas_;

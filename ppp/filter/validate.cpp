@@ -31,6 +31,7 @@ constexpr std::array ppp_ranges{ParameterRange{"elevation_mask", 0.0, 90.0, "deg
                                 ParameterRange{"reflection_distance", 0.1, 1e6, "m"},
                                 ParameterRange{"full_cn0", 0.0, 100.0, "dB-Hz"},
                                 ParameterRange{"full_cn0_drop", 0.0, 100.0, "dB"},
+                                ParameterRange{"full_cn0_margin", 0.0, 100.0, "dB"},
                                 ParameterRange{"zenith_wet_sigma", 0.0, 10.0, "m"},
                                 ParameterRange{"zenith_wet_walk", 0.0, 1.0, "m/sqrt(s)"},
                                 ParameterRange{"gradient_sigma", 0.0, 1.0, "m"},

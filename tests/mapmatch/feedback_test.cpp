@@ -54,7 +54,9 @@ std::vector<MapFeedback> fed(const std::vector<MapFeedback>& all) {
 
 TEST(Feedback, OfAStraightRoadIsItsLineEveryTenMetres) {
   const RoadNetwork network = tee().network();
-  const auto all = feedbacks(network, drive({{20, 0}, {520, 0}}, 10.0, 10.0, 1.5));
+  FeedbackParameters parameters;
+  parameters.lane_share = 0.0;
+  const auto all = feedbacks(network, drive({{20, 0}, {520, 0}}, 10.0, 10.0, 1.5), parameters);
   const auto lines = fed(all);
   ASSERT_GT(lines.size(), 40u);
   ASSERT_LT(lines.size(), 50u);
@@ -69,6 +71,40 @@ TEST(Feedback, OfAStraightRoadIsItsLineEveryTenMetres) {
   EXPECT_TRUE(lines.front().new_road);
   EXPECT_FALSE(lines.back().new_road);
   EXPECT_GT(std::count_if(lines.begin(), lines.end(), [](const auto& f) { return f.azimuth; }), 15);
+}
+
+// A line for both directions is the road's middle, beside which one drives.
+TEST(Feedback, OnARoadForBothDirectionsItIsToTheRight) {
+  const RoadNetwork network = tee().network();
+  const double middle = network.to_local(SmallMap::place(300, 0)).y();
+  const double lane = 0.4 * 0.5 * half_width(network.road_at(0));
+  ASSERT_GT(lane, 0.4);
+  const auto off = [&](const std::vector<VehicleFix>& fixes, const FeedbackParameters& parameters) {
+    const auto lines = fed(feedbacks(network, fixes, parameters));
+    EXPECT_GT(lines.size(), 20u);
+    return lines.empty() ? 0.0 : network.to_local(lines.back().point).y() - middle;
+  };
+  const auto eastward = drive({{20, 0}, {520, 0}}, 10.0, 10.0, 1.5);
+  const auto westward = drive({{580, 0}, {80, 0}}, 10.0, 10.0, 1.5);
+  FeedbackParameters parameters;
+  EXPECT_NEAR(off(eastward, parameters), -lane, 0.02);
+  EXPECT_NEAR(off(westward, parameters), lane, 0.02);
+  EXPECT_NEAR(fed(feedbacks(network, eastward)).back().cross_track, 1.5 - lane, 0.05);
+  parameters.lane_share = -0.4;  // traffic on the left
+  EXPECT_NEAR(off(eastward, parameters), lane, 0.02);
+  parameters = {};
+  parameters.hard_reset = true;  // onto the line
+  EXPECT_NEAR(off(eastward, parameters), 0.0, 0.02);
+}
+
+TEST(Feedback, OfAOneWayLineItIsTheLine) {
+  SmallMap map;
+  map.node(1, 0, 0).node(2, 600, 0);
+  map.way(10, {1, 2}, maploop::testing::one_way());
+  const RoadNetwork network = map.network();
+  const auto lines = fed(feedbacks(network, drive({{20, 0}, {520, 0}}, 10.0, 10.0, 1.5)));
+  ASSERT_FALSE(lines.empty());
+  EXPECT_NEAR(lines.back().cross_track, 1.5, 0.05);
 }
 
 TEST(Feedback, NothingBeforeALinkIsEstablishedNorNearItsJunctions) {

@@ -99,6 +99,22 @@ TEST_F(Epoch, ACodeIsJudgedByItsSize) {
   EXPECT_EQ(left_out(), std::vector<int>{10});
 }
 
+// Any four phases fit: those of a wrong choice move the vehicle, and ambiguities are lost for good.
+TEST_F(Epoch, PhasesThatNobodyChecksMoveItLittleAndAreKept) {
+  for (int lost = 5; lost < satellites; ++lost) {
+    state.set(state.ambiguity(gps(lost + 1)), 0.0, 60.0);
+    phase(lost).new_ambiguity = true;
+  }
+  phase(0).y += 8.0;
+  update.apply(state, rows);
+  int kept = 0;
+  for (int known = 0; known < 5; ++known) kept += phase(known).active || phase(known).doubtful;
+  EXPECT_EQ(kept, 5);
+  EXPECT_LT(error(), 1.5);
+  const auto P = state.P().block<3, 3>(S::position, S::position);
+  EXPECT_GT(std::sqrt(P.trace()), 0.5);  // and it says so
+}
+
 // Its phase says what it is, whatever it is.
 TEST_F(Epoch, ANewAmbiguityIsNeverAMisfit) {
   state.set(state.ambiguity(gps(4)), 0.0, 60.0);

@@ -1,0 +1,58 @@
+#include "ppp/filter/full_strength.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace maploop::ppp {
+namespace {
+
+constexpr double zenith = 1.0, half_way = 0.5;  // sines: 90 and 30 degrees
+
+// So many signals, of so much strength on average, 2 dB to each side.
+void signals(FullStrength& strength, double sine, double mean, int count) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> cn0(mean, 2.0);
+  for (int i = 0; i < count; ++i) strength.add(sine, cn0(random));
+}
+
+TEST(FullStrength, AtFirstItIsWhatAllReceiversReach) {
+  const FullStrength strength{PppParameters{}};
+  EXPECT_DOUBLE_EQ(strength.of(zenith), 47.0);
+  EXPECT_DOUBLE_EQ(strength.of(half_way), 47.0 - 14.5 / 2.0);
+}
+
+TEST(FullStrength, AStrongReceiversIsBelowItsUpperQuartile) {
+  FullStrength strength{PppParameters{}};
+  signals(strength, half_way, 46.0, 2000);
+  const double upper_quartile = 46.0 + 0.674 * 2.0;
+  EXPECT_NEAR(strength.of(half_way), upper_quartile - 4.0, 0.5);
+  EXPECT_DOUBLE_EQ(strength.of(zenith), 47.0);  // of other elevations it knows nothing
+}
+
+// Between houses most are weak: they do not pass for unobstructed ones.
+TEST(FullStrength, AWeakReceiversIsNotLowered) {
+  FullStrength strength{PppParameters{}};
+  signals(strength, zenith, 35.0, 2000);
+  EXPECT_DOUBLE_EQ(strength.of(zenith), 47.0);
+}
+
+TEST(FullStrength, ReflectedSignalsAmongThemDoNotLowerIt) {
+  FullStrength strength{PppParameters{}};
+  for (int i = 0; i < 1000; ++i) {
+    strength.add(half_way, 46.0);
+    strength.add(half_way, 30.0);
+  }
+  EXPECT_NEAR(strength.of(half_way), 46.0 - 4.0, 0.3);
+}
+
+TEST(FullStrength, WithoutATemplateStrengthDoesNotCount) {
+  PppParameters parameters;
+  parameters.full_cn0 = 0.0;
+  FullStrength strength{parameters};
+  signals(strength, zenith, 45.0, 2000);
+  EXPECT_EQ(strength.of(zenith), 0.0);
+}
+
+}  // namespace
+}  // namespace maploop::ppp
