@@ -66,7 +66,10 @@ void LidarStage::take(LidarScan& scan) {
 
 void LidarStage::take(const VisualMotion& visual) {
   let_go_until(visual.available - Duration(1));
-  process(&visual, visual.available, visual.received);
+  // Whichever came last.
+  const MonotonicTime released =
+      has_waiting_ ? std::max(visual.received, waiting_.received) : visual.received;
+  process(&visual, visual.available, released);
 }
 
 // The scan whose visual motion has not come by then.
