@@ -168,10 +168,11 @@ MapFeedback Feedback::decide(const LinkMatch& match, const VehicleFix& fix) {
   const Eigen::Vector2d place = network_->to_local(fix.position);
   const Line line = line_beside(match.link, place);
   const Eigen::Vector2d right(std::cos(line.azimuth), -std::sin(line.azimuth));
-  out.point = network_->to_geodetic(line.point + line.lane * right);
+  const Eigen::Vector2d lane = line.point + line.lane * right;
+  out.point = network_->to_geodetic(lane);
   out.point.height = fix.position.height;
   out.link_azimuth = line.azimuth;
-  out.cross_track = right.dot(place - line.point) - line.lane;
+  out.cross_track = right.dot(place - lane);
   const double ramp = fed_on_link_ < parameters_.ramp ? parameters_.ramp_factor : 1.0;
   out.cross_sigma = ramp * parameters_.cross_sigma;
   out.lane_sigma = std::sqrt(parameters_.map_sigma * parameters_.map_sigma +

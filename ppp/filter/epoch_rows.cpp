@@ -29,16 +29,16 @@ bool has_doppler(const Tracked& t) {
   return t.code_good && t.measurement.first.doppler != 0.0;
 }
 
-}  // namespace
-
 // Against the zenith: by elevation, and where a signal is weaker than it is there without
 // obstacles as in the SIGMA-delta model (Brunner, Hartinger and Troyer, "GPS signal diffraction
 // modelling", Journal of Geodesy 73, 1999; their factor of 2).
-double EpochRows::variance_factor(const Tracked& t, const FullStrength& strength) {
+double variance_factor(const Tracked& t, const FullStrength& strength) {
   const double sine = std::sin(t.predicted.elevation), cn0 = t.measurement.first.cn0;
   const double missing = cn0 > 0.0 ? std::max(0.0, strength.of(sine) - cn0) : 0.0;
   return std::pow(10.0, 2.0 * missing / 10.0) / (sine * sine);
 }
+
+}  // namespace
 
 std::vector<Row>& EpochRows::make(const std::vector<Tracked>& tracked, int reference_system,
                                   const FullStrength& strength, FilterState& state,

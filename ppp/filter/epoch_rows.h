@@ -57,13 +57,12 @@ class EpochRows {
                          std::vector<SatelliteReport>& reports);
 
  private:
-  // `factor` is the satellite's variance_factor().
+  // `factor` is of the satellite's variances, against the zenith.
   Row code_row(std::size_t i, const Tracked& t, double factor, int reference_system,
                const FilterState& state) const;
   void add_phase_row(const Tracked& t, double factor, const Row& code, FilterState& state,
                      std::vector<SatelliteReport>& reports);
   void set_drift(const std::vector<Tracked>& tracked, FilterState& state);
-  static double variance_factor(const Tracked& t, const FullStrength& strength);
 
   PppParameters parameters_;
   std::vector<Row> rows_;

@@ -385,9 +385,8 @@ bool PppFilter::disagree(const std::vector<Row>& rows) const {
 // What the map has shown of it. Satellites count the lasting error as noise, so it is in the
 // covariance already, as large as it is without a map.
 void PppFilter::add_lasting_error() {
-  const Eigen::Matrix<double, 2, 3> to_east_north = model_.R_enu_ecef().topRows<2>();
+  const Eigen::Matrix3d& R = model_.R_enu_ecef();
   const auto P = state_.P();
-  const Eigen::Matrix3d R = model_.R_enu_ecef();
   const Eigen::Matrix3d own = R * solution_.covariance * R.transpose();
   const Eigen::Matrix2d lasting = P.block<2, 2>(S::lasting_error, S::lasting_error);
   const Eigen::Matrix<double, 3, 2> crossed = R * P.block<3, 2>(S::position, S::lasting_error);
@@ -400,7 +399,7 @@ void PppFilter::add_lasting_error() {
   Eigen::Matrix3d shrink = Eigen::Matrix3d::Identity();
   shrink.topLeftCorner<2, 2>() =
       Eigen::Matrix2d(once.llt().matrixL()) * Eigen::Matrix2d(twice.llt().matrixL()).inverse();
-  solution_.position += to_east_north.transpose() * state_.x().segment<2>(S::lasting_error);
+  solution_.position += R.topRows<2>().transpose() * state_.x().segment<2>(S::lasting_error);
   solution_.covariance = R.transpose() * shrink * sum * shrink.transpose() * R;
 }
 

@@ -61,11 +61,12 @@ class Sampling {
   // A white surface in the sun is 1.
   cv::Mat light(std::uint64_t seed) {
     cv::Mat light(camera_.height, camera_.width, CV_32F);
+    const std::uint64_t first = mix(seed, 0), second = mix(seed, 1);
     for (int y = 0; y < camera_.height; y += rows)
       for (int x = 0; x < camera_.width; x += columns) {
-        std::array<float, packet> seen = look(x, y, mix(seed, 0));
+        std::array<float, packet> seen = look(x, y, first);
         if (!alike(seen)) {
-          const std::array<float, packet> again = look(x, y, mix(seed, 1));
+          const std::array<float, packet> again = look(x, y, second);
           for (std::size_t i = 0; i < packet; ++i) seen[i] = 0.5F * (seen[i] + again[i]);
         }
         for (std::size_t i = 0; i < packet; ++i) {

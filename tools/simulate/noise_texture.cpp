@@ -10,12 +10,6 @@ namespace {
 
 constexpr std::uint32_t tile_side = 256;
 
-// std::floor is a call where the processor need not have an instruction for it.
-std::int32_t floored(float x) {
-  const auto towards_zero = static_cast<std::int32_t>(x);
-  return towards_zero - (x < static_cast<float>(towards_zero));
-}
-
 std::uint32_t wrapped(std::int32_t i) {
   return static_cast<std::uint32_t>(i) % tile_side;
 }
@@ -28,7 +22,8 @@ NoiseTexture::NoiseTexture() : tile_(tile_side * tile_side) {
 }
 
 float NoiseTexture::lattice(float x, float y) const {
-  const std::int32_t i = floored(x), j = floored(y);
+  const auto i = static_cast<std::int32_t>(std::floor(x));
+  const auto j = static_cast<std::int32_t>(std::floor(y));
   const std::uint32_t x0 = wrapped(i), x1 = wrapped(i + 1);
   const std::uint32_t y0 = wrapped(j) * tile_side, y1 = wrapped(j + 1) * tile_side;
   const float s = x - static_cast<float>(i), t = y - static_cast<float>(j);

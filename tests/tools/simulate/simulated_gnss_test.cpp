@@ -235,10 +235,15 @@ struct Solved {
   std::size_t epochs = 0, solved = 0, satellites = 0;
 };
 
-Solved solve(const fs::path& folder) {
+ppp::GnssFiles files_of(const fs::path& folder) {
   ppp::GnssFiles files;
   ppp::read_into(folder / "observations.rnx", files);
   ppp::read_products(folder, files);
+  return files;
+}
+
+Solved solve(const fs::path& folder) {
+  const ppp::GnssFiles files = files_of(folder);
   EXPECT_EQ(files.observations.at(0).refused, 0);
   const ppp::PppSetup setup(files, {});
   EXPECT_TRUE(setup.one_frequency() || setup.lacks().empty()) << setup.lacks().at(0);
@@ -288,9 +293,7 @@ TEST_F(GnssOnlyDrive, InStreetCanyonsItIsMetresOffAndSaysSo) {
 // without the other: one epoch in sixteen had a covariance that was none.
 TEST_F(GnssOnlyDrive, WithTheRoadOnOneFrequencyTheCovarianceIsOne) {
   const fs::path drive = made("road", Environment::urban, 300.0, 1);
-  ppp::GnssFiles files;
-  ppp::read_into(drive / "gnss_one_frequency/observations.rnx", files);
-  ppp::read_products(drive / "gnss_one_frequency", files);
+  const ppp::GnssFiles files = files_of(drive / "gnss_one_frequency");
   const mapmatch::RoadNetwork network(mapmatch::open_network(drive.parent_path() / "map.osm"));
   const mapmatch::RuleBases rules = mapmatch::read_rule_bases(mapmatch::default_rules());
   gnss::RunOptions options;
