@@ -1,7 +1,6 @@
 #include "tools/send_run.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -87,9 +86,14 @@ class Schedule {
   Time end_;
 };
 
+// What one thread has sent.
 struct Sent {
-  std::atomic<std::uint64_t> messages{0}, refused{0};
-  void add(bool taken) { ++(taken ? messages : refused); }
+  std::uint64_t messages = 0, refused = 0;
+  Duration latest{};  // the longest that a message left after it was due
+  void add(bool taken, Duration late) {
+    ++(taken ? messages : refused);
+    latest = std::max(latest, late);
+  }
 };
 
 void send_turns(sensors::Source<Turn>& turns, const sensors::DatagramSender& to,
@@ -104,7 +108,7 @@ void send_turns(sensors::Source<Turn>& turns, const sensors::DatagramSender& to,
           packets.size() > 1 ? packets[1].first_firing - packets[0].first_firing : Duration::zero();
       if (!schedule.wait(packet.first_firing + period)) return;
       packet.set_time(schedule.shifted(packet.first_firing));
-      sent.add(to.send(packet.bytes));
+      sent.add(to.send(packet.bytes), schedule.late(packet.first_firing + period));
     }
   }
 }
@@ -118,7 +122,8 @@ void send_imu(sensors::Source<ImuSample>& samples, const sensors::DatagramSender
     const auto ms = std::chrono::round<milliseconds>(now.time_since_epoch()) % 60'000;
     sent.add(
         to.send(sensors::ncom_packet(static_cast<std::uint16_t>(ms.count()),
-                                     s.specific_force_forward, s.specific_force_left, s.yaw_rate)));
+                                     s.specific_force_forward, s.specific_force_left, s.yaw_rate)),
+        schedule.late(s.available));
   }
 }
 
@@ -129,7 +134,8 @@ void send_gnss(sensors::Source<GnssFix>& fixes, const sensors::DatagramSender& t
     GnssFix shifted = fix;
     shifted.stamp = schedule.shifted(fix.stamp);
     const std::string text = nmea_sentences(shifted);
-    sent.add(to.send({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
+    sent.add(to.send({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}),
+             schedule.late(fix.available + gnss_latency));
   }
 }
 
@@ -137,7 +143,8 @@ void send_images(sensors::Source<StereoPair>& pairs, sensors::VideoSender& to,
                  const Schedule& schedule, Sent& sent) {
   StereoPair pair;
   while (pairs.next(pair) && schedule.wait(pair.available)) {
-    sent.add(to.send(pair, schedule.late(pair.available)));
+    const Duration late = schedule.late(pair.available);
+    sent.add(to.send(pair, late), late);
   }
 }
 
@@ -236,18 +243,18 @@ int send(const SendOptions& options) {
   }
   note_interrupts();
   schedule.emplace(recording.first_stamp, options.seconds);
-  if (!options.truth.empty()) write_truth(options.truth, recording, schedule->shift());
   {
     std::vector<std::jthread> threads;
     for (const auto& sender : senders) threads.emplace_back(sender);
   }
+  if (!options.truth.empty()) write_truth(options.truth, recording, schedule->shift());
   stop.request_stop();
   const auto print = [](const char* name, const Sent& sent) {
     if (sent.messages + sent.refused == 0) return;
-    std::printf("%-9s %8llu messages", name, static_cast<unsigned long long>(sent.messages));
+    std::printf("%-9s %8llu messages, up to %.0f ms late", name,
+                static_cast<unsigned long long>(sent.messages), 1e3 * to_seconds(sent.latest));
     if (sent.refused > 0) {
-      std::printf(", %llu not taken by the system",
-                  static_cast<unsigned long long>(sent.refused.load()));
+      std::printf(", %llu not taken by the system", static_cast<unsigned long long>(sent.refused));
     }
     std::printf("\n");
   };
