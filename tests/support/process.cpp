@@ -5,11 +5,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 namespace maploop::testing {
 namespace {
@@ -21,6 +23,18 @@ std::string content(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+std::string maploop_command() {
+  return std::filesystem::read_symlink("/proc/self/exe").replace_filename("maploop").string();
+}
+
+bool comes_to_contain(const std::filesystem::path& file, const std::string& text) {
+  for (int i = 0; i < 600; ++i) {
+    if (content(file).find(text) != std::string::npos) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  return false;
+}
 
 Process::Process(const std::vector<std::string>& command) {
   std::vector<char*> arguments;

@@ -33,6 +33,13 @@ class Process {
   pid_t id_ = 0;
 };
 
+// The `maploop` command of the build that the running test belongs to.
+std::string maploop_command();
+
+// Waits until a file, which another process writes, contains a text; false where it does not within
+// a minute.
+bool comes_to_contain(const std::filesystem::path& file, const std::string& text);
+
 inline ProcessResult run(const std::vector<std::string>& command) {
   return Process(command).wait();
 }

@@ -24,6 +24,11 @@ std::filesystem::path drive_0013() {
   return existing_below("MAPLOOP_CACHE", "2011_09_26/2011_09_26_drive_0013_sync");
 }
 
+std::filesystem::path source(const std::filesystem::path& file) {
+  const char* root = std::getenv("MAPLOOP_SOURCE");
+  return root != nullptr ? std::filesystem::path(root) / file : file;
+}
+
 TemporaryFolder::TemporaryFolder() {
   std::string name = (std::filesystem::temp_directory_path() / "maploop_test_XXXXXX").string();
   if (mkdtemp(name.data()) == nullptr) {

@@ -1,4 +1,4 @@
-// Where tests find the real data, and how they skip loudly when it is not there.
+// Where tests find files: the real data (they skip loudly when it is missing) and the source tree.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,6 +12,10 @@ std::filesystem::path real_data();
 
 // KITTI raw drive 2011_09_26_drive_0013_sync as tools/restore-drive unpacked it, or an empty path.
 std::filesystem::path drive_0013();
+
+// A file of this checkout, by its path below the root: the tests run with its root in
+// MAPLOOP_SOURCE.
+std::filesystem::path source(const std::filesystem::path& file);
 
 // A new folder for one test's files, removed at its end.
 class TemporaryFolder {

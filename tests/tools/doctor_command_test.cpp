@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/core/realtime_scheduling.h"
 #include "tests/support/process.h"
 #include "tests/support/real_data.h"
 
@@ -43,7 +44,7 @@ bool can_drop_capabilities() {
 }
 
 TEST(DoctorCommand, NamesEveryThreadAndTheMachine) {
-  const json settings = settings_of({MAPLOOP_COMMAND, "doctor"}, "settings");
+  const json settings = settings_of({testing::maploop_command(), "doctor"}, "settings");
   for (const char* name : {"heap", "locked memory", "kernel", "camera: scheduling",
                            "fusion: scheduling", "fusion: stack", "health: scheduling"}) {
     EXPECT_TRUE(settings.contains(name)) << name;
@@ -56,7 +57,8 @@ TEST(DoctorCommand, AsksForWhatTheConfigurationSays) {
   const std::string file = (folder.path() / "a.toml").string();
   std::ofstream(file) << "[scheduling.fusion]\npolicy = \"rr\"\npriority = 7\ncpus = [0]\n"
                          "[memory]\nlock_memory = false\n";
-  const json settings = settings_of({MAPLOOP_COMMAND, "doctor", "--config", file}, "settings");
+  const json settings =
+      settings_of({testing::maploop_command(), "doctor", "--config", file}, "settings");
   EXPECT_EQ(settings["fusion: scheduling"]["asked"], "rr 7");
   EXPECT_EQ(settings["fusion: CPUs"]["asked"], "0");
   EXPECT_FALSE(settings.contains("locked memory"));
@@ -64,12 +66,13 @@ TEST(DoctorCommand, AsksForWhatTheConfigurationSays) {
 
 TEST(DoctorCommand, SaysWhatIsRefusedWhyAndWhatToDo) {
   if (!can_drop_capabilities()) GTEST_SKIP() << "setpriv cannot drop capabilities here";
-  const json settings = settings_of(without_capabilities({MAPLOOP_COMMAND, "doctor"}), "settings");
+  const json settings =
+      settings_of(without_capabilities({testing::maploop_command(), "doctor"}), "settings");
   for (const char* name : {"fusion: scheduling", "locked memory"}) {
     EXPECT_EQ(settings[name]["verdict"], "refused") << settings[name];
     EXPECT_NE(settings[name]["reason"], "");
   }
-  EXPECT_EQ(settings["fusion: scheduling"]["granted"], "other");
+  EXPECT_EQ(settings["fusion: scheduling"]["granted"], runtime::read_scheduling().policy);
 }
 
 TEST(DoctorCommand, AReplayWithoutPrivilegesSaysSoAndHasTheSameBits) {
@@ -78,9 +81,14 @@ TEST(DoctorCommand, AReplayWithoutPrivilegesSaysSoAndHasTheSameBits) {
   const testing::TemporaryFolder folder;
   const auto replay = [&](const char* option, bool privileged) {
     const std::string file = (folder.path() / "result.json").string();
-    std::vector<std::string> command{MAPLOOP_COMMAND, "replay", testing::drive_0013().string(),
-                                     "--no-lcm",      "--end",  "3",
-                                     "--json",        file};
+    std::vector<std::string> command{testing::maploop_command(),
+                                     "replay",
+                                     testing::drive_0013().string(),
+                                     "--no-lcm",
+                                     "--end",
+                                     "3",
+                                     "--json",
+                                     file};
     if (*option != '\0') command.emplace_back(option);
     const testing::ProcessResult result =
         testing::run(privileged ? command : without_capabilities(command));
@@ -90,11 +98,13 @@ TEST(DoctorCommand, AReplayWithoutPrivilegesSaysSoAndHasTheSameBits) {
     return read;
   };
   const json refused = replay("", false);
-  EXPECT_NE(
-      refused["said"].get<std::string>().find("refused   fusion: scheduling: other, not fifo"),
-      std::string::npos)
+  // The test's own policy, which the command inherits: "other", or "other nice 19".
+  const std::string inherited = runtime::read_scheduling().policy;
+  EXPECT_NE(refused["said"].get<std::string>().find("refused   fusion: scheduling: " + inherited +
+                                                    ", not fifo"),
+            std::string::npos)
       << refused["said"];
-  EXPECT_NE(refused["degraded"].dump().find("fusion: scheduling is other, not fifo 60"),
+  EXPECT_NE(refused["degraded"].dump().find("fusion: scheduling is " + inherited + ", not fifo 60"),
             std::string::npos);
   const json lockstep = replay("--lockstep", true);
   EXPECT_EQ(refused["channels"]["NAV_STATE"], lockstep["channels"]["NAV_STATE"]);

@@ -71,6 +71,7 @@ TEST(ReceiverStream, GivesTheEpochsOfAFileOfUbx) {
 // The week of `now` is years off until an ephemeris says it.
 TEST(ReceiverStream, GivesTheEpochsOfAFileOfRtcm) {
   MAPLOOP_REQUIRE_REAL_DATA();
+  MAPLOOP_REQUIRE_RTKLIB();
   const testing::TemporaryFolder folder;
   const auto ubx = folder.path() / "F9T.ubx";
   std::ofstream(ubx, std::ios::binary) << read_file(samples() / "F9T-L2-5min.ubx.gz");

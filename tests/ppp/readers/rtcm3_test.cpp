@@ -111,9 +111,7 @@ void compare(const Observations& truth, const std::vector<Epoch>& found, double 
 
 TEST(Rtcm3, IsWhatRtklibEncoded) {
   MAPLOOP_REQUIRE_REAL_DATA();
-  if (testing::run({"sh", "-c", "command -v str2str && command -v convbin"}).status != 0) {
-    GTEST_SKIP() << "SKIPPED, NOT TESTED: RTKLIB's str2str and convbin are not installed";
-  }
+  MAPLOOP_REQUIRE_RTKLIB();
   const testing::TemporaryFolder folder;
   const auto ubx = folder.path() / "f9t.ubx", rinex = folder.path() / "f9t.obs";
   std::ofstream(ubx, std::ios::binary)

@@ -33,3 +33,7 @@ inline std::string encoded_by_rtklib(const std::filesystem::path& ubx, const std
 }
 
 }  // namespace maploop::testing
+
+#define MAPLOOP_REQUIRE_RTKLIB()                                                                   \
+  if (maploop::testing::run({"sh", "-c", "command -v str2str && command -v convbin"}).status != 0) \
+  GTEST_SKIP() << "SKIPPED, NOT TESTED: RTKLIB's str2str and convbin are not installed"

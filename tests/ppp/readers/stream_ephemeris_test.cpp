@@ -282,8 +282,7 @@ TEST(StreamEphemeris, RtklibReadsTheSameSubframes) {
 
 TEST(StreamEphemeris, Rtcm3IsReadAsRtklibWritesIt) {
   MAPLOOP_REQUIRE_REAL_DATA();
-  if (testing::run({"sh", "-c", "command -v str2str"}).status != 0)
-    GTEST_SKIP() << "SKIPPED, NOT TESTED: RTKLIB's str2str is not installed";
+  MAPLOOP_REQUIRE_RTKLIB();
   const testing::TemporaryFolder folder;
   const Sent sent = send_real_messages();
   const auto ubx = folder.path() / "made.ubx";

@@ -80,7 +80,7 @@ TEST(LiveReceiver, GivesThePositionsOfTheSameObservationsInFiles) {
     recording += rawx(i);
     std::this_thread::sleep_for(milliseconds(20));
   }
-  std::this_thread::sleep_for(std::chrono::seconds(2));
+  EXPECT_TRUE(bus.wait_for("PPP_STATE", count));
   vehicle.stop();
   vehicle.wait();
   const auto states = bus.decoded<maploop_lcm::ppp_state_t>("PPP_STATE");

@@ -75,13 +75,16 @@ LiveSensors live_sensors(Time (*utc)() = sensors::HostClock::machine_utc) {
   return s;
 }
 
-VehicleReport drive(MemoryBus& bus, LiveSensors live, Duration length, StageDelays delays = {}) {
+// Drives until so many states have been sent, at least for `length`.
+VehicleReport drive(MemoryBus& bus, LiveSensors live, Duration length, std::size_t states,
+                    StageDelays delays = {}) {
   Sensors sensors;
   sensors.live = std::move(live);
   Vehicle vehicle({}, {}, std::move(sensors), runtime::DataClock::live(), {&bus}, {});
   vehicle.slow_down(std::move(delays));
   vehicle.start();
   std::this_thread::sleep_for(length);
+  EXPECT_TRUE(bus.wait_for("NAV_STATE", states));
   EXPECT_TRUE(vehicle.running());
   vehicle.stop();
   vehicle.wait();
@@ -97,7 +100,7 @@ TEST(LiveVehicle, GoesOnWithoutASensorThatIsMissingAndNamesIt) {
   LiveSensors live = live_sensors();
   live.velodyne = std::make_unique<FakeLiveSource<LidarScan>>(*live.clock, Duration::zero());
   MemoryBus bus;
-  const VehicleReport report = drive(bus, std::move(live), milliseconds(2500));
+  const VehicleReport report = drive(bus, std::move(live), milliseconds(2500), 150);
   const auto states = bus.decoded<maploop_lcm::nav_state_t>("NAV_STATE");
   ASSERT_GT(states.size(), 100u);
   std::size_t aided = 0;
@@ -131,7 +134,7 @@ TEST(LiveVehicle, NoStampMovesWhenTheMachinesClockIsSet) {
     std::this_thread::sleep_for(milliseconds(800));
     clock_was_set = true;
   });
-  const VehicleReport report = drive(bus, live_sensors(utc), milliseconds(2500));
+  const VehicleReport report = drive(bus, live_sensors(utc), milliseconds(2500), 150);
   EXPECT_TRUE(says(report.health, "this machine's clock was set by 1.0"));
   const auto states = bus.decoded<maploop_lcm::nav_state_t>("NAV_STATE");
   ASSERT_GT(states.size(), 100u);
@@ -151,7 +154,8 @@ TEST(LiveVehicle, AStageThatIsTooSlowLosesItsOwnSamplesAlone) {
   StageDelays delays;
   std::atomic<std::uint64_t> struck{0};
   delays.lidar.add({}, milliseconds(300), struck);
-  const VehicleReport report = drive(bus, std::move(live), milliseconds(1500), std::move(delays));
+  const VehicleReport report =
+      drive(bus, std::move(live), milliseconds(1500), 60, std::move(delays));
   for (const RingHealth& ring : report.health.rings) {
     EXPECT_EQ(ring.lost > 0, ring.name == "velodyne -> lidar") << ring.name;
   }

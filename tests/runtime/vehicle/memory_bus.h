@@ -1,10 +1,14 @@
 // A bus that keeps what is sent in memory, and refuses on demand.
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <cstdint>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -28,6 +32,22 @@ class MemoryBus final : public MessageSink {
   // After the vehicle's end.
   const std::vector<Kept>& messages() const { return messages_; }
 
+  // Waits until so many messages of a channel have come; false where they have not within a minute.
+  bool wait_for(std::string_view channel, std::size_t count) const {
+    for (int i = 0; i < 6000; ++i) {
+      {
+        const std::lock_guard lock(mutex_);
+        if (static_cast<std::size_t>(std::count_if(
+                messages_.begin(), messages_.end(),
+                [&](const Kept& kept) { return kept.channel == channel; })) >= count) {
+          return true;
+        }
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+  }
+
   // Every message of one channel, decoded. Throws std::runtime_error where one is not of that type.
   template <class Lcm>
   std::vector<Lcm> decoded(std::string_view channel) const {
@@ -44,6 +64,7 @@ class MemoryBus final : public MessageSink {
 
  private:
   bool take(const Message& message) override {
+    const std::lock_guard lock(mutex_);
     if (refused_from_ != 0 && messages_.size() == refused_from_) return false;
     messages_.push_back(
         {std::string(message.channel), message.time, {message.data.begin(), message.data.end()}});
@@ -51,6 +72,7 @@ class MemoryBus final : public MessageSink {
   }
 
   std::uint64_t refused_from_;
+  mutable std::mutex mutex_;
   std::vector<Kept> messages_;
 };
 

@@ -71,7 +71,7 @@ class PseudoTerminal {
     std::filesystem::remove(name_);
     close(fd_);
   }
-  void send(const std::string& text) const { ASSERT_GT(write(fd_, text.data(), text.size()), 0); }
+  void send(const std::string& text) const { ASSERT_GT(::write(fd_, text.data(), text.size()), 0); }
 
  private:
   std::filesystem::path name_;

@@ -133,6 +133,7 @@ std::string wait_for_problem(ByteStream& stream, const std::string& text) {
   return stream.state().problem;
 }
 
+// It takes 16 s because the client sends its position again after 10 s.
 TEST(NtripClient, AsksAgainAfterARefusalAndAfterTheEndOfTheStream) {
   TcpServer server;
   std::vector<std::string> requests;
