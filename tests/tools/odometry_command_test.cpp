@@ -18,7 +18,7 @@ using testing::ProcessResult;
 using testing::TemporaryFolder;
 
 ProcessResult maploop(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), MAPLOOP_COMMAND);
+  arguments.insert(arguments.begin(), testing::maploop_command());
   return testing::run(arguments);
 }
 
@@ -93,7 +93,7 @@ TEST(ExperimentCommand, ComparesTheWaysOnTheSameFrames) {
   const TemporaryFolder folder;
   const std::string html = (folder.path() / "page.html").string();
   const ProcessResult run = maploop(
-      {"experiment", "odometry", testing::drive_0013().string(), "--last", "30", "--html", html});
+      {"experiment", "odometry", testing::drive_0013().string(), "--last", "8", "--html", html});
   ASSERT_EQ(run.status, 0) << run.error;
   for (const char* way : {"KLT, 3D-2D ", "window of 6", "KLT, 3D-3D", "KLT, 2D-2D", "SIFT, 3D-2D"})
     EXPECT_NE(run.out.find(way), std::string::npos) << way << '\n' << run.out;

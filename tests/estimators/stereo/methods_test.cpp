@@ -17,17 +17,12 @@
 namespace maploop::stereo {
 namespace {
 
+using maploop::testing::all_of;
 using maploop::testing::drive_0013;
 using maploop::testing::driving_motion;
 using maploop::testing::pose_error;
 using maploop::testing::small_camera;
 using maploop::testing::synthetic_tracks;
-
-std::vector<int> all_of(const std::vector<StereoTrack>& tracks) {
-  std::vector<int> indices(tracks.size());
-  std::iota(indices.begin(), indices.end(), 0);
-  return indices;
-}
 
 TEST(PointAlignment, PerfectPointsGiveTheMotionExactly) {
   const auto tracks = synthetic_tracks(small_camera(), driving_motion(), 30, {}, 1);

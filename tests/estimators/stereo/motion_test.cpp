@@ -13,16 +13,11 @@
 namespace maploop::stereo {
 namespace {
 
+using maploop::testing::all_of;
 using maploop::testing::driving_motion;
 using maploop::testing::pose_error;
 using maploop::testing::small_camera;
 using maploop::testing::synthetic_tracks;
-
-std::vector<int> all_of(const std::vector<StereoTrack>& tracks) {
-  std::vector<int> indices(tracks.size());
-  std::iota(indices.begin(), indices.end(), 0);
-  return indices;
-}
 
 // The noise the adjustment is told to expect.
 maploop::testing::ImageNoise modelled_noise(const StereoParameters& p) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -62,6 +63,13 @@ inline std::vector<stereo::StereoTrack> synthetic_tracks(const StereoCalibration
                       {u_now, v_now, u_now - second, v_now}});
   }
   return tracks;
+}
+
+// The indices of all tracks.
+inline std::vector<int> all_of(const std::vector<stereo::StereoTrack>& tracks) {
+  std::vector<int> indices(tracks.size());
+  std::iota(indices.begin(), indices.end(), 0);
+  return indices;
 }
 
 // Difference of two poses as the covariance counts it: translation, then rotation vector.
