@@ -1,0 +1,49 @@
+"""Builds one of the presets, and counts what the compiler cache had."""
+import os
+import re
+import subprocess
+from collections import Counter
+
+
+def build(steps, top, preset, targets=()):
+    """Configures and builds; returns what is worth keeping of it."""
+    log = os.path.join(steps.log, f"ccache-{preset}.txt")
+    if os.path.exists(log):
+        os.remove(log)
+    environment = {**os.environ, "CCACHE_STATSLOG": log}
+    steps.logged(f"configure-{preset}", ["cmake", "--preset", preset], cwd=top, env=environment)
+    command = ["cmake", "--build", "--preset", preset, "-j", str(os.cpu_count())]
+    if targets:
+        command += ["--target", *targets]
+    steps.logged(f"build-{preset}", command, cwd=top, env=environment)
+    return compiled(log)
+
+
+def compiled(log):
+    """How many files were compiled, and how many of them the cache had."""
+    try:
+        with open(log, encoding="utf-8") as file:
+            counts = Counter(line.strip() for line in file if not line.startswith("#"))
+    except OSError:
+        counts = Counter()
+    had = counts["direct_cache_hit"] + counts["preprocessed_cache_hit"]
+    return {"compiled": had + counts["cache_miss"], "cached": had}
+
+
+def why_not_sanitized(log, flag, launcher):
+    """Why no program built so starts on this machine, or None."""
+    program = os.path.join(log, "sanitizer_probe")
+    built = subprocess.run(["g++", "-x", "c++", f"-fsanitize={flag}", "-o", program, "-"], input="int main() {}",
+                           capture_output=True, text=True, check=False)
+    started = built if built.returncode else subprocess.run([launcher, program], capture_output=True, text=True,
+                                                            check=False)
+    if started.returncode == 0:
+        return None
+    return (started.stderr.strip().splitlines() or ["no reason given"])[-1]
+
+
+def not_formatted(top):
+    """The files that clang-format would change."""
+    find = r"find . -path ./build -prune -o \( -name '*.h' -o -name '*.cpp' \) -print0 | xargs -0 clang-format --dry-run"
+    listed = subprocess.run(find, shell=True, cwd=top, capture_output=True, text=True, check=False).stderr
+    return sorted(set(re.findall(r"^(\S+?):\d+:\d+: warning:", listed, re.MULTILINE)))
