@@ -18,9 +18,7 @@ std::filesystem::path default_rules() {
   if (const char* folder = std::getenv("MAPLOOP_RULES")) return folder;
   std::error_code unreadable;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", unreadable);
-  const auto installed = program.parent_path().parent_path() / "share/maploop/rules";
-  if (!unreadable && std::filesystem::is_directory(installed)) return installed;
-  return MAPLOOP_SOURCE_RULES;
+  return program.parent_path().parent_path() / "share/maploop/rules";
 }
 
 }  // namespace maploop::mapmatch

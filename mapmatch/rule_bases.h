@@ -32,8 +32,8 @@ struct RuleBases {
 // Throws FllError.
 RuleBases read_rule_bases(const std::filesystem::path& folder);
 
-// Where the rules are: MAPLOOP_RULES, share/maploop/rules beside the program's folder (installed),
-// or the source tree they were built from.
+// Where the rules are: MAPLOOP_RULES, or share/maploop/rules beside the program's folder, both
+// installed and in a build folder.
 std::filesystem::path default_rules();
 
 }  // namespace maploop::mapmatch

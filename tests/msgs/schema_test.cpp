@@ -14,6 +14,7 @@
 
 #include "msgs/lcm/conversions.h"
 #include "msgs/lcm/decoded_message.h"
+#include "tests/support/real_data.h"
 
 namespace maploop::schema {
 namespace {
@@ -40,7 +41,7 @@ const Schema& own() {
 const Schema& every_kind() {
   static const Schema schema = [] {
     std::ostringstream text;
-    text << std::ifstream(MAPLOOP_EVERY_KIND).rdbuf();
+    text << std::ifstream(maploop::testing::source("tests/msgs/every_kind.lcm")).rdbuf();
     return schema_of(text.str());
   }();
   return schema;
@@ -194,7 +195,7 @@ TEST(Schema, NestingThatDoublesWithEachLevelIsRefused) {
 TEST(Schema, DamagedTextNeverCrashes) {
   std::mt19937 random(20110926);
   std::ostringstream whole;
-  whole << std::ifstream(MAPLOOP_EVERY_KIND).rdbuf();
+  whole << std::ifstream(maploop::testing::source("tests/msgs/every_kind.lcm")).rdbuf();
   int refused = 0;
   for (int round = 0; round < 4000; ++round) {
     std::string text = whole.str();

@@ -17,7 +17,7 @@ std::string car(const std::string& name) {
 }
 
 std::vector<std::string> ppp_of_the_car() {
-  return {MAPLOOP_COMMAND,
+  return {maploop::testing::maploop_command(),
           "ppp",
           car("SEPT265G.21O.gz"),
           car("satellites_check_only.atx.gz"),
@@ -83,7 +83,7 @@ TEST(PppCommand, AccuracyCanBeThatBehindTheConvergence) {
 
 TEST(PppCommand, ErrorsNameWhatIsWrong) {
   MAPLOOP_REQUIRE_REAL_DATA();
-  const auto no_orbits = run({MAPLOOP_COMMAND, "ppp", car("SEPT265G.21O.gz")});
+  const auto no_orbits = run({maploop::testing::maploop_command(), "ppp", car("SEPT265G.21O.gz")});
   EXPECT_EQ(no_orbits.status, 1);
   EXPECT_NE(no_orbits.error.find("no orbits: give an SP3 file"), std::string::npos);
   auto bad_time = ppp_of_the_car();
@@ -93,8 +93,9 @@ TEST(PppCommand, ErrorsNameWhatIsWrong) {
 
 TEST(GnssInfoCommand, TellsFilesApartAndNamesBadOnes) {
   MAPLOOP_REQUIRE_REAL_DATA();
-  const auto result = run({MAPLOOP_COMMAND, "gnss", "info", car("SEPT265G.21O.gz"),
-                           car("rtk_reference.pos.gz"), car("SEPT2650.21P.gz")});
+  const auto result =
+      run({maploop::testing::maploop_command(), "gnss", "info", car("SEPT265G.21O.gz"),
+           car("rtk_reference.pos.gz"), car("SEPT2650.21P.gz")});
   EXPECT_EQ(result.status, 1);
   EXPECT_NE(result.out.find("epochs        360, every 1.000 s, 0 gaps"), std::string::npos);
   EXPECT_NE(result.out.find("broadcast navigation"), std::string::npos);

@@ -84,8 +84,8 @@ TEST(LcmTraffic, EveryChannelArrivesAndDecodes) {
   const testing::TemporaryFolder folder;
   const std::string file = (folder.path() / "result.json").string();
   Listener listener;
-  const testing::ProcessResult result =
-      testing::run({MAPLOOP_COMMAND, "replay", testing::drive_0013().string(), "--json", file});
+  const testing::ProcessResult result = testing::run(
+      {testing::maploop_command(), "replay", testing::drive_0013().string(), "--json", file});
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   listener.stop();
   ASSERT_EQ(result.status, 0) << result.error;
@@ -106,7 +106,8 @@ TEST(LcmTraffic, ThePlayerObeysAnotherProcess) {
   MAPLOOP_REQUIRE_DRIVE();
   using Control = maploop_lcm::replay_control_t;
   Listener listener;
-  testing::Process replay({MAPLOOP_COMMAND, "replay", testing::drive_0013().string(), "--paused"});
+  testing::Process replay(
+      {testing::maploop_command(), "replay", testing::drive_0013().string(), "--paused"});
   EXPECT_TRUE(listener.hears([](const Control& s) { return s.paused != 0; }));
   lcm::LCM lcm(vehicle::LcmBus::default_url);
   const auto command = [&](std::int8_t kind, double value) {

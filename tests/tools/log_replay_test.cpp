@@ -20,7 +20,7 @@ using testing::hashes;
 using testing::ProcessResult;
 
 ProcessResult maploop_command(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), MAPLOOP_COMMAND);
+  arguments.insert(arguments.begin(), testing::maploop_command());
   return testing::run(arguments);
 }
 

@@ -112,7 +112,7 @@ TEST(Profile, NamesCannotBreakThePage) {
 }
 
 ProcessResult profile_command(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), {MAPLOOP_COMMAND, "profile"});
+  arguments.insert(arguments.begin(), {testing::maploop_command(), "profile"});
   return testing::run(arguments);
 }
 
@@ -126,9 +126,9 @@ TEST(ProfileCommand, AgreesWithWhatTheReplaySaidAtItsEnd) {
   const testing::TemporaryFolder folder;
   const auto file = [&](const char* name) { return (folder.path() / name).string(); };
   const ProcessResult replay =
-      testing::run({MAPLOOP_COMMAND, "replay", testing::drive_0013().string(), "--no-lcm", "--end",
-                    "5", "--fault", "slow@fusion:2:0.3,by=0.02", "--record", file("run.lcmlog"),
-                    "--json", file("replay.json")});
+      testing::run({testing::maploop_command(), "replay", testing::drive_0013().string(),
+                    "--no-lcm", "--end", "5", "--fault", "slow@fusion:2:0.3,by=0.02", "--record",
+                    file("run.lcmlog"), "--json", file("replay.json")});
   ASSERT_EQ(replay.status, 0) << replay.error;
   const ProcessResult result = profile_command(
       {file("run.lcmlog"), "--json", file("profile.json"), "--html", file("profile.html")});

@@ -33,7 +33,7 @@ class TracedReplay {
     const testing::TemporaryFolder folder;
     const std::string result = (folder.path() / "result.json").string();
     const std::string trace = (folder.path() / "trace.json").string();
-    std::vector<std::string> command{MAPLOOP_COMMAND,
+    std::vector<std::string> command{testing::maploop_command(),
                                      "replay",
                                      testing::drive_0013().string(),
                                      "--no-lcm",
@@ -190,8 +190,8 @@ TEST(TraceCommand, WhatDoesNotFitIsCountedAndSaid) {
 TEST(TraceCommand, AFileThatCannotBeWrittenIsSaidBeforeTheDrive) {
   MAPLOOP_REQUIRE_DRIVE();
   const testing::ProcessResult result =
-      testing::run({MAPLOOP_COMMAND, "replay", testing::drive_0013().string(), "--no-lcm",
-                    "--lockstep", "--trace", "/nonexistent/trace.json"});
+      testing::run({testing::maploop_command(), "replay", testing::drive_0013().string(),
+                    "--no-lcm", "--lockstep", "--trace", "/nonexistent/trace.json"});
   EXPECT_EQ(result.status, 1);
   EXPECT_EQ(result.out, "");
   EXPECT_NE(result.error.find("/nonexistent/trace.json"), std::string::npos) << result.error;

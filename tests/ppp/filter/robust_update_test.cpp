@@ -16,11 +16,11 @@ Satellite gps(int number) {
 
 // Phases of nine satellites, whose ambiguities are known to a centimetre, and the codes of all; the
 // vehicle has moved by nobody knows what within a metre.
-class Epoch : public ::testing::Test {
+class NineSatellites : public ::testing::Test {
  protected:
   static constexpr int satellites = 9;
 
-  Epoch() {
+  NineSatellites() {
     for (int i = 0; i < 3; ++i) state.set(S::position + i, 0.0, 1.0);
     state.set(S::clock, 0.0, 100.0);
     for (int s = 0; s < satellites; ++s) {
@@ -63,13 +63,13 @@ class Epoch : public ::testing::Test {
   RobustUpdate update{4.0};
 };
 
-TEST_F(Epoch, NothingIsLeftOutWhereAllFits) {
+TEST_F(NineSatellites, NothingIsLeftOutWhereAllFits) {
   update.apply(state, rows);
   EXPECT_EQ(left_out(), std::vector<int>{});
   EXPECT_LT(error(), 0.03);
 }
 
-TEST_F(Epoch, ASlipIsLeftOutWhosesoeverItIs) {
+TEST_F(NineSatellites, ASlipIsLeftOutWhosesoeverItIs) {
   for (int slipped = 0; slipped < satellites; ++slipped) {
     const FilterState before = state;
     const std::vector<Row> all = rows;
@@ -83,7 +83,7 @@ TEST_F(Epoch, ASlipIsLeftOutWhosesoeverItIs) {
 }
 
 // Each removal of the worst alone would take good ones first.
-TEST_F(Epoch, ThreeSlipsOfNineAreTheOnesLeftOut) {
+TEST_F(NineSatellites, ThreeSlipsOfNineAreTheOnesLeftOut) {
   phase(1).y += 3.0;
   phase(4).y += 5.0;
   phase(6).y -= 4.0;
@@ -92,7 +92,7 @@ TEST_F(Epoch, ThreeSlipsOfNineAreTheOnesLeftOut) {
   EXPECT_LT(error(), 0.05);
 }
 
-TEST_F(Epoch, ACodeIsJudgedByItsSize) {
+TEST_F(NineSatellites, ACodeIsJudgedByItsSize) {
   code(2).y += 3.0;
   code(5).y += 6.0;
   update.apply(state, rows);
@@ -100,7 +100,7 @@ TEST_F(Epoch, ACodeIsJudgedByItsSize) {
 }
 
 // Any four phases fit: those of a wrong choice move the vehicle, and ambiguities are lost for good.
-TEST_F(Epoch, PhasesThatNobodyChecksMoveItLittleAndAreKept) {
+TEST_F(NineSatellites, PhasesThatNobodyChecksMoveItLittleAndAreKept) {
   for (int lost = 5; lost < satellites; ++lost) {
     state.set(state.ambiguity(gps(lost + 1)), 0.0, 60.0);
     phase(lost).new_ambiguity = true;
@@ -116,7 +116,7 @@ TEST_F(Epoch, PhasesThatNobodyChecksMoveItLittleAndAreKept) {
 }
 
 // Its phase says what it is, whatever it is.
-TEST_F(Epoch, ANewAmbiguityIsNeverAMisfit) {
+TEST_F(NineSatellites, ANewAmbiguityIsNeverAMisfit) {
   state.set(state.ambiguity(gps(4)), 0.0, 60.0);
   phase(3).y += 50.0;
   update.apply(state, rows);

@@ -16,8 +16,8 @@ TEST(FaultCommand, WhatAFaultStruckAndWhatWasRefusedIsReported) {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "result.json").string();
   const ProcessResult result =
-      run({MAPLOOP_COMMAND, "replay", "--fault", "nan@imu:5:1", "--fault", "lost@camera:100",
-           drive_0013().string(), "--lockstep", "--no-lcm", "--json", file});
+      run({testing::maploop_command(), "replay", "--fault", "nan@imu:5:1", "--fault",
+           "lost@camera:100", drive_0013().string(), "--lockstep", "--no-lcm", "--json", file});
   EXPECT_EQ(result.status, 0) << result.error;
   const auto r = nlohmann::json::parse(std::ifstream(file));
   EXPECT_EQ(r["faults"][0]["fault"], "nan@imu:5:1");
@@ -30,7 +30,7 @@ TEST(FaultCommand, WhatAFaultStruckAndWhatWasRefusedIsReported) {
 
 TEST(FaultCommand, AWrongFaultIsAnErrorBeforeAnythingRuns) {
   const ProcessResult result =
-      run({MAPLOOP_COMMAND, "replay", "/nonexistent", "--fault", "lots@camera"});
+      run({testing::maploop_command(), "replay", "/nonexistent", "--fault", "lots@camera"});
   EXPECT_NE(result.status, 0);
   EXPECT_NE(result.error.find("'lots' is no kind of fault"), std::string::npos) << result.error;
   EXPECT_EQ(result.error.find("/nonexistent"), std::string::npos) << result.error;

@@ -7,12 +7,14 @@
 #include <sstream>
 #include <string>
 
+#include "tests/support/real_data.h"
+
 namespace maploop::vehicle {
 namespace {
 
 TEST(Graph, ThePageIsMadeFromTheTable) {
   std::ostringstream page;
-  page << std::ifstream(MAPLOOP_GRAPH_PAGE).rdbuf();
+  page << std::ifstream(maploop::testing::source("runtime/vehicle/GRAPH.md")).rdbuf();
   EXPECT_EQ(page.str(), graph_page()) << "write graph_page() to runtime/vehicle/GRAPH.md:\n"
                                       << graph_page();
 }

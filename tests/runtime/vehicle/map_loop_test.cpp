@@ -13,7 +13,7 @@
 #include "tests/runtime/vehicle/fake_sensors.h"
 #include "tests/support/message_tape.h"
 
-namespace maploop::vehicle {
+namespace maploop::vehicle::map_loop_test {
 namespace {
 
 using maploop::testing::MessageTape;
@@ -133,4 +133,4 @@ TEST(MapLoop, ASnapshotOfAnotherModeIsRefused) {
 }
 
 }  // namespace
-}  // namespace maploop::vehicle
+}  // namespace maploop::vehicle::map_loop_test

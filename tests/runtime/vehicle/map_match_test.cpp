@@ -16,7 +16,7 @@
 #include "tests/support/message_tape.h"
 #include "tests/support/real_data.h"
 
-namespace maploop::vehicle {
+namespace maploop::vehicle::map_match_test {
 namespace {
 
 using maploop::testing::MessageTape;
@@ -215,4 +215,4 @@ TEST(RoadMap, IsThereWhereTheConfigurationSaysSo) {
 }
 
 }  // namespace
-}  // namespace maploop::vehicle
+}  // namespace maploop::vehicle::map_match_test

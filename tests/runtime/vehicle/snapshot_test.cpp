@@ -11,7 +11,7 @@
 #include "tests/support/message_tape.h"
 #include "tests/support/real_data.h"
 
-namespace maploop::vehicle {
+namespace maploop::vehicle::snapshot_test {
 namespace {
 
 using maploop::testing::MessageTape;
@@ -219,4 +219,4 @@ TEST_F(SnapshotFile, ThatCannotBeWrittenIsNamed) {
 }
 
 }  // namespace
-}  // namespace maploop::vehicle
+}  // namespace maploop::vehicle::snapshot_test

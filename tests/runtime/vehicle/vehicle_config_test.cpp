@@ -14,7 +14,7 @@
 namespace maploop::vehicle {
 namespace {
 
-const std::filesystem::path shipped = MAPLOOP_SHIPPED_CONFIG;
+const std::filesystem::path shipped = maploop::testing::source("runtime/vehicle/maploop.toml");
 
 VehicleConfig load_text(const std::string& text) {
   const maploop::testing::TemporaryFolder folder;

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using testing::ProcessResult;
 
 ProcessResult calibrate(std::vector<std::string> arguments, const std::string& board = "9x6") {
-  arguments.insert(arguments.begin(), {MAPLOOP_COMMAND, "calibrate"});
+  arguments.insert(arguments.begin(), {testing::maploop_command(), "calibrate"});
   arguments.insert(arguments.end(), {"--board", board, "--square", "0.03"});
   return testing::run(arguments);
 }

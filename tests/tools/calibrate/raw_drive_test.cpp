@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using testing::ProcessResult;
 
 ProcessResult maploop(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), MAPLOOP_COMMAND);
+  arguments.insert(arguments.begin(), testing::maploop_command());
   return testing::run(arguments);
 }
 
