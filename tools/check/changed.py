@@ -21,15 +21,17 @@ class AffectedTests:
         groups, self.unaffected = self.group(top, graph, changed)
         spent = 0.0
         for _, program, names in sorted(groups):
-            spent += LINK_SECONDS
+            link = LINK_SECONDS
             for name in sorted(names, key=lambda n: seconds.get(n, 0.1)):
-                spent += seconds.get(name, 0.1)
-                if spent > TEST_SECONDS:
+                cost = link + seconds.get(name, 0.1)
+                if spent + cost > TEST_SECONDS:
                     self.left_out.setdefault(program, []).append(name)
-                else:
-                    self.chosen.add(name)
-                    if program.startswith("bin/") and program not in self.programs:
-                        self.programs.append(program)
+                    continue
+                spent += cost
+                link = 0.0
+                self.chosen.add(name)
+                if program.startswith("bin/") and program not in self.programs:
+                    self.programs.append(program)
         say(f"{len(self.chosen)} tests are affected and near")
 
     def group(self, top, graph, changed):
@@ -51,7 +53,8 @@ class AffectedTests:
             hit = (files & set(changed)) | change.data_below(top, changed, files)
             hit |= change.mentioned_in(top, changed, sources)
             if hit or program.startswith("../../tests/structure"):
-                folder = os.path.dirname(min(sources, key=len)) if sources else "tests"
+                own = [os.path.dirname(s) for s in sources if "_test." in os.path.basename(s)]
+                folder = max(own, key=own.count) if own else "tests"
                 groups.append((change.distance(folder, changed) if changed else 0, program, names))
             else:
                 unaffected += len(names)
