@@ -7,6 +7,7 @@ from suite import Suite
 
 TEST_SECONDS = 45.0  # the tests of a short run, one after the other
 LINK_SECONDS = 2.0   # what one more program to build is taken to cost
+UNKNOWN_SECONDS = 1.0  # what a test is taken to cost that has not run yet
 
 
 class AffectedTests:
@@ -22,8 +23,8 @@ class AffectedTests:
         spent = 0.0
         for _, program, names in sorted(groups):
             link = LINK_SECONDS
-            for name in sorted(names, key=lambda n: seconds.get(n, 0.1)):
-                cost = link + seconds.get(name, 0.1)
+            for name in sorted(names, key=lambda n: seconds.get(n, UNKNOWN_SECONDS)):
+                cost = link + seconds.get(name, UNKNOWN_SECONDS)
                 if spent + cost > TEST_SECONDS:
                     self.left_out.setdefault(program, []).append(name)
                     continue
