@@ -63,7 +63,8 @@ TEST(Health, CountsRefusalsByReasonWhileTheVehicleRuns) {
   EXPECT_EQ(stereo, 50u) << "there is nothing to see in these images";
   EXPECT_EQ((last.at({"fusion", "odometry reports a failure"})), 50u);
   EXPECT_EQ((last.at({"fusion", "filter already started"})), 4u);
-  EXPECT_LT(refusals(health[1]).at({"fusion", "odometry reports a failure"}), 50u);
+  Counts early = refusals(health[1]);  // a reason that has not occurred yet is not in it
+  EXPECT_LT((early[{"fusion", "odometry reports a failure"}]), 50u);
 }
 
 TEST(Health, CountsWhatABusDidNotTake) {
