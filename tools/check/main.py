@@ -50,7 +50,8 @@ class Check:
         affected = None
         if self.options.changed:
             affected = AffectedTests(self.top, self.steps, self.changed_files(), self.history.of("tests"))
-            self.steps.run("building: release", lambda: self.build("release", affected.programs))
+            self.steps.run("building: release",
+                           lambda: self.build("release", affected.programs) if affected.programs else None)
         else:
             self.steps.run("building: release", lambda: self.build("release"))
         presets = ["release"]
