@@ -86,7 +86,7 @@ class Schedule {
   Time end_;
 };
 
-// What one thread has sent.
+// The messages that one thread has sent.
 struct Sent {
   std::uint64_t messages = 0, refused = 0;
   Duration latest{};  // the longest that a message left after it was due

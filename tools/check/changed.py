@@ -1,6 +1,7 @@
 """Which tests a change can affect, the nearest first, as many as a short run has time for."""
 import os
 
+import builds
 import change
 from steps import say
 from suite import Suite
@@ -17,7 +18,7 @@ class AffectedTests:
         say(f"{len(changed)} files differ: " + " ".join(changed[:8]) + (" ..." if len(changed) > 8 else ""))
         if not os.path.exists(os.path.join(self.build, ".ninja_deps")):
             say("nothing is built yet: this once, everything is")
-            steps.logged("build-release", ["bash", "-c", "cmake --preset release && cmake --build --preset release"], cwd=top)
+            builds.build(steps, top, "release")
         graph = change.Graph(top, self.build)
         groups, self.unaffected = self.group(top, graph, changed)
         spent = 0.0

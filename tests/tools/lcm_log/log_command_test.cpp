@@ -110,7 +110,7 @@ TEST_F(LogCommand, TwoRunsOfTheDriveHaveTheSameData) {
   const auto replay = [&](const std::string& name, const std::string& seed) {
     return maploop::testing::run({maploop::testing::maploop_command(), "replay",
                                   maploop::testing::drive_0013().string(), "--no-lcm", "--lockstep",
-                                  "--end", "6", "--seed", seed, "--record", file(name)})
+                                  "--seed", seed, "--record", file(name)})
         .status;
   };
   ASSERT_EQ(replay("one.lcmlog", "1"), 0);
@@ -122,7 +122,7 @@ TEST_F(LogCommand, TwoRunsOfTheDriveHaveTheSameData) {
   EXPECT_EQ(log({"diff", file("one.lcmlog"), file("two.lcmlog")}).status, 0);
   const ProcessResult other = log({"diff", file("one.lcmlog"), file("three.lcmlog")});
   EXPECT_EQ(other.status, 1);
-  EXPECT_TRUE(contains(other.out, "VO: same, ")) << other.out;
+  EXPECT_TRUE(contains(other.out, "VO: same, 144 messages")) << other.out;
   EXPECT_TRUE(contains(other.out, "message 0, latitude")) << other.out;
 }
 
