@@ -42,8 +42,13 @@ def why_not_sanitized(log, flag, launcher):
     return (started.stderr.strip().splitlines() or ["no reason given"])[-1]
 
 
-def not_formatted(top):
-    """The files that clang-format would change."""
-    find = r"find . -path ./build -prune -o \( -name '*.h' -o -name '*.cpp' \) -print0 | xargs -0 clang-format --dry-run"
-    listed = subprocess.run(find, shell=True, cwd=top, capture_output=True, text=True, check=False).stderr
+def not_formatted(top, files=None):
+    """The files that clang-format would change, of `files` or of all."""
+    if files is None:
+        find = ["find", ".", "-path", "./build", "-prune", "-o", "-type", "f", "-print"]
+        files = subprocess.run(find, cwd=top, capture_output=True, text=True, check=True).stdout.splitlines()
+    sources = "".join(f"{f}\0" for f in files
+                      if f.endswith((".h", ".cpp")) and os.path.isfile(os.path.join(top, f)))
+    listed = subprocess.run(["xargs", "-0", "-r", "clang-format", "--dry-run"], input=sources, cwd=top,
+                            capture_output=True, text=True, check=False).stderr
     return sorted(set(re.findall(r"^(\S+?):\d+:\d+: warning:", listed, re.MULTILINE)))

@@ -46,10 +46,11 @@ class Check:
     def run(self):
         """The exit status: 0 when every step passed."""
         self.steps.run("the recorded drive", self.restore_drive)
-        self.steps.run("formatting", self.check_formatting)
+        changed = self.changed_files() if self.options.changed else None
+        self.steps.run("formatting", lambda: self.check_formatting(changed))
         affected = None
         if self.options.changed:
-            affected = AffectedTests(self.top, self.steps, self.changed_files(), self.history.of("tests"))
+            affected = AffectedTests(self.top, self.steps, changed, self.history.of("tests"))
             self.steps.run("building: release",
                            lambda: self.build("release", affected.programs) if affected.programs else None)
         else:
@@ -77,8 +78,8 @@ class Check:
         if "no real data" in said:
             say("SKIPPED, NOT TESTED: every test of real data")
 
-    def check_formatting(self):
-        files = builds.not_formatted(self.top)
+    def check_formatting(self, changed):
+        files = builds.not_formatted(self.top, changed)
         if files:
             raise StepFailed("FAILED: not formatted; do: clang-format -i " + " ".join(files))
 
