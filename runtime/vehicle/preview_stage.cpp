@@ -4,12 +4,12 @@
 #include <condition_variable>
 #include <limits>
 #include <mutex>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "runtime/core/periodic.h"
 #include "runtime/vehicle/graph.h"
+#include "sensors/image/jpeg.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -83,7 +83,8 @@ void PreviewStage::add(const PreviewImage& from, Preview& preview) const {
   preview.stamp = from.stamp;
   preview.width = small.cols;
   preview.height = small.rows;
-  cv::imencode(".jpg", small, preview.jpeg, {cv::IMWRITE_JPEG_QUALITY, parameters_.quality});
+  sensors::encode_jpeg({small.data, small.total()}, small.cols, small.rows, parameters_.quality,
+                       preview.jpeg);
   const float scale = 1.0F / static_cast<float>(shrink);
   for (const Preview::Track& t : from.tracks) {
     preview.tracks.push_back({scale * t.from_u, scale * t.from_v, scale * t.u, scale * t.v});

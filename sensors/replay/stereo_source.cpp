@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "sensors/image/png.h"
 #include "sensors/replay/frame_source.h"
-#include "sensors/replay/grey_png.h"
 
 namespace maploop::sensors {
 namespace {

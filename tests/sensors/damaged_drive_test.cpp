@@ -5,9 +5,9 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
+#include "sensors/image/jpeg.h"
+#include "sensors/image/png.h"
 #include "sensors/replay/kitti_drive.h"
 #include "tests/sensors/small_drive.h"
 
@@ -230,18 +230,19 @@ TEST(DamagedCamera, ACutImageAtAnyLength) {
   }
 }
 
-TEST(DamagedCamera, AnImageOfAnotherSizeColourOrDepth) {
+TEST(DamagedCamera, AnImageOfAnotherSizeOrColour) {
   const struct {
-    int width, height, type;
+    int width, height;
+    std::size_t bytes_a_pixel;
     const char* reason;
-  } cases[] = {{33, 24, CV_8UC1, "33 x 24 pixels, the calibration says 32 x 24"},
-               {24, 32, CV_8UC1, "24 x 32"},
-               {32, 24, CV_8UC3, "not an 8-bit grey image"},
-               {32, 24, CV_16UC1, "not an 8-bit grey image"}};
+  } cases[] = {{33, 24, 1, "33 x 24 pixels, the calibration says 32 x 24"},
+               {24, 32, 1, "24 x 32"},
+               {32, 24, 3, "not an 8-bit grey image"}};
   for (const auto& c : cases) {
     const SmallDrive small;
-    std::vector<unsigned char> png;
-    ASSERT_TRUE(cv::imencode(".png", cv::Mat(c.height, c.width, c.type, cv::Scalar::all(9)), png));
+    const std::vector<std::uint8_t> pixels(
+        c.bytes_a_pixel * static_cast<std::size_t>(c.width * c.height), 9);
+    const std::vector<std::uint8_t> png = encode_png(pixels, c.width, c.height);
     small.write("image_00/data/0000000003.png", {png.begin(), png.end()});
     expect_finding(only_refusal(*KittiDrive(small.folder()).camera(), without_3), "0000000003.png",
                    0, c.reason);
@@ -250,8 +251,8 @@ TEST(DamagedCamera, AnImageOfAnotherSizeColourOrDepth) {
 
 TEST(DamagedCamera, AnImageInAnotherFormat) {
   const SmallDrive small;
-  std::vector<unsigned char> jpeg;
-  ASSERT_TRUE(cv::imencode(".jpg", cv::Mat(24, 32, CV_8UC1, cv::Scalar(9)), jpeg));
+  std::vector<std::uint8_t> jpeg;
+  encode_jpeg(std::vector<std::uint8_t>(32 * 24, 9), 32, 24, 90, jpeg);
   small.write("image_00/data/0000000003.png", {jpeg.begin(), jpeg.end()});
   expect_finding(only_refusal(*KittiDrive(small.folder()).camera(), without_3), "0000000003.png", 0,
                  "is no PNG image");

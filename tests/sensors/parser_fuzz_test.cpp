@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "msgs/frames.h"
+#include "sensors/image/png.h"
 #include "sensors/replay/files.h"
-#include "sensors/replay/grey_png.h"
 #include "sensors/replay/kitti_calibration.h"
 #include "sensors/replay/oxts.h"
 #include "sensors/replay/timestamps.h"
@@ -107,10 +107,10 @@ TEST(DamagedImage, RealPng) {
   const std::string png =
       read_text(maploop::testing::drive_0013() / "image_00/data/0000000000.png");
   GreyImage whole, image;
-  decode_grey_png({png.begin(), png.end()}, 1242, 375, whole);
+  decode_grey_png(png, 1242, 375, whole);
   // Its checksums protect the pixels: what is accepted shows them all.
   const Tally tally = feed<std::runtime_error>(png, 150, [&](const std::string& bytes) {
-    decode_grey_png({bytes.begin(), bytes.end()}, 1242, 375, image);
+    decode_grey_png(bytes, 1242, 375, image);
     EXPECT_EQ(image.pixels, whole.pixels);
   });
   EXPECT_GT(tally.refused, 100);

@@ -2,12 +2,11 @@
 
 #include <fstream>
 #include <iterator>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 #include <stdexcept>
 
 #include "msgs/time.h"
+#include "sensors/image/png.h"
 #include "sensors/replay/files.h"
 
 namespace maploop::sensors {
@@ -23,15 +22,14 @@ std::string stamps(Duration offset) {
 }
 
 std::string png(std::size_t frame, int camera) {
-  cv::Mat image(SmallDrive::height, SmallDrive::width, CV_8UC1);
-  for (int v = 0; v < image.rows; ++v) {
-    for (int u = 0; u < image.cols; ++u) {
-      image.at<unsigned char>(v, u) =
-          static_cast<unsigned char>(7 * u + 31 * v + 50 * camera + static_cast<int>(frame));
+  std::vector<std::uint8_t> pixels;
+  for (int v = 0; v < SmallDrive::height; ++v) {
+    for (int u = 0; u < SmallDrive::width; ++u) {
+      pixels.push_back(
+          static_cast<std::uint8_t>(7 * u + 31 * v + 50 * camera + static_cast<int>(frame)));
     }
   }
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", image, bytes)) throw std::runtime_error("cannot encode a PNG");
+  const std::vector<std::uint8_t> bytes = encode_png(pixels, SmallDrive::width, SmallDrive::height);
   return {bytes.begin(), bytes.end()};
 }
 

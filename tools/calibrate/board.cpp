@@ -4,9 +4,12 @@
 #include <charconv>
 #include <limits>
 #include <opencv2/calib3d.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
+
+#include "sensors/image/jpeg.h"
+#include "sensors/image/png.h"
+#include "sensors/replay/files.h"
 
 namespace maploop::calibrate {
 namespace {
@@ -57,17 +60,10 @@ Board parse_board(const std::string& text, double square) {
 }
 
 GreyImage read_image(const std::filesystem::path& file) {
-  cv::Mat read;
-  try {
-    read = cv::imread(file.string(), cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception& error) {
-    throw std::runtime_error("the image cannot be read: " + std::string(error.err));
-  }
-  if (read.empty()) throw std::runtime_error("the image cannot be read: no image, cut or damaged");
-  GreyImage image;
-  image.resize(read.cols, read.rows);
-  std::copy(read.datastart, read.dataend, image.pixels.begin());
-  return image;
+  constexpr std::size_t largest_file = std::size_t{256} << 20;
+  std::vector<char> bytes;
+  sensors::read_file(file, largest_file, bytes);
+  return sensors::is_png(bytes) ? sensors::decode_any_png(bytes) : sensors::decode_grey_jpeg(bytes);
 }
 
 std::optional<Corners> find_corners(const GreyImage& image, const Board& board) {

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "sensors/camera/rectifier.h"
+#include "sensors/image/jpeg.h"
 #include "tools/calibrate/calibration_text.h"
 #include "tools/html_image.h"
 #include "tools/html_text.h"
@@ -29,7 +29,9 @@ std::string number(double value) {
 // `width`: px on the page.
 std::string picture(const cv::Mat& image, int width) {
   std::vector<std::uint8_t> jpeg;
-  cv::imencode(".jpg", image, jpeg, {cv::IMWRITE_JPEG_QUALITY, 80});
+  cv::Mat rgb;
+  cv::cvtColor(image, rgb, cv::COLOR_BGR2RGB);
+  sensors::encode_jpeg({rgb.data, 3 * rgb.total()}, rgb.cols, rgb.rows, 80, jpeg);
   return tools::image_tag(jpeg, "jpeg", width);
 }
 

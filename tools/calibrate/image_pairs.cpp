@@ -35,9 +35,7 @@ bool is_image(const fs::path& file) {
   std::string end = file.extension().string();
   std::transform(end.begin(), end.end(), end.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  constexpr std::array<std::string_view, 8> ends = {".png", ".jpg",  ".jpeg", ".pgm",
-                                                    ".bmp", ".tiff", ".tif",  ".ppm"};
-  return std::find(ends.begin(), ends.end(), end) != ends.end();
+  return end == ".png" || end == ".jpg" || end == ".jpeg";
 }
 
 // The images of a folder whose names begin and end so, by what lies between.

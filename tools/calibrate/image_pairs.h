@@ -28,7 +28,7 @@ struct ImagePairs {
 //   image_01, each also with its images in a folder data): files of the same name are a pair
 //   one folder with files left* and right*: the rest of the name says which are a pair
 //   two patterns with one * each in the file's name, left and right: what the * stands for does
-// Images are PNG, JPEG, PGM, BMP or TIFF by the ends of their names. Throws std::runtime_error that
+// Images are PNG or JPEG by the ends of their names. Throws std::runtime_error that
 // says what was looked for where there is no image, or no pair, at all.
 ImagePairs list_pairs(const std::vector<std::string>& images);
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
+#include "sensors/image/png.h"
 #include "tools/html_image.h"
 #include "tools/html_text.h"
 #include "tools/web/page.h"
@@ -108,8 +108,10 @@ std::string summary(const std::vector<LidarStep>& steps) {
 std::string lidar_page(const std::string& heading, const std::vector<LidarStep>& steps,
                        const PointCloud& cloud) {
   const cv::Mat picture = from_above(cloud, steps);
-  std::vector<std::uint8_t> png;
-  cv::imencode(".png", picture, png);
+  cv::Mat rgb;
+  cv::cvtColor(picture, rgb, cv::COLOR_BGR2RGB);
+  const std::vector<std::uint8_t> png =
+      sensors::encode_png({rgb.data, 3 * rgb.total()}, rgb.cols, rgb.rows);
   std::string body = "<pre>" + tools::escaped(summary(steps)) + "</pre>\n";
   body += "<h2>What the scans saw, from above</h2><p>" + std::to_string(cloud.size()) +
           " surfaces; grey: lying; blue to red: standing, from the ground to 4 m above that under "

@@ -1,11 +1,12 @@
 #include "tools/simulate/frame_writer.h"
 
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "sensors/image/png.h"
 #include "sensors/replay/files.h"
 #include "sensors/replay/packed_scan.h"
 #include "tools/simulate/camera_image.h"
@@ -55,11 +56,8 @@ void FrameWriter::write_images(std::size_t frame, std::uint64_t seed) {
                                  mix(seed, static_cast<std::uint64_t>(side)), parameters);
     if (compact_)
       for (auto& pixel : image.pixels) pixel = static_cast<std::uint8_t>((pixel + 1) / 3 * 3);
-    std::vector<unsigned char> png;
-    // Noise has no repetitions to look for: without them it is smaller, and sooner done.
-    cv::imencode(".png", cv::Mat(image.height, image.width, CV_8U, image.pixels.data()), png,
-                 {cv::IMWRITE_PNG_COMPRESSION, 6, cv::IMWRITE_PNG_STRATEGY,
-                  cv::IMWRITE_PNG_STRATEGY_HUFFMAN_ONLY});
+    const std::vector<std::uint8_t> png =
+        sensors::encode_png(image.pixels, image.width, image.height, sensors::PngContent::noise);
     write_file(folder_ / (side == 0 ? "image_00" : "image_01") / "data" /
                    sensors::numbered_file(frame, ".png"),
                {reinterpret_cast<const char*>(png.data()), png.size()});

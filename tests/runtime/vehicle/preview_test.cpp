@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <limits>
 #include <maploop_lcm/preview_t.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -13,6 +12,7 @@
 #include "msgs/lcm/channel_names.h"
 #include "runtime/vehicle/preview_stage.h"
 #include "runtime/vehicle/vehicle.h"
+#include "sensors/image/jpeg.h"
 #include "tests/runtime/vehicle/fake_sensors.h"
 #include "tests/runtime/vehicle/memory_bus.h"
 
@@ -65,9 +65,10 @@ TEST(Preview, ShowsThePictureAndTheScanToThoseWhoLook) {
   ASSERT_NE(with_picture, bus.previews.end());
   EXPECT_EQ(with_picture->width, 160);
   EXPECT_EQ(with_picture->height, 60);
-  const cv::Mat picture = cv::imdecode(with_picture->jpeg, cv::IMREAD_UNCHANGED);
-  EXPECT_EQ(picture.cols, 160);
-  EXPECT_EQ(picture.rows, 60);
+  const GreyImage picture = sensors::decode_grey_jpeg(
+      {reinterpret_cast<const char*>(with_picture->jpeg.data()), with_picture->jpeg.size()});
+  EXPECT_EQ(picture.width, 160);
+  EXPECT_EQ(picture.height, 60);
   const auto with_scan = std::find_if(bus.previews.begin(), bus.previews.end(),
                                       [](const auto& p) { return p.point_count > 0; });
   ASSERT_NE(with_scan, bus.previews.end());

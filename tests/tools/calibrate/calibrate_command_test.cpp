@@ -3,10 +3,10 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
 #include "runtime/vehicle/stereo_rig_file.h"
+#include "sensors/image/png.h"
 #include "tests/support/board_renderer.h"
 #include "tests/support/process.h"
 
@@ -23,10 +23,10 @@ ProcessResult calibrate(std::vector<std::string> arguments, const std::string& b
 }
 
 void write(const fs::path& file, const GreyImage& image) {
-  cv::imwrite(
-      file.string(),
-      cv::Mat(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data())),
-      {cv::IMWRITE_PNG_COMPRESSION, 1});
+  const std::vector<std::uint8_t> png =
+      sensors::encode_png(image.pixels, image.width, image.height, sensors::PngContent::noise);
+  std::ofstream(file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
 }
 
 std::string text_of(const fs::path& file) {

@@ -4,14 +4,15 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/calib3d.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
 #include "runtime/vehicle/stereo_rig_file.h"
+#include "sensors/image/png.h"
 #include "tests/support/process.h"
 #include "tests/support/real_data.h"
+#include "tools/calibrate/board.h"
 
 namespace maploop {
 namespace {
@@ -61,11 +62,15 @@ fs::path make_raw_drive(const fs::path& day, const sensors::StereoRig& rig) {
     fs::copy_file(from / camera / "timestamps.txt", to / camera / "timestamps.txt");
     const cv::Mat map = raw_from_rectified(rig, left);
     for (const auto& entry : fs::directory_iterator(from / camera / "data")) {
+      GreyImage image = calibrate::read_image(entry.path());
       cv::Mat raw;
-      cv::remap(cv::imread(entry.path().string(), cv::IMREAD_GRAYSCALE), raw, map, cv::Mat(),
-                cv::INTER_CUBIC);
-      cv::imwrite((to / camera / "data" / entry.path().filename()).string(), raw,
-                  {cv::IMWRITE_PNG_COMPRESSION, 1});
+      cv::remap(cv::Mat(image.height, image.width, CV_8UC1, image.pixels.data()), raw, map,
+                cv::Mat(), cv::INTER_CUBIC);
+      const std::vector<std::uint8_t> png = sensors::encode_png(
+          {raw.data, raw.total()}, raw.cols, raw.rows, sensors::PngContent::noise);
+      std::ofstream(to / camera / "data" / entry.path().filename(), std::ios::binary)
+          .write(reinterpret_cast<const char*>(png.data()),
+                 static_cast<std::streamsize>(png.size()));
     }
   }
   return to;
