@@ -34,6 +34,7 @@ struct MatchParameters {
   double misfit_rate = 0.5;       // of offsets as evidence between links, a second
   double trust = 5.0;             // log odds of a link that fits perfectly; and what
   double trust_slope = 0.8;       // a unit of misfit takes from them (the reliability diagram)
+  double doubt_slope = 0.15;      // of the log odds below those of 0.9, which sink no faster
   double off_road_rate = 1.0;     // evidence a second, a unit of misfit
 
   // --- Fuzzy process

@@ -36,6 +36,7 @@ void fields(Parameters& p, F&& f) {
   f("misfit_rate", p.misfit_rate);
   f("trust", p.trust);
   f("trust_slope", p.trust_slope);
+  f("doubt_slope", p.doubt_slope);
   f("off_road_rate", p.off_road_rate);
   f("fuzzy_weight", p.fuzzy_weight);
   f("stay", p.stay);

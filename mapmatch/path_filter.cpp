@@ -13,9 +13,7 @@ constexpr double off_road_low = -6.0;   // bounds of its log odds: it must be ab
 constexpr double off_road_high = 5.0;
 constexpr double turn_misfit = 8.0;  // of azimuths, as far as any turn can have it
 constexpr double turning = radians(120.0);
-constexpr double sure_odds = 2.197;  // log odds of 0.9, below which ...
-constexpr double doubt_slope =
-    0.15;  // ... a link is doubted less and less (the reliability diagram)
+constexpr double sure_odds = 2.197;          // log odds of 0.9
 constexpr double in_a_turn = radians(20.0);  // within a second
 
 double log_add(double a, double b) {
@@ -177,8 +175,8 @@ void PathFilter::judge_road(const PathEvidence& e) {
 double PathFilter::unmapped() const {
   const double odds = parameters_->trust - parameters_->trust_slope * surprise_;
   // Most of what fits badly is the road all the same.
-  return 1.0 /
-         (1.0 + std::exp(odds > sure_odds ? odds : sure_odds - doubt_slope * (sure_odds - odds)));
+  const double doubt = parameters_->doubt_slope * (sure_odds - odds);
+  return 1.0 / (1.0 + std::exp(odds > sure_odds ? odds : sure_odds - doubt));
 }
 
 // Two hypotheses that have come to one place and will go one way are one.

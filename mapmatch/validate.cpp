@@ -38,6 +38,7 @@ constexpr std::array match_ranges{ParameterRange{"map_sigma", 0.01, 1000.0, "m"}
                                   ParameterRange{"misfit_rate", 0.0, 1000.0},
                                   ParameterRange{"trust", 0.0, 1000.0},
                                   ParameterRange{"trust_slope", 0.0, 1000.0},
+                                  ParameterRange{"doubt_slope", 0.0, 1000.0},
                                   ParameterRange{"off_road_rate", 0.0, 1000.0},
                                   ParameterRange{"fuzzy_weight", 0.0, 1000.0},
                                   ParameterRange{"stay", 0.0, 100.0},

@@ -8,13 +8,6 @@
 #include "msgs/archive.h"
 
 namespace maploop::fusion {
-namespace {
-
-// Without the map the error squared is twice what the covariance says: drives without GNSS for 60 s
-// have a mean NEES of 2.9 to 4 where 2 is expected.
-constexpr double overconfidence = 2.0;
-
-}  // namespace
 
 Outcome GuardedFilter::add(const MapFeedback& feedback) {
   const Time t = feedback.stamp;
@@ -74,7 +67,8 @@ double GuardedFilter::distance_to(const Copy& copy, const NavState& aided, Time 
   const auto free = copy.filter->state_at(t);
   if (!free || lost(*free)) return 0.0;
   const Eigen::Vector2d apart = (aided.position_enu - free->position_enu).head<2>();
-  Eigen::Matrix2d D = (overconfidence * free->covariance - aided.covariance).topLeftCorner<2, 2>();
+  Eigen::Matrix2d D =
+      (parameters_.overconfidence * free->covariance - aided.covariance).topLeftCorner<2, 2>();
   // Rounding and linearization may make it indefinite.
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(D);
   const double share = parameters_.model_share * copy.way;

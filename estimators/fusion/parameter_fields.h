@@ -112,6 +112,7 @@ void fields(Parameters& p, F&& f) {
   f("trusted", p.trusted);
   f("pause", p.pause);
   f("lost_azimuth", p.lost_azimuth);
+  f("overconfidence", p.overconfidence);
   f("model_sigma", p.model_sigma);
   f("model_share", p.model_share);
 }
