@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 
 #include "msgs/frames.h"
 #include "sensors/replay/reference_trajectory.h"
+#include "tools/median.h"
 
 namespace maploop::fusion_score {
 namespace {
@@ -19,14 +21,13 @@ struct Sample {
   Eigen::Vector2d position;  // m, error
   double azimuth;            // rad, error
   double nees;
+  double accuracy;  // m, of the reference
 };
 
-double median_accuracy(const std::vector<ReferencePose>& rows) {
+double median_accuracy(const std::vector<Sample>& samples) {
   std::vector<double> values;
-  for (const ReferencePose& row : rows) values.push_back(row.position_accuracy);
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                   values.end());
-  return values[values.size() / 2];
+  for (const Sample& s : samples) values.push_back(s.accuracy);
+  return tools::median(values);
 }
 
 Errors errors_between(const std::vector<Sample>& samples, Time begin, Time end, double states) {
@@ -74,8 +75,6 @@ std::optional<Score> score(const NavTrack& track, sensors::Source<ReferencePose>
   const std::vector<ReferencePose> rows = read_all(reference);
   if (rows.size() < 2 || track.states().empty()) return std::nullopt;
   const sensors::ReferenceTrajectory truth(rows, LocalFrame(track.states().front().origin));
-  const double accuracy = median_accuracy(rows);
-  const Eigen::Matrix2d own = accuracy * accuracy * Eigen::Matrix2d::Identity();
 
   std::vector<Sample> samples;
   for (const NavState& state : track.states()) {
@@ -87,9 +86,15 @@ std::optional<Score> score(const NavTrack& track, sensors::Source<ReferencePose>
     s.position = state.position_enu.head<2>() - s.truth;
     s.azimuth =
         wrap_angle(state.attitude.azimuth - attitude_from_rotation(pose->rotation()).azimuth);
-    const Eigen::Matrix2d C = state.covariance.topLeftCorner<2, 2>() + own;
+    s.accuracy = truth.accuracy(state.stamp);
+    const Eigen::Matrix2d C = state.covariance.topLeftCorner<2, 2>() +
+                              s.accuracy * s.accuracy * Eigen::Matrix2d::Identity();
     s.nees = s.position.dot(C.inverse() * s.position);
     samples.push_back(s);
+  }
+  const auto bad = [](const Sample& s) { return s.accuracy > worst_reference; };
+  if (std::count_if(samples.begin(), samples.end(), std::not_fn(bad)) > 1) {
+    std::erase_if(samples, bad);
   }
   if (samples.size() < 2) return std::nullopt;
 
@@ -99,6 +104,7 @@ std::optional<Score> score(const NavTrack& track, sensors::Source<ReferencePose>
                       [&](const NavState& s) { return s.stamp >= begin && s.stamp < end; }));
   };
   Score result;
+  result.reference_accuracy = median_accuracy(samples);
   result.whole =
       errors_between(samples, Time::min(), Time::max(), static_cast<double>(track.states().size()));
   const Time last = samples.back().stamp;
@@ -116,12 +122,18 @@ std::string to_text(const Score& score) {
       "\nState as sent           distance    rmse     max   drift    drift  azimuth deg      NEES\n"
       "                               m       m       m       m        %     rms    end  mean   "
       " end\n";
+  std::array<char, 160> row{};
   const auto line = [&](const char* name, const Errors& e) {
-    std::array<char, 160> row{};
     std::snprintf(row.data(), row.size(),
-                  "  %-20s %9.1f %7.2f %7.2f %7.2f %8.3f %7.3f %6.3f %5.1f %6.1f%s\n", name,
+                  "  %-20s %9.1f %7.2f %7.2f %7.2f %8.3f %7.3f %6.3f %5.1f %6.1f\n", name,
                   e.distance, e.rmse, e.max, e.drift, e.percent(), e.azimuth_rms, e.azimuth_end,
-                  e.nees_mean, e.nees_end, e.covered < 0.98 ? "  gaps in the reference" : "");
+                  e.nees_mean, e.nees_end);
+    text += row.data();
+    if (e.covered >= 0.98) return;
+    std::snprintf(
+        row.data(), row.size(),
+        "  %20s scored where there is a reference better than %.1f m: %.0f %% of the time\n", "",
+        worst_reference, 100.0 * e.covered);
     text += row.data();
   };
   line("whole drive", score.whole);
@@ -130,7 +142,10 @@ std::string to_text(const Score& score) {
     std::snprintf(name.data(), name.size(), "outage %.1f:%.1f", o.start, o.length);
     line(name.data(), o.errors);
   }
-  return text;
+  std::snprintf(row.data(), row.size(),
+                "  The reference says of itself that it is right to %.2f m.\n",
+                score.reference_accuracy);
+  return text + row.data();
 }
 
 }  // namespace maploop::fusion_score

@@ -34,7 +34,7 @@ struct Errors {
   double azimuth_end = 0.0;  // deg
   double nees_mean = 0.0;
   double nees_end = 0.0;
-  double covered = 0.0;  // 1, share of the stretch where there is a reference
+  double covered = 0.0;  // 1, share of the stretch where there is a reference that is good enough
 
   // Of the way: the drift, and the root of the mean error squared.
   double percent() const { return distance > 0.0 ? 100.0 * drift / distance : 0.0; }
@@ -46,12 +46,18 @@ struct OutageErrors {
   Errors errors;
 };
 
+// Where the reference says of itself that it is worse, nothing is scored: the error would be its
+// own.
+inline constexpr double worst_reference = 0.3;  // m
+
 struct Score {
+  double reference_accuracy = 0.0;  // m, median of what the reference says where it is scored
   Errors whole;
   std::vector<OutageErrors> outages;  // those that lie in the drive
 };
 
-// Nothing where the track or the reference is too short.
+// Nothing where the track or the reference is too short. A reference that is nowhere better than
+// worst_reference is taken as it is.
 std::optional<Score> score(const NavTrack& track, sensors::Source<ReferencePose>& reference,
                            const std::vector<vehicle::GnssOutage>& outages, Time origin);
 

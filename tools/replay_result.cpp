@@ -180,6 +180,7 @@ json to_json(const fusion_score::Errors& e) {
 
 json to_json(const fusion_score::Score& s) {
   json j = to_json(s.whole);
+  j["reference_accuracy_m"] = number(s.reference_accuracy);
   j["outages"] = json::array();
   for (const fusion_score::OutageErrors& o : s.outages) {
     json one = to_json(o.errors);

@@ -23,8 +23,20 @@ ReferenceTrajectory::ReferenceTrajectory(const std::vector<ReferencePose>& rows,
                                   format_time(row.stamp));
     }
     rows_.push_back({row.stamp, frame.to_enu(row.position),
-                     Eigen::Quaterniond(rotation_enu_body(row.attitude))});
+                     Eigen::Quaterniond(rotation_enu_body(row.attitude)), row.position_accuracy});
   }
+}
+
+const ReferenceTrajectory::Row& ReferenceTrajectory::row_after(Time stamp) const {
+  return *std::lower_bound(rows_.begin() + 1, rows_.end() - 1, stamp,
+                           [](const Row& row, Time t) { return row.stamp < t; });
+}
+
+double ReferenceTrajectory::accuracy(Time stamp) const {
+  const Row& b = row_after(stamp);
+  if (stamp == b.stamp) return b.accuracy;
+  const Row& a = *(&b - 1);
+  return stamp == a.stamp ? a.accuracy : std::max(a.accuracy, b.accuracy);
 }
 
 std::optional<Eigen::Isometry3d> ReferenceTrajectory::pose(Time stamp) const {
@@ -32,11 +44,8 @@ std::optional<Eigen::Isometry3d> ReferenceTrajectory::pose(Time stamp) const {
       stamp > rows_.back().stamp + max_extrapolation_) {
     return std::nullopt;
   }
-  // The pair of rows around the stamp; at the ends the outermost pair.
-  auto after = std::lower_bound(rows_.begin() + 1, rows_.end() - 1, stamp,
-                                [](const Row& row, Time t) { return row.stamp < t; });
-  const Row& b = *after;
-  const Row& a = *(after - 1);
+  const Row& b = row_after(stamp);
+  const Row& a = *(&b - 1);
   if (stamp == b.stamp) return Eigen::Translation3d(b.p_enu) * b.q_enu_body;
   if (stamp == a.stamp) return Eigen::Translation3d(a.p_enu) * a.q_enu_body;
   if (b.stamp - a.stamp > max_gap_) return std::nullopt;

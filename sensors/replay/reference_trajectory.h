@@ -29,12 +29,18 @@ class ReferenceTrajectory {
   // outside of that or inside a gap.
   std::optional<Eigen::Isometry3d> pose(Time stamp) const;
 
+  // m, the recorder's own statement of the position's accuracy: the worse of the rows around.
+  double accuracy(Time stamp) const;
+
  private:
   struct Row {
     Time stamp;
     Eigen::Vector3d p_enu;
     Eigen::Quaterniond q_enu_body;
+    double accuracy;  // m
   };
+  // The second of the two rows around the stamp; at the ends of the outermost two.
+  const Row& row_after(Time stamp) const;
   std::vector<Row> rows_;
   Duration max_extrapolation_;
   Duration max_gap_;

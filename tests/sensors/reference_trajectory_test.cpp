@@ -72,6 +72,19 @@ TEST(ReferenceTrajectory, HasNothingToSayInsideAGap) {
   EXPECT_TRUE(trajectory.pose(start + milliseconds(1000)));
 }
 
+TEST(ReferenceTrajectory, IsAsAccurateAsTheWorseOfTheRowsAround) {
+  std::vector<ReferencePose> stated = rows;
+  for (std::size_t i = 0; i < stated.size(); ++i)
+    stated[i].position_accuracy = i == 1 ? 0.9 : 0.1 * static_cast<double>(i);
+  const ReferenceTrajectory trajectory(stated, frame);
+  EXPECT_EQ(trajectory.accuracy(start), 0.0);
+  EXPECT_EQ(trajectory.accuracy(start + milliseconds(50)), 0.9);
+  EXPECT_EQ(trajectory.accuracy(start + milliseconds(100)), 0.9);
+  EXPECT_EQ(trajectory.accuracy(start + milliseconds(150)), 0.9);
+  EXPECT_EQ(trajectory.accuracy(start + milliseconds(200)), 0.2);
+  EXPECT_EQ(trajectory.accuracy(start + milliseconds(1120)), 0.4);
+}
+
 TEST(ReferenceTrajectory, RefusesRowsOutOfOrderAndTooFew) {
   EXPECT_THROW(ReferenceTrajectory({rows[0]}, frame), std::invalid_argument);
   EXPECT_THROW(ReferenceTrajectory({rows[1], rows[0]}, frame), std::invalid_argument);

@@ -272,7 +272,7 @@ MapResult run(const MapSetting& setting, const MapCase& setup) {
   const sensors::ReferenceTrajectory truth(rows, filter.aided().frame());
   for (auto& [state, sample] : sent) {
     const auto pose = truth.pose(state.stamp);
-    if (!pose) continue;
+    if (!pose || truth.accuracy(state.stamp) > fusion_score::worst_reference) continue;
     sample.time = to_seconds(state.stamp - recording.first_stamp);
     sample.truth = pose->translation().head<2>();
     sample.error = state.position_enu.head<2>() - sample.truth;
