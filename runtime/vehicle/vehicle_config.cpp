@@ -15,6 +15,7 @@
 #include "ppp/filter/validate.h"
 #include "runtime/core/config.h"
 #include "runtime/vehicle/config_fields.h"
+#include "sensors/live/endpoint.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -64,7 +65,7 @@ std::string number(auto value) {
 }
 
 std::string toml_value(const std::string& text) {
-  return quoted(text);
+  return quoted(sensors::without_secrets(text));
 }
 std::string toml_value(const std::vector<std::string>& texts) {
   std::string list;

@@ -106,7 +106,8 @@ void set_imu_grade(VehicleConfig& config, const std::string& name);
 // and key for anything wrong, unknown keys included. runtime/vehicle/maploop.toml lists every key.
 VehicleConfig load_vehicle_config(const std::filesystem::path& file);
 
-// Every key with its value, as load_vehicle_config() reads it back.
+// Every key with its value, as load_vehicle_config() reads it back, but for users and passwords
+// (without_secrets() of sensors/live/endpoint.h).
 std::string to_toml(const VehicleConfig& config);
 
 }  // namespace maploop::vehicle

@@ -31,10 +31,17 @@ class ByteStream {
   virtual const std::string& name() const = 0;  // as it was given, without what is secret
 };
 
+// One that can be answered to.
+class TwoWayStream : public ByteStream {
+ public:
+  // False where the system does not take all of it at once, or it is not open.
+  virtual bool write(std::string_view text) = 0;
+};
+
 // Opens by itself, and again where the sensor was unplugged or its host went away, one attempt
 // every half second; missing it is no error. Never blocks for longer than it is told to. One thread
 // at a time.
-class Connection final : public ByteStream {
+class Connection final : public TwoWayStream {
  public:
   explicit Connection(Endpoint endpoint) : endpoint_(std::move(endpoint)) {}
   ~Connection() override { close(); }
@@ -43,9 +50,8 @@ class Connection final : public ByteStream {
 
   // One datagram, or bytes of the stream.
   std::size_t read(std::span<std::uint8_t> to, Duration patience) override;
-  // To what a stream is connected with; false where the system does not take all of it at once, or
-  // it is not open.
-  bool write(std::string_view text);
+  // Over tcp alone.
+  bool write(std::string_view text) override;
 
   const Endpoint& endpoint() const { return endpoint_; }
   const ConnectionState& state() const override { return state_; }

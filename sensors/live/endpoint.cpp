@@ -2,6 +2,7 @@
 
 #include <arpa/inet.h>
 
+#include <algorithm>
 #include <charconv>
 #include <stdexcept>
 
@@ -11,7 +12,7 @@ namespace maploop::sensors {
 namespace {
 
 [[noreturn]] void reject(std::string_view text, const std::string& why) {
-  throw std::invalid_argument("'" + std::string(text) +
+  throw std::invalid_argument("'" + without_secrets(text) +
                               "' is no place to read a sensor from: " + why +
                               "; allowed are udp://[ADDRESS]:PORT, tcp://ADDRESS:PORT and "
                               "serial:///dev/NAME?baud=115200");
@@ -63,6 +64,25 @@ Endpoint parse_endpoint(std::string_view text) {
     reject(text, "its address is not a numeric one such as 192.168.1.201");
   }
   return endpoint;
+}
+
+std::string without_secrets(std::string_view text) {
+  constexpr std::string_view property = "user-pw=", hidden = "***";
+  std::string shown(text);
+  // A password may hold an @ itself: what is hidden ends at the last one.
+  const std::size_t scheme = shown.find("://"), at = shown.rfind('@');
+  if (scheme != std::string::npos && at != std::string::npos && at > scheme) {
+    shown.replace(scheme + 3, at - scheme - 3, hidden);
+  }
+  for (std::size_t i = 0; (i = shown.find(property, i)) != std::string::npos;) {
+    i += property.size();
+    const bool quoted = i < shown.size() && shown[i] == '"';
+    // Beyond its own quotes, or up to the next word.
+    const std::size_t last = quoted ? shown.find('"', i + 1) : shown.find_first_of(" \t!", i);
+    const std::size_t end = last == std::string::npos ? shown.size() : last + (quoted ? 1 : 0);
+    shown.replace(i, end - i, hidden);
+  }
+  return shown;
 }
 
 }  // namespace maploop::sensors

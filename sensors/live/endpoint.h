@@ -24,4 +24,9 @@ struct Endpoint {
 // Throws std::invalid_argument naming the text and what is allowed.
 Endpoint parse_endpoint(std::string_view text);
 
+// What may be shown of a text that names where a sensor is (an endpoint, an NTRIP mountpoint, a
+// GStreamer pipeline): *** stands for the user and password of its URL, and for the value of the
+// property user-pw.
+std::string without_secrets(std::string_view text);
+
 }  // namespace maploop::sensors

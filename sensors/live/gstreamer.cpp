@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "sensors/live/endpoint.h"
+
 namespace maploop::sensors {
 
 GstOwned<GstElement> parse_pipeline(const std::string& whole, const std::string& given) {
@@ -12,8 +14,8 @@ GstOwned<GstElement> parse_pipeline(const std::string& whole, const std::string&
       gst_parse_launch_full(whole.c_str(), nullptr, GST_PARSE_FLAG_FATAL_ERRORS, &raw_error);
   const GstOwned<GError> error(raw_error);
   if (pipeline == nullptr) {
-    throw std::invalid_argument("'" + given +
-                                "' is no pipeline: " + (error ? error->message : "it is empty") +
+    throw std::invalid_argument("'" + without_secrets(given) + "' is no pipeline: " +
+                                (error ? without_secrets(error->message) : "it is empty") +
                                 "; gst-launch-1.0 tries one, gst-inspect-1.0 lists the elements");
   }
   // A floating reference, which has no owner yet.
@@ -24,7 +26,7 @@ std::string error_text(GstMessage* message) {
   GError* error = nullptr;
   gst_message_parse_error(message, &error, nullptr);
   const GstOwned<GError> owned(error);
-  return error->message;
+  return without_secrets(error->message);
 }
 
 }  // namespace maploop::sensors

@@ -69,11 +69,16 @@ class LiveStereo final : public LiveSource<StereoPair> {
 
   LiveReport report() const override {
     const VideoState& first = left_.state();
-    LiveReport report{
-        left_.description(), first.connection, delivered_, wrong_size_ + not_later_, {}, {}, {}};
+    LiveReport report{without_secrets(left_.description()),
+                      first.connection,
+                      delivered_,
+                      wrong_size_ + not_later_,
+                      {},
+                      {},
+                      {}};
     if (right_) {
       const VideoState& second = right_->state();
-      report.endpoint += " | " + right_->description();
+      report.endpoint += " | " + without_secrets(right_->description());
       report.connection.open = first.connection.open && second.connection.open;
       report.connection.opened = std::min(first.connection.opened, second.connection.opened);
       report.connection.bytes += second.connection.bytes;

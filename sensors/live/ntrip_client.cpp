@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sensors/clock/host_clock.h"
+#include "sensors/live/tls_connection.h"
 
 namespace maploop::sensors {
 namespace {
@@ -55,8 +56,13 @@ bool NtripClient::find_host(Duration patience) {
     give_up("host '" + address_.host + "' " + answer->problem);
     return false;
   }
-  connection_ = std::make_unique<Connection>(
-      parse_endpoint("tcp://" + answer->address + ":" + std::to_string(address_.port)));
+  Endpoint endpoint =
+      parse_endpoint("tcp://" + answer->address + ":" + std::to_string(address_.port));
+  if (address_.encrypted) {
+    connection_ = std::make_unique<TlsConnection>(std::move(endpoint), address_.host);
+  } else {
+    connection_ = std::make_unique<Connection>(std::move(endpoint));
+  }
   return true;
 }
 

@@ -17,8 +17,8 @@
 namespace maploop::sensors {
 
 // Asks by itself, and again where the caster refuses, ends the stream, or is silent for a minute:
-// after one second, two, four, up to a minute. A name is looked up each time. Not encrypted, as
-// NTRIP's port 2101 is. state().open: the caster sends the stream.
+// after one second, two, four, up to a minute. A name is looked up each time. state().open: the
+// caster sends the stream.
 class NtripClient final : public ByteStream {
  public:
   explicit NtripClient(NtripAddress address) : address_(std::move(address)) {}
@@ -36,8 +36,8 @@ class NtripClient final : public ByteStream {
   NtripAddress address_;
   ConnectionState state_;
   std::optional<NameLookup> lookup_;
-  std::unique_ptr<Connection> connection_;  // nullptr: the address is not known
-  std::uint64_t greeted_ = 0;               // the connection's opening that the request went to
+  std::unique_ptr<TwoWayStream> connection_;  // nullptr: the address is not known
+  std::uint64_t greeted_ = 0;                 // the connection's opening that the request went to
   NtripReply reply_;
   std::array<std::uint8_t, 2048> buffer_{};
   std::span<const std::uint8_t> unread_;

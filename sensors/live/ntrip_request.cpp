@@ -8,17 +8,18 @@
 #include <stdexcept>
 
 #include "msgs/frames.h"
+#include "sensors/live/endpoint.h"
 
 namespace maploop::sensors {
 namespace {
 
-constexpr std::string_view ntrip_scheme = "ntrip://";
+constexpr std::string_view ntrip_scheme = "ntrip://", ntrips_scheme = "ntrips://";
 
 [[noreturn]] void refuse_address(const std::string& shown, const std::string& why) {
-  throw std::invalid_argument(
-      "'" + shown + "': " + why +
-      "; an NTRIP mountpoint is ntrip://[USER[:PASSWORD]@]HOST[:PORT]/MOUNTPOINT, then, if need "
-      "be, ?version=1 and ?gga=LATITUDE,LONGITUDE,HEIGHT with & between");
+  throw std::invalid_argument("'" + shown + "': " + why +
+                              "; an NTRIP mountpoint is ntrip:// (or ntrips://, over TLS) and "
+                              "[USER[:PASSWORD]@]HOST[:PORT]/MOUNTPOINT, then, if need "
+                              "be, ?version=1 and ?gga=LATITUDE,LONGITUDE,HEIGHT with & between");
 }
 
 // The part before `end`, taken off with it; all of it where there is no `end`.
@@ -78,19 +79,22 @@ std::string angle_field(double value, int degree_digits, const char* signs) {
 }  // namespace
 
 bool is_ntrip(std::string_view text) {
-  return text.starts_with(ntrip_scheme);
+  return text.starts_with(ntrip_scheme) || text.starts_with(ntrips_scheme);
 }
 
 NtripAddress parse_ntrip(std::string_view text) {
   NtripAddress a;
-  std::string_view rest = text.substr(std::min(text.size(), ntrip_scheme.size()));
+  a.encrypted = text.starts_with(ntrips_scheme);
+  if (a.encrypted) a.port = 443;
+  const std::size_t scheme = (a.encrypted ? ntrips_scheme : ntrip_scheme).size();
+  std::string_view rest = text.substr(std::min(text.size(), scheme));
   // A password may hold anything but a line's end; what follows the last @ is the host.
   const std::size_t at = rest.rfind('@');
   std::string_view who = at == std::string_view::npos ? std::string_view{} : rest.substr(0, at);
   if (at != std::string_view::npos) rest.remove_prefix(at + 1);
   a.user = take_until(who, ':');
   a.password = who;
-  a.text = std::string(ntrip_scheme) + (a.user.empty() ? "" : a.user + "@") + std::string(rest);
+  a.text = without_secrets(text);
   if (!is_ntrip(text)) refuse_address(a.text, "is none");
   if (!printable(text)) refuse_address(a.text, "has characters that no address has");
   const bool has_mountpoint = rest.find('/') != std::string_view::npos;

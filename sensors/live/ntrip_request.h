@@ -12,15 +12,17 @@
 namespace maploop::sensors {
 
 // ntrip://[USER[:PASSWORD]@]HOST[:PORT]/MOUNTPOINT[?version=1][&gga=LATITUDE,LONGITUDE,HEIGHT]
-// Degrees and metres; version 2 is understood by casters of version 1 too, but for a few.
+// ntrips:// is the same over TLS, by which nobody on the way reads the password. Degrees and
+// metres; version 2 is understood by casters of version 1 too, but for a few.
 struct NtripAddress {
   std::string user, password;
   std::string host;
-  std::uint16_t port = 2101;
+  bool encrypted = false;
+  std::uint16_t port = 2101;  // ntrips: 443
   std::string mountpoint;
   int version = 2;
   std::optional<Geodetic> position;  // said to the caster, again and again
-  std::string text;                  // as it was given, without the password
+  std::string text;                  // as it was given, without what is secret
 };
 
 bool is_ntrip(std::string_view text);

@@ -44,6 +44,16 @@ TEST(VehicleConfig, TheShippedFileHasEveryKeyWithItsDefault) {
   EXPECT_EQ(keys(text.str()), keys(to_toml(VehicleConfig{})));
 }
 
+TEST(VehicleConfig, WhatIsWrittenHasNoPasswords) {
+  VehicleConfig config;
+  config.live.gnss = "ntrip://me:secret@host/RECEIVER";
+  config.live.corrections = "ntrips://me:secret@host/CORRECTIONS";
+  config.live.camera_left = "rtspsrc location=rtsp://me:secret@host/left";
+  const std::string text = to_toml(config);
+  EXPECT_EQ(text.find("secret"), std::string::npos) << text;
+  EXPECT_NE(text.find("corrections = \"ntrips://***@host/CORRECTIONS\""), std::string::npos);
+}
+
 TEST(VehicleConfig, WhatIsWrittenIsReadBack) {
   VehicleConfig config;
   config.lcm_url = "udpm://239.255.76.67:7667?ttl=1";

@@ -64,6 +64,30 @@ TEST(Endpoint, IsOnTheLoopbackUnlessItSaysOtherwise) {
   }
 }
 
+TEST(Endpoint, IsShownWithoutWhatIsSecret) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"ntrip://me:secret@host/M", "ntrip://***@host/M"},
+      {"ntrips://me:s@c:r/e t@host:2102/M?gga=1,2,3", "ntrips://***@host:2102/M?gga=1,2,3"},
+      {"rtspsrc location=rtsp://me:secret@host/a ! rtph264depay",
+       "rtspsrc location=rtsp://***@host/a ! rtph264depay"},
+      {"rtspsrc location=rtsp://host/a user-id=me user-pw=secret ! decodebin",
+       "rtspsrc location=rtsp://host/a user-id=me user-pw=*** ! decodebin"},
+      {"souphttpsrc user-pw=\"se cret\" location=http://host/",
+       "souphttpsrc user-pw=*** location=http://host/"},
+      {"udp://:2368", "udp://:2368"},
+      {"user-pw=", "user-pw=***"},
+      {"", ""}};
+  for (const auto& [text, shown] : cases) EXPECT_EQ(without_secrets(text), shown);
+  for (const char* text : {"ntrip://me:secret@host/M", "tcp://me:secret@1.2.3.4:5"}) {
+    try {
+      parse_endpoint(text);
+      ADD_FAILURE() << text;
+    } catch (const std::invalid_argument& e) {
+      EXPECT_EQ(std::string(e.what()).find("secret"), std::string::npos) << e.what();
+    }
+  }
+}
+
 TEST(LiveNmea, SurvivesUnpluggingOfASerialLine) {
   const testing::TemporaryFolder folder;
   const HostClock clock;

@@ -5,6 +5,8 @@
 
 #include <csignal>
 #include <filesystem>
+#include <fstream>
+#include <optional>
 #include <random>
 #include <string>
 #include <thread>
@@ -92,12 +94,15 @@ TEST(Ntrip, Addresses) {
   EXPECT_EQ(a.port, 2102);
   EXPECT_EQ(a.mountpoint, "SSRA00");
   EXPECT_EQ(a.version, 1);
-  EXPECT_EQ(a.text, "ntrip://me@caster.org:2102/SSRA00?version=1&gga=48.5,-8.25,115");
+  EXPECT_EQ(a.text, "ntrip://***@caster.org:2102/SSRA00?version=1&gga=48.5,-8.25,115");
   ASSERT_TRUE(a.position);
   EXPECT_EQ(ntrip_gga(*a.position, std::chrono::hours(10) + seconds(62)),
             testing::sentence(
                 "GPGGA,100102.00,4830.0000000,N,00815.0000000,W,1,10,1.0,115.000,M,0.0,M,,"));
   EXPECT_EQ(parse_ntrip("ntrip://10.0.0.1/M").port, 2101);
+  EXPECT_FALSE(parse_ntrip("ntrip://10.0.0.1/M").encrypted);
+  EXPECT_EQ(parse_ntrip("ntrips://10.0.0.1/M").port, 443);
+  EXPECT_TRUE(parse_ntrip("ntrips://10.0.0.1/M").encrypted);
   for (const char* text :
        {"ntrip://", "ntrip://host", "ntrip://host/", "ntrip:///M", "ntrip://h:0/M",
         "ntrip://h:99999/M", "ntrip://h/M?version=3", "ntrip://h/M?gga=1,2",
@@ -176,6 +181,87 @@ TEST(NtripClient, SaysThatNobodyAnswersAndThatANameIsNone) {
   const auto unnamed = open_stream("ntrip://no-such-host.invalid/M");
   EXPECT_NE(wait_for_problem(*unnamed, "'no-such-host.invalid' has no address"), "");
   EXPECT_THROW(open_stream("ntrip://host"), std::invalid_argument);
+}
+
+// OpenSSL's own server, as a caster of one mountpoint M, with a certificate made for the test.
+class TlsCaster : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists("/usr/bin/openssl"))
+      GTEST_SKIP() << "SKIPPED, NOT TESTED: no openssl; it is in Debian's package openssl";
+    std::ofstream(folder_.path() / "M") << "hello, world.";
+  }
+  void TearDown() override { unsetenv("SSL_CERT_FILE"); }
+
+  // Vouched for by itself alone. `names`: such as DNS:localhost,IP:127.0.0.1
+  void begin(const std::string& names) {
+    ASSERT_EQ(testing::run({"openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt",
+                            "ec_paramgen_curve:prime256v1", "-nodes", "-keyout", file("key.pem"),
+                            "-out", file("certificate.pem"), "-days", "2", "-subj", "/CN=caster",
+                            "-addext", "subjectAltName=" + names})
+                  .status,
+              0);
+    port_ = std::to_string(testing::free_port());
+    server_.emplace(std::vector<std::string>{"sh", "-c",
+                                             "cd " + folder_.path().string() +
+                                                 " && exec openssl s_server -WWW -accept " + port_ +
+                                                 " -cert certificate.pem -key key.pem"});
+  }
+  void trust() const { setenv("SSL_CERT_FILE", file("certificate.pem").c_str(), 1); }
+  std::string file(const char* name) const { return (folder_.path() / name).string(); }
+  std::unique_ptr<ByteStream> open(const std::string& host) const {
+    return open_stream("ntrips://me:secret@" + host + ":" + port_ + "/M");
+  }
+
+  testing::TemporaryFolder folder_;
+  std::string port_;
+  std::optional<testing::Process> server_;
+};
+
+TEST_F(TlsCaster, IsReadByNameAndByAddress) {
+  begin("DNS:localhost,IP:127.0.0.1");
+  trust();
+  for (const char* host : {"localhost", "127.0.0.1"}) {
+    const auto stream = open(host);
+    EXPECT_EQ(read_until(*stream, ".", seconds(30)), "hello, world.") << stream->state().problem;
+    EXPECT_EQ(stream->name(), "ntrips://***@" + std::string(host) + ":" + port_ + "/M");
+  }
+}
+
+TEST_F(TlsCaster, IsRefusedWhereNobodyVouchesForIt) {
+  begin("IP:127.0.0.1");
+  const auto stream = open("127.0.0.1");
+  EXPECT_NE(wait_for_problem(*stream, "self-signed").find("is not trusted: self-signed"),
+            std::string::npos)
+      << stream->state().problem;
+  EXPECT_NE(stream->state().problem.find("SSL_CERT_FILE"), std::string::npos)
+      << stream->state().problem;
+  EXPECT_FALSE(stream->state().open);
+}
+
+TEST_F(TlsCaster, IsRefusedWhereItsCertificateIsOfAnother) {
+  begin("DNS:other.example.org");
+  trust();
+  const auto by_address = open("127.0.0.1");
+  EXPECT_NE(wait_for_problem(*by_address, "is not trusted: IP address mismatch")
+                .find("IP address mismatch"),
+            std::string::npos)
+      << by_address->state().problem;
+  const auto by_name = open("localhost");
+  EXPECT_NE(wait_for_problem(*by_name, "hostname mismatch").find("hostname mismatch"),
+            std::string::npos)
+      << by_name->state().problem;
+}
+
+TEST(NtripClient, SaysThatACasterSpeaksNoTls) {
+  TcpServer server;
+  std::jthread caster([&] {
+    if (server.answer()) server.send("ICY 200 OK\r\nhello, world.");
+  });
+  const auto stream = open_stream("ntrips://127.0.0.1:" + std::to_string(server.port()) + "/M");
+  EXPECT_NE(wait_for_problem(*stream, "does not speak TLS").find("does not speak TLS"),
+            std::string::npos)
+      << stream->state().problem;
 }
 
 // RTKLIB's str2str as the caster of what it is sent.
