@@ -9,8 +9,8 @@
 
 #include "mapmatch/network_file.h"
 #include "msgs/lcm/channel_names.h"
-#include "runtime/vehicle/lcm_bus.h"
 #include "tools/bus_listener.h"
+#include "tools/bus_option.h"
 #include "tools/commands.h"
 #include "tools/dashboard/live_channels.h"
 #include "tools/dashboard/relay.h"
@@ -30,7 +30,7 @@ constexpr std::chrono::milliseconds pass_on_every{100};
 constexpr int listen_ms = 20;
 
 struct DashboardOptions {
-  std::string url = vehicle::LcmBus::default_url;
+  std::string lcm_url;
   std::string address = "127.0.0.1";
   int port = 8080;
   double seconds = 0.0;  // 0: until interrupted
@@ -64,7 +64,8 @@ int run(const DashboardOptions& options) {
   if (!options.map.empty()) network.emplace(mapmatch::open_network(options.map));
   dashboard::LiveChannels channels;
   dashboard::Relay relay(channels);
-  BusListener bus(options.url, ".*", [&](auto channel, auto data) { relay.take(channel, data); });
+  BusListener bus(vehicle::bus_url(options.lcm_url), ".*",
+                  [&](auto channel, auto data) { relay.take(channel, data); });
   const dashboard::Server server(
       options.address, options.port, channels,
       {[&] { return relay.trail(); },
@@ -95,7 +96,7 @@ void add_dashboard(CLI::App& app, Command& command) {
   CLI::App* sub = app.add_subcommand("dashboard",
                                      "Show a running replay or vehicle in a browser: way, camera, "
                                      "scan, satellites, state, deadlines");
-  sub->add_option("--url", options->url, "LCM's URL")->capture_default_str();
+  add_lcm_url(sub, options->lcm_url);
   sub->add_option("--address", options->address,
                   "Address to listen at; other than this machine's own (127.0.0.1) lets others "
                   "look, and control a replay")

@@ -12,6 +12,7 @@
 #include "runtime/core/thread.h"
 #include "runtime/vehicle/config_fields.h"
 #include "runtime/vehicle/lcm_bus.h"
+#include "tools/bus_option.h"
 #include "tools/commands.h"
 #include "tools/json_output.h"
 #include "tools/option_checks.h"
@@ -22,6 +23,7 @@ namespace {
 struct DoctorOptions {
   std::filesystem::path config;
   std::filesystem::path json;
+  std::string lcm_url;
 };
 
 // Asks the kernel for each thread of the graph as a paced replay would.
@@ -42,7 +44,7 @@ std::vector<RealtimeSetting> ask_for_bus(const std::string& url) {
     return vehicle::LcmBus(url).settings();
   } catch (const std::runtime_error& e) {
     return {{"LCM: bus", url, "none", Verdict::refused, e.what(),
-             "correct lcm_url or the route, or run maploop replay --no-lcm"}};
+             "correct --lcm-url or the route, or run maploop replay --no-lcm"}};
   }
 }
 
@@ -51,7 +53,7 @@ int doctor(const DoctorOptions& options) {
   if (!options.config.empty()) config = vehicle::load_vehicle_config(options.config);
   runtime::RealtimeReport report = runtime::prepare_process(config.memory);
   ask_for_threads(config, report);
-  runtime::append(report, ask_for_bus(config.lcm_url));
+  runtime::append(report, ask_for_bus(vehicle::bus_url(options.lcm_url, config.lcm_url)));
   std::cout << runtime::to_text(report);
   if (!options.json.empty()) {
     write_json_file(options.json, {{"all_granted", report.all_granted()},
@@ -69,6 +71,7 @@ void add_doctor(CLI::App& app, Command& command) {
       "Ask this machine for all that a replay in real time asks for, and say what it "
       "grants, what not, why, and what to do");
   sub->add_option("--config", options->config, "TOML file of parameters")->check(existing_file());
+  add_lcm_url(sub, options->lcm_url);
   sub->add_option("--json", options->json, "Write the report to this file as JSON")
       ->check(writable_file());
   sub->callback([options, &command] { command = [options] { return doctor(*options); }; });

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "tools/bus_option.h"
 #include "tools/choice_option.h"
 #include "tools/commands.h"
 
@@ -26,7 +27,8 @@ void add_live(CLI::App& app, Command& command) {
   sub->add_flag("--record-raw", options->record_raw,
                 "With the scans, for a replay of the whole graph")
       ->needs(record);
-  sub->add_flag("--no-lcm", options->no_lcm, "Publish nothing on LCM");
+  auto* no_lcm = sub->add_flag("--no-lcm", options->no_lcm, "Publish nothing on LCM");
+  add_lcm_url(sub, options->lcm_url)->excludes(no_lcm);
   sub->add_option("--map", options->map,
                   "OpenStreetMap file, or network file of `maploop map build`: the fused state is "
                   "matched to its roads")

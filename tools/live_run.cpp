@@ -73,7 +73,7 @@ int live(const LiveOptions& options) {
   std::vector<vehicle::MessageSink*> sinks{&pass.hashes};
   std::unique_ptr<vehicle::LcmBus> bus;
   if (!options.no_lcm) {
-    bus = std::make_unique<vehicle::LcmBus>(config.lcm_url);
+    bus = std::make_unique<vehicle::LcmBus>(vehicle::bus_url(options.lcm_url, config.lcm_url));
     runtime::append(readiness, bus->settings());
     sinks.push_back(bus.get());
   }

@@ -14,6 +14,7 @@ struct LiveOptions {
   std::filesystem::path config;
   double seconds = 0.0;  // 0: until it is stopped
   bool no_lcm = false;
+  std::string lcm_url;   // empty: as vehicle::bus_url() says
   bool verbose = false;  // every real-time setting, not only what was not granted
   std::filesystem::path record;
   bool record_raw = false;

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "msgs/lcm/log/log_reader.h"
-#include "runtime/vehicle/lcm_bus.h"
 #include "tools/bus_listener.h"
+#include "tools/bus_option.h"
 #include "tools/commands.h"
 #include "tools/evaluation/text_file.h"
 #include "tools/lcm_log/log_types.h"
@@ -24,7 +24,7 @@ using std::filesystem::path;
 struct ProfileOptions {
   path log;
   bool live = false;
-  std::string url = vehicle::LcmBus::default_url;
+  std::string lcm_url;
   double seconds = 0.0;  // 0: until interrupted
   path json, html;
 };
@@ -40,9 +40,10 @@ void read_log(const path& file, profile::ProfileCollector& collector) {
   }
 }
 
-void listen(const ProfileOptions& options, profile::ProfileCollector& collector) {
+void listen(const std::string& url, const ProfileOptions& options,
+            profile::ProfileCollector& collector) {
   constexpr int look_every = 100;  // ms
-  BusListener bus(options.url, "DEADLINES|HEALTH",
+  BusListener bus(url, "DEADLINES|HEALTH",
                   [&](auto channel, auto data) { collector.add(channel, data); });
   note_interrupts();
   const auto end = std::chrono::steady_clock::now() + from_seconds(options.seconds);
@@ -56,10 +57,10 @@ int run(const ProfileOptions& options) {
     throw CLI::RequiredError("either LOG or --live");
   }
   profile::ProfileCollector collector;
-  const std::string source =
-      options.live ? "'" + options.url + "'" : "'" + options.log.string() + "'";
+  const std::string url = vehicle::bus_url(options.lcm_url);
+  const std::string source = "'" + (options.live ? url : options.log.string()) + "'";
   if (options.live) {
-    listen(options, collector);
+    listen(url, options, collector);
   } else {
     read_log(options.log, collector);
   }
@@ -69,7 +70,7 @@ int run(const ProfileOptions& options) {
   if (!options.html.empty()) {
     evaluation::write_text(
         options.html,
-        profile::to_html(result, options.live ? options.url : options.log.filename().string()));
+        profile::to_html(result, options.live ? url : options.log.filename().string()));
   }
   return 0;
 }
@@ -82,7 +83,7 @@ void add_profile(CLI::App& app, Command& command) {
       "profile", "Latencies, misses and processor time of a run, from its DEADLINES and HEALTH");
   auto* log = sub->add_option("LOG", options->log, "LCM log of the run, plain or .gz");
   auto* live = sub->add_flag("--live", options->live, "Listen to a run on the bus")->excludes(log);
-  sub->add_option("--url", options->url, "LCM's URL")->needs(live)->capture_default_str();
+  add_lcm_url(sub, options->lcm_url)->needs(live);
   sub->add_option("--seconds", options->seconds, "Listen this long; without it until Ctrl-C")
       ->needs(live)
       ->check(positive_number());

@@ -6,6 +6,7 @@
 #include "estimators/fusion/configuration.h"
 #include "runtime/vehicle/fault_injection.h"
 #include "runtime/vehicle/gnss_outage.h"
+#include "tools/bus_option.h"
 #include "tools/choice_option.h"
 #include "tools/commands.h"
 #include "tools/option_checks.h"
@@ -87,7 +88,8 @@ void add_replay(CLI::App& app, Command& command) {
   sub->add_flag("--record-raw", options->record_raw,
                 "With the images and scans, for a replay of the whole graph (30 MB/s)")
       ->needs(record);
-  sub->add_flag("--no-lcm", options->no_lcm, "Publish nothing on LCM");
+  auto* no_lcm = sub->add_flag("--no-lcm", options->no_lcm, "Publish nothing on LCM");
+  add_lcm_url(sub, options->lcm_url)->excludes(no_lcm);
   sub->add_option("--config", options->config, "TOML file of parameters")->check(existing_file());
   sub->add_option_function<std::string>(
          "--snapshot",

@@ -65,7 +65,7 @@ class Replay {
         faults_(parse_faults(options.faults), recording_.first_stamp) {
     if (!options.record.empty()) lcm_log::refuse_same_file(options.drive, options.record);
     if (!options.no_lcm) {
-      bus_ = std::make_unique<vehicle::LcmBus>(config_.lcm_url);
+      bus_ = std::make_unique<vehicle::LcmBus>(vehicle::bus_url(options.lcm_url, config_.lcm_url));
       runtime::append(readiness_, bus_->settings());
     }
     if (!options.resume.empty()) resumed_ = vehicle::read_snapshot(options.resume, config_);

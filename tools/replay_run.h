@@ -26,6 +26,7 @@ struct ReplayOptions {
   double speed = 1.0;
   bool lockstep = false;
   bool no_lcm = false;
+  std::string lcm_url;  // empty: as vehicle::bus_url() says
   std::filesystem::path record;
   bool record_raw = false;
   std::filesystem::path config;

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "msgs/lcm/log/log_reader.h"
-#include "runtime/vehicle/lcm_bus.h"
 #include "tools/bus_listener.h"
+#include "tools/bus_option.h"
 #include "tools/commands.h"
 #include "tools/lcm_log/log_types.h"
 #include "tools/lcm_log/progress.h"
@@ -37,7 +37,7 @@ constexpr Duration log_window = Duration::max();
 
 struct SpyOptions {
   std::vector<path> logs, types;
-  std::string url = vehicle::LcmBus::default_url;
+  std::string lcm_url;
   std::string filter;
   bool plain = false, once = false, json = false;
   double seconds = 0.0;  // 0: until it is ended
@@ -156,9 +156,9 @@ int run(const SpyOptions& options) {
     feed.wait = [](int ms) { usleep(static_cast<useconds_t>(ms) * 1000); };
     feed.now = [end] { return end; };
   } else {
-    bus.emplace(options.url, ".*",
+    feed.name = vehicle::bus_url(options.lcm_url);
+    bus.emplace(feed.name, ".*",
                 [&](auto channel, auto data) { traffic.add(channel, data, steady_now()); });
-    feed.name = options.url;
     feed.wait = [&](int ms) { bus->listen(ms); };
     feed.now = steady_now;
   }
@@ -189,7 +189,7 @@ void add_spy(CLI::App& app, Command& command) {
   CLI::App* sub = app.add_subcommand(
       "spy", "Watch the channels of an LCM bus or of logs: rates, ages, losses, decoded fields");
   auto* logs = sub->add_option("LOG", options->logs, "LCM logs, plain or .gz, instead of the bus");
-  sub->add_option("--url", options->url, "LCM's URL")->excludes(logs)->capture_default_str();
+  add_lcm_url(sub, options->lcm_url)->excludes(logs);
   sub->add_option("--filter", options->filter,
                   "Only channels whose name this regular expression matches anywhere");
   sub->add_option("--types", options->types,

@@ -1,6 +1,7 @@
 #include "runtime/vehicle/lcm_bus.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <iterator>
 #include <lcm/lcm-cpp.hpp>
 #include <stdexcept>
@@ -15,6 +16,13 @@ namespace {
 constexpr int buffer_bytes = 2 * 1024 * 1024;
 
 }  // namespace
+
+std::string bus_url(const std::string& named, const std::string& configured) {
+  if (!named.empty()) return named;
+  if (!configured.empty()) return configured;
+  const char* environment = std::getenv("LCM_DEFAULT_URL");
+  return environment != nullptr && *environment != '\0' ? environment : LcmBus::default_url;
+}
 
 struct LcmBus::Connection {
   explicit Connection(const std::string& url) : lcm(url) {}

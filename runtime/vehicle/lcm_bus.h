@@ -14,6 +14,10 @@ class LCM;
 
 namespace maploop::vehicle {
 
+// Where messages go: what the command line names, else what the configuration names, else the
+// environment's LCM_DEFAULT_URL as for every LCM program, else LcmBus::default_url.
+std::string bus_url(const std::string& named, const std::string& configured = {});
+
 class LcmBus final : public MessageSink {
  public:
   // The default stays on this host (ttl=0). Throws std::runtime_error naming the URL when LCM

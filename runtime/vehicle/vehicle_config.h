@@ -17,7 +17,6 @@
 #include "ppp/filter/parameters.h"
 #include "runtime/core/realtime_memory.h"
 #include "runtime/core/trace.h"
-#include "runtime/vehicle/lcm_bus.h"
 #include "runtime/vehicle/live_config.h"
 #include "runtime/vehicle/preview_parameters.h"
 #include "runtime/vehicle/scheduling_config.h"
@@ -62,7 +61,7 @@ struct MapParameters {
 };
 
 struct VehicleConfig {
-  std::string lcm_url = LcmBus::default_url;
+  std::string lcm_url;  // empty: as bus_url() says (lcm_bus.h)
   // By name (estimators/fusion/configuration.h): both set keys of [fusion], and the first what
   // odometry is; those keys may say otherwise.
   std::string configuration = "VO-L-RI";

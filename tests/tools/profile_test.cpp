@@ -181,7 +181,7 @@ TEST(ProfileCommand, SaysWhatIsWrong) {
   EXPECT_NE(profile_command({}).status, 0);
   EXPECT_NE(profile_command({missing, "--live"}).status, 0);
   EXPECT_NE(profile_command({missing, "--seconds", "3"}).status, 0);
-  result = profile_command({"--live", "--seconds", "1", "--url", "nonsense://"});
+  result = profile_command({"--live", "--seconds", "1", "--lcm-url", "nonsense://"});
   EXPECT_EQ(result.status, 1);
   EXPECT_NE(result.error.find("nonsense://"), std::string::npos) << result.error;
 }
