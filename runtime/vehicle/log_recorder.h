@@ -14,7 +14,8 @@ namespace maploop::vehicle {
 class LogRecorder final : public MessageSink {
  public:
   // Replaces the file. `raw`: with the images and scans, so that the whole graph can be replayed
-  // from the log. Throws std::runtime_error naming it when it cannot be written.
+  // from the log. Throws std::runtime_error naming it when it cannot be written, or when another
+  // recorder, of any process, is writing it.
   explicit LogRecorder(const std::string& path, bool raw = false);
   ~LogRecorder() override;
 

@@ -84,7 +84,7 @@ void refuse_same_file(const std::filesystem::path& input, const std::filesystem:
   std::error_code error;
   if (std::filesystem::equivalent(input, output, error)) {
     throw std::invalid_argument("'" + output.string() +
-                                "' is read and cannot be the output too: choose another -o");
+                                "' is read and cannot be the output too: name another output file");
   }
 }
 

@@ -42,6 +42,27 @@ TEST(LogRecorder, WritesWhatLcmReads) {
   EXPECT_EQ(log.readNextEvent(), nullptr);
 }
 
+TEST(LogRecorder, AFileIsOfOneRecording) {
+  const maploop::testing::TemporaryFolder folder;
+  const std::string file = (folder.path() / "a.lcmlog").string();
+  {
+    LogRecorder first(file);
+    first.send(message({1, 2, 3}));
+    try {
+      const LogRecorder second(file);
+      ADD_FAILURE();
+    } catch (const std::runtime_error& e) {
+      EXPECT_NE(std::string(e.what()).find("a.lcmlog"), std::string::npos) << e.what();
+      EXPECT_NE(std::string(e.what()).find("another run"), std::string::npos) << e.what();
+    }
+    first.send(message({4}));
+  }
+  lcm::LogFile log(file, "r");
+  for (int i = 0; i < 2; ++i) EXPECT_NE(log.readNextEvent(), nullptr) << "the first is whole";
+  const LogRecorder again(file);  // when the first has ended
+  const LogRecorder nowhere("/dev/null"), nowhere_else("/dev/null");
+}
+
 TEST(LogRecorder, NamesTheFileItCannotWrite) {
   try {
     LogRecorder recorder("/nonexistent/folder/a.lcmlog");

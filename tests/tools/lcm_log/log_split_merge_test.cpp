@@ -91,7 +91,7 @@ TEST_F(LogToolsTest, SplitThatTakesNothingOrWouldOverwriteItsInputWritesNothing)
                        "none of the 24 events"));
   EXPECT_FALSE(std::filesystem::exists(out_));
   EXPECT_TRUE(contains(error_of<std::invalid_argument>([&] { split(log_, types(), to(log_)); }),
-                       "choose another -o"));
+                       "name another output file"));
   EXPECT_EQ(read_with_lcm(log_), drive_);
 }
 
