@@ -27,6 +27,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds pass_on_every{100};
+
+Duration now() {
+  return Clock::now().time_since_epoch();
+}
 constexpr int listen_ms = 20;
 
 struct DashboardOptions {
@@ -47,8 +51,9 @@ std::string roads_about(const mapmatch::RoadNetwork* network, const Geodetic& or
   return web::to_json(plot);
 }
 
-std::string send_command(BusListener& bus, const std::string& kind, double value) {
-  const auto command = dashboard::encoded_command(kind, value);
+std::string send_command(BusListener& bus, const std::string& run, const std::string& kind,
+                         double value) {
+  const auto command = dashboard::encoded_command(run, kind, value);
   if (command.empty()) return "there is no command '" + kind + "'";
   const std::string channel(channel_names::replay_control);
   return bus.publish(channel, command) ? "" : "LCM did not take the command";
@@ -65,11 +70,13 @@ int run(const DashboardOptions& options) {
   dashboard::LiveChannels channels;
   dashboard::Relay relay(channels);
   BusListener bus(vehicle::bus_url(options.lcm_url), ".*",
-                  [&](auto channel, auto data) { relay.take(channel, data); });
+                  [&](auto channel, auto data) { relay.take(channel, data, now()); });
   const dashboard::Server server(
       options.address, options.port, channels,
       {[&] { return relay.trail(); },
-       [&](const std::string& kind, double value) { return send_command(bus, kind, value); },
+       [&](const std::string& run, const std::string& kind, double value) {
+         return send_command(bus, run, kind, value);
+       },
        [&](const Geodetic& origin) { return roads_about(network ? &*network : nullptr, origin); }});
   note_interrupts();
   std::cout << "http://" << options.address << ':' << server.port() << "/  (Ctrl-C ends it)"
@@ -79,7 +86,7 @@ int run(const DashboardOptions& options) {
   while (!interrupted() && (options.seconds == 0.0 || Clock::now() < end)) {
     bus.listen(listen_ms);
     if (Clock::now() < next) continue;
-    relay.pass_on();
+    relay.pass_on(now());
     next = Clock::now() + pass_on_every;
   }
   if (relay.not_understood() > 0) {

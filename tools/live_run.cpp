@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "runtime/core/trace.h"
 #include "runtime/vehicle/lcm_bus.h"
 #include "runtime/vehicle/live_config.h"
+#include "runtime/vehicle/runs.h"
 #include "runtime/vehicle/vehicle.h"
 #include "tools/map_options.h"
 #include "tools/service_manager.h"
@@ -38,13 +40,15 @@ vehicle::Observer observer_of(const LiveOptions& options, RunPass& pass) {
 }
 
 // The service manager's watchdog hears of it as long as the fusion ticks.
-void wait_for_end(const vehicle::Vehicle& vehicle, double seconds) {
+void wait_for_end(const vehicle::Vehicle& vehicle, double seconds,
+                  vehicle::RunPresence* presence) {
   constexpr auto look_every = std::chrono::milliseconds(20);
   constexpr int show_every = 10;
   constexpr Duration tell_every = std::chrono::seconds(1);
   Time told = vehicle.position();
   const bool visible = isatty(STDERR_FILENO) != 0;
   for (int i = 0; vehicle.running() && !interrupted(); ++i) {
+    if (presence != nullptr) presence->update();
     const Time position = vehicle.position();
     if (position - told >= tell_every) {
       tell_service_manager("WATCHDOG=1");
@@ -71,9 +75,14 @@ int live(const LiveOptions& options) {
 
   RunPass pass(calibration);
   std::vector<vehicle::MessageSink*> sinks{&pass.hashes};
+  const vehicle::Run run = vehicle::new_run("live " + options.config.filename().string());
   std::unique_ptr<vehicle::LcmBus> bus;
+  std::optional<vehicle::RunPresence> presence;
   if (!options.no_lcm) {
-    bus = std::make_unique<vehicle::LcmBus>(vehicle::bus_url(options.lcm_url, config.lcm_url));
+    const std::string url = vehicle::bus_url(options.lcm_url, config.lcm_url);
+    bus = std::make_unique<vehicle::LcmBus>(url);
+    presence.emplace(bus->lcm(), run, warn_of_another_run);
+    std::cerr << "Run " << run.id << " at " << url << '\n';
     runtime::append(readiness, bus->settings());
     sinks.push_back(bus.get());
   }
@@ -95,13 +104,14 @@ int live(const LiveOptions& options) {
   std::cerr << (options.verbose ? to_text(vehicle.readiness())
                                 : to_short_text(vehicle.readiness()));
   tell_service_manager("READY=1");
-  wait_for_end(vehicle, options.seconds);
+  wait_for_end(vehicle, options.seconds, presence ? &*presence : nullptr);
   tell_service_manager("STOPPING=1");
   vehicle.stop();
   vehicle.wait();
 
   ReplayResult result;
   result.drive = options.config.filename().string();
+  result.run = run.id;
   result.live = true;
   result.vehicle = vehicle.report();
   result.channels = pass.hashes.summary();

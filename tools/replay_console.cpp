@@ -69,7 +69,7 @@ void show_progress(const vehicle::Player& player, const char* help) {
 }  // namespace
 
 PlaybackEnd play(vehicle::Player& player, vehicle::ReplayControl* control,
-                 const PlaybackOptions& options) {
+                 vehicle::RunPresence* presence, const PlaybackOptions& options) {
   constexpr auto look_every = std::chrono::milliseconds(20);
   constexpr int show_every = 10;
   const bool visible = isatty(STDERR_FILENO) != 0;
@@ -87,6 +87,7 @@ PlaybackEnd play(vehicle::Player& player, vehicle::ReplayControl* control,
   }
   for (int i = 0; player.update(); ++i) {
     if (interrupted()) player.quit();
+    if (presence != nullptr) presence->update();
     if (paced) {
       while (const auto key = keyboard.pressed()) {
         quit = quit || *key == 'q';

@@ -3,6 +3,7 @@
 
 #include "runtime/vehicle/player.h"
 #include "runtime/vehicle/replay_control.h"
+#include "runtime/vehicle/runs.h"
 
 namespace maploop::tools {
 
@@ -16,8 +17,9 @@ enum class PlaybackEnd { finished, interrupted };
 
 // Starts the player and waits for its end, or for SIGINT, SIGTERM, the key q or a command to quit,
 // which end it in order (a second signal ends the program at once). While standard input is a
-// terminal, keys control the player; the progress line names them. `control` may be null.
+// terminal, keys control the player; the progress line names them. `control` and `presence` are
+// null where there is no bus.
 PlaybackEnd play(vehicle::Player& player, vehicle::ReplayControl* control,
-                 const PlaybackOptions& options);
+                 vehicle::RunPresence* presence, const PlaybackOptions& options);
 
 }  // namespace maploop::tools

@@ -327,6 +327,7 @@ std::string format_table(const ReplayResult& r) {
 void write_json(const std::filesystem::path& file, const ReplayResult& r) {
   const vehicle::VehicleReport& v = r.vehicle;
   json j;
+  j["run"] = r.run;
   j["drive"] = r.drive;
   j["interrupted"] = r.interrupted;
   j["vo"] = to_json(r.vo);

@@ -53,6 +53,7 @@ struct PppEpochs {
 };
 
 struct ReplayResult {
+  std::string run;    // its id (runtime/vehicle/runs.h)
   std::string drive;  // or a live run's configuration
   bool live = false;  // no replay at all
   bool lockstep = false;

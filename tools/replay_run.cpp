@@ -62,10 +62,13 @@ class Replay {
                                     : runtime::prepare_process(config_.memory)),
         recording_(vehicle::open_recording(options.drive, config_)),
         map_(vehicle::load_road_map(config_.map)),
-        faults_(parse_faults(options.faults), recording_.first_stamp) {
+        faults_(parse_faults(options.faults), recording_.first_stamp),
+        run_(vehicle::new_run("replay of " + drive_name(options))) {
     if (!options.record.empty()) lcm_log::refuse_same_file(options.drive, options.record);
     if (!options.no_lcm) {
-      bus_ = std::make_unique<vehicle::LcmBus>(vehicle::bus_url(options.lcm_url, config_.lcm_url));
+      const std::string url = vehicle::bus_url(options.lcm_url, config_.lcm_url);
+      bus_ = std::make_unique<vehicle::LcmBus>(url);
+      std::cerr << "Run " << run_.id << " at " << url << '\n';
       runtime::append(readiness_, bus_->settings());
     }
     if (!options.resume.empty()) resumed_ = vehicle::read_snapshot(options.resume, config_);
@@ -106,6 +109,10 @@ class Replay {
     return adds_fixes ? "GNSS+" + name : name;
   }
 
+  static std::string drive_name(const ReplayOptions& options) {
+    return std::filesystem::weakly_canonical(options.drive).filename().string();
+  }
+
   static std::vector<vehicle::Fault> parse_faults(const std::vector<std::string>& texts) {
     std::vector<vehicle::Fault> faults;
     for (const std::string& text : texts) faults.push_back(vehicle::parse_fault(text));
@@ -124,6 +131,7 @@ class Replay {
   vehicle::Recording recording_;
   std::shared_ptr<const vehicle::RoadMap> map_;
   vehicle::FaultInjection faults_;
+  vehicle::Run run_;
   std::unique_ptr<vehicle::LcmBus> bus_;
   std::optional<vehicle::Snapshot> resumed_;
   Time cut_{};
@@ -207,14 +215,20 @@ PlaybackEnd Replay::play_all() {
   player_ = std::make_unique<vehicle::Player>(
       [this](const vehicle::Snapshot* from) { return make_vehicle(from); }, player_parameters());
   std::optional<vehicle::ReplayControl> control;
-  if (bus_) control.emplace(bus_->lcm(), *player_);
+  std::optional<vehicle::RunPresence> presence;
+  if (bus_) {
+    control.emplace(bus_->lcm(), *player_, run_.id);
+    presence.emplace(bus_->lcm(), run_, warn_of_another_run);
+  }
   const auto hogs = faults_.hogs([this] { return player_->position(); });
-  return play(*player_, control ? &*control : nullptr, options_.playback);
+  return play(*player_, control ? &*control : nullptr, presence ? &*presence : nullptr,
+              options_.playback);
 }
 
 ReplayResult Replay::result(PlaybackEnd end) {
   ReplayResult result;
-  result.drive = std::filesystem::weakly_canonical(options_.drive).filename().string();
+  result.run = run_.id;
+  result.drive = drive_name(options_);
   result.lockstep = options_.lockstep;
   result.speed = options_.speed;
   result.interrupted = end == PlaybackEnd::interrupted;

@@ -1,11 +1,16 @@
 #include "tools/run_pass.h"
 
 #include <algorithm>
+#include <iostream>
 #include <utility>
 
 #include "tools/nav_files.h"
 
 namespace maploop::tools {
+
+void warn_of_another_run(const std::string& sentence) {
+  std::cerr << "\nmaploop: " << sentence << '\n';
+}
 
 vehicle::Observer RunPass::observer() {
   vehicle::Observer o;

@@ -20,6 +20,9 @@
 
 namespace maploop::tools {
 
+// Says a sentence of vehicle::RunPresence on standard error, on a line of its own.
+void warn_of_another_run(const std::string& sentence);
+
 // Filled on the publisher's thread; to be read after the run.
 struct RunPass {
   explicit RunPass(const VehicleCalibration& calibration)

@@ -21,6 +21,7 @@ inline constexpr std::string_view velodyne = "VELODYNE";
 inline constexpr std::string_view preview = "PREVIEW";
 inline constexpr std::string_view calibration = "CALIBRATION";
 inline constexpr std::string_view replay_control = "REPLAY_CONTROL";
+inline constexpr std::string_view run = "RUN";
 inline constexpr std::string_view deadlines = "DEADLINES";
 inline constexpr std::string_view health = "HEALTH";
 

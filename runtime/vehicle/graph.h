@@ -293,6 +293,12 @@ inline constexpr Channel replay_control{channel_names::replay_control,
                                         "commands to the player (in), its state (out); not in logs",
                                         "on change",
                                         false};
+inline constexpr Channel run{channel_names::run,
+                             "run_t",
+                             "player",
+                             "who publishes here, a vehicle too: id, what it is; not in logs",
+                             "1 Hz",
+                             false};
 inline constexpr Channel deadlines{channel_names::deadlines,
                                    "deadlines_t",
                                    "health",
@@ -310,7 +316,8 @@ inline constexpr Channel health{
 inline constexpr std::array all{
     nav_state, visual_odometry, lidar_odometry, odometry,       map_match, map_feedback,
     imu,       gnss_fix,        ppp_state,      wheel_speed,    truth,     camera,
-    velodyne,  preview,         calibration,    replay_control, deadlines, health};
+    velodyne,  preview,         calibration,    replay_control, run,       deadlines,
+    health};
 }  // namespace channels
 
 // From a sensor's stamp to the state that holds it. The deadline is the sum of what may pass on the

@@ -24,6 +24,12 @@ std::string bus_url(const std::string& named, const std::string& configured) {
   return environment != nullptr && *environment != '\0' ? environment : LcmBus::default_url;
 }
 
+void hear_waiting(lcm::LCM& lcm) {
+  constexpr int most_messages = 100;
+  for (int i = 0; i < most_messages && lcm.handleTimeout(0) > 0; ++i) {
+  }
+}
+
 struct LcmBus::Connection {
   explicit Connection(const std::string& url) : lcm(url) {}
   lcm::LCM lcm;

@@ -18,6 +18,10 @@ namespace maploop::vehicle {
 // environment's LCM_DEFAULT_URL as for every LCM program, else LcmBus::default_url.
 std::string bus_url(const std::string& named, const std::string& configured = {});
 
+// Hands what has come to its subscribers, at most a hundred messages: whoever floods a channel does
+// not stop the caller. Never waits.
+void hear_waiting(lcm::LCM& lcm);
+
 class LcmBus final : public MessageSink {
  public:
   // The default stays on this host (ttl=0). Throws std::runtime_error naming the URL when LCM

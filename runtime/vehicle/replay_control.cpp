@@ -5,10 +5,14 @@
 #include <cstdio>
 #include <lcm/lcm-cpp.hpp>
 #include <maploop_lcm/replay_control_t.hpp>
+#include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "msgs/lcm/channel_names.h"
+#include "msgs/lcm/checked_decode.h"
 #include "runtime/core/data_clock.h"
+#include "runtime/vehicle/lcm_bus.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -16,7 +20,6 @@ namespace {
 using Control = maploop_lcm::replay_control_t;
 
 constexpr Duration position_every = std::chrono::milliseconds(200);
-constexpr int most_commands_a_look = 100;  // whoever floods the channel does not stop the player
 
 std::string seconds_text(double seconds) {
   std::array<char, 32> text{};
@@ -28,9 +31,10 @@ const std::string channel(channel_names::replay_control);
 
 }  // namespace
 
-ReplayControl::ReplayControl(lcm::LCM& lcm, Player& player)
+ReplayControl::ReplayControl(lcm::LCM& lcm, Player& player, std::string run)
     : lcm_(lcm),
       player_(player),
+      run_(std::move(run)),
       subscription_(lcm.subscribe(channel, &ReplayControl::take, this)) {}
 
 ReplayControl::~ReplayControl() {
@@ -39,11 +43,15 @@ ReplayControl::~ReplayControl() {
 
 void ReplayControl::take(const lcm::ReceiveBuffer* buffer, const std::string&) {
   Control command{};
-  const auto size = static_cast<int>(buffer->data_size);
-  if (command.decode(buffer->data, 0, size) != size) {
+  const std::span data(static_cast<const std::uint8_t*>(buffer->data), buffer->data_size);
+  if (!schema::checked_decode(schema_, data, command)) {
     refused_ = "not a message of type replay_control_t of this version";
   } else if (command.kind == Control::STATE) {
-    return;  // our own
+    return;  // our own, or another run's
+  } else if (command.run.empty()) {
+    refused_ = "the command names no run; this one is " + run_;
+  } else if (command.run != run_) {
+    return;
   } else {
     refused_ = obey(command.kind, command.value);
   }
@@ -92,8 +100,7 @@ std::string ReplayControl::obey(int kind, double value) {
 }
 
 void ReplayControl::update() {
-  for (int i = 0; i < most_commands_a_look && lcm_.handleTimeout(0) > 0; ++i) {
-  }
+  hear_waiting(lcm_);
   say();
 }
 
@@ -108,6 +115,7 @@ void ReplayControl::say() {
   state.utime =
       std::chrono::floor<std::chrono::microseconds>(now.position).time_since_epoch().count();
   state.kind = Control::STATE;
+  state.run = run_;
   state.paused = now.paused ? 1 : 0;
   state.seeking = now.seeking ? 1 : 0;
   state.speed = now.speed;

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "msgs/lcm/schema.h"
 #include "msgs/time.h"
 #include "runtime/vehicle/player.h"
 
@@ -14,12 +15,14 @@ struct ReceiveBuffer;
 
 namespace maploop::vehicle {
 
-// A command that cannot be obeyed is refused, with its reason in the next state. States are sent on
+// Obeys the commands that name its run; those for others it does not answer. One that cannot be
+// obeyed, or names none, is refused, with its reason in the next state. States are sent on
 // each change and after each command; while it plays, five times a second for the position. The
 // player's thread's own; `lcm` and `player` must outlive it.
 class ReplayControl {
  public:
-  ReplayControl(lcm::LCM& lcm, Player& player);
+  // `run`: its id (runs.h).
+  ReplayControl(lcm::LCM& lcm, Player& player, std::string run);
   ~ReplayControl();
   ReplayControl(const ReplayControl&) = delete;
   ReplayControl& operator=(const ReplayControl&) = delete;
@@ -43,8 +46,10 @@ class ReplayControl {
     bool operator==(const Said&) const = default;
   };
 
+  schema::Schema schema_{schema::own_types()};
   lcm::LCM& lcm_;
   Player& player_;
+  std::string run_;
   lcm::Subscription* subscription_;  // of lcm_
   std::string refused_;
   bool answer_due_ = true;

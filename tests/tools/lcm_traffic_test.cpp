@@ -50,6 +50,10 @@ class Listener {
     }
     return false;
   }
+  std::string run() {  // of the last state
+    const std::lock_guard lock(mutex_);
+    return states_.empty() ? "" : states_.back().run;
+  }
   std::map<std::string, int> counts;  // after stop()
   NavState last_state;
 
@@ -110,8 +114,10 @@ TEST(LcmTraffic, ThePlayerObeysAnotherProcess) {
       {testing::maploop_command(), "replay", testing::drive_0013().string(), "--paused"});
   EXPECT_TRUE(listener.hears([](const Control& s) { return s.paused != 0; }));
   lcm::LCM lcm(vehicle::LcmBus::default_url);
+  const std::string run = listener.run();
   const auto command = [&](std::int8_t kind, double value) {
     Control message{};
+    message.run = run;
     message.kind = kind;
     message.value = value;
     lcm.publish("REPLAY_CONTROL", &message);

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <maploop_lcm/replay_control_t.hpp>
+#include <maploop_lcm/run_t.hpp>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "msgs/lcm/channel_names.h"
+#include "msgs/lcm/checked_decode.h"
 #include "msgs/lcm/conversions.h"
 #include "msgs/lcm/decoded_message.h"
-#include "tools/checked_decode.h"
 #include "tools/dashboard/message_json.h"
 
 namespace maploop::dashboard {
@@ -26,15 +28,22 @@ bool is_large(std::string_view channel) {
 
 Relay::Relay(LiveChannels& channels) : channels_(channels), schema_(schema::own_types()) {}
 
-void Relay::take(std::string_view channel, std::span<const std::uint8_t> data) {
+void Relay::take(std::string_view channel, std::span<const std::uint8_t> data, Duration now) {
   if (is_large(channel)) return;
   const auto taken = [&](auto message, const auto& take) {
-    if (tools::checked_decode(schema_, data, message)) take(message);
+    if (schema::checked_decode(schema_, data, message)) take(message);
   };
   if (channel == channel_names::replay_control) {
-    bool command = false;
-    taken(Control{}, [&](const Control& c) { command = c.kind != Control::STATE; });
-    if (command) return;
+    taken(Control{}, [&](const Control& c) {
+      const auto runs = runs_.present(now);
+      const auto same = [&](const vehicle::Run& run) { return run.id == c.run; };
+      if (c.kind == Control::STATE && std::any_of(runs.begin(), runs.end(), same))
+        players_[c.run].assign(data.begin(), data.end());
+    });
+    return;
+  } else if (channel == channel_names::run) {
+    taken(maploop_lcm::run_t{}, [&](const auto& run) { runs_.take(run, now); });
+    return;
   } else if (channel == channel_names::nav_state) {
     taken(maploop_lcm::nav_state_t{}, [&](const auto& m) {
       const std::lock_guard lock(trail_mutex_);
@@ -55,7 +64,31 @@ void Relay::take(std::string_view channel, std::span<const std::uint8_t> data) {
   found->second.fresh = true;
 }
 
-void Relay::pass_on() {
+void Relay::pass_on_runs(Duration now) {
+  const std::vector<vehicle::Run> runs = runs_.present(now);
+  std::erase_if(players_, [&](const auto& player) {
+    return std::none_of(runs.begin(), runs.end(),
+                        [&](const vehicle::Run& run) { return run.id == player.first; });
+  });
+  nlohmann::json all = nlohmann::json::array();
+  for (const vehicle::Run& run : runs) {
+    nlohmann::json player;
+    const auto found = players_.find(run.id);
+    schema::DecodedMessage message;
+    if (found != players_.end() &&
+        !message.decode(*schema_.find(schema::fingerprint_of(found->second)), found->second)) {
+      player = nlohmann::json::parse(to_json(message));
+    }
+    all.push_back({{"id", run.id}, {"what", run.what}, {"player", std::move(player)}});
+  }
+  std::string text = all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  if (text == said_runs_) return;
+  channels_.put("RUNS", text);
+  said_runs_ = std::move(text);
+}
+
+void Relay::pass_on(Duration now) {
+  pass_on_runs(now);
   schema::DecodedMessage message;
   for (auto& [channel, waiting] : waiting_) {
     if (!std::exchange(waiting.fresh, false)) continue;
@@ -73,7 +106,8 @@ std::string Relay::trail() const {
   return trail_.json();
 }
 
-std::vector<std::uint8_t> encoded_command(const std::string& kind, double value) {
+std::vector<std::uint8_t> encoded_command(const std::string& run, const std::string& kind,
+                                          double value) {
   constexpr std::array<std::pair<const char*, std::int8_t>, 8> kinds{{
       {"pause", Control::PAUSE},
       {"resume", Control::RESUME},
@@ -89,6 +123,7 @@ std::vector<std::uint8_t> encoded_command(const std::string& kind, double value)
   if (found == kinds.end()) return {};
   Control command{};
   command.kind = found->second;
+  command.run = run;
   command.value = value;
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(command.getEncodedSize()));
   command.encode(bytes.data(), 0, static_cast<int>(bytes.size()));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "msgs/lcm/schema.h"
+#include "runtime/vehicle/runs.h"
 #include "tools/dashboard/live_channels.h"
 #include "tools/dashboard/trail.h"
 
@@ -21,12 +22,13 @@ class Relay {
   // `channels` must outlive it.
   explicit Relay(LiveChannels& channels);
 
-  // A message of any channel. Channels of whole images and scans, commands to the player and what
-  // is no message of our types are left out; the latter are counted.
-  void take(std::string_view channel, std::span<const std::uint8_t> data);
+  // A message of any channel, on a steady clock. Channels of whole images and scans, commands to
+  // players and what is no message of our types are left out; the latter are counted.
+  void take(std::string_view channel, std::span<const std::uint8_t> data, Duration now);
 
-  // The newest message of each channel that had one since the last call.
-  void pass_on();
+  // The newest message of each channel that had one since the last call; and on RUNS, where they
+  // have changed, the runs that publish: [{"id", "what", "player": its state, or null}].
+  void pass_on(Duration now);
 
   std::string trail() const;
   std::uint64_t not_understood() const { return not_understood_; }
@@ -37,16 +39,23 @@ class Relay {
     bool fresh = false;
   };
 
+  void pass_on_runs(Duration now);
+
   LiveChannels& channels_;
   schema::Schema schema_;
   std::map<std::string, Waiting, std::less<>> waiting_;
+  vehicle::RunsHeard runs_;
+  std::map<std::string, std::vector<std::uint8_t>> players_;  // last states, by run
+  std::string said_runs_;
   std::uint64_t not_understood_ = 0;
   mutable std::mutex trail_mutex_;
   Trail trail_;
 };
 
-// An encoded replay_control_t for a command by its name: pause, resume, step-sample, step-image,
-// seek (s into the drive), speed, next-miss, quit. Empty where there is no such command.
-std::vector<std::uint8_t> encoded_command(const std::string& kind, double value);
+// An encoded replay_control_t for the player of a run (its id), a command by its name: pause,
+// resume, step-sample, step-image, seek (s into the drive), speed, next-miss, quit. Empty where
+// there is no such command.
+std::vector<std::uint8_t> encoded_command(const std::string& run, const std::string& kind,
+                                          double value);
 
 }  // namespace maploop::dashboard

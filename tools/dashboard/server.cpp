@@ -84,15 +84,18 @@ void Server::Http::stream(httplib::Response& response) {
 }
 
 void Server::Http::control(const httplib::Request& request, httplib::Response& response) const {
-  if (from_elsewhere(request)) return refuse(response, 403, "the page is from elsewhere");
   const auto command = nlohmann::json::parse(request.body, nullptr, false);
-  if (!command.is_object() || !command.contains("kind") || !command["kind"].is_string()) {
-    return refuse(response, 400, "not {\"kind\": ..., \"value\": ...}");
+  const auto has_text = [&](const char* key) {
+    return command.contains(key) && command[key].is_string();
+  };
+  if (!command.is_object() || !has_text("run") || !has_text("kind")) {
+    return refuse(response, 400, "not {\"run\": ..., \"kind\": ..., \"value\": ...}");
   }
   const auto value = command.find("value");
   const bool number = value != command.end() && value->is_number();
   const std::string why =
-      handlers.control(command["kind"].get<std::string>(), number ? value->get<double>() : 0.0);
+      handlers.control(command["run"].get<std::string>(), command["kind"].get<std::string>(),
+                       number ? value->get<double>() : 0.0);
   if (!why.empty()) return refuse(response, 400, why);
   response.set_content("{}", "application/json");
 }

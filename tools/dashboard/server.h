@@ -14,14 +14,21 @@ namespace maploop::dashboard {
 //   GET  /trail    where the vehicle has been
 //   GET  /roads    ?latitude=RAD&longitude=RAD&height=M: roads about this origin, in its metres
 //   GET  /events   server-sent events, each {"channel": ..., "message": ...}; at most ten looks a
-//   second POST /control  {"kind": "pause", "value": 0}: a command to the player of a replay
-// A request that comes from another site's page is refused.
+//   second POST /control  {"run": ID, "kind": "pause", "value": 0}: a command to the player of a
+//   replay
+// A request is refused where its Host is neither localhost nor the address that is listened at (any
+// numeric one for 0.0.0.0), and where it comes from another site's page.
 class Server {
  public:
+  static constexpr int most_browsers = 24;  // at /events; one more is refused (503)
+  static constexpr std::chrono::seconds patience{
+      5};  // one that reads nothing for longer is dropped
+
   struct Handlers {
     std::function<std::string()> trail;  // JSON; on any thread
     // Empty: done; otherwise why it is refused. On any thread.
-    std::function<std::string(const std::string& kind, double value)> control;
+    std::function<std::string(const std::string& run, const std::string& kind, double value)>
+        control;
     std::function<std::string(const Geodetic& origin)> roads;  // JSON; on any thread
   };
 

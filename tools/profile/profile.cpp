@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "msgs/lcm/checked_decode.h"
 #include "msgs/lcm/conversions.h"
 #include "runtime/core/histogram.h"
 #include "runtime/vehicle/graph.h"
-#include "tools/checked_decode.h"
 
 namespace maploop::profile {
 namespace {
@@ -60,7 +60,7 @@ Profile profile_of(const Deadlines& deadlines, const Health& health) {
 
 void ProfileCollector::add(std::string_view channel, std::span<const std::uint8_t> data) {
   const auto take = [&](auto message, auto& to, bool& heard) {
-    if (!tools::checked_decode(own_schema(), data, message)) {
+    if (!schema::checked_decode(own_schema(), data, message)) {
       ++not_understood_;
       return;
     }

@@ -26,8 +26,8 @@ std::string json_row(const ChannelStatus& status);
 std::vector<std::string> field_lines(const schema::Schema& schema,
                                      std::span<const std::uint8_t> message);
 
-// Rings, deadlines and degraded modes in a line each, from the last HEALTH and DEADLINES; nothing
-// where these have not come or are not ours.
+// The runs, rings, deadlines and degraded modes in a line each, from the last HEALTH and DEADLINES;
+// nothing where these have not come or are not ours.
 std::vector<std::string> vehicle_lines(const schema::Schema& schema, const Traffic& traffic);
 
 }  // namespace maploop::spy

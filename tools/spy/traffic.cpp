@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <maploop_lcm/run_t.hpp>
 
+#include "msgs/lcm/channel_names.h"
+#include "msgs/lcm/checked_decode.h"
 #include "tools/lcm_log/log_text.h"
 
 namespace maploop::spy {
@@ -77,6 +80,11 @@ Traffic::Channel* Traffic::find(std::string_view name) {
 
 void Traffic::add(std::string_view name, std::span<const std::uint8_t> data, Duration arrived) {
   ++count_;
+  arrived_ = arrived;
+  if (name == channel_names::run) {
+    maploop_lcm::run_t run;
+    if (schema::checked_decode(schema_, data, run)) runs_.take(run, arrived);
+  }
   Channel* channel = find(name);
   if (channel == nullptr) {
     ++elsewhere_;

@@ -13,6 +13,7 @@
 #include "msgs/lcm/decoded_message.h"
 #include "msgs/lcm/schema.h"
 #include "msgs/time.h"
+#include "runtime/vehicle/runs.h"
 #include "tools/lcm_log/channel_filter.h"
 
 namespace maploop::spy {
@@ -49,6 +50,9 @@ class Traffic {
   // The last message of a channel; empty where there is none.
   std::span<const std::uint8_t> last(std::string_view channel) const;
 
+  // Those that publish, as of the last message.
+  std::vector<vehicle::Run> runs() const { return runs_.present(arrived_); }
+
   std::uint64_t count() const { return count_; }
   // On channels beyond the first thousand, which are not told apart.
   std::uint64_t elsewhere() const { return elsewhere_; }
@@ -71,6 +75,8 @@ class Traffic {
   Duration window_;
   std::map<std::string, Channel, std::less<>> channels_;
   std::optional<Time> newest_;
+  vehicle::RunsHeard runs_;
+  Duration arrived_{};
   std::uint64_t count_ = 0, elsewhere_ = 0;
   schema::DecodedMessage decoded_;
 };

@@ -1,8 +1,8 @@
 #include <algorithm>
 
+#include "msgs/lcm/checked_decode.h"
 #include "msgs/lcm/conversions.h"
 #include "runtime/vehicle/graph.h"
-#include "tools/checked_decode.h"
 #include "tools/lcm_log/log_text.h"
 #include "tools/spy/text.h"
 
@@ -64,8 +64,16 @@ std::string ppp_line(const PppState& state) {
 
 std::vector<std::string> vehicle_lines(const schema::Schema& schema, const Traffic& traffic) {
   std::vector<std::string> lines;
+  const std::vector<vehicle::Run> runs = traffic.runs();
+  for (const vehicle::Run& run : runs) lines.push_back("run: " + to_text(run));
+  if (runs.size() > 1) {
+    lines.push_back(std::to_string(runs.size()) +
+                    " runs publish here: each line below may be of any of them; give each a bus of "
+                    "its own (--lcm-url)");
+  }
   maploop_lcm::health_t health_message;
-  if (tools::checked_decode(schema, traffic.last(vehicle::channels::health.name), health_message)) {
+  if (schema::checked_decode(schema, traffic.last(vehicle::channels::health.name),
+                             health_message)) {
     const Health health = from_lcm(health_message);
     lines.push_back(rings(health));
     if (!health.degraded.empty()) {
@@ -74,12 +82,13 @@ std::vector<std::string> vehicle_lines(const schema::Schema& schema, const Traff
     }
   }
   maploop_lcm::deadlines_t deadlines_message;
-  if (tools::checked_decode(schema, traffic.last(vehicle::channels::deadlines.name),
-                            deadlines_message)) {
+  if (schema::checked_decode(schema, traffic.last(vehicle::channels::deadlines.name),
+                             deadlines_message)) {
     lines.push_back(deadlines_line(from_lcm(deadlines_message)));
   }
   maploop_lcm::ppp_state_t ppp_message;
-  if (tools::checked_decode(schema, traffic.last(vehicle::channels::ppp_state.name), ppp_message)) {
+  if (schema::checked_decode(schema, traffic.last(vehicle::channels::ppp_state.name),
+                             ppp_message)) {
     lines.push_back(ppp_line(from_lcm(ppp_message)));
   }
   return lines;

@@ -7,10 +7,12 @@
 #include <limits>
 #include <maploop_lcm/replay_control_t.hpp>
 #include <memory>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "msgs/lcm/checked_decode.h"
 #include "tests/runtime/vehicle/fake_sensors.h"
 
 namespace maploop::vehicle {
@@ -37,13 +39,16 @@ class ReplayControlTest : public ::testing::Test {
     ASSERT_TRUE(lcm_.good());
     lcm_.subscribe("REPLAY_CONTROL", &ReplayControlTest::hear, this);
     player_.start();
-    control_ = std::make_unique<ReplayControl>(lcm_, player_);
+    control_ = std::make_unique<ReplayControl>(lcm_, player_, run);
     look();
     ASSERT_FALSE(states_.empty()) << "it says where it begins";
   }
 
-  void hear(const lcm::ReceiveBuffer*, const std::string&, const Control* message) {
-    if (message->kind == Control::STATE) states_.push_back(*message);
+  void hear(const lcm::ReceiveBuffer* buffer, const std::string&) {
+    Control message{};
+    const std::span data(static_cast<const std::uint8_t*>(buffer->data), buffer->data_size);
+    const bool decoded = schema::checked_decode(schema_, data, message);
+    if (decoded && message.kind == Control::STATE) states_.push_back(message);
   }
 
   // A few rounds of what the replay's thread does.
@@ -61,10 +66,13 @@ class ReplayControlTest : public ::testing::Test {
     look();
   }
 
-  void command(int kind, double value = 0.0) {
+  static constexpr const char* run = "0123abcd";
+
+  void command(int kind, double value = 0.0, const std::string& to = run) {
     Control message{};
     message.kind = static_cast<std::int8_t>(kind);
     message.value = value;
+    message.run = to;
     ASSERT_EQ(lcm_.publish("REPLAY_CONTROL", &message), 0);
     look();
   }
@@ -74,6 +82,7 @@ class ReplayControlTest : public ::testing::Test {
     return 1e-9 * static_cast<double>(state().position_ns - state().first_ns);
   }
 
+  schema::Schema schema_{schema::own_types()};
   lcm::LCM lcm_{"memq://"};
   Player player_;
   std::unique_ptr<ReplayControl> control_;
@@ -182,11 +191,39 @@ TEST_F(ReplayControlTest, BadCommandsAreRefusedWithTheirReason) {
   EXPECT_EQ(state().refused, "") << "one that is obeyed clears it";
 }
 
+TEST_F(ReplayControlTest, OnlyCommandsForItsRunAreObeyed) {
+  EXPECT_EQ(state().run, run);
+  command(Control::SPEED, 2.0, "ffffffff");
+  EXPECT_EQ(state().speed, 1.0);
+  EXPECT_EQ(state().refused, "") << "it is another's to answer";
+  command(Control::QUIT, 0.0, "");
+  EXPECT_FALSE(control_->quit());
+  EXPECT_EQ(state().refused, "the command names no run; this one is 0123abcd");
+  command(Control::SPEED, 2.0);
+  EXPECT_EQ(state().speed, 2.0);
+}
+
 TEST_F(ReplayControlTest, AMessageOfAnotherTypeIsRefused) {
   const std::string noise = "not a command";
   ASSERT_EQ(lcm_.publish("REPLAY_CONTROL", noise.data(), static_cast<unsigned>(noise.size())), 0);
   look();
   EXPECT_NE(state().refused.find("replay_control_t"), std::string::npos) << state().refused;
+}
+
+TEST_F(ReplayControlTest, AMessageWhoseTextHasNoEndIsRefused) {
+  const Control pause = [] {
+    Control message{};
+    message.kind = Control::PAUSE;
+    message.run = run;
+    return message;
+  }();
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(pause.getEncodedSize()));
+  pause.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  bytes[bytes.size() - 2] = 0;  // the length of `refused`, with its end: 1
+  ASSERT_EQ(lcm_.publish("REPLAY_CONTROL", bytes.data(), static_cast<unsigned>(bytes.size())), 0);
+  look();
+  EXPECT_NE(state().refused.find("replay_control_t"), std::string::npos) << state().refused;
+  EXPECT_EQ(state().paused, 0);
 }
 
 }  // namespace

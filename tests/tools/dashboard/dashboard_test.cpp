@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <maploop_lcm/replay_control_t.hpp>
+#include <maploop_lcm/run_t.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
@@ -124,17 +125,18 @@ TEST(LiveChannels, ClosingEndsAWait) {
 TEST(Relay, PassesOnTheNewestAndLeavesOutCommands) {
   LiveChannels channels;
   Relay relay(channels);
-  relay.take("NAV_STATE", encoded(to_lcm(state_at(1))));
-  relay.take("NAV_STATE", encoded(to_lcm(state_at(2))));
-  relay.take("REPLAY_CONTROL", encoded_command("pause", 0.0));
-  relay.take("SOMEBODY", std::vector<std::uint8_t>{1, 2, 3});
-  relay.pass_on();
+  relay.take("NAV_STATE", encoded(to_lcm(state_at(1))), Duration(0));
+  relay.take("NAV_STATE", encoded(to_lcm(state_at(2))), Duration(0));
+  relay.take("REPLAY_CONTROL", encoded_command("0123abcd", "pause", 0.0), Duration(0));
+  relay.take("SOMEBODY", std::vector<std::uint8_t>{1, 2, 3}, Duration(0));
+  relay.pass_on(Duration(0));
   std::uint64_t seen = 0;
   const auto messages = channels.newer(seen, milliseconds(0));
-  ASSERT_EQ(messages.size(), 1u);
+  ASSERT_EQ(messages.size(), 2u);
+  EXPECT_EQ(messages[1].json, "[]") << "no run has said itself";
   EXPECT_EQ(json::parse(messages[0].json)["header"]["stamp_ns"], 2'000'000'000);
   EXPECT_EQ(relay.not_understood(), 1u);
-  relay.pass_on();
+  relay.pass_on(Duration(0));
   EXPECT_TRUE(channels.newer(seen, milliseconds(0)).empty()) << "nothing new has come";
 }
 
@@ -143,28 +145,68 @@ TEST(Relay, TheTrailForgetsWhatAReplayGoesBackOver) {
   Relay relay(channels);
   ReferencePose truth;
   truth.position = state_at(0).origin;
-  relay.take("TRUTH", encoded(to_lcm(truth)));  // before the first state: not kept
-  for (int t = 1; t <= 10; ++t) relay.take("NAV_STATE", encoded(to_lcm(state_at(t))));
+  relay.take("TRUTH", encoded(to_lcm(truth)), Duration(0));  // before the first state: not kept
+  for (int t = 1; t <= 10; ++t) relay.take("NAV_STATE", encoded(to_lcm(state_at(t))), Duration(0));
   truth.stamp = state_at(10).stamp;
-  relay.take("TRUTH", encoded(to_lcm(truth)));
+  relay.take("TRUTH", encoded(to_lcm(truth)), Duration(0));
   json trail = json::parse(relay.trail());
   EXPECT_EQ(trail["fused"].size(), 10u);
   ASSERT_EQ(trail["truth"].size(), 1u);
   EXPECT_NEAR(trail["truth"][0][1].get<double>(), 0.0, 0.01);
   EXPECT_EQ(trail["origin"][0].get<double>(), 0.85);
-  relay.take("NAV_STATE", encoded(to_lcm(state_at(4))));
+  relay.take("NAV_STATE", encoded(to_lcm(state_at(4))), Duration(0));
   trail = json::parse(relay.trail());
   ASSERT_EQ(trail["fused"].size(), 4u);
   EXPECT_EQ(trail["fused"][3], json::parse("[4.0, 4.0, -8.0]"));
 }
 
+TEST(Relay, KeepsTheRunsAndTheirPlayersApart) {
+  LiveChannels channels;
+  Relay relay(channels);
+  const auto say = [&](const char* id, Duration now) {
+    maploop_lcm::run_t run{};
+    run.id = id;
+    run.what = std::string("replay of \"") + id + '"';
+    relay.take("RUN", encoded(run), now);
+  };
+  const auto state = [&](const char* id, double speed, Duration now) {
+    maploop_lcm::replay_control_t state{};
+    state.kind = maploop_lcm::replay_control_t::STATE;
+    state.run = id;
+    state.speed = speed;
+    relay.take("REPLAY_CONTROL", encoded(state), now);
+  };
+  std::uint64_t seen = 0;
+  const auto runs = [&](Duration now) {
+    relay.pass_on(now);
+    const auto messages = channels.newer(seen, milliseconds(0));
+    return messages.empty() ? json() : json::parse(messages.back().json);
+  };
+  say("0000000a", milliseconds(0));
+  say("0000000b", milliseconds(0));
+  state("0000000a", 1.0, milliseconds(10));
+  state("0000000b", 2.0, milliseconds(10));
+  state("0000000c", 3.0, milliseconds(10));  // of a run that has not said itself
+  json all = runs(milliseconds(20));
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0]["what"], "replay of \"0000000a\"");
+  EXPECT_EQ(all[0]["player"]["speed"], 1.0);
+  EXPECT_EQ(all[1]["player"]["speed"], 2.0);
+  EXPECT_TRUE(runs(milliseconds(30)).is_null()) << "nothing has changed";
+  say("0000000b", milliseconds(2000));
+  all = runs(milliseconds(4000));
+  ASSERT_EQ(all.size(), 1u) << "the other is silent";
+  EXPECT_EQ(all[0]["id"], "0000000b");
+}
+
 TEST(Relay, CommandsHaveTheirNames) {
-  const auto bytes = encoded_command("seek", 6.5);
+  const auto bytes = encoded_command("0123abcd", "seek", 6.5);
   maploop_lcm::replay_control_t command{};
   ASSERT_GT(command.decode(bytes.data(), 0, static_cast<int>(bytes.size())), 0);
   EXPECT_EQ(int{command.kind}, int{maploop_lcm::replay_control_t::SEEK});
   EXPECT_EQ(command.value, 6.5);
-  EXPECT_TRUE(encoded_command("explode", 0.0).empty());
+  EXPECT_EQ(command.run, "0123abcd");
+  EXPECT_TRUE(encoded_command("0123abcd", "explode", 0.0).empty());
 }
 
 }  // namespace

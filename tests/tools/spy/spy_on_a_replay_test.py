@@ -61,7 +61,7 @@ def for_scripts():
             for line in lines[1:] if not line.startswith("#")}
     steady = {"DEADLINES", "GNSS_FIX", "HEALTH", "IMU", "LIDAR_ODOMETRY", "NAV_STATE",
               "ODOMETRY", "TRUTH", "VO"}
-    now_and_then = {"CALIBRATION", "PREVIEW", "REPLAY_CONTROL"}
+    now_and_then = {"CALIBRATION", "PREVIEW", "REPLAY_CONTROL", "RUN"}
     check("the channels", steady <= set(rows) <= steady | now_and_then, table)
     types = {"NAV_STATE": "nav_state_t", "VO": "relative_motion_t", "IMU": "imu_t",
              "GNSS_FIX": "gnss_fix_t", "TRUTH": "reference_pose_t", "HEALTH": "health_t",

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <maploop_lcm/run_t.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -47,6 +48,25 @@ TEST(SpyText, EveryRowHasTheHeadersColumns) {
                                           "4"};
   EXPECT_EQ(words(table_row(s)), expected);
   EXPECT_EQ(json_row(s).find('\n'), std::string::npos);
+}
+
+TEST(SpyText, TheRunsAreListedAndTwoAreWarnedOf) {
+  Traffic traffic(own_schema(), seconds(5));
+  const auto say = [&](const char* id, Duration now) {
+    maploop_lcm::run_t run{};
+    run.id = id;
+    run.what = "replay of a drive";
+    traffic.add("RUN", encoded(run), now);
+  };
+  say("0000000b", seconds(1));
+  EXPECT_EQ(vehicle_lines(own_schema(), traffic),
+            std::vector<std::string>{"run: 0000000b (replay of a drive)"});
+  say("0000000a", seconds(2));
+  const auto lines = vehicle_lines(own_schema(), traffic);
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(lines[0], "run: 0000000a (replay of a drive)");
+  EXPECT_NE(lines[2].find("2 runs publish here"), std::string::npos);
+  EXPECT_NE(lines[2].find("--lcm-url"), std::string::npos);
 }
 
 TEST(SpyText, FieldsAreValuesAndArraysAreBounded) {

@@ -2,7 +2,7 @@
 import "./dashboard.css";
 
 import { element } from "./dom";
-import { listen, trail } from "./live";
+import { listen, trail, type Run } from "./live";
 import { LiveMap } from "./live_map";
 import { showAids, showDeadlines, showHealth, showPpp, showRoad, showState } from "./panels";
 import { PlayerBar } from "./player";
@@ -61,6 +61,7 @@ setFollow(true);
 
 let heardAt = -Infinity;
 let isConnected = false;
+let runs: Run[] = [];
 
 function showNotice(): void {
   const silent = performance.now() - heardAt > silent_after;
@@ -68,7 +69,11 @@ function showNotice(): void {
     ? "No connection to maploop dashboard: trying again"
     : silent
       ? "Nothing comes on the bus: is a replay or a vehicle running?"
-      : "";
+      : runs.length > 1
+        ? `${runs.length} runs publish on this bus, and what is shown is of all of them: ` +
+          runs.map((r) => `${r.id} (${r.what})`).join(", ") +
+          ". Give each a bus of its own: --lcm-url"
+        : "";
   document.body.classList.toggle("silent", silent || !isConnected);
 }
 setInterval(showNotice, 500);
@@ -95,7 +100,11 @@ listen(
     PREVIEW: (p) => views.showPreview(p),
     DEADLINES: (d) => showDeadlines(deadlines, d),
     HEALTH: (h) => showHealth(health, h),
-    REPLAY_CONTROL: (p) => player.show(p),
+    RUNS: (r) => {
+      runs = r;
+      player.show(r);
+      showNotice();
+    },
   },
   (yes) => {
     isConnected = yes;

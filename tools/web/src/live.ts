@@ -156,6 +156,13 @@ export interface Player {
   refused: string;
 }
 
+// A program that publishes; of a replay with its player's state.
+export interface Run {
+  id: string;
+  what: string;
+  player: Player | null;
+}
+
 export interface Trail {
   origin: [number, number, number];
   fused: [number, number, number][]; // s, east, north
@@ -171,7 +178,7 @@ export interface Messages {
   PREVIEW: Preview;
   DEADLINES: Deadlines;
   HEALTH: Health;
-  REPLAY_CONTROL: Player;
+  RUNS: Run[];
 }
 
 type Handlers = { [Channel in keyof Messages]: (message: Messages[Channel]) => void };
@@ -196,8 +203,8 @@ export function listen(handlers: Handlers, connected: (yes: boolean) => void, he
 }
 
 // Throws an Error that says why it was refused.
-export async function command(kind: string, value = 0): Promise<void> {
-  const answer = await fetch("/control", { method: "POST", body: JSON.stringify({ kind, value }) });
+export async function command(run: string, kind: string, value = 0): Promise<void> {
+  const answer = await fetch("/control", { method: "POST", body: JSON.stringify({ run, kind, value }) });
   if (!answer.ok) {
     const said = (await answer.json().catch(() => ({}))) as { refused?: string };
     throw new Error(said.refused ?? `the server answered ${answer.status}`);

@@ -1,9 +1,12 @@
 // Controls of a replay; hidden as long as nobody plays one.
 import { element } from "./dom";
-import { command, type Player } from "./live";
+import { command, type Player, type Run } from "./live";
 
 export class PlayerBar {
   private state: Player | undefined;
+  private run = ""; // the id of the one that is controlled
+  private runs: Run[] = [];
+  private readonly choice: HTMLSelectElement; // where there are several
   private readonly play: HTMLButtonElement;
   private readonly slider: HTMLInputElement;
   private readonly clock: HTMLElement;
@@ -13,6 +16,12 @@ export class PlayerBar {
 
   constructor(private readonly bar: HTMLElement) {
     bar.hidden = true;
+    this.choice = element("select", bar) as HTMLSelectElement;
+    this.choice.title = "The replay that is controlled";
+    this.choice.addEventListener("change", () => {
+      this.run = this.choice.value;
+      this.show(this.runs);
+    });
     this.play = this.button("Pause", "Pause, or go on (space bar)", () => this.toggle());
     this.button("Step", "To the next image (.)", () => this.send("step-image"));
     this.slider = element("input", bar) as HTMLInputElement;
@@ -38,9 +47,23 @@ export class PlayerBar {
     document.addEventListener("keydown", (e) => this.pressed(e));
   }
 
-  show(state: Player): void {
+  show(runs: Run[]): void {
+    this.runs = runs.filter((r) => r.player !== null);
+    const ids = this.runs.map((r) => r.id);
+    if (!ids.includes(this.run)) this.run = ids[0] ?? "";
+    this.choice.hidden = ids.length < 2;
+    if ([...this.choice.options].map((o) => o.value).join() !== ids.join()) {
+      this.choice.replaceChildren();
+      for (const r of this.runs) (element("option", this.choice, `${r.id} ${r.what}`) as HTMLOptionElement).value = r.id;
+    }
+    this.choice.value = this.run;
+    const state = this.runs.find((r) => r.id === this.run)?.player;
+    this.bar.hidden = !state;
+    if (state) this.showState(state);
+  }
+
+  private showState(state: Player): void {
     this.state = state;
-    this.bar.hidden = false;
     const length = (state.last_ns - state.first_ns) * 1e-9;
     const at = (state.position_ns - state.first_ns) * 1e-9;
     this.slider.max = length.toFixed(1);
@@ -56,7 +79,7 @@ export class PlayerBar {
   }
 
   private send(kind: string, value = 0): void {
-    command(kind, value).then(
+    command(this.run, kind, value).then(
       () => (this.said.textContent = ""),
       (e: unknown) => (this.said.textContent = e instanceof Error ? e.message : String(e)),
     );
