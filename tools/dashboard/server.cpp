@@ -1,6 +1,7 @@
 #include "tools/dashboard/server.h"
 
 #include <httplib.h>
+#include <sys/socket.h>
 
 #include <atomic>
 #include <cmath>
@@ -16,23 +17,48 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr int most_browsers = 24;  // each holds a thread
-constexpr std::size_t threads = most_browsers + 8;
+constexpr std::size_t threads = Server::most_browsers + 8;  // each browser holds one
 constexpr milliseconds look_every{100};
 constexpr milliseconds sign_of_life{1000};
 
 std::string page() {
   return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-         "<title>maploop</title>\n<style>" +
+         "<link rel=\"icon\" href=\"data:,\">\n<title>maploop</title>\n<style>" +
          std::string(web::dashboard_style()) + "</style></head><body>\n<script>" +
          std::string(web::dashboard_script()) + "</script>\n</body></html>\n";
 }
 
-// A page of another site may send requests here from a browser on this machine.
-bool from_elsewhere(const httplib::Request& request) {
+// "[::1]:8080" without its port.
+std::string_view without_port(std::string_view host) {
+  const std::size_t colon = host.rfind(':'), bracket = host.rfind(']');
+  const bool has_port =
+      colon != std::string_view::npos && (bracket == std::string_view::npos || colon > bracket);
+  return has_port ? host.substr(0, colon) : host;
+}
+
+bool is_numeric(std::string_view host) {
+  return host.starts_with('[') || host.find_first_not_of("0123456789.") == std::string_view::npos;
+}
+
+// A page of another site may send requests here from a browser on this machine: its Origin differs,
+// or, where its own name was made to mean this machine, its Host is not one that we listen at. The
+// port is not looked at, so that a tunnel to it works.
+bool from_elsewhere(const httplib::Request& request, const std::string& listens_at) {
+  const std::string with_port = request.get_header_value("Host");
+  const std::string_view host = without_port(with_port);
+  const bool at_any = listens_at == "0.0.0.0" || listens_at == "::";
+  const bool ours = host == "localhost" || host == "127.0.0.1" || host == "[::1]" ||
+                    host == listens_at || host == "[" + listens_at + "]" ||
+                    (at_any && !host.empty() && is_numeric(host));
   const std::string origin = request.get_header_value("Origin");
-  return !origin.empty() && origin != "http://" + request.get_header_value("Host");
+  return !ours || (!origin.empty() && origin != "http://" + with_port);
+}
+
+// Without httplib's SO_REUSEPORT, by which two dashboards would share a port and its requests.
+void own_port(int socket) {
+  const int yes = 1;
+  setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
 }
 
 void refuse(httplib::Response& response, int status, const std::string& why) {
@@ -45,13 +71,15 @@ void refuse(httplib::Response& response, int status, const std::string& why) {
 }  // namespace
 
 struct Server::Http {
-  Http(LiveChannels& all, Handlers to) : channels(all), handlers(std::move(to)) {}
+  Http(std::string address, LiveChannels& all, Handlers to)
+      : listens_at(std::move(address)), channels(all), handlers(std::move(to)) {}
 
   void add_routes();
   void stream(httplib::Response& response);
   void control(const httplib::Request& request, httplib::Response& response) const;
   void roads(const httplib::Request& request, httplib::Response& response) const;
 
+  std::string listens_at;
   LiveChannels& channels;
   Handlers handlers;
   httplib::Server server;
@@ -62,7 +90,9 @@ struct Server::Http {
 void Server::Http::stream(httplib::Response& response) {
   if (++browsers > most_browsers) {
     --browsers;
-    refuse(response, 503, "there are " + std::to_string(most_browsers) + " browsers already");
+    refuse(response, 503,
+           "there are " + std::to_string(most_browsers) +
+               " browsers already: close one, or start another maploop dashboard with --port 0");
     return;
   }
   response.set_header("Cache-Control", "no-store");
@@ -118,6 +148,17 @@ void Server::Http::roads(const httplib::Request& request, httplib::Response& res
 void Server::Http::add_routes() {
   server.new_task_queue = [] { return new httplib::ThreadPool(threads); };
   server.set_payload_max_length(4096);
+  server.set_socket_options(own_port);
+  server.set_write_timeout(patience);
+  server.set_pre_routing_handler(
+      [this](const httplib::Request& request, httplib::Response& response) {
+        if (!from_elsewhere(request, listens_at))
+          return httplib::Server::HandlerResponse::Unhandled;
+        refuse(response, 403,
+               "this dashboard is at localhost and " + listens_at +
+                   " (--address), and answers neither other names nor pages from elsewhere");
+        return httplib::Server::HandlerResponse::Handled;
+      });
   server.Get("/", [](const httplib::Request&, httplib::Response& response) {
     response.set_content(page(), "text/html; charset=utf-8");
   });
@@ -135,7 +176,7 @@ void Server::Http::add_routes() {
 }
 
 Server::Server(const std::string& address, int port, LiveChannels& channels, Handlers handlers)
-    : http_(std::make_unique<Http>(channels, std::move(handlers))) {
+    : http_(std::make_unique<Http>(address, channels, std::move(handlers))) {
   http_->add_routes();
   port_ = port == 0 ? http_->server.bind_to_any_port(address)
                     : (http_->server.bind_to_port(address, port) ? port : -1);

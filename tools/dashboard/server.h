@@ -1,6 +1,7 @@
 // The dashboard's page, what it shows, and what it asks for, over HTTP.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
