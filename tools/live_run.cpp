@@ -1,7 +1,9 @@
 #include "tools/live_run.h"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -17,6 +19,7 @@
 #include "runtime/vehicle/live_config.h"
 #include "runtime/vehicle/runs.h"
 #include "runtime/vehicle/vehicle.h"
+#include "tools/live_status.h"
 #include "tools/map_options.h"
 #include "tools/service_manager.h"
 #include "tools/terminal.h"
@@ -33,14 +36,26 @@ vehicle::VehicleConfig config_of(const LiveOptions& options) {
 }
 
 // A run of days does not gather what nobody asked for.
-vehicle::Observer observer_of(const LiveOptions& options, RunPass& pass) {
+vehicle::Observer observer_of(const LiveOptions& options, RunPass& pass, LiveStatus& status) {
   const StateFiles& s = options.states;
   const bool states = !(s.poses.empty() && s.tum.empty() && s.csv.empty() && s.nmea.empty());
-  return states || !options.report.empty() ? pass.observer() : vehicle::Observer{};
+  vehicle::Observer o = states || !options.report.empty() ? pass.observer() : vehicle::Observer{};
+  o.health = [&status](const Health& health) { status.take(health); };
+  return o;
+}
+
+// On one line of the terminal.
+void show(double driven, const std::string& sensors) {
+  winsize size{};
+  ioctl(STDERR_FILENO, TIOCGWINSZ, &size);
+  const int columns = size.ws_col > 1 ? size.ws_col - 1 : 79;
+  std::array<char, 256> line{};
+  std::snprintf(line.data(), line.size(), "%8.1f s  %s  Ctrl-C ends", driven, sensors.c_str());
+  std::fprintf(stderr, "\r%.*s\x1b[K", columns, line.data());
 }
 
 // The service manager's watchdog hears of it as long as the fusion ticks.
-void wait_for_end(const vehicle::Vehicle& vehicle, double seconds,
+void wait_for_end(const vehicle::Vehicle& vehicle, double seconds, const LiveStatus& status,
                   vehicle::RunPresence* presence) {
   constexpr auto look_every = std::chrono::milliseconds(20);
   constexpr int show_every = 10;
@@ -56,8 +71,7 @@ void wait_for_end(const vehicle::Vehicle& vehicle, double seconds,
     }
     const double driven = to_seconds(position - vehicle.first());
     if (seconds > 0.0 && driven >= seconds) break;
-    if (visible && i % show_every == 0)
-      std::fprintf(stderr, "\r%8.1f s  Ctrl-C ends\x1b[K", driven);
+    if (visible && i % show_every == 0) show(driven, status.text());
     std::this_thread::sleep_for(look_every);
   }
   if (visible) std::fprintf(stderr, "\r\x1b[K");
@@ -96,15 +110,16 @@ int live(const LiveOptions& options) {
     tracer->write(options.trace);  // a file that cannot be written is said before the drive
   }
 
+  LiveStatus status;
   note_interrupts();
   vehicle::Vehicle vehicle(config, calibration, std::move(sensors), runtime::DataClock::live(),
-                           std::move(sinks), observer_of(options, pass), tracer.get(), map);
+                           std::move(sinks), observer_of(options, pass, status), tracer.get(), map);
   vehicle.prepared(readiness);
   vehicle.start();
   std::cerr << (options.verbose ? to_text(vehicle.readiness())
                                 : to_short_text(vehicle.readiness()));
   tell_service_manager("READY=1");
-  wait_for_end(vehicle, options.seconds, presence ? &*presence : nullptr);
+  wait_for_end(vehicle, options.seconds, status, presence ? &*presence : nullptr);
   tell_service_manager("STOPPING=1");
   vehicle.stop();
   vehicle.wait();
@@ -125,7 +140,12 @@ int live(const LiveOptions& options) {
   write_states(options.states, pass);
   if (!options.report.empty())
     write_run_report(options.report, result, pass, {}, config, map.get());
-  return any_thread_failed(result) || !pass.recorded_all() ? exit_failed : 0;
+  const bool silent = nothing_came(result.vehicle.health);
+  if (silent) {
+    std::cerr << "maploop: no sensor has delivered anything; 'maploop sensors "
+              << options.config.string() << "' says what each one does\n";
+  }
+  return silent || any_thread_failed(result) || !pass.recorded_all() ? exit_failed : 0;
 }
 
 }  // namespace maploop::tools

@@ -25,9 +25,9 @@ struct LiveOptions {
 };
 
 // Runs until SIGINT or SIGTERM, or for so long; then prints the closing table and writes the files
-// asked for. Returns the command's exit status: 1 when a thread failed
-// or the log does not hold everything. Throws std::runtime_error
-// naming the file or the key that is wrong, before it starts.
+// asked for. Returns the command's exit status: 1 when a thread failed, no sensor delivered
+// anything, or the log does not hold everything. Throws std::runtime_error naming the file or the
+// key that is wrong, before it starts.
 int live(const LiveOptions& options);
 
 }  // namespace maploop::tools

@@ -150,6 +150,7 @@ void Publisher::send_reports() {
     const runtime::TraceSpan span(trace_, trace_name(channels::health));
     send(channels::health, report->available, to_lcm(report->health));
     send(channels::deadlines, report->available, to_lcm(report->deadlines));
+    observer_.health(report->health);
     edges_.reports.pop();
   }
 }

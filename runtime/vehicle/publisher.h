@@ -47,6 +47,7 @@ struct Observer {
   std::function<void(const NavState&)> image_state = [](const NavState&) {};
   std::function<void(const MapMatch&)> map_match = [](const MapMatch&) {};
   std::function<void(const MapFeedback&)> map_feedback = [](const MapFeedback&) {};
+  std::function<void(const Health&)> health = [](const Health&) {};
 };
 
 // The edges that end at the publisher. No bell: it looks by itself, so that nobody upstream pays a

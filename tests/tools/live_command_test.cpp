@@ -112,13 +112,15 @@ TEST(LiveCommand, EndsAtCtrlCWithItsTableThoughNothingIsThere) {
   EXPECT_TRUE(testing::comes_to_contain(log, "imu: silent since the start"));
   live.send_signal(SIGINT);
   const ProcessResult result = live.wait();
-  EXPECT_EQ(result.status, 0) << result.error;
+  EXPECT_EQ(result.status, 1) << result.error;
+  EXPECT_NE(result.error.find("no sensor has delivered anything"), std::string::npos)
+      << result.error;
   EXPECT_NE(result.out.find("imu: silent since the start"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find(udp(silent.velodyne)), std::string::npos) << result.out;
   const auto config = (folder.path() / "live.toml").string();
   const ProcessResult timed =
       testing::run({testing::maploop_command(), "live", config, "--no-lcm", "--seconds", "1"});
-  EXPECT_EQ(timed.status, 0) << timed.error;
+  EXPECT_EQ(timed.status, 1) << timed.error;
 }
 
 TEST(LiveCommand, RefusesAConfigurationWithoutASensor) {
