@@ -27,11 +27,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds pass_on_every{100};
+constexpr int listen_ms = 20;
 
 Duration now() {
   return Clock::now().time_since_epoch();
 }
-constexpr int listen_ms = 20;
 
 struct DashboardOptions {
   std::string lcm_url;

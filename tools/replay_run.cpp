@@ -216,10 +216,9 @@ PlaybackEnd Replay::play_all() {
       [this](const vehicle::Snapshot* from) { return make_vehicle(from); }, player_parameters());
   std::optional<vehicle::ReplayControl> control;
   std::optional<vehicle::RunPresence> presence;
-  if (bus_) {
-    control.emplace(bus_->lcm(), *player_, run_.id);
-    presence.emplace(bus_->lcm(), run_, warn_of_another_run);
-  }
+  if (bus_) presence.emplace(bus_->lcm(), run_, warn_of_another_run);
+  // On virtual time nobody pauses or goes back.
+  if (bus_ && !options_.lockstep) control.emplace(bus_->lcm(), *player_, run_.id);
   const auto hogs = faults_.hogs([this] { return player_->position(); });
   return play(*player_, control ? &*control : nullptr, presence ? &*presence : nullptr,
               options_.playback);

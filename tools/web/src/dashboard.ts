@@ -26,7 +26,7 @@ function panel(title: string): HTMLElement {
   return element("div", section);
 }
 
-const state = panel("State");
+const state = panel("State, ± 1 sigma");
 const aids = panel("Aids, newest inside");
 const road = panel("Road");
 road.className = "road";
