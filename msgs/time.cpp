@@ -1,6 +1,7 @@
 #include "msgs/time.h"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <stdexcept>
 
@@ -23,6 +24,13 @@ int number(std::string_view text, std::size_t from, std::size_t digits) {
 }
 
 }  // namespace
+
+Duration checked_seconds(double seconds) {
+  constexpr double longest = 7.3e9;  // 231 years
+  if (!(std::abs(seconds) < longest))
+    throw std::invalid_argument(std::to_string(seconds) + " s is no time of a recording");
+  return from_seconds(seconds);
+}
 
 Time parse_time(std::string_view text) {
   constexpr std::size_t whole = 19;  // YYYY-MM-DD hh:mm:ss

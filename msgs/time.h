@@ -29,6 +29,10 @@ constexpr Duration from_seconds(double seconds) {
   return Duration(static_cast<std::int64_t>(seconds * 1e9 + (seconds < 0 ? -0.5 : 0.5)));
 }
 
+// The same of a number that a file gives, as a time or as the distance to one. Throws
+// std::invalid_argument where it is longer than from 1970 to 2200, or not a number.
+Duration checked_seconds(double seconds);
+
 constexpr std::int64_t to_nanoseconds(Time t) {
   return t.time_since_epoch().count();
 }

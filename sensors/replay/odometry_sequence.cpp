@@ -72,10 +72,13 @@ Time start_of(const RawDrive& drive) {
 // Verdicts on the rows inside; its ends are real, but for a first row that begins the recording.
 void leave_out_gaps(const fs::path& file, OxtsRows& rows) {
   const CsvTable gaps(file);
+  const std::size_t first_row = gaps.column("first_row"), last_row = gaps.column("last_row");
+  const auto number = [&rows](double cell) {
+    return static_cast<std::size_t>(std::clamp(cell, 0.0, static_cast<double>(rows.rows.size())));
+  };
   for (std::size_t i = 0; i < gaps.size(); ++i) {
-    const auto first = static_cast<std::size_t>(std::max(0.0, gaps.row(i)[0]));
-    const auto last = static_cast<std::size_t>(std::max(0.0, gaps.row(i)[1]));
-    for (std::size_t r = first == 0 ? 0 : first + 1; r < std::min(last, rows.rows.size()); ++r) {
+    const std::size_t first = number(gaps.row(i)[first_row]), last = number(gaps.row(i)[last_row]);
+    for (std::size_t r = first == 0 ? 0 : first + 1; r < last; ++r) {
       if (rows.verdicts[r]) continue;
       rows.verdicts[r] = Finding{file.string(), gaps.line(i), "invented: the recorder was silent"};
     }
@@ -90,10 +93,11 @@ OxtsRows read_rows(const fs::path& file, Time start) {
   OxtsRows result;
   for (std::size_t i = 0; i < table.size(); ++i) {
     const auto values = table.row(i);
-    result.stamps.push_back(start + from_seconds(values[0]));
+    result.stamps.push_back(start);
     result.rows.emplace_back();
     result.verdicts.emplace_back();
     try {
+      result.stamps.back() += checked_seconds(values[0]);
       result.rows.back() = oxts_row(values.subspan(1));
     } catch (const std::invalid_argument& e) {
       result.verdicts.back() = Finding{file.string(), table.line(i), e.what()};
@@ -111,15 +115,18 @@ OxtsRows read_imu_rows(const fs::path& file, Time start) {
   OxtsRows result;
   for (std::size_t i = 0; i < table.size(); ++i) {
     const auto values = table.row(i);
-    result.stamps.push_back(start + from_seconds(values[t]));
+    result.stamps.push_back(start);
     OxtsRow& row = result.rows.emplace_back();
     row.specific_force_forward = values[ax];
     row.specific_force_left = values[ay];
     row.yaw_rate = values[wz];
     result.verdicts.emplace_back();
-    if (values[interpolated] != 0.0) {
-      result.verdicts.back() =
-          Finding{file.string(), table.line(i), "invented: the recorder was silent"};
+    try {
+      result.stamps.back() += checked_seconds(values[t]);
+      if (values[interpolated] != 0.0)
+        throw std::invalid_argument("invented: the recorder was silent");
+    } catch (const std::invalid_argument& e) {
+      result.verdicts.back() = Finding{file.string(), table.line(i), e.what()};
     }
   }
   refuse_out_of_order(result.stamps, file, result.verdicts);
@@ -133,7 +140,7 @@ std::vector<Time> read_image_stamps(const fs::path& file, Time start) {
     try {
       const std::vector<double> numbers = parse_numbers(line);
       if (numbers.size() != 1) throw std::invalid_argument("not one number");
-      stamps.push_back(start + from_seconds(numbers[0]));
+      stamps.push_back(start + checked_seconds(numbers[0]));
     } catch (const std::invalid_argument& e) {
       throw std::runtime_error(file.string() + ":" + std::to_string(stamps.size() + 1) + ": " +
                                e.what());

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <stdexcept>
 
 namespace maploop {
@@ -35,6 +37,14 @@ TEST(Time, SecondsRoundToTheNearestNanosecond) {
   EXPECT_EQ(from_seconds(1e-9).count(), 1);
   EXPECT_EQ(from_seconds(-0.06).count(), -60'000'000);
   EXPECT_DOUBLE_EQ(to_seconds(from_seconds(0.1)), 0.1);
+}
+
+TEST(Time, SecondsOfAFileMustBeWithinWhatATimeHolds) {
+  EXPECT_EQ(checked_seconds(-0.06).count(), -60'000'000);
+  EXPECT_EQ(Time(checked_seconds(7.2e9)), parse_time("2198-02-27 08:00:00"));
+  for (const double seconds : {1e300, -7.3e9, 9.2e9, std::nan(""), HUGE_VAL}) {
+    EXPECT_THROW(checked_seconds(seconds), std::invalid_argument) << seconds;
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "sensors/replay/odometry_sequence.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <cmath>
@@ -67,6 +68,60 @@ TEST(OdometrySequence, IsNamedByItsTableOrItsNumber) {
   EXPECT_TRUE(OdometrySequence::is_named(real_data() / "kitti_odometry" / "06"));
   EXPECT_FALSE(OdometrySequence::is_named(real_data() / "kitti_odometry" / "05"));
   EXPECT_FALSE(OdometrySequence::is_named(real_data()));
+}
+
+// A sequence of three rows with files as given, in the layout of the recording.
+class SmallSequence : public ::testing::Test {
+ protected:
+  SmallSequence() {
+    std::string heading = "t", row;
+    for (int i = 0; i < 29; ++i) heading += ",c" + std::to_string(i);
+    for (int i = 0; i < 30; ++i) row += ",0";
+    write("oxts/04.csv", heading + ",orimode\n0" + row + "\n0.1" + row + "\n1e300" + row + "\n");
+    write("poses/04.times.txt", "0\n0.1\n");
+  }
+  ~SmallSequence() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) {
+    const fs::path file = folder_ / name;
+    fs::create_directories(file.parent_path());
+    std::ofstream(file) << text;
+  }
+  OdometrySequence opened() const { return {folder_ / "oxts/04.csv", {}}; }
+  std::string refusal() const {
+    try {
+      opened();
+    } catch (const std::runtime_error& e) {
+      return e.what();
+    }
+    return "none";
+  }
+
+ private:
+  fs::path folder_ = fs::path(::testing::TempDir()) / ("sequence_" + std::to_string(::getpid()));
+};
+
+TEST_F(SmallSequence, LeavesOutARowWhoseStampIsNoTime) {
+  const OdometrySequence sequence = opened();
+  const auto source = sequence.imu();
+  for (ImuSample s; source->next(s);) {
+  }
+  EXPECT_EQ(source->report().delivered, 2u);
+  ASSERT_EQ(source->report().refusals.size(), 1u);
+  EXPECT_EQ(source->report().refusals[0].line, 4u);
+}
+
+TEST_F(SmallSequence, RefusesGapsThatHaveNoLastRow) {
+  write("oxts/04.gaps.csv", "first_row\n1\n");
+  EXPECT_NE(refusal().find("04.gaps.csv: has no column 'last_row'"), std::string::npos)
+      << refusal();
+  write("oxts/04.gaps.csv", "first_row,last_row\n-1e300,1e300\n");
+  EXPECT_EQ(refusal(), "none");
+}
+
+TEST_F(SmallSequence, RefusesImagesAtNoTime) {
+  write("poses/04.times.txt", "0\n1e300\n");
+  EXPECT_NE(refusal().find("04.times.txt:2: "), std::string::npos) << refusal();
 }
 
 TEST(WheelOdometer, HasTheScaleErrorAndTheNoiseItIsAskedFor) {
