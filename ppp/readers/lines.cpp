@@ -1,65 +1,34 @@
 #include "ppp/readers/lines.h"
 
-#include <zlib.h>
-
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <memory>
+
+#include "msgs/input_file.h"
+#include "msgs/input_limits.h"
 
 namespace maploop::ppp {
 
 namespace {
 
-struct Close {
-  void operator()(gzFile file) const { gzclose(file); }
-};
-using File = std::unique_ptr<gzFile_s, Close>;
-
-File open(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path))
-    throw ReadError(path.string() + ": is a folder; name its files");
-  File file(gzopen(path.c_str(), "rb"));
-  if (!file) throw ReadError(path.string() + ": cannot be read (" + std::strerror(errno) + ")");
-  return file;
-}
-
-[[noreturn]] void fail_as_damaged(const std::filesystem::path& path, const File& file) {
-  int code = 0;
-  throw ReadError(path.string() + ": damaged gzip data (" + gzerror(file.get(), &code) + ")");
+template <class Read>
+std::string or_read_error(Read read) {
+  try {
+    return read();
+  } catch (const FileError& error) {
+    throw ReadError(error.what());
+  }
 }
 
 }  // namespace
 
 std::string read_file(const std::filesystem::path& path) {
-  constexpr std::size_t largest = std::size_t{2} << 30U;
-  const File file = open(path);
-  gzbuffer(file.get(), 1U << 17U);
-  std::string text;
-  for (;;) {
-    const std::size_t had = text.size();
-    text.resize(had + (had < (1U << 20U) ? 1U << 20U : had));
-    const auto room = static_cast<unsigned>(std::min<std::size_t>(text.size() - had, 1U << 30U));
-    const int got = gzread(file.get(), text.data() + had, room);
-    if (got < 0) fail_as_damaged(path, file);
-    text.resize(had + static_cast<std::size_t>(got));
-    if (text.size() > largest) throw ReadError(path.string() + ": larger than 2 GB");
-    if (static_cast<unsigned>(got) < room) break;
-  }
-  int code = 0;
-  gzerror(file.get(), &code);
-  if (code != Z_OK) fail_as_damaged(path, file);
-  return text;
+  return or_read_error([&] { return read_text(path, input_limits::gnss_file); });
 }
 
 std::string read_head(const std::filesystem::path& path) {
-  const File file = open(path);
-  std::string text(4096, '\0');
-  const int got = gzread(file.get(), text.data(), static_cast<unsigned>(text.size()));
-  if (got < 0) fail_as_damaged(path, file);
-  text.resize(static_cast<std::size_t>(got));
-  return text;
+  return or_read_error([&] { return maploop::read_head(path, 4096); });
 }
 
 std::string_view trimmed(std::string_view text) {

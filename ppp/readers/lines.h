@@ -18,7 +18,7 @@ class ReadError : public std::runtime_error {
 };
 
 // The whole content, uncompressed where it is gzip (told by content). Throws ReadError naming the
-// file: it cannot be read, is damaged, or is larger than 2 GB.
+// file: it cannot be read, is damaged, or is larger than input_limits::gnss_file.
 std::string read_file(const std::filesystem::path& path);
 // Its first 4096 bytes, or what it has of them.
 std::string read_head(const std::filesystem::path& path);

@@ -19,14 +19,6 @@ namespace {
 constexpr int kWidth = 1242;
 constexpr int kHeight = 375;
 
-std::string read_text(const std::filesystem::path& file) {
-  try {
-    return sensors::read_text(file);
-  } catch (const std::runtime_error& e) {
-    throw std::runtime_error(file.string() + ": " + e.what());
-  }
-}
-
 Eigen::Isometry3d to_pose(const nlohmann::json& rows) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   for (int row = 0; row < 3; ++row)
@@ -65,7 +57,7 @@ bool parse(const std::string& line, std::array<double, 6>& row) {
 
 void read_rows(const std::filesystem::path& file, const std::set<std::int64_t>& suspect,
                RecordedTracks* recorded) {
-  std::istringstream lines(read_text(file));
+  std::istringstream lines(sensors::read_text(file));
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
     if (line.empty() || (number == 1 && line.starts_with("frame"))) continue;
@@ -130,12 +122,14 @@ RecordedTracks read_recorded_tracks(const std::filesystem::path& file) {
   RecordedTracks recorded;
   std::set<std::int64_t> suspect;
   try {
-    const auto meta = nlohmann::json::parse(read_text(meta_file));
+    const auto meta = nlohmann::json::parse(sensors::read_text(meta_file));
     recorded.calibration = to_calibration(meta);
     recorded.first_good_frame = meta.value("first_good_frame", std::size_t{0});
     suspect = meta.value("suspect_tracks", suspect);
     for (const double seconds : meta.at("timestamps").get<std::vector<double>>())
-      recorded.stamps.push_back(Time(from_seconds(seconds)));
+      recorded.stamps.push_back(Time(checked_seconds(seconds)));
+  } catch (const std::invalid_argument& e) {
+    throw std::runtime_error(meta_file.string() + ": " + e.what());
   } catch (const nlohmann::json::exception& e) {
     throw std::runtime_error(meta_file.string() + ": " + e.what());
   }

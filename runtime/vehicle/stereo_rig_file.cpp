@@ -1,10 +1,10 @@
 #include "runtime/vehicle/stereo_rig_file.h"
 
 #include <Eigen/Dense>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
+#include "msgs/input_file.h"
+#include "msgs/input_limits.h"
 #include "runtime/core/config.h"
 #include "runtime/core/number_text.h"
 #include "sensors/replay/kitti_calibration.h"
@@ -150,10 +150,7 @@ void write(Writer& out, const std::string& name, const sensors::CameraModel& cam
 
 sensors::StereoRig read_stereo_rig(const std::filesystem::path& file) {
   if (file.extension() != ".txt") return read_toml(file);
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw std::runtime_error("cannot read '" + file.string() + "': there is no such file");
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  return sensors::parse_kitti_rig(text, file);
+  return sensors::parse_kitti_rig(read_text(file, input_limits::settings), file);
 }
 
 std::string to_toml(const sensors::StereoRig& rig,

@@ -9,7 +9,7 @@
 #include <string>
 #include <type_traits>
 
-#include "sensors/image/png.h"
+#include "msgs/input_limits.h"
 
 namespace maploop::sensors {
 namespace {
@@ -35,10 +35,10 @@ GreyImage decode_grey_jpeg(std::span<const char> file) {
   check(tjDecompressHeader3(jpeg.get(), bytes_of(file), file.size(), &width, &height, &subsampling,
                             &colours));
   if (width < 1 || height < 1) throw std::runtime_error("the image is cut: it has no size");
-  if (width > max_image_pixels / height) {
+  if (width > input_limits::pixels / height) {
     throw std::runtime_error("the image has " + std::to_string(width) + " x " +
                              std::to_string(height) + " pixels, more than " +
-                             std::to_string(max_image_pixels));
+                             std::to_string(input_limits::pixels));
   }
   GreyImage image;
   image.resize(width, height);

@@ -9,7 +9,7 @@
 
 namespace maploop::sensors {
 
-// The brightness of a JPEG file of up to max_image_pixels (png.h). Throws std::runtime_error with
+// The brightness of a JPEG file of up to input_limits::pixels. Throws std::runtime_error with
 // the reason alone.
 GreyImage decode_grey_jpeg(std::span<const char> file);
 

@@ -12,6 +12,8 @@
 #include <string_view>
 #include <utility>
 
+#include "msgs/input_limits.h"
+
 namespace maploop::sensors {
 namespace {
 
@@ -40,6 +42,8 @@ Opened open(std::span<const char> file) {
   if (file.empty()) throw std::runtime_error("the file is empty");
   if (!is_png(file)) throw std::runtime_error("is no PNG image");
   Opened opened{context(0), {}};
+  // Texts and profiles beside the image are compressed, too.
+  check(spng_set_chunk_limits(opened.context.get(), input_limits::picture, input_limits::picture));
   check(spng_set_png_buffer(opened.context.get(), file.data(), file.size()));
   check(spng_get_ihdr(opened.context.get(), &opened.header));
   return opened;
@@ -73,10 +77,10 @@ void decode_grey_png(std::span<const char> file, int width, int height, GreyImag
 
 GreyImage decode_any_png(std::span<const char> file) {
   const auto [png, header] = open(file);
-  if (header.width > max_image_pixels / header.height) {
+  if (header.width > input_limits::pixels / header.height) {
     throw std::runtime_error("the image has " + std::to_string(header.width) + " x " +
                              std::to_string(header.height) + " pixels, more than " +
-                             std::to_string(max_image_pixels));
+                             std::to_string(input_limits::pixels));
   }
   GreyImage image;
   image.resize(static_cast<int>(header.width), static_cast<int>(header.height));

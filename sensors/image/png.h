@@ -9,9 +9,6 @@
 
 namespace maploop::sensors {
 
-// More pixels are refused before anything is decoded: 64 million.
-inline constexpr int max_image_pixels = 1 << 26;
-
 bool is_png(std::span<const char> file);
 
 // Decodes an 8-bit grey PNG file of exactly width x height pixels into `image`, whose buffer is
@@ -19,7 +16,7 @@ bool is_png(std::span<const char> file);
 // 16 bits); `image` is then left as it was, or holds what of it could be decoded.
 void decode_grey_png(std::span<const char> file, int width, int height, GreyImage& image);
 
-// Decodes a PNG file of any kind and size up to max_image_pixels; colours become their luma
+// Decodes a PNG file of any kind and size up to input_limits::pixels; colours become their luma
 // (ITU-R BT.601). Throws std::runtime_error with the reason alone.
 GreyImage decode_any_png(std::span<const char> file);
 

@@ -12,12 +12,7 @@ CsvTable::CsvTable(const std::filesystem::path& file) : file_(file) {
   const auto fail = [&](std::size_t line, const std::string& why) {
     throw std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + why);
   };
-  std::string text;
-  try {
-    text = read_text(file);
-  } catch (const std::runtime_error& e) {
-    throw std::runtime_error(file.string() + ": " + e.what());
-  }
+  std::string text = read_text(file);
   const std::size_t heading = std::min(text.find('\n'), text.size());
   std::replace(text.begin() + static_cast<std::ptrdiff_t>(heading), text.end(), ',', ' ');
   const std::vector<std::string_view> lines = split_lines(text);

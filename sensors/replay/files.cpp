@@ -1,12 +1,7 @@
 #include "sensors/replay/files.h"
 
-#include <zlib.h>
-
-#include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <memory>
 #include <stdexcept>
 #include <system_error>
 
@@ -32,65 +27,7 @@ double parse_number(std::string_view word, std::size_t column) {
   return value;
 }
 
-// Of gzip data, of one member or several.
-std::string inflated(std::vector<char>& bytes, std::size_t limit) {
-  z_stream stream{};
-  constexpr int gzip_alone = 15 + 16;
-  if (inflateInit2(&stream, gzip_alone) != Z_OK) throw std::runtime_error("cannot decompress");
-  const std::unique_ptr<z_stream, int (*)(z_stream*)> end(&stream, inflateEnd);
-  stream.next_in = reinterpret_cast<Bytef*>(bytes.data());
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  std::string text;
-  std::array<char, 1 << 16> part{};
-  for (int state = Z_OK; state != Z_STREAM_END || stream.avail_in > 0;) {
-    if (state == Z_STREAM_END) inflateReset(&stream);
-    stream.next_out = reinterpret_cast<Bytef*>(part.data());
-    stream.avail_out = static_cast<uInt>(part.size());
-    state = inflate(&stream, Z_NO_FLUSH);
-    if (state != Z_OK && state != Z_STREAM_END) {
-      throw std::runtime_error("its compressed data are damaged or cut: get it once more");
-    }
-    text.append(part.data(), part.size() - stream.avail_out);
-    if (text.size() > limit) {
-      throw std::runtime_error("too large: more than " + std::to_string(limit) +
-                               " bytes when decompressed");
-    }
-  }
-  return text;
-}
-
 }  // namespace
-
-void read_file(const std::filesystem::path& file, std::size_t limit, std::vector<char>& bytes) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (status.type() == std::filesystem::file_type::not_found) {
-    throw std::runtime_error("the file is missing");
-  }
-  // Nothing else is opened: a pipe, for one, would wait for ever.
-  if (!std::filesystem::is_regular_file(status)) throw std::runtime_error("not a regular file");
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (error) throw std::runtime_error("cannot be read: " + error.message());
-  if (size > limit) {
-    throw std::runtime_error("too large: " + std::to_string(size) + " bytes, at most " +
-                             std::to_string(limit) + " expected");
-  }
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw std::runtime_error("cannot be opened: no permission to read it?");
-  bytes.resize(static_cast<std::size_t>(size));
-  stream.read(bytes.data(), static_cast<std::streamsize>(size));
-  if (static_cast<std::uintmax_t>(stream.gcount()) != size) {
-    throw std::runtime_error("cannot be read to its end");
-  }
-}
-
-std::string read_text(const std::filesystem::path& file) {
-  constexpr std::size_t limit = std::size_t{64} << 20;
-  std::vector<char> bytes;
-  read_file(file, limit, bytes);
-  const bool compressed = bytes.size() > 2 && bytes[0] == '\x1f' && bytes[1] == '\x8b';
-  return compressed ? inflated(bytes, limit) : std::string(bytes.begin(), bytes.end());
-}
 
 std::vector<std::string_view> split_lines(std::string_view text) {
   std::vector<std::string_view> lines;

@@ -1,4 +1,4 @@
-// Reading whole files of a recording, and the numbers in their text.
+// The texts of a recording, and the numbers in them.
 #pragma once
 
 #include <cstddef>
@@ -7,15 +7,15 @@
 #include <string_view>
 #include <vector>
 
+#include "msgs/input_file.h"
+#include "msgs/input_limits.h"
+
 namespace maploop::sensors {
 
-// The content of a regular file into `bytes`, whose capacity is reused. Throws std::runtime_error
-// with the reason alone (the caller knows the name): missing, not a regular file, larger than
-// `limit` bytes, or not readable to its end.
-void read_file(const std::filesystem::path& file, std::size_t limit, std::vector<char>& bytes);
-
-// The same for text, plain or gzip-compressed, of at most 64 MB.
-std::string read_text(const std::filesystem::path& file);
+// Plain or gzip-compressed. Throws FileError.
+inline std::string read_text(const std::filesystem::path& file) {
+  return maploop::read_text(file, input_limits::table);
+}
 
 // The lines of a text without their ends (LF or CRLF) and without the blanks around them; blank
 // lines at the end of the text are not lines.

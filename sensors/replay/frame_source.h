@@ -60,9 +60,12 @@ class FrameSource : public Source<Frame> {
   template <class Parse>
   bool read_and_parse(const std::filesystem::path& file, std::size_t largest, Parse parse) {
     try {
-      read_file(file, largest, bytes_);
+      read_bytes(file, largest, bytes_);
       parse(bytes_);
       return true;
+    } catch (const FileError& error) {
+      report_.refuse({file.string(), 0, error.reason()});
+      return false;
     } catch (const std::exception& error) {
       report_.refuse({file.string(), 0, error.what()});
       return false;

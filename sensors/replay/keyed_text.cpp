@@ -68,14 +68,17 @@ std::vector<double> KeyedText::size(std::string_view key) const {
       fail(key, "is not an image size in pixels");
     }
   }
+  if (sides[0] * sides[1] > static_cast<double>(input_limits::pixels)) {
+    fail(key, "is an image of more than " + std::to_string(input_limits::pixels) + " pixels");
+  }
   return sides;
 }
 
 std::string read_calibration_text(const std::filesystem::path& file) {
   try {
     return read_text(file);
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error("calibration '" + file.string() + "': " + error.what() +
+  } catch (const FileError& error) {
+    throw std::runtime_error("calibration '" + file.string() + "': " + error.reason() +
                              "; put the drive's calibration (a separate archive of KITTI raw) "
                              "beside its folder");
   }

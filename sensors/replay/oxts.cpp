@@ -96,6 +96,8 @@ OxtsRows read_oxts(const std::filesystem::path& folder) {
       const std::string text = read_text(file);
       line = 1;
       result.rows[i] = parse_oxts_row(text);
+    } catch (const FileError& error) {
+      result.verdicts[i] = Finding{file.string(), 0, error.reason()};
     } catch (const std::exception& error) {
       result.verdicts[i] = Finding{file.string(), line, error.what()};
     }

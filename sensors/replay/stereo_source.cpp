@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "msgs/input_limits.h"
 #include "sensors/image/png.h"
 #include "sensors/replay/frame_source.h"
 
@@ -69,9 +70,8 @@ class StereoSource final : public FrameSource<StereoPair> {
   void set_stamps(std::size_t i, StereoPair& pair) const override { pair.stamp = stamps_[i]; }
 
   bool read_image(const std::filesystem::path& folder, std::size_t i, GreyImage& image) {
-    constexpr std::size_t largest_file = std::size_t{64} << 20;
     return read_and_parse(
-        folder / numbered_file(i, ".png"), largest_file,
+        folder / numbered_file(i, ".png"), input_limits::picture,
         [&](const std::vector<char>& bytes) { decode_grey_png(bytes, width_, height_, image); });
   }
 

@@ -136,6 +136,8 @@ std::vector<Laser> read_velodyne_calibration(const std::filesystem::path& file,
                                              VelodyneModel model) {
   try {
     return parse_calibration(read_text(file), laser_count(model));
+  } catch (const FileError& error) {
+    throw std::runtime_error("the Velodyne calibration '" + file.string() + "': " + error.reason());
   } catch (const std::exception& error) {
     throw std::runtime_error("the Velodyne calibration '" + file.string() + "' " + error.what());
   }

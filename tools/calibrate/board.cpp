@@ -7,9 +7,10 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "msgs/input_file.h"
+#include "msgs/input_limits.h"
 #include "sensors/image/jpeg.h"
 #include "sensors/image/png.h"
-#include "sensors/replay/files.h"
 
 namespace maploop::calibrate {
 namespace {
@@ -60,9 +61,8 @@ Board parse_board(const std::string& text, double square) {
 }
 
 GreyImage read_image(const std::filesystem::path& file) {
-  constexpr std::size_t largest_file = std::size_t{256} << 20;
   std::vector<char> bytes;
-  sensors::read_file(file, largest_file, bytes);
+  read_bytes(file, input_limits::picture, bytes);
   return sensors::is_png(bytes) ? sensors::decode_any_png(bytes) : sensors::decode_grey_jpeg(bytes);
 }
 

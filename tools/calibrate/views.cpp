@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "msgs/input_file.h"
+
 namespace maploop::calibrate {
 namespace {
 
@@ -30,6 +32,9 @@ std::optional<ReadPair> read(const ImagePair& pair, std::vector<Unusable>& unusa
        {std::pair(&pair.left, &result.left), std::pair(&pair.right, &result.right)}) {
     try {
       *image = read_image(*file);
+    } catch (const FileError& error) {
+      unusable.push_back({file->string(), error.reason()});
+      return std::nullopt;
     } catch (const std::runtime_error& error) {
       unusable.push_back({file->string(), error.what()});
       return std::nullopt;

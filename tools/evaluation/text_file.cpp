@@ -2,9 +2,7 @@
 
 #include <zlib.h>
 
-#include <array>
 #include <fstream>
-#include <memory>
 #include <stdexcept>
 
 namespace maploop::evaluation {
@@ -24,23 +22,6 @@ bool write_compressed(const std::filesystem::path& file, const std::string& text
 }
 
 }  // namespace
-
-std::string read_text(const std::filesystem::path& file) {
-  if (std::filesystem::is_directory(file))
-    throw std::runtime_error("cannot read " + file.string() + ": it is a folder");
-  const std::unique_ptr<gzFile_s, int (*)(gzFile)> stream(gzopen(file.c_str(), "rb"), gzclose);
-  if (!stream) throw std::runtime_error("cannot read " + file.string() + ": there is no such file");
-  std::string text;
-  std::array<char, 1 << 16> buffer{};
-  int count = 0;
-  while ((count = gzread(stream.get(), buffer.data(), buffer.size())) > 0)
-    text.append(buffer.data(), static_cast<std::size_t>(count));
-  int error = Z_OK;
-  gzerror(stream.get(), &error);
-  if (count < 0 || error != Z_OK)  // a cut file ends with Z_BUF_ERROR
-    throw std::runtime_error(file.string() + " is damaged or cut: get it once more");
-  return text;
-}
 
 void write_text(const std::filesystem::path& file, const std::string& text) {
   const bool written =

@@ -4,11 +4,15 @@
 #include <filesystem>
 #include <string>
 
+#include "msgs/input_file.h"
+#include "msgs/input_limits.h"
+
 namespace maploop::evaluation {
 
-// The whole file; .gz and plain alike. Throws std::runtime_error naming it where it cannot be read
-// or its compressed data are damaged.
-std::string read_text(const std::filesystem::path& file);
+// The whole file; .gz and plain alike. Throws FileError.
+inline std::string read_text(const std::filesystem::path& file) {
+  return maploop::read_text(file, input_limits::track);
+}
 
 // Compressed where the name ends in .gz. Throws std::runtime_error naming the file where it cannot
 // be written.
