@@ -1,6 +1,5 @@
 #include "mapmatch/network_file.h"
 
-#include <array>
 #include <fstream>
 #include <stdexcept>
 #include <string>
@@ -8,32 +7,19 @@
 
 #include "mapmatch/network_builder.h"
 #include "msgs/archive.h"
+#include "msgs/input_file.h"
+#include "msgs/input_limits.h"
 
 namespace maploop::mapmatch {
 namespace {
 
 constexpr std::string_view section = "road network";
 constexpr std::uint32_t version = 1;
-constexpr std::uintmax_t max_size = std::uintmax_t{4} << 30U;  // bytes
-
-Bytes read_file(const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file))
-    throw std::runtime_error("there is no such regular file");
-  const std::uintmax_t size = std::filesystem::file_size(file);
-  if (size > max_size) throw std::runtime_error("it is larger than 4 GB");
-  Bytes bytes(size);
-  std::ifstream in(file, std::ios::binary);
-  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-  if (!in) throw std::runtime_error("it cannot be read to its end");
-  return bytes;
-}
 
 // Whether a file begins as an archive does.
 bool is_archive(const std::filesystem::path& file) {
-  std::array<char, 8> begin{};
-  std::ifstream in(file, std::ios::binary);
-  in.read(begin.data(), begin.size());
-  return in && std::string_view(begin.data(), begin.size()) == "maploop\n";
+  constexpr std::string_view signature = "maploop\n";
+  return std::filesystem::is_regular_file(file) && read_head(file, signature.size()) == signature;
 }
 
 }  // namespace
@@ -54,13 +40,15 @@ void save_network(const std::filesystem::path& file, const NetworkData& network)
 
 NetworkData load_network(const std::filesystem::path& file) {
   try {
-    const Bytes bytes = read_file(file);
+    const Bytes bytes = read_sealed(file, input_limits::road_network);
     ArchiveReader reader(unseal(bytes));
     reader.section(section, version);
     NetworkData network;
     reader(network);
     reader.finish();
     return network;
+  } catch (const FileError& e) {
+    throw std::runtime_error("cannot load the road network " + std::string(e.what()));
   } catch (const std::exception& e) {
     throw std::runtime_error("cannot load the road network " + file.string() + ": " + e.what());
   }

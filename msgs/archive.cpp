@@ -6,6 +6,8 @@
 
 #include <cstring>
 
+#include "msgs/input_file.h"
+
 namespace maploop {
 namespace {
 
@@ -18,6 +20,27 @@ struct Header {
   std::uint64_t size;      // of the content
   std::uint64_t checksum;  // of the content
 };
+
+// The header that a file of `size` bytes begins with.
+Header judged(std::span<const std::uint8_t> head, std::uintmax_t size) {
+  Header header{};
+  const std::size_t shown = std::min(head.size(), sizeof header);
+  if (shown > 0) std::memcpy(&header, head.data(), shown);
+  if (shown < sizeof header.signature || header.signature != signature) {
+    throw ArchiveError("it is no archive of maploop");
+  }
+  if (shown < sizeof header) throw ArchiveError("it is cut: not even its header is whole");
+  if (header.version != format_version) {
+    throw ArchiveError("its format is version " + std::to_string(header.version) +
+                       ", this program reads version " + std::to_string(format_version));
+  }
+  if (size - sizeof header != header.size) {
+    throw ArchiveError("it holds " + std::to_string(size - sizeof header) + " bytes where " +
+                       std::to_string(header.size) +
+                       " were saved: it is cut, or joined to another");
+  }
+  return header;
+}
 
 }  // namespace
 
@@ -76,27 +99,21 @@ Bytes seal(std::span<const std::uint8_t> content) {
 }
 
 std::span<const std::uint8_t> unseal(std::span<const std::uint8_t> sealed) {
-  Header header{};
-  const std::size_t shown = std::min(sealed.size(), sizeof header);
-  if (shown > 0) std::memcpy(&header, sealed.data(), shown);
-  if (shown < sizeof header.signature || header.signature != signature) {
-    throw ArchiveError("it is no archive of maploop");
-  }
-  if (shown < sizeof header) throw ArchiveError("it is cut: not even its header is whole");
-  if (header.version != format_version) {
-    throw ArchiveError("its format is version " + std::to_string(header.version) +
-                       ", this program reads version " + std::to_string(format_version));
-  }
+  const Header header = judged(sealed, sealed.size());
   const auto content = sealed.subspan(sizeof header);
-  if (content.size() != header.size) {
-    throw ArchiveError("it holds " + std::to_string(content.size()) + " bytes where " +
-                       std::to_string(header.size) +
-                       " were saved: it is cut, or joined to another");
-  }
   if (XXH3_64bits(content.data(), content.size()) != header.checksum) {
     throw ArchiveError("it is damaged: its checksum does not fit");
   }
   return content;
+}
+
+Bytes read_sealed(const std::filesystem::path& file, std::size_t limit) {
+  const std::string head = read_head(file, sizeof(Header));
+  judged(std::span(reinterpret_cast<const std::uint8_t*>(head.data()), head.size()),
+         std::filesystem::file_size(file));
+  Bytes sealed;
+  read_bytes(file, limit, sealed);
+  return sealed;
 }
 
 }  // namespace maploop

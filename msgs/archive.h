@@ -10,18 +10,20 @@
 // private. Numbers, enumerations, times, std containers and Eigen's fixed-size matrices are
 // described here. `Archive::loading` tells the directions apart where they must differ.
 //
-// What is loaded has the bits of what was saved, on machines of one byte order. Loading takes no
-// more memory than the content's size times that of one element: no length is believed that the
-// content cannot hold. Not thread-safe.
+// What is loaded has the bits of what was saved, on machines of one byte order. No length is
+// believed: a sequence grows with the elements that the content really holds, so that loading takes
+// a few times the memory of the content at most. Not thread-safe.
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <chrono>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -86,6 +88,7 @@ class ArchiveReader {
 
   // The length of what follows: never more than there are bytes left.
   std::size_t length();
+  std::size_t bytes_left() const { return left_.size(); }
   // Refuses content that nobody read.
   void finish() const;
   [[noreturn]] void fail(const std::string& what) const;
@@ -100,6 +103,10 @@ class ArchiveReader {
 Bytes seal(std::span<const std::uint8_t> content);
 // The content again. Throws ArchiveError: no archive, of another version, cut, too long or damaged.
 std::span<const std::uint8_t> unseal(std::span<const std::uint8_t> sealed);
+
+// The sealed content of a file of at most `limit` bytes. Its header is judged before the rest is
+// read. Throws ArchiveError, or FileError where it cannot be read.
+Bytes read_sealed(const std::filesystem::path& file, std::size_t limit);
 
 // A number as a message shows it: all its digits, where they are needed.
 template <class T>
@@ -212,15 +219,28 @@ requires(std::same_as<Sequence, std::string> ||
          std::same_as<Sequence,
                       std::vector<typename Sequence::value_type>>) void archive(Archive& ar,
                                                                                 Sequence& values) {
+  using Value = typename Sequence::value_type;
+  constexpr bool as_bytes = std::is_arithmetic_v<Value>;
+  std::size_t length = values.size();
   if constexpr (Archive::loading) {
-    values.resize(ar.length());
+    length = ar.length();
+    const std::size_t at_once = ar.bytes_left() / sizeof(Value);
+    if (as_bytes && length > at_once) ar.fail("a length that the archive cannot hold");
+    if constexpr (as_bytes)
+      values.resize(length);
+    else
+      values.reserve(std::min(length, at_once));
   } else {
-    ar(std::uint64_t{values.size()});
+    ar(std::uint64_t{length});
   }
-  if constexpr (std::is_arithmetic_v<typename Sequence::value_type>) {
-    ar.bytes(values.data(), values.size() * sizeof(typename Sequence::value_type));
+  if constexpr (as_bytes) {
+    ar.bytes(values.data(), length * sizeof(Value));
   } else {
-    for (auto& value : values) ar(value);
+    for (std::size_t i = 0; i < length; ++i) {
+      if (i == values.size()) values.emplace_back();
+      ar(values[i]);
+    }
+    values.resize(length);
   }
 }
 

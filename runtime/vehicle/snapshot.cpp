@@ -5,17 +5,16 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "msgs/input_file.h"
+#include "msgs/input_limits.h"
 #include "runtime/vehicle/config_fields.h"
 
 namespace maploop::vehicle {
 namespace {
-
-constexpr std::uintmax_t largest_file = std::uintmax_t{256} << 20;
 
 // What decides which samples the recording gives. (Where it runs and how fast decides nothing.)
 constexpr std::array<std::string_view, 4> deciding_tables{"replay", "gnss", "wheel", "imu"};
@@ -71,19 +70,16 @@ Snapshot read_snapshot(const std::filesystem::path& file, const VehicleConfig& c
   const auto refuse = [&](const std::string& why) {
     throw std::runtime_error("cannot resume from '" + file.string() + "': " + why);
   };
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) refuse("there is no such file");
-  if (std::filesystem::file_size(file, error) > largest_file) refuse("too large for a snapshot");
-  std::ifstream stream(file, std::ios::binary);
-  const Bytes sealed{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) refuse("it cannot be read");
   Snapshot snapshot;
   try {
+    const Bytes sealed = read_sealed(file, input_limits::snapshot);
     ArchiveReader reader(unseal(sealed));
     describe(reader, snapshot, config);
     reader.finish();
   } catch (const ArchiveError& e) {
     refuse(e.what());
+  } catch (const FileError& e) {
+    refuse(e.reason());
   }
   return snapshot;
 }

@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <limits>
 
 #include "msgs/image.h"
+#include "msgs/input_file.h"
 #include "msgs/nav_state.h"
 #include "msgs/odometry.h"
+#include "tests/support/real_data.h"
 
 namespace maploop {
 namespace {
@@ -110,6 +113,47 @@ TEST(Archive, BelievesNoLengthThatItCannotHold) {
   std::vector<double> values;
   ArchiveReader reader(writer.content());
   EXPECT_NE(refusal([&] { reader(values); }).find("cannot hold"), std::string::npos);
+}
+
+struct Large {
+  std::string name;
+  std::array<double, 1000> values{};
+};
+template <class Archive>
+void archive(Archive& ar, Large& large) {
+  ar(large.name);
+}
+
+// A length of as many elements as there are bytes left.
+TEST(Archive, TakesNoMemoryForElementsThatAreNotThere) {
+  ArchiveWriter writer;
+  constexpr std::size_t left = 100'000;
+  writer(std::uint64_t{left});
+  writer.bytes(Bytes(left, 0xff).data(), left);
+  std::vector<Large> values;
+  ArchiveReader reader(writer.content());
+  EXPECT_NE(refusal([&] { reader(values); }).find("cannot hold"), std::string::npos);
+  EXPECT_LE(values.capacity() * sizeof(Large), 2 * left);
+  std::vector<double> numbers;
+  ArchiveReader again(writer.content());
+  EXPECT_NE(refusal([&] { again(numbers); }).find("cannot hold"), std::string::npos);
+  EXPECT_EQ(numbers.capacity(), 0u);
+}
+
+TEST(Archive, JudgesTheHeaderOfAFileBeforeTheRestIsRead) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / "sealed";
+  const auto write = [&](const Bytes& bytes) {
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
+  };
+  const Bytes sealed = seal(Bytes(1000, 7));
+  write(sealed);
+  EXPECT_EQ(read_sealed(file, 2000), sealed);
+  EXPECT_THROW(read_sealed(file, 999), FileError);
+  std::filesystem::resize_file(file, std::uintmax_t{1} << 40U);  // sparse
+  EXPECT_NE(refusal([&] { read_sealed(file, std::size_t{1} << 50U); }).find("1000 were saved"),
+            std::string::npos);
 }
 
 TEST(Archive, RefusesAValueOfUnknownKind) {

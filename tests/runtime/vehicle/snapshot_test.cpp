@@ -201,7 +201,7 @@ TEST_F(SnapshotFile, OtherSettingsOfTheSensorsAreRefusedByName) {
 }
 
 TEST_F(SnapshotFile, WhatIsBrokenOrMissingIsRefusedWithItsName) {
-  EXPECT_NE(refusal().find("a.snapshot': there is no such file"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("a.snapshot': the file is missing"), std::string::npos) << refusal();
   write_snapshot(file_, snapshot_, {});
   std::filesystem::resize_file(file_, std::filesystem::file_size(file_) - 1);
   EXPECT_NE(refusal().find("a.snapshot': it holds"), std::string::npos) << refusal();
