@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <sstream>
+
+#include "msgs/input_file.h"
+#include "msgs/input_limits.h"
 
 namespace maploop::mapmatch {
 namespace {
@@ -161,6 +163,8 @@ class Parser {
     if (shape->second.first != Shape::sigmoid && shape->second.first != Shape::ramp &&
         !std::is_sorted(values.begin(), values.end()))
       fail("the corners of '" + given[0] + "' go back");
+    if (++terms_ > FuzzySystem::max_terms)
+      fail("more than " + std::to_string(FuzzySystem::max_terms) + " terms");
     auto& terms = variables_[variable_].terms;
     if (std::any_of(terms.begin(), terms.end(), [&](const auto& t) { return t.name == given[0]; }))
       fail("the term '" + given[0] + "' is there twice");
@@ -169,6 +173,8 @@ class Parser {
 
   void add_output_term(const std::vector<std::string>& given) {
     if (given.size() < 2 || given[1] != "Constant") fail("an output term is 'NAME Constant VALUE'");
+    if (output_->terms.size() == FuzzySystem::max_terms)
+      fail("more than " + std::to_string(FuzzySystem::max_terms) + " terms");
     if (output_term(given[0])) fail("the term '" + given[0] + "' is there twice");
     output_->terms.emplace_back(given[0], numbers(given, 2, 1).front());
   }
@@ -180,6 +186,8 @@ class Parser {
   }
 
   void add_rule(const std::string& text) {
+    if (rules_.size() == FuzzySystem::max_rules)
+      fail("more than " + std::to_string(FuzzySystem::max_rules) + " rules");
     const auto w = words(text);
     if (w.empty() || w[0] != "if") fail("a rule begins with 'if'");
     FuzzyRule rule;
@@ -226,6 +234,7 @@ class Parser {
   std::vector<FuzzyVariable> variables_;
   std::vector<bool> defined_;
   std::size_t variable_ = 0;  // of the block that is read
+  std::size_t terms_ = 0;     // of all input variables
   std::optional<Output> output_;
   std::vector<FuzzyRule> rules_;
 };
@@ -238,11 +247,11 @@ FuzzySystem parse_fll(std::string_view text, std::string_view name,
 }
 
 FuzzySystem read_fll(const std::filesystem::path& file, std::span<const std::string_view> inputs) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  if (!std::filesystem::is_regular_file(file) || !(text << in.rdbuf()))
-    throw FllError("cannot read the rules " + file.string() + ": is the name right?");
-  return parse_fll(text.str(), file.string(), inputs);
+  try {
+    return parse_fll(read_text(file, input_limits::settings), file.string(), inputs);
+  } catch (const FileError& error) {
+    throw FllError(std::string("cannot read the rules ") + error.what());
+  }
 }
 
 }  // namespace maploop::mapmatch

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <tuple>
 
 #include "msgs/frames.h"
+#include "msgs/input_limits.h"
 
 namespace maploop::mapmatch {
 namespace {
@@ -220,26 +222,40 @@ class Builder {
     std::map<std::int64_t, std::uint32_t> junction_of;
     for (std::uint32_t j = 0; j < data_.junctions.size(); ++j)
       junction_of[data_.junctions[j].node_id] = j;
-    std::size_t unused = 0;
+    std::size_t unused = 0, crowded = 0;
+    const auto order = [](const BannedTurn& a, const BannedTurn& b) {
+      const auto key = [](const BannedTurn& t) {
+        return std::tie(t.from.link, t.from.forward, t.to.link, t.to.forward);
+      };
+      return key(a) < key(b);
+    };
+    std::set<BannedTurn, decltype(order)> banned(order);  // restrictions may say the same
     for (const MapRestriction& r : map_.restrictions) {
       const auto junction = junction_of.find(r.via_node);
-      const std::size_t before = data_.banned.size();
+      bool used = false;
       if (junction != junction_of.end()) {
         const Junction& j = data_.junctions[junction->second];
+        if (j.exit_count > input_limits::roads_at_node) {
+          ++crowded;
+          continue;
+        }
         for (std::uint32_t i = j.first_exit; i < j.first_exit + j.exit_count; ++i) {
           if (way_leaving(data_.exits[i]) != r.from_way) continue;
           for (std::uint32_t k = j.first_exit; k < j.first_exit + j.exit_count; ++k) {
             const bool named = way_leaving(data_.exits[k]) == r.to_way;
-            if (k != i && named != r.only)
-              data_.banned.push_back({data_.exits[i].reversed(), data_.exits[k]});
+            if (k == i || named == r.only) continue;
+            banned.insert({data_.exits[i].reversed(), data_.exits[k]});
+            used = true;
           }
         }
       }
-      if (data_.banned.size() == before) ++unused;
+      if (!used) ++unused;
     }
-    std::sort(data_.banned.begin(), data_.banned.end(), [](const auto& a, const auto& b) {
-      return std::tie(a.from.link, a.from.forward) < std::tie(b.from.link, b.from.forward);
-    });
+    data_.banned.assign(banned.begin(), banned.end());
+    if (crowded > 0)
+      data_.warnings.push_back(std::to_string(crowded) + " turn restrictions are left out where " +
+                               "more than " + std::to_string(input_limits::roads_at_node) +
+                               " roads meet");
     if (map_.restrictions_over_ways > 0)
       data_.warnings.push_back(std::to_string(map_.restrictions_over_ways) +
                                " turn restrictions over a way between are left out");

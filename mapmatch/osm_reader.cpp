@@ -41,6 +41,21 @@ void require_room(const std::vector<MapNode>& nodes, const OsmOptions& options) 
                              " nodes; choose a part of it with a box");
 }
 
+// libosmium goes along the tags by the zero behind each key and each value: one inside of a string
+// would lead it past the end of the list.
+template <class Object>
+const osmium::TagList& sound_tags(const Object& object) {
+  const osmium::TagList& tags = object.tags();
+  const unsigned char* const begin = tags.data() + sizeof tags;
+  const unsigned char* const end = tags.data() + tags.byte_size();
+  if (std::count(begin, end, '\0') % 2 != 0 || (begin != end && end[-1] != '\0')) {
+    throw std::runtime_error("a tag of " + std::string(osmium::item_type_to_name(object.type())) +
+                             " " + std::to_string(object.id()) +
+                             " has a zero byte inside: the file is damaged, get it once more");
+  }
+  return tags;
+}
+
 // Nodes inside the box.
 class NodesInside : public osmium::handler::Handler {
  public:
@@ -62,7 +77,7 @@ class Roads : public osmium::handler::Handler {
   Roads(MapExtract& map, const OsmOptions& options) : map_(map), options_(options) {}
 
   void way(const osmium::Way& w) {
-    const osmium::TagList& tags = w.tags();
+    const osmium::TagList& tags = sound_tags(w);
     const auto road = road_from_tags(
         w.id(), [&](const char* key) { return std::string_view(tags.get_value_by_key(key, "")); });
     if (!road) return;
@@ -81,7 +96,7 @@ class Roads : public osmium::handler::Handler {
   }
 
   void relation(const osmium::Relation& r) {
-    const osmium::TagList& tags = r.tags();
+    const osmium::TagList& tags = sound_tags(r);
     if (!tags.has_tag("type", "restriction")) return;
     const std::string_view except = tags.get_value_by_key("except", "");
     for (const char* car : {"motorcar", "motor_vehicle"})

@@ -85,6 +85,21 @@ TEST(FllReader, EveryMistakeIsRefusedWithFileAndLine) {
               HasSubstr("no rule"));
 }
 
+TEST(FllReader, StopsAtTheFirstTermOrRuleTooMany) {
+  std::string terms, rules, results;
+  for (int i = 0; i < 1000; ++i) {
+    terms += "  term: t" + std::to_string(i) + " Ramp 10 0\n";
+    results += "  term: t" + std::to_string(i) + " Constant 10\n";
+    rules += "  rule: if a is low and b is high then out is bad\n";
+  }
+  EXPECT_THAT(refusal("  term: low", terms + "  term: low"),
+              ::testing::HasSubstr("small.fll:52: more than 48 terms"));
+  EXPECT_THAT(refusal("  term: bad", results + "  term: bad"),
+              ::testing::HasSubstr(": more than 48 terms"));
+  EXPECT_THAT(refusal("  rule:", rules + "  rule:"),
+              ::testing::HasSubstr("small.fll:45: more than 32 rules"));
+}
+
 TEST(FllReader, AFileThatIsNotThereIsNamed) {
   try {
     read_fll("/nowhere/rules.fll", inputs);

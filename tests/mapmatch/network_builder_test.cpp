@@ -97,6 +97,37 @@ TEST(NetworkBuilder, ANodeNamedTwiceInARowAndTwoNodesAtOnePlaceAreHarmless) {
     EXPECT_NEAR(network.at({0, true}, s).direction.norm(), 1.0, 1e-9) << s;
 }
 
+// A way that passes one node again and again has two exits there each time.
+SmallMap flower(int petals) {
+  SmallMap map;
+  map.node(1, 0, 0);
+  std::vector<std::int64_t> nodes{1};
+  for (int i = 0; i < petals; ++i) {
+    map.node(2 + i, 100.0 + i, 50.0);
+    nodes.push_back(2 + i);
+    nodes.push_back(1);
+  }
+  return map.way(10, nodes);
+}
+
+TEST(NetworkBuilder, RestrictionsThatSayTheSameBanATurnOnce) {
+  SmallMap map = flower(5);
+  map.ban(10, 1, 10);
+  const std::size_t once = map.network().data().banned.size();
+  EXPECT_EQ(once, 90u) << "each of ten exits to the nine others";
+  for (int i = 0; i < 100; ++i) map.ban(10, 1, 10);
+  EXPECT_EQ(map.network().data().banned.size(), once);
+}
+
+TEST(NetworkBuilder, RestrictionsWhereMoreRoadsMeetThanAnywhereAreLeftOut) {
+  SmallMap map = flower(100);
+  map.ban(10, 1, 10);
+  const RoadNetwork network = map.network();
+  EXPECT_TRUE(network.data().banned.empty());
+  EXPECT_THAT(network.data().warnings,
+              ::testing::Contains(::testing::HasSubstr("1 turn restrictions are left out where")));
+}
+
 TEST(NetworkBuilder, NoTurnAndOnlyTurnAreBannedTurns) {
   SmallMap map;
   map.node(1, 0, 0).node(2, 100, 0).node(3, 200, 0).node(4, 100, 80).node(5, 100, -80);

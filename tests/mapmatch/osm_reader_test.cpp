@@ -143,6 +143,58 @@ TEST(OsmReader, ACutOrDamagedMapIsRefusedOrReadAndNeverCrashes) {
   }
 }
 
+// The few parts of PBF that a map of one road needs.
+std::string number(std::uint64_t value) {
+  std::string bytes;
+  for (; value >= 0x80; value >>= 7U) bytes += static_cast<char>(value | 0x80U);
+  return bytes + static_cast<char>(value);
+}
+std::string field(unsigned tag, std::uint64_t value) {
+  return number(tag << 3U) + number(value);
+}
+std::string field(unsigned tag, const std::string& content) {
+  return number(tag << 3U | 2U) + number(content.size()) + content;
+}
+std::string block(const std::string& kind, const std::string& content) {
+  const std::string blob = field(1, content);
+  const std::string header = field(1, kind) + field(3, blob.size());
+  return std::string(3, '\0') + static_cast<char>(header.size()) + header + blob;
+}
+std::string zigzag(std::int64_t value) {
+  return number(static_cast<std::uint64_t>(value) << 1U ^ static_cast<std::uint64_t>(value >> 63));
+}
+
+// Two nodes, and a way between them with two tags.
+std::string pbf(const std::string& key, const std::string& value) {
+  std::string strings, nodes;
+  for (const std::string& s :
+       {std::string(), std::string("highway"), std::string("primary"), key, value})
+    strings += field(1, s);
+  for (int i = 1; i <= 2; ++i) {
+    const auto place = [&](unsigned tag, std::int64_t units) {
+      return number(tag << 3U) + zigzag(units);
+    };
+    nodes += field(1, place(1, i) + place(8, 490000000 + i * 10000) + place(9, 84000000));
+  }
+  const std::string way = field(1, 7) + field(2, number(1) + number(3)) +
+                          field(3, number(2) + number(4)) + field(8, zigzag(1) + zigzag(1));
+  return block("OSMHeader", field(4, std::string("OsmSchema-V0.6"))) +
+         block("OSMData", field(1, strings) + field(2, nodes) + field(2, field(3, way)));
+}
+
+// libosmium itself reads past the end of the tags of such a way.
+TEST(OsmReader, AZeroByteInATagIsRefused) {
+  TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "small.osm.pbf";
+  write(file, pbf("maxspeed", "50"));
+  EXPECT_EQ(refusal(file), "");
+  for (const auto& [key, value] : {std::pair(std::string("max\0peed", 8), std::string("50")),
+                                   std::pair(std::string("maxspeed"), std::string("5\0", 2))}) {
+    write(file, pbf(key, value));
+    EXPECT_THAT(refusal(file), ::testing::HasSubstr("a tag of way 7 has a zero byte inside"));
+  }
+}
+
 TEST(OsmReader, PlainXmlIsReadToo) {
   TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "small.osm";
