@@ -1,12 +1,12 @@
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <utility>
 
+#include "msgs/input_file.h"
+#include "msgs/input_limits.h"
 #include "runtime/core/config.h"
 #include "runtime/core/config_context.h"
 #include "runtime/core/config_state.h"
+#include "runtime/core/key_depth.h"
 #include "runtime/core/nearest_name.h"
 
 namespace maploop::runtime {
@@ -82,38 +82,25 @@ void collect_unknown(const ConfigState& state, const ConfigNode& node, std::vect
   }
 }
 
-std::string read_file(const std::filesystem::path& path) {
-  constexpr std::size_t kLargest = 1 << 20;  // bytes: far above any configuration
-  const std::string name = path.string() + ": ";
-  if (std::filesystem::is_directory(path)) {
-    throw ConfigError(name + "is a folder; name a TOML file");
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    throw ConfigError(name + "cannot be opened (" + std::strerror(errno) +
-                      "); name a TOML file that exists and may be read");
-  }
-  std::string text(kLargest + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (file.bad()) throw ConfigError(name + "cannot be read (" + std::strerror(errno) + ")");
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  if (text.size() > kLargest) {
-    throw ConfigError(name + "is larger than 1 MiB; name a TOML configuration");
-  }
-  return text;
-}
-
 }  // namespace
 
 ConfigDocument::ConfigDocument(std::shared_ptr<ConfigState> state) : state_(std::move(state)) {}
 
 ConfigDocument ConfigDocument::load(const std::filesystem::path& path) {
-  return parse(read_file(path), path.string());
+  try {
+    return parse(read_text(path, input_limits::settings), path.string());
+  } catch (const FileError& error) {
+    throw ConfigError(std::string(error.what()) + "; name a TOML file that may be read");
+  }
 }
 
 ConfigDocument ConfigDocument::parse(std::string_view text, std::string name) {
   auto state = std::make_shared<ConfigState>();
   state->file = std::move(name);
+  if (const std::size_t line = KeyDepth(text).first_deeper_than(input_limits::key_depth)) {
+    throw ConfigError(state->file + ':' + std::to_string(line) + ": a key of more than " +
+                      std::to_string(input_limits::key_depth) + " parts between dots");
+  }
   try {
     state->root = toml::parse(text);
   } catch (const toml::parse_error& error) {
