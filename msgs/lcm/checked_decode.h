@@ -9,11 +9,17 @@
 
 namespace maploop::schema {
 
+// The types of msgs/lcm, which are part of the program.
+inline const Schema& own_schema() {
+  static const Schema schema(own_types());
+  return schema;
+}
+
 // False where the bytes are no message of this type. The schema looks first: LCM's own code takes
 // the sizes in a message at their word. `schema` knows our types.
 template <class Message>
 bool checked_decode(const Schema& schema, std::span<const std::uint8_t> data, Message& message) {
-  const Type* type = schema.find(schema::fingerprint_of(data));
+  const Type* type = schema.find(fingerprint_of(data));
   DecodedMessage checked;
   return type != nullptr && type->fingerprint == static_cast<std::uint64_t>(Message::getHash()) &&
          !checked.decode(*type, data) &&

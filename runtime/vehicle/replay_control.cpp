@@ -44,7 +44,7 @@ ReplayControl::~ReplayControl() {
 void ReplayControl::take(const lcm::ReceiveBuffer* buffer, const std::string&) {
   Control command{};
   const std::span data(static_cast<const std::uint8_t*>(buffer->data), buffer->data_size);
-  if (!schema::checked_decode(schema_, data, command)) {
+  if (!schema::checked_decode(schema::own_schema(), data, command)) {
     refused_ = "not a message of type replay_control_t of this version";
   } else if (command.kind == Control::STATE) {
     return;  // our own, or another run's

@@ -46,7 +46,6 @@ class ReplayControl {
     bool operator==(const Said&) const = default;
   };
 
-  schema::Schema schema_{schema::own_types()};
   lcm::LCM& lcm_;
   Player& player_;
   std::string run_;

@@ -78,7 +78,7 @@ RunPresence::~RunPresence() {
 void RunPresence::take(const lcm::ReceiveBuffer* buffer, const std::string&) {
   maploop_lcm::run_t message{};
   const std::span data(static_cast<const std::uint8_t*>(buffer->data), buffer->data_size);
-  if (!schema::checked_decode(schema_, data, message) || message.id == run_.id) return;
+  if (!schema::checked_decode(schema::own_schema(), data, message) || message.id == run_.id) return;
   others_.take(message, runtime::monotonic_now().time_since_epoch());
 }
 

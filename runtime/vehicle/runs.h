@@ -70,7 +70,6 @@ class RunPresence {
   void take(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void say(bool ended);
 
-  schema::Schema schema_{schema::own_types()};
   lcm::LCM& lcm_;
   Run run_;
   std::function<void(const std::string&)> warn_;

@@ -8,7 +8,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "msgs/input_limits.h"
 #include "msgs/lcm/channel_names.h"
+#include "msgs/lcm/checked_decode.h"
 #include "msgs/lcm/conversions.h"
 #include "msgs/lcm/log/log_reader.h"
 #include "msgs/lcm/raw_conversions.h"
@@ -18,17 +20,11 @@ namespace {
 
 using lcm_log::LogReader;
 
-const schema::Schema& own_schema() {
-  static const schema::Schema schema(schema::own_types());
-  return schema;
-}
-
-// False where the bytes are no such message, or not all of it.
-template <class Lcm>
-bool decode(std::span<const std::uint8_t> data, Lcm& message) {
-  const auto size = static_cast<int>(data.size());
-  return message.decode(data.data(), 0, size) == size;
-}
+using input_limits::longest_gap;
+using input_limits::longest_pause;
+using input_limits::within;
+using schema::checked_decode;
+using schema::own_schema;
 
 template <class T, class Lcm>
 class LogSource final : public Source<T> {
@@ -56,7 +52,7 @@ class LogSource final : public Source<T> {
                       channel_ + ", event " + std::to_string(reader_.event().number) + ": " + why});
       return false;
     };
-    if (!decode(reader_.event().data, message_)) {
+    if (!checked_decode(own_schema(), reader_.event().data, message_)) {
       return refuse("no message of type " + std::string(Lcm::getTypeName()) + " of this version");
     }
     try {
@@ -69,6 +65,10 @@ class LogSource final : public Source<T> {
       return refuse(e.what());
     }
     if (sample.available <= last_) return refuse("it is not later than the message before it");
+    if (last_ != Time::min() && !within(longest_pause, last_, sample.available))
+      return refuse("it is more than a day later than the message before it");
+    if (!within(longest_gap, sample.stamp, sample.available))
+      return refuse("it is available more than an hour from its stamp");
     last_ = sample.available;
     return true;
   }
@@ -125,7 +125,7 @@ LogRecording::LogRecording(const std::filesystem::path& log) : log_(log) {
     const lcm_log::LogEvent& event = reader.event();
     if (event.channel == channel_names::calibration && !calibrated) {
       maploop_lcm::calibration_t message{};
-      calibrated = decode(event.data, message);
+      calibrated = checked_decode(own_schema(), event.data, message);
       if (calibrated) calibration_ = from_lcm(message);
     }
     const auto sensor = std::find(sensor_channels.begin(), sensor_channels.end(), event.channel);

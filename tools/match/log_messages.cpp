@@ -18,8 +18,7 @@ bool is_lcm_log(const std::filesystem::path& file) {
 
 void visit_log(const std::filesystem::path& file,
                const std::function<void(const lcm_log::LogEvent&)>& visit) {
-  const schema::Schema schema(schema::own_types());
-  LogReader reader(file, schema);
+  LogReader reader(file, schema::own_schema());
   for (auto item = reader.next(); item != LogReader::Item::end; item = reader.next()) {
     if (item == LogReader::Item::damage)
       throw std::runtime_error(

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "msgs/lcm/checked_decode.h"
 #include "msgs/lcm/conversions.h"
 #include "msgs/lcm/log/log_event.h"
 
@@ -26,8 +27,7 @@ auto decoded(const lcm_log::LogEvent& event, const std::filesystem::path& file) 
                              std::string(event.channel) + ": " + why);
   };
   Lcm message;
-  const auto size = static_cast<int>(event.data.size());
-  if (message.decode(event.data.data(), 0, size) != size)
+  if (!schema::checked_decode(schema::own_schema(), event.data, message))
     refuse(std::string("no ") + Lcm::getTypeName() + " of this version");
   try {
     return from_lcm(message);

@@ -13,11 +13,6 @@ namespace {
 
 constexpr std::size_t shown_misses = 10;
 
-const schema::Schema& own_schema() {
-  static const schema::Schema schema(schema::own_types());
-  return schema;
-}
-
 Latency corrected(const LatencySummary& s) {
   runtime::Histogram all, omitted;
   all.merge(s.histogram);
@@ -60,7 +55,7 @@ Profile profile_of(const Deadlines& deadlines, const Health& health) {
 
 void ProfileCollector::add(std::string_view channel, std::span<const std::uint8_t> data) {
   const auto take = [&](auto message, auto& to, bool& heard) {
-    if (!schema::checked_decode(own_schema(), data, message)) {
+    if (!schema::checked_decode(schema::own_schema(), data, message)) {
       ++not_understood_;
       return;
     }

@@ -1,0 +1,84 @@
+// Logs whose messages are damaged where no reader of logs can see it.
+#include "sensors/replay/log_recording.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "tests/support/real_data.h"
+
+namespace maploop::sensors {
+namespace {
+
+// A small log of every sensor; its IMU has three messages.
+class DamagedLog : public ::testing::Test {
+ protected:
+  DamagedLog() {
+    std::ifstream in(testing::source("tests/fuzz/corpus/recording/sensors.lcmlog"),
+                     std::ios::binary);
+    bytes_.assign(std::istreambuf_iterator<char>(in), {});
+  }
+
+  // Where the data of the n-th message of a channel begin.
+  char* message(const std::string& channel, int n) {
+    std::size_t at = 0;
+    for (int i = 0; i <= n; ++i) at = bytes_.find(channel, at) + channel.size();
+    return &bytes_[at];
+  }
+
+  LogRecording recording() const {
+    const auto file = folder_.path() / "damaged.lcmlog";
+    std::ofstream(file, std::ios::binary) << bytes_;
+    return LogRecording(file);
+  }
+
+  std::string bytes_;
+  testing::TemporaryFolder folder_;
+};
+
+template <class T>
+SourceReport read(std::unique_ptr<Source<T>> source) {
+  for (T sample; source->next(sample);) {
+  }
+  return source->report();
+}
+
+constexpr int fingerprint = 8, header = 32, stamp = fingerprint + 8, available = stamp + 8;
+
+TEST_F(DamagedLog, IsWholeAtFirst) {
+  EXPECT_EQ(read(recording().imu()).delivered, 3u);
+  EXPECT_EQ(read(recording().velodyne()).delivered, 1u);
+  EXPECT_EQ(read(recording().camera()).delivered, 1u);
+}
+
+// LCM's own code would take such a size at its word.
+TEST_F(DamagedLog, AMessageThatSaysASizeItHasNotIsLeftOut) {
+  for (const std::string size :
+       {std::string("\xff\xff\xff\xff"), std::string("\x7f\xff\xff\xff")}) {
+    size.copy(message("VELODYNE", 0) + fingerprint + header + 16, size.size());
+    size.copy(message("CAMERA", 0) + fingerprint + header + 8, size.size());
+    const SourceReport scans = read(recording().velodyne()), pairs = read(recording().camera());
+    EXPECT_EQ(scans.delivered + pairs.delivered, 0u);
+    ASSERT_EQ(scans.refusals.size(), 1u);
+    EXPECT_NE(scans.refusals[0].reason.find("VELODYNE, event "), std::string::npos);
+    ASSERT_EQ(pairs.refusals.size(), 1u);
+  }
+}
+
+TEST_F(DamagedLog, OneWrongStampCostsOneMessage) {
+  constexpr char a_lifetime = 0x20;  // bit 61 of nanoseconds
+  for (const int n : {1, 2}) {
+    message("IMU", n)[stamp] ^= a_lifetime;
+    message("IMU", n)[available] ^= a_lifetime;
+    const SourceReport report = read(recording().imu());
+    EXPECT_EQ(report.delivered, 2u) << n;
+    EXPECT_EQ(report.refused, 1u) << n;
+    message("IMU", n)[available] ^= a_lifetime;
+    EXPECT_EQ(read(recording().imu()).refused, 1u) << "the stamp alone";
+    message("IMU", n)[stamp] ^= a_lifetime;
+  }
+}
+
+}  // namespace
+}  // namespace maploop::sensors
