@@ -25,19 +25,9 @@ class LimitedSource final : public sensors::Source<T> {
 };
 
 inline void limit(Sensors& sensors, Time end) {
-  const auto cut = [end]<class T>(std::unique_ptr<sensors::Source<T>>& source) {
-    if (source != nullptr) source = std::make_unique<LimitedSource<T>>(std::move(source), end);
-  };
-  cut(sensors.camera);
-  cut(sensors.velodyne);
-  cut(sensors.imu);
-  cut(sensors.gnss);
-  cut(sensors.epochs);
-  cut(sensors.wheel);
-  cut(sensors.reference);
-  cut(sensors.odometry);
-  cut(sensors.visual);
-  cut(sensors.lidar);
+  sensors.each_source([end]<class T>(std::unique_ptr<sensors::Source<T>>& source) {
+    source = std::make_unique<LimitedSource<T>>(std::move(source), end);
+  });
 }
 
 }  // namespace maploop::vehicle

@@ -64,6 +64,24 @@ struct Sensors {
   std::unique_ptr<sensors::Source<LidarMotion>> lidar;
   // Instead of all of these, on a live clock.
   std::optional<LiveSensors> live;
+
+  // Calls f(source) for each recorded source that is there.
+  template <class F>
+  void each_source(F&& f) {
+    const auto there = [&f](auto& source) {
+      if (source != nullptr) f(source);
+    };
+    there(camera);
+    there(velodyne);
+    there(imu);
+    there(gnss);
+    there(epochs);
+    there(wheel);
+    there(reference);
+    there(odometry);
+    there(visual);
+    there(lidar);
+  }
 };
 
 // One replay of recorded sensors through the graph. On a paced clock samples are released at their

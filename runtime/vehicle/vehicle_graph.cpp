@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mapmatch/reasons.h"
+#include "runtime/vehicle/gap_source.h"
 #include "runtime/vehicle/live_driver.h"
 #include "runtime/vehicle/prefetched_source.h"
 #include "runtime/vehicle/replay_driver.h"
@@ -234,6 +235,7 @@ std::unique_ptr<Driver<T>> Vehicle::Graph::driver(const Stage& stage,
 }
 
 Drivers Vehicle::Graph::make_drivers(Sensors& s) {
+  leave_out_leaps(s);
   LiveSensors none;
   LiveSensors& live = s.live ? *s.live : none;
   const auto recorded = [this]<class T>(const Stage& stage,

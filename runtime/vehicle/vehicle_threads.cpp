@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "msgs/input_limits.h"
 #include "runtime/core/realtime.h"
 #include "runtime/vehicle/process_usage.h"
 #include "runtime/vehicle/vehicle_graph.h"
@@ -38,11 +39,20 @@ void Vehicle::Graph::start_driver(const Stage& stage, const runtime::Scheduling&
 }
 
 void Vehicle::Graph::find_first() {
-  drivers.each([this](auto& driver) {
-    if (const auto available = driver.load_first()) first = std::min(first, *available);
+  std::vector<std::pair<std::string, Time>> firsts;
+  drivers.each([&](auto& driver) {
+    if (const auto available = driver.load_first())
+      firsts.emplace_back(driver.lateness().name(), *available);
   });
+  for (const auto& [name, begins] : firsts) first = std::min(first, begins);
   if (first == Time::max()) {
     throw std::runtime_error("the drive has not a single readable sample of any sensor");
+  }
+  for (const auto& [name, begins] : firsts) {
+    if (input_limits::within(input_limits::longest_pause, first, begins)) continue;
+    throw std::runtime_error("the first sample of '" + name + "' is from " + format_time(begins) +
+                             ", more than a day after the first of all, from " +
+                             format_time(first) + ": one of them has a wrong stamp");
   }
   begin = first;
   if (!resumed) return;
@@ -50,6 +60,10 @@ void Vehicle::Graph::find_first() {
     throw std::runtime_error("the snapshot is of another recording: its first sample is from " +
                              format_time(resumed->first) + ", and here it is from " +
                              format_time(first));
+  }
+  if (resumed->at < first) {
+    throw std::runtime_error("the snapshot is damaged: it says that it was taken at " +
+                             format_time(resumed->at) + ", before the recording begins");
   }
   begin = resumed->at + Duration(1);  // its tick is done
   drivers.each([this](auto& driver) { driver.skip_until(resumed->at); });

@@ -7,11 +7,63 @@
 #include <string>
 #include <system_error>
 
+#include "msgs/input_limits.h"
 #include "sensors/replay/files.h"
 
 namespace maploop::sensors {
+namespace {
+
+// Keeps those that a subsequence of `wanted` frames goes through; run[i] is how long it is from
+// frame i on.
+void leave_out_of_order(const std::vector<Time>& stamps, const std::filesystem::path& file,
+                        const std::vector<std::size_t>& run, std::size_t wanted,
+                        Verdicts& verdicts) {
+  const Time* last = nullptr;
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    if (verdicts[i]) continue;
+    if (run[i] == wanted && (last == nullptr || *last < stamps[i])) {
+      last = &stamps[i];
+      --wanted;
+    } else {
+      verdicts[i] = Finding{file.string(), i + 1,
+                            "time does not increase: " + format_time(stamps[i]) +
+                                " is out of order among its neighbours"};
+    }
+  }
+}
+
+// Of increasing stamps with gaps that no recording has, keeps the part with the most frames (the
+// earliest of several).
+void leave_out_of_reach(const std::vector<Time>& stamps, const std::filesystem::path& file,
+                        Verdicts& verdicts) {
+  using input_limits::longest_gap, input_limits::within;
+  struct Part {
+    std::size_t begin = 0, end = 0, frames = 0;
+  };
+  Part best, part;
+  const Time* last = nullptr;
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    if (verdicts[i]) continue;
+    if (last != nullptr && !within(longest_gap, *last, stamps[i])) part = {i, i, 0};
+    last = &stamps[i];
+    part = {part.begin, i + 1, part.frames + 1};
+    if (part.frames > best.frames) best = part;
+  }
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    if (verdicts[i] || (i >= best.begin && i < best.end)) continue;
+    verdicts[i] = Finding{file.string(), i + 1,
+                          format_time(stamps[i]) + " is more than an hour from the other stamps"};
+  }
+}
+
+}  // namespace
 
 Timestamps parse_timestamps(std::string_view text, const std::filesystem::path& file) {
+  if (static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) > input_limits::frames) {
+    throw std::runtime_error("'" + file.string() + "' has more than " +
+                             std::to_string(input_limits::frames) +
+                             " lines; restore the file from KITTI's archive");
+  }
   Timestamps result{file, {}, {}};
   bool any = false;
   for (const std::string_view line : split_lines(text)) {
@@ -36,14 +88,12 @@ Timestamps parse_timestamps(std::string_view text, const std::filesystem::path& 
 }
 
 Timestamps read_timestamps(const std::filesystem::path& file) {
-  std::string text;
   try {
-    text = read_text(file);
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error("time stamps '" + file.string() + "': " + error.what() +
+    return parse_timestamps(read_text(file), file);
+  } catch (const FileError& error) {
+    throw std::runtime_error("time stamps '" + file.string() + "': " + error.reason() +
                              "; restore the file from KITTI's archive");
   }
-  return parse_timestamps(text, file);
 }
 
 std::optional<Finding> verdict(const Timestamps& timestamps, std::size_t i) {
@@ -67,19 +117,8 @@ void refuse_out_of_order(const std::vector<Time>& stamps, const std::filesystem:
       *head = stamps[i];
     }
   }
-  std::size_t wanted = heads.size();
-  const Time* last = nullptr;
-  for (std::size_t i = 0; i < stamps.size(); ++i) {
-    if (verdicts[i]) continue;
-    if (run[i] == wanted && (last == nullptr || *last < stamps[i])) {
-      last = &stamps[i];
-      --wanted;
-    } else {
-      verdicts[i] = Finding{file.string(), i + 1,
-                            "time does not increase: " + format_time(stamps[i]) +
-                                " is out of order among its neighbours"};
-    }
-  }
+  leave_out_of_order(stamps, file, run, heads.size(), verdicts);
+  leave_out_of_reach(stamps, file, verdicts);
 }
 
 std::vector<Finding> files_without_stamp(const std::filesystem::path& folder, std::size_t frames) {

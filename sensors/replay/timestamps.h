@@ -36,7 +36,8 @@ std::optional<Finding> verdict(const Timestamps& timestamps, std::size_t i);
 
 // Gives a verdict to the frames that break the order of time. Of those that still stand, the
 // longest strictly increasing subsequence stays (the earliest of several), so that one wrong stamp
-// costs one frame and not all that follow it. `file` is the one to blame.
+// costs one frame and not all that follow it. Of what is more than input_limits::longest_gap apart
+// stays the part with the most frames. `file` is the one to blame.
 void refuse_out_of_order(const std::vector<Time>& stamps, const std::filesystem::path& file,
                          Verdicts& verdicts);
 

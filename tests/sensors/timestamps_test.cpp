@@ -88,6 +88,19 @@ TEST(TimeOrder, OneStampFarBehindIsRefusedAlone) {
   EXPECT_EQ(remaining({11, 12, 0, 13, 14}), (Frames{0, 1, 3, 4}));
 }
 
+TEST(TimeOrder, OfStampsHoursApartTheLongestPartStays) {
+  constexpr int hours = 3600;
+  EXPECT_EQ(remaining({1, 2, 3, 3 + hours}), (Frames{0, 1, 2, 3})) << "not more than an hour";
+  EXPECT_EQ(remaining({1, 2, 3, 4 + hours}), (Frames{0, 1, 2})) << "at the end";
+  EXPECT_EQ(remaining({1, 2 * hours, 2 * hours + 1}), (Frames{1, 2})) << "at the begin";
+  EXPECT_EQ(remaining({1, 2, 9 * hours, 9 * hours + 1}), (Frames{0, 1})) << "the earliest of two";
+}
+
+TEST(Timestamps, OfMoreFramesThanARecordingHasAreRefused) {
+  EXPECT_THROW(parse("2011-09-26 13:10:51\n" + std::string(3'000'000, '\n') + "x"),
+               std::runtime_error);
+}
+
 TEST(TimeOrder, ReversedStampsLeaveOne) {
   EXPECT_EQ(remaining({5, 4, 3, 2, 1}), (Frames{0}));
 }
