@@ -29,7 +29,7 @@ constexpr std::array<Air, 5> amplitude{{{0.0, 0.0, 0.0, 0.0, 0.0},
 Air air_at(const Geodetic& site, GpsTime t) {
   const double latitude = std::abs(site.latitude) * 180.0 / std::numbers::pi;
   const double place = std::clamp(latitude / 15.0 - 1.0, 0.0, 4.0);
-  const auto i = std::min<std::size_t>(3, static_cast<std::size_t>(place));
+  const auto i = static_cast<std::size_t>(std::fmin(3.0, place));  // a place that is none is at 3
   const double share = place - static_cast<double>(i);
   const double coldest = site.latitude < 0.0 ? 211.0 : 28.0;
   const double season = std::cos(2.0 * std::numbers::pi * (day_of_year(t) - coldest) / 365.25);

@@ -53,7 +53,21 @@ PhaseCentre read_carrier(Lines& lines, const Antenna& antenna) {
   return carrier;
 }
 
+// The carriers are rows of the grid that was said before them.
+void require_no_carrier(const Lines& lines, const Antenna& antenna) {
+  if (!antenna.carriers.empty()) lines.fail("the grid of angles comes behind a carrier");
+}
+
+void read_azimuth_grid(const Lines& lines, Antenna& antenna) {
+  require_no_carrier(lines, antenna);
+  antenna.azimuth_step = lines.number(2, 6, "azimuth step");
+  if (antenna.azimuth_step != 0 && !(antenna.azimuth_step >= 0.1 && antenna.azimuth_step <= 180)) {
+    lines.fail("a step of azimuths is 0.1 to 180 degrees, or 0");
+  }
+}
+
 void read_zenith_grid(const Lines& lines, Antenna& antenna) {
+  require_no_carrier(lines, antenna);
   antenna.zenith_first = lines.number(2, 6, "zenith angle");
   antenna.zenith_last = lines.number(8, 6, "zenith angle");
   antenna.zenith_step = lines.number(14, 6, "zenith step");
@@ -76,10 +90,7 @@ Antenna read_antenna(Lines& lines, int& refused) {
         antenna.satellite = parse_satellite(antenna.serial);
       }
     } else if (name == "DAZI") {
-      antenna.azimuth_step = lines.number(2, 6, "azimuth step");
-      if (antenna.azimuth_step < 0 || (antenna.azimuth_step > 0 && antenna.azimuth_step < 0.1)) {
-        lines.fail("no step of azimuths");
-      }
+      read_azimuth_grid(lines, antenna);
     } else if (name == "ZEN1 / ZEN2 / DZEN") {
       read_zenith_grid(lines, antenna);
     } else if (name == "VALID FROM") {

@@ -1,6 +1,9 @@
 #include "ppp/readers/sp3.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "msgs/input_limits.h"
 
 namespace maploop::ppp {
 namespace {
@@ -41,6 +44,12 @@ void read_point(const Lines& lines, OrbitFile& result) {
 }
 
 }  // namespace
+
+// How many points a text of this size has at most, with room for epochs that lack many of them.
+std::size_t points_in(std::string_view text) {
+  constexpr std::size_t line = 46, share = 8;  // bytes of a position; one in so many is there
+  return std::min(input_limits::orbit_points, share * (text.size() / line));
+}
 
 OrbitFile parse_sp3(std::string_view text, const std::string& file) {
   OrbitFile result;
@@ -83,6 +92,11 @@ OrbitFile parse_sp3(std::string_view text, const std::string& file) {
       }
       for (auto& [satellite, points] : result.points) points.resize(result.epochs.size());
       result.epochs.push_back(t);
+      // A whole epoch has a line for each listed satellite.
+      if (result.epochs.size() * result.points.size() > points_in(text)) {
+        lines.fail("the file is too short for its epochs of " +
+                   std::to_string(result.points.size()) + " satellites");
+      }
     } else if (!line.empty() && line[0] == 'P') {
       if (result.epochs.empty()) lines.fail("a position before the first epoch");
       if (!lines.whole()) {

@@ -45,7 +45,7 @@ Truth::Truth(const std::string& text, GpsTime near) {
     const auto line = lines.line();
     if (line.empty() || line[0] == '%' || line.find_first_of("0123456789") != 0) continue;
     if (line.size() > 10 && line[4] == '/') {
-      const auto values = numbers(lines, std::string(line.substr(23)));
+      const auto values = numbers(lines, std::string(columns(line, 23, std::string_view::npos)));
       if (values.size() < 5) lines.fail("a row of .pos has a stamp, XYZ, quality and satellites");
       if (values[3] != 1.0) continue;
       std::string stamp(line.substr(0, 23));

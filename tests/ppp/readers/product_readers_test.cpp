@@ -1,6 +1,9 @@
 // Navigation, orbits, clocks, antennas, biases, earth rotation and loading: values of real files.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdio>
+
 #include "ppp/gnss_files.h"
 #include "tests/support/real_data.h"
 
@@ -117,6 +120,70 @@ TEST(ProductReaders, EarthRotationVersion2) {
   ASSERT_EQ(days.size(), 1U);
   EXPECT_DOUBLE_EQ(days[0].ut1_minus_utc, -0.2234567);
   EXPECT_NEAR(days[0].x_pole, 0.143212 / 206264.806, 1e-12);
+}
+
+// An antenna with `rows` rows of azimuths `step` degrees apart, of zenith angles 0 and 5.
+std::string antex(double step, int rows, const std::string& behind = "") {
+  const auto line = [](std::string text, const std::string& label) {
+    text.resize(60, ' ');
+    return text + label + "\n";
+  };
+  std::array<char, 16> dazi{};
+  std::snprintf(dazi.data(), dazi.size(), "  %6.1f", step);
+  std::string text =
+      line("     1.4            M", "ANTEX VERSION / SYST") + line("A", "PCV TYPE / REFANT") +
+      line("", "END OF HEADER") + line("", "START OF ANTENNA") +
+      line("TRM59800.00     NONE", "TYPE / SERIAL NO") + line(dazi.data(), "DAZI") +
+      line("     0.0   5.0   5.0", "ZEN1 / ZEN2 / DZEN") + line("   G01", "START OF FREQUENCY") +
+      line("      1.00      0.00     80.00", "NORTH / EAST / UP") + "   NOAZI    0.00    1.00\n";
+  for (int i = 0; i < rows; ++i) text += "     0.0    0.00    1.00\n";
+  return text + line("   G01", "END OF FREQUENCY") + behind + line("", "END OF ANTENNA");
+}
+
+std::string antex_refusal(const std::string& text) {
+  try {
+    parse_antex(text, "a.atx");
+  } catch (const ReadError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(ProductReaders, AnAntennasStepOfAzimuthsFitsTheCircle) {
+  EXPECT_EQ(antex_refusal(antex(90.0, 5)), "");
+  EXPECT_EQ(antex_refusal(antex(180.0, 3)), "");
+  EXPECT_NE(antex_refusal(antex(720.0, 1)).find("a.atx:6: a step of azimuths"), std::string::npos);
+  std::string dazi = "     0.0";
+  dazi.resize(60, ' ');
+  EXPECT_NE(antex_refusal(antex(90.0, 5, dazi + "DAZI\n")).find("behind a carrier"),
+            std::string::npos);
+}
+
+TEST(ProductReaders, OrbitsOfEpochsWithoutPositionsAreNotBelieved) {
+  std::string satellites = "+  594   ", epochs;
+  for (int i = 0; i < 594; ++i) {
+    std::array<char, 8> name{};
+    std::snprintf(name.data(), name.size(), "%c%02d", "GRECJI"[i / 99], 1 + i % 99);
+    if (i > 0 && i % 17 == 0) satellites += "\n+        ";
+    satellites += name.data();
+  }
+  for (int i = 0; i < 2000; ++i) {
+    std::array<char, 40> line{};
+    std::snprintf(line.data(), line.size(), "*  2020  6 25 %2d %2d %2d.00000000\n", i / 3600,
+                  i / 60 % 60, i % 60);
+    epochs += line.data();
+  }
+  const std::string text =
+      "#dP2020  6 25  0  0  0.00000000      96 ORBIT IGS14 HLM  IGS\n"
+      "## 2111 345600.00000000   900.00000000 59025 0.0000000000000\n" +
+      satellites + "\n%c M  cc GPS ccc cccc cccc cccc cccc ccccc ccccc ccccc ccccc\n" + epochs;
+  try {
+    parse_sp3(text, "a.sp3");
+    FAIL();
+  } catch (const ReadError& error) {
+    EXPECT_NE(std::string(error.what()).find("too short for its epochs of"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(ProductReaders, AFileOfNoKindIsNamed) {
