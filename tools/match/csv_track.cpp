@@ -11,12 +11,11 @@
 #include <vector>
 
 #include "msgs/frames.h"
+#include "tools/match/cells.h"
 #include "tools/match/track_time.h"
 
 namespace maploop::match {
 namespace {
-
-using Cells = std::vector<std::string_view>;
 
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
@@ -25,16 +24,6 @@ std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(blank);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(blank) - first + 1);
-}
-
-Cells split(std::string_view line, char separator) {
-  Cells cells;
-  while (true) {
-    const auto end = line.find(separator);
-    cells.push_back(trimmed(line.substr(0, end)));
-    if (end == std::string_view::npos) return cells;
-    line = line.substr(end + 1);
-  }
 }
 
 char separator_of(std::string_view header) {
@@ -130,7 +119,7 @@ class Reader {
       if (columns_.empty()) {
         take_header(line);
       } else {
-        track.push_back(fix(split(line, separator_)));
+        keep(fix(cells_of(line)), name_, track);
       }
     }
     if (columns_.empty()) fail("the file is empty");
@@ -142,9 +131,17 @@ class Reader {
     throw std::runtime_error(std::string(name_) + ":" + std::to_string(line_) + ": " + what);
   }
 
+  Cells cells_of(std::string_view line) const {
+    Cells cells = split(line, separator_);
+    if (cells.size() > input_limits::columns)
+      fail("more than " + std::to_string(input_limits::columns) + " columns");
+    std::transform(cells.begin(), cells.end(), cells.begin(), trimmed);
+    return cells;
+  }
+
   void take_header(std::string_view line) {
     separator_ = separator_of(line);
-    const Cells cells = split(line, separator_);
+    const Cells cells = cells_of(line);
     for (std::size_t i = 0; i < cells.size(); ++i) {
       std::string name(cells[i]);
       std::transform(name.begin(), name.end(), name.begin(),

@@ -69,7 +69,7 @@ Track parse_gpx_track(std::string_view text, std::string_view name, const TrackO
     fix.speed = number(child(inside, "speed"));
     fix.azimuth = radians(number(child(inside, "course")));
     fix.hdop = number(child(inside, "hdop"));
-    track.push_back(fix);
+    keep(fix, name, track);
     at = end;
   }
   return track;

@@ -8,21 +8,11 @@
 
 #include "msgs/lcm/channel_names.h"
 #include "tools/evaluation/text_file.h"
+#include "tools/match/cells.h"
 #include "tools/match/log_messages.h"
 
 namespace maploop::match {
 namespace {
-
-std::vector<std::string_view> split_cells(std::string_view line) {
-  while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
-  std::vector<std::string_view> cells;
-  for (;;) {
-    const auto end = line.find(',');
-    cells.push_back(line.substr(0, end));
-    if (end == std::string_view::npos) return cells;
-    line.remove_prefix(end + 1);
-  }
-}
 
 class MatchFileReader {
  public:
@@ -34,9 +24,11 @@ class MatchFileReader {
     std::string_view rest = text;
     while (!rest.empty()) {
       const auto end = rest.find('\n');
-      const auto cells = split_cells(rest.substr(0, end));
+      const auto cells = split(rest.substr(0, end), ',');
       rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
       ++line_;
+      if (cells.size() > input_limits::columns)
+        fail("more than " + std::to_string(input_limits::columns) + " columns");
       if (line_ == 1) {
         find_columns(cells);
       } else if (cells.size() > 1) {
@@ -92,7 +84,11 @@ class MatchFileReader {
       }
       if (!(matched.p_link >= 0.0 && matched.p_link <= 1.0)) fail("p_link is not from 0 to 1");
     }
-    matches.push_back({Time(from_seconds(number<double>(cells, time_))), matched});
+    try {
+      matches.push_back({Time(checked_seconds(number<double>(cells, time_))), matched});
+    } catch (const std::invalid_argument& e) {
+      fail(e.what());
+    }
   }
 
   std::filesystem::path file_;

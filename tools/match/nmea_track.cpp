@@ -4,9 +4,9 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "msgs/frames.h"
+#include "tools/match/cells.h"
 #include "tools/match/track_file.h"
 #include "tools/match/track_time.h"
 
@@ -14,8 +14,6 @@ namespace maploop::match {
 namespace {
 
 constexpr double knot = 1852.0 / 3600.0;  // m/s
-
-using Fields = std::vector<std::string_view>;
 
 double number(std::string_view text) {
   double value = 0.0;
@@ -26,7 +24,7 @@ double number(std::string_view text) {
 }
 
 // The fields between '$' and '*'; none where the checksum is wrong.
-std::optional<Fields> sentence(std::string_view line) {
+std::optional<Cells> sentence(std::string_view line) {
   while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
   if (line.size() < 7 || line.front() != '$') return {};
   line.remove_prefix(1);
@@ -38,13 +36,7 @@ std::optional<Fields> sentence(std::string_view line) {
     if (sum != said) return {};
     line = line.substr(0, star);
   }
-  Fields fields;
-  while (true) {
-    const auto comma = line.find(',');
-    fields.push_back(line.substr(0, comma));
-    if (comma == std::string_view::npos) return fields;
-    line = line.substr(comma + 1);
-  }
+  return split(line, ',');
 }
 
 // "4858.95", "N" in rad.
@@ -57,9 +49,9 @@ double angle(std::string_view digits, std::string_view hemisphere) {
 
 class Reader {
  public:
-  explicit Reader(const TrackOptions& options) : options_(options) {}
+  Reader(std::string_view name, const TrackOptions& options) : name_(name), options_(options) {}
 
-  void take(const Fields& f) {
+  void take(const Cells& f) {
     const std::string_view kind = f[0].size() >= 3 ? f[0].substr(f[0].size() - 3) : f[0];
     if (kind == "RMC" && f.size() >= 10 && f[2] == "A") {
       date_ = f[9];
@@ -99,7 +91,7 @@ class Reader {
     fix.position.latitude = fix.position.longitude = mapmatch::unknown;
     fix.covariance = options_.sigma * options_.sigma * Eigen::Matrix2d::Identity();
     fix.stamp = stamp(time);
-    track_.push_back(fix);
+    keep(fix, name_, track_);
     return track_.back();
   }
 
@@ -113,6 +105,7 @@ class Reader {
     return parse_track_time(text).value_or(Time{});
   }
 
+  std::string_view name_;
   const TrackOptions& options_;
   Track track_;
   std::string_view time_;
@@ -122,7 +115,7 @@ class Reader {
 }  // namespace
 
 Track parse_nmea_track(std::string_view text, std::string_view name, const TrackOptions& options) {
-  Reader reader(options);
+  Reader reader(name, options);
   while (!text.empty()) {
     const auto end = text.find('\n');
     if (const auto fields = sentence(text.substr(0, end))) reader.take(*fields);

@@ -50,6 +50,9 @@ Track parse_tum_track(std::string_view text, std::string_view name,
   Track track;
   std::vector<Pose> poses;
   int line_number = 0;
+  const auto fail = [&](const std::string& what) {
+    throw std::runtime_error(std::string(name) + ":" + std::to_string(line_number) + ": " + what);
+  };
   while (!text.empty()) {
     ++line_number;
     const auto end = text.find('\n');
@@ -59,13 +62,16 @@ Track parse_tum_track(std::string_view text, std::string_view name,
     double t = 0.0, x = 0.0, y = 0.0, z = 0.0, qx = 0.0, qy = 0.0, qz = 0.0, qw = 0.0;
     if (std::sscanf(line.c_str(), "%lf %lf %lf %lf %lf %lf %lf %lf", &t, &x, &y, &z, &qx, &qy, &qz,
                     &qw) != 8)
-      throw std::runtime_error(std::string(name) + ":" + std::to_string(line_number) +
-                               ": not 't x y z qx qy qz qw'");
+      fail("not 't x y z qx qy qz qw'");
     mapmatch::VehicleFix fix;
-    fix.stamp = Time(from_seconds(t));
+    try {
+      fix.stamp = Time(checked_seconds(t));
+    } catch (const std::invalid_argument& e) {
+      fail(e.what());
+    }
     fix.position = frame.to_geodetic({x, y, 0.0});
     fix.covariance = options.sigma * options.sigma * Eigen::Matrix2d::Identity();
-    track.push_back(fix);
+    keep(fix, name, track);
     poses.push_back({{x, y}, Eigen::Quaterniond(qw, qx, qy, qz).normalized().toRotationMatrix()});
   }
   if (const int axis = forward_axis(poses); axis >= 0) {

@@ -52,6 +52,26 @@ TEST(CsvTrack, MistakesAreNamedWithTheirLine) {
   EXPECT_THAT(csv_refusal("t,lat,lon\nnoon,49,8\n"), HasSubstr("a.csv:2: 'noon' is not a time"));
 }
 
+TEST(CsvTrack, ALineOfColumnsWithoutEndIsRefused) {
+  EXPECT_THAT(csv_refusal("t,lat,lon\n1,49,8" + std::string(1'000'000, ',')),
+              HasSubstr("a.csv:2: more than 1024 columns"));
+  EXPECT_THAT(csv_refusal("t,lat,lon" + std::string(1'000'000, ',')),
+              HasSubstr("a.csv:1: more than 1024 columns"));
+}
+
+TEST(CsvTrack, MoreFixesThanATrackHasAreRefused) {
+  std::string text = "t,lat,lon\n";
+  for (int i = 0; i < 300'000; ++i) text += std::to_string(i) + ",49,8\n";
+  EXPECT_THAT(csv_refusal(text), HasSubstr("a.csv: more than 262144 fixes"));
+}
+
+TEST(TumTrack, AStampThatIsNoTimeIsRefusedWithItsLine) {
+  TrackFileOptions options;
+  options.origin = Geodetic{0.8, 0.1, 0.0};
+  EXPECT_THAT(refusal([&] { parse_tum_track("1e300 0 0 0 0 0 0 1\n", "a.tum", options); }),
+              HasSubstr("a.tum:1: "));
+}
+
 TEST(CsvTrack, OxtsOfARecordedDriveIsATrack) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const Track track =
