@@ -1,5 +1,6 @@
 #include <exception>
 #include <iostream>
+#include <new>
 
 #include "tools/commands.h"
 #include "tools/usage_error.h"
@@ -34,6 +35,9 @@ int main(int argc, char** argv) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
     std::cerr << maploop::tools::usage_error(app, e);
     return maploop::tools::exit_usage;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "maploop: this machine has too little memory for what was asked\n";
+    return 1;
   } catch (const std::exception& e) {
     std::cerr << "maploop: " << e.what() << '\n';
     return 1;

@@ -135,9 +135,13 @@ class LossAccount {
     if (!open_) return;
     open_->before_us = time_us;
     // More events than the bytes could hold: one of the numbers is damaged itself.
-    const auto room = static_cast<std::int64_t>((open_->end - open_->begin) / kSmallestEvent);
-    if (number && *number > last_number_ && *number - last_number_ - 1 <= room) {
-      result_.lost_events += static_cast<std::uint64_t>(*number - last_number_ - 1);
+    const std::uint64_t room = (open_->end - open_->begin) / kSmallestEvent;
+    // As unsigned numbers their distance overflows nothing.
+    const std::uint64_t missing =
+        number ? static_cast<std::uint64_t>(*number) - static_cast<std::uint64_t>(last_number_) - 1
+               : 0;
+    if (number && *number > last_number_ && missing <= room) {
+      result_.lost_events += missing;
       if (*number > last_number_ + 1) {
         open_->first_event = last_number_ + 1;
         open_->last_event = *number - 1;

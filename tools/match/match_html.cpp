@@ -123,10 +123,10 @@ mapmatch::Box box_of(const MatchedTrack& track, const mapmatch::RoadNetwork& net
   return box;
 }
 
-// Inside a script element "</" would end it.
+// Inside a script element "</" would end it, and "<!--" would hide its end.
 std::string script_safe(std::string text) {
-  for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3)
-    text.replace(at, 2, "<\\/");
+  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;)
+    text.replace(at, 1, "\\u003c");
   return text;
 }
 

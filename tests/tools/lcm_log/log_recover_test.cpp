@@ -91,6 +91,15 @@ TEST_F(LogToolsTest, RecoverOfWhatHoldsNoEventWritesNothing) {
   EXPECT_THROW(recover(log_, types(), log_), std::invalid_argument);
 }
 
+TEST_F(LogToolsTest, RecoverCountsWithNumbersThatAreFarApart) {
+  auto bytes = read_bytes(log_);
+  bytes[offsets_[3]] ^= 0xffU;      // no event: a loss
+  bytes[offsets_[4] + 4] ^= 0x7fU;  // the number of the event behind it
+  bytes[offsets_[2] + 4] ^= 0x80U;  // and before it
+  write_bytes(log_, bytes);
+  EXPECT_EQ(recover(log_, types(), out_).events, drive_.size() - 1);
+}
+
 TEST_F(LogToolsTest, RecoveredLogsAreSoundWhateverWasDamaged) {
   const auto whole = read_bytes(log_);
   std::mt19937 random(20110926);
