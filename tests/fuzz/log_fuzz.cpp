@@ -1,0 +1,22 @@
+// LCM logs: what can be read of any bytes, and that what is recovered from them is sound.
+#include <stdexcept>
+
+#include "msgs/lcm/checked_decode.h"
+#include "tests/fuzz/fuzz_input.h"
+#include "tools/lcm_log/log_recover.h"
+#include "tools/lcm_log/log_verify.h"
+
+using namespace maploop;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const fuzz::NamedFile log("damaged.lcmlog"), recovered("recovered.lcmlog");
+  log.write({data, size});
+  try {
+    lcm_log::verify(log.path(), schema::own_schema());
+    const auto recovery = lcm_log::recover(log.path(), schema::own_schema(), recovered.path());
+    const auto sound = lcm_log::verify(recovered.path(), schema::own_schema());
+    fuzz::require(sound.finding_count == 0 && sound.events == recovery.events);
+  } catch (const std::runtime_error&) {
+  }
+  return 0;
+}
