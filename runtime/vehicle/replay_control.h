@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "msgs/lcm/schema.h"
 #include "msgs/time.h"
 #include "runtime/vehicle/player.h"
 

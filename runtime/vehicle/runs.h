@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "msgs/lcm/schema.h"
 #include "msgs/time.h"
 
 namespace lcm {
