@@ -36,36 +36,39 @@ MonotonicTime monotonic_now() {
   return std::chrono::time_point_cast<Duration>(std::chrono::steady_clock::now());
 }
 
-DataClock::DataClock(double speed, bool paced, bool live)
-    : paced_(paced), live_(live), speed_(checked_speed(speed)) {}
+DataClock::DataClock(double speed, bool paced, bool live) : paced_(paced), live_(live) {
+  slots_[0].speed = checked_speed(speed);
+}
 
 DataClock::DataClock(const DataClock& other)
-    : paced_(other.paced_), live_(other.live_), speed_(other.speed()) {}
+    : DataClock(other.speed(), other.paced_, other.live_) {}
 
 void DataClock::start(Time first, MonotonicTime due) {
   set_schedule({first, due, speed()});
 }
 
-// Sequence lock after Boehm, "Can seqlocks get along with programming language memory models?"
-// (MSPC 2012); acquire and release on the data itself instead of fences, which the thread sanitizer
-// does not know: whoever reads a value of the new schedule also sees its odd version.
+// The slot of a schedule is written again when as many newer ones have been completed as there are
+// slots, less the one that is being written: only then is it read once more. Acquire and release on
+// the data itself, after Boehm, "Can seqlocks get along with programming language memory models?"
+// (MSPC 2012): whoever reads a value of a newer schedule also sees the number of the one before it.
 DataClock::Schedule DataClock::schedule() const {
   for (;;) {
-    const std::uint32_t before = version_.load(std::memory_order_acquire);
-    const Schedule s{from_nanoseconds(data_.load(std::memory_order_acquire)),
-                     MonotonicTime(Duration(wall_.load(std::memory_order_acquire))),
-                     speed_.load(std::memory_order_acquire)};
-    if (before % 2 == 0 && version_.load(std::memory_order_relaxed) == before) return s;
+    const std::uint32_t before = newest_.load(std::memory_order_acquire);
+    const Slot& slot = slots_[before % slots];
+    const Schedule s{from_nanoseconds(slot.data.load(std::memory_order_acquire)),
+                     MonotonicTime(Duration(slot.wall.load(std::memory_order_acquire))),
+                     slot.speed.load(std::memory_order_acquire)};
+    if (newest_.load(std::memory_order_relaxed) - before < slots - 1) return s;
   }
 }
 
 void DataClock::set_schedule(const Schedule& s) {
-  const std::uint32_t version = version_.load(std::memory_order_relaxed);
-  version_.store(version + 1, std::memory_order_relaxed);
-  data_.store(to_nanoseconds(s.data), std::memory_order_release);
-  wall_.store(s.wall.time_since_epoch().count(), std::memory_order_release);
-  speed_.store(s.speed, std::memory_order_release);
-  version_.store(version + 2, std::memory_order_release);
+  const std::uint32_t next = newest_.load(std::memory_order_relaxed) + 1;
+  Slot& slot = slots_[next % slots];
+  slot.data.store(to_nanoseconds(s.data), std::memory_order_release);
+  slot.wall.store(s.wall.time_since_epoch().count(), std::memory_order_release);
+  slot.speed.store(s.speed, std::memory_order_release);
+  newest_.store(next, std::memory_order_release);
 }
 
 MonotonicTime DataClock::scheduled(Time t) const {

@@ -1,6 +1,7 @@
 // The data's time on this machine: when a stamp falls due.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <stop_token>
 
@@ -37,7 +38,7 @@ class DataClock {
   bool is_live() const { return live_; }
   // Whether t falls due at a moment of its own: neither in virtual time nor skipped over.
   bool keeps_time(Time t) const { return paced_ && !skipping(t); }
-  double speed() const { return speed_.load(std::memory_order_relaxed); }
+  double speed() const { return schedule().speed; }
 
   // When t is due; in virtual time, and for what is skipped: now.
   MonotonicTime due(Time t) const;
@@ -96,11 +97,16 @@ class DataClock {
 
   bool paced_;
   bool live_;
-  // The schedule, written by one thread: an odd version is being written.
-  std::atomic<std::uint32_t> version_{0};
-  std::atomic<std::int64_t> data_{0};
-  std::atomic<std::int64_t> wall_{0};
-  std::atomic<double> speed_;
+  // The last schedules, written by one thread. A reader takes the newest that is complete: it never
+  // waits for a writer, which may have a lower priority and be held up in the middle.
+  struct Slot {
+    std::atomic<std::int64_t> data{0};
+    std::atomic<std::int64_t> wall{0};
+    std::atomic<double> speed{1.0};
+  };
+  static constexpr std::uint32_t slots = 4;
+  std::array<Slot, slots> slots_;
+  std::atomic<std::uint32_t> newest_{0};  // its slot is the remainder
 
   std::atomic<std::int64_t> skip_to_{to_nanoseconds(Time::min())};
   std::atomic<std::int64_t> pause_at_{to_nanoseconds(Time::max())};
