@@ -16,7 +16,8 @@ void ClockOffset::restart(Point p) {
   first_ = 0;
   count_ = 1;
   points_[0] = anchor_ = p;
-  bucket_began_ = p.device;
+  bucket_began_ = newest_ = p.device;
+  late_buckets_ = 0;
   slope_ = 0.0;
   delay_ = {};
   late_ = false;
@@ -32,11 +33,18 @@ bool ClockOffset::add(Duration device, Time arrival) {
   const bool was_late = late_;
   late_ = delay_ > parameters_.jump;
   if (late_ && !was_late) late_since_ = arrival;
-  if (delay_ < -parameters_.jump || (late_ && arrival - late_since_ > parameters_.patience)) {
+  if (delay_ < -parameters_.jump || device < newest_ - parameters_.reordered ||
+      (late_ && arrival - late_since_ > parameters_.patience)) {
     restart(p);
     return true;
   }
+  newest_ = std::max(newest_, device);
   if (device - bucket_began_ >= parameters_.bucket) {
+    const Point& complete = point(count_ - 1);
+    if (set_back(complete.offset - line_at(complete.device))) {
+      restart(p);
+      return true;
+    }
     if (count_ == most_buckets) {
       first_ = (first_ + 1) % most_buckets;
     } else {
@@ -52,6 +60,19 @@ bool ClockOffset::add(Duration device, Time arrival) {
   if (p.offset < line_at(device)) anchor_ = p;
   delay_ = std::max(delay_, Duration::zero());
   return false;
+}
+
+// Whether the last buckets say so, the newest of which is `late`. A busy way delays now more, now
+// less.
+bool ClockOffset::set_back(Duration late) {
+  if (late < parameters_.step) {
+    late_buckets_ = 0;
+    return false;
+  }
+  const bool the_same = late_buckets_ > 0 && std::chrono::abs(late - late_by_) < parameters_.steady;
+  late_buckets_ = the_same ? late_buckets_ + 1 : 1;
+  if (!the_same) late_by_ = late;
+  return late_buckets_ >= parameters_.step_buckets;
 }
 
 // The edge of the lower convex hull above the middle of the time seen; before a drift shows, the

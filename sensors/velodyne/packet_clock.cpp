@@ -31,8 +31,8 @@ PacketTime PacketClock::stamp(std::uint32_t device_time, Duration period, Time a
   const Duration step = first ? Duration::zero() : step_of(*last_, device_time);
   if (!first) judge(step, arrival_step);
   const bool in_hour = device_time < hour_us;
+  constexpr Duration reordered = std::chrono::milliseconds(50);
   if (has_device_time() && in_hour) {
-    constexpr Duration reordered = std::chrono::milliseconds(50);
     if (step <= Duration::zero() && step > -reordered) {
       time.late = true;
       return time;
@@ -45,9 +45,14 @@ PacketTime PacketClock::stamp(std::uint32_t device_time, Duration period, Time a
   last_ = device_time;
   last_arrival_ = arrival;
   const Time sent = arrival - period;
-  // No message waits so long: the scanner was switched off, or its clock was set.
+  // A clock that goes back was set. After a pause of the arrivals the next packet is one that the
+  // way has held up, and the line knows its time; any other is of a scanner that was switched off.
+  // Without a line, any disagreement begins it anew.
   constexpr Duration restarted = std::chrono::seconds(1);
-  const bool jumped = !first && std::chrono::abs(step - arrival_step) > restarted;
+  const Duration pause = arrival_step - step;
+  const bool jumped =
+      !first && (has_device_time() ? step <= -reordered || (pause > restarted && step > 2 * period)
+                                   : std::chrono::abs(pause) > restarted);
   if (jumped) offset_ = ClockOffset();
   const bool drifted_away = in_hour && offset_.add(device_, sent);
   if (has_device_time() && (jumped || drifted_away)) ++jumps_;

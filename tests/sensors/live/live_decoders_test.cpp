@@ -65,6 +65,39 @@ TEST(ClockOffset, StartsAnewAfterAJumpAndNotAfterAHiccup) {
   EXPECT_NEAR(to_seconds(clock.to_host(from_seconds(52.0)) - begin), 7.0, 1e-6);
 }
 
+TEST(ClockOffset, AClockThatIsSetBackALittleIsWrongForSecondsOnly) {
+  for (const double by : {0.1, 0.3, 0.45}) {
+    for (const bool seen : {false, true}) {  // whether the messages' times go back with it
+      ClockOffset clock;
+      int jumps = 0;
+      double wrong_until = 0.0;
+      for (int i = 0; i < 6000; ++i) {
+        const double host = 0.01 * i;
+        const double device = host < 20.0 ? host : host - by;
+        if (!seen && host >= 20.0 && host < 20.0 + by) continue;  // repeated times were left out
+        const Time arrival = begin + from_seconds(host + 0.002);
+        jumps += clock.add(from_seconds(device), arrival);
+        const double error = to_seconds(clock.to_host(from_seconds(device)) - arrival);
+        if (std::fabs(error) > 1e-3) wrong_until = host;
+      }
+      EXPECT_EQ(jumps, 1) << by;
+      EXPECT_LT(wrong_until, seen ? 20.0 : 25.5) << by;
+    }
+  }
+}
+
+TEST(ClockOffset, ABusyWayIsNoClockThatWasSetBack) {
+  ClockOffset clock;
+  std::mt19937 random(7);
+  for (int i = 0; i < 6000; ++i) {
+    const double host = 0.01 * i;
+    const bool busy = host > 20.0 && host < 40.0;  // no message within 50 ms for seconds
+    const double way = busy ? 0.06 + 0.02 * std::floor(host - 20.0) + 1e-3 * (random() % 50) : 0.0;
+    EXPECT_FALSE(clock.add(from_seconds(host), begin + from_seconds(host + way))) << host;
+    EXPECT_NEAR(to_seconds(clock.to_host(from_seconds(host)) - begin), host, 5e-3);
+  }
+}
+
 TEST(Nmea, TakesOnlyWholeSentences) {
   const auto good =
       parse_nmea("$GPRMC,214106,A,3707.8178,N,12139.2690,W,010.3,188.2,230715,013.8,E,D*05\r\n");

@@ -1,6 +1,7 @@
 // Made packets: what goes wrong on the way, and what the clock makes of it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -35,7 +36,8 @@ class Vlp16 {
   DataBytes next() {
     now_ += period;
     const double turned = to_seconds(now_ - begin) * 10.0 * 36000.0 + 18000.0;
-    const std::int64_t us = (3'599'500'000 + (now_ - begin) / microseconds(1)) % 3'600'000'000;
+    const std::int64_t us =
+        (3'599'500'000 + (now_ - begin + clock_set_) / microseconds(1)) % 3'600'000'000;
     return data_packet(std::fmod(turned, 36000.0), 39.8, static_cast<std::uint32_t>(us), range,
                        mode);
   }
@@ -44,6 +46,7 @@ class Vlp16 {
     LidarScan scan;
     if (decoder_.add(packet, arrival + period, scan)) scans.push_back(scan);
   }
+  void set_clock(Duration by) { clock_set_ += by; }
   VelodyneDecoder& decoder() { return decoder_; }
   Time now() const { return now_; }
 
@@ -54,6 +57,7 @@ class Vlp16 {
  private:
   VelodyneDecoder decoder_;
   Time now_ = begin;
+  Duration clock_set_{};
 };
 
 TEST(VelodyneDecoder, MakesTurnsFromRearToRearAcrossTheEndOfTheHour) {
@@ -185,6 +189,57 @@ TEST(VelodyneDecoder, GoesOnAfterTheScannerWasSwitchedOff) {
   ASSERT_GE(scanner.scans.size(), before + 4);
   EXPECT_GT(scanner.scans.back().stamp, begin + std::chrono::seconds(20));
   EXPECT_LT(scanner.scans.back().end, begin + std::chrono::seconds(21));
+}
+
+// The largest error of the ends of turns from `first` on, at 10 a second.
+double worst_end(const Vlp16& scanner, std::size_t first) {
+  double worst = 0.0;
+  for (std::size_t i = first; i < scanner.scans.size(); ++i) {
+    const LidarScan& scan = scanner.scans[i];
+    const double turn = std::round(10.0 * to_seconds(scan.end - begin));
+    worst = std::max(worst, std::fabs(to_seconds(scan.end - begin) - 0.1 * turn));
+  }
+  return worst;
+}
+
+TEST(VelodyneDecoder, PacketsThatTheWayHeldUpAndThenSentAtOnceKeepTheirTimes) {
+  for (const int packets : {1000, 2000}) {  // for 1.3 s, and 2.7 s
+    Vlp16 scanner;
+    scanner.send(2000);
+    std::vector<DataBytes> held(static_cast<std::size_t>(packets));
+    for (DataBytes& packet : held) packet = scanner.next();
+    for (std::size_t i = 0; i < held.size(); ++i) {
+      scanner.deliver(held[i], scanner.now() + microseconds(i));
+    }
+    scanner.send(2000);
+    EXPECT_EQ(scanner.decoder().clock().jumps(), 0U);
+    EXPECT_LT(worst_end(scanner, 2), 3e-3) << packets;
+  }
+}
+
+TEST(VelodyneDecoder, PacketsThatWereLostWhileTheWayWasHeldUpMoveNoStamp) {
+  Vlp16 scanner;
+  scanner.send(2000);
+  std::vector<DataBytes> held(3000);
+  for (DataBytes& packet : held) packet = scanner.next();
+  for (std::size_t i = 0; i < 1500; ++i) {  // what the socket had room for
+    scanner.deliver(held[i], scanner.now() + microseconds(i));
+  }
+  scanner.send(2000);
+  EXPECT_EQ(scanner.decoder().clock().jumps(), 0U);
+  EXPECT_LT(worst_end(scanner, 2), 3e-3);
+}
+
+TEST(VelodyneDecoder, AClockThatIsSetBackShowsAtOnce) {
+  for (const double by : {0.06, 0.3, 0.45}) {
+    Vlp16 scanner;
+    scanner.send(2000);
+    const std::size_t before = scanner.scans.size();
+    scanner.set_clock(from_seconds(-by));
+    scanner.send(2000);
+    EXPECT_EQ(scanner.decoder().clock().jumps(), 1U) << by;
+    EXPECT_LT(worst_end(scanner, before + 2), 3e-3) << by;
+  }
 }
 
 TEST(VelodyneDecoder, TellsItsGpsReceiversTime) {
