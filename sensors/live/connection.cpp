@@ -41,6 +41,19 @@ void sleep_until(MonotonicTime deadline) {
   nanosleep(&left, nullptr);
 }
 
+// A peer whose cable is pulled, or that starts again, says no word: after a pause of 2 s it is
+// asked each second, and 3 questions without an answer close the connection.
+void notice_dead_peers(int fd) {
+  const auto set = [fd](int level, int option, int value) {
+    setsockopt(fd, level, option, &value, sizeof value);
+  };
+  set(SOL_SOCKET, SO_KEEPALIVE, 1);
+  set(IPPROTO_TCP, TCP_KEEPIDLE, 2);
+  set(IPPROTO_TCP, TCP_KEEPINTVL, 1);
+  set(IPPROTO_TCP, TCP_KEEPCNT, 3);
+  set(IPPROTO_TCP, TCP_USER_TIMEOUT, 5000);  // ms, of what we have sent: a question to a caster
+}
+
 }  // namespace
 
 void Connection::close() {
@@ -82,8 +95,7 @@ int Connection::open_socket(std::string& problem) {
     setsockopt(fd, SOL_SOCKET, SO_RCVBUF, &bytes, sizeof bytes);
     good = bind(fd, where, sizeof address) == 0;
   } else if (good) {
-    const int on = 1;
-    setsockopt(fd, SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);
+    notice_dead_peers(fd);
     connecting_ = connect(fd, where, sizeof address) != 0;
     good = !connecting_ || errno == EINPROGRESS;
   }

@@ -2,6 +2,7 @@
 // hostile.
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
+#include <netinet/tcp.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -154,6 +155,25 @@ TEST(LiveNmea, ReconnectsOverTcp) {
     EXPECT_FALSE(gnss->wait(fix, milliseconds(20)));
   }
   EXPECT_NE(gnss->report().connection.problem.find("cannot be connected to"), std::string::npos);
+}
+
+TEST(LiveNmea, NoticesAPeerThatIsGoneWithoutAWord) {
+  const HostClock clock;
+  const int server = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address = loopback(0);
+  ASSERT_EQ(bind(server, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  ASSERT_EQ(listen(server, 1), 0);
+  const auto gnss = listen_to_nmea(
+      parse_endpoint("tcp://127.0.0.1:" + std::to_string(port_of(server))), {}, clock);
+  ASSERT_TRUE(wait_until_open(*gnss, true)) << gnss->report().connection.problem;
+  const int peer = accept(server, nullptr, nullptr);
+  // As a machine that loses its power: a socket that is closed in this mode sends nothing.
+  const int on = 1;
+  const bool silenced = setsockopt(peer, IPPROTO_TCP, TCP_REPAIR, &on, sizeof on) == 0;
+  close(peer);
+  close(server);
+  if (!silenced) GTEST_SKIP() << "only an administrator may end a connection without a word";
+  EXPECT_TRUE(wait_until_open(*gnss, false));
 }
 
 TEST(LiveNcom, StampsByTheUnitsClock) {
