@@ -41,6 +41,18 @@ TEST(SensorClock, RefusesAClockThatFellBackUntilItIsRightAgain) {
   EXPECT_EQ(clock.check(sample(41, 4.1, 0.06)), Reason::none);
 }
 
+TEST(SensorClock, BelievesAClockThatWasAheadForAWhileAndIsRightAgain) {
+  for (const double ahead : {0.02, 0.05, 1.0}) {
+    SensorClock clock;
+    for (std::uint64_t i = 0; i < 3000; ++i) {
+      const bool wrong = i >= 500 && i < 1500;  // for 10 s
+      const double by = wrong ? ahead : 0.0;
+      const double stamp = 0.01 * static_cast<double>(i) + by;
+      EXPECT_EQ(clock.check(sample(i, stamp, 0.06 - by)), Reason::none) << ahead << ' ' << i;
+    }
+  }
+}
+
 TEST(SensorClock, SaysNothingWhereTheDeliveryIsUnknown) {
   SensorClock clock;
   Sample a = sample(1, 1.0, 0.0), b = sample(2, 0.5, 0.0);
