@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string>
 
-#include "runtime/core/trace_file.h"
 #include "runtime/core/trace_text.h"
+#include "runtime/core/whole_file.h"
 
 namespace maploop::runtime {
 namespace {
@@ -44,7 +44,7 @@ class TraceJson {
     file_.write(text_);
     for (std::size_t i = 0; i < snapshots.size(); ++i) write_thread(snapshots[i], i + 1);
     write_summary(snapshots);
-    file_.close();
+    file_.keep();
   }
 
  private:
@@ -181,7 +181,7 @@ class TraceJson {
     append_microseconds(text_, time - start_);
   }
 
-  TraceFile file_;
+  WholeFile file_;
   MonotonicTime start_;
   MonotonicTime end_{};
   int process_;

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <stdexcept>
 #include <string>
@@ -11,6 +9,7 @@
 
 #include "msgs/input_file.h"
 #include "msgs/input_limits.h"
+#include "runtime/core/whole_file.h"
 #include "runtime/vehicle/config_fields.h"
 
 namespace maploop::vehicle {
@@ -51,19 +50,7 @@ void write_snapshot(const std::filesystem::path& file, const Snapshot& snapshot,
   ArchiveWriter writer;
   describe(writer, snapshot, config);
   const Bytes sealed = seal(writer.content());
-  const std::filesystem::path part = file.string() + ".part";
-  errno = 0;
-  std::ofstream stream(part, std::ios::binary);
-  stream.write(reinterpret_cast<const char*>(sealed.data()),
-               static_cast<std::streamsize>(sealed.size()));
-  stream.close();
-  std::error_code error;
-  if (stream) std::filesystem::rename(part, file, error);
-  if (stream && !error) return;
-  const std::string why = error ? error.message() : std::strerror(errno);
-  std::filesystem::remove(part, error);
-  throw std::runtime_error("cannot write the snapshot '" + file.string() + "': " + why +
-                           "; does its folder exist, and has the disk room?");
+  runtime::write_whole_file(file, {reinterpret_cast<const char*>(sealed.data()), sealed.size()});
 }
 
 Snapshot read_snapshot(const std::filesystem::path& file, const VehicleConfig& config) {

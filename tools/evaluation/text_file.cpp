@@ -2,34 +2,34 @@
 
 #include <zlib.h>
 
-#include <fstream>
 #include <stdexcept>
+
+#include "runtime/core/whole_file.h"
 
 namespace maploop::evaluation {
 namespace {
 
-bool write_plain(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text << std::flush;
-  return static_cast<bool>(out);
-}
-
-bool write_compressed(const std::filesystem::path& file, const std::string& text) {
-  const gzFile out = gzopen(file.c_str(), "wb");
-  if (!out) return false;
-  const bool written = gzfwrite(text.data(), 1, text.size(), out) == text.size();
-  return gzclose(out) == Z_OK && written;
+// As gzip, of the level that zlib holds for the best trade.
+std::string compressed(const std::string& text) {
+  constexpr int gzip = 15 + 16;  // the largest window, with gzip's header
+  z_stream stream{};
+  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, gzip, 8, Z_DEFAULT_STRATEGY) != Z_OK)
+    throw std::bad_alloc();
+  std::string packed(deflateBound(&stream, text.size()), '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+  stream.avail_in = static_cast<uInt>(text.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  deflate(&stream, Z_FINISH);
+  packed.resize(stream.total_out);
+  deflateEnd(&stream);
+  return packed;
 }
 
 }  // namespace
 
 void write_text(const std::filesystem::path& file, const std::string& text) {
-  const bool written =
-      file.extension() == ".gz" ? write_compressed(file, text) : write_plain(file, text);
-  if (!written) {
-    throw std::runtime_error("cannot write " + file.string() +
-                             ": does its folder exist, and has the disk room?");
-  }
+  runtime::write_whole_file(file, file.extension() == ".gz" ? compressed(text) : text);
 }
 
 }  // namespace maploop::evaluation

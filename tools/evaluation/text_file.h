@@ -14,8 +14,9 @@ inline std::string read_text(const std::filesystem::path& file) {
   return maploop::read_text(file, input_limits::track);
 }
 
-// Compressed where the name ends in .gz. Throws std::runtime_error naming the file where it cannot
-// be written.
+// Compressed where the name ends in .gz. The whole file, or what was there before
+// (runtime/core/whole_file.h). Throws std::runtime_error naming the file where it cannot be
+// written.
 void write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace maploop::evaluation

@@ -1,13 +1,13 @@
 #include "tools/lcm_log/log_info.h"
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "msgs/lcm/log/log_reader.h"
+#include "runtime/core/whole_file.h"
 #include "tools/lcm_log/interval_statistics.h"
 #include "tools/lcm_log/log_text.h"
 #include "tools/lcm_log/progress.h"
@@ -193,13 +193,8 @@ void write_json(const std::filesystem::path& file, const LogInfo& info) {
                     {"damages", info.damages},
                     {"damaged_bytes", info.damaged_bytes},
                     {"channels", channels}};
-  std::ofstream out(file);
   // A channel's name may be any bytes.
-  out << all.dump(2, ' ', false, json::error_handler_t::replace) << '\n' << std::flush;
-  if (!out) {
-    throw std::runtime_error("cannot write " + file.string() +
-                             ": does its folder exist, and has the disk room?");
-  }
+  runtime::write_whole_file(file, all.dump(2, ' ', false, json::error_handler_t::replace) + '\n');
 }
 
 }  // namespace maploop::lcm_log

@@ -251,17 +251,16 @@ std::string error_of(const Tracer& tracer, const std::filesystem::path& file) {
 }
 
 TEST(Trace, AFileThatCannotBeOpenedIsNamed) {
-  EXPECT_EQ(
-      error_of(Tracer({}), "/no such folder/trace.json"),
-      "trace: /no such folder/trace.json cannot be opened (No such file or directory); name a "
-      "file in a folder that exists, may be written and has room");
+  EXPECT_EQ(error_of(Tracer({}), "/no such folder/trace.json"),
+            "cannot write '/no such folder/trace.json': No such file or directory; does its folder "
+            "exist, may it be written, and has the disk room?");
   const maploop::testing::TemporaryFolder folder;
   EXPECT_NE(error_of(Tracer({}), folder.path()).find("Is a directory"), std::string::npos);
 }
 
 TEST(Trace, AFullDiskIsNamed) {
   const std::string error = error_of(Tracer({}), "/dev/full");
-  EXPECT_NE(error.find("trace: /dev/full cannot be written"), std::string::npos) << error;
+  EXPECT_NE(error.find("cannot write '/dev/full'"), std::string::npos) << error;
   EXPECT_NE(error.find("No space left on device"), std::string::npos) << error;
 }
 

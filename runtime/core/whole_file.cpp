@@ -1,0 +1,98 @@
+#include "runtime/core/whole_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace maploop::runtime {
+namespace {
+
+bool is_replaced(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(file, ignored);
+  return !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
+}
+
+// A link stays a link: what it points to is replaced.
+std::filesystem::path behind_links(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_symlink(file, error)) return file;
+  const std::filesystem::path target = std::filesystem::weakly_canonical(file, error);
+  return error ? file : target;
+}
+
+// The new name is on the disk too. A file system that cannot do this has done what it can.
+void sync_folder(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  fsync(descriptor);
+  ::close(descriptor);
+}
+
+}  // namespace
+
+WholeFile::WholeFile(const std::filesystem::path& file)
+    : file_(behind_links(file)),
+      written_(file_.string() + (is_replaced(file_) ? ".part" : "")),
+      descriptor_(open(written_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)),
+      buffer_(std::make_unique<std::array<char, kBytes>>()) {
+  if (descriptor_ < 0) fail(errno);
+}
+
+WholeFile::~WholeFile() {
+  if (descriptor_ < 0) return;
+  ::close(descriptor_);
+  if (written_ != file_) unlink(written_.c_str());
+}
+
+void WholeFile::write(std::string_view bytes) {
+  while (!bytes.empty()) {
+    if (used_ == buffer_->size()) flush();
+    const std::size_t part = std::min(bytes.size(), buffer_->size() - used_);
+    std::copy_n(bytes.data(), part, buffer_->data() + used_);
+    used_ += part;
+    bytes.remove_prefix(part);
+  }
+}
+
+void WholeFile::flush() {
+  for (std::size_t done = 0; done < used_;) {
+    const ssize_t written = ::write(descriptor_, buffer_->data() + done, used_ - done);
+    if (written >= 0) {
+      done += static_cast<std::size_t>(written);
+    } else if (errno != EINTR) {
+      fail(errno);
+    }
+  }
+  used_ = 0;
+}
+
+void WholeFile::keep() {
+  flush();
+  const bool replaces = written_ != file_;
+  if (replaces && fsync(descriptor_) != 0) fail(errno);
+  if (replaces && rename(written_.c_str(), file_.c_str()) != 0) fail(errno);
+  if (::close(std::exchange(descriptor_, -1)) != 0) fail(errno);
+  if (replaces) sync_folder(file_);
+}
+
+void WholeFile::fail(int error) const {
+  throw std::runtime_error("cannot write '" + file_.string() + "': " + std::strerror(error) +
+                           "; does its folder exist, may it be written, and has the disk room?");
+}
+
+void write_whole_file(const std::filesystem::path& file, std::string_view bytes) {
+  WholeFile whole(file);
+  whole.write(bytes);
+  whole.keep();
+}
+
+}  // namespace maploop::runtime

@@ -1,0 +1,79 @@
+#include "runtime/core/whole_file.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+
+#include "tests/support/real_data.h"
+
+namespace maploop::runtime {
+namespace {
+
+std::string content(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class WholeFileTest : public ::testing::Test {
+ protected:
+  std::size_t files() const {
+    return static_cast<std::size_t>(
+        std::distance(std::filesystem::directory_iterator(folder_.path()), {}));
+  }
+  maploop::testing::TemporaryFolder folder_;
+  std::filesystem::path file_ = folder_.path() / "a.txt";
+};
+
+TEST_F(WholeFileTest, IsThereWhenItIsKept) {
+  const std::string text(200'000, 'x');
+  write_whole_file(file_, text);
+  EXPECT_EQ(content(file_), text);
+  EXPECT_EQ(files(), 1u) << "and nothing else";
+}
+
+TEST_F(WholeFileTest, UntilThenWhatWasThereBeforeIsWhole) {
+  write_whole_file(file_, "old");
+  {
+    WholeFile half(file_);
+    half.write(std::string(200'000, 'x'));
+    EXPECT_EQ(content(file_), "old");
+  }
+  EXPECT_EQ(content(file_), "old") << "also where it is never kept";
+  EXPECT_EQ(files(), 1u);
+  write_whole_file(file_, "new");
+  EXPECT_EQ(content(file_), "new");
+}
+
+TEST_F(WholeFileTest, ALinkStaysALink) {
+  const auto link = folder_.path() / "link";
+  std::filesystem::create_symlink("a.txt", link);
+  write_whole_file(link, "text");
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(content(file_), "text");
+}
+
+TEST_F(WholeFileTest, ADeviceIsWrittenAsItIs) {
+  write_whole_file("/dev/null", "text");
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST_F(WholeFileTest, WhatCannotBeWrittenIsNamedWithItsReason) {
+  const auto error = [](const std::filesystem::path& file) -> std::string {
+    try {
+      write_whole_file(file, "text");
+    } catch (const std::runtime_error& e) {
+      return e.what();
+    }
+    return "none";
+  };
+  EXPECT_TRUE(error("/no such folder/a")
+                  .starts_with("cannot write '/no such folder/a': No such file or directory; "));
+  EXPECT_TRUE(error("/dev/full").starts_with("cannot write '/dev/full': No space left on device"));
+  EXPECT_TRUE(error(folder_.path()).find("Is a directory") != std::string::npos);
+}
+
+}  // namespace
+}  // namespace maploop::runtime
