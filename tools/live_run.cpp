@@ -101,7 +101,8 @@ int live(const LiveOptions& options) {
     sinks.push_back(bus.get());
   }
   if (!options.record.empty()) {
-    pass.recorder = std::make_unique<vehicle::LogRecorder>(options.record, options.record_raw);
+    pass.recorder = std::make_unique<vehicle::LogRecorder>(options.record, options.record_raw,
+                                                           vehicle::LogRecorder::WhenBehind::drop);
     sinks.push_back(pass.recorder.get());
   }
   std::unique_ptr<runtime::Tracer> tracer;

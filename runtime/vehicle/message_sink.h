@@ -35,9 +35,19 @@ class MessageSink {
     count.fetch_add(1, std::memory_order_relaxed);
   }
 
+  // Waits until what was sent is out, or counted as unsent. The publisher's thread.
+  virtual void flush() {}
+
   OutputHealth health() const {
     return {std::string(name()), sent_.load(std::memory_order_relaxed),
             unsent_.load(std::memory_order_relaxed)};
+  }
+
+ protected:
+  // What was sent a while ago could not be written after all.
+  void unsend(std::uint64_t messages) {
+    sent_.fetch_sub(messages, std::memory_order_relaxed);
+    unsent_.fetch_add(messages, std::memory_order_relaxed);
   }
 
  private:

@@ -1,6 +1,10 @@
 // The log, the bus and the hashes, each against LCM's own library.
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
+#include <csignal>
+#include <filesystem>
 #include <lcm/lcm-cpp.hpp>
 #include <optional>
 #include <stdexcept>
@@ -61,6 +65,65 @@ TEST(LogRecorder, AFileIsOfOneRecording) {
   for (int i = 0; i < 2; ++i) EXPECT_NE(log.readNextEvent(), nullptr) << "the first is whole";
   const LogRecorder again(file);  // when the first has ended
   const LogRecorder nowhere("/dev/null"), nowhere_else("/dev/null");
+}
+
+std::size_t events_in(const std::string& file) {
+  lcm::LogFile log(file, "r");
+  std::size_t events = 0;
+  while (log.readNextEvent() != nullptr) ++events;
+  return events;
+}
+
+// The disk is full at a limit that the kernel sets for this process alone.
+class SmallDisk {
+ public:
+  explicit SmallDisk(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+  }
+  ~SmallDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int) = nullptr;
+};
+
+TEST(LogRecorder, OnAFullDiskEveryEventIsInTheFileOrCountedAsUnsent) {
+  const maploop::testing::TemporaryFolder folder;
+  const std::string file = (folder.path() / "a.lcmlog").string();
+  LogRecorder recorder(file);
+  {
+    const SmallDisk disk(100'000);
+    for (int i = 0; i < 1000; ++i) recorder.send(message(std::vector<std::uint8_t>(300, 1)));
+    recorder.flush();
+    const OutputHealth health = recorder.health();
+    EXPECT_GT(health.sent, 250u);
+    EXPECT_GT(health.unsent, 600u);
+    EXPECT_EQ(health.sent + health.unsent, 1000u);
+    EXPECT_EQ(events_in(file), health.sent);
+    EXPECT_EQ(std::filesystem::file_size(file), health.sent * (28 + 3 + 300)) << "no cut event";
+  }
+  recorder.send(message({1, 2, 3}));
+  recorder.flush();
+  EXPECT_EQ(events_in(file), recorder.health().sent) << "there is room again";
+}
+
+TEST(LogRecorder, AllThatWasSentIsInTheFileAfterAFlushAndMoreMayFollow) {
+  const maploop::testing::TemporaryFolder folder;
+  const std::string file = (folder.path() / "a.lcmlog").string();
+  LogRecorder recorder(file);
+  for (int i = 0; i < 10; ++i) {
+    for (int k = 0; k < 100; ++k) recorder.send(message({1, 2, 3}));
+    recorder.flush();
+    EXPECT_EQ(events_in(file), 100u * static_cast<unsigned>(i + 1));
+  }
 }
 
 TEST(LogRecorder, NamesTheFileItCannotWrite) {
