@@ -15,6 +15,7 @@
 
 #include "runtime/core/realtime.h"
 #include "runtime/core/trace.h"
+#include "runtime/core/whole_file.h"
 #include "runtime/vehicle/lcm_bus.h"
 #include "runtime/vehicle/live_config.h"
 #include "runtime/vehicle/runs.h"
@@ -108,7 +109,7 @@ int live(const LiveOptions& options) {
   std::unique_ptr<runtime::Tracer> tracer;
   if (!options.trace.empty()) {
     tracer = std::make_unique<runtime::Tracer>(config.trace);
-    tracer->write(options.trace);  // a file that cannot be written is said before the drive
+    runtime::WholeFile(options.trace);  // one that cannot be written is said before the drive
   }
 
   LiveStatus status;
@@ -133,20 +134,30 @@ int live(const LiveOptions& options) {
   result.channels = pass.hashes.summary();
   result.ppp = pass.ppp;
   if (tracer) {
-    tracer->write(options.trace);
     result.trace = {options.trace.string(), tracer->recorded(), tracer->dropped()};
   }
+  // The table last: whoever reads it may have gone.
+  const bool written = write_all({
+      [&] {
+        if (tracer) tracer->write(options.trace);
+      },
+      [&] {
+        if (!options.json.empty()) write_json(options.json, result);
+      },
+      [&] { write_states(options.states, pass); },
+      [&] {
+        if (options.report.empty()) return;
+        write_run_report(options.report, result, pass, {}, config, map.get());
+      },
+  });
   std::cout << format_table(result);
-  if (!options.json.empty()) write_json(options.json, result);
-  write_states(options.states, pass);
-  if (!options.report.empty())
-    write_run_report(options.report, result, pass, {}, config, map.get());
   const bool silent = nothing_came(result.vehicle.health);
   if (silent) {
     std::cerr << "maploop: no sensor has delivered anything; 'maploop sensors "
-              << options.config.string() << "' says what each one does\n";
+              << options.config.string() << "' says what each one does
+";
   }
-  return silent || any_thread_failed(result) || !pass.recorded_all() ? exit_failed : 0;
+  return silent || any_thread_failed(result) || !pass.recorded_all() || !written ? exit_failed : 0;
 }
 
 }  // namespace maploop::tools

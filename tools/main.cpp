@@ -1,9 +1,20 @@
+#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <new>
 
 #include "tools/commands.h"
 #include "tools/usage_error.h"
+
+namespace {
+
+// What was printed for a person or a pipe has come there.
+bool printed_all() {
+  const bool flushed = std::fflush(stdout) == 0;
+  return std::cout.flush() && flushed && std::ferror(stdout) == 0;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{"maploop: vehicle localization in real time", "maploop"};
@@ -30,7 +41,10 @@ int main(int argc, char** argv) {
   maploop::tools::add_spy(app, command);
   try {
     app.parse(argc, argv);
-    return command();
+    const int status = command();
+    if (printed_all()) return status;
+    std::cerr << "maploop: standard output was not taken: it is closed, or its disk is full\n";
+    return status != 0 ? status : 1;
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
     std::cerr << maploop::tools::usage_error(app, e);

@@ -12,6 +12,7 @@
 #include "runtime/core/periodic.h"
 #include "runtime/core/realtime.h"
 #include "runtime/core/trace.h"
+#include "runtime/core/whole_file.h"
 #include "runtime/vehicle/fault_injection.h"
 #include "runtime/vehicle/graph.h"
 #include "runtime/vehicle/lcm_bus.h"
@@ -26,11 +27,11 @@
 #include "tools/match/driven_links.h"
 #include "tools/replay_result.h"
 #include "tools/run_pass.h"
+#include "tools/terminal.h"
 
 namespace maploop::tools {
 namespace {
 
-constexpr int exit_interrupted = 130;  // as shells report SIGINT
 constexpr int exit_failed = 1;
 
 // Empty where the recording has none.
@@ -160,7 +161,7 @@ std::unique_ptr<vehicle::Vehicle> Replay::make_vehicle(const vehicle::Snapshot* 
 
   if (!options_.trace.empty()) {
     tracer_ = std::make_unique<runtime::Tracer>(config_.trace);
-    tracer_->write(options_.trace);  // a file that cannot be written is said before the drive
+    runtime::WholeFile(options_.trace);  // one that cannot be written is said before the drive
   }
 
   const auto clock = options_.lockstep ? runtime::DataClock::virtual_time()
@@ -240,7 +241,6 @@ ReplayResult Replay::result(PlaybackEnd end) {
                        pass_->hashes_after_snapshot.summary()};
   }
   if (tracer_) {
-    tracer_->write(options_.trace);
     result.trace = {options_.trace.string(), tracer_->recorded(), tracer_->dropped()};
   }
   result.ppp = pass_->ppp;
@@ -267,19 +267,33 @@ ReplayResult Replay::result(PlaybackEnd end) {
 
 int Replay::run() {
   const ReplayResult r = result(play_all());
+  // The table last: whoever reads it may have gone.
+  const bool written = write_all({
+      [&] {
+        if (tracer_) tracer_->write(options_.trace);
+      },
+      [&] {
+        if (!options_.json.empty()) write_json(options_.json, r);
+      },
+      [&] {
+        write_states({options_.poses, options_.tum, options_.csv, options_.nmea}, *pass_);
+      },
+      [&] {
+        if (options_.report.empty()) return;
+        write_run_report(options_.report, r, *pass_, read_reference(recording_), config_,
+                         map_.get());
+      },
+  });
   std::cout << format_table(r);
-  if (!options_.json.empty()) write_json(options_.json, r);
-  write_states({options_.poses, options_.tum, options_.csv, options_.nmea}, *pass_);
-  if (!options_.report.empty()) {
-    write_run_report(options_.report, r, *pass_, read_reference(recording_), config_, map_.get());
-  }
   const bool snapshot_missing = options_.snapshot && !snapshot_taken_;
   if (snapshot_missing && !any_thread_failed(r)) {
     std::cerr << "maploop: no snapshot was written: the replay did not come to "
               << options_.snapshot->seconds << " s\n";
   }
-  if (r.interrupted) return exit_interrupted;
-  return snapshot_missing || any_thread_failed(r) || !pass_->recorded_all() ? exit_failed : 0;
+  if (r.interrupted) return interrupted_status();
+  const bool failed =
+      snapshot_missing || any_thread_failed(r) || !pass_->recorded_all() || !written;
+  return failed ? exit_failed : 0;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "tools/run_pass.h"
 
 #include <algorithm>
+#include <exception>
 #include <iostream>
 #include <utility>
 
@@ -29,6 +30,19 @@ vehicle::Observer RunPass::observer() {
   };
   o.image_state = [this](const NavState& state) { collector.add(state); };
   return o;
+}
+
+bool write_all(const std::vector<std::function<void()>>& writers) {
+  bool all = true;
+  for (const auto& write : writers) {
+    try {
+      write();
+    } catch (const std::exception& e) {
+      std::cerr << "maploop: " << e.what() << '\n';
+      all = false;
+    }
+  }
+  return all;
 }
 
 void write_states(const StateFiles& files, const RunPass& pass) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -52,6 +53,10 @@ struct StateFiles {
   std::filesystem::path csv;
   std::filesystem::path nmea;
 };
+
+// Writes each file by a function of its own; one that cannot be written is said on standard error,
+// and the others are written all the same. Whether all were.
+bool write_all(const std::vector<std::function<void()>>& writers);
 
 // Throws std::runtime_error naming the file that cannot be written.
 void write_states(const StateFiles& files, const RunPass& pass);

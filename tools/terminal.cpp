@@ -3,37 +3,71 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
+#include <ctime>
 
 namespace maploop::tools {
 namespace {
 
-volatile std::sig_atomic_t signalled = 0;
+volatile std::sig_atomic_t signalled = 0;  // which came first
+timespec signalled_at{};                   // written by the first alone
+// Of the Keyboard that lives; null: the terminal is as it was.
+std::atomic<const termios*> terminal_before{nullptr};
+static_assert(std::atomic<const termios*>::is_always_lock_free);
+
+// Calls what a signal may call alone.
+void hear(int signal) {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  if (signalled == 0) {
+    signalled_at = now;
+    signalled = signal;
+    return;
+  }
+  const bool same_wish =
+      now.tv_sec - signalled_at.tv_sec < (now.tv_nsec < signalled_at.tv_nsec ? 2 : 1);
+  if (same_wish) return;
+  if (const termios* before = terminal_before.load()) tcsetattr(STDIN_FILENO, TCSANOW, before);
+  std::signal(signal, SIG_DFL);
+  raise(signal);
+}
 
 }  // namespace
 
 void note_interrupts() {
   struct sigaction action {};
-  action.sa_handler = [](int) { signalled = 1; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  action.sa_handler = hear;
+  // One at a time.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&action.sa_mask, signal);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  struct sigaction hangup {};
+  sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
 }
 
 bool interrupted() {
   return signalled != 0;
 }
 
+int interrupted_status() {
+  return 128 + (signalled != 0 ? signalled : SIGINT);
+}
+
 Keyboard::Keyboard()
     : terminal_(isatty(STDIN_FILENO) != 0 && tcgetattr(STDIN_FILENO, &before_) == 0) {
   if (!terminal_) return;
+  terminal_before = &before_;
   termios raw = before_;
   raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
   tcsetattr(STDIN_FILENO, TCSANOW, &raw);
 }
 
 Keyboard::~Keyboard() {
-  if (terminal_) tcsetattr(STDIN_FILENO, TCSANOW, &before_);
+  if (!terminal_) return;
+  tcsetattr(STDIN_FILENO, TCSANOW, &before_);
+  terminal_before = nullptr;
 }
 
 std::optional<char> Keyboard::pressed() const {

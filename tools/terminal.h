@@ -7,10 +7,16 @@
 
 namespace maploop::tools {
 
-// From now on SIGINT and SIGTERM are noted instead of ending the program; a second one ends it.
+// From now on SIGINT, SIGTERM and SIGHUP are noted instead of ending the program. What comes within
+// a second of the first is the same wish, as where a program that ends this one signals its whole
+// group; a later one ends the program at once, with the terminal as it was before. A SIGHUP that
+// whoever started the program has turned off (nohup) stays off.
 void note_interrupts();
 // Whether one has come.
 bool interrupted();
+// What a shell reports of a program that such a signal has ended, 128 and its number: 130 of
+// Ctrl-C, and of keys and commands that end the program likewise.
+int interrupted_status();
 
 // Single keys of standard input, unechoed, as long as it lives; nothing where that is no terminal.
 class Keyboard {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/process.h"
@@ -173,6 +174,57 @@ TEST(ReplayCommand, InterruptEndsInOrderWithTheTable) {
   EXPECT_EQ(result.status, 130);
   EXPECT_NE(result.out.find("(interrupted)"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("NAV_STATE"), std::string::npos);
+}
+
+TEST(ReplayCommand, EverySignalThatEndsARunEndsItInOrderAlsoWhenItComesTwice) {
+  MAPLOOP_REQUIRE_DRIVE();
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const TemporaryFolder folder;
+    const auto log = folder.path() / "log", states = folder.path() / "states.tum",
+               table = folder.path() / "table.json";
+    testing::Process process(
+        command({testing::drive_0013().string(), "--no-lcm", "--record", log.string(), "--tum",
+                 states.string(), "--json", table.string()}));
+    EXPECT_TRUE(testing::comes_to_contain(log, "NAV_STATE")) << "it is on its way";
+    process.send_signal(signal);
+    process.send_signal(signal);  // as from a program that signals its whole group
+    const ProcessResult result = process.wait();
+    EXPECT_EQ(result.status, 128 + signal);
+    EXPECT_NE(result.out.find("(interrupted)"), std::string::npos) << result.out;
+    EXPECT_TRUE(json::parse(std::ifstream(table))["interrupted"]);
+    EXPECT_GT(std::filesystem::file_size(states), 0u);
+  }
+}
+
+TEST(ReplayCommand, ATableThatNobodyTakesIsAnErrorAndTheFilesAreThere) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "table.json").string();
+  std::string replay_to;
+  for (const std::string& word : command({testing::drive_0013().string(), "--no-lcm", "--lockstep",
+                                          "--end", "2", "--json", file})) {
+    replay_to += "'" + word + "' ";
+  }
+  for (const auto& [output, status] : {std::pair{"> /dev/full", 1}, std::pair{">&-", 1}}) {
+    std::filesystem::remove(file);
+    const ProcessResult result = testing::run({"/bin/sh", "-c", replay_to + output});
+    EXPECT_EQ(result.status, status) << output;
+    EXPECT_NE(result.error.find("standard output was not taken"), std::string::npos);
+    EXPECT_TRUE(json::parse(std::ifstream(file)).contains("degraded")) << output;
+  }
+}
+
+TEST(ReplayCommand, AFileThatTheDiskRefusesIsSaidAndTheOthersAreThere) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "states.tum").string();
+  const ProcessResult result = replay({testing::drive_0013().string(), "--no-lcm", "--lockstep",
+                                       "--end", "2", "--json", "/dev/full", "--tum", file});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.error.find("cannot write '/dev/full': No space left on device"),
+            std::string::npos)
+      << result.error;
+  EXPECT_GT(std::filesystem::file_size(file), 0u);
 }
 
 TEST(ReplayCommand, NamesAFolderThatIsNoDrive) {
