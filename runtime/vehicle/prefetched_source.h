@@ -25,14 +25,16 @@ namespace maploop::vehicle {
 template <class T>
 class PrefetchedSource final : public sensors::Source<T> {
  public:
-  PrefetchedSource(std::string name, std::unique_ptr<sensors::Source<T>> source, std::size_t depth,
+  PrefetchedSource(std::string name, runtime::Scheduling scheduling,
+                   std::unique_ptr<sensors::Source<T>> source, std::size_t depth,
                    std::stop_token stop, runtime::TraceBuffer* trace)
       : source_(std::move(source)),
         trace_(trace),
         loaded_(depth),
         stopped_(std::move(stop), [this] { end(); }),
         loader_(
-            std::move(name), {}, end_.get_token(), [this](const std::stop_token& s) { load(s); },
+            std::move(name), std::move(scheduling), end_.get_token(),
+            [this](const std::stop_token& s) { load(s); },
             [this] {
               ended_.store(true, std::memory_order_release);
               filled_.ring();

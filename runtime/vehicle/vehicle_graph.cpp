@@ -215,11 +215,15 @@ runtime::TraceBuffer* Vehicle::Graph::trace_buffer(std::string_view thread) {
 
 template <class T>
 std::unique_ptr<sensors::Source<T>> Vehicle::Graph::prefetched(
-    const Stage& stage, std::unique_ptr<sensors::Source<T>> source) {
+    const Stage& stage, const runtime::Scheduling& reader,
+    std::unique_ptr<sensors::Source<T>> source) {
   if (source == nullptr) return nullptr;
   const std::string name = std::string(stage.name) + " loader";
-  return std::make_unique<PrefetchedSource<T>>(name, std::move(source), decoded_ahead,
-                                               stop.get_token(), trace_buffer(name));
+  // A reader with a budget of its own has it for itself.
+  const bool shared = reader.policy != runtime::SchedulingPolicy::deadline;
+  return std::make_unique<PrefetchedSource<T>>(
+      name, clock.is_paced() && shared ? reader : runtime::Scheduling{}, std::move(source),
+      decoded_ahead, stop.get_token(), trace_buffer(name));
 }
 
 template <class T>
@@ -245,11 +249,13 @@ Drivers Vehicle::Graph::make_drivers(Sensors& s) {
   Edges<StereoPair> to_camera{&images};
   if (raw) to_camera.insert(to_camera.begin(), &to_publisher.camera);
   Drivers d;
-  d.camera = driver<StereoPair>(stages::camera, prefetched(stages::camera, std::move(s.camera)),
-                                std::move(live.camera), std::move(to_camera));
-  d.velodyne =
-      driver<LidarScan>(stages::velodyne, prefetched(stages::velodyne, std::move(s.velodyne)),
-                        std::move(live.velodyne), scan_edges());
+  d.camera = driver<StereoPair>(
+      stages::camera, prefetched(stages::camera, config.scheduling.stereo, std::move(s.camera)),
+      std::move(live.camera), std::move(to_camera));
+  d.velodyne = driver<LidarScan>(
+      stages::velodyne,
+      prefetched(stages::velodyne, config.scheduling.lidar, std::move(s.velodyne)),
+      std::move(live.velodyne), scan_edges());
   d.imu = driver<ImuSample>(stages::imu, std::move(s.imu), std::move(live.imu),
                             {&to_fusion.imu, &to_publisher.imu});
   d.gnss = driver<GnssFix>(stages::gnss, std::move(s.gnss), std::move(live.gnss),

@@ -65,8 +65,11 @@ struct Vehicle::Graph {
   VehicleReport report() const;
 
   runtime::TraceBuffer* trace_buffer(std::string_view thread);
+  // Decoded ahead with the scheduling of the stage that reads the samples: it needs them in time,
+  // and the fusion goes first.
   template <class T>
   std::unique_ptr<sensors::Source<T>> prefetched(const Stage& stage,
+                                                 const runtime::Scheduling& reader,
                                                  std::unique_ptr<sensors::Source<T>> source);
   template <class T>
   void start_driver(const Stage& stage, const runtime::Scheduling& scheduling, Driver<T>& driver);
