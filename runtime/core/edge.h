@@ -20,7 +20,8 @@
 namespace maploop::runtime {
 
 enum class Overflow {
-  keep_all,     // the producer waits for room: replay only, see EdgeBase::drop_when_full()
+  keep_all,     // the producer waits for room while there is a reader: replay only, see
+                // EdgeBase::drop_when_full()
   drop_newest,  // the new sample is dropped and counted
 };
 
@@ -54,6 +55,11 @@ class EdgeBase {
   // Consumer: the oldest sample, or nullptr.
   virtual const Sample* head() = 0;
 
+  // Consumer: it has ended and takes nothing more. No producer waits for room from then on; what
+  // does not fit is lost, and counted.
+  void abandon() { abandoned_.store(true, std::memory_order_release); }
+  bool abandoned() const { return abandoned_.load(std::memory_order_acquire); }
+
   virtual RingHealth health() const = 0;
 
  protected:
@@ -62,11 +68,12 @@ class EdgeBase {
 
  private:
   std::atomic<std::int64_t> promised_{to_nanoseconds(Time::min())};
+  std::atomic<bool> abandoned_{false};
 };
 
 // `available` of the samples must not decrease. One thread calls push(), promise() and finish(),
-// one other thread head(), front() and pop(); health() is for any thread. A `bell`, when given, is
-// rung for the consumer at each push and each new promise.
+// one other thread head(), front(), pop() and abandon(); health() is for any thread. A `bell`, when
+// given, is rung for the consumer at each push and each new promise.
 template <std::derived_from<Sample> T>
 class Edge final : public EdgeBase {
  public:
@@ -75,12 +82,14 @@ class Edge final : public EdgeBase {
       : EdgeBase(bell), name_(std::move(name)), overflow_(overflow), ring_(capacity, prototype) {}
 
   // fill(T& slot) writes the sample in place. False when it was lost: the ring was full and the
-  // policy is to drop, or `stop` came while waiting for room. `stamp` is noted for a loss.
+  // policy is to drop, the consumer has abandoned it, or `stop` came while waiting for room.
+  // `stamp` is noted for a loss.
   template <class Fill>
   bool push(Time stamp, const std::stop_token& stop, Fill&& fill) {
     pushed_.fetch_add(1, std::memory_order_relaxed);
     T* slot = ring_.claim();
-    while (slot == nullptr && overflow_ == Overflow::keep_all && !stop.stop_requested()) {
+    while (slot == nullptr && overflow_ == Overflow::keep_all && !abandoned() &&
+           !stop.stop_requested()) {
       std::this_thread::sleep_for(back_pressure_poll);
       slot = ring_.claim();
     }

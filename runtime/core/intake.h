@@ -2,6 +2,7 @@
 // which thread ran first.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <stop_token>
 #include <string_view>
@@ -39,12 +40,16 @@ class Intake {
     return t;
   }
 
-  // Waits until promised() >= t. `bell` is the one that the edges ring. False when stopped before.
-  bool wait(Time t, const Doorbell& bell, const std::stop_token& stop) const {
+  // Waits until promised() >= t, and meanwhile takes what is promised already: a producer with more
+  // samples before t than its ring holds must get room to go on to its promise. `bell` is the one
+  // that the edges ring. False when stopped before.
+  bool wait(Time t, const Doorbell& bell, const std::stop_token& stop) {
     for (;;) {
       const std::uint32_t heard = bell.listen();
-      if (promised() >= t) return true;
+      const Time known = promised();
+      if (known >= t) return true;
       if (stop.stop_requested()) return false;
+      take_until(known);
       bell.wait(heard);
     }
   }
@@ -64,8 +69,12 @@ class Intake {
       }
       if (next == nullptr) return;
       next->take();
+      ++taken_;
     }
   }
+
+  // Samples so far.
+  std::uint64_t taken() const { return taken_; }
 
   // Nothing is left and nothing more comes.
   bool finished() const {
@@ -76,6 +85,11 @@ class Intake {
     return true;
   }
 
+  // The thread has ended and takes nothing more: see EdgeBase::abandon().
+  void abandon() {
+    for (const Inlet& inlet : inlets_) inlet.edge->abandon();
+  }
+
  private:
   struct Inlet {
     EdgeBase* edge;
@@ -83,6 +97,7 @@ class Intake {
     bool feedback = false;
   };
   std::vector<Inlet> inlets_;
+  std::uint64_t taken_ = 0;
 };
 
 }  // namespace maploop::runtime

@@ -11,14 +11,14 @@
 namespace maploop::vehicle {
 namespace {
 
-constexpr std::array<std::string_view, 9> target_names{
-    "camera", "velodyne", "imu", "gnss", "stereo", "lidar", "fusion", "mapmatch", "cpu"};
+constexpr std::array<std::string_view, 10> target_names{
+    "camera", "velodyne", "imu", "gnss", "stereo", "lidar", "ppp", "fusion", "mapmatch", "cpu"};
 
 using enum FaultTarget;
 constexpr std::array sensors{camera, velodyne, imu, gnss};
 constexpr std::array numeric_sensors{velodyne, imu, gnss};
 constexpr std::array only_camera{camera};
-constexpr std::array stages{stereo, lidar, fusion, mapmatch};
+constexpr std::array stages{stereo, lidar, ppp, fusion, mapmatch};
 constexpr std::array machine{cpu};
 
 constexpr double longest_drive = 1e6;  // s; far below where int64 nanoseconds end
@@ -33,7 +33,7 @@ struct Rule {
 };
 
 // In the order of FaultKind.
-constexpr std::array<Rule, 10> rules{{
+constexpr std::array<Rule, 11> rules{{
     {"late", sensors, 0.2, 10.0},
     {"lost", sensors},
     {"duplicated", sensors, 0.001, 1.0},
@@ -43,6 +43,7 @@ constexpr std::array<Rule, 10> rules{{
     {"black", only_camera},
     {"garbage", only_camera},
     {"slow", stages, 0.1, 1.0},
+    {"broken", stages},
     {"hog", machine},
 }};
 
@@ -94,7 +95,7 @@ class Parser {
 
   const Rule& rule() const { return rules[static_cast<std::size_t>(fault_.kind)]; }
   bool kind_is(FaultKind kind) const { return fault_.kind == kind; }
-  bool strikes_samples() const { return !kind_is(FaultKind::slow) && !kind_is(FaultKind::hog); }
+  bool strikes_samples() const { return fault_.kind < FaultKind::slow; }
 
   void parse_kind(std::string_view name) {
     const auto found =

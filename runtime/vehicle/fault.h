@@ -10,7 +10,8 @@
 //   nan         velodyne imu gnss          every number of it is NaN
 //   black       camera                     both images are black
 //   garbage     camera                     both images are noise
-//   slow        stereo lidar fusion mapmatch   the stage sleeps `by` at each image, scan, tick
+//   slow        stereo lidar ppp fusion mapmatch   the stage sleeps `by` at each image, scan, ...
+//   broken      stereo lidar ppp fusion mapmatch   the stage ends with an error
 //   hog         cpu                        `threads` busy threads for LENGTH, which must be given
 //
 // START and LENGTH are seconds of data time, LENGTH may be `end`; without them the fault is there
@@ -43,6 +44,7 @@ enum class FaultKind : std::uint8_t {
   black,
   garbage,
   slow,
+  broken,
   hog,
 };
 
@@ -53,6 +55,7 @@ enum class FaultTarget : std::uint8_t {
   gnss,
   stereo,
   lidar,
+  ppp,
   fusion,
   mapmatch,
   cpu

@@ -1,9 +1,10 @@
-// Makes a stage slow, so that it can be seen what a replay does with a consumer that cannot keep
-// up.
+// Makes a stage slow, or ends it, so that it can be seen what a replay does with a consumer that
+// cannot keep up, or is no more.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -11,8 +12,8 @@
 
 namespace maploop::vehicle {
 
-// The stage's own; without any delay added it costs one comparison. Changes when results are there,
-// never what they are.
+// The stage's own; without any delay added it costs one comparison. A delay changes when results
+// are there, never what they are.
 class StageDelay {
  public:
   // `struck` counts the items that were delayed, and must outlive the stage.
@@ -20,16 +21,24 @@ class StageDelay {
     delays_.push_back({window, by, &struck});
   }
 
-  // Sleeps as long as the item of data time t is to be delayed.
+  // The stage ends with an error at its first item in the window.
+  void add_end(FaultWindow window, std::atomic<std::uint64_t>& struck) {
+    add(window, ends, struck);
+  }
+
+  // Sleeps as long as the item of data time t is to be delayed; throws where the stage is to end.
   void operator()(Time t) const {
     for (const Delay& delay : delays_) {
       if (!delay.window.contains(t)) continue;
       delay.struck->fetch_add(1, std::memory_order_relaxed);
+      if (delay.by == ends) throw std::runtime_error("ended by an injected fault");
       std::this_thread::sleep_for(delay.by);
     }
   }
 
  private:
+  static constexpr Duration ends = Duration::max();
+
   struct Delay {
     FaultWindow window;
     Duration by;
@@ -41,6 +50,7 @@ class StageDelay {
 struct StageDelays {
   StageDelay stereo;
   StageDelay lidar;
+  StageDelay ppp;
   StageDelay fusion;
   StageDelay mapmatch;
 };

@@ -79,6 +79,7 @@ Sensors FaultInjection::afflict(Sensors sensors) {
         break;
       case FaultTarget::stereo:
       case FaultTarget::lidar:
+      case FaultTarget::ppp:
       case FaultTarget::fusion:
       case FaultTarget::mapmatch:
       case FaultTarget::cpu:
@@ -91,12 +92,18 @@ Sensors FaultInjection::afflict(Sensors sensors) {
 StageDelays FaultInjection::delays() {
   StageDelays delays;
   for (Injected& injected : faults_) {
-    if (injected.fault.kind != FaultKind::slow) continue;
+    const bool slows = injected.fault.kind == FaultKind::slow;
+    if (!slows && injected.fault.kind != FaultKind::broken) continue;
     StageDelay& delay = injected.fault.target == FaultTarget::stereo     ? delays.stereo
                         : injected.fault.target == FaultTarget::lidar    ? delays.lidar
+                        : injected.fault.target == FaultTarget::ppp      ? delays.ppp
                         : injected.fault.target == FaultTarget::mapmatch ? delays.mapmatch
                                                                          : delays.fusion;
-    delay.add(injected.window, injected.fault.by, injected.struck);
+    if (slows) {
+      delay.add(injected.window, injected.fault.by, injected.struck);
+    } else {
+      delay.add_end(injected.window, injected.struck);
+    }
   }
   return delays;
 }

@@ -92,19 +92,20 @@ bool FusionStage::tick(const runtime::Tick& tick, runtime::DataClock& clock,
   const MonotonicTime due = clock.due(k);
   const MonotonicTime woken = runtime::monotonic_now();
   MonotonicTime ready = woken;
+  const std::uint64_t taken_before = intake_.taken();
+  tick_ = k;
+  imu_taken_.reset();
+  odometry_taken_.reset();
+  sent_states_.clear();
+  sent_image_states_.clear();
   if (!clock.is_live() && intake_.promised() < k) {
     const runtime::TraceSpan waiting(trace_, "waiting for input");
     if (!intake_.wait(k, inputs_.bell, stop)) return false;
     ready = runtime::monotonic_now();
     stall(ready);
   }
-  if (intake_.finished()) return false;
+  if (intake_.finished() && intake_.taken() == taken_before) return false;
 
-  tick_ = k;
-  imu_taken_.reset();
-  odometry_taken_.reset();
-  sent_states_.clear();
-  sent_image_states_.clear();
   position_.store(to_nanoseconds(k), std::memory_order_relaxed);
   delay_(k);
   intake_.take_until(k);
@@ -209,6 +210,7 @@ void FusionStage::finish() {
   for (auto* edge : nav_states_) edge->finish();
   image_states_.finish();
   cuts_.finish();
+  intake_.abandon();
 }
 
 }  // namespace maploop::vehicle

@@ -75,7 +75,8 @@ Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataCl
     RingHealth r = edge->health();
     if (r.lost > 0) {
       health.degraded.push_back("ring " + r.name + " has lost " + std::to_string(r.lost) + " of " +
-                                std::to_string(r.pushed) + " samples: its reader is too slow");
+                                std::to_string(r.pushed) + " samples: its reader " +
+                                (edge->abandoned() ? "has ended" : "is too slow"));
     }
     health.rings.push_back(std::move(r));
   }

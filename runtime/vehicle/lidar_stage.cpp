@@ -182,6 +182,7 @@ void LidarStage::promise(Time t) {
 void LidarStage::finish() {
   promise(Time::max());
   cuts_.finish();
+  intake_.abandon();
 }
 
 }  // namespace maploop::vehicle

@@ -53,13 +53,14 @@ bool MapMatchStage::tick(const runtime::Tick& tick, const runtime::DataClock& cl
   const MonotonicTime due = clock.due(k);
   const MonotonicTime woken = runtime::monotonic_now();
   MonotonicTime ready = woken;
+  const std::uint64_t taken_before = intake_.taken();
   if (intake_.promised() < k) {
     const runtime::TraceSpan waiting(trace_, "waiting for input");
-    if (!intake_.wait(k, inputs_.bell, stop)) return false;
+    if (!wait_until(k, stop)) return false;
     ready = runtime::monotonic_now();
   }
   save_until(k - Duration(1), stop);
-  if (intake_.finished()) return false;
+  if (intake_.finished() && intake_.taken() == taken_before) return false;
 
   delay_(k);
   intake_.take_until(k);
@@ -91,7 +92,16 @@ bool MapMatchStage::tick(const runtime::Tick& tick, const runtime::DataClock& cl
   return true;
 }
 
-// At the tick after a cut: by then every input up to the cut is here.
+// Nothing after a cut is taken before it is saved.
+bool MapMatchStage::wait_until(Time t, const std::stop_token& stop) {
+  for (Time cut = cuts_.next(); cut < t; cut = cuts_.next()) {
+    if (!intake_.wait(cut, inputs_.bell, stop)) return false;
+    save_until(cut, stop);
+  }
+  return intake_.wait(t, inputs_.bell, stop);
+}
+
+// When every input up to the cut is here.
 void MapMatchStage::save_until(Time t, const std::stop_token& stop) {
   cuts_.save_until(t, stop, [this](ArchiveWriter& ar, Time cut) {
     intake_.take_until(cut);
@@ -128,6 +138,7 @@ void MapMatchStage::promise(Time t) {
 void MapMatchStage::finish() {
   promise(Time::max());
   cuts_.finish();
+  intake_.abandon();
 }
 
 }  // namespace maploop::vehicle

@@ -75,6 +75,7 @@ class MapMatchStage {
  private:
   bool tick(const runtime::Tick& tick, const runtime::DataClock& clock,
             const std::stop_token& stop);
+  bool wait_until(Time t, const std::stop_token& stop);
   void save_until(Time t, const std::stop_token& stop);
   void promise(Time t);
   template <class Archive, class Stage>

@@ -287,6 +287,9 @@ void PppStage::promise(Time t) {
 void PppStage::finish() {
   promise(Time::max());
   cuts_.finish();
+  inputs_.epochs.abandon();
+  if (inputs_.feedback) inputs_.feedback->abandon();
+  if (inputs_.corrections) inputs_.corrections->abandon();
 }
 
 }  // namespace maploop::vehicle

@@ -179,4 +179,10 @@ void Publisher::run(Time begin, const runtime::DataClock& clock) {
   }
 }
 
+void Publisher::finish() {
+  intake_.abandon();
+  edges_.reports.abandon();
+  for (MessageSink* sink : sinks_) sink->flush();
+}
+
 }  // namespace maploop::vehicle

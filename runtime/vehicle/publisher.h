@@ -91,6 +91,8 @@ class Publisher {
   // On a live clock no longer than `patience` for a stage that hangs.
   void run(Time begin, const runtime::DataClock& clock);
   static constexpr Duration patience = milliseconds(500);
+  // It takes nothing more, also after a failure, and what it sent is out.
+  void finish();
 
   // How long sending each message took.
   const ThreadMeter& meter() const { return meter_; }

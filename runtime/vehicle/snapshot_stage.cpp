@@ -100,4 +100,8 @@ void SnapshotStage::run(Time first) {
   if (failure) std::rethrow_exception(failure);
 }
 
+void SnapshotStage::finish() {
+  for (auto* part : parts_) part->abandon();
+}
+
 }  // namespace maploop::vehicle

@@ -46,6 +46,8 @@ class SnapshotStage {
   // Until all edges are finished and empty; a cut that not every stage reached is dropped. What the
   // handler throws is thrown at the end: the stages must not be held up. `first`: Snapshot's.
   void run(Time first);
+  // It takes nothing more, also after a failure.
+  void finish();
 
   const ThreadMeter& meter() const { return meter_; }  // of the handler
 

@@ -21,6 +21,9 @@ class StageCuts {
     edge_ = &edge;
   }
 
+  // The next cut; Time::max(): there is none.
+  Time next() const { return next_ < moments_.size() ? moments_[next_] : Time::max(); }
+
   // Calls save(ArchiveWriter&, cut) for each cut up to t that is still to come. For a stage that
   // has taken all inputs up to each of these cuts, and none after it. Before each, promise(cut): a
   // stage that is far ahead waits here for those behind it, and they must not wait for its outputs.

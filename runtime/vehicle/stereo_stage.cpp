@@ -110,6 +110,7 @@ void StereoStage::promise(Time t) {
 void StereoStage::finish() {
   promise(Time::max());
   cuts_.finish();
+  images_.abandon();
 }
 
 }  // namespace maploop::vehicle

@@ -21,6 +21,7 @@ Vehicle::~Vehicle() = default;
 void Vehicle::slow_down(StageDelays delays) {
   graph_->stereo.slow_down(std::move(delays.stereo));
   if (graph_->lidar) graph_->lidar->slow_down(std::move(delays.lidar));
+  if (graph_->ppp) graph_->ppp->slow_down(std::move(delays.ppp));
   graph_->fusion.slow_down(std::move(delays.fusion));
   if (graph_->mapmatch) graph_->mapmatch->slow_down(std::move(delays.mapmatch));
 }

@@ -99,7 +99,7 @@ class Vehicle {
           runtime::Tracer* tracer = nullptr, std::shared_ptr<const RoadMap> map = nullptr);
   ~Vehicle();  // stops and waits
 
-  // Slows stages down, for tests of what happens then; before start().
+  // Slows stages down or ends them, for tests of what happens then; before start().
   void slow_down(StageDelays delays);
 
   // The filter starts from these values instead of a fix; before start(). Throws

@@ -110,7 +110,8 @@ void Vehicle::Graph::start_snapshots() {
   monitor.watch_stage(stages::snapshot,
                       start_thread(
                           producers, stages::snapshot, config.scheduling.snapshot, {},
-                          [this](const std::stop_token&) { snapshots->run(first); }, [] {}),
+                          [this](const std::stop_token&) { snapshots->run(first); },
+                          [this] { snapshots->finish(); }),
                       snapshots->meter(), {});
 }
 
@@ -234,7 +235,8 @@ void Vehicle::Graph::start() {
   monitor.watch_stage(stages::publisher,
                       start_thread(
                           listeners, stages::publisher, scheduling.publisher, {},
-                          [this](const std::stop_token&) { publisher.run(begin, clock); }, [] {}),
+                          [this](const std::stop_token&) { publisher.run(begin, clock); },
+                          [this] { publisher.finish(); }),
                       publisher.meter(), {});
   monitor.watch_stage(stages::health,
                       start_thread(

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <thread>
 #include <vector>
 
@@ -68,6 +70,25 @@ TEST(Edge, StopFreesAProducerThatWaitsForRoomAndCountsItsSampleAsLost) {
   const RingHealth health = edge.health();
   EXPECT_EQ(health.pushed, health.popped + health.lost + health.held);
   EXPECT_LE(health.lost, 1u);
+}
+
+TEST(Edge, NobodyWaitsForAReaderThatHasEndedAndTheLossIsCounted) {
+  Edge<Number> edge("a -> b", 1, Overflow::keep_all, nullptr);
+  std::stop_source stop;
+  edge.push(at(0), stop.get_token());
+  std::atomic<bool> freed = false;
+  std::thread producer([&] {
+    edge.push(at(1), stop.get_token());
+    freed = true;
+  });
+  edge.abandon();
+  const auto bound = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  while (!freed && std::chrono::steady_clock::now() < bound) std::this_thread::yield();
+  EXPECT_TRUE(freed);
+  stop.request_stop();
+  producer.join();
+  EXPECT_EQ(edge.health().held, 1u);
+  EXPECT_EQ(edge.health().lost, 1u);
 }
 
 TEST(Edge, PromisesOnlyGrow) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <random>
 #include <string>
 #include <thread>
@@ -63,6 +65,36 @@ TEST(Intake, IsFinishedOnlyWhenEveryEdgeIsFinishedAndEmpty) {
   EXPECT_FALSE(e.intake.finished());
   e.intake.take_until(Time::max());
   EXPECT_TRUE(e.intake.finished());
+}
+
+TEST(Intake, AWaitTakesWhatIsPromisedSoThatAFullRingCannotHoldItsProducerUp) {
+  TwoEdges e;
+  e.second.finish();
+  constexpr int many = 1000;  // more than the ring holds
+  std::stop_source stop;
+  const std::stop_callback ring(stop.get_token(), [&] { e.bell.ring(); });
+  std::thread producer([&] {
+    for (int i = 1; i <= many; ++i) {
+      e.first.promise(from_nanoseconds(i - 1));
+      e.first.push(at(i, 'a'), stop.get_token());
+    }
+    e.first.finish();
+  });
+  std::atomic<bool> waited = false;
+  bool complete = false;
+  std::thread consumer([&] {
+    complete = e.intake.wait(from_nanoseconds(many), e.bell, stop.get_token());
+    waited = true;
+  });
+  const auto bound = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  while (!waited && std::chrono::steady_clock::now() < bound) std::this_thread::yield();
+  stop.request_stop();
+  producer.join();
+  consumer.join();
+  EXPECT_TRUE(complete);
+  e.intake.take_until(from_nanoseconds(many));
+  EXPECT_EQ(e.taken, std::string(many, 'a'));
+  EXPECT_EQ(e.intake.taken(), static_cast<std::uint64_t>(many));
 }
 
 TEST(Intake, StopEndsTheWaitForAPromiseThatNeverComes) {

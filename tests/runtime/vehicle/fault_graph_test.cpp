@@ -2,9 +2,13 @@
 // silently, and a fault of the samples is the same fault at every speed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include "runtime/vehicle/channel_hashes.h"
@@ -44,20 +48,37 @@ struct Replayed {
   }
 };
 
-Replayed replay(const std::vector<std::string>& texts, const DataClock& clock, double seconds) {
+// Whether it comes to its end by itself, within a bound that no machine needs.
+bool ends(Vehicle& vehicle) {
+  const MonotonicTime bound = runtime::monotonic_now() + std::chrono::minutes(2);
+  while (vehicle.running() && runtime::monotonic_now() < bound) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  const bool ended = !vehicle.running();
+  vehicle.stop();
+  vehicle.wait();
+  return ended;
+}
+
+Replayed replay(
+    const std::vector<std::string>& texts, const DataClock& clock, double seconds,
+    const std::function<void(const NavState&)>& look = [](const NavState&) {}) {
   std::vector<Fault> faults;
   for (const std::string& text : texts) faults.push_back(parse_fault(text));
   FaultInjection injection(std::move(faults), drive_start);
   ChannelHashes hashes;
   Replayed r;
   Observer observer;
-  observer.nav_state = [&](const NavState& state) { r.states.push_back(state); };
+  observer.nav_state = [&](const NavState& state) {
+    r.states.push_back(state);
+    look(state);
+  };
   Vehicle vehicle({}, testing::fake_calibration(),
                   injection.afflict(testing::fake_sensors(seconds)), clock, {&hashes}, observer);
   vehicle.slow_down(injection.delays());
   const auto hogs = injection.hogs([&] { return vehicle.position(); });
   vehicle.start();
-  vehicle.wait();
+  EXPECT_TRUE(ends(vehicle));
   r.report = vehicle.report();
   r.channels = hashes.summary();
   r.faults = injection.counts();
@@ -105,6 +126,59 @@ INSTANTIATE_TEST_SUITE_P(
                       "jump@camera:1:end,by=-5", "jump@imu:1:1,by=3", "jump@imu:1,by=-3600",
                       "jump@gnss:0:2,by=20", "jump@velodyne:1", "nan@imu:1:1", "nan@gnss:0:2",
                       "nan@velodyne", "black@camera:1:1", "garbage@camera:1:1"));
+
+TEST(FaultBurst, OfMoreThanARingHoldsGoesThroughWithTheSameBits) {
+  const std::vector<std::string> burst{"late@imu:0.5:0.5,by=5"};
+  const Replayed first = lockstep(burst, 7.0);  // 500 samples within one nanosecond each
+  expect_healthy(first);
+  EXPECT_EQ(first.channels.at("IMU").count, 700u);
+  const Replayed paced = replay(burst, DataClock::paced(20.0), 7.0);
+  expect_healthy(paced);
+  EXPECT_EQ(first.hashes(), paced.hashes());
+}
+
+class BrokenStage : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(BrokenStage, IsNamedAndTheRestGoesOn) {
+  const std::string stage = GetParam();
+  const Replayed clean = lockstep({}, 6.0);
+  const Replayed r = lockstep({"broken@" + stage + ":1"}, 6.0);
+  EXPECT_EQ(r.faults.at(0).struck, 1u);
+  for (const ThreadHealth& thread : r.report.health.threads) {
+    EXPECT_EQ(thread.failure, thread.name == stage ? "ended by an injected fault" : "");
+  }
+  for (const char* channel : {"IMU", "GNSS_FIX", "TRUTH"}) {
+    EXPECT_EQ(r.hashes().at(channel), clean.hashes().at(channel)) << channel;
+  }
+  if (stage != "fusion") {
+    EXPECT_GE(r.states.size(), 600u) << "as long as there are inertial samples";
+  }
+  if (stage != "stereo") {
+    EXPECT_EQ(r.hashes().at("VO"), clean.hashes().at("VO"));
+  }
+  for (const RingHealth& ring : r.report.health.rings) {
+    EXPECT_EQ(ring.pushed, ring.popped + ring.lost + ring.held) << ring.name;
+    if (!ring.name.ends_with(" -> " + stage)) {
+      EXPECT_EQ(ring.lost + ring.held, 0u) << ring.name;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, BrokenStage, ::testing::Values("stereo", "lidar", "fusion"));
+
+TEST(BrokenPublisher, IsNamedAndTheRestGoesOn) {
+  const auto look = [states = 0](const NavState&) mutable {
+    if (++states == 100) throw std::runtime_error("nobody to tell");
+  };
+  const Replayed r = replay({}, DataClock::virtual_time(), 6.0, look);
+  EXPECT_EQ(r.states.size(), 100u);
+  for (const ThreadHealth& thread : r.report.health.threads) {
+    EXPECT_EQ(thread.failure, thread.name == "publisher" ? "nobody to tell" : "");
+    if (thread.name == "imu") {
+      EXPECT_EQ(thread.count, 600u);
+    }
+  }
+}
 
 TEST(FaultOfTiming, NeverChangesABit) {
   const auto clean = lockstep({}).hashes();

@@ -55,6 +55,8 @@ TEST(FaultParse, EveryKindHasItsTargetsAndDefaults) {
   EXPECT_EQ(parse_fault("garbage@camera").kind, FaultKind::garbage);
   EXPECT_EQ(parse_fault("slow@stereo").by, milliseconds(100));
   EXPECT_EQ(parse_fault("slow@fusion:1").target, FaultTarget::fusion);
+  EXPECT_EQ(parse_fault("slow@ppp").target, FaultTarget::ppp);
+  EXPECT_EQ(parse_fault("broken@mapmatch:1").kind, FaultKind::broken);
   EXPECT_EQ(parse_fault("hog@cpu:1:2").threads, 2);
   EXPECT_EQ(parse_fault("hog@cpu:1:2,threads=4").threads, 4);
 }
@@ -74,7 +76,7 @@ TEST(FaultParse, WhatIsWrongIsNamedWithWhatIsAllowed) {
            {"lost@stereo", "camera, velodyne, imu, gnss"},
            {"nan@camera", "velodyne, imu, gnss"},
            {"black@imu", "but camera"},
-           {"slow@camera", "stereo, lidar, fusion, mapmatch"},
+           {"slow@camera", "stereo, lidar, ppp, fusion, mapmatch"},
            {"lost@imu:", "START"},
            {"lost@imu:x", "START must be a number from 0 to 1000000, not 'x'"},
            {"lost@imu:-1", "START"},
@@ -100,6 +102,8 @@ TEST(FaultParse, WhatIsWrongIsNamedWithWhatIsAllowed) {
            {"late@imu,delay=1", "by, share, seed"},
            {"slow@stereo,share=0.5", "but by"},
            {"slow@stereo,by=2", "from 0 to 1"},
+           {"broken@camera", "stereo, lidar, ppp, fusion, mapmatch"},
+           {"broken@stereo,share=0.5", "no key 'share'"},
            {"hog@cpu", "needs START:LENGTH"},
            {"hog@cpu:1:end", "needs START:LENGTH"},
            {"hog@cpu:1:61", "at most 60 s"},

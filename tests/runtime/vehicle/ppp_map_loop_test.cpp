@@ -2,9 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
+#include <string>
+#include <thread>
 #include <vector>
 
+#include "runtime/vehicle/fault_injection.h"
 #include "runtime/vehicle/limited_source.h"
 #include "runtime/vehicle/recording.h"
 #include "runtime/vehicle/road_map.h"
@@ -78,6 +82,46 @@ TEST(PppInTheLoop, FixesForTheFusionHoldNothingOfTheMapThatItGetsItself) {
   EXPECT_LT(tight.ppp.back().position_covariance.trace(),
             loose.ppp.back().position_covariance.trace());
   EXPECT_TRUE(loose.feedbacks.empty());
+}
+
+TEST(PppInTheLoop, AStageThatEndsWithAnErrorLeavesTheRestGoingOn) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  for (const std::string stage : {"ppp", "mapmatch"}) {
+    FaultInjection faults({parse_fault("broken@" + stage + ":10")}, riverside().first_stamp);
+    VehicleConfig config;
+    config.map.mode = MapMode::tight;
+    Sensors sensors = riverside().sensors(Time::min());
+    limit(sensors, riverside().first_stamp + seconds(120));  // more epochs than the ring holds
+    Vehicle vehicle(config, riverside().calibration, std::move(sensors), DataClock::virtual_time(),
+                    {}, {}, nullptr, roads());
+    vehicle.slow_down(faults.delays());
+    vehicle.start();
+    const MonotonicTime bound = runtime::monotonic_now() + std::chrono::minutes(5);
+    while (vehicle.running() && runtime::monotonic_now() < bound) {
+      std::this_thread::sleep_for(milliseconds(5));
+    }
+    EXPECT_FALSE(vehicle.running()) << stage;
+    vehicle.stop();
+    vehicle.wait();
+    const VehicleReport report = vehicle.report();
+    for (const ThreadHealth& thread : report.health.threads) {
+      EXPECT_EQ(thread.failure, thread.name == stage ? "ended by an injected fault" : "");
+    }
+    EXPECT_GT(report.data_seconds, 118.0) << stage;
+  }
+}
+
+TEST(PppInTheLoop, ASlowStageIsStruckAtEachEpoch) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  FaultInjection faults({parse_fault("slow@ppp,by=0.001")}, riverside().first_stamp);
+  Sensors sensors = riverside().sensors(Time::min());
+  limit(sensors, riverside().first_stamp + seconds(10));
+  Vehicle vehicle({}, riverside().calibration, std::move(sensors), DataClock::virtual_time(), {},
+                  {});
+  vehicle.slow_down(faults.delays());
+  vehicle.start();
+  vehicle.wait();
+  EXPECT_GE(faults.counts().at(0).struck, 10u);
 }
 
 TEST(PppInTheLoop, HasTheSameBitsInRealTimeAndResumed) {
