@@ -12,6 +12,7 @@
 #include "runtime/core/data_clock.h"
 #include "runtime/core/edge.h"
 #include "runtime/core/trace_span.h"
+#include "runtime/vehicle/episodes.h"
 #include "runtime/vehicle/meter.h"
 #include "runtime/vehicle/trace_flows.h"
 #include "sensors/source.h"
@@ -48,6 +49,9 @@ class Driver {
   // How long after its due time each sample was released.
   const Meter& lateness() const { return lateness_; }
 
+  // Of the samples released.
+  ArrivalWatch& arrivals() { return arrivals_; }
+
   // After the end.
   virtual sensors::SourceReport report() const = 0;
 
@@ -67,6 +71,7 @@ class Driver {
     const MonotonicTime due = clock.due(available);
     sample.received = runtime::monotonic_now();
     lateness_.record(std::max(Duration::zero(), sample.received - due));
+    arrivals_.arrived(available);
     const MonotonicTime received = sample.received;
     for (std::size_t i = 0; i < edges_.size(); ++i) {
       const bool last_edge = i + 1 == edges_.size();
@@ -87,6 +92,7 @@ class Driver {
  private:
   std::vector<runtime::Edge<T>*> edges_;
   Meter lateness_;
+  ArrivalWatch arrivals_;
   runtime::TraceBuffer* trace_ = nullptr;
 };
 

@@ -5,6 +5,7 @@
 #include "runtime/core/periodic.h"
 #include "runtime/vehicle/graph.h"
 #include "runtime/vehicle/trace_flows.h"
+#include "runtime/vehicle/watchdog.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -15,6 +16,22 @@ constexpr Duration furthest_behind = 5 * stages::fusion.period;
 
 // Memory taken beforehand; more, such as after a delay of the camera, is no error.
 constexpr std::size_t most_images_a_tick = 8;
+
+// What does not speak against the sensor: the configuration has no use for the measurement, now or
+// at all, or it has it already.
+bool wanted(fusion::Reason reason) {
+  using enum fusion::Reason;
+  return reason != duplicate && reason != before_start && reason != not_configured &&
+         reason != already_started && reason != too_slow;
+}
+
+void note(UseWatch& use, const Sample& sample, const fusion::Outcome& outcome) {
+  if (!outcome.refused()) {
+    use.note(sample.available, nullptr);
+  } else if (wanted(outcome.reason)) {
+    use.note(sample.available, to_string(outcome.reason).data());
+  }
+}
 
 }  // namespace
 
@@ -36,6 +53,10 @@ FusionStage::FusionStage(fusion::GuardedFilter filter, FusionEdges& inputs,
       nav_states_(std::move(nav_states)),
       image_states_(image_states),
       odometry_budget_(odometry_budget),
+      imu_use_(stages::fusion.name, "inertial samples", Watchdog::patience(stages::imu)),
+      gnss_use_(stages::fusion.name, "GNSS fixes", Watchdog::patience(stages::gnss)),
+      wheel_use_(stages::fusion.name, "wheel speeds", Watchdog::patience(stages::imu)),
+      odometry_use_(stages::fusion.name, "motions", Watchdog::patience(stages::odometry)),
       meter_(stages::fusion),
       camera_path_(paths::camera.name, paths::camera.deadline),
       imu_path_(paths::imu.name, paths::imu.deadline) {
@@ -44,17 +65,17 @@ FusionStage::FusionStage(fusion::GuardedFilter filter, FusionEdges& inputs,
   intake_.add(inputs_.imu, [this](const ImuSample& sample) {
     runtime::TraceSpan span(trace_, "imu");
     span.step_flow(flow_of(sample));
-    filter_.add(sample);
+    note(imu_use_, sample, filter_.add(sample));
     imu_taken_ = sample;
   });
   intake_.add(inputs_.gnss, [this](const GnssFix& fix) {
     runtime::TraceSpan span(trace_, "gnss");
     span.step_flow(flow_of(fix));
-    filter_.add(fix);
+    note(gnss_use_, fix, filter_.add(fix));
   });
   intake_.add(inputs_.wheel, [this](const WheelSpeed& sample) {
     const runtime::TraceSpan span(trace_, "wheel");
-    filter_.add(sample);
+    note(wheel_use_, sample, filter_.add(sample));
   });
   intake_.add(inputs_.odometry, [this](const RelativeMotion& motion) { take(motion); });
   if (!inputs_.feedback) return;
@@ -151,7 +172,7 @@ void FusionStage::send(const NavState& state) {
 void FusionStage::take(const RelativeMotion& motion) {
   runtime::TraceSpan span(trace_, "odometry");
   span.step_flow(flow_of(motion));
-  filter_.add(motion);
+  note(odometry_use_, motion, filter_.add(motion));
   if (motion.status == OdometryStatus::ok) odometry_taken_ = motion;
   std::optional<NavState> state = filter_.aided().state_at(motion.stamp);
   if (!state) return;

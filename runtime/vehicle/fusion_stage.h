@@ -1,6 +1,7 @@
 // The fusion thread: the reduced-IMU filter at a fixed rate.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <optional>
 #include <span>
@@ -21,6 +22,7 @@
 #include "runtime/core/intake.h"
 #include "runtime/core/latest_value.h"
 #include "runtime/core/trace_span.h"
+#include "runtime/vehicle/episodes.h"
 #include "runtime/vehicle/fault_delay.h"
 #include "runtime/vehicle/meter.h"
 #include "runtime/vehicle/stage_cuts.h"
@@ -77,6 +79,9 @@ class FusionStage {
   const Meter& camera_path() const { return camera_path_; }  // from the image's stamp to the state
   const Meter& imu_path() const { return imu_path_; }        // from the IMU's stamp to the state
 
+  // What of each sensor the filter uses.
+  std::array<UseWatch*, 4> uses() { return {&imu_use_, &gnss_use_, &wheel_use_, &odometry_use_}; }
+
   // Of the filter at the end of the last tick; one thread at a time may ask, also meanwhile.
   const fusion::FilterStatus& filter_status() {
     if (const fusion::FilterStatus* status = filter_status_.latest()) known_status_ = status;
@@ -109,6 +114,10 @@ class FusionStage {
   StageCuts cuts_;
   std::optional<Sample> imu_taken_;       // by this tick, the last one
   std::optional<Sample> odometry_taken_;  // with a motion
+  UseWatch imu_use_;
+  UseWatch gnss_use_;
+  UseWatch wheel_use_;
+  UseWatch odometry_use_;
   ThreadMeter meter_;
   Meter camera_path_;
   Meter imu_path_;

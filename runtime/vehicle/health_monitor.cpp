@@ -4,16 +4,18 @@
 
 namespace maploop::vehicle {
 
-void HealthMonitor::start(Time first, MonotonicTime wall) {
+void HealthMonitor::start(Time first, MonotonicTime wall, Time origin) {
+  origin_ = origin;
   first_ = first;
   wall_start_ = wall;
 }
 
 void HealthMonitor::watch_driver(const Stage& stage, const runtime::Thread& thread,
-                                 const Meter& lateness, bool absent) {
+                                 const Meter& lateness, ArrivalWatch& arrivals, bool absent) {
   threads_.push_back({&thread,
                       nullptr,
                       &lateness,
+                      &arrivals,
                       absent,
                       {},
                       Watchdog(stage, Watchdog::Kind::driver, first_, wall_start_)});
@@ -22,7 +24,7 @@ void HealthMonitor::watch_driver(const Stage& stage, const runtime::Thread& thre
 void HealthMonitor::watch_stage(const Stage& stage, const runtime::Thread& thread,
                                 const ThreadMeter& meter,
                                 std::vector<const runtime::EdgeBase*> inputs) {
-  threads_.push_back({&thread, &meter, nullptr, false, std::move(inputs),
+  threads_.push_back({&thread, &meter, nullptr, nullptr, false, std::move(inputs),
                       Watchdog(stage, Watchdog::Kind::fed, first_, wall_start_)});
 }
 
@@ -30,6 +32,7 @@ StageFacts HealthMonitor::facts(const Watched& watched, std::uint64_t count) {
   StageFacts facts;
   facts.absent = watched.absent;
   facts.count = count;
+  if (watched.arrivals != nullptr) facts.newest = watched.arrivals->last();
   Time furthest_behind = Time::max();
   for (const runtime::EdgeBase* input : watched.inputs) {
     const Time promised = input->promised();
@@ -47,6 +50,9 @@ Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataCl
                              const runtime::RealtimeReport& readiness) {
   Health health;
   health.stamp = stamp;
+  const auto say = [&health](std::string sentence) {
+    if (!sentence.empty()) health.degraded.push_back(std::move(sentence));
+  };
   const MonotonicTime now = runtime::monotonic_now();
   for (Watched& watched : threads_) {
     ThreadHealth t;
@@ -69,8 +75,12 @@ Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataCl
     }
     const auto wrong = watched.watchdog.look(stamp, now, facts(watched, t.count));
     health.degraded.insert(health.degraded.end(), wrong.begin(), wrong.end());
+    if (watched.arrivals != nullptr) {
+      say(outage_sentence(t.name, watched.arrivals->outages(), origin_));
+    }
     health.threads.push_back(std::move(t));
   }
+  for (UseWatch* use : uses_) say(use->sentence(origin_));
   for (const auto* edge : edges_) {
     RingHealth r = edge->health();
     if (r.lost > 0) {

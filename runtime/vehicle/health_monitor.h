@@ -11,6 +11,7 @@
 #include "runtime/core/edge.h"
 #include "runtime/core/realtime_setting.h"
 #include "runtime/core/thread.h"
+#include "runtime/vehicle/episodes.h"
 #include "runtime/vehicle/graph.h"
 #include "runtime/vehicle/message_sink.h"
 #include "runtime/vehicle/thread_meter.h"
@@ -22,16 +23,18 @@ namespace maploop::vehicle {
 // outlive the monitor.
 class HealthMonitor {
  public:
-  // Of the data, and of the threads. Before watch_...().
-  void start(Time first, MonotonicTime wall);
-  // A driver, by how late it releases its samples. `absent`: it has no sensor.
+  // Of the data that are to come, and of the threads; times are said from `origin` on, the start of
+  // the drive. Before watch_...().
+  void start(Time first, MonotonicTime wall, Time origin);
+  // A driver, by when its samples come, and how late it releases them. `absent`: it has no sensor.
   void watch_driver(const Stage& stage, const runtime::Thread& thread, const Meter& lateness,
-                    bool absent);
+                    ArrivalWatch& arrivals, bool absent);
   // A stage, and the rings that feed it.
   void watch_stage(const Stage& stage, const runtime::Thread& thread, const ThreadMeter& meter,
                    std::vector<const runtime::EdgeBase*> inputs);
   void watch_path(const Meter& path) { paths_.push_back(&path); }
   void watch(const runtime::EdgeBase& edge) { edges_.push_back(&edge); }
+  void watch(UseWatch& use) { uses_.push_back(&use); }
   void watch(const MessageSink& output) { outputs_.push_back(&output); }
 
   // `elapsed`: data time since the last look, for the rates.
@@ -46,6 +49,7 @@ class HealthMonitor {
     const runtime::Thread* thread;
     const ThreadMeter* meter;  // null of a driver
     const Meter* lateness;     // of a driver, else null
+    ArrivalWatch* arrivals;    // likewise
     bool absent;
     std::vector<const runtime::EdgeBase*> inputs;
     Watchdog watchdog;
@@ -55,9 +59,11 @@ class HealthMonitor {
   };
   static StageFacts facts(const Watched& watched, std::uint64_t count);
 
+  Time origin_{};
   Time first_{};
   MonotonicTime wall_start_{};
   std::vector<Watched> threads_;
+  std::vector<UseWatch*> uses_;
   std::vector<const Meter*> paths_;
   std::vector<const runtime::EdgeBase*> edges_;
   std::vector<const MessageSink*> outputs_;

@@ -98,6 +98,7 @@ void LidarStage::process(const VisualMotion* visual, Time trigger, MonotonicTime
   result.lidar.received = result.odometry.received = ended;
   if (with_scan) {
     counts_[static_cast<std::size_t>(result.lidar.status)].fetch_add(1, std::memory_order_relaxed);
+    note_use(use_, trigger, result.lidar.status);
     sent_lidar_.push_back(result.lidar);
     send(result.lidar);
   }
@@ -121,8 +122,9 @@ void LidarStage::show(const LidarScan& scan) {
 
 void LidarStage::measure(Time trigger, Time stamp, MonotonicTime released, MonotonicTime started,
                          MonotonicTime ended) {
-  const bool missed = meter_.worked({stamp, released, started, ended, "busy with the scan before"},
-                                    clock_->keeps_time(trigger));
+  const bool missed = meter_.worked(
+      {stamp, released, started, ended, cuts_.held_up(released, "busy with the scan before")},
+      clock_->keeps_time(trigger));
   if (missed) runtime::trace_instant(trace_, "missed deadline");
 }
 

@@ -20,10 +20,12 @@
 #include "runtime/core/edge.h"
 #include "runtime/core/intake.h"
 #include "runtime/core/trace_span.h"
+#include "runtime/vehicle/episodes.h"
 #include "runtime/vehicle/fault_delay.h"
 #include "runtime/vehicle/preview_stage.h"
 #include "runtime/vehicle/stage_cuts.h"
 #include "runtime/vehicle/thread_meter.h"
+#include "runtime/vehicle/watchdog.h"
 
 namespace maploop::vehicle {
 
@@ -71,6 +73,7 @@ class LidarStage {
   void resume(std::span<const std::uint8_t> saved);
 
   const ThreadMeter& meter() const { return meter_; }
+  UseWatch& use() { return use_; }
   // Scans so far with this status; any thread may ask.
   std::uint64_t count(OdometryStatus status) const {
     return counts_[static_cast<std::size_t>(status)].load(std::memory_order_relaxed);
@@ -107,6 +110,7 @@ class LidarStage {
   // Those that were not yet available at the last step.
   std::vector<LidarMotion> sent_lidar_;
   std::vector<RelativeMotion> sent_odometry_;
+  UseWatch use_{stages::lidar.name, "scans", Watchdog::patience(stages::lidar)};
   ThreadMeter meter_;
   runtime::TraceBuffer* trace_ = nullptr;
   AskedScan* preview_ = nullptr;  // nullptr: nobody looks on

@@ -88,9 +88,9 @@ void PppStage::take(const GnssEpoch& epoch, const runtime::DataClock& clock,
   const MonotonicTime started = runtime::monotonic_now();
   process(epoch, stop);
   const MonotonicTime ended = runtime::monotonic_now();
-  const bool missed =
-      meter_.worked({epoch.stamp, epoch.received, started, ended, "busy with the epoch before"},
-                    clock.keeps_time(epoch.available));
+  const bool missed = meter_.worked({epoch.stamp, epoch.received, started, ended,
+                                     cuts_.held_up(epoch.received, "busy with the epoch before")},
+                                    clock.keeps_time(epoch.available));
   if (missed) runtime::trace_instant(trace_, "missed deadline");
 }
 
@@ -190,6 +190,7 @@ void PppStage::process(const GnssEpoch& epoch, const std::stop_token& stop) {
   }
   say_corrections();
   count(state_);
+  use_.note(epoch.available, state_.status == PppStatus::none ? "no position" : nullptr);
   std::erase_if(sent_, [&](const Sent& s) { return s.state.available <= epoch.available; });
   sent_.push_back({state_, free_state_.status != PppStatus::none, ppp::to_fix(free_state_)});
   send(sent_.back(), stop);

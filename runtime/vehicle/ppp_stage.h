@@ -23,11 +23,13 @@
 #include "runtime/core/doorbell.h"
 #include "runtime/core/edge.h"
 #include "runtime/core/trace_span.h"
+#include "runtime/vehicle/episodes.h"
 #include "runtime/vehicle/fault_delay.h"
 #include "runtime/vehicle/gnss_epoch.h"
 #include "runtime/vehicle/live_corrections.h"
 #include "runtime/vehicle/stage_cuts.h"
 #include "runtime/vehicle/thread_meter.h"
+#include "runtime/vehicle/watchdog.h"
 
 namespace maploop::vehicle {
 
@@ -65,6 +67,7 @@ class PppStage {
   // Goes on from what was saved; throws ArchiveError, as PppFilter.
   void resume(std::span<const std::uint8_t> saved);
 
+  UseWatch& use() { return use_; }
   const ThreadMeter& meter() const { return meter_; }
   // Epochs without a position, satellites refused and slips by their reasons, and restarts, so far;
   // any thread may ask.
@@ -116,6 +119,7 @@ class PppStage {
   PppEdges& inputs_;
   runtime::Edge<PppState>& states_;
   std::vector<runtime::Edge<GnssFix>*> fixes_;
+  UseWatch use_{stages::ppp.name, "epochs", Watchdog::patience(stages::ppp)};
   ThreadMeter meter_;
   runtime::TraceBuffer* trace_ = nullptr;
   StageDelay delay_;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/core/data_clock.h"
 #include "runtime/core/edge.h"
 #include "runtime/vehicle/snapshot.h"
 
@@ -38,6 +39,7 @@ class StageCuts {
         save(writer, cut);
         slot.content = writer.take();
       });
+      saved_ = runtime::monotonic_now();
     }
   }
 
@@ -46,6 +48,11 @@ class StageCuts {
   void save_until(Time t, const std::stop_token& stop, Save&& save) {
     save_until(
         t, stop, [](Time) {}, std::forward<Save>(save));
+  }
+
+  // What kept the stage from a sample released at that moment: being saved, or `otherwise`.
+  const char* held_up(MonotonicTime released, const char* otherwise) const {
+    return saved_ > released ? "being saved, or waiting for room for it" : otherwise;
   }
 
   // The stage has ended.
@@ -57,6 +64,7 @@ class StageCuts {
   std::vector<Time> moments_;
   std::size_t next_ = 0;
   runtime::Edge<StageSnapshot>* edge_ = nullptr;
+  MonotonicTime saved_{};  // last
 };
 
 }  // namespace maploop::vehicle

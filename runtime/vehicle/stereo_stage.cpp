@@ -27,9 +27,9 @@ void StereoStage::run(const runtime::DataClock& clock, const std::stop_token& st
     runtime::trace_counter(trace_, "camera -> stereo", static_cast<double>(images_.held()));
     process(pair, stop);
     const MonotonicTime ended = runtime::monotonic_now();
-    const bool missed =
-        meter_.worked({pair.stamp, pair.received, started, ended, "busy with the pair before"},
-                      clock.keeps_time(pair.available));
+    const bool missed = meter_.worked({pair.stamp, pair.received, started, ended,
+                                       cuts_.held_up(pair.received, "busy with the pair before")},
+                                      clock.keeps_time(pair.available));
     if (missed) runtime::trace_instant(trace_, "missed deadline");
     show(pair);
   };
@@ -49,6 +49,7 @@ void StereoStage::process(const StereoPair& pair, const std::stop_token& stop) {
   delay_(pair.available);
   VisualMotion motion = odometry_.process(pair);
   counts_[static_cast<std::size_t>(motion.status)].fetch_add(1, std::memory_order_relaxed);
+  note_use(use_, pair.available, motion.status);
   motion.available = pair.available + stages::stereo.budget;
   std::erase_if(sent_, [&](const VisualMotion& m) { return m.available <= pair.available; });
   sent_.push_back(motion);

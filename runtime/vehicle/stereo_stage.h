@@ -17,10 +17,12 @@
 #include "runtime/core/doorbell.h"
 #include "runtime/core/edge.h"
 #include "runtime/core/trace_span.h"
+#include "runtime/vehicle/episodes.h"
 #include "runtime/vehicle/fault_delay.h"
 #include "runtime/vehicle/preview_stage.h"
 #include "runtime/vehicle/stage_cuts.h"
 #include "runtime/vehicle/thread_meter.h"
+#include "runtime/vehicle/watchdog.h"
 
 namespace maploop::vehicle {
 
@@ -52,6 +54,7 @@ class StereoStage {
   void resume(std::span<const std::uint8_t> saved);
 
   const ThreadMeter& meter() const { return meter_; }
+  UseWatch& use() { return use_; }
   // Results so far with this status; any thread may ask.
   std::uint64_t count(OdometryStatus status) const {
     return counts_[static_cast<std::size_t>(status)].load(std::memory_order_relaxed);
@@ -71,6 +74,7 @@ class StereoStage {
   const runtime::Doorbell& bell_;
   std::vector<runtime::Edge<RelativeMotion>*> outputs_;
   runtime::Edge<VisualMotion>* lidar_;
+  UseWatch use_{stages::stereo.name, "image pairs", Watchdog::patience(stages::stereo)};
   ThreadMeter meter_;
   runtime::TraceBuffer* trace_ = nullptr;
   AskedImage* preview_ = nullptr;  // nullptr: nobody looks on

@@ -61,6 +61,7 @@ struct Vehicle::Graph {
   void run_health(const std::stop_token& end);
   RuntimeReport look(Duration elapsed);
   void look_at_sensors(Health& health);
+  void look_at_imu_delay(Health& health);
   void wait();
   VehicleReport report() const;
 

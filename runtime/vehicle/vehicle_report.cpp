@@ -1,5 +1,9 @@
 #include "runtime/vehicle/vehicle_report.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
@@ -65,6 +69,24 @@ void Vehicle::Graph::look_at_sensors(Health& health) {
   }
 }
 
+// What odometry's turning says of the inertial stamps.
+void Vehicle::Graph::look_at_imu_delay(Health& health) {
+  constexpr double harmless = 0.02;  // s: a third of a degree in the sharpest bend
+  constexpr double certain = 5.0;    // sigmas
+  const fusion::DelayEstimate estimate = fusion.filter_status().imu_delay;
+  if (!estimate.known()) return;
+  const double delay = estimate.delay();
+  if (std::abs(delay) < std::max(harmless, certain * estimate.sigma())) return;
+  std::array<char, 160> text{};
+  std::snprintf(text.data(), text.size(),
+                "imu: its stamps are %.0f +- %.0f ms %s against odometry; %s that %s imu_delay of "
+                "[%s]",
+                1e3 * std::abs(delay), 1e3 * estimate.sigma(), delay > 0.0 ? "late" : "early",
+                delay > 0.0 ? "add" : "take", delay > 0.0 ? "to" : "off",
+                host_clock != nullptr ? "live" : "replay");
+  health.degraded.emplace_back(text.data());
+}
+
 RuntimeReport Vehicle::Graph::look(Duration elapsed) {
   const Time stamp = fusion.position();
   RuntimeReport report;
@@ -75,6 +97,7 @@ RuntimeReport Vehicle::Graph::look(Duration elapsed) {
   report.health.refusals = refusals(stereo, lidar ? &*lidar : nullptr, ppp ? &*ppp : nullptr,
                                     fusion.filter_status(), mapmatch ? &*mapmatch : nullptr);
   report.deadlines = monitor.deadlines(stamp);
+  look_at_imu_delay(report.health);
   if (host_clock != nullptr) look_at_sensors(report.health);
   return report;
 }

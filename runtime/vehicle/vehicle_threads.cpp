@@ -32,10 +32,12 @@ runtime::Thread& Vehicle::Graph::start_thread(std::deque<runtime::Thread>& threa
 template <class T>
 void Vehicle::Graph::start_driver(const Stage& stage, const runtime::Scheduling& scheduling,
                                   Driver<T>& driver) {
+  driver.arrivals().start(begin,
+                          stage.min_rate > 0.0 ? Watchdog::patience(stage) : Duration::zero());
   const runtime::Thread& thread = start_thread(
       producers, stage, scheduling, stop.get_token(),
       [&](const std::stop_token& token) { driver.run(clock, token); }, [&] { driver.finish(); });
-  monitor.watch_driver(stage, thread, driver.lateness(), driver.absent());
+  monitor.watch_driver(stage, thread, driver.lateness(), driver.arrivals(), driver.absent());
 }
 
 void Vehicle::Graph::find_first() {
@@ -128,6 +130,7 @@ void Vehicle::Graph::start_odometry() {
     start_stereo();
   }
   if (lidar) {
+    monitor.watch(lidar->use());
     monitor.watch_stage(stages::lidar,
                         start_thread(
                             producers, stages::lidar, config.scheduling.lidar, stop.get_token(),
@@ -146,6 +149,7 @@ void Vehicle::Graph::start_stereo() {
       [this] { stereo.finish(); });
   // Of a drive with GNSS alone, or a vehicle without cameras, nobody waits for images.
   if ((to_ppp || host_clock != nullptr) && drivers.camera->absent()) return;
+  monitor.watch(stereo.use());
   monitor.watch_stage(stages::stereo, thread, stereo.meter(), {&images});
 }
 
@@ -158,6 +162,7 @@ void Vehicle::Graph::start_gnss() {
   start_driver(stages::gnss, config.scheduling.gnss, *drivers.epochs);
   if (to_ppp->corrections)
     start_driver(stages::corrections, config.scheduling.gnss, *drivers.corrections);
+  monitor.watch(ppp->use());
   monitor.watch_stage(stages::ppp,
                       start_thread(
                           producers, stages::ppp, config.scheduling.ppp, stop.get_token(),
@@ -212,7 +217,7 @@ void Vehicle::Graph::start() {
   } else {
     clock.start(begin, lead);
   }
-  monitor.start(begin, started);
+  monitor.start(begin, started, first);
   start_snapshots();
   const SchedulingParameters& scheduling = config.scheduling;
   start_driver(stages::camera, scheduling.camera, *drivers.camera);
@@ -222,6 +227,7 @@ void Vehicle::Graph::start() {
   start_driver(stages::wheel, scheduling.wheel, *drivers.wheel);
   start_driver(stages::reference, scheduling.reference, *drivers.reference);
   start_odometry();
+  for (UseWatch* use : fusion.uses()) monitor.watch(*use);
   monitor.watch_stage(stages::fusion,
                       start_thread(
                           producers, stages::fusion, scheduling.fusion, stop.get_token(),

@@ -33,6 +33,7 @@ Duration Watchdog::patience(const Stage& stage) {
 std::vector<std::string> Watchdog::look(Time now, MonotonicTime wall_now, const StageFacts& facts) {
   if (stage_.min_rate <= 0.0) return {};
   if (facts.absent) return {std::string(stage_.name) + ": there is none; the rest goes without"};
+  now = std::max(now, facts.newest.value_or(now));
   std::vector<std::string> wrong;
   const std::string still = stillness(now, wall_now, facts);
   if (facts.count > count_) {
@@ -50,14 +51,15 @@ std::vector<std::string> Watchdog::look(Time now, MonotonicTime wall_now, const 
 }
 
 std::string Watchdog::stillness(Time now, MonotonicTime wall_now, const StageFacts& facts) const {
-  if (facts.count > count_) return {};
+  const bool moves = facts.count > count_ && !facts.newest;
+  if (moves) return {};
   const std::string name(stage_.name);
   const Duration wall_still = wall_now - wall_moved_;
   if (kind_ == Kind::fed && facts.waiting > 0 && wall_still >= patience(stage_)) {
     return name + ": stuck for " + seconds(wall_still) + " with " + std::to_string(facts.waiting) +
            " samples before it" + waiting_for(facts);
   }
-  const Duration still = now - moved_;
+  const Duration still = now - facts.newest.value_or(moved_);
   if (still < patience(stage_)) return {};
   if (facts.count == 0) {
     return name + ": silent since the start, " + seconds(still) + " ago" +

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct StageFacts {
   std::uint64_t count = 0;     // results since the start
   std::size_t waiting = 0;     // samples in the rings that end here
   std::string waits_for = {};  // of these rings, the empty one that holds the stage up
+  // Of a driver, when its newest sample became available: maybe ahead of what the stages have come
+  // to, which is no silence. Nothing: known by the count alone.
+  std::optional<Time> newest = {};
 };
 
 // Of one stage. Stages without rates in the table are never found wanting. Looks at facts alone, on

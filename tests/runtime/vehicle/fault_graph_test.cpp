@@ -224,6 +224,37 @@ TEST(FaultOfTiming, AHogEndsWithTheReplay) {
   EXPECT_EQ(r.faults.at(0).struck, 3u);
 }
 
+bool says(const Replayed& r, const std::string& text) {
+  const auto& all = r.report.health.degraded;
+  return std::any_of(all.begin(), all.end(),
+                     [&](const std::string& s) { return s.find(text) != std::string::npos; });
+}
+
+TEST(FaultWords, AnOutageThatHasEndedIsSaidAlsoOnVirtualTime) {
+  const Replayed r = lockstep({"lost@imu:2:3"}, 8.0);
+  EXPECT_TRUE(says(r, "imu: nothing came for 3.0")) << "from 2 s on";
+  EXPECT_TRUE(says(lockstep({"lost@imu:2:end"}, 8.0), "imu: stale, nothing new for 6"));
+  EXPECT_TRUE(says(lockstep({"lost@camera:2:3"}, 8.0), "camera: nothing came for 3"));
+}
+
+TEST(FaultWords, WhatAnEstimatorRefusesIsSaidWithItsReason) {
+  EXPECT_TRUE(says(lockstep({"nan@imu:2:3"}, 8.0), " inertial samples from 2"));
+  EXPECT_TRUE(says(lockstep({"nan@imu:2:3"}, 8.0), ": a value is not finite"));
+  EXPECT_TRUE(says(lockstep({"jump@imu:2:3,by=3"}, 8.0), ": stamped later than delivered"));
+  EXPECT_TRUE(says(lockstep({"jump@imu:2:end,by=-1"}, 8.0), " inertial samples since 2"))
+      << "and it goes on";
+  EXPECT_TRUE(says(lockstep({}, 8.0), "stereo refuses ")) << "there is nothing to see";
+  EXPECT_FALSE(says(lockstep({"duplicated@imu"}, 8.0), " inertial samples "));
+}
+
+TEST(FaultRefusals, AnInertialClockThatIsRightAgainIsBelievedAgain) {
+  for (const char* fault : {"jump@imu:1:2,by=0.05", "jump@imu:1:2,by=-0.05"}) {
+    const Replayed r = lockstep({fault}, 8.0);
+    EXPECT_LE(r.refused("fusion", "the sensor's clock has fallen back"), 200u) << fault;
+    EXPECT_EQ(r.states.back().imu_stamp, lockstep({}, 8.0).states.back().imu_stamp) << fault;
+  }
+}
+
 TEST(FaultRefusals, NanIsCountedSampleBySample) {
   const Replayed r = lockstep({"nan@imu:1:1", "nan@gnss:0:1.5"});
   expect_healthy(r);

@@ -91,7 +91,7 @@ VehicleReport drive(MemoryBus& bus, LiveSensors live, Duration length, std::size
   return vehicle.report();
 }
 
-bool says(const Health& health, const std::string& text) {
+bool is_said(const Health& health, const std::string& text) {
   return std::any_of(health.degraded.begin(), health.degraded.end(),
                      [&](const std::string& s) { return s.find(text) != std::string::npos; });
 }
@@ -107,8 +107,8 @@ TEST(LiveVehicle, GoesOnWithoutASensorThatIsMissingAndNamesIt) {
   for (const auto& state : states) aided += from_lcm(state).status != NavStatus::uninitialized;
   EXPECT_GT(aided, 50u);
   EXPECT_GT(bus.decoded<maploop_lcm::imu_t>("IMU").size(), 100u);
-  EXPECT_TRUE(says(report.health, "velodyne: udp://:1 is not there; is it plugged in?"));
-  EXPECT_TRUE(says(report.health, "velodyne: silent since the start"));
+  EXPECT_TRUE(is_said(report.health, "velodyne: udp://:1 is not there; is it plugged in?"));
+  EXPECT_TRUE(is_said(report.health, "velodyne: silent since the start"));
   EXPECT_EQ(report.stalls, 0u);
   ASSERT_EQ(report.health.sensors.size(), 3u);
   for (const SensorHealth& sensor : report.health.sensors) {
@@ -135,7 +135,7 @@ TEST(LiveVehicle, NoStampMovesWhenTheMachinesClockIsSet) {
     clock_was_set = true;
   });
   const VehicleReport report = drive(bus, live_sensors(utc), milliseconds(2500), 150);
-  EXPECT_TRUE(says(report.health, "this machine's clock was set by 1.0"));
+  EXPECT_TRUE(is_said(report.health, "this machine's clock was set by 1.0"));
   const auto states = bus.decoded<maploop_lcm::nav_state_t>("NAV_STATE");
   ASSERT_GT(states.size(), 100u);
   for (std::size_t i = 1; i < states.size(); ++i) {
@@ -196,7 +196,7 @@ TEST(LiveVehicle, GoesOnThroughUnpluggingAndAFloodOfGarbage) {
     EXPECT_GT(sensor.delivered, 0u) << sensor.name;
     EXPECT_GT(sensor.refused, 0u) << sensor.name;
   }
-  EXPECT_TRUE(says(report.health, "gnss: serial://")) << "it is unplugged";
+  EXPECT_TRUE(is_said(report.health, "gnss: serial://")) << "it is unplugged";
   EXPECT_GT(bus.decoded<maploop_lcm::nav_state_t>("NAV_STATE").size(), 150u);
 }
 

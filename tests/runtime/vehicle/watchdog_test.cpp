@@ -103,6 +103,23 @@ TEST_F(WatchdogTest, SaysThatASensorIsNotThere) {
             Sentences{"sensor: there is none; the rest goes without"});
 }
 
+TEST_F(WatchdogTest, AccusesNoSensorThatIsOnlyAhead) {
+  const auto at = [&](int ms, std::uint64_t count, int newest_ms) {
+    return watchdog_.look(drive_start + milliseconds(ms), wall_ + milliseconds(ms),
+                          {false, count, 0, "", drive_start + milliseconds(newest_ms)});
+  };
+  EXPECT_EQ(at(1000, 100, 10'000), Sentences{});
+  for (int ms = 2000; ms < 10'000; ms += 1000) EXPECT_EQ(at(ms, 100, 10'000), Sentences{}) << ms;
+  EXPECT_EQ(at(10'500, 105, 10'500), Sentences{});
+  EXPECT_EQ(at(13'000, 105, 10'500), Sentences{"sensor: stale, nothing new for 2.5 s"});
+}
+
+TEST_F(WatchdogTest, AFirstLookAtTheEndSeesASensorThatHasDied) {
+  EXPECT_EQ(watchdog_.look(drive_start + milliseconds(45'000), wall_ + milliseconds(5000),
+                           {false, 300, 0, "", drive_start + milliseconds(15'000)}),
+            Sentences{"sensor: stale, nothing new for 30 s"});
+}
+
 TEST_F(WatchdogTest, LeavesStagesWithoutRatesAlone) {
   watch(unwatched, Watchdog::Kind::driver);
   EXPECT_EQ(look(100000, 0), Sentences{});
