@@ -47,7 +47,7 @@ FileKind parse_into(std::string_view text, const std::string& name, GnssFiles& f
                       ": none of RINEX observations, navigation or clocks, compact RINEX, SP3, "
                       "ANTEX, Bias-SINEX, DCB, ERP, BLQ, UBX, RTCM 3");
   }
-  if (!sent.kepler.empty() || !sent.glonass.empty() || sent.refused > 0)
+  if (!sent.kepler.empty() || !sent.glonass.empty() || !sent.ionosphere.empty() || sent.refused > 0)
     files.navigation.push_back(std::move(sent));
   return kind;
 }

@@ -1,7 +1,6 @@
 #include "ppp/ppp_setup.h"
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 
 namespace maploop::ppp {
@@ -105,23 +104,25 @@ void PppSetup::choose_products(const GnssFiles& files, const SetupOptions& optio
 
 void PppSetup::choose_ionosphere() {
   parameters_ = for_one_frequency(parameters_);
-  if (broadcast_ && broadcast_->klobuchar()) {
-    surroundings_.klobuchar = &*broadcast_->klobuchar();
-    return;
-  }
-  static constexpr std::array<double, 8> typical{1.1e-8, 1.5e-8, -6e-8,  -6e-8,
-                                                 8.8e4,  1.6e4,  -1.3e5, -6.6e4};
-  surroundings_.klobuchar = &typical;
-  lacks_.push_back("no ionospheric coefficients in a navigation file: typical ones are used");
+  surroundings_.one_frequency = true;
+  if (broadcast_) surroundings_.ionosphere = &broadcast_->ionosphere();
+  if (live()) return;  // it may still hear them
+  const GpsTime first = observations_->epochs.front().time;
+  const std::string lack =
+      ionosphere_lack(broadcast_ ? broadcast_->ionosphere().age(first) : std::nullopt);
+  if (!lack.empty()) lacks_.push_back(lack);
 }
 
-PppFilter PppSetup::make_filter(const Ephemeris* received) const {
+PppFilter PppSetup::make_filter(const CorrectedEphemeris* received) const {
   Surroundings surroundings = surroundings_;
-  if (received != nullptr) surroundings.ephemeris = received;
+  if (received != nullptr) {
+    surroundings.ephemeris = received;
+    surroundings.ionosphere = &received->ionosphere();
+  }
   return {parameters_, surroundings, earth_};
 }
 
-MapAidedFilter PppSetup::make_map_aided_filter(const Ephemeris* received) const {
+MapAidedFilter PppSetup::make_map_aided_filter(const CorrectedEphemeris* received) const {
   return MapAidedFilter(make_filter(received), parameters_);
 }
 

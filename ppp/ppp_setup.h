@@ -9,6 +9,7 @@
 #include "ppp/filter/map_aided_filter.h"
 #include "ppp/gnss_files.h"
 #include "ppp/products/broadcast.h"
+#include "ppp/products/corrected.h"
 #include "ppp/products/precise.h"
 
 namespace maploop::ppp {
@@ -37,9 +38,10 @@ class PppSetup {
   // the files have is used as above.
   PppSetup(const GnssFiles& files, const SetupOptions& options, const LiveReceiver& receiver);
 
-  // `received` takes the place of the files' orbits and clocks, and outlives the filter.
-  PppFilter make_filter(const Ephemeris* received = nullptr) const;
-  MapAidedFilter make_map_aided_filter(const Ephemeris* received = nullptr) const;
+  // `received` takes the place of the files' orbits, clocks and ionosphere, and outlives the
+  // filter.
+  PppFilter make_filter(const CorrectedEphemeris* received = nullptr) const;
+  MapAidedFilter make_map_aided_filter(const CorrectedEphemeris* received = nullptr) const;
 
   bool live() const { return observations_ == nullptr; }
   // Precondition: not live.

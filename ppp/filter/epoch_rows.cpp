@@ -117,7 +117,7 @@ void EpochRows::add_phase_row(const Tracked& t, double factor, const Row& code, 
   const bool graphic = !m.dual() && parameters_.graphic;
   const double phase = m.phase() - t.predicted.phase_extra - t.predicted.range;
   const double y =
-      graphic ? 0.5 * (phase + m.code() - t.predicted.range) : phase + t.predicted.ionosphere;
+      graphic ? 0.5 * (phase + m.code() - t.predicted.range) : phase + t.predicted.ionosphere.value;
   const double predicted = t.code_offset - code.y;  // clocks, wet delay, gradients
   int index = state.ambiguity(m.satellite);
   const bool is_new = index < 0;

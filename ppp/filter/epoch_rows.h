@@ -29,8 +29,7 @@ struct Tracked {
 
 // m^2, of a range: by errors of orbit, clock and ionosphere.
 inline double lasting_variance(const PredictedRange& p) {
-  const double orbit_and_clock = p.satellite.sigma, ionosphere = 0.5 * p.ionosphere;
-  return orbit_and_clock * orbit_and_clock + ionosphere * ionosphere;
+  return p.satellite.sigma * p.satellite.sigma + p.ionosphere.sigma * p.ionosphere.sigma;
 }
 
 enum class RowKind { code, phase, doppler };

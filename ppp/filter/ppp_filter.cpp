@@ -89,9 +89,8 @@ void PppFilter::measure_all(const Epoch& epoch) {
     if (parameters_.systems.find(letter(s.satellite.system)) == std::string::npos) continue;
     SatelliteReport report;
     report.satellite = s.satellite;
-    const auto m =
-        measure(s.satellite, epoch.of(s), model_.surroundings().glonass_channels,
-                model_.ephemeris(), epoch.time, model_.surroundings().klobuchar != nullptr);
+    const auto m = measure(s.satellite, epoch.of(s), model_.surroundings().glonass_channels,
+                           model_.ephemeris(), epoch.time, model_.surroundings().one_frequency);
     if (!m) {
       report.refused = PppRefusal::no_signals;
     } else if (m->first.cn0 > 0.0 && m->first.cn0 < parameters_.cn0_mask) {
@@ -224,7 +223,7 @@ void PppFilter::predict_ranges(double interval) {
     }
     memory.source = predicted->satellite.source;
     Tracked tracked{m, *predicted, report_of_[i],
-                    m.code() - predicted->range - predicted->ionosphere};
+                    m.code() - predicted->range - predicted->ionosphere.value};
     weigh_code(tracked, memory);
     memory.last_code = time_;
     tracked.phase_good = m.phase() != 0.0;

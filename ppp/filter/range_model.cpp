@@ -18,6 +18,7 @@ void RangeModel::begin(GpsTime t, const Eigen::Vector3d& marker) {
   }
   zenith_ = zenith_delay(site_, t);
   mapping_ = GlobalMapping(site_, t);
+  if (around_.ionosphere) coefficients_ = around_.ionosphere->at(t);
 }
 
 std::optional<PredictedRange> RangeModel::predict(const Measurement& m,
@@ -81,10 +82,10 @@ std::optional<PredictedRange> RangeModel::predict(const Measurement& m,
                                       (m.dual() ? m.weight2() * m.second.wavelength : 0.0));
   }
   p.in_shadow = masses && in_shadow(s, bodies_.sun);
-  if (!m.dual() && around_.klobuchar) {
+  if (!m.dual()) {
     const double ratio = carrier_frequency(System::gps, '1') / m.first.frequency;
-    p.ionosphere =
-        ratio * ratio * klobuchar_delay(*around_.klobuchar, site_, p.azimuth, p.elevation, time_);
+    const auto on_l1 = ionospheric_delay(coefficients_, site_, p.azimuth, p.elevation, time_);
+    p.ionosphere = {ratio * ratio * on_l1.value, ratio * ratio * on_l1.sigma};
   }
   return p;
 }

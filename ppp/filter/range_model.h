@@ -9,6 +9,7 @@
 #include "ppp/models/geodesy.h"
 #include "ppp/models/tides.h"
 #include "ppp/models/troposphere.h"
+#include "ppp/products/ionosphere.h"
 
 namespace maploop::ppp {
 
@@ -25,7 +26,8 @@ struct Surroundings {
   const Antenna* receiver = nullptr;  // none: its phase centre is at the reference point
   Eigen::Vector3d marker_to_antenna_enu{0, 0, 0};  // m; the result is the marker's position
   const OceanLoading* ocean_loading = nullptr;
-  const std::array<double, 8>* klobuchar = nullptr;  // for one frequency
+  bool one_frequency = false;                       // may be used, with a model of the ionosphere
+  const BroadcastIonosphere* ionosphere = nullptr;  // its coefficients
   std::array<std::optional<int>, 100> glonass_channels{};
   Models models;
 };
@@ -34,9 +36,9 @@ struct PredictedRange {
   SatelliteState satellite;
   Eigen::Vector3d to_satellite{0, 0, 0};  // unit vector, earth-fixed
   double azimuth = 0.0, elevation = 0.0;  // rad
-  double range = 0.0;        // m, everything but receiver clock, wet delay and ambiguity
-  double phase_extra = 0.0;  // m, what phase has besides: wind-up
-  double ionosphere = 0.0;   // m on the first carrier; 0 with two carriers
+  double range = 0.0;           // m, everything but receiver clock, wet delay and ambiguity
+  double phase_extra = 0.0;     // m, what phase has besides: wind-up
+  IonosphericDelay ionosphere;  // m on the first carrier; 0 with two carriers
   double wet_mapping = 0.0;
   bool in_shadow = false;
 };
@@ -67,6 +69,7 @@ class RangeModel {
   SunAndMoon bodies_;
   ZenithDelay zenith_;
   GlobalMapping mapping_;
+  std::optional<NearestIonosphere> coefficients_;  // of one frequency
 };
 
 }  // namespace maploop::ppp

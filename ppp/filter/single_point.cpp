@@ -46,8 +46,8 @@ SinglePoint solve_single_point(const std::vector<Measurement>& measurements, Gps
         const double sine = std::sin(p->elevation);
         const double noise = m.noise_factor() * code_sigma / sine;
         const double variance = noise * noise + p->satellite.sigma * p->satellite.sigma +
-                                0.25 * p->ionosphere * p->ionosphere + 0.01;
-        const double y = m.code() - p->range - p->ionosphere - result.clocks[system];
+                                p->ionosphere.sigma * p->ionosphere.sigma + 0.01;
+        const double y = m.code() - p->range - p->ionosphere.value - result.clocks[system];
         Eigen::Matrix<double, columns, 1> h = Eigen::Matrix<double, columns, 1>::Zero();
         h.head<3>() = -p->to_satellite;
         h[3 + static_cast<int>(system)] = 1.0;

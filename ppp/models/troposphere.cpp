@@ -1,11 +1,9 @@
 #include "ppp/models/troposphere.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "ppp/models/gmf_coefficients.h"
-#include "ppp/satellite.h"
 
 namespace maploop::ppp {
 namespace {
@@ -78,25 +76,6 @@ Mapping GlobalMapping::at(double elevation) const {
   const double sine = std::sin(elevation);
   return {fraction(sine, hydrostatic_) + (1.0 / sine - fraction(sine, by_height)) * height_km_,
           fraction(sine, wet_)};
-}
-
-double klobuchar_delay(const std::array<double, 8>& k, const Geodetic& site, double azimuth,
-                       double elevation, GpsTime t) {
-  // In semicircles, as the interface document writes it.
-  const double e = elevation / pi;
-  const double psi = 0.0137 / (e + 0.11) - 0.022;
-  const double phi = std::clamp(site.latitude / pi + psi * std::cos(azimuth), -0.416, 0.416);
-  const double lambda = site.longitude / pi + psi * std::sin(azimuth) / std::cos(phi * pi);
-  const double magnetic = phi + 0.064 * std::cos((lambda - 1.617) * pi);
-  double local = std::fmod(43200.0 * lambda + seconds_of_week(t), 86400.0);
-  if (local < 0.0) local += 86400.0;
-  const double slant = 1.0 + 16.0 * std::pow(0.53 - e, 3);
-  const double amp = std::max(0.0, k[0] + magnetic * (k[1] + magnetic * (k[2] + magnetic * k[3])));
-  const double period =
-      std::max(72000.0, k[4] + magnetic * (k[5] + magnetic * (k[6] + magnetic * k[7])));
-  const double x = 2.0 * pi * (local - 50400.0) / period;
-  const double bump = std::abs(x) < 1.57 ? amp * (1.0 - x * x / 2.0 + x * x * x * x / 24.0) : 0.0;
-  return speed_of_light * slant * (5e-9 + bump);
 }
 
 }  // namespace maploop::ppp

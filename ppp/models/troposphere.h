@@ -1,8 +1,5 @@
-// Mapping functions of the troposphere (GMF: Boehm, Niell, Tregoning and Schuh 2006), and
-// Klobuchar's ionosphere.
+// Mapping functions of the troposphere (GMF: Boehm, Niell, Tregoning and Schuh 2006).
 #pragma once
-
-#include <array>
 
 #include "msgs/local_frame.h"
 #include "ppp/gps_time.h"
@@ -22,9 +19,5 @@ class GlobalMapping {
  private:
   double hydrostatic_[3] = {}, wet_[3] = {}, height_km_ = 0.0;
 };
-
-// The ionosphere by Klobuchar's model, m on GPS L1. IS-GPS-200.
-double klobuchar_delay(const std::array<double, 8>& coefficients, const Geodetic& site,
-                       double azimuth, double elevation, GpsTime t);
 
 }  // namespace maploop::ppp

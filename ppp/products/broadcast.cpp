@@ -184,15 +184,13 @@ void insert(std::vector<Message>& list, const Message& m, std::size_t most) {
 BroadcastEphemeris::BroadcastEphemeris(const std::vector<NavigationFile>& files,
                                        std::size_t most_each)
     : most_each_(most_each) {
-  for (const NavigationFile& file : files) {
-    add(file);
-    if (!klobuchar_ && file.klobuchar[0] != 0.0) klobuchar_ = file.klobuchar;
-  }
+  for (const NavigationFile& file : files) add(file);
 }
 
 void BroadcastEphemeris::add(const BroadcastMessages& messages) {
   for (const KeplerMessage& m : messages.kepler) add(m);
   for (const GlonassMessage& m : messages.glonass) add(m);
+  for (const IonosphereMessage& m : messages.ionosphere) ionosphere_.add(m);
 }
 
 void BroadcastEphemeris::add(const KeplerMessage& m) {

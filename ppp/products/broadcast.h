@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ppp/products/ephemeris.h"
+#include "ppp/products/ionosphere.h"
 #include "ppp/readers/navigation.h"
 
 namespace maploop::ppp {
@@ -31,8 +32,7 @@ class BroadcastEphemeris : public Ephemeris {
   std::optional<int> glonass_channel(int number) const override;
   std::string missing(Satellite satellite, GpsTime t) const override;
 
-  // Klobuchar's eight, of the first file that has them.
-  const std::optional<std::array<double, 8>>& klobuchar() const { return klobuchar_; }
+  const BroadcastIonosphere& ionosphere() const { return ionosphere_; }
 
  private:
   void add(const KeplerMessage& message);
@@ -46,7 +46,7 @@ class BroadcastEphemeris : public Ephemeris {
   // By slot; of each the messages in the order of toe.
   std::array<std::vector<KeplerMessage>, satellite_slots> kepler_;
   std::array<std::vector<GlonassMessage>, 100> glonass_;
-  std::optional<std::array<double, 8>> klobuchar_;
+  BroadcastIonosphere ionosphere_;
 };
 
 }  // namespace maploop::ppp

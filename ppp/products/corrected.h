@@ -39,6 +39,7 @@ class CorrectedEphemeris : public Ephemeris {
   }
   std::string missing(Satellite satellite, GpsTime t) const override;
 
+  const BroadcastIonosphere& ionosphere() const { return broadcast_.ionosphere(); }
   bool corrected(Satellite satellite) const { return current(satellite).has_value(); }
   // Of the newest clock of any satellite; nothing where none ever came.
   std::optional<Duration> age() const;

@@ -126,4 +126,14 @@ std::optional<GlonassMessage> glonass_message(Satellite satellite, const Broadca
   return m;
 }
 
+IonosphereCoefficients ionosphere_coefficients(System system, const BroadcastValues& values) {
+  const auto from = [&]<class Coefficients>(Coefficients c, Quantity first) {
+    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(first), c.values.size(),
+                c.values.begin());
+    return c;
+  };
+  if (system == System::galileo) return from(IonisationLevel{}, Quantity::level_0);
+  return from(Klobuchar{}, Quantity::alpha_0);
+}
+
 }  // namespace maploop::ppp

@@ -1,8 +1,8 @@
 // The fields of broadcast messages as bits: where they are, and their units.
 //
-// Sources: IS-GPS-200 (subframes 1 to 3), Galileo OS SIS ICD 2.0 (I/NAV words 1 to 5), BeiDou
-// BDS-SIS-ICD-B1I 3.0 (D1 subframes 1 to 3), GLONASS ICD 5.1 (strings 1 to 4), RTCM 10403.3 (1019,
-// 1020, 1042, 1044, 1045, 1046).
+// Sources: IS-GPS-200 (subframes 1 to 3, and of 4 page 18), Galileo OS SIS ICD 2.0 (I/NAV words 1
+// to 5), BeiDou BDS-SIS-ICD-B1I 3.0 (D1 subframes 1 to 3), GLONASS ICD 5.1 (strings 1 to 4), RTCM
+// 10403.3 (1019, 1020, 1042, 1044, 1045, 1046).
 #pragma once
 
 #include <algorithm>
@@ -66,6 +66,18 @@ enum class Quantity {
   ax,
   ay,
   az,
+  // The ionosphere: GPS's eight coefficients and Galileo's three, each in a row
+  alpha_0,
+  alpha_1,
+  alpha_2,
+  alpha_3,
+  beta_0,
+  beta_1,
+  beta_2,
+  beta_3,
+  level_0,
+  level_1,
+  level_2,
   count
 };
 using BroadcastValues = std::array<double, static_cast<std::size_t>(Quantity::count)>;
@@ -88,6 +100,8 @@ std::optional<KeplerMessage> kepler_message(Satellite satellite, const Broadcast
                                             GpsTime now);
 std::optional<GlonassMessage> glonass_message(Satellite satellite, const BroadcastValues& values,
                                               GpsTime now);
+// GPS's or Galileo's.
+IonosphereCoefficients ionosphere_coefficients(System system, const BroadcastValues& values);
 
 namespace broadcast_fields {
 
@@ -150,6 +164,12 @@ inline constexpr auto gps_subframe_2 =
     join(std::array{number(Q::iode, 8)}, orbit_before_toe, gps_toe);
 inline constexpr auto gps_subframe_3 =
     join(orbit_behind_toe, std::array{skip(8), angle(Q::i_dot, 14, -43)});
+
+// Behind what says which page it is.
+inline constexpr std::array gps_ionosphere{two(Q::alpha_0, 8, -30), two(Q::alpha_1, 8, -27),
+                                           two(Q::alpha_2, 8, -24), two(Q::alpha_3, 8, -24),
+                                           two(Q::beta_0, 8, 11),   two(Q::beta_1, 8, 14),
+                                           two(Q::beta_2, 8, 16),   two(Q::beta_3, 8, 16)};
 
 // --- RTCM, behind the satellite's number.
 inline constexpr auto rtcm_1019 =
@@ -240,10 +260,17 @@ inline constexpr std::array galileo_word_3{skip(10),
 inline constexpr std::array galileo_word_4{
     skip(10 + 6),         two(Q::cic, 16, -29), two(Q::cis, 16, -29), number(Q::toc, 14, 60.0),
     two(Q::af0, 31, -34), two(Q::af1, 21, -46), two(Q::af2, 6, -59)};
-inline constexpr std::array galileo_word_5{
-    skip(11 + 11 + 14 + 5),    two(Q::group_delay, 10, -32), two(Q::second_group_delay, 10, -32),
-    number(Q::e5b_health, 2),  number(Q::e1_health, 2),      number(Q::e5b_validity, 1),
-    number(Q::e1_validity, 1), number(Q::week, 12)};
+inline constexpr std::array galileo_word_5{number(Q::level_0, 11, power(-2)),
+                                           two(Q::level_1, 11, -8),
+                                           two(Q::level_2, 14, -15),
+                                           skip(5),
+                                           two(Q::group_delay, 10, -32),
+                                           two(Q::second_group_delay, 10, -32),
+                                           number(Q::e5b_health, 2),
+                                           number(Q::e1_health, 2),
+                                           number(Q::e5b_validity, 1),
+                                           number(Q::e1_validity, 1),
+                                           number(Q::week, 12)};
 
 // --- BeiDou D1; without parity, behind the second of the week.
 inline constexpr std::array beidou_subframe_1{

@@ -1,6 +1,8 @@
 #include "ppp/readers/navigation.h"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace maploop::ppp {
@@ -17,9 +19,10 @@ class NavigationReader {
       if (blank(lines_.line())) continue;
       if (!read_message()) {
         refuse("the file ends inside a message, which is left out");
-        return;
+        break;
       }
     }
+    keep_ionosphere();
   }
 
  private:
@@ -41,17 +44,35 @@ class NavigationReader {
     while (lines_.next()) {
       const auto label = trimmed(lines_.column(60, 20));
       if (label == "END OF HEADER") return;
-      const auto what = three_ ? lines_.column(0, 4) : label;
-      if (what == "GPSA" || what == "ION ALPHA") read_ionosphere(0);
-      if (what == "GPSB" || what == "ION BETA") read_ionosphere(4);
+      const auto what = label == "IONOSPHERIC CORR" ? trimmed(lines_.column(0, 4)) : label;
+      if (what == "GPSA" || what == "ION ALPHA")
+        read_coefficients(std::span(klobuchar_.values).first<4>());
+      if (what == "GPSB" || what == "ION BETA")
+        read_coefficients(std::span(klobuchar_.values).last<4>());
+      if (what == "GAL") read_coefficients(level_.values);
     }
     lines_.fail("the file ends inside its header");
   }
 
-  void read_ionosphere(std::size_t place) {
+  void read_coefficients(std::span<double> values) {
     const std::size_t first = three_ ? 5 : 2;
-    for (std::size_t i = 0; i < 4; ++i) {
-      result_.klobuchar[place + i] = lines_.number(first + 12 * i, 12, "ionospheric coefficient");
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = lines_.number(first + 12 * i, 12, "ionospheric coefficient");
+    }
+  }
+
+  // Of which days the header's coefficients are, the messages behind it tell.
+  void keep_ionosphere() {
+    GpsTime first = GpsTime::max(), last = GpsTime::min();
+    const auto stretch = [&](const auto& messages) {
+      for (const auto& m : messages) first = std::min(first, m.toe), last = std::max(last, m.toe);
+    };
+    stretch(result_.kepler);
+    stretch(result_.glonass);
+    if (first > last) return;
+    for (const IonosphereCoefficients& c :
+         {IonosphereCoefficients(klobuchar_), IonosphereCoefficients(level_)}) {
+      if (plausible(c)) result_.ionosphere.push_back({c, first, last});
     }
   }
 
@@ -152,6 +173,8 @@ class NavigationReader {
   bool three_ = true;
   System default_system_ = System::gps;
   std::array<double, 31> values_{};
+  Klobuchar klobuchar_;  // zero: not in the header
+  IonisationLevel level_;
 };
 
 }  // namespace
@@ -159,13 +182,16 @@ class NavigationReader {
 void BroadcastMessages::take(BroadcastMessages& from) {
   std::swap(kepler, from.kepler);
   std::swap(glonass, from.glonass);
+  std::swap(ionosphere, from.ionosphere);
   from.kepler.clear();
   from.glonass.clear();
+  from.ionosphere.clear();
 }
 
 void BroadcastMessages::limit(std::size_t most) {
   if (kepler.size() > most) kepler.clear();
   if (glonass.size() > most) glonass.clear();
+  if (ionosphere.size() > most) ionosphere.clear();
 }
 
 bool plausible(const KeplerMessage& m) {
@@ -177,6 +203,24 @@ bool plausible(const GlonassMessage& m) {
   const double radius = m.position.norm();
   return radius >= 2.3e7 && radius <= 2.8e7 && m.velocity.norm() <= 5e3 &&
          std::abs(m.minus_tau) <= 1.0 && m.channel >= -7 && m.channel <= 13;
+}
+
+bool plausible(const IonosphereCoefficients& coefficients) {
+  // What eight bits, and Galileo's eleven and fourteen, can say.
+  static constexpr std::array<double, 8> most_klobuchar{0x1p-23, 0x1p-20, 0x1p-17, 0x1p-17,
+                                                        0x1p18,  0x1p21,  0x1p23,  0x1p23};
+  static constexpr std::array<double, 3> most_level{512.0, 4.0, 0.25};
+  const auto within = [](const auto& values, const auto& most) {
+    bool says_something = false;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!(std::abs(values[i]) <= most[i])) return false;
+      says_something |= values[i] != 0.0;
+    }
+    return says_something;
+  };
+  if (const auto* k = std::get_if<Klobuchar>(&coefficients))
+    return within(k->values, most_klobuchar);
+  return within(std::get<IonisationLevel>(coefficients).values, most_level);
 }
 
 void refuse(NavigationFile& navigation, const std::string& place, const std::string& why) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ppp/readers/ionosphere_message.h"
 #include "ppp/readers/lines.h"
 #include "ppp/satellite.h"
 
@@ -43,6 +44,7 @@ struct GlonassMessage {
 struct BroadcastMessages {
   std::vector<KeplerMessage> kepler;
   std::vector<GlonassMessage> glonass;
+  std::vector<IonosphereMessage> ionosphere;
 
   // All that `from` has, which is empty afterwards; what was here is gone.
   void take(BroadcastMessages& from);
@@ -52,15 +54,16 @@ struct BroadcastMessages {
 
 struct NavigationFile : BroadcastMessages {
   std::string file;
-  std::array<double, 8> klobuchar{};  // alpha, beta; zero: not in the file
-  int passed_over = 0;                // messages of SBAS and NavIC, which are not used
-  int refused = 0;                    // messages whose values cannot be, and one that was cut
+  int passed_over = 0;  // messages of SBAS and NavIC, which are not used
+  int refused = 0;      // messages whose values cannot be, and one that was cut
   std::vector<std::string> refusals;
 };
 
 // Whether it can be a message of a navigation satellite.
 bool plausible(const KeplerMessage& message);
 bool plausible(const GlonassMessage& message);
+// Whether the bits of a message can say these coefficients, and they say something.
+bool plausible(const IonosphereCoefficients& coefficients);
 
 // Counts what is left out, and keeps the first reasons. The same of what a stream has at a byte.
 void refuse(NavigationFile& navigation, const std::string& place, const std::string& why);

@@ -56,6 +56,11 @@ void SubframeCollector::add_gps(Satellite satellite, std::string_view words, Gps
   const std::span<const BroadcastField> all[3] = {broadcast_fields::gps_subframe_1,
                                                   broadcast_fields::gps_subframe_2,
                                                   broadcast_fields::gps_subframe_3};
+  constexpr std::uint64_t page_18 = 0x78;  // how its data and satellite identifiers read, 1 and 56
+  if (number == 4 && satellite.system == System::gps && bits.number(8) == page_18) {
+    read_fields(bits, broadcast_fields::gps_ionosphere, parts.values);
+    add_ionosphere(satellite, parts.values, now, to);
+  }
   if (number < 1 || number > 3) return;
   const std::size_t part = number - 1;
   read_fields(bits, all[part], parts.values);
@@ -108,6 +113,7 @@ void SubframeCollector::add_galileo(Satellite satellite, std::string_view words,
     parts.issue[part] = static_cast<int>(issue.number(10));
   }
   read_fields(bits, all[part], parts.values);
+  if (type == 5) add_ionosphere(satellite, parts.values, now, to);
   parts.seen |= 1U << part;
   const auto& i = parts.issue;
   if (parts.seen != 31U || i[0] != i[1] || i[1] != i[2] || i[2] != i[3]) return;
@@ -122,6 +128,21 @@ void SubframeCollector::add_galileo(Satellite satellite, std::string_view words,
   if (parts.issue[5] == i[0] + 1) return;
   parts.issue[5] = i[0] + 1;
   to.kepler.push_back(*m);
+}
+
+// It is sent over and over, by all satellites: once in a while is enough.
+void SubframeCollector::add_ionosphere(Satellite satellite, const BroadcastValues& values,
+                                       GpsTime now, NavigationFile& to) {
+  constexpr Duration while_it_is_known = std::chrono::minutes(10);
+  const auto coefficients = ionosphere_coefficients(satellite.system, values);
+  if (!plausible(coefficients)) return;
+  const auto last = ionosphere_.find(satellite.system);
+  if (last != ionosphere_.end() && last->second.coefficients == coefficients &&
+      now - last->second.last < while_it_is_known)
+    return;
+  const IonosphereMessage message{coefficients, now, now};
+  ionosphere_.insert_or_assign(satellite.system, message);
+  to.ionosphere.push_back(message);
 }
 
 void SubframeCollector::add_beidou(Satellite satellite, std::string_view words, GpsTime now,

@@ -1,4 +1,5 @@
-// Broadcast ephemerides from the subframes that a u-blox receiver hands on (UBX-RXM-SFRBX).
+// Broadcast ephemerides and ionospheric coefficients from the subframes that a u-blox receiver
+// hands on (UBX-RXM-SFRBX).
 #pragma once
 
 #include <array>
@@ -12,7 +13,8 @@
 namespace maploop::ppp {
 
 // GPS and QZSS L1 C/A, Galileo I/NAV (E1-B and E5b), BeiDou D1 (B1I; not of geostationary
-// satellites), GLONASS L1 and L2. One receiver's messages in their order.
+// satellites), GLONASS L1 and L2; the ionosphere of GPS (subframe 4, page 18) and Galileo. One
+// receiver's messages in their order.
 class SubframeCollector {
  public:
   // Adds what becomes whole to `to`; false where the frame is no SFRBX message. What has a wrong
@@ -33,7 +35,11 @@ class SubframeCollector {
   void add_glonass(Satellite satellite, int channel, std::string_view words, GpsTime now,
                    NavigationFile& to);
 
+  void add_ionosphere(Satellite satellite, const BroadcastValues& values, GpsTime now,
+                      NavigationFile& to);
+
   std::map<Satellite, Parts> parts_;
+  std::map<System, IonosphereMessage> ionosphere_;  // the last one
 };
 
 }  // namespace maploop::ppp

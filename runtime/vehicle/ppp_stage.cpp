@@ -129,20 +129,37 @@ void PppStage::say_corrections() {
   }
   if (state_.satellites_corrected == 0) counts_.uncorrected.fetch_add(1, relaxed);
   counts_.correction_age.store(state_.correction_age.value_or(-1.0), relaxed);
-  const std::string what = degraded();
+  const std::string what = wrong_with_corrections();
   if (what.empty()) return;
   for (PppState* state : {&state_, &free_state_}) {
     state->message += (state->message.empty() ? "" : "; ") + what;
   }
 }
 
-std::string PppStage::degraded() const {
+std::string PppStage::wrong_with_corrections() const {
   const double age = counts_.correction_age.load(relaxed);
   if (!inputs_.corrections) return {};
   if (age < 0.0) return "ppp: no corrections have come: broadcast orbits and clocks";
   if (age <= to_seconds(ppp::CorrectedEphemeris::longest_age)) return {};
   return "ppp: corrections are " + std::to_string(std::lround(age)) +
          " s old: broadcast orbits and clocks";
+}
+
+void PppStage::look_at_ionosphere(ppp::GpsTime t) {
+  if (!setup_->one_frequency()) return;
+  const auto age = received_             ? received_->ionosphere().age(t)
+                   : setup_->broadcast() ? setup_->broadcast()->ionosphere().age(t)
+                                         : std::nullopt;
+  counts_.age_of_ionosphere.store(age.value_or(Duration::max()), relaxed);
+}
+
+std::string PppStage::degraded() const {
+  const Duration age = counts_.age_of_ionosphere.load(relaxed);
+  const std::string ionosphere =
+      ppp::ionosphere_lack(age == Duration::max() ? std::nullopt : std::optional(age));
+  std::string what = wrong_with_corrections();
+  if (!ionosphere.empty()) what += (what.empty() ? "ppp: " : "; ") + ionosphere;
+  return what;
 }
 
 // There are no more epochs; the matcher must not wait for a full ring.
@@ -189,6 +206,7 @@ void PppStage::process(const GnssEpoch& epoch, const std::stop_token& stop) {
     state->sequence = epoch.sequence;
   }
   say_corrections();
+  look_at_ionosphere(epoch.epoch.time);
   count(state_);
   use_.note(epoch.available, state_.status == PppStatus::none ? "no position" : nullptr);
   std::erase_if(sent_, [&](const Sent& s) { return s.state.available <= epoch.available; });

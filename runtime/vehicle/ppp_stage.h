@@ -72,8 +72,8 @@ class PppStage {
   // Epochs without a position, satellites refused and slips by their reasons, and restarts, so far;
   // any thread may ask.
   std::vector<RefusalCount> refusals() const;
-  // What is wrong with the corrections at the last epoch, as a sentence; empty: nothing. Any thread
-  // may ask.
+  // What is wrong with the corrections and the ionosphere's coefficients at the last epoch, as a
+  // sentence; empty: nothing. Any thread may ask.
   std::string degraded() const;
 
  private:
@@ -92,6 +92,8 @@ class PppStage {
   void hold_feedback();
   void take_corrections();
   void say_corrections();
+  std::string wrong_with_corrections() const;
+  void look_at_ionosphere(ppp::GpsTime t);
   void drain_feedback(const std::stop_token& stop);
   void use_feedback(Time until);
   void process(const GnssEpoch& epoch, const std::stop_token& stop);
@@ -110,6 +112,8 @@ class PppStage {
     std::atomic<std::uint64_t> forgotten_roads{0};
     std::atomic<std::uint64_t> uncorrected{0};  // epochs, where corrections are received
     std::atomic<double> correction_age{0.0};    // s; negative: none ever came
+    // With one frequency; Duration::max(): there are none.
+    std::atomic<Duration> age_of_ionosphere{Duration::zero()};
   };
 
   std::shared_ptr<const ppp::PppSetup> setup_;       // what the filter looks at

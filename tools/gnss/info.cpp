@@ -85,6 +85,17 @@ std::string describe(const Observations& o) {
   return text + refusals(o.refused, o.refusals);
 }
 
+// Whose coefficients it has.
+std::string coefficients(const NavigationFile& n) {
+  bool gps = false, galileo = false;
+  for (const IonosphereMessage& m : n.ionosphere) {
+    (std::holds_alternative<Klobuchar>(m.coefficients) ? gps : galileo) = true;
+  }
+  if (!gps && !galileo) return "no coefficients";
+  return std::string(gps ? "GPS (Klobuchar)" : "") + (gps && galileo ? ", " : "") +
+         (galileo ? "Galileo (NTCM-G)" : "");
+}
+
 std::string describe(const NavigationFile& n) {
   std::set<Satellite> satellites;
   GpsTime first = GpsTime::max(), last = GpsTime::min();
@@ -98,8 +109,7 @@ std::string describe(const NavigationFile& n) {
   std::string text = row("messages", std::to_string(n.kepler.size() + n.glonass.size()) + ", and " +
                                          std::to_string(n.passed_over) + " passed over");
   if (!satellites.empty()) text += row("time", span(first, last));
-  return text + row("satellites", per_system(satellites)) +
-         row("ionosphere", n.klobuchar[0] != 0.0 ? "Klobuchar's model" : "none") +
+  return text + row("satellites", per_system(satellites)) + row("ionosphere", coefficients(n)) +
          refusals(n.refused, n.refusals);
 }
 

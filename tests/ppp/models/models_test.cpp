@@ -147,13 +147,6 @@ TEST(Troposphere, MappingIsOneAtTheZenithOnBothHemispheres) {
   }
 }
 
-TEST(Ionosphere, NightIsFiveNanosecondsTimesSlant) {
-  const std::array<double, 8> k{1e-8, 0, 0, 0, 9e4, 0, 0, 0};
-  const double zenith =
-      klobuchar_delay(k, {0.6, 0.0, 0.0}, 0.0, radians(90.0), gps_time({2020, 6, 25, 0, 0, 0.0}));
-  EXPECT_NEAR(zenith, 5e-9 * speed_of_light, 0.01);
-}
-
 TEST(Antenna, OffsetUpShortensTheRangeAtTheZenith) {
   Antenna antenna;
   antenna.zenith_last = 90.0;

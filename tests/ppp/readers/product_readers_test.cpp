@@ -45,7 +45,48 @@ TEST(ProductReaders, MessagesOfFiveSystems) {
   EXPECT_EQ(n.kepler.size(), 357U + 1602U + 257U + 15U);
   EXPECT_EQ(n.passed_over, 2130);
   EXPECT_EQ(n.refused, 0);
-  EXPECT_DOUBLE_EQ(n.klobuchar[0], 4.6566e-09);
+  ASSERT_EQ(n.ionosphere.size(), 2U);
+  const auto& gps = std::get<Klobuchar>(n.ionosphere[0].coefficients).values;
+  EXPECT_DOUBLE_EQ(gps[0], 4.6566e-09);
+  EXPECT_DOUBLE_EQ(gps[7], -5.2429e+05);
+  const auto& galileo = std::get<IonisationLevel>(n.ionosphere[1].coefficients).values;
+  EXPECT_EQ(galileo, (std::array{2.8250e+01, 7.8125e-03, 1.0071e-02}));
+  EXPECT_GT(n.ionosphere[0].first, gps_time({2020, 6, 24, 19, 0, 0.0}));
+  EXPECT_LT(n.ionosphere[0].first, gps_time({2020, 6, 25, 0, 30, 0.0}));
+  EXPECT_GT(n.ionosphere[0].last, gps_time({2020, 6, 25, 23, 0, 0.0}));
+  EXPECT_LT(n.ionosphere[0].last, gps_time({2020, 6, 26, 4, 0, 0.0}));
+}
+
+// RINEX 2, where the header's lines have names of their own; and coefficients that cannot be.
+TEST(ProductReaders, IonosphereOfAnOldHeader) {
+  const std::string before =
+      "     2.11           N: GPS NAV DATA                         RINEX VERSION / TYPE\n";
+  const std::string beta =
+      "    0.9011D+05  0.1638D+05 -0.1311D+06 -0.6554D+05          ION BETA            \n";
+  const std::string behind =
+      "                                                            END OF HEADER       \n"
+      " 6 20  7 12  2  0  0.0-0.839701388031D-03-0.165982783074D-10 0.000000000000D+00\n"
+      "    0.910000000000D+02 0.934062500000D+02 0.116040547840D-08 0.162092304801D+00\n"
+      "    0.484101474285D-05 0.626740418375D-02 0.652112066746D-05 0.515365489006D+04\n"
+      "    0.720000000000D+04-0.242143869400D-07 0.329237003460D+00-0.596046447754D-07\n"
+      "    0.111541663136D+01 0.326593750000D+03 0.206958726335D+01-0.638312302555D-08\n"
+      "    0.307155651409D-09 0.000000000000D+00 0.211400000000D+04 0.000000000000D+00\n"
+      "    0.000000000000D+00 0.000000000000D+00 0.000000000000D+00 0.910000000000D+02\n"
+      "    0.406800000000D+06 0.000000000000D+00\n";
+  const auto read = [&](const std::string& alpha) {
+    return parse_navigation(before + alpha + beta + behind, "old.20n");
+  };
+  const NavigationFile n =
+      read("    0.1025D-07  0.7451D-08 -0.5960D-07 -0.5960D-07          ION ALPHA           \n");
+  ASSERT_EQ(n.kepler.size(), 1U);
+  ASSERT_EQ(n.ionosphere.size(), 1U);
+  EXPECT_EQ(n.ionosphere[0].coefficients,
+            IonosphereCoefficients(Klobuchar{{0.1025e-7, 0.7451e-8, -0.5960e-7, -0.5960e-7,
+                                              0.9011e5, 0.1638e5, -0.1311e6, -0.6554e5}}));
+  EXPECT_EQ(n.ionosphere[0].first, n.kepler[0].toe);
+  EXPECT_TRUE(
+      read("    0.1025D+07  0.7451D-08 -0.5960D-07 -0.5960D-07          ION ALPHA           \n")
+          .ionosphere.empty());
 }
 
 TEST(ProductReaders, AntennasOfSatellitesAndReceivers) {

@@ -8,6 +8,7 @@
 
 #include "ppp/gnss_files.h"
 #include "ppp/readers/broadcast_fields.h"
+#include "ppp/readers/receiver_stream.h"
 #include "ppp/readers/rtcm3_ephemeris.h"
 #include "ppp/readers/ubx_subframes.h"
 #include "tests/ppp/readers/rtklib_encoder.h"
@@ -17,6 +18,7 @@
 namespace maploop::ppp {
 namespace {
 
+using std::chrono::hours;
 using testing::BitWriter, testing::raw_bytes, testing::ubx_frame;
 
 const GpsTime moment = gps_time({2020, 6, 25, 12, 10, 0.0});
@@ -295,6 +297,81 @@ TEST(StreamEphemeris, Rtcm3IsReadAsRtklibWritesIt) {
   compare(sent, theirs, count);
   EXPECT_GT(count[System::gps], 25);
   EXPECT_GT(count[System::beidou], 15);
+}
+
+// Subframe 4, page 18: identifiers 1 and 56, then what is in units of their own.
+std::string gps_ionosphere_frame(const std::array<int, 8>& units) {
+  BitWriter bits;
+  bits.put(0x8b, 8), bits.put(0, 16);
+  bits.put(static_cast<std::uint64_t>(seconds_of_week(moment) / 6.0) + 4, 17);
+  bits.put(0, 2), bits.put(4, 3), bits.put(0, 2);
+  bits.put(1, 2), bits.put(56, 6);
+  for (const int unit : units) bits.put(static_cast<std::uint64_t>(unit), 8);
+  bits.fill(240);
+  std::vector<std::uint32_t> words;
+  for (std::size_t w = 0; w < 10; ++w)
+    words.push_back(static_cast<std::uint32_t>(bits.number(24 * w, 24) << 6));
+  return sfrbx(0, 5, 0, 0, words);
+}
+
+std::string galileo_ionosphere_page(int a0, int a1, int a2) {
+  BitWriter bits;
+  bits.put(5, 6);
+  bits.put(static_cast<std::uint64_t>(a0), 11), bits.put(static_cast<std::uint64_t>(a1), 11);
+  bits.put(static_cast<std::uint64_t>(a2), 14);
+  bits.fill(128);
+  return galileo_page(11, bits);
+}
+
+const std::array<int, 8> said{5, 2, -1, -2, 40, 6, -1, -8};
+const Klobuchar heard{{5.0 / (1 << 30), 2.0 / (1 << 27), -1.0 / (1 << 24), -2.0 / (1 << 24),
+                       40.0 * 2048, 6.0 * 16384, -65536.0, -8.0 * 65536}};
+
+// Of satellites without an ephemeris, recorded and as it comes.
+TEST(StreamEphemeris, SubframesGiveTheIonosphere) {
+  const std::string again = gps_ionosphere_frame(said) + galileo_ionosphere_page(113, 2, 330);
+  const std::string bytes = rawx(moment) + again + again +
+                            gps_ionosphere_frame({0, 0, 0, 0, 0, 0, 0, 0}) +
+                            rawx(moment + std::chrono::seconds(1));
+  const IonisationLevel level{{28.25, 2.0 / 256, 330.0 / 32768}};
+  const auto check = [&](const NavigationFile& found) {
+    ASSERT_EQ(found.ionosphere.size(), 2U);
+    EXPECT_EQ(found.ionosphere[0].coefficients, IonosphereCoefficients(heard));
+    EXPECT_EQ(found.ionosphere[1].coefficients, IonosphereCoefficients(level));
+    EXPECT_EQ(found.ionosphere[0].first, moment);
+    EXPECT_EQ(found.refused, 0);
+  };
+  GnssFiles files;
+  ASSERT_EQ(parse_into(bytes, "made.ubx", files), FileKind::ubx);
+  ASSERT_EQ(files.navigation.size(), 1U);
+  check(files.navigation.front());
+  ReceiverStream stream(moment);
+  stream.push({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  Epoch epoch;
+  while (stream.next(epoch)) {
+  }
+  check(stream.navigation());
+  BroadcastMessages taken;
+  taken.take(stream.navigation());
+  EXPECT_EQ(taken.ionosphere.size(), 2U);
+  EXPECT_TRUE(stream.navigation().ionosphere.empty());
+}
+
+TEST(StreamEphemeris, RtklibReadsTheSameIonosphere) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  if (testing::run({"sh", "-c", "command -v convbin"}).status != 0)
+    GTEST_SKIP() << "SKIPPED, NOT TESTED: RTKLIB's convbin is not installed";
+  const testing::TemporaryFolder folder;
+  const auto ubx = folder.path() / "made.ubx", rinex = folder.path() / "made.nav";
+  std::ofstream(ubx, std::ios::binary)
+      << send_real_messages().ubx << gps_ionosphere_frame(said) << rawx(moment + hours(1));
+  testing::run({"convbin", "-oi", "-r", "ubx", "-v", "3.04", "-n", rinex.string(), "-o",
+                (folder.path() / "made.obs").string(), ubx.string()});
+  const NavigationFile theirs = parse_navigation(read_file(rinex), "made.nav");
+  ASSERT_EQ(theirs.ionosphere.size(), 1U);
+  const auto& values = std::get<Klobuchar>(theirs.ionosphere[0].coefficients).values;
+  for (std::size_t i = 0; i < 8; ++i)
+    EXPECT_NEAR(values[i], heard.values[i], 1e-4 * std::abs(heard.values[i]));
 }
 
 // Of the same fields as the encoder here: that they are complete, not that they are in their place.

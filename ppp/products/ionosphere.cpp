@@ -1,0 +1,79 @@
+#include "ppp/products/ionosphere.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace maploop::ppp {
+namespace {
+
+constexpr Duration one_day = std::chrono::hours(24);
+
+Duration distance(const IonosphereMessage& m, GpsTime t) {
+  return std::max({Duration::zero(), m.first - t, t - m.last});
+}
+
+}  // namespace
+
+void BroadcastIonosphere::add(const IonosphereMessage& message) {
+  constexpr std::size_t most = 64;
+  for (IonosphereMessage& m : messages_) {
+    if (m.coefficients != message.coefficients) continue;
+    m.first = std::min(m.first, message.first);
+    m.last = std::max(m.last, message.last);
+    return;
+  }
+  messages_.push_back(message);
+  if (messages_.size() <= most) return;
+  messages_.erase(std::min_element(messages_.begin(), messages_.end(),
+                                   [](const auto& a, const auto& b) { return a.last < b.last; }));
+}
+
+std::optional<NearestIonosphere> BroadcastIonosphere::at(GpsTime t) const {
+  const auto nearest = [&](bool galileo) {
+    const IonosphereMessage* best = nullptr;
+    for (const IonosphereMessage& m : messages_) {
+      if (std::holds_alternative<IonisationLevel>(m.coefficients) != galileo) continue;
+      const auto nearer = std::pair(-distance(m, t), m.first);
+      if (!best || nearer > std::pair(-distance(*best, t), best->first)) best = &m;
+    }
+    if (!best || distance(*best, t) > longest_age) return std::optional<NearestIonosphere>{};
+    return std::optional(NearestIonosphere{best->coefficients, distance(*best, t)});
+  };
+  const auto galileo = nearest(true), gps = nearest(false);
+  return galileo && (!gps || galileo->age <= std::max(gps->age, one_day)) ? galileo : gps;
+}
+
+std::optional<Duration> BroadcastIonosphere::age(GpsTime t) const {
+  const auto nearest = at(t);
+  return nearest ? std::optional(nearest->age) : std::nullopt;
+}
+
+IonosphericDelay ionospheric_delay(const std::optional<NearestIonosphere>& coefficients,
+                                   const Geodetic& site, double azimuth, double elevation,
+                                   GpsTime t) {
+  if (!coefficients) {
+    constexpr double zenith =
+        4.0;  // m: 25 TECU, between a quiet sun's night and an active one's day
+    return {0.0, zenith * ionospheric_slant(elevation)};
+  }
+  // GPS chooses its coefficients for a root mean square of half the delay, and anew each ten days.
+  constexpr double share = 0.5;
+  constexpr double days_to_change = 30.0;
+  const double days = to_seconds(coefficients->age) / to_seconds(one_day);
+  const double delay = ionospheric_delay(coefficients->coefficients, site, azimuth, elevation, t);
+  return {delay, share * std::hypot(1.0, days / days_to_change) * delay};
+}
+
+std::string ionosphere_lack(std::optional<Duration> age) {
+  if (!age) {
+    return "no ionospheric coefficients of these days: one frequency is used without a model of "
+           "the ionosphere; a navigation file of the day, or of one near to it, has them";
+  }
+  const auto days = std::lround(to_seconds(*age) / to_seconds(one_day));
+  if (days < 2) return {};
+  return "the ionospheric coefficients are of a day " + std::to_string(days) +
+         " days away: those of the day itself are better";
+}
+
+}  // namespace maploop::ppp
