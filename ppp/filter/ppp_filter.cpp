@@ -210,17 +210,8 @@ void PppFilter::predict_ranges(double interval) {
       report.refused = PppRefusal::low;
       continue;
     }
-    // The ambiguity has taken up what the other source's orbit and clock were wrong by.
-    constexpr double difference = 2.0;  // m, of the ranges by two sources
-    if (const int at = state_.ambiguity(m.satellite);
-        at >= 0 && memory.source != predicted->satellite.source) {
-      state_.P()(at, at) += difference * difference;
-      // Its clocks count from another moment, too.
-      const int s = static_cast<int>(m.satellite.system);
-      constexpr double unknown = 100.0;  // m
-      if (s != reference_system_)
-        state_.set(S::system_offset + s, state_.x()[S::system_offset + s], unknown);
-    }
+    if (memory.last_code && memory.source != predicted->satellite.source)
+      change_source(m.satellite);
     memory.source = predicted->satellite.source;
     Tracked tracked{m, *predicted, report_of_[i],
                     m.code() - predicted->range - predicted->ionosphere.value};
@@ -242,6 +233,22 @@ void PppFilter::predict_ranges(double interval) {
       report.refused = PppRefusal::no_phase;
     }
     tracked_.push_back(tracked);
+  }
+}
+
+// The ambiguity has taken up what the other source's orbit and clock were wrong by; and its clocks
+// count from another moment, which the offsets tell: of its own system, or of all others from it.
+void PppFilter::change_source(Satellite satellite) {
+  constexpr double difference = 2.0, unknown = 100.0;  // m, of the ranges by two sources
+  if (const int at = state_.ambiguity(satellite); at >= 0) {
+    state_.P()(at, at) += difference * difference;
+  }
+  const int own = static_cast<int>(satellite.system);
+  for (int s = 0; s < system_count; ++s) {
+    const int offset = S::system_offset + s;
+    const bool against_it = own == reference_system_ ? s != own : s == own;
+    if (against_it && has_offset_[static_cast<std::size_t>(s)])
+      state_.set(offset, state_.x()[offset], unknown);
   }
 }
 

@@ -82,6 +82,7 @@ class PppFilter {
   void predict(double interval);
   void weigh_code(Tracked& tracked, const Memory& memory) const;
   void predict_ranges(double interval);
+  void change_source(Satellite satellite);
   void set_clocks();
   void weigh_lasting_errors();
   void update();
