@@ -55,6 +55,7 @@ const PppSolution& PppFilter::process(const Epoch& epoch) {
   solution_.time = epoch.time;
   solution_.restarts = restarts_;
   measure_all(epoch);
+  clock_steps_.repair(measurements_);
   if (!started_ && !start(epoch)) return solution_;
   if (interval > 0.0) predict(interval);
   time_ = epoch.time;

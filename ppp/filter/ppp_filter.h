@@ -2,6 +2,7 @@
 // and single-threaded: what it says depends on the epochs alone.
 #pragma once
 
+#include "ppp/filter/clock_steps.h"
 #include "ppp/filter/code_levels.h"
 #include "ppp/filter/epoch_rows.h"
 #include "ppp/filter/filter_state.h"
@@ -35,14 +36,14 @@ class PppFilter {
 
   // Memory that what it saves takes at most.
   static constexpr std::size_t largest_archive =
-      (FilterState::capacity + 1) * FilterState::capacity * sizeof(double) + satellite_slots * 144 +
+      (FilterState::capacity + 1) * FilterState::capacity * sizeof(double) + satellite_slots * 160 +
       4096;
 
   // Saves and loads what it knows; loading refuses a filter with other parameters. A filter that
   // refused is as it was.
   template <class Archive>
   void archive(Archive& ar) {
-    ar.section("ppp", 4);
+    ar.section("ppp", 5);
     archive_same_fields(ar, parameters_);
     archive_same(ar, "choice of systems", parameters_.systems);
     if constexpr (Archive::loading) {
@@ -61,9 +62,9 @@ class PppFilter {
  private:
   template <class Archive>
   void archive_knowledge(Archive& ar) {
-    ar(state_, memory_, levels_, strength_, started_, begun_, time_, reference_system_, has_offset_,
-       bad_epochs_, restarts_, lasting_, has_map_, solution_.status, solution_.position,
-       solution_.covariance, solution_.restarts);
+    ar(state_, memory_, levels_, strength_, clock_steps_, started_, begun_, time_,
+       reference_system_, has_offset_, bad_epochs_, restarts_, lasting_, has_map_, solution_.status,
+       solution_.position, solution_.covariance, solution_.restarts);
   }
 
   struct Memory {  // of a satellite
@@ -96,7 +97,8 @@ class PppFilter {
   FilterState state_;
   std::vector<Memory> memory_;
   CodeLevels levels_;
-  FullStrength strength_;  // of this receiver: kept when all begins anew
+  FullStrength strength_;  // of this receiver, as is the next: kept when all begins anew
+  ClockSteps clock_steps_;
   bool started_ = false;
   GpsTime begun_{}, time_{};
   int reference_system_ = -1;

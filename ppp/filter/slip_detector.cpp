@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ppp/filter/clock_steps.h"
+
 namespace maploop::ppp {
 
 PppSlip SlipDetector::next(const Measurement& m, double interval, double elevation) {
@@ -45,7 +47,9 @@ PppSlip SlipDetector::next(const Measurement& m, double interval, double elevati
   } else if (started_ && slip == PppSlip::none && doppler_ != 0.0 && m.first.doppler != 0.0 &&
              interval < 5.0) {
     const double expected = -0.5 * (doppler_ + m.first.doppler) * m.first.wavelength * interval;
-    if (std::abs(m.first.phase - phase_ - expected) > 0.5 + 0.5 * interval) {
+    // But for milliseconds by which the receiver's clock has stepped.
+    const double off = std::remainder(m.first.phase - phase_ - expected, millisecond_range);
+    if (std::abs(off) > 0.5 + 0.5 * interval) {
       slip = PppSlip::doppler;
     }
   }

@@ -1,0 +1,63 @@
+#include "ppp/filter/clock_steps.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace maploop::ppp {
+namespace {
+
+// Of eight satellites; codes have noise.
+std::vector<Measurement> epoch(int t, double code_step, double phase_step) {
+  std::vector<Measurement> all;
+  for (std::uint8_t n = 1; n <= 8; ++n) {
+    Measurement m;
+    m.satellite = {System::gps, n};
+    const double range = 2.0e7 + 1e5 * n + 500.0 * t;
+    m.first = {'1', 'C', 1575.42e6, speed_of_light / 1575.42e6};
+    m.second = {'2', 'W', 1227.60e6, speed_of_light / 1227.60e6};
+    m.first.code = range + 0.5 * std::sin(n + t) + code_step;
+    m.second.code = range + 0.7 * std::sin(2 * n + t) + code_step;
+    m.first.phase = range + 3.0 * n + phase_step;
+    m.second.phase = range - 5.0 * n + phase_step;
+    all.push_back(m);
+  }
+  return all;
+}
+
+TEST(ClockSteps, PhasesFollowTheCodes) {
+  ClockSteps steps;
+  for (int t = 0; t < 60; ++t) {
+    const double step = (t < 20 ? 0 : t < 40 ? 1 : -2) * millisecond_range;
+    auto found = epoch(t, step, 0.0);
+    const auto as_if_both = epoch(t, step, step);
+    steps.repair(found);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_NEAR(found[i].first.phase, as_if_both[i].first.phase, 1e-6) << t;
+      EXPECT_NEAR(found[i].second.phase, as_if_both[i].second.phase, 1e-6) << t;
+      EXPECT_EQ(found[i].first.code, as_if_both[i].first.code);
+    }
+  }
+}
+
+TEST(ClockSteps, NothingElseIsTouched) {
+  ClockSteps steps;
+  for (int t = 0; t < 30; ++t) {
+    // Both step; two satellites slip by a lot, and one has a wild code.
+    const double both = t < 10 ? 0.0 : millisecond_range;
+    auto found = epoch(t, both, both);
+    if (t >= 15) found[2].first.phase += 5.0 * millisecond_range;
+    if (t >= 15) found[3].first.phase -= 1234.0;
+    if (t == 20) found[4].first.code += millisecond_range;
+    if (t == 22) found[5].first.phase = found[5].second.phase = 0.0;
+    const auto before = found;
+    steps.repair(found);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(found[i].first.phase, before[i].first.phase) << t;
+      EXPECT_EQ(found[i].second.phase, before[i].second.phase) << t;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace maploop::ppp
