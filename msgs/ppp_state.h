@@ -80,9 +80,16 @@ constexpr std::string_view to_string(PppRefusal refusal) {
 }
 
 // What told that the phase has slipped, so that its ambiguity begins anew.
-enum class PppSlip : std::uint8_t { none, lost_lock, geometry_free, wide_lane, doppler };
+enum class PppSlip : std::uint8_t {
+  none,
+  lost_lock,
+  geometry_free,
+  wide_lane,
+  doppler,
+  phase_step,  // with one carrier: it has not changed as the others have
+};
 
-constexpr std::size_t ppp_slip_count = static_cast<std::size_t>(PppSlip::doppler) + 1;
+constexpr std::size_t ppp_slip_count = static_cast<std::size_t>(PppSlip::phase_step) + 1;
 
 constexpr std::string_view to_string(PppSlip slip) {
   switch (slip) {
@@ -96,6 +103,8 @@ constexpr std::string_view to_string(PppSlip slip) {
       return "wide-lane jump";
     case PppSlip::doppler:
       return "Doppler disagrees";
+    case PppSlip::phase_step:
+      return "not the others' step";
   }
   return "unknown";
 }

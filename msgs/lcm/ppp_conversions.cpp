@@ -40,7 +40,7 @@ PppSatellite from_lcm(const maploop_lcm::ppp_satellite_t& m) {
   s.code_residual = m.code_residual;
   s.phase_residual = m.phase_residual;
   s.refusal = enumerator_from(m.refusal, PppRefusal::too_many, "ppp_satellite_t.refusal");
-  s.slip = enumerator_from(m.slip, PppSlip::doppler, "ppp_satellite_t.slip");
+  s.slip = enumerator_from(m.slip, PppSlip::phase_step, "ppp_satellite_t.slip");
   return s;
 }
 

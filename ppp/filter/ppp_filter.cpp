@@ -195,6 +195,7 @@ void PppFilter::weigh_code(Tracked& tracked, const Memory& memory) const {
 // Ranges, masks and slips.
 void PppFilter::predict_ranges(double interval) {
   tracked_.clear();
+  phase_steps_.clear();
   for (Memory& memory : memory_) ++memory.epochs_away;
   for (std::size_t i = 0; i < measurements_.size(); ++i) {
     const Measurement& m = measurements_[i];
@@ -220,21 +221,14 @@ void PppFilter::predict_ranges(double interval) {
     memory.last_code = time_;
     tracked.phase_good = m.phase() != 0.0;
     if (tracked.phase_good) {
-      const bool away = memory.epochs_away > 1;
-      const double since = interval * std::max(1, memory.epochs_away);
-      if (memory.epochs_away > parameters_.longest_gap) memory.slips.reset();
-      report.slip = memory.slips.next(m, since, predicted->elevation);
-      if (report.slip != PppSlip::none) {
-        state_.remove_ambiguity(m.satellite);
-      } else if (away && memory.epochs_away > parameters_.longest_gap) {
-        state_.remove_ambiguity(m.satellite);
-      }
+      look_for_slips(tracked, memory, interval);
       memory.epochs_away = 0;
     } else {
       report.refused = PppRefusal::no_phase;
     }
     tracked_.push_back(tracked);
   }
+  compare_phase_steps();
 }
 
 // The ambiguity has taken up what the other source's orbit and clock were wrong by; and its clocks
@@ -250,6 +244,37 @@ void PppFilter::change_source(Satellite satellite) {
     const bool against_it = own == reference_system_ ? s != own : s == own;
     if (against_it && has_offset_[static_cast<std::size_t>(s)])
       state_.set(offset, state_.x()[offset], unknown);
+  }
+}
+
+void PppFilter::look_for_slips(Tracked& tracked, Memory& memory, double interval) {
+  const Measurement& m = tracked.measurement;
+  const PredictedRange& p = tracked.predicted;
+  const double since = interval * std::max(1, memory.epochs_away);
+  const bool away_for_long = memory.epochs_away > parameters_.longest_gap;
+  if (away_for_long) memory.slips.reset();
+  const PppSlip slip = memory.slips.next(m, since, p.elevation);
+  solution_.satellites[tracked.report].slip = slip;
+  if (slip != PppSlip::none || away_for_long) state_.remove_ambiguity(m.satellite);
+  const double phase_less_range = m.phase() - p.phase_extra - p.range;
+  const bool goes_on = memory.epochs_away == 1 && memory.message == p.satellite.message;
+  if (goes_on && slip == PppSlip::none && !m.dual() && interval > 0.0) {
+    // A fourth of a cycle of the first carriers, and what the ionosphere and clocks walk.
+    const double limit = slip_limit(0.05, interval, p.elevation);
+    phase_steps_.push_back({tracked_.size(), p.to_satellite,
+                            phase_less_range - memory.phase_less_range, limit, false});
+  }
+  memory.message = p.satellite.message;
+  memory.phase_less_range = phase_less_range;
+}
+
+void PppFilter::compare_phase_steps() {
+  find_slips(phase_steps_);
+  for (const PhaseStep& step : phase_steps_) {
+    if (!step.slipped) continue;
+    const Tracked& t = tracked_[step.tracked];
+    solution_.satellites[t.report].slip = PppSlip::phase_step;
+    state_.remove_ambiguity(t.measurement.satellite);
   }
 }
 

@@ -9,6 +9,7 @@
 #include "ppp/filter/full_strength.h"
 #include "ppp/filter/map_update.h"
 #include "ppp/filter/parameters.h"
+#include "ppp/filter/phase_steps.h"
 #include "ppp/filter/range_model.h"
 #include "ppp/filter/robust_update.h"
 #include "ppp/filter/single_point.h"
@@ -72,10 +73,12 @@ class PppFilter {
     double wind_up = 0.0;
     int epochs_away = 0;
     std::optional<GpsTime> last_code;
-    std::uint32_t source = 0;  // of orbit and clock
+    std::uint32_t source = 0;   // of orbit and clock
+    GpsTime message{};          // the same
+    double phase_less_range{};  // m, at the last epoch with a phase
     template <class Archive>
     void archive(Archive& ar) {
-      ar(slips, wind_up, epochs_away, last_code, source);
+      ar(slips, wind_up, epochs_away, last_code, source, message, phase_less_range);
     }
   };
   void measure_all(const Epoch& epoch);
@@ -84,6 +87,8 @@ class PppFilter {
   void weigh_code(Tracked& tracked, const Memory& memory) const;
   void predict_ranges(double interval);
   void change_source(Satellite satellite);
+  void look_for_slips(Tracked& tracked, Memory& memory, double interval);
+  void compare_phase_steps();
   void set_clocks();
   void weigh_lasting_errors();
   void update();
@@ -113,6 +118,7 @@ class PppFilter {
   std::vector<Measurement> measurements_;
   std::vector<std::size_t> report_of_;
   std::vector<Tracked> tracked_;
+  std::vector<PhaseStep> phase_steps_;
   std::vector<double> sorted_;
   EpochRows rows_;
   Eigen::VectorXd map_dx_;

@@ -7,10 +7,21 @@
 
 namespace maploop::ppp {
 
+namespace {
+
+bool is_low(double elevation) {
+  return elevation < 0.26;
+}
+
+}  // namespace
+
+double slip_limit(double at_once, double interval, double elevation) {
+  return (at_once + 0.002 * std::min(interval, 30.0)) * (is_low(elevation) ? 2.0 : 1.0);
+}
+
 PppSlip SlipDetector::next(const Measurement& m, double interval, double elevation) {
   PppSlip slip = PppSlip::none;
   if (m.first.lost_lock || m.second.lost_lock) slip = PppSlip::lost_lock;
-  const bool low = elevation < 0.26;
   if (m.dual()) {
     const double geometry_free = m.first.phase - m.second.phase;
     const double f1 = m.first.frequency, f2 = m.second.frequency;
@@ -20,13 +31,13 @@ PppSlip SlipDetector::next(const Measurement& m, double interval, double elevati
     if (started_) {
       // The ionosphere's rate goes on as it was.
       const double predicted = geometry_free_ + (has_rate_ ? rate_ * interval : 0.0);
-      const double limit =
-          (0.04 + 0.002 * std::min(interval, 30.0)) * (low ? 2.0 : 1.0) * (has_rate_ ? 1.0 : 1.5);
+      const double limit = slip_limit(0.04, interval, elevation) * (has_rate_ ? 1.0 : 1.5);
       const double sigma = std::sqrt(std::max(wide_variance_, 0.01));
       if (slip == PppSlip::none && std::abs(geometry_free - predicted) > limit)
         slip = PppSlip::geometry_free;
       if (slip == PppSlip::none && wide_count_ >= 5 &&
-          std::abs(wide - wide_mean_) > std::max(5.0 * sigma, (low ? 2.0 : 1.2) * wide_length)) {
+          std::abs(wide - wide_mean_) >
+              std::max(5.0 * sigma, (is_low(elevation) ? 2.0 : 1.2) * wide_length)) {
         slip = PppSlip::wide_lane;
       }
     }

@@ -1,11 +1,15 @@
 // Cycle slips of one satellite: loss of lock, geometry-free and Melbourne-Wuebbena combinations
-// with two carriers, Doppler with one.
+// with two carriers; Doppler with one, which sees half a metre and more: for less see
+// phase_steps.h.
 #pragma once
 
 #include "msgs/ppp_state.h"
 #include "ppp/filter/measurement.h"
 
 namespace maploop::ppp {
+
+// m: what phases may differ by, of that at once, after `interval` s; at low elevations twice that.
+double slip_limit(double at_once, double interval, double elevation);
 
 class SlipDetector {
  public:

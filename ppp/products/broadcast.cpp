@@ -140,6 +140,7 @@ std::optional<SatelliteState> state_by(const GlonassMessage* m, GpsTime t) {
   state.velocity = s.tail<3>();
   state.clock = m->minus_tau + m->gamma * to_seconds(t - m->toe);
   state.clock_drift = m->gamma;
+  state.message = m->toe;
   state.sigma = 3.0;
   return state;
 }
@@ -154,6 +155,7 @@ std::optional<SatelliteState> state_by(const KeplerMessage* m, GpsTime t) {
   state.velocity = (soon.position - now.position) / step;
   state.clock = polynomial(*m, t) + now.relativity;
   state.clock_drift = m->af1;
+  state.message = m->toe;
   const System system = m->satellite.system;
   state.sigma = system == System::galileo ? 0.5 : system == System::beidou ? 1.5 : 1.0;
   return state;

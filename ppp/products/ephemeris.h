@@ -19,6 +19,7 @@ struct SatelliteState {
   double clock_drift = 0.0;           // s/s
   double sigma = 0.0;                 // m, of range from orbit and clock
   std::uint32_t source = 0;           // ranges by another one differ by more than they walk
+  GpsTime message{};                  // reference time of the broadcast one; by another they jump
 };
 
 class Ephemeris {

@@ -1,0 +1,64 @@
+#include "ppp/filter/phase_steps.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace maploop::ppp {
+namespace {
+
+constexpr int sought = 4;  // displacement, and step of the clock
+using Vector = Eigen::Matrix<double, sought, 1>;
+
+Vector design(const PhaseStep& s) {
+  return {-s.to_satellite.x(), -s.to_satellite.y(), -s.to_satellite.z(), 1.0};
+}
+
+// In limits.
+double misfit(const PhaseStep& s, const Vector& x) {
+  return std::abs(s.change - design(s).dot(x)) / s.limit;
+}
+
+// Weights are in units of the limits' inverse squares.
+template <class Weight>
+Vector fit(const std::vector<PhaseStep>& steps, Weight&& weight) {
+  Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+  Vector right = Vector::Zero();
+  for (const PhaseStep& s : steps) {
+    const Vector h = design(s);
+    const double w = weight(s) / (s.limit * s.limit);
+    normal += w * h * h.transpose();
+    right += w * s.change * h;
+  }
+  return normal.ldlt().solve(right);
+}
+
+Vector least_absolute_values(const std::vector<PhaseStep>& steps) {
+  constexpr int passes = 30;
+  constexpr double small = 0.01;  // of a limit: millimetres and less count alike
+  Vector x = fit(steps, [](const PhaseStep&) { return 1.0; });
+  for (int i = 0; i < passes; ++i) {
+    x = fit(steps, [&](const PhaseStep& s) { return 1.0 / std::max(small, misfit(s, x)); });
+  }
+  return x;
+}
+
+}  // namespace
+
+void find_slips(std::vector<PhaseStep>& steps) {
+  constexpr std::ptrdiff_t fewest = sought + 1;
+  if (static_cast<std::ptrdiff_t>(steps.size()) < fewest) return;
+  Vector x = least_absolute_values(steps);
+  const auto judge = [&] {
+    for (PhaseStep& s : steps) s.slipped = !(misfit(s, x) <= 1.0);
+    return std::count_if(steps.begin(), steps.end(), [](const PhaseStep& s) { return !s.slipped; });
+  };
+  // Once more by all that agree: noise of the few that decide least absolute values is in the rest.
+  if (judge() >= fewest) {
+    x = fit(steps, [](const PhaseStep& s) { return s.slipped ? 0.0 : 1.0; });
+    if (judge() >= fewest) return;
+  }
+  for (PhaseStep& s : steps) s.slipped = false;
+}
+
+}  // namespace maploop::ppp
