@@ -16,7 +16,7 @@ namespace {
 
 struct PppMapCommand {
   std::filesystem::path folder, map, truth, labels, config, html;
-  std::vector<std::filesystem::path> simulated;
+  std::vector<std::filesystem::path> simulated, products;
   std::string systems;
   experiments::PppMapOptions options;
 };
@@ -34,7 +34,8 @@ std::vector<experiments::PppDriveFiles> drives_of(const PppMapCommand& command) 
     if (command.map.empty() || command.truth.empty())
       throw std::runtime_error("a recorded drive needs --map and --truth");
     const std::string name = std::filesystem::weakly_canonical(command.folder).filename().string();
-    drives.push_back({name, name, command.folder, command.truth, command.map, command.labels});
+    drives.push_back(
+        {name, name, command.folder, command.truth, command.map, command.labels, command.products});
   }
   for (const std::filesystem::path& drive : command.simulated) {
     const std::string name = std::filesystem::weakly_canonical(drive).filename().string();
@@ -46,6 +47,7 @@ std::vector<experiments::PppDriveFiles> drives_of(const PppMapCommand& command) 
                         folder,
                         folder / "truth.csv",
                         drive / "map.osm",
+                        {},
                         {}});
     }
   }
@@ -83,6 +85,9 @@ void add_ppp_map_experiment(CLI::App& experiment, Command& command) {
   sub->add_option("FOLDER", options->folder,
                   "A receiver's observations and the products for them, of a recorded drive")
       ->check(existing_folder());
+  sub->add_option("--products", options->products,
+                  "More of them: files or folders, such as a navigation file of a day near to it")
+      ->check(existing_path());
   sub->add_option("--map", options->map, "Its OpenStreetMap file")->check(existing_file());
   sub->add_option("--truth", options->truth, "Where it was, as maploop ppp takes it")
       ->check(existing_file());

@@ -55,6 +55,7 @@ PppDrive read_ppp_drive(const PppDriveFiles& files) {
   for (const std::filesystem::path& file : ppp::files_in(files.folder)) {
     if (ppp::kind_of_file(file) != ppp::FileKind::unknown) ppp::read_into(file, drive.files);
   }
+  for (const auto& product : files.products) ppp::read_products(product, drive.files);
   if (drive.files.observations.size() != 1 || drive.files.observations[0].epochs.empty())
     throw std::runtime_error(files.folder.string() +
                              ": the folder must hold the observations of one receiver");

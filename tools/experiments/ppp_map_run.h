@@ -31,6 +31,7 @@ struct PppDrive {
 struct PppDriveFiles {
   std::string name, group;
   std::filesystem::path folder, truth, map, labels;  // labels may be empty
+  std::vector<std::filesystem::path> products;       // files and folders besides the folder
 };
 // Throws std::runtime_error naming the file.
 PppDrive read_ppp_drive(const PppDriveFiles& files);
