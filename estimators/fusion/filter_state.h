@@ -90,6 +90,7 @@ struct FilterState {
   Time wheel_stamp{};
   Time zero_velocity_stamp{};
   Time map_stamp{};
+  Time speed_fixed{};  // by the velocity of a fix that knows it well
   std::uint64_t odometry_applied = 0;
   std::uint64_t odometry_refused = 0;
   // Gated in a row, by the kind of measurement.
@@ -102,6 +103,7 @@ struct FilterState {
   // Azimuth chained from odometry's rotations alone, as of the clone; used where so configured.
   double chained_azimuth = 0.0;
   Stillness stillness;
+  Duration imu_repeated{};      // how long the newest inertial sample has only repeated older ones
   double yaw_rate = 0.0;        // rad/s, the gyro's at this moment
   double clone_yaw_rate = 0.0;  // and at the clone's
   DelayEstimate imu_delay;
@@ -116,10 +118,10 @@ struct FilterState {
 template <class Archive>
 void archive(Archive& ar, FilterState& s) {
   ar(s.stamp, s.x, s.P, s.clone_stamp, s.start, s.imu_stamp, s.odometry_stamp, s.gnss_stamp,
-     s.wheel_stamp, s.zero_velocity_stamp, s.map_stamp, s.odometry_applied, s.odometry_refused,
-     s.gated_in_a_row, s.gnss_gated_in_a_row, s.wheel_gated_in_a_row, s.map_gated_in_a_row,
-     s.recoveries, s.reinitializations, s.chained_azimuth, s.stillness, s.yaw_rate,
-     s.clone_yaw_rate, s.imu_delay);
+     s.wheel_stamp, s.zero_velocity_stamp, s.map_stamp, s.speed_fixed, s.odometry_applied,
+     s.odometry_refused, s.gated_in_a_row, s.gnss_gated_in_a_row, s.wheel_gated_in_a_row,
+     s.map_gated_in_a_row, s.recoveries, s.reinitializations, s.chained_azimuth, s.stillness,
+     s.imu_repeated, s.yaw_rate, s.clone_yaw_rate, s.imu_delay);
 }
 
 // Adds a correction, keeping both azimuths in (-pi, pi].

@@ -27,6 +27,7 @@ void check(const FusionParameters& p) {
   require("max_step", p.max_step, 1e-3, 1.0);
   require("imu_hold", p.imu_hold, 0.0, p.history_length);
   require("imu_bridge", p.imu_bridge, p.imu_hold, p.history_length);
+  require("repeat_speed", p.repeat_speed, 0.0, huge);
   require("coasting_after", p.coasting_after, 0.0, huge);
   require("max_interval", p.max_interval, 1e-3, p.max_gap);
   require("max_origin_distance", p.max_origin_distance, 0.0, 1e5);
@@ -79,6 +80,7 @@ void check(const FusionParameters& p) {
   require("gnss_velocity_gate", p.gnss_velocity_gate, tiny, huge);
   require("gnss_recover_after", p.gnss_recover_after, 1, huge);
   require("gnss_recovery_sigma", p.gnss_recovery_sigma, tiny, huge);
+  require("fix_hold", p.fix_hold, 0.0, huge);
   require("gnss_lever_forward", p.gnss_lever_forward, -50.0, 50.0);
   require("gnss_lever_left", p.gnss_lever_left, -50.0, 50.0);
   require("gnss_lever_up", p.gnss_lever_up, -50.0, 50.0);

@@ -21,6 +21,7 @@ struct FusionParameters {
   int restart_after = 100;      // refusals in a row for their stamps; then the clock really jumped
   double max_step = 0.05;       // s, a chord of a 30 deg/s turn is 3e-5 shorter than its arc
   double imu_hold = 0.3;        // s, three missing samples of a 10 Hz IMU; then it is silent
+  double repeat_speed = 2.0;    // m/s, from there on no unit repeats its values for imu_hold
   double imu_bridge = 2.0;      // s, a longer gap between two samples may hide a whole turn
   double coasting_after = 1.0;  // s without odometry until the state calls itself coasting
   double max_interval = 1.0;    // s, longest odometry interval; speed is not constant for longer
@@ -80,6 +81,8 @@ struct FusionParameters {
   int gnss_recover_after = 5;         // gated in a row; then doubts itself, and after twice as many
                                       // begins anew at the fix
   double gnss_recovery_sigma = 20.0;  // m, how wrong its position may then be
+  double fix_hold = 3.0;              // s behind a fix in which odometry or wheels that contradict
+                                      // the speed are at fault, not the prediction
   double gnss_lever_forward = 0.0;    // m, antenna from the body's origin
   double gnss_lever_left = 0.0;
   double gnss_lever_up = 0.0;

@@ -134,8 +134,17 @@ Outcome apply_gnss_position(FilterState& state, const GnssFix& fix, const LocalF
 
 Outcome apply_gnss_velocity(FilterState& state, const GnssFix& fix, double yaw_rate,
                             const FusionParameters& p) {
-  return apply_gated(state, velocity_innovation(state, fix, yaw_rate, p), p.gnss_velocity_gate,
-                     Reason::velocity_gate);
+  const Outcome outcome = apply_gated(state, velocity_innovation(state, fix, yaw_rate, p),
+                                      p.gnss_velocity_gate, Reason::velocity_gate);
+  const double sigma = std::sqrt(fix.velocity_covariance.diagonal().head<2>().maxCoeff());
+  if (!outcome.refused() && sigma <= 0.2 * p.recovery_speed_sigma) {
+    state.speed_fixed = fix.velocity_stamp;
+  }
+  return outcome;
+}
+
+bool held_by_fix(const FilterState& state, const FusionParameters& p) {
+  return state.stamp - state.speed_fixed <= from_seconds(p.fix_hold);
 }
 
 }  // namespace maploop::fusion

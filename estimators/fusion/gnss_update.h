@@ -28,4 +28,8 @@ Outcome apply_gnss_position(FilterState& state, const GnssFix& fix, const LocalF
 Outcome apply_gnss_velocity(FilterState& state, const GnssFix& fix, double yaw_rate,
                             const FusionParameters& parameters);
 
+// Whether a velocity known to a fifth of `recovery_speed_sigma` was applied within the last
+// `fix_hold`: it has confirmed the predicted speed, and what contradicts that is wrong itself.
+bool held_by_fix(const FilterState& state, const FusionParameters& parameters);
+
 }  // namespace maploop::fusion

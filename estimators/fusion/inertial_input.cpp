@@ -6,18 +6,39 @@
 namespace maploop::fusion {
 namespace {
 
+bool repeats(const ImuSample& a, const ImuSample& b) {
+  return a.specific_force_forward == b.specific_force_forward &&
+         a.specific_force_left == b.specific_force_left && a.yaw_rate == b.yaw_rate;
+}
+
 bool neighbours(const InertialSamples& samples, const FusionParameters& parameters) {
   return samples.before != nullptr && samples.after != nullptr &&
-         samples.after->stamp - samples.before->stamp <= from_seconds(parameters.imu_bridge);
+         samples.after->stamp - samples.before->stamp <= from_seconds(parameters.imu_bridge) &&
+         !frozen(samples.repeated, parameters) && !repeats(*samples.before, *samples.after);
+}
+
+Time measured(const InertialSamples& samples) {
+  return samples.before->stamp - samples.repeated;
 }
 
 }  // namespace
+
+Duration repetition(const InertialSamples& samples, const ImuSample& sample, double speed,
+                    const FusionParameters& parameters) {
+  if (samples.before == nullptr || !repeats(*samples.before, sample)) return {};
+  if (std::abs(speed) < parameters.repeat_speed && !frozen(samples.repeated, parameters)) return {};
+  return samples.repeated + (sample.stamp - samples.before->stamp);
+}
+
+bool frozen(Duration repeated, const FusionParameters& parameters) {
+  return repeated > from_seconds(parameters.imu_hold);
+}
 
 Time end_of_stretch(const InertialSamples& samples, Time from, Time to,
                     const FusionParameters& parameters) {
   Time end = std::min(to, from + from_seconds(parameters.max_step));
   if (samples.before != nullptr && !neighbours(samples, parameters)) {
-    const Time held_until = samples.before->stamp + from_seconds(parameters.imu_hold);
+    const Time held_until = measured(samples) + from_seconds(parameters.imu_hold);
     if (from < held_until) end = std::min(end, held_until);
   }
   return end;
@@ -44,9 +65,9 @@ InertialInput inertial_input(const InertialSamples& samples, Time from, Time to,
     return input;
   }
 
-  const double age_from = to_seconds(from - a.stamp);
-  const double age_to = to_seconds(to - a.stamp);
-  if (to - a.stamp > from_seconds(parameters.imu_hold)) return input;
+  const double age_from = to_seconds(from - measured(samples));
+  const double age_to = to_seconds(to - measured(samples));
+  if (to - measured(samples) > from_seconds(parameters.imu_hold)) return input;
   // A ramp from the sample on: age^2 / 2.
   input.inertial = true;
   input.forward_force = a.specific_force_forward;

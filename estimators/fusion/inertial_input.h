@@ -20,7 +20,18 @@ struct InertialInput {
 struct InertialSamples {
   const ImuSample* before = nullptr;
   const ImuSample* after = nullptr;
+  Duration repeated{};  // how long `before` has only repeated what was measured earlier
 };
+
+// How long `sample`, the one behind `samples.before`, has only repeated what was measured earlier:
+// all of its values are the same bits. A vehicle on its way shakes its sensors; slower than
+// `repeat_speed` even a healthy unit with coarse steps repeats itself, and a repetition counts as
+// measured, but where it goes on from one that was found frozen.
+Duration repetition(const InertialSamples& samples, const ImuSample& sample, double speed,
+                    const FusionParameters& parameters);
+
+// Repeated for longer than `imu_hold`: the unit is stuck.
+bool frozen(Duration repeated, const FusionParameters& parameters);
 
 // End of the part of [from, to] that one InertialInput can describe. Precondition: from < to.
 Time end_of_stretch(const InertialSamples& samples, Time from, Time to,
@@ -28,7 +39,8 @@ Time end_of_stretch(const InertialSamples& samples, Time from, Time to,
 
 // Linear interpolation between samples not further apart than `imu_bridge`; after a sample without
 // such a successor its value is held for `imu_hold`; then the IMU counts as silent. So a sample
-// that arrives after a longer silence changes nothing before itself.
+// that arrives after a longer silence changes nothing before itself. A sample that repeats the one
+// before is no new measurement: the older one is held.
 // Across a gap of T what the line misses grows with T^2: on eight KITTI drives the azimuth by 2.9
 // deg rms at 1.7 s and 4.3 deg at 2 s, where the yaw acceleration's default says 6.2 and 8.6 deg.
 // Precondition: [from, to] ends at or before end_of_stretch.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "estimators/fusion/gnss_update.h"
+
 namespace maploop::fusion {
 namespace {
 
@@ -19,26 +21,42 @@ Vector3d rotation_vector(Eigen::Quaterniond q) {
   return (sine < 1e-9 ? 2.0 : angle / sine) * q.vec();
 }
 
-// The prediction may have been wrong since the last odometry that was applied: in speed, hence in
-// distance and position, and in the rotation over the interval.
-void inflate(FilterState& state, const RelativeMotion& motion, const FusionParameters& p) {
+// When position and speed were last corrected, by whatever aid, or known at the start.
+Time aided_at(const FilterState& state, const FusionParameters& p) {
+  return std::max({state.odometry_stamp, state.wheel_stamp, state.zero_velocity_stamp,
+                   p.use_gnss ? state.gnss_stamp : Time{}, state.start});
+}
+
+// The prediction may have been wrong since the last aid: in speed, hence in distance and position.
+void doubt_speed(FilterState& state, const RelativeMotion& motion, const FusionParameters& p) {
   using namespace index;
-  const Time since = std::max(state.odometry_stamp, state.start);
-  const double unaided = to_seconds(motion.stamp - since);
-  const Matrix3d R = rotation_enu_body(state.attitude());
+  StateVector error = StateVector::Zero();
+  error.segment<3>(east) =
+      to_seconds(motion.stamp - aided_at(state, p)) * rotation_enu_body(state.attitude()).col(0);
+  error[speed] = 1.0;
+  error[distance] = to_seconds(motion.stamp - motion.from);
+  error *= p.recovery_speed_sigma;
+  state.P += error * error.transpose();
+}
 
-  StateVector speed_error = StateVector::Zero();
-  speed_error.segment<3>(east) = unaided * R.col(0);
-  speed_error[speed] = 1.0;
-  speed_error[distance] = to_seconds(motion.stamp - motion.from);
-  speed_error *= p.recovery_speed_sigma;
-  state.P += speed_error * speed_error.transpose();
-
-  StateVector azimuth_error = StateVector::Zero();
-  azimuth_error.segment<3>(east) = -0.5 * unaided * state.x[speed] * R.col(1);
-  azimuth_error[azimuth] = 1.0;
-  azimuth_error *= p.recovery_rotation_sigma;
-  state.P += azimuth_error * azimuth_error.transpose();
+// And in the rotation over the interval; in each one before it too, back to the last odometry that
+// was applied, the azimuth by as much as this motion contradicts it. That sum is the same at both
+// ends of the interval: no odometry takes it back.
+void doubt_rotation(FilterState& state, const RelativeMotion& motion, const FusionParameters& p) {
+  using namespace index;
+  const double interval = to_seconds(motion.stamp - motion.from);
+  const double alone = to_seconds(motion.from - std::max(state.odometry_stamp, state.start));
+  const double contradiction = std::abs(rotation_innovation(state, motion, p).residual.z());
+  const double before = std::max(0.0, alone / interval) * contradiction;
+  const Vector3d aside = -0.5 * to_seconds(motion.stamp - aided_at(state, p)) * state.x[speed] *
+                         rotation_enu_body(state.attitude()).col(1);
+  const auto add = [&](StateVector error, double sigma) {
+    error.segment<3>(east) = aside;
+    error[azimuth] = 1.0;
+    state.P += sigma * sigma * error * error.transpose();
+  };
+  add(StateVector::Zero(), p.recovery_rotation_sigma);
+  add(StateVector::Unit(clone_azimuth), before);
 
   state.P(pitch, pitch) += p.recovery_rotation_sigma * p.recovery_rotation_sigma;
   state.P(roll, roll) += p.recovery_rotation_sigma * p.recovery_rotation_sigma;
@@ -148,6 +166,28 @@ double gain_of(const FilterState& state, const RelativeMotion& motion) {
   return has_scale(motion) ? 1.0 : 1.0 / (1.0 + state.x[index::speed_scale]);
 }
 
+// Corrects after having doubted the prediction; where that does not explain the motion either, the
+// state stays as it was.
+Outcome recover(FilterState& state, const RelativeMotion& motion, Outcome outcome,
+                const FusionParameters& p) {
+  const FilterState before = state;
+  const bool backward = drives_backward(state, motion, p);
+  if (backward) turn_round(state);
+  if (!held_by_fix(state, p)) {
+    doubt_speed(state, motion, p);
+  } else if (outcome.reason == Reason::speed_gate && !backward) {
+    return outcome;
+  }
+  doubt_rotation(state, motion, p);
+  outcome = correct(state, motion, p);
+  if (outcome.refused()) {
+    state = before;
+  } else {
+    ++state.recoveries;
+  }
+  return outcome;
+}
+
 }  // namespace
 
 Arc arc(const RelativeMotion& motion) {
@@ -234,11 +274,10 @@ Outcome apply_odometry(FilterState& state, const RelativeMotion& motion,
     outcome = refused(Reason::interval_unknown);
   } else {
     outcome = correct(state, motion, parameters);
-    if (outcome.refused() && ++state.gated_in_a_row % parameters.recover_after == 0) {
-      if (drives_backward(state, motion, parameters)) turn_round(state);
-      inflate(state, motion, parameters);
-      ++state.recoveries;
-      outcome = correct(state, motion, parameters);
+    if (!outcome.refused()) {
+      state.gated_in_a_row = 0;
+    } else if (++state.gated_in_a_row >= parameters.recover_after) {
+      outcome = recover(state, motion, outcome, parameters);
     }
   }
   if (outcome.refused()) {
@@ -247,7 +286,6 @@ Outcome apply_odometry(FilterState& state, const RelativeMotion& motion,
     ++state.odometry_refused;
   } else {
     ++state.odometry_applied;
-    state.gated_in_a_row = 0;
     state.odometry_stamp = motion.stamp;
   }
   take_clone(state);

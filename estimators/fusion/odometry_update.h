@@ -41,11 +41,15 @@ Innovation<1> chained_azimuth_innovation(const FilterState& state,
 
 // Those corrections that the configuration asks for, all or none: an odometry that is wrong in
 // speed (gate of 1 degree of freedom) or rotation (3) is not trusted in the rest. Climb has the
-// gate of speed, but only skips itself. After `recover_after` gated motions in a row the prediction
-// is the suspect: its covariance is inflated (`recoveries` counts) before the gates are asked
-// again; where the motion goes as fast the other way, nose and tail were mistaken for each other
-// and change places first. Counts in the state; takes the clone in every case. Precondition:
-// state.stamp == motion.stamp.
+// gate of speed, but only skips itself.
+//
+// After `recover_after` gated motions in a row the prediction is the suspect, until a motion passes
+// the gates by itself: its covariance is inflated by what it may have got wrong since it was last
+// aided (`recoveries` counts) before the gates are asked again. A speed that a fix has just
+// confirmed (held_by_fix) is not doubted: then the odometry is wrong. Where the motion goes as fast
+// the other way, nose and tail were mistaken for each other and change places first.
+//
+// Counts in the state; takes the clone in every case. Precondition: state.stamp == motion.stamp.
 Outcome apply_odometry(FilterState& state, const RelativeMotion& motion,
                        const FusionParameters& parameters);
 

@@ -25,7 +25,8 @@ enum class Reason : std::uint8_t {
   before_start,        // before the moment the filter started at
   after_delivery,      // stamped later than it was delivered: its sensor's clock is wrong
   clock_fell_back,     // its sensor's clock has fallen back, and is not right again
-  time_jump,           // further ahead of all others than may be, or not confirmed by a second one
+  frozen,     // bit for bit the same for too long while the vehicle moves: its sensor is stuck
+  time_jump,  // further ahead of all others than may be, or not confirmed by a second one
   // Odometry, at its stamp: no correction, but the next interval starts there.
   odometry_not_ok,   // its own status says so (bad input: at the door)
   interval_unknown,  // the filter does not know the attitude at the interval's start
@@ -101,6 +102,8 @@ constexpr std::string_view to_string(Reason reason) {
       return "stamped later than delivered";
     case Reason::clock_fell_back:
       return "the sensor's clock has fallen back";
+    case Reason::frozen:
+      return "the sensor is stuck at one value";
     case Reason::time_jump:
       return "jump of the time stamp";
     case Reason::odometry_not_ok:

@@ -27,6 +27,7 @@ void fields(Parameters& p, F&& f) {
   f("restart_after", p.restart_after);
   f("max_step", p.max_step);
   f("imu_hold", p.imu_hold);
+  f("repeat_speed", p.repeat_speed);
   f("imu_bridge", p.imu_bridge);
   f("coasting_after", p.coasting_after);
   f("max_interval", p.max_interval);
@@ -75,6 +76,7 @@ void fields(Parameters& p, F&& f) {
   f("gnss_velocity_gate", p.gnss_velocity_gate);
   f("gnss_recover_after", p.gnss_recover_after);
   f("gnss_recovery_sigma", p.gnss_recovery_sigma);
+  f("fix_hold", p.fix_hold);
   f("gnss_lever_forward", p.gnss_lever_forward);
   f("gnss_lever_left", p.gnss_lever_left);
   f("gnss_lever_up", p.gnss_lever_up);

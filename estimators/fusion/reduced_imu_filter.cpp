@@ -309,7 +309,7 @@ std::size_t ReducedImuFilter::next_sample(std::size_t position) const {
 
 template <class Archive, class Filter>
 void ReducedImuFilter::describe(Archive& ar, Filter& f) {
-  ar.section("reduced-IMU filter", 1);
+  ar.section("reduced-IMU filter", 2);
   archive_same_fields(ar, f.parameters_);
   Geodetic origin = f.frame_.origin();
   ar(f.has_origin_, origin, f.guard_, f.imu_clock_, f.history_, f.base_, f.base_key_,
@@ -343,6 +343,7 @@ InertialSamples ReducedImuFilter::samples_around(std::size_t position) const {
   } else if (base_sample_) {
     samples.before = &*base_sample_;
   }
+  samples.repeated = position == 0 ? base_.imu_repeated : history_[position - 1].after.imu_repeated;
   const std::size_t after = next_sample(position);
   if (after < history_.size()) samples.after = &std::get<ImuSample>(history_[after].measurement);
   return samples;
@@ -364,6 +365,8 @@ Outcome ReducedImuFilter::apply(FilterState& state, const Event& event,
     return apply_odometry(state, *motion, parameters_);
   }
   if (const auto* sample = std::get_if<ImuSample>(&event.measurement)) {
+    state.imu_repeated = repetition(samples, *sample, state.x[index::speed], parameters_);
+    if (frozen(state.imu_repeated, parameters_)) return refused(Reason::frozen);
     if (samples.before != nullptr) apply_sample(state, *sample, *samples.before);
     state.imu_stamp = sample->stamp;
     return {};
@@ -376,7 +379,8 @@ Outcome ReducedImuFilter::apply(FilterState& state, const Event& event,
     if (event.key.kind == EventKind::gnss_position) {
       return apply_gnss_position(state, *fix, frame_, parameters_);
     }
-    const double yaw_rate = samples.before != nullptr ? samples.before->yaw_rate : 0.0;
+    const bool known = samples.before != nullptr && !frozen(samples.repeated, parameters_);
+    const double yaw_rate = known ? samples.before->yaw_rate : 0.0;
     return apply_gnss_velocity(state, *fix, yaw_rate, parameters_);
   }
   if (const auto* feedback = std::get_if<MapFeedback>(&event.measurement)) {
@@ -413,6 +417,7 @@ void ReducedImuFilter::roll_forward(std::size_t position) {
     if (const auto* sample = std::get_if<ImuSample>(&event.measurement)) {
       const std::size_t after = next_sample(i + 1);
       samples.before = sample;
+      samples.repeated = state.imu_repeated;
       samples.after =
           after < history_.size() ? &std::get<ImuSample>(history_[after].measurement) : nullptr;
     }

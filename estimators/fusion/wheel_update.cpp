@@ -1,5 +1,7 @@
 #include "estimators/fusion/wheel_update.h"
 
+#include "estimators/fusion/gnss_update.h"
+
 namespace maploop::fusion {
 
 Innovation<1> wheel_innovation(const FilterState& state, const WheelSpeed& sample,
@@ -18,7 +20,8 @@ Outcome apply_wheel(FilterState& state, const WheelSpeed& sample, const FusionPa
     return apply_gated(state, wheel_innovation(state, sample, p), p.speed_gate, Reason::wheel_gate);
   };
   Outcome outcome = correct();
-  if (outcome.refused() && ++state.wheel_gated_in_a_row % p.recover_after == 0) {
+  if (outcome.refused() && ++state.wheel_gated_in_a_row % p.recover_after == 0 &&
+      !held_by_fix(state, p)) {
     const double wrong = p.recovery_speed_sigma;
     state.P(index::speed, index::speed) += wrong * wrong;
     ++state.recoveries;

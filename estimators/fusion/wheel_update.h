@@ -12,7 +12,8 @@ namespace maploop::fusion {
 Innovation<1> wheel_innovation(const FilterState& state, const WheelSpeed& sample,
                                const FusionParameters& parameters);
 
-// After `recover_after` gated samples in a row the prediction is the suspect (`recoveries`).
+// After `recover_after` gated samples in a row the prediction is the suspect (`recoveries`), unless
+// a fix has just confirmed it (held_by_fix).
 Outcome apply_wheel(FilterState& state, const WheelSpeed& sample,
                     const FusionParameters& parameters);
 

@@ -67,6 +67,7 @@ inline Sensors fake_sensors(double seconds) {
   s.velodyne = std::make_unique<FakeSource<LidarScan>>(
       static_cast<std::uint64_t>(seconds * 10), [](std::uint64_t i, LidarScan& scan) {
         scan.stamp = drive_start + i * milliseconds(103);
+        scan.start = scan.stamp - milliseconds(50);
         scan.available = scan.end = scan.stamp + milliseconds(50);
         scan.points.assign(100, {});
       });
@@ -75,7 +76,7 @@ inline Sensors fake_sensors(double seconds) {
         sample.available = drive_start + i * milliseconds(10);
         sample.stamp = sample.available - milliseconds(60);
         sample.specific_force_forward = sample.specific_force_left = 0.0;
-        sample.yaw_rate = 0.01;
+        sample.yaw_rate = 0.01 + 1e-9 * static_cast<double>(i);  // no sensor repeats itself
       });
   s.gnss = std::make_unique<FakeSource<GnssFix>>(
       static_cast<std::uint64_t>(seconds), [](std::uint64_t i, GnssFix& fix) {
