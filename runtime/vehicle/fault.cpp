@@ -17,6 +17,7 @@ constexpr std::array<std::string_view, 10> target_names{
 using enum FaultTarget;
 constexpr std::array sensors{camera, velodyne, imu, gnss};
 constexpr std::array numeric_sensors{velodyne, imu, gnss};
+constexpr std::array row_sensors{imu, gnss};
 constexpr std::array only_camera{camera};
 constexpr std::array stages{stereo, lidar, ppp, fusion, mapmatch};
 constexpr std::array machine{cpu};
@@ -40,6 +41,7 @@ constexpr std::array<Rule, 11> rules{{
     {"reordered", sensors},
     {"jump", sensors, 1.0, longest_drive, true},
     {"nan", numeric_sensors},
+    {"frozen", row_sensors},
     {"black", only_camera},
     {"garbage", only_camera},
     {"slow", stages, 0.1, 1.0},

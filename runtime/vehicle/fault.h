@@ -8,6 +8,7 @@
 //   reordered   camera velodyne imu gnss   arrives behind its successor
 //   jump        camera velodyne imu gnss   its stamps are wrong by `by`; it arrives as before
 //   nan         velodyne imu gnss          every number of it is NaN
+//   frozen      imu gnss                   its numbers are those of the first sample that is struck
 //   black       camera                     both images are black
 //   garbage     camera                     both images are noise
 //   slow        stereo lidar ppp fusion mapmatch   the stage sleeps `by` at each image, scan, ...
@@ -41,6 +42,7 @@ enum class FaultKind : std::uint8_t {
   reordered,
   jump,
   nan,
+  frozen,
   black,
   garbage,
   slow,

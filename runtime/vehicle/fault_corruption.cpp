@@ -64,6 +64,23 @@ void fill_with_nan(GnssEpoch& epoch) {
   }
 }
 
+void repeat(ImuSample& sample, const ImuSample& other) {
+  sample.specific_force_forward = other.specific_force_forward;
+  sample.specific_force_left = other.specific_force_left;
+  sample.yaw_rate = other.yaw_rate;
+}
+
+void repeat(GnssFix& fix, const GnssFix& other) {
+  fix.position = other.position;
+  fix.position_covariance = other.position_covariance;
+  fix.velocity_enu = other.velocity_enu;
+  fix.velocity_covariance = other.velocity_covariance;
+}
+
+void repeat(GnssEpoch& epoch, const GnssEpoch& other) {
+  epoch.epoch.signals = other.epoch.signals;
+}
+
 void blacken(StereoPair& pair) {
   for (GreyImage* image : {&pair.left, &pair.right}) {
     std::fill(image->pixels.begin(), image->pixels.end(), std::uint8_t{0});

@@ -24,6 +24,11 @@ void fill_with_nan(ImuSample& sample);
 void fill_with_nan(GnssFix& fix);
 void fill_with_nan(GnssEpoch& epoch);
 
+// Every measured number, and every covariance, is that of another sample; stamps are its own.
+void repeat(ImuSample& sample, const ImuSample& other);
+void repeat(GnssFix& fix, const GnssFix& other);
+void repeat(GnssEpoch& epoch, const GnssEpoch& other);
+
 void blacken(StereoPair& pair);
 
 // Noise that depends on the seed and the stamp alone, another one in each image.

@@ -1,6 +1,7 @@
 #include "runtime/vehicle/fault_injection.h"
 
 #include <concepts>
+#include <optional>
 #include <utility>
 
 #include "runtime/vehicle/fault_source.h"
@@ -19,6 +20,14 @@ std::function<void(T&)> alteration(const Fault& fault) {
       return [by](T& sample) { shift_stamps(sample, by); };
     default:
       break;
+  }
+  if constexpr (requires(T & sample) { repeat(sample, sample); }) {
+    if (fault.kind == FaultKind::frozen) {
+      return [first = std::optional<T>()](T& sample) mutable {
+        if (!first) first = sample;
+        repeat(sample, *first);
+      };
+    }
   }
   if constexpr (!std::same_as<T, StereoPair>) {
     return [](T& sample) { fill_with_nan(sample); };

@@ -222,6 +222,16 @@ TEST(FaultDrive, LostInertialSamplesAreBridgedByTheOdometry) {
   expect_near_clean(replay({"lost@imu,share=0.3,seed=5"}), 1.2, 1.2);
 }
 
+TEST(FaultDrive, AStuckInertialUnitIsFoundAndBridgedByTheOdometry) {
+  MAPLOOP_REQUIRE_DRIVE();
+  for (const char* fault : {"frozen@imu:5:2", "frozen@imu:4:8"}) {
+    const Replayed r = replay({fault});
+    expect_near_clean(r, 0.8, 0.8);
+    const auto found = static_cast<double>(r.refused("the sensor is stuck at one value"));
+    EXPECT_NEAR(found, static_cast<double>(r.faults[0].struck) - 3.5, 1.0) << "10 Hz, after 0.3 s";
+  }
+}
+
 TEST(FaultDrive, InertialSamplesThatAreNotNumbersAreRefusedOneByOne) {
   MAPLOOP_REQUIRE_DRIVE();
   const Replayed r = replay({"nan@imu:5:1"});

@@ -125,7 +125,8 @@ INSTANTIATE_TEST_SUITE_P(
                       "reordered@gnss", "reordered@velodyne", "jump@camera:1:1,by=3",
                       "jump@camera:1:end,by=-5", "jump@imu:1:1,by=3", "jump@imu:1,by=-3600",
                       "jump@gnss:0:2,by=20", "jump@velodyne:1", "nan@imu:1:1", "nan@gnss:0:2",
-                      "nan@velodyne", "black@camera:1:1", "garbage@camera:1:1"));
+                      "frozen@imu:1:1", "frozen@gnss:1", "nan@velodyne", "black@camera:1:1",
+                      "garbage@camera:1:1"));
 
 TEST(FaultBurst, OfMoreThanARingHoldsGoesThroughWithTheSameBits) {
   const std::vector<std::string> burst{"late@imu:0.5:0.5,by=5"};

@@ -51,6 +51,7 @@ TEST(FaultParse, EveryKindHasItsTargetsAndDefaults) {
   EXPECT_EQ(parse_fault("jump@imu,by=-3600").by, -seconds(3600));
   EXPECT_EQ(parse_fault("jump@imu").by, seconds(1));
   EXPECT_EQ(parse_fault("nan@velodyne").kind, FaultKind::nan);
+  EXPECT_EQ(parse_fault("frozen@imu:15:2").kind, FaultKind::frozen);
   EXPECT_EQ(parse_fault("black@camera").kind, FaultKind::black);
   EXPECT_EQ(parse_fault("garbage@camera").kind, FaultKind::garbage);
   EXPECT_EQ(parse_fault("slow@stereo").by, milliseconds(100));

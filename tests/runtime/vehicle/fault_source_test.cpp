@@ -124,7 +124,7 @@ TEST(FaultSource, NanInEveryNumber) {
   EXPECT_TRUE(std::isnan(s.samples[50].specific_force_forward));
   EXPECT_TRUE(std::isnan(s.samples[50].specific_force_left));
   EXPECT_TRUE(std::isnan(s.samples[50].yaw_rate));
-  EXPECT_EQ(s.samples[60].yaw_rate, 0.01);
+  EXPECT_NEAR(s.samples[60].yaw_rate, 0.01, 1e-6);
 
   FaultInjection injection(Stream::parsed({"nan@gnss", "nan@velodyne"}), drive_start);
   Sensors sensors = injection.afflict(fake_sensors(2.0));
@@ -137,6 +137,24 @@ TEST(FaultSource, NanInEveryNumber) {
   ASSERT_TRUE(sensors.velodyne->next(scan));
   ASSERT_EQ(scan.points.size(), 100u);
   EXPECT_TRUE(std::isnan(scan.points[99].z));
+}
+
+TEST(FaultSource, AFrozenSensorRepeatsTheFirstNumbersWithStampsThatGoOn) {
+  const Stream s({"frozen@imu:0.5:0.1"});
+  const Stream healthy({});
+  EXPECT_EQ(s.struck(), 10u);
+  for (std::size_t i = 0; i < s.samples.size(); ++i) {
+    const std::size_t source = i >= 50 && i < 60 ? 50 : i;
+    EXPECT_EQ(s.samples[i].yaw_rate, healthy.samples[source].yaw_rate) << i;
+    EXPECT_EQ(s.samples[i].stamp, healthy.samples[i].stamp) << i;
+  }
+
+  FaultInjection injection(Stream::parsed({"frozen@gnss"}), drive_start);
+  Sensors sensors = injection.afflict(fake_sensors(3.0));
+  GnssFix first, later;
+  ASSERT_TRUE(sensors.gnss->next(first) && sensors.gnss->next(later));
+  EXPECT_EQ(first.position.latitude, later.position.latitude);
+  EXPECT_LT(first.stamp, later.stamp);
 }
 
 TEST(FaultSource, ImagesTurnBlackOrToNoise) {
