@@ -3,12 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimators/lidar/scan_preparation.h"
+
 namespace maploop::lidar {
 namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr double blind = 3.0;  // px; a motion that shows the offset no better teaches nothing
+
+// The part of a motion, at constant speed and rate, that lies behind `from`.
+RelativeMotion begun_at(Time from, RelativeMotion motion) {
+  if (!(motion.from < from && from < motion.stamp)) return motion;
+  const Twist twist = Twist::of(motion.T_from_to(), to_seconds(motion.stamp - motion.from));
+  const Eigen::Isometry3d T = twist.over(to_seconds(motion.stamp - from));
+  motion.from = from;
+  motion.translation = T.translation();
+  motion.rotation = Eigen::Quaterniond(T.linear()).normalized();
+  return motion;
+}
 
 }  // namespace
 
@@ -77,7 +90,7 @@ OdometerResult process(LidarOdometry& odometry, DisparityCorrection& correction,
   if (result.lidar.status == OdometryStatus::ok) {
     correction.learn(*visual, result.lidar);
   } else if (result.odometry.status == OdometryStatus::ok) {
-    result.odometry = corrected;
+    result.odometry = begun_at(result.lidar.from, corrected);
   }
   return result;
 }

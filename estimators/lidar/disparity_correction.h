@@ -50,7 +50,8 @@ class DisparityCorrection {
 
 // One step of both: LidarOdometry::process, which also teaches the correction. Beside a scan that
 // can be used, a visual motion is a witness of its own and goes in as it came; alone it is
-// corrected.
+// corrected, and cut off at the last step where it reaches back behind that: the motions are a
+// chain.
 OdometerResult process(LidarOdometry& odometry, DisparityCorrection& correction,
                        const LidarScan* scan, const VisualMotion* visual);
 

@@ -56,7 +56,7 @@ class LidarOdometry::Implementation {
     if (visual != nullptr && visual->status == OdometryStatus::bad_input) visual = nullptr;
     if (scan == nullptr && visual == nullptr) return result;
     begin(visual != nullptr ? static_cast<const Sample&>(*visual) : *scan, &result.lidar);
-    if (!in_order(scan, result.lidar.stamp)) {
+    if (!in_order(scan, result.lidar.stamp) || (visual == nullptr && too_late(*scan))) {
       if (visual == nullptr) result.odometry = result.lidar;
       return result;
     }
@@ -119,6 +119,10 @@ class LidarOdometry::Implementation {
     stale_ = 0;
     return true;
   }
+
+  // A scan that comes alone, when a step within its turn has been taken already: its visual motion
+  // went without it, and what goes on from there begins at that step.
+  bool too_late(const LidarScan& scan) const { return started_ && scan.start < stamp_; }
 
   void restart() {
     map_.clear();

@@ -45,7 +45,8 @@ class LidarOdometry {
   //   implausible       beyond max_speed or max_yaw_rate
   //   disagreement      too far from the visual motion
   //   bad_input         no scan; stamps not in order, or not after the last step's; visual motion
-  //                     not from within the scan's turn
+  //                     not from within the scan's turn; a scan alone, when there was a step within
+  //                     its turn already
   OdometerResult process(const LidarScan* scan, const RelativeMotion* visual);
 
   // Of the last scan, in the body frame at the last step; for displays.

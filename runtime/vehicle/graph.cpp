@@ -50,16 +50,17 @@ std::string graph_page() {
       "# The vehicle's graph\n\n"
       "Made from the table in `graph.h`; a test compares them.\n\n"
       "## Threads\n\n"
-      "The budget and the rates are of data time, the deadline is of the machine's clock. What a\n"
+      "The patience, the budget and the rates are of data time, the deadline is of the machine's\n"
+      "clock. What came on one input waits that long for what belongs to it on the other. What a\n"
       "thread does when its ticks fall behind is of a live run: a replay catches up with every "
       "tick\n"
       "of the fusion, and stalls the data clock.\n\n";
-  page += row({"thread", "runs", "released by", "period", "phase", "when late", "budget",
-               "deadline", "watched rate"});
-  page += row({"---", "---", "---", "---", "---", "---", "---", "---", "---"});
+  page += row({"thread", "runs", "released by", "period", "phase", "when late", "patience",
+               "budget", "deadline", "watched rate"});
+  page += row({"---", "---", "---", "---", "---", "---", "---", "---", "---", "---"});
   for (const Stage& s : stages::all) {
-    page += row({s.name, s.runs, s.released, ms(s.period), ms(s.phase), when_late(s), ms(s.budget),
-                 ms(s.deadline), rates(s)});
+    page += row({s.name, s.runs, s.released, ms(s.period), ms(s.phase), when_late(s),
+                 ms(s.patience), ms(s.budget), ms(s.deadline), rates(s)});
   }
   page += "\n## Rings\n\nA full ring of a live run drops the newest.\n\n";
   page += row({"ring", "carries", "capacity", "when full"});

@@ -31,6 +31,9 @@ struct Stage {
   // behind. A replay catches up with every tick that data come from: the same bits.
   Duration phase{};
   runtime::Overrun overrun = runtime::Overrun::catch_up;
+  // Of a stage with two inputs: how long what came on one waits for what belongs to it on the
+  // other; from its own `available`, in data time. Then it goes alone.
+  Duration patience{};
 };
 
 namespace stages {
@@ -56,7 +59,12 @@ inline constexpr Stage lidar{"lidar",
                              milliseconds(60),
                              milliseconds(60),
                              5.0,
-                             40.0};
+                             40.0,
+                             {},
+                             runtime::Overrun::catch_up,
+                             // A turn of 0.1 s ends at most 45 ms after the odometry of an image
+                             // at its begin; the rest is for deliveries.
+                             milliseconds(60)};
 inline constexpr Stage ppp{
     "ppp", "precise point positioning", "GNSS epoch", {}, milliseconds(10), milliseconds(10), 0.5,
     21.0};
@@ -321,7 +329,8 @@ inline constexpr std::array all{
 }  // namespace channels
 
 // From a sensor's stamp to the state that holds it. The deadline is the sum of what may pass on the
-// way: the sensor's own delay, the budgets, one period of waiting for the tick, and its deadline.
+// way: the sensor's own delay, the budgets, the wait for a scan, one period of waiting for the
+// tick, and its deadline.
 struct Path {
   std::string_view name;
   Duration deadline;
@@ -331,8 +340,9 @@ namespace paths {
 inline constexpr Duration camera_delay = milliseconds(10);  // exposure and readout
 inline constexpr Duration imu_delay = milliseconds(62);     // filters inside the sensor, delivery
 inline constexpr Path camera{"camera stamp -> state",
-                             camera_delay + stages::stereo.budget + stages::lidar.budget +
-                                 stages::fusion.period + stages::fusion.deadline};
+                             camera_delay + stages::stereo.budget + stages::lidar.patience +
+                                 stages::lidar.budget + stages::fusion.period +
+                                 stages::fusion.deadline};
 inline constexpr Path imu{"imu stamp -> state",
                           imu_delay + stages::fusion.period + stages::fusion.deadline};
 inline constexpr std::array all{camera, imu};

@@ -49,7 +49,7 @@ void LidarStage::run(const runtime::DataClock& clock, const std::stop_token& sto
 void LidarStage::resend() {
   for (const LidarMotion& motion : sent_lidar_) send(motion);
   for (const RelativeMotion& motion : sent_odometry_) send(motion);
-  waiting_.received = runtime::monotonic_now();
+  scan_.received = visual_.received = runtime::monotonic_now();
 }
 
 void LidarStage::take_until(Time t) {
@@ -59,44 +59,79 @@ void LidarStage::take_until(Time t) {
 
 void LidarStage::take(LidarScan& scan) {
   let_go_until(scan.available - Duration(1));
-  if (has_waiting_) process(nullptr, scan.available, waiting_.received);
-  std::swap(waiting_, scan);  // buffers circulate, nothing is copied
-  has_waiting_ = true;
+  const Time now = scan.available;
+  if (scan_waits_) scan_goes_alone(now, scan_.received);
+  std::swap(scan_, scan);  // buffers circulate, nothing is copied
+  scan_waits_ = true;
+  turn_begin_ = scan_.start;
+  turn_end_ = scan_.end;
+  match(now);
 }
 
 void LidarStage::take(const VisualMotion& visual) {
   let_go_until(visual.available - Duration(1));
-  // Whichever came last.
-  const MonotonicTime released =
-      has_waiting_ ? std::max(visual.received, waiting_.received) : visual.received;
-  process(&visual, visual.available, released);
+  const Time now = visual.available;
+  if (visual.status == OdometryStatus::bad_input) {  // it belongs nowhere
+    process(nullptr, &visual, now, visual.received);
+    return;
+  }
+  if (visual_waits_) visual_goes_alone(now, visual_.received);
+  visual_ = visual;
+  visual_waits_ = true;
+  match(now);
+  if (visual_waits_ && !scan_is_due(visual_.stamp)) visual_goes_alone(now, visual_.received);
 }
 
-// The scan whose visual motion has not come by then.
+bool LidarStage::scan_is_due(Time t) const {
+  return t <= turn_end_ + 2 * (turn_end_ - turn_begin_);
+}
+
+// Both come in order: the earlier of two that do not belong together waits in vain.
+void LidarStage::match(Time now) {
+  if (!scan_waits_ || !visual_waits_) return;
+  if (visual_.stamp < scan_.start) {
+    visual_goes_alone(now, visual_.received);
+  } else if (visual_.stamp > scan_.end) {
+    scan_goes_alone(now, scan_.received);
+  } else {
+    scan_waits_ = visual_waits_ = false;
+    process(&scan_, &visual_, now, std::max(scan_.received, visual_.received));
+  }
+}
+
+// What has waited long enough by then.
 void LidarStage::let_go_until(Time t) {
-  const Time end = waiting_.available + patience;
-  if (!has_waiting_ || end > t) return;
-  process(nullptr, end, clock_->is_paced() ? clock_->due(end) : waiting_.received);
+  const auto end = [](const Sample& sample) { return sample.available + stages::lidar.patience; };
+  const auto released = [&](const Sample& sample) {
+    return clock_->is_paced() ? clock_->due(end(sample)) : sample.received;
+  };
+  if (scan_waits_ && end(scan_) <= t) scan_goes_alone(end(scan_), released(scan_));
+  if (visual_waits_ && end(visual_) <= t) visual_goes_alone(end(visual_), released(visual_));
 }
 
-void LidarStage::process(const VisualMotion* visual, Time trigger, MonotonicTime released) {
-  const bool with_scan =
-      has_waiting_ &&
-      (visual == nullptr || (visual->status != OdometryStatus::bad_input &&
-                             waiting_.start <= visual->stamp && visual->stamp <= waiting_.end));
+void LidarStage::scan_goes_alone(Time trigger, MonotonicTime released) {
+  scan_waits_ = false;
+  process(&scan_, nullptr, trigger, released);
+}
+
+void LidarStage::visual_goes_alone(Time trigger, MonotonicTime released) {
+  visual_waits_ = false;
+  process(nullptr, &visual_, trigger, released);
+}
+
+void LidarStage::process(const LidarScan* scan, const VisualMotion* visual, Time trigger,
+                         MonotonicTime released) {
   const MonotonicTime started = runtime::monotonic_now();
   runtime::TraceSpan span(trace_, "lidar");
   if (visual != nullptr) span.step_flow(flow_of(*visual));
   delay_(trigger);
-  lidar::OdometerResult result =
-      lidar::process(odometer_, correction_, with_scan ? &waiting_ : nullptr, visual);
-  if (with_scan) has_waiting_ = false;
+  lidar::OdometerResult result = lidar::process(odometer_, correction_, scan, visual);
   const MonotonicTime ended = runtime::monotonic_now();
 
   forget_sent(trigger);
   result.lidar.available = result.odometry.available = trigger + stages::lidar.budget;
   result.lidar.received = result.odometry.received = ended;
-  if (with_scan) {
+  if (scan != nullptr) {
     counts_[static_cast<std::size_t>(result.lidar.status)].fetch_add(1, std::memory_order_relaxed);
     note_use(use_, trigger, result.lidar.status);
     sent_lidar_.push_back(result.lidar);
@@ -109,7 +144,7 @@ void LidarStage::process(const VisualMotion* visual, Time trigger, MonotonicTime
   }
   promise(trigger + stages::lidar.budget);
   measure(trigger, result.odometry.stamp, released, started, ended);
-  if (with_scan) show(waiting_);
+  if (scan != nullptr) show(*scan);
 }
 
 void LidarStage::show(const LidarScan& scan) {
@@ -155,12 +190,12 @@ void LidarStage::save_until(Time t) {
 // With the results that become available after the cut: whoever goes on from there sends them.
 template <class Archive, class Stage>
 void LidarStage::describe(Archive& ar, Stage& stage) {
-  ar.section(stages::lidar.name, 2);
+  ar.section(stages::lidar.name, 3);
   std::array<std::uint64_t, odometry_status_count> counts{};
   std::copy(stage.counts_.begin(), stage.counts_.end(), counts.begin());
   ar(stage.odometer_, stage.correction_, counts, stage.sent_lidar_, stage.sent_odometry_,
-     stage.has_waiting_);
-  if (stage.has_waiting_) ar(stage.waiting_);
+     stage.scan_waits_, stage.visual_waits_, stage.visual_, stage.turn_begin_, stage.turn_end_);
+  if (stage.scan_waits_) ar(stage.scan_);
   if constexpr (Archive::loading) {
     std::copy(counts.begin(), counts.end(), stage.counts_.begin());
   }

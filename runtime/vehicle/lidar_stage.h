@@ -38,15 +38,13 @@ struct LidarEdges {
   runtime::Edge<VisualMotion> visual;
 };
 
-// A scan waits for the visual motion of the image pair taken during its turn, at most `patience` of
-// data time after its own end; then it goes alone. A visual motion without a scan is passed on,
-// given the length that the scans so far say.
+// A scan and the visual motion of the image pair taken during its turn go together, whichever comes
+// first: it waits for the other, at most the stage's patience (graph.h), or until it is clear that
+// the other does not come. A visual motion that goes alone is passed on, given the length that the
+// scans so far say. It waits only where a scan is due: one of the two turns behind the last.
 // What was used, and when, depends on the data's times alone.
 class LidarStage {
  public:
-  // The delivery of the pair (it may be later than the scan's end) and the budget of its odometry.
-  static constexpr Duration patience = std::chrono::milliseconds(60);
-
   // `odometry`: what fusion gets, to each of these edges.
   LidarStage(lidar::LidarOdometry odometer, lidar::DisparityCorrection correction,
              LidarEdges& inputs, runtime::Edge<LidarMotion>& lidar,
@@ -84,7 +82,12 @@ class LidarStage {
   void take(const VisualMotion& visual);
   void take_until(Time t);
   void let_go_until(Time t);
-  void process(const VisualMotion* visual, Time trigger, MonotonicTime released);
+  bool scan_is_due(Time t) const;
+  void match(Time now);
+  void scan_goes_alone(Time trigger, MonotonicTime released);
+  void visual_goes_alone(Time trigger, MonotonicTime released);
+  void process(const LidarScan* scan, const VisualMotion* visual, Time trigger,
+               MonotonicTime released);
   void show(const LidarScan& scan);
   void measure(Time trigger, Time stamp, MonotonicTime released, MonotonicTime started,
                MonotonicTime ended);
@@ -105,8 +108,12 @@ class LidarStage {
   runtime::Intake intake_;
   const runtime::DataClock* clock_ = nullptr;
   std::stop_token stop_;
-  LidarScan waiting_;  // a scan without its visual motion yet
-  bool has_waiting_ = false;
+  // At most one of them waits.
+  LidarScan scan_;
+  bool scan_waits_ = false;
+  VisualMotion visual_;
+  bool visual_waits_ = false;
+  Time turn_begin_{}, turn_end_{};  // of the last scan
   // Those that were not yet available at the last step.
   std::vector<LidarMotion> sent_lidar_;
   std::vector<RelativeMotion> sent_odometry_;
