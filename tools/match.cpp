@@ -17,6 +17,7 @@
 #include "tools/match/parameter_settings.h"
 #include "tools/match/score_output.h"
 #include "tools/match/track_file.h"
+#include "tools/match/unused_fixes.h"
 #include "tools/option_checks.h"
 
 namespace maploop::tools {
@@ -29,22 +30,19 @@ struct MatchOptions {
   match::TrackFileOptions track_options;
 };
 
-void print_summary(const match::MatchedTrack& track, std::vector<double>& microseconds) {
+void print_summary(const match::MatchedTrack& track, const mapmatch::RoadNetwork& network,
+                   std::vector<double>& microseconds) {
   std::map<std::string_view, std::size_t> phases;
-  std::size_t matched = 0, refused = 0;
+  std::size_t matched = 0;
   for (const mapmatch::MatchResult& r : track.results) {
-    if (r.refusal != mapmatch::FixRefusal::none) {
-      ++refused;
-      continue;
-    }
+    if (r.refusal != mapmatch::FixRefusal::none) continue;
     ++phases[to_string(r.phase)];
     matched += r.on_road ? 1 : 0;
   }
   std::cout << track.fixes.size() << " fixes, " << matched << " on a road\n";
   for (const auto& [phase, count] : phases) std::cout << "  " << phase << ": " << count << '\n';
-  if (refused > 0) std::cout << "  not used: " << refused << '\n';
-  if (matched == 0 && refused < track.fixes.size())
-    std::cout << "no fix is near a road of the map: is it the map of this place?\n";
+  for (const auto& [reason, count] : match::unused_fixes(track, network))
+    std::cout << "  not used: " << count << ", " << reason << '\n';
   std::sort(microseconds.begin(), microseconds.end());
   const auto percentile = [&](double share) {
     return microseconds[static_cast<std::size_t>(share *
@@ -89,11 +87,12 @@ int match_track(MatchOptions options) {
     microseconds.push_back(1e6 * to_seconds(std::chrono::steady_clock::now() - start));
     track.results.push_back(result);
   }
+  print_summary(track, network, microseconds);
+  if (const auto why = match::why_unusable(track, network)) throw std::runtime_error(*why);
   if (!options.csv.empty()) match::write_match_csv(options.csv, track, network);
   if (!options.geojson.empty()) match::write_match_geojson(options.geojson, track, network);
   if (!options.gpx.empty()) match::write_match_gpx(options.gpx, track, network);
   if (!options.html.empty()) match::write_match_html(options.html, track, network, rules);
-  print_summary(track, microseconds);
   if (!options.labels.empty()) print_score(track, network, options.labels);
   return 0;
 }

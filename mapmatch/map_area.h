@@ -1,0 +1,20 @@
+// Where on the earth the roads of a network are.
+#pragma once
+
+#include <string>
+
+#include "mapmatch/osm_reader.h"
+#include "mapmatch/road_network.h"
+
+namespace maploop::mapmatch {
+
+// The smallest box, in degrees, that holds every vertex of the network.
+GeographicBox area_of(const RoadNetwork& network);
+
+// Whether the place is in the box or at most `margin` metres outside of it.
+bool covers(const GeographicBox& box, const Geodetic& place, double margin);
+
+// Such as "48.9700 to 49.0700 N, 8.3000 to 8.5000 E".
+std::string to_text(const GeographicBox& box);
+
+}  // namespace maploop::mapmatch
