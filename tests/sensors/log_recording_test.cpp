@@ -54,7 +54,7 @@ TEST_F(DamagedLog, IsWholeAtFirst) {
 
 // LCM's own code would take such a size at its word.
 TEST_F(DamagedLog, AMessageThatSaysASizeItHasNotIsLeftOut) {
-  for (const std::string size :
+  for (const std::string& size :
        {std::string("\xff\xff\xff\xff"), std::string("\x7f\xff\xff\xff")}) {
     size.copy(message("VELODYNE", 0) + fingerprint + header + 16, size.size());
     size.copy(message("CAMERA", 0) + fingerprint + header + 8, size.size());
