@@ -20,12 +20,14 @@ bool is_replaced(const std::filesystem::path& file) {
   return !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
 }
 
-// A link stays a link: what it points to is replaced.
-std::filesystem::path behind_links(const std::filesystem::path& file) {
+// A link stays a link: what it points to is replaced, or made.
+std::filesystem::path behind_links(std::filesystem::path file) {
+  constexpr int most = 40;  // as the system's own
   std::error_code error;
-  if (!std::filesystem::is_symlink(file, error)) return file;
-  const std::filesystem::path target = std::filesystem::weakly_canonical(file, error);
-  return error ? file : target;
+  for (int i = 0; i < most && std::filesystem::is_symlink(file, error); ++i) {
+    file = file.parent_path() / std::filesystem::read_symlink(file);
+  }
+  return file;
 }
 
 // The new name is on the disk too. A file system that cannot do this has done what it can.
