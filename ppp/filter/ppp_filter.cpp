@@ -34,6 +34,7 @@ void PppFilter::reset() {
   restarts_ = 0;
   has_map_ = false;
   lasting_.setZero();
+  unmodelled_.setZero();
   solution_.status = PppStatus::none;
 }
 
@@ -327,22 +328,29 @@ void PppFilter::set_clocks() {
 }
 
 // The position's error by those of the ranges that last, as if there were no others: least squares
-// with position and clock.
+// with position and clock. An ionosphere that no model takes away is too long towards all
+// satellites at once: it moves the position along one line.
 void PppFilter::weigh_lasting_errors() {
   constexpr double least = 1e-4;  // m^2, of what is modelled to the millimetre
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d unmodelled = Eigen::Vector4d::Zero();
   int count = 0;
   for (const Tracked& t : tracked_) {
     if (!t.code_good) continue;
     const Eigen::Vector3d u = model_.R_enu_ecef() * t.predicted.to_satellite;
     const Eigen::Vector4d h(-u.x(), -u.y(), -u.z(), 1.0);
-    normal += h * h.transpose() / std::max(least, lasting_variance(t.predicted));
+    const double weight = 1.0 / std::max(least, lasting_variance(t.predicted));
+    normal += weight * h * h.transpose();
+    if (t.predicted.ionosphere.value == 0.0)
+      unmodelled += weight * t.predicted.ionosphere.sigma * h;
     ++count;
   }
   if (count < 5) return;  // as it was
-  const Eigen::Vector2d variance = normal.inverse().diagonal().head<2>();
+  const Eigen::Matrix4d covariance = normal.inverse();
+  const Eigen::Vector2d variance = covariance.diagonal().head<2>();
   if (!variance.allFinite() || variance.minCoeff() <= 0.0) return;
   const Eigen::Matrix3d R = model_.R_enu_ecef();
+  unmodelled_ = R.transpose() * (covariance * unmodelled).head<3>();
   const Eigen::Matrix3d all = R * state_.P().block<3, 3>(S::position, S::position) * R.transpose();
   const bool first = lasting_.isZero();
   lasting_ = variance.cwiseMin(parameters_.map_lasting_share * all.diagonal().head<2>());
@@ -445,9 +453,10 @@ void PppFilter::report() {
   const auto x = state_.x();
   const auto P = state_.P();
   solution_.position = x.segment<3>(S::position);
-  solution_.covariance = P.block<3, 3>(S::position, S::position) + parameters_.model_sigma *
-                                                                       parameters_.model_sigma *
-                                                                       Eigen::Matrix3d::Identity();
+  solution_.covariance =
+      P.block<3, 3>(S::position, S::position) +
+      parameters_.model_sigma * parameters_.model_sigma * Eigen::Matrix3d::Identity() +
+      unmodelled_ * unmodelled_.transpose();
   if (has_map_) add_lasting_error();
   solution_.velocity = x.segment<3>(S::velocity);
   solution_.velocity_covariance = P.block<3, 3>(S::velocity, S::velocity);

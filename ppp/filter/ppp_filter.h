@@ -64,8 +64,8 @@ class PppFilter {
   template <class Archive>
   void archive_knowledge(Archive& ar) {
     ar(state_, memory_, levels_, strength_, clock_steps_, started_, begun_, time_,
-       reference_system_, has_offset_, bad_epochs_, restarts_, lasting_, has_map_, solution_.status,
-       solution_.position, solution_.covariance, solution_.restarts);
+       reference_system_, has_offset_, bad_epochs_, restarts_, lasting_, unmodelled_, has_map_,
+       solution_.status, solution_.position, solution_.covariance, solution_.restarts);
   }
 
   struct Memory {  // of a satellite
@@ -112,6 +112,8 @@ class PppFilter {
   std::uint64_t restarts_ = 0;
   // m^2, east and north: of the position, by errors that last; of the last epoch.
   Eigen::Vector2d lasting_ = Eigen::Vector2d::Zero();
+  // m, earth-fixed: what an ionosphere without a model, by its deviation, moves the position by.
+  Eigen::Vector3d unmodelled_ = Eigen::Vector3d::Zero();
   bool has_map_ = false;  // whose states are part of the solution
 
   // Of one epoch; members only to reuse their memory.
