@@ -33,6 +33,8 @@ CHOSEN = [
      "fusion on KITTI"),
     ("fusion.speed_scale_sigma", "visual odometry of six KITTI drives", "1.2 % rms against the truth's length",
      "fusion on KITTI with `VO`"),
+    ("fusion.repeat_speed", "three drives of the car in Oakville",
+     "longest repetition of its inertial samples, rounded to coarse steps, by speed", "none is published"),
     ("guard.overconfidence", "KITTI odometry sequences, 60 s without GNSS", "mean NEES of 2.9 to 4 where 2 is expected",
      "the map in the loop, also on wrong maps, on KITTI"),
     ("feedback.lane_share", "KITTI odometry sequences, 34 two-way roads", "mean offset of the truth from the line",
