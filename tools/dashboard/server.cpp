@@ -84,6 +84,7 @@ struct Server::Http {
   Handlers handlers;
   httplib::Server server;
   std::atomic<int> browsers{0};
+  std::atomic<bool> ended{false};
   std::thread thread;
 };
 
@@ -185,7 +186,12 @@ Server::Server(const std::string& address, int port, LiveChannels& channels, Han
                              ": is another dashboard there (--port 0 takes a free one), and is the "
                              "address this machine's?");
   }
-  http_->thread = std::thread([http = http_.get()] { http->server.listen_after_bind(); });
+  http_->thread = std::thread([http = http_.get()] {
+    http->server.listen_after_bind();
+    http->ended = true;
+  });
+  // Before it runs it would not hear stop().
+  while (!http_->server.is_running() && !http_->ended) std::this_thread::sleep_for(milliseconds(1));
 }
 
 Server::~Server() {
