@@ -154,8 +154,7 @@ int live(const LiveOptions& options) {
   const bool silent = nothing_came(result.vehicle.health);
   if (silent) {
     std::cerr << "maploop: no sensor has delivered anything; 'maploop sensors "
-              << options.config.string() << "' says what each one does
-";
+              << options.config.string() << "' says what each one does\n";
   }
   return silent || any_thread_failed(result) || !pass.recorded_all() || !written ? exit_failed : 0;
 }
