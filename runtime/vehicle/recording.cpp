@@ -178,9 +178,9 @@ Recording open_capture(const std::filesystem::path& path, const VehicleConfig& c
 Recording open_any(const std::filesystem::path& path, const VehicleConfig& config) {
   if (sensors::OdometrySequence::is_named(path)) return open_sequence(path, config);
   if (!config.odometry_poses.file.empty()) {
-    throw std::runtime_error("poses in place of visual odometry go with a sequence of KITTI's " +
-                             std::string("odometry benchmark (oxts/NN.csv), not with '") +
-                             path.string() + "'");
+    throw std::runtime_error("poses in place of visual odometry go with a table of OXTS " +
+                             std::string("rows (such as oxts/06.csv), not with '") + path.string() +
+                             "'");
   }
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) {

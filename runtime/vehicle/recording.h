@@ -40,10 +40,11 @@ std::shared_ptr<const sensors::KittiDrive> open_drive(const std::filesystem::pat
 // A KITTI raw drive (a folder; driven_links.csv beside it are its labels; with a folder `gnss` in
 // it, which holds a receiver's observations, these are its GNSS unless [ppp] observations says no),
 // a capture of a Velodyne scanner (.pcap, .pcapng, plain or .gz; of an HDL-64E with [live]
-// velodyne_calibration), RINEX observations with their products (gnss_drive.h), a sequence of
-// KITTI's odometry benchmark (its oxts/NN.csv), or one of our own logs (any other file). A log
-// without images gives the odometry that was made from them; a sequence, the stereo back end's from
-// its recorded tracks. Throws std::runtime_error naming what is wrong with it.
+// velodyne_calibration), RINEX observations with their products (gnss_drive.h), a table of OXTS
+// rows such as a sequence of KITTI's odometry benchmark (sensors/replay/sequence_files.h), or one
+// of our own logs (any other file). A log without images gives the odometry that was made from
+// them; a sequence, the stereo back end's from its recorded tracks. Throws std::runtime_error
+// naming what is wrong with it.
 Recording open_recording(const std::filesystem::path& path, const VehicleConfig& config);
 
 // The first pose of the recording's reference, for dead reckoning from a start without error.

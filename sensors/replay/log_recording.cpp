@@ -117,7 +117,7 @@ LogRecording::LogRecording(const std::filesystem::path& log) : log_(log) {
   for (auto item = reader.next(); item != LogReader::Item::end; item = reader.next()) {
     if (item == LogReader::Item::damage) {
       if (reader.damage().begin == 0) {
-        refuse("it is no log, nor a sequence NN.csv of KITTI odometry, nor RINEX observations");
+        refuse("it is no log, nor a table of t and the 30 columns of OXTS, nor RINEX observations");
       }
       refuse("it is damaged at byte " + std::to_string(reader.damage().begin) + " (" +
              reader.damage().reason + "); 'maploop log recover' makes a sound one of it");

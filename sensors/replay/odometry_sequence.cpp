@@ -1,7 +1,6 @@
 #include "sensors/replay/odometry_sequence.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -9,65 +8,12 @@
 #include "sensors/replay/csv_table.h"
 #include "sensors/replay/files.h"
 #include "sensors/replay/oxts_sources.h"
+#include "sensors/replay/sequence_files.h"
 
 namespace maploop::sensors {
 namespace {
 
 namespace fs = std::filesystem;
-
-// The raw drive of each sequence (KITTI's devkit) and the stamp of the first row of its table.
-struct RawDrive {
-  std::string_view sequence, day, number, first_row;
-};
-constexpr std::array<RawDrive, 8> raw_drives{{{"00", "2011_10_03", "0027", "12:55:34.997"},
-                                              {"01", "2011_10_03", "0042", "14:34:18.654"},
-                                              {"02", "2011_10_03", "0034", "13:55:41.717"},
-                                              {"03", "2011_09_26", "0067", "15:00:00"},
-                                              {"04", "2011_09_30", "0016", "11:50:40.354"},
-                                              {"06", "2011_09_30", "0020", "12:08:26.521"},
-                                              {"08", "2011_09_30", "0028", "12:44:36.118"},
-                                              {"10", "2011_09_30", "0034", "13:16:05.640"}}};
-
-// `name` or `name`.gz, whichever is there.
-std::optional<fs::path> existing(const fs::path& name) {
-  std::error_code ignored;
-  if (fs::is_regular_file(name, ignored)) return name;
-  const fs::path packed = name.string() + ".gz";
-  if (fs::is_regular_file(packed, ignored)) return packed;
-  return std::nullopt;
-}
-
-struct Name {
-  fs::path folder;
-  std::string number;
-  fs::path oxts;
-};
-
-std::optional<Name> parse(const fs::path& path) {
-  fs::path file = path;
-  if (file.extension() == ".gz") file.replace_extension();
-  Name name;
-  if (file.extension() == ".csv" && file.parent_path().filename() == "oxts") {
-    name = {file.parent_path().parent_path(), file.stem().string(), {}};
-  } else {
-    name = {path.parent_path(), path.filename().string(), {}};
-  }
-  const auto oxts = existing(name.folder / "oxts" / (name.number + ".csv"));
-  if (!oxts) return std::nullopt;
-  name.oxts = *oxts;
-  return name;
-}
-
-fs::path required(const fs::path& name) {
-  if (const auto found = existing(name)) return *found;
-  throw std::runtime_error(name.string() + ": the file is missing (also as .gz)");
-}
-
-Time start_of(const RawDrive& drive) {
-  std::string day(drive.day);
-  std::replace(day.begin(), day.end(), '_', '-');
-  return parse_time(day + ' ' + std::string(drive.first_row));
-}
 
 // Verdicts on the rows inside; its ends are real, but for a first row that begins the recording.
 void leave_out_gaps(const fs::path& file, OxtsRows& rows) {
@@ -150,7 +96,15 @@ std::vector<Time> read_image_stamps(const fs::path& file, Time start) {
                                ": not later than the line before");
     }
   }
-  if (stamps.size() < 2) throw std::runtime_error(file.string() + ": fewer than two images");
+  return stamps;
+}
+
+// Of a drive that does not say when its images were taken: one at each row that stands.
+std::vector<Time> stamps_of(const OxtsRows& rows) {
+  std::vector<Time> stamps;
+  for (std::size_t i = 0; i < rows.stamps.size(); ++i) {
+    if (!rows.verdicts[i]) stamps.push_back(rows.stamps[i]);
+  }
   return stamps;
 }
 
@@ -172,37 +126,30 @@ VehicleCalibration axes_alone() {
 }  // namespace
 
 bool OdometrySequence::is_named(const fs::path& path) {
-  return parse(path).has_value();
+  return find_sequence(path).has_value();
 }
 
 OdometrySequence::OdometrySequence(const fs::path& path, const KittiDriveParameters& parameters)
     : delay_(from_seconds(parameters.imu_delay)), calibration_(axes_alone()) {
-  const std::optional<Name> name = parse(path);
-  if (!name) {
+  const std::optional<SequenceFiles> files = find_sequence(path);
+  if (!files) {
     throw std::runtime_error("no odometry sequence at '" + path.string() +
-                             "': name a table such as kitti_odometry/oxts/06.csv.gz");
+                             "': name a table of t and the 30 columns of OXTS, such as "
+                             "kitti_odometry/oxts/06.csv.gz (sensors/FORMATS.md)");
   }
-  const auto drive = std::find_if(raw_drives.begin(), raw_drives.end(),
-                                  [&](const RawDrive& d) { return d.sequence == name->number; });
-  if (drive == raw_drives.end()) {
-    throw std::runtime_error(path.string() + ": the raw drive of sequence '" + name->number +
-                             "' is not known; those known are 00 to 04, 06, 08 and 10");
-  }
-  const Time start = start_of(*drive);
-  auto rows = std::make_shared<OxtsRows>(read_rows(name->oxts, start));
-  if (const auto gaps = existing(name->folder / "oxts" / (name->number + ".gaps.csv"))) {
-    leave_out_gaps(*gaps, *rows);
+  auto rows = std::make_shared<OxtsRows>(read_rows(files->table, files->start));
+  image_stamps_ = files->times ? read_image_stamps(*files->times, files->start) : stamps_of(*rows);
+  if (files->gaps) leave_out_gaps(*files->gaps, *rows);
+  if (image_stamps_.size() < 2) {
+    throw std::runtime_error(files->times.value_or(files->table).string() +
+                             ": fewer than two images");
   }
   rows_ = imu_rows_ = std::move(rows);
-  image_stamps_ =
-      read_image_stamps(required(name->folder / "poses" / (name->number + ".times.txt")), start);
-
-  const std::string day(drive->day), number(drive->number);
-  if (const auto imu = existing(name->folder / "imu100" / (day + "_" + number + ".csv"))) {
-    imu_rows_ = std::make_shared<const OxtsRows>(read_imu_rows(*imu, start));
+  if (files->imu) {
+    imu_rows_ = std::make_shared<const OxtsRows>(read_imu_rows(*files->imu, files->start));
   }
-  labels_ = existing(name->folder / "labels" / (name->number + ".csv"));
-  tracks_ = existing(name->folder / "tracks" / (day + "_drive_" + number + ".csv"));
+  labels_ = files->labels;
+  tracks_ = files->tracks;
 }
 
 std::unique_ptr<Source<ImuSample>> OdometrySequence::imu() const {

@@ -1,4 +1,4 @@
-// A sequence of KITTI's odometry benchmark, from tables in place of images and row files.
+// A drive as a table of OXTS rows, such as a sequence of KITTI's odometry benchmark.
 #pragma once
 
 #include <filesystem>
@@ -20,18 +20,11 @@
 
 namespace maploop::sensors {
 
-// Reads, each plain or .gz:
-//   oxts/NN.csv        t and the 30 columns of OXTS, one row a frame
-//   oxts/NN.gaps.csv   first_row, last_row of the stretches that the recording filled by straight
-//                      lines: what lies inside is left out, and reported
-//   poses/NN.times.txt when each image was taken, on the clock of oxts/NN.csv
-//   tracks/<drive>.csv stereo tracks in place of images, if there are any
-//   labels/NN.csv      links really driven, if there are any: not read, but found
-//   imu100/<drive>.csv inertial samples at 100 Hz in place of the rows' own, if there are any
-// Stamps are the raw drive's own (KITTI's clock, local time read as UTC).
+// The files, each plain or .gz, are those of find_sequence(); sensors/FORMATS.md describes them.
+// Stamps of KITTI's sequences are the raw drive's own (KITTI's clock, local time read as UTC).
 class OdometrySequence {
  public:
-  // Is this the name of a sequence: oxts/NN.csv[.gz], or FOLDER/NN where FOLDER has oxts/NN.csv?
+  // Is this a sequence: a table of OXTS rows, or FOLDER/NAME where FOLDER has oxts/NAME.csv?
   static bool is_named(const std::filesystem::path& path);
 
   // Throws std::runtime_error naming the file and what is wrong with it.
