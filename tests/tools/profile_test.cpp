@@ -111,6 +111,22 @@ TEST(Profile, NamesCannotBreakThePage) {
   EXPECT_NE(html.find("a &amp; b.lcmlog"), std::string::npos);
 }
 
+TEST(Profile, OnVirtualTimeNoDeadlineIsJudged) {
+  Deadlines d = stalled_thread();
+  d.threads[0].misses = 0;
+  d.threads[0].worst.clear();
+  const Profile lockstep = profile_of(d, {});
+  EXPECT_TRUE(lockstep.virtual_time());
+  for (const std::string& said : {to_text(lockstep), to_html(lockstep, "a")}) {
+    EXPECT_NE(said.find("deadlines have no meaning"), std::string::npos) << said;
+    EXPECT_EQ(said.find("No deadline was missed"), std::string::npos) << said;
+  }
+  d.wake_up = {d.threads[0]};
+  const Profile paced = profile_of(d, {});
+  EXPECT_FALSE(paced.virtual_time());
+  EXPECT_NE(to_text(paced).find("No deadline was missed"), std::string::npos);
+}
+
 ProcessResult profile_command(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {testing::maploop_command(), "profile"});
   return testing::run(arguments);

@@ -32,7 +32,13 @@ struct Profile {
   std::vector<WorstMiss>
       worst;      // of all threads and paths, the latest beyond its deadline first; at most ten
   Health health;  // processor time
+
+  // Nothing wakes up at a given moment there, and deadlines have no meaning.
+  bool virtual_time() const { return wake_up.empty() && worst.empty(); }
 };
+
+inline constexpr const char* no_deadlines =
+    "The run was on virtual time: deadlines have no meaning there, and none is judged.";
 
 // Throws std::invalid_argument where a histogram is damaged.
 Profile profile_of(const Deadlines& deadlines, const Health& health);

@@ -27,23 +27,25 @@ const LatencySummary* find(const std::vector<LatencySummary>& all, const std::st
   return found == all.end() ? nullptr : &*found;
 }
 
-void append_row(std::string& html, const LatencySummary& s, const Latency* latency) {
+void append_row(std::string& html, const Latency& latency, bool virtual_time) {
+  const LatencySummary& s = latency.recorded;
   append(html, "<tr><td>%s</td><td>%llu</td>", escaped(s.name).c_str(),
          static_cast<unsigned long long>(s.count));
   for (const Duration d : {s.p50, s.p90, s.p99, s.p999, s.max}) {
     append(html, "<td>%.3f</td>", to_milliseconds(d));
   }
-  if (latency != nullptr) {
+  if (virtual_time) {
+    html += "<td>-</td><td>-</td>";
+  } else {
     append(html, "<td>%.0f</td><td%s>%llu</td>", to_milliseconds(s.deadline),
            s.misses > 0 ? " class=\"missed\"" : "", static_cast<unsigned long long>(s.misses));
-    if (latency->omitted > 0) {
-      append(html, "<td>%.3f</td>", to_milliseconds(latency->corrected_p999));
-    } else {
-      html += "<td>-</td>";
-    }
-    html += "<td>" + escaped(s.guilty) + "</td>";
   }
-  html += "</tr>\n";
+  if (latency.omitted > 0) {
+    append(html, "<td>%.3f</td>", to_milliseconds(latency.corrected_p999));
+  } else {
+    html += "<td>-</td>";
+  }
+  html += "<td>" + escaped(s.guilty) + "</td></tr>\n";
 }
 
 void append_tables(std::string& html, const Profile& p) {
@@ -52,7 +54,7 @@ void append_tables(std::string& html, const Profile& p) {
       "<th>p99.9</th><th>max</th><th>deadline</th><th>missed</th><th>p99.9 corrected</th>"
       "<th>guilty</th></tr>\n";
   for (const auto* latencies : {&p.threads, &p.paths}) {
-    for (const Latency& l : *latencies) append_row(html, l.recorded, &l);
+    for (const Latency& l : *latencies) append_row(html, l, p.virtual_time());
   }
   html += "</table></div>\n";
 }
@@ -72,12 +74,15 @@ std::vector<web::Plot> distributions(const Profile& p) {
     }
     return curves;
   };
+  const auto deadline_of = [&](const Latency& l) {
+    return p.virtual_time() ? Duration::zero() : l.recorded.deadline;
+  };
   for (const Latency& l : p.threads) {
-    plots.push_back(latency_plot(l.recorded.name, with_parts(l.recorded.name, of_latency(l)),
-                                 l.recorded.deadline));
+    plots.push_back(
+        latency_plot(l.recorded.name, with_parts(l.recorded.name, of_latency(l)), deadline_of(l)));
   }
   for (const Latency& l : p.paths) {
-    plots.push_back(latency_plot(l.recorded.name, of_latency(l), l.recorded.deadline));
+    plots.push_back(latency_plot(l.recorded.name, of_latency(l), deadline_of(l)));
   }
   for (const ThreadHealth& t : p.health.threads) {
     const bool shown = std::any_of(p.threads.begin(), p.threads.end(),
@@ -91,6 +96,10 @@ std::vector<web::Plot> distributions(const Profile& p) {
 
 void append_misses(std::string& html, const Profile& p) {
   html += "<h2>Worst misses</h2>";
+  if (p.virtual_time()) {
+    html += std::string("<p>") + no_deadlines + "</p>\n";
+    return;
+  }
   if (p.worst.empty()) {
     html += "<p>No deadline was missed.</p>\n";
     return;

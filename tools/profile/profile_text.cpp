@@ -15,13 +15,18 @@ void append_figures(std::string& text, const LatencySummary& s) {
          to_milliseconds(s.p99), to_milliseconds(s.p999), to_milliseconds(s.max));
 }
 
-void append_latencies(std::string& text, const char* title, const std::vector<Latency>& all) {
+void append_latencies(std::string& text, const char* title, const std::vector<Latency>& all,
+                      bool virtual_time) {
   append(text, "\n%-24s %8s %9s %9s %9s %9s %9s %9s %7s %10s %10s   %s\n", title, "count", "p50",
          "p90", "p99", "p99.9", "max", "deadline", "missed", "p99*", "p99.9*", "guilty");
   for (const Latency& l : all) {
     append_figures(text, l.recorded);
-    append(text, " %9.0f %7llu", to_milliseconds(l.recorded.deadline),
-           static_cast<unsigned long long>(l.recorded.misses));
+    if (virtual_time) {
+      append(text, " %9s %7s", "-", "-");
+    } else {
+      append(text, " %9.0f %7llu", to_milliseconds(l.recorded.deadline),
+             static_cast<unsigned long long>(l.recorded.misses));
+    }
     if (l.omitted > 0) {
       append(text, " %10.3f %10.3f   ", to_milliseconds(l.corrected_p99),
              to_milliseconds(l.corrected_p999));
@@ -96,13 +101,14 @@ std::string to_text(const Profile& p) {
   std::string text;
   append(text, "The run up to %s, %.1f s on this machine. Latencies in ms.\n",
          format_time(p.stamp).c_str(), p.health.elapsed);
-  append_latencies(text, "From release to result", p.threads);
-  append_latencies(text, "From stamp to state", p.paths);
+  append_latencies(text, "From release to result", p.threads, p.virtual_time());
+  append_latencies(text, "From stamp to state", p.paths, p.virtual_time());
   text += "  * with the waits that stalls of the data clock hid\n";
   append_summaries(text, "Wake-up", p.wake_up);
   append_summaries(text, "Execution", p.execution);
   append_summaries(text, "Period jitter", p.period_jitter);
   append_threads(text, p.health);
+  if (p.virtual_time()) return text + '\n' + no_deadlines + '\n';
   if (p.worst.empty()) return text + "\nNo deadline was missed.\n";
   text += "\nWorst misses\n";
   for (const WorstMiss& w : p.worst) {
@@ -122,6 +128,7 @@ std::string to_text(const Profile& p) {
 std::string to_json(const Profile& p) {
   json j;
   j["stamp_ns"] = to_nanoseconds(p.stamp);
+  j["virtual_time"] = p.virtual_time();
   j["elapsed_s"] = p.health.elapsed;
   j["cpu_s"] = p.health.cpu;
   j["threads"] = figures(p.threads);
