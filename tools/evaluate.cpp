@@ -48,6 +48,8 @@ nlohmann::json to_json(const evaluation::Evaluation& e) {
                        {"raw", to_json(l.raw)},
                        {"common_rotation_removed", to_json(l.common_rotation_removed)}});
   return {{"frames", e.matched.truth.size()},
+          {"unmatched",
+           {{"estimate", e.matched.unmatched_estimate}, {"truth", e.matched.unmatched_truth}}},
           {"distance_m", e.raw.distance_m},
           {"end_point_m", e.raw.end_point_m},
           {"end_point_percent", number(e.raw.end_point_percent)},

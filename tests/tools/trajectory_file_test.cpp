@@ -103,6 +103,8 @@ TEST(Match, PairsPosesByTheirStampsAndLeavesTheOthersOut) {
   ASSERT_EQ(matched.truth.size(), 14u);
   for (std::size_t i = 0; i < matched.truth.size(); ++i)
     EXPECT_TRUE(matched.truth[i].isApprox(matched.estimate[i]));
+  EXPECT_EQ(matched.unmatched_estimate, estimate.poses.size() - 14u);
+  EXPECT_EQ(matched.unmatched_truth, truth.poses.size() - 14u);
   EXPECT_TRUE(match(estimate, truth, std::chrono::milliseconds(1)).truth.empty());
 }
 
@@ -120,6 +122,19 @@ TEST(Evaluate, AScaleErrorOfOnePercentIsOnePercentAtEveryLength) {
   const std::string page = to_html(e, "a < b");
   EXPECT_NE(page.find("a &lt; b"), std::string::npos);
   EXPECT_EQ(page.substr(0, page.find("<script")).find("nan"), std::string::npos);
+}
+
+TEST(Evaluate, PosesWithoutAPartnerAreSaid) {
+  StampedTrajectory truth = bend();
+  const auto text = [&](const StampedTrajectory& estimate) {
+    return to_text(evaluate(match(estimate, truth, Duration(0)), {100.0}));
+  };
+  EXPECT_EQ(text(truth).find("for want of a partner"), std::string::npos);
+  truth.stamps.clear();
+  StampedTrajectory estimate = truth;
+  estimate.poses.resize(150);
+  EXPECT_NE(text(estimate).find("for want of a partner: 0 poses of the estimate, 50 of the truth"),
+            std::string::npos);
 }
 
 TEST(Evaluate, AlignmentTakesAwayAnyRigidMotion) {

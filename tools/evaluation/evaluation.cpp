@@ -65,11 +65,13 @@ Evaluation evaluate(Matched matched, const std::vector<double>& lengths_m) {
 }
 
 std::string to_text(const Evaluation& e) {
-  std::string text =
-      row("%zu poses, %.1f m\n", e.matched.truth.size(), e.raw.distance_m) +
-      row("end point %.3f m (%.3f %%); one common rotation removed: %.3f m\n\n", e.raw.end_point_m,
-          e.raw.end_point_percent, e.common_rotation_removed.end_point_m) +
-      "segments                      %      deg/m   common rotation removed     number\n";
+  std::string text = row("%zu poses, %.1f m\n", e.matched.truth.size(), e.raw.distance_m);
+  if (e.matched.unmatched_estimate + e.matched.unmatched_truth > 0)
+    text += row("not scored, for want of a partner: %zu poses of the estimate, %zu of the truth\n",
+                e.matched.unmatched_estimate, e.matched.unmatched_truth);
+  text += row("end point %.3f m (%.3f %%); one common rotation removed: %.3f m\n\n",
+              e.raw.end_point_m, e.raw.end_point_percent, e.common_rotation_removed.end_point_m) +
+          "segments                      %      deg/m   common rotation removed     number\n";
   for (const LengthError& l : e.lengths)
     text += row("%6.0f m          %s   %s %10d\n", l.length_m, of_segments(l.raw).c_str(),
                 of_segments(l.common_rotation_removed).c_str(), l.raw.segments);

@@ -152,7 +152,9 @@ Matched match(const StampedTrajectory& estimate, const StampedTrajectory& truth,
         static_cast<std::ptrdiff_t>(std::min(estimate.poses.size(), truth.poses.size()));
     return {{},
             {estimate.poses.begin(), estimate.poses.begin() + frames},
-            {truth.poses.begin(), truth.poses.begin() + frames}};
+            {truth.poses.begin(), truth.poses.begin() + frames},
+            estimate.poses.size() - static_cast<std::size_t>(frames),
+            truth.poses.size() - static_cast<std::size_t>(frames)};
   }
   Matched matched;
   std::size_t j = 0;
@@ -166,6 +168,8 @@ Matched match(const StampedTrajectory& estimate, const StampedTrajectory& truth,
     matched.estimate.push_back(estimate.poses[i]);
     matched.truth.push_back(truth.poses[j++]);
   }
+  matched.unmatched_estimate = estimate.poses.size() - matched.estimate.size();
+  matched.unmatched_truth = truth.poses.size() - matched.truth.size();
   return matched;
 }
 

@@ -32,6 +32,7 @@ struct Matched {
   std::vector<Time> stamps;  // the estimate's, or empty
   Trajectory estimate;
   Trajectory truth;
+  std::size_t unmatched_estimate = 0, unmatched_truth = 0;  // poses without a partner
 };
 Matched match(const StampedTrajectory& estimate, const StampedTrajectory& truth,
               Duration tolerance);
