@@ -51,6 +51,9 @@ class PppSetup {
   const Ephemeris& ephemeris() const { return *surroundings_.ephemeris; }
   bool precise() const { return precise_ != nullptr; }
   bool one_frequency() const { return one_frequency_; }
+  // On one frequency the errors of broadcast orbits, clocks and ionosphere last for longer than the
+  // filter can average them: the position stays at metres.
+  bool never_converges() const { return one_frequency_ && !precise() && !live(); }
   // What models lack: "no calibration of antenna X", one a line.
   const std::vector<std::string>& lacks() const { return lacks_; }
 

@@ -173,6 +173,10 @@ int positions(const PppOptions& options) {
       one_line(" (%.1f %%); filter %.3f s, %.3f ms an epoch",
                100.0 * static_cast<double>(solved) / static_cast<double>(solutions.size()),
                run.seconds(), 1e3 * run.seconds() / static_cast<double>(solutions.size())));
+  if (run.setup().never_converges())
+    summary.push_back(
+        "on one frequency with broadcast orbits the position cannot converge to 0.1 m: metres "
+        "remain");
   if (score) {
     summary.push_back("against the truth: " + to_text(score->accuracy(scored_from)));
     summary.push_back(std::to_string(score->misleading()) + " of " +
@@ -265,8 +269,8 @@ void add_ppp(CLI::App& app, Command& command) {
              "tight: the road corrects the filter");
   sub->add_flag("--broadcast", options->broadcast, "Broadcast orbits even where SP3 is given");
   sub->add_option("--truth", options->truth,
-                  "X,Y,Z in metres, or a file: RTKLIB's .pos in XYZ, or rows 'index,GPS "
-                  "second,X,Y,Z'");
+                  "X,Y,Z in metres, latitude,longitude,height, or a file: RTKLIB's .pos in XYZ, or "
+                  "rows 'index,GPS second,X,Y,Z'");
   sub->add_option("--score-start", options->score_start,
                   "Accuracy is that of the epochs from this one on, the same way as --start; "
                   "convergence and protection levels are of all")
@@ -284,7 +288,7 @@ void add_ppp(CLI::App& app, Command& command) {
   sub->add_option("--json", options->json, "Write the figures as JSON")->check(writable_file());
   sub->footer(
       "Examples:\n"
-      "    maploop ppp drive.21o.gz brdc.21n.gz --html drive.html         # broadcast orbits\n"
+      "    maploop ppp drive.21o.gz brdc.21n.gz --html drive.html  # broadcast orbits\n"
       "    maploop ppp drive.21o.gz *.SP3.gz *.CLK.gz *.atx.gz --pos out.pos");
   sub->callback([options, &command] { command = [options] { return positions(*options); }; });
 }

@@ -81,6 +81,41 @@ TEST(PppCommand, AccuracyCanBeThatBehindTheConvergence) {
   EXPECT_NE(result.out.find("truth: 238 of 238 epochs"), std::string::npos) << result.out;
 }
 
+TEST(PppCommand, TheTruthMayBeGeodeticAndMustBeOnTheEarth) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const auto scored = [](const char* truth) {
+    auto command = ppp_of_the_car();
+    command.insert(command.end(), {"--truth", truth});
+    return run(command);
+  };
+  // The base station, in both forms.
+  const auto ecef = scored("-3959400.631,3385704.533,3667523.111");
+  const auto geodetic = scored("35.3266819,139.4660717,46.501");
+  const auto figure = [](const std::string& text) {
+    const std::size_t at = text.find("horizontal RMSE ");
+    return at == std::string::npos ? -1.0 : std::stod(text.substr(at + 16));
+  };
+  EXPECT_GT(figure(ecef.out), 0.0) << ecef.out << ecef.error;
+  EXPECT_NEAR(figure(geodetic.out), figure(ecef.out), 0.05) << geodetic.out << geodetic.error;
+  for (const char* nowhere : {"1000,2000,3000", "91,0,5", "1e9,0,0"}) {
+    const auto refused = scored(nowhere);
+    EXPECT_EQ(refused.status, 1) << nowhere;
+    EXPECT_NE(refused.error.find("is no place near the earth's surface"), std::string::npos)
+        << refused.error;
+  }
+}
+
+TEST(PppCommand, SaysWhereItCannotConverge) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const auto folder = maploop::testing::real_data() / "gnss/riverside_drive";
+  const auto result =
+      run({maploop::testing::maploop_command(), "ppp", (folder / "COM3_200712.obs.gz").string(),
+           (folder / "COM3_200712.nav.gz").string(), "--end", "01:37:00"});
+  EXPECT_EQ(result.status, 0) << result.error;
+  EXPECT_NE(result.out.find("on one frequency with broadcast orbits"), std::string::npos)
+      << result.out;
+}
+
 TEST(PppCommand, ErrorsNameWhatIsWrong) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const auto no_orbits = run({maploop::testing::maploop_command(), "ppp", car("SEPT265G.21O.gz")});

@@ -1,9 +1,12 @@
 #include "tools/ppp/truth.h"
 
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 #include <vector>
 
+#include "msgs/frames.h"
+#include "ppp/models/geodesy.h"
 #include "ppp/readers/lines.h"
 
 namespace maploop::gnss {
@@ -26,6 +29,18 @@ std::vector<double> numbers(const Lines& lines, std::string text) {
   return values;
 }
 
+// X,Y,Z, or latitude, longitude (degrees) and height as RTKLIB writes them.
+Eigen::Vector3d place_of(const Eigen::Vector3d& p, const std::string& text) {
+  constexpr double lowest = 6.3e6, highest = 6.5e6;  // m, from the earth's centre
+  if (p.norm() > lowest && p.norm() < highest) return p;
+  const bool degrees_and_height =
+      std::abs(p.x()) <= 90.0 && std::abs(p.y()) <= 360.0 && std::abs(p.z()) < 1e5;
+  if (degrees_and_height) return ecef_from_geodetic({radians(p.x()), radians(p.y()), p.z()});
+  throw ReadError("--truth: '" + text +
+                  "' is no place near the earth's surface: give X,Y,Z in metres from the earth's "
+                  "centre, or latitude,longitude,height in degrees and metres");
+}
+
 }  // namespace
 
 Truth::Truth(const std::string& text, GpsTime near) {
@@ -33,11 +48,12 @@ Truth::Truth(const std::string& text, GpsTime near) {
   Eigen::Vector3d p;
   char comma = 0, other = 0;
   if (triple >> p.x() >> comma >> p.y() >> other >> p.z() && comma == ',' && other == ',') {
-    fixed_ = p;
+    fixed_ = place_of(p, text);
     return;
   }
   if (!std::filesystem::exists(text)) {
-    throw ReadError("--truth: '" + text + "' is neither X,Y,Z in metres nor a file");
+    throw ReadError("--truth: '" + text +
+                    "' is neither X,Y,Z in metres, nor latitude,longitude,height, nor a file");
   }
   const std::string content = read_file(text);
   Lines lines(content, text);

@@ -13,9 +13,10 @@ namespace maploop::gnss {
 
 class Truth {
  public:
-  // "X,Y,Z" in metres for a place that does not move, or a file: RTKLIB's .pos with XYZ (fixed
-  // epochs only), or rows "index, GPS seconds of the week, X, Y, Z, ..." of the week of `near`; .gz
-  // too. Throws std::runtime_error.
+  // For a place that does not move "X,Y,Z" in metres, or "latitude,longitude,height" in degrees and
+  // metres, told apart by the distance from the earth's centre. Or a file: RTKLIB's .pos with XYZ
+  // (fixed epochs only), or rows "index, GPS seconds of the week, X, Y, Z, ..." of the week of
+  // `near`; .gz too. Throws std::runtime_error.
   Truth(const std::string& text, ppp::GpsTime near);
 
   // At an epoch of the truth (to 10 ms), or between two that are at most 1.1 s apart.
