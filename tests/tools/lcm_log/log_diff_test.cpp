@@ -70,6 +70,14 @@ TEST_F(LogDiffTest, MissingMessagesAndChannels) {
   EXPECT_TRUE(contains(format_diff(result, "a", "b"), "has no such message"));
 }
 
+TEST_F(LogDiffTest, WhatLcmSendsToItselfIsNoDifference) {
+  auto events = drive_;
+  events.push_back({"LCM_SELF_TEST", kTestStart, {1, 2, 3}});
+  const LogDiff result = compare_with(events);
+  EXPECT_TRUE(result.same());
+  EXPECT_EQ(result.channels.size(), 5U);
+}
+
 TEST_F(LogDiffTest, OnlyTheChosenChannelsCount) {
   auto events = drive_;
   events[9].data = nav_state_bytes(1.25);
