@@ -1,10 +1,15 @@
+#include <unistd.h>
+
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <utility>
 
 #include "tools/commands.h"
+#include "tools/terminal.h"
 #include "tools/usage_error.h"
+#include "tools/wrapped_text.h"
 
 namespace {
 
@@ -19,6 +24,14 @@ bool printed_all() {
 int main(int argc, char** argv) {
   CLI::App app{"maploop: vehicle localization in real time", "maploop"};
   app.require_subcommand(1);
+  app.formatter_fn(
+      [usual = CLI::Formatter()](const CLI::App* of, std::string name, CLI::AppFormatMode mode) {
+        return maploop::tools::wrapped(usual.make_help(of, std::move(name), mode),
+                                       maploop::tools::columns_of(STDOUT_FILENO));
+      });
+  app.footer(
+      "Pages that a help text names are in the source tree, and below share/doc/maploop where "
+      "maploop is installed.");
   app.set_version_flag("--version", MAPLOOP_VERSION);
   maploop::tools::Command command;
   maploop::tools::add_calibrate(app, command);

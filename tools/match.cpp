@@ -140,8 +140,8 @@ void add_match(CLI::App& app, Command& command) {
   sub->add_option("--set", options->set, "NAME=VALUE of a parameter (mapmatch/match_parameters.h)");
   sub->footer(
       "Examples:\n"
-      "    maploop match town.osm.pbf track.gpx --html match.html    # a page with reasons\n"
-      "    maploop match town.net run.lcmlog --csv matched.csv       # of a recorded run");
+      "    maploop match town.osm.pbf track.gpx --html match.html  # with reasons\n"
+      "    maploop match town.net run.lcmlog --csv matched.csv     # of a recorded run");
   sub->callback([options, &command] { command = [options] { return match_track(*options); }; });
 }
 

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -62,8 +63,10 @@ void show_progress(const vehicle::Player& player, const char* help) {
   const double done =
       std::clamp(to_seconds(player.position() - player.vehicle().first()), 0.0, all);
   const char* state = player.seeking() ? "seeking" : player.paused() ? "paused" : "";
-  std::fprintf(stderr, "\r%8.1f s of %.1f s  %3.0f %%  x%-6g %-7s %s\x1b[K", done, all,
-               100.0 * done / all, player.speed(), state, help);
+  std::array<char, 200> line{};
+  std::snprintf(line.data(), line.size(), "%8.1f s of %.1f s  %3.0f %%  x%-6g %-7s %s", done, all,
+                100.0 * done / all, player.speed(), state, help);
+  show_status(STDERR_FILENO, line.data());
 }
 
 }  // namespace
@@ -72,7 +75,7 @@ PlaybackEnd play(vehicle::Player& player, vehicle::ReplayControl* control,
                  vehicle::RunPresence* presence, const PlaybackOptions& options) {
   constexpr auto look_every = std::chrono::milliseconds(20);
   constexpr int show_every = 10;
-  const bool visible = isatty(STDERR_FILENO) != 0;
+  const bool visible = is_screen(STDERR_FILENO);
   const Keyboard keyboard;
   note_interrupts();
 
@@ -99,7 +102,7 @@ PlaybackEnd play(vehicle::Player& player, vehicle::ReplayControl* control,
     std::this_thread::sleep_for(look_every);
   }
   player.vehicle().wait();
-  if (visible) std::fprintf(stderr, "\r\x1b[K");
+  if (visible) show_status(STDERR_FILENO, "");
   quit = quit || (control != nullptr && control->quit());
   return interrupted() || quit ? PlaybackEnd::interrupted : PlaybackEnd::finished;
 }

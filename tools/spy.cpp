@@ -145,7 +145,7 @@ int run(const SpyOptions& options) {
   const schema::Schema schema = lcm_log::load_types(options.types);
   const bool of_logs = !options.logs.empty();
   spy::Traffic traffic(schema, of_logs ? log_window : live_window);
-  const bool plain = options.plain || options.once || options.json || isatty(STDOUT_FILENO) == 0;
+  const bool plain = options.plain || options.once || options.json || !is_screen(STDOUT_FILENO);
 
   Feed feed;
   std::optional<BusListener> bus;

@@ -1,11 +1,14 @@
 #include "tools/terminal.h"
 
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <csignal>
+#include <cstdlib>
 #include <ctime>
+#include <string_view>
 
 namespace maploop::tools {
 namespace {
@@ -53,6 +56,22 @@ bool interrupted() {
 
 int interrupted_status() {
   return 128 + (signalled != 0 ? signalled : SIGINT);
+}
+
+bool is_screen(int stream) {
+  const char* terminal = std::getenv("TERM");
+  return isatty(stream) != 0 && terminal != nullptr && std::string_view(terminal) != "dumb";
+}
+
+std::size_t columns_of(int stream) {
+  constexpr std::size_t usual = 80;
+  winsize size{};
+  return ioctl(stream, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : usual;
+}
+
+void show_status(int stream, const std::string& text) {
+  const std::string line = "\r" + text.substr(0, columns_of(stream) - 1) + "\x1b[K";
+  if (write(stream, line.data(), line.size()) < 0) return;  // nobody looks at it
 }
 
 Keyboard::Keyboard()

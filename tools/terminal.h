@@ -3,7 +3,9 @@
 
 #include <termios.h>
 
+#include <cstddef>
 #include <optional>
+#include <string>
 
 namespace maploop::tools {
 
@@ -17,6 +19,13 @@ bool interrupted();
 // What a shell reports of a program that such a signal has ended, 128 and its number: 130 of
 // Ctrl-C, and of keys and commands that end the program likewise.
 int interrupted_status();
+
+// Whether the stream (STDOUT_FILENO, STDERR_FILENO) is a terminal that understands escape codes.
+bool is_screen(int stream);
+// Of the terminal behind the stream; 80 where it is none.
+std::size_t columns_of(int stream);
+// Writes `text` over the status line, cut to the terminal's width; an empty one clears the line.
+void show_status(int stream, const std::string& text);
 
 // Single keys of standard input, unechoed, as long as it lives; nothing where that is no terminal.
 class Keyboard {

@@ -65,7 +65,7 @@ class FirstLook(unittest.TestCase):
             seen += 1
             with self.subTest(words):
                 self.assertNotRegex(text, r"ENUM|->|e\+\d\d|1797693")
-                self.assertLess(max(map(len, text.splitlines())), 400)
+                self.assertLessEqual(max(map(len, text.splitlines())), 80)
         self.assertGreater(seen, 25)
 
     def test_a_command_that_lacks_something_says_what(self):
