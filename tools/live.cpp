@@ -21,7 +21,8 @@ void add_live(CLI::App& app, Command& command) {
       ->check(existing_file());
   sub->add_option("--seconds", options->seconds, "End after so long")->check(positive_number());
   sub->add_flag("--verbose", options->verbose,
-                "Say of every real-time setting what was granted, not only of those refused");
+                "Say of every real-time setting what was granted, and end with the tables of "
+                "sensors, losses, latencies and hashes");
   auto* record =
       sub->add_option("--record", options->record, "Write every message to this LCM log");
   sub->add_flag("--record-raw", options->record_raw,
@@ -37,7 +38,7 @@ void add_live(CLI::App& app, Command& command) {
              "none; loose, the default where there is a map: matched, and nothing fed back; tight: "
              "the road goes back to the filter; hard-reset: position and azimuth become the "
              "matched ones");
-  sub->add_option("--json", options->json, "Write the closing table to this file as JSON");
+  sub->add_option("--json", options->json, "Write all figures of the run to this file as JSON");
   sub->add_option("--report", options->report,
                   "Write a page with all of it to this file: way, latencies, losses");
   sub->add_option("--trace", options->trace,

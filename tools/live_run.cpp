@@ -40,7 +40,7 @@ vehicle::VehicleConfig config_of(const LiveOptions& options) {
 vehicle::Observer observer_of(const LiveOptions& options, RunPass& pass, LiveStatus& status) {
   const StateFiles& s = options.states;
   const bool states = !(s.poses.empty() && s.tum.empty() && s.csv.empty() && s.nmea.empty());
-  vehicle::Observer o = states || !options.report.empty() ? pass.observer() : vehicle::Observer{};
+  vehicle::Observer o = states || !options.report.empty() ? pass.observer() : pass.end_observer();
   o.health = [&status](const Health& health) { status.take(health); };
   return o;
 }
@@ -130,6 +130,8 @@ int live(const LiveOptions& options) {
   result.drive = options.config.filename().string();
   result.run = run.id;
   result.live = true;
+  result.configuration = config.configuration;
+  result.end = pass.end;
   result.vehicle = vehicle.report();
   result.channels = pass.hashes.summary();
   result.ppp = pass.ppp;
@@ -144,13 +146,15 @@ int live(const LiveOptions& options) {
       [&] {
         if (!options.json.empty()) write_json(options.json, result);
       },
-      [&] { write_states(options.states, pass); },
+      [&] {
+        if (result.end) write_states(options.states, pass);
+      },
       [&] {
         if (options.report.empty()) return;
         write_run_report(options.report, result, pass, {}, config, map.get());
       },
   });
-  std::cout << format_table(result);
+  std::cout << closing_text(result, options.verbose);
   const bool silent = nothing_came(result.vehicle.health);
   if (silent) {
     std::cerr << "maploop: no sensor has delivered anything; 'maploop sensors "

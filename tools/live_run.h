@@ -24,7 +24,7 @@ struct LiveOptions {
   StateFiles states;
 };
 
-// Runs until SIGINT or SIGTERM, or for so long; then prints the closing table and writes the files
+// Runs until SIGINT or SIGTERM, or for so long; then prints the verdict and writes the files
 // asked for. Returns the command's exit status: 1 when a thread failed, no sensor delivered
 // anything, or the log does not hold everything. Throws std::runtime_error naming the file or the
 // key that is wrong, before it starts.

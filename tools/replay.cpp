@@ -53,10 +53,10 @@ void add_replay(CLI::App& app, Command& command) {
                                      "a log of our own through the graph");
   sub->add_option(
          "DRIVE", options->drive,
-         "Folder such as 2011_09_26/2011_09_26_drive_0013_sync, a sequence such as "
+         "Folder such as 2011_09_26/2011_09_26_drive_0013_sync, a table of OXTS rows such as "
          "kitti_odometry/oxts/06.csv.gz, RINEX observations with their products beside "
          "them (or a folder of both; [ppp] products), a capture (.pcap), or a log (--record); one "
-         "without images is replayed from its odometry")
+         "without images is replayed from its odometry (sensors/FORMATS.md)")
       ->required();
   auto* speed = sub->add_option("--speed", options->speed, "Times real time")
                     ->check(positive_number())
@@ -80,9 +80,10 @@ void add_replay(CLI::App& app, Command& command) {
                   "last time")
       ->check(whole_number())
       ->capture_default_str();
-  sub->add_flag("--verbose", options->playback.verbose,
-                "Say of every real-time setting what was granted, not only of those refused")
-      ->excludes(lockstep);
+  sub->add_flag(
+      "--verbose", options->playback.verbose,
+      "End with the tables of accuracy, sensors, losses, latencies and hashes, and say of "
+      "every real-time setting what was granted");
   auto* record = sub->add_option("--record", options->record, "Write every message to this LCM log")
                      ->check(writable_file());
   sub->add_flag("--record-raw", options->record_raw,
@@ -99,7 +100,7 @@ void add_replay(CLI::App& app, Command& command) {
   sub->add_option("--resume", options->resume,
                   "Go on from a snapshot of the same drive, with the same bits")
       ->check(existing_file());
-  sub->add_option("--json", options->json, "Write the closing table to this file as JSON")
+  sub->add_option("--json", options->json, "Write all figures of the run to this file as JSON")
       ->check(writable_file());
   sub->add_option("--report", options->report,
                   "Write a page with all of it to this file: way, errors, latencies, losses")
@@ -158,8 +159,8 @@ void add_replay(CLI::App& app, Command& command) {
       ->check(valid_fault, "FAULT");
   sub->footer(
       "Examples:\n"
-      "    maploop replay 2011_09_26/2011_09_26_drive_0013_sync    # as it was driven, on LCM\n"
-      "    maploop replay DRIVE --lockstep --report drive.html     # as fast as it goes; a page\n"
+      "    maploop replay 2011_09_26/2011_09_26_drive_0013_sync  # as it was driven\n"
+      "    maploop replay DRIVE --lockstep --report drive.html   # as fast as it goes\n"
       "    maploop replay DRIVE --map town.osm.pbf --record run.lcmlog");
   sub->callback([options, &command] { command = [options] { return replay(*options); }; });
 }

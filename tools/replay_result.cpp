@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include "tools/json_output.h"
 #include "tools/match/score_output.h"
+#include "tools/verdict.h"
 
 namespace maploop::tools {
 namespace {
@@ -54,6 +55,8 @@ void append_ppp(std::string& text, const PppEpochs& e) {
       "\nPrecise point positioning: %zu epochs converged, %zu converging, %zu without a position",
       e.of(PppStatus::converged), e.of(PppStatus::converging), e.of(PppStatus::none));
   if (e.converged_after >= 0.0) append(text, "; converged after %.0f s", e.converged_after);
+  if (e.never_converges)
+    text += "\n  (on one frequency with broadcast orbits it cannot converge to 0.1 m)";
   text += '\n';
 }
 
@@ -329,6 +332,10 @@ void write_json(const std::filesystem::path& file, const ReplayResult& r) {
   json j;
   j["run"] = r.run;
   j["drive"] = r.drive;
+  j["verdict"] = verdict(r);
+  const auto why = why_empty(r);
+  j["empty"] = why ? json(*why) : json(nullptr);
+  j["configuration"] = r.configuration;
   j["interrupted"] = r.interrupted;
   j["vo"] = to_json(r.vo);
   j["lidar"] = to_json(r.lidar);
@@ -337,6 +344,7 @@ void write_json(const std::filesystem::path& file, const ReplayResult& r) {
     j["ppp"] = {{"converged", r.ppp->of(PppStatus::converged)},
                 {"converging", r.ppp->of(PppStatus::converging)},
                 {"none", r.ppp->of(PppStatus::none)},
+                {"never_converges", r.ppp->never_converges},
                 {"converged_after_s",
                  r.ppp->converged_after < 0.0 ? json(nullptr) : json(r.ppp->converged_after)}};
   }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "msgs/nav_state.h"
 #include "msgs/ppp_state.h"
 #include "runtime/vehicle/channel_hashes.h"
 #include "runtime/vehicle/fault_injection.h"
@@ -42,6 +43,7 @@ struct TraceSummary {
 struct PppEpochs {
   std::array<std::size_t, ppp_status_count> by_status{};
   double converged_after = -1.0;  // s, of the first that was; below 0: none
+  bool never_converges = false;   // ppp::PppSetup::never_converges()
 
   void add(const PppState& state) {
     ++by_status[static_cast<std::size_t>(state.status)];
@@ -52,14 +54,24 @@ struct PppEpochs {
   std::size_t of(PppStatus status) const { return by_status[static_cast<std::size_t>(status)]; }
 };
 
+// Of a run on a map.
+struct MapUse {
+  std::string area;        // that the map covers
+  bool elsewhere = false;  // no position was on a road, and the run ended far outside of the map
+};
+
 struct ReplayResult {
-  std::string run;    // its id (runtime/vehicle/runs.h)
-  std::string drive;  // or a live run's configuration
-  bool live = false;  // no replay at all
+  std::string run;            // its id (runtime/vehicle/runs.h)
+  std::string drive;          // or a live run's configuration
+  std::string configuration;  // of the fusion, by name
+  bool live = false;          // no replay at all
   bool lockstep = false;
   double speed = 1.0;
   bool interrupted = false;
-  std::size_t images = 0;      // of the drive
+  std::size_t images = 0;       // of the drive
+  bool has_gnss = true;         // the recording has fixes or observations
+  std::optional<NavState> end;  // the last fused state; nothing: the filter never started
+  std::optional<MapUse> map;
   std::optional<Accuracy> vo;  // nothing where there is too little to score
   std::optional<Accuracy> lidar;
   std::optional<Accuracy> fused;
@@ -77,7 +89,7 @@ struct ReplayResult {
   std::uint64_t deadline_misses() const;
 };
 
-// For a person, on a terminal.
+// For a person, on a terminal: everything that was measured.
 std::string format_table(const ReplayResult& result);
 
 // The same for a program. Throws std::runtime_error naming the file when it cannot be written.

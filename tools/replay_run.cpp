@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "mapmatch/map_area.h"
+#include "msgs/frames.h"
 #include "runtime/core/data_clock.h"
 #include "runtime/core/periodic.h"
 #include "runtime/core/realtime.h"
@@ -28,11 +30,13 @@
 #include "tools/replay_result.h"
 #include "tools/run_pass.h"
 #include "tools/terminal.h"
+#include "tools/verdict.h"
 
 namespace maploop::tools {
 namespace {
 
 constexpr int exit_failed = 1;
+constexpr double far_from_map = 5'000.0;  // m
 
 // Empty where the recording has none.
 std::vector<ReferencePose> read_reference(const vehicle::Recording& recording) {
@@ -66,6 +70,7 @@ class Replay {
         faults_(parse_faults(options.faults), recording_.first_stamp),
         run_(vehicle::new_run("replay of " + drive_name(options))) {
     if (!options.record.empty()) lcm_log::refuse_same_file(options.drive, options.record);
+    look_ahead();
     if (!options.no_lcm) {
       const std::string url = vehicle::bus_url(options.lcm_url, config_.lcm_url);
       bus_ = std::make_unique<vehicle::LcmBus>(url);
@@ -125,6 +130,7 @@ class Replay {
   vehicle::PlayerParameters player_parameters() const;
   PlaybackEnd play_all();
   ReplayResult result(PlaybackEnd end);
+  void look_ahead() const;
 
   const ReplayOptions& options_;
   vehicle::VehicleConfig config_;
@@ -188,6 +194,26 @@ std::unique_ptr<vehicle::Vehicle> Replay::make_vehicle(const vehicle::Snapshot* 
   return vehicle;
 }
 
+// What can be known of the result before the drive.
+void Replay::look_ahead() const {
+  const vehicle::Sensors sensors = recording_.sensors(Time::max());
+  for (const std::filesystem::path& file : {options_.poses, options_.tum}) {
+    if (!file.empty() && sensors.camera == nullptr && sensors.odometry == nullptr)
+      throw std::runtime_error("'" + file.string() +
+                               "' would be empty: the recording has no images, and so no poses of "
+                               "a camera; --csv and --nmea write the fused state without images");
+  }
+  GnssFix fix;
+  std::optional<Geodetic> begin;
+  if (sensors.gnss != nullptr && sensors.gnss->next(fix)) begin = fix.position;
+  if (map_ == nullptr || !begin) return;
+  const mapmatch::GeographicBox area = mapmatch::area_of(map_->network);
+  if (mapmatch::covers(area, *begin, far_from_map)) return;
+  std::cerr << "maploop: the drive begins at " << degrees(begin->latitude) << ", "
+            << degrees(begin->longitude) << ", far outside of the map, which covers "
+            << mapmatch::to_text(area) << "; is it the map of this place?\n";
+}
+
 void Replay::resume(vehicle::Vehicle& vehicle) const {
   try {
     vehicle.resume(*resumed_);
@@ -204,6 +230,11 @@ vehicle::PlayerParameters Replay::player_parameters() const {
     p.last = std::min(p.last, recording_.first_stamp + from_seconds(options_.end));
   }
   p.start = recording_.first_stamp + from_seconds(options_.start);
+  if (p.last < p.first) {
+    throw std::runtime_error("'" + options_.drive.string() + "' ends " +
+                             shown(to_seconds(p.first - p.last)) +
+                             " s before it begins: do the stamps of its images run backwards?");
+  }
   if (p.start > p.last) {
     throw std::runtime_error("--start " + shown(options_.start) + " lies after the end, at " +
                              shown(to_seconds(p.last - recording_.first_stamp)) + " s");
@@ -244,6 +275,19 @@ ReplayResult Replay::result(PlaybackEnd end) {
     result.trace = {options_.trace.string(), tracer_->recorded(), tracer_->dropped()};
   }
   result.ppp = pass_->ppp;
+  result.configuration = config_.configuration;
+  result.end = pass_->end;
+  const vehicle::Sensors sensors = recording_.sensors(Time::max());
+  result.has_gnss = sensors.gnss != nullptr || sensors.epochs != nullptr;
+  if (result.ppp && sensors.ppp) result.ppp->never_converges = sensors.ppp->never_converges();
+  if (map_ && result.end) {
+    const mapmatch::GeographicBox area = mapmatch::area_of(map_->network);
+    const auto& moments = pass_->road_moments;
+    const bool on_road = std::any_of(moments.begin(), moments.end(),
+                                     [](const auto& moment) { return moment.second.on_road; });
+    const Geodetic last = LocalFrame(result.end->origin).to_geodetic(result.end->position_enu);
+    result.map = {mapmatch::to_text(area), !on_road && !mapmatch::covers(area, last, far_from_map)};
+  }
   result.faults = faults_.counts();
   if (map_ && recording_.driven_links) {
     std::vector<match::TimedMatch> matches;
@@ -276,7 +320,8 @@ int Replay::run() {
         if (!options_.json.empty()) write_json(options_.json, r);
       },
       [&] {
-        write_states({options_.poses, options_.tum, options_.csv, options_.nmea}, *pass_);
+        if (r.end)
+          write_states({options_.poses, options_.tum, options_.csv, options_.nmea}, *pass_);
       },
       [&] {
         if (options_.report.empty()) return;
@@ -284,7 +329,9 @@ int Replay::run() {
                          map_.get());
       },
   });
-  std::cout << format_table(r);
+  std::cout << closing_text(r, options_.playback.verbose);
+  const auto why = why_empty(r);
+  if (why) std::cerr << "maploop: " << *why << '\n';
   const bool snapshot_missing = options_.snapshot && !snapshot_taken_;
   if (snapshot_missing && !any_thread_failed(r)) {
     std::cerr << "maploop: no snapshot was written: the replay did not come to "
@@ -292,7 +339,7 @@ int Replay::run() {
   }
   if (r.interrupted) return interrupted_status();
   const bool failed =
-      snapshot_missing || any_thread_failed(r) || !pass_->recorded_all() || !written;
+      why || snapshot_missing || any_thread_failed(r) || !pass_->recorded_all() || !written;
   return failed ? exit_failed : 0;
 }
 

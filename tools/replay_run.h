@@ -55,10 +55,10 @@ struct ReplayOptions {
   double end = 0.0;        // s; 0: the whole drive
 };
 
-// Plays the recording to its end, prints the closing table and writes the files asked for. Returns
-// the command's exit status: 1 when a thread failed, the snapshot was not reached or the log does
-// not hold everything, 130 when interrupted. Throws std::runtime_error naming the file that cannot
-// be read or written.
+// Plays the recording to its end, prints the verdict and writes the files asked for. Returns the
+// command's exit status: 1 when there is no position (or none on the map), a thread failed, the
+// snapshot was not reached or the log does not hold everything, 130 when interrupted. Throws
+// std::runtime_error naming the file that cannot be read or written.
 int replay(const ReplayOptions& options);
 
 }  // namespace maploop::tools

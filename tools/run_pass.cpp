@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <exception>
 #include <iostream>
+#include <stdexcept>
 #include <utility>
 
 #include "tools/nav_files.h"
+#include "tools/verdict.h"
 
 namespace maploop::tools {
 
@@ -22,7 +24,10 @@ vehicle::Observer RunPass::observer() {
     ppp->add(state);
     ppp_states[state.stamp] = state;
   };
-  o.nav_state = [this](const NavState& state) { track.add(state); };
+  o.nav_state = [this](const NavState& state) {
+    track.add(state);
+    if (state.status != NavStatus::uninitialized) end = state;
+  };
   o.map_match = [this](const MapMatch& match) {
     if (match.refusal == FixRefusal::no_position) return;
     matches[match.stamp] = match::timed_match(match);
@@ -45,8 +50,23 @@ bool write_all(const std::vector<std::function<void()>>& writers) {
   return all;
 }
 
+vehicle::Observer RunPass::end_observer() {
+  vehicle::Observer o;
+  o.nav_state = [this](const NavState& state) {
+    if (state.status != NavStatus::uninitialized) end = state;
+  };
+  return o;
+}
+
 void write_states(const StateFiles& files, const RunPass& pass) {
   const evaluation::StampedTrajectory fused = pass.collector.fused();
+  for (const std::filesystem::path& file : {files.poses, files.tum}) {
+    if (!file.empty() && fused.poses.empty())
+      throw std::runtime_error(
+          "'" + file.string() +
+          "' is not written: no image has a fused pose; --csv and --nmea write "
+          "the fused state without images");
+  }
   if (!files.poses.empty()) evaluation::write_kitti_poses(files.poses, fused.poses);
   if (!files.tum.empty()) evaluation::write_tum(files.tum, fused);
   if (!files.csv.empty()) write_nav_csv(files.csv, pass.track);
@@ -64,6 +84,12 @@ void write_run_report(const std::filesystem::path& file, const ReplayResult& res
   report::write_report(file, {result, pass.track, std::move(reference), std::move(ways),
                               pass.road_moments, pass.ppp_states, antenna, vehicle::to_toml(config),
                               MAPLOOP_VERSION, map != nullptr ? &map->network : nullptr});
+}
+
+std::string closing_text(const ReplayResult& result, bool tables) {
+  std::string text;
+  for (const std::string& line : verdict(result)) text += line + '\n';
+  return tables ? text + format_table(result) : text;
 }
 
 bool any_thread_failed(const ReplayResult& result) {

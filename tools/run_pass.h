@@ -31,6 +31,8 @@ struct RunPass {
 
   // Must not outlive the pass.
   vehicle::Observer observer();
+  // Of the last state alone, whatever the length of the run.
+  vehicle::Observer end_observer();
 
   vehicle::ChannelHashes hashes;
   // Whether the log asked for holds every message.
@@ -40,6 +42,7 @@ struct RunPass {
   TrajectoryCollector collector;
   TrajectoryCollector lidar_collector;
   fusion_score::NavTrack track;
+  std::optional<NavState> end;  // the last fused state
   std::optional<PppEpochs> ppp;
   std::map<Time, PppState> ppp_states;
   std::map<Time, match::TimedMatch> matches;
@@ -58,13 +61,17 @@ struct StateFiles {
 // and the others are written all the same. Whether all were.
 bool write_all(const std::vector<std::function<void()>>& writers);
 
-// Throws std::runtime_error naming the file that cannot be written.
+// Throws std::runtime_error naming the file that cannot be written, or would be empty.
 void write_states(const StateFiles& files, const RunPass& pass);
 
 // The page of --report; `reference` is empty and `map` null where there is none.
 void write_run_report(const std::filesystem::path& file, const ReplayResult& result,
                       const RunPass& pass, std::vector<ReferencePose> reference,
                       const vehicle::VehicleConfig& config, const vehicle::RoadMap* map);
+
+// What the run says of itself at its end: the verdict, with the tables below it where they are
+// asked for.
+std::string closing_text(const ReplayResult& result, bool tables);
 
 bool any_thread_failed(const ReplayResult& result);
 

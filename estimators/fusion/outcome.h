@@ -125,7 +125,7 @@ constexpr std::string_view to_string(Reason reason) {
     case Reason::velocity_gate:
       return "GNSS velocity contradicts the prediction";
     case Reason::already_started:
-      return "filter already started";
+      return "GNSS after the start (GNSS+ in the configuration uses it)";
     case Reason::too_slow:
       return "too slow for a course";
     case Reason::stamps_apart:

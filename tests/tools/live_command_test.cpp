@@ -100,7 +100,7 @@ TEST(LiveCommand, DrivesOnWhatADriveSends) {
   EXPECT_NE(log.out.find("NAV_STATE"), std::string::npos);
 }
 
-TEST(LiveCommand, EndsAtCtrlCWithItsTableThoughNothingIsThere) {
+TEST(LiveCommand, EndsAtCtrlCAndSaysThatNothingWasThere) {
   MAPLOOP_REQUIRE_DRIVE();
   const TemporaryFolder folder;
   ASSERT_EQ(
@@ -108,7 +108,7 @@ TEST(LiveCommand, EndsAtCtrlCWithItsTableThoughNothingIsThere) {
   const Ports silent;
   const auto log = folder.path() / "log";
   Process live({testing::maploop_command(), "live", write_config(folder, silent).string(),
-                "--no-lcm", "--record", log.string()});
+                "--no-lcm", "--verbose", "--record", log.string()});
   EXPECT_TRUE(testing::comes_to_contain(log, "imu: silent since the start"));
   live.send_signal(SIGINT);
   const ProcessResult result = live.wait();
@@ -121,6 +121,7 @@ TEST(LiveCommand, EndsAtCtrlCWithItsTableThoughNothingIsThere) {
   const ProcessResult timed =
       testing::run({testing::maploop_command(), "live", config, "--no-lcm", "--seconds", "1"});
   EXPECT_EQ(timed.status, 1) << timed.error;
+  EXPECT_NE(timed.out.find("no position."), std::string::npos) << timed.out;
 }
 
 TEST(LiveCommand, RefusesAConfigurationWithoutASensor) {

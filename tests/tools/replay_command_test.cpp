@@ -162,17 +162,17 @@ TEST(ReplayCommand, WritesOnePoseAnImage) {
   EXPECT_EQ(evaluation::read_kitti_poses(file).size(), 144u);
 }
 
-TEST(ReplayCommand, InterruptEndsInOrderWithTheTable) {
+TEST(ReplayCommand, InterruptEndsInOrderWithTheVerdictAndTheTables) {
   MAPLOOP_REQUIRE_DRIVE();
   const TemporaryFolder folder;
   const auto log = folder.path() / "log";
   testing::Process process(
-      command({testing::drive_0013().string(), "--no-lcm", "--record", log.string()}));
+      command({testing::drive_0013().string(), "--no-lcm", "--verbose", "--record", log.string()}));
   EXPECT_TRUE(testing::comes_to_contain(log, "NAV_STATE")) << "it is on its way";
   process.send_signal(SIGINT);
   const ProcessResult result = process.wait();
   EXPECT_EQ(result.status, 130);
-  EXPECT_NE(result.out.find("(interrupted)"), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("Interrupted after "), 0u) << result.out;
   EXPECT_NE(result.out.find("NAV_STATE"), std::string::npos);
 }
 
@@ -190,7 +190,7 @@ TEST(ReplayCommand, EverySignalThatEndsARunEndsItInOrderAlsoWhenItComesTwice) {
     process.send_signal(signal);  // as from a program that signals its whole group
     const ProcessResult result = process.wait();
     EXPECT_EQ(result.status, 128 + signal);
-    EXPECT_NE(result.out.find("(interrupted)"), std::string::npos) << result.out;
+    EXPECT_EQ(result.out.find("Interrupted after "), 0u) << result.out;
     EXPECT_TRUE(json::parse(std::ifstream(table))["interrupted"]);
     EXPECT_GT(std::filesystem::file_size(states), 0u);
   }
@@ -227,6 +227,97 @@ TEST(ReplayCommand, AFileThatTheDiskRefusesIsSaidAndTheOthersAreThere) {
   EXPECT_GT(std::filesystem::file_size(file), 0u);
 }
 
+TEST(ReplayCommand, EndsWithAVerdictOfThreeLines) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "result.json").string();
+  const ProcessResult result = replay(
+      {testing::drive_0013().string(), "--no-lcm", "--lockstep", "--end", "4", "--json", file});
+  EXPECT_EQ(result.status, 0) << result.error;
+  std::istringstream lines(result.out);
+  std::vector<std::string> said;
+  for (std::string line; std::getline(lines, line);) said.push_back(line);
+  ASSERT_EQ(said.size(), 3u) << result.out;
+  EXPECT_EQ(said[0].find("After 4."), 0u) << said[0];
+  EXPECT_EQ(said[1].find("Horizontal error "), 0u) << said[1];
+  EXPECT_EQ(said[2].find("VO-L-RI did not use GNSS after the start ("), 0u) << said[2];
+  EXPECT_NE(said[2].find("GNSS+VO-L-RI uses it"), std::string::npos) << said[2];
+  EXPECT_EQ(json::parse(std::ifstream(file))["verdict"], json(said));
+}
+
+// Links to the recorded drive, without one of its folders.
+std::filesystem::path drive_without(const char* part, const std::filesystem::path& folder) {
+  const auto drive = folder / "2011_09_26/drive";
+  std::filesystem::create_directories(drive);
+  for (const auto& entry :
+       std::filesystem::directory_iterator(testing::drive_0013().parent_path())) {
+    if (entry.is_regular_file()) {
+      std::filesystem::create_symlink(entry.path(), drive.parent_path() / entry.path().filename());
+    }
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(testing::drive_0013())) {
+    if (entry.path().filename() != part) {
+      std::filesystem::create_directory_symlink(entry.path(), drive / entry.path().filename());
+    }
+  }
+  return drive;
+}
+
+TEST(ReplayCommand, WithoutAPositionFailsAndSaysWhy) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const TemporaryFolder folder;
+  const auto tum = folder.path() / "out.tum";
+  const ProcessResult no_oxts = replay({drive_without("oxts", folder.path()).string(), "--no-lcm",
+                                        "--lockstep", "--end", "1", "--tum", tum.string()});
+  EXPECT_EQ(no_oxts.status, 1);
+  EXPECT_NE(no_oxts.error.find("there is no position: the recording has no GNSS"),
+            std::string::npos)
+      << no_oxts.error;
+  const ProcessResult no_fix =
+      replay({testing::drive_0013().string(), "--no-lcm", "--lockstep", "--end", "1", "--fault",
+              "lost@gnss:0:end", "--tum", tum.string()});
+  EXPECT_EQ(no_fix.status, 1);
+  EXPECT_NE(no_fix.error.find("no GNSS came to start from"), std::string::npos) << no_fix.error;
+  EXPECT_NE(no_fix.out.find("no position."), std::string::npos) << no_fix.out;
+}
+
+TEST(ReplayCommand, PosesOfACameraThatIsNotThereAreRefusedBeforeTheDrive) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const TemporaryFolder folder;
+  const auto car = testing::real_data() / "gnss/kamakura_kinematic/SEPT265G.21O.gz";
+  const ProcessResult result = replay(
+      {car.string(), "--no-lcm", "--lockstep", "--tum", (folder.path() / "out.tum").string()});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.error.find("would be empty: the recording has no images"), std::string::npos)
+      << result.error;
+  EXPECT_EQ(result.out, "");
+}
+
+TEST(ReplayCommand, AMapOfAnotherPlaceFails) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const auto data = testing::real_data();
+  const ProcessResult result =
+      replay({(data / "kitti_odometry/oxts/04.csv.gz").string(), "--no-lcm", "--lockstep",
+              "--configuration", "GNSS+RISS", "--map",
+              (data / "maps/liechtenstein_2015-07.osm.pbf").string()});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.error.find("far outside of the map, which covers 47."), std::string::npos)
+      << result.error;
+  EXPECT_NE(result.error.find("no position was on a road of the map"), std::string::npos)
+      << result.error;
+}
+
+TEST(ReplayCommand, TakesATableOfOxtsRowsUnderAnyNameFromAnyFolder) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const TemporaryFolder folder;
+  const auto table = folder.path() / "to work.csv.gz";
+  std::filesystem::copy(testing::real_data() / "kitti_odometry/oxts/04.csv.gz", table);
+  const ProcessResult result =
+      replay({table.string(), "--no-lcm", "--lockstep", "--configuration", "GNSS+RISS"});
+  EXPECT_EQ(result.status, 0) << result.error;
+  EXPECT_NE(result.out.find("Horizontal error "), std::string::npos) << result.out;
+}
+
 TEST(ReplayCommand, NamesAFolderThatIsNoDrive) {
   const TemporaryFolder folder;
   const ProcessResult result = replay({folder.path().string(), "--no-lcm"});
@@ -250,7 +341,8 @@ TEST(ReplayCommand, SurvivesADriveWithAHole) {
   std::filesystem::resize_file(copy / "velodyne_points/data/0000000070.bin", 1001);
 
   const std::string file = (folder.path() / "result.json").string();
-  const ProcessResult result = replay({copy.string(), "--no-lcm", "--lockstep", "--json", file});
+  const ProcessResult result =
+      replay({copy.string(), "--no-lcm", "--lockstep", "--verbose", "--json", file});
   EXPECT_EQ(result.status, 0) << result.error;
   for (const char* name : {"0000000050.png", "0000000060.png", "0000000070.bin"}) {
     EXPECT_NE(result.out.find(name), std::string::npos) << result.out;
@@ -272,6 +364,9 @@ TEST(ReplayCommand, TheReportHoldsAllOfIt) {
   ASSERT_EQ(result.status, 0) << result.error;
   std::stringstream page;
   page << std::ifstream(file).rdbuf();
+  const std::string text = page.str();
+  const std::size_t verdict = text.find("VO-L-RI did not use GNSS after the start");
+  EXPECT_LT(verdict, text.find("Way of the vehicle")) << "the verdict opens the page";
   for (const char* part : {"2011_09_26_drive_0013_sync", "Way of the vehicle", "stereo odometry",
                            "Error azimuth", "lost@imu:1:0.1", "camera -&gt; stereo", "NAV_STATE",
                            "Processor time", "[fusion]", "\"fused\""}) {

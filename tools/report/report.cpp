@@ -9,6 +9,7 @@
 #include "tools/report/road_section.h"
 #include "tools/report/text.h"
 #include "tools/report/trajectory_plots.h"
+#include "tools/verdict.h"
 #include "tools/web/page.h"
 
 namespace maploop::report {
@@ -16,6 +17,13 @@ namespace {
 
 using tools::escaped;
 using web::Row;
+
+std::string opening(const tools::ReplayResult& result) {
+  std::string html;
+  for (const std::string& line : tools::verdict(result)) html += paragraph(line);
+  if (const auto why = tools::why_empty(result)) html += paragraph("The result is empty: " + *why);
+  return html;
+}
 
 std::string summary(const ReplayReport& r) {
   const vehicle::VehicleReport& v = r.result.vehicle;
@@ -154,7 +162,7 @@ RoadMoment road_moment(const MapMatch& match) {
 
 void write_report(const std::filesystem::path& file, const ReplayReport& r) {
   web::Page page("Replay of " + r.result.drive);
-  page.add(summary(r)).add(trajectory_map(r));
+  page.add(opening(r.result)).add(trajectory_map(r)).add(summary(r));
   page.add("<h2>Accuracy</h2>\n" + accuracy(r.result) + navigation(r.result.navigation));
   page.add(state_plots(r));
   add_roads(page, r);

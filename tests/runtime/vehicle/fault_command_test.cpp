@@ -15,9 +15,9 @@ TEST(FaultCommand, WhatAFaultStruckAndWhatWasRefusedIsReported) {
   MAPLOOP_REQUIRE_DRIVE();
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "result.json").string();
-  const ProcessResult result =
-      run({testing::maploop_command(), "replay", "--fault", "nan@imu:5:1", "--fault",
-           "lost@camera:100", drive_0013().string(), "--lockstep", "--no-lcm", "--json", file});
+  const ProcessResult result = run({testing::maploop_command(), "replay", "--fault", "nan@imu:5:1",
+                                    "--fault", "lost@camera:100", drive_0013().string(),
+                                    "--lockstep", "--no-lcm", "--verbose", "--json", file});
   EXPECT_EQ(result.status, 0) << result.error;
   const auto r = nlohmann::json::parse(std::ifstream(file));
   EXPECT_EQ(r["faults"][0]["fault"], "nan@imu:5:1");
