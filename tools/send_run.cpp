@@ -202,7 +202,7 @@ int send(const SendOptions& options) {
         std::make_shared<sensors::VideoSender>(options.camera, cameras.width, cameras.height, rate);
     constexpr std::size_t ahead = 6;
     const auto pairs = std::make_shared<vehicle::PrefetchedSource<StereoPair>>(
-        "decoder", std::move(s.camera), ahead, stop.get_token(), nullptr);
+        "decoder", runtime::Scheduling{}, std::move(s.camera), ahead, stop.get_token(), nullptr);
     senders.push_back(
         [=, &schedule, &images_sent] { send_images(*pairs, *to, *schedule, images_sent); });
   }
@@ -214,8 +214,9 @@ int send(const SendOptions& options) {
     if (!options.velodyne.empty()) {
       constexpr std::size_t ahead = 4;
       const auto turns = std::make_shared<vehicle::PrefetchedSource<Turn>>(
-          "encoder", std::make_unique<TurnSource>(std::move(s.velodyne), lasers), ahead,
-          stop.get_token(), nullptr);
+          "encoder", runtime::Scheduling{},
+          std::make_unique<TurnSource>(std::move(s.velodyne), lasers), ahead, stop.get_token(),
+          nullptr);
       const auto to =
           std::make_shared<sensors::DatagramSender>(sensors::parse_endpoint(options.velodyne));
       senders.push_back(

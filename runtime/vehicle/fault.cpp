@@ -34,7 +34,7 @@ struct Rule {
 };
 
 // In the order of FaultKind.
-constexpr std::array<Rule, 11> rules{{
+constexpr std::array<Rule, 12> rules{{
     {"late", sensors, 0.2, 10.0},
     {"lost", sensors},
     {"duplicated", sensors, 0.001, 1.0},
