@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string refusal(const std::function<void()>& read) {
+std::string refused_because(const std::function<void()>& read) {
   try {
     read();
   } catch (const FileError& error) {
@@ -61,9 +61,10 @@ TEST_F(InputFile, IsReadWholeWhetherCompressedOrNot) {
 
 TEST_F(InputFile, ThatIsTooLargeIsRefusedWithItsName) {
   std::vector<char> bytes;
-  EXPECT_NE(refusal([&] { read_bytes(plain("12345"), 4, bytes); }).find("5 bytes, at most 4"),
-            std::string::npos);
-  EXPECT_NE(refusal([&] { read_text(plain("12345"), 4); }).find("5 bytes, at most 4"),
+  EXPECT_NE(
+      refused_because([&] { read_bytes(plain("12345"), 4, bytes); }).find("5 bytes, at most 4"),
+      std::string::npos);
+  EXPECT_NE(refused_because([&] { read_text(plain("12345"), 4); }).find("5 bytes, at most 4"),
             std::string::npos);
   try {
     read_text(plain("12345"), 4);
@@ -76,22 +77,24 @@ TEST_F(InputFile, ThatIsTooLargeIsRefusedWithItsName) {
 TEST_F(InputFile, ThatInflatesBeyondItsLimitTakesLittleMoreThanThat) {
   const fs::path file = compressed({std::string(100 << 20, '\0')});
   ASSERT_LT(fs::file_size(file), 200'000u);
-  EXPECT_NE(refusal([&] { read_text(file, 1 << 20); }).find("when decompressed, at most 1048576"),
-            std::string::npos);
+  EXPECT_NE(
+      refused_because([&] { read_text(file, 1 << 20); }).find("when decompressed, at most 1048576"),
+      std::string::npos);
 }
 
 TEST_F(InputFile, ThatIsCutOrNoneIsRefused) {
   std::vector<char> bytes;
-  EXPECT_EQ(refusal([&] { read_text(folder_.path() / "none", 9); }), "the file is missing");
-  EXPECT_EQ(refusal([&] { read_bytes(folder_.path(), 9, bytes); }),
+  EXPECT_EQ(refused_because([&] { read_text(folder_.path() / "none", 9); }), "the file is missing");
+  EXPECT_EQ(refused_because([&] { read_bytes(folder_.path(), 9, bytes); }),
             "is a folder, not a regular file");
   const fs::path pipe = folder_.path() / "pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_EQ(refusal([&] { read_text(pipe, 9); }), "not a regular file");
-  EXPECT_EQ(refusal([&] { read_head(pipe, 9); }), "not a regular file");
+  EXPECT_EQ(refused_because([&] { read_text(pipe, 9); }), "not a regular file");
+  EXPECT_EQ(refused_because([&] { read_head(pipe, 9); }), "not a regular file");
   const fs::path file = compressed({std::string(1000, 'x')});
   fs::resize_file(file, fs::file_size(file) - 5);
-  EXPECT_NE(refusal([&] { read_text(file, 2000); }).find("damaged or cut"), std::string::npos);
+  EXPECT_NE(refused_because([&] { read_text(file, 2000); }).find("damaged or cut"),
+            std::string::npos);
 }
 
 TEST(InputLimits, TimesAreFarApartWhateverTheyAre) {

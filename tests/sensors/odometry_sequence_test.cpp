@@ -122,160 +122,162 @@ TEST_F(SmallSequence, RefusesGapsThatHaveNoLastRow) {
 TEST_F(SmallSequence, RefusesImagesAtNoTime) {
   write("poses/04.times.txt", "0\n1e300\n");
   EXPECT_NE(refusal().find("04.times.txt:2: "), std::string::npos) << refusal();
-  class FreeSequence : public ::testing::Test {
-   protected:
-    void write(const std::string& name, const std::string& text) const {
-      fs::create_directories((folder.path() / name).parent_path());
-      std::ofstream(folder.path() / name) << text;
-    }
-    void write_table(const std::string& name, double first_t) const {
-      std::string text = "t";
-      for (int i = 0; i < 29; ++i) text += ",c" + std::to_string(i);
-      text += ",orimode\n";
-      for (int i = 0; i < 5; ++i) {
-        text += std::to_string(first_t + 0.1 * i) + ",49.0,8.4,112,0,0,0";
-        for (int k = 0; k < 24; ++k) text += ",0.5";
-        text += "\n";
-      }
-      write(name, text);
-    }
-    maploop::testing::TemporaryFolder folder;
-  };
+}
 
-  TEST_F(FreeSequence, NeedsNothingButItsTable) {
-    write_table("a/my drive.csv", 0.0);
-    const OdometrySequence drive(folder.path() / "a/my drive.csv", {});
-    EXPECT_EQ(drive.frame_count(), 5u);
-    EXPECT_EQ(drive.first_stamp(), parse_time("2000-01-01 00:00:00"));
-    EXPECT_FALSE(drive.tracks_file());
-    EXPECT_FALSE(drive.labels_file());
-    EXPECT_EQ(all_of(drive.imu()).size(), 5u);
+class FreeSequence : public ::testing::Test {
+ protected:
+  void write(const std::string& name, const std::string& text) const {
+    fs::create_directories((folder.path() / name).parent_path());
+    std::ofstream(folder.path() / name) << text;
   }
-
-  TEST_F(FreeSequence, TakesTimesSince1970AsTheyAre) {
-    write_table("drive.csv", 1317042651.0);
-    const OdometrySequence drive(folder.path() / "drive.csv", {});
-    EXPECT_EQ(drive.first_stamp(), parse_time("2011-09-26 13:10:51"));
+  void write_table(const std::string& name, double first_t) const {
+    std::string text = "t";
+    for (int i = 0; i < 29; ++i) text += ",c" + std::to_string(i);
+    text += ",orimode\n";
+    for (int i = 0; i < 5; ++i) {
+      text += std::to_string(first_t + 0.1 * i) + ",49.0,8.4,112,0,0,0";
+      for (int k = 0; k < 24; ++k) text += ",0.5";
+      text += "\n";
+    }
+    write(name, text);
   }
+  maploop::testing::TemporaryFolder folder;
+};
 
-  TEST_F(FreeSequence, UsesWhatLiesBesideIt) {
-    write_table("x/07.csv", 0.0);
-    write("x/07.times.txt", "0.01\n0.11\n0.21\n");
-    write("x/07.gaps.csv", "first_row,last_row\n1,3\n");
-    write("x/07.labels.csv", "frame\n");
-    write("x/07.imu.csv", "t,ax,ay,wz,interpolated\n0,0,0,0,0\n0.01,0,0,0,1\n0.02,0,0,0,0\n");
-    write("sequences.csv", "name,start,imu,tracks\n07,2020-02-03 04:05:06,,x/tracks.csv\n");
-    write("x/tracks.csv", "");
+TEST_F(FreeSequence, NeedsNothingButItsTable) {
+  write_table("a/my drive.csv", 0.0);
+  const OdometrySequence drive(folder.path() / "a/my drive.csv", {});
+  EXPECT_EQ(drive.frame_count(), 5u);
+  EXPECT_EQ(drive.first_stamp(), parse_time("2000-01-01 00:00:00"));
+  EXPECT_FALSE(drive.tracks_file());
+  EXPECT_FALSE(drive.labels_file());
+  EXPECT_EQ(all_of(drive.imu()).size(), 5u);
+}
+
+TEST_F(FreeSequence, TakesTimesSince1970AsTheyAre) {
+  write_table("drive.csv", 1317042651.0);
+  const OdometrySequence drive(folder.path() / "drive.csv", {});
+  EXPECT_EQ(drive.first_stamp(), parse_time("2011-09-26 13:10:51"));
+}
+
+TEST_F(FreeSequence, UsesWhatLiesBesideIt) {
+  write_table("x/07.csv", 0.0);
+  write("x/07.times.txt", "0.01\n0.11\n0.21\n");
+  write("x/07.gaps.csv", "first_row,last_row\n1,3\n");
+  write("x/07.labels.csv", "frame\n");
+  write("x/07.imu.csv", "t,ax,ay,wz,interpolated\n0,0,0,0,0\n0.01,0,0,0,1\n0.02,0,0,0,0\n");
+  write("sequences.csv", "name,start,imu,tracks\n07,2020-02-03 04:05:06,,x/tracks.csv\n");
+  write("x/tracks.csv", "");
+  const OdometrySequence drive(folder.path() / "x/07.csv", {});
+  EXPECT_EQ(drive.frame_count(), 3u);
+  EXPECT_EQ(drive.first_stamp(), parse_time("2020-02-03 04:05:06.01"));
+  EXPECT_EQ(all_of(drive.reference()).size(), 4u) << "row 2 is within the gap";
+  EXPECT_EQ(all_of(drive.imu()).size(), 2u);
+  EXPECT_EQ(drive.labels_file()->filename(), "07.labels.csv");
+  EXPECT_EQ(drive.tracks_file()->filename(), "tracks.csv");
+}
+
+TEST_F(FreeSequence, AListThatIsNoneIsNamed) {
+  write_table("x/07.csv", 0.0);
+  write("x/sequences.csv", "name,start\n07,2020-02-03\n");
+  try {
     const OdometrySequence drive(folder.path() / "x/07.csv", {});
-    EXPECT_EQ(drive.frame_count(), 3u);
-    EXPECT_EQ(drive.first_stamp(), parse_time("2020-02-03 04:05:06.01"));
-    EXPECT_EQ(all_of(drive.reference()).size(), 4u) << "row 2 is within the gap";
-    EXPECT_EQ(all_of(drive.imu()).size(), 2u);
-    EXPECT_EQ(drive.labels_file()->filename(), "07.labels.csv");
-    EXPECT_EQ(drive.tracks_file()->filename(), "tracks.csv");
+    FAIL() << "the list was taken";
+  } catch (const std::runtime_error& e) {
+    EXPECT_NE(std::string(e.what()).find("sequences.csv:1: not name,start,imu,tracks"),
+              std::string::npos)
+        << e.what();
   }
+}
 
-  TEST_F(FreeSequence, AListThatIsNoneIsNamed) {
-    write_table("x/07.csv", 0.0);
-    write("x/sequences.csv", "name,start\n07,2020-02-03\n");
-    try {
-      const OdometrySequence drive(folder.path() / "x/07.csv", {});
-      FAIL() << "the list was taken";
-    } catch (const std::runtime_error& e) {
-      EXPECT_NE(std::string(e.what()).find("sequences.csv:1: not name,start,imu,tracks"),
-                std::string::npos)
-          << e.what();
-    }
+TEST_F(FreeSequence, AnotherTableIsNone) {
+  write("track.csv", "t,lat,lon\n0,49,8\n");
+  EXPECT_FALSE(OdometrySequence::is_named(folder.path() / "track.csv"));
+  EXPECT_FALSE(OdometrySequence::is_named(folder.path()));
+}
+
+TEST(WheelOdometer, HasTheScaleErrorAndTheNoiseItIsAskedFor) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const OdometrySequence four(sequence("04"), {});
+  const auto exact = all_of(four.wheel({.scale_error = 0.0, .white_speed = 0.0, .seed = 1}));
+  const auto noisy = all_of(four.wheel({.scale_error = 0.01, .white_speed = 0.05, .seed = 1}));
+  ASSERT_EQ(exact.size(), 271u);
+  double mean = 0.0, variance = 0.0, way = 0.0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    const double error = noisy[i].speed - exact[i].speed;
+    mean += error / 271.0;
+    way += exact[i].speed / 271.0;
+    const double white = error - 0.01 * exact[i].speed;
+    variance += white * white / 271.0;
   }
+  EXPECT_NEAR(mean / way, 0.01, 0.001);
+  EXPECT_NEAR(std::sqrt(variance), 0.05, 0.007);
+  EXPECT_THROW(four.wheel({.scale_error = 2.0}), std::invalid_argument);
+  EXPECT_THROW(four.wheel({.white_speed = -1.0}), std::invalid_argument);
+}
 
-  TEST_F(FreeSequence, AnotherTableIsNone) {
-    write("track.csv", "t,lat,lon\n0,49,8\n");
-    EXPECT_FALSE(OdometrySequence::is_named(folder.path() / "track.csv"));
-    EXPECT_FALSE(OdometrySequence::is_named(folder.path()));
-  }
-
-  TEST(WheelOdometer, HasTheScaleErrorAndTheNoiseItIsAskedFor) {
-    MAPLOOP_REQUIRE_REAL_DATA();
-    const OdometrySequence four(sequence("04"), {});
-    const auto exact = all_of(four.wheel({.scale_error = 0.0, .white_speed = 0.0, .seed = 1}));
-    const auto noisy = all_of(four.wheel({.scale_error = 0.01, .white_speed = 0.05, .seed = 1}));
-    ASSERT_EQ(exact.size(), 271u);
-    double mean = 0.0, variance = 0.0, way = 0.0;
+TEST(ImuNoise, OfAMemsUnitIsOfItsGradeAndTheSameForASeed) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const OdometrySequence four(sequence("04"), {});
+  const auto exact = all_of(four.imu());
+  double squares = 0.0;
+  constexpr int seeds = 200;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const auto noisy = all_of(with_noise(four.imu(), mems_noise(seed)));
+    double mean = 0.0;
     for (std::size_t i = 0; i < exact.size(); ++i) {
-      const double error = noisy[i].speed - exact[i].speed;
-      mean += error / 271.0;
-      way += exact[i].speed / 271.0;
-      const double white = error - 0.01 * exact[i].speed;
-      variance += white * white / 271.0;
+      mean += (noisy[i].yaw_rate - exact[i].yaw_rate) / static_cast<double>(exact.size());
     }
-    EXPECT_NEAR(mean / way, 0.01, 0.001);
-    EXPECT_NEAR(std::sqrt(variance), 0.05, 0.007);
-    EXPECT_THROW(four.wheel({.scale_error = 2.0}), std::invalid_argument);
-    EXPECT_THROW(four.wheel({.white_speed = -1.0}), std::invalid_argument);
+    squares += mean * mean / seeds;
   }
+  const double deg_per_hour = std::sqrt(squares) * 180.0 / M_PI * 3600.0;
+  EXPECT_NEAR(deg_per_hour, 300.0, 50.0);
+  const auto once = all_of(with_noise(four.imu(), mems_noise(7)));
+  const auto again = all_of(with_noise(four.imu(), mems_noise(7)));
+  for (std::size_t i = 0; i < once.size(); ++i) ASSERT_EQ(once[i].yaw_rate, again[i].yaw_rate);
+}
 
-  TEST(ImuNoise, OfAMemsUnitIsOfItsGradeAndTheSameForASeed) {
-    MAPLOOP_REQUIRE_REAL_DATA();
-    const OdometrySequence four(sequence("04"), {});
-    const auto exact = all_of(four.imu());
-    double squares = 0.0;
-    constexpr int seeds = 200;
-    for (int seed = 1; seed <= seeds; ++seed) {
-      const auto noisy = all_of(with_noise(four.imu(), mems_noise(seed)));
-      double mean = 0.0;
-      for (std::size_t i = 0; i < exact.size(); ++i) {
-        mean += (noisy[i].yaw_rate - exact[i].yaw_rate) / static_cast<double>(exact.size());
-      }
-      squares += mean * mean / seeds;
-    }
-    const double deg_per_hour = std::sqrt(squares) * 180.0 / M_PI * 3600.0;
-    EXPECT_NEAR(deg_per_hour, 300.0, 50.0);
-    const auto once = all_of(with_noise(four.imu(), mems_noise(7)));
-    const auto again = all_of(with_noise(four.imu(), mems_noise(7)));
-    for (std::size_t i = 0; i < once.size(); ++i) ASSERT_EQ(once[i].yaw_rate, again[i].yaw_rate);
+class CsvTableTest : public ::testing::Test {
+ protected:
+  fs::path write(const std::string& text) {
+    const fs::path file = fs::path(::testing::TempDir()) / "table.csv";
+    std::ofstream(file) << text;
+    return file;
   }
-
-  class CsvTableTest : public ::testing::Test {
-   protected:
-    fs::path write(const std::string& text) {
-      const fs::path file = fs::path(::testing::TempDir()) / "table.csv";
-      std::ofstream(file) << text;
-      return file;
-    }
-    std::string refusal(const std::string& text) {
-      try {
-        CsvTable table(write(text));
-        return "";
-      } catch (const std::runtime_error& e) {
-        return e.what();
-      }
-    }
-  };
-
-  TEST_F(CsvTableTest, NamesFileLineAndWhatIsWrong) {
-    const CsvTable good(write("a,b\n1,2\r\n3,-4e-1\n"));
-    EXPECT_EQ(good.size(), 2u);
-    EXPECT_EQ(good.row(1)[good.column("b")], -0.4);
-    EXPECT_THROW(good.column("c"), std::runtime_error);
-    EXPECT_NE(refusal("a,b\n1,2\n3\n").find(":3: has 1 columns"), std::string::npos);
-    EXPECT_NE(refusal("a,b\n1,x\n").find(":2: "), std::string::npos);
-    EXPECT_NE(refusal("").find("no heading"), std::string::npos);
-  }
-
-  TEST_F(CsvTableTest, OfDamagedGzipDataSaysSo) {
-    const fs::path file = fs::path(::testing::TempDir()) / "cut.csv.gz";
-    const gzFile out = gzopen(file.c_str(), "wb");
-    const std::string text = "a,b\n" + std::string(1000, '1') + ",2\n";
-    gzwrite(out, text.data(), static_cast<unsigned>(text.size()));
-    gzclose(out);
-    fs::resize_file(file, fs::file_size(file) - 6);
+  std::string refusal(const std::string& text) {
     try {
-      CsvTable table(file);
-      FAIL() << "a cut file was read";
+      CsvTable table(write(text));
+      return "";
     } catch (const std::runtime_error& e) {
-      EXPECT_NE(std::string(e.what()).find("damaged or cut"), std::string::npos) << e.what();
+      return e.what();
     }
   }
+};
+
+TEST_F(CsvTableTest, NamesFileLineAndWhatIsWrong) {
+  const CsvTable good(write("a,b\n1,2\r\n3,-4e-1\n"));
+  EXPECT_EQ(good.size(), 2u);
+  EXPECT_EQ(good.row(1)[good.column("b")], -0.4);
+  EXPECT_THROW(good.column("c"), std::runtime_error);
+  EXPECT_NE(refusal("a,b\n1,2\n3\n").find(":3: has 1 columns"), std::string::npos);
+  EXPECT_NE(refusal("a,b\n1,x\n").find(":2: "), std::string::npos);
+  EXPECT_NE(refusal("").find("no heading"), std::string::npos);
+}
+
+TEST_F(CsvTableTest, OfDamagedGzipDataSaysSo) {
+  const fs::path file = fs::path(::testing::TempDir()) / "cut.csv.gz";
+  const gzFile out = gzopen(file.c_str(), "wb");
+  const std::string text = "a,b\n" + std::string(1000, '1') + ",2\n";
+  gzwrite(out, text.data(), static_cast<unsigned>(text.size()));
+  gzclose(out);
+  fs::resize_file(file, fs::file_size(file) - 6);
+  try {
+    CsvTable table(file);
+    FAIL() << "a cut file was read";
+  } catch (const std::runtime_error& e) {
+    EXPECT_NE(std::string(e.what()).find("damaged or cut"), std::string::npos) << e.what();
+  }
+}
 
 }  // namespace
 }  // namespace maploop::sensors
