@@ -20,7 +20,7 @@ class Reference : public sensors::Source<ReferencePose> {
   bool next(ReferencePose& row) override {
     if (row_ > 200) return false;
     row.stamp = start + milliseconds(100 * row_);
-    row.position = frame.to_geodetic({0.0, row_, 0.0});
+    row.position = frame.to_geodetic({0.0, 1.0 * row_, 0.0});
     row.position_accuracy = row_ < 100 ? accuracy_ : 0.1;
     ++row_;
     return true;
