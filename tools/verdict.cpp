@@ -54,10 +54,11 @@ std::string where(const ReplayResult& r) {
 std::string how_good(const ReplayResult& r) {
   if (r.navigation) {
     const fusion_score::Errors& e = r.navigation->whole;
-    std::string line = text_of("Horizontal error %.2f m RMS, %.2f m at most, against the reference",
-                               e.rmse, e.max);
-    if (e.covered < 0.98) line += text_of(" (%.0f %% of it)", 100.0 * e.covered);
-    return line + ".";
+    const int digits = e.max < 1000.0 ? 2 : 0;
+    const std::string share =
+        e.covered < 0.98 ? text_of("%.0f %% of ", 100.0 * e.covered) : std::string();
+    return text_of("Horizontal error %.*f m RMS, %.*f m at most, against %sthe reference.", digits,
+                   e.rmse, digits, e.max, share.c_str());
   }
   if (r.ppp && r.ppp->never_converges && r.ppp->of(PppStatus::converged) == 0)
     return "PPP cannot converge on one frequency with broadcast orbits: metres remain.";
@@ -84,8 +85,10 @@ std::vector<std::string> unused(const ReplayResult& r) {
   const std::string_view after_start = to_string(fusion::Reason::already_started);
   for (const RefusalCount& c : refusals) {
     if (c.stage == "fusion" && c.reason == after_start) {
-      items.push_back(text_of("GNSS after the start (%llu fixes; GNSS+%s uses it)",
-                              static_cast<unsigned long long>(c.count), r.configuration.c_str()));
+      const std::string who =
+          r.configuration.starts_with("GNSS+") ? "" : "; GNSS+" + r.configuration + " uses it";
+      items.push_back(text_of("GNSS after the start (%llu fixes%s)",
+                              static_cast<unsigned long long>(c.count), who.c_str()));
     }
   }
   for (const vehicle::SensorReport& s : r.vehicle.sensors) {

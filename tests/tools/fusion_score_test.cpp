@@ -77,7 +77,7 @@ TEST(FusionScore, CountsEverywhereWhereTheReferenceIsGood) {
 TEST(FusionScore, TheReferencesVarianceIsThatOfTheMoment) {
   const auto score = score_against(0.2);
   ASSERT_TRUE(score);
-  EXPECT_NEAR(score->whole.nees_mean, 0.5 * (25.0 / 1.04 + 1.0 / 1.01), 0.05);
+  EXPECT_NEAR(score->whole.nees_mean, (100.0 * 25.0 / 1.04 + 101.0 / 1.01) / 201.0, 1e-6);
 }
 
 }  // namespace

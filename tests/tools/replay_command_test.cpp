@@ -183,9 +183,9 @@ TEST(ReplayCommand, EverySignalThatEndsARunEndsItInOrderAlsoWhenItComesTwice) {
     const auto log = folder.path() / "log", states = folder.path() / "states.tum",
                table = folder.path() / "table.json";
     testing::Process process(
-        command({testing::drive_0013().string(), "--no-lcm", "--record", log.string(), "--tum",
-                 states.string(), "--json", table.string()}));
-    EXPECT_TRUE(testing::comes_to_contain(log, "NAV_STATE")) << "it is on its way";
+        command({testing::drive_0013().string(), "--no-lcm", "--start", "4", "--record",
+                 log.string(), "--tum", states.string(), "--json", table.string()}));
+    EXPECT_TRUE(testing::comes_to_contain(log, "NAV_STATE")) << "it is where it is shown";
     process.send_signal(signal);
     process.send_signal(signal);  // as from a program that signals its whole group
     const ProcessResult result = process.wait();
