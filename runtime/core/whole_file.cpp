@@ -42,7 +42,7 @@ void sync_folder(const std::filesystem::path& file) {
 }  // namespace
 
 WholeFile::WholeFile(const std::filesystem::path& file)
-    : file_(behind_links(file)),
+    : file_(is_replaced(file) ? behind_links(file) : file),
       written_(file_.string() + (is_replaced(file_) ? ".part" : "")),
       descriptor_(open(written_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)),
       buffer_(std::make_unique<std::array<char, kBytes>>()) {

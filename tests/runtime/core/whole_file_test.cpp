@@ -1,7 +1,9 @@
 #include "runtime/core/whole_file.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -58,6 +60,18 @@ TEST_F(WholeFileTest, ALinkStaysALink) {
 TEST_F(WholeFileTest, ADeviceIsWrittenAsItIs) {
   write_whole_file("/dev/null", "text");
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+// As /dev/stdout is where a shell reads what a command writes.
+TEST_F(WholeFileTest, APipeIsWrittenThroughItsName) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  write_whole_file("/proc/self/fd/" + std::to_string(ends[1]), "all");
+  std::array<char, 8> read{};
+  EXPECT_EQ(::read(ends[0], read.data(), read.size()), 3);
+  EXPECT_EQ(std::string(read.data()), "all");
+  close(ends[0]);
+  close(ends[1]);
 }
 
 TEST_F(WholeFileTest, WhatCannotBeWrittenIsNamedWithItsReason) {
