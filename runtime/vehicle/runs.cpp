@@ -85,8 +85,8 @@ void RunPresence::take(const lcm::ReceiveBuffer* buffer, const std::string&) {
 void RunPresence::say(bool ended) {
   maploop_lcm::run_t message{};
   message.machine_utime = std::chrono::floor<std::chrono::microseconds>(
-                      std::chrono::system_clock::now().time_since_epoch())
-                      .count();
+                              std::chrono::system_clock::now().time_since_epoch())
+                              .count();
   message.id = run_.id;
   message.what = run_.what;
   message.ended = ended ? 1 : 0;
