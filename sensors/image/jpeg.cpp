@@ -9,7 +9,7 @@
 #include <string>
 #include <type_traits>
 
-#include "msgs/input_limits.h"
+#include "sensors/image/image_size.h"
 
 namespace maploop::sensors {
 namespace {
@@ -34,12 +34,7 @@ GreyImage decode_grey_jpeg(std::span<const char> file) {
   int width = 0, height = 0, subsampling = 0, colours = 0;
   check(tjDecompressHeader3(jpeg.get(), bytes_of(file), file.size(), &width, &height, &subsampling,
                             &colours));
-  if (width < 1 || height < 1) throw std::runtime_error("the image is cut: it has no size");
-  if (width > input_limits::pixels / height) {
-    throw std::runtime_error("the image has " + std::to_string(width) + " x " +
-                             std::to_string(height) + " pixels, more than " +
-                             std::to_string(input_limits::pixels));
-  }
+  require_size(width, height);
   GreyImage image;
   image.resize(width, height);
   check(tjDecompress2(jpeg.get(), bytes_of(file), file.size(), image.pixels.data(), width, 0,
@@ -49,13 +44,7 @@ GreyImage decode_grey_jpeg(std::span<const char> file) {
 
 void encode_jpeg(std::span<const std::uint8_t> pixels, int width, int height, int quality,
                  std::vector<std::uint8_t>& file) {
-  const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  if (count == 0 || (pixels.size() != count && pixels.size() != 3 * count)) {
-    throw std::runtime_error("an image of " + std::to_string(width) + " x " +
-                             std::to_string(height) + " pixels has not " +
-                             std::to_string(pixels.size()) + " bytes");
-  }
-  const bool grey = pixels.size() == count;
+  const bool grey = is_grey(pixels.size(), width, height);
   const Handle jpeg(tjInitCompress(), &tjDestroy);
   if (!jpeg) throw std::bad_alloc();
   const int subsampling = grey ? TJSAMP_GRAY : TJSAMP_420;

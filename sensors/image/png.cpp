@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "msgs/input_limits.h"
+#include "sensors/image/image_size.h"
 
 namespace maploop::sensors {
 namespace {
@@ -67,9 +68,9 @@ void decode_grey_png(std::span<const char> file, int width, int height, GreyImag
     throw std::runtime_error("not an 8-bit grey image (the grey cameras are image_00, image_01)");
   }
   if (std::cmp_not_equal(header.width, width) || std::cmp_not_equal(header.height, height)) {
-    throw std::runtime_error("the image is " + std::to_string(header.width) + " x " +
-                             std::to_string(header.height) + " pixels, the calibration says " +
-                             std::to_string(width) + " x " + std::to_string(height));
+    throw std::runtime_error("the image is " + size_text(header.width, header.height) +
+                             ", the calibration says " + std::to_string(width) + " x " +
+                             std::to_string(height));
   }
   image.resize(width, height);
   decode(png, image.pixels, SPNG_FMT_G8);
@@ -77,11 +78,7 @@ void decode_grey_png(std::span<const char> file, int width, int height, GreyImag
 
 GreyImage decode_any_png(std::span<const char> file) {
   const auto [png, header] = open(file);
-  if (header.width > input_limits::pixels / header.height) {
-    throw std::runtime_error("the image has " + std::to_string(header.width) + " x " +
-                             std::to_string(header.height) + " pixels, more than " +
-                             std::to_string(input_limits::pixels));
-  }
+  require_size(header.width, header.height);
   GreyImage image;
   image.resize(static_cast<int>(header.width), static_cast<int>(header.height));
   if (header.color_type == SPNG_COLOR_TYPE_GRAYSCALE && header.bit_depth <= 8) {
@@ -100,19 +97,13 @@ GreyImage decode_any_png(std::span<const char> file) {
 
 std::vector<std::uint8_t> encode_png(std::span<const std::uint8_t> pixels, int width, int height,
                                      PngContent content) {
-  const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  if (count == 0 || (pixels.size() != count && pixels.size() != 3 * count)) {
-    throw std::runtime_error("an image of " + std::to_string(width) + " x " +
-                             std::to_string(height) + " pixels has not " +
-                             std::to_string(pixels.size()) + " bytes");
-  }
+  const bool grey = is_grey(pixels.size(), width, height);
   const Context png = context(SPNG_CTX_ENCODER);
   spng_ihdr header{};
   header.width = static_cast<std::uint32_t>(width);
   header.height = static_cast<std::uint32_t>(height);
   header.bit_depth = 8;
-  header.color_type =
-      pixels.size() == count ? SPNG_COLOR_TYPE_GRAYSCALE : SPNG_COLOR_TYPE_TRUECOLOR;
+  header.color_type = grey ? SPNG_COLOR_TYPE_GRAYSCALE : SPNG_COLOR_TYPE_TRUECOLOR;
   const auto encoded = [](int error) {
     if (error != 0)
       throw std::runtime_error("the image cannot be encoded: " + std::string(spng_strerror(error)));

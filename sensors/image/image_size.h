@@ -1,0 +1,37 @@
+// What readers and writers of images ask of a size.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include "msgs/input_limits.h"
+
+namespace maploop::sensors {
+
+inline std::string size_text(std::int64_t width, std::int64_t height) {
+  return std::to_string(width) + " x " + std::to_string(height) + " pixels";
+}
+
+// Throws std::runtime_error where nothing, or more than input_limits::pixels, would be decoded.
+inline void require_size(std::int64_t width, std::int64_t height) {
+  if (width < 1 || height < 1) throw std::runtime_error("the image is cut: it has no size");
+  if (width > input_limits::pixels / height) {
+    throw std::runtime_error("the image has " + size_text(width, height) + ", more than " +
+                             std::to_string(input_limits::pixels));
+  }
+}
+
+// Whether `bytes` are grey pixels of that size; false: red, green and blue ones. Throws
+// std::runtime_error where they are neither.
+inline bool is_grey(std::size_t bytes, int width, int height) {
+  const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  if (count == 0 || (bytes != count && bytes != 3 * count)) {
+    throw std::runtime_error("an image of " + size_text(width, height) + " has not " +
+                             std::to_string(bytes) + " bytes");
+  }
+  return bytes == count;
+}
+
+}  // namespace maploop::sensors
