@@ -1,6 +1,5 @@
 #include "tools/live_run.h"
 
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <array>
@@ -45,14 +44,10 @@ vehicle::Observer observer_of(const LiveOptions& options, RunPass& pass, LiveSta
   return o;
 }
 
-// On one line of the terminal.
 void show(double driven, const std::string& sensors) {
-  winsize size{};
-  ioctl(STDERR_FILENO, TIOCGWINSZ, &size);
-  const int columns = size.ws_col > 1 ? size.ws_col - 1 : 79;
-  std::array<char, 256> line{};
-  std::snprintf(line.data(), line.size(), "%8.1f s  %s  Ctrl-C ends", driven, sensors.c_str());
-  std::fprintf(stderr, "\r%.*s\x1b[K", columns, line.data());
+  std::array<char, 32> time{};
+  std::snprintf(time.data(), time.size(), "%8.1f s  ", driven);
+  show_status(STDERR_FILENO, time.data() + sensors + "  Ctrl-C ends");
 }
 
 // The service manager's watchdog hears of it as long as the fusion ticks.
@@ -62,7 +57,7 @@ void wait_for_end(const vehicle::Vehicle& vehicle, double seconds, const LiveSta
   constexpr int show_every = 10;
   constexpr Duration tell_every = std::chrono::seconds(1);
   Time told = vehicle.position();
-  const bool visible = isatty(STDERR_FILENO) != 0;
+  const bool visible = is_screen(STDERR_FILENO);
   for (int i = 0; vehicle.running() && !interrupted(); ++i) {
     if (presence != nullptr) presence->update();
     const Time position = vehicle.position();
@@ -75,7 +70,7 @@ void wait_for_end(const vehicle::Vehicle& vehicle, double seconds, const LiveSta
     if (visible && i % show_every == 0) show(driven, status.text());
     std::this_thread::sleep_for(look_every);
   }
-  if (visible) std::fprintf(stderr, "\r\x1b[K");
+  if (visible) show_status(STDERR_FILENO, "");
 }
 
 }  // namespace

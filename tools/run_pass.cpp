@@ -16,7 +16,7 @@ void warn_of_another_run(const std::string& sentence) {
 }
 
 vehicle::Observer RunPass::observer() {
-  vehicle::Observer o;
+  vehicle::Observer o = end_observer();
   o.odometry = [this](const RelativeMotion& motion) { collector.add(motion); };
   o.lidar = [this](const LidarMotion& motion) { lidar_collector.add(motion); };
   o.ppp = [this](const PppState& state) {
@@ -24,9 +24,9 @@ vehicle::Observer RunPass::observer() {
     ppp->add(state);
     ppp_states[state.stamp] = state;
   };
-  o.nav_state = [this](const NavState& state) {
+  o.nav_state = [this, last = o.nav_state](const NavState& state) {
     track.add(state);
-    if (state.status != NavStatus::uninitialized) end = state;
+    last(state);
   };
   o.map_match = [this](const MapMatch& match) {
     if (match.refusal == FixRefusal::no_position) return;
