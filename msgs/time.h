@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -38,6 +39,14 @@ constexpr std::int64_t to_nanoseconds(Time t) {
 }
 constexpr Time from_nanoseconds(std::int64_t ns) {
   return Time(Duration(ns));
+}
+
+// Of microseconds since 1970, as LCM's utime has them; none outside the years 1970 to 2255, which
+// nanoseconds may not hold.
+constexpr std::optional<Time> from_microseconds(std::int64_t us) {
+  constexpr std::int64_t most = std::int64_t{1} << 53;
+  if (us < 0 || us > most) return {};
+  return Time(std::chrono::microseconds(us));
 }
 
 // "2011-09-26 13:10:51.174740992" (any number of fractional digits up to nine), read as UTC.

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <maploop_lcm/header_t.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -16,6 +17,16 @@ namespace maploop {
 
 inline std::int64_t microseconds_of(Time t) {
   return std::chrono::floor<std::chrono::microseconds>(t).time_since_epoch().count();
+}
+
+// Throws std::invalid_argument where no stamp can hold it.
+inline Time time_of_utime(std::int64_t utime) {
+  const std::optional<Time> t = from_microseconds(utime);
+  if (!t) {
+    throw std::invalid_argument("utime is " + std::to_string(utime) +
+                                ", which is not within the years 1970 to 2255");
+  }
+  return *t;
 }
 
 inline maploop_lcm::header_t header_of(const Sample& sample) {

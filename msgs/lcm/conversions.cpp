@@ -341,7 +341,7 @@ maploop_lcm::health_t to_lcm(const Health& health) {
 
 Health from_lcm(const maploop_lcm::health_t& m) {
   Health health;
-  health.stamp = Time(std::chrono::microseconds(m.utime));
+  health.stamp = time_of_utime(m.utime);
   convert_each(m.threads, health.threads, from_lcm);
   convert_each(m.rings, health.rings, from_lcm);
   convert_each(m.refusals, health.refusals, from_lcm);

@@ -122,7 +122,7 @@ maploop_lcm::deadlines_t to_lcm(const Deadlines& deadlines) {
 
 Deadlines from_lcm(const maploop_lcm::deadlines_t& m) {
   Deadlines deadlines;
-  deadlines.stamp = Time(std::chrono::microseconds(m.utime));
+  deadlines.stamp = time_of_utime(m.utime);
   convert_each(m.threads, deadlines.threads, from_lcm);
   convert_each(m.paths, deadlines.paths, from_lcm);
   convert_each(m.wake_up, deadlines.wake_up, from_lcm);

@@ -65,9 +65,7 @@ void read(const schema::DecodedMessage& message, std::size_t parent, Header& hea
 
 std::optional<Time> stamp_of(const Header& header) {
   if (header.stamp_ns) return from_nanoseconds(*header.stamp_ns);
-  constexpr std::int64_t most = std::int64_t{1} << 53;  // the year 2255; in ns it still fits
-  if (!header.utime || *header.utime < 0 || *header.utime > most) return {};
-  return Time(std::chrono::microseconds(*header.utime));
+  return header.utime ? from_microseconds(*header.utime) : std::nullopt;
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <stdexcept>
+#include <string_view>
 
 #include "msgs/lcm/checked_decode.h"
 #include "msgs/lcm/conversions.h"
@@ -71,26 +73,25 @@ std::vector<std::string> vehicle_lines(const schema::Schema& schema, const Traff
                     " runs publish here: each line below may be of any of them; give each a bus of "
                     "its own (--lcm-url)");
   }
-  maploop_lcm::health_t health_message;
-  if (schema::checked_decode(schema, traffic.last(vehicle::channels::health.name),
-                             health_message)) {
-    const Health health = from_lcm(health_message);
+  // What another publisher sent may have a right form and no meaning: it makes no line.
+  const auto of_last = [&](auto message, std::string_view channel, const auto& add) {
+    if (!schema::checked_decode(schema, traffic.last(channel), message)) return;
+    try {
+      add(from_lcm(message));
+    } catch (const std::invalid_argument&) {
+    }
+  };
+  of_last(maploop_lcm::health_t{}, vehicle::channels::health.name, [&](const Health& health) {
     lines.push_back(rings(health));
     if (!health.degraded.empty()) {
       lines.push_back("degraded: " + std::to_string(health.degraded.size()) + ": " +
                       printable(health.degraded.front()));
     }
-  }
-  maploop_lcm::deadlines_t deadlines_message;
-  if (schema::checked_decode(schema, traffic.last(vehicle::channels::deadlines.name),
-                             deadlines_message)) {
-    lines.push_back(deadlines_line(from_lcm(deadlines_message)));
-  }
-  maploop_lcm::ppp_state_t ppp_message;
-  if (schema::checked_decode(schema, traffic.last(vehicle::channels::ppp_state.name),
-                             ppp_message)) {
-    lines.push_back(ppp_line(from_lcm(ppp_message)));
-  }
+  });
+  of_last(maploop_lcm::deadlines_t{}, vehicle::channels::deadlines.name,
+          [&](const Deadlines& deadlines) { lines.push_back(deadlines_line(deadlines)); });
+  of_last(maploop_lcm::ppp_state_t{}, vehicle::channels::ppp_state.name,
+          [&](const PppState& state) { lines.push_back(ppp_line(state)); });
   return lines;
 }
 

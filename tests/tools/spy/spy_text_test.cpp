@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <maploop_lcm/health_t.hpp>
 #include <maploop_lcm/run_t.hpp>
 #include <sstream>
 #include <string>
@@ -101,6 +104,14 @@ TEST(SpyText, AMessageThatIsNoneSaysWhy) {
   auto cut = imu(1, {});
   cut.resize(20);
   EXPECT_NE(field_lines(own_schema(), cut).at(0).find("at byte"), std::string::npos);
+}
+
+TEST(SpyText, AMessageWithoutMeaningMakesNoLine) {
+  Traffic traffic(own_schema(), seconds(5));
+  maploop_lcm::health_t health{};
+  health.utime = std::numeric_limits<std::int64_t>::max();  // no stamp can hold it
+  traffic.add("HEALTH", encoded(health), seconds(1));
+  EXPECT_TRUE(vehicle_lines(own_schema(), traffic).empty());
 }
 
 TEST(SpyText, RingsDeadlinesAndDegradedModesInALineEach) {
