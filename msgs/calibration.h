@@ -1,4 +1,4 @@
-// Calibration of a stereo vehicle.
+// What a vehicle is, and where its sensors are.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -20,9 +20,14 @@ void archive(Archive& ar, StereoCalibration& c) {
   ar(c.width, c.height, c.fx, c.fy, c.cx, c.cy, c.baseline, c.T_body_cam);
 }
 
+// What is not known is as of no particular car.
 struct VehicleCalibration {
   StereoCalibration stereo;
   Eigen::Isometry3d T_body_velo = Eigen::Isometry3d::Identity();
+  double rear_axle_distance = 0.0;     // m, from the rear axle forward to the body's origin
+  double climb_offset = 0.0;           // rad, direction of travel above body x: the IMU's mounting
+  double climb_offset_sigma = 0.0175;  // rad (1 deg), of that
+  double beam_elevation = 0.0;         // rad, that the LiDAR's beams point higher than it says
 };
 
 }  // namespace maploop

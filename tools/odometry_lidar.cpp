@@ -59,6 +59,7 @@ int lidar_odometry_alone(const LidarOdometryOptions& options, const OdometryFile
   vehicle::VehicleConfig config;
   if (!files.config.empty()) config = vehicle::load_vehicle_config(files.config);
   const auto drive = vehicle::open_drive(files.drive, config);
+  describe_car(config, drive->calibration());
   const Eigen::Isometry3d T_body_cam = drive->calibration().stereo.T_body_cam;
   odometry::LidarRun run(*drive,
                          {config.stereo, config.lidar, options.seed, options.every, frames});

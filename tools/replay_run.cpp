@@ -69,6 +69,7 @@ class Replay {
         map_(vehicle::load_road_map(config_.map)),
         faults_(parse_faults(options.faults), recording_.first_stamp),
         run_(vehicle::new_run("replay of " + drive_name(options))) {
+    describe_car(config_, recording_.calibration);  // for the report and the snapshots
     if (!options.record.empty()) lcm_log::refuse_same_file(options.drive, options.record);
     look_ahead();
     if (!options.no_lcm) {

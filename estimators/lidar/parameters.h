@@ -10,9 +10,7 @@ struct LidarParameters {
   int max_points = 400'000;  // a scan with more is thinned evenly; three turns of an HDL-64E
 
   // --- Correction of the sensor
-  // rad (0.205 deg), added to every beam's elevation: the HDL-64E's factory angles (IMLS-SLAM,
-  // CT-ICP, KISS-ICP use the same).
-  double elevation_correction = 0.00357792;
+  double elevation_correction = 0.0;  // rad, added to every beam's elevation
 
   // --- Sampling and surfaces
   double sample_voxel = 1.0;   // m; one surface point each, from all its points

@@ -37,6 +37,10 @@ maploop_lcm::calibration_t to_lcm(const VehicleCalibration& calibration) {
   m.baseline = c.baseline;
   write_transform(c.T_body_cam, m.T_body_cam);
   write_transform(calibration.T_body_velo, m.T_body_velo);
+  m.rear_axle_distance = calibration.rear_axle_distance;
+  m.climb_offset = calibration.climb_offset;
+  m.climb_offset_sigma = calibration.climb_offset_sigma;
+  m.beam_elevation = calibration.beam_elevation;
   return m;
 }
 
@@ -52,6 +56,10 @@ VehicleCalibration from_lcm(const maploop_lcm::calibration_t& m) {
   c.baseline = m.baseline;
   read_transform(m.T_body_cam, c.T_body_cam);
   read_transform(m.T_body_velo, calibration.T_body_velo);
+  calibration.rear_axle_distance = m.rear_axle_distance;
+  calibration.climb_offset = m.climb_offset;
+  calibration.climb_offset_sigma = m.climb_offset_sigma;
+  calibration.beam_elevation = m.beam_elevation;
   return calibration;
 }
 

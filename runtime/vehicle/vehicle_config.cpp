@@ -116,6 +116,17 @@ void set_imu_grade(VehicleConfig& config, const std::string& name) {
   config.imu_grade = name;
 }
 
+void describe_car(VehicleConfig& config, const VehicleCalibration& calibration) {
+  const auto take = [&](std::string_view key, double& value, double known) {
+    if (!config.given.contains(key)) value = known;
+  };
+  fusion::FusionParameters& p = config.fusion;
+  take("fusion.rear_axle_distance", p.rear_axle_distance, calibration.rear_axle_distance);
+  take("fusion.climb_offset", p.climb_offset, calibration.climb_offset);
+  take("fusion.climb_offset_sigma", p.climb_offset_sigma, calibration.climb_offset_sigma);
+  take("lidar.elevation_correction", config.lidar.elevation_correction, calibration.beam_elevation);
+}
+
 VehicleConfig load_vehicle_config(const std::filesystem::path& file) {
   VehicleConfig config;
   const runtime::ConfigDocument document = runtime::ConfigDocument::load(file);
@@ -130,9 +141,17 @@ VehicleConfig load_vehicle_config(const std::filesystem::path& file) {
   } catch (const std::invalid_argument& e) {
     throw runtime::ConfigError(file.string() + ": " + e.what());
   }
+  std::string prefix;
   visit(
-      config, [&](const char* name) { table = document.root().table(name); },
-      [&](const char* key, auto& value) { read_value(table, key, value); });
+      config,
+      [&](const char* name) {
+        table = document.root().table(name);
+        prefix = std::string(name) + '.';
+      },
+      [&](const char* key, auto& value) {
+        read_value(table, key, value);
+        if (table.has(key)) config.given.insert(prefix + key);
+      });
   document.reject_unknown();
   if (config.odometry != "visual" && config.odometry != "visual-lidar") {
     throw runtime::ConfigError(file.string() + ": odometry = \"" + config.odometry +

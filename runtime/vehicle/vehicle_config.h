@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +16,7 @@
 #include "estimators/stereo/parameters.h"
 #include "mapmatch/feedback_parameters.h"
 #include "mapmatch/match_parameters.h"
+#include "msgs/calibration.h"
 #include "ppp/filter/parameters.h"
 #include "runtime/core/realtime_memory.h"
 #include "runtime/core/trace.h"
@@ -89,17 +92,16 @@ struct VehicleConfig {
   mapmatch::MatchParameters mapmatch;
   mapmatch::FeedbackParameters feedback;
   fusion::GuardParameters guard;
-  // KITTI's car travels 0.48 deg above its IMU's x axis: mean of eight odometry sequences (0.14 to
-  // 0.86 deg).
-  // Its IMU is 0.25 m ahead of what rolls without side slip: sideways velocity over yaw rate on
-  // five of them (0.23 to 0.29 m).
-  fusion::FusionParameters fusion{
-      .rear_axle_distance = 0.25, .climb_offset = 0.0084, .climb_offset_sigma = 0.0087};
+  fusion::FusionParameters fusion;
+  std::set<std::string, std::less<>> given;  // keys that the file has, as "fusion.climb_offset"
 };
 
 // With what they mean for [fusion]. Throw std::invalid_argument listing the names.
 void set_configuration(VehicleConfig& config, const std::string& name);
 void set_imu_grade(VehicleConfig& config, const std::string& name);
+
+// Takes what a recording knows of its car where the file has not said otherwise.
+void describe_car(VehicleConfig& config, const VehicleCalibration& calibration);
 
 // Reads a TOML file; absent keys keep their defaults. Throws runtime::ConfigError naming file, line
 // and key for anything wrong, unknown keys included. runtime/vehicle/maploop.toml lists every key.

@@ -46,7 +46,9 @@ StereoCalibration camera_of(const VehicleCalibration& calibration) {
 }
 
 // After the start a drive with nothing but GNSS has nothing else to go by.
-VehicleConfig fitted(VehicleConfig config, const Sensors& sensors) {
+VehicleConfig fitted(VehicleConfig config, const VehicleCalibration& calibration,
+                     const Sensors& sensors) {
+  describe_car(config, calibration);
   const bool inertial = sensors.imu || (sensors.live && sensors.live->imu);
   const bool camera = sensors.camera || (sensors.live && sensors.live->camera);
   if (!camera && !inertial && !sensors.odometry) config.fusion.use_gnss = true;
@@ -95,7 +97,7 @@ Vehicle::Graph::Graph(const VehicleConfig& vehicle_config, const VehicleCalibrat
                       Sensors sensors, const runtime::DataClock& data_clock,
                       std::vector<MessageSink*> sinks, Observer observer,
                       runtime::Tracer* run_tracer, std::shared_ptr<const RoadMap> road_map)
-    : config(fitted(vehicle_config, sensors)),
+    : config(fitted(vehicle_config, calibration, sensors)),
       clock(data_clock),
       tracer(run_tracer),
       map(std::move(road_map)),

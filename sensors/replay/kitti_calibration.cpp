@@ -52,6 +52,11 @@ Eigen::Isometry3d body_left(const KittiCalibrationText& text) {
   return body_velo(text) * velo_to_cam.transformation().inverse();
 }
 
+// By KITTI's own files; those of every day have it.
+bool is_kitti_car(const KittiCalibrationText& text) {
+  return text.imu_to_velo.find("calib_time: 25-May-2012") != std::string_view::npos;
+}
+
 // The three files of a day, and what was read of them.
 struct CalibrationFiles {
   explicit CalibrationFiles(const std::filesystem::path& folder) {
@@ -78,7 +83,15 @@ VehicleCalibration parse_kitti_calibration(const KittiCalibrationText& text) {
   const Eigen::Isometry3d T_cam_cam0(cameras.rotation("R_rect_00"));
   calibration.T_body_velo = body_velo(text);
   calibration.stereo.T_body_cam = body_left(text) * T_cam_cam0.inverse();
+  if (is_kitti_car(text)) describe_kitti_car(calibration);
   return calibration;
+}
+
+void describe_kitti_car(VehicleCalibration& calibration) {
+  calibration.rear_axle_distance = 0.25;
+  calibration.climb_offset = 0.0084;
+  calibration.climb_offset_sigma = 0.0087;
+  calibration.beam_elevation = 0.00357792;
 }
 
 VehicleCalibration read_kitti_calibration(const std::filesystem::path& folder) {
@@ -95,6 +108,7 @@ VehicleCalibration read_kitti_calibration(const std::filesystem::path& folder, c
   if (with_velodyne || !rig.T_body_left) files.read_mounting();
   if (with_velodyne) calibration.T_body_velo = body_velo(files.text);
   calibration.stereo = mounted(rig, rig.T_body_left ? *rig.T_body_left : body_left(files.text));
+  if (is_kitti_car(files.text)) describe_kitti_car(calibration);
   return calibration;
 }
 

@@ -7,6 +7,7 @@
 
 #include "sensors/replay/csv_table.h"
 #include "sensors/replay/files.h"
+#include "sensors/replay/kitti_calibration.h"
 #include "sensors/replay/oxts_sources.h"
 #include "sensors/replay/sequence_files.h"
 
@@ -120,6 +121,7 @@ VehicleCalibration axes_alone() {
   Eigen::Matrix3d R_body_cam;
   R_body_cam << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   s.T_body_cam.linear() = R_body_cam;
+  describe_kitti_car(calibration);
   return calibration;
 }
 

@@ -26,7 +26,8 @@ void process_scan(benchmark::State& state) {
   const sensors::KittiDrive drive(testing::drive_0013());
   const auto scans = testing::read_scans(drive, scan_count);
   const auto anew = [&] {
-    lidar::LidarOdometry odometry(drive.calibration().T_body_velo, {});
+    lidar::LidarOdometry odometry(drive.calibration().T_body_velo,
+                                  testing::lidar_parameters(drive));
     odometry.process(&scans[0], nullptr);
     odometry.process(&scans[1], nullptr);
     return odometry;
@@ -48,7 +49,7 @@ void align_pcl(benchmark::State& state) {
   if (drive_missing(state)) return;
   const sensors::KittiDrive drive(testing::drive_0013());
   const auto scans = testing::read_scans(drive, scan_count);
-  lidar::LidarParameters parameters;
+  lidar::LidarParameters parameters = testing::lidar_parameters(drive);
   parameters.sample_voxel = 0.25;
   parameters.max_samples = 131'072;
   lidar::ScanPreparation preparation(drive.calibration().T_body_velo, parameters);

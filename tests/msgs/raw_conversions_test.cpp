@@ -99,6 +99,10 @@ TEST(RawConversions, ACalibrationComesBackToTheBit) {
   calibration.stereo.T_body_cam =
       Eigen::Translation3d(1.0, 2.0, 3.0) * Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX());
   calibration.T_body_velo = Eigen::Translation3d(0.1, 0.2, 0.3) * Eigen::Isometry3d::Identity();
+  calibration.rear_axle_distance = 0.9;
+  calibration.climb_offset = -0.01;
+  calibration.climb_offset_sigma = 0.002;
+  calibration.beam_elevation = 0.003;
   const VehicleCalibration back = from_lcm(through_bytes(to_lcm(calibration)));
   EXPECT_EQ(back.stereo.width, 1242);
   EXPECT_EQ(back.stereo.height, 375);
@@ -109,6 +113,10 @@ TEST(RawConversions, ACalibrationComesBackToTheBit) {
   EXPECT_EQ(back.stereo.baseline, calibration.stereo.baseline);
   EXPECT_EQ(back.stereo.T_body_cam.matrix(), calibration.stereo.T_body_cam.matrix());
   EXPECT_EQ(back.T_body_velo.matrix(), calibration.T_body_velo.matrix());
+  EXPECT_EQ(back.rear_axle_distance, calibration.rear_axle_distance);
+  EXPECT_EQ(back.climb_offset, calibration.climb_offset);
+  EXPECT_EQ(back.climb_offset_sigma, calibration.climb_offset_sigma);
+  EXPECT_EQ(back.beam_elevation, calibration.beam_elevation);
 }
 
 }  // namespace

@@ -56,6 +56,20 @@ TEST(KittiCalibration, ChainsTheThreeFilesAsPrinted) {
   EXPECT_LT((c.stereo.T_body_cam * p_cam - p_body).norm(), 1e-5);
 }
 
+TEST(KittiCalibration, KnowsKittisCarAndTakesNoOtherForIt) {
+  const VehicleCalibration kitti = parse({});
+  EXPECT_EQ(kitti.rear_axle_distance, 0.25);
+  EXPECT_EQ(kitti.climb_offset, 0.0084);
+  EXPECT_EQ(kitti.climb_offset_sigma, 0.0087);
+  EXPECT_EQ(kitti.beam_elevation, 0.00357792);
+  Texts texts;
+  texts.imu_to_velo = replaced(texts.imu_to_velo, "25-May-2012 16:47:16", "simulated");
+  const VehicleCalibration other = parse(texts);
+  EXPECT_EQ(other.rear_axle_distance, 0.0);
+  EXPECT_EQ(other.climb_offset, 0.0);
+  EXPECT_EQ(other.beam_elevation, 0.0);
+}
+
 // The sketch of the car (IJRR 2013, fig. 3): LiDAR 0.81 m before and 0.32 m right of the IMU,
 // camera another 0.27 m ahead; heights above the road 1.65 m camera, 1.73 m LiDAR, 0.93 m IMU.
 TEST(KittiCalibration, AgreesWithTheSketchOfTheCar) {

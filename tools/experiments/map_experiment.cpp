@@ -185,9 +185,10 @@ const fusion_score::Errors& without_gnss(const MapResult& result) {
 }
 
 MapResult run(const MapSetting& setting, const MapCase& setup) {
-  const vehicle::VehicleConfig config = config_of(setting.config, setup);
+  vehicle::VehicleConfig config = config_of(setting.config, setup);
   const vehicle::Recording recording =
       vehicle::open_recording(setting.folder / setup.sequence, config);
+  describe_car(config, recording.calibration);
   vehicle::Sensors sensors = recording.sensors(Time::min());
   if (setup.end > 0.0) limit(sensors, recording.first_stamp + from_seconds(setup.end));
   std::vector<ReferencePose> rows;

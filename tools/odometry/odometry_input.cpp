@@ -15,9 +15,10 @@ Input open_drive(const std::filesystem::path& folder, const std::filesystem::pat
   vehicle::VehicleConfig config;
   if (!file.empty()) config = vehicle::load_vehicle_config(file);
   adjust(config.stereo);
+  const auto drive = vehicle::open_drive(folder, config);
+  describe_car(config, drive->calibration());
   std::optional<lidar::LidarParameters> depth;
   if (disparities == Disparities::lidar) depth = config.lidar;
-  const auto drive = vehicle::open_drive(folder, config);
   return {stereo_run(*drive, config.stereo, frames, depth), drive->calibration().stereo, drive};
 }
 

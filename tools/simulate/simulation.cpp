@@ -85,20 +85,26 @@ void write_inertial(const Drive& drive, const std::filesystem::path& folder,
              fast_interval, imu, options.seed);
 }
 
-// What a replay should know of the car.
+// What a replay should know of the car. Its origin is above the rear axle, and travels along body x
+// but for what the springs do (vehicle_motion.h).
 void write_configuration(const std::filesystem::path& file, const SimulationOptions& options) {
   const Eigen::Vector3d& lever = Receiver::lever();
-  const char* beams =
-      options.scanner == Scanner::vlp_16
-          ? "[lidar]\nelevation_correction = 0.0  # a VLP-16's beams are where they should be\n\n"
-          : "";
-  char text[512];
-  const int length = std::snprintf(text, sizeof text,
-                                   "[map]\nfile = \"map.osm\"\n\n%s"
-                                   "[fusion]  # m, the GNSS antenna from the inertial unit\n"
-                                   "gnss_lever_forward = %.2f\ngnss_lever_left = %.2f\n"
-                                   "gnss_lever_up = %.2f\n",
-                                   beams, lever.x(), lever.y(), lever.z());
+  const char* name = options.scanner == Scanner::vlp_16 ? "VLP-16" : "HDL-64E";
+  char text[1024];
+  const int length = std::snprintf(
+      text, sizeof text,
+      "# The simulated car.\n\n"
+      "[map]\nfile = \"map.osm\"\n\n"
+      "[live]\nvelodyne_model = \"%s\"\n\n"
+      "[lidar]\nelevation_correction = %.8f  # rad, that all beams point higher than they say\n\n"
+      "[fusion]\n"
+      "rear_axle_distance = 0.0  # m, the inertial unit is above the rear axle\n"
+      "climb_offset = 0.0  # rad, and level, ...\n"
+      "climb_offset_sigma = 0.0087  # rad, ... but on springs\n"
+      "gnss_lever_forward = %.2f  # m, the GNSS antenna from the inertial unit\n"
+      "gnss_lever_left = %.2f\ngnss_lever_up = %.2f\n",
+      name, static_cast<double>(lidar_parameters(options.scanner).elevation_error), lever.x(),
+      lever.y(), lever.z());
   write_file(file, {text, static_cast<std::size_t>(length)});
 }
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "estimators/lidar/parameters.h"
 #include "sensors/replay/kitti_drive.h"
 #include "tests/support/real_data.h"
 
@@ -13,6 +14,13 @@ inline std::vector<LidarScan> read_scans(const sensors::KittiDrive& drive, std::
   const auto velodyne = drive.velodyne();
   for (LidarScan scan; scans.size() < count && velodyne->next(scan);) scans.push_back(scan);
   return scans;
+}
+
+// With what is known of the drive's scanner.
+inline lidar::LidarParameters lidar_parameters(const sensors::KittiDrive& drive) {
+  lidar::LidarParameters parameters;
+  parameters.elevation_correction = drive.calibration().beam_elevation;
+  return parameters;
 }
 
 }  // namespace maploop::testing

@@ -95,7 +95,7 @@ TEST(LocalMap, FindsTheSamePartnersAsASearchOfAllPoints) {
   MAPLOOP_REQUIRE_DRIVE();
   const sensors::KittiDrive drive(maploop::testing::drive_0013());
   const auto scans = maploop::testing::read_scans(drive, 2);
-  LidarParameters parameters;
+  LidarParameters parameters = maploop::testing::lidar_parameters(drive);
   parameters.map_spacing = 0.0;
   ScanPreparation preparation(drive.calibration().T_body_velo, parameters);
   PreparedScan first, second;

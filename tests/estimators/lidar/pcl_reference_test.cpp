@@ -13,7 +13,7 @@ TEST(PclReference, MotionsBetweenScansAgree) {
   MAPLOOP_REQUIRE_DRIVE();
   const sensors::KittiDrive drive(maploop::testing::drive_0013());
   const auto scans = maploop::testing::read_scans(drive, 4);
-  LidarParameters parameters;
+  LidarParameters parameters = maploop::testing::lidar_parameters(drive);
   parameters.sample_voxel = 0.5;
   const Twist motion{{12.5, 0.0, 0.0}, Eigen::Vector3d::Zero()};
   Eigen::Isometry3d seed = Eigen::Isometry3d::Identity();

@@ -54,6 +54,24 @@ TEST(VehicleConfig, WhatIsWrittenHasNoPasswords) {
   EXPECT_NE(text.find("corrections = \"ntrips://***@host/CORRECTIONS\""), std::string::npos);
 }
 
+TEST(VehicleConfig, NoCarIsADefaultAndTheFileKnowsBetterThanTheRecording) {
+  const VehicleConfig neutral;
+  EXPECT_EQ(neutral.fusion.rear_axle_distance, 0.0);
+  EXPECT_EQ(neutral.fusion.climb_offset, 0.0);
+  EXPECT_EQ(neutral.lidar.elevation_correction, 0.0);
+  VehicleCalibration car;
+  car.rear_axle_distance = 0.25;
+  car.climb_offset = 0.0084;
+  car.climb_offset_sigma = 0.0087;
+  car.beam_elevation = 0.0036;
+  VehicleConfig config = load_text("[fusion]\nclimb_offset = 0.0\n");
+  describe_car(config, car);
+  EXPECT_EQ(config.fusion.rear_axle_distance, 0.25);
+  EXPECT_EQ(config.fusion.climb_offset, 0.0);
+  EXPECT_EQ(config.fusion.climb_offset_sigma, 0.0087);
+  EXPECT_EQ(config.lidar.elevation_correction, 0.0036);
+}
+
 TEST(VehicleConfig, WhatIsWrittenIsReadBack) {
   VehicleConfig config;
   config.lcm_url = "udpm://239.255.76.67:7667?ttl=1";

@@ -28,6 +28,13 @@ TEST(SimulatedReplay, ObservationsTakeThePlaceOfTheReferencesGnss) {
   vehicle::VehicleConfig config = vehicle::load_vehicle_config(drive / "vehicle.toml");
   EXPECT_EQ(config.fusion.gnss_lever_up, 0.75);
   EXPECT_TRUE(fs::exists(config.map.file));
+  EXPECT_EQ(config.live.velodyne_model, "HDL-64E");
+  EXPECT_NEAR(config.lidar.elevation_correction, radians(0.205), 1e-8);
+  // All that a recording can know of its car is said.
+  for (const char* key : {"fusion.rear_axle_distance", "fusion.climb_offset",
+                          "fusion.climb_offset_sigma", "lidar.elevation_correction"}) {
+    EXPECT_TRUE(config.given.contains(key)) << key;
+  }
 
   const vehicle::Recording recording = vehicle::open_recording(drive / "town_extract", config);
   vehicle::Sensors sensors = recording.sensors(Time::max());
