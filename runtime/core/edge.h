@@ -62,11 +62,16 @@ class EdgeBase {
 
   virtual RingHealth health() const = 0;
 
+  // "waiting for imu -> fusion": what a consumer does that its producer keeps waiting.
+  const char* waiting() const { return waiting_.c_str(); }
+
  protected:
-  explicit EdgeBase(Doorbell* bell) : bell_(bell) {}
+  EdgeBase(const std::string& name, Doorbell* bell)
+      : bell_(bell), waiting_("waiting for " + name) {}
   Doorbell* bell_;
 
  private:
+  std::string waiting_;
   std::atomic<std::int64_t> promised_{to_nanoseconds(Time::min())};
   std::atomic<bool> abandoned_{false};
 };
@@ -79,7 +84,10 @@ class Edge final : public EdgeBase {
  public:
   Edge(std::string name, std::size_t capacity, Overflow overflow, Doorbell* bell,
        const T& prototype = T{})
-      : EdgeBase(bell), name_(std::move(name)), overflow_(overflow), ring_(capacity, prototype) {}
+      : EdgeBase(name, bell),
+        name_(std::move(name)),
+        overflow_(overflow),
+        ring_(capacity, prototype) {}
 
   // fill(T& slot) writes the sample in place. False when it was lost: the ring was full and the
   // policy is to drop, the consumer has abandoned it, or `stop` came while waiting for room.

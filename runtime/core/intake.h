@@ -49,6 +49,7 @@ class Intake {
       const Time known = promised();
       if (known >= t) return true;
       if (stop.stop_requested()) return false;
+      waited_for_ = slowest();
       take_until(known);
       bell.wait(heard);
     }
@@ -73,6 +74,9 @@ class Intake {
     }
   }
 
+  // The edge that wait() waited for at its last wake-up; nullptr where it never waited.
+  const EdgeBase* waited_for() const { return waited_for_; }
+
   // Samples so far.
   std::uint64_t taken() const { return taken_; }
 
@@ -96,7 +100,17 @@ class Intake {
     std::function<void()> take;
     bool feedback = false;
   };
+
+  const EdgeBase* slowest() const {
+    const EdgeBase* slowest = nullptr;
+    for (const Inlet& inlet : inlets_) {
+      if (slowest == nullptr || inlet.edge->promised() < slowest->promised()) slowest = inlet.edge;
+    }
+    return slowest;
+  }
+
   std::vector<Inlet> inlets_;
+  const EdgeBase* waited_for_ = nullptr;
   std::uint64_t taken_ = 0;
 };
 

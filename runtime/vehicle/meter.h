@@ -15,7 +15,7 @@
 
 namespace maploop::vehicle {
 
-// What was to be done by a deadline, and where the time went. Names are string literals.
+// What was to be done by a deadline, and where the time went. Names must outlive the meter.
 struct Timing {
   struct Part {
     const char* name = "";
