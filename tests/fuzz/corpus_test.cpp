@@ -33,6 +33,12 @@ struct Target {
   const char* name;
   int (*run)(const std::uint8_t* data, std::size_t size);
 };
+
+// The test's name has it; an address would be another one each time.
+void PrintTo(const Target& target, std::ostream* stream) {
+  *stream << target.name;
+}
+
 constexpr Target targets[] = {MAPLOOP_FUZZ_TARGETS(MAPLOOP_LIST)};
 
 // In the order of their names, after two that any target gets.

@@ -60,6 +60,10 @@ struct Reached {
   double link;       // share of the frames that are certain
 };
 
+void PrintTo(const Reached& reached, std::ostream* stream) {
+  *stream << reached.sequence;
+}
+
 class TightOnTurns : public ::testing::TestWithParam<Reached> {};
 
 // Also through the gaps of 1.7 s in the inertial data: nine in 00, three in 02.
