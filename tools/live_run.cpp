@@ -23,6 +23,7 @@
 #include "tools/map_options.h"
 #include "tools/service_manager.h"
 #include "tools/terminal.h"
+#include "tools/verdict.h"
 
 namespace maploop::tools {
 namespace {
@@ -133,6 +134,7 @@ int live(const LiveOptions& options) {
   if (tracer) {
     result.trace = {options.trace.string(), tracer->recorded(), tracer->dropped()};
   }
+  if (presence) presence->conclude(verdict_text(result));
   // The table last: whoever reads it may have gone.
   const bool written = write_all({
       [&] {

@@ -141,6 +141,7 @@ class Replay {
   vehicle::FaultInjection faults_;
   vehicle::Run run_;
   std::unique_ptr<vehicle::LcmBus> bus_;
+  std::optional<vehicle::RunPresence> presence_;  // on it
   std::optional<vehicle::Snapshot> resumed_;
   Time cut_{};
   bool snapshot_taken_ = false;
@@ -248,12 +249,11 @@ PlaybackEnd Replay::play_all() {
   player_ = std::make_unique<vehicle::Player>(
       [this](const vehicle::Snapshot* from) { return make_vehicle(from); }, player_parameters());
   std::optional<vehicle::ReplayControl> control;
-  std::optional<vehicle::RunPresence> presence;
-  if (bus_) presence.emplace(bus_->lcm(), run_, warn_of_another_run);
+  if (bus_) presence_.emplace(bus_->lcm(), run_, warn_of_another_run);
   // On virtual time nobody pauses or goes back.
   if (bus_ && !options_.lockstep) control.emplace(bus_->lcm(), *player_, run_.id);
   const auto hogs = faults_.hogs([this] { return player_->position(); });
-  return play(*player_, control ? &*control : nullptr, presence ? &*presence : nullptr,
+  return play(*player_, control ? &*control : nullptr, presence_ ? &*presence_ : nullptr,
               options_.playback);
 }
 
@@ -312,6 +312,8 @@ ReplayResult Replay::result(PlaybackEnd end) {
 
 int Replay::run() {
   const ReplayResult r = result(play_all());
+  if (presence_) presence_->conclude(verdict_text(r));
+  presence_.reset();
   // The table last: whoever reads it may have gone.
   const bool written = write_all({
       [&] {

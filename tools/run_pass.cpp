@@ -87,9 +87,7 @@ void write_run_report(const std::filesystem::path& file, const ReplayResult& res
 }
 
 std::string closing_text(const ReplayResult& result, bool tables) {
-  std::string text;
-  for (const std::string& line : verdict(result)) text += line + '\n';
-  return tables ? text + format_table(result) : text;
+  return tables ? verdict_text(result) + format_table(result) : verdict_text(result);
 }
 
 bool any_thread_failed(const ReplayResult& result) {

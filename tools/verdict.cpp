@@ -147,6 +147,12 @@ std::string why_no_position(const ReplayResult& r) {
 
 }  // namespace
 
+std::string verdict_text(const ReplayResult& result) {
+  std::string text;
+  for (const std::string& line : verdict(result)) text += line + '\n';
+  return text;
+}
+
 std::array<std::string, 3> verdict(const ReplayResult& result) {
   return {where(result), how_good(result), what_not(result)};
 }

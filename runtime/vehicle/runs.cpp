@@ -90,6 +90,7 @@ void RunPresence::say(bool ended) {
   message.id = run_.id;
   message.what = run_.what;
   message.ended = ended ? 1 : 0;
+  if (ended) message.verdict = verdict_;
   lcm_.publish(run_channel, &message);
 }
 

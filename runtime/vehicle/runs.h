@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "msgs/time.h"
@@ -63,6 +64,9 @@ class RunPresence {
   // Takes what has come, and says the run once a second. Never waits.
   void update();
 
+  // What it says of the run at its end: three lines.
+  void conclude(std::string verdict) { verdict_ = std::move(verdict); }
+
   const Run& run() const { return run_; }
 
  private:
@@ -71,6 +75,7 @@ class RunPresence {
 
   lcm::LCM& lcm_;
   Run run_;
+  std::string verdict_;
   std::function<void(const std::string&)> warn_;
   lcm::Subscription* subscription_;  // of lcm_
   RunsHeard others_;

@@ -19,6 +19,12 @@ namespace {
 using Control = maploop_lcm::replay_control_t;
 
 constexpr std::size_t most_channels = 64;
+constexpr std::size_t longest_verdict = 400;
+
+// Of texts that anybody may have sent.
+std::string text_of(const nlohmann::json& value) {
+  return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
 
 bool is_large(std::string_view channel) {
   return channel == channel_names::camera || channel == channel_names::velodyne;
@@ -42,7 +48,13 @@ void Relay::take(std::string_view channel, std::span<const std::uint8_t> data, D
     });
     return;
   } else if (channel == channel_names::run) {
-    taken(maploop_lcm::run_t{}, [&](const auto& run) { runs_.take(run, now); });
+    taken(maploop_lcm::run_t{}, [&](const auto& run) {
+      runs_.take(run, now);
+      if (run.ended == 0 || run.verdict.empty()) return;
+      channels_.put("VERDICT", text_of({{"id", run.id},
+                                        {"what", run.what},
+                                        {"lines", run.verdict.substr(0, longest_verdict)}}));
+    });
     return;
   } else if (channel == channel_names::nav_state) {
     taken(maploop_lcm::nav_state_t{}, [&](const auto& m) {
@@ -81,7 +93,7 @@ void Relay::pass_on_runs(Duration now) {
     }
     all.push_back({{"id", run.id}, {"what", run.what}, {"player", std::move(player)}});
   }
-  std::string text = all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  std::string text = text_of(all);
   if (text == said_runs_) return;
   channels_.put("RUNS", text);
   said_runs_ = std::move(text);

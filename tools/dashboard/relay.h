@@ -27,7 +27,8 @@ class Relay {
   void take(std::string_view channel, std::span<const std::uint8_t> data, Duration now);
 
   // The newest message of each channel that had one since the last call; and on RUNS, where they
-  // have changed, the runs that publish: [{"id", "what", "player": its state, or null}].
+  // have changed, the runs that publish: [{"id", "what", "player": its state, or null}]. A run's
+  // end is on VERDICT at once: {"id", "what", "lines": three of text}.
   void pass_on(Duration now);
 
   std::string trail() const;

@@ -199,6 +199,27 @@ TEST(Relay, KeepsTheRunsAndTheirPlayersApart) {
   EXPECT_EQ(all[0]["id"], "0000000b");
 }
 
+TEST(Relay, SaysHowARunEnded) {
+  LiveChannels channels;
+  Relay relay(channels);
+  maploop_lcm::run_t run{};
+  run.id = "0000000a";
+  run.what = "replay of a drive";
+  relay.take("RUN", encoded(run), milliseconds(0));
+  run.ended = 1;
+  run.verdict = "One line.\nAnother.\n\xff";  // a byte that is no text
+  relay.take("RUN", encoded(run), milliseconds(10));
+  relay.pass_on(milliseconds(10));
+  std::uint64_t seen = 0;
+  for (const LiveChannels::Message& m : channels.newer(seen, milliseconds(0))) {
+    if (m.channel != "VERDICT") continue;
+    EXPECT_EQ(json::parse(m.json)["what"], "replay of a drive");
+    EXPECT_EQ(json::parse(m.json)["lines"], "One line.\nAnother.\n\xef\xbf\xbd");
+    return;
+  }
+  FAIL() << "nothing on VERDICT";
+}
+
 TEST(Relay, CommandsHaveTheirNames) {
   const auto bytes = encoded_command("0123abcd", "seek", 6.5);
   maploop_lcm::replay_control_t command{};

@@ -2,7 +2,7 @@
 import "./dashboard.css";
 
 import { element } from "./dom";
-import { listen, trail, type Run } from "./live";
+import { listen, trail, type Run, type Verdict } from "./live";
 import { LiveMap } from "./live_map";
 import { showAids, showDeadlines, showHealth, showPpp, showRoad, showState } from "./panels";
 import { PlayerBar } from "./player";
@@ -19,6 +19,8 @@ for (const name of ["truth", "fused", "fixes", "matched"]) element("span", legen
 const views = new Views(element("section", left, "", "views"));
 const side = element("aside", main);
 const notice = element("div", side, "Connecting…", "notice");
+
+const ended = element("section", side, "", "verdict");
 
 function panel(title: string): HTMLElement {
   const section = element("section", side);
@@ -62,6 +64,17 @@ setFollow(true);
 let heardAt = -Infinity;
 let isConnected = false;
 let runs: Run[] = [];
+let verdict: Verdict | null = null;
+
+// How the last run ended, until another one publishes.
+function showVerdict(): void {
+  ended.hidden = verdict === null || runs.length > 0;
+  if (verdict === null || ended.hidden) return;
+  ended.replaceChildren();
+  element("h2", ended, `Ended: ${verdict.what}`);
+  for (const line of verdict.lines.trimEnd().split("\n")) element("p", ended, line);
+}
+showVerdict();
 
 function showNotice(): void {
   const silent = performance.now() - heardAt > silent_after;
@@ -100,10 +113,15 @@ listen(
     PREVIEW: (p) => views.showPreview(p),
     DEADLINES: (d) => showDeadlines(deadlines, d),
     HEALTH: (h) => showHealth(health, h),
+    VERDICT: (v) => {
+      verdict = v;
+      showVerdict();
+    },
     RUNS: (r) => {
       runs = r;
       player.show(r);
       showNotice();
+      showVerdict();
     },
   },
   (yes) => {

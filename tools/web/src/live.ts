@@ -156,6 +156,13 @@ export interface Player {
   refused: string;
 }
 
+// How a run ended.
+export interface Verdict {
+  id: string;
+  what: string;
+  lines: string;
+}
+
 // A program that publishes; of a replay with its player's state.
 export interface Run {
   id: string;
@@ -179,6 +186,7 @@ export interface Messages {
   DEADLINES: Deadlines;
   HEALTH: Health;
   RUNS: Run[];
+  VERDICT: Verdict;
 }
 
 type Handlers = { [Channel in keyof Messages]: (message: Messages[Channel]) => void };
