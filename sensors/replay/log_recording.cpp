@@ -112,7 +112,7 @@ LogRecording::LogRecording(const std::filesystem::path& log) : log_(log) {
     throw std::runtime_error("cannot replay the log '" + log.string() + "': " + why);
   };
   std::map<std::string_view, Seen> seen;
-  bool calibrated = false;
+  bool calibrated = false, of_another_version = false;
   LogReader reader(log, own_schema());
   for (auto item = reader.next(); item != LogReader::Item::end; item = reader.next()) {
     if (item == LogReader::Item::damage) {
@@ -127,6 +127,7 @@ LogRecording::LogRecording(const std::filesystem::path& log) : log_(log) {
       maploop_lcm::calibration_t message{};
       calibrated = checked_decode(own_schema(), event.data, message);
       if (calibrated) calibration_ = from_lcm(message);
+      of_another_version = !calibrated;
     }
     const auto sensor = std::find(sensor_channels.begin(), sensor_channels.end(), event.channel);
     if (sensor == sensor_channels.end()) continue;
@@ -139,7 +140,9 @@ LogRecording::LogRecording(const std::filesystem::path& log) : log_(log) {
   if (seen.empty())
     refuse("it holds no sensor's messages; is it a log of 'maploop replay --record'?");
   if (!calibrated) {
-    refuse("it holds no calibration; record it again with 'maploop replay DRIVE --record'");
+    refuse(std::string(of_another_version ? "its calibration is of another version of maploop"
+                                          : "it holds no calibration") +
+           "; record it again with 'maploop replay DRIVE --record'");
   }
   for (const auto& [name, unused] : seen) channels_.emplace(name);
   for (const std::string_view name : sensor_channels) {

@@ -66,6 +66,16 @@ TEST_F(DamagedLog, AMessageThatSaysASizeItHasNotIsLeftOut) {
   }
 }
 
+TEST_F(DamagedLog, ACalibrationOfAnotherTypeIsOfAnotherVersion) {
+  message("CALIBRATION", 0)[0] ^= 1;  // its fingerprint
+  try {
+    recording();
+    FAIL();
+  } catch (const std::runtime_error& e) {
+    EXPECT_NE(std::string(e.what()).find("of another version"), std::string::npos) << e.what();
+  }
+}
+
 TEST_F(DamagedLog, OneWrongStampCostsOneMessage) {
   constexpr char a_lifetime = 0x20;  // bit 61 of nanoseconds
   for (const int n : {1, 2}) {
