@@ -57,7 +57,7 @@ class LidarDriveTest : public ::testing::Test {
 
   static DriveResult make_run(Seed seed, std::size_t every) {
     const sensors::KittiDrive drive(drive_0013());
-    LidarParameters parameters = lidar_parameters(drive);
+    LidarParameters parameters = maploop::testing::lidar_parameters(drive);
     const Eigen::Isometry3d T_body_cam = drive.calibration().stereo.T_body_cam;
     parameters.constant_motion = seed != Seed::none;
     LidarOdometry odometry(drive.calibration().T_body_velo, parameters);
@@ -130,7 +130,7 @@ TEST_F(LidarDriveTest, GivesVisualMotionsItsLength) {
   stereo::StereoParameters as_rectified;
   as_rectified.sigma_disparity_offset = 0.0;
   stereo::StereoOdometry visual(calibration.stereo, as_rectified);
-  LidarParameters points_alone = lidar_parameters(drive);
+  LidarParameters points_alone = maploop::testing::lidar_parameters(drive);
   points_alone.independent_points = 0.0;
   LidarOdometry odometry(calibration.T_body_velo, points_alone);
   DisparityCorrection correction(points_alone);
@@ -162,7 +162,8 @@ TEST_F(LidarDriveTest, CovarianceIsWhatHalvesOfThePointsDifferBy) {
   const sensors::KittiDrive drive(drive_0013());
   std::array<std::vector<LidarMotion>, 2> motions;
   for (std::size_t half = 0; half < 2; ++half) {
-    LidarOdometry odometry(drive.calibration().T_body_velo, lidar_parameters(drive));
+    LidarOdometry odometry(drive.calibration().T_body_velo,
+                           maploop::testing::lidar_parameters(drive));
     const auto velodyne = drive.velodyne();
     LidarScan scan;
     for (std::size_t i = 0; i < visual_.size() && velodyne->next(scan); ++i) {
