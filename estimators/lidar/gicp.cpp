@@ -1,6 +1,5 @@
 #include "estimators/lidar/gicp.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -14,12 +13,6 @@ constexpr int chunk_points = 128;
 
 int chunk_count(std::size_t points) {
   return static_cast<int>((points + chunk_points - 1) / chunk_points);
-}
-
-// exp of it is T: translation (m), rotation vector (rad).
-Vector6d perturbation(const Eigen::Isometry3d& T) {
-  const Twist twist = Twist::of(T, 1.0);
-  return (Vector6d() << twist.velocity, twist.rate).finished();
 }
 
 }  // namespace
@@ -109,19 +102,6 @@ Gicp::Sums Gicp::linearize(const PreparedScan& scan, const Eigen::Isometry3d& T,
   return total;
 }
 
-Eigen::Isometry3d weighed_with(const Eigen::Isometry3d& seed, const Matrix6d& seed_information,
-                               const Alignment& points, const LidarParameters& parameters) {
-  const double share = std::min(1.0, parameters.independent_points / points.partners);
-  const double limit = parameters.kernel * parameters.kernel;
-  const Vector6d from_seed = perturbation(seed.inverse() * points.T_map_body);
-  const double square = from_seed.dot(seed_information * from_seed) / 6.0;
-  const double root = limit / (limit + square);
-  const Matrix6d by_seed = root * root * seed_information;
-  const Matrix6d both = share * points.information + by_seed;
-  const Vector6d step = -both.ldlt().solve(by_seed * from_seed);
-  return points.T_map_body * Twist{step.head<3>(), step.tail<3>()}.over(1.0);
-}
-
 Alignment Gicp::align(const LocalMap& map, const PreparedScan& scan, const Eigen::Isometry3d& seed,
                       bool known) {
   Alignment result;
@@ -154,8 +134,6 @@ Alignment Gicp::align(const LocalMap& map, const PreparedScan& scan, const Eigen
       result.T_map_body = result.T_map_body * Twist{step.head<3>(), step.tail<3>()}.over(1.0);
       result.T_map_body.linear() =
           Eigen::Quaterniond(result.T_map_body.linear()).normalized().toRotationMatrix();
-      const Matrix6d& seen = result.degeneracy.seen;
-      result.information = seen.transpose() * sums.H * seen;
       result.covariance = inverse * std::max(1.0, sums.square / sums.weight);
       still = step.head<3>().norm() < 0.1 * parameters_.translation_step &&
               step.tail<3>().norm() < 0.1 * parameters_.rotation_step;

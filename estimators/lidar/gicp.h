@@ -24,16 +24,10 @@ struct Alignment {
   // Of independent points, in body axes at the scan, in the directions that they determine;
   // translation (m), rotation (rad).
   Matrix6d covariance = Matrix6d::Zero();
-  Matrix6d information = Matrix6d::Zero();  // its inverse there, as the points' noise is assumed
   int iterations = 0;
   int points = 0;    // offered
   int partners = 0;  // with a partner in the map
 };
-
-// The pose that the points and a seed of this information (body axes at the scan) agree on: the
-// points count as independent_points, and a seed that contradicts them loses its weight.
-Eigen::Isometry3d weighed_with(const Eigen::Isometry3d& seed, const Matrix6d& seed_information,
-                               const Alignment& points, const LidarParameters& parameters);
 
 // Plane to plane, Gauss-Newton, Geman-McClure kernel, partners sought anew in each iteration within
 // a shrinking distance, and held for a few steps that cost little. Sums are made in chunks of a

@@ -1,6 +1,5 @@
 #include "estimators/lidar/lidar_odometry.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -141,10 +140,8 @@ class LidarOdometry::Implementation {
       const Eigen::Matrix3d R_to_from = visual->rotation.toRotationMatrix().transpose();
       p.visual = true;
       if (seed_covariance_) {
-        *seed_covariance_ =
-            carried_over(*seed_covariance_, visual->T_from_to()) +
-            to_from_axes(visual->covariance, R_to_from) +
-            mounting_covariance(R_to_from * visual->translation, parameters_.mounting_sigma);
+        *seed_covariance_ = carried_over(*seed_covariance_, visual->T_from_to()) +
+                            to_from_axes(visual->covariance, R_to_from);
       }
     } else {
       seed_covariance_.reset();
@@ -175,12 +172,9 @@ class LidarOdometry::Implementation {
     const Isometry3d change = seed.inverse() * alignment.T_map_body;
     motion->seed_translation_error = change.translation().norm();
     motion->seed_rotation_error = angle(change);
-    Isometry3d T_from_to = T_map_body_.inverse() * alignment.T_map_body;
+    const Isometry3d T_from_to = T_map_body_.inverse() * alignment.T_map_body;
     motion->status = judge(T_from_to, prediction, *motion);
     if (motion->status != OdometryStatus::ok) return;
-    if (const auto information = seed_information()) {
-      T_from_to = T_map_body_.inverse() * weighed_with(seed, *information, alignment, parameters_);
-    }
     set_pose(T_from_to, motion);
     motion->source = prediction.visual ? OdometrySource::visual_lidar : OdometrySource::lidar;
     motion->covariance = to_from_axes(covariance(alignment), T_from_to.linear());
@@ -211,14 +205,6 @@ class LidarOdometry::Implementation {
     if (seed_covariance_) seed = *seed_covariance_;
     return parameters_.correlated_points * alignment.covariance +
            unseen * seed * unseen.transpose();
-  }
-
-  // Of visual motions that reach from the last scan used to this one; else nothing.
-  std::optional<Matrix6d> seed_information() const {
-    if (!seed_covariance_ || parameters_.independent_points <= 0.0) return std::nullopt;
-    const Eigen::LLT<Matrix6d> factor(*seed_covariance_);
-    if (factor.info() != Eigen::Success) return std::nullopt;
-    return Matrix6d(factor.solve(Matrix6d::Identity()));
   }
 
   void advance(const Isometry3d& T_from_to, const OdometerResult& result) {

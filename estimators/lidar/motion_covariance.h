@@ -26,14 +26,4 @@ inline Matrix6d carried_over(const Matrix6d& covariance, const Eigen::Isometry3d
   return A * covariance * A.transpose();
 }
 
-// What a way of `translation` is uncertain by across itself where the sensor that says it is
-// mounted as it is known to `sigma` (rad).
-inline Matrix6d mounting_covariance(const Eigen::Vector3d& translation, double sigma) {
-  Matrix6d covariance = Matrix6d::Zero();
-  covariance.topLeftCorner<3, 3>() = sigma * sigma *
-                                     (translation.squaredNorm() * Eigen::Matrix3d::Identity() -
-                                      translation * translation.transpose());
-  return covariance;
-}
-
 }  // namespace maploop::lidar

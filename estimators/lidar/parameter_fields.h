@@ -37,8 +37,6 @@ void fields(Parameters& p, F&& f) {
   f("rotation_step", p.rotation_step);
   f("min_points", p.min_points);
   f("min_overlap", p.min_overlap);
-  f("independent_points", p.independent_points);
-  f("mounting_sigma", p.mounting_sigma);
   f("min_information", p.min_information);
   f("correlated_points", p.correlated_points);
   f("correct_disparities", p.correct_disparities);

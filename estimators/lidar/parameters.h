@@ -39,12 +39,6 @@ struct LidarParameters {
   int min_points = 300;            // samples with a normal; fewer: too_few_features
   double min_overlap = 0.4;        // share of them with a partner; less: too_few_inliers
 
-  // --- Visual motion beside the scan
-  // What the scan's points are worth together beside the visual motion: as many independent ones as
-  // an HDL-64E has lasers, for points of one laser share its errors. 0: they decide alone.
-  double independent_points = 64.0;
-  double mounting_sigma = 0.005;  // rad (0.3 deg), how well the cameras stand to the LiDAR
-
   // --- Degeneracy: information a point on a direction, rotations as metres at the mean range.
   double min_information = 0.003;
 

@@ -50,9 +50,6 @@ void validate(const LidarParameters& p) {
   require(p.min_points >= 10, "min_points", "at least 10", p.min_points);
   require(p.min_overlap > 0.0 && p.min_overlap <= 1.0, "min_overlap", "above 0, at most 1",
           p.min_overlap);
-  require(p.independent_points >= 0.0, "independent_points", "0 or more", p.independent_points);
-  require(p.mounting_sigma >= 0.0 && p.mounting_sigma < 0.5, "mounting_sigma", "0 to 0.5 rad",
-          p.mounting_sigma);
   require(p.min_information > 0.0 && p.min_information < 1.0, "min_information", "0 to 1",
           p.min_information);
   require_positive("correlated_points", p.correlated_points);

@@ -49,8 +49,6 @@ CHOSEN = [
      "mean direction of travel above the inertial unit's x axis", "fusion on KITTI"),
     ("sensors/replay/kitti_calibration.cpp calibration.beam_elevation", "KITTI's scanner (IMLS-SLAM, CT-ICP and KISS-ICP "
      "use the same)", "taken from the literature, which chose it on KITTI odometry", "LiDAR odometry on KITTI"),
-    ("lidar.independent_points", "KITTI drive 0013 and a simulated town",
-     "the number of the scanner's lasers; both truths had been looked at", "LiDAR odometry and the vehicle on 0013"),
     ("lidar.correlated_points", "KITTI drive 0013", "odometries from disjoint halves of the points; no truth",
      "normalized errors of LiDAR odometry on 0013"),
     ("ppp.code_sigma", "ESBC station and Kamakura car", "among a handful of values with the scores in sight",

@@ -158,33 +158,6 @@ TEST(Gicp, FindsAMotionMadeByHand) {
             2e-4);
 }
 
-// As many independent points as they are: the pose is that of the sum of both informations. A seed
-// that contradicts the points is not listened to.
-TEST(Gicp, ASeedThatIsAMeasurementCountsByItsCovariance) {
-  LidarParameters parameters;
-  parameters.independent_points = 1e6;
-  LocalMap map(parameters);
-  const PreparedScan scan = street(true);
-  map.insert(scan, Eigen::Isometry3d::Identity());
-  const Alignment points =
-      Gicp(parameters, in_turn).align(map, scan, Eigen::Isometry3d::Identity(), true);
-  const auto along = [&](double seed_x, double sigma) {
-    Eigen::Isometry3d seed = Eigen::Isometry3d::Identity();
-    seed.translation().x() = seed_x;
-    return weighed_with(seed, Matrix6d::Identity() / (sigma * sigma), points, parameters)
-        .translation()
-        .x();
-  };
-  const double by_points = 1.0 / std::sqrt(points.information(0, 0));
-  EXPECT_NEAR(along(0.01 * by_points, 0.01 * by_points), 0.01 * by_points, 1e-4 * by_points);
-  EXPECT_NEAR(along(by_points, 100.0 * by_points), 0.0, 1e-3 * by_points);
-  EXPECT_NEAR(along(0.1 * by_points, by_points), 0.05 * by_points, 5e-3 * by_points);
-  EXPECT_NEAR(along(200.0 * by_points, by_points), 0.0, by_points) << "a wrong one";
-
-  parameters.independent_points = points.partners / 9.0;
-  EXPECT_NEAR(along(0.1 * by_points, 3.0 * by_points), 0.05 * by_points, 5e-3 * by_points);
-}
-
 TEST(Gicp, TunnelKeepsTheSeedAlongAndSaysSo) {
   LidarParameters parameters;
   LocalMap map(parameters);
