@@ -25,6 +25,8 @@ enum : int {
   left_bias,      // m/s^2, added to the left specific force
   climb_offset,   // rad, direction of travel above body x: mounting and load
   speed_scale,    // 1, the speed sensor (odometry or wheels) reports (1 + scale) times the speed
+  lidar_scale,    // 1, a LiDAR's motion is (1 + scale) times the way
+  lidar_turn,     // rad/m, and turns by that much too far about body z
   distance,       // m, travelled since the clone, as the speed sensor sees it
   clone_azimuth,  // rad, the attitude at the start of the odometry interval
   clone_pitch,

@@ -94,6 +94,9 @@ void check(const FusionParameters& p) {
 
   require("speed_scale_sigma", p.speed_scale_sigma, tiny, 1.0);
   require("speed_scale_walk", p.speed_scale_walk, 0.0, 1.0);
+  require("lidar_scale_sigma", p.lidar_scale_sigma, 0.0, 1.0);
+  require("lidar_turn_sigma", p.lidar_turn_sigma, 0.0, 1.0);
+  require("lidar_error_time", p.lidar_error_time, 1.0, huge);
   require("min_wheel_sigma", p.min_wheel_sigma, tiny, huge);
 
   require("still_force", p.still_force, 0.0, huge);

@@ -99,6 +99,12 @@ struct FusionParameters {
   double speed_scale_sigma = 0.015;  // 1, at the start: 1.2 % rms in odometry of six drives
   double speed_scale_walk = 0.001;   // 1/sqrt(s), odometry's changes with the depth of the scene
 
+  // What lasts of a LiDAR's errors, whatever number of scans: ranges that are all too long or too
+  // short, azimuths of an encoder off its axis.
+  double lidar_scale_sigma = 0.002;  // 1, 2 cm of range, as data sheets have it, at 10 m
+  double lidar_turn_sigma = 3.5e-5;  // rad/m (0.2 deg in 100 m)
+  double lidar_error_time = 300.0;   // s, they walk as far in half of it, with what is around
+
   // Wheels.
   double min_wheel_sigma = 0.02;  // m/s, floor: slip of the tyres on the road
 

@@ -41,7 +41,7 @@ void begin_anew(FilterState& state, GnssFix fix, const LocalFrame& frame,
   const StateVector x = state.x;
   state.x = fresh.x;
   state.P = fresh.P;
-  for (const int i : {gyro_bias, forward_bias, left_bias, climb_offset}) {
+  for (const int i : {gyro_bias, forward_bias, left_bias, climb_offset, lidar_scale, lidar_turn}) {
     state.x[i] = x[i];
     state.P.row(i).setZero();
     state.P.col(i).setZero();

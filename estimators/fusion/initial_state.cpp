@@ -23,6 +23,8 @@ void add_unknown_sensors(FilterState& state, const FusionParameters& p) {
   state.P(speed_scale, speed_scale) = scale_variance;
   state.P(speed, speed) += state.x[speed] * state.x[speed] * scale_variance;
   state.P(speed, speed_scale) = state.P(speed_scale, speed) = state.x[speed] * scale_variance;
+  add(lidar_scale, p.lidar_scale_sigma);
+  add(lidar_turn, p.lidar_turn_sigma);
   for (int i = gnss_offset_east; i <= gnss_offset_up; ++i) add(i, 1.0);
   add(lane_offset, 1.0);
 }

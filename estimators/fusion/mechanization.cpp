@@ -160,6 +160,8 @@ StateMatrix process_noise(const StateVector& x, const Step& step, const Inertial
   walk(gyro_bias, p.gyro_bias_sigma, p.gyro_bias_time);
   walk(forward_bias, p.accelerometer_bias_sigma, p.accelerometer_bias_time);
   walk(left_bias, p.accelerometer_bias_sigma, p.accelerometer_bias_time);
+  walk(lidar_scale, p.lidar_scale_sigma, p.lidar_error_time);
+  walk(lidar_turn, p.lidar_turn_sigma, p.lidar_error_time);
   Q(speed_scale, speed_scale) += dt * squared(p.speed_scale_walk);
   Q(chain_drift, chain_drift) += squared(p.chain_drift) * std::abs(x[speed]) * dt;
   // First-order Gauss-Markov about its mean.

@@ -157,13 +157,25 @@ void turn_round(FilterState& state) {
   }
 }
 
-// A disparity is biased, and with it the length of a visual motion; a range is not.
-bool has_scale(const RelativeMotion& motion) {
-  return motion.source == OdometrySource::visual;
+// Ranges have another scale than disparities, and no wheel has part in it.
+bool by_ranges(const RelativeMotion& motion) {
+  return motion.source != OdometrySource::visual;
 }
 
-double gain_of(const FilterState& state, const RelativeMotion& motion) {
-  return has_scale(motion) ? 1.0 : 1.0 / (1.0 + state.x[index::speed_scale]);
+// How long a motion is against the distance, and what that changes by with the states.
+struct Gain {
+  double value;
+  StateVector by_state = StateVector::Zero();
+};
+
+Gain gain_of(const FilterState& state, const RelativeMotion& motion) {
+  using namespace index;
+  if (!by_ranges(motion)) return {1.0};
+  const double to_ground = 1.0 / (1.0 + state.x[speed_scale]);
+  Gain gain{to_ground * (1.0 + state.x[lidar_scale])};
+  gain.by_state[speed_scale] = -to_ground * gain.value;
+  gain.by_state[lidar_scale] = to_ground;
+  return gain;
 }
 
 // Corrects after having doubted the prediction; where that does not explain the motion either, the
@@ -205,14 +217,11 @@ Innovation<1> distance_innovation(const FilterState& state, const RelativeMotion
                                   const FusionParameters& parameters) {
   const Arc travelled = arc(motion);
   const double floor = parameters.min_speed_sigma * to_seconds(motion.stamp - motion.from);
-  const double gain = gain_of(state, motion);
+  const Gain gain = gain_of(state, motion);
   Innovation<1> innovation;
-  innovation.residual << travelled.displacement.x() - gain * state.x[index::distance];
-  innovation.H.setZero();
-  innovation.H[index::distance] = gain;
-  if (!has_scale(motion)) {
-    innovation.H[index::speed_scale] = -gain * gain * state.x[index::distance];
-  }
+  innovation.residual << travelled.displacement.x() - gain.value * state.x[index::distance];
+  innovation.H = state.x[index::distance] * gain.by_state.transpose();
+  innovation.H[index::distance] = gain.value;
   innovation.R << travelled.covariance(0, 0) + floor * floor;
   return innovation;
 }
@@ -221,16 +230,15 @@ Innovation<1> climb_innovation(const FilterState& state, const RelativeMotion& m
                                const FusionParameters& parameters) {
   const Arc travelled = arc(motion);
   const double distance = state.x[index::distance];
-  const double gain = gain_of(state, motion);
+  const Gain gain = gain_of(state, motion);
   const double offset = state.x[index::climb_offset];
   const double heave = parameters.climb_noise * distance;
   const double floor = parameters.min_speed_sigma * to_seconds(motion.stamp - motion.from);
   Innovation<1> innovation;
-  innovation.residual << travelled.displacement.z() - gain * distance * offset;
-  innovation.H.setZero();
-  innovation.H[index::climb_offset] = gain * distance;
-  innovation.H[index::distance] = gain * offset;
-  if (!has_scale(motion)) innovation.H[index::speed_scale] = -gain * gain * distance * offset;
+  innovation.residual << travelled.displacement.z() - gain.value * distance * offset;
+  innovation.H = distance * offset * gain.by_state.transpose();
+  innovation.H[index::climb_offset] = gain.value * distance;
+  innovation.H[index::distance] = gain.value * offset;
   innovation.R << travelled.covariance(2, 2) + heave * heave + floor * floor;
   return innovation;
 }
@@ -249,6 +257,11 @@ Innovation<3> rotation_innovation(const FilterState& state, const RelativeMotion
   innovation.H.setZero();
   innovation.H.middleCols<3>(index::azimuth) = R_clone_enu * attitude_rate_axes(now);
   innovation.H.middleCols<3>(index::clone_azimuth) = -R_clone_enu * attitude_rate_axes(clone);
+  if (by_ranges(motion)) {
+    const double way = arc(motion).displacement.x();
+    innovation.residual.z() -= way * state.x[index::lidar_turn];
+    innovation.H(2, index::lidar_turn) = way;
+  }
   innovation.R = motion.covariance.bottomRightCorner<3, 3>() + floor * floor * Matrix3d::Identity();
   return innovation;
 }

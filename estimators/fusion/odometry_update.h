@@ -19,9 +19,9 @@ struct Arc {
 };
 Arc arc(const RelativeMotion& motion);
 
-// z = forward displacement; h = distance as the visual odometry sees it, of a LiDAR's motion
-// without its scale. Exact for any speed profile, as the filter integrates its own speed over the
-// same interval.
+// z = forward displacement; h = distance as the visual odometry sees it, of a LiDAR's motion with
+// the LiDAR's scale in place of that. Exact for any speed profile, as the filter integrates its own
+// speed over the same interval.
 Innovation<1> distance_innovation(const FilterState& state, const RelativeMotion& motion,
                                   const FusionParameters& parameters);
 
@@ -29,8 +29,8 @@ Innovation<1> distance_innovation(const FilterState& state, const RelativeMotion
 Innovation<1> climb_innovation(const FilterState& state, const RelativeMotion& motion,
                                const FusionParameters& parameters);
 
-// z = rotation; h = R(clone)^T R(now); the residual is a rotation vector in the body frame at
-// `from`, where the odometry's covariance lives too.
+// z = rotation; h = R(clone)^T R(now), a LiDAR's turned further by its error; the residual is a
+// rotation vector in the body frame at `from`, where the odometry's covariance lives too.
 Innovation<3> rotation_innovation(const FilterState& state, const RelativeMotion& motion,
                                   const FusionParameters& parameters);
 

@@ -88,6 +88,9 @@ void fields(Parameters& p, F&& f) {
   f("lane_lasting", p.lane_lasting);
   f("speed_scale_sigma", p.speed_scale_sigma);
   f("speed_scale_walk", p.speed_scale_walk);
+  f("lidar_scale_sigma", p.lidar_scale_sigma);
+  f("lidar_turn_sigma", p.lidar_turn_sigma);
+  f("lidar_error_time", p.lidar_error_time);
   f("min_wheel_sigma", p.min_wheel_sigma);
   f("still_force", p.still_force);
   f("still_rate", p.still_rate);

@@ -39,6 +39,8 @@ inline fusion::StateVector busy_state() {
   x[left_bias] = -0.03;
   x[climb_offset] = 0.012;
   x[speed_scale] = -0.008;
+  x[lidar_scale] = 0.003;
+  x[lidar_turn] = -4e-5;
   x[gnss_offset_east] = 0.4;
   x[gnss_offset_north] = -1.1;
   x[gnss_offset_up] = 0.7;

@@ -176,6 +176,19 @@ TEST(Covariance, StaysSymmetricAndPositiveOverHalfAnHour) {
   }
 }
 
+// Squared error of place and azimuth against their covariance; 3 on average where that is right.
+double normalized_error(const NavState& nav, const SyntheticDrive& drive, double t) {
+  Eigen::Vector3d error;
+  error << (nav.position_enu - drive.pose(t).translation()).head<2>(),
+      wrap_angle(nav.attitude.azimuth - drive.azimuth(t));
+  Eigen::Matrix3d C;
+  const int picked[] = {0, 1, 6};
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) C(i, j) = nav.covariance(picked[i], picked[j]);
+  }
+  return error.dot(C.inverse() * error);
+}
+
 // Position and azimuth errors after 20 s, against their covariance, over seeds: start, sensors and
 // the odometry's scale drawn anew each time.
 TEST(Covariance, IsHonest) {
@@ -202,20 +215,61 @@ TEST(Covariance, IsHonest) {
     const NavState last =
         states_after_odometry(filter, as_available(drive.imu(100.0, noise), odometry, fix)).back();
 
-    Eigen::Vector3d error;
-    error << (last.position_enu - drive.pose(20.0).translation()).head<2>(),
-        wrap_angle(last.attitude.azimuth - drive.azimuth(20.0));
-    Eigen::Matrix3d C;
-    const int picked[] = {0, 1, 6};
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) C(i, j) = last.covariance(picked[i], picked[j]);
-    }
-    nees += error.dot(C.inverse() * error) / runs;
+    nees += normalized_error(last, drive, 20.0) / runs;
   }
   // 3 on average if all is as modelled; the model also expects side slip and a skew course, which
   // this drive does not have: 2.1.
   EXPECT_LT(nees, 3.0);
   EXPECT_GT(nees, 1.0);
+}
+
+// A LiDAR's noise is small, and what it errs by all the time is most of its error after a minute: a
+// filter that knows nothing of it is far too sure of itself.
+TEST(Covariance, IsHonestOfALidarThatErrsAllTheTime) {
+  const SyntheticDrive drive({}, 60.0, test_origin());
+  FusionParameters usual;
+  usual.slip_sigma = 1e-4;  // there is none here
+  const auto mean_error = [&](const FusionParameters& p) {
+    double nees = 0.0;
+    constexpr unsigned runs = 20;
+    for (unsigned seed = 0; seed < runs; ++seed) {
+      std::mt19937 random(seed);
+      std::normal_distribution<double> normal;
+      SensorNoise noise = usual_noise();
+      noise.seed = 200 + seed;
+      noise.gyro_bias = p.gyro_turn_on_sigma * normal(random);
+      noise.odometry_speed_sigma = 0.02;
+      noise.odometry_rotation_sigma = radians(0.01);
+      std::vector<RelativeMotion> odometry = drive.odometry(10.0, noise);
+      const double scale = 1.0 + usual.lidar_scale_sigma * normal(random);
+      const double turn = usual.lidar_turn_sigma * normal(random);
+      for (RelativeMotion& m : odometry) {
+        m.source = OdometrySource::lidar;
+        m.rotation =
+            Eigen::AngleAxisd(turn * m.translation.x(), Eigen::Vector3d::UnitZ()) * m.rotation;
+        m.translation *= scale;
+      }
+      KnownStart start;
+      start.stamp = SyntheticDrive::at(0.0);
+      start.position = test_origin();
+      start.attitude = {drive.azimuth(0.0) + start.azimuth_sigma * normal(random), drive.pitch(0.0),
+                        drive.roll(0.0)};
+      start.speed = drive.speed(0.0);
+      ReducedImuFilter filter(p, test_origin());
+      filter.start(start);
+      const auto all = as_available(drive.imu(100.0, noise), odometry, {});
+      nees += normalized_error(states_after_odometry(filter, all).back(), drive, 60.0) / runs;
+    }
+    return nees;
+  };
+  const double honest = mean_error(usual);
+  EXPECT_LT(honest, 4.0);  // 3 if all is as modelled
+  EXPECT_GT(honest, 1.0);
+  FusionParameters knows_nothing = usual;
+  knows_nothing.lidar_scale_sigma = knows_nothing.lidar_turn_sigma = 0.0;
+  const double blind = mean_error(knows_nothing);
+  std::printf("normalized error: %.1f, of a filter that knows nothing of it %.1f\n", honest, blind);
+  EXPECT_GT(blind, 2.0 * 3.0);
 }
 
 TEST(Output, IsWrappedAndContinuousThroughSouth) {

@@ -82,6 +82,8 @@ TEST(OdometryJacobians, OfALidarsMotionAgreeWithNumericalDerivatives) {
       state, [&](const FilterState& s) { return distance_innovation(s, m, p); }, 1e-7);
   expect_jacobian<1>(
       state, [&](const FilterState& s) { return climb_innovation(s, m, p); }, 1e-7);
+  expect_jacobian<3>(
+      state, [&](const FilterState& s) { return rotation_innovation(s, m, p); }, 1e-8);
 }
 
 GnssFix busy_fix(const LocalFrame& frame) {
