@@ -109,6 +109,7 @@ void visit(Config& config, Table&& table, Field&& field) {
     field("markov_position", p.markov_position);
     field("markov_time", p.markov_time);
     field("white_velocity", p.white_velocity);
+    field("errors", p.errors);
     field("seed", p.seed);
     field("outage", config.gnss_outage);
   }
@@ -118,11 +119,15 @@ void visit(Config& config, Table&& table, Field&& field) {
     auto& p = config.wheel;
     field("scale_error", p.scale_error);
     field("white_speed", p.white_speed);
+    field("slip", p.slip);
+    field("ice_share", p.ice_share);
+    field("errors", p.errors);
     field("seed", p.seed);
   }
 
   table("imu");
   field("noise", config.imu_noise);
+  field("errors", config.imu_errors);
   field("seed", config.imu_seed);
 
   table("stereo");

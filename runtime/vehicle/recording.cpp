@@ -195,7 +195,10 @@ Recording open_any(const std::filesystem::path& path, const VehicleConfig& confi
 
 std::optional<sensors::ImuNoiseParameters> noise_of(const VehicleConfig& config) {
   if (config.imu_noise == "recorded") return std::nullopt;
-  if (config.imu_noise == "mems") return sensors::mems_noise(config.imu_seed);
+  if (config.imu_noise == "mems") {
+    const auto noise = sensors::mems_noise(config.imu_seed);
+    return config.imu_errors == sensors::ErrorModel::drawn ? sensors::drawn(noise) : noise;
+  }
   throw std::runtime_error("no inertial noise is called '" + config.imu_noise +
                            "'; there are recorded, mems");
 }

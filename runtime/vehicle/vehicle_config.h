@@ -23,6 +23,7 @@
 #include "runtime/vehicle/live_config.h"
 #include "runtime/vehicle/preview_parameters.h"
 #include "runtime/vehicle/scheduling_config.h"
+#include "sensors/replay/error_model.h"
 #include "sensors/replay/kitti_drive.h"
 #include "sensors/replay/pose_odometry.h"
 
@@ -84,6 +85,7 @@ struct VehicleConfig {
   std::string gnss_outage;  // gnss_outage.h; empty: none
   sensors::WheelOdometerParameters wheel;
   std::string imu_noise = "recorded";  // or "mems": noise of such a unit is added
+  sensors::ErrorModel imu_errors = sensors::ErrorModel::given;
   std::int64_t imu_seed = 1;
   stereo::StereoParameters stereo;
   lidar::LidarParameters lidar;

@@ -12,6 +12,7 @@ namespace maploop::sensors {
 namespace {
 
 constexpr std::uint64_t own_stream = 0x696d'7500'0000'0000;
+constexpr std::uint64_t imu_sizes_stream = 0x696d'7573'697a'6500;
 
 class NoisyImu final : public Source<ImuSample> {
  public:
@@ -63,6 +64,16 @@ ImuNoiseParameters mems_noise(std::int64_t seed) {
   p.gyro_scale = 0.002;
   p.accelerometer_turn_on = 20.0 * milli_g;
   p.seed = seed;
+  return p;
+}
+
+ImuNoiseParameters drawn(const ImuNoiseParameters& parameters) {
+  ImuNoiseParameters p = parameters;
+  NormalGenerator draw(static_cast<std::uint64_t>(p.seed) ^ imu_sizes_stream, Time{});
+  for (double* size : {&p.gyro_turn_on, &p.gyro_instability, &p.gyro_white, &p.gyro_scale,
+                       &p.accelerometer_turn_on})
+    *size *= draw.log_uniform(0.5, 2.0);
+  p.instability_time = draw.log_uniform(50.0, 1000.0);
   return p;
 }
 

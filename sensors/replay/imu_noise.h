@@ -23,6 +23,10 @@ struct ImuNoiseParameters {
 // 0.2 % scale; accelerometers 20 mg turn-on.
 ImuNoiseParameters mems_noise(std::int64_t seed);
 
+// The same with each size times 0.5 to 2, which units of one kind differ by, and an
+// instability_time of 50 to 1000 s, as the seed draws them, each ratio as likely.
+ImuNoiseParameters drawn(const ImuNoiseParameters& parameters);
+
 // The same samples with noise added; it depends on the seed and the stamps alone.
 std::unique_ptr<Source<ImuSample>> with_noise(std::unique_ptr<Source<ImuSample>> source,
                                               const ImuNoiseParameters& parameters);

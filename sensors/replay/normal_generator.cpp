@@ -35,4 +35,12 @@ double NormalGenerator::next() {
   return radius * std::cos(angle);
 }
 
+double NormalGenerator::uniform(double from, double to) {
+  return from + (to - from) * unit_interval(uniform_());
+}
+
+double NormalGenerator::log_uniform(double from, double to) {
+  return from * std::pow(to / from, uniform(0.0, 1.0));
+}
+
 }  // namespace maploop::sensors

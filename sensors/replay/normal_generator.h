@@ -1,4 +1,4 @@
-// Normally distributed numbers that are the same with every standard library.
+// Random numbers that are the same with every standard library.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +16,9 @@ class NormalGenerator {
  public:
   NormalGenerator(std::uint64_t seed, Time stamp);
   double next();
+  // In [from, to), each number as likely; and each ratio, from > 0.
+  double uniform(double from, double to);
+  double log_uniform(double from, double to);
 
  private:
   std::mt19937_64 uniform_;

@@ -84,7 +84,8 @@ class WheelSource final : public OxtsSource<WheelSpeed> {
 
  private:
   bool fill(const OxtsRow& row, Time stamp, WheelSpeed& sample) override {
-    odometer_.measure(stamp - delay_, row.forward_speed, sample);
+    odometer_.measure(stamp - delay_, row.forward_speed, row.specific_force_forward, row.position,
+                      sample);
     return true;
   }
 

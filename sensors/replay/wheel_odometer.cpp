@@ -1,6 +1,8 @@
 #include "sensors/replay/wheel_odometer.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 
 #include "sensors/replay/normal_generator.h"
@@ -10,23 +12,64 @@ namespace {
 
 // Its numbers are not those of the GNSS aid with the same seed and stamp.
 constexpr std::uint64_t own_stream = 0x7768'6565'6c00'0000;
+constexpr std::uint64_t tyres_stream = 0x7479'7265'7300'0000;
+constexpr std::uint64_t ice_stream = 0x6963'6500'0000'0000;
+
+constexpr double ice_square = 50.0;  // m, a side
+constexpr double ice_factor = 10.0;  // its friction is 0.1, that of asphalt 1
+constexpr double most_slip = 0.5;    // 1; a wheel that locks or spins is let go
 
 }  // namespace
 
-WheelOdometer::WheelOdometer(const WheelOdometerParameters& parameters) : parameters_(parameters) {
+WheelOdometerParameters errors_of(const WheelOdometerParameters& parameters) {
+  WheelOdometerParameters p = parameters;
+  if (p.errors == ErrorModel::given) return p;
+  NormalGenerator draw(static_cast<std::uint64_t>(p.seed) ^ tyres_stream, Time{});
+  p.scale_error = draw.uniform(-0.02, 0.02);
+  p.slip = draw.uniform(0.002, 0.01);
+  p.ice_share = draw.uniform(0.0, 0.2);
+  return p;
+}
+
+WheelOdometer::WheelOdometer(const WheelOdometerParameters& parameters)
+    : parameters_(errors_of(parameters)) {
   if (!(std::abs(parameters.scale_error) <= 0.5)) {
     throw std::invalid_argument("wheel odometer: scale_error must be within -0.5 to 0.5");
   }
   if (!(parameters.white_speed >= 0.0 && std::isfinite(parameters.white_speed))) {
     throw std::invalid_argument("wheel odometer: white_speed must be 0 or more");
   }
+  if (!(parameters.slip >= 0.0 && parameters.slip <= 0.1)) {
+    throw std::invalid_argument("wheel odometer: slip must be within 0 to 0.1 s^2/m");
+  }
+  if (!(parameters.ice_share >= 0.0 && parameters.ice_share <= 1.0)) {
+    throw std::invalid_argument("wheel odometer: ice_share must be within 0 to 1");
+  }
 }
 
-void WheelOdometer::measure(Time stamp, double speed, WheelSpeed& sample) const {
+// Each square of a grid of latitude and longitude has ice or not.
+bool WheelOdometer::on_ice(const Geodetic& position) const {
+  if (parameters_.ice_share <= 0.0) return false;
+  constexpr double side = ice_square / 6.378e6;  // rad
+  const double row = std::floor(position.latitude / side);
+  const double column = std::floor(position.longitude * std::cos(row * side) / side);
+  constexpr std::int64_t rows = 10'000'000;  // more than there are
+  const std::int64_t square =
+      static_cast<std::int64_t>(column) * rows + static_cast<std::int64_t>(row);
+  NormalGenerator draw(static_cast<std::uint64_t>(parameters_.seed) ^ ice_stream,
+                       from_nanoseconds(square));
+  return draw.uniform(0.0, 1.0) < parameters_.ice_share;
+}
+
+void WheelOdometer::measure(Time stamp, double speed, double force, const Geodetic& position,
+                            WheelSpeed& sample) const {
   NormalGenerator generator(static_cast<std::uint64_t>(parameters_.seed) ^ own_stream, stamp);
   sample.stamp = stamp;
-  sample.speed =
-      (1.0 + parameters_.scale_error) * speed + parameters_.white_speed * generator.next();
+  double slip = parameters_.slip * force;
+  if (slip != 0.0 && on_ice(position)) slip *= ice_factor;
+  slip = std::clamp(slip, -most_slip, most_slip);
+  sample.speed = (1.0 + parameters_.scale_error) * (1.0 + slip) * speed +
+                 parameters_.white_speed * generator.next();
   sample.sigma = parameters_.white_speed;
 }
 

@@ -128,6 +128,60 @@ TEST(GnssAid, StatesItsCovariances) {
   EXPECT_LT((fix.velocity_covariance - 0.01 * Eigen::Matrix3d::Identity()).norm(), 1e-12);
 }
 
+TEST(GnssAid, DrawnSizesAreOfTheirRangesAndFixesSayTheGivenOnes) {
+  constexpr int seeds = 1000;
+  double times = 0.0;
+  for (int seed = 0; seed < seeds; ++seed) {
+    GnssAidParameters parameters;
+    parameters.errors = ErrorModel::drawn;
+    parameters.seed = seed;
+    const GnssErrors drawn = errors_of(parameters);
+    EXPECT_GE(drawn.white_position, 0.3);
+    EXPECT_LE(drawn.white_position, 1.5);
+    EXPECT_GE(drawn.markov_position, 0.7 * 1.5);
+    EXPECT_LE(drawn.markov_position, 2.0 * 1.5);
+    EXPECT_GE(drawn.markov_time, 5.0);
+    EXPECT_LE(drawn.markov_time, 600.0);
+    EXPECT_GE(drawn.white_velocity, 0.05);
+    EXPECT_LE(drawn.white_velocity, 0.2);
+    EXPECT_GE(drawn.step_share, 0.0);
+    EXPECT_LE(drawn.step_share, 0.05);
+    times += std::log(drawn.markov_time) / seeds;
+    const auto fixes = run(parameters, 2), again = run(parameters, 2);
+    EXPECT_EQ(fixes[1].position.latitude, again[1].position.latitude);
+    EXPECT_LT((fixes[1].position_covariance - 3.25 * Eigen::Matrix3d::Identity()).norm(), 1e-12);
+    EXPECT_LT((fixes[1].velocity_covariance - 0.01 * Eigen::Matrix3d::Identity()).norm(), 1e-12);
+  }
+  EXPECT_NEAR(times, 0.5 * (std::log(5.0) + std::log(600.0)), 0.15);
+}
+
+// Steps alone: all else without noise.
+TEST(GnssAid, DrawnStepsAreOfTheirShareAndLastForTenSeconds) {
+  double inside = 0.0, expected = 0.0, steps = 0.0, squares = 0.0;
+  constexpr int seeds = 200, fixes = 2000;
+  for (int seed = 0; seed < seeds; ++seed) {
+    GnssAidParameters parameters;
+    parameters.errors = ErrorModel::drawn;
+    parameters.white_position = parameters.markov_position = 0.0;
+    parameters.seed = seed;
+    expected += fixes * errors_of(parameters).step_share;
+    double before = 0.0;
+    for (const GnssFix& fix : run(parameters, fixes)) {
+      const Eigen::Vector3d error = error_enu(fix);
+      const bool in_step = error.norm() > 1e-6;
+      if (in_step && before != error.x()) {
+        ++steps;
+        squares += error.squaredNorm() / 3.0;
+      }
+      before = in_step ? error.x() : 0.0;
+      inside += in_step ? 1.0 : 0.0;
+    }
+  }
+  EXPECT_NEAR(inside / expected, 1.0, 0.1);
+  EXPECT_NEAR(inside / steps, 10.0, 1.5);
+  EXPECT_NEAR(std::sqrt(squares / steps), 10.0, 0.5);
+}
+
 TEST(GnssAid, OneSeedGivesTheSameBitsAndAnotherSeedOthers) {
   GnssAidParameters other;
   other.seed = 2;

@@ -216,6 +216,78 @@ TEST(WheelOdometer, HasTheScaleErrorAndTheNoiseItIsAskedFor) {
   EXPECT_THROW(four.wheel({.white_speed = -1.0}), std::invalid_argument);
 }
 
+constexpr double earth = 6.378e6;  // m, about
+
+WheelSpeed wheels(const WheelOdometer& odometer, double force, double east = 0.0) {
+  WheelSpeed sample;
+  const Geodetic place{0.85, 0.14 + east / (earth * std::cos(0.85)), 100.0};
+  odometer.measure(parse_time("2011-09-26 13:00:00"), 10.0, force, place, sample);
+  return sample;
+}
+
+TEST(WheelOdometer, SlipsWithTheForceThatItsTyresCarry) {
+  const WheelOdometer odometer({.white_speed = 0.0, .slip = 0.01});
+  EXPECT_EQ(wheels(odometer, 0.0).speed, 10.0);
+  EXPECT_NEAR(wheels(odometer, 2.0).speed, 10.2, 1e-12);
+  EXPECT_NEAR(wheels(odometer, -3.0).speed, 9.7, 1e-12) << "wheels that brake turn too slowly";
+  EXPECT_NEAR(wheels(odometer, -500.0).speed, 5.0, 1e-12) << "a wheel that locks is let go";
+}
+
+TEST(WheelOdometer, SlipsTenfoldOnItsShareOfIce) {
+  const WheelOdometer odometer({.white_speed = 0.0, .slip = 0.002, .ice_share = 0.2});
+  double icy = 0.0;
+  constexpr int squares = 4000;
+  for (int square = 0; square < squares; ++square) {
+    const double speed = wheels(odometer, 2.0, 50.0 * square).speed;
+    EXPECT_TRUE(std::fabs(speed - 10.04) < 1e-9 || std::fabs(speed - 10.4) < 1e-9) << speed;
+    if (speed > 10.2) icy += 1.0 / squares;
+    // Ice is where it was.
+    EXPECT_EQ(speed, wheels(odometer, 2.0, 50.0 * square).speed);
+  }
+  EXPECT_NEAR(icy, 0.2, 0.03);
+  EXPECT_THROW(WheelOdometer({.slip = 1.0}), std::invalid_argument);
+  EXPECT_THROW(WheelOdometer({.ice_share = -0.1}), std::invalid_argument);
+}
+
+TEST(WheelOdometer, DrawsItsErrorsFromTheirRanges) {
+  double scale = 0.0, slip = 0.0, ice = 0.0;
+  constexpr int seeds = 1000;
+  for (int seed = 0; seed < seeds; ++seed) {
+    const auto p = errors_of(WheelOdometerParameters{.errors = ErrorModel::drawn, .seed = seed});
+    EXPECT_LE(std::fabs(p.scale_error), 0.02);
+    EXPECT_GE(p.slip, 0.002);
+    EXPECT_LE(p.slip, 0.01);
+    scale += p.scale_error / seeds;
+    slip += p.slip / seeds;
+    ice += p.ice_share / seeds;
+  }
+  EXPECT_NEAR(scale, 0.0, 0.002);
+  EXPECT_NEAR(slip, 0.006, 0.0005);
+  EXPECT_NEAR(ice, 0.1, 0.01);
+  const WheelOdometer drawn({.white_speed = 0.0, .errors = ErrorModel::drawn, .seed = 3});
+  const WheelOdometer again({.white_speed = 0.0, .errors = ErrorModel::drawn, .seed = 3});
+  EXPECT_NE(wheels(drawn, 0.0).speed, 10.0);
+  EXPECT_EQ(wheels(drawn, 1.0).speed, wheels(again, 1.0).speed);
+}
+
+TEST(ImuNoise, DrawnSizesAreHalfToTwiceTheGivenOnes) {
+  double time = 0.0;
+  constexpr int seeds = 500;
+  for (int seed = 0; seed < seeds; ++seed) {
+    const ImuNoiseParameters given = mems_noise(seed), p = drawn(given);
+    for (const auto size :
+         {&ImuNoiseParameters::gyro_turn_on, &ImuNoiseParameters::gyro_instability,
+          &ImuNoiseParameters::gyro_white, &ImuNoiseParameters::gyro_scale,
+          &ImuNoiseParameters::accelerometer_turn_on}) {
+      EXPECT_GE(p.*size, 0.5 * given.*size);
+      EXPECT_LE(p.*size, 2.0 * given.*size);
+    }
+    EXPECT_EQ(drawn(given).gyro_white, p.gyro_white);
+    time += std::log(p.instability_time) / seeds;
+  }
+  EXPECT_NEAR(time, 0.5 * (std::log(50.0) + std::log(1000.0)), 0.15);
+}
+
 TEST(ImuNoise, OfAMemsUnitIsOfItsGradeAndTheSameForASeed) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const OdometrySequence four(sequence("04"), {});
