@@ -153,6 +153,13 @@ void add_simulate(CLI::App& app, Command& command) {
          "hdl-64e or vlp-16")
       ->check(CLI::IsMember({"hdl-64e", "vlp-16"}))
       ->default_str("hdl-64e");
+  sub->add_option_function<std::string>(
+         "--scanner-clock",
+         [options](const std::string& name) { options->drive.free_scanner = name == "free"; },
+         "free: the scanner turns beside the cameras with a phase and a drift; camera: each image "
+         "is taken in the middle of a turn, as on KITTI's car")
+      ->check(CLI::IsMember({"free", "camera"}))
+      ->default_str("free");
   sub->add_flag("--compact", options->drive.compact,
                 "Scans as the scanner's ranges, images of 86 grey levels: 5 MB a second");
   sub->add_option("--gnss-rate", options->drive.gnss_rate, "Epochs of the GNSS receiver; Hz")

@@ -53,9 +53,7 @@ class Sampling {
         fy_(static_cast<float>(camera.fy)) {
     shift_.resize(static_cast<std::size_t>(camera.width) + packet);
     for (std::size_t x = 0; x < shift_.size(); ++x)
-      shift_[x] =
-          view.shift *
-          (1.0F + std::cos(7.0F * static_cast<float>(x) / static_cast<float>(camera.width)));
+      shift_[x] = view.shift.at(static_cast<float>(x), static_cast<float>(camera.width));
   }
 
   // A white surface in the sun is 1.

@@ -7,6 +7,7 @@
 #include "msgs/calibration.h"
 #include "msgs/image.h"
 #include "tools/simulate/appearance.h"
+#include "tools/simulate/calibration_errors.h"
 #include "tools/simulate/ray_scene.h"
 
 namespace maploop::simulate {
@@ -24,9 +25,9 @@ struct CameraParameters {
 // Where one camera of the pair is during an exposure, and what its calibration does not know.
 struct CameraView {
   std::array<Eigen::Isometry3d, 2> T_enu_cam;  // at begin and end of the exposure
-  // px, how much further left than by the calibration things are in the image: what rectification
-  // leaves. It varies with the column, up to twice as much and down to nothing.
-  float shift = 0.0F;
+  // How much further left than by the calibration things are in the image: what rectification
+  // leaves.
+  ColumnShift shift;
 };
 
 // A rectified grey image, `seed` making its noise: a ray through a random place of each pixel at a

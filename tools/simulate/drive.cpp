@@ -32,6 +32,7 @@ Drive::Drive(const SimulationOptions& options, Site site)
       index(streets, 2.5),
       appearance(index),
       car(test_car()),
+      errors(calibration_errors(options.seed)),
       motion(drive_along(streets, site.route, terrain, options.seconds, options.seed)),
       traffic(make_traffic(streets, terrain, motion, car_count, options.seconds, options.seed)) {
   std::vector<Mesh> shapes;
@@ -43,6 +44,13 @@ Drive::Drive(const SimulationOptions& options, Site site)
                 std::move(shapes));
   for (double t = first_frame; t + 0.5 * frame_interval <= options.seconds; t += frame_interval)
     times.push_back(t);
+  double lead = 0.5 * frame_interval;  // of a turn's begin before its image
+  if (options.free_scanner) {
+    lead = frame_interval - errors.scanner_phase;
+    turn_time = frame_interval * (1.0 + errors.scanner_drift);
+  }
+  for (std::size_t i = 0; i < times.size(); ++i)
+    turns.push_back(first_frame - lead + static_cast<double>(i) * turn_time);
 }
 
 }  // namespace maploop::simulate

@@ -7,6 +7,7 @@
 #include "msgs/calibration.h"
 #include "msgs/time.h"
 #include "tools/simulate/appearance.h"
+#include "tools/simulate/calibration_errors.h"
 #include "tools/simulate/ray_scene.h"
 #include "tools/simulate/simulation.h"
 #include "tools/simulate/site.h"
@@ -17,7 +18,7 @@
 namespace maploop::simulate {
 
 struct Drive {
-  static constexpr double frame_interval = 0.1;  // s; a turn of the scanner takes as long
+  static constexpr double frame_interval = 0.1;  // s
 
   // Throws as choose_site().
   explicit Drive(const SimulationOptions& options);
@@ -29,10 +30,13 @@ struct Drive {
   StreetIndex index;
   Appearance appearance;
   VehicleCalibration car;
+  CalibrationErrors errors;  // of the car's calibration
   VehicleMotion motion;
   std::vector<VehicleMotion> traffic;
   std::optional<World> world;
-  std::vector<double> times;  // s, of the frames: of the middles of their turns
+  std::vector<double> times;          // s, of the frames: of their images
+  std::vector<double> turns;          // s, begins of the scanner's turns, one a frame
+  double turn_time = frame_interval;  // s
 
  private:
   Drive(const SimulationOptions& options, Site site);

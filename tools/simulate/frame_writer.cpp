@@ -17,7 +17,12 @@
 namespace maploop::simulate {
 namespace {
 
-constexpr float disparity_error = 0.2F;  // px too much, mean; as on KITTI's drive 0013
+LidarParameters lidar_of(Scanner scanner, const CalibrationErrors& errors) {
+  LidarParameters parameters = lidar_parameters(scanner);
+  parameters.range_scale = errors.range_scale;
+  parameters.unit = errors.scanner_unit;
+  return parameters;
+}
 
 }  // namespace
 
@@ -27,16 +32,14 @@ FrameWriter::FrameWriter(const Drive& drive, std::filesystem::path folder,
       folder_(std::move(folder)),
       seed_(options.seed),
       sensors_(options.sensors),
-      lidar_(lidar_parameters(options.scanner)),
+      lidar_(lidar_of(options.scanner, drive.errors)),
       compact_(options.compact),
       scene_(*drive.world) {}
 
 void FrameWriter::write(std::size_t frame) {
-  const double begin = drive_.times[frame] - 0.5 * Drive::frame_interval;
-  scene_.move(bodies(drive_.traffic, begin, begin + Drive::frame_interval));
   const std::uint64_t seed = mix(seed_, 1'000'000 + frame);
   if (sensors_.camera) write_images(frame, seed);
-  if (sensors_.lidar) write_turn(frame, begin, seed);
+  if (sensors_.lidar) write_turn(frame, seed);
 }
 
 void FrameWriter::write_images(std::size_t frame, std::uint64_t seed) {
@@ -44,6 +47,8 @@ void FrameWriter::write_images(std::size_t frame, std::uint64_t seed) {
   const StereoCalibration& camera = drive_.car.stereo;
   const CameraParameters parameters;
   const double half = 0.5 * parameters.exposure_time;
+  scene_.move(
+      bodies(drive_.traffic, t - 0.5 * Drive::frame_interval, t + 0.5 * Drive::frame_interval));
   // What an exposure control leaves.
   const auto brightness = static_cast<float>(1.0 + 0.08 * std::sin(0.35 * t) * std::sin(0.9 * t));
   for (int side = 0; side < 2; ++side) {
@@ -51,7 +56,7 @@ void FrameWriter::write_images(std::size_t frame, std::uint64_t seed) {
         camera.T_body_cam * Eigen::Translation3d(side * camera.baseline, 0.0, 0.0);
     const CameraView view{
         {drive_.motion.pose(t - half) * T_body_cam, drive_.motion.pose(t + half) * T_body_cam},
-        side == 0 ? 0.0F : disparity_error};
+        side == 0 ? ColumnShift{} : -drive_.errors.disparity_lack};
     GreyImage image = take_image(scene_, drive_.appearance, camera, view, 0.5F, brightness,
                                  mix(seed, static_cast<std::uint64_t>(side)), parameters);
     if (compact_)
@@ -64,11 +69,13 @@ void FrameWriter::write_images(std::size_t frame, std::uint64_t seed) {
   }
 }
 
-void FrameWriter::write_turn(std::size_t frame, double begin, std::uint64_t seed) {
+void FrameWriter::write_turn(std::size_t frame, std::uint64_t seed) {
+  const double begin = drive_.turns[frame];
+  scene_.move(bodies(drive_.traffic, begin, begin + drive_.turn_time));
   const sensors::RangeImage turn = take_turn(
       scene_, drive_.appearance,
       [&](double share) {
-        return drive_.motion.pose(begin + share * Drive::frame_interval) * drive_.car.T_body_velo;
+        return drive_.motion.pose(begin + share * drive_.turn_time) * drive_.car.T_body_velo;
       },
       mix(seed, 2), lidar_);
   const std::filesystem::path data = folder_ / "velodyne_points/data";

@@ -19,7 +19,7 @@ class FrameWriter {
 
  private:
   void write_images(std::size_t frame, std::uint64_t seed);
-  void write_turn(std::size_t frame, double begin, std::uint64_t seed);
+  void write_turn(std::size_t frame, std::uint64_t seed);
 
   const Drive& drive_;
   std::filesystem::path folder_;

@@ -69,7 +69,7 @@ Line resampled(const Line& line, std::vector<double>& marks) {
 std::vector<double> wander(std::size_t count, std::uint64_t seed) {
   Random random(seed, 4);
   std::vector<double> offset(count, 0.0);
-  for (int wave = 0; wave < 3; ++wave) {
+  for (int w = 0; w < 3; ++w) {
     const double length = random.uniform(40.0, 120.0), phase = random.uniform(0.0, 6.28);
     for (std::size_t i = 0; i < count; ++i)
       offset[i] +=

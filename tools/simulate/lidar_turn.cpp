@@ -37,9 +37,9 @@ struct LaserErrors {
   float range;                // m
 };
 
-// The same scanner in every turn of every drive.
+// The same in every turn.
 std::array<LaserErrors, most_lasers> scanner_errors(const LidarParameters& p) {
-  Random random(1, 11);
+  Random random(p.unit, 11);
   std::array<LaserErrors, most_lasers> errors{};
   for (LaserErrors& e : errors) {
     e.azimuth = static_cast<double>(p.laser_angle) * random.normal();

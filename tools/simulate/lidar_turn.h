@@ -21,11 +21,12 @@ struct LidarParameters {
   std::size_t firings = 2083;           // a turn, of all lasers
   float reach = 120.0F;                 // m
   float noise = 0.015F;                 // m, 1 sigma along the beam
-  float range_scale = 0.003F;           // 1, too long
+  float range_scale = 0.0F;             // 1, by how much ranges are too long
   float laser_offset = 0.02F;           // m, 1 sigma, what each laser measures wrong all the time
   float laser_angle = 0.0008F;          // rad, 1 sigma, what each points beside its known direction
   float elevation_error = 0.00357792F;  // rad (0.205 deg), how much higher all beams really point
   float lost = 0.02F;                   // share of beams that do not return, at a perfect target
+  std::uint64_t unit = 1;               // another one, other offsets and directions of its lasers
 };
 
 // An HDL-64E's are above; a VLP-16 fires 1800 times a turn, and its beams are where they should be.

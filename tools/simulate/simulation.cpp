@@ -60,20 +60,21 @@ bool write_frames(const Drive& drive, const std::filesystem::path& folder,
 
 void write_frame_stamps(const Drive& drive, const std::filesystem::path& folder,
                         const SimulatedSensors& sensors) {
-  std::vector<Time> begin, middle, end;
-  for (const double t : drive.times) {
-    begin.push_back(drive.start + from_seconds(t - 0.5 * Drive::frame_interval));
-    middle.push_back(drive.start + from_seconds(t));
-    end.push_back(drive.start + from_seconds(t + 0.5 * Drive::frame_interval));
-  }
+  const auto stamps = [&drive](const std::vector<double>& times, double later) {
+    std::vector<Time> result;
+    for (const double t : times) result.push_back(drive.start + from_seconds(t + later));
+    return result;
+  };
   if (sensors.camera) {
-    write_timestamps(folder / "image_00/timestamps.txt", middle);
-    write_timestamps(folder / "image_01/timestamps.txt", middle);
+    write_timestamps(folder / "image_00/timestamps.txt", stamps(drive.times, 0.0));
+    write_timestamps(folder / "image_01/timestamps.txt", stamps(drive.times, 0.0));
   }
   if (!sensors.lidar) return;
-  write_timestamps(folder / "velodyne_points/timestamps.txt", middle);
-  write_timestamps(folder / "velodyne_points/timestamps_start.txt", begin);
-  write_timestamps(folder / "velodyne_points/timestamps_end.txt", end);
+  const auto& turns = drive.turns;
+  const std::filesystem::path scans = folder / "velodyne_points";
+  write_timestamps(scans / "timestamps.txt", stamps(turns, 0.5 * drive.turn_time));
+  write_timestamps(scans / "timestamps_start.txt", stamps(turns, 0.0));
+  write_timestamps(scans / "timestamps_end.txt", stamps(turns, drive.turn_time));
 }
 
 void write_inertial(const Drive& drive, const std::filesystem::path& folder,

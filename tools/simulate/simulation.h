@@ -28,6 +28,9 @@ struct SimulationOptions {
   SimulatedSensors sensors;
   double gnss_rate = 1.0;  // Hz
   Scanner scanner = Scanner::hdl_64e;
+  // Whether nothing keeps the scanner's turns beside the images (calibration_errors.h); else each
+  // image is taken in the middle of a turn, as on KITTI's car.
+  bool free_scanner = true;
   // Scans as ranges instead of points, images of 86 grey levels: 5 MB a second instead of 25.
   bool compact = false;
   // OpenStreetMap file whose roads are driven; empty: a generated town's. The route is the shortest
@@ -45,7 +48,7 @@ using FrameDone = std::function<bool(std::size_t done, std::size_t all)>;
 //                      gnss_one_frequency (gnss/gnss_recording.h)
 //   town_extract       oxts at 100 Hz; names the same drive for a replay
 //   map.osm            the road map, with a mapper's errors (road_map.h)
-//   vehicle.toml       configuration of a replay: map, GNSS antenna
+//   vehicle.toml       configuration of a replay: map, and all that it should know of the car
 //   truth.tum          the left camera, from its first pose
 //   driven_links.csv   the segments of the map that were driven, by frame
 // It is complete or not there: until the end its name has ".partial" after it. Returns whether it

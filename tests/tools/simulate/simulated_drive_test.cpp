@@ -13,6 +13,7 @@
 #include "sensors/replay/kitti_drive.h"
 #include "sensors/replay/velodyne_source.h"
 #include "tests/support/real_data.h"
+#include "tools/simulate/drive.h"
 #include "tools/simulate/simulation.h"
 
 namespace maploop::simulate {
@@ -118,6 +119,21 @@ TEST_F(SimulatedDrive, PackedScansHoldTheSamePointsInATenthOfTheBytes) {
     return sum;
   };
   EXPECT_LT(10 * size("compact"), size("plain"));
+}
+
+TEST_F(SimulatedDrive, AFreeScannerTurnsBesideTheCameras) {
+  SimulationOptions options = a_second(1);
+  const Drive free(options);
+  options.free_scanner = false;
+  const Drive triggered(options);
+  const CalibrationErrors errors = calibration_errors(options.seed);
+  ASSERT_EQ(free.turns.size(), free.times.size());
+  EXPECT_NEAR(free.turns.front(), free.times.front() - 0.1 + errors.scanner_phase, 1e-9);
+  EXPECT_NEAR(free.turn_time, 0.1 * (1.0 + errors.scanner_drift), 1e-9);
+  for (std::size_t i = 1; i < free.turns.size(); ++i)
+    EXPECT_NEAR(free.turns[i] - free.turns[i - 1], free.turn_time, 1e-9);
+  for (std::size_t i = 0; i < triggered.turns.size(); ++i)
+    EXPECT_NEAR(triggered.turns[i], triggered.times[i] - 0.05, 1e-9);
 }
 
 TEST_F(SimulatedDrive, BrokenOffNothingIsLeft) {
