@@ -95,6 +95,7 @@ void write_configuration(const std::filesystem::path& file, const SimulationOpti
   const int length = std::snprintf(
       text, sizeof text,
       "# The simulated car.\n\n"
+      "imu_grade = \"%s\"\n\n"
       "[map]\nfile = \"map.osm\"\n\n"
       "[live]\nvelodyne_model = \"%s\"\n\n"
       "[lidar]\nelevation_correction = %.8f  # rad, that all beams point higher than they say\n\n"
@@ -103,9 +104,11 @@ void write_configuration(const std::filesystem::path& file, const SimulationOpti
       "climb_offset = 0.0  # rad, and level, ...\n"
       "climb_offset_sigma = 0.0087  # rad, ... but on springs\n"
       "gnss_lever_forward = %.2f  # m, the GNSS antenna from the inertial unit\n"
-      "gnss_lever_left = %.2f\ngnss_lever_up = %.2f\n",
-      name, static_cast<double>(lidar_parameters(options.scanner).elevation_error), lever.x(),
-      lever.y(), lever.z());
+      "gnss_lever_left = %.2f\ngnss_lever_up = %.2f\n\n"
+      "[wheel]\nerrors = \"drawn\"  # its tyres are worn and slip\nseed = %d\n",
+      options.imu == ImuGrade::mems ? "mems" : "tactical", name,
+      static_cast<double>(lidar_parameters(options.scanner).elevation_error), lever.x(), lever.y(),
+      lever.z(), static_cast<int>(options.seed % 1'000'000'000));
   write_file(file, {text, static_cast<std::size_t>(length)});
 }
 

@@ -18,6 +18,7 @@ TEST(SimulatedReplay, ObservationsTakeThePlaceOfTheReferencesGnss) {
   SimulationOptions options;
   options.seconds = 5.0;
   options.sensors = {false, false, true, true};
+  options.imu = ImuGrade::mems;
   const fs::path drive = folder.path() / "drive", sync = drive / "town_sync";
   ASSERT_TRUE(simulate_drive(drive, options));
   // The stamps of images are enough to open it.
@@ -28,8 +29,11 @@ TEST(SimulatedReplay, ObservationsTakeThePlaceOfTheReferencesGnss) {
   vehicle::VehicleConfig config = vehicle::load_vehicle_config(drive / "vehicle.toml");
   EXPECT_EQ(config.fusion.gnss_lever_up, 0.75);
   EXPECT_TRUE(fs::exists(config.map.file));
+  EXPECT_EQ(config.imu_grade, "mems");
   EXPECT_EQ(config.live.velodyne_model, "HDL-64E");
   EXPECT_NEAR(config.lidar.elevation_correction, radians(0.205), 1e-8);
+  EXPECT_EQ(config.wheel.errors, sensors::ErrorModel::drawn);
+  EXPECT_EQ(config.wheel.seed, 1);
   // All that a recording can know of its car is said.
   for (const char* key : {"fusion.rear_axle_distance", "fusion.climb_offset",
                           "fusion.climb_offset_sigma", "lidar.elevation_correction"}) {
