@@ -396,8 +396,10 @@ void ReducedImuFilter::apply_sample(FilterState& state, const ImuSample& sample,
   const double interval = to_seconds(sample.stamp - before.stamp);
   if (interval <= 0.0) return;
   if (const auto roll = roll_innovation(state, sample, interval, earth_, parameters_)) {
-    // A body leans in turns: what that does to the force must not pass for speed or for the gyro's.
-    joseph_update(state.x, state.P, *roll, {index::speed, index::speed_scale, index::gyro_bias});
+    // A body leans in turns: what that does to the force must not pass for speed or for turning.
+    joseph_update(state.x, state.P, *roll,
+                  {index::speed, index::speed_scale, index::gyro_bias, index::lidar_scale,
+                   index::lidar_turn});
   }
   if (!stands(state, sample, interval, parameters_) || !parameters_.use_zero_velocity) return;
   joseph_update(state.x, state.P, zero_velocity_innovation(state, interval, parameters_));
