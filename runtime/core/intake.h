@@ -74,8 +74,10 @@ class Intake {
     }
   }
 
-  // The edge that wait() waited for at its last wake-up; nullptr where it never waited.
-  const EdgeBase* waited_for() const { return waited_for_; }
+  // Names the edge that wait() waited for last, as EdgeBase::waiting() does.
+  const char* waiting() const {
+    return waited_for_ != nullptr ? waited_for_->waiting() : "waiting for input";
+  }
 
   // Samples so far.
   std::uint64_t taken() const { return taken_; }

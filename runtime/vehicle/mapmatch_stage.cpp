@@ -79,12 +79,11 @@ bool MapMatchStage::tick(const runtime::Tick& tick, const runtime::DataClock& cl
   meter_.ran(done - ready);
   if (clock.keeps_time(k)) {
     meter_.woke(tick, clock, due, woken);
-    const runtime::EdgeBase* slow = intake_.waited_for();
-    const char* waiting = slow != nullptr ? slow->waiting() : "waiting for input";
-    const bool missed = meter_.latency().record(
-        {k,
-         done - due,
-         {{{"woken late", woken - due}, {waiting, ready - woken}, {"running", done - ready}}}});
+    const bool missed = meter_.latency().record({k,
+                                                 done - due,
+                                                 {{{"woken late", woken - due},
+                                                   {intake_.waiting(), ready - woken},
+                                                   {"running", done - ready}}}});
     if (missed) runtime::trace_instant(trace_, "missed deadline");
   } else {
     meter_.latency().record(done - ready);

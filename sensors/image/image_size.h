@@ -1,4 +1,4 @@
-// What readers and writers of images ask of a size.
+// Checks of an image's size, which its readers and writers share.
 #pragma once
 
 #include <cstddef>
