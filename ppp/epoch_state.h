@@ -1,4 +1,4 @@
-// The filter's solution of an epoch as what the vehicle says of it.
+// Converts the filter's solution of an epoch to the vehicle's messages.
 #pragma once
 
 #include "msgs/gnss.h"
@@ -8,14 +8,16 @@
 
 namespace maploop::ppp {
 
-// Everything but the sample's own times; reuses the memory of `state`. Protection
-// levels are for this integrity risk.
+// Fills `state` from the solution and reuses its memory. The sample's times and the fields of the
+// map and of corrections stay as they are. The protection levels (m) are for `integrity_risk`, a
+// probability in (0, 1).
 void describe(const PppSolution& solution, double integrity_risk, PppState& state);
 
-// What the map has done for its solution.
+// Fills what the map has contributed to the solution: whether it aids, and how many roads were used
+// or refused.
 void describe_map(const MapAidedFilter& filter, PppState& state);
 
-// Position and velocity of a state that has them.
+// Returns position and velocity. Precondition: the state has them (its status is not none).
 GnssFix to_fix(const PppState& state);
 
 }  // namespace maploop::ppp

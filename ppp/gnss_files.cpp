@@ -6,7 +6,7 @@ namespace maploop::ppp {
 
 FileKind parse_into(std::string_view text, const std::string& name, GnssFiles& files) {
   const FileKind kind = file_kind(text);
-  NavigationFile sent;  // with the observations of a receiver
+  NavigationFile sent;  // ephemerides recorded with a receiver's observations
   sent.file = name;
   switch (kind) {
     case FileKind::observation:

@@ -1,4 +1,4 @@
-// The files of a run, in any order, told apart by content.
+// Reads the files of a run, which come in any order and are told apart by their content.
 #pragma once
 
 #include <filesystem>
@@ -29,17 +29,17 @@ struct GnssFiles {
   std::vector<OceanLoadingFile> ocean_loading;
 };
 
-// Reads one file into its place; returns what it was. Throws ReadError: it cannot be read, is none
-// of these, or is damaged.
+// Reads one file, adds it to the list of its kind and returns that kind. Throws ReadError if it
+// cannot be read, is of no known kind, or is damaged.
 FileKind read_into(const std::filesystem::path& path, GnssFiles& files);
-// The same for a text that was read already.
+// Does the same for a text that has been read already; `name` stands for it in errors.
 FileKind parse_into(std::string_view text, const std::string& name, GnssFiles& files);
 
-// Regular files, in the order of their names.
+// Returns the regular files of a folder, sorted by name.
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder);
 
-// Products: a file, or a folder's files in the order of their names. In a folder, what is none of
-// these is passed over, and so are observations. Throws as read_into(), and
+// Reads products: one file, or the files of a folder sorted by name. In a folder, RINEX
+// observations and files of unknown kind are skipped. Throws as read_into() does, and
 // std::filesystem::filesystem_error.
 void read_products(const std::filesystem::path& path, GnssFiles& files);
 

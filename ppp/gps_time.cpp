@@ -10,7 +10,7 @@ namespace {
 
 using namespace std::chrono;
 
-// IERS Bulletin C: from each day on, GPS time is this far ahead of UTC.
+// From each of these days on, GPS time is one second further ahead of UTC (IERS Bulletin C).
 constexpr std::array<sys_days, 18> leap_days{
     sys_days{1981y / 7 / 1}, sys_days{1982y / 7 / 1}, sys_days{1983y / 7 / 1},
     sys_days{1985y / 7 / 1}, sys_days{1988y / 1 / 1}, sys_days{1990y / 1 / 1},
@@ -18,7 +18,7 @@ constexpr std::array<sys_days, 18> leap_days{
     sys_days{1994y / 7 / 1}, sys_days{1996y / 1 / 1}, sys_days{1997y / 7 / 1},
     sys_days{1999y / 1 / 1}, sys_days{2006y / 1 / 1}, sys_days{2009y / 1 / 1},
     sys_days{2012y / 7 / 1}, sys_days{2015y / 7 / 1}, sys_days{2017y / 1 / 1}};
-// Bulletin C 70 announced none for the end of December 2025.
+// Bulletin C 70 announced no leap second for the end of December 2025.
 constexpr sys_days known_until{2026y / 7 / 1};
 
 constexpr auto week_length = hours(24 * 7);

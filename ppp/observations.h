@@ -1,4 +1,4 @@
-// What a receiver measured, by epochs.
+// Defines what a receiver measured, epoch by epoch.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,11 +13,11 @@
 
 namespace maploop::ppp {
 
-// One tracked signal of one satellite, named as in RINEX 3: band '1' and attribute 'C' is 1C.
-// Zero: not measured.
+// A Signal is one tracked signal of one satellite, named as in RINEX 3: band '1' and attribute 'C'
+// is 1C. A value of zero means that it was not measured.
 struct Signal {
   char band = 0, attribute = 0;
-  bool lost_lock = false;   // the phase may have slipped since the epoch before
+  bool lost_lock = false;   // the phase may have slipped since the previous epoch
   bool half_cycle = false;  // the phase may be wrong by half a cycle
   double code = 0.0;        // m
   double phase = 0.0;       // cycles, grows with distance
@@ -27,13 +27,13 @@ struct Signal {
 
 struct SatelliteSignals {
   Satellite satellite;
-  std::uint32_t first = 0, count = 0;  // of Epoch::signals
+  std::uint32_t first = 0, count = 0;  // the range within Epoch::signals
 };
 
 struct Epoch {
   GpsTime time{};
-  bool power_failure = false;  // between the epoch before and this one
-  double clock_offset = 0.0;   // s, of the receiver, where the file says it
+  bool power_failure = false;  // there was one between the previous epoch and this one
+  double clock_offset = 0.0;   // s, of the receiver's clock; 0 if the file does not give it
   std::vector<SatelliteSignals> satellites;
   std::vector<Signal> signals;
 
@@ -41,7 +41,7 @@ struct Epoch {
     return std::span(signals).subspan(s.first, s.count);
   }
 
-  // Keeps the memory.
+  // Empties the epoch but keeps its memory.
   void clear() {
     time = {};
     power_failure = false;
@@ -51,12 +51,12 @@ struct Epoch {
   }
 };
 
-// A column of an observation file.
+// An ObservationType is a column of an observation file.
 struct ObservationType {
-  char kind = 0;  // 'C' code, 'L' phase, 'D' Doppler, 'S' strength; another kind is not kept
+  char kind = 0;  // 'C' code, 'L' phase, 'D' Doppler, 'S' strength; other kinds are not kept
   char band = 0, attribute = 0;
-  double factor = 1.0;  // the file's numbers are this many times the value
-  int signal = -1;      // place among the system's signals
+  double factor = 1.0;  // the file's number is the value times this factor
+  int signal = -1;      // index among the system's signals; -1: not kept
 };
 
 struct ObservationHeader {
@@ -65,17 +65,17 @@ struct ObservationHeader {
   std::optional<Eigen::Vector3d> approximate_position;  // m, ECEF
   Eigen::Vector3d antenna_delta_enu{0.0, 0.0, 0.0};     // m, marker to antenna reference point
   std::array<std::vector<ObservationType>, system_count> types;
-  std::array<int, system_count> signals_of{};            // signals of a system's types
-  std::array<std::optional<int>, 100> glonass_channels;  // by number
+  std::array<int, system_count> signals_of{};            // number of signals of each system
+  std::array<std::optional<int>, 100> glonass_channels;  // by satellite number
   std::optional<GpsTime> first, last;
-  double interval = 0.0;  // s; 0: not said
+  double interval = 0.0;  // s; 0: not given
 };
 
 struct Observations {
   std::string file;
   ObservationHeader header;
   std::vector<Epoch> epochs;          // in the order of time
-  std::vector<std::string> refusals;  // what was left out, "file:line: why"; see refused
+  std::vector<std::string> refusals;  // the first 20 reasons, as "file:line: why"
   int refused = 0;
 };
 

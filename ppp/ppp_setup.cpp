@@ -16,7 +16,8 @@ const Observations& only_observations(const GnssFiles& files) {
   return observations;
 }
 
-// Whether most satellites have only one of the two carriers.
+// Returns whether most satellites have only one of the two carriers: more than twice as many as
+// have both, in the first 20 epochs.
 bool has_one_frequency(const Observations& o) {
   std::size_t one = 0, two = 0;
   for (std::size_t i = 0; i < std::min<std::size_t>(o.epochs.size(), 20); ++i) {
@@ -50,7 +51,8 @@ PppSetup::PppSetup(const GnssFiles& files, const SetupOptions& options)
 PppSetup::PppSetup(const GnssFiles& files, const SetupOptions& options,
                    const LiveReceiver& receiver)
     : parameters_(options.parameters), earth_(files.earth_rotation) {
-  constexpr std::size_t most_each = 16;  // messages of a satellite, which come for days
+  // A live receiver runs for days: the messages per satellite are limited.
+  constexpr std::size_t most_each = 16;
   broadcast_ = std::make_unique<BroadcastEphemeris>(files.navigation, most_each);
   choose_products(files, options);
   if (!surroundings_.ephemeris) surroundings_.ephemeris = broadcast_.get();
@@ -106,7 +108,7 @@ void PppSetup::choose_ionosphere() {
   parameters_ = for_one_frequency(parameters_);
   surroundings_.one_frequency = true;
   if (broadcast_) surroundings_.ionosphere = &broadcast_->ionosphere();
-  if (live()) return;  // it may still hear them
+  if (live()) return;  // the coefficients may still be received
   const GpsTime first = observations_->epochs.front().time;
   const std::string lack =
       ionosphere_lack(broadcast_ ? broadcast_->ionosphere().age(first) : std::nullopt);

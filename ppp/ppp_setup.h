@@ -1,4 +1,4 @@
-// Files, products and the filter of one receiver, made to fit each other.
+// Combines files, products and filter parameters into the setup of one receiver's PPP filter.
 #pragma once
 
 #include <memory>
@@ -17,44 +17,44 @@ namespace maploop::ppp {
 struct SetupOptions {
   PppParameters parameters;
   Models models;
-  bool broadcast = false;  // even where precise orbits are given
+  bool broadcast = false;  // uses broadcast orbits even if precise ones are given
 };
 
-// One that is listened to: what files would say of it.
+// A LiveReceiver is one whose stream is read; it describes what the header of a file would give.
 struct LiveReceiver {
   bool one_frequency = false;
-  std::string antenna, radome;  // as ANTEX names them; empty: not known
+  std::string antenna, radome;  // as named in ANTEX; empty: unknown
 };
 
-// Constant after its construction: any number of threads may use it, each with a filter of its own.
-// It must outlive these filters, and the files must outlive it.
+// A PppSetup is constant after its construction: any number of threads may use it, each with its
+// own filter. It must outlive these filters, and the files must outlive it.
 class PppSetup {
  public:
-  // Throws std::runtime_error that names what is missing: no or several observation files, none
-  // with an epoch, no orbits.
+  // Throws std::runtime_error that names what is missing or ambiguous: no or several observation
+  // files, no epoch in them, no orbits.
   PppSetup(const GnssFiles& files, const SetupOptions& options);
 
-  // Observations come from a receiver, and orbits too unless the files have precise ones; what else
-  // the files have is used as above.
+  // Observations come from a receiver, and so do orbits unless the files contain precise ones. The
+  // other files are used as in the constructor above.
   PppSetup(const GnssFiles& files, const SetupOptions& options, const LiveReceiver& receiver);
 
-  // `received` takes the place of the files' orbits, clocks and ionosphere, and outlives the
-  // filter.
+  // `received` replaces the orbits, clocks and ionosphere of the files. It must outlive the filter.
   PppFilter make_filter(const CorrectedEphemeris* received = nullptr) const;
   MapAidedFilter make_map_aided_filter(const CorrectedEphemeris* received = nullptr) const;
 
   bool live() const { return observations_ == nullptr; }
   // Precondition: not live.
   const Observations& observations() const { return *observations_; }
-  // Of the files' navigation messages; nullptr: there are none, and no live receiver.
+  // Returns the navigation messages of the files; nullptr if there are none and the setup is not
+  // live.
   const BroadcastEphemeris* broadcast() const { return broadcast_.get(); }
   const Ephemeris& ephemeris() const { return *surroundings_.ephemeris; }
   bool precise() const { return precise_ != nullptr; }
   bool one_frequency() const { return one_frequency_; }
-  // On one frequency the errors of broadcast orbits, clocks and ionosphere last for longer than the
-  // filter can average them: the position stays at metres.
+  // On one frequency, the errors of broadcast orbits, clocks and ionosphere last longer than the
+  // filter can average them out: the position error stays at metres.
   bool never_converges() const { return one_frequency_ && !precise() && !live(); }
-  // What models lack: "no calibration of antenna X", one a line.
+  // Lists what the models lack, such as "no calibration of antenna X".
   const std::vector<std::string>& lacks() const { return lacks_; }
 
  private:

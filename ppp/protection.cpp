@@ -11,7 +11,7 @@ double deviation(const Eigen::Matrix2d& P, const Eigen::Vector2d& direction) {
   return std::sqrt(std::max(0.0, direction.dot(P * direction)));
 }
 
-// Of the plane's largest axis.
+// Returns the standard deviation along the plane's largest axis.
 double largest_deviation(const Eigen::Matrix2d& P) {
   const double middle = 0.5 * (P(0, 0) + P(1, 1));
   return std::sqrt(std::max(0.0, middle + std::hypot(0.5 * (P(0, 0) - P(1, 1)), P(0, 1))));
@@ -20,7 +20,7 @@ double largest_deviation(const Eigen::Matrix2d& P) {
 }  // namespace
 
 double integrity_factor(double risk) {
-  double low = 0.0, high = 40.0;  // erfc is zero beyond
+  double low = 0.0, high = 40.0;  // erfc is zero beyond this
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
     (std::erfc(middle / std::numbers::sqrt2) > risk ? low : high) = middle;

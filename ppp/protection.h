@@ -1,4 +1,4 @@
-// How far a position may be wrong: protection levels from its covariance.
+// Computes how wrong a position may be: protection levels from its covariance.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,16 +7,18 @@
 
 namespace maploop::ppp {
 
-// The factor on a standard deviation that a normal error exceeds, on either side, with this
-// probability; risk in (0, 1).
+// Returns the factor k for which a normally distributed error exceeds k standard deviations, on
+// either side, with this probability. `risk` is in (0, 1).
 double integrity_factor(double risk);
 
-// Along and across the direction of travel; of a vehicle that stands (below 0.5 m/s) both are the
-// largest of the horizontal plane. The covariance is of east, north, up.
+// Computes the levels (m) along and across the direction of travel, and up. For a vehicle that
+// stands (below 0.5 m/s), both horizontal levels are those of the largest axis of the horizontal
+// plane. The covariance (m^2) is in the order east, north, up.
 ProtectionLevels protection_levels(const Eigen::Matrix3d& covariance_enu,
                                    const Eigen::Vector3d& velocity_enu, double factor);
 
-// Unit vectors of the same directions; nothing to choose from when it stands: east and north.
+// These are unit vectors along and across (to the right of) the direction of travel. If the vehicle
+// stands, it has no direction: they are east and north, and `known` is false.
 struct TravelAxes {
   Eigen::Vector2d along, across;  // east, north
   bool known;

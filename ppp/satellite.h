@@ -1,4 +1,4 @@
-// Satellites and their carriers.
+// Defines satellite systems, satellites and carrier frequencies.
 #pragma once
 
 #include <compare>
@@ -17,16 +17,16 @@ inline constexpr double speed_of_light = 299792458.0;  // m/s
 enum class System : std::uint8_t { gps, glonass, galileo, beidou, qzss, sbas, navic };
 inline constexpr int system_count = 7;
 
-// RINEX's letters: G R E C J S I.
+// The letters are those of RINEX: G R E C J S I.
 char letter(System system);
 std::optional<System> system_of(char letter);
 
 struct Satellite {
   System system = System::gps;
-  std::uint8_t number = 0;  // as RINEX 3 writes it, 1 to 99
+  std::uint8_t number = 0;  // as in RINEX 3, 1 to 99
 
   auto operator<=>(const Satellite&) const = default;
-  // Unique and below satellite_slots: the place in a table.
+  // Returns the satellite's index in tables, which is unique and below satellite_slots.
   std::size_t slot() const { return static_cast<std::size_t>(system) * 100 + number; }
 };
 inline constexpr std::size_t satellite_slots = system_count * 100;
@@ -39,11 +39,12 @@ void archive(Archive& ar, Satellite& s) {
   }
 }
 
-// "G05"; a blank letter is GPS's and a blank tens digit zero, as in old files.
+// Parses "G05". As in old files, a blank letter stands for GPS and a blank tens digit for zero.
 std::optional<Satellite> parse_satellite(std::string_view text);
 std::string to_string(Satellite satellite);
 
-// Hz of a RINEX 3 band ('1' to '9'); 0 where the system has none, or GLONASS's channel is unknown.
+// Returns the frequency (Hz) of a RINEX 3 band ('1' to '9'); 0 if the system does not have the
+// band, or the GLONASS channel is needed and unknown.
 double carrier_frequency(System system, char band, std::optional<int> glonass_channel = {});
 
 }  // namespace maploop::ppp
