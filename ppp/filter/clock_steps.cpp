@@ -7,9 +7,10 @@
 
 namespace maploop::ppp {
 
-// In ms; zero unless most satellites agree.
+// Returns the step of the codes against the phases, in ms; zero unless two thirds of the satellites
+// agree.
 int ClockSteps::step_of_all(const std::vector<Measurement>& measurements) {
-  constexpr double most_milliseconds = 1e6, noise = 1e-3;  // ms: 300 m
+  constexpr double most_milliseconds = 1e6, noise = 1e-3;  // ms; the noise of 1e-3 ms is 300 m
   votes_.clear();
   for (const Measurement& m : measurements) {
     if (m.first.phase == 0.0) continue;

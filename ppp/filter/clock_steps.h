@@ -1,4 +1,4 @@
-// Milliseconds by which a receiver's clock steps, so that it keeps near to GPS time.
+// Handles the whole milliseconds by which a receiver steps its clock to keep it near GPS time.
 #pragma once
 
 #include <optional>
@@ -8,16 +8,17 @@
 
 namespace maploop::ppp {
 
-// How far a millisecond's step moves code or phase, m.
+// A step of one millisecond changes code or phase by this range, m.
 inline constexpr double millisecond_range = 1e-3 * speed_of_light;
 
-// Where codes step and phases do not, every ambiguity would begin anew: phases are given the
-// codes' steps. A step of both is the receiver's clock, which no phase is asked to keep.
+// If the codes step and the phases do not, every ambiguity would have to restart. To avoid that,
+// the phases get the steps of the codes. If both step, only the clock estimate changes, and the
+// phases need no repair.
 class ClockSteps {
  public:
   ClockSteps() : code_minus_phase_(satellite_slots) {}
 
-  // Of the next epoch; adds the steps so far to all its phases.
+  // Takes the measurements of the next epoch and adds all steps so far to their phases.
   void repair(std::vector<Measurement>& measurements);
 
   template <class Archive>
@@ -31,9 +32,9 @@ class ClockSteps {
  private:
   int step_of_all(const std::vector<Measurement>& measurements);
 
-  // m, of the first carrier at its last epoch, by slot.
+  // The values are in m, for the first carrier at the satellite's last epoch, by slot.
   std::vector<std::optional<double>> code_minus_phase_;
-  std::vector<double> votes_;  // to reuse its memory
+  std::vector<double> votes_;  // a member only to reuse its memory
   std::int64_t steps_ = 0;     // ms
 };
 

@@ -31,7 +31,7 @@ void CodeLevels::end_epoch(double interval, double time) {
     ++count;
     level.last.reset();
   }
-  constexpr int enough = 5;  // fewer codes have next to no residuals
+  constexpr int enough = 5;  // fewer codes leave almost no residuals
   if (count >= enough) all_ += gain * (sum / count - all_);
 }
 

@@ -1,5 +1,5 @@
-// How large the residuals of codes are, squared, against what is expected of them: of each
-// satellite, and of all. Reflected signals are the reason where it is large.
+// Tracks how large the squared residuals of codes are relative to their expected variance, per
+// satellite and over all satellites. A large ratio is a sign of reflected signals.
 #pragma once
 
 #include <optional>
@@ -13,14 +13,16 @@ class CodeLevels {
  public:
   CodeLevels() : own_(satellite_slots) {}
 
-  // Nothing is known of the satellites; `level` of them all.
+  // Forgets all satellites; `level` becomes the level of all of them.
   void begin(double level);
-  // At least 1, for a good code may be so by chance. Of a new satellite what it is of all.
+  // Returns the level, which is at least 1, because a good code may have small residuals by chance.
+  // A new satellite has the level of all.
   double of(Satellite satellite) const;
 
-  // A code's residual, squared, in its usual variance; at 100 it ends to count.
+  // Takes the squared residual of a code divided by its usual variance; the ratio is clamped to
+  // 100.
   void add(Satellite satellite, double ratio);
-  // After an epoch's: what has been `interval` s is remembered by exp(-interval/time).
+  // Call after the codes of each epoch: older values decay by exp(-interval/time), both in s.
   void end_epoch(double interval, double time);
 
   template <class Archive>

@@ -10,7 +10,7 @@ namespace {
 
 using S = FilterState;
 
-// The receiver's clock drift that one Doppler says, m/s.
+// Returns the receiver's clock drift according to one Doppler, m/s.
 double drift_of(const Tracked& t, const FilterState& state) {
   const auto& c = t.measurement.first;
   const auto& p = t.predicted;
@@ -29,9 +29,10 @@ bool has_doppler(const Tracked& t) {
   return t.code_good && t.measurement.first.doppler != 0.0;
 }
 
-// Against the zenith: by elevation, and where a signal is weaker than it is there without
-// obstacles as in the SIGMA-delta model (Brunner, Hartinger and Troyer, "GPS signal diffraction
-// modelling", Journal of Geodesy 73, 1999; their factor of 2).
+// Returns the variance relative to that at the zenith. It grows towards low elevations, and where
+// the signal is weaker than an unobstructed one, as in the SIGMA-delta model (Brunner, Hartinger
+// and Troyer, "GPS signal diffraction modelling", Journal of Geodesy 73, 1999; with their factor of
+// 2).
 double variance_factor(const Tracked& t, const FullStrength& strength) {
   const double sine = std::sin(t.predicted.elevation), cn0 = t.measurement.first.cn0;
   const double missing = cn0 > 0.0 ? std::max(0.0, strength.of(sine) - cn0) : 0.0;
@@ -93,7 +94,8 @@ Row EpochRows::code_row(std::size_t i, const Tracked& t, double factor, int refe
     row.add(S::gradient_north, slope * std::cos(t.predicted.azimuth));
     row.add(S::gradient_east, slope * std::sin(t.predicted.azimuth));
   }
-  // What the state predicts besides the range, which is about the state's own position.
+  // This is what the state predicts besides the geometric range, which is already computed at the
+  // state's own position.
   double predicted = 0.0;
   for (std::size_t k = 3; k < static_cast<std::size_t>(row.count); ++k) {
     predicted += row.h[k] * state.x()[row.indices[k]];
@@ -109,8 +111,8 @@ Row EpochRows::code_row(std::size_t i, const Tracked& t, double factor, int refe
   return row;
 }
 
-// Phase, or with one frequency GRAPHIC: half the sum of code and phase has no ionosphere, and half
-// the ambiguity (here one of its own, in metres).
+// The row is of the phase, or on one frequency of GRAPHIC: half the sum of code and phase is free
+// of the ionosphere and contains half the ambiguity (here a separate state, in metres).
 void EpochRows::add_phase_row(const Tracked& t, double factor, const Row& code, FilterState& state,
                               std::vector<SatelliteReport>& reports) {
   const Measurement& m = t.measurement;

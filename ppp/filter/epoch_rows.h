@@ -1,5 +1,5 @@
-// The measurements of one epoch, linearized about the state: code, phase and Doppler of each
-// satellite as rows of a Kalman update.
+// Linearizes the measurements of one epoch about the state: code, phase and Doppler of each
+// satellite become rows of a Kalman update.
 #pragma once
 
 #include <cstddef>
@@ -14,49 +14,51 @@
 
 namespace maploop::ppp {
 
-// A satellite of this epoch.
+// A Tracked is one satellite of this epoch.
 struct Tracked {
   Measurement measurement;
   PredictedRange predicted;
-  std::size_t report;          // its place among the solution's satellites
-  double code_offset;          // m, code minus what is predicted without clocks
-  double code_repeats = 1.0;   // of its variance, for its error lasts longer than an epoch
-  double level = 1.0;          // of all its variances, where its codes' residuals are large
-  double level_repeats = 1.0;  // of what that adds to the code's
+  std::size_t report;          // index into the solution's satellites
+  double code_offset;          // m, code minus its prediction without clocks
+  double code_repeats = 1.0;   // factor on the code's variance, because its error outlasts an epoch
+  double level = 1.0;          // factor on all variances, if the codes' residuals are large
+  double level_repeats = 1.0;  // factor on what the level adds to the code's variance
   bool code_good = true;
   bool phase_good = true;
 };
 
-// m^2, of a range: by errors of orbit, clock and ionosphere.
+// Returns the variance of a range due to errors of orbit, clock and ionosphere, m^2.
 inline double lasting_variance(const PredictedRange& p) {
   return p.satellite.sigma * p.satellite.sigma + p.ionosphere.sigma * p.ionosphere.sigma;
 }
 
 enum class RowKind { code, phase, doppler };
 
-// An error that lasts says less than its size: the variance is the one that independent errors
-// would need, epoch for epoch, to say as little; sigma is the size.
+// An error that lasts for several epochs carries less information than its size suggests.
+// `variance` is inflated so that independent errors of that variance would carry the same
+// information epoch by epoch; `sigma` is the actual size of the error.
 struct Row : LinearRow {
   RowKind kind = RowKind::code;
-  std::size_t tracked = 0;  // whose
+  std::size_t tracked = 0;  // index into the epoch's tracked satellites
   double sigma = 0.0;
   bool active = true;
-  bool new_ambiguity = false;  // of a phase: it says nothing yet
-  bool doubtful = false;       // not active, but others may be wrong instead
+  bool new_ambiguity = false;  // on a phase: its ambiguity is new, so it carries no information yet
+  bool doubtful = false;       // it is not active, but other phases may be the wrong ones instead
 };
 
 class EpochRows {
  public:
   explicit EpochRows(const PppParameters& parameters) : parameters_(parameters) {}
 
-  // Gives each new satellite its ambiguity, and the clock drift its first value; a satellite that
-  // finds no room says so in its report. Rows are valid until the next call.
+  // Adds an ambiguity for each new satellite and sets the first value of the clock drift. If the
+  // state has no room for a satellite, its report states so. The rows are valid until the next
+  // call.
   std::vector<Row>& make(const std::vector<Tracked>& tracked, int reference_system,
                          const FullStrength& strength, FilterState& state,
                          std::vector<SatelliteReport>& reports);
 
  private:
-  // `factor` is of the satellite's variances, against the zenith.
+  // `factor` scales the satellite's variances relative to the zenith.
   Row code_row(std::size_t i, const Tracked& t, double factor, int reference_system,
                const FilterState& state) const;
   void add_phase_row(const Tracked& t, double factor, const Row& code, FilterState& state,
@@ -65,7 +67,7 @@ class EpochRows {
 
   PppParameters parameters_;
   std::vector<Row> rows_;
-  std::vector<double> drifts_;  // m/s, that each Doppler says; to reuse its memory
+  std::vector<double> drifts_;  // m/s, of each Doppler; a member only to reuse its memory
 };
 
 }  // namespace maploop::ppp

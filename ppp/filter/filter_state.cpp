@@ -57,8 +57,8 @@ void FilterState::update(std::span<const int> indices, std::span<const double> h
     innovation -= h[k] * dx[indices[k]];
   }
   dx.head(n) += column * (innovation / s);
-  // One half is computed, the other copied: a difference between them would grow from epoch to
-  // epoch.
+  // Only one half is computed and the other is copied, because a difference between them would grow
+  // from epoch to epoch.
   const double inverse = 1.0 / s;
   for (int i = 0; i < n; ++i) {
     P_.col(i).head(i + 1) -= column.head(i + 1) * (column[i] * inverse);

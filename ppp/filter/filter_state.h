@@ -1,5 +1,5 @@
-// The filter's state: what is always there, then one float ambiguity a satellite. Updated one
-// scalar at a time, which suits rows with few entries.
+// The filter's state consists of fixed entries followed by one float ambiguity per satellite. It is
+// updated one scalar at a time, which suits rows with few entries.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,17 +12,17 @@ namespace maploop::ppp {
 
 class FilterState {
  public:
-  static constexpr int position = 0, velocity = 3;              // earth-fixed, m and m/s
-  static constexpr int clock = 6, clock_drift = 7;              // m, m/s
-  static constexpr int zenith_wet = 8;                          // m, on top of the model's guess
+  static constexpr int position = 0, velocity = 3;  // earth-fixed, m and m/s
+  static constexpr int clock = 6, clock_drift = 7;  // m, m/s
+  static constexpr int zenith_wet = 8;              // m, in addition to the model's value
   static constexpr int gradient_north = 9, gradient_east = 10;  // m
-  // What only a map observes: the error of the position that lasts (orbits, clocks, ionosphere),
-  // east and north; the map's datum against that of the orbits; and the vehicle's offset from the
-  // map's line in standard deviations (MapFeedback::lane_sigma).
+  // Only a map observes these: the lasting error of the position (from orbits, clocks and
+  // ionosphere), east and north; the map's datum relative to that of the orbits, east and north;
+  // and the vehicle's offset from the map's line in standard deviations (MapFeedback::lane_sigma).
   static constexpr int lasting_error = 11;  // m
   static constexpr int map_datum = 13;      // m
   static constexpr int lane_offset = 15;
-  static constexpr int system_offset = 16;  // m, of each system's clock
+  static constexpr int system_offset = 16;  // m, of each system's clock against the reference's
   static constexpr int fixed = system_offset + system_count;
   static constexpr int most_ambiguities = 64;
   static constexpr int capacity = fixed + most_ambiguities;
@@ -36,17 +36,18 @@ class FilterState {
   auto P() { return P_.topLeftCorner(size(), size()); }
   auto P() const { return P_.topLeftCorner(size(), size()); }
 
-  // Forgets a value: what is known of it, and its correlations.
+  // Replaces a value, its variance (`sigma` squared) and its correlations, which become zero.
   void set(int index, double value, double sigma);
-  // -1: none.
+  // Returns the index of the satellite's ambiguity; -1 if it has none.
   int ambiguity(Satellite satellite) const;
-  // The index; -1: there is no room.
+  // Returns the index of the new ambiguity; -1 if there is no room.
   int add_ambiguity(Satellite satellite, double value, double sigma);
   void remove_ambiguity(Satellite satellite);
   const std::vector<Satellite>& ambiguities() const { return ambiguities_; }
 
-  // One measurement: y = h dx + noise, entries of h at the indices. `y` is about the x before all
-  // updates of this epoch; `dx` gathers the updates.
+  // Applies one measurement, y = h dx + noise, with the entries of h at `indices`. `y` refers to
+  // the x before all updates of this epoch; `dx` accumulates the updates, which the caller adds to
+  // x.
   void update(std::span<const int> indices, std::span<const double> h, double y, double variance,
               Eigen::VectorXd& dx);
 

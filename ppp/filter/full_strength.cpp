@@ -26,8 +26,8 @@ double FullStrength::of(double sine) const {
   return of_all(sine) + std::max(0.0, quartile_[band(sine)] - margin_);
 }
 
-// Robbins and Monro, "A stochastic approximation method", Annals of Mathematical Statistics 22,
-// 1951: steps up and down balance where a quarter is above.
+// The steps up and down balance if a quarter of the strengths is above the estimate (Robbins and
+// Monro, "A stochastic approximation method", Annals of Mathematical Statistics 22, 1951).
 void FullStrength::add(double sine, double cn0) {
   constexpr double step = 0.1;  // dB
   double& quartile = quartile_[band(sine)];

@@ -1,4 +1,4 @@
-// How strong a receiver's signals are without obstacles.
+// Estimates how strong a receiver's signals are without obstacles.
 #pragma once
 
 #include <array>
@@ -8,13 +8,14 @@
 
 namespace maploop::ppp {
 
-// By elevation: what all receivers reach, and where this one's signals turn out to be stronger,
-// that: `full_cn0_margin` below what three quarters of them do not exceed.
+// The expected unobstructed C/N0 by elevation is the curve common to all receivers. It is raised to
+// this receiver's own upper quartile minus `full_cn0_margin` where that is higher.
 class FullStrength {
  public:
   explicit FullStrength(const PppParameters& parameters);
 
-  // dB-Hz, at the sine of an elevation; 0 where it does not count.
+  // Returns the C/N0 in dB-Hz at the sine of an elevation; 0 if strength is not used (`full_cn0` =
+  // 0).
   double of(double sine) const;
   void add(double sine, double cn0);
 
@@ -28,7 +29,7 @@ class FullStrength {
   static std::size_t band(double sine);
 
   double zenith_, drop_, margin_;
-  std::array<double, 4> quartile_;  // dB, the upper one, beyond of_all(); by elevation
+  std::array<double, 4> quartile_;  // dB above of_all(), the upper quartile by elevation band
 };
 
 }  // namespace maploop::ppp

@@ -1,4 +1,4 @@
-// A scalar measurement, linearized about the state.
+// Defines a scalar measurement, linearized about the state.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@
 
 namespace maploop::ppp {
 
-// y = h dx + noise; dx is the error of the state before the update.
+// The measurement is y = h dx + noise, where dx is the error of the state before the update.
 struct LinearRow {
   double y = 0.0, variance = 0.0;
   int count = 0;
@@ -18,7 +18,7 @@ struct LinearRow {
     indices[static_cast<std::size_t>(count)] = index;
     h[static_cast<std::size_t>(count++)] = value;
   }
-  // What dx leaves of y.
+  // Returns the residual of y after the correction dx.
   double left(const Eigen::VectorXd& dx) const {
     double rest = y;
     for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) rest -= h[k] * dx[indices[k]];

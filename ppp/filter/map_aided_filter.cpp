@@ -55,16 +55,16 @@ Eigen::Vector2d MapAidedFilter::apart() const {
   return rotation_enu_ecef(geodetic_from_ecef(f.position)).topRows<2>() * (a.position - f.position);
 }
 
-// Squared, in the standard deviations of the filter without the map. That of the difference itself
-// is smaller (Hausman, "Specification tests in econometrics", Econometrica 46, 1978), but nearly
-// nothing in a direction of which the map has hardly spoken.
+// Returns the squared distance in standard deviations of the filter without the map. The standard
+// deviation of the difference itself is smaller (Hausman, "Specification tests in econometrics",
+// Econometrica 46, 1978), but almost zero in directions about which the map has contributed little.
 double MapAidedFilter::distance() const {
   const Eigen::Vector2d off = apart();
   return off.dot(free_.level_covariance().inverse() * off);
 }
 
-// Lines contradict the filter. Which of them is wrong is not known: what the map has said may stay
-// where the filter without it says as much.
+// Lines contradict the filter, and it is unknown which side is wrong. What was learnt from the map
+// stays if the filter without the map agrees with it; otherwise it is discarded.
 void MapAidedFilter::doubt() {
   constexpr double within_sigma = 2.3;  // chi-square, 2 degrees of freedom, 68 %
   if (both_have_positions() && distance() > within_sigma) {
@@ -84,7 +84,8 @@ void MapAidedFilter::pause() {
 
 void MapAidedFilter::watch() {
   const PppSolution &a = aided_.solution(), &f = free_.solution();
-  // Either begins anew when measurements contradict it for long; that without the map is right.
+  // Either filter restarts if measurements contradict it for long; the one without the map is then
+  // right.
   if (a.restarts != f.restarts) {
     restore();
     return;

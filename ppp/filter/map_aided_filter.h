@@ -1,5 +1,5 @@
-// The PPP filter with the road map beside the one without, which takes its place where a wrong
-// road has led it astray: ambiguities keep for long what they have once been told.
+// Runs the PPP filter with the road map beside the one without it, which takes over if a wrong road
+// has misled the first: float ambiguities retain a wrong constraint for a long time.
 #pragma once
 
 #include <array>
@@ -11,20 +11,21 @@
 
 namespace maploop::ppp {
 
-// Where the filter with the map is farther from the one without than that one may be wrong, or
-// line after line contradicts it, the road was a wrong one: the map is left out for a while, and
-// what it said is forgotten at once.
+// A road was wrong if the filter with the map is farther from the one without it than the latter's
+// error allows, or if line after line contradicts the filter. The map is then paused, and all that
+// it contributed is discarded at once.
 //
-// Not thread-safe. Before the first feedback, and after a wrong road, there is one filter, and
-// its bits are those of a PppFilter.
+// This class is not thread-safe. Before the first feedback, and after a wrong road, there is one
+// filter, and its results equal those of a PppFilter bit for bit.
 class MapAidedFilter {
  public:
   explicit MapAidedFilter(PppFilter filter, const PppParameters& parameters)
       : free_(std::move(filter)), aided_(free_), parameters_(parameters) {}
 
-  // As PppFilter's: the solution with the map, if the map has said anything.
+  // Works as PppFilter::process() does. Returns the solution with the map, if the map contributes
+  // to it.
   const PppSolution& process(const Epoch& epoch);
-  // About the last epoch; the next solution knows it.
+  // Applies feedback to the state of the last epoch; it shows in the next solution.
   MapUse add(const MapFeedback& feedback);
 
   const PppSolution& solution() const { return aided() ? aided_.solution() : free_.solution(); }
@@ -32,13 +33,14 @@ class MapAidedFilter {
   const PppParameters& parameters() const { return parameters_; }
   bool aided() const { return aiding_; }
   bool paused() const { return time_ < paused_until_; }
-  // What became of feedbacks, and how often what they had said was forgotten.
+  // These counts tell what happened to each feedback, and how often the map's contribution was
+  // discarded.
   std::uint64_t count(MapUse use) const { return uses_[static_cast<std::size_t>(use)]; }
   std::uint64_t restorations() const { return restorations_; }
 
   static constexpr std::size_t largest_archive = 2 * PppFilter::largest_archive + 512;
 
-  // As PppFilter's.
+  // Saves and loads as PppFilter::archive() does.
   template <class Archive>
   void archive(Archive& ar) {
     ar.section("ppp with the map", 1);
@@ -71,12 +73,12 @@ class MapAidedFilter {
 
   PppFilter free_, aided_;
   PppParameters parameters_;
-  bool aiding_ = false;  // else the aided one is of no account
+  bool aiding_ = false;  // if false, aided_ is not in use
   GpsTime time_{};
   std::optional<GpsTime> apart_since_;
   GpsTime paused_until_{};
   GpsTime aiding_since_{};
-  int pauses_ = 0;  // one soon after the other
+  int pauses_ = 0;  // number of pauses in short succession
   int gated_in_a_row_ = 0;
   std::array<std::uint64_t, map_use_count> uses_{};
   std::uint64_t restorations_ = 0;

@@ -10,12 +10,12 @@ namespace {
 
 using S = FilterState;
 
-// To the right of the line, earth-fixed.
+// Returns the unit vector to the right of the line, earth-fixed.
 Eigen::Vector3d right_of(const MapFeedback& f) {
   return rotation_enu_ecef(f.point).topRows<2>().transpose() * right_of_line(f);
 }
 
-// All but a share of a first-order Gauss-Markov error of this variance.
+// Lets a first-order Gauss-Markov error of this variance decay: the share `keep` of it remains.
 void forget(FilterState& state, int index, double keep, double variance) {
   state.x()[index] *= keep;
   auto P = state.P();
@@ -24,7 +24,7 @@ void forget(FilterState& state, int index, double keep, double variance) {
   P(index, index) += (1.0 - keep * keep) * variance;
 }
 
-// `own` and `map` are the variances of both sides, all in.
+// `own` and `map` are the total variances of the filter and of the map.
 MapUse apply(FilterState& state, const LinearRow& row, double own, double map,
              const PppParameters& parameters, Eigen::VectorXd& dx) {
   if (row.y * row.y > parameters.map_gate * (own + map)) return MapUse::gated;

@@ -1,4 +1,4 @@
-// Correction by the road that the map matching has found.
+// Corrects the filter by the road that map matching has found.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,16 @@
 
 namespace maploop::ppp {
 
-// What became of a feedback.
+// A MapUse tells what happened to a feedback.
 enum class MapUse : std::uint8_t {
   used,
-  nothing_fed_back,   // there is nothing in it
-  not_usable,         // a number that is none, or a deviation that is none
-  no_position,        // of the filter at the last epoch
+  nothing_fed_back,   // it contains neither a line nor a direction
+  not_usable,         // it is not finite, or a standard deviation or the probability is invalid
+  no_position,        // the filter had none at the last epoch
   not_of_this_epoch,  // its stamp is too far from the last epoch
   no_help,            // the filter knows its place across the road better than the map
-  gated,              // too far from where the filter is
-  paused,             // a while after a wrong road
+  gated,              // it is too far from the filter's state
+  paused,             // the map is paused after a wrong road
 };
 constexpr std::size_t map_use_count = static_cast<std::size_t>(MapUse::paused) + 1;
 
@@ -46,33 +46,35 @@ constexpr std::string_view to_string(MapUse use) {
   return "unknown";
 }
 
-// 0 = n (p + e - d + v since - m) - lane_sigma b + noise, n to the right of the line through m; p
-// what satellites say, e its lasting error, d the map's datum, b the lane offset; `since` s is the
-// feedback's stamp less the state's. Across the line alone: along it, a
-// projection says nothing that the filter did not say before.
+// The row is 0 = n (p + e - d + v since - m) - lane_sigma b + noise: n points to the right of the
+// line through m, p is the position from satellites, e its lasting error, d the map's datum, b the
+// lane offset, and `since` is the feedback's stamp minus the state's, s. Only the direction across
+// the line is used: along it, a projection contains nothing that the filter did not know before.
 LinearRow line_row(const FilterState& state, const MapFeedback& feedback, double since);
-// 0 = n v + noise: the vehicle goes the line's way.
+// The row is 0 = n v + noise: the vehicle moves along the line. `slip` is in m/s.
 LinearRow direction_row(const FilterState& state, const MapFeedback& feedback, double slip);
 
-// Nothing is known of what only a map observes. `lasting` m^2, east and north: of the position, by
-// errors of orbits, clocks and ionosphere.
+// Resets the states that only a map observes. `lasting` is the position's variance, east and north,
+// due to errors of orbits, clocks and ionosphere, m^2.
 void begin_map_states(FilterState& state, const Eigen::Vector2d& lasting,
                       const PppParameters& parameters);
-// The lane offset changes with the way, the lasting error with time.
+// Lets the lane offset decay with the distance driven, and the lasting error with time. `interval`
+// is in s.
 void predict_map_states(FilterState& state, double interval, const Eigen::Vector2d& lasting,
                         const PppParameters& parameters);
-// Another road: another offset but for the share that lasts.
+// Changes to another road: its lane offset is new except for the share that lasts.
 void enter_road(FilterState& state, const PppParameters& parameters);
 
-// Of the place across the line, m^2: by lane, map and what is new at each feedback.
+// Returns the variance of the map's position across the line, m^2: of lane and map, and of what is
+// new at each feedback.
 double map_variance(const MapFeedback& feedback);
-// By a covariance of east and north.
+// Returns the variance across the line, m^2; `covariance` is east and north.
 double variance_across(const MapFeedback& feedback, const Eigen::Matrix2d& covariance);
 
-// Line and direction, each gated; the direction only where the state does not know it better
-// already. The result is the line's where there is one. A link of probability P has noise that
-// makes its information P times that of a certain one. `covariance` is the position's, east and
-// north; `dx` is room for a state.
+// Applies direction and line, each behind a gate; the direction only if it improves on the state.
+// The result is that of the line if there is one. A link of probability P gets noise that makes its
+// information P times that of a certain link. `covariance` is the position's, east and north, m^2;
+// `dx` is working memory of the state's size.
 MapUse apply_map(FilterState& state, const MapFeedback& feedback, double since,
                  const Eigen::Matrix2d& covariance, const PppParameters& parameters,
                  Eigen::VectorXd& dx);

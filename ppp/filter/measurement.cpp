@@ -5,7 +5,8 @@
 namespace maploop::ppp {
 namespace {
 
-// Attributes of a band in the order of preference: what clocks are for comes first.
+// Lists the attributes of a band in the order of preference; the signal that clocks refer to comes
+// first.
 std::string_view preference(System system, char band) {
   switch (system) {
     case System::gps:
@@ -27,7 +28,7 @@ bool measured(double value) {
   return value != 0.0 && std::isfinite(value);
 }
 
-// The carrier of a band; frequency 0 where it lacks code or phase.
+// Returns the carrier of a band; its frequency is 0 if it has no code or no known frequency.
 Carrier carrier_of(Satellite satellite, char band, std::span<const Signal> signals,
                    double frequency) {
   Carrier c;

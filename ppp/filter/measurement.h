@@ -1,4 +1,4 @@
-// What is used of a satellite's signals: two carriers, or one.
+// Selects which of a satellite's signals are used: two carriers, or one.
 #pragma once
 
 #include <array>
@@ -10,34 +10,35 @@
 namespace maploop::ppp {
 
 struct Carrier {
-  char band = 0, attribute = 0;  // of the code
+  char band = 0, attribute = 0;  // those of the code
   double frequency = 0.0;        // Hz
   double wavelength = 0.0;       // m
-  double code = 0.0;             // m, biases removed; 0: none
-  double phase = 0.0;            // m; 0: none
+  double code = 0.0;             // m, biases removed; 0: not measured
+  double phase = 0.0;            // m; 0: not measured
   double doppler = 0.0;          // Hz
-  double cn0 = 0.0;              // dB-Hz; 0: not said
+  double cn0 = 0.0;              // dB-Hz; 0: not given
   bool lost_lock = false;
 };
 
 struct Measurement {
   Satellite satellite;
-  Carrier first, second;  // second.frequency 0: one frequency
+  Carrier first, second;  // second.frequency is 0 with one frequency
 
   bool dual() const { return second.frequency > 0.0; }
-  // Weights of the ionosphere-free combination.
+  // These are the weights of the ionosphere-free combination.
   double weight1() const;
   double weight2() const;
-  double code() const;          // ionosphere-free, or the first carrier's
-  double phase() const;         // the same
-  double noise_factor() const;  // of the combination
+  double code() const;          // m, ionosphere-free, or of the first carrier
+  double phase() const;         // m, likewise; 0: not measured
+  double noise_factor() const;  // the combination's noise relative to one carrier's
 };
 
-// The bands of a system's ionosphere-free pair, as products mean it.
+// Returns the bands of a system's ionosphere-free pair, which its precise products refer to.
 std::array<char, 2> bands_of(System system);
 
-// Picks code and phase of each band. With one frequency, or where the second is missing and
-// `allow_single`, the second carrier is empty. Nothing: no usable code and phase.
+// Selects code and phase of each band. The second carrier is empty if its code is missing and
+// `allow_single` is set. Returns nothing if a required carrier has no code or no known frequency;
+// its phase may be missing.
 std::optional<Measurement> measure(Satellite satellite, std::span<const Signal> signals,
                                    const std::array<std::optional<int>, 100>& glonass_channels,
                                    const Ephemeris& ephemeris, GpsTime t, bool allow_single);

@@ -1,4 +1,4 @@
-// The middle of some values; of an even number the upper one of the two.
+// Computes the median; of an even number of values it is the upper one of the middle two.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 namespace maploop::ppp {
 
-// There is at least one; their order changes.
+// Precondition: there is at least one value. The order of the values changes.
 inline double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

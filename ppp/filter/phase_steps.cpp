@@ -7,19 +7,19 @@
 namespace maploop::ppp {
 namespace {
 
-constexpr int sought = 4;  // displacement, and step of the clock
+constexpr int sought = 4;  // the displacement, and the step of the clock
 using Vector = Eigen::Matrix<double, sought, 1>;
 
 Vector design(const PhaseStep& s) {
   return {-s.to_satellite.x(), -s.to_satellite.y(), -s.to_satellite.z(), 1.0};
 }
 
-// In limits.
+// Returns the residual in units of the limit.
 double misfit(const PhaseStep& s, const Vector& x) {
   return std::abs(s.change - design(s).dot(x)) / s.limit;
 }
 
-// Weights are in units of the limits' inverse squares.
+// Weights are in units of the inverse squared limits.
 template <class Weight>
 Vector fit(const std::vector<PhaseStep>& steps, Weight&& weight) {
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
@@ -35,7 +35,7 @@ Vector fit(const std::vector<PhaseStep>& steps, Weight&& weight) {
 
 Vector least_absolute_values(const std::vector<PhaseStep>& steps) {
   constexpr int passes = 30;
-  constexpr double small = 0.01;  // of a limit: millimetres and less count alike
+  constexpr double small = 0.01;  // of a limit: misfits below about a millimetre count alike
   Vector x = fit(steps, [](const PhaseStep&) { return 1.0; });
   for (int i = 0; i < passes; ++i) {
     x = fit(steps, [&](const PhaseStep& s) { return 1.0 / std::max(small, misfit(s, x)); });
@@ -53,7 +53,8 @@ void find_slips(std::vector<PhaseStep>& steps) {
     for (PhaseStep& s : steps) s.slipped = !(misfit(s, x) <= 1.0);
     return std::count_if(steps.begin(), steps.end(), [](const PhaseStep& s) { return !s.slipped; });
   };
-  // Once more by all that agree: noise of the few that decide least absolute values is in the rest.
+  // Repeats the fit with all that agree, because least absolute values follow the noise of the few
+  // steps that decide them.
   if (judge() >= fewest) {
     x = fit(steps, [](const PhaseStep& s) { return s.slipped ? 0.0 : 1.0; });
     if (judge() >= fewest) return;

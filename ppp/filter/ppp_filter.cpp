@@ -49,7 +49,7 @@ MapUse PppFilter::add(const MapFeedback& feedback) {
 
 const PppSolution& PppFilter::process(const Epoch& epoch) {
   const double interval = started_ ? to_seconds(epoch.time - time_) : 0.0;
-  std::vector<SatelliteReport> reports = std::move(solution_.satellites);  // to reuse its memory
+  std::vector<SatelliteReport> reports = std::move(solution_.satellites);  // reuses its memory
   reports.clear();
   solution_ = {};
   solution_.satellites = std::move(reports);
@@ -83,7 +83,7 @@ const PppSolution& PppFilter::process(const Epoch& epoch) {
   return solution_;
 }
 
-// Chooses carriers; reports every satellite that is there.
+// Selects carriers, and adds a report for every satellite of the epoch.
 void PppFilter::measure_all(const Epoch& epoch) {
   measurements_.clear();
   report_of_.clear();
@@ -138,7 +138,7 @@ bool PppFilter::start(const Epoch& epoch) {
 void PppFilter::predict(double interval) {
   auto P = state_.P();
   if (parameters_.motion == Motion::kinematic) {
-    // Constant velocity under white acceleration.
+    // The motion model is constant velocity under white acceleration.
     auto x = state_.x();
     x.segment<3>(S::position) += interval * x.segment<3>(S::velocity);
     P.middleRows<3>(S::position) += interval * P.middleRows<3>(S::velocity);
@@ -174,8 +174,8 @@ void PppFilter::predict(double interval) {
   }
 }
 
-// The first code of a satellite says all it can of a constant, each later one of a first-order
-// Gauss-Markov error only (1 - r) / (1 + r) of that.
+// A satellite's first code has its full weight, each later one only (1 - r) / (1 + r) of it: its
+// error is a first-order Gauss-Markov process with the correlation r since the previous epoch.
 void PppFilter::weigh_code(Tracked& tracked, const Memory& memory) const {
   const Satellite satellite = tracked.measurement.satellite;
   tracked.level = levels_.of(satellite);
@@ -193,7 +193,7 @@ void PppFilter::weigh_code(Tracked& tracked, const Memory& memory) const {
   }
 }
 
-// Ranges, masks and slips.
+// Predicts ranges, applies the masks and looks for slips.
 void PppFilter::predict_ranges(double interval) {
   tracked_.clear();
   phase_steps_.clear();
@@ -232,8 +232,8 @@ void PppFilter::predict_ranges(double interval) {
   compare_phase_steps();
 }
 
-// The ambiguity has taken up what the other source's orbit and clock were wrong by; and its clocks
-// count from another moment, which the offsets tell: of its own system, or of all others from it.
+// The ambiguity has absorbed the old source's errors. The new clocks count from another origin,
+// which the system's offset absorbs (for the reference system, all other offsets).
 void PppFilter::change_source(Satellite satellite) {
   constexpr double difference = 2.0, unknown = 100.0;  // m, of the ranges by two sources
   if (const int at = state_.ambiguity(satellite); at >= 0) {
@@ -260,7 +260,7 @@ void PppFilter::look_for_slips(Tracked& tracked, Memory& memory, double interval
   const double phase_less_range = m.phase() - p.phase_extra - p.range;
   const bool goes_on = memory.epochs_away == 1 && memory.message == p.satellite.message;
   if (goes_on && slip == PppSlip::none && !m.dual() && interval > 0.0) {
-    // A fourth of a cycle of the first carriers, and what the ionosphere and clocks walk.
+    // This is a quarter of a cycle of the first carriers, plus the drift of ionosphere and clocks.
     const double limit = slip_limit(0.05, interval, p.elevation);
     phase_steps_.push_back({tracked_.size(), p.to_satellite,
                             phase_less_range - memory.phase_less_range, limit, false});
@@ -279,8 +279,8 @@ void PppFilter::compare_phase_steps() {
   }
 }
 
-// The receiver's clock, and new systems' offsets from it, from the codes' medians; codes far from
-// them are refused.
+// Sets the receiver's clock, and the offsets of new systems, from the medians of the codes. Codes
+// far from the median are refused.
 void PppFilter::set_clocks() {
   const auto system_of_row = [](const Tracked& t) {
     return static_cast<std::size_t>(t.measurement.satellite.system);
@@ -316,7 +316,7 @@ void PppFilter::set_clocks() {
   if (!clock) return;
   state_.set(S::clock, *clock, unknown);
   state_.set(S::clock_drift, 0.0, 1e4);
-  // Behind a gap the position may be as far off.
+  // After a gap, the position may be wrong by its own standard deviation, which widens the gate.
   const double lost = std::sqrt(state_.P().block<3, 3>(S::position, S::position).trace());
   const double gate = parameters_.code_gate + 4.0 * lost;
   for (Tracked& t : tracked_) {
@@ -327,11 +327,11 @@ void PppFilter::set_clocks() {
   }
 }
 
-// The position's error by those of the ranges that last, as if there were no others: least squares
-// with position and clock. An ionosphere that no model takes away is too long towards all
-// satellites at once: it moves the position along one line.
+// Computes the position error due to the ranges' lasting errors alone, by least squares for
+// position and clock. An ionosphere without a model lengthens all ranges at once: it moves the
+// position along one line.
 void PppFilter::weigh_lasting_errors() {
-  constexpr double least = 1e-4;  // m^2, of what is modelled to the millimetre
+  constexpr double least = 1e-4;  // m^2, a floor for products accurate to millimetres
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
   Eigen::Vector4d unmodelled = Eigen::Vector4d::Zero();
   int count = 0;
@@ -345,7 +345,7 @@ void PppFilter::weigh_lasting_errors() {
       unmodelled += weight * t.predicted.ionosphere.sigma * h;
     ++count;
   }
-  if (count < 5) return;  // as it was
+  if (count < 5) return;  // the previous values stay
   const Eigen::Matrix4d covariance = normal.inverse();
   const Eigen::Vector2d variance = covariance.diagonal().head<2>();
   if (!variance.allFinite() || variance.minCoeff() <= 0.0) return;
@@ -357,7 +357,7 @@ void PppFilter::weigh_lasting_errors() {
   if (first) begin_map_states(state_, lasting_, parameters_);
 }
 
-// Residuals and refusals; a phase that did not fit has slipped: its ambiguity begins anew.
+// Applies and reports the rows. A phase that did not fit has slipped: its ambiguity restarts.
 void PppFilter::update() {
   for (const Tracked& t : tracked_) {
     const double cn0 = t.measurement.first.cn0;
@@ -405,7 +405,7 @@ void PppFilter::forget_absent() {
   }
 }
 
-// Whether codes are far from the position, or most measurements were left out.
+// Returns whether the codes are far from the position, or more than half their number is left out.
 bool PppFilter::disagree(const std::vector<Row>& rows) const {
   int codes = 0, left_out = 0;
   double sum = 0.0;
@@ -418,12 +418,12 @@ bool PppFilter::disagree(const std::vector<Row>& rows) const {
     ++codes;
   }
   for (const Tracked& t : tracked_) left_out += !t.code_good;
-  constexpr double most_variance = 9.0;  // against what is expected
+  constexpr double most_variance = 9.0;  // relative to the expected variance
   return codes >= 4 && (sum > most_variance * codes || 2 * left_out > codes);
 }
 
-// What the map has shown of it. Satellites count the lasting error as noise, so it is in the
-// covariance already, as large as it is without a map.
+// Adds the part of the lasting error that the map has revealed. The rows count that error as noise,
+// so the covariance without a map already contains its full size.
 void PppFilter::add_lasting_error() {
   const Eigen::Matrix3d& R = model_.R_enu_ecef();
   const auto P = state_.P();
@@ -434,7 +434,7 @@ void PppFilter::add_lasting_error() {
   sum.leftCols<2>() += crossed;
   sum.topRows<2>() += crossed.transpose();
   sum.topLeftCorner<2, 2>() += lasting;
-  // The sum of both, made smaller by what it would be if they had nothing to do with each other.
+  // The scale would turn the sum of two uncorrelated covariances back into the first.
   const Eigen::Matrix2d once = own.topLeftCorner<2, 2>(), twice = once + lasting;
   Eigen::Matrix3d shrink = Eigen::Matrix3d::Identity();
   shrink.topLeftCorner<2, 2>() =

@@ -1,5 +1,5 @@
-// Precise point positioning with float ambiguities (ppp/METHOD.md), an epoch at a time. Plain
-// and single-threaded: what it says depends on the epochs alone.
+// Implements precise point positioning with float ambiguities (ppp/METHOD.md), one epoch at a time.
+// It is single-threaded, and its results depend on the epochs and the feedback alone.
 #pragma once
 
 #include "ppp/filter/clock_steps.h"
@@ -22,26 +22,27 @@ class PppFilter {
  public:
   PppFilter(const PppParameters& parameters, const Surroundings& surroundings, Earth earth);
 
-  // Epochs in the order of time. The solution is valid until the next call. Work is bounded by the
-  // number of satellites and 16 passes over them.
+  // Epochs must come in the order of time. The solution is valid until the next call. The work is
+  // bounded by the number of satellites: the rows of an epoch are applied at most 17 times.
   const PppSolution& process(const Epoch& epoch);
 
-  // The road at the feedback's stamp, about the state of the last epoch. Nothing is forgotten where
-  // it is refused.
+  // Applies the road of a feedback, at the feedback's stamp, to the state of the last epoch. If the
+  // feedback is refused, the state keeps what it had.
   MapUse add(const MapFeedback& feedback);
-  const PppSolution& solution() const { return solution_; }  // of the last epoch
-  Eigen::Matrix2d level_covariance() const;                  // the same one's, east and north, m^2
+  // Both are of the last epoch; the covariance is that of the position, east and north, m^2.
+  const PppSolution& solution() const { return solution_; }
+  Eigen::Matrix2d level_covariance() const;
 
-  // Forgets everything.
+  // Forgets everything except what is the receiver's own: its signal strengths and its clock steps.
   void reset();
 
-  // Memory that what it saves takes at most.
+  // This is the largest size of an archive, bytes.
   static constexpr std::size_t largest_archive =
       (FilterState::capacity + 1) * FilterState::capacity * sizeof(double) + satellite_slots * 160 +
       4096;
 
-  // Saves and loads what it knows; loading refuses a filter with other parameters. A filter that
-  // refused is as it was.
+  // Saves and loads the filter's state. Loading refuses an archive of a filter with other
+  // parameters, and the filter then stays as it was.
   template <class Archive>
   void archive(Archive& ar) {
     ar.section("ppp", 5);
@@ -68,13 +69,13 @@ class PppFilter {
        solution_.status, solution_.position, solution_.covariance, solution_.restarts);
   }
 
-  struct Memory {  // of a satellite
+  struct Memory {  // one satellite's
     SlipDetector slips;
     double wind_up = 0.0;
     int epochs_away = 0;
     std::optional<GpsTime> last_code;
-    std::uint32_t source = 0;   // of orbit and clock
-    GpsTime message{};          // the same
+    std::uint32_t source = 0;   // the source of orbit and clock
+    GpsTime message{};          // reference time of their broadcast message
     double phase_less_range{};  // m, at the last epoch with a phase
     template <class Archive>
     void archive(Archive& ar) {
@@ -102,7 +103,7 @@ class PppFilter {
   FilterState state_;
   std::vector<Memory> memory_;
   CodeLevels levels_;
-  FullStrength strength_;  // of this receiver, as is the next: kept when all begins anew
+  FullStrength strength_;  // of this receiver, like clock_steps_: both survive a restart
   ClockSteps clock_steps_;
   bool started_ = false;
   GpsTime begun_{}, time_{};
@@ -110,13 +111,15 @@ class PppFilter {
   std::array<bool, system_count> has_offset_{};
   int bad_epochs_ = 0;
   std::uint64_t restarts_ = 0;
-  // m^2, east and north: of the position, by errors that last; of the last epoch.
+  // This is the variance of the position, east and north, due to lasting errors, at the last epoch,
+  // m^2.
   Eigen::Vector2d lasting_ = Eigen::Vector2d::Zero();
-  // m, earth-fixed: what an ionosphere without a model, by its deviation, moves the position by.
+  // An ionosphere without a model, as large as its standard deviation, moves the position by this
+  // vector; m, earth-fixed.
   Eigen::Vector3d unmodelled_ = Eigen::Vector3d::Zero();
-  bool has_map_ = false;  // whose states are part of the solution
+  bool has_map_ = false;  // whether the map's states are part of the solution
 
-  // Of one epoch; members only to reuse their memory.
+  // These belong to one epoch and are members only to reuse their memory.
   std::vector<Measurement> measurements_;
   std::vector<std::size_t> report_of_;
   std::vector<Tracked> tracked_;

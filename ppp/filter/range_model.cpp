@@ -23,7 +23,8 @@ void RangeModel::begin(GpsTime t, const Eigen::Vector3d& marker) {
 
 std::optional<PredictedRange> RangeModel::predict(const Measurement& m,
                                                   double& wind_up_cycles) const {
-  // The code tells the satellite's clock at transmission, and that clock the time.
+  // The code gives the time of transmission on the satellite's clock, and the clock's offset then
+  // gives it in GPS time.
   GpsTime sent = time_ - from_seconds(m.first.code / speed_of_light);
   const auto offset = around_.ephemeris->clock(m.satellite, sent);
   if (!offset) return {};
@@ -43,7 +44,7 @@ std::optional<PredictedRange> RangeModel::predict(const Measurement& m,
   const Eigen::Vector3d local = R_enu_ecef_ * p.to_satellite;
   p.azimuth = std::atan2(local.x(), local.y());
   p.elevation = std::asin(local.z());
-  if (p.elevation <= 0.01) return p;  // below the horizon: the models end there
+  if (p.elevation <= 0.01) return p;  // below the horizon the models are not valid
 
   const Models& use = around_.models;
   if (use.shapiro) {

@@ -1,4 +1,4 @@
-// The range that a receiver at a place should measure to a satellite.
+// Predicts the range that a receiver at a given place should measure to a satellite.
 #pragma once
 
 #include "ppp/filter/measurement.h"
@@ -13,21 +13,22 @@
 
 namespace maploop::ppp {
 
-// Which models take part; all of them but for measuring what each is worth.
+// Selects the models in use. All are on, except in experiments that measure the effect of each.
 struct Models {
   bool satellite_antenna = true, receiver_antenna = true, wind_up = true;
   bool solid_tide = true, ocean_tide = true, pole_tide = true, shapiro = true;
 };
 
-// What the models need besides orbits and clocks. Views: they outlive the filter.
+// Contains what the models need besides orbits and clocks. The objects pointed to must outlive the
+// filter.
 struct Surroundings {
   const Ephemeris* ephemeris = nullptr;
   const std::vector<AntennaFile>* antennas = nullptr;
-  const Antenna* receiver = nullptr;  // none: its phase centre is at the reference point
-  Eigen::Vector3d marker_to_antenna_enu{0, 0, 0};  // m; the result is the marker's position
+  const Antenna* receiver = nullptr;  // nullptr: the phase centre is taken at the reference point
+  Eigen::Vector3d marker_to_antenna_enu{0, 0, 0};  // m; the solution is the marker's position
   const OceanLoading* ocean_loading = nullptr;
-  bool one_frequency = false;                       // may be used, with a model of the ionosphere
-  const BroadcastIonosphere* ionosphere = nullptr;  // its coefficients
+  bool one_frequency = false;  // allows single frequencies, with a model of the ionosphere
+  const BroadcastIonosphere* ionosphere = nullptr;  // coefficients of that model; nullptr: none
   std::array<std::optional<int>, 100> glonass_channels{};
   Models models;
 };
@@ -36,8 +37,9 @@ struct PredictedRange {
   SatelliteState satellite;
   Eigen::Vector3d to_satellite{0, 0, 0};  // unit vector, earth-fixed
   double azimuth = 0.0, elevation = 0.0;  // rad
-  double range = 0.0;           // m, everything but receiver clock, wet delay and ambiguity
-  double phase_extra = 0.0;     // m, what phase has besides: wind-up
+  // In m, everything but receiver clock, ionosphere, ambiguity and the correction of the wet delay.
+  double range = 0.0;
+  double phase_extra = 0.0;     // m, added to the phase only: wind-up
   IonosphericDelay ionosphere;  // m on the first carrier; 0 with two carriers
   double wet_mapping = 0.0;
   bool in_shadow = false;
@@ -48,28 +50,28 @@ class RangeModel {
   RangeModel(const Surroundings& surroundings, Earth earth)
       : around_(surroundings), earth_(std::move(earth)) {}
 
-  // Once an epoch, with the best known position of the marker.
+  // Call once per epoch, with the best known position of the marker (m, earth-fixed).
   void begin(GpsTime t, const Eigen::Vector3d& marker);
-  // Nothing: no orbit or clock. `wind_up_cycles` is that of the satellite's last epoch, and is
-  // brought up to date.
+  // Returns nothing if there is no orbit or clock. `wind_up_cycles` must be that of the satellite's
+  // last epoch and is updated.
   std::optional<PredictedRange> predict(const Measurement& m, double& wind_up_cycles) const;
 
   const Ephemeris& ephemeris() const { return *around_.ephemeris; }
   const Surroundings& surroundings() const { return around_; }
   const Eigen::Matrix3d& R_enu_ecef() const { return R_enu_ecef_; }
-  const ZenithDelay& zenith() const { return zenith_; }  // as predict() takes it
+  const ZenithDelay& zenith() const { return zenith_; }  // the values that predict() uses
 
  private:
   Surroundings around_;
   Earth earth_;
   GpsTime time_{};
-  Eigen::Vector3d receiver_{0, 0, 0};  // antenna reference point with tides
+  Eigen::Vector3d receiver_{0, 0, 0};  // m, earth-fixed: antenna reference point with tides
   Geodetic site_;
   Eigen::Matrix3d R_enu_ecef_ = Eigen::Matrix3d::Identity();
   SunAndMoon bodies_;
   ZenithDelay zenith_;
   GlobalMapping mapping_;
-  std::optional<NearestIonosphere> coefficients_;  // of one frequency
+  std::optional<NearestIonosphere> coefficients_;  // used on one frequency only
 };
 
 }  // namespace maploop::ppp

@@ -7,7 +7,7 @@
 namespace maploop::ppp {
 namespace {
 
-// Of what the row measures, by the state.
+// Returns the variance of the measured quantity according to the state.
 double predicted_variance(const FilterState& state, const Row& row) {
   const auto P = state.P();
   double variance = 0.0;
@@ -28,7 +28,7 @@ Row* RobustUpdate::worst(const FilterState& state, std::vector<Row>& rows) const
     if (!row.active) continue;
     double sigma = row.sigma;
     if (row.kind != RowKind::code) {
-      constexpr double least = 1e-3;  // a new ambiguity takes up all: nothing to test
+      constexpr double least = 1e-3;  // a new ambiguity absorbs all: nothing to test
       const double share = 1.0 - predicted_variance(state, row) / row.variance;
       if (share < least) continue;
       sigma *= std::sqrt(share);
@@ -58,8 +58,9 @@ void RobustUpdate::apply_anew(FilterState& state, const std::vector<Row>& rows) 
   apply_once(state, rows);
 }
 
-// Several outliers move the state so far that others fit worse than they do. Weights by the
-// residuals make the sum of absolute values least, which they move less.
+// Several outliers can move the state so far that good rows fit worse than the outliers do.
+// Weighting by the residuals minimizes the sum of absolute values instead, which outliers move
+// less.
 void RobustUpdate::reject_together(FilterState& state, std::vector<Row>& rows) {
   constexpr int passes = 5;
   const auto misfit = [this](const Row& row) { return std::abs(row.left(dx_)) / row.sigma; };
@@ -75,7 +76,7 @@ void RobustUpdate::reject_together(FilterState& state, std::vector<Row>& rows) {
   readmit(state, rows);
 }
 
-// Rows that fit a state that does not know them.
+// Re-admits rejected rows that agree with the state estimated without them.
 void RobustUpdate::readmit(FilterState& state, std::vector<Row>& rows) {
   bool again = false;
   for (Row& row : rows) {
@@ -88,8 +89,8 @@ void RobustUpdate::readmit(FilterState& state, std::vector<Row>& rows) {
   apply_anew(state, rows);
 }
 
-// Any choice of no more phases than they have to tell, place and clock, fits: which of them have
-// slipped is not known.
+// If no more phases fit than there are unknowns (position and clock), any other choice of as many
+// would fit equally well: it is unknown which of them have slipped.
 void RobustUpdate::doubt_phases(FilterState& state, std::vector<Row>& rows) {
   constexpr int unknowns = 4;
   constexpr double sigma = 1.0;  // m

@@ -1,4 +1,4 @@
-// The update of a state by an epoch's rows, without those that do not fit.
+// Updates a state by the rows of an epoch, without those that do not fit.
 #pragma once
 
 #include <vector>
@@ -13,21 +13,23 @@ class RobustUpdate {
   explicit RobustUpdate(double outlier_sigmas)
       : outlier_sigmas_(outlier_sigmas), dx_(FilterState::capacity) {}
 
-  // Where a row does not fit, all phases and Dopplers that do not with least absolute values
-  // (Schlossmacher, "An iterative technique for absolute deviations curve fitting", JASA 68, 1973)
-  // become inactive, but for those that fit the others; then the one row that fits worst, and
-  // again, at most 8 times. The state has moved by dx().
+  // If a row does not fit, a solution by least absolute values is computed (Schlossmacher, "An
+  // iterative technique for absolute deviations curve fitting", JASA 68, 1973), and all phases and
+  // Dopplers that do not fit it become inactive. Those of them that fit the solution of the
+  // remaining rows are re-admitted. After that, the row that fits worst becomes inactive, one at a
+  // time and at most 8 times. The state has moved by dx().
   //
-  // A residual of phase or Doppler is judged in its own standard deviation, of which the state has
-  // taken up a part (Baarda, "A testing procedure for use in geodetic networks", 1968): a row that
-  // the state follows shows little of its error. One of code, whose variance is not its size, in
-  // that size.
+  // The residual of a phase or Doppler is judged by its own standard deviation, which is smaller
+  // than that of the measurement because the state has absorbed part of the error (Baarda, "A
+  // testing procedure for use in geodetic networks", 1968). The residual of a code is judged by the
+  // size of its error (Row::sigma), from which its variance differs.
   //
-  // Where so few phases fit that others would have fitted as well, they say where the vehicle is to
-  // a metre, and none is known to be wrong.
+  // With four or fewer fitting phases, any other four might fit equally well: every phase then gets
+  // 1 m of additional noise for this epoch, and the misfits are marked as doubtful, so that their
+  // ambiguities are kept.
   void apply(FilterState& state, std::vector<Row>& rows);
 
-  // m and so on; valid until the next update.
+  // Returns the correction in the units of the state; valid until the next update.
   const Eigen::VectorXd& dx() const { return dx_; }
 
  private:
@@ -40,7 +42,7 @@ class RobustUpdate {
 
   double outlier_sigmas_;
   FilterState before_;
-  std::vector<double> looser_;  // of each row's variance
+  std::vector<double> looser_;  // factor on each row's variance
   Eigen::VectorXd dx_;
 };
 

@@ -20,7 +20,8 @@ SinglePoint solve_single_point(const std::vector<Measurement>& measurements, Gps
     std::size_t worst_at = 0;
     bool settled = false;
     for (int iteration = 0; iteration < 12 && !settled; ++iteration) {
-      // Far from the earth's surface there is no local frame: start there without models of it.
+      // Without a position near the earth's surface there is no local frame: the first iterations
+      // do without models.
       const bool on_earth = result.position.norm() > 6.2e6;
       model.begin(t, on_earth ? result.position : Eigen::Vector3d(6378137.0, 0, 0));
       normal.setZero();

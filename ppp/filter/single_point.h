@@ -1,4 +1,4 @@
-// A position by code alone, from nothing.
+// Computes a first position from codes alone.
 #pragma once
 
 #include <array>
@@ -11,17 +11,19 @@ namespace maploop::ppp {
 struct SinglePoint {
   bool solved = false;
   std::string why_not;
-  Eigen::Vector3d position{0, 0, 0};  // m
+  Eigen::Vector3d position{0, 0, 0};  // m, earth-fixed
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  std::array<double, system_count> clocks{};  // m, of each system
+  std::array<double, system_count> clocks{};  // m, of each system's clock
   std::array<bool, system_count> has_clock{};
   int used = 0, refused = 0;
-  // Variance of the residuals against what is expected; 1 where there are none to spare.
+  // This is the variance of the residuals relative to the expected one; 1 without redundancy.
   double residual_level = 1.0;
 };
 
-// Weighted least squares; the largest residual beyond four standard deviations is left out, one
-// after the other. At most a quarter of the satellites. The model is begun anew at the result.
+// Solves by weighted least squares. The largest residual beyond four standard deviations is left
+// out, one satellite at a time, up to a quarter of them; the solution fails if one beyond ten
+// remains. `near` is in m, earth-fixed, `elevation_mask` in rad and `code_sigma` in m. On success,
+// the model has begun at the result.
 SinglePoint solve_single_point(const std::vector<Measurement>& measurements, GpsTime t,
                                const Eigen::Vector3d& near, double elevation_mask,
                                double code_sigma, RangeModel& model);

@@ -29,7 +29,7 @@ PppSlip SlipDetector::next(const Measurement& m, double interval, double elevati
                         (f1 * m.first.code + f2 * m.second.code) / (f1 + f2);
     const double wide_length = speed_of_light / (f1 - f2);
     if (started_) {
-      // The ionosphere's rate goes on as it was.
+      // The rate of the ionosphere is assumed to be constant.
       const double predicted = geometry_free_ + (has_rate_ ? rate_ * interval : 0.0);
       const double limit = slip_limit(0.04, interval, elevation) * (has_rate_ ? 1.0 : 1.5);
       const double sigma = std::sqrt(std::max(wide_variance_, 0.01));
@@ -58,7 +58,7 @@ PppSlip SlipDetector::next(const Measurement& m, double interval, double elevati
   } else if (started_ && slip == PppSlip::none && doppler_ != 0.0 && m.first.doppler != 0.0 &&
              interval < 5.0) {
     const double expected = -0.5 * (doppler_ + m.first.doppler) * m.first.wavelength * interval;
-    // But for milliseconds by which the receiver's clock has stepped.
+    // Whole milliseconds are removed, by which the receiver may have stepped its clock.
     const double off = std::remainder(m.first.phase - phase_ - expected, millisecond_range);
     if (std::abs(off) > 0.5 + 0.5 * interval) {
       slip = PppSlip::doppler;

@@ -1,6 +1,6 @@
-// Cycle slips of one satellite: loss of lock, geometry-free and Melbourne-Wuebbena combinations
-// with two carriers; Doppler with one, which sees half a metre and more: for less see
-// phase_steps.h.
+// Detects cycle slips of one satellite. With two carriers it uses loss of lock and the
+// geometry-free and Melbourne-Wuebbena combinations. With one carrier it uses loss of lock and
+// Doppler, which reveals slips of half a metre and more; phase_steps.h finds smaller ones.
 #pragma once
 
 #include "msgs/ppp_state.h"
@@ -8,13 +8,14 @@
 
 namespace maploop::ppp {
 
-// m: what phases may differ by, of that at once, after `interval` s; at low elevations twice that.
+// Returns how much phases may differ without a slip, m: `at_once` (m) plus 2 mm for each second of
+// `interval` up to 30 s, and twice that at low elevations (below 0.26 rad).
 double slip_limit(double at_once, double interval, double elevation);
 
 class SlipDetector {
  public:
-  // Takes the next epoch of the satellite; what told that the phase slipped, if it did. `interval`
-  // is the time since the epoch before.
+  // Takes the satellite's next epoch and returns what indicated a slip, or none. `interval` is the
+  // time since the previous epoch, s; `elevation` is in rad.
   PppSlip next(const Measurement& m, double interval, double elevation);
   void reset() { *this = {}; }
 

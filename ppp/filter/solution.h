@@ -1,4 +1,4 @@
-// What the PPP filter says of an epoch.
+// Defines the result of the PPP filter for one epoch.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,8 +18,8 @@ struct SatelliteReport {
   double cn0 = 0.0;                       // dB-Hz
   bool code_used = false, phase_used = false;
   double code_residual = 0.0, phase_residual = 0.0;  // m, after the update
-  PppSlip slip = PppSlip::none;                      // why its ambiguity began anew
-  PppRefusal refused = PppRefusal::none;             // why not all of it was used
+  PppSlip slip = PppSlip::none;                      // why its ambiguity restarted
+  PppRefusal refused = PppRefusal::none;             // why it was not used completely
 };
 
 struct PppSolution {
@@ -27,13 +27,13 @@ struct PppSolution {
   PppStatus status = PppStatus::none;
   std::string message;                // why there is no solution; "started again: ..."
   Eigen::Vector3d position{0, 0, 0};  // m, of the marker, earth-fixed
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // m^2
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // m^2, earth-fixed
   Eigen::Vector3d velocity{0, 0, 0};                     // m/s
   Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();
   double clock = 0.0;                                   // m
-  double zenith_delay = 0.0, zenith_delay_sigma = 0.0;  // m, all of it
-  double running_for = 0.0;                             // s since the filter began, or began anew
-  std::uint64_t restarts = 0;                           // times that the filter began anew
+  double zenith_delay = 0.0, zenith_delay_sigma = 0.0;  // m, of the whole troposphere
+  double running_for = 0.0;                             // s since the filter started or restarted
+  std::uint64_t restarts = 0;                           // number of restarts
   int satellites_used = 0;
   std::vector<SatelliteReport> satellites;  // all that were measured
 };
