@@ -1,30 +1,34 @@
-// Phase centres: by how much a measured range is longer than that to the reference point; m.
+// Computes by how much a measured range exceeds that to an antenna's reference point, m.
 #pragma once
 
 #include "ppp/readers/antex.h"
 
 namespace maploop::ppp {
 
-// At zenith (of a satellite: nadir) and azimuth angle, rad. Angles beyond the grid take its edge.
+// `zenith` is the zenith angle (for a satellite the nadir angle) and `azimuth` the azimuth angle,
+// rad. A zenith angle beyond the grid takes the value of its edge.
 double phase_variation(const Antenna& antenna, const PhaseCentre& carrier, double zenith,
                        double azimuth);
 
-// A receiver's antenna, from the reference point; `to_satellite_enu` is a unit vector. A carrier
-// that was not calibrated takes that of the nearest of GPS's two.
+// Returns the excess for a receiver's antenna, relative to its reference point; `to_satellite_enu`
+// is a unit vector. For a carrier that was not calibrated, the closer one of GPS's two carriers is
+// used; 0 if that one is missing too.
 double receiver_phase_centre(const Antenna& antenna, System system, char band,
                              const Eigen::Vector3d& to_satellite_enu);
 
-// A satellite's antenna, from its centre of mass; columns of `R_ecef_body` are the body's axes and
-// `to_receiver` a unit vector. Only where the carrier (or the system's first) is calibrated, else
-// 0.
+// Returns the excess for a satellite's antenna, relative to its centre of mass. The columns of
+// `R_ecef_body` are the axes of the satellite's body, and `to_receiver` is a unit vector
+// (earth-fixed). For a carrier that was not calibrated, the antenna's first carrier is used; 0 if
+// it has none.
 double satellite_phase_centre(const Antenna& antenna, System system, char band,
                               const Eigen::Matrix3d& R_ecef_body,
                               const Eigen::Vector3d& to_receiver);
 
-// The antenna of a satellite at a time; nothing where no file has it.
+// Returns the antenna of a satellite at a time; nullptr if no file contains it.
 const Antenna* satellite_antenna(const std::vector<AntennaFile>& files, Satellite satellite,
                                  GpsTime t);
-// Of a type with its radome; without the radome's calibration that of NONE.
+// Returns the antenna of a type with its radome, or with radome NONE if that combination was not
+// calibrated; nullptr if no file contains either.
 const Antenna* receiver_antenna(const std::vector<AntennaFile>& files, const std::string& type,
                                 const std::string& radome);
 

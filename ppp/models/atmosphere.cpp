@@ -8,13 +8,13 @@
 namespace maploop::ppp {
 namespace {
 
-// At the sea: pressure (hPa), temperature (K), water vapour pressure (hPa), lapse rate of the
-// temperature (K/m) and of the vapour (1).
+// These are values at sea level: pressure (hPa), temperature (K), water vapour pressure (hPa), and
+// the lapse rates of temperature (K/m) and vapour (1).
 struct Air {
   double pressure, temperature, vapour, lapse, vapour_lapse;
 };
 
-// At 15, 30, 45, 60 and 75 degrees: the year's mean and its amplitude.
+// The rows are for 15, 30, 45, 60 and 75 degrees of latitude: the year's mean and its amplitude.
 constexpr std::array<Air, 5> mean{{{1013.25, 299.65, 26.31, 6.30e-3, 2.77},
                                    {1017.25, 294.15, 21.79, 6.05e-3, 3.15},
                                    {1015.75, 283.15, 11.66, 5.58e-3, 2.57},
@@ -29,7 +29,7 @@ constexpr std::array<Air, 5> amplitude{{{0.0, 0.0, 0.0, 0.0, 0.0},
 Air air_at(const Geodetic& site, GpsTime t) {
   const double latitude = std::abs(site.latitude) * 180.0 / std::numbers::pi;
   const double place = std::clamp(latitude / 15.0 - 1.0, 0.0, 4.0);
-  const auto i = static_cast<std::size_t>(std::fmin(3.0, place));  // a place that is none is at 3
+  const auto i = static_cast<std::size_t>(std::fmin(3.0, place));  // NaN is treated as 3
   const double share = place - static_cast<double>(i);
   const double coldest = site.latitude < 0.0 ? 211.0 : 28.0;
   const double season = std::cos(2.0 * std::numbers::pi * (day_of_year(t) - coldest) / 365.25);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double mjd_zero = 2400000.5;
 
-// Modified Julian date of a moment, in GPS time.
+// Returns the modified Julian date of a moment, in GPS time.
 double mjd_of(GpsTime t) {
   return 44244.0 + to_seconds(t.time_since_epoch()) / 86400.0;
 }
@@ -43,7 +43,7 @@ EarthRotation Earth::rotation_at(double mjd) const {
   r.mjd = mjd;
   r.x_pole += share * (b.x_pole - a.x_pole);
   r.y_pole += share * (b.y_pole - a.y_pole);
-  // A leap second may lie between.
+  // There may be a leap second in between.
   const double step = b.ut1_minus_utc - a.ut1_minus_utc;
   r.ut1_minus_utc += share * (step - std::round(step));
   return r;
@@ -53,7 +53,8 @@ const SunAndMoon& Earth::at(GpsTime t) {
   const double mjd_gps = mjd_of(t);
   const double mjd_utc = mjd_gps - to_seconds(leap_seconds(t).gps_minus_utc) / 86400.0;
   const EarthRotation rotation = rotation_at(mjd_utc);
-  // Of the minute's middle, whichever epoch of it comes first: the same time gives the same bits.
+  // The slow parts are those of the minute's middle, whichever of its epochs comes first, so that
+  // the same time gives the same bits.
   const GpsTime middle = std::chrono::floor<std::chrono::minutes>(t) + std::chrono::seconds(30);
   if (slow_time_ != middle) {
     const double mjd_tt = mjd_of(middle) + (19.0 + 32.184) / 86400.0;

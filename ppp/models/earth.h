@@ -1,4 +1,5 @@
-// Sun, moon and the earth's rotation at an epoch (ERFA, the IAU's routines).
+// Computes the positions of sun and moon and the earth's rotation at an epoch (ERFA, the IAU's
+// routines).
 #pragma once
 
 #include <Eigen/Core>
@@ -12,12 +13,13 @@ namespace maploop::ppp {
 struct SunAndMoon {
   Eigen::Vector3d sun{0, 0, 0}, moon{0, 0, 0};  // m, earth-fixed
   double sidereal_angle = 0.0;                  // rad, Greenwich
-  double x_pole = 0.0, y_pole = 0.0;            // rad; zero where no file says them
+  double x_pole = 0.0, y_pole = 0.0;            // rad; zero if no file contains them
   double mjd_ut1 = 0.0;
   bool has_pole = false;
 };
 
-// Computes what is slow once a minute of data and turns it with the earth in between.
+// Computes the slow parts once per minute of data and rotates them with the earth in between. The
+// result of at() is valid until the next call.
 class Earth {
  public:
   explicit Earth(const std::vector<EarthRotationFile>& files);

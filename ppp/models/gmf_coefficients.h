@@ -1,7 +1,7 @@
-// The coefficients of the global mapping functions: spherical harmonics of degree and order nine,
-// in units of 1e-5, degree by degree and in each by order. Boehm, Niell, Tregoning and Schuh,
-// "Global mapping function (GMF)", Geophysical Research Letters 33, L07304, 2006, as in the IERS
-// Conventions (2010), chapter 9.
+// Contains the coefficients of the global mapping functions: spherical harmonics of degree and
+// order nine, in units of 1e-5, sorted by degree and then by order. The source is Boehm, Niell,
+// Tregoning and Schuh, "Global mapping function (GMF)", Geophysical Research Letters 33, L07304,
+// 2006, as in the IERS Conventions (2010), chapter 9.
 #pragma once
 
 #include <array>

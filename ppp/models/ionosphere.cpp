@@ -21,7 +21,7 @@ double square(double x) {
 double delay(const Klobuchar& klobuchar, const Geodetic& site, double azimuth, double elevation,
              GpsTime t) {
   const auto& k = klobuchar.values;
-  // In semicircles, as the interface document writes it.
+  // Angles are in semicircles, as in the interface document.
   const double e = elevation / pi;
   const double psi = 0.0137 / (e + 0.11) - 0.022;
   const double phi = std::clamp(site.latitude / pi + psi * std::cos(azimuth), -0.416, 0.416);
@@ -38,7 +38,7 @@ double delay(const Klobuchar& klobuchar, const Geodetic& site, double azimuth, d
   return speed_of_light * slant * (5e-9 + bump);
 }
 
-// Where a ray crosses the shell, rad.
+// A PiercePoint is where a ray crosses the shell, rad.
 struct PiercePoint {
   double latitude, longitude;
 };
@@ -53,7 +53,8 @@ PiercePoint pierce_point(const Geodetic& site, double azimuth, double elevation)
   return {latitude, site.longitude + std::asin(std::clamp(sine, -1.0, 1.0))};
 }
 
-// TECU above a place; names and constants are those of NTCM-G's description.
+// Returns the vertical electron content above a place, TECU. Names and constants are those of
+// NTCM-G's description.
 double vertical_electrons(const IonisationLevel& level, const PiercePoint& at, int day_of_year,
                           double hour) {
   const auto& a = level.values;

@@ -1,4 +1,4 @@
-// The ionosphere's delay on one frequency, by the coefficients that satellites broadcast.
+// Computes the ionospheric delay on one frequency from the coefficients that satellites broadcast.
 #pragma once
 
 #include "msgs/local_frame.h"
@@ -6,13 +6,14 @@
 
 namespace maploop::ppp {
 
-// m on GPS L1 (1575.42 MHz); others have it by the square of the frequencies' ratio. Galileo's
-// level drives NTCM-G ("NTCM-G Ionospheric Model Description", European Commission, 1.0, 2022).
-// `elevation` is above 0; rad.
+// Returns the delay in m on GPS L1 (1575.42 MHz); on another frequency it is larger by the squared
+// ratio of the frequencies. GPS's coefficients belong to Klobuchar's model, Galileo's ionisation
+// level to NTCM-G ("NTCM-G Ionospheric Model Description", European Commission, 1.0, 2022).
+// `azimuth` and `elevation` are in rad; `elevation` is above 0.
 double ionospheric_delay(const IonosphereCoefficients& coefficients, const Geodetic& site,
                          double azimuth, double elevation, GpsTime t);
 
-// Of a thin shell at 450 km, against the zenith; as NTCM-G has it.
+// Returns the slant delay relative to the vertical one, for a thin shell at 450 km as in NTCM-G.
 double ionospheric_slant(double elevation);
 
 }  // namespace maploop::ppp

@@ -38,8 +38,8 @@ Eigen::Vector3d solid_earth_tide(const Eigen::Vector3d& site, const SunAndMoon& 
 }
 
 Eigen::Vector3d ocean_tide(const Eigen::Vector3d& site, const OceanLoading& loading, GpsTime t) {
-  // Angular speed (rad/s), then multiples of the sun's, the moon's and its perigee's longitude, and
-  // of a quarter turn.
+  // Each row contains the angular speed (rad/s) and the multiples of the longitudes of the sun, the
+  // moon and its perigee, and of a full turn.
   static constexpr double argument[11][5] = {
       {1.40519e-4, 2, -2, 0, 0},     {1.45444e-4, 0, 0, 0, 0},      {1.37880e-4, 2, -3, 1, 0},
       {1.45842e-4, 2, 0, 0, 0},      {0.72921e-4, 1, 0, 0, 0.25},   {0.67598e-4, 1, -2, 0, -0.25},
@@ -70,7 +70,8 @@ Eigen::Vector3d ocean_tide(const Eigen::Vector3d& site, const OceanLoading& load
 
 Eigen::Vector3d pole_tide(const Eigen::Vector3d& site, const SunAndMoon& earth) {
   if (!earth.has_pole) return Eigen::Vector3d::Zero();
-  // Against the secular pole (IERS 2018), in milliarcseconds of 2000 and a year.
+  // The pole is taken relative to the secular pole (IERS 2018), in milliarcseconds at 2000 and per
+  // year.
   const double years = (earth.mjd_ut1 - 51544.5) / 365.25;
   constexpr double to_arcsecond = 180.0 * 3600.0 / pi;
   const double m1 = earth.x_pole * to_arcsecond - (55.0 + 1.677 * years) * 1e-3;

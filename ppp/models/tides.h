@@ -1,4 +1,5 @@
-// Displacement of a site by tides (IERS Conventions 2010, chapter 7), m in the earth-fixed frame.
+// Computes the displacement of a site by tides (IERS Conventions 2010, chapter 7). All vectors are
+// in m in the earth-fixed frame.
 #pragma once
 
 #include "ppp/models/earth.h"
@@ -6,17 +7,19 @@
 
 namespace maploop::ppp {
 
-// Solid earth: second and third degree in phase, and the K1 correction; to about 5 mm.
+// The tide of the solid earth is that of second and third degree in phase with the K1 correction;
+// it is accurate to about 5 mm.
 Eigen::Vector3d solid_earth_tide(const Eigen::Vector3d& site, const SunAndMoon& bodies);
 
-// By the 11 constituents of the station's coefficients, without minor tides.
+// The ocean tide consists of the 11 constituents of the station's coefficients, without minor
+// tides.
 Eigen::Vector3d ocean_tide(const Eigen::Vector3d& site, const OceanLoading& loading, GpsTime t);
 
-// Zero where the pole is not known.
+// The pole tide is zero if the pole is unknown.
 Eigen::Vector3d pole_tide(const Eigen::Vector3d& site, const SunAndMoon& earth);
 
-// The nearest station of the files within 50 km whose comment gives its place, or the one with the
-// marker's name.
+// Returns the station whose name starts with the first four characters of the marker, or else the
+// nearest one whose comment gives its coordinates, within 50 km; nullptr if there is none.
 const OceanLoading* nearest_station(const std::vector<OceanLoadingFile>& files,
                                     const Eigen::Vector3d& site, const std::string& marker);
 

@@ -10,13 +10,13 @@ namespace {
 
 using std::numbers::pi;
 
-// Continued fraction of Marini with Herring's normalization.
+// This is Marini's continued fraction with Herring's normalization.
 double fraction(double sine, const double (&c)[3]) {
   const double top = 1.0 + c[0] / (1.0 + c[1] / (1.0 + c[2]));
   return top / (sine + c[0] / (sine + c[1] / (sine + c[2])));
 }
 
-// Of the spherical harmonics at a place, without normalization.
+// Contains the spherical harmonics at a place, without normalization.
 class Harmonics {
  public:
   explicit Harmonics(const Geodetic& site) {
@@ -53,7 +53,7 @@ class Harmonics {
 
 GlobalMapping::GlobalMapping(const Geodetic& site, GpsTime t) : height_km_(site.height * 1e-3) {
   constexpr double seconds_a_day = 86400.0;
-  // Coldest on 28 January, in the north.
+  // The coldest day is 28 January, in the north.
   const double day = to_seconds(t.time_since_epoch()) / seconds_a_day - 22.0;
   const double season = std::cos(2.0 * pi * day / 365.25);
   const Harmonics harmonics(site);

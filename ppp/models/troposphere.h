@@ -1,4 +1,4 @@
-// Mapping functions of the troposphere (GMF: Boehm, Niell, Tregoning and Schuh 2006).
+// Computes mapping functions of the troposphere (GMF: Boehm, Niell, Tregoning and Schuh 2006).
 #pragma once
 
 #include "msgs/local_frame.h"
@@ -9,7 +9,8 @@ namespace maploop::ppp {
 struct Mapping {
   double hydrostatic = 0.0, wet = 0.0;
 };
-// At one place, for one epoch: what depends on the elevation alone is left to at().
+// Holds what is constant for one place and epoch; only the part that depends on the elevation is
+// computed by at().
 class GlobalMapping {
  public:
   GlobalMapping() = default;
