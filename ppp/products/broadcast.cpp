@@ -8,8 +8,8 @@
 namespace maploop::ppp {
 namespace {
 
-// How far from its reference time a message is still used. Galileo allows hours, and is then off by
-// tens of metres; a new one comes every ten minutes.
+// Returns how far from its reference time a message is still used. Galileo would allow hours, but
+// is then wrong by tens of metres; a new message comes every ten minutes.
 Duration longest_age(System system) {
   using std::chrono::minutes;
   switch (system) {
@@ -60,7 +60,7 @@ Orbit orbit(const KeplerMessage& m, GpsTime t) {
   const double r = a * (1.0 - m.e * cos_e) + m.crs * s2 + m.crc * c2;
   const double i = m.i0 + m.i_dot * tk + m.cis * s2 + m.cic * c2;
   const double x = r * std::cos(u), y = r * std::sin(u);
-  // Seconds of the week of the message's own system.
+  // The time of the week is in the time of the message's own system.
   const bool beidou = m.satellite.system == System::beidou;
   const double toe_of_week = seconds_of_week(m.toe) - (beidou ? 14.0 : 0.0);
   const bool geostationary = beidou && (m.satellite.number <= 5 || m.satellite.number >= 59);
@@ -69,7 +69,7 @@ Orbit orbit(const KeplerMessage& m, GpsTime t) {
   Eigen::Vector3d p(x * std::cos(node) - y * std::cos(i) * std::sin(node),
                     x * std::sin(node) + y * std::cos(i) * std::cos(node), y * std::sin(i));
   if (geostationary) {
-    // The message is in a frame inclined by five degrees that does not rotate.
+    // The message refers to a frame that is inclined by five degrees and does not rotate.
     const double tilt = -5.0 / 180.0 * 3.14159265358979323846, angle = rate * tk;
     const Eigen::Vector3d q(p.x(), p.y() * std::cos(tilt) + p.z() * std::sin(tilt),
                             -p.y() * std::sin(tilt) + p.z() * std::cos(tilt));
@@ -146,7 +146,7 @@ std::optional<SatelliteState> state_by(const GlonassMessage* m, GpsTime t) {
 }
 
 std::optional<SatelliteState> state_by(const KeplerMessage* m, GpsTime t) {
-  // Galileo's health has bits for each signal; the others' is zero where all is well.
+  // Galileo's health has bits for each signal; for the other systems zero means healthy.
   if (!m || m->health != 0.0) return {};
   constexpr double step = 1e-2;  // s
   const Orbit now = orbit(*m, t), soon = orbit(*m, t + from_seconds(step));
@@ -172,7 +172,7 @@ const Message* nearest(const std::vector<Message>& messages, GpsTime t, Duration
   return std::chrono::abs(t - at->toe) <= longest ? &*at : nullptr;
 }
 
-// In the order of toe; without the earliest where there are too many.
+// Inserts in the order of toe and drops the earliest message if there are more than `most`.
 template <class Message>
 void insert(std::vector<Message>& list, const Message& m, std::size_t most) {
   list.insert(std::upper_bound(list.begin(), list.end(), m,
@@ -196,8 +196,8 @@ void BroadcastEphemeris::add(const BroadcastMessages& messages) {
 }
 
 void BroadcastEphemeris::add(const KeplerMessage& m) {
-  // Galileo's clock for E1 and E5b (I/NAV) is left out where the one for E1 and E5a is there:
-  // both orbits are the same.
+  // Galileo's clock for E1 and E5b (I/NAV) is dropped if the one for E1 and E5a is available: the
+  // orbits of both are the same.
   const auto is_e5b = [](const KeplerMessage& k) {
     return k.satellite.system == System::galileo && (static_cast<int>(k.data_sources) & 0x200) != 0;
   };
@@ -269,7 +269,7 @@ double BroadcastEphemeris::code_bias(Satellite satellite, char band, char, GpsTi
   const KeplerMessage* m = kepler(satellite, t);
   if (!m) return 0.0;
   if (satellite.system == System::beidou) {
-    // The clock is the third carrier's.
+    // The clock is that of the third carrier (B3).
     return speed_of_light * (band == '2' ? m->group_delay[0] : band == '7' ? m->group_delay[1] : 0);
   }
   const bool e5b =
@@ -292,7 +292,7 @@ std::optional<int> BroadcastEphemeris::glonass_channel(int number) const {
   const auto& messages = glonass_[static_cast<std::size_t>(number)];
   if (messages.empty()) return {};
   const int channel = messages.back().channel;
-  return channel > 6 ? channel - 14 : channel;  // an old way to write negative channels
+  return channel > 6 ? channel - 14 : channel;  // older files write negative channels plus 14
 }
 
 }  // namespace maploop::ppp

@@ -1,4 +1,5 @@
-// Broadcast messages (IS-GPS-200, Galileo OS-SIS-ICD, BeiDou B1I and GLONASS ICDs).
+// Computes orbits and clocks from broadcast messages (IS-GPS-200, Galileo OS-SIS-ICD, BeiDou B1I
+// and GLONASS ICDs).
 #pragma once
 
 #include <array>
@@ -13,16 +14,17 @@ namespace maploop::ppp {
 
 class BroadcastEphemeris : public Ephemeris {
  public:
-  // `most_each`: messages of a satellite that are kept, the latest; of a file all.
+  // Keeps at most `most_each` messages per satellite, the latest ones; by default it keeps all.
   explicit BroadcastEphemeris(const std::vector<NavigationFile>& files = {},
                               std::size_t most_each = static_cast<std::size_t>(-1));
 
-  // As they are received; one with the times and issue of another takes its place.
+  // Adds received messages. A message replaces one with the same reference time and, except for
+  // GLONASS, the same issue.
   void add(const BroadcastMessages& messages);
 
   std::optional<SatelliteState> at(Satellite satellite, GpsTime t) const override;
-  // By the message with this issue instead of the nearest: the lowest 8 bits of its IODE or IODnav;
-  // of GLONASS the quarter of an hour of Moscow's day.
+  // Uses the message with this issue instead of the nearest. The issue is the lowest 8 bits of IODE
+  // or IODnav, and for GLONASS the quarter of an hour of Moscow's day.
   std::optional<SatelliteState> at_issue(Satellite satellite, int issue, GpsTime t) const;
   bool has_issue(Satellite satellite, int issue, GpsTime t) const;
   std::optional<double> clock(Satellite satellite, GpsTime t) const override;
@@ -37,13 +39,13 @@ class BroadcastEphemeris : public Ephemeris {
  private:
   void add(const KeplerMessage& message);
   void add(const GlonassMessage& message);
-  // Of those with this issue, where there is one.
+  // Both choose among the messages with this issue, if one is given.
   const KeplerMessage* kepler(Satellite satellite, GpsTime t, std::optional<int> issue = {}) const;
   const GlonassMessage* glonass(Satellite satellite, GpsTime t,
                                 std::optional<int> issue = {}) const;
 
   std::size_t most_each_;
-  // By slot; of each the messages in the order of toe.
+  // Both are in the order of toe: the first by slot, the second by satellite number.
   std::array<std::vector<KeplerMessage>, satellite_slots> kepler_;
   std::array<std::vector<GlonassMessage>, 100> glonass_;
   BroadcastIonosphere ionosphere_;

@@ -1,4 +1,4 @@
-// Broadcast orbits and clocks with a stream's corrections of them (SSR), as long as these come.
+// Applies a stream's corrections (SSR) to broadcast orbits and clocks, for as long as they arrive.
 #pragma once
 
 #include <array>
@@ -13,20 +13,23 @@
 
 namespace maploop::ppp {
 
-// RTCM 10403.3, section 3.5.12. A satellite is corrected where orbit and clock of one solution are
-// there, are not too old, and the message that they correct is. Corrected clocks count from another
-// moment than broadcast ones: where four satellites of a system are corrected, its others are not
-// known, and else all of them are as they were broadcast.
+// The corrections are those of RTCM 10403.3, section 3.5.12. A satellite is corrected if orbit and
+// clock of one solution are available and recent, and so is the broadcast message that they refer
+// to. Corrected clocks count from another origin than broadcast ones: if at least four satellites
+// of a system are corrected, its other satellites are not used; otherwise none of its satellites is
+// corrected.
 class CorrectedEphemeris : public Ephemeris {
  public:
-  // How much older than their interval corrections may be: clocks wander by centimetres a minute.
+  // This is how long corrections stay in use after their interval: clocks wander by centimetres per
+  // minute.
   static constexpr Duration longest_age = std::chrono::seconds(90);
 
   explicit CorrectedEphemeris(BroadcastEphemeris broadcast) : broadcast_(std::move(broadcast)) {}
 
   void add(const BroadcastMessages& messages) { broadcast_.add(messages); }
   void add(const SsrUpdate& update);
-  // The epoch that is asked about from now on: which corrections are used does not change within.
+  // Sets the epoch of the following calls, which decides for all of them which corrections are
+  // used.
   void begin(GpsTime t);
 
   std::optional<SatelliteState> at(Satellite satellite, GpsTime t) const override;
@@ -41,7 +44,7 @@ class CorrectedEphemeris : public Ephemeris {
 
   const BroadcastIonosphere& ionosphere() const { return broadcast_.ionosphere(); }
   bool corrected(Satellite satellite) const { return current(satellite).has_value(); }
-  // Of the newest clock of any satellite; nothing where none ever came.
+  // Returns the age of the newest clock correction of any satellite; nothing if none ever came.
   std::optional<Duration> age() const;
 
  private:
@@ -51,17 +54,17 @@ class CorrectedEphemeris : public Ephemeris {
     GpsTime time{};
     Duration interval{};
     std::uint32_t solution = 0;
-    int issue = 0;  // of the solution
+    int issue = 0;  // issue of the solution
     bool goes_with(const auto& other) const {
       return solution == other.solution && issue == other.issue;
     }
   };
   struct Corrections {
-    // The newest two: an orbit is there before its clock.
+    // These are the newest two, because an orbit arrives before its clock.
     std::optional<Part<SsrOrbit>> orbit, orbit_before;
     std::optional<Part<SsrClock>> clock;
     std::optional<Part<double>> high_rate;
-    double sigma = 0.05;  // m, where no message says it
+    double sigma = 0.05;  // m, if no message gives it
     std::vector<SsrBias> biases;
   };
   struct Current {
@@ -69,7 +72,7 @@ class CorrectedEphemeris : public Ephemeris {
     const Corrections* all;
   };
   std::optional<Current> available(Satellite satellite) const;
-  std::optional<Current> current(Satellite satellite) const;  // and its system's are used
+  std::optional<Current> current(Satellite satellite) const;  // if its system is corrected
   template <class Value>
   bool fresh(const std::optional<Part<Value>>& part) const;
 

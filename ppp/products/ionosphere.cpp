@@ -57,7 +57,8 @@ IonosphericDelay ionospheric_delay(const std::optional<NearestIonosphere>& coeff
         4.0;  // m: 25 TECU, between a quiet sun's night and an active one's day
     return {0.0, zenith * ionospheric_slant(elevation)};
   }
-  // GPS chooses its coefficients for a root mean square of half the delay, and anew each ten days.
+  // GPS chooses its coefficients for an error (root mean square) of half the delay, and changes
+  // them every ten days.
   constexpr double share = 0.5;
   constexpr double days_to_change = 30.0;
   const double days = to_seconds(coefficients->age) / to_seconds(one_day);

@@ -1,4 +1,4 @@
-// What satellites have said of the ionosphere, and which of it is for a moment.
+// Selects the broadcast ionospheric coefficients that apply to a given moment.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,8 @@
 
 namespace maploop::ppp {
 
-// Coefficients, and how far from the moment they were sent; zero: then.
+// `age` is the time between the moment and the transmission of the coefficients; zero if they were
+// being transmitted.
 struct NearestIonosphere {
   IonosphereCoefficients coefficients;
   Duration age;
@@ -18,14 +19,15 @@ struct NearestIonosphere {
 
 class BroadcastIonosphere {
  public:
-  // Farther from the moment they say nothing of its season and of the sun's activity.
+  // Older coefficients do not match the season and the activity of the sun.
   static constexpr Duration longest_age = std::chrono::hours(24 * 60);
 
-  // The same coefficients again are still those; of others the latest ones are kept.
+  // Repeated coefficients extend the period of the existing ones. Up to 64 sets are kept, the
+  // latest ones.
   void add(const IonosphereMessage& message);
 
-  // The nearest to `t`: Galileo's where they are of the day, or as near as those of GPS; nothing:
-  // there are none, or they are older than longest_age.
+  // Returns the coefficients nearest to `t`, or nothing if there are none within longest_age.
+  // Galileo's are preferred if they are at most a day away, or as near as those of GPS.
   std::optional<NearestIonosphere> at(GpsTime t) const;
   std::optional<Duration> age(GpsTime t) const;
 
@@ -33,18 +35,19 @@ class BroadcastIonosphere {
   std::vector<IonosphereMessage> messages_;
 };
 
-// A model's delay towards a satellite and its standard deviation; m on GPS L1.
+// This is a model's delay towards a satellite and its standard deviation, m on GPS L1.
 struct IonosphericDelay {
   double value = 0.0, sigma = 0.0;
 };
 
-// Without coefficients: no delay, and the deviation that this leaves.
+// Without coefficients, returns no delay and the standard deviation that results. `azimuth` and
+// `elevation` are in rad.
 IonosphericDelay ionospheric_delay(const std::optional<NearestIonosphere>& coefficients,
                                    const Geodetic& site, double azimuth, double elevation,
                                    GpsTime t);
 
-// As a sentence: that there are no coefficients, or that they are of another day. Empty: they are
-// the day's.
+// Returns a sentence stating that there are no coefficients, or that they are from another day;
+// empty if they are at most a day and a half away.
 std::string ionosphere_lack(std::optional<Duration> age);
 
 }  // namespace maploop::ppp

@@ -10,11 +10,11 @@ namespace {
 
 constexpr std::size_t nodes = 11;  // of the interpolating polynomial
 
-// Clocks are joined by lines up to this far apart.
+// Clocks are interpolated linearly across gaps of up to this length.
 constexpr Duration longest_clock_gap = std::chrono::seconds(910);
 
-// A clock as a random walk, m/sqrt(s): its second differences over steps of T have twice the
-// variance of one step. The median is blind to jumps and gaps.
+// Returns the walk of a clock, m/sqrt(s). Second differences of a random walk over steps of T have
+// twice the variance of one step. The median is not affected by jumps and gaps.
 double walk_of(const std::vector<ClockFile::Point>& clock) {
   constexpr Duration close = std::chrono::seconds(60);
   std::vector<double> differences;
@@ -28,7 +28,7 @@ double walk_of(const std::vector<ClockFile::Point>& clock) {
     differences.push_back(std::abs(bend) / std::sqrt(2.0 * to_seconds(step)));
   }
   if (differences.empty()) return 0.0;
-  constexpr double sigma_of_median = 1.4826;  // of normal errors
+  constexpr double sigma_of_median = 1.4826;  // ratio for normal errors
   const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
   std::nth_element(differences.begin(), middle, differences.end());
   return speed_of_light * sigma_of_median * *middle;
@@ -87,12 +87,12 @@ std::optional<Eigen::Vector3d> PreciseEphemeris::position(Satellite satellite, G
   const auto middle = static_cast<std::size_t>(after - points.begin());
   const std::size_t first =
       std::min(middle > nodes / 2 + 1 ? middle - nodes / 2 - 1 : 0, points.size() - nodes);
-  // A gap inside would make the polynomial wrong without a sign of it.
+  // A gap inside would make the polynomial wrong without any sign of it.
   if (points[first + nodes - 1].time - points[first].time >
       orbit_interval_ * static_cast<int>(nodes - 1)) {
     return {};
   }
-  // Lagrange's polynomial and its derivative, in units of the interval.
+  // This is Lagrange's polynomial and its derivative, in units of the interval.
   const double unit = to_seconds(orbit_interval_);
   std::array<double, nodes> x{}, offset{};
   for (std::size_t i = 0; i < nodes; ++i) {
@@ -108,12 +108,12 @@ std::optional<Eigen::Vector3d> PreciseEphemeris::position(Satellite satellite, G
       slope = slope * x[k] * inverse + weight * inverse;
       weight *= x[k] * inverse;
     }
-    // Each point in the earth-fixed frame of moment t.
+    // Each point is rotated into the earth-fixed frame of moment t.
     const Eigen::Vector3d& q = points[first + i].position;
     const double angle = earth_rotation_rate * offset[i];
     const double c = std::cos(angle), s = std::sin(angle);
     const Eigen::Vector3d turned(c * q.x() + s * q.y(), -s * q.x() + c * q.y(), q.z());
-    // As the frame moves on, a point at rest in it goes the other way.
+    // A point at rest appears to move backwards as the frame rotates.
     const Eigen::Vector3d turning(earth_rotation_rate * turned.y(),
                                   -earth_rotation_rate * turned.x(), 0.0);
     p += weight * turned;
@@ -130,7 +130,7 @@ std::optional<double> PreciseEphemeris::clock(Satellite satellite, GpsTime t) co
   if (after == points.end()) return {};
   if (after->time == t) return after->offset;
   if (after == points.begin()) {
-    // What arrives at midnight was sent before the file's first clock.
+    // Signals that arrive at midnight were sent before the file's first clock.
     if (points.size() < 2 || after->time - t > std::chrono::seconds(1)) return {};
     ++after;
   }
@@ -147,7 +147,7 @@ std::optional<SatelliteState> PreciseEphemeris::at(Satellite satellite, GpsTime 
   const auto p = position(satellite, t, &state.velocity);
   if (!p) return {};
   state.position = *p;
-  // The orbit's velocity against the inertial frame is what relativity is about.
+  // The relativistic correction uses the velocity relative to the inertial frame.
   const Eigen::Vector3d inertial =
       state.velocity +
       Eigen::Vector3d(-earth_rotation_rate * p->y(), earth_rotation_rate * p->x(), 0.0);
@@ -168,7 +168,8 @@ double PreciseEphemeris::code_bias(Satellite satellite, char band, char attribut
   for (const CodeBias& bias : biases_[satellite.slot()]) {
     if (t < bias.from || t >= bias.until) continue;
     if (bias.second.empty() && bias.signal == wanted) return bias.metres;
-    // GPS's clocks are for P(Y): another code of the carrier differs by their differential bias.
+    // GPS's clocks refer to P(Y): another code of the carrier differs from it by their differential
+    // bias.
     const bool same_band =
         bias.second.size() == 3 && bias.signal[1] == band && bias.second[1] == band;
     if (same_band && bias.second == wanted && bias.signal[2] == 'W') return -bias.metres;

@@ -1,4 +1,5 @@
-// Precise orbits (SP3) and clocks (RINEX clock, or SP3's own) with code biases.
+// Interpolates precise orbits (SP3) and clocks (RINEX clock, or SP3's own) and provides code
+// biases.
 #pragma once
 
 #include <array>
@@ -13,14 +14,16 @@ namespace maploop::ppp {
 
 class PreciseEphemeris : public Ephemeris {
  public:
-  // Orbit files in any order; where two have one epoch, the earlier file counts.
+  // The files come in any order. If two contain the same epoch, the one earlier in the list counts.
+  // The clocks of SP3 are used only if there are no clock files.
   PreciseEphemeris(const std::vector<OrbitFile>& orbits, const std::vector<ClockFile>& clocks,
                    const std::vector<BiasFile>& biases);
 
   std::optional<SatelliteState> at(Satellite satellite, GpsTime t) const override;
   std::optional<double> clock(Satellite satellite, GpsTime t) const override;
   double code_bias(Satellite satellite, char band, char attribute, GpsTime t) const override;
-  // What a line leaves of a clock between two that are minutes apart; of closer ones nothing.
+  // Returns the error of linear interpolation between clocks that are minutes apart; zero if they
+  // are at most a minute apart.
   double error_walk(Satellite satellite) const override;
   bool centre_of_mass() const override { return true; }
   std::string missing(Satellite satellite, GpsTime t) const override;
