@@ -53,7 +53,7 @@ PhaseCentre read_carrier(Lines& lines, const Antenna& antenna) {
   return carrier;
 }
 
-// The carriers are rows of the grid that was said before them.
+// The rows of the carriers use the grid that was defined before them.
 void require_no_carrier(const Lines& lines, const Antenna& antenna) {
   if (!antenna.carriers.empty()) lines.fail("the grid of angles comes behind a carrier");
 }
@@ -77,7 +77,7 @@ void read_zenith_grid(const Lines& lines, Antenna& antenna) {
   }
 }
 
-// An antenna that ends where the next one starts is left out, and counted.
+// An antenna without its end, recognized by the start of the next one, is left out and counted.
 Antenna read_antenna(Lines& lines, int& refused) {
   Antenna antenna;
   for (advance(lines); label(lines) != "END OF ANTENNA"; advance(lines)) {
@@ -85,7 +85,7 @@ Antenna read_antenna(Lines& lines, int& refused) {
     if (name == "TYPE / SERIAL NO") {
       antenna.type = std::string(trimmed(lines.column(0, 20)));
       antenna.serial = std::string(trimmed(lines.column(20, 20)));
-      // A receiver's antenna may have a serial number that looks like a satellite: it has no block.
+      // A serial number such as G05 marks a satellite's antenna.
       if (antenna.serial.size() == 3 && !blank(lines.column(0, 5))) {
         antenna.satellite = parse_satellite(antenna.serial);
       }

@@ -6,7 +6,8 @@
 namespace maploop::ppp {
 namespace {
 
-// "2021:265:00000": year, day of the year, second; all zero is an open end.
+// Reads "2021:265:00000": year, day of the year, second of the day. Zeros in all of them mean an
+// open end.
 GpsTime sinex_time(const Lines& lines, std::size_t column, GpsTime open) {
   const auto text = lines.column(column, 14);
   const auto year = parse_integer(columns(text, 0, 4));

@@ -1,4 +1,5 @@
-// Biases of code: Bias-SINEX 1.00 (absolute OSB and differential DSB) and CODE's DCB files.
+// Reads biases of codes from Bias-SINEX 1.00 (absolute OSB and differential DSB) and CODE's DCB
+// files.
 #pragma once
 
 #include <vector>
@@ -8,22 +9,23 @@
 
 namespace maploop::ppp {
 
-// The bias of one signal, or of the first minus the second; to be subtracted from a measurement.
+// A CodeBias is that of one signal, or of the first minus the second; it must be subtracted from a
+// measurement.
 struct CodeBias {
   Satellite satellite;
-  std::string signal, second;  // "C1W"; second is empty for an absolute bias
+  std::string signal, second;  // such as "C1W"; second is empty for an absolute bias
   GpsTime from{}, until{};
   double metres = 0.0;
 };
 
 struct BiasFile {
   std::string file, agency;
-  std::vector<CodeBias> biases;  // of satellites, of code
-  int passed_over = 0;           // of stations, and of phases
+  std::vector<CodeBias> biases;  // code biases of satellites only
+  int passed_over = 0;           // biases of stations and phases, and intersystem biases
 };
 
 BiasFile parse_bias_sinex(std::string_view text, const std::string& file);
-// P1-C1, P2-C2 or P1-P2 of one month, as CODE publishes them.
+// Reads P1-C1, P2-C2 or P1-P2 of one month, as CODE publishes them.
 BiasFile parse_dcb(std::string_view text, const std::string& file);
 
 }  // namespace maploop::ppp

@@ -7,7 +7,7 @@ namespace {
 
 constexpr Duration one_week = std::chrono::hours(24 * 7);
 
-// Bits of a user range accuracy (IS-GPS-200) to m.
+// Returns the user range accuracy of an index (IS-GPS-200), m.
 double range_accuracy(int index) {
   constexpr std::array table{2.4,  3.4,   4.85,  6.85,  9.65,   13.65,  24.0,  48.0,
                              96.0, 192.0, 384.0, 768.0, 1536.0, 3072.0, 6144.0};
@@ -16,7 +16,7 @@ double range_accuracy(int index) {
              : 8192.0;
 }
 
-// Galileo's signal-in-space accuracy to m; -1: not predicted.
+// Returns Galileo's signal-in-space accuracy of an index, m; -1: no prediction.
 double signal_accuracy(int index) {
   if (index < 50) return 0.01 * index;
   if (index < 75) return 0.5 + 0.02 * (index - 50);
@@ -25,7 +25,7 @@ double signal_accuracy(int index) {
   return -1.0;
 }
 
-// Of a period, the count whose lower part is `part`, next to `now`.
+// Returns the number closest to `now` that equals `part` modulo `period`.
 int next_to(int now, int part, int period) {
   return part + period * static_cast<int>(std::lround(static_cast<double>(now - part) / period));
 }
@@ -67,7 +67,7 @@ std::optional<KeplerMessage> kepler_message(Satellite satellite, const Broadcast
   const int period = beidou ? 8192 : galileo ? 4096 : 1024;
   const int week = next_to(gps_week(now), first_week + static_cast<int>(v(Quantity::week)), period);
   const Duration to_gps = beidou ? Duration(std::chrono::seconds(14)) : Duration::zero();
-  // The week is that of the transmission; a reference time may be in the next one.
+  // The week is that of the transmission; the reference time may be in the next or previous one.
   const auto moment = [&](double seconds) {
     GpsTime t = gps_week_time(week, seconds) + to_gps;
     if (now - t > one_week / 2) t += one_week;
@@ -89,7 +89,7 @@ std::optional<KeplerMessage> kepler_message(Satellite satellite, const Broadcast
   m.group_delay = {v(Quantity::group_delay), v(Quantity::second_group_delay)};
   const int accuracy = static_cast<int>(v(Quantity::accuracy));
   m.accuracy = galileo ? signal_accuracy(accuracy) : range_accuracy(accuracy);
-  // As RINEX packs Galileo's.
+  // Galileo's bits are packed as in RINEX.
   m.health = galileo ? v(Quantity::e1_validity) + 2.0 * v(Quantity::e1_health) +
                            8.0 * v(Quantity::e5a_validity) + 16.0 * v(Quantity::e5a_health) +
                            64.0 * v(Quantity::e5b_validity) + 128.0 * v(Quantity::e5b_health)
@@ -101,7 +101,7 @@ std::optional<KeplerMessage> kepler_message(Satellite satellite, const Broadcast
 std::optional<GlonassMessage> glonass_message(Satellite satellite, const BroadcastValues& values,
                                               GpsTime now) {
   const auto v = [&](Quantity q) { return values[static_cast<std::size_t>(q)]; };
-  // Days are those of Moscow, UTC and three hours, since the begin of the last leap year.
+  // Days count in Moscow time, UTC plus three hours, from the start of the last leap year.
   constexpr auto moscow = std::chrono::hours(3);
   constexpr int four_years = 1461;
   const auto first_day = std::chrono::sys_days{std::chrono::year{1996} / 1 / 1};

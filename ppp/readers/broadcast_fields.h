@@ -1,7 +1,7 @@
-// The fields of broadcast messages as bits: where they are, and their units.
+// Defines the fields of broadcast messages as bits: their positions and units.
 //
-// Sources: IS-GPS-200 (subframes 1 to 3, and of 4 page 18), Galileo OS SIS ICD 2.0 (I/NAV words 1
-// to 5), BeiDou BDS-SIS-ICD-B1I 3.0 (D1 subframes 1 to 3), GLONASS ICD 5.1 (strings 1 to 4), RTCM
+// Sources are IS-GPS-200 (subframes 1 to 3, page 18 of 4), Galileo OS SIS ICD 2.0 (I/NAV words 1 to
+// 5), BeiDou BDS-SIS-ICD-B1I 3.0 (D1 subframes 1 to 3), GLONASS ICD 5.1 (strings 1 to 4), and RTCM
 // 10403.3 (1019, 1020, 1042, 1044, 1045, 1046).
 #pragma once
 
@@ -17,11 +17,11 @@
 namespace maploop::ppp {
 
 enum class Quantity {
-  none,  // passed over
+  none,  // skipped
   week,
   toc,  // s of the week
   toe,
-  toe_high,  // BeiDou's is in two subframes: the upper bits
+  toe_high,  // upper bits of BeiDou's, which is in two subframes
   af0,
   af1,
   af2,
@@ -43,18 +43,18 @@ enum class Quantity {
   i_dot,
   group_delay,
   second_group_delay,
-  accuracy,  // index
+  accuracy,  // index into the system's table
   health,
-  e1_health,  // Galileo's, and whether the data are valid
+  e1_health,  // Galileo's health bits, and whether the data are valid
   e1_validity,
   e5a_health,
   e5a_validity,
   e5b_health,
   e5b_validity,
-  // GLONASS
+  // These are GLONASS's.
   channel,
-  day,       // of four years
-  interval,  // of 15 minutes, Moscow's
+  day,       // within four years
+  interval,  // of 15 minutes, in Moscow time
   gamma,
   tau,
   x,
@@ -66,7 +66,7 @@ enum class Quantity {
   ax,
   ay,
   az,
-  // The ionosphere: GPS's eight coefficients and Galileo's three, each in a row
+  // These are coefficients of the ionosphere, contiguous: eight of GPS, three of Galileo.
   alpha_0,
   alpha_1,
   alpha_2,
@@ -91,16 +91,16 @@ struct BroadcastField {
   Coding coding = Coding::plain;
 };
 
-// Each field in its order; those that are passed over leave `values` as they are.
+// Reads the fields in their order; skipped fields leave `values` unchanged.
 void read_fields(Rtcm3Bits& bits, std::span<const BroadcastField> fields, BroadcastValues& values);
 
-// `now`: a moment of the reception to within half a week (GLONASS: two years). Nothing where it can
-// be no orbit.
+// `now` is a moment that differs from the reception by less than half a week (GLONASS: two years).
+// Returns nothing if the values cannot be those of an orbit.
 std::optional<KeplerMessage> kepler_message(Satellite satellite, const BroadcastValues& values,
                                             GpsTime now);
 std::optional<GlonassMessage> glonass_message(Satellite satellite, const BroadcastValues& values,
                                               GpsTime now);
-// GPS's or Galileo's.
+// Returns the coefficients of GPS or Galileo.
 IonosphereCoefficients ionosphere_coefficients(System system, const BroadcastValues& values);
 
 namespace broadcast_fields {
@@ -120,7 +120,7 @@ constexpr BroadcastField number(Quantity q, int bits, double unit = 1.0) {
 constexpr BroadcastField two(Quantity q, int bits, int exponent) {
   return {q, bits, power(exponent), Coding::twos_complement};
 }
-// In semicircles.
+// The field is in semicircles; the value is in rad.
 constexpr BroadcastField angle(Quantity q, int bits, int exponent) {
   return {q, bits, power(exponent) * std::numbers::pi, Coding::twos_complement};
 }
@@ -138,7 +138,7 @@ constexpr auto join(const std::array<BroadcastField, sizes>&... parts) {
   return all;
 }
 
-// What GPS and Galileo say of an orbit has the same bits: around its time, and behind it.
+// GPS's and Galileo's messages contain the same fields before and after the reference time.
 inline constexpr std::array orbit_before_toe{two(Q::crs, 16, -5),
                                              angle(Q::delta_n, 16, -43),
                                              angle(Q::m0, 32, -31),
@@ -155,7 +155,7 @@ inline constexpr auto gps_orbit = join(orbit_before_toe, gps_toe, orbit_behind_t
 inline constexpr std::array gps_clock{number(Q::toc, 16, 16.0), two(Q::af2, 8, -55),
                                       two(Q::af1, 16, -43), two(Q::af0, 22, -31)};
 
-// --- IS-GPS-200; without parity, behind the handover word.
+// --- These are fields of IS-GPS-200, without parity, after the handover word.
 inline constexpr auto gps_subframe_1 =
     join(std::array{number(Q::week, 10), skip(2), number(Q::accuracy, 4), number(Q::health, 6),
                     skip(2 + 1 + 87), two(Q::group_delay, 8, -31), skip(8)},
@@ -165,13 +165,13 @@ inline constexpr auto gps_subframe_2 =
 inline constexpr auto gps_subframe_3 =
     join(orbit_behind_toe, std::array{skip(8), angle(Q::i_dot, 14, -43)});
 
-// Behind what says which page it is.
+// These follow the identifier of the page.
 inline constexpr std::array gps_ionosphere{two(Q::alpha_0, 8, -30), two(Q::alpha_1, 8, -27),
                                            two(Q::alpha_2, 8, -24), two(Q::alpha_3, 8, -24),
                                            two(Q::beta_0, 8, 11),   two(Q::beta_1, 8, 14),
                                            two(Q::beta_2, 8, 16),   two(Q::beta_3, 8, 16)};
 
-// --- RTCM, behind the satellite's number.
+// --- These are fields of RTCM, after the satellite's number.
 inline constexpr auto rtcm_1019 =
     join(std::array{number(Q::week, 10), number(Q::accuracy, 4), skip(2), angle(Q::i_dot, 14, -43),
                     number(Q::iode, 8)},
@@ -209,7 +209,7 @@ inline constexpr std::array rtcm_1042{
     BroadcastField{Q::group_delay, 10, 1e-10, Coding::twos_complement},
     BroadcastField{Q::second_group_delay, 10, 1e-10, Coding::twos_complement},
     number(Q::health, 1)};
-// 1045 and 1046 up to the first group delay.
+// These are the fields of 1045 and 1046 up to the first group delay.
 inline constexpr auto rtcm_galileo =
     join(std::array{number(Q::week, 12), number(Q::iode, 10), number(Q::accuracy, 8),
                     angle(Q::i_dot, 14, -43), number(Q::toc, 14, 60.0), two(Q::af2, 6, -59),
@@ -242,7 +242,7 @@ inline constexpr std::array rtcm_1020{
     skip(5 + 5 + 1 + 4),
     number(Q::day, 11)};
 
-// --- Galileo I/NAV words, behind the type.
+// --- These are Galileo's I/NAV words, after the type.
 inline constexpr std::array galileo_word_1{number(Q::iode, 10), number(Q::toe, 14, 60.0),
                                            angle(Q::m0, 32, -31), number(Q::e, 32, power(-33)),
                                            number(Q::sqrt_a, 32, power(-19))};
@@ -272,7 +272,7 @@ inline constexpr std::array galileo_word_5{number(Q::level_0, 11, power(-2)),
                                            number(Q::e1_validity, 1),
                                            number(Q::week, 12)};
 
-// --- BeiDou D1; without parity, behind the second of the week.
+// --- These are BeiDou's D1 subframes, without parity, after the second of the week.
 inline constexpr std::array beidou_subframe_1{
     number(Q::health, 1),
     skip(5),
@@ -300,7 +300,7 @@ inline constexpr std::array beidou_subframe_3{
     angle(Q::omega_dot, 24, -43), two(Q::cis, 18, -31),    angle(Q::i_dot, 14, -43),
     angle(Q::omega0, 32, -31),    angle(Q::omega, 32, -31)};
 
-// --- GLONASS strings, behind their number.
+// --- These are GLONASS's strings, after their number.
 inline constexpr std::array glonass_string_1{skip(2 + 2 + 12), glonass(Q::vx, 24, -20),
                                              glonass(Q::ax, 5, -30), glonass(Q::x, 27, -11)};
 inline constexpr std::array glonass_string_2{number(Q::health, 1),    skip(2 + 1),

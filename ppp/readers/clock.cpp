@@ -38,7 +38,7 @@ ClockFile parse_clock(std::string_view text, const std::string& file) {
     }
     const auto satellite = parse_satellite(lines.column(3, 3));
     if (!satellite) lines.fail("'" + std::string(lines.column(3, 3)) + "' is no satellite");
-    // A stamp is repeated for each satellite.
+    // The stamp is repeated for each satellite.
     const auto columns_of_stamp = lines.column(8 + shift, 26);
     if (columns_of_stamp != stamp_text) {
       stamp = parse_stamp(lines, columns_of_stamp);

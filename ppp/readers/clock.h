@@ -1,4 +1,4 @@
-// Precise clocks: RINEX clock files 2.00 to 3.04, satellites only.
+// Reads precise clocks from RINEX clock files 2.00 to 3.04, satellites only.
 #pragma once
 
 #include <map>
@@ -16,7 +16,7 @@ struct ClockFile {
   };
   std::string file, agency;
   std::map<Satellite, std::vector<Point>> points;  // in the order of time
-  int refused = 0;  // points that cannot be, out of order, and a cut last line
+  int refused = 0;  // invalid points, points out of order, and an incomplete last line
 };
 
 ClockFile parse_clock(std::string_view text, const std::string& file);

@@ -9,7 +9,8 @@
 namespace maploop::ppp {
 namespace {
 
-// A text given as its difference to the one before: a blank keeps a character, '&' blanks it.
+// Applies a text given as its difference to the previous one: a blank keeps a character, '&' blanks
+// it.
 void apply_difference(std::string& text, std::string_view difference) {
   if (text.size() < difference.size()) text.resize(difference.size(), ' ');
   for (std::size_t i = 0; i < difference.size(); ++i) {
@@ -21,7 +22,7 @@ void apply_difference(std::string& text, std::string_view difference) {
   }
 }
 
-// A number given as its difference in time of an order that grows to `order`.
+// An Arc is a sequence of numbers given as differences in time, whose order grows up to `order`.
 class Arc {
  public:
   static constexpr int highest_order = 9;
@@ -34,7 +35,7 @@ class Arc {
   bool running() const { return order_ >= 0; }
   void end() { order_ = -1; }
 
-  // False: beyond 64 bits.
+  // Returns false if the value exceeds 64 bits.
   bool next(std::int64_t difference) {
     if (held_ < order_) ++held_;
     differences_[static_cast<std::size_t>(held_)] = difference;
@@ -55,7 +56,7 @@ class Arc {
 struct SatelliteArcs {
   std::vector<Arc> arcs;
   std::string flags;
-  int epoch = -1;  // the last it was in
+  int epoch = -1;  // the last epoch that contained it
 };
 
 class CompactReader {
@@ -125,7 +126,7 @@ class CompactReader {
     }
     result_.header.types = in_force_.header.types;
     result_.header.signals_of = in_force_.header.signals_of;
-    epoch_line_.clear();  // the next is a whole one
+    epoch_line_.clear();  // the next epoch line is complete again
     return true;
   }
 
@@ -148,7 +149,7 @@ class CompactReader {
     return value;
   }
 
-  // "3&24178026635" starts an arc of third order, "-12" goes on.
+  // "3&24178026635" starts an arc of third order; "-12" continues one.
   void advance(Arc& arc, std::string_view field) {
     if (field.size() > 2 && field[1] == '&') {
       if (field[0] < '0' || field[0] > '9') lines_.fail("an arc's order is 0 to 9");

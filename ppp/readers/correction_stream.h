@@ -1,4 +1,4 @@
-// A stream of RTCM 3 with corrections as it comes: ephemerides, and SSR of orbits, clocks and
+// Decodes a stream of RTCM 3 corrections as it arrives: ephemerides, and SSR of orbits, clocks and
 // biases.
 #pragma once
 
@@ -13,28 +13,29 @@
 namespace maploop::ppp {
 
 struct CorrectionStreamCounts {
-  std::uint64_t messages = 0;     // sound ones, also those that are passed over
+  std::uint64_t messages = 0;     // with a right checksum, of any type
   std::uint64_t ephemerides = 0;  // decoded
-  std::uint64_t corrections = 0;  // messages decoded
-  std::uint64_t unsupported = 0;  // of SSR: phase biases, ionosphere, other systems
-  std::uint64_t damaged = 0;      // begins of frames with a wrong checksum, or cut
-  std::uint64_t unusable = 0;     // messages that do not hold what they say
+  std::uint64_t corrections = 0;  // messages that were decoded
+  std::uint64_t unsupported = 0;  // SSR of phase biases, ionosphere, other systems
+  std::uint64_t damaged = 0;      // frames that are cut or have a wrong checksum
+  std::uint64_t unusable = 0;     // messages with invalid content
 };
 
-// Memory is that of one message and of what was pushed since; what is not taken is limited. One
-// thread at a time.
+// Memory is bounded by one message and the bytes of one push, and lists that are not emptied are
+// limited. Only one thread may use a stream at a time.
 class CorrectionStream {
  public:
-  // Weeks, and days of GLONASS, are those nearest to `now`, which may be moved on.
+  // Weeks, and GLONASS's days, are resolved to those nearest to `now`, which set_now() updates.
   explicit CorrectionStream(GpsTime now) : now_(now) {}
   void set_now(GpsTime now) { now_ = now; }
 
-  // Decodes what is whole. True where ephemerides or corrections were in it.
+  // Decodes all complete messages. Returns true if they contained ephemerides or corrections.
   bool push(std::span<const std::uint8_t> bytes);
-  // What is pushed from now on does not go on from what was pushed: the connection was lost.
+  // Discards an incomplete message after the connection was lost: new bytes do not continue the old
+  // ones.
   void restart() { bytes_.clear(); }
 
-  // Since they were last emptied.
+  // These hold what was decoded since the caller last emptied them.
   NavigationFile& navigation() { return navigation_; }
   std::vector<SsrUpdate>& updates() { return updates_; }
   const CorrectionStreamCounts& counts() const { return counts_; }

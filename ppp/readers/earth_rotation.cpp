@@ -21,7 +21,7 @@ EarthRotationFile parse_erp(std::string_view text, const std::string& file) {
       table = true;
       continue;
     }
-    // Under the heading stands a line of units.
+    // The heading is followed by a line of units.
     if (!table || line.empty() || line.find_first_not_of("0123456789.-+ \t") != line.npos) continue;
     double values[5] = {};
     std::size_t at = 0;

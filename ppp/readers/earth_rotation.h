@@ -1,4 +1,4 @@
-// Earth rotation parameters: IGS ERP version 2.
+// Reads earth rotation parameters from IGS ERP version 2.
 #pragma once
 
 #include <vector>

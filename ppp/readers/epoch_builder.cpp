@@ -44,7 +44,8 @@ void append_satellite(Observations& observations, const Lines& lines, Satellite 
     signal.attribute = type.attribute;
     const double value = values[i].value / type.factor;
     if (type.kind == 'C') {
-      // No navigation satellite is nearer than 15000 km or farther than 80000 km off the clocks.
+      // No navigation satellite is nearer than 15000 km or farther than 80000 km, apart from the
+      // clocks.
       if (value != 0.0 && !(value > 1.0e7 && value < 1.0e8)) {
         refuse(observations, lines,
                to_string(satellite) + ": " + shown(value) + " m is no pseudorange");

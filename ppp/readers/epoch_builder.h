@@ -1,4 +1,4 @@
-// Values in the order of a header's types, made into an epoch's signals.
+// Converts values in the order of a header's types into an epoch's signals.
 #pragma once
 
 #include "ppp/readers/observation_header.h"
@@ -10,15 +10,16 @@ struct Value {
   char lli = ' ';
 };
 
-// Refused satellites and epochs, with the first reasons.
+// Counts a refused satellite or epoch and keeps the first reasons, with file and line.
 void refuse(Observations& observations, const Lines& lines, const std::string& why);
-// The same of what a stream has at a byte.
+// Does the same for a stream, with the offset of a byte.
 void refuse(Observations& observations, std::size_t offset, const std::string& why);
 
-// Appends a satellite; refuses and counts one whose values cannot be.
+// Appends a satellite. Values that cannot be right and repeated satellites are refused and counted.
 void append_satellite(Observations& observations, const Lines& lines, Satellite satellite,
                       std::span<const Value> values, Epoch& epoch);
-// Keeps an epoch; refuses one that is not after the one before. Takes its content, leaves it empty.
+// Keeps an epoch, or refuses it if it is not after the previous one. Takes its content and leaves
+// it empty.
 void keep_epoch(Observations& observations, const Lines& lines, Epoch& epoch);
 
 }  // namespace maploop::ppp

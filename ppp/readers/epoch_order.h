@@ -4,8 +4,9 @@
 
 namespace maploop::ppp {
 
-// Whether a receiver sends an epoch again, or late. One that was wrong about its date says a far
-// earlier one from then on: that is none.
+// Returns whether a receiver repeats an epoch or sends it late: at most 10 s before `last`. An
+// epoch that is much earlier does not count as repeated, because the receiver has then corrected a
+// wrong date.
 inline bool is_repeated(GpsTime epoch, GpsTime last) {
   return epoch <= last && last - epoch <= std::chrono::seconds(10);
 }

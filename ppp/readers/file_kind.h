@@ -1,4 +1,4 @@
-// What a GNSS file is, told by its content.
+// Determines the kind of a GNSS file by its content.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,8 @@ enum class FileKind {
 };
 
 FileKind file_kind(std::string_view text);
-// Of a file, plain or .gz, from its first kilobytes. Throws ReadError where it cannot be read.
+// Determines the kind of a file, plain or .gz, from its first kilobytes. Throws ReadError if it
+// cannot be read.
 FileKind kind_of_file(const std::filesystem::path& path);
 const char* name(FileKind kind);
 

@@ -1,4 +1,4 @@
-// What satellites broadcast of the ionosphere.
+// Defines the ionospheric coefficients that satellites broadcast.
 #pragma once
 
 #include <array>
@@ -8,14 +8,14 @@
 
 namespace maploop::ppp {
 
-// Of GPS: alpha 0 to 3, beta 0 to 3. s and semicircles, as IS-GPS-200 writes them.
+// These are GPS's alpha 0 to 3 and beta 0 to 3, in s and semicircles as in IS-GPS-200.
 struct Klobuchar {
   std::array<double, 8> values{};
   bool operator==(const Klobuchar&) const = default;
 };
 
-// Of Galileo, the effective ionisation level: ai0 to ai2. Solar flux units, and these by degree
-// and by degree squared, as the OS SIS ICD writes them.
+// These are ai0 to ai2 of Galileo's effective ionisation level, in solar flux units, and these per
+// degree and per degree squared, as in the OS SIS ICD.
 struct IonisationLevel {
   std::array<double, 3> values{};
   bool operator==(const IonisationLevel&) const = default;
@@ -23,8 +23,8 @@ struct IonisationLevel {
 
 using IonosphereCoefficients = std::variant<Klobuchar, IonisationLevel>;
 
-// The coefficients, and from when to when they were sent. A RINEX header does not say when: there
-// it is from the first to the last message of its file.
+// These are the coefficients and the period in which they were sent. A RINEX header does not
+// contain that period: it is then that from the first to the last message of the file.
 struct IonosphereMessage {
   IonosphereCoefficients coefficients;
   GpsTime first{}, last{};

@@ -43,7 +43,7 @@ std::optional<double> parse_number(std::string_view text) {
   if (text.empty() || text.size() > 40 || text[0] == '+') return {};
   std::array<char, 40> copy{};
   const char* begin = text.data();
-  // from_chars knows no D.
+  // from_chars does not accept the exponent D.
   if (const auto d = text.find_first_of("Dd"); d != std::string_view::npos) {
     std::memcpy(copy.data(), text.data(), text.size());
     copy[d] = 'E';

@@ -1,4 +1,5 @@
-// The lines of a text file in fixed columns, plain or gzip-compressed; errors say file and line.
+// Reads the lines of a text file in fixed columns, plain or gzip-compressed. Errors name file and
+// line.
 #pragma once
 
 #include <filesystem>
@@ -11,19 +12,19 @@
 
 namespace maploop::ppp {
 
-// "file:line: what is wrong".
+// The message is "file:line: what is wrong".
 class ReadError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// The whole content, uncompressed where it is gzip (told by content). Throws ReadError naming the
-// file: it cannot be read, is damaged, or is larger than input_limits::gnss_file.
+// Returns the whole content, decompressed if it is gzip (recognized by content). Throws ReadError
+// naming the file if it cannot be read, is damaged, or is larger than input_limits::gnss_file.
 std::string read_file(const std::filesystem::path& path);
-// Its first 4096 bytes, or what it has of them.
+// Returns the first 4096 bytes of the content, or fewer if the file is shorter.
 std::string read_head(const std::filesystem::path& path);
 
-// Columns [first, first + width) of a line; shorter, or empty, where the line ends before.
+// Returns columns [first, first + width) of a line, or fewer or none if the line is shorter.
 inline std::string_view columns(std::string_view line, std::size_t first, std::size_t width) {
   return first < line.size() ? line.substr(first, width) : std::string_view{};
 }
@@ -32,33 +33,34 @@ inline bool blank(std::string_view text) {
   return text.find_first_not_of(' ') == std::string_view::npos;
 }
 
-// Numbers with blanks around them and nothing else; exponents by E or D. Nothing: it is none, or
-// not finite, or does not fit.
+// Both accept a number, with blanks around it and an exponent by E or D. They return nothing if the
+// text is not a number, is not finite, or does not fit the type.
 std::optional<double> parse_number(std::string_view text);
 std::optional<int> parse_integer(std::string_view text);
 
 class Lines {
  public:
-  // Views into `text`, which must outlive this.
+  // Holds views into `text`, which must outlive this.
   Lines(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {}
 
-  // Goes to the next line; false at the end of the text. Without its end of line (\n or \r\n).
+  // Goes to the next line, without its end of line (\n or \r\n). Returns false at the end of the
+  // text.
   bool next();
-  // The next line without going there; empty at the end.
+  // Returns the next line without going there; empty at the end.
   std::string_view peek() const;
 
   std::string_view line() const { return line_; }
   int line_number() const { return line_number_; }
   const std::string& file() const { return file_; }
-  bool whole() const { return whole_; }  // this line had its end: it was not cut
+  bool whole() const { return whole_; }  // this line has its end of line, so it is not cut
 
   std::string_view column(std::size_t first, std::size_t width) const {
     return columns(line_, first, width);
   }
-  // Columns that must hold a number; `what` names it in the error.
+  // Both read columns that must hold a number; `what` names it in the error.
   double number(std::size_t first, std::size_t width, const char* what) const;
   int integer(std::size_t first, std::size_t width, const char* what) const;
-  // Blank columns are `otherwise`.
+  // Both return `otherwise` if the columns are blank.
   double number_or(std::size_t first, std::size_t width, double otherwise, const char* what) const;
   int integer_or(std::size_t first, std::size_t width, int otherwise, const char* what) const;
 
@@ -73,8 +75,8 @@ class Lines {
   bool whole_ = true;
 };
 
-// A stamp written as six numbers between blanks, "2020 06 25 00 00 30.0000000"; a year of two
-// digits is one of 1980 to 2079. Throws ReadError for the line.
+// Parses a stamp of six numbers between blanks, "2020 06 25 00 00 30.0000000". A year of two digits
+// is within 1980 to 2079. Throws ReadError for the line.
 GpsTime parse_stamp(const Lines& lines, std::string_view text);
 
 }  // namespace maploop::ppp

@@ -61,7 +61,7 @@ class NavigationReader {
     }
   }
 
-  // Of which days the header's coefficients are, the messages behind it tell.
+  // A header does not contain the date of its coefficients: it is taken from the messages after it.
   void keep_ionosphere() {
     GpsTime first = GpsTime::max(), last = GpsTime::min();
     const auto stretch = [&](const auto& messages) {
@@ -76,7 +76,7 @@ class NavigationReader {
     }
   }
 
-  // False: the file ended inside.
+  // Returns false if the file ended inside the message.
   bool read_message() {
     const std::size_t name_width = three_ ? 3 : 2;
     Satellite satellite{default_system_, 0};
@@ -97,7 +97,7 @@ class NavigationReader {
     const std::size_t indent = three_ ? 4 : 3;
     values_.fill(0.0);
     for (std::size_t i = 0; i < count; ++i) {
-      // Three on the first line, four on each other.
+      // The first line has three values, each other line four.
       const std::size_t place = i < 3 ? 1 + i : (i + 1) % 4;
       if (i >= 3 && place == 0 && !lines_.next()) return false;
       if (!lines_.whole() && lines_.line().size() < indent + 19 * (place + 1)) return false;
@@ -154,8 +154,8 @@ class NavigationReader {
       refuse(to_string(satellite) + ": no orbit of a navigation satellite");
       return;
     }
-    // BeiDou's weeks started 1356 later; some writers count GPS's weeks for it. The clock's epoch
-    // tells which week is meant.
+    // BeiDou's weeks start 1356 weeks later, but some writers use GPS's weeks. The clock's epoch
+    // determines which week is meant.
     m.toe = gps_week_time(gps_week(m.toc), v[11]) + to_gps;
     const auto week = std::chrono::hours(24 * 7);
     if (m.toe - m.toc > week / 2) m.toe -= week;
@@ -173,7 +173,7 @@ class NavigationReader {
   bool three_ = true;
   System default_system_ = System::gps;
   std::array<double, 31> values_{};
-  Klobuchar klobuchar_;  // zero: not in the header
+  Klobuchar klobuchar_;  // zero if not in the header
   IonisationLevel level_;
 };
 
@@ -206,7 +206,7 @@ bool plausible(const GlonassMessage& m) {
 }
 
 bool plausible(const IonosphereCoefficients& coefficients) {
-  // What eight bits, and Galileo's eleven and fourteen, can say.
+  // These are the largest values of eight bits, and of Galileo's eleven and fourteen.
   static constexpr std::array<double, 8> most_klobuchar{0x1p-23, 0x1p-20, 0x1p-17, 0x1p-17,
                                                         0x1p18,  0x1p21,  0x1p23,  0x1p23};
   static constexpr std::array<double, 3> most_level{512.0, 4.0, 0.25};

@@ -1,4 +1,4 @@
-// RINEX navigation files 2.10 to 2.12 and 3.00 to 3.05.
+// Reads RINEX navigation files 2.10 to 2.12 and 3.00 to 3.05.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,10 +13,12 @@
 
 namespace maploop::ppp {
 
-// What data_sources says of Galileo's two messages: the clock is for E1 and E5a, or E1 and E5b.
+// These values of data_sources mark Galileo's two messages: the clock is for E1 and E5a, or E1 and
+// E5b.
 inline constexpr double galileo_f_nav = 0x102, galileo_i_nav = 0x205;
 
-// A message of GPS, Galileo, BeiDou or QZSS; names as in IS-GPS-200. rad, m, s.
+// A KeplerMessage is one of GPS, Galileo, BeiDou or QZSS, with names as in IS-GPS-200. Units are
+// rad, m, s.
 struct KeplerMessage {
   Satellite satellite;
   GpsTime toc{}, toe{};
@@ -31,7 +33,8 @@ struct KeplerMessage {
   std::array<double, 2> group_delay{};  // s: TGD; Galileo's BGD E5a/E1, E5b/E1; BeiDou's TGD1, TGD2
 };
 
-// A message of GLONASS: position, velocity and lunisolar acceleration in PZ-90 at `toe`. m, s.
+// A GlonassMessage contains position, velocity and lunisolar acceleration in PZ-90 at `toe`. Units
+// are m, s.
 struct GlonassMessage {
   Satellite satellite;
   GpsTime toe{};
@@ -46,26 +49,29 @@ struct BroadcastMessages {
   std::vector<GlonassMessage> glonass;
   std::vector<IonosphereMessage> ionosphere;
 
-  // All that `from` has, which is empty afterwards; what was here is gone.
+  // Takes everything from `from`, which is then empty, and discards the previous content.
   void take(BroadcastMessages& from);
-  // Of a stream that nobody takes from: a kind with more than `most` begins anew.
+  // Limits the memory of a stream whose messages are not taken: clears each list with more than
+  // `most`.
   void limit(std::size_t most);
 };
 
 struct NavigationFile : BroadcastMessages {
   std::string file;
   int passed_over = 0;  // messages of SBAS and NavIC, which are not used
-  int refused = 0;      // messages whose values cannot be, and one that was cut
+  int refused = 0;      // messages with invalid values, and an incomplete one
   std::vector<std::string> refusals;
 };
 
-// Whether it can be a message of a navigation satellite.
+// Both return whether it can be the message of a navigation satellite.
 bool plausible(const KeplerMessage& message);
 bool plausible(const GlonassMessage& message);
-// Whether the bits of a message can say these coefficients, and they say something.
+// Returns whether the bits of a message can represent these coefficients, and at least one is not
+// zero.
 bool plausible(const IonosphereCoefficients& coefficients);
 
-// Counts what is left out, and keeps the first reasons. The same of what a stream has at a byte.
+// Counts what is left out and keeps the first reasons; the second form is for a stream, with the
+// offset of a byte.
 void refuse(NavigationFile& navigation, const std::string& place, const std::string& why);
 void refuse(NavigationFile& navigation, std::size_t offset, const std::string& why);
 

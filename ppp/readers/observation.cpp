@@ -8,7 +8,7 @@ namespace {
 
 constexpr int most_satellites = 200;
 
-// Reads the plain forms, one epoch at a time.
+// Reads the plain formats, one epoch at a time.
 class PlainReader {
  public:
   PlainReader(Lines& lines, Observations& result) : lines_(lines), result_(result) {
@@ -28,7 +28,7 @@ class PlainReader {
   }
 
  private:
-  // False: the file ended inside.
+  // Returns false if the file ended inside the epoch.
   bool read_epoch3() {
     if (lines_.line()[0] != '>') lines_.fail("an epoch starts with '>'");
     if (!lines_.whole() && lines_.line().size() < 35) return false;
@@ -86,7 +86,8 @@ class PlainReader {
     return true;
   }
 
-  // Flags 2 to 5: header records follow; 6: records of cycle slips, as if they were observations.
+  // After flags 2 to 5 there are header records; after 6 there are records of cycle slips in the
+  // form of observations.
   bool read_event(int flag, int count) {
     if (flag > 6) lines_.fail("an epoch flag is one of 0 to 6");
     if (flag == 6) lines_.fail("records of cycle slips (flag 6) are not read");

@@ -15,8 +15,9 @@ std::string text_of(std::string_view columns) {
   return std::string(trimmed(columns));
 }
 
-// RINEX 2's two letters as RINEX 3's three, for a system. The phase goes with the civil code on the
-// first carrier and with P(Y) on the second, whatever tracked it: version 2 does not say.
+// Converts RINEX 2's two letters to RINEX 3's three, for a system. The phase goes with the civil
+// code on the first carrier and with P(Y) on the second, because version 2 does not state which
+// code tracked it.
 ObservationType type_of_version2(System system, char kind, char band) {
   ObservationType type{kind == 'P' ? 'C' : kind, band, 'C'};
   const bool precise = kind == 'P' || (kind != 'C' && band == '2');

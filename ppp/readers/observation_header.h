@@ -1,4 +1,4 @@
-// The header of a RINEX observation file, 2.10 to 2.12 and 3.00 to 3.05.
+// Reads the header of a RINEX observation file, 2.10 to 2.12 and 3.00 to 3.05.
 #pragma once
 
 #include "ppp/observations.h"
@@ -8,7 +8,7 @@ namespace maploop::ppp {
 
 struct HeaderInForce {
   ObservationHeader header;
-  Duration to_gps{0};  // added to the file's stamps gives GPS time
+  Duration to_gps{0};  // added to the file's stamps to get GPS time
 
   bool version3() const { return header.version >= 3.0; }
 };
@@ -16,8 +16,9 @@ struct HeaderInForce {
 // Reads up to END OF HEADER.
 HeaderInForce read_observation_header(Lines& lines);
 
-// A header record inside the file (an event). Only what may change there: types of observation,
-// antenna, marker; others are passed over.
+// Applies the header record of the current line, also one of an event inside the file: types of
+// observation, scale factors, marker, receiver, antenna, approximate position, interval or GLONASS
+// channels. Other records are skipped.
 void apply_header_record(Lines& lines, HeaderInForce& in_force);
 
 }  // namespace maploop::ppp

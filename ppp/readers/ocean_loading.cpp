@@ -6,7 +6,7 @@
 namespace maploop::ppp {
 namespace {
 
-// "$$ ONSA                     RADI TANG lon/lat:   11.9264   57.3958"
+// Reads "$$ ONSA                     RADI TANG lon/lat:   11.9264   57.3958".
 void read_comment(const Lines& lines, OceanLoading& station) {
   const auto line = lines.line();
   auto at = line.find("lon/lat:");

@@ -1,4 +1,4 @@
-// Ocean loading coefficients of stations: BLQ, as the Chalmers service makes them.
+// Reads ocean loading coefficients of stations from BLQ, as the Chalmers service writes it.
 #pragma once
 
 #include <array>
@@ -8,12 +8,13 @@
 
 namespace maploop::ppp {
 
-// Constituents M2 S2 N2 K2 K1 O1 P1 Q1 Mf Mm Ssa; components up, west, south.
+// The constituents are M2 S2 N2 K2 K1 O1 P1 Q1 Mf Mm Ssa; the components are up, west, south.
 struct OceanLoading {
   std::string station;
   std::array<std::array<double, 11>, 3> amplitude{};  // m
   std::array<std::array<double, 11>, 3> phase{};      // rad, lag at Greenwich
-  // Degrees, of the comment that the service writes; outside [-90, 90] where there is none.
+  // Both are in degrees, from the comment that the service writes; the latitude is 999 if there is
+  // none.
   double longitude = 0.0, latitude = 999.0;
 };
 

@@ -1,4 +1,4 @@
-// A u-blox receiver's own solutions as they come; other messages and text are passed over.
+// Decodes a u-blox receiver's own solutions as they arrive; other messages and text are skipped.
 #pragma once
 
 #include <cstdint>
@@ -11,20 +11,21 @@
 namespace maploop::ppp {
 
 struct PvtStreamCounts {
-  std::uint64_t frames = 0;    // sound ones, of any kind
-  std::uint64_t damaged = 0;   // begins of frames with a wrong checksum, or cut
-  std::uint64_t unusable = 0;  // NAV-PVT that do not hold what they say
-  std::uint64_t repeated = 0;  // epochs not later than the one before
+  std::uint64_t frames = 0;    // with a right checksum, of any type
+  std::uint64_t damaged = 0;   // frames that are cut or have a wrong checksum
+  std::uint64_t unusable = 0;  // NAV-PVT with invalid content
+  std::uint64_t repeated = 0;  // epochs not later than the previous one
 };
 
-// Memory is that of one frame and of what was pushed since. One thread at a time.
+// Memory is bounded by one frame and the bytes pushed. Only one thread may use a stream at a time.
 class PvtStream {
  public:
-  // Then call next() until it is false.
+  // After each push, call next() until it returns false.
   void push(std::span<const std::uint8_t> bytes);
-  // The next epoch, with a fix or without.
+  // Returns the next epoch, with or without a fix.
   bool next(UbxPvt& pvt);
-  // What is pushed from now on does not go on from what was pushed: the connection was lost.
+  // Discards an incomplete frame after the connection was lost: new bytes do not continue the old
+  // ones.
   void restart() { bytes_.clear(); }
 
   const PvtStreamCounts& counts() const { return counts_; }

@@ -6,7 +6,7 @@
 namespace maploop::ppp {
 namespace {
 
-// Of all satellites there are at most a few new ones between two epochs.
+// All satellites together send only few new messages between two epochs.
 constexpr std::size_t most_messages = 512;
 
 }  // namespace
@@ -39,14 +39,14 @@ bool ReceiverStream::scan(std::string& bytes, std::uint64_t& sound, std::uint64_
   return whole;
 }
 
-// RTCM first: where a receiver sends both, ephemerides are there before the epoch behind them.
+// RTCM comes first: if a receiver sends both, its ephemerides are known before the next epoch.
 bool ReceiverStream::next(Epoch& epoch) {
   return scan<Rtcm3Frames, Rtcm3Message>(rtcm_, counts_.rtcm, rtcm_damaged_, epoch) ||
          scan<UbxFrames, UbxFrame>(ubx_, counts_.ubx, ubx_damaged_, epoch);
 }
 
 bool ReceiverStream::take(const UbxFrame& frame, Epoch& epoch) {
-  // Without a time, whose week it is is not known.
+  // Without a time, the week of the subframes is unknown.
   if (has_epoch_ && subframes_.add(frame, now_, navigation_)) return false;
   return rawx_.decode(frame, epoch, problem_) && is_later(epoch);
 }
@@ -74,7 +74,8 @@ bool ReceiverStream::is_later(const Epoch& epoch) {
   return true;
 }
 
-// Of frames of the other kind each finds begins in this one's: they are no damage.
+// Each frame finder sees false starts inside the other protocol's frames; they do not count as
+// damage.
 ReceiverStreamCounts ReceiverStream::counts() const {
   ReceiverStreamCounts c = counts_;
   c.unusable += static_cast<std::uint64_t>(navigation_.refused);

@@ -1,5 +1,5 @@
-// What a receiver sends as it comes: UBX (RAWX, SFRBX) or RTCM 3 (MSM4 to MSM7, ephemerides), told
-// apart by content.
+// Decodes what a receiver sends as it arrives: UBX (RAWX, SFRBX) or RTCM 3 (MSM4 to MSM7,
+// ephemerides), recognized by content.
 #pragma once
 
 #include <cstddef>
@@ -16,29 +16,31 @@
 namespace maploop::ppp {
 
 struct ReceiverStreamCounts {
-  std::uint64_t ubx = 0, rtcm = 0;  // sound frames
-  std::uint64_t damaged = 0;        // begins of frames with a wrong checksum, or cut
-  std::uint64_t unusable = 0;       // messages that do not hold what they say
-  std::uint64_t repeated = 0;       // epochs not later than the one before
-  std::uint64_t left_out = 0;       // values without a name, or that no satellite gives
+  std::uint64_t ubx = 0, rtcm = 0;  // frames with a right checksum
+  std::uint64_t damaged = 0;        // frames that are cut or have a wrong checksum
+  std::uint64_t unusable = 0;       // messages with invalid content
+  std::uint64_t repeated = 0;       // epochs not later than the previous one
+  std::uint64_t left_out = 0;       // values of unnamed signals, or that cannot be right
 };
 
-// Decodes by what the readers of files decode by (rtcm3.h, ubx.h). Memory is that of one frame and
-// of what was pushed since; what is not taken of navigation() is limited. One thread at a time.
+// Uses the same decoders as the readers of files (rtcm3.h, ubx.h). Memory is bounded by one frame
+// and the bytes pushed, and messages not taken from navigation() are limited. Only one thread may
+// use a stream at a time.
 class ReceiverStream {
  public:
-  // RTCM's observations do not say their week: it is that of `now`, until an ephemeris of GPS or
-  // Galileo says another.
+  // RTCM's observations do not contain their week: it is that of `now`, until an ephemeris of GPS
+  // or Galileo gives another.
   explicit ReceiverStream(GpsTime now) : now_(now), msm_(now) {}
 
-  // Then call next() until it is false.
+  // After each push, call next() until it returns false.
   void push(std::span<const std::uint8_t> bytes);
-  // The next whole epoch.
+  // Returns the next complete epoch.
   bool next(Epoch& epoch);
-  // What is pushed from now on does not go on from what was pushed: the connection was lost.
+  // Discards incomplete frames after the connection was lost: new bytes do not continue the old
+  // ones.
   void restart();
 
-  // Ephemerides since it was last emptied.
+  // Returns the ephemerides since the caller last emptied it.
   NavigationFile& navigation() { return navigation_; }
   ReceiverStreamCounts counts() const;
 
@@ -49,10 +51,10 @@ class ReceiverStream {
   template <class Frames, class Frame>
   bool scan(std::string& bytes, std::uint64_t& sound, std::uint64_t& damaged, Epoch& epoch);
 
-  GpsTime now_;  // of the last epoch
+  GpsTime now_;  // time of the last epoch
   bool has_epoch_ = false;
   bool has_week_ = false;
-  // Either may be in it, and other text besides: each looks for its own frames.
+  // The bytes may contain either protocol and other text: each frame finder has its own copy.
   std::string ubx_, rtcm_;
   RawxDecoder rawx_;
   SubframeCollector subframes_;
@@ -61,7 +63,7 @@ class ReceiverStream {
   std::string problem_;
   ReceiverStreamCounts counts_;
   std::uint64_t ubx_damaged_ = 0, rtcm_damaged_ = 0;
-  int left_out_before_ = 0;  // of an earlier msm_
+  int left_out_before_ = 0;  // by an earlier msm_
 };
 
 }  // namespace maploop::ppp

@@ -28,7 +28,7 @@ std::optional<Kind> kind_of(int number) {
   return Kind{systems[static_cast<std::size_t>(row)], msm};
 }
 
-// Bits of the fields of each cell, and the units of ranges (ms) in powers of two.
+// A Layout has the field widths of each cell, and the units of ranges as powers of two, ms.
 struct Layout {
   bool rates;
   std::size_t code_bits, phase_bits, lock_bits, cn0_bits;
@@ -42,7 +42,7 @@ Layout layout_of(int msm) {
           high ? 10U : 6U,      high ? -29 : -24, high ? -31 : -29, high ? 1.0 / 16.0 : 1.0};
 }
 
-// In units of 2^power ms; nothing where it is the one value that says so.
+// Converts a number in units of 2^power ms; nothing for the value that marks it as missing.
 std::optional<double> fine_range(std::int64_t value, std::size_t bits, int power) {
   if (value == -(std::int64_t{1} << (bits - 1))) return {};
   return std::ldexp(static_cast<double>(value), power);
@@ -52,16 +52,16 @@ constexpr Duration week = std::chrono::hours(24 * 7);
 
 }  // namespace
 
-// What a message says of its satellites, cells and their values.
+// Contains a message's satellites, cells and their values.
 struct MsmDecoder::Header {
   System system{};
   Layout layout{};
   std::vector<Satellite> satellites;
   std::vector<std::string_view> signals;
-  std::uint64_t cells = 0;  // a bit each, satellite by satellite, the first one highest
+  std::uint64_t cells = 0;  // one bit per cell, satellite by satellite, the first one highest
   std::size_t cell_places = 0;
   std::vector<std::optional<double>> range_ms, rate;  // of each satellite
-  // Of each cell that is there.
+  // These are of each cell that is present.
   std::vector<std::optional<double>> code_ms, phase_ms, fine_rate;
   std::vector<int> lock;
   std::vector<bool> half_cycle;
@@ -138,7 +138,7 @@ bool MsmDecoder::Header::read(Rtcm3Bits& bits, int msm,
 std::optional<GpsTime> MsmDecoder::time_of(System system, std::uint64_t field) const {
   using std::chrono::milliseconds;
   if (system == System::glonass) {
-    // The day of the week, and Moscow's time of the day: UTC and three hours.
+    // The field contains the day of the week and the time of day in Moscow, UTC plus three hours.
     const auto ms = static_cast<std::int64_t>(field & ((1U << 27) - 1));
     if (ms > 86'401'000) return {};
     const Duration since =
@@ -185,7 +185,7 @@ Signal MsmDecoder::signal_of(const Header& header, std::size_t satellite, std::s
   signal.cn0 = header.cn0[cell];
   if (header.code_ms[cell]) {
     const double code = metres_of_ms * (rough + *header.code_ms[cell]);
-    // As in files: no navigation satellite is nearer than 15000 km or farther than 80000 km.
+    // As in files, no navigation satellite is nearer than 15000 km or farther than 80000 km.
     if (code > 1.0e7 && code < 1.0e8) {
       signal.code = code;
     } else {
@@ -198,8 +198,8 @@ Signal MsmDecoder::signal_of(const Header& header, std::size_t satellite, std::s
                            : std::nullopt;
   const double cycles_per_metre =
       carrier_frequency(key.satellite.system, key.band, channel) / speed_of_light;
-  // The indicator grows with the time of lock; of a signal that the epoch before did not have it
-  // says too little.
+  // The indicator grows with the time of lock, but is too coarse for a signal that was missing in
+  // the previous epoch: its phase counts as slipped.
   Tracked& tracked = tracked_[key];
   const bool slipped = header.lock[cell] == 0 || header.lock[cell] < tracked.lock ||
                        (tracked.seen && tracked.last < now_);
@@ -246,7 +246,7 @@ bool MsmDecoder::decode(const Rtcm3Message& message, Epoch& epoch, std::string& 
   const bool next_began = open_.time != *time && finish(epoch);
   open_.time = *time;
   add(header);
-  if (next_began) return true;  // this one, if it is whole already, is given with the next message
+  if (next_began) return true;  // an already complete epoch follows with the next message
   return !more && finish(epoch);
 }
 
@@ -257,7 +257,7 @@ bool is_rtcm3(std::string_view bytes) {
 }
 
 std::optional<GpsTime> week_of(const Rtcm3Message& message) {
-  constexpr int era = 2048;  // GPS says its weeks modulo 1024: from 2019-04-07 to 2038-11-20
+  constexpr int era = 2048;  // GPS's weeks are modulo 1024: 2019-04-07 to 2038-11-20
   constexpr int galileo_begin = 1024;
   Rtcm3Bits bits(message.payload);
   bits.skip(12 + 6);
@@ -275,7 +275,7 @@ std::optional<GpsTime> week_of(const Rtcm3Message& message) {
 
 namespace {
 
-// Of a message 1005 or 1006.
+// Returns the position in a message 1005 or 1006, m, earth-fixed.
 std::optional<Eigen::Vector3d> position_of(const Rtcm3Message& message) {
   constexpr double unit = 1e-4;  // m
   if (message.number != 1005 && message.number != 1006) return {};

@@ -1,4 +1,4 @@
-// Observations of a receiver in RTCM 3 (MSM4 to MSM7).
+// Decodes a receiver's observations in RTCM 3 (MSM4 to MSM7).
 #pragma once
 
 #include <array>
@@ -15,20 +15,20 @@
 
 namespace maploop::ppp {
 
-// One receiver's messages in their order, from a file or as they come. An epoch is what messages of
-// one time say; the last of them says that it is.
+// Decodes one receiver's messages in their order, from a file or as they arrive. An epoch consists
+// of the messages of one time, the last of which is marked as such.
 class MsmDecoder {
  public:
-  // MSM says times of the week or the day: the one nearest to `near`, and from then on to the epoch
-  // before.
+  // MSM contains times of the week or the day. They are resolved to the one nearest to `near`, and
+  // later to the one nearest to the previous epoch.
   explicit MsmDecoder(GpsTime near) : now_(near) {}
 
-  // True when the message, or the end of the epoch before it, completes an epoch, which is then in
-  // `epoch`. `problem` says what is wrong with an MSM message; empty of all others. Signals without
-  // a name in RINEX 3, phases of GLONASS without their channel (MSM4, MSM6), and what cannot be are
-  // left out and counted.
+  // Returns true if the message, or the end of the epoch before it, completes an epoch, which is
+  // then in `epoch`. `problem` is set to what is wrong with an MSM message, and is empty otherwise.
+  // Signals without a name in RINEX 3, phases of GLONASS without their channel (MSM4, MSM6), and
+  // values that cannot be right are left out and counted.
   bool decode(const Rtcm3Message& message, Epoch& epoch, std::string& problem);
-  // What is left of a last epoch that was not said to be whole.
+  // Returns the remaining last epoch, whose final message did not arrive; false if there is none.
   bool finish(Epoch& epoch);
 
   int left_out() const { return left_out_; }  // values
@@ -42,11 +42,11 @@ class MsmDecoder {
     auto operator<=>(const Key&) const = default;
   };
 
-  // Of a signal at its last epoch.
+  // A Tracked is the state of a signal at its last epoch.
   struct Tracked {
     bool seen = false;
     GpsTime last{};
-    int lock = 0;  // indicator
+    int lock = 0;  // lock time indicator
   };
 
   std::optional<GpsTime> time_of(System system, std::uint64_t field) const;
@@ -55,22 +55,23 @@ class MsmDecoder {
                    std::size_t cell);
 
   GpsTime now_;
-  Epoch open_;  // being collected
+  Epoch open_;  // the epoch being collected
   std::map<Key, Tracked> tracked_;
   std::array<std::optional<int>, 100> glonass_channels_;
   int left_out_ = 0;
 };
 
-// The middle of the week that an ephemeris of GPS or Galileo (1019, 1045, 1046) says.
+// Returns the middle of the week that an ephemeris of GPS or Galileo (1019, 1045, 1046) contains.
 std::optional<GpsTime> week_of(const Rtcm3Message& message);
 
-// Whether a file is a recording of such a stream: a sound message begins in its first kilobytes.
+// Returns whether a file is a recording of such a stream: its first kilobytes contain a message
+// with a right checksum.
 bool is_rtcm3(std::string_view bytes);
 
-// The epochs of a recording, and the position of messages 1005 and 1006. The week is that of the
-// first ephemeris of GPS or Galileo (1019, 1045, 1046). Throws ReadError where the recording has no
-// such ephemeris, or no MSM. Its ephemerides (rtcm3_ephemeris.h) go to `navigation`, where there is
-// one.
+// Parses a recording: its epochs, and the position of messages 1005 and 1006. The week is that of
+// the first ephemeris of GPS or Galileo (1019, 1045, 1046). Ephemerides (rtcm3_ephemeris.h) are
+// added to `navigation` unless it is nullptr. Throws ReadError if the recording has no such
+// ephemeris, or no MSM.
 Observations parse_rtcm3(std::string_view bytes, const std::string& file,
                          NavigationFile* navigation = nullptr);
 

@@ -9,7 +9,7 @@ constexpr char preamble = '\xd3';
 
 }  // namespace
 
-// CRC-24Q (RTCM 10403, section 4.2).
+// This is CRC-24Q (RTCM 10403, section 4.2).
 std::uint32_t crc24q(std::string_view bytes) {
   static constexpr auto table = [] {
     std::array<std::uint32_t, 256> t{};

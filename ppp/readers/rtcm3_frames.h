@@ -1,4 +1,4 @@
-// The messages of an RTCM 3 stream, and the bits in them.
+// Finds the messages of an RTCM 3 stream and reads the bits in them.
 #pragma once
 
 #include <cstddef>
@@ -9,25 +9,26 @@ namespace maploop::ppp {
 
 struct Rtcm3Message {
   int number = 0;
-  std::string_view payload;  // a view into the stream; it begins with the number
-  std::size_t offset = 0;    // of the frame's first byte in the stream
+  std::string_view payload;  // a view into the stream, starting with the number
+  std::size_t offset = 0;    // offset of the frame's first byte in the stream
 };
 
-// The checksum of frames, and of Galileo's pages: the polynomial 0x1864cfb, begun with zero.
+// Returns the checksum of frames and of Galileo's pages: polynomial 0x1864cfb, initial value zero.
 std::uint32_t crc24q(std::string_view bytes);
 
 class Rtcm3Frames {
  public:
-  // `bytes` must outlive this. Where more bytes follow them, a frame that is not whole yet is no
-  // damage: see taken().
+  // `bytes` must outlive this. If more bytes follow, an incomplete frame at the end does not count
+  // as damaged; see taken().
   explicit Rtcm3Frames(std::string_view bytes, bool more_follow = false)
       : bytes_(bytes), more_follow_(more_follow) {}
 
-  // The next message with a right checksum; false at the end. After one with a wrong checksum the
-  // search goes on behind its first byte.
+  // Finds the next message with a right checksum; false at the end. After a wrong checksum the
+  // search continues one byte after the frame's start.
   bool next(Rtcm3Message& message);
 
-  // Bytes that are done with: what follows is to be preceded by the others.
+  // Returns the number of bytes that are finished. The remaining bytes must be put before the
+  // following ones.
   std::size_t taken() const { return at_; }
   std::size_t damaged() const {
     return damaged_;
@@ -40,8 +41,7 @@ class Rtcm3Frames {
   std::size_t damaged_ = 0;
 };
 
-// Reads a payload bit by bit, the highest first. Behind its end there are zeros, and good() is
-// false.
+// Reads a payload bit by bit, the highest first. Beyond its end, bits are zero and good() is false.
 class Rtcm3Bits {
  public:
   explicit Rtcm3Bits(std::string_view payload) : payload_(payload) {}

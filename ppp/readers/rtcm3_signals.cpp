@@ -6,7 +6,7 @@
 namespace maploop::ppp {
 namespace {
 
-using Names = std::array<std::string_view, 33>;  // by place, from 1
+using Names = std::array<std::string_view, 33>;  // by bit, from 1
 
 struct Entry {
   int place;

@@ -14,12 +14,12 @@ Satellite satellite_in(const Lines& lines, std::size_t column) {
   return *satellite;
 }
 
-// The difference to GPS time of the system that the first %c line names.
+// Returns GPS time minus the time system that the first %c line names.
 Duration offset_of(const Lines& lines, std::string_view name) {
   if (name == "UTC" || name == "GLO") lines.fail("SP3 in UTC is not read; GPS, GAL, BDT, QZS are");
   if (name == "BDT") return std::chrono::seconds(14);
   if (name == "TAI") return -std::chrono::seconds(19);
-  return Duration::zero();  // an SP3-a file says "ccc": GPS
+  return Duration::zero();  // an SP3-a file contains "ccc", which means GPS
 }
 
 void read_point(const Lines& lines, OrbitFile& result) {
@@ -45,9 +45,11 @@ void read_point(const Lines& lines, OrbitFile& result) {
 
 }  // namespace
 
-// How many points a text of this size has at most, with room for epochs that lack many of them.
+// Returns how many points a text of this size has at most, with room for epochs that lack many of
+// them.
 std::size_t points_in(std::string_view text) {
-  constexpr std::size_t line = 46, share = 8;  // bytes of a position; one in so many is there
+  // A position has 46 bytes, and at least one point in 8 is present.
+  constexpr std::size_t line = 46, share = 8;
   return std::min(input_limits::orbit_points, share * (text.size() / line));
 }
 
@@ -92,7 +94,7 @@ OrbitFile parse_sp3(std::string_view text, const std::string& file) {
       }
       for (auto& [satellite, points] : result.points) points.resize(result.epochs.size());
       result.epochs.push_back(t);
-      // A whole epoch has a line for each listed satellite.
+      // A complete epoch has a line for each listed satellite.
       if (result.epochs.size() * result.points.size() > points_in(text)) {
         lines.fail("the file is too short for its epochs of " +
                    std::to_string(result.points.size()) + " satellites");

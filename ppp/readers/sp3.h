@@ -1,4 +1,4 @@
-// Precise orbits: SP3-a, -c and -d.
+// Reads precise orbits from SP3-a to SP3-d.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,18 +10,18 @@
 
 namespace maploop::ppp {
 
-// Positions of the centre of mass (of the antenna, where the agency says so), ITRF, m.
+// Positions are those of the centre of mass (or of the antenna, if the agency states so), ITRF, m.
 struct OrbitFile {
   struct Point {
-    Eigen::Vector3d position{0, 0, 0};  // zero: not known
-    double clock = 0.0;                 // s; of no use where has_clock is false
+    Eigen::Vector3d position{0, 0, 0};  // zero: unknown
+    double clock = 0.0;                 // s; meaningless if has_clock is false
     bool has_clock = false;
   };
   std::string file, agency, frame;
   Duration interval{0};
   std::vector<GpsTime> epochs;
-  std::map<Satellite, std::vector<Point>> points;  // as many as epochs
-  int refused = 0;                                 // points that cannot be, and a cut last epoch
+  std::map<Satellite, std::vector<Point>> points;  // one per epoch
+  int refused = 0;                                 // invalid points, and an incomplete last epoch
 };
 
 OrbitFile parse_sp3(std::string_view text, const std::string& file);

@@ -1,5 +1,5 @@
-// RTCM 10403.3, sections 3.5.12 and 3.5.13 (messages 1057 to 1068), and drafts of the same for
-// Galileo and QZSS; IGS State Space Representation format 1.00.
+// The sources are RTCM 10403.3, sections 3.5.12 and 3.5.13 (messages 1057 to 1068), drafts of the
+// same for Galileo and QZSS, and the IGS State Space Representation format 1.00.
 #include "ppp/readers/ssr.h"
 
 #include <cmath>
@@ -18,12 +18,12 @@ struct SsrKind {
   bool igs;
 };
 
-// Of `place` from 1, in the order of RTCM's numbers, and of the IGS's subtypes.
+// The orders are those of RTCM's message numbers and of the IGS's subtypes, for `place` from 1.
 constexpr std::array rtcm_order{Content::orbit, Content::clock, Content::bias,
                                 Content::both,  Content::ura,   Content::high_rate_clock};
 constexpr std::array igs_order{Content::orbit, Content::clock, Content::both,
                                Content::high_rate_clock, Content::bias};
-constexpr int igs_ura = 7;  // 6: phase bias
+constexpr int igs_ura = 7;  // 6 is phase bias
 
 std::optional<SsrKind> ssr_kind(int number, int subtype) {
   if (number == 4076) {
@@ -52,8 +52,8 @@ bool is_ssr(int number) {
   return number == 4076 || (number >= 1057 && number <= 1068) || (number >= 1240 && number <= 1270);
 }
 
-// Signals by their numbers (RTCM 10403.3, DF380 and DF381; IGS SSR, tables of signal identifiers);
-// empty where there is none.
+// Returns a signal's name by its number (RTCM 10403.3, DF380 and DF381; IGS SSR, tables of signal
+// identifiers); empty if the number has no signal.
 std::string_view ssr_signal(System system, std::size_t number) {
   using SsrNames = std::span<const std::string_view>;
   static constexpr std::array<std::string_view, 17> of_gps{"1C", "1P", "1W", "1S", "1L", "2C",
@@ -78,7 +78,7 @@ Duration update_interval(std::uint64_t index) {
   return std::chrono::seconds(table[static_cast<std::size_t>(index & 15U)]);
 }
 
-// As many units, m.
+// Reads a signed number of units and converts it to m.
 double scaled(Rtcm3Bits& bits, std::size_t width, double unit) {
   return unit * static_cast<double>(bits.signed_number(width));
 }
@@ -103,7 +103,7 @@ SsrClock read_clock(Rtcm3Bits& bits) {
   return c;
 }
 
-// RTCM 10403.3, DF389; 0 and 63: not known.
+// Reads the range accuracy, m (RTCM 10403.3, DF389); 0 and 63 mean that it is unknown.
 std::optional<double> read_sigma(Rtcm3Bits& bits) {
   const auto index = bits.number(6);
   if (index == 0 || index == 63) return {};
@@ -142,7 +142,7 @@ SsrResult decode_ssr(const Rtcm3Message& message, GpsTime now, std::vector<SsrUp
   const bool orbits = kind->content == Content::orbit || kind->content == Content::both;
   SsrUpdate common;
   common.interval = update_interval(bits.number(4));
-  bits.skip(1);                            // whether more messages of this time follow
+  bits.skip(1);                            // the flag for more messages of this time
   if (orbits && !kind->igs) bits.skip(1);  // reference frame: global or regional
   common.issue = static_cast<int>(bits.number(4));
   common.solution = static_cast<std::uint32_t>(bits.number(20));
@@ -153,7 +153,7 @@ SsrResult decode_ssr(const Rtcm3Message& message, GpsTime now, std::vector<SsrUp
                     ? nearest_moment(
                           now, since - std::chrono::hours(3) + leap_seconds(now).gps_minus_utc, day)
                     : nearest_moment(now, since, 7 * day);
-  // The corrections are those of the middle of the interval, but for the shortest.
+  // The corrections refer to the middle of the interval, except for the shortest one.
   if (common.interval > std::chrono::seconds(1)) common.time += common.interval / 2;
 
   const std::size_t number_bits = kind->igs ? 6 : moscow ? 5 : qzss ? 4 : 6;

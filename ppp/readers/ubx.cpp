@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t head_size = 16, measurement_size = 32;
 
-// u-blox F9 HPG interface description, "GNSS identifiers" and "Signal identifiers", and RINEX 3's
-// names of the same.
+// The numbers are from the u-blox F9 HPG interface description, "GNSS identifiers" and "Signal
+// identifiers"; the names are RINEX 3's.
 struct NamedSignal {
   std::uint8_t gnss, signal;
   char band, attribute;
@@ -53,7 +53,8 @@ void RawxDecoder::add(const Key& key, std::string_view m, Epoch& epoch) {
   const double doppler = ubx_number<float>(m, 16);
   const int lock_ms = ubx_number<std::uint16_t>(m, 24);
   const bool subtracted = (status & half_subtracted) != 0;
-  // The lock is younger than the last epoch that had this signal, or younger than it was then.
+  // The phase has slipped if the time of lock is shorter than at the last epoch with this signal,
+  // or shorter than the time since then.
   constexpr std::int64_t longest_ms = 64'500;
   Tracked& tracked = tracked_[key];
   const std::int64_t since_ms =
@@ -72,7 +73,7 @@ void RawxDecoder::add(const Key& key, std::string_view m, Epoch& epoch) {
     signal.half_cycle = (status & half_known) == 0;
   }
   if ((status & code_valid) != 0) {
-    // As in files: no navigation satellite is nearer than 15000 km or farther than 80000 km.
+    // As in files, no navigation satellite is nearer than 15000 km or farther than 80000 km.
     if (code > 1.0e7 && code < 1.0e8) {
       signal.code = code;
     } else {
@@ -87,7 +88,7 @@ void RawxDecoder::add(const Key& key, std::string_view m, Epoch& epoch) {
 
 bool RawxDecoder::decode(const UbxFrame& frame, Epoch& epoch, std::string& problem) {
   constexpr unsigned clock_reset = 2;
-  constexpr int last_week = 10'000;  // of 2171
+  constexpr int last_week = 10'000;  // in the year 2171
   problem.clear();
   if (frame.message_class != 0x02 || frame.id != 0x15) return false;
   const std::string_view payload = frame.payload;
@@ -105,7 +106,7 @@ bool RawxDecoder::decode(const UbxFrame& frame, Epoch& epoch, std::string& probl
   epoch.clear();
   epoch.time = gps_week_time(week, tow);
   epoch.power_failure = (ubx_number<std::uint8_t>(payload, 12) & clock_reset) != 0;
-  // A satellite's signals are not beside each other.
+  // The signals of a satellite are not next to each other.
   std::vector<std::pair<Key, std::string_view>> measurements;
   for (std::size_t i = 0; i < count; ++i) {
     const auto m = payload.substr(head_size + i * measurement_size, measurement_size);
@@ -156,7 +157,7 @@ Observations parse_ubx(std::string_view bytes, const std::string& file,
   Epoch epoch;
   SubframeCollector subframes;
   for (UbxFrame frame; frames.next(frame);) {
-    // Without a time, whose week it is is not known.
+    // Without a time, the week of the subframes is unknown.
     if (navigation != nullptr && !result.epochs.empty() &&
         subframes.add(frame, result.epochs.back().time, *navigation))
       continue;

@@ -1,4 +1,4 @@
-// Raw measurements of u-blox receivers (UBX-RXM-RAWX).
+// Decodes raw measurements of u-blox receivers (UBX-RXM-RAWX).
 #pragma once
 
 #include <map>
@@ -12,13 +12,13 @@
 
 namespace maploop::ppp {
 
-// One receiver's messages in their order, from a file or as they come.
+// Decodes one receiver's messages in their order, from a file or as they arrive.
 class RawxDecoder {
  public:
-  // Fills `epoch` where the frame is a RAWX message with usable measurements. False otherwise;
-  // `problem` then says what is wrong with one, and is empty of other messages. Satellites and
-  // signals that have no name in RINEX 3, and pseudoranges that cannot be, are left out and
-  // counted.
+  // Returns true and fills `epoch` if the frame is a RAWX message with usable measurements.
+  // Otherwise `problem` is set to what is wrong with a RAWX message, and is empty for other
+  // messages. Satellites and signals without a name in RINEX 3, and pseudoranges that cannot be
+  // right, are left out and counted.
   bool decode(const UbxFrame& frame, Epoch& epoch, std::string& problem);
 
   int left_out() const { return left_out_; }  // measurements
@@ -29,7 +29,7 @@ class RawxDecoder {
     char band, attribute;
     auto operator<=>(const Key&) const = default;
   };
-  // Of a signal at its last epoch.
+  // A Tracked is the state of a signal at its last epoch.
   struct Tracked {
     bool seen = false;
     GpsTime last{};
@@ -44,11 +44,13 @@ class RawxDecoder {
   int left_out_ = 0;
 };
 
-// Whether a file is a recording of such a receiver: a sound frame begins in its first kilobytes.
+// Returns whether a file is a recording of such a receiver: its first kilobytes contain a frame
+// with a right checksum.
 bool is_ubx(std::string_view bytes);
 
-// The epochs of a recording; its ephemerides (ubx_subframes.h) go to `navigation`, where there is
-// one. Throws ReadError where it holds no raw measurements at all, saying what to switch on.
+// Parses the epochs of a recording. Ephemerides (ubx_subframes.h) are added to `navigation` unless
+// it is nullptr. Throws ReadError if it contains no raw measurements; the error names the message
+// to enable.
 Observations parse_ubx(std::string_view bytes, const std::string& file,
                        NavigationFile* navigation = nullptr);
 

@@ -5,7 +5,7 @@
 namespace maploop::ppp {
 namespace {
 
-// Fletcher's checksum of class, id, length and payload (u-blox interface description, "UBX
+// Checks Fletcher's checksum of class, id, length and payload (u-blox interface description, "UBX
 // checksum").
 bool sound(std::string_view checked, std::string_view sum) {
   std::uint8_t a = 0, b = 0;
@@ -18,7 +18,7 @@ bool sound(std::string_view checked, std::string_view sum) {
 
 constexpr std::size_t ubx_head = 6, ubx_tail = 2;
 
-// Whether all of a frame is there, or what cannot be one: RAWX, the longest, has 8176 bytes.
+// Returns whether a frame is complete or cannot be valid: RAWX, the longest one, has 8176 bytes.
 bool ubx_whole(std::string_view rest) {
   constexpr std::size_t longest_payload = 8192;
   if (rest.size() < ubx_head) return false;
@@ -32,10 +32,10 @@ std::optional<Satellite> ubx_satellite(std::uint8_t gnss, std::uint8_t number) {
   constexpr std::array<System, 8> systems{System::gps,     System::sbas, System::galileo,
                                           System::beidou,  System::gps,  System::qzss,
                                           System::glonass, System::navic};
-  if (gnss >= systems.size() || gnss == 4) return {};  // 4: indoor messaging
+  if (gnss >= systems.size() || gnss == 4) return {};  // 4 is indoor messaging
   const int shift = systems[gnss] == System::sbas ? 100 : 0;
   const int rinex = number - shift;
-  if (rinex < 1 || rinex > 99) return {};  // GLONASS 255: its number is not known yet
+  if (rinex < 1 || rinex > 99) return {};  // 255 is a GLONASS satellite with unknown number
   return Satellite{systems[gnss], static_cast<std::uint8_t>(rinex)};
 }
 

@@ -1,4 +1,5 @@
-// The frames of u-blox's UBX protocol inside a stream of bytes, which may hold other text (NMEA).
+// Finds the frames of u-blox's UBX protocol in a stream of bytes, which may contain other text
+// (NMEA).
 #pragma once
 
 #include <bit>
@@ -15,21 +16,22 @@ namespace maploop::ppp {
 struct UbxFrame {
   std::uint8_t message_class = 0, id = 0;
   std::string_view payload;  // a view into the stream
-  std::size_t offset = 0;    // of its first byte in the stream
+  std::size_t offset = 0;    // offset of the frame's first byte in the stream
 };
 
 class UbxFrames {
  public:
-  // `bytes` must outlive this. Where more bytes follow them, a frame that is not whole yet is no
-  // damage: see taken(). It then is longer than any that is decoded only by damage.
+  // `bytes` must outlive this. If more bytes follow, an incomplete frame at the end does not count
+  // as damaged; see taken(). A frame longer than any that is decoded counts as damaged at once.
   explicit UbxFrames(std::string_view bytes, bool more_follow = false)
       : bytes_(bytes), more_follow_(more_follow) {}
 
-  // The next frame with a right checksum; false at the end. After one with a wrong checksum the
-  // search goes on behind its first byte, for its length may be what is damaged.
+  // Finds the next frame with a right checksum; false at the end. After a wrong checksum the search
+  // continues one byte after the frame's start, because its length may be the damaged part.
   bool next(UbxFrame& frame);
 
-  // Bytes that are done with: what follows is to be preceded by the others.
+  // Returns the number of bytes that are finished. The remaining bytes must be put before the
+  // following ones.
   std::size_t taken() const { return at_; }
 
   std::size_t damaged() const {
@@ -45,10 +47,10 @@ class UbxFrames {
   std::size_t others_ = 0;
 };
 
-// By u-blox's numbers of systems and satellites; nothing where RINEX has no name for it.
+// Converts u-blox's numbers of system and satellite; nothing if RINEX has no name for it.
 std::optional<Satellite> ubx_satellite(std::uint8_t gnss, std::uint8_t number);
 
-// A little-endian number of a payload, which must reach so far.
+// Returns a little-endian number of a payload. Precondition: the payload contains all of its bytes.
 template <class T>
 T ubx_number(std::string_view payload, std::size_t at) {
   static_assert(std::endian::native == std::endian::little);

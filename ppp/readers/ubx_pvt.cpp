@@ -16,8 +16,8 @@ double scaled(std::string_view payload, std::size_t at, double unit) {
   return unit * static_cast<double>(ubx_number<T>(payload, at));
 }
 
-// By the time of the week, which knows no leap seconds; the date says the week, and the
-// nanoseconds what the milliseconds leave.
+// The time of the week has no leap seconds. The date gives the week, and the nanoseconds refine the
+// milliseconds.
 std::optional<GpsTime> time_of(std::string_view p) {
   using namespace std::chrono;
   constexpr Duration week = hours(24 * 7);

@@ -1,4 +1,4 @@
-// A u-blox receiver's own solution: UBX NAV-PVT (u-blox F9 HPG interface description).
+// Decodes a u-blox receiver's own solution, UBX NAV-PVT (u-blox F9 HPG interface description).
 #pragma once
 
 #include <Eigen/Core>
@@ -12,19 +12,20 @@ namespace maploop::ppp {
 
 struct UbxPvt {
   GpsTime time{};
-  // In three dimensions, from satellites, within the receiver's own limits. Without it nothing else
-  // than the time counts.
+  // True for a solution in three dimensions from satellites, within the receiver's own limits.
+  // Otherwise only the time is valid.
   bool fix = false;
-  Geodetic position;                                       // on WGS 84's ellipsoid
+  Geodetic position;                                       // on the ellipsoid of WGS 84
   Eigen::Vector3d velocity_enu = Eigen::Vector3d::Zero();  // m/s
-  double horizontal_sigma = 0.0;                           // m, of the distance in the plane
-  double vertical_sigma = 0.0;                             // m
-  double speed_sigma = 0.0;                                // m/s, in three dimensions
+  double horizontal_sigma = 0.0;  // m, of the distance in the horizontal plane
+  double vertical_sigma = 0.0;    // m
+  double speed_sigma = 0.0;       // m/s, in three dimensions
   int satellites = 0;
 };
 
-// Whether `frame` is one whose time is known. `problem` gets what is wrong with one that does not
-// hold what it says, and is left alone otherwise.
+// Returns whether `frame` is a NAV-PVT message with a known time and valid content; `pvt.fix` tells
+// whether it has a solution. `problem` is set to what is wrong with the content, and stays
+// unchanged otherwise.
 bool decode_pvt(const UbxFrame& frame, UbxPvt& pvt, std::string& problem);
 
 }  // namespace maploop::ppp

@@ -5,7 +5,7 @@
 namespace maploop::ppp {
 namespace {
 
-// Bits set down one after the other, the highest first.
+// Collects bits one after the other, the highest first.
 class BitString {
  public:
   void append(std::uint64_t value, int bits) {
@@ -33,7 +33,7 @@ std::uint32_t word(std::string_view words, std::size_t i) {
   return ubx_number<std::uint32_t>(words, 4 * i);
 }
 
-// The words as the bits were sent.
+// Returns the words as the bits were sent.
 BitString as_sent(std::string_view words) {
   BitString bits;
   for (std::size_t i = 0; i < words.size() / 4; ++i) bits.append(word(words, i), 32);
@@ -45,7 +45,7 @@ BitString as_sent(std::string_view words) {
 void SubframeCollector::add_gps(Satellite satellite, std::string_view words, GpsTime now,
                                 NavigationFile& to) {
   if (words.size() < 40) return;
-  // Of 30 bits the lowest six are parity, which the receiver has checked.
+  // The lowest six of the 30 bits are parity, which the receiver has checked.
   BitString subframe;
   for (std::size_t i = 0; i < 10; ++i) subframe.append(word(words, i) >> 6 & 0xffffffU, 24);
   Rtcm3Bits bits(subframe.bytes());
@@ -56,7 +56,7 @@ void SubframeCollector::add_gps(Satellite satellite, std::string_view words, Gps
   const std::span<const BroadcastField> all[3] = {broadcast_fields::gps_subframe_1,
                                                   broadcast_fields::gps_subframe_2,
                                                   broadcast_fields::gps_subframe_3};
-  constexpr std::uint64_t page_18 = 0x78;  // how its data and satellite identifiers read, 1 and 56
+  constexpr std::uint64_t page_18 = 0x78;  // the data identifier 1 and satellite identifier 56
   if (number == 4 && satellite.system == System::gps && bits.number(8) == page_18) {
     read_fields(bits, broadcast_fields::gps_ionosphere, parts.values);
     add_ionosphere(satellite, parts.values, now, to);
@@ -64,7 +64,7 @@ void SubframeCollector::add_gps(Satellite satellite, std::string_view words, Gps
   if (number < 1 || number > 3) return;
   const std::size_t part = number - 1;
   read_fields(bits, all[part], parts.values);
-  // Each says of which issue it is: the first in its eighth word, the others as IODE.
+  // Each subframe contains its issue: the first in its eighth word (IODC), the others as IODE.
   Rtcm3Bits issue(subframe.bytes());
   issue.skip(part == 0 ? 7 * 24 : part == 1 ? 2 * 24 : 9 * 24);
   parts.issue[part] = static_cast<int>(issue.number(8));
@@ -85,7 +85,8 @@ void SubframeCollector::add_galileo(Satellite satellite, std::string_view words,
     bits.skip(place);
     return bits;
   };
-  // An even half and an odd one, each with a bit that says so and one of an alert page.
+  // A page has an even half and an odd one, each starting with a bit for the half and one for the
+  // page's type (alert or not).
   constexpr std::size_t odd = 128;
   if (at(0).number(2) != 0 || at(odd).number(2) != 2) return;
   BitString checked;
@@ -117,20 +118,21 @@ void SubframeCollector::add_galileo(Satellite satellite, std::string_view words,
   parts.seen |= 1U << part;
   const auto& i = parts.issue;
   if (parts.seen != 31U || i[0] != i[1] || i[1] != i[2] || i[2] != i[3]) return;
-  parts.seen = 16U;  // health and week go on
+  parts.seen = 16U;  // health and week remain valid
   auto m = kepler_message(satellite, parts.values, now);
   if (!m) {
     refuse(to, offset, "pages: no orbit of " + to_string(satellite));
     return;
   }
   m->data_sources = galileo_i_nav;
-  // It is sent over and over; one of each issue is enough.
+  // Messages are repeated: one of each issue is enough.
   if (parts.issue[5] == i[0] + 1) return;
   parts.issue[5] = i[0] + 1;
   to.kepler.push_back(*m);
 }
 
-// It is sent over and over, by all satellites: once in a while is enough.
+// All satellites repeat the coefficients: they are added only if they are new or ten minutes have
+// passed.
 void SubframeCollector::add_ionosphere(Satellite satellite, const BroadcastValues& values,
                                        GpsTime now, NavigationFile& to) {
   constexpr Duration while_it_is_known = std::chrono::minutes(10);
@@ -148,7 +150,7 @@ void SubframeCollector::add_ionosphere(Satellite satellite, const BroadcastValue
 void SubframeCollector::add_beidou(Satellite satellite, std::string_view words, GpsTime now,
                                    NavigationFile& to) {
   if (words.size() < 40 || satellite.number <= 5 || satellite.number >= 59) return;
-  // Of the first word four bits are parity, of each other eight.
+  // Four bits of the first word are parity, and eight of each other word.
   BitString subframe;
   subframe.append(word(words, 0) >> 4 & 0x3ffffffU, 26);
   for (std::size_t i = 1; i < 10; ++i) subframe.append(word(words, i) >> 8 & 0x3fffffU, 22);
@@ -165,7 +167,7 @@ void SubframeCollector::add_beidou(Satellite satellite, std::string_view words, 
   read_fields(bits, all[part], parts.values);
   parts.issue[part] = second;
   parts.seen |= 1U << part;
-  // A frame's subframes are six seconds apart.
+  // The subframes of a frame are six seconds apart.
   const auto& s = parts.issue;
   if (parts.seen != 7U || s[1] != s[0] + 6 || s[2] != s[1] + 6) return;
   parts.seen = 0;
@@ -185,7 +187,7 @@ void SubframeCollector::add_glonass(Satellite satellite, int channel, std::strin
       broadcast_fields::glonass_string_3, broadcast_fields::glonass_string_4};
   if (number < 1 || number > 4) return;
   Parts& parts = parts_[satellite];
-  // The first begins a frame.
+  // String 1 starts a frame.
   if (number == 1) parts.seen = 0;
   read_fields(bits, all[number - 1], parts.values);
   parts.seen |= 1U << (number - 1);
@@ -197,7 +199,7 @@ void SubframeCollector::add_glonass(Satellite satellite, int channel, std::strin
     refuse(to, 0, "strings: no orbit of " + to_string(satellite));
     return;
   }
-  // It is sent over and over for half an hour.
+  // Messages are repeated for half an hour: one of each interval is enough.
   const int interval = static_cast<int>(parts.values[static_cast<std::size_t>(Quantity::interval)]);
   if (parts.issue[5] == interval) return;
   parts.issue[5] = interval;

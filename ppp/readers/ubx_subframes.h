@@ -1,5 +1,5 @@
-// Broadcast ephemerides and ionospheric coefficients from the subframes that a u-blox receiver
-// hands on (UBX-RXM-SFRBX).
+// Collects broadcast ephemerides and ionospheric coefficients from the subframes that a u-blox
+// receiver passes on (UBX-RXM-SFRBX).
 #pragma once
 
 #include <array>
@@ -12,20 +12,21 @@
 
 namespace maploop::ppp {
 
-// GPS and QZSS L1 C/A, Galileo I/NAV (E1-B and E5b), BeiDou D1 (B1I; not of geostationary
-// satellites), GLONASS L1 and L2; the ionosphere of GPS (subframe 4, page 18) and Galileo. One
-// receiver's messages in their order.
+// Takes one receiver's messages in their order. It reads GPS and QZSS L1 C/A, Galileo I/NAV (E1-B
+// and E5b), BeiDou D1 (B1I; not of geostationary satellites), GLONASS L1 and L2, and the ionosphere
+// of GPS (subframe 4, page 18) and Galileo.
 class SubframeCollector {
  public:
-  // Adds what becomes whole to `to`; false where the frame is no SFRBX message. What has a wrong
-  // checksum (Galileo), or cannot be an orbit, is refused there. `now` as in broadcast_fields.h.
+  // Adds what becomes complete to `to`; false if the frame is not an SFRBX message. Pages with a
+  // wrong checksum (Galileo) and values that cannot be those of an orbit are counted there as
+  // refused. `now` is as in broadcast_fields.h.
   bool add(const UbxFrame& frame, GpsTime now, NavigationFile& to);
 
  private:
   struct Parts {
     BroadcastValues values{};
-    unsigned seen = 0;           // a bit each
-    std::array<int, 6> issue{};  // of each part, where it says so
+    unsigned seen = 0;           // one bit per part
+    std::array<int, 6> issue{};  // of each part that contains one
   };
 
   void add_gps(Satellite satellite, std::string_view words, GpsTime now, NavigationFile& to);
@@ -39,7 +40,7 @@ class SubframeCollector {
                       NavigationFile& to);
 
   std::map<Satellite, Parts> parts_;
-  std::map<System, IonosphereMessage> ionosphere_;  // the last one
+  std::map<System, IonosphereMessage> ionosphere_;  // the last one per system
 };
 
 }  // namespace maploop::ppp
