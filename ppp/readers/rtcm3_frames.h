@@ -30,9 +30,8 @@ class Rtcm3Frames {
   // Returns the number of bytes that are finished. The remaining bytes must be put before the
   // following ones.
   std::size_t taken() const { return at_; }
-  std::size_t damaged() const {
-    return damaged_;
-  }  // begins of frames with a wrong checksum, or cut
+  // Returns the number of frame starts whose frame is cut or has a wrong checksum.
+  std::size_t damaged() const { return damaged_; }
 
  private:
   std::string_view bytes_;

@@ -34,9 +34,8 @@ class UbxFrames {
   // following ones.
   std::size_t taken() const { return at_; }
 
-  std::size_t damaged() const {
-    return damaged_;
-  }                                               // begins of frames with a wrong checksum, or cut
+  // Returns the number of frame starts whose frame is cut or has a wrong checksum.
+  std::size_t damaged() const { return damaged_; }
   std::size_t others() const { return others_; }  // bytes that are in no frame
 
  private:
