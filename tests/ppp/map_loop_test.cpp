@@ -1,4 +1,4 @@
-// A real drive on one frequency with a map of other drives on the same streets.
+// Tests a real drive on one frequency with a map made from other drives on the same streets.
 #include "tools/ppp/map_loop.h"
 
 #include <gtest/gtest.h>
@@ -19,13 +19,13 @@ struct Driven {
   std::size_t matched = 0;
 };
 
-// The whole drive; the map so far to the east.
+// Runs the whole drive; the map is shifted by `shift` m to the east.
 Driven riverside(bool tight, double shift = 0.0) {
   const auto data = maploop::testing::real_data();
   ppp::GnssFiles files;
   read_into(data / "gnss/riverside_drive/COM3_200712.obs.gz", files);
   read_into(data / "gnss/riverside_drive/COM3_200712.nav.gz", files);
-  // The ionosphere of 17 days before.
+  // The ionosphere is that of 17 days earlier.
   read_into(data / "gnss/esbc_static/ESBC00DNK_R_20201770000_01D_MN.rnx.gz", files);
   mapmatch::NetworkData map =
       mapmatch::open_network(data / "maps/riverside/riverside_from_2021_drives.osm.pbf");

@@ -1,4 +1,4 @@
-// maploop ppp and maploop gnss info as their users start them.
+// Tests maploop ppp and maploop gnss info as users start them.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -88,7 +88,7 @@ TEST(PppCommand, TheTruthMayBeGeodeticAndMustBeOnTheEarth) {
     command.insert(command.end(), {"--truth", truth});
     return run(command);
   };
-  // The base station, in both forms.
+  // The base station is given in both forms.
   const auto ecef = scored("-3959400.631,3385704.533,3667523.111");
   const auto geodetic = scored("35.3266819,139.4660717,46.501");
   const auto figure = [](const std::string& text) {

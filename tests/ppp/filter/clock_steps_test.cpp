@@ -7,7 +7,7 @@
 namespace maploop::ppp {
 namespace {
 
-// Of eight satellites; codes have noise.
+// Makes the measurements of eight satellites, whose codes have noise.
 std::vector<Measurement> epoch(int t, double code_step, double phase_step) {
   std::vector<Measurement> all;
   for (std::uint8_t n = 1; n <= 8; ++n) {
@@ -43,7 +43,7 @@ TEST(ClockSteps, PhasesFollowTheCodes) {
 TEST(ClockSteps, NothingElseIsTouched) {
   ClockSteps steps;
   for (int t = 0; t < 30; ++t) {
-    // Both step; two satellites slip by a lot, and one has a wild code.
+    // Both step; two satellites slip by a large amount, and one has a wrong code.
     const double both = t < 10 ? 0.0 : millisecond_range;
     auto found = epoch(t, both, both);
     if (t >= 15) found[2].first.phase += 5.0 * millisecond_range;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr Satellite seen{System::gps, 1}, reflected{System::gps, 2}, risen{System::galileo, 7};
 
-// An epoch a second of six satellites, one of which is wrong by `ratio`.
+// Adds one epoch per second of six satellites, one of which has residuals with this `ratio`.
 void epochs(CodeLevels& levels, int count, double ratio) {
   for (int i = 0; i < count; ++i) {
     for (std::uint8_t s = 1; s <= 6; ++s) {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double zenith = 1.0, half_way = 0.5;  // sines: 90 and 30 degrees
 
-// So many signals, of so much strength on average, 2 dB to each side.
+// Adds `count` signals with this mean strength and a standard deviation of 2 dB.
 void signals(FullStrength& strength, double sine, double mean, int count) {
   std::mt19937 random(1);
   std::normal_distribution<double> cn0(mean, 2.0);
@@ -27,10 +27,10 @@ TEST(FullStrength, AStrongReceiversIsBelowItsUpperQuartile) {
   signals(strength, half_way, 46.0, 2000);
   const double upper_quartile = 46.0 + 0.674 * 2.0;
   EXPECT_NEAR(strength.of(half_way), upper_quartile - 4.0, 0.5);
-  EXPECT_DOUBLE_EQ(strength.of(zenith), 47.0);  // of other elevations it knows nothing
+  EXPECT_DOUBLE_EQ(strength.of(zenith), 47.0);  // other elevations are unaffected
 }
 
-// Between houses most are weak: they do not pass for unobstructed ones.
+// Between houses most signals are weak, but they must not count as unobstructed.
 TEST(FullStrength, AWeakReceiversIsNotLowered) {
   FullStrength strength{PppParameters{}};
   signals(strength, zenith, 35.0, 2000);

@@ -1,4 +1,4 @@
-// The PPP filter with the map beside the one without, on a real drive.
+// Tests the PPP filter with the map beside the one without it, on a real drive.
 #include "ppp/filter/map_aided_filter.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ const PppSetup& riverside() {
   return setup;
 }
 
-// A road along the way of the filter without the map, its line so far to the right.
+// Makes feedback of a road along the direction of travel, whose line is this far (m) to the right.
 MapFeedback road_beside(const PppSolution& s, double right) {
   const Geodetic here = geodetic_from_ecef(s.position);
   const Eigen::Matrix3d R = rotation_enu_ecef(here);
@@ -55,7 +55,7 @@ double apart(const MapAidedFilter& filter) {
   return (filter.solution().position - filter.map_free().position).norm();
 }
 
-// Epoch after epoch; `feedback` gets the filter and its age in epochs.
+// Processes the epochs from `from` to `to` - 1 and calls `each` with the index of each.
 void drive(MapAidedFilter& filter, std::size_t from, std::size_t to,
            const std::function<void(std::size_t)>& each) {
   const auto& epochs = riverside().observations().epochs;
@@ -94,20 +94,20 @@ TEST(MapAidedFilter, TheRoadDrawsTheSolutionAndLeavesTheOtherAlone) {
   EXPECT_EQ(filter.restorations(), 0U);
 }
 
-// A parallel road, say, that the vehicle seems to change to little by little.
+// The road is, for example, a parallel one that the vehicle seems to approach gradually.
 TEST(MapAidedFilter, AWrongRoadThatPassesEveryGateIsForgottenAtOnce) {
   MAPLOOP_REQUIRE_REAL_DATA();
   MapAidedFilter filter = riverside().make_map_aided_filter();
   double right = 0.0, farthest = 0.0;
   bool equal = false;
   drive(filter, 0, 600, [&](std::size_t) {
-    if (filter.restorations() > 0) {  // from here on no road at all
+    if (filter.restorations() > 0) {  // no more feedback from here on
       equal = apart(filter) == 0.0;
       return;
     }
     farthest = std::max(farthest, apart(filter));
     MapFeedback f = road_beside(filter.map_free(), right += 0.03);
-    f.lane_sigma = 0.2;  // a road that is sure of itself
+    f.lane_sigma = 0.2;  // a road with a small standard deviation
     f.cross_sigma = 0.5;
     f.probability = 1.0;
     filter.add(f);

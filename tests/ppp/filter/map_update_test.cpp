@@ -1,4 +1,4 @@
-// The road as a measurement of the PPP filter: its equations and what they may and may not say.
+// Tests the road as a measurement of the PPP filter: its equations, and which states it may change.
 #include "ppp/filter/map_update.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using S = FilterState;
 
 const Geodetic place{radians(33.98), radians(-117.33), 250.0};
 
-// Of a road with this azimuth through the place.
+// Makes feedback of a road with this azimuth through the place.
 MapFeedback road(double azimuth = 0.0) {
   MapFeedback f;
   f.reason = FeedbackReason::none;
@@ -35,7 +35,7 @@ Eigen::Vector3d earth_fixed(const Eigen::Vector3d& enu) {
   return rotation_enu_ecef(place).transpose() * enu;
 }
 
-// At the place, or so far from it; 2 m an axis, 1 m/s an axis.
+// Makes a state at this distance from the place, with 2 m and 1 m/s per axis.
 FilterState state_at(const Eigen::Vector3d& enu = {0, 0, 0},
                      const Eigen::Vector3d& velocity_enu = {0, 10, 0}) {
   FilterState state;
@@ -54,7 +54,7 @@ Eigen::Vector3d position_enu(const FilterState& state) {
   return rotation_enu_ecef(place) * (p - ecef_from_geodetic(place));
 }
 
-// Of the position with its lasting error, east and north.
+// Returns the covariance of the position with its lasting error, east and north.
 Eigen::Matrix2d covariance(const FilterState& state) {
   Eigen::Matrix<double, 2, S::fixed> H = Eigen::Matrix<double, 2, S::fixed>::Zero();
   H.middleCols<3>(S::position) = rotation_enu_ecef(place).topRows<2>();
@@ -78,7 +78,7 @@ void expect_numerical_derivative(const FilterState& state, MakeRow&& make) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(row.count); ++k)
     h[row.indices[k]] = row.h[k];
   for (int i = 0; i < state.size(); ++i) {
-    constexpr double step = 1.0;  // the rows are linear; near 6e6 m a smaller one is rounding
+    constexpr double step = 1.0;  // the rows are linear; at 6e6 m a smaller one is lost in rounding
     FilterState up = state, down = state;
     up.x()[i] += step;
     down.x()[i] -= step;
@@ -120,7 +120,8 @@ TEST(MapUpdate, LineAfterLineOfOneRoadSaysNoMoreThanItsLaneAndTheDatumAllow) {
   PppParameters p;
   FilterState state = state_at({3, 0, 0});
   for (int i = 0; i < 1000; ++i) apply(state, road(), p);
-  // Of the prior of 2 m and lasting 0.7 m, and what never changes along the road.
+  // This is the information of the prior (2 m, and 0.7 m lasting) and of the parts that are
+  // constant along the road.
   const double known =
       1.0 / (4.0 + 0.5) + 1.0 / (1.7 * 1.7 + p.map_datum_sigma * p.map_datum_sigma);
   EXPECT_GT(sigma_east(state), 0.999 * std::sqrt(1.0 / known));

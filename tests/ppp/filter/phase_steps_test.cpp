@@ -1,4 +1,4 @@
-// Slips of single cycles among the phases of a moving antenna.
+// Tests the detection of slips of single cycles among the phases of a moving antenna.
 #include "ppp/filter/phase_steps.h"
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@ namespace {
 
 constexpr double cycle = 0.1903;  // m
 
-// Satellites all over the sky, of an antenna that has moved by metres more than predicted while
-// its clock has stepped by a millisecond.
+// Makes the steps of satellites all over the sky. The antenna has moved by metres more than
+// predicted, and its clock has stepped by a millisecond.
 std::vector<PhaseStep> steps(int count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> share(0.0, 1.0);
@@ -51,7 +51,7 @@ TEST(PhaseSteps, OneCycleOfOneSatellite) {
   EXPECT_GE(whole, 48) << "in few skies another one hides it";
 }
 
-// At a corner many slip together: as long as most have not.
+// At a corner many satellites slip together; they are found as long as most have not slipped.
 TEST(PhaseSteps, ThreeSlipsAtOnceAmongTwelve) {
   int whole = 0;
   for (std::uint64_t seed = 0; seed < 50; ++seed) {

@@ -1,4 +1,4 @@
-// The filter on real observations, against surveyed truth.
+// Tests the filter on real observations, against surveyed truth.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ GnssFiles folder(const std::string& name) {
   const auto data = maploop::testing::real_data() / "gnss";
   for (const auto& entry : std::filesystem::directory_iterator(data / name)) {
     const std::string file = entry.path().filename();
-    // Results of other programs, and the base station of a pair.
+    // These are results of other programs, and the base station of a pair.
     if (file.find(".pos") != std::string::npos || file.find(".conf") != std::string::npos ||
         file.find(".csv") != std::string::npos || file.starts_with("3034265G")) {
       continue;
@@ -37,7 +37,7 @@ GnssFiles folder(const std::string& name) {
   return files;
 }
 
-// With the ionosphere of 17 days before, which the drive's own navigation file does not have.
+// The ionosphere is that of 17 days earlier, because the drive's own navigation file has none.
 const GnssFiles& riverside_drive() {
   static const GnssFiles files = [] {
     GnssFiles read = folder("riverside_drive");
@@ -93,7 +93,7 @@ TEST(PppFilter, StationAsAVehicleToCentimetres) {
   EXPECT_LT(a.up_rmse, 0.027);
 }
 
-// What each model is worth: without it the static position moves.
+// Without each of the models, the static position changes.
 TEST(PppFilter, EveryModelMatters) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const RunOptions whole = hours(0, 4, Motion::fixed, "GE");
@@ -134,7 +134,7 @@ TEST(PppFilter, OneFrequencyWithBroadcastOrbits) {
   EXPECT_LT(a.nees, 4.0);
 }
 
-// The ionosphere is left in the codes: higher than it is, and it is known to be.
+// The ionosphere stays in the codes, so the height is too high, and the covariance accounts for it.
 TEST(PppFilter, OneFrequencyWithoutCoefficientsOfTheIonosphereKnowsIt) {
   MAPLOOP_REQUIRE_REAL_DATA();
   RunOptions options;
@@ -151,7 +151,8 @@ TEST(PppFilter, OneFrequencyWithoutCoefficientsOfTheIonosphereKnowsIt) {
   EXPECT_LT(a.nees, 3.0);
 }
 
-// Where satellites come back the position is a hundred metres off, and all codes with it.
+// When satellites return, the position is a hundred metres off, and with it the residuals of all
+// codes.
 TEST(PppFilter, BehindATunnelAtSpeedItIsFoundAgainAtOnce) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const GnssFiles& files = riverside_drive();
@@ -221,7 +222,7 @@ TEST(PppFilter, ACodeThatIsFarOffIsRefusedWithItsReason) {
 TEST(PppFilter, StartsAgainAndSaysSoWhenThePositionIsWrong) {
   MAPLOOP_REQUIRE_REAL_DATA();
   GnssFiles files = station();
-  // From one epoch on, the station is 50 km elsewhere: its observations are those of noon.
+  // From one epoch on, the station is 50 km away: its observations are those of noon.
   auto& epochs = files.observations[0].epochs;
   for (std::size_t i = 60; i < 90; ++i) {
     const GpsTime t = epochs[i].time;

@@ -1,4 +1,5 @@
-// Slips, steps of the receiver's clock, and another source of clocks, put into real observations.
+// Puts slips, steps of the receiver's clock and a different source of clocks into real
+// observations.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -40,8 +41,8 @@ const GnssFiles& observed_drive() {
   return files;
 }
 
-// A receiver's clock that is a millisecond ahead from some epoch on. The stamp goes with it, so
-// that the codes still say when the signals were sent.
+// From epoch `from` on, the receiver's clock is a millisecond ahead. The stamp changes with it, so
+// that the codes still give the correct time of transmission.
 struct ClockStep {
   std::size_t from;
   bool phases_too;
@@ -108,13 +109,13 @@ TEST(ReceiverFaults, AMillisecondOfTheClockLeavesAStationWhereItWas) {
   expect_as_without(observed_station(), options, "GRE", 240, 1e-3);
 }
 
-// At 30 m/s it has driven 3 cm meanwhile.
+// At 30 m/s the car drives 3 cm in a millisecond.
 TEST(ReceiverFaults, AMillisecondOfTheClockLeavesACarOnOneFrequencyOnItsWay) {
   MAPLOOP_REQUIRE_REAL_DATA();
   expect_as_without(observed_drive(), {}, "GEC", 600, 0.1);
 }
 
-// Each 20 s one satellite slips by one to four cycles.
+// Every 20 s one satellite slips by one to four cycles.
 TEST(ReceiverFaults, SlipsOfSingleCyclesOnOneFrequencyAreFound) {
   MAPLOOP_REQUIRE_REAL_DATA();
   RunOptions options;
@@ -122,9 +123,9 @@ TEST(ReceiverFaults, SlipsOfSingleCyclesOnOneFrequencyAreFound) {
   const GpsTime first = observed_drive().observations.at(0).epochs.front().time;
   options.end = first + seconds(1500);
   std::map<GpsTime, Satellite> slipped;
-  std::map<Satellite, double> cycles;  // so far
+  std::map<Satellite, double> cycles;  // sum of the slips so far
   int second = 0;
-  std::set<Satellite> before;  // with a phase
+  std::set<Satellite> before;  // satellites with a phase
   options.change = [&](Epoch& epoch) {
     std::vector<Satellite> go_on;
     std::set<Satellite> now;
@@ -169,7 +170,7 @@ TEST(ReceiverFaults, SlipsOfSingleCyclesOnOneFrequencyAreFound) {
   RecordProperty("phases", phases);
 }
 
-// Precise products, of which GPS's clocks count from another moment from some time on.
+// These are precise products whose GPS clocks count from another origin from some time on.
 class AnotherSource : public PreciseEphemeris {
  public:
   AnotherSource(const GnssFiles& files, GpsTime from, double metres)

@@ -14,8 +14,9 @@ Satellite gps(int number) {
   return {System::gps, static_cast<std::uint8_t>(number)};
 }
 
-// Phases of nine satellites, whose ambiguities are known to a centimetre, and the codes of all; the
-// vehicle has moved by nobody knows what within a metre.
+// The rows are the codes and phases of nine satellites, whose ambiguities are known to a
+// centimetre. The vehicle has moved by an unknown displacement with a standard deviation of a metre
+// per axis.
 class NineSatellites : public ::testing::Test {
  protected:
   static constexpr int satellites = 9;
@@ -82,7 +83,7 @@ TEST_F(NineSatellites, ASlipIsLeftOutWhosesoeverItIs) {
   }
 }
 
-// Each removal of the worst alone would take good ones first.
+// Removing the worst row one at a time would remove good ones first.
 TEST_F(NineSatellites, ThreeSlipsOfNineAreTheOnesLeftOut) {
   phase(1).y += 3.0;
   phase(4).y += 5.0;
@@ -99,7 +100,8 @@ TEST_F(NineSatellites, ACodeIsJudgedByItsSize) {
   EXPECT_EQ(left_out(), std::vector<int>{10});
 }
 
-// Any four phases fit: those of a wrong choice move the vehicle, and ambiguities are lost for good.
+// Any four phases fit. A wrong choice of them would move the vehicle, and good ambiguities would be
+// lost.
 TEST_F(NineSatellites, PhasesThatNobodyChecksMoveItLittleAndAreKept) {
   for (int lost = 5; lost < satellites; ++lost) {
     state.set(state.ambiguity(gps(lost + 1)), 0.0, 60.0);
@@ -112,10 +114,10 @@ TEST_F(NineSatellites, PhasesThatNobodyChecksMoveItLittleAndAreKept) {
   EXPECT_EQ(kept, 5);
   EXPECT_LT(error(), 1.5);
   const auto P = state.P().block<3, 3>(S::position, S::position);
-  EXPECT_GT(std::sqrt(P.trace()), 0.5);  // and it says so
+  EXPECT_GT(std::sqrt(P.trace()), 0.5);  // the covariance accounts for it
 }
 
-// Its phase says what it is, whatever it is.
+// A phase with a new ambiguity cannot contradict the state.
 TEST_F(NineSatellites, ANewAmbiguityIsNeverAMisfit) {
   state.set(state.ambiguity(gps(4)), 0.0, 60.0);
   phase(3).y += 50.0;

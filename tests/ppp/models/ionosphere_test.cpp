@@ -1,4 +1,5 @@
-// The ionosphere's models against values of others, and which coefficients are for a moment.
+// Tests the ionosphere's models against published values, and the choice of coefficients for a
+// moment.
 #include "ppp/models/ionosphere.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +28,7 @@ TEST(Klobuchar, NightIsFiveNanosecondsTimesSlant) {
   EXPECT_NEAR(zenith, 5e-9 * speed_of_light, 0.01);
 }
 
-// The example that implementations of the model are commonly compared by.
+// This is the example by which implementations of the model are commonly compared.
 TEST(Klobuchar, AnAfternoonInNebraska) {
   const Klobuchar k{{3.82e-8, 1.49e-8, -1.79e-7, 0.0, 1.43e5, 0.0, -3.28e5, 1.13e5}};
   const double delay = ionospheric_delay(k, {radians(40.0), radians(-100.0), 0.0}, radians(210.0),
@@ -35,7 +36,7 @@ TEST(Klobuchar, AnAfternoonInNebraska) {
   EXPECT_NEAR(delay, 23.784, 1e-3);
 }
 
-// Test vectors of the model's description, for much, medium and little activity of the sun.
+// These are test vectors of the model's description, for high, medium and low solar activity.
 TEST(NtcmG, ElectronsOfItsDescription) {
   struct Vector {
     IonisationLevel level;
@@ -78,7 +79,7 @@ TEST(BroadcastIonosphere, TakesTheNearestAndSaysHowFarItIs) {
   ASSERT_TRUE(nearest);
   EXPECT_EQ(nearest->coefficients, IonosphereCoefficients(gps));
   EXPECT_EQ(nearest->age, hours(24));
-  // The same again: it is still that.
+  // The same coefficients are sent again: their period is extended.
   ionosphere.add({gps, noon - hours(1), noon - hours(1)});
   nearest = ionosphere.at(noon - hours(12));
   ASSERT_TRUE(nearest);

@@ -1,4 +1,4 @@
-// Models against hand-made cases and published values.
+// Tests models against hand-made cases and published values.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -47,7 +47,7 @@ TEST(Protection, AlongAndAcrossFollowTheDirectionOfTravel) {
   EXPECT_NEAR(still.across, 0.6, 1e-12);
 }
 
-// The formula of the Astronomical Almanac, good to 0.01 degrees.
+// The formula of the Astronomical Almanac is good to 0.01 degrees.
 TEST(Earth, SunIsWhereTheAlmanacSays) {
   const GpsTime t = gps_time({2020, 6, 25, 12, 0, 18.0});
   Earth earth({});
@@ -59,7 +59,8 @@ TEST(Earth, SunIsWhereTheAlmanacSays) {
   const double obliquity = radians(23.439 - 4e-7 * n);
   const double declination = std::asin(std::sin(obliquity) * std::sin(lambda));
   EXPECT_NEAR(std::asin(now.sun.z() / now.sun.norm()), declination, radians(0.02));
-  // At 12:00 UT the sun is over Greenwich but for the equation of time, -2.6 minutes that day.
+  // At 12:00 UT the sun is over Greenwich, except for the equation of time, -2.6 minutes on that
+  // day.
   EXPECT_NEAR(std::atan2(now.sun.y(), now.sun.x()), radians(2.6 / 4.0), radians(0.05));
   EXPECT_NEAR(now.sun.norm(), 1.0164 * 1.495978707e11, 1e8);
   EXPECT_GT(now.moon.norm(), 3.5e8);
@@ -110,7 +111,8 @@ TEST(Tides, OceanLoadingOfOneConstituentIsItsAmplitude) {
   EXPECT_NEAR(high, 0.010, 1e-5);
 }
 
-// By hand from the standard's table at 45 degrees on its coldest day, and half a year later.
+// The values are computed by hand from the standard's table at 45 degrees, on its coldest day and
+// half a year later.
 TEST(Atmosphere, DelaysFollowLatitudeSeasonAndHeight) {
   const GpsTime winter = gps_time({2020, 1, 28, 0, 0, 0.0}),
                 summer = gps_time({2020, 7, 28, 0, 0, 0.0});
@@ -128,7 +130,7 @@ TEST(Atmosphere, DelaysFollowLatitudeSeasonAndHeight) {
   EXPECT_LT(zenith_delay(mountain, winter).wet, 0.6 * zenith_delay(sea, winter).wet);
 }
 
-// The test case of the IERS Conventions (2010), GMF: Green Bank on 2009-08-12.
+// This is the test case of the IERS Conventions (2010) for GMF: Green Bank on 2009-08-12.
 TEST(Troposphere, MappingIsThatOfTheConventions) {
   const GlobalMapping mapping({0.6708665767, -1.393397187, 844.715},
                               gps_time({2009, 8, 12, 0, 0, 0.0}));

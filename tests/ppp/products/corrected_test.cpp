@@ -1,5 +1,5 @@
-// Corrections made from precise products, sent as messages, and applied to broadcast orbits: nearly
-// as good as these products.
+// Tests corrections that are made from precise products, sent as messages, and applied to broadcast
+// orbits: the result is nearly as good as these products.
 #include "ppp/products/corrected.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ const GnssFiles& kamakura() {
   return files;
 }
 
-// A caster that knows the precise products.
+// A Caster makes corrections from the precise products.
 class Caster {
  public:
   Caster()
@@ -57,7 +57,7 @@ class Caster {
       for (int n = 1; n <= 36; ++n) {
         if (auto u = update({system, static_cast<std::uint8_t>(n)}, epoch)) updates.push_back(*u);
       }
-      // A message has 1023 bytes at most.
+      // A message has at most 1023 bytes.
       for (std::size_t i = 0; i < updates.size(); i += 20) {
         const auto end = updates.begin() + static_cast<long>(std::min(updates.size(), i + 20));
         bytes += maploop::testing::ssr_orbits_and_clocks(
@@ -79,7 +79,7 @@ class Caster {
     return u;
   }
 
-  // The phase centre of the combination free of the ionosphere, which codes and clocks are for.
+  // Returns the phase centre of the ionosphere-free combination, which codes and clocks refer to.
   Eigen::Vector3d phase_centre(Satellite satellite, const Eigen::Vector3d& mass, GpsTime t) const {
     const Antenna* antenna = satellite_antenna(kamakura().antennas, satellite, t);
     if (antenna == nullptr) return mass;
@@ -103,7 +103,7 @@ class Caster {
     Eigen::Vector3d offset;
     double clock;
   };
-  // Whoever receives has the newest message by then; here it is the nearest.
+  // A receiver would have the newest message by then; here it is the nearest.
   std::optional<Difference> difference(Satellite satellite, GpsTime t) const {
     const auto precise = precise_.at(satellite, t);
     const auto near = broadcast_.at(satellite, t);
@@ -160,16 +160,16 @@ void feed(CorrectedEphemeris& ephemeris, CorrectionStream& stream, const std::st
   stream.updates().clear();
 }
 
-// Galileo alone: the clocks of the products are 5 minutes apart, and between them GPS's are wrong
-// by centimetres, which the filter of these products knows and one of corrections made from them
-// cannot.
+// Only Galileo is used. The clocks of the products are 5 minutes apart, and between them GPS's are
+// wrong by centimetres. The filter with these products models that error; one with corrections made
+// from them cannot.
 SetupOptions options() {
   SetupOptions o;
   o.parameters.systems = "E";
   return o;
 }
 
-// The drive with corrections every 5 s that arrive 3 s after their time, for so long.
+// Drives with corrections every 5 s, 3 s late, for `until` s, and scores after `skip_seconds`.
 Accuracy corrected_drive(SsrForm form, double until, double skip_seconds) {
   const PppSetup setup(kamakura(), options());
   CorrectedEphemeris ephemeris{BroadcastEphemeris(kamakura().navigation)};
@@ -273,7 +273,7 @@ TEST(CorrectedEphemeris, WithoutNewCorrectionsItIsAsBroadcast) {
   EXPECT_GT(*ephemeris.age(), CorrectedEphemeris::longest_age);
   EXPECT_EQ(ephemeris.at(satellite, epoch)->position, broadcast.at(satellite, epoch)->position);
   EXPECT_EQ(ephemeris.at(satellite, epoch)->source, 0u);
-  // The filter goes on.
+  // The filter continues without corrections.
   const Accuracy a = corrected_drive(SsrForm::rtcm, 150.0, 250.0);
   EXPECT_EQ(a.solved, a.with_truth);
   EXPECT_LT(a.horizontal_rmse, 3.0);

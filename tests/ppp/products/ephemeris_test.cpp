@@ -1,4 +1,4 @@
-// Broadcast and precise ephemerides of one day against each other: two independent sources.
+// Compares broadcast and precise ephemerides of one day, which are independent sources.
 #include <gtest/gtest.h>
 
 #include <map>

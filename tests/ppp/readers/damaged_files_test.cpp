@@ -1,4 +1,5 @@
-// The readers on damaged copies of real files: an error with its file, or a counted refusal.
+// Tests the readers on damaged copies of real files: each gives an error with its file, or a
+// counted refusal.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +14,7 @@ namespace {
 
 constexpr std::string_view alphabet = "0123456789.-+eE:naif \n\r\t&>*#PGRE";
 
-// The start of a file's text, and of its last lines.
+// Returns the start of a file's text, up to the end of a line.
 std::string part(const std::string& name, std::size_t size) {
   std::string text = read_file(maploop::testing::real_data() / "gnss" / name);
   if (text.size() > size) text.resize(text.rfind('\n', size) + 1);

@@ -1,4 +1,4 @@
-// Observation files: the compact forms against their plain twins, and real files of receivers.
+// Tests observation files: compact forms against their plain versions, and real files of receivers.
 #include "ppp/readers/observation.h"
 
 #include <gtest/gtest.h>

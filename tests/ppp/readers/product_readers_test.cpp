@@ -1,4 +1,5 @@
-// Navigation, orbits, clocks, antennas, biases, earth rotation and loading: values of real files.
+// Tests the readers of navigation, orbits, clocks, antennas, biases, earth rotation and loading
+// with values of real files.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -57,7 +58,7 @@ TEST(ProductReaders, MessagesOfFiveSystems) {
   EXPECT_LT(n.ionosphere[0].last, gps_time({2020, 6, 26, 4, 0, 0.0}));
 }
 
-// RINEX 2, where the header's lines have names of their own; and coefficients that cannot be.
+// The header is of RINEX 2, which has its own labels; some coefficients are impossible.
 TEST(ProductReaders, IonosphereOfAnOldHeader) {
   const std::string before =
       "     2.11           N: GPS NAV DATA                         RINEX VERSION / TYPE\n";
@@ -163,7 +164,7 @@ TEST(ProductReaders, EarthRotationVersion2) {
   EXPECT_NEAR(days[0].x_pole, 0.143212 / 206264.806, 1e-12);
 }
 
-// An antenna with `rows` rows of azimuths `step` degrees apart, of zenith angles 0 and 5.
+// Makes an antenna with `rows` rows of azimuths `step` degrees apart, for zenith angles 0 and 5.
 std::string antex(double step, int rows, const std::string& behind = "") {
   const auto line = [](std::string text, const std::string& label) {
     text.resize(60, ' ');

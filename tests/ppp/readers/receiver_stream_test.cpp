@@ -1,4 +1,4 @@
-// Streams of receivers in pieces: what the readers of files find in the whole.
+// Tests streams of receivers in pieces: the result equals that of the file readers for the whole.
 #include "ppp/readers/receiver_stream.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ std::span<const std::uint8_t> as_bytes(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-// In pieces of 1 to `most` bytes.
+// Pushes the bytes in pieces of 1 to `most` bytes.
 std::vector<Epoch> pushed(ReceiverStream& stream, std::string_view bytes, std::size_t most) {
   std::mt19937 random(1);
   std::vector<Epoch> epochs;
@@ -68,7 +68,7 @@ TEST(ReceiverStream, GivesTheEpochsOfAFileOfUbx) {
   }
 }
 
-// The week of `now` is years off until an ephemeris says it.
+// The week of `now` is wrong by years until an ephemeris gives the right one.
 TEST(ReceiverStream, GivesTheEpochsOfAFileOfRtcm) {
   MAPLOOP_REQUIRE_REAL_DATA();
   MAPLOOP_REQUIRE_RTKLIB();
@@ -83,7 +83,7 @@ TEST(ReceiverStream, GivesTheEpochsOfAFileOfRtcm) {
   for (const std::size_t most : {7UL, 1000UL}) {
     ReceiverStream stream(long_before);
     std::vector<Epoch> found = pushed(stream, bytes, most);
-    // The file's reader knows that the last epoch has ended.
+    // Only the file's reader knows that the last epoch is complete.
     ASSERT_GE(found.size() + 1, file.epochs.size());
     expect_same(found,
                 {file.epochs.begin(), file.epochs.begin() + static_cast<long>(found.size())});
@@ -120,7 +120,7 @@ TEST(ReceiverStream, PassesOverGarbageAndGoesOnAfterIt) {
   std::mt19937 random(2);
   std::string garbage(300'000, '\0');
   for (char& c : garbage) c = static_cast<char>(random());
-  garbage += "\xb5\x62\x02\x15\xff\xff";  // would be 65 kB
+  garbage += "\xb5\x62\x02\x15\xff\xff";  // a frame of 65 kB
   ReceiverStream stream(long_before);
   const auto epochs = pushed(stream, bytes.substr(0, half) + garbage + bytes.substr(half), 1000);
   EXPECT_GE(epochs.size(), 297u);
@@ -137,7 +137,7 @@ TEST(ReceiverStream, BeginsANewFrameAfterTheConnectionWasLost) {
   EXPECT_EQ(pushed(stream, first.substr(0, 100), 10).size(), 0u);
   stream.restart();
   EXPECT_EQ(pushed(stream, testing::rawx_frame(epochs[1]), 10).size(), 1u);
-  EXPECT_EQ(pushed(stream, first, 10).size(), 0u);  // it is earlier
+  EXPECT_EQ(pushed(stream, first, 10).size(), 0u);  // the epoch is earlier than the last one
   EXPECT_EQ(stream.counts().repeated, 1u);
   EXPECT_EQ(stream.counts().damaged, 0u);
 }

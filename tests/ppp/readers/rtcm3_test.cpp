@@ -1,4 +1,4 @@
-// RTCM 3: what RTKLIB encodes of a real recording, and made and damaged messages.
+// Tests RTCM 3 with RTKLIB's encoding of a real recording, and with made and damaged messages.
 #include "ppp/readers/rtcm3.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ struct Made {
   std::uint64_t lock = 9;
 };
 
-// MSM4 with one signal, 1C, of each satellite.
+// Makes an MSM4 with one signal, 1C, of each satellite.
 std::string msm4(const Made& m) {
   BitWriter w;
   w.put(static_cast<std::uint64_t>(m.number), 12)
@@ -77,7 +77,8 @@ const Signal* find(const Epoch& epoch, Satellite satellite, const Signal& like) 
   return nullptr;
 }
 
-// Phases keep their fraction: RTKLIB takes whole cycles off, as the standard has it.
+// Only the fractions of phases are compared: RTKLIB subtracts whole cycles, as the standard
+// requires.
 void compare(const Observations& truth, const std::vector<Epoch>& found, double code_tolerance,
              double phase_tolerance, bool rates) {
   ASSERT_EQ(found.size(), truth.epochs.size());
@@ -116,8 +117,8 @@ TEST(Rtcm3, IsWhatRtklibEncoded) {
   const auto ubx = folder.path() / "f9t.ubx", rinex = folder.path() / "f9t.obs";
   std::ofstream(ubx, std::ios::binary)
       << read_file(testing::real_data() / "gnss/parser_samples/F9T-L2-5min.ubx.gz");
-  // The truth is what RTKLIB itself reads: phases that it leaves out for their standard deviation
-  // it encodes as constants.
+  // The truth is RTKLIB's own reading. It leaves out phases because of their standard deviation,
+  // and encodes these as constants.
   ASSERT_EQ(testing::run({"convbin", "-r", "ubx", "-od", "-os", "-o", rinex.string(), "-n",
                           (folder.path() / "nav").string(), ubx.string()})
                 .status,
@@ -129,7 +130,7 @@ TEST(Rtcm3, IsWhatRtklibEncoded) {
   const std::string msm4 = testing::encoded_by_rtklib(ubx, "1074,1094,1124");
   compare(truth, decode(msm7, near), 1e-3, 1.2e-3, true);
   compare(truth, decode(msm4, near), 1e-2, 3e-3, false);
-  // As a file, with an ephemeris that says the week.
+  // The same messages are read as a file, with an ephemeris that gives the week.
   GnssFiles files;
   EXPECT_EQ(parse_into(gps_week_frame(gps_week(near)) + msm7, "made", files), FileKind::rtcm3);
   compare(truth, files.observations.front().epochs, 1e-3, 1.2e-3, true);
@@ -139,7 +140,7 @@ TEST(Rtcm3, IsWhatRtklibEncoded) {
 TEST(Rtcm3, JoinsTheMessagesOfAnEpoch) {
   const GpsTime near = gps_week_time(2400, 500.0);
   const auto epochs = decode(msm4({.more = true}) + msm4({.number = 1094, .satellites = {3, 7}}) +
-                                 msm4({.time = 2000, .more = true}) +  // and the last one is lost
+                                 msm4({.time = 2000, .more = true}) +  // the last message is lost
                                  msm4({.time = 3000, .lock = 2}),
                              near);
   ASSERT_EQ(epochs.size(), 3U);
@@ -155,23 +156,23 @@ TEST(Rtcm3, JoinsTheMessagesOfAnEpoch) {
   EXPECT_EQ(signal.cn0, 44.0);
   EXPECT_FALSE(signal.lost_lock);
   EXPECT_EQ(epochs[1].time, gps_week_time(2400, 2.0));
-  EXPECT_TRUE(epochs[2].signals[0].lost_lock);  // its lock is shorter than before
+  EXPECT_TRUE(epochs[2].signals[0].lost_lock);  // its time of lock is shorter than before
 }
 
 TEST(Rtcm3, FindsTheWeekAndTheDay) {
-  // Shortly before and after the week's end, by what is nearest.
+  // Shortly before and after the end of the week, the nearest week is chosen.
   const GpsTime end = gps_week_time(2400, 0.0);
   EXPECT_EQ(decode(msm4({.time = 604'799'000}), end)[0].time, end - std::chrono::seconds(1));
   EXPECT_EQ(decode(msm4({.time = 1000}), end - std::chrono::hours(1))[0].time,
             end + std::chrono::seconds(1));
-  // BeiDou's time is 14 s behind.
+  // BeiDou's time is 14 s behind GPS time.
   EXPECT_EQ(decode(msm4({.number = 1124, .time = 1000}), end)[0].time,
             end + std::chrono::seconds(15));
-  // GLONASS: 03:00:00 in Moscow is midnight UTC, 18 s later in GPS time.
+  // For GLONASS, 03:00:00 in Moscow is midnight UTC, 18 s later in GPS time.
   const std::uint64_t moscow = 3 * 3'600'000;
   const auto glonass = decode(msm4({.number = 1084, .time = moscow}), end + std::chrono::hours(2));
   EXPECT_EQ(glonass[0].time, end + std::chrono::seconds(18));
-  EXPECT_EQ(glonass[0].signals[0].phase, 0.0);  // MSM4 does not say its channel
+  EXPECT_EQ(glonass[0].signals[0].phase, 0.0);  // MSM4 does not contain its channel
 }
 
 TEST(Rtcm3, SaysWhatIsWrong) {
@@ -193,13 +194,13 @@ TEST(Rtcm3, SaysWhatIsWrong) {
                       msm4({.time = 4000}) + "\xd3",
                   "made.rtcm3");
   EXPECT_EQ(o.epochs.size(), 2U);
-  EXPECT_EQ(o.refused, 4);  // no time, goes back, checksums, a range that cannot be
+  EXPECT_EQ(o.refused, 4);  // no time, an earlier epoch, wrong checksums, an impossible range
 }
 
 TEST(Rtcm3, TakesDamagedBytesWithoutHarm) {
   std::mt19937 random(13);
   for (int round = 0; round < 20'000; ++round) {
-    // A right checksum around content that is not.
+    // The checksum is right, but the content is random.
     BitWriter w;
     w.put(1070 + random() % 60, 12);
     for (auto i = 4 + random() % 120; i > 0; --i) w.put(random() & random(), 16);

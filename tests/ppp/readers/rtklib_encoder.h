@@ -1,4 +1,4 @@
-// RTKLIB's encoder of RTCM 3, as an independent one.
+// Runs RTKLIB's encoder of RTCM 3 as an independent implementation.
 #pragma once
 
 #include <chrono>
@@ -13,12 +13,12 @@
 
 namespace maploop::testing {
 
-// What RTKLIB makes of a recording, as messages of these numbers.
+// Returns RTKLIB's encoding of a recording as messages of these numbers.
 inline std::string encoded_by_rtklib(const std::filesystem::path& ubx, const std::string& numbers) {
   const std::string file = ubx.string() + "." + numbers.substr(0, 4);
   Process str2str({"str2str", "-in", "file://" + ubx.string() + "#ubx", "-out",
                    "file://" + file + "#rtcm3", "-msg", numbers});
-  // It does not end by itself.
+  // str2str does not stop at the end of the file.
   std::uintmax_t size = 0;
   for (int i = 0, still = 0; i < 300 && still < 15; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));

@@ -1,5 +1,5 @@
-// Ephemerides inside a receiver's stream: those of a RINEX file are sent as u-blox's subframes,
-// which are read here and by RTKLIB; and what RTKLIB makes of them as RTCM 3 is read, too.
+// Tests ephemerides inside a receiver's stream. Those of a RINEX file are sent as u-blox's
+// subframes and read here and by RTKLIB; RTKLIB's encoding of them as RTCM 3 is read too.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ using testing::BitWriter, testing::raw_bytes, testing::ubx_frame;
 
 const GpsTime moment = gps_time({2020, 6, 25, 12, 10, 0.0});
 
-// An epoch with one code, which says what time it is.
+// Makes an epoch with one code, which gives the time.
 std::string rawx(GpsTime t) {
   std::string payload =
       raw_bytes(seconds_of_week(t)) + raw_bytes(static_cast<std::uint16_t>(gps_week(t)));
@@ -62,7 +62,7 @@ std::string gps_frames(const KeplerMessage& m) {
     bits.put(0, 2), bits.put(i + 1, 3), bits.put(0, 2);
     bits.put(parts[i], values);
     bits.fill(240);
-    // The fields pass over the issue where it stands twice.
+    // In subframes 1 and 3 the fields skip the issue, so it is inserted here.
     const std::size_t at = i == 0 ? 168 : 216;
     for (int k = 0; i != 1 && k < 8; ++k)
       bits.all[at + static_cast<std::size_t>(k)] = (issue >> (7 - k) & 1U) != 0;
@@ -166,7 +166,7 @@ std::string glonass_frames(const GlonassMessage& m) {
   return all;
 }
 
-// Of each satellite the message next to the moment.
+// Contains, for each satellite, the message nearest to the moment.
 struct Sent {
   std::map<Satellite, KeplerMessage> kepler;
   std::map<Satellite, GlonassMessage> glonass;
@@ -204,7 +204,7 @@ Sent send_real_messages() {
   return sent;
 }
 
-// Of those that are there, all is what was sent, to the units that it was sent in.
+// Expects all that was found to equal what was sent, to the units in which it was sent.
 void compare(const Sent& sent, const NavigationFile& found, std::map<System, int>& count) {
   for (const KeplerMessage& m : found.kepler) {
     SCOPED_TRACE(to_string(m.satellite));
@@ -275,7 +275,7 @@ TEST(StreamEphemeris, RtklibReadsTheSameSubframes) {
   testing::run({"convbin", "-r", "ubx", "-v", "3.04", "-n", rinex.string(), "-o",
                 (folder.path() / "made.obs").string(), ubx.string()});
   NavigationFile theirs = parse_navigation(read_file(rinex), "made.nav");
-  theirs.glonass.clear();  // strings are sent without their Hamming code, which it wants
+  theirs.glonass.clear();  // strings are sent without the Hamming code that RTKLIB requires
   std::map<System, int> count;
   compare(sent, theirs, count);
   EXPECT_GT(count[System::gps], 25);
@@ -299,7 +299,7 @@ TEST(StreamEphemeris, Rtcm3IsReadAsRtklibWritesIt) {
   EXPECT_GT(count[System::beidou], 15);
 }
 
-// Subframe 4, page 18: identifiers 1 and 56, then what is in units of their own.
+// Makes subframe 4, page 18: the identifiers 1 and 56, then values in their own units.
 std::string gps_ionosphere_frame(const std::array<int, 8>& units) {
   BitWriter bits;
   bits.put(0x8b, 8), bits.put(0, 16);
@@ -327,7 +327,7 @@ const std::array<int, 8> said{5, 2, -1, -2, 40, 6, -1, -8};
 const Klobuchar heard{{5.0 / (1 << 30), 2.0 / (1 << 27), -1.0 / (1 << 24), -2.0 / (1 << 24),
                        40.0 * 2048, 6.0 * 16384, -65536.0, -8.0 * 65536}};
 
-// Of satellites without an ephemeris, recorded and as it comes.
+// The satellites have no ephemeris. The subframes are read from a recording and from a stream.
 TEST(StreamEphemeris, SubframesGiveTheIonosphere) {
   const std::string again = gps_ionosphere_frame(said) + galileo_ionosphere_page(113, 2, 330);
   const std::string bytes = rawx(moment) + again + again +
@@ -374,7 +374,7 @@ TEST(StreamEphemeris, RtklibReadsTheSameIonosphere) {
     EXPECT_NEAR(values[i], heard.values[i], 1e-4 * std::abs(heard.values[i]));
 }
 
-// Of the same fields as the encoder here: that they are complete, not that they are in their place.
+// The encoder uses the same fields, so this shows that none is missing, but not their places.
 TEST(StreamEphemeris, GalileosMessagesGiveTheMessagesBack) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const Sent sent = send_real_messages();
@@ -386,7 +386,7 @@ TEST(StreamEphemeris, GalileosMessagesGiveTheMessagesBack) {
     const BroadcastValues values = values_of(m);
     bits.put(broadcast_fields::rtcm_galileo, values),
         bits.put(broadcast_fields::rtcm_1046_end, values);
-    EXPECT_EQ(bits.all.size(), 502U);  // and two reserved: 504 in the standard
+    EXPECT_EQ(bits.all.size(), 502U);  // the standard has 504 with two reserved ones
     bits.put(0, 2);
     const std::string payload = bits.bytes();
     EXPECT_TRUE(add_ephemeris({1046, payload, 0}, moment, found));
@@ -399,7 +399,7 @@ TEST(StreamEphemeris, GalileosMessagesGiveTheMessagesBack) {
 TEST(StreamEphemeris, DamageIsRefusedOrWaitsForTheNext) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const Sent sent = send_real_messages();
-  // Without the second subframe nothing is whole.
+  // Without the second subframe no message is complete.
   SubframeCollector collector;
   NavigationFile found;
   UbxFrames frames(sent.ubx);
@@ -409,7 +409,7 @@ TEST(StreamEphemeris, DamageIsRefusedOrWaitsForTheNext) {
     collector.add(f, moment, found);
   }
   for (const KeplerMessage& m : found.kepler) EXPECT_NE(m.satellite.system, System::gps);
-  // BitWriter of Galileo's pages are checked.
+  // Galileo's pages have a checksum, which is verified.
   std::string page = galileo_frames(sent.kepler.lower_bound({System::galileo, 1})->second);
   UbxFrames pages(page);
   UbxFrame f;
@@ -422,7 +422,7 @@ TEST(StreamEphemeris, DamageIsRefusedOrWaitsForTheNext) {
   ASSERT_TRUE(damaged.next(f));
   EXPECT_TRUE(SubframeCollector().add(f, moment, refused));
   EXPECT_EQ(refused.refused, 1);
-  // A message that is cut.
+  // The message is cut.
   NavigationFile cut;
   EXPECT_TRUE(add_ephemeris({1019, "\x3f\xb0\x50", 0}, moment, cut));
   EXPECT_EQ(cut.refused, 1);

@@ -1,4 +1,4 @@
-// A receiver's own solutions: a recording of one, and frames made.
+// Tests a receiver's own solutions with a recording and with made frames.
 #include "ppp/readers/ubx_pvt.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,8 @@ namespace {
 using maploop::testing::raw_bytes;
 using maploop::testing::ubx_frame;
 
-// 2020-06-25 12:34:56.999999750 GPS time less 18 s of leap seconds; every field another value.
+// The time is 2020-06-25 12:34:37.999999750 GPS time, 18 s ahead of UTC. The fields have different
+// values.
 struct MadePvt {
   std::uint32_t time_of_week = 390878'000;  // ms: Thursday, 12:34:38
   std::uint16_t year = 2020;
@@ -121,7 +122,7 @@ TEST(UbxPvt, SaysWhatCannotBe) {
   }
 }
 
-// NAV-POSECEF and NAV-VELECEF of the same epochs, in centimetres, follow each.
+// Each message is followed by NAV-POSECEF and NAV-VELECEF of the same epoch, in centimetres.
 TEST(UbxPvt, OfARecordingIsWhatTheReceiverSaysInEarthFixedAxes) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const std::string bytes =

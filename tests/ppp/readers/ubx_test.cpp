@@ -1,5 +1,5 @@
-// Raw measurements of u-blox receivers: a real recording, against RTKLIB's reading of it, and
-// damaged.
+// Tests raw measurements of u-blox receivers: a real recording against RTKLIB's reading of it, and
+// damaged data.
 #include "ppp/readers/ubx.h"
 
 #include <gtest/gtest.h>
@@ -68,7 +68,8 @@ TEST(Ubx, ReadsARecordingOfAnF9T) {
   EXPECT_EQ(o.refused, 0) << (o.refusals.empty() ? "" : o.refusals.front());
 }
 
-// RTKLIB does not name BeiDou's B1C; everything else that it writes must be there, and be the same.
+// RTKLIB does not name BeiDou's B1C; everything else that it writes must be found with the same
+// values.
 TEST(Ubx, IsWhatRtklibReads) {
   MAPLOOP_REQUIRE_REAL_DATA();
   if (testing::run({"sh", "-c", "command -v convbin"}).status != 0) {
@@ -104,7 +105,7 @@ TEST(Ubx, IsWhatRtklibReads) {
         EXPECT_NEAR(found->code, expected.code, 6e-4);
         EXPECT_NEAR(found->doppler, expected.doppler, 6e-4);
         EXPECT_NEAR(found->cn0, expected.cn0, 1e-3);
-        // RTKLIB leaves phases out for their standard deviation.
+        // RTKLIB leaves out phases with a large standard deviation.
         if (expected.phase != 0.0) {
           EXPECT_NEAR(found->phase, expected.phase, 6e-4);
           EXPECT_EQ(found->half_cycle, expected.half_cycle);
@@ -132,9 +133,9 @@ TEST(Ubx, SaysWhereThePhaseMayHaveSlipped) {
   EXPECT_FALSE(decode(2, {0, 5, 0, code, 1e8, 6000}).lost_lock);
   EXPECT_TRUE(decode(3, {0, 5, 0, code, 1e8, 500}).lost_lock);
   EXPECT_TRUE(decode(4, {0, 5, 0, code, 1e8, 1500, 3}).half_cycle);
-  EXPECT_TRUE(decode(5, {0, 5, 0, code, 1e8, 2500, 15}).lost_lock);  // half a cycle was taken off
+  EXPECT_TRUE(decode(5, {0, 5, 0, code, 1e8, 2500, 15}).lost_lock);  // half a cycle was subtracted
   EXPECT_EQ(decode(6, {0, 5, 0, code, 1e8, 3500, 1}).phase, 0.0);
-  EXPECT_TRUE(decode(60, {0, 5, 0, code, 1e8, 20'000}).lost_lock);  // anew since then
+  EXPECT_TRUE(decode(60, {0, 5, 0, code, 1e8, 20'000}).lost_lock);  // restarted meanwhile
   EXPECT_FALSE(decode(90, {0, 5, 0, code, 1e8, 50'000}).lost_lock);
   EXPECT_EQ(epoch.satellites.front().satellite, (Satellite{System::gps, 5}));
   EXPECT_NEAR(epoch.signals.front().doppler, -1234.5, 1e-3);
@@ -142,14 +143,14 @@ TEST(Ubx, SaysWhereThePhaseMayHaveSlipped) {
 
 TEST(Ubx, LeavesOutAndCountsWhatItCannotName) {
   const std::string bytes = "$GNGGA text between\r\n" +
-                            rawx(10, {{6, 255, 0, 2.2e7},  // GLONASS without its number
+                            rawx(10, {{6, 255, 0, 2.2e7},  // GLONASS with unknown number
                                       {1, 133, 0, 3.8e7},
                                       {0, 7, 3, 2.3e7},
                                       {2, 11, 0, 2.5e7},
                                       {0, 7, 0, 2.3e7},
-                                      {0, 7, 0, 2.3e7},    // twice
-                                      {0, 8, 0, 12.0},     // no pseudorange
-                                      {0, 9, 99, 2.2e7}})  // no signal
+                                      {0, 7, 0, 2.3e7},    // repeated
+                                      {0, 8, 0, 12.0},     // impossible pseudorange
+                                      {0, 9, 99, 2.2e7}})  // unknown signal
                             + rawx(9, {{0, 7, 0, 2.3e7}}) +
                             ubx_frame(0x01, 0x07, std::string(92, 'x')) +
                             rawx(11, {{0, 7, 0, 2.3e7}}).substr(0, 30);
@@ -161,7 +162,7 @@ TEST(Ubx, LeavesOutAndCountsWhatItCannotName) {
   EXPECT_EQ(e.satellites[0].count, 2U);
   EXPECT_EQ(to_string(e.satellites[1].satellite), "E11");
   EXPECT_EQ(to_string(e.satellites[2].satellite), "S33");
-  EXPECT_EQ(o.refused, 3);  // the epoch that goes back, the cut frame, the measurements
+  EXPECT_EQ(o.refused, 3);  // the earlier epoch, the cut frame, the measurements
   EXPECT_NE(o.refusals.back().find("4 measurements"), std::string::npos) << o.refusals.back();
   EXPECT_THROW(parse_ubx(ubx_frame(0x01, 0x07, std::string(92, 'x')), "no_raw.ubx"), ReadError);
 }
