@@ -111,7 +111,7 @@ Row EpochRows::code_row(std::size_t i, const Tracked& t, double factor, int refe
   return row;
 }
 
-// The row is of the phase, or on one frequency of GRAPHIC: half the sum of code and phase is free
+// Adds the row of the phase, or on one frequency of GRAPHIC: half the sum of code and phase is free
 // of the ionosphere and contains half the ambiguity (here a separate state, in metres).
 void EpochRows::add_phase_row(const Tracked& t, double factor, const Row& code, FilterState& state,
                               std::vector<SatelliteReport>& reports) {

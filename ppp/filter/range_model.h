@@ -37,7 +37,7 @@ struct PredictedRange {
   SatelliteState satellite;
   Eigen::Vector3d to_satellite{0, 0, 0};  // unit vector, earth-fixed
   double azimuth = 0.0, elevation = 0.0;  // rad
-  // In m, everything but receiver clock, ionosphere, ambiguity and the correction of the wet delay.
+  // The range, m, lacks receiver clock, ionosphere, ambiguity and the correction of the wet delay.
   double range = 0.0;
   double phase_extra = 0.0;     // m, added to the phase only: wind-up
   IonosphericDelay ionosphere;  // m on the first carrier; 0 with two carriers

@@ -12,7 +12,7 @@
 
 namespace maploop::ppp {
 
-// A SatelliteState is that at the moment of transmission, in the earth-fixed frame of that moment.
+// A SatelliteState holds at the moment of transmission, in the earth-fixed frame of that moment.
 struct SatelliteState {
   Eigen::Vector3d position{0, 0, 0};  // m
   Eigen::Vector3d velocity{0, 0, 0};  // m/s

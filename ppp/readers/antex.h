@@ -10,7 +10,7 @@
 
 namespace maploop::ppp {
 
-// A PhaseCentre is that of one carrier.
+// A PhaseCentre describes the phase centre of one carrier.
 struct PhaseCentre {
   System system = System::gps;
   char band = '1';

@@ -9,8 +9,8 @@
 
 namespace maploop::ppp {
 
-// A CodeBias is that of one signal, or of the first minus the second; it must be subtracted from a
-// measurement.
+// A CodeBias is the bias of one signal, or that of the first minus that of the second. It must be
+// subtracted from a measurement.
 struct CodeBias {
   Satellite satellite;
   std::string signal, second;  // such as "C1W"; second is empty for an absolute bias

@@ -51,7 +51,7 @@ enum class Quantity {
   e5a_validity,
   e5b_health,
   e5b_validity,
-  // These are GLONASS's.
+  // The following quantities are GLONASS's.
   channel,
   day,       // within four years
   interval,  // of 15 minutes, in Moscow time

@@ -17,8 +17,8 @@ namespace maploop::ppp {
 // E5b.
 inline constexpr double galileo_f_nav = 0x102, galileo_i_nav = 0x205;
 
-// A KeplerMessage is one of GPS, Galileo, BeiDou or QZSS, with names as in IS-GPS-200. Units are
-// rad, m, s.
+// A KeplerMessage is a message of GPS, Galileo, BeiDou or QZSS, with names as in IS-GPS-200. Units
+// are rad, m, s.
 struct KeplerMessage {
   Satellite satellite;
   GpsTime toc{}, toe{};
@@ -63,7 +63,7 @@ struct NavigationFile : BroadcastMessages {
   std::vector<std::string> refusals;
 };
 
-// Both return whether it can be the message of a navigation satellite.
+// Both return whether the message can be that of a navigation satellite.
 bool plausible(const KeplerMessage& message);
 bool plausible(const GlonassMessage& message);
 // Returns whether the bits of a message can represent these coefficients, and at least one is not

@@ -61,7 +61,7 @@ struct MsmDecoder::Header {
   std::uint64_t cells = 0;  // one bit per cell, satellite by satellite, the first one highest
   std::size_t cell_places = 0;
   std::vector<std::optional<double>> range_ms, rate;  // of each satellite
-  // These are of each cell that is present.
+  // The following have one entry for each cell that is present.
   std::vector<std::optional<double>> code_ms, phase_ms, fine_rate;
   std::vector<int> lock;
   std::vector<bool> half_cycle;
