@@ -1,4 +1,5 @@
-// A hash of everything sent on each channel: two runs with equal hashes had the same bits.
+// Computes one hash per channel of everything sent on it: two runs with equal hashes sent the same
+// bits.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +14,17 @@ namespace maploop::vehicle {
 
 struct ChannelSummary {
   std::uint64_t count = 0;
-  std::string hash;  // 16 hexadecimal digits (XXH3); empty for channels that speak of the run
+  std::string hash;  // XXH3, 16 hexadecimal digits; empty for channels about the run
 };
 
 class ChannelHashes final : public MessageSink {
  public:
-  // Of the messages later than `after` (data time) only.
+  // Only messages with a data time later than `after` are counted and hashed.
   explicit ChannelHashes(Time after = Time::min());
   ~ChannelHashes() override;
 
   std::string_view name() const override { return "hashes"; }
+  // Must not be called while another thread sends.
   std::map<std::string, ChannelSummary> summary() const;
 
  private:

@@ -1,4 +1,5 @@
-// When something was wrong with a sensor for a while, told from one thread to another.
+// Records when a sensor was silent or refused, and passes these episodes from one thread to
+// another.
 #pragma once
 
 #include <algorithm>
@@ -15,18 +16,18 @@
 
 namespace maploop::vehicle {
 
-// A stretch of data time.
+// An Episode is a period of data time in which something was wrong.
 struct Episode {
   Time begin{};
   Time end{};
-  std::uint64_t wrong = 0;  // samples, of `all`
+  std::uint64_t wrong = 0;  // samples that were refused, out of `all`
   std::uint64_t all = 0;
   const char* reason = "";  // a string literal
 
   Duration length() const { return end - begin; }
 };
 
-// All so far, by their number and length, and the last of them.
+// Episodes summarizes all episodes so far: their number, their total length, and the last one.
 struct Episodes {
   std::uint64_t count = 0;
   Duration total{};
@@ -48,12 +49,12 @@ struct Episodes {
   }
 };
 
-// Whether samples come. The driver's thread says each one; one other thread at a time asks. Neither
-// waits or allocates.
+// ArrivalWatch records whether a sensor's samples keep coming. The driver's thread calls arrived();
+// one other thread at a time calls outages(). No call blocks or allocates.
 class ArrivalWatch {
  public:
-  // From `start` on no two samples should be further apart than `patience`; 0: as far as they like.
-  // Before the first sample.
+  // From `start` on, a time of more than `patience` between two samples counts as an outage; with a
+  // `patience` of 0 nothing does. Must be called before the first sample.
   void start(Time start, Duration patience) {
     patience_ = patience;
     last_.store(to_nanoseconds(start), std::memory_order_relaxed);
@@ -69,10 +70,11 @@ class ArrivalWatch {
     told_.publish();
   }
 
-  // When the newest sample became available; the start where there is none.
+  // Returns when the newest sample became available, or the start if there has been none. Any
+  // thread may call this.
   Time last() const { return from_nanoseconds(last_.load(std::memory_order_relaxed)); }
 
-  // Those that have ended.
+  // Returns the outages that have ended.
   const Episodes& outages() {
     if (const Episodes* news = told_.latest()) heard_ = *news;
     return heard_;
@@ -81,22 +83,23 @@ class ArrivalWatch {
  private:
   Duration patience_{};
   std::atomic<std::int64_t> last_{0};
-  Episodes outages_;  // the driver's
+  Episodes outages_;  // owned by the driver's thread
   runtime::LatestValue<Episodes> told_;
-  Episodes heard_;  // the reader's
+  Episodes heard_;  // owned by the reader's thread
 };
 
-// Whether an estimator uses what comes: stretches in which it refuses more than half. The
-// estimator's thread says what became of each sample; one other thread at a time asks. Neither
-// waits or allocates.
+// UseWatch finds the periods in which an estimator refuses more than half of its samples. The
+// estimator's thread calls note() for each sample; one other thread at a time calls sentence().
+// Neither call blocks, and note() does not allocate.
 class UseWatch {
  public:
-  // "STAGE refuses WHAT", judged over this length of data time, and not over fewer samples than
-  // three.
+  // `stage` and `what` are the words of "STAGE refuses N of M WHAT", and must outlive the watch. A
+  // judgement covers at least `interval` of data time and at least three samples.
   UseWatch(std::string_view stage, std::string_view what, Duration interval)
       : stage_(stage), what_(what), interval_(interval) {}
 
-  // `refused_for`: a string literal; nullptr: it was used.
+  // `refused_for` is the reason of a refusal as a string literal, or nullptr if the sample was
+  // used.
   void note(Time t, const char* refused_for) {
     if (all_ == 0) begin_ = t;
     if (t - begin_ >= interval_ && all_ >= fewest) judge(t);
@@ -104,7 +107,8 @@ class UseWatch {
     if (refused_for != nullptr) count(refused_for);
   }
 
-  // What is to be said of it; empty: all is well. Times are counted from `origin`.
+  // Returns a sentence about the last period of refusals, or an empty string if there was none. Its
+  // times are in seconds since `origin`.
   std::string sentence(Time origin);
 
  private:
@@ -126,23 +130,24 @@ class UseWatch {
   std::string_view stage_;
   std::string_view what_;
   Duration interval_;
-  // The estimator's, of the interval that runs.
+  // The estimator's thread owns these counts of the current interval, and refusals_.
   Time begin_{};
   std::uint64_t all_ = 0;
   std::uint64_t wrong_ = 0;
-  std::array<Tally, 8> tallies_{};  // of the reasons; more in one interval are not told apart
+  std::array<Tally, 8> tallies_{};  // by reason; a ninth reason is not counted on its own
   Episodes refusals_;
   runtime::LatestValue<Episodes> told_;
-  Episodes heard_;  // the reader's
+  Episodes heard_;  // owned by the reader's thread
 };
 
-// Of an odometry. Its first frame has nothing before it.
+// Notes a result of an odometry. The first frame is skipped, because nothing precedes it.
 inline void note_use(UseWatch& use, Time t, OdometryStatus status) {
   if (status == OdometryStatus::first_frame) return;
   use.note(t, status == OdometryStatus::ok ? nullptr : to_string(status).data());
 }
 
-// "imu: nothing came for 10.1 s from 15.0 s on", or nothing where there was no outage.
+// Returns "imu: nothing came for 10.1 s from 15.0 s on", or an empty string if there was no outage.
+// Its times are in seconds since `origin`.
 std::string outage_sentence(std::string_view sensor, const Episodes& outages, Time origin);
 
 }  // namespace maploop::vehicle

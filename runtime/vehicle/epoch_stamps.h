@@ -1,4 +1,4 @@
-// When a GNSS receiver's epochs were, on the host's clock.
+// Stamps the epochs of a GNSS receiver in the host's time.
 #pragma once
 
 #include <algorithm>
@@ -12,14 +12,14 @@
 
 namespace maploop::vehicle {
 
-// One thread at a time.
+// EpochStamps is for one thread at a time.
 class EpochStamps {
  public:
-  // An epoch is sent `latency` after its time, at least.
+  // An epoch arrives at least `latency` after its time; this is taken off each arrival time.
   explicit EpochStamps(Duration latency) : latency_(latency) {}
 
-  // Strictly increasing, whatever the clocks say: an epoch of another moment of the receiver's is
-  // one of the host's.
+  // Sets `stamp` and `available` of the sample in the host's time. Both strictly increase whatever
+  // the clocks do, so that no two epochs have the same stamp.
   void stamp(ppp::GpsTime time, Time arrival, Sample& sample) {
     const Duration utc = ppp::to_utc(time).time_since_epoch();
     if (offset_.add(utc, arrival - latency_)) ++jumps_;

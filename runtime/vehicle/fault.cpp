@@ -22,9 +22,9 @@ constexpr std::array only_camera{camera};
 constexpr std::array stages{stereo, lidar, ppp, fusion, mapmatch};
 constexpr std::array machine{cpu};
 
-constexpr double longest_drive = 1e6;  // s; far below where int64 nanoseconds end
+constexpr double longest_drive = 1e6;  // s; far below the range of int64 nanoseconds
 
-// What may be written about a kind. `by` is there where largest_by is above 0.
+// A Rule states what may be written about a kind. The key `by` exists if largest_by is above 0.
 struct Rule {
   std::string_view name;
   std::span<const FaultTarget> targets;
@@ -33,7 +33,7 @@ struct Rule {
   bool signed_by = false;
 };
 
-// In the order of FaultKind.
+// The rules are in the order of FaultKind.
 constexpr std::array<Rule, 12> rules{{
     {"late", sensors, 0.2, 10.0},
     {"lost", sensors},
@@ -60,7 +60,7 @@ std::string_view name_of(FaultTarget target) {
   return target_names[static_cast<std::size_t>(target)];
 }
 
-// Cuts what stands before the first separator off the rest.
+// Removes the text up to the first separator from `rest`, and returns it without the separator.
 std::string_view cut(std::string_view& rest, char separator) {
   const std::size_t at = rest.find(separator);
   const std::string_view head = rest.substr(0, at);
@@ -68,7 +68,7 @@ std::string_view cut(std::string_view& rest, char separator) {
   return head;
 }
 
-// One fault's text on its way to a Fault; every error names the whole text.
+// A Parser makes a Fault of one fault's text; every error names the whole text.
 class Parser {
  public:
   explicit Parser(std::string_view text) : text_(text) {}
@@ -172,7 +172,7 @@ class Parser {
     double value = 0.0;
     const char* end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, value);
-    // Written so that NaN is outside.
+    // The condition is written so that NaN is out of range.
     if (text.empty() || error != std::errc{} || stop != end || !(value >= low && value <= high)) {
       std::array<char, 64> bounds{};
       std::snprintf(bounds.data(), bounds.size(), "%.15g to %.15g", low, high);

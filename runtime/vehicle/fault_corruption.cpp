@@ -95,7 +95,7 @@ void scramble(StereoPair& pair, std::uint64_t seed) {
 }
 
 bool drawn(double share, std::uint64_t seed, Time stamp) {
-  // 53 random bits are a number in [0, 1).
+  // 53 random bits give a number in [0, 1).
   return share >= 1.0 || static_cast<double>(generator(seed, stamp)() >> 11U) * 0x1p-53 < share;
 }
 

@@ -1,4 +1,4 @@
-// What a fault does to the contents of one sample.
+// Changes the contents of one sample as a fault demands.
 #pragma once
 
 #include <cstdint>
@@ -11,30 +11,32 @@
 
 namespace maploop::vehicle {
 
-// All stamps of the sample, but not `available`: the sensor's clock is wrong, the line is not.
+// Shifts all stamps of the sample, but not `available`: the sensor's clock is wrong, the
+// transmission is not.
 void shift_stamps(StereoPair& pair, Duration by);
 void shift_stamps(LidarScan& scan, Duration by);
 void shift_stamps(ImuSample& sample, Duration by);
 void shift_stamps(GnssFix& fix, Duration by);
 void shift_stamps(GnssEpoch& epoch, Duration by);
 
-// Every measured number, and every covariance.
+// Sets every measured number and every covariance to NaN.
 void fill_with_nan(LidarScan& scan);
 void fill_with_nan(ImuSample& sample);
 void fill_with_nan(GnssFix& fix);
 void fill_with_nan(GnssEpoch& epoch);
 
-// Every measured number, and every covariance, is that of another sample; stamps are its own.
+// Copies every measured number and every covariance from `other`; the stamps stay. Only `signals`
+// is copied from an epoch.
 void repeat(ImuSample& sample, const ImuSample& other);
 void repeat(GnssFix& fix, const GnssFix& other);
 void repeat(GnssEpoch& epoch, const GnssEpoch& other);
 
 void blacken(StereoPair& pair);
 
-// Noise that depends on the seed and the stamp alone, another one in each image.
+// Replaces both images by noise that depends only on the seed and the stamp; the two differ.
 void scramble(StereoPair& pair, std::uint64_t seed);
 
-// Whether a sample with this stamp is among the share of those that are struck.
+// Returns whether a sample with this stamp belongs to the share of samples that are struck.
 bool drawn(double share, std::uint64_t seed, Time stamp);
 
 }  // namespace maploop::vehicle

@@ -10,7 +10,7 @@ namespace {
 
 constexpr auto look_every = std::chrono::milliseconds(5);
 
-// About a tenth of a millisecond of one core.
+// This takes about a tenth of a millisecond of one core.
 void compute_nothing() {
   constexpr int steps = 100'000;
   for (int i = 0; i < steps; ++i) std::atomic_signal_fence(std::memory_order_seq_cst);

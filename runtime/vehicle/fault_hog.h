@@ -1,4 +1,4 @@
-// Busy threads that take the machine from the graph for a while.
+// Runs busy threads that take CPU time from the graph for a while.
 #pragma once
 
 #include <atomic>
@@ -12,16 +12,16 @@
 
 namespace maploop::vehicle {
 
-// Threads of the default scheduling policy that compute nothing while the data time is inside the
-// window. They end with the window, with the object, or after longest_hog of machine time,
-// whichever is first.
+// A CpuHog runs threads of the default scheduling policy that are busy while the data time is
+// inside the window. They end with the window, with the object, or after longest_hog of machine
+// time, whichever comes first.
 class CpuHog {
  public:
-  // `position` tells the data time and is called from every thread; it and `struck`, which counts
-  // the threads that became busy, must outlive the hog.
+  // `position` returns the data time and is called from every thread. `struck` counts the threads
+  // that became busy. It must outlive the hog, and so must what `position` uses.
   CpuHog(int threads, FaultWindow window, std::function<Time()> position,
          std::atomic<std::uint64_t>& struck);
-  ~CpuHog();  // stops and waits
+  ~CpuHog();  // stops the threads and waits for them
   CpuHog(const CpuHog&) = delete;
   CpuHog& operator=(const CpuHog&) = delete;
 

@@ -9,7 +9,7 @@
 namespace maploop::vehicle {
 namespace {
 
-// What a fault that only changes samples does to one.
+// Returns what a fault does to one sample, for the kinds that only change samples.
 template <class T>
 std::function<void(T&)> alteration(const Fault& fault) {
   const Duration by = fault.by;
@@ -92,7 +92,7 @@ Sensors FaultInjection::afflict(Sensors sensors) {
       case FaultTarget::fusion:
       case FaultTarget::mapmatch:
       case FaultTarget::cpu:
-        break;  // no sensors
+        break;  // these are not sensors
     }
   }
   return sensors;

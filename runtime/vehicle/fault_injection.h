@@ -1,4 +1,4 @@
-// The faults of one replay, brought to where they strike.
+// Applies the faults of one replay to its sensors, its stages and the machine.
 #pragma once
 
 #include <atomic>
@@ -17,27 +17,29 @@
 namespace maploop::vehicle {
 
 struct FaultCount {
-  std::string fault;         // as its user wrote it
+  std::string fault;         // as the user wrote it
   std::uint64_t struck = 0;  // samples, items of a stage, or threads
 };
 
-// Must outlive the sensors, stages and hogs it was asked for. counts() is for any thread.
+// A FaultInjection must outlive the sensors, delays and hogs that it returned. Any thread may call
+// counts().
 class FaultInjection {
  public:
-  // `origin`: stamp of the drive's first image.
+  // `origin` is the stamp of the drive's first image.
   FaultInjection(std::vector<Fault> faults, Time origin);
 
-  // The given sensors with their faults; of several on one sensor the first strikes first. A sensor
-  // that is not there stays away.
+  // Returns the given sensors with their faults. Several faults on one sensor are applied in their
+  // order. A sensor that is missing stays missing.
   Sensors afflict(Sensors sensors);
 
-  // For Vehicle::slow_down().
+  // Returns the delays for Vehicle::slow_down().
   StageDelays delays();
 
-  // Busy from now on, as their windows say; `position` as Vehicle::position().
+  // Starts the hogs, each of which is busy in its window; `position` is Vehicle::position().
   std::vector<std::unique_ptr<CpuHog>> hogs(const std::function<Time()>& position);
 
-  // Fault by fault. One that struck nothing lies outside of the drive, or its sensor is not there.
+  // Returns one count for each fault. A count of 0 means that the fault lies outside of the drive,
+  // or that its target is missing.
   std::vector<FaultCount> counts() const;
 
  private:

@@ -1,8 +1,8 @@
-// Sensors with a fault: each takes the samples of another source and spoils some of them.
+// Defines sources with a fault: each takes the samples of another source and corrupts some of them.
 //
-// What is struck depends on the fault and on the samples alone, so that every run of a replay meets
-// the same fault. `available` strictly increases as sensors::Source promises; stamps no longer do
-// where that is the fault. A source with a fault is for one thread at a time, as any other.
+// Which samples are struck depends only on the fault and on the samples, so that every run of a
+// replay has the same fault. `available` strictly increases as sensors::Source promises; the stamps
+// do not if that is the fault. A source with a fault is for one thread at a time, like any other.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace maploop::vehicle {
 template <class T>
 class FaultySource : public sensors::Source<T> {
  public:
-  // `struck` counts the samples that met the fault, and must outlive the source.
+  // `struck` counts the samples that the fault struck, and must outlive the source.
   FaultySource(std::unique_ptr<sensors::Source<T>> source, Fault fault, FaultWindow window,
                std::atomic<std::uint64_t>& struck)
       : source_(std::move(source)), fault_(std::move(fault)), window_(window), struck_(struck) {}
@@ -46,9 +46,11 @@ class FaultySource : public sensors::Source<T> {
  protected:
   bool read(T& sample) { return source_->next(sample); }
 
-  // Whether the fault strikes this sample; counts it. To be asked once a sample.
+  // Returns whether the fault strikes this sample, and counts it. Must be called once for each
+  // sample.
   bool strikes(const T& sample) {
-    // Faults of several kinds with one seed strike independently.
+    // The kind changes the seed, so that faults of different kinds with the same seed are
+    // independent.
     const std::uint64_t seed = fault_.seed * 16 + static_cast<std::uint64_t>(fault_.kind);
     if (!window_.contains(sample.available) || !drawn(fault_.share, seed, sample.stamp)) {
       return false;
@@ -63,10 +65,11 @@ class FaultySource : public sensors::Source<T> {
   }
 
  private:
-  // The next sample to deliver; its `available` may still be too early.
+  // Reads the next sample to deliver; next() corrects an `available` that is too early.
   virtual bool produce(T& sample) = 0;
 
-  // Between two samples that fall due together: what a log's clock can tell apart.
+  // Two samples that fall due together are delivered this far apart: it is the resolution of a
+  // log's clock.
   static constexpr Duration closest = std::chrono::microseconds(1);
 
   std::unique_ptr<sensors::Source<T>> source_;
@@ -76,10 +79,10 @@ class FaultySource : public sensors::Source<T> {
   Time last_ = Time::min();
   std::uint64_t delivered_ = 0;
   sensors::SourceReport lost_;
-  mutable sensors::SourceReport report_;  // put together when asked for
+  mutable sensors::SourceReport report_;  // filled by report()
 };
 
-// Changes the samples it strikes.
+// An AlteringSource changes the samples that the fault strikes.
 template <class T>
 class AlteringSource final : public FaultySource<T> {
  public:
@@ -138,8 +141,8 @@ class DuplicatingSource final : public FaultySource<T> {
   bool again_ = false;
 };
 
-// A sample that is struck comes right behind its successor, which is never itself struck. The last
-// sample of all has none, and stays where it is.
+// A ReorderingSource delivers a struck sample after its successor, which is never struck itself.
+// The last sample has no successor and keeps its place.
 template <class T>
 class ReorderingSource final : public FaultySource<T> {
  public:

@@ -1,4 +1,4 @@
-// A recording whose time does not leap.
+// Removes samples whose time is far from that of the sample before.
 #pragma once
 
 #include <memory>
@@ -11,9 +11,10 @@
 
 namespace maploop::vehicle {
 
-// Leaves out, and reports, a sample that is more than input_limits::longest_gap after the one
-// before it, unless the next one follows it as samples do (then the sensor has paused): the vehicle
-// would compute all the time between. So one wrong stamp costs one sample.
+// A GapSource leaves out, and reports, a sample more than input_limits::longest_gap away from the
+// one before it, because the vehicle would compute all the time between. It keeps the sample if the
+// next one is within longest_gap of it and the gap is at most input_limits::longest_pause: then the
+// sensor has paused. So one wrong stamp costs one sample.
 template <class T>
 class GapSource final : public sensors::Source<T> {
  public:
@@ -21,7 +22,7 @@ class GapSource final : public sensors::Source<T> {
 
   bool next(T& sample) override {
     using input_limits::longest_gap, input_limits::longest_pause, input_limits::within;
-    if (waits_) {  // the sample that followed one behind a pause
+    if (waits_) {  // `ahead_` confirmed that the sensor had paused
       waits_ = false;
       std::swap(sample, ahead_);
       last_ = sample.available;
@@ -43,7 +44,7 @@ class GapSource final : public sensors::Source<T> {
     return true;
   }
 
-  // To be read after the end.
+  // The counts are complete only after the last sample.
   const sensors::SourceReport& report() const override {
     if (left_out_.refused == 0) return source_->report();
     all_ = source_->report();
