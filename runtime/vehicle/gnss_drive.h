@@ -1,4 +1,5 @@
-// A drive with nothing but a GNSS receiver: RINEX observations, and the products to position with.
+// GnssDrive is a drive of a GNSS receiver alone: RINEX observations, and the products for
+// positioning.
 #pragma once
 
 #include <filesystem>
@@ -12,15 +13,16 @@
 
 namespace maploop::vehicle {
 
-// Whether the path is a file of RINEX observations, or a folder without images that holds one.
+// Returns whether `path` is a file of RINEX observations, or a folder without images that contains
+// one.
 bool is_gnss_drive(const std::filesystem::path& path);
 
 class GnssDrive {
  public:
-  // `path` is a file of observations, or a folder with one. Products are those that [ppp] products
-  // names, each a file or a folder; without any, what lies beside the observations. In folders,
-  // what is no GNSS file is passed over, and so are other receivers' observations. Throws
-  // std::runtime_error (ppp::ReadError) that names the file and what to do.
+  // `path` is a file of observations, or a folder with exactly one. The products are the files and
+  // folders named by [ppp] products; if none is named, they are the files beside the observations.
+  // In folders, files that are not GNSS files and the observations of other receivers are skipped.
+  // Throws std::runtime_error (ppp::ReadError) that names the file and what to do.
   GnssDrive(const std::filesystem::path& path, const VehicleConfig& config);
   GnssDrive(const GnssDrive&) = delete;
   GnssDrive& operator=(const GnssDrive&) = delete;
@@ -29,8 +31,8 @@ class GnssDrive {
   Time first_stamp() const;
   Time last_stamp() const;
 
-  // From the start of the drive, at the receiver's own rate. It may outlive the drive no more than
-  // `drive` keeps it.
+  // Returns the epochs from the start of the drive at the receiver's own rate: `stamp` is UTC, and
+  // `available` is [ppp] latency later. The source keeps `drive` alive.
   static std::unique_ptr<sensors::Source<GnssEpoch>> epochs(std::shared_ptr<const GnssDrive> drive);
 
  private:

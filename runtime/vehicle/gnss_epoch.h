@@ -1,4 +1,4 @@
-// What a GNSS receiver says at one moment, as a sample of the graph.
+// A GnssEpoch is what a GNSS receiver measured at one moment, as a sample of the graph.
 #pragma once
 
 #include "msgs/sample.h"
@@ -9,7 +9,7 @@ namespace maploop::vehicle {
 
 struct GnssEpoch : Sample {
   ppp::Epoch epoch;
-  ppp::BroadcastMessages heard;  // of a live receiver: since the epoch before
+  ppp::BroadcastMessages heard;  // since the epoch before, from a live receiver
 };
 
 }  // namespace maploop::vehicle

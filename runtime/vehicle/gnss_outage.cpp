@@ -35,7 +35,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   }
 }
 
-// A part as written; `count` is 0 where its start is given.
+// A Part is one element of the list; `count` is 0 if its start is given.
 struct Part {
   std::string_view text;
   double start = 0.0;
@@ -72,7 +72,7 @@ bool overlaps(const std::vector<GnssOutage>& outages, const GnssOutage& one) {
 
 void add_random(const Part& part, Time first, Time last, std::int64_t seed,
                 std::vector<GnssOutage>& outages) {
-  constexpr double settled = 60.0;  // s, the filter has learnt its sensors' errors
+  constexpr double settled = 60.0;  // s; by then the filter has estimated its sensors' errors
   const double latest = to_seconds(last - first) - part.length;
   if (latest <= settled) refuse(part.text, "the drive is too short for it");
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));

@@ -1,4 +1,4 @@
-// Stretches of a drive without GNSS: accuracy is scored where nothing but dead reckoning is left.
+// Removes GNSS from parts of a drive, so that accuracy can be scored by dead reckoning alone.
 #pragma once
 
 #include <algorithm>
@@ -13,20 +13,22 @@
 
 namespace maploop::vehicle {
 
-// Fixes, or observations, with a stamp in [begin, end) do not come.
+// Fixes or observations with a stamp in [begin, end) are not delivered.
 struct GnssOutage {
   Time begin, end;
 };
 
-// `text` is a list of START:LENGTH, in seconds into the drive, LENGTH `end` for the rest of it, or
-// of random:COUNT:LENGTH: so many outages of that length at moments that `seed` draws, not before a
-// minute into the drive and never two at once. `first` and `last` are the drive's images. Ordered
-// by their begin. Throws std::invalid_argument naming the part that is wrong, also where the drive
-// is too short for the random ones.
+// `text` is a list, separated by commas, of START:LENGTH and random:COUNT:LENGTH. START and LENGTH
+// are seconds into the drive and of the outage; LENGTH may be `end` for the rest of the drive. The
+// second form adds COUNT outages of that length at moments drawn by `seed`, which begin a minute
+// into the drive or later and do not overlap an outage listed before. `first` and `last` are the
+// stamps of the drive's first and last image. The result is ordered by `begin`. Throws
+// std::invalid_argument naming the part that is wrong, also if the drive is too short for the
+// random outages.
 std::vector<GnssOutage> parse_outages(const std::string& text, Time first, Time last,
                                       std::int64_t seed);
 
-// What is wrong with the text whatever the drive; empty: nothing.
+// Returns what is wrong with the text for every drive, or an empty string if nothing is.
 std::string check_outages(const std::string& text);
 
 // T is a fix or an epoch of observations.

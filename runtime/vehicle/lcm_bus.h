@@ -1,4 +1,4 @@
-// Messages on an LCM bus.
+// Publishes messages on an LCM bus.
 #pragma once
 
 #include <memory>
@@ -14,19 +14,20 @@ class LCM;
 
 namespace maploop::vehicle {
 
-// Where messages go: what the command line names, else what the configuration names, else the
-// environment's LCM_DEFAULT_URL as for every LCM program, else LcmBus::default_url.
+// Returns the URL of the bus: `named` of the command line, else `configured`, else LCM_DEFAULT_URL
+// of the environment as for every LCM program, else LcmBus::default_url. An empty string is not a
+// URL.
 std::string bus_url(const std::string& named, const std::string& configured = {});
 
-// Hands what has come to its subscribers, at most a hundred messages: whoever floods a channel does
-// not stop the caller. Never waits.
+// Passes waiting messages to their subscribers, at most a hundred, so that a flooded channel does
+// not hold up the caller. Never blocks.
 void hear_waiting(lcm::LCM& lcm);
 
 class LcmBus final : public MessageSink {
  public:
-  // The default stays on this host (ttl=0). Throws std::runtime_error naming the URL when LCM
-  // cannot open it. Asks for a larger send buffer, for which no other thread may open a UDP socket
-  // meanwhile.
+  // The default URL stays on this host (ttl=0). The constructor throws std::runtime_error naming
+  // the URL if LCM cannot open it. It asks for a larger send buffer; no other thread may open a UDP
+  // socket meanwhile, because the new socket is taken for LCM's.
   static constexpr const char* default_url = "udpm://239.255.76.67:7667?ttl=0";
   explicit LcmBus(const std::string& url);
   ~LcmBus() override;
@@ -34,10 +35,12 @@ class LcmBus final : public MessageSink {
   std::string_view name() const override { return "LCM"; }
   bool wants_preview() const override { return true; }
 
-  // For others to publish and subscribe on; LCM itself may be used by several threads.
+  // Other objects may publish and subscribe with this; several threads may use LCM at the same
+  // time.
   lcm::LCM& lcm();
 
-  // What the kernel granted for a bus of this URL: "LCM: ..."; nothing where it is no udpm.
+  // Returns what the kernel granted for the bus, as items named "LCM: ..."; empty if its URL is not
+  // udpm.
   const std::vector<RealtimeSetting>& settings() const { return settings_; }
 
  private:
@@ -45,7 +48,7 @@ class LcmBus final : public MessageSink {
 
   struct Connection;
   std::unique_ptr<Connection> connection_;
-  std::string channel_;  // reused: LCM wants a terminated string
+  std::string channel_;  // a reused buffer: LCM needs a terminated string
   std::vector<RealtimeSetting> settings_;
 };
 

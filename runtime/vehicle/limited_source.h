@@ -1,4 +1,4 @@
-// A recording cut off at a moment.
+// Cuts a recording off at a given time.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace maploop::vehicle {
 
-// Ends with the last sample that is available by `end`.
+// A LimitedSource ends with the last sample that is available by `end`.
 template <class T>
 class LimitedSource final : public sensors::Source<T> {
  public:

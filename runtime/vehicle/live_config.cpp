@@ -18,7 +18,7 @@
 namespace maploop::vehicle {
 namespace {
 
-// What a key of [live] is about to make; errors name the key.
+// Returns make(); an error of it is thrown again with the key of [live] that it concerns.
 template <class Make>
 auto of_key(const char* key, Make&& make) {
   try {
@@ -45,7 +45,7 @@ sensors::LiveVelodyneOptions velodyne_options(const LiveParameters& p) {
   return options;
 }
 
-// The setup, with the files that it looks at.
+// Returns the setup; the pointer also owns the files that the setup refers to.
 std::shared_ptr<const ppp::PppSetup> live_ppp(const VehicleConfig& config) {
   struct Products {
     ppp::GnssFiles files;

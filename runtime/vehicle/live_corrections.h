@@ -1,4 +1,4 @@
-// A live stream of corrections for the ppp thread.
+// Receives corrections for the ppp thread as a live stream.
 #pragma once
 
 #include <memory>
@@ -13,13 +13,13 @@
 
 namespace maploop::vehicle {
 
-// What has come at one time; `stamp` is its arrival.
+// GnssCorrections is what arrived at one time, which is `stamp`.
 struct GnssCorrections : Sample {
   ppp::BroadcastMessages heard;
   std::vector<ppp::SsrUpdate> updates;
 };
 
-// RTCM 3: ephemerides and SSR (ppp/readers/ssr.h). `clock` must outlive what is made.
+// `caster` sends RTCM 3: ephemerides and SSR (ppp/readers/ssr.h). `clock` must outlive the result.
 std::unique_ptr<sensors::LiveSource<GnssCorrections>> listen_to_corrections(
     std::unique_ptr<sensors::ByteStream> caster, const sensors::HostClock& clock);
 

@@ -63,7 +63,8 @@ class LiveFixes final : public sensors::LiveSource<GnssFix> {
     fix.position_covariance =
         Eigen::Vector3d(horizontal, horizontal, pvt_.vertical_sigma * pvt_.vertical_sigma)
             .asDiagonal();
-    // How the speed's error lies among the three axes is not said.
+    // The message does not state how the speed's error is spread over the axes: each gets all of
+    // it.
     fix.velocity_covariance =
         Eigen::Vector3d::Constant(pvt_.speed_sigma * pvt_.speed_sigma).asDiagonal();
   }
@@ -72,7 +73,7 @@ class LiveFixes final : public sensors::LiveSource<GnssFix> {
   EpochStamps stamps_;
   ppp::PvtStream stream_;
   ppp::UbxPvt pvt_;
-  int satellites_ = 0;  // of the last fix
+  int satellites_ = 0;  // in the last fix
   std::uint64_t delivered_ = 0, no_fix_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// A live GNSS receiver's own fixes, in u-blox's binary protocol.
+// Receives a live GNSS receiver's own fixes in u-blox's binary protocol.
 #pragma once
 
 #include <memory>
@@ -10,9 +10,9 @@
 
 namespace maploop::vehicle {
 
-// UBX NAV-PVT; other messages and text are passed over. A fix is stamped by its GPS time on the
-// host's clock (ClockOffset); it is sent `latency` after its time, at least. `clock` must outlive
-// what is made.
+// Reads UBX NAV-PVT and skips other messages and text. The stamp of a fix is its GPS time on the
+// host's clock (ClockOffset), and a fix arrives at least `latency` after its time. `clock` must
+// outlive the result.
 std::unique_ptr<sensors::LiveSource<GnssFix>> listen_to_fixes(
     std::unique_ptr<sensors::ByteStream> receiver, Duration latency,
     const sensors::HostClock& clock);

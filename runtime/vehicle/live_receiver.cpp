@@ -14,7 +14,7 @@
 namespace maploop::vehicle {
 namespace {
 
-// "9 G, 7 E; 14 on two carriers".
+// Returns "last epoch: 9 G, 7 E; 14 on two carriers".
 std::string in_view(const ppp::Epoch& epoch) {
   std::array<int, ppp::system_count> satellites{};
   int dual = 0;
@@ -87,7 +87,7 @@ class LiveReceiver final : public sensors::LiveSource<GnssEpoch> {
   EpochStamps stamps_;
   ppp::ReceiverStream stream_;
   ppp::Epoch epoch_, last_;
-  std::set<ppp::Satellite> satellites_;  // with an ephemeris
+  std::set<ppp::Satellite> satellites_;  // satellites with an ephemeris
   std::uint64_t delivered_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// A live GNSS receiver's observations.
+// Receives a live GNSS receiver's observations.
 #pragma once
 
 #include <memory>
@@ -10,8 +10,8 @@
 
 namespace maploop::vehicle {
 
-// UBX or RTCM 3. An epoch is stamped by its GPS time on the host's clock
-// (ClockOffset); it is sent `latency` after its time, at least. `clock` must outlive what is made.
+// Reads UBX or RTCM 3. The stamp of an epoch is its GPS time on the host's clock (ClockOffset), and
+// an epoch arrives at least `latency` after its time. `clock` must outlive the result.
 std::unique_ptr<sensors::LiveSource<GnssEpoch>> listen_to_receiver(
     std::unique_ptr<sensors::ByteStream> receiver, Duration latency,
     const sensors::HostClock& clock);

@@ -18,7 +18,7 @@
 namespace maploop::vehicle {
 namespace {
 
-// What a process that is killed loses at most.
+// A process that is killed loses at most the messages of this time.
 constexpr auto write_every = std::chrono::milliseconds(100);
 
 void append(LogBatch& batch, std::int64_t number, const Message& message) {
@@ -64,14 +64,14 @@ class LogRecorder::File {
   File(const File&) = delete;
   File& operator=(const File&) = delete;
 
-  // How many of the events the disk took.
+  // Returns how many of the events were written.
   std::size_t write(const LogBatch& batch) {
     const std::size_t written = put(batch.bytes);
     if (written == batch.bytes.size()) {
       size_ += static_cast<off_t>(written);
       return batch.ends.size();
     }
-    // The file ends where the last whole event does; a device has no end.
+    // The file is cut after its last whole event; a device cannot be cut.
     const auto cut = std::upper_bound(batch.ends.begin(), batch.ends.end(), written);
     if (cut != batch.ends.begin()) size_ += static_cast<off_t>(*(cut - 1));
     if (ftruncate(descriptor_, size_) == 0) lseek(descriptor_, size_, SEEK_SET);
@@ -93,7 +93,7 @@ class LogRecorder::File {
   }
 
   int descriptor_;
-  off_t size_ = 0;  // of whole events
+  off_t size_ = 0;  // bytes of whole events
 };
 
 LogRecorder::LogRecorder(const std::string& path, bool raw, WhenBehind when_behind)
@@ -132,7 +132,7 @@ void LogRecorder::flush() {
   file_->sync();
 }
 
-// Two batches take turns, so that their memory is used again.
+// Two batches alternate, so that their memory is reused.
 void LogRecorder::write_batches(const std::stop_token& end) {
   LogBatch batch;
   std::unique_lock lock(mutex_);

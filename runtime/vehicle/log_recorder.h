@@ -1,4 +1,4 @@
-// Messages in a standard LCM log, readable by every LCM tool.
+// Writes messages to a standard LCM log, which every LCM tool can read.
 #pragma once
 
 #include <condition_variable>
@@ -15,29 +15,30 @@
 
 namespace maploop::vehicle {
 
-// Whole events in memory, on their way to the disk.
+// A LogBatch contains whole events in memory that are to be written to the disk.
 struct LogBatch {
   std::vector<std::uint8_t> bytes;
-  std::vector<std::size_t> ends;  // of each event in `bytes`
+  std::vector<std::size_t> ends;  // end of each event in `bytes`
 };
 
-// Events carry the data's time, so that a log of the same drive has the same bytes at any speed,
-// but for DEADLINES and HEALTH. A thread of its own writes to the disk: who sends does not wait for
-// it while memory holds what is on its way. The file always ends with a whole event: one that the
-// disk has no room for is taken back, and counted as unsent.
+// Events carry the data's time, so that logs of the same drive have the same bytes at any speed,
+// except for DEADLINES and HEALTH. A separate thread writes to the disk, so that the sender does
+// not wait for the disk until the memory for pending events is full. The file always ends with a
+// whole event: one that does not fit on the disk is removed again and counted as unsent.
 class LogRecorder final : public MessageSink {
  public:
-  // What becomes of a message for which even memory has no room.
+  // WhenBehind states what happens to a message when the memory for pending events is full.
   enum class WhenBehind {
-    wait,  // for the disk: every message is in the log
-    drop,  // and count it: nobody waits for a disk on the road
+    wait,  // wait for the disk: every message is in the log
+    drop,  // drop and count it: a live run does not wait for a disk
   };
-  // Bytes on their way to the disk at most: two seconds of raw images and scans.
+  // A message is accepted while fewer bytes than this are pending: two seconds of raw images and
+  // scans.
   static constexpr std::size_t most_under_way = std::size_t{64} << 20;
 
-  // Replaces the file. `raw`: with the images and scans, so that the whole graph can be replayed
-  // from the log. Throws std::runtime_error naming it when it cannot be written, or when another
-  // recorder, of any process, is writing it.
+  // Replaces the file. With `raw` the log also contains the images and scans, so that the whole
+  // graph can be replayed from it. Throws std::runtime_error naming the file if it cannot be
+  // written, or if another recorder, of any process, is writing it.
   explicit LogRecorder(const std::string& path, bool raw = false,
                        WhenBehind when_behind = WhenBehind::wait);
   ~LogRecorder() override;
@@ -45,7 +46,7 @@ class LogRecorder final : public MessageSink {
   std::string_view name() const override { return "log"; }
   bool wants_raw() const override { return raw_; }
 
-  // Waits until all that was sent is on the disk, or counted as unsent.
+  // Waits until every message sent is on the disk or counted as unsent.
   void flush() override;
 
  private:
@@ -58,7 +59,7 @@ class LogRecorder final : public MessageSink {
   bool raw_;
   WhenBehind when_behind_;
 
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards the members up to events_
   std::condition_variable_any changed_;
   LogBatch filling_;
   bool flushing_ = false;

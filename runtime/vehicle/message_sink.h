@@ -1,4 +1,4 @@
-// Where encoded messages go: the bus, a log, a hash.
+// A MessageSink is a destination of encoded messages: the bus, a log, or a hash.
 #pragma once
 
 #include <atomic>
@@ -14,20 +14,20 @@ namespace maploop::vehicle {
 
 struct Message {
   std::string_view channel;
-  Time time;                           // of the data: when it became available
+  Time time;                           // data time at which the content became available
   std::span<const std::uint8_t> data;  // LCM encoding
-  bool from_data;                      // false for what speaks of this run: DEADLINES, HEALTH
+  bool from_data;                      // false for messages about this run: DEADLINES, HEALTH
 };
 
-// The publisher thread sends; any thread may read the name and the counts.
+// Only the publisher thread sends; any thread may read the name and the counts.
 class MessageSink {
  public:
   virtual ~MessageSink() = default;
   virtual std::string_view name() const = 0;
-  // Whether it takes raw images and scans too, some 30 MB/s.
+  // Returns whether the sink also takes raw images and scans, some 30 MB/s.
   virtual bool wants_raw() const { return false; }
 
-  // Whether people look on: pictures for them (PREVIEW).
+  // Returns whether the sink takes the pictures that are made for viewers (PREVIEW).
   virtual bool wants_preview() const { return false; }
 
   void send(const Message& message) {
@@ -35,7 +35,8 @@ class MessageSink {
     count.fetch_add(1, std::memory_order_relaxed);
   }
 
-  // Waits until what was sent is out, or counted as unsent. The publisher's thread.
+  // Waits until every message sent is written or counted as unsent. Only the publisher thread calls
+  // this.
   virtual void flush() {}
 
   OutputHealth health() const {
@@ -44,14 +45,14 @@ class MessageSink {
   }
 
  protected:
-  // What was sent a while ago could not be written after all.
+  // Counts `messages` as unsent instead of sent, because they could not be written after all.
   void unsend(std::uint64_t messages) {
     sent_.fetch_sub(messages, std::memory_order_relaxed);
     unsent_.fetch_add(messages, std::memory_order_relaxed);
   }
 
  private:
-  // False where the message could not be sent or written; the next one is tried again.
+  // Returns false if the message could not be sent or written; the next one is tried again.
   virtual bool take(const Message& message) = 0;
 
   std::atomic<std::uint64_t> sent_{0};

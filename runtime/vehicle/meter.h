@@ -1,5 +1,5 @@
-// How long something takes from release to result, how often it misses its deadline, and whose
-// fault that was.
+// Measures how long something takes from release to result, how often it misses its deadline, and
+// which part took the longest.
 #pragma once
 
 #include <array>
@@ -15,32 +15,34 @@
 
 namespace maploop::vehicle {
 
-// What was to be done by a deadline, and where the time went. Names must outlive the meter.
+// A Timing is the latency of one piece of work, and its parts. Names must outlive the meter.
 struct Timing {
   struct Part {
     const char* name = "";
     Duration lasted{};
   };
 
-  Time stamp{};  // of the tick, or of the sample
+  Time stamp{};  // stamp of the tick or of the sample
   Duration latency{};
   std::array<Part, 3> parts{};
 };
 
-// One thread records, without a lock, an allocation or a system call; one other thread at a time
-// reads summary(), also meanwhile; the rest is for any thread.
+// One thread records, without a lock, an allocation or a system call. One other thread at a time
+// may call summary(), also while the first one records. Any thread may call the rest.
 class Meter {
  public:
-  // deadline 0: none.
+  // A deadline of 0 means that there is none; record(Timing) would then count every latency as a
+  // miss.
   Meter(std::string_view name, Duration deadline) : name_(name), deadline_(deadline) {}
 
   void record(Duration latency) { histogram_.record(latency); }
 
-  // With its parts, for the case that the deadline was missed; whether it was.
+  // Records a latency with its parts, which are kept if the deadline was missed. Returns whether it
+  // was.
   bool record(const Timing& timing);
 
-  // The schedule of a periodic task was moved by `shift`: the ticks that would have been late
-  // meanwhile are now on time, and are added to the omitted waits.
+  // Records that the schedule of a periodic task was moved by `shift`. The ticks that would have
+  // been late meanwhile are now on time, and are added to the omitted waits.
   void record_shift(Duration shift, Duration interval) { omitted_.record_omitted(shift, interval); }
 
   const std::string& name() const { return name_; }
@@ -50,7 +52,7 @@ class Meter {
   LatencySummary summary() const;
 
  private:
-  // The longest misses so far, the longest first.
+  // Worst contains the ten longest misses so far, the longest first.
   struct Worst {
     std::array<Timing, 10> misses{};
     std::size_t count = 0;
@@ -63,9 +65,9 @@ class Meter {
   runtime::Histogram histogram_;
   runtime::Histogram omitted_;
   std::atomic<std::uint64_t> miss_count_{0};
-  Worst worst_;                               // the recording thread's
-  mutable runtime::LatestValue<Worst> told_;  // to the reading one
-  mutable const Worst* heard_ = nullptr;      // by the reading one
+  Worst worst_;                               // owned by the recording thread
+  mutable runtime::LatestValue<Worst> told_;  // passes worst_ to the reader
+  mutable const Worst* heard_ = nullptr;      // owned by the reading thread
 };
 
 }  // namespace maploop::vehicle

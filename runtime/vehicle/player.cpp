@@ -27,7 +27,7 @@ void Player::begin_pass() {
 }
 
 void Player::begin(const Snapshot* from) {
-  vehicle_.reset();  // ends whatever still uses what the maker makes anew: sinks, tracer
+  vehicle_.reset();  // it uses the sinks and the tracer, which make_ replaces
   vehicle_ = make_(from);
   if (parameters_.snapshots > 0 && vehicle_->clock().is_paced()) {
     std::vector<Time> moments;
@@ -44,7 +44,7 @@ void Player::begin(const Snapshot* from) {
   note_position();
 }
 
-// Before its first tick a vehicle has none.
+// A vehicle has no position before its first tick.
 void Player::note_position() {
   const Time position = std::max(parameters_.first, vehicle_->position());
   position_.store(to_nanoseconds(position), std::memory_order_relaxed);

@@ -1,4 +1,4 @@
-// Plays a recording: pause, step, speed, seek both ways, loop, next deadline miss.
+// Plays a recording with pause, step, speed, seek both ways, loop, and the next deadline miss.
 #pragma once
 
 #include <atomic>
@@ -13,49 +13,49 @@
 namespace maploop::vehicle {
 
 struct PlayerParameters {
-  Time first{};  // of the recording, or where its replay resumes
-  Time last{};   // of the recording
-  Time start{};  // each pass goes up to there as fast as the graph can
-  Duration snapshot_every = std::chrono::seconds(2);  // half of it is computed again, on average
-  std::size_t snapshots = 16;                         // some 1 MB each; 0: going back starts again
-  std::uint64_t passes = 1;                           // the recording is played so often
+  Time first{};  // start of the recording, or where its replay resumes
+  Time last{};   // end of the recording
+  Time start{};  // each pass goes to this time as fast as the graph can
+  Duration snapshot_every = std::chrono::seconds(2);  // a seek repeats half of it, on average
+  std::size_t snapshots = 16;  // kept at most (size: snapshot.h); 0: going back restarts
+  std::uint64_t passes = 1;    // how often the recording is played
 };
 
-// Moves the data clock, and to go back builds the vehicle anew from a snapshot: what is computed
-// stays the same, bit for bit, as in a run that came there directly. What lies between the snapshot
-// and the target is sent again. One thread's own, the one that also calls update() every few tens
-// of milliseconds; position() is for any thread. On virtual time nothing but passes has an effect.
+// Player controls the data clock, and rebuilds the vehicle from a snapshot to go back. The results
+// are the same, bit for bit, as in a run that came there directly. Messages between the snapshot
+// and the target are sent again. One thread uses the player and calls update() every few tens of
+// milliseconds; any thread may call position(). On virtual time only `passes` and quit() apply.
 class Player {
  public:
-  // Makes a vehicle of the recording, not started: from its start, or from a snapshot. When it is
-  // called, the vehicle before has ended.
+  // A Maker returns a vehicle of the recording, not started: at its start, or resumed from a
+  // snapshot. The vehicle before has ended when it is called.
   using Maker = std::function<std::unique_ptr<Vehicle>(const Snapshot* from)>;
 
   Player(Maker make, const PlayerParameters& parameters);
 
-  // Makes and starts the first vehicle; throws what Vehicle::start() throws. Before all else.
+  // Makes and starts the first vehicle; throws what Vehicle::start() throws. Must be called first.
   void start();
 
-  // During a seek these two say what happens on arrival, and the steps do nothing.
+  // During a seek, pause() and resume() set what happens on arrival, and the steps do nothing.
   void pause();
   void resume();
-  // To the release of the next image, or of the next sample of any sensor; then paused.
+  // Plays to the release of the next image, or of the next sample of any sensor, and pauses there.
   void step_image();
   void step_sample();
   // Throws std::invalid_argument unless speed is finite and above 0.
   void set_speed(double speed);
 
-  // Goes through what lies before t as fast as the graph can; the state at t is the one of having
-  // driven there. False when t is outside of the recording.
+  // Computes everything before t as fast as the graph can, so that the state at t is that of having
+  // driven there. Returns false if t is outside of the recording.
   bool seek(Time t);
 
-  // Goes on until another deadline is missed, then pauses.
+  // Plays until another deadline is missed, then pauses.
   void play_to_next_miss();
 
   // Ends the last pass at once.
   void quit();
 
-  // Whether it still plays; begins the next pass where one has ended.
+  // Begins the next pass if one has ended. Returns false when the last one has ended.
   bool update();
 
   bool paused() const { return !seeking_ && vehicle_->clock().paused(); }

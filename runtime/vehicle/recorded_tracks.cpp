@@ -15,7 +15,7 @@
 namespace maploop::vehicle {
 namespace {
 
-// The meta file does not say how large the images are; KITTI's are this.
+// The meta file does not contain the size of the images; this is KITTI's.
 constexpr int kWidth = 1242;
 constexpr int kHeight = 375;
 
@@ -41,7 +41,7 @@ StereoCalibration to_calibration(const nlohmann::json& meta) {
   return calibration;
 }
 
-// The six numbers of a line; false where it is not six numbers.
+// Reads the six numbers of a line; returns false if the line is not six numbers.
 bool parse(const std::string& line, std::array<double, 6>& row) {
   const char* at = line.data();
   const char* end = at + line.size();
@@ -88,7 +88,7 @@ void RecordedTracks::add(std::size_t previous, std::size_t current,
   }
   std::sort(before.begin(), before.end(), by_id);
   std::sort(now.begin(), now.end(), by_id);
-  // Those that come from further back are in the previous frame already.
+  // Tracks that began before the previous frame are in it already.
   std::vector<Seen> joined;
   std::set_union(frames.at(previous).begin(), frames[previous].end(), before.begin(), before.end(),
                  std::back_inserter(joined), by_id);

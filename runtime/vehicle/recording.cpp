@@ -31,17 +31,17 @@ Recording describe(const Opened& opened, std::function<Sensors(Time)> sensors) {
           {}};
 }
 
-// Those of a configuration that uses it.
+// Returns the wheel odometer's parameters if the configuration uses a wheel speed.
 std::optional<sensors::WheelOdometerParameters> wheel_of(const VehicleConfig& config) {
   return config.fusion.use_wheel_speed ? std::optional(config.wheel) : std::nullopt;
 }
 
 void use_observations(Sensors& s, const std::shared_ptr<const GnssDrive>& drive) {
   s.epochs = GnssDrive::epochs(drive);
-  s.ppp = {drive, &drive->setup()};  // shares the drive's life
+  s.ppp = {drive, &drive->setup()};  // this pointer keeps the drive alive
 }
 
-// A receiver's observations beside the drive's other sensors.
+// Returns a receiver's observations beside the drive's other sensors; nullptr if there are none.
 std::shared_ptr<const GnssDrive> observations_of(const sensors::KittiDrive& drive,
                                                  const VehicleConfig& config) {
   const std::filesystem::path gnss = drive.folder() / "gnss";
@@ -129,7 +129,7 @@ Recording open_log(const std::filesystem::path& file) {
   });
 }
 
-// Its epochs stand for the images.
+// The epochs take the place of the images.
 Recording open_gnss(const std::filesystem::path& path, const VehicleConfig& config) {
   auto drive = std::make_shared<const GnssDrive>(path, config);
   Recording recording;
@@ -150,7 +150,7 @@ bool is_capture(const std::filesystem::path& path) {
   return name.extension() == ".pcap" || name.extension() == ".pcapng";
 }
 
-// Its turns stand for the images.
+// The scanner's turns take the place of the images.
 Recording open_capture(const std::filesystem::path& path, const VehicleConfig& config) {
   const auto open = [path, calibration = config.live.velodyne_calibration] {
     return std::make_unique<sensors::VelodyneCapture>(
@@ -240,7 +240,8 @@ fusion::KnownStart start_from_reference(const Recording& recording) {
   if (reference == nullptr || !reference->next(pose) || !reference->next(next)) {
     throw std::runtime_error("the recording has no reference to start from");
   }
-  // Velocities are older than their rows: carried to the pose by how they go on.
+  // Velocities are older than the poses of their rows: this one is carried linearly to the pose's
+  // stamp.
   const double share = to_seconds(pose.stamp - pose.velocity_stamp) /
                        to_seconds(next.velocity_stamp - pose.velocity_stamp);
   fusion::KnownStart known;

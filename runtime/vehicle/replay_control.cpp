@@ -47,7 +47,7 @@ void ReplayControl::take(const lcm::ReceiveBuffer* buffer, const std::string&) {
   if (!schema::checked_decode(schema::own_schema(), data, command)) {
     refused_ = "not a message of type replay_control_t of this version";
   } else if (command.kind == Control::STATE) {
-    return;  // our own, or another run's
+    return;  // this is our own state, or another run's
   } else if (command.run.empty()) {
     refused_ = "the command names no run; this one is " + run_;
   } else if (command.run != run_) {

@@ -1,4 +1,4 @@
-// The player on LCM: commands come in, its state goes out, both on REPLAY_CONTROL.
+// Connects the player to LCM: commands arrive and its state is sent, both on REPLAY_CONTROL.
 #pragma once
 
 #include <string>
@@ -14,26 +14,26 @@ struct ReceiveBuffer;
 
 namespace maploop::vehicle {
 
-// Obeys the commands that name its run; those for others it does not answer. One that cannot be
-// obeyed, or names none, is refused, with its reason in the next state. States are sent on
-// each change and after each command; while it plays, five times a second for the position. The
-// player's thread's own; `lcm` and `player` must outlive it.
+// Obeys the commands that name its run, and ignores those that name another. A command that cannot
+// be obeyed, or names no run, is refused, and the next state contains the reason. A state is sent
+// on each change and after each command, and five times a second while the position changes. Only
+// the player's thread may use this; `lcm` and `player` must outlive it.
 class ReplayControl {
  public:
-  // `run`: its id (runs.h).
+  // `run` is the id of the run (runs.h).
   ReplayControl(lcm::LCM& lcm, Player& player, std::string run);
   ~ReplayControl();
   ReplayControl(const ReplayControl&) = delete;
   ReplayControl& operator=(const ReplayControl&) = delete;
 
-  // Obeys what has come, and says what has changed. Never waits.
+  // Obeys the commands that have arrived, and sends the state if it has changed. Never blocks.
   void update();
 
-  bool quit() const { return quit_; }  // asked for
+  bool quit() const { return quit_; }  // a command asked for the end
 
  private:
   void take(const lcm::ReceiveBuffer* buffer, const std::string& channel);
-  // Why not; empty: obeyed.
+  // Returns why the command is refused, or an empty string if it was obeyed.
   std::string obey(int kind, double value);
   void say();
 
@@ -48,7 +48,7 @@ class ReplayControl {
   lcm::LCM& lcm_;
   Player& player_;
   std::string run_;
-  lcm::Subscription* subscription_;  // of lcm_
+  lcm::Subscription* subscription_;  // owned by lcm_
   std::string refused_;
   bool answer_due_ = true;
   bool quit_ = false;

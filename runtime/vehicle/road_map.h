@@ -1,4 +1,4 @@
-// The road map that a vehicle drives on.
+// Loads the road map that a vehicle drives on.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +10,15 @@
 
 namespace maploop::vehicle {
 
-// Immutable: any number of vehicles and threads may use one at the same time.
+// A RoadMap is immutable: any number of vehicles and threads may use it at the same time.
 struct RoadMap {
   mapmatch::RoadNetwork network;
   mapmatch::RuleBases rules;
 };
 
-// As [map] of the configuration says: an OpenStreetMap file or a network file, and rules of one's
-// own. nullptr where there is no map to be used. Throws std::runtime_error naming the file.
+// Loads what [map] of the configuration names: an OpenStreetMap file or a network file, and the
+// user's rules if it names any. Returns nullptr if the mode is none or no file is named. Throws
+// std::runtime_error naming the file that cannot be read.
 std::shared_ptr<const RoadMap> load_road_map(const MapParameters& parameters);
 
 }  // namespace maploop::vehicle

@@ -20,7 +20,7 @@ namespace {
 
 constexpr Duration say_every = std::chrono::seconds(1);
 constexpr Duration silent_after = std::chrono::seconds(3);
-constexpr std::size_t most_runs = 16;  // whoever floods the channel takes no memory
+constexpr std::size_t most_runs = 16;  // a flooded channel takes no more memory
 constexpr std::size_t longest_what = 100;
 
 const std::string run_channel(channel_names::run);

@@ -1,5 +1,5 @@
-// The runs on an LCM bus: each says that it is there, so that listeners can tell them apart, and
-// that two learn of each other.
+// Announces each run on an LCM bus, so that listeners can tell the runs apart, and that two runs
+// notice each other.
 #pragma once
 
 #include <functional>
@@ -21,26 +21,29 @@ class run_t;
 
 namespace maploop::vehicle {
 
-// A program that publishes.
+// A Run is a program that publishes on the bus.
 struct Run {
   std::string id;    // of this run alone: eight hexadecimal digits
   std::string what;  // "replay of 2011_09_26_drive_0013_sync"
   bool operator==(const Run&) const = default;
 };
 
-// With a new id, drawn by the system: nothing that is computed knows it.
+// Returns a run with a random id from the system. No result depends on the id.
 Run new_run(std::string what);
 
-// "7f3a21bc (replay of 2011_09_26_drive_0013_sync)", without what a terminal would obey.
+// Returns "7f3a21bc (replay of 2011_09_26_drive_0013_sync)"; control characters, which a terminal
+// would obey, become question marks.
 std::string to_text(const Run& run);
 
-// What has been said on RUN. One thread's own.
+// RunsHeard contains the runs announced on RUN. It is for one thread.
 class RunsHeard {
  public:
-  // At `now`, of any steady clock. What is no run's id is left out, as are more than a few runs.
+  // Takes a message that arrived at `now`, the time of any steady clock. Ignores a message whose id
+  // is not that of a run, and a new run if there are 16 already.
   void take(const maploop_lcm::run_t& message, Duration now);
 
-  // In the order of their ids: those that have not said their end, nor been silent for 3 s.
+  // Returns the runs that have neither announced their end nor been silent for more than 3 s, in
+  // the order of their ids.
   std::vector<Run> present(Duration now) const;
 
  private:
@@ -51,20 +54,20 @@ class RunsHeard {
   std::map<std::string, Heard> runs_;
 };
 
-// Says a run on its bus, as long as it lives, and looks for others. One thread's own; `lcm` must
-// outlive it.
+// Announces a run on its bus while this object exists, and looks for other runs. It is for one
+// thread; `lcm` must outlive it.
 class RunPresence {
  public:
-  // `warn` gets one sentence, once, where another run publishes on the same bus.
+  // `warn` is called once, with one sentence, when another run publishes on the same bus.
   RunPresence(lcm::LCM& lcm, Run run, std::function<void(const std::string&)> warn);
   ~RunPresence();
   RunPresence(const RunPresence&) = delete;
   RunPresence& operator=(const RunPresence&) = delete;
 
-  // Takes what has come, and says the run once a second. Never waits.
+  // Takes the messages that have arrived, and announces the run once a second. Never blocks.
   void update();
 
-  // What it says of the run at its end: three lines.
+  // Sets the verdict, three lines, which is sent with the end of the run.
   void conclude(std::string verdict) { verdict_ = std::move(verdict); }
 
   const Run& run() const { return run_; }
@@ -77,7 +80,7 @@ class RunPresence {
   Run run_;
   std::string verdict_;
   std::function<void(const std::string&)> warn_;
-  lcm::Subscription* subscription_;  // of lcm_
+  lcm::Subscription* subscription_;  // owned by lcm_
   RunsHeard others_;
   bool warned_ = false;
   MonotonicTime next_{};

@@ -12,7 +12,7 @@ namespace {
 using runtime::Scheduling;
 using runtime::SchedulingPolicy;
 
-// By the enumerators' values.
+// The names are in the order of the enumerators' values.
 constexpr std::array<std::string_view, 5> policy_names{"inherited", "other", "fifo", "rr",
                                                        "deadline"};
 
@@ -30,7 +30,7 @@ bool has_priority(SchedulingPolicy policy) {
   return policy == SchedulingPolicy::fifo || policy == SchedulingPolicy::rr;
 }
 
-// What goes with the one policy does not outlive a change to another.
+// Resets the values that do not go with the policy.
 void forget_other_policies(Scheduling& s) {
   if (!has_priority(s.policy)) s.priority = 0;
   if (s.policy != SchedulingPolicy::other) {

@@ -1,15 +1,15 @@
-// How the kernel is to schedule each thread of the graph, and its form in the configuration:
+// States how the kernel is to schedule each thread of the graph. In the configuration this is:
 //
 //   [scheduling.fusion]
 //   policy = "fifo"           # inherited, other, fifo, rr or deadline
-//   priority = 60             # of fifo and rr: 1 to 99, higher goes first
-//   nice = 0                  # of other: -20 to 19, lower gets a larger share
-//   timer_slack_us = 50       # of other: how late it may be woken
-//   runtime_ms = 1            # of deadline: CPU time within deadline_ms of each period_ms
+//   priority = 60             # with fifo and rr: 1 to 99, higher goes first
+//   nice = 0                  # with other: -20 to 19, lower gets a larger share
+//   timer_slack_us = 50       # with other: how late the thread may be woken
+//   runtime_ms = 1            # with deadline: CPU time within deadline_ms of each period_ms
 //   deadline_ms = 2
 //   period_ms = 10
-//   cpus = [0, 1]             # where it may run; empty: anywhere. Not of deadline.
-//   prefaulted_stack_kb = 256 # of its stack, mapped before it starts its work
+//   cpus = [0, 1]             # where the thread may run; empty: anywhere. Not with deadline.
+//   prefaulted_stack_kb = 256 # stack that is mapped before the thread starts its work
 #pragma once
 
 #include <string>
@@ -19,14 +19,14 @@
 
 namespace maploop::vehicle {
 
-// fifo with a stack that covers what the stages call.
+// Returns fifo with a stack that covers what the stages call.
 inline runtime::Scheduling realtime(int priority) {
   runtime::Scheduling scheduling = runtime::Scheduling::fifo(priority);
   scheduling.prefaulted_stack_kb = 256;
   return scheduling;
 }
 
-// Behind everybody else of the kernel's fair shares.
+// Returns the default policy with the smallest of the kernel's fair shares.
 inline runtime::Scheduling yielding() {
   runtime::Scheduling scheduling;
   scheduling.policy = runtime::SchedulingPolicy::other;
@@ -34,9 +34,9 @@ inline runtime::Scheduling yielding() {
   return scheduling;
 }
 
-// Applied where the clock is paced; on virtual time there is nothing to be punctual for.
+// These are applied if the clock is paced; on virtual time no thread has to be punctual.
 struct SchedulingParameters {
-  runtime::Scheduling camera = realtime(70);  // drivers only sleep and hand over
+  runtime::Scheduling camera = realtime(70);  // drivers only sleep and pass samples on
   runtime::Scheduling velodyne = realtime(70);
   runtime::Scheduling imu = realtime(70);
   runtime::Scheduling gnss = realtime(70);
@@ -51,14 +51,14 @@ struct SchedulingParameters {
   runtime::Scheduling publisher;
   runtime::Scheduling health;
   runtime::Scheduling snapshot;
-  runtime::Scheduling preview = yielding();  // when nobody else has work
+  runtime::Scheduling preview = yielding();  // runs when no other thread has work
 };
 
-// Reads the table `key`; what it lacks stays as it is, but for what belongs to another policy.
-// Throws runtime::ConfigError, also for a key that does not go with the policy.
+// Reads the table `key`. A missing key leaves its value as it is, but values that belong to another
+// policy are reset. Throws runtime::ConfigError, also for a key that does not go with the policy.
 void read(const runtime::ConfigTable& parent, const char* key, runtime::Scheduling& scheduling);
 
-// As an inline table, with the keys that go with the policy.
+// Returns an inline table with the keys that go with the policy.
 std::string toml_value(const runtime::Scheduling& scheduling);
 
 }  // namespace maploop::vehicle

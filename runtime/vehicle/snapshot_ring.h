@@ -1,4 +1,4 @@
-// Snapshots along the way, so that a replay can go back.
+// Keeps snapshots of a replay, so that it can go back.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +10,15 @@
 
 namespace maploop::vehicle {
 
-// At most `capacity` of them, some 1 MB each: when it is full every second one goes, so that they
-// reach over the whole drive, closer together where it was last. Any thread.
+// Keeps at most `capacity` snapshots (size: snapshot.h). When it is full, it removes every second
+// one, so that they cover the whole drive and are closest together at its end. Any thread may use
+// it.
 class SnapshotRing {
  public:
   explicit SnapshotRing(std::size_t capacity) : capacity_(capacity) {}
 
   void add(Snapshot snapshot);
-  // The last one at or before t.
+  // Returns the last snapshot at or before t, if there is one.
   std::optional<Snapshot> before(Time t) const;
   std::size_t size() const;
 

@@ -12,7 +12,7 @@
 namespace maploop::vehicle {
 namespace {
 
-// Nothing where it is no socket.
+// Returns nullopt if the descriptor is not a socket.
 std::optional<int> option(int socket, int name) {
   int value = 0;
   socklen_t size = sizeof value;

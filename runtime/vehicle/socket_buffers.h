@@ -1,4 +1,4 @@
-// The kernel's buffers behind LCM: too small ones lose large messages without a word.
+// Asks for the kernel's buffers behind LCM: too small ones lose large messages silently.
 #pragma once
 
 #include <optional>
@@ -9,16 +9,16 @@
 
 namespace maploop::vehicle {
 
-// The UDP sockets that this process has open, by their descriptors, ascending. LCM gives its own
-// away to nobody: it is the one that was not there before LCM opened its URL.
+// Returns the descriptors of the UDP sockets that this process has open, ascending. LCM does not
+// give access to its socket: it is the one that was not open before LCM opened its URL.
 std::vector<int> udp_sockets();
 
-// Asks for a send buffer of `bytes` (with force where the process may) and reads back: "LCM: send
-// buffer".
+// Asks for a send buffer of `bytes`, beyond the system's limit if the process may (SO_SNDBUFFORCE),
+// and reads back what was granted. The result is named "LCM: send buffer".
 RealtimeSetting ask_for_send_buffer(int socket, int bytes);
 
-// What listeners on this machine may ask for, as the text of /proc/sys/net/core/rmem_max has it;
-// none: not readable. "LCM: receive buffers".
+// Returns what listeners on this machine may ask for, named "LCM: receive buffers". `rmem_max` is
+// the text of /proc/sys/net/core/rmem_max, or nullopt if it is not readable.
 RealtimeSetting assess_receive_buffers(const std::optional<std::string>& rmem_max, int bytes);
 
 }  // namespace maploop::vehicle

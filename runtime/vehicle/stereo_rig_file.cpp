@@ -96,14 +96,14 @@ sensors::StereoRig read_toml(const std::filesystem::path& file) {
   return rig;
 }
 
-// Written so that it is read back bit for bit.
+// Writes the numbers so that they are read back bit for bit.
 std::string numbers(const double* values, int count) {
   std::string text = "[";
   for (int i = 0; i < count; ++i) text += (i == 0 ? "" : ", ") + runtime::shortest_text(values[i]);
   return text + "]";
 }
 
-// Lines of "key = value  # comment".
+// A Writer writes lines of "key = value  # comment".
 class Writer {
  public:
   explicit Writer(const std::map<std::string, std::string>& comments) : comments_(comments) {}

@@ -1,4 +1,4 @@
-// What a decoder makes of a live stream of bytes.
+// Passes a live stream of bytes to a decoder.
 #pragma once
 
 #include <array>
@@ -12,15 +12,15 @@
 
 namespace maploop::vehicle {
 
-// One thread at a time. `clock` must outlive it.
+// A StreamReader is for one thread at a time. `clock` must outlive it.
 class StreamReader {
  public:
   StreamReader(std::unique_ptr<sensors::ByteStream> stream, const sensors::HostClock& clock)
       : stream_(std::move(stream)), clock_(clock) {}
 
-  // Pushes what comes to the decoder, which is told to restart() where the connection was lost,
-  // until next() is true or about `patience` is over; returns which. What is left of earlier bytes
-  // comes first.
+  // Pushes the bytes that arrive to the decoder until next() is true or about `patience` is over;
+  // returns which. Calls restart() of the decoder if the connection was lost and opened again.
+  // Bytes that arrived earlier are decoded first.
   template <class Decoder, class Next>
   bool wait(Duration patience, Decoder& decoder, Next&& next) {
     const Time end = clock_.now() + patience;
@@ -37,7 +37,7 @@ class StreamReader {
   }
 
   const sensors::ByteStream& stream() const { return *stream_; }
-  Time arrival() const { return arrival_; }  // of what was pushed last
+  Time arrival() const { return arrival_; }  // when the bytes pushed last arrived
 
  private:
   std::unique_ptr<sensors::ByteStream> stream_;

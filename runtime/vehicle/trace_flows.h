@@ -1,5 +1,5 @@
-// Which samples leave a flow in a trace: from their release to the publication of the state that
-// holds them, or that they were refused for. The same number wherever the sample passes.
+// Names the samples that have a flow in a trace, from their release to the publication of the state
+// that contains them, or for which they were refused. A sample has the same number everywhere.
 #pragma once
 
 #include "msgs/gnss.h"

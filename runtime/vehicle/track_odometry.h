@@ -1,4 +1,4 @@
-// Visual odometry from recorded stereo tracks: the back end alone.
+// Computes visual odometry from recorded stereo tracks, with the back end alone.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace maploop::vehicle {
 
-// One motion a frame from first_good_frame on, stamped by `stamps` (one for each frame) and
-// available `delay` later.
+// Returns one motion for each frame from first_good_frame on. Its stamp is that of `stamps`, which
+// has one for each frame, and it is available `delay` later.
 std::unique_ptr<sensors::Source<RelativeMotion>> make_track_odometry(
     std::shared_ptr<const RecordedTracks> tracks, std::vector<Time> stamps,
     const stereo::StereoParameters& parameters, Duration delay);

@@ -71,7 +71,7 @@ std::string Watchdog::stillness(Time now, MonotonicTime wall_now, const StageFac
 void Watchdog::judge_rate(Time now, std::uint64_t count) {
   const Duration since = now - judged_;
   if (since < patience(stage_)) return;
-  // One sample more or less may be due to where the interval was cut.
+  // One sample more or less may come from where the interval was cut.
   const auto samples = static_cast<double>(count - count_judged_);
   const double interval = to_seconds(since);
   rate_verdict_.clear();

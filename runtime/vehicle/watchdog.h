@@ -1,4 +1,4 @@
-// Holds what the stages do against what the graph's table says of them.
+// Compares what the stages do with what the graph's table demands of them.
 #pragma once
 
 #include <cstddef>
@@ -12,32 +12,33 @@
 
 namespace maploop::vehicle {
 
-// One stage as it looks now.
+// StageFacts is the state of one stage now.
 struct StageFacts {
   bool absent = false;         // this vehicle, or this recording, has no such sensor
   std::uint64_t count = 0;     // results since the start
   std::size_t waiting = 0;     // samples in the rings that end here
-  std::string waits_for = {};  // of these rings, the empty one that holds the stage up
-  // Of a driver, when its newest sample became available: maybe ahead of what the stages have come
-  // to, which is no silence. Nothing: known by the count alone.
+  std::string waits_for = {};  // the empty one of these rings that holds the stage up
+  // For a driver this is when its newest sample became available; it may be ahead of the stages,
+  // which is not a silence. If it is nullopt, only the count shows whether the stage moves.
   std::optional<Time> newest = {};
 };
 
-// Of one stage. Stages without rates in the table are never found wanting. Looks at facts alone, on
-// two clocks: a sensor's silence is a matter of data time, a stage that does not move stops data
-// time too (a replay waits for it), so that takes the machine's. One thread at a time.
+// A Watchdog judges one stage by its facts; a stage without rates in the table is never reported.
+// It uses two clocks. A sensor's silence is measured in data time. A stage that does not move stops
+// data time too (a replay waits for it), so this is measured on the machine's clock. One thread at
+// a time may use it.
 class Watchdog {
  public:
-  // `start`: of the data. A stage reads nothing (a driver) or is fed by rings.
+  // A stage reads nothing (a driver), or is fed by rings. `start` is when the data begin.
   enum class Kind : std::uint8_t { driver, fed };
   Watchdog(const Stage& stage, Kind kind, Time start, MonotonicTime wall_start);
 
-  // What is wrong, one sentence each: what, since when, what to look at. Call with times that do
-  // not decrease; the rate is judged once there is enough data for it, until the next judgement.
+  // Returns what is wrong, one sentence each: what, since when, what to look at. Times must not
+  // decrease from call to call. The rate is judged again after each patience() of data time.
   std::vector<std::string> look(Time now, MonotonicTime wall_now, const StageFacts& facts);
 
-  // How long a stage may be silent: three times the longest period that its table allows, and not
-  // less than the health thread's own.
+  // Returns how long a stage may be silent: three times the longest period that its table allows,
+  // and at least the health thread's period.
   static Duration patience(const Stage& stage);
 
  private:
