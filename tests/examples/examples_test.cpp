@@ -1,5 +1,5 @@
-// What EXTENDING.md shows, compiled and run: the driver in the vehicle's graph, the estimator by
-// itself.
+// Compiles and tests what README.md describes: the driver in the vehicle's graph, and the estimator
+// alone.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// An estimator: the vehicle's speed and acceleration from speeds that may be wrong now and then.
+// This example of an estimator computes the vehicle's speed and acceleration from speeds that may
+// be wrong now and then.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,10 +12,10 @@
 namespace maploop::example {
 
 struct SpeedParameters {
-  double jerk = 1.0;                // m/s^3/sqrt(Hz), white: pedals
-  double start_acceleration = 2.0;  // m/s^2, 1 sigma, before anything is known
+  double jerk = 1.0;                // m/s^3/sqrt(Hz), white: use of the pedals
+  double start_acceleration = 2.0;  // m/s^2, 1 sigma, at the start
   double gate = 10.83;              // chi-square, 1 degree of freedom, 0.1 % tail
-  double max_gap = 5.0;             // s, after which it begins anew
+  double max_gap = 5.0;             // s, after which the filter restarts
 };
 
 enum class SpeedReason : std::uint8_t { none, not_finite, not_later, gate };
@@ -22,24 +23,24 @@ enum class SpeedReason : std::uint8_t { none, not_finite, not_later, gate };
 struct SpeedEstimate : Sample {
   double speed = 0.0;                                        // m/s
   double acceleration = 0.0;                                 // m/s^2
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  // of the two
-  SpeedReason reason = SpeedReason::none;  // why the sample was not used; then it is predicted
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  // (m/s)^2, (m/s^2)^2 on the diagonal
+  SpeedReason reason = SpeedReason::none;                    // if not none, the sample was not used
 };
 
-// Constant acceleration under white jerk (Bar-Shalom, Li and Kirubarajan 2001, 6.2.2), a Kalman
-// filter with a gate.
+// A SpeedEstimator is a Kalman filter with a gate for constant acceleration under white jerk
+// (Bar-Shalom, Li and Kirubarajan 2001, 6.2.2).
 //
-// Not thread-safe; owns no thread, reads no clock, allocates nothing. The same samples give the
-// same bits.
+// It is not thread-safe; it owns no thread, reads no clock, and allocates nothing. The same samples
+// give the same bits.
 class SpeedEstimator {
  public:
   // Throws std::invalid_argument naming the parameter that cannot work.
   explicit SpeedEstimator(const SpeedParameters& parameters);
 
-  // Nothing before the first usable sample.
+  // Returns nothing before the first usable sample.
   std::optional<SpeedEstimate> add(const WheelSpeed& sample);
 
-  // msgs/archive.h: everything but the parameters, which must be the same.
+  // Archives everything except the parameters, which must be the same (msgs/archive.h).
   template <class Archive>
   void archive(Archive& ar) {
     ar.section("example of an estimator", 1);

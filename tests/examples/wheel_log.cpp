@@ -32,7 +32,7 @@ bool WheelLog::next(WheelSpeed& sample) {
     last_ = delivered;
     sample.stamp = delivered - delay_;
     sample.available = delivered;
-    sample.sequence = line_ - 1;  // the recording's own number: a row left out is a gap
+    sample.sequence = line_ - 1;  // the recording's own number, so that a row left out is a gap
     sample.speed = speed;
     sample.sigma = sigma_;
     ++report_.delivered;

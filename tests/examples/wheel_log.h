@@ -1,4 +1,5 @@
-// A sensor driver: the wheels' speed from a text file, a row "seconds,m/s" a sample.
+// This example of a sensor driver reads wheel speeds from a text file with one row "seconds,m/s"
+// for each sample.
 #pragma once
 
 #include <filesystem>
@@ -10,11 +11,11 @@
 
 namespace maploop::example {
 
-// Seconds are of UTC. Throws std::runtime_error where the file cannot be read; a row that is no
+// Seconds are UTC. Throws std::runtime_error if the file cannot be read; a row that is not a
 // sample, or not later than the one before, is left out and reported.
 class WheelLog final : public sensors::Source<WheelSpeed> {
  public:
-  // The sensor says a speed `delay` after the wheels had it, with white noise of `sigma` (m/s).
+  // The sensor delivers a speed `delay` after it was measured, with white noise of `sigma` (m/s).
   WheelLog(const std::filesystem::path& file, Duration delay, double sigma);
 
   bool next(WheelSpeed& sample) override;

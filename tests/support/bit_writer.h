@@ -1,4 +1,4 @@
-// Bits of a message, the highest first.
+// A BitWriter writes the bits of a message, the highest first.
 #pragma once
 
 #include <cmath>
@@ -15,12 +15,12 @@ namespace maploop::testing {
 struct BitWriter {
   std::vector<bool> all;
 
-  // Beyond 64 bits: zeros in front.
+  // Beyond 64 bits there are zeros in front.
   BitWriter& put(std::uint64_t value, std::size_t bits) {
     for (std::size_t i = bits; i-- > 0;) all.push_back(i < 64 && (value >> i & 1U) != 0);
     return *this;
   }
-  // In two's complement, as so many units.
+  // Writes value / unit, rounded, in two's complement.
   BitWriter& put(double value, double unit, std::size_t bits) {
     return put(static_cast<std::uint64_t>(std::llround(value / unit)), bits);
   }
@@ -42,7 +42,7 @@ struct BitWriter {
     return *this;
   }
   void fill(std::size_t size) { all.resize(size); }
-  // Beyond the end: zeros.
+  // Bits beyond the end are zeros.
   std::uint64_t number(std::size_t at, std::size_t bits) const {
     std::uint64_t value = 0;
     for (std::size_t i = at; i < at + bits; ++i) value = value << 1 | (i < all.size() && all[i]);

@@ -20,7 +20,7 @@ cv::Mat coefficients(const RenderedCamera& c) {
   return (cv::Mat_<double>(5, 1) << c.k1, c.k2, c.p1, c.p2, c.k3);
 }
 
-// Brightness of a point of the board's plane, in squares from the first inner corner.
+// Returns the brightness of a point of the board's plane, in squares from the first inner corner.
 float brightness(const RenderedBoard& board, double x, double y) {
   constexpr float black = 30.0F, white = 215.0F, behind = 110.0F;
   const double margin = 1.7;  // squares beyond the first and last inner corner
@@ -67,7 +67,7 @@ std::vector<float> BoardRenderer::rays_of(const RenderedCamera& camera) const {
 GreyImage BoardRenderer::render(const std::vector<float>& rays, const RenderedBoard& board,
                                 const Eigen::Isometry3d& T_camera_board,
                                 const RenderQuality& quality, std::uint32_t seed) const {
-  // (x, y, 1) s = T (X, Y, 0): the plane's homography, inverted.
+  // (x, y, 1) s = T (X, Y, 0) is the plane's homography, which is inverted here.
   Eigen::Matrix3d plane;
   plane << T_camera_board.linear().col(0) * board.square,
       T_camera_board.linear().col(1) * board.square, T_camera_board.translation();
@@ -129,7 +129,7 @@ std::vector<Eigen::Isometry3d> board_poses(const BoardRenderer& renderer, const 
   };
   const Eigen::Vector3d middle(0.5 * (board.columns - 1) * board.square,
                                0.5 * (board.rows - 1) * board.square, 0.0);
-  // Squares shorter than this on one side are no good view of a board.
+  // A view is refused if a side of a square is shorter than this.
   const auto is_large = [&](const Eigen::Isometry3d& T_left_board) {
     constexpr double shortest = 11.0;  // px
     for (const bool left : {true, false})

@@ -1,4 +1,4 @@
-// What every archive must refuse, for the tests of what can be saved.
+// Checks that an archive refuses broken forms, for the tests of everything that can be saved.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ void load(const Bytes& archive, T& value) {
   reader.finish();
 }
 
-// The reason of the refusal; empty where there was none.
+// Returns the reason of the refusal, or an empty string if there was none.
 template <class T>
 std::string refusal(const Bytes& archive, T& value) {
   try {
@@ -49,7 +49,7 @@ void expect_refuses_broken(const Bytes& archive, T& value) {
     flipped[at] ^= 0x10;
     EXPECT_NE(refusal(flipped, value), "") << "byte " << at << " flipped";
   }
-  // Damage that a checksum does not see: made before it was computed.
+  // The content is damaged before its checksum is computed, so that the checksum does not show it.
   const auto content = unseal(archive);
   for (std::size_t size = 0; size < content.size(); size += 1 + content.size() / 97) {
     EXPECT_NE(refusal(seal(content.first(size)), value), "") << "content cut to " << size;

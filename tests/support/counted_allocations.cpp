@@ -13,7 +13,7 @@ constinit thread_local long allocations = 0;
 }
 
 #if MAPLOOP_COUNTS_ALLOCATIONS
-// glibc's own entry points, which the replacements below forward to.
+// These are glibc's own entry points, which the replacements below call.
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);

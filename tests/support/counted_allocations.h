@@ -1,13 +1,13 @@
-// Counts what each thread allocates, by malloc and all that goes through it, Eigen included. For an
-// executable of its own, which links maploop_counted_allocations: it replaces malloc.
+// Counts the allocations of each thread by malloc and everything that calls it, Eigen included. It
+// replaces malloc, and so is for an executable of its own, which links maploop_counted_allocations.
 #pragma once
 
 namespace maploop::testing {
 
-// False where a sanitizer owns malloc.
+// Returns false if a sanitizer replaces malloc.
 bool counts_allocations();
 
-// Of the calling thread, since it started.
+// Returns the number of allocations of the calling thread since it started.
 long thread_allocations();
 
 }  // namespace maploop::testing

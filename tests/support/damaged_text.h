@@ -1,4 +1,4 @@
-// Damaged copies of text, for the tests of what reads it.
+// Makes damaged copies of text, for the tests of its readers.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,9 @@
 
 namespace maploop::testing {
 
-// Cut somewhere, one to four bits flipped, a piece of less than `longest` bytes taken out or
-// doubled, or bytes of `alphabet` anywhere.
+// Returns `text` cut somewhere, or with one to four bits flipped, with a piece of less than
+// `longest` bytes removed or doubled, or with one to eight bytes anywhere replaced by bytes of
+// `alphabet`.
 inline std::string damaged(std::string text, std::mt19937& random, std::size_t longest,
                            std::string_view alphabet) {
   const auto place = [&] { return text.empty() ? 0 : random() % text.size(); };

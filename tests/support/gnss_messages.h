@@ -1,5 +1,5 @@
-// What receivers and casters send, made: UBX and RTCM 3 frames. Written apart from the decoders,
-// but for the tables of an ephemeris's fields.
+// Makes what receivers and casters send: UBX and RTCM 3 frames. It shares no code with the
+// decoders, except for the tables of an ephemeris's fields.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 
 namespace maploop::testing {
 
-// A whole RTCM 3 frame; its checksum bit by bit.
+// Returns a whole RTCM 3 frame; the checksum is computed bit by bit.
 inline std::string rtcm_frame(const BitWriter& payload) {
   const std::string bytes = payload.bytes();
   std::string f{'\xd3', static_cast<char>(bytes.size() >> 8),
@@ -35,15 +35,15 @@ inline std::string rtcm_frame(const BitWriter& payload) {
   return f;
 }
 
-// The beginning of an ephemeris of GPS: it is for its week alone.
+// Returns a GPS ephemeris in which only the satellite and the week are set.
 inline std::string gps_week_frame(int week) {
   BitWriter w;
   w.put(1019, 12).put(5, 6).put(static_cast<std::uint64_t>(week) % 1024, 10).put(0, 460);
   return rtcm_frame(w);
 }
 
-// A RAWX message of what of an epoch has a number with u-blox; lock that never ends but where it
-// was lost.
+// Returns a RAWX message of the signals of an epoch for which u-blox has a number. The lock time
+// never ends, except where lock was lost.
 inline std::string rawx_frame(const ppp::Epoch& epoch) {
   struct Named {
     ppp::System system;
@@ -81,7 +81,7 @@ inline std::string rawx_frame(const ppp::Epoch& epoch) {
                        std::string{18, static_cast<char>(count), 1, 1, 0, 0} + measurements);
 }
 
-// The values of a message, sent in this week since 1980, as its fields have them.
+// Returns the values of a message as its fields contain them, sent in this week since 1980.
 inline ppp::BroadcastValues broadcast_values(const ppp::KeplerMessage& m, int week) {
   using ppp::Quantity, ppp::System;
   ppp::BroadcastValues v{};
@@ -114,8 +114,8 @@ inline ppp::BroadcastValues broadcast_values(const ppp::KeplerMessage& m, int we
   return v;
 }
 
-// 1019 of GPS, 1045 of Galileo (whatever signals its clock is for, and without its health); empty
-// of other systems.
+// Returns 1019 for GPS or 1045 for Galileo (whatever signals its clock is for, and without its
+// health); empty for other systems.
 inline std::string rtcm_ephemeris(const ppp::KeplerMessage& m) {
   const bool galileo = m.satellite.system == ppp::System::galileo;
   if (!galileo && m.satellite.system != ppp::System::gps) return {};
@@ -133,8 +133,8 @@ inline std::string rtcm_ephemeris(const ppp::KeplerMessage& m) {
 
 enum class SsrForm { rtcm, igs };
 
-// Orbits and clocks in one message, of one system (GPS or Galileo); what goes into it, and the
-// moment that a decoder should count from: `epoch` plus half the interval of 5 s.
+// Returns orbits and clocks of one system (GPS or Galileo) in one message. A decoder should count
+// from `epoch` plus half the interval of 5 s.
 inline std::string ssr_orbits_and_clocks(SsrForm form, ppp::System system, ppp::GpsTime epoch,
                                          const std::vector<ppp::SsrUpdate>& updates) {
   const bool galileo = system == ppp::System::galileo, igs = form == SsrForm::igs;
@@ -160,7 +160,8 @@ inline std::string ssr_orbits_and_clocks(SsrForm form, ppp::System system, ppp::
   return rtcm_frame(w);
 }
 
-// Code biases of GPS (1059) or Galileo (1242), each by its number in the standard.
+// ssr_biases() returns code biases of GPS (1059) or Galileo (1242), with the signal numbers of the
+// standard.
 struct NumberedBias {
   std::uint8_t satellite;
   int signal;

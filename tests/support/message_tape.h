@@ -1,4 +1,4 @@
-// Keeps every message that speaks of the data.
+// MessageTape keeps every message that contains data, and none about the run itself.
 #pragma once
 
 #include <map>
@@ -21,7 +21,7 @@ class MessageTape final : public vehicle::MessageSink {
 
   std::string_view name() const override { return "tape"; }
 
-  // What speaks of the data, later than t.
+  // Returns the messages later than t.
   Channels after(Time t) const {
     Channels later;
     for (const auto& [name, messages] : channels_) {

@@ -1,4 +1,4 @@
-// A program as its user starts it.
+// Runs a program as its user starts it.
 #pragma once
 
 #include <sys/types.h>
@@ -17,7 +17,7 @@ struct ProcessResult {
   std::string error;
 };
 
-// Starts at construction; ends with the object, by force if need be.
+// A Process starts at construction and ends with the object, by force if needed.
 class Process {
  public:
   explicit Process(const std::vector<std::string>& command);
@@ -29,15 +29,15 @@ class Process {
   ProcessResult wait();
 
  private:
-  TemporaryFolder folder_;  // of its output
+  TemporaryFolder folder_;  // contains its output
   pid_t id_ = 0;
 };
 
-// The `maploop` command of the build that the running test belongs to.
+// Returns the `maploop` command of the build to which the running test belongs.
 std::string maploop_command();
 
-// Waits until a file, which another process writes, contains a text; false where it does not within
-// a minute.
+// Waits until a file that another process writes contains `text`; returns false if it does not
+// within a minute.
 bool comes_to_contain(const std::filesystem::path& file, const std::string& text);
 
 inline ProcessResult run(const std::vector<std::string>& command) {

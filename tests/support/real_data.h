@@ -1,4 +1,5 @@
-// Where tests find files: the real data (they skip loudly when it is missing) and the source tree.
+// Finds files for tests: the real data, without which tests are skipped with a clear message, and
+// the source tree.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -7,17 +8,17 @@
 
 namespace maploop::testing {
 
-// The folder of real data (MAPLOOP_DATA), or an empty path.
+// Returns the folder of real data (MAPLOOP_DATA), or an empty path.
 std::filesystem::path real_data();
 
-// KITTI raw drive 2011_09_26_drive_0013_sync as tools/restore-drive unpacked it, or an empty path.
+// Returns KITTI raw drive 2011_09_26_drive_0013_sync as tools/restore-drive unpacked it, or an
+// empty path.
 std::filesystem::path drive_0013();
 
-// A file of this checkout, by its path below the root: the tests run with its root in
-// MAPLOOP_SOURCE.
+// Returns a file of this checkout by its path below the root, which tests get in MAPLOOP_SOURCE.
 std::filesystem::path source(const std::filesystem::path& file);
 
-// A new folder for one test's files, removed at its end.
+// A TemporaryFolder is a new folder for one test's files, and is removed at the test's end.
 class TemporaryFolder {
  public:
   TemporaryFolder();

@@ -1,4 +1,4 @@
-// UBX frames, made.
+// Makes UBX frames.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ inline std::string ubx_frame(std::uint8_t message_class, std::uint8_t id,
   return "\xb5\x62" + checked + static_cast<char>(a) + static_cast<char>(b);
 }
 
-// A number as it lies in memory, which is as UBX has it.
+// Returns the bytes of a number in memory, whose order is that of UBX.
 template <class T>
 std::string raw_bytes(T value) {
   std::string text(sizeof value, '\0');

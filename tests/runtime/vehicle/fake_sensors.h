@@ -1,5 +1,5 @@
-// Small made-up sensors: a textured wall driven past at constant speed is not needed to exercise
-// the graph, so the images are plain noise (odometry refuses them by name) and cost little.
+// Defines small synthetic sensors. The graph does not need realistic images, so these are plain
+// noise, which costs little and which the odometry refuses by name.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace maploop::vehicle::testing {
 
 constexpr Time drive_start = from_nanoseconds(1'317'042'651'000'000'000);
 
-// `count` samples, the i-th as `make(i, sample)` fills it.
+// A FakeSource gives `count` samples; make(i, sample) fills the i-th.
 template <class T>
 class FakeSource final : public sensors::Source<T> {
  public:
@@ -76,7 +76,7 @@ inline Sensors fake_sensors(double seconds) {
         sample.available = drive_start + i * milliseconds(10);
         sample.stamp = sample.available - milliseconds(60);
         sample.specific_force_forward = sample.specific_force_left = 0.0;
-        sample.yaw_rate = 0.01 + 1e-9 * static_cast<double>(i);  // no sensor repeats itself
+        sample.yaw_rate = 0.01 + 1e-9 * static_cast<double>(i);  // real values never repeat exactly
       });
   s.gnss = std::make_unique<FakeSource<GnssFix>>(
       static_cast<std::uint64_t>(seconds), [](std::uint64_t i, GnssFix& fix) {
@@ -94,7 +94,7 @@ inline Sensors fake_sensors(double seconds) {
   return s;
 }
 
-// Ends with an exception after a few samples, as a broken driver would.
+// A BrokenSource throws an exception after `good` samples, as a broken driver would.
 template <class T>
 class BrokenSource final : public sensors::Source<T> {
  public:

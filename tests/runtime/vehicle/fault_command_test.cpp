@@ -1,4 +1,4 @@
-// `maploop replay --fault` as its user types it.
+// Tests `maploop replay --fault` as a user types it.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -1,6 +1,5 @@
-// Every fault on the recorded drive: what the table in tools/README.md says of it. The truth is the
-// drive's own; "of the clean run" is against the same replay without the fault. It takes a minute:
-// the faults of images and of what is made from them need their images, 14 replays of the drive.
+// Tests every fault on the recorded drive, with its own truth, against the table in
+// tools/README.md. It takes a minute, because the faults of images need 14 replays with images.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +22,7 @@ struct Replayed {
   VehicleReport report;
   std::map<std::string, ChannelSummary> channels;
   std::vector<NavState> states;        // 100 Hz
-  std::map<Time, NavState> at_images;  // by the image's stamp
+  std::map<Time, NavState> at_images;  // key: the image's stamp
   std::vector<RelativeMotion> motions;
   std::map<OdometryStatus, int> odometry;
   std::vector<FaultCount> faults;
@@ -42,7 +41,7 @@ struct Replayed {
   }
 };
 
-// Motions that another replay's odometry gave.
+// GivenMotions gives the motions that another replay's odometry computed.
 class GivenMotions final : public sensors::Source<RelativeMotion> {
  public:
   explicit GivenMotions(std::vector<RelativeMotion> motions) : motions_(std::move(motions)) {}
@@ -66,7 +65,7 @@ Replayed replay(const std::vector<std::string>& texts) {
   for (const std::string& text : texts) faults.push_back(parse_fault(text));
   FaultInjection injection(std::move(faults), drive.first_stamp());
   Sensors sources;
-  // Images and scans are read only where a fault strikes them or what is made from them.
+  // Images and scans are read only if a fault strikes them or what is computed from them.
   const auto strikes = [&](const char* target) {
     return std::any_of(texts.begin(), texts.end(), [&](const std::string& text) {
       return text.find(target) != std::string::npos;
@@ -93,7 +92,7 @@ Replayed replay(const std::vector<std::string>& texts) {
   observer.nav_state = [&](const NavState& state) { r.states.push_back(state); };
   observer.image_state = [&](const NavState& state) { r.at_images[state.stamp] = state; };
   VehicleConfig config;
-  config.odometry = "visual";  // a fault of the camera is not to be hidden by the LiDAR
+  config.odometry = "visual";  // the LiDAR would hide a fault of the camera
   Vehicle vehicle(config, drive.calibration(), injection.afflict(std::move(sources)),
                   runtime::DataClock::virtual_time(), {&hashes}, observer);
   vehicle.slow_down(injection.delays());
@@ -122,7 +121,7 @@ const Replayed& clean() {
   return run;
 }
 
-// How far the end is from where it should be when the start is laid on the truth, m (of 173 m).
+// Returns the error of the end in m (of 173 m), with the start moved onto the truth.
 double end_error(const Replayed& r) {
   const sensors::KittiDrive drive(maploop::testing::drive_0013());
   std::vector<ReferencePose> rows;
@@ -141,7 +140,7 @@ double end_error(const Replayed& r) {
   return (travelled - expected).norm();
 }
 
-// Largest distance from the clean run, m.
+// Returns the largest distance from the clean run, m.
 double farthest_from_clean(const Replayed& r) {
   double farthest = 0.0;
   for (std::size_t i = 0; i < std::min(r.states.size(), clean().states.size()); ++i) {
@@ -157,7 +156,6 @@ double end_from_clean(const Replayed& r) {
   return (r.states.back().position_enu - clean().states.back().position_enu).norm();
 }
 
-// Bounds of a fault: on the way, and at the end when all is well again.
 void expect_near_clean(const Replayed& r, double on_the_way, double at_the_end) {
   const std::string fault = r.faults.at(0).fault;
   EXPECT_LT(farthest_from_clean(r), on_the_way) << fault;
@@ -273,7 +271,7 @@ TEST(FaultDrive, TheFilterWaitsForTheFirstGoodFix) {
   for (const char* fault : {"lost@gnss:0:2", "nan@gnss:0:2", "jump@gnss:0:2,by=5"}) {
     const Replayed r = replay({fault});
     EXPECT_NEAR(r.seconds(NavStatus::uninitialized), 2.0, 0.1) << fault;
-    EXPECT_LT(end_error(r), 2.1) << fault;  // reached 1.93; the start is as good as that fix
+    EXPECT_LT(end_error(r), 2.1) << fault;  // 1.93 reached; the start has the error of that fix
   }
   const Replayed never = replay({"lost@gnss"});
   EXPECT_EQ(never.states.back().status, NavStatus::uninitialized);

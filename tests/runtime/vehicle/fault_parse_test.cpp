@@ -1,4 +1,4 @@
-// How a fault is written down, and what is said of one that is written wrongly.
+// Tests how a fault is written, and the error of one that is written wrongly.
 #include <gtest/gtest.h>
 
 #include <stdexcept>

@@ -1,4 +1,4 @@
-// Each fault on a short stream of samples, looked at sample by sample.
+// Tests each fault on a short stream, sample by sample.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ using std::chrono::milliseconds;
 using testing::drive_start;
 using testing::fake_sensors;
 
-// Everything the IMU delivers in two seconds, 100 Hz, with one fault or several.
+// Stream contains what the IMU delivers at 100 Hz with the given faults.
 struct Stream {
   explicit Stream(const std::vector<std::string>& faults, double seconds = 2.0)
       : injection(parsed(faults), drive_start) {
@@ -63,7 +63,7 @@ TEST(FaultSource, AShareIsDrawnAnewByEachSeedAndTheSameByTheSameOne) {
   const Stream c({"lost@imu,share=0.3,seed=2"}, 20.0);
   EXPECT_EQ(a.sequences(), b.sequences());
   EXPECT_NE(a.sequences(), c.sequences());
-  // 2000 draws: 600 +- 20 (1 sigma).
+  // Of 2000 draws 600 +- 20 (1 sigma) are expected.
   EXPECT_NEAR(static_cast<double>(a.struck()), 600.0, 80.0);
   EXPECT_NEAR(static_cast<double>(c.struck()), 600.0, 80.0);
 }
@@ -76,7 +76,7 @@ TEST(FaultSource, ALateSampleKeepsItsStampAndHoldsUpWhatFollows) {
   EXPECT_EQ(s.samples[50].available, drive_start + milliseconds(550));
   EXPECT_EQ(s.samples[50].stamp, drive_start + milliseconds(440));
   EXPECT_EQ(s.samples[59].available, drive_start + milliseconds(640));
-  // 600 to 640 ms come right behind, in their order; then the line is clear again.
+  // The samples of 600 to 640 ms follow at once, in their order; then nothing is held up.
   for (std::size_t i = 60; i < 65; ++i) {
     EXPECT_LT(s.samples[i].available, drive_start + milliseconds(641));
   }

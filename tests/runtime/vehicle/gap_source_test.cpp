@@ -13,7 +13,7 @@ using std::chrono::hours;
 using std::chrono::seconds;
 using testing::drive_start;
 
-// The numbers of the samples that are delivered, of some at these times after the start.
+// Returns the numbers of the delivered samples; `times` are those of all samples, after the start.
 std::vector<std::uint64_t> delivered(const std::vector<Duration>& times,
                                      sensors::SourceReport* report = nullptr) {
   GapSource<ImuSample> source(std::make_unique<testing::FakeSource<ImuSample>>(

@@ -1,4 +1,4 @@
-// A drive with nothing but a GNSS receiver through the whole graph.
+// Tests a drive of a GNSS receiver alone through the whole graph.
 #include "runtime/vehicle/gnss_drive.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using runtime::DataClock;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-// A car at 1 Hz, GPS and Galileo on two frequencies.
+// Returns the observations of a car at 1 Hz, GPS and Galileo on two frequencies.
 std::filesystem::path car() {
   return maploop::testing::real_data() / "gnss/kamakura_kinematic/SEPT265G.21O.gz";
 }

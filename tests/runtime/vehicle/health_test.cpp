@@ -1,4 +1,4 @@
-// What HEALTH says while the vehicle runs, read from an in-memory bus.
+// Tests what HEALTH reports while the vehicle runs, read from a bus in memory.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -63,7 +63,7 @@ TEST(Health, CountsRefusalsByReasonWhileTheVehicleRuns) {
   EXPECT_EQ(stereo, 50u) << "there is nothing to see in these images";
   EXPECT_EQ((last.at({"fusion", "odometry reports a failure"})), 50u);
   EXPECT_EQ((last.at({"fusion", "GNSS after the start (GNSS+ in the configuration uses it)"})), 4u);
-  Counts early = refusals(health[1]);  // a reason that has not occurred yet is not in it
+  Counts early = refusals(health[1]);  // a reason that has not occurred yet is missing
   EXPECT_LT((early[{"fusion", "odometry reports a failure"}]), 50u);
 }
 

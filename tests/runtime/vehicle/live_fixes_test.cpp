@@ -1,4 +1,4 @@
-// A receiver's own fixes on a loopback socket, as it recorded them.
+// Tests a receiver's own fixes, as it recorded them, on a loopback socket.
 #include "runtime/vehicle/live_fixes.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ TEST(LiveFixes, AreThoseOfARecordingWithItsDamageCounted) {
   std::thread sending([&] {
     ASSERT_TRUE(receiver.answer());
     ASSERT_TRUE(receiver.send("$GNTXT,01,01,02,u-blox AG*4E\r\n" + recording));
-    ASSERT_TRUE(receiver.send(recording.substr(0, 20'000)));  // they have been
+    ASSERT_TRUE(receiver.send(recording.substr(0, 20'000)));  // these have been sent before
   });
   GnssFix fix;
   std::vector<GnssFix> found;

@@ -1,4 +1,5 @@
-// A receiver's observations on a loopback socket: positions as of the same in files.
+// Tests a receiver's observations on a loopback socket: the positions are those of the same
+// observations in files.
 #include "runtime/vehicle/live_receiver.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +24,7 @@ namespace {
 using std::chrono::milliseconds;
 using testing::MemoryBus;
 
-// The drive in Kamakura: what the receiver measured, and what it heard.
+// Returns the drive in Kamakura: the observations, and the ephemerides that the receiver decoded.
 const ppp::GnssFiles& kamakura() {
   static const ppp::GnssFiles files = [] {
     const auto folder = maploop::testing::real_data() / "gnss/kamakura_kinematic";
@@ -35,7 +36,7 @@ const ppp::GnssFiles& kamakura() {
   return files;
 }
 
-// Everything that was heard, before the first epoch.
+// Returns all ephemerides, to be sent before the first epoch.
 std::string ephemerides() {
   std::string bytes;
   for (const ppp::KeplerMessage& m : kamakura().navigation[0].kepler)
@@ -71,7 +72,7 @@ TEST(LiveReceiver, GivesThePositionsOfTheSameObservationsInFiles) {
   ASSERT_TRUE(receiver.send(recording));
   recording.clear();
   for (std::size_t i = 0; i < count; ++i) {
-    // The connection is lost inside a frame; the receiver goes on.
+    // The connection is lost inside a frame, and the receiver goes on.
     if (i == 20) {
       receiver.send(rawx(i).substr(0, 50));
       ASSERT_TRUE(receiver.answer());

@@ -1,4 +1,4 @@
-// The loop through the road map, closed: the mapmatch thread feeds back to the fusion thread.
+// Tests the closed loop through the road map: the mapmatch thread feeds back to the fusion thread.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ using testing::drive_start;
 using testing::fake_calibration;
 using testing::fake_sensors;
 
-constexpr double road_east = 1.0;  // m, of the vehicle's way: the map is that much off
+constexpr double road_east = 1.0;  // m, from the vehicle's path: the error of the map
 
 // The fake drive goes north from 49 N 8.4 E at 10 m/s.
 std::shared_ptr<const RoadMap> north_road() {
@@ -84,7 +84,7 @@ TEST(MapLoop, TightDrawsTheStateToTheRoadAndSaysSo) {
   EXPECT_EQ(tight.channels.at("MAP_FEEDBACK").count, tight.feedbacks.size());
   for (const MapFeedback& f : tight.feedbacks) {
     EXPECT_EQ(f.position || f.azimuth, f.reason == FeedbackReason::none);
-    if (f.stamp == tight.feedbacks.back().stamp) continue;  // of the last tick: after the states
+    if (f.stamp == tight.feedbacks.back().stamp) continue;  // the last tick comes after the states
     EXPECT_EQ(f.available - f.stamp, stages::fusion.budget + stages::mapmatch.budget);
   }
   const double off = loose.states.back().position_enu.x() - tight.states.back().position_enu.x();

@@ -1,5 +1,5 @@
-// The vehicle with a road map: what the mapmatch thread adds to the graph, and what it leaves
-// alone.
+// Tests the vehicle with a road map: what the mapmatch thread adds to the graph, and what it does
+// not change.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -35,7 +35,7 @@ std::shared_ptr<const RoadMap> north_road() {
   return map;
 }
 
-// Visual odometry that goes as the drive does, or turns where it does not.
+// Returns visual odometry that follows the drive, or turns although the drive does not.
 std::unique_ptr<sensors::Source<RelativeMotion>> visual_odometry(double yaw_rate) {
   return std::make_unique<testing::FakeSource<RelativeMotion>>(
       60, [yaw_rate](std::uint64_t i, RelativeMotion& motion) {

@@ -1,4 +1,4 @@
-// A bus that keeps what is sent in memory, and refuses on demand.
+// MemoryBus keeps what is sent in memory, and refuses messages on demand.
 #pragma once
 
 #include <algorithm>
@@ -24,15 +24,16 @@ class MemoryBus final : public MessageSink {
     std::vector<std::uint8_t> data;
   };
 
-  // `refused_from`: this many messages are taken, none after them; 0: all are.
+  // Takes `refused_from` messages and refuses all later ones; 0: takes all.
   explicit MemoryBus(std::uint64_t refused_from = 0) : refused_from_(refused_from) {}
 
   std::string_view name() const override { return "memory"; }
 
-  // After the vehicle's end.
+  // Must be called after the vehicle has ended.
   const std::vector<Kept>& messages() const { return messages_; }
 
-  // Waits until so many messages of a channel have come; false where they have not within a minute.
+  // Waits until `count` messages of a channel have come; returns false if they have not within a
+  // minute.
   bool wait_for(std::string_view channel, std::size_t count) const {
     for (int i = 0; i < 6000; ++i) {
       {
@@ -48,7 +49,8 @@ class MemoryBus final : public MessageSink {
     return false;
   }
 
-  // Every message of one channel, decoded. Throws std::runtime_error where one is not of that type.
+  // Returns every message of one channel, decoded. Throws std::runtime_error if one has another
+  // type.
   template <class Lcm>
   std::vector<Lcm> decoded(std::string_view channel) const {
     std::vector<Lcm> all;

@@ -1,4 +1,4 @@
-// The log, the bus and the hashes, each against LCM's own library.
+// Tests the log, the bus and the hashes, each against LCM's own library.
 #include <gtest/gtest.h>
 
 #include <sys/resource.h>
@@ -63,7 +63,7 @@ TEST(LogRecorder, AFileIsOfOneRecording) {
   }
   lcm::LogFile log(file, "r");
   for (int i = 0; i < 2; ++i) EXPECT_NE(log.readNextEvent(), nullptr) << "the first is whole";
-  const LogRecorder again(file);  // when the first has ended
+  const LogRecorder again(file);  // this is allowed once the first has ended
   const LogRecorder nowhere("/dev/null"), nowhere_else("/dev/null");
 }
 
@@ -74,7 +74,7 @@ std::size_t events_in(const std::string& file) {
   return events;
 }
 
-// The disk is full at a limit that the kernel sets for this process alone.
+// A SmallDisk makes the disk full at a limit that the kernel sets for this process alone.
 class SmallDisk {
  public:
   explicit SmallDisk(rlim_t bytes) {
@@ -144,7 +144,7 @@ TEST(LcmBus, CountsWhatItSent) {
   EXPECT_TRUE(bus.settings().empty()) << "no socket, no buffer";
 }
 
-// Nothing leaves this process: the only message is refused.
+// Nothing leaves this process, because the only message is refused.
 TEST(LcmBus, CountsWhatItCouldNotSendAndSaysItsBuffers) {
   std::optional<LcmBus> bus;
   try {

@@ -1,5 +1,5 @@
-// Measuring allocates nothing. Counts through the replaced global operator new, hence an executable
-// of its own.
+// Tests that measuring allocates nothing. It counts by replacing the global operator new, and so
+// needs an executable of its own.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -12,7 +12,7 @@ namespace {
 std::atomic<long> allocations{0};
 }  // namespace
 
-// Not inlined: GCC would see free() meet what it takes for the library's operator new.
+// This is not inlined, or GCC would warn that free() gets memory of the library's operator new.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++allocations;
   if (void* memory = std::malloc(size)) return memory;

@@ -51,7 +51,7 @@ class PlayerTest : public ::testing::Test {
         parameters);
     player_->start();
   }
-  // With other parameters than the usual ones.
+  // Starts again with other parameters.
   void start_again(const PlayerParameters& parameters) {
     player_.reset();
     tapes.clear();
@@ -61,7 +61,7 @@ class PlayerTest : public ::testing::Test {
   Player& player() { return *player_; }
   Vehicle& vehicle() { return player_->vehicle(); }
 
-  // Bounded by the length of the drive.
+  // The length of the drive bounds this.
   void play_until(Time t) {
     while (vehicle().position() < t && player().update()) tick();
   }
@@ -73,8 +73,8 @@ class PlayerTest : public ::testing::Test {
     while (player().seeking() && player().update()) tick();
   }
   static void tick() { std::this_thread::sleep_for(milliseconds(5)); }
-  // While paused: until everything that is due is done, and still is a moment later: a slow machine
-  // is behind, and where it notices a stall only then, the clock is before its pause again.
+  // Waits, while paused, until everything due is done, and checks it again a moment later: a slow
+  // machine is behind, and a stall that it notices late takes the clock back before its pause.
   // Bounded.
   void settle() {
     const auto done = [&] {
@@ -87,7 +87,7 @@ class PlayerTest : public ::testing::Test {
     }
   }
 
-  std::deque<MessageTape> tapes;  // of each vehicle
+  std::deque<MessageTape> tapes;  // one for each vehicle
   std::vector<Time> resumed_at;
 
  private:
@@ -124,7 +124,7 @@ TEST_F(PlayerTest, AStepGoesToTheNextImageAndNoFurther) {
 }
 
 TEST_F(PlayerTest, AStepGoesToTheNextSample) {
-  player().pause();  // at once: the inertial samples of the drive end before its images
+  player().pause();  // at once, because the inertial samples end before the images
   settle();
   const Time next = vehicle().next_sample();
   player().step_sample();

@@ -1,4 +1,4 @@
-// The loop through the road map with PPP in it: what goes where, and that nothing goes twice.
+// Tests the loop through the road map with PPP: which data go where, and that none are used twice.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -110,7 +110,7 @@ TEST(PppInTheLoop, AStageThatEndsWithAnErrorLeavesTheRestGoingOn) {
         EXPECT_GT(thread.count, 118u) << "the receiver is read to the end";
       }
     }
-    if (stage == "mapmatch") {  // without ppp this drive has nothing that fusion could join
+    if (stage == "mapmatch") {  // without ppp this drive has no input for fusion
       EXPECT_GT(report.data_seconds, 118.0);
     }
   }
@@ -131,7 +131,7 @@ TEST(PppInTheLoop, ASlowStageIsStruckAtEachEpoch) {
 
 TEST(PppInTheLoop, HasTheSameBitsInRealTimeAndResumed) {
   MAPLOOP_REQUIRE_REAL_DATA();
-  const std::vector<Time> cuts{riverside().first_stamp + milliseconds(70'550)};  // fed by then
+  const std::vector<Time> cuts{riverside().first_stamp + milliseconds(70'550)};  // with feedback
   const Driven whole = drive(MapMode::tight, DataClock::virtual_time(), cuts);
   ASSERT_EQ(whole.snapshots.size(), cuts.size());
   const Snapshot& snapshot = whole.snapshots.front();

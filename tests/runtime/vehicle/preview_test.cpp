@@ -1,4 +1,4 @@
-// Pictures and scans for people: who gets them, and what is in them.
+// Tests the pictures and scans for viewers: who gets them, and what they contain.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,7 +56,7 @@ TEST(Preview, ShowsThePictureAndTheScanToThoseWhoLook) {
   VehicleConfig config;
   config.preview.width = 160;
   config.preview.points = 20;
-  config.scheduling.preview.nice = 0;  // a busy machine has time for it, too
+  config.scheduling.preview.nice = 0;  // so that it also runs on a busy machine
   const VehicleReport report = drive(bus, config);
   EXPECT_TRUE(has_thread(report, "preview"));
   ASSERT_FALSE(bus.previews.empty());

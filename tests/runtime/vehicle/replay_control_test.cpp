@@ -1,4 +1,4 @@
-// The player commanded by LCM messages, on a bus inside this process.
+// Tests the player under commands of LCM messages, on a bus inside this process.
 #include "runtime/vehicle/replay_control.h"
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ class ReplayControlTest : public ::testing::Test {
     if (decoded && message.kind == Control::STATE) states_.push_back(message);
   }
 
-  // A few rounds of what the replay's thread does.
+  // Runs a few rounds of what the replay's thread does.
   void look(int rounds = 4) {
     for (int i = 0; i < rounds; ++i) {
       player_.update();
@@ -60,7 +60,7 @@ class ReplayControlTest : public ::testing::Test {
     }
   }
 
-  // For as long as it seeks, within reason: a loaded machine is slow.
+  // Runs while it seeks, with a bound that allows for a loaded machine.
   void look_until_arrived() {
     for (int i = 0; i < 1500 && state().seeking != 0; ++i) look(1);
     look();
@@ -99,10 +99,10 @@ TEST_F(ReplayControlTest, SaysWhatTheDriveIs) {
 
 TEST_F(ReplayControlTest, PausesAndResumes) {
   command(Control::PAUSE);
-  // A stall noticed late takes the clock back before its pause for a moment.
+  // A stall that is noticed late takes the clock back before its pause for a moment.
   for (int i = 0; i < 500 && state().paused != 1; ++i) look(1);
   EXPECT_EQ(state().paused, 1);
-  std::size_t said = 0;  // what was on its way comes first
+  std::size_t said = 0;  // states sent earlier arrive first
   for (int i = 0; i < 50 && states_.size() != said; ++i) {
     said = states_.size();
     look(20);
@@ -136,7 +136,7 @@ TEST_F(ReplayControlTest, SeeksBothWays) {
   command(Control::SEEK, 3.0);
   look_until_arrived();
   EXPECT_EQ(state().seeking, 0);
-  // How far beyond depends on the machine: arrival is noticed from look to look.
+  // The overshoot depends on the machine: arrival is noticed only at the next look.
   constexpr double beyond = 0.5;
   EXPECT_GT(position(), 2.97);
   EXPECT_LT(position(), 3.0 + beyond);
@@ -158,8 +158,8 @@ TEST_F(ReplayControlTest, PlaysToTheNextMiss) {
   command(Control::SPEED, 1000.0);  // stereo must miss
   command(Control::NEXT_MISS);
   EXPECT_EQ(state().refused, "");
-  // Where the whole drive went by before the first look it has ended. A graph that is behind stalls
-  // the clock, and comes to the pause by and by.
+  // If the whole drive passed before the first look, it has ended. A graph that is behind stalls
+  // the clock, and reaches the pause later.
   const auto held = [&] { return state().paused != 0 || !player_.vehicle().running(); };
   for (int i = 0; i < 500 && (player_.vehicle().deadline_misses() == 0 || !held()); ++i) look(1);
   EXPECT_TRUE(held());
@@ -219,7 +219,7 @@ TEST_F(ReplayControlTest, AMessageWhoseTextHasNoEndIsRefused) {
   }();
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(pause.getEncodedSize()));
   pause.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  bytes[bytes.size() - 2] = 0;  // the length of `refused`, with its end: 1
+  bytes[bytes.size() - 2] = 0;  // the length of `refused` with its terminator, which was 1
   ASSERT_EQ(lcm_.publish("REPLAY_CONTROL", bytes.data(), static_cast<unsigned>(bytes.size())), 0);
   look();
   EXPECT_NE(state().refused.find("replay_control_t"), std::string::npos) << state().refused;

@@ -1,4 +1,4 @@
-// Runs that say themselves on one bus.
+// Tests runs that announce themselves on one bus.
 #include "runtime/vehicle/runs.h"
 
 #include <gtest/gtest.h>
@@ -71,7 +71,7 @@ TEST(RunPresence, TwoOnOneBusWarnEachOtherOnce) {
   second.emplace(lcm, new_run("replay of two"),
                  [&](const std::string& text) { second_says.push_back(text); });
   const std::string second_id = second->run().id;
-  // It speaks at once; the first again within a second.
+  // The second announces itself at once, the first again within a second.
   for (int i = 0; i < 1000 && (first_says.empty() || second_says.empty()); ++i) {
     second->update();
     first.update();

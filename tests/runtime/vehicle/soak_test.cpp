@@ -1,6 +1,6 @@
-// A long run on made-up sensors with faults now and then: memory stays flat, every loss is
-// accounted for, and no thread ends. MAPLOOP_SOAK_SECONDS lengthens it (of data; virtual time). It
-// takes 15 s because only over minutes of data does a leak of a few bytes a tick stand out.
+// Tests a long run on synthetic sensors with faults now and then: memory stays constant, every loss
+// is counted, and no thread ends. MAPLOOP_SOAK_SECONDS lengthens it (of data; virtual time). It
+// takes 15 s, because a leak of a few bytes a tick shows only over minutes of data.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -41,7 +41,8 @@ TEST(Soak, MemoryStaysFlatAndLossesBalance) {
   }
   FaultInjection injection(std::move(faults), drive_start);
   ChannelHashes hashes;
-  // The least in use: what threads hold for a moment comes and goes with the machine's load.
+  // These are the least bytes in use, because what threads hold for a moment varies with the
+  // machine's load.
   std::size_t when_warm = std::numeric_limits<std::size_t>::max(), later = when_warm;
   std::uint64_t states = 0;
   Observer observer;

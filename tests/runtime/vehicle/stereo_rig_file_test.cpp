@@ -10,7 +10,7 @@
 namespace maploop::vehicle {
 namespace {
 
-// Parallel cameras half a metre apart, with lenses of their own.
+// Returns parallel cameras half a metre apart, with different lenses.
 sensors::StereoRig rig() {
   sensors::StereoRig r;
   r.width = 640;

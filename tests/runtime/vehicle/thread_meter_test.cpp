@@ -16,7 +16,7 @@ using std::chrono::milliseconds;
 constexpr Time start = from_nanoseconds(1'317'042'651'000'000'000);
 constexpr Stage stage{"fusion", "", "", milliseconds(10), {}, milliseconds(2), 0.0, 0.0};
 
-// The i-th tick, woken so late, on a clock that has not been read.
+// Records the i-th tick, woken `late` after it was due.
 void wake(ThreadMeter& meter, const DataClock& clock, int i, Duration late,
           std::uint64_t left_out = 0) {
   const MonotonicTime due{i * milliseconds(10)};
