@@ -19,8 +19,8 @@ HEAVY = ("opencv2", "opencv", "pcl", "toml++", "toml.hpp", "nlohmann", *LCM)
 EVERYTHING_BELOW_VEHICLE = ["msgs", "msgs/lcm", "runtime/core", "sensors", "estimators", "mapmatch",
                             "ppp"]
 
-# Folder -> folders it may include besides itself. The longest name that fits a file counts, so that
-# estimators/stereo and estimators/fusion are two folders; each new one is written down here.
+# Maps a folder to the folders that it may include besides itself. The longest name that fits a file
+# counts, so that estimators/stereo and estimators/fusion are two folders. Each new folder is added here.
 ALLOWED = {
     "msgs": [],
     "msgs/lcm": ["msgs"],
@@ -35,7 +35,7 @@ ALLOWED = {
     "tools": [*EVERYTHING_BELOW_VEHICLE, "runtime/vehicle"],
     "tests": [*EVERYTHING_BELOW_VEHICLE, "runtime/vehicle", "tools"],
 }
-# Where LCM may be included, and whose headers may bring in anything.
+# The first may include LCM; the headers of the second may bring in anything.
 USES_LCM = ("msgs/lcm", "sensors", "runtime/vehicle", "tools", "tests")
 FREE_HEADERS = ("msgs/lcm", "tests")
 
@@ -50,12 +50,12 @@ def below(path, folder):
 
 
 def folder_of(path):
-    """The folder of ALLOWED that a path belongs to, or None."""
+    """Returns the folder of ALLOWED that a path belongs to, or None."""
     return max((folder for folder in ALLOWED if below(path, folder)), key=len, default=None)
 
 
 def permits(allowed, target):
-    """Whether a list of folders covers a target: "msgs" does not cover "msgs/lcm"."""
+    """Returns whether a list of folders covers a target; "msgs" does not cover "msgs/lcm"."""
     return any(below(target, folder) for folder in allowed
                if not (folder == "msgs" and below(target, "msgs/lcm")))
 
@@ -71,17 +71,17 @@ def sources(root):
 
 
 def without_comments(text):
-    """Comments blanked, lines kept where they are. (A // inside a string ends no include.)"""
+    """Blanks comments and keeps the lines in their places. (No include is after a // in a string.)"""
     return COMMENT.sub(lambda match: re.sub(r"[^\n]", " ", match.group()), text)
 
 
 def includes(root, source):
-    """(line, name, whether it is meant to be a file of ours, text of a computed include) of each."""
+    """Yields (line, name, whether it is meant to be a file of ours, text of a computed include)."""
     with open(os.path.join(root, source), encoding="utf-8", errors="replace") as file:
         text = without_comments(file.read())
     for match in INCLUDE.finditer(text):
         quote, name, computed = match.groups()
-        # In quotes it is meant to be ours, unless it is a known library.
+        # An include in quotes is meant to be ours, unless it is a known library.
         ours = name is not None and (folder_of(name) or (quote == '"' and not is_heavy(name)))
         yield text.count("\n", 0, match.start()) + 1, name, bool(ours), computed
 
@@ -91,7 +91,7 @@ def is_heavy(name):
 
 
 def chain_to_heavy(root, header, seen):
-    """The includes that lead from a header to a heavy library, the library last; or None."""
+    """Returns the includes that lead from a header to a heavy library, the library last; or None."""
     if header in seen or folder_of(header) in FREE_HEADERS:
         return None
     seen.add(header)
@@ -109,7 +109,7 @@ def chain_to_heavy(root, header, seen):
 
 
 def wrong_include(root, source, name, ours):
-    """Why a source must not include `name`, or None."""
+    """Returns why a source must not include `name`, or None."""
     folder = folder_of(source)
     if not ours:
         if name.split("/")[0] in LCM and folder not in USES_LCM:
@@ -131,7 +131,7 @@ def wrong_include(root, source, name, ours):
 
 
 def violations(root):
-    """Every include against the arrows, as 'file:line: include: why'."""
+    """Returns every include against the arrows, as 'file:line: include: why'."""
     found = []
     for source in sources(root):
         if folder_of(source) is None:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The checker itself, on made-up trees."""
+"""Tests the checker itself on synthetic trees."""
 import os
 import subprocess
 import sys
@@ -8,7 +8,7 @@ import unittest
 
 CHECKER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "include_arrows.py")
 
-# What a good tree holds, so that includes find their files.
+# A good tree contains these files, so that includes find them.
 GOOD = {
     "msgs/time.h": "#include <cstdint>\n#include <Eigen/Core>\n",
     "msgs/lcm/conversions.h": '#include <maploop_lcm/imu_t.hpp>\n#include "msgs/time.h"\n',
@@ -27,12 +27,12 @@ GOOD = {
     "tools/main.cpp": '#include "runtime/vehicle/vehicle.h"\n#include <toml++/toml.h>\n',
     "tests/msgs/time_test.cpp": '#include "msgs/time.h"\n#include "tools/score.h"\n',
     "tools/score.h": '#include "msgs/time.h"\n',
-    "build/release/generated.h": '#include "nowhere.h"\n',  # not looked at
+    "build/release/generated.h": '#include "nowhere.h"\n',  # this is not checked
 }
 
 
 def check(tree):
-    """The checker's exit status and output on a tree of {name: text}."""
+    """Returns the checker's exit status and output on a tree of {name: text}."""
     with tempfile.TemporaryDirectory() as root:
         for name, text in tree.items():
             path = os.path.join(root, name)
