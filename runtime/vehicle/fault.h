@@ -74,7 +74,7 @@ struct Fault {
   int threads = 0;
 };
 
-// A hog ends after this time at the latest, so that nobody waits long for a busy machine.
+// A hog ends after this time at the latest, so that the machine is soon usable again.
 inline constexpr Duration longest_hog = std::chrono::seconds(60);
 
 // Throws std::invalid_argument naming the text, what is wrong with it, and what would be allowed.

@@ -42,7 +42,7 @@ class Meter {
   bool record(const Timing& timing);
 
   // Records that the schedule of a periodic task was moved by `shift`. The ticks that would have
-  // been late meanwhile are now on time, and are added to the omitted waits.
+  // been late meanwhile are now on time; their waits are added to the omitted ones.
   void record_shift(Duration shift, Duration interval) { omitted_.record_omitted(shift, interval); }
 
   const std::string& name() const { return name_; }

@@ -16,7 +16,7 @@ struct PlayerParameters {
   Time first{};  // start of the recording, or where its replay resumes
   Time last{};   // end of the recording
   Time start{};  // each pass goes to this time as fast as the graph can
-  Duration snapshot_every = std::chrono::seconds(2);  // a seek repeats half of it, on average
+  Duration snapshot_every = std::chrono::seconds(2);  // a seek back repeats half of it, on average
   std::size_t snapshots = 16;  // kept at most (size: snapshot.h); 0: going back restarts
   std::uint64_t passes = 1;    // how often the recording is played
 };
