@@ -1,4 +1,4 @@
-// The one interface of a driver that replays recorded samples.
+// This file defines the interface of all drivers that replay recorded samples.
 #pragma once
 
 #include <cstddef>
@@ -9,21 +9,21 @@
 
 namespace maploop::sensors {
 
-// Something wrong in the recording: where, and what.
+// Describes an error in the recording: where, and what.
 struct Finding {
   std::string file;
-  std::size_t line = 0;  // from 1; 0: the whole file
+  std::size_t line = 0;  // from 1; 0 means the whole file
   std::string reason;
 };
 
-// What became of the recording so far. Counts are complete; of the findings only the first
-// `max_findings` of each kind are kept, so that a broken recording cannot fill the memory.
+// Counts what was read of the recording so far. Counts are complete; only the first `max_findings`
+// findings of each kind are kept, so that a broken recording cannot fill the memory.
 struct SourceReport {
   static constexpr std::size_t max_findings = 100;
 
   std::uint64_t delivered = 0;
   std::uint64_t refused = 0;  // samples left out
-  std::uint64_t flawed = 0;   // delivered, but with a part left out (points of a scan)
+  std::uint64_t flawed = 0;   // samples delivered with a part left out (points of a scan)
   std::vector<Finding> refusals;
   std::vector<Finding> flaws;
 
@@ -37,9 +37,9 @@ struct SourceReport {
   }
 };
 
-// A recorded sensor, read one sample at a time in the order of time. `stamp` and `available` of
-// what is delivered strictly increase; `sequence` is the recording's own number, so that a sample
-// left out shows as a gap. For one thread at a time; different sources share nothing that changes.
+// Reads a recorded sensor, one sample at a time in the order of time. `stamp` and `available` of
+// the delivered samples strictly increase; `sequence` is the recording's own number, so that an
+// omitted sample shows as a gap. One thread at a time; different sources share no mutable data.
 template <class T>
 class Source {
  public:
@@ -48,9 +48,9 @@ class Source {
   Source(const Source&) = delete;
   Source& operator=(const Source&) = delete;
 
-  // Fills `sample` in place, reusing its buffers; false at the end (`sample` is then not to be
-  // used). What is missing, cut or unreadable is left out and reported, never an exception. Sets
-  // all but `received`, which belongs to whoever releases the sample.
+  // Fills `sample` in place, reusing its buffers; returns false at the end, when `sample` must not
+  // be used. Missing, cut or unreadable samples are left out and reported; they never throw. Sets
+  // all members but `received`, which is set by the caller that releases the sample.
   virtual bool next(T& sample) = 0;
 
   virtual const SourceReport& report() const = 0;

@@ -1,4 +1,4 @@
-// One raw camera: pinhole with lens distortion.
+// This file models one raw camera as a pinhole with lens distortion.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,26 +21,27 @@ struct CameraModel {
   }
 };
 
-// Where a ray through (x, y, 1), undistorted, meets the image. Nothing where the model is no lens
-// any more: far outside of the image the polynomial turns back, and would show a second time what
-// is seen already.
+// Returns the pixel at which the undistorted ray (x, y, 1) meets the image. Returns nothing where
+// the model is no longer a valid lens: far outside of the image the polynomial turns back, and
+// would show a second time what is already visible.
 std::optional<Eigen::Vector2d> project(const CameraModel& camera, const Eigen::Vector2d& ray);
 
-// The ray of a pixel, by Newton's method; nothing where no ray ends there.
+// Returns the undistorted ray (x, y, at unit depth) of a pixel by Newton's method, or nothing if no
+// ray ends there.
 std::optional<Eigen::Vector2d> ray_of(const CameraModel& camera, const Eigen::Vector2d& pixel);
 
-// Coefficients of the other direction, fitted over a grid that covers the image: five coefficients
-// cannot reverse five others exactly.
+// These coefficients work in the other direction. They are fitted over a grid that covers the
+// image, because five coefficients cannot reverse five others exactly.
 struct ReversedDistortion {
   Distortion distortion;
   double largest_error = 0.0;  // px, of the fit
 };
 
-// From undistorted -> distorted, as `camera` has them, to distorted -> undistorted. Pixels
-// that no ray ends at do not count; throws std::runtime_error where they are most.
+// Converts the coefficients of `camera`, undistorted -> distorted, to distorted -> undistorted.
+// Pixels at which no ray ends are ignored; throws std::runtime_error if they are the majority.
 ReversedDistortion reversed(const CameraModel& camera, int width, int height);
 
-// The way back: `camera` has coefficients distorted -> undistorted.
+// Converts back: `camera` has coefficients distorted -> undistorted.
 ReversedDistortion from_reversed(const CameraModel& camera, int width, int height);
 
 }  // namespace maploop::sensors

@@ -1,4 +1,4 @@
-// Three radial and two tangential coefficients of a lens.
+// This file describes a lens by three radial and two tangential coefficients.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,12 +6,13 @@
 
 namespace maploop::sensors {
 
-// The polynomial of Brown (1966) on normalized image coordinates (at unit depth), r^2 = x^2 + y^2:
+// This is the polynomial of Brown (1966) on normalized image coordinates (at unit depth), with
+// r^2 = x^2 + y^2:
 //   x' = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2)
 //   y' = y (1 + k1 r^2 + k2 r^4 + k3 r^6) + p1 (r^2 + 2 y^2) + 2 p2 x y
-// OpenCV, ROS (plumb_bob), Kalibr (radtan) and KITTI go from undistorted to distorted with it, and
-// so does everything here; photogrammetry from distorted to undistorted. The
-// coefficients of one direction are not those of the other: see reversed() of camera_model.h.
+// OpenCV, ROS (plumb_bob), Kalibr (radtan), KITTI and this project apply it from undistorted to
+// distorted; photogrammetry applies it from distorted to undistorted. The coefficients of one
+// direction are not those of the other: see reversed() of camera_model.h.
 struct Distortion {
   double k1 = 0.0, k2 = 0.0, p1 = 0.0, p2 = 0.0, k3 = 0.0;  // in OpenCV's order
 };
@@ -19,13 +20,14 @@ struct Distortion {
 struct DistortedPoint {
   Eigen::Vector2d point;
   Eigen::Matrix2d by_point;
-  Eigen::Matrix<double, 2, 5> by_coefficients;  // k1 k2 p1 p2 k3; does not depend on them
+  Eigen::Matrix<double, 2, 5> by_coefficients;  // k1 k2 p1 p2 k3; independent of their values
 };
 
-// The polynomial and its derivatives at `x`.
+// Evaluates the polynomial and its derivatives at the normalized point `x`.
 DistortedPoint apply(const Distortion& distortion, const Eigen::Vector2d& x);
 
-// The coefficients that take `from` to `to` best, by linear least squares; at least three points.
+// Returns the coefficients that map `from` to `to` best, by linear least squares over at least
+// three normalized points.
 Distortion fit_distortion(const std::vector<Eigen::Vector2d>& from,
                           const std::vector<Eigen::Vector2d>& to);
 

@@ -1,4 +1,4 @@
-// From the images of raw cameras to rectified ones.
+// This file converts the images of raw cameras to rectified images.
 #pragma once
 
 #include <memory>
@@ -9,19 +9,19 @@
 
 namespace maploop::sensors {
 
-// Looks every rectified pixel up in a map made beforehand, between the four raw pixels around it
-// (positions to 1/256 px). What the raw camera does not see is black. One thread at a time;
-// allocates nothing once `rectified` has had its size.
+// Looks up each rectified pixel in a map made beforehand, and interpolates between the four raw
+// pixels around that place (positions to 1/256 px). Pixels that the raw camera does not see are
+// black. One thread at a time; does not allocate once `rectified` has its size.
 class Rectifier {
  public:
-  // Throws std::invalid_argument that says what is wrong with the rig (problem_of()).
+  // Throws std::invalid_argument that states what is wrong with the rig (see problem_of()).
   explicit Rectifier(const StereoRig& rig);
   ~Rectifier();
   Rectifier(Rectifier&&) noexcept;
   Rectifier& operator=(Rectifier&&) noexcept;
 
-  // Images of another size than the rig's throw std::invalid_argument. Two different pairs. Stamps
-  // and number go along.
+  // Throws std::invalid_argument if the images are not of the rig's size. The two pairs must be
+  // different objects. Stamps and sequence number are copied.
   void rectify(const StereoPair& raw, StereoPair& rectified) const;
 
  private:
@@ -29,7 +29,7 @@ class Rectifier {
   std::unique_ptr<Maps> maps_;
 };
 
-// The rectified pairs of raw ones. Pairs available up to `passed` have no pixels to rectify.
+// Returns a source of rectified pairs. Pairs available up to `passed` have no pixels to rectify.
 std::unique_ptr<Source<StereoPair>> make_rectified_source(std::unique_ptr<Source<StereoPair>> raw,
                                                           const StereoRig& rig,
                                                           Time passed = Time::min());

@@ -1,4 +1,4 @@
-// Two raw cameras, how they stand to each other, and how their images are rectified.
+// This file describes two raw cameras, their relative pose, and how their images are rectified.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -15,26 +15,28 @@ struct StereoRig {
   CameraModel left, right;
   Eigen::Isometry3d T_right_left = Eigen::Isometry3d::Identity();  // of the raw cameras
 
-  // Raw to rectified camera.
+  // These rotations take the raw camera frame to the rectified one.
   Eigen::Matrix3d R_rect_left = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d R_rect_right = Eigen::Matrix3d::Identity();
   StereoCalibration rectified;  // T_body_cam is not set: see mounted()
 
-  // Where the raw left camera sits, if that is known.
+  // Pose of the raw left camera in the body frame, if it is known.
   std::optional<Eigen::Isometry3d> T_body_left;
 };
 
-// The rectified pair, of a raw left camera that sits there.
+// Returns the rectified calibration of a rig whose raw left camera has the pose `T_body_left`.
 StereoCalibration mounted(const StereoRig& rig, const Eigen::Isometry3d& T_body_left);
 
-// What is wrong with it, or nothing: sizes, focal lengths, a distortion that turns back in most of
-// the image, rotations that are none (to 1e-6), a rectification that does not fit the extrinsics
-// (rows apart by more than half a pixel at the far corners, or another baseline).
+// Returns what is wrong with the rig, or nothing. It checks sizes, focal lengths, a distortion that
+// turns back in most of the image, matrices that are not rotations (to 1e-6), and a rectification
+// that does not fit the extrinsics (rows apart by more than half a pixel at the far corners, or a
+// different baseline).
 std::optional<std::string> problem_of(const StereoRig& rig);
 
-// x_right^T E x_left = 0 for normalized undistorted points.
+// Returns E with x_right^T E x_left = 0 for normalized undistorted points.
 Eigen::Matrix3d essential_matrix(const StereoRig& rig);
-// u_right^T F u_left = 0 for undistorted pixels of the raw cameras; of Frobenius norm 1.
+// Returns F with u_right^T F u_left = 0 for undistorted pixels of the raw cameras; its Frobenius
+// norm is 1.
 Eigen::Matrix3d fundamental_matrix(const StereoRig& rig);
 
 }  // namespace maploop::sensors

@@ -1,23 +1,23 @@
-// The clock that live samples are stamped with.
+// This file provides the clock that stamps live samples.
 #pragma once
 
 #include "msgs/time.h"
 
 namespace maploop::sensors {
 
-// UTC as this machine had it at the start, and from then on by its steady clock: setting the
-// machine's clock, or a leap second, moves no stamp. step() tells how far they are apart by now.
-// For any thread.
+// Follows UTC as this machine had it at the start, and advances with the steady clock from then on:
+// setting the machine's clock, or a leap second, does not move any stamp. step() returns how far
+// the two are apart now. May be used by any thread.
 class HostClock {
  public:
-  // `now_utc`: the machine's clock, or another for a test of what follows when it is set.
+  // `now_utc` is the machine's clock; a test may pass another one that it can set.
   explicit HostClock(Time (*now_utc)() = machine_utc)
       : now_utc_(now_utc), utc_(now_utc()), steady_(steady()) {}
 
   Time now() const { return utc_ + (steady() - steady_); }
-  // When it shows t, on the steady clock.
+  // Returns the time on the steady clock at which this clock shows t.
   MonotonicTime shows(Time t) const { return steady_ + (t - utc_); }
-  // How much the machine's clock was set ahead since the start.
+  // Returns by how much the machine's clock was set ahead since the start.
   Duration step() const { return now_utc_() - now(); }
 
   static Time machine_utc() {

@@ -1,4 +1,4 @@
-// NMEA 0183 sentences.
+// This file parses NMEA 0183 sentences.
 #pragma once
 
 #include <array>
@@ -10,31 +10,31 @@
 
 namespace maploop::sensors {
 
-// Views into the line it was parsed from.
+// The members are views into the line that was parsed.
 struct NmeaSentence {
   static constexpr std::size_t max_fields = 40;  // GSV, the longest, has 21
 
-  std::string_view talker;  // "GP", "GN"; empty of a proprietary sentence
-  std::string_view kind;    // "RMC"; of a proprietary sentence all of its name
-  std::array<std::string_view, max_fields> fields{};  // after the name
+  std::string_view talker;  // "GP", "GN"; empty for a proprietary sentence
+  std::string_view kind;    // "RMC"; the whole name of a proprietary sentence
+  std::array<std::string_view, max_fields> fields{};  // the fields after the name
   std::size_t count = 0;
 
-  // Empty where there is none.
+  // Returns an empty view if the field does not exist.
   std::string_view field(std::size_t i) const { return i < count ? fields[i] : std::string_view(); }
   std::optional<double> number(std::size_t i) const;  // finite
 };
 
-// `line` with or without its end. Nothing where it is no sentence, has no checksum or a wrong one,
-// or more fields than any sentence has.
+// Parses a line with or without its line end. Returns nothing if it is not a sentence, has no
+// checksum or a wrong one, or has more than max_fields fields.
 std::optional<NmeaSentence> parse_nmea(std::string_view line);
 
-// "hhmmss[.fff]" as time since midnight; a leap second is the midnight after it.
+// Parses "hhmmss[.fff]" as time since midnight; a leap second is the midnight after it.
 std::optional<Duration> nmea_time_of_day(std::string_view text);
 
-// "ddmmyy", of the years 1980 to 2079.
+// Parses "ddmmyy" of the years 1980 to 2079 as UTC midnight.
 std::optional<Time> nmea_date(std::string_view text);
 
-// "ddmm.mmmm" or "dddmm.mmmm" and its hemisphere, rad.
+// Parses "ddmm.mmmm" or "dddmm.mmmm" with its hemisphere; rad, north and east positive.
 std::optional<double> nmea_angle(std::string_view digits, std::string_view hemisphere);
 
 }  // namespace maploop::sensors

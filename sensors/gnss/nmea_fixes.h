@@ -1,4 +1,4 @@
-// Fixes out of the NMEA sentences of a GNSS receiver.
+// This file makes fixes from the NMEA sentences of a GNSS receiver.
 #pragma once
 
 #include <cstdint>
@@ -12,42 +12,43 @@
 namespace maploop::sensors {
 
 struct NmeaParameters {
-  // s from the moment of a fix to the end of its sentences, at least: receivers take 0.03 to 0.1.
+  // Minimum time in s from a fix to the end of its sentences; receivers take 0.03 to 0.1 s.
   double latency = 0.05;
-  double max_hdop = 20.0;  // more is no fix
+  double max_hdop = 20.0;  // a fix with a larger HDOP is refused
   double vertical_sigma =
-      0.5;  // m/s, of the climb, which no sentence tells: 3 deg of slope at 10 m/s
+      0.5;  // m/s, of the climb, which no sentence contains: 3 deg of slope at 10 m/s
   double velocity_sigma = 0.1;  // m/s, of speed over ground (Doppler)
 };
 
 struct NmeaCounts {
   std::uint64_t fixes = 0;
   std::uint64_t sentences = 0;
-  std::uint64_t damaged = 0;   // lines without a right checksum
-  std::uint64_t no_fix = 0;    // epochs of which the receiver says so, or with too large a HDOP
-  std::uint64_t repeated = 0;  // epochs not later than the one before
+  std::uint64_t damaged = 0;   // lines without a valid checksum
+  std::uint64_t no_fix = 0;    // epochs that the receiver marks as invalid, or with too large an
+                               // HDOP
+  std::uint64_t repeated = 0;  // epochs not later than the previous one
 };
 
-// A fix is one epoch's GGA (position, quality) and RMC (date, velocity), in either order; its
-// covariance is that of a GST before the second of them, else HDOP times what the quality is worth
-// (3 m alone, 1 m differential, 0.3 m float, 0.03 m fixed). Stamps are on the host's clock
-// (ClockOffset). One thread at a time; allocates nothing.
+// A fix combines one epoch's GGA (position, quality) and RMC (date, velocity), in either order. Its
+// covariance comes from a GST received before the second of them; otherwise it is HDOP times a
+// sigma that depends on the quality (3 m autonomous, 1 m differential, 0.3 m float, 0.03 m fixed).
+// Stamps are on the host's clock (ClockOffset). One thread at a time; does not allocate.
 class NmeaFixes {
  public:
   explicit NmeaFixes(const NmeaParameters& parameters = {}) : parameters_(parameters) {}
 
-  // A line and when it arrived: true when it completed an epoch, which is then in `fix`.
+  // Takes a line and its arrival; returns true if it completed an epoch, which is then in `fix`.
   bool add(std::string_view line, Time arrival, GnssFix& fix);
 
   const NmeaCounts& counts() const { return counts_; }
-  // UTC of the receiver minus the host's clock, by the latency; nothing until it is known.
+  // UTC of the receiver minus the host's clock, given the latency; nothing until it is known.
   std::optional<Duration> utc_offset() const { return utc_offset_; }
   const ClockOffset& clock() const { return clock_; }
-  std::uint64_t jumps() const { return jumps_; }  // of the receiver's clock, or the host's
+  std::uint64_t jumps() const { return jumps_; }  // of the receiver's clock or the host's
 
  private:
   struct Position {
-    Duration time{};  // of the day
+    Duration time{};  // since midnight
     Geodetic position;
     double sigma_horizontal = 0.0, sigma_vertical = 0.0;  // m
   };
@@ -76,7 +77,7 @@ class NmeaFixes {
   std::optional<Motion> motion_;
   std::optional<Errors> errors_;
   Time last_ = Time::min();        // UTC of the last epoch
-  bool leap_ = false;              // that was a leap second
+  bool leap_ = false;              // the last epoch was a leap second
   Time last_stamp_ = Time::min();  // of the last fix
 };
 

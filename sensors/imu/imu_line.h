@@ -1,11 +1,11 @@
-// One inertial sample as a line of text: for units that maploop does not know, through a program of
-// a few lines beside them.
+// This file defines one inertial sample as a line of text, for units that maploop does not support
+// itself: a program of a few lines converts their data.
 //
 //   $PIMU,12.345678,0.0123,-0.0456,0.000789*hh
 //
-// a sentence as NMEA 0183 has them, with its checksum: time of the measurement on the unit's own
-// clock (s, from anywhere, increasing), specific force forward and left (m/s^2), yaw rate, positive
-// to the left (rad/s).
+// The line is a sentence in the form of NMEA 0183 with its checksum: time of the measurement on the
+// unit's own clock (s, any origin, increasing), specific force forward and left (m/s^2), yaw rate,
+// positive to the left (rad/s).
 #pragma once
 
 #include <optional>
@@ -23,11 +23,11 @@ struct ImuLine {
   double yaw_rate = 0.0;
 };
 
-// Nothing where it is no such line, its checksum is wrong, or a value cannot be of a vehicle
-// (500 m/s^2, 100 rad/s, 30 years).
+// Returns nothing if the line is not such a sentence, its checksum is wrong, or a value is out of
+// range for a vehicle (500 m/s^2, 100 rad/s, 30 years).
 std::optional<ImuLine> parse_imu_line(std::string_view line);
 
-// With its end.
+// Returns the line with its line end.
 std::string imu_line(const ImuLine& sample);
 
 }  // namespace maploop::sensors

@@ -1,4 +1,4 @@
-// NCOM, the output of OXTS inertial units (RT3003 and its kin).
+// This file parses NCOM, the output of OXTS inertial units (RT3003 and similar).
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,9 @@ namespace maploop::sensors {
 
 constexpr std::size_t ncom_size = 72;  // bytes
 
-// A packet of structure A, its first batch: what the inertial sensors measure.
+// This is the first batch of a packet of structure A: what the inertial sensors measure.
 struct NcomSample {
-  std::uint16_t minute_ms = 0;          // since the minute of GPS time began
+  std::uint16_t minute_ms = 0;          // ms since the start of the minute of GPS time
   double specific_force_forward = 0.0;  // m/s^2
   double specific_force_left = 0.0;     // m/s^2
   double yaw_rate = 0.0;                // rad/s, positive when turning left
@@ -26,20 +26,22 @@ enum class NcomFault : std::uint8_t {
   wrong_size,
   no_sync,
   wrong_checksum,
-  not_inertial,  // sound, but of structure B, or the unit's sensors are not running yet
+  not_inertial,  // valid, but of structure B, or the unit's sensors are not running yet
   out_of_range
 };
 constexpr std::size_t ncom_fault_count = 6;
 
-// NCOM's axes are forward, right, down. `bytes` is one packet; OXTS "NCOM data packet" manual,
-// section 1 (all three checksums are checked).
+// Parses one packet and checks all three checksums; NCOM's own axes are forward, right, down.
+// Source: OXTS "NCOM data packet" manual, section 1. Returns nothing, and the reason in `fault`, if
+// the packet cannot be used.
 std::optional<NcomSample> parse_ncom(std::span<const std::uint8_t> bytes, NcomFault& fault);
 
-// Keeps the milliseconds of the minute going, on the host's clock. One thread at a time.
+// Extends the milliseconds of the minute to a continuous time on the host's clock. One thread at a
+// time.
 class NcomClock {
  public:
-  // When a sample was taken that has arrived then; nothing where it is not later than the one
-  // before.
+  // Returns when a sample was taken that arrived at `arrival`, or nothing if that is not later than
+  // the previous one.
   std::optional<Time> stamp(std::uint16_t minute_ms, Time arrival);
 
   const ClockOffset& offset() const { return offset_; }

@@ -1,4 +1,4 @@
-// NCOM as an OXTS unit sends it: the other way round than ncom.h.
+// This file encodes NCOM as an OXTS unit sends it: the inverse of ncom.h.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@ namespace maploop::sensors {
 
 using NcomBytes = std::array<std::uint8_t, ncom_size>;
 
-// Of a locked unit. Specific forces in m/s^2, the yaw rate in rad/s; axes forward, left, up. They
-// are rounded to 1e-4 m/s^2 and 1e-5 rad/s.
+// Makes a packet of a unit whose status is locked. Specific forces are in m/s^2, the yaw rate in
+// rad/s; axes are forward, left, up. Values are rounded to 1e-4 m/s^2 and 1e-5 rad/s.
 inline NcomBytes ncom_packet(std::uint16_t minute_ms, double forward, double left,
                              double yaw_rate) {
   NcomBytes bytes{};

@@ -1,4 +1,4 @@
-// Bytes from a sensor, over whatever it is connected with.
+// This file reads the bytes that a sensor sends over UDP, TCP or a serial line.
 #pragma once
 
 #include <cstdint>
@@ -14,33 +14,33 @@ namespace maploop::sensors {
 
 struct ConnectionState {
   bool open = false;
-  std::uint64_t opened = 0;  // times
+  std::uint64_t opened = 0;  // how often it was opened
   std::uint64_t bytes = 0;
-  std::uint64_t too_large = 0;  // datagrams, left out
-  std::string problem;          // why it is not open; empty while it is
+  std::uint64_t too_large = 0;  // datagrams that were dropped
+  std::string problem;          // why it is not open; empty while it is open
 };
 
-// Where a sensor's bytes come from. One thread at a time.
+// This is the interface to any origin of a sensor's bytes. One thread at a time.
 class ByteStream {
  public:
   virtual ~ByteStream() = default;
-  // What has come. Waits at most `patience` for it; 0: nothing. What is read after a reconnection
-  // does not go on from what was read before it: see state().opened.
+  // Returns the number of bytes received, waiting at most `patience` for them; 0 if nothing came.
+  // Bytes read after a reconnection do not continue those read before it: see state().opened.
   virtual std::size_t read(std::span<std::uint8_t> to, Duration patience) = 0;
   virtual const ConnectionState& state() const = 0;
-  virtual const std::string& name() const = 0;  // as it was given, without what is secret
+  virtual const std::string& name() const = 0;  // as it was given, without secrets
 };
 
-// One that can be answered to.
+// This is a stream that can also be written to.
 class TwoWayStream : public ByteStream {
  public:
-  // False where the system does not take all of it at once, or it is not open.
+  // Returns false if the stream is not open, or the system does not accept all of `text` at once.
   virtual bool write(std::string_view text) = 0;
 };
 
-// Opens by itself, and again where the sensor was unplugged or its host went away, one attempt
-// every half second; missing it is no error. Never blocks for longer than it is told to. One thread
-// at a time.
+// Opens automatically, and again after the sensor was unplugged or its host went away, with one
+// attempt every half second; a missing sensor is not an error. Never blocks for longer than
+// `patience`. One thread at a time.
 class Connection final : public TwoWayStream {
  public:
   explicit Connection(Endpoint endpoint) : endpoint_(std::move(endpoint)) {}
@@ -48,15 +48,15 @@ class Connection final : public TwoWayStream {
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
-  // One datagram, or bytes of the stream.
+  // Reads one datagram, or bytes of the stream.
   std::size_t read(std::span<std::uint8_t> to, Duration patience) override;
-  // Over tcp alone.
+  // Works over tcp only.
   bool write(std::string_view text) override;
 
   const Endpoint& endpoint() const { return endpoint_; }
   const ConnectionState& state() const override { return state_; }
   const std::string& name() const override { return endpoint_.text; }
-  // The one that a udp endpoint listens on; 0 while it is not open.
+  // Returns the port that a udp endpoint listens on; 0 while it is not open.
   std::uint16_t port() const;
 
  private:

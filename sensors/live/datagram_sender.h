@@ -1,4 +1,4 @@
-// Datagrams to one address.
+// This file sends datagrams to one address.
 #pragma once
 
 #include <cstdint>
@@ -8,17 +8,17 @@
 
 namespace maploop::sensors {
 
-// One thread at a time.
+// One thread at a time may use a sender.
 class DatagramSender {
  public:
-  // Throws std::invalid_argument where the endpoint is not udp, std::runtime_error where there can
-  // be no socket.
+  // Throws std::invalid_argument if the endpoint is not udp, and std::runtime_error if no socket
+  // can be made.
   explicit DatagramSender(const Endpoint& to);
   ~DatagramSender();
   DatagramSender(const DatagramSender&) = delete;
   DatagramSender& operator=(const DatagramSender&) = delete;
 
-  // False where the system did not take it; that nobody listens is no error.
+  // Returns false if the system did not accept the datagram; a missing listener is not an error.
   bool send(std::span<const std::uint8_t> bytes) const;
 
  private:

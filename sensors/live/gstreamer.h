@@ -1,4 +1,4 @@
-// GStreamer's objects, owned. For the .cpp files of this folder alone.
+// This file owns GStreamer's objects. Only the .cpp files of this folder include it.
 #pragma once
 
 #include <gst/gst.h>
@@ -19,11 +19,11 @@ struct GstUnref {
 template <class T>
 using GstOwned = std::unique_ptr<T, GstUnref>;
 
-// Initializes GStreamer. Throws std::invalid_argument: what it says of `given`, the part of the
-// whole text that the user wrote.
+// Initializes GStreamer and parses the pipeline `whole`. Throws std::invalid_argument with
+// GStreamer's message and `given`, the part of the text that the user wrote.
 GstOwned<GstElement> parse_pipeline(const std::string& whole, const std::string& given);
 
-// What an error message says.
+// Returns the text of an error message, without secrets.
 std::string error_text(GstMessage* message);
 
 }  // namespace maploop::sensors

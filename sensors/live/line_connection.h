@@ -1,4 +1,4 @@
-// Lines of text from a sensor, over whatever it is connected with.
+// This file reads lines of text that a sensor sends over UDP, TCP or a serial line.
 #pragma once
 
 #include <array>
@@ -13,14 +13,15 @@
 
 namespace maploop::sensors {
 
-// One thread at a time.
+// One thread at a time may use it.
 class LineConnection {
  public:
   LineConnection(Endpoint endpoint, const HostClock& clock)
       : clock_(clock), connection_(std::move(endpoint)) {}
 
-  // Hands each line, with its arrival, to take(line, arrival), until that is true or about
-  // `patience` is over; returns which. Half a line from before a reconnection is dropped.
+  // Passes each line and its arrival to take(line, arrival) until that returns true or about
+  // `patience` has passed; returns whether it did. An incomplete line from before a reconnection is
+  // dropped.
   template <class Take>
   bool wait(Duration patience, Take&& take) {
     const Time end = clock_.now() + patience;
@@ -42,7 +43,7 @@ class LineConnection {
 
   const Endpoint& endpoint() const { return connection_.endpoint(); }
   const ConnectionState& state() const { return connection_.state(); }
-  std::uint64_t dropped() const { return lines_.dropped(); }  // lines too long
+  std::uint64_t dropped() const { return lines_.dropped(); }  // lines that were too long
 
  private:
   const HostClock& clock_;

@@ -1,4 +1,4 @@
-// Lines of text out of the bytes of a stream.
+// This file splits the bytes of a stream into lines of text.
 #pragma once
 
 #include <array>
@@ -9,11 +9,11 @@
 
 namespace maploop::sensors {
 
-// Longer lines are dropped and counted. One thread at a time; allocates nothing.
+// Lines that are too long are dropped and counted. One thread at a time; does not allocate.
 class LineSplitter {
  public:
-  // Bytes up to the end of a line are taken off `bytes`: true with the line, without its end, which
-  // is valid until the next call; false when all bytes are taken.
+  // Takes bytes up to the end of a line off `bytes`. Returns true with the line, without its line
+  // end, which is valid until the next call; returns false when all bytes are taken.
   bool next(std::span<const std::uint8_t>& bytes, std::string_view& line) {
     while (!bytes.empty()) {
       const char c = static_cast<char>(bytes.front());
@@ -34,7 +34,7 @@ class LineSplitter {
     return false;
   }
 
-  // What comes next does not go on with what came.
+  // Discards the incomplete line; the next bytes do not continue it.
   void restart() {
     size_ = 0;
     overlong_ = false;
@@ -43,7 +43,7 @@ class LineSplitter {
   std::uint64_t dropped() const { return dropped_; }
 
  private:
-  std::array<char, 256> line_{};  // NMEA's lines have 82
+  std::array<char, 256> line_{};  // an NMEA line has at most 82
   std::size_t size_ = 0;
   bool overlong_ = false;
   std::uint64_t dropped_ = 0;

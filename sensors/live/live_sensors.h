@@ -1,4 +1,4 @@
-// The sensors that can be listened to.
+// This file declares the drivers of all live sensors.
 #pragma once
 
 #include <filesystem>
@@ -26,38 +26,42 @@ struct LiveVelodyneOptions {
   std::vector<Laser> lasers;
 };
 
-// `clock` must outlive what is made. Both throw std::invalid_argument where an endpoint is not of
-// a kind that the sensor can be read from.
+// `clock` must outlive the source that is made. Throws std::invalid_argument if an endpoint is of a
+// kind from which the sensor cannot be read.
 std::unique_ptr<LiveSource<LidarScan>> listen_to_velodyne(LiveVelodyneOptions options,
                                                           const HostClock& clock);
 
 struct LiveStereoOptions {
   std::string left;              // GStreamer pipeline (video_pipeline.h)
-  std::string right;             // the same; empty: the left one's images have both, side by side
-  int width = 0, height = 0;     // px, of one image as it comes
-  std::optional<StereoRig> rig;  // raw cameras: pairs are rectified; else they are
+  std::string right;             // the same; if empty, the left pipeline sends both images side by
+                                 // side
+  int width = 0, height = 0;     // px, of one image as it arrives
+  std::optional<StereoRig> rig;  // calibration of raw cameras, whose pairs are rectified; if unset,
+                                 // pairs arrive rectified
   Duration delay{};              // from the middle of the exposure to the driver's stamp
   Duration max_skew = std::chrono::milliseconds(20);  // of the stamps of one pair
 };
 
-// Throws std::invalid_argument where a pipeline is none, or the size is not known.
+// Throws std::invalid_argument if a pipeline cannot be parsed, or the image size is not known.
 std::unique_ptr<LiveSource<StereoPair>> listen_to_cameras(LiveStereoOptions options,
                                                           const HostClock& clock);
 
-// An OXTS unit's NCOM, a packet a datagram. Its values are `delay` older than its clock says.
+// Reads an OXTS unit's NCOM, one packet a datagram. The values are `delay` older than the unit's
+// clock states.
 std::unique_ptr<LiveSource<ImuSample>> listen_to_ncom(Endpoint endpoint, Duration delay,
                                                       const HostClock& clock);
 
-// Lines of text (imu_line.h), over anything. Its values are `delay` older than they say.
+// Reads lines of text (imu_line.h) over any connection. The values are `delay` older than the lines
+// state.
 std::unique_ptr<LiveSource<ImuSample>> listen_to_imu_lines(Endpoint endpoint, Duration delay,
                                                            const HostClock& clock);
 
-// An Xsens MTi's MTData2 (imu/xsens.h), over a stream; the unit's x axis is forward. Its values are
-// `delay` older than its clock says.
+// Reads an Xsens MTi's MTData2 (imu/xsens.h) over a stream; the unit's x axis is forward. The
+// values are `delay` older than the unit's clock states.
 std::unique_ptr<LiveSource<ImuSample>> listen_to_xsens(Endpoint endpoint, Duration delay,
                                                        const HostClock& clock);
 
-// A receiver's NMEA sentences, over anything.
+// Reads a receiver's NMEA sentences over any connection.
 std::unique_ptr<LiveSource<GnssFix>> listen_to_nmea(Endpoint endpoint,
                                                     const NmeaParameters& parameters,
                                                     const HostClock& clock);

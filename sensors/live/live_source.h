@@ -1,4 +1,4 @@
-// The one interface of a driver of a live sensor.
+// This file defines the interface of all drivers of live sensors.
 #pragma once
 
 #include <cstdint>
@@ -11,20 +11,20 @@
 
 namespace maploop::sensors {
 
-// What became of the sensor so far.
+// This is the state of the sensor and the counts of its samples so far.
 struct LiveReport {
   std::string endpoint;
   ConnectionState connection;
   std::uint64_t delivered = 0;
   std::uint64_t refused = 0;         // packets and lines
-  std::vector<std::string> reasons;  // with their counts: of refusals, losses, interruptions
-  std::vector<std::string> notes;    // what it says of itself
+  std::vector<std::string> reasons;  // counts of refusals, losses, interruptions
+  std::vector<std::string> notes;    // what the sensor reports about itself
   SensorClock clock;
 };
 
-// A sensor that may not be there yet, may be unplugged and come again: nothing of that is an error.
-// `stamp` and `available` of what is delivered strictly increase, on the host's clock; all but
-// `received` is set. For one thread at a time.
+// A live sensor may not be connected yet, or may be unplugged and come back: none of that is an
+// error. `stamp` and `available` of the delivered samples strictly increase, on the host's clock;
+// all members but `received` are set. One thread at a time.
 template <class T>
 class LiveSource {
  public:
@@ -33,13 +33,13 @@ class LiveSource {
   LiveSource(const LiveSource&) = delete;
   LiveSource& operator=(const LiveSource&) = delete;
 
-  // Waits at most about `patience` for the next sample, and fills it in place, reusing its buffers.
+  // Waits about `patience` at most for the next sample, and fills it in place, reusing its buffers.
   virtual bool wait(T& sample, Duration patience) = 0;
 
   virtual LiveReport report() const = 0;
 };
 
-// "3 damaged", where there are any.
+// Appends "3 damaged" if the count is not 0.
 inline void note_count(std::vector<std::string>& to, std::uint64_t count, const std::string& what) {
   if (count > 0) to.push_back(std::to_string(count) + ' ' + what);
 }

@@ -1,4 +1,4 @@
-// The address of a host's name, without waiting for it.
+// This file looks up the address of a host's name without blocking.
 #pragma once
 
 #include <memory>
@@ -7,16 +7,16 @@
 
 namespace maploop::sensors {
 
-// Numeric addresses are known at once. A name is asked for on a thread of its own, which the answer
-// may take seconds to come to, and which nobody waits for. One thread at a time.
+// Numeric addresses are known at once. A name is looked up on a separate thread, which may take
+// seconds and is never waited for. One thread at a time.
 class NameLookup {
  public:
   explicit NameLookup(const std::string& host);
 
-  // Nothing: not known yet.
+  // The answer is empty while it is not known yet.
   struct Answer {
     std::string address;  // numeric IPv4
-    std::string problem;  // where there is none
+    std::string problem;  // set if the address is missing
   };
   std::optional<Answer> answer() const;
 

@@ -1,4 +1,4 @@
-// The stream of a mountpoint of an NTRIP caster.
+// This file reads the stream of a mountpoint of an NTRIP caster.
 #pragma once
 
 #include <array>
@@ -16,9 +16,9 @@
 
 namespace maploop::sensors {
 
-// Asks by itself, and again where the caster refuses, ends the stream, or is silent for a minute:
-// after one second, two, four, up to a minute. A name is looked up each time. state().open: the
-// caster sends the stream.
+// Sends its request automatically, and again after the caster refuses, ends the stream, or is
+// silent for a minute: after one second, two, four, up to a minute. The host name is looked up each
+// time. state().open is true while the caster sends the stream.
 class NtripClient final : public ByteStream {
  public:
   explicit NtripClient(NtripAddress address) : address_(std::move(address)) {}
@@ -36,18 +36,20 @@ class NtripClient final : public ByteStream {
   NtripAddress address_;
   ConnectionState state_;
   std::optional<NameLookup> lookup_;
-  std::unique_ptr<TwoWayStream> connection_;  // nullptr: the address is not known
-  std::uint64_t greeted_ = 0;                 // the connection's opening that the request went to
+  std::unique_ptr<TwoWayStream> connection_;  // nullptr while the address is not known
+  std::uint64_t greeted_ = 0;                 // the opening of the connection that the request was
+                                              // sent on
   NtripReply reply_;
   std::array<std::uint8_t, 2048> buffer_{};
   std::span<const std::uint8_t> unread_;
   Duration pause_{};  // before the next attempt
   MonotonicTime next_lookup_{};
-  MonotonicTime heard_{};  // bytes of the stream, or the connection
-  MonotonicTime said_{};   // the position
+  MonotonicTime heard_{};  // when the stream last sent bytes, or the connection was opened
+  MonotonicTime said_{};   // when the position was last sent
 };
 
-// An endpoint (endpoint.h), or an NTRIP mountpoint. Throws std::invalid_argument as these do.
+// Opens an endpoint (endpoint.h) or an NTRIP mountpoint. Throws std::invalid_argument if the text
+// is neither.
 std::unique_ptr<ByteStream> open_stream(std::string_view text);
 
 }  // namespace maploop::sensors

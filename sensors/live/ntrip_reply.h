@@ -1,4 +1,4 @@
-// What an NTRIP caster answers, and the stream inside it.
+// This file parses the reply of an NTRIP caster and extracts the stream from it.
 #pragma once
 
 #include <cstddef>
@@ -8,19 +8,20 @@
 
 namespace maploop::sensors {
 
-// Of version 1 ("ICY 200 OK", then the stream) and of version 2 (HTTP 1.1, chunked or not). One
-// thread at a time; memory is that of the answer's head, which is limited.
+// Handles version 1 ("ICY 200 OK", then the stream) and version 2 (HTTP 1.1, chunked or not). One
+// thread at a time; memory is that of the reply's head, which is limited.
 class NtripReply {
  public:
   enum class State : std::uint8_t {
-    head,    // of the answer, not whole yet
-    stream,  // takes it
-    ended,   // the caster has said that no more comes
-    refused  // problem() says why
+    head,    // the head is not complete yet
+    stream,  // the stream is being received
+    ended,   // the caster has ended the stream
+    refused  // problem() states why
   };
 
   // Takes bytes off `from`, and copies those of the stream to `to`; returns how many. Call again
-  // while `from` is not empty; after `ended` and `refused` everything is taken, and nothing copied.
+  // while `from` is not empty; in the states `ended` and `refused` all bytes are taken and none
+  // copied.
   std::size_t take(std::span<const std::uint8_t>& from, std::span<std::uint8_t> to);
 
   State state() const { return state_; }
@@ -39,10 +40,10 @@ class NtripReply {
   std::string problem_;
   bool chunked_ = false;
   Chunk chunk_ = Chunk::size;
-  std::uint64_t left_ = 0;       // of a chunk
-  std::size_t size_digits_ = 0;  // of its length
+  std::uint64_t left_ = 0;       // bytes left of a chunk
+  std::size_t size_digits_ = 0;  // digits of its length
   std::size_t size_line_ = 0;    // bytes of the line with the length
-  bool extension_ = false;       // behind the length
+  bool extension_ = false;       // inside the extension after the length
 };
 
 }  // namespace maploop::sensors

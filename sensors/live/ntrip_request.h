@@ -1,4 +1,4 @@
-// What is asked of an NTRIP caster (RTCM 10410.1, which has both versions).
+// This file makes the request to an NTRIP caster (RTCM 10410.1, which contains both versions).
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 namespace maploop::sensors {
 
 // ntrip://[USER[:PASSWORD]@]HOST[:PORT]/MOUNTPOINT[?version=1][&gga=LATITUDE,LONGITUDE,HEIGHT]
-// ntrips:// is the same over TLS, by which nobody on the way reads the password. Degrees and
-// metres; version 2 is understood by casters of version 1 too, but for a few.
+// is the text form, in degrees and metres. ntrips:// is the same over TLS, which encrypts the
+// password. All but a few casters of version 1 understand version 2 too.
 struct NtripAddress {
   std::string user, password;
   std::string host;
@@ -21,18 +21,19 @@ struct NtripAddress {
   std::uint16_t port = 2101;  // ntrips: 443
   std::string mountpoint;
   int version = 2;
-  std::optional<Geodetic> position;  // said to the caster, again and again
-  std::string text;                  // as it was given, without what is secret
+  std::optional<Geodetic> position;  // sent to the caster periodically
+  std::string text;                  // as it was given, without secrets
 };
 
 bool is_ntrip(std::string_view text);
 
-// Throws std::invalid_argument naming the text (without its password) and what is allowed.
+// Throws std::invalid_argument that names the text (without its password) and states what is
+// allowed.
 NtripAddress parse_ntrip(std::string_view text);
 
-// `time_of_day`: UTC.
+// `time_of_day` is UTC since midnight.
 std::string ntrip_request(const NtripAddress& address, Duration time_of_day);
-// A GGA sentence with its end.
+// Returns a GGA sentence with its line end.
 std::string ntrip_gga(const Geodetic& position, Duration time_of_day);
 
 }  // namespace maploop::sensors

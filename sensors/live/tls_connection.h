@@ -1,4 +1,4 @@
-// A TCP connection that is encrypted.
+// This file provides a TCP connection that is encrypted.
 #pragma once
 
 #include <array>
@@ -10,13 +10,14 @@
 
 namespace maploop::sensors {
 
-// TLS 1.2 or newer, as its client. Open once the other side has shown a certificate of `host` that
-// an authority known to the system vouches for (OpenSSL's SSL_CERT_FILE names others); what is
-// wrong with it, or with the connection, is state().problem, after which it stays closed. One
-// thread at a time.
+// Acts as a client of TLS 1.2 or newer. The connection is open once the server has shown a
+// certificate of `host` that is signed by an authority the system trusts (OpenSSL's SSL_CERT_FILE
+// names others). Any error of the certificate or the connection is reported in state().problem,
+// after which it stays closed. One thread at a time.
 class TlsConnection final : public TwoWayStream {
  public:
-  // `host`: a name, or a numeric address. Throws std::runtime_error where OpenSSL cannot begin.
+  // `host` is a name or a numeric address. Throws std::runtime_error if OpenSSL cannot be
+  // initialized.
   TlsConnection(Endpoint endpoint, const std::string& host);
   ~TlsConnection() override;
 

@@ -1,4 +1,4 @@
-// Grey images of a camera, by a GStreamer pipeline.
+// This file reads grey images of a camera through a GStreamer pipeline.
 #pragma once
 
 #include <cstdint>
@@ -11,27 +11,28 @@
 
 namespace maploop::sensors {
 
-// One image, and when the driver says that it was taken.
+// This is one image with the time at which the driver took it.
 struct VideoFrame {
   GreyImage image;
-  Time stamp{};    // the buffer's own, on the host's clock; its arrival where it has none
+  Time stamp{};    // the buffer's own, on the host's clock; the arrival if it has no stamp
   Time arrival{};  // when it was taken out of the pipeline
 };
 
 struct VideoState {
   ConnectionState connection;
   std::uint64_t frames = 0;
-  std::uint64_t lost = 0;       // by the numbers of the driver; those dropped here among them
-  std::uint64_t unstamped = 0;  // stamped when they came
+  std::uint64_t lost = 0;       // by the driver's numbers; includes images dropped here
+  std::uint64_t unstamped = 0;  // images stamped with their arrival
 };
 
-// Elements up to the images, as gst-launch-1.0 takes them: "v4l2src device=/dev/video0 ! ...".
-// Opens by itself, and again where the camera was unplugged, or has been silent for 3 s; missing it
-// is no error. At most four images wait; of more the oldest is dropped. What is not grey is
-// converted. One thread at a time; pipelines have threads of their own.
+// The description lists the elements before the images' end, as gst-launch-1.0 takes them: "v4l2src
+// device=/dev/video0 ! ...". Opens automatically, and again after the camera was unplugged or has
+// been silent for 3 s; a missing camera is not an error. At most four images are queued; then the
+// oldest is dropped. Images that are not grey are converted. One thread at a time; pipelines have
+// threads of their own.
 class VideoPipeline {
  public:
-  // Throws std::invalid_argument where the text is no pipeline: what GStreamer says of it.
+  // Throws std::invalid_argument with GStreamer's message if the text is not a pipeline.
   VideoPipeline(std::string description, const HostClock& clock);
   ~VideoPipeline();
   VideoPipeline(const VideoPipeline&) = delete;

@@ -1,4 +1,4 @@
-// Whether the errors that are added to a reference are of sizes that a filter may expect.
+// This file states whether errors added to a reference have sizes that a filter may expect.
 #pragma once
 
 #include <array>
@@ -8,8 +8,9 @@
 namespace maploop::sensors {
 
 enum class ErrorModel : std::uint8_t {
-  given,  // of the sizes that the parameters say, which are those that the filter is told
-  drawn,  // of sizes that the seed draws, from ranges stated beside each sensor; no filter is told
+  given,  // sizes as the parameters state, which the filter is given too
+  drawn,  // sizes that the seed draws from ranges stated beside each sensor; no filter is given
+          // them
 };
 constexpr std::array<std::string_view, 2> names_of(ErrorModel) {
   return {"given", "drawn"};

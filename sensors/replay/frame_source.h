@@ -1,4 +1,4 @@
-// A recording with one numbered file, or a few, a frame.
+// This file reads a recording that has one or a few numbered files for each frame.
 #pragma once
 
 #include <cstddef>
@@ -15,15 +15,15 @@
 
 namespace maploop::sensors {
 
-// The frames of a recording, by number, and what stands against each.
+// This lists the frames of a recording by number, with the verdict on each.
 struct FrameList {
   Verdicts verdicts;
-  std::vector<Time> available;     // as many as verdicts
+  std::vector<Time> available;     // one for each verdict
   std::vector<Finding> unstamped;  // files beyond the last stamp
 };
 
-// Goes through the frames in their order: refuses those with a verdict, reads the others. Of those
-// available up to `passed` only the stamps are given, for who only passes over them.
+// Goes through the frames in order: refuses those with a verdict and reads the others. Frames
+// available up to `passed` get their stamps only, for callers that skip them.
 template <class Frame>
 class FrameSource : public Source<Frame> {
  public:
@@ -51,12 +51,12 @@ class FrameSource : public Source<Frame> {
  protected:
   FrameSource(FrameList frames, Time passed) : frames_(std::move(frames)), passed_(passed) {}
 
-  // Fills the content; false when the frame is refused.
+  // Fills the content; returns false if the frame is refused.
   virtual bool read(std::size_t i, Frame& frame) = 0;
   virtual void set_stamps(std::size_t i, Frame& frame) const = 0;
 
-  // Reads a file of at most `largest` bytes and has it parsed, `parse(bytes)`. Whatever either
-  // throws refuses the frame.
+  // Reads a file of at most `largest` bytes and calls `parse(bytes)`. Any exception of either
+  // refuses the frame.
   template <class Parse>
   bool read_and_parse(const std::filesystem::path& file, std::size_t largest, Parse parse) {
     try {

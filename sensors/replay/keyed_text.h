@@ -1,4 +1,4 @@
-// Texts of "KEY: numbers" lines, as KITTI's calibration is written.
+// This file parses texts of "KEY: numbers" lines, the form of KITTI's calibration.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -9,21 +9,22 @@
 
 namespace maploop::sensors {
 
-// One file. Every function throws std::runtime_error naming file and key. The text must outlive it.
+// Holds one file's text, which must outlive it. Every function throws std::runtime_error that names
+// file and key.
 class KeyedText {
  public:
   KeyedText(std::string_view text, const std::filesystem::path& file);
 
-  // Exactly `count` finite numbers.
+  // Returns exactly `count` finite numbers.
   std::vector<double> numbers(std::string_view key, std::size_t count) const;
 
-  // Nine numbers, row by row, a rotation to 1e-3; the nearest true one.
+  // Returns the rotation nearest to nine numbers, row by row, which must form a rotation to 1e-3.
   Eigen::Matrix3d rotation(std::string_view key) const;
 
-  // The rigid transformation of keys R and T. Sensors of one car are not further apart than 10 m.
+  // Returns the rigid transformation of keys R and T. Sensors of one car are at most 10 m apart.
   Eigen::Isometry3d transformation() const;
 
-  // Two whole numbers: an image size.
+  // Returns two whole numbers: an image's width and height, px.
   std::vector<double> size(std::string_view key) const;
 
   [[noreturn]] void fail(std::string_view key, const std::string& reason) const;
@@ -35,7 +36,7 @@ class KeyedText {
   std::string file_;
 };
 
-// The text of a calibration file. Throws std::runtime_error naming it.
+// Reads the text of a calibration file. Throws std::runtime_error that names it.
 std::string read_calibration_text(const std::filesystem::path& file);
 
 }  // namespace maploop::sensors

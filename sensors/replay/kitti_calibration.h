@@ -1,4 +1,4 @@
-// KITTI's calibration texts ("KEY: numbers").
+// This file parses KITTI's calibration texts ("KEY: numbers").
 #pragma once
 
 #include <filesystem>
@@ -9,40 +9,40 @@
 
 namespace maploop::sensors {
 
-// The texts of the three files, each with the name that errors give it.
+// These are the texts of the three files, each with the name that errors give it.
 struct KittiCalibrationText {
   std::string_view cam_to_cam, velo_to_cam, imu_to_velo;
   std::filesystem::path cam_to_cam_file, velo_to_cam_file, imu_to_velo_file;
 };
 
-// The rectified grey cameras (00 left, 01 right) and the LiDAR in the body frame, which is the
-// IMU's. Geiger, Lenz, Stiller, Urtasun, "Vision meets Robotics: The KITTI Dataset", IJRR 2013,
+// Returns the rectified grey cameras (00 left, 01 right) and the LiDAR in the body frame, which is
+// the IMU's. Geiger, Lenz, Stiller, Urtasun, "Vision meets Robotics: The KITTI Dataset", IJRR 2013,
 // eq. 3 to 8:
 //   T_cam_imu = R_rect_00 T_cam0_velo T_velo_imu,   baseline = -P_rect_01(0,3) / P_rect_01(0,0)
 // The printed rotations, rounded to seven digits, are replaced by the nearest true ones. Throws
-// std::runtime_error naming file and key: missing or given twice, not the right count of finite
+// std::runtime_error that names file and key: missing or given twice, not the right count of finite
 // numbers, not a rotation (to 1e-3), cameras that do not form a rectified pair.
 //
-// A calibration of KITTI's own IMU, known by its calib_time, comes with what is known of KITTI's
-// car; a drive of another car in KITTI's layout is of no particular one.
+// If the calib_time is that of KITTI's own IMU, the known properties of KITTI's car are added; a
+// drive of another car in KITTI's layout gets none of them.
 VehicleCalibration parse_kitti_calibration(const KittiCalibrationText& text);
 
 // KITTI's car travels 0.48 deg (0.0084 rad) above its IMU's x axis: mean of eight odometry
-// sequences (0.14 to 0.86 deg). Its IMU is 0.25 m ahead of what rolls without side slip: sideways
-// velocity over yaw rate on five of them (0.23 to 0.29 m). Its HDL-64E's beams point 0.205 deg
-// higher than said (IMLS-SLAM, CT-ICP, KISS-ICP use the same).
+// sequences (0.14 to 0.86 deg). Its IMU is 0.25 m ahead of the point that moves without side slip:
+// sideways velocity over yaw rate on five of them (0.23 to 0.29 m). Its HDL-64E's beams point 0.205
+// deg higher than its calibration states (IMLS-SLAM, CT-ICP, KISS-ICP use the same).
 void describe_kitti_car(VehicleCalibration& calibration);
 
-// From calib_cam_to_cam.txt, calib_velo_to_cam.txt, calib_imu_to_velo.txt in `folder`. Throws as
-// above, and where a file is missing.
+// Reads calib_cam_to_cam.txt, calib_velo_to_cam.txt, calib_imu_to_velo.txt in `folder`. Throws as
+// above, and if a file is missing.
 VehicleCalibration read_kitti_calibration(const std::filesystem::path& folder);
 
-// The same with raw cameras: calib_cam_to_cam.txt is not read; the two others are where there is a
-// scanner, or where the rig does not say itself where it is mounted.
+// Does the same for raw cameras: calib_cam_to_cam.txt is not read; the two others are read only if
+// there is a scanner, or if the rig does not contain its own mounting.
 VehicleCalibration read_kitti_calibration(const std::filesystem::path& folder, const StereoRig& rig,
                                           bool with_velodyne);
 
-// The raw grey cameras of calib_cam_to_cam.txt (S, K, D, R, T of 00 and 01) and their
+// Returns the raw grey cameras of calib_cam_to_cam.txt (S, K, D, R, T of 00 and 01) and their
 // rectification, without a mounting. Throws as above; `file` names the text.
 StereoRig parse_kitti_rig(std::string_view cam_to_cam, const std::filesystem::path& file);
 

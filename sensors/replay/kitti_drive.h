@@ -1,4 +1,4 @@
-// A KITTI raw drive, or raw images in its layout, as a vehicle that can be replayed.
+// This file replays a KITTI raw drive, or raw images in its layout, as a vehicle's sensors.
 #pragma once
 
 #include <cstddef>
@@ -24,12 +24,12 @@
 namespace maploop::sensors {
 
 struct KittiDriveParameters {
-  // s; OXTS rates, velocities and accelerations belong to this long before their row's stamp
+  // s; OXTS rates, velocities and accelerations are valid this long before their row's stamp
   // (measured on all odometry sequences: 53 to 67 ms).
   double imu_delay = 0.060;
   double camera_readout = 0.005;  // s from the later exposure of a pair to its delivery
-  double max_pair_skew = 0.020;   // s between left and right; 3.5 ms is the most seen
-  double max_turn = 0.250;        // s for a scan; the HDL-64E's slowest turn takes 0.2
+  double max_pair_skew = 0.020;   // s between left and right; the largest seen is 3.5 ms
+  double max_turn = 0.250;        // s for a scan; the slowest turn of an HDL-64E takes 0.2 s
 };
 
 // Reads `2011_09_26/2011_09_26_drive_0013_sync` with its own layout:
@@ -37,23 +37,22 @@ struct KittiDriveParameters {
 //   velodyne_points      timestamps{,_start,_end}.txt, data/%010d.bin or .scan (packed_scan.h)
 //   oxts                 timestamps.txt, data/%010d.txt
 //   ../calib_cam_to_cam.txt, ../calib_velo_to_cam.txt, ../calib_imu_to_velo.txt
-// Named `..._extract`, the unsynced form, its OXTS rows (100 Hz) take the place of the synced ones;
-// images and scans are those of the `..._sync` folder beside it, for the unsynced images are not
-// rectified.
-// Stamps are the files' own: Karlsruhe's local time read as UTC.
+// If the unsynced form, `..._extract`, is named, its OXTS rows (100 Hz) replace the synced ones;
+// images and scans come from the `..._sync` folder beside it, because the unsynced images are not
+// rectified. Stamps are the files' own: Karlsruhe's local time read as UTC.
 //
-// Opening it reads the calibration, all stamps and the OXTS rows; images and scans are read one at
-// a time by their source. Sources may outlive the drive, and may each run on a thread of its own.
-// A drive may lack velodyne_points or oxts as a whole folder.
+// The constructor reads the calibration, all stamps and the OXTS rows; each source reads its images
+// or scans one at a time. Sources may outlive the drive, and each may run on its own thread. A
+// drive may lack the whole folder velodyne_points or oxts.
 //
-// With the calibration of raw cameras, image_00 and image_01 hold raw images, which are rectified
-// as they are read. calib_cam_to_cam.txt is then not needed, and the others only where the drive
-// has velodyne_points, or where the calibration does not say where the cameras are mounted: a
-// folder with nothing but image_00 and image_01 is a drive.
+// With the calibration of raw cameras, image_00 and image_01 contain raw images, which are
+// rectified as they are read. calib_cam_to_cam.txt is then not needed, and the other texts only if
+// the drive has velodyne_points, or if the calibration does not contain the mounting of the
+// cameras: a folder with only image_00 and image_01 is a valid drive.
 class KittiDrive {
  public:
-  // Throws std::runtime_error that names the folder or file and says what to do: no such drive, no
-  // calibration beside it, a time stamp file missing or empty; std::invalid_argument for a
+  // Throws std::runtime_error that names the folder or file and states what to do (no such drive,
+  // no calibration beside it, a time stamp file missing or empty), and std::invalid_argument for a
   // parameter that is negative or not finite.
   explicit KittiDrive(const std::filesystem::path& folder,
                       const KittiDriveParameters& parameters = {},
@@ -62,8 +61,8 @@ class KittiDrive {
   const VehicleCalibration& calibration() const { return calibration_; }
   const std::filesystem::path& folder() const { return folder_; }  // of the images, absolute
 
-  // Numbers and stamps of the left images, whether or not each can be read; lines that hold no
-  // stamp are passed over by first and last.
+  // These cover all left images, whether or not each can be read; first_stamp() and last_stamp()
+  // skip lines that do not contain a stamp.
   std::size_t frame_count() const { return left_.timestamps.size(); }
   const std::vector<Time>& image_stamps() const { return left_.timestamps.stamps; }
   Time first_stamp() const;
@@ -72,9 +71,9 @@ class KittiDrive {
   bool has_velodyne() const { return velodyne_.has_value(); }
   bool has_oxts() const { return oxts_ != nullptr; }
 
-  // New sources, each from the start of the drive. Those of a folder that the drive lacks throw
-  // std::runtime_error. Pixels and points of what is available up to `passed` are not read, and not
-  // to be used: for who only passes over them.
+  // Each call returns a new source from the start of the drive; it throws std::runtime_error if the
+  // drive lacks its folder. Pixels and points that are available up to `passed` are not read and
+  // must not be used: this is for callers that skip them.
   std::unique_ptr<Source<StereoPair>> camera(Time passed = Time::min()) const;
   std::unique_ptr<Source<LidarScan>> velodyne(Time passed = Time::min()) const;
   std::unique_ptr<Source<ImuSample>> imu() const;

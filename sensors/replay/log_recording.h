@@ -1,4 +1,4 @@
-// One of our own LCM logs as a recording: what its channels say is what the sensors said.
+// This file replays one of our own LCM logs: its channels contain what the sensors delivered.
 #pragma once
 
 #include <cstddef>
@@ -19,33 +19,34 @@
 
 namespace maploop::sensors {
 
-// Reads what `maploop replay --record` wrote, plain or .gz: IMU, GNSS_FIX, WHEEL_SPEED, TRUTH,
-// ODOMETRY, VO, LIDAR_ODOMETRY, and CAMERA and VELODYNE where raw sensors were recorded, each
-// sample with the stamps and the bits it had. Sources may outlive the recording, and may each run
-// on a thread of its own.
+// Reads a log that `maploop replay --record` wrote, plain or .gz: IMU, GNSS_FIX, WHEEL_SPEED,
+// TRUTH, ODOMETRY, VO, LIDAR_ODOMETRY, and CAMERA and VELODYNE if raw sensors were recorded. Each
+// sample has the stamps and the bits it had. Sources may outlive the recording, and each may run on
+// its own thread.
 class LogRecording {
  public:
-  // Reads through the whole log once. Throws std::runtime_error naming the log and what to do: not
-  // readable, damaged, without a calibration, without any sensor.
+  // Reads through the whole log once. Throws std::runtime_error that names the log and states what
+  // to do: not readable, damaged, without a calibration, without any sensor.
   explicit LogRecording(const std::filesystem::path& log);
 
   const VehicleCalibration& calibration() const { return calibration_; }
 
-  // Of the images, or of the odometry that was made from them, or of the inertial samples: the
-  // first of these that the log has.
+  // These describe the first channel that the log has of: the images, the odometry made from them,
+  // the inertial samples, and then the other sensors.
   std::size_t frame_count() const { return frame_count_; }
   Time first_stamp() const { return first_stamp_; }
   Time last_stamp() const { return last_stamp_; }
 
-  // New sources, each from the start of the log; nullptr where the log has no such channel. A
-  // message that cannot be read, or is not later than the one before, is left out and reported.
+  // Each call returns a new source from the start of the log, or nullptr if the log has no such
+  // channel. A message that cannot be read, or is not later than the previous one, is left out and
+  // reported.
   std::unique_ptr<Source<StereoPair>> camera() const;
   std::unique_ptr<Source<LidarScan>> velodyne() const;
   std::unique_ptr<Source<ImuSample>> imu() const;
   std::unique_ptr<Source<GnssFix>> gnss() const;
   std::unique_ptr<Source<WheelSpeed>> wheel() const;
   std::unique_ptr<Source<ReferencePose>> reference() const;
-  std::unique_ptr<Source<RelativeMotion>> odometry() const;  // what fusion got
+  std::unique_ptr<Source<RelativeMotion>> odometry() const;  // as fusion received it
   std::unique_ptr<Source<RelativeMotion>> visual_odometry() const;
   std::unique_ptr<Source<LidarMotion>> lidar_odometry() const;
 

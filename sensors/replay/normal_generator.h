@@ -1,4 +1,4 @@
-// Random numbers that are the same with every standard library.
+// This file generates random numbers that are the same with every standard library.
 #pragma once
 
 #include <cstdint>
@@ -8,15 +8,15 @@
 
 namespace maploop::sensors {
 
-// Standard normal numbers that depend on a seed and a stamp alone: std::mt19937_64, whose sequence
-// the C++ standard fixes, seeded with both mixed by splitmix64 (Steele, Lea, Flood, "Fast
-// Splittable Pseudorandom Number Generators", 2014), and the Box-Muller transform. (The transform
-// of std::normal_distribution is each library's own.)
+// Generates standard normal numbers that depend only on a seed and a stamp: std::mt19937_64, whose
+// sequence the C++ standard fixes, seeded with both mixed by splitmix64 (Steele, Lea, Flood, "Fast
+// Splittable Pseudorandom Number Generators", 2014), and the Box-Muller transform. (The results of
+// std::normal_distribution differ between libraries.)
 class NormalGenerator {
  public:
   NormalGenerator(std::uint64_t seed, Time stamp);
   double next();
-  // In [from, to), each number as likely; and each ratio, from > 0.
+  // These draw from [from, to), uniformly or log-uniformly (from > 0).
   double uniform(double from, double to);
   double log_uniform(double from, double to);
 

@@ -1,4 +1,5 @@
-// A drive as a table of OXTS rows, such as a sequence of KITTI's odometry benchmark.
+// This file replays a drive given as a table of OXTS rows, such as a sequence of KITTI's odometry
+// benchmark.
 #pragma once
 
 #include <filesystem>
@@ -20,17 +21,19 @@
 
 namespace maploop::sensors {
 
-// The files, each plain or .gz, are those of find_sequence(); sensors/FORMATS.md describes them.
-// Stamps of KITTI's sequences are the raw drive's own (KITTI's clock, local time read as UTC).
+// The files, each plain or .gz, are those that find_sequence() finds; sensors/FORMATS.md describes
+// them. Stamps of KITTI's sequences are the raw drive's own (KITTI's clock, local time read as
+// UTC).
 class OdometrySequence {
  public:
-  // Is this a sequence: a table of OXTS rows, or FOLDER/NAME where FOLDER has oxts/NAME.csv?
+  // Returns whether the path names a sequence: a table of OXTS rows, or FOLDER/NAME where FOLDER
+  // has oxts/NAME.csv.
   static bool is_named(const std::filesystem::path& path);
 
-  // Throws std::runtime_error naming the file and what is wrong with it.
+  // Throws std::runtime_error that names the file and states what is wrong with it.
   OdometrySequence(const std::filesystem::path& path, const KittiDriveParameters& parameters);
 
-  // Axes alone, with the benchmark's focal length.
+  // This contains only axes, the benchmark's focal length, and the properties of KITTI's car.
   const VehicleCalibration& calibration() const { return calibration_; }
 
   std::size_t frame_count() const { return image_stamps_.size(); }
@@ -38,13 +41,13 @@ class OdometrySequence {
   Time last_stamp() const { return image_stamps_.back(); }
   const std::vector<Time>& image_stamps() const { return image_stamps_; }
 
-  // Of stereo tracks, which have a calibration of their own.
+  // This file contains stereo tracks, which have a calibration of their own.
   const std::optional<std::filesystem::path>& tracks_file() const { return tracks_; }
 
-  // Of the links really driven, frame by frame.
+  // This file contains the links really driven, frame by frame.
   const std::optional<std::filesystem::path>& labels_file() const { return labels_; }
 
-  // New sources, each from the start of the sequence.
+  // Each call returns a new source from the start of the sequence.
   std::unique_ptr<Source<ImuSample>> imu() const;
   std::unique_ptr<Source<GnssFix>> gnss(const GnssAidParameters& parameters) const;
   std::unique_ptr<Source<WheelSpeed>> wheel(const WheelOdometerParameters& parameters) const;

@@ -1,4 +1,5 @@
-// The rows of KITTI's inertial and GNSS unit (OXTS RT3003): one text file of 30 numbers each.
+// This file reads the rows of KITTI's inertial and GNSS unit (OXTS RT3003): one text file of 30
+// numbers each.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,8 +14,8 @@
 
 namespace maploop::sensors {
 
-// What we use of a row. Of its rates and accelerations only those about the body's own axes (ax,
-// ay, wz): af, al and wu are levelled with the unit's own attitude, so they would bring the
+// These are the values used of a row. Only rates and accelerations about the body's own axes (ax,
+// ay, wz) are taken: af, al and wu are levelled with the unit's own attitude, and would leak the
 // reference into the estimate.
 struct OxtsRow {
   Geodetic position;
@@ -23,26 +24,27 @@ struct OxtsRow {
   double specific_force_forward = 0.0;                     // m/s^2, ax
   double specific_force_left = 0.0;                        // m/s^2, ay
   double yaw_rate = 0.0;                                   // rad/s, wz
-  double forward_speed = 0.0;                              // m/s along the way, of vf and vu
+  double forward_speed = 0.0;                              // m/s along the direction of travel,
+                                                           // from vf and vu
   double position_accuracy = 0.0;                          // m
 };
 
-// Columns as the drive's oxts/dataformat.txt lists them. KITTI's attitude is R_enu_imu = Rz(yaw)
-// Ry(pitch) Rx(roll), pitch nose down. Throws std::invalid_argument with the reason alone: not 30
-// columns, not finite, or outside the range of its kind.
+// Parses the columns that the drive's oxts/dataformat.txt lists. KITTI's attitude is R_enu_imu =
+// Rz(yaw) Ry(pitch) Rx(roll), pitch nose down. Throws std::invalid_argument whose text is the
+// reason only: not 30 columns, not finite, or outside the range of its kind.
 OxtsRow parse_oxts_row(std::string_view text);
-// The same of numbers.
+// Does the same for numbers.
 OxtsRow oxts_row(std::span<const double> values);
 
 struct OxtsRows {
   std::vector<OxtsRow> rows;
-  std::vector<Time> stamps;        // of the rows: of their position and attitude
-  Verdicts verdicts;               // as many as rows
+  std::vector<Time> stamps;        // of the rows' position and attitude
+  Verdicts verdicts;               // one for each row
   std::vector<Finding> unstamped;  // row files beyond the last stamp
 };
 
-// All rows of the folder `oxts` of a drive. Throws std::runtime_error where its timestamps.txt is
-// missing or empty; a row that is missing or unusable has a verdict.
+// Reads all rows of the folder `oxts` of a drive. Throws std::runtime_error if its timestamps.txt
+// is missing or empty; a row that is missing or unusable gets a verdict.
 OxtsRows read_oxts(const std::filesystem::path& folder);
 
 }  // namespace maploop::sensors

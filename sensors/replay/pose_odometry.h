@@ -1,4 +1,4 @@
-// Another system's trajectory in the place of visual odometry.
+// This file replaces visual odometry by another system's trajectory.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -13,24 +13,26 @@
 namespace maploop::sensors {
 
 struct PoseOdometryParameters {
-  std::string file;              // poses of the left camera; empty: none
-  double speed_sigma = 0.3;      // m/s, of a motion over its time; it lacks a figure of its own
+  std::string file;              // poses of the left camera; empty if unused
+  double speed_sigma = 0.3;      // m/s, 1 sigma of a motion over its time; the file does not
+                                 // contain one
   double rotation_sigma = 0.17;  // deg an axis, the same
 };
 
-// Poses of the left camera (x right, y down, z forward; m) as KITTI writes them: 3x4 a line, row by
-// row, the frame's number before it or not (then one line a frame from 0). By frame; plain or .gz.
+// Holds poses of the left camera (x right, y down, z forward; m) in the form in which KITTI writes
+// them: 3x4 a line, row by row, with the frame's number before it or without (then one line a frame
+// from 0). Ordered by frame; plain or .gz.
 struct CameraPoses {
   std::vector<std::size_t> frames;
   std::vector<Eigen::Isometry3d> poses;
 };
 
-// Throws std::runtime_error naming file and line of what is no pose, or does not come after the
-// line before; also where there are fewer than two.
+// Throws std::runtime_error that names file and line if a line is not a pose or does not follow the
+// previous line in order, and also if there are fewer than two.
 CameraPoses read_camera_poses(const std::filesystem::path& file);
 
-// One motion a pose, of the body, stamped by `stamps` (one for each frame of the recording) and
-// available `delay` later. Throws std::runtime_error when a frame has no stamp.
+// Returns one motion of the body for each pose, stamped by `stamps` (one for each frame of the
+// recording) and available `delay` later. Throws std::runtime_error if a frame has no stamp.
 std::unique_ptr<Source<RelativeMotion>> make_pose_odometry(std::shared_ptr<const CameraPoses> poses,
                                                            std::vector<Time> stamps,
                                                            const Eigen::Isometry3d& T_body_cam,

@@ -1,4 +1,5 @@
-// The reference pose at any moment of a drive, for scoring at the stamps of other sensors.
+// This file interpolates the reference pose at any moment of a drive, to score at the stamps of
+// other sensors.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,25 +12,27 @@
 namespace maploop::sensors {
 
 struct ReferenceTrajectoryParameters {
-  // s, beyond the first and last row: images start a few milliseconds outside of the rows.
+  // s beyond the first and last row: images start a few milliseconds outside of the rows.
   double max_extrapolation = 0.020;
-  // s between two rows: across a longer drop-out the straight line invents the truth (at 3 m/s^2
-  // it is 5 cm off in the middle of this).
+  // s between two rows: across a longer gap a straight line is not the true path (at 3 m/s^2 it is
+  // off by 5 cm in the middle of such a gap).
   double max_gap = 0.350;
 };
 
 class ReferenceTrajectory {
  public:
-  // Rows with strictly increasing stamps, at least two; throws std::invalid_argument otherwise.
+  // Takes at least two rows with strictly increasing stamps; throws std::invalid_argument
+  // otherwise.
   ReferenceTrajectory(const std::vector<ReferencePose>& rows, const LocalFrame& frame,
                       const ReferenceTrajectoryParameters& parameters = {});
 
-  // T_enu_body in the local frame: between two rows the position on a straight line, the attitude
-  // by one rotation at a constant rate (slerp); at the ends the same motion carried on. Nothing
-  // outside of that or inside a gap.
+  // Returns T_enu_body in the local frame. Between two rows the position lies on a straight line
+  // and the attitude turns at a constant rate (slerp); at the ends the same motion is extrapolated.
+  // Returns nothing outside of that or inside a gap.
   std::optional<Eigen::Isometry3d> pose(Time stamp) const;
 
-  // m, the recorder's own statement of the position's accuracy: the worse of the rows around.
+  // m, the recorder's own estimate of the position's accuracy: the worse of the two neighbouring
+  // rows.
   double accuracy(Time stamp) const;
 
  private:
@@ -39,7 +42,8 @@ class ReferenceTrajectory {
     Eigen::Quaterniond q_enu_body;
     double accuracy;  // m
   };
-  // The second of the two rows around the stamp; at the ends of the outermost two.
+  // Returns the second of the two rows around the stamp; at the ends the two outermost rows are
+  // used.
   const Row& row_after(Time stamp) const;
   std::vector<Row> rows_;
   Duration max_extrapolation_;

@@ -1,4 +1,4 @@
-// The pairs of a KITTI drive, as their files have them.
+// This file reads the stereo pairs of a KITTI drive from their files.
 #pragma once
 
 #include <filesystem>
@@ -10,18 +10,18 @@
 
 namespace maploop::sensors {
 
-// One camera's folder of numbered images.
+// This is one camera's folder of numbered images.
 struct ImageFolder {
   std::filesystem::path data;
   Timestamps timestamps;
 };
 
-// Pairs left and right by number. One trigger exposes both, and the host notes each a little later
-// than that: stamp = the earlier of the two (against the scanner's clock it scatters by 0.3 ms on
-// drive 0013, the left image's alone by 0.9 ms), available = the later + readout. A pair whose
-// stamps differ by more than `max_skew` is refused, as is an image of another size than
-// width x height.
-// The pixels of pairs available up to `passed` are not read, for who only passes over them.
+// Pairs left and right images by number. One trigger exposes both, and the host stamps each a
+// little later: stamp = the earlier of the two (against the scanner's clock it scatters by 0.3 ms
+// on drive 0013, the left image's alone by 0.9 ms), available = the later + readout. A pair whose
+// stamps differ by more than `max_skew` is refused, and so is an image that has another size
+// than width x height. The pixels of pairs available up to `passed` are not read, for callers that
+// skip them.
 std::unique_ptr<Source<StereoPair>> make_stereo_source(ImageFolder left, ImageFolder right,
                                                        int width, int height, Duration readout,
                                                        Duration max_skew,

@@ -1,4 +1,4 @@
-// KITTI's timestamps.txt: line i + 1 is the stamp of frame i.
+// This file reads KITTI's timestamps.txt: line i + 1 is the stamp of frame i.
 #pragma once
 
 #include <cstddef>
@@ -12,36 +12,36 @@
 
 namespace maploop::sensors {
 
-// Why a frame is left out; nothing for a frame that stands.
+// Why each frame is left out; nothing for a frame that is kept.
 using Verdicts = std::vector<std::optional<Finding>>;
 
-// The stamps of one file. A frame whose line is no stamp has a verdict that says so.
+// Holds the stamps of one file. A frame whose line is not a stamp has a verdict that states this.
 struct Timestamps {
   std::filesystem::path file;
   std::vector<Time> stamps;
-  Verdicts verdicts;  // as many as stamps
+  Verdicts verdicts;  // one for each stamp
 
   std::size_t size() const { return stamps.size(); }
 };
 
-// The files hold Karlsruhe's local time without saying so; it is read as UTC (2 h late in summer,
-// the same for every sensor). Any number of fractional digits up to nine, LF or CRLF. Throws
-// std::runtime_error naming the file when there is not one stamp in it.
+// The files contain Karlsruhe's local time without stating so; it is read as UTC (2 h late in
+// summer, the same for every sensor). Accepts up to nine fractional digits, LF or CRLF. Throws
+// std::runtime_error that names the file if it does not contain any stamp.
 Timestamps parse_timestamps(std::string_view text, const std::filesystem::path& file);
 Timestamps read_timestamps(const std::filesystem::path& file);
 
-// The verdict on frame `i` of one of several files that belong together: its own, or that the file
-// has no such line.
+// Returns the verdict on frame `i` of one of several files that belong together: its own, or that
+// the file has no such line.
 std::optional<Finding> verdict(const Timestamps& timestamps, std::size_t i);
 
-// Gives a verdict to the frames that break the order of time. Of those that still stand, the
-// longest strictly increasing subsequence stays (the earliest of several), so that one wrong stamp
-// costs one frame and not all that follow it. Of what is more than input_limits::longest_gap apart
-// stays the part with the most frames. `file` is the one to blame.
+// Gives a verdict to the frames that break the order of time. Among those without a verdict, the
+// longest strictly increasing subsequence is kept (the earliest of several), so that one wrong
+// stamp costs one frame and not all that follow it. If parts of it are more than
+// input_limits::longest_gap apart, the part with the most frames is kept. The verdicts name `file`.
 void refuse_out_of_order(const std::vector<Time>& stamps, const std::filesystem::path& file,
                          Verdicts& verdicts);
 
-// Verdicts on the numbered files of `folder` that lie beyond the last of `frames` stamps.
+// Returns findings for the numbered files of `folder` beyond the last of `frames` stamps.
 std::vector<Finding> files_without_stamp(const std::filesystem::path& folder, std::size_t frames);
 
 }  // namespace maploop::sensors

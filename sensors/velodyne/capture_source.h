@@ -1,4 +1,4 @@
-// The scans in a capture of a Velodyne scanner's packets.
+// This file reads the scans in a capture of a Velodyne scanner's packets.
 #pragma once
 
 #include <filesystem>
@@ -12,16 +12,18 @@
 namespace maploop::sensors {
 
 struct VelodyneCaptureOptions {
-  std::optional<VelodyneModel> model;  // nothing: by the first data packet that says it
-  std::filesystem::path calibration;   // empty: the model's own lasers (not of an HDL-64E)
+  std::optional<VelodyneModel> model;  // if unset, the model of the first data packet that states
+                                       // it
+  std::filesystem::path calibration;   // if empty, the model's own lasers (not possible for an
+                                       // HDL-64E)
 };
 
-// Of the first scanner that is heard, by its address. Stamps are on the capturing host's clock. A
-// turn that is not whole, and damage of the file, are refused findings.
+// Reads the first scanner in the capture, identified by its address. Stamps are on the capturing
+// host's clock. An incomplete turn and damage of the file are reported as refused findings.
 class VelodyneCapture final : public Source<LidarScan> {
  public:
-  // Throws std::runtime_error naming the file: no capture, no packet of a known scanner, or a
-  // calibration that is missing or wrong.
+  // Throws std::runtime_error that names the file: not a capture, no packet of a known scanner, or
+  // a calibration that is missing or wrong.
   VelodyneCapture(const std::filesystem::path& file, const VelodyneCaptureOptions& options);
 
   bool next(LidarScan& scan) override;
@@ -29,8 +31,8 @@ class VelodyneCapture final : public Source<LidarScan> {
 
   VelodyneModel model() const { return model_; }
   const VelodyneDecoder& decoder() const { return decoder_; }
-  std::uint64_t others() const { return others_ + reader_.others(); }  // packets of anything else
-  // Of the scanner's packets so far.
+  std::uint64_t others() const { return others_ + reader_.others(); }  // packets of other origin
+  // These are the times of the scanner's first and last packet so far.
   Time first() const { return first_; }
   Time last() const { return last_; }
 

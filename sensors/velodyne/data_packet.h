@@ -1,4 +1,5 @@
-// A Velodyne data packet: twelve blocks of 32 returns, the scanner's time, its factory bytes.
+// This file views a Velodyne data packet: twelve blocks of 32 returns, the scanner's time, its
+// factory bytes.
 #pragma once
 
 #include <array>
@@ -22,32 +23,33 @@ constexpr std::size_t packet_fault_count = 5;
 std::string_view to_string(PacketFault fault);
 
 struct VelodyneReturn {
-  std::uint16_t range;  // 2 mm; 0: nothing came back
+  std::uint16_t range;  // 2 mm; 0 means no return
   std::uint8_t intensity;
 };
 
-// A view of a packet's bytes, which must outlive it.
+// This is a view of a packet's bytes, which must outlive it.
 class DataPacket {
  public:
-  // Looks at size, block flags and azimuths; `fault` is none where they are a packet's.
+  // Checks size, block flags and azimuths; `fault` is PacketFault::none if the packet is valid.
   static DataPacket check(std::span<const std::uint8_t> bytes, PacketFault& fault);
 
   std::uint32_t azimuth(std::size_t block) const { return u16(100 * block + 2); }  // 0.01 deg
-  // Of the HDL-64E: lasers 32 to 63.
+  // Returns whether the block holds lasers 32 to 63 of an HDL-64E.
   bool lower(std::size_t block) const { return u16(100 * block) == 0xddff; }
   VelodyneReturn operator()(std::size_t block, std::size_t i) const {
     const std::size_t at = 100 * block + 4 + 3 * i;
     return {u16(at), bytes_[at + 2]};
   }
 
-  // Microseconds since the hour, of the first firing. An HDL-64E of the first series has other
-  // things there.
+  // Microseconds since the hour, of the first firing. An HDL-64E of the first series has other data
+  // there.
   std::uint32_t device_time() const {
     return u16(1200) | static_cast<std::uint32_t>(u16(1202)) << 16;
   }
-  // Strongest and last return in turn, two blocks a firing. Not of the HDL-64E.
+  // Returns whether strongest and last returns alternate, two blocks a firing. Not valid for the
+  // HDL-64E.
   bool dual_return() const { return bytes_[1204] == 0x39; }
-  // Nothing where neither blocks nor factory bytes are those of a known one.
+  // Returns nothing if neither blocks nor factory bytes identify a known model.
   std::optional<VelodyneModel> model() const;
 
  private:

@@ -1,4 +1,4 @@
-// Where each laser of a Velodyne scanner points.
+// This file describes where each laser of a Velodyne scanner points.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace maploop::sensors {
 //   r' = r + range_correction,  h = r' cos_elevation + outwards,  a' = a - azimuth_correction
 //   forward = h cos a' + sideways sin a',  right = h sin a' - sideways cos a'
 //   up = r' sin_elevation + upwards
-// (HDL-64E S2 user's manual, appendix E). Lengths in m.
+// (HDL-64E S2 user's manual, appendix E). Lengths are in m.
 struct Laser {
   double cos_elevation = 1.0;
   double sin_elevation = 0.0;
@@ -27,14 +27,15 @@ struct Laser {
 
 std::size_t laser_count(VelodyneModel model);
 
-// 64, 32 or 16, by the number of the laser in the packet; of the HDL-64E those of the upper block
-// first. The HDL-32E's and VLP-16's are those of their manuals (VLP-16: revision E, with its
-// vertical offsets). Throws std::invalid_argument for the HDL-64E, each of which has its own.
+// Returns 64, 32 or 16 lasers, ordered by the number of the laser in the packet; for the HDL-64E
+// those of the upper block come first. The values of the HDL-32E and VLP-16 are from their manuals
+// (VLP-16: revision E, with its vertical offsets). Throws std::invalid_argument for the HDL-64E,
+// because each unit has its own.
 std::vector<Laser> factory_lasers(VelodyneModel model);
 
-// Velodyne's own calibration file of a scanner (db.xml; angles in degrees, lengths in cm). Throws
-// std::runtime_error naming the file and what is wrong: missing, not such a file, not exactly the
-// lasers of the model, or a value that no scanner has.
+// Reads Velodyne's own calibration file of a scanner (db.xml; angles in degrees, lengths in cm).
+// Throws std::runtime_error that names the file and states what is wrong: missing, not such a file,
+// not exactly the lasers of the model, or a value that no scanner has.
 std::vector<Laser> read_velodyne_calibration(const std::filesystem::path& file,
                                              VelodyneModel model);
 

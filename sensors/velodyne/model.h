@@ -1,4 +1,4 @@
-// The Velodyne scanners whose packets are understood.
+// This file lists the supported Velodyne scanners.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@ constexpr std::string_view to_string(VelodyneModel model) {
   }
 }
 
-// By the name above; nothing where there is no such scanner.
+// Finds a model by the name above; returns nothing if there is no such scanner.
 constexpr std::optional<VelodyneModel> velodyne_model(std::string_view name) {
   for (const auto model : {VelodyneModel::hdl64e, VelodyneModel::hdl32e, VelodyneModel::vlp16}) {
     if (name == to_string(model)) return model;

@@ -1,4 +1,4 @@
-// When the firings of a Velodyne packet were, on the host's clock.
+// This file maps the firing times of Velodyne packets to the host's clock.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,20 @@ namespace maploop::sensors {
 
 struct PacketTime {
   Time first_firing{};
-  std::uint64_t lost = 0;  // packets between the one before and this one
-  bool late = false;       // it was sent before the one before: no time for it
+  std::uint64_t lost = 0;  // packets missing between the previous one and this one
+  bool late = false;       // it was sent before the previous one and gets no time
 };
 
-// Keeps the scanner's microseconds of the hour going over hours, and shifts them to the host's
-// clock (ClockOffset). A scanner without such a clock (HDL-64E of the first series) is noticed: its
-// packets are stamped with their arrival. One thread at a time; allocates nothing.
+// Extends the scanner's microseconds of the hour over hours, and maps them to the host's clock
+// (ClockOffset). A scanner without such a clock (HDL-64E of the first series) is detected: its
+// packets are stamped from their arrival. One thread at a time; does not allocate.
 class PacketClock {
  public:
-  // `period`: from one packet to the next; each is sent when it is full.
+  // `period` is the time from one packet to the next; each is sent when it is full.
   PacketTime stamp(std::uint32_t device_time, Duration period, Time arrival);
   void add(const PositionPacket& packet);
 
-  // Whether stamps come from the scanner's clock rather than from arrivals.
+  // Returns whether stamps come from the scanner's clock rather than from arrivals.
   bool has_device_time() const { return trust_ >= trusted; }
   std::uint64_t jumps() const { return jumps_; }
   const ClockOffset& offset() const { return offset_; }
@@ -33,14 +33,14 @@ class PacketClock {
   std::optional<Duration> gps_offset() const { return gps_offset_; }
 
  private:
-  static constexpr int trusted = 8;  // that many packets with a clock that went on as it should
+  static constexpr int trusted = 8;  // number of packets whose clock advanced as expected
 
   void judge(Duration step, Duration arrival_step);
 
   ClockOffset offset_;
   std::optional<std::uint32_t> last_;  // microseconds of the hour
   Time last_arrival_{};
-  Duration device_{};  // of the last packet, without the hours' end
+  Duration device_{};  // of the last packet, continuous over hours
   int trust_ = 0;      // 0 .. 2 * trusted
   std::uint64_t jumps_ = 0;
   std::optional<Duration> gps_offset_;

@@ -1,4 +1,4 @@
-// The points of a data packet, each with its azimuth and time.
+// This file computes the points of a data packet, each with its azimuth and time.
 #pragma once
 
 #include <array>
@@ -13,24 +13,25 @@ namespace maploop::sensors {
 
 struct FiredPoint {
   LidarPoint point;
-  double azimuth;   // hundredths of a degree that the scanner was turned to, 0 to 36000
+  double azimuth;   // hundredths of a degree to which the scanner was turned, 0 to 36000
   Duration offset;  // after the first firing of the packet
 };
 
-// Returns that came from nowhere (range 0), and the second of two equal ones, are left out. The
-// azimuth of a laser is interpolated to its own moment: the scanner turns by 0.1 deg and more while
-// it fires its lasers one after the other. Of the HDL-64E, whose order of firing within a block is
-// not published, all lasers of a block have the block's. One thread at a time; allocates nothing.
+// Leaves out missing returns (range 0), and the second of two equal ones. The azimuth of each laser
+// is interpolated to its own moment: the scanner turns by 0.1 deg and more while it fires its
+// lasers one after the other. For the HDL-64E, whose order of firing within a block is not
+// published, all lasers of a block have the block's azimuth. One thread at a time; does not
+// allocate.
 class PacketDecoder {
  public:
-  // Precondition: as many lasers as the model has.
+  // Precondition: `lasers` has laser_count(model) elements. Throws std::logic_error otherwise.
   PacketDecoder(VelodyneModel model, std::vector<Laser> lasers);
 
   // Calls take(FiredPoint) for each point, in the order of their times.
   template <class Take>
   void decode(const DataPacket& packet, Take&& take) {
     begin(packet);
-    // Of dual returns the two blocks of a firing belong together, laser by laser.
+    // With dual returns the two blocks of a firing are decoded together, laser by laser.
     const std::size_t together = dual_ ? 2 : 1;
     for (std::size_t block = 0; block < velodyne_blocks; block += together) {
       for (std::size_t i = 0; i < velodyne_block_returns; ++i) {
@@ -45,7 +46,7 @@ class PacketDecoder {
     }
   }
 
-  // From this packet to the next.
+  // Returns the time from this packet to the next.
   Duration period(const DataPacket& packet) const;
 
  private:
@@ -57,9 +58,9 @@ class PacketDecoder {
 
   VelodyneModel model_;
   std::vector<Laser> lasers_;
-  std::vector<float> sines_;        // of each hundredth of a degree, a quarter more than a turn
-  std::vector<Duration> in_block_;  // when each return of a block is fired
-  // Of the packet at hand.
+  std::vector<float> sines_;        // by hundredths of a degree, over one and a quarter turns
+  std::vector<Duration> in_block_;  // firing time of each return within a block
+  // These belong to the current packet.
   bool dual_ = false;
   std::array<double, velodyne_blocks> rate_{};  // hundredths of a degree / ns
 };

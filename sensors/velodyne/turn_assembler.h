@@ -1,4 +1,4 @@
-// Turns of a spinning LiDAR out of its points.
+// This file assembles the turns of a spinning LiDAR from its points.
 #pragma once
 
 #include <cstdint>
@@ -11,24 +11,27 @@ namespace maploop::sensors {
 
 struct TurnCounts {
   std::uint64_t complete = 0;
-  std::uint64_t begun_midway = 0;  // the first one, and after a gap
-  std::uint64_t broken = 0;        // by a gap longer than a quarter of a turn, or it took too long
-  std::uint64_t points = 0;        // of complete ones
-  std::uint64_t no_room = 0;       // points beyond what a turn may have
+  std::uint64_t begun_midway = 0;  // the first one, and one after a gap
+  std::uint64_t broken = 0;        // by a gap of more than a quarter of a turn, or because they
+                                   // took too long
+  std::uint64_t points = 0;        // of complete turns
+  std::uint64_t no_room = 0;       // points beyond the capacity of a turn
 };
 
-// A turn goes from the rear (azimuth 180 deg) to the rear; its stamp is when the scanner faced
-// forward. Memory for the largest turn is taken at the start. One thread at a time.
+// A turn goes from the rear (azimuth 180 deg) to the rear; its stamp is the moment at which the
+// scanner faced forward. Memory for the largest turn is reserved at the start. One thread at a
+// time.
 class TurnAssembler {
  public:
-  // `max_turn`: longer, it is broken.
+  // A turn that lasts longer than `max_turn` is broken.
   explicit TurnAssembler(Duration max_turn);
 
-  // `azimuth` in hundredths of a degree. Where the point begins a new turn and the one before is
-  // complete, that is swapped into `done` (all but `available`); true then.
+  // Takes a point with `azimuth` in hundredths of a degree. If the point begins a new turn and the
+  // previous one is complete, that turn is swapped into `done` (all but `available`); returns true
+  // then.
   bool add(const FiredPoint& fired, Time time, LidarScan& done);
 
-  // What comes next does not follow what came.
+  // Ends the current turn; the next points do not continue it.
   void interrupt();
 
   const TurnCounts& counts() const { return counts_; }
@@ -40,10 +43,10 @@ class TurnAssembler {
 
   Duration max_turn_;
   LidarScan turn_;
-  bool inside_ = false;      // of a turn that was seen to begin
-  bool stamped_ = false;     // it faced forward
-  bool follows_ = false;     // last_... are of the point before
-  double last_angle_ = 0.0;  // since the rear, hundredths of a degree, beyond a turn at its end
+  bool inside_ = false;      // inside a turn whose beginning was seen
+  bool stamped_ = false;     // the scanner has faced forward
+  bool follows_ = false;     // last_... belong to the previous point
+  double last_angle_ = 0.0;  // since the rear, hundredths of a degree, above 36000 at the end
   Time last_time_{};
   std::uint64_t sequence_ = 0;
   TurnCounts counts_;

@@ -1,4 +1,4 @@
-// Scans out of the packets of a Velodyne scanner, whether they come from the network or a capture.
+// This file makes scans from the packets of a Velodyne scanner, from the network or a capture.
 #pragma once
 
 #include <array>
@@ -16,24 +16,26 @@ struct VelodyneCounts {
   std::uint64_t data = 0;                                   // packets decoded
   std::uint64_t positions = 0;                              // packets of the GPS receiver
   std::array<std::uint64_t, packet_fault_count> refused{};  // by PacketFault
-  std::uint64_t lost = 0;                                   // missing between those that came
-  std::uint64_t late = 0;                                   // came after a later one, and left out
+  std::uint64_t lost = 0;                                   // packets missing between those that
+                                                            // arrived
+  std::uint64_t late = 0;                                   // packets that arrived after a later
+                                                            // one, and were dropped
 };
 
-// One turn a scan, from the rear to the rear, on the host's clock: `available` is the arrival of
-// the packet that ended it, or the end of the turn where the clocks put that later. One thread at a
-// time; allocates nothing but the buffers of a scan that it is given empty.
+// A scan is one turn, from the rear to the rear, on the host's clock: `available` is the arrival of
+// the packet that ended it, or the end of the turn if the clocks put that later. One thread at a
+// time; allocates nothing but the buffers of a scan that is passed empty.
 class VelodyneDecoder {
  public:
   VelodyneDecoder(VelodyneModel model, std::vector<Laser> lasers,
                   Duration max_turn = std::chrono::milliseconds(250));
 
-  // A UDP payload and when it arrived: times do not decrease. True when it ended a turn, which is
-  // then in `scan`, in exchange for its buffers; at most one a packet.
+  // Takes a UDP payload and its arrival; arrivals must not decrease. Returns true if it ended a
+  // turn, which is then in `scan`, in exchange for its buffers; a packet ends at most one.
   bool add(std::span<const std::uint8_t> payload, Time arrival, LidarScan& scan);
 
   const VelodyneCounts& counts() const { return counts_; }
-  std::uint64_t points() const { return points_; }  // of all packets, whole turns or not
+  std::uint64_t points() const { return points_; }  // of all packets, including incomplete turns
   const TurnCounts& turns() const { return assembler_.counts(); }
   const PacketClock& clock() const { return clock_; }
 
@@ -44,7 +46,7 @@ class VelodyneDecoder {
   TurnAssembler assembler_;
   VelodyneCounts counts_;
   std::uint64_t points_ = 0;
-  Time last_{};  // first firing of the packet before
+  Time last_{};  // first firing of the previous packet
 };
 
 }  // namespace maploop::sensors
