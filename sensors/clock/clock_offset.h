@@ -18,8 +18,7 @@ struct ClockOffsetParameters {
   Duration reordered = std::chrono::milliseconds(50);  // no message overtakes another by this much
   Duration step = std::chrono::milliseconds(50);       // if messages are this much later, and ...
   Duration steady = std::chrono::milliseconds(10);     // ... constant within this in each of ...
-  std::size_t step_buckets = 3;                        // ... this many buckets in a row, a clock
-                                                       // was set back
+  std::size_t step_buckets = 3;                        // ... this many, a clock was set back
 };
 
 // Every message is delayed by at least the minimum transmission time, and by more when the link or

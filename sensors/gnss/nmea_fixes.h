@@ -24,8 +24,7 @@ struct NmeaCounts {
   std::uint64_t fixes = 0;
   std::uint64_t sentences = 0;
   std::uint64_t damaged = 0;   // lines without a valid checksum
-  std::uint64_t no_fix = 0;    // epochs that the receiver marks as invalid, or with too large an
-                               // HDOP
+  std::uint64_t no_fix = 0;    // epochs marked invalid by the receiver, or HDOP too large
   std::uint64_t repeated = 0;  // epochs not later than the previous one
 };
 

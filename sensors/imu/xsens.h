@@ -22,8 +22,7 @@ struct XsensSample {
 struct XsensCounts {
   std::uint64_t messages = 0;    // valid ones
   std::uint64_t damaged = 0;     // message starts with a wrong checksum, or too long
-  std::uint64_t incomplete = 0;  // MTData2 without a valid acceleration, rate of turn and
-                                 // SampleTimeFine
+  std::uint64_t incomplete = 0;  // MTData2 that lacks a value that is needed
 };
 
 // The unit must send acceleration, rate of turn and SampleTimeFine (in any precision). Memory is
@@ -38,8 +37,7 @@ class XsensDecoder {
   const XsensCounts& counts() const { return counts_; }
 
  private:
-  static constexpr std::size_t longest = 512;  // bytes of a message; MTData2 with these three has
-                                               // 60
+  static constexpr std::size_t longest = 512;  // bytes of a message; the usual one has 60
 
   bool take_message(XsensSample& sample);
   void drop(std::size_t count);

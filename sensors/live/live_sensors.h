@@ -33,11 +33,9 @@ std::unique_ptr<LiveSource<LidarScan>> listen_to_velodyne(LiveVelodyneOptions op
 
 struct LiveStereoOptions {
   std::string left;              // GStreamer pipeline (video_pipeline.h)
-  std::string right;             // the same; if empty, the left pipeline sends both images side by
-                                 // side
+  std::string right;             // the same; if empty, `left` sends both side by side
   int width = 0, height = 0;     // px, of one image as it arrives
-  std::optional<StereoRig> rig;  // calibration of raw cameras, whose pairs are rectified; if unset,
-                                 // pairs arrive rectified
+  std::optional<StereoRig> rig;  // of raw cameras; if unset, pairs arrive rectified
   Duration delay{};              // from the middle of the exposure to the driver's stamp
   Duration max_skew = std::chrono::milliseconds(20);  // of the stamps of one pair
 };

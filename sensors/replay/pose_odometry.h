@@ -14,8 +14,7 @@ namespace maploop::sensors {
 
 struct PoseOdometryParameters {
   std::string file;              // poses of the left camera; empty if unused
-  double speed_sigma = 0.3;      // m/s, 1 sigma of a motion over its time; the file does not
-                                 // contain one
+  double speed_sigma = 0.3;      // m/s, 1 sigma; the file does not contain one
   double rotation_sigma = 0.17;  // deg an axis, the same
 };
 

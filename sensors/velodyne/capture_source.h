@@ -12,10 +12,8 @@
 namespace maploop::sensors {
 
 struct VelodyneCaptureOptions {
-  std::optional<VelodyneModel> model;  // if unset, the model of the first data packet that states
-                                       // it
-  std::filesystem::path calibration;   // if empty, the model's own lasers (not possible for an
-                                       // HDL-64E)
+  std::optional<VelodyneModel> model;  // if unset, taken from the data packets
+  std::filesystem::path calibration;   // if empty, the model's own (not for an HDL-64E)
 };
 
 // Reads the first scanner in the capture, identified by its address. Stamps are on the capturing

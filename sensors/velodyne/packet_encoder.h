@@ -43,8 +43,7 @@ struct TimedPacket {
 struct EncodedTurn {
   std::vector<TimedPacket> packets;  // in the order of their times
   std::uint64_t points = 0;
-  std::uint64_t crowded = 0;  // points left out: out of range, or another point of their laser has
-                              // the firing
+  std::uint64_t crowded = 0;  // points left out: out of range, or firing taken
 };
 
 // All lasers fire together every 48 us, as in the unit. A point belongs to the laser with the

@@ -12,8 +12,7 @@ namespace maploop::sensors {
 struct TurnCounts {
   std::uint64_t complete = 0;
   std::uint64_t begun_midway = 0;  // the first one, and one after a gap
-  std::uint64_t broken = 0;        // by a gap of more than a quarter of a turn, or because they
-                                   // took too long
+  std::uint64_t broken = 0;        // by a gap of over a quarter turn, or too long
   std::uint64_t points = 0;        // of complete turns
   std::uint64_t no_room = 0;       // points beyond the capacity of a turn
 };

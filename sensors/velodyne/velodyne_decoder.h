@@ -16,10 +16,8 @@ struct VelodyneCounts {
   std::uint64_t data = 0;                                   // packets decoded
   std::uint64_t positions = 0;                              // packets of the GPS receiver
   std::array<std::uint64_t, packet_fault_count> refused{};  // by PacketFault
-  std::uint64_t lost = 0;                                   // packets missing between those that
-                                                            // arrived
-  std::uint64_t late = 0;                                   // packets that arrived after a later
-                                                            // one, and were dropped
+  std::uint64_t lost = 0;                                   // missing between others
+  std::uint64_t late = 0;                                   // came after a later one; dropped
 };
 
 // A scan is one turn, from the rear to the rear, on the host's clock: `available` is the arrival of
