@@ -8,7 +8,7 @@
 namespace maploop::sensors {
 namespace {
 
-// Whether the distorted radius grows all the way from the axis to `x`.
+// Returns whether the distorted radius grows all the way from the axis to `x`.
 bool is_lens(const Distortion& d, const Eigen::Vector2d& x) {
   constexpr int steps = 8;
   const double r2 = x.squaredNorm();

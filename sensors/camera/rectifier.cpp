@@ -13,10 +13,10 @@ namespace {
 
 constexpr int kOne = 256;  // weight 1, in steps of 1/256 px
 
-// The raw pixel up and left of the place that a rectified pixel looks at, and how far that lies
-// beyond it.
+// Holds the raw pixel above and left of the place that a rectified pixel looks at, and how far the
+// place lies to the right of it and below it.
 struct Place {
-  std::int32_t first = -1;  // none: the raw image does not hold the place
+  std::int32_t first = -1;  // negative if the place is outside of the raw image
   std::uint16_t right = 0, down = 0;
 };
 
@@ -25,7 +25,7 @@ using Map = std::vector<Place>;
 Place place_of(const Eigen::Vector2d& pixel, int width, int height) {
   if (!(pixel.x() >= 0.0 && pixel.y() >= 0.0 && pixel.x() <= width - 1 && pixel.y() <= height - 1))
     return {};
-  // On the last row and column the one before it is first, with all weight on the other.
+  // On the last row and column the previous one is `first`, and its neighbour gets the full weight.
   const int x = std::min(static_cast<int>(pixel.x()), width - 2);
   const int y = std::min(static_cast<int>(pixel.y()), height - 2);
   return {y * width + x, static_cast<std::uint16_t>(std::lround((pixel.x() - x) * kOne)),

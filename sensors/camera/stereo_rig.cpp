@@ -70,7 +70,7 @@ std::optional<std::string> problem_of(const StereoRig& rig) {
   if (rig.T_body_left && !is_rotation(rig.T_body_left->linear()))
     return "the camera's mounting is not a rotation";
 
-  // After rectification the cameras are parallel, the right one `baseline` along +x.
+  // After rectification the cameras are parallel, and the right one is `baseline` along +x.
   const Eigen::Matrix3d turned =
       rig.R_rect_right * rig.T_right_left.linear() * rig.R_rect_left.transpose();
   const Eigen::Vector3d right = -rig.R_rect_right * rig.T_right_left.translation();

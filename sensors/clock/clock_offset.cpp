@@ -56,14 +56,14 @@ bool ClockOffset::add(Duration device, Time arrival) {
   } else if (p.offset < point(count_ - 1).offset) {
     point(count_ - 1) = p;
   }
-  // Nothing comes before it was sent.
+  // No message arrives before it was sent, so the line lies under all points.
   if (p.offset < line_at(device)) anchor_ = p;
   delay_ = std::max(delay_, Duration::zero());
   return false;
 }
 
-// Whether the last buckets say so, the newest of which is `late`. A busy way delays now more, now
-// less.
+// Returns whether the last buckets, the newest of which is `late`, show a clock that was set back.
+// The delay of a busy link would vary between buckets.
 bool ClockOffset::set_back(Duration late) {
   if (late < parameters_.step) {
     late_buckets_ = 0;
@@ -75,9 +75,9 @@ bool ClockOffset::set_back(Duration late) {
   return late_buckets_ >= parameters_.step_buckets;
 }
 
-// The edge of the lower convex hull above the middle of the time seen; before a drift shows, the
-// level of the lowest point. The newest bucket is not complete, but any point of it may be the
-// lowest.
+// Takes the slope from that edge of the lower convex hull which spans the middle of the observed
+// time; with too few buckets the line stays level, at the lowest point. The newest bucket is
+// incomplete, but any of its points may be the lowest.
 void ClockOffset::fit() {
   std::array<std::size_t, most_buckets> hull{};
   std::size_t size = 0;
@@ -98,7 +98,7 @@ void ClockOffset::fit() {
     slope_ = std::clamp(to_seconds(b.offset - a.offset) / to_seconds(b.device - a.device),
                         -parameters_.max_drift, parameters_.max_drift);
   }
-  // The line of that slope under all points.
+  // The line of that slope is moved under all points.
   anchor_ = point(0);
   for (std::size_t i = 1; i < count_; ++i) {
     if (point(i).offset < line_at(point(i).device)) anchor_ = point(i);

@@ -12,7 +12,7 @@ namespace maploop::sensors {
 struct ClockOffsetParameters {
   Duration bucket = std::chrono::seconds(1);  // uses the least delayed message of each
   std::size_t drift_buckets = 8;              // with fewer buckets no drift is estimated
-  double max_drift = 200e-6;  // 1; quartz is within 100 ppm of the truth, twice that of another
+  double max_drift = 200e-6;  // 1; a quartz is accurate to 100 ppm, so two differ by twice that
   Duration jump = std::chrono::milliseconds(500);      // no message stays this late for longer ...
   Duration patience = std::chrono::seconds(1);         // ... than this, unless a clock jumped
   Duration reordered = std::chrono::milliseconds(50);  // no message overtakes another by this much

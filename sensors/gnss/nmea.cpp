@@ -17,7 +17,7 @@ std::optional<double> finite_number(std::string_view text) {
   return value;
 }
 
-// The value of `count` decimal digits at `from`.
+// Returns the value of `count` decimal digits at `from`.
 std::optional<int> digits(std::string_view text, std::size_t from, std::size_t count) {
   if (from + count > text.size()) return {};
   int value = 0;
@@ -28,7 +28,7 @@ std::optional<int> digits(std::string_view text, std::size_t from, std::size_t c
   return value;
 }
 
-// What stands between '$' and '*', where the two digits after that are its checksum.
+// Returns the text between '$' and '*' if the two digits after that are its checksum.
 std::optional<std::string_view> checked_body(std::string_view line) {
   while (!line.empty() && (line.back() == '\r' || line.back() == '\n')) line.remove_suffix(1);
   if (line.size() < 7 || line.front() != '$' || line[line.size() - 3] != '*') return {};

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double knot = 1852.0 / 3600.0;  // m/s
 
-// 1 sigma of a position with HDOP 1, m; nothing where the quality of a GGA is no fix.
+// Returns 1 sigma of a position with HDOP 1, m, or nothing if the quality of a GGA is not a fix.
 std::optional<double> sigma_of_quality(std::string_view quality) {
   if (quality.size() != 1) return {};
   switch (quality.front()) {
@@ -24,7 +24,7 @@ std::optional<double> sigma_of_quality(std::string_view quality) {
       return 0.03;
     case '5':
       return 0.3;
-    default:  // none, dead reckoning, by hand, simulated
+    default:  // no fix, dead reckoning, manual, simulated
       return {};
   }
 }
@@ -43,7 +43,7 @@ void NmeaFixes::take_gga(const NmeaSentence& s) {
     ++counts_.no_fix;
     return;
   }
-  // Heights are worse than positions by half, for all satellites are above.
+  // Heights are 1.5 times as uncertain as positions, because all satellites are above the receiver.
   position_ = Position{*time,
                        {*latitude, *longitude, altitude.value_or(0.0) + geoid.value_or(0.0)},
                        *sigma * *hdop,
@@ -56,7 +56,7 @@ void NmeaFixes::take_rmc(const NmeaSentence& s) {
   const auto date = nmea_date(s.field(8));
   const auto speed = s.number(6);
   if (s.field(1) != "A" || !time || !date || !speed || *speed < 0.0) return;
-  // Receivers leave the course out while they stand.
+  // Receivers leave the course out while they do not move.
   motion_ = Motion{*date + *time, knot * *speed, radians(s.number(7).value_or(0.0)),
                    s.field(0).substr(4, 2) == "60"};
 }
@@ -96,11 +96,11 @@ bool NmeaFixes::complete(Time arrival, GnssFix& fix) {
   position_.reset();
   motion_.reset();
   if (leap_ && motion.time == last_) {
-    clock_ = ClockOffset();  // UTC was held for a second
+    clock_ = ClockOffset();  // UTC stood still for a second
     ++jumps_;
   } else if (motion.time <= last_) {
     ++counts_.repeated;
-    // A receiver that was wrong about its date says an earlier one from then on.
+    // A receiver that corrects a wrong date continues with an earlier one.
     if (last_ - motion.time > std::chrono::seconds(10)) last_ = motion.time;
     return false;
   }

@@ -33,7 +33,7 @@ void check(int error) {
   }
 }
 
-// A file whose header has been read.
+// This is a file whose header has been read.
 struct Opened {
   Context context;
   spng_ihdr header;
@@ -43,14 +43,14 @@ Opened open(std::span<const char> file) {
   if (file.empty()) throw std::runtime_error("the file is empty");
   if (!is_png(file)) throw std::runtime_error("is no PNG image");
   Opened opened{context(0), {}};
-  // Texts and profiles beside the image are compressed, too.
+  // Texts and profiles beside the image are compressed too, and need a limit.
   check(spng_set_chunk_limits(opened.context.get(), input_limits::picture, input_limits::picture));
   check(spng_set_png_buffer(opened.context.get(), file.data(), file.size()));
   check(spng_get_ihdr(opened.context.get(), &opened.header));
   return opened;
 }
 
-// All pixels, and the file to its end.
+// Decodes all pixels and reads the file to its end.
 void decode(const Context& png, std::vector<std::uint8_t>& pixels, spng_format format) {
   check(spng_decode_image(png.get(), pixels.data(), pixels.size(), format, 0));
   check(spng_decode_chunks(png.get()));

@@ -11,7 +11,7 @@ std::uint8_t sum(std::span<const std::uint8_t> bytes) {
   return static_cast<std::uint8_t>(total);
 }
 
-// Three bytes, little-endian, two's complement.
+// Reads three bytes, little-endian, two's complement.
 int i24(std::span<const std::uint8_t> bytes, std::size_t at) {
   const int value = bytes[at] | bytes[at + 1] << 8 | bytes[at + 2] << 16;
   return value >= 1 << 23 ? value - (1 << 24) : value;
@@ -56,7 +56,7 @@ std::optional<Time> NcomClock::stamp(std::uint16_t minute_ms, Time arrival) {
     int ms = int{minute_ms} - int{*last_};
     if (ms > minute / 2) ms -= minute;
     if (ms < -minute / 2) ms += minute;
-    // The minute says nothing of whole minutes without a packet: the host's clock does.
+    // The packet does not count whole minutes without a packet; the host's clock does.
     const Duration step = std::chrono::milliseconds(ms);
     const Duration away = arrival - last_arrival_ - step;
     const Duration minutes =

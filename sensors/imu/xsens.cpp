@@ -10,17 +10,17 @@ namespace {
 using XsensBytes = std::span<const std::uint8_t>;
 
 constexpr std::uint8_t xsens_preamble = 0xfa, xsens_bus = 0xff, mt_data2 = 0x36;
-constexpr std::uint8_t xsens_long = 0xff;  // the length is in the two bytes that follow
+constexpr std::uint8_t xsens_long = 0xff;  // the length is in the next two bytes
 
-// The highest byte first.
+// Reads bytes in big-endian order.
 std::uint64_t big_endian(XsensBytes bytes) {
   std::uint64_t value = 0;
   for (const std::uint8_t b : bytes) value = value << 8 | b;
   return value;
 }
 
-// Three numbers in the format that the lowest two bits of the identifier name,
-// and that a vehicle can have.
+// Reads three numbers in the format that the lowest two bits of the identifier select. Returns
+// nothing if one is larger than `most`.
 std::optional<std::array<double, 3>> three_numbers(unsigned format, XsensBytes data, double most) {
   constexpr std::array<std::size_t, 4> widths{4, 4, 6, 8};  // float, 12.20, 16.32, double
   const std::size_t width = widths[format & 3U];
@@ -74,13 +74,14 @@ std::optional<XsensSample> XsensDecoder::decode(std::span<const std::uint8_t> da
     data = data.subspan(3 + size);
   }
   if (!ticks || !force || !rate) return {};
-  // 32 bits begin anew after 5 days; a unit that was switched on again seems to have done so.
+  // The 32 bits wrap after 5 days; a unit that was switched on again looks the same.
   if (last_ticks_) ticks_ += static_cast<std::uint32_t>(*ticks - *last_ticks_);
   last_ticks_ = ticks;
   return XsensSample{ticks_ * Duration(std::chrono::microseconds(100)), *force, *rate};
 }
 
-// What is at the begin: true with a sample; else what cannot be one is dropped.
+// Parses the message at the start of the buffer. Returns true with a sample; otherwise bytes that
+// cannot be a message are dropped.
 bool XsensDecoder::take_message(XsensSample& sample) {
   for (;;) {
     const auto end = message_.begin() + static_cast<std::ptrdiff_t>(size_);

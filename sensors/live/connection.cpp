@@ -29,7 +29,7 @@ timespec as_timespec(Duration d) {
   return {ns / 1'000'000'000, ns % 1'000'000'000};
 }
 
-// The events that came until then.
+// Waits until `deadline` and returns the events that occurred; 0 if none did.
 short poll_until(int fd, short events, MonotonicTime deadline) {
   pollfd p{fd, events, 0};
   const timespec left = as_timespec(deadline - now());
@@ -41,8 +41,8 @@ void sleep_until(MonotonicTime deadline) {
   nanosleep(&left, nullptr);
 }
 
-// A peer whose cable is pulled, or that starts again, says no word: after a pause of 2 s it is
-// asked each second, and 3 questions without an answer close the connection.
+// A peer whose cable is pulled, or that restarts, sends nothing. After 2 s of silence a keepalive
+// is sent each second, and the connection is closed after 3 without an answer.
 void notice_dead_peers(int fd) {
   const auto set = [fd](int level, int option, int value) {
     setsockopt(fd, level, option, &value, sizeof value);
@@ -51,7 +51,7 @@ void notice_dead_peers(int fd) {
   set(IPPROTO_TCP, TCP_KEEPIDLE, 2);
   set(IPPROTO_TCP, TCP_KEEPINTVL, 1);
   set(IPPROTO_TCP, TCP_KEEPCNT, 3);
-  set(IPPROTO_TCP, TCP_USER_TIMEOUT, 5000);  // ms, of what we have sent: a question to a caster
+  set(IPPROTO_TCP, TCP_USER_TIMEOUT, 5000);  // ms in which data must be acknowledged
 }
 
 }  // namespace
@@ -91,7 +91,7 @@ int Connection::open_socket(std::string& problem) {
       socket(AF_INET, (udp ? SOCK_DGRAM : SOCK_STREAM) | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   bool good = fd >= 0;
   if (good && udp) {
-    const int bytes = 4 << 20;  // a scan and more; what the system grants is enough for a packet
+    const int bytes = 4 << 20;  // holds over a scan; any granted size holds a packet
     setsockopt(fd, SOL_SOCKET, SO_RCVBUF, &bytes, sizeof bytes);
     good = bind(fd, where, sizeof address) == 0;
   } else if (good) {
@@ -155,7 +155,7 @@ bool Connection::wait_open(MonotonicTime deadline) {
 std::size_t Connection::receive(std::span<std::uint8_t> to) {
   if (endpoint_.kind == Endpoint::Kind::udp) {
     const ssize_t size = recv(fd_, to.data(), to.size(), MSG_TRUNC);
-    if (size <= 0) return 0;  // an empty datagram, or an error that an earlier one came back with
+    if (size <= 0) return 0;  // an empty datagram, or an error due to an earlier one
     if (static_cast<std::size_t>(size) <= to.size()) return static_cast<std::size_t>(size);
     ++state_.too_large;
     return 0;
@@ -175,7 +175,7 @@ std::size_t Connection::read(std::span<std::uint8_t> to, Duration patience) {
   while (state_.open && poll_until(fd_, POLLIN, deadline) != 0) {
     const std::size_t size = receive(to);
     state_.bytes += size;
-    // A datagram that is left out does not end the waiting.
+    // A datagram that is dropped does not end the waiting.
     if (size > 0 || now() >= deadline) return size;
   }
   return 0;

@@ -69,7 +69,7 @@ Endpoint parse_endpoint(std::string_view text) {
 std::string without_secrets(std::string_view text) {
   constexpr std::string_view property = "user-pw=", hidden = "***";
   std::string shown(text);
-  // A password may hold an @ itself: what is hidden ends at the last one.
+  // A password may contain an @ itself, so the hidden part ends at the last one.
   const std::size_t scheme = shown.find("://"), at = shown.rfind('@');
   if (scheme != std::string::npos && at != std::string::npos && at > scheme) {
     shown.replace(scheme + 3, at - scheme - 3, hidden);
@@ -77,7 +77,7 @@ std::string without_secrets(std::string_view text) {
   for (std::size_t i = 0; (i = shown.find(property, i)) != std::string::npos;) {
     i += property.size();
     const bool quoted = i < shown.size() && shown[i] == '"';
-    // Beyond its own quotes, or up to the next word.
+    // The value ends after its own quotes, or before the next word.
     const std::size_t last = quoted ? shown.find('"', i + 1) : shown.find_first_of(" \t!", i);
     const std::size_t end = last == std::string::npos ? shown.size() : last + (quoted ? 1 : 0);
     shown.replace(i, end - i, hidden);

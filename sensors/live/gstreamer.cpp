@@ -18,7 +18,7 @@ GstOwned<GstElement> parse_pipeline(const std::string& whole, const std::string&
                                 (error ? without_secrets(error->message) : "it is empty") +
                                 "; gst-launch-1.0 tries one, gst-inspect-1.0 lists the elements");
   }
-  // A floating reference, which has no owner yet.
+  // The reference is floating: it has no owner until it is sunk.
   return GstOwned<GstElement>(GST_ELEMENT(gst_object_ref_sink(pipeline)));
 }
 

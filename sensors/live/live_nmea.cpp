@@ -15,7 +15,7 @@ class LiveNmea final : public LiveSource<GnssFix> {
   bool wait(GnssFix& fix, Duration patience) override {
     return lines_.wait(patience, [&](std::string_view line, Time arrival) {
       if (!fixes_.add(line, arrival, fix)) return false;
-      // Several may come at once.
+      // Several lines may arrive at once.
       fix.available = last_available_ = std::max(fix.available, last_available_ + Duration(1));
       ++delivered_;
       return true;

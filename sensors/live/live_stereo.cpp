@@ -12,7 +12,7 @@
 namespace maploop::sensors {
 namespace {
 
-// Images of one camera that wait for their partners.
+// Holds images of one camera that wait for their partners.
 class Waiting {
  public:
   bool empty() const { return count_ == 0; }
@@ -21,7 +21,7 @@ class Waiting {
     first_ = (first_ + 1) % frames_.size();
     --count_;
   }
-  // The place of the next; the oldest makes room.
+  // Returns the place of the next image; if there is no room, the oldest one is dropped.
   VideoFrame& next(std::uint64_t& alone) {
     if (count_ == frames_.size()) {
       drop_oldest();
@@ -37,7 +37,7 @@ class Waiting {
   std::size_t count_ = 0;
 };
 
-// Left and right half of one image.
+// Splits one image into its left and right half.
 void halve(const GreyImage& both, GreyImage& left, GreyImage& right) {
   const int width = both.width / 2;
   left.resize(width, both.height);
@@ -106,7 +106,7 @@ class LiveStereo final : public LiveSource<StereoPair> {
   }
 
   bool wait_for_two(Duration patience, StereoPair& pair) {
-    // Half of the time for each: both cameras expose at once.
+    // Each camera gets half of the time, because both expose at the same moment.
     fetch(left_, lefts_, patience / 2);
     fetch(*right_, rights_, patience / 2);
     while (!lefts_.empty() && !rights_.empty()) {

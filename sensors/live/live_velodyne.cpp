@@ -18,13 +18,14 @@ class LiveVelodyne final : public LiveSource<LidarScan> {
   }
 
   bool wait(LidarScan& scan, Duration patience) override {
-    // They are few; a flood of them does not keep the data waiting.
+    // Position packets are rare; the limit keeps a flood of them from delaying the data.
     for (int i = 0; position_ && i < most_positions; ++i) {
       const std::size_t size = position_->read(buffer_, Duration::zero());
       if (size == 0) break;
       decoder_.add(std::span(buffer_).first(size), clock_.now(), scan);
     }
-    // A turn is 75 packets and more: returns now and then although there is more to read.
+    // A turn has 75 packets or more: the loop returns after `patience` even if there is more to
+    // read.
     const Time end = clock_.now() + patience;
     do {
       const std::size_t size = data_.read(buffer_, end - clock_.now());

@@ -57,7 +57,7 @@ class LiveXsens final : public LiveSource<ImuSample> {
     }
     last_time_ = said.time;
     if (offset_.add(said.time, arrival_)) ++jumps_;
-    // Samples that come at once, as the first ones do, are of different moments all the same.
+    // Samples that arrive at once, as the first ones do, still belong to different moments.
     sample.stamp = last_stamp_ =
         std::max(offset_.to_host(said.time) - delay_, last_stamp_ + Duration(1));
     sample.available = last_available_ = std::max(arrival_, last_available_ + Duration(1));
@@ -77,7 +77,7 @@ class LiveXsens final : public LiveSource<ImuSample> {
   Time arrival_{};
   ClockOffset offset_;
   std::uint64_t repeated_ = 0, delivered_ = 0, jumps_ = 0;
-  std::optional<Duration> last_time_;  // of the unit
+  std::optional<Duration> last_time_;  // of the unit's clock
   Time last_stamp_{}, last_available_{};
 };
 

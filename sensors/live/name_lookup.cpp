@@ -13,7 +13,7 @@
 namespace maploop::sensors {
 
 struct NameLookup::Shared {
-  Answer answer;  // constant once it is known
+  Answer answer;  // constant once `known` is true
   std::atomic<bool> known{false};
 };
 

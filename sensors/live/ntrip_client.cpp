@@ -31,7 +31,7 @@ void NtripClient::give_up(std::string problem) {
   pause_ = pause_ == Duration::zero() ? first_pause : std::min(2 * pause_, longest_pause);
   state_.open = false;
   state_.problem = std::move(problem);
-  // With the lookup: the name may have another address by then.
+  // The lookup is dropped too, because the name may have another address by then.
   connection_.reset();
   lookup_.reset();
   unread_ = {};
@@ -96,7 +96,7 @@ std::size_t NtripClient::read(std::span<std::uint8_t> to, Duration patience) {
       continue;
     }
     if (!below.open && unread_.empty()) {
-      // While it connects nothing is wrong yet.
+      // A connection without a problem is still being opened.
       if (!below.problem.empty()) give_up(below.problem);
       continue;
     }

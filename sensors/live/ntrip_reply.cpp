@@ -14,7 +14,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-// A line as it can be shown.
+// Returns a line as it can be shown to a user.
 std::string shown(const std::string& line) {
   std::string text = line.substr(0, 80);
   std::erase_if(text, [](char c) { return c < ' ' || c > '~'; });
@@ -33,7 +33,7 @@ void NtripReply::take_head(std::span<const std::uint8_t>& from) {
     head_ += static_cast<char>(from.front());
     from = from.subspan(1);
     const bool first_line = head_.find('\n') == head_.size() - 1;
-    // Of version 1 nothing but the first line.
+    // The head of version 1 is only its first line.
     if (first_line && head_.ends_with("\r\n") && head_.starts_with("ICY 200 OK")) {
       state_ = State::stream;
     } else if (head_.ends_with("\r\n\r\n") || (first_line && !head_.starts_with("HTTP/"))) {
@@ -65,7 +65,7 @@ void NtripReply::judge_head() {
   }
 }
 
-// "1f;extension\r\n" and the line's end behind the chunk before it.
+// Parses "1f;extension\r\n".
 void NtripReply::take_size(std::uint8_t c) {
   constexpr std::size_t longest_line = 256, most_digits = 8;
   if (c == '\n') {

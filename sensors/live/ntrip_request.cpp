@@ -22,7 +22,7 @@ constexpr std::string_view ntrip_scheme = "ntrip://", ntrips_scheme = "ntrips://
                               "be, ?version=1 and ?gga=LATITUDE,LONGITUDE,HEIGHT with & between");
 }
 
-// The part before `end`, taken off with it; all of it where there is no `end`.
+// Takes the part before `end` off the text, with `end`; takes all of it if there is no `end`.
 std::string_view take_until(std::string_view& text, char end) {
   const std::size_t at = text.find(end);
   const std::string_view part = text.substr(0, at);
@@ -66,7 +66,7 @@ std::string base64(std::string_view text) {
   return out;
 }
 
-// "4858.95000,N"
+// Returns a text such as "4858.95000,N".
 std::string angle_field(double value, int degree_digits, const char* signs) {
   const double minutes = std::abs(degrees(value)) * 60.0;
   const int whole = static_cast<int>(minutes / 60.0);
@@ -88,7 +88,7 @@ NtripAddress parse_ntrip(std::string_view text) {
   if (a.encrypted) a.port = 443;
   const std::size_t scheme = (a.encrypted ? ntrips_scheme : ntrip_scheme).size();
   std::string_view rest = text.substr(std::min(text.size(), scheme));
-  // A password may hold anything but a line's end; what follows the last @ is the host.
+  // A password may contain any character but a line end; the host follows the last @.
   const std::size_t at = rest.rfind('@');
   std::string_view who = at == std::string_view::npos ? std::string_view{} : rest.substr(0, at);
   if (at != std::string_view::npos) rest.remove_prefix(at + 1);

@@ -57,7 +57,7 @@ int open_serial(const std::string& device, int baud, std::string& problem) {
   cfmakeraw(&settings);
   settings.c_cflag |= CLOCAL | CREAD;
   settings.c_cflag &= ~static_cast<tcflag_t>(CRTSCTS | CSTOPB);
-  settings.c_cc[VMIN] = 1;  // with 0, nothing there looks like the end
+  settings.c_cc[VMIN] = 1;  // with 0, an idle line looks like the end of a file
   settings.c_cc[VTIME] = 0;
   if (cfsetspeed(&settings, speed_of(baud)) != 0 || tcsetattr(fd, TCSANOW, &settings) != 0) {
     problem = "does not take " + std::to_string(baud) + " baud";

@@ -38,7 +38,7 @@ struct TlsConnection::Session {
     if (ssl == nullptr) return;
     from_host = BIO_new(BIO_s_mem());
     to_host = BIO_new(BIO_s_mem());
-    SSL_set_bio(ssl, from_host, to_host);  // which owns them now
+    SSL_set_bio(ssl, from_host, to_host);  // the session owns them from here on
     SSL_set_connect_state(ssl);
     good = trusts && expect_host(ssl, host);
   }
@@ -51,9 +51,9 @@ struct TlsConnection::Session {
 
   SSL_CTX* context;
   SSL* ssl = nullptr;
-  BIO *from_host = nullptr, *to_host = nullptr;  // encrypted, in memory
+  BIO *from_host = nullptr, *to_host = nullptr;  // encrypted data, in memory
   bool good = false;
-  bool over = false;  // for good
+  bool over = false;  // closed permanently
 };
 
 TlsConnection::TlsConnection(Endpoint endpoint, const std::string& host)
@@ -84,7 +84,7 @@ void TlsConnection::shake_hands() {
   ERR_clear_error();
   const int result = SSL_do_handshake(session_->ssl);
   const int error = SSL_get_error(session_->ssl, result);
-  const bool sent = flush();  // a refusal too, which the other side is told
+  const bool sent = flush();  // also sends the alert of a refusal
   if (result == 1) {
     state_.open = true;
     ++state_.opened;

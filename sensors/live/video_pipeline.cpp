@@ -52,7 +52,7 @@ void VideoPipeline::open() {
   elements->pipeline = parse(description_);
   elements->sink.reset(gst_bin_get_by_name(GST_BIN(elements->pipeline.get()), "maploop"));
   elements->bus.reset(gst_element_get_bus(elements->pipeline.get()));
-  // A source may take its time to open a device or to reach a host.
+  // A source may take long to open a device or to reach a host, so it starts asynchronously.
   gst_element_call_async(
       elements->pipeline.get(),
       [](GstElement* pipeline, gpointer) { gst_element_set_state(pipeline, GST_STATE_PLAYING); },
@@ -69,7 +69,7 @@ void VideoPipeline::close(std::string problem) {
   next_attempt_ = clock_.now() + between_attempts;
 }
 
-// False where the pipeline has ended.
+// Returns false if the pipeline has ended.
 bool VideoPipeline::heed_messages() {
   constexpr auto ends = static_cast<GstMessageType>(GST_MESSAGE_ERROR | GST_MESSAGE_EOS);
   const GstOwned<GstMessage> message(gst_bus_pop_filtered(elements_->bus.get(), ends));
@@ -131,7 +131,7 @@ void VideoPipeline::take(VideoFrame& frame, void* opaque) {
   ++state_.frames;
   state_.connection.bytes += frame.image.pixels.size();
 
-  // The pipeline's clock now, less that of the buffer: how long ago it was taken.
+  // The age of the image is the pipeline's clock now minus the time of the buffer.
   GstElement* pipeline = elements_->pipeline.get();
   const GstOwned<GstClock> clock(gst_element_get_clock(pipeline));
   const GstClockTime pts = GST_BUFFER_PTS(buffer);

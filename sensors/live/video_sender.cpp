@@ -14,7 +14,7 @@ struct VideoSender::Elements {
   GstOwned<GstElement> source;
   GstOwned<GstBus> bus;
 
-  // Of the pipeline, so long ago: none before its start.
+  // Returns the running time of the pipeline at the moment `ago` before now; 0 before its start.
   GstClockTime running_time(Duration ago) const {
     const GstOwned<GstClock> clock(gst_element_get_clock(pipeline.get()));
     if (clock == nullptr) return 0;
@@ -58,7 +58,7 @@ bool VideoSender::send(const StereoPair& pair, Duration ago) {
   for (const GreyImage* image : {&pair.left, &pair.right}) {
     if (image->width != width_ || image->height != height_) return false;
   }
-  // Rows of raw video are a multiple of four bytes long.
+  // Rows of raw video are padded to a multiple of four bytes.
   const std::size_t stride = (2 * width + 3) / 4 * 4;
   GstBuffer* buffer = gst_buffer_new_allocate(nullptr, stride * height, nullptr);
   GstMapInfo map;

@@ -9,7 +9,7 @@
 namespace maploop::sensors {
 namespace {
 
-// Their numbers are not those of the noise of the same seed and stamp.
+// These streams keep the drawn numbers apart from the noise of the same seed and stamp.
 constexpr std::uint64_t gnss_sizes_stream = 0x7369'7a65'7300'0000;
 constexpr std::uint64_t steps_stream = 0x7374'6570'7300'0000;
 
@@ -78,7 +78,7 @@ bool GnssAid::offer(Time stamp, const Geodetic& position, const Eigen::Vector3d&
   return true;
 }
 
-// A Markov chain of two states: in a step, or not.
+// Models a Markov chain of two states: inside a step or outside.
 Eigen::Vector3d GnssAid::step(Time stamp) {
   if (errors_.step_share <= 0.0) return Eigen::Vector3d::Zero();
   NormalGenerator draw(static_cast<std::uint64_t>(parameters_.seed) ^ steps_stream, stamp);

@@ -29,7 +29,7 @@ class NoisyImu final : public Source<ImuSample> {
       left_bias_ = p_.accelerometer_turn_on * normal.next();
       drift_ = p_.gyro_instability * normal.next();
     }
-    // White noise of a sample that stands for the time since the one before.
+    // The white noise is that of a mean over the time since the previous sample.
     constexpr double shortest = 1e-3;
     const double dt = last_ ? std::max(to_seconds(sample.stamp - *last_), shortest) : 0.1;
     const double kept = std::exp(-dt / p_.instability_time);

@@ -46,18 +46,18 @@ Eigen::Isometry3d body_velo(const KittiCalibrationText& text) {
   return KeyedText(text.imu_to_velo, text.imu_to_velo_file).transformation().inverse();
 }
 
-// Of the raw left camera.
+// Returns T_body_left of the raw left camera.
 Eigen::Isometry3d body_left(const KittiCalibrationText& text) {
   const KeyedText velo_to_cam(text.velo_to_cam, text.velo_to_cam_file);
   return body_velo(text) * velo_to_cam.transformation().inverse();
 }
 
-// By KITTI's own files; those of every day have it.
+// Recognizes KITTI's own files, which contain this line for every day of recording.
 bool is_kitti_car(const KittiCalibrationText& text) {
   return text.imu_to_velo.find("calib_time: 25-May-2012") != std::string_view::npos;
 }
 
-// The three files of a day, and what was read of them.
+// Holds the names of a day's three files and the texts that were read.
 struct CalibrationFiles {
   explicit CalibrationFiles(const std::filesystem::path& folder) {
     text.cam_to_cam_file = folder / "calib_cam_to_cam.txt";

@@ -15,7 +15,7 @@ namespace maploop::sensors {
 namespace {
 
 void check(const KittiDriveParameters& p) {
-  // An hour: nothing here is longer, and it keeps the arithmetic of stamps far from its limits.
+  // No duration here exceeds an hour; the limit keeps the arithmetic of stamps from overflowing.
   const auto is_duration = [](double s) { return s >= 0.0 && s <= 3600.0; };
   const auto require = [](bool ok, const char* name) {
     if (!ok) {
@@ -49,7 +49,8 @@ std::filesystem::path normal(const std::filesystem::path& given) {
   return folder.has_filename() ? folder : folder.parent_path();
 }
 
-// The folder of the images, absolute and without a trailing slash, so that its parent is the day's.
+// Returns the folder of the images, absolute and without a trailing slash, so that its parent is
+// the day's.
 std::filesystem::path drive_folder(const std::filesystem::path& given, bool raw) {
   const auto fail = [&given](const std::string& reason) {
     throw std::runtime_error("no KITTI drive at '" + given.string() + "': " + reason);

@@ -34,7 +34,8 @@ class LogSource final : public Source<T> {
 
   bool next(T& sample) override {
     for (auto item = reader_.next(); item != LogReader::Item::end; item = reader_.next()) {
-      // Damage was refused at the door; a log that has changed since is read as far as it goes.
+      // The constructor of LogRecording refused damage; a log that has changed since is read as far
+      // as possible.
       if (item != LogReader::Item::event || reader_.event().channel != channel_) continue;
       if (!read(sample)) continue;
       ++report_.delivered;
@@ -81,20 +82,20 @@ class LogSource final : public Source<T> {
   SourceReport report_;
 };
 
-// Those that can be replayed; the first that is there says when its frames were.
+// These channels can be replayed; the first one that the log has defines the frames.
 constexpr std::array sensor_channels{
     channel_names::camera,   channel_names::odometry,        channel_names::imu,
     channel_names::velodyne, channel_names::gnss_fix,        channel_names::wheel_speed,
     channel_names::truth,    channel_names::visual_odometry, channel_names::lidar_odometry};
 
-// What is known of a channel after one look at the log.
+// Describes one channel after a first pass over the log.
 struct Seen {
   std::size_t count = 0;
   Time first{};
   Time last{};
 };
 
-// Every message of a sensor begins with a header_t.
+// Every message of a sensor begins with a header_t, whose stamp is returned.
 std::optional<Time> stamp_of(std::span<const std::uint8_t> data) {
   constexpr int fingerprint_bytes = 8;
   maploop_lcm::header_t header{};

@@ -13,7 +13,7 @@ std::uint64_t splitmix64(std::uint64_t x) {
   return x ^ (x >> 31U);
 }
 
-// 53 random bits as a number in [0, 1).
+// Converts 53 random bits to a number in [0, 1).
 double unit_interval(std::uint64_t bits) {
   return static_cast<double>(bits >> 11U) * 0x1p-53;
 }

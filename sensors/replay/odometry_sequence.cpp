@@ -16,7 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Verdicts on the rows inside; its ends are real, but for a first row that begins the recording.
+// Refuses the rows inside each gap. The rows at its ends are real, except for a first row at the
+// start of the recording.
 void leave_out_gaps(const fs::path& file, OxtsRows& rows) {
   const CsvTable gaps(file);
   const std::size_t first_row = gaps.column("first_row"), last_row = gaps.column("last_row");
@@ -54,7 +55,7 @@ OxtsRows read_rows(const fs::path& file, Time start) {
   return result;
 }
 
-// Of these rows only the inertial columns are filled.
+// Only the inertial columns of these rows are filled.
 OxtsRows read_imu_rows(const fs::path& file, Time start) {
   const CsvTable table(file);
   const std::size_t t = table.column("t"), ax = table.column("ax"), ay = table.column("ay"),
@@ -100,7 +101,7 @@ std::vector<Time> read_image_stamps(const fs::path& file, Time start) {
   return stamps;
 }
 
-// Of a drive that does not say when its images were taken: one at each row that stands.
+// A drive without image stamps gets one at each usable row.
 std::vector<Time> stamps_of(const OxtsRows& rows) {
   std::vector<Time> stamps;
   for (std::size_t i = 0; i < rows.stamps.size(); ++i) {

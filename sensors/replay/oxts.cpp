@@ -31,9 +31,9 @@ enum Column : std::size_t {
   pos_accuracy = 23
 };
 
-// The ranges of dataformat.txt, with room for the rounding of the text; and for what it leaves
-// open, limits beyond what the unit can measure (GNSS receivers stop at 515 m/s, its accelerometers
-// at 10 g), so that a damaged number does not pass for a measurement.
+// These are the ranges of dataformat.txt, with room for the rounding of the text. Where it gives
+// none, the limits are beyond what the unit can measure (GNSS receivers stop at 515 m/s, its
+// accelerometers at 10 g), so that a damaged number does not pass for a measurement.
 constexpr double half_turn = std::numbers::pi + 1e-3;
 struct Range {
   Column column;

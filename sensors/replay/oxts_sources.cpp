@@ -6,7 +6,7 @@
 namespace maploop::sensors {
 namespace {
 
-// Walks the rows; the derived source says what a usable row gives.
+// Walks the rows; the derived source makes a sample from a usable row.
 template <class T>
 class OxtsSource : public Source<T> {
  public:
@@ -34,7 +34,7 @@ class OxtsSource : public Source<T> {
   const SourceReport& report() const final { return report_; }
 
  private:
-  // False where the row gives no sample.
+  // Returns false if the row gives no sample.
   virtual bool fill(const OxtsRow& row, Time stamp, T& sample) = 0;
 
   std::shared_ptr<const OxtsRows> rows_;

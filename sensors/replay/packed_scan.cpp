@@ -23,7 +23,7 @@ struct Head {
 };
 static_assert(sizeof(Head) == 32);
 
-// Small numbers of either sign as small ones: 0, -1, 1, -2 ...
+// Maps small numbers of either sign to small unsigned ones: 0, -1, 1, -2 ...
 std::uint16_t folded(std::uint16_t difference) {
   return static_cast<std::uint16_t>((difference << 1U) ^ ((difference & 0x8000U) ? 0xffffU : 0U));
 }
@@ -31,13 +31,13 @@ std::uint16_t unfolded(std::uint16_t value) {
   return static_cast<std::uint16_t>((value >> 1U) ^ ((value & 1U) ? 0xffffU : 0U));
 }
 
-// Which came back, a bit each; then of those the differences of ranges, low bytes and high bytes,
-// and of reflectances.
+// Lays out the uncompressed data: one bit for each firing that has a return, then for the returns
+// the differences of ranges (low bytes, then high bytes) and of reflectances.
 struct Planes {
   Planes(std::size_t all, std::size_t returns)
       : low((all + 7) / 8), high(low + returns), reflectance(high + returns) {}
   std::size_t size(std::size_t returns) const { return reflectance + returns; }
-  std::size_t low, high, reflectance;  // where each begins
+  std::size_t low, high, reflectance;  // offsets of the parts, bytes
 };
 
 }  // namespace

@@ -19,11 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of a table whose t begins near zero, where nothing says when that was.
+// A table whose t begins near zero starts here if its true start is unknown.
 constexpr std::string_view unknown_start = "2000-01-01 00:00:00";
 constexpr std::string_view list_name = "sequences.csv";
 
-// `name` or `name`.gz, whichever is there.
+// Returns `name` or `name`.gz, whichever exists.
 std::optional<fs::path> existing(const fs::path& name) {
   std::error_code ignored;
   if (fs::is_regular_file(name, ignored)) return name;
@@ -39,7 +39,7 @@ std::optional<fs::path> first_existing(std::initializer_list<fs::path> names) {
   return std::nullopt;
 }
 
-// The first line, and the first number of the second.
+// Holds the first line, and the first number of the second.
 struct Begin {
   std::string heading;
   double t = 0.0;
@@ -57,7 +57,7 @@ Begin begin_of(const fs::path& file) {
     const std::vector<double> numbers = parse_numbers(row.substr(0, row.find(',')));
     if (!numbers.empty()) begin.t = numbers.front();
   } catch (const std::invalid_argument&) {
-    // Whoever reads the whole table names the line.
+    // The reader of the whole table will report the line.
   }
   return begin;
 }
@@ -71,7 +71,7 @@ bool is_table(const fs::path& file) {
   return heading.starts_with("t,") && heading.ends_with(",orimode");
 }
 
-// Of the list of sequences, where it names this one.
+// Holds what the list of sequences states about one sequence.
 struct Listed {
   std::string start, imu, tracks;
 };
@@ -97,7 +97,7 @@ std::optional<Listed> find_in(const fs::path& list, std::string_view name) {
   return std::nullopt;
 }
 
-// KITTI's own sequences, as the program's folder share/maploop lists them.
+// Returns the list of KITTI's own sequences in the program's folder share/maploop.
 fs::path own_list() {
   std::error_code unreadable;
   const auto program = fs::read_symlink("/proc/self/exe", unreadable);
@@ -137,7 +137,7 @@ std::optional<SequenceFiles> find_sequence(const fs::path& path) {
   if (listed && !files.tracks && !listed->tracks.empty()) {
     files.tracks = existing(above / listed->tracks);
   }
-  constexpr double since_1970 = 1e8;  // s: no drive takes three years
+  constexpr double since_1970 = 1e8;  // s: no drive lasts three years
   if (begin_of(*table).t < since_1970) {
     files.start =
         parse_time(listed && !listed->start.empty() ? listed->start : std::string(unknown_start));

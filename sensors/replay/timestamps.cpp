@@ -13,8 +13,8 @@
 namespace maploop::sensors {
 namespace {
 
-// Keeps those that a subsequence of `wanted` frames goes through; run[i] is how long it is from
-// frame i on.
+// Keeps the frames of an increasing subsequence of length `wanted`; run[i] is the length of the
+// longest one that starts at frame i.
 void leave_out_of_order(const std::vector<Time>& stamps, const std::filesystem::path& file,
                         const std::vector<std::size_t>& run, std::size_t wanted,
                         Verdicts& verdicts) {
@@ -32,8 +32,8 @@ void leave_out_of_order(const std::vector<Time>& stamps, const std::filesystem::
   }
 }
 
-// Of increasing stamps with gaps that no recording has, keeps the part with the most frames (the
-// earliest of several).
+// Takes increasing stamps. If they have gaps longer than any recording has, keeps the part with the
+// most frames (the earliest of several).
 void leave_out_of_reach(const std::vector<Time>& stamps, const std::filesystem::path& file,
                         Verdicts& verdicts) {
   using input_limits::longest_gap, input_limits::within;
@@ -103,8 +103,8 @@ std::optional<Finding> verdict(const Timestamps& timestamps, std::size_t i) {
 
 void refuse_out_of_order(const std::vector<Time>& stamps, const std::filesystem::path& file,
                          Verdicts& verdicts) {
-  // run[i]: length of the longest increasing subsequence that starts at frame i, by the patience
-  // method from the end; heads[n]: the latest start of one of length n + 1.
+  // run[i] is the length of the longest increasing subsequence that starts at frame i, found by the
+  // patience method from the end; heads[n] is the latest start of one of length n + 1.
   std::vector<std::size_t> run(stamps.size(), 0);
   std::vector<Time> heads;
   for (std::size_t i = stamps.size(); i-- > 0;) {

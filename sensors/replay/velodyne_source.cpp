@@ -57,7 +57,7 @@ class VelodyneSource final : public FrameSource<LidarScan> {
 
  private:
   bool read(std::size_t i, LidarScan& scan) override {
-    // A turn of the HDL-64E has 130 000 points; this is eight times as many.
+    // A turn of the HDL-64E has 130 000 points; this allows eight times as many.
     constexpr std::size_t largest_file = std::size_t{16} << 20;
     const std::filesystem::path packed = folder_.data / numbered_file(i, ".scan");
     std::error_code ignored;

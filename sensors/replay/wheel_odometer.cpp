@@ -10,14 +10,14 @@
 namespace maploop::sensors {
 namespace {
 
-// Its numbers are not those of the GNSS aid with the same seed and stamp.
+// These streams keep the numbers apart from the GNSS aid's with the same seed and stamp.
 constexpr std::uint64_t own_stream = 0x7768'6565'6c00'0000;
 constexpr std::uint64_t tyres_stream = 0x7479'7265'7300'0000;
 constexpr std::uint64_t ice_stream = 0x6963'6500'0000'0000;
 
 constexpr double ice_square = 50.0;  // m, a side
 constexpr double ice_factor = 10.0;  // its friction is 0.1, that of asphalt 1
-constexpr double most_slip = 0.5;    // 1; a wheel that locks or spins is let go
+constexpr double most_slip = 0.5;    // 1; larger slip (a locked or spinning wheel) is cut off
 
 }  // namespace
 
@@ -47,7 +47,7 @@ WheelOdometer::WheelOdometer(const WheelOdometerParameters& parameters)
   }
 }
 
-// Each square of a grid of latitude and longitude has ice or not.
+// Each square of a grid of latitude and longitude either has ice or does not.
 bool WheelOdometer::on_ice(const Geodetic& position) const {
   if (parameters_.ice_share <= 0.0) return false;
   constexpr double side = ice_square / 6.378e6;  // rad

@@ -18,7 +18,7 @@ std::uint16_t u16(Bytes bytes, std::size_t at) {
   return static_cast<std::uint16_t>(bytes[at] << 8 | bytes[at + 1]);
 }
 
-// What follows the link's header of an IPv4 packet; empty where there is none.
+// Returns the IPv4 packet after the link's header; empty if the frame does not contain one.
 Bytes ipv4_of(Bytes frame, int link) {
   constexpr std::uint16_t ipv4 = 0x0800, vlan = 0x8100, provider_vlan = 0x88a8;
   std::size_t type_at = 12, header = 14;  // Ethernet
@@ -39,14 +39,15 @@ Bytes ipv4_of(Bytes frame, int link) {
   return frame.subspan(header);
 }
 
-// Whether it is a whole UDP packet; fills all but the time.
+// Returns whether this is a whole UDP packet, and fills all but the time.
 bool read_udp(Bytes ip, CapturedPacket& packet) {
   constexpr std::size_t udp_header = 8;
   if (ip.size() < 20 || ip[0] >> 4 != 4 || ip[9] != 17) return false;
   const std::size_t header = 4U * (ip[0] & 0xfU);
   const std::size_t total = std::min<std::size_t>(u16(ip, 2), ip.size());
-  const bool fragment = (u16(ip, 6) & 0x3fff) != 0;  // more to come, or not the first
-  // A VLP-16 gives its position packets the total of its data packets; UDP's length is right.
+  const bool fragment = (u16(ip, 6) & 0x3fff) != 0;  // more follow, or not the first
+  // A VLP-16 states its data packets' total length in its position packets too; UDP's length is
+  // right.
   if (fragment || header < 20 || total < header + udp_header) return false;
   const Bytes udp = ip.subspan(header, total - header);
   const std::size_t length = u16(udp, 4);
@@ -57,7 +58,7 @@ bool read_udp(Bytes ip, CapturedPacket& packet) {
   return true;
 }
 
-// libpcap reads through zlib, which passes plain files on as they are.
+// libpcap reads through zlib, which passes plain files through unchanged.
 FILE* open_through_zlib(const std::filesystem::path& file) {
   gzFile zipped = gzopen(file.c_str(), "rb");
   if (zipped == nullptr) return nullptr;
@@ -123,7 +124,7 @@ bool CaptureReader::next(CapturedPacket& packet) {
       if (result == PCAP_ERROR) damage_ = pcap_geterr(file_->pcap);
       return false;
     }
-    // With nanoseconds asked for, tv_usec holds them.
+    // Because nanoseconds were requested, tv_usec contains nanoseconds.
     const bool dated = header->ts.tv_sec >= 0 && header->ts.tv_sec < latest &&
                        header->ts.tv_usec >= 0 && header->ts.tv_usec < 1'000'000'000;
     packet.time = dated ? Time(std::chrono::seconds(header->ts.tv_sec) +

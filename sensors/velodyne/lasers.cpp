@@ -24,7 +24,7 @@ Laser at_elevation(double degrees_up, double upwards) {
 }
 
 std::vector<Laser> vlp16() {
-  // Degrees and mm. VLP-16 user's manual (63-9243 Rev. E), table 9-1.
+  // The table is in degrees and mm: VLP-16 user's manual (63-9243 Rev. E), table 9-1.
   constexpr std::array<std::array<double, 2>, 16> table{{{-15, 11.2},
                                                          {1, -0.7},
                                                          {-13, 9.7},
@@ -49,7 +49,8 @@ std::vector<Laser> vlp16() {
 }
 
 std::vector<Laser> hdl32e() {
-  // Every second laser is of the lower half; 4/3 of a degree apart (user's manual, appendix A).
+  // Every second laser belongs to the lower half; lasers are 4/3 of a degree apart (user's manual,
+  // appendix A).
   std::vector<Laser> lasers;
   for (int i = 0; i < 16; ++i) {
     lasers.push_back(at_elevation(-92.0 / 3.0 + i * 4.0 / 3.0, 0.0));
@@ -58,7 +59,7 @@ std::vector<Laser> hdl32e() {
   return lasers;
 }
 
-// A value of a laser's entry; `largest` in magnitude.
+// Returns a value of a laser's entry; throws if its magnitude exceeds `largest`.
 double value(const boost::property_tree::ptree& entry, const char* key, double largest) {
   const double v = entry.get<double>(key);
   if (!(std::fabs(v) <= largest)) {

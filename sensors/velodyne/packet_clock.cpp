@@ -7,7 +7,8 @@ namespace {
 
 constexpr std::int64_t hour_us = 3'600'000'000;
 
-// How long after `before` microseconds of the hour `now` is, within half an hour either way.
+// Returns how long after `before` the time `now` is, both in microseconds of the hour, within half
+// an hour either way.
 Duration step_of(std::uint32_t before, std::uint32_t now) {
   std::int64_t us = std::int64_t{now} - std::int64_t{before};
   if (us > hour_us / 2) us -= hour_us;
@@ -17,7 +18,7 @@ Duration step_of(std::uint32_t before, std::uint32_t now) {
 
 }  // namespace
 
-// A clock goes on with every packet, and about as much as the host's.
+// A working clock advances with every packet, by about as much as the host's.
 void PacketClock::judge(Duration step, Duration arrival_step) {
   constexpr Duration agreement = std::chrono::milliseconds(100);
   const bool goes_on = step > Duration::zero() && std::chrono::abs(step - arrival_step) < agreement;
@@ -45,9 +46,10 @@ PacketTime PacketClock::stamp(std::uint32_t device_time, Duration period, Time a
   last_ = device_time;
   last_arrival_ = arrival;
   const Time sent = arrival - period;
-  // A clock that goes back was set. After a pause of the arrivals the next packet is one that the
-  // way has held up, and the line knows its time; any other is of a scanner that was switched off.
-  // Without a line, any disagreement begins it anew.
+  // A clock that goes back was set. After a pause in the arrivals, a packet that continues the
+  // sequence was held up by the link, and the line still gives its time; any other packet means
+  // that the scanner was switched off. Without a device time, any disagreement restarts the
+  // estimate.
   constexpr Duration restarted = std::chrono::seconds(1);
   const Duration pause = arrival_step - step;
   const bool jumped =

@@ -9,7 +9,8 @@
 namespace maploop::sensors {
 namespace {
 
-// User's manuals: VLP-16 section 9.3, HDL-32E section 9.3, HDL-64E S2 appendix (288 us a packet).
+// The times are from the user's manuals: VLP-16 section 9.3, HDL-32E section 9.3, HDL-64E S2
+// appendix (288 us a packet).
 struct Timing {
   Duration block;     // from one block to the next
   Duration sequence;  // in which all lasers fire once
@@ -66,7 +67,7 @@ void PacketDecoder::begin(const DataPacket& packet) {
       const std::uint32_t turned =
           (packet.azimuth(block + step) + velodyne_full_turn - packet.azimuth(block)) %
           velodyne_full_turn;
-      // Backwards, by the encoder's noise; or a turn of another packet.
+      // A larger step is a backward one by the encoder's noise, or invalid data: no rate is used.
       rate = turned < velodyne_full_turn / 4
                  ? turned / static_cast<double>(timing(model_).block.count())
                  : 0.0;

@@ -23,14 +23,14 @@ double distance_of(const LidarPoint& p) {
   return std::hypot(static_cast<double>(p.x), static_cast<double>(p.y));
 }
 
-// Clockwise from the rear, as a share of a turn.
+// Returns the azimuth clockwise from the rear, as a share of a turn.
 double phase_of(const LidarPoint& p) {
   const double clockwise =
       -std::atan2(static_cast<double>(p.y), static_cast<double>(p.x)) / (2.0 * M_PI);
   return std::fmod(clockwise + 1.5, 1.0);
 }
 
-// height = distance tan(elevation) + offset / cos(elevation), by least squares.
+// Fits height = distance tan(elevation) + offset / cos(elevation) by least squares.
 std::optional<LaserPlace> fit_cone(std::span<const LidarPoint> points) {
   constexpr std::size_t fewest = 100;
   if (points.size() < fewest) return {};
@@ -44,7 +44,7 @@ std::optional<LaserPlace> fit_cone(std::span<const LidarPoint> points) {
     dz += distance * height;
   }
   const double spread = n * dd - d * d;
-  constexpr double narrowest = 0.1;  // m, of their distances
+  constexpr double narrowest = 0.1;  // m, standard deviation of their distances
   if (spread < narrowest * narrowest * n * n) return {};
   const double slope = (n * dz - d * z) / spread;
   const double elevation = std::atan(slope);
@@ -54,7 +54,7 @@ std::optional<LaserPlace> fit_cone(std::span<const LidarPoint> points) {
 }  // namespace
 
 std::optional<Hdl64Lasers> fit_lasers(std::span<const LidarPoint> points) {
-  // A laser ends where azimuths begin anew at the front.
+  // A laser ends where azimuths restart at the front.
   const auto quarter = [](const LidarPoint& p) {
     return p.y >= 0.0F ? (p.x >= 0.0F ? 0 : 1) : (p.x < 0.0F ? 2 : 3);
   };
@@ -104,7 +104,7 @@ void TimedPacket::set_time(Time t) {
   put(bytes, 1200, static_cast<std::uint64_t>(us.count()), 4);
 }
 
-// The cones do not cross where a road vehicle sees anything.
+// The cones do not cross at any distance at which a road vehicle sees something.
 std::size_t Hdl64Encoder::laser_of(const LidarPoint& p, double distance) const {
   const auto height = [distance](const LaserPlace& l) {
     return (distance * std::sin(l.elevation) + l.vertical_offset) / std::cos(l.elevation);

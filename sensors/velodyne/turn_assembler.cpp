@@ -8,7 +8,7 @@ namespace {
 
 constexpr double full = velodyne_full_turn;
 
-// An HDL-64E at 5 turns a second with dual returns has 440 000.
+// An HDL-64E at 5 turns a second with dual returns has 440 000 points a turn.
 constexpr std::size_t most_points = 480'000;
 
 }  // namespace
@@ -29,7 +29,7 @@ void TurnAssembler::begin_turn(Time start) {
   stamped_ = false;
 }
 
-// When the scanner came to `at`, between the point before and this one.
+// Returns when the scanner passed `at` between the previous point and this one, by interpolation.
 Time TurnAssembler::crossing(double at, double angle, Time time) const {
   const double share = (at - last_angle_) / (angle - last_angle_);
   return last_time_ + from_seconds(share * to_seconds(time - last_time_));

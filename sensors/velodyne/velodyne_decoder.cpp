@@ -30,7 +30,7 @@ bool VelodyneDecoder::add(std::span<const std::uint8_t> payload, Time arrival, L
   }
   ++counts_.data;
   counts_.lost += time.lost;
-  // A quarter of a turn at 10 Hz; what is longer may be several turns.
+  // This is a quarter of a turn at 10 Hz; a longer gap may hide several turns.
   constexpr Duration longest_gap = std::chrono::milliseconds(25);
   const Duration gap = time.first_firing - last_;
   if (std::chrono::abs(gap) > longest_gap) assembler_.interrupt();
