@@ -21,7 +21,7 @@ struct Header {
   std::uint64_t checksum;  // of the content
 };
 
-// The header that a file of `size` bytes begins with.
+// Checks and returns the header at the start of a file of `size` bytes.
 Header judged(std::span<const std::uint8_t> head, std::uintmax_t size) {
   Header header{};
   const std::size_t shown = std::min(head.size(), sizeof header);

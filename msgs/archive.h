@@ -1,4 +1,4 @@
-// Saving values to memory and loading them again: one description for both directions.
+// This file saves values to memory and loads them again, with one description for both directions.
 //
 //   struct Track { std::int64_t id; Eigen::Vector3d point; };
 //   template <class Archive> void archive(Archive& ar, Track& t) { ar(t.id, t.point); }
@@ -6,13 +6,13 @@
 //   ArchiveWriter writer;  writer(track);            ArchiveReader reader(writer.content());
 //   write(seal(writer.content()));                   reader(track);  reader.finish();
 //
-// A type is described by such a function beside it, or by a member `archive(ar)` where its state is
+// A type is described by such a function beside it, or by a member `archive(ar)` if its state is
 // private. Numbers, enumerations, times, std containers and Eigen's fixed-size matrices are
-// described here. `Archive::loading` tells the directions apart where they must differ.
+// described here. `Archive::loading` distinguishes the directions where they must differ.
 //
-// What is loaded has the bits of what was saved, on machines of one byte order. No length is
-// believed: a sequence grows with the elements that the content really holds, so that loading takes
-// a few times the memory of the content at most. Not thread-safe.
+// A loaded value has the bits of the saved one, on machines of the same byte order. Lengths are not
+// trusted: a sequence grows with the elements that the content really contains, so loading needs at
+// most a few times the memory of the content. Not thread-safe.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -40,18 +40,18 @@ namespace maploop {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// What is wrong with the content of an archive.
+// Reports an error in the content of an archive.
 class ArchiveError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// Allocates only where the content outgrows the capacity of the buffer.
+// Allocates only if the content outgrows the capacity of the buffer.
 class ArchiveWriter {
  public:
   static constexpr bool loading = false;
 
-  // Whatever the buffer holds is replaced.
+  // Replaces the contents of the buffer.
   explicit ArchiveWriter(Bytes buffer = {}) : content_(std::move(buffer)) { content_.clear(); }
 
   template <class... T>
@@ -61,7 +61,7 @@ class ArchiveWriter {
     content_.insert(content_.end(), begin, begin + size);
   }
 
-  // What follows, and the version of its description.
+  // Starts a section with its name and the version of its description.
   void section(std::string_view name, std::uint32_t version);
 
   const Bytes& content() const { return content_; }
@@ -71,7 +71,7 @@ class ArchiveWriter {
   Bytes content_;
 };
 
-// Every member throws ArchiveError that says what is wrong, and where.
+// Every member throws ArchiveError that states what is wrong, and where.
 class ArchiveReader {
  public:
   static constexpr bool loading = true;
@@ -83,13 +83,13 @@ class ArchiveReader {
   void operator()(T&... values);
   void bytes(void* data, std::size_t size);
 
-  // Refuses another section, and one of another version.
+  // Throws if another section, or another version of it, follows.
   void section(std::string_view name, std::uint32_t version);
 
-  // The length of what follows: never more than there are bytes left.
+  // Reads the length of a sequence; throws if it exceeds the number of bytes left.
   std::size_t length();
   std::size_t bytes_left() const { return left_.size(); }
-  // Refuses content that nobody read.
+  // Throws if bytes are left over.
   void finish() const;
   [[noreturn]] void fail(const std::string& what) const;
 
@@ -99,16 +99,17 @@ class ArchiveReader {
   std::string section_;
 };
 
-// Content with a header that says what it is, how long, and its checksum (XXH3).
+// Returns the content with a header that contains a signature, its length and its checksum (XXH3).
 Bytes seal(std::span<const std::uint8_t> content);
-// The content again. Throws ArchiveError: no archive, of another version, cut, too long or damaged.
+// Returns the content. Throws ArchiveError: not an archive, of another version, cut, too long or
+// damaged.
 std::span<const std::uint8_t> unseal(std::span<const std::uint8_t> sealed);
 
-// The sealed content of a file of at most `limit` bytes. Its header is judged before the rest is
-// read. Throws ArchiveError, or FileError where it cannot be read.
+// Reads the sealed content of a file of at most `limit` bytes. Its header is checked before the
+// rest is read. Throws ArchiveError, or FileError if the file cannot be read.
 Bytes read_sealed(const std::filesystem::path& file, std::size_t limit);
 
-// A number as a message shows it: all its digits, where they are needed.
+// Returns a number as a message shows it, with as many digits as it needs.
 template <class T>
 requires std::is_arithmetic_v<T> std::string shown(T value) {
   if constexpr (std::is_same_v<T, bool>)
@@ -119,7 +120,8 @@ requires std::is_arithmetic_v<T> std::string shown(T value) {
   }
 }
 
-// A value that must be the same on both sides, such as a calibration: loading refuses another.
+// Archives a value that must be the same on both sides, such as a calibration: loading throws if it
+// differs.
 template <class T>
 void archive_same(ArchiveWriter& ar, std::string_view, const T& value) {
   ar(value);
@@ -133,7 +135,7 @@ void archive_same(ArchiveReader& ar, std::string_view what, const T& value) {
   if (saved != own.content()) ar.fail("it was saved with another " + std::string(what));
 }
 
-// The same for a number; says both values.
+// Does the same for a number; the error contains both values.
 template <class Archive, class T>
 requires std::is_arithmetic_v<T>
 void archive_same_number(Archive& ar, std::string_view name, const T& own) {
@@ -147,7 +149,7 @@ void archive_same_number(Archive& ar, std::string_view name, const T& own) {
   }
 }
 
-// The same for an enumeration whose names_of() lists what its values are called.
+// Does the same for an enumeration with a function names_of(), which lists the names of its values.
 template <class Archive, NamedEnum T>
 void archive_same_number(Archive& ar, std::string_view name, const T& own) {
   T saved = own;
@@ -159,13 +161,13 @@ void archive_same_number(Archive& ar, std::string_view name, const T& own) {
   }
 }
 
-// The same for a struct of numbers and enumerations that fields(value, f) visits by name.
+// Does the same for a struct of numbers and enumerations that fields(value, f) visits by name.
 template <class Archive, class T>
 void archive_same_fields(Archive& ar, const T& value) {
   fields(value, [&](const char* name, const auto& own) { archive_same_number(ar, name, own); });
 }
 
-// --- Descriptions of what is not ours
+// --- These functions describe types that are not ours.
 
 template <class Archive, class T>
 requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) void archive(Archive& ar, T& value) {
@@ -286,7 +288,7 @@ void describe(Archive& ar, T& value) {
 
 template <class... T>
 void ArchiveWriter::operator()(const T&... values) {
-  // A description serves both directions; writing changes nothing.
+  // One description serves both directions; writing does not change the value.
   (archive_detail::describe(*this, const_cast<T&>(values)), ...);
 }
 

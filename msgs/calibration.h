@@ -1,12 +1,12 @@
-// What a vehicle is, and where its sensors are.
+// This file describes a vehicle and the mounting of its sensors.
 #pragma once
 
 #include <Eigen/Geometry>
 
 namespace maploop {
 
-// Rectified stereo pair: both cameras share the intrinsics; the right camera stands `baseline` to
-// the right of the left one.
+// This is a rectified stereo pair: both cameras share the intrinsics, and the right camera is
+// `baseline` to the right of the left one.
 struct StereoCalibration {
   int width = 0;                                  // px
   int height = 0;                                 // px
@@ -20,14 +20,14 @@ void archive(Archive& ar, StereoCalibration& c) {
   ar(c.width, c.height, c.fx, c.fy, c.cx, c.cy, c.baseline, c.T_body_cam);
 }
 
-// What is not known is as of no particular car.
+// Unknown values default to those of no particular car.
 struct VehicleCalibration {
   StereoCalibration stereo;
   Eigen::Isometry3d T_body_velo = Eigen::Isometry3d::Identity();
   double rear_axle_distance = 0.0;     // m, from the rear axle forward to the body's origin
-  double climb_offset = 0.0;           // rad, direction of travel above body x: the IMU's mounting
-  double climb_offset_sigma = 0.0175;  // rad (1 deg), of that
-  double beam_elevation = 0.0;         // rad, that the LiDAR's beams point higher than it says
+  double climb_offset = 0.0;           // rad, direction of travel above body x, by mounting
+  double climb_offset_sigma = 0.0175;  // rad (1 deg), of climb_offset
+  double beam_elevation = 0.0;         // rad, the LiDAR's beams are higher than calibrated
 };
 
 }  // namespace maploop

@@ -1,4 +1,4 @@
-// What the runtime says of itself.
+// This file defines what the runtime reports about itself.
 #pragma once
 
 #include <algorithm>
@@ -12,30 +12,30 @@
 
 namespace maploop {
 
-// What a latency histogram holds, so that two of them can be added without loss
-// (runtime/core/histogram.h has its buckets).
+// Holds the counts of a latency histogram, so that two of them can be added without loss
+// (runtime/core/histogram.h defines its buckets).
 struct HistogramData {
   struct Bucket {
-    Duration lowest{};  // of the values that it counts
+    Duration lowest{};  // the smallest value that it counts
     std::uint64_t count = 0;
   };
-  std::vector<Bucket> buckets;    // ascending, none empty
-  std::uint64_t below_range = 0;  // of those in the lowest bucket: negative values
+  std::vector<Bucket> buckets;    // ascending; empty ones are left out
+  std::uint64_t below_range = 0;  // negative values, which the lowest bucket counts too
   std::uint64_t above_range = 0;  // values beyond the highest bucket
-  Duration min{}, max{};          // exact; 0 where nothing was recorded
+  Duration min{}, max{};          // exact; 0 if nothing was recorded
 };
 
-// One missed deadline: where the time went.
+// Describes one missed deadline and where the time went.
 struct MissedDeadline {
   struct Part {
-    std::string name;  // a stage, or what held the thread up
+    std::string name;  // a stage, or what delayed the thread
     Duration lasted{};
   };
   Time stamp{};  // of the tick, or of the sample
   Duration latency{};
   std::vector<Part> parts;
 
-  // The name of the longest part.
+  // Returns the name of the longest part.
   std::string guilty() const {
     const auto longest =
         std::max_element(parts.begin(), parts.end(),
@@ -44,29 +44,29 @@ struct MissedDeadline {
   }
 };
 
-// Latency of one thread or of one path from sensor stamp to state, since the start.
+// Summarizes the latency of one thread, or of one path from sensor stamp to state, since the start.
 struct LatencySummary {
   std::string name;
   std::uint64_t count = 0;
   std::uint64_t misses = 0;  // of `deadline`
-  Duration deadline{};       // 0: none declared
+  Duration deadline{};       // 0 if none is declared
   Duration p50{}, p90{}, p99{}, p999{}, max{};
-  std::string guilty{};                 // of the worst miss: its longest part
-  HistogramData histogram{};            // what the figures above are of: as recorded
+  std::string guilty{};                 // longest part of the worst miss
+  HistogramData histogram{};            // the recorded values behind the figures above
   HistogramData omitted{};              // waits to be added to correct co-ordinated omission
   std::vector<MissedDeadline> worst{};  // at most ten, the longest first
 };
 
-// Period jitter: how far the time between two wake-ups is from that between their due times.
-// Only `threads` has `omitted` waits, deadlines and misses, and `paths` the latter two; the others
-// are as recorded.
+// Period jitter is the difference between the time of two wake-ups and the time of their due
+// moments. Only `threads` has `omitted` waits, deadlines and misses, and `paths` has the latter
+// two; the others are as recorded.
 struct Deadlines {
   Time stamp{};
   std::vector<LatencySummary> threads;      // from release to result
-  std::vector<LatencySummary> paths;        // from the sensor's stamp to the state that holds it
-  std::vector<LatencySummary> wake_up{};    // per thread: from when it could run until it did
-  std::vector<LatencySummary> execution{};  // per thread: of one tick, sample or message
-  std::vector<LatencySummary> period_jitter{};  // per fixed-rate thread
+  std::vector<LatencySummary> paths;        // from the sensor's stamp to the state that contains it
+  std::vector<LatencySummary> wake_up{};    // by thread: from ready to running
+  std::vector<LatencySummary> execution{};  // by thread: of one tick, sample or message
+  std::vector<LatencySummary> period_jitter{};  // by fixed-rate thread
 };
 
 struct RingHealth {
@@ -76,42 +76,42 @@ struct RingHealth {
 
 struct ThreadHealth {
   std::string name;
-  std::string scheduling;                // what the kernel granted: "fifo 50", "other"
+  std::string scheduling;                // as the kernel granted it: "fifo 50", "other"
   std::uint64_t count = 0;               // samples or ticks so far
   double rate = 0.0;                     // Hz of data time, over the last second
-  std::string failure;                   // empty while it runs
-  double cpu = 0.0;                      // seconds of processor time used so far
+  std::string failure;                   // empty while the thread runs
+  double cpu = 0.0;                      // s of processor time used so far
   std::uint64_t left_out = 0, shed = 0;  // ticks, by the overrun policy
 };
 
-// Measurements that an estimator did not use, so far.
+// Counts the measurements that an estimator has not used so far.
 struct RefusalCount {
   std::string stage;
   std::string reason;
   std::uint64_t count = 0;
 };
 
-// Where messages go: the bus, the log.
+// Counts the messages to one output: the bus, the log.
 struct OutputHealth {
   std::string name;
   std::uint64_t sent = 0, unsent = 0;  // messages
 };
 
-// A sensor's clock against the host's, by when its messages arrive.
+// Compares a sensor's clock with the host's, from the arrival times of its messages.
 struct SensorClock {
   bool known = false;
-  std::optional<Duration> utc_ahead;  // its UTC before the host's clock; nothing: it says none
-  double drift = 0.0;                 // how fast the host's clock runs beyond the sensor's, 1
-  Duration delay{};                   // of the last message, beyond the least
+  std::optional<Duration> utc_ahead;  // its UTC minus the host's clock; nothing if unknown
+  double drift = 0.0;                 // rate of the host's clock relative to it, minus 1
+  Duration delay{};                   // of the last message, beyond the minimum
   std::uint64_t jumps = 0;
 };
 
-// A live sensor.
+// Describes the state of a live sensor.
 struct SensorHealth {
   std::string name;
   std::string endpoint;
   bool connected = false;
-  std::uint64_t connections = 0;             // times
+  std::uint64_t connections = 0;             // how often it was connected
   std::uint64_t delivered = 0, refused = 0;  // samples; packets and lines
   std::string problem;                       // why it is not connected
   SensorClock clock;
@@ -121,13 +121,13 @@ struct Health {
   Time stamp{};
   std::vector<ThreadHealth> threads;
   std::vector<RingHealth> rings;
-  std::vector<RefusalCount> refusals;  // those that happened
+  std::vector<RefusalCount> refusals;  // those that occurred
   std::vector<OutputHealth> outputs;
   std::vector<SensorHealth> sensors;  // live ones
   std::vector<RealtimeSetting> settings;
   std::vector<std::string> degraded;  // each a sentence: what, since when, what to do
-  double elapsed = 0.0;               // seconds of this machine's time since the start
-  double cpu = 0.0;                   // seconds of processor time that the whole process used in it
+  double elapsed = 0.0;               // s of this machine's time since the start
+  double cpu = 0.0;                   // s of the whole process's processor time
 };
 
 }  // namespace maploop

@@ -1,4 +1,4 @@
-// Frames and angles.
+// This file defines frames and angles.
 //
 //   enu   x east, y north, z up at the drive's origin; metric WGS84
 //   body  x forward, y left, z up (ISO 8855, REP-103); origin at the IMU
@@ -15,7 +15,7 @@
 
 namespace maploop {
 
-// Into (-pi, pi].
+// Maps an angle to (-pi, pi], rad.
 inline double wrap_angle(double angle) {
   const double wrapped = std::remainder(angle, 2.0 * std::numbers::pi);
   return wrapped <= -std::numbers::pi ? std::numbers::pi : wrapped;
@@ -35,7 +35,7 @@ constexpr double degrees(double radians) {
   return radians * 180.0 / std::numbers::pi;
 }
 
-// Attitude of the body in ENU.
+// This is the attitude of the body in ENU.
 struct Attitude {
   double azimuth = 0.0;  // rad
   double pitch = 0.0;    // rad, nose up
@@ -47,7 +47,7 @@ void archive(Archive& ar, Attitude& a) {
   ar(a.azimuth, a.pitch, a.roll);
 }
 
-// R_enu_body = Rz(yaw) Ry(-pitch) Rx(roll): yaw, then nose up, then right side down.
+// R_enu_body = Rz(yaw) Ry(-pitch) Rx(roll): first yaw, then nose up, then right side down.
 inline Eigen::Matrix3d rotation_enu_body(const Attitude& a) {
   return (Eigen::AngleAxisd(yaw_from_azimuth(a.azimuth), Eigen::Vector3d::UnitZ()) *
           Eigen::AngleAxisd(-a.pitch, Eigen::Vector3d::UnitY()) *
@@ -55,7 +55,7 @@ inline Eigen::Matrix3d rotation_enu_body(const Attitude& a) {
       .toRotationMatrix();
 }
 
-// Inverse of rotation_enu_body; |pitch| < pi/2.
+// This is the inverse of rotation_enu_body for |pitch| < pi/2.
 inline Attitude attitude_from_rotation(const Eigen::Matrix3d& R_enu_body) {
   return {azimuth_from_yaw(std::atan2(R_enu_body(1, 0), R_enu_body(0, 0))),
           std::asin(std::fmin(1.0, std::fmax(-1.0, R_enu_body(2, 0)))),

@@ -1,4 +1,4 @@
-// A GNSS receiver's position and velocity.
+// This file defines a GNSS receiver's position and velocity.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +8,7 @@
 
 namespace maploop {
 
-// `stamp` is the position's.
+// `stamp` is that of the position.
 struct GnssFix : Sample {
   Geodetic position;
   Eigen::Matrix3d position_covariance = Eigen::Matrix3d::Zero();  // m^2, east north up

@@ -1,4 +1,4 @@
-// Grey images as they travel through the rings.
+// This file defines grey images as they are passed through the rings.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace maploop {
 
-// 8-bit grey, rows without padding. Buffers keep their capacity, so that swapping and resizing to
-// a size seen before does not allocate.
+// Holds 8-bit grey pixels in rows without padding. Buffers keep their capacity, so that swapping,
+// and resizing to an earlier size, does not allocate.
 struct GreyImage {
   int width = 0;
   int height = 0;
@@ -29,7 +29,7 @@ void archive(Archive& ar, GreyImage& image) {
   ar(image.width, image.height, image.pixels);
 }
 
-// Rectified pair, exposed at one moment: `stamp`.
+// This is a rectified pair, exposed at one moment: `stamp`.
 struct StereoPair : Sample {
   GreyImage left;
   GreyImage right;

@@ -1,4 +1,5 @@
-// The reduced IMU: two horizontal accelerometers and one vertical gyro.
+// This file defines a sample of the reduced IMU: two horizontal accelerometers and one vertical
+// gyro.
 #pragma once
 
 #include "msgs/sample.h"

@@ -20,7 +20,7 @@ namespace {
       file, "too large: " + size + ", at most " + std::to_string(limit) + " bytes are expected");
 }
 
-// Its size in bytes.
+// Returns the size in bytes; throws if the file is not a regular one.
 std::uintmax_t require_regular(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
@@ -34,7 +34,7 @@ std::uintmax_t require_regular(const std::filesystem::path& file) {
   return size;
 }
 
-// A file that gives what is in it, compressed or not.
+// Reads the content of a file, whether it is compressed or not.
 class Inflater {
  public:
   explicit Inflater(const std::filesystem::path& name)
@@ -42,7 +42,7 @@ class Inflater {
     if (!stream_) throw FileError(name, std::string("cannot be opened: ") + std::strerror(errno));
   }
 
-  // How many of `room` bytes there were: fewer only at the end.
+  // Returns how many bytes were read; fewer than `room` only at the end.
   std::size_t read(char* to, std::size_t room) {
     std::size_t got = 0;
     while (got < room) {
@@ -67,7 +67,7 @@ class Inflater {
   std::unique_ptr<gzFile_s, int (*)(gzFile)> stream_;
 };
 
-// Whatever the standard library says where there is no room.
+// Turns a failed allocation of the standard library into a FileError.
 template <class Read>
 void within_memory(const std::filesystem::path& file, Read read) {
   try {
@@ -106,7 +106,7 @@ std::string read_text(const std::filesystem::path& file, std::size_t limit) {
   Inflater inflater(file);
   std::string text;
   within_memory(file, [&] {
-    // One byte more than the file has tells that it is not compressed, and at its end.
+    // One byte more than the file's size shows that it is not compressed, and has ended.
     std::size_t room = static_cast<std::size_t>(size) + 1;
     for (;;) {
       const std::size_t had = text.size();

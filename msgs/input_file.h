@@ -1,5 +1,5 @@
-// Reading whole files: the one place where a reader opens what it reads at once. (What is read as a
-// stream, logs and captures, has a bounded buffer of its own.)
+// This file reads whole files; every reader that reads a file at once opens it here. (Streams, such
+// as logs and captures, have bounded buffers of their own.)
 #pragma once
 
 #include <cstddef>
@@ -11,30 +11,30 @@
 
 namespace maploop {
 
-// "FILE: reason".
+// The text is "FILE: reason".
 class FileError : public std::runtime_error {
  public:
   FileError(const std::filesystem::path& file, const std::string& reason)
       : std::runtime_error(file.string() + ": " + reason), reason_(reason) {}
-  const std::string& reason() const { return reason_; }  // for a caller who names the file himself
+  const std::string& reason() const { return reason_; }  // for callers who name the file
 
  private:
   std::string reason_;
 };
 
-// Each throws FileError: missing, a folder, not a regular file (a pipe, for one, would be waited
-// for without end), larger than `limit` bytes, not readable to its end, or too large for the
-// memory.
+// Each function throws FileError: missing, a folder, not a regular file (reading a pipe, for
+// example, could block for ever), larger than `limit` bytes, not readable to its end, or too large
+// for the memory.
 
-// The content as it is, into `bytes`, whose capacity is reused.
+// Reads the content unchanged into `bytes`, whose capacity is reused.
 void read_bytes(const std::filesystem::path& file, std::size_t limit, std::vector<char>& bytes);
 void read_bytes(const std::filesystem::path& file, std::size_t limit,
                 std::vector<std::uint8_t>& bytes);
 
-// The content, decompressed where it is gzip (told by content, not by name).
+// Reads the content, decompressed if it is gzip (detected by content, not by name).
 std::string read_text(const std::filesystem::path& file, std::size_t limit);
 
-// The first `count` bytes of that, or what it has of them.
+// Reads the first `count` bytes of that, or fewer if it is shorter.
 std::string read_head(const std::filesystem::path& file, std::size_t count);
 
 }  // namespace maploop

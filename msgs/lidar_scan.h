@@ -1,4 +1,4 @@
-// One turn of a spinning LiDAR.
+// This file defines one turn of a spinning LiDAR.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ struct LidarPoint {
   float reflectance;  // 0..1
 };
 
-// `stamp` is the middle of the turn (the LiDAR faces forward); buffers keep their capacity.
+// `stamp` is the middle of the turn, when the LiDAR faces forward; buffers keep their capacity.
 struct LidarScan : Sample {
   Time start{};
   Time end{};

@@ -1,4 +1,4 @@
-// The drive's local east-north-up frame: metric WGS84, tangent at an origin.
+// This file defines the drive's local east-north-up frame: metric WGS84, tangent at an origin.
 #pragma once
 
 #include <Eigen/Core>

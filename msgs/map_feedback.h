@@ -1,4 +1,4 @@
-// What the map gives back to the filter that the map matching got its fixes from.
+// This file defines what the map feeds back to the filter whose states are matched.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,21 +11,21 @@
 
 namespace maploop {
 
-// Why nothing is fed back, the first that applies.
+// States why nothing is fed back: the first reason that applies.
 enum class FeedbackReason : std::uint8_t {
-  none,             // fed back
+  none,             // feedback is given
   no_fix,           // the fix could not be matched
-  off_road,         // on no road of the map
-  not_established,  // initial matching goes on
-  link_changed,     // on another link since this fix
-  too_slow,         // azimuths mean nothing
-  azimuth_differs,  // from the link's
-  turning,          // otherwise than the link does
-  near_junction,    // closer than the position is known
+  off_road,         // the vehicle is not on a road of the map
+  not_established,  // initial matching is not complete
+  link_changed,     // the link changed with this fix
+  too_slow,         // azimuths are meaningless
+  azimuth_differs,  // the azimuth differs from the link's
+  turning,          // the vehicle turns differently from the link
+  near_junction,    // nearer than the position's uncertainty
   link_doubtful,    // P(link) is too small
   ambiguous,        // another link is nearly as likely, or as near
-  inconsistent,     // the last offsets were too large for what the fixes say of themselves
-  not_yet,          // too close to the one before to say anything new
+  inconsistent,     // recent offsets are larger than the fixes' sigmas allow
+  not_yet,          // too close to the previous one to add information
 };
 
 constexpr std::size_t feedback_reason_count = static_cast<std::size_t>(FeedbackReason::not_yet) + 1;
@@ -62,20 +62,20 @@ constexpr std::string_view to_string(FeedbackReason reason) {
   return "unknown";
 }
 
-// The line of the road that the vehicle is on, at the matched point: the vehicle is on it, but for
-// its lane and the map's error. `stamp` is the fix's.
+// Describes the line of the road at the matched point: the vehicle is on it, except for its lane
+// and the map's error. `stamp` is the fix's.
 struct MapFeedback : Sample {
   FeedbackReason reason = FeedbackReason::no_fix;
   bool position = false;  // the line is fed back
   bool azimuth = false;   // its direction is fed back
   bool reset = false;     // hard reset: position and azimuth become the matched ones
-  bool new_road = false;  // the first on another road than the one before: another lane offset
+  bool new_road = false;  // the first on a road other than the previous one: another lane offset
 
-  Geodetic point;              // beside the matched one, in the lane; its height means nothing
+  Geodetic point;              // beside the matched point, in the lane; its height is unused
   double link_azimuth = 0.0;   // rad, as driven
   double cross_track = 0.0;    // m, of the fix, to the right of `point`
-  double cross_sigma = 0.0;    // m, what changes from one feedback to the next
-  double lane_sigma = 0.0;     // m, lane and map error, which stay along the road
+  double cross_sigma = 0.0;    // m, the part that changes from one feedback to the next
+  double lane_sigma = 0.0;     // m, lane and map error, which persist along the road
   double azimuth_sigma = 0.0;  // rad
   double probability = 0.0;    // P(link)
 };
@@ -86,12 +86,12 @@ void archive(Archive& ar, MapFeedback& f) {
      f.link_azimuth, f.cross_track, f.cross_sigma, f.lane_sigma, f.azimuth_sigma, f.probability);
 }
 
-// East and north, unit, to the right of the line.
+// Returns the unit vector (east, north) to the right of the line.
 inline Eigen::Vector2d right_of_line(const MapFeedback& f) {
   return {std::cos(f.link_azimuth), -std::sin(f.link_azimuth)};
 }
 
-// Whether all that a filter computes with is a number.
+// Returns whether all values that a filter uses are finite.
 inline bool all_finite(const MapFeedback& f) {
   for (const double value : {f.point.latitude, f.point.longitude, f.point.height, f.link_azimuth,
                              f.cross_sigma, f.lane_sigma, f.azimuth_sigma, f.probability}) {
@@ -100,7 +100,7 @@ inline bool all_finite(const MapFeedback& f) {
   return true;
 }
 
-// Whether what is fed back has standard deviations that can be.
+// Returns whether the values fed back have valid standard deviations.
 inline bool has_sigmas(const MapFeedback& f) {
   return (!f.position || (f.cross_sigma > 0.0 && f.lane_sigma >= 0.0)) &&
          (!f.azimuth || f.azimuth_sigma > 0.0);

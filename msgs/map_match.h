@@ -1,4 +1,4 @@
-// Where on the road map the vehicle is.
+// This file describes where on the road map the vehicle is.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +18,7 @@ namespace maploop {
 enum class MatchPhase : std::uint8_t {
   initial,      // IMP: no link is established yet
   along_link,   // SMP-1: still on the link
-  at_junction,  // SMP-2: on another link since this fix, or not sure yet on which
+  at_junction,  // SMP-2: on another link since this fix, or still undecided
   off_road,     // on no road of the map
 };
 
@@ -36,7 +36,7 @@ constexpr std::string_view to_string(MatchPhase phase) {
   return "unknown";
 }
 
-// Why a fix was not used.
+// States why a fix was not used.
 enum class FixRefusal : std::uint8_t { none, not_later, not_finite, bad_covariance, no_position };
 
 constexpr std::size_t fix_refusal_count = static_cast<std::size_t>(FixRefusal::no_position) + 1;
@@ -57,12 +57,13 @@ constexpr std::string_view to_string(FixRefusal refusal) {
   return "unknown";
 }
 
-// The rule base that a candidate was judged by.
+// Names the rule base by which a candidate was judged.
 enum class RuleBase : std::uint8_t { initial, along, along_visual, junction };
 
-// A link as it is driven: from its first vertex to its last (forward), or the other way round.
+// This is a link with its direction of travel: from its first vertex to its last (forward), or the
+// reverse.
 struct DirectedLink {
-  std::uint32_t link = 0;  // of the road network in use
+  std::uint32_t link = 0;  // index in the road network in use
   bool forward = true;
 
   DirectedLink reversed() const { return {link, !forward}; }
@@ -74,7 +75,7 @@ void archive(Archive& ar, DirectedLink& d) {
   ar(d.link, d.forward);
 }
 
-// A link that the vehicle may be on. NaN: not known.
+// This is a link that the vehicle may be on. NaN means unknown.
 struct MatchCandidate {
   static constexpr std::size_t max_rules = 32;
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -86,8 +87,8 @@ struct MatchCandidate {
   double along = 0.0;               // m from where the link is entered
   double distance = 0.0;            // m from the fix
   double azimuth_error = unknown;   // rad, 0 to pi
-  double connectivity = 0.0;        // 1: legal from the link before; 0: not
-  double distance_error = unknown;  // m between the way along the roads and the distance travelled
+  double connectivity = 0.0;        // 1: legal from the previous link; 0: not
+  double distance_error = unknown;  // m between the path along the roads and the distance travelled
   RuleBase rules = RuleBase::initial;
   bool decided = false;                    // whether any rule applied
   double likelihood = 0.0;                 // of the rules, 10 to 100
@@ -95,32 +96,32 @@ struct MatchCandidate {
   double probability = 0.0;                // P(link)
 };
 
-// What the matcher decides about one fix.
+// This is what the matcher decides about one fix.
 struct LinkMatch {
   static constexpr std::size_t max_candidates = 24;
 
-  FixRefusal refusal = FixRefusal::none;  // of this fix; the rest is then of the fix before
+  FixRefusal refusal = FixRefusal::none;  // of this fix; the rest is then the previous fix's
   MatchPhase phase = MatchPhase::initial;
-  bool on_road = false;  // whether there is a link at all; the rest to `margin` is about it
+  bool on_road = false;  // whether there is a link; the members up to `margin` describe it
   DirectedLink link;
   double along = 0.0;                            // m from where the link is entered
   double sigma_along = 0.0, sigma_across = 0.0;  // m, of the matched position
   double likelihood = 0.0;                       // of the rules, 10 to 100
   double probability = 0.0;                      // P(link), calibrated
-  double margin = 0.0;                           // to that of the second
-  double off_road = 0.0;                         // P that the vehicle is on no road of the map
+  double margin = 0.0;                           // to the probability of the second
+  double off_road = 0.0;                         // P(the vehicle is on no road of the map)
   std::array<MatchCandidate, max_candidates> candidates{};  // the most likely first
   std::size_t candidate_count = 0;
 };
 
-// The match of the fused state at `stamp`. What is in `enu` is in the frame of that state, azimuths
-// are clockwise from its north. Sent for every tick; `refusal` and `on_road` say whether there is a
-// link to speak of.
+// This is the match of the fused state at `stamp`. Members in `enu` are in the frame of that state;
+// azimuths are clockwise from its north. It is sent for every tick; `refusal` and `on_road` tell
+// whether it contains a link.
 struct MapMatch : Sample, LinkMatch {
   std::int64_t way_id = 0, node_a = 0, node_b = 0;           // OSM segment, as driven
   Geodetic origin;                                           // of enu
   Eigen::Vector2d vehicle_enu = Eigen::Vector2d::Zero();     // m, the state that was matched
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  // m^2, of that
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  // m^2, of vehicle_enu
   double vehicle_azimuth = 0.0;                              // rad
   double speed = 0.0;                                        // m/s, forward
   Eigen::Vector2d matched_enu = Eigen::Vector2d::Zero();     // m, on the link's line
@@ -128,15 +129,15 @@ struct MapMatch : Sample, LinkMatch {
   double cross_track = 0.0;   // m, of the vehicle from the line, positive to its right
   double half_width = 0.0;    // m, of the carriageway
   double bend = 0.0;          // rad, change of the road's azimuth from 15 m behind to 15 m ahead
-  double to_junction = 0.0;   // m along the link; behind, the junction is `along` metres away
+  double to_junction = 0.0;   // m ahead along the link; the junction behind is `along` metres away
 };
 
-// The same for people.
+// This describes the same match in words for people.
 struct MapMatchWords {
   struct Candidate {
     std::string road;                     // name and way
-    std::vector<std::string> objections;  // what speaks against it
-    std::vector<std::string> rules;       // that applied, the weightiest first, with weights
+    std::vector<std::string> objections;  // arguments against it
+    std::vector<std::string> rules;       // those that applied, the weightiest first, with weights
   };
   std::string explanation;
   std::vector<Candidate> candidates;  // in the order of the match

@@ -1,4 +1,5 @@
-// Enumerations whose names_of(value), a function beside them, lists what their values are called.
+// This file handles enumerations with a function names_of(value) beside them, which lists the names
+// of their values.
 #pragma once
 
 #include <algorithm>

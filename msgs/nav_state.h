@@ -1,4 +1,4 @@
-// The fused navigation solution.
+// This file defines the fused navigation solution.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,9 +11,9 @@
 namespace maploop {
 
 enum class NavStatus : std::uint8_t {
-  uninitialized,  // no first fix yet; all else is zero
+  uninitialized,  // no first fix yet; everything else is zero
   aided,          // odometry is being applied
-  coasting,       // inertial only for longer than the filter's limit
+  coasting,       // inertial only, for longer than the filter's limit
 };
 
 struct NavState : Sample {
@@ -24,17 +24,17 @@ struct NavState : Sample {
   Attitude attitude;
   double forward_speed = 0.0;  // m/s
   double gyro_bias = 0.0;      // rad/s
-  // Position (m), velocity (m/s), then azimuth, pitch, roll (rad).
+  // The order is position (m), velocity (m/s), then azimuth, pitch, roll (rad).
   Eigen::Matrix<double, 9, 9> covariance = Eigen::Matrix<double, 9, 9>::Zero();
-  // Stamps of the newest measurement of each kind inside this state (epoch 0: none yet).
+  // These are the stamps of the newest measurement of each kind in this state (epoch 0: none yet).
   Time imu_stamp{};
   Time odometry_stamp{};
   Time gnss_stamp{};
   Time wheel_stamp{};
-  Time zero_velocity_stamp{};          // when the vehicle last stood, and the filter used it
+  Time zero_velocity_stamp{};          // when the filter last used a standstill of the vehicle
   std::uint64_t odometry_applied = 0;  // since the start
   std::uint64_t odometry_refused = 0;
-  std::uint64_t reinitializations = 0;  // times the filter began anew at a fix
+  std::uint64_t reinitializations = 0;  // how often the filter restarted at a fix
 };
 
 template <class Archive>

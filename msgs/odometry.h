@@ -1,4 +1,4 @@
-// Relative motion from one image (or scan) to the next.
+// This file defines relative motion from one image (or scan) to the next.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,14 +15,14 @@ enum class OdometryStatus : std::uint8_t {
   ok,
   first_frame,       // nothing to compare with yet
   too_few_features,  // not enough tracked features with a valid stereo match
-  too_few_inliers,   // no motion explains enough of them
-  too_dark,          // too few features, for there is no light
-  swapped_images,    // too few features, for left and right are exchanged
-  repeated_image,    // the pixels of the image before under a new stamp
+  too_few_inliers,   // no motion explains enough features
+  too_dark,          // too few features because there is too little light
+  swapped_images,    // too few features because left and right are exchanged
+  repeated_image,    // the pixels of the previous image under a new stamp
   moving_objects,    // most features agree on a motion that is not the vehicle's
   implausible,       // the motion found is beyond what a road vehicle does
   bad_input,         // image size wrong, or time not increasing
-  not_converged,     // the registration of a scan still moved when it had to end
+  not_converged,     // the registration of a scan had not settled when it had to end
   disagreement,      // LiDAR and visual motion contradict each other
 };
 
@@ -59,7 +59,7 @@ constexpr std::string_view to_string(OdometryStatus status) {
   return "unknown";
 }
 
-// What is worth knowing of a usable motion.
+// States additional information about a usable motion.
 enum class OdometryCondition : std::uint8_t {
   ordinary,
   standstill,  // the images do not move
@@ -89,7 +89,7 @@ enum class OdometrySource : std::uint8_t {
 constexpr std::size_t odometry_source_count =
     static_cast<std::size_t>(OdometrySource::visual_lidar) + 1;
 
-// Of the body, in the order of a motion's components.
+// These are directions of the body, in the order of a motion's components.
 enum class MotionDirection : std::uint8_t { along, across, up, roll, pitch, yaw };
 
 constexpr std::string_view to_string(MotionDirection direction) {
@@ -97,17 +97,17 @@ constexpr std::string_view to_string(MotionDirection direction) {
   return names[static_cast<std::size_t>(direction)];
 }
 
-// Pose of the body at `stamp` in the body frame at `from`. Sent for every input: where there is no
-// motion to report, `status` says why and the pose is not to be used.
+// This is the pose of the body at `stamp` in the body frame at `from`. It is sent for every input:
+// if there is no motion to report, `status` states why and the pose must not be used.
 struct RelativeMotion : Sample {
   OdometryStatus status = OdometryStatus::first_frame;
   OdometryCondition condition = OdometryCondition::ordinary;
-  double parallax = 0.0;  // px, median of what moved in the image but for the rotation; LiDAR: 0
+  double parallax = 0.0;  // px, median image motion without the rotation's part; LiDAR: 0
   Time from{};
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();         // m
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  // unit
-  // Of the body at `stamp`: translation (m), then rotation vector (rad), both in the body frame at
-  // `from`.
+  // Covariance of the body's pose at `stamp`: translation (m), then rotation vector (rad), both in
+  // the body frame at `from`.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   int tracked = 0;  // features (LiDAR: surface points) offered to the motion estimate
   int inliers = 0;  // those that agree with it (LiDAR: have a partner in the map)
@@ -122,11 +122,11 @@ void archive(Archive& ar, RelativeMotion& m) {
      m.covariance, m.tracked, m.inliers, m.source);
 }
 
-// What a scan's registration has to say besides. LiDAR odometry sends one for every scan.
+// This adds the result of a scan's registration. LiDAR odometry sends one for every scan.
 struct LidarMotion : RelativeMotion {
-  std::uint8_t degenerate = 0;          // bit MotionDirection: not determined, the seed's is kept
+  std::uint8_t degenerate = 0;          // bit MotionDirection: undetermined, the seed's is kept
   int iterations = 0;                   // of the registration
-  double seed_translation_error = 0.0;  // m, what the registration changed in the seed
+  double seed_translation_error = 0.0;  // m, change of the seed by the registration
   double seed_rotation_error = 0.0;     // rad
 };
 

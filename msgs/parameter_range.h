@@ -1,4 +1,4 @@
-// What values parameters may have, and the error that says so.
+// This file checks the ranges of parameters and reports values outside of them.
 #pragma once
 
 #include <span>
@@ -15,12 +15,12 @@ struct ParameterRange {
   std::string_view unit = {};
 };
 
-// Nothing where the value is in its range, ends included. Throws std::invalid_argument naming
-// table, key, value and range; also for what is not a number, and for a key without a range.
+// Returns if the value is in its range, ends included. Throws std::invalid_argument that names
+// table, key, value and range if it is not, if it is not a number, or if the key has no range.
 inline void check_range(std::string_view table, std::span<const ParameterRange> ranges,
                         std::string_view key, double value) {
   const auto number = [](double v) {
-    std::string text = std::to_string(v);  // with six digits behind the point
+    std::string text = std::to_string(v);  // with six digits after the point
     if (text.find('.') == std::string::npos) return text;
     text.erase(text.find_last_not_of('0') + 1);
     if (text.back() == '.') text.pop_back();

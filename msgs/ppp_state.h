@@ -1,4 +1,4 @@
-// What precise point positioning says of one epoch of a GNSS receiver.
+// This file defines what precise point positioning reports about one epoch of a GNSS receiver.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,8 +15,8 @@
 namespace maploop {
 
 enum class PppStatus : std::uint8_t {
-  none,        // no position: the message says why
-  converging,  // a position whose ambiguities are still being found
+  none,        // no position: the message states why
+  converging,  // the ambiguities have not converged yet
   converged,   // horizontal standard deviation below 0.1 m
 };
 
@@ -34,17 +34,17 @@ constexpr std::string_view to_string(PppStatus status) {
   return "unknown";
 }
 
-// Why a satellite, or a part of what was measured of it, was not used.
+// States why a satellite, or a part of its measurements, was not used.
 enum class PppRefusal : std::uint8_t {
   none,
   no_signals,    // a carrier lacks its code or its phase
   weak,          // below the mask of signal strength
-  no_ephemeris,  // products and messages do not cover it, or call it unhealthy
+  no_ephemeris,  // not covered by products and messages, or marked unhealthy
   low,           // below the elevation mask
-  no_phase,      // its code was used
+  no_phase,      // only its code was used
   code_far,      // its code is far from all others
-  code_misfit,   // beyond the limit after the update, as the two below
-  phase_misfit,  // its ambiguity begins anew
+  code_misfit,   // beyond the limit after the update, like the two below
+  phase_misfit,  // its ambiguity restarts
   doppler_misfit,
   too_many,  // the filter has no room for one more
 };
@@ -79,14 +79,14 @@ constexpr std::string_view to_string(PppRefusal refusal) {
   return "unknown";
 }
 
-// What told that the phase has slipped, so that its ambiguity begins anew.
+// States how a slip of the phase was detected; the ambiguity then restarts.
 enum class PppSlip : std::uint8_t {
   none,
   lost_lock,
   geometry_free,
   wide_lane,
   doppler,
-  phase_step,  // with one carrier: it has not changed as the others have
+  phase_step,  // with one carrier: its change differs from the others'
 };
 
 constexpr std::size_t ppp_slip_count = static_cast<std::size_t>(PppSlip::phase_step) + 1;
@@ -109,11 +109,11 @@ constexpr std::string_view to_string(PppSlip slip) {
   return "unknown";
 }
 
-// What the road map does for the position (--map-mode tight).
+// States how the road map affects the position (--map-mode tight).
 enum class PppMap : std::uint8_t {
-  none,    // it has said nothing yet, or there is none
+  none,    // there is no map, or no feedback from it yet
   aiding,  // the position is that of the filter with the map
-  paused,  // left out for a while behind a wrong road
+  paused,  // switched off for a while after a wrong road
 };
 
 constexpr std::size_t ppp_map_count = static_cast<std::size_t>(PppMap::paused) + 1;
@@ -134,7 +134,7 @@ struct PppSatellite {
   char system = 'G';        // RINEX's letter
   std::uint8_t number = 0;  // as RINEX 3 writes it
   float azimuth = 0.0F;     // rad, clockwise from north
-  float elevation = 0.0F;   // rad; both 0 where it has no ephemeris
+  float elevation = 0.0F;   // rad; both are 0 without an ephemeris
   float cn0 = 0.0F;         // dB-Hz
   bool code_used = false;
   bool phase_used = false;
@@ -150,8 +150,8 @@ void archive(Archive& ar, PppSatellite& s) {
      s.phase_residual, s.refusal, s.slip);
 }
 
-// Distances from the position that the antenna is within, but with the probability of the integrity
-// risk each; along and across the direction of travel.
+// Each is a distance from the position that contains the antenna except with the probability
+// `integrity_risk`; along and across the direction of travel, and up.
 struct ProtectionLevels {
   double along = 0.0, across = 0.0, up = 0.0;  // m
 };
@@ -161,10 +161,10 @@ void archive(Archive& ar, ProtectionLevels& p) {
   ar(p.along, p.across, p.up);
 }
 
-// `stamp` is the epoch's. Without a position all but satellites and message is zero.
+// `stamp` is the epoch's. Without a position everything but satellites and message is zero.
 struct PppState : Sample {
   PppStatus status = PppStatus::none;
-  std::string message;  // why there is no position; what else is to be said of the epoch
+  std::string message;  // why there is no position, and remarks about the epoch
   Geodetic position;    // of the antenna's marker
   Eigen::Matrix3d position_covariance = Eigen::Matrix3d::Zero();  // m^2, east north up
   Eigen::Vector3d velocity_enu = Eigen::Vector3d::Zero();         // m/s
@@ -175,14 +175,14 @@ struct PppState : Sample {
   double zenith_delay_sigma = 0.0;
   double code_rms = 0.0;        // m, of the residuals used
   double phase_rms = 0.0;       // m
-  double converging_for = 0.0;  // s since the filter began, or began anew
-  std::uint64_t restarts = 0;   // times that it began anew
+  double converging_for = 0.0;  // s since the filter started or restarted
+  std::uint64_t restarts = 0;   // how often it restarted
   PppMap map = PppMap::none;
-  std::uint64_t roads_used = 0;     // lines of the map fed back, so far
-  std::uint64_t roads_refused = 0;  // that were too far away, no help, not usable
+  std::uint64_t roads_used = 0;     // lines of the map fed back so far
+  std::uint64_t roads_refused = 0;  // lines too far away, without effect, or unusable
   std::int32_t satellites_used = 0;
-  std::int32_t satellites_corrected = 0;  // of those measured, by corrections that are received
-  std::optional<double> correction_age;   // s, of the newest of them; nothing: none ever came
+  std::int32_t satellites_corrected = 0;  // of those measured, by received corrections
+  std::optional<double> correction_age;   // s, of the newest correction; nothing if none ever came
   std::vector<PppSatellite> satellites;   // all that were measured
 };
 

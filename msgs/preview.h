@@ -1,4 +1,4 @@
-// What cameras and LiDAR see, made small for people who look on.
+// This file defines a reduced view of cameras and LiDAR for people who watch.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,9 @@
 
 namespace maploop {
 
-// `stamp` is the picture's, or the scan's where there is no picture.
+// `stamp` is that of the picture, or of the scan if there is no picture.
 struct Preview : Sample {
-  // Where a feature was in the picture before and where it is now; px of the picture.
+  // Holds where a feature was in the previous picture and where it is now; px of the picture.
   struct Track {
     float from_u = 0.0F, from_v = 0.0F;
     float u = 0.0F, v = 0.0F;
@@ -23,7 +23,7 @@ struct Preview : Sample {
   std::vector<std::uint8_t> jpeg;  // of the left camera
   std::vector<Track> tracks;
   Time scan_stamp{};          // of the points
-  std::vector<Point> points;  // some of a turn's; none: no scan
+  std::vector<Point> points;  // some points of a turn; empty without a scan
 };
 
 }  // namespace maploop

@@ -1,4 +1,4 @@
-// What was asked of the machine for real time, and what it gave.
+// This file reports what was requested of the machine for real time, and what it granted.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 namespace maploop {
 
 enum class Verdict : std::uint8_t {
-  granted,   // as asked, or nothing stands in the way
-  refused,   // asked of the kernel, which gave less
-  limiting,  // a property of this machine that makes it less punctual; nothing was asked
-  unknown,   // this machine does not say
+  granted,   // as requested, or without an obstacle
+  refused,   // requested of the kernel, which gave less
+  limiting,  // a property of this machine that harms punctuality; nothing was requested
+  unknown,   // this machine gives no information
 };
 
 constexpr std::string_view to_string(Verdict verdict) {
@@ -28,14 +28,14 @@ constexpr std::string_view to_string(Verdict verdict) {
   return "unknown";
 }
 
-// One item. `granted` is always read back after asking, never assumed.
+// Describes one item. `granted` is always read back after the request, never assumed.
 struct RealtimeSetting {
   std::string name;     // "fusion: scheduling", "locked memory"
   std::string asked;    // "fifo 60"
   std::string granted;  // "other"
   Verdict verdict = Verdict::unknown;
-  std::string reason;  // why not; empty where granted
-  std::string remedy;  // what to do, one line; empty where granted
+  std::string reason;  // why not; empty if granted
+  std::string remedy;  // what to do, one line; empty if granted
 };
 
 }  // namespace maploop

@@ -1,4 +1,5 @@
-// The reference ("truth") of a recorded drive. Never an input of an estimator.
+// This file defines the reference ("truth") of a recorded drive. It is never an input of an
+// estimator.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +10,7 @@
 
 namespace maploop {
 
-// `stamp` is the position's and the attitude's.
+// `stamp` is that of the position and the attitude.
 struct ReferencePose : Sample {
   Geodetic position;
   Attitude attitude;

@@ -13,7 +13,7 @@ namespace {
                               std::string(text) + "'");
 }
 
-// The decimal number in text[from, from + digits), or a rejection of the whole text.
+// Returns the decimal number in text[from, from + digits), or rejects the whole text.
 int number(std::string_view text, std::size_t from, std::size_t digits) {
   int value = 0;
   for (std::size_t i = from; i < from + digits; ++i) {

@@ -1,4 +1,4 @@
-// A visual motion with what is needed to correct it for wrong disparities.
+// This file defines a visual motion with the data to correct it for wrong disparities.
 #pragma once
 
 #include "msgs/odometry.h"
@@ -6,12 +6,12 @@
 namespace maploop {
 
 struct VisualMotion : RelativeMotion {
-  // Constant that was added to all disparities, px; the part of `covariance` that its standard
-  // deviation makes is by_offset * by_offset^T * offset_sigma^2.
+  // This constant, px, was added to all disparities. Its standard deviation contributes by_offset *
+  // by_offset^T * offset_sigma^2 to `covariance`.
   double offset = 0.0;
   double offset_sigma = 0.0;
-  // What the motion changes by where a px more is added: m, rad, in the axes of `covariance`. Zero
-  // where that is not known.
+  // Change of the motion for each added px: m, rad, in the axes of `covariance`. Zero if it is
+  // unknown.
   Eigen::Matrix<double, 6, 1> by_offset = Eigen::Matrix<double, 6, 1>::Zero();
 };
 

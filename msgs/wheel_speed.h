@@ -1,4 +1,4 @@
-// Forward speed from the wheels, or from what stands for them.
+// This file defines the forward speed from the wheels, or from a substitute.
 #pragma once
 
 #include "msgs/sample.h"
@@ -6,8 +6,8 @@
 namespace maploop {
 
 struct WheelSpeed : Sample {
-  double speed = 0.0;  // m/s along the way, negative in reverse
-  double sigma = 0.0;  // m/s, white; a scale error (tyres) is the filter's to find
+  double speed = 0.0;  // m/s along the path, negative in reverse
+  double sigma = 0.0;  // m/s, white; the filter estimates a scale error (tyres) itself
 };
 
 template <class Archive>

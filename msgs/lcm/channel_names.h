@@ -1,4 +1,4 @@
-// What the channels are called, for those who write and those who read them.
+// This file defines the names of the channels for writers and readers.
 #pragma once
 
 #include <string_view>

@@ -1,4 +1,4 @@
-// A message of one of our own types, from bytes that anybody may have sent.
+// This file decodes messages of our own types from untrusted bytes.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace maploop::schema {
 
-// The types of msgs/lcm, which are part of the program.
+// Returns the types of msgs/lcm, which are part of the program.
 inline const Schema& own_schema() {
   static const Schema schema(own_types());
   return schema;
 }
 
-// False where the bytes are no message of this type. The schema looks first: LCM's own code takes
-// the sizes in a message at their word. `schema` knows our types.
+// Returns false if the bytes are not a message of this type. They are checked against the schema
+// first, because LCM's own code trusts the sizes in a message. `schema` must contain our types.
 template <class Message>
 bool checked_decode(const Schema& schema, std::span<const std::uint8_t> data, Message& message) {
   const Type* type = schema.find(fingerprint_of(data));

@@ -1,4 +1,4 @@
-// What the conversions of all types share (internal).
+// This file contains what the conversions of all types share (internal).
 #pragma once
 
 #include <Eigen/Core>
@@ -19,7 +19,7 @@ inline std::int64_t microseconds_of(Time t) {
   return std::chrono::floor<std::chrono::microseconds>(t).time_since_epoch().count();
 }
 
-// Throws std::invalid_argument where no stamp can hold it.
+// Throws std::invalid_argument if a stamp cannot hold the value.
 inline Time time_of_utime(std::int64_t utime) {
   const std::optional<Time> t = from_microseconds(utime);
   if (!t) {
@@ -68,7 +68,8 @@ void read(const double (&in)[n][n], Eigen::Matrix<double, n, n>& m) {
   }
 }
 
-// The enumerations of the messages count like ours; `last` is the largest known.
+// Converts an enumeration of a message, which is numbered like ours; `last` is the largest known
+// value.
 template <class Enumeration>
 Enumeration enumerator_from(std::int8_t value, Enumeration last, const char* field) {
   if (value < 0 || value > static_cast<std::int8_t>(last)) {

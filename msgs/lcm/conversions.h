@@ -1,5 +1,5 @@
-// Samples, results and diagnostics as LCM types, and back. Nothing is lost either way but
-// `received`, which is this machine's own, and a match's words, which are for people.
+// This file converts samples, results and diagnostics to LCM types and back. Nothing is lost but
+// `received`, which belongs to this machine, and the words of a match, which are for people.
 #pragma once
 
 #include <maploop_lcm/deadlines_t.hpp>
@@ -44,8 +44,8 @@ maploop_lcm::preview_t to_lcm(const Preview& preview);
 maploop_lcm::deadlines_t to_lcm(const Deadlines& deadlines);
 maploop_lcm::health_t to_lcm(const Health& health);
 
-// Throw std::invalid_argument when a status is none of ours, or there are more candidates than a
-// match holds.
+// These throw std::invalid_argument if a status is unknown, or a match has more candidates than it
+// can hold.
 NavState from_lcm(const maploop_lcm::nav_state_t& message);
 RelativeMotion from_lcm(const maploop_lcm::relative_motion_t& message);
 LidarMotion from_lcm(const maploop_lcm::lidar_motion_t& message);

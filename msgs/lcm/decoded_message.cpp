@@ -74,7 +74,7 @@ std::string to_text(const Value& value) {
       value);
 }
 
-// One pass over the bytes. Each step returns false after the first error.
+// Makes one pass over the bytes. Each step returns false after the first error.
 class DecodedMessage::Decoding {
  public:
   explicit Decoding(DecodedMessage& message) : m_(message) {}
@@ -181,7 +181,7 @@ class DecodedMessage::Decoding {
       if (size < 0) {
         return fail_at(node, "'" + dimension.text + "' gives it the size " + std::to_string(size));
       }
-      // Both factors stay below 2^31, so that their product is one.
+      // Both factors are at most 2^31, so their product fits into 64 bits.
       count *= static_cast<std::uint64_t>(std::min<std::int64_t>(size, std::int64_t{1} << 31));
       if (count > kMaximumBytes) return fail_at(node, "its sizes are beyond any message");
       m_.sizes_.push_back(static_cast<std::uint32_t>(size));
@@ -225,7 +225,7 @@ std::optional<DecodeError> DecodedMessage::decode(const Type& type,
 }
 
 void DecodedMessage::append_index(std::size_t array, std::uint32_t index, std::string& path) const {
-  std::uint64_t below = 1;  // elements of one index of the dimension looked at
+  std::uint64_t below = 1;  // elements of one index of the current dimension
   for (const std::uint32_t size : sizes(array)) below *= size;
   for (const std::uint32_t size : sizes(array)) {
     below /= size;

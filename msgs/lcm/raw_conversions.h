@@ -1,5 +1,5 @@
-// Raw sensors and their calibration as LCM types, and back to the same bits. (Apart from
-// conversions.h: only logs hold them.)
+// This file converts raw sensors and their calibration to LCM types, and back to the same bits. (It
+// is separate from conversions.h because only logs contain them.)
 #pragma once
 
 #include <maploop_lcm/calibration_t.hpp>
@@ -12,12 +12,13 @@
 
 namespace maploop {
 
-maploop_lcm::calibration_t to_lcm(const VehicleCalibration& calibration);  // utime: the caller's
+maploop_lcm::calibration_t to_lcm(const VehicleCalibration& calibration);  // the caller sets utime
 maploop_lcm::stereo_pair_t to_lcm(const StereoPair& pair);
 maploop_lcm::lidar_scan_t to_lcm(const LidarScan& scan);
 
 VehicleCalibration from_lcm(const maploop_lcm::calibration_t& message);
-// Throw std::invalid_argument where a size contradicts the rest. The output's buffers are reused.
+// These throw std::invalid_argument if a size contradicts the rest. The output's buffers are
+// reused.
 void from_lcm(const maploop_lcm::stereo_pair_t& message, StereoPair& pair);
 void from_lcm(const maploop_lcm::lidar_scan_t& message, LidarScan& scan);
 

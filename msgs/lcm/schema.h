@@ -1,8 +1,8 @@
-// LCM types as data: what a .lcm file declares, so that a message can be read without code
-// generated for it.
+// This file represents LCM types as data, as a .lcm file declares them, so that a message can be
+// read without code generated for it.
 //
 // The language is that of lcm-gen 1.3.1 (packages, structs, constants, arrays of fixed and variable
-// size, nested types). An `enum` is refused, for which lcm-gen makes no C++ code either.
+// size, nested types). An `enum` is refused; lcm-gen does not make C++ code for it either.
 #pragma once
 
 #include <cstddef>
@@ -29,14 +29,14 @@ enum class Kind : std::uint8_t {
   structure
 };
 
-// Bytes of one encoded value; 0 for string and structure, whose size is their own.
+// Returns the bytes of one encoded value; 0 for string and structure, whose size varies.
 std::size_t encoded_size(Kind kind);
 
 struct Type;
 
 struct Dimension {
-  std::int64_t size = 0;  // fixed size; 0: variable
-  int counter = -1;       // variable: which counter of the struct holds the size
+  std::int64_t size = 0;  // fixed size; 0 if variable
+  int counter = -1;       // if variable: the counter of the struct that holds the size
   std::string text;       // as declared: a number or the counter's name
 };
 
@@ -44,9 +44,9 @@ struct Member {
   std::string name;
   std::string type_name;  // "double", "maploop_lcm.header_t"
   Kind kind = Kind::int8;
-  const Type* type = nullptr;         // of a structure
-  std::vector<Dimension> dimensions;  // outermost first; empty: not an array
-  int counter = -1;                   // which counter of its struct it is; -1: it sizes no array
+  const Type* type = nullptr;         // if it is a structure
+  std::vector<Dimension> dimensions;  // outermost first; empty if not an array
+  int counter = -1;                   // counter number in the struct; -1 if not a counter
 };
 
 struct Constant {
@@ -60,29 +60,30 @@ struct Type {
   std::vector<Member> members;
   std::vector<Constant> constants;
   int counters = 0;               // members that size an array
-  std::uint64_t fingerprint = 0;  // what LCM puts in front of each message of this type
+  std::uint64_t fingerprint = 0;  // as LCM puts it in front of each message of this type
 };
 
-// The text of one .lcm file; `source` names it in errors.
+// This is the text of one .lcm file; `source` names it in errors.
 struct TypeText {
   std::string source;
   std::string text;
 };
 
-// Immutable once made: any thread may use it.
+// A schema is immutable, so any thread may use it.
 class Schema {
  public:
-  // The order of the texts does not matter. The same type may be declared twice if both mean the
-  // same. Throws std::runtime_error naming source, line and what is wrong there: text that is not
-  // the language, a type that no text declares, or two different types of one name.
+  // The order of the texts does not matter. The same type may be declared twice if both
+  // declarations agree. Throws std::runtime_error that names source and line and states what is
+  // wrong: text outside the language, a type that no text declares, or two different types of one
+  // name.
   explicit Schema(std::span<const TypeText> texts);
 
-  // Null where there is none. LCM's fingerprint does not cover the name of a type: of two types
-  // alike but for their name, the one declared first is found.
+  // These return null if there is no such type. LCM's fingerprint does not cover the name of a
+  // type: of two types that differ only in name, the one declared first is returned.
   const Type* find(std::uint64_t fingerprint) const;
   const Type* find(std::string_view name) const;
 
-  // In the order of declaration.
+  // Returns the types in the order of declaration.
   std::span<const std::unique_ptr<const Type>> types() const { return types_; }
 
  private:
@@ -90,14 +91,14 @@ class Schema {
   std::unordered_map<std::uint64_t, const Type*> by_fingerprint_;
 };
 
-// The types of msgs/lcm, which are part of the program.
+// Returns the types of msgs/lcm, which are part of the program.
 std::span<const TypeText> own_types();
 
-// LCM's own recursive hash of a type whose members are resolved. Throws std::runtime_error when its
-// types are nested beyond reason.
+// Returns LCM's own recursive hash of a type whose members are resolved. Throws std::runtime_error
+// if its types are nested too deeply.
 std::uint64_t fingerprint_of(const Type& type);
 
-// The fingerprint in front of an encoded message; 0 when it is too short to have one.
+// Returns the fingerprint in front of an encoded message; 0 if it is too short to have one.
 std::uint64_t fingerprint_of(std::span<const std::uint8_t> message);
 
 }  // namespace maploop::schema

@@ -1,6 +1,6 @@
-// LCM's fingerprint of a type ("LCM type specification", section Fingerprint computation): a hash
-// of the members' names, primitive types and dimensions, plus those of the types inside it, where a
-// type that contains itself counts as 0, rotated left by one bit.
+// This file computes LCM's fingerprint of a type ("LCM type specification", section Fingerprint
+// computation): a hash of the members' names, primitive types and dimensions, plus those of the
+// nested types, where a type that contains itself counts as 0, rotated left by one bit.
 #include <stdexcept>
 
 #include "msgs/lcm/schema.h"
@@ -8,10 +8,10 @@
 namespace maploop::schema {
 namespace {
 
-// The sum over nested types visits each as often as it is named, which doubles with every level.
+// The sum visits a nested type as often as it is named, which doubles with every level.
 constexpr int kMaximumVisits = 10'000;
 
-// LCM hashes in signed arithmetic: the shift to the right repeats the sign.
+// LCM hashes in signed arithmetic, so the shift to the right repeats the sign.
 std::uint64_t update(std::uint64_t hash, std::int8_t c) {
   const auto shifted = static_cast<std::uint64_t>(static_cast<std::int64_t>(hash) >> 55);
   return ((hash << 8) ^ shifted) + static_cast<std::uint64_t>(static_cast<std::int64_t>(c));
@@ -38,7 +38,7 @@ std::uint64_t hash_of_members(const Type& type) {
   return hash;
 }
 
-struct Inside {  // the types that contain the one looked at
+struct Inside {  // the types that contain the current one
   const Type* type;
   const Inside* outer;
 };

@@ -13,11 +13,11 @@ namespace maploop::schema {
 namespace {
 
 struct Token {
-  std::string_view text;  // empty: end of the text
+  std::string_view text;  // empty at the end of the text
   int line = 1;
 };
 
-// As a message may show it.
+// Returns the text as an error message may show it.
 std::string shown(std::string_view text) {
   if (text.empty()) return "the end of the file";
   std::string result = "'";
@@ -39,7 +39,7 @@ bool is_name(std::string_view text) {
          });
 }
 
-// Names joined by single dots.
+// Accepts names joined by single dots.
 bool is_qualified_name(std::string_view text) {
   while (true) {
     const std::size_t dot = text.find('.');
@@ -146,7 +146,7 @@ bool is_integer(Kind kind) {
 std::optional<std::int64_t> to_integer(const std::string& text) {
   char* end = nullptr;
   errno = 0;
-  const long long value = std::strtoll(text.c_str(), &end, 0);  // lcm-gen takes 0x10 and 010 too
+  const long long value = std::strtoll(text.c_str(), &end, 0);  // lcm-gen accepts 0x10 and 010 too
   if (errno != 0 || text.empty() || *end != '\0') return std::nullopt;
   return value;
 }

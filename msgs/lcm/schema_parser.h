@@ -1,4 +1,4 @@
-// The .lcm language, one text at a time; names of other types are left to Schema to resolve.
+// This file parses the .lcm language, one text at a time; Schema resolves the names of other types.
 #pragma once
 
 #include <vector>
@@ -8,13 +8,13 @@
 namespace maploop::schema {
 
 struct ParsedType {
-  Type type;                      // Member::type and fingerprint still missing
+  Type type;                      // without Member::type and fingerprint
   std::string source;             // of its text
   int line = 0;                   // of its declaration
-  std::vector<int> member_lines;  // one a member
+  std::vector<int> member_lines;  // one for each member
 };
 
-// Throws std::runtime_error "source:line: what is wrong".
+// Throws std::runtime_error with the text "source:line: what is wrong".
 std::vector<ParsedType> parse_types(const TypeText& text);
 
 }  // namespace maploop::schema

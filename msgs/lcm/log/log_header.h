@@ -1,4 +1,4 @@
-// The header of an event: what its 28 bytes say, and whether an event can look like that.
+// This file reads the 28 bytes of an event's header, and checks whether they are plausible.
 #pragma once
 
 #include <cstddef>
@@ -27,24 +27,24 @@ struct LogHeader {
 };
 
 struct LogLimits {
-  std::int32_t channel_bytes = 999;   // LCM's own
-  std::int32_t data_bytes = 1 << 26;  // 64 MB, more than any sensor's message; bounds the memory
+  std::int32_t channel_bytes = 999;   // LCM's own limit
+  std::int32_t data_bytes = 1 << 26;  // 64 MB, more than any sensor's message; limits the memory
 };
 
-// Precondition: at least kHeaderBytes.
+// Precondition: `bytes` has at least kHeaderBytes.
 LogHeader read_header(std::span<const std::uint8_t> bytes);
 void write_header(const LogHeader& header, std::span<std::uint8_t, kHeaderBytes> bytes);
 
-// Why no event can begin like this; nullopt where one can.
+// Returns why no event can begin like this; nullopt if one can.
 std::optional<std::string> implausible(const LogHeader& header, const LogLimits& limits);
 
-// Whether the bytes begin with the sync word, or with as much of it as there are bytes.
+// Returns whether the bytes begin with the sync word, or with its first bytes if there are fewer.
 bool begins_with_sync(std::span<const std::uint8_t> bytes);
 
-// A sync word in which at most eight of 32 bits are wrong; one of 286 random words is that close.
+// Accepts a sync word with at most eight wrong bits of 32; one of 286 random words matches.
 bool begins_nearly_with_sync(std::span<const std::uint8_t> bytes);
 
-// Where the sync word first is, from `from` on; bytes.size() where it is nowhere.
+// Returns where the sync word first occurs at or after `from`; bytes.size() if it does not.
 std::size_t find_sync(std::span<const std::uint8_t> bytes, std::size_t from);
 
 }  // namespace maploop::lcm_log

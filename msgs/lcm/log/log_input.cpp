@@ -55,8 +55,8 @@ void LogInput::skip(std::size_t count) {
 
 void LogInput::read_more(std::size_t size) {
   while (end_ - begin_ < size && !at_end_) {
-    // Grows as bytes arrive: a hostile size in a small file allocates nothing. Bytes move only when
-    // at least a third as many were skipped, so that reading stays linear.
+    // The window grows as bytes arrive, so a hostile size in a small file allocates nothing. Bytes
+    // are moved only if at least a third as many were skipped, so that reading stays linear.
     if (window_.size() - end_ < kReadBytes && begin_ > window_.size() / 4) {
       std::copy(window_.begin() + static_cast<std::ptrdiff_t>(begin_),
                 window_.begin() + static_cast<std::ptrdiff_t>(end_), window_.begin());

@@ -1,5 +1,5 @@
-// The bytes of a log, plain or gzip-compressed, through a window that grows only as far as it is
-// asked to.
+// This file reads the bytes of a log, plain or gzip-compressed, through a window that grows only as
+// far as requested.
 #pragma once
 
 #include <cstddef>
@@ -14,26 +14,26 @@ namespace maploop::lcm_log {
 
 class LogInput {
  public:
-  // Throws std::runtime_error naming the file when it is no file or cannot be read.
+  // Throws std::runtime_error that names the file if it is not a file or cannot be read.
   explicit LogInput(const std::filesystem::path& file);
   ~LogInput();
   LogInput(LogInput&&) noexcept;
   LogInput& operator=(LogInput&&) noexcept;
 
-  // At least `size` bytes from position() on, fewer only where the log ends before. Valid until the
-  // next call of a member that is not const.
+  // Returns at least `size` bytes from position() on, fewer only if the log ends before. Valid
+  // until the next call of a member that is not const.
   std::span<const std::uint8_t> peek(std::size_t size);
 
-  // Precondition: count <= what peek has shown.
+  // Precondition: count <= the number of bytes that peek returned.
   void skip(std::size_t count);
 
   std::uint64_t position() const { return position_; }  // in the uncompressed log
 
-  // Why reading ended before the end of the file (a read error, a damaged or truncated .gz); empty
-  // where it did not.
+  // States why reading ended before the end of the file (a read error, a damaged or truncated .gz);
+  // empty if it did not.
   const std::string& failure() const { return failure_; }
 
-  // Of the file as it is on disk, for a progress line.
+  // These are sizes of the file on disk, in bytes, for a progress line.
   std::uint64_t file_size() const { return file_size_; }
   std::uint64_t file_position() const;
 
@@ -45,7 +45,7 @@ class LogInput {
 
   std::unique_ptr<Stream> stream_;
   std::vector<std::uint8_t> window_;
-  std::size_t begin_ = 0, end_ = 0;  // what of the window is filled and not yet skipped
+  std::size_t begin_ = 0, end_ = 0;  // the part that is filled and not yet skipped
   std::uint64_t position_ = 0;
   std::uint64_t file_size_ = 0;
   bool at_end_ = false;

@@ -6,9 +6,9 @@
 namespace maploop::lcm_log {
 namespace {
 
-constexpr std::size_t kSearchBytes = 1 << 20;  // how far beyond an event the next one is looked for
-constexpr int kMaximumInside = 64;             // headers looked at inside one event
-constexpr std::size_t kMaximumChannels = 1000;  // remembered; hostile logs may have any number
+constexpr std::size_t kSearchBytes = 1 << 20;   // how far beyond an event the next one is searched
+constexpr int kMaximumInside = 64;              // headers checked inside one event
+constexpr std::size_t kMaximumChannels = 1000;  // remembered; a hostile log may have any number
 
 std::string_view as_text(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -21,7 +21,8 @@ bool is_channel_name(std::string_view name) {
   });
 }
 
-// Where the first header that an event can have begins, from `from` on; none: bytes.size().
+// Returns where the first plausible header begins, at or after `from`; bytes.size() if there is
+// none.
 std::size_t find_header(std::span<const std::uint8_t> bytes, std::size_t from,
                         const LogLimits& limits) {
   for (std::size_t at = find_sync(bytes, from); at + kHeaderBytes <= bytes.size();
@@ -62,7 +63,7 @@ LogReader::Item LogReader::next() {
   return damage_.reason.empty() ? Item::end : Item::damage;
 }
 
-// Whether an event begins at the input's position: makes it event_, or says why not.
+// Checks whether an event begins at the input's position; stores it in event_, or returns why not.
 std::optional<std::string> LogReader::check() {
   std::span<const std::uint8_t> bytes = input_.peek(kHeaderBytes);
   if (!begins_with_sync(bytes)) return "no event begins here";
@@ -106,7 +107,7 @@ std::optional<std::string> LogReader::check_what_follows(std::span<const std::ui
   return "no event follows it: its length is wrong";
 }
 
-// Whether a header that an event can have begins inside this event: that of the next number, or
+// Returns whether a plausible header begins inside this event: the one with the next number, or
 // any.
 bool LogReader::next_event_inside(std::span<const std::uint8_t> bytes, const LogHeader& header,
                                   bool any_number) const {
@@ -119,7 +120,7 @@ bool LogReader::next_event_inside(std::span<const std::uint8_t> bytes, const Log
   return false;
 }
 
-// For an event that none follows directly: whether its length is right nevertheless.
+// Returns whether the length of an event is right although no other event follows directly.
 bool LogReader::trusted(std::span<const std::uint8_t> bytes, const LogHeader& header) {
   const auto channel_bytes = static_cast<std::size_t>(header.channel_bytes);
   const auto data =
@@ -142,7 +143,7 @@ void LogReader::skip_to_sync() {
     const auto bytes = input_.peek(kHeaderBytes);
     const std::size_t at = find_sync(bytes, 0);
     if (at < bytes.size()) return input_.skip(at);
-    // The last bytes may be the beginning of a sync word, unless the log ends with them.
+    // The last bytes may be the start of a sync word, unless the log ends with them.
     if (bytes.size() < kHeaderBytes) return input_.skip(bytes.size());
     input_.skip(bytes.size() - (kSyncWordBytes - 1));
   }

@@ -1,19 +1,20 @@
-// The events of an LCM log in order, and whatever between them is damaged.
+// This file reads the events of an LCM log in order, and reports the damage between them.
 //
 //   LogReader reader(file);
 //   for (auto item = reader.next(); item != LogReader::Item::end; item = reader.next()) {
 //     if (item == LogReader::Item::event) use(reader.event()); else complain(reader.damage());
 //   }
 //
-// Nothing is repaired and nothing is skipped in silence: every byte of the log is in one event or
-// in one damage. After damage, reading goes on at the next event.
+// Nothing is repaired, and nothing is skipped silently: every byte of the log belongs to one event
+// or one damage. After damage, reading continues at the next event.
 //
-// The format has no checksum, so a wrong length shows only in what follows it. An event is taken
-// where another, or the end of the log, follows it, unless the event with the next number begins
-// inside it. Where neither follows (damage between events, or a length that is too small), it is
-// taken if its data decodes by a known type; by an unknown type, if the next event found is not
-// the one with the next number, or if its channel's last message had the same fingerprint and size.
-// So damage takes with it no event but those it touches, and at most one of unknown type before it.
+// The format has no checksum, so a wrong length shows only in the bytes after it. An event is
+// accepted if another event, or the end of the log, follows it, unless the event with the next
+// number begins inside it. If neither follows (damage between events, or a length that is too
+// small), it is accepted if its data decodes by a known type. If its type is unknown, it is
+// accepted if the next event found does not have the next number, or if its channel's last message
+// had the same fingerprint and size. So damage costs only the events that it touches, and at most
+// one of unknown type before it.
 #pragma once
 
 #include <cstdint>
@@ -34,21 +35,22 @@ class LogReader {
  public:
   enum class Item { event, damage, end };
 
-  // Plain or .gz. The schema must outlive the reader. Memory stays within four times the largest
-  // event that `limits` allow. Throws std::runtime_error naming the file when it cannot be opened.
+  // Reads plain or .gz files. The schema must outlive the reader. Memory stays within four times
+  // the largest event that `limits` allow. Throws std::runtime_error that names the file if it
+  // cannot be opened.
   LogReader(const std::filesystem::path& file, const schema::Schema& schema,
             const LogLimits& limits = {});
 
   Item next();
 
-  // Of the last next() that said so; valid until the next one.
+  // These belong to the last next() that returned event or damage; valid until the next call.
   const LogEvent& event() const { return event_; }
   const Damage& damage() const { return damage_; }
 
   const LogInput& input() const { return input_; }
 
  private:
-  // What the channel's last message looked like.
+  // Describes the channel's last message.
   struct Seen {
     std::uint64_t fingerprint = 0;
     std::size_t bytes = 0;
@@ -69,7 +71,7 @@ class LogReader {
   LogEvent event_;
   Damage damage_;
   std::size_t event_bytes_ = 0;  // of event_, not yet skipped
-  bool event_waits_ = false;     // event_ comes next: the damage before it was told first
+  bool event_waits_ = false;     // event_ is next: the damage before it came first
   bool failure_told_ = false;
   std::unordered_map<std::string, Seen> seen_;
   std::string channel_;  // reused key of seen_
