@@ -1,4 +1,5 @@
-// A value that one thread asks for and another then gives once: what nobody looks at is not copied.
+// This file passes a value from one thread to another on request: values that nobody requests are
+// not copied.
 //
 // Reader:  cell.ask();   later: if (const T* value = cell.latest()) use *value;
 // Writer:  whenever it has one: cell.offer([&](T& slot) { fill slot; });
@@ -11,18 +12,18 @@
 
 namespace maploop::runtime {
 
-// One thread asks and reads, one other thread offers; what happens before what is as for
-// LatestValue. Neither side ever waits, allocates or enters the kernel, but for what `fill` does.
+// One thread asks and reads, one other thread offers; the ordering is that of LatestValue. Neither
+// side ever waits, allocates or enters the kernel, except in `fill`.
 template <typename T>
 class AskedValue {
  public:
-  // Reader. Asking again before an answer changes nothing.
+  // Reader. Requests a value; a second request before the answer has no effect.
   void ask() { asked_.store(true, std::memory_order_relaxed); }
-  // Reader. As LatestValue's.
+  // Reader. Works like LatestValue::latest().
   const T* latest() { return cell_.latest(); }
 
-  // Writer. fill(T& slot), which holds some earlier value, is called where the reader asked since
-  // the last one. Whether it was.
+  // Writer. If the reader has asked since the last value, calls fill(T& slot), whose slot contains
+  // some earlier value. Returns whether it was called.
   template <class Fill>
   bool offer(Fill&& fill) {
     if (!asked_.load(std::memory_order_relaxed)) return false;

@@ -1,13 +1,14 @@
-// How far apart data of two threads must lie so that neither slows the other's.
+// This file defines how far apart the data of two threads must lie so that neither slows down the
+// other.
 #pragma once
 
 #include <cstddef>
 
 namespace maploop::runtime {
 
-inline constexpr std::size_t kCacheLine = 64;  // bytes: what one core takes from another
+inline constexpr std::size_t kCacheLine = 64;  // bytes: the unit that cores transfer
 
-// bytes: Intel's adjacent-line prefetcher fetches lines in pairs, so a neighbour line is shared
+// bytes: Intel's adjacent-line prefetcher fetches lines in pairs, so a neighbouring line is shared
 // too.
 inline constexpr std::size_t kNoSharing = 2 * kCacheLine;
 

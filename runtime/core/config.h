@@ -1,4 +1,5 @@
-// Configuration read from TOML, strict: whatever is not understood is an error.
+// This file reads a configuration from TOML strictly: everything that is not understood is an
+// error.
 //
 //   const ConfigDocument document = ConfigDocument::load("vehicle.toml");
 //   const ConfigTable fusion = document.root().table("fusion");
@@ -6,7 +7,7 @@
 //   fusion.read("deadline_ms", parameters.deadline);   // a Duration: the key names the unit
 //   document.reject_unknown();                         // last: keys that nobody asked for
 //
-// A key that is absent leaves the variable, and so its default, as it is. TOML 1.0. For one thread.
+// An absent key leaves the variable, and so its default, unchanged. TOML 1.0. One thread at a time.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +24,8 @@
 
 namespace maploop::runtime {
 
-// The text is one line a problem: file:line:column, the full dotted key, what is wrong, what is
-// allowed.
+// The text has one line for each problem: file:line:column, the full dotted key, what is wrong,
+// what is allowed.
 class ConfigError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -35,40 +36,41 @@ struct ConfigState;
 struct ConfigNode;
 }  // namespace detail
 
-// A table of the document. Light to copy; keeps the document alive. Every function throws
-// ConfigError where the file is wrong.
+// This is a table of the document. It is cheap to copy and keeps the document alive. Every function
+// throws ConfigError if the file is wrong.
 class ConfigTable {
  public:
   bool has(std::string_view key) const;
 
-  // Floating-point numbers are finite; an integer is taken for one as well, not the reverse.
+  // Floating-point numbers must be finite; an integer is accepted as one too, but not the reverse.
   void read(std::string_view key, double& value) const;
   void read(std::string_view key, int& value) const;
   void read(std::string_view key, bool& value) const;
   void read(std::string_view key, std::string& value) const;
   void read(std::string_view key, std::vector<std::string>& values) const;
-  // A number in the unit that ends the key: _ns, _us, _ms or _s; rounded to the nanosecond. Throws
-  // std::logic_error where the key ends in none.
+  // Reads a number in the unit that ends the key: _ns, _us, _ms or _s; rounded to the nanosecond.
+  // Throws std::logic_error if the key has no such ending.
   void read(std::string_view key, Duration& value) const;
-  // An array of exactly values.size() numbers, such as a lever arm.
+  // Reads an array of exactly values.size() numbers, such as a lever arm.
   void read(std::string_view key, std::span<double> values) const;
 
-  // The same within lowest..highest, both allowed; of an array each of its elements.
+  // These do the same within lowest..highest, both included; for an array, for each of its
+  // elements.
   void read_in(std::string_view key, double& value, double lowest, double highest) const;
   void read_in(std::string_view key, int& value, int lowest, int highest) const;
   void read_in(std::string_view key, std::vector<int>& values, int lowest, int highest) const;
   void read_in(std::string_view key, Duration& value, Duration lowest, Duration highest) const;
 
-  // A string that is one of `allowed`.
+  // Reads a string that must be one of `allowed`.
   void read_one_of(std::string_view key, std::string& value,
                    std::initializer_list<std::string_view> allowed) const;
 
-  // The sub-table `key`; where it is absent an empty one, so that every default holds.
+  // Returns the sub-table `key`; if it is absent, an empty one, so that every default holds.
   ConfigTable table(std::string_view key) const;
-  // The array of tables `key` ([[key]]), in order; absent: none.
+  // Returns the array of tables `key` ([[key]]), in order; if it is absent, an empty one.
   std::vector<ConfigTable> tables(std::string_view key) const;
 
-  // Throws ConfigError at the place of `key`, for a rule that only the caller knows: "must be below
+  // Throws ConfigError at the position of `key`, for a rule of the caller's: "must be below
   // fusion.rate_hz".
   [[noreturn]] void fail(std::string_view key, std::string_view problem) const;
 
@@ -82,15 +84,15 @@ class ConfigTable {
 
 class ConfigDocument {
  public:
-  // Throws ConfigError where the file cannot be read, or is not TOML (a duplicate key included).
+  // Throws ConfigError if the file cannot be read, or is not TOML (a duplicate key included).
   static ConfigDocument load(const std::filesystem::path& path);
-  // `name` stands for the file in error texts.
+  // Reads `text`; error texts contain `name` in place of the file.
   static ConfigDocument parse(std::string_view text, std::string name);
 
   ConfigTable root() const;
 
-  // Throws ConfigError naming every key that was neither read nor asked for, each with the nearest
-  // key that was. Call it when everything has been read.
+  // Throws ConfigError that names every key that was neither read nor asked for, each with the
+  // nearest key that was. Call it when everything has been read.
   void reject_unknown() const;
 
  private:

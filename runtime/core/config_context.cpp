@@ -8,7 +8,7 @@
 namespace maploop::runtime::detail {
 namespace {
 
-// The dotted path that one line alone sets or opens, where it is TOML by itself.
+// Returns the dotted path that one line alone sets or opens, if the line is valid TOML by itself.
 std::optional<std::string> path_of(std::string_view line) try {
   const toml::table table = toml::parse(line);
   const toml::table* level = &table;
@@ -56,15 +56,15 @@ std::string_view line_at(std::string_view text, std::size_t start) {
   return first == std::string_view::npos ? std::string_view{} : line.substr(first);
 }
 
-// The table that the last header before `end` opened; the root has an empty path.
+// Returns the table that the last header before `end` opened; the root has an empty path.
 std::string table_before(std::string_view text, std::size_t end) {
-  int tries = 100;  // each parses the text above: bounds the work on a hostile file
+  int tries = 100;  // each try parses the text above; limits the work on a hostile file
   while (end > 0 && tries > 0) {
     const std::size_t start = start_of_line_at(text, end - 1);
     const std::string_view line = line_at(text, start);
     if (line.starts_with('[')) {
       --tries;
-      // Not a header but an array's or a string's inside where the text above is not complete.
+      // If the text above is incomplete, this is not a header but part of an array or a string.
       if (is_toml(text.substr(0, start))) return path_of(line).value_or("");
     }
     end = start;

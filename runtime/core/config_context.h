@@ -1,4 +1,4 @@
-// Which key a syntax error is about; not for users of the configuration.
+// This file finds the key that a syntax error concerns; users of the configuration do not need it.
 #pragma once
 
 #include <toml++/toml.h>
@@ -7,8 +7,8 @@
 
 namespace maploop::runtime::detail {
 
-// "fusion.rate: " where the line of `error` in `text` sets that key or opens that table,
-// "in [fusion]: " where it can only be said which table it stands in, else "".
+// Returns "fusion.rate: " if the line of `error` in `text` sets that key or opens that table, "in
+// [fusion]: " if only the enclosing table is known, otherwise "".
 std::string context_of(std::string_view text, const toml::parse_error& error);
 
 }  // namespace maploop::runtime::detail

@@ -53,7 +53,7 @@ std::string known_in(const ConfigNode& node) {
          (text.empty() ? std::string(" no key is known") : " the keys are: " + text);
 }
 
-// The nearest key of the same table, else the same name in another one, else nothing.
+// Returns the nearest key of the same table, otherwise the same name in another one, otherwise "".
 std::string guess(const ConfigState& state, const ConfigNode& node, std::string_view key) {
   if (std::string near = nearest_name(key, node.known); !near.empty()) {
     return dotted(node.path, near);
@@ -116,7 +116,7 @@ ConfigTable ConfigDocument::root() const {
 
 void ConfigDocument::reject_unknown() const {
   std::vector<Unknown> unknown;
-  root();  // a document of which nothing was asked has unknown keys too
+  root();  // the keys of a document that was never read are unknown too
   for (const ConfigNode& node : state_->nodes) collect_unknown(*state_, node, unknown);
   if (unknown.empty()) return;
   std::sort(unknown.begin(), unknown.end(), [](const Unknown& a, const Unknown& b) {

@@ -1,4 +1,5 @@
-// What config_document.cpp and config_table.cpp share; not for users of the configuration.
+// This file contains what config_document.cpp and config_table.cpp share; users of the
+// configuration do not need it.
 #pragma once
 
 #include <toml++/toml.h>
@@ -10,17 +11,17 @@
 
 namespace maploop::runtime::detail {
 
-// One table as the program sees it: where it is in the file, and which keys were asked of it.
+// This is one table as the program sees it: where it is in the file, and which keys were read.
 struct ConfigNode {
-  std::string path;                    // dotted; empty: the root
-  const toml::table* table = nullptr;  // nullptr: absent from the file
+  std::string path;                    // dotted; empty for the root
+  const toml::table* table = nullptr;  // nullptr if absent from the file
   std::vector<std::string> known;      // keys asked for, in that order
 };
 
 struct ConfigState {
   std::string file;
   toml::table root;
-  std::deque<ConfigNode> nodes;  // a deque: tables point into it
+  std::deque<ConfigNode> nodes;  // a deque, because tables point into it
 
   ConfigNode* node(const std::string& path, const toml::table* table) {
     const auto found =
@@ -30,13 +31,13 @@ struct ConfigState {
   }
 };
 
-// What the user wrote, on one line and of bounded length.
+// Returns the user's text on one line and with limited length.
 std::string printable(std::string_view text);
 
-// "fusion" and "rate" give "fusion.rate"; a key that is not bare is quoted.
+// Joins "fusion" and "rate" to "fusion.rate"; a key that is not bare is quoted.
 std::string dotted(const std::string& path, std::string_view key);
 
-// "file:line:column: "
+// Returns "file:line:column: ".
 std::string place(const std::string& file, const toml::source_position& at);
 
 }  // namespace maploop::runtime::detail

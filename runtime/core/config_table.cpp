@@ -43,7 +43,7 @@ std::string type_name(const toml::node& node) {
   throw ConfigError(where + dotted(node.path, key) + ": " + std::string(problem));
 }
 
-// The value of `key`, now known to the program; nullptr where it is absent.
+// Returns the value of `key`, or nullptr if it is absent; the key counts as known from then on.
 const toml::node* find(ConfigNode& node, std::string_view key) {
   if (std::find(node.known.begin(), node.known.end(), key) == node.known.end()) {
     node.known.emplace_back(key);
@@ -51,7 +51,7 @@ const toml::node* find(ConfigNode& node, std::string_view key) {
   return node.table == nullptr ? nullptr : node.table->get(key);
 }
 
-// A value that is there, with all that an error about it says.
+// This is a value that exists, with all data for an error about it.
 struct Entry {
   const ConfigState& state;
   const ConfigNode& node;
@@ -118,7 +118,7 @@ Duration read_duration(const Entry& entry, Duration lowest, Duration highest) {
   const auto in_unit = [&unit](Duration d) {
     return shortest_text(static_cast<double>(d.count()) / unit.nanoseconds);
   };
-  // Within what int64 holds first, then exactly.
+  // The value is checked against the range of int64 first, then exactly.
   constexpr double kBeyond = 9223372036854775808.0;
   const bool held = std::abs(ns) < kBeyond;
   const Duration value = held ? Duration(std::llround(ns)) : Duration{};
@@ -172,7 +172,7 @@ void ConfigTable::read(std::string_view key, std::vector<std::string>& values) c
   const Entry entry{*state_, *node_, key, *node};
   const auto* array = node->as_array();
   if (array == nullptr) entry.wrong_type("an array of strings");
-  std::vector<std::string> read;  // first all, so that an error leaves `values` as they are
+  std::vector<std::string> read;  // read first, so that an error leaves `values` unchanged
   for (const toml::node& element : *array) {
     const auto* text = element.as_string();
     if (text == nullptr) Entry{*state_, *node_, key, element}.wrong_type("an array of strings");
@@ -191,7 +191,7 @@ void ConfigTable::read(std::string_view key, std::span<double> values) const {
   if (array->size() != values.size()) {
     entry.fail("has " + std::to_string(array->size()) + " elements; it must be " + wanted);
   }
-  std::vector<double> numbers;  // first all, so that an error leaves `values` as they are
+  std::vector<double> numbers;  // read first, so that an error leaves `values` unchanged
   for (const toml::node& element : *array) {
     const Entry one{*state_, *node_, key, element};
     numbers.push_back(finite_number(one, element));
@@ -218,7 +218,7 @@ void ConfigTable::read_in(std::string_view key, std::vector<int>& values, int lo
   if (node == nullptr) return;
   const auto* array = node->as_array();
   if (array == nullptr) Entry{*state_, *node_, key, *node}.wrong_type("an array of integers");
-  std::vector<int> read;  // first all, so that an error leaves `values` as they are
+  std::vector<int> read;  // read first, so that an error leaves `values` unchanged
   for (const toml::node& element : *array) {
     read.push_back(read_integer({*state_, *node_, key, element}, lowest, highest));
   }
@@ -227,7 +227,7 @@ void ConfigTable::read_in(std::string_view key, std::vector<int>& values, int lo
 
 void ConfigTable::read_in(std::string_view key, Duration& value, Duration lowest,
                           Duration highest) const {
-  unit_of(key);  // a key without a unit is the program's error, also where the file has it not
+  unit_of(key);  // a key without a unit is a bug, even if the file does not contain it
   if (const toml::node* node = find(*node_, key)) {
     value = read_duration({*state_, *node_, key, *node}, lowest, highest);
   }

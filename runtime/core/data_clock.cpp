@@ -10,7 +10,7 @@
 namespace maploop::runtime {
 namespace {
 
-// Longest sleep without a look at the stop token, at new stalls and at the schedule.
+// This is the longest sleep without a check of the stop token, new stalls and the schedule.
 constexpr Duration longest_sleep = std::chrono::milliseconds(20);
 
 void sleep_until_monotonic(MonotonicTime t) {
@@ -47,10 +47,10 @@ void DataClock::start(Time first, MonotonicTime due) {
   set_schedule({first, due, speed()});
 }
 
-// The slot of a schedule is written again when as many newer ones have been completed as there are
-// slots, less the one that is being written: only then is it read once more. Acquire and release on
-// the data itself, after Boehm, "Can seqlocks get along with programming language memory models?"
-// (MSPC 2012): whoever reads a value of a newer schedule also sees the number of the one before it.
+// A slot is overwritten only while the slots - 1 schedules after it are complete; if that many were
+// completed during a read, the read is repeated. Acquire and release on the data itself, after
+// Boehm, "Can seqlocks get along with programming language memory models?" (MSPC 2012): a reader of
+// a value of a newer schedule also sees the number of the schedule before it.
 DataClock::Schedule DataClock::schedule() const {
   for (;;) {
     const std::uint32_t before = newest_.load(std::memory_order_acquire);

@@ -1,4 +1,4 @@
-// The data's time on this machine: when a stamp falls due.
+// This file maps data time to this machine's time: when a stamp falls due.
 #pragma once
 
 #include <array>
@@ -12,12 +12,13 @@ namespace maploop::runtime {
 MonotonicTime monotonic_now();
 
 // Paced: data time t is due at start + (t - first) / speed on the steady clock, later by the stalls
-// and pauses so far. Virtual: every t is due at once and nobody sleeps; what happens is then
-// decided by the order of the data alone. Live: paced in real time, and never stalled: it waits for
+// and pauses so far. Virtual: every t is due at once and no thread sleeps; the order of the data
+// alone decides what happens. Live: paced in real time, and never stalled: it does not wait for
+// data.
 // nobody.
 //
-// start(), and then set_speed(), skip_to(), arrive(), pause(), resume() and resume_until() are
-// one controlling thread's; all else is for any thread and takes no lock.
+// One controlling thread calls start(), and then set_speed(), skip_to(), arrive(), pause(),
+// resume() and resume_until(); any thread may call the other members, which take no lock.
 class DataClock {
  public:
   // Throws std::invalid_argument unless speed is finite and above 0.
@@ -25,62 +26,63 @@ class DataClock {
   static DataClock virtual_time() { return DataClock(1.0, false, false); }
   static DataClock live() { return DataClock(1.0, true, true); }
 
-  DataClock(const DataClock& other);  // of a clock that has not been started
+  DataClock(const DataClock& other);  // only from a clock that has not been started
   DataClock& operator=(const DataClock&) = delete;
 
-  // Data time `first` is due `lead` from now, or at that moment. Before other threads use the
+  // Makes data time `first` due `lead` from now, or at `due`. Call it before other threads use the
   // clock.
   void start(Time first, Duration lead = {}) { start(first, monotonic_now() + lead); }
   void start(Time first, MonotonicTime due);
 
   bool is_paced() const { return paced_; }
-  // Whether those that find an input missing go on without it.
+  // Returns whether stages continue without a missing input.
   bool is_live() const { return live_; }
-  // Whether t falls due at a moment of its own: neither in virtual time nor skipped over.
+  // Returns whether t falls due at its own moment: neither in virtual time nor skipped.
   bool keeps_time(Time t) const { return paced_ && !skipping(t); }
   double speed() const { return schedule().speed; }
 
-  // When t is due; in virtual time, and for what is skipped: now.
+  // Returns when t is due; now in virtual time, and for skipped times.
   MonotonicTime due(Time t) const;
 
-  // The data time that is due now; only in paced time.
+  // Returns the data time that is due now; only in paced time.
   Time now() const;
 
-  // Sleeps until t is due and not beyond a pause (virtual time: only the latter). False when
+  // Sleeps until t is due and before any pause (in virtual time: only the latter). Returns false if
   // stopped before.
   bool sleep_until(Time t, const std::stop_token& stop) const;
 
-  // Says that data time t could not be dealt with before `when`, because its input was not there:
-  // when that is more than `tolerance` after it was due, everything from now on becomes due later
-  // by as much. Returns whether the clock was stalled.
+  // Reports that data time t could not be processed before `when`, because its input was missing.
+  // If that is more than `tolerance` after t was due, everything from now on becomes due later by
+  // the same amount. Returns whether the clock was stalled.
   bool stall(Time t, MonotonicTime when);
   static constexpr Duration tolerance = std::chrono::milliseconds(1);
 
   Duration stalled() const { return Duration(stalled_.load(std::memory_order_relaxed)); }
   std::uint64_t stalls() const { return stalls_.load(std::memory_order_relaxed); }
 
-  // From now on at another speed. Throws as paced().
+  // Continues at another speed. Throws like paced().
   void set_speed(double speed);
 
-  // Everything up to t is due at once, and nothing after it: however long the way there takes, it
-  // is not passed. Does nothing in virtual time.
+  // Makes everything up to t due at once, and nothing after it, however long the skip takes. Has no
+  // effect in virtual time.
   void skip_to(Time t);
-  // The graph has come to where it was to skip to: that moment is now, and the clock paused there.
+  // Ends the skip when the graph has reached t: that moment is now, and the clock is paused there.
   void arrive(Time t);
 
-  // Nothing after this moment falls due before resume() or resume_until(); only in paced time.
+  // Lets nothing after this moment fall due before resume() or resume_until(); only in paced time.
   void pause();
   void resume() { resume_until(Time::max()); }
-  // From a pause to the next at t: not by way of a running clock, which would run past t when the
-  // controlling thread is held up.
+  // Goes from a pause to the next one at t. The clock does not run in between, since it would run
+  // past t if the controlling thread were delayed.
   void resume_until(Time t);
-  // Reached its pause. A stall noticed late can take the clock back before it for a moment.
+  // Returns whether the pause is reached. A stall noticed late can briefly set the clock back
+  // before it.
   bool paused() const;
-  // There is one, reached or not.
+  // Returns whether a pause is set, reached or not.
   bool pause_set() const;
 
  private:
-  // t is due at wall + (t - data) / speed, and later by the stalls since.
+  // t is due at wall + (t - data) / speed, plus the stalls since then.
   struct Schedule {
     Time data;
     MonotonicTime wall;
@@ -97,8 +99,8 @@ class DataClock {
 
   bool paced_;
   bool live_;
-  // The last schedules, written by one thread. A reader takes the newest that is complete: it never
-  // waits for a writer, which may have a lower priority and be held up in the middle.
+  // These are the last schedules, written by one thread. A reader takes the newest complete one. It
+  // never waits for the writer, which may have a lower priority and be preempted while it writes.
   struct Slot {
     std::atomic<std::int64_t> data{0};
     std::atomic<std::int64_t> wall{0};
@@ -106,7 +108,7 @@ class DataClock {
   };
   static constexpr std::uint32_t slots = 4;
   std::array<Slot, slots> slots_;
-  std::atomic<std::uint32_t> newest_{0};  // its slot is the remainder
+  std::atomic<std::uint32_t> newest_{0};  // its slot is the remainder modulo slots
 
   std::atomic<std::int64_t> skip_to_{to_nanoseconds(Time::min())};
   std::atomic<std::int64_t> pause_at_{to_nanoseconds(Time::max())};

@@ -1,4 +1,4 @@
-// Wakes one sleeping consumer when something has changed for it.
+// This file wakes one sleeping consumer when something has changed for it.
 #pragma once
 
 #include <atomic>
@@ -6,10 +6,10 @@
 
 namespace maploop::runtime {
 
-// Consumer: heard = listen(); look whether there is anything to do; if not, wait(heard).
-// A ring() after listen() makes that wait() return at once, so no change is slept through; all
-// writes before ring() are visible after the wait() or listen() that heard it. Any thread may ring;
-// ringing costs a system call only while the consumer sleeps.
+// Consumer: heard = listen(); check whether there is work; if not, wait(heard). A ring() after
+// listen() makes that wait() return at once, so no change is missed; all writes before ring() are
+// visible after the wait() or listen() that heard it. Any thread may ring; ringing costs a system
+// call only while the consumer sleeps.
 class Doorbell {
  public:
   void ring() {

@@ -1,5 +1,5 @@
-// One arrow of the graph: a ring from one producing to one consuming thread, with what the producer
-// promises about the samples to come.
+// This file defines one edge of the graph: a ring from one producing to one consuming thread, with
+// the producer's promise about the samples to come.
 #pragma once
 
 #include <atomic>
@@ -25,23 +25,23 @@ enum class Overflow {
   drop_newest,  // the new sample is dropped and counted
 };
 
-// What was dropped because the ring was full.
+// Describes the samples that were dropped because the ring was full.
 struct Loss {
   std::uint64_t count = 0;
   Time first{};  // stamps
   Time last{};
 };
 
-// What the consuming side needs of an edge whose type it does not know.
+// This is the interface of a consumer to an edge of any sample type.
 class EdgeBase {
  public:
   virtual ~EdgeBase() = default;
 
   // Everything that the producer will ever send with available <= promised() is in the ring or has
-  // been taken, for whoever reads the promise before the ring. Time::max(): nothing more comes.
+  // been taken, if the promise is read before the ring. Time::max() means that nothing more comes.
   Time promised() const { return from_nanoseconds(promised_.load(std::memory_order_acquire)); }
 
-  // Producer. Promises only ever grow; a smaller one changes nothing.
+  // Producer. Promises only increase; a smaller one has no effect.
   void promise(Time t) {
     if (to_nanoseconds(t) <= promised_.load(std::memory_order_relaxed)) return;
     promised_.store(to_nanoseconds(t), std::memory_order_release);
@@ -49,20 +49,20 @@ class EdgeBase {
   }
   void finish() { promise(Time::max()); }
 
-  // From now on Overflow::drop_newest; before the threads run.
+  // Switches to Overflow::drop_newest; call it before the threads run.
   virtual void drop_when_full() = 0;
 
-  // Consumer: the oldest sample, or nullptr.
+  // Consumer. Returns the oldest sample, or nullptr.
   virtual const Sample* head() = 0;
 
-  // Consumer: it has ended and takes nothing more. No producer waits for room from then on; what
-  // does not fit is lost, and counted.
+  // Consumer. Marks the end of the consumer, which takes nothing more. From then on the producer
+  // never waits for room; samples that do not fit are lost and counted.
   void abandon() { abandoned_.store(true, std::memory_order_release); }
   bool abandoned() const { return abandoned_.load(std::memory_order_acquire); }
 
   virtual RingHealth health() const = 0;
 
-  // "waiting for imu -> fusion": what a consumer does that its producer keeps waiting.
+  // Returns "waiting for imu -> fusion": the state of a consumer that this edge delays.
   const char* waiting() const { return waiting_.c_str(); }
 
  protected:
@@ -77,8 +77,8 @@ class EdgeBase {
 };
 
 // `available` of the samples must not decrease. One thread calls push(), promise() and finish(),
-// one other thread head(), front(), pop() and abandon(); health() is for any thread. A `bell`, when
-// given, is rung for the consumer at each push and each new promise.
+// one other thread calls head(), front(), pop() and abandon(); any thread may call health(). If a
+// `bell` is given, it is rung for the consumer at each push and each new promise.
 template <std::derived_from<Sample> T>
 class Edge final : public EdgeBase {
  public:
@@ -89,9 +89,9 @@ class Edge final : public EdgeBase {
         overflow_(overflow),
         ring_(capacity, prototype) {}
 
-  // fill(T& slot) writes the sample in place. False when it was lost: the ring was full and the
-  // policy is to drop, the consumer has abandoned it, or `stop` came while waiting for room.
-  // `stamp` is noted for a loss.
+  // fill(T& slot) writes the sample in place. Returns false if the sample was lost: the ring was
+  // full and the policy is to drop, the consumer has abandoned the edge, or `stop` was requested
+  // while waiting for room. `stamp` is recorded for a loss.
   template <class Fill>
   bool push(Time stamp, const std::stop_token& stop, Fill&& fill) {
     pushed_.fetch_add(1, std::memory_order_relaxed);
@@ -126,7 +126,7 @@ class Edge final : public EdgeBase {
 
   std::size_t held() const { return ring_.size(); }
 
-  // pushed = popped + lost + held, as long as the two threads rest.
+  // pushed = popped + lost + held, if neither thread is using the edge.
   RingHealth health() const override {
     RingHealth h;
     h.name = name_;

@@ -9,8 +9,8 @@
 namespace maploop::runtime {
 namespace {
 
-// One thread writes: no locked instruction is needed. Release, so that a reader that sees a count
-// also sees the extremes that belong to it.
+// Only one thread writes, so no locked instruction is needed. The store is a release so that a
+// reader that sees a count also sees its minimum and maximum.
 void add(std::atomic<std::uint64_t>& counter, std::uint64_t times) {
   counter.store(counter.load(std::memory_order_relaxed) + times, std::memory_order_release);
 }
@@ -29,8 +29,8 @@ void raise(std::atomic<std::int64_t>& extreme, std::int64_t value) {
 
 }  // namespace
 
-// Octave k >= 1 holds [2^(k + kPartBits), 2^(k + kPartBits + 1)) in parts of 2^k; what is below it
-// (k = 0) has parts of 1.
+// Octave k >= 1 holds [2^(k + kPartBits), 2^(k + kPartBits + 1)) in parts of 2^k; smaller values (k
+// = 0) have parts of 1.
 std::size_t Histogram::bucket_of(std::int64_t value) {
   const auto magnitude = static_cast<std::uint64_t>(value);
   const int octave = std::max(0, static_cast<int>(std::bit_width(magnitude)) - 1 - kPartBits);
@@ -66,14 +66,14 @@ void Histogram::merge(const Histogram& other) {
     lower(min_, other.min_.load(std::memory_order_relaxed));
     raise(max_, other.max_.load(std::memory_order_relaxed));
   };
-  merge_extremes();  // so that a reader of this one sees no count without them
+  merge_extremes();  // so that a reader of this histogram sees no count without them
   for (std::size_t i = 0; i < kBuckets; ++i) {
     const std::uint64_t times = other.buckets_[i].load(std::memory_order_acquire);
     if (times != 0) add(buckets_[i], times);
   }
   add(below_range_, other.below_range_.load(std::memory_order_acquire));
   add(above_range_, other.above_range_.load(std::memory_order_acquire));
-  merge_extremes();  // of what `other` recorded in between
+  merge_extremes();  // for values that `other` recorded meanwhile
 }
 
 HistogramData Histogram::data() const {
@@ -151,7 +151,7 @@ Duration Histogram::percentile(double fraction) const {
   }
   const std::uint64_t n = count();
   if (n == 0) return Duration{};
-  // One step down before rounding up: 0.07 * 100 is a hair above 7, and means 7.
+  // The step down before rounding up corrects rounding errors: 0.07 * 100 is slightly above 7.
   const double rank = std::ceil(std::nextafter(fraction * static_cast<double>(n), 0.0));
   std::uint64_t left = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(rank), 1, n);
   for (std::size_t i = 0; i < kBuckets; ++i) {
@@ -196,8 +196,8 @@ Histogram Histogram::with_omitted(Duration interval) const {
   return result;
 }
 
-// Adds value - k * interval for k = 1, 2, ... down to `interval`, `times` times each: bucket by
-// bucket, since they may be billions.
+// Adds value - k * interval for k = 1, 2, ... down to `interval`, `times` times each. It works
+// bucket by bucket, because there may be billions of them.
 void Histogram::add_omitted(std::int64_t value, std::uint64_t times, std::int64_t interval) {
   const std::int64_t last = value / interval - 1;  // the largest k
   if (times == 0 || last < 1) return;

@@ -1,13 +1,15 @@
-// Latency histogram of fixed memory (32 kB), 1 ns to 137 s, better than 0.8 %.
+// This file defines a latency histogram of fixed memory (32 kB), 1 ns to 137 s, with an error below
+// 0.8 %.
 //
-// Log-linear buckets, as HdrHistogram's: each octave is cut into 128 equal parts, and everything
-// below 256 ns has a bucket of its own. A bucket is at most 1/128 of its values wide.
+// The buckets are log-linear, like HdrHistogram's: each octave is cut into 128 equal parts, and
+// each value below 256 ns has a bucket of its own. The width of a bucket is at most 1/128 of its
+// values.
 //
 // Who may call what. record, record_omitted, merge: one thread at a time, the writer. All else: any
 // thread, also while the writer records; each answer then counts every value recorded before the
 // call and may count those recorded during it. Figures that must agree with each other (a
-// percentile and its count) are asked of a copy. Only data() and summarize() allocate; none locks
-// or enters the kernel.
+// percentile and its count) must be taken from a copy. Only data() and summarize() allocate; no
+// function locks or enters the kernel.
 #pragma once
 
 #include <array>
@@ -27,52 +29,53 @@ class Histogram {
   Histogram(const Histogram& other) { merge(other); }
   Histogram& operator=(const Histogram&) = delete;
 
-  // A negative duration (a stamp ahead of the clock) counts as 0 ns, and in below_range(); one
-  // beyond kHighest counts in above_range(). min() and max() keep the value itself.
+  // A negative duration (a stamp ahead of the clock) counts as 0 ns and in below_range(); a
+  // duration beyond kHighest counts in above_range(). min() and max() keep the value itself.
   void record(Duration value);
 
-  // The waits that a stall of `value` hid from a task released every `interval`: value - interval,
-  // value - 2 interval, ... down to `interval`. With record(value) this is HdrHistogram's
-  // recordWithExpectedInterval (Tene's correction of co-ordinated omission). Bounded work: at most
-  // one step a bucket. Precondition: interval > 0.
+  // Adds the waits that a stall of `value` hid from a task released every `interval`: value -
+  // interval, value - 2 interval, ... down to `interval`. With record(value) this is HdrHistogram's
+  // recordWithExpectedInterval (Tene's correction of co-ordinated omission). The work is limited to
+  // one step for each bucket. Precondition: interval > 0.
   void record_omitted(Duration value, Duration interval);
 
-  // Adds all that `other` holds; `other` may be recording meanwhile.
+  // Adds the contents of `other`, which may be recording meanwhile.
   void merge(const Histogram& other);
 
-  // All that it holds, for another program; merge(data) adds it there without loss. Throws
-  // std::invalid_argument, and adds nothing, where the data are no histogram's: a bucket that none
-  // begins at, or twice or out of order, or counts that do not fit.
+  // data() returns the contents for another program; merge(data) adds them there without loss.
+  // merge throws std::invalid_argument, and adds nothing, if the data are not a histogram's: an
+  // unknown bucket, one that occurs twice or out of order, or counts that do not fit.
   HistogramData data() const;
   void merge(const HistogramData& data);
 
-  std::uint64_t count() const;  // of all values, those out of range included
+  std::uint64_t count() const;  // of all values, including those out of range
   std::uint64_t below_range() const { return below_range_.load(std::memory_order_relaxed); }
   std::uint64_t above_range() const { return above_range_.load(std::memory_order_relaxed); }
 
-  // Exact; 0 where nothing was recorded.
+  // These are exact; 0 if nothing was recorded.
   Duration min() const;
   Duration max() const;
 
-  // Nearest rank: of n values in ascending order, number ceil(fraction * n) (the first for fraction
-  // 0), reported as the highest value its bucket can hold, but not above max(). So at least the
-  // share `fraction` of the values is at or below it, and it is never below the exact nearest-rank
-  // percentile and less than 0.8 % above; percentile(1) is max(). 0 where nothing was recorded.
-  // Where the rank falls on values beyond kHighest: max(). Throws std::invalid_argument where
-  // `fraction` is not within 0..1.
+  // Returns the nearest rank: of n values in ascending order, number ceil(fraction * n) (the first
+  // for fraction 0), as the highest value of its bucket, but not above max(). So at least the share
+  // `fraction` of the values is at or below it, and it is never below the exact nearest-rank
+  // percentile and less than 0.8 % above; percentile(1) is max(). Returns 0 if nothing was
+  // recorded, and max() if the rank falls on values beyond kHighest. Throws std::invalid_argument
+  // unless `fraction` is within 0..1.
   Duration percentile(double fraction) const;
 
-  // Everything but the deadline and its misses, which the thread counts, and the omitted waits.
+  // Fills all members except the deadline and its misses, which the thread counts, and the omitted
+  // waits.
   LatencySummary summarize(std::string name) const;
 
-  // This histogram with the waits added that a late periodic task hid: for each value v longer than
-  // `interval`, also v - interval, v - 2 interval, ... down to `interval` (Tene's correction of
-  // co-ordinated omission, as HdrHistogram's copyCorrectedForCoordinatedOmission). A value beyond
-  // kHighest stands for kHighest here. Throws std::invalid_argument where `interval` is not
-  // positive. For reports: up to a tenth of a second of work, whatever was recorded.
+  // Returns this histogram with the waits added that a late periodic task hid: for each value v
+  // longer than `interval`, also v - interval, v - 2 interval, ... down to `interval` (Tene's
+  // correction of co-ordinated omission, as HdrHistogram's copyCorrectedForCoordinatedOmission). A
+  // value beyond kHighest counts as kHighest here. Throws std::invalid_argument if `interval` is
+  // not positive. For reports: takes up to a tenth of a second, whatever was recorded.
   Histogram with_omitted(Duration interval) const;
 
-  // The longest duration with a bucket of its own: 2^37 - 1 ns, 137 s.
+  // This is the longest duration with a bucket of its own: 2^37 - 1 ns, 137 s.
   static constexpr Duration kHighest{(std::int64_t{1} << 37) - 1};
 
  private:

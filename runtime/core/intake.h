@@ -1,5 +1,5 @@
-// Ordered intake: what a thread takes from its edges depends on the data's times alone, not on
-// which thread ran first.
+// This file takes samples from a thread's edges in an order that depends only on the data's times,
+// not on which thread ran first.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,11 @@
 
 namespace maploop::runtime {
 
-// Samples are taken in the order (available, edge as added, order of sending). The consuming
-// thread's own; not shared.
+// Samples are taken in the order (available, edge as added, order of sending). An intake belongs to
+// the consuming thread and is not shared.
 class Intake {
  public:
-  // `handle` gets each sample of the edge and may change it (swap its buffers out).
+  // `handle` receives each sample of the edge and may change it (swap its buffers out).
   template <class T, class Handle>
   void add(Edge<T>& edge, Handle handle) {
     inlets_.push_back({&edge, [&edge, handle = std::move(handle)] {
@@ -26,23 +26,23 @@ class Intake {
                        }});
   }
 
-  // An edge from a thread that ends after this one: finished() does not wait for its end.
+  // Adds an edge from a thread that ends after this one: finished() does not wait for its end.
   template <class T, class Handle>
   void add_feedback(Edge<T>& edge, Handle handle) {
     add(edge, std::move(handle));
     inlets_.back().feedback = true;
   }
 
-  // Up to which `available` every edge has promised to have sent all.
+  // Returns the `available` up to which all edges promise that everything has been sent.
   Time promised() const {
     Time t = Time::max();
     for (const Inlet& inlet : inlets_) t = std::min(t, inlet.edge->promised());
     return t;
   }
 
-  // Waits until promised() >= t, and meanwhile takes what is promised already: a producer with more
-  // samples before t than its ring holds must get room to go on to its promise. `bell` is the one
-  // that the edges ring. False when stopped before.
+  // Waits until promised() >= t, and meanwhile takes what is already promised: a producer with more
+  // samples before t than its ring can hold needs room before it can promise t. `bell` is the bell
+  // of the edges. Returns false if stopped before.
   bool wait(Time t, const Doorbell& bell, const std::stop_token& stop) {
     for (;;) {
       const std::uint32_t heard = bell.listen();
@@ -55,7 +55,7 @@ class Intake {
     }
   }
 
-  // Takes every sample with available <= t that is there; all of them when promised() >= t.
+  // Takes every sample in the rings with available <= t; these are all of them if promised() >= t.
   void take_until(Time t) {
     for (;;) {
       Inlet* next = nullptr;
@@ -74,15 +74,15 @@ class Intake {
     }
   }
 
-  // Names the edge that wait() waited for last, as EdgeBase::waiting() does.
+  // Names the edge that wait() last waited for, as EdgeBase::waiting() does.
   const char* waiting() const {
     return waited_for_ != nullptr ? waited_for_->waiting() : "waiting for input";
   }
 
-  // Samples so far.
+  // Returns the number of samples taken so far.
   std::uint64_t taken() const { return taken_; }
 
-  // Nothing is left and nothing more comes.
+  // Returns whether the rings are empty and nothing more comes.
   bool finished() const {
     for (const Inlet& inlet : inlets_) {
       if (inlet.feedback) continue;
@@ -91,7 +91,7 @@ class Intake {
     return true;
   }
 
-  // The thread has ended and takes nothing more: see EdgeBase::abandon().
+  // Marks the end of this thread, which takes nothing more: see EdgeBase::abandon().
   void abandon() {
     for (const Inlet& inlet : inlets_) inlet.edge->abandon();
   }

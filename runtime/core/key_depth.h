@@ -1,4 +1,4 @@
-// How deep the keys of a TOML text nest, before anything is made of it.
+// This file measures how deep the keys of a TOML text nest, before the text is parsed.
 #pragma once
 
 #include <algorithm>
@@ -8,13 +8,13 @@
 
 namespace maploop::runtime {
 
-// Each part of a dotted key is a table inside the one before it, and libtomlplusplus goes through
-// tables by recursion. (It bounds arrays and inline tables itself.)
+// Each part of a dotted key is a table inside the previous one, and libtomlplusplus traverses
+// tables by recursion. (It limits arrays and inline tables itself.)
 class KeyDepth {
  public:
   explicit KeyDepth(std::string_view text) : text_(text) {}
 
-  // The line (from 1) of the first key of more parts than `most`; 0 where there is none.
+  // Returns the line (from 1) of the first key with more than `most` parts; 0 if there is none.
   std::size_t first_deeper_than(std::size_t most) {
     std::size_t dots = 0;
     while (at_ < text_.size()) {
@@ -41,7 +41,8 @@ class KeyDepth {
            c == '-' || c == ' ' || c == '\t';
   }
 
-  // Of one line, or of several between three quotes; backslashes escape where the quote is double.
+  // Skips a string of one line, or of several between triple quotes; backslashes escape inside
+  // double quotes.
   void skip_string(char quote) {
     const bool many = text_.substr(at_, 3) == std::string(3, quote);
     at_ += many ? 3 : 1;
@@ -50,10 +51,10 @@ class KeyDepth {
         at_ += 2;
       } else if (many ? text_.substr(at_, 3) == std::string(3, quote) : text_[at_] == quote) {
         at_ += many ? 3 : 1;
-        while (many && at_ < text_.size() && text_[at_] == quote) ++at_;  // up to two of its own
+        while (many && at_ < text_.size() && text_[at_] == quote) ++at_;  // at most two
         return;
       } else if (!many && text_[at_] == '\n') {
-        return;  // an error of its own
+        return;  // reported by the parser
       } else {
         ++at_;
       }

@@ -1,4 +1,5 @@
-// A cell between one writing and one reading thread in which the newest value wins, used in place.
+// This file defines a cell between one writing and one reading thread in which the newest value
+// wins, used in place.
 //
 // Writer:  fill cell.back(); cell.publish();
 // Reader:  if (const T* value = cell.latest()) use *value;   // nullptr: nothing new
@@ -10,8 +11,9 @@
 // returns that value; everything the reader did before latest() happens before the writer gets the
 // buffer it left. A published value is visible to the next latest() without any further call.
 //
-// Triple buffer: the writer fills one, the reader holds one, the third waits in between and changes
-// hands by one atomic exchange. Neither side ever waits, allocates, locks or enters the kernel.
+// It is a triple buffer: the writer fills one buffer, the reader holds one, and the third is
+// exchanged by one atomic operation. Neither side ever waits, allocates, locks or enters the
+// kernel.
 #pragma once
 
 #include <array>
@@ -31,18 +33,18 @@ class LatestValue {
   LatestValue() requires std::default_initializable<T>
   = default;
 
-  // Each of the three buffers starts as a copy of `prototype`, such as an image of the size to
-  // come.
+  // Each of the three buffers starts as a copy of `prototype`, such as an image of the final size.
   explicit LatestValue(const T& prototype) requires std::copy_constructible<T>
       : buffers_{Buffer{prototype}, Buffer{prototype}, Buffer{prototype}} {}
 
   LatestValue(const LatestValue&) = delete;
   LatestValue& operator=(const LatestValue&) = delete;
 
-  // Writer. The buffer to fill; it holds some earlier value. The same one until publish().
+  // Writer. Returns the buffer to fill, with some earlier value; it is the same one until
+  // publish().
   T& back() { return buffers_[writer_.back].value; }
 
-  // Writer. Makes back() the newest value; one that waited unread is overwritten, and counted.
+  // Writer. Makes back() the newest value; an unread older value is overwritten and counted.
   void publish() {
     add_one(writer_.published);
     const std::uint32_t waiting =
@@ -51,8 +53,8 @@ class LatestValue {
     writer_.back = waiting & kIndex;
   }
 
-  // Reader. The newest value where one was published since the last call, else nullptr. It stays
-  // valid and unchanged until latest() returns another one.
+  // Reader. Returns the newest value if one was published since the last call, otherwise nullptr.
+  // It stays valid and unchanged until latest() returns another one.
   const T* latest() {
     if ((waiting_.load(std::memory_order_relaxed) & kUnread) == 0) return nullptr;
     reader_.front = waiting_.exchange(reader_.front, std::memory_order_acq_rel) & kIndex;
@@ -60,15 +62,15 @@ class LatestValue {
     return &buffers_[reader_.front].value;
   }
 
-  // Since the start, exact where both sides rest: published = taken + overwritten, and one more
-  // where a value waits unread.
+  // Counts since the start, exact if neither side is active: published = taken + overwritten, plus
+  // one if a value is unread.
   std::uint64_t published() const { return writer_.published.load(std::memory_order_relaxed); }
   std::uint64_t overwritten() const { return writer_.overwritten.load(std::memory_order_relaxed); }
   std::uint64_t taken() const { return reader_.taken.load(std::memory_order_relaxed); }
 
  private:
-  static constexpr std::uint32_t kIndex = 3;   // which buffer waits
-  static constexpr std::uint32_t kUnread = 4;  // and it has not been read
+  static constexpr std::uint32_t kIndex = 3;   // index of the buffer in between
+  static constexpr std::uint32_t kUnread = 4;  // set if it has not been read
 
   struct alignas(kNoSharing) Buffer {
     T value{};
@@ -83,7 +85,7 @@ class LatestValue {
     std::atomic<std::uint64_t> taken{0};
   };
 
-  // One thread writes each counter: no locked instruction is needed.
+  // Only one thread writes each counter, so no locked instruction is needed.
   static void add_one(std::atomic<std::uint64_t>& counter) {
     counter.store(counter.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   }

@@ -8,7 +8,8 @@
 namespace maploop::runtime {
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-  // Rows of the distance table: [j] is the distance of a's first i letters to b's first j.
+  // These are rows of the distance table: [j] is the distance of a's first i letters to b's first
+  // j.
   std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 1; i <= a.size(); ++i) {
@@ -30,7 +31,7 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
   std::string nearest;
   std::size_t shortest = name.size() / 2 + 1;
   for (const std::string& candidate : candidates) {
-    // Lengths alone rule most out, and keep a name of any length cheap.
+    // The lengths alone exclude most candidates, which keeps a name of any length cheap.
     const std::size_t longer = std::max(name.size(), candidate.size());
     if (longer - std::min(name.size(), candidate.size()) >= shortest) continue;
     const std::size_t distance = edit_distance(name, candidate);

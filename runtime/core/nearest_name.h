@@ -1,4 +1,4 @@
-// "Did you mean ...?" for names that a user typed.
+// This file finds the "Did you mean ...?" for names that a user typed.
 #pragma once
 
 #include <cstddef>
@@ -8,12 +8,12 @@
 
 namespace maploop::runtime {
 
-// Letters to insert, delete, replace, or swap with their neighbour (Damerau's four errors; optimal
-// string alignment: no letter is edited twice).
+// Returns how many letters to insert, delete, replace, or swap with their neighbour (Damerau's four
+// errors; optimal string alignment: no letter is edited twice).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-// The candidate closest to `name` (the first of equals), or "" where none is within half of
-// name's length: a guess further away misleads.
+// Returns the candidate closest to `name` (the first of equals), or "" if all differ by more than
+// half of name's length: a worse guess misleads.
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
 
 }  // namespace maploop::runtime

@@ -1,11 +1,11 @@
-// A number as text that reads back as the same number.
+// This file writes a number as text that reads back as the same number.
 #pragma once
 
 #include <string>
 
 namespace maploop::runtime {
 
-// With as few digits as that takes.
+// Uses as few digits as possible.
 std::string shortest_text(double value);
 
 }  // namespace maploop::runtime

@@ -1,4 +1,4 @@
-// Fixed-rate execution on absolute time.
+// This file runs a function at a fixed rate on absolute time.
 #pragma once
 
 #include <cstdint>
@@ -8,28 +8,28 @@
 
 namespace maploop::runtime {
 
-// What becomes of ticks that fell due while an earlier one was still at work, or while the thread
-// was not woken. Skipping and shedding depend on the machine's speed: not for what a replay must
-// compute with the same bits.
+// States what happens to ticks that fell due while an earlier one was running, or while the thread
+// was not woken. Skipping and shedding depend on the machine's speed: they must not be used where a
+// replay must compute the same bits.
 enum class Overrun {
-  catch_up,  // each is run, one at once after the other
-  skip,      // only the newest that is due is run; the others are left out and counted
-  shed,      // each is run; those with another one already due behind them are told to do the least
+  catch_up,  // each is run, one directly after the other
+  skip,      // only the newest one due is run; the others are left out and counted
+  shed,      // each is run; if another one is already due, it is told to do the minimum
 };
 
 struct Schedule {
   Duration period;
-  Duration phase{};  // ticks are at whole multiples of the period (since 1970) and this much later
+  Duration phase{};  // ticks are at whole multiples of the period (since 1970) plus this
   Overrun overrun = Overrun::catch_up;
 };
 
 struct Tick {
-  Time time{};                 // when it was due; a multiple of the period, and the phase
-  std::uint64_t left_out = 0;  // ticks between the one before and this one
-  bool shed = false;           // do the least: the next tick is already due
+  Time time{};                 // when it was due: a multiple of the period plus the phase
+  std::uint64_t left_out = 0;  // ticks between the previous one and this one
+  bool shed = false;           // do the minimum: the next tick is already due
 };
 
-// The first tick at or after t.
+// Returns the first tick at or after t.
 inline Time first_tick(Time t, Duration period, Duration phase = {}) {
   const Duration since = t.time_since_epoch() - phase;
   Duration rest = since % period;
@@ -39,8 +39,8 @@ inline Time first_tick(Time t, Duration period, Duration phase = {}) {
 
 // Calls body(tick) when each tick falls due: first_tick(from), then every period of data time.
 // Ticks are absolute, so they never drift. Ends when the body returns false or stop is requested.
-// Clock: DataClock, or a test's with its sleep_until(), keeps_time() and now(). Where the clock
-// does not keep time (virtual time, skipping) no tick is ever late.
+// Clock is DataClock, or a test's with sleep_until(), keeps_time() and now(). If the clock does not
+// keep time (virtual time, skipping), no tick is ever late.
 template <class Clock, class Body>
 void run_periodic(const Clock& clock, Time from, const Schedule& schedule,
                   const std::stop_token& stop, Body&& body) {

@@ -1,4 +1,5 @@
-// Allocator whose memory is mapped before it is used: no page fault on the first lap of a ring.
+// This file defines an allocator whose memory is mapped before use, so the first lap of a ring
+// causes no page fault.
 #pragma once
 
 #include <algorithm>
@@ -9,9 +10,9 @@
 
 namespace maploop::runtime {
 
-// For std::vector and the like, each allocated once. Memory starts apart from any other data
-// (kNoSharing) and every page of it has been written when allocate() returns. Throws std::bad_alloc
-// (std::bad_array_new_length where the size itself overflows).
+// Use it for std::vector and similar containers, each allocated once. Memory starts apart from any
+// other data (kNoSharing) and every page of it has been written when allocate() returns. Throws
+// std::bad_alloc (std::bad_array_new_length if the size itself overflows).
 template <typename T>
 struct PrefaultedAllocator {
   using value_type = T;
@@ -24,11 +25,12 @@ struct PrefaultedAllocator {
     if (n > (static_cast<std::size_t>(-1) - kNoSharing) / sizeof(T)) {
       throw std::bad_array_new_length();
     }
-    // Whole units, so that what the heap places behind is apart as well.
+    // The size is rounded up to whole units, so that the heap's next data are apart as well.
     const std::size_t bytes = (n * sizeof(T) + kNoSharing - 1) / kNoSharing * kNoSharing;
     void* memory = ::operator new(bytes, kAlignment);
     for (std::size_t i = 0; i < bytes; i += kSmallestPage) {
-      // Volatile: the compiler may otherwise drop a write that comes before the object's life.
+      // The write is volatile because the compiler may otherwise drop it, as it precedes the
+      // object's lifetime.
       static_cast<volatile std::byte*>(memory)[i] = std::byte{0};
     }
     return static_cast<T*>(memory);

@@ -1,12 +1,12 @@
-// Making a process ready for real time, and saying how ready it is.
+// This file prepares a process for real time, and reports how well it is prepared.
 //
 //   RealtimeReport report = prepare_process({});   // first thing in main, before other threads
 //   Thread fusion("fusion", Scheduling::fifo(60), stop, body, at_end);
-//   append(report, fusion.settings());             // once it has started
+// once it has started
 //   std::cout << to_text(report);
 //
-// Nothing here is fatal: what the kernel refuses is reported with the reason and the remedy, and
-// the program runs on as well as the machine lets it.
+// No error here is fatal: a refusal of the kernel is reported with its reason and remedy, and the
+// program continues as well as the machine allows.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@
 
 namespace maploop::runtime {
 
-// Prepares the memory, then looks at the process's limits and at the machine. Call once.
+// Prepares the memory, then checks the process's limits and the machine. Call it once.
 RealtimeReport prepare_process(const MemoryParameters& memory);
 
 void append(RealtimeReport& report, const std::vector<RealtimeSetting>& settings);

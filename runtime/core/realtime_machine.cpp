@@ -18,7 +18,7 @@ RealtimeSetting unknown(std::string name, std::string asked, std::string reason,
           Verdict::unknown, std::move(reason), std::move(remedy)};
 }
 
-// Of a file that may be missing; lives as long as the machine's text.
+// Views the text of a file that may be missing; valid as long as the machine's text.
 std::string_view view(const std::optional<std::string>& file) {
   return file ? std::string_view(*file) : std::string_view();
 }
@@ -48,7 +48,7 @@ RealtimeSetting assess_kernel(const MachineText& machine) {
 }
 
 RealtimeSetting assess_throttling(const MachineText& machine) {
-  // Below this share a driver's burst could be cut; the kernel's default is 95 %.
+  // With a smaller share, a driver's burst could be cut off; the kernel's default is 95 %.
   constexpr double kEnough = 0.9;
   constexpr const char* kRemedy = "as root: sysctl kernel.sched_rt_runtime_us=950000";
   RealtimeSetting setting{
@@ -93,8 +93,8 @@ RealtimeSetting assess_frequency(const MachineText& machine) {
   return setting;
 }
 
-// Share of the time since boot, in percent, that the host gave to others while this machine wanted
-// to run. proc(5): user nice system idle iowait irq softirq steal.
+// Returns the share of the time since boot, in percent, that the host gave to others while this
+// machine had work. proc(5): user nice system idle iowait irq softirq steal.
 std::optional<double> stolen(std::string_view stat) {
   if (stat.substr(0, 4) != "cpu ") return {};
   stat = stat.substr(4, stat.find('\n') - 4);
@@ -116,7 +116,7 @@ RealtimeSetting assess_virtual_machine(const MachineText& machine) {
   constexpr const char* kRemedy =
       "run on the machine itself, or give each virtual CPU a core of its own";
   RealtimeSetting setting{"virtual machine", "none", "none", Verdict::granted, {}, {}};
-  // x86 says so in the flags; other machines do not say.
+  // On x86 the flags show this; other machines do not report it.
   const auto flags = line_value(view(machine.cpuinfo), "flags");
   const auto steal = stolen(view(machine.stat));
   const bool is_virtual =

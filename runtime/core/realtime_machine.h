@@ -1,4 +1,5 @@
-// What of this machine makes it less punctual, whatever the process asks for.
+// This file reports the properties of this machine that make it less punctual, whatever the process
+// requests.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +12,7 @@
 
 namespace maploop::runtime {
 
-// The files as the kernel wrote them; nothing where one is missing or may not be read.
+// Holds the files as the kernel wrote them; a file is unset if it is missing or may not be read.
 struct MachineText {
   std::optional<std::string> version;                  // /proc/version
   std::optional<std::string> realtime;                 // /sys/kernel/realtime
@@ -24,10 +25,10 @@ struct MachineText {
   std::vector<std::pair<int, std::string>> governors;  // .../cpuN/cpufreq/scaling_governor
 };
 
-// `root` is where /proc and /sys are.
+// `root` is the folder of proc and sys.
 MachineText read_machine(const std::filesystem::path& root = "/");
 
-// "kernel", "real-time throttling", "CPU frequency", "virtual machine", "isolated CPUs".
+// Returns "kernel", "real-time throttling", "CPU frequency", "virtual machine", "isolated CPUs".
 std::vector<RealtimeSetting> assess(const MachineText& machine);
 
 }  // namespace maploop::runtime

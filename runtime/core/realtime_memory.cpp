@@ -29,7 +29,8 @@ std::string kilobytes(std::size_t bytes) {
   return std::to_string(bytes / kKilobyte) + " kB";
 }
 
-// From the high end down, as a stack grows. Volatile: nobody reads what is written.
+// Writes each page from the high end down, as a stack grows. The write is volatile because the
+// values are never read.
 void touch(std::byte* memory, std::size_t bytes) {
   const std::size_t page = page_size();
   for (std::size_t end = bytes; end > 0; end -= std::min(page, end)) {
@@ -37,7 +38,7 @@ void touch(std::byte* memory, std::size_t bytes) {
   }
 }
 
-// Bytes of the range that are in memory now, whole pages.
+// Returns how many bytes of the range are in memory now, in whole pages.
 std::size_t resident(std::byte* memory, std::size_t bytes) {
   const std::size_t page = page_size();
   const std::size_t misaligned = reinterpret_cast<std::uintptr_t>(memory) % page;
@@ -49,7 +50,7 @@ std::size_t resident(std::byte* memory, std::size_t bytes) {
   return static_cast<std::size_t>(there) * page;
 }
 
-// Of the calling thread's stack, what lies below this function's frame; 0 where that is not known.
+// Returns how much of the calling thread's stack lies below this function's frame; 0 if unknown.
 std::size_t stack_left() {
   pthread_attr_t attributes;
   if (pthread_getattr_np(pthread_self(), &attributes) != 0) return 0;
@@ -62,7 +63,7 @@ std::size_t stack_left() {
   return error == 0 && here > end && here - end <= size ? here - end : 0;
 }
 
-// Not inlined: the memory is given back to the stack at the return.
+// This is not inlined, so that the return gives the memory back to the stack.
 [[gnu::noinline]] std::size_t touch_stack(std::size_t bytes) {
   auto* memory = static_cast<std::byte*>(alloca(bytes));
   touch(memory, bytes);
@@ -83,7 +84,7 @@ RealtimeSetting prepare_heap(int mb, int arenas) {
   }
   const std::size_t kept = std::min(mapped, static_cast<std::size_t>(mallinfo2().fordblks));
   setting.granted = std::to_string((kept + kMegabyte / 2) / kMegabyte) + " MB mapped and kept";
-  // Less than a page at either end is shared with others.
+  // Less than a page at either end may be shared with other data.
   if (kept + 2 * page_size() >= bytes) return setting;
   setting.verdict = Verdict::refused;
   if (!tuned || mapped + 2 * page_size() >= bytes) {
@@ -139,7 +140,7 @@ std::vector<RealtimeSetting> prepare_memory(const MemoryParameters& parameters,
 }
 
 RealtimeSetting prefault_stack(const std::string& name, int kb) {
-  // Left for what this function and the thread's own frames call meanwhile, and for signals.
+  // This remains for the functions and frames called meanwhile, and for signals.
   constexpr std::size_t kMargin = 64 * kKilobyte;
   RealtimeSetting setting{
       name + ": stack", std::to_string(kb) + " kB mapped", {}, Verdict::granted, {}, {}};
@@ -147,7 +148,7 @@ RealtimeSetting prefault_stack(const std::string& name, int kb) {
   const std::size_t left = stack_left();
   const std::size_t bytes = std::min(asked, left > kMargin ? left - kMargin : 0);
   const std::size_t mapped = bytes > 0 ? touch_stack(bytes) : 0;
-  // mincore counts whole pages: the two at the ends are not seen.
+  // mincore counts whole pages, so the two at the ends may be missing.
   const std::size_t granted = mapped + 2 * page_size() >= bytes ? bytes : mapped;
   setting.granted = kilobytes(granted) + " mapped";
   if (granted == asked && kb >= 0) return setting;

@@ -1,4 +1,4 @@
-// What the kernel lets this process ask for.
+// This file reads what the kernel allows this process to request.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +19,10 @@ struct Privileges {
   std::uint64_t realtime_time = kUnlimited;  // RLIMIT_RTTIME, us of CPU time without sleeping
 };
 
-// Sets the two capabilities as the text of /proc/self/status (CapEff) has them; without one: false.
+// Sets the two capabilities from the text of /proc/self/status (CapEff); both are false without it.
 void parse_capabilities(std::string_view status, Privileges& privileges);
 
-// Of the calling thread.
+// Reads the privileges of the calling thread.
 Privileges read_privileges();
 
 }  // namespace maploop::runtime

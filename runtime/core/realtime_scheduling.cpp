@@ -16,7 +16,7 @@
 namespace maploop::runtime {
 namespace {
 
-// As sched_setattr(2) lays it out; glibc 2.36 has neither the type nor the calls.
+// This is the layout of sched_setattr(2); glibc 2.36 has neither the type nor the calls.
 struct SchedulingAttributes {
   std::uint32_t size = sizeof(SchedulingAttributes);
   std::uint32_t policy = 0;
@@ -30,7 +30,7 @@ struct SchedulingAttributes {
 constexpr std::uint32_t kDeadline = 6;       // SCHED_DEADLINE
 constexpr std::uint64_t kResetOnFork = 0x1;  // SCHED_FLAG_RESET_ON_FORK
 
-// Both of the calling thread; 0 or errno.
+// Both apply to the calling thread and return 0 or errno.
 int set_attributes(const SchedulingAttributes& attributes) {
   return syscall(SYS_sched_setattr, 0, &attributes, 0) == 0 ? 0 : errno;
 }
@@ -74,8 +74,8 @@ std::string policy_text(const SchedulingAttributes& a) {
   }
 }
 
-// What is out of the range of its policy, or an empty text. Asked before the kernel, which would
-// read a negative number as a large one.
+// Returns which value is out of the range of its policy, or an empty text. It is checked before the
+// kernel, which would read a negative number as a large one.
 std::string out_of_range(const Scheduling& s) {
   switch (s.policy) {
     case SchedulingPolicy::inherited:
@@ -109,7 +109,7 @@ SchedulingAttributes attributes_of(const Scheduling& s, const SchedulingAttribut
       break;
     case SchedulingPolicy::deadline:
       a.policy = kDeadline;
-      a.flags = kResetOnFork;  // without it the thread could start no other one
+      a.flags = kResetOnFork;  // without it the thread could not start others
       a.runtime = static_cast<std::uint64_t>(s.runtime.count());
       a.deadline = static_cast<std::uint64_t>(s.deadline.count());
       a.period = static_cast<std::uint64_t>(s.period.count());
@@ -261,7 +261,7 @@ std::pair<std::string, std::string> explain_refusal(const Scheduling& scheduling
 std::vector<RealtimeSetting> apply_scheduling(const std::string& name,
                                               const Scheduling& scheduling) {
   std::vector<RealtimeSetting> settings;
-  // The CPUs first: the policy may need time to be free on them.
+  // The CPUs are set first, because the policy may need free time on them.
   if (!scheduling.cpus.empty()) settings.push_back(apply_cpus(name, scheduling.cpus));
   settings.insert(settings.begin(), apply_policy(name, scheduling));
   if (scheduling.timer_slack != Duration::zero()) {

@@ -1,4 +1,4 @@
-// A list of what was asked of the machine for real time, and its text.
+// This file lists what was requested of the machine for real time, and formats the list as text.
 #pragma once
 
 #include <string>
@@ -13,17 +13,19 @@ struct RealtimeReport {
   std::vector<RealtimeSetting> settings;
 
   bool all_granted() const;
-  // The first of that name, or nullptr.
+  // Returns the first item of that name, or nullptr.
   const RealtimeSetting* find(std::string_view name) const;
 };
 
-// A line for each item, with a line each for the reason and the remedy where there is one.
+// Returns a line for each item, followed by one for the reason and one for the remedy if it has
+// them.
 std::string to_text(const RealtimeReport& report);
 
-// One line where all is granted; otherwise one more for each item that is not, with its remedy.
+// Returns one line, followed by one with the remedy for each item that is not granted.
 std::string to_short_text(const RealtimeReport& report);
 
-// "fusion: scheduling is other, not fifo 60: REASON; REMEDY". Of an item that is not granted.
+// Returns "fusion: scheduling is other, not fifo 60: REASON; REMEDY" for an item that is not
+// granted.
 std::string to_sentence(const RealtimeSetting& setting);
 
 }  // namespace maploop::runtime

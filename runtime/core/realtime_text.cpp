@@ -7,7 +7,7 @@
 namespace maploop::runtime {
 namespace {
 
-constexpr int kHighestCpu = 1 << 16;  // far above any machine; bounds what a made-up range takes
+constexpr int kHighestCpu = 1 << 16;  // far above any machine; limits the length of a made-up range
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r\n";
@@ -16,7 +16,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
-// A CPU's number, taken off the begin of the text.
+// Takes a CPU's number off the beginning of the text.
 std::optional<int> take_cpu(std::string_view& text) {
   int cpu = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), cpu);

@@ -1,4 +1,4 @@
-// Reading the text files of /proc and /sys.
+// This file reads the text files of /proc and /sys.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +10,21 @@
 
 namespace maploop::runtime {
 
-// The file whole, without the newline at its end; nothing where it cannot be read.
+// Returns the whole file without the newline at its end; nothing if it cannot be read.
 std::optional<std::string> read_system_file(const std::filesystem::path& path);
 
-// What follows "key:" at the begin of a line, without the blanks around it; nothing where no line
-// starts so.
+// Returns the text after "key:" at the beginning of a line, without surrounding blanks; nothing if
+// no line begins so.
 std::optional<std::string_view> line_value(std::string_view text, std::string_view key);
 
-// The integer that the text starts with; nothing where it starts with none.
+// Returns the integer at the beginning of the text; nothing if there is none.
 std::optional<std::int64_t> parse_integer(std::string_view text);
 
-// A list of CPUs as the kernel writes it: "0-2,5" is 0 1 2 5. Nothing where it is not such a list.
+// Parses a list of CPUs as the kernel writes it: "0-2,5" is 0 1 2 5. Returns nothing if it is not
+// one.
 std::optional<std::vector<int>> parse_cpu_list(std::string_view text);
 
-// The reverse.
+// Does the reverse.
 std::string to_cpu_list(const std::vector<int>& ascending);
 
 }  // namespace maploop::runtime

@@ -1,25 +1,24 @@
-// Lock-free ring between one producing and one consuming thread, used in place.
+// This file defines a lock-free ring between one producing and one consuming thread, used in place.
 //
 // Producer:  if (T* slot = ring.claim()) { fill *slot; ring.publish(); }   // nullptr: full
 // Consumer:  if (T* item = ring.front()) { use *item; ring.pop(); }        // nullptr: empty
 //
 // Who may call what. claim, publish, push: one thread at a time, the producer. front, both pop: one
-// thread at a time, the consumer. size, pushed, popped, capacity: any thread. Handing either role
-// to another thread needs a synchronization of the caller's own between the two.
+// To hand either role to another thread, the caller must synchronize the two threads.
 //
 // What happens before what. Everything the producer did before publish() happens before front()
 // returns that item; everything the consumer did before pop() happens before claim() hands out that
 // slot again. A published item is visible to the next front() without any further call.
 //
-// Slots are constructed once, in memory already mapped, and reused: a claimed slot still holds what
-// an earlier lap left in it. An image swaps its buffer in and out, or resizes it to the size it
-// had; neither allocates. No operation of the ring allocates, locks, waits or enters the kernel.
+// Slots are constructed once, in memory already mapped, and reused: a claimed slot still contains
+// what an earlier lap left in it. An image swaps its buffer in and out, or resizes it to its former
+// size; neither allocates. No operation of the ring allocates, locks, waits or enters the kernel.
 //
-// Lamport's circular buffer ("Specifying concurrent program modules", TOPLAS 5(2), 1983) with each
-// side's copy of the other's index (Lee, Bu, Chandranmenon: "MCRingBuffer", IPDPS 2010). As there,
-// the consumer gives slots back in batches: a producer that waits at the full end then writes a
-// batch of lines the consumer has left, and not the line it is reading. Publishing is never
-// deferred.
+// This is Lamport's circular buffer ("Specifying concurrent program modules", TOPLAS 5(2), 1983)
+// with each side's copy of the other's index (Lee, Bu, Chandranmenon: "MCRingBuffer", IPDPS 2010).
+// As there, the consumer gives slots back in batches: a producer that waits for a full ring then
+// writes a batch of lines that the consumer has left, and not the line it is reading. Publishing is
+// never deferred.
 #pragma once
 
 #include <algorithm>
@@ -41,23 +40,23 @@ namespace maploop::runtime {
 template <typename T>
 class Ring {
  public:
-  // A ring that never refuses an item while it holds fewer than `capacity`. Below
-  // kSmallestBatchedCapacity it refuses exactly at `capacity`; above, the slots of one batch come
-  // on top (at most an eighth, at most kLargestBatch - 1), and it may hold that many more.
-  // Each slot starts as T(). Throws std::invalid_argument where the capacity is 0,
-  // std::length_error or std::bad_alloc where memory does not hold it.
+  // Makes a ring that never refuses an item while it holds fewer than `capacity`. Below
+  // kSmallestBatchedCapacity it refuses exactly at `capacity`; above, the slots of one batch are
+  // added (at most an eighth, at most kLargestBatch - 1), and it may hold that many more. Each slot
+  // starts as T(). Throws std::invalid_argument if the capacity is 0, and std::length_error or
+  // std::bad_alloc if the memory is too small.
   explicit Ring(std::size_t capacity) requires std::default_initializable<T>
       : Ring(capacity, Slots(slots_for(capacity))) {}
 
-  // The same; each slot starts as a copy of `prototype`, such as an image of the size to come.
+  // Does the same; each slot starts as a copy of `prototype`, such as an image of the final size.
   Ring(std::size_t capacity, const T& prototype) requires std::copy_constructible<T>
       : Ring(capacity, Slots(slots_for(capacity), Slot{prototype})) {}
 
   Ring(const Ring&) = delete;
   Ring& operator=(const Ring&) = delete;
 
-  // Producer. The slot to fill, or nullptr where the ring is full. Again without publish(): the
-  // same slot.
+  // Producer. Returns the slot to fill, or nullptr if the ring is full. A second call without
+  // publish() returns the same slot.
   T* claim() {
     if (producer_.tail == producer_.limit) {
       producer_.limit = freed_.load(std::memory_order_acquire) + slots_.size();
@@ -74,8 +73,8 @@ class Ring {
     published_.store(++producer_.tail, std::memory_order_release);
   }
 
-  // Consumer. The oldest item, or nullptr where the ring is empty. Again without pop(): the same
-  // item. The consumer may change it, or swap its buffers out.
+  // Consumer. Returns the oldest item, or nullptr if the ring is empty. A second call without pop()
+  // returns the same item. The consumer may change it, or swap its buffers out.
   T* front() {
     const std::uint64_t head = consumer_.head.load(std::memory_order_relaxed);
     if (head == consumer_.seen) {
@@ -85,7 +84,7 @@ class Ring {
     return &consumer_.slot->value;
   }
 
-  // Consumer. Gives the slot that front() returned back. Precondition: front() returned one since
+  // Consumer. Gives back the slot that front() returned. Precondition: front() returned one since
   // the last pop().
   void pop() {
     std::uint64_t head = consumer_.head.load(std::memory_order_relaxed);
@@ -98,7 +97,7 @@ class Ring {
     }
   }
 
-  // Producer. Copies `item` in; false where the ring is full.
+  // Producer. Copies `item` in; returns false if the ring is full.
   bool push(const T& item) {
     T* slot = claim();
     if (slot == nullptr) return false;
@@ -107,8 +106,8 @@ class Ring {
     return true;
   }
 
-  // Consumer. Takes the oldest item out; false where the ring is empty. Swaps where that moves
-  // buffers, so that the slot keeps the one `item` had.
+  // Consumer. Takes the oldest item out; returns false if the ring is empty. Swaps types with
+  // buffers, so that the slot keeps the buffer that `item` had.
   bool pop(T& item) {
     T* slot = front();
     if (slot == nullptr) return false;
@@ -122,26 +121,26 @@ class Ring {
     return true;
   }
 
-  // Items held now, exact where both sides rest. For monitors: a producer or consumer that asks for
-  // every item slows the other.
+  // Returns the number of items held now, exact if neither side is active. For monitors: a producer
+  // or consumer that calls it for every item slows down the other.
   std::size_t size() const {
-    const std::uint64_t out = popped();  // first, so that it is not ahead of what is read next
+    const std::uint64_t out = popped();  // first, so that it does not exceed the value read next
     return std::min(static_cast<std::size_t>(pushed() - out), slots_.size());
   }
   std::size_t capacity() const { return capacity_; }
 
-  // Items published and taken since the start: pushed = popped + size.
+  // These count the items published and taken since the start: pushed = popped + size.
   std::uint64_t pushed() const { return published_.load(std::memory_order_acquire); }
   std::uint64_t popped() const { return consumer_.head.load(std::memory_order_acquire); }
 
   // Rings shorter than this give each slot back at once.
   static constexpr std::size_t kSmallestBatchedCapacity = 64;
-  // Slots given back together at most: 256 slots are 32 cache lines of 8-byte items, and no gain
-  // was measured beyond.
+  // This is the maximum number of slots given back together: 256 slots are 32 cache lines of 8-byte
+  // items, and more brought no measurable gain.
   static constexpr std::size_t kLargestBatch = 256;
 
  private:
-  // An item of a cache line or more has its lines for itself; smaller ones are packed.
+  // An item of a cache line or more gets lines of its own; smaller ones are packed.
   static constexpr std::size_t kSlotAlignment =
       std::max(alignof(T), sizeof(T) >= kCacheLine ? kCacheLine : std::size_t{1});
   struct alignas(kSlotAlignment) Slot {
@@ -149,8 +148,8 @@ class Ring {
   };
   using Slots = std::vector<Slot, PrefaultedAllocator<Slot>>;
 
-  // All counts run from 0 upwards and do not wrap in the life of any machine; slot = count modulo
-  // the number of slots, kept as a pointer.
+  // All counts start at 0 and do not wrap in the life of any machine; slot = count modulo the
+  // number of slots, kept as a pointer.
   struct alignas(kNoSharing) Producer {
     std::uint64_t tail = 0;   // published so far
     std::uint64_t limit = 0;  // tail may go up to here, as far as known: slots freed + slots
@@ -159,7 +158,7 @@ class Ring {
   struct alignas(kNoSharing) Consumer {
     std::atomic<std::uint64_t> head{0};  // taken so far; read by monitors, not by the producer
     std::uint64_t seen = 0;              // published, as far as known
-    std::uint64_t next_free = 0;         // freed_ is stored when head comes here
+    std::uint64_t next_free = 0;         // freed_ is stored when head reaches this
     Slot* slot = nullptr;                // of head
   };
 
@@ -175,15 +174,15 @@ class Ring {
   static std::size_t batch_for(std::size_t capacity) {
     return capacity < kSmallestBatchedCapacity ? 1 : std::min(kLargestBatch, capacity / 8);
   }
-  // Up to batch - 1 slots are free without the producer knowing; these come on top.
+  // Up to batch - 1 slots are free without the producer knowing it, so they are added.
   static std::size_t slots_for(std::size_t capacity) {
     if (capacity == 0) throw std::invalid_argument("ring: capacity is 0; at least 1 is needed");
     const std::size_t slots = capacity + batch_for(capacity) - 1;
-    return std::max(slots, capacity);  // where that wrapped, the allocation refuses the capacity
+    return std::max(slots, capacity);  // if the sum wrapped, the allocation fails
   }
   Slot* after(Slot* slot) const { return slot + 1 == end_ ? begin_ : slot + 1; }
 
-  // Constant after construction: both sides keep a copy of these lines.
+  // These are constant after construction, so both sides keep a copy of their lines.
   const std::size_t capacity_;
   const std::size_t batch_;
   Slots slots_;
@@ -192,7 +191,7 @@ class Ring {
 
   Producer producer_;
   Consumer consumer_;
-  // The two lines through which the sides speak.
+  // The two sides communicate through these two lines.
   alignas(kNoSharing) std::atomic<std::uint64_t> published_{0};
   alignas(kNoSharing) std::atomic<std::uint64_t> freed_{0};
 };

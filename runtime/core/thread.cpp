@@ -10,7 +10,7 @@
 namespace maploop::runtime {
 namespace {
 
-// Nothing where the clock's thread is no more.
+// Returns nothing if the clock's thread has ended.
 std::optional<Duration> read(clockid_t clock) {
   timespec t{};
   if (clock_gettime(clock, &t) != 0) return {};
@@ -65,8 +65,8 @@ std::string Thread::failure() const {
   return failure_;
 }
 
-// The clock is asked by its number, which outlives the thread, and not by the thread's handle.
-// Where the thread ended in between, its last word is there.
+// The clock is read by its number, which outlives the thread, and not by the thread's handle. If
+// the thread ended in between, cpu_at_end_ has its final value.
 Duration Thread::cpu_time() const {
   const clockid_t clock = cpu_clock_.load(std::memory_order_acquire);
   if (clock != no_clock) {

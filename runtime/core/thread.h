@@ -1,4 +1,4 @@
-// A named thread with the scheduling it asked for, and what the kernel granted.
+// This file defines a named thread with requested scheduling, and records what the kernel granted.
 #pragma once
 
 #include <time.h>
@@ -16,13 +16,13 @@
 
 namespace maploop::runtime {
 
-// Runs `body(stop)` on a thread of its own. An exception that leaves the body ends this thread
-// only: its text is kept in failure(), and `at_end` is called as after a normal end.
+// Runs `body(stop)` on its own thread. An exception that leaves the body ends this thread only: its
+// text is kept in failure(), and `at_end` is called as after a normal end.
 class Thread {
  public:
   using Body = std::function<void(const std::stop_token&)>;
 
-  // `name` shows in ps and top, cut to 15 characters.
+  // `name` is shown by ps and top, cut to 15 characters.
   Thread(std::string name, Scheduling scheduling, std::stop_token stop, Body body,
          std::function<void()> at_end);
   ~Thread();  // joins
@@ -31,10 +31,10 @@ class Thread {
 
   void join();
   const std::string& name() const { return name_; }
-  // All that was asked for this thread, "NAME: scheduling" first. Known from construction on.
+  // Returns all requests for this thread, "NAME: scheduling" first. Available from construction on.
   const std::vector<RealtimeSetting>& settings() const { return settings_; }
-  std::string failure() const;  // empty while all is well
-  // Processor time that it has used so far; any thread may ask, also after its end.
+  std::string failure() const;  // empty if there was none
+  // Returns the processor time used so far; any thread may call it, also after this thread's end.
   Duration cpu_time() const;
   bool ended() const { return ended_.load(std::memory_order_acquire); }
 
@@ -45,7 +45,7 @@ class Thread {
 
   std::string name_;
   std::vector<RealtimeSetting> settings_;
-  mutable std::mutex mutex_;  // of failure_
+  mutable std::mutex mutex_;  // protects failure_
   std::string failure_;
   std::atomic<clockid_t> cpu_clock_{no_clock};
   std::atomic<Duration::rep> cpu_at_end_{0};

@@ -1,4 +1,4 @@
-// What one thread has recorded of itself, in memory mapped beforehand.
+// This file holds the events that one thread has recorded, in memory mapped beforehand.
 #pragma once
 
 #include <atomic>
@@ -16,16 +16,16 @@
 
 namespace maploop::runtime {
 
-// Filled once from the begin to the end. When it is full, what comes then is dropped and counted:
-// the start of a run explains more than an unknown part of it would. Each span, instant, counter
-// value and flow mark is one event; a span takes its slot when it begins, so events are in the
-// order of their times, a span before what happens in it.
+// The buffer is filled once from the beginning to the end. When it is full, later events are
+// dropped and counted: the start of a run explains more than an unknown part of it would. Each
+// span, instant, counter value and flow mark is one event; a span takes its slot when it begins, so
+// events are in the order of their times, a span before the events inside it.
 //
 // Who may call what. instant, counter, begin, mark: one thread, the recording one. All else: any
-// thread, also meanwhile; it sees each event whole or not at all. Recording allocates nothing,
-// locks nothing and makes no system call but the clock's.
+// thread, also meanwhile; it sees each event completely or not at all. Recording does not allocate
+// or lock, and makes no system call but the clock's.
 //
-// Tracer::thread() makes one. Code under trace calls TraceSpan, trace_instant and trace_counter.
+// Tracer::thread() makes a buffer. Traced code calls TraceSpan, trace_instant and trace_counter.
 class TraceBuffer {
  public:
   // `capacity` in events.
@@ -33,7 +33,7 @@ class TraceBuffer {
   TraceBuffer(const TraceBuffer&) = delete;
   TraceBuffer& operator=(const TraceBuffer&) = delete;
 
-  // Each returns the event, or nullptr where it was dropped.
+  // Each of these returns the event, or nullptr if it was dropped.
   TraceEvent* begin(TraceName name) {
     return append(TraceEvent::Kind::span, name, TraceEvent::kOpen);
   }
@@ -44,7 +44,7 @@ class TraceBuffer {
   TraceEvent* mark(TraceEvent::Kind kind, const TraceFlow& flow) {
     return append(kind, flow.source, std::bit_cast<std::int64_t>(flow.sequence));
   }
-  // Counts an event that has nothing to hang on, such as the flow of a dropped span.
+  // Counts an event that cannot be recorded, such as the flow of a dropped span.
   void drop() {
     const std::uint64_t before = dropped_.load(std::memory_order_relaxed);
     if (before == 0) first_dropped_ = monotonic_now();
@@ -53,12 +53,13 @@ class TraceBuffer {
 
   const std::string& name() const { return name_; }
   std::size_t capacity() const { return events_.size(); }
-  // Events recorded, the first `recorded()` of the buffer; and dropped since the start.
+  // These return the number of events recorded, the first `recorded()` of the buffer, and dropped,
+  // since the start.
   std::size_t recorded() const { return recorded_.load(std::memory_order_acquire); }
   std::uint64_t dropped() const { return dropped_.load(std::memory_order_acquire); }
   // Precondition: index < recorded().
   const TraceEvent& event(std::size_t index) const { return events_[index]; }
-  // When the first event was dropped. Precondition: dropped() > 0.
+  // Returns when the first event was dropped. Precondition: dropped() > 0.
   MonotonicTime first_dropped() const { return first_dropped_; }
 
  private:
@@ -79,7 +80,7 @@ class TraceBuffer {
 
   std::string name_;
   std::vector<TraceEvent, PrefaultedAllocator<TraceEvent>> events_;
-  // Written at each event: apart from the other threads' buffers.
+  // These are written at each event, so they lie apart from the other threads' buffers.
   alignas(kNoSharing) std::atomic<std::size_t> recorded_{0};
   std::atomic<std::uint64_t> dropped_{0};
   MonotonicTime first_dropped_{};  // ordered by dropped_

@@ -1,4 +1,4 @@
-// What a trace consists of: names, flows from thread to thread, and recorded events.
+// This file defines the parts of a trace: names, flows from thread to thread, and recorded events.
 #pragma once
 
 #include <atomic>
@@ -11,8 +11,8 @@
 
 namespace maploop::runtime {
 
-// A name that outlives the trace: a string literal, or what Tracer::name() returned. Anything else
-// does not compile, so that recording keeps a pointer and copies nothing.
+// This is a name that outlives the trace: a string literal, or a result of Tracer::name(). Anything
+// else does not compile, so that recording keeps a pointer and copies nothing.
 class TraceName {
  public:
   consteval TraceName(const char* literal) : text_(literal) {
@@ -30,9 +30,9 @@ class TraceName {
   const char* text_;
 };
 
-// FNV-1a of the source (Fowler, Noll, Vo), then with the sequence number through the finalizer of
-// SplitMix64 (Steele, Lea, Flood: "Fast splittable pseudorandom number generators", OOPSLA 2014):
-// one source never gives two sequence numbers the same id.
+// Hashes the source by FNV-1a (Fowler, Noll, Vo), then mixes in the sequence number by the
+// finalizer of SplitMix64 (Steele, Lea, Flood: "Fast splittable pseudorandom number generators",
+// OOPSLA 2014): two sequence numbers of one source never have the same id.
 constexpr std::uint64_t flow_id(std::string_view source, std::uint64_t sequence) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   for (const char c : source) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
@@ -42,22 +42,22 @@ constexpr std::uint64_t flow_id(std::string_view source, std::uint64_t sequence)
   return hash ^ (hash >> 31);
 }
 
-// The way of one sample through the threads: the same source and sequence number wherever the
-// sample passes.
+// Identifies one sample on its path through the threads: source and sequence number are the same on
+// every thread.
 struct TraceFlow {
   TraceName source;  // such as "camera"
   std::uint64_t sequence = 0;
 };
 
-// One slot of a buffer: half a cache line.
+// This is one slot of a buffer: half a cache line.
 struct TraceEvent {
   enum class Kind : std::uint64_t { span, instant, counter, flow_start, flow_step, flow_end };
   static constexpr std::int64_t kOpen = -1;  // payload of a span that has not ended
 
-  const char* name = nullptr;  // of a flow: its source
-  MonotonicTime time{};        // a span's start
-  // A span's duration in ns, stored when it ends, maybe while another thread reads; a counter's
-  // value as the bits of a double; a flow's sequence number.
+  const char* name = nullptr;  // for a flow, its source
+  MonotonicTime time{};        // for a span, its start
+  // Holds a span's duration in ns, stored when it ends, possibly while another thread reads; a
+  // counter's value as the bits of a double; or a flow's sequence number.
   std::atomic<std::int64_t> payload{0};
   Kind kind = Kind::instant;
 };

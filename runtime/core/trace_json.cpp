@@ -14,7 +14,7 @@ namespace {
 
 using Kind = TraceEvent::Kind;
 
-// A buffer as it was at one moment.
+// Describes a buffer at one moment.
 struct Snapshot {
   const TraceBuffer* buffer;
   std::size_t recorded;
@@ -27,8 +27,9 @@ class TraceJson {
       : file_(file), start_(start), process_(getpid()) {}
 
   void write(const std::vector<const TraceBuffer*>& buffers) {
-    // One moment for all threads: what came later is left out, so that a flow that has arrived has
-    // also left, and a span that ends later lasts to here, so that spans still nest.
+    // All threads are cut at one moment. Later events are left out, so that every flow that has
+    // arrived has also left; a span that ends later lasts until this moment, so that spans still
+    // nest.
     end_ = monotonic_now();
     std::vector<Snapshot> snapshots;
     for (const TraceBuffer* buffer : buffers) {
@@ -88,7 +89,7 @@ class TraceJson {
         break;
       case Kind::flow_end:
         write_flow(event, 'f', id);
-        text_ += R"(,"bp":"e")";  // tied to the enclosing span, as the others are
+        text_ += R"(,"bp":"e")";  // tied to the enclosing span, like the others
         break;
     }
     text_ += '}';
@@ -104,7 +105,7 @@ class TraceJson {
     if (unfinished) text_ += R"(,"args":{"unfinished":true})";
   }
 
-  // JSON has no infinity and no NaN: such a value becomes an instant that says so.
+  // JSON has no infinity and no NaN: such a value becomes an instant with the value as text.
   void write_counter(const TraceEvent& event, double value, std::size_t id) {
     const bool finite = std::isfinite(value);
     begin(event.name, finite ? 'C' : 'i', id);
@@ -114,7 +115,7 @@ class TraceJson {
     text_ += finite ? "}" : "\"}";
   }
 
-  // The viewers join what has the same category, name and id.
+  // The viewers join marks with the same category, name and id.
   void write_flow(const TraceEvent& event, char phase, std::size_t id) {
     const auto sequence =
         std::bit_cast<std::uint64_t>(event.payload.load(std::memory_order_relaxed));
@@ -160,7 +161,7 @@ class TraceJson {
     file_.write("]}}\n");
   }
 
-  // Starts an event. Ids are the threads' numbers in order of their buffers.
+  // Starts an event. Ids are the threads' numbers in the order of their buffers.
   void begin(std::string_view name, char phase, std::size_t id,
              std::string_view category = "span") {
     text_ = first_ ? "\n{\"name\":" : ",\n{\"name\":";

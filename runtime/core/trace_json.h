@@ -1,7 +1,8 @@
-// A trace as Chrome trace-event JSON; users call Tracer::write().
+// This file writes a trace as Chrome trace-event JSON; users call Tracer::write().
 //
-// Format: "Trace Event Format" (Duffy, Sinclair; Google, 2016), the part that ui.perfetto.dev reads
-// too. A flow's id is written as hexadecimal text: a JSON number does not hold 64 bits everywhere.
+// The format is the part of "Trace Event Format" (Duffy, Sinclair; Google, 2016) that
+// ui.perfetto.dev also reads. A flow's id is written as hexadecimal text, because not every
+// reader's JSON numbers hold 64 bits.
 #pragma once
 
 #include <filesystem>
@@ -11,8 +12,8 @@
 
 namespace maploop::runtime {
 
-// Times count from `start`. The buffers may be recording meanwhile. Throws std::runtime_error
-// naming the file.
+// Times count from `start`. The buffers may be recording meanwhile. Throws std::runtime_error that
+// names the file.
 void write_trace_json(const std::filesystem::path& file, MonotonicTime start,
                       const std::vector<const TraceBuffer*>& buffers);
 

@@ -1,12 +1,13 @@
-// What code under trace calls. Every function takes a TraceBuffer*, nullptr where tracing is off:
-// it then costs a branch.
+// This file contains the calls of traced code. Every function takes a TraceBuffer*, which is
+// nullptr if tracing is off: the call then costs a branch.
 #pragma once
 
 #include "runtime/core/trace_buffer.h"
 
 namespace maploop::runtime {
 
-// The time from construction to destruction, on the recording thread. Spans of one thread nest.
+// Records the time from construction to destruction on the recording thread. Spans of one thread
+// nest.
 //
 //   TraceSpan span(buffer, "stereo");
 //   span.step_flow({"camera", pair.sequence});
@@ -22,10 +23,10 @@ class TraceSpan {
   TraceSpan(const TraceSpan&) = delete;
   TraceSpan& operator=(const TraceSpan&) = delete;
 
-  // An arrow from this span to the next one that the flow passes. The viewers tie a mark to the
-  // innermost span open at that moment: call before a span inside this one begins. To have arrows
-  // point forward, mark before handing the sample on, and after taking it. A flow starts once and
-  // ends once.
+  // These draw an arrow from this span to the next one that the flow passes. The viewers tie a mark
+  // to the innermost span open at that moment, so call them before a span inside this one begins.
+  // Arrows point forward if the mark precedes handing the sample on, and follows taking it. A flow
+  // starts once and ends once.
   void start_flow(const TraceFlow& flow) { mark(TraceEvent::Kind::flow_start, flow); }
   void step_flow(const TraceFlow& flow) { mark(TraceEvent::Kind::flow_step, flow); }
   void end_flow(const TraceFlow& flow) { mark(TraceEvent::Kind::flow_end, flow); }
@@ -41,16 +42,16 @@ class TraceSpan {
   }
 
   TraceBuffer* buffer_;
-  TraceEvent* event_;  // nullptr: tracing is off, or the span was dropped
+  TraceEvent* event_;  // nullptr if tracing is off, or the span was dropped
 };
 
-// A moment, such as a missed deadline.
+// Records a moment, such as a missed deadline.
 inline void trace_instant(TraceBuffer* buffer, TraceName name) {
   if (buffer != nullptr) buffer->instant(name);
 }
 
-// A value over time, such as the samples held by a ring. One track a name, whichever thread
-// records.
+// Records a value over time, such as the samples held by a ring. Each name has one track, whichever
+// thread records.
 inline void trace_counter(TraceBuffer* buffer, TraceName name, double value) {
   if (buffer != nullptr) buffer->counter(name, value);
 }

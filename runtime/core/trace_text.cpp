@@ -6,8 +6,8 @@
 namespace maploop::runtime {
 namespace {
 
-// Bytes of the well-formed UTF-8 sequence that `text` starts with; 0: there is none (Unicode 15,
-// table 3-7). Precondition: text is not empty.
+// Returns the bytes of the well-formed UTF-8 sequence that `text` starts with; 0 if there is none
+// (Unicode 15, table 3-7). Precondition: text is not empty.
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t i) {
     return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
@@ -19,7 +19,7 @@ std::size_t utf8_length(std::string_view text) {
   if (first < 0x80) return 1;
   if (first >= 0xc2 && first <= 0xdf) return continues(1) ? 2 : 0;
   if (first >= 0xe0 && first <= 0xef) {
-    // Neither overlong nor a surrogate.
+    // The sequence is neither overlong nor a surrogate.
     const bool second = continues(1, first == 0xe0 ? 0xa0 : 0x80, first == 0xed ? 0x9f : 0xbf);
     return second && continues(2) ? 3 : 0;
   }

@@ -1,4 +1,4 @@
-// Pieces of JSON, appended to a text that keeps its memory.
+// This file appends pieces of JSON to a text that keeps its memory.
 #pragma once
 
 #include <array>
@@ -12,11 +12,11 @@
 
 namespace maploop::runtime {
 
-// A JSON string (RFC 8259) with its quotation marks. What is not UTF-8 becomes U+FFFD, byte by
-// byte.
+// Appends a JSON string (RFC 8259) with its quotation marks. Bytes that are not UTF-8 become
+// U+FFFD, one by one.
 void append_json(std::string& text, std::string_view value);
 
-// Shortest form that reads back as the same number; a double must be finite to be JSON.
+// Appends the shortest form that reads back as the same number; a double must be finite to be JSON.
 template <class Number>
 requires std::integral<Number> || std::floating_point<Number>
 void append_number(std::string& text, Number value) {
@@ -25,10 +25,10 @@ void append_number(std::string& text, Number value) {
               std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
 }
 
-// Without 0x.
+// Appends the number without 0x.
 void append_hexadecimal(std::string& text, std::uint64_t value);
 
-// In microseconds, with three decimals. Precondition: not negative.
+// Appends the value in microseconds, with three decimals. Precondition: it is not negative.
 void append_microseconds(std::string& text, Duration value);
 
 }  // namespace maploop::runtime

@@ -20,9 +20,9 @@ bool is_replaced(const std::filesystem::path& file) {
   return !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
 }
 
-// A link stays a link: what it points to is replaced, or made.
+// A link stays a link: its target is replaced, or made.
 std::filesystem::path behind_links(std::filesystem::path file) {
-  constexpr int most = 40;  // as the system's own
+  constexpr int most = 40;  // the system's own limit
   std::error_code error;
   for (int i = 0; i < most && std::filesystem::is_symlink(file, error); ++i) {
     file = file.parent_path() / std::filesystem::read_symlink(file);
@@ -30,7 +30,7 @@ std::filesystem::path behind_links(std::filesystem::path file) {
   return file;
 }
 
-// The new name is on the disk too. A file system that cannot do this has done what it can.
+// Writes the new name to the disk too; errors are ignored, as some file systems cannot do this.
 void sync_folder(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -1,4 +1,4 @@
-// A file that is there as a whole, or not at all.
+// This file writes a file completely or not at all.
 #pragma once
 
 #include <array>
@@ -9,17 +9,17 @@
 
 namespace maploop::runtime {
 
-// Written from its begin to its end through a buffer of fixed size, under the name FILE.part. Only
-// keep() gives it its own name, when all of it is on the disk: whatever was there before stays
-// whole until then, also where the disk is full or the power fails. What is no regular file (a
-// device, a pipe) is written as it is.
+// The file is written from beginning to end through a buffer of fixed size, under the name
+// FILE.part. Only keep() gives it its own name, when all of it is on the disk: an earlier file
+// stays complete until then, even if the disk is full or the power fails. If the file is not a
+// regular one (a device, a pipe), it is written directly.
 //
 // Every function throws std::runtime_error that names the file, the system's reason and what to do.
 // One thread at a time.
 class WholeFile {
  public:
   explicit WholeFile(const std::filesystem::path& file);
-  ~WholeFile();  // without keep(): as if it had never been begun
+  ~WholeFile();  // without keep(): discards what was written
   WholeFile(const WholeFile&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;
 
@@ -33,13 +33,13 @@ class WholeFile {
   static constexpr std::size_t kBytes = std::size_t{64} * 1024;
 
   std::filesystem::path file_;
-  std::filesystem::path written_;  // file_ itself where that is no regular file
+  std::filesystem::path written_;  // equals file_ if that is not a regular file
   int descriptor_ = -1;
   std::size_t used_ = 0;
   std::unique_ptr<std::array<char, kBytes>> buffer_;
 };
 
-// All of it at once.
+// Writes all bytes at once.
 void write_whole_file(const std::filesystem::path& file, std::string_view bytes);
 
 }  // namespace maploop::runtime
