@@ -47,10 +47,10 @@ void DataClock::start(Time first, MonotonicTime due) {
   set_schedule({first, due, speed()});
 }
 
-// A slot is overwritten only while the slots - 1 schedules after it are complete; if that many were
-// completed during a read, the read is repeated. Acquire and release on the data itself, after
-// Boehm, "Can seqlocks get along with programming language memory models?" (MSPC 2012): a reader of
-// a value of a newer schedule also sees the number of the schedule before it.
+// A slot may be overwritten once slots - 1 newer schedules are complete; a read during which that
+// happened is repeated. Acquire and release on the data itself, after Boehm, "Can seqlocks get
+// along with programming language memory models?" (MSPC 2012): a reader of a value of a newer
+// schedule also sees the number of the schedule before it.
 DataClock::Schedule DataClock::schedule() const {
   for (;;) {
     const std::uint32_t before = newest_.load(std::memory_order_acquire);

@@ -4,7 +4,8 @@
 // Consumer:  if (T* item = ring.front()) { use *item; ring.pop(); }        // nullptr: empty
 //
 // Who may call what. claim, publish, push: one thread at a time, the producer. front, both pop: one
-// To hand either role to another thread, the caller must synchronize the two threads.
+// thread at a time, the consumer. size, pushed, popped, capacity: any thread. To hand either role
+// to another thread, the caller must synchronize the two threads.
 //
 // What happens before what. Everything the producer did before publish() happens before front()
 // returns that item; everything the consumer did before pop() happens before claim() hands out that
