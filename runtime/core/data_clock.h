@@ -15,7 +15,6 @@ MonotonicTime monotonic_now();
 // and pauses so far. Virtual: every t is due at once and no thread sleeps; the order of the data
 // alone decides what happens. Live: paced in real time, and never stalled: it does not wait for
 // data.
-// nobody.
 //
 // One controlling thread calls start(), and then set_speed(), skip_to(), arrive(), pause(),
 // resume() and resume_until(); any thread may call the other members, which take no lock.

@@ -2,7 +2,7 @@
 //
 //   RealtimeReport report = prepare_process({});   // first thing in main, before other threads
 //   Thread fusion("fusion", Scheduling::fifo(60), stop, body, at_end);
-// once it has started
+//   append(report, fusion.settings());             // once it has started
 //   std::cout << to_text(report);
 //
 // No error here is fatal: a refusal of the kernel is reported with its reason and remedy, and the

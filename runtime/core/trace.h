@@ -1,7 +1,7 @@
 // This file traces a run: what each thread did when, and which sample became part of which state.
 //
 //   Tracer tracer({});
-// nullptr if tracing is off
+//   TraceBuffer* buffer = &tracer.thread("stereo");   // nullptr if tracing is off
 //   { TraceSpan span(buffer, "stereo"); span.step_flow({"camera", pair.sequence}); ... }
 //   tracer.write("drive.json");                       // for ui.perfetto.dev or chrome://tracing
 #pragma once
