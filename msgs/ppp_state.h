@@ -170,7 +170,7 @@ struct PppState : Sample {
   Eigen::Vector3d velocity_enu = Eigen::Vector3d::Zero();         // m/s
   Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();  // m^2/s^2
   ProtectionLevels protection;
-  double integrity_risk = 0.0;  // of each of them, at one epoch
+  double integrity_risk = 0.0;  // probability for each level, at one epoch
   double zenith_delay = 0.0;    // m, of the whole troposphere
   double zenith_delay_sigma = 0.0;
   double code_rms = 0.0;        // m, of the residuals used

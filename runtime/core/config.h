@@ -5,7 +5,7 @@
 //   const ConfigTable fusion = document.root().table("fusion");
 //   fusion.read_in("rate_hz", parameters.rate_hz, 1.0, 1000.0);
 //   fusion.read("deadline_ms", parameters.deadline);   // a Duration: the key names the unit
-//   document.reject_unknown();                         // last: keys that nobody asked for
+//   document.reject_unknown();                         // last: keys that were never read
 //
 // An absent key leaves the variable, and so its default, unchanged. TOML 1.0. One thread at a time.
 #pragma once

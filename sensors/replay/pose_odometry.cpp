@@ -9,7 +9,7 @@
 namespace maploop::sensors {
 namespace {
 
-constexpr double rotation_tolerance = 1e-3;  // files are rounded
+constexpr double rotation_tolerance = 1e-3;  // numbers in files are rounded
 
 Eigen::Isometry3d pose_of(const double* numbers) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();

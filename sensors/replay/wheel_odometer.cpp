@@ -53,7 +53,7 @@ bool WheelOdometer::on_ice(const Geodetic& position) const {
   constexpr double side = ice_square / 6.378e6;  // rad
   const double row = std::floor(position.latitude / side);
   const double column = std::floor(position.longitude * std::cos(row * side) / side);
-  constexpr std::int64_t rows = 10'000'000;  // more than there are
+  constexpr std::int64_t rows = 10'000'000;  // exceeds the number of rows
   const std::int64_t square =
       static_cast<std::int64_t>(column) * rows + static_cast<std::int64_t>(row);
   NormalGenerator draw(static_cast<std::uint64_t>(parameters_.seed) ^ ice_stream,
