@@ -124,7 +124,7 @@ void archive(Archive& ar, Large& large) {
   ar(large.name);
 }
 
-// A length of as many elements as there are bytes left.
+// The length claims as many elements as there are bytes left.
 TEST(Archive, TakesNoMemoryForElementsThatAreNotThere) {
   ArchiveWriter writer;
   constexpr std::size_t left = 100'000;

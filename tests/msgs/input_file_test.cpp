@@ -31,7 +31,7 @@ class InputFile : public ::testing::Test {
     std::ofstream(file, std::ios::binary) << text;
     return file;
   }
-  // One gzip member for each text.
+  // Writes one gzip member for each text.
   fs::path compressed(const std::vector<std::string>& texts) const {
     const fs::path file = folder_.path() / "compressed";
     fs::remove(file);
@@ -73,7 +73,7 @@ TEST_F(InputFile, ThatIsTooLargeIsRefusedWithItsName) {
   }
 }
 
-// 100 MB of zeros in 100 kB.
+// The file contains 100 MB of zeros in 100 kB.
 TEST_F(InputFile, ThatInflatesBeyondItsLimitTakesLittleMoreThanThat) {
   const fs::path file = compressed({std::string(100 << 20, '\0')});
   ASSERT_LT(fs::file_size(file), 200'000u);

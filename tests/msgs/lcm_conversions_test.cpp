@@ -13,7 +13,7 @@
 namespace maploop {
 namespace {
 
-// Through the bytes of the wire and back.
+// Encodes a message to bytes and decodes it again.
 template <class Lcm>
 Lcm over_the_wire(const Lcm& message) {
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
@@ -496,7 +496,7 @@ TEST(LcmConversions, AStatusOfAnotherVersionIsRefused) {
   EXPECT_THROW(from_lcm(message), std::invalid_argument);
 }
 
-// The constants in the .lcm files are those of the enumerations.
+// The constants in the .lcm files must equal those of the enumerations.
 TEST(LcmConversions, StatusConstantsAgree) {
   EXPECT_EQ(static_cast<int>(NavStatus::coasting), +maploop_lcm::nav_state_t::COASTING);
   EXPECT_EQ(static_cast<int>(NavStatus::aided), +maploop_lcm::nav_state_t::AIDED);

@@ -13,7 +13,8 @@ TEST(LocalFrame, TheOriginIsZero) {
   EXPECT_NEAR(LocalFrame(karlsruhe).to_enu(karlsruhe).norm(), 0.0, 1e-9);
 }
 
-// Radii of curvature of WGS84: M = a (1 - e^2) / (1 - e^2 sin^2)^1.5, N = a / sqrt(1 - e^2 sin^2).
+// The radii of curvature of WGS84 are M = a (1 - e^2) / (1 - e^2 sin^2)^1.5, N = a / sqrt(1 - e^2
+// sin^2).
 TEST(LocalFrame, AnArcSecondHasTheLengthOfItsRadiusOfCurvature) {
   const double e2 = 0.00669437999014;
   const double s = std::sin(karlsruhe.latitude);

@@ -1,4 +1,4 @@
-// Raw sensors through the bytes of their messages.
+// These tests pass raw sensors through the bytes of their messages.
 #include "msgs/lcm/raw_conversions.h"
 
 #include <gtest/gtest.h>

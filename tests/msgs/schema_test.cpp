@@ -1,4 +1,4 @@
-// The schema and the generic decoder, against lcm-gen's own code for the same types.
+// These tests compare the schema and the decoder with lcm-gen's own code for the same types.
 #include "msgs/lcm/schema.h"
 
 #include <gtest/gtest.h>
@@ -173,7 +173,7 @@ TEST(Schema, TypesMayStandInAnyOrderAndFile) {
   const Schema schema(texts);
   EXPECT_EQ(schema.types().size(), 3U);
   EXPECT_EQ(schema.find("p.a")->members[1].type, schema.find("q.c"));
-  // Alike but for the name: LCM cannot tell them apart either.
+  // The types differ only in name; LCM cannot distinguish them either.
   EXPECT_EQ(schema.find("q.c")->fingerprint, schema.find("p.b")->fingerprint);
 }
 
@@ -234,7 +234,7 @@ TEST(DecodedMessage, EveryKindOfFieldIsExact) {
     EXPECT_EQ(all.at(path), text) << path;
   }
   EXPECT_FALSE(all.contains("leaves[1][0].values[0]"));
-  // 10 scalars but the text, grid, names, leaf and four leaves, blob; twice.
+  // The message has 10 scalars besides the text, grid, names, leaf and four leaves, blob; twice.
   EXPECT_EQ(all.size(), 2U * (10 + 6 + 4 + 2 + 7 + 16));
 }
 

@@ -1,5 +1,5 @@
-// Drives with something missing, cut or wrong: refused at the door with a clear error, or the
-// sample left out, named and counted.
+// These drives have something missing, cut or wrong. They are refused at opening with a clear
+// error, or the sample is left out, reported and counted.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -31,7 +31,7 @@ void expect_in(const std::string& text, const std::vector<std::string>& parts) {
   }
 }
 
-// What a source delivers and its only refusal.
+// Checks the delivered samples of a source and returns its only refusal.
 template <class T>
 Finding only_refusal(Source<T>& source, const Sequences& delivered) {
   EXPECT_EQ(sequences(read_all(source)), delivered);
@@ -71,7 +71,7 @@ TEST(SmallDrive, StampsOfEverySensor) {
   };
   const auto pairs = read_all(*drive.camera());
   EXPECT_EQ(pairs.at(3).stamp, after(300));
-  EXPECT_EQ(pairs.at(3).available, after(307));  // the later image's, and 5 ms of readout
+  EXPECT_EQ(pairs.at(3).available, after(307));  // that of the later image, plus 5 ms of readout
   EXPECT_NE(pairs.at(3).left.pixels, pairs.at(3).right.pixels);
   const auto scans = read_all(*drive.velodyne());
   EXPECT_EQ(scans.at(3).start, after(230));
@@ -91,7 +91,7 @@ TEST(SmallDrive, StampsOfEverySensor) {
   EXPECT_EQ(reference.at(3).available, after(301));
 }
 
-// ---- refused at the door
+// ---- refused at opening
 
 TEST(OpeningADrive, NamesAFolderThatIsNotThere) {
   const SmallDrive small;
@@ -219,7 +219,7 @@ TEST(DamagedCamera, ACutImageAtAnyLength) {
   const std::string file = "image_01/data/0000000003.png";
   const std::string whole = small.read(file);
   const KittiDrive drive(small.folder());
-  // The last 12 bytes say only that the image ends.
+  // The last 12 bytes only mark the end of the image.
   for (std::size_t length = 0; length + 12 < whole.size(); length += 1 + whole.size() / 50) {
     small.write(file, whole.substr(0, length));
     const Finding finding = only_refusal(*drive.camera(), without_3);

@@ -17,7 +17,7 @@ const Geodetic here{0.855, 0.147, 114.0};
 const Eigen::Vector3d velocity(3.0, -4.0, 0.1);
 const Time start = parse_time("2011-09-26 13:10:51.175862102");
 
-// `fixes` of a vehicle that stays where it is, offered at the aid's own rate.
+// Returns `fixes` fixes of a standing vehicle, offered at the aid's own rate.
 std::vector<GnssFix> run(const GnssAidParameters& parameters, int fixes) {
   GnssAid aid(parameters);
   std::vector<GnssFix> result(static_cast<std::size_t>(fixes));
@@ -49,8 +49,8 @@ TEST(NormalGenerator, HasTheMomentsOfANormalDistribution) {
   EXPECT_NEAR(beyond2 / n, 0.0455, 0.0015);
 }
 
-// Worked out apart from the code: splitmix64 and the Mersenne twister of the standard in another
-// language.
+// The numbers were computed independently of the code, with splitmix64 and the standard's Mersenne
+// twister in another language.
 TEST(NormalGenerator, FirstNumbersOfOneSeedAndStamp) {
   NormalGenerator generator(1, from_nanoseconds(1317042651175862102));
   EXPECT_NEAR(generator.next(), -1.0812091577209, 1e-12);
@@ -71,8 +71,8 @@ TEST(NormalGenerator, NeighbouringSeedsAndStampsAreUncorrelated) {
   EXPECT_NEAR(stamps / n, 0.0, 0.02);
 }
 
-// White 1 m + Gauss-Markov 1.5 m / 30 s: covariance of two fixes k seconds apart is
-// 1 [k = 0] + 1.5^2 exp(-k / 30), per axis, and none between axes.
+// With white noise of 1 m and Gauss-Markov noise of 1.5 m / 30 s, the covariance of two fixes k
+// seconds apart is 1 [k = 0] + 1.5^2 exp(-k / 30) for each axis, and 0 between axes.
 TEST(GnssAid, PositionNoiseHasTheVarianceAndCorrelationItStates) {
   constexpr int seeds = 4000, fixes = 16;
   const int lags[] = {0, 1, 5, 15};
@@ -155,7 +155,7 @@ TEST(GnssAid, DrawnSizesAreOfTheirRangesAndFixesSayTheGivenOnes) {
   EXPECT_NEAR(times, 0.5 * (std::log(5.0) + std::log(600.0)), 0.15);
 }
 
-// Steps alone: all else without noise.
+// Only the steps have an effect: everything else is without noise.
 TEST(GnssAid, DrawnStepsAreOfTheirShareAndLastForTenSeconds) {
   double inside = 0.0, expected = 0.0, steps = 0.0, squares = 0.0;
   constexpr int seeds = 200, fixes = 2000;

@@ -36,7 +36,7 @@ std::string error_of(const Texts& texts) {
   return "no error";
 }
 
-// A point in front of the car, taken through the printed matrices one after the other.
+// A point in front of the car is taken through the printed matrices one after the other.
 TEST(KittiCalibration, ChainsTheThreeFilesAsPrinted) {
   const VehicleCalibration c = parse({});
   Eigen::Matrix3d R_imu_to_velo, R_velo_to_cam, R_rect;
@@ -70,8 +70,9 @@ TEST(KittiCalibration, KnowsKittisCarAndTakesNoOtherForIt) {
   EXPECT_EQ(other.beam_elevation, 0.0);
 }
 
-// The sketch of the car (IJRR 2013, fig. 3): LiDAR 0.81 m before and 0.32 m right of the IMU,
-// camera another 0.27 m ahead; heights above the road 1.65 m camera, 1.73 m LiDAR, 0.93 m IMU.
+// The sketch of the car (IJRR 2013, fig. 3) has the LiDAR 0.81 m in front and 0.32 m to the right
+// of the IMU, the camera another 0.27 m ahead; heights above the road are 1.65 m camera, 1.73 m
+// LiDAR, 0.93 m IMU.
 TEST(KittiCalibration, AgreesWithTheSketchOfTheCar) {
   const VehicleCalibration c = parse({});
   const Eigen::Vector3d cam = c.stereo.T_body_cam.translation();
@@ -82,7 +83,7 @@ TEST(KittiCalibration, AgreesWithTheSketchOfTheCar) {
   EXPECT_NEAR(velo.x(), 0.81, 0.02);
   EXPECT_NEAR(velo.y(), -0.32, 0.02);
   EXPECT_NEAR(velo.z(), 1.73 - 0.93, 0.02);
-  // The camera's z looks ahead, its x to the right, its y down (within a degree of the body).
+  // The camera's z points ahead, its x to the right, its y down (within a degree of the body).
   const Eigen::Matrix3d R = c.stereo.T_body_cam.linear();
   EXPECT_GT(R(0, 2), 0.9998);
   EXPECT_LT(R(1, 0), -0.9998);

@@ -1,4 +1,5 @@
-// The real drive 2011_09_26_drive_0013_sync. Known values were taken from its files by other means.
+// These tests read the real drive 2011_09_26_drive_0013_sync. The expected values were taken from
+// its files by other means.
 #include "sensors/replay/kitti_drive.h"
 
 #include <gtest/gtest.h>
@@ -184,12 +185,13 @@ TEST_F(RealDrive, Reference) {
             Eigen::Vector3d(-3.290687456108, 11.375996992995, 0.040323535587709));
   EXPECT_EQ(first.attitude.pitch, -0.009947);
   EXPECT_EQ(first.attitude.roll, -0.000229);
-  // Yaw 105.75 degrees: a little west of north.
+  // A yaw of 105.75 degrees is a little west of north.
   EXPECT_NEAR(degrees(first.attitude.azimuth), 90.0 - 105.7505, 1e-3);
   EXPECT_EQ(first.position_accuracy, 0.14961617559609);
 }
 
-// The car drives where it looks: its velocity is along its azimuth, and its way along its velocity.
+// The car drives in the direction of its attitude: its velocity is along its azimuth, and its path
+// along its velocity.
 TEST_F(RealDrive, ReferenceAttitudeVelocityAndPositionFitTogether) {
   const auto reference = read_all(*drive->reference());
   const LocalFrame frame(reference[0].position);

@@ -1,4 +1,4 @@
-// Logs whose messages are damaged where no reader of logs can see it.
+// These tests damage messages of a log where a reader of logs cannot detect it.
 #include "sensors/replay/log_recording.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace maploop::sensors {
 namespace {
 
-// A small log of every sensor; its IMU has three messages.
+// This is a small log of every sensor; its IMU has three messages.
 class DamagedLog : public ::testing::Test {
  protected:
   DamagedLog() {
@@ -20,7 +20,7 @@ class DamagedLog : public ::testing::Test {
     bytes_.assign(std::istreambuf_iterator<char>(in), {});
   }
 
-  // Where the data of the n-th message of a channel begin.
+  // Returns where the data of the n-th message of a channel begin.
   char* message(const std::string& channel, int n) {
     std::size_t at = 0;
     for (int i = 0; i <= n; ++i) at = bytes_.find(channel, at) + channel.size();
@@ -52,7 +52,7 @@ TEST_F(DamagedLog, IsWholeAtFirst) {
   EXPECT_EQ(read(recording().camera()).delivered, 1u);
 }
 
-// LCM's own code would take such a size at its word.
+// LCM's own code would trust such a size.
 TEST_F(DamagedLog, AMessageThatSaysASizeItHasNotIsLeftOut) {
   for (const std::string& size :
        {std::string("\xff\xff\xff\xff"), std::string("\x7f\xff\xff\xff")}) {

@@ -1,4 +1,4 @@
-// KITTI's odometry sequences as recordings, and what is made of their rows.
+// These tests replay KITTI's odometry sequences, and check what is made of their rows.
 #include "sensors/replay/odometry_sequence.h"
 
 #include <gtest/gtest.h>
@@ -70,7 +70,7 @@ TEST(OdometrySequence, IsNamedByItsTableOrItsNumber) {
   EXPECT_FALSE(OdometrySequence::is_named(real_data()));
 }
 
-// A sequence of three rows with files as given, in the layout of the recording.
+// This is a sequence of three rows with the given files, in the layout of the recording.
 class SmallSequence : public ::testing::Test {
  protected:
   SmallSequence() {
@@ -241,7 +241,7 @@ TEST(WheelOdometer, SlipsTenfoldOnItsShareOfIce) {
     const double speed = wheels(odometer, 2.0, 50.0 * square).speed;
     EXPECT_TRUE(std::fabs(speed - 10.04) < 1e-9 || std::fabs(speed - 10.4) < 1e-9) << speed;
     if (speed > 10.2) icy += 1.0 / squares;
-    // Ice is where it was.
+    // The ice is at the same places again.
     EXPECT_EQ(speed, wheels(odometer, 2.0, 50.0 * square).speed);
   }
   EXPECT_NEAR(icy, 0.2, 0.03);

@@ -19,7 +19,7 @@ std::string error_of(const std::string& text) {
   return "no error";
 }
 
-// A row whose column i (from 0) is i / 16, but for the attitude.
+// Returns a row whose column i (from 0) is i / 16, except for the attitude.
 std::string numbered_row(const std::string& roll, const std::string& pitch,
                          const std::string& yaw) {
   std::ostringstream text;
@@ -44,7 +44,7 @@ TEST(OxtsRow, PositionVelocityAndAccuracy) {
   EXPECT_EQ(row.position_accuracy, 23 / 16.0);
 }
 
-// KITTI's own definition: R = Rz(yaw) Ry(pitch) Rx(roll), nose down for a positive pitch.
+// KITTI defines R = Rz(yaw) Ry(pitch) Rx(roll), nose down for a positive pitch.
 TEST(OxtsRow, AttitudeIsTheRotationThatKittiDefines) {
   const double roll = 0.2, pitch = -0.3, yaw = 2.9;
   const Eigen::Matrix3d kitti = (Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *

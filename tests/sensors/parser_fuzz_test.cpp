@@ -1,5 +1,5 @@
-// The parsers on thousands of damaged copies of real files: an error or a counted refusal, and
-// whatever is accepted is usable.
+// These tests run the parsers on thousands of damaged copies of real files. The result must be an
+// error or a counted refusal, or else be usable.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ struct Tally {
   int accepted = 0, refused = 0;
 };
 
-// Anything but the errors that a parser promises fails the test.
+// Any error other than those that a parser promises fails the test.
 template <class Error>
 Tally feed(const std::string& text, int rounds, const std::function<void(const std::string&)>& f) {
   std::mt19937 random(20110926);
@@ -74,7 +74,7 @@ TEST(DamagedText, OxtsRow) {
     EXPECT_TRUE(rotation_enu_body(row.attitude).allFinite());
   });
   EXPECT_GT(tally.refused, 3000);
-  EXPECT_GT(tally.accepted, 500);  // a digit changed is still a number
+  EXPECT_GT(tally.accepted, 500);  // a changed digit is still a number
 }
 
 TEST(DamagedText, Calibration) {
@@ -108,7 +108,7 @@ TEST(DamagedImage, RealPng) {
       read_text(maploop::testing::drive_0013() / "image_00/data/0000000000.png");
   GreyImage whole, image;
   decode_grey_png(png, 1242, 375, whole);
-  // Its checksums protect the pixels: what is accepted shows them all.
+  // The checksums protect the pixels: an accepted file shows them all.
   const Tally tally = feed<std::runtime_error>(png, 150, [&](const std::string& bytes) {
     decode_grey_png(bytes, 1242, 375, image);
     EXPECT_EQ(image.pixels, whole.pixels);

@@ -1,4 +1,4 @@
-// Another system's trajectory in the place of visual odometry.
+// These tests replace visual odometry by another system's trajectory.
 #include "sensors/replay/pose_odometry.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 using maploop::testing::real_data;
 
-// What reading a file of this text says.
+// Returns the error of reading a file with this text.
 std::string refusal(const std::string& text) {
   const auto file = std::filesystem::path(::testing::TempDir()) / "poses.txt";
   std::ofstream(file) << text;

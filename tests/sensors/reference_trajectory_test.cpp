@@ -104,7 +104,7 @@ class OnTheDrive : public ::testing::Test {
   LocalFrame origin;
 };
 
-// Every other row, found again from its neighbours 200 ms apart.
+// Every other row is left out and interpolated from its neighbours 200 ms apart.
 TEST_F(OnTheDrive, FindsRowsThatWereLeftOut) {
   std::vector<ReferencePose> half;
   for (std::size_t i = 0; i < reference.size(); i += 2) half.push_back(reference[i]);
@@ -124,8 +124,8 @@ TEST_F(OnTheDrive, FindsRowsThatWereLeftOut) {
   EXPECT_LT(angle, radians(0.25));
 }
 
-// Against truth made by other means: OXTS carried to the image stamps by its own velocity and rate,
-// in KITTI's spherical Mercator (up to 0.2 % off, 2.5 mm a step).
+// The expected truth was made by other means: OXTS carried to the image stamps by its own velocity
+// and rate, in KITTI's spherical Mercator (up to 0.2 % off, 2.5 mm a step).
 TEST_F(OnTheDrive, AgreesWithTimeCorrectedTruthAtTheLeftImagesStamps) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const ReferenceTrajectory trajectory(reference, origin);

@@ -1,4 +1,4 @@
-// A drive of a few frames in a temporary folder, made to be damaged.
+// This file makes a drive of a few frames in a temporary folder, which tests can damage.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ class SmallDrive {
   static constexpr int width = 32, height = 24;
   static constexpr std::size_t points = 20;
 
-  SmallDrive();  // sound: frames 100 ms apart, from 2011-09-26 13:10:51
+  SmallDrive();  // undamaged: frames 100 ms apart, from 2011-09-26 13:10:51
 
   std::filesystem::path folder() const { return day() / "2011_09_26_drive_0099_sync"; }
   std::filesystem::path day() const { return temporary_.path(); }
@@ -32,15 +32,15 @@ class SmallDrive {
   maploop::testing::TemporaryFolder temporary_;
 };
 
-// A row of a real drive: 30 columns.
+// Returns a row of a real drive: 30 columns.
 std::string oxts_row_text();
 
-// The calibration of 2011-09-26, rectified cameras and 32 x 24 pixels.
+// These are the calibration of 2011-09-26, with rectified cameras and 32 x 24 pixels.
 std::string cam_to_cam_text();
 std::string velo_to_cam_text();
 std::string imu_to_velo_text();
 
-// Everything that a source delivers.
+// Returns everything that a source delivers.
 template <class T>
 std::vector<T> read_all(Source<T>& source) {
   std::vector<T> samples;

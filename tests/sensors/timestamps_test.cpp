@@ -12,7 +12,7 @@ Timestamps parse(const std::string& text) {
   return parse_timestamps(text, "stamps.txt");
 }
 
-// The frames that remain of stamps given in seconds.
+// Returns the frames that remain of stamps given in seconds.
 std::vector<std::size_t> remaining(const std::vector<int>& seconds) {
   std::vector<Time> stamps;
   for (const int s : seconds) stamps.push_back(Time(std::chrono::seconds(s)));
@@ -114,7 +114,7 @@ TEST(TimeOrder, DoesNotTouchFramesAlreadyRefused) {
   EXPECT_EQ(verdicts[1]->reason, "before");
 }
 
-// Against every subsequence of short random lists.
+// The result is compared with every subsequence of short random lists.
 TEST(TimeOrder, KeepsAsManyAsThereAre) {
   std::mt19937 random(5);
   for (int round = 0; round < 300; ++round) {

@@ -56,7 +56,7 @@ TEST(VelodynePoints, ReusesTheBuffer) {
   EXPECT_EQ(points.data(), buffer);
 }
 
-// Ranges of every size, a fifth of them nothing.
+// Returns ranges of every size, with no return for a fifth of them.
 RangeImage a_turn() {
   RangeImage image;
   image.elevations = {0.1F, 0.0F, -0.2F};

@@ -18,7 +18,7 @@ ConfigTable table_of(std::string_view text) {
   return ConfigDocument::parse(text, "a.toml").root();
 }
 
-// The text of the ConfigError that `action` throws; empty where it throws none.
+// Returns the text of the ConfigError that `action` throws; empty if it does not throw one.
 template <typename Action>
 std::string error_of(Action action) {
   try {

@@ -7,7 +7,7 @@
 namespace maploop::runtime {
 namespace {
 
-// Asks a document as a program with two components would; what reject_unknown says then.
+// Reads a document as a program with two components would; returns the error of reject_unknown().
 std::string unknown_in(std::string_view text) {
   const ConfigDocument document = ConfigDocument::parse(text, "a.toml");
   double number = 0;

@@ -59,7 +59,7 @@ TEST(DataClock, AStallMovesEverythingLaterOnce) {
   const MonotonicTime before = clock.due(t);
   EXPECT_TRUE(clock.stall(t, before + milliseconds(20)));
   EXPECT_EQ(clock.due(t), before + milliseconds(20));
-  // A second thread that was held up by the same wait does not stall the clock again.
+  // A second thread that was delayed by the same wait does not stall the clock again.
   EXPECT_FALSE(clock.stall(t, before + milliseconds(20)));
   EXPECT_EQ(clock.stalls(), 1u);
   EXPECT_EQ(clock.stalled(), milliseconds(20));

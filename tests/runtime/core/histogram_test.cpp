@@ -13,7 +13,7 @@
 namespace maploop::runtime {
 namespace {
 
-// Nearest rank on the sorted values themselves.
+// Computes the nearest rank on the sorted values themselves.
 std::int64_t exact_percentile(std::vector<std::int64_t> values, double fraction) {
   std::sort(values.begin(), values.end());
   const double rank = std::ceil(fraction * static_cast<double>(values.size()) - 1e-6);
@@ -53,7 +53,7 @@ TEST(Histogram, PercentilesOfRandomLatencies) {
   }
 }
 
-// Values on either side of every bucket's edge that matters: powers of two and their neighbours.
+// The values lie on either side of every relevant bucket edge: powers of two and their neighbours.
 TEST(Histogram, PercentilesAtTheEdgesOfTheOctaves) {
   std::vector<std::int64_t> values;
   for (int power = 0; power <= 36; ++power) {
@@ -78,7 +78,7 @@ TEST(Histogram, BelowTwoHundredFiftySixNanosecondsIsExact) {
   for (int value = 0; value < 256; ++value) {
     Histogram histogram;
     histogram.record(Duration(value));
-    histogram.record(std::chrono::seconds(1));  // so that max() does not cap
+    histogram.record(std::chrono::seconds(1));  // so that max() does not limit it
     EXPECT_EQ(histogram.percentile(0.5), Duration(value));
   }
 }
@@ -225,7 +225,7 @@ TEST(Histogram, SummaryHoldsItsPercentiles) {
   expect_same(summary.histogram, histogram.data());
 }
 
-// A 10 ms task stalls once for 100 ms: nine releases were hidden, which waited 90, 80, ... 10 ms.
+// A 10 ms task stalls once for 100 ms, which hides nine releases that waited 90, 80, ... 10 ms.
 TEST(Histogram, OmittedWaitsOfAStalledTaskAreAdded) {
   using std::chrono::milliseconds;
   Histogram histogram;
@@ -261,7 +261,8 @@ TEST(Histogram, OmittedWaitsMatchTheSumTakenOneByOne) {
 TEST(Histogram, OmittedWaitsOfATinyIntervalAreBoundedWork) {
   Histogram histogram;
   for (int power = 0; power < 40; ++power) histogram.record(Duration(std::int64_t{1} << power));
-  // 2 - 1, 4 - 1, ... up to 2^36 - 1 waits, and 2^37 - 2 for each of the three beyond the range.
+  // There are 2 - 1, 4 - 1, ... up to 2^36 - 1 waits, and 2^37 - 2 for each of the three values
+  // beyond the range.
   const double expected = 1.37e11 + 3 * 1.374e11;
   const Histogram corrected = histogram.with_omitted(Duration(1));
   EXPECT_NEAR(static_cast<double>(corrected.count()), expected, expected / 100);

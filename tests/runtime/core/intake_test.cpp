@@ -114,7 +114,7 @@ TEST(Intake, NamesTheEdgeThatItWaitedForLast) {
   Edge<Letter> early("early", 8, Overflow::keep_all, &bell);
   Edge<Letter> late("late", 8, Overflow::keep_all, &bell);
   Intake intake;
-  // It promises while the other's sample is taken, in the wait.
+  // The second edge gives its promise while the first edge's sample is taken, during the wait.
   intake.add(early, [&](const Letter&) { late.promise(from_nanoseconds(5)); });
   intake.add(late, [](const Letter&) {});
   EXPECT_STREQ(intake.waiting(), "waiting for input");
@@ -125,7 +125,8 @@ TEST(Intake, NamesTheEdgeThatItWaitedForLast) {
   EXPECT_STREQ(intake.waiting(), "waiting for late");
 }
 
-// The order taken, and what is in each tick, must not depend on how the producers are scheduled.
+// The order of the samples, and the contents of each tick, must not depend on how the producers are
+// scheduled.
 TEST(Intake, TicksTakeTheSameWhateverTheProducersTiming) {
   std::string reference;
   for (unsigned run = 0; run < 20; ++run) {

@@ -26,7 +26,7 @@ TEST(LatestValueConcurrent, NeverTornNeverOldAndEveryLossCounted) {
   });
   std::uint64_t last = 0, taken = 0, wrong = 0;
   for (bool stop = false; !stop;) {
-    stop = done;  // before the last look: what was published by then is seen
+    stop = done;  // read before the last check, so that all published values are seen
     if (const Value* value = cell.latest()) {
       ++taken;
       if (value->front() <= last) ++wrong;

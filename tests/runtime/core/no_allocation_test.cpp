@@ -1,5 +1,5 @@
-// The real-time paths allocate nothing. Counts through replaced global operators, hence an
-// executable of its own.
+// These tests check that the real-time paths do not allocate. They count in replaced global
+// operators, so they need an executable of their own.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -22,7 +22,8 @@ void* counted(std::size_t size, std::size_t alignment) {
 }
 }  // namespace
 
-// Not inlined: GCC would see free() meet what it takes for the library's operator new.
+// This is not inlined, because GCC would otherwise report a free() of memory from the library's
+// operator new.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   return counted(size, alignof(std::max_align_t));
 }
@@ -61,7 +62,7 @@ TEST(NoAllocation, RingInPlaceAndByCopy) {
   for (int i = 0; i < 1000; ++i) {
     ring.claim()->swap(given);
     ring.publish();
-    ring.push(prototype);  // a slot has the capacity already
+    ring.push(prototype);  // the slot already has the capacity
     ring.front()->swap(taken);
     ring.pop();
     ring.pop(taken);

@@ -30,7 +30,7 @@ TEST(Periodic, ThePhaseShiftsEveryTick) {
   EXPECT_EQ(first_tick(Time{}, period, phase), Time{} + phase) << "before the first phase of 1970";
 }
 
-// Time stands still but where a tick takes some, or a sleep lasts longer than asked.
+// Time advances only when a tick takes some, or when a sleep lasts longer than requested.
 class FakeClock {
  public:
   bool sleep_until(Time t, const std::stop_token& stop) const {
@@ -58,7 +58,7 @@ struct Ticked {
   bool operator==(const Ticked&) const = default;
 };
 
-// Eight ticks of 10 ms; the one at 20 ms takes 35 ms, all others none.
+// Runs eight ticks of 10 ms; the one at 20 ms takes 35 ms, the others take no time.
 std::vector<Ticked> run_with_a_long_tick(Overrun overrun, FakeClock clock = {}) {
   std::vector<Ticked> ticks;
   run_periodic(clock, Time{}, {milliseconds(10), {}, overrun}, {}, [&](const Tick& tick) {
@@ -120,7 +120,7 @@ TEST(Periodic, TicksAreExactMultiplesAndNoneIsLeftOut) {
   std::vector<Time> ticks;
   run_periodic(clock, start, {milliseconds(10)}, {}, [&](const Tick& tick) {
     ticks.push_back(tick.time);
-    // One tick takes longer than five periods: those behind it follow at once.
+    // One tick takes longer than five periods: those after it follow at once.
     if (ticks.size() == 3) std::this_thread::sleep_for(milliseconds(6));
     return ticks.size() < 20;
   });

@@ -1,4 +1,4 @@
-// What a process of other rights would be told: run in a child that gives its own up.
+// This file runs a function in a child process that gives up its privileges.
 #pragma once
 
 #include <grp.h>
@@ -23,14 +23,16 @@
 
 namespace maploop::runtime {
 
-// Limits of an ordinary user; hard ones, so that they hold for root without capabilities too.
+// These are the limits of an ordinary user; they are hard ones, so that they also hold for root
+// without capabilities.
 struct ChildLimits {
   rlim_t rtprio = 0;
   rlim_t nice = 0;
   rlim_t memlock = 64 * 1024;
 };
 
-// What `body` returns in a child process, or "child failed". The child does not outlive the call.
+// Returns the result of `body` in a child process, or "child failed". The child does not outlive
+// the call.
 inline std::string in_child(const std::function<std::string()>& body) {
   int ends[2];
   if (pipe(ends) != 0) return "no pipe";
@@ -52,8 +54,8 @@ inline std::string in_child(const std::function<std::string()>& body) {
   return text;
 }
 
-// The same as user and group 65534 (nobody) without capabilities; as the present user where that is
-// an ordinary one.
+// Does the same as user and group 65534 (nobody) without capabilities, or as the present user if
+// that is an ordinary one.
 inline std::string as_ordinary_user(const ChildLimits& limits,
                                     const std::function<std::string()>& body) {
   return in_child([&]() -> std::string {
@@ -77,7 +79,7 @@ inline std::string as_ordinary_user(const ChildLimits& limits,
 
 }  // namespace maploop::runtime
 
-// Skips where this machine does not let the test become an ordinary user with those limits.
+// Skips if this machine does not let the test become an ordinary user with those limits.
 #define MAPLOOP_REQUIRE_ORDINARY_USER(limits)                                                   \
   if (const std::string dropped = as_ordinary_user(limits, [] { return std::string("done"); }); \
       dropped != "done")                                                                        \

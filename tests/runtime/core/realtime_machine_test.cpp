@@ -1,4 +1,4 @@
-// Made-up machines.
+// These tests use made-up machines.
 #include "runtime/core/realtime_machine.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ RealtimeSetting item(const MachineText& machine, std::string_view name) {
   return found != nullptr ? *found : RealtimeSetting{};
 }
 
-// A vehicle's computer, set up as well as can be.
+// Returns a vehicle's computer with the best possible settings.
 MachineText vehicle_computer() {
   MachineText machine;
   machine.version = "Linux version 6.1.0-18-rt-amd64 (debian) #1 SMP PREEMPT_RT Debian 6.1.76-1";

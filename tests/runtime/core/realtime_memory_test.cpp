@@ -16,7 +16,7 @@
 #include "runtime/core/thread.h"
 #include "tests/runtime/core/realtime_child.h"
 
-// The sanitizers have a malloc and an mlockall of their own.
+// The sanitizers replace malloc and mlockall.
 #define MAPLOOP_REQUIRE_PLAIN_BUILD() \
   if (MAPLOOP_SANITIZED)              \
   GTEST_SKIP() << "SKIPPED, NOT TESTED: a sanitizer replaces the memory calls"
@@ -45,7 +45,7 @@ TEST(RealtimeMemory, TheHeapIsMappedAndKept) {
               const auto settings =
                   prepare_memory({.lock_memory = false, .heap_mb = 32, .malloc_arenas = 1}, {});
               if (settings.size() != 1) return std::string("one item expected");
-              // Buffers that come and go afterwards find their pages there, on other threads too.
+              // Buffers allocated and freed afterwards use these pages, on other threads too.
               long faults = 0;
               std::thread([&faults] {
                 constexpr std::size_t kImage = 4 << 20;
@@ -121,7 +121,7 @@ TEST(RealtimeMemory, AnOrdinaryUserWithASmallLimitIsRefusedAndMayStillAllocate) 
 TEST(RealtimeMemory, WithALimitThatSufficesNowWhatComesIsNotLocked) {
   MAPLOOP_REQUIRE_ROOT();
   MAPLOOP_REQUIRE_PLAIN_BUILD();
-  Privileges limited;  // as an ordinary user's; the kernel itself would let root go further
+  Privileges limited;  // as an ordinary user's; the kernel itself would allow root more
   limited.memlock = std::uint64_t{1} << 30;
   EXPECT_EQ(
       in_child([&limited] {

@@ -47,7 +47,7 @@ Scheduling deadline(Duration runtime, Duration deadline, Duration period) {
   return scheduling;
 }
 
-// On a thread of its own, which alone is changed.
+// Applies the scheduling to a separate thread, so that no other is changed.
 std::vector<RealtimeSetting> applied(const Scheduling& scheduling) {
   Thread thread(
       "thread", scheduling, {}, [](const std::stop_token&) {}, [] {});
@@ -55,7 +55,7 @@ std::vector<RealtimeSetting> applied(const Scheduling& scheduling) {
   return thread.settings();
 }
 
-// "verdict|asked|granted|reason|remedy" of the first item.
+// Returns "verdict|asked|granted|reason|remedy" of the first item.
 std::string first_item(const Scheduling& scheduling) {
   const RealtimeSetting s = applied(scheduling).at(0);
   return std::string(to_string(s.verdict)) + '|' + s.asked + '|' + s.granted + '|' + s.reason +
@@ -98,8 +98,8 @@ TEST(RealtimeScheduling, TheKernelItselfSaysFifo) {
   EXPECT_EQ(parameters.sched_priority, 42);
 }
 
-// All of deadline scheduling in one test: its last part leaves nothing for others that run
-// meanwhile.
+// All of deadline scheduling is in one test, because its last part leaves nothing for other tests
+// that run meanwhile.
 TEST(RealtimeScheduling, DeadlineIsGrantedMayStartThreadsAndIsRefusedWhenTheCpusAreFull) {
   MAPLOOP_REQUIRE_ROOT();
   if (!read_privileges().sys_nice) GTEST_SKIP() << "SKIPPED, NOT TESTED: root without CAP_SYS_NICE";
@@ -114,7 +114,7 @@ TEST(RealtimeScheduling, DeadlineIsGrantedMayStartThreadsAndIsRefusedWhenTheCpus
   EXPECT_EQ(outer.failure(), "");
   EXPECT_EQ(inner.substr(0, 8), "granted|");
 
-  // Many threads that want a whole CPU each: more than any machine can promise.
+  // Many threads request a whole CPU each: more than any machine can promise.
   std::string last;
   const std::function<void(int)> nested = [&](int left) {
     Thread thread(
@@ -264,7 +264,7 @@ TEST(RealtimeScheduling, AThreadSaysWhatItWasRefused) {
                 cpu + '/' + cpu + " granted; ");
 }
 
-// What this machine cannot be made to say.
+// This machine cannot be made to return these errors.
 TEST(RealtimeScheduling, RefusalsOfOtherMachinesAreExplained) {
   Privileges root;
   root.sys_nice = true;

@@ -12,8 +12,8 @@
 namespace maploop::runtime {
 namespace {
 
-// Sends 0, 1, 2, ... through `ring`, each side stumbling now and then so that the ring is met full,
-// empty and in between; the consumer checks that nothing is lost, torn, doubled or out of order.
+// Sends 0, 1, 2, ... through `ring`. Each side pauses now and then, so that the ring is full, empty
+// and in between; the consumer checks that nothing is lost, torn, doubled or out of order.
 template <typename T, typename Fill, typename Value>
 void send_and_check(Ring<T>& ring, std::uint64_t items, Fill fill, Value value_of) {
   std::thread producer([&] {
@@ -83,8 +83,8 @@ TEST(RingConcurrent, BuffersSwapInAndOut) {
       [](const Buffer& item) { return item.size() == 64 ? item.back() : ~std::uint64_t{0}; });
 }
 
-// One item at a time to and fro: an item must be visible although nothing follows it, and a freed
-// slot although nothing else is freed.
+// One item at a time goes to and fro: an item must be visible although no other follows it, and so
+// must a freed slot although no other is freed.
 TEST(RingConcurrent, PingPongNeedsNoFurtherCall) {
   for (std::size_t capacity : {1u, 64u, 1000u}) {
     Ring<int> there(capacity), back(capacity);

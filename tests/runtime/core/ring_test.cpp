@@ -44,7 +44,7 @@ TEST(Ring, RefusesExactlyAtCapacityWhereShort) {
   }
 }
 
-// Slots go back in batches there; the promise is that no item is refused below capacity.
+// Slots are given back in batches there; the promise is that no item is refused below capacity.
 TEST(Ring, NeverRefusesBelowCapacityWhereBatched) {
   for (std::size_t capacity : {64u, 100u, 1000u, 5000u}) {
     Ring<std::uint32_t> ring(capacity);
@@ -209,7 +209,8 @@ TEST(Ring, CapacityBeyondMemoryIsRefused) {
   EXPECT_THROW(Ring<char>{kMost}, std::length_error) << "also where a batch on top would wrap";
 }
 
-// A type whose constructor leaves its bytes alone: only the ring itself can have mapped them.
+// The constructor of this type does not write its bytes, so only the ring itself can have mapped
+// them.
 struct Untouched {
   Untouched() {}
   std::array<char, 4096> bytes;

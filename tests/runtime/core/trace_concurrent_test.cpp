@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-// The spans of one thread form a tree: each lies within the one it started in.
+// Checks that the spans of one thread form a tree: each lies within the one in which it started.
 void expect_nested(const TraceDocument& trace) {
   std::map<int, std::vector<std::int64_t>> open;  // ends of the open spans, by thread
   for (const json& span : trace.events("X")) {
@@ -99,7 +99,7 @@ TEST(TraceConcurrent, EveryFlowThroughARingPointsForward) {
       span.end_flow({"camera", sample});
     }
   });
-  // Meanwhile: what has arrived has also left.
+  // Every flow that has arrived in a trace written meanwhile has also left.
   for (int i = 0; i < 3; ++i) {
     const TraceDocument trace(tracer);
     EXPECT_GE(trace.events("s").size(), trace.events("f").size());

@@ -1,4 +1,4 @@
-// A written trace, read back by another library.
+// This file reads a written trace back with another library.
 #pragma once
 
 #include <cmath>
@@ -27,7 +27,7 @@ class TraceDocument {
   const nlohmann::json& json() const { return json_; }
   const nlohmann::json& other() const { return json_.at("otherData"); }
 
-  // Events of a phase ("X", "i", ...) in the file's order.
+  // Returns the events of a phase ("X", "i", ...) in the file's order.
   std::vector<nlohmann::json> events(std::string_view phase) const {
     std::vector<nlohmann::json> found;
     for (const auto& event : json_.at("traceEvents")) {
@@ -36,7 +36,7 @@ class TraceDocument {
     return found;
   }
 
-  // The only event of that name.
+  // Returns the only event of that name.
   nlohmann::json event(std::string_view name) const {
     std::vector<nlohmann::json> found;
     for (const auto& event : json_.at("traceEvents")) {
@@ -49,7 +49,7 @@ class TraceDocument {
   nlohmann::json json_;
 };
 
-// In nanoseconds, exact: the file has three decimals of a microsecond.
+// These are in nanoseconds and exact, because the file has three decimals of a microsecond.
 inline std::int64_t start_of(const nlohmann::json& event) {
   return std::llround(event.at("ts").get<double>() * 1000.0);
 }

@@ -17,7 +17,8 @@ void* counted(std::size_t bytes, std::size_t alignment) {
   throw std::bad_alloc();
 }
 
-// Not inlined: the compiler would take the free for a mistake, not seeing the allocation.
+// This is not inlined, because the compiler does not see the allocation and would warn about the
+// free.
 [[gnu::noinline]] void release(void* memory) {
   std::free(memory);
 }

@@ -62,7 +62,7 @@ TEST_F(WholeFileTest, ADeviceIsWrittenAsItIs) {
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }
 
-// As /dev/stdout is where a shell reads what a command writes.
+// This is the case of /dev/stdout when a shell reads what a command writes.
 TEST_F(WholeFileTest, APipeIsWrittenThroughItsName) {
   std::array<int, 2> ends{};
   ASSERT_EQ(pipe(ends.data()), 0);

@@ -18,7 +18,7 @@ StereoRig kitti_rig() {
   return parse_kitti_rig(read_calibration_text(file), file);
 }
 
-// Grey waves that differ everywhere.
+// Returns grey waves that differ everywhere.
 GreyImage waves(int width, int height) {
   GreyImage image;
   image.resize(width, height);
@@ -99,8 +99,8 @@ TEST(CameraModel, RaysAndPixelsAreInverseAndAgreeWithOpenCV) {
   EXPECT_FALSE(project(camera, {5.0, 0.0})) << "far outside, where the polynomial turns back";
 }
 
-// Five coefficients reverse those of an ordinary lens to a few tenths of a pixel, not those of
-// KITTI's wide lenses at the corners of the image; the error says so.
+// Five coefficients reverse those of an ordinary lens to a few tenths of a pixel, but not those of
+// KITTI's wide lenses at the corners of the image; the reported error shows this.
 TEST(CameraModel, CoefficientsOfTheOtherDirectionUndistort) {
   const CameraModel camera{700.0, 702.0, 611.0, 180.0, {-0.15, 0.04, 0.0005, -0.0003, -0.002}};
   const ReversedDistortion back = reversed(camera, 1242, 375);

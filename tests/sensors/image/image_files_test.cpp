@@ -1,4 +1,4 @@
-// Images in files, against OpenCV's own readers and writers.
+// These tests compare images in files with OpenCV's own readers and writers.
 #include <gtest/gtest.h>
 #include <zlib.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int width = 67, height = 41;
 
-// A smooth picture of any of OpenCV's types.
+// Returns a smooth picture of any of OpenCV's types.
 cv::Mat picture(int type) {
   cv::Mat made(height, width, CV_MAKETYPE(CV_8U, CV_MAT_CN(type)));
   std::mt19937 random(7);
@@ -39,7 +39,7 @@ std::vector<std::uint8_t> pixels_of(const cv::Mat& image) {
   return {image.data, image.data + image.total() * image.elemSize()};
 }
 
-// The largest difference of grey values.
+// Returns the largest difference of grey values.
 double difference(const GreyImage& image, const cv::Mat& other) {
   EXPECT_EQ(image.width, other.cols);
   EXPECT_EQ(image.height, other.rows);

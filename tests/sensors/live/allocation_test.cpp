@@ -1,4 +1,4 @@
-// Once they run, what live sensors send is decoded without a single allocation.
+// These tests check that decoding the data of running live sensors does not allocate.
 #include <gtest/gtest.h>
 
 #include <cmath>

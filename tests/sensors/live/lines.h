@@ -1,4 +1,5 @@
-// What sensors are connected with, on this host: datagrams on the loopback, pseudo-terminals.
+// This file provides connections to sensors on this host: datagrams on the loopback,
+// pseudo-terminals.
 #pragma once
 
 #include <arpa/inet.h>
@@ -36,7 +37,7 @@ inline std::uint16_t port_of(int fd) {
   return ntohs(address.sin_port);
 }
 
-// A port that nobody listens on.
+// Returns a port on which no program listens.
 inline std::uint16_t free_port() {
   const int fd = socket(AF_INET, SOCK_DGRAM, 0);
   const sockaddr_in any = loopback(0);
@@ -59,7 +60,7 @@ class UdpSender {
   sockaddr_in to_;
 };
 
-// A serial line whose device has a name that stays, as udev gives it.
+// This is a serial line whose device has a stable name, as udev gives it.
 class PseudoTerminal {
  public:
   explicit PseudoTerminal(std::filesystem::path name) : name_(std::move(name)) {
@@ -78,7 +79,7 @@ class PseudoTerminal {
   int fd_ = posix_openpt(O_RDWR | O_NOCTTY);
 };
 
-// A host that is connected to, by one peer at a time.
+// This is a server to which one peer at a time connects.
 class TcpServer {
  public:
   TcpServer() {
@@ -91,7 +92,7 @@ class TcpServer {
     close(fd_);
   }
   std::uint16_t port() const { return port_of(fd_); }
-  // Waits for the next peer, 10 s at most.
+  // Waits for the next peer, at most 10 s.
   bool answer() {
     hang_up();
     pollfd waiting{fd_, POLLIN, 0};
@@ -110,7 +111,7 @@ class TcpServer {
     }
     return true;
   }
-  // What the peer says up to `end`, or within 10 s.
+  // Returns what the peer sends up to `end`, or within 10 s.
   std::string receive_until(std::string_view end) const {
     std::string heard;
     char c = 0;

@@ -1,4 +1,4 @@
-// What live sensors send, and their clocks.
+// These tests decode what live sensors send, and check their clocks.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,8 +22,8 @@ using std::chrono::seconds;
 
 const Time begin = parse_time("2026-03-01 10:00:00");
 
-// The largest error of the mapping after `from` s, with a clock that runs `ppm` slow and delays of
-// at least 1 ms, mostly 2 ms, now and then 40.
+// Returns the largest error of the mapping after `from` s, with a clock that runs `ppm` slow and
+// delays of at least 1 ms, mostly 2 ms, sometimes 40 ms.
 double worst_error(double ppm, double from) {
   ClockOffset clock;
   std::mt19937 random(7);
@@ -46,7 +46,7 @@ TEST(ClockOffset, FindsOffsetAndDriftUnderTheDelays) {
   EXPECT_LT(worst_error(0.0, 40.0), 100e-6);
   EXPECT_LT(worst_error(50.0, 40.0), 150e-6);
   EXPECT_LT(worst_error(-80.0, 40.0), 150e-6);
-  EXPECT_LT(worst_error(50.0, 1.0), 600e-6);  // before the drift shows
+  EXPECT_LT(worst_error(50.0, 1.0), 600e-6);  // before the drift is estimated
 }
 
 TEST(ClockOffset, StartsAnewAfterAJumpAndNotAfterAHiccup) {
@@ -55,7 +55,7 @@ TEST(ClockOffset, StartsAnewAfterAJumpAndNotAfterAHiccup) {
     return clock.add(from_seconds(device), begin + from_seconds(host));
   };
   for (int i = 0; i < 200; ++i) EXPECT_FALSE(add(0.01 * i, 0.01 * i + 0.002));
-  for (int i = 0; i < 80; ++i) EXPECT_FALSE(add(2.0 + 0.01 * i, 2.8));  // held up, then all at once
+  for (int i = 0; i < 80; ++i) EXPECT_FALSE(add(2.0 + 0.01 * i, 2.8));  // delayed, then all at once
   for (int i = 0; i < 200; ++i) EXPECT_FALSE(add(2.8 + 0.01 * i, 2.802 + 0.01 * i));
   EXPECT_NEAR(to_seconds(clock.to_host(from_seconds(4.0)) - begin), 4.002, 1e-6);
   EXPECT_TRUE(add(100.0, 5.0));  // the sensor's clock was set ahead
@@ -170,12 +170,12 @@ TEST(NmeaFixes, JoinsTheSentencesOfAnEpoch) {
   EXPECT_NEAR(std::sqrt(fix.position_covariance(1, 1)), 0.02, 1e-12);
   EXPECT_NEAR(fix.velocity_enu.x(), -10.0, 1e-3);
   EXPECT_EQ(fix.sequence, 0U);
-  // Of different epochs: no fix. Then without a GST of its own.
+  // A sentence pair of different epochs gives no fix. Then follows an epoch without its own GST.
   EXPECT_FALSE(add("GNRMC,100001.00" + rmc));
   EXPECT_FALSE(add("GNGGA,100002.00" + gga));
   EXPECT_TRUE(add("GNRMC,100002.00" + rmc));
   EXPECT_NEAR(std::sqrt(fix.position_covariance(0, 0)), 0.03 * 0.8, 1e-12);
-  // Without a fix, a repetition, dead reckoning.
+  // These have no fix, repeat an epoch, or are dead reckoning.
   EXPECT_FALSE(add("GNGGA,100003.00,,,,,0,00,99.9,,,,,,"));
   EXPECT_FALSE(add("GNRMC,100003.00,V,,,,,,,010326,,,N"));
   EXPECT_FALSE(add("GNGGA,100002.00" + gga));

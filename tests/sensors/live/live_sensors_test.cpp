@@ -1,5 +1,5 @@
-// Sensors on loopback sockets and pseudo-terminals: connected, unplugged, connected again, and
-// hostile.
+// These tests connect sensors over loopback sockets and pseudo-terminals, unplug and reconnect
+// them, and send hostile data.
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <netinet/tcp.h>
@@ -95,7 +95,7 @@ TEST(LiveNmea, SurvivesUnpluggingOfASerialLine) {
   const auto device = folder.path() / "gnss";
   const auto gnss = listen_to_nmea(parse_endpoint("serial://" + device.string()), {}, clock);
   GnssFix fix;
-  EXPECT_FALSE(gnss->wait(fix, milliseconds(5)));  // not there yet
+  EXPECT_FALSE(gnss->wait(fix, milliseconds(5)));  // not connected yet
   EXPECT_NE(gnss->report().connection.problem.find("is it plugged in?"), std::string::npos);
   Time last{};
   for (int plugged = 0; plugged < 3; ++plugged) {
@@ -167,7 +167,7 @@ TEST(LiveNmea, NoticesAPeerThatIsGoneWithoutAWord) {
       parse_endpoint("tcp://127.0.0.1:" + std::to_string(port_of(server))), {}, clock);
   ASSERT_TRUE(wait_until_open(*gnss, true)) << gnss->report().connection.problem;
   const int peer = accept(server, nullptr, nullptr);
-  // As a machine that loses its power: a socket that is closed in this mode sends nothing.
+  // This simulates a machine that loses its power: a socket closed in this mode sends nothing.
   const int on = 1;
   const bool silenced = setsockopt(peer, IPPROTO_TCP, TCP_REPAIR, &on, sizeof on) == 0;
   close(peer);
@@ -185,7 +185,7 @@ TEST(LiveNcom, StampsByTheUnitsClock) {
   const UdpSender sender(port);
   std::vector<ImuSample> samples;
   for (int i = 0; i < 5; ++i) {
-    // Over the end of the minute; all at once, as after a hiccup of the network.
+    // These cross the end of the minute and come all at once, as after a network interruption.
     const auto ms = static_cast<std::uint16_t>((59'980 + 10 * i) % 60'000);
     sender.send(ncom_packet(ms, 1.5, -0.25, 0.125));
   }
@@ -226,7 +226,7 @@ TEST(LiveImuLines, AreStampedByTheUnitsClockOverASerialLine) {
   ImuSample sample;
   Time last{};
   for (int i = 0; i < 5; ++i) {
-    // The third is held up on its way.
+    // The third line is delayed in transit.
     if (i == 3) usleep(50'000);
     line.send(imu_line({milliseconds(1000 + 10 * i), 1.5, -0.25, 0.125}));
     ASSERT_TRUE(wait_for(*imu, sample));
@@ -260,7 +260,7 @@ TEST(LiveVelodyne, MakesScansOfDatagrams) {
   for (int i = 0; i < 300; ++i) {
     const auto us = static_cast<std::uint32_t>(1327.104 * i);
     sender.send(data_packet(std::fmod(477.757 * i, 36000.0), 39.8, us));
-    if (i % 10 == 0) sender.send(std::vector<std::uint8_t>(1248, 0xff));  // somebody else's
+    if (i % 10 == 0) sender.send(std::vector<std::uint8_t>(1248, 0xff));  // from another program
     usleep(1327);
     if (!velodyne->wait(scan, Duration::zero())) continue;
     ++scans;
@@ -301,7 +301,7 @@ TEST(LiveSensors, AFloodOfGarbageNeitherHoldsThemNorFillsMemory) {
   }
   while (imu->wait(sample, milliseconds(5)) || imu->report().refused < 10) {
   }
-  // And then they go on.
+  // Afterwards the unit's packets are accepted again.
   for (int i = 0; i < 200 && imu->report().delivered == 0; ++i) {
     sender.send(ncom_packet(static_cast<std::uint16_t>(1000 + 10 * i), 0, 0, 0));
     imu->wait(sample, milliseconds(20));

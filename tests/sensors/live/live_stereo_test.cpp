@@ -1,4 +1,5 @@
-// Cameras as GStreamer pipelines: test pictures, recorded pictures, missing, ended and wrong ones.
+// These tests use cameras as GStreamer pipelines: test pictures, recorded pictures, missing, ended
+// and wrong ones.
 #include <gtest/gtest.h>
 
 #include <stdexcept>
@@ -146,7 +147,7 @@ TEST(LiveStereo, RecordedPicturesComeThroughAsTheyAre) {
   ASSERT_TRUE(source->next(file));
   for (int i = 0; i < 5; ++i) {
     ASSERT_TRUE(wait_for(*cameras, live));
-    // The pipelines begin one after the other: a first image may be without its partner.
+    // The pipelines start one after the other, so a first image may lack its partner.
     while (live.left.pixels != file.left.pixels) ASSERT_TRUE(source->next(file));
     EXPECT_EQ(live.right.pixels, file.right.pixels);
   }

@@ -1,4 +1,4 @@
-// NTRIP: what is asked, what casters of both versions answer, and RTKLIB's caster.
+// These tests check NTRIP requests, the replies of casters of both versions, and RTKLIB's caster.
 #include "sensors/live/ntrip_client.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ std::span<const std::uint8_t> as_bytes(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-// Pushed in pieces, taken in pieces of 5.
+// Feeds the text in pieces, and takes the stream in pieces of 5 bytes.
 std::string taken(NtripReply& reply, const std::string& text, std::size_t piece) {
   std::string all;
   std::array<std::uint8_t, 5> to{};
@@ -117,7 +117,7 @@ TEST(Ntrip, Addresses) {
   }
 }
 
-// Reads until `text` has come; what came.
+// Reads until `text` has come; returns what came.
 std::string read_until(ByteStream& stream, const std::string& text, Duration most = seconds(15)) {
   std::string heard;
   std::array<std::uint8_t, 64> to{};
@@ -130,7 +130,7 @@ std::string read_until(ByteStream& stream, const std::string& text, Duration mos
   return heard;
 }
 
-// Until it gives up for a reason that holds `text`; the reason.
+// Reads until the client gives up for a reason that contains `text`; returns the reason.
 std::string wait_for_problem(ByteStream& stream, const std::string& text) {
   std::array<std::uint8_t, 64> to{};
   for (int i = 0; i < 500 && stream.state().problem.find(text) == std::string::npos; ++i)
@@ -138,7 +138,7 @@ std::string wait_for_problem(ByteStream& stream, const std::string& text) {
   return stream.state().problem;
 }
 
-// It takes 16 s because the client sends its position again after 10 s.
+// The test takes 16 s because the client sends its position again after 10 s.
 TEST(NtripClient, AsksAgainAfterARefusalAndAfterTheEndOfTheStream) {
   TcpServer server;
   std::vector<std::string> requests;
@@ -183,7 +183,8 @@ TEST(NtripClient, SaysThatNobodyAnswersAndThatANameIsNone) {
   EXPECT_THROW(open_stream("ntrip://host"), std::invalid_argument);
 }
 
-// OpenSSL's own server, as a caster of one mountpoint M, with a certificate made for the test.
+// This is OpenSSL's own server as a caster of one mountpoint M, with a certificate made for the
+// test.
 class TlsCaster : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -193,7 +194,7 @@ class TlsCaster : public ::testing::Test {
   }
   void TearDown() override { unsetenv("SSL_CERT_FILE"); }
 
-  // Vouched for by itself alone. `names`: such as DNS:localhost,IP:127.0.0.1
+  // The certificate is self-signed. `names` is a text such as DNS:localhost,IP:127.0.0.1.
   void begin(const std::string& names) {
     ASSERT_EQ(testing::run({"openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt",
                             "ec_paramgen_curve:prime256v1", "-nodes", "-keyout", file("key.pem"),
@@ -264,7 +265,7 @@ TEST(NtripClient, SaysThatACasterSpeaksNoTls) {
       << stream->state().problem;
 }
 
-// RTKLIB's str2str as the caster of what it is sent.
+// RTKLIB's str2str acts as the caster and forwards what it receives.
 TEST(NtripClient, ReadsFromRtklibsCaster) {
   if (!std::filesystem::exists("/usr/bin/str2str"))
     GTEST_SKIP() << "SKIPPED, NOT TESTED: no str2str; it is in Debian's package rtklib";

@@ -1,4 +1,4 @@
-// What is sent as a camera's images carries the moments that they were due.
+// This test checks that sent camera images carry the moments at which they were due.
 #include "sensors/live/video_sender.h"
 
 #include <arpa/inet.h>
@@ -19,7 +19,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// Datagrams at a free port of the loopback.
+// Receives datagrams at a free port of the loopback.
 class Receiver {
  public:
   Receiver() : socket_(::socket(AF_INET, SOCK_DGRAM, 0)) {
@@ -38,13 +38,14 @@ class Receiver {
   bool bound() const { return bound_; }
   int port() const { return port_; }
 
-  // The RTP time of the next packet that ends an image, 90 000 a second; nothing within 10 s.
+  // Returns the RTP time of the next packet that ends an image, 90 000 a second; nothing within 10
+  // s.
   std::optional<std::uint32_t> next_image() {
     std::array<std::uint8_t, 65536> packet{};
     pollfd ready{socket_, POLLIN, 0};
     while (::poll(&ready, 1, 10'000) > 0) {
       const auto size = ::recv(socket_, packet.data(), packet.size(), 0);
-      // Shorter packets are events and the format.
+      // Shorter packets contain events and the format.
       constexpr int header = 12, pixels = 2 * 32 * 16;
       const bool ends_image = size > header + pixels && (packet[1] & 0x80) != 0;
       if (!ends_image) continue;

@@ -1,4 +1,4 @@
-// An Xsens unit: made messages, and a pseudo-terminal for its serial line.
+// These tests decode an Xsens unit: made messages, and a pseudo-terminal for its serial line.
 #include "sensors/imu/xsens.h"
 
 #include <gtest/gtest.h>

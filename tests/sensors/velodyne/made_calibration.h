@@ -1,4 +1,5 @@
-// A calibration file as Velodyne ships it, with values like those of a real HDL-64E.
+// This file makes a calibration file as Velodyne ships it, with values like those of a real
+// HDL-64E.
 #pragma once
 
 #include <filesystem>

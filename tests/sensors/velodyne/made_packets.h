@@ -1,4 +1,4 @@
-// Packets of a scanner that stands in a round room.
+// This file makes the packets of a scanner that stands in a round room.
 #pragma once
 
 #include <array>
@@ -19,7 +19,8 @@ inline void put(std::span<std::uint8_t> bytes, std::size_t at, std::uint64_t val
   for (std::size_t i = 0; i < size; ++i) bytes[at + i] = static_cast<std::uint8_t>(value >> 8 * i);
 }
 
-// Blocks `step` hundredths of a degree apart from `azimuth` on, every return at `range` (2 mm).
+// Makes blocks `step` hundredths of a degree apart from `azimuth` on, with every return at `range`
+// (2 mm).
 inline DataBytes data_packet(double azimuth, double step, std::uint32_t device_time,
                              std::uint16_t range = 5000, std::uint8_t mode = 0x37,
                              std::uint8_t product = 0x22) {

@@ -1,4 +1,4 @@
-// A recorded turn as packets, and back.
+// These tests encode a recorded turn as packets, and decode it again.
 #include "sensors/velodyne/packet_encoder.h"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ TEST(PacketEncoder, RefusesPointsInAnotherOrder) {
   EXPECT_FALSE(fit_lasers({}));
 }
 
-// Two turns of the same points; the second one, decoded, has them where they were.
+// Two turns of the same points are encoded; the second one, decoded, has them at their old places.
 TEST(PacketEncoder, IsTheDecoderTheOtherWayRound) {
   MAPLOOP_REQUIRE_DRIVE();
   LidarScan scan = recorded_scan();
@@ -80,12 +80,13 @@ TEST(PacketEncoder, IsTheDecoderTheOtherWayRound) {
   }
   EXPECT_EQ(decoder.counts().lost, 0u);
   EXPECT_EQ(decoder.counts().late, 0u);
-  ASSERT_EQ(turns, 2);  // the first one was begun midway, the last one is not ended
+  ASSERT_EQ(turns, 2);  // the first one began midway, the last one is not ended
   EXPECT_NEAR(to_seconds(decoded.start - (before_the_hour + 2 * lasts)), 0.0, 1e-3);
   EXPECT_NEAR(to_seconds(decoded.stamp - decoded.start), 0.0517, 1e-3);
   EXPECT_NEAR(static_cast<double>(decoded.points.size()), static_cast<double>(turn.points), 100.0);
 
-  // The same sums, and each point near one that was: by distance, height and a grid of azimuths.
+  // The sums are the same, and each decoded point is near an original one by distance, height and a
+  // grid of azimuths.
   const auto cell = [](const LidarPoint& p) {
     const double azimuth = std::atan2(p.y, p.x);
     return std::tuple(std::lround(azimuth / radians(0.2)), std::lround(std::hypot(p.x, p.y) / 0.02),

@@ -14,8 +14,8 @@ using Cloud = pcl::PointCloud<pcl::PointXYZI>;
 
 void decode_packet(pcl::HDLGrabber& grabber, void* packet);
 
-// PCL decodes packets on threads and sockets of its own alone; the function that does it is
-// private, which an explicit instantiation may name.
+// PCL decodes packets only on its own threads and sockets; the function that does it is private,
+// but an explicit instantiation may name it.
 template <auto member>
 struct Opened {
   template <class Packet>
@@ -29,7 +29,7 @@ struct Opened {
 };
 template struct Opened<&pcl::HDLGrabber::toPointClouds>;
 
-// With a look at the points of the turn so far.
+// Gives access to the points of the current turn.
 template <class Base>
 struct Watched final : Base {
   using Base::Base;
@@ -48,7 +48,7 @@ struct PclPackets::Grabber {
     const std::function<void(const Cloud::ConstPtr&)> sweep =
         [g = grabber.get()](const Cloud::ConstPtr& cloud) { g->done.push_back(cloud); };
     grabber->pcl->registerCallback(sweep);
-    // Otherwise what nothing came back from is a point.
+    // Otherwise PCL makes points of missing returns.
     float nearest = 1e-3F;  // m
     grabber->pcl->setMinimumDistanceThreshold(nearest);
     return grabber;
@@ -56,7 +56,7 @@ struct PclPackets::Grabber {
 
   std::function<const Cloud&()> turn;
   std::unique_ptr<pcl::HDLGrabber> pcl;
-  std::vector<Cloud::ConstPtr> done;  // turns that ended in the packet at hand
+  std::vector<Cloud::ConstPtr> done;  // turns that ended in the current packet
 };
 
 PclPackets::PclPackets(std::unique_ptr<Grabber> grabber) : grabber_(std::move(grabber)) {}

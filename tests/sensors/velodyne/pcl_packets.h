@@ -1,4 +1,4 @@
-// PCL's decoding of Velodyne packets.
+// This file decodes Velodyne packets with PCL.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@ class PclPackets {
   ~PclPackets();
   PclPackets(PclPackets&&) noexcept;
 
-  // The points of one packet in PCL's order, in our axes; reflectance 0..255.
+  // Returns the points of one packet in PCL's order, in our axes; reflectance 0..255.
   std::vector<LidarPoint> decode(std::span<const std::uint8_t> packet);
 
  private:

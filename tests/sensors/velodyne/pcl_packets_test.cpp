@@ -1,4 +1,4 @@
-// Point by point against PCL, on real packets.
+// These tests compare real packets with PCL, point by point.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -58,7 +58,7 @@ Difference compare(PacketDecoder decoder, PclPackets pcl, const std::filesystem:
   return worst;
 }
 
-// PCL gives all lasers of a firing sequence one azimuth, and has none of the vertical offsets.
+// PCL gives all lasers of a firing sequence one azimuth, and ignores the vertical offsets.
 TEST(PclPackets, Vlp16DiffersByTheTurnWithinASequence) {
   MAPLOOP_REQUIRE_REAL_DATA();
   std::vector<Laser> lasers = factory_lasers(VelodyneModel::vlp16);
@@ -68,14 +68,15 @@ TEST(PclPackets, Vlp16DiffersByTheTurnWithinASequence) {
   EXPECT_GT(d.points, 50'000U);
   EXPECT_LT(d.range, 1e-4);
   EXPECT_LT(d.elevation, 1e-3);
-  // PCL cuts azimuths to hundredths of a degree, and takes the turn between the two sequences of
-  // every block from the packet's first, where the encoder's steps differ by as much again.
+  // PCL rounds azimuths down to hundredths of a degree, and computes the turn between the two
+  // sequences of every block from the packet's first block, where the encoder's steps differ by as
+  // much again.
   constexpr double cut = 0.03, within_sequence = 0.2 * 15 * 2.304 / 55.296;
   EXPECT_GT(d.least_turn, -cut);
   EXPECT_LT(d.most_turn, within_sequence + cut);
 }
 
-// By the manual a laser's vertical offset is across its beam; PCL adds it straight up.
+// By the manual, a laser's vertical offset is perpendicular to its beam; PCL adds it straight up.
 TEST(PclPackets, Hdl64eIsTheSameButForTheDirectionOfTheVerticalOffset) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const testing::TemporaryFolder folder;
@@ -93,7 +94,7 @@ TEST(PclPackets, Hdl64eIsTheSameButForTheDirectionOfTheVerticalOffset) {
   EXPECT_LT(d.position, 1e-4);
 }
 
-// There is no capture of one: packets of a standing scanner.
+// No capture of one is available, so the packets are those of a made, standing scanner.
 TEST(PclPackets, Hdl32eIsTheSame) {
   PacketDecoder decoder(VelodyneModel::hdl32e, factory_lasers(VelodyneModel::hdl32e));
   PclPackets pcl = PclPackets::hdl32e();

@@ -1,4 +1,5 @@
-// Real packets: a VLP-16 on a moving car, a standing HDL-64E, a VLP-16's inside an LCM log.
+// These tests read real packets: a VLP-16 on a moving car, a standing HDL-64E, a VLP-16's inside an
+// LCM log.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,7 +40,8 @@ TEST(VelodyneCapture, Vlp16OnAMovingCar) {
     EXPECT_GT(scan.points.size(), 15'000U);
   }
   EXPECT_EQ(scans[1].start, scans[0].end);
-  // The receiver's $GPRMC is of 21:41:06 and its clock 1.1 s on; the capturing host's is behind.
+  // The receiver's $GPRMC is of 21:41:06 and its clock is 1.1 s later; the capturing host's is
+  // behind.
   const auto offset = capture.decoder().clock().gps_offset();
   ASSERT_TRUE(offset);
   EXPECT_NEAR(to_seconds(*offset), 1.406, 0.005);
@@ -51,18 +53,18 @@ TEST(VelodyneCapture, Hdl64eWithoutAClockIsStampedByArrival) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const testing::TemporaryFolder folder;
   const auto file = testing::real_data() / "velodyne/hdl64e_static.pcap";
-  EXPECT_THROW(VelodyneCapture(file, {}), std::invalid_argument);  // it has its own lasers
+  EXPECT_THROW(VelodyneCapture(file, {}), std::invalid_argument);  // each unit has its own lasers
   write_calibration(folder.path() / "db.xml");
   VelodyneCapture capture(file, {{}, folder.path() / "db.xml"});
   EXPECT_EQ(capture.model(), VelodyneModel::hdl64e);
   const auto scans = scans_of(capture);
   EXPECT_EQ(capture.decoder().counts().data, 306U);
   EXPECT_FALSE(capture.decoder().clock().has_device_time());
-  // 0.12 s begin at 303 degrees: from the rear to the rear it is never once all around.
+  // The 0.12 s begin at 303 degrees, so no turn from rear to rear is complete.
   EXPECT_EQ(scans.size(), 0U);
 }
 
-// Events of the go-kart's channel, its struct's fingerprint and length taken off.
+// The events are those of the go-kart's channel, without its struct's fingerprint and length.
 TEST(VelodyneCapture, PacketsInsideAnLcmLog) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const schema::Schema unknown({});

@@ -1,4 +1,4 @@
-// Made packets: what goes wrong on the way, and what the clock makes of it.
+// These tests decode made packets: errors in transit, and their effect on the clock.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using std::chrono::milliseconds;
 
 const Time begin = parse_time("2026-03-01 10:59:59.5");
 
-// A VLP-16 at 10 turns a second, packets 1.3 ms apart, that starts at the rear.
+// This is a VLP-16 at 10 turns a second, packets 1.3 ms apart, that starts at the rear.
 class Vlp16 {
  public:
   static constexpr Duration period{1'327'104};
@@ -41,7 +41,7 @@ class Vlp16 {
     return data_packet(std::fmod(turned, 36000.0), 39.8, static_cast<std::uint32_t>(us), range,
                        mode);
   }
-  // Packets leave when they are full.
+  // Delivers a packet, which leaves the scanner when it is full.
   void deliver(const DataBytes& packet, Time arrival) {
     LidarScan scan;
     if (decoder_.add(packet, arrival + period, scan)) scans.push_back(scan);
@@ -95,7 +95,7 @@ TEST(VelodyneDecoder, PlacesEveryLaserByItsManual) {
     EXPECT_NEAR(std::hypot(p.x, p.y, p.z), 10.0, 0.012);
     EXPECT_NEAR(p.reflectance, 100.0 / 255.0, 1e-6);
   }
-  // 15 degrees and 11.2 mm at 10 m.
+  // The expected angles contain 15 degrees and 11.2 mm at 10 m.
   EXPECT_NEAR(lowest, -15.0 + degrees(0.0112 / 10.0), 0.01);
   EXPECT_NEAR(highest, 15.0 - degrees(0.0112 / 10.0), 0.01);
 }
@@ -103,7 +103,7 @@ TEST(VelodyneDecoder, PlacesEveryLaserByItsManual) {
 TEST(VelodyneDecoder, DualReturnsCountOnceWhereTheyAreEqual) {
   Vlp16 single, dual;
   dual.mode = 0x39;
-  // Twelve blocks are six firings: each packet takes half of the time.
+  // Twelve blocks are six firings, so each packet takes half the time.
   for (int i = 0; i < 600; ++i) {
     const double turned = i * 0.5 * to_seconds(Vlp16::period) * 360000.0;
     const auto us = static_cast<std::uint32_t>(1e6 + i * 0.5 * to_seconds(Vlp16::period) * 1e6);
@@ -124,16 +124,16 @@ TEST(VelodyneDecoder, CountsLostAndReorderedPackets) {
   Vlp16 scanner;
   scanner.send(200);
   const auto turns = scanner.scans.size();
-  for (int i = 0; i < 3; ++i) scanner.next();  // never arrive
+  for (int i = 0; i < 3; ++i) scanner.next();  // these never arrive
   scanner.send(20);
   EXPECT_EQ(scanner.decoder().counts().lost, 3U);
   const DataBytes early = scanner.next(), late = scanner.next();
   scanner.deliver(late, scanner.now() + milliseconds(1));
   scanner.deliver(early, scanner.now() + milliseconds(1));
-  scanner.deliver(late, scanner.now() + milliseconds(1));  // twice
+  scanner.deliver(late, scanner.now() + milliseconds(1));  // a second time
   EXPECT_EQ(scanner.decoder().counts().late, 2U);
   scanner.send(100);
-  EXPECT_GT(scanner.scans.size(), turns);  // a turn with a small hole is a turn
+  EXPECT_GT(scanner.scans.size(), turns);  // a turn with a small gap counts
   EXPECT_EQ(scanner.decoder().turns().broken, 0U);
 }
 
@@ -169,7 +169,7 @@ TEST(VelodyneDecoder, StampsDoNotWaverWithTheNetwork) {
   for (std::size_t i = 20; i < scanner.scans.size(); ++i) {
     EXPECT_NEAR(to_seconds(scanner.scans[i].end - scanner.scans[i].start), 0.1, 30e-6);
   }
-  // The least delay is all that cannot be seen.
+  // Only the minimum delay cannot be observed.
   EXPECT_NEAR(to_seconds(scanner.scans.back().end - begin -
                          milliseconds(100) * (scanner.scans.back().sequence + 1)),
               1e-3, 50e-6);
@@ -179,7 +179,7 @@ TEST(VelodyneDecoder, GoesOnAfterTheScannerWasSwitchedOff) {
   Vlp16 scanner;
   scanner.send(200);
   const std::size_t before = scanner.scans.size();
-  // Another run of its clock, from its own hour's begin.
+  // The clock restarts at the beginning of its own hour.
   for (int i = 0; i < 400; ++i) {
     const auto us = static_cast<std::uint32_t>(i * 1327.104);
     scanner.deliver(data_packet(std::fmod(477.757 * i, 36000.0), 39.8, us),
@@ -191,7 +191,7 @@ TEST(VelodyneDecoder, GoesOnAfterTheScannerWasSwitchedOff) {
   EXPECT_LT(scanner.scans.back().end, begin + std::chrono::seconds(21));
 }
 
-// The largest error of the ends of turns from `first` on, at 10 a second.
+// Returns the largest error of the ends of turns from `first` on, at 10 turns a second.
 double worst_end(const Vlp16& scanner, std::size_t first) {
   double worst = 0.0;
   for (std::size_t i = first; i < scanner.scans.size(); ++i) {
@@ -222,7 +222,7 @@ TEST(VelodyneDecoder, PacketsThatWereLostWhileTheWayWasHeldUpMoveNoStamp) {
   scanner.send(2000);
   std::vector<DataBytes> held(3000);
   for (DataBytes& packet : held) packet = scanner.next();
-  for (std::size_t i = 0; i < 1500; ++i) {  // what the socket had room for
+  for (std::size_t i = 0; i < 1500; ++i) {  // as many as the socket could hold
     scanner.deliver(held[i], scanner.now() + microseconds(i));
   }
   scanner.send(2000);
@@ -254,7 +254,7 @@ TEST(VelodyneDecoder, TellsItsGpsReceiversTime) {
     scanner.decoder().add(position_packet(us, pulse, sentence), scanner.now(), scan);
     return scanner.decoder().clock().gps_offset();
   };
-  // 08:59:59 (the made scanner's clock is at 59:59.6), an hour and two seconds before the host's.
+  // It is 08:59:59 (the made scanner's clock is at 59:59.6), 1 h and 2 s before the host's time.
   constexpr std::string_view rmc =
       "$GPRMC,085959,A,4858.95,N,00823.42,E,10.3,188.2,010326,,,D*48\r\n";
   EXPECT_FALSE(heard(0, rmc)) << "no pulse";
