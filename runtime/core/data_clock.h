@@ -46,8 +46,8 @@ class DataClock {
   // Returns the data time that is due now; only in paced time.
   Time now() const;
 
-  // Sleeps until t is due and before any pause (in virtual time: only the latter). Returns false if
-  // stopped before.
+  // Sleeps until t is due and not held back by a pause (in virtual time: only the latter). Returns
+  // false if stopped before.
   bool sleep_until(Time t, const std::stop_token& stop) const;
 
   // Reports that data time t could not be processed before `when`, because its input was missing.

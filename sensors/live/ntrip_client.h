@@ -37,7 +37,7 @@ class NtripClient final : public ByteStream {
   ConnectionState state_;
   std::optional<NameLookup> lookup_;
   std::unique_ptr<TwoWayStream> connection_;  // nullptr while the address is not known
-  std::uint64_t greeted_ = 0;                 // state().opened of the last request
+  std::uint64_t greeted_ = 0;                 // `opened` of the connection at the last request
   NtripReply reply_;
   std::array<std::uint8_t, 2048> buffer_{};
   std::span<const std::uint8_t> unread_;

@@ -11,9 +11,10 @@
 
 namespace maploop::sensors {
 
-// ntrip://[USER[:PASSWORD]@]HOST[:PORT]/MOUNTPOINT[?version=1][&gga=LATITUDE,LONGITUDE,HEIGHT]
-// is the text form, in degrees and metres. ntrips:// is the same over TLS, which encrypts the
-// password. All but a few casters of version 1 understand version 2 too.
+// The text form, in degrees and metres, is
+//   ntrip://[USER[:PASSWORD]@]HOST[:PORT]/MOUNTPOINT[?version=1][&gga=LATITUDE,LONGITUDE,HEIGHT]
+// ntrips:// is the same over TLS, which encrypts the password. All but a few casters of version 1
+// understand version 2 too.
 struct NtripAddress {
   std::string user, password;
   std::string host;

@@ -25,11 +25,11 @@ struct VideoState {
   std::uint64_t unstamped = 0;  // images stamped with their arrival
 };
 
-// The description lists the elements before the images' end, as gst-launch-1.0 takes them: "v4l2src
-// device=/dev/video0 ! ...". Opens automatically, and again after the camera was unplugged or has
-// been silent for 3 s; a missing camera is not an error. At most four images are queued; then the
-// oldest is dropped. Images that are not grey are converted. One thread at a time; pipelines have
-// threads of their own.
+// The description contains the elements that produce the images, as gst-launch-1.0 takes them:
+// "v4l2src device=/dev/video0 ! ...". Opens automatically, and again after the camera was unplugged
+// or has been silent for 3 s; a missing camera is not an error. At most four images are queued;
+// then the oldest is dropped. Images that are not grey are converted. One thread at a time;
+// pipelines have threads of their own.
 class VideoPipeline {
  public:
   // Throws std::invalid_argument with GStreamer's message if the text is not a pipeline.

@@ -9,8 +9,7 @@ namespace maploop::sensors {
 
 enum class ErrorModel : std::uint8_t {
   given,  // sizes as the parameters state, which the filter is given too
-  drawn,  // sizes that the seed draws from ranges stated beside each sensor; no filter is given
-          // them
+  drawn,  // sizes that the seed draws from ranges stated beside each sensor, unknown to filters
 };
 constexpr std::array<std::string_view, 2> names_of(ErrorModel) {
   return {"given", "drawn"};

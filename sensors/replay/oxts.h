@@ -24,7 +24,7 @@ struct OxtsRow {
   double specific_force_forward = 0.0;                     // m/s^2, ax
   double specific_force_left = 0.0;                        // m/s^2, ay
   double yaw_rate = 0.0;                                   // rad/s, wz
-  double forward_speed = 0.0;                              // m/s along the path
+  double forward_speed = 0.0;                              // m/s along-track, of vf and vu
   double position_accuracy = 0.0;                          // m
 };
 
