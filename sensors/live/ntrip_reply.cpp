@@ -65,7 +65,7 @@ void NtripReply::judge_head() {
   }
 }
 
-// Parses "1f;extension\r\n".
+// Parses the line with a chunk's length, such as "1f;extension\r\n".
 void NtripReply::take_size(std::uint8_t c) {
   constexpr std::size_t longest_line = 256, most_digits = 8;
   if (c == '\n') {

@@ -31,8 +31,8 @@ std::uint16_t unfolded(std::uint16_t value) {
   return static_cast<std::uint16_t>((value >> 1U) ^ ((value & 1U) ? 0xffffU : 0U));
 }
 
-// Lays out the uncompressed data: one bit for each firing that has a return, then for the returns
-// the differences of ranges (low bytes, then high bytes) and of reflectances.
+// Lays out the uncompressed data: one bit for each laser and firing, set if it has a return, then
+// for the returns the differences of ranges (low bytes, then high bytes) and of reflectances.
 struct Planes {
   Planes(std::size_t all, std::size_t returns)
       : low((all + 7) / 8), high(low + returns), reflectance(high + returns) {}
