@@ -43,8 +43,8 @@ class Histogram {
   void merge(const Histogram& other);
 
   // data() returns the contents for another program; merge(data) adds them there without loss.
-  // merge throws std::invalid_argument, and adds nothing, if the data are not a histogram's: an
-  // unknown bucket, one that occurs twice or out of order, or counts that do not fit.
+  // merge throws std::invalid_argument, and adds nothing, if the data are not a histogram's: a
+  // bucket with a wrong lower limit, twice or out of order, or counts that do not fit.
   HistogramData data() const;
   void merge(const HistogramData& data);
 
