@@ -57,9 +57,9 @@ struct LatencySummary {
   std::vector<MissedDeadline> worst{};  // at most ten, the longest first
 };
 
-// Period jitter is the difference between the time of two wake-ups and the time of their due
-// moments. Only `threads` has `omitted` waits, deadlines and misses, and `paths` has the latter
-// two; the others are as recorded.
+// Period jitter is how much the time between two wake-ups differs from that between their due
+// times. Only `threads` has `omitted` waits, deadlines and misses, and `paths` has the latter two;
+// the others are as recorded.
 struct Deadlines {
   Time stamp{};
   std::vector<LatencySummary> threads;      // from release to result
