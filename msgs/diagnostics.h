@@ -84,7 +84,7 @@ struct ThreadHealth {
   std::uint64_t left_out = 0, shed = 0;  // ticks, by the overrun policy
 };
 
-// Counts the measurements that an estimator has not used so far.
+// Counts the measurements that an estimator has refused so far.
 struct RefusalCount {
   std::string stage;
   std::string reason;
