@@ -55,8 +55,9 @@ void apply(const Configuration& configuration, FusionParameters& p) {
   p.use_odometry_speed = configuration.odometry_speed;
   p.use_odometry_azimuth = configuration.odometry_azimuth;
   p.use_wheel_speed = configuration.wheel_speed;
-  p.speed_scale_sigma = configuration.wheel_speed ? 0.02 : 0.015;  // tyres; disparities
-  p.speed_scale_walk = configuration.wheel_speed ? 1.2e-4 : 1e-3;  // 1/sqrt(s), tyres warm up
+  p.speed_scale_sigma = configuration.wheel_speed ? 0.02 : 0.015;  // for tyres; for disparities
+  p.speed_scale_walk =
+      configuration.wheel_speed ? 1.2e-4 : 1e-3;  // 1/sqrt(s); tyres change as they warm up
 }
 
 void apply_grade(std::string_view grade, FusionParameters& p) {
@@ -69,7 +70,7 @@ void apply_grade(std::string_view grade, FusionParameters& p) {
   p.gyro_turn_on_sigma = 1.45e-3;       // rad/s, 300 deg/h
   p.gyro_bias_sigma = 4.8e-5;           // rad/s, 10 deg/h
   p.gyro_bias_time = 300.0;             // s
-  p.gyro_scale_sigma = 0.0036;          // 0.2 % more than the recorded unit's, squared sum
+  p.gyro_scale_sigma = 0.0036;          // adds 0.2 % to the recorded unit's, as squares
   p.accelerometer_turn_on_sigma = 0.2;  // m/s^2, 20 mg
 }
 

@@ -1,4 +1,4 @@
-// Configurations of the filter by name.
+// Filter configurations are selected by name here.
 #pragma once
 
 #include <string>
@@ -9,28 +9,30 @@
 
 namespace maploop::fusion {
 
-// What joins the reduced IMU (RI):
-//   VO-RI     speed and turning of the visual odometry
-//   VO-L-RI   the same of the visual-LiDAR odometry
-//   RISS      the wheels' speed alone
-//   RISS-VO   the wheels' speed, and the turning of the visual odometry
-// and each with GNSS+ before it: fixes are used after the start too. `GPS + VO-RI` is the same as
+// A configuration says which aids correct the reduced IMU (RI):
+//   VO-RI     speed and turning from visual odometry
+//   VO-L-RI   speed and turning from visual-LiDAR odometry
+//   RISS      speed from the wheels only
+//   RISS-VO   speed from the wheels, turning from visual odometry
+// With the prefix GNSS+ the filter also uses fixes after the start. `GPS + VO-RI` means the same as
 // GNSS+VO-RI.
 struct Configuration {
-  std::string name;  // in its plain form
+  std::string name;  // normalized: upper case, no blanks, GNSS instead of GPS
   bool lidar = false;
   bool gnss = false, odometry_speed = false, odometry_azimuth = false, wheel_speed = false;
 };
 
 std::vector<std::string> configuration_names();
 
-// Case, blanks and GPS for GNSS do not matter. Throws std::invalid_argument listing the names.
+// Ignores case and blanks, and accepts GPS for GNSS. Throws std::invalid_argument, which lists the
+// valid names, if `name` is not one of them.
 Configuration configuration(std::string_view name);
 
 void apply(const Configuration& configuration, FusionParameters& parameters);
 
-// Noise of the inertial sensors by their grade: "tactical" (the defaults: KITTI's recorded unit) or
-// "mems" (300 deg/h and 20 mg at turn-on). Throws std::invalid_argument listing the names.
+// Sets the noise of the inertial sensors by their grade: "tactical" (the defaults, KITTI's recorded
+// unit) or "mems" (turn-on biases of 300 deg/h and 20 mg). Throws std::invalid_argument, which
+// lists the valid names, for any other grade.
 void apply_grade(std::string_view grade, FusionParameters& parameters);
 
 }  // namespace maploop::fusion

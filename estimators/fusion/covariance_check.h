@@ -1,16 +1,17 @@
-// Is a matrix from outside a covariance?
+// This check decides whether a matrix from outside the filter is a covariance.
 #pragma once
 
 #include <Eigen/Dense>
 
 namespace maploop::fusion {
 
-// Finite, symmetric to rounding, and positive semi-definite to rounding (of its largest variance).
+// Returns whether `C` is finite and, up to rounding, symmetric and positive semi-definite. The
+// rounding is 1e-6 of the correlations.
 template <int n>
 bool is_covariance(const Eigen::Matrix<double, n, n>& C) {
   if (!C.allFinite() || C.diagonal().minCoeff() < 0.0) return false;
   constexpr double rounding = 1e-6;
-  // Correlations, so that metres and radians count alike.
+  // Correlations are compared, so that metres and radians have equal weight.
   const Eigen::Matrix<double, n, 1> sigma = C.diagonal().cwiseSqrt();
   Eigen::Matrix<double, n, n> correlation;
   for (int i = 0; i < n; ++i) {

@@ -1,4 +1,4 @@
-// The Earth as the mechanization needs it: normal gravity, radii of curvature, rotation
+// These functions give the mechanization normal gravity, radii of curvature and Earth rotation
 // (WGS84).
 #pragma once
 
@@ -8,26 +8,28 @@
 
 namespace maploop::fusion {
 
-// m/s^2; latitude in rad, height in m above the ellipsoid.
+// Returns normal gravity in m/s^2. The latitude is in rad, the height in m above the ellipsoid.
 double normal_gravity(double latitude, double height);
 
-double prime_vertical_radius(double latitude);  // R_N, m: curvature east-west
-double meridian_radius(double latitude);        // R_M, m: curvature north-south
+double prime_vertical_radius(double latitude);  // R_N, m, latitude in rad: east-west curvature
+double meridian_radius(double latitude);        // R_M, m, latitude in rad: north-south curvature
 
-// The Earth seen from a local frame. The frame is fixed to the Earth, so an azimuth counted from
-// the origin's north feels the Earth rate but no transport rate: that one is the turning of the
-// local north with the vehicle, and appears here as the turning of the plumb line with position.
+// Describes the Earth in a local enu frame. The frame is fixed to the Earth, so an azimuth measured
+// from north at the origin is affected by the Earth rate but not by the transport rate. The
+// transport rate is the rotation of local north as the vehicle moves; here it appears as the change
+// of the plumb line with position.
 class LocalEarth {
  public:
   explicit LocalEarth(const Geodetic& origin);
 
   double earth_rate_up() const { return earth_rate_up_; }  // rad/s about the origin's up
   double gravity(double up) const;                         // m/s^2 at height `up` in the frame
-  // The local vertical at a position in enu, to first order in its distance from the origin.
+  // Returns the local vertical in enu at a position (m), to first order in the distance from the
+  // origin.
   Eigen::Vector3d vertical(double east, double north) const {
     return {east * curvature_.x(), north * curvature_.y(), 1.0};
   }
-  // Derivative of the vertical: x by east, y by north, 1/m.
+  // Returns the derivative of the vertical in 1/m: x with respect to east, y with respect to north.
   const Eigen::Vector2d& curvature() const { return curvature_; }
 
  private:

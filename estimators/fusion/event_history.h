@@ -1,4 +1,5 @@
-// Measurements of the last seconds in the order of their stamps, each with the state after it.
+// The history holds the measurements of the last seconds in the order of their stamps, each with
+// the filter state after it.
 #pragma once
 
 #include <compare>
@@ -18,7 +19,7 @@
 
 namespace maploop::fusion {
 
-// Order of events at one stamp.
+// Events with equal stamps are processed in this order.
 enum class EventKind : std::uint8_t {
   start,
   imu,
@@ -43,7 +44,7 @@ void archive(Archive& ar, EventKey& key) {
   ar(key.stamp, key.kind, key.sequence);
 }
 
-// Asks for a clone at the start of an interval that no odometry known here ends at.
+// Requests a clone at the start of an odometry interval if no known odometry ends there.
 struct CloneRequest {};
 
 template <class Archive>
@@ -57,7 +58,8 @@ struct Event {
   Outcome outcome;
 };
 
-// Fixed capacity, all memory taken at construction. Positions count from the oldest event.
+// Has a fixed capacity and allocates all memory at construction. Positions count from the oldest
+// event (0). Not thread-safe.
 class EventHistory {
  public:
   explicit EventHistory(std::size_t capacity);
@@ -68,11 +70,11 @@ class EventHistory {
   const Event& operator[](std::size_t position) const { return events_[order_[position]]; }
 
   bool contains(const EventKey& key) const;
-  // Position of the first event after `key` (after all of its equals).
+  // Returns the position of the first event after `key`, and after any event equal to it.
   std::size_t position_after(const EventKey& key) const;
 
-  // The new event, in its place; its state and outcome are whatever was there before.
-  // Preconditions: !full(), !contains(key).
+  // Inserts an event at its place in the order and returns its position. Its `after` and `outcome`
+  // keep whatever values the slot held before. Preconditions: !full(), !contains(key).
   template <class Measurement>
   std::size_t insert(const EventKey& key, const Measurement& measurement) {
     const std::size_t position = open_slot(key);
@@ -104,7 +106,7 @@ class EventHistory {
   std::size_t open_slot(const EventKey& key);
 
   std::vector<Event> events_;
-  std::vector<std::uint32_t> order_;  // into events_, oldest first
+  std::vector<std::uint32_t> order_;  // indices into events_, oldest first
   std::vector<std::uint32_t> free_;
 };
 

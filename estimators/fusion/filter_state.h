@@ -1,4 +1,4 @@
-// State of the reduced-IMU filter (total-state EKF in local metres).
+// This is the state of the reduced-IMU filter (a total-state EKF in local metres).
 #pragma once
 
 #include <Eigen/Core>
@@ -16,26 +16,26 @@ enum : int {
   east,
   north,
   up,             // m, enu
-  speed,          // m/s along the way as the speed sensor sees it, negative in reverse
+  speed,          // m/s along the path, as the speed sensor measures it; negative in reverse
   azimuth,        // rad, in (-pi, pi]
   pitch,          // rad
   roll,           // rad
-  gyro_bias,      // rad/s, added to the yaw rate
-  forward_bias,   // m/s^2, added to the forward specific force
-  left_bias,      // m/s^2, added to the left specific force
-  climb_offset,   // rad, direction of travel above body x: mounting and load
+  gyro_bias,      // rad/s, adds to the measured yaw rate
+  forward_bias,   // m/s^2, adds to the measured forward specific force
+  left_bias,      // m/s^2, adds to the measured left specific force
+  climb_offset,   // rad, direction of travel above body x, from mounting and load
   speed_scale,    // 1, the speed sensor (odometry or wheels) reports (1 + scale) times the speed
-  lidar_scale,    // 1, a LiDAR's motion is (1 + scale) times the way
-  lidar_turn,     // rad/m, and turns by that much too far about body z
-  distance,       // m, travelled since the clone, as the speed sensor sees it
-  clone_azimuth,  // rad, the attitude at the start of the odometry interval
+  lidar_scale,    // 1, a LiDAR's motion is (1 + scale) times the distance
+  lidar_turn,     // rad/m, a LiDAR's motion turns too far by this about body z
+  distance,       // m, travelled since the clone, as the speed sensor measures it
+  clone_azimuth,  // rad, attitude at the start of the odometry interval
   clone_pitch,
   clone_roll,
   gnss_offset_east,  // 1, correlated part of a fix's error, in units of its own standard deviation
   gnss_offset_north,
   gnss_offset_up,
-  chain_drift,  // rad, the chained azimuth less the azimuth
-  lane_offset,  // 1, place to the right of the mapped line, in units of its own standard deviation
+  chain_drift,  // rad, chained azimuth minus azimuth
+  lane_offset,  // 1, offset to the right of the mapped line, in units of its own standard deviation
   count
 };
 }  // namespace index
@@ -43,9 +43,9 @@ enum : int {
 using StateVector = Eigen::Matrix<double, index::count, 1>;
 using StateMatrix = Eigen::Matrix<double, index::count, index::count>;
 
-// How much later than its stamps say the gyro measures, against odometry: a turning that comes late
-// by d leaves d times the change of the yaw rate in the increment over each interval. Least squares
-// over all intervals.
+// Estimates by how much the gyro's data is later than its stamps, compared with odometry. If the
+// turning is late by d, the increment over each interval contains an error of d times the change of
+// the yaw rate. The estimate is a least-squares fit over all intervals.
 struct DelayEstimate {
   double information = 0.0;  // 1/s^2
   double weighted = 0.0;     // 1/s
@@ -64,11 +64,12 @@ void archive(Archive& ar, DelayEstimate& e) {
   ar(e.information, e.weighted);
 }
 
-// What the zero-velocity detector remembers (zero_velocity.h).
+// This is the memory of the zero-velocity detector (zero_velocity.h).
 struct Stillness {
-  double mean_force = 0.0;      // m/s^2, forward, over the last second
+  double mean_force = 0.0;      // m/s^2, mean forward specific force of the last second
   double force_variance = 1.0;  // m^2/s^4
-  // Newest moment at which odometry or the wheels saw the vehicle stand, or move.
+  // These are the newest times at which odometry or the wheels showed a standing or a moving
+  // vehicle.
   Time seen_standing{};
   Time seen_moving{};
 };
@@ -78,36 +79,38 @@ void archive(Archive& ar, Stillness& s) {
   ar(s.mean_force, s.force_variance, s.seen_standing, s.seen_moving);
 }
 
-// Everything the filter knows at one moment; a copy of it is a snapshot.
+// Holds everything the filter has estimated at one time; a copy is a snapshot.
 struct FilterState {
   Time stamp{};
   StateVector x = StateVector::Zero();
   StateMatrix P = StateMatrix::Zero();
   Time clone_stamp{};
   Time start{};
-  // Newest measurement of each kind inside (epoch 0: none).
+  // These are the stamps of the newest measurement of each kind that this state includes (epoch 0:
+  // none).
   Time imu_stamp{};
   Time odometry_stamp{};
   Time gnss_stamp{};
   Time wheel_stamp{};
   Time zero_velocity_stamp{};
   Time map_stamp{};
-  Time speed_fixed{};  // by the velocity of a fix that knows it well
+  Time speed_fixed{};  // newest stamp of an accurate velocity fix that was applied (held_by_fix)
   std::uint64_t odometry_applied = 0;
   std::uint64_t odometry_refused = 0;
-  // Gated in a row, by the kind of measurement.
+  // These count the consecutive measurements of each kind that a gate refused.
   int gated_in_a_row = 0;
   int gnss_gated_in_a_row = 0;
   int wheel_gated_in_a_row = 0;
   int map_gated_in_a_row = 0;
   std::uint64_t recoveries = 0;
   std::uint64_t reinitializations = 0;
-  // Azimuth chained from odometry's rotations alone, as of the clone; used where so configured.
+  // The azimuth chained from odometry's rotations alone, at the time of the clone; only
+  // `chain_odometry_azimuth` uses it.
   double chained_azimuth = 0.0;
   Stillness stillness;
-  Duration imu_repeated{};      // how long the newest inertial sample has only repeated older ones
-  double yaw_rate = 0.0;        // rad/s, the gyro's at this moment
-  double clone_yaw_rate = 0.0;  // and at the clone's
+  Duration imu_repeated{};      // how long inertial samples have only repeated one value
+  double yaw_rate = 0.0;        // rad/s, measured by the gyro at this time
+  double clone_yaw_rate = 0.0;  // rad/s, measured by the gyro at the time of the clone
   DelayEstimate imu_delay;
 
   double ground_speed() const { return x[index::speed] / (1.0 + x[index::speed_scale]); }
@@ -126,15 +129,15 @@ void archive(Archive& ar, FilterState& s) {
      s.imu_repeated, s.yaw_rate, s.clone_yaw_rate, s.imu_delay);
 }
 
-// Adds a correction, keeping both azimuths in (-pi, pi].
+// Adds a correction and keeps both azimuths in (-pi, pi].
 inline void add_correction(StateVector& x, const StateVector& correction) {
   x += correction;
   x[index::azimuth] = wrap_angle(x[index::azimuth]);
   x[index::clone_azimuth] = wrap_angle(x[index::clone_azimuth]);
 }
 
-// Takes the stochastic clone: attitude at this moment, fully correlated with the attitude; the
-// distance starts again from a certain zero. Taking it twice changes nothing.
+// Takes the stochastic clone: copies the attitude, fully correlated with the original, and restarts
+// the distance from an exactly known zero. Repeating the call has no further effect.
 inline void take_clone(FilterState& state) {
   for (int i = 0; i < 3; ++i) {
     const int from = index::azimuth + i;
@@ -152,7 +155,7 @@ inline void take_clone(FilterState& state) {
   state.clone_yaw_rate = state.yaw_rate;
 }
 
-// Begins the chained azimuth at the azimuth: its drift is then all of the azimuth's own error.
+// Starts the chained azimuth at the azimuth. The drift then equals the whole error of the azimuth.
 inline void start_chain(FilterState& state) {
   using namespace index;
   state.chained_azimuth = state.x[azimuth];
@@ -162,8 +165,8 @@ inline void start_chain(FilterState& state) {
   state.P(chain_drift, chain_drift) = state.P(azimuth, azimuth);
 }
 
-// Columns: how the body turns, as a rotation vector in enu, per radian of azimuth, pitch and roll.
-// R(a + d) = exp(E d) R(a) to first order.
+// Returns in its columns how the body turns, as a rotation vector in enu, per radian of azimuth,
+// pitch and roll: R(a + d) = exp(E d) R(a) to first order.
 inline Eigen::Matrix3d attitude_rate_axes(const Attitude& a) {
   const double sA = std::sin(a.azimuth), cA = std::cos(a.azimuth);
   const double sp = std::sin(a.pitch), cp = std::cos(a.pitch);

@@ -1,4 +1,5 @@
-// The error of a fix's position, split into what lasts from fix to fix and what does not.
+// A fix's position error is split here into a part that lasts from fix to fix and a part that does
+// not.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,15 +8,16 @@
 
 namespace maploop::fusion {
 
-// error = lasting o + fresh noise: o is the state's offset, of variance 1 an axis. The whole
-// covariance is shared out, correlations too: taking the lasting variances alone from a strongly
-// correlated covariance would leave one that is not positive.
+// The model is error = lasting * o + fresh noise, where o is the state's offset with variance 1 on
+// each axis. The whole covariance is split, correlations included: subtracting only the lasting
+// variances from a strongly correlated covariance would leave a matrix that is not positive.
 struct FixError {
   Eigen::Matrix3d lasting;  // m, symmetric root of gnss_correlated times the covariance
-  Eigen::Matrix3d fresh;    // m^2, covariance of the rest
+  Eigen::Matrix3d fresh;    // m^2, covariance of the remaining error
 };
 
-// Eigenvalues below zero, which rounding leaves, are taken for zero.
+// Takes the position covariance of a fix in m^2, enu. Negative eigenvalues, which rounding causes,
+// are set to zero.
 FixError split_error(const Eigen::Matrix3d& position_covariance,
                      const FusionParameters& parameters);
 

@@ -15,7 +15,7 @@ Vector3d lever(const FusionParameters& p) {
   return {p.gnss_lever_forward, p.gnss_lever_left, p.gnss_lever_up};
 }
 
-// Derivative of R v by azimuth, pitch and roll.
+// Returns the derivative of R v with respect to azimuth, pitch and roll.
 Matrix3d turned_by_attitude(const Attitude& attitude, const Vector3d& v_enu) {
   const Matrix3d axes = attitude_rate_axes(attitude);
   Matrix3d J;
@@ -31,7 +31,8 @@ void inflate_position(FilterState& state, const FusionParameters& p) {
   state.P(azimuth, azimuth) += p.recovery_rotation_sigma * p.recovery_rotation_sigma;
 }
 
-// Position, speed and attitude of the fix; what was learnt of the sensors is kept.
+// Restarts from the position, speed and attitude of the fix; keeps the sensor errors estimated so
+// far.
 void begin_anew(FilterState& state, GnssFix fix, const LocalFrame& frame,
                 const FusionParameters& p) {
   using namespace index;
@@ -47,7 +48,7 @@ void begin_anew(FilterState& state, GnssFix fix, const LocalFrame& frame,
     state.P.col(i).setZero();
     state.P(i, i) = known(i, i);
   }
-  // The scale begins as unknown as at the start; what is known of it is put back into the speed.
+  // The scale's variance is that of a new start, but its estimate is kept and applied to the speed.
   state.x[speed] *= 1.0 + x[speed_scale];
   state.x[speed_scale] = x[speed_scale];
   take_clone(state);
@@ -83,7 +84,7 @@ Innovation<3> velocity_innovation(const FilterState& state, const GnssFix& fix, 
   const double sc = std::sin(climb), cc = std::cos(climb);
   const double ground = state.ground_speed();
   const Vector3d travel(sA * cc, cA * cc, sc);
-  // The antenna swings about the rear axle.
+  // The antenna rotates about the rear axle.
   const Vector3d arm = lever(p) + Vector3d(p.rear_axle_distance, 0.0, 0.0);
   const Vector3d swing =
       rotation_enu_body(state.attitude()) * Vector3d(0.0, 0.0, yaw_rate - x[gyro_bias]).cross(arm);

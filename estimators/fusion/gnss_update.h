@@ -1,4 +1,4 @@
-// Correction by a GNSS receiver's position and velocity, loosely coupled.
+// The position and velocity of a GNSS receiver correct the state (loosely coupled).
 #pragma once
 
 #include "estimators/fusion/fusion_parameters.h"
@@ -9,27 +9,29 @@
 
 namespace maploop::fusion {
 
-// z = position in enu; h = position + R lever + L offset, where the offset is what lasts of the
-// receiver's error, of variance 1 and with L L^T the lasting share of the stated covariance; R has
-// the rest (fix_error.h).
+// z = position in enu, m; h = position + R lever + L offset. The offset is the lasting part of the
+// receiver's error with variance 1, and L L^T is the lasting share of the stated covariance. R
+// contains the remaining share (fix_error.h).
 Innovation<3> position_innovation(const FilterState& state, const GnssFix& fix,
                                   const LocalFrame& frame, const FusionParameters& parameters);
 
-// z = velocity in enu; h = speed along the direction of travel + R (rate x lever). Side slip, which
-// the state does not hold, is in R.
+// z = velocity in enu, m/s; h = speed along the direction of travel + R (rate x lever), with
+// `yaw_rate` in rad/s. The side slip is not a state, so its variance is in R.
 Innovation<3> velocity_innovation(const FilterState& state, const GnssFix& fix, double yaw_rate,
                                   const FusionParameters& parameters);
 
-// At the fix's two stamps. A position gated `gnss_recover_after` times in a row makes the filter
-// doubt itself (`recoveries`), and twice as many make it begin anew at the fix
-// (`reinitializations`), with the biases and scales that it knows.
+// These apply a fix's position and velocity, each at its own stamp. After `gnss_recover_after`
+// consecutive gated positions the position covariance is inflated (`recoveries`). After twice as
+// many the filter restarts from the fix (`reinitializations`) and keeps its estimates of biases and
+// scales.
 Outcome apply_gnss_position(FilterState& state, const GnssFix& fix, const LocalFrame& frame,
                             const FusionParameters& parameters);
 Outcome apply_gnss_velocity(FilterState& state, const GnssFix& fix, double yaw_rate,
                             const FusionParameters& parameters);
 
-// Whether a velocity known to a fifth of `recovery_speed_sigma` was applied within the last
-// `fix_hold`: it has confirmed the predicted speed, and what contradicts that is wrong itself.
+// Returns whether a velocity with a sigma of at most a fifth of `recovery_speed_sigma` was applied
+// within the last `fix_hold`. It has confirmed the predicted speed, so a measurement that
+// contradicts this speed is itself wrong.
 bool held_by_fix(const FilterState& state, const FusionParameters& parameters);
 
 }  // namespace maploop::fusion

@@ -39,7 +39,7 @@ Outcome GuardedFilter::add(const MapFeedback& feedback) {
     restore(t);
     return outcome;
   }
-  // A copy that has lost its azimuth (a gap of the gyro) says nothing more.
+  // A copy whose azimuth is lost (a gap of the gyro) shows nothing any more and is replaced.
   for (Copy& copy : copies_) {
     const auto free = copy.filter->state_at(t);
     if (!lost(*state) && free && lost(*free)) copy_to(copy, t);
@@ -52,7 +52,8 @@ Outcome GuardedFilter::add(const MapFeedback& feedback) {
   return outcome;
 }
 
-// Beyond, a covariance no longer says where the vehicle may be: the error is not linear in it.
+// Beyond this limit the position error is not linear in the azimuth error, so the covariance is not
+// meaningful.
 bool GuardedFilter::lost(const NavState& state) const {
   return state.covariance(6, 6) > parameters_.lost_azimuth * parameters_.lost_azimuth;
 }
@@ -69,7 +70,7 @@ double GuardedFilter::distance_to(const Copy& copy, const NavState& aided, Time 
   const Eigen::Vector2d apart = (aided.position_enu - free->position_enu).head<2>();
   Eigen::Matrix2d D =
       (parameters_.overconfidence * free->covariance - aided.covariance).topLeftCorner<2, 2>();
-  // Rounding and linearization may make it indefinite.
+  // Rounding and linearization may make D indefinite.
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(D);
   const double share = parameters_.model_share * copy.way;
   const double least = parameters_.model_sigma * parameters_.model_sigma + share * share;

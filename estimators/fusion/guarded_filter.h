@@ -1,5 +1,5 @@
-// The map-aided filter beside map-free copies of itself, which can take its place: a wrong road
-// that passes every gate must not drag the vehicle away.
+// Runs the map-aided filter together with map-free copies that can replace it. A wrong road that
+// passes every gate then cannot pull the vehicle away permanently.
 #pragma once
 
 #include <array>
@@ -12,14 +12,15 @@
 
 namespace maploop::fusion {
 
-// The aided estimate is the efficient one, a copy without the map the consistent one: their
-// difference has the difference of their covariances (Hausman, "Specification tests in
-// econometrics", Econometrica 46, 1978). Where it is larger, the map was wrong.
+// The aided estimate is the efficient estimator and a copy without the map is the consistent one,
+// so the covariance of their difference is the difference of their covariances (Hausman,
+// "Specification tests in econometrics", Econometrica 46, 1978). A larger difference shows that the
+// map was wrong.
 //
 // Not thread-safe. Allocates nothing after the first feedback.
 class GuardedFilter {
  public:
-  // A filter is one that nothing is fed back to.
+  // `filter` must not have received any map feedback.
   GuardedFilter(ReducedImuFilter filter, const GuardParameters& parameters = {})
       : aided_(std::move(filter)), parameters_(parameters) {}
 
@@ -29,15 +30,16 @@ class GuardedFilter {
       if (copy.filter) copy.filter->add(measurement);
     return aided_.add(measurement);
   }
-  // To the aided filter alone; compares at the feedback's stamp, also where it feeds nothing back,
-  // and restores the aided filter where it has been led astray.
+  // Passes the feedback to the aided filter only. The filters are compared at every feedback's
+  // stamp, even if it feeds nothing back, and the older copy replaces the aided filter if the map
+  // misled it.
   Outcome add(const MapFeedback& feedback);
 
   Outcome start(const KnownStart& known) { return aided_.start(known); }
   const ReducedImuFilter& aided() const { return aided_; }
   FilterStatus status() const { return aided_.status(); }
 
-  // As ReducedImuFilter's.
+  // These work as those of ReducedImuFilter.
   std::size_t largest_archive() const { return 3 * aided_.largest_archive() + 256; }
   void archive(ArchiveWriter& ar) const;
   void archive(ArchiveReader& ar);
@@ -46,7 +48,7 @@ class GuardedFilter {
   struct Copy {
     std::optional<ReducedImuFilter> filter;
     Time born{};
-    double way = 0.0;  // m since then
+    double way = 0.0;  // m, travelled since then
   };
 
   template <class Archive, class Filter>
@@ -59,7 +61,7 @@ class GuardedFilter {
   ReducedImuFilter aided_;
   GuardParameters parameters_;
   std::array<Copy, 2> copies_;  // the older one first
-  Time last_{};                 // compared
+  Time last_{};                 // stamp of the last comparison
   bool apart_ = false;
   Time apart_since_{};
   Time paused_until_{};

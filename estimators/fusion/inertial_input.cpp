@@ -52,8 +52,8 @@ InertialInput inertial_input(const InertialSamples& samples, Time from, Time to,
   const ImuSample& a = *samples.before;
 
   if (neighbours(samples, parameters)) {
-    // The triangle between a straight line and a bend in the middle of the gap T: T^2 / 8 over the
-    // whole gap, spread evenly.
+    // The largest unseen deviation is a triangle between a straight line and a bend in the middle
+    // of the gap T. Its area is T^2 / 8 over the whole gap and is spread evenly.
     const ImuSample& b = *samples.after;
     const double gap = to_seconds(b.stamp - a.stamp);
     const double weight = to_seconds((from - a.stamp) + (to - a.stamp)) / (2.0 * gap);
@@ -68,7 +68,7 @@ InertialInput inertial_input(const InertialSamples& samples, Time from, Time to,
   const double age_from = to_seconds(from - measured(samples));
   const double age_to = to_seconds(to - measured(samples));
   if (to - measured(samples) > from_seconds(parameters.imu_hold)) return input;
-  // A ramp from the sample on: age^2 / 2.
+  // The unseen deviation is a ramp that starts at the sample: age^2 / 2.
   input.inertial = true;
   input.forward_force = a.specific_force_forward;
   input.yaw_rate = a.yaw_rate;

@@ -11,14 +11,14 @@
 namespace maploop::fusion {
 namespace {
 
-// What no start knows: biases, scales and what lasts of the fixes' errors.
+// Adds the variances that no start provides: biases, scales and the lasting error of fixes.
 void add_unknown_sensors(FilterState& state, const FusionParameters& p) {
   using namespace index;
   const auto add = [&](int i, double sigma) { state.P(i, i) += sigma * sigma; };
   add(gyro_bias, p.gyro_turn_on_sigma);
   add(forward_bias, p.accelerometer_turn_on_sigma);
   add(left_bias, p.accelerometer_turn_on_sigma);
-  // The speed is known over ground, and held as its sensor sees it.
+  // The speed over ground is given, but the state holds the speed as the sensor measures it.
   const double scale_variance = p.speed_scale_sigma * p.speed_scale_sigma;
   state.P(speed_scale, speed_scale) = scale_variance;
   state.P(speed, speed) += state.x[speed] * state.x[speed] * scale_variance;
@@ -115,7 +115,8 @@ FilterState initial_state(const GnssFix& fix, const LocalFrame& frame, const Fus
   state.x[pitch] = std::atan2(v.z(), horizontal) - p.climb_offset;
   state.x[climb_offset] = p.climb_offset;
 
-  // Derivative of position, speed, azimuth and pitch by the fix's position and velocity.
+  // J is the derivative of position, speed, azimuth and pitch with respect to the fix's position
+  // and velocity.
   Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Zero();
   J.block<3, 3>(0, 0).setIdentity();
   J.block<3, 3>(0, 3) = -position_age * Eigen::Matrix3d::Identity();
@@ -129,7 +130,7 @@ FilterState initial_state(const GnssFix& fix, const LocalFrame& frame, const Fus
   C.diagonal().head<3>().array() += p.min_position_sigma * p.min_position_sigma;
   C.diagonal().tail<3>().array() += p.min_velocity_sigma * p.min_velocity_sigma;
 
-  // Pitch is climb less climb offset.
+  // The pitch is the climb minus the climb offset.
   static_assert(speed == 3 && azimuth == 4 && pitch == 5 && roll == 6);
   state.P.topLeftCorner<6, 6>() = J * C * J.transpose();
   const auto add = [&](int i, double sigma) { state.P(i, i) += sigma * sigma; };
@@ -141,7 +142,7 @@ FilterState initial_state(const GnssFix& fix, const LocalFrame& frame, const Fus
   state.P(climb_offset, pitch) = state.P(pitch, climb_offset);
   add(roll, p.start_roll_sigma);
   add_unknown_sensors(state, p);
-  // The lasting part of this fix's error is in the position as well as in the fixes to come.
+  // The lasting part of this fix's error is in the start position and also in later fixes.
   const Eigen::Matrix3d lasting = split_error(fix.position_covariance, p).lasting;
   state.P.block<3, 3>(east, gnss_offset_east) = -lasting;
   state.P.block<3, 3>(gnss_offset_east, east) = -lasting.transpose();

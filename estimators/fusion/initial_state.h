@@ -1,4 +1,4 @@
-// The first state, from one moving GNSS fix.
+// The first state of the filter comes from one moving GNSS fix or from known values.
 #pragma once
 
 #include "estimators/fusion/filter_state.h"
@@ -8,32 +8,34 @@
 
 namespace maploop::fusion {
 
-// What somebody else knows of the vehicle: a surveyed place, the end of the last drive.
+// Holds values of the vehicle from another source, such as a surveyed place or the end of the last
+// drive.
 struct KnownStart {
   Time stamp{};
   Geodetic position;
   Attitude attitude;
   double speed = 0.0;             // m/s, negative in reverse
-  double position_sigma = 0.1;    // m an axis
+  double position_sigma = 0.1;    // m, on each axis
   double azimuth_sigma = 0.0017;  // rad (0.1 deg)
   double tilt_sigma = 0.0087;     // rad (0.5 deg), pitch and roll
   double speed_sigma = 0.05;      // m/s
 };
 
-// Reason::none, or out_of_range, not_finite.
+// Returns Reason::none, out_of_range or not_finite.
 Reason check_start(const KnownStart& known);
 FilterState initial_state(const KnownStart& known, const LocalFrame& frame,
                           const FusionParameters& parameters);
 
-// The earlier of the fix's two stamps: where the filter starts.
+// Returns the earlier of the fix's two stamps, which is where the filter starts.
 Time start_stamp(const GnssFix& fix);
 
-// Reason::none, or why the fix cannot start a filter.
+// Returns Reason::none, or the reason why the fix cannot start a filter.
 Reason check_fix(const GnssFix& fix, const FusionParameters& parameters);
 
-// State at start_stamp(fix): the position is carried there by the velocity; speed, azimuth and
-// pitch are the velocity's length, course and climb (the vehicle is taken to drive forward), with
-// the fix's covariance carried through. Precondition: check_fix says none.
+// Returns the state at start_stamp(fix). The velocity moves the position to this time. Speed,
+// azimuth and pitch are the velocity's length, course and climb (the vehicle is assumed to drive
+// forward). The fix's covariance is propagated through this. Precondition: check_fix returns
+// Reason::none.
 FilterState initial_state(const GnssFix& fix, const LocalFrame& frame,
                           const FusionParameters& parameters);
 

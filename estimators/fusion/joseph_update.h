@@ -1,4 +1,4 @@
-// Kalman measurement update in Joseph's form, with a chi-square gate (Bar-Shalom, Li and
+// This is the Kalman measurement update in Joseph's form with a chi-square gate (Bar-Shalom, Li and
 // Kirubarajan 2001, 5.2 and 5.4).
 #pragma once
 
@@ -10,7 +10,8 @@
 
 namespace maploop::fusion {
 
-// z - h(x), its derivative H = dh/dx and the measurement's noise R, `rows` at a time.
+// Holds the residual z - h(x), H = dh/dx and the covariance R of the measurement noise, for `rows`
+// scalar measurements.
 template <int rows>
 struct Innovation {
   Eigen::Matrix<double, rows, 1> residual;
@@ -19,23 +20,25 @@ struct Innovation {
 
   Eigen::Matrix<double, rows, rows> covariance(const StateMatrix& P) const;
 
-  // Normalized innovation squared: chi-square with `rows` degrees of freedom when all is well.
+  // Returns the normalized innovation squared, which is chi-square distributed with `rows` degrees
+  // of freedom if state and measurement are consistent.
   double nis(const StateMatrix& P) const;
 };
 
-// The states that an update leaves as they are: considered, what is not known of them counts in
-// the gain and in the covariance (Schmidt 1966).
+// These states are considered (Schmidt 1966): an update does not change them, but their uncertainty
+// counts in the gain and in the covariance.
 using Considered = std::initializer_list<int>;
 
-// Correction of the state and covariance after it: (I - KH) P (I - KH)^T + K R K^T multiplied out,
-// which holds for any gain, so that a gain's rounding is of second order; at the cost of the rows
-// alone.
+// Corrects the state and the covariance. The covariance is (I - KH) P (I - KH)^T + K R K^T
+// multiplied out, which holds for any gain, so a rounding error of the gain has an effect of second
+// order only. The cost is that of the `rows` rows only.
 template <int rows>
 void joseph_update(StateVector& x, StateMatrix& P, const Innovation<rows>& innovation,
                    Considered considered = {});
 
-// One measurement at the state's stamp, whatever its kind: corrects, or refuses with `reason` what
-// contradicts the prediction by more than `gate` (chi-square of `rows` degrees of freedom).
+// Applies one measurement of any kind at the state's stamp. If it contradicts the prediction by
+// more than `gate` (chi-square, `rows` degrees of freedom), it is refused with `reason` and the
+// state does not change.
 template <int rows>
 Outcome apply_gated(FilterState& state, const Innovation<rows>& innovation, double gate,
                     Reason reason, Considered considered = {}) {
@@ -44,7 +47,7 @@ Outcome apply_gated(FilterState& state, const Innovation<rows>& innovation, doub
   return {};
 }
 
-// Compiled once, in joseph_update.cpp.
+// The instances are compiled once, in joseph_update.cpp.
 extern template struct Innovation<1>;
 extern template struct Innovation<2>;
 extern template struct Innovation<3>;

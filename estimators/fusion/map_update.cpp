@@ -7,7 +7,7 @@
 namespace maploop::fusion {
 namespace {
 
-// Known by itself from now on.
+// Sets a state to a known value that is uncorrelated with all other states.
 void set_known(FilterState& state, int i, double value, double sigma) {
   state.x[i] = value;
   state.P.row(i).setZero();
@@ -86,7 +86,8 @@ Outcome apply_map(FilterState& state, const MapFeedback& feedback, const LocalFr
                          Reason::line_gate);
     };
     outcome = correct();
-    // As long as what GNSS has said still holds, it is the road that is wrong.
+    // While the last GNSS fix is recent enough to be correlated with the present error, a
+    // contradiction means that the road is wrong.
     const bool on_its_own = state.stamp - state.gnss_stamp > from_seconds(p.gnss_offset_time);
     if (outcome.refused() && ++state.map_gated_in_a_row == p.map_recover_after && on_its_own) {
       const double wrong = p.map_recovery_sigma;

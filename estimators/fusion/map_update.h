@@ -1,4 +1,4 @@
-// Correction by the road that the map matching has found.
+// The road that map matching has found corrects position and azimuth.
 #pragma once
 
 #include "estimators/fusion/fusion_parameters.h"
@@ -9,21 +9,24 @@
 
 namespace maploop::fusion {
 
-// z = 0; h = n (p - m) - sigma_lane b, with n to the right of the line through m and b the lane
-// offset in units of its own standard deviation. Across the line alone: along it a projection says
-// nothing that the filter did not say before. A turn makes the one direction the other.
+// z = 0; h = n (p - m) - sigma_lane b, in m, where n points to the right of the line through m and
+// b is the lane offset in units of its own standard deviation. Only the position across the line is
+// corrected: along it a projection adds no information. After a turn the former along-road
+// direction lies across the new road.
 Innovation<1> line_innovation(const FilterState& state, const MapFeedback& feedback,
                               const LocalFrame& frame);
-// z = azimuth of the link; h = azimuth.
+// z = azimuth of the link, rad; h = azimuth.
 Innovation<1> link_azimuth_innovation(const FilterState& state, const MapFeedback& feedback);
 
-// Another road: what was the lane offset is one of another road but for the share that lasts.
+// Enters another road: only the lasting share of the lane offset is kept, the remaining part is
+// unknown.
 void enter_road(FilterState& state, const FusionParameters& parameters);
 
 Reason check_feedback(const MapFeedback& feedback, const FusionParameters& parameters);
 
-// Gated, the azimuth by itself; the outcome is the position's where there is one. A hard reset is
-// not gated: the state becomes the matched place and azimuth, known as well as the feedback says.
+// Applies azimuth and position, each with its own gate. The outcome is that of the position if the
+// feedback has one. A hard reset is not gated: the state takes the matched position and azimuth
+// with the feedback's sigmas.
 Outcome apply_map(FilterState& state, const MapFeedback& feedback, const LocalFrame& frame,
                   const FusionParameters& parameters);
 

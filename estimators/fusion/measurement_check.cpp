@@ -47,7 +47,7 @@ Reason check_motion(const RelativeMotion& motion, const FusionParameters& parame
     return Reason::not_finite;
   }
   constexpr double rounding = 1e-3;
-  constexpr double max_speed = 100.0;  // m/s; the gate is for what is merely wrong
+  constexpr double max_speed = 100.0;  // m/s; smaller errors are left to the gate
   if (std::abs(motion.rotation.norm() - 1.0) > rounding ||
       motion.translation.norm() > max_speed * to_seconds(motion.stamp - motion.from)) {
     return Reason::out_of_range;

@@ -1,4 +1,4 @@
-// Can a measurement be used at all, whatever the filter believes?
+// These checks decide whether a measurement can be used at all, independent of the filter's state.
 #pragma once
 
 #include "estimators/fusion/fusion_parameters.h"
@@ -9,12 +9,14 @@
 
 namespace maploop::fusion {
 
-// Nothing is measured after it was delivered. A sensor whose clock is ahead would make everybody
-// else's data look late, so it must not get as far as the history.
+// Returns whether the sample is stamped later than it was delivered, by more than
+// `max_stamp_ahead`. A sensor with a fast clock would make the data of all other sensors look late,
+// so its samples must not reach the history.
 bool stamped_after_delivery(const Sample& sample, const FusionParameters& parameters);
 
-// Reason::none, or why not. Odometry that reports a failure itself is not looked at further: its
-// stamp still counts, unless its input was bad: then it says nothing about any interval.
+// These return Reason::none or the reason for refusing the measurement. Odometry that reports a
+// failure is not checked further because its stamp still ends an interval, except after bad input:
+// then it describes no interval and is refused.
 Reason check_sample(const ImuSample& sample, const FusionParameters& parameters);
 Reason check_wheel(const WheelSpeed& sample, const FusionParameters& parameters);
 Reason check_motion(const RelativeMotion& motion, const FusionParameters& parameters);

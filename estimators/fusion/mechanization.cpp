@@ -11,14 +11,14 @@ double squared(double v) {
   return v * v;
 }
 
-// Direction in enu at an azimuth and an elevation.
+// Returns the unit vector in enu at an azimuth and an elevation (rad).
 Vector3d direction(double azimuth, double elevation) {
   const double c = std::cos(elevation);
   return {std::sin(azimuth) * c, std::cos(azimuth) * c, std::sin(elevation)};
 }
 
-// F P F^T. Only the rows of position, speed, azimuth and distance of F hold more than their
-// diagonal: a third of the full product's work.
+// Returns F P F^T. Only the rows of position, speed, azimuth and distance of F have entries off the
+// diagonal, so this takes a third of the full product's operations.
 StateMatrix propagated(const StateMatrix& P, const StateMatrix& F) {
   using namespace index;
   static_assert(east == 0 && azimuth == 4);
@@ -43,7 +43,8 @@ Step mechanize(const StateVector& x, const InertialInput& input, const LocalEart
   const double sp = std::sin(x[pitch]), cp = std::cos(x[pitch]);
   const double sr = std::sin(x[roll]), cr = std::cos(x[roll]);
 
-  // Azimuth rate and acceleration, and their derivatives (rows over the state).
+  // These are azimuth rate and acceleration, and their derivatives with respect to the state (row
+  // vectors).
   double rate = 0.0;  // rad/s about body up
   double azimuth_rate = 0.0;
   double acceleration = 0.0;
@@ -68,8 +69,9 @@ Step mechanize(const StateVector& x, const InertialInput& input, const LocalEart
   }
 
   const double mid_azimuth = x[azimuth] + 0.5 * dt * azimuth_rate;
-  // Speed and distance are the speed sensor's; the way over ground is less by its scale. (What its
-  // scale does to an acceleration is lost in the accelerometer's own errors.)
+  // Speed and distance are those of the speed sensor; dividing by its scale gives the path over
+  // ground. (The effect of the scale on an acceleration is smaller than the accelerometer's own
+  // errors.)
   const double sensed_speed = x[speed] + 0.5 * dt * acceleration;
   const double to_ground = 1.0 / (1.0 + x[speed_scale]);
   const double mid_speed = sensed_speed * to_ground;
@@ -82,7 +84,7 @@ Step mechanize(const StateVector& x, const InertialInput& input, const LocalEart
   Step step;
   step.x = x;
   step.x.segment<3>(east) += dt * mid_speed * travel;
-  // What rolls without side slip is the rear axle; the origin ahead of it swings out in turns.
+  // The rear axle rolls without side slip; the origin ahead of it swings out in turns.
   const Vector3d left(-std::cos(mid_azimuth), std::sin(mid_azimuth), 0.0);
   const double swing = rate * parameters.rear_axle_distance;
   step.x.segment<3>(east) += dt * swing * left;
@@ -114,7 +116,7 @@ Step mechanize(const StateVector& x, const InertialInput& input, const LocalEart
   };
   decay(climb_offset, parameters.climb_offset_time, parameters.climb_offset);
   for (int i = gnss_offset_east; i <= gnss_offset_up; ++i) decay(i, parameters.gnss_offset_time);
-  // A lane lasts for a stretch of road, not for a time.
+  // The lane offset decays with distance, not with time.
   const double lane = std::exp(-dt * std::abs(x[speed]) / parameters.lane_length);
   step.x[lane_offset] *= lane;
   F(lane_offset, lane_offset) = lane;
@@ -137,7 +139,7 @@ StateMatrix process_noise(const StateVector& x, const Step& step, const Inertial
   const double dt = input.duration;
   StateMatrix Q = StateMatrix::Zero();
 
-  // White noise of density q is a constant error of variance q / dt over the step.
+  // White noise of density q equals a constant error of variance q / dt over the step.
   double speed_variance = dt * squared(p.silent_speed_noise);
   double azimuth_variance = dt * squared(p.silent_yaw_noise);
   if (input.inertial) {
@@ -153,7 +155,7 @@ StateMatrix process_noise(const StateVector& x, const Step& step, const Inertial
   Q(pitch, pitch) += dt * squared(p.pitch_noise);
   Q(roll, roll) += dt * squared(p.roll_noise);
 
-  // Random walk that departs from a constant by sigma in half of `time`.
+  // This random walk leaves a constant by sigma in half of `time`.
   const auto walk = [&](int i, double sigma, double time) {
     Q(i, i) += 2.0 * squared(sigma) * dt / time;
   };
@@ -164,7 +166,7 @@ StateMatrix process_noise(const StateVector& x, const Step& step, const Inertial
   walk(lidar_turn, p.lidar_turn_sigma, p.lidar_error_time);
   Q(speed_scale, speed_scale) += dt * squared(p.speed_scale_walk);
   Q(chain_drift, chain_drift) += squared(p.chain_drift) * std::abs(x[speed]) * dt;
-  // First-order Gauss-Markov about its mean.
+  // This is a first-order Gauss-Markov process about its mean.
   const auto markov = [&](int i, double sigma) {
     Q(i, i) += squared(sigma) * (1.0 - squared(step.F(i, i)));
   };

@@ -1,6 +1,6 @@
-// Reduced-IMU mechanization: forward speed, one gyro, position in local metres
-// (Noureldin, Karamat and Georgy 2013, 3D-RISS). The vehicle travels along its azimuth,
-// climbing by its pitch and the offset between body x and the direction of travel.
+// This is the reduced-IMU mechanization: forward speed, one gyro, position in local metres
+// (Noureldin, Karamat and Georgy 2013, 3D-RISS). The vehicle travels along its azimuth. Its climb
+// angle is its pitch plus the offset between body x and the direction of travel.
 #pragma once
 
 #include "estimators/fusion/earth.h"
@@ -10,25 +10,26 @@
 
 namespace maploop::fusion {
 
-// One step of the nominal state and what its covariance needs.
+// Holds one step of the nominal state and the derivatives that propagate its covariance.
 struct Step {
   StateVector x;
-  StateMatrix F;                    // of x by the state before
-  StateVector acceleration_effect;  // of x by a constant error of the acceleration, 1/(m/s^2)
-  StateVector yaw_rate_effect;      // of x by a constant error of the yaw rate, 1/(rad/s)
+  StateMatrix F;                    // derivative of x with respect to the state before
+  StateVector acceleration_effect;  // of x per constant acceleration error, 1/(m/s^2)
+  StateVector yaw_rate_effect;      // of x per constant yaw rate error, 1/(rad/s)
 };
 
-// The state `input.duration` later, by the midpoint rule. The specific forces contain gravity; the
-// Earth's rotation is taken out of the gyro. Without inertial data speed and attitude stay.
+// Returns the state `input.duration` later by the midpoint rule. The specific forces contain
+// gravity, and the Earth's rotation is removed from the gyro. Without inertial data, speed and
+// attitude do not change.
 Step mechanize(const StateVector& x, const InertialInput& input, const LocalEarth& earth,
                const FusionParameters& parameters);
 
-// Covariance of what the step cannot know (white noise of the inertial sensors, their biases'
-// walk, road, suspension and side slip) over its duration.
+// Returns the covariance of the step's noise over its duration: white noise of the inertial
+// sensors, random walk of their biases, road, suspension and side slip.
 StateMatrix process_noise(const StateVector& x, const Step& step, const InertialInput& input,
                           const FusionParameters& parameters);
 
-// Carries state and covariance to the end of the input's stretch. The stamp is the caller's.
+// Propagates state and covariance to the end of the input's stretch. The caller sets the stamp.
 void predict(FilterState& state, const InertialInput& input, const LocalEarth& earth,
              const FusionParameters& parameters);
 

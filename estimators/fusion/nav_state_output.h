@@ -1,4 +1,4 @@
-// The filter's state as the rest of the system reads it.
+// The filter's state is converted here to the message that other parts of the system read.
 #pragma once
 
 #include "estimators/fusion/filter_state.h"
@@ -7,11 +7,13 @@
 
 namespace maploop::fusion {
 
-// Derivative of position, velocity (enu), azimuth, pitch and roll by the state.
+// Returns the derivative of position (enu, m), velocity (enu, m/s), azimuth, pitch and roll (rad)
+// with respect to the state.
 Eigen::Matrix<double, 9, index::count> nav_state_jacobian(const StateVector& x);
 
-// Status, stamps and covariance included; to the velocity's, the side slip is added that the state
-// does not hold. `available` is the stamp; both it and `sequence` are the caller's to change.
+// Fills in status, stamps and covariance too. The side slip is not a state, so its variance is
+// added to the velocity's. `available` equals the stamp; the caller may change `available` and
+// `sequence`.
 NavState nav_state(const FilterState& state, const Geodetic& origin,
                    const FusionParameters& parameters);
 

@@ -13,7 +13,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Rotation vector of a unit quaternion, the short way round.
+// Returns the rotation vector of a unit quaternion with an angle of at most pi.
 Vector3d rotation_vector(Eigen::Quaterniond q) {
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
   const double sine = q.vec().norm();
@@ -21,13 +21,13 @@ Vector3d rotation_vector(Eigen::Quaterniond q) {
   return (sine < 1e-9 ? 2.0 : angle / sine) * q.vec();
 }
 
-// When position and speed were last corrected, by whatever aid, or known at the start.
+// Returns when position and speed were last corrected by any aid, or the start.
 Time aided_at(const FilterState& state, const FusionParameters& p) {
   return std::max({state.odometry_stamp, state.wheel_stamp, state.zero_velocity_stamp,
                    p.use_gnss ? state.gnss_stamp : Time{}, state.start});
 }
 
-// The prediction may have been wrong since the last aid: in speed, hence in distance and position.
+// Inflates the covariance for a speed error, which also moved the position since the last aid.
 void doubt_speed(FilterState& state, const RelativeMotion& motion, const FusionParameters& p) {
   using namespace index;
   StateVector error = StateVector::Zero();
@@ -39,9 +39,9 @@ void doubt_speed(FilterState& state, const RelativeMotion& motion, const FusionP
   state.P += error * error.transpose();
 }
 
-// And in the rotation over the interval; in each one before it too, back to the last odometry that
-// was applied, the azimuth by as much as this motion contradicts it. That sum is the same at both
-// ends of the interval: no odometry takes it back.
+// Inflates the covariance for a rotation error over the interval. The azimuth may also have been
+// wrong in each interval since the last applied odometry, by as much as this motion contradicts it.
+// That sum is equal at both ends of the interval, so odometry cannot reduce it again.
 void doubt_rotation(FilterState& state, const RelativeMotion& motion, const FusionParameters& p) {
   using namespace index;
   const double interval = to_seconds(motion.stamp - motion.from);
@@ -63,7 +63,7 @@ void doubt_rotation(FilterState& state, const RelativeMotion& motion, const Fusi
   state.P(gyro_bias, gyro_bias) += p.gyro_bias_sigma * p.gyro_bias_sigma;
 }
 
-// Rotation about the horizontal axes alone.
+// Keeps only the rotation about the horizontal axes.
 Innovation<2> tilt_innovation(const FilterState& state, const RelativeMotion& motion,
                               const FusionParameters& parameters) {
   const Innovation<3> all = rotation_innovation(state, motion, parameters);
@@ -97,7 +97,7 @@ Outcome correct_turning(FilterState& state, const RelativeMotion& motion,
                      Reason::rotation_gate);
 }
 
-// All of it or nothing.
+// Applies all corrections or leaves the state unchanged.
 Outcome correct(FilterState& state, const RelativeMotion& motion, const FusionParameters& p) {
   const StateVector x = state.x;
   const StateMatrix P = state.P;
@@ -111,7 +111,7 @@ Outcome correct(FilterState& state, const RelativeMotion& motion, const FusionPa
   }
   if (!outcome.refused()) outcome = correct_turning(state, motion, p);
   if (!outcome.refused() && p.use_odometry_speed) {
-    // Climb only skips itself.
+    // A gated climb is skipped without refusing the motion.
     apply_gated(state, climb_innovation(state, motion, p), p.speed_gate, Reason::speed_gate);
   }
   if (!outcome.refused() && (std::abs(state.x[index::pitch]) > p.max_tilt ||
@@ -129,9 +129,9 @@ Outcome correct(FilterState& state, const RelativeMotion& motion, const FusionPa
   return outcome;
 }
 
-// The vehicle was taken to drive forward when it started from a course. Odometry that sees it go as
-// fast the other way says that it was in reverse: the nose points where the tail was thought to be,
-// and the way travelled stays the same.
+// A start from a course assumes that the vehicle drives forward. If odometry shows the same speed
+// in the opposite direction, the vehicle was in reverse: its front points to where its rear was
+// assumed, and its path stays the same.
 bool drives_backward(const FilterState& state, const RelativeMotion& motion,
                      const FusionParameters& p) {
   if (!p.use_odometry_speed) return false;
@@ -157,12 +157,12 @@ void turn_round(FilterState& state) {
   }
 }
 
-// Ranges have another scale than disparities, and no wheel has part in it.
+// Ranges and disparities differ in scale, and wheels do not affect the scale of ranges.
 bool by_ranges(const RelativeMotion& motion) {
   return motion.source != OdometrySource::visual;
 }
 
-// How long a motion is against the distance, and what that changes by with the states.
+// The gain is a motion's measured length per distance; `by_state` is its derivative.
 struct Gain {
   double value;
   StateVector by_state = StateVector::Zero();
@@ -178,8 +178,7 @@ Gain gain_of(const FilterState& state, const RelativeMotion& motion) {
   return gain;
 }
 
-// Corrects after having doubted the prediction; where that does not explain the motion either, the
-// state stays as it was.
+// Corrects with an inflated covariance. If even this is refused, the state stays as it was.
 Outcome recover(FilterState& state, const RelativeMotion& motion, Outcome outcome,
                 const FusionParameters& p) {
   const FilterState before = state;
@@ -294,7 +293,7 @@ Outcome apply_odometry(FilterState& state, const RelativeMotion& motion,
     }
   }
   if (outcome.refused()) {
-    // What was not added is missing from the chain.
+    // The chain misses the rotation of a refused motion, so it restarts.
     if (parameters.chain_odometry_azimuth) start_chain(state);
     ++state.odometry_refused;
   } else {

@@ -1,5 +1,5 @@
-// Correction by odometry: the distance travelled over its interval and the rotation from the
-// interval's start (stochastic clone: Roumeliotis and Burdick 2002).
+// Odometry corrects the state by the distance travelled over its interval and by the rotation since
+// the interval's start (stochastic clone: Roumeliotis and Burdick 2002).
 #pragma once
 
 #include "estimators/fusion/fusion_parameters.h"
@@ -9,47 +9,49 @@
 
 namespace maploop::fusion {
 
-// Translation seen from the attitude half-way through the interval, scaled from chord to arc: at a
-// constant turn rate its x is the distance travelled (negative in reverse), and its y and z show
-// the direction of travel in the body. The chord lies half the rotation away from the forward axis
-// and is sin(a/2) / (a/2) of the arc, a being the angle of rotation.
+// The translation is expressed in the attitude half-way through the interval and scaled from chord
+// to arc. At a constant turn rate its x is the distance travelled (negative in reverse), and its y
+// and z show the direction of travel in the body frame. With a rotation by the angle a, the chord
+// lies a/2 away from the forward axis, and its length is sin(a/2) / (a/2) of the arc's.
 struct Arc {
   Eigen::Vector3d displacement;  // m
   Eigen::Matrix3d covariance;    // m^2
 };
 Arc arc(const RelativeMotion& motion);
 
-// z = forward displacement; h = distance as the visual odometry sees it, of a LiDAR's motion with
-// the LiDAR's scale in place of that. Exact for any speed profile, as the filter integrates its own
-// speed over the same interval.
+// z = forward displacement, m; h = distance as the visual odometry measures it. For a LiDAR's
+// motion, h has the LiDAR's scale instead of the speed sensor's. This is exact for any speed
+// profile, as the filter integrates its own speed over the same interval.
 Innovation<1> distance_innovation(const FilterState& state, const RelativeMotion& motion,
                                   const FusionParameters& parameters);
 
-// z = upward displacement; h = that of the distance * climb offset.
+// z = upward displacement, m; h = (h of the distance) * climb offset.
 Innovation<1> climb_innovation(const FilterState& state, const RelativeMotion& motion,
                                const FusionParameters& parameters);
 
-// z = rotation; h = R(clone)^T R(now), a LiDAR's turned further by its error; the residual is a
-// rotation vector in the body frame at `from`, where the odometry's covariance lives too.
+// z = rotation; h = R(clone)^T R(now), which for a LiDAR's motion is turned further by its turning
+// error. The residual is a rotation vector (rad) in the body frame at `from`, in which the
+// odometry's covariance is given too.
 Innovation<3> rotation_innovation(const FilterState& state, const RelativeMotion& motion,
                                   const FusionParameters& parameters);
 
-// z = azimuth chained from odometry alone (thesis); h = azimuth + drift of the
-// chain.
+// z = azimuth chained from odometry alone (thesis); h = azimuth + drift of the chain, rad.
 Innovation<1> chained_azimuth_innovation(const FilterState& state,
                                          const FusionParameters& parameters);
 
-// Those corrections that the configuration asks for, all or none: an odometry that is wrong in
-// speed (gate of 1 degree of freedom) or rotation (3) is not trusted in the rest. Climb has the
-// gate of speed, but only skips itself.
+// Applies all corrections that the configuration asks for, or none of them: if odometry is wrong in
+// speed (gate with 1 degree of freedom) or rotation (3), the rest is not trusted either. Climb has
+// the same gate as speed, but a gated climb is only skipped.
 //
-// After `recover_after` gated motions in a row the prediction is the suspect, until a motion passes
-// the gates by itself: its covariance is inflated by what it may have got wrong since it was last
-// aided (`recoveries` counts) before the gates are asked again. A speed that a fix has just
-// confirmed (held_by_fix) is not doubted: then the odometry is wrong. Where the motion goes as fast
-// the other way, nose and tail were mistaken for each other and change places first.
+// After `recover_after` consecutive gated motions the prediction is suspected, until a motion
+// passes the gates. Its covariance is inflated by the error it may have accumulated since it was
+// last aided, and the gates are tested again (`recoveries` counts the successes). A speed that a
+// fix has just confirmed (held_by_fix) is not doubted: then the odometry is wrong. If the motion is
+// equally fast in the opposite direction, front and rear of the vehicle were confused and are
+// exchanged first.
 //
-// Counts in the state; takes the clone in every case. Precondition: state.stamp == motion.stamp.
+// Updates the counters in the state, and takes the clone in every case. Precondition: state.stamp
+// == motion.stamp.
 Outcome apply_odometry(FilterState& state, const RelativeMotion& motion,
                        const FusionParameters& parameters);
 

@@ -1,4 +1,4 @@
-// What became of one measurement, and why.
+// The outcome states whether a measurement was applied, held or refused, and why.
 #pragma once
 
 #include <cstddef>
@@ -10,43 +10,43 @@ namespace maploop::fusion {
 enum class Disposition : std::uint8_t {
   applied,
   held,     // kept until the filter starts, then applied
-  refused,  // `reason` says why
+  refused,  // `reason` states why
 };
 
 enum class Reason : std::uint8_t {
   none,
-  // At the door: the measurement is forgotten.
+  // These refuse a measurement on arrival; it is discarded.
   not_finite,
-  out_of_range,        // beyond what the sensor or a road vehicle does
+  out_of_range,        // beyond what the sensor or a road vehicle can do
   invalid_covariance,  // not symmetric, or a negative variance
-  bad_interval,        // odometry over no time, backwards, or longer than the limit
-  duplicate,           // same stamp and sequence as one known already
-  too_old,             // before the history begins
-  before_start,        // before the moment the filter started at
-  after_delivery,      // stamped later than it was delivered: its sensor's clock is wrong
-  clock_fell_back,     // its sensor's clock has fallen back, and is not right again
-  frozen,     // bit for bit the same for too long while the vehicle moves: its sensor is stuck
-  time_jump,  // further ahead of all others than may be, or not confirmed by a second one
-  // Odometry, at its stamp: no correction, but the next interval starts there.
-  odometry_not_ok,   // its own status says so (bad input: at the door)
+  bad_interval,        // odometry over an empty, reversed or too long interval
+  duplicate,           // stamp and sequence equal those of a known measurement
+  too_old,             // older than the history
+  before_start,        // before the time at which the filter started
+  after_delivery,      // stamped later than delivered: the sensor's clock is wrong
+  clock_fell_back,     // the sensor's clock went back and is not right again yet
+  frozen,              // bit for bit equal for too long while moving: the sensor is stuck
+  time_jump,           // too far ahead of all others, or not confirmed by a second stamp
+  // These refuse odometry at its stamp: it does not correct, but the next interval starts there.
+  odometry_not_ok,   // its own status reports a failure (bad input: refused on arrival)
   interval_unknown,  // the filter does not know the attitude at the interval's start
   speed_gate,        // forward speed contradicts the prediction
   rotation_gate,     // rotation contradicts the prediction
-  implausible_tilt,  // the correction would lean the vehicle over
+  implausible_tilt,  // the correction would tilt the vehicle too far
   wheel_gate,        // the wheels' speed contradicts the prediction
   not_configured,    // the configuration does not use this sensor
   // GNSS fixes.
   position_gate,    // position contradicts the prediction
   velocity_gate,    // velocity contradicts the prediction
-  already_started,  // the configuration has no use for fixes but to start
-  too_slow,         // no course without motion: waiting for a fix that moves
-  stamps_apart,     // position and velocity belong to different moments
+  already_started,  // the configuration uses fixes only to start
+  too_slow,         // a slow fix has no course; the filter waits for a moving one
+  stamps_apart,     // position and velocity are too far apart in time
   too_far_from_origin,
   // Map feedback.
-  nothing_fed_back,   // it says why itself
-  map_not_trusted,    // it has led astray a moment ago
+  nothing_fed_back,   // the feedback itself contains the reason
+  map_not_trusted,    // the map misled the filter shortly before
   line_gate,          // the road's line contradicts the prediction
-  link_azimuth_gate,  // its azimuth contradicts the prediction
+  link_azimuth_gate,  // the road's azimuth contradicts the prediction
 };
 
 constexpr std::size_t reason_count = static_cast<std::size_t>(Reason::link_azimuth_gate) + 1;

@@ -29,7 +29,7 @@ EventKey last_key_at(Time stamp) {
   return {stamp, EventKind::clone, std::numeric_limits<std::uint64_t>::max()};
 }
 
-// Between samples on a straight line; after the newest one, its own.
+// Interpolates linearly between samples; after the newest one, returns its own value.
 double yaw_rate_at(const InertialSamples& samples, Time t) {
   if (samples.before == nullptr) return 0.0;
   const ImuSample& a = *samples.before;
@@ -63,7 +63,7 @@ Outcome ReducedImuFilter::add(const ImuSample& sample) {
   make_room(1);
   if (key <= base_key_) return refuse_stamp(Reason::too_old);
 
-  // The stretch since the sample before was predicted by holding that one: do it again.
+  // The stretch since the previous sample was predicted by holding that sample; recompute it.
   std::size_t redo = history_.position_after(key);
   while (redo > 0 && history_[redo - 1].key.kind != EventKind::imu) --redo;
   const bool reaches_into_base =
@@ -74,7 +74,7 @@ Outcome ReducedImuFilter::add(const ImuSample& sample) {
   return insert_and_roll(key, sample, redo);
 }
 
-// The last sample before the start is where the interpolation of the first stretch begins.
+// The interpolation of the first stretch begins at the last sample before the start.
 Outcome ReducedImuFilter::add_before_start(const ImuSample& sample) {
   const auto order = [](const ImuSample& s) { return std::pair(s.stamp, s.sequence); };
   if (base_sample_ && order(sample) <= order(*base_sample_)) {
@@ -104,7 +104,7 @@ Outcome ReducedImuFilter::add(const RelativeMotion& motion) {
   const EventKey clone{motion.from, EventKind::clone, motion.sequence};
   if (motion.status == OdometryStatus::ok && clone > base_key_ &&
       base_.clone_stamp != motion.from) {
-    // Nothing to do where an odometry event, or another request, takes a clone at that moment.
+    // A request is not needed if an odometry event, or another request, takes a clone at that time.
     const std::size_t place = history_.position_after(last_key_at(motion.from));
     const bool taken = place > 0 && history_[place - 1].key.stamp == motion.from &&
                        history_[place - 1].key.kind >= EventKind::odometry;
@@ -213,7 +213,7 @@ Outcome ReducedImuFilter::start_with(Time stamp, const Geodetic& position, MakeS
   return count({});
 }
 
-// Begins anew, in the same frame, with an empty history: the clock of the data has jumped.
+// Restarts in the same frame with an empty history, because the clock of the data has jumped.
 void ReducedImuFilter::restart() {
   history_.clear();
   base_ = {};
@@ -396,7 +396,7 @@ void ReducedImuFilter::apply_sample(FilterState& state, const ImuSample& sample,
   const double interval = to_seconds(sample.stamp - before.stamp);
   if (interval <= 0.0) return;
   if (const auto roll = roll_innovation(state, sample, interval, earth_, parameters_)) {
-    // A body leans in turns: what that does to the force must not pass for speed or for turning.
+    // A body leans in turns; the effect on the measured force must not change speed or turning.
     joseph_update(state.x, state.P, *roll,
                   {index::speed, index::speed_scale, index::gyro_bias, index::lidar_scale,
                    index::lidar_turn});

@@ -1,5 +1,5 @@
-// Reduced-IMU navigation: two horizontal accelerometers, one vertical gyro and odometry in an
-// extended Kalman filter that takes late data at its own stamp.
+// This extended Kalman filter combines two horizontal accelerometers, one vertical gyro and
+// odometry, and applies late data at its own stamp.
 #pragma once
 
 #include <array>
@@ -28,22 +28,22 @@ class ArchiveWriter;
 namespace maploop::fusion {
 
 enum class Phase : std::uint8_t {
-  waiting_for_fix,     // no usable GNSS fix yet
-  waiting_for_motion,  // the last fix was too slow to show a course
+  waiting_for_fix,     // no usable GNSS fix has arrived yet
+  waiting_for_motion,  // the last fix was too slow to define a course
   running,
 };
 
 struct FilterStatus {
   Phase phase = Phase::waiting_for_fix;
-  std::uint64_t recoveries = 0;  // times a row of gated odometry made the filter doubt itself
-  std::uint64_t reinitializations = 0;  // times it began anew at a fix that it could not believe
-  DelayEstimate imu_delay;              // left in the inertial stamps, against odometry
-  std::uint64_t restarts = 0;           // times a jump of the clock made it begin anew
-  std::uint64_t shortened = 0;          // events that left the history early because it was full
-  std::uint64_t restorations = 0;       // times what the map had led to was undone
-  std::uint64_t unused = 0;  // held measurements that grew too old before the filter started
-  // Of every measurement added, by its outcome when it was added (a later arrival may change what
-  // the filter makes of it; NavState counts what is inside a state).
+  std::uint64_t recoveries = 0;  // covariance inflations after consecutive gated measurements
+  std::uint64_t reinitializations = 0;  // restarts from a fix after consecutive gated fixes
+  DelayEstimate imu_delay;              // remaining delay of the inertial stamps against odometry
+  std::uint64_t restarts = 0;           // restarts after a jump of the data's clock
+  std::uint64_t shortened = 0;          // events dropped early because the history was full
+  std::uint64_t restorations = 0;       // times a map-free copy replaced the filter
+  std::uint64_t unused = 0;             // held measurements that became too old before the start
+  // These count all added measurements by their outcome on arrival. (A later arrival may change
+  // what the filter does with a measurement; NavState counts those that a state includes.)
   std::uint64_t applied = 0;
   std::uint64_t held = 0;
   std::array<std::uint64_t, reason_count> refused{};  // by Reason
@@ -59,56 +59,59 @@ void archive(Archive& ar, FilterStatus& s) {
      s.restorations, s.unused, s.applied, s.held, s.refused);
 }
 
-// Not thread-safe; reads no clock, allocates nothing after construction.
+// Not thread-safe. Reads no clock, and allocates nothing after construction.
 //
-// Measurements may arrive in any order and late by up to `history_length`: each is applied at its
-// own stamp and everything after it is done again, so that the result has the same bits as if all
-// had arrived in the order of (stamp, kind, sequence). The inertial input is interpolated between
-// samples; after the newest one its value is held.
+// Measurements may arrive in any order and late by up to `history_length`. Each is applied at its
+// own stamp and everything after it is recomputed, so the result has the same bits as if all had
+// arrived in the order of (stamp, kind, sequence). The inertial input is interpolated between
+// samples; after the newest sample its value is held.
 //
-// Stamps of a broken clock are refused; when the clock of all data has jumped, the filter restarts
-// with an empty history in the same frame and waits for a fix (StampGuard). Every measurement is
-// counted in the status, as applied, held or refused with its reason.
+// Implausible stamps are refused. If the clock of all data has jumped, the filter restarts with an
+// empty history in the same frame and waits for a fix (StampGuard). The status counts every
+// measurement as applied, held or refused with its reason.
 //
-// Axes are the body's (x forward, y left, z up; msgs/frames.h); its origin is taken to roll without
-// side slip, as a point near the rear axle does.
+// Axes are the body's (x forward, y left, z up; msgs/frames.h). The body's origin is assumed to
+// roll without side slip, as a point near the rear axle does.
 class ReducedImuFilter {
  public:
-  // Throws std::invalid_argument when a parameter cannot work. Without an origin, the position of
-  // the fix that starts the filter becomes the origin.
+  // Throws std::invalid_argument if a parameter is out of its bounds. Without an origin, the
+  // position of the fix that starts the filter becomes the origin.
   explicit ReducedImuFilter(const FusionParameters& parameters,
                             std::optional<Geodetic> origin = std::nullopt);
 
   Outcome add(const ImuSample& sample);
   Outcome add(const RelativeMotion& motion);
   Outcome add(const WheelSpeed& sample);
-  // Starts the filter; later ones correct it where the configuration says so: position and velocity
-  // each at its own stamp (the outcome is the position's).
+  // The first usable fix starts the filter. With `use_gnss`, later fixes correct it: position and
+  // velocity each at its own stamp (the outcome is the position's).
   Outcome add(const GnssFix& fix);
   Outcome add(const MapFeedback& feedback);
 
-  // Starts the filter from values that are known otherwise.
+  // Starts the filter from given values.
   Outcome start(const KnownStart& known);
 
   bool initialized() const { return initialized_; }
-  // Of the enu coordinates; the default frame before the start when no origin was given.
+  // Returns the frame of the enu coordinates. Before the start without a given origin, it is the
+  // default frame.
   const LocalFrame& frame() const { return frame_; }
   FilterStatus status() const;
 
-  // Becomes another one of the same parameters; what was counted stays.
+  // Takes over the state of a filter with the same parameters; keeps its own counters.
   void take_over(const ReducedImuFilter& other);
 
-  // State at `t` from every measurement known now with a stamp <= t (and the inertial sample after
-  // t, for the interpolation). Beyond the newest measurement it is predicted. Nothing before the
-  // history begins, or more than `max_gap` beyond its end, or before the start.
+  // Returns the state at `t` from all measurements known now with a stamp <= t (and from the
+  // inertial sample after t, for the interpolation). After the newest measurement the state is
+  // predicted. Returns nothing before the start, before the history begins, or more than `max_gap`
+  // after its end.
   std::optional<NavState> state_at(Time t) const;
 
-  // Stamp of the newest measurement, or of the start; epoch 0 when there is none.
+  // Returns the stamp of the newest measurement, or of the start; epoch 0 if there is no
+  // measurement.
   Time newest() const { return guard_.newest(); }
 
-  // msgs/archive.h: everything but the parameters, the history included; about 2.4 kB an event.
-  // Loading throws ArchiveError, and changes nothing, where the archive is of other parameters or
-  // of another version, or broken; it allocates.
+  // Archives everything but the parameters (msgs/archive.h), including the history; about 2.4 kB
+  // per event. Loading allocates. It throws ArchiveError, and changes nothing, if the archive is
+  // broken, of another version, or of other parameters.
   std::size_t largest_archive() const;  // bytes
   void archive(ArchiveWriter& ar) const;
   void archive(ArchiveReader& ar);
@@ -117,7 +120,7 @@ class ReducedImuFilter {
   template <class Archive, class Filter>
   static void describe(Archive& ar, Filter& filter);
   Outcome add_before_start(const ImuSample& sample);
-  // Nothing has dropped out of the history since the start.
+  // True if no event has left the history since the start.
   bool started_here() const { return initialized_ && base_key_.kind == EventKind::start; }
   Outcome count(Outcome outcome);
   Reason check_stamp(const EventKey& key);
@@ -149,10 +152,10 @@ class ReducedImuFilter {
   SensorClock imu_clock_;
   EventHistory history_;
 
-  // What is left of the events that dropped out of the history.
+  // These summarize the events that have left the history.
   FilterState base_;
   EventKey base_key_;
-  std::optional<ImuSample> base_sample_;  // the newest inertial sample among them
+  std::optional<ImuSample> base_sample_;  // newest inertial sample among them
 
   bool initialized_ = false;
   FilterStatus status_;

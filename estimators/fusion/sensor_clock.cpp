@@ -24,8 +24,8 @@ Reason SensorClock::check(const Sample& sample) {
   return Reason::none;
 }
 
-// The usual age changes as fast as two clocks drift apart; a step of one of them takes minutes to
-// become usual.
+// The usual age changes at most as fast as two clocks drift apart, so a step of one clock takes
+// minutes to become usual.
 void SensorClock::follow(const Sample& sample) {
   const Duration age = sample.available - sample.stamp;
   if (last_stamp_ == Time{}) {

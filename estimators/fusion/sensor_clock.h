@@ -1,4 +1,4 @@
-// Watches one sensor's own clock.
+// This class checks one sensor's own clock.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,14 @@
 
 namespace maploop::fusion {
 
-// A sensor counts its samples, and its stamps go on with the count. A later sample with an
-// earlier stamp means that the clock has fallen back: what follows would look like late data,
-// which it is not. From there on samples are refused until they are delivered as soon after their
-// stamps as before. (Late data keeps the order of its stamps.) Where the earlier stamps are the
-// ones delivered as usual, the clock was ahead until then and is right again: nothing is refused.
+// A sensor numbers its samples, and their stamps increase with the number. A later sample with an
+// earlier stamp means that the clock went back; the samples after it would look like late data.
+// (Late data keeps the order of its stamps.) From then on samples are refused until their age at
+// delivery is as small as before. If instead the earlier stamps have the usual age, the clock was
+// ahead before and is now right: nothing is refused.
 class SensorClock {
  public:
-  // Reason::none or clock_fell_back.
+  // Returns Reason::none or clock_fell_back.
   Reason check(const Sample& sample);
 
   template <class Archive>
@@ -30,8 +30,8 @@ class SensorClock {
   Time last_available_{};
   std::uint64_t last_sequence_ = 0;
   bool fallen_ = false;
-  Duration believed_age_{};  // up to it, while fallen
-  Duration usual_age_{};     // from stamp to delivery
+  Duration believed_age_{};  // while fallen_: samples up to this age are accepted again
+  Duration usual_age_{};     // usual time from stamp to delivery
 };
 
 }  // namespace maploop::fusion

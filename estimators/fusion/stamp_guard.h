@@ -1,4 +1,4 @@
-// Tells late measurements from broken clocks.
+// The guard distinguishes late measurements from broken clocks.
 #pragma once
 
 #include "estimators/fusion/fusion_parameters.h"
@@ -7,25 +7,26 @@
 
 namespace maploop::fusion {
 
-// After 1970 and before 2100: differences of such stamps do not overflow.
+// Returns whether the stamp is after 1970 and before 2100; differences of such stamps do not
+// overflow.
 bool plausible_stamp(Time stamp);
 
-// A stamp older than the history is too late. One further ahead of all others than `confirm_gap`
-// may be a fault, which would make all others look late: it is refused, and the next one is taken
-// if it agrees with it (up to `max_gap`). When nothing but such refusals arrives, the clock of the
-// data itself has jumped.
+// A stamp older than the history is too old. A stamp ahead of all others by more than `confirm_gap`
+// may be a fault that would make all other data look late. It is refused, and the next stamp is
+// accepted if it is within `confirm_gap` of it and at most `max_gap` ahead. If only such refusals
+// arrive, the clock of the data itself has jumped.
 class StampGuard {
  public:
   explicit StampGuard(const FusionParameters& parameters);
 
-  // Reason::none, out_of_range, too_old or time_jump.
+  // Returns Reason::none, out_of_range, too_old or time_jump.
   Reason check(Time stamp);
   void accept(Time stamp);
-  // Call for each measurement refused for its stamp. True when the clock has jumped.
+  // Call this for each measurement refused for its stamp. Returns true if the clock has jumped.
   bool refuse(Reason reason);
   void reset();
 
-  Time newest() const { return newest_; }  // accepted; epoch 0: none
+  Time newest() const { return newest_; }  // newest accepted stamp; epoch 0: none
   Time oldest() const { return newest_ - history_length_; }
 
   template <class Archive>

@@ -1,4 +1,4 @@
-// Correction by the wheels' speed.
+// The speed of the wheels corrects the state.
 #pragma once
 
 #include "estimators/fusion/fusion_parameters.h"
@@ -8,12 +8,12 @@
 
 namespace maploop::fusion {
 
-// z = speed of the wheels; h = speed.
+// z = speed of the wheels, m/s; h = speed.
 Innovation<1> wheel_innovation(const FilterState& state, const WheelSpeed& sample,
                                const FusionParameters& parameters);
 
-// After `recover_after` gated samples in a row the prediction is the suspect (`recoveries`), unless
-// a fix has just confirmed it (held_by_fix).
+// After each `recover_after` consecutive gated samples the speed's covariance is inflated
+// (`recoveries`), unless a fix has just confirmed the speed (held_by_fix).
 Outcome apply_wheel(FilterState& state, const WheelSpeed& sample,
                     const FusionParameters& parameters);
 

@@ -6,7 +6,7 @@
 namespace maploop::fusion {
 namespace {
 
-constexpr double memory = 1.0;  // s, of the statistics, and of what others said
+constexpr double memory = 1.0;  // s, for the statistics and for reports of odometry and wheels
 
 void note(Stillness& stillness, bool standing, Time stamp) {
   (standing ? stillness.seen_standing : stillness.seen_moving) = stamp;
