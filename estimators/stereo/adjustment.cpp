@@ -66,7 +66,7 @@ Adjustment::Term Adjustment::linearize(const Eigen::Isometry3d& pose, int track,
 double Adjustment::settle(const Eigen::Isometry3d& pose, int track, double* disparity) const {
   *disparity =
       std::max(kSmallestDisparity, tracks_[static_cast<std::size_t>(track)].previous.disparity());
-  for (int i = 0; i < 2; ++i) {  // nearly linear: the second step moves 1e-3 px and less
+  for (int i = 0; i < 2; ++i) {  // nearly linear: the second step is at most 1e-3 px
     const Term term = linearize(pose, track, *disparity);
     if (!term.valid) return kInfinite;
     *disparity -= term.by_disparity.dot(term.residual) / term.by_disparity.squaredNorm();

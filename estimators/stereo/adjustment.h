@@ -1,4 +1,4 @@
-// The least-squares problem behind refine_motion.
+// This is the least-squares problem that refine_motion solves.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,34 +14,35 @@ namespace maploop::stereo {
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 using Matrix7 = Eigen::Matrix<double, 7, 7>;
 
-constexpr double kSmallestDisparity = 0.05;  // px; keeps an adjusted point in front and finite
+constexpr double kSmallestDisparity =
+    0.05;  // px; keeps an adjusted point in front of the camera and finite
 
-// Of the pose's six perturbations (residual.h) and, last, of a constant offset of all disparities
-// (px; true = measured + offset), at offset zero.
+// These are the equations of the pose's six perturbations (residual.h) and, last, of a constant
+// offset of all disparities (px; true = measured + offset), linearized at offset zero.
 struct NormalEquations {
   Matrix7 information = Matrix7::Zero();
   Vector7 gradient = Vector7::Zero();
 };
 
-// Residuals of a track: current u, v and disparity, previous disparity. A match that is wrong by
-// half a pixel (a slanted wall, the rim of a pole) is wrong at both epochs, so the two disparities
-// share an error of sigma_match: their half sum is known worse than their half difference. Each
-// track's own unknown is its true disparity at the previous epoch. `tracks` must outlive the
-// object.
+// The residuals of a track are current u, v and disparity, and the previous disparity. A match that
+// is wrong by half a pixel (on a slanted wall or the edge of a pole) is wrong at both epochs. The
+// two disparities therefore share an error of sigma_match, and half their sum has a larger variance
+// than half their difference. Each track has one unknown of its own, its true disparity at the
+// previous epoch. `tracks` must outlive the object.
 class Adjustment {
  public:
   Adjustment(const StereoCalibration& camera, const StereoParameters& parameters,
              std::span<const StereoTrack> tracks);
 
-  // Best disparity of a track for a given T_previous_current, and the squared residual that is
-  // left; infinite behind the camera.
+  // Computes the best disparity (px) of a track for a given T_previous_current; returns the
+  // remaining squared whitened residual, which is infinite behind the camera.
   double settle(const Eigen::Isometry3d& pose, int track, double* disparity) const;
 
-  // Huber cost of the tracks named, with every disparity settled.
+  // Returns the Huber cost of the tracks in `inliers` and fills in the best disparity of each.
   double cost(const Eigen::Isometry3d& pose, std::span<const int> inliers,
               std::vector<double>* disparities) const;
 
-  // The disparities are eliminated by the Schur complement.
+  // Returns the equations after the disparities are eliminated by the Schur complement.
   NormalEquations normal_equations(const Eigen::Isometry3d& pose, std::span<const int> inliers,
                                    const std::vector<double>& disparities) const;
 

@@ -18,7 +18,7 @@ bool BackEnd::known(Time stamp) const {
   return moved_ && stamp > last_stamp_ && to_seconds(stamp - last_stamp_) <= parameters_.max_gap;
 }
 
-// Constant velocity: the last motion, stretched.
+// This assumes constant velocity: the last motion is scaled in time.
 std::optional<Eigen::Isometry3d> BackEnd::expected_motion(Time stamp, double seconds) const {
   if (!known(stamp)) return std::nullopt;
   const double ratio = seconds / last_seconds_;
@@ -32,7 +32,7 @@ std::optional<Eigen::Isometry3d> BackEnd::expected_motion(Time stamp, double sec
 std::optional<MotionPrior> BackEnd::prior(Time stamp, double seconds) const {
   const auto expected = expected_motion(stamp, seconds);
   if (!expected) return std::nullopt;
-  // From the middle of the last motion to the middle of this one.
+  // This is the time from the middle of the last motion to the middle of this one.
   const double since = to_seconds(stamp - last_stamp_) + 0.5 * (last_seconds_ - seconds);
   MotionPrior prior{*expected, {}};
   prior.sigma << Eigen::Vector3d::Constant(parameters_.sigma_acceleration * since * seconds),
@@ -40,7 +40,7 @@ std::optional<MotionPrior> BackEnd::prior(Time stamp, double seconds) const {
   return prior;
 }
 
-// The motion in the body, if a road vehicle can make it.
+// Fills in the motion of the body if a road vehicle can make it.
 bool BackEnd::accept(const CameraMotion& motion, double seconds, RelativeMotion* result) const {
   RelativeMotion in_body;
   to_body(camera_.T_body_cam, motion, &in_body);
@@ -69,7 +69,7 @@ void BackEnd::remember(const Eigen::Isometry3d& motion, double seconds,
   moved_ = true;
 }
 
-// Where features live longer than correlated_pairs, so do the errors that motions have in common.
+// If features live longer than correlated_pairs, motions also share their errors for longer.
 void BackEnd::widen(std::span<const StereoTrack> tracks, const CameraMotion& motion,
                     RelativeMotion* result) {
   const double pairs = ages_.correlated_pairs(tracks, motion.inliers);
@@ -110,8 +110,8 @@ void BackEnd::adjust_window(std::span<const StereoTrack> tracks, CameraMotion* m
   to_body(camera_.T_body_cam, *motion, result);
 }
 
-// Whether the tracks that do not agree with an implausible motion agree on one that is plausible:
-// then the others are on something that moves itself.
+// Returns whether the tracks that do not agree with an implausible motion agree on a plausible one.
+// The other tracks are then on a moving object.
 bool BackEnd::other_motion(std::span<const StereoTrack> tracks, const CameraMotion& motion,
                            const RelativeMotion& result) const {
   std::vector<StereoTrack> others;
@@ -129,7 +129,7 @@ bool BackEnd::other_motion(std::span<const StereoTrack> tracks, const CameraMoti
   return other.status == OdometryStatus::ok && accept(other, seconds, &second);
 }
 
-// The camera's motion from result.from to result.stamp.
+// Estimates the camera's motion from result.from to result.stamp.
 CameraMotion BackEnd::estimate(std::span<const StereoTrack> tracks,
                                const RelativeMotion& result) const {
   const double seconds = to_seconds(result.stamp - result.from);

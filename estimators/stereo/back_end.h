@@ -1,4 +1,4 @@
-// From stereo tracks of successive pairs to the motions of the body.
+// The back end computes the motions of the body from the stereo tracks of successive pairs.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -20,35 +20,37 @@
 
 namespace maploop::stereo {
 
-// What follows the front end, whether the tracks come from images or from a file: resect, adjust
-// the pair, judge, adjust the window, and remember the velocity and the disparities' offset for the
-// next pair.
+// Performs all steps after the front end, for tracks from images or from a file: it resects and
+// adjusts the pair, judges the motion, adjusts the window, and keeps the velocity and the
+// disparities' offset for the next pair.
 //
-// With a window the motions joined are the path of its newest pose: a motion leads from where the
-// previous pose was said to be, so that what the window has learnt of it since is not lost.
+// With a window, the sum of all motions is the path of the window's newest pose: each motion starts
+// at the previously reported pose, so that later corrections of this pose by the window are not
+// lost.
 //
-// Not thread-safe; the same tracks give the same bits.
+// Not thread-safe. The same tracks give the same bits.
 class BackEnd {
  public:
   BackEnd(const StereoCalibration& calibration, const StereoParameters& parameters);
 
-  // T_previous_current over `seconds` if the body goes on as it last went; nothing where that is
-  // not known, or longer ago than max_gap.
+  // Returns T_previous_current over `seconds` if the body keeps its last velocity. Returns nothing
+  // if this velocity is unknown or older than max_gap.
   std::optional<Eigen::Isometry3d> expected_motion(Time stamp, double seconds) const;
 
-  // Motion from result->from to result->stamp, which are set. Fills in status, tracked and inliers,
-  // and where the status is ok pose and covariance of the body, condition and parallax. Returns the
-  // indices of the tracks that agree with an accepted motion, ascending; valid until the next call.
+  // Computes the motion from result->from to result->stamp, which must be set. Fills in status,
+  // tracked and inliers; if the status is ok, also pose and covariance of the body, condition and
+  // parallax. Returns the indices of the tracks that agree with an accepted motion, ascending; they
+  // are valid until the next call.
   const std::vector<int>& process(std::span<const StereoTrack> tracks, RelativeMotion* result);
 
-  // How the last accepted motion depends on the disparities' offset.
+  // Fills in how the last accepted motion depends on the disparities' offset.
   void describe_offset(VisualMotion* motion) const;
 
   void on_stage(StageListener listener) { stage_ = std::move(listener); }
 
   double disparity_offset() const { return offset_.value(); }
 
-  // The rest are parameters and buffers of one call.
+  // The other members are parameters and buffers of one call.
   template <class Archive>
   void archive(Archive& ar) {
     ar(moved_, last_stamp_, last_seconds_, last_motion_, last_velocity_, offset_, ages_, window_);
@@ -56,7 +58,7 @@ class BackEnd {
 
  private:
   std::optional<MotionPrior> prior(Time stamp, double seconds) const;
-  bool known(Time stamp) const;  // how the body goes
+  bool known(Time stamp) const;  // whether the last velocity is recent enough
   CameraMotion estimate(std::span<const StereoTrack> tracks, const RelativeMotion& result) const;
   bool other_motion(std::span<const StereoTrack> tracks, const CameraMotion& motion,
                     const RelativeMotion& result) const;
@@ -70,7 +72,7 @@ class BackEnd {
   StereoCalibration camera_;
   StereoParameters parameters_;
 
-  bool moved_ = false;  // the rest is of the last accepted motion
+  bool moved_ = false;  // true once the members below hold an accepted motion
   Time last_stamp_{};
   double last_seconds_ = 0.0;
   Eigen::Isometry3d last_motion_ = Eigen::Isometry3d::Identity();  // cam
@@ -82,7 +84,7 @@ class BackEnd {
   BundleAdjustment adjustment_;
   std::vector<int> agreeing_;
   Eigen::Matrix<double, 6, 1> by_offset_ = Eigen::Matrix<double, 6, 1>::Zero();  // body, 1 / px
-  double offset_sigma_ = 0.0;  // px, as the last covariance has it
+  double offset_sigma_ = 0.0;  // px, as contained in the last covariance
   StageListener stage_;
 };
 

@@ -15,13 +15,13 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-// Where the first that saw the point sees it now.
+// Returns where the pose that first saw the point sees it now.
 ImagePoint image_of(const StereoCalibration& camera, const Eigen::Isometry3d& T_world_cam,
                     const Eigen::Vector3d& p_world) {
   return project(camera, T_world_cam.inverse() * p_world);
 }
 
-// Derivative of the point in world by u, v and disparity there.
+// Returns the derivative of the point in world with respect to u, v and disparity in this image.
 Eigen::Matrix3d by_image(const StereoCalibration& camera, const Eigen::Isometry3d& T_world_cam,
                          const Eigen::Vector3d& p_world) {
   const Eigen::Vector3d p_cam = T_world_cam.inverse() * p_world;
@@ -42,12 +42,12 @@ VelocityChange change_at(const Window& window, std::size_t first) {
                          {seconds_between(window, first), seconds_between(window, first + 1)});
 }
 
-// The mean velocities of two motions stand this far apart in time.
+// Returns the time in s between the mean velocities of two successive motions.
 double seconds_of_change(const Window& window, std::size_t first) {
   return 0.5 * (seconds_between(window, first) + seconds_between(window, first + 1));
 }
 
-// Row of a pose's equations; the first has none.
+// Returns the first row of a pose's equations. The first pose of the window has no rows.
 int row_of(std::size_t pose) {
   return 6 * (static_cast<int>(pose) - 1);
 }
@@ -165,7 +165,7 @@ void BundleAdjustment::add_points(const Window& window) {
   }
 }
 
-// The Schur complement: what the points, whatever they are, leave of the poses' equations.
+// Subtracts the points' share from the poses' equations (Schur complement).
 void BundleAdjustment::eliminate_points(const Window& window, double damping) {
   information_.diagonal() *= 1.0 + damping;
   for (std::size_t k = 0; k < window.points.size(); ++k) {
@@ -244,7 +244,7 @@ std::optional<Matrix6> BundleAdjustment::newest_covariance(const Window& window)
 
 bool BundleAdjustment::adjust(Window* window) {
   const std::size_t poses = window->poses.size();
-  if (poses < 3) return true;  // two poses are what the motion was estimated from
+  if (poses < 3) return true;  // the motion was already estimated from two poses
   double best = cost(*window);
   double damping = 1e-6;
   for (int iteration = 0; iteration < max_iterations_; ++iteration) {

@@ -1,4 +1,4 @@
-// Windowed bundle adjustment (thesis section 3.13).
+// This is the windowed bundle adjustment (thesis section 3.13).
 #pragma once
 
 #include <Eigen/Core>
@@ -11,35 +11,37 @@
 
 namespace maploop::stereo {
 
-// Adjusts all poses of a window but the first, and all its points, by Levenberg-Marquardt: left
-// positions and disparities of every sight, with Huber weights and nothing beyond outlier_sigmas;
-// each point's match error, known to sigma_match; and the change of velocity from one motion to the
-// next, for a vehicle has mass (sigma_acceleration, sigma_turn_acceleration). Points are
-// eliminated by the Schur complement. The first pose is the gauge.
+// Adjusts all poses of a window except the first, and all its points, by Levenberg-Marquardt. The
+// residuals are left positions and disparities of all sights, with Huber weights and without those
+// beyond outlier_sigmas; each point's match error, with sigma_match; and the change of velocity
+// from one motion to the next, since a vehicle has inertia (sigma_acceleration,
+// sigma_turn_acceleration). Points are eliminated by the Schur complement. The first pose is the
+// gauge.
 //
-// A point moves in the image of the pose that saw it first (u, v, disparity), where far points are
-// as well-behaved as near ones. Never allocates after construction; at most window_iterations.
+// A point is parameterized in the image of the pose that saw it first (u, v, disparity), where far
+// points behave as well as near ones. Never allocates after construction; takes at most
+// window_iterations.
 class BundleAdjustment {
  public:
   BundleAdjustment(const StereoCalibration& camera, const StereoParameters& parameters);
 
-  // False, and the window as it was, where the equations have no finite solution.
+  // Returns false if the equations have no finite solution; the window may have changed then.
   bool adjust(Window* window);
 
-  // Of the motion between the two newest poses of an adjusted window, as they came out of it:
-  // translation (m), then rotation vector (rad), in cam at the earlier one (residual.h). Scaled by
-  // the residuals' own variance and by correlated_pairs, as refine.h. Nothing where the window has
-  // fewer than three poses, or too little in it.
+  // Returns the covariance of the motion between the two newest poses of an adjusted window:
+  // translation (m), then rotation vector (rad), in cam at the earlier pose (residual.h). It is
+  // scaled by the residuals' own variance and by correlated_pairs, as in refine.h. Returns nothing
+  // if the window has fewer than three poses or too few sights.
   std::optional<Eigen::Matrix<double, 6, 6>> newest_covariance(const Window& window);
 
-  // Half of this is what is minimized.
+  // Returns twice the cost that adjust() minimizes.
   double cost(const Window& window) const;
 
  private:
   static constexpr int kLargest = 6 * static_cast<int>(kLargestWindow);
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kLargest, kLargest>;
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kLargest, 1>;
-  using Vector4 = Eigen::Vector4d;  // of a point: u, v, disparity, match error
+  using Vector4 = Eigen::Vector4d;  // of a point: u, v, disparity, match error, px
 
   struct Term {
     bool valid = false;
@@ -72,7 +74,7 @@ class BundleAdjustment {
   double correlated_pairs_;
   int max_iterations_;
 
-  Matrix information_;  // of the poses but the first
+  Matrix information_;  // of all poses but the first
   Vector gradient_;
   std::vector<PointEquations> equations_;  // one a point
   Window tried_;

@@ -13,7 +13,7 @@ constexpr int kResponseRadius = 3;
 }  // namespace
 
 double corner_response(const cv::Mat& gradient, int x, int y) {
-  int xx = 0, xy = 0, yy = 0;  // 49 products of at most 4080^2 each: fits
+  int xx = 0, xy = 0, yy = 0;  // 49 products of at most 4080^2 each do not overflow
   for (int row = y - kResponseRadius; row <= y + kResponseRadius; ++row) {
     const auto* g = gradient.ptr<cv::Vec2s>(row);
     for (int column = x - kResponseRadius; column <= x + kResponseRadius; ++column) {

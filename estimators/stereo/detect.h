@@ -1,4 +1,4 @@
-// Corners, spread over the image by buckets (internal: uses OpenCV).
+// Corners are detected here and spread over the image by buckets (internal: uses OpenCV).
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -9,12 +9,12 @@
 
 namespace maploop::stereo {
 
-// Smaller eigenvalue of the mean gradient tensor in the 7 x 7 pixels around (x, y), in squared grey
-// levels per pixel (Shi and Tomasi, "Good Features to Track", CVPR 1994, section 3). The square
-// must lie in the image.
+// Returns the smaller eigenvalue of the mean gradient tensor in the 7 x 7 pixels around (x, y), in
+// squared grey levels per pixel (Shi and Tomasi, "Good Features to Track", CVPR 1994, section 3).
+// The square must lie within the image.
 double corner_response(const cv::Mat& gradient, int x, int y);
 
-// The grid of buckets, and how many features each still wants.
+// The grid divides the image into square buckets of `bucket_size` px.
 class BucketGrid {
  public:
   BucketGrid(int width, int height, int bucket_size)
@@ -36,9 +36,10 @@ class BucketGrid {
   int rows_;
 };
 
-// New corners for the buckets that hold fewer than features_per_bucket of `taken`, strongest first
-// in each: FAST proposes, the corner response ranks. None closer than min_feature_distance to
-// another or to `taken`. The same image and features give the same corners in the same order.
+// Finds new corners for the buckets that hold fewer than features_per_bucket of `taken`, in each
+// bucket the strongest first: FAST proposes, and the corner response ranks. Each corner is at least
+// min_feature_distance from all others and from `taken`. The same image and features give the same
+// corners in the same order. Not thread-safe.
 class CornerDetector {
  public:
   explicit CornerDetector(const StereoParameters& parameters) : parameters_(parameters) {}
@@ -60,7 +61,7 @@ class CornerDetector {
   std::vector<int> held_;  // features per bucket
   std::vector<cv::KeyPoint> keypoints_;
   std::vector<Candidate> candidates_;
-  cv::Mat blocked_;  // 255 where a feature is too near
+  cv::Mat blocked_;  // 255 in pixels too near to a feature
 };
 
 }  // namespace maploop::stereo

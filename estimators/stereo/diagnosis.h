@@ -1,4 +1,4 @@
-// Why a pair cannot be used, by name (internal: uses OpenCV).
+// These functions find out why a pair cannot be used (internal: uses OpenCV).
 #pragma once
 
 #include "estimators/stereo/parameters.h"
@@ -7,14 +7,14 @@
 
 namespace maploop::stereo {
 
-// Of a pair that shows fewer than min_tracks features:
+// Returns the reason why a pair shows fewer than min_tracks features:
 //   too_dark: its left image is darker than dark_level;
-//   swapped_images: with left and right exchanged it shows enough of them;
+//   swapped_images: it shows enough features if left and right are exchanged;
 //   too_few_features: otherwise.
 OdometryStatus why_few_features(const StereoFrame& frame, const StereoParameters& parameters);
 
-// Whether one of the two images has the pixels of the earlier pair's: a camera or a driver that
-// sends an image again. The noise of a sensor never repeats itself.
+// Returns whether one of the two images has the same pixels as in the earlier pair, which happens
+// if a camera or a driver sends an image again. The noise of a sensor never repeats.
 bool repeats(const StereoFrame& frame, const StereoFrame& earlier);
 
 }  // namespace maploop::stereo

@@ -1,14 +1,14 @@
-// What the stereo pairs themselves say about their rectification.
+// The error of the rectification is estimated here from the stereo pairs.
 #pragma once
 
 #include "estimators/stereo/parameters.h"
 
 namespace maploop::stereo {
 
-// A constant that is missing in every disparity: true = measured + value. A rectification that is
-// off by 0.02 degrees of convergence makes 0.25 px at KITTI's focal length, and that is 1 % of the
-// way driven when the points are 15 m away. While driving it can be seen: with a wrong offset near
-// points and far points disagree about the motion.
+// Estimates a constant offset of all disparities: true = measured + value. A convergence error of
+// 0.02 degrees in the rectification causes 0.25 px at KITTI's focal length, which is 1 % of the
+// distance travelled if the points are 15 m away. It is observable while driving: with a wrong
+// offset, near points and far points disagree about the motion. Not thread-safe.
 class DisparityOffset {
  public:
   explicit DisparityOffset(const StereoParameters& parameters);
@@ -16,13 +16,13 @@ class DisparityOffset {
   double value() const { return value_; }  // px
   double sigma() const { return sigma_; }  // px
 
-  // Random walk of disparity_offset_drift over `seconds`.
+  // Adds a random walk of disparity_offset_drift over `seconds`.
   void predict(double seconds);
 
-  // One pair's own estimate of what is still missing, `correction` px with standard deviation
-  // `correction_sigma` from `inliers` features. Pairs that hardly see the offset (standing, few or
-  // only far points) are left out, and so are those that contradict what is known by more than
-  // three standard deviations.
+  // Fuses one pair's own estimate of the remaining offset: `correction` px with standard deviation
+  // `correction_sigma` from `inliers` features. It ignores pairs in which the offset is hardly
+  // observable (at standstill, or with few or only far points), and pairs that contradict the
+  // present estimate by more than three standard deviations.
   void update(double correction, double correction_sigma, int inliers);
 
   template <class Archive>

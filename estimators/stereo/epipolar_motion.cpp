@@ -19,7 +19,7 @@ Vector3d ray(const StereoCalibration& camera, const StereoObservation& seen) {
   return {(seen.u_left - camera.cx) / camera.fx, (seen.v_left - camera.cy) / camera.fy, 1.0};
 }
 
-// Two unit vectors that complete a direction to an orthogonal frame.
+// Returns two unit vectors that complete a direction to an orthogonal frame.
 Eigen::Matrix<double, 3, 2> tangents(const Vector3d& direction) {
   Eigen::Matrix<double, 3, 2> basis;
   basis.col(0) = direction.unitOrthogonal();
@@ -27,7 +27,8 @@ Eigen::Matrix<double, 3, 2> tangents(const Vector3d& direction) {
   return basis;
 }
 
-// Two perturbations turn the direction, three the rotation (rotation vector from the left).
+// Applies two perturbations to the direction and three to the rotation (rotation vector from the
+// left).
 Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, const Vector5& by) {
   Eigen::Matrix<double, 6, 1> perturbation = Eigen::Matrix<double, 6, 1>::Zero();
   perturbation.tail<3>() = by.tail<3>();
@@ -37,8 +38,8 @@ Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, const Vector5& by) {
   return result;
 }
 
-// A homogeneous equation's residual and its derivative, by central differences: five unknowns, and
-// not on the way of any deadline.
+// Returns the derivative of the Sampson distance by central differences. This is fast enough, as
+// there are five unknowns and no deadline depends on this method.
 Vector5 sampson_gradient(const StereoCalibration& camera, const Eigen::Isometry3d& pose,
                          const StereoTrack& track) {
   constexpr double kStep = 1e-6;
@@ -89,7 +90,7 @@ bool gauss_newton(const StereoCalibration& camera, const StereoParameters& param
   return true;
 }
 
-// T_previous_current with a translation of length one; false where no geometry fits.
+// Computes T_previous_current with a translation of length 1; returns false if no geometry fits.
 bool five_point(const StereoCalibration& camera, const StereoParameters& parameters,
                 std::span<const StereoTrack> tracks, Eigen::Isometry3d* pose,
                 std::vector<int>* inliers) {
@@ -100,7 +101,7 @@ bool five_point(const StereoCalibration& camera, const StereoParameters& paramet
     current.emplace_back(to.x(), to.y());
   }
   cv::Mat mask;
-  // OpenCV draws the same samples in every call.
+  // OpenCV draws the same random samples in every call.
   const cv::Mat E = cv::findEssentialMat(
       previous, current, 1.0, cv::Point2d(0.0, 0.0), cv::RANSAC, parameters.ransac_confidence,
       parameters.ransac_threshold / camera.fx, parameters.ransac_max_hypotheses, mask);
@@ -129,7 +130,7 @@ double sampson_distance(const StereoCalibration& camera,
   const Vector3d previous = ray(camera, track.previous), current = ray(camera, track.current);
   const Vector3d line = E * current;
   const Vector3d back = E.transpose() * previous;
-  // In pixels: what a pixel is of a ray differs by axis.
+  // The lines are scaled to pixels, since the focal lengths of the two axes differ.
   const auto square = [&](const Vector3d& l) {
     return std::pow(l.x() / camera.fx, 2) + std::pow(l.y() / camera.fy, 2);
   };

@@ -1,4 +1,4 @@
-// What finds the tracks that the back end makes motions of.
+// The front end finds the tracks from which the back end computes motions.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -21,33 +21,34 @@ namespace maploop::stereo {
 
 struct StereoFrame;
 
-// A pair is compared with the reference, completed, and adopted as the next reference or not.
+// A pair is compared with the reference and completed; the caller then may adopt it as the next
+// reference. Not thread-safe.
 class FrontEnd {
  public:
   virtual ~FrontEnd() = default;
 
-  // Features of the reference that the current pair shows as well. `expected`: T_current_previous
-  // in cam, where the motion can be foreseen.
+  // Finds the features of the reference that the current pair shows too. `expected` is
+  // T_current_previous in cam, if the motion can be predicted.
   virtual void follow(const StereoFrame& reference, const StereoFrame& current,
                       const std::optional<Eigen::Isometry3d>& expected,
                       std::vector<StereoTrack>* tracks) = 0;
 
-  // Ends the current pair: the tracks named, which agree with the vehicle's motion, go on (the
-  // others may be on something that moves), and new features join them. Returns how many features
-  // the pair has then.
+  // Completes the current pair: keeps the tracks in `agreeing`, which agree with the vehicle's
+  // motion (the others may be on a moving object), and adds new features. Returns the number of
+  // features that the pair then has.
   virtual std::size_t complete(const StereoFrame& current, std::span<const StereoTrack> tracks,
                                std::span<const int> agreeing) = 0;
 
-  // The completed pair is the next reference.
+  // Makes the completed pair the next reference.
   virtual void adopt() = 0;
 
-  // What follow() needs to know of the reference besides its images.
+  // These archive what follow() needs of the reference besides its images (sizes in bytes).
   virtual std::size_t largest_archive() const = 0;
   virtual void save(ArchiveWriter& ar) const = 0;
   virtual void load(ArchiveReader& ar, const StereoFrame& reference) = 0;
 };
 
-// The one that parameters.matching names.
+// Returns the front end that parameters.matching selects.
 std::unique_ptr<FrontEnd> make_front_end(const StereoCalibration& camera,
                                          const StereoParameters& parameters);
 

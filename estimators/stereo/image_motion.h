@@ -1,4 +1,5 @@
-// How much the image moved, and how much of it because the camera went somewhere.
+// The motion of the image, and the share of it that the camera's translation causes, are measured
+// here.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -10,11 +11,11 @@
 namespace maploop::stereo {
 
 struct ImageMotion {
-  double flow = 0.0;      // px, median of the left positions' change
-  double parallax = 0.0;  // px, median of what the rotation does not explain of it
+  double flow = 0.0;      // px, median change of the left positions
+  double parallax = 0.0;  // px, median of the change that rotation does not explain
 };
 
-// Of the tracks named; zero where there are none.
+// Measures the tracks in `chosen`; returns zeros if there are none.
 ImageMotion image_motion(const StereoCalibration& camera, std::span<const StereoTrack> tracks,
                          std::span<const int> chosen, const Eigen::Isometry3d& T_previous_current);
 

@@ -5,7 +5,7 @@
 namespace maploop::stereo {
 
 void ImagePyramid::build(const GreyImage& image, const StereoParameters& parameters) {
-  // OpenCV has no view of constant pixels; it only reads them here.
+  // OpenCV offers no view of constant pixels; here it only reads them.
   const cv::Mat view(image.height, image.width, CV_8UC1,
                      const_cast<unsigned char*>(image.pixels.data()));
   cv::buildOpticalFlowPyramid(view, levels_, cv::Size(parameters.window, parameters.window),

@@ -29,7 +29,7 @@ std::size_t KltFrontEnd::complete(const StereoFrame& current, std::span<const St
   return next_features_.size();
 }
 
-// Features keep their distance.
+// The number of features is bounded, since each keeps min_feature_distance from the others.
 std::size_t KltFrontEnd::largest_archive() const {
   const auto apart = static_cast<std::size_t>(parameters_.min_feature_distance) + 1;
   const std::size_t pixels =

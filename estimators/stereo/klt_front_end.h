@@ -1,4 +1,5 @@
-// Corners spread by buckets and followed by Lucas-Kanade (internal: uses OpenCV).
+// This front end spreads corners by buckets and follows them by Lucas-Kanade (internal: uses
+// OpenCV).
 #pragma once
 
 #include "estimators/stereo/detect.h"
@@ -30,7 +31,7 @@ class KltFrontEnd final : public FrontEnd {
   std::vector<Feature> features_;  // of the reference
   std::int64_t next_id_ = 0;
 
-  std::vector<Feature> next_features_;  // buffers of one call, kept
+  std::vector<Feature> next_features_;  // buffers of one call, kept to reuse their memory
   std::vector<cv::Point2f> taken_, corners_;
   std::vector<StereoObservation> matched_;
 };

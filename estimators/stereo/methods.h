@@ -1,5 +1,4 @@
-// The ways to match features and to find the motion that can be chosen (thesis 3.10
-// and 3.15).
+// These methods of matching features and finding the motion can be selected (thesis 3.10 and 3.15).
 #pragma once
 
 #include <array>
@@ -9,18 +8,19 @@
 namespace maploop::stereo {
 
 enum class Matching : std::uint8_t {
-  klt,   // corners followed by Lucas-Kanade (track.h)
-  sift,  // descriptors matched (sift_matcher.h)
+  klt,   // corners followed by Lucas-Kanade (klt_front_end.h)
+  sift,  // matched descriptors (sift_front_end.h)
 };
 
 enum class MotionMethod : std::uint8_t {
   points_to_image,   // 3D-to-2D: P3P, then both images (ransac.h, refine.h)
   points_to_points,  // 3D-to-3D: closed form, then the points' own covariances (point_alignment.h)
-  image_to_image,    // 2D-to-2D: essential matrix of the left camera; the length of a motion is
-                     // not seen (epipolar_motion.h)
+  image_to_image,  // 2D-to-2D: essential matrix of the left camera, which does not give the length
+                   // of a motion (epipolar_motion.h)
 };
 
-// As a configuration file and a command line write them, in the order of the enumerators.
+// These are the names in configuration files and on the command line, in the order of the
+// enumerators.
 constexpr std::array<std::string_view, 2> names_of(Matching) {
   return {"klt", "sift"};
 }

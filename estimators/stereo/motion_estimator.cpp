@@ -25,7 +25,7 @@ struct Guess {
   const std::optional<MotionPrior>& prior;
 };
 
-// The motion by the method that is asked for; `enough` judges the consensus before it is refined.
+// Estimates the motion by the selected method; `enough` tests the consensus before it is refined.
 template <class Enough>
 Refinement find_motion(const StereoCalibration& camera, const StereoParameters& parameters,
                        const Guess& guess, const Enough& enough, const StageListener& stage) {
@@ -89,7 +89,7 @@ CameraMotion estimate_motion(const StereoCalibration& camera, const StereoParame
 }
 
 void lengthen(CameraMotion* motion, double length) {
-  constexpr double kStanding = 0.02;  // m, standard deviation: what 0.3 px are 10 m away
+  constexpr double kStanding = 0.02;  // m, standard deviation: 0.3 px at a distance of 10 m
   motion->T_previous_current.translation() *= length;
   motion->covariance.topRows<3>() *= length;
   motion->covariance.leftCols<3>() *= length;
@@ -99,8 +99,9 @@ void lengthen(CameraMotion* motion, double length) {
 
 namespace {
 
-// Of the body's motion by the camera's. t_body = R_body_cam t_cam + l - R l with the camera's lever
-// l: a rotation error of the camera also moves the body, by [R l]x.
+// Returns the derivative of the body's motion with respect to the camera's. With the camera's lever
+// l, t_body = R_body_cam t_cam + l - R l: a rotation error of the camera also moves the body, by [R
+// l]x.
 Eigen::Matrix<double, 6, 6> body_by_camera(const Eigen::Isometry3d& T_body_cam,
                                            const Eigen::Isometry3d& T) {
   const Eigen::Matrix3d R_body_cam = T_body_cam.linear();

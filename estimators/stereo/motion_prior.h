@@ -1,4 +1,4 @@
-// What a vehicle's inertia says of its next motion.
+// This prior expresses what a vehicle's inertia predicts for its next motion.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -7,10 +7,10 @@ namespace maploop::stereo {
 
 struct MotionPrior {
   Eigen::Isometry3d T_previous_current = Eigen::Isometry3d::Identity();  // cam, expected
-  // Standard deviations of the perturbation (residual.h): m, then rad.
+  // Standard deviations of the perturbation (residual.h): first m, then rad.
   Eigen::Matrix<double, 6, 1> sigma = Eigen::Matrix<double, 6, 1>::Ones();
 
-  // Perturbation that leads from the expected motion to `pose`, in standard deviations.
+  // Returns the perturbation from the expected motion to `pose`, in standard deviations.
   Eigen::Matrix<double, 6, 1> residual(const Eigen::Isometry3d& pose) const {
     const Eigen::AngleAxisd turn(
         Eigen::Matrix3d(pose.linear() * T_previous_current.linear().transpose()));

@@ -7,7 +7,7 @@
 namespace maploop::stereo {
 namespace {
 
-// Right-handed orthonormal axes from three points; false where they are on a line.
+// Computes right-handed orthonormal axes from three points; returns false if they are on a line.
 bool triangle_axes(const std::array<Eigen::Vector3d, 3>& p, Eigen::Matrix3d* axes) {
   const Eigen::Vector3d first = p[1] - p[0];
   const Eigen::Vector3d normal = first.cross(p[2] - p[0]);

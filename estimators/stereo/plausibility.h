@@ -1,4 +1,4 @@
-// What a road vehicle can do between two pairs.
+// This test decides whether a road vehicle can make a motion between two pairs.
 #pragma once
 
 #include <optional>
@@ -8,11 +8,11 @@
 
 namespace maploop::stereo {
 
-// How the body moved when it was last known.
+// Holds the last known velocity of the body.
 struct LastVelocity {
   Eigen::Vector3d linear = Eigen::Vector3d::Zero();   // m/s, body
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();  // rad/s, body
-  double age = 0.0;  // s, from the end of its motion to the end of the one that is judged
+  double age = 0.0;  // s, from the end of its motion to the end of the tested one
 
   template <class Archive>
   void archive(Archive& ar) {
@@ -20,12 +20,12 @@ struct LastVelocity {
   }
 };
 
-// `motion` in body over `seconds`. The change of velocity is judged with three standard deviations
-// of the motion's own noise to spare.
+// Tests `motion` in body over `seconds`. The limits of the change of velocity are widened by three
+// standard deviations of the motion's own noise.
 bool plausible(const RelativeMotion& motion, double seconds,
                const std::optional<LastVelocity>& last, const StereoParameters& parameters);
 
-// Rotation vector over time.
+// Returns the rotation vector divided by `seconds`, rad/s.
 Eigen::Vector3d angular_velocity(const RelativeMotion& motion, double seconds);
 
 }  // namespace maploop::stereo

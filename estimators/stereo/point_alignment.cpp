@@ -22,7 +22,8 @@ ImagePoint image_of(const StereoObservation& seen) {
   return {seen.u_left, seen.v_left, seen.disparity()};
 }
 
-// Of a triangulated point: noise of its left position and of its disparity.
+// Returns the covariance (m^2, cam) of a triangulated point from the noise of its left position and
+// its disparity.
 Matrix3d point_covariance(const StereoCalibration& camera, const StereoParameters& p,
                           const StereoObservation& seen) {
   const Vector3d point = triangulate(camera, image_of(seen));
@@ -97,7 +98,8 @@ void add_prior(const std::optional<MotionPrior>& prior, const Eigen::Isometry3d&
   equations->cost += residual.squaredNorm();
 }
 
-// Gauss-Newton; the covariances turn with the pose and are taken anew in every step.
+// Solves by Gauss-Newton. The covariances rotate with the pose, so they are recomputed in every
+// step.
 bool gauss_newton(const Alignment& alignment, const std::optional<MotionPrior>& prior,
                   std::span<const int> inliers, int most, Eigen::Isometry3d* pose,
                   int* iterations) {

@@ -7,7 +7,7 @@
 namespace maploop::stereo {
 namespace {
 
-// Largest real root of x^3 + a x^2 + b x + c.
+// Returns the largest real root of x^3 + a x^2 + b x + c.
 double largest_cubic_root(double a, double b, double c) {
   const double q = (a * a - 3.0 * b) / 9.0;
   const double r = (2.0 * a * a * a - 9.0 * a * b + 27.0 * c) / 54.0;
@@ -38,20 +38,21 @@ QuarticRoots solve_quartic(const std::array<double, 5>& c) {
       c.begin(), c.end(), [](double x, double y) { return std::abs(x) < std::abs(y); }));
   if (!std::isfinite(largest) || !(std::abs(c[0]) > 1e-12 * largest)) return roots;
 
-  // Depressed: y^4 + p y^2 + q y + r, x = y - shift.
+  // The depressed quartic is y^4 + p y^2 + q y + r with x = y - shift.
   const double a = c[1] / c[0], b = c[2] / c[0], d = c[3] / c[0], e = c[4] / c[0];
   const double shift = a / 4.0;
   const double p = b - 6.0 * shift * shift;
   const double q = d - 2.0 * b * shift + 8.0 * shift * shift * shift;
   const double r = e - d * shift + b * shift * shift - 3.0 * shift * shift * shift * shift;
 
-  // (y^2 + m y + n)(y^2 - m y + l) with m^2 the largest root of the resolvent cubic.
+  // It factors into (y^2 + m y + n)(y^2 - m y + l), where m^2 is the largest root of the resolvent
+  // cubic.
   const double m2 = std::max(0.0, largest_cubic_root(2.0 * p, p * p - 4.0 * r, -q * q));
   const double m = std::sqrt(m2);
   const double tiny = 1e-12 * (std::abs(p) + std::sqrt(std::abs(r)));
   const double inner = p * p / 4.0 - r;
   const double split =
-      m2 > tiny ? q / (2.0 * m) : -std::sqrt(std::max(0.0, inner));  // biquadratic: q = 0
+      m2 > tiny ? q / (2.0 * m) : -std::sqrt(std::max(0.0, inner));  // q = 0: biquadratic
   const double n = (p + m2) / 2.0 - split;
   const double l = (p + m2) / 2.0 + split;
   for (const auto& [linear, constant] : {std::array{m, n}, std::array{-m, l}}) {

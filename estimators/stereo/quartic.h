@@ -1,4 +1,4 @@
-// Real roots of a quartic.
+// This header computes the real roots of a quartic.
 #pragma once
 
 #include <array>
@@ -10,9 +10,9 @@ struct QuarticRoots {
   std::array<double, 4> value{};
 };
 
-// Real roots of c[0] x^4 + c[1] x^3 + c[2] x^2 + c[3] x + c[4]; a double root may come twice.
-// Ferrari's solution, polished by Newton's method. None where c[0] vanishes against the other
-// coefficients.
+// Returns the real roots of c[0] x^4 + c[1] x^3 + c[2] x^2 + c[3] x + c[4]; a double root may be
+// returned twice. Uses Ferrari's solution, refined by Newton's method. Returns no roots if c[0] is
+// negligible against the other coefficients.
 QuarticRoots solve_quartic(const std::array<double, 5>& c);
 
 }  // namespace maploop::stereo

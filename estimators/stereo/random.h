@@ -1,11 +1,12 @@
-// Random numbers that depend on the data alone.
+// These random numbers depend on the data alone.
 #pragma once
 
 #include <cstdint>
 
 namespace maploop::stereo {
 
-// SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
+// The generator is SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number
+// generators", OOPSLA 2014).
 class RandomSequence {
  public:
   explicit RandomSequence(std::uint64_t seed) : state_(seed) {}
@@ -18,7 +19,8 @@ class RandomSequence {
     return z ^ (z >> 31);
   }
 
-  // In [0, bound); bound > 0 and far below 2^32, so that the bias does not matter.
+  // Returns a number in [0, bound). bound must be > 0 and far below 2^32, so that the bias is
+  // negligible.
   int below(int bound) {
     return static_cast<int>(((next() >> 32) * static_cast<std::uint64_t>(bound)) >> 32);
   }

@@ -26,7 +26,8 @@ class MotionScore {
 
   const Eigen::Vector3d& point(int i) const { return points_[static_cast<std::size_t>(i)]; }
 
-  // The larger of the squared errors in the two images, px^2, cut off at the threshold's.
+  // Returns the larger of the squared errors in the two images, px^2, truncated at the squared
+  // threshold.
   double truncated_error(const Eigen::Isometry3d& T_current_previous, std::size_t i) const {
     const Eigen::Vector3d p_cam = T_current_previous * points_[i];
     if (p_cam.z() <= 0.0) return threshold2_;
@@ -70,7 +71,7 @@ std::array<int, 3> draw_three(int count, RandomSequence* random) {
   return drawn;
 }
 
-// T_current_previous of three tracks.
+// Returns T_current_previous of three tracks.
 P3pSolutions resect(const StereoCalibration& camera, const MotionScore& score,
                     std::span<const StereoTrack> tracks, const std::array<int, 3>& drawn) {
   std::array<Eigen::Vector3d, 3> points, bearings;

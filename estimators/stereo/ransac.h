@@ -1,4 +1,4 @@
-// The motion most tracks agree on.
+// This header finds the motion on which most tracks agree.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -19,12 +19,12 @@ struct Consensus {
   int hypotheses = 0;                                                    // tried
 };
 
-// P3P on three tracks at a time (points triangulated at the previous epoch, seen from the current
-// left camera), or with parameters.motion "3d-3d" the alignment of three points to three; scored on
-// both current images with a truncated square (MSAC; Torr and Zisserman, CVIU 78, 2000). The number
-// of hypotheses follows the best inlier ratio w so far, N = ln(1 - P) / ln(1 - w^3), up to the cap.
-// `expected`, where given, is the first hypothesis. Tracks need positive disparities. The inliers
-// stay empty where no hypothesis can be formed.
+// Forms hypotheses by P3P on three tracks (points triangulated at the previous epoch, seen from the
+// current left camera), or, if parameters.motion is "3d-3d", by aligning three points to three.
+// They are scored on both current images with a truncated square (MSAC; Torr and Zisserman, CVIU
+// 78, 2000). The number of hypotheses follows the best inlier ratio w so far, N = ln(1 - P) / ln(1
+// - w^3), up to the maximum. `expected`, if given, is the first hypothesis. Tracks need positive
+// disparities. The inliers are empty if no hypothesis can be formed.
 Consensus ransac_motion(const StereoCalibration& camera, const StereoParameters& parameters,
                         std::span<const StereoTrack> tracks, std::uint64_t seed,
                         const std::optional<Eigen::Isometry3d>& expected);

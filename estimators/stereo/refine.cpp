@@ -10,7 +10,7 @@
 namespace maploop::stereo {
 namespace {
 
-// Perfect synthetic tracks leave no residual at all; their covariance must stay positive.
+// Perfect synthetic tracks have no residuals; their covariance must still be positive.
 constexpr double kSmallestVarianceFactor = 1e-12;
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
@@ -20,7 +20,8 @@ Matrix6 prior_information(const MotionPrior& prior) {
   return prior.sigma.cwiseAbs2().cwiseInverse().asDiagonal();
 }
 
-// One round with a fixed set of tracks; false where the equations have no finite solution.
+// Performs one round with a fixed set of tracks; returns false if the equations have no finite
+// solution.
 bool levenberg_marquardt(const Adjustment& adjustment, const std::optional<MotionPrior>& prior,
                          std::span<const int> inliers, int max_iterations, Eigen::Isometry3d* pose,
                          int* iterations) {
@@ -59,9 +60,10 @@ bool levenberg_marquardt(const Adjustment& adjustment, const std::optional<Motio
   return std::isfinite(cost);
 }
 
-// Inverse information times the residuals' variance (Huber, "Robust Statistics", 1981, 7.6 in its
-// simplest form), each track leaving four residuals less its own disparity; and times the pairs in
-// which the errors are the same ones, so that the covariances of successive motions may be added.
+// The covariance is the inverse information times the residuals' variance (Huber, "Robust
+// Statistics", 1981, 7.6 in its simplest form), where each track has four residuals and one unknown
+// disparity. It is also multiplied by the number of pairs that share their errors, so that
+// covariances of successive motions may be added.
 bool estimate_covariance(const Adjustment& adjustment, const std::optional<MotionPrior>& prior,
                          double correlated_pairs, double assumed_offset_sigma, Refinement* result) {
   const double freedom = 3.0 * static_cast<double>(result->inliers.size()) - 6.0;
@@ -84,7 +86,7 @@ bool estimate_covariance(const Adjustment& adjustment, const std::optional<Motio
   const Matrix6 covariance = factor.solve(Matrix6::Identity()) + open * open.transpose();
   result->covariance = 0.5 * (covariance + covariance.transpose());
 
-  // The offset with the pose eliminated, by the tracks alone.
+  // The offset is estimated from the tracks alone, with the pose eliminated.
   const Eigen::LDLT<Matrix6> tracks_factor(of_tracks);
   const double offset_information =
       equations.information(6, 6) - coupling.dot(tracks_factor.solve(coupling));

@@ -3,7 +3,7 @@
 namespace maploop::stereo {
 namespace {
 
-constexpr double kNearest = 0.1;  // m; nothing a windscreen camera sees sharply is nearer
+constexpr double kNearest = 0.1;  // m; a windscreen camera sees no nearer object sharply
 
 }  // namespace
 

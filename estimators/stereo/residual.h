@@ -1,4 +1,4 @@
-// What a motion and a disparity predict of a track, and how that changes with them.
+// These functions predict a track's measurement from a motion and a disparity, with derivatives.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -7,37 +7,37 @@
 
 namespace maploop::stereo {
 
-// What a camera at T_world_cam sees of a point, and how that changes with the pose's six
-// perturbations (below) and the point.
+// Holds what a camera at T_world_cam sees of a point, and the derivatives with respect to the
+// pose's six perturbations (below) and the point.
 struct View {
   ImagePoint image = ImagePoint::Zero();
   Eigen::Matrix<double, 3, 6> by_pose = Eigen::Matrix<double, 3, 6>::Zero();
   Eigen::Matrix3d by_point = Eigen::Matrix3d::Zero();
-  bool in_front = false;  // of the camera; all else is zero where not
+  bool in_front = false;  // of the camera; if false, all else is zero
 };
 
 View view_point(const StereoCalibration& camera, const Eigen::Isometry3d& T_world_cam,
                 const Eigen::Vector3d& p_world);
 
-// Prediction of the current (u, v, disparity) of the point that the previous left image shows at
-// (u, v) with the given disparity. The pose is T_previous_current in cam; its six perturbations are
-// a translation added to its own and a rotation vector multiplied from the left, both in cam at
-// the previous epoch.
+// Predicts the current (u, v, disparity), px, of the point that the previous left image shows at
+// (u, v) with the given disparity. The pose is T_previous_current in cam. Its six perturbations are
+// a translation added to its own and a rotation vector multiplied from the left, both in cam at the
+// previous epoch.
 struct Prediction {
   ImagePoint image = ImagePoint::Zero();
   Eigen::Matrix<double, 3, 6> by_pose = Eigen::Matrix<double, 3, 6>::Zero();
   Eigen::Vector3d by_disparity = Eigen::Vector3d::Zero();
-  bool in_front = false;  // of the current camera; all else is zero where not
+  bool in_front = false;  // of the current camera; if false, all else is zero
 };
 
 Prediction predict(const StereoCalibration& camera, const Eigen::Isometry3d& T_previous_current,
                    double u_left, double v_left, double disparity);
 
-// The perturbation itself.
+// Returns the perturbed pose.
 Eigen::Isometry3d perturbed(const Eigen::Isometry3d& pose,
                             const Eigen::Matrix<double, 6, 1>& perturbation);
 
-// [v]x: its product with w is v x w.
+// Returns [v]x, whose product with w is v x w.
 inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
   Eigen::Matrix3d m;
   m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;

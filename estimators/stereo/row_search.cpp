@@ -10,7 +10,7 @@ namespace {
 constexpr int kSide = 8;    // px; (x, y) is the patch's fifth pixel of its fifth row
 constexpr int kBefore = 4;  // pixels before it
 constexpr int kPixels = kSide * kSide;
-constexpr double kRival = 0.95;  // a correlation this near to the best, elsewhere, makes it a guess
+constexpr double kRival = 0.95;  // a rival this close to the best makes the match ambiguous
 constexpr int kElsewhere = 2;    // px of disparity
 
 bool holds_patch(const PixelView& image, int x, int y) {

@@ -1,4 +1,4 @@
-// Where along its row a left patch is seen by the right camera.
+// This search finds where along its row the right camera sees a left patch.
 #pragma once
 
 #include <cstdint>
@@ -6,23 +6,23 @@
 
 namespace maploop::stereo {
 
-// An 8-bit grey image that somebody else owns.
+// Views an 8-bit grey image owned by the caller.
 struct PixelView {
   const std::uint8_t* pixels = nullptr;
-  std::ptrdiff_t stride = 0;  // from one row to the next
+  std::ptrdiff_t stride = 0;  // bytes from one row to the next
   int width = 0;
   int height = 0;
 
   const std::uint8_t* row(int y) const { return pixels + y * stride; }
 };
 
-// Normalized correlation of a left patch with right ones at the disparities 0, 1, 2, ... Buffers
-// are kept from call to call.
+// Computes the normalized correlation of a left patch with right ones at the disparities 0, 1, 2,
+// ... Buffers are kept from call to call. Not thread-safe.
 class RowSearch {
  public:
-  // The whole-pixel disparity up to `farthest` at which the patch around (x, y) correlates best;
-  // negative where the best is below `min_correlation` or not unique, or the patch leaves the
-  // image. Both images have one size.
+  // Returns the whole-pixel disparity, up to `farthest`, at which the patch around (x, y)
+  // correlates best. Returns a negative value if the best correlation is below `min_correlation` or
+  // not unique, or if the patch leaves the image. Both images must have the same size.
   int best_disparity(const PixelView& left, const PixelView& right, int x, int y, int farthest,
                      double min_correlation);
 

@@ -9,7 +9,8 @@
 namespace maploop::stereo {
 namespace {
 
-// For each row the nearest row of the other, -1 where the second nearest is hardly farther.
+// Returns for each row the nearest row of the other matrix, or -1 if the second nearest is about as
+// near.
 std::vector<int> nearest(const cv::Mat& from, const cv::Mat& to, double ratio) {
   std::vector<std::vector<cv::DMatch>> found;
   cv::BFMatcher(cv::NORM_L2).knnMatch(from, to, found, 2);
@@ -101,7 +102,7 @@ void SiftFrontEnd::adopt() {
 }
 
 std::size_t SiftFrontEnd::largest_archive() const {
-  // Keypoints of equal strength all count, and one place may have several directions.
+  // SIFT keeps all keypoints of equal strength, and one place may have several orientations.
   return 2 * static_cast<std::size_t>(parameters_.sift_features) * sizeof(std::int64_t) + 64;
 }
 
@@ -109,7 +110,7 @@ void SiftFrontEnd::save(ArchiveWriter& ar) const {
   ar(reference_.ids, next_id_);
 }
 
-// The rest is found again in the images, to the same bits.
+// Everything else is recomputed from the images with the same bits.
 void SiftFrontEnd::load(ArchiveReader& ar, const StereoFrame& reference) {
   std::vector<std::int64_t> ids;
   ar(ids, next_id_);

@@ -1,4 +1,4 @@
-// Where the time of a pair goes, for whoever has a clock: the odometry has none.
+// A caller that has a clock measures each stage of a pair here; the odometry reads no clock.
 #pragma once
 
 #include <functional>
@@ -6,7 +6,7 @@
 
 namespace maploop::stereo {
 
-// Called with a stage's name when it ends, on the thread that runs it.
+// The listener is called with a stage's name when the stage ends, on the thread that runs it.
 using StageListener = std::function<void(std::string_view stage)>;
 
 inline void notify(const StageListener& listener, std::string_view stage) {

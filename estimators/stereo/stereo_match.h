@@ -1,4 +1,4 @@
-// The right camera's view of left features (internal: uses OpenCV).
+// The right camera's view of left features is found here (internal: uses OpenCV).
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -15,14 +15,14 @@ struct StereoFrame {
   ImagePyramid right;
 };
 
-// Stereo match of new corners: search along the row of the half-size images, then Lucas-Kanade to
-// the right image and back. Points whose rows differ, whose way back ends elsewhere or whose
-// disparity is out of range are left out.
+// Matches new corners: searches along the row of the half-size images, then applies Lucas-Kanade to
+// the right image and back. Skips points whose rows differ, whose way back ends elsewhere, or whose
+// disparity is out of range.
 void match_new_corners(const StereoFrame& frame, const StereoParameters& parameters,
                        const std::vector<cv::Point2f>& corners,
                        std::vector<StereoObservation>* matched);
 
-// Whether the two views can be one point: same row, disparity in range.
+// Returns whether the two views can show one point: the rows agree and the disparity is in range.
 bool consistent(const StereoObservation& seen, const StereoParameters& parameters);
 
 }  // namespace maploop::stereo

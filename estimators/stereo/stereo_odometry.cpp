@@ -57,7 +57,8 @@ class StereoOdometry::Implementation {
   const std::vector<StereoTrack>& tracks() const { return tracks_; }
   double disparity_offset() const { return back_end_.disparity_offset(); }
 
-  // The rest are buffers of one call; the random numbers of a pair come from its stamp alone.
+  // The other members are buffers of one call; the random numbers of a pair depend on its stamp
+  // alone.
   template <class Archive>
   void archive(Archive& ar) {
     ar.section("stereo odometry", 2);
@@ -75,11 +76,11 @@ class StereoOdometry::Implementation {
     }
   }
 
-  // Two images, the front end's features, and the window.
+  // The archive contains two images, the front end's features, and the window.
   std::size_t largest_archive() const {
     const std::size_t pixels =
         static_cast<std::size_t>(camera_.width) * static_cast<std::size_t>(camera_.height);
-    // A feature's age takes less than the feature.
+    // The age of a feature takes less space than the feature.
     return 2 * pixels + 2 * front_end_->largest_archive() + Window::largest_archive(parameters_) +
            4096;
   }
@@ -91,7 +92,7 @@ class StereoOdometry::Implementation {
   }
 
  private:
-  // A pyramid is built again from its image, to the same bits.
+  // A pyramid is rebuilt from its image with the same bits.
   template <class Archive>
   void archive_image(Archive& ar, ImagePyramid& pyramid) {
     if constexpr (!Archive::loading) pyramid.copy_image(&archived_);
@@ -116,7 +117,7 @@ class StereoOdometry::Implementation {
     return has_reference_ && to_seconds(stamp - reference_stamp_) <= parameters_.max_gap;
   }
 
-  // Those of the tracks that agree with an accepted motion.
+  // Returns the tracks that agree with an accepted motion.
   std::span<const int> follow_features(VisualMotion* result) {
     const double seconds = to_seconds(result->stamp - result->from);
     const std::optional<Eigen::Isometry3d> expected =
@@ -132,7 +133,7 @@ class StereoOdometry::Implementation {
     return agreeing;
   }
 
-  // A pair without features of its own (black, covered, swapped) does not replace a good one.
+  // A pair without features of its own (black, covered, swapped) must not replace a good one.
   void adopt_reference(const StereoPair& pair, int features, RelativeMotion* result) {
     if (features < parameters_.min_tracks && result->status != OdometryStatus::ok) {
       result->status = why_few_features(current_, parameters_);
@@ -157,7 +158,7 @@ class StereoOdometry::Implementation {
 
   BackEnd back_end_;
 
-  StereoFrame current_;  // buffers of one call, kept
+  StereoFrame current_;  // buffers of one call, kept to reuse their memory
   std::vector<StereoTrack> tracks_;
   GreyImage archived_;
   StageListener stage_;

@@ -11,7 +11,7 @@ cv::Point2f point(double u, double v) {
   return {static_cast<float>(u), static_cast<float>(v)};
 }
 
-// Where the feature should be seen; its old place where no motion is known.
+// Returns where the feature should be seen, or its previous position if no motion is known.
 ImagePoint foresee(const StereoCalibration& camera, const StereoObservation& seen,
                    const std::optional<Eigen::Isometry3d>& expected) {
   ImagePoint old(seen.u_left, seen.v_left, seen.disparity());

@@ -1,4 +1,4 @@
-// Features from one pair to the next (internal: uses OpenCV).
+// Features are followed here from one pair to the next (internal: uses OpenCV).
 #pragma once
 
 #include <Eigen/Geometry>
@@ -23,8 +23,9 @@ void archive(Archive& ar, Feature& f) {
 
 // Follows features by Lucas-Kanade and closes the circle (after Kitt, Geiger, Lategahn, IV 2010):
 // left to left in time, left to right at the current epoch, and right to right in time, which must
-// end where the second one ended. `expected`, T_current_previous in cam, gives the starting points
-// where the motion can be foreseen; without it the whole pyramid is searched from the old places.
+// end where the second step ended. `expected`, T_current_previous in cam, gives the starting points
+// if the motion can be predicted. Without it the whole pyramid is searched from the previous
+// positions.
 void track_features(const StereoCalibration& camera, const StereoParameters& parameters,
                     const StereoFrame& previous_frame, const StereoFrame& current_frame,
                     const std::vector<Feature>& features,

@@ -1,4 +1,4 @@
-// For how many pairs features have been followed.
+// This class counts for how many pairs features have been followed.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace maploop::stereo {
 
-// A feature that is matched wrongly is wrong in the same way as long as it lives, so its errors in
-// the L pairs of its life add up instead of averaging out: over a time that is longer than lives
-// are, the variance of the sum is E[L^2] / E[L] times that of independent errors. That is one more
-// than twice the mean age (earlier pairs) of the features that are alive.
+// A feature with a wrong match has the same error throughout its life of L pairs, so these errors
+// add up instead of averaging out. Over a time longer than the features' lives, the variance of the
+// sum is E[L^2] / E[L] times that of independent errors. This factor is one more than twice the
+// mean age (number of earlier pairs) of the living features.
 class TrackAges {
  public:
-  // Those of the tracks named that were named in the last call as well are one pair older, and all
-  // others begin. Returns E[L^2] / E[L] as they show it; 1 where all are new.
+  // Increases the age of each track in `chosen` that was also chosen in the last call; all others
+  // start at 0. Returns E[L^2] / E[L] estimated from the ages; 1 if all are new.
   double correlated_pairs(std::span<const StereoTrack> tracks, std::span<const int> chosen);
 
   template <class Archive>

@@ -1,11 +1,11 @@
-// Features seen by both cameras at one or two epochs.
+// These are features seen by both cameras at one or two epochs.
 #pragma once
 
 #include <cstdint>
 
 namespace maploop::stereo {
 
-// Rectified pixels; origin at the centre of the top left pixel.
+// Positions are in rectified pixels; the origin is the centre of the top left pixel.
 struct StereoObservation {
   double u_left = 0.0, v_left = 0.0;
   double u_right = 0.0, v_right = 0.0;

@@ -9,7 +9,8 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-// Inverse of SO(3)'s left Jacobian (Sola, Deray, Atchuthan, "A micro Lie theory", 2018, eq. 146).
+// Returns the inverse of the left Jacobian of SO(3) (Sola, Deray, Atchuthan, "A micro Lie theory",
+// 2018, eq. 146).
 Eigen::Matrix3d inverse_left_jacobian(const Eigen::Vector3d& rotation) {
   const double angle = rotation.norm();
   const Eigen::Matrix3d cross = cross_matrix(rotation);

@@ -35,7 +35,7 @@ void Window::add(const StereoCalibration& camera, Time stamp, const Eigen::Isome
   const auto seen_at = [offset](const StereoObservation& at) {
     return WindowPoint::Sight{true, {at.u_left, at.v_left, at.disparity() + offset}};
   };
-  // Before room is made: a track's first sight is in the newest pose.
+  // New points are added before room is made, since a track's first sight is in the newest pose.
   const std::size_t newest_pose = poses.size() - 1;
   for (const int i : chosen) {
     const StereoTrack& track = tracks[static_cast<std::size_t>(i)];

@@ -1,4 +1,4 @@
-// The last keyframes and the points they share: what the bundle adjustment works on.
+// The window holds the last keyframes and their shared points for the bundle adjustment.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -40,10 +40,10 @@ struct WindowPoint {
 
   std::int64_t id = 0;
   Eigen::Vector3d p_world = Eigen::Vector3d::Zero();
-  double match_error = 0.0;  // px in every disparity of this feature: measured - true
+  double match_error = 0.0;  // px, measured - true, in every disparity of this feature
   std::array<Sight, kLargestWindow> sights;  // by pose, oldest first
 
-  std::size_t first_seen(std::size_t poses) const;  // `poses` where nowhere
+  std::size_t first_seen(std::size_t poses) const;  // `poses` if no pose sees it
 
   template <class Archive>
   void archive(Archive& ar) {
@@ -51,8 +51,9 @@ struct WindowPoint {
   }
 };
 
-// Plain data, which is all that has to be saved; `world` is the frame of the first pose that ever
-// was in it. Bounded by window_frames and window_max_points; never allocates after construction.
+// Holds plain data, all of which is archived. `world` is the frame of the first pose that was ever
+// added. The size is bounded by window_frames and window_max_points; never allocates after
+// construction.
 class Window {
  public:
   explicit Window(const StereoParameters& parameters);
@@ -61,10 +62,10 @@ class Window {
   bool empty() const { return poses.empty(); }
   const WindowPose& newest() const { return poses.back(); }
 
-  // One more pose, with the tracks named that lead to it from the newest one. Points that are new
-  // are triangulated where they were first seen; `offset` (px) is added to every disparity. Makes
-  // room first: the oldest pose goes or, where the newest has hardly moved against the one before
-  // it (window_min_flow), the newest, so that a standing car keeps its baseline.
+  // Adds a pose and the tracks in `chosen` that lead to it from the newest one. New points are
+  // triangulated where they were first seen; `offset` (px) is added to every disparity. Makes room
+  // first: removes the newest pose if it hardly moved against the one before it (window_min_flow),
+  // so that a standing car keeps its baseline; otherwise removes the oldest pose of a full window.
   void add(const StereoCalibration& camera, Time stamp, const Eigen::Isometry3d& T_world_cam,
            std::span<const StereoTrack> tracks, std::span<const int> chosen, double offset);
 
@@ -86,7 +87,7 @@ class Window {
  private:
   void make_room();
   void remove_pose(std::size_t index);
-  double flow_of_newest() const;  // px, median of the points both newest poses see
+  double flow_of_newest() const;  // px, median over the points that both newest poses see
 
   std::size_t most_poses_, most_points_;
   double min_flow_;
