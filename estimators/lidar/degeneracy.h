@@ -1,5 +1,5 @@
-// In which directions a registration says nothing (Zhang, Kaess and Singh, "On Degeneracy of
-// Optimization-based State Estimation Problems", ICRA 2016).
+// Finds the directions that a registration does not determine (Zhang, Kaess and Singh, "On
+// Degeneracy of Optimization-based State Estimation Problems", ICRA 2016).
 #pragma once
 
 #include <Eigen/Core>
@@ -11,15 +11,17 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 struct Degeneracy {
-  // Ascending: the share of the points that would have to face a direction to say as much of it.
+  // Ascending; each is the share of the points that would have to face this direction to give the
+  // same information.
   Vector6d eigenvalues = Vector6d::Zero();
-  Matrix6d seen = Matrix6d::Identity();  // takes a step to its part that the points determine
-  Matrix6d inverse = Matrix6d::Zero();   // of the information, on that part
-  std::uint8_t directions = 0;           // bit MotionDirection of each direction not determined
+  Matrix6d seen = Matrix6d::Identity();  // projects a step onto the determined directions
+  Matrix6d inverse = Matrix6d::Zero();   // inverse information in the determined directions
+  std::uint8_t directions = 0;           // bit MotionDirection of each undetermined direction
 };
 
-// `information` of a step (translation in m, rotation in rad, in body) from `points` points, in
-// units of what one point says along its normal. Rotations are compared as metres at `range`.
+// `information` is that of a step (translation in m, rotation in rad, in body) from `points`
+// points, in units of one point's information along its normal. Rotations are converted to metres
+// at `range` (m). A direction with less than `min_information` is not determined.
 Degeneracy find_degeneracy(const Matrix6d& information, int points, double range,
                            double min_information);
 

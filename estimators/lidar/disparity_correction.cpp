@@ -10,9 +10,9 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr double blind = 3.0;  // px; a motion that shows the offset no better teaches nothing
+constexpr double blind = 3.0;  // px; a motion with a larger sigma of the offset is ignored
 
-// The part of a motion, at constant speed and rate, that lies behind `from`.
+// Returns the part of a motion, at constant speed and rate, that lies after `from`.
 RelativeMotion begun_at(Time from, RelativeMotion motion) {
   if (!(motion.from < from && from < motion.stamp)) return motion;
   const Twist twist = Twist::of(motion.T_from_to(), to_seconds(motion.stamp - motion.from));
@@ -45,8 +45,7 @@ RelativeMotion DisparityCorrection::correct(const VisualMotion& visual) const {
   return corrected;
 }
 
-// Kalman filter of one number. A motion further than three standard deviations from what is known
-// moves it by three.
+// This is a Kalman filter with one state. Its innovation is limited to three standard deviations.
 void DisparityCorrection::learn(const VisualMotion& visual, const LidarMotion& lidar) {
   const bool determined =
       (lidar.degenerate & 1u << static_cast<unsigned>(MotionDirection::along)) == 0;
@@ -54,7 +53,8 @@ void DisparityCorrection::learn(const VisualMotion& visual, const LidarMotion& l
       visual.from != lidar.from || visual.stamp != lidar.stamp || !determined) {
     return;
   }
-  // Along the way alone: what the sensors' mountings leave open turns into motions across.
+  // Only the direction of travel is used: errors of the sensors' mountings cause differences
+  // across.
   const Eigen::Vector3d along_way = visual.translation.normalized();
   const double by_offset = along_way.dot(visual.by_offset.head<3>());  // m / px
   const double own = visual.offset_sigma * visual.offset_sigma;

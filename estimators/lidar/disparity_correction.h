@@ -1,4 +1,4 @@
-// Visual motions, given the length that LiDAR odometry has.
+// The length of visual motions is corrected here by that of LiDAR odometry.
 #pragma once
 
 #include "estimators/lidar/lidar_odometry.h"
@@ -8,31 +8,32 @@
 
 namespace maploop::lidar {
 
-// A rectification that is off makes all disparities too small or too large, and all ways too long
-// or too short. What constant the disparities lack shows in the motions that LiDAR and visual
-// odometry find over the same time; it is filtered, and visual motions that stand alone are
-// corrected by it, so that the length stays right where LiDAR odometry fails. Motions are compared,
-// not depths: a feature stands at an edge, and the depth beside it is often not its own.
+// A rectification error makes all disparities too small or too large, and all distances too long or
+// too short. The difference between the motions of LiDAR and visual odometry over the same time
+// shows the constant error of the disparities. This class filters it and corrects visual motions
+// without a LiDAR motion by it, so that the length stays right where LiDAR odometry fails. Motions
+// are compared, not depths, because a feature lies on an edge, and the depth beside an edge is
+// often not that of the feature.
 //
-// Not thread-safe; the same input gives the same bits. Never allocates.
+// Not thread-safe. The same input gives the same bits. Never allocates.
 class DisparityCorrection {
  public:
   explicit DisparityCorrection(const LidarParameters& parameters);
 
-  // The motion and its covariance, as they would be with the disparities corrected. Motions that
-  // are not ok, or of which it is not known how they depend on the disparities, stay as they are;
-  // so do all before the first that taught something.
+  // Returns the motion and its covariance with corrected disparities. Motions that are not ok, or
+  // whose dependence on the disparities is unknown, are not changed; nor is any motion before the
+  // first call of learn() that had an effect.
   RelativeMotion correct(const VisualMotion& visual) const;
 
-  // From `visual` as it came and the LiDAR's motion over the same time. What is not ok, of other
-  // stamps, not determined along the way by the scan, or hardly shows the disparities (a standing
-  // car), teaches nothing.
+  // Learns from the uncorrected `visual` and the LiDAR's motion over the same time. Motions that
+  // are not ok, have different stamps, are not determined along the path by the scan, or hardly
+  // depend on the disparities (standing car) have no effect.
   void learn(const VisualMotion& visual, const LidarMotion& lidar);
 
-  // Missing in every disparity as it is measured, px, and its standard deviation.
+  // The remaining offset of every measured disparity, px, and its standard deviation.
   double offset() const { return offset_; }
   double sigma() const { return sigma_; }
-  int motions() const { return motions_; }  // that taught something
+  int motions() const { return motions_; }  // number of motions that had an effect
 
   template <class Archive>
   void archive(Archive& ar) {
@@ -48,10 +49,10 @@ class DisparityCorrection {
   Time last_{};
 };
 
-// One step of both: LidarOdometry::process, which also teaches the correction. Beside a scan that
-// can be used, a visual motion is a witness of its own and goes in as it came; alone it is
-// corrected, and cut off at the last step where it reaches back behind that: the motions are a
-// chain.
+// Performs one step of both: LidarOdometry::process and the correction's learning. With a usable
+// scan, a visual motion is an independent measurement and is used uncorrected. Alone it is
+// corrected and, if it begins before the end of the last step, cut off there, because the motions
+// must join.
 OdometerResult process(LidarOdometry& odometry, DisparityCorrection& correction,
                        const LidarScan* scan, const VisualMotion* visual);
 

@@ -48,13 +48,13 @@ void Gicp::find_partners(const LocalMap& map, const PreparedScan& scan, const Ei
       pairs_[i].normal = partner->normal;
     }
   };
-  for_each_chunk_(chunk_count(points), std::ref(work));  // a copy of it would be allocated
+  for_each_chunk_(chunk_count(points), std::ref(work));  // std::ref, since a copy would allocate
 }
 
 Gicp::Sums Gicp::sum_chunk(const PreparedScan& scan, const Eigen::Isometry3d& T, double kernel,
                            int chunk) const {
   const auto thickness = static_cast<float>(parameters_.plane_thickness);
-  // So scaled, two surfaces that lie on each other differ across by 2 point_sigma^2.
+  // With this scale, two coincident surfaces differ by 2 point_sigma^2 across.
   const auto whitening = static_cast<float>(parameters_.plane_thickness /
                                             (parameters_.point_sigma * parameters_.point_sigma));
   const auto limit = static_cast<float>(kernel * kernel);
@@ -109,7 +109,7 @@ Alignment Gicp::align(const LocalMap& map, const PreparedScan& scan, const Eigen
   result.points = static_cast<int>(scan.points.size());
   if (result.points < parameters_.min_points) return result;
 
-  // What one point says along its normal, of two surfaces that lie on each other.
+  // This is the information of one point along its normal, for two coincident surfaces.
   const double unit = 0.5 / (parameters_.point_sigma * parameters_.point_sigma);
   double distance = known ? parameters_.max_distance : parameters_.unseeded_distance;
   const double min_information = known ? parameters_.min_information : 0.0;
@@ -143,7 +143,7 @@ Alignment Gicp::align(const LocalMap& map, const PreparedScan& scan, const Eigen
         std::max(moved.translation().norm() / parameters_.translation_step,
                  Eigen::AngleAxisd(moved.linear()).angle() / parameters_.rotation_step);
     settled = distance <= parameters_.min_distance && steps < 1.0;
-    near = steps < 10.0;  // partners that change to and fro
+    near = steps < 10.0;  // partners may alternate between iterations
     distance = std::max(parameters_.min_distance, distance * (2.0 / 3.0));
   }
   result.status = settled || near ? OdometryStatus::ok : OdometryStatus::not_converged;

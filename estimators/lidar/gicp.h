@@ -1,4 +1,4 @@
-// Registration of a scan with the local map.
+// A scan is registered with the local map here.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,35 +14,36 @@
 
 namespace maploop::lidar {
 
-// Runs work(0) to work(count - 1), in any order and on any threads, and returns when all are done.
+// Runs work(0) to work(count - 1), in any order and on any threads, and returns when all have
+// finished.
 using ForEachChunk = std::function<void(int count, const std::function<void(int)>& work)>;
 
 struct Alignment {
   OdometryStatus status = OdometryStatus::too_few_features;
   Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
   Degeneracy degeneracy;
-  // Of independent points, in body axes at the scan, in the directions that they determine;
-  // translation (m), rotation (rad).
+  // Covariance of independent points in the directions that they determine, in body axes at the
+  // scan: translation (m), rotation (rad).
   Matrix6d covariance = Matrix6d::Zero();
   int iterations = 0;
-  int points = 0;    // offered
-  int partners = 0;  // with a partner in the map
+  int points = 0;    // of the scan
+  int partners = 0;  // of these, points with a partner in the map
 };
 
-// Plane to plane, Gauss-Newton, Geman-McClure kernel, partners sought anew in each iteration within
-// a shrinking distance, and held for a few steps that cost little. Sums are made in chunks of a
-// fixed size and added in their order, so that the result has the same bits whoever runs the
-// chunks. Allocates at construction alone.
+// Registers plane to plane by Gauss-Newton with a Geman-McClure kernel. Each iteration searches for
+// partners within a shrinking distance and keeps them for a few cheap steps. Sums are computed in
+// chunks of fixed size and added in a fixed order, so the result has the same bits whichever
+// threads run the chunks. Allocates only at construction. Not thread-safe.
 class Gicp {
  public:
   Gicp(const LidarParameters& parameters, ForEachChunk for_each_chunk);
 
-  // From `seed`; directions that the scan does not determine keep the seed's component. Where the
-  // seed is not `known`, it is no better than any other: partners are sought further away, and no
-  // component of it is kept. Statuses:
+  // Aligns the scan starting from `seed` (T_map_body). In directions that the scan does not
+  // determine the seed's component is kept. If the seed is not `known`, partners are searched
+  // within a larger distance and no component of the seed is kept. Statuses:
   //   ok
   //   too_few_features  fewer than min_points surface points
-  //   too_few_inliers   fewer than min_overlap of them have a partner
+  //   too_few_inliers   less than the share min_overlap of them has a partner
   //   not_converged     still moving after max_iterations
   Alignment align(const LocalMap& map, const PreparedScan& scan, const Eigen::Isometry3d& seed,
                   bool known);
@@ -52,12 +53,12 @@ class Gicp {
     Matrix6d H;
     Vector6d g;
     double weight = 0.0;
-    double square = 0.0;  // weighted, whitened
-    double range = 0.0;   // m, squared
+    double square = 0.0;  // weighted, whitened residuals
+    double range = 0.0;   // m^2, sum of squared ranges
     int partners = 0;
     void add(const Sums& other);
   };
-  // A point's partner: its position and normal in the map.
+  // Holds the position and normal of a point's partner in the map.
   struct Pair {
     Eigen::Vector3d target;
     Eigen::Vector3f normal;

@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Isometry3d;
 
-constexpr double nominal_interval = 0.1;  // s, a turn of the LiDAR
+constexpr double nominal_interval = 0.1;  // s, one turn of the LiDAR
 
 double angle(const Isometry3d& T) {
   return Eigen::AngleAxisd(T.linear()).angle();
@@ -77,7 +77,7 @@ class LidarOdometry::Implementation {
   const PreparedScan& prepared() const { return prepared_; }
   Isometry3d pose() const { return T_map_body_; }
 
-  // The rest are buffers of one call.
+  // The other members are buffers of one call.
   template <class Archive>
   void archive(Archive& ar) {
     ar.section("LiDAR odometry", 2);
@@ -96,7 +96,7 @@ class LidarOdometry::Implementation {
   struct Prediction {
     Isometry3d T_from_to = Isometry3d::Identity();
     bool visual = false;
-    bool known = false;  // false: nothing is known of the motion
+    bool known = false;  // false: the motion is unknown
   };
 
   void begin(const Sample& sample, LidarMotion* motion) const {
@@ -104,7 +104,7 @@ class LidarOdometry::Implementation {
     if (started_) motion->from = stamp_;
   }
 
-  // A step in order; time set back for good starts anew.
+  // Returns whether the step is in order. After max_stale_scans old stamps the odometry restarts.
   bool in_order(const LidarScan* scan, Time stamp) {
     if (scan != nullptr && !(scan->start < scan->stamp && scan->stamp < scan->end &&
                              scan->start <= stamp && stamp <= scan->end)) {
@@ -119,8 +119,8 @@ class LidarOdometry::Implementation {
     return true;
   }
 
-  // A scan that comes alone, when a step within its turn has been taken already: its visual motion
-  // went without it, and what goes on from there begins at that step.
+  // A scan without visual motion is too late if a step within its turn was already taken: its
+  // visual motion was processed without it.
   bool too_late(const LidarScan& scan) const { return started_ && scan.start < stamp_; }
 
   void restart() {
@@ -151,11 +151,11 @@ class LidarOdometry::Implementation {
     return p;
   }
 
-  // Prepare, align, judge. On refusal only the status is filled in.
+  // Prepares, aligns and judges the scan. On refusal it sets the status and diagnostics only.
   void register_scan(const LidarScan& scan, const Prediction& prediction, LidarMotion* motion) {
     preparation_.prepare(scan, motion->stamp, twist_.value_or(Twist{}), &prepared_);
     motion->tracked = static_cast<int>(prepared_.points.size());
-    if (prediction.visual && !map_is_sharp_) map_.clear();  // this one can start a sharp map
+    if (prediction.visual && !map_is_sharp_) map_.clear();  // this scan can start a sharp map
     if (map_.empty()) {
       motion->status = motion->tracked < parameters_.min_points ? OdometryStatus::too_few_features
                                                                 : OdometryStatus::first_frame;
@@ -187,7 +187,7 @@ class LidarOdometry::Implementation {
         !(angle(T_from_to) <= parameters_.max_yaw_rate * seconds)) {
       return OdometryStatus::implausible;
     }
-    // Since the last scan that was used, the seed's errors have added up.
+    // The seed's errors accumulate from the last scan that was used.
     const double intervals =
         std::max(1.0, to_seconds(motion.stamp - aligned_stamp_) / nominal_interval);
     if (prediction.visual &&
@@ -198,10 +198,10 @@ class LidarOdometry::Implementation {
     return OdometryStatus::ok;
   }
 
-  // Of the points in the directions that they determine, of the seed in the others.
+  // Combines the points' covariance in directions they determine with the seed's in the others.
   Matrix6d covariance(const Alignment& alignment) const {
     const Matrix6d unseen = Matrix6d::Identity() - alignment.degeneracy.seen;
-    Matrix6d seed = Matrix6d::Identity();  // 1 m, 1 rad: nothing is known
+    Matrix6d seed = Matrix6d::Identity();  // 1 m, 1 rad: the motion is unknown
     if (seed_covariance_) seed = *seed_covariance_;
     return parameters_.correlated_points * alignment.covariance +
            unseen * seed * unseen.transpose();
@@ -219,7 +219,7 @@ class LidarOdometry::Implementation {
     started_ = true;
   }
 
-  // The scan becomes part of the map, or the map's start.
+  // Adds the scan to the map, or starts the map with it.
   void learn(const LidarScan& scan, OdometryStatus status) {
     if (status == OdometryStatus::first_frame) {
       map_.insert(prepared_, T_map_body_);
@@ -234,7 +234,7 @@ class LidarOdometry::Implementation {
     }
     refused_in_a_row_ = 0;
     if (!map_is_sharp_) {
-      // The map's only scan was smeared, its motion being unknown: this one takes its place.
+      // The map's only scan was smeared, since its motion was unknown; this scan replaces it.
       preparation_.prepare(scan, stamp_, *twist_, &prepared_);
       map_.clear();
       map_is_sharp_ = true;
@@ -256,14 +256,14 @@ class LidarOdometry::Implementation {
   Time aligned_stamp_{};                            // of the last step whose scan was used
   Isometry3d T_map_body_ = Isometry3d::Identity();  // at stamp_
   std::optional<Twist> twist_;                      // the last motion
-  // Of the visual motions since the last scan used, body axes at stamp_; nothing where one of them
-  // was refused.
+  // Covariance of the visual motions since the last used scan, body axes at stamp_; empty after a
+  // refused one.
   std::optional<Matrix6d> seed_covariance_;
   bool map_is_sharp_ = false;
   int refused_in_a_row_ = 0;
   int stale_ = 0;
 
-  PreparedScan prepared_;  // buffer, kept
+  PreparedScan prepared_;  // buffer, kept to reuse its memory
 };
 
 LidarOdometry::LidarOdometry(const Isometry3d& T_body_velo, const LidarParameters& parameters,

@@ -1,4 +1,4 @@
-// Odometry from scans and from the visual motion that seeds them: the visual-LiDAR odometer.
+// The visual-LiDAR odometer computes odometry from scans and the visual motions that seed them.
 #pragma once
 
 #include <cstddef>
@@ -17,46 +17,47 @@ class ArchiveWriter;
 namespace maploop::lidar {
 
 struct OdometerResult {
-  LidarMotion lidar;        // what the scan says, where there is one
-  RelativeMotion odometry;  // the best of both: LiDAR where it is ok, else visual
+  LidarMotion lidar;        // from the scan, if there is one
+  RelativeMotion odometry;  // LiDAR if that is ok, else visual
 };
 
-// The visual motion deskews the scan and seeds its registration with the surfaces seen lately.
-// Where it is refused, the last motion takes its place.
+// The visual motion deskews the scan and seeds its registration with the recently seen surfaces. If
+// the visual motion is refused, the last motion replaces it.
 //
-// Not thread-safe (but see ForEachChunk); the same input gives the same bits.
+// Not thread-safe (but see ForEachChunk). The same input gives the same bits.
 class LidarOdometry {
  public:
-  // Throws std::invalid_argument naming the value where a parameter cannot be used.
+  // Throws std::invalid_argument, which names the value, if a parameter is not valid. Without
+  // `for_each_chunk`, process() runs all chunks on its own thread.
   LidarOdometry(const Eigen::Isometry3d& T_body_velo, const LidarParameters& parameters,
                 ForEachChunk for_each_chunk = nullptr);
   ~LidarOdometry();
   LidarOdometry(LidarOdometry&&) noexcept;
   LidarOdometry& operator=(LidarOdometry&&) noexcept;
 
-  // One step of time, with what there is of it: a scan, the visual motion of the image pair taken
-  // during that scan, or both. The pose found is that at the visual motion's stamp; without one, at
-  // the scan's. Each motion begins where the step before ended. Statuses of `lidar`, whose pose and
-  // covariance are identity and zero where it is not ok:
+  // Processes one step with a scan, with the visual motion of the image pair taken during that
+  // scan, or with both. The resulting pose is at the visual motion's stamp, or at the scan's if
+  // there is no visual motion. Each motion begins where the previous step ended. If the status of
+  // `lidar` is not ok, its pose and covariance are identity and zero. Statuses:
   //   first_frame       no scan yet, or the last step is older than max_gap
-  //   too_few_features  fewer than min_points surface points: empty, tiny, blocked
+  //   too_few_features  fewer than min_points surface points: empty, tiny or blocked scan
   //   too_few_inliers   too little of the scan is on the map
-  //   not_converged     the registration did not settle
+  //   not_converged     the registration did not converge
   //   implausible       beyond max_speed or max_yaw_rate
   //   disagreement      too far from the visual motion
   //   bad_input         no scan; stamps not in order, or not after the last step's; visual motion
-  //                     not from within the scan's turn; a scan alone, when there was a step within
-  //                     its turn already
+  //                     outside the scan's turn; a scan alone, if a step within its turn was
+  //                     already processed
   OdometerResult process(const LidarScan* scan, const RelativeMotion* visual);
 
-  // Of the last scan, in the body frame at the last step; for displays.
+  // Returns the last prepared scan, in the body frame at its `stamp`; for displays.
   const PreparedScan& prepared() const;
-  // Body at the last step in the body frame of the first.
+  // Returns the pose of the body at the last step in the body frame of the first.
   Eigen::Isometry3d pose() const;
 
-  // msgs/archive.h: what the steps so far have left behind, most of it the map. Loading throws
-  // ArchiveError, and changes nothing, where the archive is of another mounting, other parameters
-  // or another version, or broken.
+  // Archives the state after all steps so far, most of which is the map (msgs/archive.h). Loading
+  // throws ArchiveError, and changes nothing, if the archive is broken or of another mounting,
+  // other parameters or another version.
   std::size_t largest_archive() const;  // bytes
   void archive(ArchiveWriter& ar) const;
   void archive(ArchiveReader& ar);

@@ -23,7 +23,7 @@ std::size_t LocalMap::largest_archive() const {
   return voxels_.capacity() * sizeof(Voxel) + sizeof(std::uint64_t);
 }
 
-// Only what is filled.
+// Archives only the filled part of each voxel.
 void LocalMap::archive(ArchiveWriter& ar) const {
   ar(std::uint64_t{voxels_.size()});
   for (const Voxel& voxel : voxels_) {
@@ -105,7 +105,7 @@ std::optional<Partner> LocalMap::nearest(const Vector3d& position, float distanc
   const Vector3d p = position / size_;
   const Vector3i cell(floor_to_int(p.x()), floor_to_int(p.y()), floor_to_int(p.z()));
   const Vector3f within = ((p - cell.cast<double>()) * size_).cast<float>();
-  // Distance along an axis to the cell so many steps away.
+  // Returns the distance along an axis to the cell `step` cells away.
   const auto gap = [&](int axis, int step) {
     if (step == 0) return 0.0f;
     return step < 0 ? within[axis] - static_cast<float>(step + 1) * size
@@ -130,7 +130,7 @@ std::optional<Partner> LocalMap::nearest(const Vector3d& position, float distanc
       }
     }
   };
-  search(0, 0, 0);  // most often it is there, and the others are too far then
+  search(0, 0, 0);  // usually holds the nearest point, so most others are skipped
   const int reach = static_cast<int>(std::ceil(distance / size));
   for (int x = -reach; x <= reach; ++x) {
     for (int y = -reach; y <= reach; ++y) {

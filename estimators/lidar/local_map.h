@@ -1,4 +1,4 @@
-// The surfaces seen lately.
+// The local map holds the recently seen surfaces.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -18,14 +18,15 @@ class ArchiveWriter;
 
 namespace maploop::lidar {
 
-// A surface point of the map nearest to a position.
+// This is the surface point of the map nearest to a position.
 struct Partner {
   Eigen::Vector3f offset;  // m, from the position to the point, in the map's axes
   Eigen::Vector3f normal;  // in the map's axes
 };
 
-// Flat voxel hash of bounded size; positions are kept from their voxel's corner, so that they stay
-// exact far from the origin. Reading is safe from several threads while nobody writes.
+// Stores points in a flat voxel hash of bounded size. Positions are relative to their voxel's
+// corner, so they stay exact far from the origin. Several threads may read at once while no thread
+// writes.
 class LocalMap {
  public:
   explicit LocalMap(const LidarParameters& parameters);
@@ -34,16 +35,17 @@ class LocalMap {
   bool empty() const { return voxels_.empty(); }
   std::size_t size() const { return points_; }
 
-  // Adds what is not there yet: points at least map_spacing from those in their voxel, up to ten a
-  // voxel. Returns how many found no room.
+  // Adds points that are at least map_spacing from those in their voxel, up to ten per voxel.
+  // Returns how many points found no free voxel.
   int insert(const PreparedScan& scan, const Eigen::Isometry3d& T_map_body);
-  // Forgets what is further than map_radius from here.
+  // Removes voxels further than map_radius from `position`.
   void forget(const Eigen::Vector3d& position);
 
-  // The nearest point within `distance` (m) of a position.
+  // Returns the nearest point within `distance` (m) of a position.
   std::optional<Partner> nearest(const Eigen::Vector3d& position, float distance) const;
 
-  // msgs/archive.h. Loading refuses what no map of this size can hold.
+  // Archives the map (msgs/archive.h). Loading throws ArchiveError if no map of this size can hold
+  // the content.
   std::size_t largest_archive() const;  // bytes
   void archive(ArchiveWriter& ar) const;
   void archive(ArchiveReader& ar);

@@ -1,4 +1,4 @@
-// Covariances of motions: translation (m), then rotation vector (rad).
+// These functions transform covariances of motions: translation (m), then rotation vector (rad).
 #pragma once
 
 #include <Eigen/Geometry>
@@ -7,14 +7,14 @@
 
 namespace maploop::lidar {
 
-// From body axes at the motion's end (right perturbation) to those at its begin.
+// Transforms from body axes at the motion's end (right perturbation) to those at its start.
 inline Matrix6d to_from_axes(const Matrix6d& covariance, const Eigen::Matrix3d& R_from_to) {
   Matrix6d A = Matrix6d::Zero();
   A.topLeftCorner<3, 3>() = A.bottomRightCorner<3, 3>() = R_from_to;
   return A * covariance * A.transpose();
 }
 
-// The same perturbation of a motion, seen from where it goes on by T.
+// Returns the covariance of the same perturbation after a further motion T, in the axes at its end.
 inline Matrix6d carried_over(const Matrix6d& covariance, const Eigen::Isometry3d& T) {
   const Eigen::Isometry3d back = T.inverse();
   const Eigen::Vector3d t = back.translation();

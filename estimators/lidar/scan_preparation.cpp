@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-// atan(t) for t in [0, 1], to 1e-5 (Abramowitz and Stegun 4.4.49).
+// Returns atan(t) for t in [0, 1], to 1e-5 (Abramowitz and Stegun 4.4.49).
 float arc_tangent(float t) {
   const float s = t * t;
   return t *
@@ -92,14 +92,15 @@ void ScanPreparation::prepare(const LidarScan& scan, Time stamp, const Twist& mo
   for (std::size_t i = 0; i < scan.points.size(); i += stride) {
     const LidarPoint& raw = scan.points[i];
     const float square = raw.x * raw.x + raw.y * raw.y + raw.z * raw.z;
-    if (!(square >= nearest && square <= furthest)) {  // not a number is neither
+    if (!(square >= nearest && square <= furthest)) {  // false for NaN too
       ++prepared->cropped;
       continue;
     }
     const float turn = 2.0f * turn_fraction(raw.x, raw.y) - 1.0f;
     const float t = middle + turn * (turn < 0.0f ? first_half : second_half);
     const Vector3f seen = T_body_velo_ * with_elevation({raw.x, raw.y, raw.z}, cosine, sine);
-    // The body's motion over t to second order; the third is 0.2 mm at 80 m and 0.5 rad/s.
+    // This is the body's motion over t to second order; the third order is 0.2 mm at 80 m and 0.5
+    // rad/s.
     const Vector3f turned = t * rate.cross(seen + (0.5f * t) * (rate.cross(seen) + velocity));
     if (!moments_.add(seen + turned + t * velocity)) ++left_out;
   }

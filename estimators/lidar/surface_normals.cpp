@@ -10,7 +10,7 @@ namespace {
 using Eigen::Matrix3f;
 using Eigen::Vector3f;
 
-// Sums over a neighbourhood, in voxels from the lower corner of its middle one.
+// Holds sums over a neighbourhood, in voxels from the lower corner of its middle one.
 struct Neighbourhood {
   float count = 0.0f;
   Vector3f sum = Vector3f::Zero();
@@ -43,7 +43,7 @@ struct Neighbourhood {
   }
 };
 
-// All 26 neighbours take four times as long and find the same motions.
+// Using all 26 neighbours takes four times as long and finds the same motions.
 constexpr std::array<std::array<int, 3>, 7> self_and_faces{
     {{0, 0, 0}, {-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
 
@@ -65,7 +65,8 @@ void surface_points(const VoxelMoments& moments, int min_points,
     }
     if (around.count < static_cast<float>(min_points)) continue;
     solver.computeDirect(around.covariance());
-    constexpr float line = 1e-3f;  // middle eigenvalue to largest: one beam's trace, no surface
+    constexpr float line =
+        1e-3f;  // middle to largest eigenvalue; less is one beam's trace, not a surface
     if (!(solver.eigenvalues()[1] > line * solver.eigenvalues()[2])) continue;
     const Vector3f position = (cell.cast<float>() + middle.mean()) * moments.size();
     points->push_back({position, solver.eigenvectors().col(0)});

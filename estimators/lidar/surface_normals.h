@@ -1,4 +1,4 @@
-// Normals of a scan's samples.
+// The normals of a scan's samples are computed here.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace maploop::lidar {
 
-// One point a voxel, at the mean of what it holds; its normal is the direction in which the points
-// of the voxel and its six neighbours spread least. Voxels whose neighbourhood holds fewer than
-// `min_points` points, or points of one line only, give none.
+// Computes one point per voxel, at the mean of its points (m). The normal is the direction in which
+// the points of the voxel and its six neighbours spread least. A voxel gives no point if its
+// neighbourhood holds fewer than `min_points` points or only points of one line.
 void surface_points(const VoxelMoments& moments, int min_points, std::vector<SurfacePoint>* points);
 
 }  // namespace maploop::lidar

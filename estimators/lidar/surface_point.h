@@ -1,4 +1,4 @@
-// What registration compares.
+// Registration compares these surface points.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,18 +8,18 @@
 
 namespace maploop::lidar {
 
-// A piece of surface. Its covariance in the sense of GICP is I - (1 - epsilon) n n^T.
+// Describes a piece of surface. Its covariance in the sense of GICP is I - (1 - epsilon) n n^T.
 struct SurfacePoint {
   Eigen::Vector3f position;  // m
   Eigen::Vector3f normal;    // unit, either sign
 };
 
-// A scan as it would have been seen in one moment.
+// Holds a scan as if all its points had been measured at one time.
 struct PreparedScan {
-  Time stamp{};                      // that moment: points and normals are in the body frame then
+  Time stamp{};                      // that time; points and normals are in the body frame then
   std::vector<SurfacePoint> points;  // sorted by their voxels
   int cropped = 0;                   // raw points out of range or not finite
-  int left_out = 0;                  // raw points beyond what a scan may hold
+  int left_out = 0;                  // raw points beyond max_points or max_samples
 };
 
 }  // namespace maploop::lidar

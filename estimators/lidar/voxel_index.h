@@ -1,4 +1,4 @@
-// Which voxel is where in an array: a flat hash table of a fixed size.
+// This flat hash table of fixed size finds the array index of a voxel.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace maploop::lidar {
 
-// Maps up to `capacity` keys to numbers. Allocates at construction alone. Open addressing, linear
-// probing, at most half full.
+// Maps up to `capacity` keys to numbers. Allocates only at construction. Uses open addressing with
+// linear probing and is at most half full.
 class VoxelIndex {
  public:
   static constexpr std::int32_t none = -1;
@@ -26,8 +26,8 @@ class VoxelIndex {
     }
   }
 
-  // The number of the key; where it has none yet, `value` becomes it. `none` where the table is
-  // full.
+  // Returns the number of the key; a new key gets the number `value`. Returns `none` if the table
+  // is full.
   std::int32_t find_or_insert(VoxelKey key, std::int32_t value);
 
  private:

@@ -1,4 +1,4 @@
-// Cells of a cubic grid, numbered.
+// This key numbers the cells of a cubic grid.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,8 @@
 
 namespace maploop::lidar {
 
-// 21 bits an axis: one million cells to either side of the origin. Keys sort by x, then y, then z.
+// Uses 21 bits per axis: one million cells to either side of the origin. Keys sort by x, then y,
+// then z.
 struct VoxelKey {
   std::uint64_t bits = 0;
 
@@ -26,7 +27,7 @@ struct VoxelKey {
   friend auto operator<=>(const VoxelKey&, const VoxelKey&) = default;
 };
 
-// floor() of the C library is a call where the machine has no instruction for it.
+// Avoids floor(), which is a library call on machines without an instruction for it.
 template <class Scalar>
 int floor_to_int(Scalar x) {
   const int i = static_cast<int>(x);

@@ -1,4 +1,4 @@
-// Number, sum and second moments of the points in each voxel of a scan.
+// The number, sum and second moments of the points in each voxel of a scan are kept here.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@
 
 namespace maploop::lidar {
 
-// Positions are counted in whole 1/4096 of a voxel, so that the sums are the same in any order.
+// Positions are in whole units of 1/4096 voxel, so the sums do not depend on the order.
 struct Moments {
   static constexpr int resolution = 4096;
 
@@ -19,7 +19,7 @@ struct Moments {
   std::array<std::int64_t, 3> sum{};     // from the voxel's lower corner
   std::array<std::int64_t, 6> square{};  // xx, xy, xz, yy, yz, zz
 
-  // Voxels from its lower corner.
+  // Returns the mean position from the voxel's lower corner, in voxels.
   Eigen::Vector3f mean() const {
     const float scale = 1.0f / (static_cast<float>(resolution) * static_cast<float>(count));
     return Eigen::Vector3f(static_cast<float>(sum[0]), static_cast<float>(sum[1]),
@@ -30,13 +30,13 @@ struct Moments {
 
 class VoxelMoments {
  public:
-  // `size` of a voxel in m. Allocates here alone.
+  // `size` of a voxel is in m. Allocates only here.
   VoxelMoments(float size, int max_voxels);
 
   void clear();
-  // Precondition: |position| is below a million voxels. False where there is no voxel left.
+  // Precondition: |position| is below a million voxels. Returns false if no voxel is left.
   bool add(const Eigen::Vector3f& position);
-  // By key; after it voxels() and find() have the same order whatever was added first.
+  // Sorts by key. Afterwards voxels() and find() do not depend on the order of the additions.
   void sort();
 
   float size() const { return size_; }
