@@ -6,7 +6,7 @@
 namespace maploop::mapmatch {
 namespace {
 
-constexpr double expansion = 3.03;  // of the standard ellipse, for 99 %
+constexpr double expansion = 3.03;  // scale of the one-sigma ellipse for 99 %
 
 NearLink nearest_on_segment(const RoadNetwork& network, const IndexedSegment& segment,
                             const Eigen::Vector2d& place) {

@@ -1,4 +1,4 @@
-// Links near a fix.
+// This search finds the links near a fix.
 #pragma once
 
 #include <array>
@@ -9,25 +9,27 @@
 
 namespace maploop::mapmatch {
 
-// A link and the place on it that is nearest to a fix.
+// Holds a link and the point on it that is nearest to a fix.
 struct NearLink {
   DirectedLink link;
-  double along = 0.0;     // m, as driven
+  double along = 0.0;     // m from where the link is entered
   double distance = 0.0;  // m
   LinkPoint point;
 };
 
-// A fixed number of candidates, kept between calls.
+// Holds at most `capacity` candidates; the object is reused between calls.
 struct NearLinks {
   static constexpr std::size_t capacity = 48;
   std::array<NearLink, capacity> links{};
   std::size_t count = 0;
-  std::size_t left_out = 0;  // further away than those that are here
+  std::size_t left_out =
+      0;  // times a link was dropped for a nearer one; a link may count more than once
 
   std::span<const NearLink> all() const { return {links.data(), count}; }
 };
 
-// The error ellipse of 99 % of a fix, grown by what the map and the road's width add.
+// Describes the 99 % error ellipse of a fix, enlarged by `margin` (m) for the error of the map and
+// the width of the road.
 struct ErrorEllipse {
   double major = 0.0, minor = 0.0;                       // m
   Eigen::Vector2d direction = Eigen::Vector2d::UnitX();  // of the major axis
@@ -37,8 +39,9 @@ struct ErrorEllipse {
   Box box(const Eigen::Vector2d& center) const;
 };
 
-// Each link once, as stored (forward), the nearest first; where there are more than fit, the
-// nearest.
+// Lists each link in the region once, in its stored (forward) direction, nearest first. If more
+// links than `capacity` are in the region, keeps the nearest. `place` is the fix in the network's
+// metres.
 void find_near_links(const RoadNetwork& network, const Eigen::Vector2d& place,
                      const ErrorEllipse& region, NearLinks& near);
 

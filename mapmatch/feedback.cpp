@@ -16,7 +16,7 @@ double azimuth_of(const Eigen::Vector2d& step) {
   return std::atan2(step.x(), step.y());
 }
 
-// Of a covariance, in a direction.
+// Returns the variance of a covariance in a direction.
 double variance_along(const Eigen::Matrix2d& covariance, const Eigen::Vector2d& u) {
   return u.dot(covariance * u);
 }
@@ -63,12 +63,14 @@ Feedback::Line Feedback::line_beside(DirectedLink link, const Eigen::Vector2d& p
   return line;
 }
 
-// Whether the filter's azimuth is no longer worth comparing; after a gap of the gyro, say.
+// Returns whether the filter's azimuth is too uncertain for a comparison, for example after a gap
+// of the gyro.
 bool Feedback::lost(const VehicleFix& fix) const {
   return parameters_.azimuth_sigmas * fix.azimuth_sigma > parameters_.max_azimuth_error;
 }
 
-// Whether the azimuth has changed against the link's within the last seconds.
+// Returns whether the azimuth relative to the link's has changed within the last `interval`
+// seconds.
 bool Feedback::turns(Time stamp, double azimuth_error, double interval) const {
   const std::size_t known = std::min(next_moment_, history_length);
   for (std::size_t i = 1; i <= known; ++i) {
@@ -79,7 +81,7 @@ bool Feedback::turns(Time stamp, double azimuth_error, double interval) const {
   return false;
 }
 
-// Whether a road in the same direction, that does not go on from this one, may be the one instead.
+// Returns whether the vehicle may be on a parallel road that is not a continuation of this one.
 bool Feedback::parallel(const LinkMatch& match, const VehicleFix& fix, const Line& line) const {
   const Eigen::Vector2d place = network_->to_local(fix.position);
   const Eigen::Vector2d right(std::cos(line.azimuth), -std::sin(line.azimuth));
@@ -124,7 +126,7 @@ FeedbackReason Feedback::check(const LinkMatch& match, const VehicleFix& fix, co
   if (match.phase == MatchPhase::initial) return FeedbackReason::not_established;
   if (match.phase == MatchPhase::at_junction) return FeedbackReason::link_changed;
   if (!(fix.speed >= parameters_.min_speed)) return FeedbackReason::too_slow;
-  // A lost azimuth comes back from the road, where the link is beyond doubt.
+  // A lost azimuth is corrected from the road if the link is certain.
   const double lost_azimuth =
       std::min(parameters_.azimuth_sigmas * fix.azimuth_sigma, parameters_.max_lost_azimuth);
   if (!(std::abs(azimuth_error) <= std::max(parameters_.max_azimuth_error, lost_azimuth)))
@@ -155,7 +157,7 @@ MapFeedback Feedback::decide(const LinkMatch& match, const VehicleFix& fix) {
     return out;
   }
   out.probability = match.probability;
-  if (!std::isfinite(fix.azimuth)) {  // of what stands or crawls
+  if (!std::isfinite(fix.azimuth)) {  // the vehicle stands or moves too slowly
     out.reason = FeedbackReason::too_slow;
     return out;
   }
@@ -216,7 +218,8 @@ MapFeedback Feedback::decide(const LinkMatch& match, const VehicleFix& fix) {
     road_azimuth_ = fix.azimuth;
   }
   if (out.azimuth) azimuth_fed_at_ = odometer_;
-  if (out.azimuth && lost(fix)) next_moment_ = 0;  // it changes now without a turn
+  if (out.azimuth && lost(fix))
+    next_moment_ = 0;  // the correction changes the azimuth without a turn
   return out;
 }
 

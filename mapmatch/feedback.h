@@ -1,10 +1,12 @@
-// Decides what of a match goes back to the filter that the fixes came from (the "feedback filter"
-// of Liu, Balazadegan Sarvrood and Gao, PE&RS 2018): F1 still on the link, F2 azimuth like the
-// link's, F3 not turning otherwise than the link, F4 away from junctions; and that the link is
-// likely, that no other one is possible, and that what went back so far was consistent.
+// The feedback filter decides which parts of a match are returned to the filter that provided the
+// fixes (Liu, Balazadegan Sarvrood and Gao, PE&RS 2018). Its conditions are: F1 still on the link,
+// F2 azimuth like the link's, F3 no turning other than the link's, F4 away from junctions. In
+// addition the link must be likely, no other link may be possible, and earlier feedback must have
+// been consistent.
 //
-// Across the road only: a matched point's place along it is the fix's own. What turns or bends
-// into the direction across makes that known, too.
+// Only the position across the road is returned, since the position of a matched point along the
+// road is that of the fix itself. After a turn or a bend, the former along-road error lies across
+// the new road and becomes observable.
 #pragma once
 
 #include <array>
@@ -17,15 +19,15 @@
 
 namespace maploop::mapmatch {
 
-// Not thread-safe. Allocates nothing. Decides by matches, fixes and their stamps alone.
+// Not thread-safe. Allocates nothing. Decisions depend only on matches, fixes and their stamps.
 class Feedback {
  public:
-  // The network must outlive it.
+  // The network must outlive this object.
   Feedback(const RoadNetwork& network, const FeedbackParameters& parameters)
       : network_(&network), parameters_(parameters) {}
 
-  // Of each match in the order of stamps, with its fix. Always says something: `reason` where
-  // nothing goes back.
+  // Must be called with each match and its fix, in the order of stamps. Always returns a message;
+  // its `reason` states why nothing is fed back.
   MapFeedback decide(const LinkMatch& match, const VehicleFix& fix);
 
   template <class Archive>
@@ -39,16 +41,16 @@ class Feedback {
   }
 
  private:
-  // The road beside a fix.
+  // Describes the road beside a fix.
   struct Line {
     Eigen::Vector2d point = Eigen::Vector2d::Zero();  // m, nearest on the link
     double along = 0.0;                               // m from where the link is entered
     double azimuth = 0.0;                             // rad, as driven
     bool straight = false;
     double half_width = 0.0;  // m
-    double lane = 0.0;        // m to the right, where a vehicle is expected
+    double lane = 0.0;        // m to the right, expected position of a vehicle
   };
-  // How the vehicle stood to the link at a fix.
+  // Holds the azimuth of the vehicle relative to the link at a fix.
   struct Moment {
     Time stamp{};
     double azimuth_error = 0.0;  // rad
@@ -77,9 +79,9 @@ class Feedback {
   double position_fed_at_ = -1e9;  // m
   double azimuth_fed_at_ = -1e9;   // m
   int fed_on_link_ = 0;
-  bool has_road_ = false;      // whether there was any feedback
+  bool has_road_ = false;      // whether a position was ever fed back
   double road_azimuth_ = 0.0;  // rad, of the vehicle at the last feedback
-  bool turned_ = false;        // since then, into another road
+  bool turned_ = false;        // since then, onto another road
   static constexpr std::size_t history_length = 64;
   std::array<Moment, history_length> history_{};
   std::size_t next_moment_ = 0;

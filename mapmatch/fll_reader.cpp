@@ -98,7 +98,7 @@ class Parser {
     return true;
   }
 
-  // What a file may say, and the values with which its meaning is the evaluator's.
+  // Accepts the known keys; a fixed key must have the value that matches the evaluator.
   void take_key(const std::string& key, const std::string& value) {
     using Values = std::vector<std::string_view>;
     static const std::map<std::string_view, Values> fixed{
@@ -233,7 +233,7 @@ class Parser {
   Block block_ = Block::none;
   std::vector<FuzzyVariable> variables_;
   std::vector<bool> defined_;
-  std::size_t variable_ = 0;  // of the block that is read
+  std::size_t variable_ = 0;  // of the current block
   std::size_t terms_ = 0;     // of all input variables
   std::optional<Output> output_;
   std::vector<FuzzyRule> rules_;

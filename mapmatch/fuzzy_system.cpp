@@ -8,9 +8,9 @@
 namespace maploop::mapmatch {
 namespace {
 
-constexpr double min_weight = 1e-6;  // of all rules together
+constexpr double min_weight = 1e-6;  // sum over all rules
 
-// The share of the way from a to b that x has gone; a step where they are one.
+// Returns the position of x between a and b as a share, limited to [0, 1]; a step if a equals b.
 double rise(double x, double a, double b) {
   if (a == b) return x >= a ? 1.0 : 0.0;
   return std::clamp((x - a) / (b - a), 0.0, 1.0);

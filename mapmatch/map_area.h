@@ -1,4 +1,4 @@
-// Where on the earth the roads of a network are.
+// These functions describe where on the Earth the roads of a network are.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace maploop::mapmatch {
 
-// The smallest box, in degrees, that holds every vertex of the network.
+// Returns the smallest box, in degrees, that contains every vertex of the network.
 GeographicBox area_of(const RoadNetwork& network);
 
-// Whether the place is in the box or at most `margin` metres outside of it.
+// Returns whether the place is in the box or at most `margin` metres outside it.
 bool covers(const GeographicBox& box, const Geodetic& place, double margin);
 
-// Such as "48.9700 to 49.0700 N, 8.3000 to 8.5000 E".
+// Returns text such as "48.9700 to 49.0700 N, 8.3000 to 8.5000 E".
 std::string to_text(const GeographicBox& box);
 
 }  // namespace maploop::mapmatch

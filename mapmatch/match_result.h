@@ -1,4 +1,4 @@
-// What the matcher says of a fix.
+// This is the matcher's result for a fix.
 #pragma once
 
 #include "mapmatch/road_network.h"
@@ -14,7 +14,7 @@ using maploop::RuleBase;
 
 struct MatchResult : LinkMatch {
   Time stamp{};
-  LinkPoint point;  // matched position and direction, where it is on a road
+  LinkPoint point;  // matched position and direction, valid if on_road
 };
 
 }  // namespace maploop::mapmatch

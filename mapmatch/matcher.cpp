@@ -9,9 +9,9 @@
 namespace maploop::mapmatch {
 namespace {
 
-constexpr double region_margin = 12.0;  // m: the map's error and half a road's width
+constexpr double region_margin = 12.0;  // m, for the error of the map and half a road's width
 constexpr double anchor_step = 2.0;     // m between remembered matched places
-constexpr double least_share = 1e-6;    // of a link without a path hypothesis
+constexpr double least_share = 1e-6;    // P of a link without a path hypothesis
 
 }  // namespace
 
@@ -77,7 +77,7 @@ const MatchResult& Matcher::add(const VehicleFix& fix) {
   return result_;
 }
 
-// A matched point of the link the vehicle is on, max(10 m, 3 sigma) behind.
+// Sets the anchor to a matched point on the present link, max(10 m, 3 sigma) behind.
 void Matcher::set_anchor(double sigma) {
   last_.has_anchor = false;
   const double baseline = std::max(10.0, 3.0 * sigma);
@@ -105,11 +105,11 @@ MatchCandidate* Matcher::candidate_of(DirectedLink link) {
   return &added;
 }
 
-// The links that the paths are on, and those near the fix.
+// Lists the links of the path hypotheses and those near the fix.
 void Matcher::list_candidates(const RuleContext& c) {
   result_.candidate_count = 0;
   const double on_road = (1.0 - paths_.off_road()) * (1.0 - paths_.unmapped());
-  std::array<double, MatchResult::max_candidates> shares{};  // of the likeliest path on each
+  std::array<double, MatchResult::max_candidates> shares{};  // of the likeliest path on each link
   for (const PathHypothesis& h : paths_.hypotheses()) {
     const PathPoint at = place_on_path(*network_, h, h.s);
     MatchCandidate* candidate = candidate_of(at.link);
@@ -162,7 +162,7 @@ void Matcher::judge(const RuleContext& context) {
   }
 }
 
-// The rules' likelihood and the paths' share in one number.
+// Combines the rules' likelihood and the paths' share in one number.
 double Matcher::value(const MatchCandidate& candidate) const {
   if (!parameters_.paths) return candidate.likelihood;
   const double likelihood = candidate.decided ? std::max(candidate.likelihood, 10.0) : 50.0;
@@ -176,7 +176,7 @@ const MatchCandidate* Matcher::choose() {
             [&](const MatchCandidate& a, const MatchCandidate& b) { return value(a) > value(b); });
   if (result_.candidate_count == 0) return nullptr;
   if (parameters_.paths) return paths_.off_road() > 0.5 ? nullptr : &result_.candidates[0];
-  // By the rules alone: the link is left only where they say so.
+  // With the rules alone, the link is left only if they require it.
   const bool subsequent = last_.there && result_.phase != MatchPhase::initial;
   if (!subsequent) return &result_.candidates[0];
   const MatchCandidate* current = candidate_of(last_.link);
@@ -217,8 +217,8 @@ void Matcher::follow(const MatchCandidate* chosen, double interval) {
   }
 }
 
-// As long as it is open which link behind a junction is the right one, all of them are judged from
-// the link before it: none is ahead of the others for having been chosen first.
+// While the correct link after a junction is uncertain, all candidates are judged from the link
+// before the junction, so that the first choice has no advantage.
 void Matcher::settle(const MatchCandidate& chosen) {
   const bool open = parameters_.paths && result_.phase == MatchPhase::at_junction &&
                     margin_of(chosen) < parameters_.sure && travelled_ < parameters_.settle_within;

@@ -1,9 +1,9 @@
-// Fuzzy map matching, fix by fix: initial matching (IMP), subsequent matching along a
-// link (SMP-1) and at a junction (SMP-2), and back; with the evidence of path hypotheses beside the
-// rules' likelihoods.
+// The matcher performs fuzzy map matching for each fix: initial matching (IMP), subsequent matching
+// along a link (SMP-1) and at a junction (SMP-2), and back. It combines the evidence of path
+// hypotheses with the likelihoods of the rules.
 //
-// Not thread-safe; one thread a matcher. Allocates nothing after construction. Decides by the fixes
-// and their stamps alone.
+// Not thread-safe; each thread needs its own matcher. Allocates nothing after construction.
+// Decisions depend only on the fixes and their stamps.
 #pragma once
 
 #include <array>
@@ -28,21 +28,21 @@ class Matcher {
   Matcher(const Matcher&) = delete;
   Matcher& operator=(const Matcher&) = delete;
 
-  // Fixes in the order of their stamps. A fix that cannot be used changes nothing but `refusal` of
+  // Takes fixes in the order of their stamps. A fix that cannot be used only changes `refusal` of
   // the result. The result is valid until the next call.
   const MatchResult& add(const VehicleFix& fix);
 
   const RoadNetwork& network() const { return *network_; }
   const RuleBases& rules() const { return *rules_; }
 
-  // The whole state; loading refuses another network or other parameters.
+  // Archives the whole state. Loading refuses an archive of another network or other parameters.
   template <class Archive>
   void archive(Archive& ar);
 
  private:
   struct Anchor {
     DirectedLink link;
-    Eigen::Vector2d place = Eigen::Vector2d::Zero();  // matched
+    Eigen::Vector2d place = Eigen::Vector2d::Zero();  // matched position
     double odometer = 0.0;                            // m
     template <class Archive>
     void archive(Archive& ar) {
@@ -74,9 +74,9 @@ class Matcher {
   bool started_ = false;
   LastMatch last_;
   double travelled_ = 0.0;  // m since last_
-  DirectedLink winner_;     // of initial matching so far
+  DirectedLink winner_;     // link that initial matching found so far
   bool has_winner_ = false;
-  double agreed_ = 0.0;    // s that it has won
+  double agreed_ = 0.0;    // s for which it has won without interruption
   double odometer_ = 0.0;  // m
   std::array<Anchor, anchor_count> anchors_{};
   std::size_t next_anchor_ = 0;

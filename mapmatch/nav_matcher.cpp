@@ -9,7 +9,7 @@
 namespace maploop::mapmatch {
 namespace {
 
-constexpr double reach = 15.0;  // m before and behind a place, of which `bend` speaks
+constexpr double reach = 15.0;  // m before and after a place, over which `bend` is measured
 
 Eigen::Vector2d along_azimuth(double azimuth) {
   return {std::sin(azimuth), std::cos(azimuth)};
@@ -65,7 +65,7 @@ void NavMatcher::describe_place(const NavState& state, const LinkPoint& point) {
   std::tie(match_.node_a, match_.node_b) = roads.nodes(match_.link, point.vertex);
   match_.half_width = half_width(roads.road_at(point.vertex));
   match_.matched_enu = to_enu(point.position);
-  // Two places instead of one direction: the frames' norths differ.
+  // Two points are transformed instead of one direction, since the norths of the frames differ.
   const Eigen::Vector2d ahead = to_enu(point.position + reach * point.direction);
   const Eigen::Vector2d direction = (ahead - match_.matched_enu).normalized();
   match_.link_azimuth = std::atan2(direction.x(), direction.y());

@@ -1,4 +1,4 @@
-// The matcher on the fused state.
+// This class applies the matcher to the fused state.
 #pragma once
 
 #include "mapmatch/matcher.h"
@@ -9,29 +9,30 @@
 
 namespace maploop::mapmatch {
 
-// What of a state matters to the matcher: position, speed and azimuth of the body, with what the
-// state's covariance says of them.
+// Returns the part of a state that the matcher uses: position, speed and azimuth of the body with
+// their standard deviations from the state's covariance.
 VehicleFix fix_of(const NavState& state);
 
-// Not thread-safe; allocates nothing after construction. Decides by the states and their stamps
-// alone.
+// Not thread-safe; allocates nothing after construction. Decisions depend only on the states, the
+// visual motions and their stamps.
 class NavMatcher {
  public:
-  // The network and the rules must outlive it.
+  // The network and the rules must outlive this object.
   NavMatcher(const RoadNetwork& network, const RuleBases& rules, const MatchParameters& parameters)
       : matcher_(network, rules, parameters) {}
 
-  // Visual odometry in the order of its stamps: for the rules that ask for it.
+  // Takes visual odometry in the order of its stamps, for the rules that use it.
   void add(const RelativeMotion& visual) { course_.add(visual); }
 
-  // States in the order of their stamps. Of one that cannot be used, `refusal` says why, and there
-  // is no link. `available` and `sequence` are the caller's. Valid until the next call.
+  // Takes states in the order of their stamps. If a state cannot be used, `refusal` states why and
+  // the result has no link. The caller sets `available` and `sequence`. The result is valid until
+  // the next call.
   MapMatch& add(const NavState& state);
 
   const RoadNetwork& network() const { return matcher_.network(); }
   const RuleBases& rules() const { return matcher_.rules(); }
 
-  // The whole state; loading refuses another network or other parameters.
+  // Archives the whole state. Loading refuses an archive of another network or other parameters.
   template <class Archive>
   void archive(Archive& ar) {
     ar(matcher_, course_);

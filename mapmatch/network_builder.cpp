@@ -17,9 +17,9 @@ namespace {
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 constexpr double earth_radius = 6.371e6;       // m
 constexpr double far_from_middle = 500'000.0;  // m
-constexpr double min_segment = 0.001;          // m: so that two nodes at one place are apart
+constexpr double min_segment = 0.001;  // m, so that two nodes at one position have a distance
 
-// From one node of a way to the next.
+// Connects one node of a way with the next.
 struct Segment {
   std::uint32_t from = 0, to = 0;  // nodes
   std::uint32_t road = 0;
@@ -38,7 +38,7 @@ class Builder {
     find_junctions();
     for (std::uint32_t node = 0; node < map_.nodes.size(); ++node)
       if (junction_[node] != none) trace_from(node);
-    for (const Segment& s : segments_) {  // what is left are rings that meet nothing
+    for (const Segment& s : segments_) {  // the remaining segments are isolated rings
       if (s.used) continue;
       add_junction(s.from);
       trace_from(s.from);
@@ -71,7 +71,8 @@ class Builder {
     Geodetic place;
     double width = 0.0;  // degrees
   };
-  // Of the box about all nodes, its longitudes counted from a meridian (degrees).
+  // Returns the middle of the box around all nodes, with longitudes relative to `meridian`
+  // (degrees).
   Middle middle(double meridian) const {
     double south = 90.0, north = -90.0, west = 180.0, east = -180.0;
     for (const MapNode& n : map_.nodes) {
@@ -86,7 +87,7 @@ class Builder {
         east - west};
   }
 
-  // Share by which a plane that touches the earth shortens distances this far away.
+  // Returns the share by which the tangent plane shortens distances this far away.
   static double distortion(double metres) { return 0.5 * std::pow(metres / earth_radius, 2); }
 
   std::uint32_t find(std::int64_t id) const {
@@ -136,7 +137,7 @@ class Builder {
     }
   }
 
-  // Whether traffic may leave a node along a segment, and come from it.
+  // Returns whether traffic may leave a node along a segment, and whether it may arrive along it.
   std::pair<bool, bool> out_and_in(std::uint32_t node, const Segment& s) const {
     const Road& road = data_.roads[s.road];
     return s.from == node ? std::pair(road.forward, road.backward)
@@ -168,7 +169,7 @@ class Builder {
       if (!segments_[at_node_[i]].used) trace(node, at_node_[i]);
   }
 
-  // One link, from a junction along its first segment to the next junction.
+  // Traces one link from a junction along its first segment to the next junction.
   void trace(std::uint32_t node, std::uint32_t segment) {
     Link link;
     link.first_vertex = static_cast<std::uint32_t>(data_.vertices.size());
@@ -211,7 +212,7 @@ class Builder {
     }
   }
 
-  // The way of the first segment of a link as it leaves a junction.
+  // Returns the way of a link's first segment as it leaves a junction.
   std::int64_t way_leaving(DirectedLink d) const {
     const Link& l = data_.links[d.link];
     const std::uint32_t vertex = d.forward ? l.first_vertex : l.first_vertex + l.vertex_count - 2;
@@ -229,7 +230,8 @@ class Builder {
       };
       return key(a) < key(b);
     };
-    std::set<BannedTurn, decltype(order)> banned(order);  // restrictions may say the same
+    std::set<BannedTurn, decltype(order)> banned(
+        order);  // several restrictions may ban the same turn
     for (const MapRestriction& r : map_.restrictions) {
       const auto junction = junction_of.find(r.via_node);
       bool used = false;
@@ -266,10 +268,10 @@ class Builder {
 
   const MapExtract& map_;
   NetworkData data_;
-  std::vector<Eigen::Vector2d> place_;  // of each node
+  std::vector<Eigen::Vector2d> place_;  // by node
   std::vector<Segment> segments_;
-  std::vector<std::uint32_t> first_, at_node_;  // segments of a node
-  std::vector<std::uint32_t> junction_;         // of a node
+  std::vector<std::uint32_t> first_, at_node_;  // segments by node
+  std::vector<std::uint32_t> junction_;         // index by node, or `none`
 };
 
 }  // namespace

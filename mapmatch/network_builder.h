@@ -1,4 +1,4 @@
-// Makes links from the ways of a map.
+// The links of a road network are built here from the ways of a map.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct MapWay {
   std::vector<std::int64_t> nodes;
 };
 
-// "No turn" (or, `only`: no other turn) from way to way at a node.
+// Forbids the turn from one way to another at a node, or, if `only` is set, all other turns.
 struct MapRestriction {
   std::int64_t from_way = 0, via_node = 0, to_way = 0;
   bool only = false;
@@ -28,12 +28,13 @@ struct MapExtract {
   std::vector<MapNode> nodes;  // sorted by id, each once
   std::vector<MapWay> ways;
   std::vector<MapRestriction> restrictions;
-  std::size_t restrictions_over_ways = 0;  // left out: their "via" is a way
+  std::size_t restrictions_over_ways = 0;  // number left out because their "via" is a way
 };
 
-// A way is cut where a node is missing (a clipped map); what is left out is counted in the data's
-// warnings. Places are in one plane about the map's middle, across the 180th meridian too: a map of
-// more than some 1000 km is warned of. A map without any road gives an empty network.
+// Builds a network. A way is cut at a missing node (clipped map); the data's warnings count what is
+// left out. Positions lie in one plane about the map's middle, also across the 180th meridian; a
+// warning is added for a map that reaches more than 500 km from its middle. A map without roads
+// gives an empty network.
 NetworkData build_network(const MapExtract& map);
 
 }  // namespace maploop::mapmatch

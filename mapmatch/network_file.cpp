@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view section = "road network";
 constexpr std::uint32_t version = 1;
 
-// Whether a file begins as an archive does.
+// Returns whether a file begins with an archive's signature.
 bool is_archive(const std::filesystem::path& file) {
   constexpr std::string_view signature = "maploop\n";
   return std::filesystem::is_regular_file(file) && read_head(file, signature.size()) == signature;

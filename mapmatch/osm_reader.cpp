@@ -41,8 +41,8 @@ void require_room(const std::vector<MapNode>& nodes, const OsmOptions& options) 
                              " nodes; choose a part of it with a box");
 }
 
-// libosmium goes along the tags by the zero behind each key and each value: one inside of a string
-// would lead it past the end of the list.
+// libosmium finds the end of each key and value by its zero byte. A zero byte inside a string would
+// make it read past the end of the list.
 template <class Object>
 const osmium::TagList& sound_tags(const Object& object) {
   const osmium::TagList& tags = object.tags();
@@ -56,7 +56,7 @@ const osmium::TagList& sound_tags(const Object& object) {
   return tags;
 }
 
-// Nodes inside the box.
+// Collects the nodes inside the box.
 class NodesInside : public osmium::handler::Handler {
  public:
   NodesInside(MapExtract& map, const OsmOptions& options) : map_(map), options_(options) {}
@@ -71,7 +71,7 @@ class NodesInside : public osmium::handler::Handler {
   const OsmOptions& options_;
 };
 
-// Drivable ways (with a box: those that touch it) and turn restrictions.
+// Collects drivable ways (with a box, those that touch it) and turn restrictions.
 class Roads : public osmium::handler::Handler {
  public:
   Roads(MapExtract& map, const OsmOptions& options) : map_(map), options_(options) {}
@@ -101,7 +101,7 @@ class Roads : public osmium::handler::Handler {
     const std::string_view except = tags.get_value_by_key("except", "");
     for (const char* car : {"motorcar", "motor_vehicle"})
       if (except.find(car) != std::string_view::npos) return;
-    const char* told = "";  // the most special key speaks
+    const char* told = "";  // the most specific key has priority
     for (const char* key : {"restriction", "restriction:motor_vehicle", "restriction:motorcar"})
       told = tags.get_value_by_key(key, told);
     const std::string_view kind = told;
@@ -126,7 +126,7 @@ class Roads : public osmium::handler::Handler {
   const OsmOptions& options_;
 };
 
-// Positions of the nodes that the roads name.
+// Fills in the positions of the nodes of the roads.
 class Places : public osmium::handler::Handler {
  public:
   explicit Places(MapExtract& map) : map_(map) {}
@@ -149,7 +149,7 @@ void pass(const osmium::io::File& file, osmium::osm_entity_bits::type kinds, Han
   reader.close();
 }
 
-// Nodes that roads do not use, and those that the file names without a position.
+// Removes nodes that no road uses, and those without a position in the file.
 void drop_unused(MapExtract& map) {
   std::vector<std::int64_t> used;
   for (const MapWay& way : map.ways) used.insert(used.end(), way.nodes.begin(), way.nodes.end());

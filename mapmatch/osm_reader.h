@@ -1,4 +1,4 @@
-// Reading the roads of an OpenStreetMap file.
+// The roads of an OpenStreetMap file are read here.
 #pragma once
 
 #include <cstddef>
@@ -9,22 +9,22 @@
 
 namespace maploop::mapmatch {
 
-// Degrees, WGS84.
+// A box in degrees, WGS84.
 struct GeographicBox {
   double west = -180.0, south = -90.0, east = 180.0, north = 90.0;
 };
 
 struct OsmOptions {
-  // Only what lies inside: what the map has outside takes no memory.
+  // If set, reads only the nodes inside; map content outside takes no memory.
   std::optional<GeographicBox> box;
-  // Refuses more nodes (24 bytes each): a country of roads has some ten millions.
+  // Refuses maps with more nodes (24 bytes each); the roads of a country have some ten million.
   std::size_t max_nodes = 50'000'000;
 };
 
-// The drivable roads of a .osm.pbf, .osm or .osm.gz/.bz2 file, as OpenStreetMap's wiki defines its
-// tags: one-way streets (implied on motorways, their links and roundabouts), turn restrictions over
-// a node, access for cars. Throws std::runtime_error naming the file and what to do: missing, no
-// map, damaged, too large, or without a single road.
+// Reads the drivable roads of a .osm.pbf, .osm or .osm.gz/.bz2 file by OpenStreetMap's tag
+// definitions: one-way streets (implied on motorways, their links and roundabouts), turn
+// restrictions over a node, access for cars. Throws std::runtime_error, which names the file and
+// the remedy, if the file is missing, not a map, damaged, too large, or without roads.
 MapExtract read_osm(const std::filesystem::path& file, const OsmOptions& options = {});
 
 }  // namespace maploop::mapmatch

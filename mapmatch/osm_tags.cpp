@@ -11,7 +11,7 @@ constexpr double kilometres_an_hour = 1.0 / 3.6;
 constexpr double miles_an_hour = 0.44704;
 constexpr double walking = 7.0 * kilometres_an_hour;
 
-// The first number of a text; none where it begins with something else.
+// Returns the number at the start of a text; nothing if the text starts otherwise.
 std::optional<double> leading_number(std::string_view text, std::string_view* rest = nullptr) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -57,7 +57,7 @@ std::optional<Road> road_from_tags(std::int64_t way_id, const TagValue& tag) {
   road.road_class = *road_class;
   road.roundabout = any_of(tag("junction"), {"roundabout", "circular"});
   set_directions(road, tag("oneway"));
-  // The most special key speaks.
+  // The most specific key has priority.
   for (const char* key : {"motorcar", "motor_vehicle", "vehicle", "access"}) {
     const std::string_view value = tag(key);
     if (value.empty()) continue;

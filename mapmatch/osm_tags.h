@@ -1,5 +1,5 @@
-// What the tags of OpenStreetMap say of a way (wiki.openstreetmap.org/wiki/Key:oneway, Key:access,
-// Key:maxspeed).
+// The tags of an OpenStreetMap way are interpreted here (wiki.openstreetmap.org/wiki/Key:oneway,
+// Key:access, Key:maxspeed).
 #pragma once
 
 #include <functional>
@@ -10,13 +10,14 @@
 
 namespace maploop::mapmatch {
 
-// The value of a key; empty where the way has none.
+// Returns the value of a key; empty if the way does not have the key.
 using TagValue = std::function<std::string_view(const char* key)>;
 
-// The road that the tags describe; none where no car drives.
+// Returns the road that the tags describe; nothing if no car may drive there.
 std::optional<Road> road_from_tags(std::int64_t way_id, const TagValue& tag);
 
-// "50", "30 mph", "walk"; 0 where there is no number to be had ("none", "DE:urban").
+// Returns m/s for values such as "50", "30 mph" and "walk"; 0 if there is no number ("none",
+// "DE:urban").
 double parse_speed_limit(std::string_view text);
 
 }  // namespace maploop::mapmatch

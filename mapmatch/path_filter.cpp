@@ -9,9 +9,9 @@ namespace maploop::mapmatch {
 namespace {
 
 constexpr double birth_interval = 1.0;  // s
-constexpr double off_road_low = -6.0;   // bounds of its log odds: it must be able to come back
+constexpr double off_road_low = -6.0;   // log odds are bounded so that they can recover
 constexpr double off_road_high = 5.0;
-constexpr double turn_misfit = 8.0;  // of azimuths, as far as any turn can have it
+constexpr double turn_misfit = 8.0;  // sigmas squared of azimuth, limit during a turn
 constexpr double turning = radians(120.0);
 constexpr double sure_odds = 2.197;          // log odds of 0.9
 constexpr double in_a_turn = radians(20.0);  // within a second
@@ -59,7 +59,8 @@ double PathFilter::cost_of(DirectedLink link) const {
          (minor ? parameters_->minor_road : 0.0);
 }
 
-// Near the end of its link a hypothesis becomes one for each exit; behind it, it is on the next.
+// Near the end of its link a hypothesis divides into one for each exit; past the end, it moves to
+// the next link.
 void PathFilter::divide(const PathEvidence& e) {
   for (std::size_t i = 0; i < count_; ++i) {
     for (int hops = 0; hops < 8; ++hops) {
@@ -85,14 +86,14 @@ void PathFilter::take_exits(const PathHypothesis& hypothesis) {
   const std::uint32_t junction = network_->end_junction(h.link);
   const auto exits = network_->exits(junction);
   bool first = true;
-  // Of several exits each has a share; the way back is none where there is another.
+  // The probability is shared among the exits, not counting the way back if there is another exit.
   const auto ways = static_cast<double>(std::max<std::size_t>(1, exits.size() - 1));
   for (const DirectedLink exit : exits) {
     const bool back = exit == h.link.reversed();
     double cost = cost_of(exit) + std::log(ways);
     if (back) cost += parameters_->turn_round;
     if (!network_->allowed_turn(h.link, exit)) cost += parameters_->banned_turn;
-    if (first) {  // takes the place of the hypothesis itself
+    if (first) {  // replaces the hypothesis itself
       hypotheses_[index].next = exit;
       hypotheses_[index].has_next = true;
       hypotheses_[index].log_weight = h.log_weight - cost;
@@ -133,7 +134,7 @@ void PathFilter::turn_round(const PathEvidence& e) {
 
 void PathFilter::be_born(const PathEvidence& e, const NearLinks& near) {
   const bool start = count_ == 0;
-  // Off the road every link is as good as those that the vehicle has left.
+  // Off the road, links are as likely as those that the vehicle left.
   const double cost = start ? 0.0 : parameters_->birth * (1.0 - off_road()) + 1.0 * off_road();
   for (const NearLink& candidate : near.all()) {
     for (const bool forward : {true, false}) {
@@ -153,12 +154,13 @@ void PathFilter::be_born(const PathEvidence& e, const NearLinks& near) {
   }
 }
 
-// The road is lost where even the best hypothesis does not fit.
+// Updates the odds of being off the road, which rise if even the best hypotheses do not fit.
 void PathFilter::judge_road(const PathEvidence& e) {
   if (e.motion.speed < parameters_->min_speed && e.motion.interval > 0.0 && count_ > 0) return;
   double misfit = count_ == 0 ? 2.0 * parameters_->misfit : 0.0;
   surprise_ = misfit;
-  // Corners are cut and U-turns are wide: who turns has not left the road by that alone.
+  // Vehicles cut corners and U-turns are wide, so a turn alone does not show that the road was
+  // left.
   const bool in_turn = e.motion.turn > in_a_turn;
   for (std::size_t i = 0; i < count_; ++i) {
     const PathHypothesis& h = hypotheses_[i];
@@ -174,12 +176,12 @@ void PathFilter::judge_road(const PathEvidence& e) {
 
 double PathFilter::unmapped() const {
   const double odds = parameters_->trust - parameters_->trust_slope * surprise_;
-  // Most of what fits badly is the road all the same.
+  // A link with a bad fit is usually still the correct one.
   const double doubt = parameters_->doubt_slope * (sure_odds - odds);
   return 1.0 / (1.0 + std::exp(odds > sure_odds ? odds : sure_odds - doubt));
 }
 
-// Two hypotheses that have come to one place and will go one way are one.
+// Merges two hypotheses that have reached the same place and continue in the same way.
 void PathFilter::merge() {
   for (std::size_t i = 0; i < count_; ++i) {
     for (std::size_t k = i + 1; k < count_;) {
@@ -216,7 +218,7 @@ void PathFilter::normalize() {
   for (std::size_t i = 0; i < count_; ++i) hypotheses_[i].log_weight -= best + std::log(sum);
 }
 
-// Where there is no room, the least likely one makes it.
+// When full, replaces the least likely hypothesis if `h` is more likely.
 void PathFilter::add(const PathHypothesis& h) {
   if (count_ < capacity) {
     hypotheses_[count_++] = h;

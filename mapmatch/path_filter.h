@@ -1,11 +1,13 @@
-// Path hypotheses: the evidence of all fixes so far for each link the vehicle may be on.
+// Path hypotheses collect the evidence of all fixes so far for each link on which the vehicle may
+// be.
 //
-// Each hypothesis is a way through the network with a Kalman filter of the vehicle's place on it,
-// predicted by the distance travelled and corrected by the fixes. Its weight grows with how well
-// positions and azimuths fit. At junctions hypotheses divide, everywhere new ones are born, and
-// those that fall far behind end: their number is bounded. (The idea of multi-hypothesis map
-// matching: Pyo, Shin and Sung, "Development of a map matching method using the multiple hypothesis
-// technique", ITSC 2001.) No allocation after construction.
+// Each hypothesis is a path through the network with a Kalman filter of the vehicle's position on
+// it, which is predicted by the distance travelled and corrected by the fixes. Its weight depends
+// on how well positions and azimuths fit. Hypotheses divide at junctions, new ones are created near
+// every fix, and those far less likely than the best are removed, so their number is bounded. (The
+// idea of multi-hypothesis map matching: Pyo, Shin and Sung, "Development of a map matching method
+// using the multiple hypothesis technique", ITSC 2001.) Not thread-safe. Does not allocate after
+// construction.
 #pragma once
 
 #include <array>
@@ -29,12 +31,13 @@ class PathFilter {
   void step(const PathEvidence& evidence, const NearLinks& near);
 
   std::span<const PathHypothesis> hypotheses() const { return {hypotheses_.data(), count_}; }
-  // The share of all evidence; off_road() is apart from it.
+  // Returns the hypothesis's share of all evidence, given that the vehicle is on a mapped road
+  // (off_road() is separate).
   double share(const PathHypothesis& h) const { return std::exp(h.log_weight); }
   double off_road() const { return 1.0 / (1.0 + std::exp(-off_road_)); }
 
-  // P that it is on a road that the map does not have: of what the likeliest links leave
-  // unexplained at this moment. Slower and surer is off_road().
+  // Returns P that the vehicle is on a road that the map does not contain, from the present misfit
+  // of the likely links. off_road() reacts more slowly and more reliably.
   double unmapped() const;
 
   template <class Archive>
@@ -59,7 +62,7 @@ class PathFilter {
   std::array<PathHypothesis, capacity> hypotheses_{};
   std::size_t count_ = 0;
   double off_road_ = -6.0;    // log odds
-  double surprise_ = 0.0;     // misfit of all hypotheses, by their shares
+  double surprise_ = 0.0;     // mean misfit of all hypotheses, weighted by their shares
   double since_birth_ = 0.0;  // s
 };
 

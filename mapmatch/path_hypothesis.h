@@ -1,4 +1,4 @@
-// One way the vehicle may have gone, and where on it it is.
+// A path hypothesis is one possible path of the vehicle and its position on it.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,18 +9,19 @@
 
 namespace maploop::mapmatch {
 
-// The link the vehicle is on, the one it came from and, near its end, the one it will take. State
-// of its Kalman filter: s (m along the link, as driven) and the offset (m, east and north) of the
-// fixes from the road, which the map's error and the slow part of the fixes' errors make up.
+// Holds the link of the vehicle, the one before it and, near its end, the one that it will take.
+// The state of its Kalman filter is s (m along the link, as driven) and the offset (m, east and
+// north) of the fixes from the road, which consists of the map's error and the slow part of the
+// fixes' errors.
 struct PathHypothesis {
   DirectedLink link, previous, next;
   bool has_previous = false, has_next = false;
-  bool turned_round = false;  // a hypothesis of turning round here was made of it
+  bool turned_round = false;  // a U-turn hypothesis was already derived from it here
   double s = 0.0;
   Eigen::Vector2d offset = Eigen::Vector2d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  double log_weight = 0.0;  // of its share among all
-  // How badly it fits at the last fix, in sigmas squared.
+  double log_weight = 0.0;  // log of its share among all hypotheses
+  // These are its misfits at the last fix, in sigmas squared.
   double offset_misfit = 0.0, azimuth_misfit = 0.0;
 
   double sigma() const { return std::sqrt(covariance(0, 0)); }
@@ -32,10 +33,11 @@ void archive(Archive& ar, PathHypothesis& h) {
      h.covariance, h.log_weight, h.offset_misfit, h.azimuth_misfit);
 }
 
-// A place on its path: before the link and behind it on the links that it has there.
+// This is a place on a hypothesis's path: on its link or, outside it, on the previous or next link
+// if known.
 struct PathPoint {
   DirectedLink link;
-  double s = 0.0;  // on that link
+  double s = 0.0;  // m along that link
   LinkPoint point;
 };
 

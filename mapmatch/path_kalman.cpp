@@ -8,11 +8,11 @@
 namespace maploop::mapmatch {
 namespace {
 
-constexpr double chord = 6.0;      // m before and behind, over which a path's azimuth is taken
-constexpr double bend_step = 3.0;  // m before and behind, over which its change is taken
-constexpr double edge_cost = 0.3;  // a metre driven beyond the end of a road that leads nowhere
+constexpr double chord = 6.0;      // m before and after, chord of the path's azimuth
+constexpr double bend_step = 3.0;  // m before and after, where its change is measured
+constexpr double edge_cost = 0.3;  // log weight per metre driven past a dead end
 constexpr double standing = 0.3;   // m/s
-constexpr double lost = 9.0;       // sigmas squared along the path, beyond which it tells
+constexpr double lost = 9.0;  // sigmas squared along the path, beyond which it counts as misfit
 
 double squared(double x) {
   return x * x;
@@ -24,7 +24,8 @@ void PathKalman::begin(PathHypothesis& h, const LinkPoint& point, const PathEvid
   const Eigen::Matrix2d slow = slow_covariance(e);
   const Eigen::Matrix2d S = slow + fast_covariance(e);
   const Eigen::Matrix2d inverse = S.inverse();
-  // The fix says where on the link, and how far beside it; the offset is not known apart.
+  // The fix gives the position on the link and the distance beside it; it does not separate the
+  // offset from its own error.
   const Eigen::Vector2d beside = e.place - point.position;
   const Eigen::Vector2d u = h.link.forward ? point.direction : Eigen::Vector2d(-point.direction);
   h.covariance(0, 0) = u.dot(S * u);
@@ -46,7 +47,8 @@ Eigen::Matrix2d PathKalman::slow_covariance(const PathEvidence& e) const {
 }
 
 Eigen::Matrix2d PathKalman::fast_covariance(const PathEvidence& e) const {
-  // The road's own unevenness is one new error a second of driving, however often it is looked at.
+  // The fast part of the road's error is one new error per second of driving, whatever the rate of
+  // fixes.
   const double repeats = std::max(1.0, 1.0 / std::max(e.motion.interval, 0.01)) *
                          (e.motion.speed < standing ? 10.0 : 1.0);
   return squared(parameters_->road_noise) * repeats * Eigen::Matrix2d::Identity() +
@@ -65,13 +67,13 @@ void PathKalman::predict(PathHypothesis& h, const PathEvidence& e) const {
                         squared(parameters_->distance_scale * e.motion.distance) + corner_cut(e);
 }
 
-// Vehicles cut corners: a turn is shorter than the roads' way round it.
+// Vehicles cut corners, so a turn is shorter than the path along the roads.
 double PathKalman::corner_cut(const PathEvidence& e) const {
   const double turn = std::isfinite(e.motion.turn) ? e.motion.turn : 0.0;
   return squared(parameters_->corner) * turn * std::min(e.motion.interval, 1.0);
 }
 
-// Of the offset, the map's part is another one on another road.
+// The map's part of the offset differs from road to road.
 void PathKalman::enter_link(PathHypothesis& h, const PathEvidence& e) const {
   const Eigen::Matrix2d slow = slow_covariance(e);
   const double map = squared(parameters_->map_sigma);
@@ -83,11 +85,12 @@ void PathKalman::enter_link(PathHypothesis& h, const PathEvidence& e) const {
   h.covariance.block<2, 2>(1, 1) += (1.0 - keep * keep) * slow;
 }
 
-// The azimuth of the path about a place: a vehicle does not turn on the spot, as its path does.
+// Returns the azimuth of the path about a place, averaged because a vehicle turns more slowly than
+// the path bends.
 double PathKalman::azimuth_at(const PathHypothesis& h, double s) const {
   const Eigen::Vector2d along = place_on_path(*network_, h, s + chord).point.position -
                                 place_on_path(*network_, h, s - chord).point.position;
-  // Where the path turns back, either way may be meant.
+  // Where the path turns back, the chord gives no direction.
   if (along.squaredNorm() < 1.0) return place_on_path(*network_, h, s).point.azimuth();
   return std::atan2(along.x(), along.y());
 }
@@ -96,8 +99,8 @@ double PathKalman::azimuth_error(const PathHypothesis& h, const PathEvidence& e)
   return wrap_angle(e.motion.azimuth - azimuth_at(h, h.s));
 }
 
-// The place on the path that fits best between prediction and fix: the path is bent, and only
-// straight about this place.
+// Returns the place on the path that fits best between prediction and fix, since a bent path can be
+// linearized only about this place.
 PathKalman::PlaceOnPath PathKalman::best_place(const PathHypothesis& h, const PathEvidence& e,
                                                const Eigen::Matrix2d& R) const {
   const Eigen::Vector2d target = e.place - h.offset;
@@ -109,12 +112,12 @@ PathKalman::PlaceOnPath PathKalman::best_place(const PathHypothesis& h, const Pa
   double s = h.s - window;
   for (int pieces = 0; pieces < 24 && s < h.s + window; ++pieces) {
     const PathPoint begin = place_on_path(*network_, h, s + 1e-6);
-    // To the end of this segment.
+    // This piece ends with the segment.
     const Link& link = network_->link(begin.link.link);
     const Vertex& a = network_->vertex(begin.point.vertex);
     const Vertex& b = network_->vertex(begin.point.vertex + 1);
     double left = (begin.link.forward ? b.along : link.length - a.along) - begin.s;
-    if (left <= 1e-6) left = 2.0 * window;  // on the straight continuation beyond an end
+    if (left <= 1e-6) left = 2.0 * window;  // on the straight continuation past an end
     const double end = std::min(s + left, h.s + window);
     const Eigen::Vector2d& u = begin.point.direction;
     const double projected = s + u.dot(target - begin.point.position);
@@ -146,7 +149,7 @@ void PathKalman::correct(PathHypothesis& h, const PathEvidence& e) const {
   const Eigen::Vector2d innovation = e.place - predicted;
   Eigen::Matrix2d S = H * h.covariance * H.transpose() + R;
   double nis = innovation.dot(S.inverse() * innovation);
-  if (nis > parameters_->gate) {  // counts as a fix of an accordingly larger error
+  if (nis > parameters_->gate) {  // counts as a fix with a correspondingly larger error
     S *= nis / parameters_->gate;
     nis = parameters_->gate;
   }
@@ -166,37 +169,37 @@ void PathKalman::correct(PathHypothesis& h, const PathEvidence& e) const {
     correct_by_azimuth(h, e);
 }
 
-// How badly the corrected hypothesis fits beside its road, and what that costs.
+// Computes the misfit of the corrected hypothesis relative to its road and lowers its weight.
 void PathKalman::judge_offset(PathHypothesis& h, const PathPoint& best,
                               const PathEvidence& e) const {
   const Eigen::Vector2d& u = best.point.direction;
-  // How far from the road, of what slow and fast errors allow.
+  // The misfit is the distance from the road relative to the slow and fast errors.
   const Eigen::Vector2d n(u.y(), -u.x());
   const Eigen::Matrix2d slow = slow_covariance(e);
   h.offset_misfit = squared(n.dot(h.offset)) / n.dot(slow * n);
   const Eigen::Vector2d beside = e.place - best.point.position;
   const Eigen::Matrix2d all = slow + e.motion.white_share * e.covariance;
   h.offset_misfit = std::max(h.offset_misfit, squared(n.dot(beside)) / n.dot(all * n));
-  // Nor can it be far ahead or behind: who is there has lost the vehicle.
+  // A hypothesis far ahead of or behind the fix has lost the vehicle.
   const double along = squared(u.dot(beside)) / (u.dot(all * u) + h.covariance(0, 0));
   if (along > lost) h.offset_misfit += along;
   if (!network_->allowed(best.link)) h.offset_misfit += parameters_->wrong_way_misfit;
-  // An offset that is taken for the map's error costs as long as it is there.
+  // An offset that is attributed to the map's error costs weight as long as it lasts.
   h.log_weight -=
       parameters_->misfit_rate * 0.5 * h.offset_misfit * std::min(e.motion.interval, 1.0);
 }
 
-// The azimuth tells where in a bend or a turn the vehicle is, and whether the path bends as it
-// does.
+// The azimuth determines the position in a bend or a turn, and tests whether the path bends like
+// the vehicle's.
 void PathKalman::correct_by_azimuth(PathHypothesis& h, const PathEvidence& e) const {
   const double error = azimuth_error(h, e);
   const double bend = wrap_angle(azimuth_at(h, h.s + bend_step) - azimuth_at(h, h.s - bend_step)) /
                       (2.0 * bend_step);
   const double variance = squared(parameters_->azimuth_noise) + squared(e.motion.azimuth_sigma);
   const double placed =
-      squared(bend) * h.covariance(0, 0);  // what the place on the path leaves open
+      squared(bend) * h.covariance(0, 0);  // variance due to the position on the path
   h.azimuth_misfit = std::min(max_azimuth_misfit, squared(error) / (variance + placed));
-  // Its errors change slowly: what a second of them says counts, however often it is told.
+  // Azimuth errors change slowly, so the weight is per second, whatever the rate of fixes.
   const double weight = parameters_->azimuth_weight * std::min(e.motion.interval, 1.0);
   if (weight <= 0.0) return;
   const double R = variance / weight;

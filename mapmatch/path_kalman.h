@@ -1,11 +1,11 @@
-// The Kalman filter of one path hypothesis: its place along the path, and the fixes' offset from
-// it.
+// This is the Kalman filter of one path hypothesis: its position along the path, and the fixes'
+// offset from it.
 //
-// State: s (m along the link, as driven) and the offset (m, east and north) of the fixes from the
-// road, which the map's error and the slow part of the fixes' errors make up: a Gauss-Markov
-// process of parameters.correlation_time. Predicted by the distance travelled; corrected by the
-// fixes, and by their azimuths where the path bends. What does not fit lowers the hypothesis's log
-// weight. METHOD.md has the equations. No allocation.
+// The state is s (m along the link, as driven) and the offset (m, east and north) of the fixes from
+// the road. The offset consists of the map's error and the slow part of the fixes' errors: a
+// Gauss-Markov process of parameters.correlation_time. The distance travelled predicts the state;
+// the fixes correct it, and so do their azimuths in bends. Each misfit lowers the hypothesis's log
+// weight. METHOD.md has the equations. Does not allocate.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,10 +16,10 @@
 
 namespace maploop::mapmatch {
 
-// What a fix tells a hypothesis.
+// Holds the evidence of a fix for a hypothesis.
 struct PathEvidence {
   Eigen::Vector2d place = Eigen::Vector2d::Zero();           // m
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  // of the fix
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  // m^2, of the fix
   Motion motion;
 };
 
@@ -30,20 +30,20 @@ class PathKalman {
   PathKalman(const RoadNetwork& network, const MatchParameters& parameters)
       : network_(&network), parameters_(&parameters) {}
 
-  // A hypothesis that is born at a point of its link; h.link and h.s are set.
+  // Initializes a new hypothesis at a point of its link; h.link and h.s must be set.
   void begin(PathHypothesis& h, const LinkPoint& point, const PathEvidence& e) const;
   void predict(PathHypothesis& h, const PathEvidence& e) const;
-  // It is on another link now.
+  // Adapts the offset when the hypothesis enters another link.
   void enter_link(PathHypothesis& h, const PathEvidence& e) const;
   void correct(PathHypothesis& h, const PathEvidence& e) const;
 
-  // Of the vehicle less that of the path, rad, in (-pi, pi].
+  // Returns the azimuth of the vehicle minus that of the path, rad, in (-pi, pi].
   double azimuth_error(const PathHypothesis& h, const PathEvidence& e) const;
 
  private:
   struct PlaceOnPath {
     PathPoint on;
-    double s = 0.0;  // along the hypothesis's path
+    double s = 0.0;  // m along the hypothesis's path
   };
   PlaceOnPath best_place(const PathHypothesis& h, const PathEvidence& e,
                          const Eigen::Matrix2d& R) const;

@@ -1,4 +1,4 @@
-// What of a PPP state matters to the matcher.
+// A PPP state is converted here to a fix for the matcher.
 #pragma once
 
 #include "mapmatch/vehicle_fix.h"
@@ -6,8 +6,8 @@
 
 namespace maploop::mapmatch {
 
-// Position, speed and, of one that moves, the direction of travel for the azimuth. Of a state that
-// has a position.
+// Returns position, speed and, if the vehicle moves, the direction of travel as azimuth. The state
+// must have a position.
 VehicleFix fix_of(const PppState& state);
 
 }  // namespace maploop::mapmatch

@@ -1,4 +1,4 @@
-// Why a link was chosen or not, in words. For people: these allocate.
+// These functions explain in words why a link was chosen or not. They are for display and allocate.
 #pragma once
 
 #include <string>
@@ -9,18 +9,18 @@
 
 namespace maploop::mapmatch {
 
-// "azimuth differs by 47 degrees", "31 m away", "no legal turn leads there": what speaks against a
-// candidate; empty where nothing does.
+// Returns the arguments against a candidate, such as "azimuth differs by 47 degrees", "31 m away",
+// "no legal turn leads there"; empty if there are none.
 std::vector<std::string> objections(const MatchCandidate& candidate, const RoadNetwork& network);
 
-// The rules that applied to it, the weightiest first, with their weights.
+// Returns the rules that applied to it with their weights, largest first.
 std::vector<std::pair<std::string, double>> fired_rules(const MatchCandidate& candidate,
                                                         const RuleBases& rules);
 
-// A sentence on the result: the link and why it, or why none.
+// Returns a sentence on the result: the link and the reason for it, or why there is no link.
 std::string explanation(const LinkMatch& match, const RoadNetwork& network);
 
-// All of it. Of a match of this network by these rules.
+// Returns all of the above for a match of this network by these rules.
 MapMatchWords in_words(const LinkMatch& match, const RoadNetwork& network, const RuleBases& rules);
 
 }  // namespace maploop::mapmatch

@@ -1,4 +1,4 @@
-// What OpenStreetMap says of a road.
+// A road holds the attributes of an OpenStreetMap way.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace maploop::mapmatch {
 
-// The drivable values of `highway`, the most important first.
+// These are the drivable values of `highway`, the most important first.
 enum class RoadClass : std::uint8_t {
   motorway,
   motorway_link,
@@ -23,29 +23,29 @@ enum class RoadClass : std::uint8_t {
   unclassified,
   residential,
   living_street,
-  road,  // class not known to the mapper
+  road,  // class unknown to the mapper
   service,
   track,
 };
 
 std::string_view to_string(RoadClass road_class);
-// Of a value of `highway`; none where no car drives on it.
+// Returns the class for a value of `highway`; nothing if cars cannot drive on it.
 std::optional<RoadClass> parse_road_class(std::string_view highway);
 
-// One way of the map: what is the same all along it.
+// Holds the attributes that are the same along one way of the map.
 struct Road {
   std::int64_t way_id = 0;
   RoadClass road_class = RoadClass::road;
   bool forward = true;      // may be driven from its first node to its last
-  bool backward = true;     // and the other way round
+  bool backward = true;     // may be driven from its last node to its first
   bool restricted = false;  // access=no or private, for cars
   bool roundabout = false;
   bool bridge = false;
   bool tunnel = false;
   std::int8_t layer = 0;
-  std::uint8_t lanes = 0;    // 0: not said
-  double speed_limit = 0.0;  // m/s; 0: not said, or none
-  std::string name;          // or its reference ("B 3")
+  std::uint8_t lanes = 0;    // 0: unknown
+  double speed_limit = 0.0;  // m/s; 0: unknown or unlimited
+  std::string name;          // name, or reference ("B 3")
 };
 
 template <class Archive>
@@ -54,8 +54,9 @@ void archive(Archive& ar, Road& r) {
      r.layer, r.lanes, r.speed_limit, r.name);
 }
 
-// m, half of what is paved for moving cars: from its lanes, or what is usual for its class
-// (Richtlinien fuer die Anlage von Stadtstrassen, 2006: 3.25 m a lane, 2.75 m where cars are slow).
+// Returns half the width of the traffic lanes in m, from the number of lanes or the usual number
+// for the class (Richtlinien fuer die Anlage von Stadtstrassen, 2006: 3.25 m per lane, 2.75 m on
+// roads with slow traffic).
 double half_width(const Road& road);
 
 }  // namespace maploop::mapmatch

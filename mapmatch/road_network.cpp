@@ -75,7 +75,7 @@ Eigen::Vector2d RoadNetwork::to_local(const Geodetic& place) const {
 }
 
 Geodetic RoadNetwork::to_geodetic(const Eigen::Vector2d& place) const {
-  // The height that lets a place on the ellipsoid come back to it: 1 mm at 20 km is enough.
+  // The height is chosen so that the place returns to the ellipsoid; 1 mm at 20 km is enough.
   Eigen::Vector3d p(place.x(), place.y(), 0.0);
   for (int i = 0; i < 2; ++i) p.z() -= frame_.to_geodetic(p).height;
   Geodetic g = frame_.to_geodetic(p);

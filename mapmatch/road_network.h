@@ -1,8 +1,9 @@
-// The road network: links from junction to junction, with their shape in local metres.
+// A road network consists of links from junction to junction, with their shape in local metres.
 //
-// A junction is a node where roads meet, end, or where what may be driven changes; a node where one
-// way goes on as another is none: a link can be made of several roads. Immutable once built: any
-// number of threads may read one network at the same time.
+// A junction is a node where roads meet or end, or where the permitted directions change. A node
+// where one way simply continues as another is not a junction, so a link can consist of several
+// roads. A network is immutable after construction: any number of threads may read it at the same
+// time.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,13 +19,13 @@
 
 namespace maploop::mapmatch {
 
-// A node of a link's shape.
+// This is a node of a link's shape.
 struct Vertex {
   double east = 0.0, north = 0.0;  // m, in the network's frame
   double along = 0.0;              // m from the link's first vertex
   std::int64_t node_id = 0;
   std::uint32_t road =
-      0;  // of the segment that begins here; the last vertex repeats the one before
+      0;  // of the segment that starts here; the last vertex repeats the one before
 
   Eigen::Vector2d position() const { return {east, north}; }
 };
@@ -40,7 +41,7 @@ struct Link {
   std::uint32_t start_junction = 0;  // of its first vertex
   std::uint32_t end_junction = 0;
   bool forward = true;   // may be driven from its first vertex to its last
-  bool backward = true;  // and the other way round
+  bool backward = true;  // may be driven from its last vertex to its first
   double length = 0.0;   // m
 };
 
@@ -52,11 +53,11 @@ void archive(Archive& ar, Link& l) {
 
 using maploop::DirectedLink;
 
-// A way into a junction's links, as it is left.
+// A junction refers to its exits in NetworkData::exits.
 struct Junction {
   std::int64_t node_id = 0;
   std::uint32_t first_exit = 0;
-  std::uint32_t exit_count = 0;  // links that begin or end here, forbidden directions included
+  std::uint32_t exit_count = 0;  // links that start or end here, including forbidden directions
 };
 
 template <class Archive>
@@ -64,7 +65,7 @@ void archive(Archive& ar, Junction& j) {
   ar(j.node_id, j.first_exit, j.exit_count);
 }
 
-// `from` must not be followed by `to`.
+// The turn from `from` to `to` is forbidden.
 struct BannedTurn {
   DirectedLink from, to;
 };
@@ -74,25 +75,25 @@ void archive(Archive& ar, BannedTurn& b) {
   ar(b.from, b.to);
 }
 
-// A place on a directed link.
+// This is a place on a directed link.
 struct LinkPoint {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();    // m, east and north
   Eigen::Vector2d direction = Eigen::Vector2d::UnitX();  // unit, as driven
-  std::uint32_t vertex = 0;  // of the network: first vertex, as stored, of its segment
+  std::uint32_t vertex = 0;  // index in the network of its segment's first stored vertex
 
   double azimuth() const;  // rad
 };
 
-// What the file of a network holds, besides what can be computed from it.
+// Holds the content of a network file; everything else is computed from it.
 struct NetworkData {
-  Geodetic origin;  // of the local frame; its height is 0, as every position's on the map
+  Geodetic origin;  // of the local frame; its height is 0, as is that of all map positions
   std::vector<Road> roads;
   std::vector<Vertex> vertices;
   std::vector<Link> links;
   std::vector<Junction> junctions;
   std::vector<DirectedLink> exits;    // by junction
   std::vector<BannedTurn> banned;     // sorted by `from`
-  std::vector<std::string> warnings;  // what the map had that was left out, a sentence each
+  std::vector<std::string> warnings;  // content of the map that was left out, one sentence each
 };
 
 template <class Archive>
@@ -102,15 +103,15 @@ void archive(Archive& ar, NetworkData& d) {
 
 class RoadNetwork {
  public:
-  // Throws std::invalid_argument where the data contradict themselves (an index out of range, a
-  // link without length, positions that are not finite).
+  // Throws std::invalid_argument if the data are inconsistent (an index out of range, a link
+  // without length, positions that are not finite).
   explicit RoadNetwork(NetworkData data);
 
   const NetworkData& data() const { return data_; }
   const LocalFrame& frame() const { return frame_; }
   const SegmentIndex& index() const { return index_; }
 
-  // East and north of a place, whose height does not matter.
+  // Returns east and north (m) of a place; its height is ignored.
   Eigen::Vector2d to_local(const Geodetic& place) const;
   Geodetic to_geodetic(const Eigen::Vector2d& place) const;
 
@@ -124,7 +125,7 @@ class RoadNetwork {
     return {data_.vertices.data() + data_.links[link].first_vertex, data_.links[link].vertex_count};
   }
 
-  // Whether the map allows it.
+  // Returns whether the map allows driving in this direction.
   bool allowed(DirectedLink d) const {
     return d.forward ? link(d.link).forward : link(d.link).backward;
   }
@@ -133,16 +134,16 @@ class RoadNetwork {
     return d.forward ? link(d.link).end_junction : link(d.link).start_junction;
   }
   std::uint32_t start_junction(DirectedLink d) const { return end_junction(d.reversed()); }
-  // Links that leave a junction, against one-way streets included.
+  // Returns the links that leave a junction, including those against one-way streets.
   std::span<const DirectedLink> exits(std::uint32_t junction) const {
     const Junction& j = data_.junctions[junction];
     return {data_.exits.data() + j.first_exit, j.exit_count};
   }
 
-  // The place s metres along a directed link from where it is entered; outside of it, on the
-  // straight continuation of its first or last segment.
+  // Returns the place s metres along a directed link from where it is entered. Outside the link,
+  // the place is on the straight continuation of its first or last segment.
   LinkPoint at(DirectedLink d, double s) const;
-  // The nodes of the OSM segment of a place, as driven.
+  // Returns the nodes of the OSM segment of a place, in driving direction.
   std::pair<std::int64_t, std::int64_t> nodes(DirectedLink d, std::uint32_t vertex) const;
 
  private:

@@ -1,4 +1,4 @@
-// The rule bases of the matcher, and where their files are.
+// The matcher's rule bases and the location of their files are defined here.
 #pragma once
 
 #include <array>
@@ -9,8 +9,7 @@
 
 namespace maploop::mapmatch {
 
-// Inputs of each, in the order in which they are evaluated (rules/*.fll explain
-// them).
+// These are the inputs of each rule base in the order of evaluation (rules/*.fll explain them).
 inline constexpr std::array<std::string_view, 4> initial_inputs{"speed", "heading_error",
                                                                 "distance", "hdop"};
 inline constexpr std::array<std::string_view, 7> along_inputs{
@@ -24,16 +23,16 @@ inline constexpr std::array<std::string_view, 6> junction_inputs{
 struct RuleBases {
   FuzzySystem initial;       // IMP: a link near the fix
   FuzzySystem along;         // SMP-1: still on the link, 13 rules
-  FuzzySystem along_visual;  // the same with 7 rules of visual odometry
-  FuzzySystem junction;      // SMP-2: a link behind a junction
+  FuzzySystem along_visual;  // the same and 7 rules for visual odometry
+  FuzzySystem junction;      // SMP-2: a link after a junction
 };
 
-// From initial_matching.fll, along_link.fll, along_link_visual.fll and junction.fll of a folder.
+// Reads initial_matching.fll, along_link.fll, along_link_visual.fll and junction.fll from a folder.
 // Throws FllError.
 RuleBases read_rule_bases(const std::filesystem::path& folder);
 
-// Where the rules are: MAPLOOP_RULES, or share/maploop/rules beside the program's folder, both
-// installed and in a build folder.
+// Returns the folder of the rules: MAPLOOP_RULES, or share/maploop/rules beside the program's
+// folder, both when installed and in a build folder.
 std::filesystem::path default_rules();
 
 }  // namespace maploop::mapmatch

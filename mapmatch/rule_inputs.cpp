@@ -10,7 +10,7 @@ namespace {
 
 constexpr double unreachable = 300.0;  // m
 constexpr double u_turn = radians(125.0);
-constexpr double near_end = 30.0;  // m before a junction, from where beta is asked
+constexpr double near_end = 30.0;  // m before a junction, within which beta is used
 
 double angle_between(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)));
@@ -21,14 +21,14 @@ void set_azimuth_error(const RuleContext& c, MatchCandidate& candidate) {
   candidate.azimuth_error = std::abs(wrap_angle(c.motion.azimuth - point.azimuth()));
 }
 
-// The rules' distances are those of fixes of `distance_unit` accuracy.
+// The rules' distances are meant for fixes with an accuracy of `distance_unit`.
 double scaled_distance(const RuleContext& c, const MatchCandidate& candidate) {
   return candidate.distance * c.parameters.distance_unit /
          std::hypot(c.sigma, c.parameters.map_sigma);
 }
 
-// Way along the roads from the last matched place to the candidate's, over at most one link between
-// them; and whether it is legal.
+// Holds the path along the roads from the last matched place to the candidate's, with at most one
+// link between them, and whether it is legal.
 struct Way {
   double length = 0.0;  // m
   double connectivity = 0.0;
@@ -88,14 +88,14 @@ void judge_along(const RuleContext& c, MatchCandidate& candidate) {
   if (c.motion.speed >= c.parameters.min_speed) {
     const LinkPoint point = c.network.at(candidate.link, candidate.along);
     if (c.last.has_anchor) alpha = angle_between(point.direction, c.place - c.last.anchor);
-    // Further from the junction the direction to it says nothing on a bent road.
+    // Further from the junction, the direction to it is not meaningful on a bent road.
     const LinkPoint end = c.network.at(candidate.link, length);
     beta = length - candidate.along > near_end
                ? 0.0
                : angle_between(end.direction, end.position - c.place);
   }
   const double overshoot = c.last.along + c.travelled - length;
-  // A U-turn takes several seconds: where there was one, it is the turn.
+  // A U-turn takes several seconds; if there was one, it replaces the turn.
   const double turn = degrees(c.motion.reversal > u_turn ? c.motion.reversal : c.motion.turn);
   const double turn_rate = degrees(c.motion.turn_rate);
   if (std::isfinite(c.motion.visual_turn) && std::isfinite(c.motion.visual_speed)) {

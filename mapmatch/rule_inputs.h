@@ -1,4 +1,4 @@
-// What the rule bases are asked, from geometry and motion.
+// The inputs of the rule bases are computed here from geometry and motion.
 #pragma once
 
 #include "mapmatch/match_parameters.h"
@@ -9,13 +9,13 @@
 
 namespace maploop::mapmatch {
 
-// The last matched place whose link was sure, where there is one: the fix before's, or, while it is
-// open which link behind a junction is the right one, the one before the junction.
+// This is the last matched place with a certain link, if any: that of the previous fix, or, while
+// the link after a junction is uncertain, the last one before the junction.
 struct LastMatch {
   bool there = false;
   DirectedLink link;
   double along = 0.0;  // m
-  // A matched point on the same link, far enough behind to take a direction from.
+  // A matched point on the same link, far enough behind to define a direction.
   bool has_anchor = false;
   Eigen::Vector2d anchor = Eigen::Vector2d::Zero();
 };
@@ -26,14 +26,14 @@ struct RuleContext {
   const RuleBases& rules;
   const Motion& motion;
   Eigen::Vector2d place;  // the fix, m
-  double sigma = 0.0;     // m an axis, of the fix
+  double sigma = 0.0;     // m, on each axis, of the fix
   double hdop = unknown;
   LastMatch last;
-  double travelled = 0.0;  // m since then
+  double travelled = 0.0;  // m, travelled since `last`
 };
 
-// Fill in what the candidate's link, along and distance lead to: its inputs, the likelihood and the
-// weights of the rules.
+// These compute the rules' inputs from the candidate's link, along and distance, and fill in its
+// inputs, its likelihood and the weights of the rules.
 void judge_initially(const RuleContext& context, MatchCandidate& candidate);
 void judge_along(const RuleContext& context, MatchCandidate& candidate);
 void judge_at_junction(const RuleContext& context, MatchCandidate& candidate);

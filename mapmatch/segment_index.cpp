@@ -36,7 +36,7 @@ std::vector<Entry> entries(const std::vector<IndexedSegment>& segments,
 }  // namespace
 
 struct SegmentIndex::Tree {
-  // Made from all entries at once, which packs it.
+  // It is built from all entries at once, which packs it.
   geometry::index::rtree<Entry, geometry::index::rstar<16>, geometry::index::indexable<Entry>,
                          SameEntry>
       rtree;

@@ -1,5 +1,6 @@
-// Where segments of the map are: Boost.Geometry's R-tree. Immutable once built: any number of
-// threads may ask it at the same time, and its copies share it. Queries do not allocate.
+// This index finds the segments of the map in a box with Boost.Geometry's R-tree. It is immutable
+// after construction: any number of threads may query it at the same time, and its copies share the
+// tree. Queries do not allocate.
 #pragma once
 
 #include <cstdint>
@@ -19,18 +20,18 @@ struct Box {
 
 struct IndexedSegment {
   std::uint32_t link = 0;
-  std::uint32_t vertex = 0;  // where it begins, of all vertices
+  std::uint32_t vertex = 0;  // index of its first vertex in the network
 };
 
 class SegmentIndex {
  public:
   SegmentIndex();
-  // boxes[i] is segments[i]'s; both are as long.
+  // boxes[i] (m) is the box of segments[i]; both have the same length.
   SegmentIndex(const std::vector<IndexedSegment>& segments, const std::vector<Box>& boxes);
 
   std::size_t size() const;
 
-  // Calls visit(segment) for each whose box meets `box`, in an order of the tree's own.
+  // Calls visit(segment) for each segment whose box meets `box`, in unspecified order.
   template <class Visit>
   void visit(const Box& box, Visit&& visit) const {
     using Visitor = std::remove_reference_t<Visit>;

@@ -10,12 +10,12 @@
 namespace maploop::mapmatch {
 namespace {
 
-constexpr double acceleration = 1.5;  // m/s^2/sqrt(Hz), of a vehicle whose speed is not told
-constexpr double good_azimuth = radians(1.0);  // sigma that `visual_gate` is made for
+constexpr double acceleration = 1.5;           // m/s^2/sqrt(Hz), of a vehicle with unknown speed
+constexpr double good_azimuth = radians(1.0);  // sigma for which `visual_gate` is meant
 constexpr double share_memory = 60.0;          // s
-constexpr double prior_fixes = 4.0;            // what the first guess of the white share counts
+constexpr double prior_fixes = 4.0;            // weight of the prior of the white share
 constexpr double prior_share = 0.5;
-constexpr double floor_variance = 0.25;  // m^2: odometry and the vehicle's way are no better
+constexpr double floor_variance = 0.25;  // m^2, smallest error of odometry and of the path
 
 Eigen::Vector2d heading(double azimuth) {
   return {std::sin(azimuth), std::cos(azimuth)};
@@ -42,7 +42,7 @@ void VehicleMotion::filter_course(const VehicleFix& fix, const Eigen::Vector2d& 
   }
   course_ = F * course_;
   course_covariance_ = F * course_covariance_ * F.transpose() + Q;
-  // Of the fixes' error only what changes from one to the next disturbs a velocity.
+  // Only the part of the fixes' error that changes from fix to fix disturbs a velocity.
   const double white = std::clamp(jumps_ / expected_, 0.05, 1.0);
   const Eigen::Matrix2d S = course_covariance_.topLeftCorner<2, 2>() + white * fix.covariance +
                             floor_variance * Eigen::Matrix2d::Identity();
@@ -52,8 +52,8 @@ void VehicleMotion::filter_course(const VehicleFix& fix, const Eigen::Vector2d& 
   course_covariance_ = 0.5 * (updated + updated.transpose());
 }
 
-// Two fixes differ by the way travelled between them and by what of their errors changed: for white
-// errors its variance is twice theirs, for slow ones next to nothing.
+// Two fixes differ by the path travelled between them and by the change of their errors, whose
+// variance is twice theirs for white errors and nearly zero for slow ones.
 void VehicleMotion::estimate_white_share(const VehicleFix& fix, const Eigen::Vector2d& jump,
                                          double interval) {
   const double keep = std::exp(-interval / share_memory);
@@ -85,7 +85,7 @@ bool VehicleMotion::seen_throughout(const Moment& now, double seconds) const {
   return known > 0;
 }
 
-// What the images show is no witness where it contradicts what the fixes say of the same second.
+// Visual odometry is ignored if it contradicts the fixes over the same second.
 void VehicleMotion::add_visual(const VehicleFix& fix, const Moment& now,
                                const MatchParameters& parameters, Motion& motion) const {
   if (!seen_throughout(now, 1.0)) return;

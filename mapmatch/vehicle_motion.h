@@ -1,4 +1,5 @@
-// How the vehicle moves, from fixes that may or may not say it, and how their errors behave.
+// The motion of the vehicle, and the behaviour of the fixes' errors, are estimated here from fixes
+// that may or may not contain speed and azimuth.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,31 +11,31 @@
 
 namespace maploop::mapmatch {
 
-// The motion up to a fix. Angles in rad.
+// Describes the motion up to a fix. Angles are in rad.
 struct Motion {
-  double interval = 0.0;  // s since the fix before; 0 at the first
+  double interval = 0.0;  // s since the previous fix; 0 at the first
   double speed = 0.0;     // m/s
   double speed_sigma = 0.0;
-  double azimuth = unknown;  // unknown while too slow to tell
+  double azimuth = unknown;  // unknown at low speed
   double azimuth_sigma = 0.0;
-  double distance = 0.0;                           // m since the fix before
+  double distance = 0.0;                           // m since the previous fix
   Eigen::Vector2d step = Eigen::Vector2d::Zero();  // m, the same as a vector
   double turn = unknown;                           // |change of azimuth| over the last second
-  double turn_rate = unknown;                      // rad/s, its size over the last second
+  double turn_rate = unknown;                      // rad/s, magnitude over the last second
   double reversal = unknown;                       // |change of azimuth| over the last 6 s
-  // Of visual odometry, where it agrees with the rest.
+  // These come from visual odometry if it agrees with the fixes.
   double visual_speed = unknown;
   double visual_turn = unknown;      // |change of azimuth| over the last second
   double visual_reversal = unknown;  // over the last 6 s
-  double white_share = 0.5;          // of the fixes' variance: what changes from fix to fix
+  double white_share = 0.5;          // share of the fixes' variance that changes between fixes
 };
 
 class VehicleMotion {
  public:
   void reset() { *this = VehicleMotion(); }
 
-  // Fixes in the order of their stamps; `place` is the fix's in local metres. Where it does not say
-  // speed or azimuth, they come from a Kalman filter of positions and velocities.
+  // Takes fixes in the order of their stamps; `place` is the fix in local metres. Speed or azimuth
+  // missing in the fix come from a Kalman filter of positions and velocities.
   Motion add(const VehicleFix& fix, const Eigen::Vector2d& place,
              const MatchParameters& parameters);
 
@@ -70,7 +71,7 @@ class VehicleMotion {
   Eigen::Matrix4d course_covariance_ = Eigen::Matrix4d::Zero();
   double speed_ = 0.0;
   double azimuth_ = unknown;
-  double jumps_ = 0.0, expected_ = 0.0;  // squares, with a prior, forgotten over a minute
+  double jumps_ = 0.0, expected_ = 0.0;  // m^2, with a prior; decays over a minute
   std::array<Moment, history_length> history_{};
   std::size_t next_ = 0;
 };

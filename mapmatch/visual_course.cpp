@@ -7,7 +7,7 @@
 namespace maploop::mapmatch {
 namespace {
 
-constexpr double oldest = 0.3;  // s: three images, of which one may be late
+constexpr double oldest = 0.3;  // s, three images, of which one may be late
 
 }  // namespace
 

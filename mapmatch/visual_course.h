@@ -1,4 +1,4 @@
-// What visual odometry says of a vehicle's course: its speed, and an azimuth whose changes count.
+// Visual odometry provides the vehicle's speed, and an azimuth of which only changes matter.
 #pragma once
 
 #include "mapmatch/vehicle_fix.h"
@@ -9,13 +9,13 @@ namespace maploop::mapmatch {
 // Not thread-safe; allocates nothing.
 class VisualCourse {
  public:
-  // Motions in the order of their stamps. After one without a pose, or that does not begin where
-  // the one before ended, the azimuth is a new one.
+  // Takes motions in the order of their stamps. After a motion without a pose, or one that does not
+  // begin where the previous one ended, the azimuth restarts.
   void add(const RelativeMotion& motion);
 
-  // Fills in the fix's visual_speed and visual_azimuth, carried on to its stamp. They stay unknown
-  // where the last motion is older than 0.3 s; and once after the azimuth began anew, so that no
-  // change is taken across the break.
+  // Fills in the fix's visual_speed and visual_azimuth, extrapolated to its stamp. They are unknown
+  // if the last motion is more than 0.3 s away. The azimuth is also unknown once after it
+  // restarted, so that no change is measured across the break.
   void describe(VehicleFix& fix);
 
   template <class Archive>
@@ -27,8 +27,8 @@ class VisualCourse {
   Time stamp_{};
   bool known_ = false, begun_anew_ = true;
   double speed_ = 0.0;    // m/s, forward
-  double azimuth_ = 0.0;  // rad, from any direction
-  double rate_ = 0.0;     // rad/s, of it
+  double azimuth_ = 0.0;  // rad, from an arbitrary direction
+  double rate_ = 0.0;     // rad/s, its rate
 };
 
 }  // namespace maploop::mapmatch
