@@ -1,4 +1,4 @@
-// The rule bases that ship, read once.
+// The installed rule bases are read once.
 #pragma once
 
 #include "mapmatch/rule_bases.h"

@@ -1,4 +1,4 @@
-// What goes back to the filter, and why nothing does, on hand-made maps.
+// These tests check on hand-made maps what is fed back, and the reason if nothing is.
 #include "mapmatch/feedback.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ using maploop::testing::drive;
 using maploop::testing::rules;
 using maploop::testing::SmallMap;
 
-// A street of 600 m from west to east (way 10), and one across its end (way 20).
+// The map is a street of 600 m from west to east (way 10) and one across its end (way 20).
 SmallMap tee() {
   SmallMap map;
   map.node(1, 0, 0).node(2, 600, 0).node(3, 600, 300).node(4, 600, -300);
@@ -73,7 +73,7 @@ TEST(Feedback, OfAStraightRoadIsItsLineEveryTenMetres) {
   EXPECT_GT(std::count_if(lines.begin(), lines.end(), [](const auto& f) { return f.azimuth; }), 15);
 }
 
-// A line for both directions is the road's middle, beside which one drives.
+// A line for both directions is the middle of the road; vehicles drive beside it.
 TEST(Feedback, OnARoadForBothDirectionsItIsToTheRight) {
   const RoadNetwork network = tee().network();
   const double middle = network.to_local(SmallMap::place(300, 0)).y();
@@ -90,7 +90,7 @@ TEST(Feedback, OnARoadForBothDirectionsItIsToTheRight) {
   EXPECT_NEAR(off(eastward, parameters), -lane, 0.02);
   EXPECT_NEAR(off(westward, parameters), lane, 0.02);
   EXPECT_NEAR(fed(feedbacks(network, eastward)).back().cross_track, 1.5 - lane, 0.05);
-  parameters.lane_share = -0.4;  // traffic on the left
+  parameters.lane_share = -0.4;  // left-hand traffic
   EXPECT_NEAR(off(eastward, parameters), lane, 0.02);
   parameters = {};
   parameters.hard_reset = true;  // onto the line
@@ -140,7 +140,7 @@ TEST(Feedback, NothingWhereTheAzimuthDiffersOrTheVehicleCrawls) {
 TEST(Feedback, NothingWhileTurningOtherwiseThanTheRoad) {
   const RoadNetwork network = tee().network();
   auto fixes = drive({{20, 0}, {400, 0}}, 10.0, 10.0);
-  // 8 degrees to the left and back, as in passing a parked car.
+  // The vehicle turns 8 degrees to the left and back, as when it passes a parked car.
   for (std::size_t i = 200; i < 210; ++i) fixes[i].azimuth -= radians(8.0);
   const auto all = feedbacks(network, fixes);
   EXPECT_EQ(all[205].reason, FeedbackReason::turning);

@@ -1,4 +1,4 @@
-// The rule bases against values worked out by hand and against the fuzzylite program.
+// These tests compare the rule bases with values computed by hand and with the fuzzylite program.
 #include "mapmatch/fuzzy_system.h"
 
 #include <gtest/gtest.h>
@@ -58,7 +58,7 @@ TEST(RuleBases, JunctionHasTheValuesOfTheMethod) {
     EXPECT_NEAR(rules().junction.evaluate(inputs).value, expected, 5e-5);
 }
 
-// Random inputs through Debian's fuzzylite: another program, the same files.
+// Compares random inputs with Debian's fuzzylite, an independent program that reads the same files.
 void expect_fuzzylite_agrees(const FuzzySystem& system, const char* file) {
   if (maploop::testing::run({"which", "fuzzylite"}).status != 0)
     GTEST_SKIP() << "SKIPPED, NOT TESTED: the program fuzzylite is not installed";
@@ -84,7 +84,7 @@ void expect_fuzzylite_agrees(const FuzzySystem& system, const char* file) {
     all.push_back(inputs);
   }
   data.close();
-  // fuzzylite takes values in the order of the file, which is that of the inputs.
+  // fuzzylite takes values in the order of the file, which equals that of the inputs.
   const auto result = maploop::testing::run(
       {"fuzzylite", "-i", (default_rules() / file).string(), "-of", "fld", "-o",
        (folder.path() / "out.fld").string(), "-d", (folder.path() / "in.fld").string(), "-decimals",
@@ -94,7 +94,7 @@ void expect_fuzzylite_agrees(const FuzzySystem& system, const char* file) {
   for (const Inputs& inputs : all) {
     std::string theirs;
     ASSERT_TRUE(out >> theirs) << file;
-    // It passes over rules whose weight is below 1e-6.
+    // fuzzylite ignores rules whose weight is below 1e-6.
     const auto ours = system.evaluate(inputs);
     double sum = 0.0, weighted = 0.0;
     for (std::size_t r = 0; r < system.rules().size(); ++r) {
@@ -108,7 +108,7 @@ void expect_fuzzylite_agrees(const FuzzySystem& system, const char* file) {
       continue;
     }
     EXPECT_NEAR(weighted / sum, std::stod(theirs), 1e-3) << file;
-    // All that those rules weigh can move our value by.
+    // The ignored rules can change our value by at most this bound.
     EXPECT_NEAR(ours.value, std::stod(theirs), 1e-3 + 90.0 * 32e-6 / sum) << file;
   }
 }

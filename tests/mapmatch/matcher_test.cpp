@@ -1,4 +1,4 @@
-// The odd cases of map matching, on hand-made maps.
+// These tests cover odd cases of map matching on hand-made maps.
 #include "mapmatch/matcher.h"
 
 #include <gmock/gmock.h>
@@ -27,14 +27,15 @@ std::int64_t way_of(const Matcher& matcher, const MatchResult& r) {
   return r.on_road ? matcher.network().road_at(r.point.vertex).way_id : 0;
 }
 
-// The way of each fix; 0 where there is none.
+// Returns the way of each fix; 0 if there is none.
 std::vector<std::int64_t> ways(Matcher& matcher, const std::vector<VehicleFix>& fixes) {
   std::vector<std::int64_t> found;
   for (const VehicleFix& fix : fixes) found.push_back(way_of(matcher, matcher.add(fix)));
   return found;
 }
 
-// A street from west to east (way 10), another across it (way 20), nodes 1 to 5, 2 in the middle.
+// The map is a street from west to east (way 10) and another across it (way 20), with nodes 1 to 5
+// and node 2 in the middle.
 SmallMap crossing() {
   SmallMap map;
   map.node(1, -300, 0).node(2, 0, 0).node(3, 300, 0).node(4, 0, 300).node(5, 0, -300);
@@ -74,7 +75,7 @@ TEST(Matcher, FollowsATurnAtAJunction) {
     const auto found = ways(matcher, fixes);
     for (std::size_t i = 0; i < found.size(); ++i) {
       const double t = to_seconds(fixes[i].stamp - fixes[0].stamp);
-      if (std::abs(t - 25.0) < 1.2) continue;  // within 12 m of the junction either may be said
+      if (std::abs(t - 25.0) < 1.2) continue;  // within 12 m of the junction either is correct
       EXPECT_EQ(found[i], t < 25.0 ? 10 : 20) << rate << " Hz, " << t << " s";
     }
   }

@@ -20,7 +20,7 @@ using maploop::testing::rules;
 using maploop::testing::SmallMap;
 using ::testing::HasSubstr;
 
-// 300 m to the north, then 200 m to the east.
+// The road leads 300 m to the north, then 200 m to the east.
 const RoadNetwork& network() {
   static const RoadNetwork roads = SmallMap()
                                        .node(1, 0, 0)
@@ -33,7 +33,7 @@ const RoadNetwork& network() {
   return roads;
 }
 
-// A state at the place, in a frame whose origin is 1 km to the south-west of the map's.
+// Returns a state at the place, in a frame whose origin is 1 km to the south-west of the map's.
 NavState state_at(double seconds, double east, double north, double azimuth) {
   NavState state;
   state.status = NavStatus::aided;
@@ -49,14 +49,14 @@ NavState state_at(double seconds, double east, double north, double azimuth) {
   return state;
 }
 
-// North along the road, 2 m to the right of its line, 10 m/s, for 25 s at 10 Hz.
+// Returns a drive north along the road, 2 m to the right of its line, at 10 m/s for 25 s at 10 Hz.
 std::vector<NavState> drive_north() {
   std::vector<NavState> states;
   for (int i = 0; i < 250; ++i) states.push_back(state_at(0.1 * i, 2.0, 1.0 * i, 0.0));
   return states;
 }
 
-// From 0.1 s before `seconds`, turning right by `degrees_a_second`.
+// Returns a motion that starts 0.1 s before `seconds` and turns right by `degrees_a_second`.
 RelativeMotion visual_motion(double seconds, double degrees_a_second) {
   RelativeMotion motion;
   motion.status = OdometryStatus::ok;
@@ -85,7 +85,7 @@ TEST(NavMatcher, SaysWhereOnTheRoadTheStateIs) {
   EXPECT_NEAR(match.along + match.to_junction, 300.0, 0.5);
   EXPECT_GT(match.probability, 0.95);
   EXPECT_GT(match.margin, 0.9);
-  // The matched point and its normal give the state's place across the road back.
+  // The matched point and its normal reproduce the state's position across the road.
   const Eigen::Vector2d right(std::cos(match.link_azimuth), -std::sin(match.link_azimuth));
   EXPECT_NEAR(right.dot(match.vehicle_enu - match.matched_enu), match.cross_track, 1e-9);
   ASSERT_GE(match.candidate_count, 1U);
@@ -103,7 +103,7 @@ TEST(NavMatcher, SaysWhereOnTheRoadTheStateIs) {
 TEST(NavMatcher, ToTheLeftOfTheRoadIsNegativeWhicheverWayItIsDriven) {
   NavMatcher matcher(network(), rules(), {});
   MapMatch match;
-  for (int i = 0; i < 150; ++i)  // to the south, its left is the east
+  for (int i = 0; i < 150; ++i)  // driving south, east is on the left
     match = matcher.add(state_at(0.1 * i, 2.0, 280.0 - 1.0 * i, radians(180.0)));
   ASSERT_TRUE(match.on_road);
   EXPECT_NEAR(match.cross_track, -2.0, 0.02);

@@ -97,7 +97,7 @@ TEST(NetworkBuilder, ANodeNamedTwiceInARowAndTwoNodesAtOnePlaceAreHarmless) {
     EXPECT_NEAR(network.at({0, true}, s).direction.norm(), 1.0, 1e-9) << s;
 }
 
-// A way that passes one node again and again has two exits there each time.
+// Returns a way that passes one node repeatedly and has two exits there each time.
 SmallMap flower(int petals) {
   SmallMap map;
   map.node(1, 0, 0);

@@ -39,7 +39,8 @@ std::string read(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// The figures of the map are `osmium cat -f opl karlsruhe... | grep ^w | grep -o highway=[a-z_]*`.
+// The figures of the map come from `osmium cat -f opl karlsruhe... | grep ^w | grep -o
+// highway=[a-z_]*`.
 TEST(OsmReader, KarlsruheHasTheRoadsThatOsmiumCounts) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const MapExtract map = read_osm(karlsruhe());
@@ -49,7 +50,7 @@ TEST(OsmReader, KarlsruheHasTheRoadsThatOsmiumCounts) {
   EXPECT_EQ(classes[RoadClass::residential], 442) << "443, and one of them is an area";
   EXPECT_EQ(classes[RoadClass::trunk], 78);
   const RoadNetwork network(build_network(map));
-  std::size_t directed = 0;  // the labels' README counts 23,155 directed segments
+  std::size_t directed = 0;  // the README of the labels lists 23,155 directed segments
   for (std::uint32_t i = 0; i < network.size(); ++i)
     for (const bool forward : {true, false})
       if (network.allowed({i, forward})) directed += network.link(i).vertex_count - 1;
@@ -143,7 +144,7 @@ TEST(OsmReader, ACutOrDamagedMapIsRefusedOrReadAndNeverCrashes) {
   }
 }
 
-// The few parts of PBF that a map of one road needs.
+// These functions write the parts of PBF that a map of one road needs.
 std::string number(std::uint64_t value) {
   std::string bytes;
   for (; value >= 0x80; value >>= 7U) bytes += static_cast<char>(value | 0x80U);
@@ -164,7 +165,7 @@ std::string zigzag(std::int64_t value) {
   return number(static_cast<std::uint64_t>(value) << 1U ^ static_cast<std::uint64_t>(value >> 63));
 }
 
-// Two nodes, and a way between them with two tags.
+// Returns a map with two nodes and a way between them that has two tags.
 std::string pbf(const std::string& key, const std::string& value) {
   std::string strings, nodes;
   for (const std::string& s :
@@ -182,7 +183,7 @@ std::string pbf(const std::string& key, const std::string& value) {
          block("OSMData", field(1, strings) + field(2, nodes) + field(2, field(3, way)));
 }
 
-// libosmium itself reads past the end of the tags of such a way.
+// libosmium itself would read past the end of the tags of such a way.
 TEST(OsmReader, AZeroByteInATagIsRefused) {
   TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "small.osm.pbf";
@@ -208,8 +209,8 @@ TEST(OsmReader, PlainXmlIsReadToo) {
   EXPECT_NEAR(network.link(0).length, 111.2, 0.1);
 }
 
-// Left-hand traffic, miles, no names, an area, a road across the 180th meridian, restrictions that
-// are not for cars, over a way, and for cars alone.
+// The map has left-hand traffic, miles, no names, an area, a road across the 180th meridian, and
+// restrictions that are not for cars, over a way, and for cars alone.
 TEST(OsmReader, AnotherCountrysMapIsReadAsItIsMeant) {
   TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "taveuni.osm";

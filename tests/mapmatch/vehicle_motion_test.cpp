@@ -10,7 +10,8 @@
 namespace maploop::mapmatch {
 namespace {
 
-// Straight north at 10 m/s with errors of `white` m that are new at each fix, and a constant one.
+// Returns the motion after driving straight north at 10 m/s with errors of `white` m that are new
+// at each fix, and a constant error.
 Motion after_a_minute(double white, double constant, double rate, bool told) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
@@ -64,8 +65,8 @@ TEST(VehicleMotion, TurnsAreChangesOfOneSecondAtEveryRateAndWrapped) {
   }
 }
 
-// Turning right at 20 degrees a second for 9 s; the images show `visual` degrees a second, and
-// nothing at all at `dark` s.
+// Returns the motion while turning right at 20 degrees per second for 9 s; visual odometry measures
+// `visual` degrees per second, and nothing at `dark` s.
 Motion seen_turning(int rate, double visual, double dark = -1.0) {
   VehicleMotion motion;
   Motion last;

@@ -1,4 +1,4 @@
-// GNSS, wheels, standing still and starts, on drives of known truth.
+// These tests cover GNSS, wheels, standstill and starts on drives of known truth.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -112,7 +112,7 @@ TEST(Riss, IsBadlyOffWithoutTheFixesThatTeachTheScale) {
   add_all(filter, all);
   const auto nav = filter.state_at(SyntheticDrive::at(59.0));
   ASSERT_TRUE(nav);
-  // Of the 5 % the first fix, with its speed, explains a part.
+  // The first fix and its speed explain a part of the 5 %.
   EXPECT_GT(nav->forward_speed / drive.speed(59.0), 1.01);
 }
 
@@ -155,7 +155,7 @@ TEST(LateData, FixesAndWheelsGiveTheSameBitsInAnyOrder) {
 TEST(Gnss, DoubtsItselfAndThenBeginsAnewWhereFixesGoOnToContradict) {
   const SyntheticDrive drive(town(), 60.0, test_origin());
   FusionParameters p = parameters("GNSS+VO-RI");
-  p.gnss_recovery_sigma = 5.0;  // so that doubt alone is not enough
+  p.gnss_recovery_sigma = 5.0;  // so that inflating the covariance is not enough
   ReducedImuFilter filter(p, test_origin());
   const LocalFrame frame(test_origin());
   std::vector<Any> all;

@@ -1,5 +1,5 @@
-// The filter takes all its memory at construction. Every allocation of this program is counted,
-// Eigen's own (which do not go through operator new) included.
+// The filter allocates all its memory at construction. The test counts every allocation of this
+// program, including Eigen's own, which do not use operator new.
 #include <gtest/gtest.h>
 
 #include <utility>
@@ -20,7 +20,7 @@ TEST(Allocation, ThereIsNoneAfterConstruction) {
   std::vector<Measurement> all =
       as_available(drive.imu(100.0), drive.odometry(10.0), drive.fix(0.0));
   FusionParameters parameters;
-  parameters.history_length = parameters.imu_bridge = 1.0;  // events drop out, too
+  parameters.history_length = parameters.imu_bridge = 1.0;  // so that events also leave the history
   const long before_construction = thread_allocations();
   ReducedImuFilter filter(parameters, test_origin());
   const long before = thread_allocations();

@@ -1,4 +1,4 @@
-// The filter saved in the middle of a recorded drive goes on as if nothing had happened.
+// A filter saved in the middle of a recorded drive continues with the same bits.
 #include <gtest/gtest.h>
 
 #include "tests/estimators/fusion/filter_run.h"
@@ -45,20 +45,20 @@ TEST_F(FusionArchive, ALoadedFilterGoesOnWithTheSameBits) {
   EXPECT_LT(archive.size(), 600'000u);
 
   ReducedImuFilter second({});
-  run(second, 0, 50);  // whatever it knew is replaced
+  run(second, 0, 50);  // loading replaces its state
   load(archive, second);
   EXPECT_EQ(saved(second), archive);
   for (std::size_t i = half; i < measurements_.size(); ++i) {
     EXPECT_EQ(add(first, measurements_[i]), add(second, measurements_[i]));
     expect_same_state(first, second, first.newest());
-    // Inside the history, which has come along.
+    // This time is inside the history, which is archived too.
     expect_same_state(first, second, first.newest() - std::chrono::milliseconds(700));
   }
   EXPECT_EQ(saved(first), saved(second));
 }
 
 TEST_F(FusionArchive, HeldMeasurementsAndLateOnesComeAlong) {
-  // Everything before the fix that starts the filter is held; a fix in between starts both.
+  // All measurements before the fix that starts the filter are held; a fix in between starts both.
   std::vector<Measurement> fixless;
   for (const Measurement& m : measurements_) {
     if (!std::holds_alternative<GnssFix>(m)) fixless.push_back(m);
@@ -69,7 +69,7 @@ TEST_F(FusionArchive, HeldMeasurementsAndLateOnesComeAlong) {
   load(saved(first), second);
   EXPECT_EQ(first.add(start_), second.add(start_));
   EXPECT_TRUE(second.initialized());
-  // The next ones in the wrong order: each is applied inside of the history.
+  // The next measurements come in the wrong order; each is applied inside the history.
   for (const std::size_t i : {33u, 30u, 32u, 31u}) {
     EXPECT_EQ(add(first, fixless[i]), add(second, fixless[i]));
     expect_same_state(first, second, first.newest());
@@ -83,7 +83,7 @@ TEST_F(FusionArchive, AGuardThatDoubtsAStampGoesOnDoubting) {
   ahead.stamp = ahead.available = first.newest() + std::chrono::seconds(2);
   EXPECT_EQ(first.add(ahead).reason, Reason::time_jump);
   load(saved(first), second);
-  ahead.stamp += std::chrono::milliseconds(10);  // confirms the one before
+  ahead.stamp += std::chrono::milliseconds(10);  // confirms the previous stamp
   ahead.available = ahead.stamp;
   EXPECT_EQ(second.add(ahead), first.add(ahead));
   EXPECT_EQ(saved(first), saved(second));

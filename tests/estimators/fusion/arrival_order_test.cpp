@@ -1,4 +1,4 @@
-// Late and shuffled measurements must lead to the same bits as timely ones.
+// Late and shuffled measurements must give the same bits as timely ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 using namespace maploop::testing;
 
-// A drive's first seconds, in the order of the stamps.
+// Returns a drive's first seconds in the order of the stamps.
 std::vector<Measurement> in_order(const RecordedDrive& drive, double seconds) {
   std::vector<Measurement> all = as_available(drive.imu, drive.odometry, drive.start);
   std::erase_if(all, [&](const Measurement& m) {
@@ -28,7 +28,7 @@ std::vector<Measurement> in_order(const RecordedDrive& drive, double seconds) {
   return all;
 }
 
-// Each measurement delayed by its own random time.
+// Returns the measurements, each delayed by its own random time.
 std::vector<Measurement> shuffled(const std::vector<Measurement>& ordered, double max_delay,
                                   unsigned seed) {
   std::mt19937 random(seed);
@@ -84,7 +84,7 @@ TEST(ArrivalOrder, DoesNotMatterAtTenHertz) {
 TEST(ArrivalOrder, DoesNotMatterAtAHundredHertz) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const RecordedDrive drive = load_sequence_00(real_data(), {0.3, radians(0.15)});
-  expect_order_does_not_matter(in_order(drive, 40.0), 0.4);  // with a silence of 1.6 s inside
+  expect_order_does_not_matter(in_order(drive, 40.0), 0.4);  // contains a silence of 1.6 s
 }
 
 TEST(ArrivalOrder, DoesNotMatterWithLossesFailuresAndTwoSensorsAtOneStamp) {

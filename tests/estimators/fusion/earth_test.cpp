@@ -7,7 +7,7 @@
 namespace maploop::fusion {
 namespace {
 
-// Published values for GRS80; the series is good to 2e-6.
+// The expected values are published for GRS80; the error of the series is at most 2e-6.
 TEST(NormalGravity, AtEquatorPoleAndFortyFiveDegrees) {
   EXPECT_NEAR(normal_gravity(0.0, 0.0), 9.7803267715, 1e-8);
   EXPECT_NEAR(normal_gravity(radians(90.0), 0.0), 9.8321863685, 2e-6);
@@ -27,7 +27,7 @@ TEST(Radii, AtEquatorAndPole) {
   EXPECT_NEAR(meridian_radius(radians(90.0)), 6399593.626, 1e-3);
 }
 
-// The vertical at a point, by geodetic coordinates: the direction in which the height grows.
+// The reference is the vertical in geodetic coordinates: the direction in which the height grows.
 TEST(LocalEarth, VerticalTurnsWithPosition) {
   const Geodetic origin{radians(49.0), radians(8.4), 115.0};
   const LocalFrame frame(origin);

@@ -1,4 +1,4 @@
-// Runs the filter over recorded or synthetic measurements.
+// These functions run the filter over recorded or synthetic measurements.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ inline fusion::Outcome add(fusion::ReducedImuFilter& filter, const Measurement& 
   return std::visit([&](const auto& v) { return filter.add(v); }, m);
 }
 
-// In the order in which a real vehicle would have them.
+// Returns the measurements in the order in which they become available in a real vehicle.
 inline std::vector<Measurement> as_available(const std::vector<ImuSample>& imu,
                                              const std::vector<RelativeMotion>& odometry,
                                              const GnssFix& fix) {
@@ -40,7 +40,7 @@ inline Eigen::Isometry3d pose_of(const NavState& nav) {
          Eigen::Quaterniond(rotation_enu_body(nav.attitude));
 }
 
-// State at each odometry stamp, asked for as soon as that odometry has arrived.
+// Returns the state at each odometry stamp, requested as soon as that odometry has arrived.
 inline std::vector<NavState> states_after_odometry(fusion::ReducedImuFilter& filter,
                                                    const std::vector<Measurement>& measurements) {
   std::vector<NavState> states;

@@ -53,7 +53,7 @@ TEST(InitialState, AYoungerVelocityIsLessCertainOfTheSpeed) {
   EXPECT_NEAR(s.P(index::speed, index::speed), same + 0.09, 1e-9);
 }
 
-// Covariance of position, speed, azimuth and pitch against a thousand noisy fixes.
+// Compares the covariance of position, speed, azimuth and pitch with a thousand noisy fixes.
 TEST(InitialState, CovarianceIsThatOfNoisyFixes) {
   FusionParameters p;
   p.start_course_sigma = p.start_slope_sigma = p.climb_offset_sigma = 1e-8;

@@ -4,8 +4,8 @@
 
 namespace maploop::testing {
 
-// Of a symmetric matrix. One function for every size: Eigen's solver takes seconds to compile for
-// each.
+// Returns the smallest eigenvalue of a symmetric matrix. There is one function for all sizes
+// because Eigen's solver takes seconds to compile for each size.
 double least_eigenvalue(const Eigen::MatrixXd& symmetric);
 
 }  // namespace maploop::testing

@@ -1,4 +1,4 @@
-// Sensors that deliver on time, and are wrong.
+// These sensors deliver on time, but their values are wrong.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 using namespace maploop::testing;
 
-// In a bend from 10 s to 40 s.
+// The vehicle is in a bend from 10 s to 40 s.
 MotionProfile bend() {
   MotionProfile profile;
   profile.speed = [](double t) { return 10.0 + 2.0 * std::sin(t / 5.0); };
@@ -45,7 +45,7 @@ class LyingSensor : public ::testing::Test {
     return s.stamp >= SyntheticDrive::at(from) && s.stamp < SyntheticDrive::at(to);
   }
 
-  // At each motion's stamp from a moment on.
+  // Returns the largest errors at the motions' stamps after `from`.
   Worst run(ReducedImuFilter& filter, bool fixes, double from = 0.0) {
     std::vector<Measurement> all = as_available(imu_, odometry_, drive_.fix(0.0));
     for (int i = 1; fixes && i < 40; ++i) {
@@ -92,7 +92,7 @@ TEST_F(LyingSensor, ALastingContradictionOfTheTurningIsFollowedAndDoubtsTheAzimu
     if (within(s, 15.0, 25.0)) s.yaw_rate += 0.4;
   }
   ReducedImuFilter filter(with("VO-RI"), test_origin());
-  const Worst worst = run(filter, false, 17.0);  // once noticed, after a second of 0.4 rad/s
+  const Worst worst = run(filter, false, 17.0);  // from 17 s on, when the error has been detected
   EXPECT_LT(worst.azimuth, radians(40.0));
   EXPECT_LT(worst.azimuth_in_sigmas, 4.0);
   EXPECT_GE(filter.status().recoveries, 1u);
@@ -115,7 +115,7 @@ TEST_P(FrozenImu, IsFoundAndOdometryGoesOnAlone) {
   EXPECT_LT(worst.position, 5.0);
   EXPECT_LT(worst.azimuth, radians(3.0));
   EXPECT_LT(worst.azimuth_in_sigmas, 3.5);
-  // All but those of the first `imu_hold`.
+  // All repeated samples are refused except those of the first `imu_hold`.
   const auto refused = static_cast<double>(filter.status().refused_for(Reason::frozen));
   EXPECT_NEAR(refused, repeated - 31.0, 1.0);
 }
@@ -137,18 +137,19 @@ TEST_F(FrozenImu, IsTheSameInWhateverOrderTheSamplesCome) {
     return *filter.state_at(SyntheticDrive::at(2.9));
   };
   std::vector<ImuSample> shuffled = imu_;
-  for (ImuSample& s : shuffled) s.available = {};  // of which a clock's watch says nothing
+  for (ImuSample& s : shuffled) s.available = {};  // disables the check of the sensor's clock
   const NavState timely = state(shuffled);
   std::mt19937 random(3);
   for (auto begin = shuffled.begin(); begin < shuffled.begin() + 240; begin += 80) {
-    std::shuffle(begin, begin + 80, random);  // further ahead, a stamp needs a second one
+    std::shuffle(begin, begin + 80, random);  // a stamp further ahead would need a second one
   }
   const NavState belated = state(shuffled);
   EXPECT_EQ(timely.position_enu, belated.position_enu);
   EXPECT_EQ(timely.covariance, belated.covariance);
 }
 
-// Steps of 0.1 m/s2 and 0.02 rad/s: parked, such a unit shows one value for minutes.
+// The values have steps of 0.1 m/s2 and 0.02 rad/s; when parked, such a unit shows one value for
+// minutes.
 TEST(CoarseImu, OfAParkedVehicleIsNotTakenForStuck) {
   MotionProfile profile;
   profile.speed = [](double t) {

@@ -1,4 +1,4 @@
-// The road as a measurement: its equations, and what the filter makes of it.
+// These tests cover the road as a measurement: its equations, and the filter's reaction.
 #include "estimators/fusion/map_update.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,8 @@ namespace {
 
 using namespace maploop::testing;
 
-// A straight road northwards through a place, whose line is `right` metres right of it.
+// Returns a straight road to the north near a place, whose line is `right` metres to the right of
+// it.
 MapFeedback road(const LocalFrame& frame, const Eigen::Vector2d& place, double right = 0.0) {
   MapFeedback f;
   f.reason = FeedbackReason::none;
@@ -69,10 +70,11 @@ TEST(MapUpdate, MovesAcrossTheRoadAndNotAlongIt) {
   const LocalFrame frame(test_origin());
   const FusionParameters p;
   FilterState state = state_at_origin(5.0);
-  MapFeedback f = road(frame, {0.0, 30.0}, 6.0);  // the matched point 30 m ahead changes nothing
+  MapFeedback f =
+      road(frame, {0.0, 30.0}, 6.0);  // the matched point lies 30 m ahead, which has no effect
   f.azimuth = false;
   ASSERT_EQ(apply_map(state, f, frame, p).disposition, Disposition::applied);
-  // 25 / (25 + 4 + 1) of 6 m.
+  // The expected share of the 6 m is 25 / (25 + 4 + 1).
   EXPECT_NEAR(state.x[index::east], 5.0, 1e-3);
   EXPECT_NEAR(state.x[index::north], 0.0, 1e-6);
   EXPECT_NEAR(state.x[index::lane_offset], -0.4, 1e-3);
@@ -85,7 +87,7 @@ TEST(MapUpdate, RepeatedALaneStaysUnknown) {
   const FusionParameters p;
   FilterState state = state_at_origin(5.0);
   for (int i = 0; i < 100; ++i) apply_map(state, road(frame, {0.0, 0.0}), frame, p);
-  // 1 / (1/25 + 1/4): what the white part averages out to nothing.
+  // The white part averages out, so 1 / (1/25 + 1/4) remains.
   EXPECT_NEAR(state.P(index::east, index::east), 1.0 / (1.0 / 25.0 + 1.0 / 4.0), 0.02);
 }
 
@@ -124,7 +126,7 @@ TEST(MapUpdate, DoubtsItselfWhenRoadsContradictItInARow) {
   FilterState state = state_at_origin(1.0);
   MapFeedback f = road(frame, {0.0, 0.0}, 12.0);
   f.azimuth = false;
-  FilterState aided = state;  // GNSS has just said where it is: then the road is wrong
+  FilterState aided = state;  // with a recent fix, the road is wrong
   aided.gnss_stamp = aided.stamp - from_seconds(10.0);
   for (int i = 0; i < 3 * p.map_recover_after; ++i)
     EXPECT_EQ(apply_map(aided, f, frame, p), refused(Reason::line_gate));
@@ -151,7 +153,7 @@ TEST(MapUpdate, AHardResetBecomesTheMatchedPlace) {
   EXPECT_DOUBLE_EQ(state.P(index::east, index::gyro_bias), 0.0);
 }
 
-// A drive northwards with wheels, feedback of the road every second of it.
+// Holds the result of a drive to the north with wheels and feedback of the road every second.
 struct Driven {
   std::optional<NavState> end;
   FilterStatus status;
@@ -245,14 +247,14 @@ TEST(MapFeedback, IsRefusedAtTheDoorWithAReason) {
   EXPECT_EQ(filter.add(f), refused(Reason::after_delivery));
 }
 
-// A straight drive whose map has a road that leaves it by 0.1 rad, little enough for the gates of
-// its line.
+// The map of this straight drive has a road that diverges by 0.1 rad, little enough to pass the
+// gates of its line.
 struct Misled {
   double error = 0.0, free_error = 0.0, largest = 0.0, largest_free = 0.0;
   std::uint64_t restorations = 0;
 };
 
-// Goes by wheels and gyro, from the synthetic drives' start.
+// Uses wheels and gyro only, from the start of the synthetic drives.
 FusionParameters dead_reckoning() {
   FusionParameters p;
   apply(configuration("RISS"), p);

@@ -38,7 +38,7 @@ TEST_P(Jacobian, AgreesWithNumericalDerivative) {
   const Step step = mechanize(x, input, earth, parameters);
   const auto numerical = numerical_jacobian(
       [&](const StateVector& v) { return mechanize(v, input, earth, parameters).x; }, x);
-  // Gravity's change with height (1e-10 here) is left out of the analytical one.
+  // The analytical derivative neglects the change of gravity with height (1e-10 here).
   EXPECT_LT((step.F - numerical).cwiseAbs().maxCoeff(), 1e-8) << step.F - numerical;
 }
 
@@ -74,7 +74,7 @@ TEST(Mechanization, ConstantTurnIsACircle) {
   input.duration = 0.01;
   input.yaw_rate = rate + earth.earth_rate_up();
   for (int i = 0; i < 1000; ++i) {
-    // The plumb line leans on the way: what the accelerometer then feels keeps the speed.
+    // The plumb line tilts along the path; this force input keeps the speed constant.
     const Eigen::Vector3d forward(std::sin(x[index::azimuth]), std::cos(x[index::azimuth]), 0.0);
     input.forward_force =
         earth.gravity(0.0) * earth.vertical(x[index::east], x[index::north]).dot(forward);
@@ -99,8 +99,8 @@ TEST(Mechanization, AzimuthStaysWrapped) {
   EXPECT_NEAR(x[index::azimuth], -std::numbers::pi - 1e-3 + 0.05, 1e-5);
 }
 
-// The mechanization in geodetic coordinates, with the transport rate and the azimuth from the local
-// north, must lead to the same places as the frame fixed at the origin.
+// The mechanization in geodetic coordinates, with the transport rate and the azimuth from local
+// north, must lead to the same places as that in the frame fixed at the origin.
 TEST(Mechanization, AgreesWithGeodeticMechanizationOverTenKilometres) {
   constexpr double v = 40.0, step = 0.01, earth_rate = 7.2921151467e-5;
   const LocalFrame frame(test_origin());
@@ -123,7 +123,8 @@ TEST(Mechanization, AgreesWithGeodeticMechanizationOverTenKilometres) {
     g.latitude += step * vn / rm;
     g.longitude += step * ve / (rn * std::cos(g.latitude));
 
-    // The road follows the Earth: level there is nose down here, and the accelerometer is quiet.
+    // The road follows the Earth, so a level road is nose down in the frame, and the accelerometer
+    // measures nothing.
     const Eigen::Vector3d vertical = earth.vertical(x[index::east], x[index::north]);
     x[index::pitch] = -std::atan(vertical.x() * std::sin(x[index::azimuth]) +
                                  vertical.y() * std::cos(x[index::azimuth]));
@@ -132,7 +133,7 @@ TEST(Mechanization, AgreesWithGeodeticMechanizationOverTenKilometres) {
     worst = std::max(worst, (x.segment<3>(index::east) - frame.to_enu(g)).norm());
   }
   EXPECT_GT(x.head<2>().norm(), 8e3);
-  EXPECT_LT(worst, 1.0);  // 0.01 % of the way; without the Earth rate it would be 75 m
+  EXPECT_LT(worst, 1.0);  // 0.01 % of the distance; without the Earth rate it would be 75 m
 }
 
 TEST(ProcessNoise, IsPositiveSemiDefiniteAndGrowsWhenSilent) {
@@ -149,7 +150,7 @@ TEST(ProcessNoise, IsPositiveSemiDefiniteAndGrowsWhenSilent) {
   EXPECT_GT(silent(index::speed, index::speed), 10.0 * heard(index::speed, index::speed));
 }
 
-// Ten short steps know as little as one long one.
+// Ten short steps and one long step must give the same covariance.
 TEST(Predict, CovarianceDoesNotDependOnTheStep) {
   const LocalEarth earth(test_origin());
   const FusionParameters parameters;

@@ -1,4 +1,4 @@
-// Derivatives to hold the analytical ones against.
+// Numerical derivatives are computed here to check the analytical ones.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +8,8 @@
 
 namespace maploop::testing {
 
-// Central differences of f: StateVector -> Eigen vector, with a step fit for each state.
+// Returns central differences of f: StateVector -> Eigen vector, with a suitable step for each
+// state.
 template <class F>
 auto numerical_jacobian(const F& f, const fusion::StateVector& x) {
   using Value = decltype(f(x));
@@ -23,7 +24,7 @@ auto numerical_jacobian(const F& f, const fusion::StateVector& x) {
   return J;
 }
 
-// A state with every element at work.
+// Returns a state whose elements all take effect.
 inline fusion::StateVector busy_state() {
   using namespace fusion::index;
   fusion::StateVector x;
@@ -45,7 +46,7 @@ inline fusion::StateVector busy_state() {
   x[gnss_offset_north] = -1.1;
   x[gnss_offset_up] = 0.7;
   x[chain_drift] = 0.02;
-  x[lane_offset] = 0.0;  // how fast it fades with the speed is left out of the derivative
+  x[lane_offset] = 0.0;  // the derivative neglects that its decay depends on the speed
   x[distance] = 1.3;
   x[clone_azimuth] = -2.04;
   x[clone_pitch] = 0.066;
@@ -53,7 +54,7 @@ inline fusion::StateVector busy_state() {
   return x;
 }
 
-// A covariance of full rank with correlations everywhere.
+// Returns a covariance of full rank in which all states are correlated.
 inline fusion::StateMatrix busy_covariance() {
   using namespace fusion::index;
   fusion::StateMatrix A;

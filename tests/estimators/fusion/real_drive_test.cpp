@@ -1,9 +1,9 @@
-// The filter against odometry alone on recorded drives.
+// These tests compare the filter with odometry alone on recorded drives.
 //
-// The parameters are the defaults, chosen from the physics. The odometry's noise is one figure for
-// all drives, taken from drives 0027 and 0035 (0.12 and 0.97 m/s, 0.02 to 0.3 deg a frame), which
-// are not scored here. Odometry alone starts with the filter's own position and azimuth and with
-// the true pitch and roll.
+// The parameters are the defaults, chosen from the physics. The odometry's noise is one value for
+// all drives, derived from drives 0027 and 0035 (0.12 and 0.97 m/s, 0.02 to 0.3 deg per frame),
+// which are not scored here. Odometry alone starts with the filter's own position and azimuth and
+// with the true pitch and roll.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -107,7 +107,8 @@ TEST(RealDrives, FusedIsBetterThanOdometryAlone) {
   EXPECT_LT(percent_fused, 0.8 * percent_odometry);
 }
 
-// On the motorway the sparse tracks are far away: speed is off by 4 %, which nothing here can see.
+// On the motorway the sparse tracks are far away; their speed is wrong by 4 %, which no sensor here
+// can detect.
 TEST(RealDrives, MotorwayIsNoWorseThanOdometryAlone) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const Comparison c =
@@ -115,9 +116,9 @@ TEST(RealDrives, MotorwayIsNoWorseThanOdometryAlone) {
   EXPECT_LT(c.fused.end, 1.1 * c.odometry.end);
 }
 
-// 3.7 km with a 100 Hz IMU that falls silent eight times for 1.6 s. The odometry comes from a
-// system that closes loops, so its end point and azimuth are not odometry's; in turns its azimuth
-// lags by up to 4 degrees, part of which stays where a silence begins or ends in a turn.
+// The drive is 3.7 km long; its 100 Hz IMU is silent eight times for 1.6 s. The odometry comes from
+// a system that closes loops, so its end point and azimuth are not those of an odometry. In turns
+// its azimuth lags by up to 4 degrees, part of which remains if a silence begins or ends in a turn.
 TEST(RealDrives, SilencesOfTheImuAreBridged) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const Comparison c = compare(load_sequence_00(real_data(), {0.3, radians(0.15)}));

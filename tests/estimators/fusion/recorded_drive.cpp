@@ -20,7 +20,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// KITTI's rates and accelerations are this much older than their rows' stamps.
+// KITTI's rates and accelerations are older than the stamps of their rows by this time, s.
 constexpr double inertial_delay = 0.060;
 constexpr double odometry_latency = 0.060;
 
@@ -57,7 +57,7 @@ std::vector<std::vector<double>> rows(const std::filesystem::path& path) {
   return result;
 }
 
-// A table with a header: one column by name.
+// Reads a table with a header and returns its columns by name.
 class Table {
  public:
   explicit Table(const std::filesystem::path& path) {
@@ -81,7 +81,7 @@ class Table {
   std::vector<std::vector<double>> rows_;
 };
 
-// KITTI's twelve numbers, row by row; a thirteenth before them is the frame.
+// Converts KITTI's twelve numbers, row by row; a thirteenth before them is the frame.
 Isometry3d pose_of(const std::vector<double>& row) {
   const std::size_t first = row.size() - 12;
   Isometry3d T = Isometry3d::Identity();
@@ -107,7 +107,7 @@ RelativeMotion motion(const Isometry3d& T, Time from, Time to, const OdometrySig
   return m;
 }
 
-// A fix of 0.5 m and 0.05 m/s, at the truth's first stamp.
+// Returns a fix with errors of 0.5 m and 0.05 m/s at the truth's first stamp.
 GnssFix noisy_start(const RecordedDrive& drive, const Vector3d& velocity, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
@@ -124,7 +124,7 @@ GnssFix noisy_start(const RecordedDrive& drive, const Vector3d& velocity, unsign
   return fix;
 }
 
-// At the first stamp, of the parabola through the first three positions.
+// Returns the velocity at the first stamp from the parabola through the first three positions.
 Vector3d first_velocity(const RecordedDrive& drive) {
   const double t1 = to_seconds(drive.stamps[1] - drive.stamps[0]);
   const double t2 = to_seconds(drive.stamps[2] - drive.stamps[0]);
@@ -133,11 +133,13 @@ Vector3d first_velocity(const RecordedDrive& drive) {
   return (t2 / t1 * step1 - t1 / t2 * step2) / (t2 - t1);
 }
 
-// Rotation that makes the first row's body level, from its own accelerations: levelled = R body.
+// Returns the rotation that levels the body of the first row, from its own accelerations: levelled
+// = R body.
 Eigen::Matrix3d level_of_first_row(const Table& imu) {
   const Vector3d body(imu(0, "ax"), imu(0, "ay"), imu(0, "az"));
   const Vector3d level(imu(0, "af"), imu(0, "al"), imu(0, "au"));
-  // Roll: al = ay cos r - az sin r; then pitch (nose up here): af = ax cos p + ... .
+  // The roll follows from al = ay cos r - az sin r, then the pitch (nose up here) from af = ax cos
+  // p + ... .
   const double roll = std::asin(body.y() / std::hypot(body.y(), body.z())) -
                       std::asin(level.y() / std::hypot(body.y(), body.z()));
   const Vector3d rolled = Eigen::AngleAxisd(roll, Vector3d::UnitX()) * body;
@@ -179,7 +181,8 @@ RecordedDrive load_track_drive(const std::filesystem::path& data, const std::str
     drive.imu.push_back(s);
   }
   const Isometry3d level(level_of_first_row(imu));
-  // The first rows of sequence 06 are invented; motorway tracks are good up to frame 199 only.
+  // The recorder invented the first rows of sequence 06. The motorway tracks are good up to frame
+  // 199 only.
   const std::size_t first =
       name == "2011_09_30_drive_0020" ? 20 : std::size_t(meta["first_good_frame"]);
   const std::size_t end = name == "2011_10_03_drive_0042" ? 200 : vo.size();
@@ -208,7 +211,7 @@ RecordedDrive load_sequence_00(const std::filesystem::path& data, const Odometry
   const Table truth(folder / "imu100/2011_10_03_0027.truth.csv.gz");
   const std::vector<std::vector<double>> vo = rows(folder / "peers/00_SPTAM_evo.txt.gz");
   const std::vector<std::vector<double>> times = rows(folder / "poses/00.times.txt");
-  // Left camera in the body frame on 2011-10-03 (KITTI's calibration of that day).
+  // The left camera's pose in the body frame is KITTI's calibration of 2011-10-03.
   Isometry3d T_body_cam = Isometry3d::Identity();
   {
     std::ifstream meta_file(folder / "tracks/2011_10_03_drive_0042.meta.json");
@@ -238,11 +241,11 @@ RecordedDrive load_sequence_00(const std::filesystem::path& data, const Odometry
   const LocalFrame frame(test_origin());
   const auto truth_pose = [&](std::size_t i) {
     const Geodetic g{radians(truth(i, "lat")), radians(truth(i, "lon")), truth(i, "alt")};
-    // KITTI's pitch is nose down, its roll is right side down.
+    // KITTI's pitch is positive nose down, its roll right side down.
     const Attitude a{azimuth_from_yaw(truth(i, "yaw")), -truth(i, "pitch"), truth(i, "roll")};
     return std::pair(frame.to_enu(g), Eigen::Quaterniond(rotation_enu_body(a)));
   };
-  constexpr std::size_t first = 20;  // the frames before lie in invented rows
+  constexpr std::size_t first = 20;  // earlier frames are in invented rows
   std::size_t row = 0;
   for (std::size_t i = first; i < vo.size(); ++i) {
     const double t = times[i][0];

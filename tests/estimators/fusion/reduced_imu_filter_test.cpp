@@ -1,4 +1,4 @@
-// The filter as a whole, on drives of known truth.
+// These tests cover the whole filter on drives of known truth.
 #include "estimators/fusion/reduced_imu_filter.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 using namespace maploop::testing;
 
-// A town: stops, corners, hills and a leaning road.
+// The drive through a town has stops, corners, hills and a tilted road.
 MotionProfile hilly_town() {
   MotionProfile profile;
   profile.speed = [](double t) { return 8.0 + 5.0 * std::sin(t / 7.0); };
@@ -67,7 +67,7 @@ TEST(Truth, StraightLineIsKept) {
   const std::vector<NavState> states = run(drive, 100.0, {}, filter);
   ASSERT_EQ(states.size(), 600u);
   const Errors e = largest_errors(drive, states);
-  EXPECT_LT(e.position, 0.05) << "over 600 m";  // 28 mm are the Earth's curvature
+  EXPECT_LT(e.position, 0.05) << "over 600 m";  // 28 mm come from the Earth's curvature
   EXPECT_LT(e.speed, 0.01);
   EXPECT_LT(degrees(e.azimuth), 0.002);
 }
@@ -90,7 +90,7 @@ TEST(Truth, TownIsKeptWithPerfectSensors) {
   const std::vector<NavState> states = run(drive, 100.0, {}, filter);
   const Errors e = largest_errors(drive, states);
   EXPECT_LT(e.position, 0.6) << "over 960 m";
-  EXPECT_LT(degrees(e.azimuth), 0.1);  // pitch rate times roll, which one gyro cannot know
+  EXPECT_LT(degrees(e.azimuth), 0.1);  // pitch rate times roll, which one gyro cannot measure
   EXPECT_EQ(states.back().odometry_refused, 0u);
 }
 
@@ -104,17 +104,17 @@ TEST(Truth, TownIsKeptWithUsualSensors) {
   EXPECT_LT(degrees(e.azimuth), 0.8);
   EXPECT_LT(degrees(e.pitch), 2.0);
   EXPECT_LT(degrees(e.roll), 2.0);
-  EXPECT_LE(states.back().odometry_refused, 4u);  // 0.2 % of 1200 and a little
+  EXPECT_LE(states.back().odometry_refused, 4u);  // 0.2 % of 1200 and a margin
 }
 
 TEST(Truth, AccelerometersBringPitchAndRollBackWithoutHelp) {
-  // The start knows neither: it takes the pitch from the climb and the roll as zero.
+  // A start from a fix knows neither: it takes the pitch from the climb, and zero for the roll.
   MotionProfile tilted;
   tilted.pitch = [](double) { return 0.0; };
   tilted.roll = [](double) { return 0.06; };
   const SyntheticDrive drive(tilted, 90.0, test_origin());
   GnssFix fix = drive.fix(0.0);
-  fix.velocity_enu.z() = 0.5;  // 2.9 deg of climb that is not there
+  fix.velocity_enu.z() = 0.5;  // 2.9 deg of wrong climb
   fix.velocity_covariance(2, 2) = 0.25;
   ReducedImuFilter filter({}, test_origin());
   const std::vector<NavState> states =
@@ -176,7 +176,8 @@ TEST(Covariance, StaysSymmetricAndPositiveOverHalfAnHour) {
   }
 }
 
-// Squared error of place and azimuth against their covariance; 3 on average where that is right.
+// Returns the squared error of position and azimuth normalized by their covariance; its mean is 3
+// if the covariance is right.
 double normalized_error(const NavState& nav, const SyntheticDrive& drive, double t) {
   Eigen::Vector3d error;
   error << (nav.position_enu - drive.pose(t).translation()).head<2>(),
@@ -189,8 +190,8 @@ double normalized_error(const NavState& nav, const SyntheticDrive& drive, double
   return error.dot(C.inverse() * error);
 }
 
-// Position and azimuth errors after 20 s, against their covariance, over seeds: start, sensors and
-// the odometry's scale drawn anew each time.
+// Compares the errors of position and azimuth after 20 s with their covariance over many seeds;
+// each seed draws start, sensors and the odometry's scale.
 TEST(Covariance, IsHonest) {
   const SyntheticDrive drive(hilly_town(), 20.0, test_origin());
   double nees = 0.0;
@@ -217,18 +218,18 @@ TEST(Covariance, IsHonest) {
 
     nees += normalized_error(last, drive, 20.0) / runs;
   }
-  // 3 on average if all is as modelled; the model also expects side slip and a skew course, which
-  // this drive does not have: 2.1.
+  // The mean is 3 if all is as modelled. The model also expects side slip and a course that differs
+  // from the azimuth, which this drive does not have, so 2.1 is reached.
   EXPECT_LT(nees, 3.0);
   EXPECT_GT(nees, 1.0);
 }
 
-// A LiDAR's noise is small, and what it errs by all the time is most of its error after a minute: a
-// filter that knows nothing of it is far too sure of itself.
+// A LiDAR's noise is small, and after a minute its lasting errors dominate. A filter without a
+// model of them is far too confident.
 TEST(Covariance, IsHonestOfALidarThatErrsAllTheTime) {
   const SyntheticDrive drive({}, 60.0, test_origin());
   FusionParameters usual;
-  usual.slip_sigma = 1e-4;  // there is none here
+  usual.slip_sigma = 1e-4;  // the drive has no side slip
   const auto mean_error = [&](const FusionParameters& p) {
     double nees = 0.0;
     constexpr unsigned runs = 20;
@@ -355,7 +356,7 @@ TEST(LostOdometry, TheNextIntervalStartsAnewWhereverItBegins) {
   ReducedImuFilter filter({}, test_origin());
   filter.add(drive.fix(0.0));
   for (const ImuSample& s : drive.imu(100.0)) filter.add(s);
-  // Late by up to 2 s in one go; every third message was lost on its way.
+  // The motions arrive late by up to 2 s all at once; every third message is lost.
   int applied = 0;
   for (const RelativeMotion& m : drive.odometry(10.0)) {
     if (m.stamp <= SyntheticDrive::at(28.3) || m.sequence % 3 == 0) continue;
@@ -368,7 +369,7 @@ TEST(LostOdometry, TheNextIntervalStartsAnewWhereverItBegins) {
 TEST(Recovery, AWrongSpeedIsCorrectedAfterARowOfRefusals) {
   const SyntheticDrive drive({}, 20.0, test_origin());
   GnssFix fix = drive.fix(0.0);
-  fix.velocity_enu *= 0.5;  // 5 m/s too slow and sure of it
+  fix.velocity_enu *= 0.5;  // 5 m/s too slow, with a small sigma
   ReducedImuFilter filter({}, test_origin());
   const std::vector<NavState> states =
       states_after_odometry(filter, as_available(drive.imu(100.0), drive.odometry(10.0), fix));

@@ -1,4 +1,4 @@
-// Bad input of every kind: refused with a reason, counted, and of no consequence.
+// Bad input of every kind is refused with a reason, counted, and has no effect.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -134,7 +134,7 @@ TEST_F(Refusals, ManyFromAClockAheadDoNotRestartTheFilter) {
 }
 
 TEST_F(Refusals, OdometryOfBadInputSaysNothingOfTheIntervalItFellInto) {
-  // The motion spans a moment whose pair came late, and was refused by the odometry.
+  // The motion covers the time of a pair that arrived late and was refused by the odometry.
   RelativeMotion skipped = motion_;
   skipped.status = OdometryStatus::bad_input;
   const std::vector<RelativeMotion> longer = drive_.odometry(5.0);

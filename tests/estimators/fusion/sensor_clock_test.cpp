@@ -32,7 +32,8 @@ TEST(SensorClock, RefusesAClockThatFellBackUntilItIsRightAgain) {
   for (std::uint64_t i = 0; i < 10; ++i) {
     ASSERT_EQ(clock.check(sample(i, 0.1 * static_cast<double>(i), 0.06)), Reason::none);
   }
-  // One second back: also when its stamps have passed the last good one.
+  // The clock is one second back; samples are refused even after their stamps pass the last good
+  // one.
   for (std::uint64_t i = 10; i < 40; ++i) {
     const double stamp = 0.1 * static_cast<double>(i) - 1.0;
     EXPECT_EQ(clock.check(sample(i, stamp, 1.06)), Reason::clock_fell_back) << i;

@@ -91,7 +91,7 @@ std::vector<ImuSample> SyntheticDrive::imu(double rate, const SensorNoise& noise
     s.sequence = static_cast<std::uint64_t>(i);
     s.specific_force_forward = force.x() + noise.force_sigma * normal(random);
     s.specific_force_left = force.y() + noise.force_sigma * normal(random);
-    // No sensor repeats itself, were it ever so good.
+    // Even an excellent sensor never repeats its values exactly.
     s.yaw_rate = 0.5 * (turn(1, 0) - turn(0, 1)) + R.col(2).dot(earth) + noise.gyro_bias +
                  1e-9 * (i % 2) + noise.gyro_density * std::sqrt(rate) * normal(random);
     samples.push_back(s);

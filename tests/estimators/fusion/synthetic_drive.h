@@ -1,4 +1,4 @@
-// Drives with exactly known truth, and the measurements perfect or noisy sensors would deliver.
+// Synthetic drives have an exactly known truth and the measurements of perfect or noisy sensors.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,8 +11,8 @@
 
 namespace maploop::testing {
 
-// The vehicle's motion as functions of the time since the start, s. Smooth functions, please: the
-// sensors see derivatives.
+// These functions of the time since the start (s) define the vehicle's motion. They must be smooth,
+// since the sensors measure their derivatives.
 struct MotionProfile {
   std::function<double(double)> speed = [](double) { return 10.0; };    // m/s
   std::function<double(double)> yaw_rate = [](double) { return 0.0; };  // rad/s, to the left
@@ -24,14 +24,14 @@ struct MotionProfile {
 struct SensorNoise {
   double gyro_bias = 0.0;                // rad/s
   double gyro_density = 0.0;             // rad/sqrt(s)
-  double force_sigma = 0.0;              // m/s^2 a sample
+  double force_sigma = 0.0;              // m/s^2 per sample
   double odometry_speed_sigma = 0.0;     // m/s over one interval
   double odometry_rotation_sigma = 0.0;  // rad over one interval, each axis
   unsigned seed = 1;
 };
 
-// Integrated once, at 1 ms, over a flat rotating Earth; a second before the start and after the end
-// exists too.
+// The truth is integrated once, at 1 ms, over a flat rotating Earth, including one second before
+// the start and one after the end.
 class SyntheticDrive {
  public:
   SyntheticDrive(const MotionProfile& profile, double duration, const Geodetic& origin);
@@ -57,7 +57,7 @@ class SyntheticDrive {
   std::vector<double> azimuths_;  // unwrapped
 };
 
-// Karlsruhe.
+// Returns a place in Karlsruhe.
 Geodetic test_origin();
 
 }  // namespace maploop::testing

@@ -1,4 +1,4 @@
-// How far a trajectory is from the truth.
+// These functions measure the error of a trajectory against the truth.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -22,7 +22,8 @@ struct SegmentError {
   int segments = 0;
 };
 
-// KITTI's measure: relative pose over segments of `length` metres, from every pose; the mean.
+// Returns KITTI's measure: the mean error of the relative pose over segments of `length` metres
+// that start at every pose.
 inline SegmentError segment_error(const Trajectory& estimate, const Trajectory& truth,
                                   double length) {
   std::vector<double> travelled{0.0};

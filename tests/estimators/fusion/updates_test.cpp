@@ -1,5 +1,5 @@
-// Measurement equations against numerical derivatives and hand-made cases; the update itself
-// against the information form.
+// These tests compare measurement equations with numerical derivatives and hand-made cases, and the
+// update itself with the information form.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -29,7 +29,7 @@ FilterState busy() {
   return state;
 }
 
-// A motion that agrees with the state exactly.
+// Returns a motion that agrees exactly with the state.
 RelativeMotion agreeing_motion(const FilterState& state) {
   RelativeMotion m;
   m.status = OdometryStatus::ok;
@@ -116,7 +116,8 @@ TEST(OtherJacobians, AgreeWithNumericalDerivatives) {
       state, [&](const FilterState& s) { return chained_azimuth_innovation(s, p); }, 1e-8);
 }
 
-// The offset takes up what lasts of the stated variance, and R has the rest: together all of it.
+// The offset contains the lasting part of the stated variance and R the remaining part; their sum
+// must be the whole.
 TEST(GnssPosition, ItsVarianceIsSplitAndNotLost) {
   FilterState state = busy();
   state.P.setZero();
@@ -129,7 +130,7 @@ TEST(GnssPosition, ItsVarianceIsSplitAndNotLost) {
   EXPECT_LT((innovation.covariance(state.P) - fix.position_covariance).norm(), 1e-9);
 }
 
-// East and north of a filter that converges are known as a sum long before each by itself.
+// While a filter converges, the sum of east and north is known long before each of them.
 TEST(GnssPosition, StronglyCorrelatedFixesKeepTheCovariancePositive) {
   GnssFix fix = busy_fix(LocalFrame({0.8552, 0.1465, 112.0}));
   fix.position_covariance << 100.0, 98.0, -50.0, 98.0, 100.0, -48.0, -50.0, -48.0, 400.0;
@@ -198,7 +199,7 @@ TEST(RollJacobian, AgreesWithNumericalDerivative) {
   s.specific_force_left = 1.0;
   s.yaw_rate = 0.2;
   const LocalEarth earth(test_origin());
-  // Gravity's change with height (1.5e-7 here) is left out of the analytical one.
+  // The analytical derivative neglects the change of gravity with height (1.5e-7 here).
   expect_jacobian<1>(
       state, [&](const FilterState& f) { return *roll_innovation(f, s, 0.1, earth, {}); }, 2e-7);
 }

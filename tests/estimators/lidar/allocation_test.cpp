@@ -1,4 +1,4 @@
-// After warm-up a scan costs no allocation, whatever is wrong with it.
+// After warm-up, no scan causes an allocation, whatever is wrong with it.
 #include <gtest/gtest.h>
 
 #include "estimators/lidar/lidar_odometry.h"
@@ -16,7 +16,7 @@ TEST(LidarAllocation, ScansAfterTheFirstFewAllocateNothing) {
   scans[30].points.clear();
   scans[40].points.resize(1000);
   LidarOdometry odometry(drive.calibration().T_body_velo, {});
-  // The buffers have the size of the largest scan once it was there.
+  // The buffers have their final size after the largest scan.
   for (std::size_t i = 0; i < 20; ++i) odometry.process(&scans[i], nullptr);
   const long before = maploop::testing::thread_allocations();
   int used = 0;

@@ -1,4 +1,4 @@
-// The odometry saved in the middle of the recorded drive goes on as if nothing had happened.
+// An odometry saved in the middle of the recorded drive continues with the same bits.
 #include <gtest/gtest.h>
 
 #include "estimators/lidar/lidar_odometry.h"
@@ -45,7 +45,7 @@ TEST_F(LidarArchive, ALoadedOdometryGoesOnWithTheSameBits) {
   const Bytes archive = saved(first);
   EXPECT_LT(archive.size(), 1'500'000u);
   EXPECT_LT(archive.size(), first.largest_archive());
-  LidarOdometry second = after(3);  // whatever it knew is replaced
+  LidarOdometry second = after(3);  // loading replaces its state
   load(archive, second);
   EXPECT_EQ(saved(second), archive);
   for (std::size_t i = 20; i < scans_.size(); ++i) {

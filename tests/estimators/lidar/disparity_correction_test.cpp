@@ -1,4 +1,5 @@
-// The length of visual motions, learnt from LiDAR motions. On the recorded drive: drive_test.cpp.
+// These tests cover the length of visual motions learnt from LiDAR motions; drive_test.cpp tests it
+// on the recorded drive.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -11,14 +12,15 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr double by_offset = -0.04;  // m / px, of a way of 1.2 m
+constexpr double by_offset = -0.04;  // m / px, for a motion of 1.2 m
 constexpr double true_offset = 0.4;  // px
 
 Time at(int pair) {
   return Time(std::chrono::milliseconds(100 * pair));
 }
 
-// A way of 1.2 m, seen with disparities to which `added` px were added of the 0.4 that they lack.
+// Returns a motion of 1.2 m, seen with disparities that lack 0.4 px, of which `added` px were
+// already added.
 VisualMotion visual(int pair, double added) {
   VisualMotion motion;
   motion.status = OdometryStatus::ok;
@@ -53,7 +55,7 @@ TEST(DisparityCorrection, GivesVisualMotionsTheLengthOfTheLidars) {
   const DisparityCorrection correction = taught(200);
   EXPECT_NEAR(correction.offset(), true_offset, 0.001);
   EXPECT_LT(correction.sigma(), 0.1);
-  // Also where the pairs have changed their own mind meanwhile.
+  // This holds even if the pairs' own estimate of the offset has changed.
   for (const double added : {0.1, 0.35}) {
     const VisualMotion seen = visual(201, added);
     const RelativeMotion corrected = correction.correct(seen);
@@ -95,10 +97,10 @@ TEST(DisparityCorrection, WhatCannotTeachDoesNot) {
   l.status = OdometryStatus::disagreement;
   EXPECT_EQ(taught_by(v, l), 0);
   l = lidar(1);
-  l.degenerate = 1;  // along: the visual motion's own component
+  l.degenerate = 1;  // along is not determined: the visual motion's own component
   EXPECT_EQ(taught_by(v, l), 0);
   EXPECT_EQ(taught_by(v, lidar(2)), 0);
-  v.by_offset.setZero();  // standing, or a method that does not say
+  v.by_offset.setZero();  // standing, or a method without this derivative
   EXPECT_EQ(taught_by(v, lidar(1)), 0);
   v = visual(1, 0.1);
   l = lidar(1);
@@ -132,7 +134,7 @@ TEST(DisparityCorrection, GoesOnFromAnArchiveWithTheSameBits) {
   EXPECT_EQ(first.sigma(), second.sigma());
 }
 
-// Where a scan decides nothing, be it missing or empty, fusion gets the corrected visual motion.
+// If a scan is missing or empty, fusion gets the corrected visual motion.
 TEST(DisparityCorrection, VisualMotionsThatStandAloneAreCorrected) {
   for (const bool with_scan : {false, true}) {
     LidarOdometry odometry(Eigen::Isometry3d::Identity(), {});

@@ -8,7 +8,7 @@
 
 namespace maploop::testing {
 
-// The first `count` scans of a drive; all where there are fewer.
+// Reads the first `count` scans of a drive, or all if it has fewer.
 inline std::vector<LidarScan> read_scans(const sensors::KittiDrive& drive, std::size_t count) {
   std::vector<LidarScan> scans;
   const auto velodyne = drive.velodyne();
@@ -16,7 +16,7 @@ inline std::vector<LidarScan> read_scans(const sensors::KittiDrive& drive, std::
   return scans;
 }
 
-// With what is known of the drive's scanner.
+// Returns parameters with the known calibration of the drive's scanner.
 inline lidar::LidarParameters lidar_parameters(const sensors::KittiDrive& drive) {
   lidar::LidarParameters parameters;
   parameters.elevation_correction = drive.calibration().beam_elevation;

@@ -1,5 +1,6 @@
-// The visual-LiDAR odometer on the recorded drive, against its reference. It takes the better part
-// of a minute: the whole drive is needed eight times, once for each way to seed and to halve it.
+// These tests run the visual-LiDAR odometer on the recorded drive and compare it with the
+// reference. They take the better part of a minute, since the whole drive is needed eight times,
+// once for each way to seed and to halve it.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -27,7 +28,7 @@ using maploop::testing::drive_0013;
 enum class Seed { visual, motion, none };
 
 struct DriveResult {
-  Trajectory camera;  // poses of the left camera in its first one, at the images' stamps
+  Trajectory camera;  // poses of the left camera relative to its first pose, at the images' stamps
   std::vector<LidarMotion> motions;
   int iterations = 0;
 };
@@ -54,7 +55,7 @@ class LidarDriveTest : public ::testing::Test {
     return motions;
   }
 
-  // Every so many scans, and the visual motions of all pairs. Each run is made once.
+  // Runs every `every`-th scan with the visual motions of all pairs. Each run is done once.
   static const DriveResult& run(Seed seed, std::size_t every = 1) {
     static std::map<std::pair<Seed, std::size_t>, DriveResult> runs;
     const auto [run, fresh] = runs.try_emplace({seed, every});
@@ -102,7 +103,7 @@ TEST_F(LidarDriveTest, FollowsTheReferenceWithEverySeed) {
   for (const Seed seed : {Seed::visual, Seed::motion, Seed::none}) {
     const DriveResult& r = run(seed);
     ASSERT_EQ(r.motions.size(), 144u);
-    // With visual motion the map starts at the second scan, the first whose motion is known.
+    // With visual motion the map starts at the second scan, the first with a known motion.
     for (std::size_t i = seed == Seed::visual ? 2 : 1; i < r.motions.size(); ++i) {
       EXPECT_EQ(r.motions[i].status, OdometryStatus::ok)
           << "scan " << i << ": " << to_string(r.motions[i].status);
@@ -129,8 +130,8 @@ TEST_F(LidarDriveTest, EveryFifthAndTenthScanHoldWithVisualSeeds) {
   }
 }
 
-// Both odometries as the vehicle runs them: what the scans teach is their own length, not one that
-// visual odometry has lent them.
+// Runs both odometries as the vehicle does. The scans must teach their own length, not one that
+// depends on visual odometry.
 TEST_F(LidarDriveTest, GivesVisualMotionsItsLength) {
   const sensors::KittiDrive drive(drive_0013());
   const auto length_learnt = [&](std::span<const VisualMotion> visual) {
@@ -139,7 +140,8 @@ TEST_F(LidarDriveTest, GivesVisualMotionsItsLength) {
     DisparityCorrection correction(maploop::testing::lidar_parameters(drive));
     const auto velodyne = drive.velodyne();
     LidarScan scan;
-    double raw = 0.0, corrected = 0.0, of_scans = 0.0;  // m, ways after the first five seconds
+    double raw = 0.0, corrected = 0.0,
+           of_scans = 0.0;  // m, path lengths after the first five seconds
     for (std::size_t i = 0; i < visual.size() && velodyne->next(scan); ++i) {
       const RelativeMotion motion = correction.correct(visual[i]);
       const LidarMotion by_scan = process(odometry, correction, &scan, &visual[i]).lidar;
@@ -158,7 +160,7 @@ TEST_F(LidarDriveTest, GivesVisualMotionsItsLength) {
   EXPECT_LT(raw, 0.998);                // 0.9971
   EXPECT_NEAR(corrected, 1.0, 0.0015);  // reached 0.9996
 
-  // Pairs that are taken for perfectly rectified give motions that are too long.
+  // Pairs assumed to be perfectly rectified give motions that are too long.
   stereo::StereoParameters as_rectified;
   as_rectified.sigma_disparity_offset = 0.0;
   const auto [raw_as_rectified, corrected_as_rectified] =
@@ -167,8 +169,8 @@ TEST_F(LidarDriveTest, GivesVisualMotionsItsLength) {
   EXPECT_NEAR(corrected_as_rectified, 1.0, 0.0015);  // reached 0.9996
 }
 
-// The points split in two, each half with a map of its own: two odometries whose motions over a
-// second differ by no more than both covariances say.
+// The points are split in two halves, each with its own map. The motions of the two odometries over
+// a second must differ by no more than both covariances predict.
 TEST_F(LidarDriveTest, CovarianceIsWhatHalvesOfThePointsDifferBy) {
   const sensors::KittiDrive drive(drive_0013());
   std::array<std::vector<LidarMotion>, 2> motions;
@@ -178,7 +180,7 @@ TEST_F(LidarDriveTest, CovarianceIsWhatHalvesOfThePointsDifferBy) {
     const auto velodyne = drive.velodyne();
     LidarScan scan;
     for (std::size_t i = 0; i < visual_.size() && velodyne->next(scan); ++i) {
-      // Blocks of 2 m, as on a chess board.
+      // The halves are blocks of 2 m, as on a chess board.
       std::erase_if(scan.points, [&](const LidarPoint& p) {
         const auto block = [](float x) { return static_cast<int>(std::floor(x / 2.0f)); };
         return static_cast<std::size_t>(std::abs(block(p.x) + block(p.y) + block(p.z)) % 2) != half;
@@ -208,17 +210,18 @@ TEST_F(LidarDriveTest, CovarianceIsWhatHalvesOfThePointsDifferBy) {
     ++windows;
   }
   ASSERT_GE(windows, 12);
-  nees /= 6.0 * windows;  // 1 where the covariance is right
+  nees /= 6.0 * windows;  // 1 if the covariance is right
   RecordProperty("nees", std::to_string(nees));
   std::printf("normalized error of halves over 1 s: %.2f a degree of freedom\n", nees);
-  // The margin is for what both halves share: deskew, calibration, range scale.
+  // The margin allows for the shared errors: deskew, calibration, range scale.
   EXPECT_GT(nees, 0.01);
   EXPECT_LT(nees, 1.0);
 }
 
-// Over increments of a second, with the reference's own covariance added. That was estimated on
-// this drive, from how reference, LiDAR and visual odometry differ pair by pair: the test shows
-// that the covariance stays consistent with it, it is no independent proof.
+// The increments are over a second, with the reference's own covariance added. That covariance was
+// estimated on this drive, from the differences between reference, LiDAR and visual odometry for
+// each pair. The test shows that the covariance stays consistent with it; it is not an independent
+// proof.
 TEST_F(LidarDriveTest, CovarianceStaysConsistentWithTheReferenceOverASecond) {
   const DriveResult& r = run(Seed::visual);
   const Trajectory reference_poses = truth();

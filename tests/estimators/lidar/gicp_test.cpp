@@ -1,4 +1,4 @@
-// The registration and its parts.
+// These tests cover the registration and its parts.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -20,7 +20,7 @@ void in_turn(int count, const std::function<void(int)>& work) {
   for (int i = 0; i < count; ++i) work(i);
 }
 
-// A plane through `centre` with a grid of points.
+// Adds a plane through `centre` as a grid of points.
 void add_plane(const Vector3f& centre, const Vector3f& u, const Vector3f& v, int half,
                std::vector<SurfacePoint>* points) {
   for (int i = -half; i <= half; ++i) {
@@ -31,7 +31,8 @@ void add_plane(const Vector3f& centre, const Vector3f& u, const Vector3f& v, int
   }
 }
 
-// Road, walls on both sides, and a house across: all six directions are determined.
+// Returns a scan of a road, walls on both sides, and a house across; with the house all six
+// directions are determined.
 PreparedScan street(bool with_house) {
   PreparedScan scan;
   add_plane({0, 0, -1.7f}, Vector3f::UnitX(), Vector3f::UnitY(), 12, &scan.points);
@@ -73,7 +74,7 @@ TEST(GicpFactor, NormalEquationsAgreeWithNumericalDerivatives) {
   Vector6f g = Vector6f::Zero();
   add_normal_equations(a, target_in_body - a, W, 0.7f, &H, &g);
 
-  // d after the pose is perturbed on the right: what the body then sees of the target, less a.
+  // Returns d after the pose is perturbed on the right: the target as seen from the body, minus a.
   const auto residual = [&](const Vector6d& xi) {
     const Eigen::Isometry3d step = Twist{xi.head<3>(), xi.tail<3>()}.over(1.0);
     return Vector3d(target_in_body.cast<double>() - step * a.cast<double>());
@@ -101,7 +102,7 @@ TEST(LocalMap, FindsTheSamePartnersAsASearchOfAllPoints) {
   PreparedScan first, second;
   preparation.prepare(scans[0], scans[0].stamp, {}, &first);
   preparation.prepare(scans[1], scans[1].stamp, {}, &second);
-  // Far from the origin, as after an hour's drive.
+  // The pose is far from the origin, as after an hour's drive.
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.translation() << 40'000.0, -30'000.0, 200.0;
   LocalMap map(parameters);

@@ -1,4 +1,5 @@
-// Scans of the recorded drive made odd by cutting and repeating: no crash, no jump, a named status.
+// Scans of the recorded drive are made odd by cutting and repeating. They must cause no crash and
+// no jump, and have a named status.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,12 +30,12 @@ class OddScans : public ::testing::Test {
     LidarOdometry whole(T_body_velo_, {});
     for (const LidarScan& scan : scans_) {
       motions_.push_back(whole.process(&scan, nullptr).lidar);
-      motions_.back().source = OdometrySource::visual;  // what a good camera would say
+      motions_.back().source = OdometrySource::visual;  // as a good camera would measure
       motions_.back().covariance = Matrix6d::Identity() * 1e-4;
     }
   }
 
-  // Only points for which `keep` holds, seeded by the motions of the whole scans.
+  // Processes only points for which `keep` holds, seeded by the motions of the whole scans.
   std::vector<OdometerResult> cut(const std::function<bool(const LidarPoint&)>& keep) {
     LidarOdometry odometry(T_body_velo_, {});
     std::vector<OdometerResult> results;
@@ -61,7 +62,7 @@ class OddScans : public ::testing::Test {
   std::vector<LidarMotion> motions_;
 };
 
-// Two walls and the road: what is ahead and behind is cut away, and what stands on the road.
+// Only two walls and the road remain; objects ahead, behind and on the road are removed.
 TEST_F(OddScans, TunnelKeepsTheVisualMotionAlong) {
   const auto results = cut([](const LidarPoint& p) {
     const bool wall = std::abs(p.y) > 5.0f && p.z > 0.5f;
@@ -78,7 +79,7 @@ TEST_F(OddScans, TunnelKeepsTheVisualMotionAlong) {
   EXPECT_GE(named, 12);  // parked cars and house corners determine it at times
 }
 
-// The road alone.
+// Only the road remains.
 TEST_F(OddScans, OpenFieldDeterminesHeightRollAndPitchAlone) {
   const auto results = cut([](const LidarPoint& p) {
     return p.z < -1.55f && std::abs(p.y) < 4.0f && std::abs(p.x) < 25.0f;

@@ -1,4 +1,4 @@
-// The visual-LiDAR odometer: odd scans by name.
+// These tests check the visual-LiDAR odometer's named statuses for odd scans.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 using maploop::testing::drive_0013;
 using maploop::testing::read_scans;
 
-// What visual odometry would say of a straight drive.
+// Returns the visual motion of a straight drive.
 RelativeMotion visual(Time from, Time to, double speed = 12.8) {
   RelativeMotion motion;
   motion.status = OdometryStatus::ok;
@@ -40,7 +40,7 @@ class LidarOdometryTest : public ::testing::Test {
   LidarOdometry odometry(const LidarParameters& parameters = {}) const {
     return {T_body_velo_, parameters};
   }
-  // Scans 0 and 1 used, so that there is a map.
+  // Returns an odometry that has used scans 0 and 1, so that it has a map.
   LidarOdometry started() const {
     LidarOdometry o = odometry();
     o.process(&scans_[0], nullptr);
@@ -74,7 +74,7 @@ TEST_F(LidarOdometryTest, PoseIsAtTheVisualMotionsStamp) {
     const RelativeMotion seen = visual(before, scans_[i].stamp + after);
     const OdometerResult r = o.process(&scans_[i], &seen);
     EXPECT_EQ(r.odometry.status, OdometryStatus::ok);
-    // The first scan was smeared, its motion being unknown: the second one starts the map.
+    // The first scan was smeared, since its motion was unknown; the second one starts the map.
     EXPECT_EQ(r.lidar.status, i == 1 ? OdometryStatus::first_frame : OdometryStatus::ok);
     EXPECT_EQ(r.odometry.source, i == 1 ? OdometrySource::visual : OdometrySource::visual_lidar);
     EXPECT_EQ(r.lidar.stamp, seen.stamp);
@@ -91,7 +91,7 @@ TEST_F(LidarOdometryTest, WithoutAScanTheVisualMotionIsPassedOn) {
   EXPECT_EQ(r.odometry.status, OdometryStatus::ok);
   EXPECT_EQ(r.odometry.source, OdometrySource::visual);
   EXPECT_EQ(r.odometry.translation, seen.translation);
-  // And the map is found again.
+  // The next scan is registered with the map again.
   const RelativeMotion next = visual(scans_[2].stamp, scans_[3].stamp);
   EXPECT_EQ(o.process(&scans_[3], &next).lidar.status, OdometryStatus::ok);
 }

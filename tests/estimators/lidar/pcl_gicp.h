@@ -1,4 +1,4 @@
-// PCL's GICP, as a reference. The only file that includes PCL is pcl_gicp.cpp.
+// PCL's GICP is a reference. Only pcl_gicp.cpp includes PCL.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -9,8 +9,8 @@
 
 namespace maploop::testing {
 
-// Its own defaults but for the distance between partners. Neighbourhoods are its own as well: of
-// the points only the positions are used.
+// Uses PCL's defaults except for the distance between partners, and PCL's own neighbourhoods: only
+// the positions of the points are used.
 class PclGicp {
  public:
   explicit PclGicp(double max_distance = 1.0);

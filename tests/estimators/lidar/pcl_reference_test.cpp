@@ -1,4 +1,5 @@
-// Motions between consecutive scans: ours and PCL's GICP on the same samples.
+// These tests compare motions between consecutive scans with those of PCL's GICP on the same
+// samples.
 #include <gtest/gtest.h>
 
 #include "estimators/lidar/gicp.h"

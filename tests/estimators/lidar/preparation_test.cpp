@@ -1,4 +1,4 @@
-// From raw points to surface points.
+// These tests cover the preparation from raw points to surface points.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -68,7 +68,8 @@ TEST(Twist, IsTheMotionItWasMadeOf) {
   EXPECT_TRUE((half * half).isApprox(T, 1e-12));
 }
 
-// A wall seen from a moving vehicle is bent; deskewed it is flat where it was at the stamp.
+// A wall seen from a moving vehicle is bent; after deskewing it is flat and at its position at the
+// stamp.
 TEST(ScanPreparation, WallSeenFromAMovingVehicleIsFlatAndWhereItWas) {
   LidarScan scan = empty_scan();
   const Twist motion{{20.0, 0.0, 0.0}, {0.0, 0.0, 0.5}};
@@ -76,7 +77,8 @@ TEST(ScanPreparation, WallSeenFromAMovingVehicleIsFlatAndWhereItWas) {
   LidarParameters parameters;
   parameters.elevation_correction = 0.0;
   for (int i = 0; i < 20000; ++i) {
-    // In the body at `stamp` a wall at y = 12; where was it at the moment its beam saw it?
+    // In the body at `stamp` there is a wall at y = 12; its earlier position when its beam saw it
+    // is computed.
     const Eigen::Vector3d wall(-20.0 + 40.0 * (i % 400) / 400.0, 12.0,
                                -1.0 + 4.0 * (i / 400) / 50.0);
     Eigen::Vector3d seen = wall;
@@ -118,13 +120,15 @@ TEST(ScanPreparation, PointsOfTheRecordedDriveInAnyOrderGiveTheSameBits) {
   std::shuffle(scan.points.begin(), scan.points.end(), std::mt19937(7));
   preparation.prepare(scan, scan.stamp, motion, &shuffled);
   EXPECT_TRUE(same_bits(in_order, shuffled));
-  // Each point a second time, as some drivers deliver them: the same means, hence the same points.
+  // Each point is repeated, as some drivers deliver them; the means and hence the surface points
+  // are equal.
   const std::vector<LidarPoint> once = scan.points;
   scan.points.insert(scan.points.end(), once.begin(), once.end());
   PreparedScan twice;
   preparation.prepare(scan, scan.stamp, motion, &twice);
   EXPECT_NEAR(static_cast<double>(twice.points.size()), static_cast<double>(in_order.points.size()),
-              0.15 * static_cast<double>(in_order.points.size()));  // voxels of 3 to 5 points pass
+              0.15 * static_cast<double>(
+                         in_order.points.size()));  // since voxels of 3 to 5 points now pass
 }
 
 TEST(ScanPreparation, NormalsOfTheRoadPointUp) {

@@ -1,4 +1,4 @@
-// The odometry saved in the middle of the recorded drive goes on as if nothing had happened.
+// An odometry saved in the middle of the recorded drive continues with the same bits.
 #include <gtest/gtest.h>
 
 #include "estimators/stereo/stereo_odometry.h"
@@ -41,7 +41,7 @@ TEST_F(StereoArchive, ALoadedOdometryGoesOnWithTheSameBits) {
   EXPECT_LT(archive.size(), 1'100'000u);
 
   StereoOdometry second(camera_, {});
-  second.process(pairs[3]);  // whatever it knew is replaced
+  second.process(pairs[3]);  // loading replaces its state
   load(archive, second);
   EXPECT_EQ(saved(second), archive);
   for (std::size_t i = 72; i < pairs.size(); ++i) {

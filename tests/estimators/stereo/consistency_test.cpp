@@ -1,5 +1,5 @@
-// Does the covariance say how far the motions are wrong? Without any reference: two odometries from
-// disjoint halves of the features of the recorded drive.
+// These tests check the covariance against the errors of the motions without a reference: two
+// odometries use disjoint halves of the features of the recorded drive.
 #include <gtest/gtest.h>
 
 #include "estimators/stereo/detect.h"
@@ -32,7 +32,7 @@ TEST(Consistency, HalvesOfTheFeaturesDifferOverASecondByNoMoreThanTheirCovarianc
   const auto pairs = maploop::testing::read_pairs(maploop::sensors::KittiDrive(drive_0013()));
   StereoParameters parameters;
   parameters.features_per_bucket = 4;
-  parameters.sigma_disparity_offset = 0.0;  // the same for both halves
+  parameters.sigma_disparity_offset = 0.0;  // the offset is equal in both halves
 
   constexpr int kSecond = 10;  // pairs
   StereoFrame before, now;
@@ -67,8 +67,8 @@ TEST(Consistency, HalvesOfTheFeaturesDifferOverASecondByNoMoreThanTheirCovarianc
   }
   nees /= seconds;
   RecordProperty("nees", std::to_string(nees));
-  // With correlated_pairs = 5, times five for independent pairs. Errors both halves share, such as
-  // the calibration's, are not seen here.
+  // The value is multiplied by correlated_pairs = 5 for independent pairs. Errors shared by both
+  // halves, such as those of the calibration, do not appear here.
   EXPECT_LT(nees, 0.6) << "over " << seconds << " s";
   EXPECT_GT(nees, 0.1) << "over " << seconds << " s";
 }

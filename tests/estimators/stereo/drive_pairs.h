@@ -8,7 +8,7 @@
 
 namespace maploop::testing {
 
-// The first `count` pairs of a drive; all where there are fewer.
+// Reads the first `count` pairs of a drive, or all if it has fewer.
 inline std::vector<StereoPair> read_pairs(
     const sensors::KittiDrive& drive, std::size_t count = std::numeric_limits<std::size_t>::max()) {
   std::vector<StereoPair> pairs;

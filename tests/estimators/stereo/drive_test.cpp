@@ -1,4 +1,4 @@
-// The odometry on the recorded drive, against its reference.
+// These tests run the odometry on the recorded drive and compare it with the reference.
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
@@ -18,7 +18,7 @@ using maploop::testing::drive_0013;
 
 struct DriveResult {
   std::vector<RelativeMotion> motions;
-  Trajectory camera;  // poses of the left camera in its first one
+  Trajectory camera;  // poses of the left camera relative to its first pose
   double disparity_offset = 0.0;
 };
 
@@ -35,7 +35,7 @@ DriveResult drive(const StereoCalibration& camera, const std::vector<StereoPair>
   return run;
 }
 
-// The odometry over the whole drive, made once.
+// Runs the odometry over the whole drive once and keeps the result.
 const DriveResult& whole_drive() {
   static const DriveResult run = [] {
     const maploop::sensors::KittiDrive recorded(drive_0013());
@@ -68,7 +68,8 @@ TEST_F(DriveTest, FollowsTheReferenceBetterThanLibviso2) {
   EXPECT_LT(raw.segment.percent, 1.10);  // reached 0.99; libviso2 1.29
   EXPECT_LT(raw.end_point_m, 2.5);       // reached 2.2; libviso2 2.7
   EXPECT_LT(raw.segment.deg_per_m, 0.0030);
-  // The reference's own azimuth is 0.5 to 0.75 degrees off for every camera and LiDAR odometry.
+  // The reference's own azimuth differs by 0.5 to 0.75 degrees from every camera and LiDAR
+  // odometry.
   const auto aligned = evaluation::score(run.camera, truth, 100.0, CommonRotation::kRemove);
   EXPECT_GT(aligned.segment.segments, 40);
   EXPECT_LT(aligned.segment.percent, 0.60);  // reached 0.49; libviso2 0.86
@@ -77,7 +78,7 @@ TEST_F(DriveTest, FollowsTheReferenceBetterThanLibviso2) {
 
 TEST_F(DriveTest, FindsTheDisparitiesTooSmallAsTheLidarDoes) {
   const DriveResult& run = whole_drive();
-  // Projected LiDAR depth says 0.30 to 0.48 px.
+  // Projected LiDAR depth gives 0.30 to 0.48 px.
   EXPECT_GT(run.disparity_offset, 0.15);
   EXPECT_LT(run.disparity_offset, 0.5);
 }

@@ -133,7 +133,7 @@ TEST(Track, ClosesTheCircleWithAndWithoutAnExpectedMotion) {
     features.push_back({static_cast<std::int64_t>(features.size()), seen});
 
   Eigen::Isometry3d sideways = Eigen::Isometry3d::Identity();
-  sideways.translation().x() = -(moved - 1.0) / disparity * camera.baseline;  // one pixel wrong
+  sideways.translation().x() = -(moved - 1.0) / disparity * camera.baseline;  // wrong by one pixel
   for (const auto& expected : {std::optional<Eigen::Isometry3d>(), std::optional(sideways)}) {
     std::vector<StereoTrack> tracks;
     track_features(camera, parameters, before, after, features, expected, &tracks);

@@ -56,7 +56,7 @@ TEST(Prediction, SaysWhenThePointIsBehindTheCamera) {
 }
 
 TEST(Quartic, FindsFourKnownRoots) {
-  // (x - 1)(x + 2)(x - 3)(x - 0.5)
+  // The polynomial is (x - 1)(x + 2)(x - 3)(x - 0.5).
   const QuarticRoots roots = solve_quartic({1.0, -2.5, -4.0, 8.5, -3.0});
   ASSERT_EQ(roots.count, 4);
   std::array<double, 4> sorted = roots.value;
@@ -66,7 +66,7 @@ TEST(Quartic, FindsFourKnownRoots) {
 }
 
 TEST(Quartic, BiquadraticTwoRootsAndNone) {
-  const QuarticRoots four = solve_quartic({1.0, 0.0, -5.0, 0.0, 4.0});  // 1, 4 squared
+  const QuarticRoots four = solve_quartic({1.0, 0.0, -5.0, 0.0, 4.0});  // x^2 is 1 or 4
   EXPECT_EQ(four.count, 4);
   EXPECT_EQ(solve_quartic({1.0, 0.0, 0.0, 0.0, -16.0}).count, 2);
   EXPECT_EQ(solve_quartic({1.0, 0.0, 5.0, 0.0, 4.0}).count, 0);
@@ -100,7 +100,7 @@ TEST(P3p, OneSolutionIsTheTruePoseInEveryOfManyScenes) {
     }
     if (nearest < 1e-4) ++solved;
   }
-  EXPECT_GE(solved, 995);  // the rest are within rounding of a double root
+  EXPECT_GE(solved, 995);  // the others are within rounding of a double root
 }
 
 TEST(P3p, PointsOnALineHaveNoSolution) {

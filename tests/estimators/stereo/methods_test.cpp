@@ -1,4 +1,5 @@
-// The other ways to find the motion, and to match: against known motions and on the recorded drive.
+// These tests cover the alternative methods for motion and matching, against known motions and on
+// the recorded drive.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,11 +43,11 @@ TEST(PointAlignment, TwoPointsAndPointsOnALineAreNoMotion) {
   EXPECT_FALSE(align_points(small_camera(), {}, tracks, all_of(tracks)));
 }
 
-// Over many scenes: the covariance is that of the errors.
+// Over many scenes, the covariance must agree with the errors.
 TEST(PointAlignment, CovarianceAgreesWithTheErrors) {
   StereoParameters parameters;
   parameters.correlated_pairs = 1.0;
-  parameters.sigma_match = 0.0;  // here both epochs' errors are taken as independent
+  parameters.sigma_match = 0.0;  // the method assumes independent errors at both epochs
   double nees = 0.0;
   constexpr int kScenes = 200;
   for (unsigned seed = 0; seed < kScenes; ++seed) {
@@ -98,7 +99,8 @@ TEST(SampsonDistance, IsTheDistanceToTheEpipolarLinesOfBothImages) {
 
 TEST(MatchDescriptors, EachOthersNearestAndClearlyNearerThanTheSecond) {
   const cv::Mat first = (cv::Mat_<float>(3, 2) << 0.f, 0.f, 10.f, 0.f, 20.f, 0.f);
-  // 0: one near match; 1: two that are equally near; 2: the nearest likes another one better.
+  // Feature 0 has one near match, 1 has two equally near ones, and 2 has one that is clearly nearer
+  // than the second.
   const cv::Mat second = (cv::Mat_<float>(4, 2) << 0.5f, 0.f, 10.f, 1.f, 10.f, -1.f, 24.f, 0.f);
   const auto pairs = match_descriptors(first, second, 0.8);
   ASSERT_EQ(pairs.size(), 2u);

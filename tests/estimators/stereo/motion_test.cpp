@@ -19,12 +19,12 @@ using maploop::testing::pose_error;
 using maploop::testing::small_camera;
 using maploop::testing::synthetic_tracks;
 
-// The noise the adjustment is told to expect.
+// Returns the noise that the adjustment expects.
 maploop::testing::ImageNoise modelled_noise(const StereoParameters& p) {
   return {p.sigma_track, p.sigma_disparity, p.sigma_match, 0.0};
 }
 
-// Moves a share of the tracks as one other rigid body would move.
+// Moves the first `count` tracks like one other rigid body.
 void replace_by_moving_object(std::vector<StereoTrack>* tracks, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     (*tracks)[i].current.u_left += 15.0;
@@ -43,7 +43,7 @@ TEST(Refine, RecoversAKnownMotionExactlyFromPerfectTracks) {
 
 TEST(Refine, CovarianceAgreesWithTheErrorsOverManyNoisyScenes) {
   StereoParameters parameters;
-  parameters.correlated_pairs = 1.0;  // these scenes have nothing in common
+  parameters.correlated_pairs = 1.0;  // the errors of these scenes are independent
   double nees = 0.0, variance_factor = 0.0;
   constexpr int kScenes = 300;
   for (unsigned seed = 0; seed < kScenes; ++seed) {
@@ -57,9 +57,9 @@ TEST(Refine, CovarianceAgreesWithTheErrorsOverManyNoisyScenes) {
     nees += error.dot(refined.covariance.ldlt().solve(error)) / 6.0 / kScenes;
     variance_factor += refined.variance_factor / kScenes;
   }
-  // 1800 degrees of freedom: 0.87 to 1.13 is four standard deviations of chi-square.
+  // With 1800 degrees of freedom, 0.87 to 1.13 is four standard deviations of chi-square.
   EXPECT_GT(nees, 0.87);
-  EXPECT_LT(nees, 1.2);  // Huber's weights cost a little
+  EXPECT_LT(nees, 1.2);  // Huber's weights add a little
   EXPECT_NEAR(variance_factor, 1.0, 0.1);
 }
 
@@ -160,7 +160,8 @@ TEST(Ransac, FewerThanThreeTracksHaveNoConsensus) {
 TEST(Refine, InertiaDecidesWhereTheTracksLeaveTheMotionOpen) {
   const StereoCalibration camera = small_camera();
   const StereoParameters parameters;
-  // Six far points close together: their turn about the vertical looks like a step aside.
+  // The scene has six far points close together, where a turn about the vertical looks like a step
+  // sideways.
   std::vector<StereoTrack> tracks;
   for (int i = 0; i < 6; ++i) {
     const ImagePoint before(300.0 + 4.0 * i, 100.0 + 5.0 * (i % 3), 4.0);
@@ -188,7 +189,7 @@ TEST(MotionEstimator, ReportsIndicesOfTheTracksThatAgree) {
   tracks[0].current.u_left = std::numeric_limits<double>::quiet_NaN();
   tracks[1].previous.u_right = tracks[1].previous.u_left + 3.0;  // behind the cameras
   tracks[2].current.v_right += 5.0;                              // another row
-  tracks[3].current.u_left += 30.0;                              // usable, but moves on its own
+  tracks[3].current.u_left += 30.0;                              // usable, but on a moving object
   const CameraMotion motion =
       estimate_motion(small_camera(), {}, tracks, 1, DisparityOffset(StereoParameters{}));
   ASSERT_EQ(motion.status, OdometryStatus::ok);
@@ -259,9 +260,9 @@ TEST(DisparityOffset, ConvergesOnConsistentPairsAndLeavesWeakOnesOut) {
   EXPECT_LT(offset.sigma(), 0.02);
 
   const DisparityOffset before = offset;
-  offset.update(0.05, 2.0 * parameters.max_offset_sigma, 150);   // hardly seen
+  offset.update(0.05, 2.0 * parameters.max_offset_sigma, 150);   // hardly observable
   offset.update(0.05, 0.05, parameters.min_offset_inliers - 1);  // too few features
-  offset.update(2.0, 0.1, 150);                                  // contradicts what is known
+  offset.update(2.0, 0.1, 150);                                  // contradicts the present estimate
   offset.update(std::numeric_limits<double>::quiet_NaN(), 0.1, 150);
   EXPECT_EQ(offset.value(), before.value());
   EXPECT_EQ(offset.sigma(), before.sigma());

@@ -1,5 +1,5 @@
-// What the odometry calls odd pairs by, made from the recorded drive: a named status or condition,
-// never a wild pose, and the drive goes on after it.
+// The odometry must report each odd pair, made from the recorded drive, with a named status or
+// condition. It must never return a wild pose, and must continue afterwards.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,14 +38,14 @@ class OddPairs : public ::testing::Test {
     EXPECT_TRUE(motion.covariance.isZero());
   }
 
-  // The drive goes 10.5 to 12 m/s.
+  // The speed of the drive is 10.5 to 12 m/s.
   static void expect_drives(const RelativeMotion& motion, double pairs) {
     ASSERT_EQ(motion.status, OdometryStatus::ok) << to_string(motion.status);
     EXPECT_NEAR(motion.translation.x(), 1.17 * pairs, 0.12 * pairs);
     EXPECT_LT(motion.translation.tail<2>().norm(), 0.1 * pairs);
   }
 
-  // The sensor's noise: what keeps two images of a standing car from being the same.
+  // Adds the sensor's noise, so that two images of a standing car differ.
   static void add_noise(StereoPair* pair, unsigned seed) {
     std::mt19937 random(seed);
     for (GreyImage* image : {&pair->left, &pair->right})
@@ -60,8 +60,8 @@ class OddPairs : public ::testing::Test {
         grey = static_cast<std::uint8_t>(std::lround(grey * factor));
   }
 
-  // A lorry alongside: the part of the image above the road shows the first pair's, moved by
-  // `shift` columns.
+  // Adds a lorry alongside: the part of the image above the road shows that of the first pair,
+  // moved by `shift` columns.
   void paste_lorry(StereoPair* pair, int shift) const {
     const int last_row = 250, first_column = 300, last_column = 1100;
     const auto paste = [&](const GreyImage& from, GreyImage* to) {
@@ -125,7 +125,7 @@ TEST_F(OddPairs, NightFromTheStart) {
   for (const RelativeMotion& motion : run(pairs)) expect_refused(motion, OdometryStatus::too_dark);
 }
 
-TEST_F(OddPairs, FewFeatures) {  // snow on the windscreen but for a small hole
+TEST_F(OddPairs, FewFeatures) {  // snow covers the windscreen except for a small hole
   std::vector<StereoPair> pairs = pairs_;
   for (GreyImage* image : {&pairs[5].left, &pairs[5].right})
     for (int y = 0; y < image->height; ++y)

@@ -1,4 +1,4 @@
-// What the odometry says of good, odd and broken input, on images made here.
+// These tests cover good, odd and broken input on generated images.
 #include <gtest/gtest.h>
 
 #include <stdexcept>
@@ -13,7 +13,7 @@ namespace {
 using maploop::testing::small_camera;
 using maploop::testing::TexturedWall;
 
-constexpr double kDisparity = 20.0;  // the wall stands 10 m away
+constexpr double kDisparity = 20.0;  // px, the wall is 10 m away
 
 class StereoOdometryTest : public ::testing::Test {
  protected:
@@ -38,7 +38,7 @@ class StereoOdometryTest : public ::testing::Test {
     EXPECT_TRUE(result.covariance.isZero());
   }
 
-  // Moving the wall one pixel to the left is moving the camera B / d to the right.
+  // Moving the wall one pixel to the left is equivalent to moving the camera B / d to the right.
   static void expect_sideways(const RelativeMotion& result, double pixels) {
     ASSERT_EQ(result.status, OdometryStatus::ok) << to_string(result.status);
     const Eigen::Vector3d expected(pixels * 0.5 / kDisparity, 0.0, 0.0);
@@ -96,7 +96,7 @@ TEST_F(StereoOdometryTest, SwappedCamerasAreRefused) {
   StereoPair swapped = at(1, 3.0);
   std::swap(swapped.left, swapped.right);
   const RelativeMotion result = odometry_.process(swapped);
-  // A wall of one texture leaves a few false matches behind.
+  // A wall with a repeating texture leaves a few false matches.
   EXPECT_TRUE(result.status == OdometryStatus::swapped_images ||
               result.status == OdometryStatus::too_few_inliers)
       << to_string(result.status);

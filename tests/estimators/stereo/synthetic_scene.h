@@ -1,4 +1,4 @@
-// Points in front of a moving stereo camera, and what it sees of them.
+// The scene has points in front of a moving stereo camera, and what the camera sees of them.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -22,7 +22,7 @@ inline StereoCalibration small_camera() {
   return camera;
 }
 
-// A metre forward with a little of everything else: T_previous_current in cam.
+// Returns a motion of one metre forward with small other components: T_previous_current in cam.
 inline Eigen::Isometry3d driving_motion() {
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   motion.linear() =
@@ -33,12 +33,12 @@ inline Eigen::Isometry3d driving_motion() {
 
 struct ImageNoise {
   double track = 0.0;      // px, current left position
-  double disparity = 0.0;  // px, each disparity on its own
+  double disparity = 0.0;  // px, independent in each disparity
   double match = 0.0;      // px, shared by both disparities
-  double offset = 0.0;     // px, missing in every disparity
+  double offset = 0.0;     // px, constant offset missing in every disparity
 };
 
-// `count` points between 5 and 60 m, spread over the previous image.
+// Returns tracks of `count` points between 5 and 60 m, spread over the previous image.
 inline std::vector<stereo::StereoTrack> synthetic_tracks(const StereoCalibration& camera,
                                                          const Eigen::Isometry3d& motion, int count,
                                                          const ImageNoise& noise, unsigned seed) {
@@ -65,14 +65,15 @@ inline std::vector<stereo::StereoTrack> synthetic_tracks(const StereoCalibration
   return tracks;
 }
 
-// The indices of all tracks.
+// Returns the indices of all tracks.
 inline std::vector<int> all_of(const std::vector<stereo::StereoTrack>& tracks) {
   std::vector<int> indices(tracks.size());
   std::iota(indices.begin(), indices.end(), 0);
   return indices;
 }
 
-// Difference of two poses as the covariance counts it: translation, then rotation vector.
+// Returns the difference of two poses in the convention of the covariance: translation, then
+// rotation vector.
 inline Eigen::Matrix<double, 6, 1> pose_error(const Eigen::Isometry3d& estimate,
                                               const Eigen::Isometry3d& truth) {
   const Eigen::AngleAxisd turn(estimate.linear() * truth.linear().transpose());

@@ -1,4 +1,4 @@
-// Stereo pairs of a textured wall, made without any file.
+// Stereo pairs of a textured wall are generated here without any file.
 #pragma once
 
 #include <cmath>
@@ -9,9 +9,9 @@
 
 namespace maploop::testing {
 
-// A wall of smooth random texture that fills both images: its point at column x + shift, row y of
-// the left image is seen `disparity` columns further left in the right one. The same everywhere,
-// for the texture comes from a fixed table.
+// The wall has a smooth random texture that fills both images: its point at column x + shift, row y
+// of the left image is seen `disparity` columns further left in the right image. The texture comes
+// from a fixed table, so it is the same on every machine.
 class TexturedWall {
  public:
   TexturedWall() {
@@ -27,7 +27,7 @@ class TexturedWall {
   }
 
  private:
-  static constexpr int kSide = 512;        // grid points a side, then the texture repeats
+  static constexpr int kSide = 512;        // grid points per side, then the texture repeats
   static constexpr double kSpacing = 5.0;  // px between grid points
 
   float at(int x, int y) const {

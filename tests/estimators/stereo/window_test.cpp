@@ -1,4 +1,5 @@
-// The windowed bundle adjustment against numerical derivatives, known scenes and Ceres.
+// These tests compare the windowed bundle adjustment with numerical derivatives, known scenes and
+// Ceres.
 #include <ceres/ceres.h>
 #include <gtest/gtest.h>
 
@@ -36,8 +37,8 @@ StereoParameters with_window() {
   return parameters;
 }
 
-// A window of `frames` poses that are off by centimetres, with `count` points seen by all of them.
-// `noise` px on each measured u, v and disparity.
+// The scene is a window of `frames` poses with errors of centimetres and `count` points that all
+// poses see, with `noise` px on each measured u, v and disparity.
 struct Scene {
   StereoCalibration camera = small_camera();
   StereoParameters parameters = with_window();
@@ -123,7 +124,7 @@ TEST(BundleAdjustment, FindsThePosesOfAPerfectSceneExactly) {
         << "pose " << k;
 }
 
-// The same residuals written down once more, with derivatives by Ceres itself.
+// These are the same residuals, written independently and differentiated by Ceres.
 struct Reprojection {
   StereoCalibration camera;
   ImagePoint seen;
@@ -153,7 +154,7 @@ struct Smoothness {
     const Eigen::Map<const Quaternion> a(q0), b(q1), c(q2);
     const Eigen::Map<const Vector> ta(t0), tb(t1), tc(t2);
     const auto rotation = [](const Quaternion& q) {
-      // of small angles: 2 asin(|v|) v / |v| by its series
+      // This is the series of 2 asin(|v|) v / |v| for small angles.
       const Vector v = q.vec() * (q.w() < T(0.0) ? T(-2.0) : T(2.0));
       const T s = v.squaredNorm() / T(4.0);
       return Vector(v * (T(1.0) + s / T(6.0) + s * s * T(3.0 / 40.0)));
@@ -181,7 +182,7 @@ TEST(BundleAdjustment, FindsTheMinimumThatCeresFinds) {
   Scene scene(6, 60, 0.3);
   StereoParameters& p = scene.parameters;
   p.window_iterations = 50;
-  p.outlier_sigmas = 1e3;  // Ceres's Huber loss has no such cut
+  p.outlier_sigmas = 1e3;  // Ceres's Huber loss has no such limit
   std::vector<Eigen::Quaterniond> q;
   std::vector<Eigen::Vector3d> t, points;
   std::vector<double> match_error(scene.window.points.size(), 0.0);
