@@ -27,7 +27,7 @@ class Feedback {
       : network_(&network), parameters_(parameters) {}
 
   // Must be called with each match and its fix, in the order of stamps. Always returns a message;
-  // its `reason` states why nothing is fed back.
+  // its `reason` is none or states why nothing is fed back.
   MapFeedback decide(const LinkMatch& match, const VehicleFix& fix);
 
   template <class Archive>

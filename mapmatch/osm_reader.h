@@ -9,7 +9,7 @@
 
 namespace maploop::mapmatch {
 
-// A box in degrees, WGS84.
+// The box is in degrees, WGS84.
 struct GeographicBox {
   double west = -180.0, south = -90.0, east = 180.0, north = 90.0;
 };

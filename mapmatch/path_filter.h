@@ -4,10 +4,10 @@
 // Each hypothesis is a path through the network with a Kalman filter of the vehicle's position on
 // it, which is predicted by the distance travelled and corrected by the fixes. Its weight depends
 // on how well positions and azimuths fit. Hypotheses divide at junctions, new ones are created near
-// every fix, and those far less likely than the best are removed, so their number is bounded. (The
-// idea of multi-hypothesis map matching: Pyo, Shin and Sung, "Development of a map matching method
-// using the multiple hypothesis technique", ITSC 2001.) Not thread-safe. Does not allocate after
-// construction.
+// the fix each second, and those far less likely than the best are removed, so their number is
+// bounded. (The idea of multi-hypothesis map matching: Pyo, Shin and Sung, "Development of a map
+// matching method using the multiple hypothesis technique", ITSC 2001.) Not thread-safe. Does not
+// allocate after construction.
 #pragma once
 
 #include <array>

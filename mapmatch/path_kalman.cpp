@@ -24,8 +24,8 @@ void PathKalman::begin(PathHypothesis& h, const LinkPoint& point, const PathEvid
   const Eigen::Matrix2d slow = slow_covariance(e);
   const Eigen::Matrix2d S = slow + fast_covariance(e);
   const Eigen::Matrix2d inverse = S.inverse();
-  // The fix gives the position on the link and the distance beside it; it does not separate the
-  // offset from its own error.
+  // The fix gives the position on the link and the distance beside it; the offset is not known
+  // separately.
   const Eigen::Vector2d beside = e.place - point.position;
   const Eigen::Vector2d u = h.link.forward ? point.direction : Eigen::Vector2d(-point.direction);
   h.covariance(0, 0) = u.dot(S * u);

@@ -93,7 +93,7 @@ struct NetworkData {
   std::vector<Junction> junctions;
   std::vector<DirectedLink> exits;    // by junction
   std::vector<BannedTurn> banned;     // sorted by `from`
-  std::vector<std::string> warnings;  // content of the map that was left out, one sentence each
+  std::vector<std::string> warnings;  // notes on the map such as omitted content, one sentence each
 };
 
 template <class Archive>

@@ -15,7 +15,7 @@ struct LastMatch {
   bool there = false;
   DirectedLink link;
   double along = 0.0;  // m
-  // A matched point on the same link, far enough behind to define a direction.
+  // The anchor is a matched point on the same link, far enough behind to define a direction.
   bool has_anchor = false;
   Eigen::Vector2d anchor = Eigen::Vector2d::Zero();
 };

@@ -70,7 +70,7 @@ void apply_grade(std::string_view grade, FusionParameters& p) {
   p.gyro_turn_on_sigma = 1.45e-3;       // rad/s, 300 deg/h
   p.gyro_bias_sigma = 4.8e-5;           // rad/s, 10 deg/h
   p.gyro_bias_time = 300.0;             // s
-  p.gyro_scale_sigma = 0.0036;          // adds 0.2 % to the recorded unit's, as squares
+  p.gyro_scale_sigma = 0.0036;          // 1, root sum square of the recorded unit's and 0.2 %
   p.accelerometer_turn_on_sigma = 0.2;  // m/s^2, 20 mg
 }
 

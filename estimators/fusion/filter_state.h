@@ -10,7 +10,7 @@
 
 namespace maploop::fusion {
 
-// Order of the state vector.
+// These indices define the order of the state vector.
 namespace index {
 enum : int {
   east,
@@ -104,7 +104,7 @@ struct FilterState {
   int map_gated_in_a_row = 0;
   std::uint64_t recoveries = 0;
   std::uint64_t reinitializations = 0;
-  // The azimuth chained from odometry's rotations alone, at the time of the clone; only
+  // This azimuth is chained from odometry's rotations alone, at the time of the clone; only
   // `chain_odometry_azimuth` uses it.
   double chained_azimuth = 0.0;
   Stillness stillness;

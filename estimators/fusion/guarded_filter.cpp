@@ -39,7 +39,7 @@ Outcome GuardedFilter::add(const MapFeedback& feedback) {
     restore(t);
     return outcome;
   }
-  // A copy whose azimuth is lost (a gap of the gyro) shows nothing any more and is replaced.
+  // A copy whose azimuth is lost (a gap of the gyro) cannot reveal a wrong road, so it is replaced.
   for (Copy& copy : copies_) {
     const auto free = copy.filter->state_at(t);
     if (!lost(*state) && free && lost(*free)) copy_to(copy, t);
@@ -52,8 +52,8 @@ Outcome GuardedFilter::add(const MapFeedback& feedback) {
   return outcome;
 }
 
-// Beyond this limit the position error is not linear in the azimuth error, so the covariance is not
-// meaningful.
+// Returns whether the azimuth is lost: beyond the limit the position error is not linear in the
+// azimuth error, so the covariance is not meaningful.
 bool GuardedFilter::lost(const NavState& state) const {
   return state.covariance(6, 6) > parameters_.lost_azimuth * parameters_.lost_azimuth;
 }

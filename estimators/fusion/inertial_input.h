@@ -11,8 +11,8 @@ struct InertialInput {
   bool inertial = false;       // false: the IMU is silent, the rest is zero
   double forward_force = 0.0;  // m/s^2, mean over the stretch
   double yaw_rate = 0.0;       // rad/s, mean over the stretch
-  // Variance (s^4) of the integral over the stretch if the integrand changes unobserved, between or
-  // after the samples, with a rate of sigma 1 per second.
+  // This is the variance (s^4) of the integral over the stretch if the integrand changes
+  // unobserved, between or after the samples, with a rate of sigma 1 per second.
   double unseen_change = 0.0;
 };
 

@@ -155,7 +155,7 @@ StateMatrix process_noise(const StateVector& x, const Step& step, const Inertial
   Q(pitch, pitch) += dt * squared(p.pitch_noise);
   Q(roll, roll) += dt * squared(p.roll_noise);
 
-  // This random walk leaves a constant by sigma in half of `time`.
+  // This random walk departs from a constant by sigma in half of `time`.
   const auto walk = [&](int i, double sigma, double time) {
     Q(i, i) += 2.0 * squared(sigma) * dt / time;
   };

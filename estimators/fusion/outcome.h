@@ -35,14 +35,14 @@ enum class Reason : std::uint8_t {
   implausible_tilt,  // the correction would tilt the vehicle too far
   wheel_gate,        // the wheels' speed contradicts the prediction
   not_configured,    // the configuration does not use this sensor
-  // GNSS fixes.
+  // These refuse GNSS fixes.
   position_gate,    // position contradicts the prediction
   velocity_gate,    // velocity contradicts the prediction
   already_started,  // the configuration uses fixes only to start
   too_slow,         // a slow fix has no course; the filter waits for a moving one
   stamps_apart,     // position and velocity are too far apart in time
   too_far_from_origin,
-  // Map feedback.
+  // These refuse map feedback.
   nothing_fed_back,   // the feedback itself contains the reason
   map_not_trusted,    // the map misled the filter shortly before
   line_gate,          // the road's line contradicts the prediction

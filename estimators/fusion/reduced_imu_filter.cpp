@@ -390,7 +390,7 @@ Outcome ReducedImuFilter::apply(FilterState& state, const Event& event,
   return {};
 }
 
-// What a sample says beyond carrying the state on: which way is down, and that nothing moves.
+// Applies what a sample shows besides the prediction: the roll from gravity, and standstill.
 void ReducedImuFilter::apply_sample(FilterState& state, const ImuSample& sample,
                                     const ImuSample& before) const {
   const double interval = to_seconds(sample.stamp - before.stamp);

@@ -11,8 +11,8 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 struct Degeneracy {
-  // Ascending; each is the share of the points that would have to face this direction to give the
-  // same information.
+  // The eigenvalues are ascending; each is the share of the points that would have to face this
+  // direction to give the same information.
   Vector6d eigenvalues = Vector6d::Zero();
   Matrix6d seen = Matrix6d::Identity();  // projects a step onto the determined directions
   Matrix6d inverse = Matrix6d::Zero();   // inverse information in the determined directions

@@ -30,7 +30,7 @@ class DisparityCorrection {
   // depend on the disparities (standing car) have no effect.
   void learn(const VisualMotion& visual, const LidarMotion& lidar);
 
-  // The remaining offset of every measured disparity, px, and its standard deviation.
+  // These return the remaining offset of every measured disparity, px, and its standard deviation.
   double offset() const { return offset_; }
   double sigma() const { return sigma_; }
   int motions() const { return motions_; }  // number of motions that had an effect

@@ -22,12 +22,12 @@ struct Alignment {
   OdometryStatus status = OdometryStatus::too_few_features;
   Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
   Degeneracy degeneracy;
-  // Covariance of independent points in the directions that they determine, in body axes at the
-  // scan: translation (m), rotation (rad).
+  // This is the covariance of independent points in the directions that they determine, in body
+  // axes at the scan: translation (m), rotation (rad).
   Matrix6d covariance = Matrix6d::Zero();
   int iterations = 0;
-  int points = 0;    // of the scan
-  int partners = 0;  // of these, points with a partner in the map
+  int points = 0;    // surface points of the scan
+  int partners = 0;  // of these, those with a partner in the map
 };
 
 // Registers plane to plane by Gauss-Newton with a Geman-McClure kernel. Each iteration searches for

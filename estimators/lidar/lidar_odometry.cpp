@@ -256,8 +256,8 @@ class LidarOdometry::Implementation {
   Time aligned_stamp_{};                            // of the last step whose scan was used
   Isometry3d T_map_body_ = Isometry3d::Identity();  // at stamp_
   std::optional<Twist> twist_;                      // the last motion
-  // Covariance of the visual motions since the last used scan, body axes at stamp_; empty after a
-  // refused one.
+  // This is the covariance of the visual motions since the last used scan, in body axes at stamp_.
+  // It is empty after a refused one.
   std::optional<Matrix6d> seed_covariance_;
   bool map_is_sharp_ = false;
   int refused_in_a_row_ = 0;

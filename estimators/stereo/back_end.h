@@ -24,9 +24,8 @@ namespace maploop::stereo {
 // adjusts the pair, judges the motion, adjusts the window, and keeps the velocity and the
 // disparities' offset for the next pair.
 //
-// With a window, the sum of all motions is the path of the window's newest pose: each motion starts
-// at the previously reported pose, so that later corrections of this pose by the window are not
-// lost.
+// With a window, the motions compose to the path of the window's newest pose: each motion starts at
+// the previously reported pose, so that later corrections of this pose by the window are not lost.
 //
 // Not thread-safe. The same tracks give the same bits.
 class BackEnd {

@@ -130,7 +130,7 @@ double sampson_distance(const StereoCalibration& camera,
   const Vector3d previous = ray(camera, track.previous), current = ray(camera, track.current);
   const Vector3d line = E * current;
   const Vector3d back = E.transpose() * previous;
-  // The lines are scaled to pixels, since the focal lengths of the two axes differ.
+  // Dividing by the focal lengths of both axes gives the distance in pixels.
   const auto square = [&](const Vector3d& l) {
     return std::pow(l.x() / camera.fx, 2) + std::pow(l.y() / camera.fy, 2);
   };

@@ -22,10 +22,10 @@ struct CameraMotion {
   OdometryStatus status =
       OdometryStatus::too_few_features;  // ok, too_few_features or too_few_inliers
   Eigen::Isometry3d T_previous_current = Eigen::Isometry3d::Identity();  // cam
-  // Covariance of translation (m), then rotation vector (rad), of cam at the current epoch, in cam
-  // at the previous one.
+  // This is the covariance of translation (m), then rotation vector (rad), of cam at the current
+  // epoch, in cam at the previous one.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  // Change of the motion per px of additional disparity offset.
+  // This is the change of the motion per px of additional disparity offset.
   Eigen::Matrix<double, 6, 1> by_offset = Eigen::Matrix<double, 6, 1>::Zero();
   double offset = 0.0;        // px, remaining disparity offset estimated from this pair
   double offset_sigma = 0.0;  // px, its standard deviation

@@ -7,7 +7,7 @@ namespace maploop::stereo {
 
 struct MotionPrior {
   Eigen::Isometry3d T_previous_current = Eigen::Isometry3d::Identity();  // cam, expected
-  // Standard deviations of the perturbation (residual.h): first m, then rad.
+  // These are the standard deviations of the perturbation (residual.h): first m, then rad.
   Eigen::Matrix<double, 6, 1> sigma = Eigen::Matrix<double, 6, 1>::Ones();
 
   // Returns the perturbation from the expected motion to `pose`, in standard deviations.

@@ -17,14 +17,14 @@ struct Refinement {
   bool ok =
       false;  // false: no finite solution (fewer than three usable tracks, or degenerate geometry)
   Eigen::Isometry3d T_previous_current = Eigen::Isometry3d::Identity();  // cam
-  // Covariance of the perturbation of residual.h: translation (m), then rotation (rad), in cam at
-  // the previous epoch; scaled by the residuals' own variance and by correlated_pairs.
+  // This is the covariance of the perturbation of residual.h: translation (m), then rotation (rad),
+  // in cam at the previous epoch; scaled by the residuals' own variance and by correlated_pairs.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  // Estimate from this pair alone of a constant offset of all disparities (true = measured +
+  // This pair alone gives this estimate of a constant offset of all disparities (true = measured +
   // offset), px. An offset makes near and far points disagree about the distance travelled.
   double offset = 0.0;
   double offset_sigma = 0.0;
-  // Change of the motion per px of additional offset. The covariance contains it times
+  // This is the change of the motion per px of additional offset. The covariance contains it times
   // assumed_offset_sigma.
   Eigen::Matrix<double, 6, 1> by_offset = Eigen::Matrix<double, 6, 1>::Zero();
   double variance_factor = 0.0;  // of the residuals relative to sigma_track, sigma_disparity
