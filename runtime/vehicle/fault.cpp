@@ -56,10 +56,6 @@ std::string listed(const Names& names) {
   return all;
 }
 
-std::string_view name_of(FaultTarget target) {
-  return target_names[static_cast<std::size_t>(target)];
-}
-
 // Removes the text up to the first separator from `rest`, and returns it without the separator.
 std::string_view cut(std::string_view& rest, char separator) {
   const std::size_t at = rest.find(separator);
@@ -129,11 +125,11 @@ class Parser {
   void parse_target(std::string_view name) {
     std::vector<std::string_view> allowed;
     for (const FaultTarget target : rule().targets) {
-      if (name_of(target) == name) {
+      if (target_name(target) == name) {
         fault_.target = target;
         return;
       }
-      allowed.push_back(name_of(target));
+      allowed.push_back(target_name(target));
     }
     fail("'" + std::string(rule().name) + "' does not strike '" + std::string(name) + "', but " +
          listed(allowed));
@@ -200,6 +196,10 @@ class Parser {
 };
 
 }  // namespace
+
+std::string_view target_name(FaultTarget target) {
+  return target_names[static_cast<std::size_t>(target)];
+}
 
 Fault parse_fault(std::string_view text) {
   return Parser(text).parse();

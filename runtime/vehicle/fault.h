@@ -62,6 +62,9 @@ enum class FaultTarget : std::uint8_t {
   cpu
 };
 
+// "camera"; the name of the stage where the target is one.
+std::string_view target_name(FaultTarget target);
+
 struct Fault {
   std::string text;  // as the user wrote it
   FaultKind kind = FaultKind::lost;

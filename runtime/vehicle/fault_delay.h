@@ -1,10 +1,13 @@
-// Makes a stage slow, or ends it, so that it can be seen what a replay does with a consumer that
-// cannot keep up, or is no more.
+// Makes a stage slow, or ends it, to show what a replay does with a consumer that cannot keep up or
+// has ended.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -12,8 +15,8 @@
 
 namespace maploop::vehicle {
 
-// The stage's own; without any delay added it costs one comparison. A delay changes when results
-// are there, never what they are.
+// One stage's own; without any delay added it costs one comparison. A delay changes when results
+// are available to others, never their content.
 class StageDelay {
  public:
   // `struck` counts the items that were delayed, and must outlive the stage.
@@ -26,7 +29,7 @@ class StageDelay {
     add(window, ends, struck);
   }
 
-  // Sleeps as long as the item of data time t is to be delayed; throws where the stage is to end.
+  // Sleeps as long as the item of data time t is to be delayed; throws if the stage is to end.
   void operator()(Time t) const {
     for (const Delay& delay : delays_) {
       if (!delay.window.contains(t)) continue;
@@ -47,12 +50,7 @@ class StageDelay {
   std::vector<Delay> delays_;
 };
 
-struct StageDelays {
-  StageDelay stereo;
-  StageDelay lidar;
-  StageDelay ppp;
-  StageDelay fusion;
-  StageDelay mapmatch;
-};
+// By the name of the stage.
+using StageDelays = std::map<std::string, StageDelay, std::less<>>;
 
 }  // namespace maploop::vehicle

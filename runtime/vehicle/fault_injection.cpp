@@ -103,11 +103,7 @@ StageDelays FaultInjection::delays() {
   for (Injected& injected : faults_) {
     const bool slows = injected.fault.kind == FaultKind::slow;
     if (!slows && injected.fault.kind != FaultKind::broken) continue;
-    StageDelay& delay = injected.fault.target == FaultTarget::stereo     ? delays.stereo
-                        : injected.fault.target == FaultTarget::lidar    ? delays.lidar
-                        : injected.fault.target == FaultTarget::ppp      ? delays.ppp
-                        : injected.fault.target == FaultTarget::mapmatch ? delays.mapmatch
-                                                                         : delays.fusion;
+    StageDelay& delay = delays[std::string(target_name(injected.fault.target))];
     if (slows) {
       delay.add(injected.window, injected.fault.by, injected.struck);
     } else {

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstdio>
+#include <string>
+#include <tuple>
 
 namespace maploop::vehicle {
 namespace {
@@ -13,7 +15,7 @@ std::string ms(Duration d) {
   return text.data();
 }
 
-std::string_view when_late(const Stage& stage) {
+std::string_view when_late(const StageSpec& stage) {
   if (stage.period == Duration::zero()) return "-";
   switch (stage.overrun) {
     case runtime::Overrun::skip:
@@ -25,7 +27,7 @@ std::string_view when_late(const Stage& stage) {
   }
 }
 
-std::string rates(const Stage& stage) {
+std::string rates(const StageSpec& stage) {
   if (stage.max_rate == 0.0) return "-";
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), "%g to %g Hz", stage.min_rate, stage.max_rate);
@@ -38,6 +40,31 @@ std::string row(std::initializer_list<std::string_view> cells) {
   return line + '\n';
 }
 
+// "NavState", as the compiler spells the type.
+template <class T>
+std::string carried(const RingSpec<T>&) {
+  const std::string_view all = __PRETTY_FUNCTION__;
+  const std::size_t begin = all.find("T = ") + 4;
+  const std::string_view type = all.substr(begin, all.find_first_of(";]", begin) - begin);
+  return std::string(type.substr(type.rfind(':') + 1));
+}
+
+template <class T>
+std::string condition(const RingSpec<T>& spec) {
+  if (spec.instead_of != nullptr) return "there is no " + std::string(spec.instead_of->name);
+  switch (spec.needs) {
+    case RingNeeds::raw_log:
+      return "raw samples are logged";
+    case RingNeeds::feedback:
+      return "the map feeds back";
+    case RingNeeds::ppp_feedback:
+      return "the map feeds back, `tight`";
+    case RingNeeds::both_ends:
+      break;
+  }
+  return "-";
+}
+
 std::string_view name(runtime::Overflow overflow) {
   return overflow == runtime::Overflow::keep_all ? "keep all, the producer waits"
                                                  : "drop the newest";
@@ -48,34 +75,46 @@ std::string_view name(runtime::Overflow overflow) {
 std::string graph_page() {
   std::string page =
       "# The vehicle's graph\n\n"
-      "Made from the table in `graph.h`; a test compares them.\n\n"
+      "Made from the declaration in `stage_specs.h`, `ring_specs.h` and `channel_specs.h`; a test\n"
+      "compares them.\n\n"
       "## Threads\n\n"
       "The patience, the budget and the rates are of data time, the deadline is of the machine's\n"
-      "clock. What came on one input waits that long for what belongs to it on the other. What a\n"
-      "thread does when its ticks fall behind is of a live run: a replay catches up with every "
-      "tick\n"
-      "of the fusion, and stalls the data clock.\n\n";
+      "clock. A sample of one input waits at most the patience for the matching sample of the "
+      "other.\n"
+      "The column `when late` describes a live run: a replay catches up with every tick of the\n"
+      "fusion, and stalls the data clock.\n\n";
   page += row({"thread", "runs", "released by", "period", "phase", "when late", "patience",
                "budget", "deadline", "watched rate"});
   page += row({"---", "---", "---", "---", "---", "---", "---", "---", "---", "---"});
-  for (const Stage& s : stages::all) {
+  for (const StageSpec& s : stages::all) {
     page += row({s.name, s.runs, s.released, ms(s.period), ms(s.phase), when_late(s),
                  ms(s.patience), ms(s.budget), ms(s.deadline), rates(s)});
   }
-  page += "\n## Rings\n\nA full ring of a live run drops the newest.\n\n";
-  page += row({"ring", "carries", "capacity", "when full"});
-  page += row({"---", "---", "---", "---"});
-  for (const EdgeSpec& e : edges::all) {
-    page += row({e.name, e.carries, std::to_string(e.capacity), name(e.overflow)});
+  page +=
+      "\n## Rings\n\n"
+      "A ring exists in a vehicle that has both threads. A full ring of a live run drops the "
+      "newest.\n\n";
+  page += row({"ring", "carries", "capacity", "only if", "when full"});
+  page += row({"---", "---", "---", "---", "---"});
+  const auto ring = [&page](const auto& spec) {
+    page += row({spec.name(), carried(spec), std::to_string(spec.capacity), condition(spec),
+                 name(spec.overflow)});
+  };
+  std::apply([&](const auto&... spec) { (ring(spec), ...); }, rings::all);
+  for (const StageSpec& stage : stages::all) {
+    if (!stage.saved) continue;
+    page += row({std::string(stage.name) + " -> snapshot", "StageSnapshot",
+                 std::to_string(rings::snapshot_capacity), "snapshots are taken",
+                 name(runtime::Overflow::keep_all)});
   }
-  page += "\n## Newest values, given where their reader asks\n\n";
+  page += "\n## Newest values, given on request\n\n";
   page += row({"from -> to", "carries"});
   page += row({"---", "---"});
   for (const CellSpec& c : cells::all) page += row({c.name, c.carries});
   page += "\n## Channels\n\n";
   page += row({"channel", "type", "from", "shows", "rate", "same bits each run"});
   page += row({"---", "---", "---", "---", "---", "---"});
-  for (const Channel& c : channels::all) {
+  for (const ChannelSpec& c : channels::all) {
     page += row({"`" + std::string(c.name) + "`", c.type, c.from, c.shows, c.rate,
                  c.from_data ? "yes" : "no"});
   }

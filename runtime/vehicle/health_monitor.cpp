@@ -10,29 +10,24 @@ void HealthMonitor::start(Time first, MonotonicTime wall, Time origin) {
   wall_start_ = wall;
 }
 
-void HealthMonitor::watch_driver(const Stage& stage, const runtime::Thread& thread,
-                                 const Meter& lateness, ArrivalWatch& arrivals, bool absent) {
+void HealthMonitor::watch_driver(const runtime::Thread& thread, DriverBase& driver) {
   threads_.push_back({&thread,
                       nullptr,
-                      &lateness,
-                      &arrivals,
-                      absent,
+                      &driver,
                       {},
-                      Watchdog(stage, Watchdog::Kind::driver, first_, wall_start_)});
+                      Watchdog(driver.spec(), Watchdog::Kind::driver, first_, wall_start_)});
 }
 
-void HealthMonitor::watch_stage(const Stage& stage, const runtime::Thread& thread,
-                                const ThreadMeter& meter,
-                                std::vector<const runtime::EdgeBase*> inputs) {
-  threads_.push_back({&thread, &meter, nullptr, nullptr, false, std::move(inputs),
+void HealthMonitor::watch_stage(const StageSpec& stage, const runtime::Thread& thread,
+                                const ThreadMeter& meter, std::vector<runtime::EdgeBase*> inputs) {
+  threads_.push_back({&thread, &meter, nullptr, std::move(inputs),
                       Watchdog(stage, Watchdog::Kind::fed, first_, wall_start_)});
 }
 
 StageFacts HealthMonitor::facts(const Watched& watched, std::uint64_t count) {
   StageFacts facts;
-  facts.absent = watched.absent;
   facts.count = count;
-  if (watched.arrivals != nullptr) facts.newest = watched.arrivals->last();
+  if (watched.driver != nullptr) facts.newest = watched.driver->arrivals().last();
   Time furthest_behind = Time::max();
   for (const runtime::EdgeBase* input : watched.inputs) {
     const Time promised = input->promised();
@@ -53,6 +48,9 @@ Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataCl
   const auto say = [&health](std::string sentence) {
     if (!sentence.empty()) health.degraded.push_back(std::move(sentence));
   };
+  for (const std::string_view sensor : missing_) {
+    say(std::string(sensor) + ": there is none; the rest goes without");
+  }
   const MonotonicTime now = runtime::monotonic_now();
   for (Watched& watched : threads_) {
     ThreadHealth t;
@@ -75,8 +73,8 @@ Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataCl
     }
     const auto wrong = watched.watchdog.look(stamp, now, facts(watched, t.count));
     health.degraded.insert(health.degraded.end(), wrong.begin(), wrong.end());
-    if (watched.arrivals != nullptr) {
-      say(outage_sentence(t.name, watched.arrivals->outages(), origin_));
+    if (watched.driver != nullptr) {
+      say(outage_sentence(t.name, watched.driver->arrivals().outages(), origin_));
     }
     health.threads.push_back(std::move(t));
   }
@@ -128,7 +126,7 @@ Deadlines HealthMonitor::deadlines(Time stamp) const {
   for (const Watched& watched : threads_) {
     const std::string& name = watched.thread->name();
     if (watched.meter == nullptr) {
-      add(deadlines.wake_up, name, watched.lateness->histogram());
+      add(deadlines.wake_up, name, watched.driver->lateness().histogram());
       continue;
     }
     if (watched.meter->has_deadline()) {

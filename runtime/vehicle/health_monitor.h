@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "msgs/diagnostics.h"
@@ -11,9 +12,10 @@
 #include "runtime/core/edge.h"
 #include "runtime/core/realtime_setting.h"
 #include "runtime/core/thread.h"
+#include "runtime/vehicle/driver.h"
 #include "runtime/vehicle/episodes.h"
-#include "runtime/vehicle/graph.h"
 #include "runtime/vehicle/message_sink.h"
+#include "runtime/vehicle/stage_specs.h"
 #include "runtime/vehicle/thread_meter.h"
 #include "runtime/vehicle/watchdog.h"
 
@@ -26,12 +28,15 @@ class HealthMonitor {
   // Of the data that are to come, and of the threads; times are said from `origin` on, the start of
   // the drive. Before watch_...().
   void start(Time first, MonotonicTime wall, Time origin);
-  // A driver, by when its samples come, and how late it releases them. `absent`: it has no sensor.
-  void watch_driver(const Stage& stage, const runtime::Thread& thread, const Meter& lateness,
-                    ArrivalWatch& arrivals, bool absent);
+  // A driver: when its samples come, and how late it releases them.
+  void watch_driver(const runtime::Thread& thread, DriverBase& driver);
+  // A sensor that this vehicle lacks.
+  void watch_missing(const StageSpec& sensor) {
+    if (sensor.min_rate > 0.0) missing_.push_back(sensor.name);
+  }
   // A stage, and the rings that feed it.
-  void watch_stage(const Stage& stage, const runtime::Thread& thread, const ThreadMeter& meter,
-                   std::vector<const runtime::EdgeBase*> inputs);
+  void watch_stage(const StageSpec& stage, const runtime::Thread& thread, const ThreadMeter& meter,
+                   std::vector<runtime::EdgeBase*> inputs);
   void watch_path(const Meter& path) { paths_.push_back(&path); }
   void watch(const runtime::EdgeBase& edge) { edges_.push_back(&edge); }
   void watch(UseWatch& use) { uses_.push_back(&use); }
@@ -47,15 +52,15 @@ class HealthMonitor {
  private:
   struct Watched {
     const runtime::Thread* thread;
-    const ThreadMeter* meter;  // null of a driver
-    const Meter* lateness;     // of a driver, else null
-    ArrivalWatch* arrivals;    // likewise
-    bool absent;
-    std::vector<const runtime::EdgeBase*> inputs;
+    const ThreadMeter* meter;  // null for a driver
+    DriverBase* driver;        // null for a stage
+    std::vector<runtime::EdgeBase*> inputs;
     Watchdog watchdog;
     std::uint64_t seen = 0;
 
-    std::uint64_t count() const { return meter != nullptr ? meter->count() : lateness->count(); }
+    std::uint64_t count() const {
+      return meter != nullptr ? meter->count() : driver->lateness().count();
+    }
   };
   static StageFacts facts(const Watched& watched, std::uint64_t count);
 
@@ -63,6 +68,7 @@ class HealthMonitor {
   Time first_{};
   MonotonicTime wall_start_{};
   std::vector<Watched> threads_;
+  std::vector<std::string_view> missing_;
   std::vector<UseWatch*> uses_;
   std::vector<const Meter*> paths_;
   std::vector<const runtime::EdgeBase*> edges_;

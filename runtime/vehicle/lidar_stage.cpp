@@ -1,8 +1,8 @@
 #include "runtime/vehicle/lidar_stage.h"
 
 #include <algorithm>
+#include <utility>
 
-#include "runtime/vehicle/graph.h"
 #include "runtime/vehicle/trace_flows.h"
 
 namespace maploop::vehicle {
@@ -13,42 +13,37 @@ constexpr std::size_t usual_points = 150'000;
 
 }  // namespace
 
-LidarEdges::LidarEdges()
-    : scans(make_edge<LidarScan>(edges::velodyne_lidar, &bell)),
-      visual(make_edge<VisualMotion>(edges::stereo_lidar, &bell)) {}
-
-LidarStage::LidarStage(lidar::LidarOdometry odometer, lidar::DisparityCorrection correction,
-                       LidarEdges& inputs, runtime::Edge<LidarMotion>& lidar,
-                       std::vector<runtime::Edge<RelativeMotion>*> odometry)
-    : odometer_(std::move(odometer)),
+LidarStage::LidarStage(Rings& rings, lidar::LidarOdometry odometer,
+                       lidar::DisparityCorrection correction)
+    : GraphStage(stages::lidar, rings),
+      odometer_(std::move(odometer)),
       correction_(std::move(correction)),
-      inputs_(inputs),
-      lidar_(lidar),
-      odometry_(std::move(odometry)),
-      meter_(stages::lidar) {
-  intake_.add(inputs_.scans, [this](LidarScan& scan) { take(scan); });
-  intake_.add(inputs_.visual, [this](const VisualMotion& visual) { take(visual); });
+      lidar_(outputs(rings::lidar_publisher)),
+      odometry_(outputs(rings::lidar_fusion, rings::lidar_odometry_publisher)) {
+  GraphStage::take(intake_, rings::velodyne_lidar, [this](LidarScan& scan) { take(scan); });
+  GraphStage::take(intake_, rings::stereo_lidar,
+                   [this](const VisualMotion& visual) { take(visual); });
 }
 
-void LidarStage::run(const runtime::DataClock& clock, const std::stop_token& stop) {
+void LidarStage::run(runtime::DataClock& clock, Time, const std::stop_token& stop) {
   clock_ = &clock;
   stop_ = stop;
   resend();
   while (!stop.stop_requested()) {
-    const std::uint32_t heard = inputs_.bell.listen();
+    const std::uint32_t heard = bell().listen();
     const Time promised = intake_.promised();
     save_until(promised);
     take_until(promised);
     if (promised == Time::max()) return;
-    promise(promised + stages::lidar.budget);
-    inputs_.bell.wait(heard);
+    promise(promised + spec().budget);
+    bell().wait(heard);
   }
 }
 
-// Of the run that this one resumes.
+// Sends the results of the run that this one resumes.
 void LidarStage::resend() {
-  for (const LidarMotion& motion : sent_lidar_) send(motion);
-  for (const RelativeMotion& motion : sent_odometry_) send(motion);
+  for (const LidarMotion& motion : sent_lidar_) lidar_.push(motion, stop_);
+  for (const RelativeMotion& motion : sent_odometry_) odometry_.push(motion, stop_);
   scan_.received = visual_.received = runtime::monotonic_now();
 }
 
@@ -122,28 +117,29 @@ void LidarStage::visual_goes_alone(Time trigger, MonotonicTime released) {
 void LidarStage::process(const LidarScan* scan, const VisualMotion* visual, Time trigger,
                          MonotonicTime released) {
   const MonotonicTime started = runtime::monotonic_now();
-  runtime::TraceSpan span(trace_, "lidar");
+  runtime::TraceSpan span(trace(), "lidar");
   if (visual != nullptr) span.step_flow(flow_of(*visual));
-  delay_(trigger);
+  delay(trigger);
   lidar::OdometerResult result = lidar::process(odometer_, correction_, scan, visual);
   const MonotonicTime ended = runtime::monotonic_now();
 
   forget_sent(trigger);
-  result.lidar.available = result.odometry.available = trigger + stages::lidar.budget;
+  result.lidar.available = result.odometry.available = trigger + spec().budget;
   result.lidar.received = result.odometry.received = ended;
   if (scan != nullptr) {
-    counts_[static_cast<std::size_t>(result.lidar.status)].fetch_add(1, std::memory_order_relaxed);
+    counts_.add(result.lidar.status);
     note_use(use_, trigger, result.lidar.status);
     sent_lidar_.push_back(result.lidar);
-    send(result.lidar);
+    lidar_.push(result.lidar, stop_);
   }
   // A scan that is out of order is nobody's motion.
   if (visual != nullptr || result.odometry.status != OdometryStatus::bad_input) {
     sent_odometry_.push_back(result.odometry);
-    send(result.odometry);
+    odometry_.push(result.odometry, stop_);
   }
-  promise(trigger + stages::lidar.budget);
-  measure(trigger, result.odometry.stamp, released, started, ended);
+  promise(trigger + spec().budget);
+  measure(result.odometry.stamp, trigger, released, started, ended, "busy with the scan before",
+          *clock_);
   if (scan != nullptr) show(*scan);
 }
 
@@ -153,22 +149,6 @@ void LidarStage::show(const LidarScan& scan) {
     slot.stamp = scan.stamp;
     thin(scan.points, preview_points_, slot.points);
   });
-}
-
-void LidarStage::measure(Time trigger, Time stamp, MonotonicTime released, MonotonicTime started,
-                         MonotonicTime ended) {
-  const bool missed = meter_.worked(
-      {stamp, released, started, ended, cuts_.held_up(released, "busy with the scan before")},
-      clock_->keeps_time(trigger));
-  if (missed) runtime::trace_instant(trace_, "missed deadline");
-}
-
-void LidarStage::send(const LidarMotion& motion) {
-  lidar_.push(motion, stop_);
-}
-
-void LidarStage::send(const RelativeMotion& motion) {
-  for (auto* edge : odometry_) edge->push(motion, stop_);
 }
 
 void LidarStage::forget_sent(Time t) {
@@ -181,45 +161,29 @@ void LidarStage::save_until(Time t) {
     take_until(cut);
     promise(cut);
   };
-  cuts_.save_until(t, stop_, come_to, [this](ArchiveWriter& ar, Time cut) {
+  cuts().save_until(t, stop_, come_to, [this](ArchiveWriter& ar, Time cut) {
     forget_sent(cut);
-    describe(ar, *this);
+    archive(ar);
   });
 }
 
-// With the results that become available after the cut: whoever goes on from there sends them.
-template <class Archive, class Stage>
-void LidarStage::describe(Archive& ar, Stage& stage) {
-  ar.section(stages::lidar.name, 3);
-  std::array<std::uint64_t, odometry_status_count> counts{};
-  std::copy(stage.counts_.begin(), stage.counts_.end(), counts.begin());
-  ar(stage.odometer_, stage.correction_, counts, stage.sent_lidar_, stage.sent_odometry_,
-     stage.scan_waits_, stage.visual_waits_, stage.visual_, stage.turn_begin_, stage.turn_end_);
-  if (stage.scan_waits_) ar(stage.scan_);
-  if constexpr (Archive::loading) {
-    std::copy(counts.begin(), counts.end(), stage.counts_.begin());
-  }
+// Includes the results that become available after the cut: the run that resumes sends them.
+template <class Archive>
+void LidarStage::archive(Archive& ar) {
+  ar.section(spec().name, 3);
+  ar(odometer_, correction_, counts_, sent_lidar_, sent_odometry_, scan_waits_, visual_waits_,
+     visual_, turn_begin_, turn_end_);
+  if (scan_waits_) ar(scan_);
 }
 
 std::size_t LidarStage::saved_bytes() const {
   return odometer_.largest_archive() + usual_points * sizeof(LidarPoint) + 4096;
 }
 
-void LidarStage::resume(std::span<const std::uint8_t> saved) {
-  ArchiveReader ar(saved);
-  describe(ar, *this);
-  ar.finish();
-}
-
-void LidarStage::promise(Time t) {
-  lidar_.promise(t);
-  for (auto* edge : odometry_) edge->promise(t);
-}
-
-void LidarStage::finish() {
-  promise(Time::max());
-  cuts_.finish();
-  intake_.abandon();
+std::vector<RefusalCount> LidarStage::refusals() {
+  std::vector<RefusalCount> all;
+  counts_.append_to(all, spec().name);
+  return all;
 }
 
 }  // namespace maploop::vehicle

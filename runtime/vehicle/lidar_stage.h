@@ -1,13 +1,8 @@
 // The lidar thread: the visual-LiDAR odometer at each scan and each visual motion.
 #pragma once
 
-#include <array>
-#include <atomic>
 #include <cstddef>
-#include <cstdint>
-#include <span>
 #include <stop_token>
-#include <utility>
 #include <vector>
 
 #include "estimators/lidar/disparity_correction.h"
@@ -15,66 +10,33 @@
 #include "msgs/lidar_scan.h"
 #include "msgs/odometry.h"
 #include "msgs/visual_motion.h"
-#include "runtime/core/data_clock.h"
-#include "runtime/core/doorbell.h"
-#include "runtime/core/edge.h"
 #include "runtime/core/intake.h"
-#include "runtime/core/trace_span.h"
-#include "runtime/vehicle/episodes.h"
-#include "runtime/vehicle/fault_delay.h"
+#include "runtime/vehicle/graph_stage.h"
 #include "runtime/vehicle/preview_stage.h"
-#include "runtime/vehicle/stage_cuts.h"
-#include "runtime/vehicle/thread_meter.h"
+#include "runtime/vehicle/reason_counts.h"
 #include "runtime/vehicle/watchdog.h"
 
 namespace maploop::vehicle {
 
-// The edges that end at the lidar thread.
-struct LidarEdges {
-  LidarEdges();
-
-  runtime::Doorbell bell;
-  runtime::Edge<LidarScan> scans;
-  runtime::Edge<VisualMotion> visual;
-};
-
-// A scan and the visual motion of the image pair taken during its turn go together, whichever comes
-// first: it waits for the other, at most the stage's patience (graph.h), or until it is clear that
-// the other does not come. A visual motion that goes alone is passed on, given the length that the
-// scans so far say. It waits only where a scan is due: one of the two turns behind the last.
-// What was used, and when, depends on the data's times alone.
-class LidarStage {
+// Processes a scan together with the visual motion of the image pair that was taken during its
+// turn. Whichever comes first waits for the other, at most for the stage's patience
+// (stage_specs.h), or until it is certain that the other does not come. A visual motion waits only
+// if a scan is due within two turns after the last one. A visual motion without a scan is passed on
+// with the length that the scans so far suggest. What is used, and when, depends on the times of
+// the data alone.
+class LidarStage final : public GraphStage {
  public:
-  // `odometry`: what fusion gets, to each of these edges.
-  LidarStage(lidar::LidarOdometry odometer, lidar::DisparityCorrection correction,
-             LidarEdges& inputs, runtime::Edge<LidarMotion>& lidar,
-             std::vector<runtime::Edge<RelativeMotion>*> odometry);
+  LidarStage(Rings& rings, lidar::LidarOdometry odometer, lidar::DisparityCorrection correction);
 
-  // Until the inputs are finished or stop is requested.
-  void run(const runtime::DataClock& clock, const std::stop_token& stop);
-  void finish();
+  void run(runtime::DataClock& clock, Time begin, const std::stop_token& stop) override;
+  std::size_t saved_bytes() const override;
+  std::vector<UseWatch*> uses() override { return {&use_}; }
+  std::vector<RefusalCount> refusals() override;
 
-  // Before run().
-  void trace_to(runtime::TraceBuffer* buffer) { trace_ = buffer; }
-  // At most so many points of a scan.
+  // Before run(). At most `points` of each scan.
   void show_to(AskedScan& preview, std::size_t points) {
     preview_ = &preview;
     preview_points_ = points;
-  }
-  void slow_down(StageDelay delay) { delay_ = std::move(delay); }
-  void save_at(std::vector<Time> moments, runtime::Edge<StageSnapshot>& edge) {
-    cuts_.set(std::move(moments), edge);
-  }
-  // Memory that what it saves usually takes at most.
-  std::size_t saved_bytes() const;
-  // Goes on from what was saved; throws ArchiveError, as LidarOdometry.
-  void resume(std::span<const std::uint8_t> saved);
-
-  const ThreadMeter& meter() const { return meter_; }
-  UseWatch& use() { return use_; }
-  // Scans so far with this status; any thread may ask.
-  std::uint64_t count(OdometryStatus status) const {
-    return counts_[static_cast<std::size_t>(status)].load(std::memory_order_relaxed);
   }
 
  private:
@@ -89,22 +51,17 @@ class LidarStage {
   void process(const LidarScan* scan, const VisualMotion* visual, Time trigger,
                MonotonicTime released);
   void show(const LidarScan& scan);
-  void measure(Time trigger, Time stamp, MonotonicTime released, MonotonicTime started,
-               MonotonicTime ended);
-  void send(const LidarMotion& motion);
-  void send(const RelativeMotion& motion);
   void resend();
   void save_until(Time t);
   void forget_sent(Time t);
-  template <class Archive, class Stage>
-  static void describe(Archive& ar, Stage& stage);
-  void promise(Time t);
+  void load(ArchiveReader& ar) override { archive(ar); }
+  template <class Archive>
+  void archive(Archive& ar);
 
   lidar::LidarOdometry odometer_;
   lidar::DisparityCorrection correction_;
-  LidarEdges& inputs_;
-  runtime::Edge<LidarMotion>& lidar_;
-  std::vector<runtime::Edge<RelativeMotion>*> odometry_;
+  Outputs<LidarMotion> lidar_;
+  Outputs<RelativeMotion> odometry_;
   runtime::Intake intake_;
   const runtime::DataClock* clock_ = nullptr;
   std::stop_token stop_;
@@ -118,13 +75,9 @@ class LidarStage {
   std::vector<LidarMotion> sent_lidar_;
   std::vector<RelativeMotion> sent_odometry_;
   UseWatch use_{stages::lidar.name, "scans", Watchdog::patience(stages::lidar)};
-  ThreadMeter meter_;
-  runtime::TraceBuffer* trace_ = nullptr;
-  AskedScan* preview_ = nullptr;  // nullptr: nobody looks on
+  AskedScan* preview_ = nullptr;  // nullptr: no preview is made
   std::size_t preview_points_ = 0;
-  StageDelay delay_;
-  StageCuts cuts_;
-  std::array<std::atomic<std::uint64_t>, odometry_status_count> counts_{};
+  ReasonCounts<OdometryStatus, odometry_status_count> counts_;  // of the scans
 };
 
 }  // namespace maploop::vehicle

@@ -24,9 +24,9 @@ namespace maploop::vehicle {
 template <class T>
 class LiveDriver final : public Driver<T> {
  public:
-  LiveDriver(std::string name, std::unique_ptr<sensors::LiveSource<T>> source,
-             std::vector<runtime::Edge<T>*> edges)
-      : Driver<T>(std::move(name), std::move(edges)), source_(std::move(source)) {}
+  LiveDriver(const StageSpec& spec, std::unique_ptr<sensors::LiveSource<T>> source,
+             Outputs<T> outputs)
+      : Driver<T>(spec, std::move(outputs)), source_(std::move(source)) {}
 
   // Before the clock has started nothing is late.
   void run(runtime::DataClock& clock, const std::stop_token& stop) override {
@@ -48,8 +48,6 @@ class LiveDriver final : public Driver<T> {
     write_report();
   }
 
-  bool absent() const override { return false; }
-
   sensors::SourceReport report() const override {
     const sensors::LiveReport said = source_->report();
     sensors::SourceReport report;
@@ -65,7 +63,7 @@ class LiveDriver final : public Driver<T> {
     if (const sensors::LiveReport* report = reports_.latest()) known_ = report;
     asked_.store(true, std::memory_order_relaxed);
     SensorHealth h;
-    h.name = this->lateness().name();
+    h.name = this->spec().name;
     if (known_ == nullptr) return h;
     h.endpoint = known_->endpoint;
     h.connected = known_->connection.open;

@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "ppp/epoch_state.h"
-#include "runtime/vehicle/graph.h"
 #include "runtime/vehicle/trace_flows.h"
 
 namespace maploop::vehicle {
@@ -18,7 +17,7 @@ constexpr auto relaxed = std::memory_order_relaxed;
 // Satellites that a receiver of all systems sees at most; more is no error.
 constexpr std::size_t usual_satellites = 64;
 
-// What the receiver hears is added to what the files had.
+// A live receiver without precise products adds what it receives to the broadcast ephemeris.
 std::optional<ppp::CorrectedEphemeris> grows(const ppp::PppSetup& setup) {
   if (!setup.live() || setup.precise()) return {};
   return ppp::CorrectedEphemeris(*setup.broadcast());
@@ -26,59 +25,50 @@ std::optional<ppp::CorrectedEphemeris> grows(const ppp::PppSetup& setup) {
 
 }  // namespace
 
-PppEdges::PppEdges(bool closed, bool corrected)
-    : epochs(make_edge<GnssEpoch>(edges::gnss_ppp, &bell)) {
-  const auto add = [this](auto& edge, const EdgeSpec& spec) {
-    edge.emplace(std::string(spec.name), spec.capacity, spec.overflow, &bell);
-  };
-  if (closed) add(feedback, edges::mapmatch_ppp);
-  if (corrected) add(corrections, edges::corrections_ppp);
-}
-
-PppStage::PppStage(std::shared_ptr<const ppp::PppSetup> setup, double integrity_risk,
-                   PppEdges& inputs, runtime::Edge<PppState>& states,
-                   std::vector<runtime::Edge<GnssFix>*> fixes)
-    : setup_(std::move(setup)),
+PppStage::PppStage(Rings& rings, std::shared_ptr<const ppp::PppSetup> setup, double integrity_risk)
+    : GraphStage(stages::ppp, rings),
+      setup_(std::move(setup)),
       received_(grows(*setup_)),
       filter_(setup_->make_map_aided_filter(received_ ? &*received_ : nullptr)),
       integrity_risk_(integrity_risk),
-      inputs_(inputs),
-      states_(states),
-      fixes_(std::move(fixes)),
-      meter_(stages::ppp) {
+      epochs_(*input(rings::gnss_ppp)),
+      feedback_(input(rings::mapmatch_ppp)),
+      corrections_(input(rings::corrections_ppp)),
+      states_(outputs(rings::ppp_publisher)),
+      fixes_(outputs(rings::ppp_fusion, rings::ppp_fix_publisher)) {
   state_.satellites.reserve(usual_satellites);
   free_state_.satellites.reserve(usual_satellites);
-  held_.reserve(edges::mapmatch_ppp.capacity);
+  held_.reserve(rings::mapmatch_ppp.capacity);
 }
 
-void PppStage::run(const runtime::DataClock& clock, const std::stop_token& stop) {
+void PppStage::run(runtime::DataClock& clock, Time, const std::stop_token& stop) {
   for (Sent& sent : sent_) send(sent, stop);  // of the run that this one resumes
   while (!stop.stop_requested()) {
-    const std::uint32_t heard = inputs_.bell.listen();
+    const std::uint32_t heard = bell().listen();
     // Promises before the rings: see EdgeBase::promised().
-    const Time promised = inputs_.epochs.promised();
-    const bool waits = inputs_.feedback && !clock.is_live();
-    const Time known = waits ? inputs_.feedback->promised() : Time::max();
+    const Time promised = epochs_.promised();
+    const bool waits = feedback_ != nullptr && !clock.is_live();
+    const Time known = waits ? feedback_->promised() : Time::max();
     hold_feedback();
     take_corrections();
-    const GnssEpoch* epoch = inputs_.epochs.front();
+    const GnssEpoch* epoch = epochs_.front();
     if (epoch != nullptr && known >= epoch->available) {
       save_until(epoch->available - Duration(1), stop);
       take(*epoch, clock, stop);
-      inputs_.epochs.pop();
+      epochs_.pop();
       continue;
     }
     if (epoch != nullptr) {
       // Its state is available a budget later: until then nobody waits for it.
-      promise(epoch->available + stages::ppp.budget - Duration(1));
+      promise(epoch->available + spec().budget - Duration(1));
     } else if (promised == Time::max()) {
       save_until(promised, stop);
       break;
     } else {
       save_until(std::min(promised, known), stop);
-      promise(promised + stages::ppp.budget);
+      promise(promised + spec().budget);
     }
-    inputs_.bell.wait(heard);
+    bell().wait(heard);
   }
   drain_feedback(stop);
 }
@@ -87,37 +77,34 @@ void PppStage::take(const GnssEpoch& epoch, const runtime::DataClock& clock,
                     const std::stop_token& stop) {
   const MonotonicTime started = runtime::monotonic_now();
   process(epoch, stop);
-  const MonotonicTime ended = runtime::monotonic_now();
-  const bool missed = meter_.worked({epoch.stamp, epoch.received, started, ended,
-                                     cuts_.held_up(epoch.received, "busy with the epoch before")},
-                                    clock.keeps_time(epoch.available));
-  if (missed) runtime::trace_instant(trace_, "missed deadline");
+  measure(epoch.stamp, epoch.available, epoch.received, started, runtime::monotonic_now(),
+          "busy with the epoch before", clock);
 }
 
 // What says nothing is passed over, so that the ring is never full.
 void PppStage::hold_feedback() {
-  if (!inputs_.feedback) return;
-  while (const MapFeedback* f = inputs_.feedback->front()) {
+  if (feedback_ == nullptr) return;
+  while (const MapFeedback* f = feedback_->front()) {
     if (f->position || f->azimuth || f->reason == FeedbackReason::inconsistent) held_.push_back(*f);
-    inputs_.feedback->pop();
+    feedback_->pop();
   }
 }
 
 // On the road alone: whatever has come by now.
 void PppStage::take_corrections() {
-  if (!inputs_.corrections) return;
-  while (const GnssCorrections* c = inputs_.corrections->front()) {
+  if (corrections_ == nullptr) return;
+  while (const GnssCorrections* c = corrections_->front()) {
     if (received_) {
       received_->add(c->heard);
       for (const ppp::SsrUpdate& u : c->updates) received_->add(u);
     }
-    inputs_.corrections->pop();
+    corrections_->pop();
   }
 }
 
-// What of the epoch is corrected, and by how old corrections.
+// Records how many satellites of this epoch are corrected, and how old the corrections are.
 void PppStage::say_corrections() {
-  if (!inputs_.corrections || !received_) return;
+  if (corrections_ == nullptr || !received_) return;
   const auto age = received_->age();
   for (PppState* state : {&state_, &free_state_}) {
     state->satellites_corrected = 0;
@@ -138,7 +125,7 @@ void PppStage::say_corrections() {
 
 std::string PppStage::wrong_with_corrections() const {
   const double age = counts_.correction_age.load(relaxed);
-  if (!inputs_.corrections) return {};
+  if (corrections_ == nullptr) return {};
   if (age < 0.0) return "ppp: no corrections have come: broadcast orbits and clocks";
   if (age <= to_seconds(ppp::CorrectedEphemeris::longest_age)) return {};
   return "ppp: corrections are " + std::to_string(std::lround(age)) +
@@ -165,12 +152,12 @@ std::string PppStage::degraded() const {
 // There are no more epochs; the matcher must not wait for a full ring.
 void PppStage::drain_feedback(const std::stop_token& stop) {
   promise(Time::max());
-  while (inputs_.feedback && !stop.stop_requested()) {
-    const std::uint32_t heard = inputs_.bell.listen();
-    const Time known = inputs_.feedback->promised();
-    while (inputs_.feedback->front() != nullptr) inputs_.feedback->pop();
+  while (feedback_ != nullptr && !stop.stop_requested()) {
+    const std::uint32_t heard = bell().listen();
+    const Time known = feedback_->promised();
+    while (feedback_->front() != nullptr) feedback_->pop();
     if (known == Time::max()) return;
-    inputs_.bell.wait(heard);
+    bell().wait(heard);
   }
 }
 
@@ -187,9 +174,9 @@ void PppStage::use_feedback(Time until) {
 }
 
 void PppStage::process(const GnssEpoch& epoch, const std::stop_token& stop) {
-  runtime::TraceSpan span(trace_, "ppp");
+  runtime::TraceSpan span(trace(), "ppp");
   span.step_flow(flow_of(epoch));
-  delay_(epoch.available);
+  delay(epoch.available);
   if (last_epoch_ != Time::min()) use_feedback(epoch.available);
   if (received_) {
     received_->add(epoch.heard);
@@ -202,7 +189,7 @@ void PppStage::process(const GnssEpoch& epoch, const std::stop_token& stop) {
   receiver_ahead_ = ppp::to_utc(epoch.epoch.time) - epoch.stamp;
   for (PppState* state : {&state_, &free_state_}) {
     state->stamp = epoch.stamp;
-    state->available = epoch.available + stages::ppp.budget;
+    state->available = epoch.available + spec().budget;
     state->sequence = epoch.sequence;
   }
   say_corrections();
@@ -217,8 +204,8 @@ void PppStage::process(const GnssEpoch& epoch, const std::stop_token& stop) {
 
 void PppStage::count(const PppState& state) {
   for (const PppSatellite& s : state.satellites) {
-    counts_.refused[static_cast<std::size_t>(s.refusal)].fetch_add(1, relaxed);
-    counts_.slipped[static_cast<std::size_t>(s.slip)].fetch_add(1, relaxed);
+    counts_.refused.add(s.refusal);
+    counts_.slipped.add(s.slip);
   }
   if (state.status == PppStatus::none) counts_.without_position.fetch_add(1, relaxed);
   counts_.restarts.store(state.restarts, relaxed);
@@ -228,87 +215,55 @@ void PppStage::count(const PppState& state) {
 void PppStage::send(Sent& sent, const std::stop_token& stop) {
   sent.state.received = sent.fix.received = runtime::monotonic_now();
   states_.push(sent.state, stop);
-  if (sent.has_fix) {
-    for (auto* edge : fixes_) edge->push(sent.fix, stop);
-  }
+  if (sent.has_fix) fixes_.push(sent.fix, stop);
   promise(sent.state.available);
 }
 
 void PppStage::save_until(Time t, const std::stop_token& stop) {
   const auto promise_until = [this](Time cut) { promise(cut); };
-  cuts_.save_until(t, stop, promise_until, [this](ArchiveWriter& ar, Time cut) {
+  cuts().save_until(t, stop, promise_until, [this](ArchiveWriter& ar, Time cut) {
     std::erase_if(sent_, [cut](const Sent& s) { return s.state.available <= cut; });
-    describe(ar, *this, cut);
+    archive(ar, cut);
   });
 }
 
-// With the results that become available after the cut: whoever goes on from there sends them.
-template <class Archive, class Stage>
-void PppStage::describe(Archive& ar, Stage& stage, Time cut) {
-  ar.section(stages::ppp.name, 3);
-  std::array<std::uint64_t, ppp_refusal_count> refused{};
-  std::array<std::uint64_t, ppp_slip_count> slipped{};
-  std::uint64_t without_position = stage.counts_.without_position;
-  std::uint64_t restarts = stage.counts_.restarts;
-  std::copy(stage.counts_.refused.begin(), stage.counts_.refused.end(), refused.begin());
-  std::copy(stage.counts_.slipped.begin(), stage.counts_.slipped.end(), slipped.begin());
-  std::uint64_t forgotten_roads = stage.counts_.forgotten_roads;
-  // What becomes available after the cut, the matcher that goes on from there sends.
+// Includes the results that become available after the cut: the run that resumes sends them. The
+// matcher that resumes sends the feedback that becomes available after the cut.
+template <class Archive>
+void PppStage::archive(Archive& ar, Time cut) {
+  ar.section(spec().name, 3);
+  const auto number = [&ar](std::atomic<std::uint64_t>& value) {
+    std::uint64_t saved = value;
+    ar(saved);
+    if constexpr (Archive::loading) value = saved;
+  };
   std::vector<MapFeedback> held;
-  std::copy_if(stage.held_.begin(), stage.held_.end(), std::back_inserter(held),
+  std::copy_if(held_.begin(), held_.end(), std::back_inserter(held),
                [cut](const MapFeedback& f) { return f.available <= cut; });
-  ar(stage.filter_, refused, slipped, without_position, restarts, forgotten_roads, stage.sent_,
-     held, stage.last_epoch_);
-  if constexpr (Archive::loading) {
-    std::copy(refused.begin(), refused.end(), stage.counts_.refused.begin());
-    std::copy(slipped.begin(), slipped.end(), stage.counts_.slipped.begin());
-    stage.counts_.without_position = without_position;
-    stage.counts_.restarts = restarts;
-    stage.counts_.forgotten_roads = forgotten_roads;
-    stage.held_ = std::move(held);
-  }
+  ar(filter_, counts_.refused, counts_.slipped);
+  number(counts_.without_position);
+  number(counts_.restarts);
+  number(counts_.forgotten_roads);
+  ar(sent_, held, last_epoch_);
+  if constexpr (Archive::loading) held_ = std::move(held);
 }
 
-std::size_t PppStage::saved_bytes() {
+std::size_t PppStage::saved_bytes() const {
   return ppp::MapAidedFilter::largest_archive + 2 * usual_satellites * sizeof(PppSatellite) + 4096;
 }
 
-void PppStage::resume(std::span<const std::uint8_t> saved) {
-  ArchiveReader ar(saved);
-  describe(ar, *this, Time::max());
-  ar.finish();
-}
-
-std::vector<RefusalCount> PppStage::refusals() const {
+std::vector<RefusalCount> PppStage::refusals() {
   std::vector<RefusalCount> all;
   const auto add = [&](std::string_view reason, std::uint64_t count) {
-    if (count > 0) all.push_back({std::string(stages::ppp.name), std::string(reason), count});
+    if (count > 0) all.push_back({std::string(spec().name), std::string(reason), count});
   };
   add("epoch without a position", counts_.without_position.load(relaxed));
-  for (std::size_t i = 1; i < ppp_refusal_count; ++i) {
-    add(to_string(static_cast<PppRefusal>(i)), counts_.refused[i].load(relaxed));
-  }
-  for (std::size_t i = 1; i < ppp_slip_count; ++i) {
-    const std::string slip(to_string(static_cast<PppSlip>(i)));
-    add("slip: " + slip, counts_.slipped[i].load(relaxed));
-  }
+  counts_.refused.append_to(all, spec().name);
+  counts_.slipped.append_to(all, spec().name, "slip: ");
   add("begun anew: measurements disagreed with the position", counts_.restarts.load(relaxed));
   add("a wrong road forgotten", counts_.forgotten_roads.load(relaxed));
   add("epoch without corrections", counts_.uncorrected.load(relaxed));
   return all;
-}
-
-void PppStage::promise(Time t) {
-  states_.promise(t);
-  for (auto* edge : fixes_) edge->promise(t);
-}
-
-void PppStage::finish() {
-  promise(Time::max());
-  cuts_.finish();
-  inputs_.epochs.abandon();
-  if (inputs_.feedback) inputs_.feedback->abandon();
-  if (inputs_.corrections) inputs_.corrections->abandon();
 }
 
 }  // namespace maploop::vehicle

@@ -1,83 +1,46 @@
 // The ppp thread: precise point positioning at each epoch of the GNSS receiver.
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <stop_token>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "msgs/diagnostics.h"
 #include "msgs/gnss.h"
 #include "msgs/map_feedback.h"
 #include "msgs/ppp_state.h"
 #include "ppp/ppp_setup.h"
 #include "ppp/products/corrected.h"
-#include "runtime/core/data_clock.h"
-#include "runtime/core/doorbell.h"
-#include "runtime/core/edge.h"
-#include "runtime/core/trace_span.h"
-#include "runtime/vehicle/episodes.h"
-#include "runtime/vehicle/fault_delay.h"
 #include "runtime/vehicle/gnss_epoch.h"
+#include "runtime/vehicle/graph_stage.h"
 #include "runtime/vehicle/live_corrections.h"
-#include "runtime/vehicle/stage_cuts.h"
-#include "runtime/vehicle/thread_meter.h"
+#include "runtime/vehicle/reason_counts.h"
 #include "runtime/vehicle/watchdog.h"
 
 namespace maploop::vehicle {
 
-// The edges that end at the ppp thread.
-struct PppEdges {
-  // `closed`: the map feeds back; `corrected`: a stream of corrections comes.
-  explicit PppEdges(bool closed = false, bool corrected = false);
-
-  runtime::Doorbell bell;
-  runtime::Edge<GnssEpoch> epochs;
-  std::optional<runtime::Edge<MapFeedback>> feedback;
-  std::optional<runtime::Edge<GnssCorrections>> corrections;
-};
-
-class PppStage {
+// Sends the state of each epoch, and a fix of each epoch that has a position. The fix comes from
+// the filter without the map: its consumers receive the map's feedback themselves, and a fix with
+// it would make them count it twice. An epoch takes the feedback that is available by then; on a
+// live clock, the feedback that has arrived.
+class PppStage final : public GraphStage {
  public:
-  // A fix of each epoch that has a position goes to all of `fixes`: of the filter without the map.
-  // Whoever takes it gets the map's feedback himself, and would else count it twice.
-  PppStage(std::shared_ptr<const ppp::PppSetup> setup, double integrity_risk, PppEdges& inputs,
-           runtime::Edge<PppState>& states, std::vector<runtime::Edge<GnssFix>*> fixes);
+  PppStage(Rings& rings, std::shared_ptr<const ppp::PppSetup> setup, double integrity_risk);
 
-  // Until the epochs are finished or stop is requested. An epoch takes the feedback that is
-  // available by then; on a live clock, what of it is there.
-  void run(const runtime::DataClock& clock, const std::stop_token& stop);
-  void finish();
-
-  // Before run().
-  void trace_to(runtime::TraceBuffer* buffer) { trace_ = buffer; }
-  void slow_down(StageDelay delay) { delay_ = std::move(delay); }
-  void save_at(std::vector<Time> moments, runtime::Edge<StageSnapshot>& edge) {
-    cuts_.set(std::move(moments), edge);
-  }
-  // Memory that what it saves usually takes at most.
-  static std::size_t saved_bytes();
-  // Goes on from what was saved; throws ArchiveError, as PppFilter.
-  void resume(std::span<const std::uint8_t> saved);
-
-  UseWatch& use() { return use_; }
-  const ThreadMeter& meter() const { return meter_; }
-  // Epochs without a position, satellites refused and slips by their reasons, and restarts, so far;
-  // any thread may ask.
-  std::vector<RefusalCount> refusals() const;
-  // What is wrong with the corrections and the ionosphere's coefficients at the last epoch, as a
-  // sentence; empty: nothing. Any thread may ask.
-  std::string degraded() const;
+  void run(runtime::DataClock& clock, Time begin, const std::stop_token& stop) override;
+  std::size_t saved_bytes() const override;
+  std::vector<UseWatch*> uses() override { return {&use_}; }
+  // Epochs without a position, refused satellites and slips by their reasons, and restarts.
+  std::vector<RefusalCount> refusals() override;
+  // Missing or old corrections, and missing coefficients of the ionosphere, at the last epoch.
+  std::string degraded() const override;
 
  private:
-  // Of an epoch.
+  // The results of one epoch.
   struct Sent {
     PppState state;
     bool has_fix = false;
@@ -100,13 +63,13 @@ class PppStage {
   void count(const PppState& state);
   void send(Sent& sent, const std::stop_token& stop);
   void save_until(Time t, const std::stop_token& stop);
-  template <class Archive, class Stage>
-  static void describe(Archive& ar, Stage& stage, Time cut);
-  void promise(Time t);
+  void load(ArchiveReader& ar) override { archive(ar, Time::max()); }
+  template <class Archive>
+  void archive(Archive& ar, Time cut);
 
   struct Counts {
-    std::array<std::atomic<std::uint64_t>, ppp_refusal_count> refused{};
-    std::array<std::atomic<std::uint64_t>, ppp_slip_count> slipped{};
+    ReasonCounts<PppRefusal, ppp_refusal_count> refused;
+    ReasonCounts<PppSlip, ppp_slip_count> slipped;
     std::atomic<std::uint64_t> without_position{0};
     std::atomic<std::uint64_t> restarts{0};
     std::atomic<std::uint64_t> forgotten_roads{0};
@@ -120,14 +83,12 @@ class PppStage {
   std::optional<ppp::CorrectedEphemeris> received_;  // of a live receiver without precise orbits
   ppp::MapAidedFilter filter_;
   double integrity_risk_;
-  PppEdges& inputs_;
-  runtime::Edge<PppState>& states_;
-  std::vector<runtime::Edge<GnssFix>*> fixes_;
+  runtime::Edge<GnssEpoch>& epochs_;
+  runtime::Edge<MapFeedback>* feedback_;         // nullptr: the map does not feed back
+  runtime::Edge<GnssCorrections>* corrections_;  // nullptr: no stream of corrections
+  Outputs<PppState> states_;
+  Outputs<GnssFix> fixes_;
   UseWatch use_{stages::ppp.name, "epochs", Watchdog::patience(stages::ppp)};
-  ThreadMeter meter_;
-  runtime::TraceBuffer* trace_ = nullptr;
-  StageDelay delay_;
-  StageCuts cuts_;
   PppState state_, free_state_;    // of the last epoch, to reuse their memory
   std::vector<Sent> sent_;         // those that were not yet available at the last epoch
   std::vector<MapFeedback> held_;  // not yet used

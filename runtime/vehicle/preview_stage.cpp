@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "runtime/core/periodic.h"
-#include "runtime/vehicle/graph.h"
 #include "sensors/image/jpeg.h"
 
 namespace maploop::vehicle {
@@ -38,12 +37,16 @@ void thin(const std::vector<LidarPoint>& points, std::size_t most, std::vector<L
   for (std::size_t i = 0; i < points.size(); i += step) out.push_back(points[i]);
 }
 
-PreviewStage::PreviewStage(const PreviewParameters& parameters,
-                           const Eigen::Isometry3d& T_body_velo, runtime::Edge<Preview>& output)
+PreviewStage::PreviewStage(Rings& rings, const PreviewParameters& parameters,
+                           const Eigen::Isometry3d& T_body_velo)
     : parameters_(parameters),
       T_body_velo_(T_body_velo.cast<float>()),
-      output_(output),
+      output_(rings.outputs(rings::preview_publisher)),
       meter_(stages::preview) {}
+
+void PreviewStage::finish() {
+  for (auto* ring : output_.rings()) ring->finish();
+}
 
 void PreviewStage::run(const std::stop_token& stop) {
   const Duration rest = from_seconds(1.0 / parameters_.rate) - answer_within;
@@ -67,7 +70,7 @@ void PreviewStage::look(const std::stop_token& stop) {
   preview.available = preview.stamp;
   preview.received = started;
   preview.sequence = meter_.count();
-  output_.push(preview.stamp, stop, [&](Preview& slot) { std::swap(slot, preview); });
+  output_.push(preview, stop);
   meter_.ran(runtime::monotonic_now() - started);
 }
 

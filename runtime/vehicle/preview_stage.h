@@ -9,8 +9,8 @@
 #include "msgs/lidar_scan.h"
 #include "msgs/preview.h"
 #include "runtime/core/asked_value.h"
-#include "runtime/core/edge.h"
 #include "runtime/vehicle/preview_parameters.h"
+#include "runtime/vehicle/rings.h"
 #include "runtime/vehicle/thread_meter.h"
 
 namespace maploop::vehicle {
@@ -38,15 +38,15 @@ void thin(const std::vector<LidarPoint>& points, std::size_t most, std::vector<L
 // copy, everything else is done here. A full ring loses the newest.
 class PreviewStage {
  public:
-  PreviewStage(const PreviewParameters& parameters, const Eigen::Isometry3d& T_body_velo,
-               runtime::Edge<Preview>& output);
+  PreviewStage(Rings& rings, const PreviewParameters& parameters,
+               const Eigen::Isometry3d& T_body_velo);
 
   // For the threads that answer, which must end before this is gone.
   AskedImage& image() { return image_; }
   AskedScan& scan() { return scan_; }
 
   void run(const std::stop_token& stop);
-  void finish() { output_.finish(); }
+  void finish();
 
   const ThreadMeter& meter() const { return meter_; }
 
@@ -57,7 +57,7 @@ class PreviewStage {
 
   PreviewParameters parameters_;
   Eigen::Isometry3f T_body_velo_;
-  runtime::Edge<Preview>& output_;
+  Outputs<Preview> output_;
   AskedImage image_;
   AskedScan scan_;
   ThreadMeter meter_;

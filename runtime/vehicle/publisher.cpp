@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <type_traits>
 #include <utility>
 
 #include "msgs/lcm/conversions.h"
@@ -15,100 +16,73 @@ namespace {
 
 constexpr auto look_every = std::chrono::milliseconds(1);
 
-bool reaches(const Channel& channel, const MessageSink& sink) {
+bool reaches(const ChannelSpec& channel, const MessageSink& sink) {
   switch (channel.reach) {
     case Reach::everyone:
       return true;
     case Reach::log:
       return sink.wants_raw();
-    case Reach::lookers:
+    case Reach::viewers:
       return sink.wants_preview();
   }
   return false;
 }
 
-consteval runtime::TraceName trace_name(const Channel& channel) {
+consteval runtime::TraceName trace_name(const ChannelSpec& channel) {
   return channel.name.data();
 }
 
 }  // namespace
 
-PublisherEdges::PublisherEdges()
-    : camera(make_edge<StereoPair>(edges::camera_publisher, nullptr)),
-      velodyne(make_edge<LidarScan>(edges::velodyne_publisher, nullptr)),
-      imu(make_edge<ImuSample>(edges::imu_publisher, nullptr)),
-      gnss(make_edge<GnssFix>(edges::gnss_publisher, nullptr)),
-      wheel(make_edge<WheelSpeed>(edges::wheel_publisher, nullptr)),
-      reference(make_edge<ReferencePose>(edges::reference_publisher, nullptr)),
-      visual(make_edge<RelativeMotion>(edges::stereo_publisher, nullptr)),
-      lidar(make_edge<LidarMotion>(edges::lidar_publisher, nullptr)),
-      odometry(make_edge<RelativeMotion>(edges::odometry_publisher, nullptr)),
-      ppp(make_edge<PppState>(edges::ppp_publisher, nullptr)),
-      nav_state(make_edge<NavState>(edges::fusion_publisher, nullptr)),
-      image_state(make_edge<NavState>(edges::image_states, nullptr)),
-      map_match(make_edge<MapMatch>(edges::mapmatch_publisher, nullptr)),
-      map_feedback(make_edge<MapFeedback>(edges::feedback_publisher, nullptr)),
-      preview(make_edge<Preview>(edges::preview_publisher, nullptr)),
-      reports(make_edge<RuntimeReport>(edges::health_publisher, nullptr)) {}
-
-Publisher::Publisher(const VehicleCalibration& calibration, PublisherEdges& edges,
+// In this order messages with the same time leave.
+Publisher::Publisher(const VehicleCalibration& calibration, Rings& rings,
                      std::vector<MessageSink*> sinks, Observer observer, MatchDescriber in_words)
     : calibration_(calibration),
-      edges_(edges),
+      rings_(rings),
+      reports_(rings.consumer(rings::health_publisher)),
+      previews_(rings.consumer(rings::preview_publisher)),
       sinks_(std::move(sinks)),
       observer_(std::move(observer)),
       in_words_(std::move(in_words)) {
-  forward<channels::camera>(edges_.camera);
-  forward<channels::velodyne>(edges_.velodyne);
-  forward<channels::imu>(edges_.imu);
-  forward<channels::gnss_fix>(edges_.gnss);
-  forward<channels::wheel_speed>(edges_.wheel);
-  forward<channels::truth>(edges_.reference);
-  intake_.add(edges_.visual, [this](const RelativeMotion& motion) {
-    const runtime::TraceSpan span(trace_, trace_name(channels::visual_odometry));
-    send(channels::visual_odometry, motion.available, to_lcm(motion));
-    observer_.odometry(motion);
-  });
-  intake_.add(edges_.lidar, [this](const LidarMotion& motion) {
-    const runtime::TraceSpan span(trace_, trace_name(channels::lidar_odometry));
-    send(channels::lidar_odometry, motion.available, to_lcm(motion));
-    observer_.lidar(motion);
-  });
-  intake_.add(edges_.odometry, [this](const RelativeMotion& motion) {
-    const runtime::TraceSpan span(trace_, trace_name(channels::odometry));
-    note_flow(motion);
-    send(channels::odometry, motion.available, to_lcm(motion));
-  });
-  intake_.add(edges_.ppp, [this](const PppState& state) {
-    const runtime::TraceSpan span(trace_, trace_name(channels::ppp_state));
-    send(channels::ppp_state, state.available, to_lcm(state));
-    observer_.ppp(state);
-  });
-  intake_.add(edges_.nav_state, [this](const NavState& state) {
-    runtime::TraceSpan span(trace_, trace_name(channels::nav_state));
-    end_flows(span, state);
-    send(channels::nav_state, state.available, to_lcm(state));
-    observer_.nav_state(state);
-  });
-  intake_.add(edges_.image_state, [this](const NavState& state) { observer_.image_state(state); });
-  intake_.add(edges_.map_match, [this](const MapMatch& match) {
-    const runtime::TraceSpan span(trace_, trace_name(channels::map_match));
-    send(channels::map_match, match.available, to_lcm(match, in_words_(match)));
-    observer_.map_match(match);
-  });
-  intake_.add(edges_.map_feedback, [this](const MapFeedback& feedback) {
-    const runtime::TraceSpan span(trace_, trace_name(channels::map_feedback));
-    send(channels::map_feedback, feedback.available, to_lcm(feedback));
-    observer_.map_feedback(feedback);
-  });
+  forward<channels::camera>(rings::camera_publisher);
+  forward<channels::velodyne>(rings::velodyne_publisher);
+  forward<channels::imu>(rings::imu_publisher);
+  forward<channels::gnss_fix>(rings::gnss_publisher);
+  forward<channels::gnss_fix>(rings::ppp_fix_publisher);
+  forward<channels::wheel_speed>(rings::wheel_publisher);
+  forward<channels::truth>(rings::reference_publisher);
+  forward<channels::visual_odometry>(rings::stereo_publisher, observer_.odometry);
+  forward<channels::visual_odometry>(rings::visual_log_publisher, observer_.odometry);
+  forward<channels::lidar_odometry>(rings::lidar_publisher, observer_.lidar);
+  forward<channels::lidar_odometry>(rings::lidar_log_publisher, observer_.lidar);
+  forward<channels::odometry>(rings::lidar_odometry_publisher);
+  forward<channels::odometry>(rings::stereo_odometry_publisher);
+  forward<channels::odometry>(rings::odometry_publisher);
+  forward<channels::ppp_state>(rings::ppp_publisher, observer_.ppp);
+  forward<channels::nav_state>(rings::fusion_publisher, observer_.nav_state);
+  if (auto* states = rings.consumer(rings::image_states)) {
+    intake_.add(*states, [this](const NavState& state) { observer_.image_state(state); });
+  }
+  forward<channels::map_match>(rings::mapmatch_publisher, observer_.map_match);
+  forward<channels::map_feedback>(rings::feedback_publisher, observer_.map_feedback);
 }
 
-template <const Channel& channel, class T>
-void Publisher::forward(runtime::Edge<T>& edge) {
-  intake_.add(edge, [this](const T& sample) {
-    const runtime::TraceSpan span(trace_, trace_name(channel));
-    note_flow(sample);
-    send(channel, sample.available, to_lcm(sample));
+template <const ChannelSpec& channel, class T>
+void Publisher::forward(const RingSpec<T>& spec, const std::function<void(const T&)>& observe) {
+  runtime::Edge<T>* ring = rings_.consumer(spec);
+  if (ring == nullptr) return;
+  intake_.add(*ring, [this, observe](const T& sample) {
+    runtime::TraceSpan span(trace_, trace_name(channel));
+    if constexpr (std::is_same_v<T, NavState>) end_flows(span, sample);
+    // The flow of an image goes on with the odometry that is fused.
+    if constexpr (&channel != &channels::visual_odometry && &channel != &channels::lidar_odometry)
+      note_flow(sample);
+    if constexpr (std::is_same_v<T, MapMatch>) {
+      send(channel, sample.available, to_lcm(sample, in_words_(sample)));
+    } else {
+      send(channel, sample.available, to_lcm(sample));
+    }
+    observe(sample);
   });
 }
 
@@ -130,7 +104,7 @@ void Publisher::end_flows(runtime::TraceSpan& span, const NavState& state) {
 }
 
 template <class Lcm>
-void Publisher::send(const Channel& channel, Time time, const Lcm& message) {
+void Publisher::send(const ChannelSpec& channel, Time time, const Lcm& message) {
   const MonotonicTime started = runtime::monotonic_now();
   const int size = message.getEncodedSize();
   buffer_.resize(static_cast<std::size_t>(size));
@@ -146,20 +120,20 @@ void Publisher::send(const Channel& channel, Time time, const Lcm& message) {
 }
 
 void Publisher::send_reports() {
-  while (const RuntimeReport* report = edges_.reports.front()) {
+  while (const RuntimeReport* report = reports_->front()) {
     const runtime::TraceSpan span(trace_, trace_name(channels::health));
     send(channels::health, report->available, to_lcm(report->health));
     send(channels::deadlines, report->available, to_lcm(report->deadlines));
     observer_.health(report->health);
-    edges_.reports.pop();
+    reports_->pop();
   }
 }
 
 void Publisher::send_previews() {
-  while (const Preview* preview = edges_.preview.front()) {
+  while (const Preview* preview = previews_ != nullptr ? previews_->front() : nullptr) {
     const runtime::TraceSpan span(trace_, trace_name(channels::preview));
     send(channels::preview, preview->available, to_lcm(*preview));
-    edges_.preview.pop();
+    previews_->pop();
   }
 }
 
@@ -169,7 +143,7 @@ void Publisher::run(Time begin, const runtime::DataClock& clock) {
       std::chrono::floor<std::chrono::microseconds>(begin).time_since_epoch().count();
   send(channels::calibration, begin, calibration);
   for (;;) {
-    const bool last = intake_.finished() && edges_.reports.promised() == Time::max();
+    const bool last = intake_.finished() && reports_->promised() == Time::max();
     const Time given_up = clock.is_live() ? clock.now() - patience : Time::min();
     intake_.take_until(std::max(intake_.promised(), given_up));
     send_previews();
@@ -181,7 +155,7 @@ void Publisher::run(Time begin, const runtime::DataClock& clock) {
 
 void Publisher::finish() {
   intake_.abandon();
-  edges_.reports.abandon();
+  reports_->abandon();
   for (MessageSink* sink : sinks_) sink->flush();
 }
 

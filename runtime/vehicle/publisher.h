@@ -25,19 +25,15 @@
 #include "runtime/core/edge.h"
 #include "runtime/core/intake.h"
 #include "runtime/core/trace_span.h"
-#include "runtime/vehicle/graph.h"
+#include "runtime/vehicle/channel_specs.h"
 #include "runtime/vehicle/message_sink.h"
+#include "runtime/vehicle/rings.h"
+#include "runtime/vehicle/runtime_report.h"
 #include "runtime/vehicle/thread_meter.h"
 
 namespace maploop::vehicle {
 
-// What the health thread has to say, once a second.
-struct RuntimeReport : Sample {
-  Health health;
-  Deadlines deadlines;
-};
-
-// Called on the publisher's thread with each result, for whoever wants values rather than messages.
+// Called on the publisher's thread with each result, for users of values rather than messages.
 // `image_state` is the fused state at the moment of each image, with that image's odometry applied.
 struct Observer {
   std::function<void(const RelativeMotion&)> odometry = [](const RelativeMotion&) {};
@@ -50,29 +46,6 @@ struct Observer {
   std::function<void(const Health&)> health = [](const Health&) {};
 };
 
-// The edges that end at the publisher. No bell: it looks by itself, so that nobody upstream pays a
-// system call to wake it.
-struct PublisherEdges {
-  PublisherEdges();
-
-  runtime::Edge<StereoPair> camera;
-  runtime::Edge<LidarScan> velodyne;
-  runtime::Edge<ImuSample> imu;
-  runtime::Edge<GnssFix> gnss;
-  runtime::Edge<WheelSpeed> wheel;
-  runtime::Edge<ReferencePose> reference;
-  runtime::Edge<RelativeMotion> visual;
-  runtime::Edge<LidarMotion> lidar;
-  runtime::Edge<RelativeMotion> odometry;  // what fusion gets
-  runtime::Edge<PppState> ppp;
-  runtime::Edge<NavState> nav_state;
-  runtime::Edge<NavState> image_state;
-  runtime::Edge<MapMatch> map_match;
-  runtime::Edge<MapFeedback> map_feedback;
-  runtime::Edge<Preview> preview;
-  runtime::Edge<RuntimeReport> reports;
-};
-
 // What a match means in words.
 using MatchDescriber = std::function<MapMatchWords(const MapMatch&)>;
 
@@ -80,8 +53,8 @@ using MatchDescriber = std::function<MapMatchWords(const MapMatch&)>;
 // that come later than a live run waits for them.
 class Publisher {
  public:
-  Publisher(const VehicleCalibration& calibration, PublisherEdges& edges,
-            std::vector<MessageSink*> sinks, Observer observer, MatchDescriber in_words);
+  Publisher(const VehicleCalibration& calibration, Rings& rings, std::vector<MessageSink*> sinks,
+            Observer observer, MatchDescriber in_words);
 
   const std::vector<MessageSink*>& sinks() const { return sinks_; }
 
@@ -99,9 +72,11 @@ class Publisher {
 
  private:
   template <class Lcm>
-  void send(const Channel& channel, Time time, const Lcm& message);
-  template <const Channel& channel, class T>
-  void forward(runtime::Edge<T>& edge);
+  void send(const ChannelSpec& channel, Time time, const Lcm& message);
+  // Sends each sample of the ring on `channel`, and gives it to `observe`.
+  template <const ChannelSpec& channel, class T>
+  void forward(
+      const RingSpec<T>& spec, const std::function<void(const T&)>& observe = [](const T&) {});
   void send_reports();
   void send_previews();
   template <class T>
@@ -109,7 +84,9 @@ class Publisher {
   void end_flows(runtime::TraceSpan& span, const NavState& state);
 
   VehicleCalibration calibration_;
-  PublisherEdges& edges_;
+  Rings& rings_;
+  runtime::Edge<RuntimeReport>* reports_;
+  runtime::Edge<Preview>* previews_;  // nullptr: none are made
   std::vector<MessageSink*> sinks_;
   Observer observer_;
   MatchDescriber in_words_;

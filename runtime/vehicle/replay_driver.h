@@ -14,16 +14,15 @@
 
 namespace maploop::vehicle {
 
-// Without a source (a recording that lacks the sensor) it finishes at once.
 template <class T>
 class ReplayDriver final : public Driver<T> {
  public:
-  ReplayDriver(std::string name, std::unique_ptr<sensors::Source<T>> source,
-               std::vector<runtime::Edge<T>*> edges)
-      : Driver<T>(std::move(name), std::move(edges)), source_(std::move(source)) {}
+  ReplayDriver(const StageSpec& spec, std::unique_ptr<sensors::Source<T>> source,
+               Outputs<T> outputs)
+      : Driver<T>(spec, std::move(outputs)), source_(std::move(source)) {}
 
   std::optional<Time> load_first() override {
-    more_ = source_ != nullptr && source_->next(sample_);
+    more_ = source_->next(sample_);
     return more_ ? std::optional(sample_.available) : std::nullopt;
   }
 
@@ -48,11 +47,7 @@ class ReplayDriver final : public Driver<T> {
     }
   }
 
-  bool absent() const override { return source_ == nullptr; }
-
-  sensors::SourceReport report() const override {
-    return source_ != nullptr ? source_->report() : sensors::SourceReport{};
-  }
+  sensors::SourceReport report() const override { return source_->report(); }
 
  private:
   std::unique_ptr<sensors::Source<T>> source_;

@@ -37,10 +37,9 @@ void archive_same_config(Archive& ar, const VehicleConfig& config) {
 
 template <class Archive, class S>
 void describe(Archive& ar, S& snapshot, const VehicleConfig& config) {
-  ar.section("vehicle snapshot", 3);
+  ar.section("vehicle snapshot", 4);
   archive_same_config(ar, config);
-  ar(snapshot.at, snapshot.first, snapshot.stereo, snapshot.lidar, snapshot.ppp, snapshot.fusion,
-     snapshot.mapmatch);
+  ar(snapshot.at, snapshot.first, snapshot.parts);
 }
 
 }  // namespace

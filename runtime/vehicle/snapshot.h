@@ -3,6 +3,9 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "msgs/archive.h"
 #include "msgs/sample.h"
@@ -15,13 +18,27 @@ namespace maploop::vehicle {
 // sent that become available after `at`. Samples of sensors after `at` are read again from the
 // recording.
 struct Snapshot {
-  Time at{};     // a tick of the fusion
-  Time first{};  // when the recording's first sample becomes available
-  Bytes stereo;  // parts, as the stages write and read them
-  Bytes lidar;   // empty where the odometry is visual alone
-  Bytes ppp;     // empty where there are no observations of a GNSS receiver
-  Bytes fusion;
-  Bytes mapmatch;  // empty where there is no map
+  struct Part {
+    std::string stage;
+    Bytes content;  // as the stage writes and reads it
+    bool operator==(const Part&) const = default;
+    template <class Archive>
+    void archive(Archive& ar) {
+      ar(stage, content);
+    }
+  };
+
+  Time at{};                // a tick of the fusion
+  Time first{};             // when the recording's first sample becomes available
+  std::vector<Part> parts;  // of each stage that has a state
+
+  // nullptr: that stage was not saved.
+  const Bytes* part(std::string_view stage) const {
+    for (const Part& part : parts) {
+      if (part.stage == stage) return &part.content;
+    }
+    return nullptr;
+  }
 };
 
 // Some 1.5 MB, and 3 more with a LiDAR's map. The file has its name once it is whole; what was
@@ -34,7 +51,7 @@ void write_snapshot(const std::filesystem::path& file, const Snapshot& snapshot,
 // estimators' own settings are checked by whoever loads the parts.
 Snapshot read_snapshot(const std::filesystem::path& file, const VehicleConfig& config);
 
-// The part of one stage on its way: `stamp` and `available` are the cut.
+// The part of one stage on its way to the snapshot thread; `stamp` and `available` are the cut.
 struct StageSnapshot : Sample {
   Bytes content;
 };

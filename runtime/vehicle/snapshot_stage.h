@@ -1,13 +1,14 @@
 // The snapshot thread: joins what the stages saved at one cut, and hands it over.
 #pragma once
 
-#include <cstddef>
+#include <deque>
 #include <functional>
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "runtime/core/doorbell.h"
 #include "runtime/core/edge.h"
+#include "runtime/vehicle/graph_stage.h"
 #include "runtime/vehicle/snapshot.h"
 #include "runtime/vehicle/thread_meter.h"
 
@@ -16,45 +17,33 @@ namespace maploop::vehicle {
 // Called on the snapshot thread, which may take its time: to write a file, for example.
 using SnapshotHandler = std::function<void(const Snapshot&)>;
 
-// Bytes to map beforehand for each part.
-struct PartSizes {
-  std::size_t stereo = 0;
-  std::optional<std::size_t> lidar;  // nothing: there is no such part
-  std::optional<std::size_t> ppp;
-  std::size_t fusion = 0;
-  std::optional<std::size_t> mapmatch;
-};
-
-// The edges that end at the snapshot thread.
-struct SnapshotEdges {
-  explicit SnapshotEdges(const PartSizes& bytes);
-
-  runtime::Doorbell bell;
-  runtime::Edge<StageSnapshot> stereo;
-  std::optional<runtime::Edge<StageSnapshot>> lidar;
-  std::optional<runtime::Edge<StageSnapshot>> ppp;
-  runtime::Edge<StageSnapshot> fusion;
-  std::optional<runtime::Edge<StageSnapshot>> mapmatch;
-};
-
 class SnapshotStage {
  public:
-  SnapshotStage(const PartSizes& bytes, SnapshotHandler handler);
+  // Makes the stages save themselves at each of these moments, which increase.
+  SnapshotStage(const std::vector<std::unique_ptr<GraphStage>>& stages,
+                const std::vector<Time>& cuts, SnapshotHandler handler);
 
-  SnapshotEdges& edges() { return edges_; }
-
-  // Until all edges are finished and empty; a cut that not every stage reached is dropped. What the
-  // handler throws is thrown at the end: the stages must not be held up. `first`: Snapshot's.
+  // Runs until all rings are finished and empty; a cut that not every stage reached is dropped. An
+  // exception of the handler is thrown at the end, because the stages must not be held up. `first`:
+  // Snapshot's.
   void run(Time first);
-  // It takes nothing more, also after a failure.
+  // Nothing more is taken, also after a failure.
   void finish();
 
+  std::vector<const runtime::EdgeBase*> rings() const;
   const ThreadMeter& meter() const { return meter_; }  // of the handler
 
  private:
+  struct Part {
+    Part(const GraphStage& stage, runtime::Doorbell* bell);
+    std::string stage;
+    runtime::Edge<StageSnapshot> ring;
+  };
+
   Snapshot joined(Time first);
-  SnapshotEdges edges_;
-  std::vector<runtime::Edge<StageSnapshot>*> parts_;
+
+  runtime::Doorbell bell_;
+  std::deque<Part> parts_;
   SnapshotHandler handler_;
   ThreadMeter meter_;
 };

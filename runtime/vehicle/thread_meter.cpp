@@ -5,7 +5,7 @@
 
 namespace maploop::vehicle {
 
-ThreadMeter::ThreadMeter(const Stage& stage)
+ThreadMeter::ThreadMeter(const StageSpec& stage)
     : period_(stage.period),
       has_deadline_(stage.deadline > Duration::zero()),
       latency_(stage.name, stage.deadline) {}

@@ -20,8 +20,8 @@
 
 #include "runtime/core/data_clock.h"
 #include "runtime/core/periodic.h"
-#include "runtime/vehicle/graph.h"
 #include "runtime/vehicle/meter.h"
+#include "runtime/vehicle/stage_specs.h"
 
 namespace maploop::vehicle {
 
@@ -29,7 +29,7 @@ namespace maploop::vehicle {
 // other thread at a time may read the summaries, also while the first one records.
 class ThreadMeter {
  public:
-  explicit ThreadMeter(const Stage& stage);
+  explicit ThreadMeter(const StageSpec& stage);
 
   // A fixed-rate thread calls this at the beginning of each tick, while the clock keeps time.
   void woke(const runtime::Tick& tick, const runtime::DataClock& clock, MonotonicTime due,

@@ -1,6 +1,9 @@
 #include "runtime/vehicle/vehicle.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "runtime/core/periodic.h"
@@ -19,15 +22,13 @@ Vehicle::Vehicle(const VehicleConfig& config, const VehicleCalibration& calibrat
 Vehicle::~Vehicle() = default;
 
 void Vehicle::slow_down(StageDelays delays) {
-  graph_->stereo.slow_down(std::move(delays.stereo));
-  if (graph_->lidar) graph_->lidar->slow_down(std::move(delays.lidar));
-  if (graph_->ppp) graph_->ppp->slow_down(std::move(delays.ppp));
-  graph_->fusion.slow_down(std::move(delays.fusion));
-  if (graph_->mapmatch) graph_->mapmatch->slow_down(std::move(delays.mapmatch));
+  for (auto& [name, delay] : delays) {
+    if (GraphStage* stage = graph_->stage(name)) stage->slow_down(std::move(delay));
+  }
 }
 
 void Vehicle::start_from(const fusion::KnownStart& known) {
-  const fusion::Outcome outcome = graph_->fusion.start_from(known);
+  const fusion::Outcome outcome = graph_->fusion->start_from(known);
   if (outcome.refused()) {
     throw std::invalid_argument("the filter cannot start from these values: " +
                                 std::string(to_string(outcome.reason)));
@@ -36,31 +37,27 @@ void Vehicle::start_from(const fusion::KnownStart& known) {
 
 void Vehicle::take_snapshots(std::vector<Time> moments, SnapshotHandler handler) {
   for (Time& t : moments) t = runtime::first_tick(t, stages::fusion.period);
-  graph_->wishes.push_back({{moments.begin(), moments.end()}, std::move(handler)});
+  graph_->snapshot_requests.push_back({{moments.begin(), moments.end()}, std::move(handler)});
 }
 
 void Vehicle::resume(const Snapshot& snapshot) {
-  if (graph_->lidar.has_value() == snapshot.lidar.empty()) {
-    throw ArchiveError(snapshot.lidar.empty()
-                           ? "it was saved without LiDAR odometry, and here there is one"
-                           : "it was saved with LiDAR odometry, and here there is none");
+  const auto refuse = [](std::string_view stage, const char* then, const char* now) {
+    std::string_view runs;
+    for (const StageSpec& spec : stages::all) {
+      if (spec.name == stage) runs = spec.runs;
+    }
+    throw ArchiveError("it was saved " + std::string(then) + ' ' + std::string(stage) + " (" +
+                       std::string(runs) + "), and here the vehicle runs " + now + " it");
+  };
+  for (const auto& stage : graph_->stages) {
+    const std::string_view name = stage->spec().name;
+    if (snapshot.part(name) == nullptr) refuse(name, "without", "with");
   }
-  if (graph_->ppp.has_value() == snapshot.ppp.empty()) {
-    throw ArchiveError(snapshot.ppp.empty()
-                           ? "it was saved without GNSS observations, and here there are some"
-                           : "it was saved with GNSS observations, and here there are none");
+  for (const Snapshot::Part& part : snapshot.parts) {
+    if (graph_->stage(part.stage) == nullptr) refuse(part.stage, "with", "without");
   }
-  if (graph_->mapmatch.has_value() == snapshot.mapmatch.empty()) {
-    throw ArchiveError(snapshot.mapmatch.empty()
-                           ? "it was saved without a map, and here there is one"
-                           : "it was saved with a map, and here there is none");
-  }
-  if (graph_->lidar) graph_->lidar->resume(snapshot.lidar);
-  if (graph_->ppp) graph_->ppp->resume(snapshot.ppp);
-  if (graph_->mapmatch) graph_->mapmatch->resume(snapshot.mapmatch);
-  graph_->stereo.resume(snapshot.stereo);
-  graph_->fusion.resume(snapshot.fusion);
-  graph_->resumed = Snapshot{snapshot.at, snapshot.first, {}, {}, {}, {}, {}};
+  for (const auto& stage : graph_->stages) stage->resume(*snapshot.part(stage->spec().name));
+  graph_->resumed = Snapshot{snapshot.at, snapshot.first, {}};
 }
 
 void Vehicle::prepared(const runtime::RealtimeReport& report) {
@@ -90,7 +87,7 @@ VehicleReport Vehicle::report() const {
   return graph_->report();
 }
 Time Vehicle::position() const {
-  return graph_->fusion.position();
+  return graph_->fusion->position();
 }
 Time Vehicle::first() const {
   return graph_->first;
@@ -99,35 +96,35 @@ Time Vehicle::first() const {
 namespace {
 
 // A driver promises up to just before its next sample.
-Time next_of(const runtime::EdgeBase& edge) {
-  const Time promised = edge.promised();
+Time next_of(const DriverBase& driver) {
+  const Time promised = driver.promised();
   return promised == Time::max() ? promised : promised + Duration(1);
 }
 
 }  // namespace
 
-// Of a drive without images its GNSS epochs or scans stand for them.
+// In a drive without images its odometry, GNSS epochs or scans count in their place.
 Time Vehicle::next_image() const {
-  if (graph_->to_ppp && graph_->drivers.camera->absent()) return next_of(graph_->to_ppp->epochs);
-  if (graph_->to_lidar && graph_->drivers.camera->absent()) return next_of(graph_->to_lidar->scans);
-  return next_of(graph_->odometry_recorded
-                     ? static_cast<const runtime::EdgeBase&>(graph_->to_fusion.odometry)
-                     : graph_->images);
+  const bool epochs = graph_->rings.has(stages::ppp);
+  const bool scans = graph_->rings.has(stages::lidar);
+  for (const StageSpec* spec : {&stages::camera, epochs ? &stages::gnss : nullptr,
+                                scans ? &stages::velodyne : nullptr, &stages::odometry}) {
+    const DriverBase* driver = spec != nullptr ? graph_->driver(*spec) : nullptr;
+    if (driver != nullptr) return next_of(*driver);
+  }
+  return Time::max();
 }
 
 Time Vehicle::next_sample() const {
-  const Time epoch = graph_->to_ppp ? next_of(graph_->to_ppp->epochs) : Time::max();
-  return std::min({next_image(), epoch, next_of(graph_->to_fusion.imu),
-                   next_of(graph_->to_fusion.gnss), next_of(graph_->to_fusion.wheel),
-                   next_of(graph_->to_publisher.reference)});
+  Time next = Time::max();
+  for (const auto& driver : graph_->drivers) next = std::min(next, next_of(*driver));
+  return next;
 }
 
 std::uint64_t Vehicle::deadline_misses() const {
-  const std::uint64_t lidar = graph_->lidar ? graph_->lidar->meter().latency().miss_count() : 0;
-  const std::uint64_t ppp = graph_->ppp ? graph_->ppp->meter().latency().miss_count() : 0;
-  return graph_->stereo.meter().latency().miss_count() + lidar + ppp +
-         graph_->fusion.meter().latency().miss_count() +
-         (graph_->mapmatch ? graph_->mapmatch->meter().latency().miss_count() : 0);
+  std::uint64_t misses = 0;
+  for (const auto& stage : graph_->stages) misses += stage->meter().latency().miss_count();
+  return misses;
 }
 
 runtime::DataClock& Vehicle::clock() {

@@ -3,93 +3,31 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "estimators/fusion/initial_state.h"
 #include "msgs/calibration.h"
-#include "msgs/gnss.h"
-#include "msgs/image.h"
-#include "msgs/imu.h"
-#include "msgs/lidar_scan.h"
-#include "msgs/odometry.h"
-#include "msgs/reference.h"
-#include "msgs/wheel_speed.h"
-#include "ppp/ppp_setup.h"
 #include "runtime/core/data_clock.h"
 #include "runtime/core/realtime_setting.h"
 #include "runtime/core/trace.h"
 #include "runtime/vehicle/fault_delay.h"
-#include "runtime/vehicle/gnss_epoch.h"
-#include "runtime/vehicle/live_corrections.h"
 #include "runtime/vehicle/message_sink.h"
 #include "runtime/vehicle/publisher.h"
 #include "runtime/vehicle/road_map.h"
+#include "runtime/vehicle/sensors.h"
 #include "runtime/vehicle/snapshot.h"
 #include "runtime/vehicle/snapshot_stage.h"
 #include "runtime/vehicle/vehicle_config.h"
 #include "runtime/vehicle/vehicle_report.h"
-#include "sensors/clock/host_clock.h"
-#include "sensors/live/live_source.h"
-#include "sensors/source.h"
 
 namespace maploop::vehicle {
 
-// Those that the vehicle listens to; null: it has none. GNSS is either fixes or observations.
-struct LiveSensors {
-  std::shared_ptr<const sensors::HostClock> clock;  // that they stamp with
-  std::unique_ptr<sensors::LiveSource<StereoPair>> camera;
-  std::unique_ptr<sensors::LiveSource<LidarScan>> velodyne;
-  std::unique_ptr<sensors::LiveSource<ImuSample>> imu;
-  std::unique_ptr<sensors::LiveSource<GnssFix>> gnss;
-  std::unique_ptr<sensors::LiveSource<GnssEpoch>> epochs;             // as of Sensors
-  std::unique_ptr<sensors::LiveSource<GnssCorrections>> corrections;  // for them
-  std::shared_ptr<const ppp::PppSetup> ppp;
-};
-
-struct Sensors {
-  std::unique_ptr<sensors::Source<StereoPair>> camera;
-  std::unique_ptr<sensors::Source<LidarScan>> velodyne;
-  std::unique_ptr<sensors::Source<ImuSample>> imu;
-  std::unique_ptr<sensors::Source<GnssFix>> gnss;
-  // Instead of fixes: the receiver's observations, with what the ppp thread makes fixes from.
-  std::unique_ptr<sensors::Source<GnssEpoch>> epochs;
-  std::shared_ptr<const ppp::PppSetup> ppp;
-  std::unique_ptr<sensors::Source<WheelSpeed>> wheel;
-  std::unique_ptr<sensors::Source<ReferencePose>> reference;
-  // Of a recording without images: what fusion got takes the place of the camera, and of the stereo
-  // and lidar threads. The other two are shown only.
-  std::unique_ptr<sensors::Source<RelativeMotion>> odometry;
-  std::unique_ptr<sensors::Source<RelativeMotion>> visual;
-  std::unique_ptr<sensors::Source<LidarMotion>> lidar;
-  // Instead of all of these, on a live clock.
-  std::optional<LiveSensors> live;
-
-  // Calls f(source) for each recorded source that is there.
-  template <class F>
-  void each_source(F&& f) {
-    const auto there = [&f](auto& source) {
-      if (source != nullptr) f(source);
-    };
-    there(camera);
-    there(velodyne);
-    there(imu);
-    there(gnss);
-    there(epochs);
-    there(wheel);
-    there(reference);
-    there(odometry);
-    there(visual);
-    there(lidar);
-  }
-};
-
-// One replay of recorded sensors through the graph. On a paced clock samples are released at their
-// due times; on virtual time as fast as the graph takes them. Every channel that is derived from
-// data has the same bits either way.
+// Replays recorded sensors through the graph. On a paced clock samples are released at their due
+// times, on virtual time as fast as the graph takes them. Every channel that is derived from data
+// has the same bits either way.
 //
-// Or a drive: on a live clock samples are released when they come, nobody waits for anything that
-// is missing, and a full ring drops what is new. It ends by stop() alone.
+// On a live clock the vehicle drives: samples are released when they come, no stage waits for
+// missing samples, and a full ring drops new ones. Only stop() ends it.
 class Vehicle {
  public:
   // `sinks` must outlive the vehicle, and so must `tracer`, to which each thread records what it

@@ -1,5 +1,5 @@
-// What the vehicle owns: its edges, stages and threads. For vehicle.cpp, vehicle_report.cpp
-// and vehicle_threads.cpp alone.
+// What the vehicle owns: its rings, drivers, stages and threads. Only for vehicle.cpp,
+// vehicle_graph.cpp, vehicle_report.cpp and vehicle_threads.cpp.
 #pragma once
 
 #include <deque>
@@ -9,24 +9,24 @@
 #include <optional>
 #include <set>
 #include <stop_token>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "runtime/core/thread.h"
-#include "runtime/vehicle/drivers.h"
+#include "runtime/vehicle/driver.h"
 #include "runtime/vehicle/fusion_stage.h"
-#include "runtime/vehicle/graph.h"
+#include "runtime/vehicle/graph_stage.h"
 #include "runtime/vehicle/health_monitor.h"
-#include "runtime/vehicle/lidar_stage.h"
-#include "runtime/vehicle/mapmatch_stage.h"
-#include "runtime/vehicle/ppp_stage.h"
 #include "runtime/vehicle/preview_stage.h"
+#include "runtime/vehicle/rings.h"
 #include "runtime/vehicle/snapshot_stage.h"
-#include "runtime/vehicle/stereo_stage.h"
 #include "runtime/vehicle/vehicle.h"
 
 namespace maploop::vehicle {
 
-struct SnapshotWish {
+struct SnapshotRequest {
   std::set<Time> moments;
   SnapshotHandler handler;
 };
@@ -37,83 +37,75 @@ struct Vehicle::Graph {
         runtime::Tracer* tracer, std::shared_ptr<const RoadMap> road_map);
   ~Graph();
 
-  // The driver of a recorded sensor, or of a live one where there is that.
+  // Construction (vehicle_graph.cpp).
+  void make_drivers(Sensors& sensors);
   template <class T>
-  std::unique_ptr<Driver<T>> driver(const Stage& stage, std::unique_ptr<sensors::Source<T>> source,
-                                    std::unique_ptr<sensors::LiveSource<T>> live,
-                                    std::vector<runtime::Edge<T>*> to);
-  Drivers make_drivers(Sensors& sensors);
+  void add_driver(const StageSpec& spec, const runtime::Scheduling& scheduling,
+                  std::unique_ptr<sensors::Source<T>> recorded,
+                  std::unique_ptr<sensors::LiveSource<T>> live, Outputs<T> outputs);
+  // Decodes ahead, with the scheduling of the stage that reads the samples: it needs them in time,
+  // and the fusion goes first.
+  template <class T>
+  std::unique_ptr<sensors::Source<T>> prefetched(const StageSpec& spec,
+                                                 const runtime::Scheduling& reader,
+                                                 std::unique_ptr<sensors::Source<T>> source);
+  template <class Stage, class... Arguments>
+  Stage& add_stage(const runtime::Scheduling& scheduling, Arguments&&... arguments);
+  void make_stages(const VehicleCalibration& calibration,
+                   const std::shared_ptr<const ppp::PppSetup>& products);
+  MatchDescriber describer() const;
+  runtime::TraceBuffer* trace_buffer(std::string_view thread);
+
+  // Threads (vehicle_threads.cpp).
   void find_first();
   void begin_now();
-  std::vector<runtime::EdgeBase*> all_edges();
   void start();
+  void start_drivers();
+  void start_stages();
   void start_snapshots();
-  void start_odometry();
-  void start_stereo();
-  void start_gnss();
-  void start_mapmatch();
-  void start_preview();
-  std::vector<runtime::Edge<LidarScan>*> scan_edges();
-  std::vector<runtime::Edge<RelativeMotion>*> visual_edges();
-  std::vector<runtime::Edge<GnssFix>*> fix_edges();
-  std::vector<runtime::Edge<NavState>*> state_edges();
-  MatchDescriber describer() const;
+  void start_listeners();
+  // Makes it an element of `threads`; its settings become part of the readiness.
+  runtime::Thread& start_thread(std::deque<runtime::Thread>& threads, const StageSpec& stage,
+                                const runtime::Scheduling& scheduling, std::stop_token token,
+                                runtime::Thread::Body body, std::function<void()> at_end);
+  void wait();
+
+  // Reports (vehicle_report.cpp).
   void run_health(const std::stop_token& end);
   RuntimeReport look(Duration elapsed);
   void look_at_sensors(Health& health);
   void look_at_imu_delay(Health& health);
-  void wait();
   VehicleReport report() const;
 
-  runtime::TraceBuffer* trace_buffer(std::string_view thread);
-  // Decoded ahead with the scheduling of the stage that reads the samples: it needs them in time,
-  // and the fusion goes first.
-  template <class T>
-  std::unique_ptr<sensors::Source<T>> prefetched(const Stage& stage,
-                                                 const runtime::Scheduling& reader,
-                                                 std::unique_ptr<sensors::Source<T>> source);
-  template <class T>
-  void start_driver(const Stage& stage, const runtime::Scheduling& scheduling, Driver<T>& driver);
-  // Makes it an element of `threads`; its settings become part of the readiness.
-  runtime::Thread& start_thread(std::deque<runtime::Thread>& threads, const Stage& stage,
-                                const runtime::Scheduling& scheduling, std::stop_token token,
-                                runtime::Thread::Body body, std::function<void()> at_end);
+  // The driver or stage of that name; nullptr: this vehicle does not have it.
+  const DriverBase* driver(const StageSpec& spec) const;
+  GraphStage* stage(std::string_view name) const;
 
   VehicleConfig config;
   std::stop_source stop;
   runtime::DataClock clock;
-  runtime::Tracer* tracer;  // nullptr: tracing is off
-  runtime::TraceBuffer* health_trace = nullptr;
+  runtime::Tracer* tracer;          // nullptr: tracing is off
   Time first = Time::max();         // of the recording
   Time begin = Time::max();         // of this run
-  std::optional<Snapshot> resumed;  // its parts are with the stages
-  std::vector<SnapshotWish> wishes;
+  std::optional<Snapshot> resumed;  // without its parts, which the stages have taken
+  std::vector<SnapshotRequest> snapshot_requests;
   std::unique_ptr<SnapshotStage> snapshots;
-
-  std::shared_ptr<const RoadMap> map;  // nullptr: none
-
-  // Edges, by the thread that they end at.
-  runtime::Doorbell stereo_bell;
-  runtime::Edge<StereoPair> images;
-  bool odometry_recorded;              // instead of images
-  std::optional<LidarEdges> to_lidar;  // nothing: fusion gets the visual odometry
-  std::optional<PppEdges> to_ppp;      // nothing: there are no observations
-  FusionEdges to_fusion;
-  std::optional<MapMatchEdges> to_mapmatch;  // where there is a map
-  PublisherEdges to_publisher;
-
-  bool raw;                                              // images and scans go to the publisher too
+  std::shared_ptr<const RoadMap> map;                    // nullptr: no map
   std::shared_ptr<const sensors::HostClock> host_clock;  // of live sensors; nullptr: a replay
-  Drivers drivers;
-  StereoStage stereo;
-  std::optional<LidarStage> lidar;  // where there is to_lidar
-  std::optional<PppStage> ppp;      // where there is to_ppp
-  FusionStage fusion;
-  std::optional<MapMatchStage> mapmatch;  // where there is to_mapmatch
-  std::optional<PreviewStage> preview;    // where somebody may look on
+
+  // In the order of the declaration.
+  Rings rings;
+  std::vector<std::unique_ptr<DriverBase>> drivers;
+  std::vector<std::unique_ptr<GraphStage>> stages;
+  std::vector<runtime::Scheduling> driver_scheduling;  // of each driver
+  std::vector<runtime::Scheduling> stage_scheduling;   // of each stage
+  FusionStage* fusion = nullptr;                       // one of the stages
+  std::optional<PreviewStage> preview;
   Publisher publisher;
+  Outputs<RuntimeReport> reports;
   HealthMonitor monitor;
   ThreadMeter health_meter{stages::health};
+  runtime::TraceBuffer* health_trace = nullptr;
   runtime::RealtimeReport readiness;  // complete, and constant, from started_all on
 
   std::stop_callback<std::function<void()>> wake_all;

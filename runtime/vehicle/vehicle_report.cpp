@@ -10,7 +10,6 @@
 
 #include "runtime/core/periodic.h"
 #include "runtime/vehicle/process_usage.h"
-#include "runtime/vehicle/refusals.h"
 #include "runtime/vehicle/vehicle_graph.h"
 
 namespace maploop::vehicle {
@@ -18,25 +17,13 @@ namespace maploop::vehicle {
 VehicleReport Vehicle::Graph::report() const {
   VehicleReport r;
   runtime::Histogram lateness;
-  const auto add = [&](const auto& driver) {
-    r.sensors.push_back({driver.lateness().name(), driver.report(), driver.lateness().summary()});
-    lateness.merge(driver.lateness().histogram());
-  };
-  add(*drivers.camera);
-  add(*drivers.velodyne);
-  add(*drivers.imu);
-  if (ppp) {
-    add(*drivers.epochs);
-    if (to_ppp->corrections) add(*drivers.corrections);
-  } else {
-    add(*drivers.gnss);
-  }
-  if (!drivers.wheel->absent()) add(*drivers.wheel);
-  add(*drivers.reference);
-  if (odometry_recorded) {
-    add(*drivers.odometry);
-    add(*drivers.visual_log);
-    add(*drivers.lidar_log);
+  for (const StageSpec& spec : stages::all) {
+    if (const DriverBase* driver = this->driver(spec)) {
+      r.sensors.push_back({std::string(spec.name), driver->report(), driver->lateness().summary()});
+      lateness.merge(driver->lateness().histogram());
+    } else if (spec.expected) {
+      r.sensors.push_back({std::string(spec.name), {}, {}});
+    }
   }
   r.lateness = lateness.summarize("all sensors");
   r.health = last_report.health;
@@ -44,7 +31,7 @@ VehicleReport Vehicle::Graph::report() const {
   r.imu_delay = last_imu_delay;
   r.stalls = clock.stalls();
   r.stalled = clock.stalled();
-  r.data_seconds = to_seconds(fusion.position() - begin);
+  r.data_seconds = to_seconds(fusion->position() - begin);
   r.wall_seconds = to_seconds(wall);
   r.cpu_seconds = cpu;
   r.peak_memory = process_peak_memory();
@@ -52,15 +39,18 @@ VehicleReport Vehicle::Graph::report() const {
 }
 
 void Vehicle::Graph::look_at_sensors(Health& health) {
-  drivers.each([&](auto& driver) {
-    std::optional<SensorHealth> sensor = driver.health();
-    if (!sensor) return;
+  for (const auto& driver : drivers) {
+    std::optional<SensorHealth> sensor = driver->health();
+    if (!sensor) continue;
     if (!sensor->problem.empty()) {
       health.degraded.push_back(sensor->name + ": " + sensor->endpoint + ' ' + sensor->problem);
     }
     health.sensors.push_back(std::move(*sensor));
-  });
-  if (ppp && !ppp->degraded().empty()) health.degraded.push_back(ppp->degraded());
+  }
+  for (const auto& stage : stages) {
+    std::string degraded = stage->degraded();
+    if (!degraded.empty()) health.degraded.push_back(std::move(degraded));
+  }
   constexpr Duration disciplined = milliseconds(10);  // a clock that is only steered stays within
   if (const Duration step = host_clock->step(); std::chrono::abs(step) > disciplined) {
     health.degraded.push_back("this machine's clock was set by " +
@@ -69,11 +59,11 @@ void Vehicle::Graph::look_at_sensors(Health& health) {
   }
 }
 
-// What odometry's turning says of the inertial stamps.
+// Compares the turning of the odometry with the gyro: a delay of the inertial stamps shows.
 void Vehicle::Graph::look_at_imu_delay(Health& health) {
   constexpr double harmless = 0.02;  // s: a third of a degree in the sharpest bend
   constexpr double certain = 5.0;    // sigmas
-  const fusion::DelayEstimate estimate = fusion.filter_status().imu_delay;
+  const fusion::DelayEstimate estimate = fusion->filter_status().imu_delay;
   if (!estimate.known()) return;
   const double delay = estimate.delay();
   if (std::abs(delay) < std::max(harmless, certain * estimate.sigma())) return;
@@ -88,14 +78,16 @@ void Vehicle::Graph::look_at_imu_delay(Health& health) {
 }
 
 RuntimeReport Vehicle::Graph::look(Duration elapsed) {
-  const Time stamp = fusion.position();
+  const Time stamp = fusion->position();
   RuntimeReport report;
   report.stamp = report.available = stamp;
   report.health = monitor.health(stamp, elapsed, clock, readiness);
   report.health.elapsed = to_seconds(runtime::monotonic_now() - started);
   report.health.cpu = process_cpu_seconds() - cpu_at_start;
-  report.health.refusals = refusals(stereo, lidar ? &*lidar : nullptr, ppp ? &*ppp : nullptr,
-                                    fusion.filter_status(), mapmatch ? &*mapmatch : nullptr);
+  for (const auto& stage : stages) {
+    const std::vector<RefusalCount> refused = stage->refusals();
+    report.health.refusals.insert(report.health.refusals.end(), refused.begin(), refused.end());
+  }
   report.deadlines = monitor.deadlines(stamp);
   look_at_imu_delay(report.health);
   if (host_clock != nullptr) look_at_sensors(report.health);
@@ -108,8 +100,8 @@ void Vehicle::Graph::run_health(const std::stop_token& end) {
   const auto say = [&] {
     const runtime::TraceSpan span(health_trace, "health");
     const MonotonicTime began = runtime::monotonic_now();
-    const Time now = fusion.position();
-    to_publisher.reports.push(look(now - looked), end);
+    const Time now = fusion->position();
+    reports.push(look(now - looked), end);
     looked = now;
     health_meter.ran(runtime::monotonic_now() - began);
   };

@@ -23,16 +23,15 @@ std::string waiting_for(const StageFacts& facts) {
 
 }  // namespace
 
-Watchdog::Watchdog(const Stage& stage, Kind kind, Time start, MonotonicTime wall_start)
+Watchdog::Watchdog(const StageSpec& stage, Kind kind, Time start, MonotonicTime wall_start)
     : stage_(stage), kind_(kind), moved_(start), wall_moved_(wall_start), judged_(start) {}
 
-Duration Watchdog::patience(const Stage& stage) {
+Duration Watchdog::patience(const StageSpec& stage) {
   return std::max(stages::health.period, from_seconds(3.0 / stage.min_rate));
 }
 
 std::vector<std::string> Watchdog::look(Time now, MonotonicTime wall_now, const StageFacts& facts) {
   if (stage_.min_rate <= 0.0) return {};
-  if (facts.absent) return {std::string(stage_.name) + ": there is none; the rest goes without"};
   now = std::max(now, facts.newest.value_or(now));
   std::vector<std::string> wrong;
   const std::string still = stillness(now, wall_now, facts);

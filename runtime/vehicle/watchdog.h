@@ -8,13 +8,12 @@
 #include <vector>
 
 #include "msgs/time.h"
-#include "runtime/vehicle/graph.h"
+#include "runtime/vehicle/stage_specs.h"
 
 namespace maploop::vehicle {
 
 // StageFacts is the state of one stage now.
 struct StageFacts {
-  bool absent = false;         // this vehicle, or this recording, has no such sensor
   std::uint64_t count = 0;     // results since the start
   std::size_t waiting = 0;     // samples in the rings that end here
   std::string waits_for = {};  // the empty one of these rings that holds the stage up
@@ -31,7 +30,7 @@ class Watchdog {
  public:
   // A stage reads nothing (a driver), or is fed by rings. `start` is when the data begin.
   enum class Kind : std::uint8_t { driver, fed };
-  Watchdog(const Stage& stage, Kind kind, Time start, MonotonicTime wall_start);
+  Watchdog(const StageSpec& stage, Kind kind, Time start, MonotonicTime wall_start);
 
   // Returns what is wrong, one sentence each: what, since when, what to look at. Times must not
   // decrease from call to call. The rate is judged again after each patience() of data time.
@@ -39,13 +38,13 @@ class Watchdog {
 
   // Returns how long a stage may be silent: three times the longest period that its table allows,
   // and at least the health thread's period.
-  static Duration patience(const Stage& stage);
+  static Duration patience(const StageSpec& stage);
 
  private:
   std::string stillness(Time now, MonotonicTime wall_now, const StageFacts& facts) const;
   void judge_rate(Time now, std::uint64_t count);
 
-  Stage stage_;
+  StageSpec stage_;
   Kind kind_;
   std::uint64_t count_ = 0;
   Time moved_;  // when count_ was last seen to grow

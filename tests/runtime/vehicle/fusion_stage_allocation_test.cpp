@@ -51,29 +51,31 @@ RelativeMotion motion(std::int64_t i) {
 }
 
 // Everything in the order of `available`, as drivers and odometry send it.
-void feed(FusionEdges& inputs) {
-  inputs.wheel.finish();  // a vehicle without one
+void feed(Rings& rings) {
+  runtime::Edge<ImuSample>& imu = *rings.outputs(rings::imu_fusion).rings().front();
+  runtime::Edge<GnssFix>& gnss = *rings.outputs(rings::gnss_fusion).rings().front();
+  runtime::Edge<RelativeMotion>& odometry = *rings.outputs(rings::odometry_fusion).rings().front();
   for (std::int64_t i = 0; i < seconds * 100; ++i) {
-    if (i % 100 == 0) inputs.gnss.push(fix(i / 100), {});
-    inputs.imu.push(inertial_sample(i), {});
-    if (i % 10 == 6) inputs.odometry.push(motion(i / 10), {});
+    if (i % 100 == 0) gnss.push(fix(i / 100), {});
+    imu.push(inertial_sample(i), {});
+    if (i % 10 == 6) odometry.push(motion(i / 10), {});
     const Time sent = start + i * milliseconds(10);
-    inputs.gnss.promise(sent);
-    inputs.imu.promise(sent);
-    inputs.odometry.promise(sent);
+    gnss.promise(sent);
+    imu.promise(sent);
+    odometry.promise(sent);
   }
-  inputs.gnss.finish();
-  inputs.imu.finish();
-  inputs.odometry.finish();
+  gnss.finish();
+  imu.finish();
+  odometry.finish();
 }
 
 TEST(FusionStageAllocation, TheWholeThreadAllocatesNothing) {
   if (!testing::counts_allocations()) GTEST_SKIP() << "the sanitizer owns malloc";
-  FusionEdges inputs;
-  auto nav_states = make_edge<NavState>(edges::fusion_publisher, nullptr);
-  auto image_states = make_edge<NavState>(edges::image_states, nullptr);
-  FusionStage stage(fusion::ReducedImuFilter(fusion::FusionParameters{}), inputs, {&nav_states},
-                    image_states, stages::stereo.budget);
+  Rings rings(rings::all, {"imu", "gnss", "odometry", "fusion", "publisher"}, {});
+  runtime::Edge<NavState>& nav_states = *rings.consumer(rings::fusion_publisher);
+  runtime::Edge<NavState>& image_states = *rings.consumer(rings::image_states);
+  FusionStage stage(rings, fusion::ReducedImuFilter(fusion::FusionParameters{}),
+                    stages::stereo.budget);
   runtime::Tracer tracer({});
   runtime::TraceBuffer& trace = tracer.thread("fusion");
   stage.trace_to(&trace);
@@ -87,7 +89,7 @@ TEST(FusionStageAllocation, TheWholeThreadAllocatesNothing) {
     allocated = testing::thread_allocations() - before;
     stage.finish();
   });
-  std::thread feeder([&] { feed(inputs); });
+  std::thread feeder([&] { feed(rings); });
   std::uint64_t states = 0, images = 0;
   NavStatus status{};
   while (nav_states.promised() != Time::max() || nav_states.front() != nullptr) {

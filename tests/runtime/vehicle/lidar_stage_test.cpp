@@ -62,25 +62,27 @@ struct Sent {
 Sent run(std::vector<Input> inputs) {
   std::stable_sort(inputs.begin(), inputs.end(),
                    [](const Input& a, const Input& b) { return available(a) < available(b); });
-  LidarEdges edges;
-  runtime::Edge<LidarMotion> lidar("lidar", 256, runtime::Overflow::keep_all, nullptr);
-  runtime::Edge<RelativeMotion> odometry("odometry", 256, runtime::Overflow::keep_all, nullptr);
-  LidarStage stage(lidar::LidarOdometry(Eigen::Isometry3d::Identity(), {}),
-                   lidar::DisparityCorrection({}), edges, lidar, {&odometry});
-  const runtime::DataClock clock = runtime::DataClock::virtual_time();
+  Rings rings(rings::all, {"velodyne", "stereo", "lidar", "fusion", "publisher"}, {});
+  runtime::Edge<LidarScan>& scans = *rings.outputs(rings::velodyne_lidar).rings().front();
+  runtime::Edge<VisualMotion>& visual = *rings.outputs(rings::stereo_lidar).rings().front();
+  runtime::Edge<LidarMotion>& lidar = *rings.consumer(rings::lidar_publisher);
+  runtime::Edge<RelativeMotion>& odometry = *rings.consumer(rings::lidar_fusion);
+  LidarStage stage(rings, lidar::LidarOdometry(Eigen::Isometry3d::Identity(), {}),
+                   lidar::DisparityCorrection({}));
+  runtime::DataClock clock = runtime::DataClock::virtual_time();
   const std::stop_token stop;
-  std::thread thread([&] { stage.run(clock, stop); });
+  std::thread thread([&] { stage.run(clock, drive_start, stop); });
   for (const Input& input : inputs) {
     if (const auto* motion = std::get_if<VisualMotion>(&input)) {
-      edges.visual.push(*motion, stop);
+      visual.push(*motion, stop);
     } else {
-      edges.scans.push(std::get<LidarScan>(input), stop);
+      scans.push(std::get<LidarScan>(input), stop);
     }
-    edges.visual.promise(available(input));
-    edges.scans.promise(available(input));
+    visual.promise(available(input));
+    scans.promise(available(input));
   }
-  edges.visual.finish();
-  edges.scans.finish();
+  visual.finish();
+  scans.finish();
   thread.join();
   Sent sent;
   for (; lidar.front() != nullptr; lidar.pop()) sent.lidar.push_back(*lidar.front());

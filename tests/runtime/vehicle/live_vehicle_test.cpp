@@ -153,7 +153,7 @@ TEST(LiveVehicle, AStageThatIsTooSlowLosesItsOwnSamplesAlone) {
   MemoryBus bus;
   StageDelays delays;
   std::atomic<std::uint64_t> struck{0};
-  delays.lidar.add({}, milliseconds(300), struck);
+  delays["lidar"].add({}, milliseconds(300), struck);
   const VehicleReport report =
       drive(bus, std::move(live), milliseconds(1500), 60, std::move(delays));
   for (const RingHealth& ring : report.health.rings) {

@@ -99,8 +99,9 @@ TEST(Preview, ThinsAScanToNoMoreThanIsAskedFor) {
 }
 
 TEST(Preview, APointThatIsFarOrNoNumberDoesNoHarm) {
-  runtime::Edge<Preview> output("test", 4, runtime::Overflow::drop_newest, nullptr);
-  PreviewStage stage({}, Eigen::Isometry3d::Identity(), output);
+  Rings rings(rings::all, {"preview", "publisher"}, {});
+  runtime::Edge<Preview>& output = *rings.consumer(rings::preview_publisher);
+  PreviewStage stage(rings, {}, Eigen::Isometry3d::Identity());
   std::jthread thread([&](const std::stop_token& stop) { stage.run(stop); });
   const Preview* preview = nullptr;
   for (int i = 0; i < 2000 && preview == nullptr; ++i) {

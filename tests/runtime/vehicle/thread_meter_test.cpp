@@ -14,7 +14,8 @@ using runtime::Tick;
 using std::chrono::milliseconds;
 
 constexpr Time start = from_nanoseconds(1'317'042'651'000'000'000);
-constexpr Stage stage{"fusion", "", "", milliseconds(10), {}, milliseconds(2), 0.0, 0.0};
+constexpr StageSpec stage{
+    .name = "fusion", .period = milliseconds(10), .deadline = milliseconds(2)};
 
 // Records the i-th tick, woken `late` after it was due.
 void wake(ThreadMeter& meter, const DataClock& clock, int i, Duration late,

@@ -19,9 +19,9 @@ namespace {
 using testing::drive_start;
 using Sentences = std::vector<std::string>;
 
-constexpr Stage sensor{"sensor", "driver", "sensor", {}, {}, {}, 2.0, 20.0};
-constexpr Stage worker{"worker", "work", "sample", {}, {}, {}, 2.0, 20.0};
-constexpr Stage unwatched{"idle", "nothing", "nothing", {}, {}, {}, 0.0, 0.0};
+constexpr StageSpec sensor{.name = "sensor", .min_rate = 2.0, .max_rate = 20.0};
+constexpr StageSpec worker{.name = "worker", .min_rate = 2.0, .max_rate = 20.0};
+constexpr StageSpec unwatched{.name = "idle"};
 
 class WatchdogTest : public ::testing::Test {
  protected:
@@ -29,9 +29,9 @@ class WatchdogTest : public ::testing::Test {
   Sentences look(int ms, std::uint64_t count, std::size_t waiting = 0,
                  const std::string& waits_for = "") {
     return watchdog_.look(drive_start + milliseconds(ms), wall_ + milliseconds(ms),
-                          {false, count, waiting, waits_for});
+                          {count, waiting, waits_for});
   }
-  void watch(const Stage& stage, Watchdog::Kind kind) {
+  void watch(const StageSpec& stage, Watchdog::Kind kind) {
     watchdog_ = Watchdog(stage, kind, drive_start, wall_);
   }
 
@@ -81,7 +81,7 @@ TEST_F(WatchdogTest, AStageThatDoesNotMoveWithWorkBeforeItIsStuckEvenWhereDataTi
   watch(worker, Watchdog::Kind::fed);
   const auto at = [&](int wall_ms, std::size_t waiting, const std::string& waits_for) {
     return watchdog_.look(drive_start + milliseconds(100), wall_ + milliseconds(wall_ms),
-                          {false, 1, waiting, waits_for});
+                          {1, waiting, waits_for});
   };
   EXPECT_EQ(at(100, 0, "a -> worker"), Sentences{});
   EXPECT_EQ(at(1100, 4, ""), Sentences{});
@@ -96,17 +96,10 @@ TEST_F(WatchdogTest, AStageWithoutInputIsStaleAndNotStuck) {
   EXPECT_EQ(look(4000, 10), Sentences{"worker: stale, nothing new for 3 s"});
 }
 
-TEST_F(WatchdogTest, SaysThatASensorIsNotThere) {
-  StageFacts facts;
-  facts.absent = true;
-  EXPECT_EQ(watchdog_.look(drive_start, wall_, facts),
-            Sentences{"sensor: there is none; the rest goes without"});
-}
-
 TEST_F(WatchdogTest, AccusesNoSensorThatIsOnlyAhead) {
   const auto at = [&](int ms, std::uint64_t count, int newest_ms) {
     return watchdog_.look(drive_start + milliseconds(ms), wall_ + milliseconds(ms),
-                          {false, count, 0, "", drive_start + milliseconds(newest_ms)});
+                          {count, 0, "", drive_start + milliseconds(newest_ms)});
   };
   EXPECT_EQ(at(1000, 100, 10'000), Sentences{});
   for (int ms = 2000; ms < 10'000; ms += 1000) EXPECT_EQ(at(ms, 100, 10'000), Sentences{}) << ms;
@@ -116,7 +109,7 @@ TEST_F(WatchdogTest, AccusesNoSensorThatIsOnlyAhead) {
 
 TEST_F(WatchdogTest, AFirstLookAtTheEndSeesASensorThatHasDied) {
   EXPECT_EQ(watchdog_.look(drive_start + milliseconds(45'000), wall_ + milliseconds(5000),
-                           {false, 300, 0, "", drive_start + milliseconds(15'000)}),
+                           {300, 0, "", drive_start + milliseconds(15'000)}),
             Sentences{"sensor: stale, nothing new for 30 s"});
 }
 
@@ -168,8 +161,8 @@ TEST(WatchdogInTheGraph, NamesSilentStaleAndMissingSensorsAndTheRestGoesOn) {
 TEST(WatchdogInTheGraph, NamesAStuckStageAndWhoWaitsForIt) {
   std::atomic<std::uint64_t> struck = 0;
   StageDelays delays;
-  delays.stereo.add({drive_start + milliseconds(1000), drive_start + milliseconds(1100)},
-                    milliseconds(3500), struck);
+  delays["stereo"].add({drive_start + milliseconds(1000), drive_start + milliseconds(1100)},
+                       milliseconds(3500), struck);
   testing::MemoryBus bus;
   Vehicle vehicle({}, testing::fake_calibration(), testing::fake_sensors(3.0),
                   runtime::DataClock::paced(1.0), {&bus}, {});
