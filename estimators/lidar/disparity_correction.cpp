@@ -3,25 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimators/lidar/scan_preparation.h"
-
 namespace maploop::lidar {
 namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr double blind = 3.0;  // px; a motion with a larger sigma of the offset is ignored
-
-// Returns the part of a motion, at constant speed and rate, that lies after `from`.
-RelativeMotion begun_at(Time from, RelativeMotion motion) {
-  if (!(motion.from < from && from < motion.stamp)) return motion;
-  const Twist twist = Twist::of(motion.T_from_to(), to_seconds(motion.stamp - motion.from));
-  const Eigen::Isometry3d T = twist.over(to_seconds(motion.stamp - from));
-  motion.from = from;
-  motion.translation = T.translation();
-  motion.rotation = Eigen::Quaterniond(T.linear()).normalized();
-  return motion;
-}
 
 }  // namespace
 
@@ -78,21 +65,6 @@ void DisparityCorrection::learn(const VisualMotion& visual, const LidarMotion& l
   offset_ += gain * std::clamp(measured - offset_, -limit, limit);
   sigma_ = std::max(std::sqrt((1.0 - gain) * variance), least_sigma_);
   last_ = visual.stamp;
-}
-
-OdometerResult process(LidarOdometry& odometry, DisparityCorrection& correction,
-                       const LidarScan* scan, const VisualMotion* visual) {
-  if (visual == nullptr) return odometry.process(scan, nullptr);
-  const RelativeMotion corrected = correction.correct(*visual);
-  const RelativeMotion& used =
-      scan != nullptr ? static_cast<const RelativeMotion&>(*visual) : corrected;
-  OdometerResult result = odometry.process(scan, &used);
-  if (result.lidar.status == OdometryStatus::ok) {
-    correction.learn(*visual, result.lidar);
-  } else if (result.odometry.status == OdometryStatus::ok) {
-    result.odometry = begun_at(result.lidar.from, corrected);
-  }
-  return result;
 }
 
 }  // namespace maploop::lidar

@@ -1,7 +1,6 @@
 // The length of visual motions is corrected here by that of LiDAR odometry.
 #pragma once
 
-#include "estimators/lidar/lidar_odometry.h"
 #include "estimators/lidar/parameters.h"
 #include "msgs/odometry.h"
 #include "msgs/visual_motion.h"
@@ -48,12 +47,5 @@ class DisparityCorrection {
   int motions_ = 0;
   Time last_{};
 };
-
-// Performs one step of both: LidarOdometry::process and the correction's learning. With a usable
-// scan, a visual motion is an independent measurement and is used uncorrected. Alone it is
-// corrected and, if it begins before the end of the last step, cut off there, because the motions
-// must join.
-OdometerResult process(LidarOdometry& odometry, DisparityCorrection& correction,
-                       const LidarScan* scan, const VisualMotion* visual);
 
 }  // namespace maploop::lidar

@@ -13,11 +13,9 @@ constexpr std::size_t usual_points = 150'000;
 
 }  // namespace
 
-LidarStage::LidarStage(Rings& rings, lidar::LidarOdometry odometer,
-                       lidar::DisparityCorrection correction)
+LidarStage::LidarStage(Rings& rings, lidar::VisualLidarOdometer odometer)
     : GraphStage(stages::lidar, rings),
       odometer_(std::move(odometer)),
-      correction_(std::move(correction)),
       lidar_(outputs(rings::lidar_publisher)),
       odometry_(outputs(rings::lidar_fusion, rings::lidar_odometry_publisher)) {
   GraphStage::take(intake_, rings::velodyne_lidar, [this](LidarScan& scan) { take(scan); });
@@ -120,7 +118,7 @@ void LidarStage::process(const LidarScan* scan, const VisualMotion* visual, Time
   runtime::TraceSpan span(trace(), "lidar");
   if (visual != nullptr) span.step_flow(flow_of(*visual));
   delay(trigger);
-  lidar::OdometerResult result = lidar::process(odometer_, correction_, scan, visual);
+  lidar::OdometerResult result = odometer_.process(scan, visual);
   const MonotonicTime ended = runtime::monotonic_now();
 
   forget_sent(trigger);
@@ -171,8 +169,8 @@ void LidarStage::save_until(Time t) {
 template <class Archive>
 void LidarStage::archive(Archive& ar) {
   ar.section(spec().name, 3);
-  ar(odometer_, correction_, counts_, sent_lidar_, sent_odometry_, scan_waits_, visual_waits_,
-     visual_, turn_begin_, turn_end_);
+  ar(odometer_, counts_, sent_lidar_, sent_odometry_, scan_waits_, visual_waits_, visual_,
+     turn_begin_, turn_end_);
   if (scan_waits_) ar(scan_);
 }
 

@@ -5,8 +5,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "estimators/lidar/disparity_correction.h"
-#include "estimators/lidar/lidar_odometry.h"
+#include "estimators/lidar/visual_lidar_odometer.h"
 #include "msgs/lidar_scan.h"
 #include "msgs/odometry.h"
 #include "msgs/visual_motion.h"
@@ -26,7 +25,7 @@ namespace maploop::vehicle {
 // the data alone.
 class LidarStage final : public GraphStage {
  public:
-  LidarStage(Rings& rings, lidar::LidarOdometry odometer, lidar::DisparityCorrection correction);
+  LidarStage(Rings& rings, lidar::VisualLidarOdometer odometer);
 
   void run(runtime::DataClock& clock, Time begin, const std::stop_token& stop) override;
   std::size_t saved_bytes() const override;
@@ -58,8 +57,7 @@ class LidarStage final : public GraphStage {
   template <class Archive>
   void archive(Archive& ar);
 
-  lidar::LidarOdometry odometer_;
-  lidar::DisparityCorrection correction_;
+  lidar::VisualLidarOdometer odometer_;
   Outputs<LidarMotion> lidar_;
   Outputs<RelativeMotion> odometry_;
   runtime::Intake intake_;

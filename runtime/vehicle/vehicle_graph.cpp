@@ -237,9 +237,8 @@ void Vehicle::Graph::make_stages(const VehicleCalibration& calibration,
     if (preview) stereo.show_to(preview->image());
   }
   if (rings.has(stages::lidar)) {
-    auto& lidar = add_stage<LidarStage>(config.scheduling.lidar,
-                                        lidar::LidarOdometry(calibration.T_body_velo, config.lidar),
-                                        lidar::DisparityCorrection(config.lidar));
+    auto& lidar = add_stage<LidarStage>(
+        config.scheduling.lidar, lidar::VisualLidarOdometer(calibration.T_body_velo, config.lidar));
     if (preview) lidar.show_to(preview->scan(), static_cast<std::size_t>(config.preview.points));
   }
   if (rings.has(stages::ppp))

@@ -1,6 +1,6 @@
 #include "tools/odometry/lidar_run.h"
 
-#include "estimators/lidar/disparity_correction.h"
+#include "estimators/lidar/visual_lidar_odometer.h"
 #include "estimators/stereo/stereo_odometry.h"
 #include "tools/odometry/frame_scans.h"
 #include "tools/odometry/processor_time.h"
@@ -22,8 +22,7 @@ struct LidarRun::State {
         camera(drive.camera(p.seed == LidarSeed::vo ? Time::min() : Time::max())),
         scans(drive),
         stereo(drive.calibration().stereo, p.stereo),
-        correction(p.lidar),
-        lidar(drive.calibration().T_body_velo, seeded(p)) {}
+        odometer(drive.calibration().T_body_velo, seeded(p)) {}
 
   // Of the pair; without a visual seed it says the moment alone.
   VisualMotion visual() {
@@ -43,8 +42,7 @@ struct LidarRun::State {
   std::unique_ptr<sensors::Source<StereoPair>> camera;
   FrameScans scans;
   stereo::StereoOdometry stereo;
-  lidar::DisparityCorrection correction;
-  lidar::LidarOdometry lidar;
+  lidar::VisualLidarOdometer odometer;
   StereoPair pair;
   const LidarScan* scan = nullptr;
   bool started = false;
@@ -71,11 +69,11 @@ std::optional<LidarStep> LidarRun::next() {
   s.scan = s.scan_of(step.frame);
   step.with_scan = s.scan != nullptr;
   const double begin = processor_milliseconds();
-  const lidar::OdometerResult result = lidar::process(s.lidar, s.correction, s.scan, &seen);
+  const lidar::OdometerResult result = s.odometer.process(s.scan, &seen);
   step.milliseconds = processor_milliseconds() - begin;
   step.lidar = result.lidar;
   step.odometry = result.odometry;
-  step.pose = s.lidar.pose();
+  step.pose = s.odometer.odometry().pose();
   return step;
 }
 

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "estimators/lidar/disparity_correction.h"
-#include "estimators/lidar/lidar_odometry.h"
+#include "estimators/lidar/visual_lidar_odometer.h"
 #include "estimators/stereo/back_end.h"
 #include "estimators/stereo/stereo_odometry.h"
 #include "tools/odometry/frame_scans.h"
@@ -45,8 +44,7 @@ Run stereo_run(const sensors::KittiDrive& drive, const stereo::StereoParameters&
                FrameRange frames, const std::optional<lidar::LidarParameters>& depth) {
   struct Depth {
     FrameScans scans;
-    lidar::LidarOdometry odometry;
-    lidar::DisparityCorrection correction;
+    lidar::VisualLidarOdometer odometer;
   };
   struct State {
     stereo::StereoOdometry odometry;
@@ -58,8 +56,7 @@ Run stereo_run(const sensors::KittiDrive& drive, const stereo::StereoParameters&
   auto state =
       std::make_shared<State>(State{{calibration.stereo, parameters}, drive.camera(), {}, {}});
   if (depth) {
-    state->depth.emplace(Depth{
-        FrameScans(drive), {calibration.T_body_velo, *depth}, lidar::DisparityCorrection(*depth)});
+    state->depth.emplace(Depth{FrameScans(drive), {calibration.T_body_velo, *depth}});
   }
   return [state, frames]() -> std::optional<Step> {
     do
@@ -73,8 +70,8 @@ Run stereo_run(const sensors::KittiDrive& drive, const stereo::StereoParameters&
     step.motion = motion;
     if (state->depth) {
       Depth& known = *state->depth;
-      step.motion = known.correction.correct(motion);
-      lidar::process(known.odometry, known.correction, known.scans.of(step.frame), &motion);
+      step.motion = known.odometer.correction().correct(motion);
+      known.odometer.process(known.scans.of(step.frame), &motion);
     }
     const auto tracks = state->odometry.tracks();
     step.tracks.assign(tracks.begin(), tracks.end());

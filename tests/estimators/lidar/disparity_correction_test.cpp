@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "estimators/lidar/disparity_correction.h"
+#include "estimators/lidar/visual_lidar_odometer.h"
 #include "msgs/archive.h"
 
 namespace maploop::lidar {
@@ -137,15 +137,13 @@ TEST(DisparityCorrection, GoesOnFromAnArchiveWithTheSameBits) {
 // If a scan is missing or empty, fusion gets the corrected visual motion.
 TEST(DisparityCorrection, VisualMotionsThatStandAloneAreCorrected) {
   for (const bool with_scan : {false, true}) {
-    LidarOdometry odometry(Eigen::Isometry3d::Identity(), {});
-    DisparityCorrection correction = taught(200);
+    VisualLidarOdometer odometer(LidarOdometry(Eigen::Isometry3d::Identity(), {}), taught(200));
     const VisualMotion seen = visual(201, 0.1);
     LidarScan empty;
     empty.start = seen.stamp - std::chrono::milliseconds(50);
     empty.stamp = seen.stamp;
     empty.end = seen.stamp + std::chrono::milliseconds(50);
-    const OdometerResult result =
-        process(odometry, correction, with_scan ? &empty : nullptr, &seen);
+    const OdometerResult result = odometer.process(with_scan ? &empty : nullptr, &seen);
     EXPECT_NE(result.lidar.status, OdometryStatus::ok);
     EXPECT_EQ(result.odometry.status, OdometryStatus::ok);
     EXPECT_EQ(result.odometry.stamp, seen.stamp);

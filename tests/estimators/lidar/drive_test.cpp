@@ -9,8 +9,7 @@
 #include <span>
 #include <utility>
 
-#include "estimators/lidar/disparity_correction.h"
-#include "estimators/lidar/lidar_odometry.h"
+#include "estimators/lidar/visual_lidar_odometer.h"
 #include "estimators/stereo/stereo_odometry.h"
 #include "msgs/frames.h"
 #include "tests/estimators/lidar/drive_scans.h"
@@ -135,16 +134,16 @@ TEST_F(LidarDriveTest, EveryFifthAndTenthScanHoldWithVisualSeeds) {
 TEST_F(LidarDriveTest, GivesVisualMotionsItsLength) {
   const sensors::KittiDrive drive(drive_0013());
   const auto length_learnt = [&](std::span<const VisualMotion> visual) {
-    LidarOdometry odometry(drive.calibration().T_body_velo,
-                           maploop::testing::lidar_parameters(drive));
-    DisparityCorrection correction(maploop::testing::lidar_parameters(drive));
+    VisualLidarOdometer odometer(drive.calibration().T_body_velo,
+                                 maploop::testing::lidar_parameters(drive));
+    const DisparityCorrection& correction = odometer.correction();
     const auto velodyne = drive.velodyne();
     LidarScan scan;
     double raw = 0.0, corrected = 0.0,
            of_scans = 0.0;  // m, path lengths after the first five seconds
     for (std::size_t i = 0; i < visual.size() && velodyne->next(scan); ++i) {
       const RelativeMotion motion = correction.correct(visual[i]);
-      const LidarMotion by_scan = process(odometry, correction, &scan, &visual[i]).lidar;
+      const LidarMotion by_scan = odometer.process(&scan, &visual[i]).lidar;
       if (i < 50) continue;
       raw += visual[i].translation.norm();
       corrected += motion.translation.norm();

@@ -67,8 +67,7 @@ Sent run(std::vector<Input> inputs) {
   runtime::Edge<VisualMotion>& visual = *rings.outputs(rings::stereo_lidar).rings().front();
   runtime::Edge<LidarMotion>& lidar = *rings.consumer(rings::lidar_publisher);
   runtime::Edge<RelativeMotion>& odometry = *rings.consumer(rings::lidar_fusion);
-  LidarStage stage(rings, lidar::LidarOdometry(Eigen::Isometry3d::Identity(), {}),
-                   lidar::DisparityCorrection({}));
+  LidarStage stage(rings, lidar::VisualLidarOdometer(Eigen::Isometry3d::Identity(), {}));
   runtime::DataClock clock = runtime::DataClock::virtual_time();
   const std::stop_token stop;
   std::thread thread([&] { stage.run(clock, drive_start, stop); });
