@@ -89,7 +89,7 @@ std::vector<ImuSample> run() {
   runtime::Edge<ImuSample>& chosen = *rings.consumer(chosen_ring);
   rings.check();
   runtime::DataClock clock = runtime::DataClock::virtual_time();
-  clock.start(drive_start, {});
+  clock.start(drive_start, Duration{});
   const std::stop_token stop;
   std::vector<std::jthread> threads;
   for (DriverBase* driver : {static_cast<DriverBase*>(&first), static_cast<DriverBase*>(&second)}) {

@@ -14,8 +14,11 @@ using runtime::Tick;
 using std::chrono::milliseconds;
 
 constexpr Time start = from_nanoseconds(1'317'042'651'000'000'000);
-constexpr StageSpec stage{
-    .name = "fusion", .period = milliseconds(10), .deadline = milliseconds(2)};
+constexpr StageSpec stage{.name = "fusion",
+                          .runs = "",
+                          .released = "",
+                          .period = milliseconds(10),
+                          .deadline = milliseconds(2)};
 
 // Records the i-th tick, woken `late` after it was due.
 void wake(ThreadMeter& meter, const DataClock& clock, int i, Duration late,

@@ -19,9 +19,11 @@ namespace {
 using testing::drive_start;
 using Sentences = std::vector<std::string>;
 
-constexpr StageSpec sensor{.name = "sensor", .min_rate = 2.0, .max_rate = 20.0};
-constexpr StageSpec worker{.name = "worker", .min_rate = 2.0, .max_rate = 20.0};
-constexpr StageSpec unwatched{.name = "idle"};
+constexpr StageSpec sensor{
+    .name = "sensor", .runs = "", .released = "", .min_rate = 2.0, .max_rate = 20.0};
+constexpr StageSpec worker{
+    .name = "worker", .runs = "", .released = "", .min_rate = 2.0, .max_rate = 20.0};
+constexpr StageSpec unwatched{.name = "idle", .runs = "", .released = ""};
 
 class WatchdogTest : public ::testing::Test {
  protected:
