@@ -8,10 +8,10 @@
 namespace maploop::simulate {
 namespace {
 
-// The share of a pixel of `footprint` metres at `distance` that a stripe of half width `half`
-// covers.
+// Returns the share of a pixel of `footprint` metres at `distance` that is covered by a stripe of
+// half width `half`.
 float stripe(float distance, float half, float footprint) {
-  const float pixels = 1.0F / std::max(footprint, 1e-4F);  // in a metre
+  const float pixels = 1.0F / std::max(footprint, 1e-4F);  // pixels in a metre
   return std::clamp((half - std::fabs(distance)) * pixels + 0.5F, 0.0F, 1.0F) *
          std::min(1.0F, 2.0F * half * pixels);
 }
@@ -24,7 +24,7 @@ float blend(float a, float b, float share) {
   return a + share * (b - a);
 }
 
-// In [0, 1), of a cell.
+// Returns a random number in [0, 1) for a cell.
 float random_of(int i, int j, std::uint32_t seed) {
   const auto bits = mix(static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)) << 32U |
                             static_cast<std::uint32_t>(j),
@@ -86,7 +86,7 @@ float Appearance::facade(const Surface& s, const Eigen::Vector2f& uv, float foot
                  stripe(fraction(u / 0.25F + shift) - 0.5F, 0.03F, footprint / 0.25F));
     tone = blend(tone, 0.5F, 0.6F * joint);
   }
-  if (v < 0.6F) return 0.6F * tone;  // the base
+  if (v < 0.6F) return 0.6F * tone;  // the base of the wall
   const int column = static_cast<int>(std::floor(u / bay));
   const int floor = static_cast<int>(std::floor(v / storey));
   const float x = fraction(u / bay) * bay - 0.5F * bay;
@@ -109,7 +109,7 @@ float Appearance::ground(const Surface& s, const Eigen::Vector2d& place, float f
   const float u = static_cast<float>(place.x()), v = static_cast<float>(place.y());
   constexpr float pavement = 2.0F;  // m wide
   if (near.first.street && edge < 0.0F) {
-    // Patches of other age, fine grain.
+    // Patches of different age, and a fine grain.
     const float patch = noise_(u, v, 77, 9.0F, 2, 0.8F, footprint);
     const float grain = noise_(u, v, 5, 0.5F, 4, 0.9F, footprint);
     return road(near.first, near.second, s.tone * (1.0F + 0.16F * patch + 0.12F * grain),
@@ -132,9 +132,9 @@ float Appearance::ground(const Surface& s, const Eigen::Vector2d& place, float f
 
 float Appearance::road(const StreetPlace& at, const StreetPlace& other, float tone,
                        float footprint) const {
-  if (other.street && other.edge < 1.0) return tone;  // a junction has no lines
+  if (other.street && other.edge < 1.0) return tone;  // a junction has no markings
   constexpr float white = 0.72F;
-  constexpr double before_junction = 10.0;  // m, where lines end
+  constexpr double before_junction = 10.0;  // m, where the markings end
   const double from_end = std::min(at.along, at.street->length() - at.along);
   const float left = static_cast<float>(at.left), along = static_cast<float>(at.along);
   const float half = static_cast<float>(at.street->half_width);
@@ -149,7 +149,7 @@ float Appearance::road(const StreetPlace& at, const StreetPlace& other, float to
   if (half < 4.0F) line *= stripe(fraction(along / 6.0F) - 0.5F, 0.25F, footprint / 6.0F);
   if (half >= 4.0F) line = std::max(line, stripe(std::fabs(left) - half + 0.35F, 0.06F, footprint));
   tone = blend(tone, white, line);
-  // Covers of manholes.
+  // Manhole covers.
   const float cell = std::floor(along / 23.0F);
   const float cx = 23.0F * (cell + 0.5F),
               cy = cell == 2.0F * std::floor(cell / 2.0F) ? 1.1F : -1.4F;

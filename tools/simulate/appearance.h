@@ -1,4 +1,4 @@
-// How bright surfaces are: procedural textures, evaluated where a ray hits.
+// Computes how bright surfaces are: procedural textures are evaluated where a ray hits.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,10 +13,11 @@ class Appearance {
  public:
   explicit Appearance(const StreetIndex& streets) : streets_(&streets) {}
 
-  // Albedo, 0 to 1, of a pixel of `footprint` metres; `uv` (m) on the surface, `place` in enu.
+  // Returns the albedo, 0 to 1, of a pixel that covers `footprint` metres; `uv` (m) is on the
+  // surface, `place` (m) is in enu.
   float albedo(const Surface& surface, const Eigen::Vector2f& uv, const Eigen::Vector3f& place,
                float footprint) const;
-  // Of the sky in a direction.
+  // Returns the brightness of the sky in a unit direction, enu.
   float sky(const Eigen::Vector3f& direction) const;
 
  private:

@@ -17,7 +17,8 @@ float unit_float(std::uint64_t bits) {
   return static_cast<float>(unit(bits));
 }
 
-// Standard normal of 64 random bits: the sum of their bytes, nearly.
+// Returns an approximately standard normal number from 64 random bits: the scaled sum of their
+// bytes.
 float grey_noise(std::uint64_t bits) {
   std::uint64_t sum = (bits & 0x00ff00ff00ff00ffU) + (bits >> 8U & 0x00ff00ff00ff00ffU);
   sum = (sum & 0xffffU) + (sum >> 16U & 0xffffU) + (sum >> 32U & 0xffffU) + (sum >> 48U);
@@ -26,7 +27,7 @@ float grey_noise(std::uint64_t bits) {
 
 const Vector3f to_sun = Vector3f(0.4F, -0.45F, 0.8F).normalized();
 
-// Paint and glass show something of the sky.
+// Paint and glass reflect part of the sky.
 float gloss(const Hit& hit, const Vector3f& direction) {
   const Material material = hit.surface->material;
   if (material != Material::paint && material != Material::glass) return 0.0F;
@@ -35,7 +36,7 @@ float gloss(const Hit& hit, const Vector3f& direction) {
                                      : 0.02F + 0.1F * std::max(0.0F, up);
 }
 
-// What falls on the pixels of an image.
+// Computes the light that falls on the pixels of an image.
 class Sampling {
  public:
   Sampling(const RayScene& scene, const Appearance& appearance, const StereoCalibration& camera,
@@ -56,7 +57,7 @@ class Sampling {
       shift_[x] = view.shift.at(static_cast<float>(x), static_cast<float>(camera.width));
   }
 
-  // A white surface in the sun is 1.
+  // Returns the light of each pixel; a white surface in the sun has 1.
   cv::Mat light(std::uint64_t seed) {
     cv::Mat light(camera_.height, camera_.width, CV_32F);
     const std::uint64_t first = mix(seed, 0), second = mix(seed, 1);
@@ -77,12 +78,13 @@ class Sampling {
   }
 
  private:
-  // A packet's pixels are near each other, so that its rays mostly meet the same things.
+  // The pixels of a packet are neighbours, so that its rays mostly hit the same surfaces.
   static constexpr int columns = 4, rows = static_cast<int>(packet) / columns;
   static int column_of(std::size_t i) { return static_cast<int>(i) % columns; }
   static int row_of(std::size_t i) { return static_cast<int>(i) / columns; }
 
-  // From anywhere in each of a packet's pixels, at any moment of the exposure.
+  // Draws a ray through a random place of each pixel of a packet, at a random moment of the
+  // exposure.
   void aim(int x0, int y0, std::uint64_t seed) {
     for (std::size_t i = 0; i < packet; ++i) {
       const int x = x0 + column_of(i), y = y0 + row_of(i);
@@ -106,10 +108,10 @@ class Sampling {
     return light;
   }
 
-  // Whether all rays have met the same surface, as bright everywhere, and it hardly moves in the
-  // image during the exposure.
+  // Whether all rays hit the same surface with nearly the same brightness, and that surface hardly
+  // moves in the image during the exposure.
   bool alike(const std::array<float, packet>& seen) const {
-    constexpr float edge = 0.05F;  // of a white surface in the sun
+    constexpr float edge = 0.05F;  // relative to a white surface in the sun
     const auto [darkest, brightest] = std::minmax_element(seen.begin(), seen.end());
     if (*brightest - *darkest > edge) return false;
     const Hit& first = hits_[0];
@@ -144,7 +146,7 @@ class Sampling {
     const float footprint = hit.range / fx_ / std::sqrt(slant);
     const Vector3f place = rays_[i].origin + hit.range * d;
     const float albedo = appearance_.albedo(*hit.surface, hit.uv, place, footprint);
-    // The sky lights what faces up more than what faces down.
+    // The sky lights surfaces that face up more than those that face down.
     const float sky = p_.ambient * (0.75F + 0.25F * hit.normal.z());
     const float sun = lit_[i] && !shadowed_[i] ? hit.normal.dot(to_sun) : 0.0F;
     return albedo * (sky + (1.0F - p_.ambient) * sun) + gloss(hit, d);
@@ -154,11 +156,11 @@ class Sampling {
   const Appearance& appearance_;
   const StereoCalibration& camera_;
   Vector3f begin_, way_;
-  Eigen::Matrix3f R_, turn_;  // at the begin of the exposure, and what it changes by
+  Eigen::Matrix3f R_, turn_;  // at the begin of the exposure, and its change until the end
   float time_;
   const CameraParameters& p_;
   float fx_, fy_;
-  std::vector<float> shift_;  // px, by column
+  std::vector<float> shift_;  // px, for each column
   Rays rays_, sun_rays_;
   Hits hits_;
   std::array<bool, packet> lit_{}, shadowed_{};

@@ -14,7 +14,8 @@ namespace {
 constexpr double first_frame = 0.1;  // s
 constexpr std::size_t car_count = 30;
 
-// Another seed, another time of the day: noises that depend on the stamp, and the sky, are others.
+// Another seed also means another time of day, so that noise that depends on the stamp, and the
+// ionosphere, differ.
 Time start_of(std::uint64_t seed) {
   constexpr std::uint64_t half_day = 43'200;  // s
   return parse_time("2026-05-04 06:00:00.0") + std::chrono::seconds(mix(seed, 31) % half_day);
@@ -44,7 +45,7 @@ Drive::Drive(const SimulationOptions& options, Site site)
                 std::move(shapes));
   for (double t = first_frame; t + 0.5 * frame_interval <= options.seconds; t += frame_interval)
     times.push_back(t);
-  double lead = 0.5 * frame_interval;  // of a turn's begin before its image
+  double lead = 0.5 * frame_interval;  // s from the begin of a turn to its image
   if (options.free_scanner) {
     lead = frame_interval - errors.scanner_phase;
     turn_time = frame_interval * (1.0 + errors.scanner_drift);

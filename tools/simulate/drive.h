@@ -1,4 +1,4 @@
-// All that is fixed of a drive before its first frame is taken.
+// Everything about a drive that is fixed before its first frame is taken.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ namespace maploop::simulate {
 struct Drive {
   static constexpr double frame_interval = 0.1;  // s
 
-  // Throws as choose_site().
+  // Throws like choose_site().
   explicit Drive(const SimulationOptions& options);
 
   Time start;
@@ -34,8 +34,8 @@ struct Drive {
   VehicleMotion motion;
   std::vector<VehicleMotion> traffic;
   std::optional<World> world;
-  std::vector<double> times;          // s, of the frames: of their images
-  std::vector<double> turns;          // s, begins of the scanner's turns, one a frame
+  std::vector<double> times;          // s, when the images of the frames are taken
+  std::vector<double> turns;          // s, when the scanner's turns begin, one for each frame
   double turn_time = frame_interval;  // s
 
  private:

@@ -49,7 +49,7 @@ void FrameWriter::write_images(std::size_t frame, std::uint64_t seed) {
   const double half = 0.5 * parameters.exposure_time;
   scene_.move(
       bodies(drive_.traffic, t - 0.5 * Drive::frame_interval, t + 0.5 * Drive::frame_interval));
-  // What an exposure control leaves.
+  // Brightness changes that an exposure control does not remove.
   const auto brightness = static_cast<float>(1.0 + 0.08 * std::sin(0.35 * t) * std::sin(0.9 * t));
   for (int side = 0; side < 2; ++side) {
     const Eigen::Isometry3d T_body_cam =

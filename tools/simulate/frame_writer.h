@@ -1,4 +1,4 @@
-// Writes what cameras and LiDAR see at a frame.
+// Writes the camera images and the LiDAR scan of a frame.
 #pragma once
 
 #include <cstddef>
@@ -8,11 +8,11 @@
 
 namespace maploop::simulate {
 
-// For one thread; any number of them may share a drive.
+// An object belongs to one thread; any number of objects may share a drive.
 class FrameWriter {
  public:
-  // Into image_00, image_01 and velodyne_points below `folder`, which are there. The drive must
-  // outlive it.
+  // Writes into image_00, image_01 and velodyne_points below `folder`, which must exist. The drive
+  // must outlive this object.
   FrameWriter(const Drive& drive, std::filesystem::path folder, const SimulationOptions& options);
 
   void write(std::size_t frame);

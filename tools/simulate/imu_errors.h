@@ -1,4 +1,4 @@
-// What an inertial unit measures wrong.
+// Simulates the errors of an inertial unit.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,8 +12,8 @@ namespace maploop::simulate {
 
 enum class ImuGrade { tactical, mems };
 
-// One triad's error: turn-on bias, flicker as the sum of three Gauss-Markov processes (10, 100 and
-// 1000 s: another form than the one process of the estimator), white noise, scale, misalignment.
+// The errors of one triad: turn-on bias, flicker as the sum of three Gauss-Markov processes (10,
+// 100 and 1000 s; the estimator models one process only), white noise, scale, misalignment.
 struct TriadParameters {
   double turn_on = 0.0;       // rad/s or m/s^2, 1 sigma
   double instability = 0.0;   // the same, 1 sigma of the sum
@@ -24,7 +24,7 @@ struct TriadParameters {
 struct ImuParameters {
   TriadParameters gyros, accelerometers;
 };
-// tactical: 2 deg/h and 0.2 deg/sqrt(h), 1 mg, as data sheets of OXTS units say; mems: 300 deg/h
+// tactical: 2 deg/h and 0.2 deg/sqrt(h), 1 mg, as data sheets of OXTS units state; mems: 300 deg/h
 // turn-on, 10 deg/h instability, 0.3 deg/sqrt(h), 20 mg.
 ImuParameters imu_parameters(ImuGrade grade);
 

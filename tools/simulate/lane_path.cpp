@@ -10,15 +10,15 @@ namespace maploop::simulate {
 namespace {
 
 using Line = std::vector<Eigen::Vector2d>;
-constexpr double junction_radius = 11.0;  // m; a car leaves its lane's line there
-constexpr int line_smoothing = 10;        // passes of (1 2 1) / 4 over points 1 m apart: 2.2 m
+constexpr double junction_radius = 11.0;  // m; within it a car leaves its lane's line
+constexpr int line_smoothing = 10;  // passes of (1 2 1) / 4 over points 1 m apart: sigma of 2.2 m
 
 Eigen::Vector2d direction_at(const Line& line, std::size_t i) {
   const std::size_t a = i > 0 ? i - 1 : 0, b = std::min(i + 1, line.size() - 1);
   return (line[b] - line[a]).normalized();
 }
 
-// The lane of a street, without its junctions.
+// Returns the lane of a street, without its junctions.
 Line lane_of(const Streets& streets, DirectedStreet d) {
   const Line line = streets.centreline(d);
   const double offset = streets.streets[d.street].lane();
@@ -31,7 +31,7 @@ Line lane_of(const Streets& streets, DirectedStreet d) {
     lane.push_back(line[i] + offset * Eigen::Vector2d(t.y(), -t.x()));
   }
   if (lane.size() >= 2) return lane;
-  // A street of hardly more than its junctions: its middle.
+  // A street that is hardly longer than its junctions is represented by its middle.
   const std::size_t m = line.size() / 2;
   const Eigen::Vector2d t = direction_at(line, m), right(t.y(), -t.x());
   const Eigen::Vector2d middle = 0.5 * (line.front() + line.back()) + offset * right;
@@ -49,7 +49,8 @@ void append_curve(Line& line, const Line& next) {
   }
 }
 
-// Points 1 m apart; `marks`, numbers of points, become the ways of the same places.
+// Returns points 1 m apart. `marks` are indices of points and become their distances along the
+// line.
 Line resampled(const Line& line, std::vector<double>& marks) {
   std::vector<double> along{0.0};
   for (std::size_t i = 1; i < line.size(); ++i)
@@ -65,7 +66,8 @@ Line resampled(const Line& line, std::vector<double>& marks) {
   return result;
 }
 
-// m to the left, of each point: wander, and shifts of a metre over half a hundred metres.
+// Returns the offset to the left in m for each point: small waves, and occasional shifts of 1 m
+// that last 56 m.
 std::vector<double> wander(std::size_t count, std::uint64_t seed) {
   Random random(seed, 4);
   std::vector<double> offset(count, 0.0);
@@ -118,7 +120,7 @@ LanePath::LanePath(const Streets& streets, const std::vector<DirectedStreet>& ro
     points_[i] += left[i] * Eigen::Vector2d(-t.y(), t.x());
   }
   smooth_line(points_);
-  // The first street begins, and the last ends, a junction's radius outside.
+  // The first street begins, and the last one ends, one junction radius outside the path.
   for (std::size_t i = 0; i < route.size(); ++i) {
     const double before = i > 0 ? 0.5 * (marks[2 * i - 1] + marks[2 * i]) : -junction_radius;
     const double after = i + 1 < route.size() ? 0.5 * (marks[2 * i + 1] + marks[2 * i + 2])

@@ -1,4 +1,4 @@
-// The line that a car drives along a route.
+// The line along which a car drives a route.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,20 +9,20 @@
 
 namespace maploop::simulate {
 
-// A uniform cubic B-spline through the plane: position, direction and curvature are continuous. The
-// way u is in metres to a few percent; |derivative| says how nearly. Outside [0, length] it stays
-// at its ends.
+// A uniform cubic B-spline in the plane: position, direction and curvature are continuous. Its
+// parameter `way` equals metres to a few percent; |derivative| gives the exact ratio. Outside [0,
+// length] the curve stays at its ends.
 class LanePath {
  public:
-  // A part of the route on the way.
+  // One street of the route, as an interval of `way`.
   struct Stretch {
     DirectedStreet street;
-    double begin = 0.0, end = 0.0;  // way, between the middles of the junctions
-    double stop_line = 0.0;         // way, before the junction at its end
+    double begin = 0.0, end = 0.0;  // between the centres of the junctions
+    double stop_line = 0.0;         // `way` before the junction at its end
   };
 
-  // In the right lane, round the junctions in curves, wandering in the lane a little, and shifting
-  // to its left side and back now and then, as around someone who stopped there.
+  // The path keeps to the right lane, rounds junctions in curves, wanders a little in the lane, and
+  // now and then shifts to the lane's left side and back, as if to pass a stopped vehicle.
   LanePath(const Streets& streets, const std::vector<DirectedStreet>& route, std::uint64_t seed);
 
   double length() const { return static_cast<double>(points_.size()) - 3.0; }

@@ -17,8 +17,8 @@ std::size_t lasers_of(Scanner scanner) {
   return scanner == Scanner::hdl_64e ? 64 : 16;
 }
 
-// HDL-64E: the upper block from +2 degrees in steps of 1/3, the lower from -8.83 in steps of 1/2.
-// VLP-16: from +15 in steps of 2.
+// Returns the elevation in rad. HDL-64E: the upper block descends from +2 degrees in steps of 1/3,
+// the lower from -8.83 in steps of 1/2. VLP-16: from +15 in steps of 2.
 double elevation(Scanner scanner, std::size_t laser) {
   const auto i = static_cast<double>(laser);
   if (scanner == Scanner::vlp_16) return radians(15.0 - 2.0 * i);
@@ -31,13 +31,13 @@ Eigen::Vector3f beam(double azimuth, double up) {
       .cast<float>();
 }
 
-// What is wrong of each laser.
+// The constant errors of each laser.
 struct LaserErrors {
   double azimuth, elevation;  // rad
   float range;                // m
 };
 
-// The same in every turn.
+// The errors are the same in every turn.
 std::array<LaserErrors, most_lasers> scanner_errors(const LidarParameters& p) {
   Random random(p.unit, 11);
   std::array<LaserErrors, most_lasers> errors{};
@@ -101,8 +101,8 @@ sensors::RangeImage take_turn(const RayScene& scene, const Appearance& appearanc
         const Eigen::Vector3f place = T.translation() + hit.range * rays[i].direction;
         const float slant = std::max(0.0F, -hit.normal.dot(rays[i].direction));
         const float albedo = appearance.albedo(*hit.surface, hit.uv, place, 0.003F * hit.range);
-        // What comes back falls with the square of the range; a dark or slanted surface far away,
-        // and the windows of a car, do not return.
+        // The echo falls with the square of the range. Dark or slanted surfaces far away, and some
+        // of the beams that hit a car's windows, do not return.
         const float echo = albedo * slant * 2500.0F / (hit.range * hit.range);
         const bool glass = hit.surface->material == Material::glass;
         if (echo < 0.004F || (echo < 0.012F && faint) || (glass && faint)) continue;

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-// The sides of a prism over corners in counter-clockwise order.
+// Adds the sides of a prism over corners in counter-clockwise order.
 void add_sides(Mesh& mesh, const std::vector<Vector2f>& corners, float bottom, float top,
                std::uint32_t surface) {
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -141,7 +141,7 @@ Mesh make_tree(float height, std::uint32_t seed) {
 }
 
 Mesh make_car(float tone, std::uint32_t seed) {
-  // The outline from the side: x, z.
+  // The outline seen from the side: x, z.
   const std::array<Vector2f, 10> outline{{{-2.15F, 0.3F},
                                           {2.1F, 0.3F},
                                           {2.15F, 0.62F},
@@ -165,7 +165,7 @@ Mesh make_car(float tone, std::uint32_t seed) {
   for (std::size_t i = 0; i + 1 < outline.size(); ++i)
     mesh.add_quad(side(-half, i), side(-half, i + 1), side(half, i + 1), side(half, i),
                   i == 3 || i == 5 ? glass : paint);
-  // Plates and lights.
+  // Number plates and lights.
   const std::uint32_t plate = mesh.add({Material::sign, 0.7F, seed});
   const std::uint32_t light = mesh.add({Material::metal, 0.5F, seed});
   const auto patch = [&](float x, float y, float z, float width, float height,

@@ -17,7 +17,7 @@ std::uint32_t wrapped(std::int32_t i) {
 }  // namespace
 
 NoiseTexture::NoiseTexture() : tile_(tile_side * tile_side) {
-  Random random(1, 8);  // the same in every world: seeds move it
+  Random random(1, 8);  // the tile is the same in every world; the seed of a surface shifts it
   for (float& value : tile_) value = static_cast<float>(random.uniform(-1.0, 1.0));
 }
 
@@ -35,7 +35,7 @@ float NoiseTexture::lattice(float x, float y) const {
 float NoiseTexture::operator()(float u, float v, std::uint32_t seed, float coarsest, int octaves,
                                float gain, float footprint) const {
   const float du = static_cast<float>(seed & 0xffU), dv = static_cast<float>(seed >> 8U & 0xffU);
-  constexpr float finer = 3.0F;  // each octave than the one before
+  constexpr float finer = 3.0F;  // ratio of the wavelengths of consecutive octaves
   float sum = 0.0F, weight = 1.0F;
   float pixels = coarsest / std::max(footprint, 1e-6F), waves = 1.0F / coarsest;
   for (int i = 0; i < octaves && pixels > 1.0F; ++i) {

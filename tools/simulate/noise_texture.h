@@ -1,4 +1,4 @@
-// Band-limited noise, for what surfaces look like.
+// Band-limited noise, the base of procedural textures.
 #pragma once
 
 #include <cstdint>
@@ -6,13 +6,14 @@
 
 namespace maploop::simulate {
 
-// Octaves of value noise from one tile, 256 lattice points a side.
+// Sums octaves of value noise from one tile of 256 x 256 lattice points.
 class NoiseTexture {
  public:
   NoiseTexture();
 
-  // In about [-1, 1], zero mean: octaves from wavelength `coarsest` (m) down, each a third of the
-  // one before and `gain` times as strong, as far as a pixel of `footprint` metres can show them.
+  // Returns noise in about [-1, 1] with zero mean. Its octaves start at wavelength `coarsest` (m);
+  // each has a third of the previous wavelength and `gain` times its strength. Octaves that a pixel
+  // of `footprint` metres cannot show are left out.
   float operator()(float u, float v, std::uint32_t seed, float coarsest, int octaves, float gain,
                    float footprint) const;
 

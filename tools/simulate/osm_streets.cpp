@@ -14,14 +14,14 @@ namespace {
 
 using Line = std::vector<Eigen::Vector2d>;
 
-constexpr double spacing = 2.0;           // m, of a centreline's points
-constexpr double one_junction = 18.0;     // m, of a street too short to be one
-constexpr int corner_smoothing = 12;      // passes of (1 2 1) / 4: corners become curves of 5 m
+constexpr double spacing = 2.0;           // m, between points of a centreline
+constexpr double one_junction = 18.0;     // m; the ends of a shorter street are one junction
+constexpr int corner_smoothing = 12;      // passes of (1 2 1) / 4: corners are rounded over 5 m
 constexpr double fastest_allowed = 27.8;  // m/s
 
 struct Piece {
   const mapmatch::MapWay* way;
-  std::size_t from, to;  // nodes, by their numbers
+  std::size_t from, to;  // indices of nodes
   Line line;
 };
 
@@ -31,7 +31,7 @@ bool is_drivable(const mapmatch::Road& road) {
          road.road_class != RoadClass::service && road.road_class != RoadClass::track;
 }
 
-// The ways, cut where they meet.
+// Splits the ways where they meet.
 std::vector<Piece> pieces_of(const mapmatch::MapExtract& map, const LocalFrame& frame,
                              std::vector<Eigen::Vector2d>& places) {
   std::map<std::int64_t, std::size_t> number;
@@ -76,7 +76,7 @@ double length_of(const Line& line) {
   return sum;
 }
 
-// Points evenly apart, the ends at their junctions, corners rounded.
+// Returns evenly spaced points; the ends are at their junctions, and corners are rounded.
 Line smooth(Line line, const Eigen::Vector2d& begin, const Eigen::Vector2d& end) {
   line.front() = begin;
   line.back() = end;
@@ -104,7 +104,7 @@ Line smooth(Line line, const Eigen::Vector2d& begin, const Eigen::Vector2d& end)
   return even;
 }
 
-// Nodes that are one junction have one number.
+// Gives nodes of the same junction the same number (union-find).
 class Merged {
  public:
   explicit Merged(std::size_t count) : parent_(count) {

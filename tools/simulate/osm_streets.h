@@ -1,4 +1,4 @@
-// Streets of an OpenStreetMap file to simulate a drive on.
+// Reads the streets to simulate a drive on from an OpenStreetMap file.
 #pragma once
 
 #include <filesystem>
@@ -10,9 +10,9 @@
 
 namespace maploop::simulate {
 
-// Centrelines with their corners rounded, points 2 m apart; junctions nearer to each other than a
-// car's turn are one. Streets through tunnels, those
-// not open to cars, service roads and tracks are left out.
+// Centrelines have rounded corners and points 2 m apart; junctions closer to each other than a
+// car's turn become one. Streets through tunnels, streets not open to cars, service roads and
+// tracks are left out.
 Streets streets_of(const mapmatch::MapExtract& map, const LocalFrame& frame);
 
 }  // namespace maploop::simulate

@@ -1,4 +1,4 @@
-// Writing a file at once.
+// Writes a whole file in one call.
 #pragma once
 
 #include <filesystem>

@@ -27,7 +27,7 @@ std::string oxts_row_text(const VehicleState& now, const VehicleState& before,
   const Attitude attitude = attitude_from_rotation(now.T_enu_body.linear());
   const Eigen::Matrix3d& R = before.T_enu_body.linear();
   const Eigen::Vector3d force =
-      before.acceleration_enu + gravity * Eigen::Vector3d::UnitZ();  // specific, enu
+      before.acceleration_enu + gravity * Eigen::Vector3d::UnitZ();  // specific force, enu
   const Eigen::Vector3d a = accelerometers.measure(R.transpose() * force);
   const Eigen::Vector3d w = gyros.measure(before.rate_body);
   const Eigen::Matrix3d level =

@@ -1,4 +1,4 @@
-// The inertial and GNSS unit's rows, as KITTI writes them.
+// Writes the rows of the inertial and GNSS unit in KITTI's format.
 #pragma once
 
 #include <filesystem>
@@ -11,14 +11,14 @@
 
 namespace maploop::simulate {
 
-// Rows `interval` seconds apart from `start` on, into the new folder `oxts`: position and attitude
-// without error, of the row's stamp; velocities without error, accelerations and rates with a
-// unit's own, of 60 ms before it, as in KITTI's drives.
+// Writes rows `interval` seconds apart, beginning at `start`, into the new folder `oxts`. Position
+// and attitude are exact at the row's stamp. Velocities (exact), accelerations and rates (with the
+// errors of `imu`) are those of 60 ms before it, as in KITTI's drives.
 void write_oxts(const std::filesystem::path& oxts, const VehicleMotion& motion,
                 const LocalFrame& frame, Time start, double seconds, double interval,
                 const ImuParameters& imu, std::uint64_t seed);
 
-// Stamps as KITTI's timestamps.txt, one a line.
+// Writes stamps like KITTI's timestamps.txt, one a line.
 void write_timestamps(const std::filesystem::path& file, const std::vector<Time>& stamps);
 
 }  // namespace maploop::simulate

@@ -1,4 +1,4 @@
-// Random numbers that are the same with every standard library.
+// Random numbers that do not depend on the standard library.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,13 @@ constexpr std::uint64_t mix(std::uint64_t a, std::uint64_t b) {
   return mix(mix(a) ^ b);
 }
 
-// In [0, 1).
+// Returns a number in [0, 1).
 constexpr double unit(std::uint64_t bits) {
   return static_cast<double>(bits >> 11U) * 0x1p-53;
 }
 
-// One stream of a seed; each part of the world draws from a stream of its own, so that a change of
-// one does not move the others.
+// One stream of a seed. Each part of the world draws from its own stream, so that a change of one
+// part does not change the others.
 class Random {
  public:
   constexpr Random(std::uint64_t seed, std::uint64_t stream) : state_(mix(seed, stream)) {}
@@ -37,7 +37,8 @@ class Random {
   constexpr std::uint32_t below(std::uint32_t count) {
     return static_cast<std::uint32_t>(unit(bits()) * count);
   }
-  // Standard normal, nearly: the sum of twelve (Irwin-Hall), within six sigma.
+  // Approximately standard normal: the sum of twelve uniform numbers (Irwin-Hall), within six
+  // sigma.
   constexpr double normal() {
     double sum = -6.0;
     for (int i = 0; i < 12; ++i) sum += unit(bits());

@@ -31,7 +31,7 @@ RTCScene scene_of(RTCDevice device, const Mesh& mesh) {
   RTCGeometry geometry = mesh_geometry(device, mesh);
   rtcAttachGeometry(scene, geometry);
   rtcReleaseGeometry(geometry);
-  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);  // built once, asked for every ray
+  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);  // built once, then used by every ray
   rtcCommitScene(scene);
   return scene;
 }
@@ -57,12 +57,13 @@ alignas(32) constexpr std::array<int, packet> all_valid{-1, -1, -1, -1, -1, -1, 
 }  // namespace
 
 struct World::Implementation {
-  // One thread: what Embree builds in parallel is not always the same.
+  // Embree's parallel builds are not reproducible, so that one thread is used.
   RTCDevice device = rtcNewDevice("threads=1");
   RTCScene standing = nullptr;
   std::vector<RTCScene> bodies;
-  std::vector<Mesh> meshes;                           // the standing one first
-  std::vector<std::vector<Eigen::Vector3f>> normals;  // of each one's triangles, unit
+  std::vector<Mesh> meshes;  // the static one first
+  std::vector<std::vector<Eigen::Vector3f>>
+      normals;  // unit vectors, for the triangles of each mesh
 };
 
 World::World(Mesh standing, std::vector<Mesh> bodies)

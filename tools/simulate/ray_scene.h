@@ -1,4 +1,4 @@
-// Casting rays into the scene: the only place that knows Embree.
+// Casts rays into the scene. Only this component uses Embree.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -29,15 +29,16 @@ constexpr std::size_t packet = 8;  // rays that are cast together
 using Rays = std::array<Ray, packet>;
 using Hits = std::array<Hit, packet>;
 
-// A body that moves, from one pose to another while time goes from 0 to 1.
+// A body that moves from one pose to another while time goes from 0 to 1.
 struct MovingBody {
   Eigen::Isometry3d begin, end;  // T_enu_body
 };
 
-// What stands still, and the shapes of what moves. Immutable; any number of threads may share it.
+// The static scene and the shapes of the moving bodies. Immutable; any number of threads may share
+// it.
 class World {
  public:
-  // Throws std::runtime_error where Embree fails.
+  // Throws std::runtime_error if Embree fails.
   World(Mesh standing, std::vector<Mesh> bodies);
   ~World();
   World(const World&) = delete;
@@ -49,7 +50,7 @@ class World {
   std::unique_ptr<Implementation> implementation_;
 };
 
-// The world in an interval of time. For one thread; the world must outlive it.
+// The world during an interval of time. An object belongs to one thread; the world must outlive it.
 class RayScene {
  public:
   explicit RayScene(const World& world);
@@ -57,12 +58,13 @@ class RayScene {
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
 
-  // One for each body of the world.
+  // Sets the motion of each body, in the world's order.
   void move(const std::vector<MovingBody>& bodies);
 
-  // The nearest hits within `reach` metres. Neighbours should go the same way, for speed.
+  // Finds the nearest hits within `reach` metres. It is fastest if the rays of a packet are nearly
+  // parallel.
   void cast(const Rays& rays, float reach, Hits& hits) const;
-  // Whether something is in the way of the rays with a true `wanted`.
+  // Finds out whether anything blocks those rays whose `wanted` is true.
   void occluded(const Rays& rays, const std::array<bool, packet>& wanted,
                 std::array<bool, packet>& result) const;
 

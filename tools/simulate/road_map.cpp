@@ -14,9 +14,11 @@
 namespace maploop::simulate {
 namespace {
 
-constexpr std::size_t thinning = 5;  // of a centreline's points, each 2 m
+constexpr std::size_t thinning =
+    5;  // every fifth point of a centreline, whose points are 2 m apart, becomes a node
 
-// Smooth in space, zero mean: waves of many directions about the correlation length.
+// A smooth displacement with zero mean: a sum of waves of random directions, with wavelengths of
+// 1.5 to 4 correlation lengths.
 class ShiftField {
  public:
   ShiftField(const MapErrors& errors, std::uint64_t seed) {
@@ -28,7 +30,7 @@ class ShiftField {
       wave.number = number * Eigen::Vector2d(std::cos(direction), std::sin(direction));
       wave.phase = random.uniform(0.0, 2.0 * std::numbers::pi);
       const double towards = random.uniform(0.0, 2.0 * std::numbers::pi);
-      // A sine has half the variance of its amplitude's square.
+      // The variance of a sine is half the square of its amplitude.
       const double amplitude = errors.shift * std::sqrt(2.0 / static_cast<double>(waves_.size()));
       wave.shift = amplitude * Eigen::Vector2d(std::cos(towards), std::sin(towards));
     }
@@ -52,7 +54,7 @@ long long way_id(std::size_t street) {
   return 10'000 + static_cast<long long>(street);
 }
 
-// The nodes of a street's centreline: number of each point, and its id in the map.
+// A node of a street's centreline: the index of its point, and its id in the map.
 struct WayNode {
   std::size_t point;
   long long id;
@@ -128,7 +130,7 @@ void write_road_map(const std::filesystem::path& file, const Streets& streets,
     }
     ways += way_lines(way_id(i), ids, street, oneway);
     if (!wrong || how != 2 || elsewhere == street.from) continue;
-    // A street that is not there.
+    // Adds a street that does not exist.
     ways += way_lines(
         way_id(i) + 5'000,
         {1'000 + static_cast<long long>(street.from), 1'000 + static_cast<long long>(elsewhere)},

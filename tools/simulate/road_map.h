@@ -1,4 +1,4 @@
-// The map that the matcher gets: not what is there, but what a mapper might have drawn.
+// Writes the map that the matcher gets: the true streets with the errors that a mapper might make.
 #pragma once
 
 #include <filesystem>
@@ -10,17 +10,18 @@
 namespace maploop::simulate {
 
 struct MapErrors {
-  double shift = 2.0;          // m rms, how far streets are off, smoothly
-  double correlation = 300.0;  // m, over which that changes
-  double wrong = 0.05;         // share of streets that are missing, one way the wrong way, or extra
+  double shift = 2.0;          // m rms, smooth displacement of the streets
+  double correlation = 300.0;  // m, distance over which the displacement changes
+  double wrong = 0.05;  // share of streets that are missing, have a wrong one-way direction, or get
+                        // an invented street
 };
 
-// An OpenStreetMap file of the streets' centrelines.
+// Writes the streets' centrelines as an OpenStreetMap file.
 void write_road_map(const std::filesystem::path& file, const Streets& streets,
                     const LocalFrame& frame, std::uint64_t seed, const MapErrors& errors = {});
 
-// The segments of that map that were driven, frame by frame (times in s), as labels.csv: frame,
-// way, both nodes, and 0 near a junction.
+// Writes the segments of that map that were driven at each frame (times in s) as labels.csv: frame,
+// way, both nodes, and a confidence, which is 0 near a junction and otherwise 1.
 void write_driven_links(const std::filesystem::path& file, const Streets& streets,
                         const VehicleMotion& motion, const std::vector<double>& times);
 

@@ -26,7 +26,7 @@ Eigen::Vector2d last_direction(const Streets& streets, DirectedStreet d) {
   return -first_direction(streets, {d.street, !d.forward});
 }
 
-// Goes on with a route until it is long enough.
+// Extends a route until it is long enough.
 void walk(const Streets& streets, const Directions& directions, std::size_t place, double metres,
           std::uint64_t seed, Route& route) {
   Random random(seed, 3);
@@ -59,7 +59,8 @@ void walk(const Streets& streets, const Directions& directions, std::size_t plac
   }
 }
 
-// Dijkstra's, by directed streets so that turning back is none; empty: there is no way.
+// Dijkstra's algorithm on directed streets, which excludes turning back. Returns an empty route if
+// there is no way.
 Route shortest(const Streets& streets, const Directions& directions,
                std::optional<DirectedStreet> before, std::size_t from, std::size_t to) {
   struct Reached {
@@ -135,7 +136,7 @@ bool Directions::has_exit(std::size_t junction) const {
 }
 
 bool Directions::follows(DirectedStreet before, DirectedStreet next) const {
-  constexpr double back = -0.866;  // cosine
+  constexpr double back = -0.866;  // cosine of 150 degrees
   if (next.street == before.street) return false;
   return last_direction(*streets_, before)
              .normalized()

@@ -1,4 +1,4 @@
-// Ways through streets, as a car may drive them.
+// Finds routes through streets that a car may drive.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,14 @@
 
 namespace maploop::simulate {
 
-// m/s, of all limits.
+// Returns the highest speed limit, m/s.
 double fastest(const Streets& streets);
 
-// The junction nearest to a place.
+// Returns the index of the junction nearest to a place (m, enu).
 std::size_t nearest_junction(const Streets& streets, const Eigen::Vector2d& place);
 
-// Where one can go on from for ever, in no wrong direction of a one-way street and without turning
-// back.
+// Tells which directed streets can be continued forever, without driving a one-way street in the
+// wrong direction and without turning back.
 class Directions {
  public:
   explicit Directions(const Streets& streets);
@@ -24,7 +24,7 @@ class Directions {
   const std::vector<DirectedStreet>& exits(std::size_t junction) const { return exits_[junction]; }
   bool is_through(DirectedStreet d) const { return through_[slot(d)]; }
   bool has_exit(std::size_t junction) const;
-  // Whether `next`, which begins where `before` ends, is no turning back (by more than 150
+  // Whether driving from the end of `before` into `next` is not turning back (by more than 150
   // degrees).
   bool follows(DirectedStreet before, DirectedStreet next) const;
 
@@ -36,17 +36,18 @@ class Directions {
   std::vector<bool> through_;
 };
 
-// A walk of at least `metres` which prefers streets where it has not been. Throws
-// std::runtime_error where that cannot be done.
+// Makes a random route of at least `metres` which prefers streets not yet driven. Throws
+// std::runtime_error if it reaches a dead end.
 std::vector<DirectedStreet> make_route(const Streets& streets, std::size_t start, double metres,
                                        std::uint64_t seed);
 
-// The shortest way by all junctions of `via` in their order, and on as above. Throws
-// std::runtime_error naming by number (from 1) the two that no way joins.
+// Makes the shortest route through all junctions of `via` in their order, and continues it randomly
+// as above. Throws std::runtime_error naming by number (from 1) two consecutive junctions that no
+// route joins.
 std::vector<DirectedStreet> make_route(const Streets& streets, const std::vector<std::size_t>& via,
                                        double metres, std::uint64_t seed);
 
-// What lies up to `reach` metres beside a route, and the route in it.
+// The streets up to `reach` metres beside a route, and the route in terms of them.
 struct Corridor {
   Streets streets;
   std::vector<DirectedStreet> route;

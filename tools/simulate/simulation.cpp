@@ -23,13 +23,13 @@
 namespace maploop::simulate {
 namespace {
 
-constexpr double fast_interval = 0.01;  // s between rows of the unsynced form
+constexpr double fast_interval = 0.01;  // s between rows of the 100 Hz recording
 
-// False where it was broken off.
+// Returns false if `frame_done` stopped it.
 bool write_frames(const Drive& drive, const std::filesystem::path& folder,
                   const SimulationOptions& options, const FrameDone& frame_done) {
   std::atomic<std::size_t> next{0};
-  std::mutex mutex;  // of what follows
+  std::mutex mutex;  // protects the variables below
   std::size_t done = 0;
   bool stop = false;
   std::exception_ptr failure;
@@ -86,8 +86,8 @@ void write_inertial(const Drive& drive, const std::filesystem::path& folder,
              fast_interval, imu, options.seed);
 }
 
-// What a replay should know of the car. Its origin is above the rear axle, and travels along body x
-// but for what the springs do (vehicle_motion.h).
+// Writes what a replay should know about the car. The car's origin is above the rear axle and moves
+// along body x, except for the motion of its springs (vehicle_motion.h).
 void write_configuration(const std::filesystem::path& file, const SimulationOptions& options) {
   const Eigen::Vector3d& lever = Receiver::lever();
   const char* name = options.scanner == Scanner::vlp_16 ? "VLP-16" : "HDL-64E";
@@ -124,7 +124,7 @@ void write_truth(const Drive& drive, const std::filesystem::path& file) {
   evaluation::write_tum(file, truth);
 }
 
-// The drive's folder while it is being made; of one that is not finished nothing is left.
+// The drive's folder while it is being written; the destructor removes an unfinished one.
 class PartialFolder {
  public:
   explicit PartialFolder(const std::filesystem::path& out) : out_(out), partial_(out) {

@@ -1,4 +1,4 @@
-// A drive through a generated town, with everything its sensors saw.
+// Simulates a drive and writes the data of all its sensors.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,8 @@
 
 namespace maploop::simulate {
 
-// Which sensors write; without cameras and LiDAR a drive is made many times faster than driven.
+// Which sensors write data. Without cameras and LiDAR a drive is made many times faster than real
+// time.
 struct SimulatedSensors {
   bool camera = true, lidar = true, imu = true, gnss = true;
 };
@@ -23,38 +24,42 @@ struct SimulationOptions {
   double seconds = 60.0;
   std::uint64_t seed = 1;
   ImuGrade imu = ImuGrade::tactical;
-  unsigned threads = 0;  // 0: one for each processor; the drive does not depend on it
+  unsigned threads = 0;  // 0: one for each processor; the drive does not depend on their number
   Environment environment = Environment::town;
   SimulatedSensors sensors;
   double gnss_rate = 1.0;  // Hz
   Scanner scanner = Scanner::hdl_64e;
-  // Whether nothing keeps the scanner's turns beside the images (calibration_errors.h); else each
-  // image is taken in the middle of a turn, as on KITTI's car.
+  // True if the scanner's turns are not synchronized with the images (calibration_errors.h);
+  // otherwise each image is taken in the middle of a turn, as on KITTI's car.
   bool free_scanner = true;
-  // Scans as ranges instead of points, images of 86 grey levels: 5 MB a second instead of 25.
+  // Writes scans as ranges instead of points, and images of 86 grey levels: 5 MB a second instead
+  // of 25.
   bool compact = false;
-  // OpenStreetMap file whose roads are driven; empty: a generated town's. The route is the shortest
-  // way by these places, and on from the last one as the seed will; none: all of it.
+  // OpenStreetMap file whose roads are driven; if empty, a town is generated. The route is the
+  // shortest one through these places and continues from the last one randomly; without places all
+  // of it is random.
   std::filesystem::path map;
   std::vector<Geodetic> route;
 };
 
-// Told after each frame how many of how many are written; returns whether to go on.
+// Called after each frame with the numbers of frames written and of all frames; returns whether to
+// continue.
 using FrameDone = std::function<bool(std::size_t done, std::size_t all)>;
 
 // Makes the new folder `out`:
-//   calib_*.txt        as of a day of KITTI's
+//   calib_*.txt        calibration files like those of a KITTI date
 //   town_sync          image_00, image_01, velodyne_points and oxts, 10 Hz each; gnss and
 //                      gnss_one_frequency (gnss/gnss_recording.h)
-//   town_extract       oxts at 100 Hz; names the same drive for a replay
+//   town_extract       oxts at 100 Hz; a replay is given this folder
 //   map.osm            the road map, with a mapper's errors (road_map.h)
-//   vehicle.toml       configuration of a replay: map, and all that it should know of the car
-//   truth.tum          the left camera, from its first pose
+//   vehicle.toml       configuration of a replay: the map, and the parameters of the car
+//   truth.tum          the left camera's poses, relative to its first one
 //   driven_links.csv   the segments of the map that were driven, by frame
-// It is complete or not there: until the end its name has ".partial" after it. Returns whether it
-// was not broken off. Throws std::runtime_error naming a file that is there already or cannot be
-// written, a map that cannot be read and a route that cannot be driven; std::invalid_argument for a
-// drive shorter than a second or longer than an hour.
+// The folder is complete or does not exist: its name has ".partial" appended until everything is
+// written. Returns false if `frame_done` stopped the simulation. Throws std::runtime_error naming a
+// folder that already exists or a file that cannot be written, a map that cannot be read or a route
+// that cannot be driven; std::invalid_argument for a drive shorter than a second or longer than an
+// hour.
 bool simulate_drive(const std::filesystem::path& out, const SimulationOptions& options,
                     const FrameDone& frame_done = {});
 

@@ -14,18 +14,19 @@
 namespace maploop::simulate {
 namespace {
 
-constexpr double sea_to_ground = 115.0;  // m; the sky and the sun are those of this place
+constexpr double sea_to_ground = 115.0;  // m, height of the ground, also on maps; the rendered sun
+                                         // and sky are the same everywhere
 const Geodetic town_origin{radians(49.01), radians(8.43), sea_to_ground};
 
 Site town(const SimulationOptions& options) {
   Site site{LocalFrame(town_origin), make_town(options.seed), {}};
-  // From the middle of the town, where there is something to see on all sides.
+  // The drive starts in the middle of the town, so that there are buildings on all sides.
   const std::size_t begin = nearest_junction(site.streets, Eigen::Vector2d::Zero());
   site.route = make_route(site.streets, begin, longest_drive(options.seconds), options.seed);
   return site;
 }
 
-// A junction of the map from which one can go on for ever.
+// Returns a junction of the map from which a route can continue forever.
 std::size_t draw_start(const Streets& streets, const SimulationOptions& options) {
   const Directions directions(streets);
   Random random(options.seed, 30);
@@ -63,7 +64,8 @@ Site on_map(const SimulationOptions& options) {
     origin = {options.route.front().latitude, options.route.front().longitude, sea_to_ground};
   Streets all = streets_of(map, LocalFrame(origin));
   if (options.route.empty()) {
-    // About the start: far from it the plane is not the earth's.
+    // The frame's origin is moved to the start: far from its origin the plane deviates from the
+    // earth's surface.
     const Eigen::Vector2d start = all.junctions[draw_start(all, options)];
     origin = LocalFrame(origin).to_geodetic({start.x(), start.y(), 0.0});
     origin.height = sea_to_ground;
@@ -76,7 +78,8 @@ Site on_map(const SimulationOptions& options) {
   if (via.empty()) via = {nearest_junction(all, Eigen::Vector2d::Zero())};
   const double metres = longest_drive(options.seconds, fastest(all));
   std::vector<DirectedStreet> route = make_route(all, via, metres, options.seed);
-  // Nobody drives at the limit all the time: only what is reached is built.
+  // The car does not drive at the limit all the time, so that only the streets that it reaches are
+  // built.
   const VehicleMotion motion =
       drive_along(all, route, Terrain(options.seed), options.seconds, options.seed);
   const auto& stretches = motion.path().stretches();

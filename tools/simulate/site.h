@@ -1,4 +1,4 @@
-// Where a drive takes place: streets and the route through them.
+// Chooses where a drive takes place: the streets and the route through them.
 #pragma once
 
 #include <vector>
@@ -16,8 +16,8 @@ struct Site {
   std::vector<DirectedStreet> route;
 };
 
-// A generated town, or what lies along the route on a map. Throws std::runtime_error naming the
-// file, or the place of the route that no road is near.
+// Returns a generated town, or the part of a map along the route. Throws std::runtime_error naming
+// the map file, or the place of the route that has no road nearby.
 Site choose_site(const SimulationOptions& options);
 
 VehicleMotion drive_along(const Streets& streets, const std::vector<DirectedStreet>& route,

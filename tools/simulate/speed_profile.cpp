@@ -11,10 +11,10 @@ namespace maploop::simulate {
 namespace {
 
 constexpr double control_interval = 0.1;  // s between control points
-constexpr double first_way = 15;          // m; nothing of the route is seen before
-constexpr int speed_smoothing = 12;       // passes of (1 2 1) / 4: 0.25 s, within 1.2 s
+constexpr double first_way = 15;          // m, where the drive starts on the path
+constexpr int speed_smoothing = 12;       // passes of (1 2 1) / 4: sigma of 0.25 s, within 1.2 s
 
-// m/s at each metre of the way, from limits and curves alone.
+// Returns m/s at each metre of the way, from speed limits and curves alone.
 std::vector<double> allowed(const LanePath& path, const Streets& streets,
                             const DriverParameters& p) {
   std::vector<double> speed(static_cast<std::size_t>(path.length()));
@@ -29,7 +29,7 @@ std::vector<double> allowed(const LanePath& path, const Streets& streets,
   return speed;
 }
 
-// Speeds that can be braked down to, and reached.
+// Lowers the speeds to those that can be reached by acceleration and braking.
 void respect_accelerations(std::vector<double>& speed, const DriverParameters& p) {
   for (std::size_t i = speed.size() - 1; i-- > 0;)
     speed[i] = std::min(speed[i], std::sqrt(speed[i + 1] * speed[i + 1] + 2.0 * p.braking));
@@ -103,7 +103,7 @@ SpeedProfile::SpeedProfile(const LanePath& path, const Streets& streets, double 
 }
 
 SpeedProfile::Place SpeedProfile::place(double t) const {
-  // The first second of control points is before the drive: sensors look back a little.
+  // The first second of control points precedes the drive, because some sensors look back a little.
   const double u = std::max(0.0, t + 1.0) / control_interval;
   const auto i = std::min(static_cast<std::size_t>(u), speed_.size() - 4);
   return {i, u - static_cast<double>(i)};

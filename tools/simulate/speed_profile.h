@@ -1,4 +1,4 @@
-// How fast a driver goes along a path.
+// Computes how fast a driver goes along a path.
 #pragma once
 
 #include <cstdint>
@@ -9,29 +9,29 @@
 namespace maploop::simulate {
 
 struct DriverParameters {
-  double lateral_acceleration = 2.2;  // m/s^2, at most in curves
+  double lateral_acceleration = 2.2;  // m/s^2, maximum in curves
   double acceleration = 1.5;          // m/s^2
   double braking = 2.2;               // m/s^2
-  double stop_chance = 0.3;           // of a junction, at its stop line
+  double stop_chance = 0.3;           // probability of a stop at each stop line
   double shortest_stop = 4.0;         // s
   double longest_stop = 7.0;          // s
 };
 
-// m, at least what a drive of so many seconds needs of a path, at m/s.
+// Returns a path length in m that is sufficient for a drive of `seconds` at `fastest` m/s.
 double longest_drive(double seconds, double fastest = 13.9);
 
 // Speed is a uniform cubic B-spline of time: jerk is continuous nearly everywhere, and a standing
-// car stands exactly. Way is its integral.
+// car has exactly zero speed. The way is its integral.
 class SpeedProfile {
  public:
-  // From 15 m into the path, at the speed that is right there, for `seconds` and two more. Throws
-  // std::runtime_error where the path is too short.
+  // Starts 15 m into the path at the speed allowed there, and lasts `seconds` plus two. Throws
+  // std::runtime_error if the path is too short.
   SpeedProfile(const LanePath& path, const Streets& streets, double seconds, std::uint64_t seed,
                const DriverParameters& parameters = {});
 
   double way(double t) const;           // m along the path
-  double speed(double t) const;         // m/s of way
-  double acceleration(double t) const;  // m/s^2 of way
+  double speed(double t) const;         // m/s, along `way`
+  double acceleration(double t) const;  // m/s^2, along `way`
 
  private:
   struct Place {

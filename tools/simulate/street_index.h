@@ -1,4 +1,4 @@
-// Finds the streets at a place.
+// Finds the streets near a place.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@
 
 namespace maploop::simulate {
 
-// Where a place lies beside a street.
+// The position of a place relative to a street.
 struct StreetPlace {
   const Street* street = nullptr;
   double along = 0.0;  // m from the street's begin
@@ -20,32 +20,33 @@ struct StreetPlace {
 
 class StreetIndex {
  public:
-  // Knows places up to `reach` metres from a kerb. The streets must outlive it.
+  // Covers places up to `reach` metres from a kerb. The streets must outlive it.
   StreetIndex(const Streets& streets, double reach);
 
   struct Nearest {
-    StreetPlace first, second;  // by `edge`, of two streets; a street may be missing
+    StreetPlace first,
+        second;  // the two nearest streets by `edge`; `street` is null if there is none
   };
   Nearest nearest(const Eigen::Vector2d& place) const;
-  // m to the nearest kerb, negative on a road; at most the reach.
+  // Returns m to the nearest kerb, negative on a road; at most the reach.
   double to_kerb(const Eigen::Vector2d& place) const;
 
-  const Eigen::Vector2d& least() const { return least_; }  // corners of what it knows
+  const Eigen::Vector2d& least() const { return least_; }  // corners of the covered area
   Eigen::Vector2d most() const;
 
  private:
-  // Of a centreline.
+  // A segment of a centreline.
   struct Segment {
     const Street* street = nullptr;
-    Eigen::Vector2d begin, direction;  // the latter a unit vector
-    double along = 0.0, length = 0.0;  // m, of the begin from the street's, and its own
+    Eigen::Vector2d begin, direction;  // `direction` is a unit vector
+    double along = 0.0, length = 0.0;  // m: distance of its begin from the street's, and its length
   };
   std::span<const Segment> cell(const Eigen::Vector2d& place) const;
 
   double reach_;
   Eigen::Vector2d least_ = Eigen::Vector2d::Zero();
   std::size_t columns_ = 0, rows_ = 0;
-  std::vector<std::vector<Segment>> cells_;  // segments of one street follow each other
+  std::vector<std::vector<Segment>> cells_;  // segments of the same street are adjacent
 };
 
 }  // namespace maploop::simulate

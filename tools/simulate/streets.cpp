@@ -9,13 +9,13 @@ namespace maploop::simulate {
 namespace {
 
 constexpr std::size_t town_rows = 6, town_columns = 6;
-constexpr double point_spacing = 2.0;  // m, of the points of a centreline
+constexpr double point_spacing = 2.0;  // m, between the points of a centreline
 
 std::size_t junction(std::size_t row, std::size_t column) {
   return row * town_columns + column;
 }
 
-// A curve that leaves both junctions near the grid's direction and bends in between.
+// Makes a curve that leaves both junctions nearly in the grid's direction and bends in between.
 Street bent_street(const Streets& town, std::size_t from, std::size_t to, Random& random) {
   const Eigen::Vector2d a = town.junctions[from], b = town.junctions[to];
   const Eigen::Vector2d way = b - a;
@@ -68,7 +68,7 @@ Streets make_town(std::uint64_t seed) {
           105.0 * (static_cast<double>(column) - 2.5) + random.uniform(-14.0, 14.0),
           90.0 * (static_cast<double>(row) - 2.5) + random.uniform(-11.0, 11.0));
   const auto connect = [&](std::size_t from, std::size_t to, bool wide, bool border) {
-    if (!border && !wide && random.chance(0.1)) return;  // a junction with three arms
+    if (!border && !wide && random.chance(0.1)) return;  // leaves a junction with three arms
     Street street = bent_street(town, from, to, random);
     if (wide) street.half_width = 4.5;
     street.speed_limit = wide ? 13.9 : 11.1;

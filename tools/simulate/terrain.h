@@ -1,4 +1,4 @@
-// The height of the ground.
+// Simulates the height of the ground.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@
 
 namespace maploop::simulate {
 
-// Long gentle waves: grades of a few percent. Metres, enu.
+// The sum of long gentle waves, with grades of a few percent. Metres, enu.
 class Terrain {
  public:
   explicit Terrain(std::uint64_t seed);

@@ -1,4 +1,4 @@
-// The car that the simulated sensors are on.
+// The car that carries the simulated sensors.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,8 @@ namespace maploop::simulate {
 // KITTI's camera (1242 x 375 pixels, 0.537 m baseline) and mounting of 2011-09-26, rounded.
 VehicleCalibration test_car();
 
-// Writes it as KITTI's three files into a folder. Throws std::runtime_error naming the file.
+// Writes the calibration as KITTI's three files into a folder. Throws std::runtime_error naming the
+// file.
 void write_calibration(const std::filesystem::path& folder);
 
 }  // namespace maploop::simulate

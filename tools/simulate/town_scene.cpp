@@ -28,11 +28,11 @@ struct Range {
 };
 struct BuildingStyle {
   bool buildings;
-  std::uint32_t least_storeys, kinds;  // so many, or up to kinds - 1 more
-  Range setback;                       // from the pavement
+  std::uint32_t least_storeys, kinds;  // number of storeys: least_storeys + 0 to kinds - 1
+  Range setback;                       // m, from the pavement
   double gap_chance;
   Range wide_gap, narrow_gap;
-  double tree_spacing;  // times the town's
+  double tree_spacing;  // relative to the town's
 };
 
 constexpr BuildingStyle style_of(Environment environment) {
@@ -49,10 +49,10 @@ constexpr BuildingStyle style_of(Environment environment) {
   return {true, 2, 4, {0.3, 6.0}, 0.35, {4.0, 14.0}, {0.1, 1.0}, 1.0};
 }
 
-// A rectangle on the ground.
+// The rectangle that an object covers on the ground.
 struct Footprint {
   Vector2d middle;
-  Vector2d along, across;  // half sides
+  Vector2d along, across;  // half sides as vectors
 
   bool overlaps(const Footprint& other) const {
     const auto apart = [&](const Vector2d& axis) {
@@ -66,7 +66,7 @@ struct Footprint {
   }
 };
 
-// Places up to a quarter of a kilometre from a street: no ground is seen farther away.
+// Finds places within 250 m of a street; no ground is built farther away.
 class NearStreets {
  public:
   explicit NearStreets(const Streets& streets) {
@@ -114,10 +114,10 @@ class TownBuilder {
  private:
   struct Spot {
     Vector2d place;
-    double yaw = 0.0;  // of the street
+    double yaw = 0.0;  // rad, direction of the street
   };
 
-  // Beside the street: m from its begin, m from its kerb.
+  // Returns the place beside the street; `along` is m from its begin, `from_kerb` m from its kerb.
   Spot spot(const Street& street, double side, double along, double from_kerb) const {
     const auto next = std::upper_bound(street.along.begin() + 1, street.along.end() - 1, along);
     const auto i = static_cast<std::size_t>(next - street.along.begin());
@@ -143,7 +143,7 @@ class TownBuilder {
     const auto rows = static_cast<std::uint32_t>((high.y() - low.y()) / cell) + 1;
     const std::uint32_t surface = mesh_.add({Material::ground, 0.21F, 0});
     const NearStreets near(streets_);
-    std::map<std::uint32_t, std::uint32_t> vertices;  // of grid points
+    std::map<std::uint32_t, std::uint32_t> vertices;  // vertex of each grid point
     const auto vertex = [&](std::uint32_t x, std::uint32_t y) {
       const auto [at, anew] = vertices.try_emplace(y * (columns + 1) + x, mesh_.vertices.size());
       if (anew) {
@@ -163,7 +163,7 @@ class TownBuilder {
       }
   }
 
-  // A wood all around: the view ends at it.
+  // A forest around the town ends the view.
   void add_horizon() {
     const Vector2d low = index_.least().array() - 120.0, high = index_.most().array() + 120.0;
     const std::uint32_t surface = mesh_.add({Material::forest, 0.13F, 1});
@@ -222,7 +222,7 @@ class TownBuilder {
     }
   }
 
-  // Hedges and fences between houses and pavement_width.
+  // Hedges and fences stand between houses and pavement.
   void add_garden_edges(const Street& street, double side) {
     for (double along = 14.0; along < street.length() - 16.0;) {
       const double length = random_.uniform(3.0, 9.0);
@@ -282,7 +282,7 @@ class TownBuilder {
       const float tone = random_.uniform_float(0.08, 0.7);
       const std::uint32_t seed = number(random_);
       const double shift = random_.uniform(-0.4, 0.4), skew = random_.uniform(-0.03, 0.03);
-      const Spot at = spot(street, side, along + shift, 0.75);  // half on the pavement_width
+      const Spot at = spot(street, side, along + shift, 0.75);  // mostly on the pavement
       const Vector2d t(std::cos(at.yaw), std::sin(at.yaw));
       const Footprint car{at.place, 2.3 * t, Vector2d(-t.y(), t.x())};
       if (there && is_free(car, -0.4))

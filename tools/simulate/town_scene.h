@@ -1,4 +1,4 @@
-// What stands in the town: ground, buildings, hedges, fences, poles, trees, parked cars.
+// Builds the scene of the town: ground, buildings, hedges, fences, poles, trees, parked cars.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ enum class Environment : std::uint8_t {
   urban,     // six to ten storeys without gaps
 };
 
-// Along every street, beside the pavement, nothing nearer to a kerb than that; buildings do not
-// overlap.
+// Lines every street. Buildings, hedges and fences stand behind the pavement and do not overlap;
+// poles, some trees and parked cars stand on it.
 Mesh make_town_scene(const Streets& streets, const StreetIndex& index, const Terrain& terrain,
                      std::uint64_t seed, Environment environment = Environment::town);
 

@@ -42,7 +42,8 @@ std::vector<VehicleMotion> make_traffic(const Streets& streets, const Terrain& t
 }
 
 std::vector<MovingBody> bodies(const std::vector<VehicleMotion>& cars, double begin, double end) {
-  // From the rear axle at the height of an inertial unit to the middle of the shape on the road.
+  // From the body frame (above the rear axle at the height of an inertial unit) to the frame of
+  // make_car()'s shape (its middle, on the road).
   const Eigen::Translation3d T_body_shape(1.3, 0.0, -VehicleMotion::origin_height);
   std::vector<MovingBody> result;
   for (const VehicleMotion& car : cars)

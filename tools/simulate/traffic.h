@@ -1,4 +1,4 @@
-// Other cars that drive through the town.
+// Simulates other cars that drive through the town.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,13 @@
 
 namespace maploop::simulate {
 
-// At most `count` cars, each on a route of its own; one that would come within 6 m of the vehicle
-// or of another is left out.
+// Returns at most `count` cars, each on its own route; a car that would come within 6 m of the
+// vehicle or of another car is left out.
 std::vector<VehicleMotion> make_traffic(const Streets& streets, const Terrain& terrain,
                                         const VehicleMotion& vehicle, std::size_t count,
                                         double seconds, std::uint64_t seed);
 
-// Where the cars are, as make_car's shapes, from one time (s) to another.
+// Returns the poses of the cars, for the shapes of make_car(), at two times (s).
 std::vector<MovingBody> bodies(const std::vector<VehicleMotion>& cars, double begin, double end);
 
 }  // namespace maploop::simulate

@@ -1,4 +1,4 @@
-// The vehicle's pose as a function of time.
+// Computes the vehicle's pose as a function of time.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -12,7 +12,7 @@
 
 namespace maploop::simulate {
 
-// Everything an inertial unit at the body's origin knows, without error.
+// The exact state at the body's origin, which an inertial unit there would measure.
 struct VehicleState {
   Eigen::Isometry3d T_enu_body = Eigen::Isometry3d::Identity();
   Eigen::Vector3d velocity_enu = Eigen::Vector3d::Zero();      // m/s
@@ -20,9 +20,9 @@ struct VehicleState {
   Eigen::Vector3d rate_body = Eigen::Vector3d::Zero();         // rad/s
 };
 
-// The body's origin follows the path and points along it (it is above the rear axle); the car lies
-// on the terrain, nods and leans on its springs with its accelerations, and shakes with the
-// unevenness of the road. Seconds from the begin of the drive.
+// The body's origin follows the path and points along it (it is above the rear axle). The car lies
+// on the terrain, pitches and rolls on its springs with its accelerations, and shakes with the
+// unevenness of the road. Times are seconds from the start of the drive.
 class VehicleMotion {
  public:
   static constexpr double origin_height = 0.93;  // m above the road
@@ -36,7 +36,7 @@ class VehicleMotion {
 
   Eigen::Vector2d position(double t) const { return path_->position(profile_->way(t)); }
   const LanePath& path() const { return *path_; }
-  double way(double t) const { return profile_->way(t); }  // along the path
+  double way(double t) const { return profile_->way(t); }  // m along the path
 
  private:
   struct Bump {

@@ -1,4 +1,4 @@
-// Calibrations of the antennas.
+// Writes the calibrations of the antennas.
 #include "tools/simulate/gnss/observation_text.h"
 #include "tools/simulate/gnss/product_text.h"
 #include "tools/simulate/gnss/receiver.h"
@@ -9,7 +9,7 @@ namespace {
 
 struct CarrierText {
   char system, band;
-  Eigen::Vector3d offset;  // m: north, east, up; or along a satellite's axes
+  Eigen::Vector3d offset;  // m: north, east, up; for a satellite along its axes
 };
 
 template <std::size_t count>

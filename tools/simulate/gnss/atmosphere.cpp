@@ -23,8 +23,8 @@ struct Refractivity {
   double dry, wet;  // 1e-6
 };
 
-// Temperature falls by 6.5 K/km up to 11 km; vapour thins out within 2.2 km. Coefficients of Thayer
-// (1974), rounded.
+// Temperature falls by 6.5 K/km up to 11 km; the density of vapour has a scale height of 2.2 km.
+// The coefficients are those of Thayer (1974), rounded.
 Refractivity refractivity(const Weather& w, double height) {
   constexpr double lapse = 6.5e-3, tropopause = 11'000.0, exponent = 5.2561;
   const double h = std::min(height, tropopause);
@@ -85,7 +85,7 @@ double Troposphere::delay(double elevation, double azimuth, double t) const {
   const double sine = std::sin(elevation);
   const double share =
       std::clamp((elevation - a.elevation) / (b.elevation - a.elevation), 0.0, 1.0);
-  // Delay times sine of elevation is nearly constant.
+  // The delay times the sine of elevation is nearly constant, so that it is interpolated.
   const auto between = [&](double Row::*member) {
     const double low = a.*member * std::sin(a.elevation), high = b.*member * std::sin(b.elevation);
     return (low + share * (high - low)) / sine;

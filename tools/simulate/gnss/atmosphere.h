@@ -1,4 +1,4 @@
-// What air and ionosphere do to the signals at one place.
+// Simulates the delays of GNSS signals in the troposphere and ionosphere at one place.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 namespace maploop::simulate {
 
 // A standard atmosphere with the day's pressure, temperature and humidity, through which rays are
-// traced layer by layer (Snell's law in spheres): no mapping function. Besides, the wet delay
-// changes by some per cent over half an hours and there is a horizontal gradient.
+// traced layer by layer (Snell's law in spheres) instead of using a mapping function. In addition,
+// the wet delay changes by some per cent over half an hour, and there is a horizontal gradient.
 class Troposphere {
  public:
   Troposphere(double height, std::uint64_t seed);  // m above the sea
 
-  // m; angles in rad, s since the drive's start.
+  // Returns m; angles are in rad, t in s since the drive's start.
   double delay(double elevation, double azimuth, double t) const;
   double zenith_delay(double t) const { return delay(1.5707, 0.0, t); }
 
@@ -23,17 +23,17 @@ class Troposphere {
   struct Row {
     double elevation, all, wet;  // rad, m, m
   };
-  std::vector<Row> table_;  // by elevation
+  std::vector<Row> table_;  // in order of elevation
   double wet_number_, wet_phase_, north_, east_;
 };
 
-// A shell 450 km high: its electrons follow the sun, and waves travel through them.
+// A shell 450 km high; its electron density follows the sun, and waves travel through it.
 class Ionosphere {
  public:
   // `day_start` is the drive's start in seconds of its UTC day.
   Ionosphere(const Geodetic& site, double day_start, std::uint64_t seed);
 
-  // Electrons along the way, 1e16/m^2.
+  // Returns the electrons along the signal path, 1e16/m^2; angles are in rad, t in s.
   double electrons(double elevation, double azimuth, double t) const;
 
  private:
@@ -46,7 +46,8 @@ class Ionosphere {
   std::vector<Wave> waves_;
 };
 
-// m of code delay (and of phase advance) on a carrier.
+// Returns the code delay (which is also the phase advance) in m; `electrons` in 1e16/m^2,
+// `frequency` in Hz.
 double ionospheric_delay(double electrons, double frequency);
 
 }  // namespace maploop::simulate

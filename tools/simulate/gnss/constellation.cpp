@@ -17,7 +17,7 @@ struct OrbitPlan {
   ppp::System system;
   int planes, in_plane;
   double radius, inclination, node_rate;  // m, rad, rad/s
-  double eccentricity;                    // at most
+  double eccentricity;                    // maximum
   double clock_walk;                      // s/sqrt(s): rubidium, hydrogen maser
   double phase_centre;                    // m
 };
@@ -123,7 +123,7 @@ double Constellation::clock(std::size_t satellite, double t) const {
 
 double clock_relativity(const OrbitElements& orbit, double t) {
   const Eigen::Vector3d p = orbit.position(t), v = orbit.velocity(t);
-  const Eigen::Vector3d turning(-p.y(), p.x(), 0.0);  // of the frame
+  const Eigen::Vector3d turning(-p.y(), p.x(), 0.0);  // the frame's rotation
   return -2.0 * p.dot(v + ppp::earth_rotation_rate * turning) /
          (ppp::speed_of_light * ppp::speed_of_light);
 }

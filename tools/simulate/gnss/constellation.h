@@ -1,5 +1,5 @@
-// The satellites that are there: orbits and clocks without error, from which broadcast and precise
-// products are made with theirs.
+// The simulated satellites: their orbits and clocks have no error; broadcast and precise products
+// are made from them with errors.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,8 +12,8 @@
 
 namespace maploop::simulate {
 
-// An orbit as IS-GPS-200 describes one, about time 0; m, rad, s. Its periodic terms are of the size
-// that the earth's flattening gives real ones.
+// An orbit as IS-GPS-200 describes one, relative to time 0; m, rad, s. Its periodic terms are about
+// as large as those that the earth's flattening causes in real orbits.
 struct OrbitElements {
   double semi_major_axis = 0.0, eccentricity = 0.0, inclination = 0.0;
   double node = 0.0;  // longitude of the ascending node at time 0, earth-fixed
@@ -26,7 +26,7 @@ struct OrbitElements {
   Eigen::Vector3d velocity(double t) const;  // m/s, in that frame
 };
 
-// Where a carrier leaves the satellite, along its axis to the earth.
+// The phase centre of a carrier, along the satellite's axis towards the earth.
 struct TransmitAntenna {
   double phase_centre = 0.0;           // m from the centre of mass
   std::array<double, 15> variation{};  // m, at 0 to 14 degrees from the axis
@@ -35,33 +35,33 @@ struct TransmitAntenna {
 struct TrueSatellite {
   ppp::Satellite satellite;
   OrbitElements orbit;                           // of the centre of mass
-  double clock_offset = 0.0, clock_drift = 0.0;  // s, s/s at time 0
-  double group_delay = 0.0;                      // s, of the first carrier; the second's follows
-  std::array<TransmitAntenna, 2> antennas;       // of both carriers
+  double clock_offset = 0.0, clock_drift = 0.0;  // s and s/s, at time 0
+  double group_delay = 0.0;  // s, of the first carrier; the second carrier's is derived from it
+  std::array<TransmitAntenna, 2> antennas;  // one for each carrier
 };
 
-// GPS, 30 satellites in six planes, and Galileo, 24 in three. Times are seconds since the drive's
-// start, of GPS time.
+// GPS has 30 satellites in six planes, Galileo 24 in three. Times are seconds of GPS time since the
+// drive's start.
 class Constellation {
  public:
-  // Clocks wander from `margin` seconds before the drive to `margin` after it.
+  // Clocks wander from `margin` seconds before the drive until `margin` seconds after it.
   Constellation(double seconds, std::uint64_t seed);
 
   static constexpr double margin = 600.0;
 
   const std::vector<TrueSatellite>& satellites() const { return satellites_; }
-  // s, ahead of GPS time; without the relativity of an eccentric orbit.
+  // Returns the offset from GPS time in s, without the relativistic effect of an eccentric orbit.
   double clock(std::size_t satellite, double t) const;
 
  private:
   std::vector<TrueSatellite> satellites_;
-  std::vector<std::vector<double>> walks_;  // s, of each clock each second
+  std::vector<std::vector<double>> walks_;  // s, of each clock, one value each second
 };
 
-// s, what a clock shows less for its orbit's eccentricity: -2 r.v / c^2.
+// Returns the relativistic clock correction of an eccentric orbit in s: -2 r.v / c^2.
 double clock_relativity(const OrbitElements& orbit, double t);
 
-// The two carriers that are simulated of each system.
+// Returns the two carriers that are simulated for each system.
 std::array<char, 2> bands(ppp::System system);
 
 }  // namespace maploop::simulate

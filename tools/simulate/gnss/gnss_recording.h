@@ -1,4 +1,4 @@
-// The files of the car's GNSS receiver and of those who watch its satellites.
+// Writes the files of the car's GNSS receiver and the orbit and clock products.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace maploop::simulate {
 
 struct GnssSetting {
   const VehicleMotion& motion;
-  const std::vector<VehicleMotion>& traffic;  // the bodies of the world
+  const std::vector<VehicleMotion>& traffic;  // the moving bodies of `world`
   const World& world;
   const LocalFrame& frame;
   Time start;
@@ -24,10 +24,10 @@ struct GnssSetting {
 };
 
 // Makes the folders `gnss` and `gnss_one_frequency`:
-//   observations.rnx  RINEX 3.04, GPS and Galileo; L1 C/A and L2C, E1 and E5a (the first ones only)
-//   navigation.rnx    broadcast messages
-//   orbits.sp3, clocks.clk, antennas.atx   (gnss alone)
-//   truth.csv         index, GPS seconds of the week, X, Y, Z of the antenna's reference point
+//   observations.rnx  RINEX 3.04, GPS and Galileo; L1 C/A and L2C, E1 and E5a (one frequency: L1
+//   C/A, E1) navigation.rnx    broadcast messages orbits.sp3, clocks.clk, antennas.atx   (in gnss
+//   only) truth.csv         index, GPS seconds of the week, X, Y, Z of the antenna's reference
+//   point
 // Throws std::runtime_error naming a file that cannot be written.
 void write_gnss(const std::filesystem::path& folder, const GnssSetting& setting);
 

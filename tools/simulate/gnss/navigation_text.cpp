@@ -1,4 +1,4 @@
-// Navigation messages.
+// Writes navigation messages.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -10,7 +10,7 @@
 namespace maploop::simulate {
 namespace {
 
-// m, 1 sigma.
+// The errors of a message; m, 1 sigma.
 struct MessageErrors {
   explicit MessageErrors(bool galileo, Random& random)
       : along(galileo ? 0.3 : 1.0, random),
@@ -25,7 +25,8 @@ double within_pi(double angle) {
   return std::remainder(angle, 2.0 * std::numbers::pi);
 }
 
-// The phase centre that both carriers' combination without ionosphere has, m from the mass.
+// Returns the phase centre of the ionosphere-free combination of both carriers, m from the centre
+// of mass.
 double combined_centre(const TrueSatellite& s) {
   const double f1 = ppp::carrier_frequency(s.satellite.system, bands(s.satellite.system)[0]);
   const double f2 = ppp::carrier_frequency(s.satellite.system, bands(s.satellite.system)[1]);
@@ -33,15 +34,16 @@ double combined_centre(const TrueSatellite& s) {
   return a * s.antennas[0].phase_centre + (1.0 - a) * s.antennas[1].phase_centre;
 }
 
-// `toe` in seconds since the drive's start.
+// `toe` is in seconds since the drive's start.
 std::string message_text(const TrueSatellite& s, const MessageErrors& error, double clock,
                          double toe, ppp::GpsTime stamp) {
   const bool galileo = s.satellite.system == ppp::System::galileo;
   const OrbitElements& o = s.orbit;
   const double toe_of_week = ppp::seconds_of_week(stamp);
   const double a = o.semi_major_axis - combined_centre(s) + error.radial.at(toe);
-  const double earth = galileo ? 3.986004418e14 : 3.9860050e14;  // m^3/s^2, as its users take it
-  constexpr double rotation = 7.2921151467e-5;                   // rad/s, the same
+  const double earth =
+      galileo ? 3.986004418e14 : 3.9860050e14;  // m^3/s^2, the value that receivers use
+  constexpr double rotation = 7.2921151467e-5;  // rad/s, the value that receivers use
   const double delta_n = o.mean_motion() - std::sqrt(earth / (a * a * a));
   const double mean = o.mean_anomaly + o.mean_motion() * toe + error.along.at(toe) / a;
   const double node =

@@ -1,4 +1,4 @@
-// Observations as RINEX 3.04.
+// Writes observations as RINEX 3.04.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,8 @@ inline constexpr const char* antenna_type = "SIMULATED ROOF  NONE";
 
 class ObservationText {
  public:
-  // `carriers`: 2, or 1 for the first ones only.
+  // `carriers` is 2, or 1 for the first carriers only. `near` is an approximate position, m, ITRF;
+  // `interval` is in s.
   ObservationText(std::size_t carriers, const Eigen::Vector3d& near, ppp::GpsTime first,
                   double interval);
 

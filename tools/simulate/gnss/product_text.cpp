@@ -12,7 +12,8 @@ namespace {
 constexpr double orbit_interval = 300.0, clock_interval = 30.0;  // s
 constexpr double orbit_margin = 4200.0, clock_margin = 300.0;    // s
 
-// Seconds since the span's start of the last round time before its begin less a margin.
+// Returns the last multiple of `interval` of the week at least `margin` before the span, in seconds
+// since the span's start.
 double round_begin(const ProductSpan& span, double interval, double margin) {
   const double of_week = ppp::seconds_of_week(span.start);
   return std::floor((of_week - margin) / interval) * interval - of_week;
@@ -22,7 +23,7 @@ ppp::GpsTime moment(const ProductSpan& span, double t) {
   return span.start + from_seconds(t);
 }
 
-// Columns: away from the earth, along the way, across it.
+// The columns are the unit vectors away from the earth, along the motion, and across it.
 Eigen::Matrix3d orbit_axes(const OrbitElements& orbit, double t) {
   const Eigen::Vector3d p = orbit.position(t);
   const Eigen::Vector3d out = p.normalized();

@@ -17,9 +17,9 @@ using ppp::speed_of_light;
 
 constexpr double clock_begin = -2.0;                      // s
 constexpr double lowest = radians(3.0);                   // elevation
-constexpr std::array<double, 2> receiver_bias{4.2, 7.9};  // m, of its channels' codes
+constexpr std::array<double, 2> receiver_bias{4.2, 7.9};  // m, of the codes of each carrier
 
-// L1 C/A, L2C, E1, E5a.
+// Signals in order: L1 C/A, L2C; E1, E5a.
 SignalShape shape_of(ppp::System system, std::size_t carrier) {
   const double frequency = ppp::carrier_frequency(system, bands(system)[carrier]);
   if (carrier == 0)
@@ -85,7 +85,7 @@ Receiver::Receiver(const Constellation& constellation, const VehicleMotion& moti
       ionosphere_(frame.origin(), ppp::seconds_of_week(start_), seed),
       antenna_(calibrated_antenna()) {
   Random random(seed, 25);
-  // No copy of an antenna is as the type's calibration says.
+  // An individual antenna differs from the calibration of its type.
   for (ReceiveAntenna& carrier : antenna_)
     for (int i = 0; i < 3; ++i) carrier.offset[i] += 0.0015 * random.normal();
   double offset = random.uniform(-1e-4, 1e-4), drift = random.uniform(-4e-8, 4e-8);
@@ -120,10 +120,10 @@ Receiver::Range Receiver::range(std::size_t satellite, double t,
   const double offset = clock(t), received = t - offset;
   const Eigen::Vector3d antenna = antenna_ecef(received) + tide;
   const OrbitElements& orbit = constellation_.satellites()[satellite].orbit;
-  double way = 0.08;  // s
+  double way = 0.08;  // s, first guess of the travel time
   Eigen::Vector3d place;
   for (int i = 0; i < 4; ++i) {
-    // The frame turns while the signal is under way.
+    // The earth-fixed frame rotates while the signal travels.
     place = Eigen::AngleAxisd(-ppp::earth_rotation_rate * way, Eigen::Vector3d::UnitZ()) *
             orbit.position(received - way);
     way = (place - antenna).norm() / speed_of_light;

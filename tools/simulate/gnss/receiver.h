@@ -1,4 +1,4 @@
-// A geodetic receiver with two frequencies on the car's roof.
+// Simulates a geodetic receiver with two frequencies on the car's roof.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -18,14 +18,14 @@
 
 namespace maploop::simulate {
 
-// Phase centre of the receiver's antenna on a carrier, from its reference point; m.
+// The phase centre of the receiver's antenna on a carrier, relative to its reference point; m.
 struct ReceiveAntenna {
   Eigen::Vector3d offset;              // right, forward, up
   std::array<double, 19> variation{};  // at 0 to 90 degrees from the zenith
 
-  double delay(const Eigen::Vector3d& to_satellite) const;  // m, of a unit vector in these axes
+  double delay(const Eigen::Vector3d& to_satellite) const;  // m, for a unit vector in these axes
 };
-// As its calibration says, of both carriers.
+// Returns the antenna of both carriers as its calibration file describes it.
 std::array<ReceiveAntenna, 2> calibrated_antenna();
 
 struct ObservedSignal {
@@ -37,44 +37,44 @@ struct ObservedSignal {
 };
 struct ObservedSatellite {
   ppp::Satellite satellite;
-  std::array<std::optional<ObservedSignal>, 2> signals;  // of bands()
+  std::array<std::optional<ObservedSignal>, 2> signals;  // in the order of bands()
 };
 
 class Receiver {
  public:
-  // The antenna from the body's origin, m.
+  // Returns the antenna's position in the body frame, m.
   static const Eigen::Vector3d& lever();
 
-  // What it refers to must outlive it. `start` is time 0.
+  // The referenced objects must outlive the receiver. `start` is time 0.
   Receiver(const Constellation& constellation, const VehicleMotion& motion, const LocalFrame& frame,
            Time start, double seconds, std::uint64_t seed);
 
-  // At a stamp t (s) of its own clock; epochs are `interval` apart and in order. The scene's bodies
-  // stand as they do then.
+  // Observes at the receiver's own time stamp t (s); epochs are `interval` apart and in order. The
+  // scene's bodies must already be at their poses of that time.
   std::vector<ObservedSatellite> observe(double t, double interval, const RayScene& scene);
 
-  // Of the antenna's reference point, without tides; m, ITRF.
+  // Returns the antenna's reference point without tides; m, ITRF.
   Eigen::Vector3d antenna_ecef(double t) const;
 
  private:
   struct Tracker {
     std::array<SignalTracker, 2> signals;
     Scatterers scatterers;
-    std::array<double, 2> code_bias;  // m, of this receiver with this satellite's chips
+    std::array<double, 2> code_bias;  // m, for this receiver and this satellite's code
     double wind_up = 0.0;             // cycles
   };
-  // What is the same for all satellites of an epoch.
+  // Values that all satellites of an epoch share.
   struct Moment {
     double t, interval, speed;  // s, s, m/s
     SignalPaths around;
     ppp::SunAndMoon bodies;
     Eigen::Vector3d antenna;     // m, earth-fixed, with tides
-    Eigen::Vector3d tide;        // m, the same
+    Eigen::Vector3d tide;        // m, earth-fixed
     Eigen::Matrix3d R_enu_ecef;  // at the antenna
     Eigen::Matrix3d axes;        // rows: right, forward and up of the car, earth-fixed
   };
   struct Range {
-    double metres;  // with the clocks
+    double metres;  // including both clocks' offsets
     Eigen::Vector3d satellite;
   };
 
@@ -90,9 +90,10 @@ class Receiver {
   Troposphere troposphere_;
   Ionosphere ionosphere_;
   std::array<ReceiveAntenna, 2> antenna_;
-  std::array<Eigen::Vector3d, 2> code_pattern_;  // m, and angles: the antenna's delay of codes
-  std::vector<double> clock_;                    // s, each second from 2 s before the start
-  std::vector<Tracker> trackers_;                // of each satellite
+  std::array<Eigen::Vector3d, 2>
+      code_pattern_;               // m, rad, rad: the antenna's direction-dependent code delay
+  std::vector<double> clock_;      // s, one value each second from 2 s before the start
+  std::vector<Tracker> trackers_;  // one for each satellite
 };
 
 }  // namespace maploop::simulate

@@ -1,4 +1,4 @@
-// Lines of RINEX and its relatives.
+// Formats lines of RINEX and related formats.
 #pragma once
 
 #include <cstdio>
@@ -9,7 +9,7 @@
 
 namespace maploop::simulate {
 
-// Content in 60 columns, and the label.
+// Pads the content to 60 columns and appends the label.
 inline std::string header_line(std::string content, std::string_view label) {
   content.resize(60, ' ');
   return content.append(label) + '\n';
@@ -22,7 +22,7 @@ std::string formatted(const char* format, Values... values) {
   return {text, static_cast<std::size_t>(length)};
 }
 
-// "2026 05 04 08 00" and the seconds in the given format.
+// Returns "2026 05 04 08 00" and the seconds in the given format.
 inline std::string stamp_text(ppp::GpsTime t, const char* seconds_format) {
   const ppp::CalendarTime c = ppp::calendar(t);
   return formatted("%4d %02d %02d %02d %02d", c.year, c.month, c.day, c.hour, c.minute) +

@@ -21,15 +21,15 @@ Scatterers::Scatterer Scatterers::draw() {
 }
 
 void Scatterers::add_to(std::vector<SignalPath>& paths, double interval, double speed) {
-  constexpr double lasting = 60.0, lasting_way = 40.0;  // s, m
-  constexpr double drift = 4e-4;                        // m/s, as the satellite moves
+  constexpr double lasting = 60.0, lasting_way = 40.0;  // s and m, mean life of a scatterer
+  constexpr double drift = 4e-4;                        // m/s, because the satellite moves
   const double gone = interval * (1.0 / lasting + speed / lasting_way);
   for (Scatterer& s : scatterers_) {
     if (random_.chance(std::min(1.0, gone))) s = draw();
     s.path.rate = s.share * speed + drift;
     s.path.delay = std::clamp(s.path.delay + s.path.rate * interval, 0.1, 60.0);
     if (paths.empty()) continue;
-    SignalPath path = s.path;  // of what arrives by the strongest path
+    SignalPath path = s.path;  // relative to the strongest path
     path.amplitude *= paths.front().amplitude;
     path.delay += paths.front().delay;
     path.rate += paths.front().rate;

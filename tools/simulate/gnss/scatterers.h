@@ -1,5 +1,5 @@
-// Small things around the antenna (roof, ground, cars, railings) that reflect a satellite's signal
-// weakly: what leaves codes wrong under an open sky.
+// Simulates small objects around the antenna (roof, ground, cars, railings) that reflect a
+// satellite's signal weakly; they make code measurements wrong even under an open sky.
 #pragma once
 
 #include <array>
@@ -11,19 +11,19 @@
 
 namespace maploop::simulate {
 
-// Those of one satellite. Each stays for some tens of seconds and metres of way, then another takes
-// its place; as the car moves, their ways become longer or shorter.
+// The scatterers of one satellite. Each stays for some tens of seconds and metres driven, then
+// another replaces it; as the car moves, their paths become longer or shorter.
 class Scatterers {
  public:
   Scatterers(std::uint64_t seed, std::uint64_t stream);
 
-  // `interval` s later, at a speed in m/s. Their paths join those that are there.
+  // Advances by `interval` s at a speed in m/s, and appends the scatterers' paths to `paths`.
   void add_to(std::vector<SignalPath>& paths, double interval, double speed);
 
  private:
   struct Scatterer {
     SignalPath path;
-    double share = 0.0;  // of the speed, by which its way changes
+    double share = 0.0;  // rate of the path's length as a share of the speed
   };
   Scatterer draw();
 

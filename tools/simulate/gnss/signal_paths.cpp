@@ -10,17 +10,17 @@
 namespace maploop::simulate {
 namespace {
 
-constexpr double wave = 0.19;          // m, of L1: other carriers bend and scatter nearly alike
-constexpr float view = 1000.0F;        // m; beyond it nothing stands
+constexpr double wave = 0.19;          // m, of L1; other carriers diffract and scatter similarly
+constexpr float view = 1000.0F;        // m; there is nothing beyond it
 constexpr double facade_view = 150.0;  // m
-constexpr double weakest = 0.02;       // amplitude that still counts
+constexpr double weakest = 0.02;       // smallest amplitude that counts
 
 bool is_facade(const Hit& hit) {
   if (!hit.any || std::fabs(hit.normal.z()) > 0.2F) return false;
   return hit.surface->material == Material::plaster || hit.surface->material == Material::brick;
 }
 
-// dB that a thing takes away where it does not block; negative: it blocks.
+// Returns the loss in dB through a material that does not block, or a negative value if it blocks.
 double loss_through(Material material) {
   switch (material) {
     case Material::leaf:
@@ -38,7 +38,8 @@ double amplitude_of(double loss_db) {
   return std::pow(10.0, -loss_db / 20.0);
 }
 
-// dB behind a knife's edge (ITU-R P.526): the ray passes `angle` below it, `range` before it.
+// Returns the loss in dB behind a knife edge (ITU-R P.526); the ray passes `angle` (rad) below the
+// edge, which is `range` (m) away.
 double diffraction_loss(double angle, double range) {
   const double v = angle * std::sqrt(2.0 * std::max(1.0, range) / wave);
   return 6.9 + 20.0 * std::log10(std::sqrt((v - 0.1) * (v - 0.1) + 1.0) + v - 0.1);
@@ -49,7 +50,7 @@ Eigen::Vector3d direction_of(double azimuth, double elevation) {
           std::sin(elevation)};
 }
 
-// All of them; the rest of a last packet repeats its first.
+// Casts all rays; the last packet is filled with copies of its first ray.
 template <class Found>
 void cast_all(const RayScene& scene, const std::vector<Ray>& rays, float reach, Found&& found) {
   Rays few;
@@ -84,7 +85,7 @@ void SignalPaths::find_facades() {
     if (!is_facade(hit)) return;
     const Eigen::Vector3d normal = hit.normal.cast<double>();
     const double distance = -normal.dot(r.direction.cast<double>()) * hit.range;
-    // The plane itself tells it from others, wherever the antenna is.
+    // The plane identifies the facade independently of the antenna's position.
     const double place = normal.dot(antenna_) - distance;
     const std::uint64_t name =
         mix(mix(static_cast<std::uint64_t>(std::llround(100.0 * normal.x()) + 1000),
@@ -128,7 +129,7 @@ void SignalPaths::add_direct(const Eigen::Vector3d& to_satellite,
     paths.push_back({amplitude_of(sight.loss)});
     return;
   }
-  // The nearest free direction: around the edge.
+  // The signal is diffracted around the edge: search the nearest free direction.
   const double azimuth = std::atan2(to_satellite.x(), to_satellite.y());
   const double elevation = std::asin(to_satellite.z());
   std::vector<Ray> rays;
@@ -156,7 +157,7 @@ void SignalPaths::add_direct(const Eigen::Vector3d& to_satellite,
 void SignalPaths::add_reflection(const Facade& facade, const Eigen::Vector3d& to_satellite,
                                  std::vector<SignalPath>& paths) const {
   const double facing = facade.normal.dot(to_satellite);
-  if (facing < 0.02) return;  // from behind, or along the wall
+  if (facing < 0.02) return;  // the signal comes from behind the wall or along it
   const Eigen::Vector3d to_wall = to_satellite - 2.0 * facing * facade.normal;
   const double range = facade.distance / facing;
   if (range > facade_view) return;
@@ -171,7 +172,7 @@ void SignalPaths::add_reflection(const Facade& facade, const Eigen::Vector3d& to
   const Eigen::Vector3d point = antenna_ + range * to_wall;
   const Sight beyond = look(point + 0.05 * facade.normal, to_satellite);
   if (!beyond.free) return;
-  // Along the wall a wave is reflected fully, and stays as it was turned.
+  // A wave along the wall is reflected fully and keeps its polarization.
   const double polarization = 0.45 + 0.45 * (1.0 - facing) * (1.0 - facing);
   const double amplitude = facade.reflection * polarization * amplitude_of(beyond.loss);
   if (amplitude < weakest) return;

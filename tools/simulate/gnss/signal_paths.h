@@ -1,5 +1,5 @@
-// The ways that a satellite's signal takes to the antenna: straight, around an edge, through
-// leaves, and by a facade.
+// Finds the paths on which a satellite's signal reaches the antenna: straight, around an edge,
+// through leaves, and by reflection from a facade.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,22 +11,24 @@
 namespace maploop::simulate {
 
 struct SignalPath {
-  double amplitude = 1.0;     // of the field; the free one has 1
-  double delay = 0.0;         // m longer than the straight way
-  double rate = 0.0;          // m/s, how the delay changes
-  double phase = 0.0;         // rad, turned by the reflection
-  std::uint64_t surface = 0;  // 0: not reflected; else the same for one facade
+  double amplitude = 1.0;     // of the field; an unobstructed path has 1
+  double delay = 0.0;         // m, longer than the straight path
+  double rate = 0.0;          // m/s, change of the delay
+  double phase = 0.0;         // rad, added by the reflection
+  std::uint64_t surface = 0;  // 0: not reflected; otherwise the same value for the same facade
 };
 
-// What is around the antenna at one moment.
+// The surroundings of the antenna at one moment.
 class SignalPaths {
  public:
-  // `scene` must outlive it, and its bodies stand as they do then. m and m/s in enu.
+  // `scene` must outlive this object, and its bodies must be at their poses of that moment. m and
+  // m/s in enu.
   SignalPaths(const RayScene& scene, const Eigen::Vector3d& antenna,
               const Eigen::Vector3d& velocity);
 
-  // Of a signal from a direction (a unit vector), the strongest first; none: nothing arrives. A
-  // reflection's amplitude has in it what the antenna takes of a wave that turns the other way.
+  // Returns the paths of a signal from a direction (a unit vector), the strongest first; empty if
+  // nothing arrives. A reflection's amplitude includes the antenna's attenuation of the reversed
+  // polarization.
   std::vector<SignalPath> from(const Eigen::Vector3d& to_satellite) const;
 
  private:
@@ -38,8 +40,8 @@ class SignalPaths {
   };
   struct Sight {
     bool free = false;
-    double loss = 0.0;   // dB, by leaves and poles
-    double range = 0.0;  // m, to what is in the way
+    double loss = 0.0;   // dB, through leaves and poles
+    double range = 0.0;  // m, to the obstacle
   };
 
   void find_facades();

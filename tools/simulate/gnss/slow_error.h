@@ -1,4 +1,4 @@
-// An error that changes over hours, as those of orbits and clocks do.
+// A slowly changing error, like those of orbits and clocks.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace maploop::simulate {
 
-// Two waves of 3 to 14 hours, with `sigma` as their root mean square over time.
+// The sum of two waves with periods of 3 to 14 hours; `sigma` is its root mean square over time.
 class SlowError {
  public:
   SlowError(double sigma, Random& random) {

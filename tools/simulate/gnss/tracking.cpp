@@ -15,7 +15,8 @@ constexpr double code_bandwidth = 0.5, phase_bandwidth = 12.0;     // Hz
 
 using Complex = std::complex<double>;
 
-// The correlation of the received sum with a copy that is `delay` late; `ahead` seconds later.
+// Returns the correlation of the received sum with a replica delayed by `delay` (m), `ahead`
+// seconds later.
 Complex correlation(const std::vector<SignalPath>& paths, const SignalShape& shape,
                     double wavelength, double delay, double ahead) {
   Complex sum = 0.0;
@@ -28,7 +29,7 @@ Complex correlation(const std::vector<SignalPath>& paths, const SignalShape& sha
   return sum;
 }
 
-// Where early and late are alike: the code loop's lock.
+// Returns the delay (m) at which early and late correlations are equal, where the code loop locks.
 double code_delay(const std::vector<SignalPath>& paths, const SignalShape& shape, double wavelength,
                   double ahead) {
   double delay = paths.front().delay;
@@ -51,7 +52,7 @@ SignalTracker::SignalTracker(const SignalShape& shape, std::uint64_t seed, std::
   cycles_ = static_cast<std::int64_t>(random_.uniform(-1e6, 1e6));
 }
 
-// The loop goes over to another path, or loses a weak signal for a moment.
+// A slip happens when the loop changes to another path, or by chance when the signal is weak.
 bool SignalTracker::slips(const SignalPath& strongest, double cn0, double interval) {
   const double hazard = 0.15 * std::exp(-(cn0 - 26.0) / 2.0) * interval;
   const bool weak = random_.chance(std::min(1.0, hazard));
@@ -65,7 +66,7 @@ std::optional<TrackedSignal> SignalTracker::track(const std::vector<SignalPath>&
     tracked_ = locked_ = false;
     return {};
   }
-  // Fading is averaged by the code loop, and followed by the phase loop.
+  // The code loop averages fading; the phase loop follows it.
   constexpr int moments = 5;
   double code = 0.0;
   for (int i = 0; i < moments; ++i)
@@ -84,7 +85,7 @@ std::optional<TrackedSignal> SignalTracker::track(const std::vector<SignalPath>&
   const double code_noise = std::hypot(shape_.chip * jitter, 0.05);
   result.code = code + code_noise * random_.normal();
   result.rate = strongest.rate + std::hypot(0.02, 2.0 / std::sqrt(power)) * random_.normal();
-  // Phase follows an epoch after the code.
+  // The phase lock follows one epoch after the code lock.
   const bool was_locked = locked_;
   locked_ = tracked_;
   tracked_ = true;

@@ -1,4 +1,4 @@
-// How a receiver tracks one signal that arrives by several paths.
+// Simulates how a receiver tracks one signal that arrives by several paths.
 #pragma once
 
 #include <cstdint>
@@ -13,24 +13,25 @@ namespace maploop::simulate {
 struct SignalShape {
   double frequency = 0.0;  // Hz
   double chip = 0.0;       // m: half the width of the correlation's triangle
-  double spacing = 0.0;    // of early and late, in chips
+  double spacing = 0.0;    // between early and late correlator, in chips
   double cn0 = 0.0;        // dB-Hz at the zenith
 };
 
-// What is measured beyond the straight range, clocks and atmosphere.
+// The measured value beyond straight range, clocks and atmosphere.
 struct TrackedSignal {
-  double code = 0.0;            // m, paths and noise
-  std::optional<double> phase;  // m, the same with whole cycles; none: not locked
+  double code = 0.0;            // m, from paths and noise
+  std::optional<double> phase;  // m, the same with whole cycles; empty: not locked
   double rate = 0.0;            // m/s
   double cn0 = 0.0;             // dB-Hz
-  bool lost_lock = false;       // as the receiver says: it does not notice every slip
+  bool lost_lock = false;       // as the receiver reports it: it does not notice every slip
 };
 
 class SignalTracker {
  public:
   SignalTracker(const SignalShape& shape, std::uint64_t seed, std::uint64_t stream);
 
-  // One epoch, `interval` seconds after the one before. Nothing: not tracked.
+  // Tracks one epoch, `interval` seconds after the previous one. Returns nothing if the signal is
+  // not tracked.
   std::optional<TrackedSignal> track(const std::vector<SignalPath>& paths, double elevation,
                                      double interval);
 
