@@ -19,7 +19,8 @@ cv::Mat as_mat(const GreyImage& image) {
   return {image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data())};
 }
 
-// Half the distance between neighbouring corners, so that a window around one holds no other.
+// Returns half the distance between neighbouring corners: a window of this radius around a corner
+// does not reach another one.
 double half_spacing(const std::vector<cv::Point2f>& corners, const Board& board) {
   double shortest = std::numeric_limits<double>::max();
   const auto at = [&](int row, int column) {
@@ -70,7 +71,7 @@ std::optional<Corners> find_corners(const GreyImage& image, const Board& board) 
   const cv::Mat mat = as_mat(image);
   const cv::Size size(board.columns, board.rows);
   std::vector<cv::Point2f> found;
-  // Finds the board and its corners to a few tenths of a pixel; cornerSubPix() then does better.
+  // Finds the board and its corners to a few tenths of a pixel; cornerSubPix() then refines them.
   if (!cv::findChessboardCornersSB(mat, size, found, cv::CALIB_CB_NORMALIZE_IMAGE) &&
       !cv::findChessboardCornersSB(mat, size, found, cv::CALIB_CB_EXHAUSTIVE)) {
     return std::nullopt;

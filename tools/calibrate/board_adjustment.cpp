@@ -23,7 +23,8 @@ Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
   return m;
 }
 
-// Derivatives of a transformed point by a small rotation and translation that follow it.
+// Returns the derivatives of a transformed point by a small rotation and translation that are
+// applied after the transform.
 Eigen::Matrix<double, 3, 6> by_pose(const Eigen::Vector3d& rotated) {
   Eigen::Matrix<double, 3, 6> d;
   d << -cross(rotated), Eigen::Matrix3d::Identity();
@@ -57,7 +58,8 @@ Cameras moved(const Cameras& cameras, const CommonVector& by) {
           moved(cameras.T_right_left, by.tail<6>())};
 }
 
-// Of one view: residuals r and derivatives A by what is common, B by the board's pose.
+// The normal equations of one view: residuals r, and derivatives A by the common parameters, B by
+// the board's pose.
 struct Normals {
   CommonMatrix AtA = CommonMatrix::Zero();
   MixedMatrix AtB = MixedMatrix::Zero();
@@ -114,7 +116,8 @@ double mean_distance(double squares, std::size_t count) {
   return std::sqrt(squares / static_cast<double>(count));
 }
 
-// What is common, with the views' poses eliminated: S x = s. `damping` enlarges the diagonals.
+// The normal equations of the common parameters after the views' poses are eliminated: S x = s.
+// `damping` scales the diagonals up.
 struct Reduced {
   CommonMatrix S = CommonMatrix::Zero();
   CommonVector s = CommonVector::Zero();
@@ -138,7 +141,8 @@ Reduced reduce(const std::vector<Normals>& views, double damping) {
   return reduced;
 }
 
-// Parameters differ by powers of ten in size: scaled to a unit diagonal before it is solved.
+// The parameters differ by powers of ten in size, so that S is scaled to a unit diagonal before it
+// is inverted.
 CommonMatrix scaled_inverse(const CommonMatrix& S) {
   const CommonVector scale = S.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const CommonMatrix unit = scale.asDiagonal() * S * scale.asDiagonal();
@@ -229,7 +233,7 @@ Adjustment adjust(const Board& board, const std::vector<View>& views, const Came
       }
       Residuals residuals = residuals_at(board, views, cameras, poses);
       const double now = sum_of_squares(residuals);
-      better = now <= squares;  // not for a sum that is no number
+      better = now <= squares;  // false for a sum that is not a number
       if (better) {
         result.converged = squares - now <= enough * squares;
         result.cameras = cameras;
@@ -241,7 +245,7 @@ Adjustment adjust(const Board& board, const std::vector<View>& views, const Came
         damping *= 10.0;
       }
     }
-    if (!better) result.converged = true;  // no step makes it smaller: this is the least
+    if (!better) result.converged = true;  // no step reduces the sum: this is the minimum
   }
 
   std::vector<Normals> normals;

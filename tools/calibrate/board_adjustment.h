@@ -1,4 +1,5 @@
-// Least squares over both cameras, their relative pose and the pose of the board in every view.
+// Least squares adjustment of both cameras, their relative pose and the pose of the board in each
+// view.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -17,8 +18,9 @@ struct View {
   Corners left, right;
 };
 
-// What is common to all views, in the order of its standard deviations: left fx fy cx cy k1 k2 p1
-// p2 k3, right the same, rotation of the right camera about its own x y z (rad), t_right_left (m).
+// The parameters common to all views, in the order of Adjustment::sigma: left fx fy cx cy k1 k2 p1
+// p2 k3, the same for right, rotation of the right camera about its own x y z (rad), t_right_left
+// (m).
 constexpr int kCameraParameters = 9, kCommonParameters = 2 * kCameraParameters + 6;
 using CommonVector = Eigen::Matrix<double, kCommonParameters, 1>;
 
@@ -27,33 +29,35 @@ struct Cameras {
   Eigen::Isometry3d T_right_left = Eigen::Isometry3d::Identity();
 };
 
-// Measured - projected, px; of each view, left and right.
+// Measured - projected corners, px; for each view, left and right.
 using Residuals = std::vector<std::array<Corners, 2>>;
 Residuals residuals_at(const Board& board, const std::vector<View>& views, const Cameras& cameras,
                        const std::vector<Eigen::Isometry3d>& T_left_board);
 
 struct Adjustment {
   Cameras cameras;
-  std::vector<Eigen::Isometry3d> T_left_board;  // of each view
+  std::vector<Eigen::Isometry3d> T_left_board;  // for each view
   Residuals residuals;
-  double rms = 0.0;  // px, of all distances between measured and projected corners
-  // One standard deviation of each common parameter. The corners' noise is the one that the
-  // residuals show, and taken to be independent from corner to corner.
+  double rms = 0.0;  // px, root mean square distance between measured and projected corners
+  // One standard deviation of each common parameter. The noise of the corners is estimated from the
+  // residuals, and assumed to be independent from corner to corner.
   CommonVector sigma = CommonVector::Zero();
   bool converged = false;
 };
 
-// Distances in the left and the right image of one view, root mean square, px.
+// Returns the root mean square distance in the left and the right image of one view, px.
 std::array<double, 2> rms_of(const std::array<Corners, 2>& residuals);
-// Of both images together.
+// Returns the root mean square distance of both images together, px.
 double rms_of_view(const std::array<Corners, 2>& residuals);
 
-// Levenberg and Marquardt from `start`, at most 50 steps; the views' poses are eliminated (Schur
-// complement). Throws std::runtime_error where a parameter cannot be told from the views.
+// Minimizes with Levenberg-Marquardt from `start`, in at most 50 steps; the views' poses are
+// eliminated (Schur complement). Throws std::runtime_error if the views do not determine a
+// parameter.
 Adjustment adjust(const Board& board, const std::vector<View>& views, const Cameras& start,
                   std::vector<Eigen::Isometry3d> T_left_board);
 
-// A projected point and its derivatives by the camera's nine parameters and by the point.
+// A projected point (px) and its derivatives with respect to the camera's nine parameters and to
+// the point in the camera's frame (m).
 struct Projection {
   Eigen::Vector2d pixel;
   Eigen::Matrix<double, 2, kCameraParameters> by_camera;

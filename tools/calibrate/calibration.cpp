@@ -38,8 +38,8 @@ TiltSpread tilt_spread(const std::vector<Eigen::Isometry3d>& T_left_board) {
   return {std::sqrt(variances[2]), std::sqrt(variances[1])};
 }
 
-// Of parallel boards nearer with a shorter focal length and further with a longer one look the
-// same.
+// If all boards are parallel, a nearer board with a shorter focal length looks the same as a
+// farther board with a longer one.
 void require_different_tilts(const StereoResult& r) {
   constexpr double least_tilt = 4.0 * kDegree, most_sigma = 0.02;
   const double f_sigma = r.adjustment.sigma[0] / r.adjustment.cameras.left.fx;
@@ -52,7 +52,7 @@ void require_different_tilts(const StereoResult& r) {
       "the left, right, front and back");
 }
 
-// Views beyond the limit of this round, taken out of `views`; the worst first.
+// Removes the views beyond the limit of this round from `views` and returns them, the worst first.
 std::vector<BadView> take_out_bad(const Residuals& residuals, int round, double floor,
                                   std::vector<View>& views) {
   constexpr double factor = 2.5;
@@ -85,7 +85,8 @@ Coverage coverage_of(const std::vector<View>& views, Corners View::*side, int wi
   return coverage;
 }
 
-// Where the rectified left camera sees a corner's row, against the right one.
+// Returns the root mean square difference between a corner's rows in the rectified left and right
+// image.
 double row_error(const sensors::StereoRig& rig, const std::vector<View>& views) {
   double squares = 0.0;
   std::size_t count = 0;
@@ -176,8 +177,8 @@ StereoResult calibrate(const Board& board, std::vector<View> views, int width, i
   StereoResult result;
   result.board = board;
 
-  // Round 0 is before the adjustment, which a pair that was not taken at one moment would lead
-  // astray.
+  // Round 0 removes views before the first adjustment, because a pair whose images were taken at
+  // different times would distort it.
   constexpr int max_rounds = 5;
   constexpr double coarse = 5.0, fine = 0.2;  // px, floor of the limit
   for (int round = 0; round <= max_rounds; ++round) {

@@ -1,4 +1,4 @@
-// Stereo calibration from views of a chessboard.
+// Calibrates a stereo camera from views of a chessboard.
 #pragma once
 
 #include <array>
@@ -20,23 +20,24 @@ struct ViewResult {
 
 struct BadView {
   std::string name;
-  double rms = 0.0;    // px, when it was left out
-  double limit = 0.0;  // px, what it was beyond
+  double rms = 0.0;    // px, when the view was left out
+  double limit = 0.0;  // px, the limit that it exceeded
   int round = 0;
 };
 
-// How much of an image the corners of all views cover: of 8 x 6 fields those that hold one.
+// How much of an image the corners of all views cover: the number of corners in each of 8 x 6
+// fields, and the share of fields with a corner.
 struct Coverage {
   static constexpr int columns = 8, rows = 6;
   std::array<int, columns * rows> corners{};
 
   double share() const;
-  // "upper left", where none of that corner's 2 x 2 fields holds one.
+  // Returns for instance "upper left" if none of that corner's 2 x 2 fields has a board corner.
   std::vector<std::string> empty_corners() const;
 };
 
-// How differently the views' boards are tilted: root mean square, rad, in the direction in which
-// they are spread most, and across.
+// How much the tilts of the boards differ between views: root mean square, rad, in the direction in
+// which they differ most, and across it.
 struct TiltSpread {
   double most = 0.0, across = 0.0;
 };
@@ -49,17 +50,19 @@ struct StereoResult {
   std::vector<BadView> bad;  // left out
   std::array<Coverage, 2> coverage;
   TiltSpread tilt;
-  // Coefficients in photogrammetry's direction, distorted -> undistorted; left and right.
+  // Left and right distortion coefficients in the direction used in photogrammetry, distorted ->
+  // undistorted.
   std::array<sensors::ReversedDistortion, 2> reversed;
-  // Rows of a corner in the rectified left and right image apart, px, root mean square.
+  // Root mean square difference of a corner's rows in the rectified left and right image, px.
   double row_error = 0.0;
   std::vector<std::string> warnings;
 };
 
-// At most five adjustments: after each but the last, views whose root mean square distance is
-// beyond 2.5 times the median of all views' and 0.2 px (before the first, 5 px) are left out, the
-// worst first, while kMinViews stay. Throws std::runtime_error that names what is wrong: too few
-// views, boards all parallel, parameters that the views do not determine, left and right swapped.
+// Makes at most five adjustments. Before the first and after each but the last, views are left out,
+// the worst first, whose root mean square distance exceeds both 2.5 times the median of all views
+// and 0.2 px (before the first: 5 px); at least kMinViews remain. Throws std::runtime_error that
+// names the problem: too few views, boards all parallel, parameters that the views do not
+// determine, left and right swapped.
 StereoResult calibrate(const Board& board, std::vector<View> views, int width, int height);
 
 }  // namespace maploop::calibrate

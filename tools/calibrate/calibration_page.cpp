@@ -26,7 +26,7 @@ std::string number(double value) {
   return text.data();
 }
 
-// `width`: px on the page.
+// `width` is the width on the page, px.
 std::string picture(const cv::Mat& image, int width) {
   std::vector<std::uint8_t> jpeg;
   cv::Mat rgb;
@@ -43,10 +43,10 @@ cv::Mat in_colour(const GreyImage& image) {
   return colour;
 }
 
-// The image with its corners, and their residuals enlarged.
+// Draws the image with its corners, and their residuals enlarged.
 cv::Mat with_corners(const GreyImage& image, const Corners& corners, const Corners& residuals) {
   constexpr double enlarged = 100.0;
-  constexpr int bits = 4;  // of a pixel's fraction
+  constexpr int bits = 4;  // fraction bits of OpenCV's coordinates
   const auto at = [](const Eigen::Vector2d& p) {
     return cv::Point(cvRound(p.x() * (1 << bits)), cvRound(p.y() * (1 << bits)));
   };
@@ -60,7 +60,7 @@ cv::Mat with_corners(const GreyImage& image, const Corners& corners, const Corne
   return drawn;
 }
 
-// Side by side, with lines along rows.
+// Draws both images side by side, with lines along rows.
 cv::Mat with_rows(const StereoPair& rectified) {
   constexpr int lines = 16;
   cv::Mat both;
@@ -88,7 +88,7 @@ std::string dot(double x, double y, const char* colour) {
 
 constexpr std::array kColours = {"#1f77b4", "#d62728"};  // left, right
 
-// All corners of one camera, over the fields that hold one.
+// Plots all corners of one camera, over the fields that have a corner.
 std::string coverage_plot(const StereoResult& r, std::size_t side) {
   constexpr double width = 560.0;
   const double scale = width / r.rig.width, height = scale * r.rig.height;
@@ -106,7 +106,7 @@ std::string coverage_plot(const StereoResult& r, std::size_t side) {
   return svg(width, height, content);
 }
 
-// Residuals around zero; the frame is four root mean squares wide to each side.
+// Plots residuals around zero; the frame extends four root mean squares to each side.
 std::string residual_plot(const StereoResult& r, std::size_t side) {
   constexpr double size = 300.0;
   const double range = std::max(4.0 * r.adjustment.rms, 1e-6), scale = 0.5 * size / range;
@@ -163,7 +163,7 @@ std::string pictures_of(const StereoResult& r, const std::vector<ImagePair>& pai
       raw.left = read_image(files->left);
       raw.right = read_image(files->right);
     } catch (const std::runtime_error&) {
-      continue;  // gone since it was measured
+      continue;  // the file has disappeared since it was measured
     }
     if (rows.empty()) {
       rectifier.rectify(raw, rectified);

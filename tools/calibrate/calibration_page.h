@@ -1,4 +1,4 @@
-// A calibration as a page of pictures that needs nothing but a browser.
+// Formats a calibration as a page of pictures that only needs a browser.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace maploop::calibrate {
 
-// `pairs`: of every view that was found, by its name. Images that cannot be read again are left
-// out.
+// `pairs` holds the image files of the views, found by name. Images that can no longer be read are
+// left out.
 std::string to_page(const StereoResult& result, const std::vector<ImagePair>& pairs,
                     const std::vector<Unusable>& unusable);
 

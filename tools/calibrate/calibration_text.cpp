@@ -23,7 +23,7 @@ std::string board_text(const Board& board) {
   return row("%dx%d inner corners, squares of %g m", board.columns, board.rows, board.square);
 }
 
-// The right camera's rotation against the left one, as rotation vector.
+// Returns the right camera's rotation relative to the left one, as a rotation vector (rad).
 Eigen::Vector3d turn_of(const sensors::StereoRig& rig) {
   const Eigen::AngleAxisd turn(rig.T_right_left.linear());
   return turn.angle() * turn.axis();
@@ -51,7 +51,7 @@ std::string views_text(const StereoResult& r) {
   return text;
 }
 
-// "KEY: 1.000000e+00 ..."
+// Writes lines "KEY: 1.000000e+00 ...".
 class KittiWriter {
  public:
   void line(const std::string& key, std::initializer_list<double> values) {

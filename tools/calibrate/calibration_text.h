@@ -1,4 +1,4 @@
-// A calibration in words and numbers: for the terminal, as TOML, as KITTI's text.
+// Formats a calibration: as text for the terminal, as TOML, and in KITTI's format.
 #pragma once
 
 #include <string>
@@ -9,7 +9,8 @@
 
 namespace maploop::calibrate {
 
-// What was estimated, in the order of Adjustment::sigma, named "left.fx"; rotations in degrees.
+// An estimated parameter. They are in the order of Adjustment::sigma, named for instance "left.fx";
+// rotations are in degrees.
 struct Parameter {
   std::string name, unit;
   double value = 0.0, sigma = 0.0;
@@ -18,11 +19,11 @@ std::vector<Parameter> parameters_of(const StereoResult& result);
 
 std::string to_text(const StereoResult& result, const std::vector<Unusable>& unusable);
 
-// The file that `[camera] calibration` names (runtime/vehicle/stereo_rig_file.h), with the standard
-// deviations as comments.
+// Returns the file that `[camera] calibration` names (runtime/vehicle/stereo_rig_file.h); the
+// standard deviations are comments.
 std::string to_toml(const StereoResult& result);
 
-// KITTI's calib_cam_to_cam.txt of cameras 00 and 01.
+// Returns KITTI's calib_cam_to_cam.txt for cameras 00 and 01.
 std::string to_kitti(const StereoResult& result);
 
 }  // namespace maploop::calibrate

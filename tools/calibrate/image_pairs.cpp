@@ -14,12 +14,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// "view9" before "view10".
+// Sorts "view9" before "view10".
 struct ByNumber {
   bool operator()(const std::string& a, const std::string& b) const {
     return std::pair(digits(a), a) < std::pair(digits(b), b);
   }
-  // Its digits, without zeros in front, behind their count.
+  // Returns the digits of the text without leading zeros, preceded by their count.
   static std::pair<std::size_t, std::string> digits(const std::string& text) {
     std::string found;
     for (const char c : text)
@@ -29,7 +29,7 @@ struct ByNumber {
   }
 };
 
-using Images = std::map<std::string, fs::path, ByNumber>;  // by what they have in common
+using Images = std::map<std::string, fs::path, ByNumber>;  // by the shared part of the name
 
 bool is_image(const fs::path& file) {
   std::string end = file.extension().string();
@@ -38,7 +38,8 @@ bool is_image(const fs::path& file) {
   return end == ".png" || end == ".jpg" || end == ".jpeg";
 }
 
-// The images of a folder whose names begin and end so, by what lies between.
+// Returns the images of a folder whose names begin with `begin` and end with `end`, by the text
+// between.
 Images images_in(const fs::path& folder, const std::string& begin, const std::string& end) {
   Images found;
   std::error_code error;

@@ -8,10 +8,10 @@
 namespace maploop::calibrate {
 namespace {
 
-constexpr int steps = 200;      // along a border
-constexpr double widest = 2.0;  // at unit depth, to each side: 127 deg
+constexpr int steps = 200;      // samples along a border
+constexpr double widest = 2.0;  // at unit depth, to each side: 127 deg in all
 
-// Of rectified rays: x and y at unit depth.
+// A field of rectified rays: x and y at unit depth.
 struct Field {
   double left = -widest, right = widest, top = -widest, bottom = widest;
 
@@ -19,8 +19,8 @@ struct Field {
   double height() const { return bottom - top; }
 };
 
-// What a raw image's border leaves inside. Pixels that no ray ends at, beyond where the lens was
-// measured, leave everything.
+// Shrinks the field to the inside of a raw image's border. Border pixels without a ray, which lie
+// beyond the range where the lens was measured, do not restrict it.
 void cut(Field& field, const sensors::CameraModel& camera, const Eigen::Matrix3d& R_rect, int width,
          int height) {
   const auto ray = [&](double u, double v, double otherwise) -> Eigen::Vector2d {
@@ -78,7 +78,7 @@ sensors::StereoRig rectify(const Cameras& cameras, int width, int height) {
   rig.T_right_left = cameras.T_right_left;
 
   const Eigen::Matrix3d R_half = half(cameras.T_right_left.linear());
-  // From the left to the right camera, in the frame half way between their rotations.
+  // The vector from the left to the right camera, in the frame half way between their rotations.
   const Eigen::Vector3d to_right = -(R_half.transpose() * cameras.T_right_left.translation());
   if (!(to_right.x() > 0.7 * to_right.norm())) {
     throw std::runtime_error(

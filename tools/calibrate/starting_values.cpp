@@ -41,9 +41,10 @@ OneCamera calibrate_one(const Board& board, const std::vector<View>& views, Corn
     for (const Eigen::Vector2d& p : board.points())
       points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()), 0.0F);
   for (const View& view : views) in_image.push_back(as_points(view.*side));
-  // OpenCV's own guess of the focal length takes the lens for straight, and bent lenses lead it
-  // into false minima. So: focal length and k1 alone from several guesses, the best fit counts, and
-  // the rest from there. The third radial coefficient is left to the adjustment.
+  // OpenCV's own guess of the focal length assumes no distortion, and for strongly distorting
+  // lenses it leads to false minima. Therefore focal length and k1 alone are fitted from several
+  // guesses; the other parameters are fitted from the best of these. The third radial coefficient
+  // is left to the adjustment.
   constexpr int few = cv::CALIB_USE_INTRINSIC_GUESS | cv::CALIB_FIX_PRINCIPAL_POINT |
                       cv::CALIB_FIX_ASPECT_RATIO | cv::CALIB_ZERO_TANGENT_DIST | cv::CALIB_FIX_K2 |
                       cv::CALIB_FIX_K3;

@@ -1,4 +1,4 @@
-// Where the adjustment starts.
+// Computes the starting values of the adjustment.
 #pragma once
 
 #include <vector>
@@ -12,8 +12,8 @@ struct StartingValues {
   std::vector<Eigen::Isometry3d> T_left_board;
 };
 
-// Each camera for itself (Zhang 2000, by OpenCV), and the median over the views of what one sees
-// against the other. Throws std::runtime_error where that finds no camera.
+// Calibrates each camera independently (Zhang 2000, by OpenCV), and takes the median over the views
+// for the pose between the cameras. Throws std::runtime_error if no camera fits.
 StartingValues starting_values(const Board& board, const std::vector<View>& views, int width,
                                int height);
 

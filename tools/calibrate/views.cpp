@@ -43,7 +43,7 @@ std::optional<ReadPair> read(const ImagePair& pair, std::vector<Unusable>& unusa
   return result;
 }
 
-// The size that most left images have.
+// Returns the most frequent size of the images on one side.
 Size common_size(const std::vector<ReadPair>& pairs, GreyImage ReadPair::*side) {
   std::map<Size, int> counts;
   for (const ReadPair& pair : pairs) ++counts[size_of(pair.*side)];
@@ -52,7 +52,7 @@ Size common_size(const std::vector<ReadPair>& pairs, GreyImage ReadPair::*side) 
       ->first;
 }
 
-// What to say where the board was found nowhere: another board that is seen.
+// Returns a hint for the case that no image shows the board: another board that is visible.
 std::string other_board(const Board& board, const std::vector<ReadPair>& pairs) {
   constexpr std::size_t tries = 5;
   for (std::size_t i = 0; i < std::min(tries, pairs.size()); ++i) {

@@ -1,4 +1,4 @@
-// From pairs of images to views of the board.
+// Finds the board in pairs of images.
 #pragma once
 
 #include <functional>
@@ -13,13 +13,13 @@ namespace maploop::calibrate {
 struct FoundViews {
   int width = 0, height = 0;  // px, of every image
   std::vector<View> views;
-  std::vector<ImagePair> pairs;    // of each view
-  std::vector<Unusable> unusable;  // not readable, of another size than most, board not found
-  std::string hint;                // where no view has a board: which board is seen instead
+  std::vector<ImagePair> pairs;    // one for each view
+  std::vector<Unusable> unusable;  // unreadable, of an uncommon size, or board not found
+  std::string hint;                // if no view has the board: which other board is visible
 };
 
-// `progress` is told how many pairs are done. Throws std::runtime_error where the left and the
-// right images have different sizes, or none can be read.
+// `progress` is called with the number of pairs done. Throws std::runtime_error if the left and
+// right images have different sizes, or no pair can be read.
 FoundViews find_views(const Board& board, const std::vector<ImagePair>& pairs,
                       const std::function<void(std::size_t)>& progress);
 
