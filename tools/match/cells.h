@@ -1,4 +1,4 @@
-// The cells of a line of text.
+// Splits a line of text into cells.
 #pragma once
 
 #include <string_view>
@@ -10,7 +10,8 @@ namespace maploop::match {
 
 using Cells = std::vector<std::string_view>;
 
-// Of a line with more than input_limits::columns, one more than that: it is to be refused.
+// If a line has more than input_limits::columns cells, one more than that is returned, and the
+// caller must refuse the line.
 inline Cells split(std::string_view line, char separator) {
   Cells cells;
   while (cells.size() <= input_limits::columns) {

@@ -7,7 +7,8 @@
 namespace maploop::match {
 namespace {
 
-constexpr Duration near = std::chrono::milliseconds(60);  // half a period of the frames, and slack
+constexpr Duration near =
+    std::chrono::milliseconds(60);  // half a period of the frames, and a margin
 
 }  // namespace
 

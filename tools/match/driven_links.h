@@ -1,4 +1,4 @@
-// Matches at their moments against the links really driven.
+// Compares matches with the links really driven.
 #pragma once
 
 #include <cstddef>
@@ -19,10 +19,12 @@ struct TimedMatch {
 
 TimedMatch timed_match(const MapMatch& match);
 
-// The frame nearest to a moment, where there is one within 60 ms. `stamps` increase.
+// Returns the index of the frame nearest to a time, or nothing if there is none within 60 ms.
+// `stamps` increase.
 std::optional<std::size_t> frame_at(Time t, const std::vector<Time>& stamps);
 
-// Each match counts at the labels' frame nearest to it, where there is one.
+// Scores each match against the label of the frame nearest to it; matches without such a frame do
+// not count.
 MatchScore score_matches(const std::vector<TimedMatch>& matches, const std::vector<Time>& stamps,
                          const std::map<std::size_t, Label>& labels);
 

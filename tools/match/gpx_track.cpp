@@ -10,7 +10,7 @@
 namespace maploop::match {
 namespace {
 
-// The text of a child element such as <time>...</time>, with or without a name space before it.
+// Returns the text of a child element such as <time>...</time>, with or without a namespace prefix.
 std::string_view child(std::string_view element, std::string_view name) {
   for (std::size_t at = element.find(name); at != std::string_view::npos;
        at = element.find(name, at + 1)) {

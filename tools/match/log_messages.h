@@ -1,4 +1,4 @@
-// The messages of an LCM log, one after the other.
+// Reads the messages of an LCM log in order.
 #pragma once
 
 #include <filesystem>
@@ -12,14 +12,15 @@
 
 namespace maploop::match {
 
-// Whether a file is one, by its first bytes (.gz: by its name).
+// Whether a file is an LCM log, by its first bytes (.gz: by its name).
 bool is_lcm_log(const std::filesystem::path& file);
 
-// Plain or .gz. Throws std::runtime_error naming the file where it cannot be read or is damaged.
+// Reads a plain or .gz file. Throws std::runtime_error naming the file if it cannot be read or is
+// damaged.
 void visit_log(const std::filesystem::path& file,
                const std::function<void(const lcm_log::LogEvent&)>& visit);
 
-// As one of our structs. Throws std::runtime_error where it is no such message.
+// Decodes an event as one of our structs. Throws std::runtime_error if it is not such a message.
 template <class Lcm>
 auto decoded(const lcm_log::LogEvent& event, const std::filesystem::path& file) {
   const auto refuse = [&](const std::string& why) {

@@ -9,7 +9,8 @@
 namespace maploop::match {
 namespace {
 
-constexpr Duration state_period = std::chrono::milliseconds(100);  // of those that are taken
+constexpr Duration state_period =
+    std::chrono::milliseconds(100);  // least time between the states that are used
 
 mapmatch::VehicleFix fix_of(const GnssFix& gnss) {
   mapmatch::VehicleFix fix;
@@ -19,7 +20,7 @@ mapmatch::VehicleFix fix_of(const GnssFix& gnss) {
   return fix;
 }
 
-// Every tenth of a second's, with what visual odometry said by then.
+// Returns states at least 100 ms apart, each with the visual odometry that was available by then.
 Track with_visual_course(const std::vector<NavState>& states,
                          const std::vector<RelativeMotion>& visual) {
   Track track;

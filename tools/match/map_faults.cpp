@@ -24,7 +24,7 @@ mapmatch::NetworkData shifted(mapmatch::NetworkData network, const Eigen::Vector
   return network;
 }
 
-// A sum of plane waves whose wave vectors are normal has a Gaussian correlation.
+// A sum of plane waves whose wave vectors are normally distributed has a Gaussian correlation.
 mapmatch::NetworkData bent(mapmatch::NetworkData network, double metres, double length,
                            std::uint64_t seed) {
   constexpr std::size_t waves = 64;

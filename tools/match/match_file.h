@@ -1,4 +1,4 @@
-// Matches that were written to a file, for scoring.
+// Reads matches from a file, for scoring.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +8,9 @@
 
 namespace maploop::match {
 
-// What `maploop match --csv` writes (of another matcher: the columns t, way_id, and p_link, node_a,
-// node_b where it has them), or MAP_MATCH of an LCM log; plain or .gz. In the order of the file.
-// Throws std::runtime_error naming file and line.
+// Reads the CSV file of `maploop match --csv` (files of other matchers need the columns t and
+// way_id, and may have p_link, node_a, node_b) or the MAP_MATCH messages of an LCM log; plain or
+// .gz. Returns them in the order of the file. Throws std::runtime_error naming file and line.
 std::vector<TimedMatch> read_matches(const std::filesystem::path& file);
 
 }  // namespace maploop::match

@@ -15,8 +15,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double surroundings = 250.0;       // m about the track that are drawn
-constexpr std::size_t shown_candidates = 8;  // of a fix
+constexpr double surroundings = 250.0;       // m, margin around the track that is drawn
+constexpr std::size_t shown_candidates = 8;  // for each fix
 
 double centimetres(double metres) {
   return std::round(100.0 * metres) / 100.0;
@@ -26,7 +26,7 @@ json point(const Eigen::Vector2d& p) {
   return {centimetres(p.x()), centimetres(p.y())};
 }
 
-// The links near the track, and all candidates: `used` by number.
+// Returns the links near the track and all candidates; `used` marks the candidates' links.
 json roads_about(const mapmatch::RoadNetwork& network, const mapmatch::Box& box,
                  std::vector<bool> used) {
   network.index().visit(box, [&](const mapmatch::IndexedSegment& s) { used[s.link] = true; });
@@ -48,7 +48,7 @@ json roads_about(const mapmatch::RoadNetwork& network, const mapmatch::Box& box,
   return roads;
 }
 
-// Each text once.
+// Stores each text once.
 class Texts {
  public:
   int index(const std::string& text) {
@@ -123,7 +123,8 @@ mapmatch::Box box_of(const MatchedTrack& track, const mapmatch::RoadNetwork& net
   return box;
 }
 
-// Inside a script element "</" would end it, and "<!--" would hide its end.
+// Inside a script element "</" would end it, and "<!--" would hide its end, so that every "<" is
+// escaped.
 std::string script_safe(std::string text) {
   for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;)
     text.replace(at, 1, "\\u003c");
@@ -140,7 +141,7 @@ void write_match_html(const std::filesystem::path& file, const MatchedTrack& tra
             {"roads", roads_about(network, box_of(track, network), used)}};
   data["texts"] = texts.all();
   const std::string_view script = web::match_script();
-  // Names in a map may hold anything, also what is no UTF-8.
+  // Names in a map may contain anything, including invalid UTF-8.
   const std::string text = data.dump(-1, ' ', false, json::error_handler_t::replace);
   evaluation::write_text(
       file,

@@ -9,7 +9,7 @@ namespace maploop::match {
 namespace {
 
 constexpr double search_reach = 100.0;  // m
-constexpr double gate = radians(50.0);  // of the baseline
+constexpr double gate = radians(50.0);  // for the baseline
 
 MatchedFix on_segment(const mapmatch::RoadNetwork& network, mapmatch::DirectedLink link,
                       std::uint32_t vertex, double p) {

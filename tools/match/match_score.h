@@ -1,4 +1,4 @@
-// How often the matched way is the one really driven.
+// Counts how often the matched way is the one really driven.
 #pragma once
 
 #include <array>
@@ -13,12 +13,12 @@
 
 namespace maploop::match {
 
-// A fix and where it is said to be.
+// A fix and its matched segment.
 struct MatchedFix {
-  std::optional<std::int64_t> way_id;  // none: off the road, or not known
+  std::optional<std::int64_t> way_id;  // empty: not on a road, or unknown
   std::int64_t node_a = 0, node_b = 0;
   double p_link = 0.0;
-  std::optional<mapmatch::DirectedLink> link{};  // where it is known
+  std::optional<mapmatch::DirectedLink> link{};  // if it is known
 };
 
 struct Tally {
@@ -33,8 +33,8 @@ struct Tally {
   }
 };
 
-// Of what is said with P between k/10 and (k+1)/10: how much is right; by the link where those
-// matched and driven are known, else by the way.
+// For matches with P between k/10 and (k+1)/10: how many are right. They are compared by link if
+// the matched and the driven link are known, otherwise by way.
 struct Reliability {
   std::array<std::size_t, 10> fixes{}, right{};
   std::array<double, 10> p_sum{};
@@ -44,18 +44,18 @@ struct MatchScore {
   Tally all, certain;
   Reliability reliability;
 
-  // `rows` are the track's rows of the fixes; those without a label do not count.
+  // `rows` are the track's row numbers of the fixes; fixes without a label do not count.
   void add(const std::vector<MatchedFix>& matched, const std::vector<std::size_t>& rows,
            const std::map<std::size_t, Label>& labels);
 };
 
 MatchedFix matched_fix(const mapmatch::MatchResult& result, const mapmatch::RoadNetwork& network);
 
-// What the matcher says of each fix of a track.
+// Returns the match of each fix of a track.
 std::vector<MatchedFix> match_track(mapmatch::Matcher& matcher, const Track& track);
 
-// The baseline: the nearest segment within 100 m whose azimuth is within 50 degrees of the
-// vehicle's.
+// The baseline: returns the nearest segment within 100 m whose azimuth differs by at most 50
+// degrees from the vehicle's.
 std::vector<MatchedFix> nearest_segments(const mapmatch::RoadNetwork& network, const Track& track);
 
 }  // namespace maploop::match

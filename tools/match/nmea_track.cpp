@@ -23,7 +23,8 @@ double number(std::string_view text) {
              : mapmatch::unknown;
 }
 
-// The fields between '$' and '*'; none where the checksum is wrong.
+// Returns the fields between '$' and '*', or nothing if the line is not a sentence or its checksum
+// is wrong.
 std::optional<Cells> sentence(std::string_view line) {
   while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
   if (line.size() < 7 || line.front() != '$') return {};
@@ -39,7 +40,7 @@ std::optional<Cells> sentence(std::string_view line) {
   return split(line, ',');
 }
 
-// "4858.95", "N" in rad.
+// Converts for instance "4858.95", "N" to rad.
 double angle(std::string_view digits, std::string_view hemisphere) {
   const double value = number(digits);
   const double whole = std::trunc(value / 100.0);
@@ -56,7 +57,7 @@ class Reader {
     if (kind == "RMC" && f.size() >= 10 && f[2] == "A") {
       date_ = f[9];
       mapmatch::VehicleFix& fix = at(f[1]);
-      fix.stamp = stamp(f[1]);  // with its date
+      fix.stamp = stamp(f[1]);  // now with its date
       fix.position = {angle(f[3], f[4]), angle(f[5], f[6]), 0.0};
       fix.speed = knot * number(f[7]);
       fix.azimuth = radians(number(f[8]));
@@ -83,7 +84,7 @@ class Reader {
   }
 
  private:
-  // The fix of a time of day, which several sentences describe.
+  // Returns the fix of a time of day; several sentences may describe the same fix.
   mapmatch::VehicleFix& at(std::string_view time) {
     if (!track_.empty() && time == time_) return track_.back();
     time_ = time;

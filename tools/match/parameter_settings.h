@@ -1,4 +1,4 @@
-// Parameters of map matching from a command line.
+// Sets parameters of map matching from a command line.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace maploop::match {
 
-// The defaults with NAME=VALUE of each. Throws std::runtime_error naming what is wrong.
+// Returns the defaults changed by each NAME=VALUE. Throws std::runtime_error naming what is wrong.
 mapmatch::MatchParameters parameters_with(const std::vector<std::string>& settings);
 
-// A setting NAME=VALUE in its two parts. Throws as above.
+// Splits a setting NAME=VALUE. Throws std::runtime_error naming what is wrong.
 std::pair<std::string, double> parse_setting(const std::string& setting);
 
 }  // namespace maploop::match

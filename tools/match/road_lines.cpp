@@ -7,7 +7,7 @@
 namespace maploop::match {
 namespace {
 
-// In the network's own metres.
+// Returns the bounding box of the lines plus `reach`, in the network's own frame, m.
 mapmatch::Box box_about(const mapmatch::RoadNetwork& network, const LocalFrame& enu,
                         const std::vector<web::Line>& lines, double reach) {
   constexpr double far = std::numeric_limits<double>::infinity();

@@ -1,4 +1,4 @@
-// Roads as lines of a picture.
+// Draws roads as lines of a picture.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace maploop::match {
 
-// The links within `reach` metres of the box about the lines, both in metres east and north of
-// `origin`. None where the lines are empty.
+// Returns the links within `reach` metres of the bounding box of `lines`, in metres east and north
+// of `origin` like these. Returns nothing if the lines are empty.
 std::vector<web::Line> road_lines(const mapmatch::RoadNetwork& network, const Geodetic& origin,
                                   const std::vector<web::Line>& lines, double reach);
 

@@ -1,4 +1,4 @@
-// Link identification as text and JSON.
+// Formats the scores of link identification as text and JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,13 +8,14 @@
 
 namespace maploop::match {
 
-// For a person: the share on the right way with coverage, of all labels and of certain ones.
+// Returns the share of fixes on the right way and the coverage, of all labels and of certain ones,
+// as text.
 std::string to_text(const MatchScore& score);
 
-// A table of P(link) as it was said and the share that was right.
+// Returns a table of the mean P(link) and the share that was right.
 std::string to_text(const Reliability& reliability);
 
-// The same for a program, with the reliability of P(link).
+// Returns the same scores as JSON, including the reliability of P(link).
 nlohmann::json to_json(const MatchScore& score);
 
 }  // namespace maploop::match

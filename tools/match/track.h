@@ -1,4 +1,4 @@
-// A recorded drive as the matcher takes it.
+// A recorded drive as input of the matcher.
 #pragma once
 
 #include <stdexcept>
@@ -11,9 +11,9 @@
 
 namespace maploop::match {
 
-using Track = std::vector<mapmatch::VehicleFix>;  // by rising stamps
+using Track = std::vector<mapmatch::VehicleFix>;  // in order of increasing stamps
 
-// Adds a fix of the file of that name. Throws std::runtime_error where it has too many.
+// Appends a fix read from the file `name`. Throws std::runtime_error if the track has too many.
 inline void keep(const mapmatch::VehicleFix& fix, std::string_view name, Track& track) {
   if (track.size() == input_limits::fixes)
     throw std::runtime_error(std::string(name) + ": more than " +

@@ -1,4 +1,4 @@
-// Times as track files write them.
+// Parses the times of track files.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace maploop::match {
 
-// Seconds ("12.5", also since 1970), or a date and time ("2011-09-26 13:10:51.17",
-// "2011-09-26T13:10:51Z"); none where it is neither.
+// Parses seconds ("12.5", also since 1970), or a date and time ("2011-09-26 13:10:51.17",
+// "2011-09-26T13:10:51Z"); returns nothing for other texts.
 std::optional<Time> parse_track_time(std::string_view text);
 
 }  // namespace maploop::match

@@ -11,16 +11,16 @@
 namespace maploop::match {
 namespace {
 
-constexpr double stride = 2.0;     // m of way whose direction is compared with the axes
-constexpr double agreement = 0.9;  // mean cosine from which an axis is the forward one
+constexpr double stride = 2.0;     // m, distance whose direction is compared with the axes
+constexpr double agreement = 0.9;  // least mean cosine between an axis and the direction of motion
 
 struct Pose {
   Eigen::Vector2d place;
   Eigen::Matrix3d rotation;
 };
 
-// The format does not say which axis looks forward: that of a vehicle (x), or a camera (z). It is
-// the one that looks where the poses go; none where none does.
+// The format does not define which axis points forward: x for a vehicle, z for a camera. Returns
+// the index of the axis that points along the motion, or -1 if there is none.
 int forward_axis(const std::vector<Pose>& poses) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double strides = 0.0;

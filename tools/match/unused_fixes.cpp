@@ -12,13 +12,13 @@ namespace {
 
 using mapmatch::FixRefusal;
 
-constexpr double beyond_the_map = 100.0;  // m, further from its roads than any fix that matches
+constexpr double beyond_the_map = 100.0;  // m from the map's area; no fix matches beyond it
 
 constexpr auto not_a_number = "a value is not a number";
 constexpr auto not_degrees = "not a latitude and a longitude in degrees";
 constexpr auto outside = "outside of the map";
 
-// Of a refused fix.
+// Returns the reason of a refused fix.
 std::string reason_of(const mapmatch::VehicleFix& fix, FixRefusal refusal) {
   const Geodetic& p = fix.position;
   if (std::abs(p.latitude) > radians(90.0) || std::abs(p.longitude) > radians(360.0))

@@ -1,4 +1,4 @@
-// Why fixes of a track found no road of the map.
+// Explains why fixes of a track are not on a road of the map.
 #pragma once
 
 #include <map>
@@ -9,12 +9,12 @@
 
 namespace maploop::match {
 
-// The fixes that the matcher refused and those outside of the map, counted by their reason.
+// Counts the fixes that the matcher refused and those outside of the map, by their reason.
 std::map<std::string, std::size_t> unused_fixes(const MatchedTrack& track,
                                                 const mapmatch::RoadNetwork& network);
 
-// The reason and the remedy where the track is of no use with this map: no fix is on a road, or
-// the matcher refused more than half of them. Nothing for every other track.
+// Returns the reason and the remedy if the track cannot be used with this map: no fix is on a road,
+// or the matcher refused more than half of them. Returns nothing otherwise.
 std::optional<std::string> why_unusable(const MatchedTrack& track,
                                         const mapmatch::RoadNetwork& network);
 
