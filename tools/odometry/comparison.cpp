@@ -20,9 +20,10 @@ using stereo::Matching;
 using stereo::MotionMethod;
 
 constexpr double kSegment = 100.0;  // m
-constexpr double kShort = 25.0;     // m, for drives that have hardly a segment of the other length
+constexpr double kShort = 25.0;  // m, for drives that have hardly any segment of the other length
 
-// How far the truth's camera went from one stamp to another; 0 where the truth does not say.
+// Returns the distance (m) between the truth's camera positions at two stamps, or 0 if the truth
+// does not have them.
 double true_step(const StampedTrajectory& truth, Time from, Time to) {
   const auto at = [&](Time stamp) {
     return std::lower_bound(truth.stamps.begin(), truth.stamps.end(), stamp) - truth.stamps.begin();

@@ -1,4 +1,5 @@
-// Ways to match and to find the motion, on the same frames (the thesis's figures 3.10 and 3.15).
+// Compares methods of matching and of motion estimation on the same frames (the thesis's figures
+// 3.10 and 3.15).
 #pragma once
 
 #include <filesystem>
@@ -21,29 +22,31 @@ struct Variant {
   Disparities disparities = Disparities::own;
 };
 
-// Tracking against matching, the three ways to find the motion, the window, and who says what the
-// disparities lack. Recorded tracks have no images to match in, and not every drive has scans.
+// Returns tracking against matching, the three methods of motion estimation, the window, and the
+// sources of the disparity correction. Recorded tracks have no images to match in (`images`), and
+// not every drive has scans (`scans`).
 std::vector<Variant> variants(bool images, bool scans);
 
 struct VariantResult {
   Variant variant;
   int pairs = 0, refused = 0;
-  double tracks = 0.0;        // a pair, mean
-  double life = 0.0;          // pairs that a feature is followed over, mean
+  double tracks = 0.0;        // per pair, mean
+  double life = 0.0;          // pairs over which a feature is tracked, mean
   double inlier_ratio = 0.0;  // mean over the pairs that were not refused
-  double milliseconds = 0.0;  // a pair, median
-  Consistency consistency;    // of increments of one second
+  double milliseconds = 0.0;  // per pair, median
+  Consistency consistency;    // for increments of one second
   evaluation::Evaluation score;
 };
 
-// Runs one variant with the other parameters as `config` says. One camera does not see how far it
-// goes: its motions are given the lengths that `truth` has, and only their directions are its own.
+// Runs one variant; the other parameters come from `config`. One camera cannot observe the length
+// of its motions: they are scaled to the lengths of `truth`, and only their directions are
+// estimated.
 VariantResult run_variant(const Variant& variant, const std::filesystem::path& input,
                           const std::filesystem::path& config, FrameRange frames,
                           const evaluation::StampedTrajectory& truth);
 
 std::string to_text(const std::vector<VariantResult>& results);
-// A page with the table, the paths seen from above, and the errors along the way.
+// Returns a page with the table, the paths seen from above, and the errors along the way.
 std::string to_html(const std::vector<VariantResult>& results, const std::string& heading);
 
 }  // namespace maploop::odometry

@@ -19,7 +19,7 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
   return m;
 }
 
-// Poses of the truth's body by stamp, turned by the rotation common to all.
+// Returns the poses of the truth's body by stamp, turned by the common rotation.
 std::map<Time, Eigen::Isometry3d> turned_truth(std::span<const RelativeMotion> motions,
                                                const Eigen::Isometry3d& T_body_cam,
                                                const evaluation::StampedTrajectory& truth) {
@@ -28,7 +28,7 @@ std::map<Time, Eigen::Isometry3d> turned_truth(std::span<const RelativeMotion> m
   const auto matched = evaluation::match(path.trajectory(), truth, from_seconds(0.001));
   std::map<Time, Eigen::Isometry3d> poses;
   if (matched.truth.size() < 3) return poses;
-  // R t_estimate ~ t_truth: the truth in the estimate's axes.
+  // R t_estimate ~ t_truth, so that R^T turns the truth into the estimate's axes.
   const Eigen::Isometry3d common(
       evaluation::fit_common_rotation(matched.estimate, matched.truth).transpose());
   for (std::size_t i = 0; i < matched.truth.size(); ++i)
@@ -73,7 +73,7 @@ Consistency consistency(std::span<const RelativeMotion> motions,
   JoinedMotion joined;
   Time from{}, to{};
   for (const RelativeMotion& motion : motions) {
-    if (motion.status != OdometryStatus::ok || motion.from != to) {  // begins anew
+    if (motion.status != OdometryStatus::ok || motion.from != to) {  // a new increment begins
       joined = {};
       from = to = motion.status == OdometryStatus::ok ? motion.from : motion.stamp;
     }

@@ -1,4 +1,4 @@
-// Does the covariance of an odometry say how far it is wrong?
+// Computes whether the covariance of an odometry matches its errors.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,7 +11,7 @@ namespace maploop::odometry {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-// Successive motions joined, with their covariances added as if they were independent: translation,
+// Joins successive motions and adds their covariances as if they were independent: translation,
 // then rotation vector, of the last frame in the first one.
 struct JoinedMotion {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -20,19 +20,20 @@ struct JoinedMotion {
   void append(const Eigen::Isometry3d& motion, const Matrix6& motion_covariance);
 };
 
-// `estimate` less `truth`, in the same order.
+// Returns `estimate` minus `truth`, in the same order.
 Eigen::Matrix<double, 6, 1> pose_difference(const Eigen::Isometry3d& estimate,
                                             const Eigen::Isometry3d& truth);
 
 struct Consistency {
-  double nees = 0.0;   // normalized estimation error squared a degree of freedom; 1 is right
-  int increments = 0;  // that it is the mean of
+  double nees = 0.0;   // normalized estimation error squared per degree of freedom; 1 is ideal
+  int increments = 0;  // number of increments in the mean
 };
 
-// Of the motions of the body, joined to increments of at least `seconds`, against the left camera's
-// truth at the same stamps; increments with a refused motion in them are left out. One common
-// rotation between the truth's axes and the camera's is removed, and the truth's own error of such
-// an increment added (KITTI's OXTS: 3 cm, 0.05 degrees).
+// Compares the motions of the body, joined to increments of at least `seconds`, with the left
+// camera's truth at the same stamps; increments with a refused motion in them are left out. One
+// rotation common to all poses between the truth's axes and the camera's is removed, and the
+// truth's own error over such an increment is added to the covariance (KITTI's OXTS: 3 cm, 0.05
+// degrees).
 Consistency consistency(std::span<const RelativeMotion> motions,
                         const Eigen::Isometry3d& T_body_cam,
                         const evaluation::StampedTrajectory& truth, double seconds = 1.0);

@@ -1,4 +1,4 @@
-// The scan that belongs to each image pair of a drive.
+// Finds the scan that belongs to each image pair of a drive.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,11 @@ namespace maploop::odometry {
 
 class FrameScans {
  public:
-  // Throws std::runtime_error where the drive has no scans.
+  // Throws std::runtime_error if the drive has no scans.
   explicit FrameScans(const sensors::KittiDrive& drive);
 
-  // The scan of this frame; null where the drive lacks it. Frames are asked for in ascending order.
-  // Valid until the next call.
+  // Returns the scan of this frame, or null if the drive does not have it. Frames must be requested
+  // in ascending order. The scan is valid until the next call.
   const LidarScan* of(std::size_t frame);
 
  private:

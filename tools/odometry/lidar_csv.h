@@ -1,4 +1,4 @@
-// Motions of LiDAR odometry as a table, one line a frame.
+// Writes motions of LiDAR odometry as a table, one line for each frame.
 #pragma once
 
 #include <filesystem>
@@ -8,12 +8,12 @@
 
 namespace maploop::odometry {
 
-// Columns, with a heading: frame, stamp and from (s); status of the scan ("no scan" where none was
-// used); source of the motion that counts; its x, y, z (m) and rx, ry, rz (rotation vector, deg)
-// with their standard deviations; tracked, inliers, iterations; degenerate (directions joined by
-// '+'); seed_translation (m) and seed_rotation (deg), what the registration changed in its seed;
+// Columns, with a heading: frame, stamp and from (s); status of the scan ("no scan" if none was
+// used); source of the published motion; its x, y, z (m) and rx, ry, rz (rotation vector, deg) with
+// their standard deviations; tracked, inliers, iterations; degenerate (directions joined by '+');
+// seed_translation (m) and seed_rotation (deg), by which the registration changed its seed;
 // milliseconds. Cells of a motion that is not ok are empty. Throws std::runtime_error naming the
-// file when it cannot be written.
+// file if it cannot be written.
 void write_lidar_csv(const std::filesystem::path& file, std::span<const LidarStep> steps);
 
 }  // namespace maploop::odometry

@@ -14,13 +14,13 @@
 namespace maploop::odometry {
 namespace {
 
-constexpr double most_px = 1600.0;  // of the picture's longer side
+constexpr double most_px = 1600.0;  // px, longer side of the picture
 
 double percentile(const std::vector<double>& sorted, double share) {
   return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
 }
 
-// Where the picture's pixels lie: x of the first frame's body up, y to the left.
+// The transform to the picture's pixels: x of the first frame's body points right, y up.
 struct View {
   Eigen::Vector2d low, high;  // m
   double scale;               // px / m
@@ -36,7 +36,7 @@ struct View {
     for (const LidarStep& step : steps) take(step.pose.translation().head<2>());
     scale = std::min(5.0, most_px / std::max(1.0, (high - low).maxCoeff()));
   }
-  // The way goes from left to right: most are longer than wide.
+  // The path runs from left to right, because most drives are longer than wide.
   cv::Size size() const {
     return {std::max(1, static_cast<int>(scale * (high.x() - low.x())) + 1),
             std::max(1, static_cast<int>(scale * (high.y() - low.y())) + 1)};
@@ -47,17 +47,18 @@ struct View {
   }
 };
 
-// Ground in grey; what stands on it from blue (low) to red (4 m and more above the ground).
+// Draws the ground in grey; upright surfaces range from blue (low) to red (4 m and more above the
+// ground).
 cv::Mat from_above(const PointCloud& cloud, const std::vector<LidarStep>& steps) {
   const View view(cloud, steps);
   cv::Mat hue(view.size(), CV_8UC3, cv::Scalar(0, 0, 255));
-  constexpr float upright = 0.7f;   // of the normal's vertical part; less is a wall
+  constexpr float upright = 0.7f;   // vertical part of the normal; a smaller one is a wall
   constexpr float highest = 4.0f;   // m
-  constexpr float of_body = -0.9f;  // m, of the ground under the vehicle's origin
+  constexpr float of_body = -0.9f;  // m, height of the ground relative to the vehicle's origin
   for (const lidar::SurfacePoint& point : cloud.points()) {
     auto& pixel = hue.at<cv::Vec3b>(view.at(point.position.head<2>().cast<double>()));
-    const float above =
-        std::clamp((point.position.z() - of_body) / highest, 0.0f, 1.0f);  // of the first frame
+    const float above = std::clamp((point.position.z() - of_body) / highest, 0.0f,
+                                   1.0f);  // above the ground at the first frame
     if (std::abs(point.normal.z()) < upright) {
       pixel = {static_cast<std::uint8_t>(120.0f * (1.0f - above)), 255, 200};
     } else if (pixel[1] == 0) {

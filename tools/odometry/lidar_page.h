@@ -1,4 +1,4 @@
-// The way of a LiDAR odometry and what it saw, as a page.
+// Shows the path of a LiDAR odometry and the scanned surfaces as a page.
 #pragma once
 
 #include <string>
@@ -9,10 +9,12 @@
 
 namespace maploop::odometry {
 
-// Frames, way, statuses, directions that scans did not determine, times; some lines of text.
+// Returns some lines of text: frames, distance, statuses, directions that scans did not determine,
+// times.
 std::string summary(const std::vector<LidarStep>& steps);
 
-// A page with that, the cloud from above with the path in it, and the heights along the way.
+// Returns a page with this summary, the cloud from above with the path in it, and the heights along
+// the way.
 std::string lidar_page(const std::string& heading, const std::vector<LidarStep>& steps,
                        const PointCloud& cloud);
 

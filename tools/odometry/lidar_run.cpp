@@ -24,7 +24,7 @@ struct LidarRun::State {
         stereo(drive.calibration().stereo, p.stereo),
         odometer(drive.calibration().T_body_velo, seeded(p)) {}
 
-  // Of the pair; without a visual seed it says the moment alone.
+  // Returns the visual motion of the pair; without a visual seed it only contains the stamp.
   VisualMotion visual() {
     if (parameters.seed == LidarSeed::vo) return stereo.process(pair);
     VisualMotion refused;
@@ -33,7 +33,7 @@ struct LidarRun::State {
     return refused;
   }
 
-  // The scan of this frame, where the drive has it and it is one of those that are used.
+  // Returns the scan of this frame, or null if the drive does not have it or it is not used.
   const LidarScan* scan_of(std::size_t frame) {
     return (frame - first) % parameters.every == 0 ? scans.of(frame) : nullptr;
   }

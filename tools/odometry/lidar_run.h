@@ -1,4 +1,4 @@
-// Visual-LiDAR odometry alone, one motion a scan.
+// Runs visual-LiDAR odometry alone, one motion for each frame.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -16,36 +16,37 @@
 
 namespace maploop::odometry {
 
-// What the registration of a scan starts from.
+// The initial motion of a scan's registration.
 enum class LidarSeed : std::uint8_t { vo, motion, none };
 
 struct LidarRunParameters {
   stereo::StereoParameters stereo;
   lidar::LidarParameters lidar;
   LidarSeed seed = LidarSeed::vo;
-  std::size_t every = 1;  // scan of so many is used, from the first frame on
+  std::size_t every = 1;  // only each `every`-th scan is used, from the first frame on
   FrameRange frames;
 };
 
-// One frame: an image pair, and the scan taken at the same turn where there is one.
+// The result for one frame: an image pair, and the scan taken during the same turn if there is one.
 struct LidarStep {
   std::size_t frame = 0;
   bool with_scan = false;
   LidarMotion lidar;
-  RelativeMotion odometry;    // the best of both
-  Eigen::Isometry3d pose;     // of the body, in its first frame
-  double milliseconds = 0.0;  // of processor time, preparation included, visual odometry not
+  RelativeMotion odometry;  // the published motion of visual and LiDAR odometry
+  Eigen::Isometry3d pose;   // of the body, in its first frame
+  double milliseconds =
+      0.0;  // of processor time, including preparation of the scan, without visual odometry
 };
 
 class LidarRun {
  public:
-  // `drive` must outlive the run. Throws std::runtime_error where it has no scans.
+  // `drive` must outlive the run. Throws std::runtime_error if it has no scans.
   LidarRun(const sensors::KittiDrive& drive, const LidarRunParameters& parameters);
   ~LidarRun();
 
   std::optional<LidarStep> next();
 
-  // Of the step before, as it came; only where it was with a scan.
+  // Returns the raw scan of the previous step; valid only if that step was with a scan.
   const LidarScan& scan() const;
 
  private:

@@ -1,4 +1,4 @@
-// What an odometry can be run on alone: a drive's images or recorded tracks.
+// Opens the input of an odometry that runs alone: a drive's images or recorded tracks.
 #pragma once
 
 #include <filesystem>
@@ -12,28 +12,28 @@
 
 namespace maploop::odometry {
 
-// Last changes to the parameters of a file, or of the defaults.
+// Final changes to the parameters, which are those of a file or the defaults.
 using Adjust = std::function<void(stereo::StereoParameters&)>;
 
 struct Input {
   Run run;
   StereoCalibration camera;
-  std::shared_ptr<const void> owner;  // of what the run reads
+  std::shared_ptr<const void> owner;  // keeps alive the data that `run` reads
 };
 
 // `input` is the folder of a KITTI raw drive or <drive>.csv[.gz] with its .meta.json. Without a
 // `config` file (empty path) recorded tracks get for_recorded_tracks(). Throws std::runtime_error
-// and std::invalid_argument naming file, key or value, or where there are no scans for
+// and std::invalid_argument naming file, key or value, or if there are no scans for
 // Disparities::lidar.
 Input open_input(const std::filesystem::path& input, const std::filesystem::path& config,
                  FrameRange frames, Disparities disparities, const Adjust& adjust);
 
-// The left camera's truth that comes with it: a drive's OXTS at its images' stamps, the
-// <drive>.truth.csv[.gz] beside recorded tracks. Throws std::runtime_error where there is none.
+// Reads the left camera's truth that belongs to the input: a drive's OXTS at its images' stamps, or
+// the <drive>.truth.csv[.gz] beside recorded tracks. Throws std::runtime_error if there is none.
 evaluation::StampedTrajectory read_truth(const std::filesystem::path& input,
                                          const std::filesystem::path& config = {});
 
-// The left camera's path in its first frame.
+// Accumulates the left camera's path in its first frame.
 class CameraPath {
  public:
   explicit CameraPath(const Eigen::Isometry3d& T_body_cam) : T_body_cam_(T_body_cam) {}

@@ -11,7 +11,7 @@
 namespace maploop::odometry {
 namespace {
 
-constexpr double cell_size = 0.15;  // m, of the cloud
+constexpr double cell_size = 0.15;  // m, one point of the cloud in each cell
 
 lidar::LidarParameters fine(lidar::LidarParameters p) {
   p.sample_voxel = 0.2;

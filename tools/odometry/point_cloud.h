@@ -1,4 +1,4 @@
-// The surfaces of all scans in one frame.
+// Collects the surfaces of all scans in one frame.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -10,21 +10,21 @@
 
 namespace maploop::odometry {
 
-// Scans are deskewed and sampled finer than odometry needs; of all points in a cell the first
-// stays.
+// Scans are deskewed and sampled more finely than odometry needs; the first point in each cell is
+// kept.
 class PointCloud {
  public:
   PointCloud(const Eigen::Isometry3d& T_body_velo, const lidar::LidarParameters& parameters);
 
-  // `T_first_body` at `stamp`, `motion` of the body while the scan was taken.
+  // `T_first_body` is the pose at `stamp`, `motion` that of the body while the scan was taken.
   void add(const LidarScan& scan, Time stamp, const lidar::Twist& motion,
            const Eigen::Isometry3d& T_first_body);
 
   std::size_t size() const { return points_.size(); }
   const std::vector<lidar::SurfacePoint>& points() const { return points_; }  // first body frame
 
-  // As .ply or .pcd, binary: x y z (m) and the normal. Throws std::runtime_error naming the file:
-  // another ending, or not to be written.
+  // Writes a binary .ply or .pcd: x y z (m) and the normal. Throws std::runtime_error naming the
+  // file if it has another extension or cannot be written.
   void write(const std::filesystem::path& file) const;
 
  private:
@@ -34,7 +34,7 @@ class PointCloud {
   std::vector<lidar::SurfacePoint> points_;
 };
 
-// Refuses an ending that write() does not know.
+// Throws std::runtime_error for an extension that write() does not support.
 void check_cloud_name(const std::filesystem::path& file);
 
 }  // namespace maploop::odometry

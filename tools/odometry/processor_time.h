@@ -1,11 +1,11 @@
-// The clock that estimates are timed by.
+// The clock that measures the time of estimates.
 #pragma once
 
 #include <time.h>
 
 namespace maploop::odometry {
 
-// Processor time of this thread: what else runs on the machine is not in it.
+// Returns the processor time of this thread; other work on the machine does not count.
 inline double processor_milliseconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

@@ -11,7 +11,7 @@
 namespace maploop::odometry {
 namespace {
 
-// The time of one estimate and of its stages.
+// Measures the time of one estimate and of its stages.
 class Stopwatch {
  public:
   explicit Stopwatch(Step* step) : step_(step), start_(processor_milliseconds()), lap_(start_) {}
@@ -28,7 +28,7 @@ class Stopwatch {
   double start_, lap_;
 };
 
-// Calls what makes one step, with its stages measured.
+// Calls the function that makes one step, and measures its stages.
 template <class Odometry, class Estimate>
 void measure(Odometry& odometry, Step* step, const Estimate& estimate) {
   Stopwatch watch(step);

@@ -1,4 +1,4 @@
-// Odometries that run alone, one motion a frame.
+// Odometries that run alone, one motion for each frame.
 #pragma once
 
 #include <array>
@@ -25,17 +25,17 @@ using vehicle::for_recorded_tracks;
 using vehicle::read_recorded_tracks;
 using vehicle::RecordedTracks;
 
-// Frames of a drive, by their numbers; both ends belong to it.
+// A range of frame numbers; both ends are included.
 struct FrameRange {
   std::size_t first = 0;
   std::size_t last = std::numeric_limits<std::size_t>::max();
 };
 
-// Who says what constant is missing in all disparities.
+// The source of the constant by which all disparities are corrected.
 enum class Disparities : std::uint8_t {
-  none,   // nobody: the rectification is taken as perfect
+  none,   // no correction: the rectification is assumed to be perfect
   own,    // the image pairs themselves (stereo/disparity_offset.h)
-  lidar,  // they and LiDAR odometry (lidar/disparity_correction.h)
+  lidar,  // the image pairs and LiDAR odometry (lidar/disparity_correction.h)
 };
 constexpr std::array<std::string_view, 3> names_of(Disparities) {
   return {"none", "own", "lidar"};
@@ -44,20 +44,21 @@ constexpr std::array<std::string_view, 3> names_of(Disparities) {
 struct Step {
   std::size_t frame = 0;
   RelativeMotion motion;
-  double milliseconds = 0.0;  // of processor time that the estimate took, reading not counted
-  std::vector<std::pair<std::string, double>> stages;  // their share of it, ms, as they ended
-  std::vector<stereo::StereoTrack> tracks;             // that it was made from
+  double milliseconds = 0.0;  // of processor time for the estimate, without reading
+  std::vector<std::pair<std::string, double>> stages;  // ms of each stage, in order
+  std::vector<stereo::StereoTrack> tracks;  // the tracks that the motion was estimated from
 };
 
-// The next step; nothing at the end.
+// Returns the next step, or nothing at the end.
 using Run = std::function<std::optional<Step>()>;
 
-// Visual odometry from a drive's images; with `depth`, given the length that LiDAR odometry from
-// the drive's scans has so far (lidar/disparity_correction.h). `drive` must outlive the run.
+// Returns visual odometry from a drive's images. With `depth`, its disparities are corrected by the
+// LiDAR odometry of the drive's scans so far (lidar/disparity_correction.h). `drive` must outlive
+// the run.
 Run stereo_run(const sensors::KittiDrive& drive, const stereo::StereoParameters& parameters,
                FrameRange frames, const std::optional<lidar::LidarParameters>& depth = {});
 
-// The same from recorded tracks: frames before first_good_frame are passed over.
+// Returns the same from recorded tracks: frames before first_good_frame are skipped.
 Run tracks_run(std::shared_ptr<const RecordedTracks> tracks,
                const stereo::StereoParameters& parameters, FrameRange frames);
 

@@ -1,4 +1,4 @@
-// Recorded tracks as a file.
+// Writes recorded tracks as a file.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,9 @@
 
 namespace maploop::odometry {
 
-// Both files, as read_recorded_tracks reads them, the tracks compressed where the name ends in .gz;
-// stamps in seconds from frame 0. Throws std::runtime_error naming the file that cannot be written.
+// Writes the tracks and their .meta.json in the format of read_recorded_tracks(); the tracks are
+// compressed if the name ends in .gz. Stamps are in seconds from frame 0. Throws std::runtime_error
+// naming the file that cannot be written.
 void write_recorded_tracks(const std::filesystem::path& file,
                            const vehicle::RecordedTracks& recorded);
 
