@@ -26,7 +26,7 @@ std::string span(GpsTime first, GpsTime last) {
   return format_gps_time(first) + " to " + format_gps_time(last) + " GPS time";
 }
 
-// "G 31, E 24".
+// Returns for instance "G 31, E 24".
 std::string per_system(const std::set<Satellite>& satellites) {
   std::map<System, int> counts;
   for (const Satellite s : satellites) ++counts[s.system];
@@ -85,7 +85,7 @@ std::string describe(const Observations& o) {
   return text + refusals(o.refused, o.refusals);
 }
 
-// Whose coefficients it has.
+// Returns the systems whose ionosphere coefficients the file has.
 std::string coefficients(const NavigationFile& n) {
   bool gps = false, galileo = false;
   for (const IonosphereMessage& m : n.ionosphere) {

@@ -1,4 +1,4 @@
-// What is in a GNSS file, for people.
+// Describes the contents of a GNSS file as text.
 #pragma once
 
 #include <filesystem>
