@@ -13,7 +13,8 @@ namespace {
 constexpr double kCommonRotationLength = 25.0;  // m
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// The general inverse, as the devkit does it: a pose in a file is rounded and no exact rotation.
+// The general inverse is used like in the devkit, because a rounded pose from a file is not an
+// exact rotation.
 Eigen::Isometry3d between(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
   return from.inverse(Eigen::Affine) * to;
 }
@@ -39,13 +40,14 @@ Pair aligned(const Trajectory& estimate, const Trajectory& truth) {
   return pair;
 }
 
-// Calls visit(motion of the estimate, motion of the truth) for each segment of `length`.
+// Calls visit(motion of the estimate, motion of the truth) for each segment of `length`; segments
+// start at every `every`-th frame.
 template <typename Visit>
 void for_each_segment(const Pair& pair, double length, std::size_t every, Visit visit) {
   const auto& distance = pair.distance;
   for (std::size_t first = 0; first < distance.size(); first += every) {
     const auto found = std::upper_bound(distance.begin(), distance.end(), distance[first] + length);
-    if (found == distance.end()) return;  // later starts end later still
+    if (found == distance.end()) return;  // later segments would end even later
     const auto last = static_cast<std::size_t>(found - distance.begin());
     visit(between(pair.estimate[first], pair.estimate[last]),
           between(pair.truth[first], pair.truth[last]));
@@ -87,7 +89,7 @@ Eigen::Matrix3d fit_rotation(const Pair& pair) {
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Matrix3d& u = svd.matrixU();
   const Eigen::Matrix3d& v = svd.matrixV();
-  // The last singular direction is turned round when the best orthogonal matrix is a reflection.
+  // The last singular direction is reversed if the best orthogonal matrix is a reflection.
   const Eigen::Vector3d sign(1.0, 1.0, (v * u.transpose()).determinant());
   return v * sign.asDiagonal() * u.transpose();
 }

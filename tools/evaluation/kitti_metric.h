@@ -1,10 +1,10 @@
-// How far an estimated trajectory is from the truth, as the KITTI odometry benchmark measures it.
+// Measures the errors of an estimated trajectory like the KITTI odometry benchmark.
 //
 // A segment starts at a frame and ends at the first frame whose distance along the truth is greater
 // than `length`. Its error is E = (T_est_first^-1 T_est_last)^-1 (T_truth_first^-1 T_truth_last);
 // |t(E)| and the angle of R(E) are divided by `length` (Geiger, Lenz, Urtasun, CVPR 2012, and the
-// benchmark's devkit). Frame i of one trajectory is frame i of the other; the longer
-// one is cut. Both are taken relative to their own first pose.
+// benchmark's devkit). Frame i of one trajectory is frame i of the other; the longer one is cut.
+// Both are taken relative to their own first pose.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,23 +26,23 @@ struct SegmentError {
 struct Score {
   double distance_m = 0.0;         // length of the truth over the frames compared
   double end_point_m = 0.0;        // |t| between the two last poses
-  double end_point_percent = 0.0;  // of the distance; NaN when the truth does not move
-  SegmentError segment;            // started at every frame
-  int frames = 0;                  // compared: the shorter trajectory's
+  double end_point_percent = 0.0;  // of the distance; NaN if the truth does not move
+  SegmentError segment;            // segments start at every frame
+  int frames = 0;                  // number of frames compared, that of the shorter trajectory
 };
 
-// Segments of one length (m), from every frame. Throws std::invalid_argument when a trajectory has
-// fewer than two poses or the length is not positive.
+// Scores segments of one length (m), starting at every frame. Throws std::invalid_argument if a
+// trajectory has fewer than two poses or the length is not positive.
 Score score(const Trajectory& estimate, const Trajectory& truth, double length_m,
             CommonRotation common_rotation = CommonRotation::kKeep);
 
-// The benchmark's own figure: lengths 100, 200, ..., 800 m, from every tenth frame, the plain mean
-// over all segments. Throws as `score`.
+// Returns the benchmark's own figure: lengths 100, 200, ..., 800 m, from every tenth frame, the
+// plain mean over all segments. Throws like score().
 SegmentError kitti_odometry_error(const Trajectory& estimate, const Trajectory& truth);
 
-// The rotation R that best maps the estimate's 25 m segments onto the truth's, R t_est ~ t_truth,
-// in the least-squares sense (Kabsch 1976, by SVD); the identity when the drive is shorter. Where
-// all segments look alike (a straight drive, a constant bend) the turn about them is not
+// Returns the rotation R that best maps the estimate's 25 m segments onto the truth's, R t_est ~
+// t_truth, in the least-squares sense (Kabsch 1976, by SVD); the identity if the drive is shorter.
+// If all segments are alike (a straight drive, a constant bend), the rotation about them is not
 // determined.
 Eigen::Matrix3d fit_common_rotation(const Trajectory& estimate, const Trajectory& truth);
 

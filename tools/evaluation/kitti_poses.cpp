@@ -19,7 +19,7 @@ constexpr double kRotationTolerance = 1e-3;
 
 using Row = std::array<double, 12>;
 
-// The twelve numbers of a line, or what is wrong with it.
+// Parses the twelve numbers of a line; returns the error, or nothing.
 std::optional<std::string> parse_row(std::string_view line, Row& row) {
   constexpr std::string_view kBlanks = " \t\r";
   std::size_t count = 0;
@@ -85,7 +85,8 @@ void write_kitti_poses(const std::filesystem::path& file, const Trajectory& traj
     }
     for (int row = 0; row < 3; ++row) {
       for (int column = 0; column < 4; ++column) {
-        std::array<char, 32> number{};  // the shortest text that gives the same bits: at most 24
+        std::array<char, 32>
+            number{};  // at most 24 characters for the shortest text that reads back bitwise equal
         const auto end = std::to_chars(number.begin(), number.end(), pose(row, column)).ptr;
         text.append(number.begin(), end);
         text += row == 2 && column == 3 ? '\n' : ' ';

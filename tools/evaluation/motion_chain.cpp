@@ -5,7 +5,8 @@
 namespace maploop::evaluation {
 namespace {
 
-// The same velocities for another time. The rotation between images is small.
+// Returns the motion with the same velocities during another time. The rotation between images is
+// small.
 Eigen::Isometry3d scaled(const Eigen::Isometry3d& motion, double factor) {
   Eigen::AngleAxisd turn(motion.linear());
   turn.angle() *= factor;
@@ -14,7 +15,7 @@ Eigen::Isometry3d scaled(const Eigen::Isometry3d& motion, double factor) {
 
 }  // namespace
 
-// The motion up to `stamp` at the velocities between the last two poses before `next`.
+// Returns the motion up to `stamp` at the velocities between the last two poses before `next`.
 Eigen::Isometry3d MotionChain::gone_on(Poses::const_iterator next, Time stamp) const {
   if (std::prev(next) == poses_.begin()) return Eigen::Isometry3d::Identity();
   const auto& [last_stamp, last] = *std::prev(next);

@@ -1,4 +1,4 @@
-// Poses from relative motions.
+// Computes poses from relative motions.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -8,12 +8,12 @@
 
 namespace maploop::evaluation {
 
-// Each motion starts at the pose of its own `from`: one that spans refused ones takes the place of
-// what was assumed for them, which is that the body goes on as it last went. Motions may come again
-// from an earlier one on, as where a replay goes back.
+// Each motion starts at the pose of its own `from`. For refused motions, the body is assumed to
+// keep its last velocities; a motion that spans them replaces this assumption. Motions may be
+// repeated from an earlier one on, for instance if a replay seeks back.
 class MotionChain {
  public:
-  // Pose of the body at the motion's stamp, in its first frame.
+  // Returns the pose of the body at the motion's stamp, in its first frame.
   const Eigen::Isometry3d& add(const RelativeMotion& motion);
 
  private:

@@ -9,9 +9,9 @@
 namespace maploop::evaluation {
 namespace {
 
-// As gzip, of the level that zlib holds for the best trade.
+// Compresses as gzip, with zlib's default level.
 std::string compressed(const std::string& text) {
-  constexpr int gzip = 15 + 16;  // the largest window, with gzip's header
+  constexpr int gzip = 15 + 16;  // the largest window, with a gzip header
   z_stream stream{};
   if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, gzip, 8, Z_DEFAULT_STRATEGY) != Z_OK)
     throw std::bad_alloc();

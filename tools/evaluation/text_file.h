@@ -1,4 +1,4 @@
-// Text files, plain or compressed.
+// Reads and writes text files, plain or compressed.
 #pragma once
 
 #include <filesystem>
@@ -9,14 +9,14 @@
 
 namespace maploop::evaluation {
 
-// The whole file; .gz and plain alike. Throws FileError.
+// Reads the whole file, .gz or plain. Throws FileError.
 inline std::string read_text(const std::filesystem::path& file) {
   return maploop::read_text(file, input_limits::track);
 }
 
-// Compressed where the name ends in .gz. The whole file, or what was there before
-// (runtime/core/whole_file.h). Throws std::runtime_error naming the file where it cannot be
-// written.
+// Writes a compressed file if the name ends in .gz. The file then contains all of `text`, or its
+// former contents after an error (runtime/core/whole_file.h). Throws std::runtime_error naming the
+// file if it cannot be written.
 void write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace maploop::evaluation

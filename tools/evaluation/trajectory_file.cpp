@@ -41,7 +41,8 @@ double to_number(std::string_view word) {
   return value;
 }
 
-// Whole and fractional part apart: a double does not hold the nanoseconds of a stamp of today.
+// Whole and fractional part are parsed separately, because a double cannot represent a present-day
+// stamp in nanoseconds.
 Time to_time(std::string_view word) {
   constexpr double kLargest = 9e9;  // s, in range of 64-bit nanoseconds
   if (std::abs(to_number(word)) > kLargest)
@@ -61,7 +62,7 @@ Eigen::Isometry3d to_pose(const Pose& p) {
   return Eigen::Translation3d(p[0], p[1], p[2]) * q.normalized();
 }
 
-// Where in a line the stamp and the seven numbers of the pose stand.
+// The indices of the stamp and of the pose's seven numbers in a line.
 struct Columns {
   std::size_t count = 8;
   std::size_t stamp = 0;
