@@ -1,6 +1,7 @@
 #include "tools/lcm_log/channel_filter.h"
 
-// POSIX's and not std::regex, whose recursion a long channel name can drive out of the stack.
+// POSIX is used instead of std::regex, whose recursion can overflow the stack for a long channel
+// name.
 #include <regex.h>
 
 #include <array>
@@ -10,7 +11,7 @@
 namespace maploop::lcm_log {
 namespace {
 
-constexpr std::size_t kMaximumDecided = 1000;  // a hostile log may have any number of channels
+constexpr std::size_t kMaximumDecided = 1000;  // a malicious log may have any number of channels
 
 }  // namespace
 
@@ -27,7 +28,7 @@ struct ChannelFilter::Pattern {
   Pattern(const Pattern&) = delete;
   Pattern& operator=(const Pattern&) = delete;
 
-  // The leftmost match is the longest one: if the whole name matches, it is the whole name.
+  // The leftmost match is the longest one, so that it is the whole name if the whole name matches.
   bool matches_whole(const std::string& name) const {
     regmatch_t match{};
     return regexec(&regex, name.c_str(), 1, &match, 0) == 0 && match.rm_so == 0 &&

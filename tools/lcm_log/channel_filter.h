@@ -1,4 +1,4 @@
-// Which channels a command works on.
+// Selects the channels that a command works on.
 #pragma once
 
 #include <memory>
@@ -11,14 +11,14 @@ namespace maploop::lcm_log {
 
 class ChannelFilter {
  public:
-  // Every channel.
+  // Selects every channel.
   ChannelFilter() = default;
 
-  // Those whose whole name the regular expression (POSIX extended) matches. Throws
-  // std::invalid_argument saying what is wrong with it.
+  // Selects the channels whose whole name the regular expression (POSIX extended) matches. Throws
+  // std::invalid_argument stating its error.
   explicit ChannelFilter(const std::string& pattern);
 
-  // Every channel but these.
+  // Selects every channel except these.
   explicit ChannelFilter(std::set<std::string, std::less<>> without);
 
   bool takes(std::string_view channel);
@@ -28,10 +28,11 @@ class ChannelFilter {
 
   bool decide(const std::string& channel) const;
 
-  std::shared_ptr<const Pattern> pattern_;  // copies of a filter share it
+  std::shared_ptr<const Pattern> pattern_;  // shared by copies of a filter
   std::set<std::string, std::less<>> without_;
-  std::unordered_map<std::string, bool> decided_;  // matching is slow beside reading
-  std::string channel_;                            // reused key
+  std::unordered_map<std::string, bool>
+      decided_;          // cached decisions: matching is slow compared with reading
+  std::string channel_;  // reused key
 };
 
 }  // namespace maploop::lcm_log

@@ -31,7 +31,7 @@ FieldDifference first_byte(Bytes a, Bytes b) {
   return {"byte " + std::to_string(at), text(a), text(b)};
 }
 
-// Different bits may show the same text: NaNs.
+// Different bits may have the same text, for instance NaNs; then the bits are shown as well.
 std::string value_text(const DecodedMessage& message, std::size_t node, std::uint32_t index,
                        bool with_bits) {
   std::string text = message.text(node, index);
@@ -39,8 +39,8 @@ std::string value_text(const DecodedMessage& message, std::size_t node, std::uin
   return text;
 }
 
-// A size that differs is a field that differs before its array does: up to the first difference,
-// both trees have the same shape.
+// The size of an array is a field before the array itself. Up to the first difference both trees
+// therefore have the same shape.
 std::optional<FieldDifference> first_field(const DecodedMessage& a, const DecodedMessage& b) {
   const std::size_t nodes = std::min(a.nodes().size(), b.nodes().size());
   for (std::size_t node = 0; node < nodes; ++node) {

@@ -30,7 +30,9 @@ double IntervalStatistics::deviation_s() const {
 std::uint64_t IntervalStatistics::longer_than_median(double factor) const {
   const auto intervals = histogram_.count();
   const double limit = factor * median_s();
-  std::uint64_t low = 0, high = intervals;  // at most `limit`: at least low, at most high
+  std::uint64_t
+      low = 0,
+      high = intervals;  // the number of intervals of at most `limit` is between low and high
   while (low < high) {
     const std::uint64_t middle = (low + high + 1) / 2;
     const double rank = static_cast<double>(middle) - 0.5;

@@ -1,4 +1,4 @@
-// The intervals between one channel's messages, in bounded memory.
+// Statistics of the intervals between one channel's messages, in bounded memory.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace maploop::lcm_log {
 
 class IntervalStatistics {
  public:
-  // Times in microseconds, in the order of the log.
+  // Times are in microseconds, in the order of the log.
   void add(std::int64_t time_us);
 
   double median_s() const { return to_seconds(histogram_.percentile(0.5)); }
@@ -18,7 +18,7 @@ class IntervalStatistics {
   std::int64_t longest_from_us() const { return longest_from_us_; }
   std::uint64_t backwards() const { return backwards_; }
 
-  // Intervals longer than `factor` times the median.
+  // Returns the number of intervals longer than `factor` times the median.
   std::uint64_t longer_than_median(double factor) const;
 
  private:

@@ -23,7 +23,7 @@ struct Channel {
 };
 using Channels = std::map<std::string, Channel, std::less<>>;
 
-// A message that is to be shown.
+// A message to be shown.
 struct Wanted {
   std::uint64_t number = 0;
   std::uint64_t seen = 0;
@@ -105,7 +105,8 @@ void describe_first_differences(const std::filesystem::path& a, const std::files
   }
 }
 
-// What LCM sends to itself when somebody connects to the bus is of no run.
+// LCM sends this test message to itself when a program connects to the bus; it does not belong to a
+// run.
 bool compared(ChannelFilter& filter, std::string_view channel) {
   return channel != "LCM_SELF_TEST" && filter.takes(channel);
 }

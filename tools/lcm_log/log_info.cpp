@@ -19,7 +19,8 @@ using nlohmann::json;
 
 constexpr std::size_t kMaximumCounted = 1000;  // 33 MB
 constexpr std::size_t kMaximumTypes = 8;
-constexpr double kGapFactor = 2.5;  // two messages missing at a steady rate, or one and much jitter
+constexpr double kGapFactor =
+    2.5;  // two messages missing at a steady rate, or one with much jitter
 
 struct CountedChannel {
   ChannelInfo info;
@@ -193,7 +194,7 @@ void write_json(const std::filesystem::path& file, const LogInfo& info) {
                     {"damages", info.damages},
                     {"damaged_bytes", info.damaged_bytes},
                     {"channels", channels}};
-  // A channel's name may be any bytes.
+  // A channel's name may contain any bytes.
   runtime::write_whole_file(file, all.dump(2, ' ', false, json::error_handler_t::replace) + '\n');
 }
 

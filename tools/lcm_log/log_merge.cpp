@@ -11,7 +11,7 @@
 namespace maploop::lcm_log {
 namespace {
 
-// Goes on to the reader's next event; false at the end of its log.
+// Advances to the reader's next event; returns false at the end of its log.
 bool next_event(LogReader& reader, MergeResult& result) {
   for (auto item = reader.next(); item != LogReader::Item::end; item = reader.next()) {
     if (item == LogReader::Item::event) return true;
@@ -26,7 +26,7 @@ bool next_event(LogReader& reader, MergeResult& result) {
 MergeResult merge(std::span<const std::filesystem::path> logs, const schema::Schema& schema,
                   const std::filesystem::path& output) {
   MergeResult result;
-  std::vector<std::unique_ptr<LogReader>> waiting;  // each at an event, in the order of their names
+  std::vector<std::unique_ptr<LogReader>> waiting;  // each at an event, in the order of `logs`
   std::uint64_t all_bytes = 0, done_bytes = 0;
   for (const auto& log : logs) {
     refuse_same_file(log, output);

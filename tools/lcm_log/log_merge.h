@@ -1,4 +1,4 @@
-// Several logs as one, by time.
+// Merges several logs into one, by time.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,10 @@ struct MergeResult {
   std::uint64_t damages = 0, damaged_bytes = 0;  // left out
 };
 
-// Always the earliest of the logs' next events; of equally early ones that of the log named first.
-// So the order inside each log is kept, also where its own times go back. Throws std::runtime_error
-// when a file cannot be read or written, std::invalid_argument when the output is one of the logs.
+// Writes always the earliest of the logs' next events; among equally early ones that of the log
+// named first. The order inside each log is therefore kept, even if its own times go back. Throws
+// std::runtime_error if a file cannot be read or written, std::invalid_argument if the output is
+// one of the logs.
 MergeResult merge(std::span<const std::filesystem::path> logs, const schema::Schema& schema,
                   const std::filesystem::path& output);
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t kSmallestEvent = kHeaderBytes + 1;
 
-// An event of its own, apart from its reader.
+// A copy of an event that is independent of its reader.
 struct HeldEvent {
   std::int64_t number = 0;
   std::int64_t time_us = 0;
@@ -24,7 +24,7 @@ struct HeldEvent {
   std::vector<std::uint8_t> data;
 };
 
-// Writes events, each when its neighbours are known, with a time that fits theirs.
+// Writes each event after its neighbours are known, with a time that fits theirs.
 class TimeRepairer {
  public:
   TimeRepairer(LogWriter& writer, const RecoverParameters& parameters, Recovery& result)
@@ -47,10 +47,10 @@ class TimeRepairer {
     return seconds_between(a_us, b_us) > parameters_.max_disorder_s;
   }
 
-  // The time that the first held event ought to have.
+  // Returns the corrected time of the first held event.
   std::int64_t right_time() const {
     const std::int64_t time = held_[0].time_us;
-    if (!last_us_) {  // the log's first event: the next two must agree that it is too late
+    if (!last_us_) {  // the log's first event is too late only if the next two agree
       const bool late = held_.size() == 3 && earlier(held_[1].time_us, time) &&
                         earlier(held_[2].time_us, time) &&
                         !earlier(held_[2].time_us, held_[1].time_us);
@@ -89,7 +89,7 @@ class TimeRepairer {
   std::optional<std::int64_t> last_us_;
 };
 
-// Joins damage and the events on both its sides to an account of what is lost.
+// Combines damage with the events on both sides into an account of the losses.
 class LossAccount {
  public:
   LossAccount(const RecoverParameters& parameters, Recovery& result)
@@ -130,13 +130,13 @@ class LossAccount {
     last_is_doubtful_ = event.doubtful;
   }
 
-  // `number` and `time_us`: of the event after the loss.
+  // `number` and `time_us` are those of the event after the loss.
   void close(std::optional<std::int64_t> number, std::optional<std::int64_t> time_us) {
     if (!open_) return;
     open_->before_us = time_us;
-    // More events than the bytes could hold: one of the numbers is damaged itself.
+    // If more events are missing than the bytes could hold, one of the numbers is damaged.
     const std::uint64_t room = (open_->end - open_->begin) / kSmallestEvent;
-    // As unsigned numbers their distance overflows nothing.
+    // The difference of unsigned numbers cannot overflow.
     const std::uint64_t missing =
         number ? static_cast<std::uint64_t>(*number) - static_cast<std::uint64_t>(last_number_) - 1
                : 0;
@@ -159,7 +159,7 @@ class LossAccount {
 
   const RecoverParameters& parameters_;
   Recovery& result_;
-  std::optional<Loss> open_;  // its right side is not known yet
+  std::optional<Loss> open_;  // the event after the loss is not known yet
   std::int64_t last_number_ = -1;
   std::optional<std::int64_t> last_us_;
   bool last_is_doubtful_ = false;

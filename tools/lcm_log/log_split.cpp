@@ -59,11 +59,11 @@ class Pieces {
   }
 
  private:
-  // Whether the event no longer belongs to the piece that is open.
+  // Whether the event belongs to the next piece.
   bool begins_piece(const LogEvent& event) {
     if (!parameters_.every) return false;
     if (const auto& seconds = parameters_.every->seconds) {
-      // In microseconds, which are whole: 0.3 s / 0.1 s would be a little less than 3.
+      // Whole microseconds are used, because 0.3 s / 0.1 s is slightly less than 3 in doubles.
       const double since_us = std::round(seconds_between(*first_us_, event.time_us) * 1e6);
       const double piece = std::floor(since_us / std::round(*seconds * 1e6));
       if (piece <= piece_) return false;

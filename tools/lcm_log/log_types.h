@@ -1,4 +1,4 @@
-// The message types that the log tools know.
+// Loads the message types that the log tools know.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace maploop::lcm_log {
 
-// The project's own, and those of other .lcm files. Throws std::runtime_error naming the file (and
-// line) that cannot be read.
+// Returns the project's own types and those of other .lcm files. Throws std::runtime_error naming
+// the file (and line) that cannot be read.
 schema::Schema load_types(std::span<const std::filesystem::path> files);
 
 }  // namespace maploop::lcm_log

@@ -10,7 +10,7 @@
 namespace maploop::lcm_log {
 namespace {
 
-constexpr std::size_t kMaximumTimed = 1000;  // whose last time is kept
+constexpr std::size_t kMaximumTimed = 1000;  // channels whose last time is kept
 
 class Verifier {
  public:

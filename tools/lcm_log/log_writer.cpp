@@ -21,7 +21,7 @@ struct LogWriter::Stream {
 
 LogWriter::LogWriter(const std::filesystem::path& file)
     : file_(file), part_(file.string() + ".part"), stream_(std::make_unique<Stream>()) {
-  // A folder, or a device such as /dev/null, which must not be replaced by a file.
+  // A folder, or a device such as /dev/null, must not be replaced by a file.
   std::error_code missing;
   const auto status = std::filesystem::status(file, missing);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
@@ -36,7 +36,7 @@ LogWriter::LogWriter(const std::filesystem::path& file)
 LogWriter::~LogWriter() {
   if (stream_->file == nullptr) return;
   stream_.reset();
-  std::error_code ignored;  // nobody is left to tell
+  std::error_code ignored;  // a destructor cannot report an error
   std::filesystem::remove(part_, ignored);
 }
 

@@ -1,4 +1,4 @@
-// Writes an LCM log, plain or (where its name ends in .gz) compressed.
+// Writes an LCM log, plain or (if its name ends in .gz) compressed.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace maploop::lcm_log {
 
-// The log has its name from close() on; until then, and where close() is never reached, what was
-// there before stays. Events are numbered from 0, as LCM's own writer does.
+// The log gets its name in close(). Until then, and if close() is never called, a former file of
+// that name stays. Events are numbered from 0, like those of LCM's own writer.
 class LogWriter {
  public:
-  // Throws std::runtime_error naming the file when it cannot be written, here and below.
+  // This and the functions below throw std::runtime_error naming the file if it cannot be written.
   explicit LogWriter(const std::filesystem::path& file);
   ~LogWriter();
   LogWriter(const LogWriter&) = delete;
@@ -38,7 +38,7 @@ class LogWriter {
   std::uint64_t bytes_ = 0;
 };
 
-// Throws std::invalid_argument where `output` is the same file as `input`.
+// Throws std::invalid_argument if `output` is the same file as `input`.
 void refuse_same_file(const std::filesystem::path& input, const std::filesystem::path& output);
 
 }  // namespace maploop::lcm_log

@@ -1,4 +1,4 @@
-// A progress line on the terminal, for work that takes longer than a second.
+// Shows a progress line on the terminal, for work that takes longer than a second.
 #pragma once
 
 #include <chrono>
@@ -6,16 +6,16 @@
 
 namespace maploop::lcm_log {
 
-// Shows nothing where standard error is no terminal.
+// It shows nothing if standard error is not a terminal.
 class Progress {
  public:
-  // `total`: bytes of all work; 0: not known.
+  // `total` is the number of bytes of all work; 0: unknown.
   explicit Progress(std::uint64_t total);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // Cheap enough for each event: looks at the clock once in 256 calls.
+  // It is cheap enough to be called for each event: it reads the clock once in 256 calls.
   void at(std::uint64_t done) {
     if (terminal_ && (++calls_ & 255U) == 0) show(done);
   }
