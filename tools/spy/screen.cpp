@@ -14,7 +14,7 @@ constexpr char escape = '\x1b';
 constexpr std::size_t page = 10;
 constexpr const char* help = "up/down: channel   PgUp/PgDn: fields   /: filter   q: quit";
 
-// Lines of one picture, cut to the terminal's width.
+// The lines of one picture, cut to the terminal's width.
 class Lines {
  public:
   Lines(std::size_t rows, std::size_t columns) : rows_(rows), columns_(columns) {}
@@ -39,7 +39,8 @@ constexpr const char* reverse = "\x1b[7m";
 
 lcm_log::ChannelFilter filter_of(const std::string& expression) {
   if (expression.empty()) return {};
-  lcm_log::ChannelFilter{expression};  // ")(" is none, though it were with the rest around it
+  lcm_log::ChannelFilter{expression};  // throws for ")(", which is invalid, although the expression
+                                       // below would be valid
   return lcm_log::ChannelFilter(".*(" + expression + ").*");
 }
 
@@ -51,7 +52,7 @@ Screen::Screen(const schema::Schema& schema, std::string source, const std::stri
 
 void Screen::press(char key) {
   if (key == escape) {
-    sequence_ = key;  // alone it ends the typing; an arrow's goes on
+    sequence_ = key;  // alone it ends the typing; the sequence of an arrow continues
     typing_ = false;
     return;
   }
@@ -59,7 +60,7 @@ void Screen::press(char key) {
     sequence_ += key;
     const bool ends = sequence_.size() > 2 && key >= '@' && key <= '~';
     if (sequence_.size() == 2 && key != '[' && key != 'O') {
-      sequence_.clear();  // the escape was a key of its own, and so is this one
+      sequence_.clear();  // the escape was a separate key, and so is this one
     } else {
       if (ends) obey(std::exchange(sequence_, {}));
       return;
@@ -113,7 +114,7 @@ std::string Screen::picture(const Traffic& traffic, Duration now, std::size_t ro
   if (selected != selected_) first_field_ = 0;
   selected_ = selected;
 
-  Lines lines(rows - std::min<std::size_t>(rows, 1), columns);  // the last row is the help's
+  Lines lines(rows - std::min<std::size_t>(rows, 1), columns);  // the last row shows the help
   std::string title = "maploop spy  " + printable(source_) + "  " +
                       std::to_string(channels.size()) + " channels, " +
                       std::to_string(traffic.count()) + " messages";

@@ -1,5 +1,5 @@
-// The spy on a terminal: which channel is looked at, what has been typed, and the picture of it
-// all.
+// The state of the spy on a terminal: the selected channel, the typed text, and the resulting
+// picture.
 #pragma once
 
 #include <cstddef>
@@ -11,21 +11,21 @@
 
 namespace maploop::spy {
 
-// The channels whose name the regular expression matches anywhere; all for an empty one. Throws
-// std::invalid_argument saying what is wrong with it.
+// Selects the channels whose name the regular expression matches anywhere; all if it is empty.
+// Throws std::invalid_argument stating its error.
 lcm_log::ChannelFilter filter_of(const std::string& expression);
 
-// One thread's own.
+// An object belongs to one thread.
 class Screen {
  public:
-  // `expression`: the filter to begin with, which must be valid. The schema must outlive it.
+  // `expression` is the initial filter, which must be valid. The schema must outlive it.
   Screen(const schema::Schema& schema, std::string source, const std::string& expression);
 
-  // A key as the terminal sends it; an arrow comes in three.
+  // Takes a key as the terminal sends it; an arrow consists of three.
   void press(char key);
   bool quit() const { return quit_; }
 
-  // The whole picture for a terminal of this size.
+  // Returns the whole picture for a terminal of this size.
   std::string picture(const Traffic& traffic, Duration now, std::size_t rows, std::size_t columns);
 
  private:
@@ -37,10 +37,10 @@ class Screen {
   std::string expression_;
   lcm_log::ChannelFilter filter_;
   std::string selected_;  // a channel's name
-  long moves_ = 0;        // of the selection, since the last picture
+  long moves_ = 0;        // moves of the selection since the last picture
   std::size_t first_field_ = 0;
-  std::string sequence_;  // an escape sequence that is still coming
-  bool typing_ = false;   // a filter
+  std::string sequence_;  // an incomplete escape sequence
+  bool typing_ = false;   // whether a filter is being typed
   std::string typed_;
   std::string complaint_;
   bool quit_ = false;

@@ -25,7 +25,7 @@ json nullable(const auto& value) {
   return value ? json(*value) : json(nullptr);
 }
 
-// "covariance[0][0]" of an array's first value: "covariance".
+// Returns the path of an array without indices: "covariance" for "covariance[0][0]".
 std::string array_path(const schema::DecodedMessage& message, std::size_t node) {
   std::string path = message.path(node);
   if (message.nodes()[node].count > 0) {
@@ -46,7 +46,7 @@ std::string array_line(const schema::DecodedMessage& message, std::size_t node) 
   return line;
 }
 
-// A column of its own.
+// Returns a name without spaces, so that it stays one column.
 std::string one_word(std::string_view name) {
   std::string word = printable(name);
   std::replace(word.begin(), word.end(), ' ', '?');

@@ -1,4 +1,4 @@
-// What the spy shows, as text.
+// Formats the output of the spy as text.
 #pragma once
 
 #include <span>
@@ -11,23 +11,23 @@
 
 namespace maploop::spy {
 
-// Without what a terminal would obey: bytes that cannot be printed are '?'.
+// Replaces control characters by '?', so that the terminal does not execute them.
 std::string printable(std::string_view text);
 
-// One line, columns apart by spaces: CHANNEL TYPE COUNT RATE_HZ JITTER_MS AGE_S SILENT_S BYTES LOST
-// BAD. "-" where there is nothing to say.
+// Return one line with columns separated by spaces: CHANNEL TYPE COUNT RATE_HZ JITTER_MS AGE_S
+// SILENT_S BYTES LOST BAD. "-" stands for an unknown value.
 std::string table_header();
 std::string table_row(const ChannelStatus& status);
 
-// One line, one JSON object; null where there is nothing to say.
+// Returns one JSON object on one line; null stands for an unknown value.
 std::string json_row(const ChannelStatus& status);
 
-// One "path = value" a line; of an array of numbers its sizes and the first few values.
+// Returns lines "path = value"; for an array of numbers its sizes and the first few values.
 std::vector<std::string> field_lines(const schema::Schema& schema,
                                      std::span<const std::uint8_t> message);
 
-// The runs, rings, deadlines and degraded modes in a line each, from the last HEALTH and DEADLINES;
-// nothing where these have not come or are not ours.
+// Returns lines about the runs, rings, deadlines and degraded modes, from the last HEALTH,
+// DEADLINES and PPP_STATE; nothing for messages that have not arrived or are not maploop's.
 std::vector<std::string> vehicle_lines(const schema::Schema& schema, const Traffic& traffic);
 
 }  // namespace maploop::spy

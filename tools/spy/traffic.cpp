@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t maximum_channels = 1000;
 constexpr std::size_t maximum_arrivals = 4096;
 
-// Between the first and the last arrival.
+// Returns the rate between the first and the last arrival, Hz.
 std::optional<double> rate(const std::deque<Duration>& arrivals) {
   if (arrivals.size() < 2 || arrivals.back() == arrivals.front()) return {};
   return static_cast<double>(arrivals.size() - 1) / to_seconds(arrivals.back() - arrivals.front());
@@ -38,8 +38,8 @@ std::optional<std::int64_t> integer(const schema::DecodedMessage& message, std::
   return number != nullptr ? std::optional(*number) : std::nullopt;
 }
 
-// Of the message itself, of its `header`, or of a message that it begins with: what our types and
-// LCM's custom call time and number.
+// Stamps and sequence of the message itself, of its `header`, or of a message that is its first
+// member, by the names that our types and LCM convention use.
 struct Header {
   std::optional<std::int64_t> stamp_ns, utime, sequence;
 };

@@ -1,4 +1,4 @@
-// What comes on the channels of a bus or a log, counted.
+// Counts the messages on the channels of a bus or a log.
 #pragma once
 
 #include <cstdint>
@@ -18,43 +18,45 @@
 
 namespace maploop::spy {
 
-// Nothing where it cannot be said: a rate of one message, an age without a stamp in the message,
+// An empty value is unknown: the rate after one message, an age without a stamp in the message,
 // losses without a sequence in its header.
 struct ChannelStatus {
   std::string name;
-  std::string type;                // of the last message; its fingerprint where nobody declared it
+  std::string type;  // type of the last message, or its fingerprint if the type is not declared
   std::uint64_t count = 0;         // messages so far
   std::optional<double> rate_hz;   // over the window
   std::optional<double> jitter_s;  // standard deviation of the intervals in the window
-  std::optional<double> age_s;     // its last stamp behind the newest one of all channels
-  double silent_s = 0.0;           // since its last message came
-  std::size_t bytes = 0;           // of the last message
-  std::optional<std::uint64_t> lost;  // gaps of the sequence
-  std::uint64_t bad = 0;              // messages of no known type, or not as their type says
+  std::optional<double> age_s;  // difference of its last stamp and the newest one on all channels
+  double silent_s = 0.0;        // since its last message arrived
+  std::size_t bytes = 0;        // of the last message
+  std::optional<std::uint64_t> lost;  // messages missing in the sequence
+  std::uint64_t bad = 0;              // messages of unknown type, or not as their type defines
 };
 
-// Ages are of the data's time and not of this machine's: a replay's stamps are years old, and a
-// vehicle's clock need not be ours. So the newest stamp on any channel is `now`, and a channel that
-// falls behind shows it. What starts again from the beginning (its sequence goes back) is no loss.
+// Ages are differences of data time and do not use this machine's clock: a replay's stamps are
+// years old, and a vehicle's clock may differ from ours. Therefore the newest stamp on any channel
+// is `now`, and the age of a channel that falls behind grows. A sequence that goes back has
+// restarted and is not counted as loss.
 class Traffic {
  public:
   // The schema must outlive it.
   Traffic(const schema::Schema& schema, Duration window) : schema_(schema), window_(window) {}
 
-  // `arrived` on any clock that does not go back.
+  // `arrived` is on any clock that does not go back.
   void add(std::string_view channel, std::span<const std::uint8_t> data, Duration arrived);
 
-  // By name, those that the filter takes; `now` on the clock of the arrivals.
+  // Returns by name the channels that the filter selects; `now` is on the clock of the arrivals.
   std::vector<ChannelStatus> status(Duration now, lcm_log::ChannelFilter& filter) const;
 
-  // The last message of a channel; empty where there is none.
+  // Returns the last message of a channel, or an empty span.
   std::span<const std::uint8_t> last(std::string_view channel) const;
 
-  // Those that publish, as of the last message.
+  // Returns the runs that published at the time of the last message.
   std::vector<vehicle::Run> runs() const { return runs_.present(arrived_); }
 
   std::uint64_t count() const { return count_; }
-  // On channels beyond the first thousand, which are not told apart.
+  // Returns the number of messages on channels beyond the first thousand, which are not
+  // distinguished.
   std::uint64_t elsewhere() const { return elsewhere_; }
 
  private:
@@ -62,7 +64,7 @@ class Traffic {
     std::vector<std::uint8_t> last;
     std::string type;
     std::uint64_t count = 0, bad = 0;
-    std::deque<Duration> arrivals;  // within the window, not too many
+    std::deque<Duration> arrivals;  // within the window, at most maximum_arrivals
     std::optional<Time> stamp;
     std::optional<std::int64_t> sequence;
     std::uint64_t lost = 0;

@@ -73,7 +73,7 @@ std::vector<std::string> vehicle_lines(const schema::Schema& schema, const Traff
                     " runs publish here: each line below may be of any of them; give each a bus of "
                     "its own (--lcm-url)");
   }
-  // What another publisher sent may have a right form and no meaning: it makes no line.
+  // A message of another publisher may have the correct form but invalid values: it makes no line.
   const auto of_last = [&](auto message, std::string_view channel, const auto& add) {
     if (!schema::checked_decode(schema, traffic.last(channel), message)) return;
     try {
