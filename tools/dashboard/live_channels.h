@@ -1,4 +1,5 @@
-// The newest message of each channel, for any number of browsers that each look at their own pace.
+// Stores the newest message of each channel for any number of browsers, each of which reads at its
+// own pace.
 #pragma once
 
 #include <chrono>
@@ -11,7 +12,8 @@
 
 namespace maploop::dashboard {
 
-// A browser that is slow misses messages in between, and never holds up anybody. For any threads.
+// A slow browser misses messages in between and never blocks any other thread. All functions may be
+// called from any thread.
 class LiveChannels {
  public:
   struct Message {
@@ -21,8 +23,8 @@ class LiveChannels {
 
   void put(const std::string& channel, std::string json);
 
-  // What is newer than `seen`, which is then brought up to date; waits up to `at_most` for it.
-  // Empty when nothing came, or after close().
+  // Returns the messages newer than `seen` and updates `seen`; waits up to `at_most` for one.
+  // Returns nothing if none arrived, or after close().
   std::vector<Message> newer(std::uint64_t& seen, std::chrono::milliseconds at_most);
 
   // Ends all waiting.

@@ -40,7 +40,7 @@ json number(const schema::Value& value) {
       value);
 }
 
-// The numbers of an array, whose sizes are outermost first.
+// Returns the numbers of an array; `sizes` are outermost first.
 json numbers(const schema::DecodedMessage& message, std::size_t node,
              std::span<const std::uint32_t> sizes, std::uint32_t& index) {
   json list = json::array();

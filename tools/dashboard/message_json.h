@@ -1,4 +1,4 @@
-// LCM messages as JSON, for browsers.
+// Converts LCM messages to JSON, for browsers.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace maploop::dashboard {
 
-// Fields by their names as in the .lcm file, arrays as lists. Of what a page does not show
-// histograms are left out, which are most of DEADLINES; an array of bytes is a string in base64.
-// Numbers that are not finite are null; text that is no UTF-8 has its bytes replaced.
+// Fields have the names of the .lcm file, arrays are lists. Histograms, which are the largest part
+// of DEADLINES and which no page shows, are left out; an array of bytes is a string in base64.
+// Numbers that are not finite are null; invalid UTF-8 in texts is replaced.
 std::string to_json(const schema::DecodedMessage& message);
 
 }  // namespace maploop::dashboard

@@ -21,7 +21,7 @@ using Control = maploop_lcm::replay_control_t;
 constexpr std::size_t most_channels = 64;
 constexpr std::size_t longest_verdict = 400;
 
-// Of texts that anybody may have sent.
+// Texts may come from any sender, so that invalid UTF-8 is replaced.
 std::string text_of(const nlohmann::json& value) {
   return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }

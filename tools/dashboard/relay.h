@@ -1,4 +1,4 @@
-// From the bus to the browsers, and back.
+// Relays messages from the bus to the browsers, and encodes their commands.
 #pragma once
 
 #include <cstdint>
@@ -16,19 +16,21 @@
 
 namespace maploop::dashboard {
 
-// take() and pass_on() on one thread; trail() on any.
+// take() and pass_on() must be called on one thread; trail() may be called on any.
 class Relay {
  public:
   // `channels` must outlive it.
   explicit Relay(LiveChannels& channels);
 
-  // A message of any channel, on a steady clock. Channels of whole images and scans, commands to
-  // players and what is no message of our types are left out; the latter are counted.
+  // Takes a message of any channel; `now` is on a steady clock. Channels of whole images and scans,
+  // commands to players, and messages that are not of our types are left out; the latter are
+  // counted.
   void take(std::string_view channel, std::span<const std::uint8_t> data, Duration now);
 
-  // The newest message of each channel that had one since the last call; and on RUNS, where they
-  // have changed, the runs that publish: [{"id", "what", "player": its state, or null}]. A run's
-  // end is on VERDICT at once: {"id", "what", "lines": three of text}.
+  // Publishes the newest message of each channel that had one since the last call, and on RUNS, if
+  // they have changed, the runs that publish: [{"id", "what", "player": its state, or null}]. The
+  // end of a run is published on VERDICT immediately by take(): {"id", "what", "lines": three of
+  // text}.
   void pass_on(Duration now);
 
   std::string trail() const;
@@ -46,16 +48,16 @@ class Relay {
   schema::Schema schema_;
   std::map<std::string, Waiting, std::less<>> waiting_;
   vehicle::RunsHeard runs_;
-  std::map<std::string, std::vector<std::uint8_t>> players_;  // last states, by run
+  std::map<std::string, std::vector<std::uint8_t>> players_;  // last encoded states, by run
   std::string said_runs_;
   std::uint64_t not_understood_ = 0;
   mutable std::mutex trail_mutex_;
   Trail trail_;
 };
 
-// An encoded replay_control_t for the player of a run (its id), a command by its name: pause,
-// resume, step-sample, step-image, seek (s into the drive), speed, next-miss, quit. Empty where
-// there is no such command.
+// Returns an encoded replay_control_t for the player of a run (its id). `kind` is the name of the
+// command: pause, resume, step-sample, step-image, seek (s into the drive), speed, next-miss, quit.
+// Returns nothing if there is no such command.
 std::vector<std::uint8_t> encoded_command(const std::string& run, const std::string& kind,
                                           double value);
 

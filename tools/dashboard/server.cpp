@@ -17,7 +17,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr std::size_t threads = Server::most_browsers + 8;  // each browser holds one
+constexpr std::size_t threads = Server::most_browsers + 8;  // each browser occupies one
 constexpr milliseconds look_every{100};
 constexpr milliseconds sign_of_life{1000};
 
@@ -29,7 +29,7 @@ std::string page() {
          std::string(web::dashboard_script()) + "</script>\n</body></html>\n";
 }
 
-// "[::1]:8080" without its port.
+// Removes the port: "[::1]" for "[::1]:8080".
 std::string_view without_port(std::string_view host) {
   const std::size_t colon = host.rfind(':'), bracket = host.rfind(']');
   const bool has_port =
@@ -41,9 +41,9 @@ bool is_numeric(std::string_view host) {
   return host.starts_with('[') || host.find_first_not_of("0123456789.") == std::string_view::npos;
 }
 
-// A page of another site may send requests here from a browser on this machine: its Origin differs,
-// or, where its own name was made to mean this machine, its Host is not one that we listen at. The
-// port is not looked at, so that a tunnel to it works.
+// A page of another site may send requests here from a browser on this machine. Its Origin differs;
+// or, if its own name was made to resolve to this machine, its Host is not one that we listen at.
+// The port is not compared, so that a tunnel to the dashboard works.
 bool from_elsewhere(const httplib::Request& request, const std::string& listens_at) {
   const std::string with_port = request.get_header_value("Host");
   const std::string_view host = without_port(with_port);
@@ -55,7 +55,8 @@ bool from_elsewhere(const httplib::Request& request, const std::string& listens_
   return !ours || (!origin.empty() && origin != "http://" + with_port);
 }
 
-// Without httplib's SO_REUSEPORT, by which two dashboards would share a port and its requests.
+// Sets the options without httplib's SO_REUSEPORT, by which two dashboards would share a port and
+// its requests.
 void own_port(int socket) {
   const int yes = 1;
   setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -106,7 +107,7 @@ void Server::Http::stream(httplib::Response& response) {
           text += "data: {\"channel\":\"" + m.channel + "\",\"message\":" + m.json + "}\n\n";
         }
         if (channels.closed()) return false;
-        if (text.empty()) text = ": still here\n\n";  // how a connection that is gone is found
+        if (text.empty()) text = ": still here\n\n";  // detects a closed connection
         if (!sink.write(text.data(), text.size())) return false;
         std::this_thread::sleep_for(look_every);
         return true;
@@ -190,7 +191,7 @@ Server::Server(const std::string& address, int port, LiveChannels& channels, Han
     http->server.listen_after_bind();
     http->ended = true;
   });
-  // Before it runs it would not hear stop().
+  // Before the server runs, it would ignore stop().
   while (!http_->server.is_running() && !http_->ended) std::this_thread::sleep_for(milliseconds(1));
 }
 

@@ -1,4 +1,4 @@
-// Where the vehicle has been, for browsers that come later.
+// Stores the path of the vehicle for browsers that connect later.
 #pragma once
 
 #include <deque>
@@ -9,15 +9,16 @@
 
 namespace maploop::dashboard {
 
-// Some points a second, the newest twenty minutes. What lies after the newest stamp is forgotten: a
-// replay may go back. A new origin starts it again. One thread's own.
+// It stores five points a second of the newest twenty minutes. A point removes all points with
+// later stamps, because a replay may seek back. A new origin clears it. An object belongs to one
+// thread.
 class Trail {
  public:
   void add(const NavState& state);
-  void add(const ReferencePose& truth);  // kept once there is a state
+  void add(const ReferencePose& truth);  // ignored before the first state
 
-  // {"origin": [latitude, longitude, height (rad, m)], "fused": [[s, east, north], ...], "truth":
-  // ...}
+  // Returns {"origin": [latitude, longitude, height (rad, m)], "fused": [[s, east, north], ...],
+  // "truth": ...}.
   std::string json() const;
 
  private:
