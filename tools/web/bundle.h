@@ -1,19 +1,19 @@
-// What npm has made of src/. Where maploop was built without npm the scripts are empty.
+// The bundles that npm makes of src/. The scripts are empty if maploop was built without npm.
 #pragma once
 
 #include <string_view>
 
 namespace maploop::web {
 
-// Of written pages.
+// For written pages.
 std::string_view page_script();
 std::string_view page_style();
 
-// Of the live dashboard.
+// For the live dashboard.
 std::string_view dashboard_script();
 std::string_view dashboard_style();
 
-// Of the page of `maploop match`.
+// For the page of `maploop match`.
 std::string_view match_script();
 std::string_view match_style();
 

@@ -13,7 +13,8 @@ namespace {
 
 using tools::escaped;
 
-// Names may hold anything, also what is no UTF-8; and inside a script element "</" would end it.
+// Names may contain anything, including invalid UTF-8; and "</" inside a script element would end
+// it.
 std::string quoted(const std::string& text) {
   std::string json =
       nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);

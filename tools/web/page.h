@@ -1,4 +1,4 @@
-// Pages in one file that need nothing but a browser: text, tables, and pictures to zoom into.
+// Writes pages in one file that only need a browser: text, tables, and zoomable pictures.
 #pragma once
 
 #include <string>
@@ -10,16 +10,17 @@
 namespace maploop::web {
 
 // The text and the tables of a page are plain HTML; its pictures are drawn by the script inside it.
-// Where maploop was built without npm there is no script, and each picture's place says so.
+// If maploop was built without npm there is no script, and a text in place of each picture states
+// this.
 class Page {
  public:
   // `heading` is plain text.
   explicit Page(std::string_view heading);
 
-  // Text that must be HTML already (tools/html_text.h).
+  // `html` must already be HTML (tools/html_text.h).
   Page& add(std::string_view html);
   Page& add(const Plot& plot);
-  // Side by side where there is room.
+  // Adds the pictures side by side if there is room.
   Page& add(const std::vector<Plot>& plots);
 
   std::string text() const;
@@ -32,10 +33,11 @@ class Page {
 
 using Row = std::vector<std::string>;
 
-// HTML of a table that can be moved sideways where it is wider than the screen; texts are plain.
+// Returns the HTML of a table that scrolls sideways if it is wider than the screen; texts are
+// plain.
 std::string table(const Row& heading, const std::vector<Row>& rows);
 
-// As JSON, seven digits of each number.
+// Returns the plot as JSON, with seven digits of each number.
 std::string to_json(const Plot& plot);
 
 }  // namespace maploop::web

@@ -1,4 +1,4 @@
-// What a picture on a page shows; the page's script draws it.
+// The contents of a picture on a page; the page's script draws it.
 #pragma once
 
 #include <optional>
@@ -15,13 +15,13 @@ struct Line {
   Look look = Look::solid;
 };
 
-// Filled between two lines.
+// A filled area between two lines.
 struct Band {
   std::string name;
   std::vector<double> x, low, high;  // same lengths
 };
 
-// A value of x that is marked: a deadline.
+// A marked value of x, for instance a deadline.
 struct Mark {
   double value = 0.0;
   std::string name;
@@ -30,8 +30,8 @@ struct Mark {
 struct Plot {
   std::string title, x_label, y_label;
   std::vector<Line> lines = {};
-  bool equal_axes = false;       // a map: one metre is as long on both axes
-  std::vector<Line> roads = {};  // of a map, beneath the lines
+  bool equal_axes = false;       // for maps: a metre has the same length on both axes
+  std::vector<Line> roads = {};  // for maps, beneath the lines
   bool x_log = false, y_log = false;
   std::vector<Band> bands = {};
   std::optional<Mark> x_mark = std::nullopt;
