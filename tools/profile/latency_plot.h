@@ -1,4 +1,4 @@
-// The pictures of a profile.
+// Draws the pictures of a profile.
 #pragma once
 
 #include <string>
@@ -15,12 +15,12 @@ struct Curve {
   HistogramData histogram;
 };
 
-// The share of values longer than a time, both axes logarithmic. deadline 0: none.
+// Plots the share of values longer than a time, with both axes logarithmic. `deadline` 0: none.
 web::Plot latency_plot(const std::string& title, const std::vector<Curve>& curves,
                        Duration deadline);
 
-// HTML: one bar a miss in the order of their stamps, from release to result, in its parts. What a
-// path was allowed is grey.
+// Returns HTML with one bar for each miss in the order of their stamps, from release to result,
+// divided into its parts. The time that the graph allows a path is grey.
 std::string miss_bars(std::vector<WorstMiss> worst, Time end);
 
 }  // namespace maploop::profile

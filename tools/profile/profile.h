@@ -1,4 +1,4 @@
-// What DEADLINES and HEALTH of one run say of where its time went.
+// Evaluates the DEADLINES and HEALTH of one run: where its time was spent.
 #pragma once
 
 #include <cstdint>
@@ -11,47 +11,47 @@
 
 namespace maploop::profile {
 
-// Percentiles of one latency, as recorded and with the waits that stalls hid.
+// Percentiles of one latency, as recorded, and corrected by the waits that stalls hid.
 struct Latency {
   LatencySummary recorded;
   Duration corrected_p99{}, corrected_p999{};
-  std::uint64_t omitted = 0;  // waits added for the corrected ones
+  std::uint64_t omitted = 0;  // waits added for the corrected percentiles
 };
 
 struct WorstMiss {
-  std::string of;  // the thread or path
+  std::string of;  // name of the thread or path
   Duration deadline{};
   MissedDeadline miss;
 };
 
-// All figures are of the whole run up to `stamp`.
+// All figures cover the whole run up to `stamp`.
 struct Profile {
   Time stamp{};
   std::vector<Latency> threads, paths;
   std::vector<LatencySummary> wake_up, execution, period_jitter;
-  std::vector<WorstMiss>
-      worst;      // of all threads and paths, the latest beyond its deadline first; at most ten
-  Health health;  // processor time
+  std::vector<WorstMiss> worst;  // of all threads and paths, most overdue first; at most ten
+  Health health;                 // contains the processor time
 
-  // Nothing wakes up at a given moment there, and deadlines have no meaning.
+  // Whether the run was on virtual time, where threads do not wake up at given times and deadlines
+  // have no meaning.
   bool virtual_time() const { return wake_up.empty() && worst.empty(); }
 };
 
 inline constexpr const char* no_deadlines =
     "The run was on virtual time: deadlines have no meaning there, and none is judged.";
 
-// Throws std::invalid_argument where a histogram is damaged.
+// Throws std::invalid_argument if a histogram is damaged.
 Profile profile_of(const Deadlines& deadlines, const Health& health);
 
-// Takes messages of a run one after the other; the last ones count, since their figures are of all
-// that went before.
+// Takes messages of a run one after the other. The last ones are used, because their figures cover
+// the whole run up to then.
 class ProfileCollector {
  public:
-  // Of any channel; others than DEADLINES and HEALTH change nothing.
+  // Takes a message of any channel; only DEADLINES and HEALTH are used.
   void add(std::string_view channel, std::span<const std::uint8_t> data);
 
-  // Throws std::runtime_error naming `source` when it had no DEADLINES or HEALTH that this version
-  // understands.
+  // Throws std::runtime_error naming `source` if it had no DEADLINES or HEALTH that this version
+  // can decode.
   Profile profile(const std::string& source) const;
 
  private:
@@ -61,7 +61,7 @@ class ProfileCollector {
   Health health_;
 };
 
-// A table for a terminal, and the same as JSON and as one HTML page that needs nothing else.
+// Return a table for a terminal, and the same as JSON and as one self-contained HTML page.
 std::string to_text(const Profile& profile);
 std::string to_json(const Profile& profile);
 std::string to_html(const Profile& profile, const std::string& source);

@@ -1,4 +1,4 @@
-// The parts of a profile's page, for pages that show more.
+// The parts of a profile's page, for use in other pages.
 #pragma once
 
 #include "tools/profile/profile.h"
@@ -6,7 +6,7 @@
 
 namespace maploop::profile {
 
-// Table of threads and paths, worst misses, distributions.
+// Adds the table of threads and paths, the worst misses, and the distributions.
 void add_latencies(web::Page& page, const Profile& profile);
 
 void add_processor_time(web::Page& page, const Profile& profile);
