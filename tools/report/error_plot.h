@@ -1,4 +1,4 @@
-// An error against time with three of the standard deviations that are claimed for it.
+// Plots an error against time with three of its estimated standard deviations.
 #pragma once
 
 #include <string>
@@ -10,15 +10,15 @@ namespace maploop::report {
 
 inline constexpr double sigmas = 3.0;
 
-// Lists of one length; an error that is not finite is not known at that moment.
+// All lists have the same length; an error that is not finite is unknown at that time.
 struct ErrorSeries {
   std::string quantity;  // such as east
   std::string unit;
-  std::string of;  // whose error: fused, PPP
+  std::string of;  // source of the error: fused, PPP
   std::vector<double> seconds, error, sigma;
 };
 
-// Without any known error only what is claimed.
+// Without any known error it plots only the standard deviations.
 web::Plot error_plot(const ErrorSeries& series);
 
 }  // namespace maploop::report

@@ -1,4 +1,4 @@
-// The frame that everything on the page is drawn in, and the truth in it.
+// The common frame of the page's pictures, and the truth in it.
 #pragma once
 
 #include <optional>
@@ -8,13 +8,14 @@
 
 namespace maploop::report {
 
-// Of the first state; else of the first reference pose, or of the first position by PPP.
+// Returns the origin of the first state; if there is none, the first reference pose, or the first
+// position by PPP.
 Geodetic origin_of(const ReplayReport& report);
 
-// Nothing where the recording has no reference.
+// Returns nothing if the recording has no reference.
 std::optional<sensors::ReferenceTrajectory> truth_of(const ReplayReport& report);
 
-// The moment that plots count their seconds from.
+// Returns the time from which plots count their seconds.
 Time first_of(const ReplayReport& report);
 
 }  // namespace maploop::report

@@ -19,12 +19,12 @@ using web::Plot;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-// Of one epoch with a position.
+// The error of one epoch with a position.
 struct EpochError {
   double second = 0.0;
   Eigen::Vector3d enu = Eigen::Vector3d::Constant(unknown);  // m, against the truth
   Eigen::Vector3d sigma;                                     // m
-  double nees = unknown;                                     // of three dimensions
+  double nees = unknown;                                     // for three dimensions
   bool converged = false;
 };
 

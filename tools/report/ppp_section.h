@@ -1,4 +1,4 @@
-// What precise point positioning came to.
+// Adds the results of precise point positioning.
 #pragma once
 
 #include "tools/report/report.h"
@@ -6,7 +6,7 @@
 
 namespace maploop::report {
 
-// Nothing where there were no observations. Errors are those of the antenna against the truth.
+// Adds nothing if there were no observations. Errors are those of the antenna against the truth.
 void add_ppp(web::Page& page, const ReplayReport& report);
 
 }  // namespace maploop::report

@@ -1,4 +1,4 @@
-// What one replay came to, as a page for people.
+// Writes the results of one replay as a page.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,17 +18,17 @@
 
 namespace maploop::report {
 
-// A way of the body in its own first frame, such as odometry's.
+// A path of the body in its own first frame, for instance that of odometry.
 struct DeadReckoning {
   std::string name;
   evaluation::StampedTrajectory trajectory;
 };
 
-// What the matcher said at one moment.
+// The matcher's result at one time.
 struct RoadMoment {
   MatchPhase phase = MatchPhase::initial;
-  bool on_road = false;      // the rest is about the link
-  Geodetic place;            // matched
+  bool on_road = false;      // if true, the values below are those of the link
+  Geodetic place;            // matched position
   double probability = 0.0;  // P(link)
 };
 
@@ -37,17 +37,17 @@ RoadMoment road_moment(const MapMatch& match);
 struct ReplayReport {
   const tools::ReplayResult& result;
   const fusion_score::NavTrack& track;
-  std::vector<ReferencePose> reference;  // empty: the recording has none
+  std::vector<ReferencePose> reference;  // empty if the recording has none
   std::vector<DeadReckoning> dead_reckoning;
-  const std::map<Time, RoadMoment>& matches;     // empty: nothing was matched
-  const std::map<Time, PppState>& ppp;           // empty: there were no observations
-  Eigen::Vector3d antenna;                       // m, of the body, forward left up: PPP's position
-  std::string configuration;                     // TOML
-  std::string version;                           // of maploop
-  const mapmatch::RoadNetwork* roads = nullptr;  // nullptr: there was no map
+  const std::map<Time, RoadMoment>& matches;  // empty if nothing was matched
+  const std::map<Time, PppState>& ppp;        // empty if there were no observations
+  Eigen::Vector3d antenna;    // m, body frame (forward, left, up): the point that PPP positions
+  std::string configuration;  // TOML
+  std::string version;        // of maploop
+  const mapmatch::RoadNetwork* roads = nullptr;  // nullptr if there was no map
 };
 
-// Writes one HTML page. Throws std::runtime_error naming the file when it cannot be written.
+// Writes one HTML page. Throws std::runtime_error naming the file if it cannot be written.
 void write_report(const std::filesystem::path& file, const ReplayReport& report);
 
 }  // namespace maploop::report

@@ -1,4 +1,4 @@
-// Which road the vehicle was on, and how often that was right.
+// Adds the roads that the vehicle was matched to, and how often they were right.
 #pragma once
 
 #include "tools/report/report.h"
@@ -6,8 +6,8 @@
 
 namespace maploop::report {
 
-// Nothing where no map was matched. How much was right is there where the recording says which
-// links were driven.
+// Adds nothing if no map was matched. The share that was right is added if the recording contains
+// the links driven.
 void add_roads(web::Page& page, const ReplayReport& report);
 
 }  // namespace maploop::report

@@ -10,7 +10,7 @@ namespace maploop::report {
 
 std::string figure(double value, int digits, const char* unit) {
   if (!std::isfinite(value)) return "-";
-  std::array<char, 400> text{};  // the longest double has 309 digits before the point
+  std::array<char, 400> text{};  // the longest double has 309 digits before the decimal point
   std::snprintf(text.data(), text.size(), "%.*f%s", digits, value, unit);
   return text.data();
 }

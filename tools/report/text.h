@@ -1,17 +1,17 @@
-// Pieces of the page's text.
+// Formats pieces of the page's text.
 #pragma once
 
 #include <string>
 
 namespace maploop::report {
 
-// A number with so many digits and its unit; a dash where it is not finite.
+// Returns a number with `digits` decimals and its unit, or a dash if it is not finite.
 std::string figure(double value, int digits, const char* unit = "");
 
-// HTML of plain text.
+// Returns the HTML of plain text.
 std::string paragraph(const std::string& text);
 
-// HTML that opens at a click on the plain text of its summary.
+// Returns HTML that unfolds at a click on its summary, which is plain text.
 std::string folded(const std::string& summary, const std::string& html);
 
 }  // namespace maploop::report

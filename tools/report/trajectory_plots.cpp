@@ -17,7 +17,7 @@ using web::Line;
 using web::Plot;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double surroundings = 150.0;  // m about the way, of which roads are drawn
+constexpr double surroundings = 150.0;  // m, margin around the path in which roads are drawn
 
 using Truth = std::optional<sensors::ReferenceTrajectory>;
 
@@ -31,7 +31,7 @@ void interrupt(Line& line) {
   line.y.push_back(nan);
 }
 
-// Whether a replay that ended early came there.
+// Whether the replay, which may have ended early, reached this time.
 bool replayed(const ReplayReport& r, Time stamp) {
   return !r.track.states().empty() && stamp <= r.track.states().back().stamp;
 }
@@ -80,13 +80,13 @@ Line dead_reckoned_line(const ReplayReport& r, const DeadReckoning& way, const T
   return line;
 }
 
-// One quantity of the state: what it is, its standard deviation, and the truth's.
+// One quantity of the state: its name, value, standard deviation, and the truth's value.
 struct Quantity {
   const char* name;
   const char* unit;
   std::function<double(const NavState&)> value, sigma;
   std::function<double(const Eigen::Isometry3d&)> truth;
-  bool wraps = false;  // degrees of a circle
+  bool wraps = false;  // true for an angle in degrees
 };
 
 std::vector<Quantity> quantities() {

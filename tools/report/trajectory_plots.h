@@ -1,4 +1,4 @@
-// Where the vehicle went, and how far off the fused state was.
+// Plots the path of the vehicle and the errors of the fused state.
 #pragma once
 
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace maploop::report {
 
-// Seen from above, in the fused state's own frame, over the roads of the replay's map: truth,
-// fused, PPP, matched points, and dead reckoning laid onto the truth's first pose (the fused one
-// without a truth).
+// Plots the view from above, in the fused state's own frame, over the roads of the replay's map:
+// truth, fused, PPP, matched points, and dead reckoning placed at the truth's first pose (the fused
+// one without a truth).
 web::Plot trajectory_map(const ReplayReport& report);
 
-// Against seconds of the drive: errors with three standard deviations that the filter claims, and
-// the speed. Without a truth only what the filter claims.
+// Plots against seconds of the drive: errors with three of the filter's standard deviations, and
+// the speed. Without a truth only the standard deviations and the fused speed.
 std::vector<web::Plot> state_plots(const ReplayReport& report);
 
 }  // namespace maploop::report
