@@ -1,4 +1,4 @@
-// Which LCM bus the commands use.
+// Tests which LCM bus the commands use.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -13,8 +13,8 @@ namespace {
 
 using testing::maploop_command;
 
-// Each command that uses the bus, to be ended by a bus that LCM cannot open: its error names the
-// URL that it was about to use.
+// Each command that uses the bus is ended by a bus that LCM cannot open: its error names the URL
+// that it was about to use.
 class EachBusCommand : public ::testing::TestWithParam<std::vector<std::string>> {
  protected:
   std::string said(const std::string& environment, const std::vector<std::string>& options) const {

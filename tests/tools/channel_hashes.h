@@ -6,7 +6,7 @@
 
 namespace maploop::testing {
 
-// Of the channels in a replay's JSON; those that are not hashed are left out.
+// Returns the hashes of the channels in a replay's JSON; channels without a hash are left out.
 inline std::map<std::string, std::string> hashes(const nlohmann::json& result) {
   std::map<std::string, std::string> all;
   for (const auto& [name, channel] : result["channels"].items()) {

@@ -1,4 +1,4 @@
-// What the machine grants, as `maploop doctor` and `maploop replay` say it.
+// Tests the real-time settings that `maploop doctor` and `maploop replay` report.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-// The settings that the command writes, by name.
+// Returns the settings that the command writes, by name.
 json settings_of(std::vector<std::string> command, const char* key) {
   const testing::TemporaryFolder folder;
   const std::string file = (folder.path() / "report.json").string();
@@ -32,7 +32,7 @@ json settings_of(std::vector<std::string> command, const char* key) {
   return by_name;
 }
 
-// As root without a single capability, which is what an ordinary user is granted.
+// Runs the command as root without any capability, which gives it the rights of an ordinary user.
 std::vector<std::string> without_capabilities(std::vector<std::string> command) {
   command.insert(command.begin(), {"setpriv", "--bounding-set=-all", "--inh-caps=-all", "prlimit",
                                    "--rtprio=0", "--memlock=1000000"});

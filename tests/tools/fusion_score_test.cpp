@@ -1,4 +1,4 @@
-// The fused state against a reference whose accuracy changes.
+// Tests the score of a fused state against a reference whose accuracy changes.
 #include "tools/fusion_score.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,8 @@ using std::chrono::milliseconds;
 const Time start = parse_time("2011-09-30 13:00:00");
 const LocalFrame frame(Geodetic{0.855, 0.147, 110.0});
 
-// North at 10 m/s for 20 s; the first half is stated to `accuracy`, the second to 0.1 m.
+// A reference that moves north at 10 m/s for 20 s; the stated accuracy is `accuracy` in the first
+// half and 0.1 m in the second.
 class Reference : public sensors::Source<ReferencePose> {
  public:
   explicit Reference(double accuracy) : accuracy_(accuracy) {}
@@ -33,7 +34,7 @@ class Reference : public sensors::Source<ReferencePose> {
   sensors::SourceReport report_;
 };
 
-// It is 5 m east of the reference in the first half, 1 m in the second.
+// Returns a track 5 m east of the reference in the first half, 1 m in the second.
 NavTrack track() {
   NavTrack track;
   for (int i = 0; i <= 2000; ++i) {
@@ -73,7 +74,7 @@ TEST(FusionScore, CountsEverywhereWhereTheReferenceIsGood) {
   EXPECT_EQ(to_text(*score).find("% of the time"), std::string::npos);
 }
 
-// The reference's own variance, at that moment, is part of what an error may be.
+// The reference's own variance at that time is part of the expected error.
 TEST(FusionScore, TheReferencesVarianceIsThatOfTheMoment) {
   const auto score = score_against(0.2);
   ASSERT_TRUE(score);

@@ -10,7 +10,7 @@
 namespace maploop::evaluation {
 namespace {
 
-// KITTI's devkit (raw data development kit, latlonToMercator.m), seen from a level camera.
+// The projection of KITTI's devkit (raw data development kit, latlonToMercator.m).
 Eigen::Vector3d mercator(const Geodetic& origin, const Geodetic& at) {
   constexpr double radius = 6378137.0;
   const double scale = std::cos(origin.latitude);
@@ -37,7 +37,7 @@ TEST(KittiMercator, PosesComeBackInMetresWhicheverWayTheFirstCameraLooks) {
     }
     const Trajectory metric = from_kitti_mercator(published, origin.latitude, azimuth);
     EXPECT_GT((published[1].translation() - truth[1].translation()).norm(), 0.5);
-    for (std::size_t i = 0; i < truth.size(); ++i)  // 400 m of the Earth's bend: 1 cm up
+    for (std::size_t i = 0; i < truth.size(); ++i)  // over 400 m the Earth's curvature is 1 cm up
       EXPECT_LT((metric[i].translation() - truth[i].translation()).norm(), 0.04) << i;
   }
 }

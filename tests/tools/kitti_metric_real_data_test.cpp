@@ -1,4 +1,5 @@
-// The metric against an independent program (score_poses.py, numpy) and against published figures.
+// Tests the metric against an independent program (score_poses.py, numpy) and against published
+// figures.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -16,14 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The system's own: that one has Debian's python3-numpy, another python3 in the PATH has not.
+// The system's python3 has Debian's python3-numpy; another python3 in the PATH does not.
 const std::string kPython = "/usr/bin/python3";
 
 std::string quoted(const fs::path& path) {
   return std::string("'").append(path.string()).append("'");
 }
 
-// What a command prints. Throws when it fails.
+// Returns what a command prints. Throws if it fails.
 std::string output_of(const std::string& command) {
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("cannot start " + command);
@@ -40,7 +41,7 @@ class KittiMetricOnRealData : public ::testing::Test {
 
   fs::path data() const { return maploop::testing::real_data(); }
 
-  // A file of kitti_odometry, unpacked.
+  // Unpacks a file of kitti_odometry.
   fs::path unpacked(const fs::path& name) const {
     fs::path target = folder_.path() / name.filename();
     output_of(
@@ -50,7 +51,7 @@ class KittiMetricOnRealData : public ::testing::Test {
     return target;
   }
 
-  // Both programs on the same two files; score_poses.py prints three to five decimals.
+  // Runs both programs on the same two files; score_poses.py prints three to five decimals.
   void expect_same_as_script(const fs::path& estimate, const fs::path& truth, double length,
                              CommonRotation rotation) const {
     SCOPED_TRACE(estimate.string() + " at " + std::to_string(length));
@@ -100,8 +101,8 @@ TEST_F(KittiMetricOnRealData, AgreesWithScorePoses) {
 struct Peer {
   const char* estimate;
   const char* truth;
-  double percent;    // as measured elsewhere, to two decimals
-  double deg_per_m;  // to four
+  double percent;    // measured elsewhere, to two decimals
+  double deg_per_m;  // measured elsewhere, to four decimals
 };
 
 TEST_F(KittiMetricOnRealData, ReproducesThePublishedFiguresOfThreePeers) {

@@ -17,14 +17,15 @@ Eigen::Isometry3d pose_at(double x, double z, double yaw) {
   return pose;
 }
 
-// Straight ahead along z in steps of `step` m.
+// Returns a straight drive along z in steps of `step` m.
 Trajectory straight(int frames, double step) {
   Trajectory trajectory;
   for (int i = 0; i < frames; ++i) trajectory.push_back(pose_at(0.0, step * i, 0.0));
   return trajectory;
 }
 
-// 1 m steps along bends to either side, up and down: the segments point into every direction.
+// Returns 1 m steps along bends to either side, up and down, so that the segments point in all
+// directions.
 Trajectory winding(int frames) {
   Trajectory trajectory{Eigen::Isometry3d::Identity()};
   for (int i = 1; i < frames; ++i) {
@@ -37,8 +38,8 @@ Trajectory winding(int frames) {
 }
 
 TEST(KittiMetric, SegmentEndsAtTheFirstFramePastItsLength) {
-  // 2 m steps, 100 m: frame 50 is at 100 m exactly and not past it, so a segment has 102 m.
-  // An estimate 1 % long is off by 1.02 m, which is 1.02 % of the length.
+  // With 2 m steps and 100 m, frame 50 is at exactly 100 m and not past it, so that a segment has
+  // 102 m. An estimate that is 1 % too long has an error of 1.02 m, which is 1.02 % of the length.
   const Score result = score(straight(61, 2.0 * 1.01), straight(61, 2.0), 100.0);
   EXPECT_NEAR(result.segment.percent, 1.02, 1e-9);
   EXPECT_NEAR(result.segment.deg_per_m, 0.0, 1e-6);
@@ -50,7 +51,7 @@ TEST(KittiMetric, SegmentEndsAtTheFirstFramePastItsLength) {
 }
 
 TEST(KittiMetric, TurnErrorIsInDegreesAMetre) {
-  Trajectory estimate;  // never moves, turns 0.02 degrees a frame
+  Trajectory estimate;  // does not move, turns 0.02 degrees in each frame
   for (int i = 0; i < 200; ++i) estimate.push_back(pose_at(0.0, 0.0, 0.02 * kRadians * i));
   const Score result = score(estimate, straight(200, 1.0), 50.0);
   EXPECT_NEAR(result.segment.deg_per_m, 51 * 0.02 / 50.0, 1e-9);
@@ -87,7 +88,7 @@ TEST(KittiMetric, CommonRotationIsRemovedAndNothingElse) {
   EXPECT_NEAR(score(estimate, truth, 100.0, CommonRotation::kRemove).segment.percent, 0.0, 1e-9);
   EXPECT_TRUE(fit_common_rotation(estimate, truth).isApprox(mount.linear().transpose(), 1e-9));
 
-  for (Eigen::Isometry3d& pose : estimate) pose.translation() *= 1.02;  // a scale error stays
+  for (Eigen::Isometry3d& pose : estimate) pose.translation() *= 1.02;  // a scale error remains
   const double with_scale = score(estimate, truth, 100.0, CommonRotation::kRemove).segment.percent;
   for (Eigen::Isometry3d& pose : estimate) pose = mount.inverse() * pose * mount;
   EXPECT_NEAR(with_scale, score(estimate, truth, 100.0).segment.percent, 1e-6);
@@ -95,7 +96,7 @@ TEST(KittiMetric, CommonRotationIsRemovedAndNothingElse) {
 
 TEST(KittiMetric, MirroredTrajectoryIsNotRotatedAway) {
   const Trajectory truth = winding(200);
-  Trajectory estimate = truth;  // goes down where the truth climbs, and turns the other way
+  Trajectory estimate = truth;  // descends where the truth climbs, and turns the other way
   for (Eigen::Isometry3d& pose : estimate) {
     const Eigen::Vector3d t = pose.translation();
     pose = pose_at(-t.x(), t.z(), 0.0);
@@ -126,7 +127,7 @@ TEST(KittiMetric, LongerTrajectoryIsCutAndTheCoverageSaid) {
 }
 
 TEST(KittiMetric, BenchmarkFigureIsTheMeanOverAllSegmentsOfAllLengths) {
-  // 1001 m in 1 m steps: 101 start frames, of which those up to 1001 - (L + 1) have a segment.
+  // 1001 m in 1 m steps have 101 start frames; those up to 1001 - (L + 1) have a segment.
   const Trajectory truth = straight(1002, 1.0);
   const SegmentError error = kitti_odometry_error(straight(1002, 1.02), truth);
   double sum = 0.0;

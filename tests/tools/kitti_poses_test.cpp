@@ -37,7 +37,7 @@ class KittiPoses : public ::testing::Test {
 
 TEST_F(KittiPoses, ReadsRowByRow) {
   const Trajectory poses = read_kitti_poses(
-      file_with("0 -1 0 1.5e+00 1 0 0 -2 0 0 1 3\r\n\n" + kIdentity));  // quarter turn, CRLF
+      file_with("0 -1 0 1.5e+00 1 0 0 -2 0 0 1 3\r\n\n" + kIdentity));  // a quarter turn, with CRLF
   ASSERT_EQ(poses.size(), 2u);
   EXPECT_EQ(poses[0].translation(), Eigen::Vector3d(1.5, -2, 3));
   EXPECT_EQ(poses[0] * Eigen::Vector3d::UnitX(), Eigen::Vector3d(1.5, -1, 3));

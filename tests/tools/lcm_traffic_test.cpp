@@ -1,5 +1,5 @@
-// What `maploop replay` puts on the wire, seen by another process with LCM's own library. Run it in
-// a network namespace of its own.
+// Tests the messages that `maploop replay` sends, received by another process with LCM's own
+// library. Run it in a separate network namespace.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -37,7 +37,7 @@ class Listener {
     stop_ = true;
     if (thread_.joinable()) thread_.join();
   }
-  // Whether the player has said such a state, within a bounded time.
+  // Whether the player publishes a state that satisfies `wanted`, within a bounded time.
   bool hears(const std::function<bool(const maploop_lcm::replay_control_t&)>& wanted) {
     for (int i = 0; i < 600; ++i) {
       {
@@ -50,7 +50,7 @@ class Listener {
     }
     return false;
   }
-  std::string run() {  // of the last state
+  std::string run() {  // run of the last state
     const std::lock_guard lock(mutex_);
     return states_.empty() ? "" : states_.back().run;
   }
@@ -99,7 +99,7 @@ TEST(LcmTraffic, EveryChannelArrivesAndDecodes) {
   for (const auto& [channel, summary] : sent.items()) {
     const int count = summary["count"];
     EXPECT_LE(listener.counts[channel], count) << channel;
-    // UDP promises nothing on a busy machine; what is missing must stay the exception.
+    // UDP may lose messages on a busy machine; at most a tenth may be missing.
     EXPECT_GE(listener.counts[channel], count - 1 - count / 10) << channel;
   }
   EXPECT_EQ(listener.last_state.status, NavStatus::aided);

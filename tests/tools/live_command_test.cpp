@@ -1,4 +1,4 @@
-// `maploop live` as its user runs it, with `maploop send` for sensors.
+// Tests `maploop live` as users run it, with `maploop send` instead of sensors.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -21,7 +21,7 @@ using testing::Process;
 using testing::ProcessResult;
 using testing::TemporaryFolder;
 
-// Ports of one test alone: others may run beside it.
+// Ports of this test only, because other tests may run at the same time.
 struct Ports {
   int camera = testing::free_port(), velodyne = testing::free_port(), imu = testing::free_port(),
       gnss = testing::free_port();
@@ -75,13 +75,13 @@ TEST(LiveCommand, DrivesOnWhatADriveSends) {
   EXPECT_GT(said["sensors"]["velodyne"]["delivered"], 20) << result.out;
   EXPECT_GT(said["sensors"]["imu"]["delivered"], 20);
   EXPECT_GE(said["sensors"]["gnss"]["delivered"], 2);
-  // Images are understood from the next caps on, which are sent every second.
+  // Images can be decoded after the next caps, which are sent every second.
   EXPECT_GT(said["sensors"]["camera"]["delivered"], 10);
   for (const char* name : {"camera", "velodyne", "imu", "gnss"}) {
     EXPECT_EQ(said["sensors"][name]["left_out"], 0) << name;
     EXPECT_EQ(said["live"][name]["connections"], 1) << name;
   }
-  // A sender that the machine holds up for half a second looks like a clock that jumps.
+  // A sender that the machine delays by half a second looks like a clock that jumps.
   for (const char* name : {"velodyne", "imu", "gnss"}) {
     std::smatch late;
     ASSERT_TRUE(std::regex_search(sent.out, late,

@@ -1,4 +1,4 @@
-// The line that says which sensors are there.
+// Tests the line that reports which sensors deliver data.
 #include "tools/live_status.h"
 
 #include <gtest/gtest.h>

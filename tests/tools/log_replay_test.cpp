@@ -1,4 +1,4 @@
-// `maploop replay LOG`: a log of our own replayed as the drive was.
+// Tests `maploop replay LOG`: a log of our own is replayed like the drive.
 #include <gtest/gtest.h>
 
 #include <filesystem>

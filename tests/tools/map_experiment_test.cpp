@@ -1,5 +1,5 @@
-// The map in the loop on recorded drives, without GNSS after the first 10 s: a MEMS unit's noise,
-// wheels that read 1 % too much. The bounds are what is reached, with some room.
+// Tests the map in the loop on recorded drives, without GNSS after the first 10 s: a MEMS unit's
+// noise, wheels that measure 1 % too much. The bounds are the results, with a margin.
 #include "tools/experiments/map_experiment.h"
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ double cross_track_rms(const MapResult& r) {
 struct Reached {
   const char* sequence;
   double rmse, max;  // m
-  double link;       // share of the frames that are certain
+  double link;       // share of the certain frames that is right
 };
 
 void PrintTo(const Reached& reached, std::ostream* stream) {
@@ -66,7 +66,7 @@ void PrintTo(const Reached& reached, std::ostream* stream) {
 
 class TightOnTurns : public ::testing::TestWithParam<Reached> {};
 
-// Also through the gaps of 1.7 s in the inertial data: nine in 00, three in 02.
+// This includes the gaps of 1.7 s in the inertial data: nine in 00, three in 02.
 TEST_P(TightOnTurns, StaysNearTheTruthAndOnTheLink) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const MapResult tight = driven(GetParam().sequence, MapMode::tight);
@@ -87,8 +87,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Reached{"10", 2.2, 4.2, 0.99}),
     [](const auto& reached) { return std::string("Of") + reached.param.sequence; });
 
-// The recorder's speed contradicts its positions by 4 m in the first 40 s of 08: with an unlucky
-// start the first turn comes 15 m from where it is expected, more than three of its sigmas.
+// The recorder's speed contradicts its positions by 4 m in the first 40 s of 08: after an unlucky
+// start the first turn is 15 m from where it is expected, more than three of its sigmas.
 TEST(Tight, FindsItsRoadBehindATurnThatComesUnexpected) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const MapResult r = driven("08", MapMode::tight, "", 4);
@@ -112,8 +112,8 @@ TEST(HardReset, SaysItKnowsMoreThanItDoes) {
   EXPECT_LT(without_gnss(driven("08", MapMode::tight)).nees_mean, 0.2 * hard);
 }
 
-// Two degrees of freedom: 2 expected. One drive's mean is shown, not judged; four together say
-// whether the covariance is of the right size.
+// With two degrees of freedom a mean of 2 is expected. The mean of one drive is printed but not
+// tested; that of four together shows whether the covariance has the right size.
 TEST(Tight, KnowsHowWellItKnows) {
   MAPLOOP_REQUIRE_REAL_DATA();
   double sum = 0.0, count = 0.0;

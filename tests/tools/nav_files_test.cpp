@@ -1,4 +1,4 @@
-// NMEA and CSV files of the fused state.
+// Tests NMEA and CSV files of the fused state.
 #include "tools/nav_files.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ std::vector<std::string> lines_of(const std::filesystem::path& file) {
   return lines;
 }
 
-// The example of the standard's own documentation.
+// The example is that of the standard's own documentation.
 TEST(Nmea, ChecksumIsTheExclusiveOrOfTheBody) {
   EXPECT_EQ(nmea_sentence("GPGLL,5300.97914,N,00259.98174,E,125926,A"),
             "$GPGLL,5300.97914,N,00259.98174,E,125926,A*28\r\n");
@@ -53,7 +53,7 @@ TEST(Nmea, SentencesSayPlaceTimeCourseAndErrors) {
   EXPECT_TRUE(lines[5].starts_with(
       "$GNRMC,130000.00,A,4900.0000000,N,00830.0000000,W,9.719,323.13,300911,,,E*"))
       << lines[5];
-  // The larger axis is east: 90 degrees.
+  // The larger axis points east: 90 degrees.
   EXPECT_TRUE(lines[6].starts_with("$GNGST,130000.00,,2.000,1.000,90.0,1.000,2.000,1.000*"))
       << lines[6];
   EXPECT_TRUE(lines[7].starts_with("$GNHDT,323.130,T*")) << lines[7];

@@ -1,4 +1,4 @@
-// `maploop odometry` and `maploop evaluate` as their users run them.
+// Tests `maploop odometry` and `maploop evaluate` as users run them.
 #include <gtest/gtest.h>
 
 #include <fstream>

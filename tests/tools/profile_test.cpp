@@ -1,4 +1,4 @@
-// `maploop profile`, on messages made by hand and on a replay of the recorded drive.
+// Tests `maploop profile`, on messages made by hand and on a replay of the recorded drive.
 #include "tools/profile/profile.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ std::vector<std::uint8_t> encoded(const Message& message) {
   return bytes;
 }
 
-// A thread of 100 ticks of 1 ms, and one of 105 ms whose stall hid nine more.
+// Returns a thread with 100 ticks of 1 ms, and one tick of 105 ms whose stall hid nine more.
 Deadlines stalled_thread() {
   runtime::Histogram recorded, omitted;
   for (int i = 0; i < 100; ++i) recorded.record(milliseconds(1));
@@ -162,7 +162,7 @@ TEST(ProfileCommand, AgreesWithWhatTheReplaySaidAtItsEnd) {
       }
     }
   }
-  // The fault: 30 ticks of 20 ms, each due every 10 ms.
+  // The injected fault: 30 ticks of 20 ms, each due every 10 ms.
   const json& fusion = profile["threads"]["fusion"];
   EXPECT_GE(fusion["misses"], 30);
   EXPECT_GT(fusion["omitted"], 0) << "the stalls of the data clock hid ticks";

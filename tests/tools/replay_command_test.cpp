@@ -1,4 +1,4 @@
-// `maploop replay` as its user runs it, on the recorded drive.
+// Tests `maploop replay` as users run it, on the recorded drive.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -60,22 +60,22 @@ TEST(ReplayCommand, StaysAsAccurateAsItWas) {
   EXPECT_EQ(r["vo"]["frames"], 144);
   EXPECT_EQ(r["fused"]["frames"], 144);
   EXPECT_NEAR(r["vo"]["distance_m"], 172.9, 0.5);
-  // Reached: 0.916, 0.493, 0.00170, 2.06 m.
+  // The results are 0.916, 0.493, 0.00170, 2.06 m.
   EXPECT_LT(r["vo"]["segment_100m_percent"], 1.0);
   EXPECT_LT(r["vo"]["common_rotation_removed"]["segment_100m_percent"], 0.55);
   EXPECT_LT(r["vo"]["segment_100m_deg_per_m"], 0.0021);
   EXPECT_LT(r["vo"]["end_point_m"], 2.3);
-  // Reached: 0.653, 0.505, 0.00249, 1.50 m.
+  // The results are 0.653, 0.505, 0.00249, 1.50 m.
   EXPECT_LT(r["lidar"]["segment_100m_percent"], 0.72);
   EXPECT_LT(r["lidar"]["common_rotation_removed"]["segment_100m_percent"], 0.55);
   EXPECT_LT(r["lidar"]["segment_100m_deg_per_m"], 0.003);
   EXPECT_LT(r["lidar"]["end_point_m"], 1.7);
-  // Reached: 0.640, 0.515, 0.00151, 1.68 m.
+  // The results are 0.640, 0.515, 0.00151, 1.68 m.
   EXPECT_LT(r["fused"]["segment_100m_percent"], 0.7);
   EXPECT_LT(r["fused"]["common_rotation_removed"]["segment_100m_percent"], 0.55);
   EXPECT_LT(r["fused"]["segment_100m_deg_per_m"], 0.002);
   EXPECT_LT(r["fused"]["end_point_m"], 1.8);
-  // One trigger exposes both images: no odometry speed contradicts the filter.
+  // One trigger exposes both images, so that no odometry speed contradicts the filter.
   EXPECT_FALSE(r["refusals"]["fusion"].contains("speed contradicts the prediction"));
 }
 
@@ -185,7 +185,7 @@ TEST(ReplayCommand, EverySignalThatEndsARunEndsItInOrderAlsoWhenItComesTwice) {
                  log.string(), "--tum", states.string(), "--json", table.string()}));
     EXPECT_TRUE(testing::comes_to_contain(log, "NAV_STATE")) << "it is where it is shown";
     process.send_signal(signal);
-    process.send_signal(signal);  // as from a program that signals its whole group
+    process.send_signal(signal);  // as sent by a program that signals its whole group
     const ProcessResult result = process.wait();
     EXPECT_EQ(result.status, 128 + signal);
     EXPECT_EQ(result.out.find("Interrupted after "), 0u) << result.out;
@@ -243,7 +243,7 @@ TEST(ReplayCommand, EndsWithAVerdictOfThreeLines) {
   EXPECT_EQ(json::parse(std::ifstream(file))["verdict"], json(said));
 }
 
-// Links to the recorded drive, without one of its folders.
+// Makes links to the recorded drive, without one of its folders.
 std::filesystem::path drive_without(const char* part, const std::filesystem::path& folder) {
   const auto drive = folder / "2011_09_26/drive";
   std::filesystem::create_directories(drive);

@@ -1,4 +1,4 @@
-// `maploop replay --snapshot` and `--resume` as their user runs them, on the recorded drive.
+// Tests `maploop replay --snapshot` and `--resume` as users run them, on the recorded drive.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -48,7 +48,7 @@ class SnapshotCommand : public ::testing::Test {
 };
 
 TEST_F(SnapshotCommand, AResumedRunHasTheHashesOfTheWholeRunFromThereOn) {
-  // 8.03 s lies between an image and its result, which is on its way then.
+  // 8.03 s is between an image and its result, which is not yet available then.
   const json whole = replay({"--lockstep", "--snapshot", "8.03:" + file("a.snapshot")});
   const auto expected = hashes(whole["snapshot"]);
   EXPECT_EQ(expected.size(), 7u);
@@ -73,7 +73,7 @@ TEST_F(SnapshotCommand, TheLogsAgreeFromTheSnapshotOn) {
   const json whole = replay(
       {"--lockstep", "--snapshot", "8:" + file("a.snapshot"), "--record", file("whole.lcmlog")});
   replay({"--lockstep", "--resume", file("a.snapshot"), "--record", file("resumed.lcmlog")});
-  // Later than the snapshot by the microsecond that a log's clock can tell apart.
+  // The start is later than the snapshot by a microsecond, the resolution of a log's clock.
   const std::string start = std::to_string(whole["snapshot"]["at_s"].get<double>() + 1e-6);
   ASSERT_EQ(
       maploop({"log", "split", file("whole.lcmlog"), "--start", start, "-o", file("tail.lcmlog")})

@@ -1,4 +1,4 @@
-// `maploop replay --trace`: the file that a viewer opens, read by another library.
+// Tests `maploop replay --trace`: the file for a viewer, read by another library.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,10 +23,10 @@ using nlohmann::json;
 
 struct Event {
   std::string thread, name, phase;
-  std::int64_t start, end;  // ns; of a span both
+  std::int64_t start, end;  // ns; a span has both
 };
 
-// One replay of the begin of the drive with its result and its trace.
+// One replay of the beginning of the drive with its result and its trace.
 class TracedReplay {
  public:
   explicit TracedReplay(const std::vector<std::string>& options) {
@@ -54,7 +54,7 @@ class TracedReplay {
   const json& other() const { return other_; }
   const std::set<std::string>& threads() const { return threads_; }
   const std::vector<Event>& events() const { return events_; }
-  // By source and id, in the order of time.
+  // Returns flows by source and id, each in order of time.
   const std::map<std::pair<std::string, std::string>, std::vector<Event>>& flows() const {
     return flows_;
   }
@@ -95,7 +95,7 @@ class TracedReplay {
   std::map<std::pair<std::string, std::string>, std::vector<Event>> flows_;
 };
 
-// The threads that a flow passes, in order: "camera stereo fusion publisher".
+// Returns the threads that a flow passes, in order: "camera stereo fusion publisher".
 std::string way(const std::vector<Event>& steps) {
   std::string text;
   for (const Event& step : steps) text += (text.empty() ? "" : " ") + step.thread;

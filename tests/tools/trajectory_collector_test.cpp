@@ -22,7 +22,7 @@ RelativeMotion motion(int from_ms, int to_ms, OdometryStatus status) {
   return m;
 }
 
-// Truth of motions that were all measured.
+// The truth moves as if all motions were measured; those from 5 to 6 s get the status `in_between`.
 Accuracy score_with(OdometryStatus in_between) {
   const Eigen::Isometry3d T_body_cam = Eigen::Isometry3d::Identity();
   TrajectoryCollector collector(T_body_cam);

@@ -1,4 +1,4 @@
-// The three lines at the end of a run.
+// Tests the three lines at the end of a run.
 #include "tools/verdict.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// The adjustment alone, on corners computed from the truth.
+// Tests the adjustment alone, on corners computed from the truth.
 #include "tools/calibrate/board_adjustment.h"
 
 #include <gtest/gtest.h>
@@ -62,8 +62,8 @@ TEST_F(Adjusting, WithoutNoiseTheTruthIsFound) {
   EXPECT_TRUE(result.bad.empty());
 }
 
-// The mean of (error / sigma)^2 is 1 where the standard deviations are true: over 24 parameters and
-// 12 sets of views its own standard deviation is below 0.2, correlations counted.
+// The mean of (error / sigma)^2 is 1 if the standard deviations are correct: over 24 parameters and
+// 12 sets of views its own standard deviation is below 0.2, including correlations.
 TEST_F(Adjusting, StandardDeviationsAgreeWithTheErrors) {
   constexpr int sets = 12;
   double sum = 0.0;
@@ -156,7 +156,7 @@ TEST_F(Adjusting, RectificationBringsCornersOntoOneRowAndEveryPixelIsSeen) {
   }
 }
 
-// x_right^T E x_left = 0, on points that nothing of the estimate was made from.
+// x_right^T E x_left = 0, on points that were not used for the estimate.
 TEST_F(Adjusting, EssentialAndFundamentalMatrixHoldForTrueRays) {
   const StereoResult result = calibrate(board, views(12, 0.0, 1), rig.width, rig.height);
   const Eigen::Matrix3d E = essential_matrix(result.rig), F = fundamental_matrix(result.rig);

@@ -1,4 +1,4 @@
-// Finding boards in rendered images, and what a calibration from them recovers.
+// Tests finding boards in rendered images, and calibrations from them.
 #include "tools/calibrate/board.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ TEST_F(Rendered, CornersAreFoundToHundredthsOfAPixel) {
   EXPECT_LT(worst, 0.1);
 }
 
-// The whole way from images to parameters. What it recovers stands in the README.
+// The whole pipeline from images to parameters. The README contains its result.
 TEST_F(Rendered, TheCamerasAreRecoveredWithinTheirStandardDeviations) {
   std::vector<View> views;
   std::uint32_t seed = 1;
@@ -54,9 +54,10 @@ TEST_F(Rendered, TheCamerasAreRecoveredWithinTheirStandardDeviations) {
   EXPECT_TRUE(result.bad.empty());
   EXPECT_LT(result.adjustment.rms, 0.1);
   EXPECT_LT(std::abs(error[0]), 0.001 * rig.left.fx);
-  EXPECT_LT(error.tail<3>().norm(), 0.0005);                // m of 0.12
-  EXPECT_LT(error.segment<3>(18).norm(), 0.001);            // rad
-  EXPECT_LT(ratio.squaredNorm() / kCommonParameters, 4.0);  // corners of one view err alike
+  EXPECT_LT(error.tail<3>().norm(), 0.0005);      // m of 0.12
+  EXPECT_LT(error.segment<3>(18).norm(), 0.001);  // rad
+  EXPECT_LT(ratio.squaredNorm() / kCommonParameters,
+            4.0);  // the errors of one view's corners are correlated
   EXPECT_LT(result.row_error, 0.1);
 }
 

@@ -1,4 +1,4 @@
-// `maploop calibrate` as its users run it.
+// Tests `maploop calibrate` as users run it.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -56,7 +56,7 @@ class CalibrateCommand : public ::testing::Test {
   static fs::path images() { return folder->path() / "images"; }
   static std::string file(const char* name) { return (folder->path() / name).string(); }
 
-  // A copy to be damaged.
+  // Returns a copy that a test may damage.
   static fs::path copy(const char* name) {
     fs::copy(images(), folder->path() / name, fs::copy_options::recursive);
     return folder->path() / name;
@@ -92,7 +92,7 @@ TEST_F(CalibrateCommand, WritesEveryFormOfTheCalibration) {
   std::size_t pictures = 0;
   for (std::size_t at = 0; (at = html.find("data:image/jpeg", at)) != std::string::npos; ++at)
     ++pictures;
-  EXPECT_EQ(pictures, 21u);  // of ten views two each, and the rectified pair
+  EXPECT_EQ(pictures, 21u);  // two for each of ten views, and the rectified pair
 }
 
 TEST_F(CalibrateCommand, PatternsNameTheImagesAsWell) {

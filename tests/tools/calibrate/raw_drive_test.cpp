@@ -1,4 +1,5 @@
-// Raw cameras in a drive: images as the raw cameras would have taken them, rectified on the way in.
+// Tests a drive of raw cameras: images as the raw cameras would have taken them, rectified when
+// they are read.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -30,7 +31,7 @@ cv::Mat as_cv(const Eigen::Matrix3d& m) {
           m(2, 1), m(2, 2));
 }
 
-// For each pixel of the raw camera, where the rectified image has it; by OpenCV.
+// Returns for each pixel of the raw camera its position in the rectified image, computed by OpenCV.
 cv::Mat raw_from_rectified(const sensors::StereoRig& rig, bool left) {
   const sensors::CameraModel& c = left ? rig.left : rig.right;
   const sensors::Distortion& d = c.distortion;
@@ -51,7 +52,7 @@ cv::Mat raw_from_rectified(const sensors::StereoRig& rig, bool left) {
   return map;
 }
 
-// The drive as its raw cameras would have recorded it. Only images, stamps and mounting.
+// Makes the drive as its raw cameras would have recorded it: only images, stamps and mounting.
 fs::path make_raw_drive(const fs::path& day, const sensors::StereoRig& rig) {
   const fs::path from = testing::drive_0013(), to = day / "2011_09_26_drive_0013_extract";
   for (const char* name : {"calib_velo_to_cam.txt", "calib_imu_to_velo.txt"})
@@ -95,7 +96,7 @@ Score score(const fs::path& drive, const fs::path& config, const fs::path& folde
   return {result["lengths"][0]["common_rotation_removed"]["percent"], removed["end_point_m"]};
 }
 
-// Twice interpolated images, hence the bound: 0.1 % of the way.
+// The images are interpolated twice, hence the bound of 0.1 percentage points.
 TEST(RawDrive, OdometryIsAsAccurateAsOnTheRectifiedImages) {
   MAPLOOP_REQUIRE_DRIVE();
   MAPLOOP_REQUIRE_REAL_DATA();
@@ -104,7 +105,8 @@ TEST(RawDrive, OdometryIsAsAccurateAsOnTheRectifiedImages) {
   const sensors::StereoRig rig = vehicle::read_stereo_rig(kitti);
   const fs::path raw = make_raw_drive(day.path(), rig);
 
-  // As `maploop calibrate` would write it, found from the configuration's own folder.
+  // The file is as `maploop calibrate` writes it, and is found relative to the configuration's
+  // folder.
   std::ofstream(day.path() / "cameras.toml") << vehicle::to_toml(rig);
   std::ofstream(day.path() / "raw.toml") << "[camera]\ncalibration = \"cameras.toml\"\n";
   const Score original = score(testing::drive_0013(), {}, day.path());
@@ -115,11 +117,11 @@ TEST(RawDrive, OdometryIsAsAccurateAsOnTheRectifiedImages) {
   EXPECT_NEAR(rectified.percent, original.percent, 0.1);
   EXPECT_NEAR(rectified.end_point_m, original.end_point_m, 0.2);
 
-  // Without the calibration the images are not taken for rectified ones.
+  // Without the calibration the raw images are refused.
   const ProcessResult plain = maploop({"odometry", raw.string()});
   EXPECT_EQ(plain.status, 1);
   EXPECT_NE(plain.error.find("[camera] calibration"), std::string::npos) << plain.error;
-  // With a calibration of another image size every pair is refused, and that is said.
+  // With a calibration for another image size every pair is refused, and the command fails.
   sensors::StereoRig other = rig;
   other.width -= 2;
   std::ofstream(day.path() / "cameras.toml") << vehicle::to_toml(other);

@@ -1,4 +1,4 @@
-// Views of rendered boards, found in their images or computed from the truth.
+// Provides views of rendered boards, found in their images or computed from the truth.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace maploop::calibrate {
 
-// Of nearly all tests.
+// The board of nearly all tests.
 inline const Board board{9, 6, 0.03};
 
 inline testing::RenderedBoard rendered(const Board& board) {
@@ -22,7 +22,7 @@ inline sensors::CameraModel as_model(const testing::RenderedCamera& c) {
   return {c.fx, c.fy, c.cx, c.cy, {c.k1, c.k2, c.p1, c.p2, c.k3}};
 }
 
-// The true corners of a view, with white noise of `sigma` px.
+// Returns the true corners of a view, with white noise of `sigma` px.
 inline View ideal_view(const testing::BoardRenderer& renderer, const Board& board,
                        const Eigen::Isometry3d& T_left_board, double sigma, std::uint32_t seed) {
   std::mt19937 random(seed);
@@ -37,7 +37,7 @@ inline View ideal_view(const testing::BoardRenderer& renderer, const Board& boar
   return view;
 }
 
-// As the command finds them. Throws where a board is not found.
+// Returns the view as the command finds it. Throws if a board is not found.
 inline View found_view(testing::BoardRenderer& renderer, const Board& board,
                        const Eigen::Isometry3d& T_left_board, const testing::RenderQuality& quality,
                        std::uint32_t seed) {
@@ -47,7 +47,7 @@ inline View found_view(testing::BoardRenderer& renderer, const Board& board,
   return {"view" + std::to_string(seed), left, order_alike(right, left, board)};
 }
 
-// What was estimated, less the truth, in the order of Adjustment::sigma.
+// Returns the estimate minus the truth, in the order of Adjustment::sigma.
 inline CommonVector error_of(const sensors::StereoRig& rig, const testing::RenderedRig& truth) {
   CommonVector error;
   const auto put = [&](int at, const sensors::CameraModel& a, const sensors::CameraModel& b) {

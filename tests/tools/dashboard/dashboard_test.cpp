@@ -1,4 +1,4 @@
-// What the dashboard's server passes on to browsers, apart from HTTP.
+// Tests what the dashboard relays to browsers, without HTTP.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -145,7 +145,7 @@ TEST(Relay, TheTrailForgetsWhatAReplayGoesBackOver) {
   Relay relay(channels);
   ReferencePose truth;
   truth.position = state_at(0).origin;
-  relay.take("TRUTH", encoded(to_lcm(truth)), Duration(0));  // before the first state: not kept
+  relay.take("TRUTH", encoded(to_lcm(truth)), Duration(0));  // ignored before the first state
   for (int t = 1; t <= 10; ++t) relay.take("NAV_STATE", encoded(to_lcm(state_at(t))), Duration(0));
   truth.stamp = state_at(10).stamp;
   relay.take("TRUTH", encoded(to_lcm(truth)), Duration(0));
@@ -186,7 +186,7 @@ TEST(Relay, KeepsTheRunsAndTheirPlayersApart) {
   say("0000000b", milliseconds(0));
   state("0000000a", 1.0, milliseconds(10));
   state("0000000b", 2.0, milliseconds(10));
-  state("0000000c", 3.0, milliseconds(10));  // of a run that has not said itself
+  state("0000000c", 3.0, milliseconds(10));  // of a run that has not announced itself
   json all = runs(milliseconds(20));
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0]["what"], "replay of \"0000000a\"");
@@ -207,7 +207,7 @@ TEST(Relay, SaysHowARunEnded) {
   run.what = "replay of a drive";
   relay.take("RUN", encoded(run), milliseconds(0));
   run.ended = 1;
-  run.verdict = "One line.\nAnother.\n\xff";  // a byte that is no text
+  run.verdict = "One line.\nAnother.\n\xff";  // a byte that is not valid UTF-8
   relay.take("RUN", encoded(run), milliseconds(10));
   relay.pass_on(milliseconds(10));
   std::uint64_t seen = 0;

@@ -1,4 +1,4 @@
-// The dashboard's server, as browsers and other sites' pages speak to it.
+// Tests the dashboard's server with requests of browsers and of other sites' pages.
 #include "tools/dashboard/server.h"
 
 #include <arpa/inet.h>
@@ -17,9 +17,9 @@
 namespace maploop::dashboard {
 namespace {
 
-// The library makes tables of its own at its first request, behind a guard that the thread
-// sanitizer does not see, for the library was not built with it. A thread makes them here that ends
-// before any other begins.
+// The library makes internal tables at its first request, behind a guard that the thread sanitizer
+// does not see, because the library was not built with it. This thread makes them and ends before
+// any other begins.
 class FirstRequest : public ::testing::Environment {
   void SetUp() override {
     httplib::Server server;
@@ -60,7 +60,7 @@ TEST_F(DashboardServer, AnswersToItsOwnNamesAlone) {
   EXPECT_EQ(asked(here("localhost")), 200);
   EXPECT_EQ(asked(here("[::1]")), 200);
   EXPECT_EQ(asked("localhost:9000"), 200) << "through a tunnel";
-  // A site whose name was made to mean this machine.
+  // A site whose name was made to resolve to this machine.
   EXPECT_EQ(asked(here("evil.example.org")), 403);
   EXPECT_EQ(asked(here("localhost.example.org")), 403);
   EXPECT_EQ(asked(here("10.0.0.1")), 403);
@@ -107,7 +107,7 @@ TEST_F(DashboardServer, ThePageAsksForNoIcon) {
   EXPECT_NE(page->body.find("<link rel=\"icon\" href=\"data:,\">"), std::string::npos);
 }
 
-// A browser that asks for the events and reads nothing of them, as long as it lives.
+// A browser that requests the events and never reads them.
 class StalledBrowser {
  public:
   explicit StalledBrowser(int port) {

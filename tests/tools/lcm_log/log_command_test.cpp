@@ -1,4 +1,4 @@
-// `maploop log` as its user runs it.
+// Tests `maploop log` as users run it.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -27,7 +27,7 @@ class LogCommand : public ::testing::Test {
   LogCommand() { record(folder_.path() / "a.lcmlog", small_drive()); }
   std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
 
-  // a.lcmlog with one event damaged.
+  // Writes a copy of a.lcmlog with one damaged event.
   void make_damaged(const std::string& name) const {
     auto bytes = read_bytes(file("a.lcmlog"));
     bytes[event_offsets(small_drive())[5]] ^= 1;
@@ -41,7 +41,7 @@ TEST_F(LogCommand, InfoTellsChannelsAndTypes) {
   const ProcessResult result = log({"info", file("a.lcmlog"), "--json", file("a.json")});
   EXPECT_EQ(result.status, 0) << result.error;
   EXPECT_TRUE(contains(result.out, "maploop_lcm.nav_state_t"));
-  EXPECT_EQ(result.error, "");  // no progress line where there is no terminal
+  EXPECT_EQ(result.error, "");  // no progress line without a terminal
   EXPECT_FALSE(read_bytes(file("a.json")).empty());
 }
 
@@ -58,7 +58,7 @@ TEST_F(LogCommand, VerifyAnswersWithItsStatus) {
 
 TEST_F(LogCommand, DiffAnswersWithItsStatus) {
   auto events = small_drive();
-  events[1].data = health_bytes(3);  // HEALTH speaks of the run
+  events[1].data = health_bytes(3);  // HEALTH depends on the run
   record(file("b.lcmlog"), events);
   EXPECT_EQ(log({"diff", file("a.lcmlog"), file("b.lcmlog")}).status, 0);
   const ProcessResult health =

@@ -1,4 +1,4 @@
-// Logs that differ, and in what.
+// Tests the comparison of logs.
 #include "tools/lcm_log/log_diff.h"
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ TEST_F(LogDiffTest, NamesFirstDifferingMessageAndField) {
 
 TEST_F(LogDiffTest, MissingMessagesAndChannels) {
   auto events = drive_;
-  events.pop_back();  // the last of X
+  events.pop_back();  // the last message of X
   std::erase_if(events, [](const auto& e) { return e.channel == "IMU"; });
   events.push_back({"NEW", kTestStart, {1}});
   const LogDiff result = compare_with(events);

@@ -1,4 +1,4 @@
-// What `log info` answers.
+// Tests `log info`.
 #include "tools/lcm_log/log_info.h"
 
 #include <gtest/gtest.h>

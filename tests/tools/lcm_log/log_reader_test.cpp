@@ -1,4 +1,4 @@
-// The reader on whole, damaged and hostile logs.
+// Tests the reader on intact, damaged and malicious logs.
 #include "msgs/lcm/log/log_reader.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ struct Reading {
   std::vector<Damage> damages;
 };
 
-// Everything of a log; every byte must be in one event or in one damage.
+// Reads a whole log; each byte must be in exactly one event or one damage.
 Reading read_all(const std::filesystem::path& file, const LogLimits& limits = {}) {
   LogReader reader(file, types(), limits);
   Reading all;
@@ -59,7 +59,7 @@ class LogReaderTest : public ::testing::Test {
     return read_all(damaged_);
   }
 
-  // The whole drive but events first..last.
+  // Returns the whole drive without events first..last.
   std::vector<TestEvent> without(std::size_t first, std::size_t last) const {
     auto events = drive_;
     events.erase(events.begin() + static_cast<std::ptrdiff_t>(first),
@@ -107,8 +107,8 @@ TEST_F(LogReaderTest, CutAtEveryByte) {
   }
 }
 
-// A bit of the sync word or of a length takes its event and no other; a bit of the number, the time
-// or the channel's name leaves it readable.
+// A wrong bit in the sync word or a length loses its own event only; a wrong bit in the number, the
+// time or the channel's name leaves the event readable.
 TEST_F(LogReaderTest, EverySingleBitOfEveryHeader) {
   const Bytes whole = read_bytes(file_);
   for (std::size_t event = 0; event < drive_.size(); ++event) {
@@ -160,8 +160,8 @@ TEST_F(LogReaderTest, GarbageBetweenEventsTakesNoneWithIt) {
     bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(offsets_[event]), garbage.begin(),
                  garbage.end());
     const Reading all = read(bytes);
-    // Of a type that nobody knows, an event that none follows is doubtful where none before it on
-    // its channel looked alike.
+    // An event of unknown type with no event directly after it is doubtful if no earlier event on
+    // its channel was similar.
     if (event == 5 || event == 6) {
       ASSERT_GE(all.events.size(), drive_.size() - 1);
     } else {
@@ -183,7 +183,7 @@ TEST_F(LogReaderTest, OverwrittenPieceTakesOnlyWhatItTouches) {
     const Reading all = read(bytes);
     for (std::size_t i = 0; i < drive_.size(); ++i) {
       const bool touched = begin < offsets_[i + 1] && end > offsets_[i];
-      // The one before the piece may be of unknown type and have no like before it: 4 and 5.
+      // The event before the piece may be of unknown type without a similar earlier one: 4 and 5.
       const bool doubtful = begin == offsets_[i + 1] && (i == 4 || i == 5);
       if (touched || doubtful) continue;
       ASSERT_TRUE(std::find(all.events.begin(), all.events.end(), drive_[i]) != all.events.end())
@@ -233,7 +233,8 @@ TEST_F(LogReaderTest, EventsBeyondTheLimitAreDamage) {
                           [](const TestEvent& e) { return e.data.size() <= 100; }));
 }
 
-// Each header promises 64 MB that begin in the next one: no time or memory is spent on promises.
+// Each header declares 64 MB of data that begin in the next header: the reader must not spend time
+// or memory on them.
 TEST_F(LogReaderTest, HeadersThatPromiseTheMost) {
   Bytes bytes(20'000 * kHeaderBytes);
   for (std::size_t i = 0; i < 20'000; ++i) {

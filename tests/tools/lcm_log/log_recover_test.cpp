@@ -1,4 +1,4 @@
-// What is saved of damaged logs, read back by LCM itself, and the account of what is not.
+// Tests the recovery of damaged logs, read back by LCM itself, and the report of losses.
 #include "tools/lcm_log/log_recover.h"
 
 #include <gtest/gtest.h>
@@ -93,9 +93,9 @@ TEST_F(LogToolsTest, RecoverOfWhatHoldsNoEventWritesNothing) {
 
 TEST_F(LogToolsTest, RecoverCountsWithNumbersThatAreFarApart) {
   auto bytes = read_bytes(log_);
-  bytes[offsets_[3]] ^= 0xffU;      // no event: a loss
-  bytes[offsets_[4] + 4] ^= 0x7fU;  // the number of the event behind it
-  bytes[offsets_[2] + 4] ^= 0x80U;  // and before it
+  bytes[offsets_[3]] ^= 0xffU;      // not an event any more: a loss
+  bytes[offsets_[4] + 4] ^= 0x7fU;  // the number of the event after it
+  bytes[offsets_[2] + 4] ^= 0x80U;  // the number of the event before it
   write_bytes(log_, bytes);
   EXPECT_EQ(recover(log_, types(), out_).events, drive_.size() - 1);
 }

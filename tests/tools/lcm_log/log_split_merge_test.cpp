@@ -1,4 +1,4 @@
-// Parts and joins of logs, read back by LCM itself.
+// Tests splitting and merging of logs, read back by LCM itself.
 #include "tools/lcm_log/log_split.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A recorded log in a folder of its own, for the tests of the log tools.
+// Provides a recorded log in a separate folder, for the tests of the log tools.
 #pragma once
 
 #include <gtest/gtest.h>

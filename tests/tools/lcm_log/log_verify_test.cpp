@@ -1,4 +1,4 @@
-// What `log verify` finds, by known types and by those of others.
+// Tests `log verify` with our own types and those of others.
 #include "tools/lcm_log/log_verify.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ TEST_F(LogToolsTest, VerifyFindsNothingInASoundLog) {
   EXPECT_EQ(v.finding_count, 0U) << format_findings(v);
   EXPECT_EQ(v.events, 24U);
   EXPECT_EQ(v.decoded + v.unknown, 24U);
-  EXPECT_EQ(v.unknown, 5U);  // CAMERA_TRIGGER, and one without data
+  EXPECT_EQ(v.unknown, 5U);  // CAMERA_TRIGGER, and one message without data
 }
 
 TEST_F(LogToolsTest, VerifyNamesOffsetEventAndReason) {

@@ -1,4 +1,4 @@
-// Logs as tracks, and matches of a file against the links driven.
+// Tests logs as tracks, and matches of a file against the links driven.
 #include "tools/match/match_file.h"
 
 #include <gmock/gmock.h>
@@ -34,7 +34,7 @@ class MatchLog : public ::testing::Test {
     writer.write({.channel = channel, .data = bytes});
   }
 
-  // A second of states to the north, 100 a second; a GNSS fix before them.
+  // Writes a GNSS fix, then one second of states to the north, 100 a second.
   void write_states() {
     GnssFix fix;
     fix.stamp = start;

@@ -28,7 +28,7 @@ class MatchOutput : public ::testing::Test {
   MatchOutput() {
     mapmatch::Matcher matcher(network, rules, {});
     track.fixes = maploop::testing::drive({{-90, 0}, {90, 0}}, 10.0, 1.0);
-    track.fixes.push_back(track.fixes.back());  // not later: not used
+    track.fixes.push_back(track.fixes.back());  // not later, so that it is not used
     track.fixes.push_back(track.fixes.back());
     track.fixes.back().stamp += std::chrono::hours(1);
     track.fixes.back().position = SmallMap::place(4000, 4000);
@@ -73,7 +73,7 @@ TEST_F(MatchOutput, GeoJsonAndGpxHoldTheMatchedPositions) {
   std::size_t points = 0;
   for (std::size_t at = 0; (at = gpx.find("<trkpt", at)) != std::string::npos; ++at) ++points;
   EXPECT_EQ(points, track.fixes.size() - 2);
-  // The name is no UTF-8: GeoJSON is UTF-8, and says so with a replacement.
+  // The name is not valid UTF-8; GeoJSON is UTF-8 and contains a replacement character.
   write_match_geojson(folder.path() / "a.geojson", track, network);
   const auto json = nlohmann::json::parse(read(folder.path() / "a.geojson"));
   EXPECT_EQ(json["features"].size(), track.fixes.size() + 1);

@@ -1,5 +1,5 @@
-// Links found on eight recorded drives, against labels of the links driven. The bounds are what
-// maploop experiment match and map-faults reach, with some room.
+// Tests links found on eight recorded drives against labels of the links driven. The bounds are the
+// results of maploop experiment match and map-faults, with a margin.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -70,7 +70,7 @@ TEST(RealDrives, WithoutNoise) {
   MAPLOOP_REQUIRE_REAL_DATA();
   for (const double interval : {1.0, 0.0}) {
     const Compared c = compare(interval, {});
-    // Reached: 99.2 and 99.1 %, 100 %, 100 and 99.9 %.
+    // The results are 99.2 and 99.1 %, 100 %, 100 and 99.9 %.
     EXPECT_GE(c.ours.all.share(), 0.988);
     EXPECT_GE(c.ours.certain.share(), 0.9997);
     EXPECT_GE(c.ours.all.coverage(), 0.998);
@@ -80,7 +80,7 @@ TEST(RealDrives, WithoutNoise) {
 TEST(RealDrives, WhiteNoiseCostsLessThanHalfOfWhatItCostsTheNearestSegment) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const Compared five = compare(1.0, noisy(5, 0));
-  // Reached with any noise: 99.8 %.
+  // The result is 99.8 % with any noise.
   EXPECT_GE(five.ours.certain.share(), 0.995);
   EXPECT_LT(five.ours.all.wrong(), five.baseline.all.wrong());
   for (const double sigma : {10.0, 15.0}) {
@@ -133,8 +133,8 @@ TEST(RealDrives, AWrongMapIsNeverBelievedForLong) {
     EXPECT_LE(missing.longest_sure_wrong, 3.0) << way;
     EXPECT_LE(missing.recovery, 50.0) << way;
   }
-  // Turned off on a road that is missing, a second between fixes: a path that goes straight on, in
-  // line with the vehicle and hundreds of metres behind it, is no match.
+  // The vehicle turns off onto a missing road, with a second between fixes: a path that goes
+  // straight on, in line with the vehicle and hundreds of metres behind it, is not a match.
   constexpr std::int64_t turned_into = 4136426;
   std::vector<std::size_t> seconds;
   const Track slow = with_noise(drive.track, 1.0, {}, &seconds);
@@ -145,8 +145,7 @@ TEST(RealDrives, AWrongMapIsNeverBelievedForLong) {
             3.0);
 }
 
-// Another country, another map, positions alone; a third of the drive is on roads that the map
-// lacks.
+// Another country and map, positions only; a third of the drive is on roads that the map lacks.
 TEST(RealDrives, OffTheMapNoRoadIsSaid) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const auto folder = real_data() / "maps/riverside";
@@ -157,7 +156,7 @@ TEST(RealDrives, OffTheMapNoRoadIsSaid) {
   const Track track = read_track(real_data() / "gnss/riverside_drive/groundtruth.csv.gz", options);
   mapmatch::Matcher matcher(network, rules(), {});
   const auto matched = match_track(matcher, track);
-  // gps_tow,class,distance_same_heading,distance_any: "far" has no road near.
+  // Columns are gps_tow,class,distance_same_heading,distance_any; class "far" has no road near.
   std::set<long> far;
   std::istringstream detail(evaluation::read_text(folder / "off_map_detail_2020.csv.gz"));
   for (std::string line; std::getline(detail, line);)

@@ -5,7 +5,7 @@
 
 namespace maploop::testing {
 
-// What it throws says; or "accepted".
+// Returns the message of the exception that it throws, or "accepted".
 template <class Read>
 std::string refusal(Read&& read) {
   try {

@@ -1,4 +1,4 @@
-// What is said of tracks that come to nothing on a map.
+// Tests the messages about tracks that cannot be used with a map.
 #include "tools/match/unused_fixes.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// The back end on another front end's tracks of other drives: 60 to 100 features a frame.
+// Tests the back end on another front end's tracks of other drives: 60 to 100 features a frame.
 #include "runtime/vehicle/recorded_tracks.h"
 
 #include <gtest/gtest.h>
@@ -25,9 +25,10 @@ std::filesystem::path tracks_folder() {
 
 struct Case {
   const char* drive;
-  std::size_t last;       // frame
-  double end_point;       // % of the way: the bound, between what is reached and
-  double frame_to_frame;  // a plain odometry from frame to frame on the same tracks
+  std::size_t last;  // last frame
+  double end_point;  // % of the distance; bound between the result and frame_to_frame
+  double
+      frame_to_frame;  // % of the distance, for a plain frame-to-frame odometry on the same tracks
 };
 
 void PrintTo(const Case& c, std::ostream* stream) {
@@ -64,7 +65,7 @@ TEST_P(RecordedTracksTest, EndsNearerToTheTruthThanAPlainOdometryFromFrameToFram
 constexpr std::size_t kAll = 10000;
 INSTANTIATE_TEST_SUITE_P(Drives, RecordedTracksTest,
                          ::testing::Values(
-                             // Reached: 1.99, 3.15, 0.64, 2.09, 2.34, 0.76, 3.22.
+                             // The results are 1.99, 3.15, 0.64, 2.09, 2.34, 0.76, 3.22.
                              Case{"2011_09_26_drive_0001", kAll, 2.4, 2.64},
                              Case{"2011_09_26_drive_0027", kAll, 4.0, 9.30},
                              Case{"2011_09_26_drive_0035", kAll, 0.70, 0.76},
@@ -74,8 +75,8 @@ INSTANTIATE_TEST_SUITE_P(Drives, RecordedTracksTest,
                              Case{"2011_10_03_drive_0042", 199, 3.38, 3.39}),
                          [](const auto& param) { return std::string(param.param.drive); });
 
-// Of increments of a second, a degree of freedom: 1 is right. Left out: 0027, whose few features
-// are all far (reached 7), and the stress case 0042 (3.7).
+// The NEES per degree of freedom of increments of a second; 1 is ideal. Drives left out are 0027,
+// whose few features are all far (result 7), and the stress case 0042 (3.7).
 TEST(RecordedTracksConsistency, CovariancesSayHowFarTheMotionsAreWrong) {
   MAPLOOP_REQUIRE_REAL_DATA();
   for (const char* drive :
@@ -90,7 +91,7 @@ TEST(RecordedTracksConsistency, CovariancesSayHowFarTheMotionsAreWrong) {
         consistency(motions, tracks->calibration.T_body_cam, read_truth(file));
     EXPECT_GT(found.increments, 5) << drive;
     EXPECT_GT(found.nees, 0.1) << drive;
-    EXPECT_LT(found.nees, 2.5) << drive;  // reached 0.6 to 1.9
+    EXPECT_LT(found.nees, 2.5) << drive;  // the results are 0.6 to 1.9
   }
 }
 
@@ -151,7 +152,7 @@ TEST_F(TrackFile, WhatIsWrittenIsReadBack) {
   EXPECT_EQ(back.first_good_frame, 1u);
   EXPECT_EQ(back.stamps[3] - back.stamps[0], from_seconds(0.375));
   EXPECT_EQ(back.calibration.T_body_cam.matrix(), recorded.calibration.T_body_cam.matrix());
-  ASSERT_EQ(back.frames[2].size(), 3u);  // 9 begins there
+  ASSERT_EQ(back.frames[2].size(), 3u);  // track 9 begins there
   const auto tracks = back.between(1, 2);
   ASSERT_EQ(tracks.size(), 2u);
   EXPECT_EQ(tracks[0].id, 2);

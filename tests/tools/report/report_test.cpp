@@ -1,4 +1,4 @@
-// The replay's page: what its sections say of made-up runs.
+// Tests the sections of the replay's page for synthetic runs.
 #include "tools/report/report.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ Time at(double seconds) {
   return from_nanoseconds(1'317'042'651'000'000'000) + from_seconds(seconds);
 }
 
-// Due east at 10 m/s.
+// Returns positions due east at 10 m/s.
 Eigen::Vector3d place(double seconds) {
   return {10.0 * seconds, 0.0, 0.0};
 }
@@ -37,7 +37,7 @@ std::vector<ReferencePose> straight_drive(double seconds) {
   return rows;
 }
 
-// Off by 0.3 m to the north and 0.4 m up, with sigmas of 0.2 m.
+// Returns positions that are 0.3 m too far north and 0.4 m too high, with sigmas of 0.2 m.
 std::map<Time, PppState> ppp_of(double seconds) {
   std::map<Time, PppState> states;
   for (int t = 0; t < static_cast<int>(seconds); ++t) {

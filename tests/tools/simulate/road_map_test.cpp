@@ -1,4 +1,4 @@
-// The map that the matcher gets of a simulated town.
+// Tests the map that the matcher gets of a simulated town.
 #include "tools/simulate/road_map.h"
 
 #include <gtest/gtest.h>
@@ -91,15 +91,15 @@ TEST(SimulatedRoadMap, LabelsNameTheSegmentsDriven) {
     const double along = place.dot(segment.normalized());
     const double right =
         place.x() * segment.normalized().y() - place.y() * segment.normalized().x();
-    // Driven from a to b, in the right lane or a metre to its left. (The labels share the way out
-    // by lengths, so that they may be a few metres off.)
+    // The segment is driven from a to b, in the right lane or a metre to its left. (The labels
+    // interpolate the way by lengths, so that they may be a few metres off.)
     EXPECT_GT(right, -0.5) << line;
     EXPECT_LT(right, 4.0) << line;
     EXPECT_GT(along, -6.0) << line;
     EXPECT_LT(along, segment.norm() + 6.0) << line;
   }
   EXPECT_EQ(rows, times.size());
-  EXPECT_GT(certain, rows / 4);  // it waits before junctions
+  EXPECT_GT(certain, rows / 4);  // the car waits before junctions
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A whole drive: the same bytes again, and readable as KITTI's are.
+// Tests a whole drive: the bytes are reproducible, and it is readable like KITTI's drives.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -73,7 +73,7 @@ TEST_F(SimulatedDrive, SameSeedSameBytesWhateverTheThreads) {
   EXPECT_EQ(delivered(*synced.imu()), 10U);
   const auto camera = drive.camera();
   for (StereoPair pair; camera->next(pair);) {
-    // Neither dark nor washed out.
+    // The image is neither dark nor overexposed.
     const auto& pixels = pair.left.pixels;
     const double bright = static_cast<double>(
         std::count_if(pixels.begin(), pixels.end(), [](auto p) { return p > 250; }));

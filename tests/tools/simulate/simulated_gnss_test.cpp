@@ -1,5 +1,4 @@
-// The simulated sky, read back by the readers and models of ppp, and signals in a scene that can be
-// computed by hand.
+// Tests the simulated satellites with the readers and models of ppp, and signals in simple scenes.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -41,7 +40,7 @@ TEST(SimulatedConstellation, VelocityIsThatOfThePosition) {
   }
 }
 
-// The readers' products of a constellation.
+// The products of a constellation, read by the readers.
 struct Products {
   explicit Products(const Constellation& sky, std::uint64_t seed) {
     parse_into(navigation_text(sky, span, seed), "nav", files);
@@ -67,7 +66,7 @@ TEST(SimulatedProducts, AreNearTheTruthByTheErrorsTheyShouldHave) {
       ASSERT_TRUE(said && final) << to_string(s.satellite);
       const Eigen::Vector3d truth = s.orbit.position(t);
       const double clock = sky.clock(i, t) + clock_relativity(s.orbit, t);
-      // A message is about the phase centre, about a metre nearer to the earth.
+      // A message refers to the phase centre, which is about a metre nearer to the earth.
       const Eigen::Vector3d centre = truth - s.antennas[0].phase_centre * truth.normalized();
       broadcast_squares += (said->position - centre).squaredNorm();
       precise_squares += (final->position - truth).squaredNorm();
@@ -91,7 +90,7 @@ TEST(SimulatedAir, TracedRaysAgreeWithTheMappingFunction) {
     EXPECT_GT(zenith, 2.25);
     EXPECT_LT(zenith, 2.65);
     for (const double elevation : {7.0, 15.0, 30.0, 60.0}) {
-      // The mean over all sides has no gradient.
+      // The mean of two opposite directions contains no gradient.
       const double delay = 0.5 * (air.delay(radians(elevation), 0.3, 0.0) +
                                   air.delay(radians(elevation), 0.3 + radians(180.0), 0.0));
       EXPECT_NEAR(delay / zenith / mapping.at(radians(elevation)).hydrostatic, 1.0, 0.006)
@@ -138,7 +137,7 @@ TEST_F(WallToTheEast, ReflectsWhatComesFromTheWest) {
   EXPECT_NE(paths[1].surface, 0U);
   EXPECT_NEAR(paths[1].delay, 2.0 * 10.0 * std::cos(radians(30.0)), 1e-3);
   EXPECT_LT(paths[1].amplitude, 0.6);
-  // As it changes when the antenna has moved.
+  // The rate agrees with the change of the delay after the antenna has moved.
   const SignalPaths later(scene_, Eigen::Vector3d(0, 0, 1.7) + 0.1 * velocity, velocity);
   const auto moved = later.from(sky(270.0, 30.0));
   ASSERT_EQ(moved.size(), 2U);
@@ -186,7 +185,7 @@ TEST(SignalTracker, AReflectionPullsTheCodeEitherWayAndAloneTakesItAlong) {
     for (int i = 0; i < 200; ++i) sum += tracker.track(paths, 1.2, 1.0)->code / 200.0;
     return sum;
   };
-  // Beyond half the correlator's spacing: its amplitude's share of that.
+  // A path delayed by more than half the spacing shifts the code by its amplitude times that half.
   const double in_phase = 105.0 * wavelength;
   const SignalPath direct{1.0}, reflected{0.3, in_phase, 0.0, 0.0, 9};
   const SignalPath against{0.3, in_phase + 0.5 * wavelength, 0.0, 0.0, 9};
@@ -264,7 +263,8 @@ Solved solve(const fs::path& folder) {
   return result;
 }
 
-// 0.10, 0.27 and 0.30 m after five minutes; on one frequency 2.0, 2.4 and 1.7 m, mostly up.
+// The errors are 0.10, 0.27 and 0.30 m after five minutes; on one frequency 2.0, 2.4 and 1.7 m,
+// mostly up.
 TEST_F(GnssOnlyDrive, OpenSkyConvergesToDecimetres) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const fs::path drive = made(std::to_string(seed).c_str(), Environment::open, 300.0, seed);
@@ -277,8 +277,8 @@ TEST_F(GnssOnlyDrive, OpenSkyConvergesToDecimetres) {
   }
 }
 
-// Between houses codes are wrong by tens of metres and phases slip several at a time: 4.6, 5.2 and
-// 6.3 m horizontally, NEES 9.7, 3.3 and 3.4 of 3.
+// Between houses codes are wrong by tens of metres and several phases slip at a time: 4.6, 5.2 and
+// 6.3 m horizontally, NEES 9.7, 3.3 and 3.4 (expected 3).
 TEST_F(GnssOnlyDrive, InStreetCanyonsItIsMetresOffAndSaysSo) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const fs::path drive = made(std::to_string(seed).c_str(), Environment::urban, 300.0, seed);
@@ -289,8 +289,8 @@ TEST_F(GnssOnlyDrive, InStreetCanyonsItIsMetresOffAndSaysSo) {
   }
 }
 
-// What is common to all satellites is estimated beside the position there, and neither is known
-// without the other: one epoch in sixteen had a covariance that was none.
+// The errors common to all satellites are estimated together with the position, and neither is
+// known without the other: one epoch in sixteen had a matrix that was not a valid covariance.
 TEST_F(GnssOnlyDrive, WithTheRoadOnOneFrequencyTheCovarianceIsOne) {
   const fs::path drive = made("road", Environment::urban, 300.0, 1);
   const ppp::GnssFiles files = files_of(drive / "gnss_one_frequency");

@@ -1,4 +1,4 @@
-// Drives on the roads of a map.
+// Tests drives on the roads of a map.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 const LocalFrame map_frame({radians(49.0), radians(8.4), 100.0});
 
-// Nodes a hundred metres apart in a row, and one beside the second.
+// Nodes 100 m apart in a row, one 100 m beside the second, and one 10 m after the second.
 mapmatch::MapExtract hand_made() {
   mapmatch::MapExtract map;
   const auto node = [&](std::int64_t id, double x, double y) {
@@ -134,7 +134,8 @@ TEST_F(Karlsruhe, TheCarStaysOnTheRoadAndDrivesAsADriverDoes) {
     const StreetIndex index(site.streets, 5.0);
     int off = 0, all = 0;
     for (double t = 0.0; t < 120.0; t += 0.1, ++all) {
-      // A kerb's corners are not rounded: turns cut them, before anything stands beside the road.
+      // The corners of a kerb are not rounded: turns cut them, but stay clear of objects beside the
+      // road.
       const double to_kerb = index.to_kerb(motion.position(t));
       EXPECT_LT(to_kerb, 2.0) << seed << ' ' << t;
       off += to_kerb > -0.5;

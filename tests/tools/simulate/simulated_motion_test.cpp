@@ -1,4 +1,4 @@
-// Streets, the line driven on them, speed and pose.
+// Tests streets, the line driven on them, speed and pose.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -82,7 +82,7 @@ TEST(LanePath, KeepsToTheRightLaneAndTurnsWide) {
       const StreetPlace at = index.nearest(town.path->position(way)).first;
       ASSERT_EQ(at.street, &street) << way;
       const double right = stretch.street.forward ? -at.left : at.left;
-      // In its lane, or a metre to the left of it.
+      // The path is in its lane, or a metre to its left.
       EXPECT_GT(right, street.lane() - 1.5) << way;
       EXPECT_LT(right, street.lane() + 0.4) << way;
     }
@@ -137,7 +137,7 @@ TEST(VehicleMotion, VelocitiesAndRatesAreThoseOfThePose) {
     EXPECT_LT((velocity - state.velocity_enu).norm(), 2e-2) << t;
     const Eigen::AngleAxisd turn(before.linear().transpose() * after.linear());
     EXPECT_LT((turn.angle() * turn.axis() / (2.0 * h) - state.rate_body).norm(), 2e-2) << t;
-    // It goes where it points, within what it heaves on its springs.
+    // The car moves where it points, except for the motion of its springs.
     const Eigen::Vector3d v_body = state.T_enu_body.linear().transpose() * state.velocity_enu;
     EXPECT_LT(std::fabs(v_body.y()), 0.01 + 0.01 * v_body.x()) << t;
     EXPECT_LT(state.acceleration_enu.norm(), 6.0) << t;

@@ -1,4 +1,4 @@
-// What a replay makes of a simulated drive's GNSS receiver.
+// Tests a replay with a simulated drive's GNSS receiver.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -21,7 +21,7 @@ TEST(SimulatedReplay, ObservationsTakeThePlaceOfTheReferencesGnss) {
   options.imu = ImuGrade::mems;
   const fs::path drive = folder.path() / "drive", sync = drive / "town_sync";
   ASSERT_TRUE(simulate_drive(drive, options));
-  // The stamps of images are enough to open it.
+  // A drive can be opened if it has the stamps of images.
   for (const char* camera : {"image_00", "image_01"}) {
     fs::create_directories(sync / camera / "data");
     fs::copy_file(sync / "oxts/timestamps.txt", sync / camera / "timestamps.txt");
@@ -34,7 +34,7 @@ TEST(SimulatedReplay, ObservationsTakeThePlaceOfTheReferencesGnss) {
   EXPECT_NEAR(config.lidar.elevation_correction, radians(0.205), 1e-8);
   EXPECT_EQ(config.wheel.errors, sensors::ErrorModel::drawn);
   EXPECT_EQ(config.wheel.seed, 1);
-  // All that a recording can know of its car is said.
+  // The configuration contains all that a recording can know about its car.
   for (const char* key : {"fusion.rear_axle_distance", "fusion.climb_offset",
                           "fusion.climb_offset_sigma", "lidar.elevation_correction"}) {
     EXPECT_TRUE(config.given.contains(key)) << key;

@@ -1,4 +1,4 @@
-// Camera, LiDAR and inertial unit in scenes that can be computed by hand.
+// Tests camera, LiDAR and inertial unit in scenes that can be computed by hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,8 @@
 namespace maploop::simulate {
 namespace {
 
-// A dark wall at x = 12 m, a bright square of 1 m before it, at x = 10 m; walls behind and beside.
+// Returns a dark wall at x = 12 m, a bright square of 1 m in front of it at x = 10 m, and walls
+// behind and beside.
 Mesh hand_made_scene() {
   Mesh mesh;
   const std::uint32_t dark = mesh.add({Material::metal, 0.1F, 1});
@@ -37,7 +38,7 @@ class HandMadeScene : public ::testing::Test {
   HandMadeScene()
       : index_(streets_, 1.0), appearance_(index_), world_(hand_made_scene(), {}), scene_(world_) {}
 
-  // Column and row of the middle of the bright square.
+  // Returns column and row of the centre of the bright square.
   Eigen::Vector2d seen(const Eigen::Isometry3d& T_enu_cam, const ColumnShift& shift = {}) const {
     CameraParameters parameters;
     parameters.exposure = 600.0F;
@@ -74,17 +75,17 @@ TEST_F(HandMadeScene, CamerasSeeASquareWhereItIsProjected) {
   Eigen::Isometry3d T_enu_cam = Eigen::Isometry3d::Identity();
   T_enu_cam.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   const Eigen::Vector2d left = seen(T_enu_cam);
-  // Its middle is 0.3 m to the left, 10 m away.
+  // The centre is 0.3 m to the left, 10 m away.
   EXPECT_NEAR(left.x(), camera_.cx - 0.3 * camera_.fx / 10.0, 0.1);
   EXPECT_NEAR(left.y(), camera_.cy, 0.1);
   const Eigen::Isometry3d T_enu_right = T_enu_cam * Eigen::Translation3d(camera_.baseline, 0, 0);
   const Eigen::Vector2d right = seen(T_enu_right);
   EXPECT_NEAR(left.x() - right.x(), camera_.fx * camera_.baseline / 10.0, 0.1);
-  // What rectification leaves moves it to the left by what its column has.
+  // The error that rectification leaves moves the square to the left by the shift of its column.
   const ColumnShift shift{0.6F, -1.0F, 3.0F};
   const double x = 2.0 * right.x() / camera_.width - 1.0;
   EXPECT_NEAR(right.x() - seen(T_enu_right, shift).x(), 0.6 - x + 3.0 * x * x, 0.1);
-  // Disparities that are too small are those of a right image whose things are too far right.
+  // Disparities that are too small correspond to a right image whose contents are too far right.
   EXPECT_GT(seen(T_enu_right, -shift).x(), right.x() + 0.3);
 }
 
@@ -107,7 +108,7 @@ TEST(CalibrationErrors, AreOfTheSizesMeasuredAndTheSameForASeed) {
   }
   EXPECT_NEAR(least, 0.30, 0.003);
   EXPECT_NEAR(most, 0.48, 0.003);
-  // KITTI's drive 0013 lacks 0.67 and 0.6 px at the edges.
+  // The disparities of KITTI's drive 0013 are too small by 0.67 and 0.6 px at the edges.
   EXPECT_NEAR(left, 0.7, 0.1);
   EXPECT_NEAR(right, 0.7, 0.1);
   EXPECT_NEAR(scale, 0.0, 2e-4);
@@ -123,7 +124,7 @@ TEST_F(HandMadeScene, ATurnHasItsPointsOnTheWallsOfTheirMoment) {
   exact.firings = 360;
   exact.noise = exact.laser_offset = exact.laser_angle = 0.0F;
   exact.elevation_error = exact.lost = 0.0F;
-  // A metre forward in a turn.
+  // The pose moves a metre forward during a turn.
   const auto pose = [](double share) {
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
     T.translation().x() = share;
@@ -155,7 +156,8 @@ TEST_F(HandMadeScene, ARealScannerIsAsFarOffAsItsParametersSay) {
   const auto pose = [](double) { return Eigen::Isometry3d::Identity(); };
   LidarParameters parameters;
   parameters.firings = 720;
-  // Mean, a share of the way to the wall behind, and standard deviation in metres.
+  // Returns the mean as a share of the distance to the wall behind, and the standard deviation in
+  // metres.
   const auto error = [&] {
     double sum = 0.0, squares = 0.0, count = 0.0;
     for (const LidarPoint& p : turn(pose, parameters)) {
@@ -238,7 +240,7 @@ TEST(TownScene, NothingStandsOnTheRoad) {
     if (material == Material::ground || material == Material::leaf) continue;
     for (const std::uint32_t corner : scene.triangles[i]) {
       const Eigen::Vector2d p = scene.vertices[corner].head<2>().cast<double>();
-      // Parked cars stand with two wheels on the road.
+      // Parked cars extend over the kerb onto the road.
       const double kerb = index.to_kerb(p);
       ASSERT_GT(kerb, material == Material::bark || material == Material::metal ? -0.7 : -0.5)
           << static_cast<int>(material) << " at " << p.transpose();

@@ -1,4 +1,4 @@
-// Encoded messages for the tests of the spy.
+// Encodes messages for the tests of the spy.
 #pragma once
 
 #include <cstdint>

@@ -29,7 +29,7 @@ class SpyScreen : public ::testing::Test {
     return screen_.picture(traffic_, seconds(1), rows, columns);
   }
 
-  // The row in reverse video.
+  // Returns the row in reverse video.
   std::string selected() {
     const std::string all = picture();
     const std::size_t begin = all.find("\x1b[7m") + 4;
@@ -99,7 +99,7 @@ TEST_F(SpyScreen, FitsEveryTerminal) {
       const std::string plain = std::regex_replace(all, std::regex("\x1b\\[[0-9;?]*[A-Za-z]"), "");
       for (std::size_t begin = 0; begin < plain.size();) {
         const std::size_t end = std::min(plain.find("\r\n", begin), plain.size());
-        // The help stands in the last row, behind a jump of the cursor and not a line's end.
+        // The help is in the last row, after a cursor movement instead of a line end.
         if (end < plain.size()) {
           EXPECT_LE(end - begin, columns);
         }

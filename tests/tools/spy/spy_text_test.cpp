@@ -109,7 +109,7 @@ TEST(SpyText, AMessageThatIsNoneSaysWhy) {
 TEST(SpyText, AMessageWithoutMeaningMakesNoLine) {
   Traffic traffic(own_schema(), seconds(5));
   maploop_lcm::health_t health{};
-  health.utime = std::numeric_limits<std::int64_t>::max();  // no stamp can hold it
+  health.utime = std::numeric_limits<std::int64_t>::max();  // a stamp cannot represent it
   traffic.add("HEALTH", encoded(health), seconds(1));
   EXPECT_TRUE(vehicle_lines(own_schema(), traffic).empty());
 }

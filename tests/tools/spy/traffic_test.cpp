@@ -63,7 +63,7 @@ TEST(SpyTraffic, AgesAreBehindTheNewestStampOfAnyChannel) {
   auto channels = traffic.status(seconds(1), all);
   EXPECT_NEAR(*channels[0].age_s, 1.5, 1e-9) << "years after the drive";
   EXPECT_EQ(*channels[1].age_s, 0.0);
-  // The replay starts again: the stamps of before are not `now` any more.
+  // The replay restarts: the former stamps no longer count as `now`.
   traffic.add("A", imu(0, drive - seconds(60)), seconds(2));
   traffic.add("B", imu(0, drive - seconds(61)), seconds(2));
   channels = traffic.status(seconds(2), all);

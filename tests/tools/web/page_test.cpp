@@ -1,4 +1,4 @@
-// Written pages: what is in them, apart from how a browser draws it.
+// Tests the contents of written pages, but not how a browser draws them.
 #include "tools/web/page.h"
 
 #include <gtest/gtest.h>
