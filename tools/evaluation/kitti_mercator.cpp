@@ -7,10 +7,8 @@ namespace maploop::evaluation {
 Trajectory from_kitti_mercator(const Trajectory& poses, double latitude, double azimuth) {
   constexpr double e2 = 0.00669437999014;
   const double w2 = 1.0 - e2 * std::pow(std::sin(latitude), 2);
-  const double east_scale =
-      1.0 / std::sqrt(w2);  // radius of the prime vertical relative to KITTI's sphere
-  const double north_scale =
-      (1.0 - e2) / std::pow(w2, 1.5);  // radius of the meridian relative to KITTI's sphere
+  const double east_scale = 1.0 / std::sqrt(w2);              // prime vertical by KITTI's sphere
+  const double north_scale = (1.0 - e2) / std::pow(w2, 1.5);  // meridian by KITTI's sphere
 
   // Rows are east, north, up in terms of a level camera's x (right), y (down), z (ahead).
   Eigen::Matrix3d R_enu_cam;

@@ -85,8 +85,7 @@ void write_kitti_poses(const std::filesystem::path& file, const Trajectory& traj
     }
     for (int row = 0; row < 3; ++row) {
       for (int column = 0; column < 4; ++column) {
-        std::array<char, 32>
-            number{};  // at most 24 characters for the shortest text that reads back bitwise equal
+        std::array<char, 32> number{};  // at most 24: shortest text that reads back equal
         const auto end = std::to_chars(number.begin(), number.end(), pose(row, column)).ptr;
         text.append(number.begin(), end);
         text += row == 2 && column == 3 ? '\n' : ' ';

@@ -30,9 +30,8 @@ class ChannelFilter {
 
   std::shared_ptr<const Pattern> pattern_;  // shared by copies of a filter
   std::set<std::string, std::less<>> without_;
-  std::unordered_map<std::string, bool>
-      decided_;          // cached decisions: matching is slow compared with reading
-  std::string channel_;  // reused key
+  std::unordered_map<std::string, bool> decided_;  // cached, because matching is slow
+  std::string channel_;                            // reused key
 };
 
 }  // namespace maploop::lcm_log

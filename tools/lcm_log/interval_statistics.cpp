@@ -30,9 +30,7 @@ double IntervalStatistics::deviation_s() const {
 std::uint64_t IntervalStatistics::longer_than_median(double factor) const {
   const auto intervals = histogram_.count();
   const double limit = factor * median_s();
-  std::uint64_t
-      low = 0,
-      high = intervals;  // the number of intervals of at most `limit` is between low and high
+  std::uint64_t low = 0, high = intervals;  // bounds of the number up to `limit`
   while (low < high) {
     const std::uint64_t middle = (low + high + 1) / 2;
     const double rank = static_cast<double>(middle) - 0.5;

@@ -28,9 +28,8 @@ std::optional<FieldDifference> compare(std::span<const std::uint8_t> a,
 struct ChannelDiff {
   std::string channel;
   std::uint64_t count_a = 0, count_b = 0;
-  std::uint64_t differing = 0;  // among the messages that have a partner in the other log
-  std::optional<std::uint64_t>
-      number;  // number, from 0, of the first message that differs or has no partner
+  std::uint64_t differing = 0;          // among the messages that have a partner in the other log
+  std::optional<std::uint64_t> number;  // of the first that differs or has no partner, from 0
   std::optional<std::int64_t> time_a_us, time_b_us;  // log time of that message, if the log has it
   std::optional<FieldDifference> field;              // if both logs have that message
 

@@ -19,8 +19,7 @@ using nlohmann::json;
 
 constexpr std::size_t kMaximumCounted = 1000;  // 33 MB
 constexpr std::size_t kMaximumTypes = 8;
-constexpr double kGapFactor =
-    2.5;  // two messages missing at a steady rate, or one with much jitter
+constexpr double kGapFactor = 2.5;  // two messages missing, or one with much jitter
 
 struct CountedChannel {
   ChannelInfo info;

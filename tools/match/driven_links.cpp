@@ -7,8 +7,7 @@
 namespace maploop::match {
 namespace {
 
-constexpr Duration near =
-    std::chrono::milliseconds(60);  // half a period of the frames, and a margin
+constexpr Duration near = std::chrono::milliseconds(60);  // half a frame period, with margin
 
 }  // namespace
 

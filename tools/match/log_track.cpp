@@ -9,8 +9,7 @@
 namespace maploop::match {
 namespace {
 
-constexpr Duration state_period =
-    std::chrono::milliseconds(100);  // least time between the states that are used
+constexpr Duration state_period = std::chrono::milliseconds(100);  // least time between states
 
 mapmatch::VehicleFix fix_of(const GnssFix& gnss) {
   mapmatch::VehicleFix fix;

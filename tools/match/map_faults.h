@@ -25,8 +25,7 @@ mapmatch::NetworkData without_way(const mapmatch::MapExtract& map, std::int64_t 
 
 // The score of one drive on a wrong map.
 struct FaultScore {
-  double longest_sure_wrong =
-      0.0;                // s, longest uninterrupted time with a wrong link of P above 0.9
+  double longest_sure_wrong = 0.0;  // s, longest uninterrupted wrong link of P above 0.9
   double recovery = 0.0;  // m, longest distance from where the map is right again to the right link
   // Fixes on the missing way, those of them with a link, those with a link of P above 0.9, and the
   // sum of P.

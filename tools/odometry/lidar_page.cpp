@@ -57,8 +57,8 @@ cv::Mat from_above(const PointCloud& cloud, const std::vector<LidarStep>& steps)
   constexpr float of_body = -0.9f;  // m, height of the ground relative to the vehicle's origin
   for (const lidar::SurfacePoint& point : cloud.points()) {
     auto& pixel = hue.at<cv::Vec3b>(view.at(point.position.head<2>().cast<double>()));
-    const float above = std::clamp((point.position.z() - of_body) / highest, 0.0f,
-                                   1.0f);  // above the ground at the first frame
+    const float above =
+        std::clamp((point.position.z() - of_body) / highest, 0.0f, 1.0f);  // above the first ground
     if (std::abs(point.normal.z()) < upright) {
       pixel = {static_cast<std::uint8_t>(120.0f * (1.0f - above)), 255, 200};
     } else if (pixel[1] == 0) {

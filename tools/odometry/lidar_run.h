@@ -32,10 +32,9 @@ struct LidarStep {
   std::size_t frame = 0;
   bool with_scan = false;
   LidarMotion lidar;
-  RelativeMotion odometry;  // the published motion of visual and LiDAR odometry
-  Eigen::Isometry3d pose;   // of the body, in its first frame
-  double milliseconds =
-      0.0;  // of processor time, including preparation of the scan, without visual odometry
+  RelativeMotion odometry;    // the published motion of visual and LiDAR odometry
+  Eigen::Isometry3d pose;     // of the body, in its first frame
+  double milliseconds = 0.0;  // of processor time, with preparation, without visual odometry
 };
 
 class LidarRun {

@@ -18,14 +18,13 @@ enum class Scanner {
 
 struct LidarParameters {
   Scanner scanner = Scanner::hdl_64e;
-  std::size_t firings = 2083;   // in a turn, of all lasers together
-  float reach = 120.0F;         // m
-  float noise = 0.015F;         // m, 1 sigma along the beam
-  float range_scale = 0.0F;     // 1, share by which ranges are too long
-  float laser_offset = 0.02F;   // m, 1 sigma, constant range error of each laser
-  float laser_angle = 0.0008F;  // rad, 1 sigma, constant direction error of each laser
-  float elevation_error =
-      0.00357792F;         // rad (0.205 deg), how much higher than documented all beams point
+  std::size_t firings = 2083;           // in a turn, of all lasers together
+  float reach = 120.0F;                 // m
+  float noise = 0.015F;                 // m, 1 sigma along the beam
+  float range_scale = 0.0F;             // 1, share by which ranges are too long
+  float laser_offset = 0.02F;           // m, 1 sigma, constant range error of each laser
+  float laser_angle = 0.0008F;          // rad, 1 sigma, constant direction error of each laser
+  float elevation_error = 0.00357792F;  // rad (0.205 deg), by which all beams point higher
   float lost = 0.02F;      // share of beams that do not return even from a perfect target
   std::uint64_t unit = 1;  // seeds the offsets and directions of the lasers
 };

@@ -61,9 +61,8 @@ struct World::Implementation {
   RTCDevice device = rtcNewDevice("threads=1");
   RTCScene standing = nullptr;
   std::vector<RTCScene> bodies;
-  std::vector<Mesh> meshes;  // the static one first
-  std::vector<std::vector<Eigen::Vector3f>>
-      normals;  // unit vectors, for the triangles of each mesh
+  std::vector<Mesh> meshes;                           // the static one first
+  std::vector<std::vector<Eigen::Vector3f>> normals;  // unit, of each mesh
 };
 
 World::World(Mesh standing, std::vector<Mesh> bodies)

@@ -14,8 +14,7 @@
 namespace maploop::simulate {
 namespace {
 
-constexpr std::size_t thinning =
-    5;  // every fifth point of a centreline, whose points are 2 m apart, becomes a node
+constexpr std::size_t thinning = 5;  // points of 2 m between nodes
 
 // A smooth displacement with zero mean: a sum of waves of random directions, with wavelengths of
 // 1.5 to 4 correlation lengths.

@@ -12,8 +12,7 @@ namespace maploop::simulate {
 struct MapErrors {
   double shift = 2.0;          // m rms, smooth displacement of the streets
   double correlation = 300.0;  // m, distance over which the displacement changes
-  double wrong = 0.05;  // share of streets that are missing, have a wrong one-way direction, or get
-                        // an invented street
+  double wrong = 0.05;         // share of streets missing, one-way reversed, or extra
 };
 
 // Writes the streets' centrelines as an OpenStreetMap file.

@@ -14,8 +14,7 @@
 namespace maploop::simulate {
 namespace {
 
-constexpr double sea_to_ground = 115.0;  // m, height of the ground, also on maps; the rendered sun
-                                         // and sky are the same everywhere
+constexpr double sea_to_ground = 115.0;  // m, ground height on maps too; sun and sky do not change
 const Geodetic town_origin{radians(49.01), radians(8.43), sea_to_ground};
 
 Site town(const SimulationOptions& options) {

@@ -24,8 +24,7 @@ class StreetIndex {
   StreetIndex(const Streets& streets, double reach);
 
   struct Nearest {
-    StreetPlace first,
-        second;  // the two nearest streets by `edge`; `street` is null if there is none
+    StreetPlace first, second;  // nearest by `edge`; `street` may be null
   };
   Nearest nearest(const Eigen::Vector2d& place) const;
   // Returns m to the nearest kerb, negative on a road; at most the reach.

@@ -39,8 +39,7 @@ constexpr const char* reverse = "\x1b[7m";
 
 lcm_log::ChannelFilter filter_of(const std::string& expression) {
   if (expression.empty()) return {};
-  lcm_log::ChannelFilter{expression};  // throws for ")(", which is invalid, although the expression
-                                       // below would be valid
+  lcm_log::ChannelFilter{expression};  // throws for ")(", which the next line would hide
   return lcm_log::ChannelFilter(".*(" + expression + ").*");
 }
 

@@ -25,10 +25,9 @@ std::filesystem::path tracks_folder() {
 
 struct Case {
   const char* drive;
-  std::size_t last;  // last frame
-  double end_point;  // % of the distance; bound between the result and frame_to_frame
-  double
-      frame_to_frame;  // % of the distance, for a plain frame-to-frame odometry on the same tracks
+  std::size_t last;       // last frame
+  double end_point;       // % of the distance; bound between the result and frame_to_frame
+  double frame_to_frame;  // % of the distance, by a plain frame-to-frame odometry
 };
 
 void PrintTo(const Case& c, std::ostream* stream) {

@@ -41,9 +41,8 @@ std::string message_text(const TrueSatellite& s, const MessageErrors& error, dou
   const OrbitElements& o = s.orbit;
   const double toe_of_week = ppp::seconds_of_week(stamp);
   const double a = o.semi_major_axis - combined_centre(s) + error.radial.at(toe);
-  const double earth =
-      galileo ? 3.986004418e14 : 3.9860050e14;  // m^3/s^2, the value that receivers use
-  constexpr double rotation = 7.2921151467e-5;  // rad/s, the value that receivers use
+  const double earth = galileo ? 3.986004418e14 : 3.9860050e14;  // m^3/s^2, as receivers use it
+  constexpr double rotation = 7.2921151467e-5;                   // rad/s, as receivers use it
   const double delta_n = o.mean_motion() - std::sqrt(earth / (a * a * a));
   const double mean = o.mean_anomaly + o.mean_motion() * toe + error.along.at(toe) / a;
   const double node =

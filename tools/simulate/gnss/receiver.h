@@ -90,8 +90,7 @@ class Receiver {
   Troposphere troposphere_;
   Ionosphere ionosphere_;
   std::array<ReceiveAntenna, 2> antenna_;
-  std::array<Eigen::Vector3d, 2>
-      code_pattern_;               // m, rad, rad: the antenna's direction-dependent code delay
+  std::array<Eigen::Vector3d, 2> code_pattern_;  // m, rad, rad: code delay by direction
   std::vector<double> clock_;      // s, one value each second from 2 s before the start
   std::vector<Tracker> trackers_;  // one for each satellite
 };
