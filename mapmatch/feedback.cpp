@@ -23,6 +23,11 @@ double variance_along(const Eigen::Matrix2d& covariance, const Eigen::Vector2d& 
 
 }  // namespace
 
+Feedback::Feedback(const RoadNetwork& network, const FeedbackParameters& parameters)
+    : network_(&network), parameters_(parameters) {
+  validate_parameters(parameters_);
+}
+
 Feedback::Line Feedback::line_beside(DirectedLink link, const Eigen::Vector2d& place) const {
   const double length = network_->link(link.link).length;
   const auto vertices = network_->shape(link.link);
@@ -103,16 +108,15 @@ bool Feedback::parallel(const LinkMatch& match, const VehicleFix& fix, const Lin
 }
 
 void Feedback::note_nis(double nis) {
-  window_[next_nis_ % max_window] = nis;
+  window_[next_nis_ % window_.size()] = nis;
   ++next_nis_;
 }
 
 bool Feedback::consistent() const {
-  const auto length =
-      static_cast<std::size_t>(std::clamp(parameters_.window, 1, static_cast<int>(max_window)));
+  const auto length = static_cast<std::size_t>(parameters_.window);
   if (next_nis_ < length) return true;
   double sum = 0.0;
-  for (std::size_t i = 1; i <= length; ++i) sum += window_[(next_nis_ - i) % max_window];
+  for (std::size_t i = 1; i <= length; ++i) sum += window_[(next_nis_ - i) % window_.size()];
   return sum / static_cast<double>(length) <= parameters_.max_mean_nis;
 }
 

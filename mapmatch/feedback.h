@@ -12,19 +12,20 @@
 #include <array>
 #include <cstddef>
 
-#include "mapmatch/feedback_parameters.h"
 #include "mapmatch/match_result.h"
+#include "mapmatch/parameter_table.h"
 #include "mapmatch/vehicle_fix.h"
 #include "msgs/map_feedback.h"
+#include "msgs/parameter_archive.h"
 
 namespace maploop::mapmatch {
 
 // Not thread-safe. Allocates nothing. Decisions depend only on matches, fixes and their stamps.
 class Feedback {
  public:
-  // The network must outlive this object.
-  Feedback(const RoadNetwork& network, const FeedbackParameters& parameters)
-      : network_(&network), parameters_(parameters) {}
+  // The network must outlive this object. Throws std::invalid_argument if a parameter is out of its
+  // range.
+  Feedback(const RoadNetwork& network, const FeedbackParameters& parameters);
 
   // Must be called with each match and its fix, in the order of stamps. Always returns a message;
   // its `reason` is none or states why nothing is fed back.
@@ -32,6 +33,7 @@ class Feedback {
 
   template <class Archive>
   void archive(Archive& ar) {
+    archive_same_parameters(ar, parameters_);
     ar(started_, stamp_, sequence_, on_link_, link_, odometer_, position_fed_at_, azimuth_fed_at_,
        fed_on_link_, has_road_, road_azimuth_, turned_, history_, next_moment_, window_, next_nis_);
     if constexpr (Archive::loading) {
@@ -85,8 +87,7 @@ class Feedback {
   static constexpr std::size_t history_length = 64;
   std::array<Moment, history_length> history_{};
   std::size_t next_moment_ = 0;
-  static constexpr std::size_t max_window = 64;
-  std::array<double, max_window> window_{};
+  std::array<double, FeedbackParameters::max_window> window_{};
   std::size_t next_nis_ = 0;
 };
 

@@ -10,14 +10,13 @@
 #include <cstddef>
 
 #include "mapmatch/candidate_search.h"
-#include "mapmatch/match_parameters.h"
 #include "mapmatch/match_result.h"
-#include "mapmatch/parameter_fields.h"
+#include "mapmatch/parameter_table.h"
 #include "mapmatch/path_filter.h"
 #include "mapmatch/rule_bases.h"
 #include "mapmatch/rule_inputs.h"
 #include "mapmatch/vehicle_motion.h"
-#include "msgs/archive.h"
+#include "msgs/parameter_archive.h"
 
 namespace maploop::mapmatch {
 
@@ -86,7 +85,7 @@ template <class Archive>
 void Matcher::archive(Archive& ar) {
   archive_same_number(ar, "links of the road network", network_->size());
   archive_same_number(ar, "vertices of the road network", network_->data().vertices.size());
-  archive_same_fields(ar, parameters_);
+  archive_same_parameters(ar, parameters_);
   ar(motion_, paths_, started_, result_.stamp, result_.phase, last_.there, last_.link, last_.along,
      last_.has_anchor, last_.anchor, travelled_, winner_, has_winner_, agreed_, odometer_, anchors_,
      next_anchor_);

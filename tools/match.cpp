@@ -137,7 +137,7 @@ void add_match(CLI::App& app, Command& command) {
   sub->add_option("--labels", options->labels,
                   "CSV of the links really driven (frame,way_id,node_a,node_b,conf; plain or .gz; "
                   "frame: number of TRACK's row, from 0): print the share that is right");
-  sub->add_option("--set", options->set, "NAME=VALUE of a parameter (mapmatch/match_parameters.h)");
+  sub->add_option("--set", options->set, "NAME=VALUE of a parameter of [mapmatch]");
   sub->footer(
       "Examples:\n"
       "    maploop match town.osm.pbf track.gpx --html match.html  # with reasons\n"

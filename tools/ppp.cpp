@@ -7,7 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "ppp/filter/validate.h"
+#include "ppp/filter/parameter_table.h"
 #include "runtime/vehicle/road_map.h"
 #include "runtime/vehicle/vehicle_config.h"
 #include "tools/choice_option.h"
@@ -54,7 +54,7 @@ vehicle::VehicleConfig config_of(const PppOptions& options) {
   }
   if (!options.systems.empty()) p.filter.systems = options.systems;
   if (options.mask) p.filter.elevation_mask = *options.mask;
-  ppp::validate(p.filter);
+  validate_parameters(p.filter);
   p.broadcast |= options.broadcast;
   set_map(config.map, options.map, options.map_mode);
   if (config.map.mode == vehicle::MapMode::hard_reset) {

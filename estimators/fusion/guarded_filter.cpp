@@ -5,7 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "estimators/fusion/parameter_table.h"
 #include "msgs/archive.h"
+#include "msgs/parameter_archive.h"
 
 namespace maploop::fusion {
 
@@ -89,7 +91,8 @@ void GuardedFilter::restore(Time t) {
 
 template <class Archive, class Filter>
 void GuardedFilter::describe(Archive& ar, Filter& f) {
-  ar.section("guarded filter", 1);
+  ar.section("guarded filter", 2);
+  archive_same_parameters(ar, f.parameters_);
   ar(f.aided_);
   for (auto& copy : f.copies_) {
     bool there = copy.filter.has_value();

@@ -11,17 +11,18 @@
 #include "estimators/fusion/mechanization.h"
 #include "estimators/fusion/nav_state_output.h"
 #include "estimators/fusion/odometry_update.h"
-#include "estimators/fusion/parameter_fields.h"
+#include "estimators/fusion/parameter_table.h"
 #include "estimators/fusion/roll_update.h"
 #include "estimators/fusion/wheel_update.h"
 #include "estimators/fusion/zero_velocity.h"
 #include "msgs/archive.h"
+#include "msgs/parameter_archive.h"
 
 namespace maploop::fusion {
 namespace {
 
 const FusionParameters& checked(const FusionParameters& parameters) {
-  check(parameters);
+  validate_parameters(parameters);
   return parameters;
 }
 
@@ -310,7 +311,7 @@ std::size_t ReducedImuFilter::next_sample(std::size_t position) const {
 template <class Archive, class Filter>
 void ReducedImuFilter::describe(Archive& ar, Filter& f) {
   ar.section("reduced-IMU filter", 2);
-  archive_same_fields(ar, f.parameters_);
+  archive_same_parameters(ar, f.parameters_);
   Geodetic origin = f.frame_.origin();
   ar(f.has_origin_, origin, f.guard_, f.imu_clock_, f.history_, f.base_, f.base_key_,
      f.base_sample_, f.initialized_, f.status_);

@@ -7,10 +7,10 @@
 
 #include "estimators/lidar/local_map.h"
 #include "estimators/lidar/motion_covariance.h"
-#include "estimators/lidar/parameter_fields.h"
+#include "estimators/lidar/parameter_table.h"
 #include "estimators/lidar/scan_preparation.h"
-#include "estimators/lidar/validate.h"
 #include "msgs/archive.h"
+#include "msgs/parameter_archive.h"
 
 namespace maploop::lidar {
 namespace {
@@ -82,7 +82,7 @@ class LidarOdometry::Implementation {
   void archive(Archive& ar) {
     ar.section("LiDAR odometry", 2);
     archive_same(ar, "mounting of the LiDAR", T_body_velo_);
-    archive_same_fields(ar, parameters_);
+    archive_same_parameters(ar, parameters_);
     ar(started_, stamp_, aligned_stamp_, T_map_body_, twist_, map_is_sharp_, refused_in_a_row_,
        stale_, seed_covariance_, map_);
   }
@@ -268,7 +268,7 @@ class LidarOdometry::Implementation {
 
 LidarOdometry::LidarOdometry(const Isometry3d& T_body_velo, const LidarParameters& parameters,
                              ForEachChunk for_each_chunk) {
-  validate(parameters);
+  validate_parameters(parameters);
   implementation_ =
       std::make_unique<Implementation>(T_body_velo, parameters, std::move(for_each_chunk));
 }

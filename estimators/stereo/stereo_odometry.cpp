@@ -6,9 +6,10 @@
 #include "estimators/stereo/back_end.h"
 #include "estimators/stereo/diagnosis.h"
 #include "estimators/stereo/front_end.h"
-#include "estimators/stereo/parameter_fields.h"
+#include "estimators/stereo/parameter_table.h"
 #include "estimators/stereo/validate.h"
 #include "msgs/archive.h"
+#include "msgs/parameter_archive.h"
 
 namespace maploop::stereo {
 
@@ -61,9 +62,9 @@ class StereoOdometry::Implementation {
   // alone.
   template <class Archive>
   void archive(Archive& ar) {
-    ar.section("stereo odometry", 2);
+    ar.section("stereo odometry", 3);
     archive_same(ar, "calibration", camera_);
-    archive_same_fields(ar, parameters_);
+    archive_same_parameters(ar, parameters_);
     ar(has_reference_, reference_stamp_, reference_sequence_, stale_pairs_, back_end_);
     if (has_reference_) {
       archive_image(ar, reference_.left);
@@ -167,7 +168,7 @@ class StereoOdometry::Implementation {
 StereoOdometry::StereoOdometry(const StereoCalibration& calibration,
                                const StereoParameters& parameters) {
   validate(calibration);
-  validate(parameters);
+  validate_parameters(parameters);
   implementation_ = std::make_unique<Implementation>(calibration, parameters);
 }
 

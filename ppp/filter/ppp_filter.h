@@ -2,13 +2,14 @@
 // It is single-threaded, and its results depend on the epochs and the feedback alone.
 #pragma once
 
+#include "msgs/parameter_archive.h"
 #include "ppp/filter/clock_steps.h"
 #include "ppp/filter/code_levels.h"
 #include "ppp/filter/epoch_rows.h"
 #include "ppp/filter/filter_state.h"
 #include "ppp/filter/full_strength.h"
 #include "ppp/filter/map_update.h"
-#include "ppp/filter/parameters.h"
+#include "ppp/filter/parameter_table.h"
 #include "ppp/filter/phase_steps.h"
 #include "ppp/filter/range_model.h"
 #include "ppp/filter/robust_update.h"
@@ -45,9 +46,8 @@ class PppFilter {
   // parameters, and the filter then stays as it was.
   template <class Archive>
   void archive(Archive& ar) {
-    ar.section("ppp", 5);
-    archive_same_fields(ar, parameters_);
-    archive_same(ar, "choice of systems", parameters_.systems);
+    ar.section("ppp", 6);
+    archive_same_parameters(ar, parameters_);
     if constexpr (Archive::loading) {
       PppFilter loaded = *this;
       loaded.archive_knowledge(ar);

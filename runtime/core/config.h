@@ -12,7 +12,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <initializer_list>
 #include <memory>
 #include <span>
 #include <stdexcept>
@@ -63,7 +62,7 @@ class ConfigTable {
 
   // Reads a string that must be one of `allowed`.
   void read_one_of(std::string_view key, std::string& value,
-                   std::initializer_list<std::string_view> allowed) const;
+                   const std::vector<std::string_view>& allowed) const;
 
   // Returns the sub-table `key`; if it is absent, an empty one, so that every default holds.
   ConfigTable table(std::string_view key) const;

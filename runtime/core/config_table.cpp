@@ -234,7 +234,7 @@ void ConfigTable::read_in(std::string_view key, Duration& value, Duration lowest
 }
 
 void ConfigTable::read_one_of(std::string_view key, std::string& value,
-                              std::initializer_list<std::string_view> allowed) const {
+                              const std::vector<std::string_view>& allowed) const {
   std::string text = value;
   read(key, text);
   if (!has(key)) return;

@@ -10,13 +10,8 @@
 namespace maploop::runtime {
 
 struct MemoryParameters {
-  // Keeps pages in memory: reading one back from the disk costs milliseconds.
   bool lock_memory = true;
-  // Mapped beforehand, and kept when freed: the memory that buffers allocate while the first images
-  // and scans arrive. A page fault costs a microsecond, and 64 MiB have 16384 of them.
   int heap_mb = 64;
-  // Maximum number of malloc's arenas, which threads share. It is one, so that every thread uses
-  // the heap that was mapped beforehand; real-time threads allocate nothing after their start.
   int malloc_arenas = 1;
 };
 

@@ -1,25 +1,17 @@
 #include "runtime/core/trace.h"
 
-#include <stdexcept>
 #include <utility>
 
+#include "runtime/core/parameter_table.h"
 #include "runtime/core/trace_json.h"
 
 namespace maploop::runtime {
-namespace {
-
-std::size_t checked_capacity(int events_per_thread) {
-  if (events_per_thread < 1) {
-    throw std::invalid_argument("trace: events_per_thread is " + std::to_string(events_per_thread) +
-                                "; at least 1 is needed");
-  }
-  return static_cast<std::size_t>(events_per_thread);
-}
-
-}  // namespace
 
 Tracer::Tracer(const TraceParameters& parameters)
-    : events_per_thread_(checked_capacity(parameters.events_per_thread)), start_(monotonic_now()) {}
+    : events_per_thread_(static_cast<std::size_t>(parameters.events_per_thread)),
+      start_(monotonic_now()) {
+  validate_parameters(parameters);
+}
 
 TraceBuffer& Tracer::thread(std::string name) {
   auto buffer = std::make_unique<TraceBuffer>(std::move(name), events_per_thread_);

@@ -20,8 +20,6 @@
 namespace maploop::runtime {
 
 struct TraceParameters {
-  // Capacity of each thread's buffer; an event has 32 bytes. The default takes 8 MiB a thread and
-  // holds 8 minutes of a 100 Hz thread that records 5 events a tick.
   int events_per_thread = 1 << 18;
 };
 
@@ -29,7 +27,7 @@ struct TraceParameters {
 // time.
 class Tracer {
  public:
-  // Throws std::invalid_argument if events_per_thread is below 1.
+  // Throws std::invalid_argument if a parameter is out of its range.
   explicit Tracer(const TraceParameters& parameters);
 
   // Makes a buffer for one thread; only this step allocates. Two threads may have the same name.

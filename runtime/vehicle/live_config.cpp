@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ppp/gnss_files.h"
+#include "runtime/vehicle/config_tables.h"
 #include "runtime/vehicle/live_fixes.h"
 #include "runtime/vehicle/live_receiver.h"
 #include "runtime/vehicle/stereo_rig_file.h"
@@ -33,15 +34,10 @@ sensors::LiveVelodyneOptions velodyne_options(const LiveParameters& p) {
   if (!p.velodyne_position.empty()) {
     options.position = sensors::parse_endpoint(p.velodyne_position);
   }
-  const auto model = sensors::velodyne_model(p.velodyne_model);
-  if (!model) {
-    throw std::runtime_error("no scanner is called '" + p.velodyne_model +
-                             "'; there are HDL-64E, HDL-32E, VLP-16");
-  }
-  options.model = *model;
+  options.model = sensors::velodyne_model(p.velodyne_model).value();
   options.lasers = p.velodyne_calibration.empty()
-                       ? sensors::factory_lasers(*model)
-                       : sensors::read_velodyne_calibration(p.velodyne_calibration, *model);
+                       ? sensors::factory_lasers(options.model)
+                       : sensors::read_velodyne_calibration(p.velodyne_calibration, options.model);
   return options;
 }
 
@@ -52,10 +48,6 @@ std::shared_ptr<const ppp::PppSetup> live_ppp(const VehicleConfig& config) {
     std::optional<ppp::PppSetup> setup;
   };
   const LiveParameters& p = config.live;
-  if (p.gnss_frequencies != 1 && p.gnss_frequencies != 2) {
-    throw std::runtime_error("[live] gnss_frequencies = " + std::to_string(p.gnss_frequencies) +
-                             " is neither 1 nor 2");
-  }
   const auto products = std::make_shared<Products>();
   for (const std::string& product : config.ppp.products) {
     ppp::read_products(product, products->files);
@@ -117,6 +109,9 @@ VehicleCalibration live_calibration(const VehicleConfig& config) {
 
 LiveSensors open_live_sensors(const VehicleConfig& config) {
   const LiveParameters& p = config.live;
+  if (const auto problem = problem_of(parameter_table(p), p)) {
+    throw std::runtime_error("[live] " + std::string(problem->key) + ": " + problem->text);
+  }
   LiveSensors s;
   s.clock = std::make_shared<const sensors::HostClock>();
   if (!p.camera_left.empty()) {
@@ -135,9 +130,6 @@ LiveSensors open_live_sensors(const VehicleConfig& config) {
       const Duration delay = from_seconds(p.imu_delay);
       if (p.imu_protocol == "lines") return sensors::listen_to_imu_lines(endpoint, delay, *s.clock);
       if (p.imu_protocol == "xsens") return sensors::listen_to_xsens(endpoint, delay, *s.clock);
-      if (p.imu_protocol != "ncom")
-        throw std::runtime_error("imu_protocol = \"" + p.imu_protocol +
-                                 "\" is none of ncom, lines, xsens");
       return sensors::listen_to_ncom(endpoint, delay, *s.clock);
     });
   }

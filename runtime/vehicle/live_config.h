@@ -22,33 +22,24 @@ constexpr std::array<std::string_view, 3> names_of(GnssProtocol) {
   return {"nmea", "ubx", "observations"};
 }
 
-// The sensors are named by endpoints (sensors/live/endpoint.h); an empty one means that the vehicle
-// does not have the sensor.
+// Endpoints (sensors/live/endpoint.h), pipelines and files; config_tables.cpp describes each.
 struct LiveParameters {
-  // This is the folder of KITTI's three calibration texts, relative to the configuration's own
-  // folder. They contain where the sensors are on the vehicle. If it is empty, the LiDAR is at the
-  // body's origin.
   std::string calibration;
-  // These are GStreamer pipelines (sensors/live/video_pipeline.h). If there is no right one, the
-  // left one's images contain those of both cameras side by side.
   std::string camera_left, camera_right;
-  double camera_delay = 0.0;      // s, from the middle of the exposure to the driver's stamp
-  std::string velodyne;           // data packets, udp
-  std::string velodyne_position;  // position packets with the UTC of its GNSS receiver, udp
+  double camera_delay = 0.0;  // s
+  std::string velodyne;
+  std::string velodyne_position;
   std::string velodyne_model = "VLP-16";
-  std::string velodyne_calibration;  // db.xml of an HDL-64E, relative to the configuration
-  std::string imu;                   // udp for NCOM, any endpoint for the others
-  // The protocol is "ncom" (of an OXTS unit), "lines" (sensors/imu/imu_line.h) or "xsens"
-  // (sensors/imu/xsens.h).
+  std::string velodyne_calibration;
+  std::string imu;
   std::string imu_protocol = "ncom";
-  double imu_delay = 0.060;  // s, delay of its filters
-  std::string gnss;          // the receiver, any endpoint
+  double imu_delay = 0.060;  // s
+  std::string gnss;
   GnssProtocol gnss_protocol = GnssProtocol::nmea;
-  double gnss_latency = 0.05;  // s, least time from an epoch to the end of its transmission
-  // The rest is for a receiver of observations.
-  int gnss_frequencies = 2;  // 1: there is no ionosphere-free combination
-  std::string corrections;   // RTCM 3 with ephemerides and SSR
-  std::string gnss_antenna;  // "NAME" or "NAME RADOME" as in ANTEX; empty: unknown
+  double gnss_latency = 0.05;  // s
+  int gnss_frequencies = 2;
+  std::string corrections;
+  std::string gnss_antenna;
 };
 
 // These do not connect to anything yet. They throw std::runtime_error naming the key of [live] that

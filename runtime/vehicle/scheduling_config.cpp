@@ -80,10 +80,34 @@ std::string milliseconds_text(Duration d) {
 
 }  // namespace
 
+std::span<const ScheduledThread> scheduled_threads() {
+  using P = SchedulingParameters;
+  static constexpr std::string_view driver = "Driver: it only sleeps and hands over.";
+  static constexpr auto threads = std::to_array<ScheduledThread>({
+      {"camera", &P::camera, driver},
+      {"velodyne", &P::velodyne, driver},
+      {"imu", &P::imu, driver},
+      {"gnss", &P::gnss, driver},
+      {"wheel", &P::wheel, driver},
+      {"reference", &P::reference, driver},
+      {"odometry", &P::odometry, driver},
+      {"stereo", &P::stereo, "Below fusion. Its work is bounded: an eighth of one core at 10 Hz."},
+      {"lidar", &P::lidar, "Below stereo, whose motions it waits for."},
+      {"ppp", &P::ppp, "Below fusion, whose ticks are shorter."},
+      {"fusion", &P::fusion, "Below the drivers, whose samples it needs."},
+      {"mapmatch", &P::mapmatch, "Below fusion, whose states it needs; a tick takes 10 us."},
+      {"publisher", &P::publisher, "Messages to the bus and to the log."},
+      {"health", &P::health, "State of the threads, once per second."},
+      {"snapshot", &P::snapshot, "Snapshots of a replay."},
+      {"preview", &P::preview, "Only where no other thread has work."},
+  });
+  return threads;
+}
+
 void read(const runtime::ConfigTable& parent, const char* key, Scheduling& s) {
   const runtime::ConfigTable table = parent.table(key);
   std::string policy(name_of(s.policy));
-  table.read_one_of("policy", policy, {"inherited", "other", "fifo", "rr", "deadline"});
+  table.read_one_of("policy", policy, {policy_names.begin(), policy_names.end()});
   s.policy = policy_of(policy);
   forget_other_policies(s);
   if (has_priority(s.policy)) {

@@ -12,7 +12,9 @@
 //   prefaulted_stack_kb = 256 # stack that is mapped before the thread starts its work
 #pragma once
 
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "runtime/core/config.h"
 #include "runtime/core/realtime_scheduling.h"
@@ -35,24 +37,33 @@ inline runtime::Scheduling yielding() {
 }
 
 // These are applied if the clock is paced; on virtual time no thread has to be punctual.
+// scheduled_threads() gives the reasons for the defaults.
 struct SchedulingParameters {
-  runtime::Scheduling camera = realtime(70);  // drivers only sleep and pass samples on
+  runtime::Scheduling camera = realtime(70);
   runtime::Scheduling velodyne = realtime(70);
   runtime::Scheduling imu = realtime(70);
   runtime::Scheduling gnss = realtime(70);
   runtime::Scheduling wheel = realtime(70);
   runtime::Scheduling reference = realtime(70);
   runtime::Scheduling odometry = realtime(70);
-  runtime::Scheduling stereo = realtime(40);    // below fusion; an eighth of one core at 10 Hz
-  runtime::Scheduling lidar = realtime(30);     // below stereo, whose motions it waits for
-  runtime::Scheduling ppp = realtime(50);       // below fusion, whose tick is shorter
-  runtime::Scheduling fusion = realtime(60);    // below the drivers, whose samples it needs
-  runtime::Scheduling mapmatch = realtime(50);  // below fusion, whose states it needs; 10 us a tick
+  runtime::Scheduling stereo = realtime(40);
+  runtime::Scheduling lidar = realtime(30);
+  runtime::Scheduling ppp = realtime(50);
+  runtime::Scheduling fusion = realtime(60);
+  runtime::Scheduling mapmatch = realtime(50);
   runtime::Scheduling publisher;
   runtime::Scheduling health;
   runtime::Scheduling snapshot;
-  runtime::Scheduling preview = yielding();  // runs when no other thread has work
+  runtime::Scheduling preview = yielding();
 };
+
+// A key of [scheduling].
+struct ScheduledThread {
+  const char* key;
+  runtime::Scheduling SchedulingParameters::*scheduling;
+  std::string_view meaning;
+};
+std::span<const ScheduledThread> scheduled_threads();
 
 // Reads the table `key`. A missing key leaves its value as it is, but values that belong to another
 // policy are reset. Throws runtime::ConfigError, also for a key that does not go with the policy.

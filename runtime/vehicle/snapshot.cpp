@@ -9,8 +9,9 @@
 
 #include "msgs/input_file.h"
 #include "msgs/input_limits.h"
+#include "msgs/parameter_archive.h"
 #include "runtime/core/whole_file.h"
-#include "runtime/vehicle/config_fields.h"
+#include "runtime/vehicle/config_tables.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -20,19 +21,12 @@ constexpr std::array<std::string_view, 4> deciding_tables{"replay", "gnss", "whe
 
 template <class Archive>
 void archive_same_config(Archive& ar, const VehicleConfig& config) {
-  std::string_view table;
-  visit(
-      config, [&](const char* name) { table = name; },
-      [&](const char* key, const auto& value) {
-        if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>) {
-          if (std::find(deciding_tables.begin(), deciding_tables.end(), table) ==
-              deciding_tables.end()) {
-            return;
-          }
-          const std::string name = "[" + std::string(table) + "] " + key;
-          archive_same_number(ar, name, value);
-        }
-      });
+  each_part(config, [&](const auto& table, const auto& values) {
+    const auto& deciding = deciding_tables;
+    if (std::find(deciding.begin(), deciding.end(), table.name) != deciding.end()) {
+      archive_same_parameters(ar, table, values);
+    }
+  });
 }
 
 template <class Archive, class S>

@@ -1,4 +1,4 @@
-// Everything that can be set about the vehicle.
+// Everything that can be set about the vehicle; config_tables.h describes each parameter.
 #pragma once
 
 #include <array>
@@ -30,20 +30,16 @@
 namespace maploop::vehicle {
 
 struct CameraParameters {
-  // File of the raw cameras' calibration, from the configuration's own folder: images are then raw,
-  // and rectified as they are read (stereo_rig_file.h). Empty: images are rectified already.
   std::string calibration;
 };
 
 // Of a drive with the observations of a GNSS receiver.
 struct PppConfig {
-  // Whether a drive's own (its folder `gnss`) take the place of the receiver of [gnss].
   bool observations = true;
-  // Files and folders, from the configuration's own folder; none: the folder of the observations.
   std::vector<std::string> products;
-  bool broadcast = false;  // orbits and clocks of the navigation message even where SP3 is given
-  double latency = 0.1;    // s, from the epoch to its delivery by the receiver
-  double integrity_risk = 1e-4;  // that an error at one epoch is beyond its protection level
+  bool broadcast = false;
+  double latency = 0.1;  // s
+  double integrity_risk = 1e-4;
   ppp::PppParameters filter;
 };
 
@@ -58,19 +54,15 @@ constexpr std::array<std::string_view, 4> names_of(MapMode) {
 }
 
 struct MapParameters {
-  // OpenStreetMap file or network file, from the configuration's own folder; empty: none.
   std::string file;
   MapMode mode = MapMode::loose;
-  std::string rules;  // folder of rule bases (.fll), from the configuration's own; empty: shipped
+  std::string rules;
 };
 
 struct VehicleConfig {
-  std::string lcm_url;  // empty: as bus_url() says (lcm_bus.h)
-  // By name (estimators/fusion/configuration.h): both set keys of [fusion], and the first what
-  // odometry is; those keys may say otherwise.
+  std::string lcm_url;
   std::string configuration = "VO-L-RI";
   std::string imu_grade = "tactical";
-  // What fusion gets: "visual", or "visual-lidar" where there is a LiDAR.
   std::string odometry = "visual-lidar";
   SchedulingParameters scheduling;
   runtime::MemoryParameters memory;
@@ -78,13 +70,12 @@ struct VehicleConfig {
   PreviewParameters preview;
   CameraParameters camera;
   sensors::KittiDriveParameters replay;
-  // Of a sequence of KITTI's odometry benchmark: in place of recorded tracks.
   sensors::PoseOdometryParameters odometry_poses;
   LiveParameters live;
   sensors::GnssAidParameters gnss;
-  std::string gnss_outage;  // gnss_outage.h; empty: none
+  std::string gnss_outage;  // gnss_outage.h
   sensors::WheelOdometerParameters wheel;
-  std::string imu_noise = "recorded";  // or "mems": noise of such a unit is added
+  std::string imu_noise = "recorded";
   sensors::ErrorModel imu_errors = sensors::ErrorModel::given;
   std::int64_t imu_seed = 1;
   stereo::StereoParameters stereo;
@@ -106,7 +97,8 @@ void set_imu_grade(VehicleConfig& config, const std::string& name);
 void describe_car(VehicleConfig& config, const VehicleCalibration& calibration);
 
 // Reads a TOML file; absent keys keep their defaults. Throws runtime::ConfigError naming file, line
-// and key for anything wrong, unknown keys included. runtime/vehicle/maploop.toml lists every key.
+// and key for anything wrong: unknown keys, and values out of their range.
+// runtime/vehicle/maploop.toml lists every key.
 VehicleConfig load_vehicle_config(const std::filesystem::path& file);
 
 // Every key with its value, as load_vehicle_config() reads it back, but for users and passwords

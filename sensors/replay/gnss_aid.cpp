@@ -1,10 +1,9 @@
 #include "sensors/replay/gnss_aid.h"
 
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 #include "sensors/replay/normal_generator.h"
+#include "sensors/replay/parameter_table.h"
 
 namespace maploop::sensors {
 namespace {
@@ -14,10 +13,6 @@ constexpr std::uint64_t gnss_sizes_stream = 0x7369'7a65'7300'0000;
 constexpr std::uint64_t steps_stream = 0x7374'6570'7300'0000;
 
 constexpr double step_time = 10.0;  // s, mean
-
-void require(bool ok, const std::string& what) {
-  if (!ok) throw std::invalid_argument("GNSS aid: " + what);
-}
 
 Eigen::Vector3d normal_vector(NormalGenerator& generator) {
   Eigen::Vector3d v;
@@ -41,14 +36,8 @@ GnssErrors errors_of(const GnssAidParameters& p) {
 
 GnssAid::GnssAid(const GnssAidParameters& parameters)
     : parameters_(parameters), errors_(errors_of(parameters)) {
-  const auto& p = parameters_;
-  const auto is_sigma = [](double sigma) { return std::isfinite(sigma) && sigma >= 0.0; };
-  require(p.rate >= 1e-3 && p.rate <= 1e3, "rate must be within 0.001 to 1000 Hz");
-  require(is_sigma(p.white_position), "white_position must be 0 or more");
-  require(is_sigma(p.markov_position), "markov_position must be 0 or more");
-  require(p.markov_time > 0.0 && std::isfinite(p.markov_time), "markov_time must be positive");
-  require(is_sigma(p.white_velocity), "white_velocity must be 0 or more");
-  period_ = from_seconds(1.0 / p.rate);
+  validate_parameters(parameters_);
+  period_ = from_seconds(1.0 / parameters_.rate);
 }
 
 bool GnssAid::offer(Time stamp, const Geodetic& position, const Eigen::Vector3d& velocity_enu,

@@ -12,15 +12,13 @@
 namespace maploop::sensors {
 
 struct GnssAidParameters {
-  double rate = 1.0;            // Hz; as of a common receiver
-  double white_position = 1.0;  // m, 1 sigma an axis, independent from fix to fix
-  // First-order Gauss-Markov error, 1 sigma an axis (m), and correlation time (s): multipath and
-  // atmosphere, which do not average out within a turn.
-  double markov_position = 1.5;
-  double markov_time = 30.0;
-  double white_velocity = 0.1;  // m/s, 1 sigma an axis (Doppler)
+  double rate = 1.0;             // Hz
+  double white_position = 1.0;   // m
+  double markov_position = 1.5;  // m
+  double markov_time = 30.0;     // s
+  double white_velocity = 0.1;   // m/s
   ErrorModel errors = ErrorModel::given;
-  std::int64_t seed = 1;  // another seed gives another realization
+  std::int64_t seed = 1;
 };
 
 // These are the sizes of the errors that are actually made.

@@ -10,23 +10,10 @@
 #include "sensors/camera/rectifier.h"
 #include "sensors/replay/kitti_calibration.h"
 #include "sensors/replay/oxts_sources.h"
+#include "sensors/replay/parameter_table.h"
 
 namespace maploop::sensors {
 namespace {
-
-void check(const KittiDriveParameters& p) {
-  // No duration here exceeds an hour; the limit keeps the arithmetic of stamps from overflowing.
-  const auto is_duration = [](double s) { return s >= 0.0 && s <= 3600.0; };
-  const auto require = [](bool ok, const char* name) {
-    if (!ok) {
-      throw std::invalid_argument(std::string("KITTI drive: ") + name + " must be 0 to 3600 s");
-    }
-  };
-  require(is_duration(p.imu_delay), "imu_delay");
-  require(is_duration(p.camera_readout), "camera_readout");
-  require(is_duration(p.max_pair_skew), "max_pair_skew");
-  require(is_duration(p.max_turn), "max_turn");
-}
 
 bool is_folder(const std::filesystem::path& path) {
   std::error_code ignored;
@@ -93,7 +80,7 @@ KittiDrive::KittiDrive(const std::filesystem::path& folder, const KittiDrivePara
     : folder_(drive_folder(folder, raw_cameras.has_value())),
       parameters_(parameters),
       raw_cameras_(std::move(raw_cameras)) {
-  check(parameters_);
+  validate_parameters(parameters_);
   const std::filesystem::path day = folder_.parent_path();
   calibration_ = raw_cameras_ ? read_kitti_calibration(day, *raw_cameras_,
                                                        is_folder(folder_ / "velodyne_points"))

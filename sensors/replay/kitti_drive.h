@@ -24,12 +24,10 @@
 namespace maploop::sensors {
 
 struct KittiDriveParameters {
-  // s; OXTS rates, velocities and accelerations are valid this long before their row's stamp
-  // (measured on all odometry sequences: 53 to 67 ms).
-  double imu_delay = 0.060;
-  double camera_readout = 0.005;  // s from the later exposure of a pair to its delivery
-  double max_pair_skew = 0.020;   // s between left and right; the largest seen is 3.5 ms
-  double max_turn = 0.250;        // s for a scan; the slowest turn of an HDL-64E takes 0.2 s
+  double imu_delay = 0.060;       // s
+  double camera_readout = 0.005;  // s
+  double max_pair_skew = 0.020;   // s
+  double max_turn = 0.250;        // s
 };
 
 // Reads `2011_09_26/2011_09_26_drive_0013_sync` with its own layout:

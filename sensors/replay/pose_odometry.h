@@ -13,10 +13,9 @@
 namespace maploop::sensors {
 
 struct PoseOdometryParameters {
-  std::string file;  // poses of the left camera; empty if unused
-  // 1 sigma of a motion's translation over its time, since the file does not contain one.
+  std::string file;
   double speed_sigma = 0.3;      // m/s
-  double rotation_sigma = 0.17;  // deg an axis, the same
+  double rotation_sigma = 0.17;  // deg
 };
 
 // Holds poses of the left camera (x right, y down, z forward; m) in the form in which KITTI writes

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <stdexcept>
 
 #include "sensors/replay/normal_generator.h"
+#include "sensors/replay/parameter_table.h"
 
 namespace maploop::sensors {
 namespace {
@@ -33,18 +33,7 @@ WheelOdometerParameters errors_of(const WheelOdometerParameters& parameters) {
 
 WheelOdometer::WheelOdometer(const WheelOdometerParameters& parameters)
     : parameters_(errors_of(parameters)) {
-  if (!(std::abs(parameters.scale_error) <= 0.5)) {
-    throw std::invalid_argument("wheel odometer: scale_error must be within -0.5 to 0.5");
-  }
-  if (!(parameters.white_speed >= 0.0 && std::isfinite(parameters.white_speed))) {
-    throw std::invalid_argument("wheel odometer: white_speed must be 0 or more");
-  }
-  if (!(parameters.slip >= 0.0 && parameters.slip <= 0.1)) {
-    throw std::invalid_argument("wheel odometer: slip must be within 0 to 0.1 s^2/m");
-  }
-  if (!(parameters.ice_share >= 0.0 && parameters.ice_share <= 1.0)) {
-    throw std::invalid_argument("wheel odometer: ice_share must be within 0 to 1");
-  }
+  validate_parameters(parameters);
 }
 
 // Each square of a grid of latitude and longitude either has ice or does not.

@@ -12,14 +12,12 @@
 namespace maploop::sensors {
 
 struct WheelOdometerParameters {
-  double scale_error = 0.0;   // 1, relative excess of the reading: worn or soft tyres cause 1 %
-  double white_speed = 0.05;  // m/s, 1 sigma, independent from sample to sample: pulse counting
-  // s^2/m, share of the speed by which wheels turn too fast for each m/s^2 of driving specific
-  // force (also uphill), and too slowly while braking.
-  double slip = 0.0;
-  double ice_share = 0.0;  // 1, share of the road, in squares of 50 m, with ten times the slip
+  double scale_error = 0.0;
+  double white_speed = 0.05;  // m/s
+  double slip = 0.0;          // s^2/m
+  double ice_share = 0.0;
   ErrorModel errors = ErrorModel::given;
-  std::int64_t seed = 1;  // another seed gives another realization
+  std::int64_t seed = 1;
 };
 
 // Returns the parameters as they are; or, if the errors are drawn, values that the seed draws:
@@ -31,8 +29,7 @@ WheelOdometerParameters errors_of(const WheelOdometerParameters& parameters);
 
 class WheelOdometer {
  public:
-  // Throws std::invalid_argument that names the parameter: scale_error beyond +-0.5, white_speed
-  // negative, slip not within 0 to 0.1, ice_share not within 0 to 1, or not finite.
+  // Throws std::invalid_argument that names the parameter that is out of its range.
   explicit WheelOdometer(const WheelOdometerParameters& parameters);
 
   // Sets stamp, speed (m/s) and sigma. The noise depends only on the seed and the stamp, ice on the

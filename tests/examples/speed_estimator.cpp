@@ -1,22 +1,27 @@
 #include "tests/examples/speed_estimator.h"
 
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 namespace maploop::example {
 
-SpeedEstimator::SpeedEstimator(const SpeedParameters& p) : parameters_(p) {
-  const auto require_positive = [](const char* name, double value) {
-    if (!(value > 0.0 && std::isfinite(value))) {
-      throw std::invalid_argument("speed estimator: " + std::string(name) +
-                                  " must be above 0, not " + shown(value));
-    }
-  };
-  require_positive("jerk", p.jerk);
-  require_positive("start_acceleration", p.start_acceleration);
-  require_positive("gate", p.gate);
-  require_positive("max_gap", p.max_gap);
+ParameterTable<SpeedParameters> parameter_table(const SpeedParameters&) {
+  using P = SpeedParameters;
+  constexpr double most = 1e6;
+  static constexpr auto table = std::to_array<Parameter<P>>({
+      {"jerk", &P::jerk, above_zero, most, "m/s^3/sqrt(Hz)",
+       "White jerk of the vehicle: braking and accelerating."},
+      {"start_acceleration", &P::start_acceleration, above_zero, most, "m/s^2",
+       "Standard deviation of the acceleration at the start."},
+      {"gate", &P::gate, above_zero, most, "1",
+       "Gate of a speed (chi-square, 1 degree of freedom); the default has a tail of 0.1 %."},
+      {"max_gap", &P::max_gap, above_zero, most, "s",
+       "Time without samples after which the estimator starts again."},
+  });
+  return {"speed", "An estimator of the speed.", table};
+}
+
+SpeedEstimator::SpeedEstimator(const SpeedParameters& parameters) : parameters_(parameters) {
+  validate_parameters(parameters_);
 }
 
 std::optional<SpeedEstimate> SpeedEstimator::add(const WheelSpeed& sample) {

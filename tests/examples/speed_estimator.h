@@ -6,17 +6,19 @@
 #include <cstdint>
 #include <optional>
 
-#include "msgs/archive.h"
+#include "msgs/parameter_archive.h"
 #include "msgs/wheel_speed.h"
 
 namespace maploop::example {
 
 struct SpeedParameters {
-  double jerk = 1.0;                // m/s^3/sqrt(Hz), white: use of the pedals
-  double start_acceleration = 2.0;  // m/s^2, 1 sigma, at the start
-  double gate = 10.83;              // chi-square, 1 degree of freedom, 0.1 % tail
-  double max_gap = 5.0;             // s, after which the filter restarts
+  double jerk = 1.0;                // m/s^3/sqrt(Hz)
+  double start_acceleration = 2.0;  // m/s^2
+  double gate = 10.83;
+  double max_gap = 5.0;  // s
 };
+// Ranges and meanings.
+ParameterTable<SpeedParameters> parameter_table(const SpeedParameters&);
 
 enum class SpeedReason : std::uint8_t { none, not_finite, not_later, gate };
 
@@ -43,8 +45,8 @@ class SpeedEstimator {
   // Archives everything except the parameters, which must be the same (msgs/archive.h).
   template <class Archive>
   void archive(Archive& ar) {
-    ar.section("example of an estimator", 1);
-    archive_same_number(ar, "jerk", parameters_.jerk);
+    ar.section("example of an estimator", 2);
+    archive_same_parameters(ar, parameters_);
     SpeedEstimator loaded = *this;  // so that a refusal changes nothing
     ar(loaded.started_, loaded.stamp_, loaded.x_, loaded.P_);
     if constexpr (Archive::loading) *this = loaded;

@@ -12,10 +12,10 @@
 #include <utility>
 
 #include "estimators/fusion/guarded_filter.h"
-#include "estimators/fusion/parameter_fields.h"
+#include "estimators/fusion/parameter_table.h"
 #include "mapmatch/matcher.h"
 #include "mapmatch/nav_matcher.h"
-#include "mapmatch/parameter_fields.h"
+#include "mapmatch/parameter_table.h"
 #include "runtime/vehicle/limited_source.h"
 #include "runtime/vehicle/recording.h"
 #include "sensors/replay/reference_trajectory.h"
@@ -136,15 +136,14 @@ const std::vector<std::string>& map_faults() {
 void set_parameter(MapSetting& setting, const std::string& text) {
   const auto [wanted, number] = match::parse_setting(text);
   bool found = false;
-  const auto set = [&, w = wanted, n = number](const char* name, auto& value) {
-    if (w != name) return;
-    value = static_cast<std::remove_reference_t<decltype(value)>>(n);
-    found = true;
+  const auto set = [&, w = wanted, n = number](auto&... parameters) {
+    found = (set_number(parameters, w, n) | ...);  // in each that has such a parameter
   };
-  mapmatch::fields(setting.match, set);
-  mapmatch::fields(setting.feedback, set);
-  fusion::fields(setting.guard, set);
-  fusion::fields(setting.config.fusion, set);
+  try {
+    set(setting.match, setting.feedback, setting.guard, setting.config.fusion);
+  } catch (const std::invalid_argument& e) {
+    throw std::runtime_error("--set " + text + ": " + e.what());
+  }
   if (!found) throw std::runtime_error("--set " + text + ": there is no such parameter");
 }
 

@@ -3,10 +3,8 @@
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
-#include <type_traits>
 
-#include "mapmatch/parameter_fields.h"
-#include "mapmatch/validate.h"
+#include "mapmatch/parameter_table.h"
 
 namespace maploop::match {
 
@@ -25,18 +23,12 @@ mapmatch::MatchParameters parameters_with(const std::vector<std::string>& settin
   mapmatch::MatchParameters parameters;
   for (const std::string& setting : settings) {
     const auto [wanted, number] = parse_setting(setting);
-    bool found = false;
-    mapmatch::fields(parameters, [&, w = wanted, n = number](const char* name, auto& value) {
-      if (w != name) return;
-      value = static_cast<std::remove_reference_t<decltype(value)>>(n);
-      found = true;
-    });
-    if (!found) throw std::runtime_error("--set " + setting + ": there is no such parameter");
-  }
-  try {
-    mapmatch::validate(parameters);
-  } catch (const std::invalid_argument& e) {
-    throw std::runtime_error(std::string("--set: ") + e.what());
+    try {
+      if (set_number(parameters, wanted, number)) continue;
+    } catch (const std::invalid_argument& e) {
+      throw std::runtime_error("--set " + setting + ": " + e.what());
+    }
+    throw std::runtime_error("--set " + setting + ": there is no such parameter");
   }
   return parameters;
 }

@@ -188,7 +188,7 @@ TEST_F(StereoOdometryTest, RefusesCalibrationAndParametersItCannotUse) {
   EXPECT_NE(message_of({}, {}).find("width"), std::string::npos);
   StereoParameters parameters;
   parameters.window = 14;
-  EXPECT_NE(message_of(small_camera(), parameters).find("window must be odd"), std::string::npos);
+  EXPECT_NE(message_of(small_camera(), parameters).find("window: must be odd"), std::string::npos);
   parameters = {};
   parameters.sigma_track = std::nan("");
   EXPECT_NE(message_of(small_camera(), parameters).find("sigma_track"), std::string::npos);

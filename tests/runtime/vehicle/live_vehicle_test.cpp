@@ -223,7 +223,7 @@ TEST(LiveConfig, NamesTheKeyThatIsWrong) {
   EXPECT_NE(error([](LiveParameters& p) {
               p.velodyne = "udp://:2368";
               p.velodyne_model = "VLP-17";
-            }).find("no scanner is called 'VLP-17'"),
+            }).find("[live] velodyne_model: is \"VLP-17\"; allowed is"),
             std::string::npos);
   EXPECT_NE(error([](LiveParameters& p) {
               p.camera_left = "videotestsrc";
@@ -236,7 +236,7 @@ TEST(LiveConfig, NamesTheKeyThatIsWrong) {
   EXPECT_NE(error([](LiveParameters& p) {
               p.imu = "udp://:3000";
               p.imu_protocol = "morse";
-            }).find("is none of ncom, lines, xsens"),
+            }).find("[live] imu_protocol: is \"morse\"; allowed is"),
             std::string::npos);
   EXPECT_NE(error([](LiveParameters& p) {
               p.gnss = "tcp://127.0.0.1:1";

@@ -1,0 +1,172 @@
+#include "ppp/filter/parameter_table.h"
+
+#include "ppp/satellite.h"
+
+namespace maploop::ppp {
+
+ParameterTable<PppParameters> parameter_table(const PppParameters&) {
+  using enum Audience;
+  using P = PppParameters;
+  constexpr double long_time = 1e7;  // s
+  constexpr double any_sigma = 1e4;  // m
+  constexpr double any_gate = 1e9;   // a larger one lets everything through
+  constexpr double smallest = 1e-6;  // of what is divided by
+  constexpr DataChoice code_sigma_choice{"ESBC station and Kamakura car",
+                                         "among a handful of values with the scores in sight",
+                                         "PPP of ESBC and of Kamakura"};
+  constexpr DataChoice phase_sigma_choice{"ESBC station and Kamakura car", "as `code_sigma`",
+                                          "PPP of ESBC and of Kamakura"};
+  constexpr DataChoice code_correlation_choice{
+      "ESBC station and Kamakura car", "from post-fit residuals of the days that are scored",
+      "PPP of ESBC and of Kamakura"};
+  constexpr DataChoice code_correlation_distance_choice{"Kamakura car", "as `code_correlation`",
+                                                        "PPP of Kamakura"};
+  constexpr DataChoice glonass_code_correlation_choice{"ESBC station", "as `code_correlation`",
+                                                       "PPP of ESBC with GLONASS"};
+  constexpr DataChoice reflection_time_choice{"simulated canyons, seeds 1 to 6", "by the scores",
+                                              "PPP between houses, seeds 1 to 6"};
+  constexpr DataChoice full_cn0_choice{"receivers of ESBC, Kamakura and Riverside",
+                                       "the weakest 5 % of signals under open sky",
+                                       "PPP of ESBC, Kamakura and Riverside"};
+  constexpr DataChoice full_cn0_drop_choice{"receivers of ESBC, Kamakura and Riverside",
+                                            "as `full_cn0`", "as `full_cn0`"};
+  constexpr DataChoice full_cn0_margin_choice{
+      "simulated canyons, seeds 1 to 20, and the three receivers",
+      "among 3 to 6 dB with the scores in sight",
+      "PPP between houses, seeds 1 to 20; PPP of the three receivers"};
+  constexpr DataChoice ambiguity_walk_choice{
+      "ESBC station", "from changes of post-fit phase residuals over 10 minutes", "PPP of ESBC"};
+  static constexpr auto table = std::to_array<Parameter<P>>({
+      {"motion", one_of<&P::motion>, "Whether the receiver moves.", usual},
+      {"systems", &P::systems,
+       "Satellite systems used, by their letters in RINEX: G GPS, R GLONASS, E Galileo, C BeiDou, "
+       "J QZSS, S SBAS, I NavIC.",
+       usual},
+      {"elevation_mask", &P::elevation_mask, 0.0, 90.0, "deg",
+       "Satellites at a lower elevation are not used.", usual},
+      {"cn0_mask", &P::cn0_mask, 0.0, 100.0, "dB-Hz",
+       "Signals of a lower carrier-to-noise density are not used.", usual},
+      {"code_sigma", &P::code_sigma, smallest, any_sigma, "m",
+       "Standard deviation of the code on one carrier at the zenith. Combinations of carriers "
+       "enlarge it.",
+       expert, code_sigma_choice},
+      {"phase_sigma", &P::phase_sigma, smallest, any_sigma, "m", "The same for the phase.", expert,
+       phase_sigma_choice},
+      {"doppler_sigma", &P::doppler_sigma, smallest, any_sigma, "m/s",
+       "The same for the Doppler shift."},
+      {"glonass_code_factor", &P::glonass_code_factor, smallest, 1000.0, "1",
+       "Factor on code_sigma for GLONASS, whose channels have biases of their own."},
+      {"code_correlation", &P::code_correlation, 0.0, long_time, "s",
+       "Correlation time of the code errors (multipath) of an antenna at rest. 0: not correlated.",
+       expert, code_correlation_choice},
+      {"code_correlation_distance", &P::code_correlation_distance, smallest, 1e6, "m",
+       "Way of the antenna over which the code errors are correlated.", expert,
+       code_correlation_distance_choice},
+      {"glonass_code_correlation", &P::glonass_code_correlation, 0.0, long_time, "s",
+       "Correlation time of the code biases of the GLONASS channels.", expert,
+       glonass_code_correlation_choice},
+      {"code_level_time", &P::code_level_time, 0.1, long_time, "s",
+       "Time for which a satellite's code residuals are remembered. Larger residuals than expected "
+       "come from reflections and enlarge the variance."},
+      {"reflection_time", &P::reflection_time, 0.1, long_time, "s",
+       "Correlation time of reflections, for an antenna at rest.", expert, reflection_time_choice},
+      {"reflection_distance", &P::reflection_distance, 0.1, 1e6, "m",
+       "Way of the antenna over which reflections are correlated."},
+      {"full_cn0", &P::full_cn0, 0.0, 100.0, "dB-Hz",
+       "Carrier-to-noise density of a signal without obstacles at the zenith; 5 % of the signals "
+       "of three receivers under open sky are weaker. Below it the variance doubles every 1.5 dB. "
+       "0: the strength does not count.",
+       expert, full_cn0_choice},
+      {"full_cn0_drop", &P::full_cn0_drop, 0.0, 100.0, "dB",
+       "Decrease of full_cn0 from the zenith to the horizon, with the sine of the elevation.",
+       expert, full_cn0_drop_choice},
+      {"full_cn0_margin", &P::full_cn0_margin, 0.0, 100.0, "dB",
+       "Difference between the level that three quarters of this receiver's signals at an "
+       "elevation do not exceed and full_cn0 there: 1 to 5 dB with those three receivers. Where "
+       "the level less this margin is higher than full_cn0, it counts instead.",
+       expert, full_cn0_margin_choice},
+      {"zenith_wet_sigma", &P::zenith_wet_sigma, 0.0, 10.0, "m",
+       "Standard deviation of the zenith wet delay about the climatology."},
+      {"zenith_wet_walk", &P::zenith_wet_walk, 0.0, 1.0, "m/sqrt(s)",
+       "Random walk of the zenith wet delay."},
+      {"gradients", &P::gradients,
+       "Whether horizontal gradients of the troposphere are estimated."},
+      {"gradient_sigma", &P::gradient_sigma, 0.0, 1.0, "m",
+       "Standard deviation of a gradient at the start."},
+      {"gradient_walk", &P::gradient_walk, 0.0, 1.0, "m/sqrt(s)", "Random walk of a gradient."},
+      {"horizontal_acceleration", &P::horizontal_acceleration, 0.0, 1e4, "m^2/s^3",
+       "Power spectral density of the white horizontal acceleration of a moving receiver.", usual},
+      {"vertical_acceleration", &P::vertical_acceleration, 0.0, 1e4, "m^2/s^3",
+       "Power spectral density of the white vertical acceleration of a moving receiver.", usual},
+      {"ambiguity_sigma", &P::ambiguity_sigma, smallest, 1e6, "m",
+       "Standard deviation of an ambiguity at the start."},
+      {"ambiguity_walk", &P::ambiguity_walk, 0.0, 1.0, "m/sqrt(s)",
+       "Random walk of the ambiguities besides that of the clocks: errors of orbits, attitude, "
+       "antennas and troposphere. It comes from the changes of a station's post-fit phase "
+       "residuals over 10 minutes and is the same for all systems.",
+       expert, ambiguity_walk_choice},
+      {"system_offset_walk", &P::system_offset_walk, 0.0, 1000.0, "m/sqrt(s)",
+       "Random walk of the clocks of the systems against each other."},
+      {"position_sigma", &P::position_sigma, smallest, 1e6, "m",
+       "Standard deviation of the first position, which comes from the code."},
+      {"model_sigma", &P::model_sigma, 0.0, 100.0, "m",
+       "Standard deviation per axis of the errors of antennas, tides and frames that are common to "
+       "all satellites, which no residual shows. It is added to the reported covariance."},
+      {"outlier_sigmas", &P::outlier_sigmas, 0.1, any_gate, "1",
+       "Post-fit residual in standard deviations beyond which a measurement is an outlier."},
+      {"code_gate", &P::code_gate, 0.1, any_gate, "m",
+       "Pre-fit code residual beyond which a measurement is left out."},
+      {"graphic", &P::graphic,
+       "Whether a receiver of one frequency uses half the sum of code and phase, which is free of "
+       "the ionosphere."},
+      {"longest_gap", &P::longest_gap, 0, 1e6, "epochs",
+       "Epochs for which a satellite may be missing and keep its ambiguity."},
+      {"single_code_sigma", &P::single_code_sigma, smallest, any_sigma, "m",
+       "code_sigma of a receiver of one frequency, which is mostly a cheap one."},
+      {"single_phase_sigma", &P::single_phase_sigma, smallest, any_sigma, "m",
+       "phase_sigma of a receiver of one frequency."},
+
+      {"map_useful_share", &P::map_useful_share, 0.0, 1000.0, "1",
+       "Ratio of the standard deviation across the road without the map to that of the map from "
+       "which the map is used. A map is good to metres, a converged position to decimetres."},
+      {"map_gate", &P::map_gate, 0.0, any_gate, "1",
+       "Gate of a road line or of its direction (chi-square, 1 degree of freedom); the default has "
+       "a tail of 1 %."},
+      {"map_slip", &P::map_slip, smallest, 100.0, "m/s",
+       "Standard deviation of the speed across a straight road, besides the error of its azimuth."},
+      {"map_reach", &P::map_reach, 0.0, 60.0, "s",
+       "Largest time between an epoch and the stamp of the feedback."},
+      {"map_datum_sigma", &P::map_datum_sigma, 0.0, 1000.0, "m",
+       "Standard deviation per axis of the whole map against the frame of the orbits.", usual},
+      {"map_lasting_time", &P::map_lasting_time, 0.1, long_time, "s",
+       "Correlation time of the errors of broadcast orbits, clocks and ionosphere."},
+      {"map_lasting_share", &P::map_lasting_share, 0.0, 1.0, "1",
+       "Share of the position's variance that comes from these errors at most."},
+      {"map_lane_length", &P::map_lane_length, 0.1, 1e6, "m",
+       "Way over which the lane and the error of the map change."},
+      {"map_lane_lasting", &P::map_lane_lasting, 0.0, 1.0, "1",
+       "Share of that error that persists after a turn: the side of the road that is driven on."},
+      {"map_difference_gate", &P::map_difference_gate, 0.0, any_gate, "1",
+       "Distance of the position with the map from the one without beyond which the road may be "
+       "wrong (chi-square, 2 degrees of freedom); the default has a tail of 1 %."},
+      {"map_patience", &P::map_patience, 0.0, long_time, "s",
+       "Time for which the two positions are that far apart until the road is taken to be wrong."},
+      {"map_most_gated", &P::map_most_gated, 1, 1e6, "lines",
+       "Road lines gated in a row after which the road is taken to be wrong."},
+      {"map_pause", &P::map_pause, 0.0, long_time, "s",
+       "Time without the map after a wrong road. It is doubled each time, up to 16 times."},
+  });
+  const auto rules = [](const P& p) -> std::optional<ParameterProblem> {
+    if (p.systems.empty()) return {{"systems", "is empty; allowed are the letters G R E C J S I"}};
+    for (const char letter : p.systems) {
+      if (!system_of(letter))
+        return {
+            {"systems", "is \"" + p.systems + "\"; '" + letter + "' is not one of G R E C J S I"}};
+    }
+    return std::nullopt;
+  };
+  return {"ppp", "Precise point positioning with the observations of a GNSS receiver.", table,
+          rules};
+}
+
+}  // namespace maploop::ppp
