@@ -1,17 +1,16 @@
 // maploop doctor: how ready this machine is for real time, without a drive.
-#include <concepts>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "runtime/core/realtime.h"
 #include "runtime/core/thread.h"
-#include "runtime/vehicle/config_fields.h"
 #include "runtime/vehicle/lcm_bus.h"
+#include "runtime/vehicle/scheduling_config.h"
+#include "runtime/vehicle/vehicle_config.h"
 #include "tools/bus_option.h"
 #include "tools/commands.h"
 #include "tools/json_output.h"
@@ -28,15 +27,11 @@ struct DoctorOptions {
 
 // Asks the kernel for each thread of the graph as a paced replay would.
 void ask_for_threads(const vehicle::VehicleConfig& config, runtime::RealtimeReport& report) {
-  vehicle::visit(
-      config, [](const char*) {},
-      [&](const char* name, const auto& value) {
-        if constexpr (std::same_as<std::remove_cvref_t<decltype(value)>, runtime::Scheduling>) {
-          const runtime::Thread thread(
-              name, value, {}, [](const std::stop_token&) {}, [] {});
-          runtime::append(report, thread.settings());
-        }
-      });
+  for (const vehicle::ScheduledThread& asked : vehicle::scheduled_threads()) {
+    const runtime::Thread thread(
+        asked.key, config.scheduling.*asked.scheduling, {}, [](const std::stop_token&) {}, [] {});
+    runtime::append(report, thread.settings());
+  }
 }
 
 std::vector<RealtimeSetting> ask_for_bus(const std::string& url) {
