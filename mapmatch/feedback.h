@@ -38,7 +38,7 @@ class Feedback {
        fed_on_link_, has_road_, road_azimuth_, turned_, history_, next_moment_, window_, next_nis_);
     if constexpr (Archive::loading) {
       if (network_->size() > 0 && link_.link >= network_->size())
-        ar.fail("the link of the last feedback is not there");
+        ar.fail("the link of the last feedback does not exist");
     }
   }
 

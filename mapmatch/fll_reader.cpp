@@ -64,16 +64,16 @@ class Parser {
     line = trimmed(line.substr(0, line.find('#')));
     if (line.empty()) return;
     const auto colon = line.find(':');
-    if (colon == std::string_view::npos) fail("a line is 'key: value'");
+    if (colon == std::string_view::npos) fail("a line must be 'key: value'");
     const std::string key(trimmed(line.substr(0, colon)));
     const std::string value(trimmed(line.substr(colon + 1)));
     if (!take_block(key, value)) take_key(key, value);
   }
 
   bool take_block(const std::string& key, const std::string& value) {
-    if (block_ == Block::none && key != "Engine") fail("the file begins with 'Engine: NAME'");
+    if (block_ == Block::none && key != "Engine") fail("the file must start with 'Engine: NAME'");
     if (key == "Engine") {
-      if (block_ != Block::none) fail("the Engine stands first, and once");
+      if (block_ != Block::none) fail("'Engine' must be the first line and occur once");
       block_ = Block::engine;
     } else if (key == "InputVariable") {
       const auto found = std::find(inputs_.begin(), inputs_.end(), value);
@@ -81,7 +81,7 @@ class Parser {
         fail("'" + value +
              "' is not one of the input variables of this rule base:" + list(inputs_));
       variable_ = static_cast<std::size_t>(found - inputs_.begin());
-      if (defined_[variable_]) fail("the variable '" + value + "' is there twice");
+      if (defined_[variable_]) fail("the variable '" + value + "' is defined twice");
       defined_[variable_] = true;
       variables_[variable_].name = value;
       block_ = Block::input;
@@ -132,8 +132,8 @@ class Parser {
   std::vector<double> numbers(const std::vector<std::string>& given, std::size_t first,
                               std::size_t count) const {
     if (given.size() != first + count)
-      fail(std::to_string(count) + " numbers are needed, and " +
-           std::to_string(given.size() - std::min(first, given.size())) + " are there");
+      fail(std::to_string(count) + " numbers are needed, but " +
+           std::to_string(given.size() - std::min(first, given.size())) + " are given");
     std::vector<double> values;
     for (std::size_t i = first; i < given.size(); ++i) {
       double value = 0.0;
@@ -153,7 +153,7 @@ class Parser {
         {"Ramp", {Shape::ramp, 2}},
         {"Triangle", {Shape::triangle, 3}},
         {"Trapezoid", {Shape::trapezoid, 4}}};
-    if (given.size() < 2) fail("a term is 'NAME SHAPE PARAMETERS'");
+    if (given.size() < 2) fail("a term must be 'NAME SHAPE PARAMETERS'");
     const auto shape = shapes.find(given[1]);
     if (shape == shapes.end())
       fail("the shape '" + given[1] + "' is not Sigmoid, Ramp, Triangle or Trapezoid");
@@ -162,20 +162,21 @@ class Parser {
     std::copy(values.begin(), values.end(), term.membership.parameters.begin());
     if (shape->second.first != Shape::sigmoid && shape->second.first != Shape::ramp &&
         !std::is_sorted(values.begin(), values.end()))
-      fail("the corners of '" + given[0] + "' go back");
+      fail("the corners of '" + given[0] + "' are not in ascending order");
     if (++terms_ > FuzzySystem::max_terms)
       fail("more than " + std::to_string(FuzzySystem::max_terms) + " terms");
     auto& terms = variables_[variable_].terms;
     if (std::any_of(terms.begin(), terms.end(), [&](const auto& t) { return t.name == given[0]; }))
-      fail("the term '" + given[0] + "' is there twice");
+      fail("the term '" + given[0] + "' is defined twice");
     terms.push_back(std::move(term));
   }
 
   void add_output_term(const std::vector<std::string>& given) {
-    if (given.size() < 2 || given[1] != "Constant") fail("an output term is 'NAME Constant VALUE'");
+    if (given.size() < 2 || given[1] != "Constant")
+      fail("an output term must be 'NAME Constant VALUE'");
     if (output_->terms.size() == FuzzySystem::max_terms)
       fail("more than " + std::to_string(FuzzySystem::max_terms) + " terms");
-    if (output_term(given[0])) fail("the term '" + given[0] + "' is there twice");
+    if (output_term(given[0])) fail("the term '" + given[0] + "' is defined twice");
     output_->terms.emplace_back(given[0], numbers(given, 2, 1).front());
   }
 
@@ -189,7 +190,7 @@ class Parser {
     if (rules_.size() == FuzzySystem::max_rules)
       fail("more than " + std::to_string(FuzzySystem::max_rules) + " rules");
     const auto w = words(text);
-    if (w.empty() || w[0] != "if") fail("a rule begins with 'if'");
+    if (w.empty() || w[0] != "if") fail("a rule must start with 'if'");
     FuzzyRule rule;
     rule.text = text;
     std::size_t at = 1;
@@ -199,8 +200,7 @@ class Parser {
     } while (at < w.size() && w[at++] == "and");
     if (w[at - 1] != "then" && (at >= w.size() || w[at] != "then"))
       fail("'and' or 'then' is expected after word " + std::to_string(at - 1));
-    if (w.size() != at + 3 || w[at + 1] != "is")
-      fail("after 'then' there is 'OUTPUT is TERM', and nothing else");
+    if (w.size() != at + 3 || w[at + 1] != "is") fail("only 'OUTPUT is TERM' may follow 'then'");
     if (!output_ || w[at] != output_->name) fail("'" + w[at] + "' is not the output variable");
     const auto value = output_term(w[at + 2]);
     if (!value) fail("'" + w[at + 2] + "' is not a term of '" + w[at] + "'");
@@ -209,7 +209,7 @@ class Parser {
   }
 
   FuzzyCondition condition(const std::vector<std::string>& w, std::size_t at) const {
-    if (w.size() < at + 3 || w[at + 1] != "is") fail("a condition is 'VARIABLE is TERM'");
+    if (w.size() < at + 3 || w[at + 1] != "is") fail("a condition must be 'VARIABLE is TERM'");
     for (std::size_t v = 0; v < variables_.size(); ++v) {
       if (!defined_[v] || variables_[v].name != w[at]) continue;
       const auto& terms = variables_[v].terms;

@@ -42,14 +42,14 @@ FuzzySystem::FuzzySystem(std::vector<FuzzyVariable> variables, std::vector<Fuzzy
   }
   if (terms > max_terms)
     throw std::invalid_argument("more than " + std::to_string(max_terms) + " terms");
-  if (rules_.empty()) throw std::invalid_argument("no rule");
+  if (rules_.empty()) throw std::invalid_argument("there are no rules");
   if (rules_.size() > max_rules)
     throw std::invalid_argument("more than " + std::to_string(max_rules) + " rules");
   for (const FuzzyRule& rule : rules_) {
-    if (rule.conditions.empty()) throw std::invalid_argument("a rule without a condition");
+    if (rule.conditions.empty()) throw std::invalid_argument("a rule has no condition");
     for (const FuzzyCondition& c : rule.conditions) {
       if (c.variable >= variables_.size() || c.term >= variables_[c.variable].terms.size())
-        throw std::invalid_argument("a rule asks for a variable or a term that is not there");
+        throw std::invalid_argument("a rule uses a variable or a term that is not defined");
     }
   }
 }

@@ -91,7 +91,7 @@ void Matcher::archive(Archive& ar) {
      next_anchor_);
   if constexpr (Archive::loading) {
     if (last_.link.link >= network_->size() && network_->size() > 0)
-      ar.fail("the last link is not there");
+      ar.fail("the last link does not exist");
   }
 }
 

@@ -64,7 +64,7 @@ class Builder {
       data_.warnings.push_back("it reaches " + std::to_string(std::lround(farthest / 1000.0)) +
                                " km from its middle, where distances are wrong by " +
                                std::to_string(std::lround(1000.0 * distortion(farthest))) +
-                               " m a km: choose a part of it with a box");
+                               " m per km: select a part of it with a box");
   }
 
   struct Middle {
@@ -119,7 +119,7 @@ class Builder {
     }
     if (missing > 0)
       data_.warnings.push_back(std::to_string(missing) +
-                               " nodes of roads are not in the map: their roads are cut there");
+                               " nodes of roads are missing in the map: their roads end there");
   }
 
   void list_segments_by_node() {
@@ -260,10 +260,10 @@ class Builder {
                                " roads meet");
     if (map_.restrictions_over_ways > 0)
       data_.warnings.push_back(std::to_string(map_.restrictions_over_ways) +
-                               " turn restrictions over a way between are left out");
+                               " turn restrictions via a way are left out");
     if (unused > 0)
       data_.warnings.push_back(std::to_string(unused) +
-                               " turn restrictions name roads that do not meet where they say");
+                               " turn restrictions name roads that do not meet at their node");
   }
 
   const MapExtract& map_;

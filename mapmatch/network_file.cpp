@@ -35,7 +35,7 @@ void save_network(const std::filesystem::path& file, const NetworkData& network)
   out.flush();
   if (!out)
     throw std::runtime_error("cannot write " + file.string() +
-                             ": does its folder exist, and has the disk room?");
+                             ": check that its folder exists and that the disk has room");
 }
 
 NetworkData load_network(const std::filesystem::path& file) {

@@ -38,7 +38,7 @@ void sort_once(std::vector<MapNode>& nodes) {
 void require_room(const std::vector<MapNode>& nodes, const OsmOptions& options) {
   if (nodes.size() > options.max_nodes)
     throw std::runtime_error("more than " + std::to_string(options.max_nodes) +
-                             " nodes; choose a part of it with a box");
+                             " nodes; select a part of it with a box");
 }
 
 // libosmium finds the end of each key and value by its zero byte. A zero byte inside a string would
@@ -51,7 +51,7 @@ const osmium::TagList& sound_tags(const Object& object) {
   if (std::count(begin, end, '\0') % 2 != 0 || (begin != end && end[-1] != '\0')) {
     throw std::runtime_error("a tag of " + std::string(osmium::item_type_to_name(object.type())) +
                              " " + std::to_string(object.id()) +
-                             " has a zero byte inside: the file is damaged, get it once more");
+                             " has a zero byte inside: the file is damaged, download it again");
   }
   return tags;
 }
@@ -184,18 +184,18 @@ MapExtract read_osm(const std::filesystem::path& file, const OsmOptions& options
     return std::runtime_error("cannot read the map " + file.string() + ": " + what);
   };
   if (!std::filesystem::exists(file)) throw fail("there is no such file");
-  if (!std::filesystem::is_regular_file(file)) throw fail("it is no regular file");
+  if (!std::filesystem::is_regular_file(file)) throw fail("it is not a regular file");
   if (std::filesystem::file_size(file) == 0) throw fail("it is empty");
   MapExtract map;
   try {
     map = read(osmium::io::File(file.string()), options);
   } catch (const std::bad_alloc&) {
-    throw fail("it does not fit into memory; choose a part of it with a box");
+    throw fail("it does not fit into memory; select a part of it with a box");
   } catch (const std::exception& e) {
     throw fail(std::string(e.what()) + " (expected: .osm.pbf, .osm, .osm.gz or .osm.bz2)");
   }
   if (map.ways.empty() || map.nodes.empty())
-    throw fail(options.box ? "it has no road inside the box" : "it has no road");
+    throw fail(options.box ? "it has no roads inside the box" : "it has no roads");
   return map;
 }
 

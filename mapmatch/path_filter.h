@@ -71,7 +71,7 @@ void PathFilter::archive(Archive& ar) {
   auto count = static_cast<std::uint32_t>(count_);
   ar(count);
   if constexpr (Archive::loading) {
-    if (count > capacity) ar.fail("more path hypotheses than there is room for");
+    if (count > capacity) ar.fail("more path hypotheses than the filter has room for");
     count_ = count;
   }
   for (std::size_t i = 0; i < count_; ++i) {
@@ -79,7 +79,7 @@ void PathFilter::archive(Archive& ar) {
     ar(h);
     if constexpr (Archive::loading) {
       for (const DirectedLink d : {h.link, h.previous, h.next})
-        if (d.link >= network_->size()) ar.fail("a hypothesis is on a link that is not there");
+        if (d.link >= network_->size()) ar.fail("a hypothesis is on a link that does not exist");
     }
   }
   ar(off_road_, surprise_, since_birth_);

@@ -50,14 +50,14 @@ void RoadNetwork::check() const {
   for (const Vertex& v : data_.vertices) {
     require(std::isfinite(v.east) && std::isfinite(v.north) && std::isfinite(v.along),
             "a position is not finite");
-    require(v.road < data_.roads.size(), "a vertex is on no road");
+    require(v.road < data_.roads.size(), "a vertex has no road");
   }
   for (const Link& l : data_.links) {
     require(l.vertex_count >= 2 && l.first_vertex < data_.vertices.size() &&
                 l.vertex_count <= data_.vertices.size() - l.first_vertex,
             "a link has no shape");
     require(l.start_junction < data_.junctions.size() && l.end_junction < data_.junctions.size(),
-            "a link ends at no junction");
+            "a link does not end at a junction");
     require(std::isfinite(l.length) && l.length > 0.0, "a link has no length");
     for (std::uint32_t v = l.first_vertex; v + 1 < l.first_vertex + l.vertex_count; ++v)
       require(data_.vertices[v].along <= data_.vertices[v + 1].along, "a link runs backwards");
@@ -65,9 +65,9 @@ void RoadNetwork::check() const {
   for (const Junction& j : data_.junctions)
     require(j.first_exit <= data_.exits.size() && j.exit_count <= data_.exits.size() - j.first_exit,
             "a junction's links are missing");
-  require(std::all_of(data_.exits.begin(), data_.exits.end(), known), "an exit is no link");
+  require(std::all_of(data_.exits.begin(), data_.exits.end(), known), "an exit is not a link");
   for (const BannedTurn& b : data_.banned)
-    require(known(b.from) && known(b.to), "a banned turn is between no links");
+    require(known(b.from) && known(b.to), "a banned turn is not between two links");
 }
 
 Eigen::Vector2d RoadNetwork::to_local(const Geodetic& place) const {

@@ -43,9 +43,10 @@ FileKind parse_into(std::string_view text, const std::string& name, GnssFiles& f
       files.ocean_loading.push_back(parse_blq(text, name));
       break;
     case FileKind::unknown:
-      throw ReadError(name + (text.empty() ? ": is empty" : "") +
-                      ": none of RINEX observations, navigation or clocks, compact RINEX, SP3, "
-                      "ANTEX, Bias-SINEX, DCB, ERP, BLQ, UBX, RTCM 3");
+      throw ReadError(
+          name + (text.empty() ? ": is empty" : "") +
+          ": not in a known format; supported are RINEX observations, navigation and clocks, "
+          "compact RINEX, SP3, ANTEX, Bias-SINEX, DCB, ERP, BLQ, UBX, RTCM 3");
   }
   if (!sent.kepler.empty() || !sent.glonass.empty() || !sent.ionosphere.empty() || sent.refused > 0)
     files.navigation.push_back(std::move(sent));

@@ -29,10 +29,11 @@ GpsTime gps_time(const CalendarTime& s) {
   const auto date = year{s.year} / s.month / s.day;
   if (!date.ok() || s.year < 1980 || s.year > 2200 || s.hour < 0 || s.hour > 24 || s.minute < 0 ||
       s.minute > 59 || !(s.second >= 0.0 && s.second < 61.0)) {
-    throw std::invalid_argument("no date and time of the years 1980 to 2200");
+    throw std::invalid_argument("not a date and time of the years 1980 to 2200");
   }
   const Duration since_epoch = sys_days{date} - gps_epoch_day;
-  if (since_epoch < Duration::zero()) throw std::invalid_argument("before GPS time's first day");
+  if (since_epoch < Duration::zero())
+    throw std::invalid_argument("before the first day of GPS time, 1980-01-06");
   return GpsTime(since_epoch + hours(s.hour) + minutes(s.minute) + from_seconds(s.second));
 }
 

@@ -8,11 +8,13 @@ namespace {
 
 const Observations& only_observations(const GnssFiles& files) {
   if (files.observations.size() != 1) {
-    throw std::runtime_error(std::to_string(files.observations.size()) +
-                             " observation files among the files given: give one");
+    throw std::runtime_error(
+        std::to_string(files.observations.size()) +
+        " of the given files contain observations: give exactly one such file");
   }
   const Observations& observations = files.observations.front();
-  if (observations.epochs.empty()) throw std::runtime_error(observations.file + ": has no epoch");
+  if (observations.epochs.empty())
+    throw std::runtime_error(observations.file + ": contains no epochs");
   return observations;
 }
 
@@ -42,7 +44,7 @@ PppSetup::PppSetup(const GnssFiles& files, const SetupOptions& options)
       earth_(files.earth_rotation) {
   choose_products(files, options);
   if (surroundings_.ephemeris == nullptr) {
-    throw std::runtime_error("no orbits: give an SP3 file with clocks, or a navigation file");
+    throw std::runtime_error("no orbits: add an SP3 file with clocks, or a navigation file");
   }
   one_frequency_ = has_one_frequency(*observations_);
   look_around(files, options, observations_->header);

@@ -35,7 +35,8 @@ template <class Archive>
 void archive(Archive& ar, Satellite& s) {
   ar(s.system, s.number);
   if constexpr (Archive::loading) {
-    if (static_cast<int>(s.system) >= system_count || s.number > 99) ar.fail("no satellite");
+    if (static_cast<int>(s.system) >= system_count || s.number > 99)
+      ar.fail("a number that is not a satellite's");
   }
 }
 

@@ -25,7 +25,8 @@ class ClockSteps {
   void archive(Archive& ar) {
     ar(code_minus_phase_, steps_);
     if constexpr (Archive::loading) {
-      if (code_minus_phase_.size() != satellite_slots) ar.fail("no receiver's clock");
+      if (code_minus_phase_.size() != satellite_slots)
+        ar.fail("not the state of a receiver's clock");
     }
   }
 

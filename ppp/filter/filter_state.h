@@ -56,7 +56,7 @@ class FilterState {
     ar(ambiguities_);
     if constexpr (Archive::loading) {
       if (ambiguities_.size() > most_ambiguities)
-        ar.fail("more ambiguities than there is room for");
+        ar.fail("more ambiguities than the state has room for");
     }
     const auto n = static_cast<std::size_t>(size());
     std::vector<double> values(n + n * n);
@@ -66,7 +66,8 @@ class FilterState {
     }
     ar(values);
     if constexpr (Archive::loading) {
-      if (values.size() != n + n * n) ar.fail("a state of another size");
+      if (values.size() != n + n * n)
+        ar.fail("the size of the state does not match its ambiguities");
       x() = Eigen::Map<Eigen::VectorXd>(values.data(), size());
       P() = Eigen::Map<Eigen::MatrixXd>(values.data() + n, size(), size());
     }

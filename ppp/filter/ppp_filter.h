@@ -53,7 +53,7 @@ class PppFilter {
       loaded.archive_knowledge(ar);
       if (loaded.memory_.size() != memory_.size() || loaded.reference_system_ < -1 ||
           loaded.reference_system_ >= system_count) {
-        ar.fail("no state of this filter");
+        ar.fail("not a state of this filter");
       }
       *this = std::move(loaded);
     } else {

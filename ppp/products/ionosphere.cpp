@@ -68,13 +68,13 @@ IonosphericDelay ionospheric_delay(const std::optional<NearestIonosphere>& coeff
 
 std::string ionosphere_lack(std::optional<Duration> age) {
   if (!age) {
-    return "no ionospheric coefficients of these days: one frequency is used without a model of "
-           "the ionosphere; a navigation file of the day, or of one near to it, has them";
+    return "no ionospheric coefficients for these days: one frequency is used without a model of "
+           "the ionosphere; add a navigation file of that day or of a day close to it";
   }
   const auto days = std::lround(to_seconds(*age) / to_seconds(one_day));
   if (days < 2) return {};
-  return "the ionospheric coefficients are of a day " + std::to_string(days) +
-         " days away: those of the day itself are better";
+  return "the ionospheric coefficients are of a day that is " + std::to_string(days) +
+         " days away; add a navigation file of the same day";
 }
 
 }  // namespace maploop::ppp

@@ -25,7 +25,7 @@ PhaseCentre read_carrier(Lines& lines, const Antenna& antenna) {
   PhaseCentre carrier;
   const auto system = system_of(lines.column(3, 1).empty() ? '?' : lines.line()[3]);
   const int band = lines.integer(4, 2, "carrier");
-  if (!system || band < 1 || band > 9) lines.fail("no carrier");
+  if (!system || band < 1 || band > 9) lines.fail("invalid carrier; expected e.g. G01");
   carrier.system = *system;
   carrier.band = static_cast<char>('0' + band);
   const auto count = static_cast<std::size_t>(
@@ -42,27 +42,28 @@ PhaseCentre read_carrier(Lines& lines, const Antenna& antenna) {
     } else if (label(lines) == "COMMENT") {
       continue;
     } else {
-      if (carrier.azimuths.size() >= azimuths) lines.fail("more rows of azimuths than were said");
+      if (carrier.azimuths.size() >= azimuths)
+        lines.fail("more azimuth rows than the step in DAZI gives");
       carrier.azimuths.push_back(read_row(lines, count));
     }
   }
-  if (carrier.no_azimuth.empty()) lines.fail("a carrier without its NOAZI row");
+  if (carrier.no_azimuth.empty()) lines.fail("a carrier has no NOAZI row");
   if (!carrier.azimuths.empty() && carrier.azimuths.size() != azimuths) {
-    lines.fail("a carrier without all its rows of azimuths");
+    lines.fail("a carrier has fewer azimuth rows than the step in DAZI gives");
   }
   return carrier;
 }
 
 // The rows of the carriers use the grid that was defined before them.
 void require_no_carrier(const Lines& lines, const Antenna& antenna) {
-  if (!antenna.carriers.empty()) lines.fail("the grid of angles comes behind a carrier");
+  if (!antenna.carriers.empty()) lines.fail("DAZI or ZEN1 comes after a carrier");
 }
 
 void read_azimuth_grid(const Lines& lines, Antenna& antenna) {
   require_no_carrier(lines, antenna);
   antenna.azimuth_step = lines.number(2, 6, "azimuth step");
   if (antenna.azimuth_step != 0 && !(antenna.azimuth_step >= 0.1 && antenna.azimuth_step <= 180)) {
-    lines.fail("a step of azimuths is 0.1 to 180 degrees, or 0");
+    lines.fail("an azimuth step must be 0.1 to 180 degrees, or 0");
   }
 }
 
@@ -73,7 +74,7 @@ void read_zenith_grid(const Lines& lines, Antenna& antenna) {
   antenna.zenith_step = lines.number(14, 6, "zenith step");
   if (!(antenna.zenith_first >= 0 && antenna.zenith_last <= 180 &&
         antenna.zenith_last >= antenna.zenith_first && antenna.zenith_step >= 0.1)) {
-    lines.fail("no grid of zenith angles");
+    lines.fail("invalid grid of zenith angles");
   }
 }
 
@@ -105,10 +106,10 @@ Antenna read_antenna(Lines& lines, int& refused) {
       antenna = {};
       ++refused;
     } else if (name.empty()) {
-      lines.fail("no line of an antenna");
+      lines.fail("unknown line in an antenna");
     }
   }
-  if (antenna.type.empty()) lines.fail("an antenna without its type");
+  if (antenna.type.empty()) lines.fail("an antenna has no TYPE / SERIAL NO");
   return antenna;
 }
 
@@ -126,10 +127,11 @@ AntennaFile parse_antex(std::string_view text, const std::string& file) {
   result.file = file;
   Lines lines(text, file);
   if (!lines.next() || label(lines) != "ANTEX VERSION / SYST") {
-    lines.fail("an ANTEX file starts with ANTEX VERSION / SYST");
+    lines.fail("an ANTEX file must start with ANTEX VERSION / SYST");
   }
   const double version = lines.number(0, 8, "version");
-  if (version < 1.2 || version > 1.45) lines.fail("ANTEX 1.3 and 1.4 are read");
+  if (version < 1.2 || version > 1.45)
+    lines.fail("unknown version; ANTEX 1.2 to 1.4 are supported");
   while (label(lines) != "END OF HEADER") {
     if (!lines.next()) lines.fail("the file ends inside its header");
     if (label(lines) == "PCV TYPE / REFANT") result.absolute = lines.column(0, 1) == "A";
@@ -138,10 +140,10 @@ AntennaFile parse_antex(std::string_view text, const std::string& file) {
     if (label(lines) == "START OF ANTENNA") {
       result.antennas.push_back(read_antenna(lines, result.refused));
     } else if (label(lines) != "COMMENT" && !blank(lines.line())) {
-      lines.fail("an antenna starts with START OF ANTENNA");
+      lines.fail("an antenna must start with START OF ANTENNA");
     }
   }
-  if (result.antennas.empty()) lines.fail("the file has no antenna");
+  if (result.antennas.empty()) lines.fail("the file contains no antenna");
   return result;
 }
 

@@ -1,4 +1,4 @@
-// Reads antenna calibrations from ANTEX 1.3 and 1.4.
+// Reads antenna calibrations from ANTEX 1.2 to 1.4.
 #pragma once
 
 #include <Eigen/Core>

@@ -15,7 +15,7 @@ GpsTime sinex_time(const Lines& lines, std::size_t column, GpsTime open) {
   const auto second = parse_integer(columns(text, 9, 5));
   if (!year || !day || !second || text.size() != 14 || *day > 366 || *second > 86400 || *year < 0 ||
       *day < 0 || *second < 0 || (*year > 0 && (*year < 1980 || *year > 2200))) {
-    lines.fail("'" + std::string(text) + "' is no year:day:second");
+    lines.fail("'" + std::string(text) + "' is not of the form YYYY:DDD:SSSSS (year, day, second)");
   }
   if (*year == 0) return open;
   return gps_time({*year, 1, 1, 0, 0, 0.0}) + std::chrono::hours(24 * (*day - 1)) +
@@ -33,9 +33,9 @@ void read_bias(const Lines& lines, BiasFile& result) {
   }
   if (signal.size() != 3 || (absolute ? !second.empty() : second.size() != 3)) {
     lines.fail("'" + std::string(signal) + "' and '" + std::string(second) +
-               "' do not name the signals of a bias");
+               "' are not the signals of a bias");
   }
-  if (trimmed(lines.column(65, 4)) != "ns") lines.fail("a bias of code is in ns");
+  if (trimmed(lines.column(65, 4)) != "ns") lines.fail("the unit of a code bias must be ns");
   CodeBias bias;
   bias.satellite = *satellite;
   bias.signal = std::string(signal);
@@ -43,7 +43,7 @@ void read_bias(const Lines& lines, BiasFile& result) {
   bias.from = sinex_time(lines, 35, GpsTime::min());
   bias.until = sinex_time(lines, 50, GpsTime::max());
   const double ns = lines.number(70, 21, "bias");
-  if (std::abs(ns) > 1e5) lines.fail("a bias beyond 100 us");
+  if (std::abs(ns) > 1e5) lines.fail("a bias must be within 100 us");
   bias.metres = ns * 1e-9 * speed_of_light;
   result.biases.push_back(bias);
 }
@@ -55,7 +55,7 @@ BiasFile parse_bias_sinex(std::string_view text, const std::string& file) {
   result.file = file;
   Lines lines(text, file);
   if (!lines.next() || lines.column(0, 5) != "%=BIA") {
-    lines.fail("a Bias-SINEX file starts with %=BIA");
+    lines.fail("a Bias-SINEX file must start with %=BIA");
   }
   result.agency = std::string(trimmed(lines.column(11, 3)));
   bool solution = false, ended = false;
@@ -72,12 +72,12 @@ BiasFile parse_bias_sinex(std::string_view text, const std::string& file) {
       } else if (kind == "ISB ") {
         ++result.passed_over;
       } else {
-        lines.fail("a bias is an OSB, DSB or ISB");
+        lines.fail("a bias must be an OSB, DSB or ISB");
       }
     }
   }
   if (!ended) lines.fail("the file ends before -BIAS/SOLUTION");
-  if (result.biases.empty()) lines.fail("the file has no code bias of a satellite");
+  if (result.biases.empty()) lines.fail("the file contains no code bias of a satellite");
   return result;
 }
 
@@ -99,7 +99,7 @@ BiasFile parse_dcb(std::string_view text, const std::string& file) {
     if (const auto at = line.find("DIFFERENTIAL (P"); at != std::string_view::npos) {
       const auto names = line.substr(at + 14, 5);
       if (names != "P1-C1" && names != "P2-C2" && names != "P1-P2") {
-        lines.fail("P1-C1, P2-C2 and P1-P2 are read");
+        lines.fail("unknown difference; P1-C1, P2-C2 and P1-P2 are supported");
       }
       first = names[1] == '1' ? "C1W" : "C2W";
       second = names == "P1-C1" ? "C1C" : names == "P2-C2" ? "C2C" : "C2W";
@@ -114,9 +114,10 @@ BiasFile parse_dcb(std::string_view text, const std::string& file) {
       ++result.passed_over;
       continue;
     }
-    if (first.empty()) lines.fail("the title does not say which difference it is");
+    if (first.empty())
+      lines.fail("the title does not contain a difference such as DIFFERENTIAL (P1-C1)");
     if (year < 1980 || year > 2200 || month < 1 || month > 12) {
-      lines.fail("the title does not say the year and month");
+      lines.fail("the title does not contain the year and month");
     }
     CodeBias bias{*satellite,
                   first,
@@ -132,7 +133,7 @@ BiasFile parse_dcb(std::string_view text, const std::string& file) {
     bias.metres = lines.number(23, 12, "bias in ns") * 1e-9 * speed_of_light;
     result.biases.push_back(bias);
   }
-  if (result.biases.empty()) lines.fail("the file has no code bias of a satellite");
+  if (result.biases.empty()) lines.fail("the file contains no code bias of a satellite");
   return result;
 }
 

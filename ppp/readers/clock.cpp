@@ -12,8 +12,10 @@ ClockFile parse_clock(std::string_view text, const std::string& file) {
     lines.fail("a RINEX file starts with RINEX VERSION / TYPE");
   }
   const double version = lines.number(0, 9, "version");
-  if (version < 2.0 || version >= 3.05) lines.fail("RINEX clock 2.00 to 3.04 is read");
-  if (lines.line().find('C', 20) == std::string_view::npos) lines.fail("no clock file");
+  if (version < 2.0 || version >= 3.05)
+    lines.fail("unknown version; RINEX clock 2.00 to 3.04 is supported");
+  if (lines.line().find('C', 20) == std::string_view::npos)
+    lines.fail("not a clock file: the file type must be C");
   // Version 3.04 has longer station names, and every column after them is 5 further right.
   const std::size_t shift = version >= 3.04 ? 5 : 0;
   for (bool header = true; header;) {
@@ -25,7 +27,7 @@ ClockFile parse_clock(std::string_view text, const std::string& file) {
     }
     const auto at = line.find("TIME SYSTEM ID", 60);
     if (at != std::string_view::npos && trimmed(lines.column(0, 9)) != "GPS") {
-      lines.fail("clocks in a time system other than GPS are not read");
+      lines.fail("clocks in a time system other than GPS are not supported");
     }
   }
   std::string_view stamp_text;
@@ -37,7 +39,8 @@ ClockFile parse_clock(std::string_view text, const std::string& file) {
       break;
     }
     const auto satellite = parse_satellite(lines.column(3, 3));
-    if (!satellite) lines.fail("'" + std::string(lines.column(3, 3)) + "' is no satellite");
+    if (!satellite)
+      lines.fail("'" + std::string(lines.column(3, 3)) + "' is not a satellite; expected e.g. G05");
     // The stamp is repeated for each satellite.
     const auto columns_of_stamp = lines.column(8 + shift, 26);
     if (columns_of_stamp != stamp_text) {
@@ -54,7 +57,7 @@ ClockFile parse_clock(std::string_view text, const std::string& file) {
     const int values = lines.integer(34 + shift, 3, "number of values");
     if (values > 2 && !lines.next()) ++result.refused;
   }
-  if (result.points.empty()) lines.fail("the file has no satellite clock");
+  if (result.points.empty()) lines.fail("the file contains no satellite clock");
   return result;
 }
 

@@ -64,11 +64,12 @@ class CompactReader {
   CompactReader(Lines& lines, Observations& result) : lines_(lines), result_(result) {
     lines.next();
     const double version = lines.number(0, 20, "version of compact RINEX");
-    if (version != 1.0 && version != 3.0) lines.fail("compact RINEX 1 and 3 are read");
+    if (version != 1.0 && version != 3.0)
+      lines.fail("unknown version; compact RINEX 1.0 and 3.0 are supported");
     if (!lines.next()) lines.fail("the file ends inside its header");
     in_force_ = read_observation_header(lines);
     if (in_force_.version3() != (version == 3.0)) {
-      lines.fail("compact RINEX 1 holds RINEX 2, and 3 holds RINEX 3");
+      lines.fail("compact RINEX 1 must contain RINEX 2, and compact RINEX 3 must contain RINEX 3");
     }
     result.header = in_force_.header;
   }
@@ -92,15 +93,16 @@ class CompactReader {
       epoch_line_.assign(line);
       if (!three) epoch_line_[0] = ' ';
     } else if (epoch_line_.empty()) {
-      lines_.fail("the first epoch is not a whole one");
+      lines_.fail("the first epoch line must be complete, not a difference");
     } else {
       apply_difference(epoch_line_, line);
     }
     const std::string_view text = epoch_line_;
     const auto flag = parse_integer(columns(text, three ? 31 : 28, 1));
     const auto count = parse_integer(columns(text, three ? 32 : 29, 3));
-    if (!flag || *flag < 0 || *flag > 5) lines_.fail("an epoch flag is one of 0 to 5");
-    if (!count || *count < 0 || *count > 200) lines_.fail("a number of satellites is 0 to 200");
+    if (!flag || *flag < 0 || *flag > 5) lines_.fail("an epoch flag must be 0 to 5");
+    if (!count || *count < 0 || *count > 200)
+      lines_.fail("a number of satellites must be 0 to 200");
     if (*flag > 1) return read_event(*count);
 
     Epoch epoch;
@@ -135,7 +137,8 @@ class CompactReader {
     for (int i = 0; i < count; ++i) {
       const auto name = columns(names, 3 * static_cast<std::size_t>(i), 3);
       const auto satellite = parse_satellite(name);
-      if (!satellite) lines_.fail("'" + std::string(name) + "' is no satellite");
+      if (!satellite)
+        lines_.fail("'" + std::string(name) + "' is not a satellite; expected e.g. G05");
       satellites_.push_back(*satellite);
     }
   }
@@ -144,7 +147,8 @@ class CompactReader {
     std::int64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size()) {
-      lines_.fail("'" + std::string(text) + "' is no difference");
+      lines_.fail("'" + std::string(text) +
+                  "' is not a difference: a whole number of at most 64 bits");
     }
     return value;
   }
@@ -152,12 +156,12 @@ class CompactReader {
   // "3&24178026635" starts an arc of third order; "-12" continues one.
   void advance(Arc& arc, std::string_view field) {
     if (field.size() > 2 && field[1] == '&') {
-      if (field[0] < '0' || field[0] > '9') lines_.fail("an arc's order is 0 to 9");
+      if (field[0] < '0' || field[0] > '9') lines_.fail("the order of an arc must be 0 to 9");
       arc.start(field[0] - '0', integer(field.substr(2)));
     } else if (!arc.running()) {
-      lines_.fail("'" + std::string(field) + "' has no arc to go on with");
+      lines_.fail("'" + std::string(field) + "' continues no arc; an arc starts with ORDER&VALUE");
     } else if (!arc.next(integer(field))) {
-      lines_.fail("'" + std::string(field) + "' leads beyond what can be");
+      lines_.fail("'" + std::string(field) + "' makes the value exceed 64 bits");
     }
   }
 
@@ -173,7 +177,7 @@ class CompactReader {
 
   void read_satellite(Satellite satellite, Epoch& epoch) {
     const auto types = result_.header.types[static_cast<std::size_t>(satellite.system)].size();
-    if (types == 0) lines_.fail("the header has no types for " + to_string(satellite));
+    if (types == 0) lines_.fail("the header has no observation types for " + to_string(satellite));
     SatelliteArcs& state = satellites_state_[satellite];
     if (state.epoch != epoch_number_ - 1 || state.arcs.size() != types) {
       state.arcs.assign(types, {});

@@ -12,7 +12,7 @@ EarthRotationFile parse_erp(std::string_view text, const std::string& file) {
   Lines lines(text, file);
   if (!lines.next() || trimmed(lines.line()).substr(0, 9) != "VERSION 2") {
     std::string start(trimmed(lines.line()));
-    if (start.substr(0, 9) != "version 2") lines.fail("an ERP file starts with VERSION 2");
+    if (start.substr(0, 9) != "version 2") lines.fail("an ERP file must start with VERSION 2");
   }
   bool table = false;
   while (lines.next()) {
@@ -27,10 +27,10 @@ EarthRotationFile parse_erp(std::string_view text, const std::string& file) {
     std::size_t at = 0;
     for (double& value : values) {
       at = line.find_first_not_of(" \t", at);
-      if (at == line.npos) lines.fail("a row has at least MJD, X, Y, UT1-UTC and LOD");
+      if (at == line.npos) lines.fail("a row must have at least MJD, X, Y, UT1-UTC and LOD");
       const auto end = std::min(line.find_first_of(" \t", at), line.size());
       const auto number = parse_number(line.substr(at, end - at));
-      if (!number) lines.fail("'" + std::string(line.substr(at, end - at)) + "' is no number");
+      if (!number) lines.fail("'" + std::string(line.substr(at, end - at)) + "' is not a number");
       value = *number;
       at = end;
     }
@@ -38,14 +38,14 @@ EarthRotationFile parse_erp(std::string_view text, const std::string& file) {
                             values[3] * 1e-7, values[4] * 1e-7};
     if (day.mjd < 44000 || day.mjd > 125000 || std::abs(values[1]) > 2e6 ||
         std::abs(values[2]) > 2e6 || std::abs(day.ut1_minus_utc) > 40.0) {
-      lines.fail("no earth rotation parameters in 1e-6 arcseconds and 1e-7 s");
+      lines.fail("not earth rotation parameters in 1e-6 arcseconds and 1e-7 s");
     }
     if (!result.days.empty() && day.mjd <= result.days.back().mjd) {
-      lines.fail("a day that is not after the one before");
+      lines.fail("a day is not after the one before");
     }
     result.days.push_back(day);
   }
-  if (result.days.empty()) lines.fail("the file has no day");
+  if (result.days.empty()) lines.fail("the file contains no days");
   return result;
 }
 

@@ -30,7 +30,7 @@ void append_satellite(Observations& observations, const Lines& lines, Satellite 
   const auto& types = observations.header.types[system];
   for (const SatelliteSignals& other : epoch.satellites) {
     if (other.satellite == satellite) {
-      refuse(observations, lines, to_string(satellite) + " twice in one epoch");
+      refuse(observations, lines, to_string(satellite) + " occurs twice in one epoch");
       return;
     }
   }
@@ -48,7 +48,8 @@ void append_satellite(Observations& observations, const Lines& lines, Satellite 
       // clocks.
       if (value != 0.0 && !(value > 1.0e7 && value < 1.0e8)) {
         refuse(observations, lines,
-               to_string(satellite) + ": " + shown(value) + " m is no pseudorange");
+               to_string(satellite) + ": " + shown(value) +
+                   " m is not a pseudorange (10000 to 100000 km)");
         continue;
       }
       signal.code = value;

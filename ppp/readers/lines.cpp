@@ -86,7 +86,7 @@ double Lines::number(std::size_t first, std::size_t width, const char* what) con
   const auto value = parse_number(column(first, width));
   if (!value) {
     fail(std::string("'") + std::string(column(first, width)) + "' in column " +
-         std::to_string(first + 1) + " is no " + what);
+         std::to_string(first + 1) + " is not a valid " + what);
   }
   return *value;
 }
@@ -95,7 +95,7 @@ int Lines::integer(std::size_t first, std::size_t width, const char* what) const
   const auto value = parse_integer(column(first, width));
   if (!value) {
     fail(std::string("'") + std::string(column(first, width)) + "' in column " +
-         std::to_string(first + 1) + " is no " + what);
+         std::to_string(first + 1) + " is not a valid " + what);
   }
   return *value;
 }
@@ -118,18 +118,19 @@ GpsTime parse_stamp(const Lines& lines, std::string_view text) {
   std::size_t at = 0;
   for (double& part : parts) {
     at = text.find_first_not_of(' ', at);
-    if (at == std::string_view::npos) lines.fail("a date and time is missing or cut");
+    if (at == std::string_view::npos) lines.fail("a date and time is missing or incomplete");
     const auto end = std::min(text.find(' ', at), text.size());
     const auto value = parse_number(text.substr(at, end - at));
     const bool is_second = &part == &parts.back();
     if (!value || std::abs(*value) > 9999.0 || (!is_second && *value != std::floor(*value))) {
-      lines.fail("'" + std::string(text.substr(at, end - at)) + "' is no part of a date and time");
+      lines.fail("'" + std::string(text.substr(at, end - at)) +
+                 "' is not a valid part of a date and time");
     }
     part = *value;
     at = end;
   }
   if (!blank(columns(text, at, text.size()))) {
-    lines.fail("'" + std::string(text) + "' is no date and time");
+    lines.fail("'" + std::string(text) + "' is not a date and time; expected six numbers");
   }
   int year = static_cast<int>(parts[0]);
   if (year < 100) year += year < 80 ? 2000 : 1900;

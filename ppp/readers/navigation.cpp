@@ -32,14 +32,14 @@ class NavigationReader {
     }
     version_ = lines_.number(0, 9, "version");
     if (!(version_ >= 2.0 && version_ < 2.13) && !(version_ >= 3.0 && version_ < 3.06)) {
-      lines_.fail("RINEX 2.0 to 2.12 and 3.00 to 3.05 are read, no other version");
+      lines_.fail("unknown version; RINEX 2.00 to 2.12 and 3.00 to 3.05 are supported");
     }
     three_ = version_ >= 3.0;
     const auto type = lines_.column(20, 1);
     if (type == "G" && !three_) {
       default_system_ = System::glonass;
     } else if (type != "N") {
-      lines_.fail("no navigation file");
+      lines_.fail("not a navigation file: column 21 must contain N, or G in RINEX 2");
     }
     while (lines_.next()) {
       const auto label = trimmed(lines_.column(60, 20));
@@ -82,11 +82,13 @@ class NavigationReader {
     Satellite satellite{default_system_, 0};
     if (three_) {
       const auto found = parse_satellite(lines_.column(0, 3));
-      if (!found) lines_.fail("'" + std::string(lines_.column(0, 3)) + "' is no satellite");
+      if (!found)
+        lines_.fail("'" + std::string(lines_.column(0, 3)) +
+                    "' is not a satellite; expected e.g. G05");
       satellite = *found;
     } else {
       const int number = lines_.integer(0, 2, "satellite number");
-      if (number < 1) lines_.fail("a satellite's number is 1 to 99");
+      if (number < 1) lines_.fail("a satellite's number must be 1 to 99");
       satellite.number = static_cast<std::uint8_t>(number);
     }
     const GpsTime stamp = parse_stamp(lines_, lines_.column(name_width, 20));
@@ -126,7 +128,7 @@ class NavigationReader {
                            static_cast<int>(std::lround(std::fmod(v[10], 1e6))),
                            v[6]};
     if (!plausible(m)) {
-      refuse(to_string(satellite) + ": no orbit of a GLONASS satellite");
+      refuse(to_string(satellite) + ": the values cannot be an orbit of a GLONASS satellite");
       return;
     }
     result_.glonass.push_back(m);
@@ -151,7 +153,7 @@ class NavigationReader {
     m.health = v[24];
     m.group_delay = {v[25], beidou || galileo ? v[26] : 0.0};
     if (!plausible(m) || v[11] < 0.0 || v[11] > 604800.0 || v[21] < 0.0 || v[21] > 9999.0) {
-      refuse(to_string(satellite) + ": no orbit of a navigation satellite");
+      refuse(to_string(satellite) + ": the values cannot be an orbit of a navigation satellite");
       return;
     }
     // BeiDou's weeks start 1356 weeks later, but some writers use GPS's weeks. The clock's epoch

@@ -1,4 +1,4 @@
-// Reads RINEX navigation files 2.10 to 2.12 and 3.00 to 3.05.
+// Reads RINEX navigation files 2.00 to 2.12 and 3.00 to 3.05.
 #pragma once
 
 #include <Eigen/Core>

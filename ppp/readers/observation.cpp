@@ -30,7 +30,7 @@ class PlainReader {
  private:
   // Returns false if the file ended inside the epoch.
   bool read_epoch3() {
-    if (lines_.line()[0] != '>') lines_.fail("an epoch starts with '>'");
+    if (lines_.line()[0] != '>') lines_.fail("an epoch must start with '>'");
     if (!lines_.whole() && lines_.line().size() < 35) return false;
     const int flag = lines_.integer(31, 1, "epoch flag");
     const int count = count_of(32, 3);
@@ -44,7 +44,7 @@ class PlainReader {
       const auto satellite = satellite_at(0);
       const auto types = result_.header.types[static_cast<std::size_t>(satellite.system)].size();
       if (types == 0) {
-        lines_.fail("the header has no types for " + to_string(satellite));
+        lines_.fail("the header has no observation types for " + to_string(satellite));
       }
       values_.resize(types);
       for (std::size_t k = 0; k < types; ++k) values_[k] = value_at(3 + 16 * k);
@@ -89,8 +89,8 @@ class PlainReader {
   // After flags 2 to 5 there are header records; after 6 there are records of cycle slips in the
   // form of observations.
   bool read_event(int flag, int count) {
-    if (flag > 6) lines_.fail("an epoch flag is one of 0 to 6");
-    if (flag == 6) lines_.fail("records of cycle slips (flag 6) are not read");
+    if (flag > 6) lines_.fail("an epoch flag must be 0 to 6");
+    if (flag == 6) lines_.fail("records of cycle slips (epoch flag 6) are not supported");
     for (int i = 0; i < count; ++i) {
       if (!lines_.next()) return false;
       apply_header_record(lines_, in_force_);
@@ -104,14 +104,16 @@ class PlainReader {
 
   int count_of(std::size_t first, std::size_t width) const {
     const int count = lines_.integer_or(first, width, 0, "number of satellites");
-    if (count < 0 || count > most_satellites) lines_.fail("a number of satellites beyond 200");
+    if (count < 0 || count > most_satellites)
+      lines_.fail("a number of satellites must be 0 to 200");
     return count;
   }
 
   Satellite satellite_at(std::size_t column) const {
     const auto satellite = parse_satellite(lines_.column(column, 3));
     if (!satellite) {
-      lines_.fail("'" + std::string(lines_.column(column, 3)) + "' is no satellite");
+      lines_.fail("'" + std::string(lines_.column(column, 3)) +
+                  "' is not a satellite; expected e.g. G05");
     }
     return *satellite;
   }

@@ -1,4 +1,4 @@
-// Reads RINEX observation files 2.10 to 2.12 and 3.00 to 3.05, plain or Hatanaka-compressed (CRX 1
+// Reads RINEX observation files 2.00 to 2.12 and 3.00 to 3.05, plain or Hatanaka-compressed (CRX 1
 // and 3).
 #pragma once
 

@@ -57,8 +57,9 @@ void number_signals(ObservationHeader& header) {
 }
 
 int count_of_types(const Lines& lines, std::size_t first, std::size_t width) {
-  const int count = lines.integer(first, width, "number of types of observation");
-  if (count < 1 || count > most_types) lines.fail("between 1 and 120 types of observation");
+  const int count = lines.integer(first, width, "number of observation types");
+  if (count < 1 || count > most_types)
+    lines.fail("the number of observation types must be 1 to 120");
   return count;
 }
 
@@ -72,7 +73,7 @@ void read_types2(Lines& lines, ObservationHeader& header) {
     }
     const auto name = trimmed(lines.column(6 + 6 * static_cast<std::size_t>(i % 9), 6));
     if (name.size() != 2 || std::string_view("CPLDST").find(name[0]) == std::string_view::npos) {
-      lines.fail("'" + std::string(name) + "' is no type of observation");
+      lines.fail("'" + std::string(name) + "' is not an observation type");
     }
     for (std::size_t s = 0; s < header.types.size(); ++s) {
       header.types[s].push_back(type_of_version2(static_cast<System>(s), name[0], name[1]));
@@ -83,7 +84,7 @@ void read_types2(Lines& lines, ObservationHeader& header) {
 
 System system_in(const Lines& lines) {
   const auto system = lines.line().empty() ? std::nullopt : system_of(lines.line()[0]);
-  if (!system) lines.fail("the first column names no satellite system");
+  if (!system) lines.fail("the first column must contain a satellite system: G R E C J S or I");
   return *system;
 }
 
@@ -99,7 +100,7 @@ void read_types3(Lines& lines, ObservationHeader& header) {
     }
     const auto name = lines.column(7 + 4 * static_cast<std::size_t>(i % 13), 3);
     if (name.size() != 3 || std::string_view("CLDSXI").find(name[0]) == std::string_view::npos) {
-      lines.fail("'" + std::string(name) + "' is no type of observation");
+      lines.fail("'" + std::string(name) + "' is not an observation type");
     }
     ObservationType type{name[0], name[1], name[2]};
     // RINEX 3.02 called BeiDou's B1I band 1.
@@ -116,7 +117,7 @@ void read_scale_factor(Lines& lines, ObservationHeader& header) {
   const System system = system_in(lines);
   const int factor = lines.integer(2, 4, "scale factor");
   if (factor != 1 && factor != 10 && factor != 100 && factor != 1000) {
-    lines.fail("a scale factor is 1, 10, 100 or 1000");
+    lines.fail("a scale factor must be 1, 10, 100 or 1000");
   }
   const int count = lines.integer_or(8, 2, 0, "number of scaled types");
   auto& types = header.types[static_cast<std::size_t>(system)];
@@ -139,7 +140,8 @@ void read_glonass_channels(const Lines& lines, ObservationHeader& header) {
     const auto satellite = parse_satellite(entry.substr(0, 3));
     const auto channel = parse_integer(columns(entry, 3, 3));
     if (!satellite || !channel || *channel < -7 || *channel > 6) {
-      lines.fail("'" + std::string(entry) + "' is no GLONASS slot with its channel");
+      lines.fail("'" + std::string(entry) +
+                 "' is not a GLONASS satellite with its channel; expected e.g. R01  1");
     }
     header.glonass_channels[satellite->number] = *channel;
   }
@@ -152,7 +154,8 @@ Duration offset_of_time_system(const Lines& lines, const ObservationHeader& head
   }
   if (name == "BDT" || (name.empty() && type == 'C')) return std::chrono::seconds(14);
   if (!name.empty() && name != "GPS" && name != "GAL" && name != "QZS" && name != "IRN") {
-    lines.fail("'" + std::string(name) + "' is no time system");
+    lines.fail("'" + std::string(name) +
+               "' is not a time system; expected GPS, GLO, GAL, QZS, BDT or IRN");
   }
   return Duration::zero();
 }
@@ -163,10 +166,12 @@ void apply_header_record(Lines& lines, HeaderInForce& in_force) {
   ObservationHeader& header = in_force.header;
   const auto name = label(lines);
   if (name == "# / TYPES OF OBSERV") {
-    if (in_force.version3()) lines.fail("types as in version 2 in a file of version 3");
+    if (in_force.version3())
+      lines.fail("a list of observation types in the form of RINEX 2 in a file of RINEX 3");
     read_types2(lines, header);
   } else if (name == "SYS / # / OBS TYPES") {
-    if (!in_force.version3()) lines.fail("types as in version 3 in a file of version 2");
+    if (!in_force.version3())
+      lines.fail("a list of observation types in the form of RINEX 3 in a file of RINEX 2");
     read_types3(lines, header);
   } else if (name == "SYS / SCALE FACTOR") {
     read_scale_factor(lines, header);
@@ -202,15 +207,16 @@ HeaderInForce read_observation_header(Lines& lines) {
   header.version = lines.number(0, 9, "version");
   const bool two = header.version >= 2.0 && header.version < 2.13;
   const bool three = header.version >= 3.0 && header.version < 3.06;
-  if (!two && !three) lines.fail("RINEX 2.0 to 2.12 and 3.00 to 3.05 are read, no other version");
-  if (lines.column(20, 1) != "O") lines.fail("no observation file");
+  if (!two && !three)
+    lines.fail("unknown version; RINEX 2.00 to 2.12 and 3.00 to 3.05 are supported");
+  if (lines.column(20, 1) != "O") lines.fail("not an observation file: column 21 must contain O");
   const char type = columns(lines.line(), 40, 1).empty() ? ' ' : lines.line()[40];
   while (lines.next()) {
     const auto name = label(lines);
     if (name == "END OF HEADER") {
       if (std::all_of(header.types.begin(), header.types.end(),
                       [](const auto& types) { return types.empty(); })) {
-        lines.fail("the header names no types of observation");
+        lines.fail("the header contains no observation types");
       }
       if (header.first) *header.first += in_force.to_gps;
       if (header.last) *header.last += in_force.to_gps;

@@ -1,4 +1,4 @@
-// Reads the header of a RINEX observation file, 2.10 to 2.12 and 3.00 to 3.05.
+// Reads the header of a RINEX observation file, 2.00 to 2.12 and 3.00 to 3.05.
 #pragma once
 
 #include "ppp/observations.h"

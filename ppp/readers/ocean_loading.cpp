@@ -30,11 +30,12 @@ void read_row(const Lines& lines, double unit, std::array<double, 11>& row) {
   std::size_t at = 0;
   for (double& value : row) {
     at = line.find_first_not_of(' ', at);
-    if (at == std::string_view::npos) lines.fail("a row has 11 constituents");
+    if (at == std::string_view::npos) lines.fail("a row must have 11 constituents");
     const auto end = std::min(line.find(' ', at), line.size());
     const auto number = parse_number(line.substr(at, end - at));
-    if (!number) lines.fail("'" + std::string(line.substr(at, end - at)) + "' is no number");
-    if (std::abs(*number) > 360.0) lines.fail("no amplitude in m or phase in degrees");
+    if (!number) lines.fail("'" + std::string(line.substr(at, end - at)) + "' is not a number");
+    if (std::abs(*number) > 360.0)
+      lines.fail("an amplitude in m or a phase in degrees must be within 360");
     value = *number * unit;
     at = end;
   }
@@ -54,7 +55,7 @@ OceanLoadingFile parse_blq(std::string_view text, const std::string& file) {
     if (comment(lines)) continue;
     OceanLoading station;
     station.station = std::string(trimmed(lines.line()));
-    if (station.station.size() > 40) lines.fail("no name of a station");
+    if (station.station.size() > 40) lines.fail("the name of a station has at most 40 characters");
     for (std::size_t row = 0; row < 6; ++row) {
       do {
         if (!lines.next()) lines.fail("the file ends inside a station");
@@ -65,7 +66,7 @@ OceanLoadingFile parse_blq(std::string_view text, const std::string& file) {
     }
     result.stations.push_back(station);
   }
-  if (result.stations.empty()) lines.fail("the file has no station");
+  if (result.stations.empty()) lines.fail("the file contains no station");
   return result;
 }
 

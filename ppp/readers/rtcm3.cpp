@@ -240,7 +240,7 @@ bool MsmDecoder::decode(const Rtcm3Message& message, Epoch& epoch, std::string& 
   header.system = kind->system;
   if (!time || !header.read(bits, kind->msm, glonass_channels_)) {
     problem = "message " + std::to_string(message.number) +
-              (time ? " has not the content that it says" : " has no time");
+              (time ? " has incomplete content" : " has no valid time");
     return false;
   }
   const bool next_began = open_.time != *time && finish(epoch);
@@ -301,8 +301,8 @@ Observations parse_rtcm3(std::string_view bytes, const std::string& file,
   for (Rtcm3Frames frames(bytes); !near && frames.next(message);) near = week_of(message);
   if (!near) {
     throw ReadError(file +
-                    ": RTCM's observations do not say their week, and it holds no ephemeris of GPS "
-                    "or Galileo (1019, 1045, 1046) that does; record those too");
+                    ": RTCM observations do not contain their week, and the file has no ephemeris "
+                    "of GPS or Galileo (1019, 1045, 1046), which does; record those too");
   }
   MsmDecoder decoder(*near);
   std::string problem;
@@ -334,12 +334,12 @@ Observations parse_rtcm3(std::string_view bytes, const std::string& file,
   result.header.glonass_channels = decoder.glonass_channels();
   if (frames.damaged() > 0) {
     refuse(result, bytes.size(),
-           std::to_string(frames.damaged()) + " frames with a wrong checksum, or cut");
+           std::to_string(frames.damaged()) + " frames with a wrong checksum, or incomplete");
   }
   if (decoder.left_out() > 0) {
     refuse(
         result, bytes.size(),
-        std::to_string(decoder.left_out()) + " values without a name or that no satellite gives");
+        std::to_string(decoder.left_out()) + " values with unknown signals or impossible ranges");
   }
   return result;
 }

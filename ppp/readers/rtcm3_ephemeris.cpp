@@ -46,18 +46,19 @@ bool add_ephemeris(const Rtcm3Message& message, GpsTime now, NavigationFile& to)
   read_fields(bits, kind->end, values);
   const std::string what = "message " + std::to_string(message.number);
   if (!bits.good() || satellite.number == 0) {
-    refuse(to, message.offset, what + " is cut, or of no satellite");
+    refuse(to, message.offset, what + " is incomplete or has no satellite number");
     return true;
   }
   if (kind->system == System::glonass) {
     const auto m = glonass_message(satellite, values, now);
     m ? to.glonass.push_back(*m)
-      : refuse(to, message.offset, what + ": no orbit of " + to_string(satellite));
+      : refuse(to, message.offset,
+               what + ": the values cannot be an orbit of " + to_string(satellite));
     return true;
   }
   auto m = kepler_message(satellite, values, now);
   if (!m) {
-    refuse(to, message.offset, what + ": no orbit of " + to_string(satellite));
+    refuse(to, message.offset, what + ": the values cannot be an orbit of " + to_string(satellite));
     return true;
   }
   if (kind->system == System::galileo) {

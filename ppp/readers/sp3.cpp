@@ -10,13 +10,16 @@ namespace {
 
 Satellite satellite_in(const Lines& lines, std::size_t column) {
   const auto satellite = parse_satellite(lines.column(column, 3));
-  if (!satellite) lines.fail("'" + std::string(lines.column(column, 3)) + "' is no satellite");
+  if (!satellite)
+    lines.fail("'" + std::string(lines.column(column, 3)) +
+               "' is not a satellite; expected e.g. G05");
   return *satellite;
 }
 
 // Returns GPS time minus the time system that the first %c line names.
 Duration offset_of(const Lines& lines, std::string_view name) {
-  if (name == "UTC" || name == "GLO") lines.fail("SP3 in UTC is not read; GPS, GAL, BDT, QZS are");
+  if (name == "UTC" || name == "GLO")
+    lines.fail("SP3 in UTC is not supported; GPS, GAL, BDT, QZS, TAI are");
   if (name == "BDT") return std::chrono::seconds(14);
   if (name == "TAI") return -std::chrono::seconds(19);
   return Duration::zero();  // an SP3-a file contains "ccc", which means GPS
@@ -58,15 +61,16 @@ OrbitFile parse_sp3(std::string_view text, const std::string& file) {
   result.file = file;
   Lines lines(text, file);
   if (!lines.next() || lines.column(0, 1) != "#" || lines.line().size() < 55) {
-    lines.fail("an SP3 file starts with #a, #b, #c or #d and a line of 60 columns");
+    lines.fail("an SP3 file must start with #a, #b, #c or #d and a line of 60 columns");
   }
   const char version = lines.line()[1];
-  if (version < 'a' || version > 'd') lines.fail("SP3-a to SP3-d are read, no other version");
+  if (version < 'a' || version > 'd') lines.fail("unknown version; SP3-a to SP3-d are supported");
   result.frame = std::string(trimmed(lines.column(46, 5)));
   result.agency = std::string(trimmed(lines.column(56, 4)));
-  if (!lines.next() || lines.column(0, 2) != "##") lines.fail("the second line starts with ##");
+  if (!lines.next() || lines.column(0, 2) != "##") lines.fail("the second line must start with ##");
   const double interval = lines.number(24, 14, "interval");
-  if (!(interval > 0.0 && interval <= 86400.0)) lines.fail("an interval is up to a day");
+  if (!(interval > 0.0 && interval <= 86400.0))
+    lines.fail("an interval must be above 0 s and at most one day");
   result.interval = from_seconds(interval);
 
   int listed = 0, count = -1;
@@ -78,7 +82,7 @@ OrbitFile parse_sp3(std::string_view text, const std::string& file) {
     if (start == "+ ") {
       if (count < 0) {
         count = lines.integer(2, 4, "number of satellites");
-        if (count < 1 || count > 999) lines.fail("a file holds 1 to 999 satellites");
+        if (count < 1 || count > 999) lines.fail("the number of satellites must be 1 to 999");
       }
       for (std::size_t i = 0; i < 17 && listed < count; ++i, ++listed) {
         result.points[satellite_in(lines, 9 + 3 * i)];
@@ -87,7 +91,7 @@ OrbitFile parse_sp3(std::string_view text, const std::string& file) {
       to_gps = offset_of(lines, lines.column(9, 3));
       system_read = true;
     } else if (start == "* ") {
-      if (listed < count || count < 0) lines.fail("the header's list of satellites is not whole");
+      if (listed < count || count < 0) lines.fail("the header's list of satellites is incomplete");
       const GpsTime t = parse_stamp(lines, line.substr(1)) + to_gps;
       if (!result.epochs.empty() && t <= result.epochs.back()) {
         lines.fail("epoch " + format_gps_time(t) + " is not after the one before");
@@ -100,7 +104,7 @@ OrbitFile parse_sp3(std::string_view text, const std::string& file) {
                    std::to_string(result.points.size()) + " satellites");
       }
     } else if (!line.empty() && line[0] == 'P') {
-      if (result.epochs.empty()) lines.fail("a position before the first epoch");
+      if (result.epochs.empty()) lines.fail("a position precedes the first epoch");
       if (!lines.whole()) {
         ++result.refused;
         break;
@@ -111,10 +115,10 @@ OrbitFile parse_sp3(std::string_view text, const std::string& file) {
       break;
     } else if (!line.empty() &&
                std::string_view("V+%/E#").find(line[0]) == std::string_view::npos) {
-      lines.fail("no line of an SP3 file");
+      lines.fail("unknown line in an SP3 file");
     }
   }
-  if (result.epochs.empty()) lines.fail("the file has no epoch");
+  if (result.epochs.empty()) lines.fail("the file contains no epochs");
   if (!ended) ++result.refused;
   for (auto& [satellite, points] : result.points) points.resize(result.epochs.size());
   return result;

@@ -94,13 +94,13 @@ bool RawxDecoder::decode(const UbxFrame& frame, Epoch& epoch, std::string& probl
   const std::string_view payload = frame.payload;
   const std::size_t count = payload.size() < head_size ? 0 : ubx_number<std::uint8_t>(payload, 11);
   if (payload.size() != head_size + count * measurement_size) {
-    problem = "a RAWX message has not the size that it says";
+    problem = "the size of a RAWX message does not match its header";
     return false;
   }
   const auto tow = ubx_number<double>(payload, 0);
   const int week = ubx_number<std::uint16_t>(payload, 8);
   if (!(tow >= 0.0 && tow < 604800.0) || week == 0 || week > last_week) {
-    problem = "a RAWX message without a time";
+    problem = "a RAWX message has no valid time";
     return false;
   }
   epoch.clear();
@@ -135,7 +135,7 @@ bool RawxDecoder::decode(const UbxFrame& frame, Epoch& epoch, std::string& probl
   }
   if (!epoch.satellites.empty() && epoch.satellites.back().count == 0) epoch.satellites.pop_back();
   if (epoch.satellites.empty()) {
-    problem = "a RAWX message without a usable measurement";
+    problem = "a RAWX message has no usable measurement";
     return false;
   }
   return true;
@@ -177,12 +177,12 @@ Observations parse_ubx(std::string_view bytes, const std::string& file,
   result.header.last = result.epochs.back().time;
   if (frames.damaged() > 0) {
     refuse(result, bytes.size(),
-           std::to_string(frames.damaged()) + " frames with a wrong checksum, or cut");
+           std::to_string(frames.damaged()) + " frames with a wrong checksum, or incomplete");
   }
   if (decoder.left_out() > 0) {
     refuse(result, bytes.size(),
            std::to_string(decoder.left_out()) +
-               " measurements of unknown signals, or that no satellite gives");
+               " measurements with unknown signals or impossible ranges");
   }
   return result;
 }

@@ -48,7 +48,7 @@ bool decode_pvt(const UbxFrame& frame, UbxPvt& pvt, std::string& problem) {
   if ((ubx_number<std::uint8_t>(p, 11) & date_and_time) != date_and_time) return false;
   const auto time = time_of(p);
   if (!time) {
-    problem = "NAV-PVT has a date or a time of the week that is none";
+    problem = "NAV-PVT has an invalid date or time of week";
     return false;
   }
   pvt = {};
@@ -68,7 +68,7 @@ bool decode_pvt(const UbxFrame& frame, UbxPvt& pvt, std::string& problem) {
   pvt.fix = std::abs(pvt.position.latitude) <= radians(90.0) &&
             std::abs(pvt.position.longitude) <= radians(180.0) && pvt.horizontal_sigma > 0.0 &&
             pvt.vertical_sigma > 0.0 && pvt.speed_sigma > 0.0;
-  if (!pvt.fix) problem = "NAV-PVT has a position or an accuracy that cannot be";
+  if (!pvt.fix) problem = "NAV-PVT has an invalid position or accuracy";
   return pvt.fix;
 }
 

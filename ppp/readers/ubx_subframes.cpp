@@ -73,7 +73,8 @@ void SubframeCollector::add_gps(Satellite satellite, std::string_view words, Gps
     return;
   parts.seen = 0;
   const auto m = kepler_message(satellite, parts.values, now);
-  m ? to.kepler.push_back(*m) : refuse(to, 0, "subframes: no orbit of " + to_string(satellite));
+  m ? to.kepler.push_back(*m)
+    : refuse(to, 0, "subframes: the values cannot be an orbit of " + to_string(satellite));
 }
 
 void SubframeCollector::add_galileo(Satellite satellite, std::string_view words, std::size_t offset,
@@ -121,7 +122,7 @@ void SubframeCollector::add_galileo(Satellite satellite, std::string_view words,
   parts.seen = 16U;  // health and week remain valid
   auto m = kepler_message(satellite, parts.values, now);
   if (!m) {
-    refuse(to, offset, "pages: no orbit of " + to_string(satellite));
+    refuse(to, offset, "pages: the values cannot be an orbit of " + to_string(satellite));
     return;
   }
   m->data_sources = galileo_i_nav;
@@ -172,7 +173,8 @@ void SubframeCollector::add_beidou(Satellite satellite, std::string_view words, 
   if (parts.seen != 7U || s[1] != s[0] + 6 || s[2] != s[1] + 6) return;
   parts.seen = 0;
   const auto m = kepler_message(satellite, parts.values, now);
-  m ? to.kepler.push_back(*m) : refuse(to, 0, "subframes: no orbit of " + to_string(satellite));
+  m ? to.kepler.push_back(*m)
+    : refuse(to, 0, "subframes: the values cannot be an orbit of " + to_string(satellite));
 }
 
 void SubframeCollector::add_glonass(Satellite satellite, int channel, std::string_view words,
@@ -196,7 +198,7 @@ void SubframeCollector::add_glonass(Satellite satellite, int channel, std::strin
   parts.values[static_cast<std::size_t>(Quantity::channel)] = channel;
   const auto m = glonass_message(satellite, parts.values, now);
   if (!m) {
-    refuse(to, 0, "strings: no orbit of " + to_string(satellite));
+    refuse(to, 0, "strings: the values cannot be an orbit of " + to_string(satellite));
     return;
   }
   // Messages are repeated for half an hour: one of each interval is enough.
@@ -211,7 +213,7 @@ bool SubframeCollector::add(const UbxFrame& frame, GpsTime now, NavigationFile& 
   constexpr std::size_t head = 8;
   const std::string_view payload = frame.payload;
   if (payload.size() < head || payload.size() != head + 4U * ubx_number<std::uint8_t>(payload, 4)) {
-    refuse(to, frame.offset, "an SFRBX message has not the size that it says");
+    refuse(to, frame.offset, "the size of an SFRBX message does not match its header");
     return true;
   }
   const auto satellite =

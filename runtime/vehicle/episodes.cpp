@@ -53,7 +53,7 @@ std::string UseWatch::sentence(Time origin) {
 
 std::string outage_sentence(std::string_view sensor, const Episodes& outages, Time origin) {
   if (outages.count == 0) return {};
-  return std::string(sensor) + ": nothing came for " + seconds(outages.last.length()) + " from " +
+  return std::string(sensor) + ": silent for " + seconds(outages.last.length()) + " from " +
          seconds(outages.last.begin - origin) + " on" + before(outages);
 }
 

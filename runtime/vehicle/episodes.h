@@ -146,7 +146,7 @@ inline void note_use(UseWatch& use, Time t, OdometryStatus status) {
   use.note(t, status == OdometryStatus::ok ? nullptr : to_string(status).data());
 }
 
-// Returns "imu: nothing came for 10.1 s from 15.0 s on", or an empty string if there was no outage.
+// Returns "imu: silent for 10.1 s from 15.0 s on", or an empty string if there was no outage.
 // Its times are in seconds since `origin`.
 std::string outage_sentence(std::string_view sensor, const Episodes& outages, Time origin);
 

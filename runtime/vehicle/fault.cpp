@@ -102,7 +102,7 @@ class Parser {
       std::vector<std::string_view> names;
       for (const Rule& r : rules) names.push_back(r.name);
       fail("'" + std::string(name) +
-           "' is no kind of fault; write KIND@TARGET[:START[:LENGTH]]"
+           "' is not a kind of fault; write KIND@TARGET[:START[:LENGTH]]"
            "[,key=value...] with one of the kinds " +
            listed(names));
     }
@@ -131,8 +131,8 @@ class Parser {
       }
       allowed.push_back(target_name(target));
     }
-    fail("'" + std::string(rule().name) + "' does not strike '" + std::string(name) + "', but " +
-         listed(allowed));
+    fail("'" + std::string(rule().name) + "' cannot be applied to '" + std::string(name) +
+         "'; it applies to " + listed(allowed));
   }
 
   void parse_key(std::string_view pair) {
@@ -143,11 +143,11 @@ class Parser {
     if (strikes_samples()) allowed.insert(allowed.end(), {"share", "seed"});
     if (kind_is(FaultKind::hog)) allowed.push_back("threads");
     if (std::find(allowed.begin(), allowed.end(), key) == allowed.end()) {
-      fail("'" + std::string(rule().name) + "' has no key '" + std::string(key) + "', but " +
+      fail("'" + std::string(rule().name) + "' has no key '" + std::string(key) + "'; it has " +
            listed(allowed));
     }
     if (std::find(seen_.begin(), seen_.end(), key) != seen_.end()) {
-      fail("'" + std::string(key) + "' is there twice");
+      fail("'" + std::string(key) + "' is given twice");
     }
     seen_.push_back(key);
     if (key == "by") {
@@ -156,7 +156,7 @@ class Parser {
       if (fault_.by == Duration::zero()) fail("'by' must not be 0 s");
     } else if (key == "share") {
       fault_.share = number("share", value, 0.0, 1.0);
-      if (fault_.share == 0.0) fail("a share of 0 strikes nothing");
+      if (fault_.share == 0.0) fail("'share' must be above 0");
     } else if (key == "seed") {
       fault_.seed = static_cast<std::uint64_t>(whole_number("seed", value, 0.0, 0x1p53));
     } else {

@@ -26,7 +26,7 @@ fs::path observations_of(const fs::path& path) {
   if (found.size() == 1) return found.front();
   std::string names;
   for (const fs::path& file : found) names += "\n  " + file.string();
-  throw std::runtime_error("the folder '" + path.string() + "' holds the observations of " +
+  throw std::runtime_error("the folder '" + path.string() + "' contains the observations of " +
                            std::to_string(found.size()) +
                            " receivers; name the file to replay instead:" + names);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <random>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -12,17 +13,21 @@ namespace {
 
 [[noreturn]] void refuse(std::string_view part, const std::string& why) {
   throw std::invalid_argument("outage '" + std::string(part) + "': " + why +
-                              "; it is START:LENGTH in seconds, LENGTH may be 'end', or "
+                              "; write START:LENGTH in seconds, where LENGTH may be 'end', or "
                               "random:COUNT:LENGTH");
 }
 
-double seconds(std::string_view part, std::string_view text) {
+double number(std::string_view part, std::string_view text, const char* what) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !(value >= 0.0 && value <= 1e6)) {
-    refuse(part, "'" + std::string(text) + "' is no number of seconds");
+    refuse(part, "'" + std::string(text) + "' is not " + what + " from 0 to 1e6");
   }
   return value;
+}
+
+double seconds(std::string_view part, std::string_view text) {
+  return number(part, text, "a number of seconds");
 }
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
@@ -49,12 +54,12 @@ Part parse_part(std::string_view text) {
   Part part;
   part.text = text;
   if (words.size() == 3 && words[0] == "random") {
-    part.count = static_cast<int>(seconds(text, words[1]));
+    part.count = static_cast<int>(number(text, words[1], "a count"));
     if (part.count < 1 || part.count > 1000) refuse(text, "the count must be 1 to 1000");
   } else if (words.size() == 2) {
     part.start = seconds(text, words[0]);
   } else {
-    refuse(text, "not understood");
+    refuse(text, "has an unknown form");
   }
   part.to_end = words.back() == "end" && part.count == 0;
   if (!part.to_end) {
@@ -62,6 +67,12 @@ Part parse_part(std::string_view text) {
     if (part.length == 0.0) refuse(text, "the length must not be zero");
   }
   return part;
+}
+
+std::string too_short(const Part& part) {
+  std::ostringstream text;
+  text << "the drive is too short for " << part.count << " outages of " << part.length << " s";
+  return text.str();
 }
 
 bool overlaps(const std::vector<GnssOutage>& outages, const GnssOutage& one) {
@@ -74,7 +85,7 @@ void add_random(const Part& part, Time first, Time last, std::int64_t seed,
                 std::vector<GnssOutage>& outages) {
   constexpr double settled = 60.0;  // s; by then the filter has estimated its sensors' errors
   const double latest = to_seconds(last - first) - part.length;
-  if (latest <= settled) refuse(part.text, "the drive is too short for it");
+  if (latest <= settled) refuse(part.text, too_short(part));
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));
   constexpr int tries = 1000;
   int left = part.count;
@@ -86,7 +97,7 @@ void add_random(const Part& part, Time first, Time last, std::int64_t seed,
     outages.push_back(one);
     --left;
   }
-  if (left > 0) refuse(part.text, "the drive is too short for so many");
+  if (left > 0) refuse(part.text, too_short(part));
 }
 
 }  // namespace

@@ -100,8 +100,9 @@ VehicleCalibration live_calibration(const VehicleConfig& config) {
   if (!rig) return calibration;
   if (!rig->T_body_left) {
     throw std::runtime_error("[camera] calibration: '" + config.camera.calibration +
-                             "' does not say where the camera is on the vehicle: give it a " +
-                             "[mounting], or [live] calibration a folder of KITTI's texts");
+                             "' does not contain the camera's mounting on the vehicle: add a " +
+                             "[mounting] to it, or set [live] calibration to a folder of KITTI's " +
+                             "calibration files");
   }
   calibration.stereo = mounted(*rig, *rig->T_body_left);
   return calibration;
@@ -118,7 +119,7 @@ LiveSensors open_live_sensors(const VehicleConfig& config) {
     s.camera = of_key("camera_left",
                       [&] { return sensors::listen_to_cameras(camera_options(config), *s.clock); });
   } else if (!p.camera_right.empty()) {
-    throw std::runtime_error("[live] camera_right: there is no camera_left beside it");
+    throw std::runtime_error("[live] camera_right needs camera_left too: set both, or neither");
   }
   if (!p.velodyne.empty()) {
     s.velodyne = of_key("velodyne",
@@ -157,14 +158,13 @@ LiveSensors open_live_sensors(const VehicleConfig& config) {
   }
   if (!p.corrections.empty() && !s.corrections) {
     throw std::runtime_error(
-        "[live] corrections: there are no observations to correct: give gnss a receiver, and "
-        "gnss_protocol = \"observations\"");
+        "[live] corrections needs observations to correct: set gnss to a receiver, and "
+        "gnss_protocol to \"observations\"");
   }
   if (!s.camera && !s.velodyne && !s.imu && !s.gnss && !s.epochs) {
     throw std::runtime_error(
-        "the configuration names no live sensor: give [live] camera_left a pipeline, or velodyne, "
-        "imu or gnss an endpoint, "
-        "such as udp://:2368");
+        "the configuration has no live sensor: set [live] camera_left to a pipeline, or velodyne, "
+        "imu or gnss to an endpoint such as udp://:2368");
   }
   return s;
 }

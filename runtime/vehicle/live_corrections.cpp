@@ -43,13 +43,13 @@ class LiveCorrections final : public sensors::LiveSource<GnssCorrections> {
                                {},
                                {}};
     sensors::note_count(report.reasons, caster_->state().too_large, "datagrams too long");
-    sensors::note_count(report.reasons, counts.damaged, "frames with a wrong checksum, or cut");
-    sensors::note_count(report.reasons, counts.unusable, "messages that do not hold what they say");
+    sensors::note_count(report.reasons, counts.damaged,
+                        "frames with a wrong checksum, or incomplete");
+    sensors::note_count(report.reasons, counts.unusable, "messages with inconsistent content");
     sensors::note_count(report.notes, counts.messages, "RTCM 3 messages");
     sensors::note_count(report.notes, counts.ephemerides, "ephemerides");
     sensors::note_count(report.notes, counts.corrections, "messages of corrections");
-    sensors::note_count(report.notes, counts.unsupported,
-                        "messages of corrections that are not used");
+    sensors::note_count(report.notes, counts.unsupported, "unused messages of corrections");
     sensors::note_count(report.notes, corrected_.size(), "satellites with corrected clocks");
     return report;
   }

@@ -33,8 +33,9 @@ class LiveFixes final : public sensors::LiveSource<GnssFix> {
                                {},
                                stamps_.clock()};
     sensors::note_count(report.reasons, receiver.state().too_large, "datagrams too long");
-    sensors::note_count(report.reasons, counts.damaged, "frames with a wrong checksum, or cut");
-    sensors::note_count(report.reasons, counts.unusable, "NAV-PVT that do not hold what they say");
+    sensors::note_count(report.reasons, counts.damaged,
+                        "frames with a wrong checksum, or incomplete");
+    sensors::note_count(report.reasons, counts.unusable, "NAV-PVT with inconsistent content");
     sensors::note_count(report.reasons, counts.repeated, "epochs not later than the one before");
     sensors::note_count(report.reasons, no_fix_, "epochs without a fix");
     sensors::note_count(report.notes, counts.frames, "UBX frames");

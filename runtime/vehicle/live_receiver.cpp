@@ -60,11 +60,12 @@ class LiveReceiver final : public sensors::LiveSource<GnssEpoch> {
                                {},
                                stamps_.clock()};
     sensors::note_count(report.reasons, reader_.stream().state().too_large, "datagrams too long");
-    sensors::note_count(report.reasons, counts.damaged, "frames with a wrong checksum, or cut");
-    sensors::note_count(report.reasons, counts.unusable, "messages that do not hold what they say");
+    sensors::note_count(report.reasons, counts.damaged,
+                        "frames with a wrong checksum, or incomplete");
+    sensors::note_count(report.reasons, counts.unusable, "messages with inconsistent content");
     sensors::note_count(report.reasons, counts.repeated, "epochs not later than the one before");
     sensors::note_count(report.reasons, counts.left_out,
-                        "values without a name, or that cannot be");
+                        "values with unknown signals or impossible ranges");
     sensors::note_count(report.notes, counts.ubx, "UBX frames");
     sensors::note_count(report.notes, counts.rtcm, "RTCM 3 messages");
     if (delivered_ > 0) report.notes.push_back(in_view(last_));

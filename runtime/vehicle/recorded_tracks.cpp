@@ -66,7 +66,7 @@ void read_rows(const std::filesystem::path& file, const std::set<std::int64_t>& 
     if (!numbers || !(row[0] >= 0.0 && row[0] < static_cast<double>(recorded->frames.size())))
       throw std::runtime_error(file.string() + ":" + std::to_string(number) +
                                (numbers ? ": the frame has no timestamp in the .meta.json"
-                                        : ": not frame,track,uL,vL,uR,vR"));
+                                        : ": the columns must be frame,track,uL,vL,uR,vR"));
     const auto id = static_cast<std::int64_t>(row[1]);
     if (!suspect.contains(id))
       recorded->frames[static_cast<std::size_t>(row[0])].push_back(
@@ -112,7 +112,7 @@ std::filesystem::path meta_beside(std::filesystem::path file) {
   if (file.extension() == ".gz") file.replace_extension();
   if (file.extension() != ".csv")
     throw std::runtime_error(file.string() +
-                             ": neither the folder of a drive nor recorded tracks, which are a "
+                             ": not the folder of a drive, and not recorded tracks, which are a "
                              ".csv or .csv.gz with its .meta.json");
   return file.replace_extension(".meta.json");
 }

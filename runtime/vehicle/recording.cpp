@@ -165,7 +165,7 @@ Recording open_capture(const std::filesystem::path& path, const VehicleConfig& c
   }
   if (recording.images == 0) {
     throw std::runtime_error("the capture '" + path.string() +
-                             "' has no whole turn of the scanner to replay");
+                             "' has no complete scanner revolution to replay");
   }
   recording.sensors = [open](Time) {
     Sensors s;
@@ -178,14 +178,14 @@ Recording open_capture(const std::filesystem::path& path, const VehicleConfig& c
 Recording open_any(const std::filesystem::path& path, const VehicleConfig& config) {
   if (sensors::OdometrySequence::is_named(path)) return open_sequence(path, config);
   if (!config.odometry_poses.file.empty()) {
-    throw std::runtime_error("poses in place of visual odometry go with a table of OXTS " +
-                             std::string("rows (such as oxts/06.csv), not with '") + path.string() +
-                             "'");
+    throw std::runtime_error(
+        "poses in place of visual odometry can only be used with a table of OXTS " +
+        std::string("rows (such as oxts/06.csv), not with '") + path.string() + "'");
   }
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) {
     throw std::runtime_error("there is no file or folder '" + path.string() +
-                             "'; 'maploop replay --help' says what can be replayed");
+                             "'; 'maploop replay --help' lists what can be replayed");
   }
   if (is_capture(path)) return open_capture(path, config);
   if (is_gnss_drive(path)) return open_gnss(path, config);
@@ -199,8 +199,8 @@ std::optional<sensors::ImuNoiseParameters> noise_of(const VehicleConfig& config)
     const auto noise = sensors::mems_noise(config.imu_seed);
     return config.imu_errors == sensors::ErrorModel::drawn ? sensors::drawn(noise) : noise;
   }
-  throw std::runtime_error("no inertial noise is called '" + config.imu_noise +
-                           "'; there are recorded, mems");
+  throw std::runtime_error("'" + config.imu_noise +
+                           "' is not a known inertial noise; use recorded or mems");
 }
 
 }  // namespace
@@ -238,7 +238,7 @@ fusion::KnownStart start_from_reference(const Recording& recording) {
   const auto reference = recording.sensors(Time::max()).reference;
   ReferencePose pose, next;
   if (reference == nullptr || !reference->next(pose) || !reference->next(next)) {
-    throw std::runtime_error("the recording has no reference to start from");
+    throw std::runtime_error("the recording has no reference trajectory to start from");
   }
   // Velocities are older than the poses of their rows: this one is carried linearly to the pose's
   // stamp.

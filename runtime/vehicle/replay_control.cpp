@@ -49,7 +49,7 @@ void ReplayControl::take(const lcm::ReceiveBuffer* buffer, const std::string&) {
   } else if (command.kind == Control::STATE) {
     return;  // this is our own state, or another run's
   } else if (command.run.empty()) {
-    refused_ = "the command names no run; this one is " + run_;
+    refused_ = "the command has no run; this run is " + run_;
   } else if (command.run != run_) {
     return;
   } else {

@@ -105,7 +105,7 @@ void RunPresence::update() {
   if (const auto others = others_.present(now.time_since_epoch()); !others.empty()) {
     warned_ = true;
     warn_("another run publishes on this bus, " + to_text(others.front()) +
-          ": whoever listens gets the messages of both; give one a bus of its own, such as "
+          ": listeners receive the messages of both; give one run its own bus, such as "
           "--lcm-url udpm://239.255.76.67:7668?ttl=0");
   }
 }

@@ -43,7 +43,7 @@ void forget_other_policies(Scheduling& s) {
 void read_priority(const runtime::ConfigTable& table, Scheduling& s) {
   table.read_in("priority", s.priority, 1, 99);
   if (s.priority == 0) {
-    table.fail("policy", "needs a priority: 1 to 99, higher goes first");
+    table.fail("policy", "needs a priority from 1 to 99; a higher one runs first");
   }
 }
 
@@ -69,7 +69,7 @@ void refuse(const runtime::ConfigTable& table, std::initializer_list<const char*
             SchedulingPolicy policy, std::string_view of) {
   for (const char* key : keys) {
     if (!table.has(key)) continue;
-    table.fail(key, "goes with policy " + std::string(of) + ", not with \"" +
+    table.fail(key, "can only be used with policy " + std::string(of) + ", not with \"" +
                         std::string(name_of(policy)) + '"');
   }
 }
@@ -127,7 +127,9 @@ void read(const runtime::ConfigTable& parent, const char* key, Scheduling& s) {
   }
   table.read_in("cpus", s.cpus, 0, 1023);
   if (s.policy == SchedulingPolicy::deadline && !s.cpus.empty()) {
-    table.fail("cpus", "must be empty with policy \"deadline\": the kernel binds no such thread");
+    table.fail(
+        "cpus",
+        "must be empty with policy \"deadline\": the kernel does not bind such threads to CPUs");
   }
   table.read_in("prefaulted_stack_kb", s.prefaulted_stack_kb, 0, 1 << 20);
 }

@@ -55,7 +55,7 @@ RealtimeSetting ask_for_send_buffer(int socket, int bytes) {
   setting.granted = kilobytes(granted);
   if (granted >= bytes) return setting;
   setting.verdict = Verdict::refused;
-  setting.reason = "net.core.wmem_max allows no more";
+  setting.reason = "net.core.wmem_max does not allow more";
   setting.remedy = set_limit("wmem_max", bytes);
   return setting;
 }
@@ -67,7 +67,7 @@ RealtimeSetting assess_receive_buffers(const std::optional<std::string>& rmem_ma
   setting.granted = allowed ? "up to " + kilobytes(*allowed) : "unknown";
   if (allowed && *allowed >= bytes) return setting;
   setting.verdict = allowed ? Verdict::limiting : Verdict::unknown;
-  setting.reason = allowed ? "a listener's recv_buf_size is cut to that, and bursts of large "
+  setting.reason = allowed ? "a listener's recv_buf_size is limited to that, and bursts of large "
                              "messages are lost"
                            : "/proc/sys/net/core/rmem_max cannot be read";
   setting.remedy = set_limit("rmem_max", bytes);

@@ -18,7 +18,7 @@ constexpr const char* to_distorted = "undistorted_to_distorted";
 constexpr const char* to_undistorted = "distorted_to_undistorted";
 
 void read(const ConfigTable& table, const char* key, auto&& value) {
-  if (!table.has(key)) table.fail(key, "is missing: every number of a calibration is needed");
+  if (!table.has(key)) table.fail(key, "is missing; a calibration needs every number");
   table.read(key, value);
 }
 
@@ -60,7 +60,7 @@ sensors::CameraModel read_camera(const ConfigTable& table, const sensors::Stereo
     constexpr double most = 0.5;  // px
     if (!(converted.largest_error < most))
       table.fail("direction",
-                 "no coefficients undistorted_to_distorted come closer to these than " +
+                 "cannot be approximated by undistorted_to_distorted coefficients better than " +
                      std::to_string(converted.largest_error) + " px");
     d = converted.distortion;
   }

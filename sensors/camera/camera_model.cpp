@@ -72,7 +72,8 @@ ReversedDistortion reversed(const CameraModel& camera, int width, int height) {
     undistorted.push_back(*ray);
   }
   if (2 * distorted.size() < pixels.size())
-    throw std::runtime_error("the distortion is no lens: it turns back in most of the image");
+    throw std::runtime_error(
+        "the distortion is not that of a lens: it folds back in most of the image");
   const Distortion fitted = fit_distortion(distorted, undistorted);
   return {fitted, largest_distance(camera, fitted, distorted, undistorted)};
 }

@@ -99,7 +99,7 @@ struct Rectifier::Maps {
 
 Rectifier::Rectifier(const StereoRig& rig) {
   if (const auto problem = problem_of(rig))
-    throw std::invalid_argument("no rectification: " + *problem);
+    throw std::invalid_argument("the images cannot be rectified: " + *problem);
   maps_ = std::make_unique<Maps>(
       Maps{rig.width, rig.height, rig.rectified.width, rig.rectified.height,
            make_map(rig.left, rig.R_rect_left, rig), make_map(rig.right, rig.R_rect_right, rig)});

@@ -66,7 +66,7 @@ std::optional<std::string> problem_of(const StereoRig& rig) {
            " m, outside 0.01 to 10 m (are left and right swapped?)";
   for (const Eigen::Matrix3d& m :
        {rig.R_rect_left, rig.R_rect_right, Eigen::Matrix3d(rig.T_right_left.linear())})
-    if (!is_rotation(m)) return "a matrix that should be a rotation is none";
+    if (!is_rotation(m)) return "a matrix that should be a rotation is not one";
   if (rig.T_body_left && !is_rotation(rig.T_body_left->linear()))
     return "the camera's mounting is not a rotation";
 

@@ -16,7 +16,7 @@ inline std::string size_text(std::int64_t width, std::int64_t height) {
 
 // Throws std::runtime_error if the image has no pixel, or more than input_limits::pixels.
 inline void require_size(std::int64_t width, std::int64_t height) {
-  if (width < 1 || height < 1) throw std::runtime_error("the image is cut: it has no size");
+  if (width < 1 || height < 1) throw std::runtime_error("the image is incomplete: it has no size");
   if (width > input_limits::pixels / height) {
     throw std::runtime_error("the image has " + size_text(width, height) + ", more than " +
                              std::to_string(input_limits::pixels));

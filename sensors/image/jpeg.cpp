@@ -27,7 +27,7 @@ GreyImage decode_grey_jpeg(std::span<const char> file) {
   if (!jpeg) throw std::bad_alloc();
   const auto check = [&](int error) {
     if (error != 0) {
-      throw std::runtime_error("the image is no JPEG, cut or damaged (" +
+      throw std::runtime_error("the image is not a JPEG, or is incomplete or damaged (" +
                                std::string(tjGetErrorStr2(jpeg.get())) + ")");
     }
   };

@@ -28,8 +28,8 @@ Context context(int flags) {
 
 void check(int error) {
   if (error != 0) {
-    throw std::runtime_error("the image is cut or damaged (" + std::string(spng_strerror(error)) +
-                             ")");
+    throw std::runtime_error("the image is incomplete or damaged (" +
+                             std::string(spng_strerror(error)) + ")");
   }
 }
 
@@ -41,7 +41,7 @@ struct Opened {
 
 Opened open(std::span<const char> file) {
   if (file.empty()) throw std::runtime_error("the file is empty");
-  if (!is_png(file)) throw std::runtime_error("is no PNG image");
+  if (!is_png(file)) throw std::runtime_error("is not a PNG image");
   Opened opened{context(0), {}};
   // Texts and profiles beside the image are compressed too, and need a limit.
   check(spng_set_chunk_limits(opened.context.get(), input_limits::picture, input_limits::picture));
@@ -69,7 +69,7 @@ void decode_grey_png(std::span<const char> file, int width, int height, GreyImag
   }
   if (std::cmp_not_equal(header.width, width) || std::cmp_not_equal(header.height, height)) {
     throw std::runtime_error("the image is " + size_text(header.width, header.height) +
-                             ", the calibration says " + std::to_string(width) + " x " +
+                             ", but the calibration states " + std::to_string(width) + " x " +
                              std::to_string(height));
   }
   image.resize(width, height);

@@ -124,7 +124,7 @@ void Connection::open() {
 bool Connection::finish_connecting(MonotonicTime deadline) {
   if (!connecting_) return true;
   if (poll_until(fd_, POLLOUT, deadline) == 0) {
-    if (now() > give_up_) fail("cannot be connected to: nothing answers");
+    if (now() > give_up_) fail("cannot be connected to: there is no answer");
     return false;
   }
   int error = 0;

@@ -13,8 +13,8 @@ namespace {
 
 [[noreturn]] void reject(std::string_view text, const std::string& why) {
   throw std::invalid_argument("'" + without_secrets(text) +
-                              "' is no place to read a sensor from: " + why +
-                              "; allowed are udp://[ADDRESS]:PORT, tcp://ADDRESS:PORT and "
+                              "' is not an endpoint of a sensor: " + why +
+                              "; expected udp://[ADDRESS]:PORT, tcp://ADDRESS:PORT and "
                               "serial:///dev/NAME?baud=115200");
 }
 
@@ -31,12 +31,12 @@ Endpoint serial(std::string_view text, std::string_view rest) {
   if (question != std::string_view::npos) {
     const std::string_view query = rest.substr(question);
     if (!query.starts_with(key) || !parse_whole(query.substr(key.size()), endpoint.baud)) {
-      reject(text, "after the device only ?baud=NUMBER may follow");
+      reject(text, "only ?baud=NUMBER may follow the device");
     }
   }
-  if (!endpoint.device.starts_with("/")) reject(text, "the device is not a path from the root");
+  if (!endpoint.device.starts_with("/")) reject(text, "the device is not an absolute path");
   if (!is_baud_rate(endpoint.baud)) {
-    reject(text, std::to_string(endpoint.baud) + " baud is not a rate of serial lines");
+    reject(text, std::to_string(endpoint.baud) + " baud is not a standard rate of serial lines");
   }
   return endpoint;
 }
@@ -45,10 +45,11 @@ Endpoint serial(std::string_view text, std::string_view rest) {
 
 Endpoint parse_endpoint(std::string_view text) {
   const std::size_t scheme = text.find("://");
-  if (scheme == std::string_view::npos) reject(text, "it does not begin with a kind");
+  if (scheme == std::string_view::npos)
+    reject(text, "it does not start with udp://, tcp:// or serial:");
   const std::string_view kind = text.substr(0, scheme), rest = text.substr(scheme + 3);
   if (kind == "serial") return serial(text, rest);
-  if (kind != "udp" && kind != "tcp") reject(text, "it is of no known kind");
+  if (kind != "udp" && kind != "tcp") reject(text, "its kind is unknown");
   Endpoint endpoint{.kind = kind == "udp" ? Endpoint::Kind::udp : Endpoint::Kind::tcp,
                     .text = std::string(text)};
   const std::size_t colon = rest.rfind(':');
@@ -61,7 +62,7 @@ Endpoint parse_endpoint(std::string_view text) {
   }
   in_addr ignored{};
   if (inet_pton(AF_INET, endpoint.address.c_str(), &ignored) != 1) {
-    reject(text, "its address is not a numeric one such as 192.168.1.201");
+    reject(text, "its address is not numeric such as 192.168.1.201");
   }
   return endpoint;
 }

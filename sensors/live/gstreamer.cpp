@@ -14,9 +14,10 @@ GstOwned<GstElement> parse_pipeline(const std::string& whole, const std::string&
       gst_parse_launch_full(whole.c_str(), nullptr, GST_PARSE_FLAG_FATAL_ERRORS, &raw_error);
   const GstOwned<GError> error(raw_error);
   if (pipeline == nullptr) {
-    throw std::invalid_argument("'" + without_secrets(given) + "' is no pipeline: " +
-                                (error ? without_secrets(error->message) : "it is empty") +
-                                "; gst-launch-1.0 tries one, gst-inspect-1.0 lists the elements");
+    throw std::invalid_argument(
+        "'" + without_secrets(given) +
+        "' is not a pipeline: " + (error ? without_secrets(error->message) : "it is empty") +
+        "; test it with gst-launch-1.0; gst-inspect-1.0 lists the elements");
   }
   // The reference is floating: it has no owner until it is sunk.
   return GstOwned<GstElement>(GST_ELEMENT(gst_object_ref_sink(pipeline)));

@@ -27,7 +27,7 @@ class LiveImuLines final : public LiveSource<ImuSample> {
                       {},
                       {},
                       {}};
-    note_count(report.reasons, damaged_, "lines that are no sample");
+    note_count(report.reasons, damaged_, "lines that are not a sample");
     note_count(report.reasons, lines_.dropped(), "lines too long");
     note_count(report.reasons, repeated_, "samples not later than the one before");
     report.clock = {offset_.known(), {}, offset_.drift(), offset_.delay(), jumps_};

@@ -10,7 +10,7 @@ namespace maploop::sensors {
 namespace {
 
 constexpr std::array<const char*, ncom_fault_count> reasons{"sound",
-                                                            "of another size",
+                                                            "with a wrong size",
                                                             "without a sync byte",
                                                             "with a wrong checksum",
                                                             "without inertial data",
@@ -78,7 +78,7 @@ class LiveNcom final : public LiveSource<ImuSample> {
 std::unique_ptr<LiveSource<ImuSample>> listen_to_ncom(Endpoint endpoint, Duration delay,
                                                       const HostClock& clock) {
   if (endpoint.kind != Endpoint::Kind::udp) {
-    throw std::invalid_argument("NCOM is read from datagrams: '" + endpoint.text +
+    throw std::invalid_argument("NCOM is read from datagrams; its endpoint '" + endpoint.text +
                                 "' must be udp://[ADDRESS]:PORT");
   }
   return std::make_unique<LiveNcom>(std::move(endpoint), delay, clock);

@@ -85,14 +85,14 @@ class LiveStereo final : public LiveSource<StereoPair> {
       if (report.connection.problem.empty() && !second.connection.problem.empty())
         report.connection.problem = "right camera " + second.connection.problem;
       note_count(report.reasons, second.lost, "right images lost by the driver");
-      note_count(report.notes, second.unstamped, "right images stamped when they came");
+      note_count(report.notes, second.unstamped, "right images stamped on arrival");
     }
     note_count(report.reasons, first.lost, "images lost by the driver");
     note_count(report.reasons, alone_, "images without a partner");
-    note_count(report.reasons, wrong_size_, "pairs of another size than the calibration's");
+    note_count(report.reasons, wrong_size_, "pairs whose size differs from the calibration's");
     note_count(report.reasons, not_later_, "pairs not later than the one before");
     note_count(report.notes, first.frames, "images");
-    note_count(report.notes, first.unstamped, "images stamped when they came");
+    note_count(report.notes, first.unstamped, "images stamped on arrival");
     return report;
   }
 
@@ -170,8 +170,8 @@ std::unique_ptr<LiveSource<StereoPair>> listen_to_cameras(LiveStereoOptions opti
                                                           const HostClock& clock) {
   if (options.width <= 0 || options.height <= 0) {
     throw std::invalid_argument(
-        "the cameras' calibration is needed: [camera] calibration, a file of maploop calibrate, or "
-        "[live] calibration, a folder of KITTI's texts");
+        "the cameras' calibration is missing: set [camera] calibration to a file of 'maploop "
+        "calibrate', or [live] calibration to a folder of KITTI's calibration files");
   }
   return std::make_unique<LiveStereo>(std::move(options), clock);
 }

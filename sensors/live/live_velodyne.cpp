@@ -93,8 +93,8 @@ std::unique_ptr<LiveSource<LidarScan>> listen_to_velodyne(LiveVelodyneOptions op
   for (const Endpoint* endpoint :
        {&options.data, options.position ? &*options.position : nullptr}) {
     if (endpoint != nullptr && endpoint->kind != Endpoint::Kind::udp) {
-      throw std::invalid_argument("a Velodyne scanner sends datagrams: '" + endpoint->text +
-                                  "' must be udp://[ADDRESS]:PORT");
+      throw std::invalid_argument("a Velodyne scanner sends datagrams; its endpoint '" +
+                                  endpoint->text + "' must be udp://[ADDRESS]:PORT");
     }
   }
   return std::make_unique<LiveVelodyne>(std::move(options), clock);

@@ -48,7 +48,7 @@ NameLookup::NameLookup(const std::string& host) : shared_(std::make_shared<Share
       shared->known = true;
     }).detach();
   } catch (const std::system_error& e) {
-    shared_->answer.problem = std::string("cannot be asked for: ") + e.what();
+    shared_->answer.problem = std::string("cannot be looked up: ") + e.what();
     shared_->known = true;
   }
 }

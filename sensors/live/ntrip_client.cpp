@@ -71,7 +71,7 @@ void NtripClient::greet() {
   reply_ = {};
   heard_ = said_ = steady_now();
   if (!connection_->write(ntrip_request(address_, utc_of_day()))) {
-    give_up("does not take the request");
+    give_up("does not accept the request");
   }
 }
 

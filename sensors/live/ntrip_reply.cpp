@@ -39,7 +39,7 @@ void NtripReply::take_head(std::span<const std::uint8_t>& from) {
     } else if (head_.ends_with("\r\n\r\n") || (first_line && !head_.starts_with("HTTP/"))) {
       judge_head();
     } else if (head_.size() >= longest_head) {
-      refuse("answers without an end of its head; is it an NTRIP caster?");
+      refuse("answers with a header that does not end; is it an NTRIP caster?");
     }
   }
 }
@@ -49,13 +49,13 @@ void NtripReply::judge_head() {
   const std::string head = lower_case(head_);
   const bool http = line.starts_with("HTTP/1.");
   if (line.starts_with("SOURCETABLE") || head.find("gnss/sourcetable") != std::string::npos) {
-    refuse("answers with its source table: it has no such mountpoint");
+    refuse("answers with its source table, so it does not have this mountpoint");
   } else if (line.starts_with("ERROR")) {
     refuse("refuses: " + shown(line) + "; are user, password and mountpoint right?");
   } else if (http && line.size() >= 12 && line.substr(9, 3) == "401") {
-    refuse("refuses user and password (401)");
+    refuse("refuses the user and password (401)");
   } else if (http && line.size() >= 12 && line.substr(9, 3) == "404") {
-    refuse("has no such mountpoint (404)");
+    refuse("does not have this mountpoint (404)");
   } else if (http && line.size() >= 12 && line.substr(9, 3) == "200") {
     state_ = State::stream;
     chunked_ = head.find("transfer-encoding: chunked") != std::string::npos ||
@@ -83,7 +83,7 @@ void NtripReply::take_size(std::uint8_t c) {
     return;
   }
   if (std::isxdigit(c) == 0 || ++size_digits_ > most_digits) {
-    return refuse("sends a chunk whose length is no number");
+    return refuse("sends a chunk whose length is not a number");
   }
   const int digit = std::isdigit(c) != 0 ? c - '0' : std::tolower(c) - 'a' + 10;
   left_ = 16 * left_ + static_cast<std::uint64_t>(digit);
@@ -113,7 +113,7 @@ std::size_t NtripReply::take(std::span<const std::uint8_t>& from, std::span<std:
       } else if (c == '\n') {
         chunk_ = Chunk::size;
       } else if (c != '\r') {
-        refuse("sends a chunk that is longer than it says");
+        refuse("sends a chunk that is longer than its stated length");
       }
     }
   }

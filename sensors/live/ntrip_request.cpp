@@ -17,9 +17,9 @@ constexpr std::string_view ntrip_scheme = "ntrip://", ntrips_scheme = "ntrips://
 
 [[noreturn]] void refuse_address(const std::string& shown, const std::string& why) {
   throw std::invalid_argument("'" + shown + "': " + why +
-                              "; an NTRIP mountpoint is ntrip:// (or ntrips://, over TLS) and "
-                              "[USER[:PASSWORD]@]HOST[:PORT]/MOUNTPOINT, then, if need "
-                              "be, ?version=1 and ?gga=LATITUDE,LONGITUDE,HEIGHT with & between");
+                              "; expected ntrip:// (or ntrips:// for TLS) and "
+                              "[USER[:PASSWORD]@]HOST[:PORT]/MOUNTPOINT, optionally followed by "
+                              "?version=1 and ?gga=LATITUDE,LONGITUDE,HEIGHT with & between");
 }
 
 // Takes the part before `end` off the text, with `end`; takes all of it if there is no `end`.
@@ -95,8 +95,9 @@ NtripAddress parse_ntrip(std::string_view text) {
   a.user = take_until(who, ':');
   a.password = who;
   a.text = without_secrets(text);
-  if (!is_ntrip(text)) refuse_address(a.text, "is none");
-  if (!printable(text)) refuse_address(a.text, "has characters that no address has");
+  if (!is_ntrip(text)) refuse_address(a.text, "is not an NTRIP address");
+  if (!printable(text))
+    refuse_address(a.text, "contains characters that are not allowed in an address");
   const bool has_mountpoint = rest.find('/') != std::string_view::npos;
   std::string_view host = take_until(rest, '/');
   a.host = take_until(host, ':');
@@ -104,8 +105,8 @@ NtripAddress parse_ntrip(std::string_view text) {
     refuse_address(a.text, "has no port between 1 and 65535");
   }
   a.mountpoint = take_until(rest, '?');
-  if (a.host.empty()) refuse_address(a.text, "names no host");
-  if (!has_mountpoint || a.mountpoint.empty()) refuse_address(a.text, "names no mountpoint");
+  if (a.host.empty()) refuse_address(a.text, "has no host");
+  if (!has_mountpoint || a.mountpoint.empty()) refuse_address(a.text, "has no mountpoint");
   while (!rest.empty()) {
     std::string_view value = take_until(rest, '&');
     const std::string_view key = take_until(value, '=');
@@ -115,8 +116,8 @@ NtripAddress parse_ntrip(std::string_view text) {
     }
     if (key == "gga") a.position = read_position(value);
     if (key != "gga" || !a.position) {
-      refuse_address(a.text,
-                     "does not understand '" + std::string(key) + "=" + std::string(value) + "'");
+      refuse_address(
+          a.text, "has the unknown option '" + std::string(key) + "=" + std::string(value) + "'");
     }
   }
   return a;

@@ -60,7 +60,7 @@ int open_serial(const std::string& device, int baud, std::string& problem) {
   settings.c_cc[VMIN] = 1;  // with 0, an idle line looks like the end of a file
   settings.c_cc[VTIME] = 0;
   if (cfsetspeed(&settings, speed_of(baud)) != 0 || tcsetattr(fd, TCSANOW, &settings) != 0) {
-    problem = "does not take " + std::to_string(baud) + " baud";
+    problem = "does not support " + std::to_string(baud) + " baud";
     close(fd);
     return -1;
   }

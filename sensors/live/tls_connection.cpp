@@ -59,7 +59,7 @@ struct TlsConnection::Session {
 TlsConnection::TlsConnection(Endpoint endpoint, const std::string& host)
     : below_(std::move(endpoint)), session_(std::make_unique<Session>(host)) {
   if (!session_->good) {
-    throw std::runtime_error("TLS to '" + host + "' cannot begin: " + reason_of_openssl());
+    throw std::runtime_error("TLS to '" + host + "' cannot start: " + reason_of_openssl());
   }
 }
 
@@ -93,10 +93,10 @@ void TlsConnection::shake_hands() {
     const long verdict = SSL_get_verify_result(session_->ssl);
     fail(verdict != X509_V_OK ? std::string("shows a certificate that is not trusted: ") +
                                     X509_verify_cert_error_string(verdict) +
-                                    "; SSL_CERT_FILE names a file of other authorities"
-                              : "does not speak TLS that is understood: " + reason_of_openssl());
+                                    "; set SSL_CERT_FILE to a file of other authorities"
+                              : "failed the TLS handshake: " + reason_of_openssl());
   } else if (!sent) {
-    fail("does not take what is sent");
+    fail("does not accept the data sent");
   }
 }
 
@@ -110,7 +110,7 @@ std::size_t TlsConnection::decrypt(std::span<std::uint8_t> to) {
   }
   const int error = SSL_get_error(session_->ssl, size);
   if (error == SSL_ERROR_ZERO_RETURN) fail("was closed by the other side");
-  if (error == SSL_ERROR_SSL) fail("sends what cannot be decrypted: " + reason_of_openssl());
+  if (error == SSL_ERROR_SSL) fail("sends data that cannot be decrypted: " + reason_of_openssl());
   return 0;
 }
 

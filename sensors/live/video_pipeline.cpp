@@ -75,7 +75,7 @@ bool VideoPipeline::heed_messages() {
   const GstOwned<GstMessage> message(gst_bus_pop_filtered(elements_->bus.get(), ends));
   if (message == nullptr) {
     if (clock_.now() - heard_ <= longest_silence) return true;
-    close("sends nothing");
+    close("sends no images");
     return false;
   }
   std::string problem = "has ended";

@@ -16,7 +16,7 @@ CsvTable::CsvTable(const std::filesystem::path& file) : file_(file) {
   const std::size_t heading = std::min(text.find('\n'), text.size());
   std::replace(text.begin() + static_cast<std::ptrdiff_t>(heading), text.end(), ',', ' ');
   const std::vector<std::string_view> lines = split_lines(text);
-  if (lines.empty()) fail(1, "no heading");
+  if (lines.empty()) fail(1, "has no heading");
   for (std::string_view rest = lines[0]; !rest.empty();) {
     const std::size_t end = std::min(rest.find(','), rest.size());
     columns_.emplace_back(rest.substr(0, end));

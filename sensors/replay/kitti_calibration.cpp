@@ -14,9 +14,10 @@ StereoCalibration rectified_cameras(const KeyedText& text) {
   const std::vector<double> left = text.numbers("P_rect_00", 12);
   const std::vector<double> right = text.numbers("P_rect_01", 12);
   if (text.numbers("S_rect_01", 2) != size) text.fail("S_rect_01", "differs from S_rect_00");
-  if (left[3] != 0.0) text.fail("P_rect_00", "has an offset: it is not that of the left camera");
+  if (left[3] != 0.0)
+    text.fail("P_rect_00", "has an offset: it is not the projection of the left camera");
   for (const std::size_t i : {0U, 2U, 5U, 6U}) {  // fx, cx, fy, cy
-    if (left[i] != right[i]) text.fail("P_rect_01", "has other intrinsics than P_rect_00");
+    if (left[i] != right[i]) text.fail("P_rect_01", "has intrinsics that differ from P_rect_00");
   }
   if (left[0] < 1.0 || left[5] < 1.0 || left[0] > 1e5 || left[5] > 1e5) {
     text.fail("P_rect_00", "has a focal length outside 1 to 100000 pixels");

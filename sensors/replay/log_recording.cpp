@@ -54,7 +54,8 @@ class LogSource final : public Source<T> {
       return false;
     };
     if (!checked_decode(own_schema(), reader_.event().data, message_)) {
-      return refuse("no message of type " + std::string(Lcm::getTypeName()) + " of this version");
+      return refuse("not a message of type " + std::string(Lcm::getTypeName()) +
+                    " of this version");
     }
     try {
       if constexpr (requires { from_lcm(message_, sample); }) {
@@ -118,10 +119,10 @@ LogRecording::LogRecording(const std::filesystem::path& log) : log_(log) {
   for (auto item = reader.next(); item != LogReader::Item::end; item = reader.next()) {
     if (item == LogReader::Item::damage) {
       if (reader.damage().begin == 0) {
-        refuse("it is no log, nor a table of t and the 30 columns of OXTS, nor RINEX observations");
+        refuse("it is not a log, a table of t and the 30 columns of OXTS, or RINEX observations");
       }
       refuse("it is damaged at byte " + std::to_string(reader.damage().begin) + " (" +
-             reader.damage().reason + "); 'maploop log recover' makes a sound one of it");
+             reader.damage().reason + "); 'maploop log recover' writes a sound copy of it");
     }
     const lcm_log::LogEvent& event = reader.event();
     if (event.channel == channel_names::calibration && !calibrated) {
@@ -139,10 +140,10 @@ LogRecording::LogRecording(const std::filesystem::path& log) : log_(log) {
     s.last = *stamp;
   }
   if (seen.empty())
-    refuse("it holds no sensor's messages; is it a log of 'maploop replay --record'?");
+    refuse("it contains no messages of sensors; is it a log of 'maploop replay --record'?");
   if (!calibrated) {
-    refuse(std::string(of_another_version ? "its calibration is of another version of maploop"
-                                          : "it holds no calibration") +
+    refuse(std::string(of_another_version ? "its calibration is from another version of maploop"
+                                          : "it contains no calibration") +
            "; record it again with 'maploop replay DRIVE --record'");
   }
   for (const auto& [name, unused] : seen) channels_.emplace(name);

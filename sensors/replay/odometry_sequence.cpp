@@ -36,7 +36,7 @@ void leave_out_gaps(const fs::path& file, OxtsRows& rows) {
 OxtsRows read_rows(const fs::path& file, Time start) {
   const CsvTable table(file);
   if (table.column("t") != 0 || table.column("orimode") != 30) {
-    throw std::runtime_error(file.string() + ": not t and the 30 columns of OXTS");
+    throw std::runtime_error(file.string() + ": the columns must be t and the 30 of OXTS");
   }
   OxtsRows result;
   for (std::size_t i = 0; i < table.size(); ++i) {
@@ -87,7 +87,7 @@ std::vector<Time> read_image_stamps(const fs::path& file, Time start) {
   for (const std::string_view line : split_lines(text)) {
     try {
       const std::vector<double> numbers = parse_numbers(line);
-      if (numbers.size() != 1) throw std::invalid_argument("not one number");
+      if (numbers.size() != 1) throw std::invalid_argument("a line must contain one number");
       stamps.push_back(start + checked_seconds(numbers[0]));
     } catch (const std::invalid_argument& e) {
       throw std::runtime_error(file.string() + ":" + std::to_string(stamps.size() + 1) + ": " +
@@ -145,7 +145,7 @@ OdometrySequence::OdometrySequence(const fs::path& path, const KittiDriveParamet
   if (files->gaps) leave_out_gaps(*files->gaps, *rows);
   if (image_stamps_.size() < 2) {
     throw std::runtime_error(files->times.value_or(files->table).string() +
-                             ": fewer than two images");
+                             ": contains fewer than two images");
   }
   rows_ = imu_rows_ = std::move(rows);
   if (files->imu) {

@@ -107,14 +107,14 @@ void unpack_scan(const std::vector<char>& bytes, RangeImage& image,
   Head head;
   if (bytes.size() < magic.size() + sizeof head ||
       std::string_view(bytes.data(), magic.size()) != magic)
-    throw std::runtime_error("no packed scan, or cut");
+    throw std::runtime_error("not a packed scan, or incomplete");
   std::memcpy(&head, bytes.data() + magic.size(), sizeof head);
   const std::size_t all = std::size_t{head.lasers} * head.firings;
   const std::size_t begin = magic.size() + sizeof head + head.lasers * sizeof(float);
   if (head.lasers == 0 || head.lasers > RangeImage::most_lasers ||
       head.firings > RangeImage::most_firings || head.returns > all || begin > bytes.size() ||
       !std::isfinite(head.first_azimuth) || !std::isfinite(head.azimuth_step))
-    throw std::runtime_error("the packed scan is damaged: get it once more");
+    throw std::runtime_error("the packed scan is damaged: copy it again from its source");
   image.elevations.resize(head.lasers);
   std::memcpy(image.elevations.data(), bytes.data() + magic.size() + sizeof head,
               head.lasers * sizeof(float));
@@ -131,7 +131,8 @@ void unpack_scan(const std::vector<char>& bytes, RangeImage& image,
   for (std::size_t i = 0; i < planes.low; ++i)
     counted += static_cast<std::size_t>(std::popcount(plain[i]));
   if (state != Z_OK || size != plain.size() || counted != head.returns)
-    throw std::runtime_error("the packed scan is cut or damaged: get it once more");
+    throw std::runtime_error(
+        "the packed scan is incomplete or damaged: copy it again from its source");
   image.ranges.assign(all, 0);
   image.reflectances.assign(all, 0);
   std::uint16_t range = 0;
@@ -148,7 +149,7 @@ void unpack_scan(const std::vector<char>& bytes, RangeImage& image,
     ++at;
   }
   points_of(image, points);
-  if (points.empty()) throw std::runtime_error("the packed scan has no point");
+  if (points.empty()) throw std::runtime_error("the packed scan has no points");
 }
 
 }  // namespace maploop::sensors

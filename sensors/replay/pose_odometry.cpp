@@ -24,14 +24,14 @@ Eigen::Isometry3d pose_of(const double* numbers) {
 void add_line(std::string_view line, CameraPoses& all) {
   const std::vector<double> numbers = parse_numbers(line);
   if (numbers.size() != 12 && numbers.size() != 13) {
-    throw std::invalid_argument("a pose has 12 numbers (3x4, row by row) or the frame's before " +
-                                std::string("them, this line has ") +
-                                std::to_string(numbers.size()));
+    throw std::invalid_argument(
+        "a pose must have 12 numbers (3x4, row by row) or the frame's before " +
+        std::string("them, this line has ") + std::to_string(numbers.size()));
   }
   std::size_t frame = all.frames.size();
   if (numbers.size() == 13) {
     if (!(numbers[0] >= 0.0 && numbers[0] < 1e9))
-      throw std::invalid_argument("the frame's number is none");
+      throw std::invalid_argument("the first column is not a frame number");
     frame = static_cast<std::size_t>(numbers[0]);
   }
   if (!all.frames.empty() && frame <= all.frames.back())
@@ -106,7 +106,7 @@ CameraPoses read_camera_poses(const std::filesystem::path& file) {
     }
   }
   if (all.poses.size() < 2)
-    throw std::runtime_error(file.string() + ": no motion in fewer than two poses");
+    throw std::runtime_error(file.string() + ": has fewer than two poses, but a motion needs two");
   return all;
 }
 

@@ -90,7 +90,7 @@ std::optional<Listed> find_in(const fs::path& list, std::string_view name) {
     }
     if (cells.size() != 4 || (i == 0 && cells.front() != "name")) {
       throw std::runtime_error(file->string() + ":" + std::to_string(i + 1) +
-                               ": not name,start,imu,tracks");
+                               ": the columns must be name,start,imu,tracks");
     }
     if (cells.front() == name) return Listed{cells[1], cells[2], cells[3]};
   }

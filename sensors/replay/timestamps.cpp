@@ -82,7 +82,7 @@ Timestamps parse_timestamps(std::string_view text, const std::filesystem::path& 
   }
   if (!any) {
     throw std::runtime_error("'" + file.string() +
-                             "' holds no time stamp; restore the file from KITTI's archive");
+                             "' contains no time stamp; restore the file from KITTI's archive");
   }
   return result;
 }
@@ -131,7 +131,8 @@ std::vector<Finding> files_without_stamp(const std::filesystem::path& folder, st
     const auto [rest, failed] = std::from_chars(stem.data(), stem.data() + stem.size(), index);
     if (failed != std::errc() || rest != stem.data() + stem.size() || index < frames) continue;
     findings.push_back(
-        {entry->path().string(), 0, "no time stamp for it: there are " + std::to_string(frames)});
+        {entry->path().string(), 0,
+         "has no time stamp: the file of time stamps has only " + std::to_string(frames)});
   }
   std::sort(findings.begin(), findings.end(),
             [](const Finding& a, const Finding& b) { return a.file < b.file; });

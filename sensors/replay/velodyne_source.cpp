@@ -92,8 +92,8 @@ class VelodyneSource final : public FrameSource<LidarScan> {
 std::size_t parse_velodyne_points(const std::vector<char>& bytes, std::vector<LidarPoint>& points) {
   if (bytes.empty()) throw std::runtime_error("the scan is empty");
   if (bytes.size() % sizeof(LidarPoint) != 0) {
-    throw std::runtime_error("the scan is cut: " + std::to_string(bytes.size()) +
-                             " bytes are no multiple of " + std::to_string(sizeof(LidarPoint)));
+    throw std::runtime_error("the scan is incomplete: " + std::to_string(bytes.size()) +
+                             " bytes are not a multiple of " + std::to_string(sizeof(LidarPoint)));
   }
   points.resize(bytes.size() / sizeof(LidarPoint));
   std::memcpy(points.data(), bytes.data(), bytes.size());
@@ -101,7 +101,7 @@ std::size_t parse_velodyne_points(const std::vector<char>& bytes, std::vector<Li
     return !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) &&
              std::isfinite(p.reflectance));
   });
-  if (points.empty()) throw std::runtime_error("the scan has no finite point");
+  if (points.empty()) throw std::runtime_error("the scan has no finite points");
   return dropped;
 }
 

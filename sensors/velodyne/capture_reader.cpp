@@ -105,7 +105,8 @@ CaptureReader::CaptureReader(const std::filesystem::path& path) : file_(std::mak
       const char* name = pcap_datalink_val_to_name(file_->link);
       const std::string kind = name != nullptr ? name : std::to_string(file_->link);
       pcap_close(file_->pcap);
-      fail("is of a network of kind " + kind + "; Ethernet, Linux 'any' and raw IP are read");
+      fail("was captured on a network of kind " + kind +
+           "; Ethernet, Linux 'any' and raw IP are supported");
     }
   }
 }

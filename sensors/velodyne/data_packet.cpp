@@ -4,7 +4,8 @@ namespace maploop::sensors {
 
 std::string_view to_string(PacketFault fault) {
   constexpr std::array<std::string_view, packet_fault_count> names{
-      "none", "wrong size", "wrong block flag", "azimuth beyond a turn", "of another model"};
+      "none", "wrong size", "wrong block flag", "azimuth of 360 degrees or more",
+      "from another model"};
   return names[static_cast<std::size_t>(fault)];
 }
 

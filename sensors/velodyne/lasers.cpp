@@ -91,7 +91,7 @@ std::vector<Laser> parse_calibration(const std::string& text, std::size_t count)
   try {
     read_xml(stream, tree);
   } catch (const boost::property_tree::xml_parser_error& e) {
-    throw std::runtime_error("is no calibration of a scanner: line " + std::to_string(e.line()) +
+    throw std::runtime_error("is not a calibration of a scanner: line " + std::to_string(e.line()) +
                              ": " + e.message());
   }
   std::vector<Laser> lasers(count);

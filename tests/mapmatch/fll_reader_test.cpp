@@ -57,12 +57,12 @@ TEST(FllReader, EveryMistakeIsRefusedWithFileAndLine) {
               HasSubstr("small.fll:13: 'c' is not an input variable"));
   EXPECT_THAT(refusal("out is bad", "out is worse"), HasSubstr("small.fll:13: 'worse'"));
   EXPECT_THAT(refusal("then out", "then ouch"), HasSubstr("'ouch' is not the output"));
-  EXPECT_THAT(refusal("is bad", "is bad with 0.5"), HasSubstr("nothing else"));
+  EXPECT_THAT(refusal("is bad", "is bad with 0.5"), HasSubstr("may follow"));
   EXPECT_THAT(refusal("and b", "or b"), HasSubstr("small.fll:13: 'and' or 'then'"));
   EXPECT_THAT(refusal("and b is high", "and b is not high"), HasSubstr("small.fll:13"));
   EXPECT_THAT(refusal("if a is low and b is high then out is bad", "if"), HasSubstr("a condition"));
   EXPECT_THAT(refusal("if a is low and b is high then out is bad", ""),
-              HasSubstr("begins with 'if'"));
+              HasSubstr("must start with 'if'"));
   EXPECT_THAT(refusal(" then out is bad", ""), HasSubstr("small.fll:13"));
   EXPECT_THAT(refusal("high then out is bad", "high then"), HasSubstr("small.fll:13"));
   EXPECT_THAT(refusal("high then out is bad", "high and"), HasSubstr("small.fll:13"));
@@ -70,16 +70,16 @@ TEST(FllReader, EveryMistakeIsRefusedWithFileAndLine) {
               HasSubstr("small.fll:4: 2 numbers are needed, and 1"));
   EXPECT_THAT(refusal("Ramp 10 0", "Ramp 10 nan"), HasSubstr("'nan' is not a finite number"));
   EXPECT_THAT(refusal("Ramp 10 0", "Slope 10 0"), HasSubstr("'Slope' is not Sigmoid"));
-  EXPECT_THAT(refusal("Ramp 10 0", "Triangle 3 2 1"), HasSubstr("go back"));
+  EXPECT_THAT(refusal("Ramp 10 0", "Triangle 3 2 1"), HasSubstr("ascending order"));
   EXPECT_THAT(refusal("InputVariable: b", "InputVariable: bb"), HasSubstr("small.fll:5: 'bb'"));
-  EXPECT_THAT(refusal("InputVariable: b", "InputVariable: a"), HasSubstr("there twice"));
+  EXPECT_THAT(refusal("InputVariable: b", "InputVariable: a"), HasSubstr("defined twice"));
   EXPECT_THAT(refusal("InputVariable: b\n  term: high Sigmoid 5 1\n", ""),
               HasSubstr("'b' is not an input variable"));
   EXPECT_THAT(refusal("Constant 10", "Linear 1 2 3"), HasSubstr("small.fll:10: an output term"));
   EXPECT_THAT(refusal("Minimum", "AlgebraicProduct"), HasSubstr("small.fll:12: 'conjunction'"));
   EXPECT_THAT(refusal("range: 0 10", "ragne: 0 10"),
               HasSubstr("small.fll:3: 'ragne' is not known"));
-  EXPECT_THAT(refusal("Engine: small\n", ""), HasSubstr("begins with 'Engine"));
+  EXPECT_THAT(refusal("Engine: small\n", ""), HasSubstr("must start with 'Engine"));
   EXPECT_THAT(refusal("RuleBlock: all", "RuleBlock"), HasSubstr("small.fll:11: a line is"));
   EXPECT_THAT(refusal("  rule: if a is low and b is high then out is bad\n", ""),
               HasSubstr("no rule"));

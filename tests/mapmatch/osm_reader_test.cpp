@@ -98,14 +98,14 @@ TEST(OsmReader, ABoxTakesAPart) {
     EXPECT_LE(n.latitude, 48.99);
   }
   options.box = {0.0, 0.0, 1.0, 1.0};
-  EXPECT_THAT(refusal(karlsruhe(), options), ::testing::HasSubstr("no road inside the box"));
+  EXPECT_THAT(refusal(karlsruhe(), options), ::testing::HasSubstr("no roads inside the box"));
 }
 
 TEST(OsmReader, TooLargeIsSaid) {
   MAPLOOP_REQUIRE_REAL_DATA();
   OsmOptions options;
   options.max_nodes = 1000;
-  EXPECT_THAT(refusal(karlsruhe(), options), ::testing::HasSubstr("choose a part"));
+  EXPECT_THAT(refusal(karlsruhe(), options), ::testing::HasSubstr("select a part"));
 }
 
 TEST(OsmReader, NoMapAndBrokenMapsAreRefusedWithTheirNames) {
@@ -113,7 +113,7 @@ TEST(OsmReader, NoMapAndBrokenMapsAreRefusedWithTheirNames) {
   const auto file = [&](const char* name) { return folder.path() / name; };
   EXPECT_THAT(refusal(file("none.osm.pbf")),
               ::testing::HasSubstr("none.osm.pbf: there is no such"));
-  EXPECT_THAT(refusal(folder.path()), ::testing::HasSubstr("no regular file"));
+  EXPECT_THAT(refusal(folder.path()), ::testing::HasSubstr("not a regular file"));
   write(file("empty.osm.pbf"), "");
   EXPECT_THAT(refusal(file("empty.osm.pbf")), ::testing::HasSubstr("empty"));
   write(file("text.osm.pbf"), "this is no map, and says so at some length");

@@ -225,8 +225,8 @@ TEST(DamagedCamera, ACutImageAtAnyLength) {
     const Finding finding = only_refusal(*drive.camera(), without_3);
     expect_finding(finding, file, 0,
                    length == 0  ? "empty"
-                   : length < 8 ? "is no PNG image"
-                                : "cut or damaged");
+                   : length < 8 ? "is not a PNG image"
+                                : "incomplete or damaged");
   }
 }
 
@@ -255,7 +255,7 @@ TEST(DamagedCamera, AnImageInAnotherFormat) {
   encode_jpeg(std::vector<std::uint8_t>(32 * 24, 9), 32, 24, 90, jpeg);
   small.write("image_00/data/0000000003.png", {jpeg.begin(), jpeg.end()});
   expect_finding(only_refusal(*KittiDrive(small.folder()).camera(), without_3), "0000000003.png", 0,
-                 "is no PNG image");
+                 "is not a PNG image");
 }
 
 TEST(DamagedCamera, FewerFilesThanStamps) {
@@ -273,7 +273,7 @@ TEST(DamagedCamera, MoreFilesThanStamps) {
   const SmallDrive small;
   small.write("image_01/data/0000000008.png", small.read("image_01/data/0000000007.png"));
   expect_finding(only_refusal(*KittiDrive(small.folder()).camera(), all), "0000000008.png", 0,
-                 "no time stamp for it");
+                 "has no time stamp");
 }
 
 TEST(DamagedCamera, OneStampFileShorterThanTheOther) {
@@ -409,7 +409,7 @@ TEST(DamagedOxts, MoreRowsThanStamps) {
   small.write("oxts/data/0000000012.txt", oxts_row_text());
   small.write("oxts/data/notes.txt", "not a row");
   expect_finding(only_refusal(*KittiDrive(small.folder()).imu(), all), "oxts/data/0000000012.txt",
-                 0, "no time stamp for it");
+                 0, "has no time stamp");
 }
 
 TEST(DamagedOxts, AGnssRowThatIsRefusedIsReplacedByTheNext) {
@@ -461,7 +461,7 @@ TEST(DamagedRealFiles, CutImageAndScanOfTheRealDrive) {
   auto camera = drive.camera();
   EXPECT_EQ(sequences(read_all(*camera)), (Sequences{0, 2}));
   expect_finding(camera->report().refusals.at(0), "image_01/data/0000000001.png", 0,
-                 "cut or damaged");
+                 "incomplete or damaged");
   auto velodyne = drive.velodyne();
   EXPECT_EQ(sequences(read_all(*velodyne)), (Sequences{0, 2}));
   expect_finding(velodyne->report().refusals.at(0), "0000000001.bin", 0, "cut");

@@ -72,7 +72,7 @@ TEST_F(DamagedLog, ACalibrationOfAnotherTypeIsOfAnotherVersion) {
     recording();
     FAIL();
   } catch (const std::runtime_error& e) {
-    EXPECT_NE(std::string(e.what()).find("of another version"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("from another version"), std::string::npos) << e.what();
   }
 }
 

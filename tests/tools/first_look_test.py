@@ -98,7 +98,7 @@ class FirstLook(unittest.TestCase):
             self.expect(reader.replace("FILE", "folder"), 1, "folder")
 
     def test_what_is_no_log_is_not_called_a_damaged_one(self):
-        error = self.expect("replay other.txt --lockstep --no-lcm", 1, "it is no log")
+        error = self.expect("replay other.txt --lockstep --no-lcm", 1, "it is not a log")
         self.assertNotIn("recover", error)
 
     def test_numbers_that_are_none(self):

@@ -131,7 +131,7 @@ TEST(LiveCommand, RefusesAConfigurationWithoutASensor) {
   const ProcessResult result =
       testing::run({testing::maploop_command(), "live", file.string(), "--no-lcm"});
   EXPECT_EQ(result.status, 1);
-  EXPECT_NE(result.error.find("names no live sensor"), std::string::npos) << result.error;
+  EXPECT_NE(result.error.find("has no live sensor"), std::string::npos) << result.error;
 }
 
 }  // namespace

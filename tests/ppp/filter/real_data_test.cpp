@@ -254,7 +254,7 @@ TEST(PppRun, SaysWhatIsMissing) {
     PppRun(files, {});
     FAIL();
   } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("no orbits: give an SP3"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("no orbits: add an SP3"), std::string::npos);
   }
 }
 

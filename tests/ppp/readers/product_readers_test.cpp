@@ -194,11 +194,12 @@ std::string antex_refusal(const std::string& text) {
 TEST(ProductReaders, AnAntennasStepOfAzimuthsFitsTheCircle) {
   EXPECT_EQ(antex_refusal(antex(90.0, 5)), "");
   EXPECT_EQ(antex_refusal(antex(180.0, 3)), "");
-  EXPECT_NE(antex_refusal(antex(720.0, 1)).find("a.atx:6: a step of azimuths"), std::string::npos);
+  EXPECT_NE(antex_refusal(antex(720.0, 1)).find("a.atx:6: an azimuth step"), std::string::npos);
   std::string dazi = "     0.0";
   dazi.resize(60, ' ');
-  EXPECT_NE(antex_refusal(antex(90.0, 5, dazi + "DAZI\n")).find("behind a carrier"),
-            std::string::npos);
+  EXPECT_NE(
+      antex_refusal(antex(90.0, 5, dazi + "DAZI\n")).find("DAZI or ZEN1 comes after a carrier"),
+      std::string::npos);
 }
 
 TEST(ProductReaders, OrbitsOfEpochsWithoutPositionsAreNotBelieved) {
@@ -234,7 +235,7 @@ TEST(ProductReaders, AFileOfNoKindIsNamed) {
     parse_into("hello\n", "notes.txt", files);
     FAIL();
   } catch (const ReadError& error) {
-    EXPECT_EQ(std::string(error.what()).find("notes.txt: none of RINEX"), 0U);
+    EXPECT_EQ(std::string(error.what()).find("notes.txt: not in a known format"), 0U);
   }
 }
 

@@ -184,7 +184,7 @@ TEST(Rtcm3, SaysWhatIsWrong) {
     }
     return "";
   };
-  EXPECT_NE(message(msm4({})).find("do not say their week"), std::string::npos);
+  EXPECT_NE(message(msm4({})).find("do not contain their week"), std::string::npos);
   EXPECT_NE(message(gps_week_frame(2400)).find("no observations"), std::string::npos);
   std::string damaged = msm4({.time = 2000});
   damaged[20] = static_cast<char>(damaged[20] ^ 1);

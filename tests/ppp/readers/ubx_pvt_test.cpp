@@ -113,12 +113,12 @@ TEST(UbxPvt, SaysWhatCannotBe) {
        {MadePvt{.time_of_week = 604'800'000}, MadePvt{.month = 13}, MadePvt{.year = 1979}}) {
     const Decoded d = decoded(made.payload());
     EXPECT_FALSE(d.pvt);
-    EXPECT_NE(d.problem.find("a date or a time"), std::string::npos);
+    EXPECT_NE(d.problem.find("an invalid date or time of week"), std::string::npos);
   }
   for (const MadePvt& made : {MadePvt{.horizontal = 0}, MadePvt{.latitude = 1'000'000'000}}) {
     const Decoded d = decoded(made.payload());
     EXPECT_FALSE(d.pvt);
-    EXPECT_NE(d.problem.find("a position or an accuracy"), std::string::npos);
+    EXPECT_NE(d.problem.find("an invalid position or accuracy"), std::string::npos);
   }
 }
 

@@ -20,12 +20,11 @@ TEST(ArrivalWatch, KeepsAnOutageAfterItsEnd) {
     if (i < 100 || i >= 200) watch.arrived(origin + i * milliseconds(100));
   }
   EXPECT_EQ(outage_sentence("imu", watch.outages(), origin),
-            "imu: nothing came for 10.1 s from 9.9 s on");
+            "imu: silent for 10.1 s from 9.9 s on");
   EXPECT_EQ(watch.last(), origin + milliseconds(29'900));
   watch.arrived(origin + seconds(32));
-  EXPECT_EQ(
-      outage_sentence("imu", watch.outages(), origin),
-      "imu: nothing came for 2.1 s from 29.9 s on (2 times, 12.2 s in all; this is the last)");
+  EXPECT_EQ(outage_sentence("imu", watch.outages(), origin),
+            "imu: silent for 2.1 s from 29.9 s on (2 times, 12.2 s in all; this is the last)");
 }
 
 TEST(ArrivalWatch, SaysNothingOfASteadySensorOrOfOneThatMayPause) {
@@ -45,7 +44,7 @@ TEST(ArrivalWatch, AFirstSampleThatComesLateIsAnOutageFromTheStartOn) {
   watch.start(origin, seconds(1));
   watch.arrived(origin + seconds(3));
   EXPECT_EQ(outage_sentence("gnss", watch.outages(), origin),
-            "gnss: nothing came for 3.0 s from 0.0 s on");
+            "gnss: silent for 3.0 s from 0.0 s on");
 }
 
 class UseWatchTest : public ::testing::Test {

@@ -32,7 +32,7 @@ TEST(FaultCommand, AWrongFaultIsAnErrorBeforeAnythingRuns) {
   const ProcessResult result =
       run({testing::maploop_command(), "replay", "/nonexistent", "--fault", "lots@camera"});
   EXPECT_NE(result.status, 0);
-  EXPECT_NE(result.error.find("'lots' is no kind of fault"), std::string::npos) << result.error;
+  EXPECT_NE(result.error.find("'lots' is not a kind of fault"), std::string::npos) << result.error;
   EXPECT_EQ(result.error.find("/nonexistent"), std::string::npos) << result.error;
 }
 

@@ -233,9 +233,9 @@ bool says(const Replayed& r, const std::string& text) {
 
 TEST(FaultWords, AnOutageThatHasEndedIsSaidAlsoOnVirtualTime) {
   const Replayed r = lockstep({"lost@imu:2:3"}, 8.0);
-  EXPECT_TRUE(says(r, "imu: nothing came for 3.0")) << "from 2 s on";
+  EXPECT_TRUE(says(r, "imu: silent for 3.0")) << "from 2 s on";
   EXPECT_TRUE(says(lockstep({"lost@imu:2:end"}, 8.0), "imu: stale, nothing new for 6"));
-  EXPECT_TRUE(says(lockstep({"lost@camera:2:3"}, 8.0), "camera: nothing came for 3"));
+  EXPECT_TRUE(says(lockstep({"lost@camera:2:3"}, 8.0), "camera: silent for 3"));
 }
 
 TEST(FaultWords, WhatAnEstimatorRefusesIsSaidWithItsReason) {

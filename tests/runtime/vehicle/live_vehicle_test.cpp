@@ -212,7 +212,7 @@ TEST(LiveConfig, NamesTheKeyThatIsWrong) {
     }
     return "no error";
   };
-  EXPECT_NE(error([](LiveParameters&) {}).find("names no live sensor"), std::string::npos);
+  EXPECT_NE(error([](LiveParameters&) {}).find("has no live sensor"), std::string::npos);
   EXPECT_NE(error([](LiveParameters& p) { p.imu = "udp:3000"; }).find("[live] imu: "),
             std::string::npos);
   EXPECT_NE(error([](LiveParameters& p) {
@@ -231,7 +231,7 @@ TEST(LiveConfig, NamesTheKeyThatIsWrong) {
             std::string::npos);
   EXPECT_NE(error([](LiveParameters& p) {
               p.camera_right = "videotestsrc";
-            }).find("there is no camera_left"),
+            }).find("camera_right needs camera_left"),
             std::string::npos);
   EXPECT_NE(error([](LiveParameters& p) {
               p.imu = "udp://:3000";

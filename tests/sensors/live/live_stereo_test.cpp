@@ -64,7 +64,7 @@ TEST(LiveStereo, PairsTheImagesOfTwoCameras) {
   const LiveReport report = cameras->report();
   EXPECT_TRUE(report.connection.open);
   EXPECT_EQ(report.delivered, 10u);
-  EXPECT_FALSE(says(report.notes, "stamped when they came"));
+  EXPECT_FALSE(says(report.notes, "stamped on arrival"));
 }
 
 TEST(LiveStereo, HalvesImagesThatHaveBothCameras) {
@@ -107,7 +107,7 @@ TEST(LiveStereo, CountsWhatItLeavesOut) {
   const auto wrong = listen_to_cameras(options(test_pictures(100, 48), ""), clock);
   StereoPair pair;
   EXPECT_FALSE(wait_for(*wrong, pair, milliseconds(500)));
-  EXPECT_TRUE(says(wrong->report().reasons, "pairs of another size"));
+  EXPECT_TRUE(says(wrong->report().reasons, "pairs whose size differs"));
   auto never = options(test_pictures(64, 48), test_pictures(64, 48));
   never.max_skew = -seconds(1);
   const auto apart = listen_to_cameras(never, clock);

@@ -67,16 +67,16 @@ TEST(NtripReply, SaysWhyThereIsNoStream) {
   };
   EXPECT_NE(problem("SOURCETABLE 200 OK\r\nServer: x\r\n").find("source table"), std::string::npos);
   EXPECT_NE(problem("HTTP/1.1 200 OK\r\nContent-Type: gnss/sourcetable\r\n\r\nSTR;")
-                .find("no such mountpoint"),
+                .find("not have this mountpoint"),
             std::string::npos);
   EXPECT_NE(problem("HTTP/1.1 401 Unauthorized\r\n\r\n").find("user and password"),
             std::string::npos);
-  EXPECT_NE(problem("HTTP/1.1 404 Not Found\r\n\r\n").find("no such mountpoint"),
+  EXPECT_NE(problem("HTTP/1.1 404 Not Found\r\n\r\n").find("not have this mountpoint"),
             std::string::npos);
   EXPECT_NE(problem("ERROR - Bad Password\r\n").find("'ERROR - Bad Password'"), std::string::npos);
   EXPECT_NE(problem("HTTP/1.1 503 Busy\r\n\r\n").find("'HTTP/1.1 503 Busy'"), std::string::npos);
   EXPECT_NE(problem("220 mail server\r\n").find("is it an NTRIP caster?"), std::string::npos);
-  EXPECT_NE(problem("HTTP/1.1 200 OK\r\nX: " + std::string(20'000, 'x')).find("without an end"),
+  EXPECT_NE(problem("HTTP/1.1 200 OK\r\nX: " + std::string(20'000, 'x')).find("does not end"),
             std::string::npos);
   const std::string chunked = "HTTP/1.1 200 OK\r\nTransfer-Encoding: chunked\r\n\r\n";
   EXPECT_NE(problem(chunked + "\r\n").find("without a length"), std::string::npos);
@@ -260,7 +260,7 @@ TEST(NtripClient, SaysThatACasterSpeaksNoTls) {
     if (server.answer()) server.send("ICY 200 OK\r\nhello, world.");
   });
   const auto stream = open_stream("ntrips://127.0.0.1:" + std::to_string(server.port()) + "/M");
-  EXPECT_NE(wait_for_problem(*stream, "does not speak TLS").find("does not speak TLS"),
+  EXPECT_NE(wait_for_problem(*stream, "failed the TLS handshake").find("failed the TLS handshake"),
             std::string::npos)
       << stream->state().problem;
 }
