@@ -11,7 +11,7 @@ namespace {
 
 constexpr double region_margin = 12.0;  // m, for the error of the map and half a road's width
 constexpr double anchor_step = 2.0;     // m between remembered matched places
-constexpr double least_share = 1e-6;    // P of a link without a path hypothesis
+constexpr double min_share = 1e-6;    // P of a link without a path hypothesis
 
 }  // namespace
 
@@ -166,7 +166,7 @@ void Matcher::judge(const RuleContext& context) {
 double Matcher::value(const MatchCandidate& candidate) const {
   if (!parameters_.paths) return candidate.likelihood;
   const double likelihood = candidate.decided ? std::max(candidate.likelihood, 10.0) : 50.0;
-  return std::log(std::max(candidate.probability, least_share)) +
+  return std::log(std::max(candidate.probability, min_share)) +
          parameters_.fuzzy_weight * std::log(likelihood / 100.0);
 }
 

@@ -43,52 +43,53 @@ PppSetup::PppSetup(const GnssFiles& files, const SetupOptions& options)
       observations_(&only_observations(files)),
       earth_(files.earth_rotation) {
   choose_products(files, options);
-  if (surroundings_.ephemeris == nullptr) {
+  if (inputs_.ephemeris == nullptr) {
     throw std::runtime_error("no orbits: add an SP3 file with clocks, or a navigation file");
   }
   one_frequency_ = has_one_frequency(*observations_);
-  look_around(files, options, observations_->header);
+  fill_inputs(files, options, observations_->header);
 }
 
 PppSetup::PppSetup(const GnssFiles& files, const SetupOptions& options,
                    const LiveReceiver& receiver)
     : parameters_(options.parameters), earth_(files.earth_rotation) {
   // A live receiver runs for days: the messages per satellite are limited.
-  constexpr std::size_t most_each = 16;
-  broadcast_ = std::make_unique<BroadcastEphemeris>(files.navigation, most_each);
+  constexpr std::size_t max_each = 16;
+  broadcast_ = std::make_unique<BroadcastEphemeris>(files.navigation, max_each);
   choose_products(files, options);
-  if (!surroundings_.ephemeris) surroundings_.ephemeris = broadcast_.get();
+  if (!inputs_.ephemeris) inputs_.ephemeris = broadcast_.get();
   one_frequency_ = receiver.one_frequency;
   ObservationHeader header;
   header.antenna = receiver.antenna;
   header.radome = receiver.radome;
-  look_around(files, options, header);
+  fill_inputs(files, options, header);
 }
 
-void PppSetup::look_around(const GnssFiles& files, const SetupOptions& options,
+void PppSetup::fill_inputs(const GnssFiles& files, const SetupOptions& options,
                            const ObservationHeader& header) {
-  surroundings_.antennas = &files.antennas;
-  surroundings_.marker_to_antenna_enu = header.antenna_delta_enu;
-  surroundings_.glonass_channels = header.glonass_channels;
+  inputs_.antennas = &files.antennas;
+  inputs_.marker_to_antenna_enu = header.antenna_delta_enu;
+  inputs_.glonass_channels = header.glonass_channels;
   if (broadcast_) {
     for (int n = 0; n < 100; ++n) {
       if (const auto channel = broadcast_->glonass_channel(n)) {
-        surroundings_.glonass_channels[static_cast<std::size_t>(n)] = channel;
+        inputs_.glonass_channels[static_cast<std::size_t>(n)] = channel;
       }
     }
   }
-  surroundings_.models = options.models;
-  surroundings_.receiver = receiver_antenna(files.antennas, header.antenna, header.radome);
-  if (!surroundings_.receiver) {
-    lacks_.push_back("no calibration of the receiver's antenna '" + header.antenna + ' ' +
-                     header.radome + "': its phase centre is taken to be its reference point");
+  inputs_.models = options.models;
+  inputs_.receiver = receiver_antenna(files.antennas, header.antenna, header.radome);
+  if (!inputs_.receiver) {
+    missing_models_.push_back("no calibration of the receiver's antenna '" + header.antenna + ' ' +
+                              header.radome +
+                              "': its phase centre is taken to be its reference point");
   }
   if (precise() && files.antennas.empty()) {
-    lacks_.push_back(
+    missing_models_.push_back(
         "no ANTEX file: satellites' phase centres are taken to be their centres of mass");
   }
   if (header.approximate_position) {
-    surroundings_.ocean_loading =
+    inputs_.ocean_loading =
         nearest_station(files.ocean_loading, *header.approximate_position, header.marker);
   }
   if (one_frequency_) choose_ionosphere();
@@ -100,30 +101,30 @@ void PppSetup::choose_products(const GnssFiles& files, const SetupOptions& optio
   }
   if (!files.orbits.empty() && !options.broadcast) {
     precise_ = std::make_unique<PreciseEphemeris>(files.orbits, files.clocks, files.biases);
-    surroundings_.ephemeris = precise_.get();
+    inputs_.ephemeris = precise_.get();
   } else if (broadcast_) {
-    surroundings_.ephemeris = broadcast_.get();
+    inputs_.ephemeris = broadcast_.get();
   }
 }
 
 void PppSetup::choose_ionosphere() {
   parameters_ = for_one_frequency(parameters_);
-  surroundings_.one_frequency = true;
-  if (broadcast_) surroundings_.ionosphere = &broadcast_->ionosphere();
+  inputs_.one_frequency = true;
+  if (broadcast_) inputs_.ionosphere = &broadcast_->ionosphere();
   if (live()) return;  // the coefficients may still be received
   const GpsTime first = observations_->epochs.front().time;
   const std::string lack =
       ionosphere_lack(broadcast_ ? broadcast_->ionosphere().age(first) : std::nullopt);
-  if (!lack.empty()) lacks_.push_back(lack);
+  if (!lack.empty()) missing_models_.push_back(lack);
 }
 
 PppFilter PppSetup::make_filter(const CorrectedEphemeris* received) const {
-  Surroundings surroundings = surroundings_;
+  RangeInputs inputs = inputs_;
   if (received != nullptr) {
-    surroundings.ephemeris = received;
-    surroundings.ionosphere = &received->ionosphere();
+    inputs.ephemeris = received;
+    inputs.ionosphere = &received->ionosphere();
   }
-  return {parameters_, surroundings, earth_};
+  return {parameters_, inputs, earth_};
 }
 
 MapAidedFilter PppSetup::make_map_aided_filter(const CorrectedEphemeris* received) const {

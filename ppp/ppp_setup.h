@@ -48,18 +48,18 @@ class PppSetup {
   // Returns the navigation messages of the files; nullptr if there are none and the setup is not
   // live.
   const BroadcastEphemeris* broadcast() const { return broadcast_.get(); }
-  const Ephemeris& ephemeris() const { return *surroundings_.ephemeris; }
+  const Ephemeris& ephemeris() const { return *inputs_.ephemeris; }
   bool precise() const { return precise_ != nullptr; }
   bool one_frequency() const { return one_frequency_; }
   // On one frequency, the errors of broadcast orbits, clocks and ionosphere last longer than the
   // filter can average them out: the position error stays at metres.
   bool never_converges() const { return one_frequency_ && !precise() && !live(); }
   // Lists what the models lack, such as "no calibration of antenna X".
-  const std::vector<std::string>& lacks() const { return lacks_; }
+  const std::vector<std::string>& missing_models() const { return missing_models_; }
 
  private:
   void choose_products(const GnssFiles& files, const SetupOptions& options);
-  void look_around(const GnssFiles& files, const SetupOptions& options,
+  void fill_inputs(const GnssFiles& files, const SetupOptions& options,
                    const ObservationHeader& header);
   void choose_ionosphere();
 
@@ -67,9 +67,9 @@ class PppSetup {
   const Observations* observations_ = nullptr;
   std::unique_ptr<BroadcastEphemeris> broadcast_;
   std::unique_ptr<PreciseEphemeris> precise_;
-  Surroundings surroundings_;
+  RangeInputs inputs_;
   Earth earth_;
-  std::vector<std::string> lacks_;
+  std::vector<std::string> missing_models_;
   bool one_frequency_ = false;
 };
 

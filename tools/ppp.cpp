@@ -192,7 +192,7 @@ int positions(const PppOptions& options) {
               : "3-D error does not stay below 0.1 m");
   }
   if (map) summary.push_back(map_line(run.filter(), matched, solutions.size()));
-  for (const auto& line : run.setup().lacks()) summary.push_back(line);
+  for (const auto& line : run.setup().missing_models()) summary.push_back(line);
   for (const auto& line : run.missing_products()) summary.push_back(line);
   for (const auto& o : files.observations) {
     if (o.refused > 0) {
@@ -223,7 +223,7 @@ int positions(const PppOptions& options) {
                              {"solved", solved},
                              {"filter_seconds", run.seconds()},
                              {"missing_products", run.missing_products()},
-                             {"lacks", run.setup().lacks()}};
+                             {"lacks", run.setup().missing_models()}};
     if (score)
       result["truth"] = to_json(score->accuracy(scored_from), score->time_to_stay_below(0.1));
     if (map) result["map"] = to_json(run.filter(), matched);

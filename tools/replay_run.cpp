@@ -175,7 +175,7 @@ std::unique_ptr<vehicle::Vehicle> Replay::make_vehicle(const vehicle::Snapshot* 
   const auto clock = options_.lockstep ? runtime::DataClock::virtual_time()
                                        : runtime::DataClock::paced(options_.speed);
   auto vehicle = std::make_unique<vehicle::Vehicle>(
-      config_, recording_.calibration, faults_.afflict(std::move(sensors)), clock, std::move(sinks),
+      config_, recording_.calibration, faults_.inject(std::move(sensors)), clock, std::move(sinks),
       pass_->observer(), tracer_.get(), map_);
   vehicle->slow_down(faults_.delays());
   vehicle->prepared(readiness_);

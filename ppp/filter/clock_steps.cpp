@@ -10,14 +10,14 @@ namespace maploop::ppp {
 // Returns the step of the codes against the phases, in ms; zero unless two thirds of the satellites
 // agree.
 int ClockSteps::step_of_all(const std::vector<Measurement>& measurements) {
-  constexpr double most_milliseconds = 1e6, noise = 1e-3;  // ms; the noise of 1e-3 ms is 300 m
+  constexpr double max_milliseconds = 1e6, noise = 1e-3;  // ms; the noise of 1e-3 ms is 300 m
   votes_.clear();
   for (const Measurement& m : measurements) {
     if (m.first.phase == 0.0) continue;
     const double now = m.first.code - m.first.phase;
     auto& before = code_minus_phase_[m.satellite.slot()];
     const double step = (now - before.value_or(now)) / millisecond_range;
-    if (before && std::abs(step) < most_milliseconds) votes_.push_back(step);
+    if (before && std::abs(step) < max_milliseconds) votes_.push_back(step);
     before = now;
   }
   if (votes_.size() < 2) return 0;

@@ -33,7 +33,7 @@ bool has_doppler(const Tracked& t) {
 // the signal is weaker than an unobstructed one, as in the SIGMA-delta model (Brunner, Hartinger
 // and Troyer, "GPS signal diffraction modelling", Journal of Geodesy 73, 1999; with their factor of
 // 2).
-double variance_factor(const Tracked& t, const FullStrength& strength) {
+double variance_factor(const Tracked& t, const UnobstructedCn0& strength) {
   const double sine = std::sin(t.predicted.elevation), cn0 = t.measurement.first.cn0;
   const double missing = cn0 > 0.0 ? std::max(0.0, strength.of(sine) - cn0) : 0.0;
   return std::pow(10.0, 2.0 * missing / 10.0) / (sine * sine);
@@ -42,7 +42,7 @@ double variance_factor(const Tracked& t, const FullStrength& strength) {
 }  // namespace
 
 std::vector<Row>& EpochRows::make(const std::vector<Tracked>& tracked, int reference_system,
-                                  const FullStrength& strength, FilterState& state,
+                                  const UnobstructedCn0& strength, FilterState& state,
                                   std::vector<SatelliteReport>& reports) {
   rows_.clear();
   const bool use_doppler = parameters_.motion == Motion::kinematic;
@@ -106,7 +106,7 @@ Row EpochRows::code_row(std::size_t i, const Tracked& t, double factor, int refe
   row.y = t.code_offset - predicted;
   const double usual = sigma * sigma * factor;
   const double rest = lasting_variance(t.predicted);
-  row.variance = usual * (t.code_repeats + (t.level - 1.0) * t.level_repeats) + rest;
+  row.variance = usual * (t.code_inflation + (t.level - 1.0) * t.level_inflation) + rest;
   row.sigma = std::sqrt(usual * t.level + rest);
   return row;
 }

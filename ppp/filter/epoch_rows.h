@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "ppp/filter/filter_state.h"
-#include "ppp/filter/full_strength.h"
 #include "ppp/filter/linear_row.h"
 #include "ppp/filter/parameters.h"
 #include "ppp/filter/range_model.h"
 #include "ppp/filter/solution.h"
+#include "ppp/filter/unobstructed_cn0.h"
 
 namespace maploop::ppp {
 
@@ -18,11 +18,11 @@ namespace maploop::ppp {
 struct Tracked {
   Measurement measurement;
   PredictedRange predicted;
-  std::size_t report;          // index into the solution's satellites
-  double code_offset;          // m, code minus its prediction without clocks
-  double code_repeats = 1.0;   // factor on the code's variance, because its error outlasts an epoch
-  double level = 1.0;          // factor on all variances, if the codes' residuals are large
-  double level_repeats = 1.0;  // factor on what the level adds to the code's variance
+  std::size_t report;            // index into the solution's satellites
+  double code_offset;            // m, code minus its prediction without clocks
+  double code_inflation = 1.0;   // factor on the code's variance: its error outlasts an epoch
+  double level = 1.0;            // factor on all variances, if the codes' residuals are large
+  double level_inflation = 1.0;  // factor on what the level adds to the code's variance
   bool code_good = true;
   bool phase_good = true;
 };
@@ -54,7 +54,7 @@ class EpochRows {
   // state has no room for a satellite, its report states so. The rows are valid until the next
   // call.
   std::vector<Row>& make(const std::vector<Tracked>& tracked, int reference_system,
-                         const FullStrength& strength, FilterState& state,
+                         const UnobstructedCn0& strength, FilterState& state,
                          std::vector<SatelliteReport>& reports);
 
  private:

@@ -6,7 +6,7 @@ namespace maploop::ppp {
 
 void FilterState::clear() {
   ambiguities_.clear();
-  ambiguities_.reserve(most_ambiguities);
+  ambiguities_.reserve(max_ambiguities);
   x_.setZero();
   P_.setZero();
 }
@@ -24,7 +24,7 @@ int FilterState::ambiguity(Satellite satellite) const {
 }
 
 int FilterState::add_ambiguity(Satellite satellite, double value, double sigma) {
-  if (ambiguities_.size() == most_ambiguities) return -1;
+  if (ambiguities_.size() == max_ambiguities) return -1;
   ambiguities_.push_back(satellite);
   set(size() - 1, value, sigma);
   return size() - 1;

@@ -24,8 +24,8 @@ class FilterState {
   static constexpr int lane_offset = 15;
   static constexpr int system_offset = 16;  // m, of each system's clock against the reference's
   static constexpr int fixed = system_offset + system_count;
-  static constexpr int most_ambiguities = 64;
-  static constexpr int capacity = fixed + most_ambiguities;
+  static constexpr int max_ambiguities = 64;
+  static constexpr int capacity = fixed + max_ambiguities;
 
   FilterState() { clear(); }
   void clear();
@@ -55,7 +55,7 @@ class FilterState {
   void archive(Archive& ar) {
     ar(ambiguities_);
     if constexpr (Archive::loading) {
-      if (ambiguities_.size() > most_ambiguities)
+      if (ambiguities_.size() > max_ambiguities)
         ar.fail("more ambiguities than the state has room for");
     }
     const auto n = static_cast<std::size_t>(size());

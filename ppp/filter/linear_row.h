@@ -19,7 +19,7 @@ struct LinearRow {
     h[static_cast<std::size_t>(count++)] = value;
   }
   // Returns the residual of y after the correction dx.
-  double left(const Eigen::VectorXd& dx) const {
+  double residual_after(const Eigen::VectorXd& dx) const {
     double rest = y;
     for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) rest -= h[k] * dx[indices[k]];
     return rest;

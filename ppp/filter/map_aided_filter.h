@@ -20,7 +20,7 @@ namespace maploop::ppp {
 class MapAidedFilter {
  public:
   explicit MapAidedFilter(PppFilter filter, const PppParameters& parameters)
-      : free_(std::move(filter)), aided_(free_), parameters_(parameters) {}
+      : map_free_(std::move(filter)), aided_(map_free_), parameters_(parameters) {}
 
   // Works as PppFilter::process() does. Returns the solution with the map, if the map contributes
   // to it.
@@ -28,8 +28,8 @@ class MapAidedFilter {
   // Applies feedback to the state of the last epoch; it shows in the next solution.
   MapUse add(const MapFeedback& feedback);
 
-  const PppSolution& solution() const { return aided() ? aided_.solution() : free_.solution(); }
-  const PppSolution& map_free() const { return free_.solution(); }
+  const PppSolution& solution() const { return aided() ? aided_.solution() : map_free_.solution(); }
+  const PppSolution& map_free() const { return map_free_.solution(); }
   const PppParameters& parameters() const { return parameters_; }
   bool aided() const { return aiding_; }
   bool paused() const { return time_ < paused_until_; }
@@ -46,36 +46,36 @@ class MapAidedFilter {
     ar.section("ppp with the map", 1);
     if constexpr (Archive::loading) {
       MapAidedFilter loaded = *this;
-      loaded.archive_knowledge(ar);
+      loaded.archive_state(ar);
       *this = std::move(loaded);
     } else {
-      archive_knowledge(ar);
+      archive_state(ar);
     }
   }
 
  private:
   template <class Archive>
-  void archive_knowledge(Archive& ar) {
-    ar(free_, aiding_);
+  void archive_state(Archive& ar) {
+    ar(map_free_, aiding_);
     if (aiding_) ar(aided_);
-    ar(time_, apart_since_, paused_until_, aiding_since_, pauses_, gated_in_a_row_, uses_,
+    ar(time_, separated_since_, paused_until_, aiding_since_, pauses_, gated_in_a_row_, uses_,
        restorations_);
   }
 
   MapUse use(const MapFeedback& feedback);
   double distance() const;
   bool both_have_positions() const;
-  Eigen::Vector2d apart() const;
-  void doubt();
+  Eigen::Vector2d separation() const;
+  void handle_contradiction();
   void pause();
-  void watch();
+  void check_separation();
   void restore();
 
-  PppFilter free_, aided_;
+  PppFilter map_free_, aided_;
   PppParameters parameters_;
   bool aiding_ = false;  // if false, aided_ is not in use
   GpsTime time_{};
-  std::optional<GpsTime> apart_since_;
+  std::optional<GpsTime> separated_since_;
   GpsTime paused_until_{};
   GpsTime aiding_since_{};
   int pauses_ = 0;  // number of pauses in short succession

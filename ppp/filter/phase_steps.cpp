@@ -7,8 +7,8 @@
 namespace maploop::ppp {
 namespace {
 
-constexpr int sought = 4;  // the displacement, and the step of the clock
-using Vector = Eigen::Matrix<double, sought, 1>;
+constexpr int step_unknowns = 4;  // the displacement, and the step of the clock
+using Vector = Eigen::Matrix<double, step_unknowns, 1>;
 
 Vector design(const PhaseStep& s) {
   return {-s.to_satellite.x(), -s.to_satellite.y(), -s.to_satellite.z(), 1.0};
@@ -46,7 +46,7 @@ Vector least_absolute_values(const std::vector<PhaseStep>& steps) {
 }  // namespace
 
 void find_slips(std::vector<PhaseStep>& steps) {
-  constexpr std::ptrdiff_t fewest = sought + 1;
+  constexpr std::ptrdiff_t fewest = step_unknowns + 1;
   if (static_cast<std::ptrdiff_t>(steps.size()) < fewest) return;
   Vector x = least_absolute_values(steps);
   const auto judge = [&] {

@@ -14,11 +14,11 @@ using S = FilterState;
 
 }  // namespace
 
-PppFilter::PppFilter(const PppParameters& parameters, const Surroundings& surroundings, Earth earth)
+PppFilter::PppFilter(const PppParameters& parameters, const RangeInputs& inputs, Earth earth)
     : parameters_(parameters),
-      model_(surroundings, std::move(earth)),
+      model_(inputs, std::move(earth)),
       memory_(satellite_slots),
-      strength_(parameters),
+      unobstructed_cn0_(parameters),
       rows_(parameters),
       map_dx_(FilterState::capacity),
       update_(parameters.outlier_sigmas) {}
@@ -34,7 +34,7 @@ void PppFilter::reset() {
   restarts_ = 0;
   has_map_ = false;
   lasting_.setZero();
-  unmodelled_.setZero();
+  unmodelled_ionosphere_shift_.setZero();
   solution_.status = PppStatus::none;
 }
 
@@ -91,8 +91,8 @@ void PppFilter::measure_all(const Epoch& epoch) {
     if (parameters_.systems.find(letter(s.satellite.system)) == std::string::npos) continue;
     SatelliteReport report;
     report.satellite = s.satellite;
-    const auto m = measure(s.satellite, epoch.of(s), model_.surroundings().glonass_channels,
-                           model_.ephemeris(), epoch.time, model_.surroundings().one_frequency);
+    const auto m = measure(s.satellite, epoch.of(s), model_.inputs().glonass_channels,
+                           model_.ephemeris(), epoch.time, model_.inputs().one_frequency);
     if (!m) {
       report.refused = PppRefusal::no_signals;
     } else if (m->first.cn0 > 0.0 && m->first.cn0 < parameters_.cn0_mask) {
@@ -113,7 +113,7 @@ bool PppFilter::start(const Epoch& epoch) {
   const SinglePoint point = solve_single_point(measurements_, epoch.time, near,
                                                radians(parameters_.elevation_mask), sigma, model_);
   if (!point.solved) {
-    solution_.message = "no first position: " + point.why_not;
+    solution_.message = "no first position: " + point.failure;
     return false;
   }
   state_.clear();
@@ -131,7 +131,7 @@ bool PppFilter::start(const Epoch& epoch) {
   const double ratio = sigma / parameters_.code_sigma;
   levels_.begin(point.residual_level * ratio * ratio);
   started_ = true;
-  begun_ = epoch.time;
+  started_at_ = epoch.time;
   return true;
 }
 
@@ -182,14 +182,14 @@ void PppFilter::weigh_code(Tracked& tracked, const Memory& memory) const {
   if (!memory.last_code) return;
   const double since = to_seconds(time_ - *memory.last_code);
   const double speed = state_.x().segment<3>(S::velocity).norm();
-  const auto repeats = [since](double rate) { return 1.0 / std::tanh(0.5 * since * rate); };
-  tracked.level_repeats =
-      repeats(1.0 / parameters_.reflection_time + speed / parameters_.reflection_distance);
+  const auto inflation = [since](double rate) { return 1.0 / std::tanh(0.5 * since * rate); };
+  tracked.level_inflation =
+      inflation(1.0 / parameters_.reflection_time + speed / parameters_.reflection_distance);
   if (satellite.system == System::glonass) {
-    tracked.code_repeats = repeats(1.0 / parameters_.glonass_code_correlation);
+    tracked.code_inflation = inflation(1.0 / parameters_.glonass_code_correlation);
   } else if (parameters_.code_correlation > 0.0) {
-    tracked.code_repeats =
-        repeats(1.0 / parameters_.code_correlation + speed / parameters_.code_correlation_distance);
+    tracked.code_inflation = inflation(1.0 / parameters_.code_correlation +
+                                       speed / parameters_.code_correlation_distance);
   }
 }
 
@@ -229,7 +229,7 @@ void PppFilter::predict_ranges(double interval) {
     }
     tracked_.push_back(tracked);
   }
-  compare_phase_steps();
+  find_phase_step_slips();
 }
 
 // The ambiguity has absorbed the old source's errors. The new clocks count from another origin,
@@ -269,7 +269,7 @@ void PppFilter::look_for_slips(Tracked& tracked, Memory& memory, double interval
   memory.phase_less_range = phase_less_range;
 }
 
-void PppFilter::compare_phase_steps() {
+void PppFilter::find_phase_step_slips() {
   find_slips(phase_steps_);
   for (const PhaseStep& step : phase_steps_) {
     if (!step.slipped) continue;
@@ -350,7 +350,7 @@ void PppFilter::weigh_lasting_errors() {
   const Eigen::Vector2d variance = covariance.diagonal().head<2>();
   if (!variance.allFinite() || variance.minCoeff() <= 0.0) return;
   const Eigen::Matrix3d R = model_.R_enu_ecef();
-  unmodelled_ = R.transpose() * (covariance * unmodelled).head<3>();
+  unmodelled_ionosphere_shift_ = R.transpose() * (covariance * unmodelled).head<3>();
   const Eigen::Matrix3d all = R * state_.P().block<3, 3>(S::position, S::position) * R.transpose();
   const bool first = lasting_.isZero();
   lasting_ = variance.cwiseMin(parameters_.map_lasting_share * all.diagonal().head<2>());
@@ -361,10 +361,10 @@ void PppFilter::weigh_lasting_errors() {
 void PppFilter::update() {
   for (const Tracked& t : tracked_) {
     const double cn0 = t.measurement.first.cn0;
-    if (t.code_good && cn0 > 0.0) strength_.add(std::sin(t.predicted.elevation), cn0);
+    if (t.code_good && cn0 > 0.0) unobstructed_cn0_.add(std::sin(t.predicted.elevation), cn0);
   }
   std::vector<Row>& rows =
-      rows_.make(tracked_, reference_system_, strength_, state_, solution_.satellites);
+      rows_.make(tracked_, reference_system_, unobstructed_cn0_, state_, solution_.satellites);
   if (rows.size() < 4) {
     solution_.message = "fewer than four measurements";
     return;
@@ -375,14 +375,14 @@ void PppFilter::update() {
     SatelliteReport& report = solution_.satellites[t.report];
     switch (row.kind) {
       case RowKind::code:
-        report.code_residual = row.left(update_.dx());
+        report.code_residual = row.residual_after(update_.dx());
         levels_.add(t.measurement.satellite, report.code_residual * report.code_residual /
                                                  (row.sigma * row.sigma) * t.level);
         report.code_used = row.active;
         if (!row.active) report.refused = PppRefusal::code_misfit;
         break;
       case RowKind::phase:
-        report.phase_residual = row.left(update_.dx());
+        report.phase_residual = row.residual_after(update_.dx());
         report.phase_used = row.active;
         if (row.active) break;
         report.refused = PppRefusal::phase_misfit;
@@ -413,13 +413,13 @@ bool PppFilter::disagree(const std::vector<Row>& rows) const {
     if (row.kind == RowKind::doppler) continue;
     left_out += !row.active;
     if (row.kind != RowKind::code) continue;
-    const double residual = row.left(update_.dx());
+    const double residual = row.residual_after(update_.dx());
     sum += residual * residual / (row.sigma * row.sigma);
     ++codes;
   }
   for (const Tracked& t : tracked_) left_out += !t.code_good;
-  constexpr double most_variance = 9.0;  // relative to the expected variance
-  return codes >= 4 && (sum > most_variance * codes || 2 * left_out > codes);
+  constexpr double max_variance = 9.0;  // relative to the expected variance
+  return codes >= 4 && (sum > max_variance * codes || 2 * left_out > codes);
 }
 
 // Adds the part of the lasting error that the map has revealed. The rows count that error as noise,
@@ -456,12 +456,12 @@ void PppFilter::report() {
   solution_.covariance =
       P.block<3, 3>(S::position, S::position) +
       parameters_.model_sigma * parameters_.model_sigma * Eigen::Matrix3d::Identity() +
-      unmodelled_ * unmodelled_.transpose();
+      unmodelled_ionosphere_shift_ * unmodelled_ionosphere_shift_.transpose();
   if (has_map_) add_lasting_error();
   solution_.velocity = x.segment<3>(S::velocity);
   solution_.velocity_covariance = P.block<3, 3>(S::velocity, S::velocity);
   solution_.clock = x[S::clock];
-  solution_.running_for = to_seconds(time_ - begun_);
+  solution_.running_for = to_seconds(time_ - started_at_);
   const ZenithDelay& guess = model_.zenith();
   solution_.zenith_delay = guess.hydrostatic + guess.wet + x[S::zenith_wet];
   solution_.zenith_delay_sigma = std::sqrt(P(S::zenith_wet, S::zenith_wet));

@@ -7,7 +7,6 @@
 #include "ppp/filter/code_levels.h"
 #include "ppp/filter/epoch_rows.h"
 #include "ppp/filter/filter_state.h"
-#include "ppp/filter/full_strength.h"
 #include "ppp/filter/map_update.h"
 #include "ppp/filter/parameter_table.h"
 #include "ppp/filter/phase_steps.h"
@@ -16,12 +15,13 @@
 #include "ppp/filter/single_point.h"
 #include "ppp/filter/slip_detector.h"
 #include "ppp/filter/solution.h"
+#include "ppp/filter/unobstructed_cn0.h"
 
 namespace maploop::ppp {
 
 class PppFilter {
  public:
-  PppFilter(const PppParameters& parameters, const Surroundings& surroundings, Earth earth);
+  PppFilter(const PppParameters& parameters, const RangeInputs& inputs, Earth earth);
 
   // Epochs must come in the order of time. The solution is valid until the next call. The work is
   // bounded by the number of satellites: the rows of an epoch are applied at most 17 times.
@@ -50,23 +50,24 @@ class PppFilter {
     archive_same_parameters(ar, parameters_);
     if constexpr (Archive::loading) {
       PppFilter loaded = *this;
-      loaded.archive_knowledge(ar);
+      loaded.archive_state(ar);
       if (loaded.memory_.size() != memory_.size() || loaded.reference_system_ < -1 ||
           loaded.reference_system_ >= system_count) {
         ar.fail("not a state of this filter");
       }
       *this = std::move(loaded);
     } else {
-      archive_knowledge(ar);
+      archive_state(ar);
     }
   }
 
  private:
   template <class Archive>
-  void archive_knowledge(Archive& ar) {
-    ar(state_, memory_, levels_, strength_, clock_steps_, started_, begun_, time_,
-       reference_system_, has_offset_, bad_epochs_, restarts_, lasting_, unmodelled_, has_map_,
-       solution_.status, solution_.position, solution_.covariance, solution_.restarts);
+  void archive_state(Archive& ar) {
+    ar(state_, memory_, levels_, unobstructed_cn0_, clock_steps_, started_, started_at_, time_,
+       reference_system_, has_offset_, bad_epochs_, restarts_, lasting_,
+       unmodelled_ionosphere_shift_, has_map_, solution_.status, solution_.position,
+       solution_.covariance, solution_.restarts);
   }
 
   struct Memory {  // one satellite's
@@ -89,7 +90,7 @@ class PppFilter {
   void predict_ranges(double interval);
   void change_source(Satellite satellite);
   void look_for_slips(Tracked& tracked, Memory& memory, double interval);
-  void compare_phase_steps();
+  void find_phase_step_slips();
   void set_clocks();
   void weigh_lasting_errors();
   void update();
@@ -103,10 +104,10 @@ class PppFilter {
   FilterState state_;
   std::vector<Memory> memory_;
   CodeLevels levels_;
-  FullStrength strength_;  // of this receiver, like clock_steps_: both survive a restart
+  UnobstructedCn0 unobstructed_cn0_;  // of this receiver, like clock_steps_: both survive a restart
   ClockSteps clock_steps_;
   bool started_ = false;
-  GpsTime begun_{}, time_{};
+  GpsTime started_at_{}, time_{};
   int reference_system_ = -1;
   std::array<bool, system_count> has_offset_{};
   int bad_epochs_ = 0;
@@ -116,7 +117,7 @@ class PppFilter {
   Eigen::Vector2d lasting_ = Eigen::Vector2d::Zero();
   // An ionosphere without a model, as large as its standard deviation, moves the position by this
   // vector; m, earth-fixed.
-  Eigen::Vector3d unmodelled_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d unmodelled_ionosphere_shift_ = Eigen::Vector3d::Zero();
   bool has_map_ = false;  // whether the map's states are part of the solution
 
   // These belong to one epoch and are members only to reuse their memory.

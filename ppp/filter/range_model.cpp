@@ -9,16 +9,16 @@ void RangeModel::begin(GpsTime t, const Eigen::Vector3d& marker) {
   site_ = geodetic_from_ecef(marker);
   R_enu_ecef_ = rotation_enu_ecef(site_);
   bodies_ = earth_.at(t);
-  receiver_ = marker + R_enu_ecef_.transpose() * around_.marker_to_antenna_enu;
-  const Models& use = around_.models;
+  receiver_ = marker + R_enu_ecef_.transpose() * inputs_.marker_to_antenna_enu;
+  const Models& use = inputs_.models;
   if (use.solid_tide) receiver_ += solid_earth_tide(marker, bodies_);
   if (use.pole_tide) receiver_ += pole_tide(marker, bodies_);
-  if (use.ocean_tide && around_.ocean_loading) {
-    receiver_ += ocean_tide(marker, *around_.ocean_loading, t);
+  if (use.ocean_tide && inputs_.ocean_loading) {
+    receiver_ += ocean_tide(marker, *inputs_.ocean_loading, t);
   }
   zenith_ = zenith_delay(site_, t);
   mapping_ = GlobalMapping(site_, t);
-  if (around_.ionosphere) coefficients_ = around_.ionosphere->at(t);
+  if (inputs_.ionosphere) coefficients_ = inputs_.ionosphere->at(t);
 }
 
 std::optional<PredictedRange> RangeModel::predict(const Measurement& m,
@@ -26,10 +26,10 @@ std::optional<PredictedRange> RangeModel::predict(const Measurement& m,
   // The code gives the time of transmission on the satellite's clock, and the clock's offset then
   // gives it in GPS time.
   GpsTime sent = time_ - from_seconds(m.first.code / speed_of_light);
-  const auto offset = around_.ephemeris->clock(m.satellite, sent);
+  const auto offset = inputs_.ephemeris->clock(m.satellite, sent);
   if (!offset) return {};
   sent -= from_seconds(*offset);
-  const auto state = around_.ephemeris->at(m.satellite, sent);
+  const auto state = inputs_.ephemeris->at(m.satellite, sent);
   if (!state) return {};
 
   PredictedRange p;
@@ -46,7 +46,7 @@ std::optional<PredictedRange> RangeModel::predict(const Measurement& m,
   p.elevation = std::asin(local.z());
   if (p.elevation <= 0.01) return p;  // below the horizon the models are not valid
 
-  const Models& use = around_.models;
+  const Models& use = inputs_.models;
   if (use.shapiro) {
     constexpr double twice_mass = 2.0 * 3.986004418e14 / (speed_of_light * speed_of_light);
     const double a = s.norm() + receiver_.norm();
@@ -56,7 +56,7 @@ std::optional<PredictedRange> RangeModel::predict(const Measurement& m,
   p.wet_mapping = mapping.wet;
   p.range += mapping.hydrostatic * zenith_.hydrostatic + mapping.wet * zenith_.wet;
 
-  const bool masses = around_.ephemeris->centre_of_mass();
+  const bool masses = inputs_.ephemeris->centre_of_mass();
   Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();
   if (masses || use.wind_up) attitude = nominal_attitude(s, bodies_.sun);
   const auto combined = [&](auto&& of_band) {
@@ -64,17 +64,17 @@ std::optional<PredictedRange> RangeModel::predict(const Measurement& m,
     if (m.dual()) sum += m.weight2() * of_band(m.second.band);
     return sum;
   };
-  if (masses && use.satellite_antenna && around_.antennas) {
-    if (const Antenna* antenna = satellite_antenna(*around_.antennas, m.satellite, time_)) {
+  if (masses && use.satellite_antenna && inputs_.antennas) {
+    if (const Antenna* antenna = satellite_antenna(*inputs_.antennas, m.satellite, time_)) {
       p.range += combined([&](char band) {
         return satellite_phase_centre(*antenna, m.satellite.system, band, attitude,
                                       -p.to_satellite);
       });
     }
   }
-  if (use.receiver_antenna && around_.receiver) {
+  if (use.receiver_antenna && inputs_.receiver) {
     p.range += combined([&](char band) {
-      return receiver_phase_centre(*around_.receiver, m.satellite.system, band, local);
+      return receiver_phase_centre(*inputs_.receiver, m.satellite.system, band, local);
     });
   }
   if (use.wind_up) {

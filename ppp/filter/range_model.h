@@ -21,7 +21,7 @@ struct Models {
 
 // Contains what the models need besides orbits and clocks. The objects pointed to must outlive the
 // filter.
-struct Surroundings {
+struct RangeInputs {
   const Ephemeris* ephemeris = nullptr;
   const std::vector<AntennaFile>* antennas = nullptr;
   const Antenna* receiver = nullptr;  // nullptr: the phase centre is taken at the reference point
@@ -47,8 +47,7 @@ struct PredictedRange {
 
 class RangeModel {
  public:
-  RangeModel(const Surroundings& surroundings, Earth earth)
-      : around_(surroundings), earth_(std::move(earth)) {}
+  RangeModel(const RangeInputs& inputs, Earth earth) : inputs_(inputs), earth_(std::move(earth)) {}
 
   // Call once per epoch, with the best known position of the marker (m, earth-fixed).
   void begin(GpsTime t, const Eigen::Vector3d& marker);
@@ -56,13 +55,13 @@ class RangeModel {
   // last epoch and is updated.
   std::optional<PredictedRange> predict(const Measurement& m, double& wind_up_cycles) const;
 
-  const Ephemeris& ephemeris() const { return *around_.ephemeris; }
-  const Surroundings& surroundings() const { return around_; }
+  const Ephemeris& ephemeris() const { return *inputs_.ephemeris; }
+  const RangeInputs& inputs() const { return inputs_; }
   const Eigen::Matrix3d& R_enu_ecef() const { return R_enu_ecef_; }
   const ZenithDelay& zenith() const { return zenith_; }  // the values that predict() uses
 
  private:
-  Surroundings around_;
+  RangeInputs inputs_;
   Earth earth_;
   GpsTime time_{};
   Eigen::Vector3d receiver_{0, 0, 0};  // m, earth-fixed: antenna reference point with tides

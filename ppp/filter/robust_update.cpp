@@ -33,7 +33,7 @@ Row* RobustUpdate::worst(const FilterState& state, std::vector<Row>& rows) const
       if (share < least) continue;
       sigma *= std::sqrt(share);
     }
-    const double normalized = std::abs(row.left(dx_)) / sigma;
+    const double normalized = std::abs(row.residual_after(dx_)) / sigma;
     if (normalized > largest) {
       largest = normalized;
       worst = &row;
@@ -49,11 +49,11 @@ void RobustUpdate::apply_once(FilterState& state, const std::vector<Row>& rows) 
     if (!row.active) continue;
     const auto n = static_cast<std::size_t>(row.count);
     state.update(std::span(row.indices).first(n), std::span(row.h).first(n), row.y,
-                 row.variance * looser_[i], dx_);
+                 row.variance * variance_factors_[i], dx_);
   }
 }
 
-void RobustUpdate::apply_anew(FilterState& state, const std::vector<Row>& rows) {
+void RobustUpdate::reapply(FilterState& state, const std::vector<Row>& rows) {
   state = before_;
   apply_once(state, rows);
 }
@@ -63,16 +63,18 @@ void RobustUpdate::apply_anew(FilterState& state, const std::vector<Row>& rows) 
 // less.
 void RobustUpdate::reject_together(FilterState& state, std::vector<Row>& rows) {
   constexpr int passes = 5;
-  const auto misfit = [this](const Row& row) { return std::abs(row.left(dx_)) / row.sigma; };
+  const auto misfit = [this](const Row& row) {
+    return std::abs(row.residual_after(dx_)) / row.sigma;
+  };
   for (int pass = 0; pass < passes; ++pass) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (rows[i].kind != RowKind::code) looser_[i] = std::max(1.0, misfit(rows[i]));
+      if (rows[i].kind != RowKind::code) variance_factors_[i] = std::max(1.0, misfit(rows[i]));
     }
-    apply_anew(state, rows);
+    reapply(state, rows);
   }
   for (Row& row : rows) row.active = row.kind == RowKind::code || misfit(row) <= outlier_sigmas_;
-  std::fill(looser_.begin(), looser_.end(), 1.0);
-  apply_anew(state, rows);
+  std::fill(variance_factors_.begin(), variance_factors_.end(), 1.0);
+  reapply(state, rows);
   readmit(state, rows);
 }
 
@@ -82,16 +84,16 @@ void RobustUpdate::readmit(FilterState& state, std::vector<Row>& rows) {
   for (Row& row : rows) {
     if (row.active) continue;
     const double variance = row.sigma * row.sigma + predicted_variance(state, row);
-    row.active = std::abs(row.left(dx_)) <= outlier_sigmas_ * std::sqrt(variance);
+    row.active = std::abs(row.residual_after(dx_)) <= outlier_sigmas_ * std::sqrt(variance);
     again |= row.active;
   }
   if (!again) return;
-  apply_anew(state, rows);
+  reapply(state, rows);
 }
 
 // If no more phases fit than there are unknowns (position and clock), any other choice of as many
 // would fit equally well: it is unknown which of them have slipped.
-void RobustUpdate::doubt_phases(FilterState& state, std::vector<Row>& rows) {
+void RobustUpdate::distrust_phases(FilterState& state, std::vector<Row>& rows) {
   constexpr int unknowns = 4;
   constexpr double sigma = 1.0;  // m
   int fit = 0, left_out = 0;
@@ -104,22 +106,22 @@ void RobustUpdate::doubt_phases(FilterState& state, std::vector<Row>& rows) {
     row.doubtful = !row.active;
     row.variance += sigma * sigma;
   }
-  apply_anew(state, rows);
+  reapply(state, rows);
 }
 
 void RobustUpdate::apply(FilterState& state, std::vector<Row>& rows) {
-  constexpr int most_rejections = 8;
+  constexpr int max_rejections = 8;
   before_ = state;
-  looser_.assign(rows.size(), 1.0);
+  variance_factors_.assign(rows.size(), 1.0);
   apply_once(state, rows);
   if (worst(state, rows) != nullptr) reject_together(state, rows);
   for (int pass = 0;; ++pass) {
     Row* const misfit = worst(state, rows);
-    if (misfit == nullptr || pass == most_rejections) break;
+    if (misfit == nullptr || pass == max_rejections) break;
     misfit->active = false;
-    apply_anew(state, rows);
+    reapply(state, rows);
   }
-  doubt_phases(state, rows);
+  distrust_phases(state, rows);
   state.x() += dx_.head(state.size());
 }
 

@@ -34,15 +34,15 @@ class RobustUpdate {
 
  private:
   void apply_once(FilterState& state, const std::vector<Row>& rows);
-  void apply_anew(FilterState& state, const std::vector<Row>& rows);
+  void reapply(FilterState& state, const std::vector<Row>& rows);
   void reject_together(FilterState& state, std::vector<Row>& rows);
   void readmit(FilterState& state, std::vector<Row>& rows);
-  void doubt_phases(FilterState& state, std::vector<Row>& rows);
+  void distrust_phases(FilterState& state, std::vector<Row>& rows);
   Row* worst(const FilterState& state, std::vector<Row>& rows) const;
 
   double outlier_sigmas_;
   FilterState before_;
-  std::vector<double> looser_;  // factor on each row's variance
+  std::vector<double> variance_factors_;  // factor on each row's variance
   Eigen::VectorXd dx_;
 };
 

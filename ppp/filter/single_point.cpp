@@ -72,7 +72,7 @@ SinglePoint solve_single_point(const std::vector<Measurement>& measurements, Gps
         }
       }
       if (result.used < 3 + clocks) {
-        result.why_not = std::to_string(result.used) +
+        result.failure = std::to_string(result.used) +
                          " satellites with orbit, clock and code above " + "the mask, and " +
                          std::to_string(3 + clocks) + " are needed";
         return result;
@@ -87,7 +87,7 @@ SinglePoint solve_single_point(const std::vector<Measurement>& measurements, Gps
     }
     const double height = result.position.norm() - 6.37e6;
     if (!settled || height < -1e5 || height > 1e6) {
-      result.why_not = "the position by code does not settle";
+      result.failure = "the position by code does not settle";
       return result;
     }
     if (worst > 4.0 && rejections < static_cast<int>(measurements.size()) / 4) {
@@ -96,7 +96,7 @@ SinglePoint solve_single_point(const std::vector<Measurement>& measurements, Gps
       continue;
     }
     if (worst > 10.0) {
-      result.why_not = "codes disagree beyond a quarter of the satellites";
+      result.failure = "codes disagree beyond a quarter of the satellites";
       return result;
     }
     if (const int spare = result.used - 3 - clocks; spare > 0) result.residual_level = sum / spare;

@@ -10,7 +10,7 @@ namespace maploop::ppp {
 
 struct SinglePoint {
   bool solved = false;
-  std::string why_not;
+  std::string failure;
   Eigen::Vector3d position{0, 0, 0};  // m, earth-fixed
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   std::array<double, system_count> clocks{};  // m, of each system's clock

@@ -184,8 +184,8 @@ void insert(std::vector<Message>& list, const Message& m, std::size_t most) {
 }  // namespace
 
 BroadcastEphemeris::BroadcastEphemeris(const std::vector<NavigationFile>& files,
-                                       std::size_t most_each)
-    : most_each_(most_each) {
+                                       std::size_t max_each)
+    : max_each_(max_each) {
   for (const NavigationFile& file : files) add(file);
 }
 
@@ -206,7 +206,7 @@ void BroadcastEphemeris::add(const KeplerMessage& m) {
     return other.toe == m.toe && other.iode == m.iode;
   });
   if (same == list.end()) {
-    insert(list, m, most_each_);
+    insert(list, m, max_each_);
   } else if (!is_e5b(m) || is_e5b(*same)) {
     *same = m;
   }
@@ -217,7 +217,7 @@ void BroadcastEphemeris::add(const GlonassMessage& m) {
   const auto same = std::find_if(list.begin(), list.end(),
                                  [&](const GlonassMessage& other) { return other.toe == m.toe; });
   if (same == list.end()) {
-    insert(list, m, most_each_);
+    insert(list, m, max_each_);
   } else {
     *same = m;
   }

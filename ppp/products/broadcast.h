@@ -14,9 +14,9 @@ namespace maploop::ppp {
 
 class BroadcastEphemeris : public Ephemeris {
  public:
-  // Keeps at most `most_each` messages per satellite, the latest ones; by default it keeps all.
+  // Keeps at most `max_each` messages per satellite, the latest ones; by default it keeps all.
   explicit BroadcastEphemeris(const std::vector<NavigationFile>& files = {},
-                              std::size_t most_each = static_cast<std::size_t>(-1));
+                              std::size_t max_each = static_cast<std::size_t>(-1));
 
   // Adds received messages. A message replaces one with the same reference time and, except for
   // GLONASS, the same issue.
@@ -44,7 +44,7 @@ class BroadcastEphemeris : public Ephemeris {
   const GlonassMessage* glonass(Satellite satellite, GpsTime t,
                                 std::optional<int> issue = {}) const;
 
-  std::size_t most_each_;
+  std::size_t max_each_;
   // Both are in the order of toe: the first by slot, the second by satellite number.
   std::array<std::vector<KeplerMessage>, satellite_slots> kepler_;
   std::array<std::vector<GlonassMessage>, 100> glonass_;

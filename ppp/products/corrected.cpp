@@ -59,7 +59,7 @@ std::optional<CorrectedEphemeris::Current> CorrectedEphemeris::available(
   const Corrections& c = corrections_[satellite.slot()];
   if (!fresh(c.clock)) return {};
   for (const auto* orbit : {&c.orbit, &c.orbit_before}) {
-    if (fresh(*orbit) && (*orbit)->goes_with(*c.clock) &&
+    if (fresh(*orbit) && (*orbit)->same_solution(*c.clock) &&
         broadcast_.has_issue(satellite, (*orbit)->value.issue, now_)) {
       return Current{&**orbit, &c};
     }
@@ -86,7 +86,7 @@ std::optional<SatelliteState> CorrectedEphemeris::at(Satellite satellite, GpsTim
   const double dt = to_seconds(t - c.clock->time);
   const auto& p = c.clock->value.polynomial;
   double clock = p[0] + p[1] * dt + p[2] * dt * dt;
-  if (fresh(c.high_rate) && c.high_rate->goes_with(*c.clock)) clock += c.high_rate->value;
+  if (fresh(c.high_rate) && c.high_rate->same_solution(*c.clock)) clock += c.high_rate->value;
   state->clock += clock / speed_of_light;
   state->clock_drift += (p[1] + 2.0 * p[2] * dt) / speed_of_light;
   state->sigma = c.sigma;

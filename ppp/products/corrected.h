@@ -55,7 +55,7 @@ class CorrectedEphemeris : public Ephemeris {
     Duration interval{};
     std::uint32_t solution = 0;
     int issue = 0;  // issue of the solution
-    bool goes_with(const auto& other) const {
+    bool same_solution(const auto& other) const {
       return solution == other.solution && issue == other.issue;
     }
   };

@@ -28,7 +28,7 @@ void read_bias(const Lines& lines, BiasFile& result) {
   const auto signal = trimmed(lines.column(25, 4));
   const auto second = trimmed(lines.column(30, 4));
   if (!satellite || !blank(lines.column(15, 9)) || signal.empty() || signal[0] != 'C') {
-    ++result.passed_over;
+    ++result.skipped;
     return;
   }
   if (signal.size() != 3 || (absolute ? !second.empty() : second.size() != 3)) {
@@ -70,7 +70,7 @@ BiasFile parse_bias_sinex(std::string_view text, const std::string& file) {
       if (kind == "OSB " || kind == "DSB ") {
         read_bias(lines, result);
       } else if (kind == "ISB ") {
-        ++result.passed_over;
+        ++result.skipped;
       } else {
         lines.fail("a bias must be an OSB, DSB or ISB");
       }
@@ -111,7 +111,7 @@ BiasFile parse_dcb(std::string_view text, const std::string& file) {
     if (!table || blank(line)) continue;
     const auto satellite = parse_satellite(lines.column(0, 3));
     if (!satellite || !blank(lines.column(3, 20))) {
-      ++result.passed_over;
+      ++result.skipped;
       continue;
     }
     if (first.empty())

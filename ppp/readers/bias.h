@@ -21,7 +21,7 @@ struct CodeBias {
 struct BiasFile {
   std::string file, agency;
   std::vector<CodeBias> biases;  // code biases of satellites only
-  int passed_over = 0;           // biases of stations and phases, and intersystem biases
+  int skipped = 0;               // biases of stations and phases, and intersystem biases
 };
 
 BiasFile parse_bias_sinex(std::string_view text, const std::string& file);

@@ -146,12 +146,12 @@ inline constexpr std::array orbit_before_toe{two(Q::crs, 16, -5),
                                              number(Q::e, 32, power(-33)),
                                              two(Q::cus, 16, -29),
                                              number(Q::sqrt_a, 32, power(-19))};
-inline constexpr std::array orbit_behind_toe{two(Q::cic, 16, -29),        angle(Q::omega0, 32, -31),
-                                             two(Q::cis, 16, -29),        angle(Q::i0, 32, -31),
-                                             two(Q::crc, 16, -5),         angle(Q::omega, 32, -31),
-                                             angle(Q::omega_dot, 24, -43)};
+inline constexpr std::array orbit_after_toe{two(Q::cic, 16, -29),        angle(Q::omega0, 32, -31),
+                                            two(Q::cis, 16, -29),        angle(Q::i0, 32, -31),
+                                            two(Q::crc, 16, -5),         angle(Q::omega, 32, -31),
+                                            angle(Q::omega_dot, 24, -43)};
 inline constexpr std::array gps_toe{number(Q::toe, 16, 16.0)};
-inline constexpr auto gps_orbit = join(orbit_before_toe, gps_toe, orbit_behind_toe);
+inline constexpr auto gps_orbit = join(orbit_before_toe, gps_toe, orbit_after_toe);
 inline constexpr std::array gps_clock{number(Q::toc, 16, 16.0), two(Q::af2, 8, -55),
                                       two(Q::af1, 16, -43), two(Q::af0, 22, -31)};
 
@@ -163,7 +163,7 @@ inline constexpr auto gps_subframe_1 =
 inline constexpr auto gps_subframe_2 =
     join(std::array{number(Q::iode, 8)}, orbit_before_toe, gps_toe);
 inline constexpr auto gps_subframe_3 =
-    join(orbit_behind_toe, std::array{skip(8), angle(Q::i_dot, 14, -43)});
+    join(orbit_after_toe, std::array{skip(8), angle(Q::i_dot, 14, -43)});
 
 // These follow the identifier of the page.
 inline constexpr std::array gps_ionosphere{two(Q::alpha_0, 8, -30), two(Q::alpha_1, 8, -27),
@@ -214,7 +214,7 @@ inline constexpr auto rtcm_galileo =
     join(std::array{number(Q::week, 12), number(Q::iode, 10), number(Q::accuracy, 8),
                     angle(Q::i_dot, 14, -43), number(Q::toc, 14, 60.0), two(Q::af2, 6, -59),
                     two(Q::af1, 21, -46), two(Q::af0, 31, -34)},
-         orbit_before_toe, std::array{number(Q::toe, 14, 60.0)}, orbit_behind_toe,
+         orbit_before_toe, std::array{number(Q::toe, 14, 60.0)}, orbit_after_toe,
          std::array{two(Q::group_delay, 10, -32)});
 inline constexpr std::array rtcm_1045_end{number(Q::e5a_health, 2), number(Q::e5a_validity, 1)};
 inline constexpr std::array rtcm_1046_end{two(Q::second_group_delay, 10, -32),

@@ -10,7 +10,7 @@ bool CorrectionStream::push(std::span<const std::uint8_t> bytes) {
   Rtcm3Frames frames(bytes_, true);
   for (Rtcm3Message message; frames.next(message);) take(message);
   counts_.damaged += frames.damaged();
-  bytes_.erase(0, frames.taken());
+  bytes_.erase(0, frames.consumed());
   return counts_.ephemerides + counts_.corrections > before;
 }
 
@@ -29,7 +29,7 @@ void CorrectionStream::take(const Rtcm3Message& message) {
     case SsrResult::decoded:
       ++counts_.corrections;
       break;
-    case SsrResult::damaged:
+    case SsrResult::incomplete:
       ++counts_.unusable;
       break;
     case SsrResult::unsupported:

@@ -7,9 +7,9 @@ namespace maploop::ppp {
 namespace {
 
 void refuse_at(Observations& observations, const std::string& place, const std::string& why) {
-  constexpr std::size_t most_reasons = 20;
+  constexpr std::size_t max_reasons = 20;
   ++observations.refused;
-  if (observations.refusals.size() < most_reasons) {
+  if (observations.refusals.size() < max_reasons) {
     observations.refusals.push_back(place + ": " + why);
   }
 }

@@ -106,7 +106,7 @@ class NavigationReader {
       values_[i] = lines_.number_or(indent + 19 * place, 19, 0.0, "value of a message");
     }
     if (satellite.system == System::sbas || satellite.system == System::navic) {
-      ++result_.passed_over;
+      ++result_.skipped;
     } else if (satellite.system == System::glonass) {
       keep_glonass(satellite, stamp);
     } else {
@@ -209,26 +209,26 @@ bool plausible(const GlonassMessage& m) {
 
 bool plausible(const IonosphereCoefficients& coefficients) {
   // These are the largest values of eight bits, and of Galileo's eleven and fourteen.
-  static constexpr std::array<double, 8> most_klobuchar{0x1p-23, 0x1p-20, 0x1p-17, 0x1p-17,
-                                                        0x1p18,  0x1p21,  0x1p23,  0x1p23};
-  static constexpr std::array<double, 3> most_level{512.0, 4.0, 0.25};
+  static constexpr std::array<double, 8> max_klobuchar{0x1p-23, 0x1p-20, 0x1p-17, 0x1p-17,
+                                                       0x1p18,  0x1p21,  0x1p23,  0x1p23};
+  static constexpr std::array<double, 3> max_level{512.0, 4.0, 0.25};
   const auto within = [](const auto& values, const auto& most) {
-    bool says_something = false;
+    bool nonzero = false;
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (!(std::abs(values[i]) <= most[i])) return false;
-      says_something |= values[i] != 0.0;
+      nonzero |= values[i] != 0.0;
     }
-    return says_something;
+    return nonzero;
   };
   if (const auto* k = std::get_if<Klobuchar>(&coefficients))
-    return within(k->values, most_klobuchar);
-  return within(std::get<IonisationLevel>(coefficients).values, most_level);
+    return within(k->values, max_klobuchar);
+  return within(std::get<IonisationLevel>(coefficients).values, max_level);
 }
 
 void refuse(NavigationFile& navigation, const std::string& place, const std::string& why) {
-  constexpr std::size_t most_reasons = 20;
+  constexpr std::size_t max_reasons = 20;
   ++navigation.refused;
-  if (navigation.refusals.size() < most_reasons) navigation.refusals.push_back(place + ": " + why);
+  if (navigation.refusals.size() < max_reasons) navigation.refusals.push_back(place + ": " + why);
 }
 
 void refuse(NavigationFile& navigation, std::size_t offset, const std::string& why) {

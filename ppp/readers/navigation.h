@@ -58,8 +58,8 @@ struct BroadcastMessages {
 
 struct NavigationFile : BroadcastMessages {
   std::string file;
-  int passed_over = 0;  // messages of SBAS and NavIC, which are not used
-  int refused = 0;      // messages with invalid values, and an incomplete one
+  int skipped = 0;  // messages of SBAS and NavIC, which are not used
+  int refused = 0;  // messages with invalid values, and an incomplete one
   std::vector<std::string> refusals;
 };
 

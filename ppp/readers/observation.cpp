@@ -6,7 +6,7 @@
 namespace maploop::ppp {
 namespace {
 
-constexpr int most_satellites = 200;
+constexpr int max_satellites = 200;
 
 // Reads the plain formats, one epoch at a time.
 class PlainReader {
@@ -104,8 +104,7 @@ class PlainReader {
 
   int count_of(std::size_t first, std::size_t width) const {
     const int count = lines_.integer_or(first, width, 0, "number of satellites");
-    if (count < 0 || count > most_satellites)
-      lines_.fail("a number of satellites must be 0 to 200");
+    if (count < 0 || count > max_satellites) lines_.fail("a number of satellites must be 0 to 200");
     return count;
   }
 

@@ -5,7 +5,7 @@
 namespace maploop::ppp {
 namespace {
 
-constexpr int most_types = 120;
+constexpr int max_types = 120;
 
 std::string_view label(const Lines& lines) {
   return trimmed(lines.column(60, 20));
@@ -58,7 +58,7 @@ void number_signals(ObservationHeader& header) {
 
 int count_of_types(const Lines& lines, std::size_t first, std::size_t width) {
   const int count = lines.integer(first, width, "number of observation types");
-  if (count < 1 || count > most_types)
+  if (count < 1 || count > max_types)
     lines.fail("the number of observation types must be 1 to 120");
   return count;
 }

@@ -18,7 +18,7 @@ bool PvtStream::next(UbxPvt& pvt) {
     counts_.unusable += problem_.empty() ? 0 : 1;
   }
   counts_.damaged += frames.damaged();
-  bytes_.erase(0, frames.taken());
+  bytes_.erase(0, frames.consumed());
   return found;
 }
 

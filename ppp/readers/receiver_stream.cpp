@@ -7,7 +7,7 @@ namespace maploop::ppp {
 namespace {
 
 // All satellites together send only few new messages between two epochs.
-constexpr std::size_t most_messages = 512;
+constexpr std::size_t max_messages = 512;
 
 }  // namespace
 
@@ -32,10 +32,10 @@ bool ReceiverStream::scan(std::string& bytes, std::uint64_t& sound, std::uint64_
     problem_.clear();
     whole = take(frame, epoch);
     counts_.unusable += problem_.empty() ? 0 : 1;
-    navigation_.limit(most_messages);
+    navigation_.limit(max_messages);
   }
   damaged += frames.damaged();
-  bytes.erase(0, frames.taken());
+  bytes.erase(0, frames.consumed());
   return whole;
 }
 
@@ -56,7 +56,7 @@ bool ReceiverStream::take(const Rtcm3Message& message, Epoch& epoch) {
     has_week_ = true;
     if (std::chrono::abs(*week - now_) > std::chrono::hours(24 * 7)) {
       now_ = *week;
-      left_out_before_ += msm_.left_out();
+      dropped_before_ += msm_.dropped();
       msm_ = MsmDecoder(now_);
     }
   }
@@ -79,7 +79,7 @@ bool ReceiverStream::is_later(const Epoch& epoch) {
 ReceiverStreamCounts ReceiverStream::counts() const {
   ReceiverStreamCounts c = counts_;
   c.unusable += static_cast<std::uint64_t>(navigation_.refused);
-  c.left_out = static_cast<std::uint64_t>(rawx_.left_out() + left_out_before_ + msm_.left_out());
+  c.dropped = static_cast<std::uint64_t>(rawx_.dropped() + dropped_before_ + msm_.dropped());
   if (c.ubx > 0 || c.rtcm == 0) c.damaged += ubx_damaged_;
   if (c.rtcm > 0) c.damaged += rtcm_damaged_;
   return c;

@@ -20,7 +20,7 @@ struct ReceiverStreamCounts {
   std::uint64_t damaged = 0;        // frames that are cut or have a wrong checksum
   std::uint64_t unusable = 0;       // messages with invalid content
   std::uint64_t repeated = 0;       // epochs not later than the previous one
-  std::uint64_t left_out = 0;       // values of unnamed signals, or that cannot be right
+  std::uint64_t dropped = 0;        // values of unnamed signals, or that cannot be right
 };
 
 // Uses the same decoders as the readers of files (rtcm3.h, ubx.h). Memory is bounded by one frame
@@ -63,7 +63,7 @@ class ReceiverStream {
   std::string problem_;
   ReceiverStreamCounts counts_;
   std::uint64_t ubx_damaged_ = 0, rtcm_damaged_ = 0;
-  int left_out_before_ = 0;  // by an earlier msm_
+  int dropped_before_ = 0;  // by an earlier msm_
 };
 
 }  // namespace maploop::ppp

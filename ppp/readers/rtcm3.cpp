@@ -164,7 +164,7 @@ void MsmDecoder::add(const Header& header) {
       if (!header.has(i * header.signals.size() + k)) continue;
       const std::size_t at = cell++;
       if (again || header.signals[k].empty() || !header.range_ms[i]) {
-        ++left_out_;
+        ++dropped_;
         continue;
       }
       const Signal signal = signal_of(header, i, header.signals[k], at);
@@ -189,7 +189,7 @@ Signal MsmDecoder::signal_of(const Header& header, std::size_t satellite, std::s
     if (code > 1.0e7 && code < 1.0e8) {
       signal.code = code;
     } else {
-      ++left_out_;
+      ++dropped_;
       return signal;
     }
   }
@@ -210,7 +210,7 @@ Signal MsmDecoder::signal_of(const Header& header, std::size_t satellite, std::s
       signal.lost_lock = slipped;
       signal.half_cycle = header.half_cycle[cell];
     } else {
-      ++left_out_;
+      ++dropped_;
     }
   }
   if (header.rate[satellite] && header.fine_rate[cell]) {
@@ -336,10 +336,9 @@ Observations parse_rtcm3(std::string_view bytes, const std::string& file,
     refuse(result, bytes.size(),
            std::to_string(frames.damaged()) + " frames with a wrong checksum, or incomplete");
   }
-  if (decoder.left_out() > 0) {
-    refuse(
-        result, bytes.size(),
-        std::to_string(decoder.left_out()) + " values with unknown signals or impossible ranges");
+  if (decoder.dropped() > 0) {
+    refuse(result, bytes.size(),
+           std::to_string(decoder.dropped()) + " values with unknown signals or impossible ranges");
   }
   return result;
 }

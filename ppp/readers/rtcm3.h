@@ -31,7 +31,7 @@ class MsmDecoder {
   // Returns the remaining last epoch, whose final message did not arrive; false if there is none.
   bool finish(Epoch& epoch);
 
-  int left_out() const { return left_out_; }  // values
+  int dropped() const { return dropped_; }  // values
   const std::array<std::optional<int>, 100>& glonass_channels() const { return glonass_channels_; }
 
  private:
@@ -58,7 +58,7 @@ class MsmDecoder {
   Epoch open_;  // the epoch being collected
   std::map<Key, Tracked> tracked_;
   std::array<std::optional<int>, 100> glonass_channels_;
-  int left_out_ = 0;
+  int dropped_ = 0;
 };
 
 // Returns the middle of the week that an ephemeris of GPS or Galileo (1019, 1045, 1046) contains.

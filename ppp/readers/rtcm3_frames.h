@@ -19,7 +19,7 @@ std::uint32_t crc24q(std::string_view bytes);
 class Rtcm3Frames {
  public:
   // `bytes` must outlive this. If more bytes follow, an incomplete frame at the end does not count
-  // as damaged; see taken().
+  // as damaged; see consumed().
   explicit Rtcm3Frames(std::string_view bytes, bool more_follow = false)
       : bytes_(bytes), more_follow_(more_follow) {}
 
@@ -29,7 +29,7 @@ class Rtcm3Frames {
 
   // Returns the number of bytes that are finished. The remaining bytes must be put before the
   // following ones.
-  std::size_t taken() const { return at_; }
+  std::size_t consumed() const { return at_; }
   // Returns the number of frame starts whose frame is cut or has a wrong checksum.
   std::size_t damaged() const { return damaged_; }
 

@@ -172,7 +172,7 @@ SsrResult decode_ssr(const Rtcm3Message& message, GpsTime now, std::vector<SsrUp
   }
   if (bits.good()) return SsrResult::decoded;
   to.resize(before);
-  return SsrResult::damaged;
+  return SsrResult::incomplete;
 }
 
 }  // namespace maploop::ppp

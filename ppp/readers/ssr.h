@@ -48,10 +48,10 @@ struct SsrUpdate {
   std::vector<SsrBias> biases;
 };
 
-enum class SsrResult : std::uint8_t { none, decoded, damaged, unsupported };
+enum class SsrResult : std::uint8_t { none, decoded, incomplete, unsupported };
 
 // Adds the content of a message to `to`. `now` is a moment that differs from the reception by less
-// than half a day. The result is `none` if it is not an SSR message, `damaged` if its content is
+// than half a day. The result is `none` if it is not an SSR message, `incomplete` if its content is
 // incomplete (nothing is added then), and `unsupported` for phase biases, ionosphere and other
 // systems.
 SsrResult decode_ssr(const Rtcm3Message& message, GpsTime now, std::vector<SsrUpdate>& to);

@@ -77,7 +77,7 @@ void RawxDecoder::add(const Key& key, std::string_view m, Epoch& epoch) {
     if (code > 1.0e7 && code < 1.0e8) {
       signal.code = code;
     } else {
-      ++left_out_;
+      ++dropped_;
       return;
     }
   }
@@ -113,7 +113,7 @@ bool RawxDecoder::decode(const UbxFrame& frame, Epoch& epoch, std::string& probl
     if (const auto key = key_of(m)) {
       measurements.emplace_back(*key, m);
     } else {
-      ++left_out_;
+      ++dropped_;
     }
   }
   std::stable_sort(measurements.begin(), measurements.end(),
@@ -121,7 +121,7 @@ bool RawxDecoder::decode(const UbxFrame& frame, Epoch& epoch, std::string& probl
   for (std::size_t i = 0; i < measurements.size(); ++i) {
     const Key& key = measurements[i].first;
     if (i > 0 && key == measurements[i - 1].first) {
-      ++left_out_;
+      ++dropped_;
       continue;
     }
     if (epoch.satellites.empty() || epoch.satellites.back().satellite != key.satellite) {
@@ -179,9 +179,9 @@ Observations parse_ubx(std::string_view bytes, const std::string& file,
     refuse(result, bytes.size(),
            std::to_string(frames.damaged()) + " frames with a wrong checksum, or incomplete");
   }
-  if (decoder.left_out() > 0) {
+  if (decoder.dropped() > 0) {
     refuse(result, bytes.size(),
-           std::to_string(decoder.left_out()) +
+           std::to_string(decoder.dropped()) +
                " measurements with unknown signals or impossible ranges");
   }
   return result;

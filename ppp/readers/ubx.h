@@ -21,7 +21,7 @@ class RawxDecoder {
   // right, are left out and counted.
   bool decode(const UbxFrame& frame, Epoch& epoch, std::string& problem);
 
-  int left_out() const { return left_out_; }  // measurements
+  int dropped() const { return dropped_; }  // measurements
 
  private:
   struct Key {
@@ -41,7 +41,7 @@ class RawxDecoder {
   void add(const Key& key, std::string_view measurement, Epoch& epoch);
 
   std::map<Key, Tracked> tracked_;
-  int left_out_ = 0;
+  int dropped_ = 0;
 };
 
 // Returns whether a file is a recording of such a receiver: its first kilobytes contain a frame

@@ -22,7 +22,7 @@ struct UbxFrame {
 class UbxFrames {
  public:
   // `bytes` must outlive this. If more bytes follow, an incomplete frame at the end does not count
-  // as damaged; see taken(). A frame longer than any that is decoded counts as damaged at once.
+  // as damaged; see consumed(). A frame longer than any that is decoded counts as damaged at once.
   explicit UbxFrames(std::string_view bytes, bool more_follow = false)
       : bytes_(bytes), more_follow_(more_follow) {}
 
@@ -32,7 +32,7 @@ class UbxFrames {
 
   // Returns the number of bytes that are finished. The remaining bytes must be put before the
   // following ones.
-  std::size_t taken() const { return at_; }
+  std::size_t consumed() const { return at_; }
 
   // Returns the number of frame starts whose frame is cut or has a wrong checksum.
   std::size_t damaged() const { return damaged_; }

@@ -30,8 +30,8 @@ void UseWatch::judge(Time t) {
   }
   if (bad || refusals_.goes_on) {
     refusals_.goes_on = bad;
-    told_.back() = refusals_;
-    told_.publish();
+    published_.back() = refusals_;
+    published_.publish();
   }
   begin_ = t;
   all_ = wrong_ = 0;
@@ -39,15 +39,15 @@ void UseWatch::judge(Time t) {
 }
 
 std::string UseWatch::sentence(Time origin) {
-  if (const Episodes* news = told_.latest()) heard_ = *news;
-  if (heard_.count == 0) return {};
-  const Episode& last = heard_.last;
+  if (const Episodes* news = published_.latest()) received_ = *news;
+  if (received_.count == 0) return {};
+  const Episode& last = received_.last;
   const std::string from = seconds(last.begin - origin);
   const std::string when =
-      heard_.goes_on ? " since " + from : " from " + from + " to " + seconds(last.end - origin);
-  return std::string(stage_) + (heard_.goes_on ? " refuses " : " refused ") +
-         std::to_string(last.wrong) + " of " + (heard_.goes_on ? "the last " : "") +
-         std::to_string(last.all) + ' ' + std::string(what_) + when + before(heard_) + ": " +
+      received_.goes_on ? " since " + from : " from " + from + " to " + seconds(last.end - origin);
+  return std::string(stage_) + (received_.goes_on ? " refuses " : " refused ") +
+         std::to_string(last.wrong) + " of " + (received_.goes_on ? "the last " : "") +
+         std::to_string(last.all) + ' ' + std::string(what_) + when + before(received_) + ": " +
          last.reason;
 }
 

@@ -66,8 +66,8 @@ class ArrivalWatch {
     if (patience_ == Duration::zero() || available - last <= patience_) return;
     outages_.begin({last, available});
     outages_.goes_on = false;
-    told_.back() = outages_;
-    told_.publish();
+    published_.back() = outages_;
+    published_.publish();
   }
 
   // Returns when the newest sample became available, or the start if there has been none. Any
@@ -76,16 +76,16 @@ class ArrivalWatch {
 
   // Returns the outages that have ended.
   const Episodes& outages() {
-    if (const Episodes* news = told_.latest()) heard_ = *news;
-    return heard_;
+    if (const Episodes* news = published_.latest()) received_ = *news;
+    return received_;
   }
 
  private:
   Duration patience_{};
   std::atomic<std::int64_t> last_{0};
   Episodes outages_;  // owned by the driver's thread
-  runtime::LatestValue<Episodes> told_;
-  Episodes heard_;  // owned by the reader's thread
+  runtime::LatestValue<Episodes> published_;
+  Episodes received_;  // owned by the reader's thread
 };
 
 // UseWatch finds the periods in which an estimator refuses more than half of its samples. The
@@ -136,8 +136,8 @@ class UseWatch {
   std::uint64_t wrong_ = 0;
   std::array<Tally, 8> tallies_{};  // by reason; a ninth reason is not counted on its own
   Episodes refusals_;
-  runtime::LatestValue<Episodes> told_;
-  Episodes heard_;  // owned by the reader's thread
+  runtime::LatestValue<Episodes> published_;
+  Episodes received_;  // owned by the reader's thread
 };
 
 // Notes a result of an odometry. The first frame is skipped, because nothing precedes it.

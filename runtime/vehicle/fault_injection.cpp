@@ -69,7 +69,7 @@ std::unique_ptr<sensors::Source<T>> FaultInjection::with_fault(
   }
 }
 
-Sensors FaultInjection::afflict(Sensors sensors) {
+Sensors FaultInjection::inject(Sensors sensors) {
   for (Injected& injected : faults_) {
     const auto strike = [&](auto& source) { source = with_fault(std::move(source), injected); };
     switch (injected.fault.target) {

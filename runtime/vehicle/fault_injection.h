@@ -30,7 +30,7 @@ class FaultInjection {
 
   // Returns the given sensors with their faults. Several faults on one sensor are applied in their
   // order. A sensor that is missing stays missing.
-  Sensors afflict(Sensors sensors);
+  Sensors inject(Sensors sensors);
 
   // Returns the delays for Vehicle::slow_down().
   StageDelays delays();

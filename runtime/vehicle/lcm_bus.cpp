@@ -26,8 +26,8 @@ std::string bus_url(const std::string& named, const std::string& configured) {
 }
 
 void hear_waiting(lcm::LCM& lcm) {
-  constexpr int most_messages = 100;
-  for (int i = 0; i < most_messages && lcm.handleTimeout(0) > 0; ++i) {
+  constexpr int max_messages = 100;
+  for (int i = 0; i < max_messages && lcm.handleTimeout(0) > 0; ++i) {
   }
 }
 

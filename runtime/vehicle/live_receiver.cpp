@@ -64,7 +64,7 @@ class LiveReceiver final : public sensors::LiveSource<GnssEpoch> {
                         "frames with a wrong checksum, or incomplete");
     sensors::note_count(report.reasons, counts.unusable, "messages with inconsistent content");
     sensors::note_count(report.reasons, counts.repeated, "epochs not later than the one before");
-    sensors::note_count(report.reasons, counts.left_out,
+    sensors::note_count(report.reasons, counts.dropped,
                         "values with unknown signals or impossible ranges");
     sensors::note_count(report.notes, counts.ubx, "UBX frames");
     sensors::note_count(report.notes, counts.rtcm, "RTCM 3 messages");

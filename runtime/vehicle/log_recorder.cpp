@@ -112,7 +112,7 @@ LogRecorder::~LogRecorder() {
 
 bool LogRecorder::take(const Message& message) {
   std::unique_lock lock(mutex_);
-  const auto has_room = [this] { return filling_.bytes.size() < most_under_way; };
+  const auto has_room = [this] { return filling_.bytes.size() < max_pending_bytes; };
   if (!has_room()) {
     changed_.notify_all();
     if (when_behind_ == WhenBehind::drop) return false;
@@ -138,7 +138,7 @@ void LogRecorder::write_batches(const std::stop_token& end) {
   std::unique_lock lock(mutex_);
   for (;;) {
     changed_.wait_for(lock, end, write_every,
-                      [this] { return flushing_ || filling_.bytes.size() >= most_under_way; });
+                      [this] { return flushing_ || filling_.bytes.size() >= max_pending_bytes; });
     const bool last = end.stop_requested();
     if (filling_.ends.empty()) {
       if (last) return;

@@ -34,7 +34,7 @@ class LogRecorder final : public MessageSink {
   };
   // A message is accepted while fewer bytes than this are pending: two seconds of raw images and
   // scans.
-  static constexpr std::size_t most_under_way = std::size_t{64} << 20;
+  static constexpr std::size_t max_pending_bytes = std::size_t{64} << 20;
 
   // Replaces the file. With `raw` the log also contains the images and scans, so that the whole
   // graph can be replayed from it. Throws std::runtime_error naming the file if it cannot be

@@ -26,8 +26,8 @@ bool Meter::record(const Timing& timing) {
   if (timing.latency <= deadline_) return false;
   miss_count_.fetch_add(1, std::memory_order_relaxed);
   worst_.add(timing);
-  told_.back() = worst_;
-  told_.publish();
+  published_.back() = worst_;
+  published_.publish();
   return true;
 }
 
@@ -36,9 +36,9 @@ LatencySummary Meter::summary() const {
   s.misses = miss_count();
   s.deadline = deadline_;
   s.omitted = omitted_.data();
-  if (const Worst* worst = told_.latest()) heard_ = worst;
-  for (std::size_t i = 0; heard_ != nullptr && i < heard_->count; ++i) {
-    s.worst.push_back(message_of(heard_->misses[i]));
+  if (const Worst* worst = published_.latest()) received_ = worst;
+  for (std::size_t i = 0; received_ != nullptr && i < received_->count; ++i) {
+    s.worst.push_back(message_of(received_->misses[i]));
   }
   if (!s.worst.empty()) s.guilty = s.worst.front().guilty();
   return s;

@@ -65,9 +65,9 @@ class Meter {
   runtime::Histogram histogram_;
   runtime::Histogram omitted_;
   std::atomic<std::uint64_t> miss_count_{0};
-  Worst worst_;                               // owned by the recording thread
-  mutable runtime::LatestValue<Worst> told_;  // passes worst_ to the reader
-  mutable const Worst* heard_ = nullptr;      // owned by the reading thread
+  Worst worst_;                                    // owned by the recording thread
+  mutable runtime::LatestValue<Worst> published_;  // passes worst_ to the reader
+  mutable const Worst* received_ = nullptr;        // owned by the reading thread
 };
 
 }  // namespace maploop::vehicle

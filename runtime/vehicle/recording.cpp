@@ -21,7 +21,7 @@ namespace maploop::vehicle {
 namespace {
 
 template <class Opened>
-Recording describe(const Opened& opened, std::function<Sensors(Time)> sensors) {
+Recording make_recording(const Opened& opened, std::function<Sensors(Time)> sensors) {
   return {opened.calibration(),
           opened.first_stamp(),
           opened.last_stamp(),
@@ -52,8 +52,8 @@ std::shared_ptr<const GnssDrive> observations_of(const sensors::KittiDrive& driv
 Recording open_folder(const std::filesystem::path& folder, const VehicleConfig& config) {
   auto drive = open_drive(folder, config);
   auto epochs = observations_of(*drive, config);
-  Recording recording =
-      describe(*drive, [drive, epochs, gnss = config.gnss, wheel = wheel_of(config)](Time passed) {
+  Recording recording = make_recording(
+      *drive, [drive, epochs, gnss = config.gnss, wheel = wheel_of(config)](Time passed) {
         Sensors s;
         s.camera = drive->camera(passed);
         if (drive->has_velodyne()) s.velodyne = drive->velodyne(passed);
@@ -83,7 +83,7 @@ Recording open_sequence(const std::filesystem::path& path, const VehicleConfig& 
   } else if (sequence->tracks_file()) {
     tracks = std::make_shared<const RecordedTracks>(read_recorded_tracks(*sequence->tracks_file()));
   }
-  Recording recording = describe(*sequence, [sequence, tracks, poses, config](Time) {
+  Recording recording = make_recording(*sequence, [sequence, tracks, poses, config](Time) {
     Sensors s;
     s.imu = sequence->imu();
     s.gnss = sequence->gnss(config.gnss);
@@ -112,7 +112,7 @@ Recording open_sequence(const std::filesystem::path& path, const VehicleConfig& 
 
 Recording open_log(const std::filesystem::path& file) {
   auto log = std::make_shared<const sensors::LogRecording>(file);
-  return describe(*log, [log](Time) {
+  return make_recording(*log, [log](Time) {
     Sensors s;
     s.camera = log->camera();
     s.velodyne = log->velodyne();

@@ -20,7 +20,7 @@ namespace {
 
 constexpr Duration say_every = std::chrono::seconds(1);
 constexpr Duration silent_after = std::chrono::seconds(3);
-constexpr std::size_t most_runs = 16;  // a flooded channel takes no more memory
+constexpr std::size_t max_runs = 16;  // a flooded channel takes no more memory
 constexpr std::size_t longest_what = 100;
 
 const std::string run_channel(channel_names::run);
@@ -51,7 +51,7 @@ void RunsHeard::take(const maploop_lcm::run_t& message, Duration now) {
     return;
   }
   std::erase_if(runs_, [&](const auto& run) { return now - run.second.at > silent_after; });
-  if (runs_.size() < most_runs || runs_.contains(message.id)) {
+  if (runs_.size() < max_runs || runs_.contains(message.id)) {
     runs_[message.id] = {message.what.substr(0, longest_what), now};
   }
 }

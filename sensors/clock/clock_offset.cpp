@@ -45,8 +45,8 @@ bool ClockOffset::add(Duration device, Time arrival) {
       restart(p);
       return true;
     }
-    if (count_ == most_buckets) {
-      first_ = (first_ + 1) % most_buckets;
+    if (count_ == max_buckets) {
+      first_ = (first_ + 1) % max_buckets;
     } else {
       ++count_;
     }
@@ -79,7 +79,7 @@ bool ClockOffset::set_back(Duration late) {
 // time; with too few buckets the line stays level, at the lowest point. The newest bucket is
 // incomplete, but any of its points may be the lowest.
 void ClockOffset::fit() {
-  std::array<std::size_t, most_buckets> hull{};
+  std::array<std::size_t, max_buckets> hull{};
   std::size_t size = 0;
   const auto turn = [this](std::size_t a, std::size_t b, std::size_t c) {
     const Point &p = point(a), &q = point(b), &r = point(c);

@@ -52,17 +52,17 @@ class ClockOffset {
     Duration device{};
     Duration offset{};  // host - device
   };
-  static constexpr std::size_t most_buckets = 32;
+  static constexpr std::size_t max_buckets = 32;
 
   void restart(Point point);
   void fit();
   bool set_back(Duration late);
   Duration line_at(Duration device) const;
-  const Point& point(std::size_t i) const { return points_[(first_ + i) % most_buckets]; }
-  Point& point(std::size_t i) { return points_[(first_ + i) % most_buckets]; }
+  const Point& point(std::size_t i) const { return points_[(first_ + i) % max_buckets]; }
+  Point& point(std::size_t i) { return points_[(first_ + i) % max_buckets]; }
 
   ClockOffsetParameters parameters_;
-  std::array<Point, most_buckets> points_{};  // the lowest point of each bucket, ordered by time
+  std::array<Point, max_buckets> points_{};  // the lowest point of each bucket, ordered by time
   std::size_t first_ = 0;
   std::size_t count_ = 0;
   Duration bucket_began_{};

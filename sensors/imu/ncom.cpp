@@ -21,7 +21,7 @@ int i24(std::span<const std::uint8_t> bytes, std::size_t at) {
 
 std::optional<NcomSample> parse_ncom(std::span<const std::uint8_t> bytes, NcomFault& fault) {
   constexpr double force_unit = 1e-4, rate_unit = 1e-5;  // m/s^2, rad/s
-  constexpr double most_force = 100.0, most_rate = 10.0;
+  constexpr double max_force = 100.0, max_rate = 10.0;
   constexpr std::uint16_t minute = 60'000;
   constexpr std::uint8_t structure_b = 11, sensors_run = 1, last_status = 5;
   fault = NcomFault::wrong_size;
@@ -42,8 +42,8 @@ std::optional<NcomSample> parse_ncom(std::span<const std::uint8_t> bytes, NcomFa
   s.specific_force_left = -force_unit * i24(bytes, 6);
   s.yaw_rate = -rate_unit * i24(bytes, 18);
   fault = NcomFault::out_of_range;
-  if (s.minute_ms >= minute || std::fabs(s.specific_force_forward) > most_force ||
-      std::fabs(s.specific_force_left) > most_force || std::fabs(s.yaw_rate) > most_rate) {
+  if (s.minute_ms >= minute || std::fabs(s.specific_force_forward) > max_force ||
+      std::fabs(s.specific_force_left) > max_force || std::fabs(s.yaw_rate) > max_rate) {
     return {};
   }
   fault = NcomFault::none;

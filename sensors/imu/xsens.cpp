@@ -58,7 +58,7 @@ void XsensDecoder::drop(std::size_t count) {
 std::optional<XsensSample> XsensDecoder::decode(std::span<const std::uint8_t> data) {
   constexpr unsigned sample_time_fine = 0x1060, acceleration = 0x4020, rate_of_turn = 0x8020;
   constexpr unsigned format_bits = 0xf;
-  constexpr double most_force = 500.0, most_rate = 100.0;  // m/s^2, rad/s
+  constexpr double max_force = 500.0, max_rate = 100.0;  // m/s^2, rad/s
   std::optional<std::uint32_t> ticks;
   std::optional<std::array<double, 3>> force, rate;
   while (data.size() >= 3) {
@@ -69,8 +69,8 @@ std::optional<XsensSample> XsensDecoder::decode(std::span<const std::uint8_t> da
     const unsigned what = id & ~format_bits;
     if (what == sample_time_fine && size == 4)
       ticks = static_cast<std::uint32_t>(big_endian(value));
-    if (what == acceleration) force = three_numbers(id, value, most_force);
-    if (what == rate_of_turn) rate = three_numbers(id, value, most_rate);
+    if (what == acceleration) force = three_numbers(id, value, max_force);
+    if (what == rate_of_turn) rate = three_numbers(id, value, max_rate);
     data = data.subspan(3 + size);
   }
   if (!ticks || !force || !rate) return {};

@@ -19,7 +19,7 @@ class LiveVelodyne final : public LiveSource<LidarScan> {
 
   bool wait(LidarScan& scan, Duration patience) override {
     // Position packets are rare; the limit keeps a flood of them from delaying the data.
-    for (int i = 0; position_ && i < most_positions; ++i) {
+    for (int i = 0; position_ && i < max_positions; ++i) {
       const std::size_t size = position_->read(buffer_, Duration::zero());
       if (size == 0) break;
       decoder_.add(std::span(buffer_).first(size), clock_.now(), scan);
@@ -63,7 +63,7 @@ class LiveVelodyne final : public LiveSource<LidarScan> {
   }
 
  private:
-  static constexpr int most_positions = 32;
+  static constexpr int max_positions = 32;
 
   bool in_order(const LidarScan& scan) {
     const bool later = scan.stamp > last_stamp_ && scan.available > last_available_;

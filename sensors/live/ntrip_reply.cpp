@@ -67,7 +67,7 @@ void NtripReply::judge_head() {
 
 // Parses the line with a chunk's length, such as "1f;extension\r\n".
 void NtripReply::take_size(std::uint8_t c) {
-  constexpr std::size_t longest_line = 256, most_digits = 8;
+  constexpr std::size_t longest_line = 256, max_digits = 8;
   if (c == '\n') {
     if (size_digits_ == 0) return refuse("sends a chunk without a length");
     chunk_ = left_ > 0 ? Chunk::data : Chunk::size;
@@ -82,7 +82,7 @@ void NtripReply::take_size(std::uint8_t c) {
     extension_ = true;
     return;
   }
-  if (std::isxdigit(c) == 0 || ++size_digits_ > most_digits) {
+  if (std::isxdigit(c) == 0 || ++size_digits_ > max_digits) {
     return refuse("sends a chunk whose length is not a number");
   }
   const int digit = std::isdigit(c) != 0 ? c - '0' : std::tolower(c) - 'a' + 10;

@@ -111,8 +111,8 @@ void unpack_scan(const std::vector<char>& bytes, RangeImage& image,
   std::memcpy(&head, bytes.data() + magic.size(), sizeof head);
   const std::size_t all = std::size_t{head.lasers} * head.firings;
   const std::size_t begin = magic.size() + sizeof head + head.lasers * sizeof(float);
-  if (head.lasers == 0 || head.lasers > RangeImage::most_lasers ||
-      head.firings > RangeImage::most_firings || head.returns > all || begin > bytes.size() ||
+  if (head.lasers == 0 || head.lasers > RangeImage::max_lasers ||
+      head.firings > RangeImage::max_firings || head.returns > all || begin > bytes.size() ||
       !std::isfinite(head.first_azimuth) || !std::isfinite(head.azimuth_step))
     throw std::runtime_error("the packed scan is damaged: copy it again from its source");
   image.elevations.resize(head.lasers);

@@ -14,7 +14,7 @@ namespace maploop::sensors {
 struct RangeImage {
   static constexpr double range_unit = 0.002;       // m, that of an HDL-64E
   static constexpr double reflectance_unit = 0.01;  // of 1
-  static constexpr std::size_t most_lasers = 128, most_firings = 4096;
+  static constexpr std::size_t max_lasers = 128, max_firings = 4096;
 
   std::vector<float> elevations;  // rad, of each laser
   std::size_t firings = 0;        // of each laser in a turn

@@ -17,7 +17,7 @@ constexpr std::uint64_t ice_stream = 0x6963'6500'0000'0000;
 
 constexpr double ice_square = 50.0;  // m, a side
 constexpr double ice_factor = 10.0;  // its friction is 0.1, that of asphalt 1
-constexpr double most_slip = 0.5;    // 1; larger slip (a locked or spinning wheel) is cut off
+constexpr double max_slip = 0.5;    // 1; larger slip (a locked or spinning wheel) is cut off
 
 }  // namespace
 
@@ -56,7 +56,7 @@ void WheelOdometer::measure(Time stamp, double speed, double force, const Geodet
   sample.stamp = stamp;
   double slip = parameters_.slip * force;
   if (slip != 0.0 && on_ice(position)) slip *= ice_factor;
-  slip = std::clamp(slip, -most_slip, most_slip);
+  slip = std::clamp(slip, -max_slip, max_slip);
   sample.speed = (1.0 + parameters_.scale_error) * (1.0 + slip) * speed +
                  parameters_.white_speed * generator.next();
   sample.sigma = parameters_.white_speed;

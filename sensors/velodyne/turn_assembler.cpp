@@ -9,12 +9,12 @@ namespace {
 constexpr double full = velodyne_full_turn;
 
 // An HDL-64E at 5 turns a second with dual returns has 440 000 points a turn.
-constexpr std::size_t most_points = 480'000;
+constexpr std::size_t max_points = 480'000;
 
 }  // namespace
 
 TurnAssembler::TurnAssembler(Duration max_turn) : max_turn_(max_turn) {
-  turn_.points.reserve(most_points);
+  turn_.points.reserve(max_points);
 }
 
 void TurnAssembler::interrupt() {
@@ -43,7 +43,7 @@ bool TurnAssembler::close(Time end, LidarScan& done) {
     ++counts_.complete;
     counts_.points += turn_.points.size();
     std::swap(turn_, done);
-    turn_.points.reserve(most_points);
+    turn_.points.reserve(max_points);
   } else if (inside_) {
     ++counts_.broken;
   } else {
@@ -81,7 +81,7 @@ bool TurnAssembler::add(const FiredPoint& fired, Time time, LidarScan& done) {
   follows_ = true;
   last_time_ = time;
   if (inside_) {
-    if (turn_.points.size() < most_points) {
+    if (turn_.points.size() < max_points) {
       turn_.points.push_back(fired.point);
     } else {
       ++counts_.no_room;

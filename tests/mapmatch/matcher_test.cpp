@@ -233,7 +233,7 @@ TEST(Matcher, FarFromEveryRoadThereIsNoLink) {
   }
 }
 
-TEST(Matcher, AnEmptyNetworkIsNoTrouble) {
+TEST(Matcher, AnEmptyNetworkIsHarmless) {
   const RoadNetwork network{NetworkData{}};
   Matcher matcher(network, rules(), {});
   for (const VehicleFix& fix : drive({{0, 0}, {50, 0}}, 10.0, 1.0))
@@ -291,7 +291,7 @@ TEST(Matcher, FixesThatCannotBeUsedAreRefusedWithAReasonAndChangeNothing) {
   EXPECT_EQ(matcher.add(fixes[10]).refusal, FixRefusal::none);
 }
 
-TEST(Matcher, ReasonsSayWhatSpeaksAgainstTheOtherStreet) {
+TEST(Matcher, ReasonsStateWhatContradictsTheOtherStreet) {
   const RoadNetwork network = crossing().network();
   Matcher matcher(network, rules(), {});
   MatchResult last;

@@ -67,7 +67,7 @@ RelativeMotion visual_motion(double seconds, double degrees_a_second) {
   return motion;
 }
 
-TEST(NavMatcher, SaysWhereOnTheRoadTheStateIs) {
+TEST(NavMatcher, ReportsWhereOnTheRoadTheStateIs) {
   NavMatcher matcher(network(), rules(), {});
   MapMatch match;
   for (const NavState& state : drive_north()) match = matcher.add(state);
@@ -179,7 +179,7 @@ TEST(VisualCourse, IsCarriedOnToTheFix) {
   EXPECT_TRUE(std::isnan(fix.visual_azimuth)) << "too old";
 }
 
-TEST(VisualCourse, BeginsAnewBehindAMotionThatIsMissingOrRefused) {
+TEST(VisualCourse, RestartsAfterAMissingOrRefusedMotion) {
   for (const bool refused : {false, true}) {
     VisualCourse course;
     VehicleFix fix;

@@ -30,7 +30,7 @@ std::string refusal_to_load(const std::filesystem::path& file) {
   }
 }
 
-TEST(NetworkFile, HoldsTheWholeNetwork) {
+TEST(NetworkFile, ContainsTheWholeNetwork) {
   MAPLOOP_REQUIRE_REAL_DATA();
   TemporaryFolder folder;
   const auto file = folder.path() / "karlsruhe.network";

@@ -37,7 +37,7 @@ TEST(OsmTags, OneWaySaidAndImplied) {
   EXPECT_EQ(directions({{"highway", "tertiary"}, {"junction", "roundabout"}}), with);
 }
 
-TEST(OsmTags, TheMostSpecialAccessSpeaks) {
+TEST(OsmTags, TheMostSpecificAccessTagDecides) {
   EXPECT_TRUE(road({{"highway", "service"}, {"access", "private"}})->restricted);
   EXPECT_FALSE(road({{"highway", "service"}, {"access", "no"}, {"motorcar", "yes"}})->restricted);
   EXPECT_TRUE(road({{"highway", "track"}, {"motor_vehicle", "agricultural"}})->restricted);

@@ -31,7 +31,7 @@ TEST(GpsTime, TheLastLeapSecondIsASecondLong) {
   EXPECT_EQ(to_utc(before + seconds(2)) - to_utc(before), seconds(1));
 }
 
-TEST(GpsTime, SaysWhenTheTableIsOutOfDate) {
+TEST(GpsTime, ReportsWhenTheTableIsOutOfDate) {
   EXPECT_TRUE(leap_seconds(leap_seconds_valid_until()).out_of_date);
   EXPECT_FALSE(leap_seconds(leap_seconds_valid_until() - seconds(1)).out_of_date);
 }
@@ -40,7 +40,7 @@ TEST(GpsTime, SecondSixtyIsTheNextMinute) {
   EXPECT_EQ(gps_time({2021, 9, 22, 6, 29, 60.0}), gps_time({2021, 9, 22, 6, 30, 0.0}));
 }
 
-TEST(GpsTime, RefusesWhatIsNoDate) {
+TEST(GpsTime, RefusesInvalidDates) {
   EXPECT_THROW(gps_time({2021, 2, 29, 0, 0, 0.0}), std::invalid_argument);
   EXPECT_THROW(gps_time({2021, 1, 1, 0, 60, 0.0}), std::invalid_argument);
   EXPECT_THROW(gps_time({1980, 1, 5, 0, 0, 0.0}), std::invalid_argument);

@@ -105,7 +105,7 @@ TEST(PppCommand, TheTruthMayBeGeodeticAndMustBeOnTheEarth) {
   }
 }
 
-TEST(PppCommand, SaysWhereItCannotConverge) {
+TEST(PppCommand, ReportsWhereItCannotConverge) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const auto folder = maploop::testing::real_data() / "gnss/riverside_drive";
   const auto result =

@@ -285,7 +285,7 @@ TEST(DamagedCamera, OneStampFileShorterThanTheOther) {
                  "image_01/timestamps.txt", 8, "ends before this line");
 }
 
-TEST(DamagedCamera, AStampThatIsNone) {
+TEST(DamagedCamera, AnInvalidStamp) {
   const SmallDrive small;
   small.write_line("image_01/timestamps.txt", 4, "2011-09-26 13:1");
   expect_finding(only_refusal(*KittiDrive(small.folder()).camera(), without_3),
@@ -362,7 +362,7 @@ void expect_row_3_refused(const KittiDrive& drive, const std::string& file, std:
   expect_finding(only_refusal(*drive.gnss(), {0}), file, line, reason);
 }
 
-TEST(DamagedOxts, ARowWithANumberThatIsNone) {
+TEST(DamagedOxts, ARowWithAnInvalidNumber) {
   const SmallDrive small;
   std::string row = oxts_row_text();
   row.replace(row.find("-0.43999459306673"), 17, "nan");
@@ -394,7 +394,7 @@ TEST(DamagedOxts, TimeThatDoesNotIncrease) {
                        "time does not increase: 2011-09-26 13:10:51.201");
 }
 
-TEST(DamagedOxts, ReversedStampsLeaveOneSampleAndSaySo) {
+TEST(DamagedOxts, ReversedStampsLeaveOneSampleAndAreReported) {
   const SmallDrive small;
   std::string reversed;
   for (int i = 8; i > 0; --i) reversed += "2011-09-26 13:10:51." + std::to_string(i) + "\n";

@@ -56,7 +56,7 @@ TEST(KittiCalibration, ChainsTheThreeFilesAsPrinted) {
   EXPECT_LT((c.stereo.T_body_cam * p_cam - p_body).norm(), 1e-5);
 }
 
-TEST(KittiCalibration, KnowsKittisCarAndTakesNoOtherForIt) {
+TEST(KittiCalibration, RecognizesOnlyTheCarOfKitti) {
   const VehicleCalibration kitti = parse({});
   EXPECT_EQ(kitti.rear_axle_distance, 0.25);
   EXPECT_EQ(kitti.climb_offset, 0.0084);

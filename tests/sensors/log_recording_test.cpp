@@ -53,7 +53,7 @@ TEST_F(DamagedLog, IsWholeAtFirst) {
 }
 
 // LCM's own code would trust such a size.
-TEST_F(DamagedLog, AMessageThatSaysASizeItHasNotIsLeftOut) {
+TEST_F(DamagedLog, AMessageWithAWrongSizeIsLeftOut) {
   for (const std::string& size :
        {std::string("\xff\xff\xff\xff"), std::string("\x7f\xff\xff\xff")}) {
     size.copy(message("VELODYNE", 0) + fingerprint + header + 16, size.size());

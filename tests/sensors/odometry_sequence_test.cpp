@@ -101,7 +101,7 @@ class SmallSequence : public ::testing::Test {
   fs::path folder_ = fs::path(::testing::TempDir()) / ("sequence_" + std::to_string(::getpid()));
 };
 
-TEST_F(SmallSequence, LeavesOutARowWhoseStampIsNoTime) {
+TEST_F(SmallSequence, LeavesOutARowWithAnInvalidStamp) {
   const OdometrySequence sequence = opened();
   const auto source = sequence.imu();
   for (ImuSample s; source->next(s);) {
@@ -177,7 +177,7 @@ TEST_F(FreeSequence, UsesWhatLiesBesideIt) {
   EXPECT_EQ(drive.tracks_file()->filename(), "tracks.csv");
 }
 
-TEST_F(FreeSequence, AListThatIsNoneIsNamed) {
+TEST_F(FreeSequence, AnInvalidListIsNamed) {
   write_table("x/07.csv", 0.0);
   write("x/sequences.csv", "name,start\n07,2020-02-03\n");
   try {
@@ -336,7 +336,7 @@ TEST_F(CsvTableTest, NamesFileLineAndWhatIsWrong) {
   EXPECT_NE(refusal("").find("no heading"), std::string::npos);
 }
 
-TEST_F(CsvTableTest, OfDamagedGzipDataSaysSo) {
+TEST_F(CsvTableTest, ReportsDamagedGzipData) {
   const fs::path file = fs::path(::testing::TempDir()) / "cut.csv.gz";
   const gzFile out = gzopen(file.c_str(), "wb");
   const std::string text = "a,b\n" + std::string(1000, '1') + ",2\n";

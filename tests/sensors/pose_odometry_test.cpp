@@ -29,7 +29,7 @@ std::string refusal(const std::string& text) {
 
 const std::string at_rest = "1 0 0 0 0 1 0 0 0 0 1 0\n";
 
-TEST(PoseOdometry, RefusesWhatIsNoTrajectoryByFileAndLine) {
+TEST(PoseOdometry, RefusesAnInvalidTrajectoryByFileAndLine) {
   EXPECT_NE(refusal("").find("fewer than two"), std::string::npos);
   EXPECT_NE(refusal(at_rest + "1 0 0\n").find("poses.txt:2: a pose has 12"), std::string::npos);
   EXPECT_NE(refusal(at_rest + "1 0 0 0 0 nan 0 0 0 0 1 0\n").find(":2:"), std::string::npos);

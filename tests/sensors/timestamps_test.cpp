@@ -47,7 +47,7 @@ TEST(Timestamps, ReadsALastLineWithoutItsEnd) {
   EXPECT_EQ(parse("2011-09-26 13:10:51").size(), 1U);
 }
 
-TEST(Timestamps, NamesTheLineThatIsNoStampAndKeepsItsNumber) {
+TEST(Timestamps, NamesALineThatIsNotAStampAndKeepsItsNumber) {
   const Timestamps t = parse(
       "2011-09-26 13:10:51.1\n\n2011-09-31 13:10:51.2\n9011-09-26 13:10:51.3\n"
       "2011-09-26 13:10:51.4\n");

@@ -107,7 +107,7 @@ std::string describe(const NavigationFile& n) {
   for (const auto& m : n.kepler) add(m.satellite, m.toe);
   for (const auto& m : n.glonass) add(m.satellite, m.toe);
   std::string text = row("messages", std::to_string(n.kepler.size() + n.glonass.size()) + ", and " +
-                                         std::to_string(n.passed_over) + " passed over");
+                                         std::to_string(n.skipped) + " passed over");
   if (!satellites.empty()) text += row("time", span(first, last));
   return text + row("satellites", per_system(satellites)) + row("ionosphere", coefficients(n)) +
          refusals(n.refused, n.refusals);
@@ -177,7 +177,7 @@ std::string describe(const BiasFile& b) {
   std::string list;
   for (const auto& [name, count] : signals) list += name + " (" + std::to_string(count) + ") ";
   return row("agency", b.agency) + row("satellites", per_system(satellites)) + row("biases", list) +
-         row("passed over", std::to_string(b.passed_over) + " of stations and phases");
+         row("passed over", std::to_string(b.skipped) + " of stations and phases");
 }
 
 std::string describe(const EarthRotationFile& e) {

@@ -45,7 +45,7 @@ TEST(CodeLevels, ASatelliteThatRisesBeginsAsTheOthersAre) {
   EXPECT_EQ(levels.of(reflected), 20.0);
 }
 
-TEST(CodeLevels, OneOutlierIsNotBelievedWhole) {
+TEST(CodeLevels, OneOutlierHasALimitedEffect) {
   CodeLevels levels;
   epochs(levels, 1, 1e9);
   EXPECT_LT(levels.of(reflected), 3.0);

@@ -65,7 +65,7 @@ TEST(FilterState, RemovingAnAmbiguityKeepsTheOthers) {
 
 TEST(FilterState, HasRoomForALimitedNumber) {
   FilterState state;
-  for (int i = 0; i < S::most_ambiguities; ++i) {
+  for (int i = 0; i < S::max_ambiguities; ++i) {
     EXPECT_GE(state.add_ambiguity({System::gps, static_cast<std::uint8_t>(i + 1)}, 0, 1), 0);
   }
   EXPECT_EQ(state.add_ambiguity({System::galileo, 1}, 0, 1), -1);

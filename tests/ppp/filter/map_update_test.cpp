@@ -104,7 +104,7 @@ TEST(MapRows, ALineIsSignedToTheRightOfTheWayDriven) {
   EXPECT_NEAR(line_row(state_at({0, 0, 0}, {10, 0, 0}), road(), 0.2).y, -2.0, 1e-6) << "later";
 }
 
-TEST(MapUpdate, SaysNothingAlongTheRoadNorOfTheHeight) {
+TEST(MapUpdate, ConstrainsNeitherTheWayAlongTheRoadNorTheHeight) {
   FilterState state = state_at({3, 0, 0});
   const Eigen::Matrix2d before = covariance(state);
   ASSERT_EQ(apply(state, road()), MapUse::used);
@@ -116,7 +116,7 @@ TEST(MapUpdate, SaysNothingAlongTheRoadNorOfTheHeight) {
   EXPECT_NEAR(covariance(state)(1, 1), before(1, 1), 1e-9);
 }
 
-TEST(MapUpdate, LineAfterLineOfOneRoadSaysNoMoreThanItsLaneAndTheDatumAllow) {
+TEST(MapUpdate, ManyLinesOfOneRoadAreNoBetterThanItsLaneAndTheDatum) {
   PppParameters p;
   FilterState state = state_at({3, 0, 0});
   for (int i = 0; i < 1000; ++i) apply(state, road(), p);
@@ -164,7 +164,7 @@ TEST(MapUpdate, TheLaneIsForgottenWithTheWayAndTheLastingErrorWithTime) {
   EXPECT_NEAR(state.P()(S::lane_offset, S::lane_offset), 1.0, 1e-6);
 }
 
-TEST(MapUpdate, AHalfCertainLinkSaysHalf) {
+TEST(MapUpdate, ALinkOfProbabilityHalfHasTwiceTheVariance) {
   const FilterState state = state_at();
   MapFeedback f = road();
   const double all = f.lane_sigma * f.lane_sigma;

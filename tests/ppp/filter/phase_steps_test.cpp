@@ -68,7 +68,7 @@ TEST(PhaseSteps, ThreeSlipsAtOnceAmongTwelve) {
   EXPECT_GE(whole, 48);
 }
 
-TEST(PhaseSteps, FiveCannotSayWhichOfThemIsWrong) {
+TEST(PhaseSteps, FiveStepsDoNotShowWhichOneIsWrong) {
   auto all = steps(5, 3);
   all[2].change += 3.0 * cycle;
   find_slips(all);

@@ -135,15 +135,15 @@ TEST(PppFilter, OneFrequencyWithBroadcastOrbits) {
 }
 
 // The ionosphere stays in the codes, so the height is too high, and the covariance accounts for it.
-TEST(PppFilter, OneFrequencyWithoutCoefficientsOfTheIonosphereKnowsIt) {
+TEST(PppFilter, ReportsMissingIonosphericCoefficientsOnOneFrequency) {
   MAPLOOP_REQUIRE_REAL_DATA();
   RunOptions options;
   options.parameters.systems = "GEC";
   const auto truth = maploop::testing::real_data() / "gnss/riverside_drive/groundtruth.csv.gz";
   const GnssFiles files = folder("riverside_drive");
   const PppRun run(files, options);
-  const auto& lacks = run.setup().lacks();
-  EXPECT_TRUE(std::any_of(lacks.begin(), lacks.end(), [](const std::string& line) {
+  const auto& missing = run.setup().missing_models();
+  EXPECT_TRUE(std::any_of(missing.begin(), missing.end(), [](const std::string& line) {
     return line.find("no ionospheric coefficients") != std::string::npos;
   }));
   const Accuracy a = score(files, options, truth.string(), 0.0);
@@ -177,11 +177,11 @@ TEST(PppFilter, GoesOnFromAnArchiveWithTheSameBits) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const GnssFiles& files = station();
   const PreciseEphemeris ephemeris(files.orbits, files.clocks, files.biases);
-  Surroundings around;
-  around.ephemeris = &ephemeris;
-  around.antennas = &files.antennas;
+  RangeInputs inputs;
+  inputs.ephemeris = &ephemeris;
+  inputs.antennas = &files.antennas;
   PppParameters parameters;
-  PppFilter filter(parameters, around, Earth({})), resumed(parameters, around, Earth({}));
+  PppFilter filter(parameters, inputs, Earth({})), resumed(parameters, inputs, Earth({}));
   const auto& epochs = files.observations.at(0).epochs;
   for (std::size_t i = 0; i < 60; ++i) filter.process(epochs[i]);
   const Bytes archive = maploop::testing::saved(filter);
@@ -194,7 +194,7 @@ TEST(PppFilter, GoesOnFromAnArchiveWithTheSameBits) {
   }
   maploop::testing::expect_refuses_broken(archive, resumed);
   parameters.code_sigma *= 2.0;
-  PppFilter other(parameters, around, Earth({}));
+  PppFilter other(parameters, inputs, Earth({}));
   EXPECT_NE(maploop::testing::refusal(archive, other).find("code_sigma"), std::string::npos);
 }
 
@@ -219,7 +219,7 @@ TEST(PppFilter, ACodeThatIsFarOffIsRefusedWithItsReason) {
   EXPECT_EQ(refused, 1);
 }
 
-TEST(PppFilter, StartsAgainAndSaysSoWhenThePositionIsWrong) {
+TEST(PppFilter, StartsAgainAndReportsItWhenThePositionIsWrong) {
   MAPLOOP_REQUIRE_REAL_DATA();
   GnssFiles files = station();
   // From one epoch on, the station is 50 km away: its observations are those of noon.
@@ -243,7 +243,7 @@ TEST(PppFilter, StartsAgainAndSaysSoWhenThePositionIsWrong) {
   EXPECT_TRUE(recovered);
 }
 
-TEST(PppRun, SaysWhatIsMissing) {
+TEST(PppRun, ReportsWhatIsMissing) {
   MAPLOOP_REQUIRE_REAL_DATA();
   GnssFiles none;
   EXPECT_THROW(PppRun(none, {}), std::runtime_error);

@@ -194,12 +194,12 @@ TEST(ReceiverFaults, AnotherSourceOfTheReferencesClocksMovesNothing) {
   const GpsTime switched = gps_time({2020, 6, 25, 1, 0, 0.0});
   const auto positions = [&](double metres) {
     const AnotherSource ephemeris(observed_station(), switched, metres);
-    Surroundings around;
-    around.ephemeris = &ephemeris;
-    around.antennas = &observed_station().antennas;
+    RangeInputs inputs;
+    inputs.ephemeris = &ephemeris;
+    inputs.antennas = &observed_station().antennas;
     PppParameters parameters;
     parameters.systems = "GE";
-    PppFilter filter(parameters, around, Earth({}));
+    PppFilter filter(parameters, inputs, Earth({}));
     std::vector<Eigen::Vector3d> all;
     for (const Epoch& epoch : observed_station().observations[0].epochs) {
       if (epoch.time > switched + seconds(1200)) break;

@@ -70,7 +70,7 @@ TEST_F(NineSatellites, NothingIsLeftOutWhereAllFits) {
   EXPECT_LT(error(), 0.03);
 }
 
-TEST_F(NineSatellites, ASlipIsLeftOutWhosesoeverItIs) {
+TEST_F(NineSatellites, ASlipOfAnySatelliteIsLeftOut) {
   for (int slipped = 0; slipped < satellites; ++slipped) {
     const FilterState before = state;
     const std::vector<Row> all = rows;
@@ -102,7 +102,7 @@ TEST_F(NineSatellites, ACodeIsJudgedByItsSize) {
 
 // Any four phases fit. A wrong choice of them would move the vehicle, and good ambiguities would be
 // lost.
-TEST_F(NineSatellites, PhasesThatNobodyChecksMoveItLittleAndAreKept) {
+TEST_F(NineSatellites, PhasesWithoutRedundancyMoveItLittleAndAreKept) {
   for (int lost = 5; lost < satellites; ++lost) {
     state.set(state.ambiguity(gps(lost + 1)), 0.0, 60.0);
     phase(lost).new_ambiguity = true;

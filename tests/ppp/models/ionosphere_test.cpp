@@ -68,7 +68,7 @@ TEST(NtcmG, ElectronsOfItsDescription) {
   }
 }
 
-TEST(BroadcastIonosphere, TakesTheNearestAndSaysHowFarItIs) {
+TEST(BroadcastIonosphere, TakesTheNearestAndReportsHowFarItIs) {
   BroadcastIonosphere ionosphere;
   EXPECT_FALSE(ionosphere.at(noon));
   Klobuchar other = gps;
@@ -98,7 +98,7 @@ TEST(BroadcastIonosphere, PrefersGalileosOfTheDay) {
   EXPECT_EQ(ionosphere.at(noon + hours(24 * 5))->coefficients, IonosphereCoefficients(gps));
 }
 
-TEST(BroadcastIonosphere, DoubtGrowsWithTheDaysAndIsLargestWithoutCoefficients) {
+TEST(BroadcastIonosphere, UncertaintyGrowsWithTheDaysAndIsLargestWithoutCoefficients) {
   BroadcastIonosphere ionosphere;
   ionosphere.add({gps, noon, noon});
   const Geodetic site{0.6, -2.0, 300.0};

@@ -48,7 +48,7 @@ TEST(Protection, AlongAndAcrossFollowTheDirectionOfTravel) {
 }
 
 // The formula of the Astronomical Almanac is good to 0.01 degrees.
-TEST(Earth, SunIsWhereTheAlmanacSays) {
+TEST(Earth, SunIsWhereTheAlmanacStates) {
   const GpsTime t = gps_time({2020, 6, 25, 12, 0, 18.0});
   Earth earth({});
   const SunAndMoon& now = earth.at(t);

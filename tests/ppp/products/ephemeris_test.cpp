@@ -65,7 +65,7 @@ TEST(PreciseEphemeris, MeetsItsNodesAndItsVelocityIsItsDerivative) {
   EXPECT_LT((after->position - before->position - now->velocity).norm(), 1e-4);
 }
 
-TEST(PreciseEphemeris, SaysWhatIsMissing) {
+TEST(PreciseEphemeris, ReportsWhatIsMissing) {
   MAPLOOP_REQUIRE_REAL_DATA();
   std::vector<ClockFile> gap = day().clocks;
   auto& points = gap[0].points[{System::galileo, 12}];

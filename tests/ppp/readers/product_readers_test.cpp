@@ -44,7 +44,7 @@ TEST(ProductReaders, MessagesOfFiveSystems) {
       read_product("esbc_static/ESBC00DNK_R_20201770000_01D_MN.rnx.gz").navigation.at(0);
   EXPECT_EQ(n.glonass.size(), 510U);
   EXPECT_EQ(n.kepler.size(), 357U + 1602U + 257U + 15U);
-  EXPECT_EQ(n.passed_over, 2130);
+  EXPECT_EQ(n.skipped, 2130);
   EXPECT_EQ(n.refused, 0);
   ASSERT_EQ(n.ionosphere.size(), 2U);
   const auto& gps = std::get<Klobuchar>(n.ionosphere[0].coefficients).values;
@@ -148,7 +148,7 @@ TEST(ProductReaders, DifferentialBiasesAsCodePublishesThem) {
   EXPECT_EQ(b.biases[0].second, "C1C");
   EXPECT_NEAR(b.biases[0].metres, -1.270e-9 * speed_of_light, 1e-12);
   EXPECT_EQ(b.biases[1].signal, "C1P");
-  EXPECT_EQ(b.passed_over, 1);
+  EXPECT_EQ(b.skipped, 1);
 }
 
 TEST(ProductReaders, EarthRotationVersion2) {
@@ -202,7 +202,7 @@ TEST(ProductReaders, AnAntennasStepOfAzimuthsFitsTheCircle) {
       std::string::npos);
 }
 
-TEST(ProductReaders, OrbitsOfEpochsWithoutPositionsAreNotBelieved) {
+TEST(ProductReaders, OrbitFilesWithTooManyEmptyEpochsAreRefused) {
   std::string satellites = "+  594   ", epochs;
   for (int i = 0; i < 594; ++i) {
     std::array<char, 8> name{};
@@ -229,7 +229,7 @@ TEST(ProductReaders, OrbitsOfEpochsWithoutPositionsAreNotBelieved) {
   }
 }
 
-TEST(ProductReaders, AFileOfNoKindIsNamed) {
+TEST(ProductReaders, AFileOfUnknownFormatIsNamed) {
   GnssFiles files;
   try {
     parse_into("hello\n", "notes.txt", files);

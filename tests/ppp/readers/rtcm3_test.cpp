@@ -175,7 +175,7 @@ TEST(Rtcm3, FindsTheWeekAndTheDay) {
   EXPECT_EQ(glonass[0].signals[0].phase, 0.0);  // MSM4 does not contain its channel
 }
 
-TEST(Rtcm3, SaysWhatIsWrong) {
+TEST(Rtcm3, ReportsWhatIsWrong) {
   const auto message = [](const std::string& bytes) -> std::string {
     try {
       parse_rtcm3(bytes, "made.rtcm3");

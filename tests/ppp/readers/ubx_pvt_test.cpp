@@ -88,7 +88,7 @@ TEST(UbxPvt, TheWeekBeginsEighteenSecondsBeforeUtcsDay) {
   EXPECT_EQ(d.pvt->time, gps_time({2020, 6, 28, 0, 0, 5.0}) + Duration(300'000));
 }
 
-TEST(UbxPvt, WithoutAFixItHasATimeAlone) {
+TEST(UbxPvt, WithoutAFixItHasOnlyATime) {
   for (const MadePvt& made : {MadePvt{.kind = 0}, MadePvt{.kind = 1}, MadePvt{.kind = 2},
                               MadePvt{.kind = 5}, MadePvt{.flags = 0}}) {
     const Decoded d = decoded(made.payload());
@@ -98,7 +98,7 @@ TEST(UbxPvt, WithoutAFixItHasATimeAlone) {
   }
 }
 
-TEST(UbxPvt, WithoutADateOrATimeItIsNothing) {
+TEST(UbxPvt, WithoutADateOrTimeThereIsNoSolution) {
   for (const MadePvt& made :
        {MadePvt{.valid = 0}, MadePvt{.valid = 1}, MadePvt{.valid = 2}, MadePvt{.valid = 4}}) {
     const Decoded d = decoded(made.payload());
@@ -107,7 +107,7 @@ TEST(UbxPvt, WithoutADateOrATimeItIsNothing) {
   }
 }
 
-TEST(UbxPvt, SaysWhatCannotBe) {
+TEST(UbxPvt, RefusesInvalidTimesPositionsAndAccuracies) {
   EXPECT_NE(decoded(MadePvt{}.payload().substr(0, 84)).problem.find("84 bytes"), std::string::npos);
   for (const MadePvt& made :
        {MadePvt{.time_of_week = 604'800'000}, MadePvt{.month = 13}, MadePvt{.year = 1979}}) {
@@ -123,7 +123,7 @@ TEST(UbxPvt, SaysWhatCannotBe) {
 }
 
 // Each message is followed by NAV-POSECEF and NAV-VELECEF of the same epoch, in centimetres.
-TEST(UbxPvt, OfARecordingIsWhatTheReceiverSaysInEarthFixedAxes) {
+TEST(UbxPvt, AgreesWithTheReceiversEarthFixedSolution) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const std::string bytes =
       read_file(maploop::testing::real_data() / "gnss/parser_samples/F9T-L2-5min.ubx.gz");

@@ -117,7 +117,7 @@ TEST(Ubx, IsWhatRtklibReads) {
   EXPECT_GT(compared, 9'000U);
 }
 
-TEST(Ubx, SaysWhereThePhaseMayHaveSlipped) {
+TEST(Ubx, MarksWhereThePhaseMayHaveSlipped) {
   RawxDecoder decoder;
   Epoch epoch;
   std::string problem;

@@ -27,7 +27,7 @@ TEST(ArrivalWatch, KeepsAnOutageAfterItsEnd) {
             "imu: silent for 2.1 s from 29.9 s on (2 times, 12.2 s in all; this is the last)");
 }
 
-TEST(ArrivalWatch, SaysNothingOfASteadySensorOrOfOneThatMayPause) {
+TEST(ArrivalWatch, ReportsNothingForASteadySensorOrOneThatMayPause) {
   ArrivalWatch steady, free;
   steady.start(origin, seconds(1));
   free.start(origin, Duration::zero());
@@ -55,12 +55,12 @@ class UseWatchTest : public ::testing::Test {
   UseWatch watch_{"fusion", "inertial samples", seconds(1)};
 };
 
-TEST_F(UseWatchTest, SaysNothingWhereMoreThanHalfIsUsed) {
+TEST_F(UseWatchTest, ReportsNothingWhereMoreThanHalfIsUsed) {
   for (int i = 0; i < 1000; ++i) note(i, i + 1, i % 5 < 2 ? gate : nullptr);
   EXPECT_EQ(watch_.sentence(origin), "");
 }
 
-TEST_F(UseWatchTest, SaysWhatIsRefusedWhileItIsAndKeepsItAfterwards) {
+TEST_F(UseWatchTest, ReportsRefusalsWhileTheyLastAndKeepsThemAfterwards) {
   note(0, 200, nullptr);
   note(200, 501, gate);
   EXPECT_EQ(watch_.sentence(origin),

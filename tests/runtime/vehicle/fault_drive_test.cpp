@@ -93,7 +93,7 @@ Replayed replay(const std::vector<std::string>& texts) {
   observer.image_state = [&](const NavState& state) { r.at_images[state.stamp] = state; };
   VehicleConfig config;
   config.odometry = "visual";  // the LiDAR would hide a fault of the camera
-  Vehicle vehicle(config, drive.calibration(), injection.afflict(std::move(sources)),
+  Vehicle vehicle(config, drive.calibration(), injection.inject(std::move(sources)),
                   runtime::DataClock::virtual_time(), {&hashes}, observer);
   vehicle.slow_down(injection.delays());
   const auto hogs = injection.hogs([&] { return vehicle.position(); });

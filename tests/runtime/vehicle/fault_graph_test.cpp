@@ -73,8 +73,8 @@ Replayed replay(
     r.states.push_back(state);
     look(state);
   };
-  Vehicle vehicle({}, testing::fake_calibration(),
-                  injection.afflict(testing::fake_sensors(seconds)), clock, {&hashes}, observer);
+  Vehicle vehicle({}, testing::fake_calibration(), injection.inject(testing::fake_sensors(seconds)),
+                  clock, {&hashes}, observer);
   vehicle.slow_down(injection.delays());
   const auto hogs = injection.hogs([&] { return vehicle.position(); });
   vehicle.start();

@@ -20,7 +20,7 @@ using testing::fake_sensors;
 struct Stream {
   explicit Stream(const std::vector<std::string>& faults, double seconds = 2.0)
       : injection(parsed(faults), drive_start) {
-    Sensors sensors = injection.afflict(fake_sensors(seconds));
+    Sensors sensors = injection.inject(fake_sensors(seconds));
     for (ImuSample s; sensors.imu->next(s);) samples.push_back(s);
     report = sensors.imu->report();
     EXPECT_EQ(report.delivered, samples.size());
@@ -57,7 +57,7 @@ TEST(FaultSource, LostSamplesLeaveAGapInTheSequenceAndAreReported) {
   EXPECT_EQ(s.report.refusals[0].file, "lost@imu:0.5:0.2");
 }
 
-TEST(FaultSource, AShareIsDrawnAnewByEachSeedAndTheSameByTheSameOne) {
+TEST(FaultSource, EachSeedDrawsItsOwnShareReproducibly) {
   const Stream a({"lost@imu,share=0.3"}, 20.0);
   const Stream b({"lost@imu,share=0.3"}, 20.0);
   const Stream c({"lost@imu,share=0.3,seed=2"}, 20.0);
@@ -105,7 +105,7 @@ TEST(FaultSource, NeighboursChangePlaces) {
   EXPECT_LE(s.samples[50].stamp, s.samples[50].available) << "nothing arrives before it happened";
 }
 
-TEST(FaultSource, TheLastSampleHasNobodyToOvertakeIt) {
+TEST(FaultSource, TheLastSampleKeepsItsPlace) {
   const Stream s({"reordered@imu:1.99"});
   ASSERT_EQ(s.samples.size(), 200u);
   EXPECT_EQ(s.samples.back().sequence, 199u);
@@ -127,7 +127,7 @@ TEST(FaultSource, NanInEveryNumber) {
   EXPECT_NEAR(s.samples[60].yaw_rate, 0.01, 1e-6);
 
   FaultInjection injection(Stream::parsed({"nan@gnss", "nan@velodyne"}), drive_start);
-  Sensors sensors = injection.afflict(fake_sensors(2.0));
+  Sensors sensors = injection.inject(fake_sensors(2.0));
   GnssFix fix;
   ASSERT_TRUE(sensors.gnss->next(fix));
   EXPECT_TRUE(std::isnan(fix.position.latitude));
@@ -150,7 +150,7 @@ TEST(FaultSource, AFrozenSensorRepeatsTheFirstNumbersWithStampsThatGoOn) {
   }
 
   FaultInjection injection(Stream::parsed({"frozen@gnss"}), drive_start);
-  Sensors sensors = injection.afflict(fake_sensors(3.0));
+  Sensors sensors = injection.inject(fake_sensors(3.0));
   GnssFix first, later;
   ASSERT_TRUE(sensors.gnss->next(first) && sensors.gnss->next(later));
   EXPECT_EQ(first.position.latitude, later.position.latitude);
@@ -160,7 +160,7 @@ TEST(FaultSource, AFrozenSensorRepeatsTheFirstNumbersWithStampsThatGoOn) {
 TEST(FaultSource, ImagesTurnBlackOrToNoise) {
   FaultInjection injection(Stream::parsed({"black@camera:0:0.15", "garbage@camera:0.15:0.15"}),
                            drive_start);
-  Sensors sensors = injection.afflict(fake_sensors(2.0));
+  Sensors sensors = injection.inject(fake_sensors(2.0));
   StereoPair pair;
   ASSERT_TRUE(sensors.camera->next(pair));
   EXPECT_EQ(pair.left.pixels, std::vector<std::uint8_t>(320 * 120, 0));
@@ -187,7 +187,7 @@ TEST(FaultSource, AFaultOutsideOfTheDriveStrikesNothingAndChangesNothing) {
 
 TEST(FaultSource, ASensorThatIsNotThereStaysAway) {
   FaultInjection injection(Stream::parsed({"lost@camera"}), drive_start);
-  EXPECT_EQ(injection.afflict({}).camera, nullptr);
+  EXPECT_EQ(injection.inject({}).camera, nullptr);
 }
 
 }  // namespace

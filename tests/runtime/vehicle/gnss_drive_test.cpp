@@ -109,10 +109,10 @@ TEST(GnssDrive, RealTimeHasTheBitsOfLockstepAndSoHasAResumedRun) {
   EXPECT_EQ(resumed.messages, later);
 }
 
-TEST(GnssDrive, NumbersThatAreNoneAreNotMeasured) {
+TEST(GnssDrive, InvalidNumbersCountAsNotMeasured) {
   MAPLOOP_REQUIRE_REAL_DATA();
   FaultInjection faults({parse_fault("nan@gnss:10:2")}, recording().first_stamp);
-  const Driven run = drive(faults.afflict(sensors(seconds(20))), DataClock::virtual_time());
+  const Driven run = drive(faults.inject(sensors(seconds(20))), DataClock::virtual_time());
   ASSERT_EQ(run.ppp.size(), 20u);
   EXPECT_EQ(run.ppp[10].status, PppStatus::none);
   EXPECT_EQ(run.ppp[10].satellites.at(0).refusal, PppRefusal::no_signals);

@@ -40,7 +40,7 @@ TEST(GnssOutages, DrawnAtRandomDependOnTheSeedAndDoNotMeet) {
   EXPECT_NE(once[0].begin, other[0].begin);
 }
 
-TEST(GnssOutages, ThatAreWrongSayWhichPart) {
+TEST(GnssOutages, ThatAreInvalidNameTheWrongPart) {
   for (const char* text :
        {"", "20", "a:3", "20:-1", "20:0", "20:30:40", "random:0:60", "random:3:end", "1:2,,3:4"}) {
     EXPECT_NE(check_outages(text), "") << text;

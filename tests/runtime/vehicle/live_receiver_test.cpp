@@ -110,7 +110,7 @@ TEST(LiveReceiver, GivesThePositionsOfTheSameObservationsInFiles) {
   EXPECT_GT(positions, count - 5);
 }
 
-TEST(LiveReceiver, SaysWhatItSees) {
+TEST(LiveReceiver, ReportsWhatItReceives) {
   MAPLOOP_REQUIRE_REAL_DATA();
   maploop::testing::TcpServer receiver;
   const sensors::HostClock clock;

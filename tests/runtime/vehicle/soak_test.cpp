@@ -52,8 +52,7 @@ TEST(Soak, MemoryStaysFlatAndLossesBalance) {
     std::size_t& least = state.stamp < half ? when_warm : later;
     least = std::min(least, bytes_in_use());
   };
-  Vehicle vehicle({}, testing::fake_calibration(),
-                  injection.afflict(testing::fake_sensors(seconds)),
+  Vehicle vehicle({}, testing::fake_calibration(), injection.inject(testing::fake_sensors(seconds)),
                   runtime::DataClock::virtual_time(), {&hashes}, observer);
   vehicle.start();
   vehicle.wait();

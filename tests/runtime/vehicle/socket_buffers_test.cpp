@@ -52,7 +52,7 @@ TEST(SocketBuffers, MoreThanTheKernelGivesIsRefusedWithTheRemedy) {
   EXPECT_EQ(setting.remedy, "as root: sysctl -w net.core.wmem_max=2147483647");
 }
 
-TEST(SocketBuffers, SaysWhatListenersMayAskFor) {
+TEST(SocketBuffers, ReportsWhatListenersMayRequest) {
   EXPECT_EQ(assess_receive_buffers("4194304", 2'000'000).verdict, Verdict::granted);
   const RealtimeSetting small = assess_receive_buffers("212992", 2'000'000);
   EXPECT_EQ(small.verdict, Verdict::limiting);

@@ -146,7 +146,7 @@ TEST(WatchdogInTheGraph, NamesSilentStaleAndMissingSensorsAndTheRestGoesOn) {
   sensors.velodyne = nullptr;
   FaultInjection faults({parse_fault("lost@imu:2:4"), parse_fault("lost@gnss:0:20")}, drive_start);
   testing::MemoryBus bus;
-  Vehicle vehicle({}, testing::fake_calibration(), faults.afflict(std::move(sensors)),
+  Vehicle vehicle({}, testing::fake_calibration(), faults.inject(std::move(sensors)),
                   runtime::DataClock::paced(1.5), {&bus}, {});
   vehicle.start();
   vehicle.wait();

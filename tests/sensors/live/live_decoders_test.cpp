@@ -49,7 +49,7 @@ TEST(ClockOffset, FindsOffsetAndDriftUnderTheDelays) {
   EXPECT_LT(worst_error(50.0, 1.0), 600e-6);  // before the drift is estimated
 }
 
-TEST(ClockOffset, StartsAnewAfterAJumpAndNotAfterAHiccup) {
+TEST(ClockOffset, RestartsAfterAJumpAndNotAfterAHiccup) {
   ClockOffset clock;
   const auto add = [&](double device, double host) {
     return clock.add(from_seconds(device), begin + from_seconds(host));
@@ -86,7 +86,7 @@ TEST(ClockOffset, AClockThatIsSetBackALittleIsWrongForSecondsOnly) {
   }
 }
 
-TEST(ClockOffset, ABusyWayIsNoClockThatWasSetBack) {
+TEST(ClockOffset, ABusyConnectionIsNotAClockThatWasSetBack) {
   ClockOffset clock;
   std::mt19937 random(7);
   std::uniform_real_distribution<double> late(0.0, 0.05);
@@ -99,7 +99,7 @@ TEST(ClockOffset, ABusyWayIsNoClockThatWasSetBack) {
   }
 }
 
-TEST(Nmea, TakesOnlyWholeSentences) {
+TEST(Nmea, AcceptsOnlyCompleteSentences) {
   const auto good =
       parse_nmea("$GPRMC,214106,A,3707.8178,N,12139.2690,W,010.3,188.2,230715,013.8,E,D*05\r\n");
   ASSERT_TRUE(good);
@@ -187,7 +187,7 @@ TEST(NmeaFixes, JoinsTheSentencesOfAnEpoch) {
   EXPECT_EQ(fixes.counts().no_fix, 2U);
 }
 
-TEST(Ncom, RefusesWhatIsNotOneAndSaysWhy) {
+TEST(Ncom, RefusesInvalidPacketsWithTheReason) {
   NcomFault fault{};
   const NcomBytes good = ncom_packet(59'999, -3.0, 2.0, -0.5);
   const auto sample = parse_ncom(good, fault);

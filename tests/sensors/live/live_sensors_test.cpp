@@ -52,7 +52,7 @@ bool wait_until_open(LiveSource<T>& source, bool open) {
   return source.report().connection.open == open;
 }
 
-TEST(Endpoint, IsOnTheLoopbackUnlessItSaysOtherwise) {
+TEST(Endpoint, IsOnTheLoopbackByDefault) {
   EXPECT_EQ(parse_endpoint("udp://:2368").address, "127.0.0.1");
   EXPECT_EQ(parse_endpoint("udp://0.0.0.0:2368").address, "0.0.0.0");
   EXPECT_EQ(parse_endpoint("tcp://192.168.1.7:5000").port, 5000);
@@ -157,7 +157,7 @@ TEST(LiveNmea, ReconnectsOverTcp) {
   EXPECT_NE(gnss->report().connection.problem.find("cannot be connected to"), std::string::npos);
 }
 
-TEST(LiveNmea, NoticesAPeerThatIsGoneWithoutAWord) {
+TEST(LiveNmea, NoticesAPeerThatDisappearsSilently) {
   const HostClock clock;
   const int server = socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address = loopback(0);

@@ -90,7 +90,7 @@ TEST(LiveStereo, IsOpenedAgainWhereItEnds) {
   EXPECT_EQ(camera->report().connection.opened, 3u);
 }
 
-TEST(LiveStereo, MissingOneIsNoErrorAndHoldsNobody) {
+TEST(LiveStereo, AMissingCameraIsNotAnErrorAndBlocksNothing) {
   const HostClock clock;
   const auto camera =
       listen_to_cameras(options("v4l2src device=/dev/no_camera", test_pictures(64, 48)), clock);
@@ -115,7 +115,7 @@ TEST(LiveStereo, CountsWhatItLeavesOut) {
   EXPECT_TRUE(says(apart->report().reasons, "images without a partner"));
 }
 
-TEST(LiveStereo, WhatIsNoPipelineIsSaidBeforeItIsOpened) {
+TEST(LiveStereo, AnInvalidPipelineIsReportedBeforeItIsOpened) {
   const HostClock clock;
   for (const char* text :
        {"", "no_such_element", "videotestsrc ! ! x", "videotestsrc colour=red"}) {

@@ -58,7 +58,7 @@ TEST(NtripReply, StreamsOfBothVersions) {
   }
 }
 
-TEST(NtripReply, SaysWhyThereIsNoStream) {
+TEST(NtripReply, ReportsWhyThereIsNoStream) {
   const auto problem = [](const std::string& text) {
     NtripReply reply;
     EXPECT_EQ(taken(reply, text, 7), "");
@@ -174,7 +174,7 @@ TEST(NtripClient, AsksAgainAfterARefusalAndAfterTheEndOfTheStream) {
   EXPECT_TRUE(requests[3].starts_with("$GPGGA,")) << requests[3];
 }
 
-TEST(NtripClient, SaysThatNobodyAnswersAndThatANameIsNone) {
+TEST(NtripClient, ReportsThatThereIsNoAnswerAndThatANameIsInvalid) {
   const auto nobody =
       open_stream("ntrip://127.0.0.1:" + std::to_string(testing::free_port()) + "/M");
   EXPECT_NE(wait_for_problem(*nobody, "cannot be connected to"), "");
@@ -229,7 +229,7 @@ TEST_F(TlsCaster, IsReadByNameAndByAddress) {
   }
 }
 
-TEST_F(TlsCaster, IsRefusedWhereNobodyVouchesForIt) {
+TEST_F(TlsCaster, IsRefusedWithoutATrustedCertificate) {
   begin("IP:127.0.0.1");
   const auto stream = open("127.0.0.1");
   EXPECT_NE(wait_for_problem(*stream, "self-signed").find("is not trusted: self-signed"),
@@ -254,7 +254,7 @@ TEST_F(TlsCaster, IsRefusedWhereItsCertificateIsOfAnother) {
       << by_name->state().problem;
 }
 
-TEST(NtripClient, SaysThatACasterSpeaksNoTls) {
+TEST(NtripClient, ReportsACasterWithoutTls) {
   TcpServer server;
   std::jthread caster([&] {
     if (server.answer()) server.send("ICY 200 OK\r\nhello, world.");

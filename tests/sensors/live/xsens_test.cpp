@@ -105,7 +105,7 @@ TEST(Xsens, SamplesInEveryPrecisionAndPieceByPiece) {
   }
 }
 
-TEST(Xsens, ItsClockGoesOnWhereItsTicksBeginAnew) {
+TEST(Xsens, ItsClockContinuesWhenItsTicksRestart) {
   XsensDecoder decoder;
   const auto samples = decode(decoder, sample(0xffffffce) + sample(50), 7);
   ASSERT_EQ(samples.size(), 2u);

@@ -85,7 +85,7 @@ TEST(VelodyneCapture, PacketsInsideAnLcmLog) {
   EXPECT_EQ(decoder.counts().lost, 0U);
 }
 
-TEST(VelodyneCapture, SaysWhatIsWrongWithAFile) {
+TEST(VelodyneCapture, ReportsWhatIsWrongWithAFile) {
   const testing::TemporaryFolder folder;
   const auto message = [](const std::filesystem::path& file) -> std::string {
     try {
@@ -100,7 +100,7 @@ TEST(VelodyneCapture, SaysWhatIsWrongWithAFile) {
   EXPECT_NE(message(folder.path() / "text.pcap").find("is not a capture"), std::string::npos);
 }
 
-TEST(VelodyneCalibration, SaysWhatIsWrongWithAFile) {
+TEST(VelodyneCalibration, ReportsWhatIsWrongWithAFile) {
   const testing::TemporaryFolder folder;
   const auto file = folder.path() / "db.xml";
   const auto message = [&]() -> std::string {

@@ -267,7 +267,7 @@ TEST(VelodyneDecoder, TellsItsGpsReceiversTime) {
   EXPECT_EQ(scanner.decoder().counts().positions, 4U);
 }
 
-TEST(VelodyneDecoder, RefusesWhatIsNoPacketOrAnothersAndCountsWhy) {
+TEST(VelodyneDecoder, RefusesInvalidPacketsAndThoseOfAnotherModelAndCountsWhy) {
   VelodyneDecoder decoder(VelodyneModel::vlp16, factory_lasers(VelodyneModel::vlp16));
   LidarScan scan;
   DataBytes flag = data_packet(0, 40, 0), azimuth = flag, model = flag;
@@ -290,7 +290,7 @@ TEST(VelodyneDecoder, RefusesWhatIsNoPacketOrAnothersAndCountsWhy) {
   EXPECT_EQ(decoder.counts().data, 0U);
 }
 
-TEST(VelodyneDecoder, AnyBytesAreTakenWithoutHarm) {
+TEST(VelodyneDecoder, AnyBytesAreHarmless) {
   std::mt19937 random(3);
   for (const auto model : {VelodyneModel::vlp16, VelodyneModel::hdl32e}) {
     VelodyneDecoder decoder(model, factory_lasers(model));

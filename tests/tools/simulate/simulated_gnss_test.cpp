@@ -245,7 +245,8 @@ Solved solve(const fs::path& folder) {
   const ppp::GnssFiles files = files_of(folder);
   EXPECT_EQ(files.observations.at(0).refused, 0);
   const ppp::PppSetup setup(files, {});
-  EXPECT_TRUE(setup.one_frequency() || setup.lacks().empty()) << setup.lacks().at(0);
+  EXPECT_TRUE(setup.one_frequency() || setup.missing_models().empty())
+      << setup.missing_models().at(0);
   ppp::PppFilter filter = setup.make_filter();
   const gnss::Truth truth((folder / "truth.csv").string(), setup.observations().epochs[0].time);
   gnss::Score score(truth, 1e-4);

@@ -1,4 +1,4 @@
-#include "ppp/filter/full_strength.h"
+#include "ppp/filter/unobstructed_cn0.h"
 
 #include <gtest/gtest.h>
 
@@ -10,20 +10,20 @@ namespace {
 constexpr double zenith = 1.0, half_way = 0.5;  // sines: 90 and 30 degrees
 
 // Adds `count` signals with this mean strength and a standard deviation of 2 dB.
-void signals(FullStrength& strength, double sine, double mean, int count) {
+void signals(UnobstructedCn0& strength, double sine, double mean, int count) {
   std::mt19937 random(1);
   std::normal_distribution<double> cn0(mean, 2.0);
   for (int i = 0; i < count; ++i) strength.add(sine, cn0(random));
 }
 
-TEST(FullStrength, AtFirstItIsWhatAllReceiversReach) {
-  const FullStrength strength{PppParameters{}};
+TEST(UnobstructedCn0, StartsWithTheCurveOfAllReceivers) {
+  const UnobstructedCn0 strength{PppParameters{}};
   EXPECT_DOUBLE_EQ(strength.of(zenith), 47.0);
   EXPECT_DOUBLE_EQ(strength.of(half_way), 47.0 - 14.5 / 2.0);
 }
 
-TEST(FullStrength, AStrongReceiversIsBelowItsUpperQuartile) {
-  FullStrength strength{PppParameters{}};
+TEST(UnobstructedCn0, IsBelowTheUpperQuartileOfAStrongReceiver) {
+  UnobstructedCn0 strength{PppParameters{}};
   signals(strength, half_way, 46.0, 2000);
   const double upper_quartile = 46.0 + 0.674 * 2.0;
   EXPECT_NEAR(strength.of(half_way), upper_quartile - 4.0, 0.5);
@@ -31,14 +31,14 @@ TEST(FullStrength, AStrongReceiversIsBelowItsUpperQuartile) {
 }
 
 // Between houses most signals are weak, but they must not count as unobstructed.
-TEST(FullStrength, AWeakReceiversIsNotLowered) {
-  FullStrength strength{PppParameters{}};
+TEST(UnobstructedCn0, IsNotLoweredForAWeakReceiver) {
+  UnobstructedCn0 strength{PppParameters{}};
   signals(strength, zenith, 35.0, 2000);
   EXPECT_DOUBLE_EQ(strength.of(zenith), 47.0);
 }
 
-TEST(FullStrength, ReflectedSignalsAmongThemDoNotLowerIt) {
-  FullStrength strength{PppParameters{}};
+TEST(UnobstructedCn0, IsNotLoweredByReflectedSignals) {
+  UnobstructedCn0 strength{PppParameters{}};
   for (int i = 0; i < 1000; ++i) {
     strength.add(half_way, 46.0);
     strength.add(half_way, 30.0);
@@ -46,10 +46,10 @@ TEST(FullStrength, ReflectedSignalsAmongThemDoNotLowerIt) {
   EXPECT_NEAR(strength.of(half_way), 46.0 - 4.0, 0.3);
 }
 
-TEST(FullStrength, WithoutATemplateStrengthDoesNotCount) {
+TEST(UnobstructedCn0, IsZeroWhereStrengthIsNotUsed) {
   PppParameters parameters;
   parameters.full_cn0 = 0.0;
-  FullStrength strength{parameters};
+  UnobstructedCn0 strength{parameters};
   signals(strength, zenith, 45.0, 2000);
   EXPECT_EQ(strength.of(zenith), 0.0);
 }

@@ -1,34 +1,34 @@
-#include "ppp/filter/full_strength.h"
+#include "ppp/filter/unobstructed_cn0.h"
 
 #include <algorithm>
 
 namespace maploop::ppp {
 
-FullStrength::FullStrength(const PppParameters& parameters)
+UnobstructedCn0::UnobstructedCn0(const PppParameters& parameters)
     : zenith_(parameters.full_cn0),
       drop_(parameters.full_cn0_drop),
       margin_(parameters.full_cn0_margin) {
   quartile_.fill(margin_);
 }
 
-double FullStrength::of_all(double sine) const {
+double UnobstructedCn0::of_all(double sine) const {
   return zenith_ - drop_ * (1.0 - sine);
 }
 
-std::size_t FullStrength::band(double sine) {
+std::size_t UnobstructedCn0::band(double sine) {
   constexpr std::array<double, 3> bounds{0.342, 0.643, 0.866};  // 20, 40 and 60 degrees
   const auto above = std::upper_bound(bounds.begin(), bounds.end(), sine);
   return static_cast<std::size_t>(above - bounds.begin());
 }
 
-double FullStrength::of(double sine) const {
+double UnobstructedCn0::of(double sine) const {
   if (zenith_ <= 0.0) return 0.0;
   return of_all(sine) + std::max(0.0, quartile_[band(sine)] - margin_);
 }
 
 // The steps up and down balance if a quarter of the strengths is above the estimate (Robbins and
 // Monro, "A stochastic approximation method", Annals of Mathematical Statistics 22, 1951).
-void FullStrength::add(double sine, double cn0) {
+void UnobstructedCn0::add(double sine, double cn0) {
   constexpr double step = 0.1;  // dB
   double& quartile = quartile_[band(sine)];
   quartile += step * (cn0 - of_all(sine) > quartile ? 0.75 : -0.25);

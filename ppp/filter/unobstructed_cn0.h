@@ -10,9 +10,9 @@ namespace maploop::ppp {
 
 // The expected unobstructed C/N0 by elevation is the curve common to all receivers. It is raised to
 // this receiver's own upper quartile minus `full_cn0_margin` where that is higher.
-class FullStrength {
+class UnobstructedCn0 {
  public:
-  explicit FullStrength(const PppParameters& parameters);
+  explicit UnobstructedCn0(const PppParameters& parameters);
 
   // Returns the C/N0 in dB-Hz at the sine of an elevation; 0 if strength is not used (`full_cn0` =
   // 0).
