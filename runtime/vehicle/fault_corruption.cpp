@@ -78,6 +78,7 @@ void repeat(GnssFix& fix, const GnssFix& other) {
 }
 
 void repeat(GnssEpoch& epoch, const GnssEpoch& other) {
+  epoch.epoch.satellites = other.epoch.satellites;
   epoch.epoch.signals = other.epoch.signals;
 }
 

@@ -25,8 +25,8 @@ void fill_with_nan(ImuSample& sample);
 void fill_with_nan(GnssFix& fix);
 void fill_with_nan(GnssEpoch& epoch);
 
-// Copies every measured number and every covariance from `other`; the stamps stay. Only `signals`
-// is copied from an epoch.
+// Copies every measured number and every covariance from `other`; the stamps stay. From an epoch,
+// the satellites and their signals are copied.
 void repeat(ImuSample& sample, const ImuSample& other);
 void repeat(GnssFix& fix, const GnssFix& other);
 void repeat(GnssEpoch& epoch, const GnssEpoch& other);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/vehicle/fault_corruption.h"
 #include "runtime/vehicle/fault_injection.h"
 #include "tests/runtime/vehicle/fake_sensors.h"
 
@@ -155,6 +156,28 @@ TEST(FaultSource, AFrozenSensorRepeatsTheFirstNumbersWithStampsThatGoOn) {
   ASSERT_TRUE(sensors.gnss->next(first) && sensors.gnss->next(later));
   EXPECT_EQ(first.position.latitude, later.position.latitude);
   EXPECT_LT(first.stamp, later.stamp);
+}
+
+// Makes an epoch of `count` satellites with one code each.
+GnssEpoch epoch_of(int count, double code) {
+  GnssEpoch made;
+  made.stamp = drive_start + milliseconds(count);
+  for (std::uint8_t n = 1; n <= count; ++n) {
+    made.epoch.satellites.push_back(
+        {{ppp::System::gps, n}, static_cast<std::uint32_t>(made.epoch.signals.size()), 1});
+    made.epoch.signals.push_back({.band = '1', .attribute = 'C', .code = code});
+  }
+  return made;
+}
+
+TEST(FaultSource, AFrozenReceiverRepeatsItsSatellitesWithTheirSignals) {
+  GnssEpoch later = epoch_of(3, 2.1e7);
+  const Time stamp = later.stamp;
+  repeat(later, epoch_of(1, 2.0e7));
+  EXPECT_EQ(later.stamp, stamp);
+  ASSERT_EQ(later.epoch.signals.size(), 1u);
+  ASSERT_EQ(later.epoch.satellites.size(), 1u);
+  EXPECT_EQ(later.epoch.of(later.epoch.satellites[0])[0].code, 2.0e7);
 }
 
 TEST(FaultSource, ImagesTurnBlackOrToNoise) {
