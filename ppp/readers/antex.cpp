@@ -78,6 +78,14 @@ void read_zenith_grid(const Lines& lines, Antenna& antenna) {
   }
 }
 
+// A satellite's antenna has the satellite, such as G05, as its serial number. A receiver's antenna
+// may have the same serial number, but it has a radome and no number of a space vehicle.
+bool is_satellite_antenna(const Lines& lines) {
+  const bool has_radome = !blank(lines.column(16, 4)), has_vehicle = !blank(lines.column(40, 10));
+  return trimmed(lines.column(20, 20)).size() == 3 && !blank(lines.column(0, 5)) &&
+         (!has_radome || has_vehicle);
+}
+
 // An antenna without its end, recognized by the start of the next one, is left out and counted.
 Antenna read_antenna(Lines& lines, int& refused) {
   Antenna antenna;
@@ -86,10 +94,7 @@ Antenna read_antenna(Lines& lines, int& refused) {
     if (name == "TYPE / SERIAL NO") {
       antenna.type = std::string(trimmed(lines.column(0, 20)));
       antenna.serial = std::string(trimmed(lines.column(20, 20)));
-      // A serial number such as G05 marks a satellite's antenna.
-      if (antenna.serial.size() == 3 && !blank(lines.column(0, 5))) {
-        antenna.satellite = parse_satellite(antenna.serial);
-      }
+      if (is_satellite_antenna(lines)) antenna.satellite = parse_satellite(antenna.serial);
     } else if (name == "DAZI") {
       read_azimuth_grid(lines, antenna);
     } else if (name == "ZEN1 / ZEN2 / DZEN") {

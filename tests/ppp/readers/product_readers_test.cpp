@@ -88,6 +88,12 @@ TEST(ProductReaders, IonosphereOfAnOldHeader) {
   EXPECT_TRUE(
       read("    0.1025D+07  0.7451D-08 -0.5960D-07 -0.5960D-07          ION ALPHA           \n")
           .ionosphere.empty());
+  const auto of_version = [&](const std::string& version) {
+    std::string text = before + behind;
+    return parse_navigation(text.replace(5, 4, version), "old.20n");
+  };
+  EXPECT_EQ(of_version("2.00").kepler.size(), 1U);
+  EXPECT_THROW(of_version("2.13"), ReadError);
 }
 
 TEST(ProductReaders, AntennasOfSatellitesAndReceivers) {
@@ -164,12 +170,13 @@ TEST(ProductReaders, EarthRotationVersion2) {
   EXPECT_NEAR(days[0].x_pole, 0.143212 / 206264.806, 1e-12);
 }
 
+std::string line(std::string text, const std::string& label) {
+  text.resize(60, ' ');
+  return text + label + "\n";
+}
+
 // Makes an antenna with `rows` rows of azimuths `step` degrees apart, for zenith angles 0 and 5.
 std::string antex(double step, int rows, const std::string& behind = "") {
-  const auto line = [](std::string text, const std::string& label) {
-    text.resize(60, ' ');
-    return text + label + "\n";
-  };
   std::array<char, 16> dazi{};
   std::snprintf(dazi.data(), dazi.size(), "  %6.1f", step);
   std::string text =
@@ -195,11 +202,37 @@ TEST(ProductReaders, AnAntennasStepOfAzimuthsFitsTheCircle) {
   EXPECT_EQ(antex_refusal(antex(90.0, 5)), "");
   EXPECT_EQ(antex_refusal(antex(180.0, 3)), "");
   EXPECT_NE(antex_refusal(antex(720.0, 1)).find("a.atx:6: an azimuth step"), std::string::npos);
-  std::string dazi = "     0.0";
-  dazi.resize(60, ' ');
-  EXPECT_NE(
-      antex_refusal(antex(90.0, 5, dazi + "DAZI\n")).find("DAZI or ZEN1 comes after a carrier"),
-      std::string::npos);
+  EXPECT_NE(antex_refusal(antex(90.0, 5, line("     0.0", "DAZI")))
+                .find("DAZI or ZEN1 comes after a carrier"),
+            std::string::npos);
+}
+
+TEST(ProductReaders, AnAntennaIsASatellitesByItsSerialNumberWithoutARadome) {
+  const auto satellite = [](const std::string& columns) {
+    std::string text = antex(90.0, 5);
+    const std::string receiver = "TRM59800.00     NONE";
+    text.replace(text.find(receiver), columns.size(), columns);
+    return parse_antex(text, "a.atx").antennas.at(0).satellite;
+  };
+  const Satellite g05{System::gps, 5};
+  EXPECT_EQ(satellite("BLOCK IIR-M         G05                 G050      2009-043A "), g05);
+  EXPECT_EQ(satellite("BLOCK IIR-M         G05                                     "), g05);
+  EXPECT_EQ(satellite("A TYPE OF 20 COLUMNSG05                 G050      2009-043A "), g05);
+  EXPECT_EQ(satellite("TRM59800.00     NONEG05                                     "),
+            std::nullopt);
+  EXPECT_EQ(satellite("TRM59800.00     NONE                                        "),
+            std::nullopt);
+}
+
+TEST(ProductReaders, AntexIsReadFromVersion12To14) {
+  const auto refusal = [](const std::string& version) {
+    std::string text = antex(90.0, 5);
+    return antex_refusal(text.replace(text.find("1.4"), 3, version));
+  };
+  for (const char* version : {"1.2", "1.3", "1.4"}) EXPECT_EQ(refusal(version), "") << version;
+  for (const char* version : {"1.1", "1.5"}) {
+    EXPECT_NE(refusal(version).find("ANTEX 1.2 to 1.4"), std::string::npos) << version;
+  }
 }
 
 TEST(ProductReaders, OrbitFilesWithTooManyEmptyEpochsAreRefused) {
