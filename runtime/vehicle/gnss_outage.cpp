@@ -69,9 +69,12 @@ Part parse_part(std::string_view text) {
   return part;
 }
 
+constexpr double settled = 60.0;  // s; by then the filter has estimated its sensors' errors
+
 std::string too_short(const Part& part) {
   std::ostringstream text;
-  text << "the drive is too short for " << part.count << " outages of " << part.length << " s";
+  text << "the drive is too short for " << part.count << " outages of " << part.length
+       << " s after its first " << settled << " s";
   return text.str();
 }
 
@@ -83,7 +86,6 @@ bool overlaps(const std::vector<GnssOutage>& outages, const GnssOutage& one) {
 
 void add_random(const Part& part, Time first, Time last, std::int64_t seed,
                 std::vector<GnssOutage>& outages) {
-  constexpr double settled = 60.0;  // s; by then the filter has estimated its sensors' errors
   const double latest = to_seconds(last - first) - part.length;
   if (latest <= settled) refuse(part.text, too_short(part));
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));

@@ -14,7 +14,7 @@ namespace {
 [[noreturn]] void reject(std::string_view text, const std::string& why) {
   throw std::invalid_argument("'" + without_secrets(text) +
                               "' is not an endpoint of a sensor: " + why +
-                              "; expected udp://[ADDRESS]:PORT, tcp://ADDRESS:PORT and "
+                              "; expected udp://[ADDRESS]:PORT, tcp://ADDRESS:PORT or "
                               "serial:///dev/NAME?baud=115200");
 }
 

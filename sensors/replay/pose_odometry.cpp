@@ -25,8 +25,9 @@ void add_line(std::string_view line, CameraPoses& all) {
   const std::vector<double> numbers = parse_numbers(line);
   if (numbers.size() != 12 && numbers.size() != 13) {
     throw std::invalid_argument(
-        "a pose must have 12 numbers (3x4, row by row) or the frame's before " +
-        std::string("them, this line has ") + std::to_string(numbers.size()));
+        "a pose must have 12 numbers (3x4, row by row), or 13 with the frame's first; this line "
+        "has " +
+        std::to_string(numbers.size()));
   }
   std::size_t frame = all.frames.size();
   if (numbers.size() == 13) {

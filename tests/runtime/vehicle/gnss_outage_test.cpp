@@ -45,6 +45,8 @@ TEST(GnssOutages, ThatAreInvalidNameTheWrongPart) {
        {"", "20", "a:3", "20:-1", "20:0", "20:30:40", "random:0:60", "random:3:end", "1:2,,3:4"}) {
     EXPECT_NE(check_outages(text), "") << text;
   }
+  EXPECT_NE(check_outages("random:a:60").find("'a' is not a count"), std::string::npos);
+  EXPECT_NE(check_outages("20:b").find("'b' is not a number of seconds"), std::string::npos);
   EXPECT_EQ(check_outages("20:30,random:2:60,300:end"), "");
   EXPECT_THROW(parse_outages("random:1:390", first, last, 1), std::invalid_argument);
   EXPECT_THROW(parse_outages("random:9:60", first, last, 1), std::invalid_argument);
