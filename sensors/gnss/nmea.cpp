@@ -1,8 +1,11 @@
 #include "sensors/gnss/nmea.h"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 
 #include "msgs/frames.h"
 
@@ -28,19 +31,22 @@ std::optional<int> digits(std::string_view text, std::size_t from, std::size_t c
   return value;
 }
 
+unsigned checksum(std::string_view body) {
+  unsigned sum = 0;
+  for (const char c : body) sum ^= static_cast<unsigned char>(c);
+  return sum;
+}
+
 // Returns the text between '$' and '*' if the two digits after that are its checksum.
 std::optional<std::string_view> checked_body(std::string_view line) {
   while (!line.empty() && (line.back() == '\r' || line.back() == '\n')) line.remove_suffix(1);
   if (line.size() < 7 || line.front() != '$' || line[line.size() - 3] != '*') return {};
   const std::string_view body = line.substr(1, line.size() - 4);
-  unsigned sum = 0, said = 0;
-  for (const char c : body) {
-    if (c < ' ' || c > '~') return {};
-    sum ^= static_cast<unsigned char>(c);
-  }
+  if (std::any_of(body.begin(), body.end(), [](char c) { return c < ' ' || c > '~'; })) return {};
+  unsigned said = 0;
   const char* const hex = line.data() + line.size() - 2;
   const auto [end, error] = std::from_chars(hex, hex + 2, said, 16);
-  if (error != std::errc() || end != hex + 2 || sum != said) return {};
+  if (error != std::errc() || end != hex + 2 || checksum(body) != said) return {};
   return body;
 }
 
@@ -103,6 +109,22 @@ std::optional<double> nmea_angle(std::string_view text, std::string_view hemisph
   const double angle = whole + minutes / 60.0;
   if (minutes >= 60.0 || angle > limit) return {};
   return radians(side == 'S' || side == 'W' ? -angle : angle);
+}
+
+std::string nmea_sentence(const std::string& body) {
+  std::array<char, 16> end{};
+  std::snprintf(end.data(), end.size(), "*%02X\r\n", checksum(body));
+  return '$' + body + end.data();
+}
+
+// Rounded once, so that no 60 minutes come out.
+std::string nmea_angle_fields(double angle, int degree_digits, const char* hemispheres) {
+  constexpr long long per_minute = 10'000'000, per_degree = 60 * per_minute;
+  const long long all = std::llround(std::abs(degrees(angle)) * 60.0 * per_minute);
+  std::array<char, 48> text{};
+  std::snprintf(text.data(), text.size(), "%0*lld%02lld.%07lld,%c", degree_digits, all / per_degree,
+                all % per_degree / per_minute, all % per_minute, hemispheres[angle < 0.0 ? 1 : 0]);
+  return text.data();
 }
 
 }  // namespace maploop::sensors

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "msgs/time.h"
@@ -36,5 +37,12 @@ std::optional<Time> nmea_date(std::string_view text);
 
 // Parses "ddmm.mmmm" or "dddmm.mmmm" with its hemisphere; rad, north and east positive.
 std::optional<double> nmea_angle(std::string_view digits, std::string_view hemisphere);
+
+// "$<body>*<checksum>\r\n".
+std::string nmea_sentence(const std::string& body);
+
+// An angle in rad as "ddmm.mmmmmmm,N", with two or three digits of degrees; `hemispheres` are those
+// of a positive and of a negative angle, such as "NS".
+std::string nmea_angle_fields(double angle, int degree_digits, const char* hemispheres);
 
 }  // namespace maploop::sensors

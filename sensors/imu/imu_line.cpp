@@ -26,11 +26,7 @@ std::string imu_line(const ImuLine& sample) {
   const int size =
       std::snprintf(text.data(), text.size(), "PIMU,%.6f,%.6f,%.6f,%.8f", to_seconds(sample.time),
                     sample.specific_force_forward, sample.specific_force_left, sample.yaw_rate);
-  const std::string body(text.data(), static_cast<std::size_t>(size));
-  unsigned sum = 0;
-  for (const char c : body) sum ^= static_cast<unsigned char>(c);
-  std::snprintf(text.data(), text.size(), "*%02X\r\n", sum);
-  return "$" + body + text.data();
+  return nmea_sentence(std::string(text.data(), static_cast<std::size_t>(size)));
 }
 
 }  // namespace maploop::sensors

@@ -7,7 +7,9 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "msgs/base64.h"
 #include "msgs/frames.h"
+#include "sensors/gnss/nmea.h"
 #include "sensors/live/endpoint.h"
 
 namespace maploop::sensors {
@@ -48,32 +50,6 @@ std::optional<Geodetic> read_position(std::string_view text) {
 
 bool printable(std::string_view text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c <= '~'; });
-}
-
-std::string base64(std::string_view text) {
-  constexpr std::string_view digits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (std::size_t i = 0; i < text.size(); i += 3) {
-    std::uint32_t bits = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      bits = bits << 8 | (i + k < text.size() ? static_cast<std::uint8_t>(text[i + k]) : 0U);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      out += i + k > text.size() ? '=' : digits[bits >> (18 - 6 * k) & 63U];
-    }
-  }
-  return out;
-}
-
-// Returns a text such as "4858.95000,N".
-std::string angle_field(double value, int degree_digits, const char* signs) {
-  const double minutes = std::abs(degrees(value)) * 60.0;
-  const int whole = static_cast<int>(minutes / 60.0);
-  std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), "%0*d%010.7f,%c", degree_digits, whole,
-                std::min(minutes - 60.0 * whole, 59.9999999), value < 0.0 ? signs[1] : signs[0]);
-  return text.data();
 }
 
 }  // namespace
@@ -125,16 +101,13 @@ NtripAddress parse_ntrip(std::string_view text) {
 
 std::string ntrip_gga(const Geodetic& p, Duration time_of_day) {
   const auto seconds = static_cast<long>(time_of_day / std::chrono::seconds(1));
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(), "GPGGA,%02ld%02ld%02ld.00,%s,%s,1,10,1.0,%.3f,M,0.0,M,,",
-                seconds / 3600 % 24, seconds / 60 % 60, seconds % 60,
-                angle_field(p.latitude, 2, "NS").c_str(), angle_field(p.longitude, 3, "EW").c_str(),
-                p.height);
-  unsigned sum = 0;
-  for (const char* c = text.data(); *c != '\0'; ++c) sum ^= static_cast<unsigned char>(*c);
-  std::array<char, 8> end{};
-  std::snprintf(end.data(), end.size(), "*%02X\r\n", sum);
-  return "$" + std::string(text.data()) + end.data();
+  std::array<char, 16> time{}, height{};
+  std::snprintf(time.data(), time.size(), "%02ld%02ld%02ld.00", seconds / 3600 % 24,
+                seconds / 60 % 60, seconds % 60);
+  std::snprintf(height.data(), height.size(), "%.3f", p.height);
+  return nmea_sentence(
+      std::string("GPGGA,") + time.data() + ',' + nmea_angle_fields(p.latitude, 2, "NS") + ',' +
+      nmea_angle_fields(p.longitude, 3, "EW") + ",1,10,1.0," + height.data() + ",M,0.0,M,,");
 }
 
 std::string ntrip_request(const NtripAddress& a, Duration time_of_day) {

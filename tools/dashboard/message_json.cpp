@@ -7,25 +7,14 @@
 #include <type_traits>
 #include <variant>
 
+#include "msgs/base64.h"
+
 namespace maploop::dashboard {
 namespace {
 
 using nlohmann::json;
 
 constexpr std::string_view left_out = "maploop_lcm.histogram_t";
-
-std::string base64(std::span<const std::uint8_t> bytes) {
-  constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < n ? bytes[i + k] : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= n ? digits[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
 
 json number(const schema::Value& value) {
   return std::visit(
