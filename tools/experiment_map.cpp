@@ -3,7 +3,7 @@
 #include <iostream>
 #include <memory>
 
-#include "mapmatch/network_file.h"
+#include "mapmatch/osm_reader.h"
 #include "tools/choice_option.h"
 #include "tools/evaluation/text_file.h"
 #include "tools/experiments.h"
@@ -28,9 +28,9 @@ std::string samples_csv(const std::vector<experiments::MapResult>& results) {
       "azimuth_error,sigma,nees,p_link,feedback\n";
   for (const experiments::MapResult& r : results) {
     const experiments::MapCase& c = r.setup;
-    const std::string run = c.sequence + "," + c.configuration + "," +
-                            (c.mems ? "mems" : "recorded") + "," + c.outages + "," + c.fault + "," +
-                            std::string(name_of(c.mode)) + "," + std::to_string(c.seed);
+    const std::string run = c.sequence + "," + c.configuration + "," + c.unit() + "," + c.outages +
+                            "," + c.fault + "," + std::string(name_of(c.mode)) + "," +
+                            std::to_string(c.seed);
     for (const experiments::MapSample& s : r.samples) {
       text += run;
       for (const double value : {s.time, s.truth.x(), s.truth.y(), s.error.x(), s.error.y(),
@@ -49,11 +49,9 @@ int compare_modes(const MapOptions& options) {
   for (const std::string& text : options.set) experiments::set_parameter(setting, text);
   mapmatch::MapExtract map;
   if (options.faults) map = mapmatch::read_osm(options.map);
-  const mapmatch::RoadNetwork network(mapmatch::open_network(options.map));
-  const mapmatch::RuleBases rules = mapmatch::read_rule_bases(mapmatch::default_rules());
-  setting.map = &map;
-  setting.network = &network;
-  setting.rules = &rules;
+  setting.extract = &map;
+  setting.config.map = {options.map, vehicle::MapMode::loose, setting.config.map.rules};
+  setting.roads = vehicle::load_road_map(setting.config.map);
   experiments::MapCases wanted = options.cases;
   wanted.poses = !setting.config.odometry_poses.file.empty();
   if (options.faults) wanted.faults = experiments::map_faults();

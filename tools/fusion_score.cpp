@@ -54,12 +54,6 @@ Errors errors_between(const std::vector<Sample>& samples, Time begin, Time end, 
   return e;
 }
 
-std::vector<ReferencePose> read_all(sensors::Source<ReferencePose>& source) {
-  std::vector<ReferencePose> rows;
-  for (ReferencePose row; source.next(row);) rows.push_back(row);
-  return rows;
-}
-
 }  // namespace
 
 void NavTrack::add(const NavState& state) {
@@ -70,11 +64,10 @@ void NavTrack::add(const NavState& state) {
   states_.push_back(state);
 }
 
-std::optional<Score> score(const NavTrack& track, sensors::Source<ReferencePose>& reference,
+std::optional<Score> score(const NavTrack& track, const std::vector<ReferencePose>& reference,
                            const std::vector<vehicle::GnssOutage>& outages, Time origin) {
-  const std::vector<ReferencePose> rows = read_all(reference);
-  if (rows.size() < 2 || track.states().empty()) return std::nullopt;
-  const sensors::ReferenceTrajectory truth(rows, LocalFrame(track.states().front().origin));
+  if (reference.size() < 2 || track.states().empty()) return std::nullopt;
+  const sensors::ReferenceTrajectory truth(reference, LocalFrame(track.states().front().origin));
 
   std::vector<Sample> samples;
   for (const NavState& state : track.states()) {

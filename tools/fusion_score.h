@@ -8,7 +8,6 @@
 #include "msgs/nav_state.h"
 #include "msgs/reference.h"
 #include "runtime/vehicle/gnss_outage.h"
-#include "sensors/source.h"
 
 namespace maploop::fusion_score {
 
@@ -58,7 +57,7 @@ struct Score {
 
 // Nothing where the track or the reference is too short. A reference that is nowhere better than
 // worst_reference is taken as it is.
-std::optional<Score> score(const NavTrack& track, sensors::Source<ReferencePose>& reference,
+std::optional<Score> score(const NavTrack& track, const std::vector<ReferencePose>& reference,
                            const std::vector<vehicle::GnssOutage>& outages, Time origin);
 
 // Some lines for a terminal.

@@ -38,14 +38,6 @@ namespace {
 constexpr int exit_failed = 1;
 constexpr double far_from_map = 5'000.0;  // m
 
-// Empty where the recording has none.
-std::vector<ReferencePose> read_reference(const vehicle::Recording& recording) {
-  std::vector<ReferencePose> rows;
-  const auto source = recording.sensors(Time::max()).reference;
-  for (ReferencePose row; source && source->next(row);) rows.push_back(row);
-  return rows;
-}
-
 // Of one pass through the recording; made anew when it begins again.
 struct Pass : RunPass {
   Pass(const ReplayOptions& options, const vehicle::Recording& recording, Time cut)
@@ -297,15 +289,15 @@ ReplayResult Replay::result(PlaybackEnd end) {
     match::SegmentLinks(map_->network).look_up(labels);
     result.links = match::score_matches(matches, recording_.driven_links->stamps, labels);
   }
-  if (const auto rows = read_reference(recording_); rows.size() > 1) {
+  if (const auto rows = sensors::read_rows(recording_.sensors(Time::max()).reference);
+      rows.size() > 1) {
     const sensors::ReferenceTrajectory reference(rows, LocalFrame(rows.front().position));
     const auto pose = [&](Time t) { return reference.pose(t); };
     result.vo = pass_->collector.score_vo(pose);
     result.lidar = pass_->lidar_collector.score_vo(pose);
     result.fused = pass_->collector.score_fused(pose);
     result.navigation =
-        fusion_score::score(pass_->track, *recording_.sensors(Time::max()).reference,
-                            recording_.outages, recording_.first_stamp);
+        fusion_score::score(pass_->track, rows, recording_.outages, recording_.first_stamp);
   }
   return result;
 }
@@ -328,7 +320,8 @@ int Replay::run() {
       },
       [&] {
         if (options_.report.empty()) return;
-        write_run_report(options_.report, r, *pass_, read_reference(recording_), config_,
+        write_run_report(options_.report, r, *pass_,
+                         sensors::read_rows(recording_.sensors(Time::max()).reference), config_,
                          map_.get());
       },
   });

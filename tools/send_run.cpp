@@ -165,9 +165,7 @@ sensors::Hdl64Lasers lasers_of(const vehicle::Recording& recording) {
 
 void write_truth(const std::filesystem::path& file, const vehicle::Recording& recording,
                  Duration shift) {
-  const auto source = recording.sensors(Time::max()).reference;
-  std::vector<ReferencePose> rows;
-  for (ReferencePose row; source && source->next(row);) rows.push_back(row);
+  const auto rows = sensors::read_rows(recording.sensors(Time::max()).reference);
   if (rows.size() < 2) throw std::runtime_error("the drive has no reference for --truth");
   const sensors::ReferenceTrajectory reference(rows, LocalFrame(rows.front().position));
   evaluation::StampedTrajectory truth;

@@ -7,6 +7,12 @@
 
 namespace maploop::sensors {
 
+std::vector<ReferencePose> read_rows(const std::unique_ptr<Source<ReferencePose>>& reference) {
+  std::vector<ReferencePose> rows;
+  for (ReferencePose row; reference != nullptr && reference->next(row);) rows.push_back(row);
+  return rows;
+}
+
 ReferenceTrajectory::ReferenceTrajectory(const std::vector<ReferencePose>& rows,
                                          const LocalFrame& frame,
                                          const ReferenceTrajectoryParameters& parameters)

@@ -3,13 +3,18 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "msgs/local_frame.h"
 #include "msgs/reference.h"
+#include "sensors/source.h"
 
 namespace maploop::sensors {
+
+// Every row of a recording's reference; nothing where it has none.
+std::vector<ReferencePose> read_rows(const std::unique_ptr<Source<ReferencePose>>& reference);
 
 struct ReferenceTrajectoryParameters {
   // s beyond the first and last row: images start a few milliseconds outside of the rows.

@@ -15,24 +15,16 @@ const LocalFrame frame(Geodetic{0.855, 0.147, 110.0});
 
 // A reference that moves north at 10 m/s for 20 s; the stated accuracy is `accuracy` in the first
 // half and 0.1 m in the second.
-class Reference : public sensors::Source<ReferencePose> {
- public:
-  explicit Reference(double accuracy) : accuracy_(accuracy) {}
-  bool next(ReferencePose& row) override {
-    if (row_ > 200) return false;
-    row.stamp = start + milliseconds(100 * row_);
-    row.position = frame.to_geodetic({0.0, 1.0 * row_, 0.0});
-    row.position_accuracy = row_ < 100 ? accuracy_ : 0.1;
-    ++row_;
-    return true;
+std::vector<ReferencePose> reference(double accuracy) {
+  std::vector<ReferencePose> rows(201);
+  for (int i = 0; i <= 200; ++i) {
+    ReferencePose& row = rows[static_cast<std::size_t>(i)];
+    row.stamp = start + milliseconds(100 * i);
+    row.position = frame.to_geodetic({0.0, 1.0 * i, 0.0});
+    row.position_accuracy = i < 100 ? accuracy : 0.1;
   }
-  const sensors::SourceReport& report() const override { return report_; }
-
- private:
-  double accuracy_;
-  int row_ = 0;
-  sensors::SourceReport report_;
-};
+  return rows;
+}
 
 // Returns a track 5 m east of the reference in the first half, 1 m in the second.
 NavTrack track() {
@@ -51,8 +43,7 @@ NavTrack track() {
 }
 
 std::optional<Score> score_against(double accuracy) {
-  Reference reference(accuracy);
-  return score(track(), reference, {}, start);
+  return score(track(), reference(accuracy), {}, start);
 }
 
 TEST(FusionScore, CountsWhereTheReferenceIsGoodAlone) {

@@ -6,10 +6,11 @@
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
-#include "mapmatch/network_file.h"
+#include "mapmatch/osm_reader.h"
 #include "tests/support/real_data.h"
 
 namespace maploop::experiments {
@@ -17,18 +18,15 @@ namespace {
 
 struct World {
   mapmatch::MapExtract map;
-  mapmatch::RoadNetwork network;
-  mapmatch::RuleBases rules;
   MapSetting setting;
 
   World()
-      : map(mapmatch::read_osm(maploop::testing::real_data() / "maps/karlsruhe_2012-04.osm.pbf")),
-        network(mapmatch::build_network(map)),
-        rules(mapmatch::read_rule_bases(mapmatch::default_rules())) {
+      : map(mapmatch::read_osm(maploop::testing::real_data() / "maps/karlsruhe_2012-04.osm.pbf")) {
     setting.folder = maploop::testing::real_data() / "kitti_odometry";
-    setting.map = &map;
-    setting.network = &network;
-    setting.rules = &rules;
+    setting.extract = &map;
+    setting.roads = std::make_shared<const vehicle::RoadMap>(
+        vehicle::RoadMap{mapmatch::RoadNetwork(mapmatch::build_network(map)),
+                         mapmatch::read_rule_bases(mapmatch::default_rules())});
   }
 };
 
@@ -155,7 +153,7 @@ TEST(MapExperiment, SaysWhatIsWrongWithASetting) {
   EXPECT_THROW(set_parameter(setting, "spacing"), std::runtime_error);
   EXPECT_THROW(set_parameter(setting, "no_such_thing=1"), std::runtime_error);
   set_parameter(setting, "spacing=5");
-  EXPECT_EQ(setting.feedback.spacing, 5.0);
+  EXPECT_EQ(setting.config.feedback.spacing, 5.0);
 }
 
 }  // namespace

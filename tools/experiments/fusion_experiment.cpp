@@ -3,32 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
-#include "runtime/core/data_clock.h"
-#include "runtime/vehicle/limited_source.h"
-#include "runtime/vehicle/recording.h"
-#include "runtime/vehicle/vehicle.h"
 #include "sensors/replay/odometry_sequence.h"
 
 namespace maploop::experiments {
 namespace {
 
 namespace fs = std::filesystem;
-
-// How much of a sequence can be scored, and with what.
-struct Sequence {
-  const char* name;
-  double duration;    // s
-  double tracks_end;  // s into it that the recorded tracks are good for; 0: none
-};
-// Of 01, frames beyond 199 contradict the motion (a wrong stereo match in most of them).
-constexpr Sequence sequences[] = {{"00", 470.0, 0.0}, {"01", 114.0, 20.4}, {"02", 483.0, 0.0},
-                                  {"03", 82.0, 0.0},  {"04", 28.0, 0.0},   {"06", 114.0, 103.5},
-                                  {"08", 422.0, 0.0}, {"10", 124.0, 0.0}};
-
-fs::path table_of(const fs::path& folder, const std::string& sequence) {
-  return folder / sequence;
-}
 
 // One outage after another, as long as the first minute (or what a short drive has) has taught the
 // filter its sensors.
@@ -92,46 +74,18 @@ void add_outages(const Sequence& s, int seeds, std::vector<FusionCase>& cases) {
 
 FusionResult run(const fs::path& folder, const FusionCase& setup,
                  const vehicle::VehicleConfig& given) {
-  vehicle::VehicleConfig config = given;
-  set_configuration(config, setup.configuration);
-  if (setup.mems) {
-    set_imu_grade(config, "mems");
-    config.imu_noise = "mems";
-  }
+  vehicle::VehicleConfig config = config_of(given, setup);
   if (setup.azimuth_aiding == "none") config.fusion.use_odometry_azimuth = false;
   if (setup.azimuth_aiding == "chained") config.fusion.chain_odometry_azimuth = true;
   config.fusion.use_zero_velocity = setup.zero_velocity;
-  config.wheel.scale_error = setup.speed_scale;
-  config.gnss.seed = config.wheel.seed = config.imu_seed = setup.seed;
-  config.gnss_outage = setup.outages;
-
-  const vehicle::Recording recording =
-      vehicle::open_recording(table_of(folder, setup.sequence), config);
-  vehicle::Sensors sensors = recording.sensors(Time::min());
-  if (setup.end > 0.0) limit(sensors, recording.first_stamp + from_seconds(setup.end));
-  FusionResult result;
-  result.setup = setup;
-  vehicle::Observer observer;
-  observer.nav_state = [&](const NavState& state) { result.track.add(state); };
-  vehicle::Vehicle vehicle(config, recording.calibration, std::move(sensors),
-                           runtime::DataClock::virtual_time(), {}, std::move(observer));
-  if (setup.outages.empty()) vehicle.start_from(vehicle::start_from_reference(recording));
-  vehicle.start();
-  vehicle.wait();
-  const auto score = fusion_score::score(result.track, *recording.sensors(Time::max()).reference,
-                                         recording.outages, recording.first_stamp);
-  if (!score) {
-    throw std::runtime_error("sequence " + setup.sequence + " in " + setup.configuration +
-                             " gave nothing to score");
-  }
-  result.score = *score;
-  return result;
+  SequenceRun run = run_sequence(folder, setup, config);
+  return {setup, run.score, std::move(run.track)};
 }
 
 std::vector<FusionCase> fusion_cases(const fs::path& folder, int seeds) {
   std::vector<FusionCase> cases;
   for (const Sequence& s : sequences) {
-    if (!sensors::OdometrySequence::is_named(table_of(folder, s.name))) continue;
+    if (!sensors::OdometrySequence::is_named(folder / s.name)) continue;
     add_dead_reckoning(s, seeds, cases);
     add_outages(s, seeds, cases);
   }

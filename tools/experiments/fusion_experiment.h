@@ -7,22 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "runtime/vehicle/vehicle_config.h"
-#include "tools/fusion_score.h"
+#include "tools/experiments/sequence_run.h"
 
 namespace maploop::experiments {
 
 // One run of one sequence.
-struct FusionCase {
-  std::string sequence;  // "06"
-  std::string configuration;
-  bool mems = false;                        // noise of such a unit is added
+struct FusionCase : SequenceCase {
   std::string azimuth_aiding = "as named";  // or "none", "chained"
   bool zero_velocity = true;
-  double speed_scale = 0.0;  // of the wheels
-  std::string outages;       // as --gnss-outage; empty: dead reckoning from the reference's start
-  double end = 0.0;          // s into the drive; 0: the whole
-  std::int64_t seed = 1;
 };
 
 struct FusionResult {
@@ -31,8 +23,7 @@ struct FusionResult {
   fusion_score::NavTrack track;
 };
 
-// Through the vehicle's own graph on virtual time. Throws std::runtime_error naming a file that
-// cannot be read.
+// Throws as run_sequence().
 FusionResult run(const std::filesystem::path& folder, const FusionCase& setup,
                  const vehicle::VehicleConfig& config);
 

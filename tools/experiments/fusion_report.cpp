@@ -5,6 +5,7 @@
 
 #include "msgs/local_frame.h"
 #include "runtime/vehicle/recording.h"
+#include "sensors/replay/reference_trajectory.h"
 #include "tools/experiments/fusion_experiment.h"
 #include "tools/experiments/table.h"
 #include "tools/median.h"
@@ -63,8 +64,8 @@ Table dead_reckoning(const std::vector<FusionResult>& results) {
   Groups<Key, fusion_score::Errors> groups;
   for (const FusionResult& r : results) {
     if (!r.setup.outages.empty()) continue;
-    groups.add({r.setup.sequence, r.setup.configuration, r.setup.mems ? "mems" : "recorded",
-                r.setup.azimuth_aiding, r.setup.zero_velocity ? "yes" : "no"},
+    groups.add({r.setup.sequence, r.setup.configuration, r.setup.unit(), r.setup.azimuth_aiding,
+                r.setup.zero_velocity ? "yes" : "no"},
                r.score.whole);
   }
   Table table{"Dead reckoning from a known start",
@@ -93,7 +94,7 @@ Table outages(const std::vector<FusionResult>& results) {
   for (const FusionResult& r : results) {
     for (const fusion_score::OutageErrors& o : r.score.outages) {
       if (!scored(o)) continue;
-      const std::string length = number(o.length, 0), unit = r.setup.mems ? "mems" : "recorded";
+      const std::string length = number(o.length, 0), unit = r.setup.unit();
       groups.add({r.setup.configuration, unit, length, r.setup.sequence}, o.errors);
       groups.add({r.setup.configuration, unit, length, "pooled"}, o.errors);
     }
@@ -133,14 +134,13 @@ web::Plot map_of(const std::filesystem::path& folder, const std::string& sequenc
                  const std::vector<FusionResult>& results) {
   web::Plot plot{"Sequence " + sequence + ", dead reckoning", "east, m", "north, m", {}, true};
   const vehicle::Recording recording = vehicle::open_recording(folder / sequence, {});
-  const auto reference = recording.sensors(Time::max()).reference;
   LocalFrame frame;
   web::Line truth{"reference", {}, {}};
   double end = 0.0;
   for (const FusionResult& r : results) {
     if (r.setup.sequence == sequence && r.setup.outages.empty()) end = r.setup.end;
   }
-  for (ReferencePose pose; reference->next(pose);) {
+  for (const ReferencePose& pose : sensors::read_rows(recording.sensors(Time::max()).reference)) {
     if (truth.x.empty()) frame = LocalFrame(pose.position);
     if (end > 0.0 && pose.stamp > recording.first_stamp + from_seconds(end)) break;
     const Eigen::Vector3d p = frame.to_enu(pose.position);

@@ -2,80 +2,34 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <map>
 #include <memory>
-#include <optional>
 #include <set>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
-#include "estimators/fusion/guarded_filter.h"
+#include "estimators/fusion/outcome.h"
 #include "estimators/fusion/parameter_table.h"
-#include "mapmatch/matcher.h"
-#include "mapmatch/nav_matcher.h"
 #include "mapmatch/parameter_table.h"
-#include "runtime/vehicle/limited_source.h"
-#include "runtime/vehicle/recording.h"
+#include "runtime/vehicle/graph.h"
 #include "sensors/replay/reference_trajectory.h"
-#include "tools/match/labels.h"
+#include "tools/match/driven_links.h"
 #include "tools/match/map_faults.h"
 #include "tools/match/parameter_settings.h"
 
 namespace maploop::experiments {
 namespace {
 
-namespace fs = std::filesystem;
+constexpr Duration sampled_every = std::chrono::milliseconds(100);
 
-constexpr Duration tick_period = std::chrono::milliseconds(100);
+// The name that HEALTH gives to what the guard has undone.
+constexpr std::string_view restored = "undone: the map had led astray";
 
-// The next sample of a source, and where it goes.
-class Feed {
- public:
-  virtual ~Feed() = default;
-  virtual bool empty() const = 0;
-  virtual Time available() const = 0;
-  virtual void deliver() = 0;
-};
-
-template <class T>
-class FeedOf final : public Feed {
- public:
-  FeedOf(sensors::Source<T>& source, fusion::GuardedFilter& filter)
-      : source_(source), filter_(filter), more_(source_.next(sample_)) {}
-  bool empty() const override { return !more_; }
-  Time available() const override { return sample_.available; }
-  void deliver() override {
-    filter_.add(sample_);
-    more_ = source_.next(sample_);
-  }
-
- private:
-  sensors::Source<T>& source_;
-  fusion::GuardedFilter& filter_;
-  T sample_;
-  bool more_;
-};
-
-// Everything that is available by then, in the order of its delivery.
-void deliver_until(std::vector<std::unique_ptr<Feed>>& feeds, Time t) {
-  for (;;) {
-    Feed* first = nullptr;
-    for (const auto& feed : feeds) {
-      if (!feed->empty() && feed->available() <= t &&
-          (first == nullptr || feed->available() < first->available()))
-        first = feed.get();
-    }
-    if (first == nullptr) return;
-    first->deliver();
-  }
-}
-
-// How far into a sequence its recorded tracks are good, s; 0: there are none.
 double tracks_end(const std::string& sequence) {
-  if (sequence == "06") return 103.5;
-  return sequence == "01" ? 20.4 : 0.0;  // frames beyond 199 contradict the motion
+  const auto known = std::find_if(sequences.begin(), sequences.end(),
+                                  [&](const Sequence& s) { return s.name == sequence; });
+  return known != sequences.end() ? known->tracks_end : 0.0;
 }
 
 using Labels = std::map<std::size_t, match::Label>;
@@ -90,8 +44,8 @@ std::int64_t way_driven_longest(const Labels& labels) {
 
 mapmatch::NetworkData with_fault(const MapSetting& setting, const std::string& fault,
                                  const Labels& labels) {
-  const mapmatch::NetworkData& network = setting.network->data();
-  if (fault == "missing") return match::without_way(*setting.map, way_driven_longest(labels));
+  const mapmatch::NetworkData& network = setting.roads->network.data();
+  if (fault == "missing") return match::without_way(*setting.extract, way_driven_longest(labels));
   if (fault == "shifted 5 m") return match::shifted(network, {5.0, 0.0});
   if (fault == "shifted 10 m") return match::shifted(network, {10.0, 0.0});
   if (fault == "reversed") return match::one_way_reversed(network);
@@ -99,31 +53,35 @@ mapmatch::NetworkData with_fault(const MapSetting& setting, const std::string& f
     throw std::invalid_argument("no map fault is called '" + fault + "'");
   std::set<std::int64_t> driven;
   for (const auto& [row, label] : labels) driven.insert(label.way_id);
-  return mapmatch::build_network(match::with_parallels(*setting.map, driven, 12.0));
+  return mapmatch::build_network(match::with_parallels(*setting.extract, driven, 12.0));
 }
 
-// The row of the reference that is nearest to a moment.
-std::size_t row_at(const std::vector<ReferencePose>& rows, Time t) {
-  const auto after = std::lower_bound(rows.begin(), rows.end(), t,
-                                      [](const ReferencePose& r, Time x) { return r.stamp < x; });
-  if (after == rows.begin()) return rows.front().sequence;
-  if (after == rows.end()) return rows.back().sequence;
-  const auto before = std::prev(after);
-  return (t - before->stamp < after->stamp - t ? before : after)->sequence;
-}
-
-vehicle::VehicleConfig config_of(const vehicle::VehicleConfig& given, const MapCase& setup) {
-  vehicle::VehicleConfig config = given;
-  set_configuration(config, setup.configuration);
-  if (setup.mems) {
-    set_imu_grade(config, "mems");
-    config.imu_noise = "mems";
+// How often the filter refused something for this reason.
+std::uint64_t refused(const Health& health, std::string_view reason) {
+  for (const RefusalCount& r : health.refusals) {
+    if (r.stage == vehicle::stages::fusion.name && r.reason == reason) return r.count;
   }
-  config.wheel.scale_error = setup.speed_scale;
-  config.gnss.seed = config.wheel.seed = config.imu_seed = setup.seed;
-  config.gnss_outage = setup.outages;
-  return config;
+  return 0;
 }
+
+// What the vehicle says at each of its ticks.
+struct Ticks {
+  std::vector<NavState> states;
+  std::map<Time, MapMatch> matches;
+  std::map<Time, FeedbackReason> feedbacks;
+
+  vehicle::Observer observer() {
+    vehicle::Observer o;
+    o.nav_state = [this](const NavState& state) {
+      if (state.status != NavStatus::uninitialized &&
+          state.stamp.time_since_epoch() % sampled_every == Duration::zero())
+        states.push_back(state);
+    };
+    o.map_match = [this](const MapMatch& match) { matches[match.stamp] = match; };
+    o.map_feedback = [this](const MapFeedback& back) { feedbacks[back.stamp] = back.reason; };
+    return o;
+  }
+};
 
 }  // namespace
 
@@ -140,7 +98,8 @@ void set_parameter(MapSetting& setting, const std::string& text) {
     found = (set_number(parameters, w, n) | ...);  // in each that has such a parameter
   };
   try {
-    set(setting.match, setting.feedback, setting.guard, setting.config.fusion);
+    set(setting.config.mapmatch, setting.config.feedback, setting.config.guard,
+        setting.config.fusion);
   } catch (const std::invalid_argument& e) {
     throw std::runtime_error("--set " + text + ": " + e.what());
   }
@@ -185,94 +144,54 @@ const fusion_score::Errors& without_gnss(const MapResult& result) {
 
 MapResult run(const MapSetting& setting, const MapCase& setup) {
   vehicle::VehicleConfig config = config_of(setting.config, setup);
-  const vehicle::Recording recording =
-      vehicle::open_recording(setting.folder / setup.sequence, config);
-  describe_car(config, recording.calibration);
-  vehicle::Sensors sensors = recording.sensors(Time::min());
-  if (setup.end > 0.0) limit(sensors, recording.first_stamp + from_seconds(setup.end));
-  std::vector<ReferencePose> rows;
-  const auto reference = recording.sensors(Time::max()).reference;
-  for (ReferencePose row; reference->next(row);) rows.push_back(row);
-  if (rows.size() < 2) throw std::runtime_error("sequence " + setup.sequence + " has no reference");
+  config.map.mode = setup.mode;
   const Labels labels =
       match::read_labels(setting.folder / "labels" / (setup.sequence + ".csv.gz"));
-  std::optional<mapmatch::RoadNetwork> wrong;
-  if (!setup.fault.empty()) wrong.emplace(with_fault(setting, setup.fault, labels));
-  const mapmatch::RoadNetwork& network = wrong ? *wrong : *setting.network;
-
-  fusion::GuardParameters guard = setting.guard;
-  // The thesis's has no guard.
-  if (setup.mode == MapMode::hard_reset)
-    guard.difference_gate = std::numeric_limits<double>::infinity();
-  fusion::GuardedFilter filter(fusion::ReducedImuFilter(config.fusion), guard);
-  std::vector<std::unique_ptr<Feed>> feeds;
-  const auto feed = [&]<class T>(const std::unique_ptr<sensors::Source<T>>& source) {
-    if (source != nullptr) feeds.push_back(std::make_unique<FeedOf<T>>(*source, filter));
-  };
-  feed(sensors.imu);
-  feed(sensors.gnss);
-  feed(sensors.wheel);
-  feed(sensors.odometry);
-
-  mapmatch::Matcher matcher(network, *setting.rules, setting.match);
-  mapmatch::FeedbackParameters feedback_parameters = setting.feedback;
-  feedback_parameters.hard_reset = setup.mode == MapMode::hard_reset;
-  mapmatch::Feedback feedback(network, feedback_parameters);
-  const bool closed = setup.mode == MapMode::tight || setup.mode == MapMode::hard_reset;
+  std::shared_ptr<const vehicle::RoadMap> roads;
+  if (setup.mode != MapMode::none) roads = setting.roads;
+  if (roads && !setup.fault.empty()) {
+    roads = std::make_shared<const vehicle::RoadMap>(vehicle::RoadMap{
+        mapmatch::RoadNetwork(with_fault(setting, setup.fault, labels)), setting.roads->rules});
+  }
+  Ticks ticks;
+  const SequenceRun run =
+      run_sequence(setting.folder, setup, config, ticks.observer(), std::move(roads));
 
   MapResult result;
   result.setup = setup;
+  result.score = run.score;
   if (setup.fault == "missing") result.missing = way_driven_longest(labels);
-  fusion_score::NavTrack track;
-  std::vector<std::pair<NavState, MapSample>> sent;
-  std::vector<match::MatchedFix> matched;
-  std::vector<std::size_t> matched_rows;
-  Time first = recording.first_stamp;
-  if (!recording.outages.empty()) first = recording.outages.front().begin;
-  const Time last =
-      setup.end > 0.0 ? recording.first_stamp + from_seconds(setup.end) : recording.last_stamp;
-  std::uint64_t tick = 0;
-  for (Time k = recording.first_stamp; k <= last; k += tick_period) {
-    deliver_until(feeds, k);
-    auto state = filter.aided().state_at(k);
-    if (!state) continue;
-    state->sequence = 10 * tick++;
-    track.add(*state);
-    MapSample sample;
-    const std::size_t row = row_at(rows, k);
-    const auto label = labels.find(row);
-    sample.on_missing =
-        result.missing != 0 && label != labels.end() && label->second.way_id == result.missing;
-    if (setup.mode != MapMode::none) {
-      const mapmatch::VehicleFix fix = mapmatch::fix_of(*state);
-      const mapmatch::MatchResult& match = matcher.add(fix);
-      sample.probability = match.on_road ? match.probability : 0.0;
-      if (k >= first) {
-        matched.push_back(match::matched_fix(match, network));
-        matched_rows.push_back(row);
-      }
-      if (closed) {
-        const MapFeedback back = feedback.decide(match, fix);
-        sample.reason = back.reason;
-        ++result.reasons[static_cast<std::size_t>(back.reason)];
-        filter.add(back);
-      }
-    }
-    sent.emplace_back(*state, sample);
+  const Health& health = run.report.health;
+  result.gated = refused(health, to_string(fusion::Reason::line_gate)) +
+                 refused(health, to_string(fusion::Reason::link_azimuth_gate));
+  result.restorations = refused(health, restored);
+  const vehicle::Recording& recording = run.recording;
+  const std::vector<Time>& frames = recording.driven_links->stamps;
+  const Time begin =
+      recording.outages.empty() ? recording.first_stamp : recording.outages.front().begin;
+  std::vector<match::TimedMatch> matches;
+  for (const auto& [stamp, match] : ticks.matches) {
+    if (stamp >= begin) matches.push_back(match::timed_match(match));
   }
-  result.status = filter.aided().status();
-  result.restorations = filter.status().restorations;
-  result.match.add(matched, matched_rows, labels);
-
-  const auto again = recording.sensors(Time::max()).reference;
-  const auto score = fusion_score::score(track, *again, recording.outages, recording.first_stamp);
-  if (!score) throw std::runtime_error("sequence " + setup.sequence + " gave nothing to score");
-  result.score = *score;
-  result.origin = filter.aided().frame().origin();
-  const sensors::ReferenceTrajectory truth(rows, filter.aided().frame());
-  for (auto& [state, sample] : sent) {
+  result.match = match::score_matches(matches, frames, labels);
+  if (ticks.states.empty()) return result;
+  result.origin = ticks.states.front().origin;
+  const sensors::ReferenceTrajectory truth(run.reference, LocalFrame(result.origin));
+  for (const NavState& state : ticks.states) {
+    MapSample sample;
+    if (const auto back = ticks.feedbacks.find(state.stamp); back != ticks.feedbacks.end()) {
+      sample.reason = back->second;
+      ++result.reasons[static_cast<std::size_t>(sample.reason)];
+    }
     const auto pose = truth.pose(state.stamp);
     if (!pose || truth.accuracy(state.stamp) > fusion_score::worst_reference) continue;
+    const auto match = ticks.matches.find(state.stamp);
+    if (match != ticks.matches.end() && match->second.on_road)
+      sample.probability = match->second.probability;
+    if (const auto frame = match::frame_at(state.stamp, frames); frame && result.missing != 0) {
+      const auto label = labels.find(*frame);
+      sample.on_missing = label != labels.end() && label->second.way_id == result.missing;
+    }
     sample.time = to_seconds(state.stamp - recording.first_stamp);
     sample.truth = pose->translation().head<2>();
     sample.error = state.position_enu.head<2>() - sample.truth;

@@ -5,34 +5,31 @@
 #include <Eigen/Core>
 #include <array>
 #include <filesystem>
-#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "estimators/fusion/guarded_filter.h"
-#include "mapmatch/feedback.h"
-#include "mapmatch/match_parameters.h"
 #include "mapmatch/network_builder.h"
-#include "mapmatch/rule_bases.h"
-#include "runtime/vehicle/vehicle_config.h"
-#include "tools/fusion_score.h"
+#include "msgs/map_feedback.h"
+#include "runtime/vehicle/road_map.h"
+#include "tools/experiments/sequence_run.h"
 #include "tools/match/match_score.h"
 
 namespace maploop::experiments {
 
 using vehicle::MapMode;
 
-// One run of one sequence.
-struct MapCase {
-  std::string sequence;  // "06"
+// One run of one sequence: of a MEMS unit, wheels that read 1 % too much and 10 s of GNSS, unless
+// something else is set.
+struct MapCase : SequenceCase {
+  MapCase() {
+    mems = true;
+    speed_scale = 0.01;
+    outages = "10:end";
+  }
+
   MapMode mode = MapMode::tight;
-  std::string configuration = "GNSS+RISS";
-  bool mems = true;           // noise of such a unit is added
-  double speed_scale = 0.01;  // of the wheels
-  std::string outages = "10:end";
   std::string fault;  // one of map_faults(), or empty: the map as it is
-  double end = 0.0;   // s into the drive; 0: the whole
-  std::int64_t seed = 1;
 };
 
 // What can be made wrong in a map: the way driven longest is missing, everything is shifted east by
@@ -43,12 +40,8 @@ const std::vector<std::string>& map_faults();
 struct MapSetting {
   std::filesystem::path folder;  // kitti_odometry
   vehicle::VehicleConfig config;
-  const mapmatch::MapExtract* map = nullptr;       // that faults are made in
-  const mapmatch::RoadNetwork* network = nullptr;  // of it
-  const mapmatch::RuleBases* rules = nullptr;
-  mapmatch::MatchParameters match;
-  mapmatch::FeedbackParameters feedback;
-  fusion::GuardParameters guard;
+  std::shared_ptr<const vehicle::RoadMap> roads;
+  const mapmatch::MapExtract* extract = nullptr;  // the same map, that faults are made in
 };
 
 // At one tick, where there is a reference.
@@ -73,8 +66,8 @@ struct MapResult {
   match::MatchScore match;   // of the time without GNSS
   std::int64_t missing = 0;  // the way that the map lacks
   std::array<std::size_t, feedback_reason_count> reasons{};
-  fusion::FilterStatus status;
-  std::uint64_t restorations = 0;
+  std::uint64_t gated = 0;         // feedbacks that contradicted the prediction
+  std::uint64_t restorations = 0;  // times what the map had led to was undone
 };
 
 // NAME=VALUE of a parameter of matching, feedback or guard. Throws std::runtime_error naming what
@@ -96,8 +89,7 @@ struct MapCases {
 
 std::vector<MapCase> map_cases(const MapCases& wanted);
 
-// Filter, matcher and feedback in lockstep, in the order and at the moments of the vehicle's graph.
-// Throws std::runtime_error naming a file that cannot be read.
+// Throws as run_sequence().
 MapResult run(const MapSetting& setting, const MapCase& setup);
 
 // Of the first time without GNSS; of the whole drive where there is none.

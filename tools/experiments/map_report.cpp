@@ -20,13 +20,11 @@ std::string percent(const match::Tally& tally) {
 
 Row row_of(const MapResult& r) {
   const fusion_score::Errors& e = without_gnss(r);
-  std::uint64_t gated = r.status.refused_for(fusion::Reason::line_gate) +
-                        r.status.refused_for(fusion::Reason::link_azimuth_gate);
   const bool matched = r.setup.mode != MapMode::none;
   const bool closed = r.setup.mode == MapMode::tight || r.setup.mode == MapMode::hard_reset;
   return {r.setup.sequence,
           r.setup.configuration,
-          r.setup.mems ? "mems" : "recorded",
+          r.setup.unit(),
           r.setup.outages,
           r.setup.fault.empty() ? "-" : r.setup.fault,
           std::string(name_of(r.setup.mode)),
@@ -40,7 +38,7 @@ Row row_of(const MapResult& r) {
           matched ? percent(r.match.certain) : "-",
           matched ? percent(r.match.all) : "-",
           closed ? std::to_string(r.reasons[0]) : "-",
-          closed ? std::to_string(gated) : "-",
+          closed ? std::to_string(r.gated) : "-",
           closed ? std::to_string(r.restorations) : "-"};
 }
 
@@ -69,7 +67,7 @@ Table pooled(const std::vector<MapResult>& results) {
   std::vector<Key> order;
   std::map<Key, Sum> sums;
   for (const MapResult& r : results) {
-    const Key key{r.setup.configuration, r.setup.mems ? "mems" : "recorded", r.setup.outages,
+    const Key key{r.setup.configuration, r.setup.unit(), r.setup.outages,
                   r.setup.fault.empty() ? "-" : r.setup.fault, std::string(name_of(r.setup.mode))};
     if (!sums.contains(key)) order.push_back(key);
     Sum& sum = sums[key];
@@ -120,7 +118,7 @@ Table against_map_free(const std::vector<MapResult>& results) {
     const Comparison c = compare(r, *free);
     const fusion_score::Errors& f = without_gnss(*free);
     const fusion_score::Errors& e = without_gnss(r);
-    table.rows.push_back({r.setup.sequence, r.setup.mems ? "mems" : "recorded", r.setup.outages,
+    table.rows.push_back({r.setup.sequence, r.setup.unit(), r.setup.outages,
                           r.setup.fault.empty() ? "-" : r.setup.fault,
                           std::string(name_of(r.setup.mode)), std::to_string(r.setup.seed),
                           number(f.rmse, 2), number(f.max, 2), number(e.rmse, 2), number(e.max, 2),
@@ -178,7 +176,8 @@ void add_plots(const MapSetting& setting, const std::vector<const MapResult*>& d
   const std::string title = "Sequence " + c.sequence + ", " + c.configuration +
                             (c.mems ? ", mems" : "") + ", no GNSS " + c.outages +
                             (c.fault.empty() ? "" : ", " + c.fault);
-  web::Plot map{title, "east, m", "north, m", {}, true, roads(*setting.network, *drive.front())};
+  web::Plot map{title, "east, m", "north, m",
+                {},    true,      roads(setting.roads->network, *drive.front())};
   web::Plot errors{title, "s", "horizontal error, m"};
   web::Plot links{title, "s", "P(link)"};
   web::Line truth{"reference", {}, {}};

@@ -35,9 +35,7 @@ evaluation::StampedTrajectory truth_of_drive(const std::filesystem::path& folder
                                              const std::filesystem::path& file) {
   const auto drive = vehicle::open_drive(
       folder, file.empty() ? vehicle::VehicleConfig{} : vehicle::load_vehicle_config(file));
-  const auto source = drive->reference();
-  std::vector<ReferencePose> rows;
-  for (ReferencePose row; source->next(row);) rows.push_back(row);
+  const auto rows = sensors::read_rows(drive->reference());
   if (rows.size() < 2) throw std::runtime_error(folder.string() + " has no oxts to score against");
   const sensors::ReferenceTrajectory reference(rows, LocalFrame(rows.front().position));
   evaluation::StampedTrajectory truth;
