@@ -152,7 +152,7 @@ TEST(TraceCommand, SpansOfAThreadNest) {
   const TracedReplay trace({"--speed", "4"});
   std::map<std::string, std::vector<Event>> open;
   std::size_t deepest = 0;
-  for (const Event& e : trace.events()) {  // a thread's events are in the order of their times
+  for (const Event& e : trace.events()) {  // a thread's events are in order of time
     if (e.phase != "X") continue;
     std::vector<Event>& stack = open[e.thread];
     while (!stack.empty() && stack.back().end <= e.start) stack.pop_back();

@@ -1,6 +1,6 @@
-// Absolute and relative pose errors (Sturm et al., "A Benchmark for the Evaluation of RGB-D SLAM
-// Systems", IROS 2012; Zhang, Scaramuzza, "A Tutorial on Quantitative Trajectory Evaluation", IROS
-// 2018).
+// Computes absolute and relative pose errors (Sturm et al., "A Benchmark for the Evaluation of
+// RGB-D SLAM Systems", IROS 2012; Zhang, Scaramuzza, "A Tutorial on Quantitative Trajectory
+// Evaluation", IROS 2018).
 #pragma once
 
 #include <span>

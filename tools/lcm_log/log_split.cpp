@@ -28,7 +28,7 @@ constexpr std::array<Unit, 6> kUnits{{{"s", 1.0, true},
                                       {"MB", 1e6, false},
                                       {"GB", 1e9, false}}};
 
-// "out.lcmlog.gz" -> "out.012.lcmlog.gz"
+// Returns for instance "out.012.lcmlog.gz" for "out.lcmlog.gz".
 std::filesystem::path piece_name(const std::filesystem::path& output, std::size_t number) {
   std::string stem = output.stem().string();
   std::string extension = output.extension().string();

@@ -31,7 +31,7 @@ struct FaultScore {
   // sum of P.
   std::size_t missing_fixes = 0, missing_said = 0, missing_sure = 0;
   double missing_p_sum = 0.0;
-  double worst_at = 0.0;  // s since the track's begin, when longest_sure_wrong ended
+  double worst_at = 0.0;  // s since the track's start, when longest_sure_wrong ended
 };
 
 // `missing` is the way that the map lacks, or 0; every link matched while the vehicle is on it is

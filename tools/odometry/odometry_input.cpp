@@ -49,7 +49,7 @@ evaluation::StampedTrajectory truth_of_drive(const std::filesystem::path& folder
   return truth;
 }
 
-// <drive>.csv[.gz] -> <drive>.truth.csv[.gz]
+// Reads <drive>.truth.csv[.gz] for <drive>.csv[.gz].
 evaluation::StampedTrajectory truth_of_tracks(const std::filesystem::path& file) {
   std::string name = file.string();
   const std::size_t dot = name.rfind(".csv");

@@ -52,9 +52,9 @@ struct Step {
 // Returns the next step, or nothing at the end.
 using Run = std::function<std::optional<Step>()>;
 
-// Returns visual odometry from a drive's images. With `depth`, its disparities are corrected by the
-// LiDAR odometry of the drive's scans so far (lidar/disparity_correction.h). `drive` must outlive
-// the run.
+// Returns visual odometry from a drive's images. With `depth`, the lengths of its motions are
+// corrected with the LiDAR odometry of the drive's scans so far (lidar/disparity_correction.h).
+// `drive` must outlive the run.
 Run stereo_run(const sensors::KittiDrive& drive, const stereo::StereoParameters& parameters,
                FrameRange frames, const std::optional<lidar::LidarParameters>& depth = {});
 

@@ -18,7 +18,7 @@ struct ColumnShift {
 };
 
 struct CalibrationErrors {
-  ColumnShift disparity_lack;      // by how much disparities are too small
+  ColumnShift disparity_lack;      // px, by which disparities are too small
   float range_scale = 0.0F;        // 1, share by which the scanner's ranges are too long
   std::uint64_t scanner_unit = 1;  // seeds the offsets and directions of the scanner's lasers
   // For a scanner that is not triggered by the cameras: when its turn begins within the cameras'

@@ -156,7 +156,7 @@ class Sampling {
   const Appearance& appearance_;
   const StereoCalibration& camera_;
   Vector3f begin_, way_;
-  Eigen::Matrix3f R_, turn_;  // at the begin of the exposure, and its change until the end
+  Eigen::Matrix3f R_, turn_;  // at the start of the exposure, and its change until the end
   float time_;
   const CameraParameters& p_;
   float fx_, fy_;

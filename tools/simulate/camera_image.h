@@ -24,7 +24,7 @@ struct CameraParameters {
 
 // Where one camera of the pair is during an exposure, and the error of its calibration.
 struct CameraView {
-  std::array<Eigen::Isometry3d, 2> T_enu_cam;  // at begin and end of the exposure
+  std::array<Eigen::Isometry3d, 2> T_enu_cam;  // at start and end of the exposure
   // How much further left than the calibration predicts things appear in the image: the error that
   // rectification leaves.
   ColumnShift shift;

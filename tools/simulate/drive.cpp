@@ -45,7 +45,7 @@ Drive::Drive(const SimulationOptions& options, Site site)
                 std::move(shapes));
   for (double t = first_frame; t + 0.5 * frame_interval <= options.seconds; t += frame_interval)
     times.push_back(t);
-  double lead = 0.5 * frame_interval;  // s from the begin of a turn to its image
+  double lead = 0.5 * frame_interval;  // s from the start of a turn to its image
   if (options.free_scanner) {
     lead = frame_interval - errors.scanner_phase;
     turn_time = frame_interval * (1.0 + errors.scanner_drift);

@@ -104,7 +104,7 @@ void smooth_line(Line& line) {
 LanePath::LanePath(const Streets& streets, const std::vector<DirectedStreet>& route,
                    std::uint64_t seed) {
   Line line;
-  std::vector<double> marks;  // begin and end of each lane
+  std::vector<double> marks;  // indices of start and end of each lane
   for (const DirectedStreet& d : route) {
     const Line lane = lane_of(streets, d);
     if (!line.empty()) append_curve(line, lane);

@@ -25,7 +25,7 @@ struct Hit {
   const Surface* surface = nullptr;
 };
 
-constexpr std::size_t packet = 8;  // rays that are cast together
+constexpr std::size_t packet = 8;  // number of rays that are cast together
 using Rays = std::array<Ray, packet>;
 using Hits = std::array<Hit, packet>;
 

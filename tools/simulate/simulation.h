@@ -50,7 +50,7 @@ using FrameDone = std::function<bool(std::size_t done, std::size_t all)>;
 //   calib_*.txt        calibration files like those of a KITTI date
 //   town_sync          image_00, image_01, velodyne_points and oxts, 10 Hz each; gnss and
 //                      gnss_one_frequency (gnss/gnss_recording.h)
-//   town_extract       oxts at 100 Hz; a replay is given this folder
+//   town_extract       oxts at 100 Hz; a replay of it reads the other sensors from town_sync
 //   map.osm            the road map, with a mapper's errors (road_map.h)
 //   vehicle.toml       configuration of a replay: the map, and the parameters of the car
 //   truth.tum          the left camera's poses, relative to its first one

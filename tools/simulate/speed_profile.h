@@ -41,7 +41,7 @@ class SpeedProfile {
   Place place(double t) const;
 
   std::vector<double> speed_;  // control points
-  std::vector<double> way_;    // at the begin of each interval
+  std::vector<double> way_;    // at the start of each interval
 };
 
 }  // namespace maploop::simulate

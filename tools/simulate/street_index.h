@@ -13,7 +13,7 @@ namespace maploop::simulate {
 // The position of a place relative to a street.
 struct StreetPlace {
   const Street* street = nullptr;
-  double along = 0.0;  // m from the street's begin
+  double along = 0.0;  // m from the street's start
   double left = 0.0;   // m from its centreline
   double edge = 0.0;   // m from its kerb, negative on the road
 };
@@ -38,7 +38,7 @@ class StreetIndex {
   struct Segment {
     const Street* street = nullptr;
     Eigen::Vector2d begin, direction;  // `direction` is a unit vector
-    double along = 0.0, length = 0.0;  // m: distance of its begin from the street's, and its length
+    double along = 0.0, length = 0.0;  // m: `along` at its start, and its length
   };
   std::span<const Segment> cell(const Eigen::Vector2d& place) const;
 

@@ -11,7 +11,7 @@ namespace maploop::simulate {
 struct Street {
   std::size_t from = 0, to = 0;             // indices of junctions
   std::vector<Eigen::Vector2d> centreline;  // m, enu; from junction to junction, 2 m apart
-  std::vector<double> along;                // m from its begin, for each point
+  std::vector<double> along;                // m from its start, for each point
   double half_width = 3.5;                  // m
   double speed_limit = 13.9;                // m/s
   bool forward = true, backward = true;     // permitted directions

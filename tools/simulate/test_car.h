@@ -7,7 +7,7 @@
 
 namespace maploop::simulate {
 
-// KITTI's camera (1242 x 375 pixels, 0.537 m baseline) and mounting of 2011-09-26, rounded.
+// Returns KITTI's camera (1242 x 375 pixels, 0.537 m baseline) and mounting of 2011-09-26, rounded.
 VehicleCalibration test_car();
 
 // Writes the calibration as KITTI's three files into a folder. Throws std::runtime_error naming the

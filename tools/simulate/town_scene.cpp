@@ -117,7 +117,7 @@ class TownBuilder {
     double yaw = 0.0;  // rad, direction of the street
   };
 
-  // Returns the place beside the street; `along` is m from its begin, `from_kerb` m from its kerb.
+  // Returns the place beside the street; `along` is m from its start, `from_kerb` m from its kerb.
   Spot spot(const Street& street, double side, double along, double from_kerb) const {
     const auto next = std::upper_bound(street.along.begin() + 1, street.along.end() - 1, along);
     const auto i = static_cast<std::size_t>(next - street.along.begin());

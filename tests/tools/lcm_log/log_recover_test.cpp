@@ -52,7 +52,7 @@ TEST_F(LogToolsTest, RecoverRepairsTimesThatItsNeighboursContradict) {
   const auto whole = read_bytes(log_);
   for (const std::size_t event : {0U, 1U, 11U, 22U}) {
     write_bytes(log_, whole);
-    damage(offsets_[event] + 13, 0x10);  // nine years
+    damage(offsets_[event] + 13, 0x10);  // a time error of nine years
     const Recovery r = recover(log_, types(), out_);
     EXPECT_EQ(r.repair_count, 1U) << event;
     EXPECT_TRUE(contains(format_report(r), "repaired"));

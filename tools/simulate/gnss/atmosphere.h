@@ -30,7 +30,7 @@ class Troposphere {
 // A shell 450 km high; its electron density follows the sun, and waves travel through it.
 class Ionosphere {
  public:
-  // `day_start` is the drive's start in seconds of its UTC day.
+  // `day_start` is the drive's start in seconds of its day or week.
   Ionosphere(const Geodetic& site, double day_start, std::uint64_t seed);
 
   // Returns the electrons along the signal path, 1e16/m^2; angles are in rad, t in s.
