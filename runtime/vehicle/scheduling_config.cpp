@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstddef>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 
 #include "runtime/core/number_text.h"
@@ -152,6 +154,15 @@ std::string toml_value(const Scheduling& s) {
     text += ", cpus = [" + list + ']';
   }
   return text + ", prefaulted_stack_kb = " + std::to_string(s.prefaulted_stack_kb) + " }";
+}
+
+const runtime::Scheduling& scheduling_of(const SchedulingParameters& parameters,
+                                         const StageSpec& stage) {
+  const std::string_view key = stage.scheduled_as.empty() ? stage.name : stage.scheduled_as;
+  for (const ScheduledThread& thread : scheduled_threads()) {
+    if (thread.key == key) return parameters.*thread.scheduling;
+  }
+  throw std::logic_error("[scheduling] has no key '" + std::string(key) + "'");
 }
 
 }  // namespace maploop::vehicle

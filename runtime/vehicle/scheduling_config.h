@@ -18,6 +18,7 @@
 
 #include "runtime/core/config.h"
 #include "runtime/core/realtime_scheduling.h"
+#include "runtime/vehicle/stage_specs.h"
 
 namespace maploop::vehicle {
 
@@ -64,6 +65,10 @@ struct ScheduledThread {
   std::string_view meaning;
 };
 std::span<const ScheduledThread> scheduled_threads();
+
+// The scheduling of a thread of the graph.
+const runtime::Scheduling& scheduling_of(const SchedulingParameters& parameters,
+                                         const StageSpec& stage);
 
 // Reads the table `key`. A missing key leaves its value as it is, but values that belong to another
 // policy are reset. Throws runtime::ConfigError, also for a key that does not go with the policy.

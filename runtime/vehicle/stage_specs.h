@@ -25,13 +25,14 @@ struct StageSpec {
   // A stage with two inputs holds a sample of one this long (from the sample's `available`) for the
   // matching sample of the other; then it processes the sample without a match.
   Duration patience{};
-  Duration budget{};      // the result becomes available this long after the release
-  Duration deadline{};    // from release to result; 0: none
-  double min_rate = 0.0;  // Hz; HEALTH reports a lower rate; 0: not watched
-  double max_rate = 0.0;  // Hz; HEALTH reports a higher rate
-  bool expected = false;  // a sensor that reports list even if the vehicle lacks it
-  bool saved = false;     // a part of snapshots
-  bool polls = false;     // looks into its rings now and then: no producer pays for waking it
+  Duration budget{};                   // the result becomes available this long after the release
+  Duration deadline{};                 // from release to result; 0: none
+  double min_rate = 0.0;               // Hz; HEALTH reports a lower rate; 0: not watched
+  double max_rate = 0.0;               // Hz; HEALTH reports a higher rate
+  bool expected = false;               // a sensor that reports list even if the vehicle lacks it
+  bool saved = false;                  // a part of snapshots
+  std::string_view scheduled_as = "";  // its key of [scheduling], if that is not its name
+  bool polls = false;  // looks into its rings now and then: no producer pays for waking it
 };
 
 namespace stages {
@@ -44,8 +45,12 @@ constexpr StageSpec expected_sensor(std::string_view name, double min_rate, doub
           .max_rate = max_rate,
           .expected = true};
 }
-constexpr StageSpec optional_sensor(std::string_view name) {
-  return {.name = name, .runs = "driver", .released = "sensor", .max_rate = 1000.0};
+constexpr StageSpec optional_sensor(std::string_view name, std::string_view scheduled_as = "") {
+  return {.name = name,
+          .runs = "driver",
+          .released = "sensor",
+          .max_rate = 1000.0,
+          .scheduled_as = scheduled_as};
 }
 // The drivers of a log without images replay its odometry in place of camera, stereo and lidar.
 constexpr StageSpec logged(std::string_view name, double min_rate) {
@@ -53,14 +58,15 @@ constexpr StageSpec logged(std::string_view name, double min_rate) {
           .runs = "driver of a log without images",
           .released = "sensor",
           .min_rate = min_rate,
-          .max_rate = 40.0};
+          .max_rate = 40.0,
+          .scheduled_as = "odometry"};
 }
 
 inline constexpr StageSpec camera = expected_sensor("camera", 5.0, 40.0);
 inline constexpr StageSpec velodyne = expected_sensor("velodyne", 5.0, 21.0);
 inline constexpr StageSpec imu = expected_sensor("imu", 5.0, 1000.0);
 inline constexpr StageSpec gnss = expected_sensor("gnss", 0.5, 21.0);
-inline constexpr StageSpec corrections = optional_sensor("corrections");
+inline constexpr StageSpec corrections = optional_sensor("corrections", "gnss");
 inline constexpr StageSpec wheel = optional_sensor("wheel");
 inline constexpr StageSpec reference = expected_sensor("reference", 0.0, 1000.0);
 inline constexpr StageSpec odometry = logged("odometry", 5.0);

@@ -155,20 +155,19 @@ GraphStage* Vehicle::Graph::stage(std::string_view name) const {
 
 template <class T>
 std::unique_ptr<sensors::Source<T>> Vehicle::Graph::prefetched(
-    const StageSpec& spec, const runtime::Scheduling& reader,
-    std::unique_ptr<sensors::Source<T>> source) {
+    const StageSpec& spec, const StageSpec& reader, std::unique_ptr<sensors::Source<T>> source) {
   if (source == nullptr) return nullptr;
   const std::string name = std::string(spec.name) + " loader";
   // A reader under SCHED_DEADLINE does not share its budget.
-  const bool shared = reader.policy != runtime::SchedulingPolicy::deadline;
+  const runtime::Scheduling& how = scheduling_of(config.scheduling, reader);
+  const bool shared = how.policy != runtime::SchedulingPolicy::deadline;
   return std::make_unique<PrefetchedSource<T>>(
-      name, clock.is_paced() && shared ? reader : runtime::Scheduling{}, std::move(source),
+      name, clock.is_paced() && shared ? how : runtime::Scheduling{}, std::move(source),
       decoded_ahead, stop.get_token(), trace_buffer(name));
 }
 
 template <class T>
-void Vehicle::Graph::add_driver(const StageSpec& spec, const runtime::Scheduling& scheduling,
-                                std::unique_ptr<sensors::Source<T>> recorded,
+void Vehicle::Graph::add_driver(const StageSpec& spec, std::unique_ptr<sensors::Source<T>> recorded,
                                 std::unique_ptr<sensors::LiveSource<T>> live, Outputs<T> outputs) {
   if (live != nullptr) {
     drivers.push_back(std::make_unique<LiveDriver<T>>(spec, std::move(live), std::move(outputs)));
@@ -178,7 +177,6 @@ void Vehicle::Graph::add_driver(const StageSpec& spec, const runtime::Scheduling
   } else {
     return;
   }
-  driver_scheduling.push_back(scheduling);
   drivers.back()->trace_to(trace_buffer(spec.name));
 }
 
@@ -186,44 +184,40 @@ void Vehicle::Graph::make_drivers(Sensors& s) {
   leave_out_leaps(s);
   LiveSensors none;
   LiveSensors& live = s.live ? *s.live : none;
-  const SchedulingParameters& how = config.scheduling;
   add_driver<StereoPair>(
-      stages::camera, how.camera, prefetched(stages::camera, how.stereo, std::move(s.camera)),
+      stages::camera, prefetched(stages::camera, stages::stereo, std::move(s.camera)),
       std::move(live.camera), rings.outputs(rings::camera_publisher, rings::camera_stereo));
-  add_driver<LidarScan>(stages::velodyne, how.velodyne,
-                        prefetched(stages::velodyne, how.lidar, std::move(s.velodyne)),
-                        std::move(live.velodyne),
-                        rings.outputs(rings::velodyne_publisher, rings::velodyne_lidar));
-  add_driver(stages::imu, how.imu, std::move(s.imu), std::move(live.imu),
+  add_driver<LidarScan>(
+      stages::velodyne, prefetched(stages::velodyne, stages::lidar, std::move(s.velodyne)),
+      std::move(live.velodyne), rings.outputs(rings::velodyne_publisher, rings::velodyne_lidar));
+  add_driver(stages::imu, std::move(s.imu), std::move(live.imu),
              rings.outputs(rings::imu_fusion, rings::imu_publisher));
   if (rings.has(stages::ppp)) {
-    add_driver(stages::gnss, how.gnss, std::move(s.epochs), std::move(live.epochs),
+    add_driver(stages::gnss, std::move(s.epochs), std::move(live.epochs),
                rings.outputs(rings::gnss_ppp));
-    add_driver(stages::corrections, how.gnss, {}, std::move(live.corrections),
+    add_driver(stages::corrections, {}, std::move(live.corrections),
                rings.outputs(rings::corrections_ppp));
   } else {
-    add_driver(stages::gnss, how.gnss, std::move(s.gnss), std::move(live.gnss),
+    add_driver(stages::gnss, std::move(s.gnss), std::move(live.gnss),
                rings.outputs(rings::gnss_fusion, rings::gnss_publisher));
   }
-  add_driver(stages::wheel, how.wheel, std::move(s.wheel), {},
+  add_driver(stages::wheel, std::move(s.wheel), {},
              rings.outputs(rings::wheel_fusion, rings::wheel_publisher));
-  add_driver(stages::reference, how.reference, std::move(s.reference), {},
+  add_driver(stages::reference, std::move(s.reference), {},
              rings.outputs(rings::reference_publisher));
   if (!rings.has(stages::odometry)) return;
-  add_driver(stages::odometry, how.odometry, std::move(s.odometry), {},
+  add_driver(stages::odometry, std::move(s.odometry), {},
              rings.outputs(rings::odometry_fusion, rings::odometry_publisher));
-  add_driver(stages::visual_log, how.odometry, std::move(s.visual), {},
+  add_driver(stages::visual_log, std::move(s.visual), {},
              rings.outputs(rings::visual_log_publisher, rings::visual_log_mapmatch));
-  add_driver(stages::lidar_log, how.odometry, std::move(s.lidar), {},
-             rings.outputs(rings::lidar_log_publisher));
+  add_driver(stages::lidar_log, std::move(s.lidar), {}, rings.outputs(rings::lidar_log_publisher));
 }
 
 template <class Stage, class... Arguments>
-Stage& Vehicle::Graph::add_stage(const runtime::Scheduling& scheduling, Arguments&&... arguments) {
+Stage& Vehicle::Graph::add_stage(Arguments&&... arguments) {
   auto made = std::make_unique<Stage>(rings, std::forward<Arguments>(arguments)...);
   Stage& stage = *made;
   stages.push_back(std::move(made));
-  stage_scheduling.push_back(scheduling);
   stage.trace_to(trace_buffer(stage.spec().name));
   return stage;
 }
@@ -232,25 +226,23 @@ void Vehicle::Graph::make_stages(const VehicleCalibration& calibration,
                                  const std::shared_ptr<const ppp::PppSetup>& products) {
   if (rings.has(stages::preview)) preview.emplace(rings, config.preview, calibration.T_body_velo);
   if (rings.has(stages::stereo)) {
-    auto& stereo = add_stage<StereoStage>(
-        config.scheduling.stereo, stereo::StereoOdometry(calibration.stereo, config.stereo));
+    auto& stereo =
+        add_stage<StereoStage>(stereo::StereoOdometry(calibration.stereo, config.stereo));
     if (preview) stereo.show_to(preview->image());
   }
   if (rings.has(stages::lidar)) {
-    auto& lidar = add_stage<LidarStage>(
-        config.scheduling.lidar, lidar::VisualLidarOdometer(calibration.T_body_velo, config.lidar));
+    auto& lidar =
+        add_stage<LidarStage>(lidar::VisualLidarOdometer(calibration.T_body_velo, config.lidar));
     if (preview) lidar.show_to(preview->scan(), static_cast<std::size_t>(config.preview.points));
   }
-  if (rings.has(stages::ppp))
-    add_stage<PppStage>(config.scheduling.ppp, products, config.ppp.integrity_risk);
+  if (rings.has(stages::ppp)) add_stage<PppStage>(products, config.ppp.integrity_risk);
   const Duration odometry_budget =
       stages::stereo.budget + (rings.has(stages::lidar) ? stages::lidar.budget : Duration::zero());
   fusion = &add_stage<FusionStage>(
-      config.scheduling.fusion,
       fusion::GuardedFilter(fusion::ReducedImuFilter(config.fusion), guard_of(config)),
       odometry_budget);
   if (rings.has(stages::mapmatch))
-    add_stage<MapMatchStage>(config.scheduling.mapmatch, map, config.mapmatch, feedback_of(config));
+    add_stage<MapMatchStage>(map, config.mapmatch, feedback_of(config));
 }
 
 }  // namespace maploop::vehicle

@@ -40,17 +40,15 @@ struct Vehicle::Graph {
   // Construction (vehicle_graph.cpp).
   void make_drivers(Sensors& sensors);
   template <class T>
-  void add_driver(const StageSpec& spec, const runtime::Scheduling& scheduling,
-                  std::unique_ptr<sensors::Source<T>> recorded,
+  void add_driver(const StageSpec& spec, std::unique_ptr<sensors::Source<T>> recorded,
                   std::unique_ptr<sensors::LiveSource<T>> live, Outputs<T> outputs);
   // Decodes ahead, with the scheduling of the stage that reads the samples: it needs them in time,
   // and the fusion goes first.
   template <class T>
-  std::unique_ptr<sensors::Source<T>> prefetched(const StageSpec& spec,
-                                                 const runtime::Scheduling& reader,
+  std::unique_ptr<sensors::Source<T>> prefetched(const StageSpec& spec, const StageSpec& reader,
                                                  std::unique_ptr<sensors::Source<T>> source);
   template <class Stage, class... Arguments>
-  Stage& add_stage(const runtime::Scheduling& scheduling, Arguments&&... arguments);
+  Stage& add_stage(Arguments&&... arguments);
   void make_stages(const VehicleCalibration& calibration,
                    const std::shared_ptr<const ppp::PppSetup>& products);
   MatchDescriber describer() const;
@@ -66,8 +64,8 @@ struct Vehicle::Graph {
   void start_listeners();
   // Makes it an element of `threads`; its settings become part of the readiness.
   runtime::Thread& start_thread(std::deque<runtime::Thread>& threads, const StageSpec& stage,
-                                const runtime::Scheduling& scheduling, std::stop_token token,
-                                runtime::Thread::Body body, std::function<void()> at_end);
+                                std::stop_token token, runtime::Thread::Body body,
+                                std::function<void()> at_end);
   void wait();
 
   // Reports (vehicle_report.cpp).
@@ -97,9 +95,7 @@ struct Vehicle::Graph {
   Rings rings;
   std::vector<std::unique_ptr<DriverBase>> drivers;
   std::vector<std::unique_ptr<GraphStage>> stages;
-  std::vector<runtime::Scheduling> driver_scheduling;  // of each driver
-  std::vector<runtime::Scheduling> stage_scheduling;   // of each stage
-  FusionStage* fusion = nullptr;                       // one of the stages
+  FusionStage* fusion = nullptr;  // one of the stages
   std::optional<PreviewStage> preview;
   Publisher publisher;
   Outputs<RuntimeReport> reports;

@@ -20,12 +20,12 @@ constexpr Duration lead = milliseconds(100);
 }  // namespace
 
 runtime::Thread& Vehicle::Graph::start_thread(std::deque<runtime::Thread>& threads,
-                                              const StageSpec& stage,
-                                              const runtime::Scheduling& scheduling,
-                                              std::stop_token token, runtime::Thread::Body body,
+                                              const StageSpec& stage, std::stop_token token,
+                                              runtime::Thread::Body body,
                                               std::function<void()> at_end) {
   runtime::Thread& thread = threads.emplace_back(
-      std::string(stage.name), clock.is_paced() ? scheduling : runtime::Scheduling{},
+      std::string(stage.name),
+      clock.is_paced() ? scheduling_of(config.scheduling, stage) : runtime::Scheduling{},
       std::move(token), std::move(body), std::move(at_end));
   runtime::append(readiness, thread.settings());
   return thread;
@@ -73,24 +73,24 @@ void Vehicle::Graph::start_drivers() {
   for (const StageSpec& spec : stages::all) {
     if (spec.expected && driver(spec) == nullptr) monitor.watch_missing(spec);
   }
-  for (std::size_t i = 0; i < drivers.size(); ++i) {
-    DriverBase& driver = *drivers[i];
+  for (const auto& each : drivers) {
+    DriverBase& driver = *each;
     const StageSpec& spec = driver.spec();
     driver.arrivals().start(begin,
                             spec.min_rate > 0.0 ? Watchdog::patience(spec) : Duration::zero());
     const runtime::Thread& thread = start_thread(
-        producers, spec, driver_scheduling[i], stop.get_token(),
+        producers, spec, stop.get_token(),
         [&](const std::stop_token& token) { driver.run(clock, token); }, [&] { driver.finish(); });
     monitor.watch_driver(thread, driver);
   }
 }
 
 void Vehicle::Graph::start_stages() {
-  for (std::size_t i = 0; i < stages.size(); ++i) {
-    GraphStage& stage = *stages[i];
+  for (const auto& each : stages) {
+    GraphStage& stage = *each;
     for (UseWatch* use : stage.uses()) monitor.watch(*use);
     const runtime::Thread& thread = start_thread(
-        producers, stage.spec(), stage_scheduling[i], stop.get_token(),
+        producers, stage.spec(), stop.get_token(),
         [&](const std::stop_token& token) { stage.run(clock, begin, token); },
         [&] { stage.finish(); });
     monitor.watch_stage(stage.spec(), thread, stage.meter(), stage.inputs());
@@ -111,7 +111,7 @@ void Vehicle::Graph::start_snapshots() {
   for (const runtime::EdgeBase* ring : snapshots->rings()) monitor.watch(*ring);
   monitor.watch_stage(stages::snapshot,
                       start_thread(
-                          producers, stages::snapshot, config.scheduling.snapshot, {},
+                          producers, stages::snapshot, {},
                           [this](const std::stop_token&) { snapshots->run(first); },
                           [this] { snapshots->finish(); }),
                       snapshots->meter(), {});
@@ -120,29 +120,27 @@ void Vehicle::Graph::start_snapshots() {
 // These threads end after all producers have ended, so that every result is published.
 void Vehicle::Graph::start_listeners() {
   if (preview) {
-    monitor.watch_stage(
-        stages::preview,
-        start_thread(
-            listeners, stages::preview, config.scheduling.preview, end_preview.get_token(),
-            [this](const std::stop_token& end) { preview->run(end); },
-            [this] { preview->finish(); }),
-        preview->meter(), {});
+    monitor.watch_stage(stages::preview,
+                        start_thread(
+                            listeners, stages::preview, end_preview.get_token(),
+                            [this](const std::stop_token& end) { preview->run(end); },
+                            [this] { preview->finish(); }),
+                        preview->meter(), {});
   }
   monitor.watch_stage(stages::publisher,
                       start_thread(
-                          listeners, stages::publisher, config.scheduling.publisher, {},
+                          listeners, stages::publisher, {},
                           [this](const std::stop_token&) { publisher.run(begin, clock); },
                           [this] { publisher.finish(); }),
                       publisher.meter(), {});
-  monitor.watch_stage(
-      stages::health,
-      start_thread(
-          listeners, stages::health, config.scheduling.health, end_health.get_token(),
-          [this](const std::stop_token& end) { run_health(end); },
-          [this] {
-            for (auto* ring : reports.rings()) ring->finish();
-          }),
-      health_meter, {});
+  monitor.watch_stage(stages::health,
+                      start_thread(
+                          listeners, stages::health, end_health.get_token(),
+                          [this](const std::stop_token& end) { run_health(end); },
+                          [this] {
+                            for (auto* ring : reports.rings()) ring->finish();
+                          }),
+                      health_meter, {});
 }
 
 void Vehicle::Graph::start() {
