@@ -67,7 +67,7 @@ TEST(FllReader, EveryMistakeIsRefusedWithFileAndLine) {
   EXPECT_THAT(refusal("high then out is bad", "high then"), HasSubstr("small.fll:13"));
   EXPECT_THAT(refusal("high then out is bad", "high and"), HasSubstr("small.fll:13"));
   EXPECT_THAT(refusal("Ramp 10 0", "Ramp 10"),
-              HasSubstr("small.fll:4: 2 numbers are needed, and 1"));
+              HasSubstr("small.fll:4: 2 numbers are needed, but 1"));
   EXPECT_THAT(refusal("Ramp 10 0", "Ramp 10 nan"), HasSubstr("'nan' is not a finite number"));
   EXPECT_THAT(refusal("Ramp 10 0", "Slope 10 0"), HasSubstr("'Slope' is not Sigmoid"));
   EXPECT_THAT(refusal("Ramp 10 0", "Triangle 3 2 1"), HasSubstr("ascending order"));
@@ -80,7 +80,7 @@ TEST(FllReader, EveryMistakeIsRefusedWithFileAndLine) {
   EXPECT_THAT(refusal("range: 0 10", "ragne: 0 10"),
               HasSubstr("small.fll:3: 'ragne' is not known"));
   EXPECT_THAT(refusal("Engine: small\n", ""), HasSubstr("must start with 'Engine"));
-  EXPECT_THAT(refusal("RuleBlock: all", "RuleBlock"), HasSubstr("small.fll:11: a line is"));
+  EXPECT_THAT(refusal("RuleBlock: all", "RuleBlock"), HasSubstr("small.fll:11: a line must be"));
   EXPECT_THAT(refusal("  rule: if a is low and b is high then out is bad\n", ""),
               HasSubstr("no rule"));
 }

@@ -184,8 +184,9 @@ TEST_F(FreeSequence, AnInvalidListIsNamed) {
     const OdometrySequence drive(folder.path() / "x/07.csv", {});
     FAIL() << "the list was taken";
   } catch (const std::runtime_error& e) {
-    EXPECT_NE(std::string(e.what()).find("sequences.csv:1: not name,start,imu,tracks"),
-              std::string::npos)
+    EXPECT_NE(
+        std::string(e.what()).find("sequences.csv:1: the columns must be name,start,imu,tracks"),
+        std::string::npos)
         << e.what();
   }
 }

@@ -31,7 +31,8 @@ const std::string at_rest = "1 0 0 0 0 1 0 0 0 0 1 0\n";
 
 TEST(PoseOdometry, RefusesAnInvalidTrajectoryByFileAndLine) {
   EXPECT_NE(refusal("").find("fewer than two"), std::string::npos);
-  EXPECT_NE(refusal(at_rest + "1 0 0\n").find("poses.txt:2: a pose has 12"), std::string::npos);
+  EXPECT_NE(refusal(at_rest + "1 0 0\n").find("poses.txt:2: a pose must have 12"),
+            std::string::npos);
   EXPECT_NE(refusal(at_rest + "1 0 0 0 0 nan 0 0 0 0 1 0\n").find(":2:"), std::string::npos);
   EXPECT_NE(refusal(at_rest + "1 0 0 0 0 2 0 0 0 0 1 0\n").find("no"), std::string::npos);
   EXPECT_NE(refusal("3 " + at_rest + "2 " + at_rest).find("frame 2 comes after frame 3"),

@@ -80,8 +80,8 @@ TEST(NtripReply, ReportsWhyThereIsNoStream) {
             std::string::npos);
   const std::string chunked = "HTTP/1.1 200 OK\r\nTransfer-Encoding: chunked\r\n\r\n";
   EXPECT_NE(problem(chunked + "\r\n").find("without a length"), std::string::npos);
-  EXPECT_NE(problem(chunked + "xyz\r\n").find("no number"), std::string::npos);
-  EXPECT_NE(problem(chunked + "fffffffff\r\n").find("no number"), std::string::npos);
+  EXPECT_NE(problem(chunked + "xyz\r\n").find("is not a number"), std::string::npos);
+  EXPECT_NE(problem(chunked + "fffffffff\r\n").find("is not a number"), std::string::npos);
   EXPECT_NE(problem(chunked + "1" + std::string(500, ' ')).find("no end"), std::string::npos);
 }
 
