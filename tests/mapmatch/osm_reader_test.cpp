@@ -255,7 +255,7 @@ TEST(OsmReader, AnotherCountrysMapIsReadAsItIsMeant) {
   EXPECT_EQ(network.road_at(network.link(network.data().banned[0].to.link).first_vertex).way_id,
             12);
   ASSERT_EQ(network.data().warnings.size(), 1U);
-  EXPECT_EQ(network.data().warnings[0], "1 turn restrictions over a way between are left out");
+  EXPECT_EQ(network.data().warnings[0], "1 turn restrictions via a way are left out");
 }
 
 TEST(OsmReader, AMapThatIsTooWideForOnePlaneIsWarnedOf) {

@@ -235,7 +235,7 @@ TEST(DamagedCamera, AnImageOfAnotherSizeOrColour) {
     int width, height;
     std::size_t bytes_a_pixel;
     const char* reason;
-  } cases[] = {{33, 24, 1, "33 x 24 pixels, the calibration says 32 x 24"},
+  } cases[] = {{33, 24, 1, "33 x 24 pixels, but the calibration states 32 x 24"},
                {24, 32, 1, "24 x 32"},
                {32, 24, 3, "not an 8-bit grey image"}};
   for (const auto& c : cases) {

@@ -198,7 +198,7 @@ TEST_F(ReplayControlTest, OnlyCommandsForItsRunAreObeyed) {
   EXPECT_EQ(state().refused, "") << "it is another's to answer";
   command(Control::QUIT, 0.0, "");
   EXPECT_FALSE(control_->quit());
-  EXPECT_EQ(state().refused, "the command names no run; this one is 0123abcd");
+  EXPECT_EQ(state().refused, "the command has no run; this run is 0123abcd");
   command(Control::SPEED, 2.0);
   EXPECT_EQ(state().speed, 2.0);
 }

@@ -118,10 +118,10 @@ TEST(VehicleConfig, AThreadsTableChangesOnlyWhatItNames) {
 TEST(VehicleConfig, WhatDoesNotGoWithThePolicyIsAnError) {
   for (const auto& [text, said] : std::initializer_list<std::pair<const char*, const char*>>{
            {"policy = \"other\"\npriority = 5",
-            "fusion.priority: goes with policy \"fifo\" and \"rr\""},
-           {"nice = 5", "fusion.nice: goes with policy \"other\", not with \"fifo\""},
+            "fusion.priority: can only be used with policy \"fifo\" and \"rr\""},
+           {"nice = 5", "fusion.nice: can only be used with policy \"other\", not with \"fifo\""},
            {"priority = 0", "fusion.priority: is 0; allowed is 1 to 99"},
-           {"period_ms = 5", "fusion.period_ms: goes with policy \"deadline\""},
+           {"period_ms = 5", "fusion.period_ms: can only be used with policy \"deadline\""},
            {"policy = \"deadline\"\nruntime_ms = 3\ndeadline_ms = 2\nperiod_ms = 10",
             "runtime_ms <= deadline_ms <= period_ms"},
            {"policy = \"deadline\"\nruntime_ms = 1\ndeadline_ms = 2\nperiod_ms = 10\ncpus = [0]",
