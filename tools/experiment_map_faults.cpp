@@ -1,4 +1,5 @@
 // maploop experiment map-faults: map matching of recorded drives on wrong maps.
+#include <fmt/format.h>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -50,9 +51,8 @@ struct FaultRow {
     p_sum += score.missing_p_sum;
     if (score.longest_sure_wrong <= longest) return;
     longest = score.longest_sure_wrong;
-    char at[64];
-    std::snprintf(at, sizeof at, " at %.0f s, seed %d", score.worst_at, seed);
-    worst = drive.name + at + (way ? ", way " + std::to_string(way) : "");
+    worst = fmt::format("{} at {:.0f} s, seed {}", drive.name, score.worst_at, seed);
+    if (way) worst += ", way " + std::to_string(way);
   }
 };
 

@@ -1,10 +1,9 @@
 #include "tools/fusion_score.h"
 
+#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 
 #include "msgs/frames.h"
@@ -115,30 +114,21 @@ std::string to_text(const Score& score) {
       "\nState as sent           distance    rmse     max   drift    drift  azimuth deg      NEES\n"
       "                               m       m       m       m        %     rms    end  mean   "
       " end\n";
-  std::array<char, 160> row{};
-  const auto line = [&](const char* name, const Errors& e) {
-    std::snprintf(row.data(), row.size(),
-                  "  %-20s %9.1f %7.2f %7.2f %7.2f %8.3f %7.3f %6.3f %5.1f %6.1f\n", name,
-                  e.distance, e.rmse, e.max, e.drift, e.percent(), e.azimuth_rms, e.azimuth_end,
-                  e.nees_mean, e.nees_end);
-    text += row.data();
+  const auto line = [&](const std::string& name, const Errors& e) {
+    text += fmt::format(
+        "  {:20} {:9.1f} {:7.2f} {:7.2f} {:7.2f} {:8.3f} {:7.3f} {:6.3f} {:5.1f} {:6.1f}\n", name,
+        e.distance, e.rmse, e.max, e.drift, e.percent(), e.azimuth_rms, e.azimuth_end, e.nees_mean,
+        e.nees_end);
     if (e.covered >= 0.98) return;
-    std::snprintf(
-        row.data(), row.size(),
-        "  %20s scored where there is a reference better than %.1f m: %.0f %% of the time\n", "",
-        worst_reference, 100.0 * e.covered);
-    text += row.data();
+    text += fmt::format(
+        "  {:20} scored where there is a reference better than {:.1f} m: {:.0f} % of the time\n",
+        "", worst_reference, 100.0 * e.covered);
   };
   line("whole drive", score.whole);
-  for (const OutageErrors& o : score.outages) {
-    std::array<char, 48> name{};
-    std::snprintf(name.data(), name.size(), "outage %.1f:%.1f", o.start, o.length);
-    line(name.data(), o.errors);
-  }
-  std::snprintf(row.data(), row.size(),
-                "  The reference says of itself that it is right to %.2f m.\n",
-                score.reference_accuracy);
-  return text + row.data();
+  for (const OutageErrors& o : score.outages)
+    line(fmt::format("outage {:.1f}:{:.1f}", o.start, o.length), o.errors);
+  return text + fmt::format("  The reference says of itself that it is right to {:.2f} m.\n",
+                            score.reference_accuracy);
 }
 
 }  // namespace maploop::fusion_score

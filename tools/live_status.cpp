@@ -1,8 +1,7 @@
 #include "tools/live_status.h"
 
+#include <fmt/format.h>
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <utility>
 
 namespace maploop::tools {
@@ -30,10 +29,10 @@ std::string LiveStatus::text() const {
   for (const auto& [name, delivered] : newest.delivered) {
     const auto before = oldest.delivered.find(name);
     const std::uint64_t came = delivered - (before == oldest.delivered.end() ? 0 : before->second);
-    std::array<char, 32> rate{};
-    std::snprintf(rate.data(), rate.size(), " %.1f Hz", static_cast<double>(came) / seconds);
-    line +=
-        (line.empty() ? "" : ", ") + name + (came > 0 && seconds > 0.0 ? rate.data() : " absent");
+    line += (line.empty() ? "" : ", ") + name;
+    line += came > 0 && seconds > 0.0
+                ? fmt::format(" {:.1f} Hz", static_cast<double>(came) / seconds)
+                : " absent";
   }
   return line;
 }

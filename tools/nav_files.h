@@ -23,7 +23,4 @@ void write_nmea(const std::filesystem::path& file, const fusion_score::NavTrack&
 // receiver, HDOP 1) and RMC, of its stamp to the hundredth of a second.
 std::string nmea_sentences(const GnssFix& fix);
 
-// "$<body>*<checksum>\r\n".
-std::string nmea_sentence(const std::string& body);
-
 }  // namespace maploop::tools

@@ -1,8 +1,8 @@
 #include "tools/sensors_listen.h"
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -46,36 +46,32 @@ void listen(sensors::LiveSource<T>& source, const sensors::HostClock& clock, Tim
 
 void print(const Heard& heard) {
   const sensors::ConnectionState& connection = heard.report.connection;
-  std::printf("%s  %s\n", heard.name.c_str(), heard.report.endpoint.c_str());
-  std::printf("  connection   %s; opened %llu times, %llu bytes\n",
-              connection.open ? "open" : connection.problem.c_str(),
-              static_cast<unsigned long long>(connection.opened),
-              static_cast<unsigned long long>(connection.bytes));
+  fmt::print("{}  {}\n", heard.name, heard.report.endpoint);
+  fmt::print("  connection   {}; opened {} times, {} bytes\n",
+             connection.open ? "open" : connection.problem, connection.opened, connection.bytes);
   if (heard.samples == 0) {
-    std::printf("  samples      none%s\n",
-                connection.open && connection.bytes == 0
-                    ? ": nothing is sent to there; is the sensor on, and set to this address?"
-                    : "");
+    fmt::print("  samples      none{}\n",
+               connection.open && connection.bytes == 0
+                   ? ": nothing is sent to there; is the sensor on, and set to this address?"
+                   : "");
   } else {
     const double span = to_seconds(heard.last - heard.first);
     const double rate = span > 0.0 ? static_cast<double>(heard.samples - 1) / span : 0.0;
-    std::printf("  samples      %llu, %.2f Hz, delivered %.1f to %.1f ms after their stamp\n",
-                static_cast<unsigned long long>(heard.samples), rate,
-                to_milliseconds(heard.youngest), to_milliseconds(heard.oldest));
+    fmt::print("  samples      {}, {:.2f} Hz, delivered {:.1f} to {:.1f} ms after their stamp\n",
+               heard.samples, rate, to_milliseconds(heard.youngest), to_milliseconds(heard.oldest));
   }
   for (const std::string& reason : heard.report.reasons) {
-    std::printf("  left out     %s\n", reason.c_str());
+    fmt::print("  left out     {}\n", reason);
   }
-  for (const std::string& note : heard.report.notes)
-    std::printf("  says         %s\n", note.c_str());
+  for (const std::string& note : heard.report.notes) fmt::print("  says         {}\n", note);
   const SensorClock& clock = heard.report.clock;
   if (clock.known) {
-    std::printf("  clock        %+.1f ppm against the host's, jumped %llu times",
-                -1e6 * clock.drift, static_cast<unsigned long long>(clock.jumps));
+    fmt::print("  clock        {:+.1f} ppm against the host's, jumped {} times", -1e6 * clock.drift,
+               clock.jumps);
     if (clock.utc_ahead) {
-      std::printf("; its UTC is %+.3f s ahead of the host's", to_seconds(*clock.utc_ahead));
+      fmt::print("; its UTC is {:+.3f} s ahead of the host's", to_seconds(*clock.utc_ahead));
     }
-    std::printf("\n");
+    fmt::print("\n");
   }
 }
 
@@ -148,8 +144,8 @@ int listen_to_sensors(const ListenOptions& options) {
     all = all && h.samples > 0;
   }
   if (const Duration step = clock.step(); std::chrono::abs(step) > std::chrono::milliseconds(10)) {
-    std::printf("this machine's clock was set by %+.3f s meanwhile; stamps did not follow it\n",
-                to_seconds(step));
+    fmt::print("this machine's clock was set by {:+.3f} s meanwhile; stamps did not follow it\n",
+               to_seconds(step));
   }
   if (!options.json.empty()) write_json_file(options.json, json);
   return all ? 0 : 1;

@@ -1,6 +1,6 @@
 #include "tools/velodyne_capture_info.h"
 
-#include <cstdio>
+#include <fmt/format.h>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -27,20 +27,18 @@ void write_scan(const std::filesystem::path& folder, const LidarScan& scan, std:
 }
 
 void row(const char* key, const std::string& value) {
-  std::printf("  %-12s %s\n", key, value.c_str());
+  fmt::print("  {:12} {}\n", key, value);
 }
 
 std::string fixed(double value, int digits) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
+  return fmt::format("{:.{}f}", value, digits);
 }
 
 void print(const sensors::VelodyneCapture& capture, const Turns& turns) {
   const auto& decoder = capture.decoder();
   const auto& counts = decoder.counts();
   const auto& cuts = decoder.turns();
-  std::printf("%s\n", std::string(to_string(capture.model())).c_str());
+  fmt::print("{}\n", to_string(capture.model()));
   row("packets", std::to_string(counts.data) + " of data, " + std::to_string(counts.positions) +
                      " of position, " + std::to_string(capture.others()) + " others");
   row("time", format_time(capture.first()) + " to " + format_time(capture.last()) + ", " +

@@ -1,9 +1,8 @@
 #include "tools/verdict.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <vector>
 
 #include "estimators/fusion/outcome.h"
@@ -14,15 +13,6 @@ namespace {
 
 constexpr std::size_t line_width = 79;
 constexpr double worth_a_word = 0.02;  // of a stage's inputs
-
-[[gnu::format(printf, 1, 2)]] std::string text_of(const char* form, ...) {
-  std::array<char, 256> text{};
-  va_list arguments;
-  va_start(arguments, form);
-  std::vsnprintf(text.data(), text.size(), form, arguments);
-  va_end(arguments);
-  return text.data();
-}
 
 std::uint64_t delivered(const ReplayResult& r, std::string_view sensor) {
   for (const vehicle::SensorReport& s : r.vehicle.sensors) {
@@ -42,13 +32,13 @@ const RefusalCount* most_refused(const ReplayResult& r) {
 
 std::string where(const ReplayResult& r) {
   const char* begin = r.interrupted ? "Interrupted after" : "After";
-  if (!r.end) return text_of("%s %.1f s: no position.", begin, r.vehicle.data_seconds);
+  if (!r.end) return fmt::format("{} {:.1f} s: no position.", begin, r.vehicle.data_seconds);
   const Geodetic place = LocalFrame(r.end->origin).to_geodetic(r.end->position_enu);
   const double sigma = std::sqrt(std::max(0.0, r.end->covariance.topLeftCorner<2, 2>().trace()));
-  return text_of("%s %.1f s at %.6f %c %.6f %c, +-%.*f m (1 sigma).", begin, r.vehicle.data_seconds,
-                 std::abs(degrees(place.latitude)), place.latitude < 0.0 ? 'S' : 'N',
-                 std::abs(degrees(place.longitude)), place.longitude < 0.0 ? 'W' : 'E',
-                 sigma < 1000.0 ? 1 : 0, sigma);
+  return fmt::format("{} {:.1f} s at {:.6f} {} {:.6f} {}, +-{:.{}f} m (1 sigma).", begin,
+                     r.vehicle.data_seconds, std::abs(degrees(place.latitude)),
+                     place.latitude < 0.0 ? 'S' : 'N', std::abs(degrees(place.longitude)),
+                     place.longitude < 0.0 ? 'W' : 'E', sigma, sigma < 1000.0 ? 1 : 0);
 }
 
 std::string how_good(const ReplayResult& r) {
@@ -56,15 +46,16 @@ std::string how_good(const ReplayResult& r) {
     const fusion_score::Errors& e = r.navigation->whole;
     const int digits = e.max < 1000.0 ? 2 : 0;
     const std::string share =
-        e.covered < 0.98 ? text_of("%.0f %% of ", 100.0 * e.covered) : std::string();
-    return text_of("Horizontal error %.*f m RMS, %.*f m at most, against %sthe reference.", digits,
-                   e.rmse, digits, e.max, share.c_str());
+        e.covered < 0.98 ? fmt::format("{:.0f} % of ", 100.0 * e.covered) : std::string();
+    return fmt::format(
+        "Horizontal error {:.{}f} m RMS, {:.{}f} m at most, against {}the reference.", e.rmse,
+        digits, e.max, digits, share);
   }
   if (r.ppp && r.ppp->never_converges && r.ppp->of(PppStatus::converged) == 0)
     return "PPP cannot converge on one frequency with broadcast orbits: metres remain.";
   if (r.ppp && r.ppp->converged_after >= 0.0)
-    return text_of("PPP converged after %.0f s; there is no reference to score against.",
-                   r.ppp->converged_after);
+    return fmt::format("PPP converged after {:.0f} s; there is no reference to score against.",
+                       r.ppp->converged_after);
   if (r.ppp) return "PPP has not converged yet; there is no reference to score against.";
   if (r.live) return "Not scored: a live run has no reference.";
   return r.end ? "Not scored: the recording has no reference to score against."
@@ -87,21 +78,18 @@ std::vector<std::string> unused(const ReplayResult& r) {
     if (c.stage == "fusion" && c.reason == after_start) {
       const std::string who =
           r.configuration.starts_with("GNSS+") ? "" : "; GNSS+" + r.configuration + " uses it";
-      items.push_back(text_of("GNSS after the start (%llu fixes%s)",
-                              static_cast<unsigned long long>(c.count), who.c_str()));
+      items.push_back(fmt::format("GNSS after the start ({} fixes{})", c.count, who));
     }
   }
   for (const vehicle::SensorReport& s : r.vehicle.sensors) {
     if (s.source.refused > 0) {
-      items.push_back(text_of("%llu of %s left out by the reader",
-                              static_cast<unsigned long long>(s.source.refused), s.name.c_str()));
+      items.push_back(fmt::format("{} of {} left out by the reader", s.source.refused, s.name));
     }
   }
   const auto few = static_cast<std::uint64_t>(worth_a_word * static_cast<double>(r.images));
   for (const RefusalCount& c : refusals) {
     if (c.reason == after_start || c.count <= few) continue;
-    items.push_back(text_of("%llu by %s (%s)", static_cast<unsigned long long>(c.count),
-                            c.stage.c_str(), c.reason.c_str()));
+    items.push_back(fmt::format("{} by {} ({})", c.count, c.stage, c.reason));
   }
   return items;
 }
@@ -118,7 +106,7 @@ std::string what_not(const ReplayResult& r) {
     line += item;
   }
   if (said == 0) return (line + items.front()).substr(0, line_width);
-  if (said < items.size()) line += text_of("; %zu more", items.size() - said);
+  if (said < items.size()) line += fmt::format("; {} more", items.size() - said);
   return line;
 }
 

@@ -36,12 +36,6 @@ std::vector<std::string> lines_of(const std::filesystem::path& file) {
   return lines;
 }
 
-// The example is that of the standard's own documentation.
-TEST(Nmea, ChecksumIsTheExclusiveOrOfTheBody) {
-  EXPECT_EQ(nmea_sentence("GPGLL,5300.97914,N,00259.98174,E,125926,A"),
-            "$GPGLL,5300.97914,N,00259.98174,E,125926,A*28\r\n");
-}
-
 TEST(Nmea, SentencesSayPlaceTimeCourseAndErrors) {
   const auto file = std::filesystem::path(::testing::TempDir()) / "track.nmea";
   write_nmea(file, short_track());

@@ -1,9 +1,9 @@
 #include "tools/calibrate/calibration.h"
 
+#include <fmt/format.h>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -18,10 +18,8 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-std::string shown(double value, const char* format = "%.2f") {
-  std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
+std::string shown(double value, int digits = 2) {
+  return fmt::format("{:.{}f}", value, digits);
 }
 
 TiltSpread tilt_spread(const std::vector<Eigen::Isometry3d>& T_left_board) {
@@ -46,8 +44,7 @@ void require_different_tilts(const StereoResult& r) {
   if (r.tilt.most > least_tilt && f_sigma < most_sigma) return;
   throw std::runtime_error(
       "the boards of all " + std::to_string(r.adjustment.T_left_board.size()) +
-      " views are too nearly parallel (their tilts scatter by " +
-      shown(r.tilt.most / kDegree, "%.1f") +
+      " views are too nearly parallel (their tilts scatter by " + shown(r.tilt.most / kDegree, 1) +
       " deg): focal length and distance cannot be told apart; tilt the board by 20 to 40 deg, to "
       "the left, right, front and back");
 }
@@ -124,7 +121,7 @@ std::vector<std::string> warnings_of(const StereoResult& r) {
                        " % only: tilt the board more");
   if (r.tilt.across < 4.0 * kDegree)
     warnings.push_back("the board is tilted about one axis only (about the other by " +
-                       shown(r.tilt.across / kDegree, "%.1f") +
+                       shown(r.tilt.across / kDegree, 1) +
                        " deg): tilt it to the sides as well as to the front and back");
   for (std::size_t side = 0; side < 2; ++side) {
     const std::string name = side == 0 ? "left" : "right";

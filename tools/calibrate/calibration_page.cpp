@@ -1,10 +1,10 @@
 #include "tools/calibrate/calibration_page.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
@@ -21,9 +21,7 @@ namespace {
 using tools::escaped;
 
 std::string number(double value) {
-  std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), "%.3f", value);
-  return text.data();
+  return fmt::format("{:.3f}", value);
 }
 
 // `width` is the width on the page, px.

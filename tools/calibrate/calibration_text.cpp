@@ -1,8 +1,8 @@
 #include "tools/calibrate/calibration_text.h"
 
+#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <array>
-#include <cstdio>
 #include <numbers>
 
 #include "runtime/vehicle/stereo_rig_file.h"
@@ -12,15 +12,9 @@ namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-template <typename... Values>
-std::string row(const char* format, Values... values) {
-  std::array<char, 240> text{};
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
-
 std::string board_text(const Board& board) {
-  return row("%dx%d inner corners, squares of %g m", board.columns, board.rows, board.square);
+  return fmt::format("{}x{} inner corners, squares of {:g} m", board.columns, board.rows,
+                     board.square);
 }
 
 // Returns the right camera's rotation relative to the left one, as a rotation vector (rad).
@@ -31,23 +25,25 @@ Eigen::Vector3d turn_of(const sensors::StereoRig& rig) {
 
 std::string matrix_text(const Eigen::Matrix3d& m) {
   std::string text;
-  for (int i = 0; i < 3; ++i) text += row("  % .8e % .8e % .8e\n", m(i, 0), m(i, 1), m(i, 2));
+  for (int i = 0; i < 3; ++i)
+    text += fmt::format("  {: .8e} {: .8e} {: .8e}\n", m(i, 0), m(i, 1), m(i, 2));
   return text;
 }
 
 std::string coefficients(const sensors::Distortion& d) {
-  return row("k1 %.6f  k2 %.6f  k3 %.6f  p1 %.6f  p2 %.6f", d.k1, d.k2, d.k3, d.p1, d.p2);
+  return fmt::format("k1 {:.6f}  k2 {:.6f}  k3 {:.6f}  p1 {:.6f}  p2 {:.6f}", d.k1, d.k2, d.k3,
+                     d.p1, d.p2);
 }
 
 std::string views_text(const StereoResult& r) {
   std::string text = "view                           left px  right px\n";
   for (const ViewResult& view : r.views) {
     const auto [left, right] = rms_of(view.residuals);
-    text += row("%-30s %7.3f  %8.3f\n", view.view.name.c_str(), left, right);
+    text += fmt::format("{:30} {:7.3f}  {:8.3f}\n", view.view.name, left, right);
   }
   for (const BadView& bad : r.bad)
-    text += row("%-30s left out in round %d: %.3f px, limit %.3f px\n", bad.name.c_str(), bad.round,
-                bad.rms, bad.limit);
+    text += fmt::format("{:30} left out in round {}: {:.3f} px, limit {:.3f} px\n", bad.name,
+                        bad.round, bad.rms, bad.limit);
   return text;
 }
 
@@ -56,7 +52,7 @@ class KittiWriter {
  public:
   void line(const std::string& key, std::initializer_list<double> values) {
     text += key + ":";
-    for (const double value : values) text += row(" %.6e", value);
+    for (const double value : values) text += fmt::format(" {:.6e}", value);
     text += '\n';
   }
   void line(const std::string& key, const Eigen::Matrix3d& m) {
@@ -116,22 +112,23 @@ std::vector<Parameter> parameters_of(const StereoResult& r) {
 std::string to_text(const StereoResult& r, const std::vector<Unusable>& unusable) {
   std::string text = "board: " + board_text(r.board) + "\n\n" + views_text(r);
   for (const Unusable& u : unusable) text += u.name + ": not used: " + u.reason + '\n';
-  text +=
-      row("\n%zu views, %.3f px root mean square, rectified rows %.3f px apart, corners in %.0f "
-          "and %.0f %% of the image's fields\n\n",
-          r.views.size(), r.adjustment.rms, r.row_error, 100.0 * r.coverage[0].share(),
-          100.0 * r.coverage[1].share());
+  text += fmt::format(
+      "\n{} views, {:.3f} px root mean square, rectified rows {:.3f} px apart, corners in {:.0f} "
+      "and {:.0f} % of the image's fields\n\n",
+      r.views.size(), r.adjustment.rms, r.row_error, 100.0 * r.coverage[0].share(),
+      100.0 * r.coverage[1].share());
   text += "parameter                        value        sigma\n";
   for (const Parameter& p : parameters_of(r))
-    text += row("%-24s %14.6f %12.6f %s\n", p.name.c_str(), p.value, p.sigma, p.unit.c_str());
+    text += fmt::format("{:24} {:14.6f} {:12.6f} {}\n", p.name, p.value, p.sigma, p.unit);
   text += "(distortion: undistorted -> distorted, as OpenCV, ROS and Kalibr have it)\n\n";
   text += "distorted -> undistorted, fitted over the image:\n";
   for (const std::size_t side : {0U, 1U})
-    text += row("  %-5s %s (to %.3f px)\n", side == 0 ? "left" : "right",
-                coefficients(r.reversed[side].distortion).c_str(), r.reversed[side].largest_error);
+    text += fmt::format("  {:5} {} (to {:.3f} px)\n", side == 0 ? "left" : "right",
+                        coefficients(r.reversed[side].distortion), r.reversed[side].largest_error);
   const StereoCalibration& rect = r.rig.rectified;
-  text += row("\nrectified: %d x %d px, f %.4f px, centre %.3f %.3f px, baseline %.6f m\n",
-              rect.width, rect.height, rect.fx, rect.cx, rect.cy, rect.baseline);
+  text += fmt::format(
+      "\nrectified: {} x {} px, f {:.4f} px, centre {:.3f} {:.3f} px, baseline {:.6f} m\n",
+      rect.width, rect.height, rect.fx, rect.cx, rect.cy, rect.baseline);
   text += "essential matrix\n" + matrix_text(essential_matrix(r.rig));
   text += "fundamental matrix\n" + matrix_text(fundamental_matrix(r.rig));
   for (const std::string& warning : r.warnings) text += "warning: " + warning + '\n';
@@ -141,17 +138,20 @@ std::string to_text(const StereoResult& r, const std::vector<Unusable>& unusable
 std::string to_toml(const StereoResult& r) {
   std::map<std::string, std::string> comments;
   for (const Parameter& p : parameters_of(r)) {
-    const std::string sigma = row("sigma %.2g", p.sigma);
+    const std::string sigma = fmt::format("sigma {:.2g}", p.sigma);
     comments[p.name] = p.unit.empty() ? sigma : sigma + " " + p.unit;
   }
   const CommonVector& s = r.adjustment.sigma;
-  comments["extrinsics.R_right_left"] = row("sigma %.2g %.2g %.2g deg about x y z",
-                                            s[18] * kDegrees, s[19] * kDegrees, s[20] * kDegrees);
-  comments["extrinsics.t_right_left"] = row("m, sigma %.2g %.2g %.2g", s[21], s[22], s[23]);
+  comments["extrinsics.R_right_left"] =
+      fmt::format("sigma {:.2g} {:.2g} {:.2g} deg about x y z", s[18] * kDegrees, s[19] * kDegrees,
+                  s[20] * kDegrees);
+  comments["extrinsics.t_right_left"] =
+      fmt::format("m, sigma {:.2g} {:.2g} {:.2g}", s[21], s[22], s[23]);
   comments["rectification.baseline"] = "m";
-  return row("# Stereo calibration by maploop calibrate: %zu views, board of %s,\n"
-             "# %.3f px root mean square. Rotations row by row.\n",
-             r.views.size(), board_text(r.board).c_str(), r.adjustment.rms) +
+  return fmt::format(
+             "# Stereo calibration by maploop calibrate: {} views, board of {},\n"
+             "# {:.3f} px root mean square. Rotations row by row.\n",
+             r.views.size(), board_text(r.board), r.adjustment.rms) +
          vehicle::to_toml(r.rig, comments);
 }
 

@@ -1,8 +1,7 @@
 #include "tools/dashboard/trail.h"
 
-#include <array>
+#include <fmt/format.h>
 #include <chrono>
-#include <cstdio>
 
 namespace maploop::dashboard {
 namespace {
@@ -41,17 +40,14 @@ void Trail::add(const ReferencePose& truth) {
 }
 
 std::string Trail::json() const {
-  std::array<char, 128> text{};
-  std::snprintf(text.data(), text.size(), "{\"origin\":[%.17g,%.17g,%.17g]", origin_.latitude,
-                origin_.longitude, origin_.height);
-  std::string json = text.data();
+  std::string json = fmt::format("{{\"origin\":[{:.17g},{:.17g},{:.17g}]", origin_.latitude,
+                                 origin_.longitude, origin_.height);
   const auto list = [&](const char* name, const std::deque<Point>& points) {
     json += std::string(",\"") + name + "\":[";
     const char* separator = "";
     for (const Point& p : points) {
-      std::snprintf(text.data(), text.size(), "%s[%.3f,%.2f,%.2f]", separator,
-                    static_cast<double>(to_nanoseconds(p.stamp)) * 1e-9, p.east, p.north);
-      json += text.data();
+      json += fmt::format("{}[{:.3f},{:.2f},{:.2f}]", separator,
+                          static_cast<double>(to_nanoseconds(p.stamp)) * 1e-9, p.east, p.north);
       separator = ",";
     }
     json += ']';

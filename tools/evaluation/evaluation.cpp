@@ -1,8 +1,7 @@
 #include "tools/evaluation/evaluation.h"
 
-#include <array>
+#include <fmt/format.h>
 #include <cmath>
-#include <cstdio>
 
 #include "tools/html_text.h"
 #include "tools/web/page.h"
@@ -10,21 +9,14 @@
 namespace maploop::evaluation {
 namespace {
 
-template <typename... Values>
-std::string row(const char* format, Values... values) {
-  std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
-
 std::string of_segments(const SegmentError& error) {
   if (error.segments == 0) return "        -          -";
-  return row("%9.3f %10.5f", error.percent, error.deg_per_m);
+  return fmt::format("{:9.3f} {:10.5f}", error.percent, error.deg_per_m);
 }
 
 std::string of_statistics(const char* what, const char* unit, const Statistics& s) {
-  return row("%-32s rmse %.4f, mean %.4f, median %.4f, max %.4f %s\n", what, s.rmse, s.mean,
-             s.median, s.max, unit);
+  return fmt::format("{:32} rmse {:.4f}, mean {:.4f}, median {:.4f}, max {:.4f} {}\n", what, s.rmse,
+                     s.mean, s.median, s.max, unit);
 }
 
 }  // namespace
@@ -65,17 +57,19 @@ Evaluation evaluate(Matched matched, const std::vector<double>& lengths_m) {
 }
 
 std::string to_text(const Evaluation& e) {
-  std::string text = row("%zu poses, %.1f m\n", e.matched.truth.size(), e.raw.distance_m);
+  std::string text = fmt::format("{} poses, {:.1f} m\n", e.matched.truth.size(), e.raw.distance_m);
   if (e.matched.unmatched_estimate + e.matched.unmatched_truth > 0)
-    text += row("not scored, for want of a partner: %zu poses of the estimate, %zu of the truth\n",
-                e.matched.unmatched_estimate, e.matched.unmatched_truth);
-  text += row("end point %.3f m (%.3f %%); one common rotation removed: %.3f m\n\n",
-              e.raw.end_point_m, e.raw.end_point_percent, e.common_rotation_removed.end_point_m) +
+    text += fmt::format(
+        "not scored, for want of a partner: {} poses of the estimate, {} of the truth\n",
+        e.matched.unmatched_estimate, e.matched.unmatched_truth);
+  text += fmt::format("end point {:.3f} m ({:.3f} %); one common rotation removed: {:.3f} m\n\n",
+                      e.raw.end_point_m, e.raw.end_point_percent,
+                      e.common_rotation_removed.end_point_m) +
           "segments                      %      deg/m   common rotation removed     number\n";
   for (const LengthError& l : e.lengths)
-    text += row("%6.0f m          %s   %s %10d\n", l.length_m, of_segments(l.raw).c_str(),
-                of_segments(l.common_rotation_removed).c_str(), l.raw.segments);
-  text += row("KITTI, 100-800 m %s %35d\n\n", of_segments(e.kitti).c_str(), e.kitti.segments);
+    text += fmt::format("{:6.0f} m          {}   {} {:10}\n", l.length_m, of_segments(l.raw),
+                        of_segments(l.common_rotation_removed), l.raw.segments);
+  text += fmt::format("KITTI, 100-800 m {} {:35}\n\n", of_segments(e.kitti), e.kitti.segments);
   text += of_statistics("APE, best rigid alignment", "m", e.ape);
   text += of_statistics("RPE, pose to pose", "m", e.rpe_m);
   text += of_statistics("RPE, pose to pose", "deg", e.rpe_deg);
@@ -93,10 +87,12 @@ std::string to_csv(const Evaluation& e) {
   std::string text = "stamp,way,from_start,aligned,step,step_deg\n";
   for (std::size_t i = 0; i < truth.size(); ++i) {
     if (!e.matched.stamps.empty())
-      text += row("%.6f", static_cast<double>(to_nanoseconds(e.matched.stamps[i])) * 1e-9);
-    text += row(",%.4f,%.4f,%.4f,", along[i], from_start[i], aligned[i]);
+      text +=
+          fmt::format("{:.6f}", static_cast<double>(to_nanoseconds(e.matched.stamps[i])) * 1e-9);
+    text += fmt::format(",{:.4f},{:.4f},{:.4f},", along[i], from_start[i], aligned[i]);
     text += i == 0 ? ","
-                   : row("%.5f,%.6f", relative.translation_m[i - 1], relative.rotation_deg[i - 1]);
+                   : fmt::format("{:.5f},{:.6f}", relative.translation_m[i - 1],
+                                 relative.rotation_deg[i - 1]);
     text += '\n';
   }
   return text;

@@ -1,5 +1,6 @@
 #include "tools/evaluation/trajectory_file.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -135,13 +136,10 @@ void write_tum(const std::filesystem::path& file, const StampedTrajectory& traje
     const Eigen::Vector3d t = trajectory.poses[i].translation();
     const Eigen::Quaterniond q(trajectory.poses[i].linear());
     const std::int64_t ns = to_nanoseconds(trajectory.stamps[i]);
-    std::array<char, 256> row{};
-    const int length =
-        std::snprintf(row.data(), row.size(), "%s%lld.%09lld %.9g %.9g %.9g %.9g %.9g %.9g %.9g\n",
-                      ns < 0 ? "-" : "", static_cast<long long>(std::abs(ns) / 1'000'000'000),
-                      static_cast<long long>(std::abs(ns) % 1'000'000'000), t.x(), t.y(), t.z(),
-                      q.x(), q.y(), q.z(), q.w());
-    text.append(row.data(), static_cast<std::size_t>(length));
+    text +=
+        fmt::format("{}{}.{:09} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g}\n",
+                    ns < 0 ? "-" : "", std::abs(ns) / 1'000'000'000, std::abs(ns) % 1'000'000'000,
+                    t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
   }
   write_text(file, text);
 }

@@ -103,7 +103,6 @@ std::vector<PppMoment> run_case(const PppSetting& setting, const PppCase& c) {
     m.horizontal_free = f.horizontal;
     m.horizontal_aided = a.horizontal;
     m.sigma_free = f.sigma;
-    m.sigma_aided = a.sigma;
     const Eigen::Vector2d apart = (R * (aided.position - free.position)).head<2>();
     const Eigen::Matrix2d P = (R * free.covariance * R.transpose()).topLeftCorner<2, 2>();
     m.apart = std::sqrt(apart.dot(P.inverse() * apart));

@@ -49,7 +49,7 @@ struct PppMoment {
   std::optional<bool> on_map;                            // where labels say it
   double across_free = 0.0, across_aided = 0.0;          // m
   double horizontal_free = 0.0, horizontal_aided = 0.0;  // m
-  double sigma_free = 0.0, sigma_aided = 0.0;            // m, across
+  double sigma_free = 0.0;                               // m, across
   double apart = 0.0;  // of both, in standard deviations of that without the map; horizontal
   bool used = false;   // a feedback of this epoch
   std::uint64_t restorations = 0;

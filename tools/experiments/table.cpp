@@ -1,8 +1,7 @@
 #include "tools/experiments/table.h"
 
+#include <fmt/format.h>
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
 #include "tools/html_text.h"
 #include "tools/web/page.h"
@@ -10,9 +9,7 @@
 namespace maploop::experiments {
 
 std::string number(double value, int digits) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
-  return text.data();
+  return fmt::format("{:.{}f}", value, digits);
 }
 
 std::string as_text(const Table& table) {

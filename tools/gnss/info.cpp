@@ -1,6 +1,6 @@
 #include "tools/gnss/info.h"
 
-#include <cstdio>
+#include <fmt/format.h>
 #include <map>
 #include <set>
 #include <sstream>
@@ -17,9 +17,7 @@ std::string row(const std::string& key, const std::string& value) {
 }
 
 std::string number(double value, int digits) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
+  return fmt::format("{:.{}f}", value, digits);
 }
 
 std::string span(GpsTime first, GpsTime last) {

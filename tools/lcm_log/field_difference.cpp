@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <algorithm>
 
 #include "msgs/lcm/decoded_message.h"
@@ -12,7 +13,7 @@ using schema::DecodedMessage;
 
 std::string hex(Bytes bytes) {
   std::string text = "0x";
-  for (const std::uint8_t byte : bytes) append(text, "%02x", byte);
+  for (const std::uint8_t byte : bytes) text += fmt::format("{:02x}", byte);
   return text;
 }
 

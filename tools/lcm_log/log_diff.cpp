@@ -1,5 +1,6 @@
 #include "tools/lcm_log/log_diff.h"
 
+#include <fmt/format.h>
 #include <xxhash.h>
 
 #include <algorithm>
@@ -147,14 +148,13 @@ LogDiff diff(const std::filesystem::path& a, const std::filesystem::path& b,
 
 std::string format_diff(const LogDiff& diff, const std::string& a, const std::string& b) {
   std::string text;
-  const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
   for (const ChannelDiff& c : diff.channels) {
     if (c.same()) {
-      append(text, "%s: same, %llu messages\n", c.channel.c_str(), number(c.count_a));
+      text += fmt::format("{}: same, {} messages\n", c.channel, c.count_a);
       continue;
     }
-    append(text, "%s: different: %llu and %llu messages, %llu of them differ\n", c.channel.c_str(),
-           number(c.count_a), number(c.count_b), number(c.differing));
+    text += fmt::format("{}: different: {} and {} messages, {} of them differ\n", c.channel,
+                        c.count_a, c.count_b, c.differing);
     const auto side = [&](const std::string& log, const std::optional<std::int64_t>& time_us,
                           const std::string* value) {
       text += "    " + log + ": ";
@@ -162,7 +162,7 @@ std::string format_diff(const LogDiff& diff, const std::string& a, const std::st
       if (value != nullptr) text += "  " + *value;
       text += '\n';
     };
-    append(text, "  message %llu", number(*c.number));
+    text += fmt::format("  message {}", *c.number);
     if (c.field) text += ", " + c.field->field;
     text += '\n';
     side(a, c.time_a_us, c.field ? &c.field->a : nullptr);

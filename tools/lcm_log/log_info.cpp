@@ -1,5 +1,6 @@
 #include "tools/lcm_log/log_info.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -71,9 +72,7 @@ ChannelInfo finish(CountedChannel& channel) {
 }
 
 std::string hex(std::uint64_t fingerprint) {
-  std::string text;
-  append(text, "0x%016llx", static_cast<unsigned long long>(fingerprint));
-  return text;
+  return fmt::format("0x{:016x}", fingerprint);
 }
 
 std::string type_text(const ChannelInfo& info) {
@@ -83,10 +82,6 @@ std::string type_text(const ChannelInfo& info) {
     text += type.name.empty() ? hex(type.fingerprint) : type.name;
   }
   return text;
-}
-
-unsigned long long number(std::uint64_t value) {
-  return value;
 }
 
 }  // namespace
@@ -126,37 +121,38 @@ LogInfo read_info(const std::filesystem::path& file, const schema::Schema& schem
 std::string format_table(const LogInfo& info) {
   std::string text = info.file + ": ";
   if (info.events == 0) return text + "an empty log\n";
-  append(text, "%llu events, %s, %.3f s from %s to %s\n", number(info.events),
-         size_text(info.bytes).c_str(), seconds_between(info.first_us, info.last_us),
-         time_text(info.first_us).c_str(), time_text(info.last_us).c_str());
+  text += fmt::format("{} events, {}, {:.3f} s from {} to {}\n", info.events, size_text(info.bytes),
+                      seconds_between(info.first_us, info.last_us), time_text(info.first_us),
+                      time_text(info.last_us));
   std::size_t width = 7;
   for (const ChannelInfo& c : info.channels) width = std::max(width, c.name.size());
   const int w = static_cast<int>(std::min<std::size_t>(width, 40));
-  append(text, "\n%-*s %9s %9s %10s %10s %9s %9s %5s  %s\n", w, "channel", "count", "rate Hz",
-         "data", "median ms", "jitter ms", "max ms", "gaps", "type");
+  text +=
+      fmt::format("\n{:{}} {:>9} {:>9} {:>10} {:>10} {:>9} {:>9} {:>5}  {}\n", "channel", w,
+                  "count", "rate Hz", "data", "median ms", "jitter ms", "max ms", "gaps", "type");
   for (const ChannelInfo& c : info.channels) {
-    append(text, "%-*s %9llu %9.2f %10s %10.3f %9.3f %9.1f %5llu  %s\n", w, c.name.c_str(),
-           number(c.count), c.rate_hz, size_text(c.bytes).c_str(), c.median_s * 1e3,
-           c.jitter_s * 1e3, c.longest_s * 1e3, number(c.gaps), type_text(c).c_str());
+    text += fmt::format("{:{}} {:9} {:9.2f} {:>10} {:10.3f} {:9.3f} {:9.1f} {:5}  {}\n", c.name, w,
+                        c.count, c.rate_hz, size_text(c.bytes), c.median_s * 1e3, c.jitter_s * 1e3,
+                        c.longest_s * 1e3, c.gaps, type_text(c));
   }
   text += "Intervals are of log time; a gap is an interval above 2.5 times the median.\n";
   for (const ChannelInfo& c : info.channels) {
-    append(text, "  %s: first %s, last %s", c.name.c_str(), time_text(c.first_us).c_str(),
-           time_text(c.last_us).c_str());
+    text +=
+        fmt::format("  {}: first {}, last {}", c.name, time_text(c.first_us), time_text(c.last_us));
     if (c.gaps > 0) {
-      append(text, ", longest gap %.3f s from %s", c.longest_s,
-             time_text(c.longest_from_us).c_str());
+      text +=
+          fmt::format(", longest gap {:.3f} s from {}", c.longest_s, time_text(c.longest_from_us));
     }
-    if (c.backwards > 0) append(text, ", time goes back %llu times", number(c.backwards));
+    if (c.backwards > 0) text += fmt::format(", time goes back {} times", c.backwards);
     text += '\n';
   }
   if (info.events_elsewhere > 0) {
-    append(text, "%llu events are on more channels than the %zu shown\n",
-           number(info.events_elsewhere), info.channels.size());
+    text += fmt::format("{} events are on more channels than the {} shown\n", info.events_elsewhere,
+                        info.channels.size());
   }
   if (info.damages > 0) {
-    append(text, "damaged in %llu places, %s: see 'maploop log verify'\n", number(info.damages),
-           size_text(info.damaged_bytes).c_str());
+    text += fmt::format("damaged in {} places, {}: see 'maploop log verify'\n", info.damages,
+                        size_text(info.damaged_bytes));
   }
   return text;
 }

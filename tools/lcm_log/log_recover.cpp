@@ -1,5 +1,6 @@
 #include "tools/lcm_log/log_recover.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <deque>
 #include <memory>
@@ -208,42 +209,38 @@ Recovery recover(const std::filesystem::path& log, const schema::Schema& schema,
 
 std::string format_report(const Recovery& r) {
   std::string text;
-  const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
   for (const Loss& loss : r.losses) {
-    append(text, "%s: lost bytes %llu to %llu", r.file.c_str(), number(loss.begin),
-           number(loss.end));
+    text += fmt::format("{}: lost bytes {} to {}", r.file, loss.begin, loss.end);
     if (loss.first_event && *loss.first_event == *loss.last_event) {
-      append(text, ", event %lld", static_cast<long long>(*loss.first_event));
+      text += fmt::format(", event {}", *loss.first_event);
     } else if (loss.first_event) {
-      append(text, ", events %lld to %lld", static_cast<long long>(*loss.first_event),
-             static_cast<long long>(*loss.last_event));
+      text += fmt::format(", events {} to {}", *loss.first_event, *loss.last_event);
     }
     if (loss.after_us && loss.before_us) {
-      append(text, ", between %s and %s (%.6f s)", time_text(*loss.after_us).c_str(),
-             time_text(*loss.before_us).c_str(), seconds_between(*loss.after_us, *loss.before_us));
+      text +=
+          fmt::format(", between {} and {} ({:.6f} s)", time_text(*loss.after_us),
+                      time_text(*loss.before_us), seconds_between(*loss.after_us, *loss.before_us));
     } else if (loss.after_us) {
-      append(text, ", after %s", time_text(*loss.after_us).c_str());
+      text += fmt::format(", after {}", time_text(*loss.after_us));
     } else if (loss.before_us) {
-      append(text, ", before %s", time_text(*loss.before_us).c_str());
+      text += fmt::format(", before {}", time_text(*loss.before_us));
     }
     text += ": " + loss.reason + '\n';
   }
   if (r.loss_count > r.losses.size()) {
-    append(text, "... %llu more losses\n", number(r.loss_count - r.losses.size()));
+    text += fmt::format("... {} more losses\n", r.loss_count - r.losses.size());
   }
   for (const TimeRepair& t : r.repairs) {
-    append(text, "%s: time of event %lld repaired: was %s, is %s\n", r.file.c_str(),
-           static_cast<long long>(t.event), time_text(t.was_us).c_str(),
-           time_text(t.is_us).c_str());
+    text += fmt::format("{}: time of event {} repaired: was {}, is {}\n", r.file, t.event,
+                        time_text(t.was_us), time_text(t.is_us));
   }
   if (r.repair_count > r.repairs.size()) {
-    append(text, "... %llu more times repaired\n", number(r.repair_count - r.repairs.size()));
+    text += fmt::format("... {} more times repaired\n", r.repair_count - r.repairs.size());
   }
-  append(text,
-         "%s: %llu events recovered; lost %llu bytes of %llu in %llu places, %llu events by "
-         "their numbers; %llu times repaired\n",
-         r.file.c_str(), number(r.events), number(r.lost_bytes), number(r.bytes),
-         number(r.loss_count), number(r.lost_events), number(r.repair_count));
+  text += fmt::format(
+      "{}: {} events recovered; lost {} bytes of {} in {} places, {} events by "
+      "their numbers; {} times repaired\n",
+      r.file, r.events, r.lost_bytes, r.bytes, r.loss_count, r.lost_events, r.repair_count);
   return text;
 }
 

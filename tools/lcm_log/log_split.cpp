@@ -1,5 +1,6 @@
 #include "tools/lcm_log/log_split.h"
 
+#include <fmt/format.h>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -37,8 +38,7 @@ std::filesystem::path piece_name(const std::filesystem::path& output, std::size_
     stem = inner.stem().string();
     extension = inner.extension().string() + extension;
   }
-  std::string name;
-  append(name, ".%03zu", number);
+  std::string name = fmt::format(".{:03}", number);
   return output.parent_path() / (stem + name + extension);
 }
 

@@ -1,8 +1,7 @@
 #include "tools/lcm_log/log_text.h"
 
+#include <fmt/format.h>
 #include <array>
-#include <cstdarg>
-#include <cstdio>
 
 #include "msgs/time.h"
 
@@ -24,22 +23,11 @@ std::string size_text(std::uint64_t bytes) {
     value /= 1000.0;
     ++unit;
   }
-  std::string text;
-  append(text, "%.1f %s", value, kUnits[unit]);
-  return text;
+  return fmt::format("{:.1f} {}", value, kUnits[unit]);
 }
 
 double seconds_between(std::int64_t a_us, std::int64_t b_us) {
   return (static_cast<double>(b_us) - static_cast<double>(a_us)) / 1e6;
-}
-
-void append(std::string& text, const char* format, ...) {
-  std::array<char, 2048> line{};
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line.data(), line.size(), format, arguments);
-  va_end(arguments);
-  text += line.data();
 }
 
 }  // namespace maploop::lcm_log

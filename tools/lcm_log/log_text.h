@@ -17,7 +17,4 @@ std::string size_text(std::uint64_t bytes);
 // without overflow outside of them.
 double seconds_between(std::int64_t a_us, std::int64_t b_us);
 
-// Appends a line of a table or list, formatted like printf.
-[[gnu::format(printf, 2, 3)]] void append(std::string& text, const char* format, ...);
-
 }  // namespace maploop::lcm_log

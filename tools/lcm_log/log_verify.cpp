@@ -1,5 +1,6 @@
 #include "tools/lcm_log/log_verify.h"
 
+#include <fmt/format.h>
 #include <map>
 
 #include "msgs/lcm/decoded_message.h"
@@ -55,7 +56,7 @@ class Verifier {
     if (result_.events > 0 && step < 0.0) {
       if (-step > parameters_.max_disorder_s) {
         std::string reason;
-        append(reason, "time goes back by %.6f s", -step);
+        reason += fmt::format("time goes back by {:.6f} s", -step);
         find(event.offset, event.number, reason);
       } else {
         ++result_.disorders;
@@ -71,7 +72,7 @@ class Verifier {
     const double since = seconds_between(known->second, event.time_us);
     if (since < 0.0 && -since <= parameters_.max_disorder_s) {
       std::string reason;
-      append(reason, "time of %s goes back by %.6f s", known->first.c_str(), -since);
+      reason += fmt::format("time of {} goes back by {:.6f} s", known->first, -since);
       find(event.offset, event.number, reason);
     }
     known->second = event.time_us;
@@ -133,13 +134,11 @@ std::string format_findings(const Verification& v) {
   if (v.finding_count > v.findings.size()) {
     text += "... " + std::to_string(v.finding_count - v.findings.size()) + " more\n";
   }
-  append(text, "%s: %llu events, %s; %llu messages decoded, %llu of unknown type; %llu findings\n",
-         v.file.c_str(), static_cast<unsigned long long>(v.events), size_text(v.bytes).c_str(),
-         static_cast<unsigned long long>(v.decoded), static_cast<unsigned long long>(v.unknown),
-         static_cast<unsigned long long>(v.finding_count));
+  text += fmt::format("{}: {} events, {}; {} messages decoded, {} of unknown type; {} findings\n",
+                      v.file, v.events, size_text(v.bytes), v.decoded, v.unknown, v.finding_count);
   if (v.disorders > 0) {
-    append(text, "times went back %llu times by no more than threads may differ\n",
-           static_cast<unsigned long long>(v.disorders));
+    text +=
+        fmt::format("times went back {} times by no more than threads may differ\n", v.disorders);
   }
   return text;
 }

@@ -1,8 +1,6 @@
 #include "tools/match/match_output.h"
 
-#include <array>
-#include <cstdarg>
-#include <cstdio>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -12,15 +10,6 @@
 
 namespace maploop::match {
 namespace {
-
-[[gnu::format(printf, 2, 3)]] void append(std::string& text, const char* format, ...) {
-  std::array<char, 256> line{};
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line.data(), line.size(), format, arguments);
-  va_end(arguments);
-  text += line.data();
-}
 
 double seconds_of(const mapmatch::VehicleFix& fix) {
   return to_seconds(fix.stamp.time_since_epoch());
@@ -45,8 +34,8 @@ void write_match_csv(const std::filesystem::path& file, const MatchedTrack& trac
   for (std::size_t i = 0; i < track.fixes.size(); ++i) {
     const mapmatch::VehicleFix& fix = track.fixes[i];
     const mapmatch::MatchResult& r = track.results[i];
-    append(text, "%.6f,%.9f,%.9f,%s,", seconds_of(fix), degrees(fix.position.latitude),
-           degrees(fix.position.longitude), std::string(phase_of(r)).c_str());
+    text += fmt::format("{:.6f},{:.9f},{:.9f},{},", seconds_of(fix), degrees(fix.position.latitude),
+                        degrees(fix.position.longitude), phase_of(r));
     if (!on_road(r)) {
       text += ",,,,,,,\n";
       continue;
@@ -54,11 +43,10 @@ void write_match_csv(const std::filesystem::path& file, const MatchedTrack& trac
     const auto [a, b] = network.nodes(r.link, r.point.vertex);
     const Geodetic matched = network.to_geodetic(r.point.position);
     const double azimuth = degrees(r.point.azimuth());
-    append(text, "%lld,%lld,%lld,%.9f,%.9f,%.2f,%.2f,%.4f\n",
-           static_cast<long long>(network.road_at(r.point.vertex).way_id),
-           static_cast<long long>(a), static_cast<long long>(b), degrees(matched.latitude),
-           degrees(matched.longitude), azimuth < 0.0 ? azimuth + 360.0 : azimuth, r.likelihood,
-           r.probability);
+    text += fmt::format("{},{},{},{:.9f},{:.9f},{:.2f},{:.2f},{:.4f}\n",
+                        network.road_at(r.point.vertex).way_id, a, b, degrees(matched.latitude),
+                        degrees(matched.longitude), azimuth < 0.0 ? azimuth + 360.0 : azimuth,
+                        r.likelihood, r.probability);
   }
   evaluation::write_text(file, text);
 }
@@ -111,8 +99,8 @@ void write_match_gpx(const std::filesystem::path& file, const MatchedTrack& trac
     const Geodetic matched = network.to_geodetic(r.point.position);
     std::string time = format_time(track.fixes[i].stamp);
     time[time.find(' ')] = 'T';
-    append(text, "<trkpt lat=\"%.9f\" lon=\"%.9f\"><time>%sZ</time></trkpt>\n",
-           degrees(matched.latitude), degrees(matched.longitude), time.c_str());
+    text += fmt::format("<trkpt lat=\"{:.9f}\" lon=\"{:.9f}\"><time>{}Z</time></trkpt>\n",
+                        degrees(matched.latitude), degrees(matched.longitude), time);
   }
   evaluation::write_text(file, text + "</trkseg></trk>\n</gpx>\n");
 }

@@ -1,7 +1,6 @@
 #include "tools/match/score_output.h"
 
-#include <array>
-#include <cstdio>
+#include <fmt/format.h>
 
 namespace maploop::match {
 namespace {
@@ -11,11 +10,8 @@ nlohmann::json to_json(const Tally& t) {
 }
 
 std::string line(const char* what, const Tally& t) {
-  std::array<char, 128> text{};
-  std::snprintf(text.data(), text.size(),
-                "  right way, %-10s %7.2f %% of %zu fixes, coverage %.2f %%\n", what,
-                100.0 * t.share(), t.fixes, 100.0 * t.coverage());
-  return text.data();
+  return fmt::format("  right way, {:10} {:7.2f} % of {} fixes, coverage {:.2f} %\n", what,
+                     100.0 * t.share(), t.fixes, 100.0 * t.coverage());
 }
 
 }  // namespace
@@ -29,11 +25,9 @@ std::string to_text(const Reliability& r) {
   for (std::size_t k = 0; k < r.fixes.size(); ++k) {
     if (r.fixes[k] == 0) continue;
     const auto n = static_cast<double>(r.fixes[k]);
-    std::array<char, 96> row{};
-    std::snprintf(row.data(), row.size(), "  %.1f to %.1f: %.3f -> %.3f (%zu)\n",
-                  0.1 * static_cast<double>(k), 0.1 * static_cast<double>(k + 1), r.p_sum[k] / n,
-                  static_cast<double>(r.right[k]) / n, r.fixes[k]);
-    text += row.data();
+    text += fmt::format("  {:.1f} to {:.1f}: {:.3f} -> {:.3f} ({})\n", 0.1 * static_cast<double>(k),
+                        0.1 * static_cast<double>(k + 1), r.p_sum[k] / n,
+                        static_cast<double>(r.right[k]) / n, r.fixes[k]);
   }
   return text;
 }

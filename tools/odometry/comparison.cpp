@@ -1,8 +1,7 @@
 #include "tools/odometry/comparison.h"
 
+#include <fmt/format.h>
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -46,33 +45,26 @@ void give_length(const Eigen::Isometry3d& T_body_cam, double length, RelativeMot
   motion->translation = of_body.translation();
 }
 
-template <typename... Values>
-std::string format(const char* pattern, Values... values) {
-  std::array<char, 256> text{};
-  std::snprintf(text.data(), text.size(), pattern, values...);
-  return text.data();
-}
-
 std::vector<std::string> cells(const VariantResult& r) {
   const evaluation::Score& raw = r.score.raw;
   const auto segment = [](const evaluation::SegmentError& e) {
-    return e.segments > 0 ? format("%.2f", e.percent) : std::string("-");
+    return e.segments > 0 ? fmt::format("{:.2f}", e.percent) : std::string("-");
   };
   const evaluation::LengthError& shorter = r.score.lengths.front();
   const evaluation::LengthError& longer = r.score.lengths.back();
   const evaluation::SegmentError& turned = longer.common_rotation_removed;
   return {r.variant.name,
-          format("%.0f", r.tracks),
-          format("%.1f", r.life),
-          format("%.0f", 100.0 * r.inlier_ratio),
-          format("%d", r.refused),
-          format("%.2f", raw.end_point_percent),
+          fmt::format("{:.0f}", r.tracks),
+          fmt::format("{:.1f}", r.life),
+          fmt::format("{:.0f}", 100.0 * r.inlier_ratio),
+          fmt::format("{}", r.refused),
+          fmt::format("{:.2f}", raw.end_point_percent),
           segment(shorter.common_rotation_removed),
           segment(longer.raw),
           segment(turned),
-          turned.segments > 0 ? format("%.4f", turned.deg_per_m) : std::string("-"),
-          format("%.2f", r.consistency.nees),
-          format("%.1f", r.milliseconds)};
+          turned.segments > 0 ? fmt::format("{:.4f}", turned.deg_per_m) : std::string("-"),
+          fmt::format("{:.2f}", r.consistency.nees),
+          fmt::format("{:.1f}", r.milliseconds)};
 }
 
 const std::vector<std::string> kHeadings = {
@@ -154,9 +146,9 @@ VariantResult run_variant(const Variant& variant, const std::filesystem::path& i
 std::string to_text(const std::vector<VariantResult>& results) {
   std::string text;
   const auto line = [&text](const std::vector<std::string>& row) {
-    text += format("%-34s", row[0].c_str());
+    text += fmt::format("{:34}", row[0]);
     for (std::size_t i = 1; i < row.size(); ++i)
-      text += format("%*s", static_cast<int>(kHeadings[i].size()) + 2, row[i].c_str());
+      text += fmt::format("{:>{}}", row[i], static_cast<int>(kHeadings[i].size()) + 2);
     text += '\n';
   };
   line(kHeadings);

@@ -15,4 +15,11 @@ namespace maploop::odometry {
 // time. Throws std::runtime_error naming the file if it cannot be written.
 void write_csv(const std::filesystem::path& file, std::span<const Step> steps);
 
+// "frame,stamp,from" of a line; without a motion `from` is empty.
+std::string stamp_cells(std::uint64_t frame, const RelativeMotion& motion);
+
+// ",x,y,z" in m, the rotation vector in deg and the standard deviations of both; commas alone
+// without a motion.
+std::string motion_cells(const RelativeMotion& motion);
+
 }  // namespace maploop::odometry

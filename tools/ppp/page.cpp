@@ -1,5 +1,6 @@
 #include "tools/ppp/page.h"
 
+#include <fmt/format.h>
 #include <cmath>
 #include <map>
 
@@ -54,10 +55,12 @@ Plot across(const Score& score, const Score& without_map, GpsTime first) {
 
 // Errors beyond their protection level lie below the diagonal.
 Plot stanford(const Score& score, double integrity_risk) {
-  char title[120];
-  std::snprintf(title, sizeof title, "Stanford plot: %zu of %zu errors beyond their level, risk %g",
-                score.misleading(), 3 * score.errors().size(), integrity_risk);
-  Plot plot{title, "error, m", "protection level, m", {}, false};
+  Plot plot{fmt::format("Stanford plot: {} of {} errors beyond their level, risk {:g}",
+                        score.misleading(), 3 * score.errors().size(), integrity_risk),
+            "error, m",
+            "protection level, m",
+            {},
+            false};
   const char* names[3] = {"along", "across", "up"};
   double largest = 0.0;
   for (int i = 0; i < 3; ++i) {

@@ -1,26 +1,19 @@
 #include "tools/ppp/position_files.h"
 
+#include <fmt/format.h>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 
 #include "msgs/frames.h"
 #include "ppp/models/geodesy.h"
+#include "sensors/gnss/nmea.h"
 
 namespace maploop::gnss {
 
 using namespace maploop::ppp;
+using sensors::nmea_angle_fields;
+using sensors::nmea_sentence;
 
 namespace {
-
-__attribute__((format(printf, 2, 3))) void append(std::string& text, const char* format, ...) {
-  char line[512];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  text += line;
-}
 
 double signed_root(double covariance) {
   return std::copysign(std::sqrt(std::abs(covariance)), covariance);
@@ -42,26 +35,6 @@ std::string pos_stamp(GpsTime t) {
   std::string stamp = format_gps_time(t);
   stamp[4] = stamp[7] = '/';
   return stamp;
-}
-
-// "$" and "*hh" around a sentence.
-std::string sentence(const std::string& body) {
-  unsigned sum = 0;
-  for (const char c : body) sum ^= static_cast<unsigned char>(c);
-  char end[8];
-  std::snprintf(end, sizeof end, "*%02X\r\n", sum & 0xffU);
-  return '$' + body + end;
-}
-
-// "3558.9288,N" with degrees of two or three digits. Rounded once, so that no minute is 60.
-std::string nmea_angle(double radians_, int digits, const char* letters) {
-  constexpr double scale = 1e7;
-  const auto all = std::llround(std::abs(degrees(radians_)) * 60.0 * scale);
-  const auto per_degree = static_cast<long long>(60.0 * scale);
-  char text[48];
-  std::snprintf(text, sizeof text, "%0*lld%010.7f,%c", digits, all / per_degree,
-                static_cast<double>(all % per_degree) / scale, letters[radians_ < 0.0 ? 1 : 0]);
-  return text;
 }
 
 // "063001.00" and "220921", UTC.
@@ -95,18 +68,20 @@ std::string to_pos(const Solutions& solutions, bool ecef, const std::string& obs
     const std::string stamp = pos_stamp(s.time);
     if (ecef) {
       const auto& P = s.covariance;
-      append(text,
-             "%s %14.4f %14.4f %14.4f %3d %3d %8.4f %8.4f %8.4f %8.4f %8.4f %8.4f %6.2f %6.1f\n",
-             stamp.c_str(), s.position.x(), s.position.y(), s.position.z(), 6, s.satellites_used,
-             std::sqrt(P(0, 0)), std::sqrt(P(1, 1)), std::sqrt(P(2, 2)), signed_root(P(0, 1)),
-             signed_root(P(1, 2)), signed_root(P(2, 0)), 0.0, 0.0);
+      text += fmt::format(
+          "{} {:14.4f} {:14.4f} {:14.4f} {:3} {:3} {:8.4f} {:8.4f} {:8.4f} {:8.4f} {:8.4f} {:8.4f} "
+          "{:6.2f} {:6.1f}\n",
+          stamp, s.position.x(), s.position.y(), s.position.z(), 6, s.satellites_used,
+          std::sqrt(P(0, 0)), std::sqrt(P(1, 1)), std::sqrt(P(2, 2)), signed_root(P(0, 1)),
+          signed_root(P(1, 2)), signed_root(P(2, 0)), 0.0, 0.0);
     } else {
       const auto& P = l.covariance;
-      append(text,
-             "%s %14.9f %14.9f %10.4f %3d %3d %8.4f %8.4f %8.4f %8.4f %8.4f %8.4f %6.2f %6.1f\n",
-             stamp.c_str(), degrees(l.place.latitude), degrees(l.place.longitude), l.place.height,
-             6, s.satellites_used, std::sqrt(P(1, 1)), std::sqrt(P(0, 0)), std::sqrt(P(2, 2)),
-             signed_root(P(1, 0)), signed_root(P(0, 2)), signed_root(P(2, 1)), 0.0, 0.0);
+      text += fmt::format(
+          "{} {:14.9f} {:14.9f} {:10.4f} {:3} {:3} {:8.4f} {:8.4f} {:8.4f} {:8.4f} {:8.4f} {:8.4f} "
+          "{:6.2f} {:6.1f}\n",
+          stamp, degrees(l.place.latitude), degrees(l.place.longitude), l.place.height, 6,
+          s.satellites_used, std::sqrt(P(1, 1)), std::sqrt(P(0, 0)), std::sqrt(P(2, 2)),
+          signed_root(P(1, 0)), signed_root(P(0, 2)), signed_root(P(2, 1)), 0.0, 0.0);
     }
   });
   return text;
@@ -116,28 +91,25 @@ std::string to_nmea(const Solutions& solutions) {
   std::string text;
   each_solved(solutions, [&](const PppSolution& s, const LocalSolution& l) {
     const auto [clock, date] = nmea_stamp(s.time);
-    const std::string place =
-        nmea_angle(l.place.latitude, 2, "NS") + ',' + nmea_angle(l.place.longitude, 3, "EW");
-    char body[256];
+    const std::string place = nmea_angle_fields(l.place.latitude, 2, "NS") + ',' +
+                              nmea_angle_fields(l.place.longitude, 3, "EW");
     // 5: float.
-    std::snprintf(body, sizeof body, "GNGGA,%s,%s,5,%02d,,%.4f,M,,M,,", clock.c_str(),
-                  place.c_str(), std::min(99, s.satellites_used), l.place.height);
-    text += sentence(body);
+    text += nmea_sentence(fmt::format("GNGGA,{},{},5,{:02},,{:.4f},M,,M,,", clock, place,
+                                      std::min(99, s.satellites_used), l.place.height));
     const double knots = l.velocity.head<2>().norm() / 0.514444;
     double course = degrees(std::atan2(l.velocity.x(), l.velocity.y()));
     if (course < 0.0) course += 360.0;
-    std::snprintf(body, sizeof body, "GNRMC,%s,A,%s,%.3f,%.2f,%s,,,F", clock.c_str(), place.c_str(),
-                  knots, course, date.c_str());
-    text += sentence(body);
+    text += nmea_sentence(
+        fmt::format("GNRMC,{},A,{},{:.3f},{:.2f},{},,,F", clock, place, knots, course, date));
     const auto& P = l.covariance;
     const double half = 0.5 * (P(0, 0) + P(1, 1));
     const double spread = std::hypot(0.5 * (P(0, 0) - P(1, 1)), P(0, 1));
     double axis = degrees(0.5 * std::atan2(2.0 * P(0, 1), P(1, 1) - P(0, 0)));
     if (axis < 0.0) axis += 180.0;
-    std::snprintf(body, sizeof body, "GNGST,%s,,%.4f,%.4f,%.2f,%.4f,%.4f,%.4f", clock.c_str(),
-                  std::sqrt(half + spread), std::sqrt(std::max(0.0, half - spread)), axis,
-                  std::sqrt(P(1, 1)), std::sqrt(P(0, 0)), std::sqrt(P(2, 2)));
-    text += sentence(body);
+    text += nmea_sentence(fmt::format("GNGST,{},,{:.4f},{:.4f},{:.2f},{:.4f},{:.4f},{:.4f}", clock,
+                                      std::sqrt(half + spread),
+                                      std::sqrt(std::max(0.0, half - spread)), axis,
+                                      std::sqrt(P(1, 1)), std::sqrt(P(0, 0)), std::sqrt(P(2, 2))));
   });
   return text;
 }
@@ -145,11 +117,11 @@ std::string to_nmea(const Solutions& solutions) {
 std::string to_geojson(const Solutions& solutions) {
   std::string points, stamps;
   each_solved(solutions, [&](const PppSolution& s, const LocalSolution& l) {
-    append(points, "%s[%.9f,%.9f,%.4f]", points.empty() ? "" : ",", degrees(l.place.longitude),
-           degrees(l.place.latitude), l.place.height);
+    points += fmt::format("{}[{:.9f},{:.9f},{:.4f}]", points.empty() ? "" : ",",
+                          degrees(l.place.longitude), degrees(l.place.latitude), l.place.height);
     const std::string utc = format_time(to_utc(s.time));
-    append(stamps, "%s\"%sT%sZ\"", stamps.empty() ? "" : ",", utc.substr(0, 10).c_str(),
-           utc.substr(11, 12).c_str());
+    stamps += fmt::format("{}\"{}T{}Z\"", stamps.empty() ? "" : ",", utc.substr(0, 10),
+                          utc.substr(11, 12));
   });
   return R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"name":"maploop ppp","coordTimes":[)" +
          stamps + R"(]},"geometry":{"type":"LineString","coordinates":[)" + points + "]}}]}\n";
@@ -161,8 +133,8 @@ std::string to_kml(const Solutions& solutions) {
       "xmlns=\"http://www.opengis.net/kml/2.2\"><Document><name>maploop ppp</name><Placemark>"
       "<LineString><altitudeMode>clampToGround</altitudeMode><coordinates>\n";
   each_solved(solutions, [&](const PppSolution&, const LocalSolution& l) {
-    append(text, "%.9f,%.9f,%.4f\n", degrees(l.place.longitude), degrees(l.place.latitude),
-           l.place.height);
+    text += fmt::format("{:.9f},{:.9f},{:.4f}\n", degrees(l.place.longitude),
+                        degrees(l.place.latitude), l.place.height);
   });
   return text + "</coordinates></LineString></Placemark></Document></kml>\n";
 }
@@ -174,10 +146,10 @@ std::string to_residual_csv(const Solutions& solutions) {
   for (const PppSolution& s : solutions) {
     const std::string stamp = format_gps_time(s.time);
     for (const SatelliteReport& r : s.satellites) {
-      append(text, "%s,%s,%.2f,%.2f,%.1f,%d,%d,%.4f,%.5f,%s,%s\n", stamp.c_str(),
-             to_string(r.satellite).c_str(), degrees(r.azimuth), degrees(r.elevation), r.cn0,
-             r.code_used, r.phase_used, r.code_residual, r.phase_residual, to_string(r.slip).data(),
-             to_string(r.refused).data());
+      text += fmt::format("{},{},{:.2f},{:.2f},{:.1f},{:d},{:d},{:.4f},{:.5f},{},{}\n", stamp,
+                          to_string(r.satellite), degrees(r.azimuth), degrees(r.elevation), r.cn0,
+                          r.code_used, r.phase_used, r.code_residual, r.phase_residual,
+                          to_string(r.slip), to_string(r.refused));
     }
   }
   return text;

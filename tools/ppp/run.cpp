@@ -24,9 +24,7 @@ void PppRun::process(const std::function<void(const PppSolution&)>& sink) {
     } else {
       solution = &filter_.process(epoch);
     }
-    epoch_times_.push_back(
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-    seconds_ += epoch_times_.back();
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     for (const SatelliteReport& s : solution->satellites) {
       if (s.refused == PppRefusal::no_ephemeris) {
         auto& [count, why] = missing_[s.satellite];

@@ -34,8 +34,7 @@ class PppRun {
   const ppp::PppSetup& setup() const { return setup_; }
   // Why satellites had no orbit or clock, with the number of epochs.
   std::vector<std::string> missing_products() const;
-  double seconds() const { return seconds_; }                              // spent in the filter
-  const std::vector<double>& epoch_times() const { return epoch_times_; }  // s, each epoch's
+  double seconds() const { return seconds_; }  // spent in the filter
 
  private:
   RunOptions options_;
@@ -44,7 +43,6 @@ class PppRun {
   std::optional<MapLoop> map_;
   MapStep step_;
   std::map<ppp::Satellite, std::pair<int, std::string>> missing_;
-  std::vector<double> epoch_times_;
   double seconds_ = 0.0;
 };
 

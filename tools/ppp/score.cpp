@@ -1,9 +1,9 @@
 #include "tools/ppp/score.h"
 
+#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "ppp/models/geodesy.h"
 
@@ -86,18 +86,14 @@ std::optional<double> Score::time_to_stay_below(double limit) const {
 std::string to_text(const Accuracy& a) {
   if (a.with_truth == 0) return "no epoch at a time of the truth";
   if (a.solved == 0) return "none of " + std::to_string(a.with_truth) + " epochs has a position";
-  char text[512];
-  std::snprintf(
-      text, sizeof text,
-      "%zu of %zu epochs (%.1f %%): horizontal RMSE %.3f m, 95 %% %.3f m; across the way %.3f m; "
-      "up "
-      "RMSE %.3f m; mean "
-      "east %.3f, north %.3f, up %.3f m; horizontal about its mean %.3f m; last 3-D %.3f m; "
-      "NEES %.2f of 3",
+  return fmt::format(
+      "{} of {} epochs ({:.1f} %): horizontal RMSE {:.3f} m, 95 % {:.3f} m; across the way {:.3f} "
+      "m; "
+      "up RMSE {:.3f} m; mean east {:.3f}, north {:.3f}, up {:.3f} m; horizontal about its mean "
+      "{:.3f} m; last 3-D {:.3f} m; NEES {:.2f} of 3",
       a.solved, a.with_truth, 100.0 * a.coverage(), a.horizontal_rmse, a.horizontal_95,
       a.across_rmse, a.up_rmse, a.mean_enu.x(), a.mean_enu.y(), a.mean_enu.z(),
       a.horizontal_rmse_without_mean, a.three_d_last, a.nees);
-  return text;
 }
 
 }  // namespace maploop::gnss

@@ -1,15 +1,14 @@
 #include "tools/profile/latency_plot.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
 #include "tools/html_text.h"
-#include "tools/lcm_log/log_text.h"
 
 namespace maploop::profile {
 namespace {
 
-using lcm_log::append;
 using tools::escaped;
 
 constexpr std::size_t part_colours = 8;
@@ -58,8 +57,8 @@ std::string bar(const WorstMiss& w, const std::vector<std::string>& names, doubl
   for (const auto& part : w.miss.parts) known += std::max(0.0, to_milliseconds(part.lasted));
   std::string html = "<div class=\"bar\">";
   const auto draw = [&](const std::string& paint, const std::string& name, double ms) {
-    append(html, "<i style=\"width:%.2f%%;background:%s\" title=\"%s: %.3f ms\"></i>",
-           100.0 * ms / longest, paint.c_str(), escaped(name).c_str(), ms);
+    html += fmt::format("<i style=\"width:{:.2f}%;background:{}\" title=\"{}: {:.3f} ms\"></i>",
+                        100.0 * ms / longest, paint, escaped(name), ms);
   };
   draw("var(--grey)", "as the graph allows",
        std::max(0.0, to_milliseconds(w.miss.latency) - known));
@@ -68,8 +67,8 @@ std::string bar(const WorstMiss& w, const std::vector<std::string>& names, doubl
     draw(colour(static_cast<std::size_t>(found - names.begin())), part.name,
          std::max(0.0, to_milliseconds(part.lasted)));
   }
-  append(html, "<b style=\"left:%.2f%%\" title=\"deadline\"></b></div>",
-         100.0 * to_milliseconds(w.deadline) / longest);
+  html += fmt::format("<b style=\"left:{:.2f}%\" title=\"deadline\"></b></div>",
+                      100.0 * to_milliseconds(w.deadline) / longest);
   return html;
 }
 
@@ -102,8 +101,8 @@ std::string miss_bars(std::vector<WorstMiss> worst, Time end) {
       "</div>\n<div class=\"wide\"><table><tr><th>missed by</th><th>s before the end</th>"
       "<th>ms</th><th style=\"width:60%\"></th></tr>\n";
   for (const WorstMiss& w : worst) {
-    append(html, "<tr><td>%s</td><td>%.2f</td><td>%.1f</td><td>", escaped(w.of).c_str(),
-           to_seconds(end - w.miss.stamp), to_milliseconds(w.miss.latency));
+    html += fmt::format("<tr><td>{}</td><td>{:.2f}</td><td>{:.1f}</td><td>", escaped(w.of),
+                        to_seconds(end - w.miss.stamp), to_milliseconds(w.miss.latency));
     html += bar(w, names, longest) + "</td></tr>\n";
   }
   return html + "</table></div>\n";

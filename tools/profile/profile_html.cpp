@@ -1,8 +1,8 @@
+#include <fmt/format.h>
 #include <algorithm>
 
 #include "runtime/core/histogram.h"
 #include "tools/html_text.h"
-#include "tools/lcm_log/log_text.h"
 #include "tools/profile/latency_plot.h"
 #include "tools/profile/profile.h"
 #include "tools/profile/profile_page.h"
@@ -10,7 +10,6 @@
 namespace maploop::profile {
 namespace {
 
-using lcm_log::append;
 using tools::escaped;
 
 HistogramData sum(const HistogramData& a, const HistogramData& b) {
@@ -29,19 +28,18 @@ const LatencySummary* find(const std::vector<LatencySummary>& all, const std::st
 
 void append_row(std::string& html, const Latency& latency, bool virtual_time) {
   const LatencySummary& s = latency.recorded;
-  append(html, "<tr><td>%s</td><td>%llu</td>", escaped(s.name).c_str(),
-         static_cast<unsigned long long>(s.count));
+  html += fmt::format("<tr><td>{}</td><td>{}</td>", escaped(s.name), s.count);
   for (const Duration d : {s.p50, s.p90, s.p99, s.p999, s.max}) {
-    append(html, "<td>%.3f</td>", to_milliseconds(d));
+    html += fmt::format("<td>{:.3f}</td>", to_milliseconds(d));
   }
   if (virtual_time) {
     html += "<td>-</td><td>-</td>";
   } else {
-    append(html, "<td>%.0f</td><td%s>%llu</td>", to_milliseconds(s.deadline),
-           s.misses > 0 ? " class=\"missed\"" : "", static_cast<unsigned long long>(s.misses));
+    html += fmt::format("<td>{:.0f}</td><td{}>{}</td>", to_milliseconds(s.deadline),
+                        s.misses > 0 ? " class=\"missed\"" : "", s.misses);
   }
   if (latency.omitted > 0) {
-    append(html, "<td>%.3f</td>", to_milliseconds(latency.corrected_p999));
+    html += fmt::format("<td>{:.3f}</td>", to_milliseconds(latency.corrected_p999));
   } else {
     html += "<td>-</td>";
   }
@@ -119,11 +117,11 @@ void append_processor_time(std::string& html, const Health& health) {
   const double elapsed = std::max(health.elapsed, 1e-9);
   const double all = std::max(health.cpu, 1e-9);
   const auto row = [&](const std::string& name, double seconds) {
-    append(html,
-           "<tr><td>%s</td><td>%.3f</td><td>%.2f</td><td style=\"width:40%%\"><div class=\"bar\">"
-           "<i style=\"width:%.1f%%;background:var(--c0)\"></i></div></td></tr>\n",
-           escaped(name).c_str(), seconds, 100.0 * seconds / elapsed,
-           std::clamp(100.0 * seconds / all, 0.0, 100.0));
+    html += fmt::format(
+        "<tr><td>{}</td><td>{:.3f}</td><td>{:.2f}</td><td style=\"width:40%\"><div class=\"bar\">"
+        "<i style=\"width:{:.1f}%;background:var(--c0)\"></i></div></td></tr>\n",
+        escaped(name), seconds, 100.0 * seconds / elapsed,
+        std::clamp(100.0 * seconds / all, 0.0, 100.0));
   };
   double rest = health.cpu;
   for (const ThreadHealth& t : health.threads) {
@@ -155,12 +153,11 @@ void add_processor_time(web::Page& page, const Profile& p) {
 
 std::string to_html(const Profile& p, const std::string& source) {
   web::Page page("Profile of " + source);
-  std::string line;
-  append(line,
-         "<p>The run up to %s UTC (of the data), %.1f s on this machine, %.0f %% of one "
-         "processor.</p>\n",
-         format_time(p.stamp).substr(0, 23).c_str(), p.health.elapsed,
-         100.0 * p.health.cpu / std::max(p.health.elapsed, 1e-9));
+  std::string line = fmt::format(
+      "<p>The run up to {} UTC (of the data), {:.1f} s on this machine, {:.0f} % of one "
+      "processor.</p>\n",
+      format_time(p.stamp).substr(0, 23), p.health.elapsed,
+      100.0 * p.health.cpu / std::max(p.health.elapsed, 1e-9));
   page.add(line);
   add_latencies(page, p);
   add_processor_time(page, p);

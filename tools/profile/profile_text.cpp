@@ -1,37 +1,37 @@
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "tools/lcm_log/log_text.h"
 #include "tools/profile/profile.h"
 
 namespace maploop::profile {
 namespace {
 
-using lcm_log::append;
 using nlohmann::json;
 
 void append_figures(std::string& text, const LatencySummary& s) {
-  append(text, "  %-22s %8llu %9.3f %9.3f %9.3f %9.3f %9.3f", s.name.c_str(),
-         static_cast<unsigned long long>(s.count), to_milliseconds(s.p50), to_milliseconds(s.p90),
-         to_milliseconds(s.p99), to_milliseconds(s.p999), to_milliseconds(s.max));
+  text += fmt::format("  {:22} {:8} {:9.3f} {:9.3f} {:9.3f} {:9.3f} {:9.3f}", s.name, s.count,
+                      to_milliseconds(s.p50), to_milliseconds(s.p90), to_milliseconds(s.p99),
+                      to_milliseconds(s.p999), to_milliseconds(s.max));
 }
 
 void append_latencies(std::string& text, const char* title, const std::vector<Latency>& all,
                       bool virtual_time) {
-  append(text, "\n%-24s %8s %9s %9s %9s %9s %9s %9s %7s %10s %10s   %s\n", title, "count", "p50",
-         "p90", "p99", "p99.9", "max", "deadline", "missed", "p99*", "p99.9*", "guilty");
+  text +=
+      fmt::format("\n{:24} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>7} {:>10} {:>10}   {}\n",
+                  title, "count", "p50", "p90", "p99", "p99.9", "max", "deadline", "missed", "p99*",
+                  "p99.9*", "guilty");
   for (const Latency& l : all) {
     append_figures(text, l.recorded);
     if (virtual_time) {
-      append(text, " %9s %7s", "-", "-");
+      text += fmt::format(" {:>9} {:>7}", "-", "-");
     } else {
-      append(text, " %9.0f %7llu", to_milliseconds(l.recorded.deadline),
-             static_cast<unsigned long long>(l.recorded.misses));
+      text += fmt::format(" {:9.0f} {:7}", to_milliseconds(l.recorded.deadline), l.recorded.misses);
     }
     if (l.omitted > 0) {
-      append(text, " %10.3f %10.3f   ", to_milliseconds(l.corrected_p99),
-             to_milliseconds(l.corrected_p999));
+      text += fmt::format(" {:10.3f} {:10.3f}   ", to_milliseconds(l.corrected_p99),
+                          to_milliseconds(l.corrected_p999));
     } else {
-      append(text, " %10s %10s   ", "-", "-");
+      text += fmt::format(" {:>10} {:>10}   ", "-", "-");
     }
     text += l.recorded.guilty + '\n';
   }
@@ -39,8 +39,8 @@ void append_latencies(std::string& text, const char* title, const std::vector<La
 
 void append_summaries(std::string& text, const char* title,
                       const std::vector<LatencySummary>& all) {
-  append(text, "\n%-24s %8s %9s %9s %9s %9s %9s\n", title, "count", "p50", "p90", "p99", "p99.9",
-         "max");
+  text += fmt::format("\n{:24} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9}\n", title, "count", "p50", "p90",
+                      "p99", "p99.9", "max");
   for (const LatencySummary& s : all) {
     append_figures(text, s);
     text += '\n';
@@ -49,15 +49,16 @@ void append_summaries(std::string& text, const char* title,
 
 void append_threads(std::string& text, const Health& health) {
   const double all = std::max(health.elapsed, 1e-9);
-  append(text, "\n%-24s %8s %9s\n", "Processor time", "s", "% of one");
+  text += fmt::format("\n{:24} {:>8} {:>9}\n", "Processor time", "s", "% of one");
   double known = 0.0;
   for (const ThreadHealth& t : health.threads) {
-    append(text, "  %-22s %8.3f %9.2f\n", t.name.c_str(), t.cpu, 100.0 * t.cpu / all);
+    text += fmt::format("  {:22} {:8.3f} {:9.2f}\n", t.name, t.cpu, 100.0 * t.cpu / all);
     known += t.cpu;
   }
   const double rest = std::max(0.0, health.cpu - known);
-  append(text, "  %-22s %8.3f %9.2f\n", "loaders and the rest", rest, 100.0 * rest / all);
-  append(text, "  %-22s %8.3f %9.2f\n", "process", health.cpu, 100.0 * health.cpu / all);
+  text +=
+      fmt::format("  {:22} {:8.3f} {:9.2f}\n", "loaders and the rest", rest, 100.0 * rest / all);
+  text += fmt::format("  {:22} {:8.3f} {:9.2f}\n", "process", health.cpu, 100.0 * health.cpu / all);
 }
 
 json figures(const LatencySummary& s) {
@@ -98,9 +99,8 @@ json figures(const std::vector<LatencySummary>& all) {
 }  // namespace
 
 std::string to_text(const Profile& p) {
-  std::string text;
-  append(text, "The run up to %s, %.1f s on this machine. Latencies in ms.\n",
-         format_time(p.stamp).c_str(), p.health.elapsed);
+  std::string text = fmt::format("The run up to {}, {:.1f} s on this machine. Latencies in ms.\n",
+                                 format_time(p.stamp), p.health.elapsed);
   append_latencies(text, "From release to result", p.threads, p.virtual_time());
   append_latencies(text, "From stamp to state", p.paths, p.virtual_time());
   text += "  * with the waits that stalls of the data clock hid\n";
@@ -112,12 +112,12 @@ std::string to_text(const Profile& p) {
   if (p.worst.empty()) return text + "\nNo deadline was missed.\n";
   text += "\nWorst misses\n";
   for (const WorstMiss& w : p.worst) {
-    append(text, "  %s  %-22s %9.3f of %.0f ms, guilty: %s (", format_time(w.miss.stamp).c_str(),
-           w.of.c_str(), to_milliseconds(w.miss.latency), to_milliseconds(w.deadline),
-           w.miss.guilty().c_str());
+    text += fmt::format("  {}  {:22} {:9.3f} of {:.0f} ms, guilty: {} (", format_time(w.miss.stamp),
+                        w.of, to_milliseconds(w.miss.latency), to_milliseconds(w.deadline),
+                        w.miss.guilty());
     const char* separator = "";
     for (const MissedDeadline::Part& part : w.miss.parts) {
-      append(text, "%s%s %.3f", separator, part.name.c_str(), to_milliseconds(part.lasted));
+      text += fmt::format("{}{} {:.3f}", separator, part.name, to_milliseconds(part.lasted));
       separator = ", ";
     }
     text += ")\n";

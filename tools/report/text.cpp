@@ -1,8 +1,7 @@
 #include "tools/report/text.h"
 
-#include <array>
+#include <fmt/format.h>
 #include <cmath>
-#include <cstdio>
 
 #include "tools/html_text.h"
 
@@ -10,9 +9,7 @@ namespace maploop::report {
 
 std::string figure(double value, int digits, const char* unit) {
   if (!std::isfinite(value)) return "-";
-  std::array<char, 400> text{};  // the longest double has 309 digits before the decimal point
-  std::snprintf(text.data(), text.size(), "%.*f%s", digits, value, unit);
-  return text.data();
+  return fmt::format("{:.{}f}{}", value, digits, unit);
 }
 
 std::string paragraph(const std::string& text) {

@@ -1,14 +1,13 @@
 #include "tools/spy/text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
-
-#include "tools/lcm_log/log_text.h"
 
 namespace maploop::spy {
 namespace {
 
-using lcm_log::append;
 using nlohmann::json;
 
 constexpr std::size_t shown_values = 8;
@@ -16,9 +15,7 @@ constexpr std::size_t shown_lines = 2000;
 
 std::string number(const std::optional<double>& value, double unit, int digits) {
   if (!value) return "-";
-  std::string text;
-  append(text, "%.*f", digits, *value * unit);
-  return text;
+  return fmt::format("{:.{}f}", *value * unit, digits);
 }
 
 json nullable(const auto& value) {
@@ -65,20 +62,17 @@ std::string printable(std::string_view text) {
 }
 
 std::string table_header() {
-  std::string line;
-  append(line, "%-18s %-30s %8s %9s %9s %8s %8s %8s %6s %6s", "CHANNEL", "TYPE", "COUNT", "RATE_HZ",
-         "JITTER_MS", "AGE_S", "SILENT_S", "BYTES", "LOST", "BAD");
+  std::string line =
+      fmt::format("{:18} {:30} {:>8} {:>9} {:>9} {:>8} {:>8} {:>8} {:>6} {:>6}", "CHANNEL", "TYPE",
+                  "COUNT", "RATE_HZ", "JITTER_MS", "AGE_S", "SILENT_S", "BYTES", "LOST", "BAD");
   return line;
 }
 
 std::string table_row(const ChannelStatus& s) {
-  std::string line;
-  append(line, "%-18s %-30s %8llu %9s %9s %8s %8.2f %8zu %6s %6llu", one_word(s.name).c_str(),
-         one_word(s.type).c_str(), static_cast<unsigned long long>(s.count),
-         number(s.rate_hz, 1.0, 2).c_str(), number(s.jitter_s, 1e3, 3).c_str(),
-         number(s.age_s, 1.0, 3).c_str(), s.silent_s, s.bytes,
-         s.lost ? std::to_string(*s.lost).c_str() : "-", static_cast<unsigned long long>(s.bad));
-  return line;
+  return fmt::format("{:18} {:30} {:8} {:>9} {:>9} {:>8} {:8.2f} {:8} {:>6} {:6}", one_word(s.name),
+                     one_word(s.type), s.count, number(s.rate_hz, 1.0, 2),
+                     number(s.jitter_s, 1e3, 3), number(s.age_s, 1.0, 3), s.silent_s, s.bytes,
+                     s.lost ? std::to_string(*s.lost).c_str() : "-", s.bad);
 }
 
 std::string json_row(const ChannelStatus& s) {

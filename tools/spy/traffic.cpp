@@ -1,12 +1,13 @@
 #include "tools/spy/traffic.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <maploop_lcm/run_t.hpp>
 
 #include "msgs/lcm/channel_names.h"
 #include "msgs/lcm/checked_decode.h"
-#include "tools/lcm_log/log_text.h"
 
 namespace maploop::spy {
 namespace {
@@ -104,7 +105,7 @@ void Traffic::read_header(Channel& channel) {
   channel.stamp.reset();
   channel.type.clear();
   if (type == nullptr) {
-    lcm_log::append(channel.type, "0x%016llx", static_cast<unsigned long long>(fingerprint));
+    channel.type += fmt::format("0x{:016x}", fingerprint);
   } else {
     channel.type = type->name;
   }

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <string_view>
@@ -5,13 +7,10 @@
 #include "msgs/lcm/checked_decode.h"
 #include "msgs/lcm/conversions.h"
 #include "runtime/vehicle/graph.h"
-#include "tools/lcm_log/log_text.h"
 #include "tools/spy/text.h"
 
 namespace maploop::spy {
 namespace {
-
-using lcm_log::append;
 
 std::string rings(const Health& health) {
   std::uint64_t lost = 0;
@@ -25,24 +24,19 @@ std::string rings(const Health& health) {
     if (fullest == nullptr || fill(ring) > fill(*fullest)) fullest = &ring;
   }
   if (fullest == nullptr) return "rings: none";
-  std::string line;
-  append(line, "rings: %zu, lost %llu, fullest %s %llu of %llu", health.rings.size(),
-         static_cast<unsigned long long>(lost), printable(fullest->name).c_str(),
-         static_cast<unsigned long long>(fullest->held),
-         static_cast<unsigned long long>(fullest->capacity));
-  return line;
+  return fmt::format("rings: {}, lost {}, fullest {} {} of {}", health.rings.size(), lost,
+                     printable(fullest->name), fullest->held, fullest->capacity);
 }
 
 std::string deadlines_line(const Deadlines& deadlines) {
   std::string line = "deadlines:";
   const auto add = [&](const std::vector<LatencySummary>& summaries) {
     for (const LatencySummary& s : summaries) {
-      append(line, "%s %s missed %llu of %llu", line.back() == ':' ? "" : ",",
-             printable(s.name).c_str(), static_cast<unsigned long long>(s.misses),
-             static_cast<unsigned long long>(s.count));
+      line += fmt::format("{} {} missed {} of {}", line.back() == ':' ? "" : ",", printable(s.name),
+                          s.misses, s.count);
       if (s.misses > 0) {
-        append(line, " (worst %.1f of %.0f ms: %s)", to_milliseconds(s.max),
-               to_milliseconds(s.deadline), printable(s.guilty).c_str());
+        line += fmt::format(" (worst {:.1f} of {:.0f} ms: {})", to_milliseconds(s.max),
+                            to_milliseconds(s.deadline), printable(s.guilty));
       }
     }
   };
@@ -52,13 +46,12 @@ std::string deadlines_line(const Deadlines& deadlines) {
 }
 
 std::string ppp_line(const PppState& state) {
-  std::string line;
-  append(line, "ppp: %s, %d of %zu satellites", std::string(to_string(state.status)).c_str(),
-         state.satellites_used, state.satellites.size());
+  std::string line = fmt::format("ppp: {}, {} of {} satellites", to_string(state.status),
+                                 state.satellites_used, state.satellites.size());
   if (state.status == PppStatus::none) return line + ": " + printable(state.message);
-  append(line, ", within %.2f m along, %.2f across, %.2f up but for a risk of %g",
-         state.protection.along, state.protection.across, state.protection.up,
-         state.integrity_risk);
+  line += fmt::format(", within {:.2f} m along, {:.2f} across, {:.2f} up but for a risk of {:g}",
+                      state.protection.along, state.protection.across, state.protection.up,
+                      state.integrity_risk);
   return line;
 }
 

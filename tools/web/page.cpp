@@ -1,8 +1,8 @@
 #include "tools/web/page.h"
 
-#include <array>
+#include <fmt/format.h>
+
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "tools/html_text.h"
@@ -25,19 +25,19 @@ std::string quoted(const std::string& text) {
 }
 
 std::string number(double value) {
-  if (!std::isfinite(value)) return "null";
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.7g", value);
-  return text.data();
+  return std::isfinite(value) ? fmt::format("{:.7g}", value) : "null";
+}
+
+// `to_text` makes the text of an item.
+template <class Items, class ToText>
+std::string list(const Items& items, ToText&& to_text) {
+  std::string text;
+  for (const auto& item : items) (text += text.empty() ? '[' : ',') += to_text(item);
+  return text.empty() ? "[]" : text + ']';
 }
 
 std::string array(const std::vector<double>& values) {
-  std::string text = "[";
-  for (const double value : values) {
-    if (text.size() > 1) text += ',';
-    text += number(value);
-  }
-  return text + ']';
+  return list(values, number);
 }
 
 const char* name_of(Line::Look look) {
@@ -54,38 +54,28 @@ const char* name_of(Line::Look look) {
   return "";
 }
 
-std::string to_json(const Line& line) {
-  return "{\"name\":" + quoted(line.name) + ",\"x\":" + array(line.x) + ",\"y\":" + array(line.y) +
-         ",\"look\":\"" + name_of(line.look) + "\"}";
+std::string line_json(const Line& line) {
+  return fmt::format(R"({{"name":{},"x":{},"y":{},"look":"{}"}})", quoted(line.name), array(line.x),
+                     array(line.y), name_of(line.look));
 }
 
-std::string to_json(const Band& band) {
-  return "{\"name\":" + quoted(band.name) + ",\"x\":" + array(band.x) +
-         ",\"low\":" + array(band.low) + ",\"high\":" + array(band.high) + "}";
-}
-
-template <class Items>
-std::string list(const Items& items) {
-  std::string text = "[";
-  for (const auto& item : items) text += (text.size() > 1 ? "," : "") + to_json(item);
-  return text + ']';
-}
-
-const char* word(bool value) {
-  return value ? "true" : "false";
+std::string band_json(const Band& band) {
+  return fmt::format(R"({{"name":{},"x":{},"low":{},"high":{}}})", quoted(band.name), array(band.x),
+                     array(band.low), array(band.high));
 }
 
 }  // namespace
 
 std::string to_json(const Plot& plot) {
-  std::string text = "{\"title\":" + quoted(plot.title) + ",\"x_label\":" + quoted(plot.x_label) +
-                     ",\"y_label\":" + quoted(plot.y_label) + ",\"lines\":" + list(plot.lines) +
-                     ",\"bands\":" + list(plot.bands) + ",\"roads\":" + list(plot.roads) +
-                     ",\"equal_axes\":" + word(plot.equal_axes) + ",\"x_log\":" + word(plot.x_log) +
-                     ",\"y_log\":" + word(plot.y_log);
+  std::string text =
+      fmt::format(R"({{"title":{},"x_label":{},"y_label":{},"lines":{},"bands":{},"roads":{},)"
+                  R"("equal_axes":{},"x_log":{},"y_log":{})",
+                  quoted(plot.title), quoted(plot.x_label), quoted(plot.y_label),
+                  list(plot.lines, line_json), list(plot.bands, band_json),
+                  list(plot.roads, line_json), plot.equal_axes, plot.x_log, plot.y_log);
   if (plot.x_mark) {
-    text += ",\"x_mark\":{\"value\":" + number(plot.x_mark->value) +
-            ",\"name\":" + quoted(plot.x_mark->name) + "}";
+    text += fmt::format(R"(,"x_mark":{{"value":{},"name":{}}})", number(plot.x_mark->value),
+                        quoted(plot.x_mark->name));
   }
   return text + "}";
 }

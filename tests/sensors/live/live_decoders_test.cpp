@@ -127,12 +127,16 @@ TEST(Nmea, AcceptsOnlyCompleteSentences) {
   EXPECT_FALSE(nmea_angle("4859.0", "X"));
 }
 
-std::string sentence(const std::string& body) {
-  unsigned sum = 0;
-  for (const char c : body) sum ^= static_cast<unsigned char>(c);
-  char text[160];
-  std::snprintf(text, sizeof text, "$%s*%02X", body.c_str(), sum);
-  return text;
+// The example of the standard's own documentation.
+TEST(Nmea, ChecksumIsTheExclusiveOrOfTheBody) {
+  EXPECT_EQ(nmea_sentence("GPGLL,5300.97914,N,00259.98174,E,125926,A"),
+            "$GPGLL,5300.97914,N,00259.98174,E,125926,A*28\r\n");
+}
+
+TEST(Nmea, WritesAnglesThatNeverHave60Minutes) {
+  EXPECT_EQ(nmea_angle_fields(radians(48.9825), 2, "NS"), "4858.9500000,N");
+  EXPECT_EQ(nmea_angle_fields(radians(-8.5), 3, "EW"), "00830.0000000,W");
+  EXPECT_EQ(nmea_angle_fields(radians(8.9999999999), 3, "EW"), "00900.0000000,E");
 }
 
 TEST(NmeaFixes, NoFixIsMisstampedAroundALeapSecond) {
@@ -140,11 +144,11 @@ TEST(NmeaFixes, NoFixIsMisstampedAroundALeapSecond) {
   GnssFix fix;
   const auto add = [&](int at, const std::string& time, const std::string& date) {
     const Time arrival = begin + seconds(at) + milliseconds(50);
-    fixes.add(sentence("GNGGA," + time + ",4858.95,N,00823.42,E,4,12,0.80,115.2,M,47.9,M,,"),
+    fixes.add(nmea_sentence("GNGGA," + time + ",4858.95,N,00823.42,E,4,12,0.80,115.2,M,47.9,M,,"),
               arrival, fix);
-    const bool whole =
-        fixes.add(sentence("GNRMC," + time + ",A,4858.95,N,00823.42,E,19.4,270.0," + date + ",,,A"),
-                  arrival, fix);
+    const bool whole = fixes.add(
+        nmea_sentence("GNRMC," + time + ",A,4858.95,N,00823.42,E,19.4,270.0," + date + ",,,A"),
+        arrival, fix);
     EXPECT_TRUE(whole) << time;
     EXPECT_NEAR(to_seconds(fix.stamp - begin), at, 1e-6) << time;
   };
@@ -159,7 +163,7 @@ TEST(NmeaFixes, JoinsTheSentencesOfAnEpoch) {
   GnssFix fix;
   const auto add = [&](const std::string& body) {
     const Time arrival = begin + seconds(std::stoi(body.substr(10, 2)));
-    return fixes.add(sentence(body), arrival, fix);
+    return fixes.add(nmea_sentence(body), arrival, fix);
   };
   const std::string gga = ",4858.95,N,00823.42,E,4,12,0.80,115.2,M,47.9,M,,";
   const std::string rmc = ",A,4858.95,N,00823.42,E,19.438,270.0,010326,,,A";
