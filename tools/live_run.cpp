@@ -1,10 +1,9 @@
 #include "tools/live_run.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
-#include <array>
 #include <chrono>
-#include <cstdio>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -46,9 +45,7 @@ vehicle::Observer observer_of(const LiveOptions& options, RunPass& pass, LiveSta
 }
 
 void show(double driven, const std::string& sensors) {
-  std::array<char, 32> time{};
-  std::snprintf(time.data(), time.size(), "%8.1f s  ", driven);
-  show_status(STDERR_FILENO, time.data() + sensors + "  Ctrl-C ends");
+  show_status(STDERR_FILENO, fmt::format("{:8.1f} s  {}  Ctrl-C ends", driven, sensors));
 }
 
 // The service manager's watchdog hears of it as long as the fusion ticks.

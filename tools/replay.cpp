@@ -6,8 +6,6 @@
 #include "estimators/fusion/configuration.h"
 #include "runtime/vehicle/fault_injection.h"
 #include "runtime/vehicle/gnss_outage.h"
-#include "tools/bus_option.h"
-#include "tools/choice_option.h"
 #include "tools/commands.h"
 #include "tools/option_checks.h"
 #include "tools/replay_run.h"
@@ -80,17 +78,7 @@ void add_replay(CLI::App& app, Command& command) {
                   "last time")
       ->check(whole_number())
       ->capture_default_str();
-  sub->add_flag(
-      "--verbose", options->playback.verbose,
-      "End with the tables of accuracy, sensors, losses, latencies and hashes, and say of "
-      "every real-time setting what was granted");
-  auto* record = sub->add_option("--record", options->record, "Write every message to this LCM log")
-                     ->check(writable_file());
-  sub->add_flag("--record-raw", options->record_raw,
-                "With the images and scans, for a replay of the whole graph (30 MB/s)")
-      ->needs(record);
-  auto* no_lcm = sub->add_flag("--no-lcm", options->no_lcm, "Publish nothing on LCM");
-  add_lcm_url(sub, options->lcm_url)->excludes(no_lcm);
+  add_run_options(sub, *options);
   sub->add_option("--config", options->config, "TOML file of parameters")->check(existing_file());
   sub->add_option_function<std::string>(
          "--snapshot",
@@ -100,34 +88,6 @@ void add_replay(CLI::App& app, Command& command) {
   sub->add_option("--resume", options->resume,
                   "Go on from a snapshot of the same drive, with the same bits")
       ->check(existing_file());
-  sub->add_option("--json", options->json, "Write all figures of the run to this file as JSON")
-      ->check(writable_file());
-  sub->add_option("--report", options->report,
-                  "Write a page with all of it to this file: way, errors, latencies, losses")
-      ->check(writable_file());
-  sub->add_option("--trace", options->trace,
-                  "Write what each thread did when to this file, for ui.perfetto.dev (after going "
-                  "back: since then)")
-      ->check(writable_file());
-  sub->add_option("--poses", options->poses,
-                  "Write the fused left-camera poses to this file in KITTI's format")
-      ->check(writable_file());
-  sub->add_option("--tum", options->tum, "The same in TUM's format, with stamps")
-      ->check(writable_file());
-  sub->add_option("--csv", options->csv,
-                  "Write the fused state every 100 ms to this file, with what its aids said")
-      ->check(writable_file());
-  sub->add_option("--nmea", options->nmea,
-                  "Write GGA, RMC, GST and HDT sentences of the fused state, once a second")
-      ->check(writable_file());
-  sub->add_option("--map", options->map,
-                  "OpenStreetMap file, or network file of `maploop map build`: the fused state is "
-                  "matched to its roads")
-      ->check(existing_file());
-  add_choice(sub, "--map-mode", options->map_mode,
-             "none; loose, the default where there is a map: matched, and nothing fed back; tight: "
-             "the road goes back to the filter; hard-reset: position and azimuth become the "
-             "matched ones");
   sub->add_option("--configuration", options->configuration,
                   "What joins the inertial sensors: VO-RI, VO-L-RI, RISS or RISS-VO; GNSS+ before "
                   "it: fixes are used after the start too. Without it, --speed-scale "

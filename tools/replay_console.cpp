@@ -1,11 +1,10 @@
 #include "tools/replay_console.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <cstdio>
 #include <iostream>
 #include <thread>
 
@@ -63,16 +62,14 @@ void show_progress(const vehicle::Player& player, const char* help) {
   const double done =
       std::clamp(to_seconds(player.position() - player.vehicle().first()), 0.0, all);
   const char* state = player.seeking() ? "seeking" : player.paused() ? "paused" : "";
-  std::array<char, 200> line{};
-  std::snprintf(line.data(), line.size(), "%8.1f s of %.1f s  %3.0f %%  x%-6g %-7s %s", done, all,
-                100.0 * done / all, player.speed(), state, help);
-  show_status(STDERR_FILENO, line.data());
+  show_status(STDERR_FILENO, fmt::format("{:8.1f} s of {:.1f} s  {:3.0f} %  x{:<6g} {:7} {}", done,
+                                         all, 100.0 * done / all, player.speed(), state, help));
 }
 
 }  // namespace
 
 PlaybackEnd play(vehicle::Player& player, vehicle::ReplayControl* control,
-                 vehicle::RunPresence* presence, const PlaybackOptions& options) {
+                 vehicle::RunPresence* presence, const PlaybackOptions& options, bool verbose) {
   constexpr auto look_every = std::chrono::milliseconds(20);
   constexpr int show_every = 10;
   const bool visible = is_screen(STDERR_FILENO);
@@ -84,7 +81,7 @@ PlaybackEnd play(vehicle::Player& player, vehicle::ReplayControl* control,
   const bool paced = player.vehicle().clock().is_paced();
   if (paced) {
     const runtime::RealtimeReport& readiness = player.vehicle().readiness();
-    std::cerr << (options.verbose ? to_text(readiness) : to_short_text(readiness));
+    std::cerr << (verbose ? to_text(readiness) : to_short_text(readiness));
     if (options.until_miss) player.play_to_next_miss();
     if (options.paused) player.pause();
   }

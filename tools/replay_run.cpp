@@ -191,7 +191,7 @@ std::unique_ptr<vehicle::Vehicle> Replay::make_vehicle(const vehicle::Snapshot* 
 // What can be known of the result before the drive.
 void Replay::look_ahead() const {
   const vehicle::Sensors sensors = recording_.sensors(Time::max());
-  for (const std::filesystem::path& file : {options_.poses, options_.tum}) {
+  for (const std::filesystem::path& file : {options_.states.poses, options_.states.tum}) {
     if (!file.empty() && sensors.camera == nullptr && sensors.odometry == nullptr)
       throw std::runtime_error("'" + file.string() +
                                "' would be empty: the recording has no images, and so no poses of "
@@ -246,7 +246,7 @@ PlaybackEnd Replay::play_all() {
   if (bus_ && !options_.lockstep) control.emplace(bus_->lcm(), *player_, run_.id);
   const auto hogs = faults_.hogs([this] { return player_->position(); });
   return play(*player_, control ? &*control : nullptr, presence_ ? &*presence_ : nullptr,
-              options_.playback);
+              options_.playback, options_.verbose);
 }
 
 ReplayResult Replay::result(PlaybackEnd end) {
@@ -315,8 +315,7 @@ int Replay::run() {
         if (!options_.json.empty()) write_json(options_.json, r);
       },
       [&] {
-        if (r.end)
-          write_states({options_.poses, options_.tum, options_.csv, options_.nmea}, *pass_);
+        if (r.end) write_states(options_.states, *pass_);
       },
       [&] {
         if (options_.report.empty()) return;
@@ -325,7 +324,7 @@ int Replay::run() {
                          map_.get());
       },
   });
-  std::cout << closing_text(r, options_.playback.verbose);
+  std::cout << closing_text(r, options_.verbose);
   const auto why = why_empty(r);
   if (why) std::cerr << "maploop: " << *why << '\n';
   const bool snapshot_missing = options_.snapshot && !snapshot_taken_;

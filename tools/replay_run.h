@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/vehicle/vehicle_config.h"
 #include "tools/replay_console.h"
+#include "tools/run_options.h"
 
 namespace maploop::tools {
 
@@ -21,24 +21,10 @@ struct SnapshotRequest {
 // SECONDS:FILE. Throws std::invalid_argument saying what is wrong with it.
 SnapshotRequest parse_snapshot(const std::string& text);
 
-struct ReplayOptions {
+struct ReplayOptions : RunOptions {
   std::filesystem::path drive;
   double speed = 1.0;
   bool lockstep = false;
-  bool no_lcm = false;
-  std::string lcm_url;  // empty: as vehicle::bus_url() says
-  std::filesystem::path record;
-  bool record_raw = false;
-  std::filesystem::path config;
-  std::filesystem::path json;
-  std::filesystem::path trace;
-  std::filesystem::path poses;
-  std::filesystem::path tum;
-  std::filesystem::path csv;
-  std::filesystem::path nmea;
-  std::filesystem::path map;
-  std::optional<vehicle::MapMode> map_mode;
-  std::filesystem::path report;
   std::string configuration;
   std::string gnss_outage;
   std::filesystem::path odometry_poses;
