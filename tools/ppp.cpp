@@ -1,4 +1,6 @@
 // maploop ppp: positions from GNSS files.
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -109,23 +111,122 @@ nlohmann::json to_json(const ppp::MapAidedFilter& filter, std::size_t matched) {
 }
 
 std::string map_line(const ppp::MapAidedFilter& filter, std::size_t matched, std::size_t epochs) {
-  std::string line =
-      std::to_string(matched) + " of " + std::to_string(epochs) +
-      " epochs on a road of the map; fed back: " + std::to_string(filter.count(ppp::MapUse::used)) +
-      " used";
+  std::string line = fmt::format("{} of {} epochs on a road of the map; fed back: {} used", matched,
+                                 epochs, filter.count(ppp::MapUse::used));
   for (std::size_t i = 1; i < ppp::map_use_count; ++i) {
     const auto use = static_cast<ppp::MapUse>(i);
-    if (use != ppp::MapUse::nothing_fed_back && filter.count(use) > 0) {
-      line += ", " + std::to_string(filter.count(use)) + " " + std::string(to_string(use));
-    }
+    if (use != ppp::MapUse::nothing_fed_back && filter.count(use) > 0)
+      line += fmt::format(", {} {}", filter.count(use), to_string(use));
   }
-  return line + "; forgotten as a wrong road's: " + std::to_string(filter.restorations());
+  return line + fmt::format("; forgotten as a wrong road's: {}", filter.restorations());
 }
 
-std::string one_line(const char* format, double a, double b, double c) {
-  char text[200];
-  std::snprintf(text, sizeof text, format, a, b, c);
-  return text;
+// What a run gives to its texts and files.
+struct PppResult {
+  gnss::Solutions solutions;
+  std::size_t solved = 0, matched = 0;
+  std::unique_ptr<gnss::Truth> truth;
+  std::unique_ptr<gnss::Score> score, without_map;  // where there is a truth; the second: and a map
+  std::optional<ppp::GpsTime> scored_from;
+};
+
+PppResult process(gnss::PppRun& run, const PppOptions& options, double integrity_risk, bool on_map,
+                  ppp::GpsTime first) {
+  PppResult r;
+  if (!options.truth.empty()) {
+    r.truth = std::make_unique<gnss::Truth>(options.truth, first);
+    r.score = std::make_unique<gnss::Score>(*r.truth, integrity_risk);
+    if (on_map) r.without_map = std::make_unique<gnss::Score>(*r.truth, integrity_risk);
+  }
+  if (!options.score_start.empty())
+    r.scored_from = moment(options.score_start, "--score-start", first);
+  run.process([&](const ppp::PppSolution& s) {
+    if (!s.message.empty()) std::cerr << format_gps_time(s.time) << ": " << s.message << '\n';
+    r.solved += s.status != PppStatus::none;
+    if (r.score) r.score->add(s);
+    if (r.without_map) r.without_map->add(run.filter().map_free());
+    r.matched += run.map_step().way_id.has_value();
+    r.solutions.push_back(s);
+  });
+  if (r.solutions.empty()) throw std::runtime_error("no epoch between --start and --end");
+  return r;
+}
+
+void append_score(std::vector<std::string>& lines, const PppResult& r, double integrity_risk) {
+  lines.push_back("against the truth: " + to_text(r.score->accuracy(r.scored_from)));
+  lines.push_back(
+      fmt::format("{} of {} errors along, across and up are beyond their protection level "
+                  "(integrity risk {:g})",
+                  r.score->misleading(), 3 * r.score->errors().size(), integrity_risk));
+  if (r.without_map)
+    lines.push_back("the same without the map: " + to_text(r.without_map->accuracy(r.scored_from)));
+  const auto below = r.score->time_to_stay_below(0.1);
+  lines.push_back(below ? fmt::format("3-D error stays below 0.1 m after {:.1f} min", *below / 60)
+                        : "3-D error does not stay below 0.1 m");
+}
+
+std::vector<std::string> summary_of(const gnss::PppRun& run, const PppResult& r,
+                                    const vehicle::PppConfig& config, bool on_map,
+                                    const ppp::GnssFiles& files) {
+  const std::size_t epochs = r.solutions.size();
+  std::vector<std::string> lines{
+      fmt::format("{} orbits and clocks, {}, {}, systems {}",
+                  run.setup().precise() ? "precise" : "broadcast",
+                  run.setup().one_frequency() ? "one frequency" : "two frequencies",
+                  name_of(config.filter.motion), config.filter.systems),
+      fmt::format("{} of {} epochs have a position ({:.1f} %); filter {:.3f} s, {:.3f} ms an epoch",
+                  r.solved, epochs,
+                  100.0 * static_cast<double>(r.solved) / static_cast<double>(epochs),
+                  run.seconds(), 1e3 * run.seconds() / static_cast<double>(epochs))};
+  if (run.setup().never_converges())
+    lines.push_back(
+        "on one frequency with broadcast orbits the position cannot converge to 0.1 m: metres "
+        "remain");
+  if (r.score) append_score(lines, r, config.integrity_risk);
+  if (on_map) lines.push_back(map_line(run.filter(), r.matched, epochs));
+  for (const auto& line : run.setup().missing_models()) lines.push_back(line);
+  for (const auto& line : run.missing_products()) lines.push_back(line);
+  for (const auto& o : files.observations) {
+    if (o.refused > 0)
+      lines.push_back(
+          fmt::format("{}: {} refused, first: {}", o.file, o.refused, o.refusals.front()));
+  }
+  if (leap_seconds(r.solutions.back().time).out_of_date)
+    lines.push_back("the table of leap seconds ends before these data: UTC may be a second off");
+  return lines;
+}
+
+nlohmann::json to_json(const gnss::PppRun& run, const PppResult& r, bool on_map) {
+  nlohmann::json json = {{"epochs", r.solutions.size()},
+                         {"solved", r.solved},
+                         {"filter_seconds", run.seconds()},
+                         {"missing_products", run.missing_products()},
+                         {"lacks", run.setup().missing_models()}};
+  const auto scored = [&](const gnss::Score& score) {
+    return to_json(score.accuracy(r.scored_from), score.time_to_stay_below(0.1));
+  };
+  if (r.score) json["truth"] = scored(*r.score);
+  if (on_map) json["map"] = to_json(run.filter(), r.matched);
+  if (r.without_map) json["map"]["truth_without_map"] = scored(*r.without_map);
+  return json;
+}
+
+void write_files(const PppOptions& options, const gnss::PppRun& run, const PppResult& r,
+                 const std::vector<std::string>& summary, double integrity_risk, bool on_map) {
+  const auto write = [](const std::filesystem::path& path, auto&& content) {
+    if (!path.empty()) evaluation::write_text(path, content());
+  };
+  const std::string name = run.setup().observations().file;
+  write(options.pos, [&] { return gnss::to_pos(r.solutions, options.ecef, name); });
+  write(options.nmea, [&] { return gnss::to_nmea(r.solutions); });
+  write(options.geojson, [&] { return gnss::to_geojson(r.solutions); });
+  write(options.kml, [&] { return gnss::to_kml(r.solutions); });
+  write(options.residuals, [&] { return gnss::to_residual_csv(r.solutions); });
+  write(options.html, [&] {
+    return gnss::to_page("PPP of " + std::filesystem::path(name).filename().string(), summary,
+                         r.solutions, r.score.get(), r.without_map.get(), integrity_risk);
+  });
+  if (!options.json.empty()) write_json_file(options.json, to_json(run, r, on_map));
 }
 
 int positions(const PppOptions& options) {
@@ -139,100 +240,12 @@ int positions(const PppOptions& options) {
                                  ? ppp::GpsTime{}
                                  : files.observations[0].epochs[0].time;
   gnss::PppRun run(files, run_options(options, config, map_of(vehicle_config, map.get()), first));
-  std::unique_ptr<gnss::Truth> truth;
-  std::unique_ptr<gnss::Score> score, without_map;
-  if (!options.truth.empty()) {
-    truth = std::make_unique<gnss::Truth>(options.truth, first);
-    score = std::make_unique<gnss::Score>(*truth, config.integrity_risk);
-    if (map) without_map = std::make_unique<gnss::Score>(*truth, config.integrity_risk);
-  }
-  std::optional<ppp::GpsTime> scored_from;
-  if (!options.score_start.empty()) {
-    scored_from = moment(options.score_start, "--score-start", first);
-  }
-  gnss::Solutions solutions;
-  std::size_t solved = 0, matched = 0;
-  run.process([&](const ppp::PppSolution& s) {
-    if (!s.message.empty()) std::cerr << format_gps_time(s.time) << ": " << s.message << '\n';
-    solved += s.status != PppStatus::none;
-    if (score) score->add(s);
-    if (without_map) without_map->add(run.filter().map_free());
-    matched += run.map_step().way_id.has_value();
-    solutions.push_back(s);
-  });
-  if (solutions.empty()) throw std::runtime_error("no epoch between --start and --end");
-
-  std::vector<std::string> summary;
-  summary.push_back(
-      std::string(run.setup().precise() ? "precise" : "broadcast") + " orbits and clocks, " +
-      (run.setup().one_frequency() ? "one frequency, " : "two frequencies, ") +
-      std::string(name_of(config.filter.motion)) + ", systems " + config.filter.systems);
-  summary.push_back(
-      std::to_string(solved) + " of " + std::to_string(solutions.size()) +
-      " epochs have a position" +
-      one_line(" (%.1f %%); filter %.3f s, %.3f ms an epoch",
-               100.0 * static_cast<double>(solved) / static_cast<double>(solutions.size()),
-               run.seconds(), 1e3 * run.seconds() / static_cast<double>(solutions.size())));
-  if (run.setup().never_converges())
-    summary.push_back(
-        "on one frequency with broadcast orbits the position cannot converge to 0.1 m: metres "
-        "remain");
-  if (score) {
-    summary.push_back("against the truth: " + to_text(score->accuracy(scored_from)));
-    summary.push_back(std::to_string(score->misleading()) + " of " +
-                      std::to_string(3 * score->errors().size()) +
-                      one_line(" errors along, across and up are beyond their protection level "
-                               "(integrity risk %g)",
-                               config.integrity_risk, 0, 0));
-    if (without_map)
-      summary.push_back("the same without the map: " + to_text(without_map->accuracy(scored_from)));
-    const auto below = score->time_to_stay_below(0.1);
-    summary.push_back(
-        below ? one_line("3-D error stays below 0.1 m after %.1f min", *below / 60, 0, 0)
-              : "3-D error does not stay below 0.1 m");
-  }
-  if (map) summary.push_back(map_line(run.filter(), matched, solutions.size()));
-  for (const auto& line : run.setup().missing_models()) summary.push_back(line);
-  for (const auto& line : run.missing_products()) summary.push_back(line);
-  for (const auto& o : files.observations) {
-    if (o.refused > 0) {
-      summary.push_back(o.file + ": " + std::to_string(o.refused) +
-                        " refused, first: " + o.refusals.front());
-    }
-  }
-  if (leap_seconds(solutions.back().time).out_of_date) {
-    summary.push_back("the table of leap seconds ends before these data: UTC may be a second off");
-  }
+  const bool on_map = map != nullptr;
+  const PppResult result = process(run, options, config.integrity_risk, on_map, first);
+  const std::vector<std::string> summary = summary_of(run, result, config, on_map, files);
   for (const auto& line : summary) std::cout << line << '\n';
-
-  const auto write = [](const std::filesystem::path& path, auto&& content) {
-    if (!path.empty()) evaluation::write_text(path, content());
-  };
-  const std::string name = run.setup().observations().file;
-  write(options.pos, [&] { return gnss::to_pos(solutions, options.ecef, name); });
-  write(options.nmea, [&] { return gnss::to_nmea(solutions); });
-  write(options.geojson, [&] { return gnss::to_geojson(solutions); });
-  write(options.kml, [&] { return gnss::to_kml(solutions); });
-  write(options.residuals, [&] { return gnss::to_residual_csv(solutions); });
-  write(options.html, [&] {
-    return gnss::to_page("PPP of " + std::filesystem::path(name).filename().string(), summary,
-                         solutions, score.get(), without_map.get(), config.integrity_risk);
-  });
-  if (!options.json.empty()) {
-    nlohmann::json result = {{"epochs", solutions.size()},
-                             {"solved", solved},
-                             {"filter_seconds", run.seconds()},
-                             {"missing_products", run.missing_products()},
-                             {"lacks", run.setup().missing_models()}};
-    if (score)
-      result["truth"] = to_json(score->accuracy(scored_from), score->time_to_stay_below(0.1));
-    if (map) result["map"] = to_json(run.filter(), matched);
-    if (without_map)
-      result["map"]["truth_without_map"] =
-          to_json(without_map->accuracy(scored_from), without_map->time_to_stay_below(0.1));
-    write_json_file(options.json, result);
-  }
-  return solved > 0 ? 0 : 1;
+  write_files(options, run, result, summary, config.integrity_risk, on_map);
+  return result.solved > 0 ? 0 : 1;
 }
 
 }  // namespace

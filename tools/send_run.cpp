@@ -1,9 +1,9 @@
 #include "tools/send_run.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -178,6 +178,91 @@ void write_truth(const std::filesystem::path& file, const vehicle::Recording& re
   evaluation::write_tum(file, truth);
 }
 
+// What is sent of a drive, each kind by a thread of its own, from one moment on.
+class Sending {
+ public:
+  Sending(const SendOptions& options, const vehicle::Recording& recording)
+      : options_(options), recording_(recording) {}
+
+  void add_camera(std::unique_ptr<sensors::Source<StereoPair>> source) {
+    if (source == nullptr) throw std::runtime_error("the drive has no images to send");
+    const StereoCalibration& cameras = recording_.calibration.stereo;
+    const double rate = static_cast<double>(recording_.images - 1) /
+                        to_seconds(recording_.last_stamp - recording_.first_stamp);
+    const auto to = std::make_shared<sensors::VideoSender>(options_.camera, cameras.width,
+                                                           cameras.height, rate);
+    add("camera", send_images, to, prefetched("decoder", 6, std::move(source)));
+  }
+
+  void add_velodyne(std::unique_ptr<sensors::Source<LidarScan>> source,
+                    const sensors::Hdl64Lasers& lasers) {
+    add("velodyne", send_turns, sender(options_.velodyne),
+        prefetched<Turn>("encoder", 4, std::make_unique<TurnSource>(std::move(source), lasers)));
+  }
+
+  template <class T, class SendAll>
+  void add_lines(const char* name, const std::string& endpoint, SendAll send_all,
+                 std::unique_ptr<sensors::Source<T>> source) {
+    if (endpoint.empty()) return;
+    if (source == nullptr) throw std::runtime_error("the drive has nothing to send to " + endpoint);
+    add(name, send_all, sender(endpoint), std::shared_ptr<sensors::Source<T>>(std::move(source)));
+  }
+
+  bool empty() const { return senders_.empty(); }
+
+  // Until everything is sent, or the end comes. Returns what the drive's times were shifted by.
+  Duration run() {
+    const Schedule schedule(recording_.first_stamp, options_.seconds);
+    {
+      std::vector<std::jthread> threads;
+      for (Sender& s : senders_)
+        threads.emplace_back([&s, &schedule] { s.send(schedule, s.sent); });
+    }
+    stop_.request_stop();
+    return schedule.shift();
+  }
+
+  void print() const {
+    for (const auto& [name, send, sent] : senders_) {
+      if (sent.messages + sent.refused == 0) continue;
+      fmt::print("{:9} {:8} messages, up to {:.0f} ms late", name, sent.messages,
+                 1e3 * to_seconds(sent.latest));
+      if (sent.refused > 0) fmt::print(", {} not taken by the system", sent.refused);
+      fmt::print("\n");
+    }
+  }
+
+ private:
+  struct Sender {
+    const char* name;
+    std::function<void(const Schedule&, Sent&)> send;
+    Sent sent;
+  };
+
+  static std::shared_ptr<sensors::DatagramSender> sender(const std::string& endpoint) {
+    return std::make_shared<sensors::DatagramSender>(sensors::parse_endpoint(endpoint));
+  }
+
+  template <class T>
+  std::shared_ptr<sensors::Source<T>> prefetched(const char* thread, std::size_t ahead,
+                                                 std::unique_ptr<sensors::Source<T>> source) {
+    return std::make_shared<vehicle::PrefetchedSource<T>>(
+        thread, runtime::Scheduling{}, std::move(source), ahead, stop_.get_token(), nullptr);
+  }
+
+  void add(const char* name, auto send_all, auto to, auto from) {
+    senders_.push_back(
+        {name,
+         [=](const Schedule& schedule, Sent& sent) { send_all(*from, *to, schedule, sent); },
+         {}});
+  }
+
+  const SendOptions& options_;
+  const vehicle::Recording& recording_;
+  std::stop_source stop_;
+  std::vector<Sender> senders_;
+};
+
 }  // namespace
 
 int send(const SendOptions& options) {
@@ -186,81 +271,24 @@ int send(const SendOptions& options) {
                                             : vehicle::load_vehicle_config(options.config);
   const vehicle::Recording recording = vehicle::open_recording(options.drive, config);
   vehicle::Sensors s = recording.sensors(Time::min());
-
-  std::vector<std::function<void()>> senders;
-  std::stop_source stop;
-  Sent images_sent, turns_sent, imu_sent, gnss_sent;
-  std::optional<Schedule> schedule;
-  if (!options.camera.empty()) {
-    if (s.camera == nullptr) throw std::runtime_error("the drive has no images to send");
-    const StereoCalibration& cameras = recording.calibration.stereo;
-    const double rate = static_cast<double>(recording.images - 1) /
-                        to_seconds(recording.last_stamp - recording.first_stamp);
-    const auto to =
-        std::make_shared<sensors::VideoSender>(options.camera, cameras.width, cameras.height, rate);
-    constexpr std::size_t ahead = 6;
-    const auto pairs = std::make_shared<vehicle::PrefetchedSource<StereoPair>>(
-        "decoder", runtime::Scheduling{}, std::move(s.camera), ahead, stop.get_token(), nullptr);
-    senders.push_back(
-        [=, &schedule, &images_sent] { send_images(*pairs, *to, *schedule, images_sent); });
-  }
+  Sending sending(options, recording);
+  if (!options.camera.empty()) sending.add_camera(std::move(s.camera));
   if (!options.velodyne.empty() || !options.calibration.empty()) {
     const sensors::Hdl64Lasers lasers = lasers_of(recording);
-    if (!options.calibration.empty()) {
+    if (!options.calibration.empty())
       sensors::write_velodyne_calibration(options.calibration, lasers);
-    }
-    if (!options.velodyne.empty()) {
-      constexpr std::size_t ahead = 4;
-      const auto turns = std::make_shared<vehicle::PrefetchedSource<Turn>>(
-          "encoder", runtime::Scheduling{},
-          std::make_unique<TurnSource>(std::move(s.velodyne), lasers), ahead, stop.get_token(),
-          nullptr);
-      const auto to =
-          std::make_shared<sensors::DatagramSender>(sensors::parse_endpoint(options.velodyne));
-      senders.push_back(
-          [=, &schedule, &turns_sent] { send_turns(*turns, *to, *schedule, turns_sent); });
-    }
+    if (!options.velodyne.empty()) sending.add_velodyne(std::move(s.velodyne), lasers);
   }
-  const auto add = [&]<class T>(const std::string& endpoint,
-                                std::unique_ptr<sensors::Source<T>> source, auto send_all,
-                                Sent& sent) {
-    if (endpoint.empty()) return;
-    if (source == nullptr) throw std::runtime_error("the drive has nothing to send to " + endpoint);
-    const auto to = std::make_shared<sensors::DatagramSender>(sensors::parse_endpoint(endpoint));
-    senders.push_back([to, send_all, &schedule, &sent,
-                       from = std::shared_ptr<sensors::Source<T>>(std::move(source))] {
-      send_all(*from, *to, *schedule, sent);
-    });
-  };
-  add(options.imu, std::move(s.imu), send_imu, imu_sent);
-  add(options.gnss, std::move(s.gnss), send_gnss, gnss_sent);
-  if (senders.empty()) {
-    if (options.calibration.empty()) {
-      throw std::runtime_error("nothing to send: give --camera, --velodyne, --imu or --gnss");
-    }
-    return 0;
+  sending.add_lines("imu", options.imu, send_imu, std::move(s.imu));
+  sending.add_lines("gnss", options.gnss, send_gnss, std::move(s.gnss));
+  if (sending.empty()) {
+    if (!options.calibration.empty()) return 0;
+    throw std::runtime_error("nothing to send: give --camera, --velodyne, --imu or --gnss");
   }
   note_interrupts();
-  schedule.emplace(recording.first_stamp, options.seconds);
-  {
-    std::vector<std::jthread> threads;
-    for (const auto& sender : senders) threads.emplace_back(sender);
-  }
-  if (!options.truth.empty()) write_truth(options.truth, recording, schedule->shift());
-  stop.request_stop();
-  const auto print = [](const char* name, const Sent& sent) {
-    if (sent.messages + sent.refused == 0) return;
-    std::printf("%-9s %8llu messages, up to %.0f ms late", name,
-                static_cast<unsigned long long>(sent.messages), 1e3 * to_seconds(sent.latest));
-    if (sent.refused > 0) {
-      std::printf(", %llu not taken by the system", static_cast<unsigned long long>(sent.refused));
-    }
-    std::printf("\n");
-  };
-  print("camera", images_sent);
-  print("velodyne", turns_sent);
-  print("imu", imu_sent);
-  print("gnss", gnss_sent);
+  const Duration shift = sending.run();
+  if (!options.truth.empty()) write_truth(options.truth, recording, shift);
+  sending.print();
   return 0;
 }
 
