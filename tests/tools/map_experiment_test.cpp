@@ -30,15 +30,19 @@ struct World {
   }
 };
 
+const World& world() {
+  static const World world;
+  return world;
+}
+
 MapResult driven(const std::string& sequence, MapMode mode, const std::string& fault = "",
                  std::int64_t seed = 1) {
-  static const World world;
   MapCase c;
   c.sequence = sequence;
   c.mode = mode;
   c.fault = fault;
   c.seed = seed;
-  return run(world.setting, c);
+  return run(world().setting, c);
 }
 
 double cross_track_rms(const MapResult& r) {
@@ -122,6 +126,15 @@ TEST(Tight, KnowsHowWellItKnows) {
   }
   EXPECT_GT(sum / count, 0.5);
   EXPECT_LT(sum / count, 3.0);
+}
+
+TEST(Tight, CountsWhatTheGuardUndoes) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  MapSetting setting = world().setting;
+  setting.config.guard.difference_gate = 0.01;  // any difference speaks against the road
+  MapCase c;
+  c.sequence = "10";
+  EXPECT_GT(run(setting, c).restorations, 0u);
 }
 
 class WrongMaps : public ::testing::TestWithParam<const char*> {};

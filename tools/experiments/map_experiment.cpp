@@ -67,7 +67,7 @@ std::uint64_t refused(const Health& health, std::string_view reason) {
 // What the vehicle says at each of its ticks.
 struct Ticks {
   std::vector<NavState> states;
-  std::map<Time, MapMatch> matches;
+  std::map<Time, match::TimedMatch> matches;
   std::map<Time, FeedbackReason> feedbacks;
 
   vehicle::Observer observer() {
@@ -77,11 +77,26 @@ struct Ticks {
           state.stamp.time_since_epoch() % sampled_every == Duration::zero())
         states.push_back(state);
     };
-    o.map_match = [this](const MapMatch& match) { matches[match.stamp] = match; };
+    o.map_match = [this](const MapMatch& match) {
+      matches[match.stamp] = match::timed_match(match);
+    };
     o.map_feedback = [this](const MapFeedback& back) { feedbacks[back.stamp] = back.reason; };
     return o;
   }
 };
+
+// The errors of a state against the pose of the body.
+MapSample sample_of(const NavState& state, const Eigen::Isometry3d& pose) {
+  MapSample sample;
+  sample.truth = pose.translation().head<2>();
+  sample.error = state.position_enu.head<2>() - sample.truth;
+  sample.azimuth = attitude_from_rotation(pose.rotation()).azimuth;
+  sample.azimuth_error = wrap_angle(state.attitude.azimuth - sample.azimuth);
+  const Eigen::Matrix2d P = state.covariance.topLeftCorner<2, 2>();
+  sample.sigma = std::sqrt(P.trace());
+  sample.nees = sample.error.dot(P.inverse() * sample.error);
+  return sample;
+}
 
 }  // namespace
 
@@ -166,40 +181,31 @@ MapResult run(const MapSetting& setting, const MapCase& setup) {
                  refused(health, to_string(fusion::Reason::link_azimuth_gate));
   result.restorations = refused(health, restored);
   const vehicle::Recording& recording = run.recording;
-  const std::vector<Time>& frames = recording.driven_links->stamps;
+  const std::vector<Time>& frames = recording.driven_links.value().stamps;
   const Time begin =
       recording.outages.empty() ? recording.first_stamp : recording.outages.front().begin;
   std::vector<match::TimedMatch> matches;
   for (const auto& [stamp, match] : ticks.matches) {
-    if (stamp >= begin) matches.push_back(match::timed_match(match));
+    if (stamp >= begin) matches.push_back(match);
   }
   result.match = match::score_matches(matches, frames, labels);
   if (ticks.states.empty()) return result;
   result.origin = ticks.states.front().origin;
   const sensors::ReferenceTrajectory truth(run.reference, LocalFrame(result.origin));
   for (const NavState& state : ticks.states) {
-    MapSample sample;
-    if (const auto back = ticks.feedbacks.find(state.stamp); back != ticks.feedbacks.end()) {
-      sample.reason = back->second;
-      ++result.reasons[static_cast<std::size_t>(sample.reason)];
-    }
+    const auto back = ticks.feedbacks.find(state.stamp);
+    if (back != ticks.feedbacks.end()) ++result.reasons[static_cast<std::size_t>(back->second)];
     const auto pose = truth.pose(state.stamp);
     if (!pose || truth.accuracy(state.stamp) > fusion_score::worst_reference) continue;
-    const auto match = ticks.matches.find(state.stamp);
-    if (match != ticks.matches.end() && match->second.on_road)
-      sample.probability = match->second.probability;
+    MapSample sample = sample_of(state, *pose);
+    if (back != ticks.feedbacks.end()) sample.reason = back->second;
+    if (const auto match = ticks.matches.find(state.stamp); match != ticks.matches.end())
+      sample.probability = match->second.matched.p_link;
     if (const auto frame = match::frame_at(state.stamp, frames); frame && result.missing != 0) {
       const auto label = labels.find(*frame);
       sample.on_missing = label != labels.end() && label->second.way_id == result.missing;
     }
     sample.time = to_seconds(state.stamp - recording.first_stamp);
-    sample.truth = pose->translation().head<2>();
-    sample.error = state.position_enu.head<2>() - sample.truth;
-    sample.azimuth = attitude_from_rotation(pose->rotation()).azimuth;
-    sample.azimuth_error = wrap_angle(state.attitude.azimuth - sample.azimuth);
-    const Eigen::Matrix2d P = state.covariance.topLeftCorner<2, 2>();
-    sample.sigma = std::sqrt(P.trace());
-    sample.nees = sample.error.dot(P.inverse() * sample.error);
     result.samples.push_back(sample);
   }
   return result;
