@@ -149,24 +149,6 @@ void archive_same_number(Archive& ar, std::string_view name, const T& own) {
   }
 }
 
-// Does the same for an enumeration with a function names_of(), which lists the names of its values.
-template <class Archive, NamedEnum T>
-void archive_same_number(Archive& ar, std::string_view name, const T& own) {
-  T saved = own;
-  ar(saved);
-  if constexpr (Archive::loading) {
-    if (saved == own) return;
-    ar.fail("it was saved with " + std::string(name) + " = " + std::string(name_of(saved)) +
-            ", and here it is " + std::string(name_of(own)));
-  }
-}
-
-// Does the same for a struct of numbers and enumerations that fields(value, f) visits by name.
-template <class Archive, class T>
-void archive_same_fields(Archive& ar, const T& value) {
-  fields(value, [&](const char* name, const auto& own) { archive_same_number(ar, name, own); });
-}
-
 // --- These functions describe types that are not ours.
 
 template <class Archive, class T>
