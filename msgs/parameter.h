@@ -1,7 +1,7 @@
 // Parameters described once: each member of a struct with its key, range, unit and meaning.
 //
 //   constexpr auto table = std::to_array<Parameter<LidarParameters>>({
-//       {"min_range", &LidarParameters::min_range, 0.0, 1000.0, "m", "Nearer points are ..."},
+//       {"min_range", &P::min_range, 0.0, 1000.0, "m", Audience::usual, "Nearer points ..."},
 //   });
 //   ParameterTable<LidarParameters> parameter_table(const LidarParameters&);
 //
@@ -107,21 +107,20 @@ class Parameter : public ParameterDescription {
   requires std::same_as<Number, int> || std::same_as<Number, std::int64_t> ||
       std::same_as<Number, double>
   constexpr Parameter(std::string_view name, Number P::*number, double lowest, double highest,
-                      std::string_view in_unit, std::string_view says,
-                      Audience whose = Audience::expert, DataChoice chosen = {})
+                      std::string_view in_unit, Audience whose, std::string_view says,
+                      DataChoice chosen = {})
       : ParameterDescription{name, lowest, highest, in_unit, says, whose, chosen, {}},
         member_(number) {}
 
   template <class Other>
   requires std::same_as<Other, bool> || std::same_as<Other, std::string> ||
       std::same_as<Other, std::vector<std::string>>
-  constexpr Parameter(std::string_view name, Other P::*other, std::string_view says,
-                      Audience whose = Audience::expert,
+  constexpr Parameter(std::string_view name, Other P::*other, Audience whose, std::string_view says,
                       std::span<const std::string_view> allowed = {})
       : ParameterDescription{name, 0.0, 0.0, {}, says, whose, {}, allowed}, member_(other) {}
 
-  constexpr Parameter(std::string_view name, EnumMember<P> choice_of, std::string_view says,
-                      Audience whose = Audience::expert)
+  constexpr Parameter(std::string_view name, EnumMember<P> choice_of, Audience whose,
+                      std::string_view says)
       : ParameterDescription{name, 0.0, 0.0, {}, says, whose, {}, choice_of.names},
         member_(choice_of) {}
 

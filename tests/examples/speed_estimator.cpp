@@ -5,16 +5,17 @@
 namespace maploop::example {
 
 ParameterTable<SpeedParameters> parameter_table(const SpeedParameters&) {
+  using enum Audience;
   using P = SpeedParameters;
   constexpr double most = 1e6;
   static constexpr auto table = std::to_array<Parameter<P>>({
-      {"jerk", &P::jerk, above_zero, most, "m/s^3/sqrt(Hz)",
+      {"jerk", &P::jerk, above_zero, most, "m/s^3/sqrt(Hz)", expert,
        "White jerk of the vehicle: braking and accelerating."},
-      {"start_acceleration", &P::start_acceleration, above_zero, most, "m/s^2",
+      {"start_acceleration", &P::start_acceleration, above_zero, most, "m/s^2", expert,
        "Standard deviation of the acceleration at the start."},
-      {"gate", &P::gate, above_zero, most, "1",
+      {"gate", &P::gate, above_zero, most, "1", expert,
        "Gate of a speed (chi-square, 1 degree of freedom); the default has a tail of 0.1 %."},
-      {"max_gap", &P::max_gap, above_zero, most, "s",
+      {"max_gap", &P::max_gap, above_zero, most, "s", expert,
        "Time without samples after which the estimator starts again."},
   });
   return {"speed", "An estimator of the speed.", table};
