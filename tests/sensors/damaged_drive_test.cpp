@@ -307,7 +307,7 @@ TEST(DamagedVelodyne, AMissingEmptyAndCutScan) {
   const std::string whole = small.read(file);
   const KittiDrive drive(small.folder());
   small.write(file, whole.substr(0, whole.size() - 5));
-  expect_finding(only_refusal(*drive.velodyne(), without_3), file, 0, "cut: 315 bytes");
+  expect_finding(only_refusal(*drive.velodyne(), without_3), file, 0, "incomplete: 315 bytes");
   small.write(file, "");
   expect_finding(only_refusal(*drive.velodyne(), without_3), file, 0, "empty");
   small.remove(file);
@@ -464,7 +464,7 @@ TEST(DamagedRealFiles, CutImageAndScanOfTheRealDrive) {
                  "incomplete or damaged");
   auto velodyne = drive.velodyne();
   EXPECT_EQ(sequences(read_all(*velodyne)), (Sequences{0, 2}));
-  expect_finding(velodyne->report().refusals.at(0), "0000000001.bin", 0, "cut");
+  expect_finding(velodyne->report().refusals.at(0), "0000000001.bin", 0, "incomplete");
 }
 
 }  // namespace

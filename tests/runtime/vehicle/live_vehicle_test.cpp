@@ -227,7 +227,7 @@ TEST(LiveConfig, NamesTheKeyThatIsWrong) {
             std::string::npos);
   EXPECT_NE(error([](LiveParameters& p) {
               p.camera_left = "videotestsrc";
-            }).find("[live] camera_left: the cameras' calibration is needed"),
+            }).find("[live] camera_left: the cameras' calibration is missing"),
             std::string::npos);
   EXPECT_NE(error([](LiveParameters& p) {
               p.camera_right = "videotestsrc";

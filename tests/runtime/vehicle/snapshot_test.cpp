@@ -224,7 +224,7 @@ TEST_F(SnapshotFile, OtherSettingsOfTheSensorsAreRefusedByName) {
   write_snapshot(file_, snapshot_, {});
   VehicleConfig config;
   config.gnss.seed = 7;
-  EXPECT_NE(refusal(config).find("[gnss] seed = 1, and here it is 7"), std::string::npos)
+  EXPECT_NE(refusal(config).find("gnss.seed = 1, and here it is 7"), std::string::npos)
       << refusal(config);
   config = {};
   config.scheduling.fusion = runtime::Scheduling::fifo(1);
