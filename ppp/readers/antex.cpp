@@ -79,9 +79,11 @@ void read_zenith_grid(const Lines& lines, Antenna& antenna) {
 }
 
 // A satellite's antenna has the satellite, such as G05, as its serial number. A receiver's antenna
-// may have the same serial number, but it has a radome and no number of a space vehicle.
+// may have the same serial number, but it has a radome behind its name and no number of a space
+// vehicle. A name that fills the space before the radome is that of a satellite's antenna.
 bool is_satellite_antenna(const Lines& lines) {
-  const bool has_radome = !blank(lines.column(16, 4)), has_vehicle = !blank(lines.column(40, 10));
+  const bool has_radome = blank(lines.column(15, 1)) && !blank(lines.column(16, 4));
+  const bool has_vehicle = !blank(lines.column(40, 10));
   return trimmed(lines.column(20, 20)).size() == 3 && !blank(lines.column(0, 5)) &&
          (!has_radome || has_vehicle);
 }

@@ -88,7 +88,7 @@ TEST_F(SnapshotCommand, TheLogsAgreeFromTheSnapshotOn) {
 
 TEST_F(SnapshotCommand, WhatDoesNotFitIsRefusedWithItsReason) {
   replay({"--lockstep", "--end", "2", "--snapshot", "1:" + file("a.snapshot")});
-  EXPECT_NE(refusal({"--resume", file("a.snapshot"), "--seed", "5"}).find("[gnss] seed = 1"),
+  EXPECT_NE(refusal({"--resume", file("a.snapshot"), "--seed", "5"}).find("gnss.seed = 1"),
             std::string::npos);
   std::ofstream(file("other.toml")) << "[stereo]\nmax_speed = 50.0\n";
   const std::string stereo =

@@ -133,10 +133,10 @@ TEST(TraceCommand, EachImageAndInertialSampleFlowsToAPublishedState) {
 TEST(TraceCommand, ShowsEveryThreadAndDropsNothing) {
   MAPLOOP_REQUIRE_DRIVE();
   const TracedReplay trace({"--lockstep"});
-  EXPECT_EQ(trace.threads(),
-            (std::set<std::string>{"camera", "camera loader", "fusion", "gnss", "health", "imu",
-                                   "lidar", "publisher", "reference", "stereo", "velodyne",
-                                   "velodyne loader", "wheel"}));
+  EXPECT_EQ(
+      trace.threads(),
+      (std::set<std::string>{"camera", "camera loader", "fusion", "gnss", "health", "imu", "lidar",
+                             "publisher", "reference", "stereo", "velodyne", "velodyne loader"}));
   EXPECT_EQ(trace.other().at("dropped"), 0);
   EXPECT_EQ(trace.result().at("trace").at("dropped"), 0);
   EXPECT_GT(trace.result().at("trace").at("recorded"), 1500);

@@ -218,6 +218,7 @@ TEST(ProductReaders, AnAntennaIsASatellitesByItsSerialNumberWithoutARadome) {
   EXPECT_EQ(satellite("BLOCK IIR-M         G05                 G050      2009-043A "), g05);
   EXPECT_EQ(satellite("BLOCK IIR-M         G05                                     "), g05);
   EXPECT_EQ(satellite("A TYPE OF 20 COLUMNSG05                 G050      2009-043A "), g05);
+  EXPECT_EQ(satellite("SIMULATED GALILEO   G05                                     "), g05);
   EXPECT_EQ(satellite("TRM59800.00     NONEG05                                     "),
             std::nullopt);
   EXPECT_EQ(satellite("TRM59800.00     NONE                                        "),
