@@ -11,7 +11,7 @@ namespace {
 
 constexpr double region_margin = 12.0;  // m, for the error of the map and half a road's width
 constexpr double anchor_step = 2.0;     // m between remembered matched places
-constexpr double min_share = 1e-6;    // P of a link without a path hypothesis
+constexpr double min_share = 1e-6;      // P of a link without a path hypothesis
 
 }  // namespace
 

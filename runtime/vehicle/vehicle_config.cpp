@@ -124,8 +124,8 @@ std::string to_toml(const VehicleConfig& config) {
   });
   text += "\n[scheduling]\n";
   for (const ScheduledThread& thread : scheduled_threads()) {
-    text += std::string(thread.key) + " = " + toml_value(config.scheduling.*thread.scheduling) +
-            '\n';
+    text +=
+        std::string(thread.key) + " = " + toml_value(config.scheduling.*thread.scheduling) + '\n';
   }
   return text;
 }

@@ -17,7 +17,7 @@ constexpr std::uint64_t ice_stream = 0x6963'6500'0000'0000;
 
 constexpr double ice_square = 50.0;  // m, a side
 constexpr double ice_factor = 10.0;  // its friction is 0.1, that of asphalt 1
-constexpr double max_slip = 0.5;    // 1; larger slip (a locked or spinning wheel) is cut off
+constexpr double max_slip = 0.5;     // 1; larger slip (a locked or spinning wheel) is cut off
 
 }  // namespace
 

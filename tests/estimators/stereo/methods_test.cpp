@@ -169,7 +169,8 @@ TEST_F(MethodsOnTheDrive, ASavedSiftOdometryGoesOnWithTheSameBits) {
     EXPECT_EQ(a.content(), b.content()) << "pair " << i;
   }
   StereoOdometry other(camera_, {});
-  EXPECT_NE(maploop::testing::refusal(archive, other).find("stereo.matching = \"sift\""), std::string::npos);
+  EXPECT_NE(maploop::testing::refusal(archive, other).find("stereo.matching = \"sift\""),
+            std::string::npos);
 }
 
 TEST_F(MethodsOnTheDrive, StagesAreNamedAsTheyEnd) {

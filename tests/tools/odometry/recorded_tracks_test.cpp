@@ -161,7 +161,8 @@ TEST_F(TrackFile, WhatIsWrittenIsReadBack) {
 
 TEST_F(TrackFile, SaysFileAndLineOfWhatItCannotRead) {
   write("frame,track,uL,vL,uR,vR\n0,3,1,2,0,2\n0,4,1,2,x,2\n", meta_);
-  EXPECT_NE(error().find("small.csv:3: the columns must be frame,track"), std::string::npos) << error();
+  EXPECT_NE(error().find("small.csv:3: the columns must be frame,track"), std::string::npos)
+      << error();
   write("frame,track,uL,vL,uR,vR\n3,3,1,2,0,2\n", meta_);
   EXPECT_NE(error().find("small.csv:2: the frame has no timestamp"), std::string::npos) << error();
   write("", R"({"fx": 700})");
