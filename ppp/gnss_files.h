@@ -4,17 +4,17 @@
 #include <filesystem>
 #include <vector>
 
-#include "ppp/readers/antex.h"
-#include "ppp/readers/bias.h"
-#include "ppp/readers/clock.h"
-#include "ppp/readers/earth_rotation.h"
-#include "ppp/readers/file_kind.h"
-#include "ppp/readers/navigation.h"
-#include "ppp/readers/observation.h"
-#include "ppp/readers/ocean_loading.h"
-#include "ppp/readers/rtcm3.h"
-#include "ppp/readers/sp3.h"
-#include "ppp/readers/ubx.h"
+#include "ppp/readers/files/antex.h"
+#include "ppp/readers/files/bias.h"
+#include "ppp/readers/files/clock.h"
+#include "ppp/readers/files/earth_rotation.h"
+#include "ppp/readers/files/file_kind.h"
+#include "ppp/readers/files/navigation.h"
+#include "ppp/readers/files/observation.h"
+#include "ppp/readers/files/ocean_loading.h"
+#include "ppp/readers/streams/rtcm3.h"
+#include "ppp/readers/files/sp3.h"
+#include "ppp/readers/streams/ubx.h"
 
 namespace maploop::ppp {
 

@@ -1,7 +1,7 @@
 // Computes by how much a measured range exceeds that to an antenna's reference point, m.
 #pragma once
 
-#include "ppp/readers/antex.h"
+#include "ppp/readers/files/antex.h"
 
 namespace maploop::ppp {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ppp/gps_time.h"
-#include "ppp/readers/earth_rotation.h"
+#include "ppp/readers/files/earth_rotation.h"
 
 namespace maploop::ppp {
 

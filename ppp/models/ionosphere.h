@@ -2,7 +2,7 @@
 #pragma once
 
 #include "msgs/local_frame.h"
-#include "ppp/readers/ionosphere_message.h"
+#include "ppp/readers/streams/ionosphere_message.h"
 
 namespace maploop::ppp {
 

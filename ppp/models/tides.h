@@ -3,7 +3,7 @@
 #pragma once
 
 #include "ppp/models/earth.h"
-#include "ppp/readers/ocean_loading.h"
+#include "ppp/readers/files/ocean_loading.h"
 
 namespace maploop::ppp {
 

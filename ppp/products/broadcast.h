@@ -8,7 +8,7 @@
 
 #include "ppp/products/ephemeris.h"
 #include "ppp/products/ionosphere.h"
-#include "ppp/readers/navigation.h"
+#include "ppp/readers/files/navigation.h"
 
 namespace maploop::ppp {
 

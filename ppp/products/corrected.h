@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "ppp/products/broadcast.h"
-#include "ppp/readers/ssr.h"
+#include "ppp/readers/corrections/ssr.h"
 
 namespace maploop::ppp {
 

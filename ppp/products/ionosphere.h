@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ppp/models/ionosphere.h"
-#include "ppp/readers/navigation.h"
+#include "ppp/readers/files/navigation.h"
 
 namespace maploop::ppp {
 

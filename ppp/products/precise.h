@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "ppp/products/ephemeris.h"
-#include "ppp/readers/bias.h"
-#include "ppp/readers/clock.h"
-#include "ppp/readers/sp3.h"
+#include "ppp/readers/files/bias.h"
+#include "ppp/readers/files/clock.h"
+#include "ppp/readers/files/sp3.h"
 
 namespace maploop::ppp {
 

@@ -1,7 +1,7 @@
 // A stream of corrections, in pieces; and the payload of a sound message of them.
 #include <cmath>
 
-#include "ppp/readers/correction_stream.h"
+#include "ppp/readers/corrections/correction_stream.h"
 #include "tests/fuzz/fuzz_input.h"
 
 using namespace maploop;

@@ -3,8 +3,8 @@
 
 #include "msgs/lcm/checked_decode.h"
 #include "tests/fuzz/fuzz_input.h"
-#include "tools/lcm_log/log_recover.h"
-#include "tools/lcm_log/log_verify.h"
+#include "tools/log/log_recover.h"
+#include "tools/log/log_verify.h"
 
 using namespace maploop;
 

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <string>
 
-#include "ppp/readers/lines.h"
-#include "ppp/readers/rtcm3.h"
+#include "ppp/readers/files/lines.h"
+#include "ppp/readers/streams/rtcm3.h"
 #include "tests/fuzz/fuzz_input.h"
 
 using namespace maploop;

@@ -1,7 +1,7 @@
 // A receiver's stream, in pieces.
 #include <cmath>
 
-#include "ppp/readers/receiver_stream.h"
+#include "ppp/readers/streams/receiver_stream.h"
 #include "tests/fuzz/fuzz_input.h"
 
 using namespace maploop;

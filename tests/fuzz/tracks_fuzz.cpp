@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "tests/fuzz/fuzz_input.h"
-#include "tools/evaluation/trajectory_file.h"
+#include "tools/evaluate/trajectory_file.h"
 #include "tools/match/track_file.h"
 
 using namespace maploop;

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <string>
 
-#include "ppp/readers/lines.h"
-#include "ppp/readers/ubx.h"
-#include "ppp/readers/ubx_pvt.h"
-#include "ppp/readers/ubx_subframes.h"
+#include "ppp/readers/files/lines.h"
+#include "ppp/readers/streams/ubx.h"
+#include "ppp/readers/streams/ubx_pvt.h"
+#include "ppp/readers/streams/ubx_subframes.h"
 #include "tests/fuzz/fuzz_input.h"
 #include "tests/support/ubx_frame.h"
 

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "ppp/readers/lines.h"
+#include "ppp/readers/files/lines.h"
 #include "tests/support/process.h"
 
 namespace maploop {

@@ -13,8 +13,8 @@ GOOD = {
     "msgs/time.h": "#include <cstdint>\n#include <Eigen/Core>\n",
     "msgs/lcm/conversions.h": '#include <maploop_lcm/imu_t.hpp>\n#include "msgs/time.h"\n',
     "runtime/core/ring.h": '#include "msgs/time.h"\n',
-    "runtime/vehicle/vehicle.h": '#include "runtime/core/ring.h"\n',
-    "runtime/vehicle/publisher.cpp": '#include <lcm/lcm-cpp.hpp>\n#include "msgs/lcm/conversions.h"\n'
+    "runtime/vehicle/graph/vehicle.h": '#include "runtime/core/ring.h"\n',
+    "runtime/vehicle/output/publisher.cpp": '#include <lcm/lcm-cpp.hpp>\n#include "msgs/lcm/conversions.h"\n'
                                      '#include "estimators/stereo/tracker.h"\n'
                                      '#include "sensors/camera/driver.h"\n',
     "sensors/camera/driver.h": '#include "msgs/time.h"\n',
@@ -24,7 +24,7 @@ GOOD = {
     "estimators/fusion/filter.h": '#include "msgs/time.h"\n',
     "mapmatch/matcher.h": '#include "msgs/time.h"\n',
     "ppp/filter.h": '#include "msgs/time.h"\n',
-    "tools/main.cpp": '#include "runtime/vehicle/vehicle.h"\n#include <toml++/toml.h>\n',
+    "tools/command/main.cpp": '#include "runtime/vehicle/graph/vehicle.h"\n#include <toml++/toml.h>\n',
     "tests/msgs/time_test.cpp": '#include "msgs/time.h"\n#include "tools/score.h"\n',
     "tools/score.h": '#include "msgs/time.h"\n',
     "build/release/generated.h": '#include "nowhere.h"\n',  # this is not checked
@@ -64,7 +64,7 @@ class IncludeArrows(unittest.TestCase):
                 ("msgs/bad.h", "runtime/core/ring.h", "runtime/core"),
                 ("msgs/bad.h", "msgs/lcm/conversions.h", "msgs/lcm"),
                 ("runtime/core/bad.h", "sensors/camera/driver.h", "sensors"),
-                ("runtime/core/bad.cpp", "runtime/vehicle/vehicle.h", "runtime/vehicle"),
+                ("runtime/core/bad.cpp", "runtime/vehicle/graph/vehicle.h", "runtime/vehicle"),
                 ("runtime/core/bad.cpp", "msgs/lcm/conversions.h", "msgs/lcm"),
                 ("sensors/imu/bad.cpp", "runtime/core/ring.h", "runtime/core"),
                 ("sensors/imu/bad.cpp", "estimators/fusion/filter.h", "estimators/fusion"),
@@ -110,7 +110,7 @@ class IncludeArrows(unittest.TestCase):
                 with self.subTest(include=include):
                     status, output = check({**GOOD, "runtime/core/ring.h": include})
                     self.assertEqual(status, 1, output)
-                    self.assertIn("runtime/vehicle/vehicle.h:1: includes runtime/core/ring.h: it brings "
+                    self.assertIn("runtime/vehicle/graph/vehicle.h:1: includes runtime/core/ring.h: it brings "
                                   f"in {library}", output)
 
     def test_heavy_library_at_depth(self):

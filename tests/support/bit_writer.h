@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "ppp/readers/broadcast_fields.h"
+#include "ppp/readers/files/broadcast_fields.h"
 
 namespace maploop::testing {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "runtime/vehicle/message_sink.h"
+#include "runtime/vehicle/output/message_sink.h"
 
 namespace maploop::testing {
 

@@ -11,7 +11,7 @@
 
 #include "tools/calibrate/rectification.h"
 #include "tools/calibrate/starting_values.h"
-#include "tools/median.h"
+#include "tools/command/median.h"
 
 namespace maploop::calibrate {
 namespace {

@@ -11,8 +11,8 @@
 #include "sensors/camera/rectifier.h"
 #include "sensors/image/jpeg.h"
 #include "tools/calibrate/calibration_text.h"
-#include "tools/html_image.h"
-#include "tools/html_text.h"
+#include "tools/command/html_image.h"
+#include "tools/command/html_text.h"
 #include "tools/web/page.h"
 
 namespace maploop::calibrate {

@@ -5,7 +5,7 @@
 #include <array>
 #include <numbers>
 
-#include "runtime/vehicle/stereo_rig_file.h"
+#include "runtime/vehicle/drivers/stereo_rig_file.h"
 
 namespace maploop::calibrate {
 namespace {

@@ -19,7 +19,7 @@ std::vector<Parameter> parameters_of(const StereoResult& result);
 
 std::string to_text(const StereoResult& result, const std::vector<Unusable>& unusable);
 
-// Returns the file that `[camera] calibration` names (runtime/vehicle/stereo_rig_file.h); the
+// Returns the file that `[camera] calibration` names (runtime/vehicle/drivers/stereo_rig_file.h); the
 // standard deviations are comments.
 std::string to_toml(const StereoResult& result);
 

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "tools/median.h"
+#include "tools/command/median.h"
 
 namespace maploop::calibrate {
 namespace {

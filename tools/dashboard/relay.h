@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "msgs/lcm/schema.h"
-#include "runtime/vehicle/runs.h"
+#include "runtime/vehicle/output/runs.h"
 #include "tools/dashboard/live_channels.h"
 #include "tools/dashboard/trail.h"
 

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "msgs/lcm/channel_names.h"
-#include "tools/evaluation/text_file.h"
+#include "tools/evaluate/text_file.h"
 #include "tools/match/cells.h"
 #include "tools/match/log_messages.h"
 

@@ -6,7 +6,7 @@
 
 #include "mapmatch/reasons.h"
 #include "msgs/frames.h"
-#include "tools/evaluation/text_file.h"
+#include "tools/evaluate/text_file.h"
 #include "tools/match/match_output.h"
 #include "tools/web/bundle.h"
 

@@ -6,7 +6,7 @@
 
 #include "mapmatch/reasons.h"
 #include "msgs/frames.h"
-#include "tools/evaluation/text_file.h"
+#include "tools/evaluate/text_file.h"
 
 namespace maploop::match {
 namespace {

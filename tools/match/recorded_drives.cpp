@@ -1,7 +1,7 @@
 #include "tools/match/recorded_drives.h"
 
 #include "msgs/frames.h"
-#include "tools/evaluation/text_file.h"
+#include "tools/evaluate/text_file.h"
 #include "tools/match/csv_track.h"
 
 namespace maploop::match {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "tools/evaluation/text_file.h"
+#include "tools/evaluate/text_file.h"
 #include "tools/match/log_messages.h"
 
 namespace maploop::match {

@@ -6,8 +6,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "tools/html_text.h"
-#include "tools/median.h"
+#include "tools/command/html_text.h"
+#include "tools/command/median.h"
 #include "tools/odometry/odometry_input.h"
 #include "tools/web/page.h"
 

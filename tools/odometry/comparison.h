@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "estimators/stereo/methods.h"
-#include "tools/evaluation/evaluation.h"
+#include "tools/evaluate/evaluation.h"
 #include "tools/odometry/consistency.h"
 #include "tools/odometry/stereo_runs.h"
 

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "msgs/frames.h"
-#include "tools/evaluation/kitti_metric.h"
+#include "tools/evaluate/kitti_metric.h"
 #include "tools/odometry/odometry_input.h"
 
 namespace maploop::odometry {

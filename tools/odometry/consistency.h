@@ -5,7 +5,7 @@
 #include <span>
 
 #include "msgs/odometry.h"
-#include "tools/evaluation/trajectory_file.h"
+#include "tools/evaluate/trajectory_file.h"
 
 namespace maploop::odometry {
 

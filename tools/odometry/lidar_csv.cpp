@@ -6,7 +6,7 @@
 #include <string>
 
 #include "msgs/frames.h"
-#include "tools/evaluation/text_file.h"
+#include "tools/evaluate/text_file.h"
 #include "tools/odometry/motion_csv.h"
 
 namespace maploop::odometry {

@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "sensors/image/png.h"
-#include "tools/html_image.h"
-#include "tools/html_text.h"
+#include "tools/command/html_image.h"
+#include "tools/command/html_text.h"
 #include "tools/web/page.h"
 
 namespace maploop::odometry {

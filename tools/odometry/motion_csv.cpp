@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "msgs/frames.h"
-#include "tools/evaluation/text_file.h"
+#include "tools/evaluate/text_file.h"
 
 namespace maploop::odometry {
 namespace {

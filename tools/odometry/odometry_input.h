@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "msgs/calibration.h"
-#include "tools/evaluation/motion_chain.h"
-#include "tools/evaluation/trajectory_file.h"
+#include "tools/evaluate/motion_chain.h"
+#include "tools/evaluate/trajectory_file.h"
 #include "tools/odometry/stereo_runs.h"
 
 namespace maploop::odometry {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "estimators/lidar/voxel_key.h"
-#include "tools/evaluation/text_file.h"
+#include "tools/evaluate/text_file.h"
 
 namespace maploop::odometry {
 namespace {

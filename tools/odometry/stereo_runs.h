@@ -16,7 +16,7 @@
 #include "estimators/stereo/parameters.h"
 #include "estimators/stereo/tracks.h"
 #include "msgs/odometry.h"
-#include "runtime/vehicle/recorded_tracks.h"
+#include "runtime/vehicle/drivers/recorded_tracks.h"
 #include "sensors/replay/kitti_drive.h"
 
 namespace maploop::odometry {

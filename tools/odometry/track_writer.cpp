@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tools/evaluation/text_file.h"
+#include "tools/evaluate/text_file.h"
 
 namespace maploop::odometry {
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "runtime/vehicle/recorded_tracks.h"
+#include "runtime/vehicle/drivers/recorded_tracks.h"
 
 namespace maploop::odometry {
 

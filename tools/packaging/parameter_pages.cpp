@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "runtime/vehicle/config_tables.h"
+#include "runtime/vehicle/config/config_tables.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -123,7 +123,7 @@ std::string page(const std::filesystem::path& file, const std::string& below) {
 }
 
 int write_pages(const std::filesystem::path& root, bool check) {
-  const auto toml = root / "runtime/vehicle/maploop.toml";
+  const auto toml = root / "runtime/vehicle/config/maploop.toml";
   const auto configuration = root / "runtime/vehicle/CONFIGURATION.md";
   const auto chosen = root / "tools/PARAMETERS.md";
   int status = 0;

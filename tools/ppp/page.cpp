@@ -6,7 +6,7 @@
 
 #include "msgs/frames.h"
 #include "ppp/models/geodesy.h"
-#include "tools/html_text.h"
+#include "tools/command/html_text.h"
 #include "tools/web/page.h"
 
 namespace maploop::gnss {

@@ -7,7 +7,7 @@
 
 #include "msgs/frames.h"
 #include "ppp/models/geodesy.h"
-#include "ppp/readers/lines.h"
+#include "ppp/readers/files/lines.h"
 
 namespace maploop::gnss {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/html_text.h"
+#include "tools/command/html_text.h"
 
 namespace maploop::profile {
 namespace {

@@ -6,7 +6,7 @@
 #include "msgs/lcm/checked_decode.h"
 #include "msgs/lcm/conversions.h"
 #include "runtime/core/histogram.h"
-#include "runtime/vehicle/graph.h"
+#include "runtime/vehicle/graph/graph.h"
 
 namespace maploop::profile {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "runtime/core/histogram.h"
-#include "tools/html_text.h"
+#include "tools/command/html_text.h"
 #include "tools/profile/latency_plot.h"
 #include "tools/profile/profile.h"
 #include "tools/profile/profile_page.h"

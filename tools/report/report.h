@@ -11,9 +11,9 @@
 #include "msgs/map_match.h"
 #include "msgs/ppp_state.h"
 #include "msgs/reference.h"
-#include "tools/evaluation/trajectory_file.h"
-#include "tools/fusion_score.h"
-#include "tools/replay_result.h"
+#include "tools/evaluate/trajectory_file.h"
+#include "tools/replay/fusion_score.h"
+#include "tools/replay/replay_result.h"
 #include "tools/web/plot.h"
 
 namespace maploop::report {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "tools/html_text.h"
+#include "tools/command/html_text.h"
 
 namespace maploop::report {
 

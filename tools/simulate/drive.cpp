@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "tools/simulate/random.h"
-#include "tools/simulate/test_car.h"
-#include "tools/simulate/town_scene.h"
-#include "tools/simulate/traffic.h"
+#include "tools/simulate/sensors/test_car.h"
+#include "tools/simulate/scene/town_scene.h"
+#include "tools/simulate/town/traffic.h"
 
 namespace maploop::simulate {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "msgs/lcm/schema.h"
-#include "tools/lcm_log/channel_filter.h"
+#include "tools/log/channel_filter.h"
 #include "tools/spy/traffic.h"
 
 namespace maploop::spy {

@@ -13,8 +13,8 @@
 #include "msgs/lcm/decoded_message.h"
 #include "msgs/lcm/schema.h"
 #include "msgs/time.h"
-#include "runtime/vehicle/runs.h"
-#include "tools/lcm_log/channel_filter.h"
+#include "runtime/vehicle/output/runs.h"
+#include "tools/log/channel_filter.h"
 
 namespace maploop::spy {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "tools/html_text.h"
+#include "tools/command/html_text.h"
 #include "tools/web/bundle.h"
 
 namespace maploop::web {

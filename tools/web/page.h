@@ -17,7 +17,7 @@ class Page {
   // `heading` is plain text.
   explicit Page(std::string_view heading);
 
-  // `html` must already be HTML (tools/html_text.h).
+  // `html` must already be HTML (tools/command/html_text.h).
   Page& add(std::string_view html);
   Page& add(const Plot& plot);
   // Adds the pictures side by side if there is room.

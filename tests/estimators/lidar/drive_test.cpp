@@ -15,8 +15,8 @@
 #include "tests/estimators/lidar/drive_scans.h"
 #include "tests/estimators/stereo/drive_pairs.h"
 #include "tests/support/real_data.h"
-#include "tools/evaluation/kitti_metric.h"
-#include "tools/evaluation/kitti_poses.h"
+#include "tools/evaluate/kitti_metric.h"
+#include "tools/evaluate/kitti_poses.h"
 
 namespace maploop::lidar {
 namespace {

@@ -7,7 +7,7 @@
 #include "msgs/frames.h"
 #include "tests/estimators/stereo/drive_pairs.h"
 #include "tests/support/real_data.h"
-#include "tools/evaluation/kitti_metric.h"
+#include "tools/evaluate/kitti_metric.h"
 
 namespace maploop::stereo {
 namespace {

@@ -12,7 +12,7 @@
 #include "ppp/models/attitude.h"
 #include "ppp/models/earth.h"
 #include "ppp/ppp_setup.h"
-#include "ppp/readers/correction_stream.h"
+#include "ppp/readers/corrections/correction_stream.h"
 #include "tests/support/gnss_messages.h"
 #include "tests/support/real_data.h"
 #include "tools/ppp/score.h"

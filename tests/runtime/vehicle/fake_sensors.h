@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "msgs/frames.h"
-#include "runtime/vehicle/vehicle.h"
+#include "runtime/vehicle/graph/vehicle.h"
 #include "sensors/source.h"
 
 namespace maploop::vehicle::testing {

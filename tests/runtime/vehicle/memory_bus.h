@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/vehicle/message_sink.h"
+#include "runtime/vehicle/output/message_sink.h"
 
 namespace maploop::vehicle::testing {
 

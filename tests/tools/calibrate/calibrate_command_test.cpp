@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "runtime/vehicle/stereo_rig_file.h"
+#include "runtime/vehicle/drivers/stereo_rig_file.h"
 #include "sensors/image/png.h"
 #include "tests/support/board_renderer.h"
 #include "tests/support/process.h"

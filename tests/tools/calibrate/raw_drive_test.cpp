@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/vehicle/stereo_rig_file.h"
+#include "runtime/vehicle/drivers/stereo_rig_file.h"
 #include "sensors/image/png.h"
 #include "tests/support/process.h"
 #include "tests/support/real_data.h"

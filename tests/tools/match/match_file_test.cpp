@@ -11,7 +11,7 @@
 #include "msgs/lcm/conversions.h"
 #include "tests/support/real_data.h"
 #include "tests/tools/match/refusal.h"
-#include "tools/lcm_log/log_writer.h"
+#include "tools/log/log_writer.h"
 #include "tools/match/score_output.h"
 #include "tools/match/track_file.h"
 

@@ -11,7 +11,7 @@
 #include "mapmatch/network_file.h"
 #include "msgs/frames.h"
 #include "tests/support/real_data.h"
-#include "tools/evaluation/text_file.h"
+#include "tools/evaluate/text_file.h"
 #include "tools/match/map_faults.h"
 #include "tools/match/match_score.h"
 #include "tools/match/track_file.h"

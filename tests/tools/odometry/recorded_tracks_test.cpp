@@ -1,14 +1,14 @@
 // Tests the back end on another front end's tracks of other drives: 60 to 100 features a frame.
-#include "runtime/vehicle/recorded_tracks.h"
+#include "runtime/vehicle/drivers/recorded_tracks.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
 #include "tests/support/real_data.h"
-#include "tools/evaluation/kitti_metric.h"
-#include "tools/evaluation/motion_chain.h"
-#include "tools/evaluation/trajectory_file.h"
+#include "tools/evaluate/kitti_metric.h"
+#include "tools/evaluate/motion_chain.h"
+#include "tools/evaluate/trajectory_file.h"
 #include "tools/odometry/consistency.h"
 #include "tools/odometry/odometry_input.h"
 #include "tools/odometry/stereo_runs.h"

@@ -1,5 +1,5 @@
 // Tests the map that the matcher gets of a simulated town.
-#include "tools/simulate/road_map.h"
+#include "tools/simulate/town/road_map.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include "mapmatch/osm_reader.h"
 #include "msgs/frames.h"
 #include "tests/support/real_data.h"
-#include "tools/simulate/route.h"
+#include "tools/simulate/town/route.h"
 
 namespace maploop::simulate {
 namespace {

@@ -10,11 +10,11 @@
 #include "mapmatch/osm_reader.h"
 #include "msgs/frames.h"
 #include "tests/support/real_data.h"
-#include "tools/simulate/osm_streets.h"
-#include "tools/simulate/road_map.h"
-#include "tools/simulate/route.h"
-#include "tools/simulate/site.h"
-#include "tools/simulate/street_index.h"
+#include "tools/simulate/town/osm_streets.h"
+#include "tools/simulate/town/road_map.h"
+#include "tools/simulate/town/route.h"
+#include "tools/simulate/town/site.h"
+#include "tools/simulate/town/street_index.h"
 
 namespace maploop::simulate {
 namespace {

@@ -7,9 +7,9 @@
 #include <memory>
 #include <stdexcept>
 
-#include "tools/simulate/route.h"
-#include "tools/simulate/street_index.h"
-#include "tools/simulate/traffic.h"
+#include "tools/simulate/town/route.h"
+#include "tools/simulate/town/street_index.h"
+#include "tools/simulate/town/traffic.h"
 
 namespace maploop::simulate {
 namespace {

@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "msgs/frames.h"
-#include "runtime/vehicle/recording.h"
+#include "runtime/vehicle/drivers/recording.h"
 #include "tests/support/real_data.h"
 #include "tools/simulate/simulation.h"
 

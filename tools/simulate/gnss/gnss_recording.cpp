@@ -7,7 +7,7 @@
 #include "tools/simulate/gnss/receiver.h"
 #include "tools/simulate/gnss/rinex_text.h"
 #include "tools/simulate/output_file.h"
-#include "tools/simulate/traffic.h"
+#include "tools/simulate/town/traffic.h"
 
 namespace maploop::simulate {
 

@@ -7,8 +7,8 @@
 
 #include "msgs/local_frame.h"
 #include "msgs/time.h"
-#include "tools/simulate/ray_scene.h"
-#include "tools/simulate/vehicle_motion.h"
+#include "tools/simulate/scene/ray_scene.h"
+#include "tools/simulate/sensors/vehicle_motion.h"
 
 namespace maploop::simulate {
 

@@ -14,7 +14,7 @@
 #include "tools/simulate/gnss/constellation.h"
 #include "tools/simulate/gnss/scatterers.h"
 #include "tools/simulate/gnss/tracking.h"
-#include "tools/simulate/vehicle_motion.h"
+#include "tools/simulate/sensors/vehicle_motion.h"
 
 namespace maploop::simulate {
 

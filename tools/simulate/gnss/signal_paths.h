@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tools/simulate/ray_scene.h"
+#include "tools/simulate/scene/ray_scene.h"
 
 namespace maploop::simulate {
 

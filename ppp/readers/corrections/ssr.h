@@ -1,0 +1,59 @@
+// Decodes corrections of broadcast orbits and clocks: SSR of RTCM 3 (GPS 1057 to 1062, GLONASS 1063
+// to 1068, Galileo 1240 to 1245, QZSS 1246 to 1251) and of the IGS (4076).
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "ppp/gps_time.h"
+#include "ppp/readers/streams/rtcm3_frames.h"
+#include "ppp/satellite.h"
+
+namespace maploop::ppp {
+
+// The offset must be subtracted from the position of the antenna's phase centre that the message
+// with this issue gives; m, m/s.
+struct SsrOrbit {
+  int issue = 0;                    // lowest 8 bits of the broadcast message's issue
+  Eigen::Vector3d offset{0, 0, 0};  // radial, along, across
+  Eigen::Vector3d offset_rate{0, 0, 0};
+};
+
+// The polynomial must be added to the clock of that message; m, m/s, m/s^2.
+struct SsrClock {
+  std::array<double, 3> polynomial{};
+};
+
+// The bias must be added to the code of this signal; m.
+struct SsrBias {
+  char band = 0, attribute = 0;
+  double value = 0.0;
+};
+
+// An SsrUpdate is the content of one message for one satellite.
+struct SsrUpdate {
+  Satellite satellite;
+  GpsTime time{};              // time to which the corrections refer
+  Duration interval{};         // time until the next one
+  std::uint32_t solution = 0;  // provider and solution; those of two must not be combined
+  int issue = 0;               // issue of the solution: orbit and clock of one belong together
+  std::optional<SsrOrbit> orbit;
+  std::optional<SsrClock> clock;
+  std::optional<double> high_rate_clock;  // m, added to the clock
+  std::optional<double> sigma;            // m, of the range (URA)
+  bool has_biases = false;
+  std::vector<SsrBias> biases;
+};
+
+enum class SsrResult : std::uint8_t { none, decoded, incomplete, unsupported };
+
+// Adds the content of a message to `to`. `now` is a moment that differs from the reception by less
+// than half a day. The result is `none` if it is not an SSR message, `incomplete` if its content is
+// incomplete (nothing is added then), and `unsupported` for phase biases, ionosphere and other
+// systems.
+SsrResult decode_ssr(const Rtcm3Message& message, GpsTime now, std::vector<SsrUpdate>& to);
+
+}  // namespace maploop::ppp

@@ -1,0 +1,31 @@
+// Reads biases of codes from Bias-SINEX 1.00 (absolute OSB and differential DSB) and CODE's DCB
+// files.
+#pragma once
+
+#include <vector>
+
+#include "ppp/readers/files/lines.h"
+#include "ppp/satellite.h"
+
+namespace maploop::ppp {
+
+// A CodeBias is the bias of one signal, or that of the first minus that of the second. It must be
+// subtracted from a measurement.
+struct CodeBias {
+  Satellite satellite;
+  std::string signal, second;  // such as "C1W"; second is empty for an absolute bias
+  GpsTime from{}, until{};
+  double metres = 0.0;
+};
+
+struct BiasFile {
+  std::string file, agency;
+  std::vector<CodeBias> biases;  // code biases of satellites only
+  int skipped = 0;               // biases of stations and phases, and intersystem biases
+};
+
+BiasFile parse_bias_sinex(std::string_view text, const std::string& file);
+// Reads P1-C1, P2-C2 or P1-P2 of one month, as CODE publishes them.
+BiasFile parse_dcb(std::string_view text, const std::string& file);
+
+}  // namespace maploop::ppp

@@ -1,0 +1,184 @@
+#include "runtime/vehicle/config/config_tables.h"
+
+namespace maploop::vehicle {
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::array odometries{"visual"sv, "visual-lidar"sv};
+constexpr std::array imu_grades{"tactical"sv, "mems"sv};
+constexpr std::array imu_noises{"recorded"sv, "mems"sv};
+constexpr std::array imu_protocols{"ncom"sv, "lines"sv, "xsens"sv};
+constexpr std::array velodyne_models{"HDL-64E"sv, "HDL-32E"sv, "VLP-16"sv};
+
+}  // namespace
+
+ParameterTable<VehicleConfig> top_level_table() {
+  using enum Audience;
+  using P = VehicleConfig;
+  static constexpr auto table = std::to_array<Parameter<P>>({
+      {"lcm_url", &P::lcm_url, usual,
+       "Where messages go, unless --lcm-url states it. Empty: to LCM_DEFAULT_URL of the "
+       "environment, or else to udpm://239.255.76.67:7667?ttl=0, which stays on this host."},
+      {"configuration", &P::configuration, usual,
+       "What is combined with the reduced inertial sensors: VO-RI, VO-L-RI, RISS or RISS-VO, or "
+       "one of them after GNSS+ (estimators/fusion/configuration.h). It sets `odometry` and the "
+       "keys use_... and speed_scale_... of [fusion]; these keys override it."},
+      {"imu_grade", &P::imu_grade, usual,
+       "Noise of the inertial sensors. It sets keys of [fusion], which override it.", imu_grades},
+      {"odometry", &P::odometry, usual,
+       "Odometry that the fusion uses; \"visual-lidar\" has an effect where there is a LiDAR.",
+       odometries},
+  });
+  return {"", "", table};
+}
+
+ParameterTable<VehicleConfig> gnss_outage_table() {
+  using enum Audience;
+  using P = VehicleConfig;
+  static constexpr auto table = std::to_array<Parameter<P>>({
+      {"outage", &P::gnss_outage, usual,
+       "Times without fixes: START:LENGTH[,...] in seconds from the start of the drive, where "
+       "LENGTH may be \"end\"; or random:COUNT:LENGTH. Empty: none."},
+  });
+  return {"gnss", "", table};
+}
+
+ParameterTable<VehicleConfig> imu_table() {
+  using enum Audience;
+  using P = VehicleConfig;
+  static constexpr auto table = std::to_array<Parameter<P>>({
+      {"noise", &P::imu_noise, usual,
+       "\"mems\": the noise of a MEMS unit is added to the recorded samples "
+       "(sensors/replay/imu_noise.h).",
+       imu_noises},
+      {"errors", one_of<&P::imu_errors>, usual,
+       "\"drawn\": the seed draws the size of that noise, and the filter is not told."},
+      {"seed", &P::imu_seed, -2147483648.0, 2147483647.0, "1", usual,
+       "Another seed gives another realization."},
+  });
+  return {"imu", "Noise added to the recorded inertial samples.", table};
+}
+
+ParameterTable<PreviewParameters> parameter_table(const PreviewParameters&) {
+  using enum Audience;
+  using P = PreviewParameters;
+  static constexpr auto table = std::to_array<Parameter<P>>({
+      {"rate", &P::rate, 0.0, 5.0, "Hz", usual,
+       "Pictures and scans per second of the machine's clock. 0: none."},
+      {"width", &P::width, 64, 1280, "px", usual, "Width of the picture at most."},
+      {"quality", &P::quality, 1, 100, "1", usual, "Quality of the JPEG picture."},
+      {"points", &P::points, 0, 20'000, "points", usual, "Points of the scan at most."},
+  });
+  return {"preview",
+          "Pictures and scans for dashboards (channel PREVIEW), where messages are published.",
+          table};
+}
+
+ParameterTable<CameraParameters> parameter_table(const CameraParameters&) {
+  using enum Audience;
+  using P = CameraParameters;
+  static constexpr auto table = std::to_array<Parameter<P>>({
+      {"calibration", &P::calibration, usual,
+       "File of maploop calibrate (or calib_cam_to_cam.txt); the path starts from this file's "
+       "folder. With it the images are raw, and are rectified as they are read. Empty: they are "
+       "rectified already."},
+  });
+  return {"camera", "The stereo camera.", table};
+}
+
+ParameterTable<LiveParameters> parameter_table(const LiveParameters&) {
+  using enum Audience;
+  using P = LiveParameters;
+  static constexpr auto table = std::to_array<Parameter<P>>({
+      {"calibration", &P::calibration, usual,
+       "Folder of KITTI's calibration texts, which state where the sensors are on the vehicle; the "
+       "path starts from this file's folder. Empty: a LiDAR is at the origin of the body."},
+      {"camera_left", &P::camera_left, usual,
+       "GStreamer pipeline of the left camera, such as v4l2src device=/dev/video0 ! "
+       "video/x-raw,width=1280,height=720"},
+      {"camera_right", &P::camera_right, usual,
+       "GStreamer pipeline of the right camera. Empty: the images of the left one show both "
+       "cameras side by side."},
+      {"camera_delay", &P::camera_delay, 0.0, 60.0, "s", usual,
+       "Time from the middle of the exposure to the stamp of the driver."},
+      {"velodyne", &P::velodyne, usual, "Endpoint of the data packets, such as udp://:2368"},
+      {"velodyne_position", &P::velodyne_position, usual,
+       "Endpoint of the position packets, such as udp://:8308, from which the UTC of the receiver "
+       "is reported."},
+      {"velodyne_model", &P::velodyne_model, usual, "Model of the scanner.", velodyne_models},
+      {"velodyne_calibration", &P::velodyne_calibration, usual,
+       "File db.xml of an HDL-64E; the path starts from this file's folder."},
+      {"imu", &P::imu, usual,
+       "Endpoint of the inertial unit, such as udp://:3000. With \"ncom\" it must be udp."},
+      {"imu_protocol", &P::imu_protocol, usual,
+       "\"ncom\": an OXTS unit; \"xsens\": MTData2 with acceleration, rate of turn and "
+       "SampleTimeFine; \"lines\": text $PIMU,s,m/s^2 forward,m/s^2 left,rad/s*checksum",
+       imu_protocols},
+      {"imu_delay", &P::imu_delay, 0.0, 60.0, "s", usual, "Delay of the unit's filters."},
+      {"gnss", &P::gnss, usual,
+       "Endpoint of a receiver: serial:///dev/gnss?baud=115200, tcp:// or udp://; of observations "
+       "also ntrip://USER:PASSWORD@HOST:2101/MOUNTPOINT, or ntrips:// over TLS."},
+      {"gnss_protocol", one_of<&P::gnss_protocol>, usual,
+       "\"nmea\": the receiver's own fixes; \"ubx\": the same as NAV-PVT; \"observations\": UBX "
+       "(RAWX, SFRBX) or RTCM 3 (MSM4 to MSM7, ephemerides), told apart by content, for precise "
+       "point positioning."},
+      {"gnss_latency", &P::gnss_latency, 0.0, 60.0, "s", usual,
+       "Time from an epoch to the end of its transmission, at least."},
+      {"gnss_frequencies", &P::gnss_frequencies, 1, 2, "frequencies", usual,
+       "Frequencies of the observations. With 1, the ionosphere is modelled."},
+      {"gnss_antenna", &P::gnss_antenna, usual,
+       "Antenna of the observations: NAME, or NAME RADOME, of an ANTEX file of [ppp] products. "
+       "Empty: not known."},
+      {"corrections", &P::corrections, usual,
+       "Endpoint of corrections of the observations: RTCM 3 with ephemerides and SSR (orbits, "
+       "clocks and code biases of RTCM and of the IGS), as `gnss`."},
+  });
+  return {
+      "live",
+      "maploop live. Endpoints: udp://[ADDRESS]:PORT (without an address only this host), "
+      "tcp://ADDRESS:PORT, serial:///dev/NAME?baud=115200. Empty: the vehicle has no such sensor.",
+      table};
+}
+
+ParameterTable<PppConfig> parameter_table(const PppConfig&) {
+  using enum Audience;
+  using P = PppConfig;
+  static constexpr auto table = std::to_array<Parameter<P>>({
+      {"observations", &P::observations, usual,
+       "Whether the observations of a drive (its folder gnss) take the place of the receiver of "
+       "[gnss]."},
+      {"products", &P::products, usual,
+       "Files and folders of navigation messages, SP3 orbits, clocks, antennas, biases and more; "
+       "paths start from this file's folder. Empty: the folder of the observations."},
+      {"broadcast", &P::broadcast, usual,
+       "Whether orbits and clocks of the navigation message are used even where SP3 is given."},
+      {"latency", &P::latency, 0.0, 10.0, "s", usual,
+       "Time from an epoch to its delivery by the receiver."},
+      {"integrity_risk", &P::integrity_risk, 1e-12, 0.5, "1", usual,
+       "Probability of an error at one epoch beyond its protection level."},
+  });
+  return {"ppp",
+          "Precise point positioning with the observations of a GNSS receiver (RINEX). Standard "
+          "deviations are those of one carrier at the zenith.",
+          table};
+}
+
+ParameterTable<MapParameters> parameter_table(const MapParameters&) {
+  using enum Audience;
+  using P = MapParameters;
+  static constexpr auto table = std::to_array<Parameter<P>>({
+      {"file", &P::file, usual,
+       "OpenStreetMap file (.osm.pbf, .osm) or network file of maploop map build; the path starts "
+       "from this file's folder. Empty: no map."},
+      {"mode", one_of<&P::mode>, usual,
+       "\"none\": no matching; \"loose\": matched, nothing is fed back; \"tight\": the road "
+       "corrects the filter; \"hard-reset\": position and azimuth become the matched ones."},
+      {"rules", &P::rules, usual,
+       "Folder of fuzzy rule bases (.fll); the path starts from this file's folder. Empty: those "
+       "that are shipped."},
+  });
+  return {"map", "The map and its use.", table};
+}
+
+}  // namespace maploop::vehicle

@@ -1,0 +1,50 @@
+// Opens the live sensors that [live] of the configuration names.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "msgs/calibration.h"
+
+namespace maploop::vehicle {
+
+struct LiveSensors;
+struct VehicleConfig;
+
+enum class GnssProtocol : std::uint8_t {
+  nmea,          // the receiver's own fixes
+  ubx,           // its own fixes in u-blox's binary protocol (NAV-PVT)
+  observations,  // UBX or RTCM 3 (ppp/readers/streams/receiver_stream.h); the ppp thread computes fixes
+};
+constexpr std::array<std::string_view, 3> names_of(GnssProtocol) {
+  return {"nmea", "ubx", "observations"};
+}
+
+// Endpoints (sensors/live/endpoint.h), pipelines and files; config_tables.cpp describes each.
+struct LiveParameters {
+  std::string calibration;
+  std::string camera_left, camera_right;
+  double camera_delay = 0.0;  // s
+  std::string velodyne;
+  std::string velodyne_position;
+  std::string velodyne_model = "VLP-16";
+  std::string velodyne_calibration;
+  std::string imu;
+  std::string imu_protocol = "ncom";
+  double imu_delay = 0.060;  // s
+  std::string gnss;
+  GnssProtocol gnss_protocol = GnssProtocol::nmea;
+  double gnss_latency = 0.05;  // s
+  int gnss_frequencies = 2;
+  std::string corrections;
+  std::string gnss_antenna;
+};
+
+// These do not connect to anything yet. They throw std::runtime_error naming the key of [live] that
+// is wrong and what it may be; the first one also throws if there is no sensor at all.
+LiveSensors open_live_sensors(const VehicleConfig& config);
+VehicleCalibration live_calibration(const VehicleConfig& config);
+
+}  // namespace maploop::vehicle

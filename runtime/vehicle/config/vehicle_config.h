@@ -1,0 +1,108 @@
+// Everything that can be set about the vehicle; config_tables.h describes each parameter.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "estimators/fusion/fusion_parameters.h"
+#include "estimators/fusion/guard_parameters.h"
+#include "estimators/lidar/parameters.h"
+#include "estimators/stereo/parameters.h"
+#include "mapmatch/feedback_parameters.h"
+#include "mapmatch/match_parameters.h"
+#include "msgs/calibration.h"
+#include "ppp/filter/parameters.h"
+#include "runtime/core/realtime_memory.h"
+#include "runtime/core/trace.h"
+#include "runtime/vehicle/config/live_config.h"
+#include "runtime/vehicle/stages/preview_parameters.h"
+#include "runtime/vehicle/config/scheduling_config.h"
+#include "sensors/replay/error_model.h"
+#include "sensors/replay/kitti_drive.h"
+#include "sensors/replay/pose_odometry.h"
+
+namespace maploop::vehicle {
+
+struct CameraParameters {
+  std::string calibration;
+};
+
+// Of a drive with the observations of a GNSS receiver.
+struct PppConfig {
+  bool observations = true;
+  std::vector<std::string> products;
+  bool broadcast = false;
+  double latency = 0.1;  // s
+  double integrity_risk = 1e-4;
+  ppp::PppParameters filter;
+};
+
+enum class MapMode : std::uint8_t {
+  none,        // no matching
+  loose,       // the fused state is matched, and nothing is fed back
+  tight,       // the road is fed back to the filter
+  hard_reset,  // position and azimuth of the filter are replaced by the matched ones
+};
+constexpr std::array<std::string_view, 4> names_of(MapMode) {
+  return {"none", "loose", "tight", "hard-reset"};
+}
+
+struct MapParameters {
+  std::string file;
+  MapMode mode = MapMode::loose;
+  std::string rules;
+};
+
+struct VehicleConfig {
+  std::string lcm_url;
+  std::string configuration = "VO-L-RI";
+  std::string imu_grade = "tactical";
+  std::string odometry = "visual-lidar";
+  SchedulingParameters scheduling;
+  runtime::MemoryParameters memory;
+  runtime::TraceParameters trace;
+  PreviewParameters preview;
+  CameraParameters camera;
+  sensors::KittiDriveParameters replay;
+  sensors::PoseOdometryParameters odometry_poses;
+  LiveParameters live;
+  sensors::GnssAidParameters gnss;
+  std::string gnss_outage;  // gnss_outage.h
+  sensors::WheelOdometerParameters wheel;
+  std::string imu_noise = "recorded";
+  sensors::ErrorModel imu_errors = sensors::ErrorModel::given;
+  std::int64_t imu_seed = 1;
+  stereo::StereoParameters stereo;
+  lidar::LidarParameters lidar;
+  PppConfig ppp;
+  MapParameters map;
+  mapmatch::MatchParameters mapmatch;
+  mapmatch::FeedbackParameters feedback;
+  fusion::GuardParameters guard;
+  fusion::FusionParameters fusion;
+  std::set<std::string, std::less<>> given;  // keys that the file has, as "fusion.climb_offset"
+};
+
+// With what they mean for [fusion]. Throw std::invalid_argument listing the names.
+void set_configuration(VehicleConfig& config, const std::string& name);
+void set_imu_grade(VehicleConfig& config, const std::string& name);
+
+// Takes what a recording knows of its car where the file has not said otherwise.
+void describe_car(VehicleConfig& config, const VehicleCalibration& calibration);
+
+// Reads a TOML file; absent keys keep their defaults. Throws runtime::ConfigError naming file, line
+// and key for anything wrong: unknown keys, and values out of their range.
+// runtime/vehicle/config/maploop.toml lists every key.
+VehicleConfig load_vehicle_config(const std::filesystem::path& file);
+
+// Every key with its value, as load_vehicle_config() reads it back, but for users and passwords
+// (without_secrets() of sensors/live/endpoint.h).
+std::string to_toml(const VehicleConfig& config);
+
+}  // namespace maploop::vehicle

@@ -1,0 +1,109 @@
+#include "runtime/vehicle/drivers/gnss_drive.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace maploop::vehicle {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_observations(const fs::path& file) {
+  std::error_code ignored;
+  return fs::is_regular_file(file, ignored) &&
+         ppp::kind_of_file(file) == ppp::FileKind::observation;
+}
+
+fs::path observations_of(const fs::path& path) {
+  if (!fs::is_directory(path)) return path;
+  std::vector<fs::path> found;
+  for (const fs::path& file : ppp::files_in(path)) {
+    if (is_observations(file)) found.push_back(file);
+  }
+  if (found.size() == 1) return found.front();
+  std::string names;
+  for (const fs::path& file : found) names += "\n  " + file.string();
+  throw std::runtime_error("the folder '" + path.string() + "' contains the observations of " +
+                           std::to_string(found.size()) +
+                           " receivers; name the file to replay instead:" + names);
+}
+
+class EpochSource final : public sensors::Source<GnssEpoch> {
+ public:
+  EpochSource(std::shared_ptr<const GnssDrive> drive, Duration latency)
+      : drive_(std::move(drive)), latency_(latency) {
+    const ppp::Observations& o = drive_->setup().observations();
+    report_.refused = static_cast<std::uint64_t>(o.refused);
+    for (const std::string& why : o.refusals) report_.refusals.push_back({o.file, 0, why});
+  }
+
+  bool next(GnssEpoch& sample) override {
+    const auto& epochs = drive_->setup().observations().epochs;
+    for (; at_ < epochs.size(); ++at_) {
+      const Time stamp = ppp::to_utc(epochs[at_].time);
+      if (stamp <= last_) {
+        report_.refuse(
+            {drive_->setup().observations().file, 0,
+             "epoch " + format_gps_time(epochs[at_].time) + " is not later than the one before"});
+        continue;
+      }
+      last_ = stamp;
+      sample.stamp = stamp;
+      sample.available = stamp + latency_;
+      sample.sequence = at_;
+      sample.epoch = epochs[at_++];
+      ++report_.delivered;
+      return true;
+    }
+    return false;
+  }
+
+  const sensors::SourceReport& report() const override { return report_; }
+
+ private:
+  std::shared_ptr<const GnssDrive> drive_;
+  Duration latency_;
+  std::size_t at_ = 0;
+  Time last_ = Time::min();
+  sensors::SourceReport report_;
+};
+
+}  // namespace
+
+bool is_gnss_drive(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::is_directory(path, ignored)) return is_observations(path);
+  if (fs::is_directory(path / "image_00", ignored)) return false;
+  const std::vector<fs::path> files = ppp::files_in(path);
+  return std::any_of(files.begin(), files.end(), is_observations);
+}
+
+GnssDrive::GnssDrive(const fs::path& path, const VehicleConfig& config)
+    : latency_(from_seconds(config.ppp.latency)) {
+  const fs::path observations = observations_of(path);
+  ppp::read_into(observations, files_);
+  const fs::path beside = fs::absolute(observations).parent_path();
+  if (config.ppp.products.empty()) ppp::read_products(beside, files_);
+  for (const fs::path product : config.ppp.products) ppp::read_products(product, files_);
+  setup_ = std::make_unique<ppp::PppSetup>(
+      files_, ppp::SetupOptions{config.ppp.filter, {}, config.ppp.broadcast});
+}
+
+Time GnssDrive::first_stamp() const {
+  return ppp::to_utc(setup_->observations().epochs.front().time);
+}
+
+Time GnssDrive::last_stamp() const {
+  return ppp::to_utc(setup_->observations().epochs.back().time);
+}
+
+std::unique_ptr<sensors::Source<GnssEpoch>> GnssDrive::epochs(
+    std::shared_ptr<const GnssDrive> drive) {
+  const Duration latency = drive->latency_;
+  return std::make_unique<EpochSource>(std::move(drive), latency);
+}
+
+}  // namespace maploop::vehicle

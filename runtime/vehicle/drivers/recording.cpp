@@ -1,0 +1,255 @@
+#include "runtime/vehicle/drivers/recording.h"
+
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "runtime/vehicle/drivers/gnss_drive.h"
+#include "runtime/vehicle/graph/graph.h"
+#include "runtime/vehicle/drivers/recorded_tracks.h"
+#include "runtime/vehicle/drivers/stereo_rig_file.h"
+#include "runtime/vehicle/drivers/track_odometry.h"
+#include "sensors/replay/imu_noise.h"
+#include "sensors/replay/kitti_drive.h"
+#include "sensors/replay/log_recording.h"
+#include "sensors/replay/odometry_sequence.h"
+#include "sensors/replay/pose_odometry.h"
+#include "sensors/velodyne/capture_source.h"
+
+namespace maploop::vehicle {
+namespace {
+
+template <class Opened>
+Recording make_recording(const Opened& opened, std::function<Sensors(Time)> sensors) {
+  return {opened.calibration(),
+          opened.first_stamp(),
+          opened.last_stamp(),
+          opened.frame_count(),
+          std::move(sensors),
+          {},
+          {}};
+}
+
+// Returns the wheel odometer's parameters if the configuration uses a wheel speed.
+std::optional<sensors::WheelOdometerParameters> wheel_of(const VehicleConfig& config) {
+  return config.fusion.use_wheel_speed ? std::optional(config.wheel) : std::nullopt;
+}
+
+void use_observations(Sensors& s, const std::shared_ptr<const GnssDrive>& drive) {
+  s.epochs = GnssDrive::epochs(drive);
+  s.ppp = {drive, &drive->setup()};  // this pointer keeps the drive alive
+}
+
+// Returns a receiver's observations beside the drive's other sensors; nullptr if there are none.
+std::shared_ptr<const GnssDrive> observations_of(const sensors::KittiDrive& drive,
+                                                 const VehicleConfig& config) {
+  const std::filesystem::path gnss = drive.folder() / "gnss";
+  if (!config.ppp.observations || !is_gnss_drive(gnss)) return nullptr;
+  return std::make_shared<const GnssDrive>(gnss, config);
+}
+
+Recording open_folder(const std::filesystem::path& folder, const VehicleConfig& config) {
+  auto drive = open_drive(folder, config);
+  auto epochs = observations_of(*drive, config);
+  Recording recording = make_recording(
+      *drive, [drive, epochs, gnss = config.gnss, wheel = wheel_of(config)](Time passed) {
+        Sensors s;
+        s.camera = drive->camera(passed);
+        if (drive->has_velodyne()) s.velodyne = drive->velodyne(passed);
+        if (drive->has_oxts()) {
+          s.imu = drive->imu();
+          if (epochs == nullptr) s.gnss = drive->gnss(gnss);
+          if (wheel) s.wheel = drive->wheel(*wheel);
+          s.reference = drive->reference();
+        }
+        if (epochs != nullptr) use_observations(s, epochs);
+        return s;
+      });
+  std::error_code ignored;
+  const auto labels = drive->folder().parent_path() / "driven_links.csv";
+  if (std::filesystem::exists(labels, ignored))
+    recording.driven_links = {labels, drive->image_stamps()};
+  return recording;
+}
+
+Recording open_sequence(const std::filesystem::path& path, const VehicleConfig& config) {
+  auto sequence = std::make_shared<const sensors::OdometrySequence>(path, config.replay);
+  std::shared_ptr<const RecordedTracks> tracks;
+  std::shared_ptr<const sensors::CameraPoses> poses;
+  if (!config.odometry_poses.file.empty()) {
+    poses = std::make_shared<const sensors::CameraPoses>(
+        sensors::read_camera_poses(config.odometry_poses.file));
+  } else if (sequence->tracks_file()) {
+    tracks = std::make_shared<const RecordedTracks>(read_recorded_tracks(*sequence->tracks_file()));
+  }
+  Recording recording = make_recording(*sequence, [sequence, tracks, poses, config](Time) {
+    Sensors s;
+    s.imu = sequence->imu();
+    s.gnss = sequence->gnss(config.gnss);
+    if (const auto wheel = wheel_of(config)) s.wheel = sequence->wheel(*wheel);
+    s.reference = sequence->reference();
+    if (tracks != nullptr || poses != nullptr) {
+      const Duration delay = from_seconds(config.replay.camera_readout) + stages::stereo.budget;
+      const auto odometry = [&] {
+        if (poses != nullptr)
+          return sensors::make_pose_odometry(poses, sequence->image_stamps(),
+                                             sequence->calibration().stereo.T_body_cam,
+                                             config.odometry_poses, delay);
+        return make_track_odometry(tracks, sequence->image_stamps(),
+                                   for_recorded_tracks(config.stereo), delay);
+      };
+      s.odometry = odometry();
+      s.visual = odometry();
+    }
+    return s;
+  });
+  if (const auto& labels = sequence->labels_file())
+    recording.driven_links = {*labels, sequence->image_stamps()};
+  if (tracks != nullptr) recording.calibration.stereo = tracks->calibration;
+  return recording;
+}
+
+Recording open_log(const std::filesystem::path& file) {
+  auto log = std::make_shared<const sensors::LogRecording>(file);
+  return make_recording(*log, [log](Time) {
+    Sensors s;
+    s.camera = log->camera();
+    s.velodyne = log->velodyne();
+    s.imu = log->imu();
+    s.gnss = log->gnss();
+    s.wheel = log->wheel();
+    s.reference = log->reference();
+    if (s.camera == nullptr) {
+      s.odometry = log->odometry();
+      s.visual = log->visual_odometry();
+      s.lidar = log->lidar_odometry();
+    }
+    return s;
+  });
+}
+
+// The epochs take the place of the images.
+Recording open_gnss(const std::filesystem::path& path, const VehicleConfig& config) {
+  auto drive = std::make_shared<const GnssDrive>(path, config);
+  Recording recording;
+  recording.first_stamp = drive->first_stamp();
+  recording.last_stamp = drive->last_stamp();
+  recording.images = drive->setup().observations().epochs.size();
+  recording.sensors = [drive](Time) {
+    Sensors s;
+    use_observations(s, drive);
+    return s;
+  };
+  return recording;
+}
+
+bool is_capture(const std::filesystem::path& path) {
+  std::filesystem::path name = path.filename();
+  if (name.extension() == ".gz") name.replace_extension();
+  return name.extension() == ".pcap" || name.extension() == ".pcapng";
+}
+
+// The scanner's turns take the place of the images.
+Recording open_capture(const std::filesystem::path& path, const VehicleConfig& config) {
+  const auto open = [path, calibration = config.live.velodyne_calibration] {
+    return std::make_unique<sensors::VelodyneCapture>(
+        path, sensors::VelodyneCaptureOptions{{}, calibration});
+  };
+  Recording recording;
+  recording.calibration = live_calibration(config);
+  const auto capture = open();
+  for (LidarScan scan; capture->next(scan); ++recording.images) {
+    if (recording.images == 0) recording.first_stamp = scan.stamp;
+    recording.last_stamp = scan.stamp;
+  }
+  if (recording.images == 0) {
+    throw std::runtime_error("the capture '" + path.string() +
+                             "' has no complete scanner revolution to replay");
+  }
+  recording.sensors = [open](Time) {
+    Sensors s;
+    s.velodyne = open();
+    return s;
+  };
+  return recording;
+}
+
+Recording open_any(const std::filesystem::path& path, const VehicleConfig& config) {
+  if (sensors::OdometrySequence::is_named(path)) return open_sequence(path, config);
+  if (!config.odometry_poses.file.empty()) {
+    throw std::runtime_error(
+        "poses in place of visual odometry can only be used with a table of OXTS " +
+        std::string("rows (such as oxts/06.csv), not with '") + path.string() + "'");
+  }
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) {
+    throw std::runtime_error("there is no file or folder '" + path.string() +
+                             "'; 'maploop replay --help' lists what can be replayed");
+  }
+  if (is_capture(path)) return open_capture(path, config);
+  if (is_gnss_drive(path)) return open_gnss(path, config);
+  return std::filesystem::is_regular_file(path, ignored) ? open_log(path)
+                                                         : open_folder(path, config);
+}
+
+std::optional<sensors::ImuNoiseParameters> noise_of(const VehicleConfig& config) {
+  if (config.imu_noise == "recorded") return std::nullopt;
+  if (config.imu_noise == "mems") {
+    const auto noise = sensors::mems_noise(config.imu_seed);
+    return config.imu_errors == sensors::ErrorModel::drawn ? sensors::drawn(noise) : noise;
+  }
+  throw std::runtime_error("'" + config.imu_noise +
+                           "' is not a known inertial noise; use recorded or mems");
+}
+
+}  // namespace
+
+std::shared_ptr<const sensors::KittiDrive> open_drive(const std::filesystem::path& folder,
+                                                      const VehicleConfig& config) {
+  std::optional<sensors::StereoRig> raw;
+  if (!config.camera.calibration.empty()) raw = read_stereo_rig(config.camera.calibration);
+  return std::make_shared<const sensors::KittiDrive>(folder, config.replay, std::move(raw));
+}
+
+Recording open_recording(const std::filesystem::path& path, const VehicleConfig& config) {
+  Recording recording = open_any(path, config);
+  const std::vector<GnssOutage> outages =
+      config.gnss_outage.empty() ? std::vector<GnssOutage>{}
+                                 : parse_outages(config.gnss_outage, recording.first_stamp,
+                                                 recording.last_stamp, config.gnss.seed);
+  if (!outages.empty() && !config.fusion.use_gnss) {
+    throw std::runtime_error("a GNSS outage needs a configuration that uses GNSS: GNSS+" +
+                             config.configuration + " instead of " + config.configuration);
+  }
+  recording.outages = outages;
+  recording.sensors = [plain = std::move(recording.sensors), outages,
+                       noise = noise_of(config)](Time passed) {
+    Sensors s = plain(passed);
+    s.gnss = with_outages(std::move(s.gnss), outages);
+    s.epochs = with_outages(std::move(s.epochs), outages);
+    if (noise && s.imu != nullptr) s.imu = sensors::with_noise(std::move(s.imu), *noise);
+    return s;
+  };
+  return recording;
+}
+
+fusion::KnownStart start_from_reference(const Recording& recording) {
+  const auto reference = recording.sensors(Time::max()).reference;
+  ReferencePose pose, next;
+  if (reference == nullptr || !reference->next(pose) || !reference->next(next)) {
+    throw std::runtime_error("the recording has no reference trajectory to start from");
+  }
+  // Velocities are older than the poses of their rows: this one is carried linearly to the pose's
+  // stamp.
+  const double share = to_seconds(pose.stamp - pose.velocity_stamp) /
+                       to_seconds(next.velocity_stamp - pose.velocity_stamp);
+  fusion::KnownStart known;
+  known.stamp = pose.stamp;
+  known.position = pose.position;
+  known.attitude = pose.attitude;
+  known.speed = (pose.velocity_enu + share * (next.velocity_enu - pose.velocity_enu)).norm();
+  return known;
+}
+
+}  // namespace maploop::vehicle

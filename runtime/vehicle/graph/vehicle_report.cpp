@@ -1,0 +1,128 @@
+#include "runtime/vehicle/graph/vehicle_report.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "runtime/core/periodic.h"
+#include "runtime/vehicle/health/process_usage.h"
+#include "runtime/vehicle/graph/vehicle_graph.h"
+
+namespace maploop::vehicle {
+
+VehicleReport Vehicle::Graph::report() const {
+  VehicleReport r;
+  runtime::Histogram lateness;
+  for (const StageSpec& spec : stages::all) {
+    if (const DriverBase* driver = this->driver(spec)) {
+      r.sensors.push_back({std::string(spec.name), driver->report(), driver->lateness().summary()});
+      lateness.merge(driver->lateness().histogram());
+    } else if (spec.expected) {
+      r.sensors.push_back({std::string(spec.name), {}, {}});
+    }
+  }
+  r.lateness = lateness.summarize("all sensors");
+  r.health = last_report.health;
+  r.deadlines = last_report.deadlines;
+  r.imu_delay = last_imu_delay;
+  r.stalls = clock.stalls();
+  r.stalled = clock.stalled();
+  r.data_seconds = to_seconds(fusion->position() - begin);
+  r.wall_seconds = to_seconds(wall);
+  r.cpu_seconds = cpu;
+  r.peak_memory = process_peak_memory();
+  return r;
+}
+
+void Vehicle::Graph::look_at_sensors(Health& health) {
+  for (const auto& driver : drivers) {
+    std::optional<SensorHealth> sensor = driver->health();
+    if (!sensor) continue;
+    if (!sensor->problem.empty()) {
+      health.degraded.push_back(sensor->name + ": " + sensor->endpoint + ' ' + sensor->problem);
+    }
+    health.sensors.push_back(std::move(*sensor));
+  }
+  for (const auto& stage : stages) {
+    std::string degraded = stage->degraded();
+    if (!degraded.empty()) health.degraded.push_back(std::move(degraded));
+  }
+  constexpr Duration disciplined = milliseconds(10);  // a clock that is only steered stays within
+  if (const Duration step = host_clock->step(); std::chrono::abs(step) > disciplined) {
+    health.degraded.push_back("this machine's clock was set by " +
+                              std::to_string(to_seconds(step)) +
+                              " s since the start, or it slept: stamps did not follow it");
+  }
+}
+
+// Compares the turning of the odometry with the gyro: a delay of the inertial stamps shows.
+void Vehicle::Graph::look_at_imu_delay(Health& health) {
+  constexpr double harmless = 0.02;  // s: a third of a degree in the sharpest bend
+  constexpr double certain = 5.0;    // sigmas
+  const fusion::DelayEstimate estimate = fusion->filter_status().imu_delay;
+  if (!estimate.known()) return;
+  const double delay = estimate.delay();
+  if (std::abs(delay) < std::max(harmless, certain * estimate.sigma())) return;
+  std::array<char, 160> text{};
+  std::snprintf(text.data(), text.size(),
+                "imu: its stamps are %.0f +- %.0f ms %s against odometry; %s that %s imu_delay of "
+                "[%s]",
+                1e3 * std::abs(delay), 1e3 * estimate.sigma(), delay > 0.0 ? "late" : "early",
+                delay > 0.0 ? "add" : "take", delay > 0.0 ? "to" : "off",
+                host_clock != nullptr ? "live" : "replay");
+  health.degraded.emplace_back(text.data());
+}
+
+RuntimeReport Vehicle::Graph::look(Duration elapsed) {
+  const Time stamp = fusion->position();
+  RuntimeReport report;
+  report.stamp = report.available = stamp;
+  report.health = monitor.health(stamp, elapsed, clock, readiness);
+  report.health.elapsed = to_seconds(runtime::monotonic_now() - started);
+  report.health.cpu = process_cpu_seconds() - cpu_at_start;
+  for (const auto& stage : stages) {
+    const std::vector<RefusalCount> refused = stage->refusals();
+    report.health.refusals.insert(report.health.refusals.end(), refused.begin(), refused.end());
+  }
+  report.deadlines = monitor.deadlines(stamp);
+  look_at_imu_delay(report.health);
+  if (host_clock != nullptr) look_at_sensors(report.health);
+  return report;
+}
+
+void Vehicle::Graph::run_health(const std::stop_token& end) {
+  started_all.wait();
+  Time looked = begin;
+  const auto say = [&] {
+    const runtime::TraceSpan span(health_trace, "health");
+    const MonotonicTime began = runtime::monotonic_now();
+    const Time now = fusion->position();
+    reports.push(look(now - looked), end);
+    looked = now;
+    health_meter.ran(runtime::monotonic_now() - began);
+  };
+  // In virtual time there are no rates to watch: one report at the end.
+  if (clock.is_paced()) {
+    const runtime::Schedule schedule{stages::health.period, stages::health.phase,
+                                     stages::health.overrun};
+    runtime::run_periodic(clock, begin, schedule, end, [&](const runtime::Tick& tick) {
+      if (clock.keeps_time(tick.time)) {
+        health_meter.woke(tick, clock, clock.due(tick.time), runtime::monotonic_now());
+      }
+      say();
+      return true;
+    });
+  }
+  for (;;) {
+    const std::uint32_t heard = health_bell.listen();
+    if (end.stop_requested()) break;
+    health_bell.wait(heard);
+  }
+  say();
+}
+
+}  // namespace maploop::vehicle

@@ -1,0 +1,55 @@
+#include "runtime/vehicle/output/channel_hashes.h"
+
+#include <xxhash.h>
+
+#include <array>
+#include <cstdio>
+#include <new>
+
+namespace maploop::vehicle {
+
+struct ChannelHashes::Channel {
+  struct Free {
+    void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
+  };
+  Channel() : state(XXH3_createState()) {
+    if (state == nullptr) throw std::bad_alloc();
+    XXH3_64bits_reset(state.get());
+  }
+  std::unique_ptr<XXH3_state_t, Free> state;
+  std::uint64_t count = 0;
+  bool hashed = false;
+};
+
+ChannelHashes::ChannelHashes(Time after) : after_(after) {}
+ChannelHashes::~ChannelHashes() = default;
+
+bool ChannelHashes::take(const Message& message) {
+  if (message.time <= after_) return true;
+  auto found = channels_.find(message.channel);
+  if (found == channels_.end()) {
+    found = channels_.emplace(message.channel, std::make_unique<Channel>()).first;
+  }
+  Channel& channel = *found->second;
+  ++channel.count;
+  if (!message.from_data) return true;
+  channel.hashed = true;
+  XXH3_64bits_update(channel.state.get(), message.data.data(), message.data.size());
+  return true;
+}
+
+std::map<std::string, ChannelSummary> ChannelHashes::summary() const {
+  std::map<std::string, ChannelSummary> all;
+  for (const auto& [name, channel] : channels_) {
+    ChannelSummary& s = all[name];
+    s.count = channel->count;
+    if (!channel->hashed) continue;
+    std::array<char, 17> text{};
+    std::snprintf(text.data(), text.size(), "%016llx",
+                  static_cast<unsigned long long>(XXH3_64bits_digest(channel->state.get())));
+    s.hash = text.data();
+  }
+  return all;
+}
+
+}  // namespace maploop::vehicle

@@ -1,0 +1,88 @@
+// The fusion thread: the reduced-IMU filter at a fixed rate.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "estimators/fusion/guarded_filter.h"
+#include "msgs/nav_state.h"
+#include "msgs/odometry.h"
+#include "runtime/core/intake.h"
+#include "runtime/core/latest_value.h"
+#include "runtime/core/periodic.h"
+#include "runtime/vehicle/graph/graph_stage.h"
+#include "runtime/vehicle/health/meter.h"
+
+namespace maploop::vehicle {
+
+class FusionStage final : public GraphStage {
+ public:
+  // `odometry_budget`: the sum of the budgets of all stages between a camera and the odometry.
+  FusionStage(Rings& rings, fusion::GuardedFilter filter, Duration odometry_budget);
+
+  // Each tick takes exactly what is available by then. While an input is late, or when the ticks
+  // themselves fall behind by several periods, the data clock is stalled. On a live clock a tick
+  // takes what has arrived; what is late goes to a later tick.
+  void run(runtime::DataClock& clock, Time begin, const std::stop_token& stop) override;
+  std::size_t saved_bytes() const override {
+    return filter_.largest_archive() + sent_image_states_.capacity() * sizeof(NavState) + 4096;
+  }
+  std::vector<UseWatch*> uses() override {
+    return {&imu_use_, &gnss_use_, &wheel_use_, &odometry_use_};
+  }
+  std::vector<RefusalCount> refusals() override;
+
+  // Before run().
+  fusion::Outcome start_from(const fusion::KnownStart& known) { return filter_.start(known); }
+
+  // Data time of the last tick; any thread may ask.
+  Time position() const { return from_nanoseconds(position_.load(std::memory_order_relaxed)); }
+
+  const Meter& camera_path() const { return camera_path_; }  // from the image's stamp to the state
+  const Meter& imu_path() const { return imu_path_; }        // from the IMU's stamp to the state
+
+  // The filter's at the end of the last tick; one thread at a time may ask, also while it runs.
+  const fusion::FilterStatus& filter_status() {
+    if (const fusion::FilterStatus* status = filter_status_.latest()) known_status_ = status;
+    return *known_status_;
+  }
+
+ private:
+  bool tick(const runtime::Tick& tick, runtime::DataClock& clock, const std::stop_token& stop);
+  void take(const RelativeMotion& motion);
+  void save_until(Time t, const std::stop_token& stop);
+  void load(ArchiveReader& ar) override { archive(ar); }
+  template <class Archive>
+  void archive(Archive& ar);
+  void record_paths(const runtime::DataClock& clock, MonotonicTime due, MonotonicTime done);
+
+  fusion::GuardedFilter filter_;
+  Outputs<NavState> nav_states_;  // the publisher's first
+  Outputs<NavState> image_states_;
+  Duration odometry_budget_;
+  runtime::Intake intake_;
+  std::stop_token stop_;
+  Time tick_{};
+  std::atomic<std::int64_t> position_{0};
+  std::uint64_t ticks_ = 0;
+  std::uint64_t images_ = 0;
+  // What the last tick sent.
+  std::vector<NavState> sent_states_;
+  std::vector<NavState> sent_image_states_;
+  std::optional<Sample> imu_taken_;       // by this tick, the last one
+  std::optional<Sample> odometry_taken_;  // with a motion
+  UseWatch imu_use_;
+  UseWatch gnss_use_;
+  UseWatch wheel_use_;
+  UseWatch odometry_use_;
+  Meter camera_path_;
+  Meter imu_path_;
+  runtime::LatestValue<fusion::FilterStatus> filter_status_;
+  const fusion::FilterStatus* known_status_ = &no_status_;  // the reader's
+  fusion::FilterStatus no_status_;
+};
+
+}  // namespace maploop::vehicle

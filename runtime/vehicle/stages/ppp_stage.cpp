@@ -1,0 +1,269 @@
+#include "runtime/vehicle/stages/ppp_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string>
+#include <string_view>
+
+#include "ppp/epoch_state.h"
+#include "runtime/vehicle/graph/trace_flows.h"
+
+namespace maploop::vehicle {
+namespace {
+
+constexpr auto relaxed = std::memory_order_relaxed;
+
+// Satellites that a receiver of all systems sees at most; more is no error.
+constexpr std::size_t usual_satellites = 64;
+
+// A live receiver without precise products adds what it receives to the broadcast ephemeris.
+std::optional<ppp::CorrectedEphemeris> grows(const ppp::PppSetup& setup) {
+  if (!setup.live() || setup.precise()) return {};
+  return ppp::CorrectedEphemeris(*setup.broadcast());
+}
+
+}  // namespace
+
+PppStage::PppStage(Rings& rings, std::shared_ptr<const ppp::PppSetup> setup, double integrity_risk)
+    : GraphStage(stages::ppp, rings),
+      setup_(std::move(setup)),
+      received_(grows(*setup_)),
+      filter_(setup_->make_map_aided_filter(received_ ? &*received_ : nullptr)),
+      integrity_risk_(integrity_risk),
+      epochs_(*input(rings::gnss_ppp)),
+      feedback_(input(rings::mapmatch_ppp)),
+      corrections_(input(rings::corrections_ppp)),
+      states_(outputs(rings::ppp_publisher)),
+      fixes_(outputs(rings::ppp_fusion, rings::ppp_fix_publisher)) {
+  state_.satellites.reserve(usual_satellites);
+  free_state_.satellites.reserve(usual_satellites);
+  held_.reserve(rings::mapmatch_ppp.capacity);
+}
+
+void PppStage::run(runtime::DataClock& clock, Time, const std::stop_token& stop) {
+  for (Sent& sent : sent_) send(sent, stop);  // of the run that this one resumes
+  while (!stop.stop_requested()) {
+    const std::uint32_t heard = bell().listen();
+    // Promises before the rings: see EdgeBase::promised().
+    const Time promised = epochs_.promised();
+    const bool waits = feedback_ != nullptr && !clock.is_live();
+    const Time known = waits ? feedback_->promised() : Time::max();
+    hold_feedback();
+    take_corrections();
+    const GnssEpoch* epoch = epochs_.front();
+    if (epoch != nullptr && known >= epoch->available) {
+      save_until(epoch->available - Duration(1), stop);
+      take(*epoch, clock, stop);
+      epochs_.pop();
+      continue;
+    }
+    if (epoch != nullptr) {
+      // Its state is available a budget later: until then nobody waits for it.
+      promise(epoch->available + spec().budget - Duration(1));
+    } else if (promised == Time::max()) {
+      save_until(promised, stop);
+      break;
+    } else {
+      save_until(std::min(promised, known), stop);
+      promise(promised + spec().budget);
+    }
+    bell().wait(heard);
+  }
+  drain_feedback(stop);
+}
+
+void PppStage::take(const GnssEpoch& epoch, const runtime::DataClock& clock,
+                    const std::stop_token& stop) {
+  const MonotonicTime started = runtime::monotonic_now();
+  process(epoch, stop);
+  measure(epoch.stamp, epoch.available, epoch.received, started, runtime::monotonic_now(),
+          "busy with the epoch before", clock);
+}
+
+// What says nothing is passed over, so that the ring is never full.
+void PppStage::hold_feedback() {
+  if (feedback_ == nullptr) return;
+  while (const MapFeedback* f = feedback_->front()) {
+    if (f->position || f->azimuth || f->reason == FeedbackReason::inconsistent) held_.push_back(*f);
+    feedback_->pop();
+  }
+}
+
+// On the road alone: whatever has come by now.
+void PppStage::take_corrections() {
+  if (corrections_ == nullptr) return;
+  while (const GnssCorrections* c = corrections_->front()) {
+    if (received_) {
+      received_->add(c->heard);
+      for (const ppp::SsrUpdate& u : c->updates) received_->add(u);
+    }
+    corrections_->pop();
+  }
+}
+
+// Records how many satellites of this epoch are corrected, and how old the corrections are.
+void PppStage::say_corrections() {
+  if (corrections_ == nullptr || !received_) return;
+  const auto age = received_->age();
+  for (PppState* state : {&state_, &free_state_}) {
+    state->satellites_corrected = 0;
+    if (age) state->correction_age = to_seconds(*age);
+    for (const PppSatellite& s : state->satellites) {
+      const auto system = ppp::system_of(s.system);
+      state->satellites_corrected += system && received_->corrected({*system, s.number});
+    }
+  }
+  if (state_.satellites_corrected == 0) counts_.uncorrected.fetch_add(1, relaxed);
+  counts_.correction_age.store(state_.correction_age.value_or(-1.0), relaxed);
+  const std::string what = wrong_with_corrections();
+  if (what.empty()) return;
+  for (PppState* state : {&state_, &free_state_}) {
+    state->message += (state->message.empty() ? "" : "; ") + what;
+  }
+}
+
+std::string PppStage::wrong_with_corrections() const {
+  const double age = counts_.correction_age.load(relaxed);
+  if (corrections_ == nullptr) return {};
+  if (age < 0.0) return "ppp: no corrections have come: broadcast orbits and clocks";
+  if (age <= to_seconds(ppp::CorrectedEphemeris::longest_age)) return {};
+  return "ppp: corrections are " + std::to_string(std::lround(age)) +
+         " s old: broadcast orbits and clocks";
+}
+
+void PppStage::look_at_ionosphere(ppp::GpsTime t) {
+  if (!setup_->one_frequency()) return;
+  const auto age = received_             ? received_->ionosphere().age(t)
+                   : setup_->broadcast() ? setup_->broadcast()->ionosphere().age(t)
+                                         : std::nullopt;
+  counts_.age_of_ionosphere.store(age.value_or(Duration::max()), relaxed);
+}
+
+std::string PppStage::degraded() const {
+  const Duration age = counts_.age_of_ionosphere.load(relaxed);
+  const std::string ionosphere =
+      ppp::ionosphere_lack(age == Duration::max() ? std::nullopt : std::optional(age));
+  std::string what = wrong_with_corrections();
+  if (!ionosphere.empty()) what += (what.empty() ? "ppp: " : "; ") + ionosphere;
+  return what;
+}
+
+// There are no more epochs; the matcher must not wait for a full ring.
+void PppStage::drain_feedback(const std::stop_token& stop) {
+  promise(Time::max());
+  while (feedback_ != nullptr && !stop.stop_requested()) {
+    const std::uint32_t heard = bell().listen();
+    const Time known = feedback_->promised();
+    while (feedback_->front() != nullptr) feedback_->pop();
+    if (known == Time::max()) return;
+    bell().wait(heard);
+  }
+}
+
+// About the last epoch; what is of the next one is kept for it. The filter knows the receiver's
+// time alone, which on the road is not the host's.
+void PppStage::use_feedback(Time until) {
+  const Duration reach = from_seconds(filter_.parameters().map_reach);
+  std::erase_if(held_, [&](MapFeedback& f) {
+    if (f.available > until || f.stamp > last_epoch_ + reach) return false;
+    f.stamp += receiver_ahead_;
+    filter_.add(f);
+    return true;
+  });
+}
+
+void PppStage::process(const GnssEpoch& epoch, const std::stop_token& stop) {
+  runtime::TraceSpan span(trace(), "ppp");
+  span.step_flow(flow_of(epoch));
+  delay(epoch.available);
+  if (last_epoch_ != Time::min()) use_feedback(epoch.available);
+  if (received_) {
+    received_->add(epoch.heard);
+    received_->begin(epoch.epoch.time);
+  }
+  ppp::describe(filter_.process(epoch.epoch), integrity_risk_, state_);
+  ppp::describe_map(filter_, state_);
+  ppp::describe(filter_.map_free(), integrity_risk_, free_state_);
+  last_epoch_ = epoch.stamp;
+  receiver_ahead_ = ppp::to_utc(epoch.epoch.time) - epoch.stamp;
+  for (PppState* state : {&state_, &free_state_}) {
+    state->stamp = epoch.stamp;
+    state->available = epoch.available + spec().budget;
+    state->sequence = epoch.sequence;
+  }
+  say_corrections();
+  look_at_ionosphere(epoch.epoch.time);
+  count(state_);
+  use_.note(epoch.available, state_.status == PppStatus::none ? "no position" : nullptr);
+  std::erase_if(sent_, [&](const Sent& s) { return s.state.available <= epoch.available; });
+  sent_.push_back({state_, free_state_.status != PppStatus::none, ppp::to_fix(free_state_)});
+  send(sent_.back(), stop);
+  use_feedback(epoch.available);
+}
+
+void PppStage::count(const PppState& state) {
+  for (const PppSatellite& s : state.satellites) {
+    counts_.refused.add(s.refusal);
+    counts_.slipped.add(s.slip);
+  }
+  if (state.status == PppStatus::none) counts_.without_position.fetch_add(1, relaxed);
+  counts_.restarts.store(state.restarts, relaxed);
+  counts_.forgotten_roads.store(filter_.restorations(), relaxed);
+}
+
+void PppStage::send(Sent& sent, const std::stop_token& stop) {
+  sent.state.received = sent.fix.received = runtime::monotonic_now();
+  states_.push(sent.state, stop);
+  if (sent.has_fix) fixes_.push(sent.fix, stop);
+  promise(sent.state.available);
+}
+
+void PppStage::save_until(Time t, const std::stop_token& stop) {
+  const auto promise_until = [this](Time cut) { promise(cut); };
+  cuts().save_until(t, stop, promise_until, [this](ArchiveWriter& ar, Time cut) {
+    std::erase_if(sent_, [cut](const Sent& s) { return s.state.available <= cut; });
+    archive(ar, cut);
+  });
+}
+
+// Includes the results that become available after the cut: the run that resumes sends them. The
+// matcher that resumes sends the feedback that becomes available after the cut.
+template <class Archive>
+void PppStage::archive(Archive& ar, Time cut) {
+  ar.section(spec().name, 3);
+  const auto number = [&ar](std::atomic<std::uint64_t>& value) {
+    std::uint64_t saved = value;
+    ar(saved);
+    if constexpr (Archive::loading) value = saved;
+  };
+  std::vector<MapFeedback> held;
+  std::copy_if(held_.begin(), held_.end(), std::back_inserter(held),
+               [cut](const MapFeedback& f) { return f.available <= cut; });
+  ar(filter_, counts_.refused, counts_.slipped);
+  number(counts_.without_position);
+  number(counts_.restarts);
+  number(counts_.forgotten_roads);
+  ar(sent_, held, last_epoch_);
+  if constexpr (Archive::loading) held_ = std::move(held);
+}
+
+std::size_t PppStage::saved_bytes() const {
+  return ppp::MapAidedFilter::largest_archive + 2 * usual_satellites * sizeof(PppSatellite) + 4096;
+}
+
+std::vector<RefusalCount> PppStage::refusals() {
+  std::vector<RefusalCount> all;
+  const auto add = [&](std::string_view reason, std::uint64_t count) {
+    if (count > 0) all.push_back({std::string(spec().name), std::string(reason), count});
+  };
+  add("epoch without a position", counts_.without_position.load(relaxed));
+  counts_.refused.append_to(all, spec().name);
+  counts_.slipped.append_to(all, spec().name, "slip: ");
+  add("begun anew: measurements disagreed with the position", counts_.restarts.load(relaxed));
+  add("a wrong road forgotten", counts_.forgotten_roads.load(relaxed));
+  add("epoch without corrections", counts_.uncorrected.load(relaxed));
+  return all;
+}
+
+}  // namespace maploop::vehicle

@@ -1,0 +1,100 @@
+// The ppp thread: precise point positioning at each epoch of the GNSS receiver.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "msgs/gnss.h"
+#include "msgs/map_feedback.h"
+#include "msgs/ppp_state.h"
+#include "ppp/ppp_setup.h"
+#include "ppp/products/corrected.h"
+#include "runtime/vehicle/drivers/gnss_epoch.h"
+#include "runtime/vehicle/graph/graph_stage.h"
+#include "runtime/vehicle/drivers/live_corrections.h"
+#include "runtime/vehicle/health/reason_counts.h"
+#include "runtime/vehicle/health/watchdog.h"
+
+namespace maploop::vehicle {
+
+// Sends the state of each epoch, and a fix of each epoch that has a position. The fix comes from
+// the filter without the map: its consumers receive the map's feedback themselves, and a fix with
+// it would make them count it twice. An epoch takes the feedback that is available by then; on a
+// live clock, the feedback that has arrived.
+class PppStage final : public GraphStage {
+ public:
+  PppStage(Rings& rings, std::shared_ptr<const ppp::PppSetup> setup, double integrity_risk);
+
+  void run(runtime::DataClock& clock, Time begin, const std::stop_token& stop) override;
+  std::size_t saved_bytes() const override;
+  std::vector<UseWatch*> uses() override { return {&use_}; }
+  // Epochs without a position, refused satellites and slips by their reasons, and restarts.
+  std::vector<RefusalCount> refusals() override;
+  // Missing or old corrections, and missing coefficients of the ionosphere, at the last epoch.
+  std::string degraded() const override;
+
+ private:
+  // The results of one epoch.
+  struct Sent {
+    PppState state;
+    bool has_fix = false;
+    GnssFix fix;
+    template <class Archive>
+    void archive(Archive& ar) {
+      ar(state, has_fix, fix);
+    }
+  };
+
+  void take(const GnssEpoch& epoch, const runtime::DataClock& clock, const std::stop_token& stop);
+  void hold_feedback();
+  void take_corrections();
+  void say_corrections();
+  std::string wrong_with_corrections() const;
+  void look_at_ionosphere(ppp::GpsTime t);
+  void drain_feedback(const std::stop_token& stop);
+  void use_feedback(Time until);
+  void process(const GnssEpoch& epoch, const std::stop_token& stop);
+  void count(const PppState& state);
+  void send(Sent& sent, const std::stop_token& stop);
+  void save_until(Time t, const std::stop_token& stop);
+  void load(ArchiveReader& ar) override { archive(ar, Time::max()); }
+  template <class Archive>
+  void archive(Archive& ar, Time cut);
+
+  struct Counts {
+    ReasonCounts<PppRefusal, ppp_refusal_count> refused;
+    ReasonCounts<PppSlip, ppp_slip_count> slipped;
+    std::atomic<std::uint64_t> without_position{0};
+    std::atomic<std::uint64_t> restarts{0};
+    std::atomic<std::uint64_t> forgotten_roads{0};
+    std::atomic<std::uint64_t> uncorrected{0};  // epochs, where corrections are received
+    std::atomic<double> correction_age{0.0};    // s; negative: none ever came
+    // With one frequency; Duration::max(): there are none.
+    std::atomic<Duration> age_of_ionosphere{Duration::zero()};
+  };
+
+  std::shared_ptr<const ppp::PppSetup> setup_;       // what the filter looks at
+  std::optional<ppp::CorrectedEphemeris> received_;  // of a live receiver without precise orbits
+  ppp::MapAidedFilter filter_;
+  double integrity_risk_;
+  runtime::Edge<GnssEpoch>& epochs_;
+  runtime::Edge<MapFeedback>* feedback_;         // nullptr: the map does not feed back
+  runtime::Edge<GnssCorrections>* corrections_;  // nullptr: no stream of corrections
+  Outputs<PppState> states_;
+  Outputs<GnssFix> fixes_;
+  UseWatch use_{stages::ppp.name, "epochs", Watchdog::patience(stages::ppp)};
+  PppState state_, free_state_;    // of the last epoch, to reuse their memory
+  std::vector<Sent> sent_;         // those that were not yet available at the last epoch
+  std::vector<MapFeedback> held_;  // not yet used
+  Time last_epoch_ = Time::min();  // its stamp
+  Duration receiver_ahead_{};      // its clock before that of stamps
+  Counts counts_;
+};
+
+}  // namespace maploop::vehicle

@@ -1,0 +1,228 @@
+#include "runtime/vehicle/config/vehicle_config.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "runtime/core/config.h"
+#include "runtime/vehicle/graph/graph.h"
+#include "tests/support/real_data.h"
+
+namespace maploop::vehicle {
+namespace {
+
+const std::filesystem::path shipped = maploop::testing::source("runtime/vehicle/config/maploop.toml");
+
+VehicleConfig load_text(const std::string& text) {
+  const maploop::testing::TemporaryFolder folder;
+  const auto file = folder.path() / "test.toml";
+  std::ofstream(file) << text;
+  return load_vehicle_config(file);
+}
+
+std::set<std::string> keys(const std::string& toml) {
+  std::set<std::string> all;
+  std::istringstream in(toml);
+  std::string table;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with('[')) table = line;
+    const auto equals = line.find(" = ");
+    if (!line.starts_with('#') && equals != std::string::npos) {
+      all.insert(table + line.substr(0, equals));
+    }
+  }
+  return all;
+}
+
+TEST(VehicleConfig, TheShippedFileHasEveryKeyWithItsDefault) {
+  EXPECT_EQ(to_toml(load_vehicle_config(shipped)), to_toml(VehicleConfig{}));
+  std::ostringstream text;
+  text << std::ifstream(shipped).rdbuf();
+  EXPECT_EQ(keys(text.str()), keys(to_toml(VehicleConfig{})));
+}
+
+TEST(VehicleConfig, WhatIsWrittenHasNoPasswords) {
+  VehicleConfig config;
+  config.live.gnss = "ntrip://me:secret@host/RECEIVER";
+  config.live.corrections = "ntrips://me:secret@host/CORRECTIONS";
+  config.live.camera_left = "rtspsrc location=rtsp://me:secret@host/left";
+  const std::string text = to_toml(config);
+  EXPECT_EQ(text.find("secret"), std::string::npos) << text;
+  EXPECT_NE(text.find("corrections = \"ntrips://***@host/CORRECTIONS\""), std::string::npos);
+}
+
+TEST(VehicleConfig, NoCarIsADefaultAndTheFileKnowsBetterThanTheRecording) {
+  const VehicleConfig neutral;
+  EXPECT_EQ(neutral.fusion.rear_axle_distance, 0.0);
+  EXPECT_EQ(neutral.fusion.climb_offset, 0.0);
+  EXPECT_EQ(neutral.lidar.elevation_correction, 0.0);
+  VehicleCalibration car;
+  car.rear_axle_distance = 0.25;
+  car.climb_offset = 0.0084;
+  car.climb_offset_sigma = 0.0087;
+  car.beam_elevation = 0.0036;
+  VehicleConfig config = load_text("[fusion]\nclimb_offset = 0.0\n");
+  describe_car(config, car);
+  EXPECT_EQ(config.fusion.rear_axle_distance, 0.25);
+  EXPECT_EQ(config.fusion.climb_offset, 0.0);
+  EXPECT_EQ(config.fusion.climb_offset_sigma, 0.0087);
+  EXPECT_EQ(config.lidar.elevation_correction, 0.0036);
+}
+
+TEST(VehicleConfig, WhatIsWrittenIsReadBack) {
+  VehicleConfig config;
+  config.lcm_url = "udpm://239.255.76.67:7667?ttl=1";
+  config.fusion.gyro_noise = 1.0 / 3.0;
+  config.stereo.bucket_size = 64;
+  config.gnss.seed = 77;
+  config.ppp.filter.systems = "GE";
+  config.ppp.filter.motion = ppp::Motion::fixed;
+  config.memory.lock_memory = false;
+  config.scheduling.camera = runtime::Scheduling{};
+  config.scheduling.stereo.policy = runtime::SchedulingPolicy::rr;
+  config.scheduling.stereo.cpus = {0, 2};
+  config.scheduling.fusion = {};
+  config.scheduling.fusion.policy = runtime::SchedulingPolicy::deadline;
+  config.scheduling.fusion.runtime = std::chrono::microseconds(1500);
+  config.scheduling.fusion.deadline = milliseconds(2);
+  config.scheduling.fusion.period = milliseconds(10);
+  config.scheduling.health = {};
+  config.scheduling.health.policy = runtime::SchedulingPolicy::other;
+  config.scheduling.health.nice = -3;
+  config.scheduling.health.timer_slack = std::chrono::microseconds(50);
+  EXPECT_EQ(to_toml(load_text(to_toml(config))), to_toml(config));
+  EXPECT_NE(to_toml(config), to_toml(VehicleConfig{}));
+}
+
+TEST(VehicleConfig, KeysThatAreAbsentKeepTheirDefaults) {
+  const VehicleConfig config = load_text("[stereo]\nbucket_size = 40\n");
+  VehicleConfig expected;
+  expected.stereo.bucket_size = 40;
+  EXPECT_EQ(to_toml(config), to_toml(expected));
+}
+
+TEST(VehicleConfig, AThreadsTableChangesOnlyWhatItNames) {
+  const VehicleConfig config = load_text("[scheduling.fusion]\npriority = 55\ncpus = [1]\n");
+  VehicleConfig expected;
+  expected.scheduling.fusion.priority = 55;
+  expected.scheduling.fusion.cpus = {1};
+  EXPECT_EQ(to_toml(config), to_toml(expected));
+  EXPECT_EQ(load_text("[scheduling]\nfusion = { policy = \"other\" }\n").scheduling.fusion.priority,
+            0)
+      << "the default's priority is not left over";
+}
+
+TEST(VehicleConfig, WhatDoesNotGoWithThePolicyIsAnError) {
+  for (const auto& [text, said] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"policy = \"other\"\npriority = 5",
+            "fusion.priority: can only be used with policy \"fifo\" and \"rr\""},
+           {"nice = 5", "fusion.nice: can only be used with policy \"other\", not with \"fifo\""},
+           {"priority = 0", "fusion.priority: is 0; allowed is 1 to 99"},
+           {"period_ms = 5", "fusion.period_ms: can only be used with policy \"deadline\""},
+           {"policy = \"deadline\"\nruntime_ms = 3\ndeadline_ms = 2\nperiod_ms = 10",
+            "runtime_ms <= deadline_ms <= period_ms"},
+           {"policy = \"deadline\"\nruntime_ms = 1\ndeadline_ms = 2\nperiod_ms = 10\ncpus = [0]",
+            "fusion.cpus: must be empty"},
+           {"policy = \"fife\"", "did you mean \"fifo\""},
+           {"prioritty = 5", "did you mean"}}) {
+    try {
+      load_text("[scheduling.fusion]\n" + std::string(text) + '\n');
+      ADD_FAILURE() << text;
+    } catch (const runtime::ConfigError& e) {
+      EXPECT_NE(std::string(e.what()).find(said), std::string::npos) << e.what();
+    }
+  }
+  EXPECT_THROW(load_text("[scheduling.health]\npolicy = \"rr\"\n"), runtime::ConfigError)
+      << "no priority to fall back on";
+}
+
+TEST(VehicleConfig, ProductsAreBesideTheConfiguration) {
+  const maploop::testing::TemporaryFolder folder;
+  const auto file = folder.path() / "test.toml";
+  std::ofstream(file) << "[ppp]\nproducts = [\"a.SP3\", \"/data/models\"]\n";
+  const VehicleConfig config = load_vehicle_config(file);
+  EXPECT_EQ(config.ppp.products,
+            (std::vector<std::string>{(folder.path() / "a.SP3").string(), "/data/models"}));
+  EXPECT_EQ(to_toml(load_text(to_toml(config))), to_toml(config));
+  EXPECT_THROW(load_text("[ppp]\nproducts = [3]\n"), runtime::ConfigError);
+  EXPECT_THROW(load_text("[ppp]\nproducts = \"a.SP3\"\n"), runtime::ConfigError);
+  EXPECT_THROW(load_text("[ppp]\nintegrity_risk = 1.0\n"), runtime::ConfigError);
+  EXPECT_THROW(load_text("[ppp]\nlatency = -1.0\n"), runtime::ConfigError);
+}
+
+TEST(VehicleConfig, AValueThatCannotWorkNamesFileAndKey) {
+  for (const auto& [text, said] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"[fusion]\ngyro_noise = -1.0\n",
+            "test.toml:2:14: fusion.gyro_noise: is -1; allowed is 1e-09 to 1 rad/sqrt(s)"},
+           {"[fusion]\nmax_gap = 0.5\n",
+            "test.toml:2:11: fusion.max_gap: must be at least confirm_gap"},
+           {"[stereo]\nwindow = 14\n", "test.toml:2:10: stereo.window: must be odd"},
+           {"[lidar]\nmap_voxel = 0.0\n",
+            "test.toml:2:13: lidar.map_voxel: is 0; allowed is 0.1 to 10 m"},
+           {"[lidar]\nkernel = 0\n",
+            "test.toml:2:10: lidar.kernel: is 0; allowed is above 0, at most 1000000"},
+           {"[mapmatch]\nmemory = 0.0\n",
+            "test.toml:2:10: mapmatch.memory: is 0; allowed is 0.01 to 1000000 s"},
+           {"[mapmatch]\nbirth = -1.0\n",
+            "test.toml:2:9: mapmatch.birth: is -1; allowed is 0 to 1000000000"},
+           {"[mapmatch]\nsure = 1.5\n", "test.toml:2:8: mapmatch.sure: is 1.5; allowed is 0 to 1"},
+           {"[mapmatch]\ngate = nan\n", "test.toml:2:8: mapmatch.gate: is nan"},
+           {"[feedback]\nchord = 8.0\nwindow = 100\n",
+            "test.toml:3:10: feedback.window: is 100; allowed is 1 to 64 feedbacks"},
+           {"[feedback]\nspacing = -5.0\n",
+            "test.toml:2:11: feedback.spacing: is -5; allowed is 0 to 10000 m"},
+           {"[guard]\nlifetime = 0.0\n",
+            "test.toml:2:12: guard.lifetime: is 0; allowed is 0.1 to 3600 s"},
+           {"[ppp]\nelevation_mask = 91.0\n",
+            "test.toml:2:18: ppp.elevation_mask: is 91; allowed is 0 to 90 deg"},
+           {"[ppp]\ncode_sigma = 0.0\n",
+            "test.toml:2:14: ppp.code_sigma: is 0; allowed is 0.000001 to 10000 m"},
+           {"[ppp]\nlongest_gap = -1\n",
+            "test.toml:2:15: ppp.longest_gap: is -1; allowed is 0 to 1000000 epochs"},
+           {"[ppp]\nsystems = \"GX\"\n",
+            "test.toml:2:11: ppp.systems: is \"GX\"; 'X' is not one of"},
+           {"[ppp]\nsystems = \"\"\n", "test.toml:2:11: ppp.systems: is empty"},
+           {"[ppp]\nintegrity_risk = 1.0\n", "test.toml:2:18: ppp.integrity_risk: is 1; allowed"},
+           {"[preview]\nrate = 50.0\n", "test.toml:2:8: preview.rate: is 50; allowed is 0 to 5 Hz"},
+           {"[preview]\nwidth = 10\n",
+            "test.toml:2:9: preview.width: is 10; allowed is 64 to 1280 px"},
+           {"[map]\nmode = \"losse\"\n", "test.toml:2:8: map.mode: is \"losse\"; did you mean"},
+           {"[replay]\nimu_delay = -0.1\n", "test.toml:2:13: replay.imu_delay: is -0.1; allowed"},
+           {"[gnss]\nrate = 0\n", "test.toml:2:8: gnss.rate: is 0; allowed is 0.001 to 1000 Hz"},
+           {"[wheel]\nslip = 1.0\n", "test.toml:2:8: wheel.slip: is 1; allowed is 0 to 0.1"},
+           {"[odometry_poses]\nspeed_sigma = 0\n", "test.toml:2:15: odometry_poses.speed_sigma"},
+           {"[memory]\nheap_mb = -1\n", "test.toml:2:11: memory.heap_mb: is -1; allowed is 0 to"},
+           {"[trace]\nevents_per_thread = 0\n", "test.toml:2:21: trace.events_per_thread: is 0"},
+           {"[live]\ngnss_frequencies = 3\n",
+            "test.toml:2:20: live.gnss_frequencies: is 3; allowed is 1 to 2 frequencies"},
+           {"[live]\nimu_protocol = \"ncmo\"\n",
+            "test.toml:2:16: live.imu_protocol: is \"ncmo\"; did you mean \"ncom\"?"},
+           {"[imu]\nnoise = \"none\"\n", "test.toml:2:9: imu.noise: is \"none\""},
+           {"odometry = \"lidar\"\n", "test.toml:1:12: odometry: is \"lidar\""},
+           {"configuration = \"VO\"\n",
+            "test.toml:1:17: configuration: no configuration is called 'VO'"},
+           {"imu_grade = \"best\"\n", "test.toml:1:13: imu_grade: "}}) {
+    try {
+      load_text(text);
+      ADD_FAILURE() << text;
+    } catch (const runtime::ConfigError& e) {
+      EXPECT_NE(std::string(e.what()).find(said), std::string::npos) << e.what();
+    }
+  }
+}
+
+TEST(VehicleConfig, AnUnknownTableIsAnError) {
+  try {
+    load_text("[sterio]\nbucket_size = 40\n");
+    FAIL();
+  } catch (const runtime::ConfigError& e) {
+    EXPECT_NE(std::string(e.what()).find("sterio"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("test.toml:1"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace maploop::vehicle

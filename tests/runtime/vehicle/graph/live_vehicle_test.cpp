@@ -1,0 +1,249 @@
+// The graph on live sensors that come, stay away, flood it and go.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "msgs/lcm/conversions.h"
+#include "runtime/vehicle/config/live_config.h"
+#include "runtime/vehicle/graph/vehicle.h"
+#include "sensors/imu/ncom_packet.h"
+#include "tests/runtime/vehicle/fake_sensors.h"
+#include "tests/runtime/vehicle/memory_bus.h"
+#include "tests/sensors/live/lines.h"
+#include "tests/support/real_data.h"
+
+namespace maploop::vehicle {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::MemoryBus;
+
+// Delivers a sample each period; never, where that is 0.
+template <class T>
+class FakeLiveSource final : public sensors::LiveSource<T> {
+ public:
+  FakeLiveSource(
+      const sensors::HostClock& clock, Duration period, std::function<void(T&)> fill = [](T&) {})
+      : clock_(clock), period_(period), fill_(std::move(fill)), next_(clock.now()) {}
+
+  bool wait(T& sample, Duration patience) override {
+    const bool comes = period_ > Duration::zero() && next_ - clock_.now() <= patience;
+    std::this_thread::sleep_for(comes ? next_ - clock_.now() : patience);
+    if (!comes) return false;
+    next_ += period_;
+    fill_(sample);
+    sample.stamp = sample.available = clock_.now();
+    sample.sequence = delivered_++;
+    return true;
+  }
+  sensors::LiveReport report() const override {
+    sensors::LiveReport report;
+    report.endpoint = "udp://:1";
+    report.delivered = delivered_;
+    report.connection.open = period_ > Duration::zero();
+    if (!report.connection.open) report.connection.problem = "is not there; is it plugged in?";
+    report.clock = {true, {}, 1e-6, {}, 0};
+    return report;
+  }
+
+ private:
+  const sensors::HostClock& clock_;
+  Duration period_;
+  std::function<void(T&)> fill_;
+  Time next_;
+  std::uint64_t delivered_ = 0;
+};
+
+void fill_fix(GnssFix& fix) {
+  fix.position = {radians(49.0), radians(8.4), 110.0};
+  fix.position_covariance = Eigen::Matrix3d::Identity();
+  fix.velocity_enu = {0.0, 10.0, 0.0};
+  fix.velocity_covariance = 0.01 * Eigen::Matrix3d::Identity();
+  fix.velocity_stamp = sensors::HostClock().now();
+}
+
+LiveSensors live_sensors(Time (*utc)() = sensors::HostClock::machine_utc) {
+  LiveSensors s;
+  s.clock = std::make_shared<const sensors::HostClock>(utc);
+  s.imu = std::make_unique<FakeLiveSource<ImuSample>>(*s.clock, milliseconds(10));
+  s.gnss = std::make_unique<FakeLiveSource<GnssFix>>(*s.clock, milliseconds(200), fill_fix);
+  return s;
+}
+
+// Drives until so many states have been sent, at least for `length`.
+VehicleReport drive(MemoryBus& bus, LiveSensors live, Duration length, std::size_t states,
+                    StageDelays delays = {}) {
+  Sensors sensors;
+  sensors.live = std::move(live);
+  Vehicle vehicle({}, {}, std::move(sensors), runtime::DataClock::live(), {&bus}, {});
+  vehicle.slow_down(std::move(delays));
+  vehicle.start();
+  std::this_thread::sleep_for(length);
+  EXPECT_TRUE(bus.wait_for("NAV_STATE", states));
+  EXPECT_TRUE(vehicle.running());
+  vehicle.stop();
+  vehicle.wait();
+  return vehicle.report();
+}
+
+bool is_said(const Health& health, const std::string& text) {
+  return std::any_of(health.degraded.begin(), health.degraded.end(),
+                     [&](const std::string& s) { return s.find(text) != std::string::npos; });
+}
+
+TEST(LiveVehicle, GoesOnWithoutASensorThatIsMissingAndNamesIt) {
+  LiveSensors live = live_sensors();
+  live.velodyne = std::make_unique<FakeLiveSource<LidarScan>>(*live.clock, Duration::zero());
+  MemoryBus bus;
+  const VehicleReport report = drive(bus, std::move(live), milliseconds(2500), 150);
+  const auto states = bus.decoded<maploop_lcm::nav_state_t>("NAV_STATE");
+  ASSERT_GT(states.size(), 100u);
+  std::size_t aided = 0;
+  for (const auto& state : states) aided += from_lcm(state).status != NavStatus::uninitialized;
+  EXPECT_GT(aided, 50u);
+  EXPECT_GT(bus.decoded<maploop_lcm::imu_t>("IMU").size(), 100u);
+  EXPECT_TRUE(is_said(report.health, "velodyne: udp://:1 is not there; is it plugged in?"));
+  EXPECT_TRUE(is_said(report.health, "velodyne: silent since the start"));
+  EXPECT_EQ(report.stalls, 0u);
+  ASSERT_EQ(report.health.sensors.size(), 3u);
+  for (const SensorHealth& sensor : report.health.sensors) {
+    EXPECT_EQ(sensor.connected, sensor.name != "velodyne") << sensor.name;
+    EXPECT_EQ(sensor.delivered > 0, sensor.name != "velodyne") << sensor.name;
+    EXPECT_TRUE(sensor.clock.known);
+  }
+  for (const RingHealth& ring : report.health.rings) {
+    EXPECT_EQ(ring.pushed, ring.popped + ring.lost + ring.held) << ring.name;
+  }
+}
+
+std::atomic<bool> clock_was_set{false};
+
+TEST(LiveVehicle, NoStampMovesWhenTheMachinesClockIsSet) {
+  const auto utc = [] {
+    return sensors::HostClock::machine_utc() +
+           (clock_was_set ? milliseconds(1000) : milliseconds(0));
+  };
+  MemoryBus bus;
+  clock_was_set = false;
+  std::jthread setter([] {
+    std::this_thread::sleep_for(milliseconds(800));
+    clock_was_set = true;
+  });
+  const VehicleReport report = drive(bus, live_sensors(utc), milliseconds(2500), 150);
+  EXPECT_TRUE(is_said(report.health, "this machine's clock was set by 1.0"));
+  const auto states = bus.decoded<maploop_lcm::nav_state_t>("NAV_STATE");
+  ASSERT_GT(states.size(), 100u);
+  for (std::size_t i = 1; i < states.size(); ++i) {
+    const Duration between = from_lcm(states[i]).stamp - from_lcm(states[i - 1]).stamp;
+    ASSERT_GT(between, Duration::zero());
+    ASSERT_LT(between, milliseconds(900)) << "not the second that the clock was set by";
+  }
+  for (const RingHealth& ring : report.health.rings) EXPECT_EQ(ring.lost, 0u) << ring.name;
+}
+
+TEST(LiveVehicle, AStageThatIsTooSlowLosesItsOwnSamplesAlone) {
+  LiveSensors live = live_sensors();
+  live.velodyne = std::make_unique<FakeLiveSource<LidarScan>>(
+      *live.clock, milliseconds(20), [](LidarScan& scan) { scan.points.assign(100, {}); });
+  MemoryBus bus;
+  StageDelays delays;
+  std::atomic<std::uint64_t> struck{0};
+  delays["lidar"].add({}, milliseconds(300), struck);
+  const VehicleReport report =
+      drive(bus, std::move(live), milliseconds(1500), 60, std::move(delays));
+  for (const RingHealth& ring : report.health.rings) {
+    EXPECT_EQ(ring.lost > 0, ring.name == "velodyne -> lidar") << ring.name;
+  }
+  EXPECT_EQ(report.stalls, 0u);
+  EXPECT_GT(bus.decoded<maploop_lcm::nav_state_t>("NAV_STATE").size(), 50u);
+}
+
+TEST(LiveVehicle, GoesOnThroughUnpluggingAndAFloodOfGarbage) {
+  const maploop::testing::TemporaryFolder folder;
+  const auto device = folder.path() / "gnss";
+  const std::uint16_t port = maploop::testing::free_port();
+  VehicleConfig config;
+  config.live.imu = "udp://:" + std::to_string(port);
+  config.live.gnss = "serial://" + device.string();
+  Sensors live;
+  live.live = open_live_sensors(config);
+  MemoryBus bus;
+  Vehicle vehicle(config, {}, std::move(live), runtime::DataClock::live(), {&bus}, {});
+  vehicle.start();
+  const maploop::testing::UdpSender unit(port);
+  const std::vector<std::uint8_t> garbage(72, 0xe7);
+  std::uint16_t ms = 0;
+  for (int plugged = 0; plugged < 2; ++plugged) {
+    const maploop::testing::PseudoTerminal line(device);
+    for (int i = 0; i < 100; ++i) {
+      unit.send(sensors::ncom_packet(ms += 10, 0.0, 0.0, 0.0));
+      for (int k = 0; k < 50; ++k) unit.send(garbage);
+      if (i % 50 == 40) line.send("garbage\r\n" + maploop::testing::epoch(10 * plugged + i / 50));
+      std::this_thread::sleep_for(milliseconds(10));
+    }
+  }
+  std::this_thread::sleep_for(milliseconds(1100));  // until the next HEALTH
+  vehicle.stop();
+  vehicle.wait();
+  const VehicleReport report = vehicle.report();
+  for (const SensorHealth& sensor : report.health.sensors) {
+    EXPECT_EQ(sensor.connections, sensor.name == "gnss" ? 2u : 1u) << sensor.name;
+    EXPECT_GT(sensor.delivered, 0u) << sensor.name;
+    EXPECT_GT(sensor.refused, 0u) << sensor.name;
+  }
+  EXPECT_TRUE(is_said(report.health, "gnss: serial://")) << "it is unplugged";
+  EXPECT_GT(bus.decoded<maploop_lcm::nav_state_t>("NAV_STATE").size(), 150u);
+}
+
+TEST(LiveConfig, NamesTheKeyThatIsWrong) {
+  const auto error = [](auto&& set) -> std::string {
+    VehicleConfig config;
+    set(config.live);
+    try {
+      open_live_sensors(config);
+      live_calibration(config);
+    } catch (const std::runtime_error& e) {
+      return e.what();
+    }
+    return "no error";
+  };
+  EXPECT_NE(error([](LiveParameters&) {}).find("has no live sensor"), std::string::npos);
+  EXPECT_NE(error([](LiveParameters& p) { p.imu = "udp:3000"; }).find("[live] imu: "),
+            std::string::npos);
+  EXPECT_NE(error([](LiveParameters& p) {
+              p.velodyne = "udp://:2368";
+              p.velodyne_model = "HDL-64E";
+            }).find("[live] velodyne: each HDL-64E has its own lasers"),
+            std::string::npos);
+  EXPECT_NE(error([](LiveParameters& p) {
+              p.velodyne = "udp://:2368";
+              p.velodyne_model = "VLP-17";
+            }).find("[live] velodyne_model: is \"VLP-17\"; allowed is"),
+            std::string::npos);
+  EXPECT_NE(error([](LiveParameters& p) {
+              p.camera_left = "videotestsrc";
+            }).find("[live] camera_left: the cameras' calibration is missing"),
+            std::string::npos);
+  EXPECT_NE(error([](LiveParameters& p) {
+              p.camera_right = "videotestsrc";
+            }).find("camera_right needs camera_left"),
+            std::string::npos);
+  EXPECT_NE(error([](LiveParameters& p) {
+              p.imu = "udp://:3000";
+              p.imu_protocol = "morse";
+            }).find("[live] imu_protocol: is \"morse\"; allowed is"),
+            std::string::npos);
+  EXPECT_NE(error([](LiveParameters& p) {
+              p.gnss = "tcp://127.0.0.1:1";
+              p.calibration = "/nowhere";
+            }).find("[live] calibration: "),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace maploop::vehicle

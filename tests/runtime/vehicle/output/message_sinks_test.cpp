@@ -1,0 +1,197 @@
+// Tests the log, the bus and the hashes, each against LCM's own library.
+#include <gtest/gtest.h>
+
+#include <sys/resource.h>
+
+#include <csignal>
+#include <filesystem>
+#include <lcm/lcm-cpp.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "msgs/lcm/conversions.h"
+#include "runtime/vehicle/output/channel_hashes.h"
+#include "runtime/vehicle/output/lcm_bus.h"
+#include "runtime/vehicle/output/log_recorder.h"
+#include "tests/support/real_data.h"
+
+namespace maploop::vehicle {
+namespace {
+
+Message message(const std::vector<std::uint8_t>& data, bool from_data = true) {
+  return {"IMU", from_nanoseconds(1'317'042'651'174'740'992), data, from_data};
+}
+
+TEST(LogRecorder, WritesWhatLcmReads) {
+  const maploop::testing::TemporaryFolder folder;
+  const std::string file = (folder.path() / "a.lcmlog").string();
+  {
+    LogRecorder recorder(file);
+    recorder.send(message({1, 2, 3}));
+    recorder.send(message({4, 5}));
+    EXPECT_EQ(recorder.health().unsent, 0u);
+  }
+  lcm::LogFile log(file, "r");
+  const lcm::LogEvent* first = log.readNextEvent();
+  ASSERT_NE(first, nullptr);
+  EXPECT_EQ(first->channel, "IMU");
+  EXPECT_EQ(first->timestamp, 1'317'042'651'174'740);
+  EXPECT_EQ(first->datalen, 3);
+  const lcm::LogEvent* second = log.readNextEvent();
+  ASSERT_NE(second, nullptr);
+  EXPECT_EQ(second->datalen, 2);
+  EXPECT_EQ(static_cast<const std::uint8_t*>(second->data)[1], 5);
+  EXPECT_EQ(log.readNextEvent(), nullptr);
+}
+
+TEST(LogRecorder, AFileIsOfOneRecording) {
+  const maploop::testing::TemporaryFolder folder;
+  const std::string file = (folder.path() / "a.lcmlog").string();
+  {
+    LogRecorder first(file);
+    first.send(message({1, 2, 3}));
+    try {
+      const LogRecorder second(file);
+      ADD_FAILURE();
+    } catch (const std::runtime_error& e) {
+      EXPECT_NE(std::string(e.what()).find("a.lcmlog"), std::string::npos) << e.what();
+      EXPECT_NE(std::string(e.what()).find("another run"), std::string::npos) << e.what();
+    }
+    first.send(message({4}));
+  }
+  lcm::LogFile log(file, "r");
+  for (int i = 0; i < 2; ++i) EXPECT_NE(log.readNextEvent(), nullptr) << "the first is whole";
+  const LogRecorder again(file);  // this is allowed once the first has ended
+  const LogRecorder nowhere("/dev/null"), nowhere_else("/dev/null");
+}
+
+std::size_t events_in(const std::string& file) {
+  lcm::LogFile log(file, "r");
+  std::size_t events = 0;
+  while (log.readNextEvent() != nullptr) ++events;
+  return events;
+}
+
+// A SmallDisk makes the disk full at a limit that the kernel sets for this process alone.
+class SmallDisk {
+ public:
+  explicit SmallDisk(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+  }
+  ~SmallDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int) = nullptr;
+};
+
+TEST(LogRecorder, OnAFullDiskEveryEventIsInTheFileOrCountedAsUnsent) {
+  const maploop::testing::TemporaryFolder folder;
+  const std::string file = (folder.path() / "a.lcmlog").string();
+  LogRecorder recorder(file);
+  {
+    const SmallDisk disk(100'000);
+    for (int i = 0; i < 1000; ++i) recorder.send(message(std::vector<std::uint8_t>(300, 1)));
+    recorder.flush();
+    const OutputHealth health = recorder.health();
+    EXPECT_GT(health.sent, 250u);
+    EXPECT_GT(health.unsent, 600u);
+    EXPECT_EQ(health.sent + health.unsent, 1000u);
+    EXPECT_EQ(events_in(file), health.sent);
+    EXPECT_EQ(std::filesystem::file_size(file), health.sent * (28 + 3 + 300)) << "no cut event";
+  }
+  recorder.send(message({1, 2, 3}));
+  recorder.flush();
+  EXPECT_EQ(events_in(file), recorder.health().sent) << "there is room again";
+}
+
+TEST(LogRecorder, AllThatWasSentIsInTheFileAfterAFlushAndMoreMayFollow) {
+  const maploop::testing::TemporaryFolder folder;
+  const std::string file = (folder.path() / "a.lcmlog").string();
+  LogRecorder recorder(file);
+  for (int i = 0; i < 10; ++i) {
+    for (int k = 0; k < 100; ++k) recorder.send(message({1, 2, 3}));
+    recorder.flush();
+    EXPECT_EQ(events_in(file), 100u * static_cast<unsigned>(i + 1));
+  }
+}
+
+TEST(LogRecorder, NamesTheFileItCannotWrite) {
+  try {
+    LogRecorder recorder("/nonexistent/folder/a.lcmlog");
+    FAIL();
+  } catch (const std::runtime_error& e) {
+    EXPECT_NE(std::string(e.what()).find("/nonexistent/folder/a.lcmlog"), std::string::npos);
+  }
+}
+
+TEST(LcmBus, CountsWhatItSent) {
+  LcmBus bus("memq://");
+  bus.send(message({1, 2, 3}));
+  EXPECT_EQ(bus.health().name, "LCM");
+  EXPECT_EQ(bus.health().sent, 1u);
+  EXPECT_EQ(bus.health().unsent, 0u);
+  EXPECT_TRUE(bus.settings().empty()) << "no socket, no buffer";
+}
+
+// Nothing leaves this process, because the only message is refused.
+TEST(LcmBus, CountsWhatItCouldNotSendAndSaysItsBuffers) {
+  std::optional<LcmBus> bus;
+  try {
+    bus.emplace(LcmBus::default_url);
+  } catch (const std::runtime_error& e) {
+    GTEST_SKIP() << e.what();
+  }
+  const std::string too_long(1000, 'X');  // LCM's channel names have at most 63 characters
+  Message refused = message({1});
+  refused.channel = too_long;
+  bus->send(refused);
+  EXPECT_EQ(bus->health().unsent, 1u);
+  EXPECT_EQ(bus->health().sent, 0u);
+  ASSERT_EQ(bus->settings().size(), 2u);
+  EXPECT_EQ(bus->settings()[0].name, "LCM: send buffer");
+  EXPECT_EQ(bus->settings()[0].asked, "2048 kB");
+  EXPECT_EQ(bus->settings()[1].name, "LCM: receive buffers");
+}
+
+TEST(LcmBus, NamesTheUrlItCannotOpen) {
+  try {
+    LcmBus bus("nonsense://here");
+    FAIL();
+  } catch (const std::runtime_error& e) {
+    EXPECT_NE(std::string(e.what()).find("nonsense://here"), std::string::npos);
+  }
+}
+
+TEST(ChannelHashes, DependOnEveryByteAndOnTheOrder) {
+  const auto hash = [](const std::vector<std::vector<std::uint8_t>>& messages) {
+    ChannelHashes hashes;
+    for (const auto& m : messages) hashes.send(message(m));
+    return hashes.summary().at("IMU").hash;
+  };
+  const std::string reference = hash({{1, 2}, {3, 4}});
+  EXPECT_EQ(reference.size(), 16u);
+  EXPECT_EQ(hash({{1, 2}, {3, 4}}), reference);
+  EXPECT_NE(hash({{1, 2}, {3, 5}}), reference);
+  EXPECT_NE(hash({{3, 4}, {1, 2}}), reference);
+}
+
+TEST(ChannelHashes, WhatSpeaksOfTheRunIsCountedNotHashed) {
+  ChannelHashes hashes;
+  hashes.send(message({1}, false));
+  EXPECT_EQ(hashes.summary().at("IMU").count, 1u);
+  EXPECT_EQ(hashes.summary().at("IMU").hash, "");
+}
+
+}  // namespace
+}  // namespace maploop::vehicle

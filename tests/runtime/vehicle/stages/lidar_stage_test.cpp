@@ -1,0 +1,174 @@
+// Which scan goes with which visual motion, whatever the phase of the scanner's turns.
+#include "runtime/vehicle/stages/lidar_stage.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include "runtime/vehicle/graph/graph.h"
+#include "tests/runtime/vehicle/fake_sensors.h"
+
+namespace maploop::vehicle {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::drive_start;
+
+constexpr int count = 40;
+constexpr Duration turn = milliseconds(100);
+
+Time image(int i) {
+  return drive_start + i * turn;
+}
+
+VisualMotion visual(int i) {
+  VisualMotion m;
+  m.sequence = static_cast<std::uint64_t>(i);
+  m.stamp = image(i);
+  m.from = image(i - 1);
+  m.available = m.stamp + milliseconds(5) + stages::stereo.budget;
+  m.status = i == 0 ? OdometryStatus::first_frame : OdometryStatus::ok;
+  m.translation.x() = 1.0;
+  m.covariance = 1e-4 * Eigen::Matrix<double, 6, 6>::Identity();
+  return m;
+}
+
+// Of a turn that ends so long behind image i; without points, so that it says nothing itself.
+LidarScan scan(int i, Duration end_behind, Duration late = {}) {
+  LidarScan s;
+  s.sequence = static_cast<std::uint64_t>(i);
+  s.end = image(i) + end_behind;
+  s.start = s.end - turn;
+  s.stamp = s.end - turn / 2;
+  s.available = s.end + late;
+  return s;
+}
+
+using Input = std::variant<VisualMotion, LidarScan>;
+
+Time available(const Input& input) {
+  return std::visit([](const auto& v) { return v.available; }, input);
+}
+
+struct Sent {
+  std::vector<LidarMotion> lidar;
+  std::vector<RelativeMotion> odometry;
+};
+
+Sent run(std::vector<Input> inputs) {
+  std::stable_sort(inputs.begin(), inputs.end(),
+                   [](const Input& a, const Input& b) { return available(a) < available(b); });
+  Rings rings(rings::all, {"velodyne", "stereo", "lidar", "fusion", "publisher"}, {});
+  runtime::Edge<LidarScan>& scans = *rings.outputs(rings::velodyne_lidar).rings().front();
+  runtime::Edge<VisualMotion>& visual = *rings.outputs(rings::stereo_lidar).rings().front();
+  runtime::Edge<LidarMotion>& lidar = *rings.consumer(rings::lidar_publisher);
+  runtime::Edge<RelativeMotion>& odometry = *rings.consumer(rings::lidar_fusion);
+  LidarStage stage(rings, lidar::VisualLidarOdometer(Eigen::Isometry3d::Identity(), {}));
+  runtime::DataClock clock = runtime::DataClock::virtual_time();
+  const std::stop_token stop;
+  std::thread thread([&] { stage.run(clock, drive_start, stop); });
+  for (const Input& input : inputs) {
+    if (const auto* motion = std::get_if<VisualMotion>(&input)) {
+      visual.push(*motion, stop);
+    } else {
+      scans.push(std::get<LidarScan>(input), stop);
+    }
+    visual.promise(available(input));
+    scans.promise(available(input));
+  }
+  visual.finish();
+  scans.finish();
+  thread.join();
+  Sent sent;
+  for (; lidar.front() != nullptr; lidar.pop()) sent.lidar.push_back(*lidar.front());
+  for (; odometry.front() != nullptr; odometry.pop()) sent.odometry.push_back(*odometry.front());
+  return sent;
+}
+
+// Each where the one before ended, in the order in which they become available.
+void expect_chain(const std::vector<RelativeMotion>& motions) {
+  for (std::size_t i = 2; i < motions.size(); ++i) {
+    EXPECT_EQ(motions[i].from, motions[i - 1].stamp) << i;
+    EXPECT_GE(motions[i].available, motions[i - 1].available) << i;
+  }
+}
+
+class Phase : public ::testing::TestWithParam<int> {};
+
+TEST_P(Phase, EachScanGoesWithTheImageOfItsTurn) {
+  std::vector<Input> inputs;
+  for (int i = 0; i < count; ++i) {
+    inputs.emplace_back(visual(i));
+    inputs.emplace_back(scan(i, milliseconds(GetParam())));
+  }
+  const Sent sent = run(inputs);
+  ASSERT_EQ(sent.odometry.size(), static_cast<std::size_t>(count));
+  expect_chain(sent.odometry);
+  ASSERT_EQ(sent.lidar.size(), static_cast<std::size_t>(count));
+  for (int i = 1; i < count; ++i) {  // the first image cannot know of a scanner
+    EXPECT_EQ(sent.lidar[static_cast<std::size_t>(i)].stamp, image(i));
+    EXPECT_EQ(sent.lidar[static_cast<std::size_t>(i)].status, OdometryStatus::too_few_features);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(MillisecondsBehindTheImage, Phase,
+                         ::testing::Values(1, 30, 50, 56, 70, 99));
+
+TEST(LidarStage, ADriftingScannerBreaksNoChain) {
+  std::vector<Input> inputs;
+  for (int i = 0; i < count; ++i) {
+    inputs.emplace_back(visual(i));
+    inputs.emplace_back(scan(i, milliseconds(40) + i * milliseconds(4)));  // more than a turn
+  }
+  const Sent sent = run(inputs);
+  // The turns' gaps are one turn long in all: one image without a scan, one scan without an image.
+  EXPECT_EQ(sent.odometry.size(), static_cast<std::size_t>(count) + 1);
+  expect_chain(sent.odometry);
+}
+
+TEST(LidarStage, ASilentScannerHoldsNothingUp) {
+  std::vector<Input> inputs;
+  for (int i = 0; i < count; ++i) inputs.emplace_back(visual(i));
+  const Sent sent = run(inputs);
+  ASSERT_EQ(sent.odometry.size(), static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    EXPECT_EQ(sent.odometry[static_cast<std::size_t>(i)].available,
+              visual(i).available + stages::lidar.budget);
+  }
+}
+
+TEST(LidarStage, AScanThatComesTooLateIsLeftOutAndBreaksNoChain) {
+  std::vector<Input> inputs;
+  for (int i = 0; i < count; ++i) {
+    inputs.emplace_back(visual(i));
+    inputs.emplace_back(scan(i, milliseconds(70), milliseconds(80)));
+  }
+  const Sent sent = run(inputs);
+  EXPECT_EQ(sent.odometry.size(), static_cast<std::size_t>(count));
+  expect_chain(sent.odometry);
+  for (const LidarMotion& motion : sent.lidar) {
+    EXPECT_EQ(motion.status, OdometryStatus::bad_input);
+  }
+}
+
+TEST(LidarStage, WhereScansOrImagesAreMissingTheOtherGoesOn) {
+  std::vector<Input> inputs;
+  for (int i = 0; i < count; ++i) {
+    if (i < 10 || i >= 20) inputs.emplace_back(visual(i));
+    if (i < 15 || i >= 30) inputs.emplace_back(scan(i, milliseconds(60)));
+  }
+  const Sent sent = run(inputs);
+  for (std::size_t i = 1; i < sent.odometry.size(); ++i) {
+    EXPECT_GE(sent.odometry[i].available, sent.odometry[i - 1].available);
+    EXPECT_GT(sent.odometry[i].stamp, sent.odometry[i - 1].stamp);
+  }
+  EXPECT_EQ(sent.odometry.back().stamp, image(count - 1));
+  EXPECT_EQ(sent.odometry.size(), static_cast<std::size_t>(count - 5));
+}
+
+}  // namespace
+}  // namespace maploop::vehicle

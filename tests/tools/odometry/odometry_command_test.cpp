@@ -1,0 +1,153 @@
+// Tests `maploop odometry` and `maploop evaluate` as users run them.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/process.h"
+#include "tests/support/real_data.h"
+#include "tools/evaluate/kitti_poses.h"
+
+namespace maploop {
+namespace {
+
+using testing::ProcessResult;
+using testing::TemporaryFolder;
+
+ProcessResult maploop(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), testing::maploop_command());
+  return testing::run(arguments);
+}
+
+std::size_t lines_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::size_t count = 0;
+  for (std::string line; std::getline(in, line);) ++count;
+  return count;
+}
+
+TEST(OdometryCommand, AloneOnADriveIsWithinAPercentOfTheTruth) {
+  MAPLOOP_REQUIRE_DRIVE();
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const TemporaryFolder folder;
+  const std::string poses = (folder.path() / "poses.txt").string();
+  const std::string csv = (folder.path() / "motions.csv").string();
+  const ProcessResult run =
+      maploop({"odometry", testing::drive_0013().string(), "--poses", poses, "--csv", csv});
+  ASSERT_EQ(run.status, 0) << run.error;
+  EXPECT_EQ(evaluation::read_kitti_poses(poses).size(), 144u);
+  EXPECT_EQ(lines_of(csv), 145u);
+
+  const std::string json = (folder.path() / "score.json").string();
+  const std::string html = (folder.path() / "score.html").string();
+  const auto truth = testing::real_data() / "kitti/drive_0013_truth/velocity_integrated.txt";
+  const ProcessResult score = maploop(
+      {"evaluate", poses, truth.string(), "--lengths", "100", "--json", json, "--html", html});
+  ASSERT_EQ(score.status, 0) << score.error;
+  const auto result = nlohmann::json::parse(std::ifstream(json));
+  EXPECT_EQ(result["frames"], 144);
+  EXPECT_LT(result["lengths"][0]["common_rotation_removed"]["percent"], 0.6);
+  std::stringstream page;
+  page << std::ifstream(html).rdbuf();
+  EXPECT_NE(page.str().find("Seen from above"), std::string::npos);
+}
+
+TEST(OdometryCommand, FirstAndLastNameTheFrames) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const TemporaryFolder folder;
+  const std::string tum = (folder.path() / "tum.txt").string();
+  const auto tracks = testing::real_data() / "kitti_odometry/tracks/2011_09_26_drive_0001.csv.gz";
+  const ProcessResult run =
+      maploop({"odometry", tracks.string(), "--first", "20", "--last", "29", "--tum", tum});
+  ASSERT_EQ(run.status, 0) << run.error;
+  EXPECT_EQ(lines_of(tum), 10u);
+  EXPECT_NE(run.out.find("frames 20 to 29"), std::string::npos) << run.out;
+  EXPECT_EQ(maploop({"odometry", tracks.string(), "--first", "9000"}).status, 1);
+}
+
+TEST(OdometryCommand, WhatItRecordsCanBeRunInPlaceOfTheImages) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const TemporaryFolder folder;
+  const std::string tracks = (folder.path() / "tracks.csv.gz").string();
+  const ProcessResult from_images =
+      maploop({"odometry", testing::drive_0013().string(), "--last", "9", "--tracks", tracks});
+  ASSERT_EQ(from_images.status, 0) << from_images.error;
+  EXPECT_NE(from_images.out.find("pyramids"), std::string::npos) << "stages\n" << from_images.out;
+  const ProcessResult from_tracks = maploop({"odometry", tracks});
+  ASSERT_EQ(from_tracks.status, 0) << from_tracks.error;
+  EXPECT_NE(from_tracks.out.find("frames 0 to 9"), std::string::npos) << from_tracks.out;
+  EXPECT_NE(from_tracks.out.find("ok: 9"), std::string::npos) << from_tracks.out;
+}
+
+TEST(OdometryCommand, AWayItDoesNotKnowIsRefusedByName) {
+  const ProcessResult run = maploop({"odometry", ".", "--motion", "4d-2d"});
+  EXPECT_NE(run.status, 0);
+  EXPECT_NE(run.error.find("--motion"), std::string::npos) << run.error;
+}
+
+TEST(ExperimentCommand, ComparesTheWaysOnTheSameFrames) {
+  MAPLOOP_REQUIRE_DRIVE();
+  const TemporaryFolder folder;
+  const std::string html = (folder.path() / "page.html").string();
+  const ProcessResult run = maploop(
+      {"experiment", "odometry", testing::drive_0013().string(), "--last", "8", "--html", html});
+  ASSERT_EQ(run.status, 0) << run.error;
+  for (const char* way : {"KLT, 3D-2D ", "window of 6", "KLT, 3D-3D", "KLT, 2D-2D", "SIFT, 3D-2D"})
+    EXPECT_NE(run.out.find(way), std::string::npos) << way << '\n' << run.out;
+  std::ostringstream page;
+  page << std::ifstream(html).rdbuf();
+  EXPECT_NE(page.str().find("<figure data-plot"), std::string::npos);
+  EXPECT_NE(page.str().find("SIFT, 3D-3D"), std::string::npos);
+}
+
+TEST(EvaluateCommand, FirstLastTumAndCsv) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const TemporaryFolder folder;
+  const auto truth =
+      testing::real_data() / "kitti_odometry/tracks/2011_09_26_drive_0001.truth.csv.gz";
+  const std::string tum = (folder.path() / "aligned.tum").string();
+  const std::string csv = (folder.path() / "errors.csv").string();
+  const ProcessResult run = maploop({"evaluate", truth.string(), truth.string(), "--first", "10",
+                                     "--last", "59", "--tum", tum, "--csv", csv});
+  ASSERT_EQ(run.status, 0) << run.error;
+  EXPECT_EQ(lines_of(tum), 50u);
+  EXPECT_EQ(lines_of(csv), 51u);
+  EXPECT_NE(run.out.find("50 poses"), std::string::npos) << run.out;
+}
+
+TEST(EvaluateCommand, KittisPosesAreShortFromEastToWestAndLongFromNorthToSouth) {
+  const TemporaryFolder folder;
+  const std::string straight = (folder.path() / "straight.txt").string();
+  {
+    std::ofstream out(straight);
+    for (int i = 0; i <= 20; ++i) out << "1 0 0 0 0 1 0 0 0 0 1 " << 10 * i << '\n';
+  }
+  const auto end_point = [&](const std::string& azimuth) {
+    const std::string json = (folder.path() / "score.json").string();
+    const ProcessResult run = maploop(
+        {"evaluate", straight, straight, "--kitti-poses-of", "49.0," + azimuth, "--json", json});
+    EXPECT_EQ(run.status, 0) << run.error;
+    return nlohmann::json::parse(std::ifstream(json))["end_point_percent"].get<double>();
+  };
+  EXPECT_NEAR(end_point("90"), 0.19, 0.01);
+  EXPECT_NEAR(end_point("0"), 0.10, 0.01);
+}
+
+TEST(EvaluateCommand, TrajectoriesWithoutACommonMomentAreRefusedWithTheRemedy) {
+  const TemporaryFolder folder;
+  for (const std::string name : {"a", "b"}) {
+    std::ofstream out(folder.path() / name);
+    for (int i = 0; i < 5; ++i)
+      out << (name == "a" ? 0 : 100) + i << ".0 0 0 " << i << " 0 0 0 1\n";
+  }
+  const ProcessResult run =
+      maploop({"evaluate", (folder.path() / "a").string(), (folder.path() / "b").string()});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE(run.error.find("--max-difference"), std::string::npos) << run.error;
+}
+
+}  // namespace
+}  // namespace maploop

@@ -1,0 +1,76 @@
+// Tests the score of a fused state against a reference whose accuracy changes.
+#include "tools/replay/fusion_score.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace maploop::fusion_score {
+namespace {
+
+using std::chrono::milliseconds;
+
+const Time start = parse_time("2011-09-30 13:00:00");
+const LocalFrame frame(Geodetic{0.855, 0.147, 110.0});
+
+// A reference that moves north at 10 m/s for 20 s; the stated accuracy is `accuracy` in the first
+// half and 0.1 m in the second.
+std::vector<ReferencePose> reference(double accuracy) {
+  std::vector<ReferencePose> rows(201);
+  for (int i = 0; i <= 200; ++i) {
+    ReferencePose& row = rows[static_cast<std::size_t>(i)];
+    row.stamp = start + milliseconds(100 * i);
+    row.position = frame.to_geodetic({0.0, 1.0 * i, 0.0});
+    row.position_accuracy = i < 100 ? accuracy : 0.1;
+  }
+  return rows;
+}
+
+// Returns a track 5 m east of the reference in the first half, 1 m in the second.
+NavTrack track() {
+  NavTrack track;
+  for (int i = 0; i <= 2000; ++i) {
+    NavState s;
+    s.stamp = start + milliseconds(10 * i);
+    s.sequence = static_cast<std::uint64_t>(i);
+    s.status = NavStatus::aided;
+    s.origin = frame.origin();
+    s.position_enu = {i < 1000 ? 5.0 : 1.0, 0.1 * i, 0.0};
+    s.covariance.setIdentity();
+    track.add(s);
+  }
+  return track;
+}
+
+std::optional<Score> score_against(double accuracy) {
+  return score(track(), reference(accuracy), {}, start);
+}
+
+TEST(FusionScore, CountsWhereTheReferenceIsGoodAlone) {
+  const auto score = score_against(1.0);
+  ASSERT_TRUE(score);
+  EXPECT_NEAR(score->whole.rmse, 1.0, 1e-3);
+  EXPECT_NEAR(score->whole.max, 1.0, 1e-3);
+  EXPECT_NEAR(score->whole.distance, 99.0, 1.1);
+  EXPECT_NEAR(score->whole.covered, 0.5, 0.01);
+  EXPECT_DOUBLE_EQ(score->reference_accuracy, 0.1);
+  EXPECT_NE(to_text(*score).find("better than 0.3 m: 50 % of the time"), std::string::npos);
+}
+
+TEST(FusionScore, CountsEverywhereWhereTheReferenceIsGood) {
+  const auto score = score_against(0.2);
+  ASSERT_TRUE(score);
+  EXPECT_NEAR(score->whole.rmse, std::sqrt((25.0 + 1.0) / 2.0), 0.02);
+  EXPECT_EQ(score->whole.covered, 1.0);
+  EXPECT_EQ(to_text(*score).find("% of the time"), std::string::npos);
+}
+
+// The reference's own variance at that time is part of the expected error.
+TEST(FusionScore, TheReferencesVarianceIsThatOfTheMoment) {
+  const auto score = score_against(0.2);
+  ASSERT_TRUE(score);
+  EXPECT_NEAR(score->whole.nees_mean, (100.0 * 25.0 / 1.04 + 101.0 / 1.01) / 201.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace maploop::fusion_score

@@ -1,0 +1,122 @@
+// maploop dashboard: a running vehicle in a browser.
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "mapmatch/network_file.h"
+#include "msgs/lcm/channel_names.h"
+#include "tools/command/bus_listener.h"
+#include "tools/command/bus_option.h"
+#include "tools/command/commands.h"
+#include "tools/dashboard/live_channels.h"
+#include "tools/dashboard/relay.h"
+#include "tools/dashboard/server.h"
+#include "tools/match/road_lines.h"
+#include "tools/command/option_checks.h"
+#include "tools/command/terminal.h"
+#include "tools/web/bundle.h"
+#include "tools/web/page.h"
+
+namespace maploop::tools {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds pass_on_every{100};
+constexpr int listen_ms = 20;
+
+Duration now() {
+  return Clock::now().time_since_epoch();
+}
+
+struct DashboardOptions {
+  std::string lcm_url;
+  std::string address = "127.0.0.1";
+  int port = 8080;
+  double seconds = 0.0;  // 0: until interrupted
+  std::filesystem::path map;
+};
+
+constexpr double roads_within = 5000.0;  // m of a drive's origin
+
+// Roads in metres about the origin; none where there is no map.
+std::string roads_about(const mapmatch::RoadNetwork* network, const Geodetic& origin) {
+  web::Plot plot;
+  if (network != nullptr)
+    plot.roads = match::road_lines(*network, origin, {{"", {0.0}, {0.0}}}, roads_within);
+  return web::to_json(plot);
+}
+
+std::string send_command(BusListener& bus, const std::string& run, const std::string& kind,
+                         double value) {
+  const auto command = dashboard::encoded_command(run, kind, value);
+  if (command.empty()) return "there is no command '" + kind + "'";
+  const std::string channel(channel_names::replay_control);
+  return bus.publish(channel, command) ? "" : "LCM did not take the command";
+}
+
+int run(const DashboardOptions& options) {
+  if (web::dashboard_script().empty()) {
+    throw std::runtime_error(
+        "this maploop was built without npm, which makes the dashboard's page: install npm "
+        "(tools/install-packages web) and build again");
+  }
+  std::optional<mapmatch::RoadNetwork> network;
+  if (!options.map.empty()) network.emplace(mapmatch::open_network(options.map));
+  dashboard::LiveChannels channels;
+  dashboard::Relay relay(channels);
+  BusListener bus(vehicle::bus_url(options.lcm_url), ".*",
+                  [&](auto channel, auto data) { relay.take(channel, data, now()); });
+  const dashboard::Server server(
+      options.address, options.port, channels,
+      {[&] { return relay.trail(); },
+       [&](const std::string& run, const std::string& kind, double value) {
+         return send_command(bus, run, kind, value);
+       },
+       [&](const Geodetic& origin) { return roads_about(network ? &*network : nullptr, origin); }});
+  note_interrupts();
+  std::cout << "http://" << options.address << ':' << server.port() << "/  (Ctrl-C ends it)"
+            << std::endl;
+  const auto end = Clock::now() + from_seconds(options.seconds);
+  auto next = Clock::now();
+  while (!interrupted() && (options.seconds == 0.0 || Clock::now() < end)) {
+    bus.listen(listen_ms);
+    if (Clock::now() < next) continue;
+    relay.pass_on(now());
+    next = Clock::now() + pass_on_every;
+  }
+  if (relay.not_understood() > 0) {
+    std::cerr << "maploop: " << relay.not_understood()
+              << " messages were of no type that this version knows, or damaged\n";
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_dashboard(CLI::App& app, Command& command) {
+  auto options = std::make_shared<DashboardOptions>();
+  CLI::App* sub = app.add_subcommand("dashboard",
+                                     "Show a running replay or vehicle in a browser: way, camera, "
+                                     "scan, satellites, state, deadlines");
+  add_lcm_url(sub, options->lcm_url);
+  sub->add_option("--address", options->address,
+                  "Address to listen at; other than this machine's own (127.0.0.1) lets others "
+                  "look, and control a replay")
+      ->capture_default_str();
+  sub->add_option("--port", options->port, "Port to listen at, 0: any that is free")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  sub->add_option("--map", options->map,
+                  "OpenStreetMap file, or a network file: draw its roads under the way")
+      ->check(existing_file());
+  sub->add_option("--seconds", options->seconds, "End after this long; without it at Ctrl-C")
+      ->check(positive_number());
+  sub->callback([options, &command] { command = [options] { return run(*options); }; });
+}
+
+}  // namespace maploop::tools

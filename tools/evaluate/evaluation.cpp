@@ -1,0 +1,136 @@
+#include "tools/evaluate/evaluation.h"
+
+#include <fmt/format.h>
+#include <cmath>
+
+#include "tools/command/html_text.h"
+#include "tools/web/page.h"
+
+namespace maploop::evaluation {
+namespace {
+
+std::string of_segments(const SegmentError& error) {
+  if (error.segments == 0) return "        -          -";
+  return fmt::format("{:9.3f} {:10.5f}", error.percent, error.deg_per_m);
+}
+
+std::string of_statistics(const char* what, const char* unit, const Statistics& s) {
+  return fmt::format("{:32} rmse {:.4f}, mean {:.4f}, median {:.4f}, max {:.4f} {}\n", what, s.rmse,
+                     s.mean, s.median, s.max, unit);
+}
+
+}  // namespace
+
+web::Line seen_from_above(const std::string& name, const Trajectory& trajectory) {
+  web::Line line{name, {}, {}};
+  for (const Eigen::Isometry3d& pose : trajectory) {
+    const Eigen::Vector3d p = trajectory.front().inverse() * pose.translation();
+    line.x.push_back(p.x());
+    line.y.push_back(p.z());
+  }
+  return line;
+}
+
+std::vector<double> distances(const Trajectory& truth) {
+  std::vector<double> along{0.0};
+  for (std::size_t i = 1; i < truth.size(); ++i)
+    along.push_back(along.back() + (truth[i].translation() - truth[i - 1].translation()).norm());
+  return along;
+}
+
+Evaluation evaluate(Matched matched, const std::vector<double>& lengths_m) {
+  Evaluation e;
+  e.matched = std::move(matched);
+  const Trajectory& estimate = e.matched.estimate;
+  const Trajectory& truth = e.matched.truth;
+  e.ape = statistics(absolute_errors(estimate, truth, best_alignment(estimate, truth)));
+  const RelativeErrors relative = relative_errors(estimate, truth);
+  e.rpe_m = statistics(relative.translation_m);
+  e.rpe_deg = statistics(relative.rotation_deg);
+  e.kitti = kitti_odometry_error(estimate, truth);
+  for (const double length : lengths_m) {
+    e.raw = score(estimate, truth, length);
+    e.common_rotation_removed = score(estimate, truth, length, CommonRotation::kRemove);
+    e.lengths.push_back({length, e.raw.segment, e.common_rotation_removed.segment});
+  }
+  return e;
+}
+
+std::string to_text(const Evaluation& e) {
+  std::string text = fmt::format("{} poses, {:.1f} m\n", e.matched.truth.size(), e.raw.distance_m);
+  if (e.matched.unmatched_estimate + e.matched.unmatched_truth > 0)
+    text += fmt::format(
+        "not scored, for want of a partner: {} poses of the estimate, {} of the truth\n",
+        e.matched.unmatched_estimate, e.matched.unmatched_truth);
+  text += fmt::format("end point {:.3f} m ({:.3f} %); one common rotation removed: {:.3f} m\n\n",
+                      e.raw.end_point_m, e.raw.end_point_percent,
+                      e.common_rotation_removed.end_point_m) +
+          "segments                      %      deg/m   common rotation removed     number\n";
+  for (const LengthError& l : e.lengths)
+    text += fmt::format("{:6.0f} m          {}   {} {:10}\n", l.length_m, of_segments(l.raw),
+                        of_segments(l.common_rotation_removed), l.raw.segments);
+  text += fmt::format("KITTI, 100-800 m {} {:35}\n\n", of_segments(e.kitti), e.kitti.segments);
+  text += of_statistics("APE, best rigid alignment", "m", e.ape);
+  text += of_statistics("RPE, pose to pose", "m", e.rpe_m);
+  text += of_statistics("RPE, pose to pose", "deg", e.rpe_deg);
+  return text;
+}
+
+std::string to_csv(const Evaluation& e) {
+  const Trajectory& estimate = e.matched.estimate;
+  const Trajectory& truth = e.matched.truth;
+  const std::vector<double> along = distances(truth);
+  const auto from_start =
+      absolute_errors(estimate, truth, truth.front() * estimate.front().inverse());
+  const auto aligned = absolute_errors(estimate, truth, best_alignment(estimate, truth));
+  const RelativeErrors relative = relative_errors(estimate, truth);
+  std::string text = "stamp,way,from_start,aligned,step,step_deg\n";
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (!e.matched.stamps.empty())
+      text +=
+          fmt::format("{:.6f}", static_cast<double>(to_nanoseconds(e.matched.stamps[i])) * 1e-9);
+    text += fmt::format(",{:.4f},{:.4f},{:.4f},", along[i], from_start[i], aligned[i]);
+    text += i == 0 ? ","
+                   : fmt::format("{:.5f},{:.6f}", relative.translation_m[i - 1],
+                                 relative.rotation_deg[i - 1]);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string to_html(const Evaluation& e, const std::string& heading) {
+  const Trajectory& estimate = e.matched.estimate;
+  const Trajectory& truth = e.matched.truth;
+  const std::vector<double> along = distances(truth);
+  const auto ape = absolute_errors(estimate, truth, best_alignment(estimate, truth));
+  const auto from_start =
+      absolute_errors(estimate, truth, truth.front() * estimate.front().inverse());
+  const RelativeErrors relative = relative_errors(estimate, truth);
+  const std::vector<double> after_first(along.begin() + 1, along.end());
+  web::Line raw{"as it is", {}, {}}, rotated{"one common rotation removed", {}, {}};
+  for (const LengthError& l : e.lengths) {
+    raw.x.push_back(l.length_m);
+    raw.y.push_back(l.raw.percent);
+    rotated.x.push_back(l.length_m);
+    rotated.y.push_back(l.common_rotation_removed.percent);
+  }
+  const std::vector<web::Plot> plots{
+      {"Seen from above",
+       "right of the first camera, m",
+       "ahead, m",
+       {seen_from_above("truth", truth), seen_from_above("estimate", estimate)},
+       true},
+      {"Position error",
+       "way, m",
+       "m",
+       {{"from the start", along, from_start}, {"best alignment", along, ape}}},
+      {"Error of segments", "length, m", "%", {raw, rotated}},
+      {"From pose to pose", "way, m", "m", {{"translation", after_first, relative.translation_m}}},
+      {"From pose to pose", "way, m", "deg", {{"rotation", after_first, relative.rotation_deg}}}};
+  return web::Page(heading)
+      .add("<pre>" + tools::escaped(to_text(e)) + "</pre>\n")
+      .add(plots)
+      .text();
+}
+
+}  // namespace maploop::evaluation

@@ -1,0 +1,15 @@
+// The comparisons of `maploop experiment`, one function a file.
+#pragma once
+
+#include "tools/command/commands.h"
+
+namespace maploop::tools {
+
+void add_fusion_experiment(CLI::App& experiment, Command& command);
+void add_map_experiment(CLI::App& experiment, Command& command);
+void add_map_fault_experiment(CLI::App& experiment, Command& command);
+void add_match_experiment(CLI::App& experiment, Command& command);
+void add_odometry_experiment(CLI::App& experiment, Command& command);
+void add_ppp_map_experiment(CLI::App& experiment, Command& command);
+
+}  // namespace maploop::tools

@@ -1,0 +1,41 @@
+// maploop gnss: what is in GNSS files.
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <vector>
+
+#include "tools/command/commands.h"
+#include "tools/gnss/info.h"
+
+namespace maploop::tools {
+namespace {
+
+// Every file is tried; one that cannot be read makes the exit status 1.
+int gnss_info(const std::vector<std::filesystem::path>& files) {
+  int status = 0;
+  for (const auto& file : files) {
+    try {
+      std::cout << gnss::info(file);
+    } catch (const std::runtime_error& error) {
+      std::cerr << "maploop: " << error.what() << '\n';
+      status = 1;
+    }
+  }
+  return status;
+}
+
+}  // namespace
+
+void add_gnss(CLI::App& app, Command& command) {
+  CLI::App* sub = app.add_subcommand("gnss", "Look into GNSS files");
+  sub->require_subcommand(1);
+  CLI::App* info = sub->add_subcommand(
+      "info",
+      "What is in a file: RINEX observations, navigation and clocks, compact RINEX, SP3, ANTEX, "
+      "Bias-SINEX, DCB, ERP, BLQ, UBX (u-blox), RTCM 3, plain or .gz, told apart by content");
+  const auto files = std::make_shared<std::vector<std::filesystem::path>>();
+  info->add_option("FILE", *files, "Files to look into")->required();
+  info->callback([files, &command] { command = [files] { return gnss_info(*files); }; });
+}
+
+}  // namespace maploop::tools

@@ -1,0 +1,136 @@
+// maploop map: road networks from OpenStreetMap.
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "mapmatch/network_file.h"
+#include "msgs/frames.h"
+#include "msgs/time.h"
+#include "tools/command/commands.h"
+#include "tools/command/json_output.h"
+#include "tools/command/option_checks.h"
+
+namespace maploop::tools {
+namespace {
+
+struct MapOptions {
+  std::filesystem::path input, output, json;
+  std::vector<double> box;
+
+  mapmatch::OsmOptions osm() const {
+    mapmatch::OsmOptions options;
+    if (box.empty()) return options;
+    if (box[0] >= box[2] || box[1] >= box[3])
+      throw std::runtime_error(
+          "--box wants WEST,SOUTH,EAST,NORTH, west of east and south of north");
+    options.box = {box[0], box[1], box[2], box[3]};
+    return options;
+  }
+};
+
+struct OpenedNetwork {
+  mapmatch::RoadNetwork network;
+  double milliseconds;
+};
+
+OpenedNetwork open(const MapOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  mapmatch::RoadNetwork network(mapmatch::open_network(options.input, options.osm()));
+  const double seconds = to_seconds(std::chrono::steady_clock::now() - start);
+  return {std::move(network), 1000.0 * seconds};
+}
+
+nlohmann::json describe(const mapmatch::RoadNetwork& network) {
+  const mapmatch::NetworkData& data = network.data();
+  double length = 0.0;
+  std::size_t oneway = 0, bridges = 0, tunnels = 0, roundabouts = 0;
+  std::map<std::string, std::size_t> classes;
+  for (const mapmatch::Link& link : data.links) {
+    length += link.length;
+    if (link.forward != link.backward) ++oneway;
+  }
+  for (const mapmatch::Road& road : data.roads) {
+    ++classes[std::string(to_string(road.road_class))];
+    bridges += road.bridge ? 1 : 0;
+    tunnels += road.tunnel ? 1 : 0;
+    roundabouts += road.roundabout ? 1 : 0;
+  }
+  return {{"links", data.links.size()},
+          {"one_way_links", oneway},
+          {"junctions", data.junctions.size()},
+          {"vertices", data.vertices.size()},
+          {"ways", data.roads.size()},
+          {"ways_by_class", classes},
+          {"bridges", bridges},
+          {"tunnels", tunnels},
+          {"roundabouts", roundabouts},
+          {"banned_turns", data.banned.size()},
+          {"length_km", length / 1000.0},
+          {"origin", {degrees(data.origin.latitude), degrees(data.origin.longitude)}},
+          {"warnings", data.warnings}};
+}
+
+void print(const nlohmann::json& info, double milliseconds) {
+  std::cout << info["links"] << " links (" << info["one_way_links"] << " one way) of "
+            << info["ways"] << " ways, " << info["length_km"].get<double>() << " km; "
+            << info["junctions"] << " junctions, " << info["banned_turns"] << " banned turns, "
+            << info["bridges"] << " bridges, " << info["tunnels"] << " tunnels, "
+            << info["roundabouts"] << " roundabouts\n";
+  for (const auto& [name, count] : info["ways_by_class"].items())
+    std::cout << "  " << name << ": " << count << '\n';
+  for (const auto& warning : info["warnings"])
+    std::cout << "note: " << warning.get<std::string>() << '\n';
+  std::cout << "read in " << milliseconds << " ms\n";
+}
+
+int build(const MapOptions& options) {
+  const OpenedNetwork opened = open(options);
+  save_network(options.output, opened.network.data());
+  print(describe(opened.network), opened.milliseconds);
+  std::cout << "wrote " << options.output.string() << ", "
+            << std::filesystem::file_size(options.output) << " bytes\n";
+  return 0;
+}
+
+int info(const MapOptions& options) {
+  const OpenedNetwork opened = open(options);
+  nlohmann::json described = describe(opened.network);
+  print(described, opened.milliseconds);
+  described["read_ms"] = opened.milliseconds;
+  if (!options.json.empty()) write_json_file(options.json, described);
+  return 0;
+}
+
+}  // namespace
+
+void add_map(CLI::App& app, Command& command) {
+  CLI::App* map = app.add_subcommand("map", "Road networks from OpenStreetMap");
+  map->require_subcommand(1);
+  auto options = std::make_shared<MapOptions>();
+  const auto add_input = [&](CLI::App* sub, const char* what) {
+    sub->add_option("MAP", options->input, what)->required();
+    sub->add_option("--box", options->box,
+                    "WEST,SOUTH,EAST,NORTH in degrees: only what lies inside")
+        ->delimiter(',')
+        ->expected(4)
+        ->check(finite_number());
+  };
+  CLI::App* sub = map->add_subcommand("build", "Make a network file, which loads fast, from a map");
+  add_input(sub, "OpenStreetMap file: .osm.pbf, .osm, .osm.gz or .osm.bz2");
+  sub->add_option("NETWORK", options->output, "File to write")->required()->check(writable_file());
+  sub->callback([options, &command] { command = [options] { return build(*options); }; });
+
+  sub = map->add_subcommand("info", "What a map or network file has");
+  add_input(sub, "OpenStreetMap file, or a network file of `maploop map build`");
+  sub->add_option("--json", options->json, "Write it to this file as JSON, too")
+      ->check(writable_file());
+  sub->callback([options, &command] { command = [options] { return info(*options); }; });
+}
+
+}  // namespace maploop::tools

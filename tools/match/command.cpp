@@ -1,0 +1,148 @@
+// maploop match: a recorded track on the roads it was driven on.
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "mapmatch/network_file.h"
+#include "msgs/frames.h"
+#include "tools/command/commands.h"
+#include "tools/match/match_output.h"
+#include "tools/match/match_score.h"
+#include "tools/match/parameter_settings.h"
+#include "tools/match/score_output.h"
+#include "tools/match/track_file.h"
+#include "tools/match/unused_fixes.h"
+#include "tools/command/option_checks.h"
+
+namespace maploop::tools {
+namespace {
+
+struct MatchOptions {
+  std::filesystem::path map, track, csv, geojson, gpx, html, rules, labels;
+  std::vector<double> origin, box;
+  std::vector<std::string> set;
+  match::TrackFileOptions track_options;
+};
+
+void print_summary(const match::MatchedTrack& track, const mapmatch::RoadNetwork& network,
+                   std::vector<double>& microseconds) {
+  std::map<std::string_view, std::size_t> phases;
+  std::size_t matched = 0;
+  for (const mapmatch::MatchResult& r : track.results) {
+    if (r.refusal != mapmatch::FixRefusal::none) continue;
+    ++phases[to_string(r.phase)];
+    matched += r.on_road ? 1 : 0;
+  }
+  std::cout << track.fixes.size() << " fixes, " << matched << " on a road\n";
+  for (const auto& [phase, count] : phases) std::cout << "  " << phase << ": " << count << '\n';
+  for (const auto& [reason, count] : match::unused_fixes(track, network))
+    std::cout << "  not used: " << count << ", " << reason << '\n';
+  std::sort(microseconds.begin(), microseconds.end());
+  const auto percentile = [&](double share) {
+    return microseconds[static_cast<std::size_t>(share *
+                                                 static_cast<double>(microseconds.size() - 1))];
+  };
+  std::cout << "time a fix: median " << percentile(0.5) << " us, p99 " << percentile(0.99)
+            << " us, largest " << microseconds.back() << " us\n";
+}
+
+void print_score(const match::MatchedTrack& track, const mapmatch::RoadNetwork& network,
+                 const std::filesystem::path& labels) {
+  std::vector<match::MatchedFix> matched;
+  std::vector<std::size_t> rows;
+  for (const mapmatch::MatchResult& r : track.results) {
+    rows.push_back(matched.size());
+    matched.push_back(match::matched_fix(r, network));
+  }
+  match::MatchScore score;
+  auto driven = match::read_labels(labels);
+  match::SegmentLinks(network).look_up(driven);
+  score.add(matched, rows, driven);
+  std::cout << match::to_text(score);
+}
+
+int match_track(MatchOptions options) {
+  if (!options.origin.empty())
+    options.track_options.origin =
+        Geodetic{radians(options.origin[0]), radians(options.origin[1]), 0.0};
+  mapmatch::OsmOptions osm;
+  if (!options.box.empty())
+    osm.box = {options.box[0], options.box[1], options.box[2], options.box[3]};
+  const mapmatch::RoadNetwork network(mapmatch::open_network(options.map, osm));
+  const mapmatch::RuleBases rules =
+      mapmatch::read_rule_bases(options.rules.empty() ? mapmatch::default_rules() : options.rules);
+  match::MatchedTrack track;
+  track.fixes = match::read_track(options.track, options.track_options);
+  mapmatch::Matcher matcher(network, rules, match::parameters_with(options.set));
+  std::vector<double> microseconds;
+  for (const mapmatch::VehicleFix& fix : track.fixes) {
+    const auto start = std::chrono::steady_clock::now();
+    const mapmatch::MatchResult& result = matcher.add(fix);
+    microseconds.push_back(1e6 * to_seconds(std::chrono::steady_clock::now() - start));
+    track.results.push_back(result);
+  }
+  print_summary(track, network, microseconds);
+  if (const auto why = match::why_unusable(track, network)) throw std::runtime_error(*why);
+  if (!options.csv.empty()) match::write_match_csv(options.csv, track, network);
+  if (!options.geojson.empty()) match::write_match_geojson(options.geojson, track, network);
+  if (!options.gpx.empty()) match::write_match_gpx(options.gpx, track, network);
+  if (!options.html.empty()) match::write_match_html(options.html, track, network, rules);
+  if (!options.labels.empty()) print_score(track, network, options.labels);
+  return 0;
+}
+
+}  // namespace
+
+void add_match(CLI::App& app, Command& command) {
+  auto options = std::make_shared<MatchOptions>();
+  CLI::App* sub = app.add_subcommand(
+      "match", "Find the roads that a recorded track was driven on, fix by fix as if live");
+  sub->add_option("MAP", options->map,
+                  "OpenStreetMap file, or a network file of `maploop map build`")
+      ->required();
+  sub->add_option("TRACK", options->track,
+                  "CSV with columns t, lat, lon and what else is known (sigma or cov_ee, cov_en, "
+                  "cov_nn in m; speed in m/s, azimuth_deg, yaw_rate in rad/s, hdop, visual_speed, "
+                  "visual_azimuth_deg; OXTS's names, "
+                  "too), GPX, NMEA, TUM or an LCM log (NAV_STATE, or GNSS_FIX); plain or .gz")
+      ->required();
+  sub->add_option("--csv", options->csv, "Write one line a fix to this file")
+      ->check(writable_file());
+  sub->add_option("--geojson", options->geojson, "The same as GeoJSON, with reasons")
+      ->check(writable_file());
+  sub->add_option("--gpx", options->gpx, "Write the matched positions as GPX")
+      ->check(writable_file());
+  sub->add_option("--html", options->html, "Write a page with map, fixes, candidates and rules")
+      ->check(writable_file());
+  sub->add_option("--sigma", options->track_options.sigma,
+                  "Metres an axis, of positions whose accuracy the track does not say")
+      ->check(positive_number())
+      ->capture_default_str();
+  sub->add_option("--origin", options->origin, "LAT,LON of a TUM track's local frame, degrees")
+      ->delimiter(',')
+      ->expected(2)
+      ->check(finite_number());
+  sub->add_option("--box", options->box, "WEST,SOUTH,EAST,NORTH in degrees: only this part of MAP")
+      ->delimiter(',')
+      ->expected(4)
+      ->check(finite_number());
+  sub->add_option("--rules", options->rules, "Folder with rule bases of your own (.fll)")
+      ->check(existing_folder());
+  sub->add_option("--labels", options->labels,
+                  "CSV of the links really driven (frame,way_id,node_a,node_b,conf; plain or .gz; "
+                  "frame: number of TRACK's row, from 0): print the share that is right");
+  sub->add_option("--set", options->set, "NAME=VALUE of a parameter of [mapmatch]");
+  sub->footer(
+      "Examples:\n"
+      "    maploop match town.osm.pbf track.gpx --html match.html  # with reasons\n"
+      "    maploop match town.net run.lcmlog --csv matched.csv     # of a recorded run");
+  sub->callback([options, &command] { command = [options] { return match_track(*options); }; });
+}
+
+}  // namespace maploop::tools

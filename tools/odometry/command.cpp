@@ -1,0 +1,202 @@
+// maploop odometry: one odometry alone, from images or from recorded tracks.
+#include <algorithm>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/vehicle/drivers/recorded_tracks.h"
+#include "tools/command/choice_option.h"
+#include "tools/command/commands.h"
+#include "tools/evaluate/trajectory_file.h"
+#include "tools/odometry/motion_csv.h"
+#include "tools/odometry/odometry_input.h"
+#include "tools/odometry/track_writer.h"
+#include "tools/odometry/lidar_command.h"
+#include "tools/command/option_checks.h"
+
+namespace maploop::tools {
+namespace {
+
+struct OdometryOptions {
+  std::filesystem::path input, config, poses, tum, csv, tracks;
+  odometry::FrameRange frames;
+  std::optional<stereo::Matching> matching;
+  std::optional<stereo::MotionMethod> motion;
+  std::optional<int> window_frames;
+  std::optional<odometry::Disparities> disparities;
+  LidarOdometryOptions lidar;
+};
+
+void adjust(const OdometryOptions& options, stereo::StereoParameters& parameters) {
+  if (options.matching) parameters.matching = *options.matching;
+  if (options.motion) parameters.motion = *options.motion;
+  if (options.motion == stereo::MotionMethod::image_to_image) parameters.window_frames = 0;
+  if (options.window_frames) parameters.window_frames = *options.window_frames;
+}
+
+double percentile(const std::vector<double>& sorted, double share) {
+  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+}
+
+// Median, p99 and largest.
+std::string figures(std::vector<double> milliseconds) {
+  std::sort(milliseconds.begin(), milliseconds.end());
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2) << std::setw(9) << percentile(milliseconds, 0.5)
+       << std::setw(9) << percentile(milliseconds, 0.99) << std::setw(9) << milliseconds.back();
+  return text.str();
+}
+
+// Of the frames that were compared with another.
+void print_times(const std::vector<odometry::Step>& steps) {
+  std::vector<double> whole;
+  std::vector<std::pair<std::string, std::vector<double>>> stages;  // as they follow each other
+  for (const odometry::Step& step : steps) {
+    if (step.motion.status == OdometryStatus::first_frame) continue;
+    whole.push_back(step.milliseconds);
+    std::map<std::string, double> of_step;
+    for (const auto& [name, milliseconds] : step.stages) {
+      of_step[name] += milliseconds;
+      const auto same = [&n = name](const auto& stage) { return stage.first == n; };
+      if (std::none_of(stages.begin(), stages.end(), same)) stages.push_back({name, {}});
+    }
+    for (auto& [name, times] : stages)
+      if (const auto found = of_step.find(name); found != of_step.end())
+        times.push_back(found->second);
+  }
+  if (whole.empty()) return;
+  std::cout << "processor time of a frame, ms\n              median      p99  largest\n";
+  for (const auto& [name, times] : stages)
+    if (!times.empty())
+      std::cout << "  " << std::left << std::setw(10) << name << std::right << figures(times)
+                << '\n';
+  std::cout << "  " << std::left << std::setw(10) << "all" << std::right << figures(whole) << '\n';
+}
+
+void print_summary(const std::vector<odometry::Step>& steps,
+                   const evaluation::StampedTrajectory& trajectory) {
+  std::map<std::string, int> by_status;
+  double way = 0.0;
+  for (const odometry::Step& step : steps) {
+    const RelativeMotion& motion = step.motion;
+    std::string status(to_string(motion.status));
+    if (motion.condition != OdometryCondition::ordinary)
+      status += " (" + std::string(to_string(motion.condition)) + ")";
+    ++by_status[status];
+    way += motion.translation.norm();
+  }
+  std::cout << "frames " << steps.front().frame << " to " << steps.back().frame << ", "
+            << to_seconds(trajectory.stamps.back() - trajectory.stamps.front()) << " s, " << way
+            << " m\n";
+  for (const auto& [status, count] : by_status)
+    std::cout << "  " << status << ": " << count << '\n';
+  print_times(steps);
+}
+
+odometry::RecordedTracks recorded(const StereoCalibration& camera,
+                                  const std::vector<odometry::Step>& steps) {
+  odometry::RecordedTracks result;
+  result.calibration = camera;
+  result.first_good_frame = steps.front().frame;
+  result.frames.resize(steps.back().frame + 1);
+  result.stamps.resize(result.frames.size(), steps.front().motion.stamp);
+  std::map<Time, std::size_t> frame_at;
+  for (const odometry::Step& step : steps) {
+    result.stamps[step.frame] = step.motion.stamp;
+    frame_at[step.motion.stamp] = step.frame;
+    if (!step.tracks.empty()) result.add(frame_at.at(step.motion.from), step.frame, step.tracks);
+  }
+  return result;
+}
+
+int odometry_alone(const OdometryOptions& options) {
+  if (options.lidar.wanted) {
+    return lidar_odometry_alone(
+        options.lidar, {options.input, options.config, options.poses, options.tum, options.csv},
+        options.frames);
+  }
+  const odometry::Input input = odometry::open_input(
+      options.input, options.config, options.frames,
+      options.disparities.value_or(odometry::Disparities::own),
+      [&options](stereo::StereoParameters& parameters) { adjust(options, parameters); });
+  std::vector<odometry::Step> steps;
+  odometry::CameraPath path(input.camera.T_body_cam);
+  while (auto step = input.run()) {
+    path.add(step->motion);
+    steps.push_back(std::move(*step));
+  }
+  const evaluation::StampedTrajectory& trajectory = path.trajectory();
+  if (steps.empty())
+    throw std::runtime_error(options.input.string() +
+                             " has no frame between --first and --last that can be read");
+  if (!options.poses.empty()) evaluation::write_kitti_poses(options.poses, trajectory.poses);
+  if (!options.tum.empty()) evaluation::write_tum(options.tum, trajectory);
+  if (!options.csv.empty()) odometry::write_csv(options.csv, steps);
+  if (!options.tracks.empty())
+    odometry::write_recorded_tracks(options.tracks, recorded(input.camera, steps));
+  print_summary(steps, trajectory);
+  return 0;
+}
+
+}  // namespace
+
+void add_odometry(CLI::App& app, Command& command) {
+  auto options = std::make_shared<OdometryOptions>();
+  CLI::App* sub = app.add_subcommand(
+      "odometry",
+      "Visual odometry alone, from a drive's images or from recorded tracks; or LiDAR odometry");
+  sub->add_option("DRIVE", options->input,
+                  "Folder of a KITTI raw drive, or recorded tracks (<drive>.csv[.gz] with its "
+                  "<drive>.meta.json)")
+      ->required()
+      ->check(existing_path());
+  sub->add_option("--config", options->config,
+                  "TOML file of parameters; without it recorded tracks get lower thresholds")
+      ->check(existing_file());
+  sub->add_option("--first", options->frames.first, "Number of the first frame")
+      ->check(whole_number());
+  sub->add_option("--last", options->frames.last, "Number of the last frame")
+      ->check(whole_number());
+  sub->add_option("--poses", options->poses,
+                  "Write the left camera's poses to this file in KITTI's format")
+      ->check(writable_file());
+  sub->add_option("--tum", options->tum, "The same in TUM's format, with stamps")
+      ->check(writable_file());
+  sub->add_option("--csv", options->csv, "Write every motion to this file, one line a frame")
+      ->check(writable_file());
+  CLI::Option* lidar = add_lidar_options(*sub, options->lidar);
+  add_choice(sub, "--matching", options->matching,
+             "How features are found again: klt or sift, in place of the configuration's")
+      ->excludes(lidar);
+  add_choice(sub, "--motion", options->motion,
+             "How the motion is found: 3d-2d, 3d-3d or 2d-2d (left camera alone, length unknown)")
+      ->excludes(lidar);
+  sub->add_option("--window", options->window_frames,
+                  "Poses that are adjusted together, 3 to 12; 0: from pair to pair only")
+      ->excludes(lidar);
+  add_choice(sub, "--disparity", options->disparities,
+             "Who says what all disparities lack: none, the image pairs (own), or they and "
+             "LiDAR odometry (lidar)")
+      ->excludes(lidar);
+  sub->add_option("--tracks", options->tracks,
+                  "Write the features followed to this file (.csv or .csv.gz) and its .meta.json, "
+                  "which can be read in place of a drive")
+      ->check(writable_file())
+      ->excludes(lidar);
+  sub->footer(
+      "Examples:\n"
+      "    maploop odometry DRIVE --poses est.txt              # stereo cameras\n"
+      "    maploop odometry DRIVE --lidar --cloud street.ply   # LiDAR, seeded by them\n"
+      "    maploop evaluate est.txt truth.txt --lengths 100    # then score it");
+  sub->callback([options, &command] { command = [options] { return odometry_alone(*options); }; });
+}
+
+}  // namespace maploop::tools

@@ -1,0 +1,97 @@
+// maploop profile: where the time of a run went, from its DEADLINES and HEALTH.
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "msgs/lcm/log/log_reader.h"
+#include "tools/command/bus_listener.h"
+#include "tools/command/bus_option.h"
+#include "tools/command/commands.h"
+#include "tools/evaluate/text_file.h"
+#include "tools/log/log_types.h"
+#include "tools/log/progress.h"
+#include "tools/command/option_checks.h"
+#include "tools/profile/profile.h"
+#include "tools/command/terminal.h"
+
+namespace maploop::tools {
+namespace {
+
+using std::filesystem::path;
+
+struct ProfileOptions {
+  path log;
+  bool live = false;
+  std::string lcm_url;
+  double seconds = 0.0;  // 0: until interrupted
+  path json, html;
+};
+
+void read_log(const path& file, profile::ProfileCollector& collector) {
+  const schema::Schema schema = lcm_log::load_types({});
+  lcm_log::LogReader reader(file, schema);
+  lcm_log::Progress progress(reader.input().file_size());
+  using Item = lcm_log::LogReader::Item;
+  for (Item item = reader.next(); item != Item::end; item = reader.next()) {
+    progress.at(reader.input().file_position());
+    if (item == Item::event) collector.add(reader.event().channel, reader.event().data);
+  }
+}
+
+void listen(const std::string& url, const ProfileOptions& options,
+            profile::ProfileCollector& collector) {
+  constexpr int look_every = 100;  // ms
+  BusListener bus(url, "DEADLINES|HEALTH",
+                  [&](auto channel, auto data) { collector.add(channel, data); });
+  note_interrupts();
+  const auto end = std::chrono::steady_clock::now() + from_seconds(options.seconds);
+  while (!interrupted() && (options.seconds == 0.0 || std::chrono::steady_clock::now() < end)) {
+    bus.listen(look_every);
+  }
+}
+
+int run(const ProfileOptions& options) {
+  if (options.live != options.log.empty()) {
+    throw CLI::RequiredError("either LOG or --live");
+  }
+  profile::ProfileCollector collector;
+  const std::string url = vehicle::bus_url(options.lcm_url);
+  const std::string source = "'" + (options.live ? url : options.log.string()) + "'";
+  if (options.live) {
+    listen(url, options, collector);
+  } else {
+    read_log(options.log, collector);
+  }
+  const profile::Profile result = collector.profile(source);
+  std::cout << profile::to_text(result);
+  if (!options.json.empty()) evaluation::write_text(options.json, profile::to_json(result));
+  if (!options.html.empty()) {
+    evaluation::write_text(
+        options.html,
+        profile::to_html(result, options.live ? url : options.log.filename().string()));
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_profile(CLI::App& app, Command& command) {
+  auto options = std::make_shared<ProfileOptions>();
+  CLI::App* sub = app.add_subcommand(
+      "profile", "Latencies, misses and processor time of a run, from its DEADLINES and HEALTH");
+  auto* log = sub->add_option("LOG", options->log, "LCM log of the run, plain or .gz");
+  auto* live = sub->add_flag("--live", options->live, "Listen to a run on the bus")->excludes(log);
+  add_lcm_url(sub, options->lcm_url)->needs(live);
+  sub->add_option("--seconds", options->seconds, "Listen this long; without it until Ctrl-C")
+      ->needs(live)
+      ->check(positive_number());
+  sub->add_option("--json", options->json, "Write the same to this file as JSON")
+      ->check(writable_file());
+  sub->add_option("--html", options->html, "Write a page with pictures to this file")
+      ->check(writable_file());
+  sub->callback([options, &command] { command = [options] { return run(*options); }; });
+}
+
+}  // namespace maploop::tools

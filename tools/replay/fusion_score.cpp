@@ -1,0 +1,134 @@
+#include "tools/replay/fusion_score.h"
+
+#include <fmt/format.h>
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "msgs/frames.h"
+#include "sensors/replay/reference_trajectory.h"
+#include "tools/command/median.h"
+
+namespace maploop::fusion_score {
+namespace {
+
+// Error of one state.
+struct Sample {
+  Time stamp;
+  Eigen::Vector2d truth;     // m, enu
+  Eigen::Vector2d position;  // m, error
+  double azimuth;            // rad, error
+  double nees;
+  double accuracy;  // m, of the reference
+};
+
+double median_accuracy(const std::vector<Sample>& samples) {
+  std::vector<double> values;
+  for (const Sample& s : samples) values.push_back(s.accuracy);
+  return tools::median(values);
+}
+
+Errors errors_between(const std::vector<Sample>& samples, Time begin, Time end, double states) {
+  Errors e;
+  const auto before = [](const Sample& s, Time t) { return s.stamp < t; };
+  const auto first = std::lower_bound(samples.begin(), samples.end(), begin, before);
+  const auto last = std::lower_bound(first, samples.end(), end, before);
+  const auto n = static_cast<double>(last - first);
+  if (last - first < 2) return e;
+  for (auto s = first; s != last; ++s) {
+    const double error = s->position.norm();
+    if (s != first) e.distance += (s->truth - std::prev(s)->truth).norm();
+    e.rmse += error * error / n;
+    e.azimuth_rms += s->azimuth * s->azimuth / n;
+    e.nees_mean += s->nees / n;
+    e.max = std::max(e.max, error);
+  }
+  e.rmse = std::sqrt(e.rmse);
+  e.azimuth_rms = degrees(std::sqrt(e.azimuth_rms));
+  e.azimuth_end = degrees(std::prev(last)->azimuth);
+  e.nees_end = std::prev(last)->nees;
+  e.drift = (std::prev(last)->position - first->position).norm();
+  e.covered = std::min(1.0, n / std::max(states, 1.0));
+  return e;
+}
+
+}  // namespace
+
+void NavTrack::add(const NavState& state) {
+  constexpr std::uint64_t every = 10;
+  if (state.status == NavStatus::uninitialized || state.sequence % every != 0) return;
+  // A replay may go back.
+  while (!states_.empty() && states_.back().stamp >= state.stamp) states_.pop_back();
+  states_.push_back(state);
+}
+
+std::optional<Score> score(const NavTrack& track, const std::vector<ReferencePose>& reference,
+                           const std::vector<vehicle::GnssOutage>& outages, Time origin) {
+  if (reference.size() < 2 || track.states().empty()) return std::nullopt;
+  const sensors::ReferenceTrajectory truth(reference, LocalFrame(track.states().front().origin));
+
+  std::vector<Sample> samples;
+  for (const NavState& state : track.states()) {
+    const auto pose = truth.pose(state.stamp);
+    if (!pose) continue;
+    Sample s;
+    s.stamp = state.stamp;
+    s.truth = pose->translation().head<2>();
+    s.position = state.position_enu.head<2>() - s.truth;
+    s.azimuth =
+        wrap_angle(state.attitude.azimuth - attitude_from_rotation(pose->rotation()).azimuth);
+    s.accuracy = truth.accuracy(state.stamp);
+    const Eigen::Matrix2d C = state.covariance.topLeftCorner<2, 2>() +
+                              s.accuracy * s.accuracy * Eigen::Matrix2d::Identity();
+    s.nees = s.position.dot(C.inverse() * s.position);
+    samples.push_back(s);
+  }
+  const auto bad = [](const Sample& s) { return s.accuracy > worst_reference; };
+  if (std::count_if(samples.begin(), samples.end(), std::not_fn(bad)) > 1) {
+    std::erase_if(samples, bad);
+  }
+  if (samples.size() < 2) return std::nullopt;
+
+  const auto states_in = [&](Time begin, Time end) {
+    return static_cast<double>(
+        std::count_if(track.states().begin(), track.states().end(),
+                      [&](const NavState& s) { return s.stamp >= begin && s.stamp < end; }));
+  };
+  Score result;
+  result.reference_accuracy = median_accuracy(samples);
+  result.whole =
+      errors_between(samples, Time::min(), Time::max(), static_cast<double>(track.states().size()));
+  const Time last = samples.back().stamp;
+  for (const vehicle::GnssOutage& o : outages) {
+    const Time end = std::min(o.end, last);
+    if (o.begin >= end) continue;
+    result.outages.push_back({to_seconds(o.begin - origin), to_seconds(end - o.begin),
+                              errors_between(samples, o.begin, end, states_in(o.begin, end))});
+  }
+  return result;
+}
+
+std::string to_text(const Score& score) {
+  std::string text =
+      "\nState as sent           distance    rmse     max   drift    drift  azimuth deg      NEES\n"
+      "                               m       m       m       m        %     rms    end  mean   "
+      " end\n";
+  const auto line = [&](const std::string& name, const Errors& e) {
+    text += fmt::format(
+        "  {:20} {:9.1f} {:7.2f} {:7.2f} {:7.2f} {:8.3f} {:7.3f} {:6.3f} {:5.1f} {:6.1f}\n", name,
+        e.distance, e.rmse, e.max, e.drift, e.percent(), e.azimuth_rms, e.azimuth_end, e.nees_mean,
+        e.nees_end);
+    if (e.covered >= 0.98) return;
+    text += fmt::format(
+        "  {:20} scored where there is a reference better than {:.1f} m: {:.0f} % of the time\n",
+        "", worst_reference, 100.0 * e.covered);
+  };
+  line("whole drive", score.whole);
+  for (const OutageErrors& o : score.outages)
+    line(fmt::format("outage {:.1f}:{:.1f}", o.start, o.length), o.errors);
+  return text + fmt::format("  The reference says of itself that it is right to {:.2f} m.\n",
+                            score.reference_accuracy);
+}
+
+}  // namespace maploop::fusion_score

@@ -1,0 +1,66 @@
+// How far the fused state is from the reference, and what it said of that itself.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "msgs/nav_state.h"
+#include "msgs/reference.h"
+#include "runtime/vehicle/drivers/gnss_outage.h"
+
+namespace maploop::fusion_score {
+
+// NAV_STATE as it was sent, every tenth: predicted to its tick, before the odometry of that moment
+// had come. add() on one thread, the rest afterwards.
+class NavTrack {
+ public:
+  void add(const NavState& state);
+  const std::vector<NavState>& states() const { return states_; }
+
+ private:
+  std::vector<NavState> states_;
+};
+
+// Horizontal, over one stretch. The normalized error squared (NEES) is of the horizontal position,
+// two degrees of freedom, with the reference's own covariance added.
+struct Errors {
+  double distance = 0.0;     // m, of the reference
+  double rmse = 0.0;         // m
+  double max = 0.0;          // m
+  double drift = 0.0;        // m, how the error changed from the begin to the end
+  double azimuth_rms = 0.0;  // deg
+  double azimuth_end = 0.0;  // deg
+  double nees_mean = 0.0;
+  double nees_end = 0.0;
+  double covered = 0.0;  // 1, share of the stretch where there is a reference that is good enough
+
+  // Of the way: the drift, and the root of the mean error squared.
+  double percent() const { return distance > 0.0 ? 100.0 * drift / distance : 0.0; }
+  double rmse_percent() const { return distance > 0.0 ? 100.0 * rmse / distance : 0.0; }
+};
+
+struct OutageErrors {
+  double start = 0.0, length = 0.0;  // s into the drive, s
+  Errors errors;
+};
+
+// Where the reference says of itself that it is worse, nothing is scored: the error would be its
+// own.
+inline constexpr double worst_reference = 0.3;  // m
+
+struct Score {
+  double reference_accuracy = 0.0;  // m, median of what the reference says where it is scored
+  Errors whole;
+  std::vector<OutageErrors> outages;  // those that lie in the drive
+};
+
+// Nothing where the track or the reference is too short. A reference that is nowhere better than
+// worst_reference is taken as it is.
+std::optional<Score> score(const NavTrack& track, const std::vector<ReferencePose>& reference,
+                           const std::vector<vehicle::GnssOutage>& outages, Time origin);
+
+// Some lines for a terminal.
+std::string to_text(const Score& score);
+
+}  // namespace maploop::fusion_score

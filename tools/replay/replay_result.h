@@ -1,0 +1,98 @@
+// What one replay came to: accuracy against the reference, and how the runtime did.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "msgs/nav_state.h"
+#include "msgs/ppp_state.h"
+#include "runtime/vehicle/output/channel_hashes.h"
+#include "runtime/vehicle/faults/fault_injection.h"
+#include "runtime/vehicle/graph/vehicle_report.h"
+#include "tools/evaluate/kitti_metric.h"
+#include "tools/replay/fusion_score.h"
+#include "tools/match/match_score.h"
+
+namespace maploop::tools {
+
+// Of one trajectory, at the images where it and the reference have a pose.
+struct Accuracy {
+  evaluation::Score raw;
+  evaluation::Score common_rotation_removed;
+};
+
+// A snapshot that was taken on the way, and the channels from there on: what a run that resumes
+// from it must have.
+struct SnapshotResult {
+  std::string file;
+  double at = 0.0;  // s since the first sample
+  std::map<std::string, vehicle::ChannelSummary> channels;
+};
+
+struct TraceSummary {
+  std::string file;
+  std::uint64_t recorded = 0;  // events
+  std::uint64_t dropped = 0;
+};
+
+// Of a drive with GNSS observations: its epochs by what the ppp thread said of them.
+struct PppEpochs {
+  std::array<std::size_t, ppp_status_count> by_status{};
+  double converged_after = -1.0;  // s, of the first that was; below 0: none
+  bool never_converges = false;   // ppp::PppSetup::never_converges()
+
+  void add(const PppState& state) {
+    ++by_status[static_cast<std::size_t>(state.status)];
+    if (state.status == PppStatus::converged && converged_after < 0.0) {
+      converged_after = state.converging_for;
+    }
+  }
+  std::size_t of(PppStatus status) const { return by_status[static_cast<std::size_t>(status)]; }
+};
+
+// Of a run on a map.
+struct MapUse {
+  std::string area;        // that the map covers
+  bool elsewhere = false;  // no position was on a road, and the run ended far outside of the map
+};
+
+struct ReplayResult {
+  std::string run;            // its id (runtime/vehicle/output/runs.h)
+  std::string drive;          // or a live run's configuration
+  std::string configuration;  // of the fusion, by name
+  bool live = false;          // no replay at all
+  bool lockstep = false;
+  double speed = 1.0;
+  bool interrupted = false;
+  std::size_t images = 0;       // of the drive
+  bool has_gnss = true;         // the recording has fixes or observations
+  std::optional<NavState> end;  // the last fused state; nothing: the filter never started
+  std::optional<MapUse> map;
+  std::optional<Accuracy> vo;  // nothing where there is too little to score
+  std::optional<Accuracy> lidar;
+  std::optional<Accuracy> fused;
+  std::optional<PppEpochs> ppp;
+  std::optional<fusion_score::Score> navigation;  // of NAV_STATE, as it was sent
+  std::optional<match::MatchScore> links;         // of MAP_MATCH, where the links are known
+  std::map<std::string, vehicle::ChannelSummary> channels;
+  std::optional<SnapshotResult> snapshot;
+  std::vector<vehicle::FaultCount> faults;
+  std::optional<TraceSummary> trace;
+  vehicle::VehicleReport vehicle;
+
+  std::uint64_t samples_lost() const;     // in rings
+  std::uint64_t messages_unsent() const;  // that LCM or the log did not take
+  std::uint64_t deadline_misses() const;
+};
+
+// For a person, on a terminal: everything that was measured.
+std::string format_table(const ReplayResult& result);
+
+// The same for a program. Throws std::runtime_error naming the file when it cannot be written.
+void write_json(const std::filesystem::path& file, const ReplayResult& result);
+
+}  // namespace maploop::tools

@@ -1,0 +1,172 @@
+// maploop simulate: a drive through a generated town.
+#include "tools/simulate/simulation.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "msgs/frames.h"
+#include "msgs/time.h"
+#include "tools/command/commands.h"
+#include "tools/command/option_checks.h"
+#include "tools/command/terminal.h"
+
+namespace maploop::tools {
+namespace {
+
+struct SimulateOptions {
+  std::filesystem::path out;
+  simulate::SimulationOptions drive;
+};
+
+// A line that is overwritten on a terminal, a line every 10 s elsewhere.
+class FrameProgress {
+ public:
+  void show(std::size_t done, std::size_t all) {
+    const auto now = Clock::now();
+    if (now < next_ && done < all) return;
+    next_ = now + std::chrono::milliseconds(terminal_ ? 200 : 10'000);
+    const double seconds = to_seconds(now - begin_);
+    const double left = seconds / static_cast<double>(done) * static_cast<double>(all - done);
+    std::fprintf(stderr, "%s%5zu of %zu frames, %.1f a second, %.0f s left %s",
+                 terminal_ ? "\r" : "", done, all, static_cast<double>(done) / seconds, left,
+                 terminal_ && done < all ? "" : "\n");
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool terminal_ = isatty(STDERR_FILENO) != 0;
+  Clock::time_point begin_ = Clock::now(), next_ = begin_ + std::chrono::seconds(1);
+};
+
+// "49.01,8.43"
+Geodetic parse_place(const std::string& text) {
+  double latitude = 0.0, longitude = 0.0;
+  char comma = 0, more = 0;
+  std::istringstream in(text);
+  if (!(in >> latitude >> comma >> longitude) || comma != ',' || in >> more ||
+      !(std::fabs(latitude) <= 85.0 && std::fabs(longitude) <= 180.0))
+    throw CLI::ValidationError("--route", "'" + text + "' is no LATITUDE,LONGITUDE in degrees");
+  return {radians(latitude), radians(longitude), 0.0};
+}
+
+int simulate_command(const SimulateOptions& options) {
+  note_interrupts();
+  FrameProgress progress;
+  const bool complete =
+      simulate::simulate_drive(options.out, options.drive, [&](std::size_t done, std::size_t all) {
+        progress.show(done, all);
+        return !interrupted();
+      });
+  if (!complete) {
+    std::cerr << "broken off; nothing is left of it\n";
+    return 130;
+  }
+  const auto drive = options.out / "town_extract", config = options.out / "vehicle.toml";
+  std::cout << "wrote " << options.out.string();
+  const simulate::SimulatedSensors& made = options.drive.sensors;
+  if (made.camera && made.imu)
+    std::cout << "; to see it:\n  maploop replay " << drive.string() << " --config "
+              << config.string();
+  std::cout << '\n';
+  return 0;
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, Command& command) {
+  auto options = std::make_shared<SimulateOptions>();
+  CLI::App* sub = app.add_subcommand("simulate",
+                                     "Make a drive through a generated town or on a map's roads: "
+                                     "cameras, LiDAR, IMU, GNSS, map and "
+                                     "truth");
+  sub->add_option("--out", options->out,
+                  "New folder for the drive, in KITTI's layout (24 MB a second; --compact)")
+      ->required();
+  sub->add_option("--seconds", options->drive.seconds, "How long the drive takes")
+      ->check(number_in(1.0, 3600.0))
+      ->capture_default_str();
+  sub->add_option("--seed", options->drive.seed, "Another seed, another town and drive")
+      ->capture_default_str();
+  CLI::Option* map =
+      sub->add_option("--map", options->drive.map,
+                      "OpenStreetMap file: along its roads instead of through a generated town")
+          ->check(existing_file());
+  sub->add_option_function<std::vector<std::string>>(
+         "--route",
+         [options](const std::vector<std::string>& places) {
+           for (const std::string& place : places)
+             options->drive.route.push_back(parse_place(place));
+         },
+         "LATITUDE,LONGITUDE ...: the shortest way by these places of the map, and on as the seed "
+         "will")
+      ->needs(map);
+  const std::map<std::string, simulate::ImuGrade> grades{{"tactical", simulate::ImuGrade::tactical},
+                                                         {"mems", simulate::ImuGrade::mems}};
+  sub->add_option_function<std::string>(
+         "--imu-grade",
+         [options, grades](const std::string& name) { options->drive.imu = grades.at(name); },
+         "tactical or mems")
+      ->check(CLI::IsMember({"tactical", "mems"}))
+      ->default_str("tactical");
+  const std::map<std::string, simulate::Environment> environments{
+      {"town", simulate::Environment::town},
+      {"open", simulate::Environment::open},
+      {"suburban", simulate::Environment::suburban},
+      {"urban", simulate::Environment::urban}};
+  sub->add_option_function<std::string>(
+         "--environment",
+         [options, environments](const std::string& name) {
+           options->drive.environment = environments.at(name);
+         },
+         "What stands along the streets: town, open, suburban or urban")
+      ->check(CLI::IsMember({"town", "open", "suburban", "urban"}))
+      ->default_str("town");
+  sub->add_option_function<std::vector<std::string>>(
+         "--sensors",
+         [options](const std::vector<std::string>& names) {
+           const auto has = [&names](const char* name) {
+             return std::find(names.begin(), names.end(), name) != names.end();
+           };
+           options->drive.sensors = {has("camera"), has("lidar"), has("imu"), has("gnss")};
+         },
+         "Those of the drive, of camera,lidar,imu,gnss; the first two are what takes time")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"camera", "lidar", "imu", "gnss"}))
+      ->default_str("camera,lidar,imu,gnss");
+  sub->add_option_function<std::string>(
+         "--scanner",
+         [options](const std::string& name) {
+           options->drive.scanner =
+               name == "vlp-16" ? simulate::Scanner::vlp_16 : simulate::Scanner::hdl_64e;
+         },
+         "hdl-64e or vlp-16")
+      ->check(CLI::IsMember({"hdl-64e", "vlp-16"}))
+      ->default_str("hdl-64e");
+  sub->add_option_function<std::string>(
+         "--scanner-clock",
+         [options](const std::string& name) { options->drive.free_scanner = name == "free"; },
+         "free: the scanner turns beside the cameras with a phase and a drift; camera: each image "
+         "is taken in the middle of a turn, as on KITTI's car")
+      ->check(CLI::IsMember({"free", "camera"}))
+      ->default_str("free");
+  sub->add_flag("--compact", options->drive.compact,
+                "Scans as the scanner's ranges, images of 86 grey levels: 5 MB a second");
+  sub->add_option("--gnss-rate", options->drive.gnss_rate, "Epochs of the GNSS receiver; Hz")
+      ->check(number_in(0.1, 20.0))
+      ->capture_default_str();
+  sub->callback(
+      [options, &command] { command = [options] { return simulate_command(*options); }; });
+}
+
+}  // namespace maploop::tools

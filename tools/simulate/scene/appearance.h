@@ -1,0 +1,32 @@
+// Computes how bright surfaces are: procedural textures are evaluated where a ray hits.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "tools/simulate/scene/mesh.h"
+#include "tools/simulate/scene/noise_texture.h"
+#include "tools/simulate/town/street_index.h"
+
+namespace maploop::simulate {
+
+class Appearance {
+ public:
+  explicit Appearance(const StreetIndex& streets) : streets_(&streets) {}
+
+  // Returns the albedo, 0 to 1, of a pixel that covers `footprint` metres; `uv` (m) is on the
+  // surface, `place` (m) is in enu.
+  float albedo(const Surface& surface, const Eigen::Vector2f& uv, const Eigen::Vector3f& place,
+               float footprint) const;
+  // Returns the brightness of the sky in a unit direction, enu.
+  float sky(const Eigen::Vector3f& direction) const;
+
+ private:
+  float facade(const Surface& surface, const Eigen::Vector2f& uv, float footprint) const;
+  float ground(const Surface& surface, const Eigen::Vector2d& place, float footprint) const;
+  float road(const StreetPlace& at, const StreetPlace& other, float tone, float footprint) const;
+
+  const StreetIndex* streets_;
+  NoiseTexture noise_;
+};
+
+}  // namespace maploop::simulate

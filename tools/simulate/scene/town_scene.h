@@ -1,0 +1,24 @@
+// Builds the scene of the town: ground, buildings, hedges, fences, poles, trees, parked cars.
+#pragma once
+
+#include <cstdint>
+
+#include "tools/simulate/scene/mesh.h"
+#include "tools/simulate/town/street_index.h"
+#include "tools/simulate/town/terrain.h"
+
+namespace maploop::simulate {
+
+enum class Environment : std::uint8_t {
+  town,      // houses of two to five storeys, with gaps
+  open,      // no houses, few trees
+  suburban,  // low houses in gardens
+  urban,     // six to ten storeys without gaps
+};
+
+// Lines every street. Buildings, hedges and fences stand behind the pavement and do not overlap;
+// poles, some trees and parked cars stand on it.
+Mesh make_town_scene(const Streets& streets, const StreetIndex& index, const Terrain& terrain,
+                     std::uint64_t seed, Environment environment = Environment::town);
+
+}  // namespace maploop::simulate
