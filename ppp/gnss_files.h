@@ -12,8 +12,8 @@
 #include "ppp/readers/files/navigation.h"
 #include "ppp/readers/files/observation.h"
 #include "ppp/readers/files/ocean_loading.h"
-#include "ppp/readers/streams/rtcm3.h"
 #include "ppp/readers/files/sp3.h"
+#include "ppp/readers/streams/rtcm3.h"
 #include "ppp/readers/streams/ubx.h"
 
 namespace maploop::ppp {

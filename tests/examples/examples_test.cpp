@@ -8,8 +8,8 @@
 #include <random>
 #include <string>
 
-#include "runtime/vehicle/output/channel_hashes.h"
 #include "runtime/vehicle/graph/vehicle.h"
+#include "runtime/vehicle/output/channel_hashes.h"
 #include "tests/examples/speed_estimator.h"
 #include "tests/examples/wheel_log.h"
 #include "tests/runtime/vehicle/fake_sensors.h"

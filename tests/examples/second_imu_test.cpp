@@ -9,8 +9,8 @@
 #include <tuple>
 #include <vector>
 
-#include "runtime/vehicle/graph/graph_stage.h"
 #include "runtime/vehicle/drivers/replay_driver.h"
+#include "runtime/vehicle/graph/graph_stage.h"
 #include "tests/runtime/vehicle/fake_sensors.h"
 
 namespace maploop::vehicle {

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "ppp/observations.h"
+#include "ppp/readers/corrections/ssr.h"
 #include "ppp/readers/files/broadcast_fields.h"
 #include "ppp/readers/files/navigation.h"
-#include "ppp/readers/corrections/ssr.h"
 #include "tests/support/bit_writer.h"
 #include "tests/support/ubx_frame.h"
 

@@ -16,9 +16,9 @@
 #include "tools/calibrate/image_pairs.h"
 #include "tools/calibrate/views.h"
 #include "tools/command/commands.h"
-#include "tools/evaluate/text_file.h"
 #include "tools/command/json_output.h"
 #include "tools/command/option_checks.h"
+#include "tools/evaluate/text_file.h"
 
 namespace maploop::tools {
 namespace {

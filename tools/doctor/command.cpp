@@ -8,9 +8,9 @@
 
 #include "runtime/core/realtime.h"
 #include "runtime/core/thread.h"
-#include "runtime/vehicle/output/lcm_bus.h"
 #include "runtime/vehicle/config/scheduling_config.h"
 #include "runtime/vehicle/config/vehicle_config.h"
+#include "runtime/vehicle/output/lcm_bus.h"
 #include "tools/command/bus_option.h"
 #include "tools/command/commands.h"
 #include "tools/command/json_output.h"

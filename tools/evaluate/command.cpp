@@ -10,11 +10,11 @@
 
 #include "msgs/frames.h"
 #include "tools/command/commands.h"
+#include "tools/command/json_output.h"
+#include "tools/command/option_checks.h"
 #include "tools/evaluate/evaluation.h"
 #include "tools/evaluate/kitti_mercator.h"
 #include "tools/evaluate/text_file.h"
-#include "tools/command/json_output.h"
-#include "tools/command/option_checks.h"
 
 namespace maploop::tools {
 namespace {

@@ -11,13 +11,13 @@
 #include "mapmatch/network_file.h"
 #include "sensors/replay/odometry_sequence.h"
 #include "tools/command/commands.h"
-#include "tools/evaluate/text_file.h"
 #include "tools/command/json_output.h"
+#include "tools/command/option_checks.h"
+#include "tools/evaluate/text_file.h"
 #include "tools/match/log_messages.h"
 #include "tools/match/match_file.h"
 #include "tools/match/score_output.h"
 #include "tools/match/track_file.h"
-#include "tools/command/option_checks.h"
 
 namespace maploop::tools {
 namespace {

@@ -3,10 +3,10 @@
 #include <iostream>
 #include <memory>
 
+#include "tools/command/option_checks.h"
 #include "tools/evaluate/text_file.h"
 #include "tools/experiment/experiments.h"
 #include "tools/experiment/fusion_experiment.h"
-#include "tools/command/option_checks.h"
 
 namespace maploop::tools {
 namespace {

@@ -6,9 +6,9 @@
 #include "msgs/local_frame.h"
 #include "runtime/vehicle/drivers/recording.h"
 #include "sensors/replay/reference_trajectory.h"
+#include "tools/command/median.h"
 #include "tools/experiment/fusion_experiment.h"
 #include "tools/experiment/table.h"
-#include "tools/command/median.h"
 #include "tools/web/page.h"
 
 namespace maploop::experiments {

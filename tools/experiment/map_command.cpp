@@ -5,11 +5,11 @@
 
 #include "mapmatch/osm_reader.h"
 #include "tools/command/choice_option.h"
+#include "tools/command/option_checks.h"
 #include "tools/evaluate/text_file.h"
 #include "tools/experiment/experiments.h"
 #include "tools/experiment/map_experiment.h"
 #include "tools/experiment/table.h"
-#include "tools/command/option_checks.h"
 
 namespace maploop::tools {
 namespace {

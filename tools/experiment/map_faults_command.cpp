@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "mapmatch/network_file.h"
+#include "tools/command/recorded_drive_options.h"
 #include "tools/experiment/experiments.h"
 #include "tools/match/map_faults.h"
 #include "tools/match/parameter_settings.h"
 #include "tools/match/recorded_drives.h"
-#include "tools/command/recorded_drive_options.h"
 
 namespace maploop::tools {
 namespace {

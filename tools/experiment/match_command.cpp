@@ -11,14 +11,14 @@
 #include <vector>
 
 #include "mapmatch/network_file.h"
-#include "tools/experiment/experiments.h"
 #include "tools/command/json_output.h"
+#include "tools/command/option_checks.h"
+#include "tools/command/recorded_drive_options.h"
+#include "tools/experiment/experiments.h"
 #include "tools/match/match_score.h"
 #include "tools/match/parameter_settings.h"
 #include "tools/match/recorded_drives.h"
 #include "tools/match/score_output.h"
-#include "tools/command/option_checks.h"
-#include "tools/command/recorded_drive_options.h"
 
 namespace maploop::tools {
 namespace {

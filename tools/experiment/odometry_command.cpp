@@ -3,11 +3,11 @@
 #include <iostream>
 #include <memory>
 
+#include "tools/command/option_checks.h"
 #include "tools/evaluate/text_file.h"
 #include "tools/experiment/experiments.h"
 #include "tools/odometry/comparison.h"
 #include "tools/odometry/odometry_input.h"
-#include "tools/command/option_checks.h"
 
 namespace maploop::tools {
 namespace {

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "runtime/vehicle/config/vehicle_config.h"
+#include "tools/command/option_checks.h"
 #include "tools/evaluate/text_file.h"
 #include "tools/experiment/experiments.h"
 #include "tools/experiment/ppp_map_experiment.h"
-#include "tools/command/option_checks.h"
 
 namespace maploop::tools {
 namespace {

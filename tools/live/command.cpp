@@ -1,6 +1,6 @@
 // maploop live: the whole graph on live sensors.
-#include "tools/live/live_run.h"
 #include "tools/command/option_checks.h"
+#include "tools/live/live_run.h"
 
 #include <memory>
 

@@ -14,14 +14,14 @@
 #include "runtime/core/realtime.h"
 #include "runtime/core/trace.h"
 #include "runtime/core/whole_file.h"
-#include "runtime/vehicle/output/lcm_bus.h"
 #include "runtime/vehicle/config/live_config.h"
-#include "runtime/vehicle/output/runs.h"
 #include "runtime/vehicle/graph/vehicle.h"
-#include "tools/live/live_status.h"
+#include "runtime/vehicle/output/lcm_bus.h"
+#include "runtime/vehicle/output/runs.h"
 #include "tools/command/map_options.h"
 #include "tools/command/service_manager.h"
 #include "tools/command/terminal.h"
+#include "tools/live/live_status.h"
 #include "tools/replay/verdict.h"
 
 namespace maploop::tools {

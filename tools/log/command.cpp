@@ -9,6 +9,7 @@
 
 #include "runtime/vehicle/graph/graph.h"
 #include "tools/command/commands.h"
+#include "tools/command/option_checks.h"
 #include "tools/log/log_diff.h"
 #include "tools/log/log_info.h"
 #include "tools/log/log_merge.h"
@@ -17,7 +18,6 @@
 #include "tools/log/log_text.h"
 #include "tools/log/log_types.h"
 #include "tools/log/log_verify.h"
-#include "tools/command/option_checks.h"
 
 namespace maploop::tools {
 namespace {

@@ -12,13 +12,13 @@
 #include "mapmatch/network_file.h"
 #include "msgs/frames.h"
 #include "tools/command/commands.h"
+#include "tools/command/option_checks.h"
 #include "tools/match/match_output.h"
 #include "tools/match/match_score.h"
 #include "tools/match/parameter_settings.h"
 #include "tools/match/score_output.h"
 #include "tools/match/track_file.h"
 #include "tools/match/unused_fixes.h"
-#include "tools/command/option_checks.h"
 
 namespace maploop::tools {
 namespace {

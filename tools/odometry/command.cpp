@@ -15,12 +15,12 @@
 #include "runtime/vehicle/drivers/recorded_tracks.h"
 #include "tools/command/choice_option.h"
 #include "tools/command/commands.h"
+#include "tools/command/option_checks.h"
 #include "tools/evaluate/trajectory_file.h"
+#include "tools/odometry/lidar_command.h"
 #include "tools/odometry/motion_csv.h"
 #include "tools/odometry/odometry_input.h"
 #include "tools/odometry/track_writer.h"
-#include "tools/odometry/lidar_command.h"
-#include "tools/command/option_checks.h"
 
 namespace maploop::tools {
 namespace {

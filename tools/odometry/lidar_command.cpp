@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "runtime/vehicle/drivers/recording.h"
 #include "runtime/vehicle/config/vehicle_config.h"
+#include "runtime/vehicle/drivers/recording.h"
+#include "tools/command/option_checks.h"
 #include "tools/evaluate/text_file.h"
 #include "tools/evaluate/trajectory_file.h"
 #include "tools/odometry/lidar_csv.h"
 #include "tools/odometry/lidar_page.h"
 #include "tools/odometry/point_cloud.h"
-#include "tools/command/option_checks.h"
 
 namespace maploop::tools {
 namespace {

@@ -3,8 +3,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "runtime/vehicle/drivers/recording.h"
 #include "runtime/vehicle/config/vehicle_config.h"
+#include "runtime/vehicle/drivers/recording.h"
 #include "sensors/replay/reference_trajectory.h"
 
 namespace maploop::odometry {

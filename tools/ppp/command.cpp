@@ -10,14 +10,14 @@
 #include <stdexcept>
 
 #include "ppp/filter/parameter_table.h"
-#include "runtime/vehicle/stages/road_map.h"
 #include "runtime/vehicle/config/vehicle_config.h"
+#include "runtime/vehicle/stages/road_map.h"
 #include "tools/command/choice_option.h"
 #include "tools/command/commands.h"
-#include "tools/evaluate/text_file.h"
 #include "tools/command/json_output.h"
 #include "tools/command/map_options.h"
 #include "tools/command/option_checks.h"
+#include "tools/evaluate/text_file.h"
 #include "tools/ppp/page.h"
 #include "tools/ppp/run.h"
 

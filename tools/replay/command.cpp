@@ -4,8 +4,8 @@
 #include <string>
 
 #include "estimators/fusion/configuration.h"
-#include "runtime/vehicle/faults/fault_injection.h"
 #include "runtime/vehicle/drivers/gnss_outage.h"
+#include "runtime/vehicle/faults/fault_injection.h"
 #include "tools/command/commands.h"
 #include "tools/command/option_checks.h"
 #include "tools/replay/replay_run.h"

@@ -1,9 +1,9 @@
 // A replay on a terminal: progress line, keys, and a clean end at Ctrl-C.
 #pragma once
 
+#include "runtime/vehicle/output/runs.h"
 #include "runtime/vehicle/playback/player.h"
 #include "runtime/vehicle/playback/replay_control.h"
-#include "runtime/vehicle/output/runs.h"
 
 namespace maploop::tools {
 

@@ -10,12 +10,12 @@
 
 #include "msgs/nav_state.h"
 #include "msgs/ppp_state.h"
-#include "runtime/vehicle/output/channel_hashes.h"
 #include "runtime/vehicle/faults/fault_injection.h"
 #include "runtime/vehicle/graph/vehicle_report.h"
+#include "runtime/vehicle/output/channel_hashes.h"
 #include "tools/evaluate/kitti_metric.h"
-#include "tools/replay/fusion_score.h"
 #include "tools/match/match_score.h"
+#include "tools/replay/fusion_score.h"
 
 namespace maploop::tools {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/replay/replay_console.h"
 #include "tools/command/run_options.h"
+#include "tools/replay/replay_console.h"
 
 namespace maploop::tools {
 

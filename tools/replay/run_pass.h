@@ -8,16 +8,16 @@
 #include <optional>
 #include <vector>
 
+#include "runtime/vehicle/config/vehicle_config.h"
 #include "runtime/vehicle/output/channel_hashes.h"
 #include "runtime/vehicle/output/log_recorder.h"
 #include "runtime/vehicle/output/publisher.h"
 #include "runtime/vehicle/stages/road_map.h"
-#include "runtime/vehicle/config/vehicle_config.h"
-#include "tools/replay/fusion_score.h"
 #include "tools/match/driven_links.h"
+#include "tools/replay/fusion_score.h"
 #include "tools/replay/replay_result.h"
-#include "tools/report/report.h"
 #include "tools/replay/trajectory_collector.h"
+#include "tools/report/report.h"
 
 namespace maploop::tools {
 

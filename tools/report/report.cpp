@@ -2,14 +2,14 @@
 
 #include <cmath>
 
-#include "tools/evaluate/text_file.h"
 #include "tools/command/html_text.h"
+#include "tools/evaluate/text_file.h"
 #include "tools/profile/profile_page.h"
+#include "tools/replay/verdict.h"
 #include "tools/report/ppp_section.h"
 #include "tools/report/road_section.h"
 #include "tools/report/text.h"
 #include "tools/report/trajectory_plots.h"
-#include "tools/replay/verdict.h"
 #include "tools/web/page.h"
 
 namespace maploop::report {

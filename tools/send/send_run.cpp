@@ -21,9 +21,9 @@
 #include "sensors/live/video_sender.h"
 #include "sensors/replay/reference_trajectory.h"
 #include "sensors/velodyne/packet_encoder.h"
+#include "tools/command/terminal.h"
 #include "tools/evaluate/trajectory_file.h"
 #include "tools/replay/nav_files.h"
-#include "tools/command/terminal.h"
 
 namespace maploop::tools {
 namespace {

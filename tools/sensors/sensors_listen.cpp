@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "runtime/vehicle/config/live_config.h"
-#include "runtime/vehicle/graph/vehicle.h"
 #include "runtime/vehicle/config/vehicle_config.h"
+#include "runtime/vehicle/graph/vehicle.h"
 #include "tools/command/json_output.h"
 #include "tools/command/terminal.h"
 

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "tools/simulate/random.h"
-#include "tools/simulate/sensors/test_car.h"
 #include "tools/simulate/scene/town_scene.h"
+#include "tools/simulate/sensors/test_car.h"
 #include "tools/simulate/town/traffic.h"
 
 namespace maploop::simulate {

@@ -7,13 +7,13 @@
 #include "msgs/calibration.h"
 #include "msgs/time.h"
 #include "tools/simulate/scene/appearance.h"
-#include "tools/simulate/sensors/calibration_errors.h"
 #include "tools/simulate/scene/ray_scene.h"
+#include "tools/simulate/sensors/calibration_errors.h"
+#include "tools/simulate/sensors/vehicle_motion.h"
 #include "tools/simulate/simulation.h"
 #include "tools/simulate/town/site.h"
 #include "tools/simulate/town/street_index.h"
 #include "tools/simulate/town/terrain.h"
-#include "tools/simulate/sensors/vehicle_motion.h"
 
 namespace maploop::simulate {
 

@@ -12,13 +12,13 @@
 
 #include "tools/evaluate/trajectory_file.h"
 #include "tools/simulate/drive.h"
-#include "tools/simulate/sensors/frame_writer.h"
 #include "tools/simulate/gnss/gnss_recording.h"
 #include "tools/simulate/gnss/receiver.h"
 #include "tools/simulate/output_file.h"
+#include "tools/simulate/sensors/frame_writer.h"
 #include "tools/simulate/sensors/oxts_rows.h"
-#include "tools/simulate/town/road_map.h"
 #include "tools/simulate/sensors/test_car.h"
+#include "tools/simulate/town/road_map.h"
 
 namespace maploop::simulate {
 namespace {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "msgs/local_frame.h"
+#include "tools/simulate/scene/town_scene.h"
 #include "tools/simulate/sensors/imu_errors.h"
 #include "tools/simulate/sensors/lidar_turn.h"
-#include "tools/simulate/scene/town_scene.h"
 
 namespace maploop::simulate {
 

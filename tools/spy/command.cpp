@@ -16,12 +16,12 @@
 #include "tools/command/bus_listener.h"
 #include "tools/command/bus_option.h"
 #include "tools/command/commands.h"
+#include "tools/command/option_checks.h"
+#include "tools/command/terminal.h"
 #include "tools/log/log_types.h"
 #include "tools/log/progress.h"
-#include "tools/command/option_checks.h"
 #include "tools/spy/screen.h"
 #include "tools/spy/text.h"
-#include "tools/command/terminal.h"
 
 namespace maploop::tools {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "ppp/readers/files/navigation.h"
 #include "ppp/readers/corrections/ssr.h"
+#include "ppp/readers/files/navigation.h"
 
 namespace maploop::ppp {
 

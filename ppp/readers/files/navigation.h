@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "ppp/readers/streams/ionosphere_message.h"
 #include "ppp/readers/files/lines.h"
+#include "ppp/readers/streams/ionosphere_message.h"
 #include "ppp/satellite.h"
 
 namespace maploop::ppp {

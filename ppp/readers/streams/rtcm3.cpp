@@ -5,8 +5,8 @@
 #include <bit>
 #include <cmath>
 
-#include "ppp/readers/streams/epoch_builder.h"
 #include "ppp/readers/files/lines.h"
+#include "ppp/readers/streams/epoch_builder.h"
 #include "ppp/readers/streams/rtcm3_ephemeris.h"
 #include "ppp/readers/streams/rtcm3_signals.h"
 

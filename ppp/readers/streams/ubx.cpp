@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "ppp/readers/streams/epoch_builder.h"
 #include "ppp/readers/files/lines.h"
+#include "ppp/readers/streams/epoch_builder.h"
 #include "ppp/readers/streams/ubx_subframes.h"
 
 namespace maploop::ppp {

@@ -7,11 +7,11 @@
 
 #include "ppp/gnss_files.h"
 #include "runtime/vehicle/config/config_tables.h"
+#include "runtime/vehicle/config/vehicle_config.h"
 #include "runtime/vehicle/drivers/live_fixes.h"
 #include "runtime/vehicle/drivers/live_receiver.h"
 #include "runtime/vehicle/drivers/stereo_rig_file.h"
 #include "runtime/vehicle/graph/vehicle.h"
-#include "runtime/vehicle/config/vehicle_config.h"
 #include "sensors/live/live_sensors.h"
 #include "sensors/live/ntrip_client.h"
 #include "sensors/replay/kitti_calibration.h"

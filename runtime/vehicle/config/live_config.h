@@ -16,7 +16,8 @@ struct VehicleConfig;
 enum class GnssProtocol : std::uint8_t {
   nmea,          // the receiver's own fixes
   ubx,           // its own fixes in u-blox's binary protocol (NAV-PVT)
-  observations,  // UBX or RTCM 3 (ppp/readers/streams/receiver_stream.h); the ppp thread computes fixes
+  observations,  // UBX or RTCM 3 (ppp/readers/streams/receiver_stream.h); the ppp thread computes
+                 // fixes
 };
 constexpr std::array<std::string_view, 3> names_of(GnssProtocol) {
   return {"nmea", "ubx", "observations"};

@@ -12,10 +12,10 @@
 #include "runtime/core/data_clock.h"
 #include "runtime/core/edge.h"
 #include "runtime/core/trace_span.h"
-#include "runtime/vehicle/health/episodes.h"
-#include "runtime/vehicle/health/meter.h"
 #include "runtime/vehicle/graph/rings.h"
 #include "runtime/vehicle/graph/trace_flows.h"
+#include "runtime/vehicle/health/episodes.h"
+#include "runtime/vehicle/health/meter.h"
 #include "sensors/source.h"
 
 namespace maploop::vehicle {

@@ -7,8 +7,8 @@
 
 #include "ppp/gnss_files.h"
 #include "ppp/ppp_setup.h"
-#include "runtime/vehicle/drivers/gnss_epoch.h"
 #include "runtime/vehicle/config/vehicle_config.h"
+#include "runtime/vehicle/drivers/gnss_epoch.h"
 #include "sensors/source.h"
 
 namespace maploop::vehicle {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "msgs/sample.h"
-#include "ppp/readers/files/navigation.h"
 #include "ppp/readers/corrections/ssr.h"
+#include "ppp/readers/files/navigation.h"
 #include "sensors/clock/host_clock.h"
 #include "sensors/live/connection.h"
 #include "sensors/live/live_source.h"
@@ -19,7 +19,8 @@ struct GnssCorrections : Sample {
   std::vector<ppp::SsrUpdate> updates;
 };
 
-// `caster` sends RTCM 3: ephemerides and SSR (ppp/readers/corrections/ssr.h). `clock` must outlive the result.
+// `caster` sends RTCM 3: ephemerides and SSR (ppp/readers/corrections/ssr.h). `clock` must outlive
+// the result.
 std::unique_ptr<sensors::LiveSource<GnssCorrections>> listen_to_corrections(
     std::unique_ptr<sensors::ByteStream> caster, const sensors::HostClock& clock);
 

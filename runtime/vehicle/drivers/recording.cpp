@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "runtime/vehicle/drivers/gnss_drive.h"
-#include "runtime/vehicle/graph/graph.h"
 #include "runtime/vehicle/drivers/recorded_tracks.h"
 #include "runtime/vehicle/drivers/stereo_rig_file.h"
 #include "runtime/vehicle/drivers/track_odometry.h"
+#include "runtime/vehicle/graph/graph.h"
 #include "sensors/replay/imu_noise.h"
 #include "sensors/replay/kitti_drive.h"
 #include "sensors/replay/log_recording.h"

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "msgs/calibration.h"
+#include "runtime/vehicle/config/vehicle_config.h"
 #include "runtime/vehicle/drivers/gnss_outage.h"
 #include "runtime/vehicle/graph/vehicle.h"
-#include "runtime/vehicle/config/vehicle_config.h"
 
 namespace maploop::vehicle {
 

@@ -18,11 +18,11 @@
 #include "runtime/core/intake.h"
 #include "runtime/core/periodic.h"
 #include "runtime/core/trace_span.h"
-#include "runtime/vehicle/health/episodes.h"
 #include "runtime/vehicle/faults/fault_delay.h"
 #include "runtime/vehicle/graph/rings.h"
 #include "runtime/vehicle/graph/stage_cuts.h"
 #include "runtime/vehicle/graph/stage_specs.h"
+#include "runtime/vehicle/health/episodes.h"
 #include "runtime/vehicle/health/thread_meter.h"
 
 namespace maploop::vehicle {

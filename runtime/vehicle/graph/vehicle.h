@@ -10,15 +10,15 @@
 #include "runtime/core/data_clock.h"
 #include "runtime/core/realtime_setting.h"
 #include "runtime/core/trace.h"
+#include "runtime/vehicle/config/vehicle_config.h"
 #include "runtime/vehicle/faults/fault_delay.h"
+#include "runtime/vehicle/graph/sensors.h"
+#include "runtime/vehicle/graph/vehicle_report.h"
 #include "runtime/vehicle/output/message_sink.h"
 #include "runtime/vehicle/output/publisher.h"
-#include "runtime/vehicle/stages/road_map.h"
-#include "runtime/vehicle/graph/sensors.h"
 #include "runtime/vehicle/playback/snapshot.h"
 #include "runtime/vehicle/playback/snapshot_stage.h"
-#include "runtime/vehicle/config/vehicle_config.h"
-#include "runtime/vehicle/graph/vehicle_report.h"
+#include "runtime/vehicle/stages/road_map.h"
 
 namespace maploop::vehicle {
 

@@ -7,12 +7,12 @@
 
 #include "mapmatch/reasons.h"
 #include "runtime/vehicle/drivers/gap_source.h"
-#include "runtime/vehicle/stages/lidar_stage.h"
 #include "runtime/vehicle/drivers/live_driver.h"
-#include "runtime/vehicle/stages/mapmatch_stage.h"
-#include "runtime/vehicle/stages/ppp_stage.h"
 #include "runtime/vehicle/drivers/prefetched_source.h"
 #include "runtime/vehicle/drivers/replay_driver.h"
+#include "runtime/vehicle/stages/lidar_stage.h"
+#include "runtime/vehicle/stages/mapmatch_stage.h"
+#include "runtime/vehicle/stages/ppp_stage.h"
 #include "runtime/vehicle/stages/stereo_stage.h"
 
 namespace maploop::vehicle {

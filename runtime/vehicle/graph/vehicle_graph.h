@@ -16,13 +16,13 @@
 
 #include "runtime/core/thread.h"
 #include "runtime/vehicle/drivers/driver.h"
-#include "runtime/vehicle/stages/fusion_stage.h"
 #include "runtime/vehicle/graph/graph_stage.h"
-#include "runtime/vehicle/health/health_monitor.h"
-#include "runtime/vehicle/stages/preview_stage.h"
 #include "runtime/vehicle/graph/rings.h"
-#include "runtime/vehicle/playback/snapshot_stage.h"
 #include "runtime/vehicle/graph/vehicle.h"
+#include "runtime/vehicle/health/health_monitor.h"
+#include "runtime/vehicle/playback/snapshot_stage.h"
+#include "runtime/vehicle/stages/fusion_stage.h"
+#include "runtime/vehicle/stages/preview_stage.h"
 
 namespace maploop::vehicle {
 

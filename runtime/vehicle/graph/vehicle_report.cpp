@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "runtime/core/periodic.h"
-#include "runtime/vehicle/health/process_usage.h"
 #include "runtime/vehicle/graph/vehicle_graph.h"
+#include "runtime/vehicle/health/process_usage.h"
 
 namespace maploop::vehicle {
 

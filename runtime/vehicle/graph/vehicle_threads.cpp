@@ -8,8 +8,8 @@
 
 #include "msgs/input_limits.h"
 #include "runtime/core/realtime.h"
-#include "runtime/vehicle/health/process_usage.h"
 #include "runtime/vehicle/graph/vehicle_graph.h"
+#include "runtime/vehicle/health/process_usage.h"
 
 namespace maploop::vehicle {
 namespace {

@@ -13,11 +13,11 @@
 #include "runtime/core/realtime_setting.h"
 #include "runtime/core/thread.h"
 #include "runtime/vehicle/drivers/driver.h"
-#include "runtime/vehicle/health/episodes.h"
-#include "runtime/vehicle/output/message_sink.h"
 #include "runtime/vehicle/graph/stage_specs.h"
+#include "runtime/vehicle/health/episodes.h"
 #include "runtime/vehicle/health/thread_meter.h"
 #include "runtime/vehicle/health/watchdog.h"
+#include "runtime/vehicle/output/message_sink.h"
 
 namespace maploop::vehicle {
 

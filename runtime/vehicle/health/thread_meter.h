@@ -20,8 +20,8 @@
 
 #include "runtime/core/data_clock.h"
 #include "runtime/core/periodic.h"
-#include "runtime/vehicle/health/meter.h"
 #include "runtime/vehicle/graph/stage_specs.h"
+#include "runtime/vehicle/health/meter.h"
 
 namespace maploop::vehicle {
 

@@ -7,8 +7,8 @@
 #include <functional>
 #include <memory>
 
-#include "runtime/vehicle/playback/snapshot_ring.h"
 #include "runtime/vehicle/graph/vehicle.h"
+#include "runtime/vehicle/playback/snapshot_ring.h"
 
 namespace maploop::vehicle {
 

@@ -9,8 +9,8 @@
 #include "runtime/core/doorbell.h"
 #include "runtime/core/edge.h"
 #include "runtime/vehicle/graph/graph_stage.h"
-#include "runtime/vehicle/playback/snapshot.h"
 #include "runtime/vehicle/health/thread_meter.h"
+#include "runtime/vehicle/playback/snapshot.h"
 
 namespace maploop::vehicle {
 

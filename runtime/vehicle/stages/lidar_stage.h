@@ -11,9 +11,9 @@
 #include "msgs/visual_motion.h"
 #include "runtime/core/intake.h"
 #include "runtime/vehicle/graph/graph_stage.h"
-#include "runtime/vehicle/stages/preview_stage.h"
 #include "runtime/vehicle/health/reason_counts.h"
 #include "runtime/vehicle/health/watchdog.h"
+#include "runtime/vehicle/stages/preview_stage.h"
 
 namespace maploop::vehicle {
 

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "msgs/frames.h"
+#include "tools/simulate/scene/town_scene.h"
 #include "tools/simulate/sensors/calibration_errors.h"
 #include "tools/simulate/sensors/camera_image.h"
 #include "tools/simulate/sensors/imu_errors.h"
 #include "tools/simulate/sensors/lidar_turn.h"
 #include "tools/simulate/sensors/test_car.h"
-#include "tools/simulate/scene/town_scene.h"
 
 namespace maploop::simulate {
 namespace {

@@ -9,9 +9,9 @@
 #include "sensors/image/png.h"
 #include "sensors/replay/files.h"
 #include "sensors/replay/packed_scan.h"
-#include "tools/simulate/sensors/camera_image.h"
 #include "tools/simulate/output_file.h"
 #include "tools/simulate/random.h"
+#include "tools/simulate/sensors/camera_image.h"
 #include "tools/simulate/town/traffic.h"
 
 namespace maploop::simulate {

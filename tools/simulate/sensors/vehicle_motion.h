@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <memory>
 
-#include "tools/simulate/town/lane_path.h"
 #include "tools/simulate/sensors/speed_profile.h"
+#include "tools/simulate/town/lane_path.h"
 #include "tools/simulate/town/terrain.h"
 
 namespace maploop::simulate {

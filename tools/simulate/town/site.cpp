@@ -7,8 +7,8 @@
 
 #include "mapmatch/osm_reader.h"
 #include "msgs/frames.h"
-#include "tools/simulate/town/osm_streets.h"
 #include "tools/simulate/random.h"
+#include "tools/simulate/town/osm_streets.h"
 #include "tools/simulate/town/route.h"
 
 namespace maploop::simulate {

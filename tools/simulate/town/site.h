@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "msgs/local_frame.h"
+#include "tools/simulate/sensors/vehicle_motion.h"
 #include "tools/simulate/simulation.h"
 #include "tools/simulate/town/streets.h"
-#include "tools/simulate/sensors/vehicle_motion.h"
 
 namespace maploop::simulate {
 

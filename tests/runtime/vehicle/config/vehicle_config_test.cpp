@@ -14,7 +14,8 @@
 namespace maploop::vehicle {
 namespace {
 
-const std::filesystem::path shipped = maploop::testing::source("runtime/vehicle/config/maploop.toml");
+const std::filesystem::path shipped =
+    maploop::testing::source("runtime/vehicle/config/maploop.toml");
 
 VehicleConfig load_text(const std::string& text) {
   const maploop::testing::TemporaryFolder folder;

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "runtime/vehicle/faults/fault_injection.h"
 #include "runtime/vehicle/drivers/limited_source.h"
 #include "runtime/vehicle/drivers/recording.h"
+#include "runtime/vehicle/faults/fault_injection.h"
 #include "tests/support/message_tape.h"
 #include "tests/support/real_data.h"
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/vehicle/output/channel_hashes.h"
 #include "runtime/vehicle/faults/fault_injection.h"
+#include "runtime/vehicle/output/channel_hashes.h"
 #include "sensors/replay/kitti_drive.h"
 #include "sensors/replay/reference_trajectory.h"
 #include "tests/support/real_data.h"

@@ -11,8 +11,8 @@
 #include <thread>
 #include <vector>
 
-#include "runtime/vehicle/output/channel_hashes.h"
 #include "runtime/vehicle/faults/fault_injection.h"
+#include "runtime/vehicle/output/channel_hashes.h"
 #include "tests/runtime/vehicle/fake_sensors.h"
 
 namespace maploop::vehicle {

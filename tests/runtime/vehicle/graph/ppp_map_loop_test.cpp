@@ -8,9 +8,9 @@
 #include <thread>
 #include <vector>
 
-#include "runtime/vehicle/faults/fault_injection.h"
 #include "runtime/vehicle/drivers/limited_source.h"
 #include "runtime/vehicle/drivers/recording.h"
+#include "runtime/vehicle/faults/fault_injection.h"
 #include "runtime/vehicle/stages/road_map.h"
 #include "tests/support/message_tape.h"
 #include "tests/support/real_data.h"

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/vehicle/output/channel_hashes.h"
 #include "runtime/vehicle/faults/fault_injection.h"
+#include "runtime/vehicle/output/channel_hashes.h"
 #include "tests/runtime/vehicle/fake_sensors.h"
 
 namespace maploop::vehicle {

@@ -6,8 +6,8 @@
 #include <thread>
 
 #include "runtime/core/trace.h"
-#include "runtime/vehicle/stages/fusion_stage.h"
 #include "runtime/vehicle/graph/graph.h"
+#include "runtime/vehicle/stages/fusion_stage.h"
 #include "tests/support/counted_allocations.h"
 
 namespace maploop::vehicle {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "msgs/lcm/channel_names.h"
-#include "runtime/vehicle/stages/preview_stage.h"
 #include "runtime/vehicle/graph/vehicle.h"
+#include "runtime/vehicle/stages/preview_stage.h"
 #include "sensors/image/jpeg.h"
 #include "tests/runtime/vehicle/fake_sensors.h"
 #include "tests/runtime/vehicle/memory_bus.h"
