@@ -1,7 +1,9 @@
 """Builds one of the presets, and counts what the compiler cache had."""
+import concurrent.futures
 import os
 import re
 import subprocess
+import time
 from collections import Counter
 
 
@@ -52,3 +54,41 @@ def not_formatted(top, files=None):
     listed = subprocess.run(["xargs", "-0", "-r", "clang-format", "--dry-run"], input=sources, cwd=top,
                             capture_output=True, text=True, check=False).stderr
     return sorted(set(re.findall(r"^(\S+?):\d+:\d+: warning:", listed, re.MULTILINE)))
+
+
+def sources_to_look_at(top, files):
+    """The sources that show a linter `files`: sources themselves, and one source for each header, which is the one
+    of its name or else the first that includes it."""
+    chosen = []
+    for name in files:
+        found = [name] if name.endswith(".cpp") else []
+        if name.endswith(".h"):
+            own = name[:-2] + ".cpp"
+            including = subprocess.run(["git", "grep", "-l", "--untracked", "-F", f'#include "{name}"', "--", "*.cpp"],
+                                       cwd=top, capture_output=True, text=True, check=False).stdout.splitlines()
+            found = [own] if os.path.isfile(os.path.join(top, own)) else including[:1]
+        chosen += [f for f in found if os.path.isfile(os.path.join(top, f)) and f not in chosen]
+    return chosen
+
+
+def bug_patterns(steps, top, sources, seconds=None):
+    """Compiles `sources` with clang and looks for bug patterns and names (.clang-tidy); begins none after `seconds`.
+
+    Returns (the text of what was found, the sources that were not begun).
+    """
+    steps.logged("configure-tidy", ["cmake", "--preset", "tidy"], cwd=top)
+    end = time.monotonic() + (seconds or float("inf"))
+
+    def look(source):
+        if time.monotonic() > end:
+            return None
+        done = subprocess.run(["clang-tidy", "-quiet", "-p", "build/tidy", source], cwd=top, capture_output=True,
+                              text=True, check=False, stdin=subprocess.DEVNULL)
+        return done.stdout + done.stderr if done.returncode else ""
+
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        found = dict(zip(sources, pool.map(look, sources)))
+    text = "".join(said for said in found.values() if said)
+    with open(os.path.join(steps.log, "clang-tidy.txt"), "w", encoding="utf-8") as file:
+        file.write(text)
+    return text, [source for source, said in found.items() if said is None]

@@ -24,6 +24,15 @@ def changed_files(top, before, now):
     return output(["git", "diff", "--name-only", "--no-renames", before, now], top).split("\n")[:-1]
 
 
+def base(top, green):
+    """The commit to compare with: `green`, which passed, where it is an ancestor; else the one before HEAD, or None."""
+    for commit in (green, "HEAD~1"):
+        if commit and subprocess.run(["git", "merge-base", "--is-ancestor", commit, "HEAD"], cwd=top, check=False,
+                                     capture_output=True).returncode == 0:
+            return output(["git", "rev-parse", commit + "^{tree}"], top).strip()
+    return None
+
+
 class Graph:
     """The files that each built program depends on, of a build folder whose build ninja has recorded."""
 

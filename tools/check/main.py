@@ -13,7 +13,8 @@ from suite import Suite
 SANITIZERS = {"asan": "address,undefined", "tsan": "thread"}
 # Seconds that steps take on a bare machine of two cores, until one has been seen.
 FIRST_TIME = {"the recorded drive": 12, "formatting": 6, "building: release": 1050, "building: asan": 560,
-              "building: tsan": 300, "tests": 1080}
+              "building: tsan": 300, "tests": 1080, "bug patterns": 60}
+TIDY_SECONDS = 240.0  # no source is begun after this time in a run that is not asked for bug patterns
 
 
 class Check:
@@ -27,7 +28,9 @@ class Check:
         names = ["the recorded drive", "formatting", "building: release"]
         if not options.quick and not options.changed:
             names += [f"building: {preset}" for preset in SANITIZERS]
-        names += ["tests"] + (["bug patterns"] if options.tidy else [])
+        if options.tidy or not (options.quick or options.changed):
+            names += ["bug patterns"]
+        names += ["tests"]
         self.steps = Steps(names, {**FIRST_TIME, **self.history.of("steps")}, self.log)
         self.steps.add_finished("packages", options.packages_seconds)
         self.tree = change.tree(top)
@@ -58,14 +61,16 @@ class Check:
         presets = ["release"]
         if not self.options.quick and not self.options.changed:
             presets += self.build_sanitized()
-        self.steps.run("tests", lambda: self.run_tests(presets, affected and affected.chosen))
-        if self.options.tidy:
+        if "bug patterns" in self.steps.waiting:
             self.steps.run("bug patterns", self.find_bug_patterns)
+        self.steps.run("tests", lambda: self.run_tests(presets, affected and affected.chosen))
         if affected:
             affected.say_what_was_not_run()
         elif self.status == 0 and not self.options.quick and not self.skipped_suites:
             with open(self.file("green"), "w", encoding="utf-8") as file:
                 file.write(f"{self.tree}\n")
+            if self.tree and self.tree == change.output(["git", "rev-parse", "HEAD^{tree}"], self.top).strip():
+                self.history.update("green", {"commit": change.output(["git", "rev-parse", "HEAD"], self.top).strip()})
         return self.status
 
     # The steps.
@@ -144,10 +149,23 @@ class Check:
         return change.changed_files(self.top, green, self.tree)
 
     def find_bug_patterns(self):
-        # The compile commands are g++'s, whose warnings clang does not all know.
-        self.steps.logged("clang-tidy", [
-            "run-clang-tidy", "-quiet", "-p", "build/release", "-j", str(os.cpu_count()),
-            "-extra-arg=-Wno-unknown-warning-option", r"^(?!.*/tests/).*\.cpp$"], cwd=self.top)
+        """Of the whole tree with --tidy; else of what differs from the last commit that passed on this machine."""
+        if self.options.tidy:
+            files = change.output(["git", "ls-files", "*.cpp", "*.h"], self.top).splitlines()
+        else:
+            base = self.tree and change.base(self.top, self.history.of("green").get("commit"))
+            files = change.changed_files(self.top, base, self.tree) if base else []
+        sources = builds.sources_to_look_at(self.top, files)
+        if not sources:
+            return {"sources": 0}
+        found, left = builds.bug_patterns(self.steps, self.top, sources, None if self.options.tidy else TIDY_SECONDS)
+        if left:
+            say(f"NOT LOOKED AT for bug patterns, as time was short: {len(left)} of {len(sources)} changed sources"
+                " (tools/test --tidy looks at all)")
+        if found:
+            sys.stderr.write("".join(found.splitlines(keepends=True)[:80]))
+            raise StepFailed(f"FAILED: bug patterns (all of them: {self.file('clang-tidy.txt')})")
+        return {"sources": len(sources) - len(left)}
 
     # The end.
 

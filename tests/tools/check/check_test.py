@@ -108,6 +108,21 @@ class OfAChange(unittest.TestCase):
         self.assertEqual(self.affected("near/near.cpp", "\n" + FILES["near/near.cpp"],
                                        {"Near.Value": 40.0, "Far.Value": 40.0}), ({"Near.Value"}, {"Far.Value"}))
 
+    def test_a_header_is_looked_at_in_the_source_of_its_name_or_in_one_that_includes_it(self):
+        self.assertEqual(builds.sources_to_look_at(self.top, ["near/near.h", "near/PAGE.md"]), ["near/near.cpp"])
+        self.assertEqual(builds.sources_to_look_at(self.top, ["far/far.cpp", "far/far.h"]), ["far/far.cpp"])
+        os.rename(os.path.join(self.top, "far/far.cpp"), os.path.join(self.top, "far/other.cpp"))
+        try:
+            self.assertEqual(builds.sources_to_look_at(self.top, ["far/far.h"]), ["far/other.cpp"])
+        finally:
+            os.rename(os.path.join(self.top, "far/other.cpp"), os.path.join(self.top, "far/far.cpp"))
+
+    def test_what_differs_is_counted_from_the_last_commit_that_passed(self):
+        self.assertIsNone(change.base(self.top, None), "the first commit has none before it")
+        self.assertIsNone(change.base(self.top, "0" * 40))
+        head = change.output(["git", "rev-parse", "HEAD"], self.top).strip()
+        self.assertEqual(change.base(self.top, head), self.before)
+
     def test_tests_can_be_chosen_and_say_when_they_pass(self):
         suite = Suite(os.path.join(self.top, "build", "check"), [os.path.join(self.top, "build", "release")], self.log)
         self.assertEqual({test["name"] for test in suite.tests()}, {"Near.Value", "Far.Value"})
