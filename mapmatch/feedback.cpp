@@ -178,9 +178,10 @@ MapFeedback Feedback::decide(const LinkMatch& match, const VehicleFix& fix) {
   out.point = network_->to_geodetic(lane);
   out.point.height = fix.position.height;
   out.link_azimuth = line.azimuth;
-  out.cross_track = right.dot(place - lane);
+  out.cross_track = right.dot(place - lane);  // (15) of METHOD.md
   const double ramp = fed_on_link_ < parameters_.ramp ? parameters_.ramp_factor : 1.0;
   out.cross_sigma = ramp * parameters_.cross_sigma;
+  // (16) of METHOD.md
   out.lane_sigma = std::sqrt(parameters_.map_sigma * parameters_.map_sigma +
                              line.half_width * line.half_width / 3.0);
   out.azimuth_sigma = parameters_.azimuth_sigma;
@@ -199,7 +200,7 @@ MapFeedback Feedback::decide(const LinkMatch& match, const VehicleFix& fix) {
   }
   const double allowed = variance_along(fix.covariance, right) + out.lane_sigma * out.lane_sigma +
                          out.cross_sigma * out.cross_sigma;
-  note_nis(out.cross_track * out.cross_track / allowed);
+  note_nis(out.cross_track * out.cross_track / allowed);  // (17) of METHOD.md
   out.azimuth =
       lost(fix) || (line.straight && odometer_ - azimuth_fed_at_ >= parameters_.azimuth_spacing);
   if (!line.straight) out.azimuth_sigma = parameters_.bend_sigma;

@@ -22,7 +22,7 @@ double MembershipFunction::operator()(double x) const {
   const auto& [a, b, c, d] = parameters;
   switch (shape) {
     case Shape::sigmoid:
-      return 1.0 / (1.0 + std::exp(-b * (x - a)));
+      return 1.0 / (1.0 + std::exp(-b * (x - a)));  // (12) of METHOD.md
     case Shape::ramp:
       return rise(x, a, b);
     case Shape::triangle:
@@ -77,7 +77,7 @@ FuzzySystem::Result FuzzySystem::evaluate(std::span<const double> inputs) const 
     weighted += weight * rules_[r].output;
   }
   result.decided = sum >= min_weight;
-  if (result.decided) result.value = weighted / sum;
+  if (result.decided) result.value = weighted / sum;  // (13) of METHOD.md
   return result;
 }
 

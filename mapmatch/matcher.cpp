@@ -114,7 +114,7 @@ void Matcher::list_candidates(const RuleContext& c) {
     const PathPoint at = place_on_path(*network_, h, h.s);
     MatchCandidate* candidate = candidate_of(at.link);
     if (!candidate) continue;
-    const double share = on_road * paths_.share(h);
+    const double share = on_road * paths_.share(h);  // (11) of METHOD.md
     double& likeliest = shares[static_cast<std::size_t>(candidate - result_.candidates.data())];
     if (candidate->probability == 0.0 || share > likeliest) {
       candidate->along = std::clamp(at.s, 0.0, network_->link(at.link.link).length);
@@ -166,6 +166,7 @@ void Matcher::judge(const RuleContext& context) {
 double Matcher::value(const MatchCandidate& candidate) const {
   if (!parameters_.paths) return candidate.likelihood;
   const double likelihood = candidate.decided ? std::max(candidate.likelihood, 10.0) : 50.0;
+  // (14) of METHOD.md
   return std::log(std::max(candidate.probability, min_share)) +
          parameters_.fuzzy_weight * std::log(likelihood / 100.0);
 }

@@ -169,12 +169,14 @@ void PathFilter::judge_road(const PathEvidence& e) {
     misfit += share(h) * (h.offset_misfit + azimuth_misfit);
     surprise_ += share(h) * (h.offset_misfit + std::min(h.azimuth_misfit, turn_misfit));
   }
+  // (9) of METHOD.md
   off_road_ += parameters_->off_road_rate * 0.5 * (misfit - parameters_->misfit) *
                std::min(e.motion.interval, 1.0);
   off_road_ = std::clamp(off_road_, off_road_low, off_road_high);
 }
 
 double PathFilter::unmapped() const {
+  // (10) of METHOD.md
   const double odds = parameters_->trust - parameters_->trust_slope * surprise_;
   // A link with a bad fit is usually still the correct one.
   const double doubt = parameters_->doubt_slope * (sure_odds - odds);
@@ -215,6 +217,7 @@ void PathFilter::normalize() {
       ++i;
     }
   }
+  // (8) of METHOD.md
   for (std::size_t i = 0; i < count_; ++i) hypotheses_[i].log_weight -= best + std::log(sum);
 }
 

@@ -42,6 +42,7 @@ void PathKalman::begin(PathHypothesis& h, const LinkPoint& point, const PathEvid
 }
 
 Eigen::Matrix2d PathKalman::slow_covariance(const PathEvidence& e) const {
+  // (2) of METHOD.md
   return squared(parameters_->map_sigma) * Eigen::Matrix2d::Identity() +
          (1.0 - e.motion.white_share) * e.covariance;
 }
@@ -51,13 +52,14 @@ Eigen::Matrix2d PathKalman::fast_covariance(const PathEvidence& e) const {
   // fixes.
   const double repeats = std::max(1.0, 1.0 / std::max(e.motion.interval, 0.01)) *
                          (e.motion.speed < standing ? 10.0 : 1.0);
+  // (3) of METHOD.md
   return squared(parameters_->road_noise) * repeats * Eigen::Matrix2d::Identity() +
          e.motion.white_share * e.covariance;
 }
 
 void PathKalman::predict(PathHypothesis& h, const PathEvidence& e) const {
   const double keep = std::exp(-e.motion.interval / parameters_->correlation_time);
-  h.s += e.motion.distance;
+  h.s += e.motion.distance;  // (4) of METHOD.md
   h.offset *= keep;
   h.covariance.block<1, 2>(0, 1) *= keep;
   h.covariance.block<2, 1>(1, 0) *= keep;
@@ -77,6 +79,7 @@ double PathKalman::corner_cut(const PathEvidence& e) const {
 void PathKalman::enter_link(PathHypothesis& h, const PathEvidence& e) const {
   const Eigen::Matrix2d slow = slow_covariance(e);
   const double map = squared(parameters_->map_sigma);
+  // (5) of METHOD.md
   const double keep = 1.0 - (1.0 - parameters_->link_memory) * map / (0.5 * slow.trace());
   h.offset *= keep;
   h.covariance.block<1, 2>(0, 1) *= keep;
@@ -145,6 +148,7 @@ void PathKalman::correct(PathHypothesis& h, const PathEvidence& e) const {
   Eigen::Matrix<double, 2, 3> H;
   H.col(0) = u;
   H.rightCols<2>().setIdentity();
+  // (6) of METHOD.md
   const Eigen::Vector2d predicted = best.point.position + u * (h.s - best_s) + h.offset;
   const Eigen::Vector2d innovation = e.place - predicted;
   Eigen::Matrix2d S = H * h.covariance * H.transpose() + R;
@@ -202,7 +206,7 @@ void PathKalman::correct_by_azimuth(PathHypothesis& h, const PathEvidence& e) co
   // Azimuth errors change slowly, so the weight is per second, whatever the rate of fixes.
   const double weight = parameters_->azimuth_weight * std::min(e.motion.interval, 1.0);
   if (weight <= 0.0) return;
-  const double R = variance / weight;
+  const double R = variance / weight;  // (7) of METHOD.md
   const double nis = std::min(squared(error) / (placed + R), weight * max_azimuth_misfit);
   h.log_weight -= 0.5 * nis;
   const double S = std::max(placed + R, squared(error) / max_azimuth_misfit);

@@ -57,7 +57,7 @@ void VehicleMotion::filter_course(const VehicleFix& fix, const Eigen::Vector2d& 
 void VehicleMotion::estimate_white_share(const VehicleFix& fix, const Eigen::Vector2d& jump,
                                          double interval) {
   const double keep = std::exp(-interval / share_memory);
-  const double expected = 2.0 * fix.covariance.trace() + 4.0 * floor_variance;
+  const double expected = 2.0 * fix.covariance.trace() + 4.0 * floor_variance;  // (1) of METHOD.md
   jumps_ = keep * jumps_ + std::min(jump.squaredNorm(), 9.0 * expected);
   expected_ = keep * expected_ + expected;
 }

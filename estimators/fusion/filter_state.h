@@ -55,6 +55,7 @@ struct DelayEstimate {
     weighted += rate_change * residual / variance;
   }
   bool known() const { return information > 0.0; }
+  // (25) of METHOD.md
   double delay() const { return weighted / information; }        // s
   double sigma() const { return 1.0 / std::sqrt(information); }  // s
 };

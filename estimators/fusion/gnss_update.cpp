@@ -64,6 +64,7 @@ Innovation<3> position_innovation(const FilterState& state, const GnssFix& fix,
   const Vector3d arm = rotation_enu_body(state.attitude()) * lever(p);
   const FixError error = split_error(fix.position_covariance, p);
   Innovation<3> innovation;
+  // (18) of METHOD.md
   innovation.residual = frame.to_enu(fix.position) - state.x.segment<3>(east) - arm -
                         error.lasting * state.x.segment<3>(gnss_offset_east);
   innovation.H.setZero();
@@ -90,7 +91,7 @@ Innovation<3> velocity_innovation(const FilterState& state, const GnssFix& fix, 
       rotation_enu_body(state.attitude()) * Vector3d(0.0, 0.0, yaw_rate - x[gyro_bias]).cross(arm);
 
   Innovation<3> innovation;
-  innovation.residual = fix.velocity_enu - ground * travel - swing;
+  innovation.residual = fix.velocity_enu - ground * travel - swing;  // (19) of METHOD.md
   innovation.H.setZero();
   innovation.H.col(speed) = travel / (1.0 + x[speed_scale]);
   innovation.H.col(speed_scale) = -ground / (1.0 + x[speed_scale]) * travel;

@@ -70,6 +70,7 @@ double GuardedFilter::distance_to(const Copy& copy, const NavState& aided, Time 
   const auto free = copy.filter->state_at(t);
   if (!free || lost(*free)) return 0.0;
   const Eigen::Vector2d apart = (aided.position_enu - free->position_enu).head<2>();
+  // (27) of METHOD.md
   Eigen::Matrix2d D =
       (parameters_.overconfidence * free->covariance - aided.covariance).topLeftCorner<2, 2>();
   // Rounding and linearization may make D indefinite.
@@ -78,7 +79,7 @@ double GuardedFilter::distance_to(const Copy& copy, const NavState& aided, Time 
   const double least = parameters_.model_sigma * parameters_.model_sigma + share * share;
   const Eigen::Vector2d values = eigen.eigenvalues().cwiseMax(0.0).array() + least;
   const Eigen::Vector2d along = eigen.eigenvectors().transpose() * apart;
-  return (along.array().square() / values.array()).sum();
+  return (along.array().square() / values.array()).sum();  // (28) of METHOD.md
 }
 
 void GuardedFilter::restore(Time t) {

@@ -61,7 +61,7 @@ InertialInput inertial_input(const InertialSamples& samples, Time from, Time to,
     input.forward_force =
         a.specific_force_forward + weight * (b.specific_force_forward - a.specific_force_forward);
     input.yaw_rate = a.yaw_rate + weight * (b.yaw_rate - a.yaw_rate);
-    input.unseen_change = gap * gap * gap * input.duration / 64.0;
+    input.unseen_change = gap * gap * gap * input.duration / 64.0;  // (1) of METHOD.md
     return input;
   }
 
@@ -72,7 +72,7 @@ InertialInput inertial_input(const InertialSamples& samples, Time from, Time to,
   input.inertial = true;
   input.forward_force = a.specific_force_forward;
   input.yaw_rate = a.yaw_rate;
-  input.unseen_change = (std::pow(age_to, 4) - std::pow(age_from, 4)) / 4.0;
+  input.unseen_change = (std::pow(age_to, 4) - std::pow(age_from, 4)) / 4.0;  // (2) of METHOD.md
   return input;
 }
 

@@ -20,7 +20,7 @@ void joseph_update(StateVector& x, StateMatrix& P, const Innovation<rows>& innov
   using Columns = Eigen::Matrix<double, index::count, rows>;
   const Columns PH = P * innovation.H.transpose();
   const Eigen::Matrix<double, rows, rows> S = innovation.H * PH + innovation.R;
-  Columns K = PH * S.inverse();
+  Columns K = PH * S.inverse();  // (11) of METHOD.md
   for (const int i : considered) K.row(i).setZero();
   const Columns half = PH - 0.5 * K * S;
   const StateMatrix change = K * half.transpose();

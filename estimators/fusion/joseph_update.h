@@ -42,7 +42,7 @@ void joseph_update(StateVector& x, StateMatrix& P, const Innovation<rows>& innov
 template <int rows>
 Outcome apply_gated(FilterState& state, const Innovation<rows>& innovation, double gate,
                     Reason reason, Considered considered = {}) {
-  if (!(innovation.nis(state.P) <= gate)) return refused(reason);
+  if (!(innovation.nis(state.P) <= gate)) return refused(reason);  // (10) of METHOD.md
   joseph_update(state.x, state.P, innovation, considered);
   return {};
 }

@@ -33,6 +33,7 @@ Innovation<1> line_innovation(const FilterState& state, const MapFeedback& feedb
   const Eigen::Vector2d right = right_of_line(feedback);
   const Eigen::Vector2d off = state.x.segment<2>(east) - frame.to_enu(feedback.point).head<2>();
   Innovation<1> innovation;
+  // (21) of METHOD.md
   innovation.residual << feedback.lane_sigma * state.x[lane_offset] - right.dot(off);
   innovation.H.setZero();
   innovation.H.segment<2>(east) = right;
@@ -43,6 +44,7 @@ Innovation<1> line_innovation(const FilterState& state, const MapFeedback& feedb
 
 Innovation<1> link_azimuth_innovation(const FilterState& state, const MapFeedback& feedback) {
   Innovation<1> innovation;
+  // (22) of METHOD.md
   innovation.residual << wrap_angle(feedback.link_azimuth - state.x[index::azimuth]);
   innovation.H.setZero();
   innovation.H[index::azimuth] = 1.0;

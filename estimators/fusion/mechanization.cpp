@@ -52,7 +52,7 @@ Step mechanize(const StateVector& x, const InertialInput& input, const LocalEart
   Eigen::Matrix<double, 1, count> acceleration_by = Eigen::Matrix<double, 1, count>::Zero();
   if (input.inertial) {
     rate = input.yaw_rate - x[gyro_bias];
-    azimuth_rate = -(rate / (cp * cr) - earth.earth_rate_up());
+    azimuth_rate = -(rate / (cp * cr) - earth.earth_rate_up());  // (3) of METHOD.md
     azimuth_rate_by[pitch] = -rate * sp / (cp * cp * cr);
     azimuth_rate_by[roll] = -rate * sr / (cp * cr * cr);
     azimuth_rate_by[gyro_bias] = 1.0 / (cp * cr);
@@ -60,6 +60,7 @@ Step mechanize(const StateVector& x, const InertialInput& input, const LocalEart
     const double g = earth.gravity(x[up]);
     const Vector3d vertical = earth.vertical(x[east], x[north]);
     const Vector3d forward(sA * cp, cA * cp, sp);
+    // (3) of METHOD.md
     acceleration = input.forward_force - x[forward_bias] - g * vertical.dot(forward);
     acceleration_by[east] = -g * earth.curvature().x() * forward.x();
     acceleration_by[north] = -g * earth.curvature().y() * forward.y();
@@ -83,7 +84,7 @@ Step mechanize(const StateVector& x, const InertialInput& input, const LocalEart
 
   Step step;
   step.x = x;
-  step.x.segment<3>(east) += dt * mid_speed * travel;
+  step.x.segment<3>(east) += dt * mid_speed * travel;  // (3) of METHOD.md
   // The rear axle rolls without side slip; the origin ahead of it swings out in turns.
   const Vector3d left(-std::cos(mid_azimuth), std::sin(mid_azimuth), 0.0);
   const double swing = rate * parameters.rear_axle_distance;
@@ -140,7 +141,7 @@ StateMatrix process_noise(const StateVector& x, const Step& step, const Inertial
   StateMatrix Q = StateMatrix::Zero();
 
   // White noise of density q equals a constant error of variance q / dt over the step.
-  double speed_variance = dt * squared(p.silent_speed_noise);
+  double speed_variance = dt * squared(p.silent_speed_noise);  // (5) and (6) of METHOD.md
   double azimuth_variance = dt * squared(p.silent_yaw_noise);
   if (input.inertial) {
     speed_variance = dt * squared(p.acceleration_noise) + input.unseen_change * squared(p.jerk);
@@ -156,7 +157,7 @@ StateMatrix process_noise(const StateVector& x, const Step& step, const Inertial
   Q(roll, roll) += dt * squared(p.roll_noise);
 
   // This random walk departs from a constant by sigma in half of `time`.
-  const auto walk = [&](int i, double sigma, double time) {
+  const auto walk = [&](int i, double sigma, double time) {  // (9) of METHOD.md
     Q(i, i) += 2.0 * squared(sigma) * dt / time;
   };
   walk(gyro_bias, p.gyro_bias_sigma, p.gyro_bias_time);
@@ -167,7 +168,7 @@ StateMatrix process_noise(const StateVector& x, const Step& step, const Inertial
   Q(speed_scale, speed_scale) += dt * squared(p.speed_scale_walk);
   Q(chain_drift, chain_drift) += squared(p.chain_drift) * std::abs(x[speed]) * dt;
   // This is a first-order Gauss-Markov process about its mean.
-  const auto markov = [&](int i, double sigma) {
+  const auto markov = [&](int i, double sigma) {  // (8) of METHOD.md
     Q(i, i) += squared(sigma) * (1.0 - squared(step.F(i, i)));
   };
   markov(climb_offset, p.climb_offset_sigma);
@@ -176,6 +177,7 @@ StateMatrix process_noise(const StateVector& x, const Step& step, const Inertial
 
   // Side slip and suspension turn the direction of travel away from the body's axis.
   const Vector3d travel = direction(x[azimuth], x[pitch] + x[climb_offset]);
+  // (7) of METHOD.md
   Q.block<3, 3>(east, east) += dt * squared(x[speed] * p.slip_sigma) * p.slip_time *
                                (Eigen::Matrix3d::Identity() - travel * travel.transpose());
   return Q;
@@ -184,7 +186,7 @@ StateMatrix process_noise(const StateVector& x, const Step& step, const Inertial
 void predict(FilterState& state, const InertialInput& input, const LocalEarth& earth,
              const FusionParameters& parameters) {
   const Step step = mechanize(state.x, input, earth, parameters);
-  state.P = propagated(state.P, step.F);
+  state.P = propagated(state.P, step.F);  // (4) of METHOD.md
   state.P += process_noise(state.x, step, input, parameters);
   state.x = step.x;
 }

@@ -36,7 +36,7 @@ void doubt_speed(FilterState& state, const RelativeMotion& motion, const FusionP
   error[speed] = 1.0;
   error[distance] = to_seconds(motion.stamp - motion.from);
   error *= p.recovery_speed_sigma;
-  state.P += error * error.transpose();
+  state.P += error * error.transpose();  // (26) of METHOD.md
 }
 
 // Inflates the covariance for a rotation error over the interval. The azimuth may also have been
@@ -53,7 +53,7 @@ void doubt_rotation(FilterState& state, const RelativeMotion& motion, const Fusi
   const auto add = [&](StateVector error, double sigma) {
     error.segment<3>(east) = aside;
     error[azimuth] = 1.0;
-    state.P += sigma * sigma * error * error.transpose();
+    state.P += sigma * sigma * error * error.transpose();  // (26) of METHOD.md
   };
   add(StateVector::Zero(), p.recovery_rotation_sigma);
   add(StateVector::Unit(clone_azimuth), before);
@@ -206,6 +206,7 @@ Arc arc(const RelativeMotion& motion) {
   const double half = 0.5 * turn.norm();
   Matrix3d to_arc = Matrix3d::Identity();
   if (half > 1e-9) {
+    // (12) of METHOD.md
     to_arc = half / std::sin(half) * Eigen::AngleAxisd(-half, turn.normalized()).toRotationMatrix();
   }
   return {to_arc * motion.translation,
@@ -218,6 +219,7 @@ Innovation<1> distance_innovation(const FilterState& state, const RelativeMotion
   const double floor = parameters.min_speed_sigma * to_seconds(motion.stamp - motion.from);
   const Gain gain = gain_of(state, motion);
   Innovation<1> innovation;
+  // (13) of METHOD.md
   innovation.residual << travelled.displacement.x() - gain.value * state.x[index::distance];
   innovation.H = state.x[index::distance] * gain.by_state.transpose();
   innovation.H[index::distance] = gain.value;
@@ -234,6 +236,7 @@ Innovation<1> climb_innovation(const FilterState& state, const RelativeMotion& m
   const double heave = parameters.climb_noise * distance;
   const double floor = parameters.min_speed_sigma * to_seconds(motion.stamp - motion.from);
   Innovation<1> innovation;
+  // (14) of METHOD.md
   innovation.residual << travelled.displacement.z() - gain.value * distance * offset;
   innovation.H = distance * offset * gain.by_state.transpose();
   innovation.H[index::climb_offset] = gain.value * distance;
@@ -251,6 +254,7 @@ Innovation<3> rotation_innovation(const FilterState& state, const RelativeMotion
   const double floor = parameters.min_rotation_sigma;
 
   Innovation<3> innovation;
+  // (15) of METHOD.md
   innovation.residual = rotation_vector(
       Eigen::Quaterniond(Matrix3d(motion.rotation.toRotationMatrix() * predicted.transpose())));
   innovation.H.setZero();
@@ -268,6 +272,7 @@ Innovation<3> rotation_innovation(const FilterState& state, const RelativeMotion
 Innovation<1> chained_azimuth_innovation(const FilterState& state, const FusionParameters& p) {
   using namespace index;
   Innovation<1> innovation;
+  // (16) of METHOD.md
   innovation.residual << wrap_angle(state.chained_azimuth - state.x[azimuth] -
                                     state.x[chain_drift]);
   innovation.H.setZero();

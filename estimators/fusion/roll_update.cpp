@@ -27,6 +27,7 @@ std::optional<Innovation<1>> roll_innovation(const FilterState& state, const Imu
   const Vector3d left = R.col(1);
   const Eigen::Matrix3d axes = attitude_rate_axes(state.attitude());
   Innovation<1> innovation;
+  // (20) of METHOD.md
   innovation.residual << sample.specific_force_left -
                              (ground * rate + g * vertical.dot(left) + x[left_bias]);
   innovation.H.setZero();

@@ -8,7 +8,7 @@ Innovation<1> wheel_innovation(const FilterState& state, const WheelSpeed& sampl
                                const FusionParameters& p) {
   using namespace index;
   Innovation<1> innovation;
-  innovation.residual << sample.speed - state.x[speed];
+  innovation.residual << sample.speed - state.x[speed];  // (17) of METHOD.md
   innovation.H.setZero();
   innovation.H[speed] = 1.0;
   innovation.R << sample.sigma * sample.sigma + p.min_wheel_sigma * p.min_wheel_sigma;

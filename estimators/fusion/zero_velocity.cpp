@@ -47,7 +47,7 @@ bool stands(FilterState& state, const ImuSample& sample, double interval,
 Innovation<1> zero_velocity_innovation(const FilterState& state, double interval,
                                        const FusionParameters& p) {
   Innovation<1> innovation;
-  innovation.residual << -state.x[index::speed];
+  innovation.residual << -state.x[index::speed];  // (23) of METHOD.md
   innovation.H.setZero();
   innovation.H[index::speed] = 1.0;
   innovation.R << p.zero_velocity_sigma * p.zero_velocity_sigma * std::max(1.0, 0.1 / interval);
@@ -59,6 +59,7 @@ Innovation<1> zero_rate_innovation(const FilterState& state, const ImuSample& sa
                                    const FusionParameters& p) {
   using namespace index;
   Innovation<1> innovation;
+  // (24) of METHOD.md
   innovation.residual << sample.yaw_rate - state.x[gyro_bias] -
                              earth.earth_rate_up() * std::cos(state.x[pitch]) *
                                  std::cos(state.x[roll]);

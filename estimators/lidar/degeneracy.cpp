@@ -9,6 +9,7 @@ Degeneracy find_degeneracy(const Matrix6d& information, int points, double range
                            double min_information) {
   Vector6d scale = Vector6d::Ones();
   scale.tail<3>() /= range;
+  // (7) of METHOD.md
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(scale.asDiagonal() * information *
                                                        scale.asDiagonal() / points);
   Degeneracy result;

@@ -51,7 +51,7 @@ void DisparityCorrection::learn(const VisualMotion& visual, const LidarMotion& l
   const double longer = along_way.dot(lidar.translation - visual.translation);  // m
   const double variance_of_one = noise / (by_offset * by_offset);               // px^2
   if (!(noise > 0.0 && variance_of_one < blind * blind) || !std::isfinite(longer)) return;
-  const double measured = visual.offset + longer / by_offset;
+  const double measured = visual.offset + longer / by_offset;  // (9) of METHOD.md
 
   double variance = sigma_ * sigma_;
   if (motions_++ == 0) {

@@ -71,10 +71,11 @@ Gicp::Sums Gicp::sum_chunk(const PreparedScan& scan, const Eigen::Isometry3d& T,
     if (!pair.exists) continue;
     const Eigen::Vector3f d =
         R_body_map * (pair.target - T * point.position.cast<double>()).cast<float>();
+    // (3) of METHOD.md
     const Eigen::Matrix3f W =
         whitening * plane_to_plane(point.normal, R_body_map * pair.normal, thickness);
     const float square = d.dot(W * d);
-    const float root = limit / (limit + square);
+    const float root = limit / (limit + square);  // (4) of METHOD.md
     const float weight = root * root;
     add_normal_equations(point.position, d, W, weight, &H, &g);
     sums.weight += static_cast<double>(weight);
@@ -130,7 +131,7 @@ Alignment Gicp::align(const LocalMap& map, const PreparedScan& scan, const Eigen
       result.degeneracy = find_degeneracy(sums.H / unit, sums.partners,
                                           std::sqrt(sums.range / sums.partners), min_information);
       const Matrix6d inverse = result.degeneracy.inverse / unit;
-      const Vector6d step = -inverse * sums.g;
+      const Vector6d step = -inverse * sums.g;  // (6) of METHOD.md
       result.T_map_body = result.T_map_body * Twist{step.head<3>(), step.tail<3>()}.over(1.0);
       result.T_map_body.linear() =
           Eigen::Quaterniond(result.T_map_body.linear()).normalized().toRotationMatrix();

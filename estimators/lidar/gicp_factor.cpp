@@ -21,7 +21,7 @@ Matrix3f plane_to_plane(const Vector3f& normal_a, const Vector3f& normal_b, floa
 
 void add_normal_equations(const Vector3f& a, const Vector3f& d, const Matrix3f& W, float weight,
                           Matrix6f* H, Vector6f* g) {
-  const Matrix3f M = weight * W;
+  const Matrix3f M = weight * W;  // (5) of METHOD.md
   const Vector3f y = M * d;
   g->head<3>() -= y;
   g->tail<3>() -= a.cross(y);

@@ -203,6 +203,7 @@ class LidarOdometry::Implementation {
     const Matrix6d unseen = Matrix6d::Identity() - alignment.degeneracy.seen;
     Matrix6d seed = Matrix6d::Identity();  // 1 m, 1 rad: the motion is unknown
     if (seed_covariance_) seed = *seed_covariance_;
+    // (8) of METHOD.md
     return parameters_.correlated_points * alignment.covariance +
            unseen * seed * unseen.transpose();
   }

@@ -30,7 +30,7 @@ Eigen::Isometry3d Twist::over(double seconds) const {
     V += (1 - std::cos(angle)) / angle * K + (1 - std::sin(angle) / angle) * K * K;
     T.linear() = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
   }
-  T.translation() = V * velocity * seconds;
+  T.translation() = V * velocity * seconds;  // (1) of METHOD.md
   return T;
 }
 
@@ -101,6 +101,7 @@ void ScanPreparation::prepare(const LidarScan& scan, Time stamp, const Twist& mo
     const Vector3f seen = T_body_velo_ * with_elevation({raw.x, raw.y, raw.z}, cosine, sine);
     // This is the body's motion over t to second order; the third order is 0.2 mm at 80 m and 0.5
     // rad/s.
+    // (2) of METHOD.md
     const Vector3f turned = t * rate.cross(seen + (0.5f * t) * (rate.cross(seen) + velocity));
     if (!moments_.add(seen + turned + t * velocity)) ++left_out;
   }

@@ -34,7 +34,7 @@ double Adjustment::huber_weight(double squared) const {
 
 void Adjustment::whiten(Term* term) const {
   const auto apply = [this](auto&& rows) {
-    rows.template topRows<2>() *= track_weight_;
+    rows.template topRows<2>() *= track_weight_;  // (5) of METHOD.md
     const auto sum = ((rows.row(2) + rows.row(3)) * (level_weight_ / std::numbers::sqrt2)).eval();
     rows.row(3) = ((rows.row(2) - rows.row(3)) * (change_weight_ / std::numbers::sqrt2)).eval();
     rows.row(2) = sum;
@@ -53,6 +53,7 @@ Adjustment::Term Adjustment::linearize(const Eigen::Isometry3d& pose, int track,
   term.valid = prediction.in_front;
   if (!term.valid) return term;
   const StereoObservation& now = t.current;
+  // (4) of METHOD.md
   term.residual << prediction.image.x() - now.u_left, prediction.image.y() - now.v_left,
       prediction.image.z() - now.disparity(), disparity - t.previous.disparity();
   term.by_shared.topLeftCorner<3, 6>() = prediction.by_pose;

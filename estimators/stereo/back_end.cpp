@@ -73,7 +73,7 @@ void BackEnd::remember(const Eigen::Isometry3d& motion, double seconds,
 void BackEnd::widen(std::span<const StereoTrack> tracks, const CameraMotion& motion,
                     RelativeMotion* result) {
   const double pairs = ages_.correlated_pairs(tracks, motion.inliers);
-  const double factor = std::max(1.0, pairs / parameters_.correlated_pairs);
+  const double factor = std::max(1.0, pairs / parameters_.correlated_pairs);  // (8) of METHOD.md
   result->covariance *= factor;
   by_offset_ = offset_effect_on_body(camera_.T_body_cam, motion);
   offset_sigma_ = std::sqrt(factor) * offset_.sigma();

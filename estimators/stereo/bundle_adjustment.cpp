@@ -97,11 +97,12 @@ double BundleAdjustment::square(const Window& window, const WindowPoint& point,
 double BundleAdjustment::cost(const Window& window) const {
   double sum = 0.0;
   for (const WindowPoint& point : window.points) {
-    sum += std::pow(point.match_error * match_weight_, 2);
+    sum += std::pow(point.match_error * match_weight_, 2);  // (10) of METHOD.md
     for (std::size_t i = 0; i < window.poses.size(); ++i)
       if (point.sights[i].seen) sum += robust_cost(square(window, point, i));
   }
   for (std::size_t i = 0; i + 2 < window.poses.size(); ++i)
+    // (11) of METHOD.md
     sum += change_at(window, i).value.cwiseProduct(change_weight_).squaredNorm() /
            std::pow(seconds_of_change(window, i), 2);
   return sum;

@@ -19,7 +19,7 @@ void DisparityOffset::update(double correction, double correction_sigma, int inl
   const double noise = correction_sigma * correction_sigma;
   const double variance = sigma_ * sigma_;
   if (!(correction * correction <= 9.0 * (variance + noise))) return;
-  value_ += correction * variance / (variance + noise);
+  value_ += correction * variance / (variance + noise);  // (9) of METHOD.md
   sigma_ = std::sqrt(variance * noise / (variance + noise));
 }
 

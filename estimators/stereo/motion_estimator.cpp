@@ -61,7 +61,7 @@ CameraMotion estimate_motion(const StereoCalibration& camera, const StereoParame
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     if (!usable(tracks[i].previous, parameters) || !usable(tracks[i].current, parameters)) continue;
     good.push_back(tracks[i]);
-    good.back().previous.u_right -= offset.value();
+    good.back().previous.u_right -= offset.value();  // (1) of METHOD.md
     good.back().current.u_right -= offset.value();
     index_of.push_back(static_cast<int>(i));
   }

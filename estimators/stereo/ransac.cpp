@@ -97,6 +97,7 @@ int hypotheses_needed(double inlier_ratio, const StereoParameters& parameters) {
   const double all_good = inlier_ratio * inlier_ratio * inlier_ratio;
   if (all_good < 1e-9) return parameters.ransac_max_hypotheses;
   if (all_good > 1.0 - 1e-9) return 1;
+  // (3) of METHOD.md
   const double needed = std::log(1.0 - parameters.ransac_confidence) / std::log(1.0 - all_good);
   return static_cast<int>(
       std::min(std::ceil(needed), static_cast<double>(parameters.ransac_max_hypotheses)));

@@ -71,7 +71,7 @@ bool estimate_covariance(const Adjustment& adjustment, const std::optional<Motio
   std::vector<double> disparities;
   const Eigen::Isometry3d& pose = result->T_previous_current;
   const double cost = adjustment.cost(pose, result->inliers, &disparities);
-  result->variance_factor = std::max(kSmallestVarianceFactor, cost / freedom);
+  result->variance_factor = std::max(kSmallestVarianceFactor, cost / freedom);  // (6) of METHOD.md
   const NormalEquations equations = adjustment.normal_equations(pose, result->inliers, disparities);
 
   const double variance = result->variance_factor * correlated_pairs;
@@ -83,6 +83,7 @@ bool estimate_covariance(const Adjustment& adjustment, const std::optional<Motio
   if (factor.info() != Eigen::Success || !factor.isPositive()) return false;
   result->by_offset = -factor.solve(coupling) / variance;
   const Vector6 open = assumed_offset_sigma * result->by_offset;
+  // (7) of METHOD.md
   const Matrix6 covariance = factor.solve(Matrix6::Identity()) + open * open.transpose();
   result->covariance = 0.5 * (covariance + covariance.transpose());
 

@@ -3,7 +3,7 @@
 namespace maploop::stereo {
 
 Eigen::Vector3d triangulate(const StereoCalibration& camera, const ImagePoint& image) {
-  const double z = camera.fx * camera.baseline / image.z();
+  const double z = camera.fx * camera.baseline / image.z();  // (2) of METHOD.md
   return {(image.x() - camera.cx) * z / camera.fx, (image.y() - camera.cy) * z / camera.fy, z};
 }
 

@@ -36,7 +36,7 @@ bool has_doppler(const Tracked& t) {
 double variance_factor(const Tracked& t, const UnobstructedCn0& strength) {
   const double sine = std::sin(t.predicted.elevation), cn0 = t.measurement.first.cn0;
   const double missing = cn0 > 0.0 ? std::max(0.0, strength.of(sine) - cn0) : 0.0;
-  return std::pow(10.0, 2.0 * missing / 10.0) / (sine * sine);
+  return std::pow(10.0, 2.0 * missing / 10.0) / (sine * sine);  // (10) of METHOD.md
 }
 
 }  // namespace
@@ -58,11 +58,11 @@ std::vector<Row>& EpochRows::make(const std::vector<Tracked>& tracked, int refer
     Row doppler;
     doppler.kind = RowKind::doppler;
     doppler.tracked = i;
-    doppler.y = drift_of(t, state) - state.x()[S::clock_drift];
+    doppler.y = drift_of(t, state) - state.x()[S::clock_drift];  // (9) of METHOD.md
     for (int k = 0; k < 3; ++k) doppler.add(S::velocity + k, -t.predicted.to_satellite[k]);
     doppler.add(S::clock_drift, 1.0);
     const double sigma = parameters_.doppler_sigma;
-    doppler.variance = sigma * sigma * factor * t.level;
+    doppler.variance = sigma * sigma * factor * t.level;  // (13) of METHOD.md
     doppler.sigma = std::sqrt(doppler.variance);
     rows_.push_back(doppler);
   }
@@ -103,9 +103,10 @@ Row EpochRows::code_row(std::size_t i, const Tracked& t, double factor, int refe
   const double glonass =
       m.satellite.system == System::glonass ? parameters_.glonass_code_factor : 1.0;
   const double sigma = parameters_.code_sigma * m.noise_factor() * glonass;
-  row.y = t.code_offset - predicted;
+  row.y = t.code_offset - predicted;  // (7) of METHOD.md
   const double usual = sigma * sigma * factor;
   const double rest = lasting_variance(t.predicted);
+  // (11) of METHOD.md
   row.variance = usual * (t.code_inflation + (t.level - 1.0) * t.level_inflation) + rest;
   row.sigma = std::sqrt(usual * t.level + rest);
   return row;
@@ -118,6 +119,7 @@ void EpochRows::add_phase_row(const Tracked& t, double factor, const Row& code, 
   const Measurement& m = t.measurement;
   const bool graphic = !m.dual() && parameters_.graphic;
   const double phase = m.phase() - t.predicted.phase_extra - t.predicted.range;
+  // (2) of METHOD.md
   const double y =
       graphic ? 0.5 * (phase + m.code() - t.predicted.range) : phase + t.predicted.ionosphere.value;
   const double predicted = t.code_offset - code.y;  // clocks, wet delay, gradients
@@ -134,8 +136,9 @@ void EpochRows::add_phase_row(const Tracked& t, double factor, const Row& code, 
   row.kind = RowKind::phase;
   row.new_ambiguity = is_new;
   row.add(index, 1.0);
-  row.y = y - predicted - state.x()[index];
+  row.y = y - predicted - state.x()[index];  // (8) of METHOD.md
   const double sigma = parameters_.phase_sigma * m.noise_factor();
+  // (12) of METHOD.md
   row.variance = sigma * sigma * factor * t.level * (t.predicted.in_shadow ? 16.0 : 1.0);
   row.sigma = std::sqrt(row.variance);
   if (graphic) {

@@ -72,6 +72,7 @@ LinearRow line_row(const FilterState& state, const MapFeedback& feedback, double
   for (int i = 0; i < 2; ++i) row.add(S::lasting_error + i, level[i]);
   for (int i = 0; i < 2; ++i) row.add(S::map_datum + i, -level[i]);
   row.add(S::lane_offset, -feedback.lane_sigma);
+  // (21) of METHOD.md
   row.y = feedback.lane_sigma * x[S::lane_offset] - right.dot(off) -
           level.dot(x.segment<2>(S::lasting_error) - x.segment<2>(S::map_datum));
   const double white = feedback.cross_sigma * feedback.cross_sigma;
@@ -85,7 +86,7 @@ LinearRow direction_row(const FilterState& state, const MapFeedback& feedback, d
   const Eigen::Vector3d velocity = state.x().segment<3>(S::velocity);
   LinearRow row;
   for (int i = 0; i < 3; ++i) row.add(S::velocity + i, right[i]);
-  row.y = -right.dot(velocity);
+  row.y = -right.dot(velocity);  // (22) of METHOD.md
   const double across = velocity.norm() * feedback.azimuth_sigma;
   row.variance = (across * across + slip * slip) / feedback.probability;
   return row;

@@ -64,7 +64,7 @@ Carrier carrier_of(Satellite satellite, char band, std::span<const Signal> signa
 double Measurement::weight1() const {
   if (!dual()) return 1.0;
   const double a = first.frequency * first.frequency, b = second.frequency * second.frequency;
-  return a / (a - b);
+  return a / (a - b);  // (1) of METHOD.md
 }
 
 double Measurement::weight2() const {

@@ -16,7 +16,7 @@ Vector design(const PhaseStep& s) {
 
 // Returns the residual in units of the limit.
 double misfit(const PhaseStep& s, const Vector& x) {
-  return std::abs(s.change - design(s).dot(x)) / s.limit;
+  return std::abs(s.change - design(s).dot(x)) / s.limit;  // (20) of METHOD.md
 }
 
 // Weights are in units of the inverse squared limits.

@@ -182,6 +182,7 @@ void PppFilter::weigh_code(Tracked& tracked, const Memory& memory) const {
   if (!memory.last_code) return;
   const double since = to_seconds(time_ - *memory.last_code);
   const double speed = state_.x().segment<3>(S::velocity).norm();
+  // (14) of METHOD.md
   const auto inflation = [since](double rate) { return 1.0 / std::tanh(0.5 * since * rate); };
   tracked.level_inflation =
       inflation(1.0 / parameters_.reflection_time + speed / parameters_.reflection_distance);
@@ -437,6 +438,7 @@ void PppFilter::add_lasting_error() {
   // The scale would turn the sum of two uncorrelated covariances back into the first.
   const Eigen::Matrix2d once = own.topLeftCorner<2, 2>(), twice = once + lasting;
   Eigen::Matrix3d shrink = Eigen::Matrix3d::Identity();
+  // (23) of METHOD.md
   shrink.topLeftCorner<2, 2>() =
       Eigen::Matrix2d(once.llt().matrixL()) * Eigen::Matrix2d(twice.llt().matrixL()).inverse();
   solution_.position += R.topRows<2>().transpose() * state_.x().segment<2>(S::lasting_error);

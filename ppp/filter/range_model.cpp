@@ -39,7 +39,7 @@ std::optional<PredictedRange> RangeModel::predict(const Measurement& m,
   const double distance = difference.norm();
   const double sagnac =
       earth_rotation_rate / speed_of_light * (s.x() * receiver_.y() - s.y() * receiver_.x());
-  p.range = distance + sagnac - speed_of_light * state->clock;
+  p.range = distance + sagnac - speed_of_light * state->clock;  // (4) of METHOD.md
   p.to_satellite = difference / distance;
   const Eigen::Vector3d local = R_enu_ecef_ * p.to_satellite;
   p.azimuth = std::atan2(local.x(), local.y());

@@ -26,12 +26,12 @@ Row* RobustUpdate::worst(const FilterState& state, std::vector<Row>& rows) const
   double largest = outlier_sigmas_;
   for (Row& row : rows) {
     if (!row.active) continue;
-    double sigma = row.sigma;
+    double sigma = row.sigma;  // (15) of METHOD.md
     if (row.kind != RowKind::code) {
       constexpr double least = 1e-3;  // a new ambiguity absorbs all: nothing to test
       const double share = 1.0 - predicted_variance(state, row) / row.variance;
       if (share < least) continue;
-      sigma *= std::sqrt(share);
+      sigma *= std::sqrt(share);  // (16) of METHOD.md
     }
     const double normalized = std::abs(row.residual_after(dx_)) / sigma;
     if (normalized > largest) {

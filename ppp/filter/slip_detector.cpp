@@ -25,11 +25,13 @@ PppSlip SlipDetector::next(const Measurement& m, double interval, double elevati
   if (m.dual()) {
     const double geometry_free = m.first.phase - m.second.phase;
     const double f1 = m.first.frequency, f2 = m.second.frequency;
+    // (18) of METHOD.md
     const double wide = (f1 * m.first.phase - f2 * m.second.phase) / (f1 - f2) -
                         (f1 * m.first.code + f2 * m.second.code) / (f1 + f2);
     const double wide_length = speed_of_light / (f1 - f2);
     if (started_) {
       // The rate of the ionosphere is assumed to be constant.
+      // (17) of METHOD.md
       const double predicted = geometry_free_ + (has_rate_ ? rate_ * interval : 0.0);
       const double limit = slip_limit(0.04, interval, elevation) * (has_rate_ ? 1.0 : 1.5);
       const double sigma = std::sqrt(std::max(wide_variance_, 0.01));
@@ -59,6 +61,7 @@ PppSlip SlipDetector::next(const Measurement& m, double interval, double elevati
              interval < 5.0) {
     const double expected = -0.5 * (doppler_ + m.first.doppler) * m.first.wavelength * interval;
     // Whole milliseconds are removed, by which the receiver may have stepped its clock.
+    // (19) of METHOD.md
     const double off = std::remainder(m.first.phase - phase_ - expected, millisecond_range);
     if (std::abs(off) > 0.5 + 0.5 * interval) {
       slip = PppSlip::doppler;

@@ -82,10 +82,11 @@ std::optional<SatelliteState> CorrectedEphemeris::at(Satellite satellite, GpsTim
   const Eigen::Vector3d along = state->velocity.normalized();
   const Eigen::Vector3d across = state->position.cross(state->velocity).normalized();
   const Eigen::Vector3d radial = along.cross(across);
+  // (5) of METHOD.md
   state->position -= radial * offset.x() + along * offset.y() + across * offset.z();
   const double dt = to_seconds(t - c.clock->time);
   const auto& p = c.clock->value.polynomial;
-  double clock = p[0] + p[1] * dt + p[2] * dt * dt;
+  double clock = p[0] + p[1] * dt + p[2] * dt * dt;  // (6) of METHOD.md
   if (fresh(c.high_rate) && c.high_rate->same_solution(*c.clock)) clock += c.high_rate->value;
   state->clock += clock / speed_of_light;
   state->clock_drift += (p[1] + 2.0 * p[2] * dt) / speed_of_light;

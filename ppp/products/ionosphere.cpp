@@ -63,7 +63,7 @@ IonosphericDelay ionospheric_delay(const std::optional<NearestIonosphere>& coeff
   constexpr double days_to_change = 30.0;
   const double days = to_seconds(coefficients->age) / to_seconds(one_day);
   const double delay = ionospheric_delay(coefficients->coefficients, site, azimuth, elevation, t);
-  return {delay, share * std::hypot(1.0, days / days_to_change) * delay};
+  return {delay, share * std::hypot(1.0, days / days_to_change) * delay};  // (3) of METHOD.md
 }
 
 std::string ionosphere_lack(std::optional<Duration> age) {

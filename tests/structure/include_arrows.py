@@ -155,7 +155,7 @@ def main():
     if count == 0:
         sys.exit(f"no source file below {root}: nothing was checked")
     if found:
-        sys.exit(f"{len(found)} includes against the arrows (README, 'Layout')")
+        sys.exit(f"{len(found)} includes against the arrows (README, 'How it is made')")
     print(f"{count} files follow the arrows")
 
 

@@ -30,7 +30,7 @@ struct CalibrationErrors {
 // Draws the errors of a car from a seed. The sizes come from KITTI's drive 0013:
 // - Disparities, compared with the depths of a LiDAR, are 0.30 to 0.48 px too small in the mean:
 //   0.67 px at the left edge, 0.0 at a third, 0.2 in the middle and 0.6 at the right edge
-//   (estimators/lidar/README.md). This is a bowl of 0.5 px without slope. Here the mean is 0.30 to
+//   (estimators/lidar/FIGURES.md). This is a bowl of 0.5 px without slope. Here the mean is 0.30 to
 //   0.48 px, the bowl 0.3 to 0.7, the slope -0.2 to 0.2.
 // - Ranges are wrong by 0.2 %, 1 sigma, in either direction. The scanner of 0013 measures lengths
 //   0.2 % longer than its inertial unit; its maker states 2 cm, which is 0.2 % of the 10 m at which

@@ -1,5 +1,6 @@
 // Tests every fault on the recorded drive, with its own truth, against the table in
-// tools/README.md. It takes a minute, because the faults of images need 14 replays with images.
+// runtime/vehicle/FIGURES.md. It takes a minute, because the faults of images need 14 replays with
+// images.
 #include <gtest/gtest.h>
 
 #include <algorithm>
