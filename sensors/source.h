@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,5 +56,50 @@ class Source {
 
   virtual const SourceReport& report() const = 0;
 };
+
+// Makes its samples itself: next(sample, report) fills one, and returns false at the end. It
+// reports what it leaves out; the delivered ones are counted for it.
+template <class T, class Next>
+class MadeSource final : public Source<T> {
+ public:
+  explicit MadeSource(Next next) : next_(std::move(next)) {}
+
+  bool next(T& sample) override {
+    const bool more = next_(sample, report_);
+    report_.delivered += more ? 1 : 0;
+    return more;
+  }
+  const SourceReport& report() const override { return report_; }
+
+ private:
+  Next next_;
+  SourceReport report_;
+};
+
+template <class T, class Next>
+std::unique_ptr<Source<T>> made(Next next) {
+  return std::make_unique<MadeSource<T, Next>>(std::move(next));
+}
+
+// Makes its samples from those of another source, whose report it passes on. next(source, sample)
+// fills the sample from the source, and returns false at the end.
+template <class T, class Next>
+class DerivedSource final : public Source<T> {
+ public:
+  DerivedSource(std::unique_ptr<Source<T>> source, Next next)
+      : source_(std::move(source)), next_(std::move(next)) {}
+
+  bool next(T& sample) override { return next_(*source_, sample); }
+  const SourceReport& report() const override { return source_->report(); }
+
+ private:
+  std::unique_ptr<Source<T>> source_;
+  Next next_;
+};
+
+template <class T, class Next>
+std::unique_ptr<Source<T>> derived(std::unique_ptr<Source<T>> source, Next next) {
+  return std::make_unique<DerivedSource<T, Next>>(std::move(source), std::move(next));
+}
 
 }  // namespace maploop::sensors

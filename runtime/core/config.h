@@ -3,7 +3,7 @@
 //
 //   const ConfigDocument document = ConfigDocument::load("vehicle.toml");
 //   const ConfigTable fusion = document.root().table("fusion");
-//   fusion.read_in("rate_hz", parameters.rate_hz, 1.0, 1000.0);
+//   fusion.read_in("count", parameters.count, 1, 8);
 //   fusion.read("deadline_ms", parameters.deadline);   // a Duration: the key names the unit
 //   document.reject_unknown();                         // last: keys that were never read
 //
@@ -55,19 +55,16 @@ class ConfigTable {
 
   // These do the same within lowest..highest, both included; for an array, for each of its
   // elements.
-  void read_in(std::string_view key, double& value, double lowest, double highest) const;
   void read_in(std::string_view key, int& value, int lowest, int highest) const;
   void read_in(std::string_view key, std::vector<int>& values, int lowest, int highest) const;
   void read_in(std::string_view key, Duration& value, Duration lowest, Duration highest) const;
 
   // Reads a string that must be one of `allowed`.
   void read_one_of(std::string_view key, std::string& value,
-                   const std::vector<std::string_view>& allowed) const;
+                   std::span<const std::string_view> allowed) const;
 
   // Returns the sub-table `key`; if it is absent, an empty one, so that every default holds.
   ConfigTable table(std::string_view key) const;
-  // Returns the array of tables `key` ([[key]]), in order; if it is absent, an empty one.
-  std::vector<ConfigTable> tables(std::string_view key) const;
 
   // Throws ConfigError at the position of `key`, for a rule of the caller's: "must be below
   // fusion.rate_hz".

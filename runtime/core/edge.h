@@ -25,13 +25,6 @@ enum class Overflow {
   drop_newest,  // the new sample is dropped and counted
 };
 
-// Describes the samples that were dropped because the ring was full.
-struct Loss {
-  std::uint64_t count = 0;
-  Time first{};  // stamps
-  Time last{};
-};
-
 // This is the interface of a consumer to an edge of any sample type.
 class EdgeBase {
  public:
@@ -91,9 +84,9 @@ class Edge final : public EdgeBase {
 
   // fill(T& slot) writes the sample in place. Returns false if the sample was lost: the ring was
   // full and the policy is to drop, the consumer has abandoned the edge, or `stop` was requested
-  // while waiting for room. `stamp` is recorded for a loss.
+  // while waiting for room.
   template <class Fill>
-  bool push(Time stamp, const std::stop_token& stop, Fill&& fill) {
+  bool push(const std::stop_token& stop, Fill&& fill) {
     pushed_.fetch_add(1, std::memory_order_relaxed);
     T* slot = ring_.claim();
     while (slot == nullptr && overflow_ == Overflow::keep_all && !abandoned() &&
@@ -102,7 +95,7 @@ class Edge final : public EdgeBase {
       slot = ring_.claim();
     }
     if (slot == nullptr) {
-      count_loss(stamp);
+      lost_.fetch_add(1, std::memory_order_release);
       return false;
     }
     fill(*slot);
@@ -112,7 +105,7 @@ class Edge final : public EdgeBase {
   }
 
   bool push(const T& sample, const std::stop_token& stop) {
-    return push(sample.stamp, stop, [&](T& slot) { slot = sample; });
+    return push(stop, [&](T& slot) { slot = sample; });
   }
 
   void drop_when_full() override { overflow_ = Overflow::drop_newest; }
@@ -138,23 +131,8 @@ class Edge final : public EdgeBase {
     return h;
   }
 
-  Loss loss() const {
-    Loss loss;
-    loss.count = lost_.load(std::memory_order_acquire);
-    loss.first = from_nanoseconds(first_lost_.load(std::memory_order_relaxed));
-    loss.last = from_nanoseconds(last_lost_.load(std::memory_order_relaxed));
-    return loss;
-  }
-
  private:
   static constexpr auto back_pressure_poll = std::chrono::microseconds(50);
-
-  void count_loss(Time stamp) {
-    const std::uint64_t before = lost_.load(std::memory_order_relaxed);
-    if (before == 0) first_lost_.store(to_nanoseconds(stamp), std::memory_order_relaxed);
-    last_lost_.store(to_nanoseconds(stamp), std::memory_order_relaxed);
-    lost_.store(before + 1, std::memory_order_release);
-  }
 
   std::string name_;
   Overflow overflow_;
@@ -162,8 +140,6 @@ class Edge final : public EdgeBase {
   std::atomic<std::uint64_t> pushed_{0};
   std::atomic<std::uint64_t> popped_{0};
   std::atomic<std::uint64_t> lost_{0};
-  std::atomic<std::int64_t> first_lost_{0};
-  std::atomic<std::int64_t> last_lost_{0};
 };
 
 }  // namespace maploop::runtime

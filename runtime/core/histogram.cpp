@@ -176,38 +176,19 @@ LatencySummary Histogram::summarize(std::string name) const {
   return summary;
 }
 
-void Histogram::record_omitted(Duration value, Duration interval) {
-  add_omitted(std::min(value, kHighest).count(), 1, interval.count());
-}
-
-Histogram Histogram::with_omitted(Duration interval) const {
-  if (interval <= Duration::zero()) {
-    throw std::invalid_argument("histogram: interval of " + std::to_string(interval.count()) +
-                                " ns between releases; it must be positive");
-  }
-  const Histogram recorded(*this);
-  Histogram result(recorded);
-  for (std::size_t i = 0; i < kBuckets; ++i) {
-    const std::uint64_t times = recorded.buckets_[i].load(std::memory_order_relaxed);
-    const std::int64_t value = std::min(highest_in(i), recorded.max().count());
-    if (times != 0) result.add_omitted(value, times, interval.count());
-  }
-  result.add_omitted(kHighest.count(), recorded.above_range(), interval.count());
-  return result;
-}
-
-// Adds value - k * interval for k = 1, 2, ... down to `interval`, `times` times each. It works
-// bucket by bucket, because there may be billions of them.
-void Histogram::add_omitted(std::int64_t value, std::uint64_t times, std::int64_t interval) {
+// Adds value - k * interval for k = 1, 2, ... down to `interval`. It works bucket by bucket,
+// because there may be billions of them.
+void Histogram::record_omitted(Duration wait, Duration period) {
+  const std::int64_t value = std::min(wait, kHighest).count(), interval = period.count();
   const std::int64_t last = value / interval - 1;  // the largest k
-  if (times == 0 || last < 1) return;
+  if (last < 1) return;
   for (std::size_t i = bucket_of(interval); i <= bucket_of(value - interval); ++i) {
     const std::int64_t highest = highest_in(i);
     const std::int64_t to = std::min(last, (value - lowest_in(i)) / interval);
     const std::int64_t from =
         highest >= value ? 1
                          : std::max<std::int64_t>(1, (value - highest + interval - 1) / interval);
-    if (from <= to) add(buckets_[i], times * static_cast<std::uint64_t>(to - from + 1));
+    if (from <= to) add(buckets_[i], static_cast<std::uint64_t>(to - from + 1));
   }
   lower(min_, value - last * interval);
   raise(max_, value - interval);

@@ -33,11 +33,11 @@ class Histogram {
   // duration beyond kHighest counts in above_range(). min() and max() keep the value itself.
   void record(Duration value);
 
-  // Adds the waits that a stall of `value` hid from a task released every `interval`: value -
-  // interval, value - 2 interval, ... down to `interval`. With record(value) this is HdrHistogram's
-  // recordWithExpectedInterval (Tene's correction of co-ordinated omission). The work is limited to
-  // one step for each bucket. Precondition: interval > 0.
-  void record_omitted(Duration value, Duration interval);
+  // Adds the waits that a stall of `wait` hid from a task released every `period`: wait - period,
+  // wait - 2 period, ... down to `period`. With record(wait) this is HdrHistogram's
+  // recordWithExpectedInterval (Tene's correction of co-ordinated omission). A wait beyond kHighest
+  // counts as kHighest. The work is limited to one step for each bucket. Precondition: period > 0.
+  void record_omitted(Duration wait, Duration period);
 
   // Adds the contents of `other`, which may be recording meanwhile.
   void merge(const Histogram& other);
@@ -68,13 +68,6 @@ class Histogram {
   // waits.
   LatencySummary summarize(std::string name) const;
 
-  // Returns this histogram with the waits added that a late periodic task hid: for each value v
-  // longer than `interval`, also v - interval, v - 2 interval, ... down to `interval` (Tene's
-  // correction of co-ordinated omission, as HdrHistogram's copyCorrectedForCoordinatedOmission). A
-  // value beyond kHighest counts as kHighest here. Throws std::invalid_argument if `interval` is
-  // not positive. For reports: takes up to a tenth of a second, whatever was recorded.
-  Histogram with_omitted(Duration interval) const;
-
   // This is the longest duration with a bucket of its own: 2^37 - 1 ns, 137 s.
   static constexpr Duration kHighest{(std::int64_t{1} << 37) - 1};
 
@@ -87,7 +80,6 @@ class Histogram {
   static std::int64_t highest_in(std::size_t bucket);
   static std::int64_t lowest_in(std::size_t bucket);
   static void check(const HistogramData& data);
-  void add_omitted(std::int64_t value, std::uint64_t times, std::int64_t interval);
 
   std::array<std::atomic<std::uint64_t>, kBuckets> buckets_{};
   std::atomic<std::uint64_t> below_range_{0};

@@ -9,12 +9,11 @@
 namespace maploop::runtime {
 
 // States what happens to ticks that fell due while an earlier one was running, or while the thread
-// was not woken. Skipping and shedding depend on the machine's speed: they must not be used where a
-// replay must compute the same bits.
+// was not woken. Skipping depends on the machine's speed: it must not be used where a replay must
+// compute the same bits.
 enum class Overrun {
   catch_up,  // each is run, one directly after the other
   skip,      // only the newest one due is run; the others are left out and counted
-  shed,      // each is run; if another one is already due, it is told to do the minimum
 };
 
 struct Schedule {
@@ -26,7 +25,6 @@ struct Schedule {
 struct Tick {
   Time time{};                 // when it was due: a multiple of the period plus the phase
   std::uint64_t left_out = 0;  // ticks between the previous one and this one
-  bool shed = false;           // do the minimum: the next tick is already due
 };
 
 // Returns the first tick at or after t.
@@ -47,13 +45,12 @@ void run_periodic(const Clock& clock, Time from, const Schedule& schedule,
   for (Time next = first_tick(from, schedule.period, schedule.phase); clock.sleep_until(next, stop);
        next += schedule.period) {
     Tick tick{next};
-    const bool may_be_late = schedule.overrun != Overrun::catch_up && clock.keeps_time(next);
+    const bool may_be_late = schedule.overrun == Overrun::skip && clock.keeps_time(next);
     const auto due_behind = may_be_late ? (clock.now() - next) / schedule.period : 0;
-    if (due_behind > 0 && schedule.overrun == Overrun::skip) {
+    if (due_behind > 0) {
       tick.left_out = static_cast<std::uint64_t>(due_behind);
       tick.time = next += due_behind * schedule.period;
     }
-    tick.shed = due_behind > 0 && schedule.overrun == Overrun::shed;
     if (!body(tick)) return;
   }
 }

@@ -71,8 +71,7 @@ std::size_t stack_left() {
 }
 
 RealtimeSetting prepare_heap(int mb, int arenas) {
-  RealtimeSetting setting{
-      "heap", std::to_string(mb) + " MB mapped and kept", {}, Verdict::granted, {}, {}};
+  const RealtimeRequest heap{"heap", std::to_string(mb) + " MB mapped and kept"};
   const bool tuned = mallopt(M_TRIM_THRESHOLD, -1) == 1 && mallopt(M_MMAP_MAX, 0) == 1 &&
                      mallopt(M_ARENA_MAX, arenas) == 1;
   const std::size_t bytes = static_cast<std::size_t>(mb) * kMegabyte;
@@ -83,23 +82,21 @@ RealtimeSetting prepare_heap(int mb, int arenas) {
     std::free(memory);
   }
   const std::size_t kept = std::min(mapped, static_cast<std::size_t>(mallinfo2().fordblks));
-  setting.granted = std::to_string((kept + kMegabyte / 2) / kMegabyte) + " MB mapped and kept";
+  const std::string text =
+      std::to_string((kept + kMegabyte / 2) / kMegabyte) + " MB mapped and kept";
   // Less than a page at either end may be shared with other data.
-  if (kept + 2 * page_size() >= bytes) return setting;
-  setting.verdict = Verdict::refused;
+  if (kept + 2 * page_size() >= bytes) return heap.granted(text);
   if (!tuned || mapped + 2 * page_size() >= bytes) {
-    setting.reason = "malloc is not glibc's, and gives freed memory back";
-    setting.remedy = "start the program without the other malloc (LD_PRELOAD, sanitizer)";
-  } else {
-    setting.reason = "there is not so much memory for this process";
-    setting.remedy =
-        "lower heap_mb, or raise the limit (ulimit -v, the control group's memory.max)";
+    return heap.refused(text, "malloc is not glibc's, and gives freed memory back",
+                        "start the program without the other malloc (LD_PRELOAD, sanitizer)");
   }
-  return setting;
+  return heap.refused(
+      text, "there is not so much memory for this process",
+      "lower heap_mb, or raise the limit (ulimit -v, the control group's memory.max)");
 }
 
 RealtimeSetting lock_memory(const Privileges& privileges) {
-  RealtimeSetting setting{"locked memory", "all, and what comes", {}, Verdict::granted, {}, {}};
+  const RealtimeRequest memory{"locked memory", "all, and what comes"};
   const bool unlimited = privileges.ipc_lock || privileges.memlock == Privileges::kUnlimited;
   int error = mlockall(MCL_CURRENT) == 0 ? 0 : errno;
   if (unlimited && error == 0) {
@@ -107,24 +104,20 @@ RealtimeSetting lock_memory(const Privileges& privileges) {
   }
   const std::string status = read_system_file("/proc/self/status").value_or("");
   const std::int64_t locked = parse_integer(line_value(status, "VmLck").value_or("")).value_or(0);
-  setting.granted = std::to_string(locked) + " kB of " +
-                    std::string(line_value(status, "VmSize").value_or("unknown"));
-  if (unlimited && error == 0 && locked > 0) return setting;
-  setting.verdict = Verdict::refused;
+  const std::string text = std::to_string(locked) + " kB of " +
+                           std::string(line_value(status, "VmSize").value_or("unknown"));
+  if (unlimited && error == 0 && locked > 0) return memory.granted(text);
   if (!unlimited) {
-    setting.reason = "no CAP_IPC_LOCK, and RLIMIT_MEMLOCK is " + kilobytes(privileges.memlock) +
-                     (error == 0 ? ": what comes is not locked" : "");
-    setting.remedy =
-        "add '@GROUP - memlock unlimited' to a file in /etc/security/limits.d and log "
-        "in again; or run as root";
-  } else if (error != 0) {
-    setting.reason = std::strerror(error);
-    setting.remedy = "see mlockall(2)";
-  } else {
-    setting.reason = "the kernel accepted it and says otherwise";
-    setting.remedy = "start the program without the sanitizer or tool that intercepts mlockall";
+    return memory.refused(text,
+                          "no CAP_IPC_LOCK, and RLIMIT_MEMLOCK is " +
+                              kilobytes(privileges.memlock) +
+                              (error == 0 ? ": what comes is not locked" : ""),
+                          "add '@GROUP - memlock unlimited' to a file in /etc/security/limits.d "
+                          "and log in again; or run as root");
   }
-  return setting;
+  if (error != 0) return memory.refused(text, std::strerror(error), "see mlockall(2)");
+  return memory.refused(text, "the kernel accepted it and says otherwise",
+                        "start the program without the sanitizer or tool that intercepts mlockall");
 }
 
 }  // namespace
@@ -142,22 +135,20 @@ std::vector<RealtimeSetting> prepare_memory(const MemoryParameters& parameters,
 RealtimeSetting prefault_stack(const std::string& name, int kb) {
   // This remains for the functions and frames called meanwhile, and for signals.
   constexpr std::size_t kMargin = 64 * kKilobyte;
-  RealtimeSetting setting{
-      name + ": stack", std::to_string(kb) + " kB mapped", {}, Verdict::granted, {}, {}};
+  const RealtimeRequest stack{name + ": stack", std::to_string(kb) + " kB mapped"};
   const std::size_t asked = static_cast<std::size_t>(std::max(kb, 0)) * kKilobyte;
   const std::size_t left = stack_left();
   const std::size_t bytes = std::min(asked, left > kMargin ? left - kMargin : 0);
   const std::size_t mapped = bytes > 0 ? touch_stack(bytes) : 0;
   // mincore counts whole pages, so the two at the ends may be missing.
   const std::size_t granted = mapped + 2 * page_size() >= bytes ? bytes : mapped;
-  setting.granted = kilobytes(granted) + " mapped";
-  if (granted == asked && kb >= 0) return setting;
-  setting.verdict = Verdict::refused;
-  setting.reason = kb < 0 ? "a size must not be negative"
-                          : "the stack has " + kilobytes(left) + " left, of which " +
-                                kilobytes(kMargin) + " are kept free";
-  setting.remedy = "lower prefaulted_stack_kb, or raise the stack limit (ulimit -s)";
-  return setting;
+  const std::string text = kilobytes(granted) + " mapped";
+  if (granted == asked && kb >= 0) return stack.granted(text);
+  return stack.refused(text,
+                       kb < 0 ? "a size must not be negative"
+                              : "the stack has " + kilobytes(left) + " left, of which " +
+                                    kilobytes(kMargin) + " are kept free",
+                       "lower prefaulted_stack_kb, or raise the stack limit (ulimit -s)");
 }
 
 }  // namespace maploop::runtime

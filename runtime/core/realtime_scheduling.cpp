@@ -1,5 +1,6 @@
 #include "runtime/core/realtime_scheduling.h"
 
+#include <fmt/format.h>
 #include <sched.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <tuple>
 
 #include "runtime/core/realtime_memory.h"
 #include "runtime/core/realtime_text.h"
@@ -38,39 +38,30 @@ int get_attributes(SchedulingAttributes& attributes) {
   return syscall(SYS_sched_getattr, 0, &attributes, sizeof attributes, 0) == 0 ? 0 : errno;
 }
 
-std::string milliseconds_text(Duration d) {
-  std::string text = std::to_string(static_cast<double>(d.count()) * 1e-6);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text;
-}
-
-std::string deadline_text(Duration runtime, Duration deadline, Duration period) {
-  return "deadline " + milliseconds_text(runtime) + '/' + milliseconds_text(deadline) + '/' +
-         milliseconds_text(period) + " ms";
-}
-
 std::string other_text(int nice) {
   return nice == 0 ? "other" : "other nice " + std::to_string(nice);
 }
 
 std::string policy_text(const SchedulingAttributes& a) {
-  const auto duration = [](std::uint64_t ns) { return Duration(static_cast<std::int64_t>(ns)); };
+  const auto ms = [](std::uint64_t ns) {
+    return static_cast<double>(static_cast<std::int64_t>(ns)) / 1e6;
+  };
+  const int priority = static_cast<int>(a.priority);
   switch (a.policy) {
     case SCHED_OTHER:
       return other_text(a.nice);
     case SCHED_FIFO:
-      return "fifo " + std::to_string(a.priority);
+      return fmt::format("fifo {}", priority);
     case SCHED_RR:
-      return "rr " + std::to_string(a.priority);
+      return fmt::format("rr {}", priority);
     case SCHED_BATCH:
       return "batch";
     case SCHED_IDLE:
       return "idle";
     case kDeadline:
-      return deadline_text(duration(a.runtime), duration(a.deadline), duration(a.period));
+      return fmt::format("deadline {}/{}/{} ms", ms(a.runtime), ms(a.deadline), ms(a.period));
     default:
-      return "policy " + std::to_string(a.policy);
+      return fmt::format("policy {}", a.policy);
   }
 }
 
@@ -123,8 +114,7 @@ int lowest_nice(const Privileges& privileges) {
 }
 
 RealtimeSetting apply_policy(const std::string& name, const Scheduling& scheduling) {
-  RealtimeSetting setting{
-      name + ": scheduling", to_string(scheduling), {}, Verdict::granted, {}, {}};
+  const RealtimeRequest request{name + ": scheduling", to_string(scheduling)};
   SchedulingAttributes before;
   int error = get_attributes(before);
   const std::string range = out_of_range(scheduling);
@@ -133,24 +123,22 @@ RealtimeSetting apply_policy(const std::string& name, const Scheduling& scheduli
   } else if (error == 0 && scheduling.policy != SchedulingPolicy::inherited) {
     error = set_attributes(attributes_of(scheduling, before));
   }
-  setting.granted = read_scheduling().policy;
+  const std::string granted = read_scheduling().policy;
   const std::string wanted = scheduling.policy == SchedulingPolicy::other && !scheduling.nice
                                  ? other_text(before.nice)
-                                 : setting.asked;
-  if (error == 0 &&
-      (scheduling.policy == SchedulingPolicy::inherited || setting.granted == wanted)) {
-    return setting;
+                                 : request.asked;
+  if (error == 0 && (scheduling.policy == SchedulingPolicy::inherited || granted == wanted)) {
+    return request.granted(granted);
   }
-  setting.verdict = Verdict::refused;
-  std::tie(setting.reason, setting.remedy) = explain_refusal(scheduling, error, read_privileges());
-  return setting;
+  const auto [reason, remedy] = explain_refusal(scheduling, error, read_privileges());
+  return request.refused(granted, reason, remedy);
 }
 
 RealtimeSetting apply_cpus(const std::string& name, const std::vector<int>& cpus) {
   std::vector<int> asked = cpus;
   std::sort(asked.begin(), asked.end());
   asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
-  RealtimeSetting setting{name + ": CPUs", to_cpu_list(asked), {}, Verdict::granted, {}, {}};
+  const RealtimeRequest request{name + ": CPUs", to_cpu_list(asked)};
   cpu_set_t set;
   CPU_ZERO(&set);
   for (const int cpu : asked) {
@@ -158,31 +146,27 @@ RealtimeSetting apply_cpus(const std::string& name, const std::vector<int>& cpus
   }
   const int error = sched_setaffinity(0, sizeof set, &set) == 0 ? 0 : errno;
   const std::vector<int> granted = read_scheduling().cpus;
-  setting.granted = to_cpu_list(granted);
-  if (granted == asked) return setting;
-  setting.verdict = Verdict::refused;
+  if (granted == asked) return request.granted(to_cpu_list(granted));
   const std::string online = read_system_file("/sys/devices/system/cpu/online").value_or("unknown");
-  setting.reason = error == EBUSY || error == EPERM
-                       ? "a deadline thread cannot be bound to CPUs"
-                       : "some of them do not exist, or are not in this process's cpuset";
-  setting.remedy = "choose from the CPUs online, " + online +
-                   ", that the cpuset (container, systemd AllowedCPUs) leaves";
-  return setting;
+  return request.refused(to_cpu_list(granted),
+                         error == EBUSY || error == EPERM
+                             ? "a deadline thread cannot be bound to CPUs"
+                             : "some of them do not exist, or are not in this process's cpuset",
+                         "choose from the CPUs online, " + online +
+                             ", that the cpuset (container, systemd AllowedCPUs) leaves");
 }
 
 RealtimeSetting apply_timer_slack(const std::string& name, Duration slack) {
   const auto text = [](Duration d) { return std::to_string(d.count()) + " ns"; };
-  RealtimeSetting setting{name + ": timer slack", text(slack), {}, Verdict::granted, {}, {}};
+  const RealtimeRequest request{name + ": timer slack", text(slack)};
   if (slack > Duration::zero()) {
     prctl(PR_SET_TIMERSLACK, static_cast<unsigned long>(slack.count()), 0, 0, 0);
   }
   const Duration granted = read_scheduling().timer_slack;
-  setting.granted = text(granted);
-  if (granted == slack) return setting;
-  setting.verdict = Verdict::refused;
-  setting.reason = granted == Duration::zero() ? "real-time threads have none" : "out of range";
-  setting.remedy = "ask for 1 ns to 2 s, of a thread that is not real-time";
-  return setting;
+  if (granted == slack) return request.granted(text(granted));
+  return request.refused(
+      text(granted), granted == Duration::zero() ? "real-time threads have none" : "out of range",
+      "ask for 1 ns to 2 s, of a thread that is not real-time");
 }
 
 }  // namespace
@@ -203,19 +187,9 @@ SchedulingState read_scheduling() {
 }
 
 std::string to_string(const Scheduling& scheduling) {
-  switch (scheduling.policy) {
-    case SchedulingPolicy::inherited:
-      return "as inherited";
-    case SchedulingPolicy::other:
-      return other_text(scheduling.nice.value_or(0));
-    case SchedulingPolicy::fifo:
-      return "fifo " + std::to_string(scheduling.priority);
-    case SchedulingPolicy::rr:
-      return "rr " + std::to_string(scheduling.priority);
-    case SchedulingPolicy::deadline:
-      return deadline_text(scheduling.runtime, scheduling.deadline, scheduling.period);
-  }
-  return "unknown";
+  return scheduling.policy == SchedulingPolicy::inherited
+             ? "as inherited"
+             : policy_text(attributes_of(scheduling, {}));
 }
 
 std::pair<std::string, std::string> explain_refusal(const Scheduling& scheduling, int error,
@@ -274,15 +248,13 @@ std::vector<RealtimeSetting> apply_scheduling(const std::string& name,
 }
 
 RealtimeSetting assess_time_limit(const Privileges& privileges) {
-  RealtimeSetting setting{"real-time CPU time", "unlimited", "unlimited", Verdict::granted, {}, {}};
-  if (privileges.realtime_time == Privileges::kUnlimited) return setting;
-  setting.granted = std::to_string(privileges.realtime_time) + " us";
-  setting.verdict = Verdict::limiting;
-  setting.reason =
-      "RLIMIT_RTTIME: the kernel ends a process whose real-time thread runs that long "
-      "without sleeping";
-  setting.remedy = "ulimit -R unlimited, or LimitRTTIME=infinity in the systemd unit";
-  return setting;
+  const RealtimeRequest request{"real-time CPU time", "unlimited"};
+  if (privileges.realtime_time == Privileges::kUnlimited) return request.granted("unlimited");
+  return request.limiting(
+      std::to_string(privileges.realtime_time) + " us",
+      "RLIMIT_RTTIME: the kernel ends a process whose real-time thread runs that long without "
+      "sleeping",
+      "ulimit -R unlimited, or LimitRTTIME=infinity in the systemd unit");
 }
 
 }  // namespace maploop::runtime

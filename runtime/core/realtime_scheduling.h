@@ -1,9 +1,11 @@
 // This file sets and reads how the kernel schedules one thread.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -20,6 +22,9 @@ enum class SchedulingPolicy : std::uint8_t {
   rr,         // the same, in turns with threads of the same priority
   deadline,   // `runtime` of CPU time within `deadline` of each `period`, guaranteed; before fifo
 };
+constexpr std::array<std::string_view, 5> names_of(SchedulingPolicy) {
+  return {"inherited", "other", "fifo", "rr", "deadline"};
+}
 
 // These are the requests for one thread. The default requests nothing.
 struct Scheduling {

@@ -1,17 +1,10 @@
 #include "runtime/core/realtime_setting.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace maploop::runtime {
-namespace {
-
-std::string padded(std::string_view text, std::size_t width) {
-  std::string result(text);
-  result.resize(std::max(width, result.size()), ' ');
-  return result;
-}
-
-}  // namespace
 
 bool RealtimeReport::all_granted() const {
   return std::all_of(settings.begin(), settings.end(),
@@ -26,36 +19,35 @@ const RealtimeSetting* RealtimeReport::find(std::string_view name) const {
 
 std::string to_text(const RealtimeReport& report) {
   std::size_t width = 0;
-  for (const RealtimeSetting& setting : report.settings) {
-    width = std::max(width, setting.name.size());
-  }
-  const std::string indent(10, ' ');
+  for (const RealtimeSetting& s : report.settings) width = std::max(width, s.name.size());
   std::string text;
   for (const RealtimeSetting& s : report.settings) {
-    text += padded(to_string(s.verdict), 10) + padded(s.name, width + 2) + s.granted;
-    if (s.verdict != Verdict::granted) text += " (wanted: " + s.asked + ")";
+    text += fmt::format("{:10}{:{}}{}", to_string(s.verdict), s.name, width + 2, s.granted);
+    if (s.verdict != Verdict::granted) text += fmt::format(" (wanted: {})", s.asked);
     text += '\n';
-    if (!s.reason.empty()) text += indent + "why: " + s.reason + '\n';
-    if (!s.remedy.empty()) text += indent + "remedy: " + s.remedy + '\n';
+    if (!s.reason.empty()) text += fmt::format("{:10}why: {}\n", "", s.reason);
+    if (!s.remedy.empty()) text += fmt::format("{:10}remedy: {}\n", "", s.remedy);
   }
   return text;
 }
 
 std::string to_sentence(const RealtimeSetting& s) {
-  return s.name + " is " + s.granted + ", not " + s.asked + ": " + s.reason + "; " + s.remedy;
+  return fmt::format("{} is {}, not {}: {}; {}", s.name, s.granted, s.asked, s.reason, s.remedy);
 }
 
 std::string to_short_text(const RealtimeReport& report) {
-  const auto granted = std::count_if(report.settings.begin(), report.settings.end(),
-                                     [](const auto& s) { return s.verdict == Verdict::granted; });
-  std::string text = "Real time: " + std::to_string(granted) + " of " +
-                     std::to_string(report.settings.size()) + " settings granted\n";
+  std::string lines;
+  std::size_t granted = 0;
   for (const RealtimeSetting& s : report.settings) {
-    if (s.verdict == Verdict::granted) continue;
-    text += "  " + padded(to_string(s.verdict), 10) + s.name + ": " + s.granted + ", not " +
-            s.asked + "; " + s.remedy + '\n';
+    if (s.verdict == Verdict::granted) {
+      ++granted;
+    } else {
+      lines += fmt::format("  {:10}{}: {}, not {}; {}\n", to_string(s.verdict), s.name, s.granted,
+                           s.asked, s.remedy);
+    }
   }
-  return text;
+  return fmt::format("Real time: {} of {} settings granted\n{}", granted, report.settings.size(),
+                     lines);
 }
 
 }  // namespace maploop::runtime

@@ -3,11 +3,35 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "msgs/realtime_setting.h"
 
 namespace maploop::runtime {
+
+// One request. Its functions return the outcome: what was granted, and if that is less than
+// requested, why and what to do.
+struct RealtimeRequest {
+  std::string name, asked;
+
+  RealtimeSetting outcome(Verdict verdict, std::string granted, std::string reason = {},
+                          std::string remedy = {}) const {
+    return {name, asked, std::move(granted), verdict, std::move(reason), std::move(remedy)};
+  }
+  RealtimeSetting granted(std::string what) const {
+    return outcome(Verdict::granted, std::move(what));
+  }
+  RealtimeSetting refused(std::string got, std::string reason, std::string remedy) const {
+    return outcome(Verdict::refused, std::move(got), std::move(reason), std::move(remedy));
+  }
+  RealtimeSetting limiting(std::string got, std::string reason, std::string remedy) const {
+    return outcome(Verdict::limiting, std::move(got), std::move(reason), std::move(remedy));
+  }
+  RealtimeSetting unknown(std::string reason, std::string remedy) const {
+    return outcome(Verdict::unknown, "unknown", std::move(reason), std::move(remedy));
+  }
+};
 
 struct RealtimeReport {
   std::vector<RealtimeSetting> settings;

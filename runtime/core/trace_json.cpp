@@ -1,12 +1,18 @@
 #include "runtime/core/trace_json.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <bit>
 #include <cmath>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
+#include <utility>
 
-#include "runtime/core/trace_text.h"
 #include "runtime/core/whole_file.h"
 
 namespace maploop::runtime {
@@ -21,6 +27,7 @@ struct Snapshot {
   std::uint64_t dropped;
 };
 
+// An event is written in pieces: begin(), then its own fields with their commas, then "}".
 class TraceJson {
  public:
   TraceJson(const std::filesystem::path& file, MonotonicTime start)
@@ -39,10 +46,9 @@ class TraceJson {
       snapshots.push_back({buffer, recorded, dropped});
     }
 
-    file_.write("{\"displayTimeUnit\":\"ns\",\"traceEvents\":[");
+    file_.write(R"({"displayTimeUnit":"ns","traceEvents":[)");
     begin("process_name", 'M', 0);
-    text_ += R"(,"args":{"name":"maploop"}})";
-    file_.write(text_);
+    file_.write(R"(,"args":{"name":"maploop"}})");
     for (std::size_t i = 0; i < snapshots.size(); ++i) write_thread(snapshots[i], i + 1);
     write_summary(snapshots);
     file_.keep();
@@ -51,112 +57,77 @@ class TraceJson {
  private:
   void write_thread(const Snapshot& snapshot, std::size_t id) {
     begin("thread_name", 'M', id);
-    text_ += ",\"args\":{\"name\":";
-    append_json(text_, snapshot.buffer->name());
-    text_ += "}}";
-    file_.write(text_);
+    put(R"(,"args":{{"name":{}}}}})", quoted(snapshot.buffer->name()));
     begin("thread_sort_index", 'M', id);
-    text_ += ",\"args\":{\"sort_index\":";
-    append_number(text_, id);
-    text_ += "}}";
-    file_.write(text_);
+    put(R"(,"args":{{"sort_index":{}}}}})", id);
     for (std::size_t i = 0; i < snapshot.recorded; ++i) {
       write_event(snapshot.buffer->event(i), id);
     }
-    if (snapshot.dropped > 0) write_drops(snapshot, id);
+    if (snapshot.dropped == 0) return;
+    begin("buffer full: events dropped from here on", 'i', id);
+    put_time("ts", snapshot.buffer->first_dropped() - start_);
+    put(R"(,"s":"t","args":{{"dropped":{}}}}})", snapshot.dropped);
   }
 
   void write_event(const TraceEvent& event, std::size_t id) {
     const std::int64_t payload = event.payload.load(std::memory_order_acquire);
+    const auto value = std::bit_cast<double>(payload);
+    const auto start = [&](char phase, std::string_view category = "span") {
+      begin(event.name, phase, id, category);
+      put_time("ts", event.time - start_);
+    };
+    const auto flow = [&](char phase) {
+      const auto sequence = std::bit_cast<std::uint64_t>(payload);
+      start(phase, "flow");  // the viewers join marks with the same category, name and id
+      put(R"(,"id":"0x{:x}","args":{{"sequence":{}}})", flow_id(event.name, sequence), sequence);
+    };
     switch (event.kind) {
-      case Kind::span:
-        begin(event.name, 'X', id);
-        write_span(event.time, payload);
+      case Kind::span: {
+        const Duration limit = end_ - event.time;
+        const bool unfinished = payload == TraceEvent::kOpen || Duration(payload) > limit;
+        start('X');
+        put_time("dur", unfinished ? limit : Duration(payload));
+        if (unfinished) file_.write(R"(,"args":{"unfinished":true})");
         break;
+      }
       case Kind::instant:
-        begin(event.name, 'i', id);
-        append_stamp(event.time);
-        text_ += R"(,"s":"t")";
+        start('i');
+        file_.write(R"(,"s":"t")");
         break;
       case Kind::counter:
-        write_counter(event, std::bit_cast<double>(payload), id);
+        // JSON has no infinity and no NaN: such a value becomes an instant with the value as text.
+        if (std::isfinite(value)) {
+          start('C');
+          put(R"(,"args":{{"value":{}}})", value);
+        } else {
+          start('i');
+          put(R"(,"s":"t","args":{{"value":"{}"}})", value);
+        }
         break;
       case Kind::flow_start:
-        write_flow(event, 's', id);
+        flow('s');
         break;
       case Kind::flow_step:
-        write_flow(event, 't', id);
+        flow('t');
         break;
       case Kind::flow_end:
-        write_flow(event, 'f', id);
-        text_ += R"(,"bp":"e")";  // tied to the enclosing span, like the others
+        flow('f');
+        file_.write(R"(,"bp":"e")");  // tied to the enclosing span, like the others
         break;
     }
-    text_ += '}';
-    file_.write(text_);
-  }
-
-  void write_span(MonotonicTime start, std::int64_t duration) {
-    const Duration limit = end_ - start;
-    const bool unfinished = duration == TraceEvent::kOpen || Duration(duration) > limit;
-    append_stamp(start);
-    text_ += ",\"dur\":";
-    append_microseconds(text_, unfinished ? limit : Duration(duration));
-    if (unfinished) text_ += R"(,"args":{"unfinished":true})";
-  }
-
-  // JSON has no infinity and no NaN: such a value becomes an instant with the value as text.
-  void write_counter(const TraceEvent& event, double value, std::size_t id) {
-    const bool finite = std::isfinite(value);
-    begin(event.name, finite ? 'C' : 'i', id);
-    append_stamp(event.time);
-    text_ += finite ? R"(,"args":{"value":)" : R"(,"s":"t","args":{"value":")";
-    append_number(text_, value);
-    text_ += finite ? "}" : "\"}";
-  }
-
-  // The viewers join marks with the same category, name and id.
-  void write_flow(const TraceEvent& event, char phase, std::size_t id) {
-    const auto sequence =
-        std::bit_cast<std::uint64_t>(event.payload.load(std::memory_order_relaxed));
-    begin(event.name, phase, id, "flow");
-    append_stamp(event.time);
-    text_ += ",\"id\":\"0x";
-    append_hexadecimal(text_, flow_id(event.name, sequence));
-    text_ += R"(","args":{"sequence":)";
-    append_number(text_, sequence);
-    text_ += '}';
-  }
-
-  void write_drops(const Snapshot& snapshot, std::size_t id) {
-    begin("buffer full: events dropped from here on", 'i', id);
-    append_stamp(snapshot.buffer->first_dropped());
-    text_ += R"(,"s":"t","args":{"dropped":)";
-    append_number(text_, snapshot.dropped);
-    text_ += "}}";
-    file_.write(text_);
+    file_.write("}");
   }
 
   void write_summary(const std::vector<Snapshot>& snapshots) {
     std::uint64_t dropped = 0;
     for (const Snapshot& snapshot : snapshots) dropped += snapshot.dropped;
-    text_ = "],\n\"otherData\":{\"start_monotonic_ns\":";
-    append_number(text_, start_.time_since_epoch().count());
-    text_ += ",\"dropped\":";
-    append_number(text_, dropped);
-    text_ += ",\"threads\":[";
-    file_.write(text_);
-    for (std::size_t i = 0; i < snapshots.size(); ++i) {
-      text_ = i == 0 ? "\n{\"name\":" : ",\n{\"name\":";
-      append_json(text_, snapshots[i].buffer->name());
-      text_ += ",\"capacity\":";
-      append_number(text_, snapshots[i].buffer->capacity());
-      text_ += ",\"recorded\":";
-      append_number(text_, snapshots[i].recorded);
-      text_ += ",\"dropped\":";
-      append_number(text_, snapshots[i].dropped);
-      text_ += '}';
-      file_.write(text_);
+    put("],\n\"otherData\":{{\"start_monotonic_ns\":{},\"dropped\":{},\"threads\":[",
+        start_.time_since_epoch().count(), dropped);
+    std::string_view separator;
+    for (const Snapshot& s : snapshots) {
+      put("{}\n{{\"name\":{},\"capacity\":{},\"recorded\":{},\"dropped\":{}}}",
+          std::exchange(separator, ","), quoted(s.buffer->name()), s.buffer->capacity(), s.recorded,
+          s.dropped);
     }
     file_.write("]}}\n");
   }
@@ -164,30 +135,40 @@ class TraceJson {
   // Starts an event. Ids are the threads' numbers in the order of their buffers.
   void begin(std::string_view name, char phase, std::size_t id,
              std::string_view category = "span") {
-    text_ = first_ ? "\n{\"name\":" : ",\n{\"name\":";
-    first_ = false;
-    append_json(text_, name);
-    text_ += ",\"cat\":\"";
-    text_ += category;
-    text_ += "\",\"ph\":\"";
-    text_ += phase;
-    text_ += "\",\"pid\":";
-    append_number(text_, process_);
-    text_ += ",\"tid\":";
-    append_number(text_, id);
+    put("{}\n{{\"name\":{},\"cat\":\"{}\",\"ph\":\"{}\",\"pid\":{},\"tid\":{}",
+        std::exchange(separator_, ","), quoted(name), category, phase, process_, id);
   }
 
-  void append_stamp(MonotonicTime time) {
-    text_ += ",\"ts\":";
-    append_microseconds(text_, time - start_);
+  // Writes microseconds with three decimals. Precondition: the time is not negative.
+  void put_time(std::string_view key, Duration time) {
+    put(",\"{}\":{}.{:03}", key, time.count() / 1000, time.count() % 1000);
+  }
+
+  template <class... Arguments>
+  void put(fmt::format_string<Arguments...> form, Arguments&&... arguments) {
+    text_.clear();
+    fmt::format_to(std::back_inserter(text_), form, std::forward<Arguments>(arguments)...);
+    file_.write(text_);
+  }
+
+  // Returns the JSON string. Bytes that are not UTF-8 become U+FFFD. Most names are those of many
+  // events.
+  const std::string& quoted(std::string_view name) {
+    auto found = quoted_.find(name);
+    if (found == quoted_.end()) {
+      constexpr auto replace = nlohmann::json::error_handler_t::replace;
+      found = quoted_.emplace(name, nlohmann::json(name).dump(-1, ' ', false, replace)).first;
+    }
+    return found->second;
   }
 
   WholeFile file_;
   MonotonicTime start_;
   MonotonicTime end_{};
   int process_;
-  bool first_ = true;
-  std::string text_;  // of the event being written
+  std::string_view separator_;  // before the next event
+  std::string text_;            // of the piece being written
+  std::map<std::string, std::string, std::less<>> quoted_;
 };
 
 }  // namespace

@@ -65,30 +65,6 @@ void look_up(const GreyImage& raw, const Map& map, GreyImage& rectified) {
   }
 }
 
-class RectifiedSource final : public Source<StereoPair> {
- public:
-  RectifiedSource(std::unique_ptr<Source<StereoPair>> raw, const StereoRig& rig, Time passed)
-      : raw_(std::move(raw)), rectifier_(rig), passed_(passed) {}
-
-  bool next(StereoPair& pair) override {
-    if (!raw_->next(pair_)) return false;
-    if (pair_.available > passed_) {
-      rectifier_.rectify(pair_, pair);
-    } else {
-      static_cast<Sample&>(pair) = pair_;
-    }
-    return true;
-  }
-
-  const SourceReport& report() const override { return raw_->report(); }
-
- private:
-  std::unique_ptr<Source<StereoPair>> raw_;
-  Rectifier rectifier_;
-  Time passed_;
-  StereoPair pair_;
-};
-
 }  // namespace
 
 struct Rectifier::Maps {
@@ -127,7 +103,16 @@ void Rectifier::rectify(const StereoPair& raw, StereoPair& rectified) const {
 
 std::unique_ptr<Source<StereoPair>> make_rectified_source(std::unique_ptr<Source<StereoPair>> raw,
                                                           const StereoRig& rig, Time passed) {
-  return std::make_unique<RectifiedSource>(std::move(raw), rig, passed);
+  return derived(std::move(raw), [rectifier = Rectifier(rig), passed, read = StereoPair()](
+                                     Source<StereoPair>& source, StereoPair& pair) mutable {
+    if (!source.next(read)) return false;
+    if (read.available > passed) {
+      rectifier.rectify(read, pair);
+    } else {
+      static_cast<Sample&>(pair) = read;
+    }
+    return true;
+  });
 }
 
 }  // namespace maploop::sensors

@@ -19,8 +19,9 @@ bool is_centre(double c, int side) {
   return c > -side && c < 2.0 * side;
 }
 
-bool is_rotation(const Eigen::Matrix3d& r) {
-  return (r * r.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-6 && r.determinant() > 0.0;
+bool is_rotation(const Eigen::Matrix3d& r, double tolerance = 1e-6) {
+  return (r * r.transpose() - Eigen::Matrix3d::Identity()).norm() < tolerance &&
+         r.determinant() > 0.0;
 }
 
 Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
@@ -85,6 +86,12 @@ StereoCalibration mounted(const StereoRig& rig, const Eigen::Isometry3d& T_body_
   StereoCalibration calibration = rig.rectified;
   calibration.T_body_cam = T_body_left * Eigen::Isometry3d(rig.R_rect_left.transpose());
   return calibration;
+}
+
+std::optional<Eigen::Matrix3d> nearest_rotation(const Eigen::Matrix3d& rounded) {
+  if (!is_rotation(rounded, 1e-3)) return std::nullopt;
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(rounded, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return svd.matrixU() * svd.matrixV().transpose();
 }
 
 Eigen::Matrix3d essential_matrix(const StereoRig& rig) {

@@ -33,6 +33,10 @@ StereoCalibration mounted(const StereoRig& rig, const Eigen::Isometry3d& T_body_
 // different baseline).
 std::optional<std::string> problem_of(const StereoRig& rig);
 
+// Returns the rotation nearest to a matrix of rounded numbers, or nothing if it is not a rotation
+// to 1e-3.
+std::optional<Eigen::Matrix3d> nearest_rotation(const Eigen::Matrix3d& rounded);
+
 // Returns E with x_right^T E x_left = 0 for normalized undistorted points.
 Eigen::Matrix3d essential_matrix(const StereoRig& rig);
 // Returns F with u_right^T F u_left = 0 for undistorted pixels of the raw cameras; its Frobenius

@@ -36,6 +36,7 @@ bool ClockOffset::add(Duration device, Time arrival) {
   if (delay_ < -parameters_.jump || device < newest_ - parameters_.reordered ||
       (late_ && arrival - late_since_ > parameters_.patience)) {
     restart(p);
+    ++jumps_;
     return true;
   }
   newest_ = std::max(newest_, device);
@@ -43,6 +44,7 @@ bool ClockOffset::add(Duration device, Time arrival) {
     const Point& complete = point(count_ - 1);
     if (set_back(complete.offset - line_at(complete.device))) {
       restart(p);
+      ++jumps_;
       return true;
     }
     if (count_ == max_buckets) {

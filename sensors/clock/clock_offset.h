@@ -4,7 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
+#include "msgs/diagnostics.h"
 #include "msgs/time.h"
 
 namespace maploop::sensors {
@@ -38,6 +40,12 @@ class ClockOffset {
   // back with it, and otherwise after `step_buckets` buckets.
   bool add(Duration device, Time arrival);
 
+  // Discards all data, as after a jump.
+  void forget() {
+    count_ = 0;
+    ++jumps_;
+  }
+
   bool known() const { return count_ > 0; }
   // Precondition: known().
   Time to_host(Duration device) const;
@@ -46,6 +54,11 @@ class ClockOffset {
   double drift() const { return slope_; }
   // Delay of the last message relative to the line.
   Duration delay() const { return delay_; }
+
+  // Returns these for a report; `utc_ahead` is the sensor's UTC minus the host's clock, if known.
+  SensorClock state(std::optional<Duration> utc_ahead = {}) const {
+    return {known(), utc_ahead, drift(), delay(), jumps_};
+  }
 
  private:
   struct Point {
@@ -74,6 +87,7 @@ class ClockOffset {
   Duration delay_{};
   Time late_since_{};
   bool late_ = false;
+  std::uint64_t jumps_ = 0;
 };
 
 }  // namespace maploop::sensors

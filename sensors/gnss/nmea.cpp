@@ -2,22 +2,18 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 
 #include "msgs/frames.h"
+#include "sensors/number.h"
 
 namespace maploop::sensors {
 namespace {
 
-std::optional<double> finite_number(std::string_view text) {
-  double value = 0.0;
-  const auto [end, error] =
-      std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return {};
-  return value;
+std::optional<double> fixed_number(std::string_view text) {
+  return parse_number<double>(text, std::chars_format::fixed);
 }
 
 // Returns the value of `count` decimal digits at `from`.
@@ -43,17 +39,14 @@ std::optional<std::string_view> checked_body(std::string_view line) {
   if (line.size() < 7 || line.front() != '$' || line[line.size() - 3] != '*') return {};
   const std::string_view body = line.substr(1, line.size() - 4);
   if (std::any_of(body.begin(), body.end(), [](char c) { return c < ' ' || c > '~'; })) return {};
-  unsigned said = 0;
-  const char* const hex = line.data() + line.size() - 2;
-  const auto [end, error] = std::from_chars(hex, hex + 2, said, 16);
-  if (error != std::errc() || end != hex + 2 || checksum(body) != said) return {};
-  return body;
+  const auto said = parse_number<unsigned>(line.substr(line.size() - 2), 16);
+  return said == checksum(body) ? std::optional(body) : std::nullopt;
 }
 
 }  // namespace
 
 std::optional<double> NmeaSentence::number(std::size_t i) const {
-  return finite_number(field(i));
+  return fixed_number(field(i));
 }
 
 std::optional<NmeaSentence> parse_nmea(std::string_view line) {
@@ -80,7 +73,7 @@ std::optional<Duration> nmea_time_of_day(std::string_view text) {
   if (!hours || !minutes || !seconds || *hours > 23 || *minutes > 59 || *seconds > 60) return {};
   double fraction = 0.0;
   if (text.size() > 6) {
-    const auto value = text[6] == '.' ? finite_number(text.substr(6)) : std::optional(0.0);
+    const auto value = text[6] == '.' ? fixed_number(text.substr(6)) : std::optional(0.0);
     if (text[6] != '.' || (!value && text.size() > 7)) return {};
     fraction = value.value_or(0.0);
   }
@@ -99,7 +92,7 @@ std::optional<Time> nmea_date(std::string_view text) {
 }
 
 std::optional<double> nmea_angle(std::string_view text, std::string_view hemisphere) {
-  const auto value = finite_number(text);
+  const auto value = fixed_number(text);
   if (!value || *value < 0.0 || hemisphere.size() != 1) return {};
   const double whole = std::trunc(*value / 100.0), minutes = *value - 100.0 * whole;
   const char side = hemisphere.front();

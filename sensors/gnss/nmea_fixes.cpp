@@ -96,8 +96,7 @@ bool NmeaFixes::complete(Time arrival, GnssFix& fix) {
   position_.reset();
   motion_.reset();
   if (leap_ && motion.time == last_) {
-    clock_ = ClockOffset();  // UTC stood still for a second
-    ++jumps_;
+    clock_.forget();  // UTC stood still for a second
   } else if (motion.time <= last_) {
     ++counts_.repeated;
     // A receiver that corrects a wrong date continues with an earlier one.
@@ -107,7 +106,7 @@ bool NmeaFixes::complete(Time arrival, GnssFix& fix) {
   last_ = motion.time;
   leap_ = motion.leap;
   const Duration utc = motion.time.time_since_epoch();
-  if (clock_.add(utc, arrival - from_seconds(parameters_.latency))) ++jumps_;
+  clock_.add(utc, arrival - from_seconds(parameters_.latency));
   utc_offset_ = utc - clock_.to_host(utc).time_since_epoch();
   fix.stamp = fix.velocity_stamp = clock_.to_host(utc);
   if (fix.stamp <= last_stamp_) {

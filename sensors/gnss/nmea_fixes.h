@@ -43,7 +43,6 @@ class NmeaFixes {
   // UTC of the receiver minus the host's clock, given the latency; nothing until it is known.
   std::optional<Duration> utc_offset() const { return utc_offset_; }
   const ClockOffset& clock() const { return clock_; }
-  std::uint64_t jumps() const { return jumps_; }  // of the receiver's clock or the host's
 
  private:
   struct Position {
@@ -69,7 +68,6 @@ class NmeaFixes {
 
   NmeaParameters parameters_;
   ClockOffset clock_;
-  std::uint64_t jumps_ = 0;
   NmeaCounts counts_;
   std::optional<Duration> utc_offset_;
   std::optional<Position> position_;

@@ -66,7 +66,7 @@ std::optional<Time> NcomClock::stamp(std::uint16_t minute_ms, Time arrival) {
   }
   last_ = minute_ms;
   last_arrival_ = arrival;
-  if (offset_.add(device_, arrival)) ++jumps_;
+  offset_.add(device_, arrival);
   const Time t = offset_.to_host(device_);
   if (t <= last_stamp_) return {};
   last_stamp_ = t;

@@ -45,7 +45,6 @@ class NcomClock {
   std::optional<Time> stamp(std::uint16_t minute_ms, Time arrival);
 
   const ClockOffset& offset() const { return offset_; }
-  std::uint64_t jumps() const { return jumps_; }
 
  private:
   ClockOffset offset_;
@@ -53,7 +52,6 @@ class NcomClock {
   Duration device_{};
   Time last_arrival_{};
   Time last_stamp_ = Time::min();
-  std::uint64_t jumps_ = 0;
 };
 
 }  // namespace maploop::sensors

@@ -3,10 +3,10 @@
 #include <arpa/inet.h>
 
 #include <algorithm>
-#include <charconv>
 #include <stdexcept>
 
 #include "sensors/live/serial_port.h"
+#include "sensors/number.h"
 
 namespace maploop::sensors {
 namespace {
@@ -18,11 +18,6 @@ namespace {
                               "serial:///dev/NAME?baud=115200");
 }
 
-bool parse_whole(std::string_view digits, auto& value) {
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  return error == std::errc() && end == digits.data() + digits.size();
-}
-
 Endpoint serial(std::string_view text, std::string_view rest) {
   constexpr std::string_view key = "?baud=";
   Endpoint endpoint{.kind = Endpoint::Kind::serial, .text = std::string(text)};
@@ -30,9 +25,9 @@ Endpoint serial(std::string_view text, std::string_view rest) {
   endpoint.device = rest.substr(0, question);
   if (question != std::string_view::npos) {
     const std::string_view query = rest.substr(question);
-    if (!query.starts_with(key) || !parse_whole(query.substr(key.size()), endpoint.baud)) {
-      reject(text, "only ?baud=NUMBER may follow the device");
-    }
+    const auto baud = parse_number<int>(query.substr(std::min(query.size(), key.size())));
+    if (!query.starts_with(key) || !baud) reject(text, "only ?baud=NUMBER may follow the device");
+    endpoint.baud = *baud;
   }
   if (!endpoint.device.starts_with("/")) reject(text, "the device is not an absolute path");
   if (!is_baud_rate(endpoint.baud)) {
@@ -53,9 +48,11 @@ Endpoint parse_endpoint(std::string_view text) {
   Endpoint endpoint{.kind = kind == "udp" ? Endpoint::Kind::udp : Endpoint::Kind::tcp,
                     .text = std::string(text)};
   const std::size_t colon = rest.rfind(':');
-  if (colon == std::string_view::npos || !parse_whole(rest.substr(colon + 1), endpoint.port)) {
-    reject(text, "it has no port from 0 to 65535");
-  }
+  const auto port = colon != std::string_view::npos
+                        ? parse_number<std::uint16_t>(rest.substr(colon + 1))
+                        : std::nullopt;
+  if (!port) reject(text, "it has no port from 0 to 65535");
+  endpoint.port = *port;
   endpoint.address = rest.substr(0, colon);
   if (endpoint.kind == Endpoint::Kind::udp && endpoint.address.empty()) {
     endpoint.address = "127.0.0.1";

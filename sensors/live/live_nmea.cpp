@@ -1,52 +1,40 @@
-#include <algorithm>
 #include <utility>
 
-#include "sensors/live/line_connection.h"
+#include "sensors/live/line_splitter.h"
 #include "sensors/live/live_sensors.h"
+#include "sensors/live/stream_source.h"
 
 namespace maploop::sensors {
 namespace {
 
-class LiveNmea final : public LiveSource<GnssFix> {
+class LiveNmea final : public StreamSource<GnssFix> {
  public:
   LiveNmea(Endpoint endpoint, const NmeaParameters& parameters, const HostClock& clock)
-      : lines_(std::move(endpoint), clock), fixes_(parameters) {}
-
-  bool wait(GnssFix& fix, Duration patience) override {
-    return lines_.wait(patience, [&](std::string_view line, Time arrival) {
-      if (!fixes_.add(line, arrival, fix)) return false;
-      // Several lines may arrive at once.
-      fix.available = last_available_ = std::max(fix.available, last_available_ + Duration(1));
-      ++delivered_;
-      return true;
-    });
-  }
-
-  LiveReport report() const override {
-    const NmeaCounts& counts = fixes_.counts();
-    LiveReport report{lines_.endpoint().text,
-                      lines_.state(),
-                      delivered_,
-                      counts.damaged + lines_.dropped() + counts.repeated,
-                      {},
-                      {},
-                      {}};
-    note_count(report.reasons, counts.damaged, "lines without a right checksum");
-    note_count(report.reasons, lines_.dropped(), "lines too long");
-    note_count(report.reasons, counts.repeated, "epochs not later than the one before");
-    note_count(report.reasons, counts.no_fix, "epochs without a fix");
-    note_count(report.notes, counts.sentences, "sentences");
-    const ClockOffset& offset = fixes_.clock();
-    report.clock = {offset.known(), fixes_.utc_offset(), offset.drift(), offset.delay(),
-                    fixes_.jumps()};
-    return report;
-  }
+      : StreamSource(std::make_unique<Connection>(std::move(endpoint)), clock),
+        fixes_(parameters) {}
 
  private:
-  LineConnection lines_;
+  bool take(std::span<const std::uint8_t>& bytes, Time arrival, GnssFix& fix) override {
+    for (std::string_view line; lines_.next(bytes, line);) {
+      if (!fixes_.add(line, arrival, fix)) continue;
+      deliver(fix.stamp, arrival, fix);
+      return true;
+    }
+    return false;
+  }
+  void restart() override { lines_.restart(); }
+  void describe(LiveReport& report) const override {
+    const NmeaCounts& counts = fixes_.counts();
+    report.refuse(counts.damaged, "lines without a right checksum");
+    report.refuse(lines_.dropped(), "lines too long");
+    report.refuse(counts.repeated, "epochs not later than the one before");
+    report.lose(counts.no_fix, "epochs without a fix");
+    report.note(counts.sentences, "sentences");
+    report.clock = fixes_.clock().state(fixes_.utc_offset());
+  }
+
+  LineSplitter lines_;
   NmeaFixes fixes_;
-  std::uint64_t delivered_ = 0;
-  Time last_available_{};
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "msgs/diagnostics.h"
@@ -14,12 +15,26 @@ namespace maploop::sensors {
 // This is the state of the sensor and the counts of its samples so far.
 struct LiveReport {
   std::string endpoint;
-  ConnectionState connection;
+  ConnectionState connection{};
   std::uint64_t delivered = 0;
-  std::uint64_t refused = 0;         // packets and lines
-  std::vector<std::string> reasons;  // counts of refusals, losses, interruptions
-  std::vector<std::string> notes;    // what the sensor reports about itself
-  SensorClock clock;
+  std::uint64_t refused = 0;           // packets and lines
+  std::vector<std::string> reasons{};  // counts of refusals, losses, interruptions
+  std::vector<std::string> notes{};    // what the sensor reports about itself
+  SensorClock clock{};
+
+  // These add "3 damaged" if the count is not 0: of refusals, of losses and interruptions, and of
+  // what the sensor reports.
+  void refuse(std::uint64_t count, std::string_view what) {
+    refused += count;
+    lose(count, what);
+  }
+  void lose(std::uint64_t count, std::string_view what) { add(reasons, count, what); }
+  void note(std::uint64_t count, std::string_view what) { add(notes, count, what); }
+
+ private:
+  static void add(std::vector<std::string>& to, std::uint64_t count, std::string_view what) {
+    if (count > 0) to.push_back(std::to_string(count).append(" ").append(what));
+  }
 };
 
 // A live sensor may not be connected yet, or may be unplugged and come back: none of that is an
@@ -38,10 +53,5 @@ class LiveSource {
 
   virtual LiveReport report() const = 0;
 };
-
-// Appends "3 damaged" if the count is not 0.
-inline void note_count(std::vector<std::string>& to, std::uint64_t count, const std::string& what) {
-  if (count > 0) to.push_back(std::to_string(count) + ' ' + what);
-}
 
 }  // namespace maploop::sensors

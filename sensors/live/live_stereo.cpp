@@ -69,13 +69,7 @@ class LiveStereo final : public LiveSource<StereoPair> {
 
   LiveReport report() const override {
     const VideoState& first = left_.state();
-    LiveReport report{without_secrets(left_.description()),
-                      first.connection,
-                      delivered_,
-                      wrong_size_ + not_later_,
-                      {},
-                      {},
-                      {}};
+    LiveReport report{without_secrets(left_.description()), first.connection, delivered_};
     if (right_) {
       const VideoState& second = right_->state();
       report.endpoint += " | " + without_secrets(right_->description());
@@ -84,15 +78,15 @@ class LiveStereo final : public LiveSource<StereoPair> {
       report.connection.bytes += second.connection.bytes;
       if (report.connection.problem.empty() && !second.connection.problem.empty())
         report.connection.problem = "right camera " + second.connection.problem;
-      note_count(report.reasons, second.lost, "right images lost by the driver");
-      note_count(report.notes, second.unstamped, "right images stamped on arrival");
+      report.lose(second.lost, "right images lost by the driver");
+      report.note(second.unstamped, "right images stamped on arrival");
     }
-    note_count(report.reasons, first.lost, "images lost by the driver");
-    note_count(report.reasons, alone_, "images without a partner");
-    note_count(report.reasons, wrong_size_, "pairs whose size differs from the calibration's");
-    note_count(report.reasons, not_later_, "pairs not later than the one before");
-    note_count(report.notes, first.frames, "images");
-    note_count(report.notes, first.unstamped, "images stamped on arrival");
+    report.lose(first.lost, "images lost by the driver");
+    report.lose(alone_, "images without a partner");
+    report.refuse(wrong_size_, "pairs whose size differs from the calibration's");
+    report.refuse(not_later_, "pairs not later than the one before");
+    report.note(first.frames, "images");
+    report.note(first.unstamped, "images stamped on arrival");
     return report;
   }
 

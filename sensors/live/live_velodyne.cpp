@@ -1,18 +1,19 @@
 #include <array>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "sensors/live/live_sensors.h"
+#include "sensors/live/stream_source.h"
 #include "sensors/velodyne/velodyne_decoder.h"
 
 namespace maploop::sensors {
 namespace {
 
-class LiveVelodyne final : public LiveSource<LidarScan> {
+class LiveVelodyne final : public StreamSource<LidarScan> {
  public:
   LiveVelodyne(LiveVelodyneOptions options, const HostClock& clock)
-      : clock_(clock),
-        data_(std::move(options.data)),
+      : StreamSource(std::make_unique<Connection>(std::move(options.data)), clock),
         decoder_(options.model, std::move(options.lasers)) {
     if (options.position) position_.emplace(std::move(*options.position));
   }
@@ -20,52 +21,18 @@ class LiveVelodyne final : public LiveSource<LidarScan> {
   bool wait(LidarScan& scan, Duration patience) override {
     // Position packets are rare; the limit keeps a flood of them from delaying the data.
     for (int i = 0; position_ && i < max_positions; ++i) {
-      const std::size_t size = position_->read(buffer_, Duration::zero());
+      const std::size_t size = position_->read(position_packet_, Duration::zero());
       if (size == 0) break;
-      decoder_.add(std::span(buffer_).first(size), clock_.now(), scan);
+      decoder_.add(std::span(position_packet_).first(size), clock().now(), scan);
     }
-    // A turn has 75 packets or more: the loop returns after `patience` even if there is more to
-    // read.
-    const Time end = clock_.now() + patience;
-    do {
-      const std::size_t size = data_.read(buffer_, end - clock_.now());
-      if (size == 0) return false;
-      if (decoder_.add(std::span(buffer_).first(size), clock_.now(), scan) && in_order(scan)) {
-        ++delivered_;
-        return true;
-      }
-    } while (clock_.now() < end);
-    return false;
-  }
-
-  LiveReport report() const override {
-    LiveReport report{data_.endpoint().text, data_.state(), delivered_, 0, {}, {}, {}};
-    const VelodyneCounts& counts = decoder_.counts();
-    for (std::size_t i = 0; i < counts.refused.size(); ++i) {
-      report.refused += counts.refused[i];
-      note_count(report.reasons, counts.refused[i],
-                 "packets: " + std::string(to_string(static_cast<PacketFault>(i))));
-    }
-    note_count(report.reasons, data_.state().too_large, "datagrams too large");
-    note_count(report.reasons, counts.lost, "packets lost");
-    note_count(report.reasons, counts.late, "packets late");
-    note_count(report.reasons, decoder_.turns().broken, "turns broken");
-    note_count(report.reasons, out_of_order_, "turns not later than the one before");
-    note_count(report.notes, counts.data, "data packets");
-    note_count(report.notes, counts.positions, "position packets");
-    if (position_ && !position_->state().problem.empty()) {
-      report.notes.push_back(position_->endpoint().text + ' ' + position_->state().problem);
-    }
-    const PacketClock& clock = decoder_.clock();
-    report.clock = {clock.has_device_time() && clock.offset().known(), clock.gps_offset(),
-                    clock.offset().drift(), clock.offset().delay(), clock.jumps()};
-    return report;
+    return StreamSource::wait(scan, patience);
   }
 
  private:
   static constexpr int max_positions = 32;
 
-  bool in_order(const LidarScan& scan) {
+  bool take(std::span<const std::uint8_t>& bytes, Time arrival, LidarScan& scan) override {
+    if (bytes.empty() || !decoder_.add(std::exchange(bytes, {}), arrival, scan)) return false;
     const bool later = scan.stamp > last_stamp_ && scan.available > last_available_;
     if (!later) {
       ++out_of_order_;
@@ -76,12 +43,30 @@ class LiveVelodyne final : public LiveSource<LidarScan> {
     return true;
   }
 
-  const HostClock& clock_;
-  Connection data_;
+  void describe(LiveReport& report) const override {
+    const VelodyneCounts& counts = decoder_.counts();
+    for (std::size_t i = 0; i < counts.refused.size(); ++i) {
+      report.refuse(counts.refused[i],
+                    "packets: " + std::string(to_string(static_cast<PacketFault>(i))));
+    }
+    report.lose(counts.lost, "packets lost");
+    report.lose(counts.late, "packets late");
+    report.lose(decoder_.turns().broken, "turns broken");
+    report.lose(out_of_order_, "turns not later than the one before");
+    report.note(counts.data, "data packets");
+    report.note(counts.positions, "position packets");
+    if (position_ && !position_->state().problem.empty()) {
+      report.notes.push_back(position_->endpoint().text + ' ' + position_->state().problem);
+    }
+    const PacketClock& clock = decoder_.clock();
+    report.clock = clock.offset().state(clock.gps_offset());
+    report.clock.known = report.clock.known && clock.has_device_time();
+    report.clock.jumps = clock.jumps();
+  }
+
   std::optional<Connection> position_;
+  std::array<std::uint8_t, 2048> position_packet_{};
   VelodyneDecoder decoder_;
-  std::array<std::uint8_t, 2048> buffer_{};
-  std::uint64_t delivered_ = 0;
   std::uint64_t out_of_order_ = 0;
   Time last_stamp_ = Time::min(), last_available_ = Time::min();
 };

@@ -1,7 +1,11 @@
 #include "sensors/live/ntrip_client.h"
 
+#include <arpa/inet.h>
+#include <netdb.h>
+
 #include <algorithm>
 #include <chrono>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -15,7 +19,6 @@ using std::chrono::seconds;
 
 constexpr Duration first_pause = seconds(1), longest_pause = seconds(60);
 constexpr Duration longest_quiet = seconds(60);
-constexpr Duration between_positions = seconds(10);
 
 MonotonicTime steady_now() {
   return std::chrono::time_point_cast<Duration>(std::chrono::steady_clock::now());
@@ -27,13 +30,48 @@ Duration utc_of_day() {
 
 }  // namespace
 
+// Numeric addresses are known at once. A name is looked up on a separate thread, which may take
+// seconds.
+std::future<NtripClient::Host> NtripClient::look_up(const std::string& name) {
+  std::promise<Host> known;
+  std::future<Host> answer = known.get_future();
+  in_addr numeric{};
+  if (inet_pton(AF_INET, name.c_str(), &numeric) == 1) {
+    known.set_value({name, {}});
+    return answer;
+  }
+  try {
+    std::thread([name, asked = std::move(known)]() mutable {
+      addrinfo wanted{};
+      wanted.ai_family = AF_INET;
+      wanted.ai_socktype = SOCK_STREAM;
+      addrinfo* found = nullptr;
+      const int error = getaddrinfo(name.c_str(), nullptr, &wanted, &found);
+      if (error != 0) {
+        asked.set_value({{}, "has no address: " + std::string(gai_strerror(error))});
+        return;
+      }
+      std::array<char, INET_ADDRSTRLEN> text{};
+      const auto* address = reinterpret_cast<const sockaddr_in*>(found->ai_addr);
+      inet_ntop(AF_INET, &address->sin_addr, text.data(), text.size());
+      freeaddrinfo(found);
+      asked.set_value({text.data(), {}});
+    }).detach();
+  } catch (const std::system_error& e) {
+    known = {};
+    answer = known.get_future();
+    known.set_value({{}, std::string("cannot be looked up: ") + e.what()});
+  }
+  return answer;
+}
+
 void NtripClient::give_up(std::string problem) {
   pause_ = pause_ == Duration::zero() ? first_pause : std::min(2 * pause_, longest_pause);
   state_.open = false;
   state_.problem = std::move(problem);
   // The lookup is dropped too, because the name may have another address by then.
   connection_.reset();
-  lookup_.reset();
+  lookup_ = {};
   unread_ = {};
   greeted_ = 0;
   next_lookup_ = steady_now() + pause_;
@@ -46,18 +84,14 @@ bool NtripClient::find_host(Duration patience) {
     std::this_thread::sleep_for(std::min(patience, next_lookup_ - now));
     return false;
   }
-  if (!lookup_) lookup_.emplace(address_.host);
-  const auto answer = lookup_->answer();
-  if (!answer) {
-    std::this_thread::sleep_for(patience);
+  if (!lookup_.valid()) lookup_ = look_up(address_.host);
+  if (lookup_.wait_for(patience) != std::future_status::ready) return false;
+  const Host host = lookup_.get();
+  if (!host.problem.empty()) {
+    give_up("host '" + address_.host + "' " + host.problem);
     return false;
   }
-  if (!answer->problem.empty()) {
-    give_up("host '" + address_.host + "' " + answer->problem);
-    return false;
-  }
-  Endpoint endpoint =
-      parse_endpoint("tcp://" + answer->address + ":" + std::to_string(address_.port));
+  Endpoint endpoint = parse_endpoint("tcp://" + host.address + ":" + std::to_string(address_.port));
   if (address_.encrypted) {
     connection_ = std::make_unique<TlsConnection>(std::move(endpoint), address_.host);
   } else {
@@ -77,7 +111,7 @@ void NtripClient::greet() {
 
 void NtripClient::say_position() {
   const MonotonicTime now = steady_now();
-  if (!address_.position || !state_.open || now - said_ < between_positions) return;
+  if (!address_.position || !state_.open || now - said_ < between_positions_) return;
   said_ = now;
   connection_->write(ntrip_gga(*address_.position, utc_of_day()));
 }

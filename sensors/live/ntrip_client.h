@@ -2,15 +2,16 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdint>
+#include <future>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "sensors/live/connection.h"
-#include "sensors/live/name_lookup.h"
 #include "sensors/live/ntrip_reply.h"
 #include "sensors/live/ntrip_request.h"
 
@@ -18,10 +19,12 @@ namespace maploop::sensors {
 
 // Sends its request automatically, and again after the caster refuses, ends the stream, or is
 // silent for a minute: after one second, two, four, up to a minute. The host name is looked up each
-// time. state().open is true while the caster sends the stream.
+// time. state().open is true while the caster sends the stream. A position of the address is sent
+// with the request, and again `between_positions` after the last time.
 class NtripClient final : public ByteStream {
  public:
-  explicit NtripClient(NtripAddress address) : address_(std::move(address)) {}
+  explicit NtripClient(NtripAddress address, Duration between_positions = std::chrono::seconds(10))
+      : address_(std::move(address)), between_positions_(between_positions) {}
 
   std::size_t read(std::span<std::uint8_t> to, Duration patience) override;
   const ConnectionState& state() const override { return state_; }
@@ -33,9 +36,16 @@ class NtripClient final : public ByteStream {
   void say_position();
   void give_up(std::string problem);
 
+  struct Host {
+    std::string address;  // numeric IPv4
+    std::string problem;  // set if the address is missing
+  };
+  static std::future<Host> look_up(const std::string& name);
+
   NtripAddress address_;
+  Duration between_positions_;
   ConnectionState state_;
-  std::optional<NameLookup> lookup_;
+  std::future<Host> lookup_;                  // valid while the answer is not known
   std::unique_ptr<TwoWayStream> connection_;  // nullptr while the address is not known
   std::uint64_t greeted_ = 0;                 // `opened` of the connection at the last request
   NtripReply reply_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
@@ -11,6 +10,7 @@
 #include "msgs/frames.h"
 #include "sensors/gnss/nmea.h"
 #include "sensors/live/endpoint.h"
+#include "sensors/number.h"
 
 namespace maploop::sensors {
 namespace {
@@ -32,20 +32,15 @@ std::string_view take_until(std::string_view& text, char end) {
   return part;
 }
 
-template <class T>
-bool read_all(std::string_view text, T& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size();
-}
-
 std::optional<Geodetic> read_position(std::string_view text) {
-  double latitude = 0.0, longitude = 0.0, height = 0.0;
-  if (!read_all(take_until(text, ','), latitude) || !read_all(take_until(text, ','), longitude) ||
-      !read_all(text, height) || !(std::abs(latitude) <= 90.0 && std::abs(longitude) <= 180.0) ||
-      !(std::abs(height) < 1e5)) {
+  const auto latitude = parse_number<double>(take_until(text, ','));
+  const auto longitude = parse_number<double>(take_until(text, ','));
+  const auto height = parse_number<double>(text);
+  if (!latitude || !longitude || !height || std::abs(*latitude) > 90.0 ||
+      std::abs(*longitude) > 180.0 || std::abs(*height) >= 1e5) {
     return {};
   }
-  return Geodetic{radians(latitude), radians(longitude), height};
+  return Geodetic{radians(*latitude), radians(*longitude), *height};
 }
 
 bool printable(std::string_view text) {
@@ -77,9 +72,8 @@ NtripAddress parse_ntrip(std::string_view text) {
   const bool has_mountpoint = rest.find('/') != std::string_view::npos;
   std::string_view host = take_until(rest, '/');
   a.host = take_until(host, ':');
-  if (!host.empty() && (!read_all(host, a.port) || a.port == 0)) {
-    refuse_address(a.text, "has no port between 1 and 65535");
-  }
+  if (!host.empty()) a.port = parse_number<std::uint16_t>(host).value_or(0);
+  if (a.port == 0) refuse_address(a.text, "has no port between 1 and 65535");
   a.mountpoint = take_until(rest, '?');
   if (a.host.empty()) refuse_address(a.text, "has no host");
   if (!has_mountpoint || a.mountpoint.empty()) refuse_address(a.text, "has no mountpoint");

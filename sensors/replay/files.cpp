@@ -1,9 +1,8 @@
 #include "sensors/replay/files.h"
 
-#include <charconv>
-#include <cmath>
 #include <stdexcept>
-#include <system_error>
+
+#include "sensors/number.h"
 
 namespace maploop::sensors {
 namespace {
@@ -14,17 +13,6 @@ std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(blanks);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-double parse_number(std::string_view word, std::size_t column) {
-  const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) {
-    throw std::invalid_argument("column " + std::to_string(column) +
-                                " is not a finite number: " + quoted(word));
-  }
-  return value;
 }
 
 }  // namespace
@@ -44,7 +32,12 @@ std::vector<double> parse_numbers(std::string_view text) {
   std::vector<double> numbers;
   while (!(text = trimmed(text)).empty()) {
     const std::string_view word = text.substr(0, text.find_first_of(blanks));
-    numbers.push_back(parse_number(word, numbers.size() + 1));
+    const auto number = parse_number<double>(word.starts_with('+') ? word.substr(1) : word);
+    if (!number) {
+      throw std::invalid_argument("column " + std::to_string(numbers.size() + 1) +
+                                  " is not a finite number: " + quoted(word));
+    }
+    numbers.push_back(*number);
     text.remove_prefix(word.size());
   }
   return numbers;

@@ -14,13 +14,12 @@ namespace {
 constexpr std::uint64_t own_stream = 0x696d'7500'0000'0000;
 constexpr std::uint64_t imu_sizes_stream = 0x696d'7573'697a'6500;
 
-class NoisyImu final : public Source<ImuSample> {
+class NoisyImu {
  public:
-  NoisyImu(std::unique_ptr<Source<ImuSample>> source, const ImuNoiseParameters& parameters)
-      : source_(std::move(source)), p_(parameters) {}
+  explicit NoisyImu(const ImuNoiseParameters& parameters) : p_(parameters) {}
 
-  bool next(ImuSample& sample) override {
-    if (!source_->next(sample)) return false;
+  bool operator()(Source<ImuSample>& source, ImuSample& sample) {
+    if (!source.next(sample)) return false;
     NormalGenerator normal(static_cast<std::uint64_t>(p_.seed) ^ own_stream, sample.stamp);
     if (!last_) {
       gyro_bias_ = p_.gyro_turn_on * normal.next();
@@ -42,10 +41,7 @@ class NoisyImu final : public Source<ImuSample> {
     return true;
   }
 
-  const SourceReport& report() const override { return source_->report(); }
-
  private:
-  std::unique_ptr<Source<ImuSample>> source_;
   ImuNoiseParameters p_;
   std::optional<Time> last_;
   double gyro_bias_ = 0.0, scale_ = 0.0, drift_ = 0.0;
@@ -79,7 +75,7 @@ ImuNoiseParameters drawn(const ImuNoiseParameters& parameters) {
 
 std::unique_ptr<Source<ImuSample>> with_noise(std::unique_ptr<Source<ImuSample>> source,
                                               const ImuNoiseParameters& parameters) {
-  return std::make_unique<NoisyImu>(std::move(source), parameters);
+  return derived(std::move(source), NoisyImu(parameters));
 }
 
 }  // namespace maploop::sensors

@@ -1,10 +1,10 @@
 #include "sensors/replay/keyed_text.h"
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 
+#include "sensors/camera/stereo_rig.h"
 #include "sensors/replay/files.h"
 
 namespace maploop::sensors {
@@ -28,12 +28,10 @@ std::vector<double> KeyedText::numbers(std::string_view key, std::size_t count) 
 
 Eigen::Matrix3d KeyedText::rotation(std::string_view key) const {
   const std::vector<double> values = numbers(key, 9);
-  const Eigen::Matrix3d printed =
-      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values.data());
-  const double error = (printed * printed.transpose() - Eigen::Matrix3d::Identity()).norm();
-  if (!(error < 1e-3) || printed.determinant() < 0.0) fail(key, "is not a rotation matrix");
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(printed, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return svd.matrixU() * svd.matrixV().transpose();
+  const auto nearest = nearest_rotation(
+      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values.data()));
+  if (!nearest) fail(key, "is not a rotation matrix");
+  return *nearest;
 }
 
 Eigen::Isometry3d KeyedText::transformation() const {

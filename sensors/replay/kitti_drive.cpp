@@ -9,7 +9,6 @@
 
 #include "sensors/camera/rectifier.h"
 #include "sensors/replay/kitti_calibration.h"
-#include "sensors/replay/oxts_sources.h"
 #include "sensors/replay/parameter_table.h"
 
 namespace maploop::sensors {
@@ -77,7 +76,8 @@ ImageFolder image_folder(const std::filesystem::path& folder) {
 
 KittiDrive::KittiDrive(const std::filesystem::path& folder, const KittiDriveParameters& parameters,
                        std::optional<StereoRig> raw_cameras)
-    : folder_(drive_folder(folder, raw_cameras.has_value())),
+    : OxtsRecording(folder.string(), from_seconds(parameters.imu_delay)),
+      folder_(drive_folder(folder, raw_cameras.has_value())),
       parameters_(parameters),
       raw_cameras_(std::move(raw_cameras)) {
   validate_parameters(parameters_);
@@ -95,7 +95,8 @@ KittiDrive::KittiDrive(const std::filesystem::path& folder, const KittiDrivePara
   }
   const std::filesystem::path named = normal(folder);
   if (const auto oxts = (is_unsynced(named) ? named : folder_) / "oxts"; is_folder(oxts)) {
-    oxts_ = std::make_shared<const OxtsRows>(read_oxts(oxts));
+    const auto rows = std::make_shared<const OxtsRows>(read_oxts(oxts));
+    set_rows(rows, rows);
   }
 }
 
@@ -130,28 +131,6 @@ std::unique_ptr<Source<LidarScan>> KittiDrive::velodyne(Time passed) const {
     throw std::runtime_error("drive '" + folder_.string() + "' has no folder velodyne_points");
   }
   return make_velodyne_source(*velodyne_, from_seconds(parameters_.max_turn), passed);
-}
-
-std::unique_ptr<Source<ImuSample>> KittiDrive::imu() const {
-  return make_imu_source(oxts(), from_seconds(parameters_.imu_delay));
-}
-
-std::unique_ptr<Source<GnssFix>> KittiDrive::gnss(const GnssAidParameters& parameters) const {
-  return make_gnss_source(oxts(), from_seconds(parameters_.imu_delay), parameters);
-}
-
-std::unique_ptr<Source<WheelSpeed>> KittiDrive::wheel(
-    const WheelOdometerParameters& parameters) const {
-  return make_wheel_source(oxts(), from_seconds(parameters_.imu_delay), parameters);
-}
-
-std::unique_ptr<Source<ReferencePose>> KittiDrive::reference() const {
-  return make_reference_source(oxts(), from_seconds(parameters_.imu_delay));
-}
-
-const std::shared_ptr<const OxtsRows>& KittiDrive::oxts() const {
-  if (!oxts_) throw std::runtime_error("drive '" + folder_.string() + "' has no folder oxts");
-  return oxts_;
 }
 
 }  // namespace maploop::sensors

@@ -8,17 +8,12 @@
 #include <vector>
 
 #include "msgs/calibration.h"
-#include "msgs/gnss.h"
 #include "msgs/image.h"
-#include "msgs/imu.h"
 #include "msgs/lidar_scan.h"
-#include "msgs/reference.h"
 #include "sensors/camera/stereo_rig.h"
-#include "sensors/replay/gnss_aid.h"
-#include "sensors/replay/oxts.h"
+#include "sensors/replay/oxts_recording.h"
 #include "sensors/replay/stereo_source.h"
 #include "sensors/replay/velodyne_source.h"
-#include "sensors/replay/wheel_odometer.h"
 #include "sensors/source.h"
 
 namespace maploop::sensors {
@@ -47,7 +42,7 @@ struct KittiDriveParameters {
 // rectified as they are read. calib_cam_to_cam.txt is then not needed, and the other texts only if
 // the drive has velodyne_points, or if the calibration does not contain the mounting of the
 // cameras: a folder with only image_00 and image_01 is a valid drive.
-class KittiDrive {
+class KittiDrive : public OxtsRecording {
  public:
   // Throws std::runtime_error that names the folder or file and states what to do (no such drive,
   // no calibration beside it, a time stamp file missing or empty), and std::invalid_argument for a
@@ -67,21 +62,14 @@ class KittiDrive {
   Time last_stamp() const;
 
   bool has_velodyne() const { return velodyne_.has_value(); }
-  bool has_oxts() const { return oxts_ != nullptr; }
 
   // Each call returns a new source from the start of the drive; it throws std::runtime_error if the
   // drive lacks its folder. Pixels and points that are available up to `passed` are not read and
   // must not be used: this is for callers that skip them.
   std::unique_ptr<Source<StereoPair>> camera(Time passed = Time::min()) const;
   std::unique_ptr<Source<LidarScan>> velodyne(Time passed = Time::min()) const;
-  std::unique_ptr<Source<ImuSample>> imu() const;
-  std::unique_ptr<Source<GnssFix>> gnss(const GnssAidParameters& parameters = {}) const;
-  std::unique_ptr<Source<WheelSpeed>> wheel(const WheelOdometerParameters& parameters = {}) const;
-  std::unique_ptr<Source<ReferencePose>> reference() const;
 
  private:
-  const std::shared_ptr<const OxtsRows>& oxts() const;
-
   std::filesystem::path folder_;
   KittiDriveParameters parameters_;
   std::optional<StereoRig> raw_cameras_;
@@ -89,7 +77,6 @@ class KittiDrive {
   ImageFolder left_;
   ImageFolder right_;
   std::optional<VelodyneFolder> velodyne_;
-  std::shared_ptr<const OxtsRows> oxts_;
 };
 
 }  // namespace maploop::sensors

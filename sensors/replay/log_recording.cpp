@@ -26,8 +26,10 @@ using input_limits::within;
 using schema::checked_decode;
 using schema::own_schema;
 
-template <class T, class Lcm>
+template <class T>
 class LogSource final : public Source<T> {
+  using Lcm = decltype(to_lcm(T{}));
+
  public:
   LogSource(const std::filesystem::path& log, std::string_view channel)
       : log_(log), channel_(channel), reader_(log, own_schema()) {}
@@ -157,46 +159,19 @@ LogRecording::LogRecording(const std::filesystem::path& log) : log_(log) {
   }
 }
 
-template <class T, class Lcm>
+template <class T>
 std::unique_ptr<Source<T>> LogRecording::source(std::string_view channel) const {
   if (!channels_.contains(channel)) return nullptr;
-  return std::make_unique<LogSource<T, Lcm>>(log_, channel);
+  return std::make_unique<LogSource<T>>(log_, channel);
 }
 
-std::unique_ptr<Source<StereoPair>> LogRecording::camera() const {
-  return source<StereoPair, maploop_lcm::stereo_pair_t>(channel_names::camera);
-}
-
-std::unique_ptr<Source<LidarScan>> LogRecording::velodyne() const {
-  return source<LidarScan, maploop_lcm::lidar_scan_t>(channel_names::velodyne);
-}
-
-std::unique_ptr<Source<ImuSample>> LogRecording::imu() const {
-  return source<ImuSample, maploop_lcm::imu_t>(channel_names::imu);
-}
-
-std::unique_ptr<Source<GnssFix>> LogRecording::gnss() const {
-  return source<GnssFix, maploop_lcm::gnss_fix_t>(channel_names::gnss_fix);
-}
-
-std::unique_ptr<Source<WheelSpeed>> LogRecording::wheel() const {
-  return source<WheelSpeed, maploop_lcm::wheel_speed_t>(channel_names::wheel_speed);
-}
-
-std::unique_ptr<Source<ReferencePose>> LogRecording::reference() const {
-  return source<ReferencePose, maploop_lcm::reference_pose_t>(channel_names::truth);
-}
-
-std::unique_ptr<Source<RelativeMotion>> LogRecording::odometry() const {
-  return source<RelativeMotion, maploop_lcm::relative_motion_t>(channel_names::odometry);
-}
-
-std::unique_ptr<Source<RelativeMotion>> LogRecording::visual_odometry() const {
-  return source<RelativeMotion, maploop_lcm::relative_motion_t>(channel_names::visual_odometry);
-}
-
-std::unique_ptr<Source<LidarMotion>> LogRecording::lidar_odometry() const {
-  return source<LidarMotion, maploop_lcm::lidar_motion_t>(channel_names::lidar_odometry);
-}
+template std::unique_ptr<Source<StereoPair>> LogRecording::source(std::string_view) const;
+template std::unique_ptr<Source<LidarScan>> LogRecording::source(std::string_view) const;
+template std::unique_ptr<Source<ImuSample>> LogRecording::source(std::string_view) const;
+template std::unique_ptr<Source<GnssFix>> LogRecording::source(std::string_view) const;
+template std::unique_ptr<Source<WheelSpeed>> LogRecording::source(std::string_view) const;
+template std::unique_ptr<Source<ReferencePose>> LogRecording::source(std::string_view) const;
+template std::unique_ptr<Source<RelativeMotion>> LogRecording::source(std::string_view) const;
+template std::unique_ptr<Source<LidarMotion>> LogRecording::source(std::string_view) const;
 
 }  // namespace maploop::sensors

@@ -37,23 +37,13 @@ class LogRecording {
   Time first_stamp() const { return first_stamp_; }
   Time last_stamp() const { return last_stamp_; }
 
-  // Each call returns a new source from the start of the log, or nullptr if the log has no such
-  // channel. A message that cannot be read, or is not later than the previous one, is left out and
-  // reported.
-  std::unique_ptr<Source<StereoPair>> camera() const;
-  std::unique_ptr<Source<LidarScan>> velodyne() const;
-  std::unique_ptr<Source<ImuSample>> imu() const;
-  std::unique_ptr<Source<GnssFix>> gnss() const;
-  std::unique_ptr<Source<WheelSpeed>> wheel() const;
-  std::unique_ptr<Source<ReferencePose>> reference() const;
-  std::unique_ptr<Source<RelativeMotion>> odometry() const;  // as fusion received it
-  std::unique_ptr<Source<RelativeMotion>> visual_odometry() const;
-  std::unique_ptr<Source<LidarMotion>> lidar_odometry() const;
-
- private:
-  template <class T, class Lcm>
+  // Each call returns a new source of a channel (msgs/lcm/channel_names.h), whose messages contain
+  // samples of type T, from the start of the log; or nullptr if the log has no such channel. A
+  // message that cannot be read, or is not later than the previous one, is left out and reported.
+  template <class T>
   std::unique_ptr<Source<T>> source(std::string_view channel) const;
 
+ private:
   std::filesystem::path log_;
   VehicleCalibration calibration_;
   std::set<std::string, std::less<>> channels_;

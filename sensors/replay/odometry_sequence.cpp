@@ -8,7 +8,6 @@
 #include "sensors/replay/csv_table.h"
 #include "sensors/replay/files.h"
 #include "sensors/replay/kitti_calibration.h"
-#include "sensors/replay/oxts_sources.h"
 #include "sensors/replay/sequence_files.h"
 
 namespace maploop::sensors {
@@ -133,7 +132,7 @@ bool OdometrySequence::is_named(const fs::path& path) {
 }
 
 OdometrySequence::OdometrySequence(const fs::path& path, const KittiDriveParameters& parameters)
-    : delay_(from_seconds(parameters.imu_delay)), calibration_(axes_alone()) {
+    : OxtsRecording(path.string(), from_seconds(parameters.imu_delay)), calibration_(axes_alone()) {
   const std::optional<SequenceFiles> files = find_sequence(path);
   if (!files) {
     throw std::runtime_error("no odometry sequence at '" + path.string() +
@@ -147,29 +146,11 @@ OdometrySequence::OdometrySequence(const fs::path& path, const KittiDriveParamet
     throw std::runtime_error(files->times.value_or(files->table).string() +
                              ": contains fewer than two images");
   }
-  rows_ = imu_rows_ = std::move(rows);
-  if (files->imu) {
-    imu_rows_ = std::make_shared<const OxtsRows>(read_imu_rows(*files->imu, files->start));
-  }
+  set_rows(rows, files->imu
+                     ? std::make_shared<const OxtsRows>(read_imu_rows(*files->imu, files->start))
+                     : rows);
   labels_ = files->labels;
   tracks_ = files->tracks;
-}
-
-std::unique_ptr<Source<ImuSample>> OdometrySequence::imu() const {
-  return make_imu_source(imu_rows_, delay_);
-}
-
-std::unique_ptr<Source<GnssFix>> OdometrySequence::gnss(const GnssAidParameters& parameters) const {
-  return make_gnss_source(rows_, delay_, parameters);
-}
-
-std::unique_ptr<Source<WheelSpeed>> OdometrySequence::wheel(
-    const WheelOdometerParameters& parameters) const {
-  return make_wheel_source(rows_, delay_, parameters);
-}
-
-std::unique_ptr<Source<ReferencePose>> OdometrySequence::reference() const {
-  return make_reference_source(rows_, delay_);
 }
 
 }  // namespace maploop::sensors

@@ -3,28 +3,19 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "msgs/calibration.h"
-#include "msgs/gnss.h"
-#include "msgs/imu.h"
-#include "msgs/reference.h"
-#include "msgs/wheel_speed.h"
-#include "sensors/replay/gnss_aid.h"
 #include "sensors/replay/kitti_drive.h"
-#include "sensors/replay/oxts.h"
-#include "sensors/replay/wheel_odometer.h"
-#include "sensors/source.h"
+#include "sensors/replay/oxts_recording.h"
 
 namespace maploop::sensors {
 
 // The files, each plain or .gz, are those that find_sequence() finds; sensors/FORMATS.md describes
 // them. Stamps of KITTI's sequences are the raw drive's own (KITTI's clock, local time read as
 // UTC).
-class OdometrySequence {
+class OdometrySequence : public OxtsRecording {
  public:
   // Returns whether the path names a sequence: a table of OXTS rows, or FOLDER/NAME where FOLDER
   // has oxts/NAME.csv.
@@ -47,18 +38,9 @@ class OdometrySequence {
   // This file contains the links really driven, frame by frame.
   const std::optional<std::filesystem::path>& labels_file() const { return labels_; }
 
-  // Each call returns a new source from the start of the sequence.
-  std::unique_ptr<Source<ImuSample>> imu() const;
-  std::unique_ptr<Source<GnssFix>> gnss(const GnssAidParameters& parameters) const;
-  std::unique_ptr<Source<WheelSpeed>> wheel(const WheelOdometerParameters& parameters) const;
-  std::unique_ptr<Source<ReferencePose>> reference() const;
-
  private:
-  Duration delay_;
   VehicleCalibration calibration_;
   std::vector<Time> image_stamps_;
-  std::shared_ptr<const OxtsRows> rows_;
-  std::shared_ptr<const OxtsRows> imu_rows_;
   std::optional<std::filesystem::path> tracks_, labels_;
 };
 

@@ -42,55 +42,19 @@ void add_line(std::string_view line, CameraPoses& all) {
   all.frames.push_back(frame);
 }
 
-class PoseOdometry final : public Source<RelativeMotion> {
- public:
-  PoseOdometry(std::shared_ptr<const CameraPoses> poses, std::vector<Time> stamps,
-               const Eigen::Isometry3d& T_body_cam, const PoseOdometryParameters& parameters,
-               Duration delay)
-      : poses_(std::move(poses)),
-        stamps_(std::move(stamps)),
-        T_body_cam_(T_body_cam),
-        parameters_(parameters),
-        delay_(delay) {}
-
-  bool next(RelativeMotion& motion) override {
-    if (next_ == poses_->frames.size()) return false;
-    motion = {};
-    const std::size_t frame = poses_->frames[next_];
-    motion.stamp = stamps_[frame];
-    motion.available = motion.stamp + delay_;
-    motion.sequence = frame;
-    if (next_ > 0) describe(motion);
-    ++next_;
-    ++report_.delivered;
-    return true;
-  }
-
-  const SourceReport& report() const override { return report_; }
-
- private:
-  void describe(RelativeMotion& motion) const {
-    motion.status = OdometryStatus::ok;
-    motion.from = stamps_[poses_->frames[next_ - 1]];
-    const Eigen::Isometry3d T = T_body_cam_ * poses_->poses[next_ - 1].inverse() *
-                                poses_->poses[next_] * T_body_cam_.inverse();
-    motion.translation = T.translation();
-    motion.rotation = Eigen::Quaterniond(T.linear()).normalized();
-    const double translation_sigma =
-        parameters_.speed_sigma * to_seconds(motion.stamp - motion.from);
-    const double rotation_sigma = radians(parameters_.rotation_sigma);
-    motion.covariance.diagonal().head<3>().setConstant(translation_sigma * translation_sigma);
-    motion.covariance.diagonal().tail<3>().setConstant(rotation_sigma * rotation_sigma);
-  }
-
-  std::shared_ptr<const CameraPoses> poses_;
-  std::vector<Time> stamps_;
-  Eigen::Isometry3d T_body_cam_;
-  PoseOdometryParameters parameters_;
-  Duration delay_;
-  std::size_t next_ = 0;
-  SourceReport report_;
-};
+// The motion of the body between two poses of the camera.
+void describe(const Eigen::Isometry3d& T_body_cam, const Eigen::Isometry3d& before,
+              const Eigen::Isometry3d& now, const PoseOdometryParameters& parameters,
+              RelativeMotion& motion) {
+  motion.status = OdometryStatus::ok;
+  const Eigen::Isometry3d T = T_body_cam * before.inverse() * now * T_body_cam.inverse();
+  motion.translation = T.translation();
+  motion.rotation = Eigen::Quaterniond(T.linear()).normalized();
+  const double translation_sigma = parameters.speed_sigma * to_seconds(motion.stamp - motion.from);
+  const double rotation_sigma = radians(parameters.rotation_sigma);
+  motion.covariance.diagonal().head<3>().setConstant(translation_sigma * translation_sigma);
+  motion.covariance.diagonal().tail<3>().setConstant(rotation_sigma * rotation_sigma);
+}
 
 }  // namespace
 
@@ -120,8 +84,22 @@ std::unique_ptr<Source<RelativeMotion>> make_pose_odometry(std::shared_ptr<const
     throw std::runtime_error(parameters.file + ": frame " + std::to_string(poses->frames.back()) +
                              " is beyond the recording's " + std::to_string(stamps.size()));
   }
-  return std::make_unique<PoseOdometry>(std::move(poses), std::move(stamps), T_body_cam, parameters,
-                                        delay);
+  return made<RelativeMotion>(
+      [poses = std::move(poses), stamps = std::move(stamps), T_body_cam, parameters, delay,
+       next = std::size_t{0}](RelativeMotion& motion, SourceReport&) mutable {
+        if (next == poses->frames.size()) return false;
+        motion = {};
+        const std::size_t frame = poses->frames[next];
+        motion.stamp = stamps[frame];
+        motion.available = motion.stamp + delay;
+        motion.sequence = frame;
+        if (next > 0) {
+          motion.from = stamps[poses->frames[next - 1]];
+          describe(T_body_cam, poses->poses[next - 1], poses->poses[next], parameters, motion);
+        }
+        ++next;
+        return true;
+      });
 }
 
 }  // namespace maploop::sensors

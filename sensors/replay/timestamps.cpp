@@ -1,13 +1,13 @@
 #include "sensors/replay/timestamps.h"
 
 #include <algorithm>
-#include <charconv>
 #include <functional>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 
 #include "msgs/input_limits.h"
+#include "sensors/number.h"
 #include "sensors/replay/files.h"
 
 namespace maploop::sensors {
@@ -127,9 +127,8 @@ std::vector<Finding> files_without_stamp(const std::filesystem::path& folder, st
   for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     const std::string stem = entry->path().stem().string();
-    std::size_t index = 0;
-    const auto [rest, failed] = std::from_chars(stem.data(), stem.data() + stem.size(), index);
-    if (failed != std::errc() || rest != stem.data() + stem.size() || index < frames) continue;
+    const auto index = parse_number<std::size_t>(stem);
+    if (!index || *index < frames) continue;
     findings.push_back(
         {entry->path().string(), 0,
          "has no time stamp: the file of time stamps has only " + std::to_string(frames)});

@@ -77,7 +77,7 @@ std::unique_ptr<sensors::Source<ImuSample>> unit(double value, Duration phase, b
     sample.stamp = sample.available = drive_start + phase + step * milliseconds(10);
     sample.yaw_rate = value;
   };
-  return std::make_unique<testing::FakeSource<ImuSample>>(gap ? 150 : 200, make);
+  return testing::fake_source<ImuSample>(gap ? 150 : 200, make);
 }
 
 std::vector<ImuSample> run() {

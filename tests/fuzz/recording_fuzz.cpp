@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "msgs/input_limits.h"
+#include "msgs/lcm/channel_names.h"
 #include "sensors/replay/log_recording.h"
 #include "tests/fuzz/fuzz_input.h"
 
@@ -26,14 +27,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const fuzz::MemoryFile file(data, size);
   try {
     const sensors::LogRecording recording(file.path());
-    read(recording.camera());
-    read(recording.velodyne());
-    read(recording.imu());
-    read(recording.gnss());
-    read(recording.wheel());
-    read(recording.reference());
-    read(recording.odometry());
-    read(recording.lidar_odometry());
+    read(recording.source<StereoPair>(channel_names::camera));
+    read(recording.source<LidarScan>(channel_names::velodyne));
+    read(recording.source<ImuSample>(channel_names::imu));
+    read(recording.source<GnssFix>(channel_names::gnss_fix));
+    read(recording.source<WheelSpeed>(channel_names::wheel_speed));
+    read(recording.source<ReferencePose>(channel_names::truth));
+    read(recording.source<RelativeMotion>(channel_names::odometry));
+    read(recording.source<LidarMotion>(channel_names::lidar_odometry));
   } catch (const std::runtime_error&) {
   }
   return 0;

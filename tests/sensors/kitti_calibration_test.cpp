@@ -6,9 +6,12 @@
 #include <string>
 
 #include "tests/sensors/small_drive.h"
+#include "tests/support/error_of.h"
 
 namespace maploop::sensors {
 namespace {
+
+using ::testing::HasSubstr;
 
 struct Texts {
   std::string cam_to_cam = cam_to_cam_text();
@@ -27,13 +30,8 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(at, from.size(), to);
 }
 
-std::string error_of(const Texts& texts) {
-  try {
-    parse(texts);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no error";
+std::string error_in(const Texts& texts) {
+  return maploop::testing::error_of([&] { parse(texts); });
 }
 
 // A point in front of the car is taken through the printed matrices one after the other.
@@ -148,17 +146,15 @@ TEST(KittiCalibration, NamesFileAndKeyOfWhatIsWrong) {
   for (const Case& c : cases) {
     Texts texts;
     texts.*c.text = replaced(texts.*c.text, c.from, c.to);
-    const std::string error = error_of(texts);
-    for (const char* part : {c.file, c.key, c.reason}) {
-      EXPECT_NE(error.find(part), std::string::npos) << "'" << part << "' not in: " << error;
-    }
+    const std::string error = error_in(texts);
+    for (const char* part : {c.file, c.key, c.reason}) EXPECT_THAT(error, HasSubstr(part));
   }
 }
 
 TEST(KittiCalibration, AMirrorIsNotARotation) {
   Texts texts;
   texts.velo_to_cam = "R: 1 0 0 0 1 0 0 0 -1\nT: 0 0 0\n";
-  EXPECT_NE(error_of(texts).find("not a rotation"), std::string::npos);
+  EXPECT_THAT(error_in(texts), HasSubstr("not a rotation"));
 }
 
 }  // namespace

@@ -6,17 +6,15 @@
 #include <string>
 
 #include "tests/sensors/small_drive.h"
+#include "tests/support/error_of.h"
 
 namespace maploop::sensors {
 namespace {
 
-std::string error_of(const std::string& text) {
-  try {
-    parse_oxts_row(text);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "no error";
+using ::testing::HasSubstr;
+
+std::string error_in(const std::string& text) {
+  return maploop::testing::error_of<std::invalid_argument>([&] { parse_oxts_row(text); });
 }
 
 // Returns a row whose column i (from 0) is i / 16, except for the attitude.
@@ -65,28 +63,26 @@ TEST(OxtsRow, EastIsAzimuthNinetyDegreesAndNorthIsZero) {
 
 TEST(OxtsRow, RefusesWhatIsNotThirtyFiniteNumbers) {
   const std::string row = oxts_row_text();
-  EXPECT_NE(error_of("").find("0 columns instead of 30"), std::string::npos);
-  EXPECT_NE(error_of(row.substr(0, row.rfind(' '))).find("29 columns"), std::string::npos);
-  EXPECT_NE(error_of(row + " 1").find("31 columns"), std::string::npos);
-  EXPECT_NE(error_of(row + row).find("60 columns"), std::string::npos);
+  EXPECT_THAT(error_in(""), HasSubstr("0 columns instead of 30"));
+  EXPECT_THAT(error_in(row.substr(0, row.rfind(' '))), HasSubstr("29 columns"));
+  EXPECT_THAT(error_in(row + " 1"), HasSubstr("31 columns"));
+  EXPECT_THAT(error_in(row + row), HasSubstr("60 columns"));
   for (const char* bad : {"nan", "-inf", "1e999", "0x10", "1,5", "--1", "1.2.3"}) {
-    const std::string error = error_of(std::string(bad) + row.substr(row.find(' ')));
-    EXPECT_NE(error.find(std::string("column 1 is not a finite number: '") + bad),
-              std::string::npos)
-        << error;
+    const std::string error = error_in(std::string(bad) + row.substr(row.find(' ')));
+    EXPECT_THAT(error, HasSubstr(std::string("column 1 is not a finite number: '") + bad));
   }
 }
 
 TEST(OxtsRow, RefusesWhatIsOutsideTheRangeOfItsKind) {
-  EXPECT_NE(error_of(numbered_row("4", "0", "0")).find("roll"), std::string::npos);
-  EXPECT_NE(error_of(numbered_row("0", "1.7", "0")).find("pitch"), std::string::npos);
-  EXPECT_NE(error_of(numbered_row("0", "0", "-3.2")).find("yaw"), std::string::npos);
+  EXPECT_THAT(error_in(numbered_row("4", "0", "0")), HasSubstr("roll"));
+  EXPECT_THAT(error_in(numbered_row("0", "1.7", "0")), HasSubstr("pitch"));
+  EXPECT_THAT(error_in(numbered_row("0", "0", "-3.2")), HasSubstr("yaw"));
   std::string row = oxts_row_text();
   row[0] = '9';  // 99 degrees north
-  EXPECT_NE(error_of(row).find("lat is out of range: 99.01"), std::string::npos);
+  EXPECT_THAT(error_in(row), HasSubstr("lat is out of range: 99.01"));
   row = oxts_row_text();
   row.erase(row.find("11.375996992995") + 2, 1);  // the decimal point of vn
-  EXPECT_NE(error_of(row).find("vn"), std::string::npos);
+  EXPECT_THAT(error_in(row), HasSubstr("vn"));
 }
 
 TEST(OxtsRow, AcceptsTabsSignsAndCrlf) {

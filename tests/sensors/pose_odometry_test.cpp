@@ -8,35 +8,30 @@
 
 #include "msgs/frames.h"
 #include "sensors/replay/odometry_sequence.h"
+#include "tests/support/error_of.h"
 #include "tests/support/real_data.h"
 
 namespace maploop::sensors {
 namespace {
 
 using maploop::testing::real_data;
+using ::testing::HasSubstr;
 
 // Returns the error of reading a file with this text.
 std::string refusal(const std::string& text) {
   const auto file = std::filesystem::path(::testing::TempDir()) / "poses.txt";
   std::ofstream(file) << text;
-  try {
-    read_camera_poses(file);
-  } catch (const std::runtime_error& e) {
-    return e.what();
-  }
-  return "";
+  return maploop::testing::error_of([&] { read_camera_poses(file); });
 }
 
 const std::string at_rest = "1 0 0 0 0 1 0 0 0 0 1 0\n";
 
 TEST(PoseOdometry, RefusesAnInvalidTrajectoryByFileAndLine) {
-  EXPECT_NE(refusal("").find("fewer than two"), std::string::npos);
-  EXPECT_NE(refusal(at_rest + "1 0 0\n").find("poses.txt:2: a pose must have 12"),
-            std::string::npos);
-  EXPECT_NE(refusal(at_rest + "1 0 0 0 0 nan 0 0 0 0 1 0\n").find(":2:"), std::string::npos);
-  EXPECT_NE(refusal(at_rest + "1 0 0 0 0 2 0 0 0 0 1 0\n").find("no"), std::string::npos);
-  EXPECT_NE(refusal("3 " + at_rest + "2 " + at_rest).find("frame 2 comes after frame 3"),
-            std::string::npos);
+  EXPECT_THAT(refusal(""), HasSubstr("fewer than two"));
+  EXPECT_THAT(refusal(at_rest + "1 0 0\n"), HasSubstr("poses.txt:2: a pose must have 12"));
+  EXPECT_THAT(refusal(at_rest + "1 0 0 0 0 nan 0 0 0 0 1 0\n"), HasSubstr(":2:"));
+  EXPECT_THAT(refusal(at_rest + "1 0 0 0 0 2 0 0 0 0 1 0\n"), HasSubstr("no"));
+  EXPECT_THAT(refusal("3 " + at_rest + "2 " + at_rest), HasSubstr("frame 2 comes after frame 3"));
   EXPECT_EQ(refusal("0 " + at_rest + "2 " + at_rest), "");
 }
 

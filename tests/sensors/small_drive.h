@@ -47,6 +47,10 @@ std::vector<T> read_all(Source<T>& source) {
   for (T sample; source.next(sample);) samples.push_back(sample);
   return samples;
 }
+template <class T>
+std::vector<T> read_all(const std::unique_ptr<Source<T>>& source) {
+  return read_all(*source);
+}
 
 template <class T>
 std::vector<std::uint64_t> sequences(const std::vector<T>& samples) {

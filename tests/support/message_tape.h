@@ -21,16 +21,6 @@ class MessageTape final : public vehicle::MessageSink {
 
   std::string_view name() const override { return "tape"; }
 
-  // Returns the messages later than t.
-  Channels after(Time t) const {
-    Channels later;
-    for (const auto& [name, messages] : channels_) {
-      for (const Taped& message : messages) {
-        if (message.time > t) later[name].push_back(message);
-      }
-    }
-    return later;
-  }
   Channels all() const { return channels_; }
 
  private:
@@ -44,5 +34,16 @@ class MessageTape final : public vehicle::MessageSink {
 
   Channels channels_;
 };
+
+// Returns the messages later than t.
+inline MessageTape::Channels after(const MessageTape::Channels& channels, Time t) {
+  MessageTape::Channels later;
+  for (const auto& [name, messages] : channels) {
+    for (const MessageTape::Taped& message : messages) {
+      if (message.time > t) later[name].push_back(message);
+    }
+  }
+  return later;
+}
 
 }  // namespace maploop::testing

@@ -1,11 +1,14 @@
 #include "runtime/vehicle/config/scheduling_config.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <array>
-#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "msgs/named_enum.h"
 #include "runtime/core/number_text.h"
 
 namespace maploop::vehicle {
@@ -13,20 +16,6 @@ namespace {
 
 using runtime::Scheduling;
 using runtime::SchedulingPolicy;
-
-// The names are in the order of the enumerators' values.
-constexpr std::array<std::string_view, 5> policy_names{"inherited", "other", "fifo", "rr",
-                                                       "deadline"};
-
-std::string_view name_of(SchedulingPolicy policy) {
-  return policy_names[static_cast<std::size_t>(policy)];
-}
-
-SchedulingPolicy policy_of(std::string_view name) {
-  std::size_t i = 0;
-  while (policy_names[i] != name) ++i;
-  return static_cast<SchedulingPolicy>(i);
-}
 
 bool has_priority(SchedulingPolicy policy) {
   return policy == SchedulingPolicy::fifo || policy == SchedulingPolicy::rr;
@@ -50,11 +39,7 @@ void read_priority(const runtime::ConfigTable& table, Scheduling& s) {
 }
 
 void read_other(const runtime::ConfigTable& table, Scheduling& s) {
-  if (table.has("nice")) {
-    int nice = 0;
-    table.read_in("nice", nice, -20, 19);
-    s.nice = nice;
-  }
+  if (table.has("nice")) table.read_in("nice", s.nice.emplace(0), -20, 19);
   table.read_in("timer_slack_us", s.timer_slack, Duration::zero(), std::chrono::seconds(2));
 }
 
@@ -71,13 +56,9 @@ void refuse(const runtime::ConfigTable& table, std::initializer_list<const char*
             SchedulingPolicy policy, std::string_view of) {
   for (const char* key : keys) {
     if (!table.has(key)) continue;
-    table.fail(key, "can only be used with policy " + std::string(of) + ", not with \"" +
-                        std::string(name_of(policy)) + '"');
+    table.fail(
+        key, fmt::format("can only be used with policy {}, not with \"{}\"", of, name_of(policy)));
   }
-}
-
-std::string milliseconds_text(Duration d) {
-  return runtime::shortest_text(static_cast<double>(d.count()) * 1e-6);
 }
 
 }  // namespace
@@ -109,8 +90,8 @@ std::span<const ScheduledThread> scheduled_threads() {
 void read(const runtime::ConfigTable& parent, const char* key, Scheduling& s) {
   const runtime::ConfigTable table = parent.table(key);
   std::string policy(name_of(s.policy));
-  table.read_one_of("policy", policy, {policy_names.begin(), policy_names.end()});
-  s.policy = policy_of(policy);
+  table.read_one_of("policy", policy, names_of(s.policy));
+  s.policy = *value_named<SchedulingPolicy>(policy);
   forget_other_policies(s);
   if (has_priority(s.policy)) {
     read_priority(table, s);
@@ -137,23 +118,19 @@ void read(const runtime::ConfigTable& parent, const char* key, Scheduling& s) {
 }
 
 std::string toml_value(const Scheduling& s) {
-  std::string text = "{ policy = \"" + std::string(name_of(s.policy)) + '"';
-  if (has_priority(s.policy)) text += ", priority = " + std::to_string(s.priority);
-  if (s.nice) text += ", nice = " + std::to_string(*s.nice);
-  if (s.timer_slack > Duration::zero()) {
-    text += ", timer_slack_us = " +
-            runtime::shortest_text(static_cast<double>(s.timer_slack.count()) * 1e-3);
-  }
-  if (s.policy == SchedulingPolicy::deadline) {
-    text += ", runtime_ms = " + milliseconds_text(s.runtime) +
-            ", deadline_ms = " + milliseconds_text(s.deadline) +
-            ", period_ms = " + milliseconds_text(s.period);
-  } else {
-    std::string list;
-    for (const int cpu : s.cpus) list += (list.empty() ? "" : ", ") + std::to_string(cpu);
-    text += ", cpus = [" + list + ']';
-  }
-  return text + ", prefaulted_stack_kb = " + std::to_string(s.prefaulted_stack_kb) + " }";
+  const auto scaled = [](Duration d, double unit) {
+    return runtime::shortest_text(static_cast<double>(d.count()) * unit);
+  };
+  std::string text = fmt::format("{{ policy = \"{}\"", name_of(s.policy));
+  if (has_priority(s.policy)) text += fmt::format(", priority = {}", s.priority);
+  if (s.nice) text += fmt::format(", nice = {}", *s.nice);
+  if (s.timer_slack > Duration::zero()) text += ", timer_slack_us = " + scaled(s.timer_slack, 1e-3);
+  text +=
+      s.policy == SchedulingPolicy::deadline
+          ? fmt::format(", runtime_ms = {}, deadline_ms = {}, period_ms = {}",
+                        scaled(s.runtime, 1e-6), scaled(s.deadline, 1e-6), scaled(s.period, 1e-6))
+          : fmt::format(", cpus = [{}]", fmt::join(s.cpus, ", "));
+  return fmt::format("{}, prefaulted_stack_kb = {} }}", text, s.prefaulted_stack_kb);
 }
 
 const runtime::Scheduling& scheduling_of(const SchedulingParameters& parameters,

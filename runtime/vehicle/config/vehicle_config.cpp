@@ -22,7 +22,7 @@ void read_value(const runtime::ConfigTable& table, const ParameterDescription& p
       if (parameter.names.empty()) {
         table.read(parameter.key, own);
       } else {
-        table.read_one_of(parameter.key, own, {parameter.names.begin(), parameter.names.end()});
+        table.read_one_of(parameter.key, own, parameter.names);
       }
     } else {
       table.read(parameter.key, own);
@@ -33,19 +33,16 @@ void read_value(const runtime::ConfigTable& table, const ParameterDescription& p
 
 // The names are read first, and the keys that they set may then differ from them.
 void read_names(const runtime::ConfigTable& root, VehicleConfig& config) {
-  std::string configuration = config.configuration, grade = config.imu_grade;
-  root.read("configuration", configuration);
-  root.read("imu_grade", grade);
-  try {
-    set_configuration(config, configuration);
-  } catch (const std::invalid_argument& e) {
-    root.fail("configuration", e.what());
-  }
-  try {
-    set_imu_grade(config, grade);
-  } catch (const std::invalid_argument& e) {
-    root.fail("imu_grade", e.what());
-  }
+  const auto set = [&](const char* key, std::string name, auto set_by_name) {
+    root.read(key, name);
+    try {
+      set_by_name(config, name);
+    } catch (const std::invalid_argument& e) {
+      root.fail(key, e.what());
+    }
+  };
+  set("configuration", config.configuration, set_configuration);
+  set("imu_grade", config.imu_grade, set_imu_grade);
 }
 
 }  // namespace

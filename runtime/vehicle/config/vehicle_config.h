@@ -22,12 +22,19 @@
 #include "runtime/core/trace.h"
 #include "runtime/vehicle/config/live_config.h"
 #include "runtime/vehicle/config/scheduling_config.h"
-#include "runtime/vehicle/stages/preview_parameters.h"
 #include "sensors/replay/error_model.h"
 #include "sensors/replay/kitti_drive.h"
 #include "sensors/replay/pose_odometry.h"
 
 namespace maploop::vehicle {
+
+// Pictures and scans for dashboards.
+struct PreviewParameters {
+  double rate = 2.0;  // Hz
+  int width = 640;    // px
+  int quality = 60;
+  int points = 4000;
+};
 
 struct CameraParameters {
   std::string calibration;

@@ -96,7 +96,7 @@ class Driver : public DriverBase {
     const MonotonicTime received = sample.received;
     for (auto* ring : outputs_.rings()) {
       const bool last = ring == outputs_.rings().back();
-      ring->push(sample.stamp, stop, [&](T& slot) {
+      ring->push(stop, [&](T& slot) {
         if (last) {
           std::swap(slot, sample);  // buffers circulate, nothing is copied
         } else {

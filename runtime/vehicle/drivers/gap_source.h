@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "msgs/input_limits.h"
-#include "runtime/vehicle/graph/vehicle.h"
+#include "runtime/vehicle/graph/sensors.h"
 #include "sensors/source.h"
 
 namespace maploop::vehicle {

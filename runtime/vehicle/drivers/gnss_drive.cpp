@@ -31,46 +31,6 @@ fs::path observations_of(const fs::path& path) {
                            " receivers; name the file to replay instead:" + names);
 }
 
-class EpochSource final : public sensors::Source<GnssEpoch> {
- public:
-  EpochSource(std::shared_ptr<const GnssDrive> drive, Duration latency)
-      : drive_(std::move(drive)), latency_(latency) {
-    const ppp::Observations& o = drive_->setup().observations();
-    report_.refused = static_cast<std::uint64_t>(o.refused);
-    for (const std::string& why : o.refusals) report_.refusals.push_back({o.file, 0, why});
-  }
-
-  bool next(GnssEpoch& sample) override {
-    const auto& epochs = drive_->setup().observations().epochs;
-    for (; at_ < epochs.size(); ++at_) {
-      const Time stamp = ppp::to_utc(epochs[at_].time);
-      if (stamp <= last_) {
-        report_.refuse(
-            {drive_->setup().observations().file, 0,
-             "epoch " + format_gps_time(epochs[at_].time) + " is not later than the one before"});
-        continue;
-      }
-      last_ = stamp;
-      sample.stamp = stamp;
-      sample.available = stamp + latency_;
-      sample.sequence = at_;
-      sample.epoch = epochs[at_++];
-      ++report_.delivered;
-      return true;
-    }
-    return false;
-  }
-
-  const sensors::SourceReport& report() const override { return report_; }
-
- private:
-  std::shared_ptr<const GnssDrive> drive_;
-  Duration latency_;
-  std::size_t at_ = 0;
-  Time last_ = Time::min();
-  sensors::SourceReport report_;
-};
-
 }  // namespace
 
 bool is_gnss_drive(const fs::path& path) {
@@ -102,8 +62,30 @@ Time GnssDrive::last_stamp() const {
 
 std::unique_ptr<sensors::Source<GnssEpoch>> GnssDrive::epochs(
     std::shared_ptr<const GnssDrive> drive) {
-  const Duration latency = drive->latency_;
-  return std::make_unique<EpochSource>(std::move(drive), latency);
+  return sensors::made<GnssEpoch>([drive = std::move(drive), at = std::size_t{0},
+                                   last = Time::min()](GnssEpoch& sample,
+                                                       sensors::SourceReport& report) mutable {
+    const ppp::Observations& o = drive->setup().observations();
+    if (at == 0) {
+      report.refused = static_cast<std::uint64_t>(o.refused);
+      for (const std::string& why : o.refusals) report.refusals.push_back({o.file, 0, why});
+    }
+    for (; at < o.epochs.size(); ++at) {
+      const Time stamp = ppp::to_utc(o.epochs[at].time);
+      if (stamp <= last) {
+        report.refuse(
+            {o.file, 0,
+             "epoch " + format_gps_time(o.epochs[at].time) + " is not later than the one before"});
+        continue;
+      }
+      last = sample.stamp = stamp;
+      sample.available = stamp + drive->latency_;
+      sample.sequence = at;
+      sample.epoch = o.epochs[at++];
+      return true;
+    }
+    return false;
+  });
 }
 
 }  // namespace maploop::vehicle

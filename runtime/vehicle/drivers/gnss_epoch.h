@@ -1,15 +1,25 @@
-// A GnssEpoch is what a GNSS receiver measured at one moment, as a sample of the graph.
+// Defines what the drivers of GNSS send to the ppp thread.
 #pragma once
+
+#include <vector>
 
 #include "msgs/sample.h"
 #include "ppp/observations.h"
+#include "ppp/readers/corrections/ssr.h"
 #include "ppp/readers/files/navigation.h"
 
 namespace maploop::vehicle {
 
+// What a receiver measured at one moment.
 struct GnssEpoch : Sample {
   ppp::Epoch epoch;
   ppp::BroadcastMessages heard;  // since the epoch before, from a live receiver
+};
+
+// What a stream of corrections contained at one time of arrival, which is `stamp`.
+struct GnssCorrections : Sample {
+  ppp::BroadcastMessages heard;
+  std::vector<ppp::SsrUpdate> updates;
 };
 
 }  // namespace maploop::vehicle

@@ -1,12 +1,13 @@
 #include "runtime/vehicle/drivers/gnss_outage.h"
 
 #include <algorithm>
-#include <charconv>
 #include <random>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
+
+#include "sensors/number.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -18,12 +19,11 @@ namespace {
 }
 
 double number(std::string_view part, std::string_view text, const char* what) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !(value >= 0.0 && value <= 1e6)) {
+  const auto value = sensors::parse_number<double>(text);
+  if (!value || *value < 0.0 || *value > 1e6) {
     refuse(part, "'" + std::string(text) + "' is not " + what + " from 0 to 1e6");
   }
-  return value;
+  return *value;
 }
 
 double seconds(std::string_view part, std::string_view text) {

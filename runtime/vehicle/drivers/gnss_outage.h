@@ -33,33 +33,20 @@ std::string check_outages(const std::string& text);
 
 // T is a fix or an epoch of observations.
 template <class T>
-class SourceWithOutages final : public sensors::Source<T> {
- public:
-  SourceWithOutages(std::unique_ptr<sensors::Source<T>> source, std::vector<GnssOutage> outages)
-      : source_(std::move(source)), outages_(std::move(outages)) {}
-
-  bool next(T& sample) override {
-    while (source_->next(sample)) {
-      const bool lost = std::any_of(outages_.begin(), outages_.end(), [&](const GnssOutage& o) {
-        return sample.stamp >= o.begin && sample.stamp < o.end;
-      });
-      if (!lost) return true;
-    }
-    return false;
-  }
-
-  const sensors::SourceReport& report() const override { return source_->report(); }
-
- private:
-  std::unique_ptr<sensors::Source<T>> source_;
-  std::vector<GnssOutage> outages_;
-};
-
-template <class T>
 std::unique_ptr<sensors::Source<T>> with_outages(std::unique_ptr<sensors::Source<T>> source,
                                                  std::vector<GnssOutage> outages) {
   if (source == nullptr || outages.empty()) return source;
-  return std::make_unique<SourceWithOutages<T>>(std::move(source), std::move(outages));
+  return sensors::derived(std::move(source),
+                          [outages = std::move(outages)](sensors::Source<T>& all, T& sample) {
+                            const auto is_lost = [&](const GnssOutage& o) {
+                              return sample.stamp >= o.begin && sample.stamp < o.end;
+                            };
+                            while (all.next(sample)) {
+                              if (std::none_of(outages.begin(), outages.end(), is_lost))
+                                return true;
+                            }
+                            return false;
+                          });
 }
 
 }  // namespace maploop::vehicle

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "msgs/lcm/channel_names.h"
 #include "runtime/vehicle/drivers/gnss_drive.h"
 #include "runtime/vehicle/drivers/recorded_tracks.h"
 #include "runtime/vehicle/drivers/stereo_rig_file.h"
@@ -113,17 +114,20 @@ Recording open_sequence(const std::filesystem::path& path, const VehicleConfig& 
 Recording open_log(const std::filesystem::path& file) {
   auto log = std::make_shared<const sensors::LogRecording>(file);
   return make_recording(*log, [log](Time) {
+    const auto open = [&]<class T>(std::unique_ptr<sensors::Source<T>>& to, std::string_view name) {
+      to = log->source<T>(name);
+    };
     Sensors s;
-    s.camera = log->camera();
-    s.velodyne = log->velodyne();
-    s.imu = log->imu();
-    s.gnss = log->gnss();
-    s.wheel = log->wheel();
-    s.reference = log->reference();
+    open(s.camera, channel_names::camera);
+    open(s.velodyne, channel_names::velodyne);
+    open(s.imu, channel_names::imu);
+    open(s.gnss, channel_names::gnss_fix);
+    open(s.wheel, channel_names::wheel_speed);
+    open(s.reference, channel_names::truth);
     if (s.camera == nullptr) {
-      s.odometry = log->odometry();
-      s.visual = log->visual_odometry();
-      s.lidar = log->lidar_odometry();
+      open(s.odometry, channel_names::odometry);  // as fusion received it
+      open(s.visual, channel_names::visual_odometry);
+      open(s.lidar, channel_names::lidar_odometry);
     }
     return s;
   });

@@ -1,7 +1,10 @@
 #include "runtime/vehicle/drivers/stereo_rig_file.h"
 
 #include <Eigen/Dense>
+#include <array>
+#include <span>
 #include <stdexcept>
+#include <string_view>
 
 #include "msgs/input_file.h"
 #include "msgs/input_limits.h"
@@ -12,98 +15,99 @@
 namespace maploop::vehicle {
 namespace {
 
-using runtime::ConfigTable;
+using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-constexpr const char* to_distorted = "undistorted_to_distorted";
-constexpr const char* to_undistorted = "distorted_to_undistorted";
+constexpr std::string_view to_distorted = "undistorted_to_distorted";
+constexpr std::array directions{to_distorted, std::string_view("distorted_to_undistorted")};
 
-void read(const ConfigTable& table, const char* key, auto&& value) {
-  if (!table.has(key)) table.fail(key, "is missing; a calibration needs every number");
-  table.read(key, value);
+// Reads or writes each value of the file, in its order: `to` is a Reader or a Writer, and Rig is
+// const for a Writer.
+template <class Rig, class To>
+void each_value(Rig& rig, To& to) {
+  to.number("width", rig.width);
+  to.number("height", rig.height);
+  for (auto [name, camera] : {std::pair("left", &rig.left), std::pair("right", &rig.right)}) {
+    to.table(name);
+    to.number("fx", camera->fx);
+    to.number("fy", camera->fy);
+    to.number("cx", camera->cx);
+    to.number("cy", camera->cy);
+    to.number("k1", camera->distortion.k1);
+    to.number("k2", camera->distortion.k2);
+    to.number("p1", camera->distortion.p1);
+    to.number("p2", camera->distortion.p2);
+    to.number("k3", camera->distortion.k3);
+    to.direction(*camera, rig);
+  }
+  to.table("extrinsics");
+  to.rotation("R_right_left", rig.T_right_left.linear());
+  to.vector("t_right_left", rig.T_right_left.translation());
+  to.table("rectification");
+  to.rotation("R_rect_left", rig.R_rect_left);
+  to.rotation("R_rect_right", rig.R_rect_right);
+  to.number("width", rig.rectified.width);
+  to.number("height", rig.rectified.height);
+  to.number("fx", rig.rectified.fx);
+  to.number("fy", rig.rectified.fy);
+  to.number("cx", rig.rectified.cx);
+  to.number("cy", rig.rectified.cy);
+  to.number("baseline", rig.rectified.baseline);
+  if (!to.has_mounting(rig)) return;
+  to.table("mounting");
+  to.rotation("R_body_left", rig.T_body_left->linear());
+  to.vector("p_body_left", rig.T_body_left->translation());
 }
 
-Eigen::Matrix3d read_rotation(const ConfigTable& table, const char* key) {
-  Eigen::Matrix<double, 3, 3, Eigen::RowMajor> printed;
-  read(table, key, std::span<double>(printed.data(), 9));
-  const Eigen::Matrix3d r = printed;
-  if (!((r * r.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-3) || r.determinant() < 0.0)
-    table.fail(key, "is not a rotation matrix");
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(r, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return svd.matrixU() * svd.matrixV().transpose();
-}
+class Reader {
+ public:
+  explicit Reader(const runtime::ConfigTable& root) : root_(root), table_(root) {}
 
-Eigen::Isometry3d read_pose(const ConfigTable& table, const char* rotation,
-                            const char* translation) {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = read_rotation(table, rotation);
-  read(table, translation, std::span<double>(pose.translation().data(), 3));
-  return pose;
-}
+  void table(const char* name) { table_ = root_.table(name); }
 
-sensors::CameraModel read_camera(const ConfigTable& table, const sensors::StereoRig& rig) {
-  sensors::CameraModel camera;
-  read(table, "fx", camera.fx);
-  read(table, "fy", camera.fy);
-  read(table, "cx", camera.cx);
-  read(table, "cy", camera.cy);
-  sensors::Distortion& d = camera.distortion;
-  read(table, "k1", d.k1);
-  read(table, "k2", d.k2);
-  read(table, "p1", d.p1);
-  read(table, "p2", d.p2);
-  read(table, "k3", d.k3);
-  std::string direction = to_distorted;
-  table.read_one_of("direction", direction, {to_distorted, to_undistorted});
-  if (direction == to_undistorted) {
-    if (!(camera.fx > 0.0 && camera.fy > 0.0)) table.fail("fx", "must be above 0");
+  void number(const char* key, auto&& value) {
+    if (!table_.has(key)) table_.fail(key, "is missing; a calibration needs every number");
+    table_.read(key, value);
+  }
+
+  void vector(const char* key, auto&& value) {
+    Eigen::Vector3d read;
+    number(key, std::span<double>(read.data(), 3));
+    value = read;
+  }
+
+  void rotation(const char* key, auto&& value) {
+    RowMajor printed;
+    number(key, std::span<double>(printed.data(), 9));
+    const auto nearest = sensors::nearest_rotation(printed);
+    if (!nearest) table_.fail(key, "is not a rotation matrix");
+    value = *nearest;
+  }
+
+  void direction(sensors::CameraModel& camera, const sensors::StereoRig& rig) {
+    std::string direction(to_distorted);
+    table_.read_one_of("direction", direction, directions);
+    if (direction == to_distorted) return;
+    if (!(camera.fx > 0.0 && camera.fy > 0.0)) table_.fail("fx", "must be above 0");
     const auto converted = sensors::from_reversed(camera, rig.width, rig.height);
     constexpr double most = 0.5;  // px
     if (!(converted.largest_error < most))
-      table.fail("direction",
-                 "cannot be approximated by undistorted_to_distorted coefficients better than " +
-                     std::to_string(converted.largest_error) + " px");
-    d = converted.distortion;
+      table_.fail("direction",
+                  "cannot be approximated by undistorted_to_distorted coefficients better than " +
+                      std::to_string(converted.largest_error) + " px");
+    camera.distortion = converted.distortion;
   }
-  return camera;
-}
 
-sensors::StereoRig read_toml(const std::filesystem::path& file) {
-  const runtime::ConfigDocument document = runtime::ConfigDocument::load(file);
-  const ConfigTable root = document.root();
-  sensors::StereoRig rig;
-  read(root, "width", rig.width);
-  read(root, "height", rig.height);
-  rig.left = read_camera(root.table("left"), rig);
-  rig.right = read_camera(root.table("right"), rig);
-  rig.T_right_left = read_pose(root.table("extrinsics"), "R_right_left", "t_right_left");
+  bool has_mounting(sensors::StereoRig& rig) {
+    if (!root_.has("mounting")) return false;
+    rig.T_body_left = Eigen::Isometry3d::Identity();
+    return true;
+  }
 
-  const ConfigTable rectification = root.table("rectification");
-  rig.R_rect_left = read_rotation(rectification, "R_rect_left");
-  rig.R_rect_right = read_rotation(rectification, "R_rect_right");
-  StereoCalibration& r = rig.rectified;
-  read(rectification, "width", r.width);
-  read(rectification, "height", r.height);
-  read(rectification, "fx", r.fx);
-  read(rectification, "fy", r.fy);
-  read(rectification, "cx", r.cx);
-  read(rectification, "cy", r.cy);
-  read(rectification, "baseline", r.baseline);
-  if (root.has("mounting"))
-    rig.T_body_left = read_pose(root.table("mounting"), "R_body_left", "p_body_left");
-  document.reject_unknown();
-  if (const auto problem = problem_of(rig))
-    throw std::runtime_error("calibration '" + file.string() + "': " + *problem);
-  return rig;
-}
+ private:
+  runtime::ConfigTable root_, table_;
+};
 
-// Writes the numbers so that they are read back bit for bit.
-std::string numbers(const double* values, int count) {
-  std::string text = "[";
-  for (int i = 0; i < count; ++i) text += (i == 0 ? "" : ", ") + runtime::shortest_text(values[i]);
-  return text + "]";
-}
-
-// A Writer writes lines of "key = value  # comment".
+// Writes lines of "key = value  # comment". Numbers are read back bit for bit.
 class Writer {
  public:
   explicit Writer(const std::map<std::string, std::string>& comments) : comments_(comments) {}
@@ -112,38 +116,44 @@ class Writer {
     table_ = name + ".";
     text += "\n[" + name + "]\n";
   }
+  void number(const std::string& key, double value) { line(key, runtime::shortest_text(value)); }
+  void vector(const std::string& key, const Eigen::Vector3d& v) { line(key, v.data(), 3); }
+  void rotation(const std::string& key, const RowMajor& m) { line(key, m.data(), 9); }
+  void direction(const sensors::CameraModel&, const sensors::StereoRig&) {
+    line("direction", '"' + std::string(to_distorted) + '"');
+  }
+  bool has_mounting(const sensors::StereoRig& rig) const { return rig.T_body_left.has_value(); }
+
+  std::string text;
+
+ private:
   void line(const std::string& key, const std::string& value) {
     text += key + " = " + value;
     if (const auto found = comments_.find(table_ + key); found != comments_.end())
       text += "  # " + found->second;
     text += '\n';
   }
-  void line(const std::string& key, double value) { line(key, runtime::shortest_text(value)); }
-  void line(const std::string& key, const Eigen::Vector3d& v) { line(key, numbers(v.data(), 3)); }
-  void line(const std::string& key, const Eigen::Matrix3d& m) {
-    const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rows = m;
-    line(key, numbers(rows.data(), 9));
+  void line(const std::string& key, const double* values, int count) {
+    std::string list = "[";
+    for (int i = 0; i < count; ++i) {
+      list += (i == 0 ? "" : ", ") + runtime::shortest_text(values[i]);
+    }
+    line(key, list + "]");
   }
 
-  std::string text;
-
- private:
   const std::map<std::string, std::string>& comments_;
   std::string table_;
 };
 
-void write(Writer& out, const std::string& name, const sensors::CameraModel& camera) {
-  out.table(name);
-  out.line("fx", camera.fx);
-  out.line("fy", camera.fy);
-  out.line("cx", camera.cx);
-  out.line("cy", camera.cy);
-  out.line("k1", camera.distortion.k1);
-  out.line("k2", camera.distortion.k2);
-  out.line("p1", camera.distortion.p1);
-  out.line("p2", camera.distortion.p2);
-  out.line("k3", camera.distortion.k3);
-  out.line("direction", std::string("\"") + to_distorted + '"');
+sensors::StereoRig read_toml(const std::filesystem::path& file) {
+  const runtime::ConfigDocument document = runtime::ConfigDocument::load(file);
+  sensors::StereoRig rig;
+  Reader reader(document.root());
+  each_value(rig, reader);
+  document.reject_unknown();
+  if (const auto problem = problem_of(rig))
+    throw std::runtime_error("calibration '" + file.string() + "': " + *problem);
+  return rig;
 }
 
 }  // namespace
@@ -155,31 +165,9 @@ sensors::StereoRig read_stereo_rig(const std::filesystem::path& file) {
 
 std::string to_toml(const sensors::StereoRig& rig,
                     const std::map<std::string, std::string>& comments) {
-  Writer out(comments);
-  out.line("width", rig.width);
-  out.line("height", rig.height);
-  write(out, "left", rig.left);
-  write(out, "right", rig.right);
-  out.table("extrinsics");
-  out.line("R_right_left", Eigen::Matrix3d(rig.T_right_left.linear()));
-  out.line("t_right_left", Eigen::Vector3d(rig.T_right_left.translation()));
-  out.table("rectification");
-  out.line("R_rect_left", rig.R_rect_left);
-  out.line("R_rect_right", rig.R_rect_right);
-  const StereoCalibration& r = rig.rectified;
-  out.line("width", r.width);
-  out.line("height", r.height);
-  out.line("fx", r.fx);
-  out.line("fy", r.fy);
-  out.line("cx", r.cx);
-  out.line("cy", r.cy);
-  out.line("baseline", r.baseline);
-  if (rig.T_body_left) {
-    out.table("mounting");
-    out.line("R_body_left", Eigen::Matrix3d(rig.T_body_left->linear()));
-    out.line("p_body_left", Eigen::Vector3d(rig.T_body_left->translation()));
-  }
-  return out.text;
+  Writer writer(comments);
+  each_value(rig, writer);
+  return writer.text;
 }
 
 }  // namespace maploop::vehicle

@@ -1,12 +1,15 @@
 #include "runtime/vehicle/faults/fault.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <span>
 #include <stdexcept>
 #include <vector>
+
+#include "sensors/number.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -15,7 +18,7 @@ constexpr std::array<std::string_view, 10> target_names{
     "camera", "velodyne", "imu", "gnss", "stereo", "lidar", "ppp", "fusion", "mapmatch", "cpu"};
 
 using enum FaultTarget;
-constexpr std::array sensors{camera, velodyne, imu, gnss};
+constexpr std::array all_sensors{camera, velodyne, imu, gnss};
 constexpr std::array numeric_sensors{velodyne, imu, gnss};
 constexpr std::array row_sensors{imu, gnss};
 constexpr std::array only_camera{camera};
@@ -35,11 +38,11 @@ struct Rule {
 
 // The rules are in the order of FaultKind.
 constexpr std::array<Rule, 12> rules{{
-    {"late", sensors, 0.2, 10.0},
-    {"lost", sensors},
-    {"duplicated", sensors, 0.001, 1.0},
-    {"reordered", sensors},
-    {"jump", sensors, 1.0, longest_drive, true},
+    {"late", all_sensors, 0.2, 10.0},
+    {"lost", all_sensors},
+    {"duplicated", all_sensors, 0.001, 1.0},
+    {"reordered", all_sensors},
+    {"jump", all_sensors, 1.0, longest_drive, true},
     {"nan", numeric_sensors},
     {"frozen", row_sensors},
     {"black", only_camera},
@@ -165,17 +168,11 @@ class Parser {
   }
 
   double number(std::string_view what, std::string_view text, double low, double high) const {
-    double value = 0.0;
-    const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
-    // The condition is written so that NaN is out of range.
-    if (text.empty() || error != std::errc{} || stop != end || !(value >= low && value <= high)) {
-      std::array<char, 64> bounds{};
-      std::snprintf(bounds.data(), bounds.size(), "%.15g to %.15g", low, high);
-      fail(std::string(what) + " must be a number from " + bounds.data() + ", not '" +
-           std::string(text) + "'");
+    const auto value = sensors::parse_number<double>(text);
+    if (!value || *value < low || *value > high) {
+      fail(fmt::format("{} must be a number from {} to {}, not '{}'", what, low, high, text));
     }
-    return value;
+    return *value;
   }
 
   double whole_number(std::string_view what, std::string_view text, double low, double high) const {

@@ -18,30 +18,6 @@ std::mt19937_64 generator(std::uint64_t seed, Time stamp) {
 
 }  // namespace
 
-void shift_stamps(StereoPair& pair, Duration by) {
-  pair.stamp += by;
-}
-
-void shift_stamps(LidarScan& scan, Duration by) {
-  scan.stamp += by;
-  scan.start += by;
-  scan.end += by;
-}
-
-void shift_stamps(ImuSample& sample, Duration by) {
-  sample.stamp += by;
-}
-
-void shift_stamps(GnssFix& fix, Duration by) {
-  fix.stamp += by;
-  fix.velocity_stamp += by;
-}
-
-void shift_stamps(GnssEpoch& epoch, Duration by) {
-  epoch.stamp += by;
-  epoch.epoch.time += by;
-}
-
 void fill_with_nan(LidarScan& scan) {
   constexpr float f = std::numeric_limits<float>::quiet_NaN();
   std::fill(scan.points.begin(), scan.points.end(), LidarPoint{f, f, f, f});

@@ -13,11 +13,13 @@ namespace maploop::vehicle {
 
 // Shifts all stamps of the sample, but not `available`: the sensor's clock is wrong, the
 // transmission is not.
-void shift_stamps(StereoPair& pair, Duration by);
-void shift_stamps(LidarScan& scan, Duration by);
-void shift_stamps(ImuSample& sample, Duration by);
-void shift_stamps(GnssFix& fix, Duration by);
-void shift_stamps(GnssEpoch& epoch, Duration by);
+template <class T>
+void shift_stamps(T& sample, Duration by) {
+  sample.stamp += by;
+  if constexpr (requires { sample.start; }) sample.start += by, sample.end += by;
+  if constexpr (requires { sample.velocity_stamp; }) sample.velocity_stamp += by;
+  if constexpr (requires { sample.epoch; }) sample.epoch.time += by;
+}
 
 // Sets every measured number and every covariance to NaN.
 void fill_with_nan(LidarScan& scan);

@@ -1,18 +1,17 @@
 // Applies the faults of one replay to its sensors, its stages and the machine.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <functional>
-#include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "runtime/vehicle/faults/fault.h"
 #include "runtime/vehicle/faults/fault_delay.h"
-#include "runtime/vehicle/faults/fault_hog.h"
-#include "runtime/vehicle/graph/vehicle.h"
+#include "runtime/vehicle/faults/fault_source.h"
+#include "runtime/vehicle/graph/sensors.h"
 
 namespace maploop::vehicle {
 
@@ -35,24 +34,17 @@ class FaultInjection {
   // Returns the delays for Vehicle::slow_down().
   StageDelays delays();
 
-  // Starts the hogs, each of which is busy in its window; `position` is Vehicle::position().
-  std::vector<std::unique_ptr<CpuHog>> hogs(const std::function<Time()>& position);
+  // Starts the threads of the hogs, with the default scheduling policy. Each is busy while the data
+  // time is inside its window, and ends with the window, with its object, or after longest_hog of
+  // machine time. `position` is Vehicle::position(), which they call.
+  std::vector<std::jthread> hogs(const std::function<Time()>& position);
 
   // Returns one count for each fault. A count of 0 means that the fault lies outside of the drive,
   // or that its target is missing.
   std::vector<FaultCount> counts() const;
 
  private:
-  struct Injected {
-    Fault fault;
-    FaultWindow window;
-    std::atomic<std::uint64_t> struck{0};
-  };
-  template <class T>
-  static std::unique_ptr<sensors::Source<T>> with_fault(std::unique_ptr<sensors::Source<T>> source,
-                                                        Injected& injected);
-
-  std::deque<Injected> faults_;
+  std::deque<ActiveFault> faults_;
 };
 
 }  // namespace maploop::vehicle

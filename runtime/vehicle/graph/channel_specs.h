@@ -22,123 +22,76 @@ struct ChannelSpec {
   std::string_view from;  // stage
   std::string_view shows;
   std::string_view rate;
-  bool from_data = true;  // derived from data alone: hashed, and the same bits on each run
-  Reach reach = Reach::everyone;
+  bool from_data;  // derived from data alone: hashed, and the same bits on each run
+  Reach reach;
 };
 
 namespace channels {
-inline constexpr ChannelSpec nav_state{.name = channel_names::nav_state,
-                                       .type = "nav_state_t",
-                                       .from = "fusion",
-                                       .shows = "fused position, velocity, attitude, covariance",
-                                       .rate = "100 Hz"};
-inline constexpr ChannelSpec visual_odometry{.name = channel_names::visual_odometry,
-                                             .type = "relative_motion_t",
-                                             .from = "stereo",
-                                             .shows = "relative pose, covariance, quality",
-                                             .rate = "10 Hz"};
-inline constexpr ChannelSpec lidar_odometry{
-    .name = channel_names::lidar_odometry,
-    .type = "lidar_motion_t",
-    .from = "lidar",
-    .shows = "relative pose of each scan, degenerate directions, change of its seed",
-    .rate = "10 Hz"};
-inline constexpr ChannelSpec odometry{.name = channel_names::odometry,
-                                      .type = "relative_motion_t",
-                                      .from = "lidar",
-                                      .shows = "the motion that is fused, and from which sensors",
-                                      .rate = "10 Hz"};
-inline constexpr ChannelSpec map_match{
-    .name = channel_names::map_match,
-    .type = "map_match_t",
-    .from = "mapmatch",
-    .shows = "phase, link, matched point, P(link), candidates with their rules, reasons in words",
-    .rate = "10 Hz"};
-inline constexpr ChannelSpec map_feedback{.name = channel_names::map_feedback,
-                                          .type = "map_feedback_t",
-                                          .from = "mapmatch",
-                                          .shows = "feedback to the filter, or why there was none",
-                                          .rate = "10 Hz"};
-inline constexpr ChannelSpec imu{.name = channel_names::imu,
-                                 .type = "imu_t",
-                                 .from = "imu",
-                                 .shows = "inertial sample",
-                                 .rate = "the sensor's"};
-inline constexpr ChannelSpec gnss_fix{
-    .name = channel_names::gnss_fix,
-    .type = "gnss_fix_t",
-    .from = "gnss",
-    .shows = "position and velocity with covariance, of the receiver or of ppp",
-    .rate = "1 Hz"};
-inline constexpr ChannelSpec ppp_state{
-    .name = channel_names::ppp_state,
-    .type = "ppp_state_t",
-    .from = "ppp",
-    .shows =
-        "position, covariance, protection levels, satellites and refusals, residuals, convergence",
-    .rate = "the receiver's"};
-inline constexpr ChannelSpec wheel_speed{.name = channel_names::wheel_speed,
-                                         .type = "wheel_speed_t",
-                                         .from = "wheel",
-                                         .shows = "forward speed of the wheels",
-                                         .rate = "the sensor's"};
-inline constexpr ChannelSpec truth{.name = channel_names::truth,
-                                   .type = "reference_pose_t",
-                                   .from = "reference",
-                                   .shows = "reference pose, replay only",
-                                   .rate = "10 Hz"};
-inline constexpr ChannelSpec camera{.name = channel_names::camera,
-                                    .type = "stereo_pair_t",
-                                    .from = "camera",
-                                    .shows = "rectified pair, unchanged; only in logs",
-                                    .rate = "10 Hz",
-                                    .reach = Reach::log};
-inline constexpr ChannelSpec velodyne{.name = channel_names::velodyne,
-                                      .type = "lidar_scan_t",
-                                      .from = "velodyne",
-                                      .shows = "scan, unchanged; only in logs",
-                                      .rate = "10 Hz",
-                                      .reach = Reach::log};
-inline constexpr ChannelSpec preview{
-    .name = channel_names::preview,
-    .type = "preview_t",
-    .from = "preview",
-    .shows = "small picture with tracks, thinned scan; not in logs",
-    .rate = "2 Hz",
-    .from_data = false,
-    .reach = Reach::viewers};
-inline constexpr ChannelSpec calibration{.name = channel_names::calibration,
-                                         .type = "calibration_t",
-                                         .from = "publisher",
-                                         .shows = "sensors on the vehicle",
-                                         .rate = "at the start",
-                                         .from_data = false};
-inline constexpr ChannelSpec replay_control{
-    .name = channel_names::replay_control,
-    .type = "replay_control_t",
-    .from = "player",
-    .shows = "commands to the player (in), its state (out); not in logs",
-    .rate = "on change",
-    .from_data = false};
-inline constexpr ChannelSpec run{.name = channel_names::run,
-                                 .type = "run_t",
-                                 .from = "player",
-                                 .shows = "id and description of each publishing run; not in logs",
-                                 .rate = "1 Hz",
-                                 .from_data = false};
-inline constexpr ChannelSpec deadlines{.name = channel_names::deadlines,
-                                       .type = "deadlines_t",
-                                       .from = "health",
-                                       .shows = "latency of each thread and path, misses",
-                                       .rate = "1 Hz",
-                                       .from_data = false};
-inline constexpr ChannelSpec health{
-    .name = channel_names::health,
-    .type = "health_t",
-    .from = "health",
-    .shows = "threads, rings, rates, losses, refusals, real-time settings, degraded modes",
-    .rate = "1 Hz",
-    .from_data = false};
+using Text = std::string_view;
+constexpr ChannelSpec of_data(Text name, Text type, Text from, Text shows, Text rate,
+                              Reach reach = Reach::everyone) {
+  return {name, type, from, shows, rate, true, reach};
+}
+constexpr ChannelSpec of_run(Text name, Text type, Text from, Text shows, Text rate,
+                             Reach reach = Reach::everyone) {
+  return {name, type, from, shows, rate, false, reach};
+}
+
+inline constexpr ChannelSpec nav_state =
+    of_data(channel_names::nav_state, "nav_state_t", "fusion",
+            "fused position, velocity, attitude, covariance", "100 Hz");
+inline constexpr ChannelSpec visual_odometry =
+    of_data(channel_names::visual_odometry, "relative_motion_t", "stereo",
+            "relative pose, covariance, quality", "10 Hz");
+inline constexpr ChannelSpec lidar_odometry =
+    of_data(channel_names::lidar_odometry, "lidar_motion_t", "lidar",
+            "relative pose of each scan, degenerate directions, change of its seed", "10 Hz");
+inline constexpr ChannelSpec odometry =
+    of_data(channel_names::odometry, "relative_motion_t", "lidar",
+            "the motion that is fused, and from which sensors", "10 Hz");
+inline constexpr ChannelSpec map_match = of_data(
+    channel_names::map_match, "map_match_t", "mapmatch",
+    "phase, link, matched point, P(link), candidates with their rules, reasons in words", "10 Hz");
+inline constexpr ChannelSpec map_feedback =
+    of_data(channel_names::map_feedback, "map_feedback_t", "mapmatch",
+            "feedback to the filter, or why there was none", "10 Hz");
+inline constexpr ChannelSpec imu =
+    of_data(channel_names::imu, "imu_t", "imu", "inertial sample", "the sensor's");
+inline constexpr ChannelSpec gnss_fix =
+    of_data(channel_names::gnss_fix, "gnss_fix_t", "gnss",
+            "position and velocity with covariance, of the receiver or of ppp", "1 Hz");
+inline constexpr ChannelSpec ppp_state = of_data(
+    channel_names::ppp_state, "ppp_state_t", "ppp",
+    "position, covariance, protection levels, satellites and refusals, residuals, convergence",
+    "the receiver's");
+inline constexpr ChannelSpec wheel_speed =
+    of_data(channel_names::wheel_speed, "wheel_speed_t", "wheel", "forward speed of the wheels",
+            "the sensor's");
+inline constexpr ChannelSpec truth = of_data(channel_names::truth, "reference_pose_t", "reference",
+                                             "reference pose, replay only", "10 Hz");
+inline constexpr ChannelSpec camera =
+    of_data(channel_names::camera, "stereo_pair_t", "camera",
+            "rectified pair, unchanged; only in logs", "10 Hz", Reach::log);
+inline constexpr ChannelSpec velodyne =
+    of_data(channel_names::velodyne, "lidar_scan_t", "velodyne", "scan, unchanged; only in logs",
+            "10 Hz", Reach::log);
+inline constexpr ChannelSpec preview =
+    of_run(channel_names::preview, "preview_t", "preview",
+           "small picture with tracks, thinned scan; not in logs", "2 Hz", Reach::viewers);
+inline constexpr ChannelSpec calibration =
+    of_run(channel_names::calibration, "calibration_t", "publisher", "sensors on the vehicle",
+           "at the start");
+inline constexpr ChannelSpec replay_control =
+    of_run(channel_names::replay_control, "replay_control_t", "player",
+           "commands to the player (in), its state (out); not in logs", "on change");
+inline constexpr ChannelSpec run =
+    of_run(channel_names::run, "run_t", "player",
+           "id and description of each publishing run; not in logs", "1 Hz");
+inline constexpr ChannelSpec deadlines = of_run(channel_names::deadlines, "deadlines_t", "health",
+                                                "latency of each thread and path, misses", "1 Hz");
+inline constexpr ChannelSpec health =
+    of_run(channel_names::health, "health_t", "health",
+           "threads, rings, rates, losses, refusals, real-time settings, degraded modes", "1 Hz");
 
 inline constexpr std::array all{
     nav_state, visual_odometry, lidar_odometry, odometry,       map_match, map_feedback,

@@ -1,7 +1,7 @@
 #include "runtime/vehicle/graph/graph.h"
 
-#include <array>
-#include <cstdio>
+#include <fmt/format.h>
+
 #include <string>
 #include <tuple>
 
@@ -9,34 +9,28 @@ namespace maploop::vehicle {
 namespace {
 
 std::string ms(Duration d) {
-  if (d == Duration::zero()) return "-";
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%g ms", to_milliseconds(d));
-  return text.data();
+  return d == Duration::zero() ? "-" : fmt::format("{:g} ms", to_milliseconds(d));
 }
 
 std::string_view when_late(const StageSpec& stage) {
   if (stage.period == Duration::zero()) return "-";
-  switch (stage.overrun) {
-    case runtime::Overrun::skip:
-      return "leaves ticks out";
-    case runtime::Overrun::shed:
-      return "cuts ticks short";
-    default:
-      return "catches up";
-  }
+  return stage.overrun == runtime::Overrun::skip ? "leaves ticks out" : "catches up";
 }
 
 std::string rates(const StageSpec& stage) {
-  if (stage.max_rate == 0.0) return "-";
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%g to %g Hz", stage.min_rate, stage.max_rate);
-  return text.data();
+  return stage.max_rate == 0.0 ? "-"
+                               : fmt::format("{:g} to {:g} Hz", stage.min_rate, stage.max_rate);
 }
 
 std::string row(std::initializer_list<std::string_view> cells) {
   std::string line = "|";
   for (const std::string_view cell : cells) line += ' ' + std::string(cell) + " |";
+  return line + '\n';
+}
+
+std::string header(std::initializer_list<std::string_view> cells) {
+  std::string line = row(cells) + '|';
+  for (std::size_t i = 0; i < cells.size(); ++i) line += " --- |";
   return line + '\n';
 }
 
@@ -83,9 +77,8 @@ std::string graph_page() {
       "other.\n"
       "The column `when late` describes a live run: a replay catches up with every tick of the\n"
       "fusion, and stalls the data clock.\n\n";
-  page += row({"thread", "runs", "released by", "period", "phase", "when late", "patience",
-               "budget", "deadline", "watched rate"});
-  page += row({"---", "---", "---", "---", "---", "---", "---", "---", "---", "---"});
+  page += header({"thread", "runs", "released by", "period", "phase", "when late", "patience",
+                  "budget", "deadline", "watched rate"});
   for (const StageSpec& s : stages::all) {
     page += row({s.name, s.runs, s.released, ms(s.period), ms(s.phase), when_late(s),
                  ms(s.patience), ms(s.budget), ms(s.deadline), rates(s)});
@@ -94,8 +87,7 @@ std::string graph_page() {
       "\n## Rings\n\n"
       "A ring exists in a vehicle that has both threads. A full ring of a live run drops the "
       "newest.\n\n";
-  page += row({"ring", "carries", "capacity", "only if", "when full"});
-  page += row({"---", "---", "---", "---", "---"});
+  page += header({"ring", "carries", "capacity", "only if", "when full"});
   const auto ring = [&page](const auto& spec) {
     page += row({spec.name(), carried(spec), std::to_string(spec.capacity), condition(spec),
                  name(spec.overflow)});
@@ -108,19 +100,16 @@ std::string graph_page() {
                  name(runtime::Overflow::keep_all)});
   }
   page += "\n## Newest values, given on request\n\n";
-  page += row({"from -> to", "carries"});
-  page += row({"---", "---"});
+  page += header({"from -> to", "carries"});
   for (const CellSpec& c : cells::all) page += row({c.name, c.carries});
   page += "\n## Channels\n\n";
-  page += row({"channel", "type", "from", "shows", "rate", "same bits each run"});
-  page += row({"---", "---", "---", "---", "---", "---"});
+  page += header({"channel", "type", "from", "shows", "rate", "same bits each run"});
   for (const ChannelSpec& c : channels::all) {
     page += row({"`" + std::string(c.name) + "`", c.type, c.from, c.shows, c.rate,
                  c.from_data ? "yes" : "no"});
   }
   page += "\n## Paths, from a sensor's stamp to the state that holds it\n\n";
-  page += row({"path", "deadline"});
-  page += row({"---", "---"});
+  page += header({"path", "deadline"});
   for (const Path& p : paths::all) page += row({p.name, ms(p.deadline)});
   return page;
 }

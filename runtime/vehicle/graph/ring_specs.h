@@ -8,6 +8,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "msgs/diagnostics.h"
 #include "msgs/gnss.h"
 #include "msgs/image.h"
 #include "msgs/imu.h"
@@ -19,15 +20,20 @@
 #include "msgs/ppp_state.h"
 #include "msgs/preview.h"
 #include "msgs/reference.h"
+#include "msgs/sample.h"
 #include "msgs/visual_motion.h"
 #include "msgs/wheel_speed.h"
 #include "runtime/core/edge.h"
 #include "runtime/vehicle/drivers/gnss_epoch.h"
-#include "runtime/vehicle/drivers/live_corrections.h"
-#include "runtime/vehicle/graph/runtime_report.h"
 #include "runtime/vehicle/graph/stage_specs.h"
 
 namespace maploop::vehicle {
+
+// What the health thread reports once a second.
+struct RuntimeReport : Sample {
+  Health health;
+  Deadlines deadlines;
+};
 
 // A ring exists in a vehicle that has both of its ends, and if this holds as well.
 enum class RingNeeds {

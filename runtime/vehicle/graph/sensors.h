@@ -13,7 +13,6 @@
 #include "msgs/wheel_speed.h"
 #include "ppp/ppp_setup.h"
 #include "runtime/vehicle/drivers/gnss_epoch.h"
-#include "runtime/vehicle/drivers/live_corrections.h"
 #include "sensors/clock/host_clock.h"
 #include "sensors/live/live_source.h"
 #include "sensors/source.h"

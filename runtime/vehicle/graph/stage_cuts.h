@@ -33,7 +33,7 @@ class StageCuts {
     for (; next_ < moments_.size() && moments_[next_] <= t; ++next_) {
       const Time cut = moments_[next_];
       promise(cut);
-      edge_->push(cut, stop, [&](StageSnapshot& slot) {
+      edge_->push(stop, [&](StageSnapshot& slot) {
         slot.stamp = slot.available = cut;
         ArchiveWriter writer(std::move(slot.content));
         save(writer, cut);

@@ -1,9 +1,9 @@
 #include "runtime/vehicle/graph/vehicle_report.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
@@ -53,9 +53,10 @@ void Vehicle::Graph::look_at_sensors(Health& health) {
   }
   constexpr Duration disciplined = milliseconds(10);  // a clock that is only steered stays within
   if (const Duration step = host_clock->step(); std::chrono::abs(step) > disciplined) {
-    health.degraded.push_back("this machine's clock was set by " +
-                              std::to_string(to_seconds(step)) +
-                              " s since the start, or it slept: stamps did not follow it");
+    health.degraded.push_back(fmt::format(
+        "this machine's clock was set by {:f} s since the start, or it slept: stamps did not "
+        "follow it",
+        to_seconds(step)));
   }
 }
 
@@ -67,14 +68,11 @@ void Vehicle::Graph::look_at_imu_delay(Health& health) {
   if (!estimate.known()) return;
   const double delay = estimate.delay();
   if (std::abs(delay) < std::max(harmless, certain * estimate.sigma())) return;
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(),
-                "imu: its stamps are %.0f +- %.0f ms %s against odometry; %s that %s imu_delay of "
-                "[%s]",
-                1e3 * std::abs(delay), 1e3 * estimate.sigma(), delay > 0.0 ? "late" : "early",
-                delay > 0.0 ? "add" : "take", delay > 0.0 ? "to" : "off",
-                host_clock != nullptr ? "live" : "replay");
-  health.degraded.emplace_back(text.data());
+  const char* instead =
+      delay > 0.0 ? "late against odometry; add that to" : "early against odometry; take that off";
+  health.degraded.push_back(fmt::format(
+      "imu: its stamps are {:.0f} +- {:.0f} ms {} imu_delay of [{}]", 1e3 * std::abs(delay),
+      1e3 * estimate.sigma(), instead, host_clock != nullptr ? "live" : "replay"));
 }
 
 RuntimeReport Vehicle::Graph::look(Duration elapsed) {

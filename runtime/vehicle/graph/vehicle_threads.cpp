@@ -1,4 +1,6 @@
 // The vehicle's threads: their start and their end.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 #include <stdexcept>
@@ -43,21 +45,22 @@ void Vehicle::Graph::find_first() {
   }
   for (const auto& [name, begins] : firsts) {
     if (input_limits::within(input_limits::longest_pause, first, begins)) continue;
-    throw std::runtime_error("the first sample of '" + std::string(name) + "' is from " +
-                             format_time(begins) +
-                             ", more than a day after the first of all, from " +
-                             format_time(first) + ": one of them has a wrong stamp");
+    throw std::runtime_error(fmt::format(
+        "the first sample of '{}' is from {}, more than a day after the first of all, from {}: one "
+        "of them has a wrong stamp",
+        name, format_time(begins), format_time(first)));
   }
   begin = first;
   if (!resumed) return;
   if (resumed->first != first) {
-    throw std::runtime_error("the snapshot is of another recording: its first sample is from " +
-                             format_time(resumed->first) + ", and here it is from " +
-                             format_time(first));
+    throw std::runtime_error(fmt::format(
+        "the snapshot is of another recording: its first sample is from {}, and here it is from {}",
+        format_time(resumed->first), format_time(first)));
   }
   if (resumed->at < first) {
-    throw std::runtime_error("the snapshot is damaged: it says that it was taken at " +
-                             format_time(resumed->at) + ", before the recording begins");
+    throw std::runtime_error(fmt::format(
+        "the snapshot is damaged: it says that it was taken at {}, before the recording begins",
+        format_time(resumed->at)));
   }
   begin = resumed->at + Duration(1);  // its tick is done
   for (const auto& driver : drivers) driver->skip_until(resumed->at);

@@ -1,20 +1,18 @@
 #include "runtime/vehicle/health/episodes.h"
 
-#include <cstdio>
+#include <fmt/format.h>
 
 namespace maploop::vehicle {
 namespace {
 
 std::string seconds(Duration duration) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.1f s", to_seconds(duration));
-  return text.data();
+  return fmt::format("{:.1f} s", to_seconds(duration));
 }
 
 std::string before(const Episodes& episodes) {
   if (episodes.count < 2) return {};
-  return " (" + std::to_string(episodes.count) + " times, " + seconds(episodes.total) +
-         " in all; this is the last)";
+  return fmt::format(" ({} times, {} in all; this is the last)", episodes.count,
+                     seconds(episodes.total));
 }
 
 }  // namespace
@@ -43,18 +41,18 @@ std::string UseWatch::sentence(Time origin) {
   if (received_.count == 0) return {};
   const Episode& last = received_.last;
   const std::string from = seconds(last.begin - origin);
-  const std::string when =
-      received_.goes_on ? " since " + from : " from " + from + " to " + seconds(last.end - origin);
-  return std::string(stage_) + (received_.goes_on ? " refuses " : " refused ") +
-         std::to_string(last.wrong) + " of " + (received_.goes_on ? "the last " : "") +
-         std::to_string(last.all) + ' ' + std::string(what_) + when + before(received_) + ": " +
-         last.reason;
+  const bool goes_on = received_.goes_on;
+  return fmt::format(
+      "{} {} {} of {}{} {} {}{}: {}", stage_, goes_on ? "refuses" : "refused", last.wrong,
+      goes_on ? "the last " : "", last.all, what_,
+      goes_on ? "since " + from : "from " + from + " to " + seconds(last.end - origin),
+      before(received_), last.reason);
 }
 
 std::string outage_sentence(std::string_view sensor, const Episodes& outages, Time origin) {
   if (outages.count == 0) return {};
-  return std::string(sensor) + ": silent for " + seconds(outages.last.length()) + " from " +
-         seconds(outages.last.begin - origin) + " on" + before(outages);
+  return fmt::format("{}: silent for {} from {} on{}", sensor, seconds(outages.last.length()),
+                     seconds(outages.last.begin - origin), before(outages));
 }
 
 }  // namespace maploop::vehicle

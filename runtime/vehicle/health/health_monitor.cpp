@@ -1,5 +1,7 @@
 #include "runtime/vehicle/health/health_monitor.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace maploop::vehicle {
@@ -49,7 +51,7 @@ Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataCl
     if (!sentence.empty()) health.degraded.push_back(std::move(sentence));
   };
   for (const std::string_view sensor : missing_) {
-    say(std::string(sensor) + ": there is none; the rest goes without");
+    say(fmt::format("{}: there is none; the rest goes without", sensor));
   }
   const MonotonicTime now = runtime::monotonic_now();
   for (Watched& watched : threads_) {
@@ -58,21 +60,17 @@ Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataCl
     t.scheduling = watched.thread->settings().front().granted;
     t.failure = watched.thread->failure();
     t.cpu = to_seconds(watched.thread->cpu_time());
-    if (watched.meter != nullptr) {
-      t.left_out = watched.meter->left_out();
-      t.shed = watched.meter->shed();
-    }
+    if (watched.meter != nullptr) t.left_out = watched.meter->left_out();
     t.count = watched.count();
     if (elapsed > Duration::zero()) {
       t.rate = static_cast<double>(t.count - watched.seen) / to_seconds(elapsed);
     }
     watched.seen = t.count;
     if (!t.failure.empty()) {
-      health.degraded.push_back(t.name + " has ended: " + t.failure +
-                                "; its outputs are stale, the rest goes on");
+      say(t.name + " has ended: " + t.failure + "; its outputs are stale, the rest goes on");
     }
-    const auto wrong = watched.watchdog.look(stamp, now, facts(watched, t.count));
-    health.degraded.insert(health.degraded.end(), wrong.begin(), wrong.end());
+    for (std::string& wrong : watched.watchdog.look(stamp, now, facts(watched, t.count)))
+      say(std::move(wrong));
     if (watched.driver != nullptr) {
       say(outage_sentence(t.name, watched.driver->arrivals().outages(), origin_));
     }
@@ -82,32 +80,30 @@ Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataCl
   for (const auto* edge : edges_) {
     RingHealth r = edge->health();
     if (r.lost > 0) {
-      health.degraded.push_back("ring " + r.name + " has lost " + std::to_string(r.lost) + " of " +
-                                std::to_string(r.pushed) + " samples: its reader " +
-                                (edge->abandoned() ? "has ended" : "is too slow"));
+      say(fmt::format("ring {} has lost {} of {} samples: its reader {}", r.name, r.lost, r.pushed,
+                      edge->abandoned() ? "has ended" : "is too slow"));
     }
     health.rings.push_back(std::move(r));
   }
   for (const MessageSink* output : outputs_) {
     OutputHealth o = output->health();
     if (o.unsent > 0) {
-      health.degraded.push_back(
-          o.name + " did not take " + std::to_string(o.unsent) + " of " +
-          std::to_string(o.sent + o.unsent) +
-          " messages: is the network (ip route get 224.0.0.1) or the disk (df) gone?");
+      say(fmt::format(
+          "{} did not take {} of {} messages: is the network (ip route get 224.0.0.1) or the disk "
+          "(df) gone?",
+          o.name, o.unsent, o.sent + o.unsent));
     }
     health.outputs.push_back(std::move(o));
   }
   health.settings = readiness.settings;
   for (const RealtimeSetting& setting : health.settings) {
-    if (setting.verdict == Verdict::refused) {
-      health.degraded.push_back(runtime::to_sentence(setting));
-    }
+    if (setting.verdict == Verdict::refused) say(runtime::to_sentence(setting));
   }
   if (clock.stalls() > 0) {
-    health.degraded.push_back("the data clock was stalled " + std::to_string(clock.stalls()) +
-                              " times, " + std::to_string(to_seconds(clock.stalled())) +
-                              " s in all: this machine is too slow for this speed, or was busy");
+    say(fmt::format(
+        "the data clock was stalled {} times, {:f} s in all: this machine is too slow for this "
+        "speed, or was busy",
+        clock.stalls(), to_seconds(clock.stalled())));
   }
   return health;
 }

@@ -23,7 +23,13 @@ class ReasonCounts {
     counts_[static_cast<std::size_t>(reason)].fetch_add(1, std::memory_order_relaxed);
   }
 
-  // Appends those that occurred, in their order, with `prefix` before their names.
+  // Returns those that occurred, in their order.
+  std::vector<RefusalCount> of(std::string_view stage) const {
+    std::vector<RefusalCount> list;
+    append_to(list, stage);
+    return list;
+  }
+  // Appends them, with `prefix` before their names.
   void append_to(std::vector<RefusalCount>& list, std::string_view stage,
                  std::string_view prefix = "") const {
     for (std::size_t i = 1; i < size; ++i) {

@@ -20,7 +20,6 @@ void ThreadMeter::woke(const runtime::Tick& tick, const runtime::DataClock& cloc
   last_due_ = due;
 
   left_out_.fetch_add(tick.left_out, std::memory_order_relaxed);
-  if (tick.shed) shed_.fetch_add(1, std::memory_order_relaxed);
   const Duration interval = std::max(
       Duration(1), Duration(std::llround(static_cast<double>(period_.count()) / clock.speed())));
   const Duration stalled = clock.stalled();

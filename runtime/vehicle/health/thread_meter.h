@@ -56,7 +56,6 @@ class ThreadMeter {
   bool has_deadline() const { return has_deadline_; }  // if not, latency() is empty
   std::uint64_t count() const { return execution_.count(); }
   std::uint64_t left_out() const { return left_out_.load(std::memory_order_relaxed); }
-  std::uint64_t shed() const { return shed_.load(std::memory_order_relaxed); }
 
   const runtime::Histogram& wake_up() const { return wake_up_; }
   const runtime::Histogram& execution() const { return execution_; }
@@ -70,7 +69,6 @@ class ThreadMeter {
   runtime::Histogram execution_;
   runtime::Histogram period_jitter_;
   std::atomic<std::uint64_t> left_out_{0};
-  std::atomic<std::uint64_t> shed_{0};
   MonotonicTime last_due_{};
   MonotonicTime last_woken_{};
   Duration stalled_{};          // the data clock's stalls at the last tick

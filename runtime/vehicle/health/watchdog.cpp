@@ -1,20 +1,14 @@
 #include "runtime/vehicle/health/watchdog.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
 namespace maploop::vehicle {
 namespace {
 
-std::string rounded(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", value);
-  return text.data();
-}
-
 std::string seconds(Duration duration) {
-  return rounded(to_seconds(duration)) + " s";
+  return fmt::format("{:.3g} s", to_seconds(duration));
 }
 
 std::string waiting_for(const StageFacts& facts) {
@@ -52,19 +46,18 @@ std::vector<std::string> Watchdog::look(Time now, MonotonicTime wall_now, const 
 std::string Watchdog::stillness(Time now, MonotonicTime wall_now, const StageFacts& facts) const {
   const bool moves = facts.count > count_ && !facts.newest;
   if (moves) return {};
-  const std::string name(stage_.name);
   const Duration wall_still = wall_now - wall_moved_;
   if (kind_ == Kind::fed && facts.waiting > 0 && wall_still >= patience(stage_)) {
-    return name + ": stuck for " + seconds(wall_still) + " with " + std::to_string(facts.waiting) +
-           " samples before it" + waiting_for(facts);
+    return fmt::format("{}: stuck for {} with {} samples before it{}", stage_.name,
+                       seconds(wall_still), facts.waiting, waiting_for(facts));
   }
   const Duration still = now - facts.newest.value_or(moved_);
   if (still < patience(stage_)) return {};
-  if (facts.count == 0) {
-    return name + ": silent since the start, " + seconds(still) + " ago" +
-           (kind_ == Kind::driver ? "; is the sensor on, and connected?" : waiting_for(facts));
-  }
-  return name + ": stale, nothing new for " + seconds(still);
+  if (facts.count > 0)
+    return fmt::format("{}: stale, nothing new for {}", stage_.name, seconds(still));
+  return fmt::format(
+      "{}: silent since the start, {} ago{}", stage_.name, seconds(still),
+      kind_ == Kind::driver ? "; is the sensor on, and connected?" : waiting_for(facts));
 }
 
 void Watchdog::judge_rate(Time now, std::uint64_t count) {
@@ -76,9 +69,9 @@ void Watchdog::judge_rate(Time now, std::uint64_t count) {
   rate_verdict_.clear();
   if ((samples + 1.0) / interval < stage_.min_rate ||
       (samples - 1.0) / interval > stage_.max_rate) {
-    rate_verdict_ = std::string(stage_.name) + ": " + rounded(samples / interval) + " Hz over " +
-                    seconds(since) + ", " + rounded(stage_.min_rate) + " to " +
-                    rounded(stage_.max_rate) + " Hz expected";
+    rate_verdict_ =
+        fmt::format("{}: {:.3g} Hz over {}, {:.3g} to {:.3g} Hz expected", stage_.name,
+                    samples / interval, seconds(since), stage_.min_rate, stage_.max_rate);
   }
   judged_ = now;
   count_judged_ = count;

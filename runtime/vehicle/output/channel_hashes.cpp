@@ -1,9 +1,8 @@
 #include "runtime/vehicle/output/channel_hashes.h"
 
+#include <fmt/format.h>
 #include <xxhash.h>
 
-#include <array>
-#include <cstdio>
 #include <new>
 
 namespace maploop::vehicle {
@@ -43,11 +42,7 @@ std::map<std::string, ChannelSummary> ChannelHashes::summary() const {
   for (const auto& [name, channel] : channels_) {
     ChannelSummary& s = all[name];
     s.count = channel->count;
-    if (!channel->hashed) continue;
-    std::array<char, 17> text{};
-    std::snprintf(text.data(), text.size(), "%016llx",
-                  static_cast<unsigned long long>(XXH3_64bits_digest(channel->state.get())));
-    s.hash = text.data();
+    if (channel->hashed) s.hash = fmt::format("{:016x}", XXH3_64bits_digest(channel->state.get()));
   }
   return all;
 }

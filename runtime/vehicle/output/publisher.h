@@ -27,7 +27,6 @@
 #include "runtime/core/trace_span.h"
 #include "runtime/vehicle/graph/channel_specs.h"
 #include "runtime/vehicle/graph/rings.h"
-#include "runtime/vehicle/graph/runtime_report.h"
 #include "runtime/vehicle/health/thread_meter.h"
 #include "runtime/vehicle/output/message_sink.h"
 

@@ -1,9 +1,9 @@
 #include "runtime/vehicle/output/runs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <cstdio>
 #include <lcm/lcm-cpp.hpp>
 #include <maploop_lcm/run_t.hpp>
 #include <random>
@@ -32,9 +32,7 @@ bool is_id(const std::string& text) {
 }  // namespace
 
 Run new_run(std::string what) {
-  std::array<char, 16> id{};
-  std::snprintf(id.data(), id.size(), "%08x", std::random_device{}() & 0xffffffffU);
-  return {id.data(), std::move(what)};
+  return {fmt::format("{:08x}", std::random_device{}() & 0xffffffffU), std::move(what)};
 }
 
 std::string to_text(const Run& run) {

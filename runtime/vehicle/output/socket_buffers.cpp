@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "runtime/core/realtime_setting.h"
 #include "runtime/core/realtime_text.h"
 
 namespace maploop::vehicle {
@@ -46,32 +47,27 @@ std::vector<int> udp_sockets() {
 }
 
 RealtimeSetting ask_for_send_buffer(int socket, int bytes) {
-  RealtimeSetting setting{"LCM: send buffer", kilobytes(bytes), {}, Verdict::granted, {}, {}};
+  const runtime::RealtimeRequest request{"LCM: send buffer", kilobytes(bytes)};
   if (setsockopt(socket, SOL_SOCKET, SO_SNDBUFFORCE, &bytes, sizeof bytes) != 0) {
     setsockopt(socket, SOL_SOCKET, SO_SNDBUF, &bytes, sizeof bytes);
   }
   const int doubled = option(socket, SO_SNDBUF).value_or(0);  // socket(7): with its bookkeeping
   const int granted = doubled / 2;
-  setting.granted = kilobytes(granted);
-  if (granted >= bytes) return setting;
-  setting.verdict = Verdict::refused;
-  setting.reason = "net.core.wmem_max does not allow more";
-  setting.remedy = set_limit("wmem_max", bytes);
-  return setting;
+  if (granted >= bytes) return request.granted(kilobytes(granted));
+  return request.refused(kilobytes(granted), "net.core.wmem_max does not allow more",
+                         set_limit("wmem_max", bytes));
 }
 
 RealtimeSetting assess_receive_buffers(const std::optional<std::string>& rmem_max, int bytes) {
-  RealtimeSetting setting{
-      "LCM: receive buffers", "up to " + kilobytes(bytes), {}, Verdict::granted, {}, {}};
+  const runtime::RealtimeRequest request{"LCM: receive buffers", "up to " + kilobytes(bytes)};
   const auto allowed = runtime::parse_integer(rmem_max.value_or(""));
-  setting.granted = allowed ? "up to " + kilobytes(*allowed) : "unknown";
-  if (allowed && *allowed >= bytes) return setting;
-  setting.verdict = allowed ? Verdict::limiting : Verdict::unknown;
-  setting.reason = allowed ? "a listener's recv_buf_size is limited to that, and bursts of large "
-                             "messages are lost"
-                           : "/proc/sys/net/core/rmem_max cannot be read";
-  setting.remedy = set_limit("rmem_max", bytes);
-  return setting;
+  const std::string remedy = set_limit("rmem_max", bytes);
+  if (!allowed) return request.unknown("/proc/sys/net/core/rmem_max cannot be read", remedy);
+  if (*allowed >= bytes) return request.granted("up to " + kilobytes(*allowed));
+  return request.limiting(
+      "up to " + kilobytes(*allowed),
+      "a listener's recv_buf_size is limited to that, and bursts of large messages are lost",
+      remedy);
 }
 
 }  // namespace maploop::vehicle

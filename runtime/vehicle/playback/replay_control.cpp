@@ -1,8 +1,7 @@
 #include "runtime/vehicle/playback/replay_control.h"
 
-#include <array>
-#include <cmath>
-#include <cstdio>
+#include <fmt/format.h>
+
 #include <lcm/lcm-cpp.hpp>
 #include <maploop_lcm/replay_control_t.hpp>
 #include <span>
@@ -20,12 +19,6 @@ namespace {
 using Control = maploop_lcm::replay_control_t;
 
 constexpr Duration position_every = std::chrono::milliseconds(200);
-
-std::string seconds_text(double seconds) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%g s", seconds);
-  return text.data();
-}
 
 const std::string channel(channel_names::replay_control);
 
@@ -77,8 +70,7 @@ std::string ReplayControl::obey(int kind, double value) {
       if (value >= 0.0 && value <= length && player_.seek(player_.first() + from_seconds(value))) {
         return {};
       }
-      return "seek to " + seconds_text(value) + ": the drive goes from 0 s to " +
-             seconds_text(length);
+      return fmt::format("seek to {:g} s: the drive goes from 0 s to {:g} s", value, length);
     }
     case Control::SPEED:
       try {

@@ -178,10 +178,4 @@ std::size_t LidarStage::saved_bytes() const {
   return odometer_.largest_archive() + usual_points * sizeof(LidarPoint) + 4096;
 }
 
-std::vector<RefusalCount> LidarStage::refusals() {
-  std::vector<RefusalCount> all;
-  counts_.append_to(all, spec().name);
-  return all;
-}
-
 }  // namespace maploop::vehicle

@@ -30,7 +30,7 @@ class LidarStage final : public GraphStage {
   void run(runtime::DataClock& clock, Time begin, const std::stop_token& stop) override;
   std::size_t saved_bytes() const override;
   std::vector<UseWatch*> uses() override { return {&use_}; }
-  std::vector<RefusalCount> refusals() override;
+  std::vector<RefusalCount> refusals() override { return counts_.of(spec().name); }
 
   // Before run(). At most `points` of each scan.
   void show_to(AskedScan& preview, std::size_t points) {

@@ -101,10 +101,4 @@ void MapMatchStage::archive(Archive& ar) {
   if (feedback_) ar(*feedback_);
 }
 
-std::vector<RefusalCount> MapMatchStage::refusals() {
-  std::vector<RefusalCount> all;
-  counts_.append_to(all, spec().name);
-  return all;
-}
-
 }  // namespace maploop::vehicle

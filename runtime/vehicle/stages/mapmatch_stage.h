@@ -34,7 +34,7 @@ class MapMatchStage final : public GraphStage {
   std::size_t saved_bytes() const override {
     return sizeof(mapmatch::NavMatcher) + sizeof(mapmatch::Feedback) + 4096;
   }
-  std::vector<RefusalCount> refusals() override;
+  std::vector<RefusalCount> refusals() override { return counts_.of(spec().name); }
 
  private:
   bool tick(const runtime::Tick& tick, const runtime::DataClock& clock,

@@ -16,7 +16,6 @@
 #include "ppp/ppp_setup.h"
 #include "ppp/products/corrected.h"
 #include "runtime/vehicle/drivers/gnss_epoch.h"
-#include "runtime/vehicle/drivers/live_corrections.h"
 #include "runtime/vehicle/graph/graph_stage.h"
 #include "runtime/vehicle/health/reason_counts.h"
 #include "runtime/vehicle/health/watchdog.h"

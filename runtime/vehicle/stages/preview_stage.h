@@ -9,9 +9,9 @@
 #include "msgs/lidar_scan.h"
 #include "msgs/preview.h"
 #include "runtime/core/asked_value.h"
+#include "runtime/vehicle/config/vehicle_config.h"
 #include "runtime/vehicle/graph/rings.h"
 #include "runtime/vehicle/health/thread_meter.h"
-#include "runtime/vehicle/stages/preview_parameters.h"
 
 namespace maploop::vehicle {
 

@@ -79,10 +79,4 @@ void StereoStage::archive(Archive& ar) {
   ar(odometry_, counts_, sent_);
 }
 
-std::vector<RefusalCount> StereoStage::refusals() {
-  std::vector<RefusalCount> all;
-  counts_.append_to(all, spec().name);
-  return all;
-}
-
 }  // namespace maploop::vehicle

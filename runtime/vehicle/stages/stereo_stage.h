@@ -26,7 +26,7 @@ class StereoStage final : public GraphStage {
     return odometry_.largest_archive() + 4 * sizeof(VisualMotion) + 4096;
   }
   std::vector<UseWatch*> uses() override { return {&use_}; }
-  std::vector<RefusalCount> refusals() override;
+  std::vector<RefusalCount> refusals() override { return counts_.of(spec().name); }
 
   void show_to(AskedImage& preview) { preview_ = &preview; }  // before run()
 

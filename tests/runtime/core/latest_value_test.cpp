@@ -25,20 +25,16 @@ TEST(LatestValue, EachValueIsReadOnce) {
     EXPECT_EQ(*value, i);
     EXPECT_EQ(cell.latest(), nullptr);
   }
-  EXPECT_EQ(cell.overwritten(), 0u);
-  EXPECT_EQ(cell.taken(), 10u);
 }
 
-TEST(LatestValue, NewestWinsAndTheRestIsCounted) {
+TEST(LatestValue, NewestWins) {
   LatestValue<int> cell;
   for (int i = 0; i < 5; ++i) {
     cell.back() = i;
     cell.publish();
   }
   EXPECT_EQ(*cell.latest(), 4);
-  EXPECT_EQ(cell.published(), 5u);
-  EXPECT_EQ(cell.overwritten(), 4u);
-  EXPECT_EQ(cell.taken(), 1u);
+  EXPECT_EQ(cell.latest(), nullptr);
 }
 
 TEST(LatestValue, WhatTheReaderHoldsIsNeverWrittenTo) {
@@ -56,10 +52,10 @@ TEST(LatestValue, WhatTheReaderHoldsIsNeverWrittenTo) {
 }
 
 TEST(LatestValue, BuffersAreReused) {
-  LatestValue<std::vector<int>> cell(std::vector<int>(100, 7));
+  LatestValue<std::vector<int>> cell;
   std::set<const int*> seen;
   for (int i = 0; i < 50; ++i) {
-    EXPECT_EQ(cell.back(), std::vector<int>(100, 7));
+    cell.back().assign(100, i);
     seen.insert(cell.back().data());
     cell.publish();
     if (i % 3 == 0) cell.latest();

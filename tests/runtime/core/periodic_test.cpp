@@ -54,7 +54,6 @@ class FakeClock {
 struct Ticked {
   int ms;
   std::uint64_t left_out;
-  bool shed;
   bool operator==(const Ticked&) const = default;
 };
 
@@ -63,7 +62,7 @@ std::vector<Ticked> run_with_a_long_tick(Overrun overrun, FakeClock clock = {}) 
   std::vector<Ticked> ticks;
   run_periodic(clock, Time{}, {milliseconds(10), {}, overrun}, {}, [&](const Tick& tick) {
     const auto since = tick.time.time_since_epoch();
-    ticks.push_back({static_cast<int>(since / milliseconds(1)), tick.left_out, tick.shed});
+    ticks.push_back({static_cast<int>(since / milliseconds(1)), tick.left_out});
     if (since == milliseconds(20)) clock.spend(milliseconds(35));
     return ticks.size() < 8;
   });
@@ -71,23 +70,15 @@ std::vector<Ticked> run_with_a_long_tick(Overrun overrun, FakeClock clock = {}) 
 }
 
 TEST(Periodic, CatchUpRunsEveryTick) {
-  const std::vector<Ticked> expected{{0, 0, false},  {10, 0, false}, {20, 0, false},
-                                     {30, 0, false}, {40, 0, false}, {50, 0, false},
-                                     {60, 0, false}, {70, 0, false}};
+  const std::vector<Ticked> expected{{0, 0},  {10, 0}, {20, 0}, {30, 0},
+                                     {40, 0}, {50, 0}, {60, 0}, {70, 0}};
   EXPECT_EQ(run_with_a_long_tick(Overrun::catch_up), expected);
 }
 
 TEST(Periodic, SkipRunsTheNewestThatIsDueAndCountsTheOthers) {
-  const std::vector<Ticked> expected{{0, 0, false},  {10, 0, false}, {20, 0, false},
-                                     {50, 2, false}, {60, 0, false}, {70, 0, false},
-                                     {80, 0, false}, {90, 0, false}};
+  const std::vector<Ticked> expected{{0, 0},  {10, 0}, {20, 0}, {50, 2},
+                                     {60, 0}, {70, 0}, {80, 0}, {90, 0}};
   EXPECT_EQ(run_with_a_long_tick(Overrun::skip), expected);
-}
-
-TEST(Periodic, ShedCutsShortTheTicksWithAnotherBehindThem) {
-  const std::vector<Ticked> expected{{0, 0, false}, {10, 0, false}, {20, 0, false}, {30, 0, true},
-                                     {40, 0, true}, {50, 0, false}, {60, 0, false}, {70, 0, false}};
-  EXPECT_EQ(run_with_a_long_tick(Overrun::shed), expected);
 }
 
 TEST(Periodic, AWakeUpThatIsLateOverrunsAsWell) {
@@ -108,9 +99,8 @@ TEST(Periodic, AWakeUpThatIsLateOverrunsAsWell) {
 TEST(Periodic, WithoutTimeNoTickIsLate) {
   FakeClock virtual_time;
   virtual_time.keep_no_time();
-  for (const Overrun overrun : {Overrun::skip, Overrun::shed}) {
-    EXPECT_EQ(run_with_a_long_tick(overrun, virtual_time), run_with_a_long_tick(Overrun::catch_up));
-  }
+  EXPECT_EQ(run_with_a_long_tick(Overrun::skip, virtual_time),
+            run_with_a_long_tick(Overrun::catch_up));
 }
 
 TEST(Periodic, TicksAreExactMultiplesAndNoneIsLeftOut) {

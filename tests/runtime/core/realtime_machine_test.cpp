@@ -42,99 +42,81 @@ TEST(RealtimeMachine, APreemptRtKernelOnIsolatedCpusLeavesNothingToSay) {
   EXPECT_EQ(item(vehicle_computer(), "isolated CPUs").granted, "2-3 of 0-3");
 }
 
-TEST(RealtimeMachine, AnOrdinaryKernelIsNamed) {
+// Checks what is said of a vehicle's computer with one change.
+template <class Change>
+void expect_item(std::string_view name, Change change, Verdict verdict, std::string_view granted) {
   MachineText machine = vehicle_computer();
-  machine.realtime.reset();
-  machine.version = "Linux version 6.1.0-18-amd64 #1 SMP PREEMPT_DYNAMIC Debian 6.1.76-1";
-  EXPECT_EQ(item(machine, "kernel").verdict, Verdict::limiting);
-  EXPECT_EQ(item(machine, "kernel").granted, "PREEMPT_DYNAMIC");
-  machine.version = "Linux version 4.19.0 #1 SMP Debian";
-  EXPECT_EQ(item(machine, "kernel").granted, "none");
+  change(machine);
+  const RealtimeSetting setting = item(machine, name);
+  EXPECT_EQ(setting.verdict, verdict) << name << ", " << granted;
+  EXPECT_EQ(setting.granted, granted) << name;
 }
 
-TEST(RealtimeMachine, OldPreemptRtKernelsAreKnownByTheirName) {
-  MachineText machine;
-  machine.version = "Linux version 4.9.0-rt #1 SMP PREEMPT RT Debian";
-  EXPECT_EQ(item(machine, "kernel").verdict, Verdict::granted);
-  machine.version = "Linux version 5.10.0-rt #1 SMP PREEMPT_RT Debian";
-  EXPECT_EQ(item(machine, "kernel").verdict, Verdict::granted);
+using enum Verdict;
+using M = MachineText;
+
+TEST(RealtimeMachine, KernelsAreKnownByTheirFileOrTheirName) {
+  const auto kernel = [](const char* version) {
+    return [=](M& m) { m.realtime.reset(), m.version = version; };
+  };
+  expect_item("kernel", kernel("Linux version 6.1.0 #1 SMP PREEMPT_DYNAMIC Debian"), limiting,
+              "PREEMPT_DYNAMIC");
+  expect_item("kernel", kernel("Linux version 4.19.0 #1 SMP Debian"), limiting, "none");
+  expect_item("kernel", kernel("Linux version 4.9.0-rt #1 SMP PREEMPT RT Debian"), granted,
+              "PREEMPT_RT");
+  expect_item("kernel", kernel("Linux version 5.10.0-rt #1 SMP PREEMPT_RT Debian"), granted,
+              "PREEMPT_RT");
 }
 
 TEST(RealtimeMachine, ThrottlingBelowNinetyPercentIsLimiting) {
-  MachineText machine = vehicle_computer();
-  machine.rt_runtime_us = "950000";
-  EXPECT_EQ(item(machine, "real-time throttling").verdict, Verdict::granted);
-  EXPECT_EQ(item(machine, "real-time throttling").granted, "950000 of 1000000 us");
-  machine.rt_runtime_us = "500000";
-  EXPECT_EQ(item(machine, "real-time throttling").verdict, Verdict::limiting);
-  machine.rt_runtime_us = "0";
-  EXPECT_EQ(item(machine, "real-time throttling").verdict, Verdict::limiting);
-}
-
-TEST(RealtimeMachine, ThrottlingThatIsNotANumberIsUnknown) {
-  MachineText machine = vehicle_computer();
-  for (const char* text : {"", "much", "-2", "99999999999999999999"}) {
-    machine.rt_runtime_us = text;
-    EXPECT_EQ(item(machine, "real-time throttling").verdict, Verdict::unknown) << text;
+  const auto runtime = [](const char* text) { return [=](M& m) { m.rt_runtime_us = text; }; };
+  const char* name = "real-time throttling";
+  expect_item(name, runtime("950000"), granted, "950000 of 1000000 us");
+  expect_item(name, runtime("500000"), limiting, "500000 of 1000000 us");
+  expect_item(name, runtime("0"), limiting, "0 of 1000000 us");
+  for (const char* no_number : {"", "much", "-2", "99999999999999999999"}) {
+    expect_item(name, runtime(no_number), unknown, "unknown");
   }
-  machine.rt_runtime_us = "950000";
-  machine.rt_period_us = "0";
-  EXPECT_EQ(item(machine, "real-time throttling").verdict, Verdict::unknown);
-}
-
-TEST(RealtimeMachine, WithoutGovernorFilesTheFrequencyIsUnknown) {
-  MachineText machine = vehicle_computer();
-  machine.governors.clear();
-  EXPECT_EQ(item(machine, "CPU frequency").verdict, Verdict::unknown);
-  EXPECT_EQ(item(machine, "CPU frequency").granted, "unknown");
+  expect_item(
+      name, [](M& m) { m.rt_period_us = "0"; }, unknown, "unknown");
 }
 
 TEST(RealtimeMachine, CpusThatSaveEnergyAreListed) {
+  expect_item(
+      "CPU frequency", [](M& m) { m.governors.clear(); }, unknown, "unknown");
   MachineText machine = vehicle_computer();
   machine.governors = {{0, "performance"}, {1, "powersave"}, {2, "schedutil"}, {3, "powersave"}};
   const RealtimeSetting setting = item(machine, "CPU frequency");
-  EXPECT_EQ(setting.verdict, Verdict::limiting);
+  EXPECT_EQ(setting.verdict, limiting);
   EXPECT_EQ(setting.granted, "performance, powersave, schedutil");
   EXPECT_EQ(setting.reason, "CPU 1-3 may run slowly when work comes");
 }
 
 TEST(RealtimeMachine, AVirtualMachineSaysHowMuchWasStolen) {
-  MachineText machine = vehicle_computer();
-  machine.cpuinfo = "processor\t: 0\nflags\t\t: fpu vme hypervisor\n";
-  machine.stat = "cpu  100 0 100 700 0 0 0 100 0 0\n";
-  const RealtimeSetting setting = item(machine, "virtual machine");
-  EXPECT_EQ(setting.verdict, Verdict::limiting);
-  EXPECT_EQ(setting.granted, "virtual, 10.00 % of the time stolen");
-  machine.stat = "cpu  100 0";  // kernels before 2.6.11 have no such column
-  EXPECT_EQ(item(machine, "virtual machine").granted, "virtual");
-}
-
-TEST(RealtimeMachine, StolenTimeBetraysAVirtualMachineThatHidesItself) {
-  MachineText machine = vehicle_computer();
-  machine.stat = "cpu  1 0 1 1 0 0 0 1 0 0\n";
-  EXPECT_EQ(item(machine, "virtual machine").granted, "virtual, 25.00 % of the time stolen");
-}
-
-TEST(RealtimeMachine, WithoutFlagsAVirtualMachineCannotBeTold) {
-  MachineText machine = vehicle_computer();
-  machine.cpuinfo = "processor\t: 0\nFeatures\t: fp asimd\n";
-  EXPECT_EQ(item(machine, "virtual machine").verdict, Verdict::unknown);
-}
-
-TEST(RealtimeMachine, AFlagThatOnlyContainsTheWordIsNotAHypervisor) {
-  MachineText machine = vehicle_computer();
-  machine.cpuinfo = "flags\t: fpu nohypervisor hypervisor2\n";
-  EXPECT_EQ(item(machine, "virtual machine").verdict, Verdict::granted);
+  const auto machine = [](const char* flags, const char* stat) {
+    return [=](M& m) { m.cpuinfo = flags, m.stat = stat; };
+  };
+  const char *name = "virtual machine", *hypervisor = "flags\t: fpu vme hypervisor\n",
+             *none = "flags\t: fpu nohypervisor hypervisor2\n";
+  expect_item(name, machine(hypervisor, "cpu  100 0 100 700 0 0 0 100 0 0\n"), limiting,
+              "virtual, 10.00 % of the time stolen");
+  // Kernels before 2.6.11 have no such column.
+  expect_item(name, machine(hypervisor, "cpu  100 0"), limiting, "virtual");
+  // Stolen time betrays one that hides itself.
+  expect_item(name, machine(none, "cpu  1 0 1 1 0 0 0 1 0 0\n"), limiting,
+              "virtual, 25.00 % of the time stolen");
+  expect_item(name, machine(none, "cpu  100 0 100 1000 0 0 0 0 0 0\n"), granted, "none");
+  expect_item(name, machine("Features\t: fp asimd\n", "cpu  100 0 100 1000 0 0 0 0 0 0\n"), unknown,
+              "unknown");
 }
 
 TEST(RealtimeMachine, NoIsolatedCpusIsLimitingNoFileIsUnknown) {
-  MachineText machine = vehicle_computer();
-  machine.isolated_cpus = "";
-  EXPECT_EQ(item(machine, "isolated CPUs").verdict, Verdict::limiting);
-  machine.isolated_cpus = "2-";
-  EXPECT_EQ(item(machine, "isolated CPUs").verdict, Verdict::unknown);
-  machine.isolated_cpus.reset();
-  EXPECT_EQ(item(machine, "isolated CPUs").verdict, Verdict::unknown);
+  expect_item(
+      "isolated CPUs", [](M& m) { m.isolated_cpus = ""; }, limiting, "none of 0-3");
+  expect_item(
+      "isolated CPUs", [](M& m) { m.isolated_cpus = "2-"; }, unknown, "unknown");
+  expect_item(
+      "isolated CPUs", [](M& m) { m.isolated_cpus.reset(); }, unknown, "unknown");
 }
 
 TEST(RealtimeMachine, AnEmptyMachineIsUnknownThroughout) {

@@ -1,5 +1,6 @@
 #include "runtime/core/realtime_memory.h"
 
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 #include <pthread.h>
 #include <sys/mman.h>
@@ -23,6 +24,8 @@
 
 namespace maploop::runtime {
 namespace {
+
+using ::testing::HasSubstr;
 
 std::string in_words(const RealtimeSetting& s) {
   return std::string(to_string(s.verdict)) + '|' + s.granted + '|' + s.reason;
@@ -114,8 +117,7 @@ TEST(RealtimeMemory, AnOrdinaryUserWithASmallLimitIsRefusedAndMayStillAllocate) 
     return in_words(settings.at(1)) + (allocated ? "|allocated" : "|not allocated");
   });
   EXPECT_EQ(text.substr(0, 16), "refused|0 kB of ");
-  EXPECT_NE(text.find("|no CAP_IPC_LOCK, and RLIMIT_MEMLOCK is 64 kB|allocated"), std::string::npos)
-      << text;
+  EXPECT_THAT(text, HasSubstr("|no CAP_IPC_LOCK, and RLIMIT_MEMLOCK is 64 kB|allocated"));
 }
 
 TEST(RealtimeMemory, WithALimitThatSufficesNowWhatComesIsNotLocked) {
@@ -169,7 +171,7 @@ TEST(RealtimeMemory, MoreStackThanThereIsIsRefusedNotFatal) {
   thread.join();
   const RealtimeSetting setting = thread.settings().at(1);
   EXPECT_EQ(setting.verdict, Verdict::refused);
-  EXPECT_NE(setting.reason.find("the stack has "), std::string::npos) << setting.reason;
+  EXPECT_THAT(setting.reason, HasSubstr("the stack has "));
   EXPECT_NE(setting.granted, "0 kB mapped");
 }
 

@@ -1,5 +1,6 @@
 #include "runtime/core/realtime_scheduling.h"
 
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <sys/resource.h>
@@ -20,6 +21,8 @@ namespace {
 
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 Scheduling with_policy(SchedulingPolicy policy) {
   Scheduling scheduling;
@@ -217,7 +220,7 @@ TEST(RealtimeScheduling, CpusThatDoNotExistAreRefused) {
     const RealtimeSetting setting = applied(scheduling).at(1);
     EXPECT_EQ(setting.verdict, Verdict::refused) << wrong;
     EXPECT_EQ(setting.granted, to_cpu_list(all)) << "it may run where it could before";
-    EXPECT_NE(setting.remedy.find("CPUs online"), std::string::npos);
+    EXPECT_THAT(setting.remedy, HasSubstr("CPUs online"));
   }
 }
 
@@ -271,7 +274,7 @@ TEST(RealtimeScheduling, RefusalsOfOtherMachinesAreExplained) {
   const auto why = [](const Scheduling& s, int error, const Privileges& p) {
     const auto [reason, remedy] = explain_refusal(s, error, p);
     EXPECT_FALSE(remedy.empty());
-    EXPECT_EQ(remedy.find('\n'), std::string::npos);
+    EXPECT_THAT(remedy, Not(HasSubstr("\n")));
     return reason;
   };
   EXPECT_EQ(why(Scheduling::fifo(1), EPERM, root),

@@ -9,10 +9,15 @@
 #include <stdexcept>
 #include <string>
 
+#include "tests/support/error_of.h"
 #include "tests/support/real_data.h"
 
 namespace maploop::runtime {
 namespace {
+
+using maploop::testing::error_of;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 std::string content(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -75,18 +80,13 @@ TEST_F(WholeFileTest, APipeIsWrittenThroughItsName) {
 }
 
 TEST_F(WholeFileTest, WhatCannotBeWrittenIsNamedWithItsReason) {
-  const auto error = [](const std::filesystem::path& file) -> std::string {
-    try {
-      write_whole_file(file, "text");
-    } catch (const std::runtime_error& e) {
-      return e.what();
-    }
-    return "none";
+  const auto error = [](const std::filesystem::path& file) {
+    return error_of([&] { write_whole_file(file, "text"); });
   };
-  EXPECT_TRUE(error("/no such folder/a")
-                  .starts_with("cannot write '/no such folder/a': No such file or directory; "));
-  EXPECT_TRUE(error("/dev/full").starts_with("cannot write '/dev/full': No space left on device"));
-  EXPECT_TRUE(error(folder_.path()).find("Is a directory") != std::string::npos);
+  EXPECT_THAT(error("/no such folder/a"),
+              StartsWith("cannot write '/no such folder/a': No such file or directory; "));
+  EXPECT_THAT(error("/dev/full"), StartsWith("cannot write '/dev/full': No space left on device"));
+  EXPECT_THAT(error(folder_.path()), HasSubstr("Is a directory"));
 }
 
 }  // namespace

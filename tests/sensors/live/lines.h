@@ -18,6 +18,9 @@
 #include <string_view>
 #include <utility>
 
+#include "sensors/clock/host_clock.h"
+#include "sensors/live/live_source.h"
+
 namespace maploop::testing {
 
 using Bytes = std::span<const std::uint8_t>;
@@ -87,11 +90,10 @@ class TcpServer {
     EXPECT_EQ(bind(fd_, reinterpret_cast<const sockaddr*>(&any), sizeof any), 0);
     EXPECT_EQ(listen(fd_, 1), 0);
   }
-  ~TcpServer() {
-    hang_up();
-    close(fd_);
-  }
+  ~TcpServer() { shut(); }
+  std::string endpoint() const { return "tcp://127.0.0.1:" + std::to_string(port()); }
   std::uint16_t port() const { return port_of(fd_); }
+  int peer() const { return peer_; }
   // Waits for the next peer, at most 10 s.
   bool answer() {
     hang_up();
@@ -102,6 +104,12 @@ class TcpServer {
   void hang_up() {
     if (peer_ >= 0) close(peer_);
     peer_ = -1;
+  }
+  // No peer is answered any more.
+  void shut() {
+    hang_up();
+    if (fd_ >= 0) close(fd_);
+    fd_ = -1;
   }
   bool send(std::string_view bytes) const {
     while (!bytes.empty()) {
@@ -126,6 +134,37 @@ class TcpServer {
   int fd_ = socket(AF_INET, SOCK_STREAM, 0);
   int peer_ = -1;
 };
+
+// Waits for the next sample of a live sensor, at most that long.
+template <class T>
+bool wait_for(sensors::LiveSource<T>& source, T& sample, Duration most = std::chrono::seconds(20)) {
+  const sensors::HostClock clock;
+  const Time end = clock.now() + most;
+  while (clock.now() < end) {
+    if (source.wait(sample, std::chrono::milliseconds(20))) return true;
+  }
+  return false;
+}
+
+// Waits, at most 10 s, until the sensor is connected or is not any more.
+template <class T>
+bool wait_until_open(sensors::LiveSource<T>& source, bool open) {
+  T sample;
+  for (int i = 0; i < 500 && source.report().connection.open != open; ++i) {
+    source.wait(sample, std::chrono::milliseconds(20));
+  }
+  EXPECT_EQ(source.report().connection.open, open) << source.report().connection.problem;
+  return source.report().connection.open == open;
+}
+
+// Returns what a sensor says of itself, a line each.
+inline std::string all_of(const sensors::LiveReport& report) {
+  std::string said;
+  for (const auto* texts : {&report.notes, &report.reasons}) {
+    for (const std::string& text : *texts) said += text + '\n';
+  }
+  return said;
+}
 
 inline std::string sentence(const std::string& body) {
   unsigned sum = 0;

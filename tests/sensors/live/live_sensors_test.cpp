@@ -1,6 +1,6 @@
 // These tests connect sensors over loopback sockets and pseudo-terminals, unplug and reconnect
 // them, and send hostile data.
-#include <arpa/inet.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 #include <netinet/tcp.h>
 #include <sys/socket.h>
@@ -28,29 +28,13 @@ using std::chrono::seconds;
 using testing::Bytes;
 using testing::epoch;
 using testing::free_port;
-using testing::loopback;
-using testing::port_of;
+using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::PseudoTerminal;
+using testing::TcpServer;
 using testing::UdpSender;
-
-template <class T>
-bool wait_for(LiveSource<T>& source, T& sample, Duration most = seconds(10)) {
-  const HostClock clock;
-  const Time end = clock.now() + most;
-  while (clock.now() < end) {
-    if (source.wait(sample, milliseconds(20))) return true;
-  }
-  return false;
-}
-
-template <class T>
-bool wait_until_open(LiveSource<T>& source, bool open) {
-  T sample;
-  for (int i = 0; i < 500 && source.report().connection.open != open; ++i) {
-    source.wait(sample, milliseconds(20));
-  }
-  return source.report().connection.open == open;
-}
+using testing::wait_for;
+using testing::wait_until_open;
 
 TEST(Endpoint, IsOnTheLoopbackByDefault) {
   EXPECT_EQ(parse_endpoint("udp://:2368").address, "127.0.0.1");
@@ -80,12 +64,8 @@ TEST(Endpoint, IsShownWithoutWhatIsSecret) {
       {"", ""}};
   for (const auto& [text, shown] : cases) EXPECT_EQ(without_secrets(text), shown);
   for (const char* text : {"ntrip://me:secret@host/M", "tcp://me:secret@1.2.3.4:5"}) {
-    try {
-      parse_endpoint(text);
-      ADD_FAILURE() << text;
-    } catch (const std::invalid_argument& e) {
-      EXPECT_EQ(std::string(e.what()).find("secret"), std::string::npos) << e.what();
-    }
+    EXPECT_THAT([&] { parse_endpoint(text); },
+                ThrowsMessage<std::invalid_argument>(Not(HasSubstr("secret"))));
   }
 }
 
@@ -96,12 +76,12 @@ TEST(LiveNmea, SurvivesUnpluggingOfASerialLine) {
   const auto gnss = listen_to_nmea(parse_endpoint("serial://" + device.string()), {}, clock);
   GnssFix fix;
   EXPECT_FALSE(gnss->wait(fix, milliseconds(5)));  // not connected yet
-  EXPECT_NE(gnss->report().connection.problem.find("is it plugged in?"), std::string::npos);
+  EXPECT_THAT(gnss->report().connection.problem, HasSubstr("is it plugged in?"));
   Time last{};
   for (int plugged = 0; plugged < 3; ++plugged) {
     {
       const PseudoTerminal line(device);
-      ASSERT_TRUE(wait_until_open(*gnss, true)) << gnss->report().connection.problem;
+      ASSERT_TRUE(wait_until_open(*gnss, true));
       line.send("GGA,half a sentence from before\r\n" + epoch(10 * plugged));
       ASSERT_TRUE(wait_for(*gnss, fix));
       EXPECT_NEAR(fix.position.latitude * 180.0 / M_PI, 48.9825, 1e-9);
@@ -125,53 +105,36 @@ TEST(LiveNmea, SurvivesUnpluggingOfASerialLine) {
 
 TEST(LiveNmea, ReconnectsOverTcp) {
   const HostClock clock;
-  int server = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address = loopback(0);
-  ASSERT_EQ(bind(server, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-  ASSERT_EQ(listen(server, 1), 0);
-  const auto gnss = listen_to_nmea(
-      parse_endpoint("tcp://127.0.0.1:" + std::to_string(port_of(server))), {}, clock);
+  TcpServer server;
+  const auto gnss = listen_to_nmea(parse_endpoint(server.endpoint()), {}, clock);
   for (int connected = 0; connected < 2; ++connected) {
-    ASSERT_TRUE(wait_until_open(*gnss, true)) << gnss->report().connection.problem;
-    const int peer = accept(server, nullptr, nullptr);
-    const auto say = [peer](const std::string& text) {
-      ASSERT_EQ(send(peer, text.data(), text.size(), 0), static_cast<ssize_t>(text.size()));
-    };
+    ASSERT_TRUE(wait_until_open(*gnss, true) && server.answer());
     GnssFix first, second;
-    say(epoch(10 * connected));
+    ASSERT_TRUE(server.send(epoch(10 * connected)));
     ASSERT_TRUE(wait_for(*gnss, first));
-    say(epoch(10 * connected + 1));
+    ASSERT_TRUE(server.send(epoch(10 * connected + 1)));
     ASSERT_TRUE(wait_for(*gnss, second));
     EXPECT_GT(second.stamp, first.stamp);
     EXPECT_GT(second.available, first.available);
-    close(peer);
+    server.hang_up();
     ASSERT_TRUE(wait_until_open(*gnss, false));
-    EXPECT_NE(gnss->report().connection.problem.find("closed by the other side"),
-              std::string::npos);
+    EXPECT_THAT(gnss->report().connection.problem, HasSubstr("closed by the other side"));
   }
-  close(server);
-  for (int i = 0; i < 40; ++i) {
-    GnssFix fix;
-    EXPECT_FALSE(gnss->wait(fix, milliseconds(20)));
-  }
-  EXPECT_NE(gnss->report().connection.problem.find("cannot be connected to"), std::string::npos);
+  server.shut();
+  GnssFix fix;
+  for (int i = 0; i < 40; ++i) EXPECT_FALSE(gnss->wait(fix, milliseconds(20)));
+  EXPECT_THAT(gnss->report().connection.problem, HasSubstr("cannot be connected to"));
 }
 
 TEST(LiveNmea, NoticesAPeerThatDisappearsSilently) {
   const HostClock clock;
-  const int server = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address = loopback(0);
-  ASSERT_EQ(bind(server, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-  ASSERT_EQ(listen(server, 1), 0);
-  const auto gnss = listen_to_nmea(
-      parse_endpoint("tcp://127.0.0.1:" + std::to_string(port_of(server))), {}, clock);
-  ASSERT_TRUE(wait_until_open(*gnss, true)) << gnss->report().connection.problem;
-  const int peer = accept(server, nullptr, nullptr);
+  TcpServer server;
+  const auto gnss = listen_to_nmea(parse_endpoint(server.endpoint()), {}, clock);
+  ASSERT_TRUE(wait_until_open(*gnss, true) && server.answer());
   // This simulates a machine that loses its power: a socket closed in this mode sends nothing.
   const int on = 1;
-  const bool silenced = setsockopt(peer, IPPROTO_TCP, TCP_REPAIR, &on, sizeof on) == 0;
-  close(peer);
-  close(server);
+  const bool silenced = setsockopt(server.peer(), IPPROTO_TCP, TCP_REPAIR, &on, sizeof on) == 0;
+  server.shut();
   if (!silenced) GTEST_SKIP() << "only an administrator may end a connection without a word";
   EXPECT_TRUE(wait_until_open(*gnss, false));
 }
@@ -181,7 +144,7 @@ TEST(LiveNcom, StampsByTheUnitsClock) {
   const std::uint16_t port = free_port();
   const auto imu =
       listen_to_ncom(parse_endpoint("udp://:" + std::to_string(port)), milliseconds(60), clock);
-  ASSERT_TRUE(wait_until_open(*imu, true)) << imu->report().connection.problem;
+  ASSERT_TRUE(wait_until_open(*imu, true));
   const UdpSender sender(port);
   std::vector<ImuSample> samples;
   for (int i = 0; i < 5; ++i) {
@@ -194,7 +157,7 @@ TEST(LiveNcom, StampsByTheUnitsClock) {
   damaged[5] ^= 1;
   sender.send(damaged);
   sender.send(Bytes(damaged).first(71));
-  sender.send(std::vector<std::uint8_t>(1000, 0xe7));
+  sender.send(std::vector<std::uint8_t>(3000, 0xe7));
   ImuSample sample;
   for (int i = 0; i < 5; ++i) {
     ASSERT_TRUE(wait_for(*imu, sample));
@@ -222,7 +185,7 @@ TEST(LiveImuLines, AreStampedByTheUnitsClockOverASerialLine) {
   const PseudoTerminal line(device);
   const auto imu =
       listen_to_imu_lines(parse_endpoint("serial://" + device.string()), milliseconds(20), clock);
-  ASSERT_TRUE(wait_until_open(*imu, true)) << imu->report().connection.problem;
+  ASSERT_TRUE(wait_until_open(*imu, true));
   ImuSample sample;
   Time last{};
   for (int i = 0; i < 5; ++i) {
@@ -253,7 +216,7 @@ TEST(LiveVelodyne, MakesScansOfDatagrams) {
       listen_to_velodyne({parse_endpoint("udp://:" + std::to_string(port)), std::nullopt,
                           VelodyneModel::vlp16, factory_lasers(VelodyneModel::vlp16)},
                          clock);
-  ASSERT_TRUE(wait_until_open(*velodyne, true)) << velodyne->report().connection.problem;
+  ASSERT_TRUE(wait_until_open(*velodyne, true));
   const UdpSender sender(port);
   LidarScan scan;
   int scans = 0;

@@ -1,5 +1,6 @@
 // These tests use cameras as GStreamer pipelines: test pictures, recorded pictures, missing, ended
 // and wrong ones.
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <stdexcept>
@@ -7,6 +8,7 @@
 
 #include "sensors/live/live_sensors.h"
 #include "sensors/replay/kitti_drive.h"
+#include "tests/sensors/live/lines.h"
 #include "tests/support/real_data.h"
 
 namespace maploop::sensors {
@@ -14,6 +16,10 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::wait_for;
 
 std::string test_pictures(int width, int height, const std::string& more = "") {
   return "videotestsrc is-live=true pattern=ball " + more +
@@ -28,22 +34,6 @@ LiveStereoOptions options(std::string left, std::string right) {
   o.width = 64;
   o.height = 48;
   return o;
-}
-
-bool wait_for(LiveSource<StereoPair>& source, StereoPair& pair, Duration most = seconds(20)) {
-  const HostClock clock;
-  const Time end = clock.now() + most;
-  while (clock.now() < end) {
-    if (source.wait(pair, milliseconds(20))) return true;
-  }
-  return false;
-}
-
-bool says(const std::vector<std::string>& all, const std::string& part) {
-  for (const std::string& text : all) {
-    if (text.find(part) != std::string::npos) return true;
-  }
-  return false;
 }
 
 TEST(LiveStereo, PairsTheImagesOfTwoCameras) {
@@ -64,7 +54,7 @@ TEST(LiveStereo, PairsTheImagesOfTwoCameras) {
   const LiveReport report = cameras->report();
   EXPECT_TRUE(report.connection.open);
   EXPECT_EQ(report.delivered, 10u);
-  EXPECT_FALSE(says(report.notes, "stamped on arrival"));
+  EXPECT_THAT(report.notes, Not(Contains(HasSubstr("stamped on arrival"))));
 }
 
 TEST(LiveStereo, HalvesImagesThatHaveBothCameras) {
@@ -98,8 +88,7 @@ TEST(LiveStereo, AMissingCameraIsNotAnErrorAndBlocksNothing) {
   EXPECT_FALSE(wait_for(*camera, pair, seconds(1)));
   const LiveReport report = camera->report();
   EXPECT_FALSE(report.connection.open);
-  EXPECT_NE(report.connection.problem.find("/dev/no_camera"), std::string::npos)
-      << report.connection.problem;
+  EXPECT_THAT(report.connection.problem, HasSubstr("/dev/no_camera"));
 }
 
 TEST(LiveStereo, CountsWhatItLeavesOut) {
@@ -107,12 +96,12 @@ TEST(LiveStereo, CountsWhatItLeavesOut) {
   const auto wrong = listen_to_cameras(options(test_pictures(100, 48), ""), clock);
   StereoPair pair;
   EXPECT_FALSE(wait_for(*wrong, pair, milliseconds(500)));
-  EXPECT_TRUE(says(wrong->report().reasons, "pairs whose size differs"));
+  EXPECT_THAT(wrong->report().reasons, Contains(HasSubstr("pairs whose size differs")));
   auto never = options(test_pictures(64, 48), test_pictures(64, 48));
   never.max_skew = -seconds(1);
   const auto apart = listen_to_cameras(never, clock);
   EXPECT_FALSE(wait_for(*apart, pair, milliseconds(500)));
-  EXPECT_TRUE(says(apart->report().reasons, "images without a partner"));
+  EXPECT_THAT(apart->report().reasons, Contains(HasSubstr("images without a partner")));
 }
 
 TEST(LiveStereo, AnInvalidPipelineIsReportedBeforeItIsOpened) {

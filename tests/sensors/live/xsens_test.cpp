@@ -18,6 +18,8 @@ namespace {
 
 using std::chrono::milliseconds;
 using testing::PseudoTerminal;
+using testing::wait_for;
+using testing::wait_until_open;
 
 std::string big_endian(std::uint64_t value, int bytes) {
   std::string text;
@@ -146,23 +148,22 @@ TEST(LiveXsens, SurvivesUnpluggingOfItsSerialLine) {
   EXPECT_FALSE(imu->wait(s, milliseconds(5)));
   Time last = Time::min();
   for (std::uint32_t plugged = 0; plugged < 2; ++plugged) {
-    const PseudoTerminal line(device);
-    const auto opened = [&] { return imu->report().connection.opened > plugged; };
-    for (int i = 0; i < 500 && !opened(); ++i) imu->wait(s, milliseconds(20));
-    ASSERT_TRUE(opened());
-    const std::uint32_t ticks = 20'000 * plugged;
-    line.send(sample(ticks).substr(30) + sample(ticks + 100) + sample(ticks + 200));
-    for (int k = 0; k < 2; ++k) {
-      bool came = false;
-      for (int i = 0; i < 500 && !came; ++i) came = imu->wait(s, milliseconds(20));
-      ASSERT_TRUE(came);
-      EXPECT_EQ(s.specific_force_forward, 0.5);
-      EXPECT_EQ(s.specific_force_left, -0.25);
-      EXPECT_EQ(s.yaw_rate, 0.125);
-      EXPECT_GT(s.stamp, last);
-      EXPECT_LE(s.stamp, s.available - milliseconds(5));
-      last = s.stamp;
+    {
+      const PseudoTerminal line(device);
+      ASSERT_TRUE(wait_until_open(*imu, true));
+      const std::uint32_t ticks = 20'000 * plugged;
+      line.send(sample(ticks).substr(30) + sample(ticks + 100) + sample(ticks + 200));
+      for (int k = 0; k < 2; ++k) {
+        ASSERT_TRUE(wait_for(*imu, s));
+        EXPECT_EQ(s.specific_force_forward, 0.5);
+        EXPECT_EQ(s.specific_force_left, -0.25);
+        EXPECT_EQ(s.yaw_rate, 0.125);
+        EXPECT_GT(s.stamp, last);
+        EXPECT_LE(s.stamp, s.available - milliseconds(5));
+        last = s.stamp;
+      }
     }
+    ASSERT_TRUE(wait_until_open(*imu, false));
   }
   EXPECT_EQ(imu->report().connection.opened, 2u);
   EXPECT_EQ(imu->report().delivered, 4u);

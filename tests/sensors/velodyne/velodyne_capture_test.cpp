@@ -10,10 +10,14 @@
 #include "msgs/lcm/log/log_reader.h"
 #include "sensors/velodyne/capture_source.h"
 #include "tests/sensors/velodyne/made_calibration.h"
+#include "tests/support/error_of.h"
 #include "tests/support/real_data.h"
 
 namespace maploop::sensors {
 namespace {
+
+using maploop::testing::error_of;
+using ::testing::HasSubstr;
 
 std::vector<LidarScan> scans_of(VelodyneCapture& capture) {
   std::vector<LidarScan> scans(1);
@@ -46,7 +50,7 @@ TEST(VelodyneCapture, Vlp16OnAMovingCar) {
   ASSERT_TRUE(offset);
   EXPECT_NEAR(to_seconds(*offset), 1.406, 0.005);
   ASSERT_EQ(capture.report().refused, 1U);
-  EXPECT_NE(capture.report().refusals[0].reason.find("truncated"), std::string::npos);
+  EXPECT_THAT(capture.report().refusals[0].reason, HasSubstr("truncated"));
 }
 
 TEST(VelodyneCapture, Hdl64eWithoutAClockIsStampedByArrival) {
@@ -87,35 +91,25 @@ TEST(VelodyneCapture, PacketsInsideAnLcmLog) {
 
 TEST(VelodyneCapture, ReportsWhatIsWrongWithAFile) {
   const testing::TemporaryFolder folder;
-  const auto message = [](const std::filesystem::path& file) -> std::string {
-    try {
-      VelodyneCapture capture(file, {});
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "";
+  const auto message = [](const std::filesystem::path& file) {
+    return error_of([&] { VelodyneCapture capture(file, {}); });
   };
-  EXPECT_NE(message(folder.path() / "none.pcap").find("is not a file"), std::string::npos);
+  EXPECT_THAT(message(folder.path() / "none.pcap"), HasSubstr("is not a file"));
   std::ofstream(folder.path() / "text.pcap") << "no capture at all, but long enough to be one";
-  EXPECT_NE(message(folder.path() / "text.pcap").find("is not a capture"), std::string::npos);
+  EXPECT_THAT(message(folder.path() / "text.pcap"), HasSubstr("is not a capture"));
 }
 
 TEST(VelodyneCalibration, ReportsWhatIsWrongWithAFile) {
   const testing::TemporaryFolder folder;
   const auto file = folder.path() / "db.xml";
-  const auto message = [&]() -> std::string {
-    try {
-      read_velodyne_calibration(file, VelodyneModel::hdl64e);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "";
+  const auto message = [&] {
+    return error_of([&] { read_velodyne_calibration(file, VelodyneModel::hdl64e); });
   };
-  EXPECT_NE(message().find(file.string()), std::string::npos);
+  EXPECT_THAT(message(), HasSubstr(file.string()));
   write_calibration(file);
   EXPECT_EQ(message(), "");
   write_calibration(file, 63);
-  EXPECT_NE(message().find("has no laser 63"), std::string::npos);
+  EXPECT_THAT(message(), HasSubstr("has no laser 63"));
   std::ofstream(file) << "<boost_serialization>";
   EXPECT_NE(message(), "");
 }

@@ -16,7 +16,7 @@ using testing::drive_start;
 // Returns the numbers of the delivered samples; `times` are those of all samples, after the start.
 std::vector<std::uint64_t> delivered(const std::vector<Duration>& times,
                                      sensors::SourceReport* report = nullptr) {
-  GapSource<ImuSample> source(std::make_unique<testing::FakeSource<ImuSample>>(
+  GapSource<ImuSample> source(testing::fake_source<ImuSample>(
       times.size(),
       [&times](std::uint64_t i, ImuSample& s) { s.available = s.stamp = drive_start + times[i]; }));
   std::vector<std::uint64_t> numbers;

@@ -1,24 +1,31 @@
 // Tests a drive of a GNSS receiver alone through the whole graph.
 #include "runtime/vehicle/drivers/gnss_drive.h"
 
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
-#include <string>
+#include <utility>
 #include <vector>
 
 #include "runtime/vehicle/drivers/limited_source.h"
 #include "runtime/vehicle/drivers/recording.h"
-#include "runtime/vehicle/faults/fault_injection.h"
-#include "tests/support/message_tape.h"
+#include "tests/runtime/vehicle/driven.h"
+#include "tests/support/error_of.h"
 #include "tests/support/real_data.h"
 
 namespace maploop::vehicle {
 namespace {
 
-using maploop::testing::MessageTape;
-using runtime::DataClock;
+using maploop::testing::error_of;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using ::testing::AllOf;
+using testing::Drive;
+using testing::drive;
+using testing::Driven;
+using ::testing::Each;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 // Returns the observations of a car at 1 Hz, GPS and Galileo on two frequencies.
 std::filesystem::path car() {
@@ -36,34 +43,15 @@ Sensors sensors(Duration length) {
   return s;
 }
 
-struct Driven {
-  MessageTape::Channels messages;
-  std::vector<PppState> ppp;
-  std::vector<NavState> nav;
-  VehicleReport report;
-  std::vector<Snapshot> snapshots;
-};
-
-Driven drive(Sensors given, const DataClock& clock, const std::vector<Time>& cuts = {},
-             const Snapshot* from = nullptr) {
-  Driven run;
-  MessageTape tape;
-  Observer observer;
-  observer.ppp = [&](const PppState& s) { run.ppp.push_back(s); };
-  observer.nav_state = [&](const NavState& s) { run.nav.push_back(s); };
-  Vehicle vehicle({}, recording().calibration, std::move(given), clock, {&tape}, observer);
-  vehicle.take_snapshots(cuts, [&](const Snapshot& s) { run.snapshots.push_back(s); });
-  if (from != nullptr) vehicle.resume(*from);
-  vehicle.start();
-  vehicle.wait();
-  run.messages = tape.all();
-  run.report = vehicle.report();
-  return run;
+Drive with_epochs(Duration length) {
+  return {.sensors = sensors(length),
+          .calibration = recording().calibration,
+          .faults_from = recording().first_stamp};
 }
 
 TEST(GnssDrive, EveryEpochIsSaidAndTheFusionFollows) {
   MAPLOOP_REQUIRE_REAL_DATA();
-  const Driven run = drive(sensors(seconds(90)), DataClock::virtual_time());
+  const Driven run = drive(with_epochs(seconds(90)));
   ASSERT_EQ(run.ppp.size(), 90u);
   ASSERT_EQ(run.messages.at("GNSS_FIX").size(), 90u);
   const PppState& last = run.ppp.back();
@@ -78,41 +66,37 @@ TEST(GnssDrive, EveryEpochIsSaidAndTheFusionFollows) {
   EXPECT_GT(last.code_rms, 0.0);
   EXPECT_LT(last.phase_rms, 0.1);
 
-  const NavState& state = run.nav.back();
+  const NavState& state = run.states.back();
   ASSERT_NE(state.status, NavStatus::uninitialized) << "the car has moved by then";
   EXPECT_LT(state.stamp - state.gnss_stamp, seconds(2)) << "fixes are used after the start too";
   const Eigen::Vector3d p = LocalFrame(state.origin).to_enu(last.position);
   EXPECT_LT((p - state.position_enu).norm(), 3.0);
-  for (const std::string& sentence : run.report.health.degraded) {
-    EXPECT_EQ(sentence.find("ppp"), std::string::npos) << sentence;
-  }
+  EXPECT_THAT(run.report.health.degraded, Each(Not(HasSubstr("ppp"))));
 }
 
 TEST(GnssDrive, RealTimeHasTheBitsOfLockstepAndSoHasAResumedRun) {
   MAPLOOP_REQUIRE_REAL_DATA();
-  const Time cut =
-      recording().first_stamp + milliseconds(20'105);  // between an epoch and its result
-  const Driven lockstep = drive(sensors(seconds(40)), DataClock::virtual_time(), {cut});
-  const Driven paced = drive(sensors(seconds(40)), DataClock::paced(20.0), {cut});
+  // Between an epoch and its result.
+  const std::vector<Time> cuts{recording().first_stamp + milliseconds(20'105)};
+  Drive d = with_epochs(seconds(40)), in_real_time = with_epochs(seconds(40));
+  d.cuts = in_real_time.cuts = cuts;
+  in_real_time.speed = 20.0;
+  const Driven lockstep = drive(std::move(d)), paced = drive(std::move(in_real_time));
   EXPECT_EQ(paced.messages, lockstep.messages);
   ASSERT_EQ(lockstep.snapshots.size(), 1u);
   EXPECT_TRUE(paced.snapshots.at(0).parts == lockstep.snapshots.at(0).parts);
-
-  const Driven resumed =
-      drive(sensors(seconds(40)), DataClock::virtual_time(), {}, &lockstep.snapshots[0]);
-  MessageTape::Channels later;
-  for (const auto& [channel, messages] : lockstep.messages) {
-    for (const MessageTape::Taped& message : messages) {
-      if (message.time > lockstep.snapshots[0].at) later[channel].push_back(message);
-    }
-  }
-  EXPECT_EQ(resumed.messages, later);
+  testing::expect_resumes(lockstep, [](const Snapshot* from) {
+    Drive rest = with_epochs(seconds(40));
+    rest.from = from;
+    return drive(std::move(rest));
+  });
 }
 
 TEST(GnssDrive, InvalidNumbersCountAsNotMeasured) {
   MAPLOOP_REQUIRE_REAL_DATA();
-  FaultInjection faults({parse_fault("nan@gnss:10:2")}, recording().first_stamp);
-  const Driven run = drive(faults.inject(sensors(seconds(20))), DataClock::virtual_time());
+  Drive d = with_epochs(seconds(20));
+  d.faults = {"nan@gnss:10:2"};
+  const Driven run = drive(std::move(d));
   ASSERT_EQ(run.ppp.size(), 20u);
   EXPECT_EQ(run.ppp[10].status, PppStatus::none);
   EXPECT_EQ(run.ppp[10].satellites.at(0).refusal, PppRefusal::no_signals);
@@ -125,13 +109,8 @@ TEST(GnssDrive, AFolderWithTwoReceiversIsRefusedByName) {
   EXPECT_TRUE(is_gnss_drive(car()));
   EXPECT_TRUE(is_gnss_drive(car().parent_path()));
   EXPECT_FALSE(is_gnss_drive(maploop::testing::real_data()));
-  try {
-    open_recording(car().parent_path(), VehicleConfig{});
-    FAIL();
-  } catch (const std::runtime_error& e) {
-    EXPECT_NE(std::string(e.what()).find("2 receivers; name the file"), std::string::npos);
-    EXPECT_NE(std::string(e.what()).find("3034265G.21O.gz"), std::string::npos);
-  }
+  EXPECT_THAT(error_of([] { open_recording(car().parent_path(), VehicleConfig{}); }),
+              AllOf(HasSubstr("2 receivers; name the file"), HasSubstr("3034265G.21O.gz")));
 }
 
 TEST(GnssDrive, ProductsMayBeNamed) {

@@ -1,5 +1,6 @@
 #include "runtime/vehicle/drivers/gnss_outage.h"
 
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <stdexcept>
@@ -8,6 +9,8 @@
 
 namespace maploop::vehicle {
 namespace {
+
+using ::testing::HasSubstr;
 
 const Time first = from_nanoseconds(1'317'384'506'000'000'000);
 const Time last = first + from_seconds(400.0);
@@ -45,29 +48,20 @@ TEST(GnssOutages, ThatAreInvalidNameTheWrongPart) {
        {"", "20", "a:3", "20:-1", "20:0", "20:30:40", "random:0:60", "random:3:end", "1:2,,3:4"}) {
     EXPECT_NE(check_outages(text), "") << text;
   }
-  EXPECT_NE(check_outages("random:a:60").find("'a' is not a count"), std::string::npos);
-  EXPECT_NE(check_outages("20:b").find("'b' is not a number of seconds"), std::string::npos);
+  EXPECT_THAT(check_outages("random:a:60"), HasSubstr("'a' is not a count"));
+  EXPECT_THAT(check_outages("20:b"), HasSubstr("'b' is not a number of seconds"));
   EXPECT_EQ(check_outages("20:30,random:2:60,300:end"), "");
   EXPECT_THROW(parse_outages("random:1:390", first, last, 1), std::invalid_argument);
   EXPECT_THROW(parse_outages("random:9:60", first, last, 1), std::invalid_argument);
 }
 
-class TenFixes final : public sensors::Source<GnssFix> {
- public:
-  bool next(GnssFix& fix) override {
-    fix.stamp = first + from_seconds(next_);
-    return next_++ < 10;
-  }
-  const sensors::SourceReport& report() const override { return report_; }
-
- private:
-  int next_ = 0;
-  sensors::SourceReport report_;
-};
-
 TEST(GnssOutages, TakeTheFixesInsideAndNoOthers) {
-  const auto source = with_outages<GnssFix>(std::make_unique<TenFixes>(),
-                                            parse_outages("2:3,8:end", first, last, 1));
+  auto ten_fixes = sensors::made<GnssFix>([i = 0](GnssFix& fix, sensors::SourceReport&) mutable {
+    fix.stamp = first + from_seconds(i);
+    return i++ < 10;
+  });
+  const auto source =
+      with_outages<GnssFix>(std::move(ten_fixes), parse_outages("2:3,8:end", first, last, 1));
   std::vector<double> seconds;
   for (GnssFix fix; source->next(fix);) seconds.push_back(to_seconds(fix.stamp - first));
   EXPECT_EQ(seconds, (std::vector<double>{0, 1, 5, 6, 7}));

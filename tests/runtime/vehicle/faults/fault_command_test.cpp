@@ -1,4 +1,5 @@
 // Tests `maploop replay --fault` as a user types it.
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -10,6 +11,9 @@
 
 namespace maploop::testing {
 namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(FaultCommand, WhatAFaultStruckAndWhatWasRefusedIsReported) {
   MAPLOOP_REQUIRE_DRIVE();
@@ -24,16 +28,16 @@ TEST(FaultCommand, WhatAFaultStruckAndWhatWasRefusedIsReported) {
   EXPECT_GT(r["faults"][0]["struck"], 5);
   EXPECT_EQ(r["refusals"]["fusion"]["a value is not finite"], r["faults"][0]["struck"]);
   EXPECT_EQ(r["faults"][1]["struck"], 0);
-  EXPECT_NE(result.out.find("outside of the drive"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("a value is not finite"), std::string::npos) << result.out;
+  EXPECT_THAT(result.out, HasSubstr("outside of the drive"));
+  EXPECT_THAT(result.out, HasSubstr("a value is not finite"));
 }
 
 TEST(FaultCommand, AWrongFaultIsAnErrorBeforeAnythingRuns) {
   const ProcessResult result =
       run({testing::maploop_command(), "replay", "/nonexistent", "--fault", "lots@camera"});
   EXPECT_NE(result.status, 0);
-  EXPECT_NE(result.error.find("'lots' is not a kind of fault"), std::string::npos) << result.error;
-  EXPECT_EQ(result.error.find("/nonexistent"), std::string::npos) << result.error;
+  EXPECT_THAT(result.error, HasSubstr("'lots' is not a kind of fault"));
+  EXPECT_THAT(result.error, Not(HasSubstr("/nonexistent")));
 }
 
 }  // namespace

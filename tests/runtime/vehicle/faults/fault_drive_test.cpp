@@ -4,112 +4,59 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "runtime/vehicle/faults/fault_injection.h"
-#include "runtime/vehicle/output/channel_hashes.h"
 #include "sensors/replay/kitti_drive.h"
 #include "sensors/replay/reference_trajectory.h"
+#include "tests/runtime/vehicle/driven.h"
 #include "tests/support/real_data.h"
 
 namespace maploop::vehicle {
 namespace {
 
-struct Replayed {
-  VehicleReport report;
-  std::map<std::string, ChannelSummary> channels;
-  std::vector<NavState> states;        // 100 Hz
-  std::map<Time, NavState> at_images;  // key: the image's stamp
-  std::vector<RelativeMotion> motions;
-  std::map<OdometryStatus, int> odometry;
-  std::vector<FaultCount> faults;
+using testing::Drive;
+using testing::drive;
+using testing::Driven;
 
-  std::uint64_t refused(const std::string& reason) const {
-    for (const RefusalCount& r : report.health.refusals) {
-      if (r.stage == "fusion" && r.reason == reason) return r.count;
-    }
-    return 0;
-  }
-  double seconds(NavStatus status) const {
-    return 0.01 *
-           static_cast<double>(std::count_if(states.begin(), states.end(), [&](const NavState& s) {
-             return s.status == status;
-           }));
-  }
-};
+const Driven& clean();
 
-// GivenMotions gives the motions that another replay's odometry computed.
-class GivenMotions final : public sensors::Source<RelativeMotion> {
- public:
-  explicit GivenMotions(std::vector<RelativeMotion> motions) : motions_(std::move(motions)) {}
-  bool next(RelativeMotion& motion) override {
-    if (report_.delivered == motions_.size()) return false;
-    motion = motions_[report_.delivered++];
-    return true;
-  }
-  const sensors::SourceReport& report() const override { return report_; }
-
- private:
-  std::vector<RelativeMotion> motions_;
-  sensors::SourceReport report_;
-};
-
-const Replayed& clean();
-
-Replayed replay(const std::vector<std::string>& texts) {
-  const sensors::KittiDrive drive(maploop::testing::drive_0013());
-  std::vector<Fault> faults;
-  for (const std::string& text : texts) faults.push_back(parse_fault(text));
-  FaultInjection injection(std::move(faults), drive.first_stamp());
-  Sensors sources;
+Driven replay(const std::vector<std::string>& faults) {
+  const sensors::KittiDrive recorded(maploop::testing::drive_0013());
+  Drive d{.sensors = {},
+          .calibration = recorded.calibration(),
+          .faults = faults,
+          .faults_from = recorded.first_stamp()};
+  d.config.odometry = "visual";  // the LiDAR would hide a fault of the camera
   // Images and scans are read only if a fault strikes them or what is computed from them.
   const auto strikes = [&](const char* target) {
-    return std::any_of(texts.begin(), texts.end(), [&](const std::string& text) {
+    return std::any_of(faults.begin(), faults.end(), [&](const std::string& text) {
       return text.find(target) != std::string::npos;
     });
   };
-  if (texts.empty() || strikes("@camera") || strikes("@stereo") || strikes("@velodyne")) {
-    sources.camera = drive.camera();
+  if (faults.empty() || strikes("@camera") || strikes("@stereo") || strikes("@velodyne")) {
+    d.sensors.camera = recorded.camera();
   } else {
-    sources.odometry = std::make_unique<GivenMotions>(clean().motions);
-    sources.visual = std::make_unique<GivenMotions>(clean().motions);
+    const std::vector<RelativeMotion>& known = clean().motions;
+    for (auto* source : {&d.sensors.odometry, &d.sensors.visual}) {
+      *source = sensors::made<RelativeMotion>(
+          [&known](RelativeMotion& motion, const sensors::SourceReport& report) {
+            if (report.delivered == known.size()) return false;
+            motion = known[report.delivered];
+            return true;
+          });
+    }
   }
-  if (strikes("@velodyne")) sources.velodyne = drive.velodyne();
-  sources.imu = drive.imu();
-  sources.gnss = drive.gnss();
-  sources.reference = drive.reference();
-
-  Replayed r;
-  ChannelHashes hashes;
-  Observer observer;
-  observer.odometry = [&](const RelativeMotion& motion) {
-    ++r.odometry[motion.status];
-    r.motions.push_back(motion);
-  };
-  observer.nav_state = [&](const NavState& state) { r.states.push_back(state); };
-  observer.image_state = [&](const NavState& state) { r.at_images[state.stamp] = state; };
-  VehicleConfig config;
-  config.odometry = "visual";  // the LiDAR would hide a fault of the camera
-  Vehicle vehicle(config, drive.calibration(), injection.inject(std::move(sources)),
-                  runtime::DataClock::virtual_time(), {&hashes}, observer);
-  vehicle.slow_down(injection.delays());
-  const auto hogs = injection.hogs([&] { return vehicle.position(); });
-  vehicle.start();
-  vehicle.wait();
-  r.report = vehicle.report();
-  r.channels = hashes.summary();
-  r.faults = injection.counts();
-
+  if (strikes("@velodyne")) d.sensors.velodyne = recorded.velodyne();
+  d.sensors.imu = recorded.imu();
+  d.sensors.gnss = recorded.gnss();
+  d.sensors.reference = recorded.reference();
+  Driven r = drive(std::move(d));
   for (const ThreadHealth& thread : r.report.health.threads) {
     EXPECT_EQ(thread.failure, "") << thread.name;
   }
-  for (const RingHealth& ring : r.report.health.rings) {
-    EXPECT_EQ(ring.pushed, ring.popped) << ring.name;
-  }
+  testing::expect_rings_balance(r.report, true);
   for (const NavState& state : r.states) {
     EXPECT_TRUE(state.position_enu.allFinite() && state.covariance.allFinite());
   }
@@ -117,13 +64,26 @@ Replayed replay(const std::vector<std::string>& texts) {
   return r;
 }
 
-const Replayed& clean() {
-  static const Replayed run = replay({});
+const Driven& clean() {
+  static const Driven run = replay({});
   return run;
 }
 
+std::uint64_t motions_with(const Driven& r, OdometryStatus status) {
+  return static_cast<std::uint64_t>(
+      std::count_if(r.motions.begin(), r.motions.end(),
+                    [&](const RelativeMotion& m) { return m.status == status; }));
+}
+
+// How long the state had that status, s.
+double seconds(const Driven& r, NavStatus status) {
+  return 0.01 *
+         static_cast<double>(std::count_if(r.states.begin(), r.states.end(),
+                                           [&](const NavState& s) { return s.status == status; }));
+}
+
 // Returns the error of the end in m (of 173 m), with the start moved onto the truth.
-double end_error(const Replayed& r) {
+double end_error(const Driven& r) {
   const sensors::KittiDrive drive(maploop::testing::drive_0013());
   std::vector<ReferencePose> rows;
   const auto source = drive.reference();
@@ -142,7 +102,7 @@ double end_error(const Replayed& r) {
 }
 
 // Returns the largest distance from the clean run, m.
-double farthest_from_clean(const Replayed& r) {
+double farthest_from_clean(const Driven& r) {
   double farthest = 0.0;
   for (std::size_t i = 0; i < std::min(r.states.size(), clean().states.size()); ++i) {
     const NavState& a = r.states[i];
@@ -153,11 +113,11 @@ double farthest_from_clean(const Replayed& r) {
   return farthest;
 }
 
-double end_from_clean(const Replayed& r) {
+double end_from_clean(const Driven& r) {
   return (r.states.back().position_enu - clean().states.back().position_enu).norm();
 }
 
-void expect_near_clean(const Replayed& r, double on_the_way, double at_the_end) {
+void expect_near_clean(const Driven& r, double on_the_way, double at_the_end) {
   const std::string fault = r.faults.at(0).fault;
   EXPECT_LT(farthest_from_clean(r), on_the_way) << fault;
   EXPECT_LT(end_from_clean(r), at_the_end) << fault;
@@ -165,12 +125,12 @@ void expect_near_clean(const Replayed& r, double on_the_way, double at_the_end) 
 
 TEST(FaultDrive, LostImagesAreBridgedByTheInertialSensors) {
   MAPLOOP_REQUIRE_DRIVE();
-  const Replayed one = replay({"lost@camera:5:1"});
+  const Driven one = replay({"lost@camera:5:1"});
   expect_near_clean(one, 0.6, 0.2);
   EXPECT_EQ(one.channels.at("VO").count, 144 - one.faults[0].struck);
-  const Replayed three = replay({"lost@camera:5:3"});
+  const Driven three = replay({"lost@camera:5:3"});
   expect_near_clean(three, 0.8, 0.5);
-  EXPECT_GT(three.seconds(NavStatus::coasting), 1.5) << "NAV_STATE says so";
+  EXPECT_GT(seconds(three, NavStatus::coasting), 1.5) << "NAV_STATE says so";
   EXPECT_EQ(three.states.back().status, NavStatus::aided) << "and when it is over";
 }
 
@@ -179,44 +139,44 @@ TEST(FaultDrive, BlackAndNoisyImagesAreRefusedByName) {
   for (const auto& [fault, status] :
        {std::pair("black@camera:5:1", OdometryStatus::too_dark),
         std::pair("garbage@camera:5:1", OdometryStatus::too_few_features)}) {
-    const Replayed r = replay({fault});
+    const Driven r = replay({fault});
     expect_near_clean(r, 0.6, 0.2);
-    EXPECT_EQ(r.odometry.at(status), static_cast<int>(r.faults[0].struck)) << fault;
+    EXPECT_EQ(motions_with(r, status), r.faults[0].struck) << fault;
     EXPECT_EQ(r.channels.at("VO").count, 144u) << "a result, or an explicit none, for each image";
   }
 }
 
 TEST(FaultDrive, LateImagesAreAppliedAtTheirStamps) {
   MAPLOOP_REQUIRE_DRIVE();
-  const Replayed r = replay({"late@camera:5:3,by=0.5"});
+  const Driven r = replay({"late@camera:5:3,by=0.5"});
   expect_near_clean(r, 0.4, 1e-9);
-  const Replayed too_late = replay({"late@camera:5:1,by=3.5"});
+  const Driven too_late = replay({"late@camera:5:1,by=3.5"});
   expect_near_clean(too_late, 1.0, 0.2);
-  EXPECT_GT(too_late.refused("older than the history"), 0u);
+  EXPECT_GT(too_late.refused("fusion", "older than the history"), 0u);
 }
 
 TEST(FaultDrive, DuplicatedImagesChangeNothing) {
   MAPLOOP_REQUIRE_DRIVE();
-  const Replayed r = replay({"duplicated@camera"});
-  EXPECT_EQ(r.odometry.at(OdometryStatus::bad_input), 144);
+  const Driven r = replay({"duplicated@camera"});
+  EXPECT_EQ(motions_with(r, OdometryStatus::bad_input), 144u);
   EXPECT_EQ(r.channels.at("NAV_STATE").hash, clean().channels.at("NAV_STATE").hash);
 }
 
 TEST(FaultDrive, ReorderedImagesCostOneOfTwoMotions) {
   MAPLOOP_REQUIRE_DRIVE();
-  const Replayed r = replay({"reordered@camera:2:8"});
+  const Driven r = replay({"reordered@camera:2:8"});
   expect_near_clean(r, 0.5, 0.5);
-  EXPECT_EQ(r.odometry.at(OdometryStatus::bad_input), static_cast<int>(r.faults[0].struck));
-  EXPECT_EQ(r.seconds(NavStatus::coasting), 0.0);
+  EXPECT_EQ(motions_with(r, OdometryStatus::bad_input), r.faults[0].struck);
+  EXPECT_EQ(seconds(r, NavStatus::coasting), 0.0);
   EXPECT_LE(r.states.back().odometry_refused, clean().states.back().odometry_refused + 2)
       << "the motions across a refused image are used";
 }
 
 TEST(FaultDrive, LostInertialSamplesAreBridgedByTheOdometry) {
   MAPLOOP_REQUIRE_DRIVE();
-  const Replayed r = replay({"lost@imu:5:2"});
+  const Driven r = replay({"lost@imu:5:2"});
   expect_near_clean(r, 0.3, 0.3);
-  EXPECT_EQ(r.seconds(NavStatus::coasting), 0.0);
+  EXPECT_EQ(seconds(r, NavStatus::coasting), 0.0);
   EXPECT_EQ(r.channels.at("IMU").count, 144 - r.faults[0].struck);
   expect_near_clean(replay({"lost@imu,share=0.3,seed=5"}), 1.2, 1.2);
 }
@@ -224,73 +184,73 @@ TEST(FaultDrive, LostInertialSamplesAreBridgedByTheOdometry) {
 TEST(FaultDrive, AStuckInertialUnitIsFoundAndBridgedByTheOdometry) {
   MAPLOOP_REQUIRE_DRIVE();
   for (const char* fault : {"frozen@imu:5:2", "frozen@imu:4:8"}) {
-    const Replayed r = replay({fault});
+    const Driven r = replay({fault});
     expect_near_clean(r, 0.8, 0.8);
-    const auto found = static_cast<double>(r.refused("the sensor is stuck at one value"));
+    const auto found = static_cast<double>(r.refused("fusion", "the sensor is stuck at one value"));
     EXPECT_NEAR(found, static_cast<double>(r.faults[0].struck) - 3.5, 1.0) << "10 Hz, after 0.3 s";
   }
 }
 
 TEST(FaultDrive, InertialSamplesThatAreNotNumbersAreRefusedOneByOne) {
   MAPLOOP_REQUIRE_DRIVE();
-  const Replayed r = replay({"nan@imu:5:1"});
+  const Driven r = replay({"nan@imu:5:1"});
   expect_near_clean(r, 0.2, 0.2);
-  EXPECT_EQ(r.refused("a value is not finite"), r.faults[0].struck);
+  EXPECT_EQ(r.refused("fusion", "a value is not finite"), r.faults[0].struck);
 }
 
 TEST(FaultDrive, LateAndReorderedInertialSamplesAreAppliedAtTheirStamps) {
   MAPLOOP_REQUIRE_DRIVE();
   expect_near_clean(replay({"late@imu:5:3,by=1"}), 0.4, 0.05);
   expect_near_clean(replay({"reordered@imu:2:8"}), 0.05, 0.01);
-  const Replayed r = replay({"duplicated@imu"});
-  EXPECT_EQ(r.refused("duplicate"), 144u);
+  const Driven r = replay({"duplicated@imu"});
+  EXPECT_EQ(r.refused("fusion", "duplicate"), 144u);
   EXPECT_EQ(r.channels.at("NAV_STATE").hash, clean().channels.at("NAV_STATE").hash);
 }
 
 TEST(FaultDrive, AClockAheadOfItsDeliveryIsRefused) {
   MAPLOOP_REQUIRE_DRIVE();
   for (const char* fault : {"jump@imu:5:3,by=1.5", "jump@imu:5:3,by=3", "jump@camera:5:1,by=3"}) {
-    const Replayed r = replay({fault});
+    const Driven r = replay({fault});
     expect_near_clean(r, 1.0, 0.5);
-    EXPECT_GE(r.refused("stamped later than delivered"), r.faults[0].struck) << fault;
-    EXPECT_EQ(r.seconds(NavStatus::uninitialized), clean().seconds(NavStatus::uninitialized));
+    EXPECT_GE(r.refused("fusion", "stamped later than delivered"), r.faults[0].struck) << fault;
+    EXPECT_EQ(seconds(r, NavStatus::uninitialized), seconds(clean(), NavStatus::uninitialized));
   }
 }
 
 TEST(FaultDrive, AClockThatFallsBackIsRefused) {
   MAPLOOP_REQUIRE_DRIVE();
-  const Replayed far = replay({"jump@imu:5:3,by=-10"});
+  const Driven far = replay({"jump@imu:5:3,by=-10"});
   expect_near_clean(far, 0.3, 0.2);
-  EXPECT_EQ(far.refused("older than the history"), far.faults[0].struck);
-  const Replayed near = replay({"jump@imu:5:3,by=-1"});
+  EXPECT_EQ(far.refused("fusion", "older than the history"), far.faults[0].struck);
+  const Driven near = replay({"jump@imu:5:3,by=-1"});
   expect_near_clean(near, 0.3, 0.2);
-  EXPECT_EQ(near.refused("the sensor's clock has fallen back"), near.faults[0].struck);
+  EXPECT_EQ(near.refused("fusion", "the sensor's clock has fallen back"), near.faults[0].struck);
 }
 
 TEST(FaultDrive, TheFilterWaitsForTheFirstGoodFix) {
   MAPLOOP_REQUIRE_DRIVE();
   for (const char* fault : {"lost@gnss:0:2", "nan@gnss:0:2", "jump@gnss:0:2,by=5"}) {
-    const Replayed r = replay({fault});
-    EXPECT_NEAR(r.seconds(NavStatus::uninitialized), 2.0, 0.1) << fault;
+    const Driven r = replay({fault});
+    EXPECT_NEAR(seconds(r, NavStatus::uninitialized), 2.0, 0.1) << fault;
     EXPECT_LT(end_error(r), 2.1) << fault;  // 1.93 reached; the start has the error of that fix
   }
-  const Replayed never = replay({"lost@gnss"});
+  const Driven never = replay({"lost@gnss"});
   EXPECT_EQ(never.states.back().status, NavStatus::uninitialized);
   EXPECT_EQ(never.channels.at("VO").count, 144u) << "odometry does not need it";
-  EXPECT_GT(never.refused("held, and too old before the start"), 0u);
+  EXPECT_GT(never.refused("fusion", "held, and too old before the start"), 0u);
 }
 
 TEST(FaultDrive, TheScansAreOnlyCarriedSoFar) {
   MAPLOOP_REQUIRE_DRIVE();
   for (const char* fault : {"nan@velodyne", "lost@velodyne:5:2", "reordered@velodyne"}) {
-    const Replayed r = replay({fault});
+    const Driven r = replay({fault});
     EXPECT_EQ(r.channels.at("NAV_STATE").hash, clean().channels.at("NAV_STATE").hash) << fault;
   }
 }
 
 TEST(FaultDrive, SlowStagesAndABusyMachineChangeNoBit) {
   MAPLOOP_REQUIRE_DRIVE();
-  const Replayed r = replay({"slow@stereo:5:1,by=0.2", "slow@fusion:5:1,by=0.005", "hog@cpu:2:5"});
+  const Driven r = replay({"slow@stereo:5:1,by=0.2", "slow@fusion:5:1,by=0.005", "hog@cpu:2:5"});
   for (const char* channel : {"NAV_STATE", "VO", "IMU", "GNSS_FIX", "TRUTH"}) {
     EXPECT_EQ(r.channels.at(channel).hash, clean().channels.at(channel).hash) << channel;
   }

@@ -2,30 +2,31 @@
 // not change.
 #include <gtest/gtest.h>
 
-#include <map>
 #include <maploop_lcm/map_match_t.hpp>
 #include <memory>
-#include <string>
-#include <vector>
+#include <utility>
 
 #include "msgs/lcm/conversions.h"
-#include "runtime/vehicle/output/channel_hashes.h"
 #include "runtime/vehicle/stages/road_map.h"
 #include "tests/mapmatch/small_map.h"
-#include "tests/runtime/vehicle/fake_sensors.h"
-#include "tests/support/message_tape.h"
+#include "tests/runtime/vehicle/driven.h"
+#include "tests/support/error_of.h"
 #include "tests/support/real_data.h"
 
 namespace maploop::vehicle::map_match_test {
 namespace {
 
-using maploop::testing::MessageTape;
+using maploop::testing::error_of;
 using maploop::testing::SmallMap;
-using runtime::DataClock;
 using std::chrono::milliseconds;
+using testing::Drive;
+using testing::drive;
 using testing::drive_start;
-using testing::fake_calibration;
+using testing::Driven;
+using testing::expect_resumes;
+using testing::expect_rings_balance;
 using testing::fake_sensors;
+using ::testing::HasSubstr;
 
 // The fake drive goes north from 49 N 8.4 E at 10 m/s.
 std::shared_ptr<const RoadMap> north_road() {
@@ -37,7 +38,7 @@ std::shared_ptr<const RoadMap> north_road() {
 
 // Returns visual odometry that follows the drive, or turns although the drive does not.
 std::unique_ptr<sensors::Source<RelativeMotion>> visual_odometry(double yaw_rate) {
-  return std::make_unique<testing::FakeSource<RelativeMotion>>(
+  return testing::fake_source<RelativeMotion>(
       60, [yaw_rate](std::uint64_t i, RelativeMotion& motion) {
         motion.from = drive_start + i * milliseconds(100);
         motion.stamp = motion.from + milliseconds(100);
@@ -57,36 +58,12 @@ Sensors with_visual_odometry(double yaw_rate = 0.0) {
   return sensors;
 }
 
-struct Driven {
-  std::map<std::string, ChannelSummary> channels;
-  MessageTape::Channels tape;
-  std::vector<MapMatch> matches;
-  std::vector<Snapshot> snapshots;
-  VehicleReport report;
-};
-
-Driven drive(const DataClock& clock, std::shared_ptr<const RoadMap> map,
-             const std::vector<Time>& cuts = {}, const Snapshot* from = nullptr,
-             Sensors sensors = fake_sensors(6.0)) {
-  Driven run;
-  ChannelHashes hashes;
-  MessageTape tape;
-  Observer observer;
-  observer.map_match = [&](const MapMatch& match) { run.matches.push_back(match); };
-  Vehicle vehicle({}, fake_calibration(), std::move(sensors), clock, {&hashes, &tape}, observer,
-                  nullptr, std::move(map));
-  if (from != nullptr) vehicle.resume(*from);
-  vehicle.take_snapshots(cuts, [&](const Snapshot& s) { run.snapshots.push_back(s); });
-  vehicle.start();
-  vehicle.wait();
-  run.channels = hashes.summary();
-  run.tape = tape.all();
-  run.report = vehicle.report();
-  return run;
+Drive with_map(Sensors sensors = fake_sensors(6.0)) {
+  return {.sensors = std::move(sensors), .map = north_road()};
 }
 
-TEST(VehicleMapMatch, MatchesEveryTenthStateOfTheFusion) {
-  const Driven run = drive(DataClock::virtual_time(), north_road());
+TEST(VehicleMapMatch, MatchesEveryTenthStateAndSaysItInNumbersAndWords) {
+  const Driven run = drive(with_map());
   ASSERT_GE(run.matches.size(), 59U);
   EXPECT_EQ(run.channels.at("MAP_MATCH").count, run.matches.size());
   for (std::size_t i = 1; i < run.matches.size(); ++i) {
@@ -100,14 +77,11 @@ TEST(VehicleMapMatch, MatchesEveryTenthStateOfTheFusion) {
   EXPECT_EQ(last.way_id, 10);
   EXPECT_EQ(last.phase, MatchPhase::along_link);
   EXPECT_GT(last.probability, 0.9);
-}
 
-TEST(VehicleMapMatch, TheMessageSaysItInNumbersAndWords) {
-  const Driven run = drive(DataClock::virtual_time(), north_road());
-  const auto& data = run.tape.at("MAP_MATCH").at(55).data;
+  const auto& data = run.messages.at("MAP_MATCH").at(55).data;
   maploop_lcm::map_match_t message;
   ASSERT_GT(message.decode(data.data(), 0, static_cast<int>(data.size())), 0);
-  EXPECT_EQ(message.explanation.find("way 10, P "), 0U) << message.explanation;
+  EXPECT_THAT(message.explanation, ::testing::StartsWith("way 10, P "));
   ASSERT_GE(message.candidate_count, 1);
   EXPECT_EQ(message.candidates[0].road, "way 10");
   EXPECT_GE(message.candidates[0].rule_count, 1);
@@ -115,39 +89,34 @@ TEST(VehicleMapMatch, TheMessageSaysItInNumbersAndWords) {
 }
 
 TEST(VehicleMapMatch, ChangesNoBitOfTheRestAndIsTheSameInRealTime) {
-  const Driven without = drive(DataClock::virtual_time(), nullptr);
-  const Driven lockstep = drive(DataClock::virtual_time(), north_road());
-  const Driven paced = drive(DataClock::paced(4.0), north_road());
-  EXPECT_FALSE(without.channels.contains("MAP_MATCH"));
-  for (const auto& [name, channel] : lockstep.channels) {
-    if (channel.hash.empty()) continue;
-    EXPECT_EQ(paced.channels.at(name).hash, channel.hash) << name;
-    if (name == "MAP_MATCH") continue;
-    EXPECT_EQ(without.channels.at(name).hash, channel.hash) << name;
-  }
-  for (const RingHealth& ring : paced.report.health.rings)
-    EXPECT_EQ(ring.pushed, ring.popped) << ring.name;
+  const auto without = drive({.sensors = fake_sensors(6.0)}).hashes();
+  auto lockstep = drive(with_map()).hashes();
+  Drive in_real_time = with_map();
+  in_real_time.speed = 4.0;
+  const Driven paced = drive(std::move(in_real_time));
+  EXPECT_EQ(paced.hashes(), lockstep);
+  EXPECT_EQ(lockstep.erase("MAP_MATCH"), 1u);
+  EXPECT_EQ(without, lockstep);
+  expect_rings_balance(paced.report, true);
 }
 
 TEST(VehicleMapMatch, AResumedRunSendsWhatTheWholeRunSends) {
-  std::vector<Time> cuts;  // at, before and after ticks of the matcher
+  Drive d = with_map();  // cuts at, before and after ticks of the matcher
   for (const int ms : {100, 500, 1230, 3010, 3090, 4500})
-    cuts.push_back(drive_start + milliseconds(ms));
-  const Driven whole = drive(DataClock::virtual_time(), north_road(), cuts);
-  ASSERT_EQ(whole.snapshots.size(), cuts.size());
-  for (const Snapshot& snapshot : whole.snapshots) {
-    const Driven resumed = drive(DataClock::virtual_time(), north_road(), {}, &snapshot);
-    std::vector<MessageTape::Taped> expected;
-    for (const auto& taped : whole.tape.at("MAP_MATCH"))
-      if (taped.time > snapshot.at) expected.push_back(taped);
-    EXPECT_EQ(resumed.tape.at("MAP_MATCH"), expected) << format_time(snapshot.at);
-  }
+    d.cuts.push_back(drive_start + milliseconds(ms));
+  const Driven whole = drive(std::move(d));
+  ASSERT_EQ(whole.snapshots.size(), 6u);
+  expect_resumes(whole, [](const Snapshot* from) {
+    Drive rest = with_map();
+    rest.from = from;
+    return drive(std::move(rest));
+  });
 }
 
 TEST(VehicleMapMatch, VisualOdometryIsAskedTooWithTheSameBitsInEachRun) {
-  const std::vector<Time> cuts{drive_start + milliseconds(3010)};
-  const Driven lockstep =
-      drive(DataClock::virtual_time(), north_road(), cuts, nullptr, with_visual_odometry());
+  Drive d = with_map(with_visual_odometry());
+  d.cuts = {drive_start + milliseconds(3010)};
+  const Driven lockstep = drive(std::move(d));
   std::size_t asked = 0;
   for (const MapMatch& match : lockstep.matches)
     asked += match.candidates[0].rules == RuleBase::along_visual;
@@ -156,47 +125,41 @@ TEST(VehicleMapMatch, VisualOdometryIsAskedTooWithTheSameBitsInEachRun) {
   EXPECT_GT(lockstep.matches.at(55).candidates[0].weights[18], 0.9F)
       << "fast and no turn in the images";
 
-  const Driven paced =
-      drive(DataClock::paced(4.0), north_road(), {}, nullptr, with_visual_odometry());
-  EXPECT_EQ(paced.channels.at("MAP_MATCH").hash, lockstep.channels.at("MAP_MATCH").hash);
+  Drive in_real_time = with_map(with_visual_odometry());
+  in_real_time.speed = 4.0;
+  EXPECT_EQ(drive(std::move(in_real_time)).hashes(), lockstep.hashes());
 
-  const Driven resumed = drive(DataClock::virtual_time(), north_road(), {},
-                               &lockstep.snapshots.at(0), with_visual_odometry());
-  std::vector<MessageTape::Taped> expected;
-  for (const auto& taped : lockstep.tape.at("MAP_MATCH"))
-    if (taped.time > lockstep.snapshots.at(0).at) expected.push_back(taped);
-  EXPECT_EQ(resumed.tape.at("MAP_MATCH"), expected);
+  ASSERT_EQ(lockstep.snapshots.size(), 1u);
+  expect_resumes(lockstep, [](const Snapshot* from) {
+    Drive rest = with_map(with_visual_odometry());
+    rest.from = from;
+    return drive(std::move(rest));
+  });
 }
 
 TEST(VehicleMapMatch, VisualOdometryThatContradictsTheStateIsNotAsked) {
-  const Driven run = drive(DataClock::virtual_time(), north_road(), {}, nullptr,
-                           with_visual_odometry(radians(20.0)));
+  const Driven run = drive(with_map(with_visual_odometry(radians(20.0))));
   for (const MapMatch& match : run.matches)
     for (std::size_t i = 0; i < match.candidate_count; ++i)
       ASSERT_NE(match.candidates[i].rules, RuleBase::along_visual) << match.sequence;
 }
 
 TEST(VehicleMapMatch, ASnapshotWithoutAMapIsRefusedWhereThereIsOne) {
-  const Driven without =
-      drive(DataClock::virtual_time(), nullptr, {drive_start + milliseconds(500)});
-  EXPECT_THROW(drive(DataClock::virtual_time(), north_road(), {}, &without.snapshots.at(0)),
-               ArchiveError);
-  const Driven with =
-      drive(DataClock::virtual_time(), north_road(), {drive_start + milliseconds(500)});
-  EXPECT_THROW(drive(DataClock::virtual_time(), nullptr, {}, &with.snapshots.at(0)), ArchiveError);
+  for (const bool map : {false, true}) {
+    Drive saved = with_map(fake_sensors(1.0)), resumed = with_map(fake_sensors(1.0));
+    (map ? resumed : saved).map = nullptr;
+    saved.cuts = {drive_start + milliseconds(500)};
+    const Driven run = drive(std::move(saved));
+    resumed.from = &run.snapshots.at(0);
+    EXPECT_THROW(drive(std::move(resumed)), ArchiveError);
+  }
 }
 
 TEST(VehicleMapMatch, StatesWithoutAPositionAreCounted) {
   Sensors sensors = fake_sensors(3.0);
   sensors.gnss = nullptr;
-  Vehicle vehicle({}, fake_calibration(), std::move(sensors), DataClock::virtual_time(), {}, {},
-                  nullptr, north_road());
-  vehicle.start();
-  vehicle.wait();
-  std::uint64_t counted = 0;
-  for (const RefusalCount& r : vehicle.report().health.refusals)
-    if (r.stage == "mapmatch" && r.reason == "there is no position yet") counted = r.count;
-  EXPECT_GE(counted, 28U);
+  EXPECT_GE(drive(with_map(std::move(sensors))).refused("mapmatch", "there is no position yet"),
+            28U);
 }
 
 TEST(RoadMap, IsThereWhereTheConfigurationSaysSo) {
@@ -204,12 +167,7 @@ TEST(RoadMap, IsThereWhereTheConfigurationSaysSo) {
   MapParameters parameters;
   EXPECT_EQ(load_road_map(parameters), nullptr);
   parameters.file = (folder.path() / "none.osm.pbf").string();
-  try {
-    load_road_map(parameters);
-    FAIL() << "loaded";
-  } catch (const std::runtime_error& e) {
-    EXPECT_NE(std::string(e.what()).find("none.osm.pbf"), std::string::npos) << e.what();
-  }
+  EXPECT_THAT(error_of([&] { load_road_map(parameters); }), HasSubstr("none.osm.pbf"));
   parameters.mode = MapMode::none;
   EXPECT_EQ(load_road_map(parameters), nullptr);
 }

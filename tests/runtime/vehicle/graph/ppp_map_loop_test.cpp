@@ -5,23 +5,22 @@
 #include <chrono>
 #include <memory>
 #include <string>
-#include <thread>
-#include <vector>
+#include <utility>
 
 #include "runtime/vehicle/drivers/limited_source.h"
 #include "runtime/vehicle/drivers/recording.h"
-#include "runtime/vehicle/faults/fault_injection.h"
 #include "runtime/vehicle/stages/road_map.h"
-#include "tests/support/message_tape.h"
+#include "tests/runtime/vehicle/driven.h"
 #include "tests/support/real_data.h"
 
 namespace maploop::vehicle {
 namespace {
 
-using maploop::testing::MessageTape;
-using runtime::DataClock;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using testing::Drive;
+using testing::drive;
+using testing::Driven;
 
 const Recording& riverside() {
   static const Recording recording = open_recording(
@@ -40,38 +39,19 @@ std::shared_ptr<const RoadMap> roads() {
   return map;
 }
 
-struct Driven {
-  MessageTape::Channels messages;
-  std::vector<PppState> ppp;
-  std::vector<MapFeedback> feedbacks;
-  std::vector<Snapshot> snapshots;
-};
-
-Driven drive(MapMode mode, const DataClock& clock = DataClock::virtual_time(),
-             const std::vector<Time>& cuts = {}, const Snapshot* from = nullptr,
-             Duration length = seconds(90)) {
-  Driven run;
-  MessageTape tape;
-  Observer observer;
-  observer.ppp = [&](const PppState& s) { run.ppp.push_back(s); };
-  observer.map_feedback = [&](const MapFeedback& f) { run.feedbacks.push_back(f); };
-  VehicleConfig config;
-  config.map.mode = mode;
-  Sensors sensors = riverside().sensors(Time::min());
-  limit(sensors, riverside().first_stamp + length);
-  Vehicle vehicle(config, riverside().calibration, std::move(sensors), clock, {&tape}, observer,
-                  nullptr, roads());
-  vehicle.take_snapshots(cuts, [&](const Snapshot& s) { run.snapshots.push_back(s); });
-  if (from != nullptr) vehicle.resume(*from);
-  vehicle.start();
-  vehicle.wait();
-  run.messages = tape.all();
-  return run;
+Drive along(Duration length, MapMode mode = MapMode::tight) {
+  Drive d{.sensors = riverside().sensors(Time::min()),
+          .calibration = riverside().calibration,
+          .map = roads(),
+          .faults_from = riverside().first_stamp};
+  limit(d.sensors, riverside().first_stamp + length);
+  d.config.map.mode = mode;
+  return d;
 }
 
 TEST(PppInTheLoop, FixesForTheFusionHoldNothingOfTheMapThatItGetsItself) {
   MAPLOOP_REQUIRE_REAL_DATA();
-  const Driven loose = drive(MapMode::loose), tight = drive(MapMode::tight);
+  const Driven loose = drive(along(seconds(90), MapMode::loose)), tight = drive(along(seconds(90)));
   ASSERT_GT(std::count_if(tight.feedbacks.begin(), tight.feedbacks.end(),
                           [](const MapFeedback& f) { return f.position; }),
             5);
@@ -87,63 +67,44 @@ TEST(PppInTheLoop, FixesForTheFusionHoldNothingOfTheMapThatItGetsItself) {
 TEST(PppInTheLoop, AStageThatEndsWithAnErrorLeavesTheRestGoingOn) {
   MAPLOOP_REQUIRE_REAL_DATA();
   for (const std::string stage : {"ppp", "mapmatch"}) {
-    FaultInjection faults({parse_fault("broken@" + stage + ":10")}, riverside().first_stamp);
-    VehicleConfig config;
-    config.map.mode = MapMode::tight;
-    Sensors sensors = riverside().sensors(Time::min());
-    limit(sensors, riverside().first_stamp + seconds(120));  // more epochs than the ring holds
-    Vehicle vehicle(config, riverside().calibration, std::move(sensors), DataClock::virtual_time(),
-                    {}, {}, nullptr, roads());
-    vehicle.slow_down(faults.delays());
-    vehicle.start();
-    const MonotonicTime bound = runtime::monotonic_now() + std::chrono::minutes(5);
-    while (vehicle.running() && runtime::monotonic_now() < bound) {
-      std::this_thread::sleep_for(milliseconds(5));
-    }
-    EXPECT_FALSE(vehicle.running()) << stage;
-    vehicle.stop();
-    vehicle.wait();
-    const VehicleReport report = vehicle.report();
-    for (const ThreadHealth& thread : report.health.threads) {
+    Drive d = along(seconds(120));  // more epochs than the ring holds
+    d.faults = {"broken@" + stage + ":10"};
+    const Driven run = drive(std::move(d));
+    for (const ThreadHealth& thread : run.report.health.threads) {
       EXPECT_EQ(thread.failure, thread.name == stage ? "ended by an injected fault" : "");
       if (thread.name == "gnss") {
         EXPECT_GT(thread.count, 118u) << "the receiver is read to the end";
       }
     }
     if (stage == "mapmatch") {  // without ppp this drive has no input for fusion
-      EXPECT_GT(report.data_seconds, 118.0);
+      EXPECT_GT(run.report.data_seconds, 118.0);
     }
   }
 }
 
 TEST(PppInTheLoop, ASlowStageIsStruckAtEachEpoch) {
   MAPLOOP_REQUIRE_REAL_DATA();
-  FaultInjection faults({parse_fault("slow@ppp,by=0.001")}, riverside().first_stamp);
-  Sensors sensors = riverside().sensors(Time::min());
-  limit(sensors, riverside().first_stamp + seconds(10));
-  Vehicle vehicle({}, riverside().calibration, std::move(sensors), DataClock::virtual_time(), {},
-                  {});
-  vehicle.slow_down(faults.delays());
-  vehicle.start();
-  vehicle.wait();
-  EXPECT_GE(faults.counts().at(0).struck, 10u);
+  Drive d = along(seconds(10), MapMode::loose);
+  d.map = nullptr;
+  d.faults = {"slow@ppp,by=0.001"};
+  EXPECT_GE(drive(std::move(d)).faults.at(0).struck, 10u);
 }
 
 TEST(PppInTheLoop, HasTheSameBitsInRealTimeAndResumed) {
   MAPLOOP_REQUIRE_REAL_DATA();
-  const std::vector<Time> cuts{riverside().first_stamp + milliseconds(70'550)};  // with feedback
-  const Driven whole = drive(MapMode::tight, DataClock::virtual_time(), cuts);
-  ASSERT_EQ(whole.snapshots.size(), cuts.size());
-  const Snapshot& snapshot = whole.snapshots.front();
-  const Driven paced = drive(MapMode::tight, DataClock::paced(60.0));
-  const Driven resumed = drive(MapMode::tight, DataClock::virtual_time(), {}, &snapshot);
-  for (const char* channel : {"PPP_STATE", "GNSS_FIX", "MAP_FEEDBACK", "NAV_STATE"}) {
-    EXPECT_EQ(paced.messages.at(channel), whole.messages.at(channel)) << channel;
-    std::vector<MessageTape::Taped> expected;
-    for (const auto& taped : whole.messages.at(channel))
-      if (taped.time > snapshot.at) expected.push_back(taped);
-    EXPECT_EQ(resumed.messages.at(channel), expected) << channel;
-  }
+  Drive d = along(seconds(90));
+  d.cuts = {riverside().first_stamp + milliseconds(70'550)};  // with feedback
+  const Driven whole = drive(std::move(d));
+  ASSERT_EQ(whole.snapshots.size(), 1u);
+  EXPECT_TRUE(whole.messages.contains("MAP_FEEDBACK") && whole.messages.contains("PPP_STATE"));
+  Drive in_real_time = along(seconds(90));
+  in_real_time.speed = 60.0;
+  EXPECT_EQ(drive(std::move(in_real_time)).messages, whole.messages);
+  testing::expect_resumes(whole, [](const Snapshot* from) {
+    Drive rest = along(seconds(90));
+    rest.from = from;
+    return drive(std::move(rest));
+  });
 }
 
 }  // namespace

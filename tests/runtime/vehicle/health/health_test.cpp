@@ -1,29 +1,30 @@
 // Tests what HEALTH reports while the vehicle runs, read from a bus in memory.
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <map>
 #include <string>
 
 #include "msgs/lcm/conversions.h"
-#include "runtime/vehicle/graph/vehicle.h"
-#include "tests/runtime/vehicle/fake_sensors.h"
+#include "tests/runtime/vehicle/driven.h"
 #include "tests/runtime/vehicle/memory_bus.h"
 
 namespace maploop::vehicle {
 namespace {
 
-using runtime::DataClock;
-using testing::fake_calibration;
+using ::testing::Contains;
 using testing::fake_sensors;
+using ::testing::HasSubstr;
 using testing::MemoryBus;
 
-VehicleReport run(MemoryBus& bus, const DataClock& clock, const VehicleConfig& config = {}) {
-  Vehicle vehicle(config, fake_calibration(), fake_sensors(5.0), clock, {&bus}, {});
-  vehicle.prepared({{{"locked memory", "all", "none", Verdict::refused, "no room", "add memory"}}});
-  vehicle.start();
-  vehicle.wait();
-  return vehicle.report();
+VehicleReport run(MemoryBus& bus, double speed, const VehicleConfig& config = {}) {
+  return testing::drive({.sensors = fake_sensors(5.0),
+                         .speed = speed,
+                         .config = config,
+                         .sinks = {&bus},
+                         .prepared = {{{"locked memory", "all", "none", Verdict::refused, "no room",
+                                        "add memory"}}}})
+      .report;
 }
 
 std::vector<Health> said(const MemoryBus& bus) {
@@ -42,14 +43,9 @@ Counts refusals(const Health& health) {
   return counts;
 }
 
-bool says(const Health& health, const std::string& text) {
-  return std::any_of(health.degraded.begin(), health.degraded.end(),
-                     [&](const std::string& s) { return s.find(text) != std::string::npos; });
-}
-
 TEST(Health, CountsRefusalsByReasonWhileTheVehicleRuns) {
   MemoryBus bus;
-  const VehicleReport report = run(bus, DataClock::paced(5.0));
+  const VehicleReport report = run(bus, 5.0);
   const std::vector<Health> health = said(bus);
   ASSERT_GE(health.size(), 5u);
   for (std::size_t i = 1; i < health.size(); ++i) {
@@ -69,14 +65,14 @@ TEST(Health, CountsRefusalsByReasonWhileTheVehicleRuns) {
 
 TEST(Health, CountsWhatABusDidNotTake) {
   MemoryBus bus(300);
-  const VehicleReport report = run(bus, DataClock::virtual_time());
+  const VehicleReport report = run(bus, 0.0);
   EXPECT_EQ(bus.messages().size(), 300u);
-  ASSERT_EQ(report.health.outputs.size(), 1u);
-  const OutputHealth& output = report.health.outputs.front();
+  ASSERT_EQ(report.health.outputs.size(), 3u);
+  const OutputHealth& output = report.health.outputs.back();
   EXPECT_EQ(output.name, "memory");
   EXPECT_EQ(output.sent, 300u);
   EXPECT_GT(output.unsent, 300u);
-  EXPECT_TRUE(says(report.health, "memory did not take "));
+  EXPECT_THAT(report.health.degraded, Contains(HasSubstr("memory did not take ")));
 }
 
 TEST(Health, NamesEverySettingThatWasAskedFor) {
@@ -85,7 +81,7 @@ TEST(Health, NamesEverySettingThatWasAskedFor) {
   config.scheduling.fusion.priority = 99;
   config.scheduling.publisher.policy = runtime::SchedulingPolicy::other;
   config.scheduling.publisher.nice = 5;
-  run(bus, DataClock::paced(50.0), config);
+  run(bus, 50.0, config);
   const std::vector<Health> health = said(bus);
   ASSERT_FALSE(health.empty());
   std::map<std::string, RealtimeSetting> settings;
@@ -94,7 +90,8 @@ TEST(Health, NamesEverySettingThatWasAskedFor) {
   EXPECT_EQ(settings["fusion: scheduling"].asked, "fifo 99");
   EXPECT_EQ(settings["publisher: scheduling"].granted, "other nice 5");
   EXPECT_EQ(settings.count("health: scheduling"), 1u) << "of the thread that says it";
-  EXPECT_TRUE(says(health.front(), "locked memory is none, not all: no room; add memory"));
+  EXPECT_THAT(health.front().degraded,
+              Contains("locked memory is none, not all: no room; add memory"));
   for (const ThreadHealth& thread : health.front().threads) {
     EXPECT_EQ(thread.scheduling, settings[thread.name + ": scheduling"].granted);
   }
@@ -102,7 +99,7 @@ TEST(Health, NamesEverySettingThatWasAskedFor) {
 
 TEST(Health, OnVirtualTimeNoThreadAsksForAnything) {
   MemoryBus bus;
-  const VehicleReport report = run(bus, DataClock::virtual_time());
+  const VehicleReport report = run(bus, 0.0);
   for (const RealtimeSetting& s : report.health.settings) {
     if (!s.name.ends_with(": scheduling")) continue;
     EXPECT_EQ(s.asked, "as inherited") << s.name;

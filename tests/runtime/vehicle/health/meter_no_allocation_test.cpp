@@ -1,29 +1,8 @@
-// Tests that measuring allocates nothing. It counts by replacing the global operator new, and so
-// needs an executable of its own.
+// Tests that measuring allocates nothing.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
 #include "runtime/vehicle/health/thread_meter.h"
-
-namespace {
-std::atomic<long> allocations{0};
-}  // namespace
-
-// This is not inlined, or GCC would warn that free() gets memory of the library's operator new.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
+#include "tests/support/counted_allocations.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -33,7 +12,7 @@ using std::chrono::milliseconds;
 TEST(MeterNoAllocation, TicksMissesStallsAndTicksLeftOut) {
   const runtime::DataClock clock = runtime::DataClock::paced(1.0);
   ThreadMeter meter(stages::fusion);
-  const long before = allocations;
+  const long before = testing::thread_allocations();
   for (int i = 0; i < 1000; ++i) {
     const MonotonicTime due{i * milliseconds(10)};
     const Time stamp = from_nanoseconds(i);
@@ -42,11 +21,11 @@ TEST(MeterNoAllocation, TicksMissesStallsAndTicksLeftOut) {
     meter.latency().record({stamp, milliseconds(i), {{{"running", milliseconds(i)}, {}, {}}}});
     meter.latency().record_shift(milliseconds(i), milliseconds(10));
   }
-  const long during = allocations - before;
+  const long during = testing::thread_allocations() - before;
   EXPECT_EQ(during, 0);
   EXPECT_EQ(meter.latency().miss_count(), 997u) << "of 2 ms";
   EXPECT_EQ(meter.latency().summary().worst.size(), 10u);
-  EXPECT_GT(allocations, before) << "the counter counts: a summary allocates";
+  EXPECT_GT(testing::thread_allocations(), before) << "the counter counts: a summary allocates";
 }
 
 }  // namespace

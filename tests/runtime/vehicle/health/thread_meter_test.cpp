@@ -27,6 +27,12 @@ void wake(ThreadMeter& meter, const DataClock& clock, int i, Duration late,
   meter.woke(Tick{start + i * milliseconds(10), left_out}, clock, due, due + late);
 }
 
+Histogram omitted_in(const ThreadMeter& meter) {
+  Histogram omitted;
+  omitted.merge(meter.latency().summary().omitted);
+  return omitted;
+}
+
 TEST(ThreadMeter, JitterIsOfThePeriodAndNotOfTheLateness) {
   const DataClock clock = DataClock::paced(1.0);
   ThreadMeter meter(stage);
@@ -55,8 +61,7 @@ TEST(ThreadMeter, AStallOfTheDataClockHidesTheTicksThatItDelays) {
   wake(meter, clock, 0, {});
   ASSERT_TRUE(clock.stall(start, clock.due(start) + milliseconds(55)));
   for (int i = 1; i < 4; ++i) wake(meter, clock, i, {});
-  Histogram omitted;
-  omitted.merge(meter.latency().summary().omitted);
+  const Histogram omitted = omitted_in(meter);
   EXPECT_EQ(omitted.count(), 4u) << "of 45, 35, 25 and 15 ms, once";
   EXPECT_EQ(omitted.max(), milliseconds(45));
   EXPECT_EQ(omitted.min(), milliseconds(15));
@@ -68,8 +73,7 @@ TEST(ThreadMeter, AtDoubleSpeedThePeriodIsHalfAsLong) {
   ThreadMeter meter(stage);
   ASSERT_TRUE(clock.stall(start, clock.due(start) + milliseconds(21)));
   wake(meter, clock, 0, {});
-  Histogram omitted;
-  omitted.merge(meter.latency().summary().omitted);
+  const Histogram omitted = omitted_in(meter);
   EXPECT_EQ(omitted.count(), 3u) << "of 16, 11 and 6 ms";
 }
 
@@ -78,8 +82,7 @@ TEST(ThreadMeter, TicksLeftOutHaveWaitedToo) {
   ThreadMeter meter(stage);
   wake(meter, clock, 0, {});
   wake(meter, clock, 4, milliseconds(5), 3);
-  Histogram omitted;
-  omitted.merge(meter.latency().summary().omitted);
+  const Histogram omitted = omitted_in(meter);
   EXPECT_EQ(meter.left_out(), 3u);
   EXPECT_EQ(omitted.count(), 3u) << "of 35, 25 and 15 ms";
   EXPECT_EQ(omitted.max(), milliseconds(35));

@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "msgs/lcm/conversions.h"
-#include "runtime/vehicle/faults/fault_injection.h"
-#include "tests/runtime/vehicle/fake_sensors.h"
+#include "tests/runtime/vehicle/driven.h"
 #include "tests/runtime/vehicle/memory_bus.h"
 
 namespace maploop::vehicle {
@@ -144,12 +143,11 @@ std::size_t count(const std::vector<Sentences>& messages, const std::string& sta
 TEST(WatchdogInTheGraph, NamesSilentStaleAndMissingSensorsAndTheRestGoesOn) {
   Sensors sensors = testing::fake_sensors(9.0);
   sensors.velodyne = nullptr;
-  FaultInjection faults({parse_fault("lost@imu:2:4"), parse_fault("lost@gnss:0:20")}, drive_start);
   testing::MemoryBus bus;
-  Vehicle vehicle({}, testing::fake_calibration(), faults.inject(std::move(sensors)),
-                  runtime::DataClock::paced(1.5), {&bus}, {});
-  vehicle.start();
-  vehicle.wait();
+  testing::drive({.sensors = std::move(sensors),
+                  .speed = 4.0,
+                  .faults = {"lost@imu:2:4", "lost@gnss:0:20"},
+                  .sinks = {&bus}});
   const std::vector<Sentences> messages = degraded(bus);
   ASSERT_GE(messages.size(), 9U);
   EXPECT_EQ(count(messages, "velodyne: there is none"), messages.size());
@@ -164,9 +162,9 @@ TEST(WatchdogInTheGraph, NamesAStuckStageAndWhoWaitsForIt) {
   std::atomic<std::uint64_t> struck = 0;
   StageDelays delays;
   delays["stereo"].add({drive_start + milliseconds(1000), drive_start + milliseconds(1100)},
-                       milliseconds(3500), struck);
+                       milliseconds(2500), struck);
   testing::MemoryBus bus;
-  Vehicle vehicle({}, testing::fake_calibration(), testing::fake_sensors(3.0),
+  Vehicle vehicle({}, testing::fake_calibration(), testing::fake_sensors(2.0),
                   runtime::DataClock::paced(1.0), {&bus}, {});
   vehicle.slow_down(delays);
   vehicle.start();

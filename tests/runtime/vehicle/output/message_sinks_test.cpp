@@ -15,18 +15,34 @@
 #include "runtime/vehicle/output/channel_hashes.h"
 #include "runtime/vehicle/output/lcm_bus.h"
 #include "runtime/vehicle/output/log_recorder.h"
+#include "tests/support/error_of.h"
 #include "tests/support/real_data.h"
 
 namespace maploop::vehicle {
 namespace {
 
+using maploop::testing::error_of;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
 Message message(const std::vector<std::uint8_t>& data, bool from_data = true) {
   return {"IMU", from_nanoseconds(1'317'042'651'174'740'992), data, from_data};
 }
 
-TEST(LogRecorder, WritesWhatLcmReads) {
+class LogFile : public ::testing::Test {
+ protected:
+  std::size_t events() const {
+    lcm::LogFile log(file, "r");
+    std::size_t count = 0;
+    while (log.readNextEvent() != nullptr) ++count;
+    return count;
+  }
+
   const maploop::testing::TemporaryFolder folder;
   const std::string file = (folder.path() / "a.lcmlog").string();
+};
+
+TEST_F(LogFile, IsWhatLcmReads) {
   {
     LogRecorder recorder(file);
     recorder.send(message({1, 2, 3}));
@@ -46,32 +62,17 @@ TEST(LogRecorder, WritesWhatLcmReads) {
   EXPECT_EQ(log.readNextEvent(), nullptr);
 }
 
-TEST(LogRecorder, AFileIsOfOneRecording) {
-  const maploop::testing::TemporaryFolder folder;
-  const std::string file = (folder.path() / "a.lcmlog").string();
+TEST_F(LogFile, IsOfOneRecording) {
   {
     LogRecorder first(file);
     first.send(message({1, 2, 3}));
-    try {
-      const LogRecorder second(file);
-      ADD_FAILURE();
-    } catch (const std::runtime_error& e) {
-      EXPECT_NE(std::string(e.what()).find("a.lcmlog"), std::string::npos) << e.what();
-      EXPECT_NE(std::string(e.what()).find("another run"), std::string::npos) << e.what();
-    }
+    EXPECT_THAT(error_of([&] { const LogRecorder second(file); }),
+                AllOf(HasSubstr("a.lcmlog"), HasSubstr("another run")));
     first.send(message({4}));
   }
-  lcm::LogFile log(file, "r");
-  for (int i = 0; i < 2; ++i) EXPECT_NE(log.readNextEvent(), nullptr) << "the first is whole";
+  EXPECT_EQ(events(), 2u) << "the first is whole";
   const LogRecorder again(file);  // this is allowed once the first has ended
   const LogRecorder nowhere("/dev/null"), nowhere_else("/dev/null");
-}
-
-std::size_t events_in(const std::string& file) {
-  lcm::LogFile log(file, "r");
-  std::size_t events = 0;
-  while (log.readNextEvent() != nullptr) ++events;
-  return events;
 }
 
 // A SmallDisk makes the disk full at a limit that the kernel sets for this process alone.
@@ -95,9 +96,7 @@ class SmallDisk {
   void (*handler_)(int) = nullptr;
 };
 
-TEST(LogRecorder, OnAFullDiskEveryEventIsInTheFileOrCountedAsUnsent) {
-  const maploop::testing::TemporaryFolder folder;
-  const std::string file = (folder.path() / "a.lcmlog").string();
+TEST_F(LogFile, OnAFullDiskHoldsEveryEventThatIsNotCountedAsUnsent) {
   LogRecorder recorder(file);
   {
     const SmallDisk disk(100'000);
@@ -107,32 +106,26 @@ TEST(LogRecorder, OnAFullDiskEveryEventIsInTheFileOrCountedAsUnsent) {
     EXPECT_GT(health.sent, 250u);
     EXPECT_GT(health.unsent, 600u);
     EXPECT_EQ(health.sent + health.unsent, 1000u);
-    EXPECT_EQ(events_in(file), health.sent);
+    EXPECT_EQ(events(), health.sent);
     EXPECT_EQ(std::filesystem::file_size(file), health.sent * (28 + 3 + 300)) << "no cut event";
   }
   recorder.send(message({1, 2, 3}));
   recorder.flush();
-  EXPECT_EQ(events_in(file), recorder.health().sent) << "there is room again";
+  EXPECT_EQ(events(), recorder.health().sent) << "there is room again";
 }
 
-TEST(LogRecorder, AllThatWasSentIsInTheFileAfterAFlushAndMoreMayFollow) {
-  const maploop::testing::TemporaryFolder folder;
-  const std::string file = (folder.path() / "a.lcmlog").string();
+TEST_F(LogFile, HoldsAllThatWasSentAfterAFlushAndMoreMayFollow) {
   LogRecorder recorder(file);
   for (int i = 0; i < 10; ++i) {
     for (int k = 0; k < 100; ++k) recorder.send(message({1, 2, 3}));
     recorder.flush();
-    EXPECT_EQ(events_in(file), 100u * static_cast<unsigned>(i + 1));
+    EXPECT_EQ(events(), 100u * static_cast<unsigned>(i + 1));
   }
 }
 
 TEST(LogRecorder, NamesTheFileItCannotWrite) {
-  try {
-    LogRecorder recorder("/nonexistent/folder/a.lcmlog");
-    FAIL();
-  } catch (const std::runtime_error& e) {
-    EXPECT_NE(std::string(e.what()).find("/nonexistent/folder/a.lcmlog"), std::string::npos);
-  }
+  EXPECT_THAT(error_of([&] { LogRecorder recorder("/nonexistent/folder/a.lcmlog"); }),
+              HasSubstr("/nonexistent/folder/a.lcmlog"));
 }
 
 TEST(LcmBus, CountsWhatItSent) {
@@ -165,12 +158,7 @@ TEST(LcmBus, CountsWhatItCouldNotSendAndSaysItsBuffers) {
 }
 
 TEST(LcmBus, NamesTheUrlItCannotOpen) {
-  try {
-    LcmBus bus("nonsense://here");
-    FAIL();
-  } catch (const std::runtime_error& e) {
-    EXPECT_NE(std::string(e.what()).find("nonsense://here"), std::string::npos);
-  }
+  EXPECT_THAT(error_of([&] { LcmBus bus("nonsense://here"); }), HasSubstr("nonsense://here"));
 }
 
 TEST(ChannelHashes, DependOnEveryByteAndOnTheOrder) {

@@ -1,6 +1,7 @@
 // Tests runs that announce themselves on one bus.
 #include "runtime/vehicle/output/runs.h"
 
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <lcm/lcm-cpp.hpp>
@@ -15,6 +16,7 @@ namespace maploop::vehicle {
 namespace {
 
 using std::chrono::seconds;
+using ::testing::HasSubstr;
 
 maploop_lcm::run_t said(const std::string& id, bool ended = false) {
   maploop_lcm::run_t message{};
@@ -81,9 +83,9 @@ TEST(RunPresence, TwoOnOneBusWarnEachOtherOnce) {
   for (int i = 0; i < 3; ++i) first.update();
   ASSERT_EQ(first_says.size(), 1u);
   ASSERT_EQ(second_says.size(), 1u);
-  EXPECT_NE(first_says[0].find(second_id + " (replay of two)"), std::string::npos);
-  EXPECT_NE(first_says[0].find("--lcm-url"), std::string::npos);
-  EXPECT_NE(second_says[0].find("(replay of one)"), std::string::npos);
+  EXPECT_THAT(first_says[0], HasSubstr(second_id + " (replay of two)"));
+  EXPECT_THAT(first_says[0], HasSubstr("--lcm-url"));
+  EXPECT_THAT(second_says[0], HasSubstr("(replay of one)"));
 }
 
 }  // namespace

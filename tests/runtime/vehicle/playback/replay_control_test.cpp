@@ -1,6 +1,7 @@
 // Tests the player under commands of LCM messages, on a bus inside this process.
 #include "runtime/vehicle/playback/replay_control.h"
 
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <lcm/lcm-cpp.hpp>
@@ -18,6 +19,7 @@
 namespace maploop::vehicle {
 namespace {
 
+using ::testing::HasSubstr;
 using Control = maploop_lcm::replay_control_t;
 using std::chrono::milliseconds;
 
@@ -181,7 +183,7 @@ TEST_F(ReplayControlTest, BadCommandsAreRefusedWithTheirReason) {
   command(Control::SEEK, std::numeric_limits<double>::quiet_NaN());
   EXPECT_NE(state().refused, "");
   command(Control::SPEED, 0.0);
-  EXPECT_NE(state().refused.find("above 0"), std::string::npos) << state().refused;
+  EXPECT_THAT(state().refused, HasSubstr("above 0"));
   EXPECT_EQ(state().speed, 1.0);
   command(Control::SPEED, std::numeric_limits<double>::infinity());
   EXPECT_NE(state().refused, "");
@@ -207,7 +209,7 @@ TEST_F(ReplayControlTest, AMessageOfAnotherTypeIsRefused) {
   const std::string noise = "not a command";
   ASSERT_EQ(lcm_.publish("REPLAY_CONTROL", noise.data(), static_cast<unsigned>(noise.size())), 0);
   look();
-  EXPECT_NE(state().refused.find("replay_control_t"), std::string::npos) << state().refused;
+  EXPECT_THAT(state().refused, HasSubstr("replay_control_t"));
 }
 
 TEST_F(ReplayControlTest, AMessageWhoseTextHasNoEndIsRefused) {
@@ -222,7 +224,7 @@ TEST_F(ReplayControlTest, AMessageWhoseTextHasNoEndIsRefused) {
   bytes[bytes.size() - 2] = 0;  // the length of `refused` with its terminator, which was 1
   ASSERT_EQ(lcm_.publish("REPLAY_CONTROL", bytes.data(), static_cast<unsigned>(bytes.size())), 0);
   look();
-  EXPECT_NE(state().refused.find("replay_control_t"), std::string::npos) << state().refused;
+  EXPECT_THAT(state().refused, HasSubstr("replay_control_t"));
   EXPECT_EQ(state().paused, 0);
 }
 

@@ -4,51 +4,29 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <memory>
 #include <thread>
+#include <utility>
 #include <vector>
 
-#include "tests/runtime/vehicle/fake_sensors.h"
-#include "tests/support/message_tape.h"
+#include "tests/runtime/vehicle/driven.h"
+#include "tests/support/error_of.h"
 #include "tests/support/real_data.h"
 
 namespace maploop::vehicle::snapshot_test {
 namespace {
 
-using maploop::testing::MessageTape;
+using maploop::testing::error_of;
 using maploop::testing::TemporaryFolder;
 using runtime::DataClock;
 using std::chrono::milliseconds;
+using testing::drive;
 using testing::drive_start;
+using testing::Driven;
 using testing::fake_calibration;
 using testing::fake_sensors;
+using ::testing::HasSubstr;
 
 constexpr double seconds = 3.0;
-
-struct Driven {
-  std::unique_ptr<MessageTape> tape = std::make_unique<MessageTape>();
-  std::vector<Snapshot> snapshots;
-  VehicleReport report;
-};
-
-Driven drive(const DataClock& clock, const std::vector<Time>& cuts) {
-  Driven run;
-  Vehicle vehicle({}, fake_calibration(), fake_sensors(seconds), clock, {run.tape.get()}, {});
-  vehicle.take_snapshots(cuts, [&](const Snapshot& s) { run.snapshots.push_back(s); });
-  vehicle.start();
-  vehicle.wait();
-  run.report = vehicle.report();
-  return run;
-}
-
-MessageTape::Channels resume(const Snapshot& snapshot, const DataClock& clock) {
-  MessageTape tape;
-  Vehicle vehicle({}, fake_calibration(), fake_sensors(seconds), clock, {&tape}, {});
-  vehicle.resume(snapshot);
-  vehicle.start();
-  vehicle.wait();
-  return tape.all();
-}
 
 // One image every 103 ms, its result 55 ms later: these cuts lie before, between and after them.
 std::vector<Time> cuts_everywhere() {
@@ -57,20 +35,27 @@ std::vector<Time> cuts_everywhere() {
   return cuts;
 }
 
-TEST(Snapshot, AResumedRunSendsWhatTheWholeRunSends) {
-  const Driven whole = drive(DataClock::virtual_time(), cuts_everywhere());
-  ASSERT_EQ(whole.snapshots.size(), cuts_everywhere().size());
-  for (const Snapshot& snapshot : whole.snapshots) {
-    const auto expected = whole.tape->after(snapshot.at);
-    EXPECT_GE(expected.size(), 3u);
-    EXPECT_EQ(resume(snapshot, DataClock::virtual_time()), expected)
-        << "from " << format_time(snapshot.at);
-  }
+Driven drive_with(std::vector<Time> cuts, Sensors sensors = fake_sensors(seconds)) {
+  return drive({.sensors = std::move(sensors), .cuts = std::move(cuts)});
 }
 
-TEST(Snapshot, TakingThemChangesNoBit) {
-  EXPECT_EQ(drive(DataClock::virtual_time(), {}).tape->all(),
-            drive(DataClock::virtual_time(), cuts_everywhere()).tape->all());
+TEST(Snapshot, AResumedRunSendsWhatTheWholeRunSends) {
+  const Driven whole = drive_with(cuts_everywhere());
+  EXPECT_EQ(whole.messages, drive_with({}).messages) << "taking them changes no bit";
+  ASSERT_EQ(whole.snapshots.size(), cuts_everywhere().size());
+  testing::expect_resumes(whole, [](const Snapshot* from) {
+    Driven rest = drive({.sensors = fake_sensors(seconds), .from = from});
+    EXPECT_GE(rest.messages.size(), 3u);
+    return rest;
+  });
+
+  const Driven again = drive(
+      {.sensors = fake_sensors(seconds), .cuts = cuts_everywhere(), .from = &whole.snapshots[3]});
+  ASSERT_EQ(again.snapshots.size(), whole.snapshots.size() - 4)
+      << "those up to its begin are left out";
+  for (std::size_t i = 0; i < again.snapshots.size(); ++i) {
+    EXPECT_TRUE(again.snapshots[i].parts == whole.snapshots[i + 4].parts);
+  }
 }
 
 // The odometry of a log without images, from a disk that is slower than all other sensors.
@@ -78,8 +63,8 @@ Sensors logged_sensors() {
   Sensors sensors = fake_sensors(seconds);
   sensors.camera.reset();
   sensors.velodyne.reset();
-  sensors.odometry = std::make_unique<testing::FakeSource<RelativeMotion>>(
-      static_cast<std::uint64_t>(seconds * 10), [](std::uint64_t i, RelativeMotion& motion) {
+  sensors.odometry = testing::fake_source<RelativeMotion>(
+      seconds * 10, [](std::uint64_t i, RelativeMotion& motion) {
         std::this_thread::sleep_for(milliseconds(2));
         motion.stamp = drive_start + i * milliseconds(100);
         motion.from = motion.stamp - milliseconds(100);
@@ -92,115 +77,70 @@ Sensors logged_sensors() {
 }
 
 TEST(Snapshot, TakingThemChangesNoBitOfALogWithoutImages) {
-  const auto run = [](const std::vector<Time>& cuts) {
-    MessageTape tape;
-    Vehicle vehicle({}, fake_calibration(), logged_sensors(), DataClock::virtual_time(), {&tape},
-                    {});
-    std::size_t taken = 0;
-    vehicle.take_snapshots(cuts, [&](const Snapshot&) { ++taken; });
-    vehicle.start();
-    vehicle.wait();
-    EXPECT_EQ(taken, cuts.size());
-    return tape.all();
-  };
-  EXPECT_EQ(run({}), run(cuts_everywhere()));
+  const Driven saved = drive_with(cuts_everywhere(), logged_sensors());
+  EXPECT_EQ(saved.snapshots.size(), cuts_everywhere().size());
+  EXPECT_EQ(saved.messages, drive_with({}, logged_sensors()).messages);
 }
 
 // Stages without input are at the drive's end at once, and hold more cuts than their rings do.
 TEST(Snapshot, IsTakenWhereThereAreNoImagesAndNoScans) {
   Sensors sensors = fake_sensors(seconds);
-  sensors.camera = std::make_unique<testing::FakeSource<StereoPair>>(0, nullptr);
-  sensors.velodyne = std::make_unique<testing::FakeSource<LidarScan>>(0, nullptr);
-  std::size_t taken = 0;
-  Vehicle vehicle({}, fake_calibration(), std::move(sensors), DataClock::virtual_time(), {}, {});
-  vehicle.take_snapshots(cuts_everywhere(), [&](const Snapshot&) { ++taken; });
-  vehicle.start();
-  vehicle.wait();
-  EXPECT_EQ(taken, cuts_everywhere().size());
+  sensors.camera = testing::fake_source<StereoPair>(0, [](std::uint64_t, StereoPair&) {});
+  sensors.velodyne = testing::fake_source<LidarScan>(0, [](std::uint64_t, LidarScan&) {});
+  EXPECT_EQ(drive_with(cuts_everywhere(), std::move(sensors)).snapshots.size(),
+            cuts_everywhere().size());
 }
 
 TEST(Snapshot, OneTakenInRealTimeHasTheBitsOfLockstep) {
   const std::vector<Time> cuts{drive_start + milliseconds(500), drive_start + milliseconds(1230)};
-  const Driven lockstep = drive(DataClock::virtual_time(), cuts);
-  const Driven paced = drive(DataClock::paced(4.0), cuts);
+  const Driven lockstep = drive_with(cuts);
+  const Driven paced = drive({.sensors = fake_sensors(seconds), .speed = 4.0, .cuts = cuts});
   ASSERT_EQ(paced.snapshots.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_TRUE(paced.snapshots[i].parts == lockstep.snapshots[i].parts);
   }
-  EXPECT_EQ(resume(paced.snapshots[1], DataClock::paced(4.0)),
-            lockstep.tape->after(paced.snapshots[1].at));
-}
-
-TEST(Snapshot, OfAResumedRunIsTheOneOfTheWholeRun) {
-  const Driven whole = drive(DataClock::virtual_time(), cuts_everywhere());
-  std::vector<Snapshot> again;
-  Vehicle vehicle({}, fake_calibration(), fake_sensors(seconds), DataClock::virtual_time(), {}, {});
-  vehicle.resume(whole.snapshots[3]);
-  vehicle.take_snapshots(cuts_everywhere(), [&](const Snapshot& s) { again.push_back(s); });
-  vehicle.start();
-  vehicle.wait();
-  ASSERT_EQ(again.size(), whole.snapshots.size() - 4) << "those up to its begin are left out";
-  for (std::size_t i = 0; i < again.size(); ++i) {
-    EXPECT_TRUE(again[i].parts == whole.snapshots[i + 4].parts);
-  }
+  const Driven resumed =
+      drive({.sensors = fake_sensors(seconds), .speed = 4.0, .from = &paced.snapshots[1]});
+  EXPECT_EQ(resumed.messages, maploop::testing::after(lockstep.messages, paced.snapshots[1].at));
 }
 
 TEST(Snapshot, MomentsOutsideOfTheDriveAreNeverTaken) {
-  const Driven run = drive(DataClock::virtual_time(),
-                           {drive_start - milliseconds(10), drive_start + std::chrono::hours(1)});
+  const Driven run =
+      drive_with({drive_start - milliseconds(10), drive_start + std::chrono::hours(1)});
   EXPECT_TRUE(run.snapshots.empty());
-  EXPECT_EQ(run.report.health.degraded,
-            drive(DataClock::virtual_time(), {}).report.health.degraded);
+  EXPECT_EQ(run.report.health.degraded, drive_with({}).report.health.degraded);
 }
 
 TEST(Snapshot, AHandlerThatFailsIsNamedAndHoldsNobodyUp) {
-  MessageTape tape;
+  maploop::testing::MessageTape tape;
   Vehicle vehicle({}, fake_calibration(), fake_sensors(seconds), DataClock::virtual_time(), {&tape},
                   {});
   vehicle.take_snapshots(cuts_everywhere(),
                          [](const Snapshot&) { throw std::runtime_error("disk full"); });
   vehicle.start();
   vehicle.wait();
-  EXPECT_EQ(tape.all(), drive(DataClock::virtual_time(), {}).tape->all());
-  std::string said;
-  for (const std::string& sentence : vehicle.report().health.degraded) said += sentence;
-  EXPECT_NE(said.find("snapshot has ended: disk full"), std::string::npos) << said;
+  EXPECT_EQ(tape.all(), drive_with({}).messages);
+  EXPECT_THAT(vehicle.report().health.degraded,
+              ::testing::Contains(HasSubstr("snapshot has ended: disk full")));
 }
 
-TEST(Snapshot, AnotherRecordingIsRefused) {
-  const Driven run = drive(DataClock::virtual_time(), {drive_start + milliseconds(500)});
-  Snapshot snapshot = run.snapshots.at(0);
-  snapshot.first += milliseconds(7);
-  Vehicle vehicle({}, fake_calibration(), fake_sensors(seconds), DataClock::virtual_time(), {}, {});
-  vehicle.resume(snapshot);
-  EXPECT_THROW(vehicle.start(), std::runtime_error);
-}
-
-TEST(Snapshot, OtherSettingsOfAnEstimatorAreRefusedByName) {
-  const Driven run = drive(DataClock::virtual_time(), {drive_start + milliseconds(500)});
+TEST(Snapshot, OfAnotherRecordingOrOfAnotherConfigurationIsRefusedByName) {
+  const Driven run = drive_with({drive_start + milliseconds(500)}, fake_sensors(1.0));
+  Snapshot other = run.snapshots.at(0);
+  other.first += milliseconds(7);
+  EXPECT_THROW(drive({.sensors = fake_sensors(1.0), .from = &other}), std::runtime_error);
   VehicleConfig config;
   config.fusion.gyro_noise *= 2.0;
-  Vehicle vehicle(config, fake_calibration(), fake_sensors(seconds), DataClock::virtual_time(), {},
-                  {});
-  try {
-    vehicle.resume(run.snapshots.at(0));
-    FAIL() << "resumed";
-  } catch (const ArchiveError& e) {
-    EXPECT_NE(std::string(e.what()).find("gyro_noise = 8.7e-05, and here it is 0.000174"),
-              std::string::npos)
-        << e.what();
-  }
+  EXPECT_THAT(error_of<ArchiveError>([&] {
+                drive({.sensors = fake_sensors(1.0), .config = config, .from = &run.snapshots[0]});
+              }),
+              HasSubstr("gyro_noise = 8.7e-05, and here it is 0.000174"));
 }
 
 class SnapshotFile : public ::testing::Test {
  protected:
   std::string refusal(const VehicleConfig& config = {}) const {
-    try {
-      read_snapshot(file_, config);
-      return {};
-    } catch (const std::runtime_error& e) {
-      return e.what();
-    }
+    return error_of([&] { read_snapshot(file_, config); });
   }
 
   TemporaryFolder folder_;
@@ -224,8 +164,7 @@ TEST_F(SnapshotFile, OtherSettingsOfTheSensorsAreRefusedByName) {
   write_snapshot(file_, snapshot_, {});
   VehicleConfig config;
   config.gnss.seed = 7;
-  EXPECT_NE(refusal(config).find("gnss.seed = 1, and here it is 7"), std::string::npos)
-      << refusal(config);
+  EXPECT_THAT(refusal(config), HasSubstr("gnss.seed = 1, and here it is 7"));
   config = {};
   config.scheduling.fusion = runtime::Scheduling::fifo(1);
   config.lcm_url = "memq://";
@@ -233,21 +172,18 @@ TEST_F(SnapshotFile, OtherSettingsOfTheSensorsAreRefusedByName) {
 }
 
 TEST_F(SnapshotFile, WhatIsBrokenOrMissingIsRefusedWithItsName) {
-  EXPECT_NE(refusal().find("a.snapshot': the file is missing"), std::string::npos) << refusal();
+  EXPECT_THAT(refusal(), HasSubstr("a.snapshot': the file is missing"));
   write_snapshot(file_, snapshot_, {});
   std::filesystem::resize_file(file_, std::filesystem::file_size(file_) - 1);
-  EXPECT_NE(refusal().find("a.snapshot': it holds"), std::string::npos) << refusal();
+  EXPECT_THAT(refusal(), HasSubstr("a.snapshot': it holds"));
   std::ofstream(file_) << "no snapshot at all, but long enough to hold a header";
-  EXPECT_NE(refusal().find("it is no archive"), std::string::npos) << refusal();
+  EXPECT_THAT(refusal(), HasSubstr("it is no archive"));
 }
 
 TEST_F(SnapshotFile, ThatCannotBeWrittenIsNamed) {
-  try {
-    write_snapshot(folder_.path() / "missing" / "a.snapshot", snapshot_, {});
-    FAIL() << "written";
-  } catch (const std::runtime_error& e) {
-    EXPECT_NE(std::string(e.what()).find("missing/a.snapshot"), std::string::npos) << e.what();
-  }
+  EXPECT_THAT(
+      error_of([&] { write_snapshot(folder_.path() / "missing" / "a.snapshot", snapshot_, {}); }),
+      HasSubstr("missing/a.snapshot"));
 }
 
 }  // namespace

@@ -10,18 +10,13 @@
 #include <vector>
 
 #include "msgs/lcm/channel_names.h"
-#include "runtime/vehicle/graph/vehicle.h"
 #include "runtime/vehicle/stages/preview_stage.h"
 #include "sensors/image/jpeg.h"
-#include "tests/runtime/vehicle/fake_sensors.h"
+#include "tests/runtime/vehicle/driven.h"
 #include "tests/runtime/vehicle/memory_bus.h"
 
 namespace maploop::vehicle {
 namespace {
-
-using runtime::DataClock;
-using testing::fake_calibration;
-using testing::fake_sensors;
 
 class LookersBus final : public MessageSink {
  public:
@@ -43,21 +38,22 @@ bool has_thread(const VehicleReport& report, const std::string& name) {
                      [&](const ThreadHealth& t) { return t.name == name; });
 }
 
-VehicleReport drive(MessageSink& sink, const VehicleConfig& config = {}) {
-  Vehicle vehicle(config, fake_calibration(), fake_sensors(4.0), DataClock::paced(1.0), {&sink},
-                  {});
-  vehicle.start();
-  vehicle.wait();
-  return vehicle.report();
+VehicleReport drive_with(MessageSink& sink, const VehicleConfig& config, double speed) {
+  return testing::drive({.sensors = testing::fake_sensors(2.0),
+                         .speed = speed,
+                         .config = config,
+                         .sinks = {&sink}})
+      .report;
 }
 
 TEST(Preview, ShowsThePictureAndTheScanToThoseWhoLook) {
   LookersBus bus;
   VehicleConfig config;
+  config.preview.rate = 5.0;
   config.preview.width = 160;
   config.preview.points = 20;
   config.scheduling.preview.nice = 0;  // so that it also runs on a busy machine
-  const VehicleReport report = drive(bus, config);
+  const VehicleReport report = drive_with(bus, config, 1.0);
   EXPECT_TRUE(has_thread(report, "preview"));
   ASSERT_FALSE(bus.previews.empty());
   const auto with_picture = std::find_if(bus.previews.begin(), bus.previews.end(),
@@ -77,12 +73,12 @@ TEST(Preview, ShowsThePictureAndTheScanToThoseWhoLook) {
 
 TEST(Preview, IsNotMadeWhereNobodyLooksOrItsRateIsZero) {
   testing::MemoryBus log;
-  EXPECT_FALSE(has_thread(drive(log), "preview"));
+  EXPECT_FALSE(has_thread(drive_with(log, {}, 0.0), "preview"));
   for (const auto& kept : log.messages()) EXPECT_NE(kept.channel, channel_names::preview);
   LookersBus bus;
   VehicleConfig config;
   config.preview.rate = 0.0;
-  EXPECT_FALSE(has_thread(drive(bus, config), "preview"));
+  EXPECT_FALSE(has_thread(drive_with(bus, config, 0.0), "preview"));
   EXPECT_TRUE(bus.previews.empty());
 }
 
