@@ -11,14 +11,13 @@
 #include "sensors/camera/rectifier.h"
 #include "sensors/image/jpeg.h"
 #include "tools/calibrate/calibration_text.h"
-#include "tools/command/html_image.h"
-#include "tools/command/html_text.h"
+#include "tools/web/html.h"
 #include "tools/web/page.h"
 
 namespace maploop::calibrate {
 namespace {
 
-using tools::escaped;
+using web::escaped;
 
 std::string number(double value) {
   return fmt::format("{:.3f}", value);
@@ -30,7 +29,7 @@ std::string picture(const cv::Mat& image, int width) {
   cv::Mat rgb;
   cv::cvtColor(image, rgb, cv::COLOR_BGR2RGB);
   sensors::encode_jpeg({rgb.data, 3 * rgb.total()}, rgb.cols, rgb.rows, 80, jpeg);
-  return tools::image_tag(jpeg, "jpeg", width);
+  return web::image(jpeg, "jpeg", width);
 }
 
 cv::Mat in_colour(const GreyImage& image) {

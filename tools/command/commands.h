@@ -1,32 +1,37 @@
-// The subcommands of `maploop`, one file each.
+// The subcommands of `maploop`.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
 
 namespace maploop::tools {
 
 // What the parsed command line asks for; returns the exit status.
 using Command = std::function<int()>;
 
-void add_calibrate(CLI::App& app, Command& command);
-void add_dashboard(CLI::App& app, Command& command);
-void add_doctor(CLI::App& app, Command& command);
-void add_evaluate(CLI::App& app, Command& command);
-void add_evaluate_match(CLI::App& evaluate, Command& command);
-void add_experiment(CLI::App& app, Command& command);
-void add_gnss(CLI::App& app, Command& command);
-void add_live(CLI::App& app, Command& command);
-void add_log(CLI::App& app, Command& command);
-void add_map(CLI::App& app, Command& command);
-void add_match(CLI::App& app, Command& command);
-void add_odometry(CLI::App& app, Command& command);
-void add_ppp(CLI::App& app, Command& command);
-void add_profile(CLI::App& app, Command& command);
-void add_replay(CLI::App& app, Command& command);
-void add_send(CLI::App& app, Command& command);
-void add_sensors(CLI::App& app, Command& command);
-void add_simulate(CLI::App& app, Command& command);
-void add_spy(CLI::App& app, Command& command);
+// Adds a subcommand to `app`, which sets `command` if the command line names it.
+using AddCommand = void(CLI::App& app, Command& command);
+
+AddCommand add_calibrate, add_dashboard, add_doctor, add_evaluate, add_experiment, add_gnss,
+    add_live, add_log, add_map, add_match, add_odometry, add_ppp, add_profile, add_replay, add_send,
+    add_sensors, add_simulate, add_spy;
+AddCommand add_evaluate_match;  // of `maploop evaluate`
+
+template <class Options>
+struct Added {
+  CLI::App* sub;
+  Options& options;  // lives as long as `sub`
+};
+
+// Adds a subcommand that calls `run` with its options.
+template <class Options>
+Added<Options> add_command(CLI::App& app, Command& command, const char* name, const char* what,
+                           int (*run)(const Options&)) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* sub = app.add_subcommand(name, what);
+  sub->callback([options, run, &command] { command = [options, run] { return run(*options); }; });
+  return {sub, *options};
+}
 
 }  // namespace maploop::tools

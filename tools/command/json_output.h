@@ -1,18 +1,17 @@
-// JSON that several subcommands write.
+// Writes JSON files.
 #pragma once
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <vector>
 
-#include "msgs/diagnostics.h"
+#include "tools/evaluate/text_file.h"
 
 namespace maploop::tools {
 
-nlohmann::json to_json(const std::vector<RealtimeSetting>& settings);
-nlohmann::json to_json(const SensorClock& clock);
-
 // Throws std::runtime_error naming the file when it cannot be written.
-void write_json_file(const std::filesystem::path& file, const nlohmann::json& json);
+inline void write_json_file(const std::filesystem::path& file, const nlohmann::json& json) {
+  using Handler = nlohmann::json::error_handler_t;
+  evaluation::write_text(file, json.dump(2, ' ', false, Handler::replace) + '\n');
+}
 
 }  // namespace maploop::tools

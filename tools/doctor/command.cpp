@@ -11,10 +11,10 @@
 #include "runtime/vehicle/config/scheduling_config.h"
 #include "runtime/vehicle/config/vehicle_config.h"
 #include "runtime/vehicle/output/lcm_bus.h"
-#include "tools/command/bus_option.h"
 #include "tools/command/commands.h"
 #include "tools/command/json_output.h"
-#include "tools/command/option_checks.h"
+#include "tools/command/options.h"
+#include "tools/replay/figures.h"
 
 namespace maploop::tools {
 namespace {
@@ -52,7 +52,7 @@ int doctor(const DoctorOptions& options) {
   std::cout << runtime::to_text(report);
   if (!options.json.empty()) {
     write_json_file(options.json, {{"all_granted", report.all_granted()},
-                                   {"settings", to_json(report.settings)}});
+                                   {"settings", web::list(setting_columns, report.settings)}});
   }
   return 0;
 }
@@ -60,16 +60,14 @@ int doctor(const DoctorOptions& options) {
 }  // namespace
 
 void add_doctor(CLI::App& app, Command& command) {
-  auto options = std::make_shared<DoctorOptions>();
-  CLI::App* sub = app.add_subcommand(
-      "doctor",
-      "Ask this machine for all that a replay in real time asks for, and say what it "
-      "grants, what not, why, and what to do");
-  sub->add_option("--config", options->config, "TOML file of parameters")->check(existing_file());
-  add_lcm_url(sub, options->lcm_url);
-  sub->add_option("--json", options->json, "Write the report to this file as JSON")
-      ->check(writable_file());
-  sub->callback([options, &command] { command = [options] { return doctor(*options); }; });
+  const auto [sub, options] =
+      add_command(app, command, "doctor",
+                  "Ask this machine for all that a replay in real time asks for, and say what it "
+                  "grants, what not, why, and what to do",
+                  doctor);
+  add_config(sub, options.config);
+  add_lcm_url(sub, options.lcm_url);
+  add_output(sub, "--json", options.json, "Write the report to this file as JSON");
 }
 
 }  // namespace maploop::tools

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "tools/command/html_text.h"
+#include "tools/web/html.h"
 #include "tools/web/page.h"
 
 namespace maploop::evaluation {
@@ -127,10 +127,7 @@ std::string to_html(const Evaluation& e, const std::string& heading) {
       {"Error of segments", "length, m", "%", {raw, rotated}},
       {"From pose to pose", "way, m", "m", {{"translation", after_first, relative.translation_m}}},
       {"From pose to pose", "way, m", "deg", {{"rotation", after_first, relative.rotation_deg}}}};
-  return web::Page(heading)
-      .add("<pre>" + tools::escaped(to_text(e)) + "</pre>\n")
-      .add(plots)
-      .text();
+  return web::Page(heading).add("<pre>" + web::escaped(to_text(e)) + "</pre>\n").add(plots).text();
 }
 
 }  // namespace maploop::evaluation

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "mapmatch/osm_reader.h"
-#include "tools/command/choice_option.h"
 #include "tools/command/option_checks.h"
+#include "tools/command/options.h"
 #include "tools/evaluate/text_file.h"
 #include "tools/experiment/experiments.h"
 #include "tools/experiment/map_experiment.h"

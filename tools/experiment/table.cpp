@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "tools/command/html_text.h"
+#include "tools/web/html.h"
 #include "tools/web/page.h"
+#include "tools/web/table.h"
 
 namespace maploop::experiments {
 
@@ -32,7 +33,7 @@ std::string as_text(const Table& table) {
 }
 
 std::string as_html(const Table& table) {
-  return "<h2>" + tools::escaped(table.title) + "</h2>\n" + web::table(table.heading, table.rows);
+  return "<h2>" + web::escaped(table.title) + "</h2>\n" + web::table(table.heading, table.rows);
 }
 
 }  // namespace maploop::experiments

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "runtime/vehicle/drivers/recorded_tracks.h"
-#include "tools/command/choice_option.h"
 #include "tools/command/commands.h"
 #include "tools/command/option_checks.h"
+#include "tools/command/options.h"
 #include "tools/evaluate/trajectory_file.h"
 #include "tools/odometry/lidar_command.h"
 #include "tools/odometry/motion_csv.h"

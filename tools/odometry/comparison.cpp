@@ -6,10 +6,11 @@
 #include <set>
 #include <stdexcept>
 
-#include "tools/command/html_text.h"
 #include "tools/command/median.h"
 #include "tools/odometry/odometry_input.h"
+#include "tools/web/html.h"
 #include "tools/web/page.h"
+#include "tools/web/table.h"
 
 namespace maploop::odometry {
 namespace {
@@ -172,7 +173,7 @@ std::string to_html(const std::vector<VariantResult>& results, const std::string
                                      matched.truth.front() * matched.estimate.front().inverse())});
   }
   return web::Page(heading)
-      .add(web::table(kHeadings, rows) + "<p>" + tools::escaped(kNotes) + "</p>\n")
+      .add(web::table(kHeadings, rows) + "<p>" + web::escaped(kNotes) + "</p>\n")
       .add({paths, errors})
       .text();
 }

@@ -7,8 +7,7 @@
 #include <sstream>
 
 #include "sensors/image/png.h"
-#include "tools/command/html_image.h"
-#include "tools/command/html_text.h"
+#include "tools/web/html.h"
 #include "tools/web/page.h"
 
 namespace maploop::odometry {
@@ -113,11 +112,11 @@ std::string lidar_page(const std::string& heading, const std::vector<LidarStep>&
   cv::cvtColor(picture, rgb, cv::COLOR_BGR2RGB);
   const std::vector<std::uint8_t> png =
       sensors::encode_png({rgb.data, 3 * rgb.total()}, rgb.cols, rgb.rows);
-  std::string body = "<pre>" + tools::escaped(summary(steps)) + "</pre>\n";
+  std::string body = "<pre>" + web::escaped(summary(steps)) + "</pre>\n";
   body += "<h2>What the scans saw, from above</h2><p>" + std::to_string(cloud.size()) +
           " surfaces; grey: lying; blue to red: standing, from the ground to 4 m above that under "
           "the first frame; black: the way, from left to right as the vehicle stood at first.</p>" +
-          tools::image_tag(png, "png", picture.cols) + "\n";
+          web::image(png, "png", picture.cols) + "\n";
   web::Line height{"body", {}, {}};
   double way = 0.0;
   for (std::size_t i = 0; i < steps.size(); ++i) {

@@ -6,7 +6,7 @@
 
 #include "msgs/frames.h"
 #include "ppp/models/geodesy.h"
-#include "tools/command/html_text.h"
+#include "tools/web/html.h"
 #include "tools/web/page.h"
 
 namespace maploop::gnss {
@@ -181,7 +181,7 @@ std::string refusals(const Solutions& solutions) {
   std::string text =
       "<table><tr><th>refused, or begun anew</th><th>satellites and epochs</th></tr>";
   for (const auto& [why, count] : counts) {
-    text += "<tr><td>" + tools::escaped(why) + "</td><td>" + std::to_string(count) + "</td></tr>";
+    text += "<tr><td>" + web::escaped(why) + "</td><td>" + std::to_string(count) + "</td></tr>";
   }
   return text + "</table>";
 }
@@ -192,7 +192,7 @@ std::string to_page(const std::string& heading, const std::vector<std::string>& 
                     const Solutions& solutions, const Score* score, const Score* without_map,
                     double integrity_risk) {
   std::string body;
-  for (const std::string& line : summary) body += "<p>" + tools::escaped(line) + "</p>";
+  for (const std::string& line : summary) body += "<p>" + web::escaped(line) + "</p>";
   body += refusals(solutions);
   std::vector<Plot> plots;
   if (!solutions.empty()) {

@@ -7,9 +7,9 @@
 
 #include "msgs/lcm/log/log_reader.h"
 #include "tools/command/bus_listener.h"
-#include "tools/command/bus_option.h"
 #include "tools/command/commands.h"
 #include "tools/command/option_checks.h"
+#include "tools/command/options.h"
 #include "tools/command/terminal.h"
 #include "tools/evaluate/text_file.h"
 #include "tools/log/log_types.h"
@@ -78,20 +78,17 @@ int run(const ProfileOptions& options) {
 }  // namespace
 
 void add_profile(CLI::App& app, Command& command) {
-  auto options = std::make_shared<ProfileOptions>();
-  CLI::App* sub = app.add_subcommand(
-      "profile", "Latencies, misses and processor time of a run, from its DEADLINES and HEALTH");
-  auto* log = sub->add_option("LOG", options->log, "LCM log of the run, plain or .gz");
-  auto* live = sub->add_flag("--live", options->live, "Listen to a run on the bus")->excludes(log);
-  add_lcm_url(sub, options->lcm_url)->needs(live);
-  sub->add_option("--seconds", options->seconds, "Listen this long; without it until Ctrl-C")
+  const auto [sub, options] = add_command(
+      app, command, "profile",
+      "Latencies, misses and processor time of a run, from its DEADLINES and HEALTH", run);
+  auto* log = sub->add_option("LOG", options.log, "LCM log of the run, plain or .gz");
+  auto* live = sub->add_flag("--live", options.live, "Listen to a run on the bus")->excludes(log);
+  add_lcm_url(sub, options.lcm_url)->needs(live);
+  sub->add_option("--seconds", options.seconds, "Listen this long; without it until Ctrl-C")
       ->needs(live)
       ->check(positive_number());
-  sub->add_option("--json", options->json, "Write the same to this file as JSON")
-      ->check(writable_file());
-  sub->add_option("--html", options->html, "Write a page with pictures to this file")
-      ->check(writable_file());
-  sub->callback([options, &command] { command = [options] { return run(*options); }; });
+  add_output(sub, "--json", options.json, "Write the same to this file as JSON");
+  add_output(sub, "--html", options.html, "Write a page with pictures to this file");
 }
 
 }  // namespace maploop::tools

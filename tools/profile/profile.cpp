@@ -1,5 +1,7 @@
 #include "tools/profile/profile.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -13,12 +15,25 @@ namespace {
 
 constexpr std::size_t shown_misses = 10;
 
-Latency corrected(const LatencySummary& s) {
+using nlohmann::json;
+using Summary = LatencySummary;
+
+auto milliseconds(Duration Summary::*figure) {
+  return [figure](const Summary& s) { return to_milliseconds(s.*figure); };
+}
+
+auto corrected(Duration Latency::*figure) {
+  return [figure](const Latency& l) {
+    return l.hidden > 0 ? json(to_milliseconds(l.*figure)) : json();
+  };
+}
+
+Latency with_correction(const LatencySummary& s) {
   runtime::Histogram all, omitted;
   all.merge(s.histogram);
   omitted.merge(s.omitted);
   all.merge(omitted);
-  return {s, all.percentile(0.99), all.percentile(0.999), omitted.count()};
+  return {{s}, all.percentile(0.99), all.percentile(0.999), omitted.count()};
 }
 
 void add_worst(const std::vector<LatencySummary>& summaries, std::vector<WorstMiss>& worst) {
@@ -31,12 +46,58 @@ void add_worst(const std::vector<LatencySummary>& summaries, std::vector<WorstMi
 
 }  // namespace
 
+const web::Columns<Summary> percentiles{
+    {"", "ms", -22, 0, &Summary::name},
+    {"count", "count", 8, 0, &Summary::count},
+    {"p50_ms", "p50", 9, 3, milliseconds(&Summary::p50)},
+    {"p90_ms", "p90", 9, 3, milliseconds(&Summary::p90)},
+    {"p99_ms", "p99", 9, 3, milliseconds(&Summary::p99)},
+    {"p999_ms", "p99.9", 9, 3, milliseconds(&Summary::p999)},
+    {"max_ms", "max", 9, 3, milliseconds(&Summary::max)},
+};
+
+web::Columns<Latency> judgement(bool virtual_time) {
+  const auto judged = [virtual_time](auto value) {
+    return [=](const Latency& l) { return virtual_time ? json() : json(value(l)); };
+  };
+  return {
+      {"", "deadline", 9, 0, judged(milliseconds(&Summary::deadline))},
+      {"", "missed", 7, 0, judged([](const Summary& s) { return s.misses; })},
+      {"", "", 10, 3, corrected(&Latency::corrected_p99)},
+      {"", "p99.9 corrected", 10, 3, corrected(&Latency::corrected_p999)},
+  };
+}
+
+std::string parts_text(const MissedDeadline& miss) {
+  std::string text;
+  for (const MissedDeadline::Part& part : miss.parts) {
+    text += fmt::format("{}{} {:.3f}", text.empty() ? "" : ", ", part.name,
+                        to_milliseconds(part.lasted));
+  }
+  return text;
+}
+
+std::vector<ProcessorTime> processor_time(const Health& health) {
+  std::vector<ProcessorTime> times;
+  const auto add = [&](const std::string& name, double seconds) {
+    times.push_back({name, seconds, 100.0 * seconds / std::max(health.elapsed, 1e-9)});
+  };
+  double rest = health.cpu;
+  for (const ThreadHealth& t : health.threads) {
+    add(t.name, t.cpu);
+    rest -= t.cpu;
+  }
+  add("loaders and the rest", std::max(rest, 0.0));
+  add("process", health.cpu);
+  return times;
+}
+
 Profile profile_of(const Deadlines& deadlines, const Health& health) {
   Profile p;
   p.stamp = deadlines.stamp;
   p.health = health;
-  for (const LatencySummary& s : deadlines.threads) p.threads.push_back(corrected(s));
-  for (const LatencySummary& s : deadlines.paths) p.paths.push_back(corrected(s));
+  for (const LatencySummary& s : deadlines.threads) p.threads.push_back(with_correction(s));
+  for (const LatencySummary& s : deadlines.paths) p.paths.push_back(with_correction(s));
   for (const auto* summaries :
        {&deadlines.wake_up, &deadlines.execution, &deadlines.period_jitter}) {
     for (const LatencySummary& s : *summaries) runtime::Histogram().merge(s.histogram);

@@ -8,14 +8,15 @@
 #include <vector>
 
 #include "msgs/diagnostics.h"
+#include "tools/web/page.h"
+#include "tools/web/table.h"
 
 namespace maploop::profile {
 
-// Percentiles of one latency, as recorded, and corrected by the waits that stalls hid.
-struct Latency {
-  LatencySummary recorded;
+// One latency as recorded, and its percentiles corrected by the waits that stalls hid.
+struct Latency : LatencySummary {
   Duration corrected_p99{}, corrected_p999{};
-  std::uint64_t omitted = 0;  // waits added for the corrected percentiles
+  std::uint64_t hidden = 0;  // number of waits added for the corrected percentiles
 };
 
 struct WorstMiss {
@@ -39,6 +40,22 @@ struct Profile {
 
 inline constexpr const char* no_deadlines =
     "The run was on virtual time: deadlines have no meaning there, and none is judged.";
+
+// The name, the count, and the percentiles in ms.
+extern const web::Columns<LatencySummary> percentiles;
+
+// The deadline with its misses, unless none is judged, and the corrected percentiles, if any.
+web::Columns<Latency> judgement(bool virtual_time);
+
+// Returns the parts of a late result: "waiting 1.200, stereo 55.031", in ms.
+std::string parts_text(const MissedDeadline& miss);
+
+// Processor time of one thread, of everything outside the threads, or of the whole process.
+struct ProcessorTime {
+  std::string name;
+  double seconds = 0.0, percent = 0.0;  // percent of one processor
+};
+std::vector<ProcessorTime> processor_time(const Health& health);
 
 // Throws std::invalid_argument if a histogram is damaged.
 Profile profile_of(const Deadlines& deadlines, const Health& health);
@@ -65,5 +82,10 @@ class ProfileCollector {
 std::string to_text(const Profile& profile);
 std::string to_json(const Profile& profile);
 std::string to_html(const Profile& profile, const std::string& source);
+
+// Add parts of this page to another one: the table of threads and paths, the worst misses and the
+// distributions; and the processor time.
+void add_latencies(web::Page& page, const Profile& profile);
+void add_processor_time(web::Page& page, const Profile& profile);
 
 }  // namespace maploop::profile

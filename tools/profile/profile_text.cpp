@@ -8,92 +8,64 @@ namespace {
 
 using nlohmann::json;
 
-void append_figures(std::string& text, const LatencySummary& s) {
-  text += fmt::format("  {:22} {:8} {:9.3f} {:9.3f} {:9.3f} {:9.3f} {:9.3f}", s.name, s.count,
-                      to_milliseconds(s.p50), to_milliseconds(s.p90), to_milliseconds(s.p99),
-                      to_milliseconds(s.p999), to_milliseconds(s.max));
+std::string heading(const char* title) {
+  return fmt::format("\n{:24}    count       p50       p90       p99     p99.9       max", title);
 }
 
 void append_latencies(std::string& text, const char* title, const std::vector<Latency>& all,
                       bool virtual_time) {
-  text +=
-      fmt::format("\n{:24} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>7} {:>10} {:>10}   {}\n",
-                  title, "count", "p50", "p90", "p99", "p99.9", "max", "deadline", "missed", "p99*",
-                  "p99.9*", "guilty");
+  text += heading(title) + "  deadline  missed       p99*     p99.9*   guilty\n";
+  const web::Columns<Latency> judged = judgement(virtual_time);
   for (const Latency& l : all) {
-    append_figures(text, l.recorded);
-    if (virtual_time) {
-      text += fmt::format(" {:>9} {:>7}", "-", "-");
-    } else {
-      text += fmt::format(" {:9.0f} {:7}", to_milliseconds(l.recorded.deadline), l.recorded.misses);
-    }
-    if (l.omitted > 0) {
-      text += fmt::format(" {:10.3f} {:10.3f}   ", to_milliseconds(l.corrected_p99),
-                          to_milliseconds(l.corrected_p999));
-    } else {
-      text += fmt::format(" {:>10} {:>10}   ", "-", "-");
-    }
-    text += l.recorded.guilty + '\n';
+    text += ' ' + web::to_text<LatencySummary>(percentiles, l) + web::to_text(judged, l) + "   " +
+            l.guilty + '\n';
   }
 }
 
 void append_summaries(std::string& text, const char* title,
                       const std::vector<LatencySummary>& all) {
-  text += fmt::format("\n{:24} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9}\n", title, "count", "p50", "p90",
-                      "p99", "p99.9", "max");
-  for (const LatencySummary& s : all) {
-    append_figures(text, s);
-    text += '\n';
-  }
+  text += heading(title) + '\n';
+  for (const LatencySummary& s : all) text += ' ' + web::to_text(percentiles, s) + '\n';
 }
 
-void append_threads(std::string& text, const Health& health) {
-  const double all = std::max(health.elapsed, 1e-9);
-  text += fmt::format("\n{:24} {:>8} {:>9}\n", "Processor time", "s", "% of one");
-  double known = 0.0;
-  for (const ThreadHealth& t : health.threads) {
-    text += fmt::format("  {:22} {:8.3f} {:9.2f}\n", t.name, t.cpu, 100.0 * t.cpu / all);
-    known += t.cpu;
-  }
-  const double rest = std::max(0.0, health.cpu - known);
-  text +=
-      fmt::format("  {:22} {:8.3f} {:9.2f}\n", "loaders and the rest", rest, 100.0 * rest / all);
-  text += fmt::format("  {:22} {:8.3f} {:9.2f}\n", "process", health.cpu, 100.0 * health.cpu / all);
-}
-
-json figures(const LatencySummary& s) {
-  json buckets = json::array();
+json to_json(const LatencySummary& s) {
+  json j = web::to_json(percentiles, s);
+  json& buckets = j["buckets_ns_count"] = json::array();
   for (const auto& bucket : s.histogram.buckets) {
     buckets.push_back({bucket.lowest.count(), bucket.count});
   }
-  return {{"count", s.count},
-          {"p50_ms", to_milliseconds(s.p50)},
-          {"p90_ms", to_milliseconds(s.p90)},
-          {"p99_ms", to_milliseconds(s.p99)},
-          {"p999_ms", to_milliseconds(s.p999)},
-          {"max_ms", to_milliseconds(s.max)},
-          {"buckets_ns_count", buckets}};
-}
-
-json figures(const std::vector<Latency>& all) {
-  json j = json::object();
-  for (const Latency& l : all) {
-    json one = figures(l.recorded);
-    one["deadline_ms"] = to_milliseconds(l.recorded.deadline);
-    one["misses"] = l.recorded.misses;
-    one["guilty"] = l.recorded.guilty;
-    one["omitted"] = l.omitted;
-    one["corrected_p99_ms"] = to_milliseconds(l.corrected_p99);
-    one["corrected_p999_ms"] = to_milliseconds(l.corrected_p999);
-    j[l.recorded.name] = std::move(one);
-  }
   return j;
 }
 
-json figures(const std::vector<LatencySummary>& all) {
-  json j = json::object();
-  for (const LatencySummary& s : all) j[s.name] = figures(s);
+json to_json(const Latency& l) {
+  const LatencySummary& recorded = l;
+  json j = to_json(recorded);
+  j.update({{"deadline_ms", to_milliseconds(l.deadline)},
+            {"misses", l.misses},
+            {"guilty", l.guilty},
+            {"omitted", l.hidden},
+            {"corrected_p99_ms", to_milliseconds(l.corrected_p99)},
+            {"corrected_p999_ms", to_milliseconds(l.corrected_p999)}});
   return j;
+}
+
+template <class Item>
+json by_name(const std::vector<Item>& all) {
+  json j = json::object();
+  for (const Item& item : all) j[item.name] = to_json(item);
+  return j;
+}
+
+json to_json(const WorstMiss& w) {
+  json parts = json::object();
+  for (const MissedDeadline::Part& part : w.miss.parts)
+    parts[part.name] = to_milliseconds(part.lasted);
+  return {{"of", w.of},
+          {"stamp_ns", to_nanoseconds(w.miss.stamp)},
+          {"latency_ms", to_milliseconds(w.miss.latency)},
+          {"deadline_ms", to_milliseconds(w.deadline)},
+          {"guilty", w.miss.guilty()},
+          {"parts_ms", std::move(parts)}};
 }
 
 }  // namespace
@@ -107,51 +79,37 @@ std::string to_text(const Profile& p) {
   append_summaries(text, "Wake-up", p.wake_up);
   append_summaries(text, "Execution", p.execution);
   append_summaries(text, "Period jitter", p.period_jitter);
-  append_threads(text, p.health);
+  text += fmt::format("\n{:24} {:>8} {:>9}\n", "Processor time", "s", "% of one");
+  for (const ProcessorTime& t : processor_time(p.health)) {
+    text += fmt::format("  {:22} {:8.3f} {:9.2f}\n", t.name, t.seconds, t.percent);
+  }
   if (p.virtual_time()) return text + '\n' + no_deadlines + '\n';
   if (p.worst.empty()) return text + "\nNo deadline was missed.\n";
   text += "\nWorst misses\n";
   for (const WorstMiss& w : p.worst) {
-    text += fmt::format("  {}  {:22} {:9.3f} of {:.0f} ms, guilty: {} (", format_time(w.miss.stamp),
-                        w.of, to_milliseconds(w.miss.latency), to_milliseconds(w.deadline),
-                        w.miss.guilty());
-    const char* separator = "";
-    for (const MissedDeadline::Part& part : w.miss.parts) {
-      text += fmt::format("{}{} {:.3f}", separator, part.name, to_milliseconds(part.lasted));
-      separator = ", ";
-    }
-    text += ")\n";
+    text += fmt::format("  {}  {:22} {:9.3f} of {:.0f} ms, guilty: {} ({})\n",
+                        format_time(w.miss.stamp), w.of, to_milliseconds(w.miss.latency),
+                        to_milliseconds(w.deadline), w.miss.guilty(), parts_text(w.miss));
   }
   return text;
 }
 
 std::string to_json(const Profile& p) {
-  json j;
-  j["stamp_ns"] = to_nanoseconds(p.stamp);
-  j["virtual_time"] = p.virtual_time();
-  j["elapsed_s"] = p.health.elapsed;
-  j["cpu_s"] = p.health.cpu;
-  j["threads"] = figures(p.threads);
-  j["paths"] = figures(p.paths);
-  j["wake_up"] = figures(p.wake_up);
-  j["execution"] = figures(p.execution);
-  j["period_jitter"] = figures(p.period_jitter);
-  j["cpu"] = json::object();
+  json j{{"stamp_ns", to_nanoseconds(p.stamp)},
+         {"virtual_time", p.virtual_time()},
+         {"elapsed_s", p.health.elapsed},
+         {"cpu_s", p.health.cpu},
+         {"threads", by_name(p.threads)},
+         {"paths", by_name(p.paths)},
+         {"wake_up", by_name(p.wake_up)},
+         {"execution", by_name(p.execution)},
+         {"period_jitter", by_name(p.period_jitter)},
+         {"cpu", json::object()},
+         {"worst", json::array()}};
   for (const ThreadHealth& t : p.health.threads) {
     j["cpu"][t.name] = {{"cpu_s", t.cpu}, {"left_out", t.left_out}, {"shed", t.shed}};
   }
-  j["worst"] = json::array();
-  for (const WorstMiss& w : p.worst) {
-    json parts = json::object();
-    for (const MissedDeadline::Part& part : w.miss.parts)
-      parts[part.name] = to_milliseconds(part.lasted);
-    j["worst"].push_back({{"of", w.of},
-                          {"stamp_ns", to_nanoseconds(w.miss.stamp)},
-                          {"latency_ms", to_milliseconds(w.miss.latency)},
-                          {"deadline_ms", to_milliseconds(w.deadline)},
-                          {"guilty", w.miss.guilty()},
-                          {"parts_ms", std::move(parts)}});
-  }
+  for (const WorstMiss& w : p.worst) j["worst"].push_back(to_json(w));
   return j.dump(2) + '\n';
 }
 

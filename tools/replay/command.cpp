@@ -1,128 +1,100 @@
 // maploop replay: a recorded drive through the whole graph.
-#include <memory>
-#include <stdexcept>
 #include <string>
 
 #include "estimators/fusion/configuration.h"
 #include "runtime/vehicle/drivers/gnss_outage.h"
-#include "runtime/vehicle/faults/fault_injection.h"
 #include "tools/command/commands.h"
 #include "tools/command/option_checks.h"
+#include "tools/command/options.h"
 #include "tools/replay/replay_run.h"
 
 namespace maploop::tools {
-namespace {
-
-// What is wrong with it, as CLI11's checks say it.
-std::string valid_fault(const std::string& text) {
-  try {
-    vehicle::parse_fault(text);
-    return {};
-  } catch (const std::invalid_argument& e) {
-    return e.what();
-  }
-}
-
-std::string valid_configuration(const std::string& name) {
-  try {
-    fusion::configuration(name);
-    return {};
-  } catch (const std::invalid_argument& e) {
-    return e.what();
-  }
-}
-
-std::string valid_snapshot(const std::string& text) {
-  try {
-    parse_snapshot(text);
-    return {};
-  } catch (const std::invalid_argument& e) {
-    return e.what();
-  }
-}
-
-}  // namespace
 
 void add_replay(CLI::App& app, Command& command) {
-  auto options = std::make_shared<ReplayOptions>();
-  CLI::App* sub = app.add_subcommand("replay",
-                                     "Replay a KITTI raw drive, a KITTI odometry sequence, a GNSS "
-                                     "receiver's observations, a capture of a Velodyne scanner or "
-                                     "a log of our own through the graph");
+  const auto [sub, options] =
+      add_command(app, command, "replay",
+                  "Replay a KITTI raw drive, a KITTI odometry sequence, a GNSS receiver's "
+                  "observations, a capture of a Velodyne scanner or a log of our own through the "
+                  "graph",
+                  replay);
   sub->add_option(
-         "DRIVE", options->drive,
+         "DRIVE", options.drive,
          "Folder such as 2011_09_26/2011_09_26_drive_0013_sync, a table of OXTS rows such as "
          "kitti_odometry/oxts/06.csv.gz, RINEX observations with their products beside "
          "them (or a folder of both; [ppp] products), a capture (.pcap), or a log (--record); one "
          "without images is replayed from its odometry (sensors/FORMATS.md)")
       ->required();
-  auto* speed = sub->add_option("--speed", options->speed, "Times real time")
+  auto* speed = sub->add_option("--speed", options.speed, "Times real time")
                     ->check(positive_number())
                     ->capture_default_str();
   auto* lockstep =
-      sub->add_flag("--lockstep", options->lockstep,
+      sub->add_flag("--lockstep", options.lockstep,
                     "On virtual time: no sleeping, no dropping, as fast as the graph goes")
           ->excludes(speed);
-  sub->add_option("--start", options->start,
-                  "Go through the first seconds as fast as the graph can")
+  sub->add_option("--start", options.start, "Go through the first seconds as fast as the graph can")
       ->check(number_from_zero())
       ->excludes(lockstep);
-  sub->add_option("--end", options->end, "End this many seconds into the drive")
+  sub->add_option("--end", options.end, "End this many seconds into the drive")
       ->check(positive_number());
-  sub->add_flag("--paused", options->playback.paused, "Wait for the space bar at the start")
+  sub->add_flag("--paused", options.playback.paused, "Wait for the space bar at the start")
       ->excludes(lockstep);
-  sub->add_flag("--until-miss", options->playback.until_miss, "Pause at the first missed deadline")
+  sub->add_flag("--until-miss", options.playback.until_miss, "Pause at the first missed deadline")
       ->excludes(lockstep);
-  sub->add_option("--loop", options->loop,
+  sub->add_option("--loop", options.loop,
                   "Play so many times, 0: until it is stopped; results and --record are of the "
                   "last time")
       ->check(whole_number())
       ->capture_default_str();
-  add_run_options(sub, *options);
-  sub->add_option("--config", options->config, "TOML file of parameters")->check(existing_file());
+  add_run_options(sub, options);
+  add_config(sub, options.config);
   sub->add_option_function<std::string>(
          "--snapshot",
-         [options](const std::string& text) { options->snapshot = parse_snapshot(text); },
+         [&snapshot = options.snapshot](const std::string& text) {
+           snapshot = parse_snapshot(text);
+         },
          "SECONDS:FILE: save everything at this moment of the drive, and go on")
-      ->check(valid_snapshot, "SECONDS:FILE");
-  sub->add_option("--resume", options->resume,
+      ->check(parsed_by(parse_snapshot, "SECONDS:FILE"));
+  sub->add_option("--resume", options.resume,
                   "Go on from a snapshot of the same drive, with the same bits")
       ->check(existing_file());
-  sub->add_option("--configuration", options->configuration,
+  sub->add_option("--configuration", options.configuration,
                   "What joins the inertial sensors: VO-RI, VO-L-RI, RISS or RISS-VO; GNSS+ before "
                   "it: fixes are used after the start too. Without it, --speed-scale "
                   "means RISS, and --gnss-outage adds GNSS+")
-      ->check(valid_configuration, "NAME");
-  sub->add_option("--gnss-outage", options->gnss_outage,
+      ->check(parsed_by(fusion::configuration, "NAME"));
+  sub->add_option("--gnss-outage", options.gnss_outage,
                   "START:LENGTH[,...] in seconds into the drive, LENGTH may be end; "
                   "random:COUNT:LENGTH for some that the seed draws")
       ->check(vehicle::check_outages, "OUTAGES");
-  sub->add_option("--odometry-poses", options->odometry_poses,
+  sub->add_option("--odometry-poses", options.odometry_poses,
                   "Another system's trajectory of a KITTI odometry sequence (the left camera's "
                   "poses, 12 numbers a line) in place of visual odometry")
       ->check(existing_file());
-  sub->add_option("--imu", options->imu,
+  sub->add_option("--imu", options.imu,
                   "The inertial sensors as recorded, or with the noise of a MEMS unit added")
       ->check(CLI::IsMember({"recorded", "mems"}));
-  sub->add_option("--speed-scale", options->speed_scale,
+  sub->add_option("--speed-scale", options.speed_scale,
                   "Scale of the wheels' speed, 1.01: 1 % too much")
       ->check(number_in(0.5, 1.5));
-  sub->add_flag("--start-from-reference", options->start_from_reference,
+  sub->add_flag("--start-from-reference", options.start_from_reference,
                 "Start from the reference's first pose instead of a fix: dead reckoning alone is "
                 "scored");
-  sub->add_option("--seed", options->seed,
+  sub->add_option("--seed", options.seed,
                   "Seed of all simulated noise: GNSS, wheels, inertial sensors, random outages");
-  sub->add_option("--fault", options->faults,
-                  "Inject KIND@TARGET[:START[:LENGTH]][,key=value...]; more than once for more "
-                  "faults (tools/README.md: Faults)")
+  sub->add_option_function<std::vector<std::string>>(
+         "--fault",
+         [&faults = options.faults](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts) faults.push_back(vehicle::parse_fault(text));
+         },
+         "Inject KIND@TARGET[:START[:LENGTH]][,key=value...]; more than once for more faults "
+         "(tools/README.md: Faults)")
       ->allow_extra_args(false)
-      ->check(valid_fault, "FAULT");
+      ->check(parsed_by(vehicle::parse_fault, "FAULT"));
   sub->footer(
       "Examples:\n"
       "    maploop replay 2011_09_26/2011_09_26_drive_0013_sync  # as it was driven\n"
       "    maploop replay DRIVE --lockstep --report drive.html   # as fast as it goes\n"
       "    maploop replay DRIVE --map town.osm.pbf --record run.lcmlog");
-  sub->callback([options, &command] { command = [options] { return replay(*options); }; });
 }
 
 }  // namespace maploop::tools

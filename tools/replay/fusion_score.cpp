@@ -9,6 +9,7 @@
 #include "msgs/frames.h"
 #include "sensors/replay/reference_trajectory.h"
 #include "tools/command/median.h"
+#include "tools/replay/figures.h"
 
 namespace maploop::fusion_score {
 namespace {
@@ -115,10 +116,7 @@ std::string to_text(const Score& score) {
       "                               m       m       m       m        %     rms    end  mean   "
       " end\n";
   const auto line = [&](const std::string& name, const Errors& e) {
-    text += fmt::format(
-        "  {:20} {:9.1f} {:7.2f} {:7.2f} {:7.2f} {:8.3f} {:7.3f} {:6.3f} {:5.1f} {:6.1f}\n", name,
-        e.distance, e.rmse, e.max, e.drift, e.percent(), e.azimuth_rms, e.azimuth_end, e.nees_mean,
-        e.nees_end);
+    text += fmt::format("  {:20}{}\n", name, web::to_text(tools::error_columns, e));
     if (e.covered >= 0.98) return;
     text += fmt::format(
         "  {:20} scored where there is a reference better than {:.1f} m: {:.0f} % of the time\n",

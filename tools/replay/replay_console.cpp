@@ -13,57 +13,46 @@
 namespace maploop::tools {
 namespace {
 
-constexpr const char* keys =
+using vehicle::Player;
+
+constexpr const char* help =
     "[space] pause  [.] image  [,] sample  [n] next miss  [+ -] speed  "
     "[< >] 5 s  [q] quit";
 
-// The nearest moment that the recording has.
-void jump(vehicle::Player& player, Duration by) {
+// Goes to the nearest moment that the recording has.
+void jump(Player& player, Duration by) {
   player.seek(std::clamp(player.position() + by, player.first(), player.last()));
 }
 
-void obey(char key, vehicle::Player& player) {
-  constexpr auto far = std::chrono::seconds(5);
-  switch (key) {
-    case ' ':
-      player.paused() ? player.resume() : player.pause();
-      break;
-    case '.':
-      player.step_image();
-      break;
-    case ',':
-      player.step_sample();
-      break;
-    case 'n':
-      player.play_to_next_miss();
-      break;
-    case '+':
-      player.set_speed(player.speed() * 2.0);
-      break;
-    case '-':
-      player.set_speed(player.speed() / 2.0);
-      break;
-    case '>':
-      jump(player, far);
-      break;
-    case '<':
-      jump(player, -far);
-      break;
-    case 'q':
-      player.quit();
-      break;
-    default:
-      break;
+constexpr struct {
+  char key;
+  void (*act)(Player&);
+} keys[] = {
+    {' ', [](Player& p) { p.paused() ? p.resume() : p.pause(); }},
+    {'.', [](Player& p) { p.step_image(); }},
+    {',', [](Player& p) { p.step_sample(); }},
+    {'n', [](Player& p) { p.play_to_next_miss(); }},
+    {'+', [](Player& p) { p.set_speed(p.speed() * 2.0); }},
+    {'-', [](Player& p) { p.set_speed(p.speed() / 2.0); }},
+    {'>', [](Player& p) { jump(p, std::chrono::seconds(5)); }},
+    {'<', [](Player& p) { jump(p, -std::chrono::seconds(5)); }},
+    {'q', [](Player& p) { p.quit(); }},
+};
+
+void obey(char pressed, Player& player) {
+  for (const auto& [key, act] : keys) {
+    if (key == pressed) act(player);
   }
 }
 
-void show_progress(const vehicle::Player& player, const char* help) {
+void show_progress(const Player& player, bool obeys_keys) {
   const double all = std::max(to_seconds(player.last() - player.vehicle().first()), 1e-3);
   const double done =
       std::clamp(to_seconds(player.position() - player.vehicle().first()), 0.0, all);
   const char* state = player.seeking() ? "seeking" : player.paused() ? "paused" : "";
-  show_status(STDERR_FILENO, fmt::format("{:8.1f} s of {:.1f} s  {:3.0f} %  x{:<6g} {:7} {}", done,
-                                         all, 100.0 * done / all, player.speed(), state, help));
+  show_status(STDERR_FILENO,
+              fmt::format("{:8.1f} s of {:.1f} s  {:3.0f} %  x{:<6g} {:7} {}", done, all,
+                          100.0 * done / all, player.speed(), state, obeys_keys ? help : ""));
 }
 
 }  // namespace
@@ -95,7 +84,7 @@ PlaybackEnd play(vehicle::Player& player, vehicle::ReplayControl* control,
       }
       if (control != nullptr) control->update();
     }
-    if (visible && i % show_every == 0) show_progress(player, keyboard.is_terminal() ? keys : "");
+    if (visible && i % show_every == 0) show_progress(player, keyboard.is_terminal());
     std::this_thread::sleep_for(look_every);
   }
   player.vehicle().wait();

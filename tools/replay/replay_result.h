@@ -1,6 +1,8 @@
-// What one replay came to: accuracy against the reference, and how the runtime did.
+// What one run came to: accuracy against the reference, and how the runtime did; as three lines, as
+// tables, and as JSON.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <map>
@@ -45,10 +47,12 @@ struct PppEpochs {
   double converged_after = -1.0;  // s, of the first that was; below 0: none
   bool never_converges = false;   // ppp::PppSetup::never_converges()
 
-  void add(const PppState& state) {
-    ++by_status[static_cast<std::size_t>(state.status)];
-    if (state.status == PppStatus::converged && converged_after < 0.0) {
-      converged_after = state.converging_for;
+  PppEpochs() = default;
+  explicit PppEpochs(const std::map<Time, PppState>& states) {
+    for (const auto& [stamp, state] : states) {
+      ++by_status[static_cast<std::size_t>(state.status)];
+      if (state.status == PppStatus::converged && converged_after < 0.0)
+        converged_after = state.converging_for;
     }
   }
   std::size_t of(PppStatus status) const { return by_status[static_cast<std::size_t>(status)]; }
@@ -84,10 +88,41 @@ struct ReplayResult {
   std::optional<TraceSummary> trace;
   vehicle::VehicleReport vehicle;
 
-  std::uint64_t samples_lost() const;     // in rings
-  std::uint64_t messages_unsent() const;  // that LCM or the log did not take
-  std::uint64_t deadline_misses() const;
+  std::uint64_t samples_lost() const {  // in rings
+    return sum(vehicle.health.rings, &RingHealth::lost);
+  }
+  std::uint64_t messages_unsent() const {  // that LCM or the log did not take
+    return sum(vehicle.health.outputs, &OutputHealth::unsent);
+  }
+  std::uint64_t deadline_misses() const {
+    return sum(vehicle.deadlines.threads, &LatencySummary::misses);
+  }
+  bool any_thread_failed() const {
+    const auto& threads = vehicle.health.threads;
+    return std::any_of(threads.begin(), threads.end(),
+                       [](const ThreadHealth& t) { return !t.failure.empty(); });
+  }
+
+ private:
+  template <class Item>
+  static std::uint64_t sum(const std::vector<Item>& items, std::uint64_t Item::*count) {
+    std::uint64_t all = 0;
+    for (const Item& item : items) all += item.*count;
+    return all;
+  }
 };
+
+// Where the run ended; how good its positions are, and against what; what the configuration did not
+// use, and why. Lines without their ends, each of at most 79 columns.
+std::array<std::string, 3> verdict(const ReplayResult& result);
+
+// The same as one text, each line with its end.
+std::string verdict_text(const ReplayResult& result);
+
+// The reason and the remedy where the run has no result: no position, or none on a road of its map.
+// Nothing where it has one, where it was interrupted, and for a live run to which a sensor spoke. A
+// capture of a LiDAR alone has its odometry for a result.
+std::optional<std::string> why_empty(const ReplayResult& result);
 
 // For a person, on a terminal: everything that was measured.
 std::string format_table(const ReplayResult& result);

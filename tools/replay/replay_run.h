@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "tools/command/run_options.h"
+#include "runtime/vehicle/faults/fault.h"
 #include "tools/replay/replay_console.h"
+#include "tools/replay/run_output.h"
 
 namespace maploop::tools {
 
@@ -32,7 +33,7 @@ struct ReplayOptions : RunOptions {
   std::optional<double> speed_scale;  // 1.01: the wheels read 1 % too much
   bool start_from_reference = false;
   std::optional<std::int64_t> seed;
-  std::vector<std::string> faults;
+  std::vector<vehicle::Fault> faults;
   std::optional<SnapshotRequest> snapshot;
   std::filesystem::path resume;
   PlaybackOptions playback;

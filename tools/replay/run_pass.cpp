@@ -1,53 +1,87 @@
 #include "tools/replay/run_pass.h"
 
 #include <algorithm>
-#include <exception>
-#include <iostream>
-#include <stdexcept>
-#include <utility>
 
-#include "tools/replay/nav_files.h"
-#include "tools/replay/verdict.h"
+#include "mapmatch/map_area.h"
+#include "msgs/frames.h"
+#include "sensors/replay/reference_trajectory.h"
 
 namespace maploop::tools {
+namespace {
 
-void warn_of_another_run(const std::string& sentence) {
-  std::cerr << "\nmaploop: " << sentence << '\n';
+MapUse map_use(const NavState& end, const RunPass& pass, const mapmatch::RoadNetwork& network) {
+  const mapmatch::GeographicBox area = mapmatch::area_of(network);
+  const bool on_road = std::any_of(pass.matches.begin(), pass.matches.end(),
+                                   [](const auto& match) { return match.second.on_road; });
+  const Geodetic last = LocalFrame(end.origin).to_geodetic(end.position_enu);
+  return {mapmatch::to_text(area), !on_road && !mapmatch::covers(area, last, far_from_map)};
+}
+
+match::MatchScore links_score(const RunPass& pass, const vehicle::DrivenLinksFile& driven,
+                              const mapmatch::RoadNetwork& network) {
+  std::vector<match::TimedMatch> matches;
+  for (const auto& [stamp, match] : pass.matches) matches.push_back(match);
+  auto labels = match::read_labels(driven.file);
+  match::SegmentLinks(network).look_up(labels);
+  return match::score_matches(matches, driven.stamps, labels);
+}
+
+}  // namespace
+
+void TrajectoryCollector::add(const NavState& state) {
+  poses_[state.stamp] = Eigen::Translation3d(state.position_enu) *
+                        Eigen::Isometry3d(rotation_enu_body(state.attitude));
+}
+
+evaluation::StampedTrajectory TrajectoryCollector::poses(
+    const Eigen::Isometry3d& T_body_point) const {
+  evaluation::StampedTrajectory trajectory;
+  for (const auto& [stamp, body] : poses_) {
+    trajectory.stamps.push_back(stamp);
+    trajectory.poses.push_back(body * T_body_point);
+  }
+  return trajectory;
+}
+
+std::optional<Accuracy> TrajectoryCollector::score(const Reference& reference,
+                                                   const Eigen::Isometry3d& T_body_cam) const {
+  constexpr double segment_m = 100.0;
+  evaluation::Trajectory estimate, truth;
+  for (const auto& [stamp, body] : poses_) {
+    if (const auto T_enu_body = reference(stamp)) {
+      estimate.push_back(body * T_body_cam);
+      truth.push_back(*T_enu_body * T_body_cam);
+    }
+  }
+  if (estimate.size() < 2) return std::nullopt;
+  using evaluation::CommonRotation;
+  return Accuracy{evaluation::score(estimate, truth, segment_m, CommonRotation::kKeep),
+                  evaluation::score(estimate, truth, segment_m, CommonRotation::kRemove)};
+}
+
+RoadMoment road_moment(const MapMatch& match) {
+  RoadMoment moment{match::timed_match(match), match.phase, match.on_road, {}};
+  if (match.on_road) {
+    const Eigen::Vector3d place(match.matched_enu.x(), match.matched_enu.y(), 0.0);
+    moment.place = LocalFrame(match.origin).to_geodetic(place);
+  }
+  return moment;
 }
 
 vehicle::Observer RunPass::observer() {
   vehicle::Observer o = end_observer();
-  o.odometry = [this](const RelativeMotion& motion) { collector.add(motion); };
-  o.lidar = [this](const LidarMotion& motion) { lidar_collector.add(motion); };
-  o.ppp = [this](const PppState& state) {
-    if (!ppp) ppp.emplace();
-    ppp->add(state);
-    ppp_states[state.stamp] = state;
-  };
+  o.odometry = [this](const RelativeMotion& motion) { odometry.add(motion); };
+  o.lidar = [this](const LidarMotion& motion) { lidar.add(motion); };
+  o.image_state = [this](const NavState& state) { fused.add(state); };
+  o.ppp = [this](const PppState& state) { ppp_states[state.stamp] = state; };
   o.nav_state = [this, last = o.nav_state](const NavState& state) {
     track.add(state);
     last(state);
   };
   o.map_match = [this](const MapMatch& match) {
-    if (match.refusal == FixRefusal::no_position) return;
-    matches[match.stamp] = match::timed_match(match);
-    road_moments[match.stamp] = report::road_moment(match);
+    if (match.refusal != FixRefusal::no_position) matches[match.stamp] = road_moment(match);
   };
-  o.image_state = [this](const NavState& state) { collector.add(state); };
   return o;
-}
-
-bool write_all(const std::vector<std::function<void()>>& writers) {
-  bool all = true;
-  for (const auto& write : writers) {
-    try {
-      write();
-    } catch (const std::exception& e) {
-      std::cerr << "maploop: " << e.what() << '\n';
-      all = false;
-    }
-  }
-  return all;
 }
 
 vehicle::Observer RunPass::end_observer() {
@@ -58,42 +92,22 @@ vehicle::Observer RunPass::end_observer() {
   return o;
 }
 
-void write_states(const StateFiles& files, const RunPass& pass) {
-  const evaluation::StampedTrajectory fused = pass.collector.fused();
-  for (const std::filesystem::path& file : {files.poses, files.tum}) {
-    if (!file.empty() && fused.poses.empty())
-      throw std::runtime_error(
-          "'" + file.string() +
-          "' is not written: no image has a fused pose; --csv and --nmea write "
-          "the fused state without images");
-  }
-  if (!files.poses.empty()) evaluation::write_kitti_poses(files.poses, fused.poses);
-  if (!files.tum.empty()) evaluation::write_tum(files.tum, fused);
-  if (!files.csv.empty()) write_nav_csv(files.csv, pass.track);
-  if (!files.nmea.empty()) write_nmea(files.nmea, pass.track);
-}
-
-void write_run_report(const std::filesystem::path& file, const ReplayResult& result,
-                      const RunPass& pass, std::vector<ReferencePose> reference,
-                      const vehicle::VehicleConfig& config, const vehicle::RoadMap* map) {
-  std::vector<report::DeadReckoning> ways{{"stereo odometry", pass.collector.odometry()}};
-  const auto lidar = pass.lidar_collector.odometry();
-  if (!lidar.poses.empty()) ways.push_back({"LiDAR odometry", lidar});
-  const fusion::FusionParameters& p = config.fusion;
-  const Eigen::Vector3d antenna(p.gnss_lever_forward, p.gnss_lever_left, p.gnss_lever_up);
-  report::write_report(file, {result, pass.track, std::move(reference), std::move(ways),
-                              pass.road_moments, pass.ppp_states, antenna, vehicle::to_toml(config),
-                              MAPLOOP_VERSION, map != nullptr ? &map->network : nullptr});
-}
-
-std::string closing_text(const ReplayResult& result, bool tables) {
-  return tables ? verdict_text(result) + format_table(result) : verdict_text(result);
-}
-
-bool any_thread_failed(const ReplayResult& result) {
-  const auto& threads = result.vehicle.health.threads;
-  return std::any_of(threads.begin(), threads.end(),
-                     [](const ThreadHealth& t) { return !t.failure.empty(); });
+void score(ReplayResult& result, const RunPass& pass, const vehicle::Recording& recording,
+           const std::vector<ReferencePose>& reference, const vehicle::RoadMap* map) {
+  if (map != nullptr && result.end) result.map = map_use(*result.end, pass, map->network);
+  if (map != nullptr && recording.driven_links)
+    result.links = links_score(pass, *recording.driven_links, map->network);
+  if (reference.size() < 2) return;
+  const sensors::ReferenceTrajectory truth(reference, LocalFrame(reference.front().position));
+  const auto accuracy = [&](const TrajectoryCollector& trajectory) {
+    return trajectory.score([&](Time t) { return truth.pose(t); },
+                            recording.calibration.stereo.T_body_cam);
+  };
+  result.vo = accuracy(pass.odometry);
+  result.lidar = accuracy(pass.lidar);
+  result.fused = accuracy(pass.fused);
+  result.navigation =
+      fusion_score::score(pass.track, reference, recording.outages, recording.first_stamp);
 }
 
 }  // namespace maploop::tools

@@ -1,78 +1,83 @@
-// What one run of the vehicle comes to, gathered while it runs.
+// What one run of the vehicle gives, gathered while it runs, and how good it is.
 #pragma once
 
-#include <filesystem>
+#include <Eigen/Geometry>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "runtime/vehicle/config/vehicle_config.h"
+#include "runtime/vehicle/drivers/recording.h"
 #include "runtime/vehicle/output/channel_hashes.h"
 #include "runtime/vehicle/output/log_recorder.h"
 #include "runtime/vehicle/output/publisher.h"
 #include "runtime/vehicle/stages/road_map.h"
+#include "tools/evaluate/motion_chain.h"
+#include "tools/evaluate/trajectory_file.h"
 #include "tools/match/driven_links.h"
 #include "tools/replay/fusion_score.h"
 #include "tools/replay/replay_result.h"
-#include "tools/replay/trajectory_collector.h"
-#include "tools/report/report.h"
 
 namespace maploop::tools {
 
-// Says a sentence of vehicle::RunPresence on standard error, on a line of its own.
-void warn_of_another_run(const std::string& sentence);
+// add() is called on one thread, the rest after the run.
+class TrajectoryCollector {
+ public:
+  // Odometry is chained, in its first frame of the body. A refused motion is replaced by the last
+  // velocities.
+  void add(const RelativeMotion& motion) { poses_[motion.stamp] = chain_.add(motion); }
+  // A fused state is a pose in `enu`.
+  void add(const NavState& state);
+
+  // Returns T_frame_body at each stamp, times `T_body_point`.
+  evaluation::StampedTrajectory poses(
+      const Eigen::Isometry3d& T_body_point = Eigen::Isometry3d::Identity()) const;
+
+  // Scores the poses of the left camera where the reference has a pose of the body. Returns nothing
+  // if these are fewer than two.
+  using Reference = std::function<std::optional<Eigen::Isometry3d>(Time)>;
+  std::optional<Accuracy> score(const Reference& reference,
+                                const Eigen::Isometry3d& T_body_cam) const;
+
+ private:
+  evaluation::MotionChain chain_;
+  std::map<Time, Eigen::Isometry3d> poses_;  // of the body
+};
+
+// The matcher's result at one time.
+struct RoadMoment : match::TimedMatch {
+  MatchPhase phase = MatchPhase::initial;
+  bool on_road = false;
+  Geodetic place;  // the matched position, on a road only
+};
+
+RoadMoment road_moment(const MapMatch& match);
 
 // Filled on the publisher's thread; to be read after the run.
 struct RunPass {
-  explicit RunPass(const VehicleCalibration& calibration)
-      : collector(calibration.stereo.T_body_cam), lidar_collector(calibration.stereo.T_body_cam) {}
+  explicit RunPass(Time cut = Time::min()) : hashes_after(cut) {}
 
-  // Must not outlive the pass.
+  // Neither may outlive the pass. The second keeps the last state alone, whatever the length of the
+  // run.
   vehicle::Observer observer();
-  // Of the last state alone, whatever the length of the run.
   vehicle::Observer end_observer();
 
   vehicle::ChannelHashes hashes;
-  // Whether the log asked for holds every message.
-  bool recorded_all() const { return recorder == nullptr || recorder->health().unsent == 0; }
-
-  std::unique_ptr<vehicle::LogRecorder> recorder;
-  TrajectoryCollector collector;
-  TrajectoryCollector lidar_collector;
+  vehicle::ChannelHashes hashes_after;             // of messages after the cut
+  std::unique_ptr<vehicle::LogRecorder> recorder;  // nullptr: no log was asked for
+  TrajectoryCollector odometry, lidar, fused;      // at images
   fusion_score::NavTrack track;
   std::optional<NavState> end;  // the last fused state
-  std::optional<PppEpochs> ppp;
   std::map<Time, PppState> ppp_states;
-  std::map<Time, match::TimedMatch> matches;
-  std::map<Time, report::RoadMoment> road_moments;
+  std::map<Time, RoadMoment> matches;
 };
 
-// Files that a run can write of its fused states; empty: not.
-struct StateFiles {
-  std::filesystem::path poses;  // KITTI's format, of the left camera
-  std::filesystem::path tum;
-  std::filesystem::path csv;
-  std::filesystem::path nmea;
-};
+constexpr double far_from_map = 5'000.0;  // m
 
-// Writes each file by a function of its own; one that cannot be written is said on standard error,
-// and the others are written all the same. Whether all were.
-bool write_all(const std::vector<std::function<void()>>& writers);
-
-// Throws std::runtime_error naming the file that cannot be written, or would be empty.
-void write_states(const StateFiles& files, const RunPass& pass);
-
-// The page of --report; `reference` is empty and `map` null where there is none.
-void write_run_report(const std::filesystem::path& file, const ReplayResult& result,
-                      const RunPass& pass, std::vector<ReferencePose> reference,
-                      const vehicle::VehicleConfig& config, const vehicle::RoadMap* map);
-
-// What the run says of itself at its end: the verdict, with the tables below it where they are
-// asked for.
-std::string closing_text(const ReplayResult& result, bool tables);
-
-bool any_thread_failed(const ReplayResult& result);
+// Adds the accuracy against `reference`, the links against those driven, and whether the run was on
+// its map, to the result. `map` is nullptr without a map.
+void score(ReplayResult& result, const RunPass& pass, const vehicle::Recording& recording,
+           const std::vector<ReferencePose>& reference, const vehicle::RoadMap* map);
 
 }  // namespace maploop::tools

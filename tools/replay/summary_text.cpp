@@ -2,36 +2,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "tools/match/score_output.h"
-#include "tools/replay/replay_result.h"
+#include "tools/profile/profile.h"
+#include "tools/replay/figures.h"
 
 namespace maploop::tools {
 namespace {
 
-// A dash where the drive is too short for segments.
-void append_figure(std::string& text, int width, int precision, double value) {
-  text += std::isnan(value) ? fmt::format("{:>{}}", "-", width)
-                            : fmt::format("{:{}.{}f}", value, width, precision);
-}
-
 void append_accuracy(std::string& text, const char* name, const std::optional<Accuracy>& accuracy) {
-  if (!accuracy) {
-    text += fmt::format("  {:8} too few poses to score\n", name);
-    return;
-  }
-  const evaluation::Score& raw = accuracy->raw;
-  const evaluation::Score& removed = accuracy->common_rotation_removed;
   text +=
-      fmt::format("  {:8} {:6} {:9.1f} {:8.2f}", name, raw.frames, raw.distance_m, raw.end_point_m);
-  append_figure(text, 7, 2, raw.end_point_percent);
-  append_figure(text, 9, 3, raw.segment.percent);
-  append_figure(text, 10, 5, raw.segment.deg_per_m);
-  append_figure(text, 13, 3, removed.segment.percent);
-  append_figure(text, 10, 5, removed.segment.deg_per_m);
-  append_figure(text, 9, 2, removed.end_point_m);
-  text += '\n';
+      fmt::format("  {:8}{}\n", name,
+                  accuracy ? web::to_text(accuracy_columns, *accuracy) : " too few poses to score");
 }
 
 void append_ppp(std::string& text, const PppEpochs& e) {
@@ -56,18 +38,12 @@ void append_latency(std::string& text, const LatencySummary& s) {
 }
 
 void append_worst(std::string& text, const std::vector<LatencySummary>& summaries) {
+  constexpr std::size_t shown = 5;
   for (const LatencySummary& s : summaries) {
-    constexpr std::size_t shown = 5;
     for (std::size_t i = 0; i < std::min(s.worst.size(), shown); ++i) {
       const MissedDeadline& m = s.worst[i];
-      text += fmt::format("  missed: {} at {}: {:.3f} ms (", s.name, format_time(m.stamp),
-                          to_milliseconds(m.latency));
-      const char* separator = "";
-      for (const MissedDeadline::Part& part : m.parts) {
-        text += fmt::format("{}{} {:.3f}", separator, part.name, to_milliseconds(part.lasted));
-        separator = ", ";
-      }
-      text += ")\n";
+      text += fmt::format("  missed: {} at {}: {:.3f} ms ({})\n", s.name, format_time(m.stamp),
+                          to_milliseconds(m.latency), profile::parts_text(m));
     }
   }
 }
@@ -92,9 +68,9 @@ void append_faults(std::string& text, const std::vector<vehicle::FaultCount>& fa
   if (faults.empty()) return;
   text += "\nFaults asked for                  struck\n";
   for (const vehicle::FaultCount& f : faults) {
-    text +=
-        fmt::format("  {:28} {:9}{}\n", f.fault, f.struck,
-                    f.struck == 0 ? "  (outside of the drive, or the drive lacks the sensor)" : "");
+    text += ' ' + web::to_text(fault_columns, f);
+    if (f.struck == 0) text += "  (outside of the drive, or the drive lacks the sensor)";
+    text += '\n';
   }
 }
 
@@ -112,16 +88,14 @@ void append_live(std::string& text, const std::vector<SensorHealth>& sensors) {
 }
 
 void append_refusals(std::string& text, const std::vector<RefusalCount>& refusals) {
-  if (refusals.empty()) return;
-  text += "\nNot used by         count\n";
+  if (!refusals.empty()) text += "\nNot used by         count\n";
   for (const RefusalCount& r : refusals) {
-    text += fmt::format("  {:12} {:10}  {}\n", r.stage, r.count, r.reason);
+    text += ' ' + web::to_text(refusal_columns, r) + "  " + r.reason + '\n';
   }
 }
 
-using Channels = std::map<std::string, vehicle::ChannelSummary>;
-
-void append_channels(std::string& text, const Channels& channels) {
+void append_channels(std::string& text,
+                     const std::map<std::string, vehicle::ChannelSummary>& channels) {
   for (const auto& [name, channel] : channels) {
     text += fmt::format("  {:11} {:9}  {}\n", name, channel.count,
                         channel.hash.empty() ? "(of this run)" : channel.hash);
@@ -150,24 +124,22 @@ void append_accuracies(std::string& text, const ReplayResult& r) {
   if (r.ppp) append_ppp(text, *r.ppp);
 }
 
-void append_lateness(std::string& text, const LatencySummary& s) {
-  text += fmt::format("  {:9.3f} {:9.3f} {:9.3f}", to_milliseconds(s.p50), to_milliseconds(s.p99),
-                      to_milliseconds(s.max));
+std::string lateness_text(const LatencySummary& s) {
+  return fmt::format("  {:9.3f} {:9.3f} {:9.3f}", to_milliseconds(s.p50), to_milliseconds(s.p99),
+                     to_milliseconds(s.max));
 }
 
-// Samples are late on a clock alone.
+// Samples are late only if they are released by a clock.
 void append_sensors(std::string& text, const vehicle::VehicleReport& v, bool on_a_clock) {
   text += "\nSensors                 count  left out   late p50       p99       max  ms\n";
   for (const vehicle::SensorReport& s : v.sensors) {
-    text += fmt::format("  {:19} {:7} {:9}", s.name, s.source.delivered, s.source.refused);
-    if (on_a_clock) append_lateness(text, s.lateness);
-    text += '\n';
+    text += ' ' + web::to_text(sensor_columns, s);
+    text += (on_a_clock ? lateness_text(s.lateness) : std::string()) + '\n';
     append_findings(text, s);
   }
   if (!on_a_clock) return;
-  text += fmt::format("  {:19} {:7} {:9}", "all", v.lateness.count, "");
-  append_lateness(text, v.lateness);
-  text += '\n';
+  text +=
+      fmt::format("  {:19} {:7} {:9}{}\n", "all", v.lateness.count, "", lateness_text(v.lateness));
 }
 
 void append_latencies(std::string& text, const Deadlines& deadlines, bool on_a_clock) {
@@ -181,14 +153,6 @@ void append_latencies(std::string& text, const Deadlines& deadlines, bool on_a_c
   for (const LatencySummary& s : deadlines.paths) append_latency(text, s);
   append_worst(text, deadlines.threads);
   append_worst(text, deadlines.paths);
-}
-
-void append_rings(std::string& text, const std::vector<RingHealth>& rings) {
-  text += "\nRings                                pushed    popped      lost      held  capacity\n";
-  for (const RingHealth& ring : rings) {
-    text += fmt::format("  {:30} {:10} {:9} {:9} {:9} {:9}\n", ring.name, ring.pushed, ring.popped,
-                        ring.lost, ring.held, ring.capacity);
-  }
 }
 
 }  // namespace
@@ -210,7 +174,9 @@ std::string format_table(const ReplayResult& r) {
   append_faults(text, r.faults);
   append_refusals(text, v.health.refusals);
   append_latencies(text, v.deadlines, !r.lockstep);
-  append_rings(text, v.health.rings);
+  text += "\nRings                                pushed    popped      lost      held  capacity\n";
+  for (const RingHealth& ring : v.health.rings)
+    text += ' ' + web::to_text(ring_columns, ring) + '\n';
   text += "\nChannels      messages  hash\n";
   append_channels(text, r.channels);
   if (r.snapshot) {

@@ -1,4 +1,4 @@
-#include "tools/replay/verdict.h"
+#include "tools/replay/replay_result.h"
 
 #include <fmt/format.h>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "tools/report/ppp_section.h"
+#include <fmt/format.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -7,15 +7,18 @@
 #include <limits>
 #include <map>
 
-#include "tools/report/error_plot.h"
-#include "tools/report/frame.h"
-#include "tools/report/text.h"
+#include "tools/report/sections.h"
+#include "tools/web/html.h"
+#include "tools/web/table.h"
 
 namespace maploop::report {
 namespace {
 
-using web::Line;
+using tools::PppEpochs;
+using web::figure;
+using web::paragraph;
 using web::Plot;
+using States = std::map<Time, PppState>;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -28,19 +31,18 @@ struct EpochError {
   bool converged = false;
 };
 
-std::vector<EpochError> errors_of(const ReplayReport& r) {
-  const auto truth = truth_of(r);
-  const LocalFrame frame(origin_of(r));
-  const Time first = first_of(r);
+std::vector<EpochError> errors_of(const Scene& scene) {
+  const fusion::FusionParameters& p = scene.report.config.fusion;
+  const Eigen::Vector3d antenna(p.gnss_lever_forward, p.gnss_lever_left, p.gnss_lever_up);
   std::vector<EpochError> errors;
-  for (const auto& [stamp, state] : r.ppp) {
+  for (const auto& [stamp, state] : scene.report.pass.ppp_states) {
     if (state.status == PppStatus::none) continue;
     EpochError e;
-    e.second = to_seconds(stamp - first);
+    e.second = scene.second(stamp);
     e.sigma = state.position_covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
     e.converged = state.status == PppStatus::converged;
-    if (const auto pose = truth ? truth->pose(stamp) : std::nullopt) {
-      e.enu = frame.to_enu(state.position) - *pose * r.antenna;
+    if (const auto pose = scene.truth ? scene.truth->pose(stamp) : std::nullopt) {
+      e.enu = scene.frame.to_enu(state.position) - *pose * antenna;
       e.nees = e.enu.dot(state.position_covariance.ldlt().solve(e.enu));
     }
     errors.push_back(e);
@@ -73,23 +75,21 @@ web::Row accuracy_row(const char* name, const std::vector<EpochError>& errors,
           figure(nees / n, 2)};
 }
 
-std::string coverage(const ReplayReport& r) {
-  std::array<std::size_t, ppp_status_count> counts{};
+std::string coverage(const States& states) {
+  const PppEpochs epochs(states);
   double used = 0.0;
-  for (const auto& [stamp, state] : r.ppp) {
-    ++counts[static_cast<std::size_t>(state.status)];
-    used += state.satellites_used;
-  }
-  const auto n = static_cast<double>(r.ppp.size());
-  const auto of = [&](PppStatus s) { return counts[static_cast<std::size_t>(s)]; };
-  const std::size_t solved = of(PppStatus::converged) + of(PppStatus::converging);
-  std::string text = std::to_string(r.ppp.size()) + " epochs, " +
-                     figure(100.0 * static_cast<double>(solved) / n, 1, " %") +
-                     " with a position: " + std::to_string(of(PppStatus::converged)) +
-                     " converged, " + std::to_string(of(PppStatus::converging)) + " converging";
-  if (r.result.ppp && r.result.ppp->converged_after >= 0.0)
-    text += "; converged after " + figure(r.result.ppp->converged_after, 0, " s");
-  return paragraph(text + ". " + figure(used / n, 1) + " satellites used on average.");
+  for (const auto& [stamp, state] : states) used += state.satellites_used;
+  const auto n = static_cast<double>(states.size());
+  const std::size_t converged = epochs.of(PppStatus::converged),
+                    converging = epochs.of(PppStatus::converging);
+  return paragraph(fmt::format(
+      "{} epochs, {:.1f} % with a position: {} converged, {} converging{}. {:.1f} satellites used "
+      "on average.",
+      states.size(), 100.0 * static_cast<double>(converged + converging) / n, converged, converging,
+      epochs.converged_after < 0.0
+          ? ""
+          : fmt::format("; converged after {:.0f} s", epochs.converged_after),
+      used / n));
 }
 
 std::string accuracy(const std::vector<EpochError>& errors) {
@@ -106,7 +106,7 @@ std::vector<Plot> error_plots(const std::vector<EpochError>& errors) {
   constexpr std::array axes{"east, PPP", "north, PPP", "up, PPP"};
   std::vector<Plot> plots;
   for (int i = 0; i < 3; ++i) {
-    ErrorSeries series{axes[static_cast<std::size_t>(i)], "m", "PPP", {}, {}, {}};
+    ErrorSeries series{axes[static_cast<std::size_t>(i)], "m", "PPP"};
     for (const EpochError& e : errors) {
       series.seconds.push_back(e.second);
       series.error.push_back(e.enu[i]);
@@ -117,22 +117,18 @@ std::vector<Plot> error_plots(const std::vector<EpochError>& errors) {
   return plots;
 }
 
-Plot satellites(const ReplayReport& r) {
-  Line used{"used", {}, {}}, measured{"measured", {}, {}};
-  const Time first = first_of(r);
-  for (const auto& [stamp, state] : r.ppp) {
-    const double second = to_seconds(stamp - first);
-    used.x.push_back(second);
-    used.y.push_back(state.satellites_used);
-    measured.x.push_back(second);
-    measured.y.push_back(static_cast<double>(state.satellites.size()));
+Plot satellites(const Scene& scene) {
+  Plot plot{"Satellites", "s", "number", {{"used", {}, {}}, {"measured", {}, {}}}};
+  for (const auto& [stamp, state] : scene.report.pass.ppp_states) {
+    plot.lines[0].add(scene.second(stamp), state.satellites_used);
+    plot.lines[1].add(scene.second(stamp), static_cast<double>(state.satellites.size()));
   }
-  return {"Satellites", "s", "number", {std::move(used), std::move(measured)}};
+  return plot;
 }
 
-std::string refusals(const ReplayReport& r) {
+std::string refusals(const States& states) {
   std::map<std::string, std::size_t> counts;
-  for (const auto& [stamp, state] : r.ppp) {
+  for (const auto& [stamp, state] : states) {
     for (const PppSatellite& s : state.satellites) {
       if (s.refusal != PppRefusal::none) ++counts[std::string(to_string(s.refusal))];
       if (s.slip != PppSlip::none) ++counts["begun anew: " + std::string(to_string(s.slip))];
@@ -141,20 +137,21 @@ std::string refusals(const ReplayReport& r) {
   if (counts.empty()) return {};
   std::vector<web::Row> rows;
   for (const auto& [why, count] : counts) rows.push_back({why, std::to_string(count)});
-  return folded("Satellites refused or begun anew",
-                web::table({"why", "satellites and epochs"}, rows));
+  return web::folded("Satellites refused or begun anew",
+                     web::table({"why", "satellites and epochs"}, rows));
 }
 
 }  // namespace
 
-void add_ppp(web::Page& page, const ReplayReport& r) {
-  if (r.ppp.empty()) return;
-  const std::vector<EpochError> errors = errors_of(r);
-  page.add("<h2>Precise point positioning</h2>\n" + coverage(r) + accuracy(errors));
+void add_ppp(web::Page& page, const Scene& scene) {
+  const States& states = scene.report.pass.ppp_states;
+  if (states.empty()) return;
+  const std::vector<EpochError> errors = errors_of(scene);
+  page.add(web::heading("Precise point positioning") + coverage(states) + accuracy(errors));
   std::vector<Plot> plots;
   if (!errors.empty()) plots = error_plots(errors);
-  plots.push_back(satellites(r));
-  page.add(plots).add(refusals(r));
+  plots.push_back(satellites(scene));
+  page.add(plots).add(refusals(states));
 }
 
 }  // namespace maploop::report

@@ -1,21 +1,21 @@
 #include "tools/report/report.h"
 
-#include <cmath>
+#include <fmt/format.h>
 
-#include "tools/command/html_text.h"
+#include <algorithm>
+
 #include "tools/evaluate/text_file.h"
-#include "tools/profile/profile_page.h"
-#include "tools/replay/verdict.h"
-#include "tools/report/ppp_section.h"
-#include "tools/report/road_section.h"
-#include "tools/report/text.h"
-#include "tools/report/trajectory_plots.h"
-#include "tools/web/page.h"
+#include "tools/profile/profile.h"
+#include "tools/replay/figures.h"
+#include "tools/report/sections.h"
+#include "tools/web/html.h"
 
 namespace maploop::report {
 namespace {
 
-using tools::escaped;
+using web::folded;
+using web::heading;
+using web::paragraph;
 using web::Row;
 
 std::string opening(const tools::ReplayResult& result) {
@@ -25,46 +25,31 @@ std::string opening(const tools::ReplayResult& result) {
   return html;
 }
 
-std::string summary(const ReplayReport& r) {
-  const vehicle::VehicleReport& v = r.result.vehicle;
-  std::string text = figure(v.data_seconds, 1, " s of data in ") + figure(v.wall_seconds, 1, " s");
-  text += r.result.live       ? ", live"
-          : r.result.lockstep ? ", on virtual time"
-                              : ", at " + figure(r.result.speed, 2, " times real time");
-  if (r.result.interrupted) text += ", interrupted";
-  text += "; " + figure(100.0 * v.cpu_seconds / std::max(v.wall_seconds, 1e-9), 0, " %") +
-          " of one processor, " + figure(static_cast<double>(v.peak_memory) * 1e-6, 0, " MB") +
-          " of memory. " + std::to_string(r.result.deadline_misses()) + " deadlines missed, " +
-          std::to_string(r.result.samples_lost()) + " samples lost in rings, " +
-          std::to_string(r.result.messages_unsent()) + " messages unsent.";
-  if (r.result.lockstep) text += " Deadlines have no meaning on virtual time.";
-  return paragraph(text);
+std::string summary(const tools::ReplayResult& r) {
+  const vehicle::VehicleReport& v = r.vehicle;
+  const std::string pace = r.live       ? "live"
+                           : r.lockstep ? "on virtual time"
+                                        : fmt::format("at {:.2f} times real time", r.speed);
+  return paragraph(fmt::format(
+      "{:.1f} s of data in {:.1f} s, {}{}; {:.0f} % of one processor, {:.0f} MB of memory. {} "
+      "deadlines missed, {} samples lost in rings, {} messages unsent.{}",
+      v.data_seconds, v.wall_seconds, pace, r.interrupted ? ", interrupted" : "",
+      100.0 * v.cpu_seconds / std::max(v.wall_seconds, 1e-9),
+      static_cast<double>(v.peak_memory) * 1e-6, r.deadline_misses(), r.samples_lost(),
+      r.messages_unsent(), r.lockstep ? " Deadlines have no meaning on virtual time." : ""));
 }
 
 std::string notes(const std::vector<std::string>& sentences) {
   if (sentences.empty()) return paragraph("The watchdog had nothing to say at the end.");
   std::string html = "<ul>\n";
-  for (const std::string& s : sentences) html += "<li>" + escaped(s) + "</li>\n";
+  for (const std::string& s : sentences) html += "<li>" + web::escaped(s) + "</li>\n";
   return html + "</ul>\n";
-}
-
-Row accuracy_row(const std::string& name, const tools::Accuracy& a) {
-  const evaluation::Score& removed = a.common_rotation_removed;
-  return {name,
-          std::to_string(a.raw.frames),
-          figure(a.raw.distance_m, 1),
-          figure(a.raw.segment.percent, 3),
-          figure(a.raw.segment.deg_per_m, 5),
-          figure(a.raw.end_point_m, 2),
-          figure(removed.segment.percent, 3),
-          figure(removed.segment.deg_per_m, 5),
-          figure(removed.end_point_m, 2)};
 }
 
 std::string accuracy(const tools::ReplayResult& r) {
   std::vector<Row> rows;
   const auto add = [&](const char* name, const std::optional<tools::Accuracy>& a) {
-    if (a) rows.push_back(accuracy_row(name, *a));
+    if (a) rows.push_back(web::joined({{name}, web::cells(tools::accuracy_columns, *a)}));
   };
   add("stereo odometry", r.vo);
   add("LiDAR odometry", r.lidar);
@@ -73,59 +58,32 @@ std::string accuracy(const tools::ReplayResult& r) {
   return paragraph(
              "The left camera's poses against the reference, in segments of 100 m as KITTI's "
              "odometry benchmark measures them; on the right with one common rotation removed.") +
-         web::table({"", "images", "distance, m", "%", "deg/m", "end point, m", "%", "deg/m",
-                     "end point, m"},
-                    rows);
-}
-
-Row navigation_row(const std::string& name, const fusion_score::Errors& e) {
-  return {name,
-          figure(e.distance, 1),
-          figure(e.rmse, 2),
-          figure(e.max, 2),
-          figure(e.drift, 2),
-          figure(e.percent(), 3),
-          figure(e.azimuth_rms, 3),
-          figure(e.nees_mean, 1),
-          figure(100.0 * e.covered, 0)};
+         web::table(web::joined({{""}, web::headings(tools::accuracy_columns)}), rows);
 }
 
 std::string navigation(const std::optional<fusion_score::Score>& score) {
   if (!score) return {};
-  std::vector<Row> rows{navigation_row("whole drive", score->whole)};
+  std::vector<Row> rows;
+  const auto add = [&](const std::string& name, const fusion_score::Errors& e) {
+    rows.push_back(web::joined({{name}, web::cells(tools::error_columns, e)}));
+  };
+  add("whole drive", score->whole);
   for (const fusion_score::OutageErrors& o : score->outages) {
-    rows.push_back(navigation_row(
-        "no GNSS " + figure(o.start, 1, " s + ") + figure(o.length, 1, " s"), o.errors));
+    add(fmt::format("no GNSS {:.1f} s + {:.1f} s", o.start, o.length), o.errors);
   }
   return paragraph("The state as it was sent, horizontally:") +
-         web::table({"", "distance, m", "RMSE, m", "max, m", "drift, m", "drift, %",
-                     "azimuth RMS, deg", "NEES", "covered, %"},
-                    rows);
+         web::table(web::joined({{""}, web::headings(tools::error_columns)}), rows);
 }
 
 std::string losses(const tools::ReplayResult& r) {
-  std::vector<Row> rings, sensors, refused, faults;
-  for (const vehicle::SensorReport& s : r.vehicle.sensors) {
-    sensors.push_back({s.name, std::to_string(s.source.delivered), std::to_string(s.source.refused),
-                       std::to_string(s.source.flawed)});
-  }
-  for (const RefusalCount& c : r.vehicle.health.refusals) {
-    refused.push_back({c.stage + ": " + c.reason, std::to_string(c.count)});
-  }
-  for (const vehicle::FaultCount& f : r.faults) {
-    faults.push_back({f.fault, std::to_string(f.struck)});
-  }
-  for (const RingHealth& ring : r.vehicle.health.rings) {
-    rings.push_back({ring.name, std::to_string(ring.pushed), std::to_string(ring.popped),
-                     std::to_string(ring.lost), std::to_string(ring.held),
-                     std::to_string(ring.capacity)});
-  }
-  std::string html = web::table({"sensor", "delivered", "left out", "flawed"}, sensors);
-  if (!faults.empty()) html += web::table({"fault asked for", "struck"}, faults);
-  html += refused.empty() ? paragraph("The estimators used everything that they were given.")
-                          : web::table({"not used", "count"}, refused);
-  return html + folded("Rings: " + std::to_string(r.samples_lost()) + " lost",
-                       web::table({"ring", "pushed", "popped", "lost", "held", "capacity"}, rings));
+  const Health& health = r.vehicle.health;
+  std::string html = web::table(tools::sensor_columns, r.vehicle.sensors);
+  if (!r.faults.empty()) html += web::table(tools::fault_columns, r.faults);
+  html += health.refusals.empty()
+              ? paragraph("The estimators used everything that they were given.")
+              : web::table(tools::refusal_columns, health.refusals);
+  return html + folded(fmt::format("Rings: {} lost", r.samples_lost()),
+                       web::table(tools::ring_columns, health.rings));
 }
 
 std::string channels(const tools::ReplayResult& r) {
@@ -139,44 +97,31 @@ std::string channels(const tools::ReplayResult& r) {
 }
 
 std::string settings(const std::vector<RealtimeSetting>& all) {
-  std::vector<Row> rows;
-  for (const RealtimeSetting& s : all) {
-    rows.push_back(
-        {s.name, s.asked, s.granted, std::string(to_string(s.verdict)), s.reason, s.remedy});
-  }
-  if (rows.empty()) return {};
-  return folded("Real-time settings",
-                web::table({"", "asked", "granted", "verdict", "why not", "what to do"}, rows));
+  if (all.empty()) return {};
+  return folded("Real-time settings", web::table(tools::setting_columns, all));
 }
 
 }  // namespace
 
-RoadMoment road_moment(const MapMatch& match) {
-  RoadMoment moment{match.phase, match.on_road, {}, match.probability};
-  if (match.on_road) {
-    const Eigen::Vector3d place(match.matched_enu.x(), match.matched_enu.y(), 0.0);
-    moment.place = LocalFrame(match.origin).to_geodetic(place);
-  }
-  return moment;
-}
-
 void write_report(const std::filesystem::path& file, const ReplayReport& r) {
-  web::Page page("Replay of " + r.result.drive);
-  page.add(opening(r.result)).add(trajectory_map(r)).add(summary(r));
-  page.add("<h2>Accuracy</h2>\n" + accuracy(r.result) + navigation(r.result.navigation));
-  page.add(state_plots(r));
-  add_roads(page, r);
-  add_ppp(page, r);
-  page.add("<h2>Health</h2>\n" + notes(r.result.vehicle.health.degraded));
-  page.add("<h2>What was lost or not used</h2>\n" + losses(r.result));
-  const profile::Profile times =
-      profile::profile_of(r.result.vehicle.deadlines, r.result.vehicle.health);
-  page.add("<h2>Latencies and deadlines</h2>\n");
+  const tools::ReplayResult& result = r.result;
+  const Health& health = result.vehicle.health;
+  const Scene scene(r);
+  web::Page page("Replay of " + result.drive);
+  page.add(opening(result)).add(trajectory_map(scene)).add(summary(result));
+  page.add(heading("Accuracy") + accuracy(result) + navigation(result.navigation));
+  page.add(state_plots(scene));
+  add_roads(page, scene);
+  add_ppp(page, scene);
+  page.add(heading("Health") + notes(health.degraded));
+  page.add(heading("What was lost or not used") + losses(result));
+  const profile::Profile times = profile::profile_of(result.vehicle.deadlines, health);
+  page.add(heading("Latencies and deadlines"));
   profile::add_latencies(page, times);
   profile::add_processor_time(page, times);
-  page.add("<h2>How it was run</h2>\n" + paragraph("maploop " + r.version) + channels(r.result) +
-           settings(r.result.vehicle.health.settings) +
-           folded("Configuration", "<pre>" + escaped(r.configuration) + "</pre>"));
+  page.add(heading("How it was run") + paragraph("maploop " MAPLOOP_VERSION) + channels(result) +
+           settings(health.settings) +
+           folded("Configuration", web::preformatted(vehicle::to_toml(r.config))));
   evaluation::write_text(file, page.text());
 }
 

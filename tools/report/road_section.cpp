@@ -1,27 +1,30 @@
-#include "tools/report/road_section.h"
-
 #include <array>
 #include <limits>
 
-#include "tools/report/frame.h"
-#include "tools/report/text.h"
+#include "tools/report/sections.h"
+#include "tools/web/html.h"
+#include "tools/web/table.h"
 
 namespace maploop::report {
 namespace {
 
+using tools::RoadMoment;
+using web::figure;
 using web::Line;
+using web::paragraph;
 using web::Plot;
+using Matches = std::map<Time, RoadMoment>;
 
 constexpr std::array phases{MatchPhase::initial, MatchPhase::along_link, MatchPhase::at_junction,
                             MatchPhase::off_road};
 
-std::string phase_table(const ReplayReport& r) {
+std::string phase_table(const Matches& matches) {
   std::array<std::size_t, phases.size()> counts{};
-  for (const auto& [stamp, moment] : r.matches) ++counts[static_cast<std::size_t>(moment.phase)];
+  for (const auto& [stamp, moment] : matches) ++counts[static_cast<std::size_t>(moment.phase)];
   std::vector<web::Row> rows;
   for (const MatchPhase phase : phases) {
     const std::size_t n = counts[static_cast<std::size_t>(phase)];
-    const double share = static_cast<double>(n) / static_cast<double>(r.matches.size());
+    const double share = static_cast<double>(n) / static_cast<double>(matches.size());
     rows.push_back({std::string(to_string(phase)), std::to_string(n), figure(100.0 * share, 1)});
   }
   return web::table({"phase", "matches", "%"}, rows);
@@ -47,41 +50,38 @@ Plot reliability(const match::Reliability& r) {
   for (std::size_t k = 0; k < r.fixes.size(); ++k) {
     if (r.fixes[k] == 0) continue;
     const auto n = static_cast<double>(r.fixes[k]);
-    line.x.push_back(r.p_sum[k] / n);
-    line.y.push_back(static_cast<double>(r.right[k]) / n);
+    line.add(r.p_sum[k] / n, static_cast<double>(r.right[k]) / n);
   }
   plot.lines = {std::move(line), {"as said", {0.0, 1.0}, {0.0, 1.0}, Line::Look::dashed}};
   return plot;
 }
 
-Plot probability(const ReplayReport& r) {
-  Plot plot{"P(link)", "s", "1"};
-  Line line{"of the matched link", {}, {}};
-  const Time first = first_of(r);
-  for (const auto& [stamp, moment] : r.matches) {
-    line.x.push_back(to_seconds(stamp - first));
-    line.y.push_back(moment.on_road ? moment.probability
-                                    : std::numeric_limits<double>::quiet_NaN());
+Plot probability(const Scene& scene) {
+  Plot plot{"P(link)", "s", "1", {{"of the matched link", {}, {}}}};
+  for (const auto& [stamp, moment] : scene.report.pass.matches) {
+    plot.lines[0].add(scene.second(stamp), moment.on_road
+                                               ? moment.matched.p_link
+                                               : std::numeric_limits<double>::quiet_NaN());
   }
-  plot.lines.push_back(std::move(line));
   return plot;
 }
 
 }  // namespace
 
-void add_roads(web::Page& page, const ReplayReport& r) {
-  if (r.matches.empty()) return;
-  page.add("<h2>Link identification</h2>\n");
-  std::vector<Plot> plots{probability(r)};
-  if (r.result.links && r.result.links->all.fixes > 0) {
-    page.add(identified(*r.result.links));
-    plots.push_back(reliability(r.result.links->reliability));
+void add_roads(web::Page& page, const Scene& scene) {
+  const Matches& matches = scene.report.pass.matches;
+  if (matches.empty()) return;
+  page.add(web::heading("Link identification"));
+  std::vector<Plot> plots{probability(scene)};
+  if (const auto& links = scene.report.result.links; links && links->all.fixes > 0) {
+    page.add(identified(*links));
+    plots.push_back(reliability(links->reliability));
   } else {
     page.add(
         paragraph("How much is right is not known: the recording does not say which links "
                   "were driven."));
   }
-  page.add(phase_table(r)).add(plots);
+  page.add(phase_table(matches)).add(plots);
 }
 
 }  // namespace maploop::report

@@ -1,5 +1,4 @@
-#include "tools/report/trajectory_plots.h"
-
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -7,8 +6,7 @@
 
 #include "msgs/frames.h"
 #include "tools/match/road_lines.h"
-#include "tools/report/error_plot.h"
-#include "tools/report/frame.h"
+#include "tools/report/sections.h"
 
 namespace maploop::report {
 namespace {
@@ -19,59 +17,77 @@ using web::Plot;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double surroundings = 150.0;  // m, margin around the path in which roads are drawn
 
-using Truth = std::optional<sensors::ReferenceTrajectory>;
+Geodetic origin_of(const ReplayReport& r) {
+  if (!r.pass.track.states().empty()) return r.pass.track.states().front().origin;
+  if (!r.reference.empty()) return r.reference.front().position;
+  for (const auto& [stamp, state] : r.pass.ppp_states) {
+    if (state.status != PppStatus::none) return state.position;
+  }
+  return {};
+}
+
+Time first_of(const ReplayReport& r) {
+  if (!r.reference.empty()) return r.reference.front().stamp;
+  if (!r.pass.track.states().empty()) return r.pass.track.states().front().stamp;
+  return r.pass.ppp_states.empty() ? Time{} : r.pass.ppp_states.begin()->first;
+}
 
 void add(Line& line, const Eigen::Vector3d& p) {
-  line.x.push_back(p.x());
-  line.y.push_back(p.y());
+  line.add(p.x(), p.y());
 }
 
-void interrupt(Line& line) {
-  line.x.push_back(nan);
-  line.y.push_back(nan);
+const std::vector<NavState>& states_of(const Scene& scene) {
+  return scene.report.pass.track.states();
 }
 
-// Whether the replay, which may have ended early, reached this time.
-bool replayed(const ReplayReport& r, Time stamp) {
-  return !r.track.states().empty() && stamp <= r.track.states().back().stamp;
+// Returns the rows of the reference that the replay, which may have ended early, reached.
+std::vector<ReferencePose> replayed_reference(const Scene& scene) {
+  std::vector<ReferencePose> rows;
+  const std::vector<NavState>& states = states_of(scene);
+  for (const ReferencePose& row : scene.report.reference) {
+    if (states.empty() || row.stamp > states.back().stamp) break;
+    rows.push_back(row);
+  }
+  return rows;
 }
 
-Line truth_line(const ReplayReport& r, const sensors::ReferenceTrajectory& truth) {
+Line truth_line(const Scene& scene) {
   Line line{"truth", {}, {}};
-  for (const ReferencePose& row : r.reference) {
-    if (!replayed(r, row.stamp)) break;
-    if (const auto pose = truth.pose(row.stamp)) add(line, pose->translation());
+  for (const ReferencePose& row : replayed_reference(scene)) {
+    if (const auto pose = scene.truth->pose(row.stamp)) add(line, pose->translation());
   }
   return line;
 }
 
-Line fused_line(const ReplayReport& r) {
+Line fused_line(const Scene& scene) {
   Line line{"fused", {}, {}};
   Time last{};
-  for (const NavState& s : r.track.states()) {
-    if (!line.x.empty() && s.stamp - last > std::chrono::seconds(1)) interrupt(line);
+  for (const NavState& s : states_of(scene)) {
+    if (!line.x.empty() && s.stamp - last > std::chrono::seconds(1)) line.add(nan, nan);
     add(line, s.position_enu);
     last = s.stamp;
   }
   return line;
 }
 
-std::optional<Eigen::Isometry3d> fused_pose(const ReplayReport& r, Time stamp) {
-  for (const NavState& s : r.track.states()) {
+std::optional<Eigen::Isometry3d> fused_pose(const Scene& scene, Time stamp) {
+  for (const NavState& s : states_of(scene)) {
     if (s.stamp < stamp) continue;
     return Eigen::Translation3d(s.position_enu) * Eigen::Isometry3d(rotation_enu_body(s.attitude));
   }
   return std::nullopt;
 }
 
-Line dead_reckoned_line(const ReplayReport& r, const DeadReckoning& way, const Truth& truth) {
-  Line line{way.name + " alone", {}, {}, Line::Look::dashed};
+Line dead_reckoned_line(const Scene& scene, const std::string& name,
+                        const tools::TrajectoryCollector& odometry) {
+  Line line{name + " alone", {}, {}, Line::Look::dashed};
+  const evaluation::StampedTrajectory trajectory = odometry.poses();
   std::optional<Eigen::Isometry3d> T_enu_first;
-  for (std::size_t i = 0; i < way.trajectory.poses.size(); ++i) {
-    const Eigen::Isometry3d& pose = way.trajectory.poses[i];
+  for (std::size_t i = 0; i < trajectory.poses.size(); ++i) {
+    const Eigen::Isometry3d& pose = trajectory.poses[i];
     if (!T_enu_first) {
-      const Time stamp = way.trajectory.stamps[i];
-      const auto begin = truth ? truth->pose(stamp) : fused_pose(r, stamp);
+      const Time stamp = trajectory.stamps[i];
+      const auto begin = scene.truth ? scene.truth->pose(stamp) : fused_pose(scene, stamp);
       if (!begin) continue;
       T_enu_first = *begin * pose.inverse();
     }
@@ -109,54 +125,49 @@ std::vector<Quantity> quantities() {
   };
 }
 
-Line ppp_line(const ReplayReport& r) {
+Line ppp_line(const Scene& scene) {
   Line line{"PPP", {}, {}};
-  const LocalFrame frame(origin_of(r));
-  for (const auto& [stamp, state] : r.ppp) {
+  for (const auto& [stamp, state] : scene.report.pass.ppp_states) {
     if (state.status == PppStatus::none) {
-      interrupt(line);
+      line.add(nan, nan);
     } else {
-      add(line, frame.to_enu(state.position));
+      add(line, scene.frame.to_enu(state.position));
     }
   }
   return line;
 }
 
-Line matched_line(const ReplayReport& r) {
+Line matched_line(const Scene& scene) {
   Line line{"matched", {}, {}, Line::Look::points};
-  const LocalFrame frame(origin_of(r));
-  for (const auto& [stamp, moment] : r.matches) {
-    if (moment.on_road) add(line, frame.to_enu(moment.place));
+  for (const auto& [stamp, moment] : scene.report.pass.matches) {
+    if (moment.on_road) add(line, scene.frame.to_enu(moment.place));
   }
   return line;
 }
 
-ErrorSeries error_of(const ReplayReport& r, const Truth& truth, const Quantity& q, Time first) {
-  ErrorSeries series{q.name, q.unit, "fused", {}, {}, {}};
-  for (const NavState& s : r.track.states()) {
-    const auto pose = truth ? truth->pose(s.stamp) : std::nullopt;
+ErrorSeries error_of(const Scene& scene, const Quantity& q) {
+  ErrorSeries series{q.name, q.unit, "fused"};
+  for (const NavState& s : states_of(scene)) {
+    const auto pose = scene.truth ? scene.truth->pose(s.stamp) : std::nullopt;
     double off = pose ? q.value(s) - q.truth(*pose) : nan;
     if (q.wraps) off = std::remainder(off, 360.0);
-    series.seconds.push_back(to_seconds(s.stamp - first));
+    series.seconds.push_back(scene.second(s.stamp));
     series.error.push_back(off);
     series.sigma.push_back(q.sigma(s));
   }
   return series;
 }
 
-Plot speed_plot(const ReplayReport& r, Time first) {
-  Plot plot{"Speed", "s", "km/h"};
+Plot speed_plot(const Scene& scene) {
   constexpr double km_h = 3.6;
   Line fused{"fused", {}, {}}, truth{"truth", {}, {}};
-  for (const NavState& s : r.track.states()) {
-    fused.x.push_back(to_seconds(s.stamp - first));
-    fused.y.push_back(km_h * s.velocity_enu.head<2>().norm());
+  for (const NavState& s : states_of(scene)) {
+    fused.add(scene.second(s.stamp), km_h * s.velocity_enu.head<2>().norm());
   }
-  for (const ReferencePose& row : r.reference) {
-    if (!replayed(r, row.stamp)) break;
-    truth.x.push_back(to_seconds(row.stamp - first));
-    truth.y.push_back(km_h * row.velocity_enu.head<2>().norm());
+  for (const ReferencePose& row : replayed_reference(scene)) {
+    truth.add(scene.second(row.stamp), km_h * row.velocity_enu.head<2>().norm());
   }
+  Plot plot{"Speed", "s", "km/h"};
   if (!truth.x.empty()) plot.lines.push_back(std::move(truth));
   plot.lines.push_back(std::move(fused));
   return plot;
@@ -164,29 +175,44 @@ Plot speed_plot(const ReplayReport& r, Time first) {
 
 }  // namespace
 
-web::Plot trajectory_map(const ReplayReport& r) {
-  const Truth truth = truth_of(r);
-  Plot plot{"Way of the vehicle", "east, m", "north, m", {}, true};
-  if (truth) plot.lines.push_back(truth_line(r, *truth));
-  plot.lines.push_back(fused_line(r));
-  if (Line ppp = ppp_line(r); !ppp.x.empty()) plot.lines.push_back(std::move(ppp));
-  for (const DeadReckoning& way : r.dead_reckoning) {
-    Line line = dead_reckoned_line(r, way, truth);
-    if (!line.x.empty()) plot.lines.push_back(std::move(line));
+Scene::Scene(const ReplayReport& of) : report(of), frame(origin_of(of)), first(first_of(of)) {
+  if (of.reference.size() > 1) truth.emplace(of.reference, frame);
+}
+
+web::Plot error_plot(const ErrorSeries& s) {
+  const bool known =
+      std::any_of(s.error.begin(), s.error.end(), [](double e) { return std::isfinite(e); });
+  web::Plot plot{(known ? "Error " : "Uncertainty ") + s.quantity, "s", s.unit};
+  web::Band band{"3 sigma", s.seconds, {}, {}};
+  for (const double sigma : s.sigma) {
+    band.low.push_back(-sigmas * sigma);
+    band.high.push_back(sigmas * sigma);
   }
-  if (Line matched = matched_line(r); !matched.x.empty()) plot.lines.push_back(std::move(matched));
-  if (r.roads != nullptr)
-    plot.roads = match::road_lines(*r.roads, origin_of(r), plot.lines, surroundings);
+  plot.bands.push_back(std::move(band));
+  if (known) plot.lines.push_back({s.of + " minus truth", s.seconds, s.error});
   return plot;
 }
 
-std::vector<web::Plot> state_plots(const ReplayReport& r) {
-  if (r.track.states().empty()) return {};
-  const Truth truth = truth_of(r);
-  const Time first = first_of(r);
+web::Plot trajectory_map(const Scene& scene) {
+  const ReplayReport& r = scene.report;
+  Plot plot{"Way of the vehicle", "east, m", "north, m", {}, true};
+  if (scene.truth) plot.lines.push_back(truth_line(scene));
+  plot.lines.push_back(fused_line(scene));
+  for (Line& line : std::vector{
+           ppp_line(scene), dead_reckoned_line(scene, "stereo odometry", r.pass.odometry),
+           dead_reckoned_line(scene, "LiDAR odometry", r.pass.lidar), matched_line(scene)}) {
+    if (!line.x.empty()) plot.lines.push_back(std::move(line));
+  }
+  if (r.roads != nullptr)
+    plot.roads = match::road_lines(*r.roads, scene.frame.origin(), plot.lines, surroundings);
+  return plot;
+}
+
+std::vector<web::Plot> state_plots(const Scene& scene) {
   std::vector<Plot> plots;
-  for (const Quantity& q : quantities()) plots.push_back(error_plot(error_of(r, truth, q, first)));
-  plots.push_back(speed_plot(r, first));
+  if (states_of(scene).empty()) return plots;
+  for (const Quantity& q : quantities()) plots.push_back(error_plot(error_of(scene, q)));
+  plots.push_back(speed_plot(scene));
   return plots;
 }
 

@@ -14,9 +14,9 @@
 
 #include "msgs/lcm/log/log_reader.h"
 #include "tools/command/bus_listener.h"
-#include "tools/command/bus_option.h"
 #include "tools/command/commands.h"
 #include "tools/command/option_checks.h"
+#include "tools/command/options.h"
 #include "tools/command/terminal.h"
 #include "tools/log/log_types.h"
 #include "tools/log/progress.h"

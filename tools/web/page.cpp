@@ -2,94 +2,71 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <array>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "tools/command/html_text.h"
 #include "tools/web/bundle.h"
+#include "tools/web/html.h"
 
 namespace maploop::web {
 namespace {
 
-using tools::escaped;
+using nlohmann::json;
 
-// Names may contain anything, including invalid UTF-8; and "</" inside a script element would end
-// it.
-std::string quoted(const std::string& text) {
-  std::string json =
-      nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos;) {
-    json.replace(at, 1, "\\u003c");
+// Numbers that are not finite become null in the text of the JSON.
+json with_seven_digits(const std::vector<double>& values) {
+  json list = json::array();
+  for (const double value : values) {
+    list.push_back(std::strtod(fmt::format("{:.7g}", value).c_str(), nullptr));
   }
-  return json;
+  return list;
 }
 
-std::string number(double value) {
-  return std::isfinite(value) ? fmt::format("{:.7g}", value) : "null";
+json json_of(const Line& line) {
+  constexpr std::array looks{"solid", "dashed", "steps", "points"};
+  return {{"name", line.name},
+          {"x", with_seven_digits(line.x)},
+          {"y", with_seven_digits(line.y)},
+          {"look", looks[static_cast<std::size_t>(line.look)]}};
 }
 
-// `to_text` makes the text of an item.
-template <class Items, class ToText>
-std::string list(const Items& items, ToText&& to_text) {
-  std::string text;
-  for (const auto& item : items) (text += text.empty() ? '[' : ',') += to_text(item);
-  return text.empty() ? "[]" : text + ']';
+json json_of(const Band& band) {
+  return {{"name", band.name},
+          {"x", with_seven_digits(band.x)},
+          {"low", with_seven_digits(band.low)},
+          {"high", with_seven_digits(band.high)}};
 }
 
-std::string array(const std::vector<double>& values) {
-  return list(values, number);
-}
-
-const char* name_of(Line::Look look) {
-  switch (look) {
-    case Line::Look::solid:
-      return "solid";
-    case Line::Look::dashed:
-      return "dashed";
-    case Line::Look::steps:
-      return "steps";
-    case Line::Look::points:
-      return "points";
-  }
-  return "";
-}
-
-std::string line_json(const Line& line) {
-  return fmt::format(R"({{"name":{},"x":{},"y":{},"look":"{}"}})", quoted(line.name), array(line.x),
-                     array(line.y), name_of(line.look));
-}
-
-std::string band_json(const Band& band) {
-  return fmt::format(R"({{"name":{},"x":{},"low":{},"high":{}}})", quoted(band.name), array(band.x),
-                     array(band.low), array(band.high));
+template <class Item>
+json json_of(const std::vector<Item>& items) {
+  json list = json::array();
+  for (const Item& item : items) list.push_back(json_of(item));
+  return list;
 }
 
 }  // namespace
 
-std::string to_json(const Plot& plot) {
-  std::string text =
-      fmt::format(R"({{"title":{},"x_label":{},"y_label":{},"lines":{},"bands":{},"roads":{},)"
-                  R"("equal_axes":{},"x_log":{},"y_log":{})",
-                  quoted(plot.title), quoted(plot.x_label), quoted(plot.y_label),
-                  list(plot.lines, line_json), list(plot.bands, band_json),
-                  list(plot.roads, line_json), plot.equal_axes, plot.x_log, plot.y_log);
-  if (plot.x_mark) {
-    text += fmt::format(R"(,"x_mark":{{"value":{},"name":{}}})", number(plot.x_mark->value),
-                        quoted(plot.x_mark->name));
+std::string script_json(const json& value) {
+  std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
+  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) {
+    text.replace(at, 1, "\\u003c");
   }
-  return text + "}";
+  return text;
 }
 
-std::string table(const Row& heading, const std::vector<Row>& rows) {
-  std::string html = "<div class=\"wide\"><table>\n<tr>";
-  for (const std::string& cell : heading) html += "<th>" + escaped(cell) + "</th>";
-  html += "</tr>\n";
-  for (const Row& row : rows) {
-    html += "<tr>";
-    for (const std::string& cell : row) html += "<td>" + escaped(cell) + "</td>";
-    html += "</tr>\n";
-  }
-  return html + "</table></div>\n";
+std::string to_json(const Plot& plot) {
+  json j{{"title", plot.title},
+         {"x_label", plot.x_label},
+         {"y_label", plot.y_label},
+         {"lines", json_of(plot.lines)},
+         {"bands", json_of(plot.bands)},
+         {"roads", json_of(plot.roads)},
+         {"equal_axes", plot.equal_axes},
+         {"x_log", plot.x_log},
+         {"y_log", plot.y_log}};
+  if (plot.x_mark) j["x_mark"] = {{"value", plot.x_mark->value}, {"name", plot.x_mark->name}};
+  return script_json(j);
 }
 
 Page::Page(std::string_view heading) : heading_(escaped(heading)) {}

@@ -1,6 +1,7 @@
 // Writes pages in one file that only need a browser: text, tables, and zoomable pictures.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,7 +18,7 @@ class Page {
   // `heading` is plain text.
   explicit Page(std::string_view heading);
 
-  // `html` must already be HTML (tools/command/html_text.h).
+  // `html` must already be HTML (tools/web/html.h).
   Page& add(std::string_view html);
   Page& add(const Plot& plot);
   // Adds the pictures side by side if there is room.
@@ -31,13 +32,11 @@ class Page {
   int plot_count_ = 0;
 };
 
-using Row = std::vector<std::string>;
-
-// Returns the HTML of a table that scrolls sideways if it is wider than the screen; texts are
-// plain.
-std::string table(const Row& heading, const std::vector<Row>& rows);
-
 // Returns the plot as JSON, with seven digits of each number.
 std::string to_json(const Plot& plot);
+
+// Returns JSON that can stand in a script element: "</" would end the element, and "<!--" would
+// hide its end. Invalid UTF-8 is replaced.
+std::string script_json(const nlohmann::json& value);
 
 }  // namespace maploop::web

@@ -13,6 +13,11 @@ struct Line {
   std::string name;
   std::vector<double> x, y;  // same lengths; a value that is not finite breaks the line
   Look look = Look::solid;
+
+  void add(double at_x, double at_y) {
+    x.push_back(at_x);
+    y.push_back(at_y);
+  }
 };
 
 // A filled area between two lines.

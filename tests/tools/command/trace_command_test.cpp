@@ -1,25 +1,17 @@
 // Tests `maploop replay --trace`: the file for a viewer, read by another library.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <nlohmann/json.hpp>
 #include <set>
-#include <string>
 #include <utility>
-#include <vector>
 
-#include "tests/support/process.h"
-#include "tests/support/real_data.h"
+#include "tests/support/command_test.h"
 
 namespace maploop {
 namespace {
 
 using nlohmann::json;
+using namespace testing;
 
 struct Event {
   std::string thread, name, phase;
@@ -29,25 +21,15 @@ struct Event {
 // One replay of the beginning of the drive with its result and its trace.
 class TracedReplay {
  public:
-  explicit TracedReplay(const std::vector<std::string>& options) {
-    const testing::TemporaryFolder folder;
-    const std::string result = (folder.path() / "result.json").string();
-    const std::string trace = (folder.path() / "trace.json").string();
-    std::vector<std::string> command{testing::maploop_command(),
-                                     "replay",
-                                     testing::drive_0013().string(),
-                                     "--no-lcm",
-                                     "--end",
-                                     "4",
-                                     "--json",
-                                     result,
-                                     "--trace",
-                                     trace};
-    command.insert(command.end(), options.begin(), options.end());
-    const testing::ProcessResult process = testing::run(command);
+  explicit TracedReplay(Words options) {
+    const TemporaryFolder folder;
+    const auto result = folder.path() / "result.json", trace = folder.path() / "trace.json";
+    options.insert(options.begin(), {"replay", drive_0013().string(), "--no-lcm", "--end", "4",
+                                     "--json", result.string(), "--trace", trace.string()});
+    const ProcessResult process = run_maploop(options);
     EXPECT_EQ(process.status, 0) << process.error;
-    result_ = json::parse(std::ifstream(result));
-    read(json::parse(std::ifstream(trace)));
+    result_ = read_json(result);
+    read(read_json(trace));
   }
 
   const json& result() const { return result_; }
@@ -109,9 +91,15 @@ bool inside_a_span(const TracedReplay& trace, const Event& event, const std::str
   });
 }
 
-TEST(TraceCommand, EachImageAndInertialSampleFlowsToAPublishedState) {
-  MAPLOOP_REQUIRE_DRIVE();
-  const TracedReplay trace({"--speed", "4"});
+const TracedReplay& paced() {
+  static const TracedReplay trace({"--speed", "4"});
+  return trace;
+}
+
+class TraceCommand : public DriveTest {};
+
+TEST_F(TraceCommand, EachImageAndInertialSampleFlowsToAPublishedState) {
+  const TracedReplay& trace = paced();
   std::map<std::string, int> complete;
   for (const auto& [id, steps] : trace.flows()) {
     const std::string& source = id.first;
@@ -130,8 +118,7 @@ TEST(TraceCommand, EachImageAndInertialSampleFlowsToAPublishedState) {
   EXPECT_GT(complete["camera"], 35);
 }
 
-TEST(TraceCommand, ShowsEveryThreadAndDropsNothing) {
-  MAPLOOP_REQUIRE_DRIVE();
+TEST_F(TraceCommand, ShowsEveryThreadAndDropsNothing) {
   const TracedReplay trace({"--lockstep"});
   EXPECT_EQ(
       trace.threads(),
@@ -147,9 +134,8 @@ TEST(TraceCommand, ShowsEveryThreadAndDropsNothing) {
   EXPECT_EQ(trace.count("C", "fusion -> publisher"), channels.at("NAV_STATE").at("count"));
 }
 
-TEST(TraceCommand, SpansOfAThreadNest) {
-  MAPLOOP_REQUIRE_DRIVE();
-  const TracedReplay trace({"--speed", "4"});
+TEST_F(TraceCommand, SpansOfAThreadNest) {
+  const TracedReplay& trace = paced();
   std::map<std::string, std::vector<Event>> open;
   std::size_t deepest = 0;
   for (const Event& e : trace.events()) {  // a thread's events are in order of time
@@ -165,8 +151,7 @@ TEST(TraceCommand, SpansOfAThreadNest) {
   EXPECT_GE(deepest, 2u) << "what a tick takes is inside of it";
 }
 
-TEST(TraceCommand, AMissedDeadlineIsAnInstant) {
-  MAPLOOP_REQUIRE_DRIVE();
+TEST_F(TraceCommand, AMissedDeadlineIsAnInstant) {
   const TracedReplay trace({"--fault", "slow@stereo:1:2,by=0.07"});
   const json& deadlines = trace.result().at("deadlines");
   const int misses = deadlines.at("misses");
@@ -177,24 +162,19 @@ TEST(TraceCommand, AMissedDeadlineIsAnInstant) {
   EXPECT_EQ(trace.count("i", "stall"), trace.result().at("replay").at("stalls"));
 }
 
-TEST(TraceCommand, WhatDoesNotFitIsCountedAndSaid) {
-  MAPLOOP_REQUIRE_DRIVE();
-  const testing::TemporaryFolder folder;
-  const std::string config = (folder.path() / "a.toml").string();
-  std::ofstream(config) << "[trace]\nevents_per_thread = 100\n";
+TEST_F(TraceCommand, WhatDoesNotFitIsCountedAndSaid) {
+  const std::string config = write("a.toml", "[trace]\nevents_per_thread = 100\n");
   const TracedReplay trace({"--lockstep", "--config", config});
   EXPECT_GT(trace.result().at("trace").at("dropped"), 500);
   EXPECT_EQ(trace.other().at("dropped"), trace.result().at("trace").at("dropped"));
 }
 
-TEST(TraceCommand, AFileThatCannotBeWrittenIsSaidBeforeTheDrive) {
-  MAPLOOP_REQUIRE_DRIVE();
-  const testing::ProcessResult result =
-      testing::run({testing::maploop_command(), "replay", testing::drive_0013().string(),
-                    "--no-lcm", "--lockstep", "--trace", "/nonexistent/trace.json"});
+TEST_F(TraceCommand, AFileThatCannotBeWrittenIsSaidBeforeTheDrive) {
+  const ProcessResult result = run_maploop(
+      {"replay", drive(), "--no-lcm", "--lockstep", "--trace", "/nonexistent/trace.json"});
   EXPECT_EQ(result.status, 1);
   EXPECT_EQ(result.out, "");
-  EXPECT_NE(result.error.find("/nonexistent/trace.json"), std::string::npos) << result.error;
+  EXPECT_THAT(result.error, HasSubstr("/nonexistent/trace.json"));
 }
 
 }  // namespace

@@ -1,31 +1,23 @@
 // Tests the real-time settings that `maploop doctor` and `maploop replay` report.
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
-
 #include "runtime/core/realtime_scheduling.h"
-#include "tests/support/process.h"
-#include "tests/support/real_data.h"
+#include "tests/support/command_test.h"
 
 namespace maploop {
 namespace {
 
 using nlohmann::json;
+using namespace testing;
 
 // Returns the settings that the command writes, by name.
-json settings_of(std::vector<std::string> command, const char* key) {
-  const testing::TemporaryFolder folder;
-  const std::string file = (folder.path() / "report.json").string();
-  command.insert(command.end(), {"--json", file});
-  const testing::ProcessResult result = testing::run(command);
+json settings_of(Words command) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "report.json";
+  command.insert(command.end(), {"--json", file.string()});
+  const ProcessResult result = run(command);
   EXPECT_EQ(result.status, 0) << result.error;
   json by_name = json::object();
-  const json report = json::parse(std::ifstream(file));
-  for (const json& setting : report.at(key)) {
+  const json report = read_json(file);
+  for (const json& setting : report.at("settings")) {
     by_name[setting.at("name")] = setting;
     EXPECT_EQ(setting.at("verdict") == "granted", setting.at("remedy") == "") << setting;
   }
@@ -33,18 +25,18 @@ json settings_of(std::vector<std::string> command, const char* key) {
 }
 
 // Runs the command as root without any capability, which gives it the rights of an ordinary user.
-std::vector<std::string> without_capabilities(std::vector<std::string> command) {
+Words without_capabilities(Words command) {
   command.insert(command.begin(), {"setpriv", "--bounding-set=-all", "--inh-caps=-all", "prlimit",
                                    "--rtprio=0", "--memlock=1000000"});
   return command;
 }
 
 bool can_drop_capabilities() {
-  return testing::run(without_capabilities({"true"})).status == 0;
+  return run(without_capabilities({"true"})).status == 0;
 }
 
 TEST(DoctorCommand, NamesEveryThreadAndTheMachine) {
-  const json settings = settings_of({testing::maploop_command(), "doctor"}, "settings");
+  const json settings = settings_of({maploop_command(), "doctor"});
   for (const char* name : {"heap", "locked memory", "kernel", "camera: scheduling",
                            "fusion: scheduling", "fusion: stack", "health: scheduling"}) {
     EXPECT_TRUE(settings.contains(name)) << name;
@@ -53,12 +45,11 @@ TEST(DoctorCommand, NamesEveryThreadAndTheMachine) {
 }
 
 TEST(DoctorCommand, AsksForWhatTheConfigurationSays) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const std::string file = (folder.path() / "a.toml").string();
   std::ofstream(file) << "[scheduling.fusion]\npolicy = \"rr\"\npriority = 7\ncpus = [0]\n"
                          "[memory]\nlock_memory = false\n";
-  const json settings =
-      settings_of({testing::maploop_command(), "doctor", "--config", file}, "settings");
+  const json settings = settings_of({maploop_command(), "doctor", "--config", file});
   EXPECT_EQ(settings["fusion: scheduling"]["asked"], "rr 7");
   EXPECT_EQ(settings["fusion: CPUs"]["asked"], "0");
   EXPECT_FALSE(settings.contains("locked memory"));
@@ -66,8 +57,7 @@ TEST(DoctorCommand, AsksForWhatTheConfigurationSays) {
 
 TEST(DoctorCommand, SaysWhatIsRefusedWhyAndWhatToDo) {
   if (!can_drop_capabilities()) GTEST_SKIP() << "setpriv cannot drop capabilities here";
-  const json settings =
-      settings_of(without_capabilities({testing::maploop_command(), "doctor"}), "settings");
+  const json settings = settings_of(without_capabilities({maploop_command(), "doctor"}));
   for (const char* name : {"fusion: scheduling", "locked memory"}) {
     EXPECT_EQ(settings[name]["verdict"], "refused") << settings[name];
     EXPECT_NE(settings[name]["reason"], "");
@@ -75,38 +65,27 @@ TEST(DoctorCommand, SaysWhatIsRefusedWhyAndWhatToDo) {
   EXPECT_EQ(settings["fusion: scheduling"]["granted"], runtime::read_scheduling().policy);
 }
 
-TEST(DoctorCommand, AReplayWithoutPrivilegesSaysSoAndHasTheSameBits) {
-  MAPLOOP_REQUIRE_DRIVE();
+using DoctorOnADrive = DriveTest;
+
+TEST_F(DoctorOnADrive, AReplayWithoutPrivilegesSaysSoAndHasTheSameBits) {
   if (!can_drop_capabilities()) GTEST_SKIP() << "setpriv cannot drop capabilities here";
-  const testing::TemporaryFolder folder;
-  const auto replay = [&](const char* option, bool privileged) {
-    const std::string file = (folder.path() / "result.json").string();
-    std::vector<std::string> command{testing::maploop_command(),
-                                     "replay",
-                                     testing::drive_0013().string(),
-                                     "--no-lcm",
-                                     "--end",
-                                     "3",
-                                     "--json",
-                                     file};
-    if (*option != '\0') command.emplace_back(option);
-    const testing::ProcessResult result =
-        testing::run(privileged ? command : without_capabilities(command));
+  const auto replay = [this](bool privileged, const char* pace) {
+    const Words command{maploop_command(), "replay", drive(),  "--no-lcm",         pace,
+                        "--end",           "3",      "--json", file("result.json")};
+    const ProcessResult result = run(privileged ? command : without_capabilities(command));
     EXPECT_EQ(result.status, 0) << result.error;
-    json read = json::parse(std::ifstream(file));
+    json read = read_json(file("result.json"));
     read["said"] = result.error;
     return read;
   };
-  const json refused = replay("", false);
+  const json refused = replay(false, "--speed=1");
   // The test's own policy, which the command inherits: "other", or "other nice 19".
   const std::string inherited = runtime::read_scheduling().policy;
-  EXPECT_NE(refused["said"].get<std::string>().find("refused   fusion: scheduling: " + inherited +
-                                                    ", not fifo"),
-            std::string::npos)
-      << refused["said"];
-  EXPECT_NE(refused["degraded"].dump().find("fusion: scheduling is " + inherited + ", not fifo 60"),
-            std::string::npos);
-  const json lockstep = replay("--lockstep", true);
+  EXPECT_THAT(refused["said"].get<std::string>(),
+              HasSubstr("refused   fusion: scheduling: " + inherited + ", not fifo"));
+  EXPECT_THAT(refused["degraded"].dump(),
+              HasSubstr("fusion: scheduling is " + inherited + ", not fifo 60"));
+  const json lockstep = replay(true, "--lockstep");
   EXPECT_EQ(refused["channels"]["NAV_STATE"], lockstep["channels"]["NAV_STATE"]);
   EXPECT_EQ(lockstep["said"], "") << "virtual time asks for nothing";
 }

@@ -1,26 +1,16 @@
 // Tests `maploop profile`, on messages made by hand and on a replay of the recorded drive.
 #include "tools/profile/profile.h"
 
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <iterator>
-#include <nlohmann/json.hpp>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
 #include "msgs/lcm/conversions.h"
 #include "runtime/core/histogram.h"
-#include "tests/support/process.h"
-#include "tests/support/real_data.h"
+#include "tests/support/command_test.h"
 
 namespace maploop::profile {
 namespace {
 
 using nlohmann::json;
 using std::chrono::milliseconds;
-using testing::ProcessResult;
+using namespace testing;
 
 template <class Message>
 std::vector<std::uint8_t> encoded(const Message& message) {
@@ -57,8 +47,8 @@ Profile profile_of(const Deadlines& deadlines, const Health& health) {
 TEST(Profile, TheCorrectedPercentilesHoldTheHiddenWaits) {
   const Profile p = profile_of(stalled_thread(), {});
   ASSERT_EQ(p.threads.size(), 1u);
-  EXPECT_EQ(p.threads[0].omitted, 9u);
-  EXPECT_LT(p.threads[0].recorded.p99, milliseconds(2)) << "1 of 101";
+  EXPECT_EQ(p.threads[0].hidden, 9u);
+  EXPECT_LT(p.threads[0].p99, milliseconds(2)) << "1 of 101";
   EXPECT_GT(p.threads[0].corrected_p99, milliseconds(90)) << "10 of 110";
   EXPECT_EQ(p.threads[0].corrected_p999, milliseconds(105));
 }
@@ -127,31 +117,23 @@ TEST(Profile, OnVirtualTimeNoDeadlineIsJudged) {
   EXPECT_NE(to_text(paced).find("No deadline was missed"), std::string::npos);
 }
 
-ProcessResult profile_command(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), {testing::maploop_command(), "profile"});
-  return testing::run(arguments);
-}
+class ProfileCommand : public CommandTest {
+ protected:
+  static ProcessResult profile_command(Words words) {
+    words.insert(words.begin(), "profile");
+    return run_maploop(words);
+  }
+};
 
-std::string text_of(const std::string& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-TEST(ProfileCommand, AgreesWithWhatTheReplaySaidAtItsEnd) {
+TEST_F(ProfileCommand, AgreesWithWhatTheReplaySaidAtItsEnd) {
   MAPLOOP_REQUIRE_DRIVE();
-  const testing::TemporaryFolder folder;
-  const auto file = [&](const char* name) { return (folder.path() / name).string(); };
-  const ProcessResult replay =
-      testing::run({testing::maploop_command(), "replay", testing::drive_0013().string(),
-                    "--no-lcm", "--end", "5", "--fault", "slow@fusion:2:0.3,by=0.02", "--record",
-                    file("run.lcmlog"), "--json", file("replay.json")});
-  ASSERT_EQ(replay.status, 0) << replay.error;
+  const json said =
+      replay(drive_0013().string(), {"--end", "5", "--fault", "slow@fusion:2:0.3,by=0.02",
+                                     "--record", file("run.lcmlog")})["deadlines"];
   const ProcessResult result = profile_command(
       {file("run.lcmlog"), "--json", file("profile.json"), "--html", file("profile.html")});
   ASSERT_EQ(result.status, 0) << result.error;
-
-  const json said = json::parse(text_of(file("replay.json")))["deadlines"];
-  const json profile = json::parse(text_of(file("profile.json")));
+  const json profile = read_json(file("profile.json"));
   for (const char* kind : {"threads", "paths"}) {
     ASSERT_EQ(profile[kind].size(), said[kind].size());
     for (const auto& [name, s] : said[kind].items()) {
@@ -179,7 +161,7 @@ TEST(ProfileCommand, AgreesWithWhatTheReplaySaidAtItsEnd) {
     EXPECT_NE(result.out.find(said_so), std::string::npos) << said_so;
   }
 
-  const std::string html = text_of(file("profile.html"));
+  const std::string html = read_file(file("profile.html"));
   std::size_t pictures = 0;
   for (std::size_t at = 0; (at = html.find("<figure data-plot", at)) != std::string::npos; ++at) {
     ++pictures;
@@ -188,26 +170,25 @@ TEST(ProfileCommand, AgreesWithWhatTheReplaySaidAtItsEnd) {
   EXPECT_NE(html.find("class=\"bar\""), std::string::npos) << "the misses";
 }
 
-TEST(ProfileCommand, SaysWhatIsWrong) {
-  const testing::TemporaryFolder folder;
-  const std::string missing = (folder.path() / "none.lcmlog").string();
+TEST_F(ProfileCommand, SaysWhatIsWrong) {
+  const std::string missing = file("none.lcmlog");
   ProcessResult result = profile_command({missing});
   EXPECT_EQ(result.status, 1);
-  EXPECT_NE(result.error.find("none.lcmlog"), std::string::npos) << result.error;
+  EXPECT_THAT(result.error, HasSubstr("none.lcmlog"));
   EXPECT_NE(profile_command({}).status, 0);
   EXPECT_NE(profile_command({missing, "--live"}).status, 0);
   EXPECT_NE(profile_command({missing, "--seconds", "3"}).status, 0);
   result = profile_command({"--live", "--seconds", "1", "--lcm-url", "nonsense://"});
   EXPECT_EQ(result.status, 1);
-  EXPECT_NE(result.error.find("nonsense://"), std::string::npos) << result.error;
+  EXPECT_THAT(result.error, HasSubstr("nonsense://"));
 }
 
-TEST(ProfileCommand, ALogWithoutOurChannelsIsNamed) {
+TEST_F(ProfileCommand, ALogWithoutOurChannelsIsNamed) {
   MAPLOOP_REQUIRE_REAL_DATA();
-  const auto log = testing::real_data() / "lcm/vlp16_and_wheels.lcm";
-  const ProcessResult result = profile_command({log.string()});
+  const ProcessResult result =
+      profile_command({(real_data() / "lcm/vlp16_and_wheels.lcm").string()});
   EXPECT_EQ(result.status, 1);
-  EXPECT_NE(result.error.find("has no DEADLINES"), std::string::npos) << result.error;
+  EXPECT_THAT(result.error, HasSubstr("has no DEADLINES"));
 }
 
 }  // namespace

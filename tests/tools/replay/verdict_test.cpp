@@ -1,5 +1,5 @@
 // Tests the three lines at the end of a run.
-#include "tools/replay/verdict.h"
+#include "tools/replay/replay_result.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

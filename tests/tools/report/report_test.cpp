@@ -56,12 +56,21 @@ std::map<Time, PppState> ppp_of(double seconds) {
   return states;
 }
 
-std::string page_of(const tools::ReplayResult& result, const std::map<Time, RoadMoment>& matches,
-                    const std::map<Time, PppState>& ppp, std::vector<ReferencePose> reference) {
+using Matches = std::map<Time, tools::RoadMoment>;
+using Reference = std::vector<ReferencePose>;
+
+std::string page_of(const tools::ReplayResult& result, Matches matches,
+                    std::map<Time, PppState> ppp, const Reference& reference) {
+  vehicle::VehicleConfig config;
+  config.fusion.gnss_lever_forward = antenna.x();
+  config.fusion.gnss_lever_left = antenna.y();
+  config.fusion.gnss_lever_up = antenna.z();
+  tools::RunPass pass;
+  pass.matches = std::move(matches);
+  pass.ppp_states = std::move(ppp);
   const testing::TemporaryFolder folder;
   const auto file = folder.path() / "report.html";
-  const fusion_score::NavTrack track;
-  write_report(file, {result, track, std::move(reference), {}, matches, ppp, antenna, "", "1.0"});
+  write_report(file, {result, pass, reference, config});
   std::stringstream text;
   text << std::ifstream(file).rdbuf();
   return text.str();
@@ -91,10 +100,10 @@ TEST(Report, PppWithoutATruthOrAnyPositionSaysSo) {
 }
 
 TEST(Report, LinksAreCountedWhereTheDrivenOnesAreKnown) {
-  std::map<Time, RoadMoment> matches;
+  Matches matches;
   for (int i = 0; i < 20; ++i) {
     const MatchPhase phase = i < 5 ? MatchPhase::initial : MatchPhase::along_link;
-    matches[at(0.1 * i)] = {phase, i >= 5, origin, 0.9};
+    matches[at(0.1 * i)] = {{at(0.1 * i), {}}, phase, i >= 5, origin};
   }
   const std::string unknown = page_of({}, matches, {}, straight_drive(2.0));
   EXPECT_TRUE(has(unknown, "does not say which links were driven"));

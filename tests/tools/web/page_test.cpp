@@ -9,6 +9,7 @@
 #include <string>
 
 #include "tools/web/bundle.h"
+#include "tools/web/table.h"
 
 namespace maploop::web {
 namespace {

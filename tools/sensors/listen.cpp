@@ -1,8 +1,7 @@
-#include "tools/sensors/sensors_listen.h"
-
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -16,6 +15,8 @@
 #include "runtime/vehicle/graph/vehicle.h"
 #include "tools/command/json_output.h"
 #include "tools/command/terminal.h"
+#include "tools/replay/figures.h"
+#include "tools/sensors/sensors.h"
 
 namespace maploop::tools {
 namespace {
@@ -44,35 +45,37 @@ void listen(sensors::LiveSource<T>& source, const sensors::HostClock& clock, Tim
   heard.report = source.report();
 }
 
+std::string samples_text(const Heard& heard) {
+  const sensors::ConnectionState& connection = heard.report.connection;
+  if (heard.samples == 0) {
+    return connection.open && connection.bytes == 0
+               ? "none: nothing is sent to there; is the sensor on, and set to this address?"
+               : "none";
+  }
+  const double span = to_seconds(heard.last - heard.first);
+  const double rate = span > 0.0 ? static_cast<double>(heard.samples - 1) / span : 0.0;
+  return fmt::format("{}, {:.2f} Hz, delivered {:.1f} to {:.1f} ms after their stamp",
+                     heard.samples, rate, to_milliseconds(heard.youngest),
+                     to_milliseconds(heard.oldest));
+}
+
 void print(const Heard& heard) {
   const sensors::ConnectionState& connection = heard.report.connection;
   fmt::print("{}  {}\n", heard.name, heard.report.endpoint);
   fmt::print("  connection   {}; opened {} times, {} bytes\n",
              connection.open ? "open" : connection.problem, connection.opened, connection.bytes);
-  if (heard.samples == 0) {
-    fmt::print("  samples      none{}\n",
-               connection.open && connection.bytes == 0
-                   ? ": nothing is sent to there; is the sensor on, and set to this address?"
-                   : "");
-  } else {
-    const double span = to_seconds(heard.last - heard.first);
-    const double rate = span > 0.0 ? static_cast<double>(heard.samples - 1) / span : 0.0;
-    fmt::print("  samples      {}, {:.2f} Hz, delivered {:.1f} to {:.1f} ms after their stamp\n",
-               heard.samples, rate, to_milliseconds(heard.youngest), to_milliseconds(heard.oldest));
-  }
+  fmt::print("  samples      {}\n", samples_text(heard));
   for (const std::string& reason : heard.report.reasons) {
     fmt::print("  left out     {}\n", reason);
   }
   for (const std::string& note : heard.report.notes) fmt::print("  says         {}\n", note);
   const SensorClock& clock = heard.report.clock;
-  if (clock.known) {
-    fmt::print("  clock        {:+.1f} ppm against the host's, jumped {} times", -1e6 * clock.drift,
-               clock.jumps);
-    if (clock.utc_ahead) {
-      fmt::print("; its UTC is {:+.3f} s ahead of the host's", to_seconds(*clock.utc_ahead));
-    }
-    fmt::print("\n");
-  }
+  if (!clock.known) return;
+  fmt::print("  clock        {:+.1f} ppm against the host's, jumped {} times{}\n",
+             -1e6 * clock.drift, clock.jumps,
+             clock.utc_ahead ? fmt::format("; its UTC is {:+.3f} s ahead of the host's",
+                                           to_seconds(*clock.utc_ahead))
+                             : "");
 }
 
 nlohmann::json to_json(const Heard& heard) {
@@ -82,7 +85,7 @@ nlohmann::json to_json(const Heard& heard) {
                       {"bytes", connection.bytes},         {"samples", heard.samples},
                       {"refused", heard.report.refused},   {"left_out", heard.report.reasons},
                       {"notes", heard.report.notes}};
-  if (heard.report.clock.known) json["clock"] = tools::to_json(heard.report.clock);
+  if (heard.report.clock.known) json["clock"] = web::to_json(clock_columns, heard.report.clock);
   if (heard.samples > 0) {
     json["span_s"] = to_seconds(heard.last - heard.first);
     json["youngest_s"] = to_seconds(heard.youngest);
@@ -94,16 +97,10 @@ nlohmann::json to_json(const Heard& heard) {
 vehicle::VehicleConfig config_of(const ListenOptions& options) {
   if (!options.config.empty()) return vehicle::load_vehicle_config(options.config);
   vehicle::VehicleConfig config;
-  vehicle::LiveParameters& p = config.live;
-  p.velodyne = options.velodyne;
-  p.velodyne_position = options.velodyne_position;
-  p.velodyne_model = options.model;
-  p.velodyne_calibration = options.calibration.string();
-  p.imu = options.imu;
-  p.imu_delay = 0.0;
-  p.gnss = options.gnss;
-  if (options.gnss_protocol) p.gnss_protocol = *options.gnss_protocol;
-  if (p.velodyne.empty() && p.imu.empty() && p.gnss.empty()) {
+  config.live = options.live;
+  config.live.imu_delay = 0.0;
+  if (options.gnss_protocol) config.live.gnss_protocol = *options.gnss_protocol;
+  if (config.live.velodyne.empty() && config.live.imu.empty() && config.live.gnss.empty()) {
     throw CLI::RequiredError("one of --velodyne, --imu and --gnss");
   }
   return config;
@@ -115,8 +112,7 @@ int listen_to_sensors(const ListenOptions& options) {
   vehicle::LiveSensors live = vehicle::open_live_sensors(config_of(options));
   const sensors::HostClock& clock = *live.clock;
   const Time end = clock.now() + from_seconds(options.seconds);
-  std::vector<Heard> heard;
-  heard.reserve(5);
+  std::deque<Heard> heard;
   std::vector<std::function<void()>> listeners;
   const auto add = [&]<class T>(const char* name,
                                 const std::unique_ptr<sensors::LiveSource<T>>& source) {

@@ -1,5 +1,3 @@
-#include "tools/sensors/velodyne_capture_info.h"
-
 #include <fmt/format.h>
 #include <fstream>
 #include <iostream>
@@ -7,7 +5,9 @@
 #include <stdexcept>
 
 #include "sensors/replay/files.h"
+#include "sensors/velodyne/capture_source.h"
 #include "tools/command/json_output.h"
+#include "tools/sensors/sensors.h"
 
 namespace maploop::tools {
 namespace {
@@ -30,42 +30,35 @@ void row(const char* key, const std::string& value) {
   fmt::print("  {:12} {}\n", key, value);
 }
 
-std::string fixed(double value, int digits) {
-  return fmt::format("{:.{}f}", value, digits);
-}
-
 void print(const sensors::VelodyneCapture& capture, const Turns& turns) {
   const auto& decoder = capture.decoder();
   const auto& counts = decoder.counts();
-  const auto& cuts = decoder.turns();
   fmt::print("{}\n", to_string(capture.model()));
-  row("packets", std::to_string(counts.data) + " of data, " + std::to_string(counts.positions) +
-                     " of position, " + std::to_string(capture.others()) + " others");
-  row("time", format_time(capture.first()) + " to " + format_time(capture.last()) + ", " +
-                  fixed(to_seconds(capture.last() - capture.first()), 3) + " s");
-  row("lost", std::to_string(counts.lost) + ", late " + std::to_string(counts.late));
-  row("points", std::to_string(decoder.points()));
+  row("packets", fmt::format("{} of data, {} of position, {} others", counts.data, counts.positions,
+                             capture.others()));
+  row("time",
+      fmt::format("{} to {}, {:.3f} s", format_time(capture.first()), format_time(capture.last()),
+                  to_seconds(capture.last() - capture.first())));
+  row("lost", fmt::format("{}, late {}", counts.lost, counts.late));
+  row("points", fmt::format("{}", decoder.points()));
   const std::string mean =
-      turns.count == 0
-          ? ""
-          : ", " + std::to_string(turns.points / turns.count) + " points and " +
-                fixed(1e3 * turns.seconds / static_cast<double>(turns.count), 3) + " ms each";
-  row("turns", std::to_string(turns.count) + " from rear to rear" + mean + "; broken " +
-                   std::to_string(cuts.broken));
-  if (!decoder.clock().has_device_time()) {
-    row("clock", "the scanner's packets carry no time: stamped by their arrival");
-  } else {
-    row("clock", "the scanner's own, shifted to the capturing host's; jumps " +
-                     std::to_string(decoder.clock().jumps()));
-  }
+      turns.count == 0 ? ""
+                       : fmt::format(", {} points and {:.3f} ms each", turns.points / turns.count,
+                                     1e3 * turns.seconds / static_cast<double>(turns.count));
+  row("turns",
+      fmt::format("{} from rear to rear{}; broken {}", turns.count, mean, decoder.turns().broken));
+  row("clock", decoder.clock().has_device_time()
+                   ? fmt::format("the scanner's own, shifted to the capturing host's; jumps {}",
+                                 decoder.clock().jumps())
+                   : "the scanner's packets carry no time: stamped by their arrival");
   if (const auto offset = decoder.clock().gps_offset()) {
-    row("GPS",
-        "UTC of its receiver is " + fixed(to_seconds(*offset), 6) + " s ahead of the host's clock");
+    row("GPS", fmt::format("UTC of its receiver is {:.6f} s ahead of the host's clock",
+                           to_seconds(*offset)));
   }
   for (std::size_t i = 0; i < counts.refused.size(); ++i) {
     if (counts.refused[i] == 0) continue;
-    row("refused", std::to_string(counts.refused[i]) + ": " +
-                       std::string(to_string(static_cast<sensors::PacketFault>(i))));
+    row("refused",
+        fmt::format("{}: {}", counts.refused[i], to_string(static_cast<sensors::PacketFault>(i))));
   }
   for (const auto& finding : capture.report().refusals) row("refused", finding.reason);
 }
@@ -88,8 +81,9 @@ nlohmann::json to_json(const sensors::VelodyneCapture& capture, const Turns& tur
 
 }  // namespace
 
-int show_capture(const CaptureInfoOptions& options) {
-  sensors::VelodyneCapture capture(options.file, options.capture);
+int show_capture(const CaptureOptions& options) {
+  sensors::VelodyneCapture capture(options.file,
+                                   {sensors::velodyne_model(options.model), options.calibration});
   if (!options.scans.empty()) std::filesystem::create_directories(options.scans);
   Turns turns;
   for (LidarScan scan; capture.next(scan);) {

@@ -1,4 +1,4 @@
-#include "tools/command/wrapped_text.h"
+#include "tools/command/usage_text.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tools/replay/trajectory_collector.h"
+#include "tools/replay/run_pass.h"
 
 #include <gtest/gtest.h>
 
@@ -24,8 +24,7 @@ RelativeMotion motion(int from_ms, int to_ms, OdometryStatus status) {
 
 // The truth moves as if all motions were measured; those from 5 to 6 s get the status `in_between`.
 Accuracy score_with(OdometryStatus in_between) {
-  const Eigen::Isometry3d T_body_cam = Eigen::Isometry3d::Identity();
-  TrajectoryCollector collector(T_body_cam);
+  TrajectoryCollector collector;
   std::map<Time, Eigen::Isometry3d> truth;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   for (int ms = 0; ms < 12000; ms += 100) {
@@ -35,7 +34,8 @@ Accuracy score_with(OdometryStatus in_between) {
     truth[step.stamp] = pose;
     collector.add(measured ? step : motion(ms, ms + 100, in_between));
   }
-  return *collector.score_vo([&](Time t) { return std::optional(truth.at(t)); });
+  return *collector.score([&](Time t) { return std::optional(truth.at(t)); },
+                          Eigen::Isometry3d::Identity());
 }
 
 TEST(TrajectoryCollector, GoesOnAsItWentThroughRefusedMotions) {

@@ -1,0 +1,119 @@
+// Tests that whatever is done with the recorded drive, its results have the bits of one replay in
+// lockstep, and are as accurate as they were.
+#include "tests/support/command_test.h"
+#include "tools/evaluate/kitti_poses.h"
+
+namespace maploop {
+namespace {
+
+using nlohmann::json;
+using namespace testing;
+
+// One replay in lockstep, with all of its files.
+struct Lockstep {
+  Lockstep() {
+    // 8.03 s is between an image and its result, which is not yet available then.
+    const ProcessResult process =
+        run_maploop({"replay", drive_0013().string(), "--no-lcm", "--lockstep", "--json",
+                     in("result.json"), "--poses", in("poses.txt"), "--record", in("raw.lcmlog"),
+                     "--record-raw", "--snapshot", "8.03:" + in("snapshot")});
+    EXPECT_EQ(process.status, 0) << process.error;
+    result = read_json(in("result.json"));
+  }
+
+  std::string in(const char* name) const { return (folder.path() / name).string(); }
+
+  TemporaryFolder folder;
+  json result;
+};
+
+const Lockstep& lockstep() {
+  static const Lockstep lockstep;
+  return lockstep;
+}
+
+class WholeDrive : public DriveTest {};
+
+TEST_F(WholeDrive, StaysAsAccurateAsItWas) {
+  const json& r = lockstep().result;
+  EXPECT_EQ(r["vo"]["frames"], 144);
+  EXPECT_EQ(r["fused"]["frames"], 144);
+  EXPECT_NEAR(r["vo"]["distance_m"], 172.9, 0.5);
+  // The results are 0.916, 0.493, 0.00170, 2.06 m.
+  EXPECT_LT(r["vo"]["segment_100m_percent"], 1.0);
+  EXPECT_LT(r["vo"]["common_rotation_removed"]["segment_100m_percent"], 0.55);
+  EXPECT_LT(r["vo"]["segment_100m_deg_per_m"], 0.0021);
+  EXPECT_LT(r["vo"]["end_point_m"], 2.3);
+  // The results are 0.653, 0.505, 0.00249, 1.50 m.
+  EXPECT_LT(r["lidar"]["segment_100m_percent"], 0.72);
+  EXPECT_LT(r["lidar"]["common_rotation_removed"]["segment_100m_percent"], 0.55);
+  EXPECT_LT(r["lidar"]["segment_100m_deg_per_m"], 0.003);
+  EXPECT_LT(r["lidar"]["end_point_m"], 1.7);
+  // The results are 0.640, 0.515, 0.00151, 1.68 m.
+  EXPECT_LT(r["fused"]["segment_100m_percent"], 0.7);
+  EXPECT_LT(r["fused"]["common_rotation_removed"]["segment_100m_percent"], 0.55);
+  EXPECT_LT(r["fused"]["segment_100m_deg_per_m"], 0.002);
+  EXPECT_LT(r["fused"]["end_point_m"], 1.8);
+  // One trigger exposes both images, so that no odometry speed contradicts the filter.
+  EXPECT_FALSE(r["refusals"]["fusion"].contains("speed contradicts the prediction"));
+  EXPECT_EQ(evaluation::read_kitti_poses(lockstep().in("poses.txt")).size(), 144u);
+}
+
+// The real-time run is without the log and the snapshot of the other one, which change no bit.
+TEST_F(WholeDrive, RealTimeHasTheBitsOfLockstepAndLosesNothing) {
+  const json& expected = lockstep().result;
+  EXPECT_EQ(hashes(expected).size(), 7u) << "raw channels go to the log alone";
+  const json real_time = replay(drive(), {"--speed", "1"});
+  EXPECT_EQ(hashes(real_time), hashes(expected));
+  for (const json& result : {expected, real_time}) EXPECT_EQ(result["replay"]["lost"], 0);
+  EXPECT_EQ(real_time["channels"]["VO"]["count"], 144);
+  EXPECT_EQ(real_time["channels"]["IMU"]["count"], 144);
+  EXPECT_EQ(real_time["channels"]["TRUTH"]["count"], 144);
+  EXPECT_GT(real_time["channels"]["HEALTH"]["count"], 10);
+}
+
+TEST_F(WholeDrive, ALogOfRawSensorsGivesTheHashesOfTheDrive) {
+  const json& expected = lockstep().result;
+  const std::string raw = lockstep().in("raw.lcmlog");
+  const json log = replay(raw, {"--lockstep", "--record", file("derived.lcmlog")});
+  EXPECT_EQ(hashes(log), hashes(expected));
+  for (const char* sensor : {"camera", "velodyne"}) {
+    EXPECT_EQ(log["sensors"][sensor]["delivered"], expected["sensors"][sensor]["delivered"]);
+  }
+  EXPECT_EQ(log["fused"], expected["fused"]) << "scored alike: calibration and truth came along";
+  EXPECT_EQ(log["vo"], expected["vo"]);
+  EXPECT_EQ(hashes(replay(raw, {"--speed", "4"})), hashes(expected));
+
+  const json without_images = replay(file("derived.lcmlog"), {"--lockstep"});
+  EXPECT_EQ(hashes(without_images), hashes(expected)) << "the recorded odometry is fused";
+  EXPECT_EQ(without_images["fused"], expected["fused"]);
+  EXPECT_EQ(without_images["sensors"]["odometry"]["delivered"], 144);
+  EXPECT_EQ(without_images["replay"]["images"], 144);
+}
+
+TEST_F(WholeDrive, AResumedRunHasTheHashesAndTheLogOfTheWholeRunFromThereOn) {
+  const json& snapshot = lockstep().result["snapshot"];
+  const auto expected = hashes(snapshot);
+  EXPECT_EQ(expected.size(), 7u);
+  EXPECT_GT(snapshot["channels"]["VO"]["count"], 60);
+  const std::string resume = lockstep().in("snapshot");
+  EXPECT_EQ(hashes(replay(drive(),
+                          {"--lockstep", "--resume", resume, "--record", file("resumed.lcmlog")})),
+            expected);
+  EXPECT_EQ(hashes(replay(drive(), {"--speed", "2", "--resume", resume})), expected);
+
+  // The start is later than the snapshot by a microsecond, the resolution of a log's clock.
+  const std::string start = std::to_string(snapshot["at_s"].get<double>() + 1e-6);
+  const std::string channels = "NAV_STATE|VO|LIDAR_ODOMETRY|ODOMETRY|IMU|GNSS_FIX|TRUTH";
+  ASSERT_EQ(run_maploop({"log", "split", lockstep().in("raw.lcmlog"), "--start", start,
+                         "--channels", channels, "-o", file("tail.lcmlog")})
+                .status,
+            0);
+  const ProcessResult same = run_maploop(
+      {"log", "diff", file("tail.lcmlog"), file("resumed.lcmlog"), "--channels", channels});
+  EXPECT_EQ(same.status, 0) << same.out;
+  EXPECT_THAT(same.out, HasSubstr("NAV_STATE: same"));
+}
+
+}  // namespace
+}  // namespace maploop

@@ -1,0 +1,82 @@
+// What a run of the vehicle, live or recorded, can be asked for: where it sends its messages, and
+// what it writes at its end.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/core/realtime.h"
+#include "runtime/core/trace.h"
+#include "runtime/vehicle/config/vehicle_config.h"
+#include "runtime/vehicle/graph/vehicle.h"
+#include "runtime/vehicle/output/lcm_bus.h"
+#include "runtime/vehicle/output/runs.h"
+#include "tools/replay/run_pass.h"
+
+namespace maploop::tools {
+
+// Files that are empty are not written.
+struct RunOptions {
+  std::filesystem::path config;
+  bool verbose = false;  // the tables at the end, and every real-time setting
+  std::filesystem::path record;
+  bool record_raw = false;
+  bool no_lcm = false;
+  std::string lcm_url;  // empty: vehicle::bus_url() chooses one
+  std::filesystem::path json, report, trace;
+  std::filesystem::path poses, tum, csv, nmea;  // of the fused state
+  std::filesystem::path map;
+  std::optional<vehicle::MapMode> map_mode;
+
+  bool states() const { return !(poses.empty() && tum.empty() && csv.empty() && nmea.empty()); }
+};
+
+// Adds all of them but the configuration.
+void add_run_options(CLI::App* sub, RunOptions& options);
+
+class RunOutput {
+ public:
+  // `what` describes the run to others on the bus. The options and the configuration must outlive
+  // this.
+  RunOutput(const RunOptions& options, const vehicle::VehicleConfig& config, std::string what)
+      : options_(options), config_(config), run_(vehicle::new_run(std::move(what))) {}
+
+  const std::string& run() const { return run_.id; }
+
+  // Opens the bus unless --no-lcm is given, and announces the run on it until write(). Returns what
+  // the kernel granted for it. Throws std::runtime_error if LCM cannot open it.
+  std::vector<RealtimeSetting> open_bus();
+  // nullptr without a bus.
+  vehicle::LcmBus* bus() { return bus_.get(); }
+  vehicle::RunPresence* presence() { return presence_ ? &*presence_ : nullptr; }
+
+  // Returns the sinks of the run's messages: the hashes, the bus and the log.
+  std::vector<vehicle::MessageSink*> sinks(RunPass& pass, vehicle::LogRecorder::WhenBehind behind);
+  // Returns a new tracer, which replaces the one before; nullptr without --trace. Throws
+  // std::runtime_error if its file cannot be written.
+  runtime::Tracer* new_tracer();
+
+  // Fills what the result of any run contains.
+  ReplayResult result(const vehicle::Vehicle& vehicle, const RunPass& pass) const;
+
+  // Writes the files that were asked for, then prints the verdict, with the tables if --verbose is
+  // given. A file that cannot be written is reported on standard error; the others are written all
+  // the same. Returns whether the run itself and all of its output are complete.
+  bool write(const ReplayResult& result, const RunPass& pass, const VehicleCalibration& calibration,
+             std::vector<ReferencePose> reference, const vehicle::RoadMap* map);
+
+ private:
+  const RunOptions& options_;
+  const vehicle::VehicleConfig& config_;
+  vehicle::Run run_;
+  std::unique_ptr<vehicle::LcmBus> bus_;
+  std::optional<vehicle::RunPresence> presence_;
+  std::unique_ptr<runtime::Tracer> tracer_;
+};
+
+}  // namespace maploop::tools

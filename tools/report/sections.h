@@ -1,0 +1,59 @@
+// The parts of the page, and what their pictures share.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sensors/replay/reference_trajectory.h"
+#include "tools/report/report.h"
+#include "tools/web/page.h"
+
+namespace maploop::report {
+
+inline constexpr double sigmas = 3.0;
+
+// The replay in the common frame of all pictures.
+struct Scene {
+  explicit Scene(const ReplayReport& of);
+
+  const ReplayReport& report;
+  // Its origin is that of the first state; if there is none, the first reference pose, or the first
+  // position by PPP.
+  LocalFrame frame;
+  std::optional<sensors::ReferenceTrajectory> truth;  // if the recording has a reference
+  Time first;                                         // plots count their seconds from here
+
+  double second(Time t) const { return to_seconds(t - first); }
+};
+
+// All lists have the same length; an error that is not finite is unknown at that time.
+struct ErrorSeries {
+  std::string quantity;  // such as east
+  std::string unit;
+  std::string of;  // source of the error: fused, PPP
+  std::vector<double> seconds{}, error{}, sigma{};
+};
+
+// Plots an error against time with three of its estimated standard deviations. Without any known
+// error it plots only the standard deviations.
+web::Plot error_plot(const ErrorSeries& series);
+
+// Plots the view from above, in the fused state's own frame, over the roads of the replay's map:
+// truth, fused, PPP, matched points, and dead reckoning placed at the truth's first pose (the fused
+// one without a truth).
+web::Plot trajectory_map(const Scene& scene);
+
+// Plots against seconds of the drive: errors with three of the filter's standard deviations, and
+// the speed. Without a truth only the standard deviations and the fused speed.
+std::vector<web::Plot> state_plots(const Scene& scene);
+
+// Adds the roads that the vehicle was matched to, if any, and how often they were right if the
+// recording contains the links driven.
+void add_roads(web::Page& page, const Scene& scene);
+
+// Adds the results of precise point positioning, if there were observations. Errors are those of
+// the antenna against the truth.
+void add_ppp(web::Page& page, const Scene& scene);
+
+}  // namespace maploop::report
