@@ -31,7 +31,27 @@ std::size_t EventHistory::open_slot(const EventKey& key) {
   return position;
 }
 
+std::size_t EventHistory::after_last_sample(std::size_t position) const {
+  while (position > 0 && (*this)[position - 1].key.kind != EventKind::imu) --position;
+  return position;
+}
+
+const ImuSample* EventHistory::sample_from(std::size_t position) const {
+  while (position < size() && (*this)[position].key.kind != EventKind::imu) ++position;
+  return position < size() ? &std::get<ImuSample>((*this)[position].measurement) : nullptr;
+}
+
+InertialSamples EventHistory::samples_around(std::size_t position) const {
+  const std::size_t first = after_last_sample(position);
+  const ImuSample* before = past.sample ? &*past.sample : nullptr;
+  if (first > 0) before = &std::get<ImuSample>((*this)[first - 1].measurement);
+  return {before, sample_from(position), state_before(position).imu_repeated};
+}
+
 void EventHistory::pop_front() {
+  const Event& oldest = (*this)[0];
+  past.key = oldest.key;
+  if (const auto* sample = std::get_if<ImuSample>(&oldest.measurement)) past.sample = *sample;
   free_.push_back(order_.front());
   order_.erase(order_.begin());
 }

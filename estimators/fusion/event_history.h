@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "estimators/fusion/filter_state.h"
+#include "estimators/fusion/inertial_input.h"
 #include "estimators/fusion/outcome.h"
 #include "msgs/gnss.h"
 #include "msgs/imu.h"
@@ -62,6 +63,14 @@ struct Event {
 // event (0). Not thread-safe.
 class EventHistory {
  public:
+  // Summarizes the events that have left the history.
+  struct Past {
+    FilterState state;
+    EventKey key;
+    std::optional<ImuSample> sample;  // newest inertial sample among them
+  };
+  Past past;
+
   explicit EventHistory(std::size_t capacity);
 
   std::size_t size() const { return order_.size(); }
@@ -73,6 +82,18 @@ class EventHistory {
   // Returns the position of the first event after `key`, and after any event equal to it.
   std::size_t position_after(const EventKey& key) const;
 
+  // Returns the state before the event at a position, which the older ones lead to.
+  const FilterState& state_before(std::size_t position) const {
+    return position == 0 ? past.state : (*this)[position - 1].after;
+  }
+
+  // Returns the position after the last inertial sample before `position`, or 0.
+  std::size_t after_last_sample(std::size_t position) const;
+  // Returns the first inertial sample from `position` on, or null.
+  const ImuSample* sample_from(std::size_t position) const;
+  // Returns the inertial samples before and from `position` on.
+  InertialSamples samples_around(std::size_t position) const;
+
   // Inserts an event at its place in the order and returns its position. Its `after` and `outcome`
   // keep whatever values the slot held before. Preconditions: !full(), !contains(key).
   template <class Measurement>
@@ -82,8 +103,9 @@ class EventHistory {
     return position;
   }
 
-  void pop_front();  // precondition: size() > 0
-  void clear();
+  // Removes the oldest event and notes its key and sample as past. Precondition: size() > 0.
+  void pop_front();
+  void clear();  // keeps the past
 
   template <class Archive>
   void archive(Archive& ar) {
@@ -100,6 +122,7 @@ class EventHistory {
       Event& event = (*this)[Archive::loading ? open_slot(key) : i];
       ar(event.measurement, event.after, event.outcome);
     }
+    ar(past.state, past.key, past.sample);
   }
 
  private:

@@ -65,7 +65,7 @@ void archive(Archive& ar, DelayEstimate& e) {
   ar(e.information, e.weighted);
 }
 
-// This is the memory of the zero-velocity detector (zero_velocity.h).
+// This is the memory of the zero-velocity detector (inertial_update.h).
 struct Stillness {
   double mean_force = 0.0;      // m/s^2, mean forward specific force of the last second
   double force_variance = 1.0;  // m^2/s^4
@@ -128,6 +128,12 @@ void archive(Archive& ar, FilterState& s) {
      s.odometry_refused, s.gated_in_a_row, s.gnss_gated_in_a_row, s.wheel_gated_in_a_row,
      s.map_gated_in_a_row, s.recoveries, s.reinitializations, s.chained_azimuth, s.stillness,
      s.imu_repeated, s.yaw_rate, s.clone_yaw_rate, s.imu_delay);
+}
+
+// Returns the unit vector in enu at an azimuth and an elevation (rad).
+inline Eigen::Vector3d direction(double azimuth, double elevation) {
+  const double c = std::cos(elevation);
+  return {std::sin(azimuth) * c, std::cos(azimuth) * c, std::sin(elevation)};
 }
 
 // Adds a correction and keeps both azimuths in (-pi, pi].

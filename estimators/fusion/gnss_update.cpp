@@ -67,7 +67,6 @@ Innovation<3> position_innovation(const FilterState& state, const GnssFix& fix,
   // (18) of METHOD.md
   innovation.residual = frame.to_enu(fix.position) - state.x.segment<3>(east) - arm -
                         error.lasting * state.x.segment<3>(gnss_offset_east);
-  innovation.H.setZero();
   innovation.H.middleCols<3>(east).setIdentity();
   innovation.H.middleCols<3>(azimuth) = turned_by_attitude(state.attitude(), arm);
   innovation.H.middleCols<3>(gnss_offset_east) = error.lasting;
@@ -92,7 +91,6 @@ Innovation<3> velocity_innovation(const FilterState& state, const GnssFix& fix, 
 
   Innovation<3> innovation;
   innovation.residual = fix.velocity_enu - ground * travel - swing;  // (19) of METHOD.md
-  innovation.H.setZero();
   innovation.H.col(speed) = travel / (1.0 + x[speed_scale]);
   innovation.H.col(speed_scale) = -ground / (1.0 + x[speed_scale]) * travel;
   innovation.H.middleCols<3>(azimuth) = turned_by_attitude(state.attitude(), swing);

@@ -14,9 +14,15 @@ namespace maploop::fusion {
 // scalar measurements.
 template <int rows>
 struct Innovation {
-  Eigen::Matrix<double, rows, 1> residual;
-  Eigen::Matrix<double, rows, index::count> H;
-  Eigen::Matrix<double, rows, rows> R;
+  Eigen::Matrix<double, rows, 1> residual = Eigen::Matrix<double, rows, 1>::Zero();
+  Eigen::Matrix<double, rows, index::count> H = Eigen::Matrix<double, rows, index::count>::Zero();
+  Eigen::Matrix<double, rows, rows> R = Eigen::Matrix<double, rows, rows>::Zero();
+
+  Innovation() = default;
+  Innovation(double difference, double variance) requires(rows == 1) {
+    residual << difference;
+    R << variance;
+  }
 
   Eigen::Matrix<double, rows, rows> covariance(const StateMatrix& P) const;
 

@@ -32,23 +32,19 @@ Innovation<1> line_innovation(const FilterState& state, const MapFeedback& feedb
   using namespace index;
   const Eigen::Vector2d right = right_of_line(feedback);
   const Eigen::Vector2d off = state.x.segment<2>(east) - frame.to_enu(feedback.point).head<2>();
-  Innovation<1> innovation;
   // (21) of METHOD.md
-  innovation.residual << feedback.lane_sigma * state.x[lane_offset] - right.dot(off);
-  innovation.H.setZero();
+  Innovation<1> innovation(feedback.lane_sigma * state.x[lane_offset] - right.dot(off),
+                           feedback.cross_sigma * feedback.cross_sigma);
   innovation.H.segment<2>(east) = right;
   innovation.H[lane_offset] = -feedback.lane_sigma;
-  innovation.R << feedback.cross_sigma * feedback.cross_sigma;
   return innovation;
 }
 
 Innovation<1> link_azimuth_innovation(const FilterState& state, const MapFeedback& feedback) {
-  Innovation<1> innovation;
   // (22) of METHOD.md
-  innovation.residual << wrap_angle(feedback.link_azimuth - state.x[index::azimuth]);
-  innovation.H.setZero();
+  Innovation<1> innovation(wrap_angle(feedback.link_azimuth - state.x[index::azimuth]),
+                           feedback.azimuth_sigma * feedback.azimuth_sigma);
   innovation.H[index::azimuth] = 1.0;
-  innovation.R << feedback.azimuth_sigma * feedback.azimuth_sigma;
   return innovation;
 }
 

@@ -11,12 +11,6 @@ double squared(double v) {
   return v * v;
 }
 
-// Returns the unit vector in enu at an azimuth and an elevation (rad).
-Vector3d direction(double azimuth, double elevation) {
-  const double c = std::cos(elevation);
-  return {std::sin(azimuth) * c, std::cos(azimuth) * c, std::sin(elevation)};
-}
-
 // Returns F P F^T. Only the rows of position, speed, azimuth and distance of F have entries off the
 // diagonal, so this takes a third of the full product's operations.
 StateMatrix propagated(const StateMatrix& P, const StateMatrix& F) {

@@ -7,9 +7,7 @@ namespace maploop::fusion {
 namespace {
 
 Eigen::Vector3d direction_of_travel(const StateVector& x) {
-  const double climb = x[index::pitch] + x[index::climb_offset];
-  return {std::sin(x[index::azimuth]) * std::cos(climb),
-          std::cos(x[index::azimuth]) * std::cos(climb), std::sin(climb)};
+  return direction(x[index::azimuth], x[index::pitch] + x[index::climb_offset]);
 }
 
 }  // namespace

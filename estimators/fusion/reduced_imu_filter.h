@@ -4,12 +4,12 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 
 #include "estimators/fusion/earth.h"
 #include "estimators/fusion/event_history.h"
 #include "estimators/fusion/fusion_parameters.h"
-#include "estimators/fusion/inertial_input.h"
 #include "estimators/fusion/initial_state.h"
 #include "estimators/fusion/outcome.h"
 #include "estimators/fusion/sensor_clock.h"
@@ -112,7 +112,9 @@ class ReducedImuFilter {
   // Archives everything but the parameters (msgs/archive.h), including the history; about 2.4 kB
   // per event. Loading allocates. It throws ArchiveError, and changes nothing, if the archive is
   // broken, of another version, or of other parameters.
-  std::size_t largest_archive() const;  // bytes
+  std::size_t largest_archive() const {  // bytes
+    return (static_cast<std::size_t>(parameters_.history_capacity) + 1) * sizeof(Event) + 4096;
+  }
   void archive(ArchiveWriter& ar) const;
   void archive(ArchiveReader& ar);
 
@@ -120,8 +122,14 @@ class ReducedImuFilter {
   template <class Archive, class Filter>
   static void describe(Archive& ar, Filter& filter);
   Outcome add_before_start(const ImuSample& sample);
-  // True if no event has left the history since the start.
-  bool started_here() const { return initialized_ && base_key_.kind == EventKind::start; }
+  // Returns whether the key lies before the start, from which no event has left the history yet.
+  bool before_start(const EventKey& key) const {
+    return initialized_ && history_.past.key.kind == EventKind::start && key < history_.past.key;
+  }
+  // Refuses a measurement with these keys for `reason` or for its stamps; otherwise makes room for
+  // `events` and returns nothing.
+  std::optional<Outcome> refuse(Reason reason, std::initializer_list<EventKey> keys,
+                                std::size_t events);
   Outcome count(Outcome outcome);
   Reason check_stamp(const EventKey& key);
   Outcome refuse_stamp(Reason reason);
@@ -129,19 +137,13 @@ class ReducedImuFilter {
 
   Outcome start(const GnssFix& fix);
   template <class MakeState>
-  Outcome start_with(Time stamp, const Geodetic& position, MakeState make_state);
-  Outcome correct(const GnssFix& fix);
+  Outcome start_with(Reason reason, Time stamp, const Geodetic& position, MakeState make_state);
   void restart();
   void make_room(std::size_t events);
   void drop_oldest();
   template <class Measurement>
   Outcome insert_and_roll(const EventKey& key, const Measurement& measurement, std::size_t redo);
 
-  InertialSamples samples_around(std::size_t position) const;
-  std::size_t next_sample(std::size_t position) const;
-  void advance(FilterState& state, const InertialSamples& samples, Time to) const;
-  void apply_sample(FilterState& state, const ImuSample& sample, const ImuSample& before) const;
-  Outcome apply(FilterState& state, const Event& event, const InertialSamples& samples) const;
   void roll_forward(std::size_t position);
 
   FusionParameters parameters_;
@@ -151,12 +153,6 @@ class ReducedImuFilter {
   StampGuard guard_;
   SensorClock imu_clock_;
   EventHistory history_;
-
-  // These summarize the events that have left the history.
-  FilterState base_;
-  EventKey base_key_;
-  std::optional<ImuSample> base_sample_;  // newest inertial sample among them
-
   bool initialized_ = false;
   FilterStatus status_;
 };

@@ -7,11 +7,10 @@ namespace maploop::fusion {
 Innovation<1> wheel_innovation(const FilterState& state, const WheelSpeed& sample,
                                const FusionParameters& p) {
   using namespace index;
-  Innovation<1> innovation;
-  innovation.residual << sample.speed - state.x[speed];  // (17) of METHOD.md
-  innovation.H.setZero();
+  // (17) of METHOD.md
+  Innovation<1> innovation(sample.speed - state.x[speed],
+                           sample.sigma * sample.sigma + p.min_wheel_sigma * p.min_wheel_sigma);
   innovation.H[speed] = 1.0;
-  innovation.R << sample.sigma * sample.sigma + p.min_wheel_sigma * p.min_wheel_sigma;
   return innovation;
 }
 

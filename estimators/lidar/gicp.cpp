@@ -11,6 +11,10 @@ namespace {
 
 constexpr int chunk_points = 128;
 
+void run_in_turn(int count, const std::function<void(int)>& work) {
+  for (int i = 0; i < count; ++i) work(i);
+}
+
 int chunk_count(std::size_t points) {
   return static_cast<int>((points + chunk_points - 1) / chunk_points);
 }
@@ -27,7 +31,8 @@ void Gicp::Sums::add(const Sums& other) {
 }
 
 Gicp::Gicp(const LidarParameters& parameters, ForEachChunk for_each_chunk)
-    : parameters_(parameters), for_each_chunk_(std::move(for_each_chunk)) {
+    : parameters_(parameters),
+      for_each_chunk_(for_each_chunk ? std::move(for_each_chunk) : run_in_turn) {
   const auto points = static_cast<std::size_t>(parameters.max_samples);
   pairs_.reserve(points);
   chunks_.reserve(static_cast<std::size_t>(chunk_count(points)));

@@ -36,7 +36,8 @@ struct Alignment {
 // threads run the chunks. Allocates only at construction. Not thread-safe.
 class Gicp {
  public:
-  Gicp(const LidarParameters& parameters, ForEachChunk for_each_chunk);
+  // Without `for_each_chunk`, align() runs all chunks on its own thread.
+  explicit Gicp(const LidarParameters& parameters, ForEachChunk for_each_chunk = nullptr);
 
   // Aligns the scan starting from `seed` (T_map_body). In directions that the scan does not
   // determine the seed's component is kept. If the seed is not `known`, partners are searched

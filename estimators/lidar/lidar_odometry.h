@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
+#include <optional>
 
 #include "estimators/lidar/gicp.h"
+#include "estimators/lidar/local_map.h"
 #include "estimators/lidar/parameters.h"
+#include "estimators/lidar/scan_preparation.h"
 #include "msgs/lidar_scan.h"
 #include "msgs/odometry.h"
 
@@ -31,9 +33,6 @@ class LidarOdometry {
   // `for_each_chunk`, process() runs all chunks on its own thread.
   LidarOdometry(const Eigen::Isometry3d& T_body_velo, const LidarParameters& parameters,
                 ForEachChunk for_each_chunk = nullptr);
-  ~LidarOdometry();
-  LidarOdometry(LidarOdometry&&) noexcept;
-  LidarOdometry& operator=(LidarOdometry&&) noexcept;
 
   // Processes one step with a scan, with the visual motion of the image pair taken during that
   // scan, or with both. The resulting pose is at the visual motion's stamp, or at the scan's if
@@ -51,20 +50,58 @@ class LidarOdometry {
   OdometerResult process(const LidarScan* scan, const RelativeMotion* visual);
 
   // Returns the last prepared scan, in the body frame at its `stamp`; for displays.
-  const PreparedScan& prepared() const;
+  const PreparedScan& prepared() const { return prepared_; }
   // Returns the pose of the body at the last step in the body frame of the first.
-  Eigen::Isometry3d pose() const;
+  Eigen::Isometry3d pose() const { return T_map_body_; }
 
   // Archives the state after all steps so far, most of which is the map (msgs/archive.h). Loading
   // throws ArchiveError, and changes nothing, if the archive is broken or of another mounting,
   // other parameters or another version.
-  std::size_t largest_archive() const;  // bytes
+  std::size_t largest_archive() const { return map_.largest_archive() + 4096; }  // bytes
   void archive(ArchiveWriter& ar) const;
   void archive(ArchiveReader& ar);
 
  private:
-  class Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  struct Prediction {
+    Eigen::Isometry3d T_from_to = Eigen::Isometry3d::Identity();
+    bool visual = false;
+    bool known = false;  // false: the motion is unknown
+  };
+
+  template <class Archive, class Odometry>
+  static void describe(Archive& ar, Odometry& odometry);
+  void begin(const Sample& sample, LidarMotion* motion) const;
+  bool in_order(const LidarScan* scan, Time stamp);
+  bool too_late(const LidarScan& scan) const;
+  void restart();
+  Prediction predict(Time stamp, const RelativeMotion* visual);
+  void register_scan(const LidarScan& scan, const Prediction& prediction, LidarMotion* motion);
+  OdometryStatus judge(const Eigen::Isometry3d& T_from_to, const Prediction& prediction,
+                       const LidarMotion& motion) const;
+  Matrix6d covariance(const Alignment& alignment) const;
+  void advance(const Eigen::Isometry3d& T_from_to, const OdometerResult& result);
+  void learn(const LidarScan& scan, OdometryStatus status);
+
+  Eigen::Isometry3d T_body_velo_;
+  LidarParameters parameters_;
+  ForEachChunk for_each_chunk_;
+  ScanPreparation preparation_;
+  LocalMap map_;
+  Gicp gicp_;
+
+  bool started_ = false;
+  Time stamp_{};          // of the last step
+  Time aligned_stamp_{};  // of the last step whose scan was used
+  Eigen::Isometry3d T_map_body_ = Eigen::Isometry3d::Identity();  // at stamp_
+  std::optional<Twist> twist_;                                    // the last motion
+  // This is the covariance of the visual motions since the last used scan, in body axes at stamp_.
+  // It is empty after a refused one.
+  std::optional<Matrix6d> seed_covariance_;
+  bool map_is_sharp_ = false;
+  int refused_in_a_row_ = 0;
+  int stale_ = 0;
+
+  PreparedScan prepared_;  // buffer, kept to reuse its memory
 };
 
 }  // namespace maploop::lidar

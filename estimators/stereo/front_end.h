@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -47,9 +46,5 @@ class FrontEnd {
   virtual void save(ArchiveWriter& ar) const = 0;
   virtual void load(ArchiveReader& ar, const StereoFrame& reference) = 0;
 };
-
-// Returns the front end that parameters.matching selects.
-std::unique_ptr<FrontEnd> make_front_end(const StereoCalibration& camera,
-                                         const StereoParameters& parameters);
 
 }  // namespace maploop::stereo

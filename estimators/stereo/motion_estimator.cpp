@@ -7,15 +7,15 @@
 #include "estimators/stereo/point_alignment.h"
 #include "estimators/stereo/ransac.h"
 #include "estimators/stereo/refine.h"
+#include "estimators/stereo/residual.h"
+#include "estimators/stereo/stereo_match.h"
 
 namespace maploop::stereo {
 namespace {
 
 bool usable(const StereoObservation& seen, const StereoParameters& parameters) {
   return std::isfinite(seen.u_left) && std::isfinite(seen.v_left) && std::isfinite(seen.u_right) &&
-         std::isfinite(seen.v_right) && seen.disparity() >= parameters.min_disparity &&
-         seen.disparity() <= parameters.max_disparity &&
-         std::abs(seen.v_left - seen.v_right) <= parameters.max_row_error;
+         std::isfinite(seen.v_right) && consistent(seen, parameters);
 }
 
 struct Guess {
@@ -106,11 +106,9 @@ Eigen::Matrix<double, 6, 6> body_by_camera(const Eigen::Isometry3d& T_body_cam,
                                            const Eigen::Isometry3d& T) {
   const Eigen::Matrix3d R_body_cam = T_body_cam.linear();
   const Eigen::Vector3d lever = T.linear() * T_body_cam.translation();
-  Eigen::Matrix3d lever_cross;
-  lever_cross << 0.0, -lever.z(), lever.y(), lever.z(), 0.0, -lever.x(), -lever.y(), lever.x(), 0.0;
   Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Zero();
   J.topLeftCorner<3, 3>() = R_body_cam;
-  J.topRightCorner<3, 3>() = lever_cross * R_body_cam;
+  J.topRightCorner<3, 3>() = cross_matrix(lever) * R_body_cam;
   J.bottomRightCorner<3, 3>() = R_body_cam;
   return J;
 }

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "estimators/stereo/disparity_offset.h"
-#include "estimators/stereo/motion_prior.h"
 #include "estimators/stereo/parameters.h"
+#include "estimators/stereo/refine.h"
 #include "estimators/stereo/stage_listener.h"
 #include "estimators/stereo/tracks.h"
 #include "msgs/calibration.h"

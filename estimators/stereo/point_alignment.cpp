@@ -18,10 +18,6 @@ using Eigen::Vector3d;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-ImagePoint image_of(const StereoObservation& seen) {
-  return {seen.u_left, seen.v_left, seen.disparity()};
-}
-
 // Returns the covariance (m^2, cam) of a triangulated point from the noise of its left position and
 // its disparity.
 Matrix3d point_covariance(const StereoCalibration& camera, const StereoParameters& p,

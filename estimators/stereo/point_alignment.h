@@ -5,7 +5,6 @@
 #include <optional>
 #include <span>
 
-#include "estimators/stereo/motion_prior.h"
 #include "estimators/stereo/parameters.h"
 #include "estimators/stereo/refine.h"
 #include "estimators/stereo/tracks.h"

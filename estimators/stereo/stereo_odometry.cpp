@@ -1,17 +1,57 @@
 #include "estimators/stereo/stereo_odometry.h"
 
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "estimators/stereo/back_end.h"
 #include "estimators/stereo/diagnosis.h"
-#include "estimators/stereo/front_end.h"
+#include "estimators/stereo/klt_front_end.h"
 #include "estimators/stereo/parameter_table.h"
-#include "estimators/stereo/validate.h"
+#include "estimators/stereo/sift_front_end.h"
 #include "msgs/archive.h"
 #include "msgs/parameter_archive.h"
 
 namespace maploop::stereo {
+namespace {
+
+void require(bool holds, const char* what, const char* must, double value) {
+  if (!holds)
+    throw std::invalid_argument("stereo odometry: " + std::string(what) + " must be " + must +
+                                ", not " + std::to_string(value));
+}
+
+void require_positive(const char* what, double value) {
+  require(value > 0.0, what, "positive", value);
+}
+
+// Throws std::invalid_argument naming the value, and what it must be.
+void validate(const StereoCalibration& calibration) {
+  const double smallest = 64.0;  // below this no pyramid of the default height
+  require(calibration.width >= smallest, "calibration width", "at least 64 px", calibration.width);
+  require(calibration.height >= smallest, "calibration height", "at least 64 px",
+          calibration.height);
+  require_positive("calibration fx", calibration.fx);
+  require_positive("calibration fy", calibration.fy);
+  require_positive("calibration baseline (m, right camera to the right)", calibration.baseline);
+}
+
+bool has_size(const GreyImage& image, const StereoCalibration& calibration) {
+  return image.width == calibration.width && image.height == calibration.height &&
+         image.pixels.size() ==
+             static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+}
+
+// Returns the front end that parameters.matching selects.
+std::unique_ptr<FrontEnd> make_front_end(const StereoCalibration& camera,
+                                         const StereoParameters& parameters) {
+  if (parameters.matching == Matching::sift)
+    return std::make_unique<SiftFrontEnd>(camera, parameters);
+  return std::make_unique<KltFrontEnd>(camera, parameters);
+}
+
+}  // namespace
 
 class StereoOdometry::Implementation {
  public:

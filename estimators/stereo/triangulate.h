@@ -3,12 +3,17 @@
 
 #include <Eigen/Core>
 
+#include "estimators/stereo/tracks.h"
 #include "msgs/calibration.h"
 
 namespace maploop::stereo {
 
 // This is what a rectified pair measures of a point: u, v in the left image, and the disparity, px.
 using ImagePoint = Eigen::Vector3d;
+
+inline ImagePoint image_of(const StereoObservation& seen) {
+  return {seen.u_left, seen.v_left, seen.disparity()};
+}
 
 // Returns the point in cam, m: Z = fx B / d, X = (u - cx) Z / fx, Y = (v - cy) Z / fy. Disparity >
 // 0.

@@ -35,13 +35,15 @@ void Window::add(const StereoCalibration& camera, Time stamp, const Eigen::Isome
   const auto seen_at = [offset](const StereoObservation& at) {
     return WindowPoint::Sight{true, {at.u_left, at.v_left, at.disparity() + offset}};
   };
+  const auto known = [this](std::int64_t id) {
+    return std::find_if(points.begin(), points.end(),
+                        [id](const WindowPoint& p) { return p.id == id; });
+  };
   // New points are added before room is made, since a track's first sight is in the newest pose.
   const std::size_t newest_pose = poses.size() - 1;
   for (const int i : chosen) {
     const StereoTrack& track = tracks[static_cast<std::size_t>(i)];
-    const auto known = std::find_if(points.begin(), points.end(),
-                                    [&](const WindowPoint& p) { return p.id == track.id; });
-    if (known != points.end() || points.size() == most_points_) continue;
+    if (known(track.id) != points.end() || points.size() == most_points_) continue;
     WindowPoint& point = points.emplace_back();
     point.id = track.id;
     point.sights[newest_pose] = seen_at(track.previous);
@@ -51,9 +53,8 @@ void Window::add(const StereoCalibration& camera, Time stamp, const Eigen::Isome
   poses.push_back({stamp, T_world_cam});
   for (const int i : chosen) {
     const StereoTrack& track = tracks[static_cast<std::size_t>(i)];
-    const auto known = std::find_if(points.begin(), points.end(),
-                                    [&](const WindowPoint& p) { return p.id == track.id; });
-    if (known != points.end()) known->sights[poses.size() - 1] = seen_at(track.current);
+    const auto point = known(track.id);
+    if (point != points.end()) point->sights[poses.size() - 1] = seen_at(track.current);
   }
   std::erase_if(points,
                 [&](const WindowPoint& p) { return p.first_seen(poses.size()) == poses.size(); });

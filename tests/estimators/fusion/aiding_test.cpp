@@ -6,7 +6,6 @@
 #include <numbers>
 #include <random>
 
-#include "estimators/fusion/configuration.h"
 #include "tests/estimators/fusion/filter_run.h"
 #include "tests/estimators/fusion/synthetic_drive.h"
 
@@ -23,23 +22,10 @@ MotionProfile town() {
   return profile;
 }
 
-WheelSpeed wheel(const SyntheticDrive& drive, double t, double scale, std::uint64_t sequence,
-                 double noise = 0.0) {
-  WheelSpeed w;
-  w.stamp = SyntheticDrive::at(t);
-  w.available = w.stamp + from_seconds(0.02);
-  w.sequence = sequence;
-  w.speed = (1.0 + scale) * drive.speed(t) + noise;
-  w.sigma = 0.05;
-  return w;
-}
-
 GnssFix fix(const SyntheticDrive& drive, double t, std::mt19937* random = nullptr) {
   GnssFix f = drive.fix(t);
   f.available = f.stamp + from_seconds(0.1);
   f.sequence = static_cast<std::uint64_t>(std::llround(t));
-  f.position_covariance = Eigen::Matrix3d::Identity();
-  f.velocity_covariance = 0.01 * Eigen::Matrix3d::Identity();
   if (random != nullptr) {
     std::normal_distribution<double> normal;
     const LocalFrame frame(test_origin());
@@ -51,29 +37,6 @@ GnssFix fix(const SyntheticDrive& drive, double t, std::mt19937* random = nullpt
   return f;
 }
 
-using Any = std::variant<ImuSample, RelativeMotion, GnssFix, WheelSpeed>;
-
-Time available(const Any& m) {
-  return std::visit([](const auto& v) { return v.available; }, m);
-}
-
-void add_all(ReducedImuFilter& filter, std::vector<Any> all) {
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Any& a, const Any& b) { return available(a) < available(b); });
-  for (const Any& m : all) std::visit([&](const auto& v) { filter.add(v); }, m);
-}
-
-template <class Samples>
-void append(std::vector<Any>& all, const Samples& samples) {
-  all.insert(all.end(), samples.begin(), samples.end());
-}
-
-FusionParameters parameters(const char* name) {
-  FusionParameters p;
-  apply(configuration(name), p);
-  return p;
-}
-
 double horizontal_error(const NavState& nav, const SyntheticDrive& drive, double t) {
   return (nav.position_enu - drive.pose(t).translation()).head<2>().norm();
 }
@@ -82,16 +45,16 @@ TEST(Riss, LearnsTheWheelsScaleFromFixesAndKeepsItInAnOutage) {
   const SyntheticDrive drive(town(), 150.0, test_origin());
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
-  const FusionParameters p = parameters("GNSS+RISS");
+  const FusionParameters p = configured("GNSS+RISS");
   ReducedImuFilter filter(p, test_origin());
-  std::vector<Any> all;
+  std::vector<Measurement> all;
   append(all, drive.imu(100.0, {.gyro_bias = 5e-5, .gyro_density = 8.7e-5, .force_sigma = 0.2}));
-  for (int i = 0; i < 1500; ++i) {
-    all.push_back(
-        wheel(drive, 0.1 * i, 0.01, static_cast<std::uint64_t>(i), 0.05 * normal(random)));
+  for (WheelSpeed w : drive.wheels(0.0, 150.0, 0.01)) {
+    w.speed += 0.05 * normal(random);
+    all.push_back(w);
   }
   for (int i = 0; i <= 90; ++i) all.push_back(fix(drive, i, &random));
-  add_all(filter, all);
+  add_as_available(filter, all);
   const auto nav = filter.state_at(SyntheticDrive::at(149.0));
   ASSERT_TRUE(nav);
   EXPECT_LT(std::abs(nav->forward_speed / drive.speed(149.0) - 1.0), 0.006);
@@ -103,13 +66,11 @@ TEST(Riss, LearnsTheWheelsScaleFromFixesAndKeepsItInAnOutage) {
 
 TEST(Riss, IsBadlyOffWithoutTheFixesThatTeachTheScale) {
   const SyntheticDrive drive(town(), 60.0, test_origin());
-  ReducedImuFilter filter(parameters("RISS"), test_origin());
-  std::vector<Any> all{fix(drive, 0.0)};
+  ReducedImuFilter filter(configured("RISS"), test_origin());
+  std::vector<Measurement> all{fix(drive, 0.0)};
   append(all, drive.imu(100.0));
-  for (int i = 0; i < 600; ++i) {
-    all.push_back(wheel(drive, 0.1 * i, 0.05, static_cast<std::uint64_t>(i)));
-  }
-  add_all(filter, all);
+  append(all, drive.wheels(0.0, 60.0, 0.05));
+  add_as_available(filter, all);
   const auto nav = filter.state_at(SyntheticDrive::at(59.0));
   ASSERT_TRUE(nav);
   // The first fix and its speed explain a part of the 5 %.
@@ -118,21 +79,19 @@ TEST(Riss, IsBadlyOffWithoutTheFixesThatTeachTheScale) {
 
 TEST(LateData, FixesAndWheelsGiveTheSameBitsInAnyOrder) {
   const SyntheticDrive drive(town(), 12.0, test_origin());
-  std::vector<Any> all{fix(drive, 0.0)};
+  std::vector<Measurement> all{fix(drive, 0.0)};
   append(all, drive.imu(100.0));
   append(all, drive.odometry(10.0));
-  for (int i = 1; i < 115; ++i) {
-    all.push_back(wheel(drive, 0.1 * i + 0.013, 0.01, static_cast<std::uint64_t>(i)));
-  }
+  append(all, drive.wheels(0.113, 11.5, 0.01));
   std::mt19937 noise(5);
   for (int i = 1; i < 11; ++i) all.push_back(fix(drive, i, &noise));
-  FusionParameters p = parameters("GNSS+RISS-VO");
+  FusionParameters p = configured("GNSS+RISS-VO");
   ReducedImuFilter timely(p, test_origin());
-  add_all(timely, all);
+  add_as_available(timely, all);
 
   std::mt19937 random(11);
   std::uniform_real_distribution<double> late(0.0, 1.0);
-  for (Any& m : all) {
+  for (Measurement& m : all) {
     std::visit(
         [&](auto& v) {
           if (v.stamp > SyntheticDrive::at(0.0)) v.available += from_seconds(late(random));
@@ -140,7 +99,7 @@ TEST(LateData, FixesAndWheelsGiveTheSameBitsInAnyOrder) {
         m);
   }
   ReducedImuFilter belated(p, test_origin());
-  add_all(belated, all);
+  add_as_available(belated, all);
   for (const double t : {11.0, 11.5, 12.0}) {
     const auto a = timely.state_at(SyntheticDrive::at(t));
     const auto b = belated.state_at(SyntheticDrive::at(t));
@@ -154,11 +113,11 @@ TEST(LateData, FixesAndWheelsGiveTheSameBitsInAnyOrder) {
 
 TEST(Gnss, DoubtsItselfAndThenBeginsAnewWhereFixesGoOnToContradict) {
   const SyntheticDrive drive(town(), 60.0, test_origin());
-  FusionParameters p = parameters("GNSS+VO-RI");
+  FusionParameters p = configured("GNSS+VO-RI");
   p.gnss_recovery_sigma = 5.0;  // so that inflating the covariance is not enough
   ReducedImuFilter filter(p, test_origin());
   const LocalFrame frame(test_origin());
-  std::vector<Any> all;
+  std::vector<Measurement> all;
   append(all, drive.imu(100.0));
   append(all, drive.odometry(10.0));
   for (int i = 0; i <= 58; ++i) {
@@ -168,7 +127,7 @@ TEST(Gnss, DoubtsItselfAndThenBeginsAnewWhereFixesGoOnToContradict) {
     }
     all.push_back(f);
   }
-  add_all(filter, all);
+  add_as_available(filter, all);
   const FilterStatus status = filter.status();
   EXPECT_EQ(status.reinitializations, 1u);
   EXPECT_GE(status.recoveries, 1u);
@@ -186,14 +145,14 @@ TEST(Gnss, AntennaOnALeverArmIsTakenBack) {
   const Eigen::Vector3d lever(1.5, -0.5, 0.8);
   const LocalFrame frame(test_origin());
   const auto error = [&](bool told) {
-    FusionParameters p = parameters("GNSS+VO-RI");
+    FusionParameters p = configured("GNSS+VO-RI");
     if (told) {
       p.gnss_lever_forward = lever.x();
       p.gnss_lever_left = lever.y();
       p.gnss_lever_up = lever.z();
     }
     ReducedImuFilter filter(p, test_origin());
-    std::vector<Any> all;
+    std::vector<Measurement> all;
     append(all, drive.imu(100.0));
     append(all, drive.odometry(10.0));
     for (int i = 0; i <= 58; ++i) {
@@ -206,7 +165,7 @@ TEST(Gnss, AntennaOnALeverArmIsTakenBack) {
       f.velocity_covariance = 1e-4 * Eigen::Matrix3d::Identity();
       all.push_back(f);
     }
-    add_all(filter, all);
+    add_as_available(filter, all);
     return horizontal_error(*filter.state_at(SyntheticDrive::at(58.0)), drive, 58.0);
   };
   EXPECT_LT(error(true), 0.1);
@@ -219,11 +178,11 @@ TEST(Start, InReverseIsSeenByOdometryAndTurnedRound) {
   profile.yaw_rate = [](double t) { return 0.1 * std::sin(t / 2.0); };
   profile.azimuth = 0.3;
   const SyntheticDrive drive(profile, 10.0, test_origin());
-  ReducedImuFilter filter(parameters("VO-RI"), test_origin());
-  std::vector<Any> all{fix(drive, 0.0)};
+  ReducedImuFilter filter(configured("VO-RI"), test_origin());
+  std::vector<Measurement> all{fix(drive, 0.0)};
   append(all, drive.imu(100.0));
   append(all, drive.odometry(10.0));
-  add_all(filter, all);
+  add_as_available(filter, all);
   const auto nav = filter.state_at(SyntheticDrive::at(9.0));
   ASSERT_TRUE(nav);
   EXPECT_NEAR(wrap_angle(nav->attitude.azimuth - drive.azimuth(9.0)), 0.0, radians(5.0));
@@ -236,23 +195,23 @@ TEST(Start, FromGivenValuesWorksAtRest) {
   profile.speed = [](double t) { return t < 3.0 ? 0.0 : 1.5 * (t - 3.0); };
   profile.azimuth = -1.2;
   const SyntheticDrive drive(profile, 10.0, test_origin());
-  ReducedImuFilter filter(parameters("VO-RI"), test_origin());
+  ReducedImuFilter filter(configured("VO-RI"), test_origin());
   KnownStart known;
   known.stamp = SyntheticDrive::at(0.0);
   known.position = test_origin();
   known.attitude.azimuth = -1.2;
   ASSERT_FALSE(filter.start(known).refused());
   EXPECT_EQ(filter.start(known).reason, Reason::already_started);
-  std::vector<Any> all;
+  std::vector<Measurement> all;
   append(all, drive.imu(100.0));
   append(all, drive.odometry(10.0));
-  add_all(filter, all);
+  add_as_available(filter, all);
   const auto nav = filter.state_at(SyntheticDrive::at(9.0));
   ASSERT_TRUE(nav);
   EXPECT_LT(horizontal_error(*nav, drive, 9.0), 0.7);
   KnownStart nonsense = known;
   nonsense.attitude.pitch = std::numeric_limits<double>::quiet_NaN();
-  ReducedImuFilter other(parameters("VO-RI"), test_origin());
+  ReducedImuFilter other(configured("VO-RI"), test_origin());
   EXPECT_EQ(other.start(nonsense).reason, Reason::not_finite);
 }
 
@@ -262,16 +221,14 @@ TEST(StandingStill, ShowsTheGyrosBiasAndIsNotSeenOnASmoothRoad) {
   const SyntheticDrive drive(stop, 30.0, test_origin());
   const double bias = 1.2e-3;
   const auto run = [&](bool used) {
-    FusionParameters p = parameters("RISS");
+    FusionParameters p = configured("RISS");
     apply_grade("mems", p);
     p.use_zero_velocity = used;
     ReducedImuFilter filter(p, test_origin());
-    std::vector<Any> all{fix(drive, 0.0)};
+    std::vector<Measurement> all{fix(drive, 0.0)};
     append(all, drive.imu(100.0, {.gyro_bias = bias}));
-    for (int i = 0; i < 300; ++i) {
-      all.push_back(wheel(drive, 0.1 * i, 0.0, static_cast<std::uint64_t>(i)));
-    }
-    add_all(filter, all);
+    append(all, drive.wheels(0.0, 30.0));
+    add_as_available(filter, all);
     return *filter.state_at(SyntheticDrive::at(29.5));
   };
   const NavState with = run(true), without = run(false);
@@ -281,26 +238,24 @@ TEST(StandingStill, ShowsTheGyrosBiasAndIsNotSeenOnASmoothRoad) {
   EXPECT_GT(std::abs(without.gyro_bias - bias), 5e-4);
 
   const SyntheticDrive smooth({}, 20.0, test_origin());
-  ReducedImuFilter filter(parameters("RISS"), test_origin());
-  std::vector<Any> all{fix(smooth, 0.0)};
+  ReducedImuFilter filter(configured("RISS"), test_origin());
+  std::vector<Measurement> all{fix(smooth, 0.0)};
   append(all, smooth.imu(100.0));
-  for (int i = 0; i < 200; ++i) {
-    all.push_back(wheel(smooth, 0.1 * i, 0.0, static_cast<std::uint64_t>(i)));
-  }
-  add_all(filter, all);
+  append(all, smooth.wheels(0.0, 20.0));
+  add_as_available(filter, all);
   EXPECT_EQ(filter.state_at(SyntheticDrive::at(19.5))->zero_velocity_stamp, Time{});
 }
 
 TEST(ChainedAzimuth, LeadsToNearlyTheSameWayWhereNothingIsRefused) {
   const SyntheticDrive drive(town(), 40.0, test_origin());
   const auto azimuth_error = [&](bool chained) {
-    FusionParameters p = parameters("VO-RI");
+    FusionParameters p = configured("VO-RI");
     p.chain_odometry_azimuth = chained;
     ReducedImuFilter filter(p, test_origin());
-    std::vector<Any> all{fix(drive, 0.0)};
+    std::vector<Measurement> all{fix(drive, 0.0)};
     append(all, drive.imu(100.0, {.gyro_bias = 1e-4}));
     append(all, drive.odometry(10.0, {.odometry_rotation_sigma = radians(0.04)}));
-    add_all(filter, all);
+    add_as_available(filter, all);
     return std::abs(wrap_angle(filter.state_at(SyntheticDrive::at(39.0))->attitude.azimuth -
                                drive.azimuth(39.0)));
   };
@@ -311,16 +266,16 @@ TEST(ChainedAzimuth, LeadsToNearlyTheSameWayWhereNothingIsRefused) {
 TEST(ImuDelay, LeftInTheStampsIsSeenAgainstOdometry) {
   const SyntheticDrive drive(town(), 60.0, test_origin());
   for (const double left : {0.0, 0.03, -0.02}) {
-    ReducedImuFilter filter(parameters("VO-RI"), test_origin());
+    ReducedImuFilter filter(configured("VO-RI"), test_origin());
     std::vector<ImuSample> imu = drive.imu(100.0);
     for (ImuSample& s : imu) {
       s.stamp += from_seconds(left);
       s.available = s.stamp + from_seconds(0.06);
     }
-    std::vector<Any> all{fix(drive, 0.0)};
+    std::vector<Measurement> all{fix(drive, 0.0)};
     append(all, imu);
     append(all, drive.odometry(10.0));
-    add_all(filter, all);
+    add_as_available(filter, all);
     const DelayEstimate estimate = filter.status().imu_delay;
     ASSERT_TRUE(estimate.known());
     EXPECT_NEAR(estimate.delay(), left, 0.004) << left;

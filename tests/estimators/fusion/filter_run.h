@@ -2,14 +2,16 @@
 #pragma once
 
 #include <algorithm>
+#include <string_view>
 #include <variant>
 #include <vector>
 
+#include "estimators/fusion/configuration.h"
 #include "estimators/fusion/reduced_imu_filter.h"
 
 namespace maploop::testing {
 
-using Measurement = std::variant<ImuSample, RelativeMotion, GnssFix>;
+using Measurement = std::variant<ImuSample, RelativeMotion, GnssFix, WheelSpeed>;
 
 inline Time available_of(const Measurement& m) {
   return std::visit([](const auto& v) { return v.available; }, m);
@@ -22,17 +24,37 @@ inline fusion::Outcome add(fusion::ReducedImuFilter& filter, const Measurement& 
   return std::visit([&](const auto& v) { return filter.add(v); }, m);
 }
 
+template <class Samples>
+void append(std::vector<Measurement>& all, const Samples& samples) {
+  all.insert(all.end(), samples.begin(), samples.end());
+}
+
+inline void sort_as_available(std::vector<Measurement>& all) {
+  std::stable_sort(all.begin(), all.end(), [](const Measurement& a, const Measurement& b) {
+    return available_of(a) < available_of(b);
+  });
+}
+
 // Returns the measurements in the order in which they become available in a real vehicle.
 inline std::vector<Measurement> as_available(const std::vector<ImuSample>& imu,
                                              const std::vector<RelativeMotion>& odometry,
                                              const GnssFix& fix) {
   std::vector<Measurement> all{fix};
-  all.insert(all.end(), imu.begin(), imu.end());
-  all.insert(all.end(), odometry.begin(), odometry.end());
-  std::stable_sort(all.begin(), all.end(), [](const Measurement& a, const Measurement& b) {
-    return available_of(a) < available_of(b);
-  });
+  append(all, imu);
+  append(all, odometry);
+  sort_as_available(all);
   return all;
+}
+
+inline void add_as_available(fusion::ReducedImuFilter& filter, std::vector<Measurement> all) {
+  sort_as_available(all);
+  for (const Measurement& m : all) add(filter, m);
+}
+
+inline fusion::FusionParameters configured(std::string_view configuration) {
+  fusion::FusionParameters p;
+  apply(fusion::configuration(configuration), p);
+  return p;
 }
 
 inline Eigen::Isometry3d pose_of(const NavState& nav) {

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <random>
 
-#include "estimators/fusion/configuration.h"
-#include "estimators/fusion/reduced_imu_filter.h"
 #include "tests/estimators/fusion/filter_run.h"
 #include "tests/estimators/fusion/synthetic_drive.h"
 
@@ -53,9 +51,7 @@ class LyingSensor : public ::testing::Test {
       fix.sequence = static_cast<std::uint64_t>(i);
       all.push_back(fix);
     }
-    std::stable_sort(all.begin(), all.end(), [](const Measurement& a, const Measurement& b) {
-      return available_of(a) < available_of(b);
-    });
+    sort_as_available(all);
     Worst worst;
     for (const NavState& nav : states_after_odometry(filter, all)) {
       const double t = to_seconds(nav.stamp - SyntheticDrive::at(0.0));
@@ -71,17 +67,11 @@ class LyingSensor : public ::testing::Test {
   }
 };
 
-FusionParameters with(const char* configuration_name) {
-  FusionParameters p;
-  apply(configuration(configuration_name), p);
-  return p;
-}
-
 TEST_F(LyingSensor, OdometryThatContradictsFreshFixesMovesNothing) {
   for (RelativeMotion& m : odometry_) {
     if (within(m, 15.0, 30.0)) m.translation *= 0.15;
   }
-  ReducedImuFilter filter(with("GNSS+VO-RI"), test_origin());
+  ReducedImuFilter filter(configured("GNSS+VO-RI"), test_origin());
   EXPECT_LT(run(filter, true).position, 3.0);
   EXPECT_EQ(filter.status().refused_for(Reason::position_gate), 0u);
   EXPECT_EQ(filter.status().refused_for(Reason::speed_gate), 150u);
@@ -91,7 +81,7 @@ TEST_F(LyingSensor, ALastingContradictionOfTheTurningIsFollowedAndDoubtsTheAzimu
   for (ImuSample& s : imu_) {
     if (within(s, 15.0, 25.0)) s.yaw_rate += 0.4;
   }
-  ReducedImuFilter filter(with("VO-RI"), test_origin());
+  ReducedImuFilter filter(configured("VO-RI"), test_origin());
   const Worst worst = run(filter, false, 17.0);  // from 17 s on, when the error has been detected
   EXPECT_LT(worst.azimuth, radians(40.0));
   EXPECT_LT(worst.azimuth_in_sigmas, 4.0);
@@ -110,7 +100,7 @@ TEST_P(FrozenImu, IsFoundAndOdometryGoesOnAlone) {
     s.yaw_rate = stuck.yaw_rate;
     repeated += 1.0;
   }
-  ReducedImuFilter filter(with("VO-RI"), test_origin());
+  ReducedImuFilter filter(configured("VO-RI"), test_origin());
   const Worst worst = run(filter, false);
   EXPECT_LT(worst.position, 5.0);
   EXPECT_LT(worst.azimuth, radians(3.0));

@@ -9,9 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "estimators/fusion/configuration.h"
 #include "estimators/fusion/guarded_filter.h"
-#include "estimators/fusion/reduced_imu_filter.h"
+#include "tests/estimators/fusion/filter_run.h"
 #include "tests/estimators/fusion/numerical_jacobian.h"
 #include "tests/estimators/fusion/synthetic_drive.h"
 #include "tests/support/broken_archives.h"
@@ -153,6 +152,17 @@ TEST(MapUpdate, AHardResetBecomesTheMatchedPlace) {
   EXPECT_DOUBLE_EQ(state.P(index::east, index::gyro_bias), 0.0);
 }
 
+// Returns a filter that knows the start of the synthetic drives.
+ReducedImuFilter started_filter(const FusionParameters& p = configured("RISS")) {
+  ReducedImuFilter filter(p, test_origin());
+  KnownStart start;
+  start.stamp = SyntheticDrive::at(0.0);
+  start.position = test_origin();
+  start.speed = 10.0;
+  filter.start(start);
+  return filter;
+}
+
 // Holds the result of a drive to the north with wheels and feedback of the road every second.
 struct Driven {
   std::optional<NavState> end;
@@ -161,51 +171,29 @@ struct Driven {
 
 Driven drive_on_road(double delay, bool with_road, double gyro_bias = 0.002) {
   const SyntheticDrive drive({}, 60.0, test_origin());
-  FusionParameters p;
-  apply(configuration("RISS"), p);
+  FusionParameters p = configured("RISS");
   apply_grade("mems", p);
-  ReducedImuFilter filter(p, test_origin());
-  KnownStart start;
-  start.stamp = SyntheticDrive::at(0.0);
-  start.position = test_origin();
-  start.speed = 10.0;
-  filter.start(start);
-  SensorNoise noise;
-  noise.gyro_bias = gyro_bias;
+  ReducedImuFilter filter = started_filter(p);
   const LocalFrame frame(test_origin());
-  const auto imu = drive.imu(100.0, noise);
-  std::uint64_t sequence = 0;
-  double fed = 1.0, fed_late = 1.0;
-  std::vector<MapFeedback> pending;
-  for (const ImuSample& s : imu) {
-    const double t = to_seconds(s.stamp - SyntheticDrive::at(0.0));
-    if (t < 0.0 || t > 60.0) continue;
-    filter.add(s);
-    if (sequence % 10 == 0) {
-      WheelSpeed w;
-      w.stamp = s.stamp;
-      w.available = s.stamp + from_seconds(0.02);
-      w.sequence = sequence;
-      w.speed = 10.0;
-      w.sigma = 0.05;
-      filter.add(w);
-    }
-    ++sequence;
-    if (with_road && t >= fed) {
+  std::vector<Measurement> all;
+  append(all, drive.imu(100.0, {.gyro_bias = gyro_bias}));
+  append(all, drive.wheels(0.0, 60.0));
+  sort_as_available(all);
+  int fed = 1;  // s, of the next feedback
+  const auto feed_until = [&](Time t) {
+    for (; with_road && fed <= 60 && SyntheticDrive::at(fed + delay) <= t; ++fed) {
       MapFeedback f = road(frame, drive.pose(fed).translation().head<2>());
       f.stamp = SyntheticDrive::at(fed);
       f.available = f.stamp + from_seconds(delay);
       f.sequence = static_cast<std::uint64_t>(fed);
-      pending.push_back(f);
-      fed += 1.0;
+      filter.add(f);
     }
-    while (!pending.empty() && t >= fed_late + delay) {
-      filter.add(pending.front());
-      pending.erase(pending.begin());
-      fed_late += 1.0;
-    }
+  };
+  for (const Measurement& m : all) {
+    add(filter, m);
+    feed_until(available_of(m));
   }
-  for (const MapFeedback& f : pending) filter.add(f);
+  feed_until(SyntheticDrive::at(61.0));
   return {filter.state_at(SyntheticDrive::at(60.0)), filter.status()};
 }
 
@@ -254,48 +242,27 @@ struct Misled {
   std::uint64_t restorations = 0;
 };
 
-// Uses wheels and gyro only, from the start of the synthetic drives.
-FusionParameters dead_reckoning() {
-  FusionParameters p;
-  apply(configuration("RISS"), p);
-  return p;
-}
-
-ReducedImuFilter started_filter() {
-  ReducedImuFilter filter(dead_reckoning(), test_origin());
-  KnownStart start;
-  start.stamp = SyntheticDrive::at(0.0);
-  start.position = test_origin();
-  start.speed = 10.0;
-  filter.start(start);
-  return filter;
-}
-
 Misled drive_beside_wrong_road(const GuardParameters& guard, double wrong_from) {
   const SyntheticDrive drive({}, 200.0, test_origin());
   ReducedImuFilter plain = started_filter();
   GuardedFilter filter(plain, guard);
   const LocalFrame frame(test_origin());
-  std::uint64_t sequence = 0;
   Misled result;
-  for (const ImuSample& s : drive.imu(10.0)) {
+  const auto imu = drive.imu(10.0);
+  const auto wheels = drive.wheels(0.0, 200.05);
+  for (std::size_t i = 1; i < imu.size(); ++i) {
+    const ImuSample& s = imu[i];
     const double t = to_seconds(s.stamp - SyntheticDrive::at(0.0));
-    if (t <= 0.0 || t > 200.0) continue;
-    WheelSpeed w;
-    w.stamp = w.available = s.stamp;
-    w.sequence = ++sequence;
-    w.speed = 10.0;
-    w.sigma = 0.05;
     filter.add(s);
-    filter.add(w);
+    filter.add(wheels[i]);
     plain.add(s);
-    plain.add(w);
-    if (sequence % 10 != 0) continue;
+    plain.add(wheels[i]);
+    if (i % 10 != 0) continue;
     const double right = t > wrong_from ? 1.0 * (t - wrong_from) : 0.0;
     MapFeedback f = road(frame, drive.pose(t).translation().head<2>(), right);
     if (t > wrong_from) f.link_azimuth = 0.1;
     f.stamp = f.available = s.stamp;
-    f.sequence = sequence;
+    f.sequence = i;
     filter.add(f);
     const Eigen::Vector2d truth = drive.pose(t).translation().head<2>();
     result.error = (filter.aided().state_at(s.stamp)->position_enu.head<2>() - truth).norm();
@@ -337,7 +304,7 @@ TEST(GuardedFilter, GoesOnFromAnArchive) {
   const auto imu = drive.imu(10.0);
   for (const ImuSample& s : imu)
     if (s.stamp > SyntheticDrive::at(0.0) && s.stamp < SyntheticDrive::at(10.0)) add(filter, s);
-  GuardedFilter resumed(ReducedImuFilter(dead_reckoning()), {});
+  GuardedFilter resumed(ReducedImuFilter(configured("RISS")), {});
   load(saved(filter), resumed);
   for (const ImuSample& s : imu) {
     if (s.stamp < SyntheticDrive::at(10.0)) continue;

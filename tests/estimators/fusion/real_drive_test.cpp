@@ -11,18 +11,19 @@
 #include "tests/estimators/fusion/filter_run.h"
 #include "tests/estimators/fusion/recorded_drive.h"
 #include "tests/estimators/fusion/synthetic_drive.h"
-#include "tests/estimators/fusion/trajectory_score.h"
 #include "tests/support/real_data.h"
+#include "tools/evaluate/kitti_metric.h"
 
 namespace maploop::fusion {
 namespace {
 
 using namespace maploop::testing;
+using evaluation::Trajectory;
 
 struct Score {
-  double end = 0.0;      // m, horizontal
-  SegmentError at_100m;  // % and deg/m
-  double azimuth = 0.0;  // deg rms
+  double end = 0.0;                  // m, horizontal
+  evaluation::SegmentError at_100m;  // % and deg/m
+  double azimuth = 0.0;              // deg rms
 };
 
 struct Comparison {
@@ -30,14 +31,6 @@ struct Comparison {
   Score fused, odometry;
   NavState last;
 };
-
-double travelled(const Trajectory& truth) {
-  double sum = 0.0;
-  for (std::size_t i = 1; i < truth.size(); ++i) {
-    sum += (truth[i].translation() - truth[i - 1].translation()).norm();
-  }
-  return sum;
-}
 
 double azimuth_rms(const Trajectory& estimate, const Trajectory& truth) {
   const auto azimuth = [](const Eigen::Isometry3d& T) {
@@ -51,8 +44,8 @@ double azimuth_rms(const Trajectory& estimate, const Trajectory& truth) {
 }
 
 Score score(const Trajectory& estimate, const Trajectory& truth) {
-  return {horizontal_end_error(estimate, truth), segment_error(estimate, truth, 100.0),
-          azimuth_rms(estimate, truth)};
+  return {(estimate.back().translation() - truth.back().translation()).head<2>().norm(),
+          evaluation::score(estimate, truth, 100.0).segment, azimuth_rms(estimate, truth)};
 }
 
 Trajectory odometry_alone(const RecordedDrive& drive) {
@@ -75,13 +68,13 @@ Comparison compare(const RecordedDrive& drive) {
   for (const NavState& nav : states) fused.push_back(pose_of(nav));
   const Trajectory truth(drive.truth.begin() + 1, drive.truth.end());
 
-  const Comparison c{travelled(truth), score(fused, truth), score(odometry_alone(drive), truth),
-                     states.back()};
+  const Comparison c{evaluation::score(truth, truth, 100.0).distance_m, score(fused, truth),
+                     score(odometry_alone(drive), truth), states.back()};
   std::printf("%-21s %4.0f m | fused %5.2f m %.2f %% %.4f deg/m %.2f deg | ", drive.name.c_str(),
-              c.length, c.fused.end, c.fused.at_100m.translation, c.fused.at_100m.rotation,
+              c.length, c.fused.end, c.fused.at_100m.percent, c.fused.at_100m.deg_per_m,
               c.fused.azimuth);
   std::printf("odometry %5.2f m %.2f %% %.4f deg/m %.2f deg | refused %d of %zu\n", c.odometry.end,
-              c.odometry.at_100m.translation, c.odometry.at_100m.rotation, c.odometry.azimuth,
+              c.odometry.at_100m.percent, c.odometry.at_100m.deg_per_m, c.odometry.azimuth,
               static_cast<int>(c.last.odometry_refused), drive.odometry.size());
   return c;
 }
@@ -95,13 +88,13 @@ TEST(RealDrives, FusedIsBetterThanOdometryAlone) {
         "2011_09_26_drive_0051", "2011_09_30_drive_0020"}) {
     SCOPED_TRACE(name);
     const Comparison c = compare(load_track_drive(real_data(), name, {0.3, radians(0.1)}));
-    EXPECT_LT(c.fused.at_100m.rotation, 0.65 * c.odometry.at_100m.rotation);
+    EXPECT_LT(c.fused.at_100m.deg_per_m, 0.65 * c.odometry.at_100m.deg_per_m);
     EXPECT_LT(c.fused.azimuth, 0.3 * c.odometry.azimuth);
     EXPECT_LT(c.fused.end, 0.016 * c.length);
     end_fused += c.fused.end;
     end_odometry += c.odometry.end;
-    percent_fused += c.fused.at_100m.translation / 5.0;
-    percent_odometry += c.odometry.at_100m.translation / 5.0;
+    percent_fused += c.fused.at_100m.percent / 5.0;
+    percent_odometry += c.odometry.at_100m.percent / 5.0;
   }
   EXPECT_LT(end_fused, 0.6 * end_odometry);
   EXPECT_LT(percent_fused, 0.8 * percent_odometry);
@@ -122,8 +115,8 @@ TEST(RealDrives, MotorwayIsNoWorseThanOdometryAlone) {
 TEST(RealDrives, SilencesOfTheImuAreBridged) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const Comparison c = compare(load_sequence_00(real_data(), {0.3, radians(0.15)}));
-  EXPECT_LT(c.fused.at_100m.translation, 0.8 * c.odometry.at_100m.translation);
-  EXPECT_LT(c.fused.at_100m.rotation, 0.7 * c.odometry.at_100m.rotation);
+  EXPECT_LT(c.fused.at_100m.percent, 0.8 * c.odometry.at_100m.percent);
+  EXPECT_LT(c.fused.at_100m.deg_per_m, 0.7 * c.odometry.at_100m.deg_per_m);
   EXPECT_LT(c.fused.end, 0.015 * c.length);
   EXPECT_LT(c.last.odometry_refused, 10u);
 }

@@ -1,18 +1,17 @@
 #include "tests/estimators/fusion/recorded_drive.h"
 
-#include <zlib.h>
-
-#include <array>
+#include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <sstream>
-#include <stdexcept>
 
 #include "msgs/frames.h"
+#include "sensors/replay/files.h"
 #include "tests/estimators/fusion/synthetic_drive.h"
+#include "tools/evaluate/trajectory_file.h"
 
 namespace maploop::testing {
 namespace {
@@ -24,52 +23,20 @@ using Eigen::Vector3d;
 constexpr double inertial_delay = 0.060;
 constexpr double odometry_latency = 0.060;
 
-std::string read_gzip(const std::filesystem::path& path) {
-  const gzFile file = gzopen(path.c_str(), "rb");
-  if (file == nullptr) throw std::runtime_error("cannot read " + path.string());
-  std::string text;
-  std::array<char, 65536> buffer{};
-  int got = 0;
-  while ((got = gzread(file, buffer.data(), buffer.size())) > 0) {
-    text.append(buffer.data(), static_cast<std::size_t>(got));
-  }
-  gzclose(file);
-  if (got < 0) throw std::runtime_error("damaged gzip file " + path.string());
-  return text;
-}
-
-std::vector<double> numbers(std::string line) {
-  for (char& c : line) {
-    if (c == ',') c = ' ';
-  }
-  std::istringstream in(line);
-  std::vector<double> row;
-  for (double v = 0.0; in >> v;) row.push_back(v);
-  return row;
-}
-
-std::vector<std::vector<double>> rows(const std::filesystem::path& path) {
-  std::istringstream in(read_gzip(path));
-  std::vector<std::vector<double>> result;
-  for (std::string line; std::getline(in, line);) {
-    if (std::vector<double> row = numbers(line); !row.empty()) result.push_back(row);
-  }
-  return result;
-}
-
 // Reads a table with a header and returns its columns by name.
 class Table {
  public:
   explicit Table(const std::filesystem::path& path) {
-    std::istringstream in(read_gzip(path));
-    std::string line;
-    std::getline(in, line);
-    std::istringstream header(line);
+    std::string text = sensors::read_text(path);
+    std::istringstream header(text.substr(0, text.find('\n')));
     for (std::string name; std::getline(header, name, ',');) {
       const std::size_t column = columns_.size();
       columns_[name] = column;
     }
-    while (std::getline(in, line)) rows_.push_back(numbers(line));
+    std::replace(text.begin(), text.end(), ',', ' ');
+    const std::vector<std::string_view> lines = sensors::split_lines(text);
+    for (std::size_t i = 1; i < lines.size(); ++i)
+      rows_.push_back(sensors::parse_numbers(lines[i]));
   }
   std::size_t size() const { return rows_.size(); }
   double operator()(std::size_t row, const std::string& column) const {
@@ -81,30 +48,53 @@ class Table {
   std::vector<std::vector<double>> rows_;
 };
 
-// Converts KITTI's twelve numbers, row by row; a thirteenth before them is the frame.
-Isometry3d pose_of(const std::vector<double>& row) {
-  const std::size_t first = row.size() - 12;
-  Isometry3d T = Isometry3d::Identity();
-  for (std::size_t i = 0; i < 12; ++i) {
-    T.matrix()(static_cast<Eigen::Index>(i / 4), static_cast<Eigen::Index>(i % 4)) = row[first + i];
-  }
-  return T;
+nlohmann::json meta_of(const std::filesystem::path& folder, const std::string& name) {
+  return nlohmann::json::parse(sensors::read_text(folder / "tracks" / (name + ".meta.json")));
 }
 
-RelativeMotion motion(const Isometry3d& T, Time from, Time to, const OdometrySigmas& sigmas,
-                      std::uint64_t sequence) {
+Isometry3d camera_of(const nlohmann::json& meta) {
+  Isometry3d T_body_cam = Isometry3d::Identity();
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      T_body_cam.matrix()(i, j) =
+          meta["T_imu_cam"][static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+    }
+  }
+  return T_body_cam;
+}
+
+void add_sample(RecordedDrive& drive, const Table& imu, std::size_t row, const char* time) {
+  ImuSample s;
+  s.stamp = SyntheticDrive::at(imu(row, time) - inertial_delay);
+  s.available = s.stamp + from_seconds(inertial_delay);
+  s.sequence = row;
+  s.specific_force_forward = imu(row, "ax");
+  s.specific_force_left = imu(row, "ay");
+  s.yaw_rate = imu(row, "wz");
+  drive.imu.push_back(s);
+}
+
+// Adds a frame with the true pose, and the motion to it from the frame before if there is one.
+void add_frame(RecordedDrive& drive, Time stamp, const Isometry3d& truth,
+               const evaluation::Trajectory& cameras, std::size_t frame,
+               const Isometry3d& T_body_cam, const OdometrySigmas& sigmas) {
+  drive.stamps.push_back(stamp);
+  drive.truth.push_back(truth);
+  if (drive.stamps.size() < 2) return;
+  const Isometry3d T =
+      T_body_cam * (cameras[frame - 1].inverse() * cameras[frame]) * T_body_cam.inverse();
   RelativeMotion m;
   m.status = OdometryStatus::ok;
-  m.from = from;
-  m.stamp = to;
-  m.available = to + from_seconds(odometry_latency);
-  m.sequence = sequence;
+  m.from = drive.stamps[drive.stamps.size() - 2];
+  m.stamp = stamp;
+  m.available = stamp + from_seconds(odometry_latency);
+  m.sequence = frame;
   m.translation = T.translation();
   m.rotation = Eigen::Quaterniond(T.linear()).normalized();
-  const double translation_sigma = sigmas.speed * to_seconds(to - from);
+  const double translation_sigma = sigmas.speed * to_seconds(stamp - m.from);
   m.covariance.diagonal().head<3>().setConstant(translation_sigma * translation_sigma);
   m.covariance.diagonal().tail<3>().setConstant(sigmas.rotation * sigmas.rotation);
-  return m;
+  drive.odometry.push_back(m);
 }
 
 // Returns a fix with errors of 0.5 m and 0.05 m/s at the truth's first stamp.
@@ -152,53 +142,26 @@ Eigen::Matrix3d level_of_first_row(const Table& imu) {
 
 RecordedDrive load_track_drive(const std::filesystem::path& data, const std::string& name,
                                const OdometrySigmas& sigmas, unsigned seed) {
-  const auto file = [&](const std::string& suffix) {
-    return data / "kitti_odometry/tracks" / (name + suffix);
-  };
-  std::ifstream meta_file(file(".meta.json"));
-  const nlohmann::json meta = nlohmann::json::parse(meta_file);
+  const auto folder = data / "kitti_odometry";
+  const auto file = [&](const std::string& suffix) { return folder / "tracks" / (name + suffix); };
+  const nlohmann::json meta = meta_of(folder, name);
   const Table imu(file(".imu.csv.gz"));
-  const Table truth(file(".truth.csv.gz"));
-  const std::vector<std::vector<double>> vo = rows(file(".vo_baseline.txt.gz"));
-  Isometry3d T_body_cam = Isometry3d::Identity();
-  for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < 4; ++j) {
-      T_body_cam.matrix()(i, j) =
-          meta["T_imu_cam"][static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-    }
-  }
+  const evaluation::Trajectory truth = evaluation::read_trajectory(file(".truth.csv.gz")).poses;
+  const evaluation::Trajectory vo = evaluation::read_kitti_poses(file(".vo_baseline.txt.gz"));
+  const Isometry3d T_body_cam = camera_of(meta);
 
   RecordedDrive drive;
   drive.name = name;
-  for (std::size_t i = 0; i < imu.size(); ++i) {
-    ImuSample s;
-    s.stamp = SyntheticDrive::at(imu(i, "t_oxts") - inertial_delay);
-    s.available = s.stamp + from_seconds(inertial_delay);
-    s.sequence = i;
-    s.specific_force_forward = imu(i, "ax");
-    s.specific_force_left = imu(i, "ay");
-    s.yaw_rate = imu(i, "wz");
-    drive.imu.push_back(s);
-  }
+  for (std::size_t i = 0; i < imu.size(); ++i) add_sample(drive, imu, i, "t_oxts");
   const Isometry3d level(level_of_first_row(imu));
   // The recorder invented the first rows of sequence 06. The motorway tracks are good up to frame
   // 199 only.
   const std::size_t first =
       name == "2011_09_30_drive_0020" ? 20 : std::size_t(meta["first_good_frame"]);
   const std::size_t end = name == "2011_10_03_drive_0042" ? 200 : vo.size();
-  const auto stamp = [&](std::size_t i) { return SyntheticDrive::at(meta["timestamps"][i]); };
   for (std::size_t i = first; i < end; ++i) {
-    const Eigen::Quaterniond q(truth(i, "cam_qw"), truth(i, "cam_qx"), truth(i, "cam_qy"),
-                               truth(i, "cam_qz"));
-    const Isometry3d T_cam0_cam =
-        Eigen::Translation3d(truth(i, "cam_x"), truth(i, "cam_y"), truth(i, "cam_z")) *
-        q.normalized();
-    drive.stamps.push_back(stamp(i));
-    drive.truth.push_back(level * T_body_cam * T_cam0_cam * T_body_cam.inverse());
-    if (i == first) continue;
-    const Isometry3d T_cam = pose_of(vo[i - 1]).inverse() * pose_of(vo[i]);
-    drive.odometry.push_back(
-        motion(T_body_cam * T_cam * T_body_cam.inverse(), stamp(i - 1), stamp(i), sigmas, i));
+    add_frame(drive, SyntheticDrive::at(meta["timestamps"][i]),
+              level * T_body_cam * truth[i] * T_body_cam.inverse(), vo, i, T_body_cam, sigmas);
   }
   drive.start = noisy_start(drive, first_velocity(drive), seed);
   return drive;
@@ -209,33 +172,17 @@ RecordedDrive load_sequence_00(const std::filesystem::path& data, const Odometry
   const std::filesystem::path folder = data / "kitti_odometry";
   const Table imu(folder / "imu100/2011_10_03_0027.csv.gz");
   const Table truth(folder / "imu100/2011_10_03_0027.truth.csv.gz");
-  const std::vector<std::vector<double>> vo = rows(folder / "peers/00_SPTAM_evo.txt.gz");
-  const std::vector<std::vector<double>> times = rows(folder / "poses/00.times.txt");
+  const evaluation::Trajectory vo =
+      evaluation::read_kitti_poses(folder / "peers/00_SPTAM_evo.txt.gz");
+  std::istringstream text(sensors::read_text(folder / "poses/00.times.txt"));
+  const std::vector<double> times(std::istream_iterator<double>(text), {});
   // The left camera's pose in the body frame is KITTI's calibration of 2011-10-03.
-  Isometry3d T_body_cam = Isometry3d::Identity();
-  {
-    std::ifstream meta_file(folder / "tracks/2011_10_03_drive_0042.meta.json");
-    const nlohmann::json meta = nlohmann::json::parse(meta_file);
-    for (int i = 0; i < 4; ++i) {
-      for (int j = 0; j < 4; ++j) {
-        T_body_cam.matrix()(i, j) =
-            meta["T_imu_cam"][static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-      }
-    }
-  }
+  const Isometry3d T_body_cam = camera_of(meta_of(folder, "2011_10_03_drive_0042"));
 
   RecordedDrive drive;
   drive.name = "sequence 00";
   for (std::size_t i = 0; i < imu.size(); ++i) {
-    if (imu(i, "interpolated") != 0.0) continue;
-    ImuSample s;
-    s.stamp = SyntheticDrive::at(imu(i, "t") - inertial_delay);
-    s.available = s.stamp + from_seconds(inertial_delay);
-    s.sequence = i;
-    s.specific_force_forward = imu(i, "ax");
-    s.specific_force_left = imu(i, "ay");
-    s.yaw_rate = imu(i, "wz");
-    drive.imu.push_back(s);
+    if (imu(i, "interpolated") == 0.0) add_sample(drive, imu, i, "t");
   }
 
   const LocalFrame frame(test_origin());
@@ -248,18 +195,12 @@ RecordedDrive load_sequence_00(const std::filesystem::path& data, const Odometry
   constexpr std::size_t first = 20;  // earlier frames are in invented rows
   std::size_t row = 0;
   for (std::size_t i = first; i < vo.size(); ++i) {
-    const double t = times[i][0];
-    while (row + 2 < truth.size() && truth(row + 1, "t") <= t) ++row;
+    while (row + 2 < truth.size() && truth(row + 1, "t") <= times[i]) ++row;
     const auto [p0, q0] = truth_pose(row);
     const auto [p1, q1] = truth_pose(row + 1);
-    const double w = (t - truth(row, "t")) / (truth(row + 1, "t") - truth(row, "t"));
-    drive.stamps.push_back(SyntheticDrive::at(t));
-    drive.truth.push_back(Eigen::Translation3d(p0 + w * (p1 - p0)) * q0.slerp(w, q1));
-    if (i == first) continue;
-    const Isometry3d T_cam = pose_of(vo[i - 1]).inverse() * pose_of(vo[i]);
-    drive.odometry.push_back(motion(T_body_cam * T_cam * T_body_cam.inverse(),
-                                    SyntheticDrive::at(times[i - 1][0]), SyntheticDrive::at(t),
-                                    sigmas, i));
+    const double w = (times[i] - truth(row, "t")) / (truth(row + 1, "t") - truth(row, "t"));
+    const Isometry3d pose = Eigen::Translation3d(p0 + w * (p1 - p0)) * q0.slerp(w, q1);
+    add_frame(drive, SyntheticDrive::at(times[i]), pose, vo, i, T_body_cam, sigmas);
   }
   drive.start = noisy_start(drive, first_velocity(drive), seed);
   return drive;

@@ -131,6 +131,21 @@ std::vector<RelativeMotion> SyntheticDrive::odometry(double rate, const SensorNo
   return motions;
 }
 
+std::vector<WheelSpeed> SyntheticDrive::wheels(double from, double to, double scale) const {
+  std::vector<WheelSpeed> samples;
+  for (std::uint64_t i = 0; from + 0.1 * static_cast<double>(i) < to; ++i) {
+    const double t = from + 0.1 * static_cast<double>(i);
+    WheelSpeed w;
+    w.stamp = at(t);
+    w.available = w.stamp + from_seconds(0.02);
+    w.sequence = i;
+    w.speed = (1.0 + scale) * speed(t);
+    w.sigma = 0.05;
+    samples.push_back(w);
+  }
+  return samples;
+}
+
 GnssFix SyntheticDrive::fix(double t, double velocity_delay) const {
   GnssFix fix;
   fix.stamp = fix.available = at(t);

@@ -8,6 +8,7 @@
 #include "msgs/gnss.h"
 #include "msgs/imu.h"
 #include "msgs/odometry.h"
+#include "msgs/wheel_speed.h"
 
 namespace maploop::testing {
 
@@ -48,6 +49,9 @@ class SyntheticDrive {
   std::vector<ImuSample> imu(double rate, const SensorNoise& noise = {}) const;
   std::vector<RelativeMotion> odometry(double rate, const SensorNoise& noise = {}) const;
   GnssFix fix(double t, double velocity_delay = 0.0) const;
+  // Returns wheel speeds with this relative error, every 0.1 s from `from` until `to` (s), each
+  // available 20 ms later.
+  std::vector<WheelSpeed> wheels(double from, double to, double scale = 0.0) const;
 
  private:
   MotionProfile profile_;

@@ -6,10 +6,11 @@
 #include <cmath>
 
 #include "estimators/fusion/gnss_update.h"
+#include "estimators/fusion/inertial_update.h"
 #include "estimators/fusion/initial_state.h"
 #include "estimators/fusion/nav_state_output.h"
+#include "estimators/fusion/odometry_innovation.h"
 #include "estimators/fusion/odometry_update.h"
-#include "estimators/fusion/roll_update.h"
 #include "estimators/fusion/wheel_update.h"
 #include "tests/estimators/fusion/least_eigenvalue.h"
 #include "tests/estimators/fusion/numerical_jacobian.h"

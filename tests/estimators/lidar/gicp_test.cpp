@@ -16,10 +16,6 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-void in_turn(int count, const std::function<void(int)>& work) {
-  for (int i = 0; i < count; ++i) work(i);
-}
-
 // Adds a plane through `centre` as a grid of points.
 void add_plane(const Vector3f& centre, const Vector3f& u, const Vector3f& v, int half,
                std::vector<SurfacePoint>* points) {
@@ -151,7 +147,7 @@ TEST(Gicp, FindsAMotionMadeByHand) {
     p.normal = T_inverse.linear().cast<float>() * p.normal;
   }
   const Alignment alignment =
-      Gicp(parameters, in_turn).align(map, seen, Eigen::Isometry3d::Identity(), true);
+      Gicp(parameters).align(map, seen, Eigen::Isometry3d::Identity(), true);
   EXPECT_EQ(alignment.status, OdometryStatus::ok);
   EXPECT_EQ(alignment.degeneracy.directions, 0);
   EXPECT_LT((alignment.T_map_body.translation() - T.translation()).norm(), 2e-3);
@@ -166,7 +162,7 @@ TEST(Gicp, TunnelKeepsTheSeedAlongAndSaysSo) {
   PreparedScan seen = street(false);
   Eigen::Isometry3d seed = Eigen::Isometry3d::Identity();
   seed.translation() << 0.3, 0.1, 0.05;
-  const Alignment alignment = Gicp(parameters, in_turn).align(map, seen, seed, true);
+  const Alignment alignment = Gicp(parameters).align(map, seen, seed, true);
   EXPECT_EQ(alignment.status, OdometryStatus::ok);
   EXPECT_EQ(alignment.degeneracy.directions, 1u << static_cast<int>(MotionDirection::along));
   EXPECT_NEAR(alignment.T_map_body.translation().x(), 0.3, 5e-3);
@@ -181,7 +177,7 @@ TEST(Gicp, OpenFieldDeterminesHeightRollAndPitchAlone) {
   LocalMap map(parameters);
   map.insert(field, Eigen::Isometry3d::Identity());
   const Alignment alignment =
-      Gicp(parameters, in_turn).align(map, field, Eigen::Isometry3d::Identity(), true);
+      Gicp(parameters).align(map, field, Eigen::Isometry3d::Identity(), true);
   const auto bit = [](MotionDirection d) { return 1u << static_cast<int>(d); };
   EXPECT_EQ(alignment.degeneracy.directions,
             bit(MotionDirection::along) | bit(MotionDirection::across) | bit(MotionDirection::yaw));
@@ -193,7 +189,7 @@ TEST(Gicp, ScanElsewhereHasTooFewPartners) {
   map.insert(street(true), Eigen::Isometry3d::Identity());
   Eigen::Isometry3d far = Eigen::Isometry3d::Identity();
   far.translation().x() = 500.0;
-  EXPECT_EQ(Gicp(parameters, in_turn).align(map, street(true), far, true).status,
+  EXPECT_EQ(Gicp(parameters).align(map, street(true), far, true).status,
             OdometryStatus::too_few_inliers);
 }
 

@@ -27,10 +27,7 @@ TEST(PclReference, MotionsBetweenScansAgree) {
     preparation.prepare(scans[i], scans[i].stamp, motion, &source);
     LocalMap map(parameters);
     map.insert(target, Eigen::Isometry3d::Identity());
-    Gicp gicp(parameters, [](int count, const std::function<void(int)>& work) {
-      for (int k = 0; k < count; ++k) work(k);
-    });
-    const Alignment ours = gicp.align(map, source, seed, true);
+    const Alignment ours = Gicp(parameters).align(map, source, seed, true);
     const auto theirs = reference.align(source.points, target.points, seed);
     ASSERT_EQ(ours.status, OdometryStatus::ok);
     ASSERT_TRUE(theirs.converged);

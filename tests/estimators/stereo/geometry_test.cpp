@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include "estimators/stereo/p3p.h"
-#include "estimators/stereo/quartic.h"
 #include "estimators/stereo/residual.h"
 #include "tests/estimators/stereo/synthetic_scene.h"
 

@@ -1,4 +1,4 @@
-#include "estimators/fusion/zero_velocity.h"
+#include "estimators/fusion/inertial_update.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +13,44 @@ void note(Stillness& stillness, bool standing, Time stamp) {
 }
 
 }  // namespace
+
+std::optional<Innovation<1>> roll_innovation(const FilterState& state, const ImuSample& sample,
+                                             double interval, const LocalEarth& earth,
+                                             const FusionParameters& parameters) {
+  using namespace index;
+  using Eigen::Vector3d;
+  if (interval <= 0.0) return std::nullopt;
+  const StateVector& x = state.x;
+  const double ground = state.ground_speed();
+  const double g = earth.gravity(x[up]);
+  const Vector3d vertical = earth.vertical(x[east], x[north]);
+  const Eigen::Matrix3d R = rotation_enu_body(state.attitude());
+  const double rate = sample.yaw_rate - x[gyro_bias];
+  const double acceleration =
+      sample.specific_force_forward - x[forward_bias] - g * vertical.dot(R.col(0));
+  if (std::abs(acceleration) > parameters.max_acceleration ||
+      std::abs(ground * rate) > parameters.max_lateral_acceleration) {
+    return std::nullopt;
+  }
+
+  const Vector3d left = R.col(1);
+  const Eigen::Matrix3d axes = attitude_rate_axes(state.attitude());
+  const double sigma = g * parameters.tilt_sigma;
+  // (20) of METHOD.md
+  Innovation<1> innovation(
+      sample.specific_force_left - (ground * rate + g * vertical.dot(left) + x[left_bias]),
+      sigma * sigma * std::max(1.0, parameters.tilt_time / interval));
+  innovation.H[east] = g * earth.curvature().x() * left.x();
+  innovation.H[north] = g * earth.curvature().y() * left.y();
+  innovation.H[speed] = rate / (1.0 + x[speed_scale]);
+  innovation.H[speed_scale] = -ground * rate / (1.0 + x[speed_scale]);
+  innovation.H[gyro_bias] = -ground;
+  innovation.H[left_bias] = 1.0;
+  for (int i = 0; i < 3; ++i) {
+    innovation.H[azimuth + i] = g * vertical.dot(axes.col(i).cross(left));
+  }
+  return innovation;
+}
 
 void note_motion(Stillness& stillness, const RelativeMotion& motion, const FusionParameters& p) {
   if (motion.status != OdometryStatus::ok) return;
@@ -46,11 +84,10 @@ bool stands(FilterState& state, const ImuSample& sample, double interval,
 
 Innovation<1> zero_velocity_innovation(const FilterState& state, double interval,
                                        const FusionParameters& p) {
-  Innovation<1> innovation;
-  innovation.residual << -state.x[index::speed];  // (23) of METHOD.md
-  innovation.H.setZero();
+  // (23) of METHOD.md
+  Innovation<1> innovation(-state.x[index::speed], p.zero_velocity_sigma * p.zero_velocity_sigma *
+                                                       std::max(1.0, 0.1 / interval));
   innovation.H[index::speed] = 1.0;
-  innovation.R << p.zero_velocity_sigma * p.zero_velocity_sigma * std::max(1.0, 0.1 / interval);
   return innovation;
 }
 
@@ -58,15 +95,12 @@ Innovation<1> zero_rate_innovation(const FilterState& state, const ImuSample& sa
                                    double interval, const LocalEarth& earth,
                                    const FusionParameters& p) {
   using namespace index;
-  Innovation<1> innovation;
   // (24) of METHOD.md
-  innovation.residual << sample.yaw_rate - state.x[gyro_bias] -
-                             earth.earth_rate_up() * std::cos(state.x[pitch]) *
-                                 std::cos(state.x[roll]);
-  innovation.H.setZero();
+  Innovation<1> innovation(
+      sample.yaw_rate - state.x[gyro_bias] -
+          earth.earth_rate_up() * std::cos(state.x[pitch]) * std::cos(state.x[roll]),
+      p.gyro_noise * p.gyro_noise / interval + p.zero_rate_sigma * p.zero_rate_sigma / interval);
   innovation.H[gyro_bias] = 1.0;
-  innovation.R << p.gyro_noise * p.gyro_noise / interval +
-                      p.zero_rate_sigma * p.zero_rate_sigma / interval;
   return innovation;
 }
 

@@ -1,5 +1,8 @@
-// Standstill is detected here and used as a measurement (ZUPT and ZIHR).
+// An inertial sample corrects the roll by gravity, and at standstill speed and gyro bias (ZUPT and
+// ZIHR).
 #pragma once
+
+#include <optional>
 
 #include "estimators/fusion/earth.h"
 #include "estimators/fusion/fusion_parameters.h"
@@ -9,6 +12,15 @@
 #include "msgs/wheel_speed.h"
 
 namespace maploop::fusion {
+
+// z = left specific force, m/s^2; h = V w + g (cos p sin r) + bias: the centripetal acceleration,
+// and gravity along the local vertical. `interval` is the time since the previous IMU sample in s.
+// Samples closer than `tilt_time` share their disturbance, so each has less weight. Returns nothing
+// if the interval is not positive or the vehicle accelerates beyond `max_acceleration` or
+// `max_lateral_acceleration`.
+std::optional<Innovation<1>> roll_innovation(const FilterState& state, const ImuSample& sample,
+                                             double interval, const LocalEarth& earth,
+                                             const FusionParameters& parameters);
 
 // Records whether odometry or the wheels show a standing vehicle.
 void note_motion(Stillness& stillness, const RelativeMotion& motion, const FusionParameters& p);

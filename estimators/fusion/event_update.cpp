@@ -1,0 +1,83 @@
+#include "estimators/fusion/event_update.h"
+
+#include "estimators/fusion/gnss_update.h"
+#include "estimators/fusion/inertial_update.h"
+#include "estimators/fusion/map_update.h"
+#include "estimators/fusion/mechanization.h"
+#include "estimators/fusion/odometry_update.h"
+#include "estimators/fusion/wheel_update.h"
+
+namespace maploop::fusion {
+namespace {
+
+// Interpolates linearly between samples; after the newest one, returns its own value.
+double yaw_rate_at(const InertialSamples& samples, Time t) {
+  if (samples.before == nullptr) return 0.0;
+  const ImuSample& a = *samples.before;
+  if (samples.after == nullptr) return a.yaw_rate;
+  const double gap = to_seconds(samples.after->stamp - a.stamp);
+  const double share = gap > 0.0 ? to_seconds(t - a.stamp) / gap : 0.0;
+  return a.yaw_rate + share * (samples.after->yaw_rate - a.yaw_rate);
+}
+
+// Applies what a sample shows besides the prediction: the roll from gravity, and standstill.
+void apply_sample(FilterState& state, const ImuSample& sample, const ImuSample& before,
+                  const LocalEarth& earth, const FusionParameters& p) {
+  const double interval = to_seconds(sample.stamp - before.stamp);
+  if (interval <= 0.0) return;
+  if (const auto roll = roll_innovation(state, sample, interval, earth, p)) {
+    // A body leans in turns; the effect on the measured force must not change speed or turning.
+    joseph_update(state.x, state.P, *roll,
+                  {index::speed, index::speed_scale, index::gyro_bias, index::lidar_scale,
+                   index::lidar_turn});
+  }
+  if (!stands(state, sample, interval, p) || !p.use_zero_velocity) return;
+  joseph_update(state.x, state.P, zero_velocity_innovation(state, interval, p));
+  joseph_update(state.x, state.P, zero_rate_innovation(state, sample, interval, earth, p));
+  state.zero_velocity_stamp = sample.stamp;
+}
+
+}  // namespace
+
+void advance(FilterState& state, const InertialSamples& samples, Time to, const LocalEarth& earth,
+             const FusionParameters& p) {
+  if (to > state.stamp) state.yaw_rate = yaw_rate_at(samples, to);
+  while (state.stamp < to) {
+    const Time end = end_of_stretch(samples, state.stamp, to, p);
+    predict(state, inertial_input(samples, state.stamp, end, p), earth, p);
+    state.stamp = end;
+  }
+}
+
+Outcome apply_event(FilterState& state, const Event& event, const InertialSamples& samples,
+                    const LocalFrame& frame, const LocalEarth& earth, const FusionParameters& p) {
+  if (const auto* motion = std::get_if<RelativeMotion>(&event.measurement)) {
+    note_motion(state.stillness, *motion, p);
+    return apply_odometry(state, *motion, p);
+  }
+  if (const auto* sample = std::get_if<ImuSample>(&event.measurement)) {
+    state.imu_repeated = repetition(samples, *sample, state.x[index::speed], p);
+    if (frozen(state.imu_repeated, p)) return refused(Reason::frozen);
+    if (samples.before != nullptr) apply_sample(state, *sample, *samples.before, earth, p);
+    state.imu_stamp = sample->stamp;
+    return {};
+  }
+  if (const auto* sample = std::get_if<WheelSpeed>(&event.measurement)) {
+    note_motion(state.stillness, *sample, p);
+    return apply_wheel(state, *sample, p);
+  }
+  if (const auto* fix = std::get_if<GnssFix>(&event.measurement)) {
+    if (event.key.kind == EventKind::gnss_position) {
+      return apply_gnss_position(state, *fix, frame, p);
+    }
+    const bool known = samples.before != nullptr && !frozen(samples.repeated, p);
+    return apply_gnss_velocity(state, *fix, known ? samples.before->yaw_rate : 0.0, p);
+  }
+  if (const auto* feedback = std::get_if<MapFeedback>(&event.measurement)) {
+    return apply_map(state, *feedback, frame, p);
+  }
+  take_clone(state);
+  return {};
+}
+
+}  // namespace maploop::fusion
