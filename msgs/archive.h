@@ -1,14 +1,17 @@
 // This file saves values to memory and loads them again, with one description for both directions.
 //
-//   struct Track { std::int64_t id; Eigen::Vector3d point; };
-//   template <class Archive> void archive(Archive& ar, Track& t) { ar(t.id, t.point); }
-//
+//   struct Track {
+//     std::int64_t id;
+//     Eigen::Vector3d point;
+//     void archive(auto& ar) { ar(id, point); }
+//   };
 //   ArchiveWriter writer;  writer(track);            ArchiveReader reader(writer.content());
 //   write(seal(writer.content()));                   reader(track);  reader.finish();
 //
-// A type is described by such a function beside it, or by a member `archive(ar)` if its state is
-// private. Numbers, enumerations, times, std containers and Eigen's fixed-size matrices are
-// described here. `Archive::loading` distinguishes the directions where they must differ.
+// A type is described by such a member, or by a function archive(ar, value) beside it. Anything
+// that visits all members may be the `ar`: tests fill and compare structs so. Numbers,
+// enumerations, times, std containers and Eigen's fixed-size matrices are described here.
+// `Archive::loading` distinguishes the directions where they must differ.
 //
 // A loaded value has the bits of the saved one, on machines of the same byte order. Lengths are not
 // trusted: a sequence grows with the elements that the content really contains, so loading needs at

@@ -13,12 +13,9 @@ struct StereoCalibration {
   double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  // px
   double baseline = 0.0;                          // m
   Eigen::Isometry3d T_body_cam = Eigen::Isometry3d::Identity();
-};
 
-template <class Archive>
-void archive(Archive& ar, StereoCalibration& c) {
-  ar(c.width, c.height, c.fx, c.fy, c.cx, c.cy, c.baseline, c.T_body_cam);
-}
+  void archive(auto& ar) { ar(width, height, fx, fy, cx, cy, baseline, T_body_cam); }
+};
 
 // Unknown values default to those of no particular car.
 struct VehicleCalibration {
@@ -28,6 +25,10 @@ struct VehicleCalibration {
   double climb_offset = 0.0;           // rad, direction of travel above body x, by mounting
   double climb_offset_sigma = 0.0175;  // rad (1 deg), of climb_offset
   double beam_elevation = 0.0;         // rad, the LiDAR's beams are higher than calibrated
+
+  void archive(auto& ar) {
+    ar(stereo, T_body_velo, rear_axle_distance, climb_offset, climb_offset_sigma, beam_elevation);
+  }
 };
 
 }  // namespace maploop

@@ -18,11 +18,15 @@ struct HistogramData {
   struct Bucket {
     Duration lowest{};  // the smallest value that it counts
     std::uint64_t count = 0;
+
+    void archive(auto& ar) { ar(lowest, count); }
   };
   std::vector<Bucket> buckets;    // ascending; empty ones are left out
   std::uint64_t below_range = 0;  // negative values, which the lowest bucket counts too
   std::uint64_t above_range = 0;  // values beyond the highest bucket
   Duration min{}, max{};          // exact; 0 if nothing was recorded
+
+  void archive(auto& ar) { ar(buckets, below_range, above_range, min, max); }
 };
 
 // Describes one missed deadline and where the time went.
@@ -30,6 +34,8 @@ struct MissedDeadline {
   struct Part {
     std::string name;  // a stage, or what delayed the thread
     Duration lasted{};
+
+    void archive(auto& ar) { ar(name, lasted); }
   };
   Time stamp{};  // of the tick, or of the sample
   Duration latency{};
@@ -42,6 +48,8 @@ struct MissedDeadline {
                          [](const Part& a, const Part& b) { return a.lasted < b.lasted; });
     return longest == parts.end() ? std::string() : longest->name;
   }
+
+  void archive(auto& ar) { ar(stamp, latency, parts); }
 };
 
 // Summarizes the latency of one thread, or of one path from sensor stamp to state, since the start.
@@ -55,6 +63,10 @@ struct LatencySummary {
   HistogramData histogram{};            // the recorded values behind the figures above
   HistogramData omitted{};              // waits to be added to correct co-ordinated omission
   std::vector<MissedDeadline> worst{};  // at most ten, the longest first
+
+  void archive(auto& ar) {
+    ar(name, count, misses, deadline, p50, p90, p99, p999, max, guilty, histogram, omitted, worst);
+  }
 };
 
 // Period jitter is how much the time between two wake-ups differs from that between their due
@@ -67,11 +79,15 @@ struct Deadlines {
   std::vector<LatencySummary> wake_up{};    // by thread: from ready to running
   std::vector<LatencySummary> execution{};  // by thread: of one tick, sample or message
   std::vector<LatencySummary> period_jitter{};  // by fixed-rate thread
+
+  void archive(auto& ar) { ar(stamp, threads, paths, wake_up, execution, period_jitter); }
 };
 
 struct RingHealth {
   std::string name;
   std::uint64_t pushed = 0, popped = 0, lost = 0, held = 0, capacity = 0;
+
+  void archive(auto& ar) { ar(name, pushed, popped, lost, held, capacity); }
 };
 
 struct ThreadHealth {
@@ -82,6 +98,8 @@ struct ThreadHealth {
   std::string failure;                   // empty while the thread runs
   double cpu = 0.0;                      // s of processor time used so far
   std::uint64_t left_out = 0, shed = 0;  // ticks, by the overrun policy
+
+  void archive(auto& ar) { ar(name, scheduling, count, rate, failure, cpu, left_out, shed); }
 };
 
 // Counts the measurements that an estimator has refused so far.
@@ -89,12 +107,16 @@ struct RefusalCount {
   std::string stage;
   std::string reason;
   std::uint64_t count = 0;
+
+  void archive(auto& ar) { ar(stage, reason, count); }
 };
 
 // Counts the messages to one output: the bus, the log.
 struct OutputHealth {
   std::string name;
   std::uint64_t sent = 0, unsent = 0;  // messages
+
+  void archive(auto& ar) { ar(name, sent, unsent); }
 };
 
 // Compares a sensor's clock with the host's, from the arrival times of its messages.
@@ -104,6 +126,8 @@ struct SensorClock {
   double drift = 0.0;                 // rate of the host's clock relative to it, minus 1
   Duration delay{};                   // of the last message, beyond the minimum
   std::uint64_t jumps = 0;
+
+  void archive(auto& ar) { ar(known, utc_ahead, drift, delay, jumps); }
 };
 
 // Describes the state of a live sensor.
@@ -115,6 +139,10 @@ struct SensorHealth {
   std::uint64_t delivered = 0, refused = 0;  // samples; packets and lines
   std::string problem;                       // why it is not connected
   SensorClock clock;
+
+  void archive(auto& ar) {
+    ar(name, endpoint, connected, connections, delivered, refused, problem, clock);
+  }
 };
 
 struct Health {
@@ -128,6 +156,10 @@ struct Health {
   std::vector<std::string> degraded;  // each a sentence: what, since when, what to do
   double elapsed = 0.0;               // s of this machine's time since the start
   double cpu = 0.0;                   // s of the whole process's processor time
+
+  void archive(auto& ar) {
+    ar(stamp, threads, rings, refusals, outputs, sensors, settings, degraded, elapsed, cpu);
+  }
 };
 
 }  // namespace maploop

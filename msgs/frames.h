@@ -40,12 +40,9 @@ struct Attitude {
   double azimuth = 0.0;  // rad
   double pitch = 0.0;    // rad, nose up
   double roll = 0.0;     // rad, right side down
-};
 
-template <class Archive>
-void archive(Archive& ar, Attitude& a) {
-  ar(a.azimuth, a.pitch, a.roll);
-}
+  void archive(auto& ar) { ar(azimuth, pitch, roll); }
+};
 
 // R_enu_body = Rz(yaw) Ry(-pitch) Rx(roll): first yaw, then nose up, then right side down.
 inline Eigen::Matrix3d rotation_enu_body(const Attitude& a) {

@@ -15,12 +15,11 @@ struct GnssFix : Sample {
   Time velocity_stamp{};  // some receivers deliver a velocity older than their position
   Eigen::Vector3d velocity_enu = Eigen::Vector3d::Zero();         // m/s
   Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();  // m^2/s^2
-};
 
-template <class Archive>
-void archive(Archive& ar, GnssFix& f) {
-  ar(static_cast<Sample&>(f), f.position, f.position_covariance, f.velocity_stamp, f.velocity_enu,
-     f.velocity_covariance);
-}
+  void archive(auto& ar) {
+    ar(static_cast<Sample&>(*this), position, position_covariance, velocity_stamp, velocity_enu,
+       velocity_covariance);
+  }
+};
 
 }  // namespace maploop

@@ -22,17 +22,16 @@ struct GreyImage {
     pixels.resize(static_cast<std::size_t>(new_width) * static_cast<std::size_t>(new_height));
   }
   bool empty() const { return width == 0 || height == 0; }
-};
 
-template <class Archive>
-void archive(Archive& ar, GreyImage& image) {
-  ar(image.width, image.height, image.pixels);
-}
+  void archive(auto& ar) { ar(width, height, pixels); }
+};
 
 // This is a rectified pair, exposed at one moment: `stamp`.
 struct StereoPair : Sample {
   GreyImage left;
   GreyImage right;
+
+  void archive(auto& ar) { ar(static_cast<Sample&>(*this), left, right); }
 };
 
 }  // namespace maploop

@@ -10,11 +10,10 @@ struct ImuSample : Sample {
   double specific_force_forward = 0.0;  // m/s^2, along body x; contains gravity when pitched
   double specific_force_left = 0.0;     // m/s^2, along body y
   double yaw_rate = 0.0;                // rad/s about body z, positive when turning left
-};
 
-template <class Archive>
-void archive(Archive& ar, ImuSample& s) {
-  ar(static_cast<Sample&>(s), s.specific_force_forward, s.specific_force_left, s.yaw_rate);
-}
+  void archive(auto& ar) {
+    ar(static_cast<Sample&>(*this), specific_force_forward, specific_force_left, yaw_rate);
+  }
+};
 
 }  // namespace maploop

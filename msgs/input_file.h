@@ -37,4 +37,8 @@ std::string read_text(const std::filesystem::path& file, std::size_t limit);
 // Reads the first `count` bytes of that, or fewer if it is shorter.
 std::string read_head(const std::filesystem::path& file, std::size_t count);
 
+// Returns the text compressed, with zlib's default level. The results of several texts, one after
+// the other, are the compressed form of these texts joined (RFC 1952, section 2.2).
+std::string gzip(const std::string& text);
+
 }  // namespace maploop

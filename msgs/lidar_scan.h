@@ -10,6 +10,8 @@ namespace maploop {
 struct LidarPoint {
   float x, y, z;      // m, in velo; raw: not corrected for the vehicle's motion
   float reflectance;  // 0..1
+
+  void archive(auto& ar) { ar(x, y, z, reflectance); }
 };
 
 // `stamp` is the middle of the turn, when the LiDAR faces forward; buffers keep their capacity.
@@ -17,16 +19,8 @@ struct LidarScan : Sample {
   Time start{};
   Time end{};
   std::vector<LidarPoint> points;
+
+  void archive(auto& ar) { ar(static_cast<Sample&>(*this), start, end, points); }
 };
-
-template <class Archive>
-void archive(Archive& ar, LidarPoint& p) {
-  ar(p.x, p.y, p.z, p.reflectance);
-}
-
-template <class Archive>
-void archive(Archive& ar, LidarScan& scan) {
-  ar(static_cast<Sample&>(scan), scan.start, scan.end, scan.points);
-}
 
 }  // namespace maploop

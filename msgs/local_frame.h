@@ -9,12 +9,10 @@ struct Geodetic {
   double latitude = 0.0;   // rad, WGS84
   double longitude = 0.0;  // rad
   double height = 0.0;     // m above the ellipsoid
-};
 
-template <class Archive>
-void archive(Archive& ar, Geodetic& g) {
-  ar(g.latitude, g.longitude, g.height);
-}
+  bool operator==(const Geodetic&) const = default;
+  void archive(auto& ar) { ar(latitude, longitude, height); }
+};
 
 class LocalFrame {
  public:

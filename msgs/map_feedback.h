@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
-#include <string_view>
 
 #include "msgs/local_frame.h"
+#include "msgs/named_enum.h"
 #include "msgs/sample.h"
 
 namespace maploop {
@@ -28,38 +28,11 @@ enum class FeedbackReason : std::uint8_t {
   not_yet,          // too close to the previous one to add information
 };
 
-constexpr std::size_t feedback_reason_count = static_cast<std::size_t>(FeedbackReason::not_yet) + 1;
-
-constexpr std::string_view to_string(FeedbackReason reason) {
-  switch (reason) {
-    case FeedbackReason::none:
-      return "fed back";
-    case FeedbackReason::no_fix:
-      return "no usable fix";
-    case FeedbackReason::off_road:
-      return "off the road";
-    case FeedbackReason::not_established:
-      return "no link established yet";
-    case FeedbackReason::link_changed:
-      return "link has changed";
-    case FeedbackReason::too_slow:
-      return "too slow";
-    case FeedbackReason::azimuth_differs:
-      return "azimuth differs from the link's";
-    case FeedbackReason::turning:
-      return "turning";
-    case FeedbackReason::near_junction:
-      return "near a junction";
-    case FeedbackReason::link_doubtful:
-      return "link doubtful";
-    case FeedbackReason::ambiguous:
-      return "another link is possible";
-    case FeedbackReason::inconsistent:
-      return "offsets contradict the fixes";
-    case FeedbackReason::not_yet:
-      return "too close to the one before";
-  }
-  return "unknown";
+constexpr auto names_of(FeedbackReason) {
+  return names_up_to<FeedbackReason::not_yet>(
+      {"fed back", "no usable fix", "off the road", "no link established yet", "link has changed",
+       "too slow", "azimuth differs from the link's", "turning", "near a junction", "link doubtful",
+       "another link is possible", "offsets contradict the fixes", "too close to the one before"});
 }
 
 // Describes the line of the road at the matched point: the vehicle is on it, except for its lane
@@ -78,13 +51,12 @@ struct MapFeedback : Sample {
   double lane_sigma = 0.0;     // m, lane and map error, which persist along the road
   double azimuth_sigma = 0.0;  // rad
   double probability = 0.0;    // P(link)
-};
 
-template <class Archive>
-void archive(Archive& ar, MapFeedback& f) {
-  ar(static_cast<Sample&>(f), f.reason, f.position, f.azimuth, f.reset, f.new_road, f.point,
-     f.link_azimuth, f.cross_track, f.cross_sigma, f.lane_sigma, f.azimuth_sigma, f.probability);
-}
+  void archive(auto& ar) {
+    ar(static_cast<Sample&>(*this), reason, position, azimuth, reset, new_road, point, link_azimuth,
+       cross_track, cross_sigma, lane_sigma, azimuth_sigma, probability);
+  }
+};
 
 // Returns the unit vector (east, north) to the right of the line.
 inline Eigen::Vector2d right_of_line(const MapFeedback& f) {

@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <limits>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "msgs/local_frame.h"
+#include "msgs/named_enum.h"
 #include "msgs/sample.h"
 
 namespace maploop {
@@ -22,43 +22,25 @@ enum class MatchPhase : std::uint8_t {
   off_road,     // on no road of the map
 };
 
-constexpr std::string_view to_string(MatchPhase phase) {
-  switch (phase) {
-    case MatchPhase::initial:
-      return "initial";
-    case MatchPhase::along_link:
-      return "along link";
-    case MatchPhase::at_junction:
-      return "at junction";
-    case MatchPhase::off_road:
-      return "off road";
-  }
-  return "unknown";
+constexpr auto names_of(MatchPhase) {
+  return names_up_to<MatchPhase::off_road>({"initial", "along link", "at junction", "off road"});
 }
 
 // States why a fix was not used.
 enum class FixRefusal : std::uint8_t { none, not_later, not_finite, bad_covariance, no_position };
 
-constexpr std::size_t fix_refusal_count = static_cast<std::size_t>(FixRefusal::no_position) + 1;
-
-constexpr std::string_view to_string(FixRefusal refusal) {
-  switch (refusal) {
-    case FixRefusal::none:
-      return "none";
-    case FixRefusal::not_later:
-      return "not later than the fix before";
-    case FixRefusal::not_finite:
-      return "a value is not finite";
-    case FixRefusal::bad_covariance:
-      return "the covariance is not positive";
-    case FixRefusal::no_position:
-      return "there is no position yet";
-  }
-  return "unknown";
+constexpr auto names_of(FixRefusal) {
+  return names_up_to<FixRefusal::no_position>(
+      {"none", "not later than the fix before", "a value is not finite",
+       "the covariance is not positive", "there is no position yet"});
 }
 
 // Names the rule base by which a candidate was judged.
 enum class RuleBase : std::uint8_t { initial, along, along_visual, junction };
+
+constexpr auto names_of(RuleBase) {
+  return names_up_to<RuleBase::junction>({"initial", "along", "along, visual", "junction"});
+}
 
 // This is a link with its direction of travel: from its first vertex to its last (forward), or the
 // reverse.
@@ -68,12 +50,9 @@ struct DirectedLink {
 
   DirectedLink reversed() const { return {link, !forward}; }
   bool operator==(const DirectedLink&) const = default;
-};
 
-template <class Archive>
-void archive(Archive& ar, DirectedLink& d) {
-  ar(d.link, d.forward);
-}
+  void archive(auto& ar) { ar(link, forward); }
+};
 
 // This is a link that the vehicle may be on. NaN means unknown.
 struct MatchCandidate {
@@ -94,6 +73,11 @@ struct MatchCandidate {
   double likelihood = 0.0;                 // of the rules, 10 to 100
   std::array<float, max_rules> weights{};  // of each rule
   double probability = 0.0;                // P(link)
+
+  void archive(auto& ar) {
+    ar(link, way_id, node_a, node_b, along, distance, azimuth_error, connectivity, distance_error,
+       rules, decided, likelihood, weights, probability);
+  }
 };
 
 // This is what the matcher decides about one fix.
@@ -112,6 +96,11 @@ struct LinkMatch {
   double off_road = 0.0;                         // P(the vehicle is on no road of the map)
   std::array<MatchCandidate, max_candidates> candidates{};  // the most likely first
   std::size_t candidate_count = 0;
+
+  void archive(auto& ar) {
+    ar(refusal, phase, on_road, link, along, sigma_along, sigma_across, likelihood, probability,
+       margin, off_road, candidates, candidate_count);
+  }
 };
 
 // This is the match of the fused state at `stamp`. Members in `enu` are in the frame of that state;
@@ -130,6 +119,12 @@ struct MapMatch : Sample, LinkMatch {
   double half_width = 0.0;    // m, of the carriageway
   double bend = 0.0;          // rad, change of the road's azimuth from 15 m behind to 15 m ahead
   double to_junction = 0.0;   // m ahead along the link; the junction behind is `along` metres away
+
+  void archive(auto& ar) {
+    ar(static_cast<Sample&>(*this), static_cast<LinkMatch&>(*this), way_id, node_a, node_b, origin,
+       vehicle_enu, covariance, vehicle_azimuth, speed, matched_enu, link_azimuth, cross_track,
+       half_width, bend, to_junction);
+  }
 };
 
 // This describes the same match in words for people.

@@ -6,6 +6,7 @@
 
 #include "msgs/frames.h"
 #include "msgs/local_frame.h"
+#include "msgs/named_enum.h"
 #include "msgs/sample.h"
 
 namespace maploop {
@@ -15,6 +16,10 @@ enum class NavStatus : std::uint8_t {
   aided,          // odometry is being applied
   coasting,       // inertial only, for longer than the filter's limit
 };
+
+constexpr auto names_of(NavStatus) {
+  return names_up_to<NavStatus::coasting>({"uninitialized", "aided", "coasting"});
+}
 
 struct NavState : Sample {
   NavStatus status = NavStatus::uninitialized;
@@ -35,14 +40,12 @@ struct NavState : Sample {
   std::uint64_t odometry_applied = 0;  // since the start
   std::uint64_t odometry_refused = 0;
   std::uint64_t reinitializations = 0;  // how often the filter restarted at a fix
-};
 
-template <class Archive>
-void archive(Archive& ar, NavState& s) {
-  ar(static_cast<Sample&>(s), s.status, s.origin, s.position_enu, s.velocity_enu, s.attitude,
-     s.forward_speed, s.gyro_bias, s.covariance, s.imu_stamp, s.odometry_stamp, s.gnss_stamp,
-     s.wheel_stamp, s.zero_velocity_stamp, s.odometry_applied, s.odometry_refused,
-     s.reinitializations);
-}
+  void archive(auto& ar) {
+    ar(static_cast<Sample&>(*this), status, origin, position_enu, velocity_enu, attitude,
+       forward_speed, gyro_bias, covariance, imu_stamp, odometry_stamp, gnss_stamp, wheel_stamp,
+       zero_velocity_stamp, odometry_applied, odometry_refused, reinitializations);
+  }
+};
 
 }  // namespace maploop

@@ -3,10 +3,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <cstddef>
 #include <cstdint>
-#include <string_view>
 
+#include "msgs/named_enum.h"
 #include "msgs/sample.h"
 
 namespace maploop {
@@ -26,37 +25,11 @@ enum class OdometryStatus : std::uint8_t {
   disagreement,      // LiDAR and visual motion contradict each other
 };
 
-constexpr std::size_t odometry_status_count =
-    static_cast<std::size_t>(OdometryStatus::disagreement) + 1;
-
-constexpr std::string_view to_string(OdometryStatus status) {
-  switch (status) {
-    case OdometryStatus::ok:
-      return "ok";
-    case OdometryStatus::first_frame:
-      return "first frame";
-    case OdometryStatus::too_few_features:
-      return "too few features";
-    case OdometryStatus::too_few_inliers:
-      return "too few inliers";
-    case OdometryStatus::too_dark:
-      return "too dark";
-    case OdometryStatus::swapped_images:
-      return "left and right images swapped";
-    case OdometryStatus::repeated_image:
-      return "repeated image";
-    case OdometryStatus::moving_objects:
-      return "moving objects dominate";
-    case OdometryStatus::implausible:
-      return "implausible motion";
-    case OdometryStatus::bad_input:
-      return "bad input";
-    case OdometryStatus::not_converged:
-      return "not converged";
-    case OdometryStatus::disagreement:
-      return "LiDAR and visual motion disagree";
-  }
-  return "unknown";
+constexpr auto names_of(OdometryStatus) {
+  return names_up_to<OdometryStatus::disagreement>(
+      {"ok", "first frame", "too few features", "too few inliers", "too dark",
+       "left and right images swapped", "repeated image", "moving objects dominate",
+       "implausible motion", "bad input", "not converged", "LiDAR and visual motion disagree"});
 }
 
 // States additional information about a usable motion.
@@ -66,19 +39,8 @@ enum class OdometryCondition : std::uint8_t {
   after_gap,   // spans inputs that were lost or refused
 };
 
-constexpr std::size_t odometry_condition_count =
-    static_cast<std::size_t>(OdometryCondition::after_gap) + 1;
-
-constexpr std::string_view to_string(OdometryCondition condition) {
-  switch (condition) {
-    case OdometryCondition::ordinary:
-      return "ordinary";
-    case OdometryCondition::standstill:
-      return "standstill";
-    case OdometryCondition::after_gap:
-      return "after a gap";
-  }
-  return "unknown";
+constexpr auto names_of(OdometryCondition) {
+  return names_up_to<OdometryCondition::after_gap>({"ordinary", "standstill", "after a gap"});
 }
 
 enum class OdometrySource : std::uint8_t {
@@ -86,15 +48,15 @@ enum class OdometrySource : std::uint8_t {
   lidar,
   visual_lidar,  // LiDAR seeded by the visual motion
 };
-constexpr std::size_t odometry_source_count =
-    static_cast<std::size_t>(OdometrySource::visual_lidar) + 1;
 
+constexpr auto names_of(OdometrySource) {
+  return names_up_to<OdometrySource::visual_lidar>({"visual", "lidar", "visual-lidar"});
+}
 // These are directions of the body, in the order of a motion's components.
 enum class MotionDirection : std::uint8_t { along, across, up, roll, pitch, yaw };
 
-constexpr std::string_view to_string(MotionDirection direction) {
-  constexpr std::string_view names[] = {"along", "across", "up", "roll", "pitch", "yaw"};
-  return names[static_cast<std::size_t>(direction)];
+constexpr auto names_of(MotionDirection) {
+  return names_up_to<MotionDirection::yaw>({"along", "across", "up", "roll", "pitch", "yaw"});
 }
 
 // This is the pose of the body at `stamp` in the body frame at `from`. It is sent for every input:
@@ -114,13 +76,12 @@ struct RelativeMotion : Sample {
   OdometrySource source = OdometrySource::visual;
 
   Eigen::Isometry3d T_from_to() const { return Eigen::Translation3d(translation) * rotation; }
-};
 
-template <class Archive>
-void archive(Archive& ar, RelativeMotion& m) {
-  ar(static_cast<Sample&>(m), m.status, m.condition, m.parallax, m.from, m.translation, m.rotation,
-     m.covariance, m.tracked, m.inliers, m.source);
-}
+  void archive(auto& ar) {
+    ar(static_cast<Sample&>(*this), status, condition, parallax, from, translation, rotation,
+       covariance, tracked, inliers, source);
+  }
+};
 
 // This adds the result of a scan's registration. LiDAR odometry sends one for every scan.
 struct LidarMotion : RelativeMotion {
@@ -128,12 +89,11 @@ struct LidarMotion : RelativeMotion {
   int iterations = 0;                   // of the registration
   double seed_translation_error = 0.0;  // m, change of the seed by the registration
   double seed_rotation_error = 0.0;     // rad
-};
 
-template <class Archive>
-void archive(Archive& ar, LidarMotion& m) {
-  ar(static_cast<RelativeMotion&>(m), m.degenerate, m.iterations, m.seed_translation_error,
-     m.seed_rotation_error);
-}
+  void archive(auto& ar) {
+    ar(static_cast<RelativeMotion&>(*this), degenerate, iterations, seed_translation_error,
+       seed_rotation_error);
+  }
+};
 
 }  // namespace maploop

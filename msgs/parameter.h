@@ -84,9 +84,6 @@ struct EnumMember {
 };
 
 namespace detail {
-template <class Enum>
-inline constexpr auto enum_names = names_of(Enum{});
-
 template <class Parameters, NamedEnum Enum>
 Enum enum_of(Enum Parameters::*);
 template <class Parameters, NamedEnum Enum>
@@ -98,7 +95,7 @@ template <auto member, class Parameters = decltype(detail::struct_of(member)),
 inline constexpr EnumMember<Parameters> one_of{
     [](const Parameters& values) { return static_cast<std::size_t>(values.*member); },
     [](Parameters& values, std::size_t i) { values.*member = static_cast<Enum>(i); },
-    detail::enum_names<Enum>};
+    enum_names<Enum>};
 
 template <class P>
 class Parameter : public ParameterDescription {

@@ -2,14 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "msgs/local_frame.h"
+#include "msgs/named_enum.h"
 #include "msgs/sample.h"
 
 namespace maploop {
@@ -20,18 +19,8 @@ enum class PppStatus : std::uint8_t {
   converged,   // horizontal standard deviation below 0.1 m
 };
 
-constexpr std::size_t ppp_status_count = static_cast<std::size_t>(PppStatus::converged) + 1;
-
-constexpr std::string_view to_string(PppStatus status) {
-  switch (status) {
-    case PppStatus::none:
-      return "none";
-    case PppStatus::converging:
-      return "converging";
-    case PppStatus::converged:
-      return "converged";
-  }
-  return "unknown";
+constexpr auto names_of(PppStatus) {
+  return names_up_to<PppStatus::converged>({"none", "converging", "converged"});
 }
 
 // States why a satellite, or a part of its measurements, was not used.
@@ -49,34 +38,12 @@ enum class PppRefusal : std::uint8_t {
   too_many,  // the filter has no room for one more
 };
 
-constexpr std::size_t ppp_refusal_count = static_cast<std::size_t>(PppRefusal::too_many) + 1;
-
-constexpr std::string_view to_string(PppRefusal refusal) {
-  switch (refusal) {
-    case PppRefusal::none:
-      return "";
-    case PppRefusal::no_signals:
-      return "no code and phase on the carriers used";
-    case PppRefusal::weak:
-      return "signal too weak";
-    case PppRefusal::no_ephemeris:
-      return "no orbit or clock, or unhealthy";
-    case PppRefusal::low:
-      return "below the elevation mask";
-    case PppRefusal::no_phase:
-      return "no phase";
-    case PppRefusal::code_far:
-      return "code far from the others";
-    case PppRefusal::code_misfit:
-      return "code does not fit";
-    case PppRefusal::phase_misfit:
-      return "phase does not fit";
-    case PppRefusal::doppler_misfit:
-      return "Doppler does not fit";
-    case PppRefusal::too_many:
-      return "no room for its ambiguity";
-  }
-  return "unknown";
+constexpr auto names_of(PppRefusal) {
+  return names_up_to<PppRefusal::too_many>(
+      {"", "no code and phase on the carriers used", "signal too weak",
+       "no orbit or clock, or unhealthy", "below the elevation mask", "no phase",
+       "code far from the others", "code does not fit", "phase does not fit",
+       "Doppler does not fit", "no room for its ambiguity"});
 }
 
 // States how a slip of the phase was detected; the ambiguity then restarts.
@@ -89,24 +56,10 @@ enum class PppSlip : std::uint8_t {
   phase_step,  // with one carrier: its change differs from the others'
 };
 
-constexpr std::size_t ppp_slip_count = static_cast<std::size_t>(PppSlip::phase_step) + 1;
-
-constexpr std::string_view to_string(PppSlip slip) {
-  switch (slip) {
-    case PppSlip::none:
-      return "";
-    case PppSlip::lost_lock:
-      return "loss of lock";
-    case PppSlip::geometry_free:
-      return "geometry-free jump";
-    case PppSlip::wide_lane:
-      return "wide-lane jump";
-    case PppSlip::doppler:
-      return "Doppler disagrees";
-    case PppSlip::phase_step:
-      return "not the others' step";
-  }
-  return "unknown";
+constexpr auto names_of(PppSlip) {
+  return names_up_to<PppSlip::phase_step>({"", "loss of lock", "geometry-free jump",
+                                           "wide-lane jump", "Doppler disagrees",
+                                           "not the others' step"});
 }
 
 // States how the road map affects the position (--map-mode tight).
@@ -116,18 +69,8 @@ enum class PppMap : std::uint8_t {
   paused,  // switched off for a while after a wrong road
 };
 
-constexpr std::size_t ppp_map_count = static_cast<std::size_t>(PppMap::paused) + 1;
-
-constexpr std::string_view to_string(PppMap map) {
-  switch (map) {
-    case PppMap::none:
-      return "none";
-    case PppMap::aiding:
-      return "aiding";
-    case PppMap::paused:
-      return "paused";
-  }
-  return "unknown";
+constexpr auto names_of(PppMap) {
+  return names_up_to<PppMap::paused>({"none", "aiding", "paused"});
 }
 
 struct PppSatellite {
@@ -142,24 +85,20 @@ struct PppSatellite {
   float phase_residual = 0.0F;
   PppRefusal refusal = PppRefusal::none;
   PppSlip slip = PppSlip::none;
-};
 
-template <class Archive>
-void archive(Archive& ar, PppSatellite& s) {
-  ar(s.system, s.number, s.azimuth, s.elevation, s.cn0, s.code_used, s.phase_used, s.code_residual,
-     s.phase_residual, s.refusal, s.slip);
-}
+  void archive(auto& ar) {
+    ar(system, number, azimuth, elevation, cn0, code_used, phase_used, code_residual,
+       phase_residual, refusal, slip);
+  }
+};
 
 // Each is a distance from the position that contains the antenna except with the probability
 // `integrity_risk`; along and across the direction of travel, and up.
 struct ProtectionLevels {
   double along = 0.0, across = 0.0, up = 0.0;  // m
-};
 
-template <class Archive>
-void archive(Archive& ar, ProtectionLevels& p) {
-  ar(p.along, p.across, p.up);
-}
+  void archive(auto& ar) { ar(along, across, up); }
+};
 
 // `stamp` is the epoch's. Without a position everything but satellites and message is zero.
 struct PppState : Sample {
@@ -184,15 +123,13 @@ struct PppState : Sample {
   std::int32_t satellites_corrected = 0;  // of those measured, by received corrections
   std::optional<double> correction_age;   // s, of the newest correction; nothing if none ever came
   std::vector<PppSatellite> satellites;   // all that were measured
-};
 
-template <class Archive>
-void archive(Archive& ar, PppState& s) {
-  ar(static_cast<Sample&>(s), s.status, s.message, s.position, s.position_covariance,
-     s.velocity_enu, s.velocity_covariance, s.protection, s.integrity_risk, s.zenith_delay,
-     s.zenith_delay_sigma, s.code_rms, s.phase_rms, s.converging_for, s.restarts, s.map,
-     s.roads_used, s.roads_refused, s.satellites_used, s.satellites_corrected, s.correction_age,
-     s.satellites);
-}
+  void archive(auto& ar) {
+    ar(static_cast<Sample&>(*this), status, message, position, position_covariance, velocity_enu,
+       velocity_covariance, protection, integrity_risk, zenith_delay, zenith_delay_sigma, code_rms,
+       phase_rms, converging_for, restarts, map, roads_used, roads_refused, satellites_used,
+       satellites_corrected, correction_age, satellites);
+  }
+};
 
 }  // namespace maploop

@@ -14,9 +14,13 @@ struct Preview : Sample {
   struct Track {
     float from_u = 0.0F, from_v = 0.0F;
     float u = 0.0F, v = 0.0F;
+
+    void archive(auto& ar) { ar(from_u, from_v, u, v); }
   };
   struct Point {
     std::int16_t x = 0, y = 0, z = 0;  // cm, body
+
+    void archive(auto& ar) { ar(x, y, z); }
   };
 
   int width = 0, height = 0;       // px; 0: no picture
@@ -24,6 +28,10 @@ struct Preview : Sample {
   std::vector<Track> tracks;
   Time scan_stamp{};          // of the points
   std::vector<Point> points;  // some points of a turn; empty without a scan
+
+  void archive(auto& ar) {
+    ar(static_cast<Sample&>(*this), width, height, jpeg, tracks, scan_stamp, points);
+  }
 };
 
 }  // namespace maploop

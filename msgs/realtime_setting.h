@@ -3,7 +3,8 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
+
+#include "msgs/named_enum.h"
 
 namespace maploop {
 
@@ -14,18 +15,8 @@ enum class Verdict : std::uint8_t {
   unknown,   // this machine gives no information
 };
 
-constexpr std::string_view to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::granted:
-      return "granted";
-    case Verdict::refused:
-      return "refused";
-    case Verdict::limiting:
-      return "limiting";
-    case Verdict::unknown:
-      return "unknown";
-  }
-  return "unknown";
+constexpr auto names_of(Verdict) {
+  return names_up_to<Verdict::unknown>({"granted", "refused", "limiting", "unknown"});
 }
 
 // Describes one item. `granted` is always read back after the request, never assumed.
@@ -36,6 +27,8 @@ struct RealtimeSetting {
   Verdict verdict = Verdict::unknown;
   std::string reason;  // why not; empty if granted
   std::string remedy;  // what to do, one line; empty if granted
+
+  void archive(auto& ar) { ar(name, asked, granted, verdict, reason, remedy); }
 };
 
 }  // namespace maploop

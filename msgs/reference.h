@@ -17,6 +17,11 @@ struct ReferencePose : Sample {
   Time velocity_stamp{};
   Eigen::Vector3d velocity_enu = Eigen::Vector3d::Zero();  // m/s
   double position_accuracy = 0.0;                          // m, as the recorder states it
+
+  void archive(auto& ar) {
+    ar(static_cast<Sample&>(*this), position, attitude, velocity_stamp, velocity_enu,
+       position_accuracy);
+  }
 };
 
 }  // namespace maploop

@@ -13,11 +13,10 @@ struct VisualMotion : RelativeMotion {
   // Change of the motion for each added px: m, rad, in the axes of `covariance`. Zero if it is
   // unknown.
   Eigen::Matrix<double, 6, 1> by_offset = Eigen::Matrix<double, 6, 1>::Zero();
-};
 
-template <class Archive>
-void archive(Archive& ar, VisualMotion& m) {
-  ar(static_cast<RelativeMotion&>(m), m.offset, m.offset_sigma, m.by_offset);
-}
+  void archive(auto& ar) {
+    ar(static_cast<RelativeMotion&>(*this), offset, offset_sigma, by_offset);
+  }
+};
 
 }  // namespace maploop

@@ -8,11 +8,8 @@ namespace maploop {
 struct WheelSpeed : Sample {
   double speed = 0.0;  // m/s along the path, negative in reverse
   double sigma = 0.0;  // m/s, white; the filter estimates a scale error (tyres) itself
-};
 
-template <class Archive>
-void archive(Archive& ar, WheelSpeed& s) {
-  ar(static_cast<Sample&>(s), s.speed, s.sigma);
-}
+  void archive(auto& ar) { ar(static_cast<Sample&>(*this), speed, sigma); }
+};
 
 }  // namespace maploop

@@ -1,8 +1,9 @@
-// This file decodes messages of our own types from untrusted bytes.
+// This file encodes messages, and decodes those of our own types from untrusted bytes.
 #pragma once
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "msgs/lcm/decoded_message.h"
 #include "msgs/lcm/schema.h"
@@ -15,16 +16,20 @@ inline const Schema& own_schema() {
   return schema;
 }
 
+template <class Message>
+std::vector<std::uint8_t> encoded(const Message& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
 // Returns false if the bytes are not a message of this type. They are checked against the schema
 // first, because LCM's own code trusts the sizes in a message. `schema` must contain our types.
 template <class Message>
 bool checked_decode(const Schema& schema, std::span<const std::uint8_t> data, Message& message) {
-  const Type* type = schema.find(fingerprint_of(data));
-  DecodedMessage checked;
-  return type != nullptr && type->fingerprint == static_cast<std::uint64_t>(Message::getHash()) &&
-         !checked.decode(*type, data) &&
-         message.decode(data.data(), 0, static_cast<int>(data.size())) ==
-             static_cast<int>(data.size());
+  const int size = static_cast<int>(data.size());
+  return fingerprint_of(data) == static_cast<std::uint64_t>(Message::getHash()) &&
+         try_decode(schema, data) && message.decode(data.data(), 0, size) == size;
 }
 
 }  // namespace maploop::schema

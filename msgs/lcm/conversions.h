@@ -2,11 +2,13 @@
 // `received`, which belongs to this machine, and the words of a match, which are for people.
 #pragma once
 
+#include <maploop_lcm/calibration_t.hpp>
 #include <maploop_lcm/deadlines_t.hpp>
 #include <maploop_lcm/gnss_fix_t.hpp>
 #include <maploop_lcm/health_t.hpp>
 #include <maploop_lcm/imu_t.hpp>
 #include <maploop_lcm/lidar_motion_t.hpp>
+#include <maploop_lcm/lidar_scan_t.hpp>
 #include <maploop_lcm/map_feedback_t.hpp>
 #include <maploop_lcm/map_match_t.hpp>
 #include <maploop_lcm/nav_state_t.hpp>
@@ -14,11 +16,15 @@
 #include <maploop_lcm/preview_t.hpp>
 #include <maploop_lcm/reference_pose_t.hpp>
 #include <maploop_lcm/relative_motion_t.hpp>
+#include <maploop_lcm/stereo_pair_t.hpp>
 #include <maploop_lcm/wheel_speed_t.hpp>
 
+#include "msgs/calibration.h"
 #include "msgs/diagnostics.h"
 #include "msgs/gnss.h"
+#include "msgs/image.h"
 #include "msgs/imu.h"
+#include "msgs/lidar_scan.h"
 #include "msgs/map_feedback.h"
 #include "msgs/map_match.h"
 #include "msgs/nav_state.h"
@@ -43,9 +49,12 @@ maploop_lcm::map_feedback_t to_lcm(const MapFeedback& feedback);
 maploop_lcm::preview_t to_lcm(const Preview& preview);
 maploop_lcm::deadlines_t to_lcm(const Deadlines& deadlines);
 maploop_lcm::health_t to_lcm(const Health& health);
+maploop_lcm::calibration_t to_lcm(const VehicleCalibration& calibration);  // the caller sets utime
+maploop_lcm::stereo_pair_t to_lcm(const StereoPair& pair);
+maploop_lcm::lidar_scan_t to_lcm(const LidarScan& scan);
 
-// These throw std::invalid_argument if a status is unknown, or a match has more candidates than it
-// can hold.
+// These throw std::invalid_argument if the struct cannot hold a value: an unknown status, more
+// candidates than a match has, a size that contradicts the rest.
 NavState from_lcm(const maploop_lcm::nav_state_t& message);
 RelativeMotion from_lcm(const maploop_lcm::relative_motion_t& message);
 LidarMotion from_lcm(const maploop_lcm::lidar_motion_t& message);
@@ -59,5 +68,9 @@ MapFeedback from_lcm(const maploop_lcm::map_feedback_t& message);
 Preview from_lcm(const maploop_lcm::preview_t& message);
 Deadlines from_lcm(const maploop_lcm::deadlines_t& message);
 Health from_lcm(const maploop_lcm::health_t& message);
+VehicleCalibration from_lcm(const maploop_lcm::calibration_t& message);
+// The output's buffers are reused.
+void from_lcm(const maploop_lcm::stereo_pair_t& message, StereoPair& pair);
+void from_lcm(const maploop_lcm::lidar_scan_t& message, LidarScan& scan);
 
 }  // namespace maploop

@@ -1,79 +1,63 @@
-#include "msgs/lcm/raw_conversions.h"
-
 #include <bit>
 #include <cstring>
-#include <stdexcept>
-#include <string>
 
-#include "msgs/lcm/conversion_parts.h"
+#include "msgs/lcm/conversions.h"
+#include "msgs/lcm/field_copy.h"
 
 namespace maploop {
-namespace {
 
 static_assert(sizeof(LidarPoint) == 16 && std::endian::native == std::endian::little,
               "points are copied as they are");
 
-void write_transform(const Eigen::Isometry3d& T, double (&out)[4][4]) {
-  write<4>(Eigen::Matrix4d(T.matrix()), out);
+void convert(auto copy, Is<VehicleCalibration> auto& calibration, auto& m) {
+  auto& stereo = calibration.stereo;
+  copy(stereo.width, m.width);
+  copy(stereo.height, m.height);
+  copy(stereo.fx, m.fx);
+  copy(stereo.fy, m.fy);
+  copy(stereo.cx, m.cx);
+  copy(stereo.cy, m.cy);
+  copy(stereo.baseline, m.baseline);
+  copy(stereo.T_body_cam.matrix(), m.T_body_cam);
+  copy(calibration.T_body_velo.matrix(), m.T_body_velo);
+  copy(calibration.rear_axle_distance, m.rear_axle_distance);
+  copy(calibration.climb_offset, m.climb_offset);
+  copy(calibration.climb_offset_sigma, m.climb_offset_sigma);
+  copy(calibration.beam_elevation, m.beam_elevation);
 }
+MAPLOOP_CONVERSIONS(VehicleCalibration, maploop_lcm::calibration_t)
 
-void read_transform(const double (&in)[4][4], Eigen::Isometry3d& T) {
-  Eigen::Matrix4d matrix;
-  read<4>(in, matrix);
-  T.matrix() = matrix;
+void convert(auto copy, Is<Preview> auto& preview, auto& m) {
+  copy.header(preview, m.header);
+  copy(preview.width, m.width);
+  copy(preview.height, m.height);
+  copy.each(preview.jpeg, m.jpeg, m.jpeg_size);
+  copy.column(preview.tracks, &Preview::Track::from_u, m.track_from_u);
+  copy.column(preview.tracks, &Preview::Track::from_v, m.track_from_v);
+  copy.column(preview.tracks, &Preview::Track::u, m.track_u);
+  copy.column(preview.tracks, &Preview::Track::v, m.track_v);
+  copy(preview.scan_stamp, m.scan_stamp_ns);
+  copy.column(preview.points, &Preview::Point::x, m.point_x);
+  copy.column(preview.points, &Preview::Point::y, m.point_y);
+  copy.column(preview.points, &Preview::Point::z, m.point_z);
+  if constexpr (copy.to_message) {
+    m.track_count = static_cast<std::int32_t>(preview.tracks.size());
+    m.point_count = static_cast<std::int32_t>(preview.points.size());
+  }
 }
-
-}  // namespace
-
-maploop_lcm::calibration_t to_lcm(const VehicleCalibration& calibration) {
-  const StereoCalibration& c = calibration.stereo;
-  maploop_lcm::calibration_t m{};
-  m.width = c.width;
-  m.height = c.height;
-  m.fx = c.fx;
-  m.fy = c.fy;
-  m.cx = c.cx;
-  m.cy = c.cy;
-  m.baseline = c.baseline;
-  write_transform(c.T_body_cam, m.T_body_cam);
-  write_transform(calibration.T_body_velo, m.T_body_velo);
-  m.rear_axle_distance = calibration.rear_axle_distance;
-  m.climb_offset = calibration.climb_offset;
-  m.climb_offset_sigma = calibration.climb_offset_sigma;
-  m.beam_elevation = calibration.beam_elevation;
-  return m;
-}
-
-VehicleCalibration from_lcm(const maploop_lcm::calibration_t& m) {
-  VehicleCalibration calibration;
-  StereoCalibration& c = calibration.stereo;
-  c.width = m.width;
-  c.height = m.height;
-  c.fx = m.fx;
-  c.fy = m.fy;
-  c.cx = m.cx;
-  c.cy = m.cy;
-  c.baseline = m.baseline;
-  read_transform(m.T_body_cam, c.T_body_cam);
-  read_transform(m.T_body_velo, calibration.T_body_velo);
-  calibration.rear_axle_distance = m.rear_axle_distance;
-  calibration.climb_offset = m.climb_offset;
-  calibration.climb_offset_sigma = m.climb_offset_sigma;
-  calibration.beam_elevation = m.beam_elevation;
-  return calibration;
-}
+MAPLOOP_CONVERSIONS(Preview, maploop_lcm::preview_t)
 
 maploop_lcm::stereo_pair_t to_lcm(const StereoPair& pair) {
+  if (pair.right.pixels.size() != pair.left.pixels.size()) {
+    throw std::invalid_argument("the images of a pair differ in size");
+  }
   maploop_lcm::stereo_pair_t m{};
-  m.header = header_of(pair);
+  FieldCopy<true>{}.header(pair, m.header);
   m.width = pair.left.width;
   m.height = pair.left.height;
   m.size = static_cast<std::int32_t>(pair.left.pixels.size());
   m.left = pair.left.pixels;
   m.right = pair.right.pixels;
-  if (m.right.size() != m.left.size()) {
-    throw std::invalid_argument("the images of a pair differ in size");
-  }
   return m;
 }
 
@@ -83,20 +67,19 @@ void from_lcm(const maploop_lcm::stereo_pair_t& m, StereoPair& pair) {
                                 std::to_string(m.height) + " pixels holds " +
                                 std::to_string(m.size));
   }
-  set_sample(pair, m.header);
-  for (GreyImage* image : {&pair.left, &pair.right}) {
-    image->width = m.width;
-    image->height = m.height;
-  }
+  FieldCopy<false>{}.header(pair, m.header);
+  pair.left.width = pair.right.width = m.width;
+  pair.left.height = pair.right.height = m.height;
   pair.left.pixels = m.left;
   pair.right.pixels = m.right;
 }
 
 maploop_lcm::lidar_scan_t to_lcm(const LidarScan& scan) {
   maploop_lcm::lidar_scan_t m{};
-  m.header = header_of(scan);
-  m.start_ns = to_nanoseconds(scan.start);
-  m.end_ns = to_nanoseconds(scan.end);
+  const FieldCopy<true> copy;
+  copy.header(scan, m.header);
+  copy(scan.start, m.start_ns);
+  copy(scan.end, m.end_ns);
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(scan.points.data());
   m.points.assign(bytes, bytes + scan.points.size() * sizeof(LidarPoint));
   m.size = static_cast<std::int32_t>(m.points.size());
@@ -108,9 +91,10 @@ void from_lcm(const maploop_lcm::lidar_scan_t& m, LidarScan& scan) {
     throw std::invalid_argument("lidar_scan_t holds " + std::to_string(m.points.size()) +
                                 " bytes, no multiple of " + std::to_string(sizeof(LidarPoint)));
   }
-  set_sample(scan, m.header);
-  scan.start = from_nanoseconds(m.start_ns);
-  scan.end = from_nanoseconds(m.end_ns);
+  const FieldCopy<false> copy;
+  copy.header(scan, m.header);
+  copy(scan.start, m.start_ns);
+  copy(scan.end, m.end_ns);
   scan.points.resize(m.points.size() / sizeof(LidarPoint));
   if (!m.points.empty()) std::memcpy(scan.points.data(), m.points.data(), m.points.size());
 }

@@ -1,8 +1,9 @@
-// This file represents LCM types as data, as a .lcm file declares them, so that a message can be
-// read without code generated for it.
+// This file represents LCM types as data, as .lcm files declare them, so that a message can be
+// read without code generated for it: the types of msgs/lcm, which are part of the program, and
+// those that a user names.
 //
-// The language is that of lcm-gen 1.3.1 (packages, structs, constants, arrays of fixed and variable
-// size, nested types). An `enum` is refused; lcm-gen does not make C++ code for it either.
+// The language is that of lcm-gen 1.3.1: packages, structs, arrays of fixed and variable size,
+// nested types. Constants are skipped: no message contains them.
 #pragma once
 
 #include <cstddef>
@@ -35,9 +36,9 @@ std::size_t encoded_size(Kind kind);
 struct Type;
 
 struct Dimension {
+  std::string text;       // as declared: a number or the name of the member that holds the size
   std::int64_t size = 0;  // fixed size; 0 if variable
   int counter = -1;       // if variable: the counter of the struct that holds the size
-  std::string text;       // as declared: a number or the counter's name
 };
 
 struct Member {
@@ -47,20 +48,15 @@ struct Member {
   const Type* type = nullptr;         // if it is a structure
   std::vector<Dimension> dimensions;  // outermost first; empty if not an array
   int counter = -1;                   // counter number in the struct; -1 if not a counter
-};
-
-struct Constant {
-  std::string name;
-  Kind kind = Kind::int8;
-  std::string value;  // as declared
+  std::string where;                  // "FILE:LINE: " of its declaration
 };
 
 struct Type {
   std::string name;  // with its package: "maploop_lcm.imu_t"
   std::vector<Member> members;
-  std::vector<Constant> constants;
   int counters = 0;               // members that size an array
   std::uint64_t fingerprint = 0;  // as LCM puts it in front of each message of this type
+  std::string where;              // "FILE:LINE: " of its declaration
 };
 
 // This is the text of one .lcm file; `source` names it in errors.
@@ -83,20 +79,20 @@ class Schema {
   const Type* find(std::uint64_t fingerprint) const;
   const Type* find(std::string_view name) const;
 
-  // Returns the types in the order of declaration.
-  std::span<const std::unique_ptr<const Type>> types() const { return types_; }
+  // Returns the number of types.
+  std::size_t size() const { return types_.size(); }
 
  private:
-  std::vector<std::unique_ptr<const Type>> types_;
+  std::vector<std::unique_ptr<Type>> types_;
   std::unordered_map<std::uint64_t, const Type*> by_fingerprint_;
 };
 
-// Returns the types of msgs/lcm, which are part of the program.
+// Returns the texts of msgs/lcm, which are part of the program.
 std::span<const TypeText> own_types();
 
-// Returns LCM's own recursive hash of a type whose members are resolved. Throws std::runtime_error
-// if its types are nested too deeply.
-std::uint64_t fingerprint_of(const Type& type);
+// Returns the types that a text declares, without Member::type and fingerprint. Throws
+// std::runtime_error with the text "FILE:LINE: what is wrong".
+std::vector<std::unique_ptr<Type>> parse_types(const TypeText& text);
 
 // Returns the fingerprint in front of an encoded message; 0 if it is too short to have one.
 std::uint64_t fingerprint_of(std::span<const std::uint8_t> message);

@@ -1,299 +1,191 @@
-#include "msgs/lcm/schema_parser.h"
-
+// This file parses the .lcm language, one text at a time; Schema resolves the names of other types.
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
 #include <cstdlib>
 #include <limits>
-#include <optional>
 #include <stdexcept>
+#include <utility>
+
+#include "msgs/lcm/schema.h"
 
 namespace maploop::schema {
 namespace {
 
-struct Token {
-  std::string_view text;  // empty at the end of the text
-  int line = 1;
-};
+// In the order of Kind; every other name is that of a structure.
+constexpr std::array<std::string_view, 9> kPrimitives{
+    "int8_t", "int16_t", "int32_t", "int64_t", "byte", "boolean", "float", "double", "string"};
 
-// Returns the text as an error message may show it.
-std::string shown(std::string_view text) {
-  if (text.empty()) return "the end of the file";
-  std::string result = "'";
-  for (const char c : text.substr(0, 60)) {
-    result += std::isprint(static_cast<unsigned char>(c)) != 0 ? c : '?';
-  }
-  return result + "'";
+Kind kind_of(std::string_view name) {
+  return static_cast<Kind>(std::find(kPrimitives.begin(), kPrimitives.end(), name) -
+                           kPrimitives.begin());
+}
+
+bool is_name_character(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
 bool is_word_character(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.' || c == '+' ||
-         c == '-';
+  return is_name_character(c) || c == '.' || c == '+' || c == '-';
 }
 
+// A name may consist of parts with dots between them, such as a package and a type.
 bool is_name(std::string_view text) {
-  return !text.empty() && std::isdigit(static_cast<unsigned char>(text[0])) == 0 &&
-         std::all_of(text.begin(), text.end(), [](char c) {
-           return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
-         });
-}
-
-// Accepts names joined by single dots.
-bool is_qualified_name(std::string_view text) {
-  while (true) {
-    const std::size_t dot = text.find('.');
-    if (!is_name(text.substr(0, dot))) return false;
-    if (dot == std::string_view::npos) return true;
-    text.remove_prefix(dot + 1);
-  }
-}
-
-class Lexer {
- public:
-  explicit Lexer(const TypeText& text) : source_(text.source), rest_(text.text) { advance(); }
-
-  const Token& peek() const { return token_; }
-
-  Token next() {
-    const Token token = token_;
-    advance();
-    return token;
-  }
-
-  bool take(std::string_view text) {
-    if (token_.text != text) return false;
-    advance();
-    return true;
-  }
-
-  void require(std::string_view text) {
-    if (!take(text))
-      fail(token_, "'" + std::string(text) + "' is missing before " + shown(token_.text));
-  }
-
-  [[noreturn]] void fail(const Token& where, const std::string& what) const {
-    throw std::runtime_error(source_ + ":" + std::to_string(where.line) + ": " + what);
-  }
-
- private:
-  void drop(std::size_t count) {
-    token_.line += static_cast<int>(
-        std::count(rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(count), '\n'));
-    rest_.remove_prefix(count);
-  }
-
-  void skip_blanks_and_comments() {
-    while (!rest_.empty()) {
-      if (std::isspace(static_cast<unsigned char>(rest_[0])) != 0) {
-        drop(1);
-      } else if (rest_.starts_with("//")) {
-        drop(std::min(rest_.find('\n'), rest_.size()));
-      } else if (rest_.starts_with("/*")) {
-        const std::size_t end = rest_.find("*/", 2);
-        if (end == std::string_view::npos) fail(token_, "this comment has no end");
-        drop(end + 2);
-      } else {
-        return;
-      }
+  bool part_begins = true;
+  for (const char c : text) {
+    const bool digit = std::isdigit(static_cast<unsigned char>(c)) != 0;
+    if (part_begins ? digit || !is_name_character(c) : c != '.' && !is_name_character(c)) {
+      return false;
     }
+    part_begins = c == '.';
   }
-
-  void advance() {
-    drop(token_.text.size());
-    token_.text = {};
-    skip_blanks_and_comments();
-    if (rest_.empty()) return;
-    std::size_t length = 1;
-    if (is_word_character(rest_[0])) {
-      while (length < rest_.size() && is_word_character(rest_[length])) ++length;
-    } else if (std::string_view("{}[];,=").find(rest_[0]) == std::string_view::npos) {
-      fail(token_, shown(rest_.substr(0, 1)) + " has no meaning here");
-    }
-    token_.text = rest_.substr(0, length);
-  }
-
-  std::string source_;
-  std::string_view rest_;  // from the current token on
-  Token token_;
-};
-
-struct Primitive {
-  std::string_view name;
-  Kind kind;
-};
-constexpr std::array<Primitive, 9> kPrimitives{{{"int8_t", Kind::int8},
-                                                {"int16_t", Kind::int16},
-                                                {"int32_t", Kind::int32},
-                                                {"int64_t", Kind::int64},
-                                                {"byte", Kind::byte},
-                                                {"boolean", Kind::boolean},
-                                                {"float", Kind::float32},
-                                                {"double", Kind::float64},
-                                                {"string", Kind::string}}};
-
-Kind kind_of(std::string_view name) {
-  for (const Primitive& p : kPrimitives) {
-    if (p.name == name) return p.kind;
-  }
-  return Kind::structure;
-}
-
-bool is_integer(Kind kind) {
-  return kind <= Kind::int64;
-}
-
-std::optional<std::int64_t> to_integer(const std::string& text) {
-  char* end = nullptr;
-  errno = 0;
-  const long long value = std::strtoll(text.c_str(), &end, 0);  // lcm-gen accepts 0x10 and 010 too
-  if (errno != 0 || text.empty() || *end != '\0') return std::nullopt;
-  return value;
-}
-
-bool is_constant_of(Kind kind, const std::string& text) {
-  if (is_integer(kind)) {
-    const auto value = to_integer(text);
-    const int bits = static_cast<int>(8 * encoded_size(kind));
-    return value && (*value >> (bits - 1) == 0 || *value >> (bits - 1) == -1);
-  }
-  char* end = nullptr;
-  std::strtod(text.c_str(), &end);
-  return !text.empty() && *end == '\0';
+  return !part_begins;
 }
 
 class Parser {
  public:
-  explicit Parser(const TypeText& text) : source_(text.source), lexer_(text) {}
+  explicit Parser(const TypeText& text) : source_(text.source), rest_(text.text) { advance(); }
 
-  std::vector<ParsedType> parse() {
-    while (!lexer_.peek().text.empty()) {
-      const Token start = lexer_.next();
-      if (start.text == "package") {
-        const Token name = lexer_.next();
-        if (!is_qualified_name(name.text))
-          lexer_.fail(name, shown(name.text) + " is no package name");
-        package_ = name.text;
-        lexer_.require(";");
-      } else if (start.text == "struct") {
-        types_.push_back(parse_struct());
-      } else if (start.text == "enum") {
-        lexer_.fail(start, "enum is not supported: write the values as constants of a struct");
+  std::vector<std::unique_ptr<Type>> parse() {
+    std::string package;
+    while (!word_.empty()) {
+      if (take("package")) {
+        package = name() + '.';
+        require(";");
+      } else if (take("struct")) {
+        types_.push_back(parse_struct(package));
       } else {
-        lexer_.fail(start, "'struct' or 'package' is missing before " + shown(start.text));
+        fail("'struct' or 'package' is missing before " + shown());
       }
     }
     return std::move(types_);
   }
 
  private:
-  std::string qualified(std::string_view name) const {
-    if (package_.empty() || name.find('.') != std::string_view::npos) return std::string(name);
-    return package_ + "." + std::string(name);
+  std::string where() const { return source_ + ':' + std::to_string(line_) + ": "; }
+  [[noreturn]] void fail(const std::string& what) const {
+    throw std::runtime_error(where() + what);
   }
 
-  ParsedType parse_struct() {
-    const Token name = lexer_.next();
-    if (!is_name(name.text)) lexer_.fail(name, shown(name.text) + " is no name for a struct");
-    ParsedType parsed;
-    parsed.source = source_;
-    parsed.line = name.line;
-    parsed.type.name = qualified(name.text);
-    lexer_.require("{");
-    while (!lexer_.take("}")) {
-      if (lexer_.take("const")) {
-        parse_constants(parsed.type);
+  // Returns the current word as an error message may show it.
+  std::string shown() const {
+    if (word_.empty()) return "the end of the file";
+    std::string text(word_.substr(0, 60));
+    for (char& c : text) c = std::isprint(static_cast<unsigned char>(c)) != 0 ? c : '?';
+    return '\'' + text + '\'';
+  }
+
+  // Returns the number of characters of the blank or comment that comes next.
+  std::size_t blank() const {
+    if (rest_.starts_with("//")) return std::min(rest_.find('\n'), rest_.size());
+    if (rest_.starts_with("/*")) {
+      const std::size_t end = rest_.find("*/", 2);
+      if (end == std::string_view::npos) fail("this comment has no end");
+      return end + 2;
+    }
+    return !rest_.empty() && std::isspace(static_cast<unsigned char>(rest_[0])) != 0 ? 1 : 0;
+  }
+
+  // Goes to the next word: a name, a number or a single character; empty at the end.
+  void advance() {
+    for (std::size_t size = blank(); size > 0; size = blank()) {
+      const std::string_view skipped = rest_.substr(0, size);
+      line_ += static_cast<int>(std::count(skipped.begin(), skipped.end(), '\n'));
+      rest_.remove_prefix(size);
+    }
+    const auto end = std::find_if_not(rest_.begin(), rest_.end(), is_word_character);
+    const auto length = static_cast<std::size_t>(end - rest_.begin());
+    word_ = rest_.substr(0, std::max<std::size_t>(length, 1));
+    rest_.remove_prefix(word_.size());
+  }
+
+  bool take(std::string_view text) {
+    if (word_ != text) return false;
+    advance();
+    return true;
+  }
+
+  void require(std::string_view text) {
+    if (!take(text)) fail('\'' + std::string(text) + "' is missing before " + shown());
+  }
+
+  std::string name() {
+    if (!is_name(word_)) fail(shown() + " is not a name");
+    std::string text(word_);
+    advance();
+    return text;
+  }
+
+  std::unique_ptr<Type> parse_struct(const std::string& package) {
+    auto type = std::make_unique<Type>();
+    type->where = where();
+    type->name = package + name();
+    require("{");
+    while (!take("}")) {
+      if (take("const")) {
+        while (!word_.empty() && word_ != ";") advance();
+        require(";");
       } else {
-        parse_members(parsed);
+        parse_members(package, *type);
       }
     }
-    return parsed;
+    return type;
   }
 
-  Token new_name(const Type& type) {
-    const Token name = lexer_.next();
-    if (!is_name(name.text)) lexer_.fail(name, shown(name.text) + " is no name for a member");
-    const auto same = [&](const auto& other) { return other.name == name.text; };
-    if (std::any_of(type.members.begin(), type.members.end(), same) ||
-        std::any_of(type.constants.begin(), type.constants.end(), same)) {
-      lexer_.fail(name, shown(name.text) + " is declared twice");
-    }
-    return name;
-  }
-
-  void parse_constants(Type& type) {
-    const Token word = lexer_.next();
-    const Kind kind = kind_of(word.text);
-    if (!is_integer(kind) && kind != Kind::float32 && kind != Kind::float64) {
-      lexer_.fail(word, "a constant is an integer, float or double, not " + shown(word.text));
-    }
-    do {
-      const Token name = new_name(type);
-      lexer_.require("=");
-      const Token value = lexer_.next();
-      const std::string text(value.text);
-      if (!is_constant_of(kind, text)) {
-        lexer_.fail(value, shown(text) + " is no value of " + std::string(word.text));
-      }
-      type.constants.push_back({std::string(name.text), kind, text});
-    } while (lexer_.take(","));
-    lexer_.require(";");
-  }
-
-  void parse_members(ParsedType& parsed) {
-    const Token word = lexer_.next();
-    if (word.text == "struct" || word.text == "enum" || !is_qualified_name(word.text)) {
-      lexer_.fail(word, shown(word.text) + " is no type of a member");
-    }
-    const Kind kind = kind_of(word.text);
+  void parse_members(const std::string& package, Type& type) {
+    std::string of = name();
+    const Kind kind = kind_of(of);
+    if (kind == Kind::structure && of.find('.') == std::string::npos) of.insert(0, package);
     do {
       Member member;
-      const Token name = new_name(parsed.type);
-      member.name = name.text;
+      member.where = where();
+      member.name = name();
       member.kind = kind;
-      member.type_name = kind == Kind::structure ? qualified(word.text) : std::string(word.text);
-      while (lexer_.take("[")) member.dimensions.push_back(parse_dimension(parsed.type));
-      parsed.type.members.push_back(std::move(member));
-      parsed.member_lines.push_back(name.line);
-    } while (lexer_.take(","));
-    lexer_.require(";");
+      member.type_name = of;
+      while (take("[")) {
+        member.dimensions.push_back(parse_dimension(type));
+        require("]");
+      }
+      type.members.push_back(std::move(member));
+    } while (take(","));
+    require(";");
   }
 
   Dimension parse_dimension(Type& type) {
-    const Token size = lexer_.next();
-    Dimension dimension{.text = std::string(size.text)};
-    lexer_.require("]");
-    if (!is_name(size.text)) {
-      const auto value = to_integer(dimension.text);
-      if (!value || *value <= 0 || *value > std::numeric_limits<std::int32_t>::max()) {
-        lexer_.fail(size, shown(size.text) +
-                              " is no size of an array: a number from 1 to 2^31-1, "
-                              "or an integer member declared before");
+    Dimension dimension;
+    dimension.text = word_;
+    const auto counter =
+        std::find_if(type.members.begin(), type.members.end(), [&](const Member& m) {
+          return m.name == word_ && m.dimensions.empty() && m.kind <= Kind::int64;
+        });
+    if (counter != type.members.end()) {
+      if (counter->counter < 0) counter->counter = type.counters++;
+      dimension.counter = counter->counter;
+    } else {
+      char* end = nullptr;
+      // lcm-gen accepts 0x10 and 010 too.
+      dimension.size = std::strtoll(dimension.text.c_str(), &end, 0);
+      if (*end != '\0' || dimension.size < 1 ||
+          dimension.size > std::numeric_limits<std::int32_t>::max()) {
+        fail(shown() +
+             " is not the size of an array: a number from 1 to 2^31-1, or an integer "
+             "member declared before it");
       }
-      dimension.size = *value;
-      return dimension;
     }
-    const auto counter = std::find_if(type.members.begin(), type.members.end(),
-                                      [&](const Member& m) { return m.name == size.text; });
-    if (counter == type.members.end() || !counter->dimensions.empty() ||
-        !is_integer(counter->kind)) {
-      lexer_.fail(
-          size, shown(size.text) + " sizes an array, but is no integer member declared before it");
-    }
-    if (counter->counter < 0) counter->counter = type.counters++;
-    dimension.counter = counter->counter;
+    advance();
     return dimension;
   }
 
   std::string source_;
-  Lexer lexer_;
-  std::string package_;
-  std::vector<ParsedType> types_;
+  std::string_view rest_;  // after the current word
+  std::string_view word_;
+  int line_ = 1;
+  std::vector<std::unique_ptr<Type>> types_;
 };
 
 }  // namespace
 
-std::vector<ParsedType> parse_types(const TypeText& text) {
+std::vector<std::unique_ptr<Type>> parse_types(const TypeText& text) {
   return Parser(text).parse();
 }
 

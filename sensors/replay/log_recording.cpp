@@ -13,7 +13,6 @@
 #include "msgs/lcm/checked_decode.h"
 #include "msgs/lcm/conversions.h"
 #include "msgs/lcm/log/log_reader.h"
-#include "msgs/lcm/raw_conversions.h"
 
 namespace maploop::sensors {
 namespace {

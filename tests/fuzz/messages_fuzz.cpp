@@ -16,7 +16,6 @@
 
 #include "msgs/lcm/checked_decode.h"
 #include "msgs/lcm/conversions.h"
-#include "msgs/lcm/raw_conversions.h"
 #include "tests/fuzz/fuzz_input.h"
 
 using namespace maploop;

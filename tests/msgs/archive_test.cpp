@@ -60,31 +60,14 @@ TEST(Archive, KeepsTheBitsOfNumbersThatDifferByNoComparison) {
   EXPECT_TRUE(std::isnan(through_archive(nan)));
 }
 
-TEST(Archive, KeepsSamplesButNotWhenThisMachineHadThem) {
+// conversions_test.cpp compares every other member of every message.
+TEST(Archive, KeepsASampleButNotWhenThisMachineReceivedIt) {
   RelativeMotion motion;
-  motion.stamp = from_nanoseconds(5);
-  motion.available = from_nanoseconds(6);
   motion.received = MonotonicTime(Duration(7));
   motion.sequence = 8;
-  motion.status = OdometryStatus::ok;
-  motion.from = from_nanoseconds(4);
-  motion.translation = {1.0, 2.0, 3.0};
-  motion.rotation = Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ());
-  motion.covariance.setRandom();
-  motion.tracked = 9;
-  motion.inliers = 10;
   const RelativeMotion loaded = through_archive(motion);
-  EXPECT_EQ(loaded.stamp, motion.stamp);
-  EXPECT_EQ(loaded.available, motion.available);
   EXPECT_EQ(loaded.received, MonotonicTime{});
   EXPECT_EQ(loaded.sequence, motion.sequence);
-  EXPECT_EQ(loaded.status, motion.status);
-  EXPECT_EQ(loaded.from, motion.from);
-  EXPECT_EQ(loaded.translation, motion.translation);
-  EXPECT_EQ(loaded.rotation.coeffs(), motion.rotation.coeffs());
-  EXPECT_EQ(loaded.covariance, motion.covariance);
-  EXPECT_EQ(loaded.tracked, motion.tracked);
-  EXPECT_EQ(loaded.inliers, motion.inliers);
 }
 
 TEST(Archive, RefusesWhatIsNoArchive) {

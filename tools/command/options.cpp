@@ -28,7 +28,7 @@ void set_map(vehicle::MapParameters& map, const std::filesystem::path& file,
   if (!mode) return;
   map.mode = *mode;
   if (map.mode != vehicle::MapMode::none && map.file.empty()) {
-    throw std::runtime_error("--map-mode " + std::string(name_of(map.mode)) +
+    throw std::runtime_error("--map-mode " + std::string(to_string(map.mode)) +
                              " needs a map: --map FILE");
   }
 }

@@ -65,7 +65,7 @@ template <NamedEnum Enum>
 CLI::Option* add_choices(CLI::App* sub, const char* flag, std::vector<Enum>& values,
                          const char* what) {
   std::vector<std::string> names;
-  for (const Enum value : values) names.emplace_back(name_of(value));
+  for (const Enum value : values) names.emplace_back(to_string(value));
   return sub
       ->add_option_function<std::vector<std::string>>(
           flag,

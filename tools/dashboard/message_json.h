@@ -10,6 +10,6 @@ namespace maploop::dashboard {
 // Fields have the names of the .lcm file, arrays are lists. Histograms, which are the largest part
 // of DEADLINES and which no page shows, are left out; an array of bytes is a string in base64.
 // Numbers that are not finite are null; invalid UTF-8 in texts is replaced.
-std::string to_json(const schema::DecodedMessage& message);
+std::string to_json(const schema::Field& message);
 
 }  // namespace maploop::dashboard

@@ -5,6 +5,7 @@
 #include <maploop_lcm/replay_control_t.hpp>
 #include <maploop_lcm/run_t.hpp>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <utility>
 
 #include "msgs/lcm/channel_names.h"
@@ -26,72 +27,69 @@ std::string text_of(const nlohmann::json& value) {
   return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-bool is_large(std::string_view channel) {
-  return channel == channel_names::camera || channel == channel_names::velodyne;
+auto with_id(const std::string& id) {
+  return [&id](const vehicle::Run& run) { return run.id == id; };
 }
 
 }  // namespace
 
-Relay::Relay(LiveChannels& channels) : channels_(channels), schema_(schema::own_types()) {}
+// A message of another publisher may have the correct form but invalid values.
+template <class Message>
+void Relay::add_to_trail(std::span<const std::uint8_t> data) {
+  Message message;
+  if (!schema::checked_decode(schema::own_schema(), data, message)) return;
+  try {
+    const std::lock_guard lock(trail_mutex_);
+    trail_.add(from_lcm(message));
+  } catch (const std::invalid_argument&) {
+  }
+}
+
+void Relay::take_run(std::span<const std::uint8_t> data, Duration now) {
+  maploop_lcm::run_t run;
+  if (!schema::checked_decode(schema::own_schema(), data, run)) return;
+  runs_.take(run, now);
+  if (run.ended == 0 || run.verdict.empty()) return;
+  channels_.put("VERDICT", text_of({{"id", run.id},
+                                    {"what", run.what},
+                                    {"lines", run.verdict.substr(0, longest_verdict)}}));
+}
+
+void Relay::take_player(std::span<const std::uint8_t> data, Duration now) {
+  Control state;
+  if (!schema::checked_decode(schema::own_schema(), data, state)) return;
+  const std::vector<vehicle::Run> runs = runs_.present(now);
+  if (state.kind == Control::STATE && std::any_of(runs.begin(), runs.end(), with_id(state.run))) {
+    players_[state.run] = to_json(*try_decode(schema::own_schema(), data));
+  }
+}
 
 void Relay::take(std::string_view channel, std::span<const std::uint8_t> data, Duration now) {
-  if (is_large(channel)) return;
-  const auto taken = [&](auto message, const auto& take) {
-    if (schema::checked_decode(schema_, data, message)) take(message);
-  };
-  if (channel == channel_names::replay_control) {
-    taken(Control{}, [&](const Control& c) {
-      const auto runs = runs_.present(now);
-      const auto same = [&](const vehicle::Run& run) { return run.id == c.run; };
-      if (c.kind == Control::STATE && std::any_of(runs.begin(), runs.end(), same))
-        players_[c.run].assign(data.begin(), data.end());
-    });
-    return;
-  } else if (channel == channel_names::run) {
-    taken(maploop_lcm::run_t{}, [&](const auto& run) {
-      runs_.take(run, now);
-      if (run.ended == 0 || run.verdict.empty()) return;
-      channels_.put("VERDICT", text_of({{"id", run.id},
-                                        {"what", run.what},
-                                        {"lines", run.verdict.substr(0, longest_verdict)}}));
-    });
-    return;
-  } else if (channel == channel_names::nav_state) {
-    taken(maploop_lcm::nav_state_t{}, [&](const auto& m) {
-      const std::lock_guard lock(trail_mutex_);
-      trail_.add(from_lcm(m));
-    });
-  } else if (channel == channel_names::truth) {
-    taken(maploop_lcm::reference_pose_t{}, [&](const auto& m) {
-      const std::lock_guard lock(trail_mutex_);
-      trail_.add(from_lcm(m));
-    });
-  }
+  if (channel == channel_names::camera || channel == channel_names::velodyne) return;
+  if (channel == channel_names::run) return take_run(data, now);
+  if (channel == channel_names::replay_control) return take_player(data, now);
+  if (channel == channel_names::nav_state) add_to_trail<maploop_lcm::nav_state_t>(data);
+  if (channel == channel_names::truth) add_to_trail<maploop_lcm::reference_pose_t>(data);
   auto found = waiting_.find(channel);
   if (found == waiting_.end()) {
     if (waiting_.size() >= most_channels) return;
-    found = waiting_.emplace(channel, Waiting{}).first;
+    found = waiting_.try_emplace(std::string(channel)).first;
   }
-  found->second.data.assign(data.begin(), data.end());
-  found->second.fresh = true;
+  found->second.assign(data.begin(), data.end());
 }
 
 void Relay::pass_on_runs(Duration now) {
   const std::vector<vehicle::Run> runs = runs_.present(now);
   std::erase_if(players_, [&](const auto& player) {
-    return std::none_of(runs.begin(), runs.end(),
-                        [&](const vehicle::Run& run) { return run.id == player.first; });
+    return std::none_of(runs.begin(), runs.end(), with_id(player.first));
   });
   nlohmann::json all = nlohmann::json::array();
   for (const vehicle::Run& run : runs) {
-    nlohmann::json player;
-    const auto found = players_.find(run.id);
-    schema::DecodedMessage message;
-    if (found != players_.end() &&
-        !message.decode(*schema_.find(schema::fingerprint_of(found->second)), found->second)) {
-      player = nlohmann::json::parse(to_json(message));
-    }
-    all.push_back({{"id", run.id}, {"what", run.what}, {"player", std::move(player)}});
+    const auto player = players_.find(run.id);
+    all.push_back({{"id", run.id},
+                   {"what", run.what},
+                   {"player", player == players_.end() ? nlohmann::json()
+                                                       : nlohmann::json::parse(player->second)}});
   }
   std::string text = text_of(all);
   if (text == said_runs_) return;
@@ -101,15 +99,14 @@ void Relay::pass_on_runs(Duration now) {
 
 void Relay::pass_on(Duration now) {
   pass_on_runs(now);
-  schema::DecodedMessage message;
-  for (auto& [channel, waiting] : waiting_) {
-    if (!std::exchange(waiting.fresh, false)) continue;
-    const schema::Type* type = schema_.find(schema::fingerprint_of(waiting.data));
-    if (type == nullptr || message.decode(*type, waiting.data)) {
+  for (auto& [channel, data] : waiting_) {
+    if (data.empty()) continue;
+    if (const auto message = try_decode(schema::own_schema(), data)) {
+      channels_.put(channel, to_json(*message));
+    } else {
       ++not_understood_;
-      continue;
     }
-    channels_.put(channel, to_json(message));
+    data.clear();
   }
 }
 
@@ -137,9 +134,7 @@ std::vector<std::uint8_t> encoded_command(const std::string& run, const std::str
   command.kind = found->second;
   command.run = run;
   command.value = value;
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(command.getEncodedSize()));
-  command.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
+  return schema::encoded(command);
 }
 
 }  // namespace maploop::dashboard

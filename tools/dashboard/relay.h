@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "msgs/lcm/schema.h"
 #include "runtime/vehicle/output/runs.h"
 #include "tools/dashboard/live_channels.h"
 #include "tools/dashboard/trail.h"
@@ -20,7 +19,7 @@ namespace maploop::dashboard {
 class Relay {
  public:
   // `channels` must outlive it.
-  explicit Relay(LiveChannels& channels);
+  explicit Relay(LiveChannels& channels) : channels_(channels) {}
 
   // Takes a message of any channel; `now` is on a steady clock. Channels of whole images and scans,
   // commands to players, and messages that are not of our types are left out; the latter are
@@ -37,18 +36,16 @@ class Relay {
   std::uint64_t not_understood() const { return not_understood_; }
 
  private:
-  struct Waiting {
-    std::vector<std::uint8_t> data;
-    bool fresh = false;
-  };
-
+  template <class Message>
+  void add_to_trail(std::span<const std::uint8_t> data);
+  void take_run(std::span<const std::uint8_t> data, Duration now);
+  void take_player(std::span<const std::uint8_t> data, Duration now);
   void pass_on_runs(Duration now);
 
   LiveChannels& channels_;
-  schema::Schema schema_;
-  std::map<std::string, Waiting, std::less<>> waiting_;
+  std::map<std::string, std::vector<std::uint8_t>, std::less<>> waiting_;  // empty: passed on
   vehicle::RunsHeard runs_;
-  std::map<std::string, std::vector<std::uint8_t>> players_;  // last encoded states, by run
+  std::map<std::string, std::string> players_;  // last states as JSON, by run
   std::string said_runs_;
   std::uint64_t not_understood_ = 0;
   mutable std::mutex trail_mutex_;

@@ -1,7 +1,8 @@
 #include "tools/dashboard/trail.h"
 
-#include <fmt/format.h>
 #include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
 
 namespace maploop::dashboard {
 namespace {
@@ -20,10 +21,7 @@ void Trail::append(std::deque<Point>& points, const Point& point) {
 
 void Trail::add(const NavState& state) {
   if (state.status == NavStatus::uninitialized) return;
-  const auto same = [](const Geodetic& a, const Geodetic& b) {
-    return a.latitude == b.latitude && a.longitude == b.longitude && a.height == b.height;
-  };
-  if (!started_ || !same(origin_, state.origin)) {
+  if (!started_ || origin_ != state.origin) {
     origin_ = state.origin;
     frame_ = LocalFrame(origin_);
     fused_.clear();
@@ -40,21 +38,19 @@ void Trail::add(const ReferencePose& truth) {
 }
 
 std::string Trail::json() const {
-  std::string json = fmt::format("{{\"origin\":[{:.17g},{:.17g},{:.17g}]", origin_.latitude,
-                                 origin_.longitude, origin_.height);
-  const auto list = [&](const char* name, const std::deque<Point>& points) {
-    json += std::string(",\"") + name + "\":[";
-    const char* separator = "";
+  const auto list = [](const std::deque<Point>& points) {
+    auto all = nlohmann::json::array();
     for (const Point& p : points) {
-      json += fmt::format("{}[{:.3f},{:.2f},{:.2f}]", separator,
-                          static_cast<double>(to_nanoseconds(p.stamp)) * 1e-9, p.east, p.north);
-      separator = ",";
+      const double seconds = static_cast<double>(to_nanoseconds(p.stamp)) * 1e-9;
+      all.push_back({std::round(seconds * 1e3) / 1e3, std::round(p.east * 1e2) / 1e2,
+                     std::round(p.north * 1e2) / 1e2});
     }
-    json += ']';
+    return all;
   };
-  list("fused", fused_);
-  list("truth", truth_);
-  return json + '}';
+  const nlohmann::json all = {{"origin", {origin_.latitude, origin_.longitude, origin_.height}},
+                              {"fused", list(fused_)},
+                              {"truth", list(truth_)}};
+  return all.dump();
 }
 
 }  // namespace maploop::dashboard

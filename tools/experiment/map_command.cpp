@@ -29,7 +29,7 @@ std::string samples_csv(const std::vector<experiments::MapResult>& results) {
   for (const experiments::MapResult& r : results) {
     const experiments::MapCase& c = r.setup;
     const std::string run = c.sequence + "," + c.configuration + "," + c.unit() + "," + c.outages +
-                            "," + c.fault + "," + std::string(name_of(c.mode)) + "," +
+                            "," + c.fault + "," + std::string(to_string(c.mode)) + "," +
                             std::to_string(c.seed);
     for (const experiments::MapSample& s : r.samples) {
       text += run;
@@ -59,7 +59,7 @@ int compare_modes(const MapOptions& options) {
   std::vector<experiments::MapResult> results;
   for (const experiments::MapCase& c : cases) {
     std::cerr << "\r" << results.size() + 1 << " of " << cases.size() << ": sequence " << c.sequence
-              << ", " << std::string(name_of(c.mode)) << "        " << std::flush;
+              << ", " << std::string(to_string(c.mode)) << "        " << std::flush;
     results.push_back(experiments::run(setting, c));
   }
   std::cerr << '\n';

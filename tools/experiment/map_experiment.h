@@ -65,7 +65,7 @@ struct MapResult {
   std::vector<MapSample> samples;
   match::MatchScore match;   // of the time without GNSS
   std::int64_t missing = 0;  // the way that the map lacks
-  std::array<std::size_t, feedback_reason_count> reasons{};
+  std::array<std::size_t, count_of<FeedbackReason>> reasons{};
   std::uint64_t gated = 0;         // feedbacks that contradicted the prediction
   std::uint64_t restorations = 0;  // times what the map had led to was undone
 };

@@ -27,7 +27,7 @@ Row row_of(const MapResult& r) {
           r.setup.unit(),
           r.setup.outages,
           r.setup.fault.empty() ? "-" : r.setup.fault,
-          std::string(name_of(r.setup.mode)),
+          std::string(to_string(r.setup.mode)),
           std::to_string(r.setup.seed),
           number(e.distance, 0),
           number(e.rmse, 2),
@@ -68,7 +68,7 @@ Table pooled(const std::vector<MapResult>& results) {
   std::map<Key, Sum> sums;
   for (const MapResult& r : results) {
     const Key key{r.setup.configuration, r.setup.unit(), r.setup.outages,
-                  r.setup.fault.empty() ? "-" : r.setup.fault, std::string(name_of(r.setup.mode))};
+                  r.setup.fault.empty() ? "-" : r.setup.fault, std::string(to_string(r.setup.mode))};
     if (!sums.contains(key)) order.push_back(key);
     Sum& sum = sums[key];
     const fusion_score::Errors& e = without_gnss(r);
@@ -120,7 +120,7 @@ Table against_map_free(const std::vector<MapResult>& results) {
     const fusion_score::Errors& e = without_gnss(r);
     table.rows.push_back({r.setup.sequence, r.setup.unit(), r.setup.outages,
                           r.setup.fault.empty() ? "-" : r.setup.fault,
-                          std::string(name_of(r.setup.mode)), std::to_string(r.setup.seed),
+                          std::string(to_string(r.setup.mode)), std::to_string(r.setup.seed),
                           number(f.rmse, 2), number(f.max, 2), number(e.rmse, 2), number(e.max, 2),
                           number(100.0 * c.worse, 1), number(c.worst_excess, 2),
                           r.missing != 0 ? number(c.probability_on_missing, 2) : "-",
@@ -131,7 +131,7 @@ Table against_map_free(const std::vector<MapResult>& results) {
 
 Table reasons(const std::vector<MapResult>& results) {
   Table table{"Why nothing was fed back, % of all fixes", {"sequence", "mode", "seed"}, {}};
-  for (std::size_t i = 0; i < feedback_reason_count; ++i)
+  for (std::size_t i = 0; i < count_of<FeedbackReason>; ++i)
     table.heading.emplace_back(to_string(static_cast<FeedbackReason>(i)));
   for (const MapResult& r : results) {
     if (r.setup.mode != MapMode::tight || r.setup.outages != results.front().setup.outages ||
@@ -139,7 +139,7 @@ Table reasons(const std::vector<MapResult>& results) {
       continue;
     double all = 0.0;
     for (const std::size_t n : r.reasons) all += static_cast<double>(n);
-    Row row{r.setup.sequence, std::string(name_of(r.setup.mode)), std::to_string(r.setup.seed)};
+    Row row{r.setup.sequence, std::string(to_string(r.setup.mode)), std::to_string(r.setup.seed)};
     for (const std::size_t n : r.reasons)
       row.push_back(number(100.0 * static_cast<double>(n) / std::max(1.0, all), 1));
     table.rows.push_back(row);
@@ -187,7 +187,7 @@ void add_plots(const MapSetting& setting, const std::vector<const MapResult*>& d
   }
   map.lines.push_back(truth);
   for (const MapResult* r : drive) {
-    web::Line way{std::string(name_of(r->setup.mode)), {}, {}}, error = way, link = way;
+    web::Line way{std::string(to_string(r->setup.mode)), {}, {}}, error = way, link = way;
     for (const MapSample& s : r->samples) {
       way.x.push_back(s.truth.x() + s.error.x());
       way.y.push_back(s.truth.y() + s.error.y());

@@ -3,29 +3,21 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "runtime/vehicle/graph/graph.h"
+#include "msgs/lcm/channel_names.h"
 #include "tools/command/commands.h"
 #include "tools/command/option_checks.h"
-#include "tools/log/log_diff.h"
-#include "tools/log/log_info.h"
-#include "tools/log/log_merge.h"
-#include "tools/log/log_recover.h"
-#include "tools/log/log_split.h"
-#include "tools/log/log_text.h"
-#include "tools/log/log_types.h"
-#include "tools/log/log_verify.h"
+#include "tools/log/log_tools.h"
 
 namespace maploop::tools {
 namespace {
 
 using std::filesystem::path;
 
-constexpr int kExitFound = 1;   // findings, differences, damage in what was read
-constexpr int kExitFailed = 2;  // of verify and diff, where 1 is an answer
+constexpr int exit_found = 1;   // findings, differences, damage in what was read
+constexpr int exit_failed = 2;  // of verify and diff, where 1 is an answer
 
 struct LogOptions {
   path log, other;
@@ -34,104 +26,60 @@ struct LogOptions {
   path output, json;
   std::optional<double> start, end;
   std::optional<std::string> channels, every;
+
+  schema::Schema schema() const { return lcm_log::load_types(types); }
 };
 
 // What was read but for its damage is written all the same; the status tells.
-int report_damage(std::uint64_t damages, std::uint64_t bytes) {
-  if (damages == 0) return 0;
-  std::cerr << "maploop: " << lcm_log::size_text(bytes) << " in " << damages
+int report_damage(const lcm_log::LogSummary& read) {
+  if (read.damages == 0) return 0;
+  std::cerr << "maploop: " << lcm_log::size_text(read.damaged_bytes) << " in " << read.damages
             << " places are damaged and were left out; 'maploop log recover' accounts for them\n";
-  return kExitFound;
+  return exit_found;
 }
 
-int info(const LogOptions& options) {
-  const auto schema = lcm_log::load_types(options.types);
-  const lcm_log::LogInfo result = lcm_log::read_info(options.log, schema);
-  std::cout << lcm_log::format_table(result);
-  if (!options.json.empty()) lcm_log::write_json(options.json, result);
+int info(const LogOptions& o) {
+  lcm_log::info(o.log, o.schema(), o.json, std::cout);
   return 0;
 }
 
-int verify(const LogOptions& options) {
-  const auto schema = lcm_log::load_types(options.types);
-  const lcm_log::Verification result = lcm_log::verify(options.log, schema);
-  std::cout << lcm_log::format_findings(result);
-  return result.finding_count == 0 ? 0 : kExitFound;
+int verify(const LogOptions& o) {
+  return lcm_log::verify(o.log, o.schema(), std::cout).findings == 0 ? 0 : exit_found;
 }
 
-int split(const LogOptions& options) {
-  lcm_log::SplitParameters parameters;
-  parameters.start_s = options.start;
-  parameters.end_s = options.end;
-  if (options.channels) parameters.channels = lcm_log::ChannelFilter(*options.channels);
-  if (options.every) parameters.every = lcm_log::parse_piece_limit(*options.every);
-  parameters.output = options.output;
-  const auto result =
-      lcm_log::split(options.log, lcm_log::load_types(options.types), std::move(parameters));
-  std::cout << result.events_taken << " of " << result.events_read << " events written to "
-            << result.files.front().string();
-  if (result.files.size() > 1) {
-    std::cout << " and " << result.files.size() - 1 << " more, up to "
-              << result.files.back().string();
-  }
-  std::cout << '\n';
-  return report_damage(result.damages, result.damaged_bytes);
+int split(const LogOptions& o) {
+  lcm_log::SplitParameters parameters{.start_s = o.start, .end_s = o.end, .output = o.output};
+  if (o.channels) parameters.channels = lcm_log::matching(*o.channels);
+  if (o.every) parameters.every = lcm_log::parse_piece_limit(*o.every);
+  return report_damage(lcm_log::split(o.log, o.schema(), parameters, std::cout));
 }
 
-int merge(const LogOptions& options) {
-  const auto result =
-      lcm_log::merge(options.logs, lcm_log::load_types(options.types), options.output);
-  std::cout << result.events << " events of " << options.logs.size() << " logs written to "
-            << options.output.string() << '\n';
-  return report_damage(result.damages, result.damaged_bytes);
+int merge(const LogOptions& o) {
+  return report_damage(lcm_log::merge(o.logs, o.schema(), o.output, std::cout));
 }
 
-int recover(const LogOptions& options) {
-  const auto result =
-      lcm_log::recover(options.log, lcm_log::load_types(options.types), options.output);
-  std::cout << lcm_log::format_report(result);
+int recover(const LogOptions& o) {
+  lcm_log::recover(o.log, o.schema(), o.output, std::cout);
   return 0;
 }
 
-int diff(const LogOptions& options) {
-  using namespace vehicle;
-  lcm_log::ChannelFilter filter(
-      {std::string(channels::deadlines.name), std::string(channels::health.name)});
-  if (options.channels) filter = lcm_log::ChannelFilter(*options.channels);
-  const auto result = lcm_log::diff(options.log, options.other, lcm_log::load_types(options.types),
-                                    std::move(filter));
-  if (result.channels.empty()) {
-    throw std::runtime_error("neither log has a message on these channels: nothing was compared");
-  }
-  std::cout << lcm_log::format_diff(result, options.log.string(), options.other.string());
-  return result.same() ? 0 : kExitFound;
+int diff(const LogOptions& o) {
+  lcm_log::ChannelFilter filter = [](std::string_view channel) {
+    return channel != channel_names::deadlines && channel != channel_names::health;
+  };
+  if (o.channels) filter = lcm_log::matching(*o.channels);
+  return lcm_log::diff(o.log, o.other, o.schema(), filter, std::cout) ? 0 : exit_found;
 }
 
-// For commands whose status 1 is an answer.
-int or_failed(int (*run)(const LogOptions&), const LogOptions& options) {
+// Runs a command whose status 1 is an answer, so that a failure has another one.
+template <int (*run)(const LogOptions&)>
+int or_failed(const LogOptions& o) {
   try {
-    return run(options);
+    return run(o);
   } catch (const std::exception& e) {
     std::cerr << "maploop: " << e.what() << '\n';
-    return kExitFailed;
+    return exit_failed;
   }
-}
-
-using Options = std::shared_ptr<LogOptions>;
-
-CLI::App* add(CLI::App& log, const Options& options, const char* name, const char* what) {
-  CLI::App* sub = log.add_subcommand(name, what);
-  sub->add_option("--types", options->types,
-                  "Files (.lcm) of message types besides the program's own");
-  return sub;
-}
-
-void add_log_argument(CLI::App* sub, const Options& options) {
-  sub->add_option("LOG", options->log, "LCM log, plain or .gz")->required();
-}
-
-void add_output(CLI::App* sub, const Options& options, const char* what) {
-  sub->add_option("-o,--output", options->output, what)->required()->check(writable_file());
 }
 
 }  // namespace
@@ -140,49 +88,56 @@ void add_log(CLI::App& app, Command& command) {
   auto options = std::make_shared<LogOptions>();
   CLI::App* log = app.add_subcommand("log", "Look into, check, cut, join, rescue and compare logs");
   log->require_subcommand(1);
+  CLI::App* sub = nullptr;
+  const auto add = [&](const char* name, const char* what, int (*run)(const LogOptions&)) {
+    sub = log->add_subcommand(name, what);
+    sub->add_option("--types", options->types,
+                    "Files (.lcm) of message types besides the program's own");
+    sub->callback([options, run, &command] { command = [options, run] { return run(*options); }; });
+  };
+  const auto add_log = [&](const char* name, path& file) {
+    sub->add_option(name, file, "LCM log, plain or .gz")->required();
+  };
+  const auto add_output = [&](const char* what) {
+    sub->add_option("-o,--output", options->output, what)->required()->check(writable_file());
+  };
+  const auto add_number = [&](const char* name, std::optional<double>& to, const char* what) {
+    sub->add_option(name, to, what)->check(finite_number());
+  };
 
-  CLI::App* sub = add(*log, options, "info", "Channels, types, rates, jitter and gaps of a log");
-  add_log_argument(sub, options);
+  add("info", "Channels, types, rates, jitter and gaps of a log", info);
+  add_log("LOG", options->log);
   sub->add_option("--json", options->json, "Write the same to this file as JSON")
       ->check(writable_file());
-  sub->callback([options, &command] { command = [options] { return info(*options); }; });
 
-  sub = add(*log, options, "verify",
-            "Check structure, event numbers, times and messages; status 1: findings");
-  add_log_argument(sub, options);
-  sub->callback(
-      [options, &command] { command = [options] { return or_failed(verify, *options); }; });
+  add("verify", "Check structure, event numbers, times and messages; status 1: findings",
+      or_failed<verify>);
+  add_log("LOG", options->log);
 
-  sub = add(*log, options, "split", "Write a part of a log, or a log in pieces");
-  add_log_argument(sub, options);
-  sub->add_option("--start", options->start, "Seconds since the log's first event")
-      ->check(finite_number());
-  sub->add_option("--end", options->end, "Seconds since the log's first event, itself left out")
-      ->check(finite_number());
+  add("split", "Write a part of a log, or a log in pieces", split);
+  add_log("LOG", options->log);
+  add_number("--start", options->start, "Seconds since the log's first event");
+  add_number("--end", options->end, "Seconds since the log's first event, itself left out");
   sub->add_option("--channels", options->channels, "Regular expression of whole channel names");
   sub->add_option("--every", options->every,
                   "Length of a piece, such as 60s, 5min, 1h or 500kB, 100MB, 2GB");
-  add_output(sub, options, "Log to write (.gz: compressed); pieces get numbers in their names");
-  sub->callback([options, &command] { command = [options] { return split(*options); }; });
+  add_output("Log to write (.gz: compressed); pieces get numbers in their names");
 
-  sub = add(*log, options, "merge", "Join logs to one, by time");
+  add("merge", "Join logs to one, by time", merge);
   sub->add_option("LOGS", options->logs, "LCM logs, plain or .gz")->required();
-  add_output(sub, options, "Log to write (.gz: compressed)");
-  sub->callback([options, &command] { command = [options] { return merge(*options); }; });
+  add_output("Log to write (.gz: compressed)");
 
-  sub = add(*log, options, "recover", "Write everything readable of a damaged log");
-  add_log_argument(sub, options);
-  add_output(sub, options, "Log to write (.gz: compressed)");
-  sub->callback([options, &command] { command = [options] { return recover(*options); }; });
+  add("recover", "Write everything readable of a damaged log", recover);
+  add_log("LOG", options->log);
+  add_output("Log to write (.gz: compressed)");
 
-  sub = add(*log, options, "diff",
-            "Compare the messages of two logs; status 1: different, 2: cannot be compared");
-  sub->add_option("A", options->log, "LCM log, plain or .gz")->required();
-  sub->add_option("B", options->other, "LCM log, plain or .gz")->required();
+  add("diff", "Compare the messages of two logs; status 1: different, 2: cannot be compared",
+      or_failed<diff>);
+  add_log("A", options->log);
+  add_log("B", options->other);
   sub->add_option("--channels", options->channels,
                   "Regular expression of whole channel names; without it all but DEADLINES and "
                   "HEALTH, which speak of the run and not of the data");
-  sub->callback([options, &command] { command = [options] { return or_failed(diff, *options); }; });
 }
 
 }  // namespace maploop::tools

@@ -1,196 +1,194 @@
-#include "tools/log/log_info.h"
+#include <fmt/ostream.h>
 
-#include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 #include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
+#include <ostream>
 #include <stdexcept>
 
-#include "msgs/lcm/log/log_reader.h"
+#include "runtime/core/histogram.h"
 #include "runtime/core/whole_file.h"
-#include "tools/log/interval_statistics.h"
-#include "tools/log/log_text.h"
-#include "tools/log/progress.h"
+#include "tools/log/log_tools.h"
 
 namespace maploop::lcm_log {
 namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMaximumCounted = 1000;  // 33 MB
-constexpr std::size_t kMaximumTypes = 8;
-constexpr double kGapFactor = 2.5;  // two messages missing, or one with much jitter
+constexpr std::size_t most_types = 8;  // of one channel
+constexpr double gap_factor = 2.5;     // two messages missing, or one with much jitter
 
-struct CountedChannel {
-  ChannelInfo info;
-  IntervalStatistics intervals;
-};
-using CountedChannels = std::map<std::string, std::unique_ptr<CountedChannel>, std::less<>>;
+// What is counted of a channel, in bounded memory.
+struct Counts {
+  std::uint64_t count = 0, bytes = 0, backwards = 0;
+  std::int64_t first_us = 0, last_us = 0;
+  std::map<std::uint64_t, std::uint64_t> types;  // fingerprint and number of messages
+  runtime::Histogram intervals;
+  double mean_s = 0.0, squares = 0.0;  // Welford's running mean and sum of squared deviations
+  double longest_s = 0.0;
+  std::int64_t longest_from_us = 0;
 
-CountedChannel* find(CountedChannels& channels, std::string_view name) {
-  if (const auto found = channels.find(name); found != channels.end()) return found->second.get();
-  if (channels.size() == kMaximumCounted) return nullptr;
-  auto& channel = channels[std::string(name)];
-  channel = std::make_unique<CountedChannel>();
-  channel->info.name = name;
-  return channel.get();
-}
-
-void count_type(ChannelInfo& info, std::uint64_t fingerprint, const schema::Schema& schema) {
-  const auto found = std::find_if(info.types.begin(), info.types.end(),
-                                  [&](const TypeCount& t) { return t.fingerprint == fingerprint; });
-  if (found != info.types.end()) {
-    ++found->count;
-  } else if (info.types.size() < kMaximumTypes) {
-    const schema::Type* type = schema.find(fingerprint);
-    info.types.push_back({fingerprint, type == nullptr ? "" : type->name, 1});
+  void add(const LogEvent& event) {
+    const std::uint64_t type = schema::fingerprint_of(event.data);
+    if (types.size() < most_types || types.contains(type)) ++types[type];
+    bytes += event.data.size();
+    if (count++ == 0) {
+      first_us = event.time_us;
+    } else {
+      add_interval(seconds_between(last_us, event.time_us));
+    }
+    last_us = event.time_us;
   }
+
+  void add_interval(double seconds) {
+    if (seconds < 0.0) ++backwards;
+    intervals.record(from_seconds(std::clamp(seconds, -1e9, 1e9)));
+    const double off = seconds - mean_s;
+    mean_s += off / static_cast<double>(count - 1);
+    squares += off * (seconds - mean_s);
+    if (seconds > longest_s) {
+      longest_s = seconds;
+      longest_from_us = last_us;
+    }
+  }
+};
+
+// The figures of one channel, as the JSON file has them.
+json figures(const Counts& c, const schema::Schema& schema) {
+  json types = json::array();
+  for (const auto& [fingerprint, count] : c.types) {
+    const schema::Type* type = schema.find(fingerprint);
+    types.push_back({{"fingerprint", fmt::format("0x{:016x}", fingerprint)},
+                     {"name", type != nullptr ? json(type->name) : json(nullptr)},
+                     {"count", count}});
+  }
+  const double duration = seconds_between(c.first_us, c.last_us);
+  const double median = to_seconds(c.intervals.percentile(0.5));
+  const HistogramData intervals = c.intervals.data();
+  std::uint64_t gaps = intervals.above_range;
+  for (const auto& [lowest, count] : intervals.buckets) {
+    if (to_seconds(lowest) > gap_factor * median) gaps += count;
+  }
+  return {{"count", c.count},
+          {"bytes", c.bytes},
+          {"first_us", c.first_us},
+          {"last_us", c.last_us},
+          {"rate_hz", duration > 0.0 ? static_cast<double>(c.count - 1) / duration : 0.0},
+          {"interval_median_s", median},
+          {"interval_jitter_s",
+           c.count < 3 ? 0.0 : std::sqrt(c.squares / static_cast<double>(c.count - 2))},
+          {"interval_longest_s", c.longest_s},
+          {"interval_longest_from_us", c.longest_from_us},
+          {"gaps", gaps},
+          {"backwards", c.backwards},
+          {"types", types}};
 }
 
-void add(CountedChannel& channel, const LogEvent& event, const schema::Schema& schema) {
-  ChannelInfo& info = channel.info;
-  if (info.count == 0) info.first_us = event.time_us;
-  info.last_us = event.time_us;
-  ++info.count;
-  info.bytes += event.data.size();
-  channel.intervals.add(event.time_us);
-  count_type(info, schema::fingerprint_of(event.data), schema);
+json read_figures(const path& log, const schema::Schema& schema) {
+  std::map<std::string, Counts, std::less<>> channels;
+  std::uint64_t elsewhere = 0;  // events on channels beyond the most that are counted
+  std::int64_t first_us = 0, last_us = 0;
+  const auto add = [&](const LogEvent& event) {
+    first_us = channels.empty() ? event.time_us : std::min(first_us, event.time_us);
+    last_us = channels.empty() ? event.time_us : std::max(last_us, event.time_us);
+    auto found = channels.find(event.channel);
+    if (found == channels.end() && channels.size() < most_channels) {
+      found = channels.try_emplace(std::string(event.channel)).first;
+    }
+    if (found != channels.end()) {
+      found->second.add(event);
+    } else {
+      ++elsewhere;
+    }
+  };
+  const LogSummary read = read_log(log, schema, add);
+  json all = {{"file", log.string()},
+              {"bytes", read.bytes},
+              {"events", read.events},
+              {"first_us", first_us},
+              {"last_us", last_us},
+              {"duration_s", seconds_between(first_us, last_us)},
+              {"events_elsewhere", elsewhere},
+              {"damages", read.damages},
+              {"damaged_bytes", read.damaged_bytes},
+              {"channels", json::object()}};
+  for (const auto& [name, counts] : channels) all["channels"][name] = figures(counts, schema);
+  return all;
 }
 
-ChannelInfo finish(CountedChannel& channel) {
-  ChannelInfo info = std::move(channel.info);
-  const double duration = seconds_between(info.first_us, info.last_us);
-  if (duration > 0.0) info.rate_hz = static_cast<double>(info.count - 1) / duration;
-  info.median_s = channel.intervals.median_s();
-  info.jitter_s = channel.intervals.deviation_s();
-  info.longest_s = channel.intervals.longest_s();
-  info.longest_from_us = channel.intervals.longest_from_us();
-  info.gaps = channel.intervals.longer_than_median(kGapFactor);
-  info.backwards = channel.intervals.backwards();
-  return info;
+double number(const json& figures, const char* key) {
+  return figures[key].get<double>();
+}
+std::string time(const json& figures, const char* key) {
+  return time_text(figures[key].get<std::int64_t>());
+}
+std::string size(const json& figures, const char* key) {
+  return size_text(figures[key].get<std::uint64_t>());
 }
 
-std::string hex(std::uint64_t fingerprint) {
-  return fmt::format("0x{:016x}", fingerprint);
-}
-
-std::string type_text(const ChannelInfo& info) {
+std::string type_names(const json& types) {
   std::string text;
-  for (const TypeCount& type : info.types) {
+  for (const json& type : types) {
     if (!text.empty()) text += ", ";
-    text += type.name.empty() ? hex(type.fingerprint) : type.name;
+    text += type[type["name"].is_null() ? "fingerprint" : "name"].get<std::string>();
   }
   return text;
+}
+
+void print_table(const json& log, std::ostream& out) {
+  fmt::print(out, "{} events, {}, {:.3f} s from {} to {}\n", log["events"].dump(),
+             size(log, "bytes"), number(log, "duration_s"), time(log, "first_us"),
+             time(log, "last_us"));
+  std::size_t width = 7;
+  const json& channels = log["channels"];
+  for (const auto& [name, c] : channels.items()) width = std::max(width, name.size());
+  width = std::min(width, std::size_t{40});
+  fmt::print(out, "\n{:{}} {:>9} {:>9} {:>10} {:>10} {:>9} {:>9} {:>5}  {}\n", "channel", width,
+             "count", "rate Hz", "data", "median ms", "jitter ms", "max ms", "gaps", "type");
+  for (const auto& [name, c] : channels.items()) {
+    fmt::print(out, "{:{}} {:>9} {:9.2f} {:>10} {:10.3f} {:9.3f} {:9.1f} {:>5}  {}\n", name, width,
+               c["count"].dump(), number(c, "rate_hz"), size(c, "bytes"),
+               number(c, "interval_median_s") * 1e3, number(c, "interval_jitter_s") * 1e3,
+               number(c, "interval_longest_s") * 1e3, c["gaps"].dump(), type_names(c["types"]));
+  }
+  out << "Intervals are of log time; a gap is an interval above 2.5 times the median.\n";
+  for (const auto& [name, c] : channels.items()) {
+    fmt::print(out, "  {}: first {}, last {}", name, time(c, "first_us"), time(c, "last_us"));
+    if (c["gaps"] > 0) {
+      fmt::print(out, ", longest gap {:.3f} s from {}", number(c, "interval_longest_s"),
+                 time(c, "interval_longest_from_us"));
+    }
+    if (c["backwards"] > 0) fmt::print(out, ", time goes back {} times", c["backwards"].dump());
+    out << '\n';
+  }
+  if (log["events_elsewhere"] > 0) {
+    fmt::print(out, "{} events are on more channels than the {} shown\n",
+               log["events_elsewhere"].dump(), channels.size());
+  }
+  if (log["damages"] > 0) {
+    fmt::print(out, "damaged in {} places, {}: see 'maploop log verify'\n", log["damages"].dump(),
+               size(log, "damaged_bytes"));
+  }
 }
 
 }  // namespace
 
-LogInfo read_info(const std::filesystem::path& file, const schema::Schema& schema) {
-  LogReader reader(file, schema);
-  Progress progress(reader.input().file_size());
-  LogInfo info;
-  info.file = file.string();
-  CountedChannels channels;
-  for (auto item = reader.next(); item != LogReader::Item::end; item = reader.next()) {
-    progress.at(reader.input().file_position());
-    if (item == LogReader::Item::damage) {
-      ++info.damages;
-      info.damaged_bytes += reader.damage().end - reader.damage().begin;
-      continue;
-    }
-    const LogEvent& event = reader.event();
-    if (info.events == 0) info.first_us = info.last_us = event.time_us;
-    info.first_us = std::min(info.first_us, event.time_us);
-    info.last_us = std::max(info.last_us, event.time_us);
-    ++info.events;
-    if (CountedChannel* channel = find(channels, event.channel)) {
-      add(*channel, event, schema);
-    } else {
-      ++info.events_elsewhere;
-    }
+void info(const path& log, const schema::Schema& schema, const path& json_file, std::ostream& out) {
+  const json figures = read_figures(log, schema);
+  if (figures["events"] == 0 && figures["damages"] > 0) {
+    throw std::runtime_error("'" + log.string() + "' holds no event: is it an LCM log?");
   }
-  info.bytes = reader.input().position();
-  if (info.events == 0 && info.damages > 0) {
-    throw std::runtime_error("'" + file.string() + "' holds no event: is it an LCM log?");
+  out << log.string() << ": ";
+  if (figures["events"] == 0) {
+    out << "an empty log\n";
+  } else {
+    print_table(figures, out);
   }
-  for (auto& [name, channel] : channels) info.channels.push_back(finish(*channel));
-  return info;
-}
-
-std::string format_table(const LogInfo& info) {
-  std::string text = info.file + ": ";
-  if (info.events == 0) return text + "an empty log\n";
-  text += fmt::format("{} events, {}, {:.3f} s from {} to {}\n", info.events, size_text(info.bytes),
-                      seconds_between(info.first_us, info.last_us), time_text(info.first_us),
-                      time_text(info.last_us));
-  std::size_t width = 7;
-  for (const ChannelInfo& c : info.channels) width = std::max(width, c.name.size());
-  const int w = static_cast<int>(std::min<std::size_t>(width, 40));
-  text +=
-      fmt::format("\n{:{}} {:>9} {:>9} {:>10} {:>10} {:>9} {:>9} {:>5}  {}\n", "channel", w,
-                  "count", "rate Hz", "data", "median ms", "jitter ms", "max ms", "gaps", "type");
-  for (const ChannelInfo& c : info.channels) {
-    text += fmt::format("{:{}} {:9} {:9.2f} {:>10} {:10.3f} {:9.3f} {:9.1f} {:5}  {}\n", c.name, w,
-                        c.count, c.rate_hz, size_text(c.bytes), c.median_s * 1e3, c.jitter_s * 1e3,
-                        c.longest_s * 1e3, c.gaps, type_text(c));
-  }
-  text += "Intervals are of log time; a gap is an interval above 2.5 times the median.\n";
-  for (const ChannelInfo& c : info.channels) {
-    text +=
-        fmt::format("  {}: first {}, last {}", c.name, time_text(c.first_us), time_text(c.last_us));
-    if (c.gaps > 0) {
-      text +=
-          fmt::format(", longest gap {:.3f} s from {}", c.longest_s, time_text(c.longest_from_us));
-    }
-    if (c.backwards > 0) text += fmt::format(", time goes back {} times", c.backwards);
-    text += '\n';
-  }
-  if (info.events_elsewhere > 0) {
-    text += fmt::format("{} events are on more channels than the {} shown\n", info.events_elsewhere,
-                        info.channels.size());
-  }
-  if (info.damages > 0) {
-    text += fmt::format("damaged in {} places, {}: see 'maploop log verify'\n", info.damages,
-                        size_text(info.damaged_bytes));
-  }
-  return text;
-}
-
-void write_json(const std::filesystem::path& file, const LogInfo& info) {
-  json channels = json::object();
-  for (const ChannelInfo& c : info.channels) {
-    json types = json::array();
-    for (const TypeCount& t : c.types) {
-      types.push_back({{"fingerprint", hex(t.fingerprint)},
-                       {"name", t.name.empty() ? json(nullptr) : json(t.name)},
-                       {"count", t.count}});
-    }
-    channels[c.name] = {{"count", c.count},
-                        {"bytes", c.bytes},
-                        {"first_us", c.first_us},
-                        {"last_us", c.last_us},
-                        {"rate_hz", c.rate_hz},
-                        {"interval_median_s", c.median_s},
-                        {"interval_jitter_s", c.jitter_s},
-                        {"interval_longest_s", c.longest_s},
-                        {"interval_longest_from_us", c.longest_from_us},
-                        {"gaps", c.gaps},
-                        {"backwards", c.backwards},
-                        {"types", types}};
-  }
-  const json all = {{"file", info.file},
-                    {"bytes", info.bytes},
-                    {"events", info.events},
-                    {"first_us", info.first_us},
-                    {"last_us", info.last_us},
-                    {"duration_s", seconds_between(info.first_us, info.last_us)},
-                    {"events_elsewhere", info.events_elsewhere},
-                    {"damages", info.damages},
-                    {"damaged_bytes", info.damaged_bytes},
-                    {"channels", channels}};
+  if (json_file.empty()) return;
   // A channel's name may contain any bytes.
-  runtime::write_whole_file(file, all.dump(2, ' ', false, json::error_handler_t::replace) + '\n');
+  const std::string text = figures.dump(2, ' ', false, json::error_handler_t::replace);
+  runtime::write_whole_file(json_file, text + '\n');
 }
 
 }  // namespace maploop::lcm_log

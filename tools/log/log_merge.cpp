@@ -1,38 +1,35 @@
-#include "tools/log/log_merge.h"
+#include <fmt/ostream.h>
 
 #include <algorithm>
 #include <memory>
+#include <ostream>
 #include <vector>
 
 #include "msgs/lcm/log/log_reader.h"
+#include "tools/log/log_tools.h"
 #include "tools/log/log_writer.h"
-#include "tools/log/progress.h"
 
 namespace maploop::lcm_log {
-namespace {
 
-// Advances to the reader's next event; returns false at the end of its log.
-bool next_event(LogReader& reader, MergeResult& result) {
-  for (auto item = reader.next(); item != LogReader::Item::end; item = reader.next()) {
-    if (item == LogReader::Item::event) return true;
-    ++result.damages;
-    result.damaged_bytes += reader.damage().end - reader.damage().begin;
-  }
-  return false;
-}
-
-}  // namespace
-
-MergeResult merge(std::span<const std::filesystem::path> logs, const schema::Schema& schema,
-                  const std::filesystem::path& output) {
-  MergeResult result;
+LogSummary merge(std::span<const path> logs, const schema::Schema& schema, const path& output,
+                 std::ostream& out) {
+  LogSummary result;
+  // Advances to the reader's next event; returns false at the end of its log.
+  const auto advance = [&](LogReader& reader) {
+    for (auto item = reader.next(); item != LogReader::Item::end; item = reader.next()) {
+      if (item == LogReader::Item::event) return true;
+      ++result.damages;
+      result.damaged_bytes += reader.damage().bytes();
+    }
+    return false;
+  };
   std::vector<std::unique_ptr<LogReader>> waiting;  // each at an event, in the order of `logs`
-  std::uint64_t all_bytes = 0, done_bytes = 0;
-  for (const auto& log : logs) {
+  std::uint64_t all_bytes = 0;
+  for (const path& log : logs) {
     refuse_same_file(log, output);
     auto reader = std::make_unique<LogReader>(log, schema);
     all_bytes += reader->input().file_size();
-    if (next_event(*reader, result)) waiting.push_back(std::move(reader));
+    if (advance(*reader)) waiting.push_back(std::move(reader));
   }
   LogWriter writer(output);
   Progress progress(all_bytes);
@@ -40,14 +37,14 @@ MergeResult merge(std::span<const std::filesystem::path> logs, const schema::Sch
     const auto earliest = std::min_element(
         waiting.begin(), waiting.end(),
         [](const auto& a, const auto& b) { return a->event().time_us < b->event().time_us; });
-    LogReader& reader = **earliest;
-    writer.write(reader.event());
-    done_bytes += reader.event().data.size() + reader.event().channel.size() + kHeaderBytes;
-    progress.at(std::min(done_bytes, all_bytes));
-    if (!next_event(reader, result)) waiting.erase(earliest);
+    writer.write((*earliest)->event());
+    progress.at(std::min(writer.bytes(), all_bytes));
+    if (!advance(**earliest)) waiting.erase(earliest);
   }
   writer.close();
-  result.events = static_cast<std::uint64_t>(writer.events());
+  result.events = writer.events();
+  fmt::print(out, "{} events of {} logs written to {}\n", result.events, logs.size(),
+             output.string());
   return result;
 }
 

@@ -1,83 +1,73 @@
-#include "tools/log/log_split.h"
+#include <fmt/ostream.h>
 
-#include <fmt/format.h>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <memory>
+#include <ostream>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
-#include "msgs/lcm/log/log_reader.h"
-#include "tools/log/log_text.h"
+#include "msgs/lcm/log/log_header.h"
+#include "tools/log/log_tools.h"
 #include "tools/log/log_writer.h"
-#include "tools/log/progress.h"
 
 namespace maploop::lcm_log {
 namespace {
 
-constexpr std::size_t kMaximumPieces = 10'000;
-
-struct Unit {
-  std::string_view name;
-  double factor;
-  bool time;
-};
-constexpr std::array<Unit, 6> kUnits{{{"s", 1.0, true},
-                                      {"min", 60.0, true},
-                                      {"h", 3600.0, true},
-                                      {"kB", 1e3, false},
-                                      {"MB", 1e6, false},
-                                      {"GB", 1e9, false}}};
+constexpr std::size_t most_pieces = 10'000;
 
 // Returns for instance "out.012.lcmlog.gz" for "out.lcmlog.gz".
-std::filesystem::path piece_name(const std::filesystem::path& output, std::size_t number) {
-  std::string stem = output.stem().string();
-  std::string extension = output.extension().string();
-  if (extension == ".gz") {
-    const std::filesystem::path inner(stem);
-    stem = inner.stem().string();
-    extension = inner.extension().string() + extension;
-  }
-  std::string name = fmt::format(".{:03}", number);
-  return output.parent_path() / (stem + name + extension);
+path piece_name(path output, std::size_t number) {
+  const std::string gz = output.extension() == ".gz" ? ".gz" : "";
+  if (!gz.empty()) output.replace_extension();
+  const std::string extension = output.extension().string();
+  return output.replace_extension(fmt::format("{:03}{}{}", number, extension, gz));
 }
 
 class Pieces {
  public:
-  explicit Pieces(const SplitParameters& parameters, const std::filesystem::path& log)
-      : parameters_(parameters), log_(log) {}
+  Pieces(const SplitParameters& parameters, const path& log) : parameters_(parameters), log_(log) {}
 
   void write(const LogEvent& event) {
-    if (!first_us_) first_us_ = event.time_us;
-    if (!writer_ || begins_piece(event)) open();
+    if (!writer_) {
+      first_us_ = event.time_us;
+      open();
+    } else if (parameters_.every && begins_piece(event)) {
+      writer_->close();
+      open();
+    }
     writer_->write(event);
+    ++events_;
   }
 
-  std::vector<std::filesystem::path> close() {
+  // Returns the names of the files.
+  std::vector<path> close() {
     if (writer_) writer_->close();
     return std::move(files_);
   }
 
+  std::uint64_t events() const { return events_; }
+
  private:
   // Whether the event belongs to the next piece.
   bool begins_piece(const LogEvent& event) {
-    if (!parameters_.every) return false;
-    if (const auto& seconds = parameters_.every->seconds) {
-      // Whole microseconds are used, because 0.3 s / 0.1 s is slightly less than 3 in doubles.
-      const double since_us = std::round(seconds_between(*first_us_, event.time_us) * 1e6);
-      const double piece = std::floor(since_us / std::round(*seconds * 1e6));
-      if (piece <= piece_) return false;
-      piece_ = piece;
-      return true;
+    const PieceLimit& limit = *parameters_.every;
+    if (!limit.is_time) {
+      const auto bytes = kHeaderBytes + event.channel.size() + event.data.size();
+      return static_cast<double>(writer_->bytes() + bytes) > limit.most;
     }
-    const std::uint64_t bytes = kHeaderBytes + event.channel.size() + event.data.size();
-    return writer_->bytes() + bytes > *parameters_.every->bytes;
+    // Whole microseconds are used, because 0.3 s / 0.1 s is slightly less than 3 in doubles.
+    const double since_us = std::round(seconds_between(first_us_, event.time_us) * 1e6);
+    const double piece = std::floor(since_us / std::round(limit.most * 1e6));
+    if (piece <= piece_) return false;
+    piece_ = piece;
+    return true;
   }
 
   void open() {
-    if (writer_) writer_->close();
-    if (files_.size() == kMaximumPieces) {
-      throw std::runtime_error("more than " + std::to_string(kMaximumPieces) +
+    if (files_.size() == most_pieces) {
+      throw std::runtime_error("more than " + std::to_string(most_pieces) +
                                " pieces: choose a larger --every");
     }
     files_.push_back(parameters_.every ? piece_name(parameters_.output, files_.size())
@@ -87,63 +77,58 @@ class Pieces {
   }
 
   const SplitParameters& parameters_;
-  const std::filesystem::path& log_;
+  const path& log_;
   std::unique_ptr<LogWriter> writer_;
-  std::vector<std::filesystem::path> files_;
-  std::optional<std::int64_t> first_us_;
+  std::vector<path> files_;
+  std::uint64_t events_ = 0;
+  std::int64_t first_us_ = 0;
   double piece_ = 0.0;
 };
 
 }  // namespace
 
 PieceLimit parse_piece_limit(const std::string& text) {
+  constexpr std::pair<std::string_view, PieceLimit> units[] = {
+      {"s", {1.0, true}},   {"min", {60.0, true}}, {"h", {3600.0, true}},
+      {"kB", {1e3, false}}, {"MB", {1e6, false}},  {"GB", {1e9, false}}};
   double value = 0.0;
-  const auto [unit, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const std::string_view name(unit, static_cast<std::size_t>(text.data() + text.size() - unit));
-  for (const Unit& u : kUnits) {
-    if (error != std::errc() || u.name != name || !std::isfinite(value)) continue;
-    value *= u.factor;
-    if (u.time && value >= 1e-3) return {.seconds = value, .bytes = {}};
-    if (!u.time && value >= 100.0 && value < 1e18) {
-      return {.seconds = {}, .bytes = static_cast<std::uint64_t>(value)};
-    }
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  for (const auto& [name, unit] : units) {
+    if (error != std::errc() || name != std::string_view(rest, end)) continue;
+    const double most = value * unit.most;
+    if (most >= (unit.is_time ? 1e-3 : 100.0) && most < 1e18) return {most, unit.is_time};
   }
   throw std::invalid_argument("'" + text +
-                              "' is no length of a piece: write a number and s, min, h, kB, MB or "
-                              "GB, such as 60s or 100MB; at least 0.001s or 0.1kB");
+                              "' is not the length of a piece: write a number and s, min, h, kB, "
+                              "MB or GB, such as 60s or 100MB; at least 0.001s or 0.1kB");
 }
 
-SplitResult split(const std::filesystem::path& log, const schema::Schema& schema,
-                  SplitParameters parameters) {
+LogSummary split(const path& log, const schema::Schema& schema, const SplitParameters& parameters,
+                 std::ostream& out) {
   refuse_same_file(log, parameters.output);
-  LogReader reader(log, schema);
-  Progress progress(reader.input().file_size());
   Pieces pieces(parameters, log);
-  SplitResult result;
-  std::int64_t first_us = 0;
-  for (auto item = reader.next(); item != LogReader::Item::end; item = reader.next()) {
-    progress.at(reader.input().file_position());
-    if (item == LogReader::Item::damage) {
-      ++result.damages;
-      result.damaged_bytes += reader.damage().end - reader.damage().begin;
-      continue;
-    }
-    const LogEvent& event = reader.event();
-    if (result.events_read++ == 0) first_us = event.time_us;
-    const double since = seconds_between(first_us, event.time_us);
-    if (parameters.start_s && since < *parameters.start_s) continue;
-    if (parameters.end_s && since >= *parameters.end_s) continue;
-    if (!parameters.channels.takes(event.channel)) continue;
-    pieces.write(event);
-    ++result.events_taken;
-  }
-  result.files = pieces.close();
-  if (result.events_taken == 0) {
-    throw std::runtime_error("none of the " + std::to_string(result.events_read) + " events of '" +
+  std::optional<std::int64_t> first_us;
+  const LogSummary read = read_log(log, schema, [&](const LogEvent& event) {
+    if (!first_us) first_us = event.time_us;
+    const double since = seconds_between(*first_us, event.time_us);
+    if (parameters.start_s && since < *parameters.start_s) return;
+    if (parameters.end_s && since >= *parameters.end_s) return;
+    if (!parameters.channels || parameters.channels(event.channel)) pieces.write(event);
+  });
+  if (pieces.events() == 0) {
+    throw std::runtime_error("none of the " + std::to_string(read.events) + " events of '" +
                              log.string() +
                              "' is within these times and channels: nothing written");
   }
-  return result;
+  const std::vector<path> files = pieces.close();
+  fmt::print(out, "{} of {} events written to {}", pieces.events(), read.events,
+             files.front().string());
+  if (files.size() > 1) {
+    fmt::print(out, " and {} more, up to {}", files.size() - 1, files.back().string());
+  }
+  out << '\n';
+  return read;
 }
 
 }  // namespace maploop::lcm_log

@@ -3,9 +3,10 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
+#include <string>
 
 #include "msgs/lcm/log/log_event.h"
+#include "runtime/core/whole_file.h"
 
 namespace maploop::lcm_log {
 
@@ -14,31 +15,23 @@ namespace maploop::lcm_log {
 class LogWriter {
  public:
   // This and the functions below throw std::runtime_error naming the file if it cannot be written.
-  explicit LogWriter(const std::filesystem::path& file);
-  ~LogWriter();
-  LogWriter(const LogWriter&) = delete;
-  LogWriter& operator=(const LogWriter&) = delete;
+  explicit LogWriter(const std::filesystem::path& file)
+      : file_(file), compressed_(file.extension() == ".gz") {}
 
   void write(const LogEvent& event);
   void close();
 
-  std::int64_t events() const { return events_; }
+  std::uint64_t events() const { return events_; }
   std::uint64_t bytes() const { return bytes_; }  // before compression
 
  private:
-  struct Stream;
+  void flush();
 
-  void put(const void* bytes, std::size_t size);
-  [[noreturn]] void fail(const char* why);
-
-  std::filesystem::path file_;
-  std::filesystem::path part_;  // its name until close()
-  std::unique_ptr<Stream> stream_;
-  std::int64_t events_ = 0;
+  runtime::WholeFile file_;
+  bool compressed_;
+  std::string pending_;  // whole events
+  std::uint64_t events_ = 0;
   std::uint64_t bytes_ = 0;
 };
-
-// Throws std::invalid_argument if `output` is the same file as `input`.
-void refuse_same_file(const std::filesystem::path& input, const std::filesystem::path& output);
 
 }  // namespace maploop::lcm_log

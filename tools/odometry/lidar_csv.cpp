@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <string>
 
 #include "msgs/frames.h"
@@ -11,9 +10,6 @@
 
 namespace maploop::odometry {
 namespace {
-
-constexpr std::array<std::string_view, odometry_source_count> sources{"visual", "lidar",
-                                                                      "visual-lidar"};
 
 std::string directions(std::uint8_t bits) {
   std::string names;
@@ -37,7 +33,7 @@ void write_lidar_csv(const std::filesystem::path& file, std::span<const LidarSte
     text += fmt::format(
         "{},{},{}{}", stamp_cells(step.frame, m),
         step.with_scan ? to_string(lidar.status) : "no scan",
-        m.status == OdometryStatus::ok ? sources[static_cast<std::size_t>(m.source)] : "",
+        m.status == OdometryStatus::ok ? to_string(m.source) : "",
         motion_cells(m));
     text += step.with_scan ? fmt::format(",{},{},{},{},{:.9g},{:.9g},{:.9g}\n", lidar.tracked,
                                          lidar.inliers, lidar.iterations,

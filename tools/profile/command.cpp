@@ -5,15 +5,14 @@
 #include <memory>
 #include <string>
 
-#include "msgs/lcm/log/log_reader.h"
+#include "msgs/lcm/checked_decode.h"
 #include "tools/command/bus_listener.h"
 #include "tools/command/commands.h"
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
 #include "tools/command/terminal.h"
 #include "tools/evaluate/text_file.h"
-#include "tools/log/log_types.h"
-#include "tools/log/progress.h"
+#include "tools/log/log_files.h"
 #include "tools/profile/profile.h"
 
 namespace maploop::tools {
@@ -28,17 +27,6 @@ struct ProfileOptions {
   double seconds = 0.0;  // 0: until interrupted
   path json, html;
 };
-
-void read_log(const path& file, profile::ProfileCollector& collector) {
-  const schema::Schema schema = lcm_log::load_types({});
-  lcm_log::LogReader reader(file, schema);
-  lcm_log::Progress progress(reader.input().file_size());
-  using Item = lcm_log::LogReader::Item;
-  for (Item item = reader.next(); item != Item::end; item = reader.next()) {
-    progress.at(reader.input().file_position());
-    if (item == Item::event) collector.add(reader.event().channel, reader.event().data);
-  }
-}
 
 void listen(const std::string& url, const ProfileOptions& options,
             profile::ProfileCollector& collector) {
@@ -62,7 +50,9 @@ int run(const ProfileOptions& options) {
   if (options.live) {
     listen(url, options, collector);
   } else {
-    read_log(options.log, collector);
+    lcm_log::read_log(options.log, schema::own_schema(), [&](const lcm_log::LogEvent& event) {
+      collector.add(event.channel, event.data);
+    });
   }
   const profile::Profile result = collector.profile(source);
   std::cout << profile::to_text(result);

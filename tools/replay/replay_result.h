@@ -43,7 +43,7 @@ struct TraceSummary {
 
 // Of a drive with GNSS observations: its epochs by what the ppp thread said of them.
 struct PppEpochs {
-  std::array<std::size_t, ppp_status_count> by_status{};
+  std::array<std::size_t, count_of<PppStatus>> by_status{};
   double converged_after = -1.0;  // s, of the first that was; below 0: none
   bool never_converges = false;   // ppp::PppSetup::never_converges()
 

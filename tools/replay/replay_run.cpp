@@ -20,7 +20,7 @@
 #include "sensors/replay/reference_trajectory.h"
 #include "tools/command/options.h"
 #include "tools/command/terminal.h"
-#include "tools/log/log_writer.h"
+#include "tools/log/log_files.h"
 #include "tools/replay/run_output.h"
 
 namespace maploop::tools {

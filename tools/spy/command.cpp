@@ -12,14 +12,12 @@
 #include <string>
 #include <vector>
 
-#include "msgs/lcm/log/log_reader.h"
 #include "tools/command/bus_listener.h"
 #include "tools/command/commands.h"
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
 #include "tools/command/terminal.h"
-#include "tools/log/log_types.h"
-#include "tools/log/progress.h"
+#include "tools/log/log_files.h"
 #include "tools/spy/screen.h"
 #include "tools/spy/text.h"
 
@@ -54,26 +52,17 @@ struct Feed {
   std::function<Duration()> now;
 };
 
-Duration read_log(const path& file, const schema::Schema& schema, Duration begin,
-                  spy::Traffic& traffic) {
-  lcm_log::LogReader reader(file, schema);
-  lcm_log::Progress progress(reader.input().file_size());
-  Duration latest = begin;
-  std::uint64_t damages = 0;
-  using Item = lcm_log::LogReader::Item;
-  for (Item item = reader.next(); item != Item::end; item = reader.next()) {
-    progress.at(reader.input().file_position());
-    if (item == Item::damage) {
-      ++damages;
-      continue;
-    }
-    const auto time = std::chrono::microseconds(reader.event().time_us);
-    if (time > Duration(0) && time < std::chrono::years(230))
+// Returns the latest time of the log, not before `latest`.
+Duration read_log(const path& file, Duration latest, spy::Traffic& traffic) {
+  const auto read = lcm_log::read_log(file, traffic.schema(), [&](const lcm_log::LogEvent& event) {
+    const auto time = std::chrono::microseconds(event.time_us);
+    if (time > Duration(0) && time < std::chrono::years(230)) {
       latest = std::max(latest, Duration(time));
-    traffic.add(reader.event().channel, reader.event().data, latest);
-  }
-  if (damages > 0) {
-    std::cerr << "maploop: " << file.string() << " is damaged in " << damages
+    }
+    traffic.add(event.channel, event.data, latest);
+  });
+  if (read.damages > 0) {
+    std::cerr << "maploop: " << file.string() << " is damaged in " << read.damages
               << " places; 'maploop log verify' names them\n";
   }
   return latest;
@@ -88,7 +77,7 @@ class OtherScreen {
   OtherScreen& operator=(const OtherScreen&) = delete;
 };
 
-void show(const Feed& feed, spy::Traffic& traffic, spy::Screen& screen,
+void show(const Feed& feed, const spy::Traffic& traffic, spy::Screen& screen,
           const std::function<bool()>& over) {
   constexpr int wait = 50;  // ms
   constexpr int show_every = 4;
@@ -111,37 +100,36 @@ void show(const Feed& feed, spy::Traffic& traffic, spy::Screen& screen,
   }
 }
 
-void print(const SpyOptions& options, const schema::Schema& schema, const spy::Traffic& traffic,
-           Duration now, lcm_log::ChannelFilter& filter) {
+void print(const SpyOptions& options, const spy::Traffic& traffic, Duration now,
+           const lcm_log::ChannelFilter& filter) {
   const auto channels = traffic.status(now, filter);
   if (options.json) {
     for (const spy::ChannelStatus& s : channels) std::cout << spy::json_row(s) << '\n';
   } else {
     std::cout << spy::table_header() << '\n';
     for (const spy::ChannelStatus& s : channels) std::cout << spy::table_row(s) << '\n';
-    for (const std::string& line : spy::vehicle_lines(schema, traffic)) {
+    for (const std::string& line : spy::vehicle_lines(traffic)) {
       std::cout << "# " << line << '\n';
     }
   }
   std::cout << std::flush;
 }
 
-void print_every_second(const SpyOptions& options, const schema::Schema& schema, const Feed& feed,
-                        spy::Traffic& traffic, lcm_log::ChannelFilter& filter,
-                        const std::function<bool()>& over) {
+void print_every_second(const SpyOptions& options, const Feed& feed, const spy::Traffic& traffic,
+                        const lcm_log::ChannelFilter& filter, const std::function<bool()>& over) {
   const bool once = options.once || !options.logs.empty();
   Duration next = steady_now() + seconds(1);
   while (!over()) {
     feed.wait(20);
     if (once || steady_now() < next) continue;
-    print(options, schema, traffic, feed.now(), filter);
+    print(options, traffic, feed.now(), filter);
     next += seconds(1);
   }
-  if (once) print(options, schema, traffic, feed.now(), filter);
+  if (once) print(options, traffic, feed.now(), filter);
 }
 
 int run(const SpyOptions& options) {
-  lcm_log::ChannelFilter filter = spy::filter_of(options.filter);
+  const lcm_log::ChannelFilter filter = spy::filter_of(options.filter);
   const schema::Schema schema = lcm_log::load_types(options.types);
   const bool of_logs = !options.logs.empty();
   spy::Traffic traffic(schema, of_logs ? log_window : live_window);
@@ -151,7 +139,7 @@ int run(const SpyOptions& options) {
   std::optional<BusListener> bus;
   if (of_logs) {
     Duration end{};
-    for (const path& log : options.logs) end = read_log(log, schema, end, traffic);
+    for (const path& log : options.logs) end = read_log(log, end, traffic);
     feed.name = options.logs.front().string();
     feed.wait = [](int ms) { usleep(static_cast<useconds_t>(ms) * 1000); };
     feed.now = [end] { return end; };
@@ -170,9 +158,9 @@ int run(const SpyOptions& options) {
   };
   note_interrupts();
   if (plain) {
-    print_every_second(options, schema, feed, traffic, filter, over);
+    print_every_second(options, feed, traffic, filter, over);
   } else {
-    spy::Screen screen(schema, feed.name, options.filter);
+    spy::Screen screen(feed.name, options.filter);
     show(feed, traffic, screen, over);
   }
   if (traffic.count() > 0 || !plain) return 0;

@@ -38,16 +38,9 @@ constexpr const char* reverse = "\x1b[7m";
 }  // namespace
 
 lcm_log::ChannelFilter filter_of(const std::string& expression) {
-  if (expression.empty()) return {};
-  lcm_log::ChannelFilter{expression};  // throws for ")(", which the next line would hide
-  return lcm_log::ChannelFilter(".*(" + expression + ").*");
+  lcm_log::matching(expression);  // throws for ")(", which the next line would hide
+  return lcm_log::matching(expression.empty() ? ".*" : ".*(" + expression + ").*");
 }
-
-Screen::Screen(const schema::Schema& schema, std::string source, const std::string& expression)
-    : schema_(schema),
-      source_(std::move(source)),
-      expression_(expression),
-      filter_(filter_of(expression)) {}
 
 void Screen::press(char key) {
   if (key == escape) {
@@ -55,21 +48,15 @@ void Screen::press(char key) {
     typing_ = false;
     return;
   }
-  if (!sequence_.empty()) {
-    sequence_ += key;
-    const bool ends = sequence_.size() > 2 && key >= '@' && key <= '~';
-    if (sequence_.size() == 2 && key != '[' && key != 'O') {
-      sequence_.clear();  // the escape was a separate key, and so is this one
-    } else {
-      if (ends) obey(std::exchange(sequence_, {}));
-      return;
-    }
+  if (sequence_.empty()) return type(key);
+  sequence_ += key;
+  if (sequence_.size() == 2) {
+    if (key == '[' || key == 'O') return;
+    sequence_.clear();
+    return type(key);  // the escape was a key of its own
   }
-  type(key);
-}
-
-void Screen::obey(const std::string& sequence) {
-  const std::string code = sequence.substr(2);
+  if (key < '@' || key > '~') return;  // the sequence continues
+  const std::string code = std::exchange(sequence_, {}).substr(2);
   if (code == "A") --moves_;
   if (code == "B") ++moves_;
   if (code == "5~") first_field_ -= std::min(first_field_, page);
@@ -120,7 +107,7 @@ std::string Screen::picture(const Traffic& traffic, Duration now, std::size_t ro
   if (!expression_.empty()) title += "  filter: " + printable(expression_);
   if (traffic.elsewhere() > 0) title += "  (and more channels than are told apart)";
   lines.add(title, bold);
-  for (const std::string& line : vehicle_lines(schema_, traffic)) lines.add(line);
+  for (const std::string& line : vehicle_lines(traffic)) lines.add(line);
   if (channels.empty()) {
     lines.add(traffic.count() == 0 ? "nothing heard yet"
                                    : "no channel's name has the filter in it");
@@ -132,7 +119,7 @@ std::string Screen::picture(const Traffic& traffic, Duration now, std::size_t ro
       lines.add(table_row(channels[i]), i == index ? reverse : "");
     }
     lines.add("");
-    const std::vector<std::string> fields = field_lines(schema_, traffic.last(selected_));
+    const std::vector<std::string> fields = field_lines(traffic.schema(), traffic.last(selected_));
     first_field_ = std::min(first_field_, fields.size() - std::min<std::size_t>(fields.size(), 1));
     lines.add(printable(selected_) + ", " + std::to_string(fields.size()) + " fields" +
                   (first_field_ > 0 ? " from " + std::to_string(first_field_ + 1) : ""),

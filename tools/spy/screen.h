@@ -4,8 +4,8 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 
-#include "msgs/lcm/schema.h"
 #include "tools/log/channel_filter.h"
 #include "tools/spy/traffic.h"
 
@@ -18,8 +18,9 @@ lcm_log::ChannelFilter filter_of(const std::string& expression);
 // An object belongs to one thread.
 class Screen {
  public:
-  // `expression` is the initial filter, which must be valid. The schema must outlive it.
-  Screen(const schema::Schema& schema, std::string source, const std::string& expression);
+  // `expression` is the initial filter, which must be valid.
+  Screen(std::string source, const std::string& expression)
+      : source_(std::move(source)), expression_(expression), filter_(filter_of(expression)) {}
 
   // Takes a key as the terminal sends it; an arrow consists of three.
   void press(char key);
@@ -29,10 +30,8 @@ class Screen {
   std::string picture(const Traffic& traffic, Duration now, std::size_t rows, std::size_t columns);
 
  private:
-  void obey(const std::string& sequence);
   void type(char key);
 
-  const schema::Schema& schema_;
   std::string source_;
   std::string expression_;
   lcm_log::ChannelFilter filter_;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "msgs/lcm/decoded_message.h"
+
 namespace maploop::spy {
 namespace {
 
@@ -22,25 +24,21 @@ json nullable(const auto& value) {
   return value ? json(*value) : json(nullptr);
 }
 
-// Returns the path of an array without indices: "covariance" for "covariance[0][0]".
-std::string array_path(const schema::DecodedMessage& message, std::size_t node) {
-  std::string path = message.path(node);
-  if (message.nodes()[node].count > 0) {
-    path.resize(path.size() - message.sizes(node).size() * std::string_view("[0]").size());
+// Appends a line for each field with values of its own, and for each empty array.
+void add_lines(const schema::Field& field, const std::string& path,
+               std::vector<std::string>& lines) {
+  if (lines.size() >= shown_lines) return;
+  const std::size_t count = field.count();
+  if (count > 0 || (!field.sizes.empty() && field.inner.empty())) {
+    std::string line = path;
+    for (const std::size_t size : field.sizes) line += '[' + std::to_string(size) + ']';
+    line += " =";
+    for (std::size_t i = 0; i < std::min(count, shown_values); ++i) line += ' ' + field.text(i);
+    lines.push_back(line + (count > shown_values ? " ..." : ""));
   }
-  return path;
-}
-
-std::string array_line(const schema::DecodedMessage& message, std::size_t node) {
-  const std::uint32_t count = message.nodes()[node].count;
-  std::string line = array_path(message, node);
-  for (const std::uint32_t size : message.sizes(node)) line += '[' + std::to_string(size) + ']';
-  line += " =";
-  for (std::uint32_t i = 0; i < std::min<std::size_t>(count, shown_values); ++i) {
-    line += ' ' + message.text(node, i);
+  for (std::size_t i = 0; i < field.inner.size(); ++i) {
+    add_lines(field.inner[i], inner_path(field, i, path), lines);
   }
-  if (count > shown_values) line += " ...";
-  return line;
 }
 
 // Returns a name without spaces, so that it stays one column.
@@ -62,10 +60,9 @@ std::string printable(std::string_view text) {
 }
 
 std::string table_header() {
-  std::string line =
-      fmt::format("{:18} {:30} {:>8} {:>9} {:>9} {:>8} {:>8} {:>8} {:>6} {:>6}", "CHANNEL", "TYPE",
-                  "COUNT", "RATE_HZ", "JITTER_MS", "AGE_S", "SILENT_S", "BYTES", "LOST", "BAD");
-  return line;
+  return fmt::format("{:18} {:30} {:>8} {:>9} {:>9} {:>8} {:>8} {:>8} {:>6} {:>6}", "CHANNEL",
+                     "TYPE", "COUNT", "RATE_HZ", "JITTER_MS", "AGE_S", "SILENT_S", "BYTES", "LOST",
+                     "BAD");
 }
 
 std::string table_row(const ChannelStatus& s) {
@@ -93,20 +90,12 @@ std::vector<std::string> field_lines(const schema::Schema& schema,
                                      std::span<const std::uint8_t> bytes) {
   const schema::Type* type = schema.find(schema::fingerprint_of(bytes));
   if (type == nullptr) return {"nobody has declared this type; --types FILE.lcm does"};
-  schema::DecodedMessage message;
-  if (const auto error = message.decode(*type, bytes)) {
-    return {"not as " + type->name + " says, at byte " + std::to_string(error->offset) + ": " +
-            error->reason};
-  }
   std::vector<std::string> lines;
-  for (std::size_t n = 1; n < message.nodes().size() && lines.size() < shown_lines; ++n) {
-    const bool array = !message.sizes(n).empty();
-    const bool below = message.nodes()[n].end > n + 1;
-    if (array && !below) {
-      lines.push_back(array_line(message, n));
-    } else if (message.nodes()[n].count == 1) {
-      lines.push_back(message.path(n) + " = " + message.text(n));
-    }
+  try {
+    add_lines(decode(*type, bytes), "", lines);
+  } catch (const schema::DecodeError& e) {
+    lines = {
+        fmt::format("it does not decode as {}, at byte {}: {}", type->name, e.offset(), e.what())};
   }
   return lines;
 }

@@ -28,6 +28,6 @@ std::vector<std::string> field_lines(const schema::Schema& schema,
 
 // Returns lines about the runs, rings, deadlines and degraded modes, from the last HEALTH,
 // DEADLINES and PPP_STATE; nothing for messages that have not arrived or are not maploop's.
-std::vector<std::string> vehicle_lines(const schema::Schema& schema, const Traffic& traffic);
+std::vector<std::string> vehicle_lines(const Traffic& traffic);
 
 }  // namespace maploop::spy

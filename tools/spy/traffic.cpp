@@ -8,6 +8,7 @@
 
 #include "msgs/lcm/channel_names.h"
 #include "msgs/lcm/checked_decode.h"
+#include "msgs/lcm/decoded_message.h"
 
 namespace maploop::spy {
 namespace {
@@ -32,34 +33,26 @@ std::optional<double> jitter(const std::deque<Duration>& arrivals) {
   return std::sqrt(squares / (intervals - 1.0));
 }
 
-std::optional<std::int64_t> integer(const schema::DecodedMessage& message, std::size_t node) {
-  if (message.nodes()[node].count != 1) return {};
-  const schema::Value value = message.value(node);
-  const auto* number = std::get_if<std::int64_t>(&value);
-  return number != nullptr ? std::optional(*number) : std::nullopt;
-}
-
 // Stamps and sequence of the message itself, of its `header`, or of a message that is its first
 // member, by the names that our types and LCM convention use.
 struct Header {
   std::optional<std::int64_t> stamp_ns, utime, sequence;
 };
 
-void read(const schema::DecodedMessage& message, std::size_t parent, Header& header) {
-  for (std::size_t n = parent + 1; n < message.nodes()[parent].end; n = message.nodes()[n].end) {
-    const schema::Node& node = message.nodes()[n];
-    const std::string& name = node.member->name;
-    if (node.count == 0) {
-      const bool begins = n == parent + 1;
-      if (node.element < 0 && (begins || (name == "header" && parent == 0))) {
-        read(message, n, header);
-      }
-    } else if (name == "stamp_ns") {
-      header.stamp_ns = integer(message, n);
-    } else if (name == "utime" || name == "timestamp") {
-      header.utime = integer(message, n);
-    } else if (name == "sequence") {
-      header.sequence = integer(message, n);
+void read(const schema::Field& parent, Header& header) {
+  const bool outermost = parent.member == nullptr;
+  for (const schema::Field& field : parent.inner) {
+    const std::string& name = field.name();
+    if (field.count() == 1) {
+      const schema::Value value = field.value();
+      const auto* number = std::get_if<std::int64_t>(&value);
+      if (number == nullptr) continue;
+      if (name == "stamp_ns") header.stamp_ns = *number;
+      if (name == "utime" || name == "timestamp") header.utime = *number;
+      if (name == "sequence") header.sequence = *number;
+    } else if (field.sizes.empty() &&
+               (&field == &parent.inner.front() || (name == "header" && outermost))) {
+      read(field, header);
     }
   }
 }
@@ -103,18 +96,14 @@ void Traffic::read_header(Channel& channel) {
   const std::uint64_t fingerprint = schema::fingerprint_of(channel.last);
   const schema::Type* type = schema_.find(fingerprint);
   channel.stamp.reset();
-  channel.type.clear();
-  if (type == nullptr) {
-    channel.type += fmt::format("0x{:016x}", fingerprint);
-  } else {
-    channel.type = type->name;
-  }
-  if (type == nullptr || decoded_.decode(*type, channel.last)) {
+  channel.type = type != nullptr ? type->name : fmt::format("0x{:016x}", fingerprint);
+  const auto message = try_decode(schema_, channel.last);
+  if (!message) {
     ++channel.bad;
     return;
   }
   Header header;
-  read(decoded_, 0, header);
+  read(*message, header);
   channel.stamp = stamp_of(header);
   const bool again = header.sequence && channel.sequence && *header.sequence <= *channel.sequence;
   if (channel.stamp && (again || !newest_ || *channel.stamp > *newest_)) newest_ = channel.stamp;
@@ -125,10 +114,11 @@ void Traffic::read_header(Channel& channel) {
   if (header.sequence) channel.sequence = header.sequence;
 }
 
-std::vector<ChannelStatus> Traffic::status(Duration now, lcm_log::ChannelFilter& filter) const {
+std::vector<ChannelStatus> Traffic::status(Duration now,
+                                           const lcm_log::ChannelFilter& filter) const {
   std::vector<ChannelStatus> all;
   for (const auto& [name, channel] : channels_) {
-    if (!filter.takes(name)) continue;
+    if (!filter(name)) continue;
     ChannelStatus s;
     s.name = name;
     s.type = channel.type;

@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "msgs/lcm/decoded_message.h"
 #include "msgs/lcm/schema.h"
 #include "msgs/time.h"
 #include "runtime/vehicle/output/runs.h"
@@ -46,7 +45,7 @@ class Traffic {
   void add(std::string_view channel, std::span<const std::uint8_t> data, Duration arrived);
 
   // Returns by name the channels that the filter selects; `now` is on the clock of the arrivals.
-  std::vector<ChannelStatus> status(Duration now, lcm_log::ChannelFilter& filter) const;
+  std::vector<ChannelStatus> status(Duration now, const lcm_log::ChannelFilter& filter) const;
 
   // Returns the last message of a channel, or an empty span.
   std::span<const std::uint8_t> last(std::string_view channel) const;
@@ -54,6 +53,7 @@ class Traffic {
   // Returns the runs that published at the time of the last message.
   std::vector<vehicle::Run> runs() const { return runs_.present(arrived_); }
 
+  const schema::Schema& schema() const { return schema_; }
   std::uint64_t count() const { return count_; }
   // Returns the number of messages on channels beyond the first thousand, which are not
   // distinguished.
@@ -80,7 +80,6 @@ class Traffic {
   vehicle::RunsHeard runs_;
   Duration arrived_{};
   std::uint64_t count_ = 0, elsewhere_ = 0;
-  schema::DecodedMessage decoded_;
 };
 
 }  // namespace maploop::spy

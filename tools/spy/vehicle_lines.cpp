@@ -57,7 +57,7 @@ std::string ppp_line(const PppState& state) {
 
 }  // namespace
 
-std::vector<std::string> vehicle_lines(const schema::Schema& schema, const Traffic& traffic) {
+std::vector<std::string> vehicle_lines(const Traffic& traffic) {
   std::vector<std::string> lines;
   const std::vector<vehicle::Run> runs = traffic.runs();
   for (const vehicle::Run& run : runs) lines.push_back("run: " + to_text(run));
@@ -68,7 +68,7 @@ std::vector<std::string> vehicle_lines(const schema::Schema& schema, const Traff
   }
   // A message of another publisher may have the correct form but invalid values: it makes no line.
   const auto of_last = [&](auto message, std::string_view channel, const auto& add) {
-    if (!schema::checked_decode(schema, traffic.last(channel), message)) return;
+    if (!schema::checked_decode(schema::own_schema(), traffic.last(channel), message)) return;
     try {
       add(from_lcm(message));
     } catch (const std::invalid_argument&) {

@@ -20,13 +20,14 @@ struct LogEvent {
   std::string_view channel = {};
   std::span<const std::uint8_t> data = {};
   std::uint64_t offset = 0;  // of its header in the (uncompressed) log
-  bool doubtful = false;     // damage follows directly, so its last bytes may be damaged too
 };
 
 // These are bytes of a log that do not belong to any event.
 struct Damage {
   std::uint64_t begin = 0, end = 0;  // [begin, end)
   std::string reason;
+
+  std::uint64_t bytes() const { return end - begin; }
 };
 
 }  // namespace maploop::lcm_log

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
 
 namespace maploop::lcm_log {
 namespace {
@@ -40,21 +39,20 @@ void write_header(const LogHeader& header, std::span<std::uint8_t, kHeaderBytes>
   put_big_endian(static_cast<std::uint32_t>(header.data_bytes), bytes.subspan(24, 4));
 }
 
-std::optional<std::string> implausible(const LogHeader& header, const LogLimits& limits) {
+std::optional<std::string> implausible(const LogHeader& header) {
   if (header.sync != kSyncWord) return "no event begins here";
-  if (header.channel_bytes < 1 || header.channel_bytes > limits.channel_bytes) {
+  if (header.channel_bytes < 1 || header.channel_bytes > kMaximumChannelBytes) {
     return "a channel name of " + std::to_string(header.channel_bytes) + " bytes";
   }
-  if (header.data_bytes < 0 || header.data_bytes > limits.data_bytes) {
+  if (header.data_bytes < 0 || header.data_bytes > kMaximumDataBytes) {
     return "data of " + std::to_string(header.data_bytes) + " bytes";
   }
   return std::nullopt;
 }
 
 bool begins_with_sync(std::span<const std::uint8_t> bytes) {
-  const std::size_t size = std::min(bytes.size(), kSyncBytes.size());
-  return std::equal(kSyncBytes.begin(), kSyncBytes.begin() + static_cast<std::ptrdiff_t>(size),
-                    bytes.begin());
+  return std::equal(bytes.begin(), bytes.begin() + std::min(std::ssize(bytes), 4L),
+                    kSyncBytes.begin());
 }
 
 bool begins_nearly_with_sync(std::span<const std::uint8_t> bytes) {
@@ -63,11 +61,9 @@ bool begins_nearly_with_sync(std::span<const std::uint8_t> bytes) {
 }
 
 std::size_t find_sync(std::span<const std::uint8_t> bytes, std::size_t from) {
-  if (from >= bytes.size()) return bytes.size();
-  const void* found =
-      memmem(bytes.data() + from, bytes.size() - from, kSyncBytes.data(), kSyncBytes.size());
-  if (found == nullptr) return bytes.size();
-  return static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - bytes.data());
+  const auto rest = bytes.subspan(std::min(from, bytes.size()));
+  const auto found = std::search(rest.begin(), rest.end(), kSyncBytes.begin(), kSyncBytes.end());
+  return static_cast<std::size_t>(found - rest.begin()) + bytes.size() - rest.size();
 }
 
 }  // namespace maploop::lcm_log

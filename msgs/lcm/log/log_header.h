@@ -10,8 +10,9 @@
 namespace maploop::lcm_log {
 
 inline constexpr std::uint32_t kSyncWord = 0xEDA1DA01;
-inline constexpr std::size_t kSyncWordBytes = 4;
 inline constexpr std::size_t kHeaderBytes = 28;
+inline constexpr std::int32_t kMaximumChannelBytes = 999;   // LCM's own limit
+inline constexpr std::int32_t kMaximumDataBytes = 1 << 26;  // 64 MB, more than any sensor's message
 
 struct LogHeader {
   std::uint32_t sync = 0;
@@ -26,17 +27,12 @@ struct LogHeader {
   }
 };
 
-struct LogLimits {
-  std::int32_t channel_bytes = 999;   // LCM's own limit
-  std::int32_t data_bytes = 1 << 26;  // 64 MB, more than any sensor's message; limits the memory
-};
-
 // Precondition: `bytes` has at least kHeaderBytes.
 LogHeader read_header(std::span<const std::uint8_t> bytes);
 void write_header(const LogHeader& header, std::span<std::uint8_t, kHeaderBytes> bytes);
 
 // Returns why no event can begin like this; nullopt if one can.
-std::optional<std::string> implausible(const LogHeader& header, const LogLimits& limits);
+std::optional<std::string> implausible(const LogHeader& header);
 
 // Returns whether the bytes begin with the sync word, or with its first bytes if there are fewer.
 bool begins_with_sync(std::span<const std::uint8_t> bytes);

@@ -14,34 +14,19 @@ constexpr std::size_t kReadBytes = std::size_t{256} * 1024;
 
 }  // namespace
 
-struct LogInput::Stream {
-  explicit Stream(gzFile opened) : file(opened) {}
-  ~Stream() { gzclose_r(file); }
-  Stream(const Stream&) = delete;
-  Stream& operator=(const Stream&) = delete;
-  gzFile file;
-};
-
-LogInput::LogInput(const std::filesystem::path& file) : window_(2 * kReadBytes) {
-  const auto refuse = [&](const std::string& why) {
-    throw std::runtime_error("cannot read the log '" + file.string() + "': " + why);
-  };
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (std::filesystem::is_directory(status)) refuse("it is a folder");
-  const gzFile opened = gzopen(file.c_str(), "rb");
-  if (opened == nullptr) refuse(std::strerror(errno));
-  stream_ = std::make_unique<Stream>(opened);
-  gzbuffer(opened, kReadBytes);
-  if (std::filesystem::is_regular_file(status)) {
-    file_size_ = std::filesystem::file_size(file, error);
-    if (error) file_size_ = 0;
+LogInput::LogInput(const std::filesystem::path& file)
+    : stream_(gzopen(file.c_str(), "rb"), gzclose_r), window_(2 * kReadBytes) {
+  const bool folder = std::filesystem::is_directory(file);
+  if (!stream_ || folder) {
+    throw std::runtime_error("cannot read the log '" + file.string() +
+                             "': " + (folder ? "it is a folder" : std::strerror(errno)));
   }
+  gzbuffer(stream_.get(), kReadBytes);
+  std::error_code unknown;
+  if (std::filesystem::is_regular_file(file))
+    file_size_ = std::filesystem::file_size(file, unknown);
+  if (unknown) file_size_ = 0;
 }
-
-LogInput::~LogInput() = default;
-LogInput::LogInput(LogInput&&) noexcept = default;
-LogInput& LogInput::operator=(LogInput&&) noexcept = default;
 
 std::span<const std::uint8_t> LogInput::peek(std::size_t size) {
   if (end_ - begin_ < size && !at_end_) read_more(size);
@@ -66,19 +51,16 @@ void LogInput::read_more(std::size_t size) {
       window_.resize(2 * window_.size());
     }
     const int got =
-        gzread(stream_->file, window_.data() + end_, static_cast<unsigned>(window_.size() - end_));
-    if (got > 0) {
-      end_ += static_cast<std::size_t>(got);
-    } else {
-      at_end_ = true;
-      note_failure();
-    }
+        gzread(stream_.get(), window_.data() + end_, static_cast<unsigned>(window_.size() - end_));
+    at_end_ = got <= 0;
+    if (at_end_) return note_failure();
+    end_ += static_cast<std::size_t>(got);
   }
 }
 
 void LogInput::note_failure() {
   int code = Z_OK;
-  const char* text = gzerror(stream_->file, &code);
+  const char* text = gzerror(stream_.get(), &code);
   if (code == Z_ERRNO) {
     failure_ = std::strerror(errno);
   } else if (code != Z_OK && code != Z_STREAM_END) {
@@ -87,7 +69,7 @@ void LogInput::note_failure() {
 }
 
 std::uint64_t LogInput::file_position() const {
-  const auto offset = gzoffset(stream_->file);
+  const auto offset = gzoffset(stream_.get());
   return offset < 0 ? file_size_ : static_cast<std::uint64_t>(offset);
 }
 

@@ -10,15 +10,14 @@
 #include <string>
 #include <vector>
 
+struct gzFile_s;  // zlib's
+
 namespace maploop::lcm_log {
 
 class LogInput {
  public:
   // Throws std::runtime_error that names the file if it is not a file or cannot be read.
   explicit LogInput(const std::filesystem::path& file);
-  ~LogInput();
-  LogInput(LogInput&&) noexcept;
-  LogInput& operator=(LogInput&&) noexcept;
 
   // Returns at least `size` bytes from position() on, fewer only if the log ends before. Valid
   // until the next call of a member that is not const.
@@ -38,12 +37,10 @@ class LogInput {
   std::uint64_t file_position() const;
 
  private:
-  struct Stream;
-
   void read_more(std::size_t size);
   void note_failure();
 
-  std::unique_ptr<Stream> stream_;
+  std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> stream_;
   std::vector<std::uint8_t> window_;
   std::size_t begin_ = 0, end_ = 0;  // the part that is filled and not yet skipped
   std::uint64_t position_ = 0;

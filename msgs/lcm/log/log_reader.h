@@ -1,6 +1,6 @@
 // This file reads the events of an LCM log in order, and reports the damage between them.
 //
-//   LogReader reader(file);
+//   LogReader reader(file, schema);
 //   for (auto item = reader.next(); item != LogReader::Item::end; item = reader.next()) {
 //     if (item == LogReader::Item::event) use(reader.event()); else complain(reader.damage());
 //   }
@@ -11,17 +11,14 @@
 // The format has no checksum, so a wrong length shows only in the bytes after it. An event is
 // accepted if another event, or the end of the log, follows it, unless the event with the next
 // number begins inside it. If neither follows (damage between events, or a length that is too
-// small), it is accepted if its data decodes by a known type. If its type is unknown, it is
-// accepted if the next event found does not have the next number, or if its channel's last message
-// had the same fingerprint and size. So damage costs only the events that it touches, and at most
-// one of unknown type before it.
+// small), it is accepted if its data decodes by a known type. So damage costs only the events that
+// it touches, and at most one of unknown type before it.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <unordered_map>
 
 #include "msgs/lcm/decoded_message.h"
 #include "msgs/lcm/log/log_event.h"
@@ -36,10 +33,10 @@ class LogReader {
   enum class Item { event, damage, end };
 
   // Reads plain or .gz files. The schema must outlive the reader. Memory stays within four times
-  // the largest event that `limits` allow. Throws std::runtime_error that names the file if it
+  // the largest event that log_header.h allows. Throws std::runtime_error that names the file if it
   // cannot be opened.
-  LogReader(const std::filesystem::path& file, const schema::Schema& schema,
-            const LogLimits& limits = {});
+  LogReader(const std::filesystem::path& file, const schema::Schema& schema)
+      : schema_(schema), input_(file) {}
 
   Item next();
 
@@ -50,32 +47,18 @@ class LogReader {
   const LogInput& input() const { return input_; }
 
  private:
-  // Describes the channel's last message.
-  struct Seen {
-    std::uint64_t fingerprint = 0;
-    std::size_t bytes = 0;
-  };
-
   std::optional<std::string> check();
   std::optional<std::string> check_what_follows(std::span<const std::uint8_t> bytes,
                                                 const LogHeader& header);
-  bool next_event_inside(std::span<const std::uint8_t> bytes, const LogHeader& header,
-                         bool any_number) const;
-  bool trusted(std::span<const std::uint8_t> bytes, const LogHeader& header);
   void skip_to_sync();
-  void remember();
 
   const schema::Schema& schema_;
-  LogLimits limits_;
   LogInput input_;
   LogEvent event_;
   Damage damage_;
   std::size_t event_bytes_ = 0;  // of event_, not yet skipped
   bool event_waits_ = false;     // event_ is next: the damage before it came first
   bool failure_told_ = false;
-  std::unordered_map<std::string, Seen> seen_;
-  std::string channel_;  // reused key of seen_
-  schema::DecodedMessage decoded_;
 };
 
 }  // namespace maploop::lcm_log

@@ -57,7 +57,7 @@ void refuse(const runtime::ConfigTable& table, std::initializer_list<const char*
   for (const char* key : keys) {
     if (!table.has(key)) continue;
     table.fail(
-        key, fmt::format("can only be used with policy {}, not with \"{}\"", of, name_of(policy)));
+        key, fmt::format("can only be used with policy {}, not with \"{}\"", of, to_string(policy)));
   }
 }
 
@@ -89,7 +89,7 @@ std::span<const ScheduledThread> scheduled_threads() {
 
 void read(const runtime::ConfigTable& parent, const char* key, Scheduling& s) {
   const runtime::ConfigTable table = parent.table(key);
-  std::string policy(name_of(s.policy));
+  std::string policy(to_string(s.policy));
   table.read_one_of("policy", policy, names_of(s.policy));
   s.policy = *value_named<SchedulingPolicy>(policy);
   forget_other_policies(s);
@@ -121,7 +121,7 @@ std::string toml_value(const Scheduling& s) {
   const auto scaled = [](Duration d, double unit) {
     return runtime::shortest_text(static_cast<double>(d.count()) * unit);
   };
-  std::string text = fmt::format("{{ policy = \"{}\"", name_of(s.policy));
+  std::string text = fmt::format("{{ policy = \"{}\"", to_string(s.policy));
   if (has_priority(s.policy)) text += fmt::format(", priority = {}", s.priority);
   if (s.nice) text += fmt::format(", nice = {}", *s.nice);
   if (s.timer_slack > Duration::zero()) text += ", timer_slack_us = " + scaled(s.timer_slack, 1e-3);

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "msgs/lcm/conversions.h"
-#include "msgs/lcm/raw_conversions.h"
 #include "runtime/vehicle/graph/trace_flows.h"
 
 namespace maploop::vehicle {

@@ -75,7 +75,7 @@ class LidarStage final : public GraphStage {
   UseWatch use_{stages::lidar.name, "scans", Watchdog::patience(stages::lidar)};
   AskedScan* preview_ = nullptr;  // nullptr: no preview is made
   std::size_t preview_points_ = 0;
-  ReasonCounts<OdometryStatus, odometry_status_count> counts_;  // of the scans
+  ReasonCounts<OdometryStatus, count_of<OdometryStatus>> counts_;  // of the scans
 };
 
 }  // namespace maploop::vehicle

@@ -53,7 +53,7 @@ class MapMatchStage final : public GraphStage {
   runtime::Intake intake_;
   NavState newest_;
   std::uint64_t ticks_ = 0;
-  ReasonCounts<FixRefusal, fix_refusal_count> counts_;  // of the states
+  ReasonCounts<FixRefusal, count_of<FixRefusal>> counts_;  // of the states
 };
 
 }  // namespace maploop::vehicle

@@ -67,8 +67,8 @@ class PppStage final : public GraphStage {
   void archive(Archive& ar, Time cut);
 
   struct Counts {
-    ReasonCounts<PppRefusal, ppp_refusal_count> refused;
-    ReasonCounts<PppSlip, ppp_slip_count> slipped;
+    ReasonCounts<PppRefusal, count_of<PppRefusal>> refused;
+    ReasonCounts<PppSlip, count_of<PppSlip>> slipped;
     std::atomic<std::uint64_t> without_position{0};
     std::atomic<std::uint64_t> restarts{0};
     std::atomic<std::uint64_t> forgotten_roads{0};

@@ -46,7 +46,7 @@ class StereoStage final : public GraphStage {
   UseWatch use_{stages::stereo.name, "image pairs", Watchdog::patience(stages::stereo)};
   AskedImage* preview_ = nullptr;   // nullptr: no preview is made
   std::vector<VisualMotion> sent_;  // motions that were not yet available at the last pair
-  ReasonCounts<OdometryStatus, odometry_status_count> counts_;
+  ReasonCounts<OdometryStatus, count_of<OdometryStatus>> counts_;
 };
 
 }  // namespace maploop::vehicle

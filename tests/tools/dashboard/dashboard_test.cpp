@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "msgs/lcm/checked_decode.h"
 #include "msgs/lcm/conversions.h"
 #include "tools/dashboard/live_channels.h"
 #include "tools/dashboard/message_json.h"
@@ -20,20 +21,10 @@ namespace {
 using nlohmann::json;
 using std::chrono::milliseconds;
 
-template <class Message>
-std::vector<std::uint8_t> encoded(const Message& message) {
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
-}
+using schema::encoded;
 
 json as_json(const std::vector<std::uint8_t>& bytes) {
-  static const schema::Schema schema(schema::own_types());
-  schema::DecodedMessage message;
-  const schema::Type* type = schema.find(schema::fingerprint_of(bytes));
-  EXPECT_NE(type, nullptr);
-  EXPECT_FALSE(message.decode(*type, bytes));
-  return json::parse(to_json(message));
+  return json::parse(to_json(try_decode(schema::own_schema(), bytes).value()));
 }
 
 NavState state_at(int seconds) {

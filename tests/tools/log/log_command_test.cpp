@@ -1,11 +1,8 @@
 // Tests `maploop log` as users run it.
-#include <gtest/gtest.h>
-
 #include <string>
 #include <vector>
 
 #include "tests/support/process.h"
-#include "tests/support/real_data.h"
 #include "tests/tools/log/small_log.h"
 
 namespace maploop::lcm_log {
@@ -18,77 +15,55 @@ ProcessResult log(std::vector<std::string> arguments) {
   return maploop::testing::run(arguments);
 }
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-class LogCommand : public ::testing::Test {
+class LogCommand : public LogToolsTest {
  protected:
-  LogCommand() { record(folder_.path() / "a.lcmlog", small_drive()); }
-  std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
-
-  // Writes a copy of a.lcmlog with one damaged event.
-  void make_damaged(const std::string& name) const {
-    auto bytes = read_bytes(file("a.lcmlog"));
-    bytes[event_offsets(small_drive())[5]] ^= 1;
-    write_bytes(file(name), bytes);
+  // Makes b.lcmlog, whose HEALTH differs, and bad.lcmlog, one event of which is damaged.
+  LogCommand() {
+    auto events = drive_;
+    events[1].data = health_bytes(3);
+    record(file("b.lcmlog"), events);
+    auto bytes = read_bytes(log_);
+    bytes[offsets_[5]] ^= 1;
+    write_bytes(file("bad.lcmlog"), bytes);
   }
 
-  const maploop::testing::TemporaryFolder folder_;
+  std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
 };
 
-TEST_F(LogCommand, InfoTellsChannelsAndTypes) {
-  const ProcessResult result = log({"info", file("a.lcmlog"), "--json", file("a.json")});
-  EXPECT_EQ(result.status, 0) << result.error;
-  EXPECT_TRUE(contains(result.out, "maploop_lcm.nav_state_t"));
-  EXPECT_EQ(result.error, "");  // no progress line without a terminal
-  EXPECT_FALSE(read_bytes(file("a.json")).empty());
-}
-
-TEST_F(LogCommand, VerifyAnswersWithItsStatus) {
-  make_damaged("bad.lcmlog");
-  EXPECT_EQ(log({"verify", file("a.lcmlog")}).status, 0);
-  const ProcessResult bad = log({"verify", file("bad.lcmlog")});
-  EXPECT_EQ(bad.status, 1);
-  EXPECT_TRUE(contains(bad.out, "bytes are no event"));
-  const ProcessResult missing = log({"verify", file("missing.lcmlog")});
-  EXPECT_EQ(missing.status, 2);
-  EXPECT_TRUE(contains(missing.error, "missing.lcmlog"));
-}
-
-TEST_F(LogCommand, DiffAnswersWithItsStatus) {
-  auto events = small_drive();
-  events[1].data = health_bytes(3);  // HEALTH depends on the run
-  record(file("b.lcmlog"), events);
-  EXPECT_EQ(log({"diff", file("a.lcmlog"), file("b.lcmlog")}).status, 0);
-  const ProcessResult health =
-      log({"diff", file("a.lcmlog"), file("b.lcmlog"), "--channels", "HEALTH"});
-  EXPECT_EQ(health.status, 1);
-  EXPECT_TRUE(contains(health.out, "message 0, thread_count")) << health.out;
-  make_damaged("bad.lcmlog");
-  EXPECT_EQ(log({"diff", file("a.lcmlog"), file("bad.lcmlog")}).status, 2);
-  EXPECT_EQ(log({"diff", file("a.lcmlog"), file("missing.lcmlog")}).status, 2);
-  EXPECT_EQ(log({"diff", file("a.lcmlog"), file("b.lcmlog"), "--channels", "["}).status, 2);
-  EXPECT_EQ(log({"diff", file("a.lcmlog"), file("b.lcmlog"), "--channels", "NO"}).status, 2);
-}
-
-TEST_F(LogCommand, SplitAndMergeOfADamagedLogGoOnAndSaySo) {
-  make_damaged("bad.lcmlog");
-  const ProcessResult part =
-      log({"split", file("bad.lcmlog"), "--channels", "NAV_.*", "-o", file("part.lcmlog")});
-  EXPECT_EQ(part.status, 1);
-  EXPECT_TRUE(contains(part.error, "damaged and were left out"));
+TEST_F(LogCommand, SaysWhatItFindsAndAnswersWithItsStatus) {
+  const std::string a = file("a.lcmlog"), b = file("b.lcmlog"), bad = file("bad.lcmlog"),
+                    missing = file("missing.lcmlog");
+  struct Case {
+    std::vector<std::string> arguments;
+    int status;
+    std::string said;  // on standard output, or on standard error after a failure
+  };
+  const std::vector<Case> cases{
+      {{"info", a, "--json", file("a.json")}, 0, "maploop_lcm.nav_state_t"},
+      {{"verify", a}, 0, "0 findings"},
+      {{"verify", bad}, 1, "bytes are not an event"},
+      {{"verify", missing}, 2, "missing.lcmlog"},
+      {{"diff", a, b}, 0, "NAV_STATE: same"},  // HEALTH depends on the run
+      {{"diff", a, b, "--channels", "HEALTH"}, 1, "message 0, thread_count"},
+      {{"diff", a, bad}, 2, "is damaged at byte"},
+      {{"diff", a, missing}, 2, "missing.lcmlog"},
+      {{"diff", a, b, "--channels", "["}, 2, "not a regular expression"},
+      {{"diff", a, b, "--channels", "NO"}, 2, "nothing was compared"},
+      {{"split", bad, "--channels", "NAV_.*", "-o", file("part.lcmlog")}, 1, "8 of 23 events"},
+      {{"merge", a, bad, "-o", file("merged.lcmlog")}, 1, "47 events of 2 logs"},
+      {{"recover", bad, "-o", file("good.lcmlog")}, 0, ", event 5, between 2011-09-26"},
+      {{"verify", file("good.lcmlog")}, 0, "0 findings"}};
+  for (const Case& c : cases) {
+    const ProcessResult result = log(c.arguments);
+    EXPECT_EQ(result.status, c.status) << c.said << '\n' << result.out << result.error;
+    EXPECT_TRUE(contains(c.status == 2 ? result.error : result.out, c.said)) << c.said;
+    if (c.status == 0) {
+      EXPECT_EQ(result.error, "") << "no progress line without a terminal";
+    }
+  }
   EXPECT_EQ(read_with_lcm(file("part.lcmlog")).size(), 8U);
-  EXPECT_EQ(log({"merge", file("a.lcmlog"), file("bad.lcmlog"), "-o", file("m.lcmlog")}).status, 1);
-  EXPECT_EQ(read_with_lcm(file("m.lcmlog")).size(), 47U);
-}
-
-TEST_F(LogCommand, RecoverAccountsForTheLoss) {
-  make_damaged("bad.lcmlog");
-  const ProcessResult result = log({"recover", file("bad.lcmlog"), "-o", file("good.lcmlog")});
-  EXPECT_EQ(result.status, 0) << result.error;
-  EXPECT_TRUE(contains(result.out, ", event 5, between 2011-09-26")) << result.out;
-  EXPECT_EQ(log({"verify", file("good.lcmlog")}).status, 0);
+  EXPECT_EQ(read_with_lcm(file("merged.lcmlog")).size(), 47U);
+  EXPECT_TRUE(contains(log({"split", bad, "-o", file("part.lcmlog")}).error, "were left out"));
 }
 
 TEST_F(LogCommand, TypesOfOthersBeforeAndAfterTheLog) {

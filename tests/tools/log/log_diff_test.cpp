@@ -1,30 +1,31 @@
 // Tests the comparison of logs.
-#include "tools/log/log_diff.h"
-
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 
-#include "tests/tools/log/log_tools_fixture.h"
+#include "tests/tools/log/small_log.h"
+#include "tools/log/log_tools.h"
 
 namespace maploop::lcm_log {
 namespace {
 
 class LogDiffTest : public LogToolsTest {
  protected:
-  LogDiff compare_with(const std::vector<TestEvent>& events, ChannelFilter filter = {}) {
-    record(other_, events);
-    return diff(log_, other_, types(), std::move(filter));
+  bool same_as(const std::vector<TestEvent>& events, const char* channels = ".*") {
+    record(out_, events);
+    said_.str("");
+    return diff(log_, out_, types_, matching(channels), said_);
   }
 
-  static const ChannelDiff& channel(const LogDiff& diff, const std::string& name) {
-    return *std::find_if(diff.channels.begin(), diff.channels.end(),
-                         [&](const ChannelDiff& c) { return c.channel == name; });
+  bool says(const std::string& text) const { return contains(said_.str(), text); }
+
+  // Returns a line about one side of a difference.
+  std::string side(const path& log, const std::string& text) const {
+    return "    " + log.string() + ": " + text + '\n';
   }
 
-  const path other_ = folder_.path() / "b.lcmlog";
+  std::ostringstream said_;
 };
 
 TEST_F(LogDiffTest, SameMessagesAtOtherTimesInAnotherOrderOfChannelsAreTheSame) {
@@ -32,27 +33,26 @@ TEST_F(LogDiffTest, SameMessagesAtOtherTimesInAnotherOrderOfChannelsAreTheSame) 
   std::stable_sort(events.begin(), events.end(),
                    [](const auto& a, const auto& b) { return a.channel < b.channel; });
   for (TestEvent& e : events) e.time_us += 5;
-  const LogDiff result = compare_with(events);
-  EXPECT_TRUE(result.same());
-  EXPECT_EQ(result.channels.size(), 5U);
+  events.push_back({"LCM_SELF_TEST", kTestStart, {1, 2, 3}});  // LCM sends it to itself
+  EXPECT_TRUE(same_as(events));
+  EXPECT_EQ(said_.str(),
+            "CAMERA_TRIGGER: same, 4 messages\nHEALTH: same, 4 messages\nIMU: same, 4 messages\n"
+            "NAV_STATE: same, 8 messages\nX: same, 4 messages\n");
 }
 
 TEST_F(LogDiffTest, NamesFirstDifferingMessageAndField) {
   auto events = drive_;
-  events[9].data = nav_state_bytes(1.25);
-  events[12].data = nav_state_bytes(1.25);
-  const LogDiff result = compare_with(events);
-  EXPECT_FALSE(result.same());
-  const ChannelDiff& c = channel(result, "NAV_STATE");
-  EXPECT_EQ(c.number, 3U);  // events 0, 3, 6, 9
-  EXPECT_EQ(c.differing, 2U);
-  EXPECT_EQ(c.time_a_us, drive_[9].time_us);
-  ASSERT_TRUE(c.field);
-  EXPECT_EQ(c.field->field, "position_enu[0]");
-  EXPECT_EQ(c.field->a, "0.9");
-  EXPECT_EQ(c.field->b, "1.25");
-  EXPECT_TRUE(channel(result, "IMU").same());
-  EXPECT_TRUE(contains(format_diff(result, "a", "b"), "message 3, position_enu[0]"));
+  events[9].data = events[12].data = nav_state_bytes(1.25);
+  EXPECT_FALSE(same_as(events));
+  // The messages of the channel are events 0, 3, 6, 9, ...
+  EXPECT_TRUE(
+      says("NAV_STATE: different: 8 and 8 messages, 2 of them differ\n"
+           "  message 3, position_enu[0]\n" +
+           side(log_, "2011-09-26 13:10:51.090000  0.9") +
+           side(out_, "2011-09-26 13:10:51.090000  1.25")))
+      << said_.str();
+  EXPECT_TRUE(says("IMU: same"));
+  EXPECT_TRUE(same_as(events, "IMU|X")) << "only the chosen channels count";
 }
 
 TEST_F(LogDiffTest, MissingMessagesAndChannels) {
@@ -60,43 +60,28 @@ TEST_F(LogDiffTest, MissingMessagesAndChannels) {
   events.pop_back();  // the last message of X
   std::erase_if(events, [](const auto& e) { return e.channel == "IMU"; });
   events.push_back({"NEW", kTestStart, {1}});
-  const LogDiff result = compare_with(events);
-  EXPECT_EQ(channel(result, "X").number, 3U);
-  EXPECT_EQ(channel(result, "X").time_a_us, drive_[23].time_us);
-  EXPECT_FALSE(channel(result, "X").time_b_us);
-  EXPECT_EQ(channel(result, "IMU").number, 0U);
-  EXPECT_EQ(channel(result, "NEW").count_a, 0U);
-  EXPECT_FALSE(channel(result, "NEW").same());
-  EXPECT_TRUE(contains(format_diff(result, "a", "b"), "has no such message"));
+  EXPECT_FALSE(same_as(events));
+  EXPECT_TRUE(says("X: different: 4 and 3 messages, 0 of them differ\n  message 3\n" +
+                   side(log_, "2011-09-26 13:10:51.230000") + side(out_, "has no such message")))
+      << said_.str();
+  EXPECT_TRUE(says("IMU: different: 4 and 0 messages, 0 of them differ\n  message 0\n"));
+  EXPECT_TRUE(says("NEW: different: 0 and 1 messages, 0 of them differ\n  message 0\n"));
 }
 
-TEST_F(LogDiffTest, WhatLcmSendsToItselfIsNoDifference) {
-  auto events = drive_;
-  events.push_back({"LCM_SELF_TEST", kTestStart, {1, 2, 3}});
-  const LogDiff result = compare_with(events);
-  EXPECT_TRUE(result.same());
-  EXPECT_EQ(result.channels.size(), 5U);
-}
-
-TEST_F(LogDiffTest, OnlyTheChosenChannelsCount) {
-  auto events = drive_;
-  events[9].data = nav_state_bytes(1.25);
-  EXPECT_TRUE(compare_with(events, ChannelFilter("IMU|X")).same());
-}
-
-TEST_F(LogDiffTest, DamagedLogCannotBeCompared) {
-  record(other_, drive_);
+TEST_F(LogDiffTest, WhatCannotBeComparedIsAnError) {
+  EXPECT_TRUE(contains(error_of<std::runtime_error>([&] { same_as(drive_, "NO"); }),
+                       "nothing was compared"));
   damage(offsets_[3], 0xff);
-  EXPECT_TRUE(contains(error_of<std::runtime_error>([&] { diff(log_, other_, types(), {}); }),
+  EXPECT_TRUE(contains(error_of<std::runtime_error>([&] { same_as(drive_); }),
                        "is damaged at byte " + std::to_string(offsets_[3])));
 }
 
+std::string difference(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+  const auto d = compare(a, b, schema::own_schema());
+  return d ? d->field + ": " + d->a + " | " + d->b : "same";
+}
+
 TEST(FieldDifference, OddCases) {
-  const auto difference = [](const std::vector<std::uint8_t>& a,
-                             const std::vector<std::uint8_t>& b) {
-    const auto d = compare(a, b, types());
-    return d ? d->field + ": " + d->a + " | " + d->b : "same";
-  };
   EXPECT_EQ(difference({}, {}), "same");
   EXPECT_EQ(difference({}, {1}), "byte 0: nothing: 0 bytes in all | 0x01");
   EXPECT_EQ(difference(unknown_bytes(20, 1), unknown_bytes(20, 2)), "byte 8: 0x01 | 0x02");
@@ -114,11 +99,8 @@ TEST(FieldDifference, NansShowTheirBits) {
   auto b = a;
   const auto at = std::mismatch(a.begin(), a.end(), nav_state_bytes(0.0).begin()).first - a.begin();
   b[static_cast<std::size_t>(at) + 7] ^= 1;
-  const auto d = compare(a, b, types());
-  ASSERT_TRUE(d);
-  EXPECT_EQ(d->field, "position_enu[0]");
-  EXPECT_EQ(d->a, "nan (0x7ff8000000000000)");
-  EXPECT_EQ(d->b, "nan (0x7ff8000000000001)");
+  EXPECT_EQ(difference(a, b),
+            "position_enu[0]: nan (0x7ff8000000000000) | nan (0x7ff8000000000001)");
 }
 
 }  // namespace

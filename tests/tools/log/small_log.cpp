@@ -1,39 +1,30 @@
 #include "tests/tools/log/small_log.h"
 
-#include <gtest/gtest.h>
-#include <zlib.h>
-
 #include <fstream>
-#include <iterator>
 #include <lcm/lcm-cpp.hpp>
+#include <utility>
 
+#include "msgs/input_file.h"
+#include "msgs/input_limits.h"
 #include "msgs/lcm/conversions.h"
 #include "runtime/vehicle/output/log_recorder.h"
 
 namespace maploop::lcm_log {
-namespace {
 
-template <class Lcm>
-std::vector<std::uint8_t> encode(const Lcm& message) {
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-  EXPECT_GT(message.encode(bytes.data(), 0, static_cast<int>(bytes.size())), 0);
-  return bytes;
-}
-
-}  // namespace
+using schema::encoded;
 
 std::vector<std::uint8_t> nav_state_bytes(double east) {
   NavState state;
   state.position_enu = {east, 2.0, 3.0};
   state.status = NavStatus::aided;
-  return encode(to_lcm(state));
+  return encoded(to_lcm(state));
 }
 
 std::vector<std::uint8_t> health_bytes(int threads) {
   Health health;
   health.threads.resize(static_cast<std::size_t>(threads));
   for (auto& thread : health.threads) thread.name = "fusion";
-  return encode(to_lcm(health));
+  return encoded(to_lcm(health));
 }
 
 std::vector<std::uint8_t> unknown_bytes(std::size_t size, std::uint8_t seed) {
@@ -44,36 +35,21 @@ std::vector<std::uint8_t> unknown_bytes(std::size_t size, std::uint8_t seed) {
 
 std::vector<TestEvent> small_drive() {
   std::vector<TestEvent> events;
-  for (int i = 0; i < 24; ++i) {
-    TestEvent event{.channel = {}, .time_us = kTestStart + 10'000 * i, .data = {}};
-    switch (i % 6) {
-      case 0:
-      case 3:
-        event.channel = "NAV_STATE";
-        event.data = nav_state_bytes(0.1 * i);
-        break;
-      case 1:
-        event.channel = "HEALTH";
-        event.data = health_bytes(i % 4);
-        break;
-      case 2:
-        event.channel = "IMU";
-        event.data = encode(to_lcm(ImuSample{}));
-        break;
-      case 4:
-        event.channel = "CAMERA_TRIGGER";
-        event.data = unknown_bytes(40, static_cast<std::uint8_t>(i));
-        break;
-      default:
-        event.channel = "X";
-        event.data = i == 5 ? std::vector<std::uint8_t>{} : encode(to_lcm(RelativeMotion{}));
-    }
-    events.push_back(std::move(event));
+  const auto add = [&](const char* channel, std::vector<std::uint8_t> data) {
+    events.push_back({channel, kTestStart + 10'000 * std::ssize(events), std::move(data)});
+  };
+  for (int i = 0; i < 24; i += 6) {
+    add("NAV_STATE", nav_state_bytes(0.1 * i));
+    add("HEALTH", health_bytes((i + 1) % 4));
+    add("IMU", encoded(to_lcm(ImuSample{})));
+    add("NAV_STATE", nav_state_bytes(0.1 * (i + 3)));
+    add("CAMERA_TRIGGER", unknown_bytes(40, static_cast<std::uint8_t>(i)));
+    add("X", i == 0 ? std::vector<std::uint8_t>{} : encoded(to_lcm(RelativeMotion{})));
   }
   return events;
 }
 
-void record(const std::filesystem::path& file, const std::vector<TestEvent>& events) {
+void record(const path& file, const std::vector<TestEvent>& events) {
   vehicle::LogRecorder recorder(file.string());
   for (const TestEvent& event : events) {
     recorder.send({event.channel, from_nanoseconds(event.time_us * 1000), event.data, true});
@@ -81,7 +57,7 @@ void record(const std::filesystem::path& file, const std::vector<TestEvent>& eve
   EXPECT_EQ(recorder.health().unsent, 0U);
 }
 
-std::vector<TestEvent> read_with_lcm(const std::filesystem::path& file) {
+std::vector<TestEvent> read_with_lcm(const path& file) {
   lcm::LogFile log(file.string(), "r");
   EXPECT_TRUE(log.good()) << file;
   std::vector<TestEvent> events;
@@ -95,25 +71,20 @@ std::vector<TestEvent> read_with_lcm(const std::filesystem::path& file) {
   return events;
 }
 
-std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  EXPECT_TRUE(in) << file;
-  return {std::istreambuf_iterator<char>(in), {}};
+std::vector<std::uint8_t> read_bytes(const path& file) {
+  std::vector<std::uint8_t> bytes;
+  maploop::read_bytes(file, input_limits::mebibyte, bytes);
+  return bytes;
 }
 
-void write_bytes(const std::filesystem::path& file, const std::vector<std::uint8_t>& bytes) {
-  std::ofstream out(file, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(bytes.data()),
-            static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  EXPECT_TRUE(out) << file;
+void write_bytes(const path& file, const std::vector<std::uint8_t>& bytes) {
+  std::ofstream(file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
 }
 
-void write_compressed(const std::filesystem::path& file, const std::vector<std::uint8_t>& bytes) {
-  const gzFile out = gzopen(file.c_str(), "wb");
-  EXPECT_EQ(gzwrite(out, bytes.data(), static_cast<unsigned>(bytes.size())),
-            static_cast<int>(bytes.size()));
-  EXPECT_EQ(gzclose(out), Z_OK);
+void write_compressed(const path& file, const std::vector<std::uint8_t>& bytes) {
+  const std::string packed = gzip({bytes.begin(), bytes.end()});
+  write_bytes(file, {packed.begin(), packed.end()});
 }
 
 std::vector<std::size_t> event_offsets(const std::vector<TestEvent>& events) {

@@ -62,10 +62,9 @@ TEST(SpyText, TheRunsAreListedAndTwoAreWarnedOf) {
     traffic.add("RUN", encoded(run), now);
   };
   say("0000000b", seconds(1));
-  EXPECT_EQ(vehicle_lines(own_schema(), traffic),
-            std::vector<std::string>{"run: 0000000b (replay of a drive)"});
+  EXPECT_EQ(vehicle_lines(traffic), std::vector<std::string>{"run: 0000000b (replay of a drive)"});
   say("0000000a", seconds(2));
-  const auto lines = vehicle_lines(own_schema(), traffic);
+  const auto lines = vehicle_lines(traffic);
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_EQ(lines[0], "run: 0000000a (replay of a drive)");
   EXPECT_NE(lines[2].find("2 runs publish here"), std::string::npos);
@@ -111,12 +110,12 @@ TEST(SpyText, AMessageWithoutMeaningMakesNoLine) {
   maploop_lcm::health_t health{};
   health.utime = std::numeric_limits<std::int64_t>::max();  // a stamp cannot represent it
   traffic.add("HEALTH", encoded(health), seconds(1));
-  EXPECT_TRUE(vehicle_lines(own_schema(), traffic).empty());
+  EXPECT_TRUE(vehicle_lines(traffic).empty());
 }
 
 TEST(SpyText, RingsDeadlinesAndDegradedModesInALineEach) {
   Traffic traffic(own_schema(), seconds(5));
-  EXPECT_TRUE(vehicle_lines(own_schema(), traffic).empty());
+  EXPECT_TRUE(vehicle_lines(traffic).empty());
   Health health;
   health.rings = {{"imu -> fusion", 10, 8, 1, 1, 256}, {"camera -> stereo", 10, 7, 0, 3, 4}};
   health.degraded = {"the clock was stalled"};
@@ -131,7 +130,7 @@ TEST(SpyText, RingsDeadlinesAndDegradedModesInALineEach) {
   ppp.protection = {0.1, 0.2, 0.3};
   ppp.integrity_risk = 1e-4;
   traffic.add("PPP_STATE", encoded(to_lcm(ppp)), seconds(1));
-  const auto lines = vehicle_lines(own_schema(), traffic);
+  const auto lines = vehicle_lines(traffic);
   ASSERT_EQ(lines.size(), 4u);
   EXPECT_EQ(
       lines[3],
@@ -141,7 +140,7 @@ TEST(SpyText, RingsDeadlinesAndDegradedModesInALineEach) {
   EXPECT_EQ(lines[1], "degraded: 1: the clock was stalled");
   EXPECT_EQ(lines[2], "deadlines: fusion missed 2 of 100 (worst 0.0 of 0 ms: woken late)");
   traffic.add("HEALTH", imu(0, {}), seconds(1));
-  EXPECT_EQ(vehicle_lines(own_schema(), traffic).size(), 2u) << "another type on its channel";
+  EXPECT_EQ(vehicle_lines(traffic).size(), 2u) << "another type on its channel";
 }
 
 }  // namespace
