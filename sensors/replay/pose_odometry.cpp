@@ -9,18 +9,6 @@
 namespace maploop::sensors {
 namespace {
 
-constexpr double rotation_tolerance = 1e-3;  // numbers in files are rounded
-
-Eigen::Isometry3d pose_of(const double* numbers) {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.affine() = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(numbers);
-  const Eigen::Matrix3d off =
-      pose.linear().transpose() * pose.linear() - Eigen::Matrix3d::Identity();
-  if (off.cwiseAbs().maxCoeff() > rotation_tolerance || pose.linear().determinant() < 0.0)
-    throw std::invalid_argument("the left 3x3 block is not a rotation matrix");
-  return pose;
-}
-
 void add_line(std::string_view line, CameraPoses& all) {
   const std::vector<double> numbers = parse_numbers(line);
   if (numbers.size() != 12 && numbers.size() != 13) {
@@ -38,7 +26,7 @@ void add_line(std::string_view line, CameraPoses& all) {
   if (!all.frames.empty() && frame <= all.frames.back())
     throw std::invalid_argument("frame " + std::to_string(frame) + " comes after frame " +
                                 std::to_string(all.frames.back()));
-  all.poses.push_back(pose_of(numbers.data() + numbers.size() - 12));
+  all.poses.push_back(camera_pose(numbers.data() + numbers.size() - 12));
   all.frames.push_back(frame);
 }
 
@@ -57,6 +45,17 @@ void describe(const Eigen::Isometry3d& T_body_cam, const Eigen::Isometry3d& befo
 }
 
 }  // namespace
+
+Eigen::Isometry3d camera_pose(const double* numbers) {
+  constexpr double tolerance = 1e-3;  // numbers in files are rounded
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.affine() = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(numbers);
+  const Eigen::Matrix3d off =
+      pose.linear().transpose() * pose.linear() - Eigen::Matrix3d::Identity();
+  if (off.cwiseAbs().maxCoeff() > tolerance || pose.linear().determinant() < 0.0)
+    throw std::invalid_argument("the left 3x3 block is not a rotation matrix");
+  return pose;
+}
 
 CameraPoses read_camera_poses(const std::filesystem::path& file) {
   const std::string text = read_text(file);

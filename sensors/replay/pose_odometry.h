@@ -26,6 +26,10 @@ struct CameraPoses {
   std::vector<Eigen::Isometry3d> poses;
 };
 
+// Returns the pose of twelve numbers. Throws std::invalid_argument if its left 3x3 block is not a
+// rotation (to 1e-3).
+Eigen::Isometry3d camera_pose(const double* numbers);
+
 // Throws std::runtime_error that names file and line if a line is not a pose or does not follow the
 // previous line in order, and also if there are fewer than two.
 CameraPoses read_camera_poses(const std::filesystem::path& file);

@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto kind = input.byte() % 5U;
   const auto bytes = input.rest();
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  match::TrackFileOptions options;
+  match::TrackOptions options;
   options.origin = Geodetic{0.8, 0.1, 0.0};
   const fuzz::MemoryFile file(bytes.data(), bytes.size());
   try {

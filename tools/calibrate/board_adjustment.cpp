@@ -42,14 +42,10 @@ Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, const PoseVector& by) {
   return result;
 }
 
-CameraModel moved(const CameraModel& camera,
-                  const Eigen::Matrix<double, kCameraParameters, 1>& by) {
-  const sensors::Distortion& d = camera.distortion;
-  return {camera.fx + by[0],
-          camera.fy + by[1],
-          camera.cx + by[2],
-          camera.cy + by[3],
-          {d.k1 + by[4], d.k2 + by[5], d.p1 + by[6], d.p2 + by[7], d.k3 + by[8]}};
+CameraModel moved(CameraModel camera, const Eigen::Matrix<double, kCameraParameters, 1>& by) {
+  const auto numbers = numbers_of(camera);
+  for (std::size_t i = 0; i < numbers.size(); ++i) *numbers[i] += by[static_cast<Eigen::Index>(i)];
+  return camera;
 }
 
 Cameras moved(const Cameras& cameras, const CommonVector& by) {
@@ -102,6 +98,14 @@ Normals normals_of(const Board& board, const View& view, const Cameras& cameras,
           view.right[i] - right.pixel);
   }
   return n;
+}
+
+std::vector<Normals> normals_of(const Board& board, const std::vector<View>& views,
+                                const Adjustment& at) {
+  std::vector<Normals> normals;
+  for (std::size_t v = 0; v < views.size(); ++v)
+    normals.push_back(normals_of(board, views[v], at.cameras, at.T_left_board[v]));
+  return normals;
 }
 
 double sum_of_squares(const Residuals& residuals) {
@@ -217,9 +221,7 @@ Adjustment adjust(const Board& board, const std::vector<View>& views, const Came
   double squares = sum_of_squares(result.residuals);
   double damping = 1e-3;
   for (int step = 0; step < max_steps && !result.converged; ++step) {
-    std::vector<Normals> normals;
-    for (std::size_t v = 0; v < views.size(); ++v)
-      normals.push_back(normals_of(board, views[v], result.cameras, result.T_left_board[v]));
+    const std::vector<Normals> normals = normals_of(board, views, result);
     bool better = false;
     while (!better && damping < 1e12) {
       const Reduced reduced = reduce(normals, damping);
@@ -248,13 +250,10 @@ Adjustment adjust(const Board& board, const std::vector<View>& views, const Came
     if (!better) result.converged = true;  // no step reduces the sum: this is the minimum
   }
 
-  std::vector<Normals> normals;
-  for (std::size_t v = 0; v < views.size(); ++v)
-    normals.push_back(normals_of(board, views[v], result.cameras, result.T_left_board[v]));
   const std::size_t corners = 2 * views.size() * board.points().size();
   const auto redundancy = static_cast<double>(2 * corners) -
                           (kCommonParameters + 6.0 * static_cast<double>(views.size()));
-  const CommonMatrix inverse = scaled_inverse(reduce(normals, 0.0).S);
+  const CommonMatrix inverse = scaled_inverse(reduce(normals_of(board, views, result), 0.0).S);
   result.sigma = (inverse.diagonal() * squares / redundancy).cwiseSqrt();
   result.rms = mean_distance(squares, corners);
   return result;

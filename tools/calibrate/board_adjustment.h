@@ -1,5 +1,5 @@
 // Least squares adjustment of both cameras, their relative pose and the pose of the board in each
-// view.
+// view; its starting values, and the rectified cameras that follow from it.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -23,6 +23,13 @@ struct View {
 // (m).
 constexpr int kCameraParameters = 9, kCommonParameters = 2 * kCameraParameters + 6;
 using CommonVector = Eigen::Matrix<double, kCommonParameters, 1>;
+constexpr std::array<const char*, kCameraParameters> kCameraParameterNames = {
+    "fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3"};
+// Returns the numbers of a camera that have these names.
+inline std::array<double*, kCameraParameters> numbers_of(sensors::CameraModel& c) {
+  sensors::Distortion& d = c.distortion;
+  return {&c.fx, &c.fy, &c.cx, &c.cy, &d.k1, &d.k2, &d.p1, &d.p2, &d.k3};
+}
 
 struct Cameras {
   sensors::CameraModel left, right;
@@ -65,5 +72,22 @@ struct Projection {
 };
 Projection project_with_derivatives(const sensors::CameraModel& camera,
                                     const Eigen::Vector3d& point);
+
+struct StartingValues {
+  Cameras cameras;
+  std::vector<Eigen::Isometry3d> T_left_board;
+};
+
+// Calibrates each camera independently (Zhang 2000, by OpenCV), and takes the median over the views
+// for the pose between the cameras. Throws std::runtime_error if no camera fits.
+StartingValues starting_values(const Board& board, const std::vector<View>& views, int width,
+                               int height);
+
+// Each camera is turned by half of the rotation between them, then both are turned so that x points
+// from the left to the right one (Bouguet). The rectified image has the raw image's size and the
+// largest field of view in which the raw cameras see every pixel of both images. Throws
+// std::runtime_error if the right camera is not to the right of the left one, or if no such field
+// remains.
+sensors::StereoRig rectify(const Cameras& cameras, int width, int height);
 
 }  // namespace maploop::calibrate

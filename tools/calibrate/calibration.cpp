@@ -9,8 +9,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "tools/calibrate/rectification.h"
-#include "tools/calibrate/starting_values.h"
 #include "tools/command/median.h"
 
 namespace maploop::calibrate {

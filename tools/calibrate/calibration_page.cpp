@@ -1,16 +1,12 @@
-#include "tools/calibrate/calibration_page.h"
+#include "tools/calibrate/calibration_output.h"
 
-#include <fmt/format.h>
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "sensors/camera/rectifier.h"
 #include "sensors/image/jpeg.h"
-#include "tools/calibrate/calibration_text.h"
 #include "tools/web/html.h"
 #include "tools/web/page.h"
 
@@ -18,10 +14,6 @@ namespace maploop::calibrate {
 namespace {
 
 using web::escaped;
-
-std::string number(double value) {
-  return fmt::format("{:.3f}", value);
-}
 
 // `width` is the width on the page, px.
 std::string picture(const cv::Mat& image, int width) {
@@ -69,77 +61,55 @@ cv::Mat with_rows(const StereoPair& rectified) {
   return both;
 }
 
-std::string svg(double width, double height, const std::string& content) {
-  return "<svg xmlns='http://www.w3.org/2000/svg' width='" + number(width) + "' height='" +
-         number(height) + "' font-family='sans-serif' font-size='11'>" + content + "</svg>\n";
+void add(web::Line& line, double x, double y) {
+  line.x.push_back(x);
+  line.y.push_back(y);
 }
 
-std::string rectangle(double x, double y, double width, double height, const std::string& fill) {
-  return "<rect x='" + number(x) + "' y='" + number(y) + "' width='" + number(width) +
-         "' height='" + number(height) + "' fill='" + fill + "' stroke='#bbb'/>";
+// Returns a line for each camera, to which `add_view(view, side, line)` has added every view.
+template <class AddView>
+std::vector<web::Line> of_cameras(const StereoResult& r, web::Line::Look look,
+                                  const AddView& add_view) {
+  std::vector<web::Line> lines{{"left", {}, {}, look}, {"right", {}, {}, look}};
+  for (const ViewResult& view : r.views)
+    for (std::size_t side = 0; side < 2; ++side) add_view(view, side, lines[side]);
+  return lines;
 }
 
-std::string dot(double x, double y, const char* colour) {
-  return "<circle cx='" + number(x) + "' cy='" + number(y) + "' r='1.5' fill='" + colour + "'/>";
+web::Plot view_plot(const StereoResult& r) {
+  const auto add_view = [](const ViewResult& view, std::size_t side, web::Line& line) {
+    add(line, static_cast<double>(line.x.size() + 1), rms_of(view.residuals)[side]);
+  };
+  return {"Reprojection error of each view", "number of the view", "px",
+          of_cameras(r, web::Line::Look::solid, add_view)};
 }
 
-constexpr std::array kColours = {"#1f77b4", "#d62728"};  // left, right
+web::Plot residual_plot(const StereoResult& r) {
+  const auto add_view = [](const ViewResult& view, std::size_t side, web::Line& line) {
+    for (const Eigen::Vector2d& e : view.residuals[side]) add(line, e.x(), -e.y());
+  };
+  return {"Residuals", "px to the right", "px upwards",
+          of_cameras(r, web::Line::Look::points, add_view), true};
+}
 
-// Plots all corners of one camera, over the fields that have a corner.
-std::string coverage_plot(const StereoResult& r, std::size_t side) {
-  constexpr double width = 560.0;
-  const double scale = width / r.rig.width, height = scale * r.rig.height;
-  std::string content;
+// Shows all corners of one camera, and the outlines of the fields without a corner.
+web::Plot coverage_plot(const StereoResult& r, std::size_t camera) {
+  const double width = r.rig.width, height = r.rig.height;
+  const auto corners = of_cameras(
+      r, web::Line::Look::points, [&](const ViewResult& view, std::size_t side, web::Line& line) {
+        for (const Eigen::Vector2d& c : side == 0 ? view.view.left : view.view.right)
+          add(line, c.x(), height - c.y());
+      });
+  web::Plot plot{"Coverage", "px", "px above the lower edge", {corners[camera]}, true};
   const double w = width / Coverage::columns, h = height / Coverage::rows;
   for (int row = 0; row < Coverage::rows; ++row)
     for (int column = 0; column < Coverage::columns; ++column) {
       const auto i = static_cast<std::size_t>(row * Coverage::columns + column);
-      content += rectangle(column * w, row * h, w, h,
-                           r.coverage[side].corners[i] > 0 ? "#eef6ee" : "#fbe3e0");
+      if (r.coverage[camera].corners[i] > 0) continue;
+      const double x = column * w, y = height - row * h;
+      plot.roads.push_back({"no corner", {x, x + w, x + w, x, x}, {y, y, y - h, y - h, y}});
     }
-  for (const ViewResult& view : r.views)
-    for (const Eigen::Vector2d& c : side == 0 ? view.view.left : view.view.right)
-      content += dot(scale * c.x(), scale * c.y(), kColours[side]);
-  return svg(width, height, content);
-}
-
-// Plots residuals around zero; the frame extends four root mean squares to each side.
-std::string residual_plot(const StereoResult& r, std::size_t side) {
-  constexpr double size = 300.0;
-  const double range = std::max(4.0 * r.adjustment.rms, 1e-6), scale = 0.5 * size / range;
-  std::string content = rectangle(0.0, 0.0, size, size, "none");
-  for (const double at : {-0.5, 0.0, 0.5}) {
-    const std::string p = number(0.5 * size * (1.0 + at)), end = number(size);
-    content += "<line x1='" + p + "' x2='" + p + "' y1='0' y2='" + end + "' stroke='#ddd'/>" +
-               "<line y1='" + p + "' y2='" + p + "' x1='0' x2='" + end + "' stroke='#ddd'/>";
-  }
-  for (const ViewResult& view : r.views)
-    for (const Eigen::Vector2d& e : view.residuals[side])
-      content += dot(0.5 * size + scale * e.x(), 0.5 * size + scale * e.y(), kColours[side]);
-  content += "<text x='4' y='" + number(size - 5.0) + "'>frame: +-" + number(range) + " px</text>";
-  return svg(size, size, content);
-}
-
-std::string bars(const StereoResult& r) {
-  constexpr double length = 300.0, step = 16.0, names = 200.0;
-  double longest = 1e-9;
-  for (const ViewResult& view : r.views)
-    for (const double rms : rms_of(view.residuals)) longest = std::max(longest, rms);
-  std::string content;
-  double y = 0.0;
-  for (const ViewResult& view : r.views) {
-    content += "<text x='0' y='" + number(y + 11.0) + "'>" + escaped(view.view.name) + "</text>";
-    const auto rms = rms_of(view.residuals);
-    for (std::size_t side = 0; side < 2; ++side) {
-      const double bar = length * rms[side] / longest;
-      content +=
-          rectangle(names, y + 2.0 + 6.0 * static_cast<double>(side), bar, 6.0, kColours[side]);
-    }
-    content += "<text x='" + number(names + length + 8.0) + "' y='" + number(y + 11.0) + "'>" +
-               number(rms[0]) + " / " + number(rms[1]) + " px</text>";
-    y += step;
-  }
-  return svg(names + length + 120.0, y + 4.0, content);
+  return plot;
 }
 
 const ImagePair* pair_of(const std::string& name, const std::vector<ImagePair>& pairs) {
@@ -183,13 +153,11 @@ std::string pictures_of(const StereoResult& r, const std::vector<ImagePair>& pai
 
 std::string to_page(const StereoResult& r, const std::vector<ImagePair>& pairs,
                     const std::vector<Unusable>& unusable) {
-  std::string body = "<pre>" + escaped(to_text(r, unusable)) + "</pre>\n";
-  body += "<h2>Reprojection error of each view</h2><p>Blue: left, red: right.</p>" + bars(r);
-  body += "<h2>Residuals</h2>" + residual_plot(r, 0) + " " + residual_plot(r, 1);
-  body += "<h2>Coverage</h2><p>Fields without a corner are red.</p>" + coverage_plot(r, 0) + " " +
-          coverage_plot(r, 1);
-  body += pictures_of(r, pairs);
-  return web::Page("Stereo calibration").add(body).text();
+  return web::Page("Stereo calibration")
+      .add("<pre>" + escaped(to_text(r, unusable)) + "</pre>\n")
+      .add({view_plot(r), residual_plot(r), coverage_plot(r, 0), coverage_plot(r, 1)})
+      .add(pictures_of(r, pairs))
+      .text();
 }
 
 }  // namespace maploop::calibrate

@@ -1,4 +1,4 @@
-#include "tools/calibrate/calibration_text.h"
+#include "tools/calibrate/calibration_output.h"
 
 #include <fmt/format.h>
 #include <Eigen/Dense>
@@ -88,24 +88,16 @@ std::vector<Parameter> parameters_of(const StereoResult& r) {
     all.push_back({name, unit, value, scale * r.adjustment.sigma[i]});
   };
   for (const bool is_left : {true, false}) {
-    const sensors::CameraModel& c = is_left ? r.rig.left : r.rig.right;
-    const std::string side = is_left ? "left." : "right.";
-    add(side + "fx", "px", c.fx);
-    add(side + "fy", "px", c.fy);
-    add(side + "cx", "px", c.cx);
-    add(side + "cy", "px", c.cy);
-    add(side + "k1", "", c.distortion.k1);
-    add(side + "k2", "", c.distortion.k2);
-    add(side + "p1", "", c.distortion.p1);
-    add(side + "p2", "", c.distortion.p2);
-    add(side + "k3", "", c.distortion.k3);
+    sensors::CameraModel camera = is_left ? r.rig.left : r.rig.right;
+    const auto numbers = numbers_of(camera);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      add(std::string(is_left ? "left." : "right.") + kCameraParameterNames[i], i < 4 ? "px" : "",
+          *numbers[i]);
   }
   const Eigen::Vector3d turn = turn_of(r.rig), t = r.rig.T_right_left.translation();
-  const std::array<std::string, 3> axes = {"x", "y", "z"};
-  for (int i = 0; i < 3; ++i)
-    add("rotation_right_left." + axes[static_cast<std::size_t>(i)], "deg", turn[i] * kDegrees,
-        kDegrees);
-  for (int i = 0; i < 3; ++i) add("t_right_left." + axes[static_cast<std::size_t>(i)], "m", t[i]);
+  for (const int i : {0, 1, 2})
+    add(std::string("rotation_right_left.") + "xyz"[i], "deg", turn[i] * kDegrees, kDegrees);
+  for (const int i : {0, 1, 2}) add(std::string("t_right_left.") + "xyz"[i], "m", t[i]);
   return all;
 }
 

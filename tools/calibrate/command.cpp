@@ -11,9 +11,7 @@
 #include <vector>
 
 #include "tools/calibrate/calibration.h"
-#include "tools/calibrate/calibration_page.h"
-#include "tools/calibrate/calibration_text.h"
-#include "tools/calibrate/image_pairs.h"
+#include "tools/calibrate/calibration_output.h"
 #include "tools/calibrate/views.h"
 #include "tools/command/commands.h"
 #include "tools/command/json_output.h"

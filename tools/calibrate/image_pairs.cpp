@@ -1,5 +1,4 @@
-#include "tools/calibrate/image_pairs.h"
-
+// Finds out which images are pairs.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -8,6 +7,8 @@
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
+
+#include "tools/calibrate/views.h"
 
 namespace maploop::calibrate {
 namespace {

@@ -1,9 +1,10 @@
-#include "tools/calibrate/rectification.h"
-
+// Computes the rectified cameras for a pair of raw cameras.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "tools/calibrate/board_adjustment.h"
 
 namespace maploop::calibrate {
 namespace {

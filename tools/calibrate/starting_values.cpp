@@ -1,5 +1,4 @@
-#include "tools/calibrate/starting_values.h"
-
+// Computes the starting values of the adjustment.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "tools/calibrate/board_adjustment.h"
 #include "tools/command/median.h"
 
 namespace maploop::calibrate {

@@ -5,7 +5,6 @@
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <stdexcept>
 
 #include "msgs/frames.h"
@@ -13,7 +12,6 @@
 #include "tools/command/json_output.h"
 #include "tools/command/option_checks.h"
 #include "tools/evaluate/evaluation.h"
-#include "tools/evaluate/kitti_mercator.h"
 #include "tools/evaluate/text_file.h"
 
 namespace maploop::tools {
@@ -27,14 +25,8 @@ struct EvaluateOptions {
   double tolerance = 0.010;  // s
 };
 
-nlohmann::json number(double value) {
-  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
-}
-
 nlohmann::json to_json(const evaluation::SegmentError& error) {
-  return {{"percent", number(error.percent)},
-          {"deg_per_m", number(error.deg_per_m)},
-          {"segments", error.segments}};
+  return {{"percent", error.percent}, {"deg_per_m", error.deg_per_m}, {"segments", error.segments}};
 }
 
 nlohmann::json to_json(const evaluation::Statistics& s) {
@@ -52,7 +44,7 @@ nlohmann::json to_json(const evaluation::Evaluation& e) {
            {{"estimate", e.matched.unmatched_estimate}, {"truth", e.matched.unmatched_truth}}},
           {"distance_m", e.raw.distance_m},
           {"end_point_m", e.raw.end_point_m},
-          {"end_point_percent", number(e.raw.end_point_percent)},
+          {"end_point_percent", e.raw.end_point_percent},
           {"common_rotation_removed", {{"end_point_m", e.common_rotation_removed.end_point_m}}},
           {"kitti", to_json(e.kitti)},
           {"lengths", lengths},
@@ -73,21 +65,16 @@ evaluation::StampedTrajectory between(evaluation::StampedTrajectory whole, std::
   return whole;
 }
 
-evaluation::StampedTrajectory read_truth(const EvaluateOptions& options) {
-  evaluation::StampedTrajectory truth = evaluation::read_trajectory(options.truth);
+// Poses match frame by frame if one trajectory has no stamps: then both begin with the same frame.
+evaluation::Matched read_matched(const EvaluateOptions& options) {
+  const auto estimate = evaluation::read_trajectory(options.estimate);
+  auto truth = evaluation::read_trajectory(options.truth);
   if (!options.kitti_poses_of.empty())
     truth.poses = evaluation::from_kitti_mercator(truth.poses, radians(options.kitti_poses_of[0]),
                                                   radians(options.kitti_poses_of[1]));
-  return truth;
-}
-
-// Frame by frame where one of them has no stamps: then both begin with the same frame.
-evaluation::Matched read_matched(const EvaluateOptions& options) {
-  auto estimate = evaluation::read_trajectory(options.estimate);
-  auto truth = read_truth(options);
   if (estimate.stamps.empty() || truth.stamps.empty())
-    truth = between(std::move(truth), options.first, options.last);
-  return evaluation::match(between(std::move(estimate), options.first, options.last), truth,
+    truth = between(truth, options.first, options.last);
+  return evaluation::match(between(estimate, options.first, options.last), truth,
                            from_seconds(options.tolerance));
 }
 

@@ -1,13 +1,63 @@
 #include "tools/evaluate/evaluation.h"
 
 #include <fmt/format.h>
-#include <cmath>
 
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "msgs/frames.h"
 #include "tools/web/html.h"
 #include "tools/web/page.h"
 
 namespace maploop::evaluation {
 namespace {
+
+Eigen::Matrix3Xd positions(const Trajectory& trajectory) {
+  Eigen::Matrix3Xd all(3, static_cast<Eigen::Index>(trajectory.size()));
+  for (std::size_t i = 0; i < trajectory.size(); ++i)
+    all.col(static_cast<Eigen::Index>(i)) = trajectory[i].translation();
+  return all;
+}
+
+// All figures are zero if there are no values.
+Statistics statistics(std::vector<double> values) {
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  Statistics s;
+  for (const double v : values) {
+    s.mean += v;
+    s.rmse += v * v;
+  }
+  const auto count = static_cast<double>(values.size());
+  s.mean /= count;
+  s.rmse = std::sqrt(s.rmse / count);
+  s.median = 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
+  s.max = values.back();
+  return s;
+}
+
+// Returns the distances of the positions after `alignment` is applied to the estimate.
+std::vector<double> distances_apart(const Matched& m, const Eigen::Isometry3d& alignment) {
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < m.truth.size(); ++i)
+    errors.push_back((alignment * m.estimate[i].translation() - m.truth[i].translation()).norm());
+  return errors;
+}
+
+PoseErrors errors_of(const Matched& m) {
+  PoseErrors errors;
+  errors.along = distances(m.truth);
+  errors.from_start = distances_apart(m, m.truth.front() * m.estimate.front().inverse());
+  errors.aligned = distances_apart(m, best_alignment(m.estimate, m.truth));
+  for (std::size_t i = 1; i < m.truth.size(); ++i) {
+    const Eigen::Isometry3d off = (m.estimate[i - 1].inverse() * m.estimate[i]).inverse() *
+                                  (m.truth[i - 1].inverse() * m.truth[i]);
+    errors.step_m.push_back(off.translation().norm());
+    errors.step_deg.push_back(degrees(Eigen::AngleAxisd(off.linear()).angle()));
+  }
+  return errors;
+}
 
 std::string of_segments(const SegmentError& error) {
   if (error.segments == 0) return "        -          -";
@@ -21,6 +71,13 @@ std::string of_statistics(const char* what, const char* unit, const Statistics& 
 
 }  // namespace
 
+Eigen::Isometry3d best_alignment(const Trajectory& estimate, const Trajectory& truth) {
+  if (estimate.size() != truth.size() || estimate.size() < 3)
+    throw std::invalid_argument(
+        "pose errors need three poses or more of the estimate, and as many of the truth");
+  return Eigen::Isometry3d(Eigen::umeyama(positions(estimate), positions(truth), false));
+}
+
 web::Line seen_from_above(const std::string& name, const Trajectory& trajectory) {
   web::Line line{name, {}, {}};
   for (const Eigen::Isometry3d& pose : trajectory) {
@@ -31,22 +88,15 @@ web::Line seen_from_above(const std::string& name, const Trajectory& trajectory)
   return line;
 }
 
-std::vector<double> distances(const Trajectory& truth) {
-  std::vector<double> along{0.0};
-  for (std::size_t i = 1; i < truth.size(); ++i)
-    along.push_back(along.back() + (truth[i].translation() - truth[i - 1].translation()).norm());
-  return along;
-}
-
 Evaluation evaluate(Matched matched, const std::vector<double>& lengths_m) {
   Evaluation e;
   e.matched = std::move(matched);
   const Trajectory& estimate = e.matched.estimate;
   const Trajectory& truth = e.matched.truth;
-  e.ape = statistics(absolute_errors(estimate, truth, best_alignment(estimate, truth)));
-  const RelativeErrors relative = relative_errors(estimate, truth);
-  e.rpe_m = statistics(relative.translation_m);
-  e.rpe_deg = statistics(relative.rotation_deg);
+  e.errors = errors_of(e.matched);
+  e.ape = statistics(e.errors.aligned);
+  e.rpe_m = statistics(e.errors.step_m);
+  e.rpe_deg = statistics(e.errors.step_deg);
   e.kitti = kitti_odometry_error(estimate, truth);
   for (const double length : lengths_m) {
     e.raw = score(estimate, truth, length);
@@ -77,35 +127,22 @@ std::string to_text(const Evaluation& e) {
 }
 
 std::string to_csv(const Evaluation& e) {
-  const Trajectory& estimate = e.matched.estimate;
-  const Trajectory& truth = e.matched.truth;
-  const std::vector<double> along = distances(truth);
-  const auto from_start =
-      absolute_errors(estimate, truth, truth.front() * estimate.front().inverse());
-  const auto aligned = absolute_errors(estimate, truth, best_alignment(estimate, truth));
-  const RelativeErrors relative = relative_errors(estimate, truth);
   std::string text = "stamp,way,from_start,aligned,step,step_deg\n";
-  for (std::size_t i = 0; i < truth.size(); ++i) {
+  for (std::size_t i = 0; i < e.matched.truth.size(); ++i) {
     if (!e.matched.stamps.empty())
       text +=
           fmt::format("{:.6f}", static_cast<double>(to_nanoseconds(e.matched.stamps[i])) * 1e-9);
-    text += fmt::format(",{:.4f},{:.4f},{:.4f},", along[i], from_start[i], aligned[i]);
+    text += fmt::format(",{:.4f},{:.4f},{:.4f},", e.errors.along[i], e.errors.from_start[i],
+                        e.errors.aligned[i]);
     text += i == 0 ? ","
-                   : fmt::format("{:.5f},{:.6f}", relative.translation_m[i - 1],
-                                 relative.rotation_deg[i - 1]);
+                   : fmt::format("{:.5f},{:.6f}", e.errors.step_m[i - 1], e.errors.step_deg[i - 1]);
     text += '\n';
   }
   return text;
 }
 
 std::string to_html(const Evaluation& e, const std::string& heading) {
-  const Trajectory& estimate = e.matched.estimate;
-  const Trajectory& truth = e.matched.truth;
-  const std::vector<double> along = distances(truth);
-  const auto ape = absolute_errors(estimate, truth, best_alignment(estimate, truth));
-  const auto from_start =
-      absolute_errors(estimate, truth, truth.front() * estimate.front().inverse());
-  const RelativeErrors relative = relative_errors(estimate, truth);
+  const auto& [along, from_start, aligned, step_m, step_deg] = e.errors;
   const std::vector<double> after_first(along.begin() + 1, along.end());
   web::Line raw{"as it is", {}, {}}, rotated{"one common rotation removed", {}, {}};
   for (const LengthError& l : e.lengths) {
@@ -118,16 +155,19 @@ std::string to_html(const Evaluation& e, const std::string& heading) {
       {"Seen from above",
        "right of the first camera, m",
        "ahead, m",
-       {seen_from_above("truth", truth), seen_from_above("estimate", estimate)},
+       {seen_from_above("truth", e.matched.truth), seen_from_above("estimate", e.matched.estimate)},
        true},
       {"Position error",
        "way, m",
        "m",
-       {{"from the start", along, from_start}, {"best alignment", along, ape}}},
+       {{"from the start", along, from_start}, {"best alignment", along, aligned}}},
       {"Error of segments", "length, m", "%", {raw, rotated}},
-      {"From pose to pose", "way, m", "m", {{"translation", after_first, relative.translation_m}}},
-      {"From pose to pose", "way, m", "deg", {{"rotation", after_first, relative.rotation_deg}}}};
-  return web::Page(heading).add("<pre>" + web::escaped(to_text(e)) + "</pre>\n").add(plots).text();
+      {"From pose to pose", "way, m", "m", {{"translation", after_first, step_m}}},
+      {"From pose to pose", "way, m", "deg", {{"rotation", after_first, step_deg}}}};
+  return web::Page(heading)
+      .add("<pre>" + web::escaped(to_text(e)) + "</pre>\n")
+      .add(plots)
+      .text();
 }
 
 }  // namespace maploop::evaluation

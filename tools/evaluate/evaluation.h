@@ -1,19 +1,33 @@
-// Computes all scores of one trajectory against one truth.
+// Computes all scores of one trajectory against one truth: KITTI's metric, and absolute and
+// relative pose errors (Sturm et al., "A Benchmark for the Evaluation of RGB-D SLAM Systems", IROS
+// 2012; Zhang, Scaramuzza, "A Tutorial on Quantitative Trajectory Evaluation", IROS 2018).
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "tools/evaluate/kitti_metric.h"
-#include "tools/evaluate/pose_errors.h"
 #include "tools/evaluate/trajectory_file.h"
 #include "tools/web/plot.h"
 
 namespace maploop::evaluation {
 
+struct Statistics {
+  double rmse = 0.0, mean = 0.0, median = 0.0, max = 0.0;
+};
+
 struct LengthError {
   double length_m = 0.0;
   SegmentError raw, common_rotation_removed;  // segments from every frame
+};
+
+// The errors of each pose.
+struct PoseErrors {
+  std::vector<double> along;       // m, way along the truth
+  std::vector<double> from_start;  // m, position, if both start at the same pose
+  std::vector<double> aligned;     // m, position after the best rigid alignment (APE)
+  // From each pose to the next (RPE), one fewer than poses.
+  std::vector<double> step_m, step_deg;
 };
 
 struct Evaluation {
@@ -21,12 +35,18 @@ struct Evaluation {
   Score raw, common_rotation_removed;
   SegmentError kitti;  // the benchmark's own score: 100 to 800 m, every tenth frame
   std::vector<LengthError> lengths;
+  PoseErrors errors;
   Statistics ape;             // m, after the best rigid alignment
   Statistics rpe_m, rpe_deg;  // from pose to pose
 };
 
 // Throws std::invalid_argument if fewer than three poses match or a length is not positive.
 Evaluation evaluate(Matched matched, const std::vector<double>& lengths_m);
+
+// Returns the rigid motion that brings the estimate's positions nearest to the truth's (Umeyama
+// 1991, no scale). Throws std::invalid_argument unless both have the same length of at least three
+// poses.
+Eigen::Isometry3d best_alignment(const Trajectory& estimate, const Trajectory& truth);
 
 std::string to_text(const Evaluation& evaluation);
 
@@ -38,9 +58,7 @@ std::string to_csv(const Evaluation& evaluation);
 // Returns a page with the table, the two paths seen from above, and the errors along the way.
 std::string to_html(const Evaluation& evaluation, const std::string& heading);
 
-// Return a path in metres right and ahead of its first camera, and the distance (m) to each pose,
-// for pictures.
+// Returns a path in metres right and ahead of its first camera, for pictures.
 web::Line seen_from_above(const std::string& name, const Trajectory& trajectory);
-std::vector<double> distances(const Trajectory& truth);
 
 }  // namespace maploop::evaluation

@@ -34,9 +34,9 @@ Pair aligned(const Trajectory& estimate, const Trajectory& truth) {
   for (std::size_t i = 0; i < frames; ++i) {
     pair.estimate.push_back(between(estimate.front(), estimate[i]));
     pair.truth.push_back(between(truth.front(), truth[i]));
-    const double step = i == 0 ? 0.0 : (truth[i].translation() - truth[i - 1].translation()).norm();
-    pair.distance.push_back(i == 0 ? 0.0 : pair.distance.back() + step);
   }
+  pair.distance = distances(truth);
+  pair.distance.resize(frames);
   return pair;
 }
 
@@ -95,6 +95,14 @@ Eigen::Matrix3d fit_rotation(const Pair& pair) {
 }
 
 }  // namespace
+
+std::vector<double> distances(const Trajectory& trajectory) {
+  std::vector<double> along{0.0};
+  for (std::size_t i = 1; i < trajectory.size(); ++i)
+    along.push_back(along.back() +
+                    (trajectory[i].translation() - trajectory[i - 1].translation()).norm());
+  return along;
+}
 
 Eigen::Matrix3d fit_common_rotation(const Trajectory& estimate, const Trajectory& truth) {
   return fit_rotation(aligned(estimate, truth));

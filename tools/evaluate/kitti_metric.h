@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "tools/evaluate/kitti_poses.h"
+#include "tools/evaluate/trajectory_file.h"
 
 namespace maploop::evaluation {
 
@@ -30,6 +30,9 @@ struct Score {
   SegmentError segment;            // segments start at every frame
   int frames = 0;                  // number of frames compared, that of the shorter trajectory
 };
+
+// Returns the way along the trajectory to each pose, m.
+std::vector<double> distances(const Trajectory& trajectory);
 
 // Scores segments of one length (m), starting at every frame. Throws std::invalid_argument if a
 // trajectory has fewer than two poses or the length is not positive.

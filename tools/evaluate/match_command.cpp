@@ -1,4 +1,6 @@
 // maploop evaluate match: matched links against those really driven.
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -14,9 +16,7 @@
 #include "tools/command/json_output.h"
 #include "tools/command/option_checks.h"
 #include "tools/evaluate/text_file.h"
-#include "tools/match/log_messages.h"
-#include "tools/match/match_file.h"
-#include "tools/match/score_output.h"
+#include "tools/match/match_score.h"
 #include "tools/match/track_file.h"
 
 namespace maploop::tools {
@@ -37,12 +37,10 @@ std::vector<Time> frame_stamps(const EvaluateMatchOptions& options) {
 }
 
 std::string row(const match::TimedMatch& m, std::size_t frame, const match::Label& label) {
-  const bool right = m.matched.way_id == label.way_id;
-  std::string text = std::to_string(to_seconds(m.stamp.time_since_epoch())) + ',' +
-                     std::to_string(frame) + ',' + std::to_string(label.way_id) + ',';
-  if (m.matched.way_id) text += std::to_string(*m.matched.way_id);
-  return text + ',' + std::to_string(m.matched.p_link) + ',' + (label.certain ? "1," : "0,") +
-         (right ? "1\n" : "0\n");
+  const auto& [way, a, b, p_link, link] = m.matched;
+  return fmt::format("{:.6f},{},{},{},{:.6f},{:d},{:d}\n", to_seconds(m.stamp.time_since_epoch()),
+                     frame, label.way_id, way ? std::to_string(*way) : "", p_link, label.certain,
+                     way == label.way_id);
 }
 
 int evaluate_match(const EvaluateMatchOptions& options) {

@@ -1,133 +1,130 @@
 #include "tools/evaluate/trajectory_file.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 
+#include "runtime/core/number_text.h"
 #include "sensors/replay/files.h"
+#include "sensors/replay/pose_odometry.h"
 #include "tools/evaluate/text_file.h"
 
 namespace maploop::evaluation {
 namespace {
 
-using Pose = std::array<double, 7>;  // x y z qw qx qy qz
-
-class LineError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-std::vector<std::string_view> words(std::string_view line) {
-  constexpr std::string_view kBetween = " \t\r,";
-  std::vector<std::string_view> all;
-  for (std::size_t end = 0;;) {
-    const std::size_t begin = line.find_first_not_of(kBetween, end);
-    if (begin == std::string_view::npos) return all;
-    end = std::min(line.find_first_of(kBetween, begin), line.size());
-    all.push_back(line.substr(begin, end - begin));
-  }
-}
-
-double to_number(std::string_view word) {
-  double value = 0.0;
-  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || stop != word.data() + word.size() || !std::isfinite(value))
-    throw LineError(sensors::quoted(word) + " is not a finite number");
-  return value;
+double finite_number(const TextLines& lines, std::string_view word) {
+  const auto value = number_of<double>(word);
+  if (!value || !std::isfinite(*value))
+    lines.fail(sensors::quoted(word) + " is not a finite number");
+  return *value;
 }
 
 // Whole and fractional part are parsed separately, because a double cannot represent a present-day
 // stamp in nanoseconds.
-Time to_time(std::string_view word) {
-  constexpr double kLargest = 9e9;  // s, in range of 64-bit nanoseconds
-  if (std::abs(to_number(word)) > kLargest)
-    throw LineError(sensors::quoted(word) + " is no stamp in seconds");
+Time stamp_of(const TextLines& lines, std::string_view word) {
+  constexpr double largest = 9e9;  // s, in range of 64-bit nanoseconds
+  const double seconds = finite_number(lines, word);
+  if (std::abs(seconds) > largest) lines.fail(sensors::quoted(word) + " is not a stamp in seconds");
   const std::size_t point = word.find('.');
   if (point == std::string_view::npos || word.find_first_of("eE") != std::string_view::npos)
-    return Time(from_seconds(to_number(word)));
-  const double whole =
-      point == 0 || word.substr(0, point) == "-" ? 0.0 : to_number(word.substr(0, point));
-  const double part = to_number("0" + std::string(word.substr(point)));
+    return Time(from_seconds(seconds));
+  const double whole = point == 0 || word.substr(0, point) == "-"
+                           ? 0.0
+                           : finite_number(lines, word.substr(0, point));
+  const double part = finite_number(lines, "0" + std::string(word.substr(point)));
   return Time(from_seconds(whole) + (word.front() == '-' ? -1 : 1) * from_seconds(part));
 }
 
-Eigen::Isometry3d to_pose(const Pose& p) {
-  const Eigen::Quaterniond q(p[3], p[4], p[5], p[6]);
-  if (!(std::abs(q.norm() - 1.0) < 1e-3)) throw LineError("the quaternion is not of length one");
-  return Eigen::Translation3d(p[0], p[1], p[2]) * q.normalized();
+Eigen::Isometry3d kitti_pose(const TextLines& lines) {
+  try {
+    const std::vector<double> numbers = sensors::parse_numbers(lines.line());
+    if (numbers.size() == 12) return sensors::camera_pose(numbers.data());
+    lines.fail("a pose has 12 numbers (3x4, row by row), this line has " +
+               std::to_string(numbers.size()));
+  } catch (const std::invalid_argument& e) {
+    lines.fail(e.what());
+  }
 }
 
-// The indices of the stamp and of the pose's seven numbers in a line.
-struct Columns {
-  std::size_t count = 8;
-  std::size_t stamp = 0;
-  std::array<std::size_t, 7> pose = {1, 2, 3, 7, 4, 5, 6};  // TUM
-};
-
-Columns columns_of(const std::vector<std::string_view>& heading) {
-  const auto find = [&](std::string_view name) {
+// Returns the columns of recorded truth in the order of TUM's.
+std::vector<std::size_t> columns_of(const TextLines& lines, const Cells& heading) {
+  std::vector<std::size_t> columns;
+  for (const char* name :
+       {"t", "cam_x", "cam_y", "cam_z", "cam_qx", "cam_qy", "cam_qz", "cam_qw"}) {
     const auto found = std::find(heading.begin(), heading.end(), name);
     if (found == heading.end())
-      throw LineError("the heading names no column '" + std::string(name) + "'");
-    return static_cast<std::size_t>(found - heading.begin());
-  };
-  return {heading.size(),
-          find("t"),
-          {find("cam_x"), find("cam_y"), find("cam_z"), find("cam_qw"), find("cam_qx"),
-           find("cam_qy"), find("cam_qz")}};
+      lines.fail("the heading names no column '" + std::string(name) + "'");
+    columns.push_back(static_cast<std::size_t>(found - heading.begin()));
+  }
+  return columns;
 }
 
-StampedTrajectory read_stamped(std::istream& in, const std::filesystem::path& file) {
+}  // namespace
+
+TumPose tum_pose(const TextLines& lines, const Cells& words) {
+  std::array<double, 7> v{};
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] = finite_number(lines, words[i + 1]);
+  return {stamp_of(lines, words[0]), {v[0], v[1], v[2]}, {v[6], v[3], v[4], v[5]}};
+}
+
+StampedTrajectory read_trajectory(const std::filesystem::path& file) {
+  const std::string text = read_text(file);
+  TextLines lines(text, file.string());
   StampedTrajectory trajectory;
-  Columns columns;
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    const auto fields = words(line);
-    if (fields.empty() || fields.front().front() == '#') continue;
-    try {
-      if (number == 1 && line.find("cam_x") != std::string::npos) {
-        columns = columns_of(fields);
+  std::vector<std::size_t> columns{0, 1, 2, 3, 4, 5, 6, 7};
+  for (std::size_t count = columns.size(); lines.next();) {
+    const Cells words = lines.words();
+    if (trajectory.poses.empty()) {
+      if (words.size() == 12) return {{}, read_kitti_poses(file)};
+      if (lines.line().find("cam_x") != std::string_view::npos) {
+        columns = columns_of(lines, words);
+        count = words.size();
         continue;
       }
-      if (fields.size() != columns.count)
-        throw LineError("this line has " + std::to_string(fields.size()) + " fields, not " +
-                        std::to_string(columns.count) +
-                        "; a trajectory is KITTI (12 numbers a line), TUM (8) or recorded truth "
-                        "(CSV with t and cam_x ... cam_qz)");
-      Pose pose{};
-      for (std::size_t i = 0; i < pose.size(); ++i) pose[i] = to_number(fields[columns.pose[i]]);
-      const Time stamp = to_time(fields[columns.stamp]);
-      if (!trajectory.stamps.empty() && stamp <= trajectory.stamps.back())
-        throw LineError("its stamp is not after the line's before");
-      trajectory.poses.push_back(to_pose(pose));
-      trajectory.stamps.push_back(stamp);
-    } catch (const LineError& e) {
-      throw std::runtime_error(file.string() + ":" + std::to_string(number) + ": " + e.what());
     }
+    if (words.size() != count)
+      lines.fail("this line has " + std::to_string(words.size()) + " fields, not " +
+                 std::to_string(count) +
+                 "; a trajectory is KITTI (12 numbers a line), TUM (8) or recorded truth (CSV with "
+                 "t and cam_x ... cam_qz)");
+    Cells in_order;
+    for (const std::size_t column : columns) in_order.push_back(words[column]);
+    const TumPose pose = tum_pose(lines, in_order);
+    if (!trajectory.stamps.empty() && pose.stamp <= trajectory.stamps.back())
+      lines.fail("its stamp is not after the line's before");
+    if (!(std::abs(pose.rotation.norm() - 1.0) < 1e-3))
+      lines.fail("the quaternion is not of length one");
+    trajectory.poses.emplace_back(Eigen::Translation3d(pose.place) * pose.rotation.normalized());
+    trajectory.stamps.push_back(pose.stamp);
   }
   if (trajectory.poses.empty()) throw std::runtime_error(file.string() + " holds no pose");
   return trajectory;
 }
 
-}  // namespace
+Trajectory read_kitti_poses(const std::filesystem::path& file) {
+  const std::string text = read_text(file);
+  TextLines lines(text, file.string());
+  Trajectory trajectory;
+  while (lines.next()) trajectory.push_back(kitti_pose(lines));
+  if (trajectory.empty()) throw std::runtime_error(file.string() + " holds no pose");
+  return trajectory;
+}
 
-StampedTrajectory read_trajectory(const std::filesystem::path& file) {
-  std::istringstream in(read_text(file));
-  for (std::string line; std::getline(in, line);) {
-    const auto fields = words(line);
-    if (fields.empty() || fields.front().front() == '#') continue;
-    if (fields.size() == 12) return {{}, read_kitti_poses(file)};
-    break;
+void write_kitti_poses(const std::filesystem::path& file, const Trajectory& trajectory) {
+  std::string text;
+  for (const Eigen::Isometry3d& pose : trajectory) {
+    if (!pose.affine().allFinite())
+      throw std::invalid_argument("pose " + std::to_string(&pose - trajectory.data()) +
+                                  " is not finite; " + file.string() + " was not written");
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 4; ++column)
+        text += runtime::shortest_text(pose(row, column)) + (row == 2 && column == 3 ? '\n' : ' ');
   }
-  in.clear();
-  in.seekg(0);
-  return read_stamped(in, file);
+  write_text(file, text);
 }
 
 void write_tum(const std::filesystem::path& file, const StampedTrajectory& trajectory) {
@@ -146,16 +143,13 @@ void write_tum(const std::filesystem::path& file, const StampedTrajectory& traje
 
 Matched match(const StampedTrajectory& estimate, const StampedTrajectory& truth,
               Duration tolerance) {
-  if (estimate.stamps.empty() || truth.stamps.empty()) {
-    const auto frames =
-        static_cast<std::ptrdiff_t>(std::min(estimate.poses.size(), truth.poses.size()));
-    return {{},
-            {estimate.poses.begin(), estimate.poses.begin() + frames},
-            {truth.poses.begin(), truth.poses.begin() + frames},
-            estimate.poses.size() - static_cast<std::size_t>(frames),
-            truth.poses.size() - static_cast<std::size_t>(frames)};
-  }
   Matched matched;
+  if (estimate.stamps.empty() || truth.stamps.empty()) {
+    matched = {{}, estimate.poses, truth.poses};
+    const std::size_t frames = std::min(estimate.poses.size(), truth.poses.size());
+    matched.estimate.resize(frames);
+    matched.truth.resize(frames);
+  }
   std::size_t j = 0;
   for (std::size_t i = 0; i < estimate.stamps.size() && j < truth.stamps.size(); ++i) {
     const auto apart = [&](std::size_t k) {
@@ -170,6 +164,28 @@ Matched match(const StampedTrajectory& estimate, const StampedTrajectory& truth,
   matched.unmatched_estimate = estimate.poses.size() - matched.estimate.size();
   matched.unmatched_truth = truth.poses.size() - matched.truth.size();
   return matched;
+}
+
+Trajectory from_kitti_mercator(const Trajectory& poses, double latitude, double azimuth) {
+  constexpr double e2 = 0.00669437999014;
+  const double w2 = 1.0 - e2 * std::pow(std::sin(latitude), 2);
+  const double east_scale = 1.0 / std::sqrt(w2);              // prime vertical by KITTI's sphere
+  const double north_scale = (1.0 - e2) / std::pow(w2, 1.5);  // meridian by KITTI's sphere
+
+  // Rows are east, north, up in terms of a level camera's x (right), y (down), z (ahead).
+  Eigen::Matrix3d R_enu_cam;
+  R_enu_cam << std::cos(azimuth), 0.0, std::sin(azimuth),  //
+      -std::sin(azimuth), 0.0, std::cos(azimuth),          //
+      0.0, -1.0, 0.0;
+  const Eigen::Matrix3d stretch = R_enu_cam.transpose() *
+                                  Eigen::Vector3d(east_scale, north_scale, 1.0).asDiagonal() *
+                                  R_enu_cam;
+  Trajectory metric;
+  for (const Eigen::Isometry3d& pose : poses) {
+    metric.push_back(poses.front().inverse() * pose);
+    metric.back().translation() = stretch * metric.back().translation();
+  }
+  return metric;
 }
 
 }  // namespace maploop::evaluation

@@ -1,30 +1,57 @@
-// Reads and writes trajectories with stamps, in common formats.
+// Reads and writes trajectories in common formats: poses of KITTI's odometry benchmark, TUM's, and
+// recorded truth.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 #include "msgs/time.h"
-#include "tools/evaluate/kitti_poses.h"
+#include "tools/evaluate/text_lines.h"
 
 namespace maploop::evaluation {
 
-// Poses of the left camera; `stamps` is empty (if the format has none) or has one for each pose.
+// Poses of the left camera (x right, y down, z forward), metres, one for each frame, all in one
+// fixed frame.
+using Trajectory = std::vector<Eigen::Isometry3d>;
+
+// `stamps` is empty (if the format has none) or has one for each pose.
 struct StampedTrajectory {
   std::vector<Time> stamps;
   Trajectory poses;
 };
 
 // Reads a plain or .gz file; the format is recognized from the contents:
-//   KITTI   12 numbers a line, no stamps (kitti_poses.h)
+//   KITTI   12 numbers a line, no stamps
 //   TUM     stamp x y z qx qy qz qw, seconds; lines that start with # are skipped
 //   CSV     recorded truth: a heading with the columns t, cam_x ... cam_z, cam_qw ... cam_qz
 // Throws std::runtime_error naming file and line if a line does not have the format, a quaternion
 // does not have length one (to 1e-3), or the stamps do not increase.
 StampedTrajectory read_trajectory(const std::filesystem::path& file);
 
+// Reads KITTI's format: the upper 3x4 of the left camera's pose in row-major order, twelve numbers
+// separated by blanks, one line for each frame. Empty lines are skipped. Throws std::runtime_error
+// naming the file, and the line of a pose that does not have exactly twelve finite numbers or whose
+// left 3x3 block is not a rotation (to 1e-3: files are rounded); also if the file cannot be read or
+// contains no pose.
+Trajectory read_kitti_poses(const std::filesystem::path& file);
+
+// Reading the file returns bitwise equal numbers. Throws std::runtime_error naming the file if it
+// cannot be written, std::invalid_argument if a pose is not finite.
+void write_kitti_poses(const std::filesystem::path& file, const Trajectory& trajectory);
+
 // Nanoseconds are kept. Throws std::runtime_error naming the file if it cannot be written.
 void write_tum(const std::filesystem::path& file, const StampedTrajectory& trajectory);
+
+// A line of TUM's format as it is: the quaternion may have any length.
+struct TumPose {
+  Time stamp;
+  Eigen::Vector3d place;
+  Eigen::Quaterniond rotation;
+};
+// `words` are those of the line, stamp x y z qx qy qz qw. Fails as TextLines::fail().
+TumPose tum_pose(const TextLines& lines, const Cells& words);
 
 // Poses of both trajectories at the same times: their stamps differ by at most `tolerance`, and
 // each pose is used once. If one trajectory has no stamps, poses are matched frame by frame.
@@ -36,5 +63,12 @@ struct Matched {
 };
 Matched match(const StampedTrajectory& estimate, const StampedTrajectory& truth,
               Duration tolerance);
+
+// KITTI's ground truth is OXTS put through a spherical Mercator projection: at 49 degrees north its
+// metres are 0.19 % short from east to west and 0.10 % long from north to south. Returns positions
+// relative to the first pose in metres of WGS84, for a first camera that looks level to `azimuth`
+// (rad, clockwise from north) at `latitude` (rad). The change of the projection along a drive is
+// not corrected; it is 2e-5 in a kilometre.
+Trajectory from_kitti_mercator(const Trajectory& poses, double latitude, double azimuth);
 
 }  // namespace maploop::evaluation

@@ -1,4 +1,6 @@
 // maploop experiment map: the map in the loop.
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -9,7 +11,6 @@
 #include "tools/evaluate/text_file.h"
 #include "tools/experiment/experiments.h"
 #include "tools/experiment/map_experiment.h"
-#include "tools/experiment/table.h"
 
 namespace maploop::tools {
 namespace {
@@ -28,16 +29,13 @@ std::string samples_csv(const std::vector<experiments::MapResult>& results) {
       "azimuth_error,sigma,nees,p_link,feedback\n";
   for (const experiments::MapResult& r : results) {
     const experiments::MapCase& c = r.setup;
-    const std::string run = c.sequence + "," + c.configuration + "," + c.unit() + "," + c.outages +
-                            "," + c.fault + "," + std::string(to_string(c.mode)) + "," +
-                            std::to_string(c.seed);
-    for (const experiments::MapSample& s : r.samples) {
-      text += run;
-      for (const double value : {s.time, s.truth.x(), s.truth.y(), s.error.x(), s.error.y(),
-                                 s.azimuth_error, s.sigma, s.nees, s.probability})
-        text += "," + experiments::number(value, 3);
-      text += "," + std::string(to_string(s.reason)) + "\n";
-    }
+    for (const experiments::MapSample& s : r.samples)
+      text += fmt::format(
+          "{},{},{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{}"
+          "\n",
+          c.sequence, c.configuration, c.unit(), c.outages, c.fault, to_string(c.mode), c.seed,
+          s.time, s.truth.x(), s.truth.y(), s.error.x(), s.error.y(), s.azimuth_error, s.sigma,
+          s.nees, s.probability, to_string(s.reason));
   }
   return text;
 }
@@ -46,7 +44,7 @@ int compare_modes(const MapOptions& options) {
   experiments::MapSetting setting;
   if (!options.config.empty()) setting.config = vehicle::load_vehicle_config(options.config);
   setting.folder = options.folder;
-  for (const std::string& text : options.set) experiments::set_parameter(setting, text);
+  experiments::set_parameters(setting, options.set);
   mapmatch::MapExtract map;
   if (options.faults) map = mapmatch::read_osm(options.map);
   setting.extract = &map;
@@ -56,13 +54,12 @@ int compare_modes(const MapOptions& options) {
   wanted.poses = !setting.config.odometry_poses.file.empty();
   if (options.faults) wanted.faults = experiments::map_faults();
   const auto cases = experiments::map_cases(wanted);
-  std::vector<experiments::MapResult> results;
-  for (const experiments::MapCase& c : cases) {
-    std::cerr << "\r" << results.size() + 1 << " of " << cases.size() << ": sequence " << c.sequence
-              << ", " << std::string(to_string(c.mode)) << "        " << std::flush;
-    results.push_back(experiments::run(setting, c));
-  }
-  std::cerr << '\n';
+  const auto results = experiments::run_all(
+      cases,
+      [](const experiments::MapCase& c) {
+        return "sequence " + c.sequence + ", " + std::string(to_string(c.mode));
+      },
+      [&](const experiments::MapCase& c) { return run(setting, c); });
   std::cout << experiments::to_text(results);
   if (!options.html.empty())
     evaluation::write_text(options.html, experiments::to_html(setting, results));

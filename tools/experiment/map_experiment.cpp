@@ -4,17 +4,15 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <set>
+#include <numeric>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
 #include "estimators/fusion/outcome.h"
 #include "estimators/fusion/parameter_table.h"
-#include "mapmatch/parameter_table.h"
 #include "runtime/vehicle/graph/graph.h"
 #include "sensors/replay/reference_trajectory.h"
-#include "tools/match/driven_links.h"
 #include "tools/match/map_faults.h"
 #include "tools/match/parameter_settings.h"
 
@@ -23,18 +21,13 @@ namespace {
 
 constexpr Duration sampled_every = std::chrono::milliseconds(100);
 
-// The name that HEALTH gives to what the guard has undone.
-constexpr std::string_view restored = "undone: the map had led astray";
-
 double tracks_end(const std::string& sequence) {
   const auto known = std::find_if(sequences.begin(), sequences.end(),
                                   [&](const Sequence& s) { return s.name == sequence; });
   return known != sequences.end() ? known->tracks_end : 0.0;
 }
 
-using Labels = std::map<std::size_t, match::Label>;
-
-std::int64_t way_driven_longest(const Labels& labels) {
+std::int64_t way_driven_longest(const match::Labels& labels) {
   std::map<std::int64_t, std::size_t> rows;
   for (const auto& [row, label] : labels) ++rows[label.way_id];
   return std::max_element(rows.begin(), rows.end(),
@@ -43,7 +36,7 @@ std::int64_t way_driven_longest(const Labels& labels) {
 }
 
 mapmatch::NetworkData with_fault(const MapSetting& setting, const std::string& fault,
-                                 const Labels& labels) {
+                                 const match::Labels& labels) {
   const mapmatch::NetworkData& network = setting.roads->network.data();
   if (fault == "missing") return match::without_way(*setting.extract, way_driven_longest(labels));
   if (fault == "shifted 5 m") return match::shifted(network, {5.0, 0.0});
@@ -51,9 +44,8 @@ mapmatch::NetworkData with_fault(const MapSetting& setting, const std::string& f
   if (fault == "reversed") return match::one_way_reversed(network);
   if (fault != "parallel 12 m")
     throw std::invalid_argument("no map fault is called '" + fault + "'");
-  std::set<std::int64_t> driven;
-  for (const auto& [row, label] : labels) driven.insert(label.way_id);
-  return mapmatch::build_network(match::with_parallels(*setting.extract, driven, 12.0));
+  return mapmatch::build_network(
+      match::with_parallels(*setting.extract, match::driven_ways(labels), 12.0));
 }
 
 // How often the filter refused something for this reason.
@@ -106,50 +98,40 @@ const std::vector<std::string>& map_faults() {
   return names;
 }
 
-void set_parameter(MapSetting& setting, const std::string& text) {
-  const auto [wanted, number] = match::parse_setting(text);
-  bool found = false;
-  const auto set = [&, w = wanted, n = number](auto&... parameters) {
-    found = (set_number(parameters, w, n) | ...);  // in each that has such a parameter
-  };
-  try {
-    set(setting.config.mapmatch, setting.config.feedback, setting.config.guard,
-        setting.config.fusion);
-  } catch (const std::invalid_argument& e) {
-    throw std::runtime_error("--set " + text + ": " + e.what());
-  }
-  if (!found) throw std::runtime_error("--set " + text + ": there is no such parameter");
+void set_parameters(MapSetting& setting, const std::vector<std::string>& settings) {
+  vehicle::VehicleConfig& config = setting.config;
+  match::apply_settings(settings, config.mapmatch, config.feedback, config.guard, config.fusion);
 }
 
 std::vector<MapCase> map_cases(const MapCases& wanted) {
-  std::vector<MapCase> cases;
+  MapCase first;
+  first.speed_scale = wanted.speed_scale - 1.0;
+  std::vector<MapCase> cases{first};
+  // Replaces each case by one for each value, which `set` sets in it.
+  const auto with = [&cases](const auto& values, const auto& set) {
+    std::vector<MapCase> more;
+    for (const MapCase& c : cases)
+      for (const auto& value : values) set(more.emplace_back(c), value);
+    cases = std::move(more);
+  };
   std::vector<std::string> faults{""};
   faults.insert(faults.end(), wanted.faults.begin(), wanted.faults.end());
-  MapCase c;
-  c.speed_scale = wanted.speed_scale - 1.0;
-  for (const std::string& configuration : wanted.configurations) {
-    c.configuration = configuration;
-    const bool with_tracks = configuration.find("VO") != std::string::npos && !wanted.poses;
-    for (const std::string& unit : wanted.units) {
-      c.mems = unit == "mems";
-      for (const std::string& outage : wanted.outages) {
-        c.outages = outage;
-        for (const std::string& sequence : wanted.sequences) {
-          c.sequence = sequence;
-          c.end = with_tracks ? tracks_end(sequence) : 0.0;
-          if (with_tracks && c.end == 0.0) continue;
-          for (const std::string& fault : faults) {
-            c.fault = fault;
-            for (const MapMode mode : wanted.modes) {
-              c.mode = mode;
-              if (c.mode == MapMode::none && !fault.empty()) continue;
-              for (c.seed = 1; c.seed <= wanted.seeds; ++c.seed) cases.push_back(c);
-            }
-          }
-        }
-      }
-    }
-  }
+  std::vector<std::int64_t> seeds(static_cast<std::size_t>(wanted.seeds));
+  std::iota(seeds.begin(), seeds.end(), 1);
+  with(wanted.configurations, [](MapCase& c, const auto& value) { c.configuration = value; });
+  with(wanted.units, [](MapCase& c, const auto& value) { c.mems = value == "mems"; });
+  with(wanted.outages, [](MapCase& c, const auto& value) { c.outages = value; });
+  with(wanted.sequences, [](MapCase& c, const auto& value) { c.sequence = value; });
+  with(faults, [](MapCase& c, const auto& value) { c.fault = value; });
+  with(wanted.modes, [](MapCase& c, MapMode value) { c.mode = value; });
+  with(seeds, [](MapCase& c, std::int64_t value) { c.seed = value; });
+  const auto needs_tracks = [&](const MapCase& c) {
+    return c.configuration.find("VO") != std::string::npos && !wanted.poses;
+  };
+  for (MapCase& c : cases) c.end = needs_tracks(c) ? tracks_end(c.sequence) : 0.0;
+  std::erase_if(cases, [&](const MapCase& c) {
+    return (needs_tracks(c) && c.end == 0.0) || (c.mode == MapMode::none && !c.fault.empty());
+  });
   return cases;
 }
 
@@ -160,7 +142,7 @@ const fusion_score::Errors& without_gnss(const MapResult& result) {
 MapResult run(const MapSetting& setting, const MapCase& setup) {
   vehicle::VehicleConfig config = config_of(setting.config, setup);
   config.map.mode = setup.mode;
-  const Labels labels =
+  const match::Labels labels =
       match::read_labels(setting.folder / "labels" / (setup.sequence + ".csv.gz"));
   std::shared_ptr<const vehicle::RoadMap> roads;
   if (setup.mode != MapMode::none) roads = setting.roads;
@@ -179,7 +161,7 @@ MapResult run(const MapSetting& setting, const MapCase& setup) {
   const Health& health = run.report.health;
   result.gated = refused(health, to_string(fusion::Reason::line_gate)) +
                  refused(health, to_string(fusion::Reason::link_azimuth_gate));
-  result.restorations = refused(health, restored);
+  result.restorations = refused(health, "undone: the map had led astray");
   const vehicle::Recording& recording = run.recording;
   const std::vector<Time>& frames = recording.driven_links.value().stamps;
   const Time begin =

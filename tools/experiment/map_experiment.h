@@ -70,9 +70,9 @@ struct MapResult {
   std::uint64_t restorations = 0;  // times what the map had led to was undone
 };
 
-// NAME=VALUE of a parameter of matching, feedback or guard. Throws std::runtime_error naming what
-// is wrong.
-void set_parameter(MapSetting& setting, const std::string& text);
+// Each is NAME=VALUE of a parameter of matching, feedback, guard or fusion. Throws
+// std::runtime_error naming what is wrong.
+void set_parameters(MapSetting& setting, const std::vector<std::string>& settings);
 
 // What is to be compared: every combination that there is data for.
 struct MapCases {

@@ -1,14 +1,11 @@
 // The tables and pictures of the map's experiment.
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 
-#include "msgs/local_frame.h"
 #include "msgs/named_enum.h"
 #include "tools/experiment/map_experiment.h"
 #include "tools/experiment/table.h"
+#include "tools/match/road_lines.h"
 #include "tools/web/page.h"
 
 namespace maploop::experiments {
@@ -16,6 +13,10 @@ namespace {
 
 std::string percent(const match::Tally& tally) {
   return tally.fixes == 0 ? "-" : number(100.0 * tally.share(), 2);
+}
+
+std::string fault_of(const MapResult& r) {
+  return r.setup.fault.empty() ? "-" : r.setup.fault;
 }
 
 Row row_of(const MapResult& r) {
@@ -26,7 +27,7 @@ Row row_of(const MapResult& r) {
           r.setup.configuration,
           r.setup.unit(),
           r.setup.outages,
-          r.setup.fault.empty() ? "-" : r.setup.fault,
+          fault_of(r),
           std::string(to_string(r.setup.mode)),
           std::to_string(r.setup.seed),
           number(e.distance, 0),
@@ -58,19 +59,10 @@ Table pooled(const std::vector<MapResult>& results) {
     double squares = 0.0, samples = 0.0, nees = 0.0, max = 0.0;
     match::Tally certain, all;
   };
-  const auto add = [](match::Tally& to, const match::Tally& from) {
-    to.fixes += from.fixes;
-    to.matched += from.matched;
-    to.right += from.right;
-  };
-  using Key = std::array<std::string, 5>;
-  std::vector<Key> order;
-  std::map<Key, Sum> sums;
+  Groups<Sum> sums;
   for (const MapResult& r : results) {
-    const Key key{r.setup.configuration, r.setup.unit(), r.setup.outages,
-                  r.setup.fault.empty() ? "-" : r.setup.fault, std::string(to_string(r.setup.mode))};
-    if (!sums.contains(key)) order.push_back(key);
-    Sum& sum = sums[key];
+    Sum& sum = sums[{r.setup.configuration, r.setup.unit(), r.setup.outages, fault_of(r),
+                     std::string(to_string(r.setup.mode))}];
     const fusion_score::Errors& e = without_gnss(r);
     const auto n =
         static_cast<double>(r.match.all.fixes > 0 ? r.match.all.fixes : r.samples.size());
@@ -78,27 +70,25 @@ Table pooled(const std::vector<MapResult>& results) {
     sum.nees += n * e.nees_mean;
     sum.samples += n;
     sum.max = std::max(sum.max, e.max);
-    add(sum.certain, r.match.certain);
-    add(sum.all, r.match.all);
+    sum.certain += r.match.certain;
+    sum.all += r.match.all;
   }
   Table table{"All sequences together",
               {"configuration", "unit", "no GNSS", "map fault", "mode", "rmse m", "max m",
                "NEES (2)", "link conf=1 %", "link %"},
               {}};
-  for (const Key& key : order) {
-    const Sum& sum = sums[key];
-    Row row(key.begin(), key.end());
+  for (const auto& [cells, sum] : sums) {
+    Row& row = table.rows.emplace_back(cells);
     row.insert(row.end(), {number(std::sqrt(sum.squares / std::max(1.0, sum.samples)), 2),
                            number(sum.max, 2), number(sum.nees / std::max(1.0, sum.samples), 2),
                            percent(sum.certain), percent(sum.all)});
-    table.rows.push_back(row);
   }
   return table;
 }
 
-bool same_drive(const MapCase& a, const MapCase& b) {
-  return a.sequence == b.sequence && a.configuration == b.configuration && a.mems == b.mems &&
-         a.outages == b.outages && a.seed == b.seed;
+// The cells that are the same for all modes and map faults of a drive.
+Row drive_of(const MapCase& c) {
+  return {c.sequence, c.configuration, c.unit(), c.outages, std::to_string(c.seed)};
 }
 
 // The feedback's error against twice that of the filter without the map at the same moment, or,
@@ -112,14 +102,13 @@ Table against_map_free(const std::vector<MapResult>& results) {
   for (const MapResult& r : results) {
     if (r.setup.mode != MapMode::tight && r.setup.mode != MapMode::hard_reset) continue;
     const auto free = std::find_if(results.begin(), results.end(), [&](const MapResult& o) {
-      return o.setup.mode == MapMode::none && same_drive(o.setup, r.setup);
+      return o.setup.mode == MapMode::none && drive_of(o.setup) == drive_of(r.setup);
     });
     if (free == results.end()) continue;
     const Comparison c = compare(r, *free);
     const fusion_score::Errors& f = without_gnss(*free);
     const fusion_score::Errors& e = without_gnss(r);
-    table.rows.push_back({r.setup.sequence, r.setup.unit(), r.setup.outages,
-                          r.setup.fault.empty() ? "-" : r.setup.fault,
+    table.rows.push_back({r.setup.sequence, r.setup.unit(), r.setup.outages, fault_of(r),
                           std::string(to_string(r.setup.mode)), std::to_string(r.setup.seed),
                           number(f.rmse, 2), number(f.max, 2), number(e.rmse, 2), number(e.max, 2),
                           number(100.0 * c.worse, 1), number(c.worst_excess, 2),
@@ -147,28 +136,6 @@ Table reasons(const std::vector<MapResult>& results) {
   return table;
 }
 
-// Those near a way that was driven.
-std::vector<web::Line> roads(const mapmatch::RoadNetwork& network, const MapResult& driven) {
-  constexpr double margin = 200.0;  // m
-  const LocalFrame frame(driven.origin);
-  Eigen::AlignedBox2d box;
-  for (const MapSample& s : driven.samples) box.extend(s.truth);
-  const Eigen::AlignedBox2d shown(box.min() - Eigen::Vector2d::Constant(margin),
-                                  box.max() + Eigen::Vector2d::Constant(margin));
-  std::vector<web::Line> lines;
-  for (std::uint32_t i = 0; i < network.size(); ++i) {
-    web::Line line;
-    for (const mapmatch::Vertex& v : network.shape(i)) {
-      const Eigen::Vector3d p = frame.to_enu(network.to_geodetic(v.position()));
-      if (!shown.contains(p.head<2>())) continue;
-      line.x.push_back(p.x());
-      line.y.push_back(p.y());
-    }
-    if (line.x.size() > 1) lines.push_back(std::move(line));
-  }
-  return lines;
-}
-
 // The ways seen from above, the errors and P(link) against time, of one drive in all its modes.
 void add_plots(const MapSetting& setting, const std::vector<const MapResult*>& drive,
                std::vector<web::Plot>& plots) {
@@ -176,16 +143,16 @@ void add_plots(const MapSetting& setting, const std::vector<const MapResult*>& d
   const std::string title = "Sequence " + c.sequence + ", " + c.configuration +
                             (c.mems ? ", mems" : "") + ", no GNSS " + c.outages +
                             (c.fault.empty() ? "" : ", " + c.fault);
-  web::Plot map{title, "east, m", "north, m",
-                {},    true,      roads(setting.roads->network, *drive.front())};
-  web::Plot errors{title, "s", "horizontal error, m"};
-  web::Plot links{title, "s", "P(link)"};
   web::Line truth{"reference", {}, {}};
   for (const MapSample& s : drive.front()->samples) {
     truth.x.push_back(s.truth.x());
     truth.y.push_back(s.truth.y());
   }
-  map.lines.push_back(truth);
+  constexpr double beside = 200.0;  // m
+  web::Plot map{title, "east, m", "north, m", {truth}, true};
+  map.roads = match::road_lines(setting.roads->network, drive.front()->origin, map.lines, beside);
+  web::Plot errors{title, "s", "horizontal error, m"};
+  web::Plot links{title, "s", "P(link)"};
   for (const MapResult* r : drive) {
     web::Line way{std::string(to_string(r->setup.mode)), {}, {}}, error = way, link = way;
     for (const MapSample& s : r->samples) {
@@ -235,19 +202,14 @@ std::string to_text(const std::vector<MapResult>& results) {
 
 std::string to_html(const MapSetting& setting, const std::vector<MapResult>& results) {
   std::vector<web::Plot> plots;
-  std::vector<std::vector<const MapResult*>> drives;
+  Groups<std::vector<const MapResult*>> drives;
   for (const MapResult& r : results) {
     if (r.setup.seed != 1) continue;
-    const auto known = std::find_if(drives.begin(), drives.end(), [&](const auto& d) {
-      return same_drive(d.front()->setup, r.setup) && d.front()->setup.fault == r.setup.fault;
-    });
-    if (known == drives.end()) {
-      drives.push_back({&r});
-    } else {
-      known->push_back(&r);
-    }
+    Row drive = drive_of(r.setup);
+    drive.push_back(r.setup.fault);
+    drives[drive].push_back(&r);
   }
-  for (const auto& drive : drives) add_plots(setting, drive, plots);
+  for (const auto& [cells, modes] : drives) add_plots(setting, modes, plots);
   return web::Page("The map in the loop")
       .add(as_html(pooled(results)))
       .add(as_html(runs(results)))

@@ -1,12 +1,10 @@
 // maploop experiment match: map matching on recorded drives, with made errors.
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -15,10 +13,9 @@
 #include "tools/command/option_checks.h"
 #include "tools/command/recorded_drive_options.h"
 #include "tools/experiment/experiments.h"
-#include "tools/match/match_score.h"
+#include "tools/experiment/table.h"
 #include "tools/match/parameter_settings.h"
 #include "tools/match/recorded_drives.h"
-#include "tools/match/score_output.h"
 
 namespace maploop::tools {
 namespace {
@@ -34,70 +31,81 @@ struct Scores {
   std::size_t fixes = 0;
 };
 
-void run(const mapmatch::RoadNetwork& network, const mapmatch::RuleBases& rules,
-         const mapmatch::MatchParameters& parameters, const match::RecordedDrive& sequence,
-         const match::InputCondition& condition, int seeds, Scores& scores) {
-  for (int seed = 1; seed <= condition.realizations(seeds); ++seed) {
-    const auto [track, rows] = match::noisy_track(sequence, condition, seed);
-    mapmatch::Matcher matcher(network, rules, parameters);
-    const auto start = std::chrono::steady_clock::now();
-    const auto matched = match::match_track(matcher, track);
-    scores.seconds += to_seconds(std::chrono::steady_clock::now() - start);
-    scores.fixes += track.size();
-    scores.ours.add(matched, rows, sequence.labels);
-    scores.baseline.add(match::nearest_segments(network, track), rows, sequence.labels);
-  }
+struct ConditionScores {
+  Scores pooled;
+  std::vector<Scores> each;  // of the drives
+};
+
+experiments::Row row_of(const std::string& name, const Scores& s) {
+  using experiments::number;
+  const auto percent = [](double share) { return number(100.0 * share, 2); };
+  const auto baseline_wrong = static_cast<double>(s.baseline.certain.wrong());
+  const auto wrong = static_cast<double>(s.ours.certain.wrong());
+  return {name,
+          std::to_string(s.ours.all.fixes),
+          percent(s.ours.all.share()),
+          percent(s.baseline.all.share()),
+          percent(s.ours.certain.share()),
+          percent(s.baseline.certain.share()),
+          percent(s.ours.all.coverage()),
+          percent(s.baseline.all.coverage()),
+          number(baseline_wrong == 0.0 ? 0.0 : wrong / baseline_wrong, 2),
+          number(1e6 * s.seconds / static_cast<double>(std::max<std::size_t>(1, s.fixes)), 1)};
 }
 
-void print_row(const char* name, const Scores& s) {
-  std::printf("%-26s %7zu  %6.2f %6.2f  %6.2f %6.2f  %6.2f %6.2f  %6.2f  %5.1f\n", name,
-              s.ours.all.fixes, 100 * s.ours.all.share(), 100 * s.baseline.all.share(),
-              100 * s.ours.certain.share(), 100 * s.baseline.certain.share(),
-              100 * s.ours.all.coverage(), 100 * s.baseline.all.coverage(),
-              s.baseline.certain.wrong() == 0 ? 0.0
-                                              : static_cast<double>(s.ours.certain.wrong()) /
-                                                    static_cast<double>(s.baseline.certain.wrong()),
-              1e6 * s.seconds / static_cast<double>(std::max<std::size_t>(1, s.fixes)));
-  std::fflush(stdout);
+// Returns the scores for each condition.
+std::vector<ConditionScores> run(const MatchExperimentOptions& options,
+                                 const std::vector<match::InputCondition>& conditions) {
+  const mapmatch::RoadNetwork network(mapmatch::open_network(options.map));
+  const mapmatch::RuleBases rules = mapmatch::read_rule_bases(mapmatch::default_rules());
+  mapmatch::MatchParameters parameters;
+  match::apply_settings(options.set, parameters);
+  const match::SegmentLinks links(network);
+  std::vector<ConditionScores> scores(conditions.size());
+  for (const std::string& name : options.sequences) {
+    std::cerr << "\rsequence " << name << std::flush;
+    match::RecordedDrive drive = match::read_recorded_drive(options.data, name);
+    links.look_up(drive.labels);
+    for (std::size_t c = 0; c < conditions.size(); ++c) {
+      Scores& own = scores[c].each.emplace_back();
+      for (const match::NoisyTrack& noisy : conditions[c].realizations(drive, options.seeds)) {
+        mapmatch::Matcher matcher(network, rules, parameters);
+        const auto start = std::chrono::steady_clock::now();
+        const auto matched = match::match_track(matcher, noisy.track);
+        const double seconds = to_seconds(std::chrono::steady_clock::now() - start);
+        const auto nearest = match::nearest_segments(network, noisy.track);
+        for (Scores* s : {&own, &scores[c].pooled}) {
+          s->seconds += seconds;
+          s->fixes += noisy.track.size();
+          s->ours.add(matched, noisy.rows, drive.labels);
+          s->baseline.add(nearest, noisy.rows, drive.labels);
+        }
+      }
+    }
+  }
+  std::cerr << '\n';
+  return scores;
 }
 
 int match_experiment(const MatchExperimentOptions& options) {
-  const mapmatch::RoadNetwork network(mapmatch::open_network(options.map));
-  const mapmatch::RuleBases rules = mapmatch::read_rule_bases(mapmatch::default_rules());
-  const mapmatch::MatchParameters parameters = match::parameters_with(options.set);
-  std::vector<match::RecordedDrive> sequences;
-  const match::SegmentLinks links(network);
-  for (const std::string& name : options.sequences) {
-    sequences.push_back(match::read_recorded_drive(options.data, name));
-    links.look_up(sequences.back().labels);
-  }
-  std::printf("%-26s %7s  %-13s  %-13s  %-13s  %-6s  %s\n", "input", "fixes", "all frames %",
-              "conf = 1 %", "coverage %", "wrong", "us a fix");
-  std::printf("%-26s %7s  %6s %6s  %6s %6s  %6s %6s  %6s\n", "", "", "ours", "base", "ours", "base",
-              "ours", "base", "/base");
+  const auto conditions = match::input_conditions();
+  const auto scores = run(options, conditions);
+  experiments::Table table{"Fixes on the right way, and of the nearest segment (base)",
+                           {"input", "fixes", "all frames %", "base", "conf = 1 %", "base",
+                            "coverage %", "base", "wrong / base", "us a fix"},
+                           {}};
   nlohmann::json json;
   match::Reliability reliability;
-  for (const match::InputCondition& condition : match::input_conditions()) {
-    Scores pooled;
-    for (const match::RecordedDrive& sequence : sequences) {
-      Scores own;
-      run(network, rules, parameters, sequence, condition, options.seeds,
-          options.each ? own : pooled);
-      if (options.each) {
-        print_row(("  " + sequence.name).c_str(), own);
-        run(network, rules, parameters, sequence, condition, options.seeds, pooled);
-      }
-    }
-    print_row(condition.name, pooled);
-    json[condition.name] = {{"ours", match::to_json(pooled.ours)},
-                            {"baseline", match::to_json(pooled.baseline)}};
-    for (std::size_t k = 0; k < reliability.fixes.size(); ++k) {
-      reliability.fixes[k] += pooled.ours.reliability.fixes[k];
-      reliability.right[k] += pooled.ours.reliability.right[k];
-      reliability.p_sum[k] += pooled.ours.reliability.p_sum[k];
-    }
+  for (std::size_t c = 0; c < conditions.size(); ++c) {
+    for (std::size_t d = 0; options.each && d < options.sequences.size(); ++d)
+      table.rows.push_back(row_of(options.sequences[d], scores[c].each[d]));
+    const Scores& pooled = scores[c].pooled;
+    table.rows.push_back(row_of(conditions[c].name, pooled));
+    json[conditions[c].name] = {{"ours", match::to_json(pooled.ours)},
+                                {"baseline", match::to_json(pooled.baseline)}};
+    reliability += pooled.ours.reliability;
   }
-  std::cout << "all conditions:\n" << match::to_text(reliability);
+  std::cout << as_text(table) << "all conditions:\n" << match::to_text(reliability);
   if (!options.json.empty()) write_json_file(options.json, json);
   return 0;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -59,5 +60,19 @@ vehicle::VehicleConfig config_of(vehicle::VehicleConfig config, const SequenceCa
 SequenceRun run_sequence(const std::filesystem::path& folder, const SequenceCase& setup,
                          const vehicle::VehicleConfig& config, vehicle::Observer observer = {},
                          std::shared_ptr<const vehicle::RoadMap> map = nullptr);
+
+// Returns the result of run(c) for each case; a line on standard error tells which one runs, by
+// name(c).
+template <class Case, class Name, class Run>
+auto run_all(const std::vector<Case>& cases, Name&& name, Run&& run) {
+  std::vector<decltype(run(cases.front()))> results;
+  for (const Case& c : cases) {
+    std::cerr << "\r" << results.size() + 1 << " of " << cases.size() << ": " << name(c)
+              << "        " << std::flush;
+    results.push_back(run(c));
+  }
+  std::cerr << '\n';
+  return results;
+}
 
 }  // namespace maploop::experiments

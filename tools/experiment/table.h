@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace maploop::experiments {
@@ -17,5 +18,21 @@ struct Table {
 std::string number(double value, int digits);
 std::string as_text(const Table& table);
 std::string as_html(const Table& table);
+
+// What belongs to the same cells, in the order in which the cells came first.
+template <class Value>
+class Groups {
+ public:
+  Value& operator[](const Row& key) {
+    for (auto& [known, value] : groups_)
+      if (known == key) return value;
+    return groups_.emplace_back(key, Value{}).second;
+  }
+  auto begin() const { return groups_.begin(); }
+  auto end() const { return groups_.end(); }
+
+ private:
+  std::vector<std::pair<Row, Value>> groups_;
+};
 
 }  // namespace maploop::experiments

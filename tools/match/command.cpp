@@ -16,9 +16,7 @@
 #include "tools/match/match_output.h"
 #include "tools/match/match_score.h"
 #include "tools/match/parameter_settings.h"
-#include "tools/match/score_output.h"
 #include "tools/match/track_file.h"
-#include "tools/match/unused_fixes.h"
 
 namespace maploop::tools {
 namespace {
@@ -27,7 +25,7 @@ struct MatchOptions {
   std::filesystem::path map, track, csv, geojson, gpx, html, rules, labels;
   std::vector<double> origin, box;
   std::vector<std::string> set;
-  match::TrackFileOptions track_options;
+  match::TrackOptions track_options;
 };
 
 void print_summary(const match::MatchedTrack& track, const mapmatch::RoadNetwork& network,
@@ -44,9 +42,9 @@ void print_summary(const match::MatchedTrack& track, const mapmatch::RoadNetwork
   for (const auto& [reason, count] : match::unused_fixes(track, network))
     std::cout << "  not used: " << count << ", " << reason << '\n';
   std::sort(microseconds.begin(), microseconds.end());
+  const auto last = static_cast<double>(microseconds.size() - 1);
   const auto percentile = [&](double share) {
-    return microseconds[static_cast<std::size_t>(share *
-                                                 static_cast<double>(microseconds.size() - 1))];
+    return microseconds[static_cast<std::size_t>(share * last)];
   };
   std::cout << "time a fix: median " << percentile(0.5) << " us, p99 " << percentile(0.99)
             << " us, largest " << microseconds.back() << " us\n";
@@ -79,7 +77,9 @@ int match_track(MatchOptions options) {
       mapmatch::read_rule_bases(options.rules.empty() ? mapmatch::default_rules() : options.rules);
   match::MatchedTrack track;
   track.fixes = match::read_track(options.track, options.track_options);
-  mapmatch::Matcher matcher(network, rules, match::parameters_with(options.set));
+  mapmatch::MatchParameters parameters;
+  match::apply_settings(options.set, parameters);
+  mapmatch::Matcher matcher(network, rules, parameters);
   std::vector<double> microseconds;
   for (const mapmatch::VehicleFix& fix : track.fixes) {
     const auto start = std::chrono::steady_clock::now();

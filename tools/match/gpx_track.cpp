@@ -1,11 +1,10 @@
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include "msgs/frames.h"
+#include "tools/evaluate/text_lines.h"
 #include "tools/match/track_file.h"
-#include "tools/match/track_time.h"
 
 namespace maploop::match {
 namespace {
@@ -35,9 +34,7 @@ std::string_view attribute(std::string_view tag, std::string_view name) {
 }
 
 double number(std::string_view text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() ? value : mapmatch::unknown;
+  return evaluation::number_of<double>(text).value_or(mapmatch::unknown);
 }
 
 }  // namespace

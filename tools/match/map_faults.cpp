@@ -10,11 +10,12 @@
 #include "msgs/frames.h"
 
 namespace maploop::match {
-namespace {
 
-constexpr double sure = 0.9;
-
-}  // namespace
+std::set<std::int64_t> driven_ways(const Labels& labels) {
+  std::set<std::int64_t> ways;
+  for (const auto& [row, label] : labels) ways.insert(label.way_id);
+  return ways;
+}
 
 mapmatch::NetworkData shifted(mapmatch::NetworkData network, const Eigen::Vector2d& metres) {
   for (mapmatch::Vertex& v : network.vertices) {
@@ -60,10 +61,10 @@ mapmatch::NetworkData one_way_reversed(mapmatch::NetworkData network) {
 mapmatch::MapExtract with_parallels(const mapmatch::MapExtract& map,
                                     const std::set<std::int64_t>& ways, double metres) {
   mapmatch::MapExtract more = map;
-  std::map<std::int64_t, const mapmatch::MapNode*> nodes;
+  std::map<std::int64_t, Geodetic> nodes;
   std::int64_t next_id = 1, next_way = 1;
   for (const mapmatch::MapNode& node : map.nodes) {
-    nodes[node.id] = &node;
+    nodes[node.id] = {radians(node.latitude), radians(node.longitude), 0.0};
     next_id = std::max(next_id, node.id + 1);
   }
   for (const mapmatch::MapWay& way : map.ways) next_way = std::max(next_way, way.road.way_id + 1);
@@ -72,13 +73,9 @@ mapmatch::MapExtract with_parallels(const mapmatch::MapExtract& map,
     if (!std::all_of(way.nodes.begin(), way.nodes.end(),
                      [&](std::int64_t id) { return nodes.contains(id); }))
       continue;
-    const auto& first = *nodes[way.nodes.front()];
-    const LocalFrame frame({radians(first.latitude), radians(first.longitude), 0.0});
+    const LocalFrame frame(nodes[way.nodes.front()]);
     std::vector<Eigen::Vector2d> places;
-    for (const std::int64_t id : way.nodes) {
-      const Geodetic g{radians(nodes[id]->latitude), radians(nodes[id]->longitude), 0.0};
-      places.emplace_back(frame.to_enu(g).head<2>());
-    }
+    for (const std::int64_t id : way.nodes) places.emplace_back(frame.to_enu(nodes[id]).head<2>());
     mapmatch::MapWay beside = way;
     beside.road.way_id = next_way++;
     beside.nodes = {way.nodes.front()};
@@ -102,34 +99,37 @@ mapmatch::NetworkData without_way(const mapmatch::MapExtract& map, std::int64_t 
   return mapmatch::build_network(less);
 }
 
-FaultScore score_fault(const std::vector<MatchedFix>& matched, const Track& track,
-                       const std::vector<std::size_t>& rows,
-                       const std::map<std::size_t, Label>& labels, std::int64_t missing) {
+FaultScore score_fault(const std::vector<MatchedFix>& matched, const NoisyTrack& noisy,
+                       const Labels& labels, std::int64_t missing) {
+  constexpr double sure = 0.9;
+  const Track& track = noisy.track;
   FaultScore score;
   double wrong_since = -1.0;
   double way = 0.0, right_again = -1.0;
   bool was_missing = false;
   for (std::size_t i = 0; i < matched.size(); ++i) {
-    const auto label = labels.find(rows[i]);
+    const auto label = labels.find(noisy.rows[i]);
     if (label == labels.end()) continue;
+    const MatchedFix& fix = matched[i];
     const double t = to_seconds(track[i].stamp - track.front().stamp);
     if (i > 0) way += track[i].speed * to_seconds(track[i].stamp - track[i - 1].stamp);
     const bool is_missing = label->second.way_id == missing;
-    const bool right = matched[i].way_id == label->second.way_id;
+    const bool right = fix.way_id == label->second.way_id;
+    const bool is_sure = fix.way_id && fix.p_link > sure;
     if (was_missing && !is_missing) right_again = way;
     if (is_missing) {
       right_again = -1.0;
       ++score.missing_fixes;
-      score.missing_said += matched[i].way_id ? 1 : 0;
-      score.missing_sure += matched[i].way_id && matched[i].p_link > sure ? 1 : 0;
-      score.missing_p_sum += matched[i].way_id ? matched[i].p_link : 0.0;
+      score.missing_said += fix.way_id ? 1 : 0;
+      score.missing_sure += is_sure ? 1 : 0;
+      score.missing_p_sum += fix.way_id ? fix.p_link : 0.0;
     }
     was_missing = is_missing;
     if (right_again >= 0.0) {
       score.recovery = std::max(score.recovery, way - right_again);
       if (right) right_again = -1.0;
     }
-    if (matched[i].way_id && !right && matched[i].p_link > sure) {
+    if (is_sure && !right) {
       if (wrong_since < 0.0) wrong_since = t;
       if (t - wrong_since > score.longest_sure_wrong) {
         score.longest_sure_wrong = t - wrong_since;

@@ -2,13 +2,15 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <set>
 
 #include "mapmatch/network_builder.h"
-#include "tools/match/match_score.h"
+#include "tools/match/recorded_drives.h"
 
 namespace maploop::match {
+
+// Returns the ways that were driven.
+std::set<std::int64_t> driven_ways(const Labels& labels);
 
 // Displaces every vertex by a smooth error: `metres` rms on each axis, with a correlation length of
 // `length` metres.
@@ -36,8 +38,7 @@ struct FaultScore {
 
 // `missing` is the way that the map lacks, or 0; every link matched while the vehicle is on it is
 // wrong.
-FaultScore score_fault(const std::vector<MatchedFix>& matched, const Track& track,
-                       const std::vector<std::size_t>& rows,
-                       const std::map<std::size_t, Label>& labels, std::int64_t missing);
+FaultScore score_fault(const std::vector<MatchedFix>& matched, const NoisyTrack& track,
+                       const Labels& labels, std::int64_t missing);
 
 }  // namespace maploop::match

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -8,6 +7,7 @@
 #include "msgs/frames.h"
 #include "tools/evaluate/text_file.h"
 #include "tools/match/match_output.h"
+#include "tools/match/road_lines.h"
 #include "tools/web/bundle.h"
 
 namespace maploop::match {
@@ -18,12 +18,13 @@ using nlohmann::json;
 constexpr double surroundings = 250.0;       // m, margin around the track that is drawn
 constexpr std::size_t shown_candidates = 8;  // for each fix
 
-double centimetres(double metres) {
-  return std::round(100.0 * metres) / 100.0;
+// Returns the value rounded to a fraction of one.
+double rounded(double value, double fractions) {
+  return std::round(value * fractions) / fractions;
 }
 
 json point(const Eigen::Vector2d& p) {
-  return {centimetres(p.x()), centimetres(p.y())};
+  return {rounded(p.x(), 100.0), rounded(p.y(), 100.0)};
 }
 
 // Returns the links near the track and all candidates; `used` marks the candidates' links.
@@ -62,10 +63,6 @@ class Texts {
   std::map<std::string, int> indices_;
   std::vector<std::string> texts_;
 };
-
-double rounded(double value, double digits) {
-  return std::round(value * digits) / digits;
-}
 
 json candidates_of(const mapmatch::MatchResult& r, const mapmatch::RoadNetwork& network,
                    const mapmatch::RuleBases& rules, Texts& texts, std::vector<bool>& used) {
@@ -111,18 +108,6 @@ json fixes_of(const MatchedTrack& track, const mapmatch::RoadNetwork& network,
   return fixes;
 }
 
-mapmatch::Box box_of(const MatchedTrack& track, const mapmatch::RoadNetwork& network) {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  mapmatch::Box box{far, far, -far, -far};
-  for (const mapmatch::VehicleFix& fix : track.fixes) {
-    const Eigen::Vector2d p = network.to_local(fix.position);
-    if (!p.allFinite()) continue;
-    box = {std::min(box.west, p.x() - surroundings), std::min(box.south, p.y() - surroundings),
-           std::max(box.east, p.x() + surroundings), std::max(box.north, p.y() + surroundings)};
-  }
-  return box;
-}
-
 // Inside a script element "</" would end it, and "<!--" would hide its end, so that every "<" is
 // escaped.
 std::string script_safe(std::string text) {
@@ -137,8 +122,11 @@ void write_match_html(const std::filesystem::path& file, const MatchedTrack& tra
                       const mapmatch::RoadNetwork& network, const mapmatch::RuleBases& rules) {
   Texts texts;
   std::vector<bool> used(network.size(), false);
+  std::vector<Eigen::Vector2d> places;
+  for (const mapmatch::VehicleFix& fix : track.fixes)
+    places.push_back(network.to_local(fix.position));
   json data{{"fixes", fixes_of(track, network, rules, texts, used)},
-            {"roads", roads_about(network, box_of(track, network), used)}};
+            {"roads", roads_about(network, box_about(places, surroundings), used)}};
   data["texts"] = texts.all();
   const std::string_view script = web::match_script();
   // Names in a map may contain anything, including invalid UTF-8.

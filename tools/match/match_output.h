@@ -1,11 +1,14 @@
-// Writes matched tracks to files.
+// Writes matched tracks to files, and explains why fixes are not on a road of the map.
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "mapmatch/matcher.h"
-#include "tools/match/track.h"
+#include "tools/match/track_file.h"
 
 namespace maploop::match {
 
@@ -30,5 +33,14 @@ void write_match_gpx(const std::filesystem::path& file, const MatchedTrack& trac
 // shows its candidates, their rules and reasons. The page needs no network connection.
 void write_match_html(const std::filesystem::path& file, const MatchedTrack& track,
                       const mapmatch::RoadNetwork& network, const mapmatch::RuleBases& rules);
+
+// Counts the fixes that the matcher refused and those outside of the map, by their reason.
+std::map<std::string, std::size_t> unused_fixes(const MatchedTrack& track,
+                                                const mapmatch::RoadNetwork& network);
+
+// Returns the reason and the remedy if the track cannot be used with this map: no fix is on a road,
+// or the matcher refused more than half of them. Returns nothing otherwise.
+std::optional<std::string> why_unusable(const MatchedTrack& track,
+                                        const mapmatch::RoadNetwork& network);
 
 }  // namespace maploop::match

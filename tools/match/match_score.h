@@ -2,16 +2,46 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "mapmatch/matcher.h"
-#include "tools/match/labels.h"
-#include "tools/match/track.h"
+#include "msgs/map_match.h"
+#include "tools/match/track_file.h"
 
 namespace maploop::match {
+
+// A link really driven.
+struct Label {
+  std::int64_t way_id = 0, node_a = 0, node_b = 0;  // an OSM segment, in driving direction
+  bool certain = false;  // conf = 1: not near a junction, and no other road could be meant
+  std::optional<mapmatch::DirectedLink> link{};  // of a network, if it was looked up
+};
+using Labels = std::map<std::size_t, Label>;  // by the row number of the track
+
+// Reads a CSV file with the columns frame, way_id, node_a, node_b and conf, plain or .gz. Throws
+// std::runtime_error naming file and line.
+Labels read_labels(const std::filesystem::path& file);
+
+// Finds the links of a network by their segments.
+class SegmentLinks {
+ public:
+  explicit SegmentLinks(const mapmatch::RoadNetwork& network);
+
+  // Returns the link that a segment is part of, in the direction from a to b, or nothing if the
+  // network has no such segment.
+  std::optional<mapmatch::DirectedLink> find(std::int64_t node_a, std::int64_t node_b) const;
+  void look_up(Labels& labels) const;
+
+ private:
+  std::map<std::pair<std::int64_t, std::int64_t>, mapmatch::DirectedLink> links_;
+};
 
 // A fix and its matched segment.
 struct MatchedFix {
@@ -20,10 +50,19 @@ struct MatchedFix {
   double p_link = 0.0;
   std::optional<mapmatch::DirectedLink> link{};  // if it is known
 };
+MatchedFix matched_fix(const mapmatch::MatchResult& result, const mapmatch::RoadNetwork& network);
+
+// Returns the match of each fix of a track.
+std::vector<MatchedFix> match_track(mapmatch::Matcher& matcher, const Track& track);
+
+// The baseline: returns the nearest segment within 100 m whose azimuth differs by at most 50
+// degrees from the vehicle's.
+std::vector<MatchedFix> nearest_segments(const mapmatch::RoadNetwork& network, const Track& track);
 
 struct Tally {
   std::size_t fixes = 0, matched = 0, right = 0;
 
+  Tally& operator+=(const Tally& more);
   std::size_t wrong() const { return fixes - right; }
   double share() const {
     return fixes ? static_cast<double>(right) / static_cast<double>(fixes) : 0;
@@ -38,6 +77,8 @@ struct Tally {
 struct Reliability {
   std::array<std::size_t, 10> fixes{}, right{};
   std::array<double, 10> p_sum{};
+
+  Reliability& operator+=(const Reliability& more);
 };
 
 struct MatchScore {
@@ -46,16 +87,34 @@ struct MatchScore {
 
   // `rows` are the track's row numbers of the fixes; fixes without a label do not count.
   void add(const std::vector<MatchedFix>& matched, const std::vector<std::size_t>& rows,
-           const std::map<std::size_t, Label>& labels);
+           const Labels& labels);
 };
 
-MatchedFix matched_fix(const mapmatch::MatchResult& result, const mapmatch::RoadNetwork& network);
+struct TimedMatch {
+  Time stamp{};
+  MatchedFix matched;
+};
+TimedMatch timed_match(const MapMatch& match);
 
-// Returns the match of each fix of a track.
-std::vector<MatchedFix> match_track(mapmatch::Matcher& matcher, const Track& track);
+// Reads the CSV file of `maploop match --csv` (files of other matchers need the columns t and
+// way_id, and may have p_link, node_a, node_b) or the MAP_MATCH messages of an LCM log; plain or
+// .gz. Returns them in the order of the file. Throws std::runtime_error naming file and line.
+std::vector<TimedMatch> read_matches(const std::filesystem::path& file);
+std::vector<TimedMatch> read_log_matches(const std::filesystem::path& file);
 
-// The baseline: returns the nearest segment within 100 m whose azimuth differs by at most 50
-// degrees from the vehicle's.
-std::vector<MatchedFix> nearest_segments(const mapmatch::RoadNetwork& network, const Track& track);
+// Returns the index of the frame nearest to a time, or nothing if there is none within 60 ms.
+// `stamps` increase.
+std::optional<std::size_t> frame_at(Time t, const std::vector<Time>& stamps);
+
+// Scores each match against the label of the frame nearest to it; matches without such a frame do
+// not count.
+MatchScore score_matches(const std::vector<TimedMatch>& matches, const std::vector<Time>& stamps,
+                         const Labels& labels);
+
+// Return the share of fixes on the right way and the coverage, of all labels and of certain ones;
+// and a table of the mean P(link) and the share that was right; and both as JSON.
+std::string to_text(const MatchScore& score);
+std::string to_text(const Reliability& reliability);
+nlohmann::json to_json(const MatchScore& score);
 
 }  // namespace maploop::match

@@ -1,34 +1,29 @@
 #include "tools/match/road_lines.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace maploop::match {
-namespace {
 
-// Returns the bounding box of the lines plus `reach`, in the network's own frame, m.
-mapmatch::Box box_about(const mapmatch::RoadNetwork& network, const LocalFrame& enu,
-                        const std::vector<web::Line>& lines, double reach) {
+mapmatch::Box box_about(const std::vector<Eigen::Vector2d>& places, double margin) {
   constexpr double far = std::numeric_limits<double>::infinity();
   mapmatch::Box box{far, far, -far, -far};
-  for (const web::Line& line : lines) {
-    for (std::size_t i = 0; i < line.x.size(); ++i) {
-      if (!std::isfinite(line.x[i]) || !std::isfinite(line.y[i])) continue;
-      const Eigen::Vector2d p = network.to_local(enu.to_geodetic({line.x[i], line.y[i], 0.0}));
-      box = {std::min(box.west, p.x() - reach), std::min(box.south, p.y() - reach),
-             std::max(box.east, p.x() + reach), std::max(box.north, p.y() + reach)};
-    }
+  for (const Eigen::Vector2d& p : places) {
+    if (!p.allFinite()) continue;
+    box = {std::min(box.west, p.x() - margin), std::min(box.south, p.y() - margin),
+           std::max(box.east, p.x() + margin), std::max(box.north, p.y() + margin)};
   }
   return box;
 }
 
-}  // namespace
-
 std::vector<web::Line> road_lines(const mapmatch::RoadNetwork& network, const Geodetic& origin,
                                   const std::vector<web::Line>& lines, double reach) {
   const LocalFrame enu(origin);
-  const mapmatch::Box box = box_about(network, enu, lines, reach);
+  std::vector<Eigen::Vector2d> places;
+  for (const web::Line& line : lines)
+    for (std::size_t i = 0; i < line.x.size(); ++i)
+      places.push_back(network.to_local(enu.to_geodetic({line.x[i], line.y[i], 0.0})));
+  const mapmatch::Box box = box_about(places, reach);
   std::vector<web::Line> roads;
   if (!(box.west < box.east)) return roads;
   std::vector<bool> near(network.size(), false);

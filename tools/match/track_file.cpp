@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
+#include "msgs/input_limits.h"
 #include "tools/evaluate/text_file.h"
-#include "tools/match/log_messages.h"
+#include "tools/evaluate/text_lines.h"
 
 namespace maploop::match {
 namespace {
@@ -21,7 +23,7 @@ std::string extension_of(std::filesystem::path file) {
 
 }  // namespace
 
-Track read_track(const std::filesystem::path& file, const TrackFileOptions& options) {
+Track read_track(const std::filesystem::path& file, const TrackOptions& options) {
   if (is_lcm_log(file)) return read_log_track(file);
   const std::string text = evaluation::read_text(file);
   const std::string name = file.string();
@@ -38,6 +40,29 @@ Track read_track(const std::filesystem::path& file, const TrackFileOptions& opti
   }
   if (track.empty()) throw std::runtime_error(name + " has no fix");
   return track;
+}
+
+void keep(const mapmatch::VehicleFix& fix, std::string_view name, Track& track) {
+  if (track.size() == input_limits::fixes)
+    throw std::runtime_error(std::string(name) + ": more than " +
+                             std::to_string(input_limits::fixes) + " fixes; cut it into parts");
+  track.push_back(fix);
+}
+
+std::optional<Time> parse_track_time(std::string_view text) {
+  if (const auto seconds = evaluation::number_of<double>(text)) {
+    if (!std::isfinite(*seconds) || std::abs(*seconds) > 9e9) return {};
+    return Time(from_seconds(*seconds));
+  }
+  std::string date(text);
+  if (const auto t = date.find('T'); t != std::string::npos) date[t] = ' ';
+  if (date.ends_with('Z')) date.pop_back();
+  if (date.ends_with("+00:00")) date.resize(date.size() - 6);
+  try {
+    return parse_time(date);
+  } catch (const std::invalid_argument&) {
+    return {};
+  }
 }
 
 }  // namespace maploop::match

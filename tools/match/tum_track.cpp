@@ -1,11 +1,10 @@
 #include <Eigen/Geometry>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "msgs/frames.h"
+#include "tools/evaluate/trajectory_file.h"
 #include "tools/match/track_file.h"
 
 namespace maploop::match {
@@ -41,38 +40,23 @@ int forward_axis(const std::vector<Pose>& poses) {
 
 }  // namespace
 
-Track parse_tum_track(std::string_view text, std::string_view name,
-                      const TrackFileOptions& options) {
+Track parse_tum_track(std::string_view text, std::string_view name, const TrackOptions& options) {
   if (!options.origin)
     throw std::runtime_error(std::string(name) +
                              " is in local metres: say where their origin is (--origin LAT,LON)");
   const LocalFrame frame(*options.origin);
   Track track;
   std::vector<Pose> poses;
-  int line_number = 0;
-  const auto fail = [&](const std::string& what) {
-    throw std::runtime_error(std::string(name) + ":" + std::to_string(line_number) + ": " + what);
-  };
-  while (!text.empty()) {
-    ++line_number;
-    const auto end = text.find('\n');
-    const std::string line(text.substr(0, end));
-    text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
-    if (line.empty() || line[0] == '#' || line == "\r") continue;
-    double t = 0.0, x = 0.0, y = 0.0, z = 0.0, qx = 0.0, qy = 0.0, qz = 0.0, qw = 0.0;
-    if (std::sscanf(line.c_str(), "%lf %lf %lf %lf %lf %lf %lf %lf", &t, &x, &y, &z, &qx, &qy, &qz,
-                    &qw) != 8)
-      fail("not 't x y z qx qy qz qw'");
+  for (evaluation::TextLines lines(text, std::string(name)); lines.next();) {
+    const evaluation::Cells words = lines.words();
+    if (words.size() != 8) lines.fail("not 't x y z qx qy qz qw'");
+    const evaluation::TumPose pose = evaluation::tum_pose(lines, words);
     mapmatch::VehicleFix fix;
-    try {
-      fix.stamp = Time(checked_seconds(t));
-    } catch (const std::invalid_argument& e) {
-      fail(e.what());
-    }
-    fix.position = frame.to_geodetic({x, y, 0.0});
+    fix.stamp = pose.stamp;
+    fix.position = frame.to_geodetic({pose.place.x(), pose.place.y(), 0.0});
     fix.covariance = options.sigma * options.sigma * Eigen::Matrix2d::Identity();
     keep(fix, name, track);
-    poses.push_back({{x, y}, Eigen::Quaterniond(qw, qx, qy, qz).normalized().toRotationMatrix()});
+    poses.push_back({pose.place.head<2>(), pose.rotation.normalized().toRotationMatrix()});
   }
   if (const int axis = forward_axis(poses); axis >= 0) {
     for (std::size_t i = 0; i < track.size(); ++i) {

@@ -1,11 +1,11 @@
-#include "tools/match/unused_fixes.h"
-
+// Explains why fixes of a track are not on a road of the map.
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
 #include "mapmatch/map_area.h"
 #include "msgs/frames.h"
+#include "tools/match/match_output.h"
 
 namespace maploop::match {
 namespace {

@@ -168,9 +168,7 @@ std::string to_html(const std::vector<VariantResult>& results, const std::string
       paths.lines.push_back(evaluation::seen_from_above("truth", matched.truth));
     paths.lines.push_back(evaluation::seen_from_above(result.variant.name, matched.estimate));
     errors.lines.push_back(
-        {result.variant.name, evaluation::distances(matched.truth),
-         evaluation::absolute_errors(matched.estimate, matched.truth,
-                                     matched.truth.front() * matched.estimate.front().inverse())});
+        {result.variant.name, result.score.errors.along, result.score.errors.from_start});
   }
   return web::Page(heading)
       .add(web::table(kHeadings, rows) + "<p>" + web::escaped(kNotes) + "</p>\n")

@@ -15,7 +15,7 @@
 #include "runtime/vehicle/stages/road_map.h"
 #include "tools/evaluate/motion_chain.h"
 #include "tools/evaluate/trajectory_file.h"
-#include "tools/match/driven_links.h"
+#include "tools/match/match_score.h"
 #include "tools/replay/fusion_score.h"
 #include "tools/replay/replay_result.h"
 

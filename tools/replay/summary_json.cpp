@@ -1,6 +1,6 @@
 // The figures of a run as JSON. Numbers that are not finite become null.
 #include "tools/command/json_output.h"
-#include "tools/match/score_output.h"
+#include "tools/match/match_score.h"
 #include "tools/profile/profile.h"
 #include "tools/replay/figures.h"
 

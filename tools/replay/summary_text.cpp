@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "tools/match/score_output.h"
+#include "tools/match/match_score.h"
 #include "tools/profile/profile.h"
 #include "tools/replay/figures.h"
 

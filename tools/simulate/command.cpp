@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -17,6 +16,7 @@
 
 #include "msgs/frames.h"
 #include "msgs/time.h"
+#include "tools/command/options.h"
 #include "tools/command/commands.h"
 #include "tools/command/option_checks.h"
 #include "tools/command/terminal.h"
@@ -58,6 +58,15 @@ Geodetic parse_place(const std::string& text) {
       !(std::fabs(latitude) <= 85.0 && std::fabs(longitude) <= 180.0))
     throw CLI::ValidationError("--route", "'" + text + "' is no LATITUDE,LONGITUDE in degrees");
   return {radians(latitude), radians(longitude), 0.0};
+}
+
+// Adds an option that takes one of the names of an enumeration.
+template <NamedEnum Enum>
+void add_choice(CLI::App* sub, const char* flag, Enum& value, const char* what) {
+  sub->add_option_function<std::string>(
+         flag, [&value](const std::string& name) { value = *value_named<Enum>(name); }, what)
+      ->check(CLI::IsMember(choices<Enum>()))
+      ->default_str(std::string(to_string(value)));
 }
 
 int simulate_command(const SimulateOptions& options) {
@@ -111,27 +120,9 @@ void add_simulate(CLI::App& app, Command& command) {
          "LATITUDE,LONGITUDE ...: the shortest way by these places of the map, and on as the seed "
          "will")
       ->needs(map);
-  const std::map<std::string, simulate::ImuGrade> grades{{"tactical", simulate::ImuGrade::tactical},
-                                                         {"mems", simulate::ImuGrade::mems}};
-  sub->add_option_function<std::string>(
-         "--imu-grade",
-         [options, grades](const std::string& name) { options->drive.imu = grades.at(name); },
-         "tactical or mems")
-      ->check(CLI::IsMember({"tactical", "mems"}))
-      ->default_str("tactical");
-  const std::map<std::string, simulate::Environment> environments{
-      {"town", simulate::Environment::town},
-      {"open", simulate::Environment::open},
-      {"suburban", simulate::Environment::suburban},
-      {"urban", simulate::Environment::urban}};
-  sub->add_option_function<std::string>(
-         "--environment",
-         [options, environments](const std::string& name) {
-           options->drive.environment = environments.at(name);
-         },
-         "What stands along the streets: town, open, suburban or urban")
-      ->check(CLI::IsMember({"town", "open", "suburban", "urban"}))
-      ->default_str("town");
+  add_choice(sub, "--imu-grade", options->drive.imu, "tactical or mems");
+  add_choice(sub, "--environment", options->drive.environment,
+             "What stands along the streets: town, open, suburban or urban");
   sub->add_option_function<std::vector<std::string>>(
          "--sensors",
          [options](const std::vector<std::string>& names) {
@@ -144,15 +135,7 @@ void add_simulate(CLI::App& app, Command& command) {
       ->delimiter(',')
       ->check(CLI::IsMember({"camera", "lidar", "imu", "gnss"}))
       ->default_str("camera,lidar,imu,gnss");
-  sub->add_option_function<std::string>(
-         "--scanner",
-         [options](const std::string& name) {
-           options->drive.scanner =
-               name == "vlp-16" ? simulate::Scanner::vlp_16 : simulate::Scanner::hdl_64e;
-         },
-         "hdl-64e or vlp-16")
-      ->check(CLI::IsMember({"hdl-64e", "vlp-16"}))
-      ->default_str("hdl-64e");
+  add_choice(sub, "--scanner", options->drive.scanner, "hdl-64e or vlp-16");
   sub->add_option_function<std::string>(
          "--scanner-clock",
          [options](const std::string& name) { options->drive.free_scanner = name == "free"; },

@@ -6,7 +6,7 @@
 #include "tools/simulate/random.h"
 #include "tools/simulate/scene/town_scene.h"
 #include "tools/simulate/sensors/test_car.h"
-#include "tools/simulate/town/traffic.h"
+#include "tools/simulate/town/site.h"
 
 namespace maploop::simulate {
 namespace {

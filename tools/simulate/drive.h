@@ -8,11 +8,11 @@
 #include "msgs/time.h"
 #include "tools/simulate/scene/appearance.h"
 #include "tools/simulate/scene/ray_scene.h"
-#include "tools/simulate/sensors/calibration_errors.h"
+#include "tools/simulate/sensors/test_car.h"
 #include "tools/simulate/sensors/vehicle_motion.h"
 #include "tools/simulate/simulation.h"
 #include "tools/simulate/town/site.h"
-#include "tools/simulate/town/street_index.h"
+#include "tools/simulate/town/streets.h"
 #include "tools/simulate/town/terrain.h"
 
 namespace maploop::simulate {

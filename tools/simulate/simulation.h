@@ -9,7 +9,7 @@
 
 #include "msgs/local_frame.h"
 #include "tools/simulate/scene/town_scene.h"
-#include "tools/simulate/sensors/imu_errors.h"
+#include "tools/simulate/sensors/inertial_unit.h"
 #include "tools/simulate/sensors/lidar_turn.h"
 
 namespace maploop::simulate {

@@ -16,7 +16,7 @@
 #include "tests/estimators/stereo/drive_pairs.h"
 #include "tests/support/real_data.h"
 #include "tools/evaluate/kitti_metric.h"
-#include "tools/evaluate/kitti_poses.h"
+#include "tools/evaluate/trajectory_file.h"
 
 namespace maploop::lidar {
 namespace {

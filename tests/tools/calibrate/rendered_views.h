@@ -50,11 +50,9 @@ inline View found_view(testing::BoardRenderer& renderer, const Board& board,
 // Returns the estimate minus the truth, in the order of Adjustment::sigma.
 inline CommonVector error_of(const sensors::StereoRig& rig, const testing::RenderedRig& truth) {
   CommonVector error;
-  const auto put = [&](int at, const sensors::CameraModel& a, const sensors::CameraModel& b) {
-    error.segment<kCameraParameters>(at) << a.fx - b.fx, a.fy - b.fy, a.cx - b.cx, a.cy - b.cy,
-        a.distortion.k1 - b.distortion.k1, a.distortion.k2 - b.distortion.k2,
-        a.distortion.p1 - b.distortion.p1, a.distortion.p2 - b.distortion.p2,
-        a.distortion.k3 - b.distortion.k3;
+  const auto put = [&](int at, sensors::CameraModel found, sensors::CameraModel true_camera) {
+    for (std::size_t i = 0; i < kCameraParameters; ++i)
+      error[at + static_cast<int>(i)] = *numbers_of(found)[i] - *numbers_of(true_camera)[i];
   };
   put(0, rig.left, as_model(truth.left));
   put(kCameraParameters, rig.right, as_model(truth.right));

@@ -163,9 +163,9 @@ INSTANTIATE_TEST_SUITE_P(Faults, WrongMaps,
 
 TEST(MapExperiment, SaysWhatIsWrongWithASetting) {
   MapSetting setting;
-  EXPECT_THROW(set_parameter(setting, "spacing"), std::runtime_error);
-  EXPECT_THROW(set_parameter(setting, "no_such_thing=1"), std::runtime_error);
-  set_parameter(setting, "spacing=5");
+  EXPECT_THROW(set_parameters(setting, {"spacing"}), std::runtime_error);
+  EXPECT_THROW(set_parameters(setting, {"no_such_thing=1"}), std::runtime_error);
+  set_parameters(setting, {"spacing=5"});
   EXPECT_EQ(setting.config.feedback.spacing, 5.0);
 }
 

@@ -1,5 +1,5 @@
 // Tests logs as tracks, and matches of a file against the links driven.
-#include "tools/match/match_file.h"
+#include "tools/match/match_score.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,9 +10,8 @@
 #include "msgs/frames.h"
 #include "msgs/lcm/conversions.h"
 #include "tests/support/real_data.h"
-#include "tests/tools/match/refusal.h"
+#include "tests/tools/refusal.h"
 #include "tools/log/log_writer.h"
-#include "tools/match/score_output.h"
 #include "tools/match/track_file.h"
 
 namespace maploop::match {

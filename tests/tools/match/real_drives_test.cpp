@@ -13,9 +13,6 @@
 #include "tests/support/real_data.h"
 #include "tools/evaluate/text_file.h"
 #include "tools/match/map_faults.h"
-#include "tools/match/match_score.h"
-#include "tools/match/track_file.h"
-#include "tools/match/track_noise.h"
 
 namespace maploop::match {
 namespace {
@@ -33,15 +30,11 @@ const mapmatch::RuleBases& rules() {
   return bases;
 }
 
-struct Recorded {
-  Track track;
-  std::map<std::size_t, Label> labels;
-};
-
-Recorded recorded(const std::string& sequence) {
-  const auto data = real_data() / "kitti_odometry";
-  return {read_track(data / "oxts" / (sequence + ".csv.gz"), {}),
-          read_labels(data / "labels" / (sequence + ".csv.gz"))};
+const RecordedDrive& recorded(const std::string& sequence) {
+  static std::map<std::string, RecordedDrive> drives;
+  const auto known = drives.find(sequence);
+  if (known != drives.end()) return known->second;
+  return drives[sequence] = read_recorded_drive(real_data() / "kitti_odometry", sequence);
 }
 
 struct Compared {
@@ -49,15 +42,14 @@ struct Compared {
 };
 
 Compared compare(double interval, const TrackNoise& noise) {
-  const mapmatch::RoadNetwork network(mapmatch::open_network(karlsruhe()));
+  static const mapmatch::RoadNetwork network(mapmatch::open_network(karlsruhe()));
   Compared compared;
   for (const char* sequence : sequences) {
-    const Recorded drive = recorded(sequence);
-    std::vector<std::size_t> rows;
-    const Track track = with_noise(drive.track, interval, noise, &rows);
+    const RecordedDrive& drive = recorded(sequence);
+    const NoisyTrack noisy = with_noise(drive.track, interval, noise);
     mapmatch::Matcher matcher(network, rules(), {});
-    compared.ours.add(match_track(matcher, track), rows, drive.labels);
-    compared.baseline.add(nearest_segments(network, track), rows, drive.labels);
+    compared.ours.add(match_track(matcher, noisy.track), noisy.rows, drive.labels);
+    compared.baseline.add(nearest_segments(network, noisy.track), noisy.rows, drive.labels);
   }
   return compared;
 }
@@ -101,14 +93,7 @@ TEST(RealDrives, SlowNoise) {
 TEST(RealDrives, WhatIsSaidWithHighProbabilityIsRight) {
   MAPLOOP_REQUIRE_REAL_DATA();
   Reliability r;
-  for (const double sigma : {5.0, 15.0}) {
-    const Reliability more = compare(1.0, noisy(sigma, 0)).ours.reliability;
-    for (std::size_t k = 0; k < r.fixes.size(); ++k) {
-      r.fixes[k] += more.fixes[k];
-      r.right[k] += more.right[k];
-      r.p_sum[k] += more.p_sum[k];
-    }
-  }
+  for (const double sigma : {5.0, 15.0}) r += compare(1.0, noisy(sigma, 0)).ours.reliability;
   ASSERT_GT(r.fixes[9], 1000u);
   EXPECT_NEAR(static_cast<double>(r.right[9]) / static_cast<double>(r.fixes[9]),
               r.p_sum[9] / static_cast<double>(r.fixes[9]), 0.02);
@@ -118,13 +103,13 @@ TEST(RealDrives, AWrongMapIsNeverBelievedForLong) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const mapmatch::MapExtract map = mapmatch::read_osm(karlsruhe());
   const mapmatch::NetworkData right = mapmatch::build_network(map);
-  const Recorded drive = recorded("08");
-  std::vector<std::size_t> rows(drive.track.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = i;
-  const auto score = [&](const mapmatch::NetworkData& wrong, std::int64_t missing) {
+  const RecordedDrive& drive = recorded("08");
+  const auto score = [&](const mapmatch::NetworkData& wrong, std::int64_t missing,
+                         double interval = 0.0) {
+    const NoisyTrack driven = with_noise(drive.track, interval, {});
     const mapmatch::RoadNetwork network(wrong);
     mapmatch::Matcher matcher(network, rules(), {});
-    return score_fault(match_track(matcher, drive.track), drive.track, rows, drive.labels, missing);
+    return score_fault(match_track(matcher, driven.track), driven, drive.labels, missing);
   };
   EXPECT_LE(score(shifted(right, {5.0, 0.0}), 0).longest_sure_wrong, 3.0);
   EXPECT_LE(score(one_way_reversed(right), 0).longest_sure_wrong, 3.0);
@@ -136,13 +121,7 @@ TEST(RealDrives, AWrongMapIsNeverBelievedForLong) {
   // The vehicle turns off onto a missing road, with a second between fixes: a path that goes
   // straight on, in line with the vehicle and hundreds of metres behind it, is not a match.
   constexpr std::int64_t turned_into = 4136426;
-  std::vector<std::size_t> seconds;
-  const Track slow = with_noise(drive.track, 1.0, {}, &seconds);
-  const mapmatch::RoadNetwork network(without_way(map, turned_into));
-  mapmatch::Matcher matcher(network, rules(), {});
-  EXPECT_LE(score_fault(match_track(matcher, slow), slow, seconds, drive.labels, turned_into)
-                .longest_sure_wrong,
-            3.0);
+  EXPECT_LE(score(without_way(map, turned_into), turned_into, 1.0).longest_sure_wrong, 3.0);
 }
 
 // Another country and map, positions only; a third of the drive is on roads that the map lacks.
@@ -151,7 +130,7 @@ TEST(RealDrives, OffTheMapNoRoadIsSaid) {
   const auto folder = real_data() / "maps/riverside";
   const mapmatch::RoadNetwork network(
       mapmatch::open_network(folder / "riverside_from_2021_drives.osm.pbf"));
-  TrackFileOptions options;
+  TrackOptions options;
   options.sigma = 2.0;
   const Track track = read_track(real_data() / "gnss/riverside_drive/groundtruth.csv.gz", options);
   mapmatch::Matcher matcher(network, rules(), {});

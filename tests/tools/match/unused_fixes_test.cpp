@@ -1,6 +1,4 @@
 // Tests the messages about tracks that cannot be used with a map.
-#include "tools/match/unused_fixes.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +8,7 @@
 #include "msgs/frames.h"
 #include "tests/mapmatch/simulated_drive.h"
 #include "tests/mapmatch/small_map.h"
+#include "tools/match/match_output.h"
 
 namespace maploop::match {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "tests/support/process.h"
 #include "tests/support/real_data.h"
-#include "tools/evaluate/kitti_poses.h"
+#include "tools/evaluate/trajectory_file.h"
 
 namespace maploop {
 namespace {

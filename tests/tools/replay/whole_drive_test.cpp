@@ -1,7 +1,7 @@
 // Tests that whatever is done with the recorded drive, its results have the bits of one replay in
 // lockstep, and are as accurate as they were.
 #include "tests/support/command_test.h"
-#include "tools/evaluate/kitti_poses.h"
+#include "tools/evaluate/trajectory_file.h"
 
 namespace maploop {
 namespace {

@@ -4,15 +4,12 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <map>
 #include <stdexcept>
 #include <string>
 
 #include "sensors/replay/kitti_drive.h"
 #include "sensors/replay/velodyne_source.h"
-#include "tests/support/real_data.h"
+#include "tests/tools/simulate/made_drive.h"
 #include "tools/simulate/drive.h"
 #include "tools/simulate/simulation.h"
 
@@ -20,16 +17,6 @@ namespace maploop::simulate {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::map<std::string, std::string> contents(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file()) continue;
-    std::ifstream file(entry.path(), std::ios::binary);
-    files[fs::relative(entry.path(), folder).string()] = {std::istreambuf_iterator<char>(file), {}};
-  }
-  return files;
-}
 
 template <class T>
 std::size_t delivered(sensors::Source<T>& source) {
@@ -40,36 +27,28 @@ std::size_t delivered(sensors::Source<T>& source) {
   return source.report().delivered;
 }
 
-class SimulatedDrive : public ::testing::Test {
- protected:
-  fs::path folder(const char* name) const { return temporary_.path() / name; }
-  static SimulationOptions a_second(unsigned threads) {
-    SimulationOptions options;
-    options.seconds = 1.0;
-    options.seed = 7;
-    options.threads = threads;
-    return options;
-  }
+SimulationOptions a_second(unsigned threads) {
+  SimulationOptions options;
+  options.seconds = 1.0;
+  options.seed = 7;
+  options.threads = threads;
+  return options;
+}
 
-  maploop::testing::TemporaryFolder temporary_;
-};
+TEST(SimulatedDrive, SameSeedSameBytesWhateverTheThreads) {
+  const fs::path one = made("one", a_second(1));
+  expect_same_files(one, made("two", a_second(2)));
+  EXPECT_THROW(simulate_drive(one, a_second(1)), std::runtime_error) << "it exists";
+}
 
-TEST_F(SimulatedDrive, SameSeedSameBytesWhateverTheThreads) {
-  ASSERT_TRUE(simulate_drive(folder("one"), a_second(1)));
-  ASSERT_TRUE(simulate_drive(folder("two"), a_second(2)));
-  const auto one = contents(folder("one")), two = contents(folder("two"));
-  ASSERT_EQ(one.size(), two.size());
-  for (const auto& [name, bytes] : one) {
-    ASSERT_TRUE(two.contains(name)) << name;
-    EXPECT_TRUE(bytes == two.at(name)) << name;
-  }
-
-  const sensors::KittiDrive drive(folder("one") / "town_extract");
+TEST(SimulatedDrive, ReadsLikeADriveOfKitti) {
+  const fs::path made_drive = made("one", a_second(1));
+  const sensors::KittiDrive drive(made_drive / "town_extract");
   EXPECT_EQ(drive.frame_count(), 9U);
   EXPECT_EQ(delivered(*drive.camera()), 9U);
   EXPECT_EQ(delivered(*drive.velodyne()), 9U);
   EXPECT_EQ(delivered(*drive.imu()), 100U);
-  const sensors::KittiDrive synced(folder("one") / "town_sync");
+  const sensors::KittiDrive synced(made_drive / "town_sync");
   EXPECT_EQ(delivered(*synced.imu()), 10U);
   const auto camera = drive.camera();
   for (StereoPair pair; camera->next(pair);) {
@@ -84,24 +63,22 @@ TEST_F(SimulatedDrive, SameSeedSameBytesWhateverTheThreads) {
   }
   const auto velodyne = drive.velodyne();
   for (LidarScan scan; velodyne->next(scan);) EXPECT_GT(scan.points.size(), 60'000U);
-
-  EXPECT_THROW(simulate_drive(folder("one"), a_second(1)), std::runtime_error);
 }
 
-TEST_F(SimulatedDrive, PackedScansHoldTheSamePointsInATenthOfTheBytes) {
+TEST(SimulatedDrive, PackedScansHoldTheSamePointsInATenthOfTheBytes) {
   SimulationOptions options = a_second(1);
+  const fs::path plain_drive = made("one", options);
   options.sensors = {false, true, false, false};
-  ASSERT_TRUE(simulate_drive(folder("plain"), options));
   options.compact = true;
-  ASSERT_TRUE(simulate_drive(folder("compact"), options));
-  const auto scans = [&](const char* name) {
-    const fs::path velodyne = folder(name) / "town_sync/velodyne_points";
+  const fs::path compact_drive = made("compact", options);
+  const auto scans = [](const fs::path& drive) {
+    const fs::path velodyne = drive / "town_sync/velodyne_points";
     const auto stamps = [&](const char* file) { return sensors::read_timestamps(velodyne / file); };
     return sensors::make_velodyne_source({velodyne / "data", stamps("timestamps_start.txt"),
                                           stamps("timestamps.txt"), stamps("timestamps_end.txt")},
                                          std::chrono::milliseconds(250));
   };
-  const auto plain = scans("plain"), compact = scans("compact");
+  const auto plain = scans(plain_drive), compact = scans(compact_drive);
   std::size_t count = 0;
   for (LidarScan a, b; plain->next(a) && compact->next(b); ++count) {
     ASSERT_EQ(a.points.size(), b.points.size());
@@ -112,16 +89,16 @@ TEST_F(SimulatedDrive, PackedScansHoldTheSamePointsInATenthOfTheBytes) {
     }
   }
   EXPECT_EQ(count, 9U);
-  const auto size = [&](const char* name) {
+  const auto size = [](const fs::path& drive) {
     std::uintmax_t sum = 0;
-    for (const auto& e : fs::recursive_directory_iterator(folder(name) / "town_sync"))
-      if (e.is_regular_file()) sum += e.file_size();
+    for (const auto& e : fs::directory_iterator(drive / "town_sync/velodyne_points/data"))
+      sum += e.file_size();
     return sum;
   };
-  EXPECT_LT(10 * size("compact"), size("plain"));
+  EXPECT_LT(10 * size(compact_drive), size(plain_drive));
 }
 
-TEST_F(SimulatedDrive, AFreeScannerTurnsBesideTheCameras) {
+TEST(SimulatedDrive, AFreeScannerTurnsBesideTheCameras) {
   SimulationOptions options = a_second(1);
   const Drive free(options);
   options.free_scanner = false;
@@ -136,16 +113,17 @@ TEST_F(SimulatedDrive, AFreeScannerTurnsBesideTheCameras) {
     EXPECT_NEAR(triggered.turns[i], triggered.times[i] - 0.05, 1e-9);
 }
 
-TEST_F(SimulatedDrive, BrokenOffNothingIsLeft) {
-  EXPECT_FALSE(simulate_drive(folder("half"), a_second(2),
+TEST(SimulatedDrive, BrokenOffNothingIsLeft) {
+  const maploop::testing::TemporaryFolder folder;
+  EXPECT_FALSE(simulate_drive(folder.path() / "half", a_second(2),
                               [](std::size_t done, std::size_t) { return done < 2; }));
-  EXPECT_TRUE(fs::is_empty(temporary_.path()));
+  EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
-TEST_F(SimulatedDrive, WhatCannotBeIsRefused) {
+TEST(SimulatedDrive, WhatCannotBeIsRefused) {
   SimulationOptions half = a_second(1);
   half.seconds = 0.5;
-  EXPECT_THROW(simulate_drive(folder("short"), half), std::invalid_argument);
+  EXPECT_THROW(simulate_drive("short", half), std::invalid_argument);
   EXPECT_THROW(simulate_drive("/proc/nowhere/town", a_second(1)), std::exception);
 }
 

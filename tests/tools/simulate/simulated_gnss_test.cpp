@@ -3,16 +3,16 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
-#include <fstream>
-#include <iterator>
+#include <map>
 #include <string>
 
 #include "mapmatch/network_file.h"
 #include "msgs/frames.h"
+#include "msgs/named_enum.h"
 #include "ppp/gnss_files.h"
 #include "ppp/models/troposphere.h"
 #include "ppp/ppp_setup.h"
-#include "tests/support/real_data.h"
+#include "tests/tools/simulate/made_drive.h"
 #include "tools/ppp/run.h"
 #include "tools/ppp/score.h"
 #include "tools/ppp/truth.h"
@@ -20,7 +20,6 @@
 #include "tools/simulate/gnss/product_text.h"
 #include "tools/simulate/gnss/signal_paths.h"
 #include "tools/simulate/gnss/tracking.h"
-#include "tools/simulate/simulation.h"
 
 namespace maploop::simulate {
 namespace {
@@ -195,37 +194,14 @@ TEST(SignalTracker, AReflectionPullsTheCodeEitherWayAndAloneTakesItAlong) {
   EXPECT_FALSE(SignalTracker(shape, 1, 1).track({}, 1.2, 1.0).has_value());
 }
 
-class GnssOnlyDrive : public ::testing::Test {
- protected:
-  fs::path made(const char* name, Environment environment, double seconds, std::uint64_t seed) {
-    SimulationOptions options;
-    options.seconds = seconds;
-    options.seed = seed;
-    options.environment = environment;
-    options.sensors = {false, false, false, true};
-    const fs::path folder = temporary_.path() / name;
-    EXPECT_TRUE(simulate_drive(folder, options));
-    return folder / "town_sync";
-  }
-  static std::string content(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
-
-  maploop::testing::TemporaryFolder temporary_;
-};
-
-TEST_F(GnssOnlyDrive, SameSeedSameBytes) {
-  const fs::path one = made("one", Environment::urban, 20.0, 5);
-  const fs::path two = made("two", Environment::urban, 20.0, 5);
-  const fs::path other = made("other", Environment::urban, 20.0, 6);
-  EXPECT_FALSE(fs::exists(one / "image_00"));
-  for (const char* name : {"gnss/observations.rnx", "gnss/orbits.sp3", "gnss/truth.csv",
-                           "gnss_one_frequency/observations.rnx"}) {
-    EXPECT_FALSE(content(one / name).empty()) << name;
-    EXPECT_EQ(content(one / name), content(two / name)) << name;
-    EXPECT_NE(content(one / name), content(other / name)) << name;
-  }
+// Makes a drive with GNSS alone and returns the folder of its sensors.
+fs::path gnss_drive(Environment environment, std::uint64_t seed) {
+  SimulationOptions options;
+  options.seconds = 300.0;
+  options.seed = seed;
+  options.environment = environment;
+  options.sensors = {false, false, false, true};
+  return made(std::string(to_string(environment)) + std::to_string(seed), options) / "town_sync";
 }
 
 struct Solved {
@@ -241,7 +217,11 @@ ppp::GnssFiles files_of(const fs::path& folder) {
   return files;
 }
 
-Solved solve(const fs::path& folder) {
+const Solved& solved(const fs::path& folder) {
+  static std::map<fs::path, Solved> known;
+  const auto [at, is_new] = known.try_emplace(folder);
+  Solved& result = at->second;
+  if (!is_new) return result;
   const ppp::GnssFiles files = files_of(folder);
   EXPECT_EQ(files.observations.at(0).refused, 0);
   const ppp::PppSetup setup(files, {});
@@ -250,7 +230,6 @@ Solved solve(const fs::path& folder) {
   ppp::PppFilter filter = setup.make_filter();
   const gnss::Truth truth((folder / "truth.csv").string(), setup.observations().epochs[0].time);
   gnss::Score score(truth, 1e-4);
-  Solved result;
   for (const ppp::Epoch& epoch : setup.observations().epochs) {
     const ppp::PppSolution& s = filter.process(epoch);
     score.add(s);
@@ -266,13 +245,14 @@ Solved solve(const fs::path& folder) {
 
 // The errors are 0.10, 0.27 and 0.30 m after five minutes; on one frequency 2.0, 2.4 and 1.7 m,
 // mostly up.
-TEST_F(GnssOnlyDrive, OpenSkyConvergesToDecimetres) {
+TEST(GnssOnlyDrive, OpenSkyConvergesToDecimetres) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
-    const fs::path drive = made(std::to_string(seed).c_str(), Environment::open, 300.0, seed);
-    const Solved dual = solve(drive / "gnss");
+    const fs::path drive = gnss_drive(Environment::open, seed);
+    EXPECT_FALSE(fs::exists(drive / "image_00"));
+    const Solved& dual = solved(drive / "gnss");
     EXPECT_EQ(dual.solved, 300U);
     EXPECT_LT(dual.error, 0.45);
-    const Solved single = solve(drive / "gnss_one_frequency");
+    const Solved& single = solved(drive / "gnss_one_frequency");
     EXPECT_EQ(single.solved, 300U);
     EXPECT_LT(single.error, 3.5);
   }
@@ -280,10 +260,9 @@ TEST_F(GnssOnlyDrive, OpenSkyConvergesToDecimetres) {
 
 // Between houses codes are wrong by tens of metres and several phases slip at a time: 4.6, 5.2 and
 // 6.3 m horizontally, NEES 9.7, 3.3 and 3.4 (expected 3).
-TEST_F(GnssOnlyDrive, InStreetCanyonsItIsMetresOffAndSaysSo) {
+TEST(GnssOnlyDrive, InStreetCanyonsItIsMetresOffAndSaysSo) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
-    const fs::path drive = made(std::to_string(seed).c_str(), Environment::urban, 300.0, seed);
-    const Solved canyon = solve(drive / "gnss");
+    const Solved& canyon = solved(gnss_drive(Environment::urban, seed) / "gnss");
     EXPECT_GE(canyon.solved, 299U);
     EXPECT_LT(canyon.accuracy.horizontal_rmse, 8.0);
     EXPECT_LT(canyon.accuracy.nees, 12.0);
@@ -292,8 +271,8 @@ TEST_F(GnssOnlyDrive, InStreetCanyonsItIsMetresOffAndSaysSo) {
 
 // The errors common to all satellites are estimated together with the position, and neither is
 // known without the other: one epoch in sixteen had a matrix that was not a valid covariance.
-TEST_F(GnssOnlyDrive, WithTheRoadOnOneFrequencyTheCovarianceIsOne) {
-  const fs::path drive = made("road", Environment::urban, 300.0, 1);
+TEST(GnssOnlyDrive, WithTheRoadOnOneFrequencyTheCovarianceIsOne) {
+  const fs::path drive = gnss_drive(Environment::urban, 1);
   const ppp::GnssFiles files = files_of(drive / "gnss_one_frequency");
   const mapmatch::RoadNetwork network(mapmatch::open_network(drive.parent_path() / "map.osm"));
   const mapmatch::RuleBases rules = mapmatch::read_rule_bases(mapmatch::default_rules());
@@ -311,9 +290,17 @@ TEST_F(GnssOnlyDrive, WithTheRoadOnOneFrequencyTheCovarianceIsOne) {
   EXPECT_EQ(indefinite, 0);
 }
 
-TEST_F(GnssOnlyDrive, HousesTakeAwaySatellites) {
-  const Solved open = solve(made("open", Environment::open, 60.0, 4) / "gnss");
-  const Solved urban = solve(made("urban", Environment::urban, 60.0, 4) / "gnss");
+TEST(GnssOnlyDrive, AnotherSeedGivesOtherBytes) {
+  for (const char* name : {"gnss/observations.rnx", "gnss/orbits.sp3", "gnss/truth.csv",
+                           "gnss_one_frequency/observations.rnx"})
+    EXPECT_NE(content(gnss_drive(Environment::open, 1) / name),
+              content(gnss_drive(Environment::open, 2) / name))
+        << name;
+}
+
+TEST(GnssOnlyDrive, HousesTakeAwaySatellites) {
+  const Solved& open = solved(gnss_drive(Environment::open, 1) / "gnss");
+  const Solved& urban = solved(gnss_drive(Environment::urban, 1) / "gnss");
   EXPECT_LT(urban.satellites, 8 * open.satellites / 10);
   EXPECT_GT(urban.satellites, 2 * open.satellites / 10);
 }

@@ -3,23 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 #include "mapmatch/osm_reader.h"
 #include "msgs/frames.h"
-#include "tests/support/real_data.h"
-#include "tools/simulate/town/osm_streets.h"
+#include "tests/tools/simulate/made_drive.h"
 #include "tools/simulate/town/road_map.h"
 #include "tools/simulate/town/route.h"
 #include "tools/simulate/town/site.h"
-#include "tools/simulate/town/street_index.h"
+#include "tools/simulate/town/streets.h"
 
 namespace maploop::simulate {
 namespace {
-
-namespace fs = std::filesystem;
 
 const LocalFrame map_frame({radians(49.0), radians(8.4), 100.0});
 
@@ -149,21 +144,10 @@ TEST_F(Karlsruhe, TheCarStaysOnTheRoadAndDrivesAsADriverDoes) {
 }
 
 TEST_F(Karlsruhe, SameSeedSameBytes) {
-  const maploop::testing::TemporaryFolder folder;
   SimulationOptions o = options(3);
   o.seconds = 10.0;
   o.sensors = {false, false, true, true};
-  const auto content = [](const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return std::string{std::istreambuf_iterator<char>(in), {}};
-  };
-  for (const char* name : {"one", "two"}) ASSERT_TRUE(simulate_drive(folder.path() / name, o));
-  for (const char* name : {"map.osm", "driven_links.csv", "truth.tum", "vehicle.toml",
-                           "town_sync/gnss/observations.rnx"}) {
-    const std::string one = content(folder.path() / "one" / name);
-    EXPECT_FALSE(one.empty()) << name;
-    EXPECT_EQ(one, content(folder.path() / "two" / name)) << name;
-  }
+  expect_same_files(made("karlsruhe", o), made("karlsruhe again", o));
 }
 
 TEST_F(Karlsruhe, ARouteFarFromItsRoadsIsRefused) {

@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "tools/simulate/town/route.h"
-#include "tools/simulate/town/street_index.h"
-#include "tools/simulate/town/traffic.h"
+#include "tools/simulate/town/site.h"
+#include "tools/simulate/town/streets.h"
 
 namespace maploop::simulate {
 namespace {
@@ -48,7 +48,7 @@ TEST(SimulatedTown, ARouteThatCannotBeIsRefused) {
   Street street;
   street.to = 1;
   street.centreline = {{0, 0}, {100, 0}};
-  measure(street);
+  street.along = distances_along(street.centreline);
   streets.streets = {street};
   EXPECT_THROW(make_route(streets, 0, 500.0, 1), std::runtime_error);
   const LanePath path(streets, {{0, true}}, 1);

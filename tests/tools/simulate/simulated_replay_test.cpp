@@ -1,12 +1,9 @@
 // Tests a replay with a simulated drive's GNSS receiver.
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "msgs/frames.h"
 #include "runtime/vehicle/drivers/recording.h"
-#include "tests/support/real_data.h"
-#include "tools/simulate/simulation.h"
+#include "tests/tools/simulate/made_drive.h"
 
 namespace maploop::simulate {
 namespace {
@@ -14,13 +11,11 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(SimulatedReplay, ObservationsTakeThePlaceOfTheReferencesGnss) {
-  const maploop::testing::TemporaryFolder folder;
   SimulationOptions options;
   options.seconds = 5.0;
   options.sensors = {false, false, true, true};
   options.imu = ImuGrade::mems;
-  const fs::path drive = folder.path() / "drive", sync = drive / "town_sync";
-  ASSERT_TRUE(simulate_drive(drive, options));
+  const fs::path drive = made("replayed", options), sync = drive / "town_sync";
   // A drive can be opened if it has the stamps of images.
   for (const char* camera : {"image_00", "image_01"}) {
     fs::create_directories(sync / camera / "data");

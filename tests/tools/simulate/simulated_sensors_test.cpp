@@ -9,9 +9,8 @@
 
 #include "msgs/frames.h"
 #include "tools/simulate/scene/town_scene.h"
-#include "tools/simulate/sensors/calibration_errors.h"
 #include "tools/simulate/sensors/camera_image.h"
-#include "tools/simulate/sensors/imu_errors.h"
+#include "tools/simulate/sensors/inertial_unit.h"
 #include "tools/simulate/sensors/lidar_turn.h"
 #include "tools/simulate/sensors/test_car.h"
 

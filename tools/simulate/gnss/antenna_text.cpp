@@ -1,5 +1,4 @@
 // Writes the calibrations of the antennas.
-#include "tools/simulate/gnss/observation_text.h"
 #include "tools/simulate/gnss/product_text.h"
 #include "tools/simulate/gnss/receiver.h"
 #include "tools/simulate/gnss/rinex_text.h"
@@ -14,13 +13,13 @@ struct CarrierText {
 
 template <std::size_t count>
 std::string carrier_text(const CarrierText& c, const std::array<double, count>& variation) {
-  const std::string name = formatted("   %c0%c", c.system, c.band);
+  const std::string name = fmt::format("   {}0{}", c.system, c.band);
   std::string text = header_line(name, "START OF FREQUENCY");
-  text += header_line(
-      formatted("%10.2f%10.2f%10.2f", 1e3 * c.offset.x(), 1e3 * c.offset.y(), 1e3 * c.offset.z()),
-      "NORTH / EAST / UP");
+  text += header_line(fmt::format("{:10.2f}{:10.2f}{:10.2f}", 1e3 * c.offset.x(),
+                                  1e3 * c.offset.y(), 1e3 * c.offset.z()),
+                      "NORTH / EAST / UP");
   text += "   NOAZI";
-  for (const double v : variation) text += formatted("%8.2f", 1e3 * v);
+  for (const double v : variation) text += fmt::format("{:8.2f}", 1e3 * v);
   return text + '\n' + header_line(name, "END OF FREQUENCY");
 }
 

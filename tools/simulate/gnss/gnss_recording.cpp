@@ -1,15 +1,92 @@
 #include "tools/simulate/gnss/gnss_recording.h"
 
+#include <initializer_list>
+#include <optional>
 #include <string>
+#include <utility>
 
-#include "tools/simulate/gnss/observation_text.h"
 #include "tools/simulate/gnss/product_text.h"
 #include "tools/simulate/gnss/receiver.h"
 #include "tools/simulate/gnss/rinex_text.h"
 #include "tools/simulate/output_file.h"
-#include "tools/simulate/town/traffic.h"
+#include "tools/simulate/town/site.h"
 
 namespace maploop::simulate {
+namespace {
+
+void add_signal(std::string& line, const std::optional<ObservedSignal>& s) {
+  const auto add = [&line](double value, bool lost_lock = false) {
+    line += fmt::format("{:14.3f}{}", value, lost_lock ? "1 " : "  ");
+  };
+  constexpr std::size_t column = 16;
+  if (!s) {
+    line.append(4 * column, ' ');
+    return;
+  }
+  add(s->code);
+  if (s->phase)
+    add(*s->phase, s->lost_lock);
+  else
+    line.append(column, ' ');
+  add(s->doppler);
+  add(s->cn0);
+}
+
+// Observations as RINEX 3.04.
+class ObservationText {
+ public:
+  // `carriers` is 2, or 1 for the first carriers only. `near` is an approximate position, m, ITRF;
+  // `interval` is in s.
+  ObservationText(std::size_t carriers, const Eigen::Vector3d& near, ppp::GpsTime first,
+                  double interval)
+      : carriers_(carriers) {
+    const bool both = carriers == 2;
+    const ppp::CalendarTime c = ppp::calendar(first);
+    for (const auto& [content, label] : std::initializer_list<std::pair<std::string, const char*>>{
+             {"     3.04           OBSERVATION DATA    M", "RINEX VERSION / TYPE"},
+             {"maploop simulate", "PGM / RUN BY / DATE"},
+             {"SIMULATED", "MARKER NAME"},
+             {"MOVING", "MARKER TYPE"},
+             {"", "OBSERVER / AGENCY"},
+             {"1                   SIMULATED", "REC # / TYPE / VERS"},
+             {std::string("1                   ") + antenna_type, "ANT # / TYPE"},
+             {fmt::format("{:14.4f}{:14.4f}{:14.4f}", near.x(), near.y(), near.z()),
+              "APPROX POSITION XYZ"},
+             {fmt::format("{:14.4f}{:14.4f}{:14.4f}", 0.0, 0.0, 0.0), "ANTENNA: DELTA H/E/N"},
+             {both ? "G    8 C1C L1C D1C S1C C2L L2L D2L S2L" : "G    4 C1C L1C D1C S1C",
+              "SYS / # / OBS TYPES"},
+             {both ? "E    8 C1C L1C D1C S1C C5Q L5Q D5Q S5Q" : "E    4 C1C L1C D1C S1C",
+              "SYS / # / OBS TYPES"},
+             {fmt::format("{:10.3f}", interval), "INTERVAL"},
+             {fmt::format("{:6}{:6}{:6}{:6}{:6}{:13.7f}     GPS", c.year, c.month, c.day, c.hour,
+                          c.minute, c.second),
+              "TIME OF FIRST OBS"},
+             {"", "END OF HEADER"}})
+      text_ += header_line(content, label);
+  }
+
+  void add(ppp::GpsTime t, const std::vector<ObservedSatellite>& satellites) {
+    std::string lines;
+    int count = 0;
+    for (const ObservedSatellite& s : satellites) {
+      if (carriers_ == 1 && !s.signals[0]) continue;
+      std::string line = to_string(s.satellite);
+      for (std::size_t i = 0; i < carriers_; ++i) add_signal(line, s.signals[i]);
+      line.erase(line.find_last_not_of(' ') + 1);
+      lines += line + '\n';
+      ++count;
+    }
+    text_ += "> " + stamp_text(t, "{:11.7f}") + fmt::format("  0{:3}\n", count) + lines;
+  }
+
+  const std::string& text() const { return text_; }
+
+ private:
+  std::size_t carriers_;
+  std::string text_;
+};
+
+}  // namespace
 
 void write_gnss(const std::filesystem::path& folder, const GnssSetting& setting) {
   const Constellation constellation(setting.seconds, setting.seed);
@@ -29,8 +106,8 @@ void write_gnss(const std::filesystem::path& folder, const GnssSetting& setting)
     both.add(stamp, observed);
     first.add(stamp, observed);
     const Eigen::Vector3d p = receiver.antenna_ecef(t);
-    truth +=
-        formatted("%d,%.3f,%.4f,%.4f,%.4f\n", i, ppp::seconds_of_week(stamp), p.x(), p.y(), p.z());
+    truth += fmt::format("{},{:.3f},{:.4f},{:.4f},{:.4f}\n", i, ppp::seconds_of_week(stamp), p.x(),
+                         p.y(), p.z());
   }
   const ProductSpan span{start, setting.seconds};
   const std::string navigation = navigation_text(constellation, span, setting.seed);

@@ -12,7 +12,6 @@
 #include "ppp/models/earth.h"
 #include "tools/simulate/gnss/atmosphere.h"
 #include "tools/simulate/gnss/constellation.h"
-#include "tools/simulate/gnss/scatterers.h"
 #include "tools/simulate/gnss/tracking.h"
 #include "tools/simulate/sensors/vehicle_motion.h"
 

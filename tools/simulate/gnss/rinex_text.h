@@ -1,7 +1,8 @@
 // Formats lines of RINEX and related formats.
 #pragma once
 
-#include <cstdio>
+#include <fmt/format.h>
+
 #include <string>
 #include <string_view>
 
@@ -9,24 +10,20 @@
 
 namespace maploop::simulate {
 
+// The type that observations and calibrations state.
+inline constexpr const char* antenna_type = "SIMULATED ROOF  NONE";
+
 // Pads the content to 60 columns and appends the label.
 inline std::string header_line(std::string content, std::string_view label) {
   content.resize(60, ' ');
   return content.append(label) + '\n';
 }
 
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-  char text[256];
-  const int length = std::snprintf(text, sizeof text, format, values...);
-  return {text, static_cast<std::size_t>(length)};
-}
-
 // Returns "2026 05 04 08 00" and the seconds in the given format.
-inline std::string stamp_text(ppp::GpsTime t, const char* seconds_format) {
+inline std::string stamp_text(ppp::GpsTime t, fmt::string_view seconds_format) {
   const ppp::CalendarTime c = ppp::calendar(t);
-  return formatted("%4d %02d %02d %02d %02d", c.year, c.month, c.day, c.hour, c.minute) +
-         formatted(seconds_format, c.second);
+  return fmt::format("{:4} {:02} {:02} {:02} {:02}", c.year, c.month, c.day, c.hour, c.minute) +
+         fmt::vformat(seconds_format, fmt::make_format_args(c.second));
 }
 
 }  // namespace maploop::simulate

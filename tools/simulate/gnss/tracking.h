@@ -1,6 +1,7 @@
 // Simulates how a receiver tracks one signal that arrives by several paths.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -44,6 +45,26 @@ class SignalTracker {
   bool tracked_ = false, locked_ = false;
   std::uint64_t surface_ = 0;  // of the strongest path
   std::int64_t cycles_ = 0;
+};
+
+// The scatterers of one satellite. Each stays for some tens of seconds and metres driven, then
+// another replaces it; as the car moves, their paths become longer or shorter.
+class Scatterers {
+ public:
+  Scatterers(std::uint64_t seed, std::uint64_t stream);
+
+  // Advances by `interval` s at a speed in m/s, and appends the scatterers' paths to `paths`.
+  void add_to(std::vector<SignalPath>& paths, double interval, double speed);
+
+ private:
+  struct Scatterer {
+    SignalPath path;
+    double share = 0.0;  // rate of the path's length as a share of the speed
+  };
+  Scatterer draw();
+
+  Random random_;
+  std::array<Scatterer, 3> scatterers_;
 };
 
 }  // namespace maploop::simulate

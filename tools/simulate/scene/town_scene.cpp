@@ -66,31 +66,6 @@ struct Footprint {
   }
 };
 
-// Finds places within 250 m of a street; no ground is built farther away.
-class NearStreets {
- public:
-  explicit NearStreets(const Streets& streets) {
-    constexpr long long cells = 5;
-    for (const Street& street : streets.streets)
-      for (const Vector2d& p : street.centreline) {
-        const auto [x, y] = cell_of(p);
-        if (!middles_.emplace(x, y).second) continue;
-        for (long long i = -cells; i <= cells; ++i)
-          for (long long k = -cells; k <= cells; ++k) near_.emplace(x + i, y + k);
-      }
-  }
-  bool operator()(const Vector2d& p) const { return near_.contains(cell_of(p)); }
-
- private:
-  using Cell = std::pair<long long, long long>;
-  static Cell cell_of(const Vector2d& p) {
-    constexpr double size = 50.0;  // m
-    return {std::llround(p.x() / size), std::llround(p.y() / size)};
-  }
-
-  std::set<Cell> middles_, near_;
-};
-
 class TownBuilder {
  public:
   TownBuilder(const Streets& streets, const StreetIndex& index, const Terrain& terrain,
@@ -115,6 +90,12 @@ class TownBuilder {
   struct Spot {
     Vector2d place;
     double yaw = 0.0;  // rad, direction of the street
+
+    // Returns what a thing covers there, m: half its length along the street and half its depth.
+    Footprint footprint(double half_length, double half_depth) const {
+      const Vector2d t(std::cos(yaw), std::sin(yaw));
+      return {place, half_length * t, half_depth * Vector2d(-t.y(), t.x())};
+    }
   };
 
   // Returns the place beside the street; `along` is m from its start, `from_kerb` m from its kerb.
@@ -142,7 +123,9 @@ class TownBuilder {
     const auto columns = static_cast<std::uint32_t>((high.x() - low.x()) / cell) + 1;
     const auto rows = static_cast<std::uint32_t>((high.y() - low.y()) / cell) + 1;
     const std::uint32_t surface = mesh_.add({Material::ground, 0.21F, 0});
-    const NearStreets near(streets_);
+    NearCells near(50.0, 5);  // no ground is built farther than 250 m from a street
+    for (const Street& street : streets_.streets)
+      for (const Vector2d& p : street.centreline) near.add(p);
     std::map<std::uint32_t, std::uint32_t> vertices;  // vertex of each grid point
     const auto vertex = [&](std::uint32_t x, std::uint32_t y) {
       const auto [at, anew] = vertices.try_emplace(y * (columns + 1) + x, mesh_.vertices.size());
@@ -154,7 +137,7 @@ class TownBuilder {
     };
     for (std::uint32_t y = 0; y < rows; ++y)
       for (std::uint32_t x = 0; x < columns; ++x) {
-        if (!near(low + cell * Vector2d(x + 0.5, y + 0.5))) continue;
+        if (!near.contains(low + cell * Vector2d(x + 0.5, y + 0.5))) continue;
         const std::uint32_t a = vertex(x, y), b = vertex(x, y + 1);
         const std::uint32_t c = vertex(x + 1, y), d = vertex(x + 1, y + 1);
         mesh_.triangles.push_back({a, c, d});
@@ -208,8 +191,7 @@ class TownBuilder {
       const Range& gaps = random_.chance(style_.gap_chance) ? style_.wide_gap : style_.narrow_gap;
       const double gap = random_.uniform(gaps.least, gaps.most);
       const Spot at = spot(street, side, along + 0.5 * width, back + 0.5 * depth);
-      const Vector2d t(std::cos(at.yaw), std::sin(at.yaw));
-      const Footprint footprint{at.place, 0.5 * width * t, 0.5 * depth * Vector2d(-t.y(), t.x())};
+      const Footprint footprint = at.footprint(0.5 * width, 0.5 * depth);
       if (is_free(footprint, pavement_width + 0.2)) {
         built_.push_back(footprint);
         put(make_building({static_cast<float>(width), static_cast<float>(depth)}, height, gable,
@@ -235,9 +217,7 @@ class TownBuilder {
           hedge ? random_.uniform_float(0.09, 0.16) : random_.uniform_float(0.2, 0.5),
           number(random_)};
       const Spot at = spot(street, side, along + 0.5 * length, pavement_width + 0.6);
-      const Vector2d t(std::cos(at.yaw), std::sin(at.yaw));
-      const Footprint footprint{at.place, 0.5 * length * t, 0.4 * Vector2d(-t.y(), t.x())};
-      if (there && is_free(footprint, pavement_width + 0.05))
+      if (there && is_free(at.footprint(0.5 * length, 0.4), pavement_width + 0.05))
         put(make_box({static_cast<float>(length), thickness, height}, surface), at.place, at.yaw);
       along += length + random_.uniform(0.0, 3.0);
     }
@@ -283,9 +263,7 @@ class TownBuilder {
       const std::uint32_t seed = number(random_);
       const double shift = random_.uniform(-0.4, 0.4), skew = random_.uniform(-0.03, 0.03);
       const Spot at = spot(street, side, along + shift, 0.75);  // mostly on the pavement
-      const Vector2d t(std::cos(at.yaw), std::sin(at.yaw));
-      const Footprint car{at.place, 2.3 * t, Vector2d(-t.y(), t.x())};
-      if (there && is_free(car, -0.4))
+      if (there && is_free(at.footprint(2.3, 1.0), -0.4))
         put(make_car(tone, seed), at.place, at.yaw + skew + (side > 0 ? std::numbers::pi : 0.0));
     }
   }

@@ -1,10 +1,12 @@
 // Builds the scene of the town: ground, buildings, hedges, fences, poles, trees, parked cars.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "tools/simulate/scene/mesh.h"
-#include "tools/simulate/town/street_index.h"
+#include "tools/simulate/town/streets.h"
 #include "tools/simulate/town/terrain.h"
 
 namespace maploop::simulate {
@@ -15,6 +17,9 @@ enum class Environment : std::uint8_t {
   suburban,  // low houses in gardens
   urban,     // six to ten storeys without gaps
 };
+constexpr std::array<std::string_view, 4> names_of(Environment) {
+  return {"town", "open", "suburban", "urban"};
+}
 
 // Lines every street. Buildings, hedges and fences stand behind the pavement and do not overlap;
 // poles, some trees and parked cars stand on it.

@@ -1,9 +1,12 @@
 #include "tools/simulate/sensors/frame_writer.h"
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <string>
-#include <utility>
+#include <exception>
+#include <mutex>
+#include <thread>
 #include <vector>
 
 #include "sensors/image/png.h"
@@ -12,34 +15,42 @@
 #include "tools/simulate/output_file.h"
 #include "tools/simulate/random.h"
 #include "tools/simulate/sensors/camera_image.h"
-#include "tools/simulate/town/traffic.h"
+#include "tools/simulate/town/site.h"
 
 namespace maploop::simulate {
 namespace {
 
-LidarParameters lidar_of(Scanner scanner, const CalibrationErrors& errors) {
-  LidarParameters parameters = lidar_parameters(scanner);
-  parameters.range_scale = errors.range_scale;
-  parameters.unit = errors.scanner_unit;
-  return parameters;
-}
+// An object belongs to one thread; any number of objects may share a drive.
+class FrameWriter {
+ public:
+  FrameWriter(const Drive& drive, const std::filesystem::path& folder,
+              const SimulationOptions& options)
+      : drive_(drive),
+        folder_(folder),
+        options_(options),
+        lidar_(lidar_parameters(options.scanner)),
+        scene_(*drive.world) {
+    lidar_.range_scale = drive.errors.range_scale;
+    lidar_.unit = drive.errors.scanner_unit;
+  }
 
-}  // namespace
+  void write(std::size_t frame);
 
-FrameWriter::FrameWriter(const Drive& drive, std::filesystem::path folder,
-                         const SimulationOptions& options)
-    : drive_(drive),
-      folder_(std::move(folder)),
-      seed_(options.seed),
-      sensors_(options.sensors),
-      lidar_(lidar_of(options.scanner, drive.errors)),
-      compact_(options.compact),
-      scene_(*drive.world) {}
+ private:
+  void write_images(std::size_t frame, std::uint64_t seed);
+  void write_turn(std::size_t frame, std::uint64_t seed);
+
+  const Drive& drive_;
+  const std::filesystem::path& folder_;
+  const SimulationOptions& options_;
+  LidarParameters lidar_;
+  RayScene scene_;
+};
 
 void FrameWriter::write(std::size_t frame) {
-  const std::uint64_t seed = mix(seed_, 1'000'000 + frame);
-  if (sensors_.camera) write_images(frame, seed);
-  if (sensors_.lidar) write_turn(frame, seed);
+  const std::uint64_t seed = mix(options_.seed, 1'000'000 + frame);
+  if (options_.sensors.camera) write_images(frame, seed);
+  if (options_.sensors.lidar) write_turn(frame, seed);
 }
 
 void FrameWriter::write_images(std::size_t frame, std::uint64_t seed) {
@@ -59,7 +70,7 @@ void FrameWriter::write_images(std::size_t frame, std::uint64_t seed) {
         side == 0 ? ColumnShift{} : -drive_.errors.disparity_lack};
     GreyImage image = take_image(scene_, drive_.appearance, camera, view, 0.5F, brightness,
                                  mix(seed, static_cast<std::uint64_t>(side)), parameters);
-    if (compact_)
+    if (options_.compact)
       for (auto& pixel : image.pixels) pixel = static_cast<std::uint8_t>((pixel + 1) / 3 * 3);
     const std::vector<std::uint8_t> png =
         sensors::encode_png(image.pixels, image.width, image.height, sensors::PngContent::noise);
@@ -79,7 +90,7 @@ void FrameWriter::write_turn(std::size_t frame, std::uint64_t seed) {
       },
       mix(seed, 2), lidar_);
   const std::filesystem::path data = folder_ / "velodyne_points/data";
-  if (compact_) {
+  if (options_.compact) {
     write_file(data / sensors::numbered_file(frame, ".scan"), sensors::pack_scan(turn));
     return;
   }
@@ -87,6 +98,40 @@ void FrameWriter::write_turn(std::size_t frame, std::uint64_t seed) {
   sensors::points_of(turn, points);
   write_file(data / sensors::numbered_file(frame, ".bin"),
              {reinterpret_cast<const char*>(points.data()), points.size() * sizeof(LidarPoint)});
+}
+
+}  // namespace
+
+bool write_frames(const Drive& drive, const std::filesystem::path& folder,
+                  const SimulationOptions& options, const FrameDone& frame_done) {
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;  // protects the variables below
+  std::size_t done = 0;
+  bool stop = false;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    try {
+      FrameWriter writer(drive, folder, options);
+      for (std::size_t frame; (frame = next++) < drive.times.size();) {
+        writer.write(frame);
+        const std::lock_guard lock(mutex);
+        if (frame_done && !frame_done(++done, drive.times.size())) stop = true;
+        if (stop) return;
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      failure = std::current_exception();
+      stop = true;
+    }
+  };
+  {
+    std::vector<std::jthread> workers;
+    const unsigned threads =
+        options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
+    for (unsigned i = 0; i < threads; ++i) workers.emplace_back(work);
+  }
+  if (failure) std::rethrow_exception(failure);
+  return !stop;
 }
 
 }  // namespace maploop::simulate

@@ -1,9 +1,11 @@
 // Simulates the measurements of a spinning scanner during one turn.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <string_view>
 
 #include "sensors/replay/packed_scan.h"
 #include "tools/simulate/scene/appearance.h"
@@ -11,10 +13,10 @@
 
 namespace maploop::simulate {
 
-enum class Scanner {
-  hdl_64e,
-  vlp_16,
-};
+enum class Scanner : std::uint8_t { hdl_64e, vlp_16 };
+constexpr std::array<std::string_view, 2> names_of(Scanner) {
+  return {"hdl-64e", "vlp-16"};
+}
 
 struct LidarParameters {
   Scanner scanner = Scanner::hdl_64e;

@@ -43,15 +43,6 @@ double value_at(const std::vector<double>& values, double way) {
   return (1.0 - t) * values[i] + t * values[i + 1];
 }
 
-void smooth_speeds(std::vector<double>& values) {
-  for (int pass = 0; pass < speed_smoothing; ++pass) {
-    std::vector<double> next = values;
-    for (std::size_t i = 1; i + 1 < values.size(); ++i)
-      next[i] = 0.25 * values[i - 1] + 0.5 * values[i] + 0.25 * values[i + 1];
-    values = std::move(next);
-  }
-}
-
 }  // namespace
 
 double longest_drive(double seconds, double fastest) {
@@ -93,7 +84,7 @@ SpeedProfile::SpeedProfile(const LanePath& path, const Streets& streets, double 
     speed_.push_back(std::max(0.5, value_at(limit, way)));
     way += control_interval * speed_.back();
   }
-  smooth_speeds(speed_);
+  smooth(speed_, speed_smoothing);
   way_.push_back(first_way);
   for (std::size_t i = 0; i + 3 < speed_.size(); ++i)
     way_.push_back(way_.back() +

@@ -9,14 +9,8 @@
 namespace maploop::simulate {
 namespace {
 
-using Line = std::vector<Eigen::Vector2d>;
 constexpr double junction_radius = 11.0;  // m; within it a car leaves its lane's line
 constexpr int line_smoothing = 10;  // passes of (1 2 1) / 4 over points 1 m apart: sigma of 2.2 m
-
-Eigen::Vector2d direction_at(const Line& line, std::size_t i) {
-  const std::size_t a = i > 0 ? i - 1 : 0, b = std::min(i + 1, line.size() - 1);
-  return (line[b] - line[a]).normalized();
-}
 
 // Returns the lane of a street, without its junctions.
 Line lane_of(const Streets& streets, DirectedStreet d) {
@@ -52,9 +46,7 @@ void append_curve(Line& line, const Line& next) {
 // Returns points 1 m apart. `marks` are indices of points and become their distances along the
 // line.
 Line resampled(const Line& line, std::vector<double>& marks) {
-  std::vector<double> along{0.0};
-  for (std::size_t i = 1; i < line.size(); ++i)
-    along.push_back(along.back() + (line[i] - line[i - 1]).norm());
+  const std::vector<double> along = distances_along(line);
   for (double& mark : marks) mark = along[static_cast<std::size_t>(mark)];
   Line result;
   std::size_t i = 1;
@@ -90,15 +82,6 @@ std::vector<double> wander(std::size_t count, std::uint64_t seed) {
   return offset;
 }
 
-void smooth_line(Line& line) {
-  for (int pass = 0; pass < line_smoothing; ++pass) {
-    Line next = line;
-    for (std::size_t i = 1; i + 1 < line.size(); ++i)
-      next[i] = 0.25 * line[i - 1] + 0.5 * line[i] + 0.25 * line[i + 1];
-    line = std::move(next);
-  }
-}
-
 }  // namespace
 
 LanePath::LanePath(const Streets& streets, const std::vector<DirectedStreet>& route,
@@ -119,7 +102,7 @@ LanePath::LanePath(const Streets& streets, const std::vector<DirectedStreet>& ro
     const Eigen::Vector2d t = direction_at(lane, i);
     points_[i] += left[i] * Eigen::Vector2d(-t.y(), t.x());
   }
-  smooth_line(points_);
+  smooth(points_, line_smoothing);
   // The first street begins, and the last one ends, one junction radius outside the path.
   for (std::size_t i = 0; i < route.size(); ++i) {
     const double before = i > 0 ? 0.5 * (marks[2 * i - 1] + marks[2 * i]) : -junction_radius;

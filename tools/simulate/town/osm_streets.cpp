@@ -1,5 +1,4 @@
-#include "tools/simulate/town/osm_streets.h"
-
+// Reads the streets to simulate a drive on from an OpenStreetMap file.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,11 +7,10 @@
 #include <string>
 
 #include "msgs/frames.h"
+#include "tools/simulate/town/site.h"
 
 namespace maploop::simulate {
 namespace {
-
-using Line = std::vector<Eigen::Vector2d>;
 
 constexpr double spacing = 2.0;           // m, between points of a centreline
 constexpr double one_junction = 18.0;     // m; the ends of a shorter street are one junction
@@ -71,13 +69,11 @@ std::vector<Piece> pieces_of(const mapmatch::MapExtract& map, const LocalFrame& 
 }
 
 double length_of(const Line& line) {
-  double sum = 0.0;
-  for (std::size_t i = 1; i < line.size(); ++i) sum += (line[i] - line[i - 1]).norm();
-  return sum;
+  return distances_along(line).back();
 }
 
 // Returns evenly spaced points; the ends are at their junctions, and corners are rounded.
-Line smooth(Line line, const Eigen::Vector2d& begin, const Eigen::Vector2d& end) {
+Line rounded(Line line, const Eigen::Vector2d& begin, const Eigen::Vector2d& end) {
   line.front() = begin;
   line.back() = end;
   const double length = length_of(line);
@@ -95,12 +91,7 @@ Line smooth(Line line, const Eigen::Vector2d& begin, const Eigen::Vector2d& end)
     even.push_back(line[at - 1] + way * ((along - passed) / std::max(1e-6, way.norm())));
   }
   even.push_back(end);
-  for (int pass = 0; pass < corner_smoothing; ++pass) {
-    Line next = even;
-    for (std::size_t i = 1; i + 1 < even.size(); ++i)
-      next[i] = 0.25 * even[i - 1] + 0.5 * even[i] + 0.25 * even[i + 1];
-    even = std::move(next);
-  }
+  smooth(even, corner_smoothing);
   return even;
 }
 
@@ -165,13 +156,13 @@ Streets streets_of(const mapmatch::MapExtract& map, const LocalFrame& frame) {
     street.to = junction.at(merged(piece.to));
     if (street.from == street.to) continue;
     street.centreline =
-        smooth(piece.line, streets.junctions[street.from], streets.junctions[street.to]);
+        rounded(piece.line, streets.junctions[street.from], streets.junctions[street.to]);
     const mapmatch::Road& road = piece.way->road;
     street.half_width = std::clamp(mapmatch::half_width(road), 2.75, 7.0);
     street.speed_limit = std::min(fastest_allowed, usual_limit(road));
     street.forward = road.forward;
     street.backward = road.backward;
-    measure(street);
+    street.along = distances_along(street.centreline);
     streets.streets.push_back(std::move(street));
   }
   return streets;

@@ -5,7 +5,6 @@
 #include <limits>
 #include <optional>
 #include <queue>
-#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -67,15 +66,14 @@ Route shortest(const Streets& streets, const Directions& directions,
     double length = std::numeric_limits<double>::infinity();
     std::optional<DirectedStreet> before;
   };
-  const auto slot = [](DirectedStreet d) { return 2 * d.street + (d.forward ? 1U : 0U); };
   std::vector<Reached> reached(2 * streets.streets.size());
   using Entry = std::pair<double, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   const auto reach = [&](DirectedStreet d, double length, std::optional<DirectedStreet> by) {
     length += streets.streets[d.street].length();
-    if (length >= reached[slot(d)].length) return;
-    reached[slot(d)] = {length, by};
-    open.emplace(length, slot(d));
+    if (length >= reached[slot_of(d)].length) return;
+    reached[slot_of(d)] = {length, by};
+    open.emplace(length, slot_of(d));
   };
   for (const DirectedStreet& exit : directions.exits(from))
     if (!before || directions.follows(*before, exit)) reach(exit, 0.0, std::nullopt);
@@ -86,7 +84,7 @@ Route shortest(const Streets& streets, const Directions& directions,
     if (length > reached[at].length) continue;
     if (streets.end(here) == to) {
       Route route{here};
-      while (const auto by = reached[slot(route.back())].before) route.push_back(*by);
+      while (const auto by = reached[slot_of(route.back())].before) route.push_back(*by);
       std::reverse(route.begin(), route.end());
       return route;
     }
@@ -124,7 +122,7 @@ Directions::Directions(const Streets& streets)
           return is_through(next) && follows(d, next);
         });
         if (goes_on) continue;
-        through_[slot(d)] = false;
+        through_[slot_of(d)] = false;
         changed = true;
       }
   }
@@ -169,17 +167,9 @@ std::vector<DirectedStreet> make_route(const Streets& streets, const std::vector
 
 Corridor corridor(const Streets& streets, const std::vector<DirectedStreet>& route, double reach) {
   constexpr double cell = 30.0;  // m
-  const auto cell_of = [](const Eigen::Vector2d& p) {
-    return std::pair(std::llround(p.x() / cell), std::llround(p.y() / cell));
-  };
-  std::set<std::pair<long long, long long>> near;
-  const auto cells = static_cast<long long>(reach / cell);
+  NearCells near(cell, static_cast<long long>(reach / cell));
   for (const DirectedStreet& d : route)
-    for (const Eigen::Vector2d& p : streets.streets[d.street].centreline) {
-      const auto [x, y] = cell_of(p);
-      for (long long i = -cells; i <= cells; ++i)
-        for (long long k = -cells; k <= cells; ++k) near.emplace(x + i, y + k);
-    }
+    for (const Eigen::Vector2d& p : streets.streets[d.street].centreline) near.add(p);
   constexpr auto none = std::numeric_limits<std::size_t>::max();
   std::vector<std::size_t> new_junction(streets.junctions.size(), none);
   std::vector<std::size_t> new_street(streets.streets.size(), none);
@@ -194,7 +184,7 @@ Corridor corridor(const Streets& streets, const std::vector<DirectedStreet>& rou
   for (std::size_t i = 0; i < streets.streets.size(); ++i) {
     const auto& line = streets.streets[i].centreline;
     if (std::none_of(line.begin(), line.end(),
-                     [&](const Eigen::Vector2d& p) { return near.contains(cell_of(p)); }))
+                     [&](const Eigen::Vector2d& p) { return near.contains(p); }))
       continue;
     new_street[i] = result.streets.streets.size();
     Street street = streets.streets[i];

@@ -22,15 +22,13 @@ class Directions {
   explicit Directions(const Streets& streets);
 
   const std::vector<DirectedStreet>& exits(std::size_t junction) const { return exits_[junction]; }
-  bool is_through(DirectedStreet d) const { return through_[slot(d)]; }
+  bool is_through(DirectedStreet d) const { return through_[slot_of(d)]; }
   bool has_exit(std::size_t junction) const;
   // Whether driving from the end of `before` into `next` is not turning back (by more than 150
   // degrees).
   bool follows(DirectedStreet before, DirectedStreet next) const;
 
  private:
-  static std::size_t slot(DirectedStreet d) { return 2 * d.street + (d.forward ? 1U : 0U); }
-
   const Streets* streets_;
   std::vector<std::vector<DirectedStreet>> exits_;
   std::vector<bool> through_;

@@ -1,16 +1,25 @@
-// Simulates the errors of an inertial unit.
+// Simulates the errors of an inertial unit, and writes the rows of the inertial and GNSS unit in
+// KITTI's format.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <string_view>
+#include <vector>
 
+#include "msgs/local_frame.h"
+#include "msgs/time.h"
 #include "sensors/replay/normal_generator.h"
+#include "tools/simulate/sensors/vehicle_motion.h"
 
 namespace maploop::simulate {
 
-enum class ImuGrade { tactical, mems };
+enum class ImuGrade : std::uint8_t { tactical, mems };
+constexpr std::array<std::string_view, 2> names_of(ImuGrade) {
+  return {"tactical", "mems"};
+}
 
 // The errors of one triad: turn-on bias, flicker as the sum of three Gauss-Markov processes (10,
 // 100 and 1000 s; the estimator models one process only), white noise, scale, misalignment.
@@ -46,5 +55,15 @@ class TriadErrors {
   Eigen::Matrix3d shape_;  // scale and misalignment
   std::array<Eigen::Vector3d, 3> flicker_;
 };
+
+// Writes rows `interval` seconds apart, beginning at `start`, into the new folder `oxts`. Position
+// and attitude are exact at the row's stamp. Velocities (exact), accelerations and rates (with the
+// errors of `imu`) are those of 60 ms before it, as in KITTI's drives.
+void write_oxts(const std::filesystem::path& oxts, const VehicleMotion& motion,
+                const LocalFrame& frame, Time start, double seconds, double interval,
+                const ImuParameters& imu, std::uint64_t seed);
+
+// Writes stamps like KITTI's timestamps.txt, one a line.
+void write_timestamps(const std::filesystem::path& file, const std::vector<Time>& stamps);
 
 }  // namespace maploop::simulate

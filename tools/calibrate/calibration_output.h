@@ -1,11 +1,11 @@
-// Formats a calibration: as text for the terminal, as TOML, and in KITTI's format.
+// Formats a calibration: as text for the terminal, as TOML, in KITTI's format, and as a page.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "tools/calibrate/calibration.h"
-#include "tools/calibrate/image_pairs.h"
+#include "tools/calibrate/views.h"
 
 namespace maploop::calibrate {
 
@@ -25,5 +25,10 @@ std::string to_toml(const StereoResult& result);
 
 // Returns KITTI's calib_cam_to_cam.txt for cameras 00 and 01.
 std::string to_kitti(const StereoResult& result);
+
+// Returns a page of pictures that only needs a browser. `pairs` holds the image files of the views,
+// found by name. Images that can no longer be read are left out.
+std::string to_page(const StereoResult& result, const std::vector<ImagePair>& pairs,
+                    const std::vector<Unusable>& unusable);
 
 }  // namespace maploop::calibrate
