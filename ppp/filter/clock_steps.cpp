@@ -6,24 +6,30 @@
 #include "ppp/filter/median.h"
 
 namespace maploop::ppp {
+namespace {
+
+constexpr double max_step = 1e6;        // ms; a larger change is not a step of a clock
+constexpr double largest_noise = 1e-3;  // ms, 300 m: codes and motion change by less
+
+}  // namespace
 
 // Returns the step of the codes against the phases, in ms; zero unless two thirds of the satellites
 // agree.
 int ClockSteps::step_of_all(const std::vector<Measurement>& measurements) {
-  constexpr double max_milliseconds = 1e6, noise = 1e-3;  // ms; the noise of 1e-3 ms is 300 m
   votes_.clear();
   for (const Measurement& m : measurements) {
     if (m.first.phase == 0.0) continue;
     const double now = m.first.code - m.first.phase;
     auto& before = code_minus_phase_[m.satellite.slot()];
     const double step = (now - before.value_or(now)) / millisecond_range;
-    if (before && std::abs(step) < max_milliseconds) votes_.push_back(step);
+    if (before && std::abs(step) < max_step) votes_.push_back(step);
     before = now;
   }
   if (votes_.size() < 2) return 0;
   const double whole = std::round(median(votes_));
-  const auto agree = std::count_if(votes_.begin(), votes_.end(),
-                                   [&](double step) { return std::abs(step - whole) < noise; });
+  const auto agree = std::count_if(votes_.begin(), votes_.end(), [&](double step) {
+    return std::abs(step - whole) < largest_noise;
+  });
   return 3 * agree >= 2 * static_cast<std::ptrdiff_t>(votes_.size()) ? static_cast<int>(whole) : 0;
 }
 

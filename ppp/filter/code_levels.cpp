@@ -3,7 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ppp/filter/measurement.h"
+
 namespace maploop::ppp {
+namespace {
+
+constexpr double largest_ratio = 100.0;
+constexpr int enough_codes = position_unknowns + 1;  // fewer codes leave almost no residuals
+
+}  // namespace
 
 void CodeLevels::begin(double level) {
   std::fill(own_.begin(), own_.end(), Level{});
@@ -15,8 +23,7 @@ double CodeLevels::of(Satellite satellite) const {
 }
 
 void CodeLevels::add(Satellite satellite, double ratio) {
-  constexpr double most = 100.0;
-  own_[satellite.slot()].last = std::min(ratio, most);
+  own_[satellite.slot()].last = std::min(ratio, largest_ratio);
 }
 
 void CodeLevels::end_epoch(double interval, double time) {
@@ -31,8 +38,7 @@ void CodeLevels::end_epoch(double interval, double time) {
     ++count;
     level.last.reset();
   }
-  constexpr int enough = 5;  // fewer codes leave almost no residuals
-  if (count >= enough) all_ += gain * (sum / count - all_);
+  if (count >= enough_codes) all_ += gain * (sum / count - all_);
 }
 
 }  // namespace maploop::ppp

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ppp/filter/lasting_error.h"
 #include "ppp/filter/median.h"
 
 namespace maploop::ppp {
@@ -31,12 +32,12 @@ bool has_doppler(const Tracked& t) {
 
 // Returns the variance relative to that at the zenith. It grows towards low elevations, and where
 // the signal is weaker than an unobstructed one, as in the SIGMA-delta model (Brunner, Hartinger
-// and Troyer, "GPS signal diffraction modelling", Journal of Geodesy 73, 1999; with their factor of
-// 2).
+// and Troyer, "GPS signal diffraction modelling", Journal of Geodesy 73, 1999).
 double variance_factor(const Tracked& t, const UnobstructedCn0& strength) {
   const double sine = std::sin(t.predicted.elevation), cn0 = t.measurement.first.cn0;
   const double missing = cn0 > 0.0 ? std::max(0.0, strength.of(sine) - cn0) : 0.0;
-  return std::pow(10.0, 2.0 * missing / 10.0) / (sine * sine);  // (10) of METHOD.md
+  constexpr double sigma_delta = 2.0;  // their factor on the missing strength
+  return std::pow(10.0, sigma_delta * missing / 10.0) / (sine * sine);  // (10) of METHOD.md
 }
 
 }  // namespace
@@ -74,8 +75,7 @@ void EpochRows::set_drift(const std::vector<Tracked>& tracked, FilterState& stat
   for (const Tracked& t : tracked) {
     if (has_doppler(t)) drifts_.push_back(drift_of(t, state));
   }
-  constexpr double unknown = 100.0;  // m/s
-  state.set(S::clock_drift, drifts_.empty() ? 0.0 : median(drifts_), unknown);
+  state.set(S::clock_drift, drifts_.empty() ? 0.0 : median(drifts_), parameters_.drift_sigma);
 }
 
 Row EpochRows::code_row(std::size_t i, const Tracked& t, double factor, int reference_system,
@@ -119,16 +119,17 @@ void EpochRows::add_phase_row(const Tracked& t, double factor, const Row& code, 
   const Measurement& m = t.measurement;
   const bool graphic = !m.dual() && parameters_.graphic;
   const double phase = m.phase() - t.predicted.phase_extra - t.predicted.range;
+  constexpr double code_share = 0.5;  // the sum of code and phase is half of both
   // (2) of METHOD.md
-  const double y =
-      graphic ? 0.5 * (phase + m.code() - t.predicted.range) : phase + t.predicted.ionosphere.value;
+  const double y = graphic ? code_share * (phase + m.code() - t.predicted.range)
+                           : phase + t.predicted.ionosphere.value;
   const double predicted = t.code_offset - code.y;  // clocks, wet delay, gradients
   int index = state.ambiguity(m.satellite);
   const bool is_new = index < 0;
   if (is_new) {
     index = state.add_ambiguity(m.satellite, y - predicted, parameters_.ambiguity_sigma);
     if (index < 0) {
-      reports[t.report].refused = PppRefusal::too_many;
+      reports[m.report].refused = PppRefusal::too_many;
       return;
     }
   }
@@ -138,12 +139,13 @@ void EpochRows::add_phase_row(const Tracked& t, double factor, const Row& code, 
   row.add(index, 1.0);
   row.y = y - predicted - state.x()[index];  // (8) of METHOD.md
   const double sigma = parameters_.phase_sigma * m.noise_factor();
+  const double shadow = t.predicted.in_shadow ? parameters_.shadow_phase_factor : 1.0;
   // (12) of METHOD.md
-  row.variance = sigma * sigma * factor * t.level * (t.predicted.in_shadow ? 16.0 : 1.0);
+  row.variance = sigma * sigma * factor * t.level * (shadow * shadow);
   row.sigma = std::sqrt(row.variance);
   if (graphic) {
-    row.variance += 0.25 * code.variance;
-    row.sigma = std::hypot(row.sigma, 0.5 * code.sigma);
+    row.variance += code_share * code_share * code.variance;
+    row.sigma = std::hypot(row.sigma, code_share * code.sigma);
   }
   rows_.push_back(row);
 }

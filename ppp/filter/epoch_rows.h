@@ -7,30 +7,10 @@
 
 #include "ppp/filter/filter_state.h"
 #include "ppp/filter/linear_row.h"
-#include "ppp/filter/parameters.h"
-#include "ppp/filter/range_model.h"
-#include "ppp/filter/solution.h"
+#include "ppp/filter/satellite_tracker.h"
 #include "ppp/filter/unobstructed_cn0.h"
 
 namespace maploop::ppp {
-
-// A Tracked is one satellite of this epoch.
-struct Tracked {
-  Measurement measurement;
-  PredictedRange predicted;
-  std::size_t report;            // index into the solution's satellites
-  double code_offset;            // m, code minus its prediction without clocks
-  double code_inflation = 1.0;   // factor on the code's variance: its error outlasts an epoch
-  double level = 1.0;            // factor on all variances, if the codes' residuals are large
-  double level_inflation = 1.0;  // factor on what the level adds to the code's variance
-  bool code_good = true;
-  bool phase_good = true;
-};
-
-// Returns the variance of a range due to errors of orbit, clock and ionosphere, m^2.
-inline double lasting_variance(const PredictedRange& p) {
-  return p.satellite.sigma * p.satellite.sigma + p.ionosphere.sigma * p.ionosphere.sigma;
-}
 
 enum class RowKind { code, phase, doppler };
 

@@ -58,24 +58,22 @@ class MapAidedFilter {
   void archive_state(Archive& ar) {
     ar(map_free_, aiding_);
     if (aiding_) ar(aided_);
-    ar(time_, separated_since_, paused_until_, aiding_since_, pauses_, gated_in_a_row_, uses_,
+    ar(time_, apart_since_, paused_until_, aiding_since_, pauses_, gated_in_a_row_, uses_,
        restorations_);
   }
 
-  MapUse use(const MapFeedback& feedback);
-  double distance() const;
-  bool both_have_positions() const;
-  Eigen::Vector2d separation() const;
+  MapUse apply(const MapFeedback& feedback);
+  std::optional<double> distance() const;
+  void compare();
   void handle_contradiction();
   void pause();
-  void check_separation();
   void restore();
 
   PppFilter map_free_, aided_;
   PppParameters parameters_;
   bool aiding_ = false;  // if false, aided_ is not in use
   GpsTime time_{};
-  std::optional<GpsTime> separated_since_;
+  std::optional<GpsTime> apart_since_;
   GpsTime paused_until_{};
   GpsTime aiding_since_{};
   int pauses_ = 0;  // number of pauses in short succession

@@ -9,6 +9,9 @@
 
 namespace maploop::ppp {
 
+// Three coordinates and the clock: a position needs as many ranges.
+inline constexpr int position_unknowns = 4;
+
 struct Carrier {
   char band = 0, attribute = 0;  // those of the code
   double frequency = 0.0;        // Hz
@@ -22,7 +25,8 @@ struct Carrier {
 
 struct Measurement {
   Satellite satellite;
-  Carrier first, second;  // second.frequency is 0 with one frequency
+  Carrier first, second;   // second.frequency is 0 with one frequency
+  std::size_t report = 0;  // index into the epoch's reports
 
   bool dual() const { return second.frequency > 0.0; }
   // These are the weights of the ionosphere-free combination.

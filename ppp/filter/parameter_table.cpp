@@ -51,6 +51,8 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
        code_sigma_choice},
       {"phase_sigma", &P::phase_sigma, smallest, any_sigma, "m", expert, "The same for the phase.",
        phase_sigma_choice},
+      {"shadow_phase_factor", &P::shadow_phase_factor, 1.0, 1000.0, "1", expert,
+       "Factor on phase_sigma for satellites in the earth's shadow, whose attitude is not known."},
       {"doppler_sigma", &P::doppler_sigma, smallest, any_sigma, "m/s", expert,
        "The same for the Doppler shift."},
       {"glonass_code_factor", &P::glonass_code_factor, smallest, 1000.0, "1", expert,
@@ -84,6 +86,8 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
        "elevation do not exceed and full_cn0 there: 1 to 5 dB with those three receivers. Where "
        "the level less this margin is higher than full_cn0, it counts instead.",
        full_cn0_margin_choice},
+      {"full_cn0_step", &P::full_cn0_step, 0.0, 10.0, "dB", expert,
+       "Change of that level per signal; it follows the signals of the last minutes."},
       {"zenith_wet_sigma", &P::zenith_wet_sigma, 0.0, 10.0, "m", expert,
        "Standard deviation of the zenith wet delay about the climatology."},
       {"zenith_wet_walk", &P::zenith_wet_walk, 0.0, 1.0, "m/sqrt(s)", expert,
@@ -107,20 +111,70 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
        ambiguity_walk_choice},
       {"system_offset_walk", &P::system_offset_walk, 0.0, 1000.0, "m/sqrt(s)", expert,
        "Random walk of the clocks of the systems against each other."},
+      {"source_change_sigma", &P::source_change_sigma, 0.0, any_sigma, "m", expert,
+       "Standard deviation of the difference between the ranges by two sources of orbits and "
+       "clocks. It is added to the ambiguity when a satellite's source changes."},
+      {"clock_sigma", &P::clock_sigma, smallest, 1e6, "m", expert,
+       "Standard deviation of a clock, or of a system's offset, that is set from the codes."},
+      {"drift_sigma", &P::drift_sigma, smallest, 1e6, "m/s", expert,
+       "Standard deviation of the clock's drift, which is set from the Doppler shifts."},
       {"position_sigma", &P::position_sigma, smallest, 1e6, "m", expert,
        "Standard deviation of the first position, which comes from the code."},
+      {"velocity_sigma", &P::velocity_sigma, smallest, 1e4, "m/s", expert,
+       "Standard deviation per axis of the first velocity of a moving receiver."},
       {"model_sigma", &P::model_sigma, 0.0, 100.0, "m", expert,
        "Standard deviation per axis of the errors of antennas, tides and frames that are common to "
        "all satellites, which no residual shows. It is added to the reported covariance."},
       {"outlier_sigmas", &P::outlier_sigmas, 0.1, any_gate, "1", expert,
        "Post-fit residual in standard deviations beyond which a measurement is an outlier."},
+      {"outlier_rejections", &P::outlier_rejections, 0, 100, "rows", expert,
+       "Measurements of an epoch that are left out one at a time at most."},
+      {"doubtful_phase_sigma", &P::doubtful_phase_sigma, 0.0, any_sigma, "m", expert,
+       "Additional standard deviation of the phases of an epoch in which too few of them fit to "
+       "tell the wrong ones from the right ones."},
       {"code_gate", &P::code_gate, 0.1, any_gate, "m", expert,
        "Pre-fit code residual beyond which a measurement is left out."},
+      {"code_gate_sigmas", &P::code_gate_sigmas, 0.0, 1000.0, "1", expert,
+       "Standard deviations of the position by which this gate is wider: after a gap the position "
+       "is wrong for all codes."},
       {"graphic", &P::graphic, expert,
        "Whether a receiver of one frequency uses half the sum of code and phase, which is free of "
        "the ionosphere."},
       {"longest_gap", &P::longest_gap, 0, 1e6, "epochs", expert,
        "Epochs for which a satellite may be missing and keep its ambiguity."},
+      {"restart_epochs", &P::restart_epochs, 1, 1e6, "epochs", expert,
+       "Epochs in a row in which measurements disagree with the position until the filter "
+       "restarts."},
+      {"restart_variance", &P::restart_variance, 1.0, any_gate, "1", expert,
+       "Mean square of the codes' residuals in standard deviations beyond which they disagree."},
+
+      {"slip_geometry_free", &P::slip_geometry_free, 0.0, any_sigma, "m", expert,
+       "Departure of the geometry-free phase from its rate that is a slip."},
+      {"slip_phase_step", &P::slip_phase_step, 0.0, any_sigma, "m", expert,
+       "Departure of a phase from the common step of all phases, on one frequency, that is a slip: "
+       "a quarter of a cycle."},
+      {"slip_growth", &P::slip_growth, 0.0, 100.0, "m/s", expert,
+       "Growth of these two limits with the time since the last phase: the drift of ionosphere and "
+       "clocks."},
+      {"slip_low_elevation", &P::slip_low_elevation, 0.0, 1.5707963267948966, "rad", expert,
+       "Elevation below which these limits are twice as large."},
+      {"slip_wide_lanes", &P::slip_wide_lanes, 0.0, 1000.0, "1", expert,
+       "Departure of the Melbourne-Wuebbena combination from its mean, in wide lanes, that is a "
+       "slip."},
+      {"slip_doppler", &P::slip_doppler, 0.0, any_sigma, "m", expert,
+       "Departure of the phase from the integral of the Doppler shift, on one frequency, that is a "
+       "slip. It grows by the same per second."},
+
+      {"start_code_sigma", &P::start_code_sigma, smallest, any_sigma, "m", expert,
+       "Least code_sigma for the first position."},
+      {"start_model_variance", &P::start_model_variance, 0.0, 1e6, "m^2", expert,
+       "Variance of a range that is added for the models in the first position."},
+      {"start_outlier_sigmas", &P::start_outlier_sigmas, 0.1, any_gate, "1", expert,
+       "Residual in standard deviations beyond which a code is left out of the first position."},
+      {"start_outlier_share", &P::start_outlier_share, 0.0, 1.0, "1", expert,
+       "Share of the satellites that may be left out of the first position."},
+      {"start_largest_residual", &P::start_largest_residual, 0.1, any_gate, "1", expert,
+       "Residual in standard deviations beyond which there is no first position."},
       {"single_code_sigma", &P::single_code_sigma, smallest, any_sigma, "m", expert,
        "code_sigma of a receiver of one frequency, which is mostly a cheap one."},
       {"single_phase_sigma", &P::single_phase_sigma, smallest, any_sigma, "m", expert,
@@ -153,8 +207,15 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
        "Time for which the two positions are that far apart until the road is taken to be wrong."},
       {"map_most_gated", &P::map_most_gated, 1, 1e6, "lines", expert,
        "Road lines gated in a row after which the road is taken to be wrong."},
+      {"map_agreement_gate", &P::map_agreement_gate, 0.0, any_gate, "1", expert,
+       "Distance of the two positions up to which, if lines contradict the filter, only the map is "
+       "paused (chi-square, 2 degrees of freedom); the default contains 68 %."},
       {"map_pause", &P::map_pause, 0.0, long_time, "s", expert,
-       "Time without the map after a wrong road. It is doubled each time, up to 16 times."},
+       "Time without the map after a wrong road. It is doubled each time."},
+      {"map_pause_doublings", &P::map_pause_doublings, 0, 20, "1", expert,
+       "How often that time is doubled at most."},
+      {"map_trusted_again", &P::map_trusted_again, 0.0, long_time, "s", expert,
+       "Time without a wrong road after which a pause is as long as the first one again."},
   });
   const auto rules = [](const P& p) -> std::optional<ParameterProblem> {
     if (p.systems.empty()) return {{"systems", "is empty; allowed are the letters G R E C J S I"}};

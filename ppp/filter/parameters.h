@@ -21,6 +21,7 @@ struct PppParameters {
   double cn0_mask = 0.0;        // dB-Hz
   double code_sigma = 0.4;      // m
   double phase_sigma = 0.003;   // m
+  double shadow_phase_factor = 4.0;
   double doppler_sigma = 0.10;  // m/s
   double glonass_code_factor = 3.0;
   double code_correlation = 40.0;            // s
@@ -32,6 +33,7 @@ struct PppParameters {
   double full_cn0 = 47.0;                    // dB-Hz
   double full_cn0_drop = 14.5;               // dB
   double full_cn0_margin = 4.0;              // dB
+  double full_cn0_step = 0.1;                // dB
   double zenith_wet_sigma = 0.06;            // m
   double zenith_wet_walk = 1e-4;             // m/sqrt(s)
   bool gradients = true;
@@ -42,12 +44,38 @@ struct PppParameters {
   double ambiguity_sigma = 60.0;         // m
   double ambiguity_walk = 1.1e-4;        // m/sqrt(s)
   double system_offset_walk = 1e-3;      // m/sqrt(s)
+  double source_change_sigma = 2.0;      // m
+  double clock_sigma = 100.0;            // m
+  double drift_sigma = 100.0;            // m/s
   double position_sigma = 60.0;          // m
+  double velocity_sigma = 10.0;          // m/s
   double model_sigma = 0.01;             // m
   double outlier_sigmas = 4.0;
-  double code_gate = 30.0;  // m
+  int outlier_rejections = 8;
+  double doubtful_phase_sigma = 1.0;  // m
+  double code_gate = 30.0;            // m
+  double code_gate_sigmas = 4.0;
   bool graphic = true;
   int longest_gap = 10;
+  int restart_epochs = 5;
+  double restart_variance = 9.0;
+
+  // --- Slips
+  double slip_geometry_free = 0.04;  // m
+  double slip_phase_step = 0.05;     // m
+  double slip_growth = 0.002;        // m/s
+  double slip_low_elevation = 0.26;  // rad
+  double slip_wide_lanes = 1.2;
+  double slip_doppler = 0.5;  // m
+
+  // --- The first position
+  double start_code_sigma = 1.0;       // m
+  double start_model_variance = 0.01;  // m^2
+  double start_outlier_sigmas = 4.0;
+  double start_outlier_share = 0.25;
+  double start_largest_residual = 10.0;
+
+  // --- Receivers of one frequency
   double single_code_sigma = 1.0;     // m
   double single_phase_sigma = 0.005;  // m
 
@@ -64,7 +92,10 @@ struct PppParameters {
   double map_difference_gate = 9.21;
   double map_patience = 5.0;  // s
   int map_most_gated = 5;
+  double map_agreement_gate = 2.3;
   double map_pause = 10.0;  // s
+  int map_pause_doublings = 4;
+  double map_trusted_again = 300.0;  // s
 };
 
 inline PppParameters for_one_frequency(PppParameters p) {

@@ -3,6 +3,27 @@
 #include <cmath>
 
 namespace maploop::ppp {
+namespace {
+
+constexpr double earth_gravity = 3.986004418e14;  // m^3/s^2, WGS84
+constexpr double lowest_with_models = 0.01;       // rad; below it the models are not valid
+
+// Returns the sum over a measurement's carriers with their weights in its combination.
+template <class Value>
+double combined(const Measurement& m, Value&& of_carrier) {
+  double sum = m.weight1() * of_carrier(m.first);
+  if (m.dual()) sum += m.weight2() * of_carrier(m.second);
+  return sum;
+}
+
+// The delay of light in the earth's gravity (Shapiro), m; all distances are in m.
+double shapiro_delay(double satellite_radius, double receiver_radius, double distance) {
+  constexpr double twice_mass = 2.0 * earth_gravity / (speed_of_light * speed_of_light);
+  const double a = satellite_radius + receiver_radius;
+  return twice_mass * std::log((a + distance) / (a - distance));
+}
+
+}  // namespace
 
 void RangeModel::begin(GpsTime t, const Eigen::Vector3d& marker) {
   time_ = t;
@@ -21,17 +42,19 @@ void RangeModel::begin(GpsTime t, const Eigen::Vector3d& marker) {
   if (inputs_.ionosphere) coefficients_ = inputs_.ionosphere->at(t);
 }
 
-std::optional<PredictedRange> RangeModel::predict(const Measurement& m,
-                                                  double& wind_up_cycles) const {
-  // The code gives the time of transmission on the satellite's clock, and the clock's offset then
-  // gives it in GPS time.
-  GpsTime sent = time_ - from_seconds(m.first.code / speed_of_light);
+// The code gives the time of transmission on the satellite's clock, and the clock's offset then
+// gives it in GPS time.
+std::optional<SatelliteState> RangeModel::transmitter(const Measurement& m) const {
+  const GpsTime sent = time_ - from_seconds(m.first.code / speed_of_light);
   const auto offset = inputs_.ephemeris->clock(m.satellite, sent);
   if (!offset) return {};
-  sent -= from_seconds(*offset);
-  const auto state = inputs_.ephemeris->at(m.satellite, sent);
-  if (!state) return {};
+  return inputs_.ephemeris->at(m.satellite, sent - from_seconds(*offset));
+}
 
+std::optional<PredictedRange> RangeModel::predict(const Measurement& m,
+                                                  double& wind_up_cycles) const {
+  const auto state = transmitter(m);
+  if (!state) return {};
   PredictedRange p;
   p.satellite = *state;
   const Eigen::Vector3d& s = state->position;
@@ -44,43 +67,20 @@ std::optional<PredictedRange> RangeModel::predict(const Measurement& m,
   const Eigen::Vector3d local = R_enu_ecef_ * p.to_satellite;
   p.azimuth = std::atan2(local.x(), local.y());
   p.elevation = std::asin(local.z());
-  if (p.elevation <= 0.01) return p;  // below the horizon the models are not valid
+  if (p.elevation <= lowest_with_models) return p;
 
   const Models& use = inputs_.models;
-  if (use.shapiro) {
-    constexpr double twice_mass = 2.0 * 3.986004418e14 / (speed_of_light * speed_of_light);
-    const double a = s.norm() + receiver_.norm();
-    p.range += twice_mass * std::log((a + distance) / (a - distance));
-  }
+  if (use.shapiro) p.range += shapiro_delay(s.norm(), receiver_.norm(), distance);
   const Mapping mapping = mapping_.at(p.elevation);
   p.wet_mapping = mapping.wet;
   p.range += mapping.hydrostatic * zenith_.hydrostatic + mapping.wet * zenith_.wet;
-
   const bool masses = inputs_.ephemeris->centre_of_mass();
   Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();
   if (masses || use.wind_up) attitude = nominal_attitude(s, bodies_.sun);
-  const auto combined = [&](auto&& of_band) {
-    double sum = m.weight1() * of_band(m.first.band);
-    if (m.dual()) sum += m.weight2() * of_band(m.second.band);
-    return sum;
-  };
-  if (masses && use.satellite_antenna && inputs_.antennas) {
-    if (const Antenna* antenna = satellite_antenna(*inputs_.antennas, m.satellite, time_)) {
-      p.range += combined([&](char band) {
-        return satellite_phase_centre(*antenna, m.satellite.system, band, attitude,
-                                      -p.to_satellite);
-      });
-    }
-  }
-  if (use.receiver_antenna && inputs_.receiver) {
-    p.range += combined([&](char band) {
-      return receiver_phase_centre(*inputs_.receiver, m.satellite.system, band, local);
-    });
-  }
+  add_phase_centres(m, attitude, local, p);
   if (use.wind_up) {
     wind_up_cycles = wind_up(attitude, R_enu_ecef_, difference, wind_up_cycles);
-    p.phase_extra = wind_up_cycles * (m.weight1() * m.first.wavelength +
-                                      (m.dual() ? m.weight2() * m.second.wavelength : 0.0));
+    p.phase_extra = wind_up_cycles * combined(m, [](const Carrier& c) { return c.wavelength; });
   }
   p.in_shadow = masses && in_shadow(s, bodies_.sun);
   if (!m.dual()) {
@@ -89,6 +89,26 @@ std::optional<PredictedRange> RangeModel::predict(const Measurement& m,
     p.ionosphere = {ratio * ratio * on_l1.value, ratio * ratio * on_l1.sigma};
   }
   return p;
+}
+
+void RangeModel::add_phase_centres(const Measurement& m, const Eigen::Matrix3d& attitude,
+                                   const Eigen::Vector3d& to_satellite_enu,
+                                   PredictedRange& p) const {
+  const System system = m.satellite.system;
+  const bool of_satellites = inputs_.ephemeris->centre_of_mass() &&
+                             inputs_.models.satellite_antenna && inputs_.antennas != nullptr;
+  const Antenna* antenna =
+      of_satellites ? satellite_antenna(*inputs_.antennas, m.satellite, time_) : nullptr;
+  if (antenna != nullptr) {
+    p.range += combined(m, [&](const Carrier& c) {
+      return satellite_phase_centre(*antenna, system, c.band, attitude, -p.to_satellite);
+    });
+  }
+  if (inputs_.models.receiver_antenna && inputs_.receiver != nullptr) {
+    p.range += combined(m, [&](const Carrier& c) {
+      return receiver_phase_centre(*inputs_.receiver, system, c.band, to_satellite_enu);
+    });
+  }
 }
 
 }  // namespace maploop::ppp

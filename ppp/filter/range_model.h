@@ -61,6 +61,10 @@ class RangeModel {
   const ZenithDelay& zenith() const { return zenith_; }  // the values that predict() uses
 
  private:
+  std::optional<SatelliteState> transmitter(const Measurement& m) const;
+  void add_phase_centres(const Measurement& m, const Eigen::Matrix3d& attitude,
+                         const Eigen::Vector3d& to_satellite_enu, PredictedRange& p) const;
+
   RangeInputs inputs_;
   Earth earth_;
   GpsTime time_{};

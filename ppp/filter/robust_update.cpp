@@ -7,6 +7,11 @@
 namespace maploop::ppp {
 namespace {
 
+constexpr int absolute_passes = 5;  // until sums of absolute values settle
+// A new ambiguity absorbs its whole phase: below this share of the variance nothing is to be
+// tested.
+constexpr double least_share = 1e-3;
+
 // Returns the variance of the measured quantity according to the state.
 double predicted_variance(const FilterState& state, const Row& row) {
   const auto P = state.P();
@@ -28,9 +33,8 @@ Row* RobustUpdate::worst(const FilterState& state, std::vector<Row>& rows) const
     if (!row.active) continue;
     double sigma = row.sigma;  // (15) of METHOD.md
     if (row.kind != RowKind::code) {
-      constexpr double least = 1e-3;  // a new ambiguity absorbs all: nothing to test
       const double share = 1.0 - predicted_variance(state, row) / row.variance;
-      if (share < least) continue;
+      if (share < least_share) continue;
       sigma *= std::sqrt(share);  // (16) of METHOD.md
     }
     const double normalized = std::abs(row.residual_after(dx_)) / sigma;
@@ -62,11 +66,10 @@ void RobustUpdate::reapply(FilterState& state, const std::vector<Row>& rows) {
 // Weighting by the residuals minimizes the sum of absolute values instead, which outliers move
 // less.
 void RobustUpdate::reject_together(FilterState& state, std::vector<Row>& rows) {
-  constexpr int passes = 5;
   const auto misfit = [this](const Row& row) {
     return std::abs(row.residual_after(dx_)) / row.sigma;
   };
-  for (int pass = 0; pass < passes; ++pass) {
+  for (int pass = 0; pass < absolute_passes; ++pass) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (rows[i].kind != RowKind::code) variance_factors_[i] = std::max(1.0, misfit(rows[i]));
     }
@@ -94,30 +97,27 @@ void RobustUpdate::readmit(FilterState& state, std::vector<Row>& rows) {
 // If no more phases fit than there are unknowns (position and clock), any other choice of as many
 // would fit equally well: it is unknown which of them have slipped.
 void RobustUpdate::distrust_phases(FilterState& state, std::vector<Row>& rows) {
-  constexpr int unknowns = 4;
-  constexpr double sigma = 1.0;  // m
   int fit = 0, left_out = 0;
   for (const Row& row : rows) {
     if (row.kind == RowKind::phase && !row.new_ambiguity) ++(row.active ? fit : left_out);
   }
-  if (left_out == 0 || fit > unknowns) return;
+  if (left_out == 0 || fit > position_unknowns) return;
   for (Row& row : rows) {
     if (row.kind != RowKind::phase || row.new_ambiguity) continue;
     row.doubtful = !row.active;
-    row.variance += sigma * sigma;
+    row.variance += doubtful_variance_;
   }
   reapply(state, rows);
 }
 
 void RobustUpdate::apply(FilterState& state, std::vector<Row>& rows) {
-  constexpr int max_rejections = 8;
   before_ = state;
   variance_factors_.assign(rows.size(), 1.0);
   apply_once(state, rows);
   if (worst(state, rows) != nullptr) reject_together(state, rows);
   for (int pass = 0;; ++pass) {
     Row* const misfit = worst(state, rows);
-    if (misfit == nullptr || pass == max_rejections) break;
+    if (misfit == nullptr || pass == max_rejections_) break;
     misfit->active = false;
     reapply(state, rows);
   }

@@ -10,14 +10,17 @@ namespace maploop::ppp {
 
 class RobustUpdate {
  public:
-  explicit RobustUpdate(double outlier_sigmas)
-      : outlier_sigmas_(outlier_sigmas), dx_(FilterState::capacity) {}
+  explicit RobustUpdate(const PppParameters& parameters)
+      : outlier_sigmas_(parameters.outlier_sigmas),
+        max_rejections_(parameters.outlier_rejections),
+        doubtful_variance_(parameters.doubtful_phase_sigma * parameters.doubtful_phase_sigma),
+        dx_(FilterState::capacity) {}
 
   // If a row does not fit, a solution by least absolute values is computed (Schlossmacher, "An
   // iterative technique for absolute deviations curve fitting", JASA 68, 1973), and all phases and
   // Dopplers that do not fit it become inactive. Those of them that fit the solution of the
   // remaining rows are re-admitted. After that, the row that fits worst becomes inactive, one at a
-  // time and at most 8 times. The state has moved by dx().
+  // time and at most `outlier_rejections` times. The state has moved by dx().
   //
   // The residual of a phase or Doppler is judged by its own standard deviation, which is smaller
   // than that of the measurement because the state has absorbed part of the error (Baarda, "A
@@ -25,8 +28,8 @@ class RobustUpdate {
   // size of its error (Row::sigma), from which its variance differs.
   //
   // With four or fewer fitting phases, any other four might fit equally well: every phase then gets
-  // 1 m of additional noise for this epoch, and the misfits are marked as doubtful, so that their
-  // ambiguities are kept.
+  // additional noise for this epoch (`doubtful_phase_sigma`), and the misfits are marked as
+  // doubtful, so that their ambiguities are kept.
   void apply(FilterState& state, std::vector<Row>& rows);
 
   // Returns the correction in the units of the state; valid until the next update.
@@ -41,6 +44,8 @@ class RobustUpdate {
   Row* worst(const FilterState& state, std::vector<Row>& rows) const;
 
   double outlier_sigmas_;
+  int max_rejections_;
+  double doubtful_variance_;  // m^2
   FilterState before_;
   std::vector<double> variance_factors_;  // factor on each row's variance
   Eigen::VectorXd dx_;

@@ -1,110 +1,168 @@
 #include "ppp/filter/single_point.h"
 
 #include <Eigen/Dense>
+#include <array>
 #include <cmath>
 
-namespace maploop::ppp {
+#include "msgs/frames.h"
 
-SinglePoint solve_single_point(const std::vector<Measurement>& measurements, GpsTime t,
-                               const Eigen::Vector3d& near, double elevation_mask,
-                               double code_sigma, RangeModel& model) {
-  constexpr int columns = 3 + system_count;
-  SinglePoint result;
-  result.position = near;
-  std::vector<bool> left_out(measurements.size(), false);
-  for (int rejections = 0;; ++rejections) {
-    Eigen::Matrix<double, columns, 1> dx;
-    Eigen::Matrix<double, columns, columns> normal;
-    double worst = 0.0, sum = 0.0;
-    int clocks = 0;
-    std::size_t worst_at = 0;
-    bool settled = false;
-    for (int iteration = 0; iteration < 12 && !settled; ++iteration) {
-      // Without a position near the earth's surface there is no local frame: the first iterations
-      // do without models.
-      const bool on_earth = result.position.norm() > 6.2e6;
-      model.begin(t, on_earth ? result.position : Eigen::Vector3d(6378137.0, 0, 0));
-      normal.setZero();
-      Eigen::Matrix<double, columns, 1> right = Eigen::Matrix<double, columns, 1>::Zero();
-      result.has_clock.fill(false);
-      result.used = 0;
-      worst = sum = 0.0;
-      for (std::size_t i = 0; i < measurements.size(); ++i) {
-        if (left_out[i]) continue;
-        const Measurement& m = measurements[i];
-        double wind_up_cycles = 0.0;
-        auto p = model.predict(m, wind_up_cycles);
-        if (!p) continue;
-        if (!on_earth) {
-          const Eigen::Vector3d d = p->satellite.position - result.position;
-          p->range = d.norm() - speed_of_light * p->satellite.clock;
-          p->to_satellite = d.normalized();
-          p->elevation = 1.0;
-        } else if (p->elevation < elevation_mask) {
-          continue;
-        }
-        const auto system = static_cast<std::size_t>(m.satellite.system);
-        const double sine = std::sin(p->elevation);
-        const double noise = m.noise_factor() * code_sigma / sine;
-        const double variance = noise * noise + p->satellite.sigma * p->satellite.sigma +
-                                p->ionosphere.sigma * p->ionosphere.sigma + 0.01;
-        const double y = m.code() - p->range - p->ionosphere.value - result.clocks[system];
-        Eigen::Matrix<double, columns, 1> h = Eigen::Matrix<double, columns, 1>::Zero();
-        h.head<3>() = -p->to_satellite;
-        h[3 + static_cast<int>(system)] = 1.0;
-        normal += h * h.transpose() / variance;
-        right += h * (y / variance);
-        result.has_clock[system] = true;
-        ++result.used;
-        sum += y * y / variance;
-        if (std::abs(y) / std::sqrt(variance) > worst) {
-          worst = std::abs(y) / std::sqrt(variance);
-          worst_at = i;
-        }
+namespace maploop::ppp {
+namespace {
+
+constexpr int columns = 3 + system_count;  // position, and the clock of each system
+using Unknowns = Eigen::Matrix<double, columns, 1>;
+
+constexpr int max_iterations = 12;
+constexpr double settled_step = 1e-3;  // m
+
+// Without a position near the earth's surface there is no local frame: the first iterations do
+// without models. Distances are in m from the earth's centre.
+constexpr double deepest_with_models = 6.2e6;
+constexpr double anywhere_on_earth = 6378137.0;
+constexpr double mean_radius = 6.37e6, deepest = -1e5, highest = 1e6;  // m; heights of a receiver
+
+// The normal equations of the codes about a position.
+struct NormalEquations {
+  Eigen::Matrix<double, columns, columns> normal = Eigen::Matrix<double, columns, columns>::Zero();
+  Unknowns right = Unknowns::Zero();
+  std::array<bool, system_count> has_clock{};
+  int used = 0, unknowns = 3;
+  double sum = 0.0;    // of the squared residuals, in standard deviations
+  double worst = 0.0;  // residual, in standard deviations
+  std::size_t worst_at = 0;
+};
+
+class CodePositioning {
+ public:
+  CodePositioning(const std::vector<Measurement>& measured, GpsTime t, double code_sigma,
+                  const PppParameters& parameters, RangeModel& model)
+      : measured_(measured),
+        t_(t),
+        code_sigma_(code_sigma),
+        parameters_(parameters),
+        model_(model),
+        left_out_(measured.size(), false) {}
+
+  SinglePoint solve(const Eigen::Vector3d& near) {
+    SinglePoint result;
+    position_ = near;
+    const int max_rejections =
+        static_cast<int>(parameters_.start_outlier_share * static_cast<double>(measured_.size()));
+    for (int rejections = 0;; ++rejections) {
+      const NormalEquations last = settle(result.failure);
+      if (!result.failure.empty()) return result;
+      if (last.worst > parameters_.start_outlier_sigmas && rejections < max_rejections) {
+        left_out_[last.worst_at] = true;
+        continue;
       }
-      clocks = 0;
-      for (std::size_t s = 0; s < result.has_clock.size(); ++s) {
-        const int at = 3 + static_cast<int>(s);
-        if (result.has_clock[s]) {
-          ++clocks;
-        } else {
-          normal(at, at) = 1.0;
-        }
-      }
-      if (result.used < 3 + clocks) {
-        result.failure = std::to_string(result.used) +
-                         " satellites with orbit, clock and code above " + "the mask, and " +
-                         std::to_string(3 + clocks) + " are needed";
+      if (last.worst > parameters_.start_largest_residual) {
+        result.failure = "codes disagree beyond the share of satellites that may be left out";
         return result;
       }
-      dx = normal.ldlt().solve(right);
-      if (!dx.allFinite()) break;
-      result.position += dx.head<3>();
-      for (std::size_t s = 0; s < result.clocks.size(); ++s) {
-        result.clocks[s] += dx[3 + static_cast<int>(s)];
-      }
-      settled = dx.head<3>().norm() < 1e-3;
-    }
-    const double height = result.position.norm() - 6.37e6;
-    if (!settled || height < -1e5 || height > 1e6) {
-      result.failure = "the position by code does not settle";
+      result.position = position_;
+      if (const int spare = last.used - last.unknowns; spare > 0)
+        result.residual_level = last.sum / spare;
       return result;
     }
-    if (worst > 4.0 && rejections < static_cast<int>(measurements.size()) / 4) {
-      left_out[worst_at] = true;
-      ++result.refused;
-      continue;
-    }
-    if (worst > 10.0) {
-      result.failure = "codes disagree beyond a quarter of the satellites";
-      return result;
-    }
-    if (const int spare = result.used - 3 - clocks; spare > 0) result.residual_level = sum / spare;
-    result.covariance = normal.inverse().topLeftCorner<3, 3>();
-    result.solved = true;
-    model.begin(t, result.position);
-    return result;
   }
+
+ private:
+  // Iterates until the position settles, and returns the last equations.
+  NormalEquations settle(std::string& failure) {
+    NormalEquations equations;
+    bool settled = false;
+    for (int i = 0; i < max_iterations && !settled; ++i) {
+      equations = linearize();
+      if (equations.used < equations.unknowns) {
+        failure = std::to_string(equations.used) +
+                  " satellites with orbit, clock and code above the mask, and " +
+                  std::to_string(equations.unknowns) + " are needed";
+        return equations;
+      }
+      const Unknowns dx = equations.normal.ldlt().solve(equations.right);
+      if (!dx.allFinite()) break;
+      position_ += dx.head<3>();
+      clocks_ += dx.tail<system_count>();
+      settled = dx.head<3>().norm() < settled_step;
+    }
+    const double height = position_.norm() - mean_radius;
+    if (!settled || height < deepest || height > highest)
+      failure = "the position by code does not settle";
+    return equations;
+  }
+
+  NormalEquations linearize() {
+    const bool on_earth = position_.norm() > deepest_with_models;
+    model_.begin(t_, on_earth ? position_ : Eigen::Vector3d(anywhere_on_earth, 0, 0));
+    NormalEquations equations;
+    for (std::size_t i = 0; i < measured_.size(); ++i) {
+      if (left_out_[i]) continue;
+      if (const auto predicted = predict(measured_[i], on_earth)) add(i, *predicted, equations);
+    }
+    for (int s = 0; s < system_count; ++s) {
+      if (equations.has_clock[static_cast<std::size_t>(s)]) {
+        ++equations.unknowns;
+      } else {
+        equations.normal(3 + s, 3 + s) = 1.0;
+      }
+    }
+    return equations;
+  }
+
+  std::optional<PredictedRange> predict(const Measurement& m, bool on_earth) const {
+    double wind_up_cycles = 0.0;
+    auto p = model_.predict(m, wind_up_cycles);
+    if (!p) return {};
+    if (on_earth) {
+      if (p->elevation < radians(parameters_.elevation_mask)) return {};
+      return p;
+    }
+    const Eigen::Vector3d d = p->satellite.position - position_;
+    p->range = d.norm() - speed_of_light * p->satellite.clock;
+    p->to_satellite = d.normalized();
+    p->elevation = 1.0;  // rad, of any satellite: all count about equally
+    return p;
+  }
+
+  void add(std::size_t i, const PredictedRange& p, NormalEquations& equations) const {
+    const Measurement& m = measured_[i];
+    const int system = static_cast<int>(m.satellite.system);
+    const double noise = m.noise_factor() * code_sigma_ / std::sin(p.elevation);
+    const double variance = noise * noise + p.satellite.sigma * p.satellite.sigma +
+                            p.ionosphere.sigma * p.ionosphere.sigma +
+                            parameters_.start_model_variance;
+    const double y = m.code() - p.range - p.ionosphere.value - clocks_[system];
+    Unknowns h = Unknowns::Zero();
+    h.head<3>() = -p.to_satellite;
+    h[3 + system] = 1.0;
+    equations.normal += h * h.transpose() / variance;
+    equations.right += h * (y / variance);
+    equations.has_clock[static_cast<std::size_t>(system)] = true;
+    ++equations.used;
+    equations.sum += y * y / variance;
+    const double normalized = std::abs(y) / std::sqrt(variance);
+    if (normalized > equations.worst) {
+      equations.worst = normalized;
+      equations.worst_at = i;
+    }
+  }
+
+  const std::vector<Measurement>& measured_;
+  GpsTime t_;
+  double code_sigma_;  // m
+  const PppParameters& parameters_;
+  RangeModel& model_;
+  std::vector<bool> left_out_;
+  Eigen::Vector3d position_{0, 0, 0};  // m, earth-fixed
+  Eigen::Matrix<double, system_count, 1> clocks_ = Eigen::Matrix<double, system_count, 1>::Zero();
+};
+
+}  // namespace
+
+SinglePoint solve_single_point(const std::vector<Measurement>& measured, GpsTime t,
+                               const Eigen::Vector3d& near, double code_sigma,
+                               const PppParameters& parameters, RangeModel& model) {
+  return CodePositioning(measured, t, code_sigma, parameters, model).solve(near);
 }
 
 }  // namespace maploop::ppp

@@ -2,76 +2,105 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "ppp/filter/clock_steps.h"
 
 namespace maploop::ppp {
-
 namespace {
 
-bool is_low(double elevation) {
-  return elevation < 0.26;
+constexpr double longest_growth = 30.0;  // s; the ionosphere does not drift away for longer
+constexpr double low_factor = 2.0;       // on limits at low elevations, where phases are noisier
+constexpr double unknown_rate_factor = 1.5;
+
+// The wide lane's mean and variance, from the noise of one code to a memory of 100 epochs.
+constexpr double first_wide_variance = 0.25, least_wide_variance = 0.01;  // m^2
+constexpr int fewest_wide_lanes = 5, longest_wide_memory = 100;           // epochs
+constexpr double wide_sigmas = 5.0;
+constexpr double low_wide_lanes = 2.0;  // in place of `slip_wide_lanes`
+
+constexpr double longest_doppler = 5.0;  // s; over longer intervals the speed is not linear
+
+bool is_low(double elevation, const PppParameters& parameters) {
+  return elevation < parameters.slip_low_elevation;
 }
 
 }  // namespace
 
-double slip_limit(double at_once, double interval, double elevation) {
-  return (at_once + 0.002 * std::min(interval, 30.0)) * (is_low(elevation) ? 2.0 : 1.0);
+double slip_limit(double at_once, double interval, double elevation,
+                  const PppParameters& parameters) {
+  return (at_once + parameters.slip_growth * std::min(interval, longest_growth)) *
+         (is_low(elevation, parameters) ? low_factor : 1.0);
 }
 
-PppSlip SlipDetector::next(const Measurement& m, double interval, double elevation) {
-  PppSlip slip = PppSlip::none;
-  if (m.first.lost_lock || m.second.lost_lock) slip = PppSlip::lost_lock;
+PppSlip SlipDetector::next(const Measurement& m, double interval, double elevation,
+                           const PppParameters& parameters) {
+  PppSlip slip = m.first.lost_lock || m.second.lost_lock ? PppSlip::lost_lock : PppSlip::none;
   if (m.dual()) {
-    const double geometry_free = m.first.phase - m.second.phase;
-    const double f1 = m.first.frequency, f2 = m.second.frequency;
-    // (18) of METHOD.md
-    const double wide = (f1 * m.first.phase - f2 * m.second.phase) / (f1 - f2) -
-                        (f1 * m.first.code + f2 * m.second.code) / (f1 + f2);
-    const double wide_length = speed_of_light / (f1 - f2);
-    if (started_) {
-      // The rate of the ionosphere is assumed to be constant.
-      // (17) of METHOD.md
-      const double predicted = geometry_free_ + (has_rate_ ? rate_ * interval : 0.0);
-      const double limit = slip_limit(0.04, interval, elevation) * (has_rate_ ? 1.0 : 1.5);
-      const double sigma = std::sqrt(std::max(wide_variance_, 0.01));
-      if (slip == PppSlip::none && std::abs(geometry_free - predicted) > limit)
-        slip = PppSlip::geometry_free;
-      if (slip == PppSlip::none && wide_count_ >= 5 &&
-          std::abs(wide - wide_mean_) >
-              std::max(5.0 * sigma, (is_low(elevation) ? 2.0 : 1.2) * wide_length)) {
-        slip = PppSlip::wide_lane;
-      }
-    }
-    if (slip != PppSlip::none || !started_) {
-      wide_mean_ = wide;
-      wide_variance_ = 0.25;
-      wide_count_ = 1;
-      has_rate_ = false;
-    } else {
-      rate_ = (geometry_free - geometry_free_) / interval;
-      has_rate_ = true;
-      wide_count_ = std::min(wide_count_ + 1, 100);
-      const double gain = 1.0 / wide_count_, off = wide - wide_mean_;
-      wide_mean_ += gain * off;
-      wide_variance_ += gain * (off * off - wide_variance_);
-    }
-    geometry_free_ = geometry_free;
-  } else if (started_ && slip == PppSlip::none && doppler_ != 0.0 && m.first.doppler != 0.0 &&
-             interval < 5.0) {
-    const double expected = -0.5 * (doppler_ + m.first.doppler) * m.first.wavelength * interval;
-    // Whole milliseconds are removed, by which the receiver may have stepped its clock.
-    // (19) of METHOD.md
-    const double off = std::remainder(m.first.phase - phase_ - expected, millisecond_range);
-    if (std::abs(off) > 0.5 + 0.5 * interval) {
-      slip = PppSlip::doppler;
-    }
+    const Combinations now = combine(m);
+    if (slip == PppSlip::none && started_) slip = compare(now, interval, elevation, parameters);
+    learn(now, slip == PppSlip::none && started_, interval);
+  } else if (slip == PppSlip::none && started_) {
+    slip = compare_with_doppler(m, interval, parameters);
   }
   phase_ = m.first.phase;
   doppler_ = m.first.doppler;
-  const bool first = !started_;
-  started_ = true;
-  return first ? PppSlip::none : slip;
+  return std::exchange(started_, true) ? slip : PppSlip::none;
+}
+
+SlipDetector::Combinations SlipDetector::combine(const Measurement& m) {
+  // (18) of METHOD.md
+  const double f1 = m.first.frequency, f2 = m.second.frequency;
+  return {m.first.phase - m.second.phase,
+          (f1 * m.first.phase - f2 * m.second.phase) / (f1 - f2) -
+              (f1 * m.first.code + f2 * m.second.code) / (f1 + f2),
+          speed_of_light / (f1 - f2)};
+}
+
+// The rate of the ionosphere is assumed to be constant.
+PppSlip SlipDetector::compare(const Combinations& now, double interval, double elevation,
+                              const PppParameters& parameters) const {
+  // (17) of METHOD.md
+  const double predicted = geometry_free_ + (has_rate_ ? rate_ * interval : 0.0);
+  const double limit = slip_limit(parameters.slip_geometry_free, interval, elevation, parameters) *
+                       (has_rate_ ? 1.0 : unknown_rate_factor);
+  if (std::abs(now.geometry_free - predicted) > limit) return PppSlip::geometry_free;
+  const double sigma = std::sqrt(std::max(wide_variance_, least_wide_variance));
+  const double lanes = is_low(elevation, parameters) ? low_wide_lanes : parameters.slip_wide_lanes;
+  if (wide_count_ >= fewest_wide_lanes &&
+      std::abs(now.wide_lane - wide_mean_) >
+          std::max(wide_sigmas * sigma, lanes * now.wide_lane_length)) {
+    return PppSlip::wide_lane;
+  }
+  return PppSlip::none;
+}
+
+void SlipDetector::learn(const Combinations& now, bool goes_on, double interval) {
+  has_rate_ = goes_on;
+  if (goes_on) {
+    rate_ = (now.geometry_free - geometry_free_) / interval;
+    wide_count_ = std::min(wide_count_ + 1, longest_wide_memory);
+    const double gain = 1.0 / wide_count_, off = now.wide_lane - wide_mean_;
+    wide_mean_ += gain * off;
+    wide_variance_ += gain * (off * off - wide_variance_);
+  } else {
+    wide_mean_ = now.wide_lane;
+    wide_variance_ = first_wide_variance;
+    wide_count_ = 1;
+  }
+  geometry_free_ = now.geometry_free;
+}
+
+PppSlip SlipDetector::compare_with_doppler(const Measurement& m, double interval,
+                                           const PppParameters& parameters) const {
+  if (doppler_ == 0.0 || m.first.doppler == 0.0 || interval >= longest_doppler)
+    return PppSlip::none;
+  const double expected = -0.5 * (doppler_ + m.first.doppler) * m.first.wavelength * interval;
+  // Whole milliseconds are removed, by which the receiver may have stepped its clock.
+  // (19) of METHOD.md
+  const double off = std::remainder(m.first.phase - phase_ - expected, millisecond_range);
+  const double limit = parameters.slip_doppler + parameters.slip_doppler * interval;
+  return std::abs(off) > limit ? PppSlip::doppler : PppSlip::none;
 }
 
 }  // namespace maploop::ppp

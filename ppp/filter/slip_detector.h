@@ -5,18 +5,21 @@
 
 #include "msgs/ppp_state.h"
 #include "ppp/filter/measurement.h"
+#include "ppp/filter/parameters.h"
 
 namespace maploop::ppp {
 
-// Returns how much phases may differ without a slip, m: `at_once` (m) plus 2 mm for each second of
-// `interval` up to 30 s, and twice that at low elevations (below 0.26 rad).
-double slip_limit(double at_once, double interval, double elevation);
+// Returns how much phases may differ without a slip, m: `at_once` (m) plus `slip_growth` for each
+// second of `interval` up to 30 s, and twice that below `slip_low_elevation`.
+double slip_limit(double at_once, double interval, double elevation,
+                  const PppParameters& parameters);
 
 class SlipDetector {
  public:
   // Takes the satellite's next epoch and returns what indicated a slip, or none. `interval` is the
   // time since the previous epoch, s; `elevation` is in rad.
-  PppSlip next(const Measurement& m, double interval, double elevation);
+  PppSlip next(const Measurement& m, double interval, double elevation,
+               const PppParameters& parameters);
   void reset() { *this = {}; }
 
   template <class Archive>
@@ -26,6 +29,17 @@ class SlipDetector {
   }
 
  private:
+  struct Combinations {
+    double geometry_free, wide_lane;  // m
+    double wide_lane_length;          // m
+  };
+  static Combinations combine(const Measurement& m);
+  PppSlip compare(const Combinations& now, double interval, double elevation,
+                  const PppParameters& parameters) const;
+  void learn(const Combinations& now, bool goes_on, double interval);
+  PppSlip compare_with_doppler(const Measurement& m, double interval,
+                               const PppParameters& parameters) const;
+
   bool started_ = false;
   double geometry_free_ = 0.0, rate_ = 0.0;  // m, m/s
   bool has_rate_ = false;

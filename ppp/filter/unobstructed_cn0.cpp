@@ -7,7 +7,8 @@ namespace maploop::ppp {
 UnobstructedCn0::UnobstructedCn0(const PppParameters& parameters)
     : zenith_(parameters.full_cn0),
       drop_(parameters.full_cn0_drop),
-      margin_(parameters.full_cn0_margin) {
+      margin_(parameters.full_cn0_margin),
+      step_(parameters.full_cn0_step) {
   quartile_.fill(margin_);
 }
 
@@ -29,9 +30,9 @@ double UnobstructedCn0::of(double sine) const {
 // The steps up and down balance if a quarter of the strengths is above the estimate (Robbins and
 // Monro, "A stochastic approximation method", Annals of Mathematical Statistics 22, 1951).
 void UnobstructedCn0::add(double sine, double cn0) {
-  constexpr double step = 0.1;  // dB
+  constexpr double quartile_share = 0.75;  // of the strengths are below the upper quartile
   double& quartile = quartile_[band(sine)];
-  quartile += step * (cn0 - of_all(sine) > quartile ? 0.75 : -0.25);
+  quartile += step_ * (cn0 - of_all(sine) > quartile ? quartile_share : quartile_share - 1.0);
 }
 
 }  // namespace maploop::ppp

@@ -28,7 +28,7 @@ class UnobstructedCn0 {
   double of_all(double sine) const;
   static std::size_t band(double sine);
 
-  double zenith_, drop_, margin_;
+  double zenith_, drop_, margin_, step_;
   std::array<double, 4> quartile_;  // dB above of_all(), the upper quartile by elevation band
 };
 

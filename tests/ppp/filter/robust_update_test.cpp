@@ -61,7 +61,7 @@ class NineSatellites : public ::testing::Test {
   std::normal_distribution<double> normal;
   FilterState state;
   std::vector<Row> rows;
-  RobustUpdate update{4.0};
+  RobustUpdate update{PppParameters{}};
 };
 
 TEST_F(NineSatellites, NothingIsLeftOutWhereAllFits) {

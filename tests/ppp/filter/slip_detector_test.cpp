@@ -25,9 +25,9 @@ Measurement at(int second) {
 
 PppSlip after_quiet(SlipDetector& detector, const Measurement& last) {
   for (int t = 0; t < 30; ++t) {
-    EXPECT_EQ(detector.next(at(t), 1.0, 0.8), PppSlip::none) << t;
+    EXPECT_EQ(detector.next(at(t), 1.0, 0.8, {}), PppSlip::none) << t;
   }
-  return detector.next(last, 1.0, 0.8);
+  return detector.next(last, 1.0, 0.8, {});
 }
 
 TEST(SlipDetector, OneCycleOnOneCarrier) {
@@ -61,11 +61,11 @@ TEST(SlipDetector, OneFrequencyByDoppler) {
     return m;
   };
   SlipDetector detector;
-  EXPECT_EQ(detector.next(single(0), 1.0, 0.8), PppSlip::none);
-  EXPECT_EQ(detector.next(single(1), 1.0, 0.8), PppSlip::none);
+  EXPECT_EQ(detector.next(single(0), 1.0, 0.8, {}), PppSlip::none);
+  EXPECT_EQ(detector.next(single(1), 1.0, 0.8, {}), PppSlip::none);
   Measurement m = single(2);
   m.first.phase += 10.0 * m.first.wavelength;
-  EXPECT_EQ(detector.next(m, 1.0, 0.8), PppSlip::doppler);
+  EXPECT_EQ(detector.next(m, 1.0, 0.8, {}), PppSlip::doppler);
 }
 
 }  // namespace

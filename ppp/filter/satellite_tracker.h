@@ -1,0 +1,78 @@
+// Predicts the range of each satellite of an epoch and compares its signals with those of the
+// epochs before.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "ppp/filter/code_levels.h"
+#include "ppp/filter/filter_state.h"
+#include "ppp/filter/parameters.h"
+#include "ppp/filter/phase_steps.h"
+#include "ppp/filter/range_model.h"
+#include "ppp/filter/slip_detector.h"
+#include "ppp/filter/solution.h"
+
+namespace maploop::ppp {
+
+// A Tracked is one satellite of this epoch.
+struct Tracked {
+  Measurement measurement;
+  PredictedRange predicted;
+  double code_offset = 0.0;      // m, code minus its prediction without clocks
+  double code_inflation = 1.0;   // factor on the code's variance: its error outlasts an epoch
+  double level = 1.0;            // factor on all variances, if the codes' residuals are large
+  double level_inflation = 1.0;  // factor on what the level adds to the code's variance
+  bool code_good = true;
+  bool phase_good = true;
+  bool new_source = false;  // its orbit and clock come from another source than before
+};
+
+class SatelliteTracker {
+ public:
+  SatelliteTracker() : memory_(satellite_slots) {}
+  void reset() { memory_.assign(satellite_slots, {}); }
+
+  // Returns the satellites that have an orbit and are above the mask; they are valid until the next
+  // call. The model has begun at time `t`, `interval` s after the last epoch (0 at the first).
+  // Ambiguities of slipped phases are removed from the state.
+  std::vector<Tracked>& track(const std::vector<Measurement>& measured, GpsTime t, double interval,
+                              const RangeModel& model, const CodeLevels& levels,
+                              const PppParameters& parameters, FilterState& state,
+                              std::vector<SatelliteReport>& reports);
+
+  // Removes the ambiguities of satellites that have been missing for longer than `longest_gap`
+  // epochs.
+  void forget_absent(int longest_gap, FilterState& state) const;
+
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(memory_);
+    if constexpr (Archive::loading) {
+      if (memory_.size() != satellite_slots) ar.fail("not the memory of all satellites");
+    }
+  }
+
+ private:
+  struct Memory {  // one satellite's
+    SlipDetector slips;
+    double wind_up = 0.0;
+    int epochs_away = 0;
+    std::optional<GpsTime> last_code;
+    std::uint32_t source = 0;   // the source of orbit and clock
+    GpsTime message{};          // reference time of their broadcast message
+    double phase_less_range{};  // m, at the last epoch with a phase
+    template <class Archive>
+    void archive(Archive& ar) {
+      ar(slips, wind_up, epochs_away, last_code, source, message, phase_less_range);
+    }
+  };
+  PppSlip look_for_slip(const Tracked& tracked, double interval, const PppParameters& parameters,
+                        FilterState& state);
+
+  std::vector<Memory> memory_;
+  std::vector<Tracked> tracked_;  // both are members only to reuse their memory
+  std::vector<PhaseStep> phase_steps_;
+};
+
+}  // namespace maploop::ppp

@@ -1,0 +1,73 @@
+#include "ppp/filter/time_update.h"
+
+#include <cmath>
+
+#include "ppp/filter/map_update.h"
+#include "ppp/models/geodesy.h"
+
+namespace maploop::ppp {
+namespace {
+
+using S = FilterState;
+
+void move(FilterState& state, double t, const PppParameters& parameters) {
+  auto x = state.x();
+  auto P = state.P();
+  x.segment<3>(S::position) += t * x.segment<3>(S::velocity);
+  P.middleRows<3>(S::position) += t * P.middleRows<3>(S::velocity);
+  P.middleCols<3>(S::position) += t * P.middleCols<3>(S::velocity);
+  const Eigen::Vector3d density(parameters.horizontal_acceleration,
+                                parameters.horizontal_acceleration,
+                                parameters.vertical_acceleration);
+  const Eigen::Matrix3d R = rotation_enu_ecef(geodetic_from_ecef(x.segment<3>(S::position)));
+  const Eigen::Matrix3d Q = R.transpose() * density.asDiagonal() * R;
+  P.block<3, 3>(S::position, S::position) += Q * (t * t * t / 3.0);
+  P.block<3, 3>(S::position, S::velocity) += Q * (t * t / 2.0);
+  P.block<3, 3>(S::velocity, S::position) += Q * (t * t / 2.0);
+  P.block<3, 3>(S::velocity, S::velocity) += Q * t;
+}
+
+}  // namespace
+
+void begin_state(FilterState& state, const Eigen::Vector3d& position,
+                 const PppParameters& parameters) {
+  const bool moves = parameters.motion == Motion::kinematic;
+  state.clear();
+  for (int i = 0; i < 3; ++i) {
+    state.set(S::position + i, position[i], parameters.position_sigma);
+    state.set(S::velocity + i, 0.0, moves ? parameters.velocity_sigma : 0.0);
+  }
+  state.set(S::zenith_wet, 0.0, parameters.zenith_wet_sigma);
+  if (parameters.gradients) {
+    state.set(S::gradient_north, 0.0, parameters.gradient_sigma);
+    state.set(S::gradient_east, 0.0, parameters.gradient_sigma);
+  }
+  begin_map_states(state, Eigen::Vector2d::Zero(), parameters);
+}
+
+void predict_state(FilterState& state, double interval, const Eigen::Vector2d& lasting,
+                   const Ephemeris& ephemeris, const PppParameters& parameters) {
+  if (parameters.motion == Motion::kinematic) {
+    move(state, interval, parameters);
+    predict_map_states(state, interval, lasting, parameters);
+  }
+  auto P = state.P();
+  const auto walk = [&](int index, double density) {
+    P(index, index) += density * density * interval;
+  };
+  walk(S::zenith_wet, parameters.zenith_wet_walk);
+  if (parameters.gradients) {
+    walk(S::gradient_north, parameters.gradient_walk);
+    walk(S::gradient_east, parameters.gradient_walk);
+  }
+  // Only the offsets that are in use have a variance (receiver_clocks.h).
+  for (int i = S::system_offset; i < S::system_offset + system_count; ++i) {
+    if (P(i, i) > 0.0) walk(i, parameters.system_offset_walk);
+  }
+  for (int i = S::fixed; i < state.size(); ++i) {
+    const Satellite satellite = state.ambiguities()[static_cast<std::size_t>(i - S::fixed)];
+    walk(i, std::hypot(parameters.ambiguity_walk, ephemeris.error_walk(satellite)));
+  }
+}
+
+}  // namespace maploop::ppp

@@ -1,0 +1,20 @@
+// Predicts the filter's state to the next epoch.
+#pragma once
+
+#include "ppp/filter/filter_state.h"
+#include "ppp/filter/parameters.h"
+#include "ppp/products/ephemeris.h"
+
+namespace maploop::ppp {
+
+// Sets the first state at a position (m, earth-fixed). Clocks and ambiguities are added later.
+void begin_state(FilterState& state, const Eigen::Vector3d& position,
+                 const PppParameters& parameters);
+
+// Predicts over `interval` s. A kinematic receiver moves with constant velocity under white
+// acceleration; delays, clock offsets and ambiguities are random walks. `lasting` is the variance
+// of the position, east and north, due to lasting errors, m^2.
+void predict_state(FilterState& state, double interval, const Eigen::Vector2d& lasting,
+                   const Ephemeris& ephemeris, const PppParameters& parameters);
+
+}  // namespace maploop::ppp
