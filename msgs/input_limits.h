@@ -18,6 +18,7 @@ constexpr std::size_t settings = mebibyte;          // written by hand: TOML, ru
 constexpr std::size_t table = 64 * mebibyte;        // a text of a recorded drive
 constexpr std::size_t track = 256 * mebibyte;       // fixes, poses, matches and labels
 constexpr std::size_t picture = 64 * mebibyte;      // one image, compressed or not
+constexpr std::size_t cloud = 64 * mebibyte;        // one cloud of points, compressed or not
 constexpr std::size_t snapshot = 256 * mebibyte;    // of the vehicle
 constexpr std::size_t gnss_file = 2048 * mebibyte;  // a day of a receiver at 10 Hz
 constexpr std::size_t road_network = 4096 * mebibyte;

@@ -33,13 +33,14 @@ const LidarParameters& checked(const LidarParameters& parameters) {
 }  // namespace
 
 LidarOdometry::LidarOdometry(const Isometry3d& T_body_velo, const LidarParameters& parameters,
-                             ForEachChunk for_each_chunk)
+                             ForEachChunk for_each_chunk, Registration registration)
     : T_body_velo_(T_body_velo),
       parameters_(checked(parameters)),
       for_each_chunk_(std::move(for_each_chunk)),
       preparation_(T_body_velo, parameters),
       map_(parameters),
-      gicp_(parameters, for_each_chunk_) {
+      gicp_(parameters, for_each_chunk_),
+      registration_(std::move(registration)) {
   prepared_.points.reserve(static_cast<std::size_t>(parameters.max_samples));
 }
 
@@ -136,7 +137,8 @@ void LidarOdometry::register_scan(const LidarScan& scan, const Prediction& predi
     return;
   }
   const Isometry3d seed = T_map_body_ * prediction.T_from_to;
-  const Alignment alignment = gicp_.align(map_, prepared_, seed, prediction.known);
+  const Alignment alignment = registration_ ? registration_(map_, prepared_, seed, prediction.known)
+                                            : gicp_.align(map_, prepared_, seed, prediction.known);
   motion->inliers = alignment.partners;
   motion->iterations = alignment.iterations;
   motion->degenerate = alignment.degeneracy.directions;
@@ -233,7 +235,7 @@ void LidarOdometry::archive(ArchiveWriter& ar) const {
 }
 
 void LidarOdometry::archive(ArchiveReader& ar) {
-  LidarOdometry loaded(T_body_velo_, parameters_, for_each_chunk_);
+  LidarOdometry loaded(T_body_velo_, parameters_, for_each_chunk_, registration_);
   describe(ar, loaded);
   *this = std::move(loaded);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 
 #include "estimators/lidar/gicp.h"
@@ -23,6 +24,10 @@ struct OdometerResult {
   RelativeMotion odometry;  // LiDAR if that is ok, else visual
 };
 
+// Registers a scan with the map in place of Gicp::align(), with the same arguments and results.
+using Registration = std::function<Alignment(const LocalMap& map, const PreparedScan& scan,
+                                             const Eigen::Isometry3d& seed, bool known)>;
+
 // The visual motion deskews the scan and seeds its registration with the recently seen surfaces. If
 // the visual motion is refused, the last motion replaces it.
 //
@@ -30,9 +35,10 @@ struct OdometerResult {
 class LidarOdometry {
  public:
   // Throws std::invalid_argument, which names the value, if a parameter is not valid. Without
-  // `for_each_chunk`, process() runs all chunks on its own thread.
+  // `for_each_chunk`, process() runs all chunks on its own thread. With a `registration`, another
+  // method than Gicp is compared with it.
   LidarOdometry(const Eigen::Isometry3d& T_body_velo, const LidarParameters& parameters,
-                ForEachChunk for_each_chunk = nullptr);
+                ForEachChunk for_each_chunk = nullptr, Registration registration = nullptr);
 
   // Processes one step with a scan, with the visual motion of the image pair taken during that
   // scan, or with both. The resulting pose is at the visual motion's stamp, or at the scan's if
@@ -51,6 +57,8 @@ class LidarOdometry {
 
   // Returns the last prepared scan, in the body frame at its `stamp`; for displays.
   const PreparedScan& prepared() const { return prepared_; }
+  // Returns the map, in the body frame of the first step.
+  const LocalMap& local_map() const { return map_; }
   // Returns the pose of the body at the last step in the body frame of the first.
   Eigen::Isometry3d pose() const { return T_map_body_; }
 
@@ -88,6 +96,7 @@ class LidarOdometry {
   ScanPreparation preparation_;
   LocalMap map_;
   Gicp gicp_;
+  Registration registration_;  // in place of gicp_, unless empty
 
   bool started_ = false;
   Time stamp_{};          // of the last step

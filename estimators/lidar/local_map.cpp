@@ -57,6 +57,19 @@ void LocalMap::clear() {
   points_ = 0;
 }
 
+std::vector<SurfacePoint> LocalMap::points() const {
+  std::vector<SurfacePoint> points;
+  points.reserve(points_);
+  for (const Voxel& voxel : voxels_) {
+    const Vector3d corner = voxel.key.cell().cast<double>() * size_;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(voxel.count); ++k) {
+      points.push_back(
+          {(corner + voxel.positions[k].cast<double>()).cast<float>(), voxel.normals[k]});
+    }
+  }
+  return points;
+}
+
 int LocalMap::insert(const PreparedScan& scan, const Eigen::Isometry3d& T_map_body) {
   int refused = 0;
   const Eigen::Matrix3f R = T_map_body.linear().cast<float>();

@@ -34,6 +34,7 @@ class LocalMap {
   void clear();
   bool empty() const { return voxels_.empty(); }
   std::size_t size() const { return points_; }
+  std::vector<SurfacePoint> points() const;
 
   // Adds points that are at least map_spacing from those in their voxel, up to ten per voxel.
   // Returns how many points found no free voxel.

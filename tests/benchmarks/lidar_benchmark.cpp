@@ -7,7 +7,7 @@
 #include "estimators/lidar/lidar_odometry.h"
 #include "estimators/lidar/scan_preparation.h"
 #include "tests/estimators/lidar/drive_scans.h"
-#include "tests/estimators/lidar/pcl_gicp.h"
+#include "tools/odometry/pcl_registration.h"
 
 namespace maploop {
 namespace {
@@ -59,7 +59,7 @@ void align_pcl(benchmark::State& state) {
                         &prepared[k]);
   Eigen::Isometry3d seed = Eigen::Isometry3d::Identity();
   seed.translation().x() = 1.25;
-  testing::PclGicp gicp;
+  odometry::PclRegistration gicp(odometry::Method::pcl_gicp);
   std::size_t i = 1;
   for (auto _ : state) {
     benchmark::DoNotOptimize(gicp.align(prepared[i].points, prepared[i - 1].points, seed));

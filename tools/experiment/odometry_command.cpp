@@ -6,8 +6,8 @@
 #include "tools/command/option_checks.h"
 #include "tools/evaluate/text_file.h"
 #include "tools/experiment/experiments.h"
-#include "tools/odometry/comparison.h"
 #include "tools/odometry/odometry_input.h"
+#include "tools/odometry/stereo_comparison.h"
 
 namespace maploop::tools {
 namespace {
@@ -20,18 +20,19 @@ struct Options {
 int compare_odometry(const Options& options) {
   const auto truth = options.truth.empty() ? odometry::read_truth(options.input, options.config)
                                            : evaluation::read_trajectory(options.truth);
-  std::vector<odometry::VariantResult> results;
+  odometry::Comparison comparison = odometry::stereo_comparison();
   for (const odometry::Variant& variant :
        odometry::variants(std::filesystem::is_directory(options.input),
                           std::filesystem::is_directory(options.input / "velodyne_points"))) {
     std::cerr << variant.name << " ...\n";
-    results.push_back(
+    comparison.methods.push_back(
         odometry::run_variant(variant, options.input, options.config, options.frames, truth));
   }
-  std::cout << to_text(results);
+  std::cout << to_text(comparison);
   if (!options.html.empty())
     evaluation::write_text(
-        options.html, to_html(results, "Visual odometry on " + options.input.filename().string()));
+        options.html,
+        to_html(comparison, "Visual odometry on " + options.input.filename().string()));
   return 0;
 }
 

@@ -1,12 +1,9 @@
 // maploop odometry: one odometry alone, from images or from recorded tracks.
-#include <algorithm>
 #include <filesystem>
-#include <iomanip>
 #include <iostream>
 #include <map>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -20,6 +17,7 @@
 #include "tools/odometry/lidar_command.h"
 #include "tools/odometry/motion_csv.h"
 #include "tools/odometry/odometry_input.h"
+#include "tools/odometry/summary.h"
 #include "tools/odometry/track_writer.h"
 
 namespace maploop::tools {
@@ -40,65 +38,6 @@ void adjust(const OdometryOptions& options, stereo::StereoParameters& parameters
   if (options.motion) parameters.motion = *options.motion;
   if (options.motion == stereo::MotionMethod::image_to_image) parameters.window_frames = 0;
   if (options.window_frames) parameters.window_frames = *options.window_frames;
-}
-
-double percentile(const std::vector<double>& sorted, double share) {
-  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
-}
-
-// Median, p99 and largest.
-std::string figures(std::vector<double> milliseconds) {
-  std::sort(milliseconds.begin(), milliseconds.end());
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(2) << std::setw(9) << percentile(milliseconds, 0.5)
-       << std::setw(9) << percentile(milliseconds, 0.99) << std::setw(9) << milliseconds.back();
-  return text.str();
-}
-
-// Of the frames that were compared with another.
-void print_times(const std::vector<odometry::Step>& steps) {
-  std::vector<double> whole;
-  std::vector<std::pair<std::string, std::vector<double>>> stages;  // as they follow each other
-  for (const odometry::Step& step : steps) {
-    if (step.motion.status == OdometryStatus::first_frame) continue;
-    whole.push_back(step.milliseconds);
-    std::map<std::string, double> of_step;
-    for (const auto& [name, milliseconds] : step.stages) {
-      of_step[name] += milliseconds;
-      const auto same = [&n = name](const auto& stage) { return stage.first == n; };
-      if (std::none_of(stages.begin(), stages.end(), same)) stages.push_back({name, {}});
-    }
-    for (auto& [name, times] : stages)
-      if (const auto found = of_step.find(name); found != of_step.end())
-        times.push_back(found->second);
-  }
-  if (whole.empty()) return;
-  std::cout << "processor time of a frame, ms\n              median      p99  largest\n";
-  for (const auto& [name, times] : stages)
-    if (!times.empty())
-      std::cout << "  " << std::left << std::setw(10) << name << std::right << figures(times)
-                << '\n';
-  std::cout << "  " << std::left << std::setw(10) << "all" << std::right << figures(whole) << '\n';
-}
-
-void print_summary(const std::vector<odometry::Step>& steps,
-                   const evaluation::StampedTrajectory& trajectory) {
-  std::map<std::string, int> by_status;
-  double way = 0.0;
-  for (const odometry::Step& step : steps) {
-    const RelativeMotion& motion = step.motion;
-    std::string status(to_string(motion.status));
-    if (motion.condition != OdometryCondition::ordinary)
-      status += " (" + std::string(to_string(motion.condition)) + ")";
-    ++by_status[status];
-    way += motion.translation.norm();
-  }
-  std::cout << "frames " << steps.front().frame << " to " << steps.back().frame << ", "
-            << to_seconds(trajectory.stamps.back() - trajectory.stamps.front()) << " s, " << way
-            << " m\n";
-  for (const auto& [status, count] : by_status)
-    std::cout << "  " << status << ": " << count << '\n';
-  print_times(steps);
 }
 
 odometry::RecordedTracks recorded(const StereoCalibration& camera,
@@ -142,7 +81,7 @@ int odometry_alone(const OdometryOptions& options) {
   if (!options.csv.empty()) odometry::write_csv(options.csv, steps);
   if (!options.tracks.empty())
     odometry::write_recorded_tracks(options.tracks, recorded(input.camera, steps));
-  print_summary(steps, trajectory);
+  std::cout << odometry::summary(steps);
   return 0;
 }
 
@@ -155,7 +94,7 @@ void add_odometry(CLI::App& app, Command& command) {
       "Visual odometry alone, from a drive's images or from recorded tracks; or LiDAR odometry");
   sub->add_option("DRIVE", options->input,
                   "Folder of a KITTI raw drive, or recorded tracks (<drive>.csv[.gz] with its "
-                  "<drive>.meta.json)")
+                  "<drive>.meta.json); with --lidar also a folder of scans")
       ->required()
       ->check(existing_path());
   sub->add_option("--config", options->config,
@@ -195,6 +134,9 @@ void add_odometry(CLI::App& app, Command& command) {
       "Examples:\n"
       "    maploop odometry DRIVE --poses est.txt              # stereo cameras\n"
       "    maploop odometry DRIVE --lidar --cloud street.ply   # LiDAR, seeded by them\n"
+      "    maploop odometry SCANS --lidar --save-map map.pcd   # LiDAR alone, from .pcd, .ply, "
+      ".bin\n"
+      "    maploop odometry DRIVE --lidar --method all         # registration methods, in a table\n"
       "    maploop evaluate est.txt truth.txt --lengths 100    # then score it");
   sub->callback([options, &command] { command = [options] { return odometry_alone(*options); }; });
 }

@@ -1,52 +1,36 @@
-// Compares methods of matching and of motion estimation on the same frames (the thesis's figures
-// 3.10 and 3.15).
+// A table of methods that ran on the same frames, for the terminal and for a page.
 #pragma once
 
-#include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "estimators/stereo/methods.h"
 #include "tools/evaluate/evaluation.h"
-#include "tools/odometry/consistency.h"
-#include "tools/odometry/stereo_runs.h"
+#include "tools/web/page.h"
 
 namespace maploop::odometry {
 
-struct Variant {
-  std::string name;
-  stereo::Matching matching = stereo::Matching::klt;
-  stereo::MotionMethod motion = stereo::MotionMethod::points_to_image;
-  int window_frames = 0;
-  Disparities disparities = Disparities::own;
-};
-
-// Returns tracking against matching, the three methods of motion estimation, the window, and the
-// sources of the disparity correction. Recorded tracks have no images to match in (`images`), and
-// not every drive has scans (`scans`).
-std::vector<Variant> variants(bool images, bool scans);
-
-struct VariantResult {
-  Variant variant;
-  int pairs = 0, refused = 0;
-  double tracks = 0.0;        // per pair, mean
-  double life = 0.0;          // pairs over which a feature is tracked, mean
-  double inlier_ratio = 0.0;  // mean over the pairs that were not refused
-  double milliseconds = 0.0;  // per pair, median
-  Consistency consistency;    // for increments of one second
+struct Compared {
+  web::Row cells;  // the method's name first
   evaluation::Evaluation score;
 };
 
-// Runs one variant; the other parameters come from `config`. One camera cannot observe the length
-// of its motions: they are scaled to the lengths of `truth`, and only their directions are
-// estimated.
-VariantResult run_variant(const Variant& variant, const std::filesystem::path& input,
-                          const std::filesystem::path& config, FrameRange frames,
-                          const evaluation::StampedTrajectory& truth);
+struct Comparison {
+  web::Row heading;
+  std::string notes;
+  std::vector<Compared> methods = {};
+};
 
-std::string to_text(const std::vector<VariantResult>& results);
+// Scores segments of 25 m, for drives that have hardly any of the other length, and of 100 m; poses
+// match whose stamps differ by at most 1 ms.
+evaluation::Evaluation scored(const evaluation::StampedTrajectory& estimate,
+                              const evaluation::StampedTrajectory& truth);
+
+// Return cells with "-" if there is no segment.
+std::string percent_cell(const evaluation::SegmentError& error);
+std::string turning_cell(const evaluation::SegmentError& error);
+
+std::string to_text(const Comparison& comparison);
 // Returns a page with the table, the paths seen from above, and the errors along the way.
-std::string to_html(const std::vector<VariantResult>& results, const std::string& heading);
+std::string to_html(const Comparison& comparison, const std::string& heading);
 
 }  // namespace maploop::odometry

@@ -1,97 +1,294 @@
 #include "tools/odometry/lidar_command.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <iostream>
-#include <map>
-#include <optional>
+#include <memory>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "runtime/vehicle/config/vehicle_config.h"
 #include "runtime/vehicle/drivers/recording.h"
+#include "sensors/replay/files.h"
 #include "tools/command/option_checks.h"
+#include "tools/command/options.h"
 #include "tools/evaluate/text_file.h"
 #include "tools/evaluate/trajectory_file.h"
-#include "tools/odometry/lidar_csv.h"
+#include "tools/odometry/comparison.h"
 #include "tools/odometry/lidar_page.h"
+#include "tools/odometry/motion_csv.h"
+#include "tools/odometry/odometry_input.h"
 #include "tools/odometry/point_cloud.h"
+#include "tools/odometry/summary.h"
 
 namespace maploop::tools {
 namespace {
 
-using odometry::LidarSeed;
-using odometry::LidarStep;
+using evaluation::StampedTrajectory;
+using odometry::LidarRun, odometry::LidarStep, odometry::Method;
+
+// A drive, or a folder of scans, whose body and camera are the scanner.
+class LidarInput {
+ public:
+  LidarInput(const LidarOdometryOptions& options, const OdometryFiles& files,
+             odometry::FrameRange frames) {
+    using enum odometry::LidarSeed;
+    if (!std::filesystem::is_directory(files.input))
+      throw std::runtime_error("'" + files.input.string() +
+                               "' is no folder of a drive or of scans, and recorded tracks have no "
+                               "scans");
+    vehicle::VehicleConfig config;
+    if (!files.config.empty()) config = vehicle::load_vehicle_config(files.config);
+    if (std::filesystem::is_directory(files.input / "image_00") ||
+        !sensors::ScanFolder::is(files.input)) {
+      drive_ = vehicle::open_drive(files.input, config);
+      describe_car(config, drive_->calibration());
+      T_body_velo = drive_->calibration().T_body_velo;
+      T_body_cam = drive_->calibration().stereo.T_body_cam;
+    } else {
+      folder_ = files.input;
+      stamps_ = options.stamps;
+    }
+    if (drive_ ? !options.stamps.empty() : options.seed == vo)
+      throw std::runtime_error("'" + files.input.string() + "' is " +
+                               (drive_ ? "a drive, whose scans have stamps: leave --stamps out"
+                                       : "a folder of scans, without images for --seed vo"));
+    parameters = {config.stereo, config.lidar, options.seed.value_or(drive_ ? vo : motion),
+                  options.every, frames};
+  }
+
+  // Begins anew.
+  LidarRun run(Method method) {
+    parameters.method = method;
+    if (drive_) return {drive_frames(*drive_, parameters), T_body_velo, parameters};
+    scans_ = std::make_shared<sensors::ScanFolder>(folder_, stamps_);
+    return {folder_frames(scans_, parameters), T_body_velo, parameters};
+  }
+
+  bool is_drive() const { return drive_ != nullptr; }
+  std::string remarks() const { return scans_ ? scans_->remarks() : ""; }
+
+  Eigen::Isometry3d T_body_velo = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_body_cam = Eigen::Isometry3d::Identity();
+  odometry::LidarRunParameters parameters;
+
+ private:
+  std::shared_ptr<const sensors::KittiDrive> drive_;
+  std::filesystem::path folder_, stamps_;
+  std::shared_ptr<sensors::ScanFolder> scans_;
+};
+
+// The camera's path in its first frame.
+void add_pose(const LidarStep& step, const Eigen::Isometry3d& T_body_cam, StampedTrajectory* path) {
+  path->stamps.push_back(step.odometry.stamp);
+  path->poses.push_back(T_body_cam.inverse() * step.pose * T_body_cam);
+}
+
+[[noreturn]] void fail_without_frames(const OdometryFiles& files, const LidarInput& input) {
+  throw std::runtime_error(files.input.string() +
+                           " has no frame between --first and --last that can be read\n" +
+                           input.remarks());
+}
+
+odometry::Compared run_method(Method method, LidarInput& input, const OdometryFiles& files,
+                              const StampedTrajectory& truth) {
+  LidarRun run = input.run(method);
+  StampedTrajectory path;
+  std::vector<double> times;
+  double points = 0.0;
+  int refused = 0;
+  while (const auto step = run.next()) {
+    add_pose(*step, input.T_body_cam, &path);
+    if (!step->with_scan || step->lidar.status == OdometryStatus::first_frame) continue;
+    times.push_back(step->milliseconds);
+    points += step->lidar.tracked;
+    refused += step->lidar.status != OdometryStatus::ok;
+  }
+  if (times.empty()) fail_without_frames(files, input);
+  const evaluation::Evaluation score = odometry::scored(path, truth);
+  const evaluation::SegmentError& turned = score.lengths.back().common_rotation_removed;
+  return {
+      {std::string(to_string(method)), odometry::percent_cell(turned),
+       odometry::turning_cell(turned), fmt::format("{:.2f}", score.raw.end_point_m),
+       fmt::format("{:.1f}", odometry::percentile(times, 0.5)),
+       fmt::format("{:.1f}", odometry::percentile(times, 0.95)),
+       fmt::format("{:.0f}", points / static_cast<double>(times.size())), std::to_string(refused)},
+      score};
+}
+
+// Returns the methods of these names, where "all" names those that are available.
+std::vector<Method> methods_of(const std::vector<std::string>& names) {
+  const bool all = std::find(names.begin(), names.end(), "all") != names.end();
+  std::vector<Method> methods;
+  for (const std::string& name : all ? choices<Method>() : names) {
+    const Method method = *value_named<Method>(name);
+    if (!all || odometry::available(method)) methods.push_back(method);
+  }
+  return methods;
+}
+
+int compare(const LidarOdometryOptions& options, const OdometryFiles& files, LidarInput& input,
+            const std::vector<Method>& methods) {
+  for (const auto* file :
+       {&files.poses, &files.tum, &files.csv, &options.cloud, &options.map, &options.scans})
+    if (!file->empty())
+      throw std::runtime_error("'" + file->string() +
+                               "' is written by one method without --truth; name one");
+  if (options.truth.empty() && !input.is_drive())
+    throw std::runtime_error(
+        "methods are scored against a truth, which a folder of scans does not "
+        "have: name it with --truth");
+  const StampedTrajectory truth = options.truth.empty()
+                                      ? odometry::read_truth(files.input, files.config)
+                                      : evaluation::read_trajectory(options.truth);
+  odometry::Comparison comparison{
+      {"method", "100 m turned, %", "turned, deg/m", "end point, m", "ms a scan p50", "p95",
+       "points", "refused"},
+      "turned: with one common rotation between the truth's axes and the estimate's removed. All "
+      "methods register the same samples of a scan with the same kind of local map and the same "
+      "seed; gicp and point-to-plane use its normals, those of PCL its positions. Times are "
+      "processor times of a scan with its preparation, of PCL also with that of the map."};
+  for (const Method method : methods) {
+    std::cerr << to_string(method) << " ...\n";
+    comparison.methods.push_back(run_method(method, input, files, truth));
+  }
+  std::cout << to_text(comparison) << input.remarks();
+  if (!options.html.empty())
+    evaluation::write_text(
+        options.html, to_html(comparison, "LiDAR odometry on " + files.input.filename().string()));
+  return 0;
+}
+
+// What is written about a run of one method.
+class Outputs {
+ public:
+  Outputs(const LidarOdometryOptions& options, const OdometryFiles& files, const LidarInput& input)
+      : options_(options), files_(files), input_(input) {
+    for (const auto* file : {&options.cloud, &options.map})
+      if (!file->empty()) sensors::check_cloud_name(*file, encoding());
+    if (!options.cloud.empty() || !options.html.empty())
+      cloud_.emplace(input.T_body_velo, input.parameters.lidar);
+    if (!options.scans.empty()) std::filesystem::create_directories(options.scans);
+  }
+
+  void add(const LidarStep& step, const LidarRun& run) {
+    steps_.push_back(step);
+    add_pose(step, input_.T_body_cam, &path_);
+    if (!step.with_scan) return;
+    if (!options_.scans.empty()) add_scan(run.frame());
+    if (cloud_ && step.lidar.status == OdometryStatus::ok) {
+      const RelativeMotion& m = step.lidar;
+      cloud_->add(run.scan(), m.stamp,
+                  lidar::Twist::of(m.T_from_to(), to_seconds(m.stamp - m.from)), step.pose);
+    }
+  }
+
+  void write(const LidarRun& run) const {
+    if (steps_.empty()) fail_without_frames(files_, input_);
+    if (!files_.poses.empty()) evaluation::write_kitti_poses(files_.poses, path_.poses);
+    if (!files_.tum.empty()) evaluation::write_tum(files_.tum, path_);
+    if (!files_.csv.empty()) odometry::write_csv(files_.csv, steps_);
+    if (!options_.cloud.empty()) write_cloud(options_.cloud, odometry::table_of(cloud_->points()));
+    const auto map = run.local_map().points();
+    if (!options_.map.empty()) write_cloud(options_.map, odometry::table_of(map));
+    if (!options_.scans.empty())
+      evaluation::write_text(options_.scans / "timestamps.txt", scan_stamps_);
+    if (!options_.html.empty())
+      evaluation::write_text(
+          options_.html,
+          odometry::lidar_page("LiDAR odometry on " + files_.input.filename().string(), steps_,
+                               *cloud_));
+    std::cout << odometry::summary(steps_);
+    if (cloud_) std::cout << "cloud: " << cloud_->size() << " points\n";
+    if (!options_.map.empty()) std::cout << "local map: " << map.size() << " points\n";
+    std::cout << input_.remarks();
+  }
+
+ private:
+  sensors::CloudEncoding encoding() const {
+    return options_.encoding.value_or(sensors::CloudEncoding::binary);
+  }
+
+  void write_cloud(const std::filesystem::path& file, const sensors::CloudTable& table) const {
+    evaluation::write_text(file, sensors::encode_cloud(table, file, encoding()));
+  }
+
+  void add_scan(const odometry::LidarFrame& frame) {
+    write_cloud(options_.scans / sensors::numbered_file(frame.number, ".pcd"),
+                odometry::table_of(*frame.scan, frame.times));
+    scan_stamps_ += format_time(frame.scan->stamp) + '\n';
+  }
+
+  const LidarOdometryOptions& options_;
+  const OdometryFiles& files_;
+  const LidarInput& input_;
+  std::vector<LidarStep> steps_;
+  StampedTrajectory path_;
+  std::optional<odometry::PointCloud> cloud_;
+  std::string scan_stamps_;
+};
 
 }  // namespace
 
 CLI::Option* add_lidar_options(CLI::App& odometry, LidarOdometryOptions& options) {
-  CLI::Option* lidar = odometry.add_flag("--lidar", options.wanted,
-                                         "LiDAR odometry instead, from the drive's scans");
-  const std::map<std::string, LidarSeed> seeds{
-      {"vo", LidarSeed::vo}, {"motion", LidarSeed::motion}, {"none", LidarSeed::none}};
-  odometry
-      .add_option_function<std::string>(
-          "--seed", [&options, seeds](const std::string& name) { options.seed = seeds.at(name); },
-          "What the registration of a scan starts from: visual odometry (vo), the motion before "
-          "(motion), or the pose before (none)")
-      ->check(CLI::IsMember({"vo", "motion", "none"}))
+  CLI::Option* lidar = odometry.add_flag(
+      "--lidar", options.wanted,
+      "LiDAR odometry instead, from the scans of a drive or of a folder of .pcd, .ply or KITTI's "
+      ".bin files, whose poses are the scanner's");
+  add_choice(
+      &odometry, "--seed", options.seed,
+      "What the registration of a scan starts from: visual odometry (vo; a drive's default), "
+      "the motion before (motion), or the pose before (none)")
       ->needs(lidar);
+  std::vector<std::string> methods = choices<Method>();
+  methods.emplace_back("all");
+  odometry
+      .add_option("--method", options.methods,
+                  "How a scan is registered with the local map: gicp, the vehicle's, or another; "
+                  "several, with commas between, or all are compared in a table")
+      ->delimiter(',')
+      ->check(CLI::IsMember(methods))
+      ->default_str("gicp")
+      ->needs(lidar);
+  const auto file = [&](const char* flag, std::filesystem::path& path, const char* what,
+                        const CLI::Validator& check) {
+    odometry.add_option(flag, path, what)->check(check)->needs(lidar);
+  };
+  file("--truth", options.truth,
+       "Print that table, scored against this truth of the left camera (TUM, KITTI, *.truth.csv); "
+       "without it several methods are scored against the drive's own",
+       existing_file());
+  file("--stamps", options.stamps,
+       "Stamps of a folder's scans, a line each: seconds, or YYYY-MM-DD hh:mm:ss.fraction; without "
+       "it timestamps.txt in the folder, or 0.1 s apart",
+       existing_file());
   odometry.add_option("--every", options.every, "Use one scan of so many")
       ->check(CLI::Range(1, 1000))
       ->needs(lidar);
-  odometry
-      .add_option("--cloud", options.cloud,
-                  "Write the surfaces of all scans to this file, .ply or .pcd")
-      ->needs(lidar)
-      ->check(writable_file());
-  odometry.add_option("--html", options.html, "Write a page with a picture of them to this file")
-      ->needs(lidar)
-      ->check(writable_file());
+  file("--cloud", options.cloud, "Write the surfaces of all scans to this file, .ply or .pcd",
+       writable_file());
+  file("--save-map", options.map, "Write the local map at the end to this file, .ply or .pcd",
+       writable_file());
+  file("--scans", options.scans,
+       "Write the scans used to this folder, as .pcd with times, and their timestamps.txt",
+       CLI::Validator());
+  add_choice(&odometry, "--cloud-format", options.encoding,
+             "How clouds are written: ascii, binary (default) or compressed (.pcd)")
+      ->needs(lidar);
+  file("--html", options.html, "Write a page with a picture of them to this file", writable_file());
   return lidar;
 }
 
 int lidar_odometry_alone(const LidarOdometryOptions& options, const OdometryFiles& files,
                          odometry::FrameRange frames) {
-  if (!std::filesystem::is_directory(files.drive))
-    throw std::runtime_error("'" + files.drive.string() +
-                             "' is no folder of a drive, and recorded tracks have no scans");
-  if (!options.cloud.empty()) odometry::check_cloud_name(options.cloud);
-  vehicle::VehicleConfig config;
-  if (!files.config.empty()) config = vehicle::load_vehicle_config(files.config);
-  const auto drive = vehicle::open_drive(files.drive, config);
-  describe_car(config, drive->calibration());
-  const Eigen::Isometry3d T_body_cam = drive->calibration().stereo.T_body_cam;
-  odometry::LidarRun run(*drive,
-                         {config.stereo, config.lidar, options.seed, options.every, frames});
-  std::optional<odometry::PointCloud> cloud;
-  if (!options.cloud.empty() || !options.html.empty())
-    cloud.emplace(drive->calibration().T_body_velo, config.lidar);
-
-  std::vector<LidarStep> steps;
-  evaluation::StampedTrajectory trajectory;  // of the camera, in its first frame
-  while (const auto step = run.next()) {
-    steps.push_back(*step);
-    trajectory.stamps.push_back(step->odometry.stamp);
-    trajectory.poses.push_back(T_body_cam.inverse() * step->pose * T_body_cam);
-    if (cloud && step->with_scan && step->lidar.status == OdometryStatus::ok) {
-      const RelativeMotion& m = step->lidar;
-      cloud->add(run.scan(), m.stamp, lidar::Twist::of(m.T_from_to(), to_seconds(m.stamp - m.from)),
-                 step->pose);
-    }
-  }
-  if (steps.empty())
-    throw std::runtime_error(files.drive.string() +
-                             " has no frame between --first and --last that can be read");
-  if (!files.poses.empty()) evaluation::write_kitti_poses(files.poses, trajectory.poses);
-  if (!files.tum.empty()) evaluation::write_tum(files.tum, trajectory);
-  if (!files.csv.empty()) odometry::write_lidar_csv(files.csv, steps);
-  if (!options.cloud.empty()) cloud->write(options.cloud);
-  if (!options.html.empty())
-    evaluation::write_text(
-        options.html, odometry::lidar_page("LiDAR odometry on " + files.drive.filename().string(),
-                                           steps, *cloud));
-  std::cout << odometry::summary(steps);
-  if (cloud) std::cout << "cloud: " << cloud->size() << " points\n";
+  LidarInput input(options, files, frames);
+  const std::vector<Method> methods = methods_of(options.methods);
+  if (methods.size() > 1 || !options.truth.empty()) return compare(options, files, input, methods);
+  Outputs outputs(options, files, input);
+  LidarRun run = input.run(methods.front());
+  while (const auto step = run.next()) outputs.add(*step, run);
+  outputs.write(run);
   return 0;
 }
 

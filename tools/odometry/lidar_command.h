@@ -3,16 +3,22 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "sensors/cloud/cloud_file.h"
 #include "tools/odometry/lidar_run.h"
 
 namespace maploop::tools {
 
 struct LidarOdometryOptions {
   bool wanted = false;
-  odometry::LidarSeed seed = odometry::LidarSeed::vo;
+  std::optional<odometry::LidarSeed> seed;
+  std::optional<sensors::CloudEncoding> encoding;
   std::size_t every = 1;
-  std::filesystem::path cloud, html;
+  std::vector<std::string> methods{"gicp"};
+  std::filesystem::path stamps, truth, cloud, map, scans, html;
 };
 
 // Returns --lidar.
@@ -20,7 +26,7 @@ CLI::Option* add_lidar_options(CLI::App& odometry, LidarOdometryOptions& options
 
 // What visual odometry has as well.
 struct OdometryFiles {
-  std::filesystem::path drive, config, poses, tum, csv;
+  std::filesystem::path input, config, poses, tum, csv;
 };
 
 int lidar_odometry_alone(const LidarOdometryOptions& options, const OdometryFiles& files,

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <opencv2/imgproc.hpp>
-#include <sstream>
 
 #include "sensors/image/png.h"
+#include "tools/odometry/summary.h"
 #include "tools/web/html.h"
 #include "tools/web/page.h"
 
@@ -14,10 +13,6 @@ namespace maploop::odometry {
 namespace {
 
 constexpr double most_px = 1600.0;  // px, longer side of the picture
-
-double percentile(const std::vector<double>& sorted, double share) {
-  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
-}
 
 // The transform to the picture's pixels: x of the first frame's body points right, y up.
 struct View {
@@ -73,37 +68,6 @@ cv::Mat from_above(const PointCloud& cloud, const std::vector<LidarStep>& steps)
 }
 
 }  // namespace
-
-std::string summary(const std::vector<LidarStep>& steps) {
-  std::map<std::string_view, int> by_status, by_direction;
-  std::vector<double> milliseconds;
-  int iterations = 0;
-  double way = 0.0;
-  for (const LidarStep& step : steps) {
-    ++by_status[step.with_scan ? to_string(step.lidar.status) : "no scan"];
-    way += step.odometry.translation.norm();
-    if (!step.with_scan) continue;
-    for (unsigned k = 0; k < 6; ++k)
-      if ((step.lidar.degenerate >> k & 1u) != 0)
-        ++by_direction[to_string(static_cast<MotionDirection>(k))];
-    milliseconds.push_back(step.milliseconds);
-    iterations += step.lidar.iterations;
-  }
-  std::ostringstream text;
-  text << "frames " << steps.front().frame << " to " << steps.back().frame << ", "
-       << to_seconds(steps.back().odometry.stamp - steps.front().odometry.stamp) << " s, " << way
-       << " m\n";
-  for (const auto& [status, count] : by_status) text << "  " << status << ": " << count << '\n';
-  for (const auto& [direction, count] : by_direction)
-    text << "  not determined by the scan, " << direction << ": " << count << '\n';
-  if (milliseconds.empty()) return text.str();
-  std::sort(milliseconds.begin(), milliseconds.end());
-  text << "processor time a scan: median " << percentile(milliseconds, 0.5) << " ms, p95 "
-       << percentile(milliseconds, 0.95) << " ms, largest " << milliseconds.back()
-       << " ms; iterations a scan: "
-       << static_cast<double>(iterations) / static_cast<double>(milliseconds.size()) << '\n';
-  return text.str();
-}
 
 std::string lidar_page(const std::string& heading, const std::vector<LidarStep>& steps,
                        const PointCloud& cloud) {

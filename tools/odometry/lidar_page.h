@@ -9,12 +9,8 @@
 
 namespace maploop::odometry {
 
-// Returns some lines of text: frames, distance, statuses, directions that scans did not determine,
-// times.
-std::string summary(const std::vector<LidarStep>& steps);
-
-// Returns a page with this summary, the cloud from above with the path in it, and the heights along
-// the way.
+// Returns a page with the summary (summary.h), the cloud from above with the path in it, and the
+// heights along the way.
 std::string lidar_page(const std::string& heading, const std::vector<LidarStep>& steps,
                        const PointCloud& cloud);
 

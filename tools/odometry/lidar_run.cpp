@@ -1,9 +1,8 @@
 #include "tools/odometry/lidar_run.h"
 
-#include "estimators/lidar/visual_lidar_odometer.h"
+#include <utility>
+
 #include "estimators/stereo/stereo_odometry.h"
-#include "tools/odometry/frame_scans.h"
-#include "tools/odometry/processor_time.h"
 
 namespace maploop::odometry {
 namespace {
@@ -16,69 +15,116 @@ lidar::LidarParameters seeded(const LidarRunParameters& parameters) {
 
 }  // namespace
 
-struct LidarRun::State {
-  State(const sensors::KittiDrive& drive, const LidarRunParameters& p)
-      : parameters(p),
-        camera(drive.camera(p.seed == LidarSeed::vo ? Time::min() : Time::max())),
-        scans(drive),
-        stereo(drive.calibration().stereo, p.stereo),
-        odometer(drive.calibration().T_body_velo, seeded(p)) {}
+LidarFrames drive_frames(const sensors::KittiDrive& drive, const LidarRunParameters& parameters) {
+  struct State {
+    std::unique_ptr<sensors::Source<StereoPair>> camera;
+    FrameScans scans;
+    stereo::StereoOdometry stereo;
+    StereoPair pair;
+    std::optional<std::size_t> first;
+  };
+  const bool visual = parameters.seed == LidarSeed::vo;
+  auto state = std::make_shared<State>(
+      State{drive.camera(visual ? Time::min() : Time::max()),
+            FrameScans(drive),
+            stereo::StereoOdometry(drive.calibration().stereo, parameters.stereo),
+            {},
+            {}});
+  return [state, visual, range = parameters.frames, every = parameters.every](LidarFrame* frame) {
+    StereoPair& pair = state->pair;
+    do
+      if (!state->camera->next(pair)) return false;
+    while (pair.sequence < range.first);
+    if (pair.sequence > range.last) return false;
+    if (!state->first) state->first = pair.sequence;
+    frame->number = pair.sequence;
+    if (visual) {
+      frame->visual = state->stereo.process(pair);
+    } else {
+      static_cast<Sample&>(frame->visual.emplace()) = pair;
+      frame->visual->status = OdometryStatus::too_few_features;
+    }
+    const bool used = (frame->number - *state->first) % every == 0;
+    frame->scan = used ? state->scans.of(frame->number) : nullptr;
+    return true;
+  };
+}
 
-  // Returns the visual motion of the pair; without a visual seed it only contains the stamp.
-  VisualMotion visual() {
-    if (parameters.seed == LidarSeed::vo) return stereo.process(pair);
-    VisualMotion refused;
-    static_cast<Sample&>(refused) = pair;
-    refused.status = OdometryStatus::too_few_features;
-    return refused;
-  }
+LidarFrames folder_frames(std::shared_ptr<sensors::ScanFolder> folder,
+                          const LidarRunParameters& parameters) {
+  return [folder, range = parameters.frames, every = parameters.every,
+          scan = std::make_shared<LidarScan>()](LidarFrame* frame) {
+    do
+      if (!folder->next(*scan)) return false;
+    while (scan->sequence < range.first || (scan->sequence - range.first) % every != 0);
+    *frame = {scan->sequence, scan.get(), folder->times(), {}};
+    return scan->sequence <= range.last;
+  };
+}
 
-  // Returns the scan of this frame, or null if the drive does not have it or it is not used.
-  const LidarScan* scan_of(std::size_t frame) {
-    return (frame - first) % parameters.every == 0 ? scans.of(frame) : nullptr;
-  }
+LidarRun::LidarRun(LidarFrames frames, const Eigen::Isometry3d& T_body_velo,
+                   const LidarRunParameters& parameters)
+    : frames_(std::move(frames)),
+      T_body_velo_(T_body_velo),
+      method_(parameters.method),
+      parameters_(seeded(parameters)),
+      odometer_(new_odometer()) {}
 
-  LidarRunParameters parameters;
-  std::unique_ptr<sensors::Source<StereoPair>> camera;
-  FrameScans scans;
-  stereo::StereoOdometry stereo;
-  lidar::VisualLidarOdometer odometer;
-  StereoPair pair;
-  const LidarScan* scan = nullptr;
-  bool started = false;
-  std::size_t first = 0;
-};
-
-LidarRun::LidarRun(const sensors::KittiDrive& drive, const LidarRunParameters& parameters)
-    : state_(std::make_unique<State>(drive, parameters)) {}
-
-LidarRun::~LidarRun() = default;
+lidar::VisualLidarOdometer LidarRun::new_odometer() const {
+  return {lidar::LidarOdometry(T_body_velo_, parameters_, nullptr,
+                               registration_of(method_, parameters_)),
+          lidar::DisparityCorrection(parameters_)};
+}
 
 std::optional<LidarStep> LidarRun::next() {
-  State& s = *state_;
-  do
-    if (!s.camera->next(s.pair)) return std::nullopt;
-  while (s.pair.sequence < s.parameters.frames.first);
-  if (s.pair.sequence > s.parameters.frames.last) return std::nullopt;
-  if (!s.started) s.first = s.pair.sequence;
-  s.started = true;
-
-  const VisualMotion seen = s.visual();
+  if (!frames_(&frame_)) return std::nullopt;
   LidarStep step;
-  step.frame = s.pair.sequence;
-  s.scan = s.scan_of(step.frame);
-  step.with_scan = s.scan != nullptr;
+  step.frame = frame_.number;
+  step.with_scan = frame_.scan != nullptr;
   const double begin = processor_milliseconds();
-  const lidar::OdometerResult result = s.odometer.process(s.scan, &seen);
+  const lidar::OdometerResult result =
+      frame_.times.empty()
+          ? odometer_.process(frame_.scan, frame_.visual ? &*frame_.visual : nullptr)
+          : process_timed();
   step.milliseconds = processor_milliseconds() - begin;
   step.lidar = result.lidar;
   step.odometry = result.odometry;
-  step.pose = s.odometer.odometry().pose();
+  step.pose = odometer_.odometry().pose();
   return step;
 }
 
-const LidarScan& LidarRun::scan() const {
-  return *state_->scan;
+// The motion is known only after two scans; then both are processed again with it.
+lidar::OdometerResult LidarRun::process_timed() {
+  TimedScan now{*frame_.scan, {frame_.times.begin(), frame_.times.end()}};
+  const bool known = twist_.has_value();
+  lidar::OdometerResult result = process(now);
+  if (!known && twist_) {
+    odometer_ = new_odometer();
+    process(before_);
+    result = process(now);
+  }
+  if (!twist_) before_ = std::move(now);
+  return result;
+}
+
+// Moves the points to the scan's stamp by the last motion to second order, as ScanPreparation does
+// with times derived from azimuths.
+lidar::OdometerResult LidarRun::process(const TimedScan& timed) {
+  const lidar::Twist motion = twist_.value_or(lidar::Twist{});
+  const Eigen::Vector3f v = motion.velocity.cast<float>(), w = motion.rate.cast<float>();
+  deskewed_ = timed.scan;
+  for (std::size_t i = 0; i < deskewed_.points.size(); ++i) {
+    LidarPoint& p = deskewed_.points[i];
+    const float t = timed.times[i];
+    const Eigen::Vector3f x(p.x, p.y, p.z);
+    const Eigen::Vector3f moved = x + t * (v + w.cross(x + (0.5F * t) * (w.cross(x) + v)));
+    p = {moved.x(), moved.y(), moved.z(), p.reflectance};
+  }
+  const lidar::OdometerResult result = odometer_.process(&deskewed_, nullptr);
+  const LidarMotion& m = result.lidar;
+  if (m.status == OdometryStatus::ok)
+    twist_ = lidar::Twist::of(m.T_from_to(), to_seconds(m.stamp - m.from));
+  return result;
 }
 
 }  // namespace maploop::odometry

@@ -1,23 +1,33 @@
-// Runs visual-LiDAR odometry alone, one motion for each frame.
+// Runs LiDAR odometry alone, one motion for each frame.
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
 
-#include "estimators/lidar/lidar_odometry.h"
-#include "estimators/lidar/parameters.h"
+#include "estimators/lidar/scan_preparation.h"
+#include "estimators/lidar/visual_lidar_odometer.h"
 #include "estimators/stereo/parameters.h"
 #include "msgs/odometry.h"
+#include "msgs/visual_motion.h"
+#include "sensors/cloud/scan_folder.h"
 #include "sensors/replay/kitti_drive.h"
+#include "tools/odometry/registration_method.h"
 #include "tools/odometry/stereo_runs.h"
 
 namespace maploop::odometry {
 
 // The initial motion of a scan's registration.
 enum class LidarSeed : std::uint8_t { vo, motion, none };
+constexpr std::array<std::string_view, 3> names_of(LidarSeed) {
+  return {"vo", "motion", "none"};
+}
 
 struct LidarRunParameters {
   stereo::StereoParameters stereo;
@@ -25,9 +35,26 @@ struct LidarRunParameters {
   LidarSeed seed = LidarSeed::vo;
   std::size_t every = 1;  // only each `every`-th scan is used, from the first frame on
   FrameRange frames;
+  Method method = Method::gicp;
 };
 
-// The result for one frame: an image pair, and the scan taken during the same turn if there is one.
+// What one step is made from; valid until the next.
+struct LidarFrame {
+  std::size_t number = 0;
+  const LidarScan* scan = nullptr;     // raw; nullptr: none was taken, or it is not used
+  std::span<const float> times;        // of its points, s after its stamp; empty: from azimuths
+  std::optional<VisualMotion> visual;  // of the image pair taken during the scan
+};
+// Fills the next frame; returns false at the end.
+using LidarFrames = std::function<bool(LidarFrame*)>;
+
+// Returns the image pairs of a drive, each with the scan taken during the same turn if there is
+// one. Without a visual seed their motion has only the stamp. `drive` must outlive them. Throws
+// std::runtime_error if it has no scans.
+LidarFrames drive_frames(const sensors::KittiDrive& drive, const LidarRunParameters& parameters);
+LidarFrames folder_frames(std::shared_ptr<sensors::ScanFolder> folder,
+                          const LidarRunParameters& parameters);
+
 struct LidarStep {
   std::size_t frame = 0;
   bool with_scan = false;
@@ -39,18 +66,38 @@ struct LidarStep {
 
 class LidarRun {
  public:
-  // `drive` must outlive the run. Throws std::runtime_error if it has no scans.
-  LidarRun(const sensors::KittiDrive& drive, const LidarRunParameters& parameters);
-  ~LidarRun();
+  // Throws std::runtime_error if the method is not available.
+  LidarRun(LidarFrames frames, const Eigen::Isometry3d& T_body_velo,
+           const LidarRunParameters& parameters);
 
   std::optional<LidarStep> next();
 
-  // Returns the raw scan of the previous step; valid only if that step was with a scan.
-  const LidarScan& scan() const;
+  // These are valid until the next step: what the last step was made from; its scan with the points
+  // moved to its stamp, if they have times (precondition: there was a scan); the map.
+  const LidarFrame& frame() const { return frame_; }
+  const LidarScan& scan() const { return frame_.times.empty() ? *frame_.scan : deskewed_; }
+  const lidar::LocalMap& local_map() const { return odometer_.odometry().local_map(); }
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  // A scan whose points have times of their own.
+  struct TimedScan {
+    LidarScan scan;
+    std::vector<float> times;
+  };
+  lidar::VisualLidarOdometer new_odometer() const;
+  lidar::OdometerResult process(const TimedScan& timed);
+  lidar::OdometerResult process_timed();
+
+  LidarFrames frames_;
+  Eigen::Isometry3d T_body_velo_;
+  Method method_;
+  lidar::LidarParameters parameters_;
+  lidar::VisualLidarOdometer odometer_;
+  LidarFrame frame_;
+  // Of points with times of their own:
+  std::optional<lidar::Twist> twist_;  // the last motion
+  TimedScan before_;                   // until the motion is known
+  LidarScan deskewed_;
 };
 
 }  // namespace maploop::odometry

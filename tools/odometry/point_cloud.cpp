@@ -1,12 +1,6 @@
 #include "tools/odometry/point_cloud.h"
 
-#include <array>
-#include <sstream>
-#include <stdexcept>
-#include <string>
-
 #include "estimators/lidar/voxel_key.h"
-#include "tools/evaluate/text_file.h"
 
 namespace maploop::odometry {
 namespace {
@@ -19,28 +13,7 @@ lidar::LidarParameters fine(lidar::LidarParameters p) {
   return p;
 }
 
-std::string header(const std::filesystem::path& file, std::size_t count) {
-  std::ostringstream out;
-  if (file.extension() == ".ply") {
-    out << "ply\nformat binary_little_endian 1.0\nelement vertex " << count << '\n';
-    for (const char* name : {"x", "y", "z", "nx", "ny", "nz"})
-      out << "property float " << name << '\n';
-    out << "end_header\n";
-  } else {
-    out << "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"
-           "FIELDS x y z normal_x normal_y normal_z\nSIZE 4 4 4 4 4 4\nTYPE F F F F F F\n"
-           "COUNT 1 1 1 1 1 1\nWIDTH "
-        << count << "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " << count << "\nDATA binary\n";
-  }
-  return out.str();
-}
-
 }  // namespace
-
-void check_cloud_name(const std::filesystem::path& file) {
-  if (file.extension() != ".ply" && file.extension() != ".pcd")
-    throw std::runtime_error("'" + file.string() + "': a cloud is written as .ply or .pcd");
-}
 
 PointCloud::PointCloud(const Eigen::Isometry3d& T_body_velo,
                        const lidar::LidarParameters& parameters)
@@ -60,14 +33,31 @@ void PointCloud::add(const LidarScan& scan, Time stamp, const lidar::Twist& moti
   }
 }
 
-void PointCloud::write(const std::filesystem::path& file) const {
-  check_cloud_name(file);
-  std::string text = header(file, points_.size());
-  for (const lidar::SurfacePoint& point : points_) {
+sensors::CloudTable table_of(const std::vector<lidar::SurfacePoint>& points) {
+  sensors::CloudTable table{{"x", "y", "z", "normal_x", "normal_y", "normal_z"}, {}};
+  for (const lidar::SurfacePoint& point : points)
     for (const Eigen::Vector3f* v : {&point.position, &point.normal})
-      text.append(reinterpret_cast<const char*>(v->data()), 3 * sizeof(float));
+      table.values.insert(table.values.end(), v->begin(), v->end());
+  return table;
+}
+
+sensors::CloudTable table_of(const LidarScan& scan, std::span<const float> times) {
+  sensors::CloudTable table{{"x", "y", "z", "intensity"}, {}};
+  const auto before = static_cast<float>(to_seconds(scan.stamp - scan.start));
+  const auto after = static_cast<float>(to_seconds(scan.end - scan.stamp));
+  const bool turned = before > 1e-6F && after > 1e-6F;
+  if (turned || !times.empty()) table.fields.emplace_back("time");
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    const LidarPoint& p = scan.points[i];
+    table.values.insert(table.values.end(), {p.x, p.y, p.z, p.reflectance});
+    const float turn = 2.0F * lidar::turn_fraction(p.x, p.y) - 1.0F;
+    if (!times.empty()) {
+      table.values.push_back(times[i]);
+    } else if (turned) {
+      table.values.push_back(turn * (turn < 0.0F ? before : after));
+    }
   }
-  evaluation::write_text(file, text);
+  return table;
 }
 
 }  // namespace maploop::odometry

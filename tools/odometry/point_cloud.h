@@ -2,11 +2,12 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <filesystem>
+#include <span>
 #include <unordered_set>
 #include <vector>
 
 #include "estimators/lidar/scan_preparation.h"
+#include "sensors/cloud/cloud_file.h"
 
 namespace maploop::odometry {
 
@@ -23,10 +24,6 @@ class PointCloud {
   std::size_t size() const { return points_.size(); }
   const std::vector<lidar::SurfacePoint>& points() const { return points_; }  // first body frame
 
-  // Writes a binary .ply or .pcd: x y z (m) and the normal. Throws std::runtime_error naming the
-  // file if it has another extension or cannot be written.
-  void write(const std::filesystem::path& file) const;
-
  private:
   lidar::ScanPreparation preparation_;
   lidar::PreparedScan prepared_;
@@ -34,7 +31,11 @@ class PointCloud {
   std::vector<lidar::SurfacePoint> points_;
 };
 
-// Throws std::runtime_error for an extension that write() does not support.
-void check_cloud_name(const std::filesystem::path& file);
+// Returns x y z (m) and the normal of each point.
+sensors::CloudTable table_of(const std::vector<lidar::SurfacePoint>& points);
+
+// Returns x y z (m) and intensity of a scan's raw points, and their time (s, from the scan's stamp)
+// if it is known: from `times`, or else from their azimuths, if the scan has a start and an end.
+sensors::CloudTable table_of(const LidarScan& scan, std::span<const float> times);
 
 }  // namespace maploop::odometry

@@ -1,12 +1,12 @@
 #include "tools/odometry/stereo_runs.h"
 
+#include <time.h>
+
 #include <algorithm>
 
 #include "estimators/lidar/visual_lidar_odometer.h"
 #include "estimators/stereo/back_end.h"
 #include "estimators/stereo/stereo_odometry.h"
-#include "tools/odometry/frame_scans.h"
-#include "tools/odometry/processor_time.h"
 
 namespace maploop::odometry {
 namespace {
@@ -39,6 +39,20 @@ void measure(Odometry& odometry, Step* step, const Estimate& estimate) {
 }
 
 }  // namespace
+
+double processor_milliseconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+const LidarScan* FrameScans::of(std::size_t frame) {
+  while (!ended_ && (!loaded_ || scan_.sequence < frame)) {
+    loaded_ = velodyne_->next(scan_);
+    ended_ = !loaded_;
+  }
+  return loaded_ && scan_.sequence == frame ? &scan_ : nullptr;
+}
 
 Run stereo_run(const sensors::KittiDrive& drive, const stereo::StereoParameters& parameters,
                FrameRange frames, const std::optional<lidar::LidarParameters>& depth) {

@@ -49,6 +49,26 @@ struct Step {
   std::vector<stereo::StereoTrack> tracks;  // the tracks that the motion was estimated from
 };
 
+// Finds the scan that belongs to each image pair of a drive.
+class FrameScans {
+ public:
+  // Throws std::runtime_error if the drive has no scans.
+  explicit FrameScans(const sensors::KittiDrive& drive) : velodyne_(drive.velodyne()) {}
+
+  // Returns the scan of this frame, or null if the drive does not have it. Frames must be requested
+  // in ascending order. The scan is valid until the next call.
+  const LidarScan* of(std::size_t frame);
+
+ private:
+  std::unique_ptr<sensors::Source<LidarScan>> velodyne_;
+  LidarScan scan_;
+  bool loaded_ = false;
+  bool ended_ = false;
+};
+
+// Returns the processor time of this thread; other work on the machine does not count.
+double processor_milliseconds();
+
 // Returns the next step, or nothing at the end.
 using Run = std::function<std::optional<Step>()>;
 

@@ -5,7 +5,7 @@
 #include "estimators/lidar/gicp.h"
 #include "estimators/lidar/scan_preparation.h"
 #include "tests/estimators/lidar/drive_scans.h"
-#include "tests/estimators/lidar/pcl_gicp.h"
+#include "tools/odometry/pcl_registration.h"
 
 namespace maploop::lidar {
 namespace {
@@ -19,7 +19,7 @@ TEST(PclReference, MotionsBetweenScansAgree) {
   const Twist motion{{12.5, 0.0, 0.0}, Eigen::Vector3d::Zero()};
   Eigen::Isometry3d seed = Eigen::Isometry3d::Identity();
   seed.translation().x() = 1.25;
-  maploop::testing::PclGicp reference;
+  odometry::PclRegistration reference(odometry::Method::pcl_gicp);
   for (std::size_t i = 1; i < scans.size(); ++i) {
     PreparedScan target, source;
     ScanPreparation preparation(drive.calibration().T_body_velo, parameters);

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "estimators/fusion/reduced_imu_filter.h"
+#include "sensors/cloud/pcl_adapter.h"  // needs PCL only where it is used
 
 int main() {
   using namespace maploop;
