@@ -6,6 +6,7 @@
 
 #include "tools/evaluate/evaluation.h"
 #include "tools/web/page.h"
+#include "tools/web/table.h"
 
 namespace maploop::odometry {
 

@@ -47,7 +47,7 @@ class Rings {
   Rings(const Table& table, std::set<std::string_view> stages, std::set<RingNeeds> met)
       : stages_(std::move(stages)), met_(std::move(met)) {
     met_.insert(RingNeeds::both_ends);
-    std::apply([this](const auto&... spec) { (make(spec), ...); }, table);
+    std::apply([this](const auto&... spec) { (this->make(spec), ...); }, table);
   }
 
   bool has(const StageSpec& stage) const { return stages_.contains(stage.name); }

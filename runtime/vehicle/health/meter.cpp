@@ -13,7 +13,7 @@ MissedDeadline message_of(const Timing& timing) {
 
 }  // namespace
 
-void Meter::Worst::add(const Timing& timing) {
+void WorstTimings::add(const Timing& timing) {
   if (count == misses.size() && timing.latency <= misses.back().latency) return;
   if (count < misses.size()) ++count;
   std::size_t at = count - 1;
@@ -36,7 +36,7 @@ LatencySummary Meter::summary() const {
   s.misses = miss_count();
   s.deadline = deadline_;
   s.omitted = omitted_.data();
-  if (const Worst* worst = published_.latest()) received_ = worst;
+  if (const WorstTimings* worst = published_.latest()) received_ = worst;
   for (std::size_t i = 0; received_ != nullptr && i < received_->count; ++i) {
     s.worst.push_back(message_of(received_->misses[i]));
   }

@@ -27,6 +27,14 @@ struct Timing {
   std::array<Part, 3> parts{};
 };
 
+// The ten longest misses so far, the longest first.
+struct WorstTimings {
+  std::array<Timing, 10> misses{};
+  std::size_t count = 0;
+
+  void add(const Timing& timing);
+};
+
 // One thread records, without a lock, an allocation or a system call. One other thread at a time
 // may call summary(), also while the first one records. Any thread may call the rest.
 class Meter {
@@ -52,22 +60,14 @@ class Meter {
   LatencySummary summary() const;
 
  private:
-  // Worst contains the ten longest misses so far, the longest first.
-  struct Worst {
-    std::array<Timing, 10> misses{};
-    std::size_t count = 0;
-
-    void add(const Timing& timing);
-  };
-
   std::string name_;
   Duration deadline_;
   runtime::Histogram histogram_;
   runtime::Histogram omitted_;
   std::atomic<std::uint64_t> miss_count_{0};
-  Worst worst_;                                    // owned by the recording thread
-  mutable runtime::LatestValue<Worst> published_;  // passes worst_ to the reader
-  mutable const Worst* received_ = nullptr;        // owned by the reading thread
+  WorstTimings worst_;                                    // owned by the recording thread
+  mutable runtime::LatestValue<WorstTimings> published_;  // passes worst_ to the reader
+  mutable const WorstTimings* received_ = nullptr;        // owned by the reading thread
 };
 
 }  // namespace maploop::vehicle

@@ -27,9 +27,8 @@ bool reaches(const ChannelSpec& channel, const MessageSink& sink) {
   return false;
 }
 
-consteval runtime::TraceName trace_name(const ChannelSpec& channel) {
-  return channel.name.data();
-}
+template <const ChannelSpec& channel>
+constexpr runtime::TraceName trace_name{channel.name.data()};
 
 }  // namespace
 
@@ -71,7 +70,7 @@ void Publisher::forward(const RingSpec<T>& spec, const std::function<void(const 
   runtime::Edge<T>* ring = rings_.consumer(spec);
   if (ring == nullptr) return;
   intake_.add(*ring, [this, observe](const T& sample) {
-    runtime::TraceSpan span(trace_, trace_name(channel));
+    runtime::TraceSpan span(trace_, trace_name<channel>);
     if constexpr (std::is_same_v<T, NavState>) end_flows(span, sample);
     // The flow of an image goes on with the odometry that is fused.
     if constexpr (&channel != &channels::visual_odometry && &channel != &channels::lidar_odometry)
@@ -120,7 +119,7 @@ void Publisher::send(const ChannelSpec& channel, Time time, const Lcm& message) 
 
 void Publisher::send_reports() {
   while (const RuntimeReport* report = reports_->front()) {
-    const runtime::TraceSpan span(trace_, trace_name(channels::health));
+    const runtime::TraceSpan span(trace_, trace_name<channels::health>);
     send(channels::health, report->available, to_lcm(report->health));
     send(channels::deadlines, report->available, to_lcm(report->deadlines));
     observer_.health(report->health);
@@ -130,7 +129,7 @@ void Publisher::send_reports() {
 
 void Publisher::send_previews() {
   while (const Preview* preview = previews_ != nullptr ? previews_->front() : nullptr) {
-    const runtime::TraceSpan span(trace_, trace_name(channels::preview));
+    const runtime::TraceSpan span(trace_, trace_name<channels::preview>);
     send(channels::preview, preview->available, to_lcm(*preview));
     previews_->pop();
   }
