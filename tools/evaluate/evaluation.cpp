@@ -164,10 +164,7 @@ std::string to_html(const Evaluation& e, const std::string& heading) {
       {"Error of segments", "length, m", "%", {raw, rotated}},
       {"From pose to pose", "way, m", "m", {{"translation", after_first, step_m}}},
       {"From pose to pose", "way, m", "deg", {{"rotation", after_first, step_deg}}}};
-  return web::Page(heading)
-      .add("<pre>" + web::escaped(to_text(e)) + "</pre>\n")
-      .add(plots)
-      .text();
+  return web::Page(heading).add("<pre>" + web::escaped(to_text(e)) + "</pre>\n").add(plots).text();
 }
 
 }  // namespace maploop::evaluation

@@ -110,11 +110,10 @@ int fault_experiment(const RecordedDriveOptions& options) {
         }
     }
   }
-  experiments::Table table{
-      "Map matching on wrong maps",
-      {"map", "fixes", "drives", "longest s", "> 3 s", "recovery m", "> 50", "said %", "sure %",
-       "P", "longest of"},
-      {}};
+  experiments::Table table{"Map matching on wrong maps",
+                           {"map", "fixes", "drives", "longest s", "> 3 s", "recovery m", "> 50",
+                            "said %", "sure %", "P", "longest of"},
+                           {}};
   for (const auto& [fault, of_fault] : scores)
     for (std::size_t c = 0; c < conditions.size(); ++c) {
       experiments::Row& row = table.rows.emplace_back(fault);

@@ -16,9 +16,9 @@
 
 #include "msgs/frames.h"
 #include "msgs/time.h"
-#include "tools/command/options.h"
 #include "tools/command/commands.h"
 #include "tools/command/option_checks.h"
+#include "tools/command/options.h"
 #include "tools/command/terminal.h"
 
 namespace maploop::tools {

@@ -56,8 +56,8 @@ void refuse(const runtime::ConfigTable& table, std::initializer_list<const char*
             SchedulingPolicy policy, std::string_view of) {
   for (const char* key : keys) {
     if (!table.has(key)) continue;
-    table.fail(
-        key, fmt::format("can only be used with policy {}, not with \"{}\"", of, to_string(policy)));
+    table.fail(key, fmt::format("can only be used with policy {}, not with \"{}\"", of,
+                                to_string(policy)));
   }
 }
 

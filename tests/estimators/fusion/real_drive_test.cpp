@@ -88,16 +88,16 @@ TEST(RealDrives, FusedIsBetterThanOdometryAlone) {
         "2011_09_26_drive_0051", "2011_09_30_drive_0020"}) {
     SCOPED_TRACE(name);
     const Comparison c = compare(load_track_drive(real_data(), name, {0.3, radians(0.1)}));
-    EXPECT_LT(c.fused.at_100m.deg_per_m, 0.65 * c.odometry.at_100m.deg_per_m);
-    EXPECT_LT(c.fused.azimuth, 0.3 * c.odometry.azimuth);
-    EXPECT_LT(c.fused.end, 0.016 * c.length);
+    EXPECT_LT(c.fused.at_100m.deg_per_m, 0.62 * c.odometry.at_100m.deg_per_m);  // up to 0.55
+    EXPECT_LT(c.fused.azimuth, 0.25 * c.odometry.azimuth);                      // up to 0.22
+    EXPECT_LT(c.fused.end, 0.016 * c.length);                                   // up to 0.0141
     end_fused += c.fused.end;
     end_odometry += c.odometry.end;
     percent_fused += c.fused.at_100m.percent / 5.0;
     percent_odometry += c.odometry.at_100m.percent / 5.0;
   }
-  EXPECT_LT(end_fused, 0.6 * end_odometry);
-  EXPECT_LT(percent_fused, 0.8 * percent_odometry);
+  EXPECT_LT(end_fused, 0.58 * end_odometry);         // reached 0.52
+  EXPECT_LT(percent_fused, 0.8 * percent_odometry);  // reached 0.73
 }
 
 // On the motorway the sparse tracks are far away; their speed is wrong by 4 %, which no sensor here
@@ -106,7 +106,7 @@ TEST(RealDrives, MotorwayIsNoWorseThanOdometryAlone) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const Comparison c =
       compare(load_track_drive(real_data(), "2011_10_03_drive_0042", {0.3, radians(0.1)}));
-  EXPECT_LT(c.fused.end, 1.1 * c.odometry.end);
+  EXPECT_LT(c.fused.end, 1.1 * c.odometry.end);  // reached 1.06
 }
 
 // The drive is 3.7 km long; its 100 Hz IMU is silent eight times for 1.6 s. The odometry comes from
@@ -115,10 +115,10 @@ TEST(RealDrives, MotorwayIsNoWorseThanOdometryAlone) {
 TEST(RealDrives, SilencesOfTheImuAreBridged) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const Comparison c = compare(load_sequence_00(real_data(), {0.3, radians(0.15)}));
-  EXPECT_LT(c.fused.at_100m.percent, 0.8 * c.odometry.at_100m.percent);
-  EXPECT_LT(c.fused.at_100m.deg_per_m, 0.7 * c.odometry.at_100m.deg_per_m);
-  EXPECT_LT(c.fused.end, 0.015 * c.length);
-  EXPECT_LT(c.last.odometry_refused, 10u);
+  EXPECT_LT(c.fused.at_100m.percent, 0.8 * c.odometry.at_100m.percent);      // reached 0.76
+  EXPECT_LT(c.fused.at_100m.deg_per_m, 0.7 * c.odometry.at_100m.deg_per_m);  // reached 0.63
+  EXPECT_LT(c.fused.end, 0.0135 * c.length);                                 // reached 0.0120
+  EXPECT_LE(c.last.odometry_refused, 2u);                                    // reached 1
 }
 
 }  // namespace

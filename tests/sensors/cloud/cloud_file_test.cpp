@@ -29,7 +29,7 @@ TEST_P(Encoding, WhatIsWrittenIsReadBackBitByBit) {
   for (std::size_t i = 0; i < 2; ++i) {
     const float* expected = &scan.values[5 * i];
     EXPECT_EQ(std::memcmp(&cloud.points[i], expected, sizeof(LidarPoint)), 0) << i;
-    EXPECT_EQ(cloud.times[i], expected[4]);
+    EXPECT_EQ(static_cast<float>(cloud.times[i]), expected[4]);
   }
 }
 
@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(Of, Encoding,
                                            std::tuple("a.ply", ascii), std::tuple("a.ply", binary)),
                          [](const auto& of) {
                            return std::string(std::get<0>(of.param)).substr(2) +
-                                  std::string(name_of(std::get<1>(of.param)));
+                                  std::string(to_string(std::get<1>(of.param)));
                          });
 
 TEST(CloudFile, WritesOnlyWhatItsFormatsCanBe) {
@@ -89,7 +89,7 @@ TEST(CloudFile, NamesThePlaceOfAnErrorAndItsReason) {
       {"", "line 0: neither a PCD"},
       {"0 0 0\n1 1 1\n", "neither a PCD, whose header ends with DATA, nor a PLY"},
       {head + "DATA text\n", "line 8: DATA must be ascii, binary or binary_compressed"},
-      {head + "DATA ascii\n1 2 3\n4 5\n", "line 10: point 2 of 2 has 2 values in place of 3"},
+      {head + "DATA ascii\n1 2 3\n4.00 5.00\n", "line 10: point 2 of 2 has 2 values in place of 3"},
       {head + "DATA ascii\n1 2 3\n4 five 6\n", "line 10: 'five' in place 2 is not a number"},
       {head + "DATA ascii\n1 2 3\n", "line 8: the file is cut: 2 points"},
       {head + "DATA binary\n0123456789", "line 8: the file is cut: 2 points"},
@@ -123,7 +123,7 @@ TEST(CloudFile, NamesThePlaceOfAnErrorAndItsReason) {
 TEST(CloudFile, AnErrorNamesTheFile) {
   const testing::TemporaryFolder folder;
   const auto file = folder.path() / "broken.pcd";
-  std::ofstream(file) << pcd_head << "DATA ascii\n1 2 3\n4 5\n";
+  std::ofstream(file) << pcd_head << "DATA ascii\n1 2 3\n4.00 5.00\n";
   try {
     read_cloud(file);
     FAIL();

@@ -57,7 +57,7 @@ TEST_F(PclFiles, PclReadsOurFiles) {
           0);
       ASSERT_EQ(cloud.size(), scan_.points.size());
       for (std::size_t i = 0; i < cloud.size(); ++i)
-        ASSERT_TRUE(same(scan_.points[i], cloud[i])) << name << ' ' << name_of(encoding) << i;
+        ASSERT_TRUE(same(scan_.points[i], cloud[i])) << name << ' ' << to_string(encoding) << i;
     }
   }
 }
