@@ -78,7 +78,7 @@ TEST(RealtimeMachine, ThrottlingBelowNinetyPercentIsLimiting) {
     expect_item(name, runtime(no_number), unknown, "unknown");
   }
   expect_item(
-      name, [](M& m) { m.rt_period_us = "0"; }, unknown, "unknown");
+      name, [](M& m) { m.rt_runtime_us = "950000", m.rt_period_us = "0"; }, unknown, "unknown");
 }
 
 TEST(RealtimeMachine, CpusThatSaveEnergyAreListed) {

@@ -162,9 +162,9 @@ TEST(WatchdogInTheGraph, NamesAStuckStageAndWhoWaitsForIt) {
   std::atomic<std::uint64_t> struck = 0;
   StageDelays delays;
   delays["stereo"].add({drive_start + milliseconds(1000), drive_start + milliseconds(1100)},
-                       milliseconds(2500), struck);
+                       milliseconds(3500), struck);
   testing::MemoryBus bus;
-  Vehicle vehicle({}, testing::fake_calibration(), testing::fake_sensors(2.0),
+  Vehicle vehicle({}, testing::fake_calibration(), testing::fake_sensors(3.0),
                   runtime::DataClock::paced(1.0), {&bus}, {});
   vehicle.slow_down(delays);
   vehicle.start();
