@@ -71,18 +71,20 @@ def sources_to_look_at(top, files):
     return chosen
 
 
-def bug_patterns(steps, top, sources, seconds=None):
-    """Compiles `sources` with clang and looks for bug patterns and names (.clang-tidy); begins none after `seconds`.
+def bug_patterns(steps, top, sources, headers=None, seconds=None):
+    """Compiles `sources` with clang and looks for bug patterns and names (.clang-tidy) in them and in `headers`
+    (default: all of ours); begins none after `seconds`.
 
     Returns (the text of what was found, the sources that were not begun).
     """
+    names = [] if headers is None else ["--header-filter=/(" + "|".join(map(re.escape, headers)) + ")$"]
     steps.logged("configure-tidy", ["cmake", "--preset", "tidy"], cwd=top)
     end = time.monotonic() + (seconds or float("inf"))
 
     def look(source):
         if time.monotonic() > end:
             return None
-        done = subprocess.run(["clang-tidy", "-quiet", "-p", "build/tidy", source], cwd=top, capture_output=True,
+        done = subprocess.run(["clang-tidy", "-quiet", "-p", "build/tidy", *names, source], cwd=top, capture_output=True,
                               text=True, check=False, stdin=subprocess.DEVNULL)
         return done.stdout + done.stderr if done.returncode else ""
 

@@ -158,7 +158,9 @@ class Check:
         sources = builds.sources_to_look_at(self.top, files)
         if not sources:
             return {"sources": 0}
-        found, left = builds.bug_patterns(self.steps, self.top, sources, None if self.options.tidy else TIDY_SECONDS)
+        found, left = (builds.bug_patterns(self.steps, self.top, sources) if self.options.tidy else
+                       builds.bug_patterns(self.steps, self.top, sources, [f for f in files if f.endswith(".h")],
+                                           TIDY_SECONDS))
         if left:
             say(f"NOT LOOKED AT for bug patterns, as time was short: {len(left)} of {len(sources)} changed sources"
                 " (tools/test --tidy looks at all)")
