@@ -7,7 +7,7 @@
 
 namespace maploop::tools {
 
-// What the parsed command line asks for; returns the exit status.
+// Runs what the parsed command line asks for, and returns the exit status.
 using Command = std::function<int()>;
 
 // Adds a subcommand to `app`, which sets `command` if the command line names it.

@@ -19,7 +19,7 @@ std::string number(double value, int digits);
 std::string as_text(const Table& table);
 std::string as_html(const Table& table);
 
-// What belongs to the same cells, in the order in which the cells came first.
+// Groups values by their cells and keeps the order in which the cells first came.
 template <class Value>
 class Groups {
  public:

@@ -30,7 +30,7 @@ struct LogOptions {
   schema::Schema schema() const { return lcm_log::load_types(types); }
 };
 
-// What was read but for its damage is written all the same; the status tells.
+// Reports damage on stderr and returns the exit status. The undamaged rest has been written.
 int report_damage(const lcm_log::LogSummary& read) {
   if (read.damages == 0) return 0;
   std::cerr << "maploop: " << lcm_log::size_text(read.damaged_bytes) << " in " << read.damages

@@ -1,4 +1,4 @@
-// What the commands that read logs share.
+// These functions open, read and describe logs for all commands that read them.
 #pragma once
 
 #include <chrono>

@@ -10,13 +10,13 @@
 
 namespace maploop::vehicle {
 
-// What a receiver measured at one moment.
+// The measurements of a receiver at one moment.
 struct GnssEpoch : Sample {
   ppp::Epoch epoch;
   ppp::BroadcastMessages heard;  // since the epoch before, from a live receiver
 };
 
-// What a stream of corrections contained at one time of arrival, which is `stamp`.
+// The contents of a stream of corrections that arrived together, at `stamp`.
 struct GnssCorrections : Sample {
   ppp::BroadcastMessages heard;
   std::vector<ppp::SsrUpdate> updates;

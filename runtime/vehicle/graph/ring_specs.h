@@ -29,7 +29,7 @@
 
 namespace maploop::vehicle {
 
-// What the health thread reports once a second.
+// The health thread makes one report a second.
 struct RuntimeReport : Sample {
   Health health;
   Deadlines deadlines;
@@ -50,7 +50,7 @@ struct RingSpec {
   const StageSpec& from;
   const StageSpec& to;
   std::size_t capacity;          // samples: few of large ones, seconds of data of small ones
-  std::string_view branch = "";  // tells apart two rings between the same stages
+  std::string_view branch = {};  // tells apart two rings between the same stages
   const StageSpec* instead_of =
       nullptr;  // a vehicle with this stage has its ring, and not this one
   RingNeeds needs = RingNeeds::both_ends;

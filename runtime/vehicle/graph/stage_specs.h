@@ -31,7 +31,7 @@ struct StageSpec {
   double max_rate = 0.0;               // Hz; HEALTH reports a higher rate
   bool expected = false;               // a sensor that reports list even if the vehicle lacks it
   bool saved = false;                  // a part of snapshots
-  std::string_view scheduled_as = "";  // its key of [scheduling], if that is not its name
+  std::string_view scheduled_as = {};  // its key of [scheduling], if that is not its name
   bool polls = false;  // looks into its rings now and then: no producer pays for waking it
 };
 

@@ -21,7 +21,7 @@ namespace maploop::vehicle::testing {
 
 using maploop::testing::MessageTape;
 
-// What is not given is as in the default configuration.
+// A drive to run; members that are not given keep the values of the default configuration.
 struct Drive {
   Sensors sensors;
   double speed = 0.0;  // of the data clock; 0: virtual time
