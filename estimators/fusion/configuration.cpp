@@ -3,6 +3,7 @@
 #include <array>
 #include <cctype>
 #include <stdexcept>
+#include <utility>
 
 namespace maploop::fusion {
 namespace {
@@ -16,6 +17,7 @@ constexpr std::array<Named, 4> plain{{{"VO-RI", false, true, true, false},
                                       {"RISS", false, false, false, true},
                                       {"RISS-VO", false, false, true, true}}};
 constexpr std::string_view with_gnss = "GNSS+";
+constexpr Named whatever_there_is{"auto", true, true, true, false};
 
 std::string plain_form(std::string_view text) {
   std::string name;
@@ -29,7 +31,7 @@ std::string plain_form(std::string_view text) {
 }  // namespace
 
 std::vector<std::string> configuration_names() {
-  std::vector<std::string> names;
+  std::vector<std::string> names{std::string(whatever_there_is.name)};
   for (const Named& n : plain) names.emplace_back(n.name);
   for (const Named& n : plain) names.push_back(std::string(with_gnss) + std::string(n.name));
   return names;
@@ -37,12 +39,14 @@ std::vector<std::string> configuration_names() {
 
 Configuration configuration(std::string_view text) {
   const std::string name = plain_form(text);
+  const auto made_of = [](const Named& n, std::string called, bool gnss) -> Configuration {
+    return {std::move(called), n.lidar, gnss, n.odometry_speed, n.odometry_azimuth, n.wheel_speed};
+  };
+  if (name == "AUTO") return made_of(whatever_there_is, std::string(whatever_there_is.name), true);
   const bool gnss = name.starts_with(with_gnss);
   const std::string_view rest = std::string_view(name).substr(gnss ? with_gnss.size() : 0);
   for (const Named& n : plain) {
-    if (rest == n.name) {
-      return {name, n.lidar, gnss, n.odometry_speed, n.odometry_azimuth, n.wheel_speed};
-    }
+    if (rest == n.name) return made_of(n, name, gnss);
   }
   std::string all;
   for (const std::string& n : configuration_names()) all += (all.empty() ? "" : ", ") + n;

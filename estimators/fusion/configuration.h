@@ -10,6 +10,7 @@
 namespace maploop::fusion {
 
 // A configuration says which aids correct the reduced IMU (RI):
+//   auto      all that is there: GNSS, and speed and turning from visual-LiDAR or visual odometry
 //   VO-RI     speed and turning from visual odometry
 //   VO-L-RI   speed and turning from visual-LiDAR odometry
 //   RISS      speed from the wheels only
@@ -17,7 +18,7 @@ namespace maploop::fusion {
 // With the prefix GNSS+ the filter also uses fixes after the start. `GPS + VO-RI` means the same as
 // GNSS+VO-RI.
 struct Configuration {
-  std::string name;  // normalized: upper case, no blanks, GNSS instead of GPS
+  std::string name;  // normalized: upper case but auto, no blanks, GNSS for GPS
   bool lidar = false;
   bool gnss = false, odometry_speed = false, odometry_azimuth = false, wheel_speed = false;
 };

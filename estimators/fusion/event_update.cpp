@@ -67,6 +67,8 @@ Outcome apply_event(FilterState& state, const Event& event, const InertialSample
     return apply_wheel(state, *sample, p);
   }
   if (const auto* fix = std::get_if<GnssFix>(&event.measurement)) {
+    // Without odometry, the fix must not move the frame of odometry.
+    if (state.stamp - state.clone_stamp > from_seconds(p.max_interval)) take_clone(state);
     if (event.key.kind == EventKind::gnss_position) {
       return apply_gnss_position(state, *fix, frame, p);
     }

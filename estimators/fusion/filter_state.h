@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
 
@@ -24,10 +25,18 @@ enum : int {
   forward_bias,   // m/s^2, adds to the measured forward specific force
   left_bias,      // m/s^2, adds to the measured left specific force
   climb_offset,   // rad, direction of travel above body x, from mounting and load
-  speed_scale,    // 1, the speed sensor (odometry or wheels) reports (1 + scale) times the speed
-  lidar_scale,    // 1, a LiDAR's motion is (1 + scale) times the distance
-  lidar_turn,     // rad/m, a LiDAR's motion turns too far by this about body z
-  distance,       // m, travelled since the clone, as the speed sensor measures it
+  course_offset,  // rad, direction of travel to the right of body x, from mounting
+  axle_distance,  // m, from the rear axle forward to the origin of the body
+  lever_forward,  // m, the GNSS antenna from the origin of the body
+  lever_left,
+  lever_up,
+  speed_scale,  // 1, the speed sensor (odometry or wheels) reports (1 + scale) times the speed
+  lidar_scale,  // 1, a LiDAR's motion is (1 + scale) times the distance
+  lidar_turn,   // rad/m, a LiDAR's motion turns too far by this about body z
+  distance,     // m, travelled since the clone, as the speed sensor measures it
+  clone_east,   // m, position at the start of the odometry interval
+  clone_north,
+  clone_up,
   clone_azimuth,  // rad, attitude at the start of the odometry interval
   clone_pitch,
   clone_roll,
@@ -80,12 +89,25 @@ void archive(Archive& ar, Stillness& s) {
   ar(s.mean_force, s.force_variance, s.seen_standing, s.seen_moving);
 }
 
+// This is a pose in the frame of odometry, which agrees with enu at the filter's start and then
+// drifts: relative motions move it, and no absolute measurement does (REP 105).
+struct OdomPose {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();            // m
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  // turns body into odometry axes
+};
+
+template <class Archive>
+void archive(Archive& ar, OdomPose& p) {
+  ar(p.position, p.rotation);
+}
+
 // Holds everything the filter has estimated at one time; a copy is a snapshot.
 struct FilterState {
   Time stamp{};
   StateVector x = StateVector::Zero();
   StateMatrix P = StateMatrix::Zero();
   Time clone_stamp{};
+  OdomPose odom_at_clone;
   Time start{};
   // These are the stamps of the newest measurement of each kind that this state includes (epoch 0:
   // none).
@@ -119,15 +141,25 @@ struct FilterState {
   Attitude clone_attitude() const {
     return {x[index::clone_azimuth], x[index::clone_pitch], x[index::clone_roll]};
   }
+  // Returns how far the position has moved since the clone, m, enu.
+  Eigen::Vector3d moved() const {
+    return x.segment<3>(index::east) - x.segment<3>(index::clone_east);
+  }
+  double course() const { return x[index::azimuth] + x[index::course_offset]; }  // rad, of travel
+  double climb() const { return x[index::pitch] + x[index::climb_offset]; }      // rad, of travel
+  Eigen::Vector3d gnss_lever() const { return x.segment<3>(index::lever_forward); }  // m, body
+  // Returns (29) of METHOD.md: the pose in the frame of odometry, at the clone, and the motion
+  // since. A correction by an absolute measurement moves the clone as well, so it cancels here.
+  OdomPose odom() const;
 };
 
 template <class Archive>
 void archive(Archive& ar, FilterState& s) {
-  ar(s.stamp, s.x, s.P, s.clone_stamp, s.start, s.imu_stamp, s.odometry_stamp, s.gnss_stamp,
-     s.wheel_stamp, s.zero_velocity_stamp, s.map_stamp, s.speed_fixed, s.odometry_applied,
-     s.odometry_refused, s.gated_in_a_row, s.gnss_gated_in_a_row, s.wheel_gated_in_a_row,
-     s.map_gated_in_a_row, s.recoveries, s.reinitializations, s.chained_azimuth, s.stillness,
-     s.imu_repeated, s.yaw_rate, s.clone_yaw_rate, s.imu_delay);
+  ar(s.stamp, s.x, s.P, s.clone_stamp, s.odom_at_clone, s.start, s.imu_stamp, s.odometry_stamp,
+     s.gnss_stamp, s.wheel_stamp, s.zero_velocity_stamp, s.map_stamp, s.speed_fixed,
+     s.odometry_applied, s.odometry_refused, s.gated_in_a_row, s.gnss_gated_in_a_row,
+     s.wheel_gated_in_a_row, s.map_gated_in_a_row, s.recoveries, s.reinitializations,
+     s.chained_azimuth, s.stillness, s.imu_repeated, s.yaw_rate, s.clone_yaw_rate, s.imu_delay);
 }
 
 // Returns the unit vector in enu at an azimuth and an elevation (rad).
@@ -143,23 +175,44 @@ inline void add_correction(StateVector& x, const StateVector& correction) {
   x[index::clone_azimuth] = wrap_angle(x[index::clone_azimuth]);
 }
 
-// Takes the stochastic clone: copies the attitude, fully correlated with the original, and restarts
-// the distance from an exactly known zero. Repeating the call has no further effect.
-inline void take_clone(FilterState& state) {
-  for (int i = 0; i < 3; ++i) {
-    const int from = index::azimuth + i;
-    const int to = index::clone_azimuth + i;
-    state.x[to] = state.x[from];
-    state.P.row(to) = state.P.row(from);
+inline OdomPose FilterState::odom() const {
+  const Eigen::Matrix3d to_odom =
+      odom_at_clone.rotation.toRotationMatrix() * rotation_enu_body(clone_attitude()).transpose();
+  // (29) of METHOD.md
+  return {
+      odom_at_clone.position + to_odom * moved(),
+      Eigen::Quaterniond(Eigen::Matrix3d(to_odom * rotation_enu_body(attitude()))).normalized()};
+}
+
+// Copies the pose to the clone, fully correlated with the original, and restarts the distance from
+// an exactly known zero.
+inline void copy_to_clone(FilterState& state) {
+  constexpr int pose[] = {index::east,    index::north, index::up,
+                          index::azimuth, index::pitch, index::roll};
+  for (int i = 0; i < 6; ++i) {
+    const int to = index::clone_east + i;
+    state.x[to] = state.x[pose[i]];
+    state.P.row(to) = state.P.row(pose[i]);
   }
-  for (int i = 0; i < 3; ++i) {
-    state.P.col(index::clone_azimuth + i) = state.P.col(index::azimuth + i);
-  }
+  for (int i = 0; i < 6; ++i) state.P.col(index::clone_east + i) = state.P.col(pose[i]);
   state.x[index::distance] = 0.0;
   state.P.row(index::distance).setZero();
   state.P.col(index::distance).setZero();
   state.clone_stamp = state.stamp;
   state.clone_yaw_rate = state.yaw_rate;
+}
+
+// Takes the stochastic clone, from which the frame of odometry goes on.
+inline void take_clone(FilterState& state) {
+  state.odom_at_clone = state.odom();
+  copy_to_clone(state);
+}
+
+// Takes the first clone, at which the frame of odometry agrees with enu.
+inline void start_clone(FilterState& state) {
+  copy_to_clone(state);
+  state.odom_at_clone = {state.x.segment<3>(index::east),
+                         Eigen::Quaterniond(rotation_enu_body(state.attitude()))};
 }
 
 // Starts the chained azimuth at the azimuth. The drift then equals the whole error of the azimuth.
@@ -182,6 +235,14 @@ inline Eigen::Matrix3d attitude_rate_axes(const Attitude& a) {
   axes.col(1) << cA, -sA, 0.0;          // about the horizontal axis to the right
   axes.col(2) << sA * cp, cA * cp, sp;  // about the forward axis
   return axes;
+}
+
+// Returns the derivative of R(a) v by azimuth, pitch and roll, where `v_enu` is R(a) v.
+inline Eigen::Matrix3d turned_by_attitude(const Attitude& a, const Eigen::Vector3d& v_enu) {
+  const Eigen::Matrix3d axes = attitude_rate_axes(a);
+  Eigen::Matrix3d J;
+  for (int i = 0; i < 3; ++i) J.col(i) = axes.col(i).cross(v_enu);
+  return J;
 }
 
 }  // namespace maploop::fusion

@@ -60,12 +60,14 @@ struct FusionParameters {
   double pitch_noise = 0.0175;         // rad/sqrt(s) (1 deg)
   double roll_noise = 0.0175;          // rad/sqrt(s) (1 deg)
   double rear_axle_distance = 0.0;     // m
+  double rear_axle_sigma = 0.5;        // m
   double slip_sigma = 0.005;           // rad (0.3 deg)
   double slip_time = 1.0;              // s
   double climb_offset = 0.0;           // rad
   double climb_offset_sigma = 0.0175;  // rad (1 deg)
   double climb_offset_time = 300.0;    // s
-  double climb_noise = 0.02;           // rad (1.1 deg)
+  double course_offset_sigma = 0.035;  // rad (2 deg)
+  double course_offset_walk = 1e-4;    // rad/sqrt(s)
   double max_tilt = 0.8;               // rad
 
   // Levelling by the accelerometers.
@@ -85,6 +87,7 @@ struct FusionParameters {
   double gnss_lever_forward = 0.0;    // m
   double gnss_lever_left = 0.0;       // m
   double gnss_lever_up = 0.0;         // m
+  double gnss_lever_sigma = 0.5;      // m
 
   // Map feedback.
   double map_position_gate = 10.83;
@@ -117,6 +120,7 @@ struct FusionParameters {
   double min_speed_sigma = 0.05;       // m/s
   double min_rotation_sigma = 5.2e-4;  // rad (0.03 deg)
   double speed_gate = 10.83;
+  double sideways_gate = 13.82;
   double rotation_gate = 16.27;
   double chained_azimuth_sigma = 0.0035;  // rad (0.2 deg)
   double chain_drift = 8.7e-5;            // rad/sqrt(m) (0.005 deg)

@@ -11,18 +11,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-Vector3d lever(const FusionParameters& p) {
-  return {p.gnss_lever_forward, p.gnss_lever_left, p.gnss_lever_up};
-}
-
-// Returns the derivative of R v with respect to azimuth, pitch and roll.
-Matrix3d turned_by_attitude(const Attitude& attitude, const Vector3d& v_enu) {
-  const Matrix3d axes = attitude_rate_axes(attitude);
-  Matrix3d J;
-  for (int i = 0; i < 3; ++i) J.col(i) = axes.col(i).cross(v_enu);
-  return J;
-}
-
 void inflate_position(FilterState& state, const FusionParameters& p) {
   using namespace index;
   for (int i = east; i <= up; ++i) {
@@ -33,16 +21,22 @@ void inflate_position(FilterState& state, const FusionParameters& p) {
 
 // Restarts from the position, speed and attitude of the fix; keeps the sensor errors estimated so
 // far.
-void begin_anew(FilterState& state, GnssFix fix, const LocalFrame& frame,
-                const FusionParameters& p) {
+void restart_from(FilterState& state, GnssFix fix, const LocalFrame& frame,
+                  const FusionParameters& p) {
   using namespace index;
   fix.velocity_stamp = fix.stamp;
-  const FilterState fresh = initial_state(fix, frame, p);
   const StateMatrix known = state.P;
   const StateVector x = state.x;
+  const OdomPose odom = state.odom();
+  FusionParameters learnt = p;
+  learnt.climb_offset = x[climb_offset];
+  learnt.rear_axle_distance = x[axle_distance];
+  const FilterState fresh = initial_state(fix, frame, learnt);
   state.x = fresh.x;
   state.P = fresh.P;
-  for (const int i : {gyro_bias, forward_bias, left_bias, climb_offset, lidar_scale, lidar_turn}) {
+  state.x[azimuth] = wrap_angle(fresh.x[azimuth] - x[course_offset]);
+  for (const int i : {gyro_bias, forward_bias, left_bias, climb_offset, course_offset,
+                      axle_distance, lidar_scale, lidar_turn}) {
     state.x[i] = x[i];
     state.P.row(i).setZero();
     state.P.col(i).setZero();
@@ -51,7 +45,8 @@ void begin_anew(FilterState& state, GnssFix fix, const LocalFrame& frame,
   // The scale's variance is that of a new start, but its estimate is kept and applied to the speed.
   state.x[speed] *= 1.0 + x[speed_scale];
   state.x[speed_scale] = x[speed_scale];
-  take_clone(state);
+  copy_to_clone(state);
+  state.odom_at_clone = odom;
   start_chain(state);
   ++state.reinitializations;
 }
@@ -61,7 +56,7 @@ void begin_anew(FilterState& state, GnssFix fix, const LocalFrame& frame,
 Innovation<3> position_innovation(const FilterState& state, const GnssFix& fix,
                                   const LocalFrame& frame, const FusionParameters& p) {
   using namespace index;
-  const Vector3d arm = rotation_enu_body(state.attitude()) * lever(p);
+  const Vector3d arm = rotation_enu_body(state.attitude()) * state.gnss_lever();
   const FixError error = split_error(fix.position_covariance, p);
   Innovation<3> innovation;
   // (18) of METHOD.md
@@ -69,6 +64,7 @@ Innovation<3> position_innovation(const FilterState& state, const GnssFix& fix,
                         error.lasting * state.x.segment<3>(gnss_offset_east);
   innovation.H.middleCols<3>(east).setIdentity();
   innovation.H.middleCols<3>(azimuth) = turned_by_attitude(state.attitude(), arm);
+  innovation.H.middleCols<3>(lever_forward) = rotation_enu_body(state.attitude());
   innovation.H.middleCols<3>(gnss_offset_east) = error.lasting;
   innovation.R = error.fresh;
   innovation.R.diagonal().array() += p.min_position_sigma * p.min_position_sigma;
@@ -79,26 +75,29 @@ Innovation<3> velocity_innovation(const FilterState& state, const GnssFix& fix, 
                                   const FusionParameters& p) {
   using namespace index;
   const StateVector& x = state.x;
-  const double climb = x[pitch] + x[climb_offset];
-  const double sA = std::sin(x[azimuth]), cA = std::cos(x[azimuth]);
-  const double sc = std::sin(climb), cc = std::cos(climb);
+  const double sA = std::sin(state.course()), cA = std::cos(state.course());
+  const double sc = std::sin(state.climb()), cc = std::cos(state.climb());
   const double ground = state.ground_speed();
   const Vector3d travel(sA * cc, cA * cc, sc);
   // The antenna rotates about the rear axle.
-  const Vector3d arm = lever(p) + Vector3d(p.rear_axle_distance, 0.0, 0.0);
-  const Vector3d swing =
-      rotation_enu_body(state.attitude()) * Vector3d(0.0, 0.0, yaw_rate - x[gyro_bias]).cross(arm);
+  const Vector3d arm = state.gnss_lever() + Vector3d(x[axle_distance], 0.0, 0.0);
+  const Matrix3d R = rotation_enu_body(state.attitude());
+  const double rate = yaw_rate - x[gyro_bias];
+  const Vector3d swing = R * Vector3d(0.0, 0.0, rate).cross(arm);
 
   Innovation<3> innovation;
   innovation.residual = fix.velocity_enu - ground * travel - swing;  // (19) of METHOD.md
   innovation.H.col(speed) = travel / (1.0 + x[speed_scale]);
   innovation.H.col(speed_scale) = -ground / (1.0 + x[speed_scale]) * travel;
   innovation.H.middleCols<3>(azimuth) = turned_by_attitude(state.attitude(), swing);
-  innovation.H.col(azimuth) += ground * Vector3d(cA * cc, -sA * cc, 0.0);
+  innovation.H.col(course_offset) = ground * Vector3d(cA * cc, -sA * cc, 0.0);
+  innovation.H.col(azimuth) += innovation.H.col(course_offset);
   innovation.H.col(climb_offset) = ground * Vector3d(-sA * sc, -cA * sc, cc);
   innovation.H.col(pitch) += innovation.H.col(climb_offset);
-  innovation.H.col(gyro_bias) =
-      -(rotation_enu_body(state.attitude()) * Vector3d::UnitZ().cross(arm));
+  innovation.H.col(gyro_bias) = -(R * Vector3d::UnitZ().cross(arm));
+  innovation.H.col(axle_distance) = rate * R.col(1);
+  innovation.H.col(lever_forward) = rate * R.col(1);
+  innovation.H.col(lever_left) = -rate * R.col(0);
   const double slip = p.slip_sigma * ground;
   innovation.R =
       fix.velocity_covariance + slip * slip * (Matrix3d::Identity() - travel * travel.transpose());
@@ -121,7 +120,7 @@ Outcome apply_gnss_position(FilterState& state, const GnssFix& fix, const LocalF
       outcome = correct();
     } else if (state.gnss_gated_in_a_row >= 2 * p.gnss_recover_after &&
                check_fix(fix, p) == Reason::none) {
-      begin_anew(state, fix, frame, p);
+      restart_from(state, fix, frame, p);
       outcome = {};
     }
   }

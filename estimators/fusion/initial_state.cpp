@@ -23,6 +23,10 @@ void add_unknown_sensors(FilterState& state, const FusionParameters& p) {
   state.P(speed_scale, speed_scale) = scale_variance;
   state.P(speed, speed) += state.x[speed] * state.x[speed] * scale_variance;
   state.P(speed, speed_scale) = state.P(speed_scale, speed) = state.x[speed] * scale_variance;
+  state.x[axle_distance] = p.rear_axle_distance;
+  add(axle_distance, p.rear_axle_sigma);
+  state.x.segment<3>(lever_forward) << p.gnss_lever_forward, p.gnss_lever_left, p.gnss_lever_up;
+  for (int i = lever_forward; i <= lever_up; ++i) add(i, p.gnss_lever_sigma);
   add(lidar_scale, p.lidar_scale_sigma);
   add(lidar_turn, p.lidar_turn_sigma);
   for (int i = gnss_offset_east; i <= gnss_offset_up; ++i) add(i, 1.0);
@@ -63,8 +67,9 @@ FilterState initial_state(const KnownStart& k, const LocalFrame& frame, const Fu
   add(pitch, std::max(k.tilt_sigma, 1e-4));
   add(roll, std::max(k.tilt_sigma, 1e-4));
   add(climb_offset, p.climb_offset_sigma);
+  add(course_offset, p.course_offset_sigma);
   add_unknown_sensors(state, p);
-  take_clone(state);
+  start_clone(state);
   start_chain(state);
   return state;
 }
@@ -135,19 +140,31 @@ FilterState initial_state(const GnssFix& fix, const LocalFrame& frame, const Fus
   state.P.topLeftCorner<6, 6>() = J * C * J.transpose();
   const auto add = [&](int i, double sigma) { state.P(i, i) += sigma * sigma; };
   add(speed, p.start_acceleration * velocity_age);
-  add(azimuth, p.start_course_sigma);
+  // The azimuth is the course minus the course offset.
+  add(azimuth, std::hypot(p.start_course_sigma, p.course_offset_sigma));
+  add(course_offset, p.course_offset_sigma);
+  state.P(azimuth, course_offset) = -p.course_offset_sigma * p.course_offset_sigma;
+  state.P(course_offset, azimuth) = state.P(azimuth, course_offset);
   add(pitch, std::hypot(p.start_slope_sigma, p.climb_offset_sigma));
   add(climb_offset, p.climb_offset_sigma);
   state.P(pitch, climb_offset) = -p.climb_offset_sigma * p.climb_offset_sigma;
   state.P(climb_offset, pitch) = state.P(pitch, climb_offset);
   add(roll, p.start_roll_sigma);
   add_unknown_sensors(state, p);
+  // The fix is the position of the antenna.
+  const Eigen::Matrix3d R = rotation_enu_body(state.attitude());
+  const Eigen::Vector3d arm = R * state.gnss_lever();
+  StateMatrix to_origin = StateMatrix::Identity();
+  to_origin.block<3, 3>(east, lever_forward) = -R;
+  to_origin.block<3, 3>(east, azimuth) = -turned_by_attitude(state.attitude(), arm);
+  state.x.segment<3>(east) -= arm;
+  state.P = (to_origin * state.P * to_origin.transpose()).eval();
   // The lasting part of this fix's error is in the start position and also in later fixes.
   const Eigen::Matrix3d lasting = split_error(fix.position_covariance, p).lasting;
   state.P.block<3, 3>(east, gnss_offset_east) = -lasting;
   state.P.block<3, 3>(gnss_offset_east, east) = -lasting.transpose();
   state.gnss_stamp = fix.stamp;
-  take_clone(state);
+  start_clone(state);
   start_chain(state);
   return state;
 }

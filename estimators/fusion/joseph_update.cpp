@@ -31,8 +31,10 @@ void joseph_update(StateVector& x, StateMatrix& P, const Innovation<rows>& innov
 template struct Innovation<1>;
 template struct Innovation<2>;
 template struct Innovation<3>;
+template struct Innovation<6>;
 template void joseph_update(StateVector&, StateMatrix&, const Innovation<1>&, Considered);
 template void joseph_update(StateVector&, StateMatrix&, const Innovation<2>&, Considered);
 template void joseph_update(StateVector&, StateMatrix&, const Innovation<3>&, Considered);
+template void joseph_update(StateVector&, StateMatrix&, const Innovation<6>&, Considered);
 
 }  // namespace maploop::fusion

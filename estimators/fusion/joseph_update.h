@@ -24,6 +24,25 @@ struct Innovation {
     R << variance;
   }
 
+  // Returns `n` of the rows, from `first` on.
+  template <int n>
+  Innovation<n> part(int first) const {
+    Innovation<n> some;
+    some.residual = residual.template segment<n>(first);
+    some.H = H.template middleRows<n>(first);
+    some.R = R.template block<n, n>(first, first);
+    return some;
+  }
+
+  // Makes `n` rows, from `first` on, say nothing: an update does not change the state by them.
+  void leave_out(int first, int n) {
+    residual.segment(first, n).setZero();
+    H.middleRows(first, n).setZero();
+    R.middleRows(first, n).setZero();
+    R.middleCols(first, n).setZero();
+    R.diagonal().segment(first, n).setOnes();
+  }
+
   Eigen::Matrix<double, rows, rows> covariance(const StateMatrix& P) const;
 
   // Returns the normalized innovation squared, which is chi-square distributed with `rows` degrees
@@ -57,5 +76,6 @@ Outcome apply_gated(FilterState& state, const Innovation<rows>& innovation, doub
 extern template struct Innovation<1>;
 extern template struct Innovation<2>;
 extern template struct Innovation<3>;
+extern template struct Innovation<6>;
 
 }  // namespace maploop::fusion

@@ -18,10 +18,12 @@ void set_known(FilterState& state, int i, double value, double sigma) {
 void reset(FilterState& state, const MapFeedback& feedback, const LocalFrame& frame) {
   using namespace index;
   const Eigen::Vector3d point = frame.to_enu(feedback.point);
+  const OdomPose odom = state.odom();
   set_known(state, east, point.x(), feedback.cross_sigma);
   set_known(state, north, point.y(), feedback.cross_sigma);
   set_known(state, azimuth, feedback.link_azimuth, feedback.azimuth_sigma);
-  take_clone(state);
+  copy_to_clone(state);
+  state.odom_at_clone = odom;
   start_chain(state);
 }
 

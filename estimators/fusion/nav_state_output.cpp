@@ -7,14 +7,16 @@ namespace maploop::fusion {
 namespace {
 
 Eigen::Vector3d direction_of_travel(const StateVector& x) {
-  return direction(x[index::azimuth], x[index::pitch] + x[index::climb_offset]);
+  return direction(x[index::azimuth] + x[index::course_offset],
+                   x[index::pitch] + x[index::climb_offset]);
 }
 
 }  // namespace
 
 Eigen::Matrix<double, 9, index::count> nav_state_jacobian(const StateVector& x) {
   using namespace index;
-  const double sA = std::sin(x[azimuth]), cA = std::cos(x[azimuth]);
+  const double course = x[azimuth] + x[course_offset];
+  const double sA = std::sin(course), cA = std::cos(course);
   const double climb = x[pitch] + x[climb_offset];
   const double sc = std::sin(climb), cc = std::cos(climb);
   Eigen::Matrix<double, 9, count> J = Eigen::Matrix<double, 9, count>::Zero();
@@ -27,6 +29,7 @@ Eigen::Matrix<double, 9, index::count> nav_state_jacobian(const StateVector& x) 
   J.block<3, 1>(3, azimuth) << ground * cA * cc, -ground * sA * cc, 0.0;
   J.block<3, 1>(3, pitch) << -ground * sA * sc, -ground * cA * sc, ground * cc;
   J.block<3, 1>(3, climb_offset) = J.block<3, 1>(3, pitch);
+  J.block<3, 1>(3, course_offset) = J.block<3, 1>(3, azimuth);
   J.block<3, 3>(6, azimuth).setIdentity();
   return J;
 }
@@ -50,7 +53,7 @@ NavState nav_state(const FilterState& state, const Geodetic& origin,
   const Eigen::Vector3d travel = direction_of_travel(state.x);
   const Eigen::Vector3d left(-std::cos(nav.attitude.azimuth), std::sin(nav.attitude.azimuth), 0.0);
   nav.velocity_enu = nav.forward_speed * travel + (state.yaw_rate - state.x[index::gyro_bias]) *
-                                                      parameters.rear_axle_distance * left;
+                                                      state.x[index::axle_distance] * left;
   const Eigen::Matrix<double, 9, 9> covariance = J * state.P * J.transpose();
   nav.covariance = 0.5 * (covariance + covariance.transpose());
   const double slip = parameters.slip_sigma * nav.forward_speed;
@@ -66,6 +69,20 @@ NavState nav_state(const FilterState& state, const Geodetic& origin,
   nav.odometry_applied = state.odometry_applied;
   nav.odometry_refused = state.odometry_refused;
   return nav;
+}
+
+FusedState fused_state(const FilterState& state, const Geodetic& origin,
+                       const FusionParameters& parameters) {
+  FusedState fused;
+  static_cast<NavState&>(fused) = nav_state(state, origin, parameters);
+  static_cast<Sample&>(fused.odom) = fused;
+  fused.odom.status = fused.status;
+  const OdomPose pose = state.odom();
+  fused.odom.position = pose.position;
+  fused.odom.attitude = attitude_from_rotation(pose.rotation.toRotationMatrix());
+  fused.odom.velocity_body = rotation_enu_body(fused.attitude).transpose() * fused.velocity_enu;
+  fused.odom.yaw_rate = state.yaw_rate - state.x[index::gyro_bias];
+  return fused;
 }
 
 }  // namespace maploop::fusion

@@ -1,9 +1,9 @@
-// The filter's state is converted here to the message that other parts of the system read.
+// The filter's state is converted here to the messages that other parts of the system read.
 #pragma once
 
 #include "estimators/fusion/filter_state.h"
 #include "estimators/fusion/fusion_parameters.h"
-#include "msgs/nav_state.h"
+#include "msgs/odom_state.h"
 
 namespace maploop::fusion {
 
@@ -16,5 +16,9 @@ Eigen::Matrix<double, 9, index::count> nav_state_jacobian(const StateVector& x);
 // `sequence`.
 NavState nav_state(const FilterState& state, const Geodetic& origin,
                    const FusionParameters& parameters);
+
+// Adds the pose in the frame of odometry.
+FusedState fused_state(const FilterState& state, const Geodetic& origin,
+                       const FusionParameters& parameters);
 
 }  // namespace maploop::fusion

@@ -48,60 +48,52 @@ Arc arc(const RelativeMotion& motion) {
     // (12) of METHOD.md
     to_arc = half / std::sin(half) * Eigen::AngleAxisd(-half, turn.normalized()).toRotationMatrix();
   }
-  return {to_arc * motion.translation,
-          to_arc * motion.covariance.topLeftCorner<3, 3>() * to_arc.transpose()};
+  return {to_arc * motion.translation, to_arc};
 }
 
-Innovation<1> distance_innovation(const FilterState& state, const RelativeMotion& motion,
-                                  const FusionParameters& parameters) {
-  const Arc travelled = arc(motion);
-  const double floor = parameters.min_speed_sigma * to_seconds(motion.stamp - motion.from);
-  const Gain gain = gain_of(state, motion);
-  // (13) of METHOD.md
-  Innovation<1> innovation(travelled.displacement.x() - gain.value * state.x[index::distance],
-                           travelled.covariance(0, 0) + floor * floor);
-  innovation.H = state.x[index::distance] * gain.by_state.transpose();
-  innovation.H[index::distance] = gain.value;
-  return innovation;
-}
-
-Innovation<1> climb_innovation(const FilterState& state, const RelativeMotion& motion,
-                               const FusionParameters& parameters) {
-  const Arc travelled = arc(motion);
-  const double distance = state.x[index::distance];
-  const Gain gain = gain_of(state, motion);
-  const double offset = state.x[index::climb_offset];
-  const double heave = parameters.climb_noise * distance;
-  const double floor = parameters.min_speed_sigma * to_seconds(motion.stamp - motion.from);
-  // (14) of METHOD.md
-  Innovation<1> innovation(travelled.displacement.z() - gain.value * distance * offset,
-                           travelled.covariance(2, 2) + heave * heave + floor * floor);
-  innovation.H = distance * offset * gain.by_state.transpose();
-  innovation.H[index::climb_offset] = gain.value * distance;
-  innovation.H[index::distance] = gain.value * offset;
-  return innovation;
-}
-
-Innovation<3> rotation_innovation(const FilterState& state, const RelativeMotion& motion,
-                                  const FusionParameters& parameters) {
+Innovation<6> motion_innovation(const FilterState& state, const RelativeMotion& motion,
+                                const FusionParameters& parameters) {
+  using namespace index;
   const Attitude now = state.attitude();
   const Attitude clone = state.clone_attitude();
   const Matrix3d R_clone_enu = rotation_enu_body(clone).transpose();
-  const Matrix3d predicted = R_clone_enu * rotation_enu_body(now);
-  const double floor = parameters.min_rotation_sigma;
+  const Matrix3d axes_of_clone = attitude_rate_axes(clone);
+  const Arc travelled = arc(motion);
+  const Gain gain = gain_of(state, motion);
+  const Vector3d moved = state.moved();
+  const Matrix3d to_arc = travelled.to_arc * R_clone_enu;  // from enu
 
-  Innovation<3> innovation;
-  // (15) of METHOD.md
-  innovation.residual = rotation_vector(
-      Eigen::Quaterniond(Matrix3d(motion.rotation.toRotationMatrix() * predicted.transpose())));
-  innovation.H.middleCols<3>(index::azimuth) = R_clone_enu * attitude_rate_axes(now);
-  innovation.H.middleCols<3>(index::clone_azimuth) = -R_clone_enu * attitude_rate_axes(clone);
-  if (by_ranges(motion)) {
-    const double way = arc(motion).displacement.x();
-    innovation.residual.z() -= way * state.x[index::lidar_turn];
-    innovation.H(2, index::lidar_turn) = way;
+  Innovation<6> innovation;
+  // (13) of METHOD.md
+  innovation.residual[0] = travelled.displacement.x() - gain.value * state.x[distance];
+  innovation.H.row(0) = state.x[distance] * gain.by_state.transpose();
+  innovation.H(0, distance) = gain.value;
+  // (14) of METHOD.md
+  innovation.residual.segment<2>(1) = (travelled.displacement - to_arc * moved).tail<2>();
+  innovation.H.block<2, 3>(1, east) = to_arc.bottomRows<2>();
+  innovation.H.block<2, 3>(1, clone_east) = -to_arc.bottomRows<2>();
+  for (int i = 0; i < 3; ++i) {
+    innovation.H.block<2, 1>(1, clone_azimuth + i) =
+        (to_arc * moved.cross(axes_of_clone.col(i))).tail<2>();
   }
-  innovation.R = motion.covariance.bottomRightCorner<3, 3>() + floor * floor * Matrix3d::Identity();
+  // (15) of METHOD.md
+  const Matrix3d predicted = R_clone_enu * rotation_enu_body(now);
+  innovation.residual.tail<3>() = rotation_vector(
+      Eigen::Quaterniond(Matrix3d(motion.rotation.toRotationMatrix() * predicted.transpose())));
+  innovation.H.block<3, 3>(3, azimuth) = R_clone_enu * attitude_rate_axes(now);
+  innovation.H.block<3, 3>(3, clone_azimuth) = -R_clone_enu * axes_of_clone;
+  if (by_ranges(motion)) {
+    const double way = travelled.displacement.x();
+    innovation.residual[5] -= way * state.x[lidar_turn];
+    innovation.H(5, lidar_turn) = way;
+  }
+  Eigen::Matrix<double, 6, 6> to_rows = Eigen::Matrix<double, 6, 6>::Identity();
+  to_rows.topLeftCorner<3, 3>() = travelled.to_arc;
+  innovation.R = to_rows * motion.covariance * to_rows.transpose();
+  const double least_way = parameters.min_speed_sigma * to_seconds(motion.stamp - motion.from);
+  innovation.R.diagonal().head<3>().array() += least_way * least_way;
+  innovation.R.diagonal().tail<3>().array() +=
+      parameters.min_rotation_sigma * parameters.min_rotation_sigma;
   return innovation;
 }
 

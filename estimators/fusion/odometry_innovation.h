@@ -14,25 +14,19 @@ namespace maploop::fusion {
 // lies a/2 away from the forward axis, and its length is sin(a/2) / (a/2) of the arc's.
 struct Arc {
   Eigen::Vector3d displacement;  // m
-  Eigen::Matrix3d covariance;    // m^2
+  Eigen::Matrix3d to_arc;        // turns and scales the translation to it
 };
 Arc arc(const RelativeMotion& motion);
 
-// z = forward displacement, m; h = distance as the visual odometry measures it. For a LiDAR's
-// motion, h has the LiDAR's scale instead of the speed sensor's. This is exact for any speed
-// profile, as the filter integrates its own speed over the same interval.
-Innovation<1> distance_innovation(const FilterState& state, const RelativeMotion& motion,
-                                  const FusionParameters& parameters);
-
-// z = upward displacement, m; h = (h of the distance) * climb offset.
-Innovation<1> climb_innovation(const FilterState& state, const RelativeMotion& motion,
-                               const FusionParameters& parameters);
-
-// z = rotation; h = R(clone)^T R(now), which for a LiDAR's motion is turned further by its turning
-// error. The residual is a rotation vector (rad) in the body frame at `from`, in which the
-// odometry's covariance is given too.
-Innovation<3> rotation_innovation(const FilterState& state, const RelativeMotion& motion,
-                                  const FusionParameters& parameters);
+// Compares a motion with the pose relative to the clone, in the order of MotionDirection. The first
+// three rows are the arc's displacement (m), with R the motion's covariance:
+//   along       h = distance as the speed sensor measures it, which is exact for any speed profile;
+//               for a LiDAR's motion it has the LiDAR's scale instead
+//   across, up  h = displacement of the position, turned like the arc
+// The last three are the rotation as a rotation vector (rad) in the body frame at `from`: h =
+// R(clone)^T R(now), which for a LiDAR's motion is turned further by its turning error.
+Innovation<6> motion_innovation(const FilterState& state, const RelativeMotion& motion,
+                                const FusionParameters& parameters);
 
 // z = azimuth chained from odometry alone (thesis); h = azimuth + drift of the chain, rad.
 Innovation<1> chained_azimuth_innovation(const FilterState& state,

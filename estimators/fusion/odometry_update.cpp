@@ -37,7 +37,7 @@ void doubt_rotation(FilterState& state, const RelativeMotion& motion, const Fusi
   using namespace index;
   const double interval = to_seconds(motion.stamp - motion.from);
   const double alone = to_seconds(motion.from - std::max(state.odometry_stamp, state.start));
-  const double contradiction = std::abs(rotation_innovation(state, motion, p).residual.z());
+  const double contradiction = std::abs(motion_innovation(state, motion, p).residual[5]);
   const double before = std::max(0.0, alone / interval) * contradiction;
   const Vector3d aside = -0.5 * to_seconds(motion.stamp - aided_at(state, p)) * state.x[speed] *
                          rotation_enu_body(state.attitude()).col(1);
@@ -54,17 +54,6 @@ void doubt_rotation(FilterState& state, const RelativeMotion& motion, const Fusi
   state.P(gyro_bias, gyro_bias) += p.gyro_bias_sigma * p.gyro_bias_sigma;
 }
 
-// Keeps only the rotation about the horizontal axes.
-Innovation<2> tilt_innovation(const FilterState& state, const RelativeMotion& motion,
-                              const FusionParameters& parameters) {
-  const Innovation<3> all = rotation_innovation(state, motion, parameters);
-  Innovation<2> innovation;
-  innovation.residual = all.residual.head<2>();
-  innovation.H = all.H.topRows<2>();
-  innovation.R = all.R.topLeftCorner<2, 2>();
-  return innovation;
-}
-
 // Adds the motion's turning to the chained azimuth.
 void chain(FilterState& state, const RelativeMotion& motion) {
   Attitude start = state.clone_attitude();
@@ -74,18 +63,29 @@ void chain(FilterState& state, const RelativeMotion& motion) {
   state.P(index::chain_drift, index::chain_drift) += motion.covariance(5, 5);
 }
 
-Outcome correct_turning(FilterState& state, const RelativeMotion& motion,
-                        const FusionParameters& p) {
-  if (p.use_odometry_azimuth && !p.chain_odometry_azimuth) {
-    return apply_gated(state, rotation_innovation(state, motion, p), p.rotation_gate,
-                       Reason::rotation_gate);
+// Returns whether the state agrees with `n` rows of the motion.
+template <int n>
+bool agrees(const FilterState& state, const Innovation<6>& all, int first, double gate) {
+  return all.part<n>(first).nis(state.P) <= gate;  // (10) of METHOD.md
+}
+
+// Corrects by those rows that the configuration uses, or refuses the motion.
+Outcome correct_pose(FilterState& state, Innovation<6> rows, const FusionParameters& p) {
+  if (p.use_odometry_speed) {
+    if (!agrees<1>(state, rows, 0, p.speed_gate)) return refused(Reason::speed_gate);
+    // Where the vehicle slips or heaves, the rest of the motion is still right.
+    if (!agrees<2>(state, rows, 1, p.sideways_gate)) rows.leave_out(1, 2);
+  } else {
+    rows.leave_out(0, 3);
   }
-  Outcome outcome =
-      apply_gated(state, tilt_innovation(state, motion, p), p.rotation_gate, Reason::rotation_gate);
-  if (outcome.refused() || !p.use_odometry_azimuth) return outcome;
-  chain(state, motion);
-  return apply_gated(state, chained_azimuth_innovation(state, p), p.speed_gate,
-                     Reason::rotation_gate);
+  const bool turning = p.use_odometry_azimuth && !p.chain_odometry_azimuth;
+  if (!(turning ? agrees<3>(state, rows, 3, p.rotation_gate)
+                : agrees<2>(state, rows, 3, p.rotation_gate))) {
+    return refused(Reason::rotation_gate);
+  }
+  if (!turning) rows.leave_out(5, 1);
+  joseph_update(state.x, state.P, rows);
+  return {};
 }
 
 // Applies all corrections or leaves the state unchanged.
@@ -93,17 +93,13 @@ Outcome correct(FilterState& state, const RelativeMotion& motion, const FusionPa
   const StateVector x = state.x;
   const StateMatrix P = state.P;
   const double chained = state.chained_azimuth;
-  const Innovation<3> turning = rotation_innovation(state, motion, p);
-  const double turning_variance = turning.covariance(P)(2, 2);
-  Outcome outcome;
-  if (p.use_odometry_speed) {
-    outcome =
-        apply_gated(state, distance_innovation(state, motion, p), p.speed_gate, Reason::speed_gate);
-  }
-  if (!outcome.refused()) outcome = correct_turning(state, motion, p);
-  if (!outcome.refused() && p.use_odometry_speed) {
-    // A gated climb is skipped without refusing the motion.
-    apply_gated(state, climb_innovation(state, motion, p), p.speed_gate, Reason::speed_gate);
+  const Innovation<6> rows = motion_innovation(state, motion, p);
+  const double turning_variance = rows.part<1>(5).covariance(P)(0, 0);
+  Outcome outcome = correct_pose(state, rows, p);
+  if (!outcome.refused() && p.use_odometry_azimuth && p.chain_odometry_azimuth) {
+    chain(state, motion);
+    outcome = apply_gated(state, chained_azimuth_innovation(state, p), p.speed_gate,
+                          Reason::rotation_gate);
   }
   if (!outcome.refused() && (std::abs(state.x[index::pitch]) > p.max_tilt ||
                              std::abs(state.x[index::roll]) > p.max_tilt)) {
@@ -114,8 +110,7 @@ Outcome correct(FilterState& state, const RelativeMotion& motion, const FusionPa
     state.P = P;
     state.chained_azimuth = chained;
   } else {
-    state.imu_delay.add(state.yaw_rate - state.clone_yaw_rate, turning.residual.z(),
-                        turning_variance);
+    state.imu_delay.add(state.yaw_rate - state.clone_yaw_rate, rows.residual[5], turning_variance);
   }
   return outcome;
 }
@@ -136,6 +131,8 @@ bool drives_backward(const FilterState& state, const RelativeMotion& motion,
 void turn_round(FilterState& state) {
   using namespace index;
   StateVector& x = state.x;
+  state.odom_at_clone.rotation *=
+      Eigen::AngleAxisd(std::numbers::pi, Vector3d::UnitZ()) * Eigen::Quaterniond::Identity();
   x[azimuth] = wrap_angle(x[azimuth] + std::numbers::pi);
   x[clone_azimuth] = wrap_angle(x[clone_azimuth] + std::numbers::pi);
   x[pitch] = -x[pitch] - 2.0 * x[climb_offset];

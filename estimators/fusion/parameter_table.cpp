@@ -141,6 +141,8 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
       {"rear_axle_distance", &P::rear_axle_distance, -5.0, 5.0, "m", usual,
        "Distance from the rear axle forward to the origin of the body. A recording may know the "
        "value of its car, which holds where this key is absent."},
+      {"rear_axle_sigma", &P::rear_axle_sigma, 0.0, 5.0, "m", usual,
+       "Standard deviation of rear_axle_distance, which the filter estimates in turns."},
       {"slip_sigma", &P::slip_sigma, tiny, 1.0, "rad", expert,
        "Standard deviation of the angle between the direction of travel and the body's axis."},
       {"slip_time", &P::slip_time, 0.0, large, "s", expert, "Correlation time of that angle."},
@@ -153,9 +155,11 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
        "where this key is absent."},
       {"climb_offset_time", &P::climb_offset_time, 1.0, large, "s", expert,
        "Correlation time of climb_offset: the mounting stays, the load shifts."},
-      {"climb_noise", &P::climb_noise, tiny, 1.0, "rad", expert,
-       "Standard deviation of the climb angle from frame to frame: heave and the vertical error of "
-       "odometry."},
+      {"course_offset_sigma", &P::course_offset_sigma, tiny, 1.0, "rad", usual,
+       "Standard deviation at the start of the angle by which the vehicle travels to the right of "
+       "the body's x axis, from the mounting of the inertial unit."},
+      {"course_offset_walk", &P::course_offset_walk, 0.0, 1.0, "rad/sqrt(s)", expert,
+       "Random walk of that angle."},
       {"max_tilt", &P::max_tilt, 0.1, 1.5, "rad", expert,
        "A correction that leads to more roll or pitch is refused, because no road vehicle leans so "
        "far."},
@@ -195,6 +199,8 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
        "Position of the antenna from the body's origin, to the left."},
       {"gnss_lever_up", &P::gnss_lever_up, -50.0, 50.0, "m", usual,
        "Position of the antenna from the body's origin, upward."},
+      {"gnss_lever_sigma", &P::gnss_lever_sigma, 0.0, 50.0, "m", usual,
+       "Standard deviation of that position on each axis, which the filter estimates in turns."},
 
       {"map_position_gate", &P::map_position_gate, tiny, large, "1", expert,
        "Gate of the position across the road (chi-square, 1 degree of freedom); the default has a "
@@ -253,6 +259,10 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
        "0.02 to 0.06 deg."},
       {"speed_gate", &P::speed_gate, tiny, large, "1", expert,
        "Gate of the speed (chi-square, 1 degree of freedom); the default has a tail of 0.1 %."},
+      {"sideways_gate", &P::sideways_gate, tiny, large, "1", expert,
+       "Gate of a motion across and up (chi-square, 2 degrees of freedom), which are left out "
+       "where "
+       "they contradict the prediction; the default has a tail of 0.1 %."},
       {"rotation_gate", &P::rotation_gate, tiny, large, "1", expert,
        "Gate of the rotation (chi-square, 3 degrees of freedom); the default has a tail of 0.1 %."},
       {"chained_azimuth_sigma", &P::chained_azimuth_sigma, tiny, 1.0, "rad", expert,

@@ -30,6 +30,8 @@ EventKey last_key_at(Time stamp) {
 ReducedImuFilter::ReducedImuFilter(const FusionParameters& parameters,
                                    std::optional<Geodetic> origin)
     : parameters_(checked(parameters)),
+      sigmas_at_start_(
+          initial_state(KnownStart{}, LocalFrame{}, parameters_).P.diagonal().cwiseSqrt()),
       has_origin_(origin.has_value()),
       frame_(origin.value_or(Geodetic{})),
       earth_(frame_.origin()),
@@ -239,10 +241,11 @@ FilterStatus ReducedImuFilter::status() const {
   status.recoveries = newest.recoveries;
   status.reinitializations = newest.reinitializations;
   status.imu_delay = newest.imu_delay;
+  status.calibration = self_calibrations(newest, sigmas_at_start_);
   return status;
 }
 
-std::optional<NavState> ReducedImuFilter::state_at(Time t) const {
+std::optional<FusedState> ReducedImuFilter::state_at(Time t) const {
   if (!initialized_ || t < history_.past.state.stamp ||
       t > guard_.newest() + from_seconds(parameters_.max_gap)) {
     return std::nullopt;
@@ -250,7 +253,7 @@ std::optional<NavState> ReducedImuFilter::state_at(Time t) const {
   const std::size_t position = history_.position_after(last_key_at(t));
   FilterState state = history_.state_before(position);
   advance(state, history_.samples_around(position), t, earth_, parameters_);
-  return nav_state(state, frame_.origin(), parameters_);
+  return fused_state(state, frame_.origin(), parameters_);
 }
 
 void ReducedImuFilter::take_over(const ReducedImuFilter& other) {
@@ -262,7 +265,7 @@ void ReducedImuFilter::take_over(const ReducedImuFilter& other) {
 
 template <class Archive, class Filter>
 void ReducedImuFilter::describe(Archive& ar, Filter& f) {
-  ar.section("reduced-IMU filter", 2);
+  ar.section("reduced-IMU filter", 3);
   archive_same_parameters(ar, f.parameters_);
   Geodetic origin = f.frame_.origin();
   ar(f.has_origin_, origin, f.guard_, f.imu_clock_, f.history_, f.initialized_, f.status_);

@@ -12,12 +12,13 @@
 #include "estimators/fusion/fusion_parameters.h"
 #include "estimators/fusion/initial_state.h"
 #include "estimators/fusion/outcome.h"
+#include "estimators/fusion/self_calibration.h"
 #include "estimators/fusion/sensor_clock.h"
 #include "estimators/fusion/stamp_guard.h"
 #include "msgs/gnss.h"
 #include "msgs/local_frame.h"
 #include "msgs/map_feedback.h"
-#include "msgs/nav_state.h"
+#include "msgs/odom_state.h"
 #include "msgs/wheel_speed.h"
 
 namespace maploop {
@@ -38,6 +39,7 @@ struct FilterStatus {
   std::uint64_t recoveries = 0;  // covariance inflations after consecutive gated measurements
   std::uint64_t reinitializations = 0;  // restarts from a fix after consecutive gated fixes
   DelayEstimate imu_delay;              // remaining delay of the inertial stamps against odometry
+  SelfCalibrations calibration;         // unknown (sigma 0) before the start
   std::uint64_t restarts = 0;           // restarts after a jump of the data's clock
   std::uint64_t shortened = 0;          // events dropped early because the history was full
   std::uint64_t restorations = 0;       // times a map-free copy replaced the filter
@@ -103,7 +105,7 @@ class ReducedImuFilter {
   // inertial sample after t, for the interpolation). After the newest measurement the state is
   // predicted. Returns nothing before the start, before the history begins, or more than `max_gap`
   // after its end.
-  std::optional<NavState> state_at(Time t) const;
+  std::optional<FusedState> state_at(Time t) const;
 
   // Returns the stamp of the newest measurement, or of the start; epoch 0 if there is no
   // measurement.
@@ -147,6 +149,7 @@ class ReducedImuFilter {
   void roll_forward(std::size_t position);
 
   FusionParameters parameters_;
+  StateVector sigmas_at_start_;
   bool has_origin_ = false;
   LocalFrame frame_;
   LocalEarth earth_;

@@ -27,6 +27,18 @@ void convert(auto copy, Is<NavState> auto& state, auto& m) {
 }
 MAPLOOP_CONVERSIONS(NavState, maploop_lcm::nav_state_t)
 
+void convert(auto copy, Is<OdomState> auto& state, auto& m) {
+  copy.header(state, m.header);
+  copy.choice(state.status, m.status, "odom_state_t.status");
+  copy(state.position, m.position);
+  copy(state.attitude.azimuth, m.azimuth);
+  copy(state.attitude.pitch, m.pitch);
+  copy(state.attitude.roll, m.roll);
+  copy(state.velocity_body, m.velocity_body);
+  copy(state.yaw_rate, m.yaw_rate);
+}
+MAPLOOP_CONVERSIONS(OdomState, maploop_lcm::odom_state_t)
+
 void convert_motion(auto copy, auto& motion, auto& m) {
   copy.header(motion, m.header);
   copy.choice(motion.status, m.status, "relative_motion_t.status");

@@ -12,6 +12,7 @@
 #include <maploop_lcm/map_feedback_t.hpp>
 #include <maploop_lcm/map_match_t.hpp>
 #include <maploop_lcm/nav_state_t.hpp>
+#include <maploop_lcm/odom_state_t.hpp>
 #include <maploop_lcm/ppp_state_t.hpp>
 #include <maploop_lcm/preview_t.hpp>
 #include <maploop_lcm/reference_pose_t.hpp>
@@ -28,6 +29,7 @@
 #include "msgs/map_feedback.h"
 #include "msgs/map_match.h"
 #include "msgs/nav_state.h"
+#include "msgs/odom_state.h"
 #include "msgs/odometry.h"
 #include "msgs/ppp_state.h"
 #include "msgs/preview.h"
@@ -37,6 +39,7 @@
 namespace maploop {
 
 maploop_lcm::nav_state_t to_lcm(const NavState& state);
+maploop_lcm::odom_state_t to_lcm(const OdomState& state);
 maploop_lcm::relative_motion_t to_lcm(const RelativeMotion& motion);
 maploop_lcm::lidar_motion_t to_lcm(const LidarMotion& motion);
 maploop_lcm::imu_t to_lcm(const ImuSample& sample);
@@ -56,6 +59,7 @@ maploop_lcm::lidar_scan_t to_lcm(const LidarScan& scan);
 // These throw std::invalid_argument if the struct cannot hold a value: an unknown status, more
 // candidates than a match has, a size that contradicts the rest.
 NavState from_lcm(const maploop_lcm::nav_state_t& message);
+OdomState from_lcm(const maploop_lcm::odom_state_t& message);
 RelativeMotion from_lcm(const maploop_lcm::relative_motion_t& message);
 LidarMotion from_lcm(const maploop_lcm::lidar_motion_t& message);
 ImuSample from_lcm(const maploop_lcm::imu_t& message);

@@ -89,9 +89,10 @@ T value_of(const auto& message) {
 template <class T>
 class Message : public ::testing::Test {};
 
-using Messages = ::testing::Types<NavState, RelativeMotion, LidarMotion, ImuSample, WheelSpeed,
-                                  GnssFix, ReferencePose, MapMatch, MapFeedback, PppState, Preview,
-                                  Deadlines, Health, VehicleCalibration, StereoPair, LidarScan>;
+using Messages =
+    ::testing::Types<NavState, OdomState, RelativeMotion, LidarMotion, ImuSample, WheelSpeed,
+                     GnssFix, ReferencePose, MapMatch, MapFeedback, PppState, Preview, Deadlines,
+                     Health, VehicleCalibration, StereoPair, LidarScan>;
 TYPED_TEST_SUITE(Message, Messages);
 
 template <class T>

@@ -58,7 +58,8 @@ void add_replay(CLI::App& app, Command& command) {
                   "Go on from a snapshot of the same drive, with the same bits")
       ->check(existing_file());
   sub->add_option("--configuration", options.configuration,
-                  "What joins the inertial sensors: VO-RI, VO-L-RI, RISS or RISS-VO; GNSS+ before "
+                  "What joins the inertial sensors: auto (all that is there), VO-RI, VO-L-RI, RISS "
+                  "or RISS-VO; GNSS+ before "
                   "it: fixes are used after the start too. Without it, --speed-scale "
                   "means RISS, and --gnss-outage adds GNSS+")
       ->check(parsed_by(fusion::configuration, "NAME"));

@@ -78,7 +78,8 @@ struct ReplayResult {
   std::optional<MapUse> map;
   std::optional<Accuracy> vo;  // nothing where there is too little to score
   std::optional<Accuracy> lidar;
-  std::optional<Accuracy> fused;
+  std::optional<Accuracy> fused;  // in the frame of the map
+  std::optional<Accuracy> odom;   // the same in the frame of odometry
   std::optional<PppEpochs> ppp;
   std::optional<fusion_score::Score> navigation;  // of NAV_STATE, as it was sent
   std::optional<match::MatchScore> links;         // of MAP_MATCH, where the links are known

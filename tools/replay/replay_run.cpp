@@ -36,7 +36,8 @@ std::string drive_name(const ReplayOptions& options) {
 std::string configuration_of(const ReplayOptions& options, const vehicle::VehicleConfig& config) {
   if (!options.configuration.empty()) return options.configuration;
   const std::string name = options.speed_scale ? "RISS" : config.configuration;
-  const bool adds_fixes = !options.gnss_outage.empty() && !name.starts_with("GNSS+");
+  const bool adds_fixes =
+      !options.gnss_outage.empty() && name != "auto" && !name.starts_with("GNSS+");
   return adds_fixes ? "GNSS+" + name : name;
 }
 

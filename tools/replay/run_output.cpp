@@ -18,7 +18,8 @@ namespace {
 
 void write_states(const RunOptions& options, const RunPass& pass,
                   const Eigen::Isometry3d& T_body_cam) {
-  const evaluation::StampedTrajectory fused = pass.fused.poses(T_body_cam);
+  const evaluation::StampedTrajectory fused =
+      (options.frame == OutputFrame::odom ? pass.odom : pass.fused).poses(T_body_cam);
   for (const std::filesystem::path& file : {options.poses, options.tum}) {
     if (!file.empty() && fused.poses.empty())
       throw std::runtime_error(
@@ -64,6 +65,9 @@ void add_run_options(CLI::App* sub, RunOptions& options) {
   add_output(sub, "--poses", options.poses,
              "Write the fused left-camera poses to this file in KITTI's format");
   add_output(sub, "--tum", options.tum, "The same in TUM's format, with stamps");
+  add_choice(sub, "--frame", options.frame,
+             "Of --poses and --tum: map, which is absolute and may jump, or odom, which is "
+             "continuous and drifts");
   add_output(sub, "--csv", options.csv,
              "Write the fused state every 100 ms to this file, with what its aids said");
   add_output(sub, "--nmea", options.nmea,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "msgs/named_enum.h"
 #include "runtime/core/realtime.h"
 #include "runtime/core/trace.h"
 #include "runtime/vehicle/config/vehicle_config.h"
@@ -21,6 +23,13 @@
 namespace maploop::tools {
 
 // Files that are empty are not written.
+// The frame of the written poses: `map` is absolute and may jump, `odom` is continuous and drifts.
+enum class OutputFrame : std::uint8_t { map, odom };
+
+constexpr auto names_of(OutputFrame) {
+  return names_up_to<OutputFrame::odom>({"map", "odom"});
+}
+
 struct RunOptions {
   std::filesystem::path config;
   bool verbose = false;  // the tables at the end, and every real-time setting
@@ -30,6 +39,7 @@ struct RunOptions {
   std::string lcm_url;  // empty: vehicle::bus_url() chooses one
   std::filesystem::path json, report, trace;
   std::filesystem::path poses, tum, csv, nmea;  // of the fused state
+  std::optional<OutputFrame> frame;             // of poses and tum; map without it
   std::filesystem::path map;
   std::optional<vehicle::MapMode> map_mode;
 

@@ -28,9 +28,9 @@ match::MatchScore links_score(const RunPass& pass, const vehicle::DrivenLinksFil
 
 }  // namespace
 
-void TrajectoryCollector::add(const NavState& state) {
-  poses_[state.stamp] = Eigen::Translation3d(state.position_enu) *
-                        Eigen::Isometry3d(rotation_enu_body(state.attitude));
+void TrajectoryCollector::add(Time stamp, const Eigen::Vector3d& position,
+                              const Attitude& attitude) {
+  poses_[stamp] = Eigen::Translation3d(position) * Eigen::Isometry3d(rotation_enu_body(attitude));
 }
 
 evaluation::StampedTrajectory TrajectoryCollector::poses(
@@ -72,7 +72,10 @@ vehicle::Observer RunPass::observer() {
   vehicle::Observer o = end_observer();
   o.odometry = [this](const RelativeMotion& motion) { odometry.add(motion); };
   o.lidar = [this](const LidarMotion& motion) { lidar.add(motion); };
-  o.image_state = [this](const NavState& state) { fused.add(state); };
+  o.image_state = [this](const FusedState& state) {
+    fused.add(state.stamp, state.position_enu, state.attitude);
+    odom.add(state.stamp, state.odom.position, state.odom.attitude);
+  };
   o.ppp = [this](const PppState& state) { ppp_states[state.stamp] = state; };
   o.nav_state = [this, last = o.nav_state](const NavState& state) {
     track.add(state);
@@ -106,6 +109,7 @@ void score(ReplayResult& result, const RunPass& pass, const vehicle::Recording& 
   result.vo = accuracy(pass.odometry);
   result.lidar = accuracy(pass.lidar);
   result.fused = accuracy(pass.fused);
+  result.odom = accuracy(pass.odom);
   result.navigation =
       fusion_score::score(pass.track, reference, recording.outages, recording.first_stamp);
 }

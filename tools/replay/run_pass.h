@@ -27,8 +27,8 @@ class TrajectoryCollector {
   // Odometry is chained, in its first frame of the body. A refused motion is replaced by the last
   // velocities.
   void add(const RelativeMotion& motion) { poses_[motion.stamp] = chain_.add(motion); }
-  // A fused state is a pose in `enu`.
-  void add(const NavState& state);
+  // A fused state is a pose in `enu`, or in the frame of odometry.
+  void add(Time stamp, const Eigen::Vector3d& position, const Attitude& attitude);
 
   // Returns T_frame_body at each stamp, times `T_body_point`.
   evaluation::StampedTrajectory poses(
@@ -64,9 +64,9 @@ struct RunPass {
   vehicle::Observer end_observer();
 
   vehicle::ChannelHashes hashes;
-  vehicle::ChannelHashes hashes_after;             // of messages after the cut
-  std::unique_ptr<vehicle::LogRecorder> recorder;  // nullptr: no log was asked for
-  TrajectoryCollector odometry, lidar, fused;      // at images
+  vehicle::ChannelHashes hashes_after;               // of messages after the cut
+  std::unique_ptr<vehicle::LogRecorder> recorder;    // nullptr: no log was asked for
+  TrajectoryCollector odometry, lidar, fused, odom;  // at images
   fusion_score::NavTrack track;
   std::optional<NavState> end;  // the last fused state
   std::map<Time, PppState> ppp_states;

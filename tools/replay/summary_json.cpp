@@ -77,11 +77,20 @@ void add_scores(json& j, const ReplayResult& r) {
   j["vo"] = accuracy(r.vo);
   j["lidar"] = accuracy(r.lidar);
   j["fused"] = accuracy(r.fused);
+  j["odom"] = accuracy(r.odom);
   if (r.ppp) j["ppp"] = to_json(*r.ppp);
   j["navigation"] = r.navigation ? to_json(*r.navigation) : json(nullptr);
   j["links"] = r.links ? match::to_json(*r.links) : json(nullptr);
   if (const auto& late = r.vehicle.imu_delay; late.known())
     j["imu_delay_left"] = {{"s", late.delay()}, {"sigma_s", late.sigma()}};
+  for (const fusion::SelfCalibration& c : r.vehicle.calibration) {
+    if (c.sigma == 0.0) continue;
+    j["calibration"].push_back({{"name", c.name},
+                                {"unit", c.unit},
+                                {"value", c.value},
+                                {"sigma", c.sigma},
+                                {"observed", c.observed()}});
+  }
 }
 
 // What each sensor delivered.

@@ -102,6 +102,15 @@ void append_channels(std::string& text,
   }
 }
 
+void append_calibration(std::string& text, const fusion::SelfCalibrations& calibration) {
+  if (calibration.front().sigma == 0.0) return;
+  text += "\nEstimated on the way\n";
+  for (const fusion::SelfCalibration& c : calibration) {
+    text += fmt::format("  {:42} {:9.3f} +- {:.3f} {}{}\n", c.name, c.value, c.sigma, c.unit,
+                        c.observed() ? "" : ", not observed yet");
+  }
+}
+
 void append_accuracies(std::string& text, const ReplayResult& r) {
   if (r.vo || r.fused) {
     text +=
@@ -111,6 +120,7 @@ void append_accuracies(std::string& text, const ReplayResult& r) {
         "  end m\n";
     append_accuracy(text, "vo", r.vo);
     if (r.lidar) append_accuracy(text, "lidar", r.lidar);
+    append_accuracy(text, "odom", r.odom);
     append_accuracy(text, "fused", r.fused);
   } else if (!r.navigation && !r.live) {
     text += "\nAccuracy is not scored: the drive has no reference, or too few poses\n";
@@ -119,6 +129,7 @@ void append_accuracies(std::string& text, const ReplayResult& r) {
     text += fmt::format("  inertial stamps are {:.1f} +- {:.1f} ms late against odometry\n",
                         1e3 * late.delay(), 1e3 * late.sigma());
   }
+  append_calibration(text, r.vehicle.calibration);
   if (r.navigation) text += fusion_score::to_text(*r.navigation);
   if (r.links) text += "\nLinks driven against their labels\n" + match::to_text(*r.links);
   if (r.ppp) append_ppp(text, *r.ppp);

@@ -53,6 +53,7 @@ std::string accuracy(const tools::ReplayResult& r) {
   };
   add("stereo odometry", r.vo);
   add("LiDAR odometry", r.lidar);
+  add("odom", r.odom);
   add("fused", r.fused);
   if (rows.empty()) return paragraph("There is no reference, or too little of it to score with.");
   return paragraph(

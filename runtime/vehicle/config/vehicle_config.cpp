@@ -47,6 +47,10 @@ void read_names(const runtime::ConfigTable& root, VehicleConfig& config) {
 
 }  // namespace
 
+VehicleConfig::VehicleConfig() {
+  set_configuration(*this, "auto");
+}
+
 void set_configuration(VehicleConfig& config, const std::string& name) {
   const fusion::Configuration configuration = fusion::configuration(name);
   config.configuration = configuration.name;

@@ -67,8 +67,10 @@ struct MapParameters {
 };
 
 struct VehicleConfig {
+  VehicleConfig();
+
   std::string lcm_url;
-  std::string configuration = "VO-L-RI";
+  std::string configuration;  // "auto"
   std::string imu_grade = "tactical";
   std::string odometry = "visual-lidar";
   SchedulingParameters scheduling;

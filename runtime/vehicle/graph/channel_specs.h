@@ -40,6 +40,9 @@ constexpr ChannelSpec of_run(Text name, Text type, Text from, Text shows, Text r
 inline constexpr ChannelSpec nav_state =
     of_data(channel_names::nav_state, "nav_state_t", "fusion",
             "fused position, velocity, attitude, covariance", "100 Hz");
+inline constexpr ChannelSpec odom_state =
+    of_data(channel_names::odom_state, "odom_state_t", "fusion",
+            "continuous pose in the frame of odometry, without absolute corrections", "100 Hz");
 inline constexpr ChannelSpec visual_odometry =
     of_data(channel_names::visual_odometry, "relative_motion_t", "stereo",
             "relative pose, covariance, quality", "10 Hz");
@@ -93,10 +96,10 @@ inline constexpr ChannelSpec health =
     of_run(channel_names::health, "health_t", "health",
            "threads, rings, rates, losses, refusals, real-time settings, degraded modes", "1 Hz");
 
-inline constexpr std::array all{
-    nav_state, visual_odometry, lidar_odometry, odometry,       map_match, map_feedback,
-    imu,       gnss_fix,        ppp_state,      wheel_speed,    truth,     camera,
-    velodyne,  preview,         calibration,    replay_control, run,       deadlines,
-    health};
+inline constexpr std::array all{nav_state,      odom_state, visual_odometry, lidar_odometry,
+                                odometry,       map_match,  map_feedback,    imu,
+                                gnss_fix,       ppp_state,  wheel_speed,     truth,
+                                camera,         velodyne,   preview,         calibration,
+                                replay_control, run,        deadlines,       health};
 }  // namespace channels
 }  // namespace maploop::vehicle

@@ -16,6 +16,7 @@
 #include "msgs/map_feedback.h"
 #include "msgs/map_match.h"
 #include "msgs/nav_state.h"
+#include "msgs/odom_state.h"
 #include "msgs/odometry.h"
 #include "msgs/ppp_state.h"
 #include "msgs/preview.h"
@@ -113,8 +114,8 @@ inline constexpr RingSpec<RelativeMotion> stereo_odometry_publisher{.from = stag
                                                                     .instead_of = &stages::lidar};
 inline constexpr RingSpec<RelativeMotion> odometry_publisher{stages::odometry, publisher, 256};
 inline constexpr RingSpec<PppState> ppp_publisher{stages::ppp, publisher, 64};
-inline constexpr RingSpec<NavState> fusion_publisher{fusion, publisher, 1024};
-inline constexpr RingSpec<NavState> image_states{fusion, publisher, 256, "at images"};
+inline constexpr RingSpec<FusedState> fusion_publisher{fusion, publisher, 1024};
+inline constexpr RingSpec<FusedState> image_states{fusion, publisher, 256, "at images"};
 inline constexpr RingSpec<MapMatch> mapmatch_publisher{mapmatch, publisher, 64};
 inline constexpr RingSpec<MapFeedback> feedback_publisher{.from = mapmatch,
                                                           .to = publisher,

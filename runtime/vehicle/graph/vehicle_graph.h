@@ -115,7 +115,7 @@ struct Vehicle::Graph {
   Duration wall{};
   double cpu_at_start = 0.0;
   double cpu = 0.0;
-  fusion::DelayEstimate last_imu_delay;
+  fusion::FilterStatus last_filter;
   RuntimeReport last_report;  // of the whole run
 };
 

@@ -28,7 +28,8 @@ VehicleReport Vehicle::Graph::report() const {
   r.lateness = lateness.summarize("all sensors");
   r.health = last_report.health;
   r.deadlines = last_report.deadlines;
-  r.imu_delay = last_imu_delay;
+  r.imu_delay = last_filter.imu_delay;
+  r.calibration = last_filter.calibration;
   r.stalls = clock.stalls();
   r.stalled = clock.stalled();
   r.data_seconds = to_seconds(fusion->position() - begin);

@@ -22,8 +22,9 @@ struct VehicleReport {
   LatencySummary lateness;  // of release, all sensors together
   Deadlines deadlines;
   Health health;
-  fusion::DelayEstimate imu_delay;  // left in the inertial stamps, against odometry
-  std::uint64_t stalls = 0;         // how often the data clock had to wait for the graph
+  fusion::DelayEstimate imu_delay;       // left in the inertial stamps, against odometry
+  fusion::SelfCalibrations calibration;  // what the filter has estimated of the vehicle
+  std::uint64_t stalls = 0;              // how often the data clock had to wait for the graph
   Duration stalled{};
   double data_seconds = 0.0;  // length of the drive that was replayed
   double wall_seconds = 0.0;

@@ -179,7 +179,7 @@ void Vehicle::Graph::wait() {
     wall = runtime::monotonic_now() - started;
     cpu = process_cpu_seconds() - cpu_at_start;
     monitor.restart_rates();
-    last_imu_delay = fusion->filter_status().imu_delay;
+    last_filter = fusion->filter_status();
     last_report = look(fusion->position() - begin);
   }
 }

@@ -59,7 +59,7 @@ Publisher::Publisher(const VehicleCalibration& calibration, Rings& rings,
   forward<channels::ppp_state>(rings::ppp_publisher, observer_.ppp);
   forward<channels::nav_state>(rings::fusion_publisher, observer_.nav_state);
   if (auto* states = rings.consumer(rings::image_states)) {
-    intake_.add(*states, [this](const NavState& state) { observer_.image_state(state); });
+    intake_.add(*states, [this](const FusedState& state) { observer_.image_state(state); });
   }
   forward<channels::map_match>(rings::mapmatch_publisher, observer_.map_match);
   forward<channels::map_feedback>(rings::feedback_publisher, observer_.map_feedback);
@@ -71,7 +71,7 @@ void Publisher::forward(const RingSpec<T>& spec, const std::function<void(const 
   if (ring == nullptr) return;
   intake_.add(*ring, [this, observe](const T& sample) {
     runtime::TraceSpan span(trace_, trace_name<channel>);
-    if constexpr (std::is_same_v<T, NavState>) end_flows(span, sample);
+    if constexpr (std::is_same_v<T, FusedState>) end_flows(span, sample);
     // The flow of an image goes on with the odometry that is fused.
     if constexpr (&channel != &channels::visual_odometry && &channel != &channels::lidar_odometry)
       note_flow(sample);
@@ -79,6 +79,9 @@ void Publisher::forward(const RingSpec<T>& spec, const std::function<void(const 
       send(channel, sample.available, to_lcm(sample, in_words_(sample)));
     } else {
       send(channel, sample.available, to_lcm(sample));
+    }
+    if constexpr (std::is_same_v<T, FusedState>) {
+      send(channels::odom_state, sample.available, to_lcm(sample.odom));
     }
     observe(sample);
   });

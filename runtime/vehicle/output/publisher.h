@@ -15,7 +15,7 @@
 #include "msgs/lidar_scan.h"
 #include "msgs/map_feedback.h"
 #include "msgs/map_match.h"
-#include "msgs/nav_state.h"
+#include "msgs/odom_state.h"
 #include "msgs/odometry.h"
 #include "msgs/ppp_state.h"
 #include "msgs/preview.h"
@@ -38,8 +38,8 @@ struct Observer {
   std::function<void(const RelativeMotion&)> odometry = [](const RelativeMotion&) {};
   std::function<void(const LidarMotion&)> lidar = [](const LidarMotion&) {};
   std::function<void(const PppState&)> ppp = [](const PppState&) {};
-  std::function<void(const NavState&)> nav_state = [](const NavState&) {};
-  std::function<void(const NavState&)> image_state = [](const NavState&) {};
+  std::function<void(const FusedState&)> nav_state = [](const FusedState&) {};
+  std::function<void(const FusedState&)> image_state = [](const FusedState&) {};
   std::function<void(const MapMatch&)> map_match = [](const MapMatch&) {};
   std::function<void(const MapFeedback&)> map_feedback = [](const MapFeedback&) {};
   std::function<void(const Health&)> health = [](const Health&) {};

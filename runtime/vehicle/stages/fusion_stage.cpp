@@ -25,6 +25,13 @@ bool wanted(fusion::Reason reason) {
          reason != already_started && reason != too_slow;
 }
 
+// Both outputs have the same times.
+void stamp(FusedState& state, Time at, Time available, std::uint64_t sequence) {
+  state.stamp = state.odom.stamp = at;
+  state.available = state.odom.available = available;
+  state.sequence = state.odom.sequence = sequence;
+}
+
 void note(UseWatch& use, const Sample& sample, const fusion::Outcome& outcome) {
   if (!outcome.refused()) {
     use.note(sample.available, nullptr);
@@ -38,7 +45,8 @@ void note(UseWatch& use, const Sample& sample, const fusion::Outcome& outcome) {
 FusionStage::FusionStage(Rings& rings, fusion::GuardedFilter filter, Duration odometry_budget)
     : GraphStage(stages::fusion, rings),
       filter_(std::move(filter)),
-      nav_states_(outputs(rings::fusion_publisher, rings::fusion_mapmatch)),
+      states_(outputs(rings::fusion_publisher)),
+      states_to_match_(outputs(rings::fusion_mapmatch)),
       image_states_(outputs(rings::image_states)),
       odometry_budget_(odometry_budget),
       imu_use_(stages::fusion.name, "inertial samples", Watchdog::patience(stages::imu)),
@@ -81,8 +89,8 @@ FusionStage::FusionStage(Rings& rings, fusion::GuardedFilter filter, Duration od
 void FusionStage::run(runtime::DataClock& clock, Time begin, const std::stop_token& stop) {
   stop_ = stop;
   // Results of the run that this one resumes.
-  for (const NavState& state : sent_states_) nav_states_.push(state, stop);
-  for (const NavState& state : sent_image_states_) image_states_.push(state, stop);
+  for (const FusedState& state : sent_states_) send(state, stop);
+  for (const FusedState& state : sent_image_states_) image_states_.push(state, stop);
   position_.store(to_nanoseconds(begin), std::memory_order_relaxed);
   const runtime::Schedule schedule = this->schedule(clock);
   // Before the first tick there is no state for which the map matching would have to wait.
@@ -119,17 +127,15 @@ bool FusionStage::tick(const runtime::Tick& tick, runtime::DataClock& clock,
   position_.store(to_nanoseconds(k), std::memory_order_relaxed);
   delay(k);
   intake_.take_until(k);
-  NavState state = filter_.aided().state_at(k).value_or(NavState{});
-  state.stamp = k;
-  state.available = k + spec().budget;
-  state.sequence = ticks_++;
+  FusedState state = filter_.aided().state_at(k).value_or(FusedState{});
+  stamp(state, k, k + spec().budget, ticks_++);
   const MonotonicTime computed = runtime::monotonic_now();
-  nav_states_.push(state, stop);
+  send(state, stop);
   sent_states_.push_back(state);
   filter_status_.back() = filter_.status();
   filter_status_.publish();
   runtime::trace_counter(trace(), "fusion -> publisher",
-                         static_cast<double>(nav_states_.rings().front()->held()));
+                         static_cast<double>(states_.rings().front()->held()));
 
   const MonotonicTime done = runtime::monotonic_now();
   if (done - computed > runtime::DataClock::tolerance) stall(done);
@@ -146,12 +152,16 @@ void FusionStage::take(const RelativeMotion& motion) {
   span.step_flow(flow_of(motion));
   note(odometry_use_, motion, filter_.add(motion));
   if (motion.status == OdometryStatus::ok) odometry_taken_ = motion;
-  std::optional<NavState> state = filter_.aided().state_at(motion.stamp);
+  std::optional<FusedState> state = filter_.aided().state_at(motion.stamp);
   if (!state) return;
-  state->available = tick_ + spec().budget;
-  state->sequence = images_++;
+  stamp(*state, motion.stamp, tick_ + spec().budget, images_++);
   image_states_.push(*state, stop_);
   sent_image_states_.push_back(*state);
+}
+
+void FusionStage::send(const FusedState& state, const std::stop_token& stop) {
+  states_.push(state, stop);
+  states_to_match_.push(state, stop);
 }
 
 // After the tick, in the time that is left until the next one.
@@ -163,7 +173,7 @@ void FusionStage::save_until(Time t, const std::stop_token& stop) {
 // resumes sends it.
 template <class Archive>
 void FusionStage::archive(Archive& ar) {
-  ar.section(spec().name, 1);
+  ar.section(spec().name, 2);
   ar(filter_, ticks_, images_, sent_states_, sent_image_states_);
 }
 

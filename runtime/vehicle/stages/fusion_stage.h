@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "estimators/fusion/guarded_filter.h"
-#include "msgs/nav_state.h"
+#include "msgs/odom_state.h"
 #include "msgs/odometry.h"
 #include "runtime/core/intake.h"
 #include "runtime/core/latest_value.h"
@@ -28,7 +28,7 @@ class FusionStage final : public GraphStage {
   // takes what has arrived; what is late goes to a later tick.
   void run(runtime::DataClock& clock, Time begin, const std::stop_token& stop) override;
   std::size_t saved_bytes() const override {
-    return filter_.largest_archive() + sent_image_states_.capacity() * sizeof(NavState) + 4096;
+    return filter_.largest_archive() + sent_image_states_.capacity() * sizeof(FusedState) + 4096;
   }
   std::vector<UseWatch*> uses() override {
     return {&imu_use_, &gnss_use_, &wheel_use_, &odometry_use_};
@@ -53,6 +53,7 @@ class FusionStage final : public GraphStage {
  private:
   bool tick(const runtime::Tick& tick, runtime::DataClock& clock, const std::stop_token& stop);
   void take(const RelativeMotion& motion);
+  void send(const FusedState& state, const std::stop_token& stop);
   void save_until(Time t, const std::stop_token& stop);
   void load(ArchiveReader& ar) override { archive(ar); }
   template <class Archive>
@@ -60,8 +61,9 @@ class FusionStage final : public GraphStage {
   void record_paths(const runtime::DataClock& clock, MonotonicTime due, MonotonicTime done);
 
   fusion::GuardedFilter filter_;
-  Outputs<NavState> nav_states_;  // the publisher's first
-  Outputs<NavState> image_states_;
+  Outputs<FusedState> states_;
+  Outputs<NavState> states_to_match_;
+  Outputs<FusedState> image_states_;
   Duration odometry_budget_;
   runtime::Intake intake_;
   std::stop_token stop_;
@@ -70,8 +72,8 @@ class FusionStage final : public GraphStage {
   std::uint64_t ticks_ = 0;
   std::uint64_t images_ = 0;
   // What the last tick sent.
-  std::vector<NavState> sent_states_;
-  std::vector<NavState> sent_image_states_;
+  std::vector<FusedState> sent_states_;
+  std::vector<FusedState> sent_image_states_;
   std::optional<Sample> imu_taken_;       // by this tick, the last one
   std::optional<Sample> odometry_taken_;  // with a motion
   UseWatch imu_use_;

@@ -31,8 +31,7 @@ class Jacobian : public ::testing::TestWithParam<bool> {};
 
 TEST_P(Jacobian, AgreesWithNumericalDerivative) {
   const LocalEarth earth(test_origin());
-  FusionParameters parameters;
-  parameters.rear_axle_distance = 0.9;
+  const FusionParameters parameters;
   const InertialInput input = some_input(GetParam());
   const StateVector x = busy_state();
   const Step step = mechanize(x, input, earth, parameters);
@@ -44,8 +43,7 @@ TEST_P(Jacobian, AgreesWithNumericalDerivative) {
 
 TEST(Mechanization, EffectOfNoiseAgreesWithNumericalDerivative) {
   const LocalEarth earth(test_origin());
-  FusionParameters parameters;
-  parameters.rear_axle_distance = 0.9;
+  const FusionParameters parameters;
   const StateVector x = busy_state();
   const Step step = mechanize(x, some_input(), earth, parameters);
   const auto with = [&](double force, double rate) {

@@ -39,6 +39,9 @@ inline fusion::StateVector busy_state() {
   x[forward_bias] = 0.04;
   x[left_bias] = -0.03;
   x[climb_offset] = 0.012;
+  x[course_offset] = -0.02;
+  x[axle_distance] = 0.9;
+  x.segment<3>(lever_forward) << 1.2, -0.4, 0.9;
   x[speed_scale] = -0.008;
   x[lidar_scale] = 0.003;
   x[lidar_turn] = -4e-5;
@@ -48,6 +51,7 @@ inline fusion::StateVector busy_state() {
   x[chain_drift] = 0.02;
   x[lane_offset] = 0.0;  // the derivative neglects that its decay depends on the speed
   x[distance] = 1.3;
+  x.segment<3>(clone_east) << 813.1, -454.3, 11.9;
   x[clone_azimuth] = -2.04;
   x[clone_pitch] = 0.066;
   x[clone_roll] = -0.053;

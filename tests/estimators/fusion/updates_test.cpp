@@ -40,10 +40,10 @@ RelativeMotion agreeing_motion(const FilterState& state) {
       rotation_enu_body(state.clone_attitude()).transpose() * rotation_enu_body(state.attitude())));
   const Eigen::AngleAxisd turn(m.rotation);
   const double half = 0.5 * turn.angle();
-  const double forward = state.x[index::distance];
-  m.translation = Eigen::AngleAxisd(half, turn.axis()) *
-                  Vector3d(forward, 0.0, forward * state.x[index::climb_offset]) *
-                  (std::sin(half) / half);
+  const Vector3d chord = rotation_enu_body(state.clone_attitude()).transpose() * state.moved();
+  Vector3d displacement = half / std::sin(half) * (Eigen::AngleAxisd(-half, turn.axis()) * chord);
+  displacement.x() = state.x[index::distance];
+  m.translation = std::sin(half) / half * (Eigen::AngleAxisd(half, turn.axis()) * displacement);
   m.covariance.diagonal() << 1e-4, 2e-4, 3e-4, 1e-7, 2e-7, 3e-7;
   return m;
 }
@@ -66,12 +66,8 @@ TEST(OdometryJacobians, AgreeWithNumericalDerivatives) {
   const FilterState state = busy();
   const RelativeMotion m = agreeing_motion(state);
   const FusionParameters p;
-  expect_jacobian<1>(
-      state, [&](const FilterState& s) { return distance_innovation(s, m, p); }, 1e-8);
-  expect_jacobian<1>(
-      state, [&](const FilterState& s) { return climb_innovation(s, m, p); }, 1e-8);
-  expect_jacobian<3>(
-      state, [&](const FilterState& s) { return rotation_innovation(s, m, p); }, 1e-8);
+  expect_jacobian<6>(
+      state, [&](const FilterState& s) { return motion_innovation(s, m, p); }, 1e-7);
 }
 
 TEST(OdometryJacobians, OfALidarsMotionAgreeWithNumericalDerivatives) {
@@ -79,12 +75,8 @@ TEST(OdometryJacobians, OfALidarsMotionAgreeWithNumericalDerivatives) {
   RelativeMotion m = agreeing_motion(state);
   m.source = OdometrySource::lidar;
   const FusionParameters p;
-  expect_jacobian<1>(
-      state, [&](const FilterState& s) { return distance_innovation(s, m, p); }, 1e-7);
-  expect_jacobian<1>(
-      state, [&](const FilterState& s) { return climb_innovation(s, m, p); }, 1e-7);
-  expect_jacobian<3>(
-      state, [&](const FilterState& s) { return rotation_innovation(s, m, p); }, 1e-8);
+  expect_jacobian<6>(
+      state, [&](const FilterState& s) { return motion_innovation(s, m, p); }, 1e-7);
 }
 
 GnssFix busy_fix(const LocalFrame& frame) {
@@ -98,10 +90,7 @@ GnssFix busy_fix(const LocalFrame& frame) {
 
 TEST(OtherJacobians, AgreeWithNumericalDerivatives) {
   const FilterState state = busy();
-  FusionParameters p;
-  p.gnss_lever_forward = 1.2;
-  p.gnss_lever_left = -0.4;
-  p.gnss_lever_up = 0.9;
+  const FusionParameters p;
   const LocalFrame frame({0.8552, 0.1465, 112.0});
   const GnssFix fix = busy_fix(frame);
   WheelSpeed wheel;
@@ -152,9 +141,7 @@ TEST(GnssPosition, StronglyCorrelatedFixesKeepTheCovariancePositive) {
 TEST(OdometryInnovations, VanishWhereOdometryAgrees) {
   const FilterState state = busy();
   const RelativeMotion m = agreeing_motion(state);
-  EXPECT_NEAR(distance_innovation(state, m, {}).residual[0], 0.0, 1e-12);
-  EXPECT_NEAR(climb_innovation(state, m, {}).residual[0], 0.0, 1e-12);
-  EXPECT_LT(rotation_innovation(state, m, {}).residual.norm(), 1e-12);
+  EXPECT_LT(motion_innovation(state, m, {}).residual.norm(), 1e-12);
 }
 
 TEST(OdometryInnovations, RotationIsWrappedAcrossSouth) {
@@ -165,7 +152,7 @@ TEST(OdometryInnovations, RotationIsWrappedAcrossSouth) {
   state.x.segment<2>(index::clone_pitch).setZero();
   RelativeMotion m = agreeing_motion(state);
   m.rotation = Eigen::AngleAxisd(-0.031, Vector3d::UnitZ());
-  EXPECT_NEAR(rotation_innovation(state, m, {}).residual.z(), -0.001, 1e-12);
+  EXPECT_NEAR(motion_innovation(state, m, {}).residual[5], -0.001, 1e-12);
 }
 
 TEST(OdometryInnovations, FloorsKeepAnOptimisticOdometryInItsPlace) {
@@ -173,8 +160,8 @@ TEST(OdometryInnovations, FloorsKeepAnOptimisticOdometryInItsPlace) {
   RelativeMotion m = agreeing_motion(state);
   m.covariance.setZero();
   const FusionParameters p;
-  EXPECT_NEAR(std::sqrt(distance_innovation(state, m, p).R(0, 0)), 0.1 * p.min_speed_sigma, 1e-12);
-  EXPECT_NEAR(std::sqrt(rotation_innovation(state, m, p).R(2, 2)), p.min_rotation_sigma, 1e-12);
+  EXPECT_NEAR(std::sqrt(motion_innovation(state, m, p).R(0, 0)), 0.1 * p.min_speed_sigma, 1e-12);
+  EXPECT_NEAR(std::sqrt(motion_innovation(state, m, p).R(5, 5)), p.min_rotation_sigma, 1e-12);
 }
 
 TEST(Arc, OfAConstantTurnIsTheDistance) {
@@ -239,8 +226,8 @@ TEST(NavStateJacobian, AgreesWithNumericalDerivative) {
 
 TEST(JosephUpdate, EqualsTheInformationForm) {
   const FilterState prior = busy();
-  Innovation<3> innovation = rotation_innovation(prior, agreeing_motion(prior), {});
-  innovation.residual << 1e-3, -2e-3, 3e-3;
+  Innovation<6> innovation = motion_innovation(prior, agreeing_motion(prior), {});
+  innovation.residual << 0.01, -0.02, 0.03, 1e-3, -2e-3, 3e-3;
   StateVector x = prior.x;
   StateMatrix P = prior.P;
   joseph_update(x, P, innovation);

@@ -1,0 +1,34 @@
+// This file defines the two outputs of the fusion: the absolute pose and the continuous one.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "msgs/frames.h"
+#include "msgs/nav_state.h"
+#include "msgs/sample.h"
+
+namespace maploop {
+
+// This is the pose in the frame of odometry (`odom` of REP 105): it agrees with enu at the filter's
+// start, moves only by relative motions, never jumps, and drifts away from enu without bound.
+struct OdomState : Sample {
+  NavStatus status = NavStatus::uninitialized;              // as in the NavState of the same stamp
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();       // m, the IMU's
+  Attitude attitude;                                        // azimuth clockwise from odom's y axis
+  Eigen::Vector3d velocity_body = Eigen::Vector3d::Zero();  // m/s
+  double yaw_rate = 0.0;                                    // rad/s, without the gyro's bias
+
+  void archive(auto& ar) {
+    ar(static_cast<Sample&>(*this), status, position, attitude, velocity_body, yaw_rate);
+  }
+};
+
+// This is what the fusion gives out: the pose in the frame of the map, which fixes and roads may
+// move at once, and that in the frame of odometry. Both have the same stamp.
+struct FusedState : NavState {
+  OdomState odom;
+
+  void archive(auto& ar) { ar(static_cast<NavState&>(*this), odom); }
+};
+
+}  // namespace maploop

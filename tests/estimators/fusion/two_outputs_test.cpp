@@ -1,0 +1,188 @@
+// These tests cover the frame of odometry, and what the filter learns about a vehicle that was
+// described wrongly, on drives of known truth.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "tests/estimators/fusion/filter_run.h"
+#include "tests/estimators/fusion/synthetic_drive.h"
+
+namespace maploop::fusion {
+namespace {
+
+using namespace maploop::testing;
+using Eigen::Vector3d;
+
+constexpr double seconds = 60.0;
+
+MotionProfile town() {
+  MotionProfile profile;
+  profile.speed = [](double t) { return 8.0 + 4.0 * std::sin(t / 7.0); };
+  profile.yaw_rate = [](double t) { return 0.35 * std::pow(std::sin(t / 6.0), 3); };
+  profile.azimuth = 0.8;
+  return profile;
+}
+
+// Returns the fixes of a receiver that is wrong by `shift` from `from` on (s).
+std::vector<GnssFix> fixes(const SyntheticDrive& drive, const Vector3d& shift, double from) {
+  const LocalFrame frame(test_origin());
+  std::vector<GnssFix> all;
+  for (int i = 0; i < static_cast<int>(seconds); ++i) {
+    GnssFix f = drive.fix(i);
+    f.available = f.stamp + from_seconds(0.1);
+    f.sequence = static_cast<std::uint64_t>(i);
+    if (i >= from) f.position = frame.to_geodetic(frame.to_enu(f.position) + shift);
+    all.push_back(f);
+  }
+  return all;
+}
+
+Eigen::Isometry3d odom_pose(const FusedState& s) {
+  return Eigen::Translation3d(s.odom.position) *
+         Eigen::Quaterniond(rotation_enu_body(s.odom.attitude));
+}
+
+// Returns the states every 0.1 s, each from what has arrived by then.
+std::vector<FusedState> states(ReducedImuFilter& filter, std::vector<Measurement> all) {
+  sort_as_available(all);
+  std::vector<FusedState> result;
+  auto next = all.begin();
+  for (int i = 10; i < static_cast<int>(10.0 * seconds); ++i) {
+    const Time t = SyntheticDrive::at(0.1 * i);
+    for (; next != all.end() && available_of(*next) <= t; ++next) add(filter, *next);
+    if (const auto state = filter.state_at(t)) result.push_back(*state);
+  }
+  return result;
+}
+
+double largest_step_error(const SyntheticDrive& drive, const std::vector<FusedState>& states,
+                          const std::function<Eigen::Isometry3d(const FusedState&)>& pose) {
+  double largest = 0.0;
+  for (std::size_t i = 1; i < states.size(); ++i) {
+    const auto true_pose = [&](const FusedState& s) {
+      return drive.pose(to_seconds(s.stamp - SyntheticDrive::at(0.0)));
+    };
+    const Vector3d moved = (pose(states[i - 1]).inverse() * pose(states[i])).translation();
+    const Vector3d truth =
+        (true_pose(states[i - 1]).inverse() * true_pose(states[i])).translation();
+    largest = std::max(largest, (moved - truth).norm());
+  }
+  return largest;
+}
+
+TEST(TwoOutputs, AFixThatJumpsMovesTheMapAndNotTheFrameOfOdometry) {
+  const SyntheticDrive drive(town(), seconds, test_origin());
+  ReducedImuFilter filter(configured("GNSS+VO-RI"), test_origin());
+  std::vector<Measurement> all;
+  append(all, drive.imu(100.0));
+  append(all, drive.odometry(10.0));
+  append(all, fixes(drive, {60.0, -40.0, 0.0}, 20.0));
+  const std::vector<FusedState> out = states(filter, all);
+  ASSERT_GT(out.size(), 500u);
+  EXPECT_GT(largest_step_error(drive, out, [](const FusedState& s) { return pose_of(s); }), 10.0);
+  EXPECT_LT(largest_step_error(drive, out, odom_pose), 0.05);
+  EXPECT_GE(filter.status().recoveries + filter.status().reinitializations, 1u);
+}
+
+TEST(TwoOutputs, WithoutOdometryTheFrameOfOdometryDoesNotJumpEither) {
+  const SyntheticDrive drive(town(), seconds, test_origin());
+  ReducedImuFilter filter(configured("GNSS+RISS"), test_origin());
+  std::vector<Measurement> all;
+  append(all, drive.imu(100.0));
+  append(all, fixes(drive, {60.0, -40.0, 0.0}, 20.0));
+  const std::vector<FusedState> out = states(filter, all);
+  EXPECT_GT(largest_step_error(drive, out, [](const FusedState& s) { return pose_of(s); }), 10.0);
+  EXPECT_LT(largest_step_error(drive, out, odom_pose), 0.2);
+}
+
+TEST(TwoOutputs, OfAFilterWithoutAbsoluteAidsAreTheSame) {
+  const SyntheticDrive drive(town(), seconds, test_origin());
+  ReducedImuFilter filter(configured("VO-RI"), test_origin());
+  std::vector<Measurement> all;
+  append(all, drive.imu(100.0));
+  append(all, drive.odometry(10.0));
+  append(all, fixes(drive, Vector3d::Zero(), 0.0));
+  for (const FusedState& s : states(filter, all)) {
+    // They differ by what odometry corrects of its own start.
+    EXPECT_LT((s.odom.position - s.position_enu).norm(), 0.5);
+    EXPECT_EQ(s.odom.stamp, s.stamp);
+  }
+}
+
+// The body that odometry, fixes and inertial unit belong to is turned against the vehicle and lies
+// ahead of the rear axle, on which the vehicle rolls.
+class Misdescribed : public ::testing::Test {
+ protected:
+  Misdescribed() : drive_(town(), seconds, test_origin()) {
+    T_vehicle_body_ =
+        Eigen::Translation3d(1.2, 0.0, 0.0) * Eigen::AngleAxisd(radians(2.0), Vector3d::UnitZ());
+  }
+
+  std::vector<Measurement> measurements() const {
+    std::vector<Measurement> all;
+    append(all, drive_.imu(100.0));
+    for (RelativeMotion m : drive_.odometry(10.0)) {
+      const Eigen::Isometry3d T = T_vehicle_body_.inverse() * m.T_from_to() * T_vehicle_body_;
+      m.translation = T.translation();
+      m.rotation = Eigen::Quaterniond(T.rotation());
+      all.push_back(m);
+    }
+    const LocalFrame frame(test_origin());
+    for (GnssFix f : fixes(drive_, Vector3d::Zero(), 0.0)) {
+      const double t = to_seconds(f.stamp - SyntheticDrive::at(0.0));
+      f.position = frame.to_geodetic((drive_.pose(t) * T_vehicle_body_).translation());
+      f.velocity_covariance *= 0.01;
+      all.push_back(f);
+    }
+    return all;
+  }
+
+  const SelfCalibration& find(const FilterStatus& status, std::string_view name) const {
+    return *std::find_if(status.calibration.begin(), status.calibration.end(),
+                         [&](const SelfCalibration& c) { return c.name.starts_with(name); });
+  }
+
+  SyntheticDrive drive_;
+  Eigen::Isometry3d T_vehicle_body_;
+};
+
+TEST_F(Misdescribed, TheFilterLearnsTheAxleAndTheDirectionOfTravel) {
+  ReducedImuFilter filter(configured("VO-RI"), test_origin());
+  add_as_available(filter, measurements());
+  const FilterStatus status = filter.status();
+  const SelfCalibration& course = find(status, "direction of travel, to the right");
+  EXPECT_TRUE(course.observed());
+  EXPECT_NEAR(course.value, 2.0, 0.2) << "deg";
+  EXPECT_LT(course.sigma, 0.3);
+  const SelfCalibration& axle = find(status, "rear axle");
+  EXPECT_TRUE(axle.observed());
+  EXPECT_NEAR(axle.value, 1.2, 0.15) << "m";
+  EXPECT_FALSE(find(status, "GNSS antenna, forward").observed()) << "no fix after the start";
+}
+
+TEST_F(Misdescribed, ADriveOnAKnownAxleTeachesNothingWhileItGoesStraight) {
+  MotionProfile straight;
+  drive_ = SyntheticDrive(straight, seconds, test_origin());
+  ReducedImuFilter filter(configured("VO-RI"), test_origin());
+  add_as_available(filter, measurements());
+  EXPECT_FALSE(find(filter.status(), "rear axle").observed());
+}
+
+TEST_F(Misdescribed, TheFrameOfOdometryIsAsGoodAsOdometry) {
+  ReducedImuFilter filter(configured("GNSS+VO-RI"), test_origin());
+  const std::vector<FusedState> out = states(filter, measurements());
+  ASSERT_GT(out.size(), 500u);
+  const auto true_pose = [&](const FusedState& s) {
+    return drive_.pose(to_seconds(s.stamp - SyntheticDrive::at(0.0))) * T_vehicle_body_;
+  };
+  const Eigen::Isometry3d moved = odom_pose(out.front()).inverse() * odom_pose(out.back());
+  const Eigen::Isometry3d truth = true_pose(out.front()).inverse() * true_pose(out.back());
+  double way = 0.0;
+  for (double t = 1.0; t < seconds; t += 0.1) way += 0.1 * drive_.speed(t);
+  EXPECT_LT((moved.translation() - truth.translation()).norm(), 0.002 * way);
+}
+
+}  // namespace
+}  // namespace maploop::fusion
