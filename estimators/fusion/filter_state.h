@@ -175,6 +175,16 @@ inline void add_correction(StateVector& x, const StateVector& correction) {
   x[index::clone_azimuth] = wrap_angle(x[index::clone_azimuth]);
 }
 
+// Adds `sigma` squared to the variance of a state that the clone copied. The clone was just as
+// wrong, so the motion since then stays as well known as it was.
+inline void doubt_with_clone(FilterState& state, int original, double sigma) {
+  const int copy = index::clone_east + (original < index::azimuth ? original - index::east
+                                                                  : 3 + original - index::azimuth);
+  for (const int i : {original, copy}) {
+    for (const int j : {original, copy}) state.P(i, j) += sigma * sigma;
+  }
+}
+
 inline OdomPose FilterState::odom() const {
   const Eigen::Matrix3d to_odom =
       odom_at_clone.rotation.toRotationMatrix() * rotation_enu_body(clone_attitude()).transpose();

@@ -13,10 +13,8 @@ using Eigen::Vector3d;
 
 void inflate_position(FilterState& state, const FusionParameters& p) {
   using namespace index;
-  for (int i = east; i <= up; ++i) {
-    state.P(i, i) += p.gnss_recovery_sigma * p.gnss_recovery_sigma;
-  }
-  state.P(azimuth, azimuth) += p.recovery_rotation_sigma * p.recovery_rotation_sigma;
+  for (int i = east; i <= up; ++i) doubt_with_clone(state, i, p.gnss_recovery_sigma);
+  doubt_with_clone(state, azimuth, p.recovery_rotation_sigma);
 }
 
 // Restarts from the position, speed and attitude of the fix; keeps the sensor errors estimated so
@@ -31,7 +29,7 @@ void restart_from(FilterState& state, GnssFix fix, const LocalFrame& frame,
   FusionParameters learnt = p;
   learnt.climb_offset = x[climb_offset];
   learnt.rear_axle_distance = x[axle_distance];
-  const FilterState fresh = initial_state(fix, frame, learnt);
+  const FilterState fresh = initial_state(fix, frame, learnt, state.yaw_rate - x[gyro_bias]);
   state.x = fresh.x;
   state.P = fresh.P;
   state.x[azimuth] = wrap_angle(fresh.x[azimuth] - x[course_offset]);

@@ -11,6 +11,19 @@
 namespace maploop::fusion {
 namespace {
 
+// Returns the velocity of the rear axle, from which the antenna's differs by its swing in a turn.
+// The body's axes, which the swing needs, follow from the velocity itself.
+Eigen::Vector3d velocity_of_axle(const Eigen::Vector3d& antenna, double yaw_rate,
+                                 const FusionParameters& p) {
+  const Eigen::Vector3d arm(p.gnss_lever_forward + p.rear_axle_distance, p.gnss_lever_left, 0.0);
+  Eigen::Vector3d axle = antenna;
+  for (int i = 0; i < 3; ++i) {
+    const Attitude level{std::atan2(axle.x(), axle.y()), 0.0, 0.0};
+    axle = antenna - rotation_enu_body(level) * Eigen::Vector3d(0.0, 0.0, yaw_rate).cross(arm);
+  }
+  return axle;
+}
+
 // Adds the variances that no start provides: biases, scales and the lasting error of fixes.
 void add_unknown_sensors(FilterState& state, const FusionParameters& p) {
   using namespace index;
@@ -103,12 +116,13 @@ Reason check_fix(const GnssFix& fix, const FusionParameters& parameters) {
   return Reason::none;
 }
 
-FilterState initial_state(const GnssFix& fix, const LocalFrame& frame, const FusionParameters& p) {
+FilterState initial_state(const GnssFix& fix, const LocalFrame& frame, const FusionParameters& p,
+                          double yaw_rate) {
   using namespace index;
   const Time start = start_stamp(fix);
   const double position_age = to_seconds(fix.stamp - start);
   const double velocity_age = to_seconds(fix.velocity_stamp - start);
-  const Eigen::Vector3d v = fix.velocity_enu;
+  const Eigen::Vector3d v = velocity_of_axle(fix.velocity_enu, yaw_rate, p);
   const double horizontal = v.head<2>().norm();
   const double length = v.norm();
 

@@ -34,9 +34,10 @@ Reason check_fix(const GnssFix& fix, const FusionParameters& parameters);
 
 // Returns the state at start_stamp(fix). The velocity moves the position to this time. Speed,
 // azimuth and pitch are the velocity's length, course and climb (the vehicle is assumed to drive
-// forward). The fix's covariance is propagated through this. Precondition: check_fix returns
+// forward). The antenna swings about the rear axle at `yaw_rate` (rad/s, to the left), which is
+// taken off. The fix's covariance is propagated through this. Precondition: check_fix returns
 // Reason::none.
 FilterState initial_state(const GnssFix& fix, const LocalFrame& frame,
-                          const FusionParameters& parameters);
+                          const FusionParameters& parameters, double yaw_rate = 0.0);
 
 }  // namespace maploop::fusion

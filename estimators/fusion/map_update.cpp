@@ -90,8 +90,8 @@ Outcome apply_map(FilterState& state, const MapFeedback& feedback, const LocalFr
     // contradiction means that the road is wrong.
     const bool on_its_own = state.stamp - state.gnss_stamp > from_seconds(p.gnss_offset_time);
     if (outcome.refused() && ++state.map_gated_in_a_row == p.map_recover_after && on_its_own) {
-      const double wrong = p.map_recovery_sigma;
-      for (const int i : {index::east, index::north}) state.P(i, i) += wrong * wrong;
+      for (const int i : {index::east, index::north})
+        doubt_with_clone(state, i, p.map_recovery_sigma);
       ++state.recoveries;
       outcome = correct();
     }

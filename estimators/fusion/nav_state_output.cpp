@@ -11,10 +11,15 @@ Eigen::Vector3d direction_of_travel(const StateVector& x) {
                    x[index::pitch] + x[index::climb_offset]);
 }
 
+Eigen::Vector3d left_of(const StateVector& x) {
+  return {-std::cos(x[index::azimuth]), std::sin(x[index::azimuth]), 0.0};
+}
+
 }  // namespace
 
-Eigen::Matrix<double, 9, index::count> nav_state_jacobian(const StateVector& x) {
+Eigen::Matrix<double, 9, index::count> nav_state_jacobian(const FilterState& state) {
   using namespace index;
+  const StateVector& x = state.x;
   const double course = x[azimuth] + x[course_offset];
   const double sA = std::sin(course), cA = std::cos(course);
   const double climb = x[pitch] + x[climb_offset];
@@ -30,6 +35,11 @@ Eigen::Matrix<double, 9, index::count> nav_state_jacobian(const StateVector& x) 
   J.block<3, 1>(3, pitch) << -ground * sA * sc, -ground * cA * sc, ground * cc;
   J.block<3, 1>(3, climb_offset) = J.block<3, 1>(3, pitch);
   J.block<3, 1>(3, course_offset) = J.block<3, 1>(3, azimuth);
+  const double rate = state.yaw_rate - x[gyro_bias];
+  J.block<3, 1>(3, axle_distance) = rate * left_of(x);
+  J.block<3, 1>(3, gyro_bias) = -x[axle_distance] * left_of(x);
+  J.block<2, 1>(3, azimuth) +=
+      rate * x[axle_distance] * Eigen::Vector2d(std::sin(x[azimuth]), std::cos(x[azimuth]));
   J.block<3, 3>(6, azimuth).setIdentity();
   return J;
 }
@@ -49,11 +59,11 @@ NavState nav_state(const FilterState& state, const Geodetic& origin,
   nav.attitude = state.attitude();
   nav.gyro_bias = state.x[index::gyro_bias];
 
-  const Eigen::Matrix<double, 9, index::count> J = nav_state_jacobian(state.x);
+  const Eigen::Matrix<double, 9, index::count> J = nav_state_jacobian(state);
   const Eigen::Vector3d travel = direction_of_travel(state.x);
-  const Eigen::Vector3d left(-std::cos(nav.attitude.azimuth), std::sin(nav.attitude.azimuth), 0.0);
   nav.velocity_enu = nav.forward_speed * travel + (state.yaw_rate - state.x[index::gyro_bias]) *
-                                                      state.x[index::axle_distance] * left;
+                                                      state.x[index::axle_distance] *
+                                                      left_of(state.x);
   const Eigen::Matrix<double, 9, 9> covariance = J * state.P * J.transpose();
   nav.covariance = 0.5 * (covariance + covariance.transpose());
   const double slip = parameters.slip_sigma * nav.forward_speed;

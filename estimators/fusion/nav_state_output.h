@@ -9,7 +9,7 @@ namespace maploop::fusion {
 
 // Returns the derivative of position (enu, m), velocity (enu, m/s), azimuth, pitch and roll (rad)
 // with respect to the state.
-Eigen::Matrix<double, 9, index::count> nav_state_jacobian(const StateVector& x);
+Eigen::Matrix<double, 9, index::count> nav_state_jacobian(const FilterState& state);
 
 // Fills in status, stamps and covariance too. The side slip is not a state, so its variance is
 // added to the velocity's. `available` equals the stamp; the caller may change `available` and

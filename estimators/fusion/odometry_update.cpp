@@ -22,8 +22,10 @@ Time aided_at(const FilterState& state, const FusionParameters& p) {
 void doubt_speed(FilterState& state, const RelativeMotion& motion, const FusionParameters& p) {
   using namespace index;
   StateVector error = StateVector::Zero();
-  error.segment<3>(east) =
-      to_seconds(motion.stamp - aided_at(state, p)) * rotation_enu_body(state.attitude()).col(0);
+  const Vector3d ahead = rotation_enu_body(state.attitude()).col(0);
+  const Time aided = aided_at(state, p);
+  error.segment<3>(east) = to_seconds(motion.stamp - aided) * ahead;
+  error.segment<3>(clone_east) = std::max(0.0, to_seconds(motion.from - aided)) * ahead;
   error[speed] = 1.0;
   error[distance] = to_seconds(motion.stamp - motion.from);
   error *= p.recovery_speed_sigma;
@@ -39,15 +41,19 @@ void doubt_rotation(FilterState& state, const RelativeMotion& motion, const Fusi
   const double alone = to_seconds(motion.from - std::max(state.odometry_stamp, state.start));
   const double contradiction = std::abs(motion_innovation(state, motion, p).residual[5]);
   const double before = std::max(0.0, alone / interval) * contradiction;
-  const Vector3d aside = -0.5 * to_seconds(motion.stamp - aided_at(state, p)) * state.x[speed] *
-                         rotation_enu_body(state.attitude()).col(1);
-  const auto add = [&](StateVector error, double sigma) {
-    error.segment<3>(east) = aside;
+  const Vector3d aside = -0.5 * state.x[speed] * rotation_enu_body(state.attitude()).col(1);
+  // An azimuth error that grows from zero moves the position aside by half of it, over this time.
+  const double since_aid = std::max(interval, to_seconds(motion.stamp - aided_at(state, p)));
+  const double until_clone = since_aid - interval;
+  const auto add = [&](StateVector error, double time, double sigma) {
+    error.segment<3>(east) = time * aside;
     error[azimuth] = 1.0;
     state.P += sigma * sigma * error * error.transpose();  // (26) of METHOD.md
   };
-  add(StateVector::Zero(), p.recovery_rotation_sigma);
-  add(StateVector::Unit(clone_azimuth), before);
+  add(StateVector::Zero(), interval, p.recovery_rotation_sigma);
+  StateVector at_clone = StateVector::Unit(clone_azimuth);
+  at_clone.segment<3>(clone_east) = until_clone * until_clone / since_aid * aside;
+  add(at_clone, since_aid, before);
 
   state.P(pitch, pitch) += p.recovery_rotation_sigma * p.recovery_rotation_sigma;
   state.P(roll, roll) += p.recovery_rotation_sigma * p.recovery_rotation_sigma;

@@ -148,8 +148,12 @@ Outcome ReducedImuFilter::insert_and_roll(const EventKey& key, const Measurement
 Outcome ReducedImuFilter::start(const GnssFix& fix) {
   const Reason reason = check_fix(fix, parameters_);
   if (reason == Reason::too_slow) status_.phase = Phase::waiting_for_motion;
-  return start_with(reason, start_stamp(fix), fix.position,
-                    [&] { return initial_state(fix, frame_, parameters_); });
+  const Time begin = start_stamp(fix);
+  const ImuSample* sample =
+      history_.samples_around(history_.position_after(last_key_at(begin))).before;
+  const double yaw_rate = sample == nullptr ? 0.0 : sample->yaw_rate;
+  return start_with(reason, begin, fix.position,
+                    [&] { return initial_state(fix, frame_, parameters_, yaw_rate); });
 }
 
 Outcome ReducedImuFilter::start(const KnownStart& known) {

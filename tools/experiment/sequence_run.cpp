@@ -30,7 +30,7 @@ SequenceRun run_sequence(const std::filesystem::path& folder, const SequenceCase
   vehicle::Sensors sensors = recording.sensors(Time::min());
   if (setup.end > 0.0) limit(sensors, recording.first_stamp + from_seconds(setup.end));
   observer.nav_state = [&track = run.track,
-                        also = std::move(observer.nav_state)](const NavState& state) {
+                        also = std::move(observer.nav_state)](const FusedState& state) {
     track.add(state);
     also(state);
   };

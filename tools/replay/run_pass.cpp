@@ -77,7 +77,7 @@ vehicle::Observer RunPass::observer() {
     odom.add(state.stamp, state.odom.position, state.odom.attitude);
   };
   o.ppp = [this](const PppState& state) { ppp_states[state.stamp] = state; };
-  o.nav_state = [this, last = o.nav_state](const NavState& state) {
+  o.nav_state = [this, last = o.nav_state](const FusedState& state) {
     track.add(state);
     last(state);
   };

@@ -22,11 +22,6 @@ namespace {
 // Samples decoded ahead: longer than a hiccup of the disk.
 constexpr std::size_t decoded_ahead = 6;
 
-// Fixes that PPP makes have errors that last as long as a drive through a street: orbits,
-// reflections and atmosphere.
-constexpr double ppp_error_time = 300.0;  // s
-constexpr double ppp_error_share = 0.95;  // of the variance
-
 // A drive with GNSS alone uses it after the start too: nothing else gives it a position.
 VehicleConfig adapt_to_sensors(VehicleConfig config, const VehicleCalibration& calibration,
                                const Sensors& sensors) {
@@ -36,13 +31,6 @@ VehicleConfig adapt_to_sensors(VehicleConfig config, const VehicleCalibration& c
   if (!camera && !inertial && !sensors.odometry) config.fusion.use_gnss = true;
   if (config.configuration == "auto" && !camera && !sensors.odometry && sensors.wheel) {
     fusion::apply(fusion::configuration("GNSS+RISS"), config.fusion);
-  }
-  if (sensors.epochs || (sensors.live && sensors.live->epochs)) {
-    const auto take = [&](std::string_view key, double& value, double known) {
-      if (!config.given.contains(key)) value = known;
-    };
-    take("fusion.gnss_offset_time", config.fusion.gnss_offset_time, ppp_error_time);
-    take("fusion.gnss_correlated", config.fusion.gnss_correlated, ppp_error_share);
   }
   return config;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "estimators/fusion/filter_state.h"
+#include "estimators/fusion/self_calibration.h"
 #include "msgs/diagnostics.h"
 #include "sensors/source.h"
 
