@@ -16,18 +16,18 @@ namespace index {
 enum : int {
   east,
   north,
-  up,             // m, enu
-  speed,          // m/s along the path, as the speed sensor measures it; negative in reverse
-  azimuth,        // rad, in (-pi, pi]
-  pitch,          // rad
-  roll,           // rad
-  gyro_bias,      // rad/s, adds to the measured yaw rate
-  forward_bias,   // m/s^2, adds to the measured forward specific force
-  left_bias,      // m/s^2, adds to the measured left specific force
-  climb_offset,   // rad, direction of travel above body x, from mounting and load
-  course_offset,  // rad, direction of travel to the right of body x, from mounting
-  axle_distance,  // m, from the rear axle forward to the origin of the body
-  lever_forward,  // m, the GNSS antenna from the origin of the body
+  up,               // m, enu
+  speed,            // m/s along the path, as the speed sensor measures it; negative in reverse
+  azimuth,          // rad, in (-pi, pi]
+  pitch,            // rad
+  roll,             // rad
+  gyro_bias,        // rad/s, adds to the measured yaw rate
+  forward_bias,     // m/s^2, adds to the measured forward specific force
+  left_bias,        // m/s^2, adds to the measured left specific force
+  climb_offset,     // rad, direction of travel above body x, from mounting and load
+  odometry_course,  // rad, odometry's motions point to the right of the travel, from its mounting
+  axle_distance,    // m, from the rear axle forward to the origin of the body
+  lever_forward,    // m, the GNSS antenna from the origin of the body
   lever_left,
   lever_up,
   speed_scale,  // 1, the speed sensor (odometry or wheels) reports (1 + scale) times the speed
@@ -145,8 +145,7 @@ struct FilterState {
   Eigen::Vector3d moved() const {
     return x.segment<3>(index::east) - x.segment<3>(index::clone_east);
   }
-  double course() const { return x[index::azimuth] + x[index::course_offset]; }  // rad, of travel
-  double climb() const { return x[index::pitch] + x[index::climb_offset]; }      // rad, of travel
+  double climb() const { return x[index::pitch] + x[index::climb_offset]; }  // rad, of travel
   Eigen::Vector3d gnss_lever() const { return x.segment<3>(index::lever_forward); }  // m, body
   // Returns (29) of METHOD.md: the pose in the frame of odometry, at the clone, and the motion
   // since. A correction by an absolute measurement moves the clone as well, so it cancels here.

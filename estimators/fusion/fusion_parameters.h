@@ -57,18 +57,18 @@ struct FusionParameters {
   double max_yaw_rate = 6.0;                  // rad/s (350 deg/s)
 
   // Vehicle.
-  double pitch_noise = 0.0175;         // rad/sqrt(s) (1 deg)
-  double roll_noise = 0.0175;          // rad/sqrt(s) (1 deg)
-  double rear_axle_distance = 0.0;     // m
-  double rear_axle_sigma = 0.5;        // m
-  double slip_sigma = 0.005;           // rad (0.3 deg)
-  double slip_time = 1.0;              // s
-  double climb_offset = 0.0;           // rad
-  double climb_offset_sigma = 0.0175;  // rad (1 deg)
-  double climb_offset_time = 300.0;    // s
-  double course_offset_sigma = 0.035;  // rad (2 deg)
-  double course_offset_walk = 1e-4;    // rad/sqrt(s)
-  double max_tilt = 0.8;               // rad
+  double pitch_noise = 0.0175;           // rad/sqrt(s) (1 deg)
+  double roll_noise = 0.0175;            // rad/sqrt(s) (1 deg)
+  double rear_axle_distance = 0.0;       // m
+  double rear_axle_sigma = 0.5;          // m
+  double slip_sigma = 0.005;             // rad (0.3 deg)
+  double slip_time = 1.0;                // s
+  double climb_offset = 0.0;             // rad
+  double climb_offset_sigma = 0.0175;    // rad (1 deg)
+  double climb_offset_time = 300.0;      // s
+  double odometry_course_sigma = 0.035;  // rad (2 deg)
+  double odometry_course_walk = 1e-4;    // rad/sqrt(s)
+  double max_tilt = 0.8;                 // rad
 
   // Levelling by the accelerometers.
   double tilt_sigma = 0.0175;             // rad (1 deg)
@@ -87,7 +87,7 @@ struct FusionParameters {
   double gnss_lever_forward = 0.0;    // m
   double gnss_lever_left = 0.0;       // m
   double gnss_lever_up = 0.0;         // m
-  double gnss_lever_sigma = 0.5;      // m
+  double gnss_lever_sigma = 0.2;      // m
 
   // Map feedback.
   double map_position_gate = 10.83;

@@ -32,8 +32,7 @@ void restart_from(FilterState& state, GnssFix fix, const LocalFrame& frame,
   const FilterState fresh = initial_state(fix, frame, learnt, state.yaw_rate - x[gyro_bias]);
   state.x = fresh.x;
   state.P = fresh.P;
-  state.x[azimuth] = wrap_angle(fresh.x[azimuth] - x[course_offset]);
-  for (const int i : {gyro_bias, forward_bias, left_bias, climb_offset, course_offset,
+  for (const int i : {gyro_bias, forward_bias, left_bias, climb_offset, odometry_course,
                       axle_distance, lidar_scale, lidar_turn}) {
     state.x[i] = x[i];
     state.P.row(i).setZero();
@@ -73,7 +72,7 @@ Innovation<3> velocity_innovation(const FilterState& state, const GnssFix& fix, 
                                   const FusionParameters& p) {
   using namespace index;
   const StateVector& x = state.x;
-  const double sA = std::sin(state.course()), cA = std::cos(state.course());
+  const double sA = std::sin(x[azimuth]), cA = std::cos(x[azimuth]);
   const double sc = std::sin(state.climb()), cc = std::cos(state.climb());
   const double ground = state.ground_speed();
   const Vector3d travel(sA * cc, cA * cc, sc);
@@ -88,8 +87,7 @@ Innovation<3> velocity_innovation(const FilterState& state, const GnssFix& fix, 
   innovation.H.col(speed) = travel / (1.0 + x[speed_scale]);
   innovation.H.col(speed_scale) = -ground / (1.0 + x[speed_scale]) * travel;
   innovation.H.middleCols<3>(azimuth) = turned_by_attitude(state.attitude(), swing);
-  innovation.H.col(course_offset) = ground * Vector3d(cA * cc, -sA * cc, 0.0);
-  innovation.H.col(azimuth) += innovation.H.col(course_offset);
+  innovation.H.col(azimuth) += ground * Vector3d(cA * cc, -sA * cc, 0.0);
   innovation.H.col(climb_offset) = ground * Vector3d(-sA * sc, -cA * sc, cc);
   innovation.H.col(pitch) += innovation.H.col(climb_offset);
   innovation.H.col(gyro_bias) = -(R * Vector3d::UnitZ().cross(arm));

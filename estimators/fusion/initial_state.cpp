@@ -36,6 +36,7 @@ void add_unknown_sensors(FilterState& state, const FusionParameters& p) {
   state.P(speed_scale, speed_scale) = scale_variance;
   state.P(speed, speed) += state.x[speed] * state.x[speed] * scale_variance;
   state.P(speed, speed_scale) = state.P(speed_scale, speed) = state.x[speed] * scale_variance;
+  add(odometry_course, p.odometry_course_sigma);
   state.x[axle_distance] = p.rear_axle_distance;
   add(axle_distance, p.rear_axle_sigma);
   state.x.segment<3>(lever_forward) << p.gnss_lever_forward, p.gnss_lever_left, p.gnss_lever_up;
@@ -80,7 +81,6 @@ FilterState initial_state(const KnownStart& k, const LocalFrame& frame, const Fu
   add(pitch, std::max(k.tilt_sigma, 1e-4));
   add(roll, std::max(k.tilt_sigma, 1e-4));
   add(climb_offset, p.climb_offset_sigma);
-  add(course_offset, p.course_offset_sigma);
   add_unknown_sensors(state, p);
   start_clone(state);
   start_chain(state);
@@ -154,11 +154,7 @@ FilterState initial_state(const GnssFix& fix, const LocalFrame& frame, const Fus
   state.P.topLeftCorner<6, 6>() = J * C * J.transpose();
   const auto add = [&](int i, double sigma) { state.P(i, i) += sigma * sigma; };
   add(speed, p.start_acceleration * velocity_age);
-  // The azimuth is the course minus the course offset.
-  add(azimuth, std::hypot(p.start_course_sigma, p.course_offset_sigma));
-  add(course_offset, p.course_offset_sigma);
-  state.P(azimuth, course_offset) = -p.course_offset_sigma * p.course_offset_sigma;
-  state.P(course_offset, azimuth) = state.P(azimuth, course_offset);
+  add(azimuth, p.start_course_sigma);
   add(pitch, std::hypot(p.start_slope_sigma, p.climb_offset_sigma));
   add(climb_offset, p.climb_offset_sigma);
   state.P(pitch, climb_offset) = -p.climb_offset_sigma * p.climb_offset_sigma;

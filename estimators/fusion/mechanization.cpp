@@ -71,11 +71,10 @@ Step mechanize(const StateVector& x, const InertialInput& input, const LocalEart
   const double to_ground = 1.0 / (1.0 + x[speed_scale]);
   const double mid_speed = sensed_speed * to_ground;
   const double climb = x[pitch] + x[climb_offset];
-  const double course = mid_azimuth + x[course_offset];
-  const Vector3d travel = direction(course, climb);
+  const Vector3d travel = direction(mid_azimuth, climb);
   const Vector3d travel_by_azimuth(travel.y(), -travel.x(), 0.0);
-  const Vector3d travel_by_climb(-std::sin(course) * std::sin(climb),
-                                 -std::cos(course) * std::sin(climb), std::cos(climb));
+  const Vector3d travel_by_climb(-std::sin(mid_azimuth) * std::sin(climb),
+                                 -std::cos(mid_azimuth) * std::sin(climb), std::cos(climb));
 
   Step step;
   step.x = x;
@@ -97,7 +96,6 @@ Step mechanize(const StateVector& x, const InertialInput& input, const LocalEart
   F.block<3, 1>(east, azimuth) += dt * mid_speed * travel_by_azimuth;
   F.block<3, 1>(east, pitch) += dt * mid_speed * travel_by_climb;
   F.block<3, 1>(east, climb_offset) += dt * mid_speed * travel_by_climb;
-  F.block<3, 1>(east, course_offset) += dt * mid_speed * travel_by_azimuth;
   F.block<3, 1>(east, axle_distance) += dt * rate * left;
   const Vector3d left_by_azimuth(std::sin(mid_azimuth), std::cos(mid_azimuth), 0.0);
   F.middleRows<3>(east) += dt * swing * left_by_azimuth * (0.5 * dt * azimuth_rate_by);
@@ -163,7 +161,7 @@ StateMatrix process_noise(const StateVector& x, const Step& step, const Inertial
   walk(lidar_scale, p.lidar_scale_sigma, p.lidar_error_time);
   walk(lidar_turn, p.lidar_turn_sigma, p.lidar_error_time);
   Q(speed_scale, speed_scale) += dt * squared(p.speed_scale_walk);
-  Q(course_offset, course_offset) += dt * squared(p.course_offset_walk);
+  Q(odometry_course, odometry_course) += dt * squared(p.odometry_course_walk);
   Q(chain_drift, chain_drift) += squared(p.chain_drift) * std::abs(x[speed]) * dt;
   // This is a first-order Gauss-Markov process about its mean.
   const auto markov = [&](int i, double sigma) {  // (8) of METHOD.md
@@ -174,7 +172,7 @@ StateMatrix process_noise(const StateVector& x, const Step& step, const Inertial
   markov(lane_offset, 1.0);
 
   // Side slip and suspension turn the direction of travel away from the body's axis.
-  const Vector3d travel = direction(x[azimuth] + x[course_offset], x[pitch] + x[climb_offset]);
+  const Vector3d travel = direction(x[azimuth], x[pitch] + x[climb_offset]);
   // (7) of METHOD.md
   Q.block<3, 3>(east, east) += dt * squared(x[speed] * p.slip_sigma) * p.slip_time *
                                (Eigen::Matrix3d::Identity() - travel * travel.transpose());

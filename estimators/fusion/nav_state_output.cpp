@@ -7,8 +7,7 @@ namespace maploop::fusion {
 namespace {
 
 Eigen::Vector3d direction_of_travel(const StateVector& x) {
-  return direction(x[index::azimuth] + x[index::course_offset],
-                   x[index::pitch] + x[index::climb_offset]);
+  return direction(x[index::azimuth], x[index::pitch] + x[index::climb_offset]);
 }
 
 Eigen::Vector3d left_of(const StateVector& x) {
@@ -20,8 +19,7 @@ Eigen::Vector3d left_of(const StateVector& x) {
 Eigen::Matrix<double, 9, index::count> nav_state_jacobian(const FilterState& state) {
   using namespace index;
   const StateVector& x = state.x;
-  const double course = x[azimuth] + x[course_offset];
-  const double sA = std::sin(course), cA = std::cos(course);
+  const double sA = std::sin(x[azimuth]), cA = std::cos(x[azimuth]);
   const double climb = x[pitch] + x[climb_offset];
   const double sc = std::sin(climb), cc = std::cos(climb);
   Eigen::Matrix<double, 9, count> J = Eigen::Matrix<double, 9, count>::Zero();
@@ -34,7 +32,6 @@ Eigen::Matrix<double, 9, index::count> nav_state_jacobian(const FilterState& sta
   J.block<3, 1>(3, azimuth) << ground * cA * cc, -ground * sA * cc, 0.0;
   J.block<3, 1>(3, pitch) << -ground * sA * sc, -ground * cA * sc, ground * cc;
   J.block<3, 1>(3, climb_offset) = J.block<3, 1>(3, pitch);
-  J.block<3, 1>(3, course_offset) = J.block<3, 1>(3, azimuth);
   const double rate = state.yaw_rate - x[gyro_bias];
   J.block<3, 1>(3, axle_distance) = rate * left_of(x);
   J.block<3, 1>(3, gyro_bias) = -x[axle_distance] * left_of(x);

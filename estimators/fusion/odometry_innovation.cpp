@@ -70,6 +70,8 @@ Innovation<6> motion_innovation(const FilterState& state, const RelativeMotion& 
   innovation.H(0, distance) = gain.value;
   // (14) of METHOD.md
   innovation.residual.segment<2>(1) = (travelled.displacement - to_arc * moved).tail<2>();
+  innovation.residual[1] += travelled.displacement.x() * state.x[odometry_course];
+  innovation.H(1, odometry_course) = -travelled.displacement.x();
   innovation.H.block<2, 3>(1, east) = to_arc.bottomRows<2>();
   innovation.H.block<2, 3>(1, clone_east) = -to_arc.bottomRows<2>();
   for (int i = 0; i < 3; ++i) {

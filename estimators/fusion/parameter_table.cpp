@@ -155,10 +155,10 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
        "where this key is absent."},
       {"climb_offset_time", &P::climb_offset_time, 1.0, large, "s", expert,
        "Correlation time of climb_offset: the mounting stays, the load shifts."},
-      {"course_offset_sigma", &P::course_offset_sigma, tiny, 1.0, "rad", usual,
-       "Standard deviation at the start of the angle by which the vehicle travels to the right of "
-       "the body's x axis, from the mounting of the inertial unit."},
-      {"course_offset_walk", &P::course_offset_walk, 0.0, 1.0, "rad/sqrt(s)", expert,
+      {"odometry_course_sigma", &P::odometry_course_sigma, tiny, 1.0, "rad", usual,
+       "Standard deviation at the start of the angle by which the motions of odometry point to the "
+       "right of the vehicle's own, from the mounting of camera and LiDAR."},
+      {"odometry_course_walk", &P::odometry_course_walk, 0.0, 1.0, "rad/sqrt(s)", expert,
        "Random walk of that angle."},
       {"max_tilt", &P::max_tilt, 0.1, 1.5, "rad", expert,
        "A correction that leads to more roll or pitch is refused, because no road vehicle leans so "

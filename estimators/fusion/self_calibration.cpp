@@ -13,8 +13,8 @@ struct Named {
   double per_unit;  // of the state's own unit
 };
 const std::array<Named, std::tuple_size_v<SelfCalibrations>> all{{
-    {index::course_offset, "direction of travel, to the right of body x", "deg", degrees(1.0)},
-    {index::climb_offset, "direction of travel, above body x", "deg", degrees(1.0)},
+    {index::odometry_course, "odometry points to the right by", "deg", degrees(1.0)},
+    {index::climb_offset, "direction of travel above body x", "deg", degrees(1.0)},
     {index::axle_distance, "rear axle behind the origin", "m", 1.0},
     {index::lever_forward, "GNSS antenna, forward", "m", 1.0},
     {index::lever_left, "GNSS antenna, to the left", "m", 1.0},

@@ -39,7 +39,7 @@ inline fusion::StateVector busy_state() {
   x[forward_bias] = 0.04;
   x[left_bias] = -0.03;
   x[climb_offset] = 0.012;
-  x[course_offset] = -0.02;
+  x[odometry_course] = -0.02;
   x[axle_distance] = 0.9;
   x.segment<3>(lever_forward) << 1.2, -0.4, 0.9;
   x[speed_scale] = -0.008;

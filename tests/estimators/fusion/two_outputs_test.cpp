@@ -152,7 +152,7 @@ TEST_F(Misdescribed, TheFilterLearnsTheAxleAndTheDirectionOfTravel) {
   ReducedImuFilter filter(configured("VO-RI"), test_origin());
   add_as_available(filter, measurements());
   const FilterStatus status = filter.status();
-  const SelfCalibration& course = find(status, "direction of travel, to the right");
+  const SelfCalibration& course = find(status, "odometry points to the right");
   EXPECT_TRUE(course.observed());
   EXPECT_NEAR(course.value, 2.0, 0.2) << "deg";
   EXPECT_LT(course.sigma, 0.3);

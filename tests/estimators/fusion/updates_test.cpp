@@ -43,6 +43,7 @@ RelativeMotion agreeing_motion(const FilterState& state) {
   const Vector3d chord = rotation_enu_body(state.clone_attitude()).transpose() * state.moved();
   Vector3d displacement = half / std::sin(half) * (Eigen::AngleAxisd(-half, turn.axis()) * chord);
   displacement.x() = state.x[index::distance];
+  displacement.y() -= displacement.x() * state.x[index::odometry_course];
   m.translation = std::sin(half) / half * (Eigen::AngleAxisd(half, turn.axis()) * displacement);
   m.covariance.diagonal() << 1e-4, 2e-4, 3e-4, 1e-7, 2e-7, 3e-7;
   return m;

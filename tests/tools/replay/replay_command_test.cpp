@@ -94,7 +94,8 @@ TEST_F(ReplayOfDrive, AFileThatTheDiskRefusesIsSaidAndTheOthersAreThere) {
 }
 
 TEST_F(ReplayOfDrive, EndsWithAVerdictOfThreeLines) {
-  const ProcessResult result = lockstep({"--end", "4", "--json", file("result.json")});
+  const ProcessResult result =
+      lockstep({"--end", "4", "--configuration", "VO-L-RI", "--json", file("result.json")});
   EXPECT_EQ(result.status, 0) << result.error;
   std::istringstream lines(result.out);
   Words said;
@@ -177,8 +178,8 @@ TEST_F(ReplayOfDrive, SurvivesADriveWithAHole) {
 }
 
 TEST_F(ReplayOfDrive, TheReportHoldsAllOfIt) {
-  const ProcessResult result =
-      lockstep({"--end", "2", "--fault", "lost@imu:1:0.1", "--report", file("report.html")});
+  const ProcessResult result = lockstep({"--end", "2", "--configuration", "VO-L-RI", "--fault",
+                                         "lost@imu:1:0.1", "--report", file("report.html")});
   ASSERT_EQ(result.status, 0) << result.error;
   const std::string page = read_file(file("report.html"));
   EXPECT_LT(page.find("VO-L-RI did not use GNSS after the start"), page.find("Way of the vehicle"))

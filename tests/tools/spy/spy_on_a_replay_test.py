@@ -60,14 +60,14 @@ def for_scripts():
     rows = {line.split()[0]: dict(zip(columns, line.split()))
             for line in lines[1:] if not line.startswith("#")}
     steady = {"DEADLINES", "GNSS_FIX", "HEALTH", "IMU", "LIDAR_ODOMETRY", "NAV_STATE",
-              "ODOMETRY", "TRUTH", "VO"}
+              "ODOMETRY", "ODOM_STATE", "TRUTH", "VO"}
     now_and_then = {"CALIBRATION", "PREVIEW", "REPLAY_CONTROL", "RUN"}
     check("the channels", steady <= set(rows) <= steady | now_and_then, table)
     types = {"NAV_STATE": "nav_state_t", "VO": "relative_motion_t", "IMU": "imu_t",
              "GNSS_FIX": "gnss_fix_t", "TRUTH": "reference_pose_t", "HEALTH": "health_t",
              "DEADLINES": "deadlines_t", "LIDAR_ODOMETRY": "lidar_motion_t",
-             "ODOMETRY": "relative_motion_t"}
-    rates = {"NAV_STATE": 100, "VO": 10, "IMU": 10, "TRUTH": 10, "GNSS_FIX": 1, "HEALTH": 1,
+             "ODOMETRY": "relative_motion_t", "ODOM_STATE": "odom_state_t"}
+    rates = {"NAV_STATE": 100, "ODOM_STATE": 100, "VO": 10, "IMU": 10, "TRUTH": 10, "GNSS_FIX": 1, "HEALTH": 1,
              "DEADLINES": 1, "LIDAR_ODOMETRY": 10, "ODOMETRY": 10}
     for name in sorted(steady):
         row = rows[name]

@@ -28,7 +28,7 @@ Driven replay(const std::vector<std::string>& faults) {
           .calibration = recorded.calibration(),
           .faults = faults,
           .faults_from = recorded.first_stamp()};
-  d.config.odometry = "visual";  // the LiDAR would hide a fault of the camera
+  set_configuration(d.config, "VO-RI");  // LiDAR and fixes would hide a fault of the camera
   // Images and scans are read only if a fault strikes them or what is computed from them.
   const auto strikes = [&](const char* target) {
     return std::any_of(faults.begin(), faults.end(), [&](const std::string& text) {

@@ -17,7 +17,13 @@ using testing::fake_sensors;
 using ::testing::HasSubstr;
 using testing::MemoryBus;
 
-VehicleReport run(MemoryBus& bus, double speed, const VehicleConfig& config = {}) {
+VehicleConfig without_fixes() {
+  VehicleConfig config;
+  set_configuration(config, "VO-L-RI");
+  return config;
+}
+
+VehicleReport run(MemoryBus& bus, double speed, const VehicleConfig& config = without_fixes()) {
   return testing::drive({.sensors = fake_sensors(5.0),
                          .speed = speed,
                          .config = config,

@@ -72,8 +72,8 @@ void feed(Rings& rings) {
 TEST(FusionStageAllocation, TheWholeThreadAllocatesNothing) {
   if (!testing::counts_allocations()) GTEST_SKIP() << "the sanitizer owns malloc";
   Rings rings(rings::all, {"imu", "gnss", "odometry", "fusion", "publisher"}, {});
-  runtime::Edge<NavState>& nav_states = *rings.consumer(rings::fusion_publisher);
-  runtime::Edge<NavState>& image_states = *rings.consumer(rings::image_states);
+  runtime::Edge<FusedState>& nav_states = *rings.consumer(rings::fusion_publisher);
+  runtime::Edge<FusedState>& image_states = *rings.consumer(rings::image_states);
   FusionStage stage(rings, fusion::ReducedImuFilter(fusion::FusionParameters{}),
                     stages::stereo.budget);
   runtime::Tracer tracer({});
