@@ -96,7 +96,7 @@ TEST_F(WholeDrive, ALogOfRawSensorsGivesTheHashesOfTheDrive) {
 TEST_F(WholeDrive, AResumedRunHasTheHashesAndTheLogOfTheWholeRunFromThereOn) {
   const json& snapshot = lockstep().result["snapshot"];
   const auto expected = hashes(snapshot);
-  EXPECT_EQ(expected.size(), 7u);
+  EXPECT_EQ(expected.size(), 8u);
   EXPECT_GT(snapshot["channels"]["VO"]["count"], 60);
   const std::string resume = lockstep().in("snapshot");
   EXPECT_EQ(hashes(replay(drive(),
