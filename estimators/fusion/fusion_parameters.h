@@ -82,12 +82,13 @@ struct FusionParameters {
   double gnss_position_gate = 16.27;
   double gnss_velocity_gate = 16.27;
   int gnss_recover_after = 5;
-  double gnss_recovery_sigma = 20.0;  // m
-  double fix_hold = 3.0;              // s
-  double gnss_lever_forward = 0.0;    // m
-  double gnss_lever_left = 0.0;       // m
-  double gnss_lever_up = 0.0;         // m
-  double gnss_lever_sigma = 0.2;      // m
+  double gnss_recovery_sigma = 20.0;        // m
+  double gnss_recovery_course_sigma = 0.3;  // rad
+  double fix_hold = 3.0;                    // s
+  double gnss_lever_forward = 0.0;          // m
+  double gnss_lever_left = 0.0;             // m
+  double gnss_lever_up = 0.0;               // m
+  double gnss_lever_sigma = 0.2;            // m
 
   // Map feedback.
   double map_position_gate = 10.83;

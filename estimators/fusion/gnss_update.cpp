@@ -129,8 +129,17 @@ Outcome apply_gnss_position(FilterState& state, const GnssFix& fix, const LocalF
 
 Outcome apply_gnss_velocity(FilterState& state, const GnssFix& fix, double yaw_rate,
                             const FusionParameters& p) {
-  const Outcome outcome = apply_gated(state, velocity_innovation(state, fix, yaw_rate, p),
-                                      p.gnss_velocity_gate, Reason::velocity_gate);
+  const auto correct = [&] {
+    return apply_gated(state, velocity_innovation(state, fix, yaw_rate, p), p.gnss_velocity_gate,
+                       Reason::velocity_gate);
+  };
+  Outcome outcome = correct();
+  if (outcome.refused() && ++state.velocity_gated_in_a_row == p.gnss_recover_after) {
+    doubt_with_clone(state, index::azimuth, p.gnss_recovery_course_sigma);
+    ++state.recoveries;
+    outcome = correct();
+  }
+  if (!outcome.refused()) state.velocity_gated_in_a_row = 0;
   const double sigma = std::sqrt(fix.velocity_covariance.diagonal().head<2>().maxCoeff());
   if (!outcome.refused() && sigma <= 0.2 * p.recovery_speed_sigma) {
     state.speed_fixed = fix.velocity_stamp;

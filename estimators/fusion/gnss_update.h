@@ -23,7 +23,7 @@ Innovation<3> velocity_innovation(const FilterState& state, const GnssFix& fix, 
 // These apply a fix's position and velocity, each at its own stamp. After `gnss_recover_after`
 // consecutive gated positions the position covariance is inflated (`recoveries`). After twice as
 // many the filter restarts from the fix (`reinitializations`) and keeps its estimates of biases and
-// scales.
+// scales. After `gnss_recover_after` consecutive gated velocities the azimuth is doubted.
 Outcome apply_gnss_position(FilterState& state, const GnssFix& fix, const LocalFrame& frame,
                             const FusionParameters& parameters);
 Outcome apply_gnss_velocity(FilterState& state, const GnssFix& fix, double yaw_rate,

@@ -190,6 +190,9 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
        "it starts again at the fix."},
       {"gnss_recovery_sigma", &P::gnss_recovery_sigma, tiny, large, "m", expert,
        "Standard deviation of the position that the filter then assumes."},
+      {"gnss_recovery_course_sigma", &P::gnss_recovery_course_sigma, tiny, 3.0, "rad", expert,
+       "Standard deviation of the azimuth that the filter assumes after gnss_recover_after gated "
+       "velocities in a row."},
       {"fix_hold", &P::fix_hold, 0.0, large, "s", expert,
        "Time after a fix for which odometry or wheels that contradict the speed are taken to be at "
        "fault, not the prediction."},

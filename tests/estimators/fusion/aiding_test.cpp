@@ -138,6 +138,28 @@ TEST(Gnss, DoubtsItselfAndThenBeginsAnewWhereFixesGoOnToContradict) {
   EXPECT_NEAR(nav->position_enu.x() - drive.pose(58.0).translation().x(), 800.0, 5.0);
 }
 
+TEST(Gnss, ABadFirstFixIsForgottenWithinTenSecondsOfGoodOnes) {
+  const SyntheticDrive drive(town(), 12.0, test_origin());
+  const LocalFrame frame(test_origin());
+  for (const double off : {10.0, 40.0, 400.0}) {
+    ReducedImuFilter filter(configured("auto"), test_origin());
+    std::vector<Measurement> all;
+    append(all, drive.imu(100.0));
+    append(all, drive.odometry(10.0));
+    for (int i = 0; i <= 11; ++i) {
+      GnssFix f = fix(drive, i);
+      if (i == 0) {
+        f.position = frame.to_geodetic(frame.to_enu(f.position) + Eigen::Vector3d(off, -off, 0.0));
+        f.velocity_enu = Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitZ()) * f.velocity_enu;
+      }
+      all.push_back(f);
+    }
+    add_as_available(filter, all);
+    EXPECT_LT(horizontal_error(*filter.state_at(SyntheticDrive::at(11.5)), drive, 11.5), 3.0)
+        << off;
+  }
+}
+
 TEST(Gnss, AntennaOnALeverArmIsTakenBack) {
   MotionProfile circle;
   circle.yaw_rate = [](double) { return 0.3; };
