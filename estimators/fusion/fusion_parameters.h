@@ -62,6 +62,7 @@ struct FusionParameters {
   double rear_axle_distance = 0.0;       // m
   double rear_axle_sigma = 0.5;          // m
   double slip_sigma = 0.005;             // rad (0.3 deg)
+  double heave_sigma = 0.02;             // rad (1.1 deg)
   double slip_time = 1.0;                // s
   double climb_offset = 0.0;             // rad
   double climb_offset_sigma = 0.0175;    // rad (1 deg)

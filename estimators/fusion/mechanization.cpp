@@ -171,11 +171,14 @@ StateMatrix process_noise(const StateVector& x, const Step& step, const Inertial
   for (int i = gnss_offset_east; i <= gnss_offset_up; ++i) markov(i, 1.0);
   markov(lane_offset, 1.0);
 
-  // Side slip and suspension turn the direction of travel away from the body's axis.
+  // Side slip turns the direction of travel away from the body's axis, and so do the springs.
   const Vector3d travel = direction(x[azimuth], x[pitch] + x[climb_offset]);
-  // (7) of METHOD.md
-  Q.block<3, 3>(east, east) += dt * squared(x[speed] * p.slip_sigma) * p.slip_time *
-                               (Eigen::Matrix3d::Identity() - travel * travel.transpose());
+  const Vector3d left(-std::cos(x[azimuth]), std::sin(x[azimuth]), 0.0);
+  const Vector3d above = travel.cross(left);
+  const double way_variance = dt * squared(x[speed]) * p.slip_time;
+  Q.block<3, 3>(east, east) +=  // (7) of METHOD.md
+      way_variance * (squared(p.slip_sigma) * left * left.transpose() +
+                      squared(p.heave_sigma) * above * above.transpose());
   return Q;
 }
 

@@ -145,7 +145,9 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
        "Standard deviation of rear_axle_distance, which the filter estimates in turns."},
       {"slip_sigma", &P::slip_sigma, tiny, 1.0, "rad", expert,
        "Standard deviation of the angle between the direction of travel and the body's axis."},
-      {"slip_time", &P::slip_time, 0.0, large, "s", expert, "Correlation time of that angle."},
+      {"heave_sigma", &P::heave_sigma, tiny, 1.0, "rad", expert,
+       "The same upward: the body pitches and heaves on its springs."},
+      {"slip_time", &P::slip_time, 0.0, large, "s", expert, "Correlation time of both."},
       {"climb_offset", &P::climb_offset, -1.0, 1.0, "rad", usual,
        "Angle of the direction of travel above the body's x axis, from the mounting of the "
        "inertial unit. A recording may know the value of its car, which holds where this key is "
