@@ -11,18 +11,20 @@ struct Named {
   std::string_view name;
   bool lidar, odometry_speed, odometry_azimuth, wheel_speed;
 };
-constexpr std::array<Named, 4> plain{{{"VO-RI", false, true, true, false},
+constexpr std::array<Named, 5> plain{{{"VO-RI", false, true, true, false},
                                       {"VO-L-RI", true, true, true, false},
                                       {"RISS", false, false, false, true},
-                                      {"RISS-VO", false, false, true, true}}};
+                                      {"RISS-VO", false, false, true, true},
+                                      {"RI", false, false, false, false}}};
 constexpr std::string_view with_gnss = "GNSS+";
+constexpr std::string_view gnss_alone = "GNSS";
 
 std::string plain_form(std::string_view text) {
   std::string name;
   for (const char c : text) {
     if (c != ' ') name += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   }
-  if (name.starts_with("GPS+")) name.replace(0, 3, "GNSS");
+  if (name == "GPS" || name.starts_with("GPS+")) name.replace(0, 3, "GNSS");
   return name;
 }
 
@@ -32,16 +34,18 @@ std::vector<std::string> configuration_names() {
   std::vector<std::string> names;
   for (const Named& n : plain) names.emplace_back(n.name);
   for (const Named& n : plain) names.push_back(std::string(with_gnss) + std::string(n.name));
+  names.emplace_back(gnss_alone);
   return names;
 }
 
 Configuration configuration(std::string_view text) {
   const std::string name = plain_form(text);
+  if (name == gnss_alone) return {name, false, false, true, false, false, false};
   const bool gnss = name.starts_with(with_gnss);
   const std::string_view rest = std::string_view(name).substr(gnss ? with_gnss.size() : 0);
   for (const Named& n : plain) {
     if (rest == n.name) {
-      return {name, n.lidar, gnss, n.odometry_speed, n.odometry_azimuth, n.wheel_speed};
+      return {name, true, n.lidar, gnss, n.odometry_speed, n.odometry_azimuth, n.wheel_speed};
     }
   }
   std::string all;
@@ -55,6 +59,13 @@ void apply(const Configuration& configuration, FusionParameters& p) {
   p.use_odometry_speed = configuration.odometry_speed;
   p.use_odometry_azimuth = configuration.odometry_azimuth;
   p.use_wheel_speed = configuration.wheel_speed;
+  if (!configuration.odometry_speed && !configuration.wheel_speed) {
+    p.still_by_inertia = true;
+    p.speed_scale_sigma = 1e-6;  // there is no sensor that a scale would be of
+    p.speed_scale_walk = 0.0;
+    return;
+  }
+  p.still_by_inertia = false;
   p.speed_scale_sigma = configuration.wheel_speed ? 0.02 : 0.015;  // for tyres; for disparities
   p.speed_scale_walk =
       configuration.wheel_speed ? 1.2e-4 : 1e-3;  // 1/sqrt(s); tyres change as they warm up
