@@ -45,6 +45,10 @@ class TableRecording {
   std::unique_ptr<AlignedImu> imu(std::unique_ptr<Source<GnssFix>> fixes,
                                   const MountParameters& parameters,
                                   double rear_axle_distance) const;
+  // Receivers with an inertial unit lie in the cabin; this is how far it is ahead of the rear axle
+  // where nothing else is known.
+  static constexpr double cabin_ahead = 1.5;  // m
+
   // The receiver's own fusion; the accuracy that it states for each row is `reference_accuracy`,
   // because the tables state none.
   std::unique_ptr<Source<ReferencePose>> reference() const;

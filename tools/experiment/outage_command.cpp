@@ -83,11 +83,11 @@ std::optional<Eigen::Matrix3d> receivers_mount(const fs::path& folder) {
                   row[table.column("yaw_deg")]);
 }
 
-Row mount_row(const Drive& drive, double rear_axle_distance) {
+Row mount_row(const Drive& drive) {
   const sensors::TableRecording recording(drive.folder);
   Row row{drive.half, drive.folder.filename().string()};
   if (!recording.has_imu()) return row;
-  const auto imu = recording.imu(recording.gnss(), {}, rear_axle_distance);
+  const auto imu = recording.imu(recording.gnss(), {}, sensors::TableRecording::cabin_ahead);
   const sensors::Mount& mount = imu->alignment().mount();
   ImuSample sample;
   if (!imu->next(sample)) {
@@ -109,12 +109,12 @@ Row mount_row(const Drive& drive, double rear_axle_distance) {
   return row;
 }
 
-Table mounts(const std::vector<Drive>& drives, double rear_axle_distance) {
+Table mounts(const std::vector<Drive>& drives) {
   Table table{"Mount of the unit: roll pitch yaw in degrees; differences of level, forward",
               {"half", "drive", "found s", "mount", "sigma", "first - last", "receiver's",
                "last - receiver's"},
               {}};
-  for (const Drive& drive : drives) table.rows.push_back(mount_row(drive, rear_axle_distance));
+  for (const Drive& drive : drives) table.rows.push_back(mount_row(drive));
   return table;
 }
 
@@ -211,14 +211,13 @@ struct OutageOptions {
 };
 
 int compare_outages(const OutageOptions& options) {
-  constexpr double cabin = 1.5;  // m ahead of the rear axle, as vehicle::open_recording() assumes
   vehicle::VehicleConfig config;
   if (!options.config.empty()) config = vehicle::load_vehicle_config(options.config);
   std::vector<Drive> drives = drives_in(options.folder);
   if (!options.half.empty()) {
     std::erase_if(drives, [&](const Drive& drive) { return drive.half != options.half; });
   }
-  std::cout << as_text(mounts(drives, cabin)) << std::flush;
+  std::cout << as_text(mounts(drives)) << std::flush;
   if (options.mounts_only) return 0;
   std::vector<OutageCase> cases;
   for (const std::string& configuration : options.configurations)

@@ -165,9 +165,7 @@ Recording open_tables(const std::filesystem::path& folder, const VehicleConfig& 
   recording.images = tables->fix_count();
   recording.peer_reference = true;
   recording.fixes = [tables] { return tables->gnss(); };
-  // Receivers with an inertial unit lie in the cabin, 1 to 2 m ahead of the rear axle.
-  constexpr double cabin = 1.5;  // m
-  recording.calibration.rear_axle_distance = cabin;
+  recording.calibration.rear_axle_distance = sensors::TableRecording::cabin_ahead;
   VehicleConfig car = config;
   describe_car(car, recording.calibration);
   recording.sensors = [tables, car, outages = outages_of(config, recording)](Time) {
