@@ -60,12 +60,12 @@ void apply(const Configuration& configuration, FusionParameters& p) {
   p.use_odometry_azimuth = configuration.odometry_azimuth;
   p.use_wheel_speed = configuration.wheel_speed;
   if (!configuration.odometry_speed && !configuration.wheel_speed) {
-    p.still_by_inertia = true;
+    p.still_by_inertia = p.speed_from_turns = true;
     p.speed_scale_sigma = 1e-6;  // there is no sensor that a scale would be of
     p.speed_scale_walk = 0.0;
     return;
   }
-  p.still_by_inertia = false;
+  p.still_by_inertia = p.speed_from_turns = false;
   p.speed_scale_sigma = configuration.wheel_speed ? 0.02 : 0.015;  // for tyres; for disparities
   p.speed_scale_walk =
       configuration.wheel_speed ? 1.2e-4 : 1e-3;  // 1/sqrt(s); tyres change as they warm up

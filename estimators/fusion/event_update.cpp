@@ -26,10 +26,16 @@ void apply_sample(FilterState& state, const ImuSample& sample, const ImuSample& 
   const double interval = to_seconds(sample.stamp - before.stamp);
   if (interval <= 0.0) return;
   if (const auto roll = roll_innovation(state, sample, interval, earth, p)) {
-    // A body leans in turns; the effect on the measured force must not change speed or turning.
-    joseph_update(state.x, state.P, *roll,
-                  {index::speed, index::speed_scale, index::gyro_bias, index::lidar_scale,
-                   index::lidar_turn});
+    // A body leans in turns; the effect on the measured force must not change turning, nor the
+    // speed where a sensor measures it.
+    if (p.speed_from_turns) {
+      joseph_update(state.x, state.P, *roll,
+                    {index::speed_scale, index::gyro_bias, index::lidar_scale, index::lidar_turn});
+    } else {
+      joseph_update(state.x, state.P, *roll,
+                    {index::speed, index::speed_scale, index::gyro_bias, index::lidar_scale,
+                     index::lidar_turn});
+    }
   }
   if (!stands(state, sample, interval, p) || !p.use_zero_velocity) return;
   joseph_update(state.x, state.P, zero_velocity_innovation(state, interval, p));

@@ -13,6 +13,7 @@ struct FusionParameters {
   bool use_wheel_speed = false;
   bool use_zero_velocity = true;
   bool still_by_inertia = false;
+  bool speed_from_turns = false;
 
   // History and time.
   double history_length = 3.0;  // s

@@ -45,6 +45,9 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
       {"still_by_inertia", &P::still_by_inertia, expert,
        "Whether quiet inertial samples show by themselves that the vehicle stands still. "
        "`configuration` sets it where neither odometry nor wheels give a speed."},
+      {"speed_from_turns", &P::speed_from_turns, expert,
+       "Whether the centripetal force of a turn corrects the speed. `configuration` sets it where "
+       "neither odometry nor wheels give a speed."},
 
       {"history_length", &P::history_length, 0.01, 60.0, "s", expert,
        "Age up to which late data is applied. Odometry is less than 0.3 s late."},

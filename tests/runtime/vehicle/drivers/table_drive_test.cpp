@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <fstream>
+#include <sstream>
 
+#include "msgs/input_file.h"
 #include "runtime/core/data_clock.h"
 #include "runtime/vehicle/drivers/recording.h"
 #include "tests/support/error_of.h"
@@ -131,6 +133,45 @@ TEST_F(OakvilleDrive, StaysOnItsFixesAndNearThemThroughAShortOutage) {
   std::nth_element(errors.begin(), errors.begin() + errors.size() / 2, errors.end());
   EXPECT_LT(errors[errors.size() / 2], 1.5);  // up to 0.1 s of driving is between state and fix
   EXPECT_GT(driven.states.back().zero_velocity_stamp, Time{});
+}
+
+// The fix that the filter starts from is wrong: by its place, or by its direction.
+TEST_F(OakvilleDrive, RecoversFromAWrongFirstFix) {
+  const maploop::testing::TemporaryFolder changed;
+  fs::create_symlink(folder / "imu.csv.gz", changed.path() / "imu.csv.gz");
+  const std::string text = read_text(folder / "gnss.csv.gz", 1 << 24);
+  struct Change {
+    std::size_t column;
+    double factor, offset;
+  };
+  for (const auto& changes : {std::vector<Change>{{1, 1.0, 0.003}},  // deg: 330 m
+                              std::vector<Change>{{4, -1.0, 0.0}, {5, -1.0, 0.0}}}) {
+    std::istringstream lines(text);
+    std::ofstream out(changed.path() / "gnss.csv");
+    bool wrong = false;
+    for (std::string line; std::getline(lines, line); out << line << '\n') {
+      std::vector<std::string> cells;
+      std::istringstream row(line);
+      for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+      if (wrong || cells.at(0) == "t_s") continue;
+      wrong = std::hypot(std::stod(cells[4]), std::stod(cells[5])) > 2.0;
+      if (!wrong) continue;
+      line.clear();
+      for (const Change& c : changes)
+        cells[c.column] = std::to_string(c.factor * std::stod(cells[c.column]) + c.offset);
+      for (const std::string& cell : cells) line += (line.empty() ? "" : ",") + cell;
+    }
+    out.close();
+    const Recording recording = open_recording(changed.path(), config);
+    const Driven driven = run(recording, config);
+    const NavState& end = driven.states.back();
+    GnssFix last;
+    const auto fixes = recording.fixes();
+    while (fixes->next(last)) {
+    }
+    const Eigen::Vector3d p = LocalFrame(end.origin).to_enu(last.position);
+    EXPECT_LT((end.position_enu - p).head<2>().norm(), 5.0);
+  }
 }
 
 // Fixes of the outage do not reach the search for the mount either: until its end nothing differs
