@@ -158,7 +158,7 @@ void MountAlignment::learn(const GnssFix& a, const GnssFix& b) {
   if (!begin || !end) return;
   const double duration = to_seconds(b.velocity_stamp - a.velocity_stamp);
   const Values mean = (*end - *begin) / duration;
-  const auto [slow, fast] = std::minmax(horizontal_speed(a), horizontal_speed(b));
+  const auto [slow, fast] = std::minmax({horizontal_speed(a), horizontal_speed(b)});
   if (fast < rest_speed) {
     learn_rest(mean, duration);
   } else if (slow > course_speed &&
@@ -205,7 +205,7 @@ void MountAlignment::learn_motion(const Motion& motion) {
 void MountAlignment::settle() {
   mount_.status = MountStatus::found;
   if (rest_ >= enough_rest) return;
-  const Vector3d up = mount_.R_body_unit.row(2);  // of the body, in the unit's axes
+  const Vector3d up = mount_.R_body_unit.row(2).transpose();  // of the body, in the unit's axes
   mount_.gyro_bias = (up.dot(turned_) - course_turned_) / weights_ * up;
 }
 

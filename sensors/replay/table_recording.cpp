@@ -13,7 +13,6 @@
 #include "msgs/frames.h"
 #include "msgs/input_limits.h"
 #include "sensors/replay/csv_table.h"
-#include "sensors/replay/files.h"
 #include "sensors/replay/sequence_files.h"
 
 namespace maploop::sensors {

@@ -1,7 +1,10 @@
 // Drives of tables: every sensor to its end, by increasing times that do not leap. Lines that begin
 // with '#' part the input into the files.
-#include <array>
+#include <algorithm>
+#include <fstream>
+#include <memory>
 #include <stdexcept>
+#include <string_view>
 
 #include "msgs/input_limits.h"
 #include "sensors/replay/table_recording.h"

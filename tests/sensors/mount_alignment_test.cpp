@@ -131,7 +131,7 @@ TEST(MountAlignment, TheGyrosBiasIsFoundAtRestAndInMotion) {
     car.R_body_unit = rotation(171.0, 61.0, 168.0);
     car.gyro_bias = {0.005, -0.009, 0.006};
     const Mount mount = mount_after(car, 60.0);
-    const Vector3d up = mount.R_body_unit.row(2);
+    const Vector3d up = mount.R_body_unit.row(2).transpose();
     EXPECT_NEAR(up.dot(mount.gyro_bias), up.dot(car.gyro_bias), standing > 0.0 ? 1e-6 : 2e-3);
     if (standing > 0.0) EXPECT_LT((mount.gyro_bias - car.gyro_bias).norm(), 1e-6);
   }

@@ -6,7 +6,11 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "msgs/frames.h"
 #include "runtime/core/data_clock.h"

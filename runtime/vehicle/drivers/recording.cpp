@@ -26,8 +26,15 @@ namespace {
 
 template <class Opened>
 Recording make_recording(const Opened& opened, std::function<Sensors(Time)> sensors) {
-  return {opened.calibration(), opened.first_stamp(), opened.last_stamp(), opened.frame_count(),
-          std::move(sensors)};
+  return {opened.calibration(),
+          opened.first_stamp(),
+          opened.last_stamp(),
+          opened.frame_count(),
+          std::move(sensors),
+          {},
+          {},
+          false,
+          {}};
 }
 
 // Returns the wheel odometer's parameters if the configuration uses a wheel speed.
