@@ -34,12 +34,12 @@ using namespace experiments;
 namespace fs = std::filesystem;
 
 // Parameters are chosen on the first half, so that the other one scores them.
-struct Drive {
+struct TableDrive {
   fs::path folder;
   const char* half;  // "odd" or "even", by the order of the names from 1
 };
 
-std::vector<Drive> drives_in(const fs::path& folder) {
+std::vector<TableDrive> drives_in(const fs::path& folder) {
   std::vector<fs::path> folders;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (sensors::TableRecording::is_named(entry.path())) folders.push_back(entry.path());
@@ -49,7 +49,7 @@ std::vector<Drive> drives_in(const fs::path& folder) {
                              "': it needs folders with gnss.csv (sensors/FORMATS.md)");
   }
   std::sort(folders.begin(), folders.end());
-  std::vector<Drive> drives;
+  std::vector<TableDrive> drives;
   for (const fs::path& f : folders) drives.push_back({f, drives.size() % 2 == 0 ? "odd" : "even"});
   return drives;
 }
@@ -87,7 +87,7 @@ std::optional<Eigen::Matrix3d> receivers_mount(const fs::path& folder) {
                   row[table.column("yaw_deg")]);
 }
 
-Row mount_row(const Drive& drive) {
+Row mount_row(const TableDrive& drive) {
   const sensors::TableRecording recording(drive.folder);
   Row row{drive.half, drive.folder.filename().string()};
   if (!recording.has_imu()) return row;
@@ -113,23 +113,23 @@ Row mount_row(const Drive& drive) {
   return row;
 }
 
-Table mounts(const std::vector<Drive>& drives) {
+Table mount_table(const std::vector<TableDrive>& drives) {
   Table table{"Mount of the unit: roll pitch yaw in degrees; differences of level, forward",
               {"half", "drive", "found s", "mount", "sigma", "first - last", "receiver's",
                "last - receiver's"},
               {}};
-  for (const Drive& drive : drives) table.rows.push_back(mount_row(drive));
+  for (const TableDrive& drive : drives) table.rows.push_back(mount_row(drive));
   return table;
 }
 
 struct OutageCase {
-  Drive drive;
+  TableDrive drive;
   std::string configuration;
   double length;  // s
 };
 
 // One outage after another; before the first one the filter has time to learn its sensors.
-std::string regular_outages(double duration, double length) {
+std::string made_outages(double duration, double length) {
   const double between = 60.0;
   const double begin = std::clamp(0.25 * duration, between, 150.0);  // s
   std::string text;
@@ -144,7 +144,7 @@ std::vector<fusion_score::OutageEnd> run(const OutageCase& c, vehicle::VehicleCo
   set_configuration(config, c.configuration);
   const sensors::TableRecording tables(c.drive.folder);
   config.gnss_outage =
-      regular_outages(to_seconds(tables.last_stamp() - tables.first_stamp()), c.length);
+      made_outages(to_seconds(tables.last_stamp() - tables.first_stamp()), c.length);
   if (config.gnss_outage.empty()) return {};
   const vehicle::Recording recording = vehicle::open_recording(c.drive.folder, config);
   fusion_score::NavTrack track;
@@ -159,11 +159,11 @@ std::vector<fusion_score::OutageEnd> run(const OutageCase& c, vehicle::VehicleCo
                      sensors::read_rows(recording.sensors(Time::max()).reference));
 }
 
-double worst(const std::vector<double>& values) {
+double largest(const std::vector<double>& values) {
   return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
 }
 
-Table outages(const std::vector<OutageCase>& cases,
+Table outage_table(const std::vector<OutageCase>& cases,
               const std::vector<std::vector<fusion_score::OutageEnd>>& results, bool by_drive) {
   constexpr double least_way = 50.0;  // m: a standing car shows nothing
   Groups<std::vector<fusion_score::OutageEnd>> groups;
@@ -200,7 +200,7 @@ Table outages(const std::vector<OutageCase>& cases,
     }
     Row& row = table.rows.emplace_back(cells);
     row.push_back(std::to_string(ends.size()));
-    for (const double value : {way, median(error), worst(error), median(percent), worst(percent),
+    for (const double value : {way, median(error), largest(error), median(percent), largest(percent),
                                median(normalized), median(peer)})
       row.push_back(number(value, value < 100.0 ? 1 : 0));
   }
@@ -217,24 +217,24 @@ struct OutageOptions {
 int compare_outages(const OutageOptions& options) {
   vehicle::VehicleConfig config;
   if (!options.config.empty()) config = vehicle::load_vehicle_config(options.config);
-  std::vector<Drive> drives = drives_in(options.folder);
+  std::vector<TableDrive> drives = drives_in(options.folder);
   if (!options.half.empty()) {
-    std::erase_if(drives, [&](const Drive& drive) { return drive.half != options.half; });
+    std::erase_if(drives, [&](const TableDrive& drive) { return drive.half != options.half; });
   }
-  std::cout << as_text(mounts(drives)) << std::flush;
+  std::cout << as_text(mount_table(drives)) << std::flush;
   if (options.mounts_only) return 0;
   std::vector<OutageCase> cases;
   for (const std::string& configuration : options.configurations)
     for (const double length : {10.0, 30.0, 60.0})
-      for (const Drive& drive : drives) cases.push_back({drive, configuration, length});
+      for (const TableDrive& drive : drives) cases.push_back({drive, configuration, length});
   const auto results = run_all(
       cases,
       [](const OutageCase& c) {
         return c.drive.folder.filename().string() + ", " + c.configuration;
       },
       [&](const OutageCase& c) { return run(c, config); });
-  std::cout << as_text(outages(cases, results, false));
-  if (options.by_drive) std::cout << as_text(outages(cases, results, true));
+  std::cout << as_text(outage_table(cases, results, false));
+  if (options.by_drive) std::cout << as_text(outage_table(cases, results, true));
   return 0;
 }
 
