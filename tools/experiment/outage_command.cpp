@@ -209,7 +209,7 @@ Table outage_table(const std::vector<OutageCase>& cases,
 
 struct OutageOptions {
   fs::path folder, config;
-  std::vector<std::string> configurations{"GNSS+RI", "GNSS"};
+  std::vector<std::string> configurations{"GNSS+RI"};
   std::string half;
   bool by_drive = false, mounts_only = false;
 };

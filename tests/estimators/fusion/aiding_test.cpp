@@ -326,6 +326,7 @@ TEST(Configurations, AreFoundByNameAndListedWhereThereIsNone) {
   EXPECT_FALSE(alone.use_odometry_speed || alone.use_odometry_azimuth || alone.use_wheel_speed);
   apply(configuration("RISS"), alone);
   EXPECT_FALSE(alone.still_by_inertia);
+  EXPECT_EQ(alone.pitch_noise, FusionParameters{}.pitch_noise);
   try {
     configuration("VORI");
     FAIL() << "should not be found";
