@@ -30,12 +30,20 @@ std::string plain_form(std::string_view text) {
 
 // Without a speed sensor the speed is the integral of the forward force, so the noise must be that
 // of the road: its grade changes by 1 deg (1 sigma) within ten seconds. With odometry, wider noise
-// lets each motion level the body. (Chosen on the Oakville drives 1, 3, 5, 7, 9.)
-void use_noise_of(bool inertial_speed, FusionParameters& p) {
-  const FusionParameters with_odometry;
-  p.acceleration_noise = inertial_speed ? 0.15 : with_odometry.acceleration_noise;  // m/s/sqrt(s)
-  p.pitch_noise = inertial_speed ? 0.005 : with_odometry.pitch_noise;               // rad/sqrt(s)
-  p.roll_noise = inertial_speed ? 0.006 : with_odometry.roll_noise;
+// lets each motion level the body. (Chosen on the Oakville drives 1, 3, 5, 7, 9.) Where fixes are
+// all there is, such as before the mount of the unit is known, ten of them are many.
+void set_inertial_speed(bool inertial_speed, FusionParameters& p) {
+  FusionParameters chosen;
+  if (inertial_speed) {
+    chosen.acceleration_noise = 0.15;  // m/s/sqrt(s)
+    chosen.pitch_noise = 0.005;        // rad/sqrt(s)
+    chosen.roll_noise = 0.006;         // rad/sqrt(s)
+    chosen.restart_after = 10;
+  }
+  p.acceleration_noise = chosen.acceleration_noise;
+  p.pitch_noise = chosen.pitch_noise;
+  p.roll_noise = chosen.roll_noise;
+  p.restart_after = chosen.restart_after;
 }
 
 }  // namespace
@@ -70,7 +78,7 @@ void apply(const Configuration& configuration, FusionParameters& p) {
   p.use_odometry_azimuth = configuration.odometry_azimuth;
   p.use_wheel_speed = configuration.wheel_speed;
   const bool inertial_speed = !configuration.odometry_speed && !configuration.wheel_speed;
-  if (inertial_speed || p.speed_from_turns) use_noise_of(inertial_speed, p);
+  if (inertial_speed || p.speed_from_turns) set_inertial_speed(inertial_speed, p);
   p.still_by_inertia = p.speed_from_turns = inertial_speed;
   if (inertial_speed) {
     p.speed_scale_sigma = 1e-6;  // there is no sensor that a scale would be of
