@@ -122,8 +122,6 @@ TEST(MountAlignment, ReducedSamplesAreThoseOfAUnitAlongTheBody) {
   EXPECT_NEAR(reduced.yaw_rate, truth.rate.z(), 1e-3);
 }
 
-// The unit's mean force over an interval in which the acceleration changes is compared with the
-// change of the velocity, so this shows the integration as well.
 TEST(MountAlignment, TheGyrosBiasIsFoundAtRestAndInMotion) {
   for (const double standing : {5.0, 0.0}) {
     MadeDrive car;
@@ -133,7 +131,9 @@ TEST(MountAlignment, TheGyrosBiasIsFoundAtRestAndInMotion) {
     const Mount mount = mount_after(car, 60.0);
     const Vector3d up = mount.R_body_unit.row(2).transpose();
     EXPECT_NEAR(up.dot(mount.gyro_bias), up.dot(car.gyro_bias), standing > 0.0 ? 1e-6 : 2e-3);
-    if (standing > 0.0) EXPECT_LT((mount.gyro_bias - car.gyro_bias).norm(), 1e-6);
+    if (standing > 0.0) {
+      EXPECT_LT((mount.gyro_bias - car.gyro_bias).norm(), 1e-6);
+    }
   }
 }
 

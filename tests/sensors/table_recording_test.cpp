@@ -185,7 +185,7 @@ TEST_F(Tables, AReceiverThatNeverAlignedIsNoReference) {
   EXPECT_FALSE(opened().has_reference());
 }
 
-double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {  // deg
+double degrees_apart(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {  // deg
   return degrees(Eigen::AngleAxisd(a * b.transpose()).angle());
 }
 
@@ -219,11 +219,11 @@ TEST(OakvilleDrives, TheMountAgreesWithTheReceivers) {
          Eigen::AngleAxisd(radians_of("pitch_deg"), Eigen::Vector3d::UnitY()) *
          Eigen::AngleAxisd(radians_of("roll_deg"), Eigen::Vector3d::UnitX()))
             .toRotationMatrix();
-    EXPECT_LT(angle_between(mount.R_body_unit, peer), 5.0);
+    EXPECT_LT(degrees_apart(mount.R_body_unit, peer), 5.0);
   }
   ASSERT_EQ(found.size(), 10u);
   // The unit was mounted in the same way on this drive.
-  EXPECT_LT(angle_between(found[never_aligned], found["mixed-road-highway-low-signal-001"]), 1.0);
+  EXPECT_LT(degrees_apart(found[never_aligned], found["mixed-road-highway-low-signal-001"]), 1.0);
 }
 
 }  // namespace
