@@ -28,8 +28,9 @@ constexpr double course_speed = 3.0;     // m/s, below which a course says littl
 constexpr double worst_velocity = 1.0;   // m/s, 1 sigma a horizontal axis
 constexpr double force_gate = 1.5;       // m/s^2, between the lengths of both forces
 constexpr double most_horizontal = 8.0;  // m/s^2, what tyres hold
-constexpr double rate_gate = 0.2;     // rad/s, between the turning of the gyros and of the course
-constexpr double robust_force = 0.5;  // m/s^2, residual at which an interval has half its weight
+constexpr double rate_gate = 0.2;       // rad/s, between the turning of the gyros and of the course
+constexpr double robust_force = 0.5;    // m/s^2, residual at which an interval has half its weight
+constexpr double least_residual = 0.1;  // m/s^2, of velocities that are good to 0.03 m/s
 constexpr double found_sigma = radians(1.0);
 constexpr std::uint64_t least_intervals = 20;
 
@@ -193,9 +194,11 @@ void MountAlignment::learn_motion(const Motion& motion) {
   weights_ += weight;
   residuals_ += 0.5 * weight * residual().head<2>().squaredNorm();
   horizontal_ += weight * motion.body_force.head<2>().squaredNorm();
-  const double sigma = std::sqrt(residuals_ / weights_);
+  // The noise of the velocities looks like accelerations, which show no direction.
+  const double sigma = std::max(least_residual, std::sqrt(residuals_ / weights_));
+  const double seen = std::max(1e-9, horizontal_ - 2.0 * sigma * sigma * weights_);
   mount_.level_sigma = sigma / (gravity * std::sqrt(weights_));
-  mount_.forward_sigma = sigma / std::sqrt(std::max(horizontal_, 1e-9));
+  mount_.forward_sigma = sigma / std::sqrt(seen);
   if (!mount_.known() && mount_.intervals >= least_intervals &&
       mount_.forward_sigma < found_sigma) {
     settle();

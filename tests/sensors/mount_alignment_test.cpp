@@ -69,8 +69,8 @@ struct MadeDrive {
     result.velocity_enu = Vector3d(speed(t) * std::cos(yaw) - sideways * std::sin(yaw),
                                    speed(t) * std::sin(yaw) + sideways * std::cos(yaw), 0.0);
     result.velocity_covariance = 0.01 * Matrix3d::Identity();
-    const double turn = std::fmod(17.0 * t, 1.0);
-    if (turn < wrong_share) result.velocity_enu.x() += 20.0;
+    constexpr double golden = 0.618034;  // spreads the wrong ones
+    if (std::fmod(2.0 * t * golden, 1.0) < wrong_share) result.velocity_enu.x() += 20.0;
     return result;
   }
 };
