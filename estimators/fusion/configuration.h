@@ -15,11 +15,13 @@ namespace maploop::fusion {
 //   VO-L-RI   speed and turning from visual-LiDAR odometry
 //   RISS      speed from the wheels only
 //   RISS-VO   speed from the wheels, turning from visual odometry
+//   RI        nothing: a vehicle without odometry and wheels
+//   GNSS      fixes alone, without the inertial samples either
 // With the prefix GNSS+ the filter also uses fixes after the start. `GPS + VO-RI` means the same as
 // GNSS+VO-RI.
 struct Configuration {
   std::string name;  // normalized: upper case but auto, no blanks, GNSS for GPS
-  bool lidar = false;
+  bool inertial = true, lidar = false;
   bool gnss = false, odometry_speed = false, odometry_azimuth = false, wheel_speed = false;
 };
 

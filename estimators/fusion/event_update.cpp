@@ -1,5 +1,7 @@
 #include "estimators/fusion/event_update.h"
 
+#include <cmath>
+
 #include "estimators/fusion/gnss_update.h"
 #include "estimators/fusion/inertial_update.h"
 #include "estimators/fusion/map_update.h"
@@ -9,6 +11,8 @@
 
 namespace maploop::fusion {
 namespace {
+
+constexpr double tight_turn = 0.1;  // rad/s
 
 // Interpolates linearly between samples; after the newest one, returns its own value.
 double yaw_rate_at(const InertialSamples& samples, Time t) {
@@ -26,10 +30,17 @@ void apply_sample(FilterState& state, const ImuSample& sample, const ImuSample& 
   const double interval = to_seconds(sample.stamp - before.stamp);
   if (interval <= 0.0) return;
   if (const auto roll = roll_innovation(state, sample, interval, earth, p)) {
-    // A body leans in turns; the effect on the measured force must not change speed or turning.
-    joseph_update(state.x, state.P, *roll,
-                  {index::speed, index::speed_scale, index::gyro_bias, index::lidar_scale,
-                   index::lidar_turn});
+    // A body leans in turns; the effect on the measured force must not change turning, nor the
+    // speed where a sensor measures it. Wide curves are banked, so they do not show the speed.
+    const bool turns = std::abs(sample.yaw_rate - state.x[index::gyro_bias]) > tight_turn;
+    if (p.speed_from_turns && turns) {
+      joseph_update(state.x, state.P, *roll,
+                    {index::speed_scale, index::gyro_bias, index::lidar_scale, index::lidar_turn});
+    } else {
+      joseph_update(state.x, state.P, *roll,
+                    {index::speed, index::speed_scale, index::gyro_bias, index::lidar_scale,
+                     index::lidar_turn});
+    }
   }
   if (!stands(state, sample, interval, p) || !p.use_zero_velocity) return;
   joseph_update(state.x, state.P, zero_velocity_innovation(state, interval, p));

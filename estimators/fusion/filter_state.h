@@ -78,6 +78,10 @@ void archive(Archive& ar, DelayEstimate& e) {
 struct Stillness {
   double mean_force = 0.0;      // m/s^2, mean forward specific force of the last second
   double force_variance = 1.0;  // m^2/s^4
+  double mean_left = 0.0;       // of the left specific force, and of the yaw rate, the same
+  double left_variance = 1.0;
+  double mean_rate = 0.0;
+  double rate_variance = 1.0;
   // These are the newest times at which odometry or the wheels showed a standing or a moving
   // vehicle.
   Time seen_standing{};
@@ -86,7 +90,8 @@ struct Stillness {
 
 template <class Archive>
 void archive(Archive& ar, Stillness& s) {
-  ar(s.mean_force, s.force_variance, s.seen_standing, s.seen_moving);
+  ar(s.mean_force, s.force_variance, s.mean_left, s.left_variance, s.mean_rate, s.rate_variance,
+     s.seen_standing, s.seen_moving);
 }
 
 // This is a pose in the frame of odometry, which agrees with enu at the filter's start and then

@@ -12,6 +12,8 @@ struct FusionParameters {
   bool chain_odometry_azimuth = false;
   bool use_wheel_speed = false;
   bool use_zero_velocity = true;
+  bool still_by_inertia = false;
+  bool speed_from_turns = false;
 
   // History and time.
   double history_length = 3.0;  // s
@@ -115,6 +117,8 @@ struct FusionParameters {
   double still_force = 0.05;          // m/s^2
   double still_rate = 0.0052;         // rad/s (0.3 deg/s)
   double still_speed = 0.1;           // m/s
+  double quiet_force = 0.08;          // m/s^2
+  double quiet_rate = 0.004;          // rad/s (0.23 deg/s)
   double zero_velocity_sigma = 0.02;  // m/s
   double zero_rate_sigma = 1.7e-4;    // rad/s (0.01 deg/s)
 

@@ -12,6 +12,26 @@ void note(Stillness& stillness, bool standing, Time stamp) {
   (standing ? stillness.seen_standing : stillness.seen_moving) = stamp;
 }
 
+// Updates a mean and a variance over the memory by a new value.
+void follow(double& mean, double& variance, double value, double share) {
+  const double deviation = value - mean;
+  mean += share * deviation;
+  variance = (1.0 - share) * (variance + share * deviation * deviation);
+}
+
+// Even on a smooth road the tyres and the engine shake a moving vehicle more than this.
+bool is_quiet(const Stillness& s, const FusionParameters& p) {
+  return s.force_variance + s.left_variance < p.quiet_force * p.quiet_force &&
+         s.rate_variance < p.quiet_rate * p.quiet_rate;
+}
+
+// Returns whether the estimated speed does not contradict a standstill.
+bool near_zero(const FilterState& state) {
+  constexpr double creep = 0.5;  // m/s
+  return std::abs(state.x[index::speed]) <
+         creep + 3.0 * std::sqrt(state.P(index::speed, index::speed));
+}
+
 }  // namespace
 
 std::optional<Innovation<1>> roll_innovation(const FilterState& state, const ImuSample& sample,
@@ -67,15 +87,14 @@ bool stands(FilterState& state, const ImuSample& sample, double interval,
   using namespace index;
   Stillness& s = state.stillness;
   const double share = 1.0 - std::exp(-interval / memory);
-  const double deviation = sample.specific_force_forward - s.mean_force;
-  s.mean_force += share * deviation;
-  s.force_variance = (1.0 - share) * (s.force_variance + share * deviation * deviation);
+  follow(s.mean_force, s.force_variance, sample.specific_force_forward, share);
+  follow(s.mean_left, s.left_variance, sample.specific_force_left, share);
+  follow(s.mean_rate, s.rate_variance, sample.yaw_rate, share);
 
   const double rate_margin = p.still_rate + 3.0 * std::sqrt(state.P(gyro_bias, gyro_bias));
-  if (s.force_variance > p.still_force * p.still_force ||
-      std::abs(sample.yaw_rate - state.x[gyro_bias]) > rate_margin) {
-    return false;
-  }
+  if (std::abs(sample.yaw_rate - state.x[gyro_bias]) > rate_margin) return false;
+  if (p.still_by_inertia && is_quiet(s, p)) return near_zero(state);
+  if (s.force_variance > p.still_force * p.still_force) return false;
   const Time recent = sample.stamp - from_seconds(memory);
   if (std::max(s.seen_standing, s.seen_moving) > recent) return s.seen_standing > s.seen_moving;
   return std::abs(state.x[speed]) < p.still_speed &&

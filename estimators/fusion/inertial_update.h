@@ -30,7 +30,8 @@ void note_motion(Stillness& stillness, const WheelSpeed& sample, const FusionPar
 // if the forward force was quiet for a second, the yaw rate is within the gyro bias's uncertainty,
 // and the newest odometry or wheel speed of the last second shows standstill. Without such data the
 // estimated speed must be near zero. The last condition is needed because a smooth road at constant
-// speed is quiet too.
+// speed is quiet too. With `still_by_inertia`, no other sensor is needed where both forces and the
+// yaw rate are quieter than on any road, and the estimated speed is within three sigma of a creep.
 bool stands(FilterState& state, const ImuSample& sample, double interval,
             const FusionParameters& parameters);
 

@@ -20,6 +20,10 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
   constexpr DataChoice lidar_turn_sigma_choice{
       "KITTI drive 0013", "what the scans' yaw drifts by there, 0.2 deg in 100 m",
       "normalized errors and azimuth of the vehicle on 0013"};
+  constexpr DataChoice quiet_choice{
+      "five drives of the car in Oakville (1, 3, 5, 7, 9)",
+      "what a standing car stays below in most seconds, and a moving one never",
+      "none; outages are scored on the other five"};
   static constexpr auto table = std::to_array<Parameter<P>>({
       {"use_gnss", &P::use_gnss, expert,
        "Whether fixes correct the state after the start, which always takes a fix. `configuration` "
@@ -38,6 +42,12 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
       {"use_zero_velocity", &P::use_zero_velocity, expert,
        "Whether the state is corrected to zero velocity while the vehicle is detected to stand "
        "still."},
+      {"still_by_inertia", &P::still_by_inertia, expert,
+       "Whether quiet inertial samples show by themselves that the vehicle stands still. "
+       "`configuration` sets it where neither odometry nor wheels give a speed."},
+      {"speed_from_turns", &P::speed_from_turns, expert,
+       "Whether the centripetal force of a turn corrects the speed. `configuration` sets it where "
+       "neither odometry nor wheels give a speed."},
 
       {"history_length", &P::history_length, 0.01, 60.0, "s", expert,
        "Age up to which late data is applied. Odometry is less than 0.3 s late."},
@@ -251,6 +261,12 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
        "Yaw rate beyond the uncertainty of its bias below which the vehicle stands still."},
       {"still_speed", &P::still_speed, 0.0, large, "m/s", expert,
        "Speed of odometry or wheels below which the vehicle stands still."},
+      {"quiet_force", &P::quiet_force, 0.0, large, "m/s^2", expert,
+       "Standard deviation of the horizontal specific force over a second, below which the samples "
+       "are quiet (still_by_inertia).",
+       quiet_choice},
+      {"quiet_rate", &P::quiet_rate, 0.0, large, "rad/s", expert, "The same of the yaw rate.",
+       quiet_choice},
       {"zero_velocity_sigma", &P::zero_velocity_sigma, tiny, large, "m/s", expert,
        "Standard deviation of zero velocity: the body moves on its springs."},
       {"zero_rate_sigma", &P::zero_rate_sigma, tiny, 1.0, "rad/s", expert,

@@ -44,6 +44,25 @@ ParameterTable<PoseOdometryParameters> parameter_table(const PoseOdometryParamet
           table};
 }
 
+ParameterTable<MountParameters> parameter_table(const MountParameters&) {
+  using enum Audience;
+  using P = MountParameters;
+  constexpr double turn = 360.0;  // deg
+  static constexpr auto table = std::to_array<Parameter<P>>({
+      {"given", &P::given, usual,
+       "Whether the angles are the unit's mount. Otherwise it is found on the drive, from gravity "
+       "and the velocities of the fixes."},
+      {"roll", &P::roll, -turn, turn, "deg", usual,
+       "R_body_unit = Rz(yaw) Ry(pitch) Rx(roll) takes the unit's axes to the body's (forward, "
+       "left, "
+       "up)."},
+      {"pitch", &P::pitch, -turn, turn, "deg", usual, "Positive where the unit's x points down."},
+      {"yaw", &P::yaw, -turn, turn, "deg", usual,
+       "Positive where the unit's x points to the left."},
+  });
+  return {"mount", "Mount of an inertial unit with six axes, in a drive of tables.", table};
+}
+
 ParameterTable<GnssAidParameters> parameter_table(const GnssAidParameters&) {
   using enum Audience;
   using P = GnssAidParameters;

@@ -23,18 +23,9 @@ namespace fs = std::filesystem;
 constexpr std::string_view unknown_start = "2000-01-01 00:00:00";
 constexpr std::string_view list_name = "sequences.csv";
 
-// Returns `name` or `name`.gz, whichever exists.
-std::optional<fs::path> existing(const fs::path& name) {
-  std::error_code ignored;
-  if (fs::is_regular_file(name, ignored)) return name;
-  const fs::path packed = name.string() + ".gz";
-  if (fs::is_regular_file(packed, ignored)) return packed;
-  return std::nullopt;
-}
-
 std::optional<fs::path> first_existing(std::initializer_list<fs::path> names) {
   for (const fs::path& name : names) {
-    if (const auto found = existing(name)) return found;
+    if (const auto found = existing_table(name)) return found;
   }
   return std::nullopt;
 }
@@ -77,7 +68,7 @@ struct Listed {
 };
 
 std::optional<Listed> find_in(const fs::path& list, std::string_view name) {
-  const auto file = existing(list);
+  const auto file = existing_table(list);
   if (!file) return std::nullopt;
   const std::string text = read_text(*file);
   const auto lines = split_lines(text);
@@ -106,11 +97,25 @@ fs::path own_list() {
 
 std::optional<fs::path> table_at(const fs::path& path) {
   if (is_table(path)) return path;
-  const auto numbered = existing(path.parent_path() / "oxts" / (path.filename().string() + ".csv"));
+  const auto numbered =
+      existing_table(path.parent_path() / "oxts" / (path.filename().string() + ".csv"));
   return numbered && is_table(*numbered) ? numbered : std::nullopt;
 }
 
 }  // namespace
+
+std::optional<fs::path> existing_table(const fs::path& name) {
+  std::error_code ignored;
+  if (fs::is_regular_file(name, ignored)) return name;
+  const fs::path packed = name.string() + ".gz";
+  if (fs::is_regular_file(packed, ignored)) return packed;
+  return std::nullopt;
+}
+
+Time start_of_seconds(double first) {
+  constexpr double since_1970 = 1e8;  // s: no drive lasts three years
+  return first < since_1970 ? parse_time(unknown_start) : Time{};
+}
 
 std::optional<SequenceFiles> find_sequence(const fs::path& path) {
   const auto table = table_at(path);
@@ -122,25 +127,24 @@ std::optional<SequenceFiles> find_sequence(const fs::path& path) {
 
   SequenceFiles files;
   files.table = *table;
-  files.gaps = existing(beside / (name + ".gaps.csv"));
+  files.gaps = existing_table(beside / (name + ".gaps.csv"));
   files.times =
       first_existing({beside / (name + ".times.txt"), above / "poses" / (name + ".times.txt")});
-  files.imu = existing(beside / (name + ".imu.csv"));
-  files.tracks = existing(beside / (name + ".tracks.csv"));
+  files.imu = existing_table(beside / (name + ".imu.csv"));
+  files.tracks = existing_table(beside / (name + ".tracks.csv"));
   files.labels =
       first_existing({beside / (name + ".labels.csv"), above / "labels" / (name + ".csv")});
 
   std::optional<Listed> listed = find_in(beside / list_name, name);
   if (!listed) listed = find_in(above / list_name, name);
   if (!listed && beside.filename() == "oxts") listed = find_in(own_list(), name);
-  if (listed && !files.imu && !listed->imu.empty()) files.imu = existing(above / listed->imu);
+  if (listed && !files.imu && !listed->imu.empty()) files.imu = existing_table(above / listed->imu);
   if (listed && !files.tracks && !listed->tracks.empty()) {
-    files.tracks = existing(above / listed->tracks);
+    files.tracks = existing_table(above / listed->tracks);
   }
-  constexpr double since_1970 = 1e8;  // s: no drive lasts three years
-  if (begin_of(*table).t < since_1970) {
-    files.start =
-        parse_time(listed && !listed->start.empty() ? listed->start : std::string(unknown_start));
+  files.start = start_of_seconds(begin_of(*table).t);
+  if (files.start != Time{} && listed && !listed->start.empty()) {
+    files.start = parse_time(listed->start);
   }
   return files;
 }

@@ -15,6 +15,13 @@ struct SequenceFiles {
   std::optional<std::filesystem::path> gaps, times, imu, tracks, labels;
 };
 
+// Returns `name` or `name`.gz, whichever is a file.
+std::optional<std::filesystem::path> existing_table(const std::filesystem::path& name);
+
+// Returns the moment at which the seconds of a table are zero: 1970 UTC if they begin above
+// 100 000 000, otherwise 2000-01-01 00:00:00 UTC, which stands for an unknown start.
+Time start_of_seconds(double first);
+
 // `path` is the table itself, a .csv or .csv.gz of any name whose heading begins with t and ends
 // with OXTS's last column, orimode; or FOLDER/NAME where the table is FOLDER/oxts/NAME.csv[.gz].
 // Returns nothing if it is neither. sensors/FORMATS.md states where the other files are looked for,

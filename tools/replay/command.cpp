@@ -11,17 +11,18 @@
 namespace maploop::tools {
 
 void add_replay(CLI::App& app, Command& command) {
-  const auto [sub, options] =
-      add_command(app, command, "replay",
-                  "Replay a KITTI raw drive, a KITTI odometry sequence, a GNSS receiver's "
-                  "observations, a capture of a Velodyne scanner or a log of our own through the "
-                  "graph",
-                  replay);
+  const auto [sub, options] = add_command(
+      app, command, "replay",
+      "Replay a KITTI raw drive, a KITTI odometry sequence, a GNSS receiver's "
+      "observations, a folder of tables, a capture of a Velodyne scanner or a log of our "
+      "own through the graph",
+      replay);
   sub->add_option(
          "DRIVE", options.drive,
          "Folder such as 2011_09_26/2011_09_26_drive_0013_sync, a table of OXTS rows such as "
          "kitti_odometry/oxts/06.csv.gz, RINEX observations with their products beside "
-         "them (or a folder of both; [ppp] products), a capture (.pcap), or a log (--record); one "
+         "them (or a folder of both; [ppp] products), a folder with gnss.csv, a capture (.pcap), "
+         "or a log (--record); one "
          "without images is replayed from its odometry (sensors/FORMATS.md)")
       ->required();
   auto* speed = sub->add_option("--speed", options.speed, "Times real time")
@@ -57,11 +58,11 @@ void add_replay(CLI::App& app, Command& command) {
   sub->add_option("--resume", options.resume,
                   "Go on from a snapshot of the same drive, with the same bits")
       ->check(existing_file());
-  sub->add_option("--configuration", options.configuration,
-                  "What joins the inertial sensors: auto (all that is there), VO-RI, VO-L-RI, RISS "
-                  "or RISS-VO; GNSS+ before "
-                  "it: fixes are used after the start too. Without it, --speed-scale "
-                  "means RISS, and --gnss-outage adds GNSS+")
+  sub->add_option(
+         "--configuration", options.configuration,
+         "What joins the inertial sensors: auto (all that is there), VO-RI, VO-L-RI, RISS, "
+         "RISS-VO or RI; GNSS+ before it: fixes are used after the start too; GNSS: fixes "
+         "alone. Without it, --speed-scale means RISS, and --gnss-outage adds GNSS+")
       ->check(parsed_by(fusion::configuration, "NAME"));
   sub->add_option("--gnss-outage", options.gnss_outage,
                   "START:LENGTH[,...] in seconds into the drive, LENGTH may be end; "

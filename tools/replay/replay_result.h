@@ -18,6 +18,7 @@
 #include "tools/evaluate/kitti_metric.h"
 #include "tools/match/match_score.h"
 #include "tools/replay/fusion_score.h"
+#include "tools/replay/outage_score.h"
 
 namespace maploop::tools {
 
@@ -81,8 +82,10 @@ struct ReplayResult {
   std::optional<Accuracy> fused;  // in the frame of the map
   std::optional<Accuracy> odom;   // the same in the frame of odometry
   std::optional<PppEpochs> ppp;
-  std::optional<fusion_score::Score> navigation;  // of NAV_STATE, as it was sent
-  std::optional<match::MatchScore> links;         // of MAP_MATCH, where the links are known
+  std::optional<fusion_score::Score> navigation;     // of NAV_STATE, as it was sent
+  bool peer_reference = false;                       // of vehicle::Recording
+  std::vector<fusion_score::OutageEnd> outage_ends;  // where the recording has fixes to score with
+  std::optional<match::MatchScore> links;            // of MAP_MATCH, where the links are known
   std::map<std::string, vehicle::ChannelSummary> channels;
   std::optional<SnapshotResult> snapshot;
   std::vector<vehicle::FaultCount> faults;

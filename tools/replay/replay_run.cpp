@@ -37,7 +37,7 @@ std::string configuration_of(const ReplayOptions& options, const vehicle::Vehicl
   if (!options.configuration.empty()) return options.configuration;
   const std::string name = options.speed_scale ? "RISS" : config.configuration;
   const bool adds_fixes =
-      !options.gnss_outage.empty() && name != "auto" && !name.starts_with("GNSS+");
+      !options.gnss_outage.empty() && name != "auto" && !name.starts_with("GNSS");
   return adds_fixes ? "GNSS+" + name : name;
 }
 
@@ -45,6 +45,7 @@ vehicle::VehicleConfig config_of(const ReplayOptions& options) {
   vehicle::VehicleConfig config;
   if (!options.config.empty()) config = vehicle::load_vehicle_config(options.config);
   if (options.seed) config.gnss.seed = config.wheel.seed = config.imu_seed = *options.seed;
+  vehicle::fit_to_recording(config, options.drive);
   const std::string configuration = configuration_of(options, config);
   if (configuration != config.configuration) set_configuration(config, configuration);
   if (!options.gnss_outage.empty()) config.gnss_outage = options.gnss_outage;

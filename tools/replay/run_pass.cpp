@@ -28,6 +28,17 @@ match::MatchScore links_score(const RunPass& pass, const vehicle::DrivenLinksFil
 
 }  // namespace
 
+std::vector<fusion_score::OutageEnd> outage_ends(const fusion_score::NavTrack& track,
+                                                 const vehicle::Recording& recording,
+                                                 const std::vector<ReferencePose>& reference) {
+  if (recording.fixes == nullptr) return {};
+  std::vector<GnssFix> fixes;
+  const auto source = recording.fixes();
+  for (GnssFix fix; source->next(fix);) fixes.push_back(fix);
+  return fusion_score::outage_ends(track, fixes, reference, recording.outages,
+                                   recording.first_stamp);
+}
+
 void TrajectoryCollector::add(Time stamp, const Eigen::Vector3d& position,
                               const Attitude& attitude) {
   poses_[stamp] = Eigen::Translation3d(position) * Eigen::Isometry3d(rotation_enu_body(attitude));
@@ -100,6 +111,8 @@ void score(ReplayResult& result, const RunPass& pass, const vehicle::Recording& 
   if (map != nullptr && result.end) result.map = map_use(*result.end, pass, map->network);
   if (map != nullptr && recording.driven_links)
     result.links = links_score(pass, *recording.driven_links, map->network);
+  result.peer_reference = recording.peer_reference;
+  result.outage_ends = outage_ends(pass.track, recording, reference);
   if (reference.size() < 2) return;
   const sensors::ReferenceTrajectory truth(reference, LocalFrame(reference.front().position));
   const auto accuracy = [&](const TrajectoryCollector& trajectory) {

@@ -73,6 +73,11 @@ struct RunPass {
   std::map<Time, RoadMoment> matches;
 };
 
+// Scores the outages of a recording that has fixes to score with; nothing for another one.
+std::vector<fusion_score::OutageEnd> outage_ends(const fusion_score::NavTrack& track,
+                                                 const vehicle::Recording& recording,
+                                                 const std::vector<ReferencePose>& reference);
+
 constexpr double far_from_map = 5'000.0;  // m
 
 // Adds the accuracy against `reference`, the links against those driven, and whether the run was on

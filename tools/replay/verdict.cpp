@@ -7,6 +7,8 @@
 
 #include "estimators/fusion/outcome.h"
 #include "msgs/frames.h"
+#include "sensors/imu/aligned_imu.h"
+#include "tools/command/median.h"
 
 namespace maploop::tools {
 namespace {
@@ -41,7 +43,23 @@ std::string where(const ReplayResult& r) {
                      place.longitude < 0.0 ? 'W' : 'E', sigma, sigma < 1000.0 ? 1 : 0);
 }
 
+// The fixes that an outage took away are the only independent truth of a drive whose reference is
+// the receiver's own fusion.
+std::string against_peers(const ReplayResult& r) {
+  if (r.outage_ends.empty()) {
+    const fusion_score::Errors& e = r.navigation->whole;
+    return fmt::format("{:.2f} m RMS, {:.1f} m at most, from the receiver's own fusion, a peer.",
+                       e.rmse, e.max);
+  }
+  std::vector<double> errors;
+  for (const fusion_score::OutageEnd& end : r.outage_ends) errors.push_back(end.error);
+  const double worst = *std::max_element(errors.begin(), errors.end());
+  return fmt::format("After {} made outages {:.1f} m from the fixes (median), {:.1f} m at worst.",
+                     errors.size(), median(errors), worst);
+}
+
 std::string how_good(const ReplayResult& r) {
+  if (!r.outage_ends.empty() || (r.peer_reference && r.navigation)) return against_peers(r);
   if (r.navigation) {
     const fusion_score::Errors& e = r.navigation->whole;
     const int digits = e.max < 1000.0 ? 2 : 0;
@@ -82,9 +100,12 @@ std::vector<std::string> unused(const ReplayResult& r) {
     }
   }
   for (const vehicle::SensorReport& s : r.vehicle.sensors) {
-    if (s.source.refused > 0) {
-      items.push_back(fmt::format("{} of {} left out by the reader", s.source.refused, s.name));
-    }
+    if (s.source.refused == 0) continue;
+    const std::string_view reason =
+        s.source.refusals.empty() ? std::string_view() : s.source.refusals.front().reason;
+    items.push_back(reason == sensors::AlignedImu::not_yet_known
+                        ? fmt::format("{} of {} ({})", s.source.refused, s.name, reason)
+                        : fmt::format("{} of {} left out by the reader", s.source.refused, s.name));
   }
   const auto few = static_cast<std::uint64_t>(worth_a_word * static_cast<double>(r.images));
   for (const RefusalCount& c : refusals) {

@@ -22,9 +22,10 @@ ParameterTable<VehicleConfig> top_level_table() {
        "environment, or else to udpm://239.255.76.67:7667?ttl=0, which stays on this host."},
       {"configuration", &P::configuration, usual,
        "What is combined with the reduced inertial sensors: auto, which is all that is there; or "
-       "VO-RI, VO-L-RI, RISS or RISS-VO, or one of them after GNSS+ "
-       "(estimators/fusion/configuration.h). It sets `odometry` and the "
-       "keys use_... and speed_scale_... of [fusion]; these keys override it."},
+       "VO-RI, VO-L-RI, RISS, RISS-VO or RI, or one of them after GNSS+; or GNSS alone "
+       "(estimators/fusion/configuration.h). It sets `odometry` and the keys use_..., speed_..., "
+       "and "
+       "still_by_inertia of [fusion]; these keys override it."},
       {"imu_grade", &P::imu_grade, usual,
        "Noise of the inertial sensors. It sets keys of [fusion], which override it.", imu_grades},
       {"odometry", &P::odometry, usual,

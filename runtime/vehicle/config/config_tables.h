@@ -30,7 +30,7 @@ void each_part(Config& config, Part&& part) {
   const auto described = [&](auto&... values) { (part(parameter_table(values), values), ...); };
   part(top_level_table(), config);
   described(config.memory, config.trace, config.preview, config.camera, config.replay,
-            config.odometry_poses, config.live, config.gnss);
+            config.odometry_poses, config.mount, config.live, config.gnss);
   part(gnss_outage_table(), config);
   described(config.wheel);
   part(imu_table(), config);

@@ -22,6 +22,7 @@
 #include "runtime/core/trace.h"
 #include "runtime/vehicle/config/live_config.h"
 #include "runtime/vehicle/config/scheduling_config.h"
+#include "sensors/imu/mount_alignment.h"
 #include "sensors/replay/error_model.h"
 #include "sensors/replay/kitti_drive.h"
 #include "sensors/replay/pose_odometry.h"
@@ -81,6 +82,7 @@ struct VehicleConfig {
   sensors::KittiDriveParameters replay;
   sensors::PoseOdometryParameters odometry_poses;
   LiveParameters live;
+  sensors::MountParameters mount;
   sensors::GnssAidParameters gnss;
   std::string gnss_outage;  // gnss_outage.h
   sensors::WheelOdometerParameters wheel;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "estimators/fusion/configuration.h"
 #include "msgs/lcm/channel_names.h"
 #include "runtime/vehicle/drivers/gnss_drive.h"
 #include "runtime/vehicle/drivers/recorded_tracks.h"
@@ -16,6 +17,8 @@
 #include "sensors/replay/log_recording.h"
 #include "sensors/replay/odometry_sequence.h"
 #include "sensors/replay/pose_odometry.h"
+#include "sensors/replay/sequence_files.h"
+#include "sensors/replay/table_recording.h"
 #include "sensors/velodyne/capture_source.h"
 
 namespace maploop::vehicle {
@@ -29,6 +32,8 @@ Recording make_recording(const Opened& opened, std::function<Sensors(Time)> sens
           opened.frame_count(),
           std::move(sensors),
           {},
+          {},
+          false,
           {}};
 }
 
@@ -148,6 +153,40 @@ Recording open_gnss(const std::filesystem::path& path, const VehicleConfig& conf
   return recording;
 }
 
+std::vector<GnssOutage> outages_of(const VehicleConfig& config, const Recording& recording) {
+  if (config.gnss_outage.empty()) return {};
+  if (!config.fusion.use_gnss) {
+    throw std::runtime_error("a GNSS outage needs a configuration that uses GNSS: GNSS+" +
+                             config.configuration + " instead of " + config.configuration);
+  }
+  return parse_outages(config.gnss_outage, recording.first_stamp, recording.last_stamp,
+                       config.gnss.seed);
+}
+
+// The fixes take the place of the images.
+Recording open_tables(const std::filesystem::path& folder, const VehicleConfig& config) {
+  auto tables = std::make_shared<const sensors::TableRecording>(folder);
+  Recording recording;
+  recording.first_stamp = tables->first_stamp();
+  recording.last_stamp = tables->last_stamp();
+  recording.images = tables->fix_count();
+  recording.peer_reference = true;
+  recording.fixes = [tables] { return tables->gnss(); };
+  recording.calibration.rear_axle_distance = sensors::TableRecording::cabin_ahead;
+  VehicleConfig car = config;
+  describe_car(car, recording.calibration);
+  recording.sensors = [tables, car, outages = outages_of(config, recording)](Time) {
+    Sensors s;
+    s.gnss = tables->gnss();
+    if (tables->has_imu() && fusion::configuration(car.configuration).inertial)
+      s.imu = tables->imu(with_outages(tables->gnss(), outages), car.mount,
+                          car.fusion.rear_axle_distance);
+    if (tables->has_reference()) s.reference = tables->reference();
+    return s;
+  };
+  return recording;
+}
+
 bool is_capture(const std::filesystem::path& path) {
   std::filesystem::path name = path.filename();
   if (name.extension() == ".gz") name.replace_extension();
@@ -192,6 +231,7 @@ Recording open_any(const std::filesystem::path& path, const VehicleConfig& confi
                              "'; 'maploop replay --help' lists what can be replayed");
   }
   if (is_capture(path)) return open_capture(path, config);
+  if (sensors::TableRecording::is_named(path)) return open_tables(path, config);
   if (is_gnss_drive(path)) return open_gnss(path, config);
   return std::filesystem::is_regular_file(path, ignored) ? open_log(path)
                                                          : open_folder(path, config);
@@ -218,16 +258,8 @@ std::shared_ptr<const sensors::KittiDrive> open_drive(const std::filesystem::pat
 
 Recording open_recording(const std::filesystem::path& path, const VehicleConfig& config) {
   Recording recording = open_any(path, config);
-  const std::vector<GnssOutage> outages =
-      config.gnss_outage.empty() ? std::vector<GnssOutage>{}
-                                 : parse_outages(config.gnss_outage, recording.first_stamp,
-                                                 recording.last_stamp, config.gnss.seed);
-  if (!outages.empty() && !config.fusion.use_gnss) {
-    throw std::runtime_error("a GNSS outage needs a configuration that uses GNSS: GNSS+" +
-                             config.configuration + " instead of " + config.configuration);
-  }
-  recording.outages = outages;
-  recording.sensors = [plain = std::move(recording.sensors), outages,
+  recording.outages = outages_of(config, recording);
+  recording.sensors = [plain = std::move(recording.sensors), outages = recording.outages,
                        noise = noise_of(config)](Time passed) {
     Sensors s = plain(passed);
     s.gnss = with_outages(std::move(s.gnss), outages);
@@ -236,6 +268,14 @@ Recording open_recording(const std::filesystem::path& path, const VehicleConfig&
     return s;
   };
   return recording;
+}
+
+void fit_to_recording(VehicleConfig& config, const std::filesystem::path& path) {
+  if (!sensors::TableRecording::is_named(path)) return;
+  const bool inertial = sensors::existing_table(path / "imu.csv").has_value();
+  if (!config.given.contains(".configuration"))
+    set_configuration(config, inertial ? "GNSS+RI" : "GNSS");
+  if (!config.given.contains(".imu_grade")) set_imu_grade(config, "mems");
 }
 
 fusion::KnownStart start_from_reference(const Recording& recording) {

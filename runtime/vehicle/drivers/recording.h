@@ -29,7 +29,11 @@ struct Recording {
   // Returns new sources of the sensors that were recorded, each from the start. Pixels and points
   // of samples that are available up to `passed` may be missing, which saves reading them.
   std::function<Sensors(Time passed)> sensors;
-  std::vector<GnssOutage> outages;              // as configured; `sensors` applies them
+  std::vector<GnssOutage> outages;  // as configured; `sensors` applies them
+  // Returns every fix, also those that the outages take away, to score with. Null: they are made
+  // from the reference, which scores better.
+  std::function<std::unique_ptr<sensors::Source<GnssFix>>()> fixes;
+  bool peer_reference = false;  // the reference is another fusion of the same sensors, not a truth
   std::optional<DrivenLinksFile> driven_links;  // if the recording has one
 };
 
@@ -44,12 +48,19 @@ std::shared_ptr<const sensors::KittiDrive> open_drive(const std::filesystem::pat
 // - A capture of a Velodyne scanner is .pcap or .pcapng, plain or .gz; that of an HDL-64E needs
 //   [live] velodyne_calibration.
 // - RINEX observations are read with their products (gnss_drive.h).
+// - Tables of fixes and inertial samples are a folder with gnss.csv. [mount] may state how the unit
+//   is mounted; otherwise it is found on the way.
 // - A table of OXTS rows is, for example, a sequence of KITTI's odometry benchmark
 //   (sensors/replay/sequence_files.h). The stereo back end computes its odometry from its recorded
 //   tracks.
 // - Any other file is a log of maploop. A log without images contains the odometry that was
 //   computed from them.
 Recording open_recording(const std::filesystem::path& path, const VehicleConfig& config);
+
+// Chooses what the recording needs, where the configuration file has not said otherwise: tables
+// have no odometry, so they are run as GNSS+RI, or as GNSS without imu.csv, and as a unit of grade
+// mems. Other recordings need nothing.
+void fit_to_recording(VehicleConfig& config, const std::filesystem::path& path);
 
 // Returns the first pose of the recording's reference, for dead reckoning from a start without
 // error. Throws std::runtime_error if there is no reference.

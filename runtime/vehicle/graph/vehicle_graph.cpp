@@ -29,8 +29,8 @@ VehicleConfig adapt_to_sensors(VehicleConfig config, const VehicleCalibration& c
   const bool inertial = sensors.imu || (sensors.live && sensors.live->imu);
   const bool camera = sensors.camera || (sensors.live && sensors.live->camera);
   if (!camera && !inertial && !sensors.odometry) config.fusion.use_gnss = true;
-  if (config.configuration == "auto" && !camera && !sensors.odometry && sensors.wheel) {
-    fusion::apply(fusion::configuration("GNSS+RISS"), config.fusion);
+  if (config.configuration == "auto" && inertial && !camera && !sensors.odometry) {
+    fusion::apply(fusion::configuration(sensors.wheel ? "GNSS+RISS" : "GNSS+RI"), config.fusion);
   }
   return config;
 }

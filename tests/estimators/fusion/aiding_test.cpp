@@ -268,6 +268,35 @@ TEST(StandingStill, ShowsTheGyrosBiasAndIsNotSeenOnASmoothRoad) {
   EXPECT_EQ(filter.state_at(SyntheticDrive::at(19.5))->zero_velocity_stamp, Time{});
 }
 
+// The speed before the stop is wrong by what a wrong accelerometer adds up to.
+TEST(StandingStill, IsSeenByInertialSamplesAloneUnlessTheyAreShaken) {
+  MotionProfile stop;
+  stop.speed = [](double t) { return t < 8.0 ? 8.0 - t : 0.0; };
+  const SyntheticDrive drive(stop, 30.0, test_origin());
+  const auto run = [&](const char* configuration, double shaking) {
+    ReducedImuFilter filter(configured(configuration), test_origin());
+    std::vector<Measurement> all{fix(drive, 0.0)};
+    auto samples = drive.imu(100.0, {.force_sigma = shaking});
+    for (ImuSample& sample : samples) sample.specific_force_forward += 0.1;
+    append(all, samples);
+    add_as_available(filter, all);
+    return *filter.state_at(SyntheticDrive::at(29.5));
+  };
+  const NavState quiet = run("GNSS+RI", 0.01);
+  EXPECT_GT(quiet.zero_velocity_stamp, SyntheticDrive::at(29.0));
+  EXPECT_NEAR(quiet.forward_speed, 0.0, 0.05);
+  EXPECT_EQ(run("GNSS+RI", 0.2).zero_velocity_stamp, Time{});
+  EXPECT_EQ(run("GNSS+VO-RI", 0.01).zero_velocity_stamp, Time{});
+  // A smooth road is as quiet, but the speed is known there.
+  const SyntheticDrive smooth({}, 20.0, test_origin());
+  ReducedImuFilter filter(configured("GNSS+RI"), test_origin());
+  std::vector<Measurement> all{fix(smooth, 0.0)};
+  append(all, smooth.imu(100.0));
+  for (double t = 0.5; t < 10.0; t += 0.5) all.push_back(fix(smooth, t));
+  add_as_available(filter, all);
+  EXPECT_EQ(filter.state_at(SyntheticDrive::at(10.0))->zero_velocity_stamp, Time{});
+}
+
 TEST(ChainedAzimuth, LeadsToNearlyTheSameWayWhereNothingIsRefused) {
   const SyntheticDrive drive(town(), 40.0, test_origin());
   const auto azimuth_error = [&](bool chained) {
@@ -311,6 +340,15 @@ TEST(Configurations, AreFoundByNameAndListedWhereThereIsNone) {
   EXPECT_EQ(c.name, "GNSS+VO-RI");
   EXPECT_TRUE(c.gnss && c.odometry_speed && c.odometry_azimuth && !c.wheel_speed && !c.lidar);
   EXPECT_TRUE(configuration("VO-L-RI").lidar);
+  EXPECT_TRUE(configuration("gps").gnss);
+  EXPECT_FALSE(configuration("GNSS").inertial);
+  FusionParameters alone;
+  apply(configuration("GNSS+RI"), alone);
+  EXPECT_TRUE(alone.use_gnss && alone.still_by_inertia);
+  EXPECT_FALSE(alone.use_odometry_speed || alone.use_odometry_azimuth || alone.use_wheel_speed);
+  apply(configuration("RISS"), alone);
+  EXPECT_FALSE(alone.still_by_inertia);
+  EXPECT_EQ(alone.pitch_noise, FusionParameters{}.pitch_noise);
   try {
     configuration("VORI");
     FAIL() << "should not be found";

@@ -1,5 +1,6 @@
 // Tests the score of a fused state against a reference whose accuracy changes.
 #include "tools/replay/fusion_score.h"
+#include "tools/replay/outage_score.h"
 
 #include <gtest/gtest.h>
 
@@ -40,6 +41,29 @@ NavTrack track() {
     track.add(s);
   }
   return track;
+}
+
+// The fixes are on the reference's path, twice a second.
+TEST(OutageEnds, AreWhereTheStateIsAtTheLastFixThatWasTakenAway) {
+  std::vector<GnssFix> fixes(41);
+  for (int i = 0; i <= 40; ++i) {
+    GnssFix& fix = fixes[static_cast<std::size_t>(i)];
+    fix.stamp = start + milliseconds(500 * i + 30);  // between two states of the track
+    fix.position = frame.to_geodetic({0.0, 10.0 * (0.5 * i + 0.03), 0.0});
+    fix.position_covariance = 3.5 * Eigen::Matrix3d::Identity();
+  }
+  const auto at = [](double seconds) { return start + from_seconds(seconds); };
+  const auto ends =
+      outage_ends(track(), fixes, reference(0.1),
+                  {{at(5.0), at(8.0)}, {at(12.0), at(13.0)}, {at(30.0), at(40.0)}}, start);
+  ASSERT_EQ(ends.size(), 2u);  // nothing is known of the third
+  EXPECT_NEAR(ends[0].error, 5.0, 1e-3);
+  EXPECT_NEAR(ends[0].distance, 30.0, 1e-3);  // from 4.53 to 7.53 s
+  EXPECT_NEAR(ends[0].length, 2.53, 1e-9);
+  EXPECT_NEAR(ends[0].sigma, 3.0, 1e-6);  // 2 and 7 m^2
+  EXPECT_NEAR(*ends[0].peer, 0.0, 1e-3);
+  EXPECT_NEAR(ends[1].error, 1.0, 1e-3);
+  EXPECT_FALSE(outage_ends(track(), fixes, {}, {{at(5.0), at(8.0)}}, start)[0].peer);
 }
 
 std::optional<Score> score_against(double accuracy) {

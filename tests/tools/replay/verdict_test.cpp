@@ -82,6 +82,24 @@ TEST(Verdict, OfAReceiverSaysWhereItCannotConverge) {
   EXPECT_THAT(verdict(r)[1], StartsWith("PPP cannot converge on one frequency"));
 }
 
+TEST(Verdict, AReferenceThatIsAPeerIsCalledSoAndOutagesAreScoredAtTheFixes) {
+  ReplayResult r = good();
+  r.configuration = "GNSS+RI";
+  r.peer_reference = true;
+  r.vehicle.sensors[1] = sensor("imu", 100'000, 9'876);
+  r.vehicle.sensors[1].source.refusals = {{"imu.csv", 0, "the mount was not yet known"}};
+  EXPECT_EQ(verdict(r)[1], "4.01 m RMS, 5.7 m at most, from the receiver's own fusion, a peer.");
+  EXPECT_EQ(verdict(r)[2], "GNSS+RI did not use 9876 of imu (the mount was not yet known)");
+  for (const double error : {3.0, 12.0, 40.0}) {
+    fusion_score::OutageEnd end;
+    end.error = error;
+    r.outage_ends.push_back(end);
+  }
+  EXPECT_EQ(verdict(r)[1], "After 3 made outages 12.0 m from the fixes (median), 40.0 m at worst.");
+  r.outage_ends[0].error = 99'999.9;
+  for (const std::string& line : verdict(r)) EXPECT_LE(line.size(), 79u) << line;
+}
+
 TEST(Verdict, ARunWithoutAPositionIsEmptyAndSaysWhy) {
   ReplayResult r = good();
   r.end.reset();
