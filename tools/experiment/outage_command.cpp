@@ -164,7 +164,8 @@ double largest(const std::vector<double>& values) {
 }
 
 Table outage_table(const std::vector<OutageCase>& cases,
-              const std::vector<std::vector<fusion_score::OutageEnd>>& results, bool by_drive) {
+                   const std::vector<std::vector<fusion_score::OutageEnd>>& results,
+                   bool by_drive) {
   constexpr double least_way = 50.0;  // m: a standing car shows nothing
   Groups<std::vector<fusion_score::OutageEnd>> groups;
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -200,8 +201,8 @@ Table outage_table(const std::vector<OutageCase>& cases,
     }
     Row& row = table.rows.emplace_back(cells);
     row.push_back(std::to_string(ends.size()));
-    for (const double value : {way, median(error), largest(error), median(percent), largest(percent),
-                               median(normalized), median(peer)})
+    for (const double value : {way, median(error), largest(error), median(percent),
+                               largest(percent), median(normalized), median(peer)})
       row.push_back(number(value, value < 100.0 ? 1 : 0));
   }
   return table;
@@ -233,6 +234,10 @@ int compare_outages(const OutageOptions& options) {
         return c.drive.folder.filename().string() + ", " + c.configuration;
       },
       [&](const OutageCase& c) { return run(c, config); });
+  if (std::all_of(results.begin(), results.end(), [](const auto& ends) { return ends.empty(); })) {
+    throw std::runtime_error(
+        "no outage can be scored: the drives are too short, or have no position before one");
+  }
   std::cout << as_text(outage_table(cases, results, false));
   if (options.by_drive) std::cout << as_text(outage_table(cases, results, true));
   return 0;
