@@ -234,6 +234,10 @@ int compare_outages(const OutageOptions& options) {
         return c.drive.folder.filename().string() + ", " + c.configuration;
       },
       [&](const OutageCase& c) { return run(c, config); });
+  if (std::all_of(results.begin(), results.end(), [](const auto& ends) { return ends.empty(); })) {
+    throw std::runtime_error(
+        "no outage can be scored: the drives are too short, or have no position before one");
+  }
   std::cout << as_text(outage_table(cases, results, false));
   if (options.by_drive) std::cout << as_text(outage_table(cases, results, true));
   return 0;
