@@ -81,13 +81,13 @@ TEST(TableDrive, ASensorThatItLacksOrThatIsNotAskedForDoesNotExist) {
   EXPECT_THAT(error_of([&] { open_recording(folder.path(), config); }), HasSubstr("GNSS+RI"));
 }
 
-struct Driven {
+struct ReplayedTables {
   std::vector<NavState> states;
   VehicleReport report;
 };
 
-Driven run(const Recording& recording, const VehicleConfig& config) {
-  Driven driven;
+ReplayedTables run(const Recording& recording, const VehicleConfig& config) {
+  ReplayedTables driven;
   Observer observer;
   observer.nav_state = [&](const NavState& state) {
     if (state.sequence % 10 == 0) driven.states.push_back(state);
@@ -116,7 +116,7 @@ class OakvilleDrive : public ::testing::Test {
 TEST_F(OakvilleDrive, StaysOnItsFixesAndNearThemThroughAShortOutage) {
   config.gnss_outage = "90:10";
   const Recording recording = open_recording(folder, config);
-  const Driven driven = run(recording, config);
+  const ReplayedTables driven = run(recording, config);
   std::vector<double> errors;
   const auto fixes = recording.fixes();
   std::size_t next = 0;
@@ -163,7 +163,7 @@ TEST_F(OakvilleDrive, RecoversFromAWrongFirstFix) {
     }
     out.close();
     const Recording recording = open_recording(changed.path(), config);
-    const Driven driven = run(recording, config);
+    const ReplayedTables driven = run(recording, config);
     const NavState& end = driven.states.back();
     GnssFix last;
     const auto fixes = recording.fixes();
@@ -178,7 +178,7 @@ TEST_F(OakvilleDrive, RecoversFromAWrongFirstFix) {
 // from a drive that has no fixes at all.
 TEST_F(OakvilleDrive, AMountIsNotFoundFromFixesThatAnOutageTakesAway) {
   config.gnss_outage = "0:end";
-  const Driven driven = run(open_recording(folder, config), config);
+  const ReplayedTables driven = run(open_recording(folder, config), config);
   const auto imu = std::find_if(driven.report.sensors.begin(), driven.report.sensors.end(),
                                 [](const SensorReport& s) { return s.name == "imu"; });
   ASSERT_NE(imu, driven.report.sensors.end());
