@@ -94,6 +94,13 @@ std::optional<Eigen::Matrix3d> nearest_rotation(const Eigen::Matrix3d& rounded) 
   return svd.matrixU() * svd.matrixV().transpose();
 }
 
+const char* why_no_rotation(const Eigen::Matrix3d& matrix) {
+  if (!(matrix.determinant() < 0.0)) return "is not a rotation matrix";
+  return "is not a rotation but mirrored (its determinant is negative): has an axis the wrong "
+         "sign, "
+         "or are two of them exchanged?";
+}
+
 Eigen::Matrix3d essential_matrix(const StereoRig& rig) {
   return cross(rig.T_right_left.translation()) * rig.T_right_left.linear();
 }

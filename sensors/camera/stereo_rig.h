@@ -37,6 +37,9 @@ std::optional<std::string> problem_of(const StereoRig& rig);
 // to 1e-3.
 std::optional<Eigen::Matrix3d> nearest_rotation(const Eigen::Matrix3d& rounded);
 
+// Says why a matrix is none, for an error about it.
+const char* why_no_rotation(const Eigen::Matrix3d& matrix);
+
 // Returns E with x_right^T E x_left = 0 for normalized undistorted points.
 Eigen::Matrix3d essential_matrix(const StereoRig& rig);
 // Returns F with u_right^T F u_left = 0 for undistorted pixels of the raw cameras; its Frobenius

@@ -164,8 +164,9 @@ std::unique_ptr<LiveSource<StereoPair>> listen_to_cameras(LiveStereoOptions opti
                                                           const HostClock& clock) {
   if (options.width <= 0 || options.height <= 0) {
     throw std::invalid_argument(
-        "the cameras' calibration is missing: set [camera] calibration to a file of 'maploop "
-        "calibrate', or [live] calibration to a folder of KITTI's calibration files");
+        "the cameras' calibration is missing: set [vehicle.camera] calibration to a file of "
+        "'maploop "
+        "calibrate', or width, height, fx, fy, cx, cy and baseline to those of rectified images");
   }
   return std::make_unique<LiveStereo>(std::move(options), clock);
 }

@@ -28,10 +28,24 @@ std::vector<double> KeyedText::numbers(std::string_view key, std::size_t count) 
 
 Eigen::Matrix3d KeyedText::rotation(std::string_view key) const {
   const std::vector<double> values = numbers(key, 9);
-  const auto nearest = nearest_rotation(
-      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values.data()));
-  if (!nearest) fail(key, "is not a rotation matrix");
+  return rotation(key,
+                  Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values.data()));
+}
+
+Eigen::Matrix3d KeyedText::rotation(std::string_view key, const Eigen::Matrix3d& printed) const {
+  const auto nearest = nearest_rotation(printed);
+  if (!nearest) fail(key, why_no_rotation(printed));
   return *nearest;
+}
+
+Eigen::Isometry3d KeyedText::rigid(std::string_view key) const {
+  const std::vector<double> values = numbers(key, 12);
+  const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> printed(values.data());
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = rotation(key, printed.leftCols<3>());
+  T.translation() = printed.rightCols<1>();
+  if (!(T.translation().norm() < 10.0)) fail(key, "is longer than 10 m");
+  return T;
 }
 
 Eigen::Isometry3d KeyedText::transformation() const {

@@ -24,12 +24,16 @@ class KeyedText {
   // Returns the rigid transformation of keys R and T. Sensors of one car are at most 10 m apart.
   Eigen::Isometry3d transformation() const;
 
+  // Does the same for twelve numbers of one key, row by row: a rotation beside a translation.
+  Eigen::Isometry3d rigid(std::string_view key) const;
+
   // Returns two whole numbers: an image's width and height, px.
   std::vector<double> size(std::string_view key) const;
 
   [[noreturn]] void fail(std::string_view key, const std::string& reason) const;
 
  private:
+  Eigen::Matrix3d rotation(std::string_view key, const Eigen::Matrix3d& printed) const;
   std::string_view value(std::string_view key) const;
 
   std::vector<std::string_view> lines_;

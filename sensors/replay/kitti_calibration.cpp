@@ -9,34 +9,6 @@
 namespace maploop::sensors {
 namespace {
 
-StereoCalibration rectified_cameras(const KeyedText& text) {
-  const std::vector<double> size = text.size("S_rect_00");
-  const std::vector<double> left = text.numbers("P_rect_00", 12);
-  const std::vector<double> right = text.numbers("P_rect_01", 12);
-  if (text.numbers("S_rect_01", 2) != size) text.fail("S_rect_01", "differs from S_rect_00");
-  if (left[3] != 0.0)
-    text.fail("P_rect_00", "has an offset: it is not the projection of the left camera");
-  for (const std::size_t i : {0U, 2U, 5U, 6U}) {  // fx, cx, fy, cy
-    if (left[i] != right[i]) text.fail("P_rect_01", "has intrinsics that differ from P_rect_00");
-  }
-  if (left[0] < 1.0 || left[5] < 1.0 || left[0] > 1e5 || left[5] > 1e5) {
-    text.fail("P_rect_00", "has a focal length outside 1 to 100000 pixels");
-  }
-  StereoCalibration calibration;
-  calibration.width = static_cast<int>(size[0]);
-  calibration.height = static_cast<int>(size[1]);
-  calibration.fx = left[0];
-  calibration.fy = left[5];
-  calibration.cx = left[2];
-  calibration.cy = left[6];
-  calibration.baseline = -right[3] / right[0];
-  if (!(calibration.baseline > 0.01 && calibration.baseline < 10.0)) {
-    text.fail("P_rect_01", "gives a baseline of " + std::to_string(calibration.baseline) +
-                               " m, outside 0.01 to 10 m");
-  }
-  return calibration;
-}
-
 CameraModel raw_camera(const KeyedText& text, const std::string& number) {
   const std::vector<double> k = text.numbers("K_" + number, 9);
   const std::vector<double> d = text.numbers("D_" + number, 5);
@@ -77,10 +49,38 @@ struct CalibrationFiles {
 
 }  // namespace
 
+StereoCalibration parse_rectified_pair(const KeyedText& text) {
+  const std::vector<double> size = text.size("S_rect_00");
+  const std::vector<double> left = text.numbers("P_rect_00", 12);
+  const std::vector<double> right = text.numbers("P_rect_01", 12);
+  if (text.numbers("S_rect_01", 2) != size) text.fail("S_rect_01", "differs from S_rect_00");
+  if (left[3] != 0.0)
+    text.fail("P_rect_00", "has an offset: it is not the projection of the left camera");
+  for (const std::size_t i : {0U, 2U, 5U, 6U}) {  // fx, cx, fy, cy
+    if (left[i] != right[i]) text.fail("P_rect_01", "has intrinsics that differ from P_rect_00");
+  }
+  if (left[0] < 1.0 || left[5] < 1.0 || left[0] > 1e5 || left[5] > 1e5) {
+    text.fail("P_rect_00", "has a focal length outside 1 to 100000 pixels");
+  }
+  StereoCalibration calibration;
+  calibration.width = static_cast<int>(size[0]);
+  calibration.height = static_cast<int>(size[1]);
+  calibration.fx = left[0];
+  calibration.fy = left[5];
+  calibration.cx = left[2];
+  calibration.cy = left[6];
+  calibration.baseline = -right[3] / right[0];
+  if (!(calibration.baseline > 0.01 && calibration.baseline < 10.0)) {
+    text.fail("P_rect_01", "gives a baseline of " + std::to_string(calibration.baseline) +
+                               " m, outside 0.01 to 10 m");
+  }
+  return calibration;
+}
+
 VehicleCalibration parse_kitti_calibration(const KittiCalibrationText& text) {
   const KeyedText cameras(text.cam_to_cam, text.cam_to_cam_file);
   VehicleCalibration calibration;
-  calibration.stereo = rectified_cameras(cameras);
+  calibration.stereo = parse_rectified_pair(cameras);
   const Eigen::Isometry3d T_cam_cam0(cameras.rotation("R_rect_00"));
   calibration.T_body_velo = body_velo(text);
   calibration.stereo.T_body_cam = body_left(text) * T_cam_cam0.inverse();
@@ -93,6 +93,19 @@ void describe_kitti_car(VehicleCalibration& calibration) {
   calibration.climb_offset = 0.0084;
   calibration.climb_offset_sigma = 0.0087;
   calibration.beam_elevation = 0.00357792;
+}
+
+void describe_kitti_car(const VehicleCalibration& calibration, VehicleDescription& description) {
+  VehicleCalibration kitti;
+  describe_kitti_car(kitti);
+  if (calibration.rear_axle_distance == kitti.rear_axle_distance)
+    description.car.rear_axle_distance_sigma = 0.03;
+  if (calibration.beam_elevation != kitti.beam_elevation) return;
+  description.lidar.model = "HDL-64E";
+  description.lidar.beam_elevation_sigma = 0.0005;
+  description.imu.time = {0.06, 0.005};
+  SensorPosition& antenna = description.antenna.position;
+  antenna.forward_sigma = antenna.left_sigma = antenna.up_sigma = 0.01;
 }
 
 VehicleCalibration read_kitti_calibration(const std::filesystem::path& folder) {
@@ -116,7 +129,7 @@ VehicleCalibration read_kitti_calibration(const std::filesystem::path& folder, c
 StereoRig parse_kitti_rig(std::string_view cam_to_cam, const std::filesystem::path& file) {
   const KeyedText text(cam_to_cam, file);
   StereoRig rig;
-  rig.rectified = rectified_cameras(text);
+  rig.rectified = parse_rectified_pair(text);
   const std::vector<double> size = text.size("S_00");
   if (text.size("S_01") != size) text.fail("S_01", "differs from S_00");
   rig.width = static_cast<int>(size[0]);

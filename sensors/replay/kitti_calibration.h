@@ -5,7 +5,9 @@
 #include <string_view>
 
 #include "msgs/calibration.h"
+#include "msgs/vehicle_description.h"
 #include "sensors/camera/stereo_rig.h"
+#include "sensors/replay/keyed_text.h"
 
 namespace maploop::sensors {
 
@@ -32,6 +34,14 @@ VehicleCalibration parse_kitti_calibration(const KittiCalibrationText& text);
 // sideways velocity over yaw rate on five of them (0.23 to 0.29 m). Its HDL-64E's beams point 0.205
 // deg higher than its calibration states (IMLS-SLAM, CT-ICP, KISS-ICP use the same).
 void describe_kitti_car(VehicleCalibration& calibration);
+
+// The standard deviations of these values, from the spread that is stated above, where the
+// calibration has them; and what else its description needs. Its GNSS positions are those of the
+// inertial unit, whose rates are 53 to 67 ms late.
+void describe_kitti_car(const VehicleCalibration& calibration, VehicleDescription& description);
+
+// Returns the rectified pair of S_rect, P_rect of 00 and 01; T_body_cam is not set.
+StereoCalibration parse_rectified_pair(const KeyedText& text);
 
 // Reads calib_cam_to_cam.txt, calib_velo_to_cam.txt, calib_imu_to_velo.txt in `folder`. Throws as
 // above, and if a file is missing.

@@ -52,7 +52,7 @@ std::filesystem::path drive_folder(const std::filesystem::path& given, bool raw)
     if (!is_folder(synced)) {
       fail("it is the unsynced form, whose images are not rectified; put " +
            synced.filename().string() +
-           " beside it, or name the cameras' calibration in the configuration ([camera] "
+           " beside it, or name the cameras' calibration in the configuration ([vehicle.camera] "
            "calibration)");
     }
     if (!is_folder(folder / "oxts")) fail("it has no folder oxts");

@@ -19,7 +19,7 @@
 namespace maploop::sensors {
 
 struct KittiDriveParameters {
-  double imu_delay = 0.060;       // s
+  double imu_delay = 0.060;       // s, by which KITTI's OXTS rates are older than their row's stamp
   double camera_readout = 0.005;  // s
   double max_pair_skew = 0.020;   // s
   double max_turn = 0.250;        // s
@@ -40,8 +40,8 @@ struct KittiDriveParameters {
 //
 // With the calibration of raw cameras, image_00 and image_01 contain raw images, which are
 // rectified as they are read. calib_cam_to_cam.txt is then not needed, and the other texts only if
-// the drive has velodyne_points, or if the calibration does not contain the mounting of the
-// cameras: a folder with only image_00 and image_01 is a valid drive.
+// the drive has velodyne_points, or if the rig's own pose is not known: a folder with only image_00
+// and image_01 is a valid drive.
 class KittiDrive : public OxtsRecording {
  public:
   // Throws std::runtime_error that names the folder or file and states what to do (no such drive,
@@ -52,6 +52,8 @@ class KittiDrive : public OxtsRecording {
                       std::optional<StereoRig> raw_cameras = {});
 
   const VehicleCalibration& calibration() const { return calibration_; }
+  // Replaces the files' own, with which it must share the size of the images.
+  void set_calibration(const VehicleCalibration& calibration) { calibration_ = calibration; }
   const std::filesystem::path& folder() const { return folder_; }  // of the images, absolute
 
   // These cover all left images, whether or not each can be read; first_stamp() and last_stamp()

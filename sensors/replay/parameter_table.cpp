@@ -7,14 +7,7 @@ ParameterTable<KittiDriveParameters> parameter_table(const KittiDriveParameters&
   using P = KittiDriveParameters;
   // Nothing here is longer, and the arithmetic of stamps stays far from its limits.
   constexpr double hour = 3600.0;  // s
-  constexpr DataChoice imu_delay_choice{"KITTI odometry sequences, all eight",
-                                        "measured without a position's truth, 53 to 67 ms",
-                                        "fusion on KITTI"};
   static constexpr auto table = std::to_array<Parameter<P>>({
-      {"imu_delay", &P::imu_delay, 0.0, hour, "s", usual,
-       "Time by which OXTS rates, velocities and accelerations are older than the stamp of their "
-       "row.",
-       imu_delay_choice},
       {"camera_readout", &P::camera_readout, 0.0, hour, "s", expert,
        "Time from the later exposure of a pair to its delivery."},
       {"max_pair_skew", &P::max_pair_skew, 0.0, hour, "s", expert,
@@ -23,7 +16,11 @@ ParameterTable<KittiDriveParameters> parameter_table(const KittiDriveParameters&
       {"max_turn", &P::max_turn, 0.0, hour, "s", expert,
        "Longest duration of a scan. The slowest turn of an HDL-64E takes 0.2 s."},
   });
-  return {"replay", "Recorded drives.", table};
+  constexpr auto rules = [](const P& p) -> std::optional<ParameterProblem> {
+    if (p.imu_delay >= 0.0 && p.imu_delay <= hour) return std::nullopt;
+    return ParameterProblem{"imu_delay", "is not a delay of 0 to 3600 s"};
+  };
+  return {"replay", "Recorded drives.", table, rules};
 }
 
 ParameterTable<PoseOdometryParameters> parameter_table(const PoseOdometryParameters&) {
@@ -42,25 +39,6 @@ ParameterTable<PoseOdometryParameters> parameter_table(const PoseOdometryParamet
           "The trajectory of another system in place of visual odometry, for a sequence of KITTI's "
           "odometry benchmark.",
           table};
-}
-
-ParameterTable<MountParameters> parameter_table(const MountParameters&) {
-  using enum Audience;
-  using P = MountParameters;
-  constexpr double turn = 360.0;  // deg
-  static constexpr auto table = std::to_array<Parameter<P>>({
-      {"given", &P::given, usual,
-       "Whether the angles are the unit's mount. Otherwise it is found on the drive, from gravity "
-       "and the velocities of the fixes."},
-      {"roll", &P::roll, -turn, turn, "deg", usual,
-       "R_body_unit = Rz(yaw) Ry(pitch) Rx(roll) takes the unit's axes to the body's (forward, "
-       "left, "
-       "up)."},
-      {"pitch", &P::pitch, -turn, turn, "deg", usual, "Positive where the unit's x points down."},
-      {"yaw", &P::yaw, -turn, turn, "deg", usual,
-       "Positive where the unit's x points to the left."},
-  });
-  return {"mount", "Mount of an inertial unit with six axes, in a drive of tables.", table};
 }
 
 ParameterTable<GnssAidParameters> parameter_table(const GnssAidParameters&) {

@@ -1,9 +1,8 @@
-// What can be set about replayed sensors: [replay], [odometry_poses], [mount], [gnss] and [wheel]
+// What can be set about replayed sensors: [replay], [odometry_poses], [gnss] and [wheel]
 // of the configuration.
 #pragma once
 
 #include "msgs/parameter.h"
-#include "sensors/imu/mount_alignment.h"
 #include "sensors/replay/gnss_aid.h"
 #include "sensors/replay/kitti_drive.h"
 #include "sensors/replay/pose_odometry.h"
@@ -13,7 +12,6 @@ namespace maploop::sensors {
 
 ParameterTable<KittiDriveParameters> parameter_table(const KittiDriveParameters&);
 ParameterTable<PoseOdometryParameters> parameter_table(const PoseOdometryParameters&);
-ParameterTable<MountParameters> parameter_table(const MountParameters&);
 ParameterTable<GnssAidParameters> parameter_table(const GnssAidParameters&);
 ParameterTable<WheelOdometerParameters> parameter_table(const WheelOdometerParameters&);
 

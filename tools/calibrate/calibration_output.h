@@ -19,8 +19,8 @@ std::vector<Parameter> parameters_of(const StereoResult& result);
 
 std::string to_text(const StereoResult& result, const std::vector<Unusable>& unusable);
 
-// Returns the file that `[camera] calibration` names (runtime/vehicle/drivers/stereo_rig_file.h);
-// the standard deviations are comments.
+// Returns the file that `[vehicle.camera] calibration` names
+// (runtime/vehicle/drivers/stereo_rig_file.h); the standard deviations are comments.
 std::string to_toml(const StereoResult& result);
 
 // Returns KITTI's calib_cam_to_cam.txt for cameras 00 and 01.

@@ -139,7 +139,7 @@ void add_calibrate(CLI::App& app, Command& command) {
       ->check(number_in(0.001, 1.0));
   sub->add_option(
          "--toml", options->toml,
-         "Write the calibration to this file, which [camera] calibration of --config names")
+         "Write the calibration to this file, which [vehicle.camera] calibration of --config names")
       ->capture_default_str()
       ->check(writable_file());
   sub->add_option("--kitti", options->kitti, "The same as KITTI's calib_cam_to_cam.txt")

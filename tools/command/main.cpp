@@ -14,9 +14,10 @@ namespace maploop::tools {
 namespace {
 
 constexpr AddCommand* commands[] = {
-    add_calibrate, add_dashboard, add_doctor, add_evaluate, add_experiment, add_gnss,
-    add_live,      add_log,       add_map,    add_match,    add_odometry,   add_ppp,
-    add_profile,   add_replay,    add_send,   add_sensors,  add_simulate,   add_spy,
+    add_calibrate, add_dashboard, add_doctor,  add_evaluate, add_experiment,
+    add_gnss,      add_live,      add_log,     add_map,      add_match,
+    add_odometry,  add_ppp,       add_profile, add_replay,   add_send,
+    add_sensors,   add_simulate,  add_spy,     add_vehicle,
 };
 
 // Whether everything that was printed has arrived at its terminal, file or pipe.

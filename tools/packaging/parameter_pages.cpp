@@ -31,7 +31,9 @@ std::string read(const std::filesystem::path& file) {
 std::string default_file() {
   std::string text =
       "# Every parameter of maploop with its default. A file for --config needs only the keys\n"
-      "# that differ; an unknown key is an error. Brackets hold what is allowed.\n\n";
+      "# that differ; an unknown key is an error. Brackets hold what is allowed. Keys of "
+      "[vehicle]\n"
+      "# are comments: a value that is given holds against what a recording knows of its car.\n\n";
   std::string_view open;
   const auto begin = [&](std::string_view name, std::string_view meaning) {
     if (name != open) text += "\n# " + std::string(meaning) + "\n[" + std::string(name) + "]\n";
@@ -39,8 +41,8 @@ std::string default_file() {
   };
   const auto add = [&](std::string_view key, const std::string& value, const std::string& range,
                        std::string_view meaning) {
-    text += std::string(key) + " = " + value + "  # " + (range.empty() ? "" : '[' + range + "] ") +
-            std::string(meaning) + '\n';
+    text += (open.starts_with("vehicle") ? "# " : "") + std::string(key) + " = " + value + "  # " +
+            (range.empty() ? "" : '[' + range + "] ") + std::string(meaning) + '\n';
   };
   const VehicleConfig defaults;
   each_part(defaults, [&](const auto& table, const auto& values) {

@@ -71,7 +71,8 @@ class Replay {
         map_(vehicle::load_road_map(config_.map)),
         faults_(options.faults, recording_.first_stamp),
         output_(options, config_, "replay of " + drive_name(options)) {
-    describe_car(config_, recording_.calibration);  // for the report and the snapshots
+    describe_car(config_, recording_.calibration);              // for the report and the snapshots
+    config_.vehicle.imu.time.delay = config_.replay.imu_delay;  // as the recording was read
     if (!options.record.empty()) lcm_log::refuse_same_file(options.drive, options.record);
     look_ahead();
     runtime::append(readiness_, output_.open_bus());

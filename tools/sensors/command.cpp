@@ -26,7 +26,7 @@ void add_listen(CLI::App& app, Command& command) {
   sub->add_option("--velodyne", live.velodyne, "Endpoint of its data packets");
   sub->add_option("--velodyne-position", live.velodyne_position,
                   "Endpoint of its position packets");
-  add_scanner(sub, live.velodyne_model, live.velodyne_calibration, "Scanner");
+  add_scanner(sub, options.lidar.model, options.lidar.calibration, "Scanner");
   sub->add_option("--imu", live.imu, "Endpoint of an OXTS unit's NCOM");
   sub->add_option("--gnss", live.gnss, "Endpoint of a receiver");
   add_choice(sub, "--gnss-protocol", options.gnss_protocol,

@@ -98,7 +98,7 @@ vehicle::VehicleConfig config_of(const ListenOptions& options) {
   if (!options.config.empty()) return vehicle::load_vehicle_config(options.config);
   vehicle::VehicleConfig config;
   config.live = options.live;
-  config.live.imu_delay = 0.0;
+  config.vehicle.lidar = options.lidar;
   if (options.gnss_protocol) config.live.gnss_protocol = *options.gnss_protocol;
   if (config.live.velodyne.empty() && config.live.imu.empty() && config.live.gnss.empty()) {
     throw CLI::RequiredError("one of --velodyne, --imu and --gnss");

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "msgs/vehicle_description.h"
 #include "runtime/vehicle/config/live_config.h"
 
 namespace maploop::tools {
@@ -12,6 +13,7 @@ namespace maploop::tools {
 struct ListenOptions {
   std::filesystem::path config;  // its [live] names the endpoints; empty: `live` does
   vehicle::LiveParameters live;
+  LidarDescription lidar;
   std::optional<vehicle::GnssProtocol> gnss_protocol;
   double seconds = 5.0;
   std::filesystem::path json;  // empty: none

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "msgs/named_enum.h"
+#include "msgs/vehicle_description.h"
 #include "tools/evaluate/trajectory_file.h"
 #include "tools/simulate/drive.h"
 #include "tools/simulate/gnss/gnss_recording.h"
@@ -47,29 +49,33 @@ void write_inertial(const Drive& drive, const fs::path& out, const SimulationOpt
                interval, imu_parameters(options.imu), options.seed);
 }
 
-// Writes what a replay should know about the car. The car's origin is above the rear axle and moves
-// along body x, except for the motion of its springs (vehicle_motion.h).
-void write_configuration(const fs::path& file, const SimulationOptions& options) {
+// Returns what is known of the car. Its origin is above the rear axle and moves along body x,
+// except for the motion of its springs (vehicle_motion.h).
+VehicleDescription description(const VehicleCalibration& car, Scanner scanner) {
+  VehicleDescription d = description_of(car);
+  d.car.rear_axle_distance_sigma = 0.01;
+  d.car.climb_offset_sigma = 0.0087;
+  d.lidar.model = scanner == Scanner::vlp_16 ? "VLP-16" : "HDL-64E";
+  // The float is rounded to the decimals that it stands for.
+  const auto elevation = static_cast<double>(lidar_parameters(scanner).elevation_error);
+  d.lidar.beam_elevation = std::round(1e8 * elevation) / 1e8;
+  d.lidar.beam_elevation_sigma = 0.0005;
+  d.imu.time = {0.06, 0.005};
   const Eigen::Vector3d& lever = Receiver::lever();
+  d.antenna.position = {lever.x(), lever.y(), lever.z(), 0.01, 0.01, 0.01};
+  return d;
+}
+
+// Writes what a replay should know about the car.
+void write_configuration(const fs::path& file, const Drive& drive,
+                         const SimulationOptions& options) {
   write_file(
-      file,
-      fmt::format(
-          "# The simulated car.\n\n"
-          "imu_grade = \"{}\"\n\n"
-          "[map]\nfile = \"map.osm\"\n\n"
-          "[live]\nvelodyne_model = \"{}\"\n\n"
-          "[lidar]\nelevation_correction = {:.8f}  # rad, that all beams point higher than they "
-          "say\n\n"
-          "[fusion]\n"
-          "rear_axle_distance = 0.0  # m, the inertial unit is above the rear axle\n"
-          "climb_offset = 0.0  # rad, and level, ...\n"
-          "climb_offset_sigma = 0.0087  # rad, ... but on springs\n"
-          "gnss_lever_forward = {:.2f}  # m, the GNSS antenna from the inertial unit\n"
-          "gnss_lever_left = {:.2f}\ngnss_lever_up = {:.2f}\n\n"
-          "[wheel]\nerrors = \"drawn\"  # its tyres are worn and slip\nseed = {}\n",
-          to_string(options.imu), options.scanner == Scanner::vlp_16 ? "VLP-16" : "HDL-64E",
-          static_cast<double>(lidar_parameters(options.scanner).elevation_error), lever.x(),
-          lever.y(), lever.z(), options.seed % 1'000'000'000));
+      file, fmt::format("# The simulated car.\n\n"
+                        "imu_grade = \"{}\"\n\n"
+                        "[map]\nfile = \"map.osm\"\n\n"
+                        "[wheel]\nerrors = \"drawn\"  # its tyres are worn and slip\nseed = {}\n{}",
+                        to_string(options.imu), options.seed % 1'000'000'000,
+                        to_toml(description(drive.car, options.scanner))));
 }
 
 void write_truth(const Drive& drive, const fs::path& file) {
@@ -101,7 +107,7 @@ bool write_drive(const fs::path& out, const SimulationOptions& options,
     write_gnss(sync, {drive.motion, drive.traffic, *drive.world, drive.frame, drive.start,
                       options.seconds, options.gnss_rate, options.seed});
   write_road_map(out / "map.osm", drive.streets, drive.frame, options.seed);
-  write_configuration(out / "vehicle.toml", options);
+  write_configuration(out / "vehicle.toml", drive, options);
   write_driven_links(out / "driven_links.csv", drive.streets, drive.motion, drive.times);
   write_truth(drive, out / "truth.tum");
   const bool frames = sensors.camera || sensors.lidar;

@@ -9,7 +9,6 @@ constexpr std::array odometries{"visual"sv, "visual-lidar"sv};
 constexpr std::array imu_grades{"tactical"sv, "mems"sv};
 constexpr std::array imu_noises{"recorded"sv, "mems"sv};
 constexpr std::array imu_protocols{"ncom"sv, "lines"sv, "xsens"sv};
-constexpr std::array velodyne_models{"HDL-64E"sv, "HDL-32E"sv, "VLP-16"sv};
 
 }  // namespace
 
@@ -77,47 +76,37 @@ ParameterTable<PreviewParameters> parameter_table(const PreviewParameters&) {
           table};
 }
 
-ParameterTable<CameraParameters> parameter_table(const CameraParameters&) {
+ParameterTable<VehicleConfig> vehicle_file_table() {
   using enum Audience;
-  using P = CameraParameters;
+  using P = VehicleConfig;
   static constexpr auto table = std::to_array<Parameter<P>>({
-      {"calibration", &P::calibration, usual,
-       "File of maploop calibrate (or calib_cam_to_cam.txt); the path starts from this file's "
-       "folder. With it the images are raw, and are rectified as they are read. Empty: they are "
-       "rectified already."},
+      {"file", &P::vehicle_file, usual,
+       "File with these tables, as maploop vehicle writes it, whose values hold where this file "
+       "has none; the path starts from this file's folder. Empty: none."},
   });
-  return {"camera", "The stereo camera.", table};
+  return {"vehicle", parameter_table(CarDescription{}).meaning, table};
 }
 
 ParameterTable<LiveParameters> parameter_table(const LiveParameters&) {
   using enum Audience;
   using P = LiveParameters;
   static constexpr auto table = std::to_array<Parameter<P>>({
-      {"calibration", &P::calibration, usual,
-       "Folder of KITTI's calibration texts, which state where the sensors are on the vehicle; the "
-       "path starts from this file's folder. Empty: a LiDAR is at the origin of the body."},
       {"camera_left", &P::camera_left, usual,
        "GStreamer pipeline of the left camera, such as v4l2src device=/dev/video0 ! "
        "video/x-raw,width=1280,height=720"},
       {"camera_right", &P::camera_right, usual,
        "GStreamer pipeline of the right camera. Empty: the images of the left one show both "
        "cameras side by side."},
-      {"camera_delay", &P::camera_delay, 0.0, 60.0, "s", usual,
-       "Time from the middle of the exposure to the stamp of the driver."},
       {"velodyne", &P::velodyne, usual, "Endpoint of the data packets, such as udp://:2368"},
       {"velodyne_position", &P::velodyne_position, usual,
        "Endpoint of the position packets, such as udp://:8308, from which the UTC of the receiver "
        "is reported."},
-      {"velodyne_model", &P::velodyne_model, usual, "Model of the scanner.", velodyne_models},
-      {"velodyne_calibration", &P::velodyne_calibration, usual,
-       "File db.xml of an HDL-64E; the path starts from this file's folder."},
       {"imu", &P::imu, usual,
        "Endpoint of the inertial unit, such as udp://:3000. With \"ncom\" it must be udp."},
       {"imu_protocol", &P::imu_protocol, usual,
        "\"ncom\": an OXTS unit; \"xsens\": MTData2 with acceleration, rate of turn and "
        "SampleTimeFine; \"lines\": text $PIMU,s,m/s^2 forward,m/s^2 left,rad/s*checksum",
        imu_protocols},
-      {"imu_delay", &P::imu_delay, 0.0, 60.0, "s", usual, "Delay of the unit's filters."},
       {"gnss", &P::gnss, usual,
        "Endpoint of a receiver: serial:///dev/gnss?baud=115200, tcp:// or udp://; of observations "
        "also ntrip://USER:PASSWORD@HOST:2101/MOUNTPOINT, or ntrips:// over TLS."},

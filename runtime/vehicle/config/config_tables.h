@@ -13,11 +13,11 @@
 
 namespace maploop::vehicle {
 
-ParameterTable<VehicleConfig> top_level_table();    // of keys outside any table
-ParameterTable<VehicleConfig> gnss_outage_table();  // of a key of [gnss]
-ParameterTable<VehicleConfig> imu_table();          // [imu]
+ParameterTable<VehicleConfig> top_level_table();     // of keys outside any table
+ParameterTable<VehicleConfig> gnss_outage_table();   // of a key of [gnss]
+ParameterTable<VehicleConfig> vehicle_file_table();  // of a key of [vehicle]
+ParameterTable<VehicleConfig> imu_table();           // [imu]
 ParameterTable<PreviewParameters> parameter_table(const PreviewParameters&);
-ParameterTable<CameraParameters> parameter_table(const CameraParameters&);
 ParameterTable<LiveParameters> parameter_table(const LiveParameters&);
 ParameterTable<PppConfig> parameter_table(const PppConfig&);
 ParameterTable<MapParameters> parameter_table(const MapParameters&);
@@ -29,8 +29,10 @@ template <class Config, class Part>
 void each_part(Config& config, Part&& part) {
   const auto described = [&](auto&... values) { (part(parameter_table(values), values), ...); };
   part(top_level_table(), config);
-  described(config.memory, config.trace, config.preview, config.camera, config.replay,
-            config.odometry_poses, config.mount, config.live, config.gnss);
+  described(config.memory, config.trace, config.preview);
+  part(vehicle_file_table(), config);
+  each_table(part, config.vehicle);
+  described(config.replay, config.odometry_poses, config.live, config.gnss);
   part(gnss_outage_table(), config);
   described(config.wheel);
   part(imu_table(), config);

@@ -13,7 +13,6 @@
 #include "runtime/vehicle/graph/vehicle.h"
 #include "sensors/live/live_sensors.h"
 #include "sensors/live/ntrip_client.h"
-#include "sensors/replay/kitti_calibration.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -28,15 +27,16 @@ auto of_key(const char* key, Make&& make) {
   }
 }
 
-sensors::LiveVelodyneOptions velodyne_options(const LiveParameters& p) {
+sensors::LiveVelodyneOptions velodyne_options(const LiveParameters& p,
+                                              const LidarDescription& lidar) {
   sensors::LiveVelodyneOptions options{sensors::parse_endpoint(p.velodyne), {}, {}, {}};
   if (!p.velodyne_position.empty()) {
     options.position = sensors::parse_endpoint(p.velodyne_position);
   }
-  options.model = sensors::velodyne_model(p.velodyne_model).value();
-  options.lasers = p.velodyne_calibration.empty()
+  options.model = sensors::velodyne_model(lidar.model).value();
+  options.lasers = lidar.calibration.empty()
                        ? sensors::factory_lasers(options.model)
-                       : sensors::read_velodyne_calibration(p.velodyne_calibration, options.model);
+                       : sensors::read_velodyne_calibration(lidar.calibration, options.model);
   return options;
 }
 
@@ -60,8 +60,8 @@ std::shared_ptr<const ppp::PppSetup> live_ppp(const VehicleConfig& config) {
 }
 
 std::optional<sensors::StereoRig> rig_of(const VehicleConfig& config) {
-  if (config.camera.calibration.empty()) return std::nullopt;
-  return read_stereo_rig(config.camera.calibration);
+  const std::string& file = config.vehicle.camera.calibration;
+  return file.empty() ? std::nullopt : std::optional(read_stereo_rig(file));
 }
 
 sensors::LiveStereoOptions camera_options(const VehicleConfig& config) {
@@ -71,15 +71,14 @@ sensors::LiveStereoOptions camera_options(const VehicleConfig& config) {
                                      0,
                                      0,
                                      rig_of(config),
-                                     from_seconds(p.camera_delay),
+                                     from_seconds(config.vehicle.camera.time.delay),
                                      from_seconds(config.replay.max_pair_skew)};
   if (options.rig) {
     options.width = options.rig->width;
     options.height = options.rig->height;
   } else {
-    const StereoCalibration calibration = live_calibration(config).stereo;
-    options.width = calibration.width;
-    options.height = calibration.height;
+    options.width = config.vehicle.camera.width;
+    options.height = config.vehicle.camera.height;
   }
   return options;
 }
@@ -87,31 +86,22 @@ sensors::LiveStereoOptions camera_options(const VehicleConfig& config) {
 }  // namespace
 
 VehicleCalibration live_calibration(const VehicleConfig& config) {
-  const std::string& folder = config.live.calibration;
-  const auto rig = rig_of(config);
-  if (!folder.empty()) {
-    return of_key("calibration", [&] {
-      return rig ? sensors::read_kitti_calibration(folder, *rig, !config.live.velodyne.empty())
-                 : sensors::read_kitti_calibration(folder);
-    });
-  }
   VehicleCalibration calibration;
-  if (!rig) return calibration;
-  if (!rig->T_body_left) {
-    throw std::runtime_error("[camera] calibration: '" + config.camera.calibration +
-                             "' does not contain the camera's mounting on the vehicle: add a " +
-                             "[mounting] to it, or set [live] calibration to a folder of KITTI's " +
-                             "calibration files");
-  }
-  calibration.stereo = mounted(*rig, *rig->T_body_left);
-  return calibration;
+  if (const auto rig = rig_of(config)) calibration.stereo = rig->rectified;
+  calibration.stereo.T_body_cam = camera_pose({}, {});
+  return described(config, calibration);
 }
 
 LiveSensors open_live_sensors(const VehicleConfig& config) {
   const LiveParameters& p = config.live;
-  if (const auto problem = problem_of(parameter_table(p), p)) {
-    throw std::runtime_error("[live] " + std::string(problem->key) + ": " + problem->text);
-  }
+  const auto check = [](const auto& table, const auto& values) {
+    const auto problem = problem_of(table, values);
+    if (!problem) return;
+    throw std::runtime_error('[' + std::string(table.name) + "] " + std::string(problem->key) +
+                             ": " + problem->text);
+  };
+  check(parameter_table(p), p);
+  each_table(check, config.vehicle);
   LiveSensors s;
   s.clock = std::make_shared<const sensors::HostClock>();
   if (!p.camera_left.empty()) {
@@ -121,13 +111,14 @@ LiveSensors open_live_sensors(const VehicleConfig& config) {
     throw std::runtime_error("[live] camera_right needs camera_left too: set both, or neither");
   }
   if (!p.velodyne.empty()) {
-    s.velodyne = of_key("velodyne",
-                        [&] { return sensors::listen_to_velodyne(velodyne_options(p), *s.clock); });
+    s.velodyne = of_key("velodyne", [&] {
+      return sensors::listen_to_velodyne(velodyne_options(p, config.vehicle.lidar), *s.clock);
+    });
   }
   if (!p.imu.empty()) {
     s.imu = of_key("imu", [&] {
       const sensors::Endpoint endpoint = sensors::parse_endpoint(p.imu);
-      const Duration delay = from_seconds(p.imu_delay);
+      const Duration delay = from_seconds(config.vehicle.imu.time.delay);
       if (p.imu_protocol == "lines") return sensors::listen_to_imu_lines(endpoint, delay, *s.clock);
       if (p.imu_protocol == "xsens") return sensors::listen_to_xsens(endpoint, delay, *s.clock);
       return sensors::listen_to_ncom(endpoint, delay, *s.clock);

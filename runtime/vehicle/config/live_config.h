@@ -25,16 +25,11 @@ constexpr std::array<std::string_view, 3> names_of(GnssProtocol) {
 
 // Endpoints (sensors/live/endpoint.h), pipelines and files; config_tables.cpp describes each.
 struct LiveParameters {
-  std::string calibration;
   std::string camera_left, camera_right;
-  double camera_delay = 0.0;  // s
   std::string velodyne;
   std::string velodyne_position;
-  std::string velodyne_model = "VLP-16";
-  std::string velodyne_calibration;
   std::string imu;
   std::string imu_protocol = "ncom";
-  double imu_delay = 0.060;  // s
   std::string gnss;
   GnssProtocol gnss_protocol = GnssProtocol::nmea;
   double gnss_latency = 0.05;  // s
@@ -43,8 +38,9 @@ struct LiveParameters {
   std::string gnss_antenna;
 };
 
-// These do not connect to anything yet. They throw std::runtime_error naming the key of [live] that
-// is wrong and what it may be; the first one also throws if there is no sensor at all.
+// These do not connect to anything yet. They throw std::runtime_error naming the key of [live] or
+// [vehicle] that is wrong and what it may be; the first one also throws if there is no sensor at
+// all. The calibration is that of the described vehicle.
 LiveSensors open_live_sensors(const VehicleConfig& config);
 VehicleCalibration live_calibration(const VehicleConfig& config);
 

@@ -1,5 +1,6 @@
 #include "runtime/vehicle/config/vehicle_config.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -29,6 +30,60 @@ void read_value(const runtime::ConfigTable& table, const ParameterDescription& p
     }
   };
   std::visit(read, value);
+}
+
+// The table of a dotted name.
+runtime::ConfigTable table_in(runtime::ConfigTable table, std::string_view name) {
+  while (!name.empty()) {
+    const std::size_t dot = std::min(name.find('.'), name.size());
+    table = table.table(name.substr(0, dot));
+    name.remove_prefix(std::min(dot + 1, name.size()));
+  }
+  return table;
+}
+
+void read_part(const runtime::ConfigTable& root, const auto& table, auto& values,
+               std::set<std::string, std::less<>>& given) {
+  const runtime::ConfigTable in_file = table_in(root, table.name);
+  for (const auto& parameter : table.parameters) {
+    ParameterValue value = parameter.value_in(values);
+    read_value(in_file, parameter, value);
+    parameter.set(values, value);
+    if (in_file.has(parameter.key))
+      given.insert(std::string(table.name) + '.' + std::string(parameter.key));
+  }
+}
+
+void check_part(const runtime::ConfigTable& root, const auto& table, const auto& values) {
+  if (const auto problem = problem_of(table, values))
+    table_in(root, table.name).fail(problem->key, problem->text);
+}
+
+// Makes the paths that a file gives in the vehicle's tables start from its folder.
+void place_paths(const runtime::ConfigTable& root, const std::filesystem::path& folder,
+                 VehicleDescription& vehicle) {
+  for (const auto& [table, path] : {std::pair("vehicle.camera", &vehicle.camera.calibration),
+                                    std::pair("vehicle.lidar", &vehicle.lidar.calibration)}) {
+    if (table_in(root, table).has("calibration") && !path->empty())
+      *path = (folder / *path).string();
+  }
+}
+
+// Reads the file that [vehicle] names, which has the tables of the vehicle alone.
+void read_vehicle_file(const runtime::ConfigTable& root, const std::filesystem::path& folder,
+                       VehicleConfig& config) {
+  root.table("vehicle").read("file", config.vehicle_file);
+  if (config.vehicle_file.empty()) return;
+  const std::filesystem::path file = folder / config.vehicle_file;
+  const runtime::ConfigDocument document = runtime::ConfigDocument::load(file);
+  const runtime::ConfigTable in_file = document.root();
+  each_table(
+      [&](const auto& table, auto& values) { read_part(in_file, table, values, config.given); },
+      config.vehicle);
+  document.reject_unknown();
+  each_table([&](const auto& table, const auto& values) { check_part(in_file, table, values); },
+             config.vehicle);
+  place_paths(in_file, file.parent_path(), config.vehicle);
 }
 
 // The names are read first, and the keys that they set may then differ from them.
@@ -63,51 +118,27 @@ void set_imu_grade(VehicleConfig& config, const std::string& name) {
   config.imu_grade = name;
 }
 
-void describe_car(VehicleConfig& config, const VehicleCalibration& calibration) {
-  const auto take = [&](std::string_view key, double& value, double known) {
-    if (!config.given.contains(key)) value = known;
-  };
-  fusion::FusionParameters& p = config.fusion;
-  take("fusion.rear_axle_distance", p.rear_axle_distance, calibration.rear_axle_distance);
-  take("fusion.climb_offset", p.climb_offset, calibration.climb_offset);
-  take("fusion.climb_offset_sigma", p.climb_offset_sigma, calibration.climb_offset_sigma);
-  take("lidar.elevation_correction", config.lidar.elevation_correction, calibration.beam_elevation);
-}
-
 VehicleConfig load_vehicle_config(const std::filesystem::path& file) {
   VehicleConfig config;
   const runtime::ConfigDocument document = runtime::ConfigDocument::load(file);
   const runtime::ConfigTable root = document.root();
-  const auto in_file = [&](std::string_view name) {
-    return name.empty() ? root : root.table(name);
-  };
   read_names(root, config);
-  each_part(config, [&](const auto& table, auto& values) {
-    const runtime::ConfigTable given = in_file(table.name);
-    for (const auto& parameter : table.parameters) {
-      ParameterValue value = parameter.value_in(values);
-      read_value(given, parameter, value);
-      parameter.set(values, value);
-      if (given.has(parameter.key)) {
-        config.given.insert(std::string(table.name) + '.' + std::string(parameter.key));
-      }
-    }
-  });
+  const std::filesystem::path folder = file.parent_path();
+  read_vehicle_file(root, folder, config);
+  each_part(config,
+            [&](const auto& table, auto& values) { read_part(root, table, values, config.given); });
   for (const ScheduledThread& thread : scheduled_threads()) {
     read(root.table("scheduling"), thread.key, config.scheduling.*thread.scheduling);
   }
   document.reject_unknown();
-  each_part(config, [&](const auto& table, const auto& values) {
-    if (const auto problem = problem_of(table, values)) {
-      in_file(table.name).fail(problem->key, problem->text);
-    }
-  });
-  const auto beside = [&](std::string& path) { path = (file.parent_path() / path).string(); };
-  for (std::string* path :
-       {&config.camera.calibration, &config.live.calibration, &config.live.velodyne_calibration,
-        &config.odometry_poses.file, &config.map.file, &config.map.rules})
-    if (!path->empty()) beside(*path);
-  for (std::string& product : config.ppp.products) beside(product);
+  each_part(config,
+            [&](const auto& table, const auto& values) { check_part(root, table, values); });
+  place_paths(root, folder, config.vehicle);
+  for (std::string* path : {&config.odometry_poses.file, &config.map.file, &config.map.rules})
+    if (!path->empty()) *path = (folder / *path).string();
+  for (std::string& product : config.ppp.products) product = (folder / product).string();
+  config.vehicle_file.clear();  // all of it is in `vehicle`
+  describe_car(config, {});
   return config;
 }
 

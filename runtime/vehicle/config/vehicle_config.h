@@ -17,6 +17,7 @@
 #include "mapmatch/feedback_parameters.h"
 #include "mapmatch/match_parameters.h"
 #include "msgs/calibration.h"
+#include "msgs/vehicle_description.h"
 #include "ppp/filter/parameters.h"
 #include "runtime/core/realtime_memory.h"
 #include "runtime/core/trace.h"
@@ -35,10 +36,6 @@ struct PreviewParameters {
   int width = 640;    // px
   int quality = 60;
   int points = 4000;
-};
-
-struct CameraParameters {
-  std::string calibration;
 };
 
 // Of a drive with the observations of a GNSS receiver.
@@ -78,11 +75,11 @@ struct VehicleConfig {
   runtime::MemoryParameters memory;
   runtime::TraceParameters trace;
   PreviewParameters preview;
-  CameraParameters camera;
+  std::string vehicle_file;
+  VehicleDescription vehicle;
   sensors::KittiDriveParameters replay;
   sensors::PoseOdometryParameters odometry_poses;
   LiveParameters live;
-  sensors::MountParameters mount;
   sensors::GnssAidParameters gnss;
   std::string gnss_outage;  // gnss_outage.h
   sensors::WheelOdometerParameters wheel;
@@ -104,8 +101,17 @@ struct VehicleConfig {
 void set_configuration(VehicleConfig& config, const std::string& name);
 void set_imu_grade(VehicleConfig& config, const std::string& name);
 
-// Takes what a recording knows of its car where the file has not said otherwise.
-void describe_car(VehicleConfig& config, const VehicleCalibration& calibration);
+// Whether the file gives the pose of a sensor, which is named as in "vehicle.camera".
+bool has_pose(const VehicleConfig& config, std::string_view table);
+
+// Returns the calibration of a recording, with what the configuration says of the vehicle in place
+// of the recording's own. A pose that agrees with the recording's to 1e-9 (m, rad) is that pose, so
+// that a description that was converted from a calibration does not change a bit.
+VehicleCalibration described(const VehicleConfig& config, VehicleCalibration recorded);
+
+// Completes config.vehicle with what a recording knows, and sets the keys of [fusion], [lidar],
+// [feedback] and the delay of OXTS rows by it; a key that the file gives in these tables holds.
+void describe_car(VehicleConfig& config, const VehicleCalibration& recorded);
 
 // Reads a TOML file; absent keys keep their defaults. Throws runtime::ConfigError naming file, line
 // and key for anything wrong: unknown keys, and values out of their range.

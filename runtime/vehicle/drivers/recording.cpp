@@ -89,7 +89,8 @@ Recording open_sequence(const std::filesystem::path& path, const VehicleConfig& 
   } else if (sequence->tracks_file()) {
     tracks = std::make_shared<const RecordedTracks>(read_recorded_tracks(*sequence->tracks_file()));
   }
-  Recording recording = make_recording(*sequence, [sequence, tracks, poses, config](Time) {
+  const Eigen::Isometry3d T_body_cam = described(config, sequence->calibration()).stereo.T_body_cam;
+  Recording recording = make_recording(*sequence, [=](Time) {
     Sensors s;
     s.imu = sequence->imu();
     s.gnss = sequence->gnss(config.gnss);
@@ -99,8 +100,7 @@ Recording open_sequence(const std::filesystem::path& path, const VehicleConfig& 
       const Duration delay = from_seconds(config.replay.camera_readout) + stages::stereo.budget;
       const auto odometry = [&] {
         if (poses != nullptr)
-          return sensors::make_pose_odometry(poses, sequence->image_stamps(),
-                                             sequence->calibration().stereo.T_body_cam,
+          return sensors::make_pose_odometry(poses, sequence->image_stamps(), T_body_cam,
                                              config.odometry_poses, delay);
         return make_track_odometry(tracks, sequence->image_stamps(),
                                    for_recorded_tracks(config.stereo), delay);
@@ -163,6 +163,12 @@ std::vector<GnssOutage> outages_of(const VehicleConfig& config, const Recording&
                        config.gnss.seed);
 }
 
+// How the unit is mounted, where the description says it. Its pitch is nose up.
+sensors::MountParameters mount_of(const VehicleConfig& config) {
+  const SensorRotation& r = config.vehicle.imu.rotation;
+  return {has_pose(config, "vehicle.imu"), r.roll, -r.pitch, r.yaw};
+}
+
 // The fixes take the place of the images.
 Recording open_tables(const std::filesystem::path& folder, const VehicleConfig& config) {
   auto tables = std::make_shared<const sensors::TableRecording>(folder);
@@ -179,7 +185,7 @@ Recording open_tables(const std::filesystem::path& folder, const VehicleConfig& 
     Sensors s;
     s.gnss = tables->gnss();
     if (tables->has_imu() && fusion::configuration(car.configuration).inertial)
-      s.imu = tables->imu(with_outages(tables->gnss(), outages), car.mount,
+      s.imu = tables->imu(with_outages(tables->gnss(), outages), mount_of(car),
                           car.fusion.rear_axle_distance);
     if (tables->has_reference()) s.reference = tables->reference();
     return s;
@@ -195,7 +201,7 @@ bool is_capture(const std::filesystem::path& path) {
 
 // The scanner's turns take the place of the images.
 Recording open_capture(const std::filesystem::path& path, const VehicleConfig& config) {
-  const auto open = [path, calibration = config.live.velodyne_calibration] {
+  const auto open = [path, calibration = config.vehicle.lidar.calibration] {
     return std::make_unique<sensors::VelodyneCapture>(
         path, sensors::VelodyneCaptureOptions{{}, calibration});
   };
@@ -252,12 +258,21 @@ std::optional<sensors::ImuNoiseParameters> noise_of(const VehicleConfig& config)
 std::shared_ptr<const sensors::KittiDrive> open_drive(const std::filesystem::path& folder,
                                                       const VehicleConfig& config) {
   std::optional<sensors::StereoRig> raw;
-  if (!config.camera.calibration.empty()) raw = read_stereo_rig(config.camera.calibration);
-  return std::make_shared<const sensors::KittiDrive>(folder, config.replay, std::move(raw));
+  const CameraDescription& camera = config.vehicle.camera;
+  if (!camera.calibration.empty()) {
+    raw = read_stereo_rig(camera.calibration);
+    if (has_pose(config, "vehicle.camera"))
+      raw->T_body_left =
+          camera_pose(camera.position, camera.rotation) * Eigen::Isometry3d(raw->R_rect_left);
+  }
+  const auto drive = std::make_shared<sensors::KittiDrive>(folder, config.replay, std::move(raw));
+  drive->set_calibration(described(config, drive->calibration()));
+  return drive;
 }
 
 Recording open_recording(const std::filesystem::path& path, const VehicleConfig& config) {
   Recording recording = open_any(path, config);
+  recording.calibration = described(config, recording.calibration);
   recording.outages = outages_of(config, recording);
   recording.sensors = [plain = std::move(recording.sensors), outages = recording.outages,
                        noise = noise_of(config)](Time passed) {

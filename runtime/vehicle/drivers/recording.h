@@ -46,9 +46,10 @@ std::shared_ptr<const sensors::KittiDrive> open_drive(const std::filesystem::pat
 // - A KITTI raw drive is a folder. driven_links.csv beside it contains its labels. A receiver's
 //   observations in a folder `gnss` in it replace its GNSS, unless [ppp] observations is false.
 // - A capture of a Velodyne scanner is .pcap or .pcapng, plain or .gz; that of an HDL-64E needs
-//   [live] velodyne_calibration.
+//   [vehicle.lidar] calibration.
 // - RINEX observations are read with their products (gnss_drive.h).
-// - Tables of fixes and inertial samples are a folder with gnss.csv. [mount] may state how the unit
+// - Tables of fixes and inertial samples are a folder with gnss.csv. [vehicle.imu] may state how
+// the unit
 //   is mounted; otherwise it is found on the way.
 // - A table of OXTS rows is, for example, a sequence of KITTI's odometry benchmark
 //   (sensors/replay/sequence_files.h). The stereo back end computes its odometry from its recorded

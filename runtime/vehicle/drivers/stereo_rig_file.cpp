@@ -52,10 +52,6 @@ void each_value(Rig& rig, To& to) {
   to.number("cx", rig.rectified.cx);
   to.number("cy", rig.rectified.cy);
   to.number("baseline", rig.rectified.baseline);
-  if (!to.has_mounting(rig)) return;
-  to.table("mounting");
-  to.rotation("R_body_left", rig.T_body_left->linear());
-  to.vector("p_body_left", rig.T_body_left->translation());
 }
 
 class Reader {
@@ -79,7 +75,7 @@ class Reader {
     RowMajor printed;
     number(key, std::span<double>(printed.data(), 9));
     const auto nearest = sensors::nearest_rotation(printed);
-    if (!nearest) table_.fail(key, "is not a rotation matrix");
+    if (!nearest) table_.fail(key, sensors::why_no_rotation(printed));
     value = *nearest;
   }
 
@@ -95,12 +91,6 @@ class Reader {
                   "cannot be approximated by undistorted_to_distorted coefficients better than " +
                       std::to_string(converted.largest_error) + " px");
     camera.distortion = converted.distortion;
-  }
-
-  bool has_mounting(sensors::StereoRig& rig) {
-    if (!root_.has("mounting")) return false;
-    rig.T_body_left = Eigen::Isometry3d::Identity();
-    return true;
   }
 
  private:
@@ -122,7 +112,6 @@ class Writer {
   void direction(const sensors::CameraModel&, const sensors::StereoRig&) {
     line("direction", '"' + std::string(to_distorted) + '"');
   }
-  bool has_mounting(const sensors::StereoRig& rig) const { return rig.T_body_left.has_value(); }
 
   std::string text;
 

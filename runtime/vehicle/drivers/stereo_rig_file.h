@@ -18,7 +18,7 @@ namespace maploop::vehicle {
 //   [extrinsics]                  R_right_left (nine numbers, row by row), t_right_left (m)
 //   [rectification]               R_rect_left, R_rect_right, width, height, fx, fy, cx, cy,
 //                                 baseline (m)
-//   [mounting], may be absent     R_body_left, p_body_left (m): the raw left camera on the vehicle
+// Where the cameras are on the vehicle is said by [vehicle.camera] of the configuration.
 // Throws std::runtime_error naming file, line and key of what is wrong, also of an unknown key.
 sensors::StereoRig read_stereo_rig(const std::filesystem::path& file);
 

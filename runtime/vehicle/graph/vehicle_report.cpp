@@ -71,9 +71,9 @@ void Vehicle::Graph::look_at_imu_delay(Health& health) {
   if (std::abs(delay) < std::max(harmless, certain * estimate.sigma())) return;
   const char* instead =
       delay > 0.0 ? "late against odometry; add that to" : "early against odometry; take that off";
-  health.degraded.push_back(fmt::format(
-      "imu: its stamps are {:.0f} +- {:.0f} ms {} imu_delay of [{}]", 1e3 * std::abs(delay),
-      1e3 * estimate.sigma(), instead, host_clock != nullptr ? "live" : "replay"));
+  health.degraded.push_back(
+      fmt::format("imu: its stamps are {:.0f} +- {:.0f} ms {} delay of [vehicle.imu]",
+                  1e3 * std::abs(delay), 1e3 * estimate.sigma(), instead));
 }
 
 RuntimeReport Vehicle::Graph::look(Duration elapsed) {

@@ -17,7 +17,8 @@ namespace maploop::vehicle {
 namespace {
 
 // What decides which samples the recording gives. (Where it runs and how fast decides nothing.)
-constexpr std::array<std::string_view, 4> deciding_tables{"replay", "gnss", "wheel", "imu"};
+constexpr std::array<std::string_view, 5> deciding_tables{"replay", "gnss", "wheel", "imu",
+                                                          "vehicle.imu"};
 
 template <class Archive>
 void archive_same_config(Archive& ar, const VehicleConfig& config) {
@@ -31,7 +32,7 @@ void archive_same_config(Archive& ar, const VehicleConfig& config) {
 
 template <class Archive, class S>
 void describe(Archive& ar, S& snapshot, const VehicleConfig& config) {
-  ar.section("vehicle snapshot", 4);
+  ar.section("vehicle snapshot", 5);
   archive_same_config(ar, config);
   ar(snapshot.at, snapshot.first, snapshot.parts);
 }

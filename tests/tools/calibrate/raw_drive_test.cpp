@@ -108,7 +108,7 @@ TEST(RawDrive, OdometryIsAsAccurateAsOnTheRectifiedImages) {
   // The file is as `maploop calibrate` writes it, and is found relative to the configuration's
   // folder.
   std::ofstream(day.path() / "cameras.toml") << vehicle::to_toml(rig);
-  std::ofstream(day.path() / "raw.toml") << "[camera]\ncalibration = \"cameras.toml\"\n";
+  std::ofstream(day.path() / "raw.toml") << "[vehicle.camera]\ncalibration = \"cameras.toml\"\n";
   const Score original = score(testing::drive_0013(), {}, day.path());
   const Score rectified = score(raw, day.path() / "raw.toml", day.path());
   std::cout << "original " << original.percent << " %, end " << original.end_point_m
@@ -120,7 +120,7 @@ TEST(RawDrive, OdometryIsAsAccurateAsOnTheRectifiedImages) {
   // Without the calibration the raw images are refused.
   const ProcessResult plain = maploop({"odometry", raw.string()});
   EXPECT_EQ(plain.status, 1);
-  EXPECT_NE(plain.error.find("[camera] calibration"), std::string::npos) << plain.error;
+  EXPECT_NE(plain.error.find("[vehicle.camera] calibration"), std::string::npos) << plain.error;
   // With a calibration for another image size every pair is refused, and the command fails.
   sensors::StereoRig other = rig;
   other.width -= 2;

@@ -31,16 +31,19 @@ class LiveCommand : public DriveTest {
   // Starts a live run on these ports, with its log.
   std::unique_ptr<Process> started(const Ports& ports, Words options) {
     EXPECT_EQ(send({"--calibration", file("db.xml")}).status, 0);
+    EXPECT_EQ(run({maploop_command(), "vehicle", "convert", "kitti",
+                   drive_0013().parent_path().string(), file("kitti.toml")})
+                  .status,
+              0);
     const std::string config = write(
         "live.toml",
-        "configuration = \"GNSS+VO-L-RI\"\n[live]\ncalibration = \"" +
-            drive_0013().parent_path().string() +
-            "\"\ncamera_left = \"udpsrc address=127.0.0.1 port=" + std::to_string(ports.camera) +
+        "configuration = \"GNSS+VO-L-RI\"\n[vehicle]\nfile = \"kitti.toml\"\n[vehicle.lidar]\n"
+        "calibration = \"db.xml\"\n[live]\ncamera_left = \"udpsrc address=127.0.0.1 port=" +
+            std::to_string(ports.camera) +
             " buffer-size=8388608 caps=application/x-rtp,media=application,"
             "clock-rate=90000,encoding-name=X-GST ! rtpgstdepay\"\nvelodyne = \"" +
-            udp(ports.velodyne) +
-            "\"\nvelodyne_model = \"HDL-64E\"\nvelodyne_calibration = \"db.xml\"\nimu = \"" +
-            udp(ports.imu) + "\"\ngnss = \"" + udp(ports.gnss) + "\"\n");
+            udp(ports.velodyne) + "\"\nimu = \"" + udp(ports.imu) + "\"\ngnss = \"" +
+            udp(ports.gnss) + "\"\n");
     options.insert(options.begin(), {maploop_command(), "live", config, "--no-lcm", "--record",
                                      file("live.lcmlog")});
     return std::make_unique<Process>(options);

@@ -25,13 +25,14 @@ TEST(SimulatedReplay, ObservationsTakeThePlaceOfTheReferencesGnss) {
   EXPECT_EQ(config.fusion.gnss_lever_up, 0.75);
   EXPECT_TRUE(fs::exists(config.map.file));
   EXPECT_EQ(config.imu_grade, "mems");
-  EXPECT_EQ(config.live.velodyne_model, "HDL-64E");
+  EXPECT_EQ(config.vehicle.lidar.model, "HDL-64E");
+  EXPECT_EQ(config.replay.imu_delay, 0.06);
   EXPECT_NEAR(config.lidar.elevation_correction, radians(0.205), 1e-8);
   EXPECT_EQ(config.wheel.errors, sensors::ErrorModel::drawn);
   EXPECT_EQ(config.wheel.seed, 1);
   // The configuration contains all that a recording can know about its car.
-  for (const char* key : {"fusion.rear_axle_distance", "fusion.climb_offset",
-                          "fusion.climb_offset_sigma", "lidar.elevation_correction"}) {
+  for (const char* key : {"vehicle.rear_axle_distance", "vehicle.climb_offset",
+                          "vehicle.climb_offset_sigma", "vehicle.lidar.beam_elevation"}) {
     EXPECT_TRUE(config.given.contains(key)) << key;
   }
 

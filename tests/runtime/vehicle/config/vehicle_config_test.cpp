@@ -36,8 +36,9 @@ std::set<std::string> keys(const std::string& toml) {
   std::string table;
   for (std::string line; std::getline(in, line);) {
     if (line.starts_with('[')) table = line;
+    if (line.starts_with("# ")) line.erase(0, 2);  // a key of the vehicle
     const auto equals = line.find(" = ");
-    if (!line.starts_with('#') && equals != std::string::npos) {
+    if (equals != std::string::npos && line.find(' ') == equals) {
       all.insert(table + line.substr(0, equals));
     }
   }
@@ -77,6 +78,64 @@ TEST(VehicleConfig, NoCarIsADefaultAndTheFileKnowsBetterThanTheRecording) {
   EXPECT_EQ(config.fusion.climb_offset, 0.0);
   EXPECT_EQ(config.fusion.climb_offset_sigma, 0.0087);
   EXPECT_EQ(config.lidar.elevation_correction, 0.0036);
+}
+
+TEST(VehicleConfig, TheDescriptionOfTheVehicleReachesWhatUsesIt) {
+  const VehicleConfig config = load_text(
+      "[feedback]\nlane_share = 0.3\n[vehicle]\nside_of_road = \"left\"\n"
+      "rear_axle_distance = 1.2\n[vehicle.lidar]\nbeam_elevation = 0.002\n[vehicle.antenna]\n"
+      "forward = 0.5\nleft = -0.1\nup = 1.5\n[vehicle.imu]\ndelay = 0.01\n");
+  EXPECT_EQ(config.fusion.rear_axle_distance, 1.2);
+  EXPECT_EQ(config.lidar.elevation_correction, 0.002);
+  EXPECT_EQ(config.fusion.gnss_lever_forward, 0.5);
+  EXPECT_EQ(config.fusion.gnss_lever_left, -0.1);
+  EXPECT_EQ(config.fusion.gnss_lever_up, 1.5);
+  EXPECT_EQ(config.replay.imu_delay, 0.01);
+  EXPECT_EQ(config.feedback.lane_share, 0.3) << "its own key holds";
+  EXPECT_EQ(load_text("[vehicle]\nside_of_road = \"left\"\n").feedback.lane_share, -0.4);
+}
+
+TEST(VehicleConfig, AVehiclesFileHoldsWhereTheConfigurationIsSilent) {
+  const maploop::testing::TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "cars");
+  std::ofstream(folder.path() / "cars/van.toml")
+      << "[vehicle]\nwheel_radius = 0.4\ntrack = 1.7\n[vehicle.camera]\ncalibration = \"c.toml\"\n";
+  const auto file = folder.path() / "test.toml";
+  std::ofstream(file)
+      << "[vehicle]\nfile = \"cars/van.toml\"\ntrack = 1.8\n[map]\nmode = \"tight\"\n";
+  const VehicleConfig config = load_vehicle_config(file);
+  EXPECT_EQ(config.vehicle.car.wheel_radius, 0.4);
+  EXPECT_EQ(config.vehicle.car.track, 1.8);
+  EXPECT_EQ(config.vehicle.camera.calibration, (folder.path() / "cars/c.toml").string());
+  EXPECT_TRUE(config.given.contains("vehicle.wheel_radius"));
+  std::ofstream(folder.path() / "cars/van.toml") << "[map]\nmode = \"tight\"\n";
+  EXPECT_THAT(error_of<runtime::ConfigError>([&] { load_vehicle_config(file); }),
+              HasSubstr("van.toml:1:2: map: unknown key"));
+}
+
+TEST(VehicleConfig, APoseIsTheRecordingsOrTheFilesButForRounding) {
+  VehicleCalibration recorded;
+  recorded.T_body_velo.linear() =
+      Eigen::AngleAxisd(0.1, Eigen::Vector3d(1, 2, 3).normalized()).matrix();
+  recorded.T_body_velo.translation() << 1.0, 0.1, 0.7;
+  recorded.stereo.width = 1242;
+  recorded.stereo.height = 375;
+  recorded.stereo.fx = recorded.stereo.fy = 721.5377;
+  recorded.stereo.baseline = 0.54;
+  recorded.stereo.T_body_cam = recorded.T_body_velo * camera_pose({}, {});
+  const VehicleConfig same = load_text(to_toml(description_of(recorded)));
+  EXPECT_EQ(described(same, recorded).T_body_velo.matrix(), recorded.T_body_velo.matrix());
+  EXPECT_EQ(described(same, recorded).stereo.T_body_cam.matrix(),
+            recorded.stereo.T_body_cam.matrix());
+  EXPECT_TRUE(described(same, {}).T_body_velo.isApprox(recorded.T_body_velo, 1e-12));
+  EXPECT_EQ(described(same, {}).stereo.fx, 721.5377);
+  const VehicleCalibration higher = described(load_text("[vehicle.lidar]\nup = 0.8\n"), recorded);
+  EXPECT_EQ(higher.T_body_velo.translation(), Eigen::Vector3d(1.0, 0.1, 0.8));
+  EXPECT_TRUE(higher.T_body_velo.linear().isApprox(recorded.T_body_velo.linear(), 1e-12));
+  VehicleConfig config = load_text("[vehicle.lidar]\nup = 0.8\n");
+  describe_car(config, recorded);
+  EXPECT_EQ(config.vehicle.lidar.position.forward_sigma, 0.02) << "of a calibration";
+  EXPECT_EQ(config.vehicle.lidar.position.up_sigma, 1.0) << "of a value without one";
 }
 
 TEST(VehicleConfig, WhatIsWrittenIsReadBack) {
@@ -194,7 +253,15 @@ TEST(VehicleConfig, AValueThatCannotWorkNamesFileAndKey) {
            {"[preview]\nwidth = 10\n",
             "test.toml:2:9: preview.width: is 10; allowed is 64 to 1280 px"},
            {"[map]\nmode = \"losse\"\n", "test.toml:2:8: map.mode: is \"losse\"; did you mean"},
-           {"[replay]\nimu_delay = -0.1\n", "test.toml:2:13: replay.imu_delay: is -0.1; allowed"},
+           {"[vehicle.imu]\ndelay = -0.1\n", "test.toml:2:9: vehicle.imu.delay: is -0.1; allowed"},
+           {"[vehicle.camera]\nfx = 700\n", "vehicle.camera.width: must be given together with"},
+           {"[vehicle.lidar]\nmodel = \"VLP-17\"\n",
+            "test.toml:2:9: vehicle.lidar.model: is \"VLP-17\""},
+           {"[vehicle.lidar]\nforwards = 1.0\n",
+            "test.toml:2:1: vehicle.lidar.forwards: unknown key"},
+           {"[vehicle.lidar]\nup_sigma = 0\n", "test.toml:2:12: vehicle.lidar.up_sigma: is 0"},
+           {"[vehicle]\nside_of_road = \"middle\"\n", "vehicle.side_of_road: is \"middle\""},
+           {"[vehicle]\nfile = \"nowhere.toml\"\n", "nowhere.toml"},
            {"[gnss]\nrate = 0\n", "test.toml:2:8: gnss.rate: is 0; allowed is 0.001 to 1000 Hz"},
            {"[wheel]\nslip = 1.0\n", "test.toml:2:8: wheel.slip: is 1; allowed is 0 to 0.1"},
            {"[odometry_poses]\nspeed_sigma = 0\n", "test.toml:2:15: odometry_poses.speed_sigma"},

@@ -200,7 +200,12 @@ TEST(LiveVehicle, GoesOnThroughUnpluggingAndAFloodOfGarbage) {
 TEST(LiveConfig, NamesTheKeyThatIsWrong) {
   const auto error = [](auto&& set) {
     VehicleConfig config;
-    set(config.live);
+    if constexpr (requires { set(config.live); }) {
+      set(config.live);
+    } else {
+      config.live.velodyne = "udp://:2368";
+      set(config.vehicle);
+    }
     return maploop::testing::error_of([&] {
       open_live_sensors(config);
       live_calibration(config);
@@ -209,18 +214,19 @@ TEST(LiveConfig, NamesTheKeyThatIsWrong) {
   using P = LiveParameters;
   EXPECT_THAT(error([](P&) {}), HasSubstr("has no live sensor"));
   EXPECT_THAT(error([](P& p) { p.imu = "udp:3000"; }), HasSubstr("[live] imu: "));
-  EXPECT_THAT(error([](P& p) { p.velodyne = "udp://:2368", p.velodyne_model = "HDL-64E"; }),
+  using D = VehicleDescription;
+  EXPECT_THAT(error([](D& d) { d.lidar.model = "HDL-64E"; }),
               HasSubstr("[live] velodyne: each HDL-64E has its own lasers"));
-  EXPECT_THAT(error([](P& p) { p.velodyne = "udp://:2368", p.velodyne_model = "VLP-17"; }),
-              HasSubstr("[live] velodyne_model: is \"VLP-17\"; allowed is"));
+  EXPECT_THAT(error([](D& d) { d.lidar.model = "VLP-17"; }),
+              HasSubstr("[vehicle.lidar] model: is \"VLP-17\"; allowed is"));
   EXPECT_THAT(error([](P& p) { p.camera_left = "videotestsrc"; }),
               HasSubstr("[live] camera_left: the cameras' calibration is missing"));
   EXPECT_THAT(error([](P& p) { p.camera_right = "videotestsrc"; }),
               HasSubstr("camera_right needs camera_left"));
   EXPECT_THAT(error([](P& p) { p.imu = "udp://:3000", p.imu_protocol = "morse"; }),
               HasSubstr("[live] imu_protocol: is \"morse\"; allowed is"));
-  EXPECT_THAT(error([](P& p) { p.gnss = "tcp://127.0.0.1:1", p.calibration = "/nowhere"; }),
-              HasSubstr("[live] calibration: "));
+  EXPECT_THAT(error([](D& d) { d.camera.calibration = "/nowhere.toml"; }),
+              HasSubstr("/nowhere.toml"));
 }
 
 }  // namespace

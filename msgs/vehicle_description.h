@@ -1,0 +1,157 @@
+// Everything that is known of a car, each value with a standard deviation: the tables [vehicle] and
+// [vehicle.camera], [vehicle.lidar], [vehicle.imu], [vehicle.antenna] of a configuration file.
+//
+// Defaults are neutral: what is not known has the value of no particular car and a wide standard
+// deviation. Poses are in the body frame (frames.h), whose origin is the inertial unit.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "msgs/calibration.h"
+#include "msgs/parameter.h"
+
+namespace maploop {
+
+struct SensorPosition {
+  double forward = 0.0, left = 0.0, up = 0.0;                    // m
+  double forward_sigma = 1.0, left_sigma = 1.0, up_sigma = 1.0;  // m
+};
+
+// From the body's axes: first to the left by yaw, then nose up by pitch, then right side down by
+// roll. A sensor without rotation has x forward, y left, z up; a camera looks forward.
+struct SensorRotation {
+  double roll = 0.0, pitch = 0.0, yaw = 0.0;                    // deg
+  double roll_sigma = 3.0, pitch_sigma = 3.0, yaw_sigma = 3.0;  // deg
+};
+
+struct SensorTime {
+  double delay = 0.0, delay_sigma = 0.1;  // s, from the measurement to its stamp
+};
+
+enum class RoadSide : std::uint8_t { right, left };
+constexpr std::array<std::string_view, 2> names_of(RoadSide) {
+  return {"right", "left"};
+}
+
+struct CarDescription {
+  RoadSide side_of_road = RoadSide::right;
+  double rear_axle_distance = 0.0, rear_axle_distance_sigma = 1.0;  // m, axle to origin, forward
+  double rear_axle_height = 0.0, rear_axle_height_sigma = 1.0;      // m, axle above the origin
+  double wheel_radius = 0.32, wheel_radius_sigma = 0.05;            // m
+  double track = 1.5, track_sigma = 0.2;                            // m
+  double climb_offset = 0.0, climb_offset_sigma = 0.0175;  // rad, direction of travel above body x
+};
+
+// The intrinsics are those of rectified images; the pose is that of the left camera.
+struct CameraDescription {
+  std::string calibration;    // file of the raw cameras; empty: the images are rectified
+  int width = 0, height = 0;  // px; 0: not known
+  double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;   // px
+  double focal_sigma = 10.0, center_sigma = 10.0;  // px
+  double baseline = 0.0, baseline_sigma = 0.01;    // m
+  SensorPosition position;
+  SensorRotation rotation;
+  SensorTime time;
+};
+
+struct LidarDescription {
+  std::string model = "VLP-16";
+  std::string calibration;                                   // file db.xml of an HDL-64E
+  double beam_elevation = 0.0, beam_elevation_sigma = 0.01;  // rad, beams are higher than stated
+  SensorPosition position;
+  SensorRotation rotation;
+  SensorTime time;
+};
+
+struct ImuDescription {
+  SensorRotation rotation;
+  SensorTime time;
+};
+
+struct AntennaDescription {
+  SensorPosition position;
+  SensorTime time;
+};
+
+struct VehicleDescription {
+  CarDescription car;
+  CameraDescription camera;
+  LidarDescription lidar;
+  ImuDescription imu;
+  AntennaDescription antenna;
+};
+
+ParameterTable<CarDescription> parameter_table(const CarDescription&);
+ParameterTable<CameraDescription> parameter_table(const CameraDescription&);
+ParameterTable<LidarDescription> parameter_table(const LidarDescription&);
+ParameterTable<SensorPosition> position_table(std::string_view name, std::string_view meaning);
+ParameterTable<SensorRotation> rotation_table(std::string_view name, std::string_view meaning);
+ParameterTable<SensorTime> time_table(std::string_view name, std::string_view meaning);
+
+// Calls part(table, values) for each part of one or more descriptions, in the order of the file.
+// Parts of one sensor share a table of the file.
+template <class Part, class... Description>
+void each_table(Part&& part, Description&... d) {
+  const auto mounted = [&](const auto& table, auto member) {
+    part(position_table(table.name, table.meaning), (d.*member).position...);
+    part(rotation_table(table.name, table.meaning), (d.*member).rotation...);
+    part(time_table(table.name, table.meaning), (d.*member).time...);
+  };
+  using V = VehicleDescription;
+  const ParameterTable<CameraDescription> camera = parameter_table(CameraDescription{});
+  const ParameterTable<LidarDescription> lidar = parameter_table(LidarDescription{});
+  part(parameter_table(CarDescription{}), d.car...);
+  part(camera, d.camera...);
+  mounted(camera, &V::camera);
+  part(lidar, d.lidar...);
+  mounted(lidar, &V::lidar);
+  constexpr std::string_view imu = "vehicle.imu", antenna = "vehicle.antenna";
+  constexpr std::string_view of_imu =
+      "The inertial unit, whose position is the body's origin: its axes in the body's.";
+  constexpr std::string_view of_antenna = "The antenna of the GNSS receiver.";
+  part(rotation_table(imu, of_imu), d.imu.rotation...);
+  part(time_table(imu, of_imu), d.imu.time...);
+  part(position_table(antenna, of_antenna), d.antenna.position...);
+  part(time_table(antenna, of_antenna), d.antenna.time...);
+}
+
+// Returns nullptr if the table has no such key.
+template <class P>
+const Parameter<P>* parameter_named(const ParameterTable<P>& table, std::string_view key) {
+  for (const Parameter<P>& parameter : table.parameters)
+    if (parameter.key == key) return &parameter;
+  return nullptr;
+}
+
+// Returns what a parameter is the standard deviation of, or nullptr: "up" for "up_sigma".
+template <class P>
+const Parameter<P>* value_of_sigma(const ParameterTable<P>& table, const Parameter<P>& parameter) {
+  constexpr std::string_view ending = "_sigma";
+  if (!parameter.key.ends_with(ending)) return nullptr;
+  return parameter_named(table, parameter.key.substr(0, parameter.key.size() - ending.size()));
+}
+
+// T_body_sensor of a sensor with x forward, y left, z up; and of a camera (x right, y down, z
+// forward).
+Eigen::Isometry3d sensor_pose(const SensorPosition& position, const SensorRotation& rotation);
+Eigen::Isometry3d camera_pose(const SensorPosition& position, const SensorRotation& rotation);
+
+// The reverse; standard deviations are not changed.
+void set_sensor_pose(const Eigen::Isometry3d& T_body_sensor, SensorPosition& position,
+                     SensorRotation& rotation);
+void set_camera_pose(const Eigen::Isometry3d& T_body_cam, SensorPosition& position,
+                     SensorRotation& rotation);
+
+// What a calibration knows. A pose that it states has the standard deviations of a careful
+// calibration, 2 cm and 0.2 deg.
+VehicleDescription description_of(const VehicleCalibration& calibration);
+
+// The tables of a configuration file with every value that differs from its default, or whose
+// standard deviation does; a comment gives unit and meaning.
+std::string to_toml(const VehicleDescription& description);
+
+}  // namespace maploop

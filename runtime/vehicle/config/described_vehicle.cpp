@@ -1,0 +1,105 @@
+// Joins what a recording and the configuration know of a vehicle.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <tuple>
+
+#include "runtime/vehicle/config/vehicle_config.h"
+#include "sensors/replay/kitti_calibration.h"
+
+namespace maploop::vehicle {
+namespace {
+
+bool is_given(const VehicleConfig& config, std::string_view table, std::string_view key) {
+  return config.given.contains(std::string(table) + '.' + std::string(key));
+}
+
+// The recording's description, with the given keys of the configuration in it. The standard
+// deviation of the recording's value is not that of a given one.
+VehicleDescription joined(const VehicleConfig& config, const VehicleCalibration& recorded) {
+  VehicleDescription description = description_of(recorded);
+  sensors::describe_kitti_car(recorded, description);
+  const VehicleDescription neutral;
+  each_table(
+      [&](const auto& table, auto& values, const auto& given, const auto& defaults) {
+        for (const auto& parameter : table.parameters) {
+          const auto* of = value_of_sigma(table, parameter);
+          if (is_given(config, table.name, parameter.key)) {
+            parameter.set(values, parameter.value_in(given));
+          } else if (of != nullptr && is_given(config, table.name, of->key)) {
+            parameter.set(values, parameter.value_in(defaults));
+          }
+        }
+      },
+      description, config.vehicle, neutral);
+  return description;
+}
+
+void take_pose(Eigen::Isometry3d& recorded, const Eigen::Isometry3d& given) {
+  constexpr double rounding = 1e-9;  // m, rad: that of the text
+  if ((given.matrix() - recorded.matrix()).cwiseAbs().maxCoeff() > rounding) recorded = given;
+}
+
+}  // namespace
+
+bool has_pose(const VehicleConfig& config, std::string_view table) {
+  for (const char* key : {"forward", "left", "up", "roll", "pitch", "yaw"})
+    if (is_given(config, table, key)) return true;
+  return false;
+}
+
+VehicleCalibration described(const VehicleConfig& config, VehicleCalibration recorded) {
+  const VehicleDescription d = joined(config, recorded);
+  recorded.rear_axle_distance = d.car.rear_axle_distance;
+  recorded.climb_offset = d.car.climb_offset;
+  recorded.climb_offset_sigma = d.car.climb_offset_sigma;
+  recorded.beam_elevation = d.lidar.beam_elevation;
+  if (has_pose(config, "vehicle.lidar"))
+    take_pose(recorded.T_body_velo, sensor_pose(d.lidar.position, d.lidar.rotation));
+  StereoCalibration& s = recorded.stereo;
+  const CameraDescription& camera = d.camera;
+  if (camera.calibration.empty() && camera.width > 0) {
+    s.width = camera.width;
+    s.height = camera.height;
+    s.fx = camera.fx;
+    s.fy = camera.fy;
+    s.cx = camera.cx;
+    s.cy = camera.cy;
+    s.baseline = camera.baseline;
+  }
+  if (has_pose(config, "vehicle.camera"))
+    take_pose(s.T_body_cam, camera_pose(camera.position, camera.rotation));
+  return recorded;
+}
+
+void describe_car(VehicleConfig& config, const VehicleCalibration& recorded) {
+  const VehicleDescription d = joined(config, recorded);
+  config.vehicle = d;
+  const auto take = [&](std::string_view table, std::string_view key, double& value, double known) {
+    if (!is_given(config, table, key)) value = known;
+  };
+  fusion::FusionParameters& p = config.fusion;
+  take("fusion", "rear_axle_distance", p.rear_axle_distance, d.car.rear_axle_distance);
+  take("fusion", "climb_offset", p.climb_offset, d.car.climb_offset);
+  take("fusion", "climb_offset_sigma", p.climb_offset_sigma, d.car.climb_offset_sigma);
+  take("lidar", "elevation_correction", config.lidar.elevation_correction, d.lidar.beam_elevation);
+  // No recording knows these.
+  const SensorPosition& antenna = d.antenna.position;
+  for (const auto& [key, lever, known] :
+       {std::tuple("forward", &p.gnss_lever_forward, antenna.forward),
+        std::tuple("left", &p.gnss_lever_left, antenna.left),
+        std::tuple("up", &p.gnss_lever_up, antenna.up)})
+    if (is_given(config, "vehicle.antenna", key))
+      take("fusion", std::string("gnss_lever_") + key, *lever, known);
+  if (is_given(config, "vehicle", "rear_axle_distance"))
+    take("fusion", "rear_axle_sigma", p.rear_axle_sigma, d.car.rear_axle_distance_sigma);
+  if (has_pose(config, "vehicle.antenna"))
+    take("fusion", "gnss_lever_sigma", p.gnss_lever_sigma,
+         std::max({antenna.forward_sigma, antenna.left_sigma, antenna.up_sigma}));
+  if (is_given(config, "vehicle.imu", "delay")) config.replay.imu_delay = d.imu.time.delay;
+  double& lane = config.feedback.lane_share;
+  if (d.car.side_of_road == RoadSide::left) take("feedback", "lane_share", lane, -std::abs(lane));
+}
+
+}  // namespace maploop::vehicle
