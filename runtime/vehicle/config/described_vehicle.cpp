@@ -92,9 +92,11 @@ void describe_car(VehicleConfig& config, const VehicleCalibration& recorded) {
         std::tuple("up", &p.gnss_lever_up, antenna.up)})
     if (is_given(config, "vehicle.antenna", key))
       take("fusion", std::string("gnss_lever_") + key, *lever, known);
-  if (is_given(config, "vehicle", "rear_axle_distance"))
+  // What nobody has described keeps the standard deviations of [fusion].
+  const VehicleDescription neutral;
+  if (d.car.rear_axle_distance_sigma != neutral.car.rear_axle_distance_sigma)
     take("fusion", "rear_axle_sigma", p.rear_axle_sigma, d.car.rear_axle_distance_sigma);
-  if (has_pose(config, "vehicle.antenna"))
+  if (antenna.forward_sigma != neutral.antenna.position.forward_sigma)
     take("fusion", "gnss_lever_sigma", p.gnss_lever_sigma,
          std::max({antenna.forward_sigma, antenna.left_sigma, antenna.up_sigma}));
   if (is_given(config, "vehicle.imu", "delay")) config.replay.imu_delay = d.imu.time.delay;
