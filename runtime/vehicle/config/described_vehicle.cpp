@@ -89,16 +89,18 @@ void describe_car(VehicleConfig& config, const VehicleCalibration& recorded) {
   for (const auto& [key, lever, known] :
        {std::tuple("forward", &p.gnss_lever_forward, antenna.forward),
         std::tuple("left", &p.gnss_lever_left, antenna.left),
-        std::tuple("up", &p.gnss_lever_up, antenna.up)})
+        std::tuple("up", &p.gnss_lever_up, antenna.up)}) {
     if (is_given(config, "vehicle.antenna", key))
       take("fusion", std::string("gnss_lever_") + key, *lever, known);
+  }
   // What nobody has described keeps the standard deviations of [fusion].
   const VehicleDescription neutral;
   if (d.car.rear_axle_distance_sigma != neutral.car.rear_axle_distance_sigma)
     take("fusion", "rear_axle_sigma", p.rear_axle_sigma, d.car.rear_axle_distance_sigma);
-  if (antenna.forward_sigma != neutral.antenna.position.forward_sigma)
+  if (antenna.forward_sigma != neutral.antenna.position.forward_sigma) {
     take("fusion", "gnss_lever_sigma", p.gnss_lever_sigma,
          std::max({antenna.forward_sigma, antenna.left_sigma, antenna.up_sigma}));
+  }
   if (is_given(config, "vehicle.imu", "delay")) config.replay.imu_delay = d.imu.time.delay;
   double& lane = config.feedback.lane_share;
   if (d.car.side_of_road == RoadSide::left) take("feedback", "lane_share", lane, -std::abs(lane));

@@ -99,9 +99,10 @@ Recording open_sequence(const std::filesystem::path& path, const VehicleConfig& 
     if (tracks != nullptr || poses != nullptr) {
       const Duration delay = from_seconds(config.replay.camera_readout) + stages::stereo.budget;
       const auto odometry = [&] {
-        if (poses != nullptr)
+        if (poses != nullptr) {
           return sensors::make_pose_odometry(poses, sequence->image_stamps(), T_body_cam,
                                              config.odometry_poses, delay);
+        }
         return make_track_odometry(tracks, sequence->image_stamps(),
                                    for_recorded_tracks(config.stereo), delay);
       };
@@ -184,9 +185,10 @@ Recording open_tables(const std::filesystem::path& folder, const VehicleConfig& 
   recording.sensors = [tables, car, outages = outages_of(config, recording)](Time) {
     Sensors s;
     s.gnss = tables->gnss();
-    if (tables->has_imu() && fusion::configuration(car.configuration).inertial)
+    if (tables->has_imu() && fusion::configuration(car.configuration).inertial) {
       s.imu = tables->imu(with_outages(tables->gnss(), outages), mount_of(car),
                           car.fusion.rear_axle_distance);
+    }
     if (tables->has_reference()) s.reference = tables->reference();
     return s;
   };
@@ -261,9 +263,10 @@ std::shared_ptr<const sensors::KittiDrive> open_drive(const std::filesystem::pat
   const CameraDescription& camera = config.vehicle.camera;
   if (!camera.calibration.empty()) {
     raw = read_stereo_rig(camera.calibration);
-    if (has_pose(config, "vehicle.camera"))
+    if (has_pose(config, "vehicle.camera")) {
       raw->T_body_left =
           camera_pose(camera.position, camera.rotation) * Eigen::Isometry3d(raw->R_rect_left);
+    }
   }
   const auto drive = std::make_shared<sensors::KittiDrive>(folder, config.replay, std::move(raw));
   drive->set_calibration(described(config, drive->calibration()));

@@ -86,10 +86,11 @@ class Reader {
     if (!(camera.fx > 0.0 && camera.fy > 0.0)) table_.fail("fx", "must be above 0");
     const auto converted = sensors::from_reversed(camera, rig.width, rig.height);
     constexpr double most = 0.5;  // px
-    if (!(converted.largest_error < most))
+    if (!(converted.largest_error < most)) {
       table_.fail("direction",
                   "cannot be approximated by undistorted_to_distorted coefficients better than " +
                       std::to_string(converted.largest_error) + " px");
+    }
     camera.distortion = converted.distortion;
   }
 
