@@ -62,9 +62,10 @@ std::optional<std::string> problem_of(const StereoRig& rig) {
     return "the rectified focal length is not 1 to 100000 pixels";
   if (!is_centre(r.cx, r.width) || !is_centre(r.cy, r.height))
     return "the rectified principal point is far outside of the image";
-  if (!(r.baseline > 0.01 && r.baseline < 10.0))
+  if (!(r.baseline > 0.01 && r.baseline < 10.0)) {
     return "the baseline is " + std::to_string(r.baseline) +
            " m, outside 0.01 to 10 m (are left and right swapped?)";
+  }
   for (const Eigen::Matrix3d& m :
        {rig.R_rect_left, rig.R_rect_right, Eigen::Matrix3d(rig.T_right_left.linear())})
     if (!is_rotation(m)) return "a matrix that should be a rotation is not one";

@@ -74,7 +74,7 @@ std::string_view KeyedText::value(std::string_view key) const {
 }
 
 std::vector<double> KeyedText::size(std::string_view key) const {
-  const std::vector<double> sides = numbers(key, 2);
+  std::vector<double> sides = numbers(key, 2);
   for (const double side : sides) {
     if (side < 1.0 || side > 16384.0 || side != std::round(side)) {
       fail(key, "is not an image size in pixels");

@@ -25,7 +25,7 @@ constexpr std::string_view list_name = "sequences.csv";
 
 std::optional<fs::path> first_existing(std::initializer_list<fs::path> names) {
   for (const fs::path& name : names) {
-    if (const auto found = existing_table(name)) return found;
+    if (auto found = existing_table(name)) return found;
   }
   return std::nullopt;
 }

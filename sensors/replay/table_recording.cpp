@@ -14,6 +14,7 @@
 #include "msgs/input_limits.h"
 #include "sensors/replay/csv_table.h"
 #include "sensors/replay/sequence_files.h"
+#include "sensors/replay/timestamps.h"
 
 namespace maploop::sensors {
 

@@ -45,9 +45,10 @@ constexpr Target targets[] = {MAPLOOP_FUZZ_TARGETS(MAPLOOP_LIST)};
 std::vector<std::string> corpus(const std::string& target) {
   const auto folder = testing::source("tests/fuzz/corpus") / target;
   std::vector<std::filesystem::path> files;
-  if (std::filesystem::exists(folder))
+  if (std::filesystem::exists(folder)) {
     for (const auto& entry : std::filesystem::directory_iterator(folder))
       files.push_back(entry.path());
+  }
   std::sort(files.begin(), files.end());
   std::vector<std::string> inputs{"", std::string(200, '\0')};
   for (const auto& file : files) {

@@ -166,7 +166,8 @@ TEST(Schema, NestingThatDoublesWithEachLevelIsRefused) {
   std::string text = "struct t0 { int8_t x; }";
   for (int i = 1; i < 60; ++i) {
     const std::string below = "t" + std::to_string(i - 1);
-    text += "struct t" + std::to_string(i) + " {" + below + " a; " + below + " b; }";
+    text.append("struct t").append(std::to_string(i)).append(" {");
+    text.append(below).append(" a; ").append(below).append(" b; }");
   }
   EXPECT_NE(refusal(text).find("nested too deeply"), std::string::npos);
 }

@@ -43,9 +43,9 @@ class Tables : public ::testing::Test {
                          "0.01,0.1,0.2,0.3,1,2,9.9\n");
   }
   void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder.path() / name, std::ios::binary) << text;
+    std::ofstream(folder_.path() / name, std::ios::binary) << text;
   }
-  TableRecording opened() const { return TableRecording(folder.path()); }
+  TableRecording opened() const { return TableRecording(folder_.path()); }
   std::string refusal() const {
     return error_of([&] { opened(); });
   }
@@ -54,7 +54,7 @@ class Tables : public ::testing::Test {
     return tables.imu(tables.gnss(), mount, 0.0);
   }
 
-  maploop::testing::TemporaryFolder folder;
+  maploop::testing::TemporaryFolder folder_;
 };
 
 TEST_F(Tables, AFixIsWhatItsRowSays) {
@@ -125,7 +125,7 @@ TEST_F(Tables, APackedTableIsReadAndAPlainOneBefore) {
   write("gnss.csv.gz",
         gzip(std::string(gnss_heading) + "5,43.5,-79.7,100,1,2,-3,0.4,0.5,0.6,0.1,0.2,0.3,0\n"));
   EXPECT_EQ(opened().fix_count(), 2u);
-  fs::remove(folder.path() / "gnss.csv");
+  fs::remove(folder_.path() / "gnss.csv");
   EXPECT_EQ(opened().fix_count(), 1u);
 }
 
@@ -143,16 +143,16 @@ TEST_F(Tables, WhatIsMissingOrBrokenIsNamed) {
             "imu.csv:2: has 4 columns instead of 7"},
            {"imu.csv", "t_s,gx_radps,gy_radps,gz_radps,ax_mps2,ay_mps2,az_mps2\n0,0,0,0,0,0,999\n",
             "has no row that can be used: az_mps2 is out of range"}}) {
-    const std::string before = maploop::read_text(folder.path() / c.file, 1 << 20);
+    const std::string before = maploop::read_text(folder_.path() / c.file, 1 << 20);
     write(c.file, c.text);
     EXPECT_THAT(refusal(), HasSubstr(c.says));
     write(c.file, before);
   }
-  fs::remove(folder.path() / "gnss.csv");
-  EXPECT_TRUE(TableRecording::is_named(folder.path()));
-  EXPECT_THAT(refusal(), AllOf(HasSubstr(folder.path()), HasSubstr("no gnss.csv")));
-  fs::remove(folder.path() / "imu.csv");
-  EXPECT_FALSE(TableRecording::is_named(folder.path()));
+  fs::remove(folder_.path() / "gnss.csv");
+  EXPECT_TRUE(TableRecording::is_named(folder_.path()));
+  EXPECT_THAT(refusal(), AllOf(HasSubstr(folder_.path()), HasSubstr("no gnss.csv")));
+  fs::remove(folder_.path() / "imu.csv");
+  EXPECT_FALSE(TableRecording::is_named(folder_.path()));
 }
 
 TEST_F(Tables, TheReferenceIsJoinedAndItsWildAndUnalignedRowsAreLeftOut) {

@@ -46,9 +46,10 @@ cv::Mat raw_from_rectified(const sensors::StereoRig& rig, bool left) {
                       as_cv(left ? rig.R_rect_left : rig.R_rect_right), p,
                       {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 50, 1e-10});
   cv::Mat map(rig.height, rig.width, CV_32FC2);
-  for (std::size_t i = 0; i < rectified.size(); ++i)
+  for (std::size_t i = 0; i < rectified.size(); ++i) {
     map.ptr<cv::Vec2f>()[i] = {static_cast<float>(rectified[i].x),
                                static_cast<float>(rectified[i].y)};
+  }
   return map;
 }
 

@@ -37,7 +37,7 @@ class FirstSeconds : public DriveTest {
   // Expects that a run of the drive with these options has the bits and the log of lockstep.
   json expect_same(Words options) const {
     options.insert(options.end(), {"--end", end, "--record", file("other.lcmlog")});
-    const json result = replay(drive(), options);
+    json result = replay(drive(), options);
     EXPECT_EQ(hashes(result), hashes(lockstep().result));
     const ProcessResult same = run_maploop({"log", "diff", lockstep().log(), file("other.lcmlog")});
     EXPECT_EQ(same.status, 0) << same.out;

@@ -110,7 +110,7 @@ TEST_F(ReplayOfDrive, EndsWithAVerdictOfThreeLines) {
 
 // Makes links to the recorded drive, without one of its folders.
 std::filesystem::path drive_without(const char* part, const std::filesystem::path& folder) {
-  const auto drive = folder / "2011_09_26/drive";
+  auto drive = folder / "2011_09_26/drive";
   std::filesystem::create_directories(drive);
   for (const auto& entry :
        std::filesystem::directory_iterator(testing::drive_0013().parent_path())) {

@@ -194,8 +194,9 @@ TEST(VehicleConfig, WhatDoesNotGoWithThePolicyIsAnError) {
             "fusion.cpus: must be empty"},
            {"policy = \"fife\"", "did you mean \"fifo\""},
            {"prioritty = 5", "did you mean"}}) {
-    EXPECT_THAT(error_of<runtime::ConfigError>(
-                    [&] { load_text("[scheduling.fusion]\n" + std::string(text) + '\n'); }),
+    EXPECT_THAT(error_of<runtime::ConfigError>([&text = text] {
+                  load_text("[scheduling.fusion]\n" + std::string(text) + '\n');
+                }),
                 HasSubstr(said));
   }
   EXPECT_THROW(load_text("[scheduling.health]\npolicy = \"rr\"\n"), runtime::ConfigError)
@@ -276,7 +277,8 @@ TEST(VehicleConfig, AValueThatCannotWorkNamesFileAndKey) {
            {"configuration = \"VO\"\n",
             "test.toml:1:17: configuration: no configuration is called 'VO'"},
            {"imu_grade = \"best\"\n", "test.toml:1:13: imu_grade: "}}) {
-    EXPECT_THAT(error_of<runtime::ConfigError>([&] { load_text(text); }), HasSubstr(said));
+    EXPECT_THAT(error_of<runtime::ConfigError>([&text = text] { load_text(text); }),
+                HasSubstr(said));
   }
 }
 

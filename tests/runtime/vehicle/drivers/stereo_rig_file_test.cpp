@@ -61,7 +61,8 @@ TEST(StereoRigFile, EveryErrorNamesTheKey) {
       {good + "\n[quality]\nviews = 3\n", "quality"},
   };
   for (const auto& [text, said] : wrong) {
-    EXPECT_THAT(error_of([&] { read(text); }), AllOf(HasSubstr(said), HasSubstr("rig.toml")));
+    EXPECT_THAT(error_of([&, &text = text] { read(text); }),
+                AllOf(HasSubstr(said), HasSubstr("rig.toml")));
   }
 }
 

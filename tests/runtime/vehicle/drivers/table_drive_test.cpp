@@ -105,18 +105,18 @@ class OakvilleDrive : public ::testing::Test {
  protected:
   void SetUp() override {
     MAPLOOP_REQUIRE_REAL_DATA();
-    folder = maploop::testing::real_data() / "cars/oakville/urban-short-turn-loop-nominal-002";
-    if (!fs::exists(folder)) GTEST_SKIP() << "SKIPPED, NOT TESTED: there is no " << folder;
-    fit_to_recording(config, folder);
+    folder_ = maploop::testing::real_data() / "cars/oakville/urban-short-turn-loop-nominal-002";
+    if (!fs::exists(folder_)) GTEST_SKIP() << "SKIPPED, NOT TESTED: there is no " << folder_;
+    fit_to_recording(config_, folder_);
   }
-  fs::path folder;
-  VehicleConfig config;
+  fs::path folder_;
+  VehicleConfig config_;
 };
 
 TEST_F(OakvilleDrive, StaysOnItsFixesAndNearThemThroughAShortOutage) {
-  config.gnss_outage = "90:10";
-  const Recording recording = open_recording(folder, config);
-  const ReplayedTables driven = run(recording, config);
+  config_.gnss_outage = "90:10";
+  const Recording recording = open_recording(folder_, config_);
+  const ReplayedTables driven = run(recording, config_);
   std::vector<double> errors;
   const auto fixes = recording.fixes();
   std::size_t next = 0;
@@ -138,8 +138,8 @@ TEST_F(OakvilleDrive, StaysOnItsFixesAndNearThemThroughAShortOutage) {
 // The fix that the filter starts from is wrong: by its place, or by its direction.
 TEST_F(OakvilleDrive, RecoversFromAWrongFirstFix) {
   const maploop::testing::TemporaryFolder changed;
-  fs::create_symlink(folder / "imu.csv.gz", changed.path() / "imu.csv.gz");
-  const std::string text = read_text(folder / "gnss.csv.gz", 1 << 24);
+  fs::create_symlink(folder_ / "imu.csv.gz", changed.path() / "imu.csv.gz");
+  const std::string text = read_text(folder_ / "gnss.csv.gz", 1 << 24);
   struct Change {
     std::size_t column;
     double factor, offset;
@@ -162,8 +162,8 @@ TEST_F(OakvilleDrive, RecoversFromAWrongFirstFix) {
       for (const std::string& cell : cells) line += (line.empty() ? "" : ",") + cell;
     }
     out.close();
-    const Recording recording = open_recording(changed.path(), config);
-    const ReplayedTables driven = run(recording, config);
+    const Recording recording = open_recording(changed.path(), config_);
+    const ReplayedTables driven = run(recording, config_);
     const NavState& end = driven.states.back();
     GnssFix last;
     const auto fixes = recording.fixes();
@@ -177,8 +177,8 @@ TEST_F(OakvilleDrive, RecoversFromAWrongFirstFix) {
 // Fixes of the outage do not reach the search for the mount either: until its end nothing differs
 // from a drive that has no fixes at all.
 TEST_F(OakvilleDrive, AMountIsNotFoundFromFixesThatAnOutageTakesAway) {
-  config.gnss_outage = "0:end";
-  const ReplayedTables driven = run(open_recording(folder, config), config);
+  config_.gnss_outage = "0:end";
+  const ReplayedTables driven = run(open_recording(folder_, config_), config_);
   const auto imu = std::find_if(driven.report.sensors.begin(), driven.report.sensors.end(),
                                 [](const SensorReport& s) { return s.name == "imu"; });
   ASSERT_NE(imu, driven.report.sensors.end());
