@@ -40,14 +40,24 @@ inline std::uint16_t port_of(int fd) {
   return ntohs(address.sin_port);
 }
 
-// Returns a port on which no program listens.
+// Returns a port on which no program listens. It is below the ports that the system gives away by
+// itself, and each process begins at another one, so that tests that run at the same time do not
+// take it from each other.
 inline std::uint16_t free_port() {
-  const int fd = socket(AF_INET, SOCK_DGRAM, 0);
-  const sockaddr_in any = loopback(0);
-  bind(fd, reinterpret_cast<const sockaddr*>(&any), sizeof any);
-  const std::uint16_t port = port_of(fd);
-  close(fd);
-  return port;
+  static std::uint32_t next = static_cast<std::uint32_t>(getpid()) * 16;
+  const auto is_free = [](std::uint16_t port, int type) {
+    const int fd = socket(AF_INET, type, 0);
+    const sockaddr_in address = loopback(port);
+    const bool bound = bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+    close(fd);
+    return bound;
+  };
+  for (int i = 0; i < 10'000; ++i) {
+    const auto port = static_cast<std::uint16_t>(20'000 + next++ % 12'000);
+    if (is_free(port, SOCK_DGRAM) && is_free(port, SOCK_STREAM)) return port;
+  }
+  ADD_FAILURE() << "there is no free port between 20000 and 32000";
+  return 0;
 }
 
 class UdpSender {

@@ -4,7 +4,6 @@
 #include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -254,6 +253,7 @@ TEST(NtripClient, ReportsACasterWithoutTls) {
 }
 
 // RTKLIB's str2str acts as the caster and forwards what it receives.
+// It is ended by force, because it does not always end when it is asked to.
 TEST(NtripClient, ReadsFromRtklibsCaster) {
   if (!std::filesystem::exists("/usr/bin/str2str"))
     GTEST_SKIP() << "SKIPPED, NOT TESTED: no str2str; it is in Debian's package rtklib";
@@ -271,8 +271,6 @@ TEST(NtripClient, ReadsFromRtklibsCaster) {
   ASSERT_TRUE(stream->state().open) << stream->state().problem;
   ASSERT_TRUE(source.send(sent + "END."));
   EXPECT_EQ(read_until(*stream, "END.", seconds(30)), sent + "END.") << stream->state().problem;
-  caster.send_signal(SIGTERM);
-  caster.wait();
 }
 
 }  // namespace

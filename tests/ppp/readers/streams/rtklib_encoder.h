@@ -2,7 +2,6 @@
 #pragma once
 
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <string>
 #include <system_error>
@@ -18,7 +17,8 @@ inline std::string encoded_by_rtklib(const std::filesystem::path& ubx, const std
   const std::string file = ubx.string() + "." + numbers.substr(0, 4);
   Process str2str({"str2str", "-in", "file://" + ubx.string() + "#ubx", "-out",
                    "file://" + file + "#rtcm3", "-msg", numbers});
-  // str2str does not stop at the end of the file.
+  // str2str does not stop at the end of the file. It writes through to the file, and does not
+  // always end when it is asked to, so that it is ended by force when this function returns.
   std::uintmax_t size = 0;
   for (int i = 0, still = 0; i < 300 && still < 15; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -27,8 +27,6 @@ inline std::string encoded_by_rtklib(const std::filesystem::path& ubx, const std
     still = !missing && now == size && now > 0 ? still + 1 : 0;
     size = missing ? 0 : now;
   }
-  str2str.send_signal(SIGTERM);
-  str2str.wait();
   return ppp::read_file(file);
 }
 
