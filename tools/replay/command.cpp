@@ -14,15 +14,15 @@ void add_replay(CLI::App& app, Command& command) {
   const auto [sub, options] = add_command(
       app, command, "replay",
       "Replay a KITTI raw drive, a KITTI odometry sequence, a GNSS receiver's "
-      "observations, a folder of tables, a capture of a Velodyne scanner or a log of our "
-      "own through the graph",
+      "observations, a ROS bag, an MCAP file, a folder of tables, a capture of a Velodyne "
+      "scanner or a log of our own through the graph",
       replay);
   sub->add_option(
          "DRIVE", options.drive,
          "Folder such as 2011_09_26/2011_09_26_drive_0013_sync, a table of OXTS rows such as "
          "kitti_odometry/oxts/06.csv.gz, RINEX observations with their products beside "
-         "them (or a folder of both; [ppp] products), a folder with gnss.csv, a capture (.pcap), "
-         "or a log (--record); one "
+         "them (or a folder of both; [ppp] products), a ROS 1 bag, a rosbag2 folder or an MCAP "
+         "file, a folder with gnss.csv, a capture (.pcap), or a log (--record); one "
          "without images is replayed from its odometry (sensors/FORMATS.md)")
       ->required();
   auto* speed = sub->add_option("--speed", options.speed, "Times real time")
@@ -72,6 +72,10 @@ void add_replay(CLI::App& app, Command& command) {
                   "Another system's trajectory of a KITTI odometry sequence (the left camera's "
                   "poses, 12 numbers a line) in place of visual odometry")
       ->check(existing_file());
+  sub->add_option("--topic", options.topics,
+                  "SENSOR=TOPIC of a bag or an MCAP file, such as camera.left=/left/image_raw; "
+                  "the topic none: the sensor is not used ([bag] topics)")
+      ->allow_extra_args(false);
   sub->add_option("--imu", options.imu,
                   "The inertial sensors as recorded, or with the noise of a MEMS unit added")
       ->check(CLI::IsMember({"recorded", "mems"}));

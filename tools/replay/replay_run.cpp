@@ -50,6 +50,7 @@ vehicle::VehicleConfig config_of(const ReplayOptions& options) {
   if (configuration != config.configuration) set_configuration(config, configuration);
   if (!options.gnss_outage.empty()) config.gnss_outage = options.gnss_outage;
   if (!options.odometry_poses.empty()) config.odometry_poses.file = options.odometry_poses;
+  config.bag.topics.insert(config.bag.topics.end(), options.topics.begin(), options.topics.end());
   if (!options.imu.empty()) {
     config.imu_noise = options.imu;
     if (options.imu == "mems") set_imu_grade(config, "mems");
@@ -74,6 +75,7 @@ class Replay {
     describe_car(config_, recording_.calibration);              // for the report and the snapshots
     config_.vehicle.imu.time.delay = config_.replay.imu_delay;  // as the recording was read
     if (!options.record.empty()) lcm_log::refuse_same_file(options.drive, options.record);
+    for (const std::string& note : recording_.notes) std::cerr << "maploop: " << note << '\n';
     look_ahead();
     runtime::append(readiness_, output_.open_bus());
     if (!options.resume.empty()) resumed_ = vehicle::read_snapshot(options.resume, config_);

@@ -29,6 +29,7 @@ struct ReplayOptions : RunOptions {
   std::string configuration;
   std::string gnss_outage;
   std::filesystem::path odometry_poses;
+  std::vector<std::string> topics;  // SENSOR=TOPIC
   std::string imu;
   std::optional<double> speed_scale;  // 1.01: the wheels read 1 % too much
   bool start_from_reference = false;

@@ -9,6 +9,7 @@
 #include "ppp/filter/parameter_table.h"
 #include "runtime/core/parameter_table.h"
 #include "runtime/vehicle/config/vehicle_config.h"
+#include "sensors/bag/bag_parameters.h"
 #include "sensors/replay/parameter_table.h"
 
 namespace maploop::vehicle {
@@ -32,7 +33,7 @@ void each_part(Config& config, Part&& part) {
   described(config.memory, config.trace, config.preview);
   part(vehicle_file_table(), config);
   each_table(part, config.vehicle);
-  described(config.replay, config.odometry_poses, config.live, config.gnss);
+  described(config.replay, config.bag, config.odometry_poses, config.live, config.gnss);
   part(gnss_outage_table(), config);
   described(config.wheel);
   part(imu_table(), config);

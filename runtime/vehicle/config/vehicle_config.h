@@ -23,6 +23,7 @@
 #include "runtime/core/trace.h"
 #include "runtime/vehicle/config/live_config.h"
 #include "runtime/vehicle/config/scheduling_config.h"
+#include "sensors/bag/bag_parameters.h"
 #include "sensors/imu/mount_alignment.h"
 #include "sensors/replay/error_model.h"
 #include "sensors/replay/kitti_drive.h"
@@ -78,6 +79,7 @@ struct VehicleConfig {
   std::string vehicle_file;
   VehicleDescription vehicle;
   sensors::KittiDriveParameters replay;
+  sensors::BagParameters bag;
   sensors::PoseOdometryParameters odometry_poses;
   LiveParameters live;
   sensors::GnssAidParameters gnss;

@@ -7,11 +7,15 @@
 
 #include "estimators/fusion/configuration.h"
 #include "msgs/lcm/channel_names.h"
+#include "runtime/vehicle/drivers/bag_drive.h"
+#include "runtime/vehicle/drivers/capture_drive.h"
 #include "runtime/vehicle/drivers/gnss_drive.h"
 #include "runtime/vehicle/drivers/recorded_tracks.h"
 #include "runtime/vehicle/drivers/stereo_rig_file.h"
+#include "runtime/vehicle/drivers/table_drive.h"
 #include "runtime/vehicle/drivers/track_odometry.h"
 #include "runtime/vehicle/graph/graph.h"
+#include "sensors/bag/message_reader.h"
 #include "sensors/replay/imu_noise.h"
 #include "sensors/replay/kitti_drive.h"
 #include "sensors/replay/log_recording.h"
@@ -19,7 +23,6 @@
 #include "sensors/replay/pose_odometry.h"
 #include "sensors/replay/sequence_files.h"
 #include "sensors/replay/table_recording.h"
-#include "sensors/velodyne/capture_source.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -34,6 +37,7 @@ Recording make_recording(const Opened& opened, std::function<Sensors(Time)> sens
           {},
           {},
           false,
+          {},
           {}};
 }
 
@@ -154,78 +158,6 @@ Recording open_gnss(const std::filesystem::path& path, const VehicleConfig& conf
   return recording;
 }
 
-std::vector<GnssOutage> outages_of(const VehicleConfig& config, const Recording& recording) {
-  if (config.gnss_outage.empty()) return {};
-  if (!config.fusion.use_gnss) {
-    throw std::runtime_error("a GNSS outage needs a configuration that uses GNSS: GNSS+" +
-                             config.configuration + " instead of " + config.configuration);
-  }
-  return parse_outages(config.gnss_outage, recording.first_stamp, recording.last_stamp,
-                       config.gnss.seed);
-}
-
-// How the unit is mounted, where the description says it. Its pitch is nose up.
-sensors::MountParameters mount_of(const VehicleConfig& config) {
-  const SensorRotation& r = config.vehicle.imu.rotation;
-  return {has_pose(config, "vehicle.imu"), r.roll, -r.pitch, r.yaw};
-}
-
-// The fixes take the place of the images.
-Recording open_tables(const std::filesystem::path& folder, const VehicleConfig& config) {
-  auto tables = std::make_shared<const sensors::TableRecording>(folder);
-  Recording recording;
-  recording.first_stamp = tables->first_stamp();
-  recording.last_stamp = tables->last_stamp();
-  recording.images = tables->fix_count();
-  recording.peer_reference = true;
-  recording.fixes = [tables] { return tables->gnss(); };
-  recording.calibration.rear_axle_distance = sensors::TableRecording::cabin_ahead;
-  VehicleConfig car = config;
-  describe_car(car, recording.calibration);
-  recording.sensors = [tables, car, outages = outages_of(config, recording)](Time) {
-    Sensors s;
-    s.gnss = tables->gnss();
-    if (tables->has_imu() && fusion::configuration(car.configuration).inertial) {
-      s.imu = tables->imu(with_outages(tables->gnss(), outages), mount_of(car),
-                          car.fusion.rear_axle_distance);
-    }
-    if (tables->has_reference()) s.reference = tables->reference();
-    return s;
-  };
-  return recording;
-}
-
-bool is_capture(const std::filesystem::path& path) {
-  std::filesystem::path name = path.filename();
-  if (name.extension() == ".gz") name.replace_extension();
-  return name.extension() == ".pcap" || name.extension() == ".pcapng";
-}
-
-// The scanner's turns take the place of the images.
-Recording open_capture(const std::filesystem::path& path, const VehicleConfig& config) {
-  const auto open = [path, calibration = config.vehicle.lidar.calibration] {
-    return std::make_unique<sensors::VelodyneCapture>(
-        path, sensors::VelodyneCaptureOptions{{}, calibration});
-  };
-  Recording recording;
-  recording.calibration = live_calibration(config);
-  const auto capture = open();
-  for (LidarScan scan; capture->next(scan); ++recording.images) {
-    if (recording.images == 0) recording.first_stamp = scan.stamp;
-    recording.last_stamp = scan.stamp;
-  }
-  if (recording.images == 0) {
-    throw std::runtime_error("the capture '" + path.string() +
-                             "' has no complete scanner revolution to replay");
-  }
-  recording.sensors = [open](Time) {
-    Sensors s;
-    s.velodyne = open();
-    return s;
-  };
-  return recording;
-}
-
 Recording open_any(const std::filesystem::path& path, const VehicleConfig& config) {
   if (sensors::OdometrySequence::is_named(path)) return open_sequence(path, config);
   if (!config.odometry_poses.file.empty()) {
@@ -238,6 +170,7 @@ Recording open_any(const std::filesystem::path& path, const VehicleConfig& confi
     throw std::runtime_error("there is no file or folder '" + path.string() +
                              "'; 'maploop replay --help' lists what can be replayed");
   }
+  if (sensors::is_bag(path)) return open_bag(path, config);
   if (is_capture(path)) return open_capture(path, config);
   if (sensors::TableRecording::is_named(path)) return open_tables(path, config);
   if (is_gnss_drive(path)) return open_gnss(path, config);
@@ -257,18 +190,36 @@ std::optional<sensors::ImuNoiseParameters> noise_of(const VehicleConfig& config)
 
 }  // namespace
 
+std::vector<GnssOutage> outages_of(const VehicleConfig& config, const Recording& recording) {
+  if (config.gnss_outage.empty()) return {};
+  if (!config.fusion.use_gnss) {
+    throw std::runtime_error("a GNSS outage needs a configuration that uses GNSS: GNSS+" +
+                             config.configuration + " instead of " + config.configuration);
+  }
+  return parse_outages(config.gnss_outage, recording.first_stamp, recording.last_stamp,
+                       config.gnss.seed);
+}
+
+std::optional<sensors::StereoRig> raw_cameras(const VehicleConfig& config) {
+  const CameraDescription& camera = config.vehicle.camera;
+  if (camera.calibration.empty()) return std::nullopt;
+  sensors::StereoRig rig = read_stereo_rig(camera.calibration);
+  if (has_pose(config, "vehicle.camera")) {
+    rig.T_body_left =
+        camera_pose(camera.position, camera.rotation) * Eigen::Isometry3d(rig.R_rect_left);
+  }
+  return rig;
+}
+
+sensors::MountParameters mount_of(const VehicleConfig& config) {
+  const SensorRotation& r = config.vehicle.imu.rotation;
+  return {has_pose(config, "vehicle.imu"), r.roll, -r.pitch, r.yaw};
+}
+
 std::shared_ptr<const sensors::KittiDrive> open_drive(const std::filesystem::path& folder,
                                                       const VehicleConfig& config) {
-  std::optional<sensors::StereoRig> raw;
-  const CameraDescription& camera = config.vehicle.camera;
-  if (!camera.calibration.empty()) {
-    raw = read_stereo_rig(camera.calibration);
-    if (has_pose(config, "vehicle.camera")) {
-      raw->T_body_left =
-          camera_pose(camera.position, camera.rotation) * Eigen::Isometry3d(raw->R_rect_left);
-    }
-  }
-  const auto drive = std::make_shared<sensors::KittiDrive>(folder, config.replay, std::move(raw));
+  const auto drive =
+      std::make_shared<sensors::KittiDrive>(folder, config.replay, raw_cameras(config));
   drive->set_calibration(described(config, drive->calibration()));
   return drive;
 }

@@ -6,12 +6,15 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "msgs/calibration.h"
 #include "runtime/vehicle/config/vehicle_config.h"
 #include "runtime/vehicle/drivers/gnss_outage.h"
 #include "runtime/vehicle/graph/vehicle.h"
+#include "sensors/camera/stereo_rig.h"
+#include "sensors/imu/mount_alignment.h"
 
 namespace maploop::vehicle {
 
@@ -35,6 +38,7 @@ struct Recording {
   std::function<std::unique_ptr<sensors::Source<GnssFix>>()> fixes;
   bool peer_reference = false;  // the reference is another fusion of the same sensors, not a truth
   std::optional<DrivenLinksFile> driven_links;  // if the recording has one
+  std::vector<std::string> notes;  // sentences for the user: what is not used, what was assumed
 };
 
 // Opens a KITTI raw drive, with the calibration of raw cameras that the configuration may name.
@@ -49,8 +53,9 @@ std::shared_ptr<const sensors::KittiDrive> open_drive(const std::filesystem::pat
 //   [vehicle.lidar] calibration.
 // - RINEX observations are read with their products (gnss_drive.h).
 // - Tables of fixes and inertial samples are a folder with gnss.csv. [vehicle.imu] may state how
-// the unit
-//   is mounted; otherwise it is found on the way.
+//   the unit is mounted; otherwise it is found on the way.
+// - A ROS 1 bag, a rosbag2 folder or an MCAP file has the topics that [bag] names, or those that
+//   are found by their types (sensors/bag/bag_recording.h).
 // - A table of OXTS rows is, for example, a sequence of KITTI's odometry benchmark
 //   (sensors/replay/sequence_files.h). The stereo back end computes its odometry from its recorded
 //   tracks.
@@ -62,6 +67,16 @@ Recording open_recording(const std::filesystem::path& path, const VehicleConfig&
 // have no odometry, so they are run as GNSS+RI, or as GNSS without imu.csv, and as a unit of grade
 // mems. Other recordings need nothing.
 void fit_to_recording(VehicleConfig& config, const std::filesystem::path& path);
+
+// Returns the outages that the configuration asks for. Throws std::runtime_error if it does not use
+// GNSS.
+std::vector<GnssOutage> outages_of(const VehicleConfig& config, const Recording& recording);
+
+// Returns the calibration of raw cameras that [vehicle.camera] names; nothing: it names none.
+std::optional<sensors::StereoRig> raw_cameras(const VehicleConfig& config);
+
+// Returns how [vehicle.imu] says that the unit is mounted. Its pitch is nose up.
+sensors::MountParameters mount_of(const VehicleConfig& config);
 
 // Returns the first pose of the recording's reference, for dead reckoning from a start without
 // error. Throws std::runtime_error if there is no reference.

@@ -1,0 +1,44 @@
+#include "runtime/vehicle/drivers/bag_drive.h"
+
+#include <memory>
+#include <utility>
+
+#include "sensors/bag/bag_recording.h"
+
+namespace maploop::vehicle {
+
+using sensors::BagSensor;
+
+Recording open_bag(const std::filesystem::path& path, const VehicleConfig& config) {
+  const VehicleDescription& d = config.vehicle;
+  const sensors::BagDelays delays{d.camera.time.delay, d.lidar.time.delay, d.imu.time.delay,
+                                  d.antenna.time.delay};
+  const sensors::BagLimits limits{config.replay.camera_readout, config.replay.max_pair_skew,
+                                  config.replay.max_turn};
+  const auto bag = std::make_shared<sensors::BagRecording>(path, config.bag, delays, limits,
+                                                           raw_cameras(config));
+  Recording recording;
+  recording.calibration = bag->calibration();
+  recording.first_stamp = bag->first_stamp();
+  recording.last_stamp = bag->last_stamp();
+  recording.images = bag->frame_count();
+  recording.notes = bag->notes();
+  VehicleConfig car = config;
+  describe_car(car, recording.calibration);
+  recording.sensors = [bag, car, outages = outages_of(config, recording)](Time passed) {
+    Sensors s;
+    if (bag->has(BagSensor::camera_left)) s.camera = bag->camera(passed);
+    if (bag->has(BagSensor::lidar)) s.velodyne = bag->lidar(passed);
+    const bool fixes = bag->has(BagSensor::gnss);
+    if (fixes) s.gnss = bag->gnss();
+    if (bag->has(BagSensor::imu)) {
+      s.imu = bag->imu(fixes ? with_outages(bag->gnss(), outages) : nullptr, mount_of(car),
+                       car.fusion.rear_axle_distance);
+    }
+    if (bag->has(BagSensor::wheel)) s.wheel = bag->wheel();
+    return s;
+  };
+  return recording;
+}
+
+}  // namespace maploop::vehicle

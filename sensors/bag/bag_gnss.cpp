@@ -1,0 +1,127 @@
+#include <cmath>
+#include <deque>
+
+#include "msgs/frames.h"
+#include "msgs/local_frame.h"
+#include "sensors/bag/topic_stream.h"
+
+namespace maploop::sensors {
+namespace {
+
+class FixMaker {
+ public:
+  FixMaker(SharedBagSettings settings, const Topic& gnss, const Topic* velocity)
+      : stream_(std::move(settings), topics(gnss, velocity)),
+        gnss_(gnss),
+        has_velocity_(velocity != nullptr) {}
+
+  bool next(GnssFix& fix, SourceReport& report) {
+    while (const RecordedMessage* message = stream_.next(report)) {
+      if (message->topic->name != gnss_.name) {
+        RosTwist twist;
+        if (!stream_.decoded(*message, twist, report)) continue;
+        velocity_ = twist.linear;
+        velocity_stamp_ = stream_.stamp(twist.header, *message, stream_.settings().delays.gnss);
+        continue;
+      }
+      RosFix from;
+      if (!stream_.decoded(*message, from, report)) continue;
+      if (from.status < 0) {
+        stream_.refuse(gnss_, "the receiver had no fix", report);
+        continue;
+      }
+      if (!(std::abs(from.latitude) <= 90.0 && std::abs(from.longitude) <= 360.0 &&
+            std::isfinite(from.altitude))) {
+        stream_.refuse(gnss_, "its position is not one on Earth", report);
+        continue;
+      }
+      fix.stamp = fix.available =
+          stream_.stamp(from.header, *message, stream_.settings().delays.gnss);
+      fix.sequence = fixes_++;
+      if (!stream_.follows(gnss_, fix, report)) continue;
+      set_position(from, fix);
+      set_velocity(fix);
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  static std::set<std::string> topics(const Topic& gnss, const Topic* velocity) {
+    std::set<std::string> names{gnss.name};
+    if (velocity != nullptr) names.insert(velocity->name);
+    return names;
+  }
+
+  void set_position(const RosFix& from, GnssFix& fix) const {
+    fix.position = {radians(from.latitude), radians(from.longitude), from.altitude};
+    fix.position_covariance = from.covariance;
+    const bool known = from.covariance_type != 0 && from.covariance.diagonal().minCoeff() > 0.0;
+    if (known) return;
+    const double sigma = stream_.settings().parameters.gnss_position_sigma;
+    constexpr double height_share = 1.5;  // heights are worse than the horizontal position
+    fix.position_covariance =
+        Eigen::Vector3d(sigma, sigma, height_share * sigma).cwiseAbs2().asDiagonal();
+  }
+
+  void set_velocity(GnssFix& fix) {
+    const double sigma = stream_.settings().parameters.gnss_velocity_sigma;
+    constexpr Duration oldest = std::chrono::milliseconds(500);
+    constexpr double unknown = 100.0;  // m/s
+    fix.velocity_stamp = fix.stamp;
+    fix.velocity_enu.setZero();
+    fix.velocity_covariance = unknown * unknown * Eigen::Matrix3d::Identity();
+    if (has_velocity_) {
+      if (!velocity_ || !input_limits::within(oldest, velocity_stamp_, fix.stamp)) return;
+      fix.velocity_enu = *velocity_;
+      fix.velocity_stamp = velocity_stamp_;
+      fix.velocity_covariance = sigma * sigma * Eigen::Matrix3d::Identity();
+      return;
+    }
+    take_difference(fix);
+  }
+
+  // Takes the derivative of the parabola through this fix and those a second and two before.
+  void take_difference(GnssFix& fix) {
+    constexpr Duration step = std::chrono::milliseconds(900), longest = std::chrono::seconds(4);
+    if (earlier_.empty() || fix.stamp - earlier_.front().stamp >= step) {
+      if (earlier_.size() == 2) {
+        const Eigen::Vector3d a = LocalFrame(fix.position).to_enu(earlier_[0].position);
+        const Eigen::Vector3d b = LocalFrame(fix.position).to_enu(earlier_[1].position);
+        const double t = to_seconds(fix.stamp - earlier_[0].stamp);
+        const double u = to_seconds(fix.stamp - earlier_[1].stamp);
+        const double of_a = u / (t * (u - t)), of_b = t / (u * (u - t));
+        if (fix.stamp - earlier_[1].stamp <= longest) {
+          fix.velocity_enu = of_b * b - of_a * a;
+          constexpr double noise = 0.2;  // m, of a fix against those of the seconds before it
+          const double sigma = noise * Eigen::Vector3d(1.0 / t + 1.0 / u, of_a, of_b).norm();
+          fix.velocity_covariance = sigma * sigma * Eigen::Matrix3d::Identity();
+        }
+        earlier_.pop_back();
+      }
+      earlier_.push_front({fix.stamp, fix.position});
+    }
+  }
+
+  struct EarlierFix {
+    Time stamp{};
+    Geodetic position;
+  };
+
+  TopicStream stream_;
+  Topic gnss_;
+  bool has_velocity_;
+  std::optional<Eigen::Vector3d> velocity_;
+  Time velocity_stamp_{};
+  std::deque<EarlierFix> earlier_;  // the last one first
+  std::uint64_t fixes_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Source<GnssFix>> make_bag_gnss(SharedBagSettings settings, const Topic& gnss,
+                                               const Topic* velocity) {
+  return made_by<GnssFix>(FixMaker(std::move(settings), gnss, velocity));
+}
+
+}  // namespace maploop::sensors

@@ -1,0 +1,95 @@
+#include <algorithm>
+
+#include "sensors/bag/cloud_messages.h"
+#include "sensors/bag/topic_stream.h"
+
+namespace maploop::sensors {
+namespace {
+
+class ScanMaker {
+ public:
+  ScanMaker(SharedBagSettings settings, const Topic& lidar, Time passed)
+      : stream_(std::move(settings), {lidar.name}),
+        topic_(lidar),
+        passed_(passed),
+        turns_(from_seconds(stream_.settings().limits.max_turn)) {}
+
+  bool next(LidarScan& scan, SourceReport& report) {
+    while (true) {
+      if (turns_.next(scan)) {
+        scan.available = scan.end;
+        if (stream_.follows(topic_, scan, report)) return true;
+        continue;
+      }
+      const RecordedMessage* message = stream_.next(report);
+      if (message == nullptr) return end(report);
+      if (read(*message, scan, report)) return true;
+    }
+  }
+
+ private:
+  // Returns whether the message is a scan by itself.
+  bool read(const RecordedMessage& message, LidarScan& scan, SourceReport& report) {
+    if (!stream_.decoded(message, cloud_message_, report)) return false;
+    const BagSettings& s = stream_.settings();
+    cloud_message_.header.stamp = stream_.stamp(cloud_message_.header, message, s.delays.lidar);
+    try {
+      read_cloud(cloud_message_, cloud_);
+    } catch (const std::invalid_argument& e) {
+      stream_.refuse(topic_, e.what(), report);
+      return false;
+    }
+    if (cloud_.dropped > 0) {
+      report.flaw({s.path.string(), 0,
+                   topic_.name + ", message " + std::to_string(stream_.number()) + ": " +
+                       std::to_string(cloud_.dropped) + " points are not finite and were dropped"});
+    }
+    if (!cloud_.times.empty()) {
+      timed_ = true;
+      turns_.add(cloud_);
+      return false;
+    }
+    set_stamps(cloud_message_.header.stamp, s, scan);
+    scan.sequence = stream_.number() - 1;
+    if (!stream_.follows(topic_, scan, report)) return false;
+    if (scan.available > passed_) std::swap(scan.points, cloud_.points);
+    return true;
+  }
+
+  static void set_stamps(Time stamp, const BagSettings& s, LidarScan& scan) {
+    const Duration half = s.turn / 2;
+    const Duration to_middle = s.parameters.cloud_stamp == CloudStamp::start ? half
+                               : s.parameters.cloud_stamp == CloudStamp::end ? -half
+                                                                             : Duration{};
+    scan.stamp = stamp + to_middle;
+    scan.start = scan.stamp - half;
+    scan.end = scan.available = scan.stamp + half;
+  }
+
+  bool end(SourceReport& report) {
+    if (timed_ && turns_.counts().complete == 0 && !ended_)
+      stream_.refuse(topic_,
+                     "the times of the points do not make a single turn that is clockwise seen "
+                     "from above; other scanners are not supported",
+                     report);
+    ended_ = true;
+    return false;
+  }
+
+  TopicStream stream_;
+  Topic topic_;
+  Time passed_;
+  RosPointCloud cloud_message_;
+  TimedCloud cloud_;
+  CloudTurns turns_;
+  bool timed_ = false, ended_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Source<LidarScan>> make_bag_lidar(SharedBagSettings settings, const Topic& lidar,
+                                                  Time passed) {
+  return made_by<LidarScan>(ScanMaker(std::move(settings), lidar, passed));
+}
+
+}  // namespace maploop::sensors

@@ -1,0 +1,320 @@
+#include "sensors/bag/bag_recording.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "msgs/frames.h"
+#include "msgs/input_limits.h"
+#include "sensors/bag/bag_sources.h"
+#include "sensors/bag/body_frame.h"
+#include "sensors/bag/camera_messages.h"
+#include "sensors/bag/cloud_messages.h"
+#include "sensors/bag/ros_messages.h"
+#include "sensors/camera/rectifier.h"
+
+namespace maploop::sensors {
+namespace {
+
+std::set<std::string> topics_of_type(const BagSummary& bag,
+                                     std::span<const std::string_view> types) {
+  std::set<std::string> names;
+  for (const TopicSummary& summary : bag.topics)
+    if (std::ranges::count(types, summary.topic.type) > 0) names.insert(summary.topic.name);
+  return names;
+}
+
+// Calls use(message) for the messages of some topics that can be read, until it returns false.
+void read_first(const std::filesystem::path& path, std::set<std::string> topics, Time begin,
+                const std::function<bool(const RecordedMessage&)>& use) {
+  if (topics.empty()) return;
+  const auto reader = open_messages(path, {std::move(topics), begin});
+  for (auto item = reader->next(); item != MessageReader::Item::end; item = reader->next()) {
+    if (item != MessageReader::Item::message) continue;
+    try {
+      if (!use(reader->message())) return;
+    } catch (const std::invalid_argument&) {
+      continue;  // the source of the topic reports it
+    }
+  }
+}
+
+// Returns the header of a message of any sensor.
+RosHeader header_of(const RecordedMessage& message) {
+  const Topic& topic = *message.topic;
+  RosCursor cursor(message.data, topic.encoding == "cdr" ? RosEncoding::cdr : RosEncoding::ros1);
+  return read_header(cursor);
+}
+
+// Holds what the first messages of a topic say.
+struct FirstMessages {
+  std::string frame;
+  std::vector<Time> headers;  // their stamps
+};
+
+FirstMessages first_messages(const std::filesystem::path& path, const Topic& topic) {
+  constexpr std::size_t enough = 20;
+  FirstMessages first;
+  read_first(path, {topic.name}, Time::min(), [&](const RecordedMessage& message) {
+    const RosHeader header = header_of(message);
+    if (first.headers.empty()) first.frame = header.frame;
+    first.headers.push_back(header.stamp);
+    return first.headers.size() < enough;
+  });
+  return first;
+}
+
+// Transforms that do not change are in /tf_static; those of /tf are read for a while, because some
+// recordings repeat constant ones there.
+FrameTree read_frames(const std::filesystem::path& path, const BagSummary& bag) {
+  constexpr std::size_t enough = 1000;  // messages
+  FrameTree tree;
+  std::size_t count = 0;
+  read_first(path, topics_of_type(bag, ros_types<RosTransforms>()), Time::min(),
+             [&](const RecordedMessage& message) {
+               RosTransforms transforms;
+               decode(*message.topic, message.data, transforms);
+               for (const RosTransform& t : transforms.transforms)
+                 tree.add(t.parent, t.child, t.T_parent_child);
+               return ++count < enough;
+             });
+  return tree;
+}
+
+Eigen::Vector3d mean_force(const std::filesystem::path& path, const Topic& topic) {
+  constexpr int enough = 100;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int count = 0;
+  read_first(path, {topic.name}, Time::min(), [&](const RecordedMessage& message) {
+    RosImu imu;
+    decode(topic, message.data, imu);
+    if (imu.linear_acceleration.allFinite()) sum += imu.linear_acceleration;
+    return ++count < enough;
+  });
+  return count > 0 ? Eigen::Vector3d(sum / count) : sum;
+}
+
+// Returns the first calibration of two cameras.
+RosStereo read_stereo(const std::filesystem::path& path, const TopicChoice& choice,
+                      bool images_are_rectified) {
+  const Topic* topics[] = {choice.find(BagSensor::camera_left_info),
+                           choice.find(BagSensor::camera_right_info)};
+  // Their texts are parts of messages, which are kept.
+  std::array<std::vector<std::uint8_t>, 2> messages;
+  for (std::size_t i = 0; i < 2; ++i) {
+    read_first(path, {topics[i]->name}, Time::min(), [&](const RecordedMessage& message) {
+      messages[i].assign(message.data.begin(), message.data.end());
+      return false;
+    });
+    if (messages[i].empty())
+      throw std::invalid_argument("there is no message of " + topics[i]->name);
+  }
+  std::array<RosCameraInfo, 2> infos;
+  for (std::size_t i = 0; i < 2; ++i) decode(*topics[i], messages[i], infos[i]);
+  return stereo_of(infos[0], infos[1], images_are_rectified);
+}
+
+bool are_rectified(const Topic& images) {
+  return images.name.find("rect") != std::string::npos;
+}
+
+const TopicSummary& summary_of(const BagSummary& bag, const Topic& topic) {
+  return *std::ranges::find(
+      bag.topics, topic.name,
+      [](const TopicSummary& s) -> const std::string& { return s.topic.name; });
+}
+
+// Returns whether the stamps of headers can be used for all sensors.
+bool headers_are_sound(const std::vector<FirstMessages>& all) {
+  std::vector<Time> begins;
+  for (const FirstMessages& first : all) {
+    if (first.headers.empty()) continue;
+    if (std::ranges::adjacent_find(first.headers, std::greater_equal{}) != first.headers.end())
+      return false;
+    begins.push_back(first.headers.front());
+  }
+  if (begins.empty()) return true;
+  const auto [least, most] = std::ranges::minmax(begins);
+  return input_limits::within(input_limits::longest_gap, least, most);
+}
+
+}  // namespace
+
+// Holds what is needed while a recording is opened.
+struct BagRecording::Opening {
+  const BagSummary bag;
+  std::map<BagSensor, FirstMessages> first;
+
+  std::string frame(BagSensor sensor) const {
+    const auto found = first.find(sensor);
+    return found == first.end() ? std::string() : found->second.frame;
+  }
+};
+
+BagRecording::~BagRecording() = default;
+
+BagRecording::BagRecording(const std::filesystem::path& path, const BagParameters& parameters,
+                           const BagDelays& delays, const BagLimits& limits,
+                           std::optional<StereoRig> cameras)
+    : raw_cameras_(std::move(cameras)) {
+  Opening opening{summarize(path), {}};
+  try {
+    choice_ = choose_topics(opening.bag, parameters.topics);
+  } catch (const std::runtime_error& e) {
+    throw std::runtime_error("the recording '" + path.string() + "': " + e.what());
+  }
+  notes_ = choice_.notes;
+  BagSettings settings{path, parameters, delays, limits, true, {}, 1.0};
+  for (const BagSensor sensor : {BagSensor::camera_left, BagSensor::lidar, BagSensor::imu,
+                                 BagSensor::gnss, BagSensor::wheel})
+    if (const Topic* topic = choice_.find(sensor))
+      opening.first[sensor] = first_messages(path, *topic);
+  std::erase_if(opening.first, [](const auto& item) { return item.second.headers.empty(); });
+  set_stamp_rule(opening, settings);
+  open_camera(path);
+  open_body(path, opening, settings);
+  if (const Topic* topic = choice_.find(BagSensor::lidar))
+    set_turn(summary_of(opening.bag, *topic), settings);
+  settings_ = std::make_shared<const BagSettings>(std::move(settings));
+  find_span(opening);
+}
+
+void BagRecording::set_stamp_rule(const Opening& opening, BagSettings& settings) {
+  std::vector<FirstMessages> all;
+  for (const auto& [sensor, first] : opening.first) all.push_back(first);
+  const BagStamps rule = settings.parameters.stamps;
+  settings.header_stamps =
+      rule == BagStamps::automatic ? headers_are_sound(all) : rule == BagStamps::header;
+  if (rule == BagStamps::automatic && !settings.header_stamps) {
+    notes_.push_back(
+        "The stamps of the messages do not increase, or are not of one clock: the times at which "
+        "they were received are used.");
+  }
+}
+
+void BagRecording::open_camera(const std::filesystem::path& path) {
+  const auto leave_out = [&](const std::string& why) {
+    notes_.push_back("The images of " + choice_.find(BagSensor::camera_left)->name +
+                     " are not used: " + why);
+    choice_.topics.erase(BagSensor::camera_left);
+  };
+  const Topic* left = choice_.find(BagSensor::camera_left);
+  if (left == nullptr) return;
+  if (raw_cameras_) {
+    calibration_.stereo = raw_cameras_->rectified;
+    return;
+  }
+  if (choice_.find(BagSensor::camera_left_info) == nullptr ||
+      choice_.find(BagSensor::camera_right_info) == nullptr) {
+    leave_out(
+        "there is no calibration of both cameras (topics camera_info); "
+        "[vehicle.camera] calibration of the configuration can state it.");
+    return;
+  }
+  try {
+    RosStereo stereo = read_stereo(path, choice_, are_rectified(*left));
+    calibration_.stereo = stereo.rectified;
+    raw_cameras_ = std::move(stereo.raw);
+  } catch (const std::invalid_argument& e) {
+    leave_out(std::string("the calibration cannot be used: ") + e.what() + ".");
+  }
+}
+
+void BagRecording::open_body(const std::filesystem::path& path, const Opening& opening,
+                             BagSettings& settings) {
+  SensorFrames frames;
+  if (has(BagSensor::camera_left)) frames.camera = opening.frame(BagSensor::camera_left);
+  if (has(BagSensor::lidar)) frames.lidar = opening.frame(BagSensor::lidar);
+  frames.imu = opening.frame(BagSensor::imu);
+  if (const Topic* topic = choice_.find(BagSensor::imu)) {
+    constexpr double standard_gravity = 9.80665;  // m/s^2
+    frames.force = mean_force(path, *topic);
+    if (std::abs(frames.force.norm() - 1.0) < 0.2) {
+      settings.force_scale = standard_gravity;
+      notes_.push_back("The specific force of " + topic->name + " is taken to be in g.");
+    }
+  }
+  const BodyFrame body = choose_body_frame(read_frames(path, opening.bag), frames);
+  notes_.insert(notes_.end(), body.notes.begin(), body.notes.end());
+  calibration_.T_body_velo = body.T_body_lidar;
+  calibration_.stereo.T_body_cam = body.T_body_camera;
+  if (raw_cameras_) {
+    const auto T_body_left = raw_cameras_->T_body_left.value_or(body.T_body_camera);
+    calibration_.stereo.T_body_cam = mounted(*raw_cameras_, T_body_left).T_body_cam;
+  }
+  if (!body.R_body_imu) return;
+  const Eigen::Matrix3d& R = *body.R_body_imu;
+  mount_ = {true, degrees(std::atan2(R(2, 1), R(2, 2))),
+            degrees(-std::asin(std::clamp(R(2, 0), -1.0, 1.0))),
+            degrees(std::atan2(R(1, 0), R(0, 0)))};
+}
+
+void BagRecording::set_turn(const TopicSummary& clouds, BagSettings& settings) {
+  constexpr double usual = 0.1;  // s
+  const double count = static_cast<double>(clouds.messages);
+  const double mean = count > 1 ? to_seconds(clouds.last - clouds.first) / (count - 1) : usual;
+  settings.turn = from_seconds(mean > 0.0 && mean < settings.limits.max_turn ? mean : usual);
+}
+
+void BagRecording::find_span(const Opening& opening) {
+  constexpr std::array order{BagSensor::camera_left, BagSensor::lidar, BagSensor::gnss,
+                             BagSensor::imu};
+  const auto* used = std::ranges::find_if(order, [&](BagSensor sensor) { return has(sensor); });
+  if (opening.first.empty() || used == order.end()) {
+    std::string topics;
+    for (const TopicSummary& s : opening.bag.topics)
+      topics += (topics.empty() ? "" : ", ") + s.topic.name + " (" + s.topic.type + ")";
+    throw std::runtime_error("the recording '" + settings_->path.string() +
+                             "' has no messages of a sensor that can be used: " +
+                             (topics.empty() ? "it is empty" : "it has " + topics));
+  }
+  const Topic& topic = *choice_.find(*used);
+  const TopicSummary& summary = summary_of(opening.bag, topic);
+  frame_count_ = summary.messages;
+  constexpr Duration margin = std::chrono::seconds(2);
+  bool any = false;
+  const auto take = [&](const RecordedMessage& message) {
+    const Time stamp = settings_->header_stamps ? header_of(message).stamp : message.received;
+    if (!any) first_stamp_ = last_stamp_ = stamp;
+    any = true;
+    first_stamp_ = std::min(first_stamp_, stamp);
+    last_stamp_ = std::max(last_stamp_, stamp);
+    return true;
+  };
+  read_first(settings_->path, {topic.name}, Time::min(),
+             [&](const RecordedMessage& message) { return take(message) && false; });
+  read_first(settings_->path, {topic.name}, summary.last - margin, take);
+}
+
+std::unique_ptr<Source<StereoPair>> BagRecording::camera(Time passed) const {
+  auto images = make_bag_camera(settings_, *choice_.find(BagSensor::camera_left),
+                                *choice_.find(BagSensor::camera_right), passed);
+  return raw_cameras_ ? make_rectified_source(std::move(images), *raw_cameras_, passed)
+                      : std::move(images);
+}
+
+std::unique_ptr<Source<LidarScan>> BagRecording::lidar(Time passed) const {
+  return make_bag_lidar(settings_, *choice_.find(BagSensor::lidar), passed);
+}
+
+std::unique_ptr<Source<GnssFix>> BagRecording::gnss() const {
+  return make_bag_gnss(settings_, *choice_.find(BagSensor::gnss),
+                       choice_.find(BagSensor::gnss_velocity));
+}
+
+std::unique_ptr<Source<WheelSpeed>> BagRecording::wheel() const {
+  return make_bag_wheel(settings_, *choice_.find(BagSensor::wheel));
+}
+
+std::unique_ptr<Source<ImuSample>> BagRecording::imu(std::unique_ptr<Source<GnssFix>> fixes,
+                                                     const MountParameters& given,
+                                                     double rear_axle_distance) const {
+  return std::make_unique<AlignedImu>(make_bag_imu(settings_, *choice_.find(BagSensor::imu)),
+                                      std::move(fixes), given.given ? given : mount_,
+                                      rear_axle_distance, settings_->path);
+}
+
+}  // namespace maploop::sensors

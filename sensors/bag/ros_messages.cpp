@@ -1,0 +1,254 @@
+#include "sensors/bag/ros_messages.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace maploop::sensors {
+namespace {
+
+using std::string_view_literals::operator""sv;
+
+// What the definition of each type lists, in the form of field_list().
+template <class T>
+constexpr std::array<std::string_view, 0> fields{};
+template <>
+constexpr std::array fields<RosImage>{
+    "header header;uint32 height;uint32 width;string encoding;uint8 is_bigendian;uint32 step;uint8[] data;"sv};
+template <>
+constexpr std::array fields<RosCompressedImage>{"header header;string format;uint8[] data;"sv};
+template <>
+constexpr std::array fields<RosCameraInfo>{
+    "header header;uint32 height;uint32 width;string distortion_model;float64[] d;float64[9] "
+    "k;float64[9] r;"
+    "float64[12] p;uint32 binning_x;uint32 binning_y;regionofinterest roi;"sv};
+template <>
+constexpr std::array fields<RosPointCloud>{
+    "header header;uint32 height;uint32 width;pointfield[] fields;bool is_bigendian;uint32 "
+    "point_step;"
+    "uint32 row_step;uint8[] data;bool is_dense;"sv};
+template <>
+constexpr std::array fields<RosImu>{
+    "header header;quaternion orientation;float64[9] orientation_covariance;vector3 "
+    "angular_velocity;"
+    "float64[9] angular_velocity_covariance;vector3 linear_acceleration;float64[9] linear_acceleration_covariance;"sv};
+template <>
+constexpr std::array fields<RosFix>{
+    "header header;navsatstatus status;float64 latitude;float64 longitude;float64 altitude;"
+    "float64[9] position_covariance;uint8 position_covariance_type;"sv};
+template <>
+constexpr std::array fields<RosTwist>{
+    "header header;twist twist;"sv, "header header;twistwithcovariance twist;"sv,
+    "header header;string child_frame_id;posewithcovariance pose;twistwithcovariance twist;"sv};
+template <>
+constexpr std::array fields<RosTransforms>{"transformstamped[] transforms;"sv};
+
+template <class T>
+constexpr std::array<std::string_view, 1> types{};
+template <>
+constexpr std::array types<RosImage>{"sensor_msgs/Image"sv};
+template <>
+constexpr std::array types<RosCompressedImage>{"sensor_msgs/CompressedImage"sv};
+template <>
+constexpr std::array types<RosCameraInfo>{"sensor_msgs/CameraInfo"sv};
+template <>
+constexpr std::array types<RosPointCloud>{"sensor_msgs/PointCloud2"sv};
+template <>
+constexpr std::array types<RosImu>{"sensor_msgs/Imu"sv};
+template <>
+constexpr std::array types<RosFix>{"sensor_msgs/NavSatFix"sv};
+template <>
+constexpr std::array types<RosTwist>{"geometry_msgs/TwistStamped"sv,
+                                     "geometry_msgs/TwistWithCovarianceStamped"sv,
+                                     "nav_msgs/Odometry"sv};
+template <>
+constexpr std::array types<RosTransforms>{"tf2_msgs/TFMessage"sv, "tf/tfMessage"sv};
+
+// Returns "type name;" of each field of the first type in the text, in lower case and without the
+// names of packages, constants and default values.
+std::string field_list(const std::string& definition) {
+  std::string list;
+  std::istringstream lines(definition);
+  for (std::string line; std::getline(lines, line) && !line.starts_with("==");) {
+    line.erase(std::min(line.find('#'), line.size()));
+    std::istringstream words(line);
+    std::string type, name;
+    if (!(words >> type >> name) || line.find('=') != std::string::npos) continue;
+    type.erase(0, type.rfind('/') + 1);
+    list += type + ' ' + name + ';';
+  }
+  std::transform(list.begin(), list.end(), list.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return list;
+}
+
+Eigen::Vector3d read_vector(RosCursor& c) {
+  double v[3];
+  c.numbers(v);
+  return {v[0], v[1], v[2]};
+}
+
+Eigen::Quaterniond read_quaternion(RosCursor& c) {
+  double q[4];
+  c.numbers(q);
+  return {q[3], q[0], q[1], q[2]};
+}
+
+void skip_covariance(RosCursor& c) {
+  double covariance[36];
+  c.numbers(covariance);
+}
+
+void read(RosCursor& c, RosImage& to, std::string_view) {
+  to.header = read_header(c);
+  to.height = c.number<std::uint32_t>();
+  to.width = c.number<std::uint32_t>();
+  to.encoding = c.text();
+  to.big_endian = c.number<bool>();
+  to.step = c.number<std::uint32_t>();
+  to.data = c.byte_sequence();
+}
+
+void read(RosCursor& c, RosCompressedImage& to, std::string_view) {
+  to.header = read_header(c);
+  to.format = c.text();
+  to.data = c.byte_sequence();
+}
+
+void read(RosCursor& c, RosCameraInfo& to, std::string_view) {
+  to.header = read_header(c);
+  to.height = c.number<std::uint32_t>();
+  to.width = c.number<std::uint32_t>();
+  to.distortion_model = c.text();
+  to.d.resize(c.count(sizeof(double)));
+  for (double& d : to.d) d = c.number<double>();
+  c.numbers(to.k);
+  c.numbers(to.r);
+  c.numbers(to.p);
+}
+
+void read(RosCursor& c, RosPointCloud& to, std::string_view) {
+  to.header = read_header(c);
+  to.height = c.number<std::uint32_t>();
+  to.width = c.number<std::uint32_t>();
+  constexpr std::size_t least_field = 13;  // bytes
+  to.fields.resize(c.count(least_field));
+  for (RosPointField& field : to.fields) {
+    field.name = c.text();
+    field.offset = c.number<std::uint32_t>();
+    field.datatype = c.number<std::uint8_t>();
+    field.count = c.number<std::uint32_t>();
+  }
+  to.big_endian = c.number<bool>();
+  to.point_step = c.number<std::uint32_t>();
+  to.row_step = c.number<std::uint32_t>();
+  to.data = c.byte_sequence();
+}
+
+void read(RosCursor& c, RosImu& to, std::string_view) {
+  to.header = read_header(c);
+  read_quaternion(c);
+  double covariance[9];
+  c.numbers(covariance);
+  to.angular_velocity = read_vector(c);
+  c.numbers(covariance);
+  to.linear_acceleration = read_vector(c);
+}
+
+void read(RosCursor& c, RosFix& to, std::string_view) {
+  to.header = read_header(c);
+  to.status = c.number<std::int8_t>();
+  c.number<std::uint16_t>();  // service
+  to.latitude = c.number<double>();
+  to.longitude = c.number<double>();
+  to.altitude = c.number<double>();
+  double covariance[9];
+  c.numbers(covariance);
+  to.covariance = Eigen::Map<const Eigen::Matrix3d>(covariance);  // it is symmetric
+  to.covariance_type = c.number<std::uint8_t>();
+}
+
+void read(RosCursor& c, RosTwist& to, std::string_view type) {
+  to.header = read_header(c);
+  if (type == "nav_msgs/Odometry") {
+    c.text();  // child_frame_id
+    read_vector(c);
+    read_quaternion(c);
+    skip_covariance(c);
+  }
+  to.linear = read_vector(c);
+  to.angular = read_vector(c);
+}
+
+void read(RosCursor& c, RosTransforms& to, std::string_view) {
+  constexpr std::size_t least_transform = 72;  // bytes
+  to.transforms.resize(c.count(least_transform));
+  for (RosTransform& transform : to.transforms) {
+    transform.parent = read_header(c).frame;
+    transform.child = c.text();
+    const Eigen::Vector3d translation = read_vector(c);
+    const Eigen::Quaterniond rotation = read_quaternion(c);
+    if (!translation.allFinite() || !(std::abs(rotation.norm() - 1.0) < 1e-2)) {
+      throw std::invalid_argument("the transform from '" + transform.parent + "' to '" +
+                                  transform.child + "' is not a rotation and a translation");
+    }
+    transform.T_parent_child =
+        Eigen::Translation3d(translation) * rotation.normalized().toRotationMatrix();
+  }
+}
+
+}  // namespace
+
+RosHeader read_header(RosCursor& c) {
+  if (c.encoding() == RosEncoding::ros1) c.number<std::uint32_t>();  // seq
+  RosHeader header;
+  header.stamp = c.time();
+  header.frame = c.text();
+  return header;
+}
+
+template <class T>
+std::span<const std::string_view> ros_types() {
+  return types<T>;
+}
+
+template <class T>
+std::string problem_of(const Topic& topic) {
+  const auto found = std::find(types<T>.begin(), types<T>.end(), topic.type);
+  if (found == types<T>.end())
+    return "its type is " + topic.type + ", not " + std::string(types<T>[0]);
+  if (topic.encoding != "ros1" && topic.encoding != "cdr")
+    return "its encoding '" + topic.encoding + "' is not ros1 or cdr";
+  const std::string listed = field_list(topic.definition);
+  // A definition as IDL lists no fields in this form, and is taken for the usual one.
+  if (topic.definition.empty() || topic.definition.find("module ") != std::string::npos) return {};
+  constexpr std::size_t forms = fields<T>.size();
+  const auto i =
+      std::min<std::size_t>(static_cast<std::size_t>(found - types<T>.begin()), forms - 1);
+  if (listed == fields<T>[i]) return {};
+  return "its definition of " + topic.type + " has other fields: " + listed;
+}
+
+template <class T>
+void decode(const Topic& topic, std::span<const std::uint8_t> message, T& to) {
+  RosCursor cursor(message, topic.encoding == "cdr" ? RosEncoding::cdr : RosEncoding::ros1);
+  read(cursor, to, topic.type);
+}
+
+#define MAPLOOP_ROS_TYPE(T)                                  \
+  template std::span<const std::string_view> ros_types<T>(); \
+  template std::string problem_of<T>(const Topic&);          \
+  template void decode(const Topic&, std::span<const std::uint8_t>, T&);
+MAPLOOP_ROS_TYPE(RosImage)
+MAPLOOP_ROS_TYPE(RosCompressedImage)
+MAPLOOP_ROS_TYPE(RosCameraInfo)
+MAPLOOP_ROS_TYPE(RosPointCloud)
+MAPLOOP_ROS_TYPE(RosImu)
+MAPLOOP_ROS_TYPE(RosFix)
+MAPLOOP_ROS_TYPE(RosTwist)
+MAPLOOP_ROS_TYPE(RosTransforms)
+#undef MAPLOOP_ROS_TYPE
+
+}  // namespace maploop::sensors
