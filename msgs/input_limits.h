@@ -20,8 +20,10 @@ constexpr std::size_t track = 256 * mebibyte;       // fixes, poses, matches and
 constexpr std::size_t picture = 64 * mebibyte;      // one image, compressed or not
 constexpr std::size_t cloud = 64 * mebibyte;        // one cloud of points, compressed or not
 constexpr std::size_t snapshot = 256 * mebibyte;    // of the vehicle
+constexpr std::size_t chunk = 256 * mebibyte;       // of a bag, or one message; 1 to 4 are usual
 constexpr std::size_t gnss_file = 2048 * mebibyte;  // a day of a receiver at 10 Hz
 constexpr std::size_t road_network = 4096 * mebibyte;
+constexpr std::size_t unpacked_bag = 65536 * mebibyte;  // a whole one, inflated on the disk
 
 // These are numbers of elements.
 constexpr std::size_t frames = std::size_t{1} << 20U;        // of one sensor: 2.9 h at 100 Hz

@@ -1,0 +1,32 @@
+// This file inflates the parts of a recording that were compressed by bzip2, LZ4 (frames) or
+// Zstandard.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sensors/bag/byte_cursor.h"
+
+namespace maploop::sensors::bag {
+
+constexpr std::array<std::uint8_t, 4> zstd_magic{0x28, 0xb5, 0x2f, 0xfd};
+bool is_zstd(Bytes bytes);
+
+struct Inflated {
+  Bytes bytes;        // as far as they could be inflated; in the buffer, or those that were given
+  std::string error;  // empty if that is everything
+};
+
+// Inflates `packed`, which must have `size` bytes then. If the size is not known, at most
+// input_limits::chunk bytes are inflated. The buffer grows with what has been inflated, not with
+// what `size` promises, and never shrinks. `compression` is "" or "none", "bz2", "lz4" or "zstd";
+// others are an error.
+Inflated inflate(std::string_view compression, Bytes packed, std::optional<std::uint64_t> size,
+                 std::vector<std::uint8_t>& buffer);
+
+}  // namespace maploop::sensors::bag
