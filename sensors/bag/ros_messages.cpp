@@ -194,8 +194,8 @@ void read(RosCursor& c, RosTransforms& to, std::string_view) {
       throw std::invalid_argument("the transform from '" + transform.parent + "' to '" +
                                   transform.child + "' is not a rotation and a translation");
     }
-    transform.T_parent_child =
-        Eigen::Translation3d(translation) * rotation.normalized().toRotationMatrix();
+    transform.T_parent_child = Eigen::Isometry3d(rotation.normalized());
+    transform.T_parent_child.pretranslate(translation);
   }
 }
 

@@ -17,8 +17,6 @@
 namespace maploop::vehicle {
 namespace {
 
-using Bytes = std::span<const std::uint8_t>;
-
 // Maps the times of a receiver's epochs to the host's clock.
 class EpochClock {
  public:
@@ -46,7 +44,7 @@ class LiveFixes final : public sensors::StreamSource<GnssFix> {
       : StreamSource(std::move(receiver), clock), epochs_(latency) {}
 
  private:
-  bool take(Bytes& bytes, Time arrival, GnssFix& fix) override {
+  bool take(std::span<const std::uint8_t>& bytes, Time arrival, GnssFix& fix) override {
     if (!bytes.empty()) stream_.push(std::exchange(bytes, {}));
     while (stream_.next(pvt_)) {
       if (pvt_.fix) {
@@ -126,7 +124,7 @@ class LiveReceiver final : public sensors::StreamSource<GnssEpoch> {
         stream_(ppp::from_utc(clock.now())) {}
 
  private:
-  bool take(Bytes& bytes, Time arrival, GnssEpoch& sample) override {
+  bool take(std::span<const std::uint8_t>& bytes, Time arrival, GnssEpoch& sample) override {
     if (!bytes.empty()) stream_.push(std::exchange(bytes, {}));
     if (!stream_.next(epoch_)) return false;
     deliver(epochs_.on_host(epoch_.time, arrival), arrival, sample);
@@ -165,7 +163,7 @@ class LiveCorrections final : public sensors::StreamSource<GnssCorrections> {
       : StreamSource(std::move(caster), clock), stream_(ppp::from_utc(clock.now())) {}
 
  private:
-  bool take(Bytes& bytes, Time arrival, GnssCorrections& sample) override {
+  bool take(std::span<const std::uint8_t>& bytes, Time arrival, GnssCorrections& sample) override {
     if (bytes.empty()) return false;
     stream_.set_now(ppp::from_utc(arrival));
     if (!stream_.push(std::exchange(bytes, {}))) return false;
