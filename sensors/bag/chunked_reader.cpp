@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "msgs/input_limits.h"
-#include "sensors/bag/decompress.h"
 
 namespace maploop::sensors::bag {
 namespace {

@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "sensors/bag/decompress.h"
 #include "sensors/bag/file_bytes.h"
 #include "sensors/bag/recording_reader.h"
 
@@ -23,8 +24,8 @@ struct Record {
 
 struct Chunk {
   std::string_view compression;
-  std::uint64_t size = 0;  // inflated
-  std::uint32_t crc = 0;   // of the inflated bytes; 0: not known
+  InflatedSize size;
+  std::uint32_t crc = 0;  // of the inflated bytes; 0: not known
   Bytes data;
   bool cut = false;  // the file ends in it
 };

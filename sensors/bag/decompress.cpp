@@ -91,10 +91,10 @@ std::string bytes_text(std::uint64_t count) {
 }
 
 template <class Decoder>
-Inflated inflate_by(Decoder decode, Bytes packed, std::optional<std::uint64_t> size,
+Inflated inflate_by(Decoder decode, Bytes packed, InflatedSize size,
                     std::vector<std::uint8_t>& buffer) {
   constexpr std::size_t least_room = std::size_t{64} * 1024, usual_ratio = 8;
-  const std::size_t limit = size.value_or(input_limits::chunk);
+  const std::size_t limit = size.exact ? size.stated : input_limits::chunk;
   // One byte more than the limit shows that there is more than that.
   const auto grow = [&](std::size_t to) {
     if (const std::size_t room = std::min(to, limit + 1); buffer.size() < room) buffer.resize(room);
@@ -121,7 +121,8 @@ Inflated inflate_by(Decoder decode, Bytes packed, std::optional<std::uint64_t> s
   }
   const Bytes bytes = Bytes(buffer).first(filled);
   // A frame without its end mark is whole if it has all bytes.
-  if (size ? filled == *size : ended) return {bytes, ""};
+  if (filled == size.stated && (size.exact || filled > 0)) return {bytes, ""};
+  if (ended && !size.exact) return {bytes, ""};
   return {bytes, "its compressed data are cut: they inflate to only " + bytes_text(filled)};
 }
 
@@ -132,16 +133,16 @@ bool is_zstd(Bytes bytes) {
          std::equal(zstd_magic.begin(), zstd_magic.end(), bytes.begin());
 }
 
-Inflated inflate(std::string_view compression, Bytes packed, std::optional<std::uint64_t> size,
+Inflated inflate(std::string_view compression, Bytes packed, InflatedSize size,
                  std::vector<std::uint8_t>& buffer) {
-  if (size.value_or(0) > input_limits::chunk)
+  if (size.exact && size.stated > input_limits::chunk)
     return {{},
-            "its " + bytes_text(*size) + " are more than the " + bytes_text(input_limits::chunk) +
-                " that are expected"};
+            "its " + bytes_text(size.stated) + " are more than the " +
+                bytes_text(input_limits::chunk) + " that are expected"};
   if (compression.empty() || compression == "none") {
-    if (!size || packed.size() == *size) return {packed, ""};
+    if (!size.exact || packed.size() == size.stated) return {packed, ""};
     return {packed,
-            "its " + bytes_text(packed.size()) + " are not the stated " + bytes_text(*size)};
+            "its " + bytes_text(packed.size()) + " are not the stated " + bytes_text(size.stated)};
   }
   if (compression == "zstd") return inflate_by(Zstd(), packed, size, buffer);
   if (compression == "lz4") return inflate_by(Lz4(), packed, size, buffer);

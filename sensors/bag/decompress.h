@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,11 +21,16 @@ struct Inflated {
   std::string error;  // empty if that is everything
 };
 
-// Inflates `packed`, which must have `size` bytes then. If the size is not known, at most
-// input_limits::chunk bytes are inflated. The buffer grows with what has been inflated, not with
-// what `size` promises, and never shrinks. `compression` is "" or "none", "bz2", "lz4" or "zstd";
-// others are an error.
-Inflated inflate(std::string_view compression, Bytes packed, std::optional<std::uint64_t> size,
+struct InflatedSize {
+  std::uint64_t stated = 0;
+  bool exact = false;  // else it is a hint, or not known
+};
+
+// Inflates `packed`. If the size is not exact, that is the end of the data, and at most
+// input_limits::chunk bytes. The buffer grows with what has been inflated, not with what the size
+// promises, and never shrinks. `compression` is "" or "none", "bz2", "lz4" or "zstd"; others are an
+// error.
+Inflated inflate(std::string_view compression, Bytes packed, InflatedSize size,
                  std::vector<std::uint8_t>& buffer);
 
 }  // namespace maploop::sensors::bag

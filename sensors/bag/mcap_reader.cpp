@@ -106,7 +106,7 @@ Chunk McapReader::chunk_of(const Record& record) const {
   ByteCursor fields(record.data);
   fields.bytes(2 * sizeof(std::uint64_t));  // times of the first and last message
   Chunk chunk;
-  chunk.size = fields.number<std::uint64_t>();
+  chunk.size = {fields.number<std::uint64_t>(), true};
   chunk.crc = fields.number<std::uint32_t>();
   chunk.compression = fields.text();
   const auto packed_size = fields.number<std::uint64_t>();

@@ -74,7 +74,7 @@ bool RecordingReader::inflate_message() {
   if (message_.topic->encoding != "cdr" || !is_zstd(message_.data)) return true;
   std::string error;
   try {
-    Inflated result = inflate("zstd", message_.data, std::nullopt, inflated_);
+    Inflated result = inflate("zstd", message_.data, {}, inflated_);
     message_.data = result.bytes;
     error = std::move(result.error);
   } catch (const std::bad_alloc&) {

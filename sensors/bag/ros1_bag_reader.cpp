@@ -116,7 +116,8 @@ ChunkedReader::Use Ros1BagReader::use_of(std::uint8_t op) const {
 Chunk Ros1BagReader::chunk_of(const Record& record) const {
   Chunk chunk;
   chunk.compression = as_text(field_of(record.fields, "compression"));
-  chunk.size = number_of<std::uint32_t>(record.fields, "size");
+  // Some writers state the size wrongly; Python's rosbag does not look at it.
+  chunk.size = {number_of<std::uint32_t>(record.fields, "size"), false};
   chunk.data = record.data;
   chunk.cut = record.data.size() + record.fields.size() + 2 * sizeof(std::uint32_t) < record.size;
   return chunk;

@@ -8,6 +8,7 @@
 
 #include "msgs/input_file.h"
 #include "msgs/input_limits.h"
+#include "sensors/bag/whole_pages.h"
 
 namespace maploop::sensors::bag {
 namespace {
@@ -70,7 +71,7 @@ void SqliteReader::open(const std::filesystem::path& path) {
   const int result = sqlite3_open_v2(
       immutable_uri(path).c_str(), &database,
       SQLITE_OPEN_READONLY | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_PRIVATECACHE,
-      nullptr);
+      whole_pages());
   database_.reset(database);
   if (result != SQLITE_OK) throw Malformed(sqlite3_errstr(result));
   constexpr std::array off{SQLITE_DBCONFIG_TRUSTED_SCHEMA, SQLITE_DBCONFIG_ENABLE_TRIGGER,

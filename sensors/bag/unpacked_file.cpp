@@ -115,7 +115,7 @@ std::string unpacked_head(const std::filesystem::path& file) {
     head = read_head(file, packed_bytes);
     std::vector<std::uint8_t> buffer;
     // It is not of that size: what has been inflated up to there is enough.
-    head = as_text(inflate("zstd", as_bytes(head), packed_bytes, buffer).bytes);
+    head = as_text(inflate("zstd", as_bytes(head), {packed_bytes, true}, buffer).bytes);
   }
   head.resize(std::min(head.size(), head_bytes));
   return head;
