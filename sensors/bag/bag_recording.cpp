@@ -271,6 +271,11 @@ void BagRecording::find_span(const Opening& opening) {
                              "' has no messages of a sensor that can be used: " +
                              (topics.empty() ? "it is empty" : "it has " + topics));
   }
+  if (*used == BagSensor::imu) {
+    throw std::runtime_error("the recording '" + settings_->path.string() +
+                             "' has only an inertial unit, " + choice_.find(*used)->name +
+                             ": record the fixes of a GNSS receiver, images or clouds with it");
+  }
   const Topic& topic = *choice_.find(*used);
   const TopicSummary& summary = summary_of(opening.bag, topic);
   frame_count_ = summary.messages;
