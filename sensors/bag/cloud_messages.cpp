@@ -12,6 +12,7 @@
 
 #include "msgs/frames.h"
 #include "msgs/input_limits.h"
+#include "sensors/cloud/time_unit.h"
 
 namespace maploop::sensors {
 namespace {
@@ -79,23 +80,20 @@ FieldReader need_field(const RosPointCloud& cloud, std::string_view name) {
   return *field;
 }
 
-// Converts times in an unknown unit. Each unit is a thousandth of the previous one, so only one of
-// them makes the duration of a turn, and several the duration of a flash, which has no time at all.
-bool set_times(std::vector<double>& raw, Time stamp, std::vector<Time>& times) {
+// Converts times since the stamp or since 1970, in an unknown unit. Equal times, as of a flash, are
+// none.
+void set_times(const std::vector<double>& raw, Time stamp, std::vector<Time>& times) {
   const auto [least, most] = std::ranges::minmax(raw);
-  constexpr double shortest = 0.005, longest = 1.0;  // s
-  double unit = 1.0;
-  while (unit > 1e-10 && (most - least) * unit > longest) unit *= 1e-3;
-  if (!((most - least) * unit >= shortest)) return false;
-  const bool since_1970 = least * unit > 1e8;
-  const double most_apart = 10.0;  // s, of the points from the stamp
-  if (!since_1970 && std::max(std::abs(least), std::abs(most)) * unit > most_apart) return false;
-  if (since_1970 && most * unit > 7e9) return false;
+  const auto unit = time_unit(most - least);
+  if (!unit) return;
+  constexpr double year_1973 = 1e8, year_2200 = 7e9, most_apart = 10.0;  // s
+  const bool since_1970 = least * *unit > year_1973;
+  const double largest = std::max(std::abs(least), std::abs(most)) * *unit;
+  if (largest > (since_1970 ? year_2200 : most_apart)) return;
   const Time origin = since_1970 ? Time{} : stamp;
   times.resize(raw.size());
   std::transform(raw.begin(), raw.end(), times.begin(),
-                 [&](double value) { return origin + from_seconds(value * unit); });
-  return true;
+                 [&](double value) { return origin + from_seconds(value * *unit); });
 }
 
 void check_size(const RosPointCloud& m) {

@@ -20,9 +20,9 @@ struct TimedCloud {
 };
 
 // Reads the fields x, y, z; intensity or reflectivity; and t, time, timestamp, time_offset, ts or
-// offset_time: of any type, order and alignment. Times are since the stamp or since 1970, in the
-// unit (s, ms, us or ns) by which the cloud takes 5 to 1000 ms. Throws std::invalid_argument whose
-// text is the reason: no field x, y or z, too few bytes, a field beyond its point, no finite point.
+// offset_time: of any type, order and alignment. Times are since the stamp or since 1970; their
+// unit is found (cloud/time_unit.h). Throws std::invalid_argument whose text is the reason: no
+// field x, y or z, too few bytes, a field beyond its point, no finite point.
 void read_cloud(const RosPointCloud& message, TimedCloud& cloud);
 
 // Assembles turns from rear to rear (turn_assembler.h) of clouds that begin anywhere, by the times

@@ -114,7 +114,8 @@ class Chooser {
     const std::string sensor(to_string(which));
     throw std::runtime_error("several topics can be the sensor " + sensor + ": " + joined(names) +
                              "; choose one with --topic " + sensor + "=" + names.front() +
-                             ", or none with --topic " + sensor + "=none");
+                             ", or none with --topic " + sensor +
+                             "=none, or with [bag] topics of the configuration");
   }
 
   std::vector<const Topic*> topics_;

@@ -9,6 +9,7 @@
 
 #include "msgs/input_limits.h"
 #include "sensors/cloud/cloud_file.h"
+#include "sensors/cloud/time_unit.h"
 #include "sensors/replay/files.h"
 #include "sensors/replay/velodyne_source.h"
 
@@ -57,17 +58,15 @@ std::vector<Time> read_stamps(const path& file) {
 
 // Returns the times in seconds after their middle.
 std::vector<float> from_middle(const std::vector<double>& times) {
-  constexpr double shortest = 0.0005, longest = 0.5;  // s, of a scan
   const auto [first, last] = std::minmax_element(times.begin(), times.end());
   if (times.empty() || *first == *last) return {};
   const double middle = 0.5 * (*first + *last);
-  double unit = 1.0;
-  while (unit > 2e-9 && (*last - *first) * unit > longest) unit *= 1e-3;
-  if ((*last - *first) * unit > longest || (*last - *first) * unit < shortest)
+  const auto unit = time_unit(*last - *first);
+  if (!unit)
     throw std::runtime_error("the times of its points span " + std::to_string(*last - *first) +
                              ", which is no scan of 0.5 to 500 ms in s, ms, us or ns");
   std::vector<float> seconds;
-  for (const double time : times) seconds.push_back(static_cast<float>((time - middle) * unit));
+  for (const double time : times) seconds.push_back(static_cast<float>((time - middle) * *unit));
   return seconds;
 }
 

@@ -17,6 +17,14 @@ CLI::Option* add_config(CLI::App* sub, std::filesystem::path& file, const char* 
   return sub->add_option("--config", file, what)->check(existing_file());
 }
 
+CLI::Option* add_topics(CLI::App* sub, std::vector<std::string>& topics) {
+  return sub
+      ->add_option("--topic", topics,
+                   "SENSOR=TOPIC of a bag or an MCAP file, such as camera.left=/left/image_raw; "
+                   "the topic none: the sensor is not used ([bag] topics)")
+      ->allow_extra_args(false);
+}
+
 CLI::Option* add_output(CLI::App* sub, const char* flag, std::filesystem::path& file,
                         const char* what) {
   return sub->add_option(flag, file, what)->check(writable_file());

@@ -1,9 +1,13 @@
-// maploop doctor: how ready this machine is for real time, without a drive.
+// maploop doctor: how ready this machine is for real time, or how sound a recording is.
+#include <fmt/format.h>
+
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "runtime/core/realtime.h"
@@ -14,6 +18,7 @@
 #include "tools/command/commands.h"
 #include "tools/command/json_output.h"
 #include "tools/command/options.h"
+#include "tools/doctor/recording_health.h"
 #include "tools/replay/figures.h"
 
 namespace maploop::tools {
@@ -23,6 +28,8 @@ struct DoctorOptions {
   std::filesystem::path config;
   std::filesystem::path json;
   std::string lcm_url;
+  std::filesystem::path recording;  // empty: the machine is examined
+  std::vector<std::string> topics;
 };
 
 // Asks the kernel for each thread of the graph as a paced replay would.
@@ -43,9 +50,41 @@ std::vector<RealtimeSetting> ask_for_bus(const std::string& url) {
   }
 }
 
+void examine_recording(const DoctorOptions& options, vehicle::VehicleConfig config) {
+  vehicle::fit_to_recording(config, options.recording);
+  config.bag.topics.insert(config.bag.topics.end(), options.topics.begin(), options.topics.end());
+  const vehicle::Recording recording = vehicle::open_recording(options.recording, config);
+  const std::vector<SensorHealth> sensors = examine(recording);
+  std::vector<std::string> sentences = recording.notes;
+  for (std::string& sentence : advice(sensors, options.recording.string()))
+    sentences.push_back(std::move(sentence));
+  std::cout << options.recording.string() << " begins at " << format_time(recording.first_stamp)
+            << " UTC, and takes "
+            << web::shown(to_seconds(recording.last_stamp - recording.first_stamp), 1) << " s\n\n";
+  for (const auto& column : sensor_health_columns) {
+    const int width = std::abs(column.width);
+    std::cout << (column.width < 0   ? fmt::format(" {:<{}}", column.heading, width)
+                  : column.width > 0 ? fmt::format(" {:>{}}", column.heading, width)
+                                     : std::string());
+  }
+  std::cout << '\n';
+  for (const SensorHealth& s : sensors) std::cout << web::to_text(sensor_health_columns, s) << '\n';
+  std::cout << '\n';
+  for (const std::string& sentence : sentences) std::cout << sentence << '\n';
+  if (!options.json.empty()) {
+    write_json_file(options.json, {{"begins", format_time(recording.first_stamp)},
+                                   {"sensors", web::list(sensor_health_columns, sensors)},
+                                   {"sentences", sentences}});
+  }
+}
+
 int doctor(const DoctorOptions& options) {
   vehicle::VehicleConfig config;
   if (!options.config.empty()) config = vehicle::load_vehicle_config(options.config);
+  if (!options.recording.empty()) {
+    examine_recording(options, std::move(config));
+    return 0;
+  }
   runtime::RealtimeReport report = runtime::prepare_process(config.memory);
   ask_for_threads(config, report);
   runtime::append(report, ask_for_bus(vehicle::bus_url(options.lcm_url, config.lcm_url)));
@@ -62,9 +101,12 @@ int doctor(const DoctorOptions& options) {
 void add_doctor(CLI::App& app, Command& command) {
   const auto [sub, options] =
       add_command(app, command, "doctor",
-                  "Ask this machine for all that a replay in real time asks for, and say what it "
-                  "grants, what not, why, and what to do",
+                  "Say what a recording contains and how sound it is; or ask this machine for all "
+                  "that a replay in real time asks for, and say what it grants, what not, and why",
                   doctor);
+  sub->add_option("RECORDING", options.recording,
+                  "Whatever maploop replay takes. Without it, the machine is examined");
+  add_topics(sub, options.topics);
   add_config(sub, options.config);
   add_lcm_url(sub, options.lcm_url);
   add_output(sub, "--json", options.json, "Write the report to this file as JSON");

@@ -10,6 +10,7 @@
 
 #include "runtime/vehicle/config/vehicle_config.h"
 #include "runtime/vehicle/drivers/recording.h"
+#include "sensors/bag/message_reader.h"
 #include "sensors/replay/files.h"
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
@@ -28,20 +29,22 @@ namespace {
 using evaluation::StampedTrajectory;
 using odometry::LidarRun, odometry::LidarStep, odometry::Method;
 
-// A drive, or a folder of scans, whose body and camera are the scanner.
+// A drive; a bag, whose camera is the scanner; or a folder of scans, whose body is it too.
 class LidarInput {
  public:
   LidarInput(const LidarOdometryOptions& options, const OdometryFiles& files,
              odometry::FrameRange frames) {
     using enum odometry::LidarSeed;
-    if (!std::filesystem::is_directory(files.input))
-      throw std::runtime_error("'" + files.input.string() +
-                               "' is no folder of a drive or of scans, and recorded tracks have no "
-                               "scans");
     vehicle::VehicleConfig config;
     if (!files.config.empty()) config = vehicle::load_vehicle_config(files.config);
-    if (std::filesystem::is_directory(files.input / "image_00") ||
-        !sensors::ScanFolder::is(files.input)) {
+    if (sensors::is_bag(files.input)) {
+      open_bag(files.input, config);
+    } else if (!std::filesystem::is_directory(files.input)) {
+      throw std::runtime_error("'" + files.input.string() +
+                               "' is no bag and no folder of a drive or of scans, and recorded "
+                               "tracks have no scans");
+    } else if (std::filesystem::is_directory(files.input / "image_00") ||
+               !sensors::ScanFolder::is(files.input)) {
       drive_ = vehicle::open_drive(files.input, config);
       describe_car(config, drive_->calibration());
       T_body_velo = drive_->calibration().T_body_velo;
@@ -50,10 +53,12 @@ class LidarInput {
       folder_ = files.input;
       stamps_ = options.stamps;
     }
-    if (drive_ ? !options.stamps.empty() : options.seed == vo)
-      throw std::runtime_error("'" + files.input.string() + "' is " +
-                               (drive_ ? "a drive, whose scans have stamps: leave --stamps out"
-                                       : "a folder of scans, without images for --seed vo"));
+    if (folder_.empty() && !options.stamps.empty())
+      throw std::runtime_error("'" + files.input.string() +
+                               "' has the stamps of its scans: leave --stamps out");
+    if (!drive_ && options.seed == vo)
+      throw std::runtime_error("'" + files.input.string() +
+                               "' is no drive with images for --seed vo");
     parameters = {config.stereo, config.lidar, options.seed.value_or(drive_ ? vo : motion),
                   options.every, frames};
   }
@@ -62,6 +67,9 @@ class LidarInput {
   LidarRun run(Method method) {
     parameters.method = method;
     if (drive_) return {drive_frames(*drive_, parameters), T_body_velo, parameters};
+    if (bag_.sensors != nullptr) {
+      return {scan_frames(bag_.sensors(Time::min()).velodyne, parameters), T_body_velo, parameters};
+    }
     scans_ = std::make_shared<sensors::ScanFolder>(folder_, stamps_);
     return {folder_frames(scans_, parameters), T_body_velo, parameters};
   }
@@ -74,7 +82,17 @@ class LidarInput {
   odometry::LidarRunParameters parameters;
 
  private:
+  void open_bag(const std::filesystem::path& file, vehicle::VehicleConfig& config) {
+    bag_ = vehicle::open_recording(file, config);
+    for (const std::string& note : bag_.notes) std::cerr << "maploop: " << note << '\n';
+    if (bag_.sensors(Time::max()).velodyne == nullptr)
+      throw std::runtime_error("'" + file.string() + "' has no clouds of a LiDAR that can be used");
+    describe_car(config, bag_.calibration);
+    T_body_velo = T_body_cam = bag_.calibration.T_body_velo;
+  }
+
   std::shared_ptr<const sensors::KittiDrive> drive_;
+  vehicle::Recording bag_;  // empty: the input is another one
   std::filesystem::path folder_, stamps_;
   std::shared_ptr<sensors::ScanFolder> scans_;
 };

@@ -50,15 +50,24 @@ LidarFrames drive_frames(const sensors::KittiDrive& drive, const LidarRunParamet
   };
 }
 
-LidarFrames folder_frames(std::shared_ptr<sensors::ScanFolder> folder,
-                          const LidarRunParameters& parameters) {
-  return [folder, range = parameters.frames, every = parameters.every,
+LidarFrames scan_frames(std::shared_ptr<sensors::Source<LidarScan>> scans,
+                        const LidarRunParameters& parameters) {
+  return [scans, range = parameters.frames, every = parameters.every,
           scan = std::make_shared<LidarScan>()](LidarFrame* frame) {
     do
-      if (!folder->next(*scan)) return false;
+      if (!scans->next(*scan)) return false;
     while (scan->sequence < range.first || (scan->sequence - range.first) % every != 0);
-    *frame = {scan->sequence, scan.get(), folder->times(), {}};
+    *frame = {scan->sequence, scan.get(), {}, {}};
     return scan->sequence <= range.last;
+  };
+}
+
+LidarFrames folder_frames(std::shared_ptr<sensors::ScanFolder> folder,
+                          const LidarRunParameters& parameters) {
+  return [folder, frames = scan_frames(folder, parameters)](LidarFrame* frame) {
+    const bool more = frames(frame);
+    frame->times = folder->times();
+    return more;
   };
 }
 

@@ -52,6 +52,8 @@ using LidarFrames = std::function<bool(LidarFrame*)>;
 // one. Without a visual seed their motion has only the stamp. `drive` must outlive them. Throws
 // std::runtime_error if it has no scans.
 LidarFrames drive_frames(const sensors::KittiDrive& drive, const LidarRunParameters& parameters);
+LidarFrames scan_frames(std::shared_ptr<sensors::Source<LidarScan>> scans,
+                        const LidarRunParameters& parameters);
 LidarFrames folder_frames(std::shared_ptr<sensors::ScanFolder> folder,
                           const LidarRunParameters& parameters);
 

@@ -72,10 +72,7 @@ void add_replay(CLI::App& app, Command& command) {
                   "Another system's trajectory of a KITTI odometry sequence (the left camera's "
                   "poses, 12 numbers a line) in place of visual odometry")
       ->check(existing_file());
-  sub->add_option("--topic", options.topics,
-                  "SENSOR=TOPIC of a bag or an MCAP file, such as camera.left=/left/image_raw; "
-                  "the topic none: the sensor is not used ([bag] topics)")
-      ->allow_extra_args(false);
+  add_topics(sub, options.topics);
   sub->add_option("--imu", options.imu,
                   "The inertial sensors as recorded, or with the noise of a MEMS unit added")
       ->check(CLI::IsMember({"recorded", "mems"}));

@@ -1,0 +1,35 @@
+// What a recording contains, sensor by sensor, and how sound it is.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/vehicle/drivers/recording.h"
+#include "tools/web/table.h"
+
+namespace maploop::tools {
+
+// Describes one sensor's samples from first to last.
+struct SensorHealth {
+  std::string name;
+  std::uint64_t samples = 0, left_out = 0;
+  double rate = 0.0;           // Hz, of the median period
+  double jitter = 0.0;         // ms, 90 % of the periods are within it of the median
+  double longest_gap = 0.0;    // s
+  double gap_at = 0.0;         // s into the recording
+  double delay = 0.0;          // ms, median time from the stamp to the delivery
+  std::uint64_t repeated = 0;  // inertial samples whose values are those of the one before
+  std::string finding;         // the first reason for leaving out a sample
+};
+
+extern const web::Columns<SensorHealth> sensor_health_columns;
+
+// Reads every sensor to its end, without pixels and points.
+std::vector<SensorHealth> examine(const vehicle::Recording& recording);
+
+// Returns sentences: what is wrong with the sensors, what can be computed from them, and which
+// command does it. `path` is how the user names the recording.
+std::vector<std::string> advice(const std::vector<SensorHealth>& sensors, const std::string& path);
+
+}  // namespace maploop::tools
