@@ -167,6 +167,11 @@ void ChunkedReader::add_channel(std::uint32_t channel, const Topic& topic) {
   channels_[channel] = {add_topic(topic), selects(topic)};
 }
 
+void ChunkedReader::add_chunk(ChunkPlace place) {
+  if (place.last < place.first) throw Malformed("a chunk ends before it begins");
+  chunks_.push_back(std::move(place));
+}
+
 void ChunkedReader::add_message(std::uint32_t channel, std::uint64_t nanoseconds, Bytes data) {
   const auto found = channels_.find(channel);
   if (found == channels_.end())

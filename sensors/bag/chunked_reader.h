@@ -67,6 +67,7 @@ class ChunkedReader : public RecordingReader {
 
   void add_channel(std::uint32_t channel, const Topic& topic);
   bool knows(std::uint32_t channel) const { return channels_.contains(channel); }
+  void add_chunk(ChunkPlace place);
   void add_message(std::uint32_t channel, std::uint64_t nanoseconds, Bytes data);
 
   FileBytes bytes_;

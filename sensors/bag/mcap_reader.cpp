@@ -175,7 +175,7 @@ void McapReader::take_chunk_index(ByteCursor fields) {
     place.channels.push_back(offsets.number<std::uint16_t>());
     offsets.number<std::uint64_t>();  // where its messages are
   }
-  chunks_.push_back(std::move(place));
+  add_chunk(std::move(place));
 }
 
 void McapReader::take_statistics(ByteCursor fields) {

@@ -72,10 +72,10 @@ Ros1BagReader::Ros1BagReader(Opening opening) : ChunkedReader(std::move(opening)
 
 void Ros1BagReader::read_bag_index(const Record& head) {
   const auto index = number_of<std::uint64_t>(head.fields, "index_pos");
+  const auto stated = number_of<std::uint32_t>(head.fields, "chunk_count");
   if (index == 0) throw Malformed("the bag was not closed");
   if (index > bytes_.size()) throw Malformed("the file is cut before it");
   read_index(index, bytes_.size());
-  const auto stated = number_of<std::uint32_t>(head.fields, "chunk_count");
   if (chunks_.size() != stated)
     throw Malformed("it has " + std::to_string(chunks_.size()) + " of " + std::to_string(stated) +
                     " chunks");
@@ -147,7 +147,7 @@ void Ros1BagReader::take_chunk_info(const Record& record) {
     place.channels.push_back(counts.number<std::uint32_t>());
     counts_[place.channels.back()] += counts.number<std::uint32_t>();
   }
-  chunks_.push_back(std::move(place));
+  add_chunk(std::move(place));
 }
 
 }  // namespace maploop::sensors::bag

@@ -25,7 +25,8 @@ TEST(RealBags, ContainWhatOtherReadersRead) {
   if (others.status == 77) GTEST_SKIP() << others.error;
   ASSERT_EQ(others.status, 0) << others.error;
   ASSERT_EQ(real_bags().size(), 14U);
-  for (const auto& [file, expected] : nlohmann::json::parse(others.out).items()) {
+  const auto read_by_others = nlohmann::json::parse(others.out);
+  for (const auto& [file, expected] : read_by_others.items()) {
     SCOPED_TRACE(file);
     const auto contents = read_bag(file);
     EXPECT_TRUE(contents.damage.empty());
