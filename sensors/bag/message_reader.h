@@ -7,9 +7,15 @@
 //     else complain(reader->damage());
 //   }
 //
-// Messages come in the order of the file, which is that of `received` but for recordings that were
-// cut or joined. A reader holds one chunk of the file in memory. What is damaged is reported by its
-// offset, and what follows it is read.
+// Messages come in the order of `received` within a database, and within each chunk of a bag or
+// MCAP file; chunks come in the order of their first message where the file has an index, else in
+// that of the file. Chunks may overlap: what was written topic by topic comes so. The files of a
+// folder follow each other. A reader holds one chunk of one file in memory; of a file that is
+// compressed as a whole (.zstd, .gz), a plain copy is on the disk while it is open.
+//
+// What is damaged is reported by its offset, and left out; what follows it is read unless its place
+// is unknown, as behind a damaged length in a file without index. A file that was cut delivers what
+// is before the cut.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +35,8 @@ struct Topic {
   std::string name;        // such as "/stereo/left/image_raw"
   std::string type;        // as ROS 1 writes it, for ROS 2 too: "sensor_msgs/Image"
   std::string encoding;    // of the messages: "ros1", "cdr", or another one, such as "json"
-  std::string definition;  // text of the type and of those that it uses; empty where none is stored
+  std::string definition;  // text of the type and of those that it uses; empty where none is
+                           // stored, or where it is not a text (protobuf, flatbuffer)
 };
 
 struct RecordedMessage {
@@ -40,7 +47,9 @@ struct RecordedMessage {
 
 struct BagDamage {
   std::filesystem::path file;
-  std::uint64_t offset = 0;  // in bytes from the start of the file
+  // In bytes from the start of the file, or of its decompressed form: of the damaged record or
+  // chunk. In a database 0, as SQLite does not say where a row is, or where the database was cut.
+  std::uint64_t offset = 0;
   std::string reason;
 };
 
@@ -72,20 +81,26 @@ class MessageReader {
   BagDamage damage_;
 };
 
-// Returns whether the path is a file that begins as one of these formats does, or a folder with
-// metadata.yaml of rosbag2 or with such files.
+// Returns whether the path is a file that begins as one of these formats does, also compressed as a
+// whole, or a folder with such a file: named by metadata.yaml of rosbag2, or *.bag, *.db3, *.mcap.
+// Any SQLite database begins as one of rosbag2. Does not throw.
 bool is_bag(const std::filesystem::path& path);
 
-// Opens a file, or all files of a folder one after the other. Throws std::runtime_error that names
-// the file and states what to do: not readable, of another format or version, nothing in it.
+// Opens a file, or all files of a folder one after the other: those that metadata.yaml of rosbag2
+// names, or the recordings in the natural order of their names. Throws std::runtime_error that
+// names the first file and states what to do, if no file can be opened: not readable, of another
+// format or version, nothing in it. Otherwise such a file is damage.
 std::unique_ptr<MessageReader> open_messages(const std::filesystem::path& path,
                                              const MessageSelection& selection);
 
-// Describes what a recording contains of one topic.
+// Describes what a recording contains of one topic, which has at least one message.
 struct TopicSummary {
   Topic topic;
   std::uint64_t messages = 0;
-  Time first{}, last{};  // received
+  // Received. From the index of a bag or MCAP file they are the times of the chunks that contain
+  // messages of the topic, and therefore up to a chunk (usually less than a second) too early and
+  // too late.
+  Time first{}, last{};
 };
 
 struct BagSummary {
@@ -93,7 +108,8 @@ struct BagSummary {
   std::vector<BagDamage> damage;     // the first 100
 };
 
-// Reads the index of a recording, or all of it where there is none.
+// Reads the index of a recording, or all of it where there is none. Damage is only what was found
+// on the way. Throws as open_messages does.
 BagSummary summarize(const std::filesystem::path& path);
 
 }  // namespace maploop::sensors

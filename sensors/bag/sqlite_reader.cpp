@@ -81,7 +81,7 @@ void SqliteReader::open(const std::filesystem::path& path) {
   // A damaged tree can contain itself many times: SQLite's steps are limited. A message takes more
   // than a hundred bytes with its entry in the index, and some tens of steps.
   constexpr int steps_at_a_time = 1000;
-  constexpr std::uint64_t least = 10'000, bytes_each = 10;
+  constexpr std::uint64_t least = 1000, bytes_each = 10;
   std::error_code unknown;
   steps_left_ = least + std::filesystem::file_size(path, unknown) / bytes_each;
   const auto count_steps = [](void* left) {
@@ -160,10 +160,10 @@ void SqliteReader::start_reading(bool cut) {
     if (selects(*topic)) selected += (selected.empty() ? "" : ", ") + std::to_string(id);
   }
   const bool all = selection_.begin == Time::min();
-  ids_ =
-      prepare(cut ? "SELECT id FROM messages NOT INDEXED ORDER BY id"
-                  : "SELECT id FROM messages" + std::string(all ? "" : " WHERE timestamp >= ?1") +
-                        " ORDER BY timestamp, id");
+  ids_ = prepare(cut ? "SELECT id, id FROM messages NOT INDEXED ORDER BY id"
+                     : "SELECT id, timestamp FROM messages" +
+                           std::string(all ? "" : " WHERE timestamp >= ?1") +
+                           " ORDER BY timestamp, id");
   if (!cut && !all) sqlite3_bind_int64(ids_.get(), 1, to_nanoseconds(selection_.begin));
   row_ = prepare("SELECT topic_id, timestamp, data FROM messages WHERE id = ?1 AND topic_id IN (" +
                  selected + ")");
@@ -177,6 +177,11 @@ bool SqliteReader::read_more() {
     return false;
   }
   const std::int64_t id = sqlite3_column_int64(ids_.get(), 0);
+  const std::pair<std::int64_t, std::int64_t> place(sqlite3_column_int64(ids_.get(), 1), id);
+  if (place <= std::exchange(last_place_, place)) {
+    add_damage(offset_, "no more messages can be read: they are not in order");
+    return false;
+  }
   try {
     sqlite3_reset(row_.get());
     sqlite3_bind_int64(row_.get(), 1, id);

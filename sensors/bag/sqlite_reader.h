@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sensors/bag/recording_reader.h"
@@ -51,7 +52,8 @@ class SqliteReader final : public RecordingReader {
   std::map<std::int64_t, const Topic*> topics_;
   std::uint64_t steps_left_ = 0;  // of SQLite's machine, in thousands
   Statement ids_;                 // of the messages in their order
-  Statement row_;                 // the message of an id, if it is selected
+  std::pair<std::int64_t, std::int64_t> last_place_{INT64_MIN, INT64_MIN};  // in that order
+  Statement row_;  // the message of an id, if it is selected
 };
 
 }  // namespace maploop::sensors::bag

@@ -1,5 +1,6 @@
 // Recordings of ROS: bags, MCAP files and databases of rosbag2, read to their end.
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 #include "sensors/bag/message_reader.h"
@@ -34,10 +35,10 @@ void read(const std::filesystem::path& file, const sensors::MessageSelection& se
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   // SQLite resolves the file's name, which a file in memory does not have.
   const bool database = size > 6 && std::equal(data, data + 6, "SQLite");
-  const fuzz::NamedFile named(database ? "input.db3" : "none");
-  if (database) named.write({data, size});
+  std::optional<fuzz::NamedFile> named;
+  if (database) named.emplace("input.db3").write({data, size});
   const fuzz::MemoryFile in_memory(data, size);
-  const auto file = database ? named.path() : in_memory.path();
+  const auto file = database ? named->path() : in_memory.path();
   try {
     read(file, {});
     read(file, {{"/imu"}, from_nanoseconds(1'000'000'000)});
