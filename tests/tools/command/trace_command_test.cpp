@@ -170,11 +170,11 @@ TEST_F(TraceCommand, WhatDoesNotFitIsCountedAndSaid) {
 }
 
 TEST_F(TraceCommand, AFileThatCannotBeWrittenIsSaidBeforeTheDrive) {
-  const ProcessResult result = run_maploop(
-      {"replay", drive(), "--no-lcm", "--lockstep", "--trace", "/nonexistent/trace.json"});
+  const ProcessResult result =
+      run_maploop({"replay", drive(), "--no-lcm", "--lockstep", "--trace", "/dev/null/trace.json"});
   EXPECT_EQ(result.status, 1);
   EXPECT_EQ(result.out, "");
-  EXPECT_THAT(result.error, HasSubstr("/nonexistent/trace.json"));
+  EXPECT_THAT(result.error, HasSubstr("/dev/null/trace.json"));
 }
 
 }  // namespace
