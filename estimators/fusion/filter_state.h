@@ -224,13 +224,6 @@ inline void take_clone(FilterState& state) {
   copy_to_clone(state);
 }
 
-// Takes the first clone, at which the frame of odometry agrees with enu.
-inline void start_clone(FilterState& state) {
-  copy_to_clone(state);
-  state.odom_at_clone = {state.x.segment<3>(index::east),
-                         Eigen::Quaterniond(rotation_enu_body(state.attitude()))};
-}
-
 // Starts the chained azimuth at the azimuth. The drift then equals the whole error of the azimuth.
 inline void start_chain(FilterState& state) {
   using namespace index;
@@ -239,6 +232,20 @@ inline void start_chain(FilterState& state) {
   state.P.row(chain_drift) = -state.P.row(azimuth);
   state.P.col(chain_drift) = -state.P.col(azimuth);
   state.P(chain_drift, chain_drift) = state.P(azimuth, azimuth);
+}
+
+// Starts the clone and the chained azimuth at a state that was set to new values. The frame of
+// odometry goes on from `odom`.
+inline void start_clone(FilterState& state, const OdomPose& odom) {
+  copy_to_clone(state);
+  state.odom_at_clone = odom;
+  start_chain(state);
+}
+
+// The same for a first state, at which the frame of odometry agrees with enu.
+inline void start_clone(FilterState& state) {
+  start_clone(state, {state.x.segment<3>(index::east),
+                      Eigen::Quaterniond(rotation_enu_body(state.attitude()))});
 }
 
 // Returns in its columns how the body turns, as a rotation vector in enu, per radian of azimuth,

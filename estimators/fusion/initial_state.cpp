@@ -83,7 +83,6 @@ FilterState initial_state(const KnownStart& k, const LocalFrame& frame, const Fu
   add(climb_offset, p.climb_offset_sigma);
   add_unknown_sensors(state, p);
   start_clone(state);
-  start_chain(state);
   return state;
 }
 
@@ -175,7 +174,6 @@ FilterState initial_state(const GnssFix& fix, const LocalFrame& frame, const Fus
   state.P.block<3, 3>(gnss_offset_east, east) = -lasting.transpose();
   state.gnss_stamp = fix.stamp;
   start_clone(state);
-  start_chain(state);
   return state;
 }
 

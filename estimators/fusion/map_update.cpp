@@ -22,9 +22,7 @@ void reset(FilterState& state, const MapFeedback& feedback, const LocalFrame& fr
   set_known(state, east, point.x(), feedback.cross_sigma);
   set_known(state, north, point.y(), feedback.cross_sigma);
   set_known(state, azimuth, feedback.link_azimuth, feedback.azimuth_sigma);
-  copy_to_clone(state);
-  state.odom_at_clone = odom;
-  start_chain(state);
+  start_clone(state, odom);
 }
 
 }  // namespace
