@@ -33,14 +33,11 @@ void apply_sample(FilterState& state, const ImuSample& sample, const ImuSample& 
     // A body leans in turns; the effect on the measured force must not change turning, nor the
     // speed where a sensor measures it. Wide curves are banked, so they do not show the speed.
     const bool turns = std::abs(sample.yaw_rate - state.x[index::gyro_bias]) > tight_turn;
-    if (p.speed_from_turns && turns) {
-      joseph_update(state.x, state.P, *roll,
-                    {index::speed_scale, index::gyro_bias, index::lidar_scale, index::lidar_turn});
-    } else {
-      joseph_update(state.x, state.P, *roll,
-                    {index::speed, index::speed_scale, index::gyro_bias, index::lidar_scale,
-                     index::lidar_turn});
-    }
+    // A state that is listed twice is considered once.
+    const int speed = p.speed_from_turns && turns ? index::speed_scale : index::speed;
+    joseph_update(
+        state.x, state.P, *roll,
+        {speed, index::speed_scale, index::gyro_bias, index::lidar_scale, index::lidar_turn});
   }
   if (!stands(state, sample, interval, p) || !p.use_zero_velocity) return;
   joseph_update(state.x, state.P, zero_velocity_innovation(state, interval, p));
