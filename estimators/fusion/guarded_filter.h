@@ -38,6 +38,7 @@ class GuardedFilter {
   Outcome start(const KnownStart& known) { return aided_.start(known); }
   const ReducedImuFilter& aided() const { return aided_; }
   FilterStatus status() const { return aided_.status(); }
+  SelfCalibrations calibration() const { return aided_.calibration(); }
 
   // These work as those of ReducedImuFilter.
   std::size_t largest_archive() const { return 3 * aided_.largest_archive() + 256; }

@@ -241,12 +241,15 @@ void ReducedImuFilter::drop_oldest() {
 
 FilterStatus ReducedImuFilter::status() const {
   FilterStatus status = status_;
-  const FilterState& newest = history_.state_before(initialized_ ? history_.size() : 0);
+  const FilterState& newest = newest_state();
   status.recoveries = newest.recoveries;
   status.reinitializations = newest.reinitializations;
   status.imu_delay = newest.imu_delay;
-  status.calibration = self_calibrations(newest, sigmas_at_start_);
   return status;
+}
+
+SelfCalibrations ReducedImuFilter::calibration() const {
+  return self_calibrations(newest_state(), sigmas_at_start_);
 }
 
 std::optional<FusedState> ReducedImuFilter::state_at(Time t) const {

@@ -39,7 +39,6 @@ struct FilterStatus {
   std::uint64_t recoveries = 0;  // covariance inflations after consecutive gated measurements
   std::uint64_t reinitializations = 0;  // restarts from a fix after consecutive gated fixes
   DelayEstimate imu_delay;              // remaining delay of the inertial stamps against odometry
-  SelfCalibrations calibration;         // unknown (sigma 0) before the start
   std::uint64_t restarts = 0;           // restarts after a jump of the data's clock
   std::uint64_t shortened = 0;          // events dropped early because the history was full
   std::uint64_t restorations = 0;       // times a map-free copy replaced the filter
@@ -97,6 +96,8 @@ class ReducedImuFilter {
   // default frame.
   const LocalFrame& frame() const { return frame_; }
   FilterStatus status() const;
+  // Returns what the filter has estimated of the vehicle; each sigma is 0 before the start.
+  SelfCalibrations calibration() const;
 
   // Takes over the state of a filter with the same parameters; keeps its own counters.
   void take_over(const ReducedImuFilter& other);
@@ -136,6 +137,9 @@ class ReducedImuFilter {
   Reason check_stamp(const EventKey& key);
   Outcome refuse_stamp(Reason reason);
   void accept_stamp(Time stamp);
+  const FilterState& newest_state() const {
+    return history_.state_before(initialized_ ? history_.size() : 0);
+  }
 
   Outcome start(const GnssFix& fix);
   template <class MakeState>

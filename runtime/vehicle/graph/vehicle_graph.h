@@ -115,7 +115,9 @@ struct Vehicle::Graph {
   Duration wall{};
   double cpu_at_start = 0.0;
   double cpu = 0.0;
+  // These are known after wait().
   fusion::FilterStatus last_filter;
+  fusion::SelfCalibrations last_calibration;
   RuntimeReport last_report;  // of the whole run
 };
 

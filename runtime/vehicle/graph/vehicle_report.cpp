@@ -29,7 +29,7 @@ VehicleReport Vehicle::Graph::report() const {
   r.health = last_report.health;
   r.deadlines = last_report.deadlines;
   r.imu_delay = last_filter.imu_delay;
-  r.calibration = last_filter.calibration;
+  r.calibration = last_calibration;
   r.stalls = clock.stalls();
   r.stalled = clock.stalled();
   r.data_seconds = to_seconds(fusion->position() - begin);

@@ -44,6 +44,9 @@ class FusionStage final : public GraphStage {
   const Meter& camera_path() const { return camera_path_; }  // from the image's stamp to the state
   const Meter& imu_path() const { return imu_path_; }        // from the IMU's stamp to the state
 
+  // After run().
+  fusion::SelfCalibrations calibration() const { return filter_.calibration(); }
+
   // The filter's at the end of the last tick; one thread at a time may ask, also while it runs.
   const fusion::FilterStatus& filter_status() {
     if (const fusion::FilterStatus* status = filter_status_.latest()) known_status_ = status;
