@@ -1,6 +1,7 @@
 #include "estimators/fusion/event_history.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace maploop::fusion {
 
@@ -20,6 +21,11 @@ std::size_t EventHistory::position_after(const EventKey& key) const {
       order_.begin(), order_.end(), key,
       [this](const EventKey& wanted, std::uint32_t i) { return wanted < events_[i].key; });
   return static_cast<std::size_t>(place - order_.begin());
+}
+
+std::size_t EventHistory::position_after(Time stamp) const {
+  return position_after(
+      EventKey{stamp, EventKind::clone, std::numeric_limits<std::uint64_t>::max()});
 }
 
 std::size_t EventHistory::open_slot(const EventKey& key) {

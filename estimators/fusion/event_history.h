@@ -81,6 +81,8 @@ class EventHistory {
   bool contains(const EventKey& key) const;
   // Returns the position of the first event after `key`, and after any event equal to it.
   std::size_t position_after(const EventKey& key) const;
+  // Returns the position of the first event with a later stamp.
+  std::size_t position_after(Time stamp) const;
 
   // Returns the state before the event at a position, which the older ones lead to.
   const FilterState& state_before(std::size_t position) const {

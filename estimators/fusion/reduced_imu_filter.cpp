@@ -1,7 +1,6 @@
 #include "estimators/fusion/reduced_imu_filter.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "estimators/fusion/event_update.h"
@@ -19,10 +18,6 @@ namespace {
 const FusionParameters& checked(const FusionParameters& parameters) {
   validate_parameters(parameters);
   return parameters;
-}
-
-EventKey last_key_at(Time stamp) {
-  return {stamp, EventKind::clone, std::numeric_limits<std::uint64_t>::max()};
 }
 
 }  // namespace
@@ -62,20 +57,6 @@ Outcome ReducedImuFilter::add(const ImuSample& sample) {
   return insert_and_roll(key, sample, redo);
 }
 
-// The interpolation of the first stretch begins at the last sample before the start.
-Outcome ReducedImuFilter::add_before_start(const ImuSample& sample) {
-  const auto order = [](const ImuSample& s) { return std::pair(s.stamp, s.sequence); };
-  EventHistory::Past& past = history_.past;
-  if (past.sample && order(sample) <= order(*past.sample)) {
-    return count(refused(Reason::before_start));
-  }
-  past.sample = sample;
-  past.state.imu_stamp = sample.stamp;
-  roll_forward(0);
-  accept_stamp(sample.stamp);
-  return count({});
-}
-
 Outcome ReducedImuFilter::add(const RelativeMotion& motion) {
   const bool used = parameters_.use_odometry_speed || parameters_.use_odometry_azimuth;
   const EventKey key{motion.stamp, EventKind::odometry, motion.sequence};
@@ -87,7 +68,7 @@ Outcome ReducedImuFilter::add(const RelativeMotion& motion) {
   if (motion.status == OdometryStatus::ok && clone > history_.past.key &&
       history_.past.state.clone_stamp != motion.from) {
     // A request is not needed if an odometry event, or another request, takes a clone at that time.
-    const std::size_t place = history_.position_after(last_key_at(motion.from));
+    const std::size_t place = history_.position_after(motion.from);
     const bool taken = place > 0 && history_[place - 1].key.stamp == motion.from &&
                        history_[place - 1].key.kind >= EventKind::odometry;
     if (!taken) redo = history_.insert(clone, CloneRequest{});
@@ -143,61 +124,6 @@ Outcome ReducedImuFilter::insert_and_roll(const EventKey& key, const Measurement
   }
   accept_stamp(key.stamp);
   return count(outcome);
-}
-
-Outcome ReducedImuFilter::start(const GnssFix& fix) {
-  const Reason reason = check_fix(fix, parameters_);
-  if (reason == Reason::too_slow) status_.phase = Phase::waiting_for_motion;
-  const Time begin = start_stamp(fix);
-  const ImuSample* sample =
-      history_.samples_around(history_.position_after(last_key_at(begin))).before;
-  const double yaw_rate = sample == nullptr ? 0.0 : sample->yaw_rate;
-  return start_with(reason, begin, fix.position,
-                    [&] { return initial_state(fix, frame_, parameters_, yaw_rate); });
-}
-
-Outcome ReducedImuFilter::start(const KnownStart& known) {
-  return start_with(initialized_ ? Reason::already_started : check_start(known), known.stamp,
-                    known.position, [&] { return initial_state(known, frame_, parameters_); });
-}
-
-template <class MakeState>
-Outcome ReducedImuFilter::start_with(Reason reason, Time stamp, const Geodetic& position,
-                                     MakeState make_state) {
-  if (reason != Reason::none) return count(refused(reason));
-  const EventKey key{stamp, EventKind::start, 0};
-  if (reason = check_stamp(key); reason != Reason::none) return refuse_stamp(reason);
-  if (key < history_.past.key) return refuse_stamp(Reason::too_old);
-  if (has_origin_ && !(frame_.to_enu(position).norm() <= parameters_.max_origin_distance)) {
-    return count(refused(Reason::too_far_from_origin));
-  }
-
-  if (!has_origin_) {
-    frame_ = LocalFrame(position);
-    earth_ = LocalEarth(position);
-    has_origin_ = true;
-  }
-  while (history_.size() > 0 && history_[0].key < key) drop_oldest();
-  EventHistory::Past& past = history_.past;
-  past.state = make_state();
-  past.key = key;
-  if (past.sample) past.state.imu_stamp = past.sample->stamp;
-  initialized_ = true;
-  status_.phase = Phase::running;
-  roll_forward(0);
-  accept_stamp(key.stamp);
-  return count({});
-}
-
-// Restarts in the same frame with an empty history, because the clock of the data has jumped.
-void ReducedImuFilter::restart() {
-  history_.clear();
-  history_.past = {};
-  initialized_ = false;
-  guard_.reset();
-  imu_clock_ = {};
-  status_.phase = Phase::waiting_for_fix;
-  ++status_.restarts;
 }
 
 Outcome ReducedImuFilter::count(Outcome outcome) {
@@ -257,7 +183,7 @@ std::optional<FusedState> ReducedImuFilter::state_at(Time t) const {
       t > guard_.newest() + from_seconds(parameters_.max_gap)) {
     return std::nullopt;
   }
-  const std::size_t position = history_.position_after(last_key_at(t));
+  const std::size_t position = history_.position_after(t);
   FilterState state = history_.state_before(position);
   advance(state, history_.samples_around(position), t, earth_, parameters_);
   return fused_state(state, frame_.origin(), parameters_);

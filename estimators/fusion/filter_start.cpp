@@ -1,0 +1,78 @@
+// This file starts the filter, takes an inertial sample from before the start, and restarts the
+// filter when the clock of its data has jumped.
+#include <utility>
+
+#include "estimators/fusion/initial_state.h"
+#include "estimators/fusion/reduced_imu_filter.h"
+
+namespace maploop::fusion {
+
+Outcome ReducedImuFilter::start(const GnssFix& fix) {
+  const Reason reason = check_fix(fix, parameters_);
+  if (reason == Reason::too_slow) status_.phase = Phase::waiting_for_motion;
+  const Time begin = start_stamp(fix);
+  const ImuSample* sample = history_.samples_around(history_.position_after(begin)).before;
+  const double yaw_rate = sample == nullptr ? 0.0 : sample->yaw_rate;
+  return start_with(reason, begin, fix.position,
+                    [&] { return initial_state(fix, frame_, parameters_, yaw_rate); });
+}
+
+Outcome ReducedImuFilter::start(const KnownStart& known) {
+  return start_with(initialized_ ? Reason::already_started : check_start(known), known.stamp,
+                    known.position, [&] { return initial_state(known, frame_, parameters_); });
+}
+
+template <class MakeState>
+Outcome ReducedImuFilter::start_with(Reason reason, Time stamp, const Geodetic& position,
+                                     MakeState make_state) {
+  if (reason != Reason::none) return count(refused(reason));
+  const EventKey key{stamp, EventKind::start, 0};
+  if (reason = check_stamp(key); reason != Reason::none) return refuse_stamp(reason);
+  if (key < history_.past.key) return refuse_stamp(Reason::too_old);
+  if (has_origin_ && !(frame_.to_enu(position).norm() <= parameters_.max_origin_distance)) {
+    return count(refused(Reason::too_far_from_origin));
+  }
+
+  if (!has_origin_) {
+    frame_ = LocalFrame(position);
+    earth_ = LocalEarth(position);
+    has_origin_ = true;
+  }
+  while (history_.size() > 0 && history_[0].key < key) drop_oldest();
+  EventHistory::Past& past = history_.past;
+  past.state = make_state();
+  past.key = key;
+  if (past.sample) past.state.imu_stamp = past.sample->stamp;
+  initialized_ = true;
+  status_.phase = Phase::running;
+  roll_forward(0);
+  accept_stamp(key.stamp);
+  return count({});
+}
+
+// Restarts in the same frame with an empty history, because the clock of the data has jumped.
+void ReducedImuFilter::restart() {
+  history_.clear();
+  history_.past = {};
+  initialized_ = false;
+  guard_.reset();
+  imu_clock_ = {};
+  status_.phase = Phase::waiting_for_fix;
+  ++status_.restarts;
+}
+
+// The interpolation of the first stretch begins at the last sample before the start.
+Outcome ReducedImuFilter::add_before_start(const ImuSample& sample) {
+  const auto order = [](const ImuSample& s) { return std::pair(s.stamp, s.sequence); };
+  EventHistory::Past& past = history_.past;
+  if (past.sample && order(sample) <= order(*past.sample)) {
+    return count(refused(Reason::before_start));
+  }
+  past.sample = sample;
+  past.state.imu_stamp = sample.stamp;
+  roll_forward(0);
+  accept_stamp(sample.stamp);
+  return count({});
+}
+
+}  // namespace maploop::fusion
