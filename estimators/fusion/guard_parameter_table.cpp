@@ -1,13 +1,12 @@
 #include "estimators/fusion/parameter_table.h"
 
+#include "estimators/fusion/data_choices.h"
+
 namespace maploop::fusion {
 
 ParameterTable<GuardParameters> parameter_table(const GuardParameters&) {
   using enum Audience;
   using P = GuardParameters;
-  constexpr DataChoice overconfidence_choice{"KITTI odometry sequences, 60 s without GNSS",
-                                             "mean NEES of 2.9 to 4 where 2 is expected",
-                                             "the map in the loop, also on wrong maps, on KITTI"};
   static constexpr auto table = std::to_array<Parameter<P>>({
       {"lifetime", &P::lifetime, 0.1, 3600.0, "s", expert,
        "Lifetime of a copy of the filter that takes no feedback. There are two copies, half of "

@@ -1,29 +1,13 @@
 #include "estimators/fusion/parameter_table.h"
 
+#include "estimators/fusion/data_choices.h"
+
 namespace maploop::fusion {
 
 ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
   using enum Audience;
   using P = FusionParameters;
-  constexpr double tiny = 1e-9;
-  constexpr double large = 1e6;
-  constexpr DataChoice repeat_speed_choice{
-      "three drives of the car in Oakville",
-      "longest repetition of its inertial samples, rounded to coarse steps, by speed",
-      "none is published"};
-  constexpr DataChoice speed_scale_sigma_choice{"visual odometry of six KITTI drives",
-                                                "1.2 % rms against the truth's length",
-                                                "fusion on KITTI with `VO`"};
-  constexpr DataChoice lidar_scale_sigma_choice{
-      "KITTI drive 0013", "the data sheet's 2 cm at 10 m; the drive shows as much (0.19 %)",
-      "normalized errors of the vehicle on 0013"};
-  constexpr DataChoice lidar_turn_sigma_choice{
-      "KITTI drive 0013", "what the scans' yaw drifts by there, 0.2 deg in 100 m",
-      "normalized errors and azimuth of the vehicle on 0013"};
-  constexpr DataChoice quiet_choice{
-      "five drives of the car in Oakville (1, 3, 5, 7, 9)",
-      "what a standing car stays below in most seconds, and a moving one never",
-      "none; outages are scored on the other five"};
+  constexpr double tiny = 1e-9, large = 1e6;
   static constexpr auto table = std::to_array<Parameter<P>>({
       {"use_gnss", &P::use_gnss, expert,
        "Whether fixes correct the state after the start, which always takes a fix. `configuration` "
@@ -173,8 +157,7 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
       {"odometry_course_walk", &P::odometry_course_walk, 0.0, 1.0, "rad/sqrt(s)", expert,
        "Random walk of that angle."},
       {"max_tilt", &P::max_tilt, 0.1, 1.5, "rad", expert,
-       "A correction that leads to more roll or pitch is refused, because no road vehicle leans so "
-       "far."},
+       "A correction to more roll or pitch is refused, because no road vehicle leans so far."},
 
       {"tilt_sigma", &P::tilt_sigma, tiny, 1.0, "rad", expert,
        "Standard deviation of the roll seen in one independent accelerometer sample."},
@@ -282,8 +265,7 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
        "Gate of the speed (chi-square, 1 degree of freedom); the default has a tail of 0.1 %."},
       {"sideways_gate", &P::sideways_gate, tiny, large, "1", expert,
        "Gate of a motion across and up (chi-square, 2 degrees of freedom), which are left out "
-       "where "
-       "they contradict the prediction; the default has a tail of 0.1 %."},
+       "where they contradict the prediction; the default has a tail of 0.1 %."},
       {"rotation_gate", &P::rotation_gate, tiny, large, "1", expert,
        "Gate of the rotation (chi-square, 3 degrees of freedom); the default has a tail of 0.1 %."},
       {"chained_azimuth_sigma", &P::chained_azimuth_sigma, tiny, 1.0, "rad", expert,

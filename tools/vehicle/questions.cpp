@@ -115,8 +115,7 @@ class Interview {
 
 VehicleDescription ask(std::istream& in, std::ostream& out) {
   out << "Each question has a default in brackets, which is taken where the answer is empty: then "
-         "the "
-         "value is not known. An answer is VALUE, or VALUE and its standard deviation.\n";
+         "the value is not known. An answer is VALUE, or VALUE and its standard deviation.\n";
   VehicleDescription description;
   Interview interview(in, out);
   each_table([&](const auto& table, auto& values) { interview.ask(table, values); }, description);

@@ -23,8 +23,7 @@ ParameterTable<VehicleConfig> top_level_table() {
        "What is combined with the reduced inertial sensors: auto, which is all that is there; or "
        "VO-RI, VO-L-RI, RISS, RISS-VO or RI, or one of them after GNSS+; or GNSS alone "
        "(estimators/fusion/configuration.h). It sets `odometry` and the keys use_..., speed_..., "
-       "and "
-       "still_by_inertia of [fusion]; these keys override it."},
+       "and still_by_inertia of [fusion]; these keys override it."},
       {"imu_grade", &P::imu_grade, usual,
        "Noise of the inertial sensors. It sets keys of [fusion], which override it.", imu_grades},
       {"odometry", &P::odometry, usual,
