@@ -24,19 +24,15 @@ class Look {
   }
 
  private:
-  bool given(std::string_view table, std::string_view key) const {
-    return config_.given.contains(std::string(table) + '.' + std::string(key));
-  }
-
   // Notes values that are not given, and those without the standard deviation.
   template <class P>
   void missing(const ParameterTable<P>& table, const P& values) {
     for (const Parameter<P>& sigma : table.parameters) {
       const Parameter<P>* value = value_of_sigma(table, sigma);
-      if (value == nullptr || given(table.name, sigma.key)) continue;
+      if (value == nullptr || config_.is_given(table.name, sigma.key)) continue;
       const std::string key(value->key);
       const std::string assumed = text_of(sigma.value_in(values)) + ' ' + std::string(sigma.unit);
-      if (given(table.name, key)) {
+      if (config_.is_given(table.name, key)) {
         warn(table.name,
              key + " is given without " + std::string(sigma.key) + ": " + assumed + " is assumed");
         continue;

@@ -11,10 +11,6 @@
 namespace maploop::vehicle {
 namespace {
 
-bool is_given(const VehicleConfig& config, std::string_view table, std::string_view key) {
-  return config.given.contains(std::string(table) + '.' + std::string(key));
-}
-
 // The recording's description, with the given keys of the configuration in it. The standard
 // deviation of the recording's value is not that of a given one.
 VehicleDescription joined(const VehicleConfig& config, const VehicleCalibration& recorded) {
@@ -25,9 +21,9 @@ VehicleDescription joined(const VehicleConfig& config, const VehicleCalibration&
       [&](const auto& table, auto& values, const auto& given, const auto& defaults) {
         for (const auto& parameter : table.parameters) {
           const auto* of = value_of_sigma(table, parameter);
-          if (is_given(config, table.name, parameter.key)) {
+          if (config.is_given(table.name, parameter.key)) {
             parameter.set(values, parameter.value_in(given));
-          } else if (of != nullptr && is_given(config, table.name, of->key)) {
+          } else if (of != nullptr && config.is_given(table.name, of->key)) {
             parameter.set(values, parameter.value_in(defaults));
           }
         }
@@ -45,7 +41,7 @@ void take_pose(Eigen::Isometry3d& recorded, const Eigen::Isometry3d& given) {
 
 bool has_pose(const VehicleConfig& config, std::string_view table) {
   for (const char* key : {"forward", "left", "up", "roll", "pitch", "yaw"})
-    if (is_given(config, table, key)) return true;
+    if (config.is_given(table, key)) return true;
   return false;
 }
 
@@ -77,7 +73,7 @@ void describe_car(VehicleConfig& config, const VehicleCalibration& recorded) {
   const VehicleDescription d = joined(config, recorded);
   config.vehicle = d;
   const auto take = [&](std::string_view table, std::string_view key, double& value, double known) {
-    if (!is_given(config, table, key)) value = known;
+    if (!config.is_given(table, key)) value = known;
   };
   fusion::FusionParameters& p = config.fusion;
   take("fusion", "rear_axle_distance", p.rear_axle_distance, d.car.rear_axle_distance);
@@ -90,7 +86,7 @@ void describe_car(VehicleConfig& config, const VehicleCalibration& recorded) {
        {std::tuple("forward", &p.gnss_lever_forward, antenna.forward),
         std::tuple("left", &p.gnss_lever_left, antenna.left),
         std::tuple("up", &p.gnss_lever_up, antenna.up)}) {
-    if (is_given(config, "vehicle.antenna", key))
+    if (config.is_given("vehicle.antenna", key))
       take("fusion", std::string("gnss_lever_") + key, *lever, known);
   }
   // What nobody has described keeps the standard deviation of [fusion]. So does the axle: a delay
@@ -100,7 +96,7 @@ void describe_car(VehicleConfig& config, const VehicleCalibration& recorded) {
     take("fusion", "gnss_lever_sigma", p.gnss_lever_sigma,
          std::max({antenna.forward_sigma, antenna.left_sigma, antenna.up_sigma}));
   }
-  if (is_given(config, "vehicle.imu", "delay")) config.replay.imu_delay = d.imu.time.delay;
+  if (config.is_given("vehicle.imu", "delay")) config.replay.imu_delay = d.imu.time.delay;
   double& lane = config.feedback.lane_share;
   if (d.car.side_of_road == RoadSide::left) take("feedback", "lane_share", lane, -std::abs(lane));
 }

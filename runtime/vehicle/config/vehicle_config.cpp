@@ -106,6 +106,10 @@ VehicleConfig::VehicleConfig() {
   set_configuration(*this, "auto");
 }
 
+bool VehicleConfig::is_given(std::string_view table, std::string_view key) const {
+  return given.contains(std::string(table) + '.' + std::string(key));
+}
+
 void set_configuration(VehicleConfig& config, const std::string& name) {
   const fusion::Configuration configuration = fusion::configuration(name);
   config.configuration = configuration.name;

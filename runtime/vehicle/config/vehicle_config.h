@@ -68,6 +68,9 @@ struct MapParameters {
 struct VehicleConfig {
   VehicleConfig();
 
+  // Whether the file has that key, such as "forward" of "vehicle.camera"; "" is the top level.
+  bool is_given(std::string_view table, std::string_view key) const;
+
   std::string lcm_url;
   std::string configuration;  // "auto"
   std::string imu_grade = "tactical";
