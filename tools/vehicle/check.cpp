@@ -63,8 +63,9 @@ class Look {
     if (std::abs(imu.roll) > misaligned || std::abs(imu.pitch) > misaligned ||
         std::abs(imu.yaw) > misaligned)
       warn("vehicle.imu",
-           "is turned by more than 10 deg, and no stage turns its samples into the "
-           "body's axes: mount it along them, or let the unit turn them");
+           "is turned by more than 10 deg: samples of a drive of tables (imu.csv) are turned into "
+           "the body's axes by it, those of any other unit are not; mount such a unit along them, "
+           "or let it turn its samples itself");
   }
 
   void calibrations(const VehicleDescription& d) {

@@ -123,7 +123,9 @@ TEST(Check, SaysWhatIsImplausible) {
       {"[vehicle.camera]\nyaw = 180.0\n", "[vehicle.camera] looks backwards"},
       {"[vehicle.camera]\nroll = 180.0\n", "[vehicle.camera] is upside down"},
       {"[vehicle.lidar]\nroll = 170.0\n", "[vehicle.lidar] is upside down"},
-      {"[vehicle.imu]\nyaw = 90.0\n", "[vehicle.imu] is turned by more than 10 deg"},
+      {"[vehicle.imu]\nyaw = 90.0\n",
+       "[vehicle.imu] is turned by more than 10 deg: samples of a drive of tables (imu.csv) are "
+       "turned into the body's axes by it, those of any other unit are not"},
       {"[vehicle.lidar]\nup = 1.0\n", "up is given without up_sigma: 1.0 m is assumed"},
       {"[vehicle.camera]\nup = 1.0\n", "has neither a calibration nor the intrinsics"},
   };
