@@ -78,6 +78,13 @@ class ConfigTable {
   detail::ConfigNode* node_;
 };
 
+// This is a key, or a table, that files of earlier versions have. Its name is dotted; `now` names
+// what has taken its place, such as another key.
+struct MovedKey {
+  std::string_view name;
+  std::string_view now;
+};
+
 class ConfigDocument {
  public:
   // Throws ConfigError if the file cannot be read, or is not TOML (a duplicate key included).
@@ -87,9 +94,9 @@ class ConfigDocument {
 
   ConfigTable root() const;
 
-  // Throws ConfigError that names every key that was neither read nor asked for, each with the
-  // nearest key that was. Call it when everything has been read.
-  void reject_unknown() const;
+  // Throws ConfigError that names every key that was neither read nor asked for, each with what has
+  // taken its place, or else with the nearest key that was. Call it when everything has been read.
+  void reject_unknown(std::span<const MovedKey> moved = {}) const;
 
  private:
   explicit ConfigDocument(std::shared_ptr<detail::ConfigState> state);

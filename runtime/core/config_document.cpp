@@ -66,19 +66,39 @@ std::string guess(const ConfigState& state, const ConfigNode& node, std::string_
   return {};
 }
 
+// Returns what has taken the place of an unknown key and, if it is a table, of the keys in it.
+std::string place_now(std::span<const MovedKey> moved, const std::string& name,
+                      const toml::node& value) {
+  std::string text;
+  for (const MovedKey& key : moved) {
+    if (key.name == name) return "its place is now " + std::string(key.now);
+    const bool in_it = value.is_table() && key.name.starts_with(name + '.') &&
+                       value.as_table()->contains(key.name.substr(name.size() + 1));
+    if (!in_it) continue;
+    text += (text.empty() ? "the place of " : ", of ") + std::string(key.name) + " is now " +
+            std::string(key.now);
+  }
+  return text;
+}
+
 struct Unknown {
   toml::source_position at;
   std::string text;
 };
 
-void collect_unknown(const ConfigState& state, const ConfigNode& node, std::vector<Unknown>& all) {
+void collect_unknown(const ConfigState& state, const ConfigNode& node,
+                     std::span<const MovedKey> moved, std::vector<Unknown>& all) {
   if (node.table == nullptr) return;
   for (const auto& [key, value] : *node.table) {
     if (std::find(node.known.begin(), node.known.end(), key.str()) != node.known.end()) continue;
-    const std::string near = guess(state, node, key.str());
+    const std::string name = dotted(node.path, key.str());
+    std::string advice = place_now(moved, name, value);
+    if (advice.empty()) {
+      const std::string near = guess(state, node, key.str());
+      advice = (near.empty() ? "" : "did you mean " + near + "? ") + known_in(node);
+    }
     const toml::source_position at = key.source().begin;
-    all.push_back({at, place(state.file, at) + dotted(node.path, key.str()) + ": unknown key; " +
-                           (near.empty() ? "" : "did you mean " + near + "? ") + known_in(node)});
+    all.push_back({at, place(state.file, at) + name + ": unknown key; " + advice});
   }
 }
 
@@ -114,10 +134,10 @@ ConfigTable ConfigDocument::root() const {
   return {state_, state_->node("", &state_->root)};
 }
 
-void ConfigDocument::reject_unknown() const {
+void ConfigDocument::reject_unknown(std::span<const MovedKey> moved) const {
   std::vector<Unknown> unknown;
   root();  // the keys of a document that was never read are unknown too
-  for (const ConfigNode& node : state_->nodes) collect_unknown(*state_, node, unknown);
+  for (const ConfigNode& node : state_->nodes) collect_unknown(*state_, node, moved, unknown);
   if (unknown.empty()) return;
   std::sort(unknown.begin(), unknown.end(), [](const Unknown& a, const Unknown& b) {
     return std::pair(a.at.line, a.at.column) < std::pair(b.at.line, b.at.column);

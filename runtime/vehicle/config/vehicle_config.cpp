@@ -1,6 +1,7 @@
 #include "runtime/vehicle/config/vehicle_config.h"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <string>
 
@@ -11,6 +12,21 @@
 
 namespace maploop::vehicle {
 namespace {
+
+constexpr auto moved_keys = std::to_array<runtime::MovedKey>({
+    {"camera.calibration", "vehicle.camera.calibration"},
+    {"live.calibration",
+     "[vehicle.camera] and [vehicle.lidar], which 'maploop vehicle convert kitti' writes"},
+    {"live.camera_delay", "vehicle.camera.delay"},
+    {"live.velodyne_model", "vehicle.lidar.model"},
+    {"live.velodyne_calibration", "vehicle.lidar.calibration"},
+    {"live.imu_delay", "vehicle.imu.delay"},
+    {"replay.imu_delay", "vehicle.imu.delay"},
+    {"mount.given", "roll, pitch and yaw of [vehicle.imu], each of which says so"},
+    {"mount.roll", "vehicle.imu.roll"},
+    {"mount.pitch", "vehicle.imu.pitch with the opposite sign"},
+    {"mount.yaw", "vehicle.imu.yaw"},
+});
 
 void read_value(const runtime::ConfigTable& table, const ParameterDescription& parameter,
                 ParameterValue& value) {
@@ -134,7 +150,7 @@ VehicleConfig load_vehicle_config(const std::filesystem::path& file) {
   for (const ScheduledThread& thread : scheduled_threads()) {
     read(root.table("scheduling"), thread.key, config.scheduling.*thread.scheduling);
   }
-  document.reject_unknown();
+  document.reject_unknown(moved_keys);
   each_part(config,
             [&](const auto& table, const auto& values) { check_part(root, table, values); });
   place_paths(root, folder, config.vehicle);

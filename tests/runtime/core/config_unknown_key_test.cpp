@@ -19,7 +19,12 @@ std::string unknown_in(std::string_view text) {
   fusion.read("rate_hz", number);
   fusion.read("deadline_ms", duration);
   document.root().table("match").read("radius", number);
-  return error_of<ConfigError>([&] { document.reject_unknown(); });
+  static constexpr MovedKey moved[] = {{"fusion.hertz", "fusion.rate_hz"},
+                                       {"old.size", "match.radius"},
+                                       {"old.speed", "nowhere"},
+                                       {"old.rate", "fusion.rate_hz in Hz"},
+                                       {"older", "[fusion]"}};
+  return error_of<ConfigError>([&] { document.reject_unknown(moved); });
 }
 
 TEST(ConfigUnknownKey, NothingUnknownIsNoError) {
@@ -49,6 +54,16 @@ TEST(ConfigUnknownKey, FarFromEverythingHasNoGuess) {
   EXPECT_EQ(unknown_in("[fusion]\ncolour = 1"),
             "a.toml:2:1: fusion.colour: unknown key; "
             "in [fusion] the keys are: deadline_ms, rate_hz");
+}
+
+TEST(ConfigUnknownKey, OneThatMovedNamesItsPlace) {
+  EXPECT_EQ(unknown_in("[fusion]\nhertz = 1"),
+            "a.toml:2:1: fusion.hertz: unknown key; its place is now fusion.rate_hz");
+  EXPECT_EQ(unknown_in("[old]\nrate = 1\nsize = 2"),
+            "a.toml:1:2: old: unknown key; the place of old.size is now match.radius, of old.rate "
+            "is now fusion.rate_hz in Hz");
+  EXPECT_EQ(unknown_in("[older]\nrate = 1"),
+            "a.toml:1:2: older: unknown key; its place is now [fusion]");
 }
 
 TEST(ConfigUnknownKey, AllAreNamedInTheFilesOrder) {

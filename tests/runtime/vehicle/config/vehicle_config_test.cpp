@@ -260,6 +260,11 @@ TEST(VehicleConfig, AValueThatCannotWorkNamesFileAndKey) {
             "test.toml:2:9: vehicle.lidar.model: is \"VLP-17\""},
            {"[vehicle.lidar]\nforwards = 1.0\n",
             "test.toml:2:1: vehicle.lidar.forwards: unknown key"},
+           {"[live]\nvelodyne_model = \"VLP-16\"\n",
+            "test.toml:2:1: live.velodyne_model: unknown key; its place is now "
+            "vehicle.lidar.model"},
+           {"[camera]\ncalibration = \"rig.toml\"\n",
+            "the place of camera.calibration is now vehicle.camera.calibration"},
            {"[vehicle.lidar]\nup_sigma = 0\n", "test.toml:2:12: vehicle.lidar.up_sigma: is 0"},
            {"[vehicle]\nside_of_road = \"middle\"\n", "vehicle.side_of_road: is \"middle\""},
            {"[vehicle]\nfile = \"nowhere.toml\"\n", "nowhere.toml"},
