@@ -13,7 +13,7 @@ using namespace std::string_view_literals;
 constexpr std::array scanners{"HDL-64E"sv, "HDL-32E"sv, "VLP-16"sv};
 constexpr double bus_length = 20.0;  // m, with its trailer
 
-// The axes of a camera that looks forward, in the body's.
+// Returns the axes of a camera that looks forward, in the body's.
 Eigen::Isometry3d forward_camera() {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;

@@ -1,5 +1,6 @@
-// Everything that is known of a car, each value with a standard deviation: the tables [vehicle] and
-// [vehicle.camera], [vehicle.lidar], [vehicle.imu], [vehicle.antenna] of a configuration file.
+// This is everything that is known of a car, each value with a standard deviation: the tables
+// [vehicle] and [vehicle.camera], [vehicle.lidar], [vehicle.imu], [vehicle.antenna] of a
+// configuration file.
 //
 // Defaults are neutral: what is not known has the value of no particular car and a wide standard
 // deviation. Poses are in the body frame (frames.h), whose origin is the inertial unit.
@@ -21,8 +22,8 @@ struct SensorPosition {
   double forward_sigma = 1.0, left_sigma = 1.0, up_sigma = 1.0;  // m
 };
 
-// From the body's axes: first to the left by yaw, then nose up by pitch, then right side down by
-// roll. A sensor without rotation has x forward, y left, z up; a camera looks forward.
+// This turns from the body's axes: first to the left by yaw, then nose up by pitch, then right side
+// down by roll. A sensor without rotation has x forward, y left, z up; a camera looks forward.
 struct SensorRotation {
   double roll = 0.0, pitch = 0.0, yaw = 0.0;                    // deg
   double roll_sigma = 3.0, pitch_sigma = 3.0, yaw_sigma = 3.0;  // deg
@@ -135,23 +136,23 @@ const Parameter<P>* value_of_sigma(const ParameterTable<P>& table, const Paramet
   return parameter_named(table, parameter.key.substr(0, parameter.key.size() - ending.size()));
 }
 
-// T_body_sensor of a sensor with x forward, y left, z up; and of a camera (x right, y down, z
-// forward).
+// These return T_body_sensor of a sensor with x forward, y left, z up; and of a camera (x right, y
+// down, z forward).
 Eigen::Isometry3d sensor_pose(const SensorPosition& position, const SensorRotation& rotation);
 Eigen::Isometry3d camera_pose(const SensorPosition& position, const SensorRotation& rotation);
 
-// The reverse; standard deviations are not changed.
+// These do the reverse; standard deviations are not changed.
 void set_sensor_pose(const Eigen::Isometry3d& T_body_sensor, SensorPosition& position,
                      SensorRotation& rotation);
 void set_camera_pose(const Eigen::Isometry3d& T_body_cam, SensorPosition& position,
                      SensorRotation& rotation);
 
-// What a calibration knows. A pose that it states has the standard deviations of a careful
+// Returns what a calibration knows. A pose that it states has the standard deviations of a careful
 // calibration, 2 cm and 0.2 deg.
 VehicleDescription description_of(const VehicleCalibration& calibration);
 
-// The tables of a configuration file with every value that differs from its default, or whose
-// standard deviation does; a comment gives unit and meaning.
+// Returns the tables of a configuration file with every value that differs from its default, or
+// whose standard deviation does; a comment gives unit and meaning.
 std::string to_toml(const VehicleDescription& description);
 
 }  // namespace maploop

@@ -242,7 +242,7 @@ inline void start_clone(FilterState& state, const OdomPose& odom) {
   start_chain(state);
 }
 
-// The same for a first state, at which the frame of odometry agrees with enu.
+// Does the same for a first state, at which the frame of odometry agrees with enu.
 inline void start_clone(FilterState& state) {
   start_clone(state, {state.x.segment<3>(index::east),
                       Eigen::Quaterniond(rotation_enu_body(state.attitude()))});

@@ -1,5 +1,5 @@
-// Parameters of the reduced-IMU filter, chosen from the physics of a road vehicle and its sensors;
-// parameter_table.cpp describes each.
+// These are the parameters of the reduced-IMU filter, chosen from the physics of a road vehicle and
+// its sensors; parameter_table.cpp describes each.
 #pragma once
 
 namespace maploop::fusion {

@@ -1,4 +1,5 @@
-// Parameters of the guard against wrong roads; guard_parameter_table.cpp describes each.
+// These are the parameters of the guard against wrong roads; guard_parameter_table.cpp describes
+// each.
 #pragma once
 
 namespace maploop::fusion {

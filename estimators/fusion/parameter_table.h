@@ -1,4 +1,4 @@
-// The parameters of the filter and of its guard described: [fusion] and [guard] of the
+// These tables describe the parameters of the filter and of its guard: [fusion] and [guard] of the
 // configuration.
 #pragma once
 

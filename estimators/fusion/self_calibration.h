@@ -8,8 +8,8 @@
 
 namespace maploop::fusion {
 
-// One estimated parameter. It is observed once the measurements have halved its uncertainty;
-// before, the motion has not excited it, and the value is mostly what was given.
+// This is one estimated parameter. It is observed once the measurements have halved its
+// uncertainty; before, the motion has not excited it, and the value is mostly what was given.
 struct SelfCalibration {
   std::string_view name;
   std::string_view unit;

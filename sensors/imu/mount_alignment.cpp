@@ -15,8 +15,8 @@ using Eigen::Vector3d;
 
 constexpr std::size_t samples_kept = 1024;
 constexpr double longest_step = 0.1;  // s between two samples of which a mean can be made
-// s between two fixes: over a shorter time the noise of the velocities hides the acceleration, and
-// over a longer time the vehicle turns too far.
+// These bound the time between two fixes, s: over a shorter one the noise of the velocities hides
+// the acceleration, and over a longer one the vehicle turns too far.
 constexpr double shortest_interval = 0.4, longest_interval = 1.5;
 
 constexpr double gravity = 9.81;         // m/s^2; a unit's own scale is off by more than its change
@@ -64,7 +64,7 @@ double velocity_sigma(const GnssFix& fix) {
 
 }  // namespace
 
-// What the unit and the receiver say of one interval.
+// This is what the unit and the receiver say of one interval.
 struct MountAlignment::Motion {
   Vector3d rate, force;      // means, in the unit's axes
   Vector3d body_force;       // m/s^2, from the receiver

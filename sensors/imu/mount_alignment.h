@@ -71,7 +71,7 @@ class MountAlignment {
   ImuSample reduced(const SixAxisSample& sample) const;
 
  private:
-  // Rate, force, and the square of the rate.
+  // These are the rate, the force, and the square of the rate.
   using Values = Eigen::Matrix<double, 7, 1>;
   struct Entry {
     Time stamp{};

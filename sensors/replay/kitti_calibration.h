@@ -35,7 +35,7 @@ VehicleCalibration parse_kitti_calibration(const KittiCalibrationText& text);
 // deg higher than its calibration states (IMLS-SLAM, CT-ICP, KISS-ICP use the same).
 void describe_kitti_car(VehicleCalibration& calibration);
 
-// The standard deviations of these values, from the spread that is stated above, where the
+// Adds the standard deviations of these values, from the spread that is stated above, where the
 // calibration has them; and what else its description needs. Its GNSS positions are those of the
 // inertial unit, whose rates are 53 to 67 ms late.
 void describe_kitti_car(const VehicleCalibration& calibration, VehicleDescription& description);

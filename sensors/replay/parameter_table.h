@@ -1,5 +1,5 @@
-// What can be set about replayed sensors: [replay], [odometry_poses], [gnss] and [wheel]
-// of the configuration.
+// These tables describe what can be set about replayed sensors: [replay], [odometry_poses], [gnss]
+// and [wheel] of the configuration.
 #pragma once
 
 #include "msgs/parameter.h"

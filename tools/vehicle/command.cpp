@@ -1,4 +1,4 @@
-// maploop vehicle: asks for, checks, draws and converts the description of a vehicle.
+// This is maploop vehicle, which asks for, checks, draws and converts the description of a vehicle.
 #include <functional>
 #include <iostream>
 #include <stdexcept>

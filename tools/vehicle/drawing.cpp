@@ -9,7 +9,7 @@
 namespace maploop::vehicle_tool {
 namespace {
 
-// A view onto two axes of the body: x to the right of the page, and y or z to its top.
+// This is a view onto two axes of the body: x to the right of the page, and y or z to its top.
 struct View {
   const char* title;
   int up;            // 1: the body's y, seen from above; 2: its z, seen from the right side

@@ -9,7 +9,7 @@
 namespace maploop::vehicle_tool {
 namespace {
 
-// Reads an answer as the kind of value that a parameter has; nothing if it is none.
+// Reads an answer as the kind of value that a parameter has; returns nothing if it is none.
 std::optional<ParameterValue> parsed(const std::string& text, ParameterValue value) {
   const auto read = [&]<class T>(T& own) {
     if constexpr (std::same_as<T, std::string>) {

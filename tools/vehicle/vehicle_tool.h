@@ -1,4 +1,4 @@
-// What `maploop vehicle` does with a description of a vehicle (msgs/vehicle_description.h).
+// This is what `maploop vehicle` does with a description of a vehicle (msgs/vehicle_description.h).
 #pragma once
 
 #include <filesystem>
@@ -38,7 +38,8 @@ struct Converted {
   std::string note;                           // about the axes, for whoever reads the file
 };
 
-// Read the calibration of a dataset. All throw std::runtime_error naming the file and the key.
+// These read the calibration of a dataset. All throw std::runtime_error naming the file and the
+// key.
 // - KITTI raw: the folder of a day, or of one of its drives
 //   (calib_{cam_to_cam,velo_to_cam,imu_to_velo}.txt).
 // - KITTI-360: the folder `calibration` (calib_cam_to_pose.txt, calib_cam_to_velo.txt,

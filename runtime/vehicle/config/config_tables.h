@@ -1,5 +1,5 @@
-// Every table of the configuration file: the vehicle's own parameters described, and all parts of a
-// VehicleConfig with their descriptions. (The threads of [scheduling]: scheduling_config.h.)
+// This file describes the vehicle's own parameters, and lists every table of the configuration file
+// with the part of a VehicleConfig that it describes. (scheduling_config.h has [scheduling].)
 #pragma once
 
 #include "estimators/fusion/parameter_table.h"

@@ -1,4 +1,4 @@
-// Joins what a recording and the configuration know of a vehicle.
+// This file joins what a recording and the configuration know of a vehicle.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -11,7 +11,7 @@
 namespace maploop::vehicle {
 namespace {
 
-// The recording's description, with the given keys of the configuration in it. The standard
+// Returns the recording's description with the given keys of the configuration in it. The standard
 // deviation of the recording's value is not that of a given one.
 VehicleDescription joined(const VehicleConfig& config, const VehicleCalibration& recorded) {
   VehicleDescription description = description_of(recorded);

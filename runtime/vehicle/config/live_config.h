@@ -1,4 +1,4 @@
-// Opens the live sensors that [live] of the configuration names.
+// This file opens the live sensors that [live] of the configuration names.
 #pragma once
 
 #include <array>
@@ -23,7 +23,8 @@ constexpr std::array<std::string_view, 3> names_of(GnssProtocol) {
   return {"nmea", "ubx", "observations"};
 }
 
-// Endpoints (sensors/live/endpoint.h), pipelines and files; config_tables.cpp describes each.
+// These are endpoints (sensors/live/endpoint.h), pipelines and more; config_tables.cpp describes
+// each.
 struct LiveParameters {
   std::string camera_left, camera_right;
   std::string velodyne;

@@ -1,4 +1,5 @@
-// States how the kernel is to schedule each thread of the graph. In the configuration this is:
+// This file states how the kernel is to schedule each thread of the graph. In the configuration
+// this is:
 //
 //   [scheduling.fusion]
 //   policy = "fifo"           # inherited, other, fifo, rr or deadline
@@ -58,7 +59,7 @@ struct SchedulingParameters {
   runtime::Scheduling preview = yielding();
 };
 
-// A key of [scheduling].
+// This is a key of [scheduling].
 struct ScheduledThread {
   const char* key;
   runtime::Scheduling SchedulingParameters::*scheduling;
@@ -66,7 +67,7 @@ struct ScheduledThread {
 };
 std::span<const ScheduledThread> scheduled_threads();
 
-// The scheduling of a thread of the graph.
+// Returns the scheduling of a thread of the graph.
 const runtime::Scheduling& scheduling_of(const SchedulingParameters& parameters,
                                          const StageSpec& stage);
 

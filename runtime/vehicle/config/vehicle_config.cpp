@@ -48,7 +48,7 @@ void read_value(const runtime::ConfigTable& table, const ParameterDescription& p
   std::visit(read, value);
 }
 
-// The table of a dotted name.
+// Returns the table of a dotted name.
 runtime::ConfigTable table_in(runtime::ConfigTable table, std::string_view name) {
   while (!name.empty()) {
     const std::size_t dot = std::min(name.find('.'), name.size());

@@ -1,4 +1,5 @@
-// Everything that can be set about the vehicle; config_tables.h describes each parameter.
+// This file has everything that can be set about the vehicle; config_tables.h describes each
+// parameter.
 #pragma once
 
 #include <array>
@@ -31,7 +32,7 @@
 
 namespace maploop::vehicle {
 
-// Pictures and scans for dashboards.
+// These say which pictures and scans dashboards get.
 struct PreviewParameters {
   double rate = 2.0;  // Hz
   int width = 640;    // px
@@ -39,7 +40,7 @@ struct PreviewParameters {
   int points = 4000;
 };
 
-// Of a drive with the observations of a GNSS receiver.
+// These are about a drive with the observations of a GNSS receiver.
 struct PppConfig {
   bool observations = true;
   std::vector<std::string> products;
@@ -68,7 +69,8 @@ struct MapParameters {
 struct VehicleConfig {
   VehicleConfig();
 
-  // Whether the file has that key, such as "forward" of "vehicle.camera"; "" is the top level.
+  // Returns whether the file has that key, such as "forward" of "vehicle.camera"; "" is the top
+  // level.
   bool is_given(std::string_view table, std::string_view key) const;
 
   std::string lcm_url;
@@ -102,11 +104,12 @@ struct VehicleConfig {
   std::set<std::string, std::less<>> given;  // keys that the file has, as "fusion.climb_offset"
 };
 
-// With what they mean for [fusion]. Throw std::invalid_argument listing the names.
+// These set a name with what it means for [fusion]. They throw std::invalid_argument listing the
+// names.
 void set_configuration(VehicleConfig& config, const std::string& name);
 void set_imu_grade(VehicleConfig& config, const std::string& name);
 
-// Whether the file gives the pose of a sensor, which is named as in "vehicle.camera".
+// Returns whether the file gives the pose of a sensor, which is named as in "vehicle.camera".
 bool has_pose(const VehicleConfig& config, std::string_view table);
 
 // Returns the calibration of a recording, with what the configuration says of the vehicle in place
@@ -119,12 +122,13 @@ VehicleCalibration described(const VehicleConfig& config, VehicleCalibration rec
 void describe_car(VehicleConfig& config, const VehicleCalibration& recorded);
 
 // Reads a TOML file; absent keys keep their defaults. Throws runtime::ConfigError naming file, line
-// and key for anything wrong: unknown keys, and values out of their range.
+// and key for anything wrong: unknown keys, with the place of those that have moved, and values out
+// of their range.
 // runtime/vehicle/config/maploop.toml lists every key.
 VehicleConfig load_vehicle_config(const std::filesystem::path& file);
 
-// Every key with its value, as load_vehicle_config() reads it back, but for users and passwords
-// (without_secrets() of sensors/live/endpoint.h).
+// Returns every key with its value, as load_vehicle_config() reads it back, but for users and
+// passwords (without_secrets() of sensors/live/endpoint.h).
 std::string to_toml(const VehicleConfig& config);
 
 }  // namespace maploop::vehicle

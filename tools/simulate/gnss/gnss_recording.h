@@ -23,11 +23,12 @@ struct GnssSetting {
   std::uint64_t seed;
 };
 
-// Makes the folders `gnss` and `gnss_one_frequency`:
-//   observations.rnx  RINEX 3.04, GPS and Galileo; L1 C/A and L2C, E1 and E5a (one frequency: L1
-//   C/A, E1) navigation.rnx    broadcast messages orbits.sp3, clocks.clk, antennas.atx   (in gnss
-//   only) truth.csv         index, GPS seconds of the week, X, Y, Z of the antenna's reference
-//   point
+// Makes the folders `gnss` and `gnss_one_frequency` with these files:
+// - observations.rnx: RINEX 3.04 of GPS (L1 C/A and L2C) and Galileo (E1 and E5a); with one
+//   frequency L1 C/A and E1 alone,
+// - navigation.rnx: the broadcast messages,
+// - orbits.sp3, clocks.clk and antennas.atx, in `gnss` only,
+// - truth.csv: index, GPS seconds of the week, and X, Y, Z of the antenna's reference point.
 // Throws std::runtime_error naming a file that cannot be written.
 void write_gnss(const std::filesystem::path& folder, const GnssSetting& setting);
 
