@@ -13,11 +13,7 @@
 #include <vector>
 
 #include "msgs/frames.h"
-#include "runtime/core/data_clock.h"
-#include "runtime/vehicle/drivers/recording.h"
-#include "runtime/vehicle/graph/vehicle.h"
 #include "sensors/replay/csv_table.h"
-#include "sensors/replay/reference_trajectory.h"
 #include "sensors/replay/sequence_files.h"
 #include "sensors/replay/table_recording.h"
 #include "tools/command/median.h"
@@ -146,17 +142,8 @@ std::vector<fusion_score::OutageEnd> run(const OutageCase& c, vehicle::VehicleCo
   config.gnss_outage =
       made_outages(to_seconds(tables.last_stamp() - tables.first_stamp()), c.length);
   if (config.gnss_outage.empty()) return {};
-  const vehicle::Recording recording = vehicle::open_recording(c.drive.folder, config);
-  fusion_score::NavTrack track;
-  vehicle::Observer observer;
-  observer.nav_state = [&track](const NavState& state) { track.add(state); };
-  vehicle::Vehicle vehicle(config, recording.calibration, recording.sensors(Time::min()),
-                           runtime::DataClock::virtual_time(), {}, std::move(observer), nullptr,
-                           nullptr);
-  vehicle.start();
-  vehicle.wait();
-  return outage_ends(track, recording,
-                     sensors::read_rows(recording.sensors(Time::max()).reference));
+  const RecordingRun run = run_recording(vehicle::open_recording(c.drive.folder, config), config);
+  return outage_ends(run.track, run.recording, run.reference);
 }
 
 double largest(const std::vector<double>& values) {

@@ -21,28 +21,38 @@ vehicle::VehicleConfig config_of(vehicle::VehicleConfig config, const SequenceCa
   return config;
 }
 
-SequenceRun run_sequence(const std::filesystem::path& folder, const SequenceCase& setup,
-                         const vehicle::VehicleConfig& config, vehicle::Observer observer,
-                         std::shared_ptr<const vehicle::RoadMap> map) {
-  SequenceRun run{vehicle::open_recording(folder / setup.sequence, config), {}, {}, {}, {}};
-  const vehicle::Recording& recording = run.recording;
-  run.reference = sensors::read_rows(recording.sensors(Time::max()).reference);
-  vehicle::Sensors sensors = recording.sensors(Time::min());
-  if (setup.end > 0.0) limit(sensors, recording.first_stamp + from_seconds(setup.end));
+RecordingRun run_recording(vehicle::Recording recording, const vehicle::VehicleConfig& config,
+                           const RunOptions& options, vehicle::Observer observer,
+                           std::shared_ptr<const vehicle::RoadMap> map) {
+  RecordingRun run{std::move(recording), {}, {}, {}};
+  const vehicle::Recording& drive = run.recording;
+  run.reference = sensors::read_rows(drive.sensors(Time::max()).reference);
+  vehicle::Sensors sensors = drive.sensors(Time::min());
+  if (options.end > 0.0) limit(sensors, drive.first_stamp + from_seconds(options.end));
   observer.nav_state = [&track = run.track,
                         also = std::move(observer.nav_state)](const FusedState& state) {
     track.add(state);
     also(state);
   };
-  vehicle::Vehicle vehicle(config, recording.calibration, std::move(sensors),
+  vehicle::Vehicle vehicle(config, drive.calibration, std::move(sensors),
                            runtime::DataClock::virtual_time(), {}, std::move(observer), nullptr,
                            std::move(map));
-  if (setup.outages.empty()) vehicle.start_from(vehicle::start_from_reference(recording));
+  if (options.from_reference) vehicle.start_from(vehicle::start_from_reference(drive));
   vehicle.start();
   vehicle.wait();
   run.report = vehicle.report();
-  const auto score =
-      fusion_score::score(run.track, run.reference, recording.outages, recording.first_stamp);
+  return run;
+}
+
+SequenceRun run_sequence(const std::filesystem::path& folder, const SequenceCase& setup,
+                         const vehicle::VehicleConfig& config, vehicle::Observer observer,
+                         std::shared_ptr<const vehicle::RoadMap> map) {
+  SequenceRun run{
+      run_recording(vehicle::open_recording(folder / setup.sequence, config), config,
+                    {setup.outages.empty(), setup.end}, std::move(observer), std::move(map)),
+      {}};
+  const auto score = fusion_score::score(run.track, run.reference, run.recording.outages,
+                                         run.recording.first_stamp);
   if (!score) {
     throw std::runtime_error("sequence " + setup.sequence + " in " + setup.configuration +
                              " gave nothing to score");

@@ -1,4 +1,5 @@
-// A sequence of KITTI's odometry benchmark through the vehicle's own graph, on virtual time.
+// Experiments run recordings through the vehicle's own graph, on virtual time: any one, or a
+// sequence of KITTI's odometry benchmark.
 #pragma once
 
 #include <array>
@@ -44,13 +45,27 @@ struct SequenceCase {
   std::string unit() const { return mems ? "mems" : "recorded"; }
 };
 
-struct SequenceRun {
+struct RecordingRun {
   vehicle::Recording recording;
   fusion_score::NavTrack track;
-  fusion_score::Score score;
   std::vector<ReferencePose> reference;
   vehicle::VehicleReport report;
 };
+
+struct SequenceRun : RecordingRun {
+  fusion_score::Score score;
+};
+
+// How a recording is run.
+struct RunOptions {
+  bool from_reference = false;  // the filter starts from the reference, not from a fix
+  double end = 0.0;             // s into the drive; 0: the whole
+};
+
+// Runs any recording, which was opened with `config`.
+RecordingRun run_recording(vehicle::Recording recording, const vehicle::VehicleConfig& config,
+                           const RunOptions& options = {}, vehicle::Observer observer = {},
+                           std::shared_ptr<const vehicle::RoadMap> map = nullptr);
 
 // `config` with what the case sets.
 vehicle::VehicleConfig config_of(vehicle::VehicleConfig config, const SequenceCase& setup);
