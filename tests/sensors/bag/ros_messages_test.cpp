@@ -77,8 +77,8 @@ TEST(RosMessages, ThatAreCutOrChangedAreRefused) {
       } catch (const std::invalid_argument&) {
         continue;
       }
-      // Only what follows the last value that is read may be missing.
-      EXPECT_GT(size, data.size() - 64) << topic.name;
+      // Only what follows the last value that is read may be missing: nine numbers of Imu.
+      EXPECT_GT(size, data.size() - 80) << topic.name;
     }
   };
   for (const ReadMessage& m : bag.messages) {
@@ -130,7 +130,7 @@ TEST(CloudMessage, OfUnalignedPointsHasTimes) {
   ASSERT_GT(cloud.points.size(), 10'000U);
   ASSERT_EQ(cloud.times.size(), cloud.points.size());
   const auto [first, last] = std::ranges::minmax(cloud.times);
-  EXPECT_NEAR(to_seconds(last - first), 0.1, 0.02);
+  EXPECT_NEAR(to_seconds(last - first), 0.05, 0.001);  // half of a turn, or a scanner of 20 Hz
   EXPECT_LT(std::abs(to_seconds(first - message.header.stamp)), 0.2);
   float first_x = 0.0F;
   std::memcpy(&first_x, message.data.data(), sizeof first_x);
