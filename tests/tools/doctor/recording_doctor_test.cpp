@@ -1,0 +1,90 @@
+// Tests what `maploop doctor RECORDING` says of real recordings, and that bags are replayed.
+#include "tests/support/command_test.h"
+#include "tests/support/real_data.h"
+
+namespace maploop {
+namespace {
+
+using nlohmann::json;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using namespace testing;
+
+std::string bag(const std::string& name) {
+  return real_data() / "bags" / name;
+}
+
+json report_of(const std::string& recording, const Words& options = {}) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "report.json";
+  Words command{maploop_command(), "doctor", recording, "--json", file};
+  command.insert(command.end(), options.begin(), options.end());
+  const ProcessResult result = run(command);
+  EXPECT_EQ(result.status, 0) << result.error;
+  json report = read_json(file);
+  for (const json& sensor : report.at("sensors")) report[sensor.at("sensor")] = sensor;
+  return report;
+}
+
+std::vector<std::string> sentences(const json& report) {
+  return report.at("sentences");
+}
+
+TEST(DoctorOfARecording, SaysWhatABagContains) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const json report = report_of(bag("kitti_0013/kitti13_zstd.mcap"));
+  EXPECT_EQ(report["camera"]["samples"], 3);
+  EXPECT_NEAR(report["lidar"]["rate_hz"], 9.66, 0.05);
+  EXPECT_EQ(report["imu"]["samples"], 4);
+  EXPECT_EQ(report["gnss"]["left_out"], 0);
+  EXPECT_THAT(sentences(report), Contains(HasSubstr("/gps/vel")));
+  EXPECT_THAT(sentences(report), Contains("A replay can combine camera, lidar, imu, gnss."));
+  EXPECT_THAT(sentences(report), Contains(HasSubstr("Next: maploop replay")));
+}
+
+TEST(DoctorOfARecording, SaysWhatCannotBeDoneWithoutGnss) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const json report = report_of(bag("kitti_0013/kitti13_zstd.mcap"), {"--topic", "gnss=none"});
+  EXPECT_FALSE(report.contains("gnss"));
+  EXPECT_THAT(sentences(report), Contains(HasSubstr("maploop odometry")));
+}
+
+TEST(DoctorOfARecording, NamesPausesAndSamplesThatAreLeftOut) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const json report = report_of(real_data() / "cars/oakville/parking-lot-figure8-nominal-001");
+  EXPECT_NEAR(report["imu"]["rate_hz"], 99.5, 0.1);
+  EXPECT_THAT(sentences(report), Contains(HasSubstr("the mount was not yet known")));
+  EXPECT_THAT(sentences(report), Contains(HasSubstr("reference pauses for 18.51 s")));
+}
+
+TEST(DoctorOfARecording, FailsWithTheReason) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const ProcessResult result =
+      run({maploop_command(), "doctor", bag("recorded/imu_sparkfun_razor.bag")});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.error, HasSubstr("has only an inertial unit, /imu/data_raw"));
+}
+
+TEST(ReplayOfABag, HasAPosition) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const ProcessResult result = run(
+      {maploop_command(), "replay", bag("recorded/pj_tilt_laser.bag"), "--lockstep", "--no-lcm"});
+  EXPECT_EQ(result.status, 0) << result.error;
+  EXPECT_THAT(result.out, HasSubstr("47.376"));
+  EXPECT_THAT(result.error, HasSubstr("/velocity"));
+}
+
+TEST(OdometryOfABag, RunsOnItsClouds) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const ProcessResult result =
+      run({maploop_command(), "odometry", bag("kitti_0013/kitti13_ros1_bz2.bag"), "--lidar"});
+  EXPECT_EQ(result.status, 0) << result.error;
+  EXPECT_THAT(result.out, HasSubstr("ok: 2"));
+  const ProcessResult none =
+      run({maploop_command(), "odometry", bag("recorded/pj_tilt_laser.bag"), "--lidar"});
+  EXPECT_EQ(none.status, 1);
+  EXPECT_THAT(none.error, HasSubstr("has no clouds of a LiDAR"));
+}
+
+}  // namespace
+}  // namespace maploop
