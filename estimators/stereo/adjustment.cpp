@@ -10,7 +10,7 @@
 namespace maploop::stereo {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double infinite_cost = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -66,15 +66,15 @@ Adjustment::Term Adjustment::linearize(const Eigen::Isometry3d& pose, int track,
 
 double Adjustment::settle(const Eigen::Isometry3d& pose, int track, double* disparity) const {
   *disparity =
-      std::max(kSmallestDisparity, tracks_[static_cast<std::size_t>(track)].previous.disparity());
+      std::max(smallest_disparity, tracks_[static_cast<std::size_t>(track)].previous.disparity());
   for (int i = 0; i < 2; ++i) {  // nearly linear: the second step is at most 1e-3 px
     const Term term = linearize(pose, track, *disparity);
-    if (!term.valid) return kInfinite;
+    if (!term.valid) return infinite_cost;
     *disparity -= term.by_disparity.dot(term.residual) / term.by_disparity.squaredNorm();
-    *disparity = std::max(kSmallestDisparity, *disparity);
+    *disparity = std::max(smallest_disparity, *disparity);
   }
   const Term term = linearize(pose, track, *disparity);
-  return term.valid ? term.residual.squaredNorm() : kInfinite;
+  return term.valid ? term.residual.squaredNorm() : infinite_cost;
 }
 
 double Adjustment::cost(const Eigen::Isometry3d& pose, std::span<const int> inliers,

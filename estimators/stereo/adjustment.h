@@ -14,7 +14,7 @@ namespace maploop::stereo {
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 using Matrix7 = Eigen::Matrix<double, 7, 7>;
 
-constexpr double kSmallestDisparity =
+constexpr double smallest_disparity =
     0.05;  // px; keeps an adjusted point in front of the camera and finite
 
 // These are the equations of the pose's six perturbations (residual.h) and, last, of a constant

@@ -199,7 +199,7 @@ void BundleAdjustment::step(const Window& from, const Vector& of_poses, double d
     const Eigen::Isometry3d& anchor =
         from.poses[from.points[k].first_seen(from.poses.size())].T_world_cam;
     ImagePoint image = image_of(camera_, anchor, from.points[k].p_world) + change.head<3>();
-    image.z() = std::max(kSmallestDisparity, image.z());
+    image.z() = std::max(smallest_disparity, image.z());
     to->points[k].p_world = anchor * triangulate(camera_, image);
     to->points[k].match_error += change[3];
   }
@@ -228,7 +228,7 @@ std::optional<Matrix6> BundleAdjustment::newest_covariance(const Window& window)
   const Eigen::Isometry3d& from = window.poses[poses - 2].T_world_cam;
   const Eigen::Isometry3d& to = window.poses[poses - 1].T_world_cam;
   const Eigen::Matrix3d R = from.linear().transpose();
-  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, kLargest> J;
+  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, largest_size> J;
   J.setZero(6, row_of(poses));
   J.block<3, 3>(0, newest) = R;
   J.block<3, 3>(3, newest + 3) = R;

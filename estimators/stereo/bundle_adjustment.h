@@ -38,9 +38,10 @@ class BundleAdjustment {
   double cost(const Window& window) const;
 
  private:
-  static constexpr int kLargest = 6 * static_cast<int>(kLargestWindow);
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kLargest, kLargest>;
-  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kLargest, 1>;
+  static constexpr int largest_size = 6 * static_cast<int>(largest_window);
+  using Matrix =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, largest_size, largest_size>;
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, largest_size, 1>;
   using Vector4 = Eigen::Vector4d;  // of a point: u, v, disparity, match error, px
 
   struct Term {
@@ -52,7 +53,7 @@ class BundleAdjustment {
   struct PointEquations {
     Eigen::Matrix4d information;
     Vector4 gradient;
-    std::array<Eigen::Matrix<double, 6, 4>, kLargestWindow> coupling;
+    std::array<Eigen::Matrix<double, 6, 4>, largest_window> coupling;
   };
 
   void set_up(const Window& window);

@@ -8,15 +8,15 @@
 namespace maploop::stereo {
 namespace {
 
-constexpr int kResponseRadius = 3;
+constexpr int response_radius = 3;
 
 }  // namespace
 
 double corner_response(const cv::Mat& gradient, int x, int y) {
   int xx = 0, xy = 0, yy = 0;  // 49 products of at most 4080^2 each do not overflow
-  for (int row = y - kResponseRadius; row <= y + kResponseRadius; ++row) {
+  for (int row = y - response_radius; row <= y + response_radius; ++row) {
     const auto* g = gradient.ptr<cv::Vec2s>(row);
-    for (int column = x - kResponseRadius; column <= x + kResponseRadius; ++column) {
+    for (int column = x - response_radius; column <= x + response_radius; ++column) {
       const int gx = g[column][0];
       const int gy = g[column][1];
       xx += gx * gx;
@@ -24,11 +24,11 @@ double corner_response(const cv::Mat& gradient, int x, int y) {
       yy += gy * gy;
     }
   }
-  constexpr double kSide = 2 * kResponseRadius + 1;
-  constexpr double kScale = 1.0 / (32.0 * 32.0 * kSide * kSide);
-  const double half_trace = 0.5 * kScale * (static_cast<double>(xx) + yy);
-  const double half_difference = 0.5 * kScale * (static_cast<double>(xx) - yy);
-  return half_trace - std::hypot(half_difference, kScale * static_cast<double>(xy));
+  constexpr double response_side = 2 * response_radius + 1;
+  constexpr double response_scale = 1.0 / (32.0 * 32.0 * response_side * response_side);
+  const double half_trace = 0.5 * response_scale * (static_cast<double>(xx) + yy);
+  const double half_difference = 0.5 * response_scale * (static_cast<double>(xx) - yy);
+  return half_trace - std::hypot(half_difference, response_scale * static_cast<double>(xy));
 }
 
 void CornerDetector::block_around(int x, int y) {
@@ -40,7 +40,7 @@ void CornerDetector::block_around(int x, int y) {
 void CornerDetector::propose(const ImagePyramid& image, const BucketGrid& grid) {
   const cv::Mat& full = image.level(0);
   cv::FAST(full, keypoints_, parameters_.fast_threshold, true);
-  const int margin = std::max(parameters_.window / 2 + 1, kResponseRadius);
+  const int margin = std::max(parameters_.window / 2 + 1, response_radius);
   candidates_.clear();
   for (const cv::KeyPoint& keypoint : keypoints_) {
     const int x = static_cast<int>(keypoint.pt.x);

@@ -42,13 +42,13 @@ Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, const Vector5& by) {
 // there are five unknowns and no deadline depends on this method.
 Vector5 sampson_gradient(const StereoCalibration& camera, const Eigen::Isometry3d& pose,
                          const StereoTrack& track) {
-  constexpr double kStep = 1e-6;
+  constexpr double difference_step = 1e-6;
   Vector5 gradient;
   for (int i = 0; i < 5; ++i) {
-    const Vector5 by = kStep * Vector5::Unit(i);
+    const Vector5 by = difference_step * Vector5::Unit(i);
     gradient[i] = (sampson_distance(camera, moved(pose, by), track) -
                    sampson_distance(camera, moved(pose, -by), track)) /
-                  (2.0 * kStep);
+                  (2.0 * difference_step);
   }
   return gradient;
 }

@@ -89,12 +89,13 @@ CameraMotion estimate_motion(const StereoCalibration& camera, const StereoParame
 }
 
 void lengthen(CameraMotion* motion, double length) {
-  constexpr double kStanding = 0.02;  // m, standard deviation: 0.3 px at a distance of 10 m
+  constexpr double standing_sigma = 0.02;  // m, standard deviation: 0.3 px at a distance of 10 m
   motion->T_previous_current.translation() *= length;
   motion->covariance.topRows<3>() *= length;
   motion->covariance.leftCols<3>() *= length;
   if (length == 0.0)
-    motion->covariance.topLeftCorner<3, 3>() = kStanding * kStanding * Eigen::Matrix3d::Identity();
+    motion->covariance.topLeftCorner<3, 3>() =
+        standing_sigma * standing_sigma * Eigen::Matrix3d::Identity();
 }
 
 namespace {

@@ -99,7 +99,7 @@ ParameterTable<StereoParameters> parameter_table(const StereoParameters&) {
        "Whitened residual beyond which a track is left out."},
       {"refine_max_iterations", &P::refine_max_iterations, 1, many, "iterations", expert,
        "Iterations at most in each of the two rounds of the refinement."},
-      {"window_frames", &P::window_frames, 0, static_cast<int>(kLargestWindow), "frames", expert,
+      {"window_frames", &P::window_frames, 0, static_cast<int>(largest_window), "frames", expert,
        "Poses adjusted together by the windowed bundle adjustment: 3 or more. 0: motions are "
        "estimated from pair to pair only."},
       {"window_max_points", &P::window_max_points, 1, many, "points", expert,

@@ -11,7 +11,7 @@ namespace maploop::stereo {
 namespace {
 
 // Perfect synthetic tracks have no residuals; their covariance must still be positive.
-constexpr double kSmallestVarianceFactor = 1e-12;
+constexpr double smallest_variance_factor = 1e-12;
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -71,7 +71,7 @@ bool estimate_covariance(const Adjustment& adjustment, const std::optional<Motio
   std::vector<double> disparities;
   const Eigen::Isometry3d& pose = result->T_previous_current;
   const double cost = adjustment.cost(pose, result->inliers, &disparities);
-  result->variance_factor = std::max(kSmallestVarianceFactor, cost / freedom);  // (6) of METHOD.md
+  result->variance_factor = std::max(smallest_variance_factor, cost / freedom);  // (6) of METHOD.md
   const NormalEquations equations = adjustment.normal_equations(pose, result->inliers, disparities);
 
   const double variance = result->variance_factor * correlated_pairs;

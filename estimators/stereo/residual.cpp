@@ -3,7 +3,7 @@
 namespace maploop::stereo {
 namespace {
 
-constexpr double kNearest = 0.1;  // m; a windscreen camera sees no nearer object sharply
+constexpr double nearest_depth = 0.1;  // m; a windscreen camera sees no nearer object sharply
 
 }  // namespace
 
@@ -13,7 +13,7 @@ View view_point(const StereoCalibration& camera, const Eigen::Isometry3d& T_worl
   const Eigen::Vector3d from_camera = p_world - T_world_cam.translation();
   const Eigen::Matrix3d R_cam_world = T_world_cam.linear().transpose();
   const Eigen::Vector3d p_cam = R_cam_world * from_camera;
-  if (!(p_cam.z() > kNearest)) return view;
+  if (!(p_cam.z() > nearest_depth)) return view;
 
   view.in_front = true;
   view.image = project(camera, p_cam);

@@ -29,7 +29,7 @@ class RowSearch {
  private:
   void correlate(const PixelView& left, const PixelView& right, int x, int y, int count);
 
-  std::vector<std::int16_t> strip_;           // the right rows, kSide of them
+  std::vector<std::int16_t> strip_;           // the right rows, patch_side of them
   std::vector<std::int32_t> sums_, squares_;  // of each column of the strip
   std::vector<double> correlation_;           // by disparity
 };

@@ -5,7 +5,7 @@
 namespace maploop::stereo {
 namespace {
 
-constexpr double kNearestInView = 1.0;  // m; nearer points are about to leave the image
+constexpr double nearest_in_view = 1.0;  // m; nearer points are about to leave the image
 
 cv::Point2f point(double u, double v) {
   return {static_cast<float>(u), static_cast<float>(v)};
@@ -17,7 +17,7 @@ ImagePoint foresee(const StereoCalibration& camera, const StereoObservation& see
   const ImagePoint old = image_of(seen);
   if (!expected) return old;
   const Eigen::Vector3d p_current = *expected * triangulate(camera, old);
-  return p_current.z() > kNearestInView ? project(camera, p_current) : old;
+  return p_current.z() > nearest_in_view ? project(camera, p_current) : old;
 }
 
 }  // namespace

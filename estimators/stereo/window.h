@@ -15,7 +15,7 @@
 
 namespace maploop::stereo {
 
-inline constexpr std::size_t kLargestWindow = 12;  // poses
+inline constexpr std::size_t largest_window = 12;  // poses
 
 struct WindowPose {
   Time stamp{};
@@ -41,7 +41,7 @@ struct WindowPoint {
   std::int64_t id = 0;
   Eigen::Vector3d p_world = Eigen::Vector3d::Zero();
   double match_error = 0.0;  // px, measured - true, in every disparity of this feature
-  std::array<Sight, kLargestWindow> sights;  // by pose, oldest first
+  std::array<Sight, largest_window> sights;  // by pose, oldest first
 
   std::size_t first_seen(std::size_t poses) const;  // `poses` if no pose sees it
 

@@ -8,9 +8,9 @@
 namespace maploop::schema {
 namespace {
 
-constexpr std::size_t kMaximumBytes = std::size_t{1} << 31;
-constexpr std::size_t kMaximumFields = 1'000'000;
-constexpr int kMaximumDepth = 64;
+constexpr std::size_t maximum_bytes = std::size_t{1} << 31;
+constexpr std::size_t maximum_fields = 1'000'000;
+constexpr int maximum_depth = 64;
 
 std::uint64_t big_endian(std::span<const std::uint8_t> bytes) {
   std::uint64_t value = 0;
@@ -35,14 +35,14 @@ std::int64_t integer(Kind kind, std::span<const std::uint8_t> bytes) {
 }
 
 std::string quoted(std::string_view text) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
+  constexpr std::string_view hexadecimal_digits = "0123456789abcdef";
   std::string result = "\"";
   for (const char c : text) {
     const auto byte = static_cast<std::uint8_t>(c);
     if (byte < 0x20 || byte == 0x7f) {
       result += "\\x";
-      result += kDigits[byte >> 4];
-      result += kDigits[byte & 15];
+      result += hexadecimal_digits[byte >> 4];
+      result += hexadecimal_digits[byte & 15];
     } else {
       if (c == '"' || c == '\\') result += '\\';
       result += c;
@@ -59,7 +59,7 @@ class Decoder {
   Field message(const Type& type) {
     Field message;
     try {
-      if (bytes_.size() > kMaximumBytes) fail("longer than 2 GB");
+      if (bytes_.size() > maximum_bytes) fail("longer than 2 GB");
       if (bytes_.size() < 8) fail("shorter than a fingerprint");
       if (fingerprint_of(bytes_) != type.fingerprint) {
         fail("its fingerprint is not that of " + type.name);
@@ -91,14 +91,14 @@ class Decoder {
   }
 
   Field& add(std::vector<Field>& fields, const Member& member) {
-    if (++fields_ >= kMaximumFields) {
-      fail("more than " + std::to_string(kMaximumFields) + " fields");
+    if (++fields_ >= maximum_fields) {
+      fail("more than " + std::to_string(maximum_fields) + " fields");
     }
     return fields.emplace_back(Field{&member, {}, {}, {}});
   }
 
   void structure(const Type& type, Field& to, int depth) {
-    if (depth > kMaximumDepth) fail("nested too deeply");
+    if (depth > maximum_depth) fail("nested too deeply");
     std::vector<std::int64_t> counters(static_cast<std::size_t>(type.counters));
     to.inner.reserve(type.members.size());
     for (const Member& member : type.members) {
@@ -161,7 +161,7 @@ class Decoder {
       if (size < 0) fail("'" + dimension.text + "' gives it the size " + std::to_string(size));
       // Both factors are at most 2^31, so their product fits into 64 bits.
       count *= static_cast<std::size_t>(std::min<std::int64_t>(size, std::int64_t{1} << 31));
-      if (count > kMaximumBytes) fail("its sizes are beyond any message");
+      if (count > maximum_bytes) fail("its sizes are beyond any message");
       field.sizes.push_back(static_cast<std::size_t>(size));
     }
     if (field.member->kind < Kind::string) return numbers(field, count);

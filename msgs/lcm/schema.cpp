@@ -9,7 +9,7 @@ namespace {
 
 // The fingerprint is a sum that visits a nested type as often as it is named, which doubles with
 // every level.
-constexpr int kMaximumVisits = 10'000;
+constexpr int maximum_visits = 10'000;
 
 // LCM hashes in signed arithmetic, so the shift to the right repeats the sign.
 void update(std::uint64_t& hash, std::size_t number) {
@@ -35,9 +35,9 @@ std::uint64_t fingerprint(const Type& type, const Inside* outer, int& visits) {
   for (const Inside* i = outer; i != nullptr; i = i->outer) {
     if (i->type == &type) return 0;
   }
-  if (++visits > kMaximumVisits) {
+  if (++visits > maximum_visits) {
     throw std::runtime_error(type.where + "the type '" + type.name +
-                             "' is nested too deeply: more than " + std::to_string(kMaximumVisits) +
+                             "' is nested too deeply: more than " + std::to_string(maximum_visits) +
                              " types inside each other");
   }
   std::uint64_t hash = 0x12345678;

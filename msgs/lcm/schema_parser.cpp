@@ -13,12 +13,12 @@ namespace maploop::schema {
 namespace {
 
 // In the order of Kind; every other name is that of a structure.
-constexpr std::array<std::string_view, 9> kPrimitives{
+constexpr std::array<std::string_view, 9> primitive_types{
     "int8_t", "int16_t", "int32_t", "int64_t", "byte", "boolean", "float", "double", "string"};
 
 Kind kind_of(std::string_view name) {
-  return static_cast<Kind>(std::find(kPrimitives.begin(), kPrimitives.end(), name) -
-                           kPrimitives.begin());
+  return static_cast<Kind>(std::find(primitive_types.begin(), primitive_types.end(), name) -
+                           primitive_types.begin());
 }
 
 bool is_name_character(char c) {

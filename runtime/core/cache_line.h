@@ -6,10 +6,10 @@
 
 namespace maploop::runtime {
 
-inline constexpr std::size_t kCacheLine = 64;  // bytes: the unit that cores transfer
+inline constexpr std::size_t cache_line = 64;  // bytes: the unit that cores transfer
 
 // bytes: Intel's adjacent-line prefetcher fetches lines in pairs, so a neighbouring line is shared
 // too.
-inline constexpr std::size_t kNoSharing = 2 * kCacheLine;
+inline constexpr std::size_t no_sharing = 2 * cache_line;
 
 }  // namespace maploop::runtime

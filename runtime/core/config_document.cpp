@@ -13,12 +13,12 @@ namespace maploop::runtime {
 namespace detail {
 
 std::string printable(std::string_view text) {
-  constexpr std::size_t kLongest = 80;
-  std::string shown(text.substr(0, kLongest));
+  constexpr std::size_t longest_shown = 80;
+  std::string shown(text.substr(0, longest_shown));
   for (char& c : shown) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
   }
-  return text.size() > kLongest ? shown + "..." : shown;
+  return text.size() > longest_shown ? shown + "..." : shown;
 }
 
 std::string dotted(const std::string& path, std::string_view key) {

@@ -91,8 +91,8 @@ struct Entry {
       return shortest_text(static_cast<double>(d.count()) / unit);
     };
     // The value is checked against the range of int64 first, then exactly.
-    constexpr double kBeyond = 9223372036854775808.0;
-    const bool held = std::abs(ns) < kBeyond;
+    constexpr double beyond_int64 = 9223372036854775808.0;
+    const bool held = std::abs(ns) < beyond_int64;
     const Duration result = held ? Duration(std::llround(ns)) : Duration{};
     if (!held || result < lowest || result > highest) {
       out_of_range(shortest_text(given), in_unit(lowest), in_unit(highest));

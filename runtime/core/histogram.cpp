@@ -29,19 +29,19 @@ void raise(std::atomic<std::int64_t>& extreme, std::int64_t value) {
 
 }  // namespace
 
-// Octave k >= 1 holds [2^(k + kPartBits), 2^(k + kPartBits + 1)) in parts of 2^k; smaller values (k
+// Octave k >= 1 holds [2^(k + part_bits), 2^(k + part_bits + 1)) in parts of 2^k; smaller values (k
 // = 0) have parts of 1.
 std::size_t Histogram::bucket_of(std::int64_t value) {
   const auto magnitude = static_cast<std::uint64_t>(value);
-  const int octave = std::max(0, static_cast<int>(std::bit_width(magnitude)) - 1 - kPartBits);
-  return static_cast<std::size_t>(octave) * kParts +
+  const int octave = std::max(0, static_cast<int>(std::bit_width(magnitude)) - 1 - part_bits);
+  return static_cast<std::size_t>(octave) * part_count +
          static_cast<std::size_t>(magnitude >> static_cast<unsigned>(octave));
 }
 
 std::int64_t Histogram::highest_in(std::size_t bucket) {
-  if (bucket < 2 * kParts) return static_cast<std::int64_t>(bucket);
-  const std::size_t octave = bucket / kParts - 1;
-  const std::size_t part = bucket - octave * kParts;
+  if (bucket < 2 * part_count) return static_cast<std::int64_t>(bucket);
+  const std::size_t octave = bucket / part_count - 1;
+  const std::size_t part = bucket - octave * part_count;
   return static_cast<std::int64_t>(((part + 1) << octave) - 1);
 }
 
@@ -54,7 +54,7 @@ void Histogram::record(Duration value) {
   lower(min_, ns);
   raise(max_, ns);
   if (ns < 0) add(below_range_, 1);
-  if (value > kHighest) {
+  if (value > highest_duration) {
     add(above_range_, 1);
   } else {
     add(buckets_[bucket_of(std::max<std::int64_t>(ns, 0))], 1);
@@ -67,7 +67,7 @@ void Histogram::merge(const Histogram& other) {
     raise(max_, other.max_.load(std::memory_order_relaxed));
   };
   merge_extremes();  // so that a reader of this histogram sees no count without them
-  for (std::size_t i = 0; i < kBuckets; ++i) {
+  for (std::size_t i = 0; i < bucket_count; ++i) {
     const std::uint64_t times = other.buckets_[i].load(std::memory_order_acquire);
     if (times != 0) add(buckets_[i], times);
   }
@@ -79,7 +79,7 @@ void Histogram::merge(const Histogram& other) {
 HistogramData Histogram::data() const {
   const Histogram frozen(*this);
   HistogramData data;
-  for (std::size_t i = 0; i < kBuckets; ++i) {
+  for (std::size_t i = 0; i < bucket_count; ++i) {
     const std::uint64_t times = frozen.buckets_[i].load(std::memory_order_relaxed);
     if (times != 0) data.buckets.push_back({Duration(lowest_in(i)), times});
   }
@@ -106,23 +106,24 @@ void Histogram::check(const HistogramData& data) {
   const auto refuse = [](const std::string& why) {
     throw std::invalid_argument("histogram: " + why);
   };
-  constexpr std::uint64_t kMost = std::uint64_t{1} << 53;  // sums of a thousand of them still fit
+  constexpr std::uint64_t most_counted = std::uint64_t{1}
+                                         << 53;  // sums of a thousand of them still fit
   std::uint64_t in_lowest = 0;
   Duration last{-1};
   for (const HistogramData::Bucket& bucket : data.buckets) {
     const std::string name = "bucket of " + std::to_string(bucket.lowest.count()) + " ns";
     if (bucket.lowest <= last) refuse(name + " is not above the one before");
-    if (bucket.lowest > kHighest ||
+    if (bucket.lowest > highest_duration ||
         lowest_in(bucket_of(bucket.lowest.count())) != bucket.lowest.count()) {
       refuse(name + " is none of its buckets");
     }
-    if (bucket.count == 0 || bucket.count > kMost) {
+    if (bucket.count == 0 || bucket.count > most_counted) {
       refuse(name + " has the count " + std::to_string(bucket.count));
     }
     if (bucket.lowest == Duration::zero()) in_lowest = bucket.count;
     last = bucket.lowest;
   }
-  if (data.below_range > in_lowest || data.above_range > kMost) {
+  if (data.below_range > in_lowest || data.above_range > most_counted) {
     refuse("more values out of range than there are");
   }
   if (data.min > data.max) refuse("its minimum is above its maximum");
@@ -154,7 +155,7 @@ Duration Histogram::percentile(double fraction) const {
   // The step down before rounding up corrects rounding errors: 0.07 * 100 is slightly above 7.
   const double rank = std::ceil(std::nextafter(fraction * static_cast<double>(n), 0.0));
   std::uint64_t left = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(rank), 1, n);
-  for (std::size_t i = 0; i < kBuckets; ++i) {
+  for (std::size_t i = 0; i < bucket_count; ++i) {
     const std::uint64_t here = buckets_[i].load(std::memory_order_acquire);
     if (here >= left) return std::min(Duration(highest_in(i)), max());
     left -= here;
@@ -179,7 +180,7 @@ LatencySummary Histogram::summarize(std::string name) const {
 // Adds value - k * interval for k = 1, 2, ... down to `interval`. It works bucket by bucket,
 // because there may be billions of them.
 void Histogram::record_omitted(Duration wait, Duration period) {
-  const std::int64_t value = std::min(wait, kHighest).count(), interval = period.count();
+  const std::int64_t value = std::min(wait, highest_duration).count(), interval = period.count();
   const std::int64_t last = value / interval - 1;  // the largest k
   if (last < 1) return;
   for (std::size_t i = bucket_of(interval); i <= bucket_of(value - interval); ++i) {

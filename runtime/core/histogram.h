@@ -30,13 +30,15 @@ class Histogram {
   Histogram& operator=(const Histogram&) = delete;
 
   // A negative duration (a stamp ahead of the clock) counts as 0 ns and in below_range(); a
-  // duration beyond kHighest counts in above_range(). min() and max() keep the value itself.
+  // duration beyond highest_duration counts in above_range(). min() and max() keep the value
+  // itself.
   void record(Duration value);
 
   // Adds the waits that a stall of `wait` hid from a task released every `period`: wait - period,
   // wait - 2 period, ... down to `period`. With record(wait) this is HdrHistogram's
-  // recordWithExpectedInterval (Tene's correction of co-ordinated omission). A wait beyond kHighest
-  // counts as kHighest. The work is limited to one step for each bucket. Precondition: period > 0.
+  // recordWithExpectedInterval (Tene's correction of co-ordinated omission). A wait beyond
+  // highest_duration counts as highest_duration. The work is limited to one step for each bucket.
+  // Precondition: period > 0.
   void record_omitted(Duration wait, Duration period);
 
   // Adds the contents of `other`, which may be recording meanwhile.
@@ -60,8 +62,8 @@ class Histogram {
   // for fraction 0), as the highest value of its bucket, but not above max(). So at least the share
   // `fraction` of the values is at or below it, and it is never below the exact nearest-rank
   // percentile and less than 0.8 % above; percentile(1) is max(). Returns 0 if nothing was
-  // recorded, and max() if the rank falls on values beyond kHighest. Throws std::invalid_argument
-  // unless `fraction` is within 0..1.
+  // recorded, and max() if the rank falls on values beyond highest_duration. Throws
+  // std::invalid_argument unless `fraction` is within 0..1.
   Duration percentile(double fraction) const;
 
   // Fills all members except the deadline and its misses, which the thread counts, and the omitted
@@ -69,19 +71,19 @@ class Histogram {
   LatencySummary summarize(std::string name) const;
 
   // This is the longest duration with a bucket of its own: 2^37 - 1 ns, 137 s.
-  static constexpr Duration kHighest{(std::int64_t{1} << 37) - 1};
+  static constexpr Duration highest_duration{(std::int64_t{1} << 37) - 1};
 
  private:
-  static constexpr int kPartBits = 7;  // 2^7 parts an octave: 0.8 %
-  static constexpr std::size_t kParts = std::size_t{1} << kPartBits;
-  static constexpr std::size_t kBuckets = (37 - kPartBits + 1) * kParts;
+  static constexpr int part_bits = 7;  // 2^7 parts an octave: 0.8 %
+  static constexpr std::size_t part_count = std::size_t{1} << part_bits;
+  static constexpr std::size_t bucket_count = (37 - part_bits + 1) * part_count;
 
   static std::size_t bucket_of(std::int64_t value);
   static std::int64_t highest_in(std::size_t bucket);
   static std::int64_t lowest_in(std::size_t bucket);
   static void check(const HistogramData& data);
 
-  std::array<std::atomic<std::uint64_t>, kBuckets> buckets_{};
+  std::array<std::atomic<std::uint64_t>, bucket_count> buckets_{};
   std::atomic<std::uint64_t> below_range_{0};
   std::atomic<std::uint64_t> above_range_{0};
   std::atomic<std::int64_t> min_{Duration::max().count()};

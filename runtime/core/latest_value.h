@@ -37,32 +37,33 @@ class LatestValue {
 
   // Writer. Makes back() the newest value; an unread older value is lost.
   void publish() {
-    back_.index = waiting_.exchange(back_.index | kUnread, std::memory_order_acq_rel) & kIndex;
+    back_.index =
+        waiting_.exchange(back_.index | unread_bit, std::memory_order_acq_rel) & index_bits;
   }
 
   // Reader. Returns the newest value if one was published since the last call, otherwise nullptr.
   // It stays valid and unchanged until latest() returns another one.
   const T* latest() {
-    if ((waiting_.load(std::memory_order_relaxed) & kUnread) == 0) return nullptr;
-    front_.index = waiting_.exchange(front_.index, std::memory_order_acq_rel) & kIndex;
+    if ((waiting_.load(std::memory_order_relaxed) & unread_bit) == 0) return nullptr;
+    front_.index = waiting_.exchange(front_.index, std::memory_order_acq_rel) & index_bits;
     return &buffers_[front_.index].value;
   }
 
  private:
-  static constexpr std::uint32_t kIndex = 3;   // index of the buffer in between
-  static constexpr std::uint32_t kUnread = 4;  // set if it has not been read
+  static constexpr std::uint32_t index_bits = 3;  // index of the buffer in between
+  static constexpr std::uint32_t unread_bit = 4;  // set if it has not been read
 
-  struct alignas(kNoSharing) Buffer {
+  struct alignas(no_sharing) Buffer {
     T value{};
   };
-  struct alignas(kNoSharing) Side {
+  struct alignas(no_sharing) Side {
     std::uint32_t index;
   };
 
   std::array<Buffer, 3> buffers_;
   Side back_{0};   // the writer's
   Side front_{2};  // the reader's
-  alignas(kNoSharing) std::atomic<std::uint32_t> waiting_{1};
+  alignas(no_sharing) std::atomic<std::uint32_t> waiting_{1};
 };
 
 }  // namespace maploop::runtime

@@ -20,10 +20,10 @@ std::string_view view(const std::optional<std::string>& file) {
 
 RealtimeSetting assess_kernel(const MachineText& machine) {
   const RealtimeRequest kernel{"kernel", "PREEMPT_RT"};
-  constexpr const char* kRemedy =
+  constexpr const char* remedy_text =
       "install and boot a PREEMPT_RT kernel (Debian: linux-image-rt-amd64)";
   if (!machine.version && !machine.realtime) {
-    return kernel.unknown("/proc/version cannot be read", kRemedy);
+    return kernel.unknown("/proc/version cannot be read", remedy_text);
   }
   const std::string_view version = view(machine.version);
   const auto has = [version](std::string_view word) {
@@ -36,25 +36,25 @@ RealtimeSetting assess_kernel(const MachineText& machine) {
       has("PREEMPT_DYNAMIC") ? "PREEMPT_DYNAMIC"
       : has("PREEMPT")       ? "PREEMPT"
                              : "none",
-      "without PREEMPT_RT the kernel itself is late by milliseconds now and then", kRemedy);
+      "without PREEMPT_RT the kernel itself is late by milliseconds now and then", remedy_text);
 }
 
 RealtimeSetting assess_throttling(const MachineText& machine) {
   // With a smaller share, a driver's burst could be cut off; the kernel's default is 95 %.
-  constexpr double kEnough = 0.9;
-  constexpr const char* kRemedy = "as root: sysctl kernel.sched_rt_runtime_us=950000";
+  constexpr double enough_share = 0.9;
+  constexpr const char* remedy_text = "as root: sysctl kernel.sched_rt_runtime_us=950000";
   const RealtimeRequest share{"real-time throttling", "at least 90 % for real-time threads"};
   const auto runtime = parse_integer(view(machine.rt_runtime_us));
   const auto period = parse_integer(view(machine.rt_period_us));
   if (runtime == -1) return share.granted("off");
   if (!runtime || !period || *runtime < 0 || *period <= 0) {
-    return share.unknown("/proc/sys/kernel/sched_rt_runtime_us is not readable", kRemedy);
+    return share.unknown("/proc/sys/kernel/sched_rt_runtime_us is not readable", remedy_text);
   }
   const std::string text = std::to_string(*runtime) + " of " + std::to_string(*period) + " us";
-  if (static_cast<double>(*runtime) >= kEnough * static_cast<double>(*period))
+  if (static_cast<double>(*runtime) >= enough_share * static_cast<double>(*period))
     return share.granted(text);
   return share.limiting(text, "the kernel stops fifo and rr threads for the rest of each period",
-                        kRemedy);
+                        remedy_text);
 }
 
 RealtimeSetting assess_frequency(const MachineText& machine) {
@@ -92,7 +92,7 @@ std::optional<double> stolen(std::string_view stat) {
 }
 
 RealtimeSetting assess_virtual_machine(const MachineText& machine) {
-  constexpr const char* kRemedy =
+  constexpr const char* remedy_text =
       "run on the machine itself, or give each virtual CPU a core of its own";
   const RealtimeRequest machine_itself{"virtual machine", "none"};
   // On x86 the flags show this; other machines do not report it.
@@ -102,25 +102,25 @@ RealtimeSetting assess_virtual_machine(const MachineText& machine) {
       flags && (' ' + std::string(*flags) + ' ').find(" hypervisor ") != std::string::npos;
   if (!shown && steal.value_or(0.0) == 0.0) {
     return flags ? machine_itself.granted("none")
-                 : machine_itself.unknown("/proc/cpuinfo has no flags", kRemedy);
+                 : machine_itself.unknown("/proc/cpuinfo has no flags", remedy_text);
   }
   return machine_itself.limiting(
       steal ? fmt::format("virtual, {:.2f} % of the time stolen", *steal) : "virtual",
-      "the host runs others on this machine's CPUs, unseen by its kernel", kRemedy);
+      "the host runs others on this machine's CPUs, unseen by its kernel", remedy_text);
 }
 
 RealtimeSetting assess_isolation(const MachineText& machine) {
-  constexpr const char* kRemedy =
+  constexpr const char* remedy_text =
       "boot with isolcpus=LIST and bind the real-time threads there, on a machine with CPUs to "
       "spare";
   const RealtimeRequest cpus{"isolated CPUs", "some, for bound threads alone"};
   const auto isolated = parse_cpu_list(view(machine.isolated_cpus));
   if (!machine.isolated_cpus || !isolated) {
-    return cpus.unknown("/sys/devices/system/cpu/isolated is not readable", kRemedy);
+    return cpus.unknown("/sys/devices/system/cpu/isolated is not readable", remedy_text);
   }
   std::string text = isolated->empty() ? "none" : to_cpu_list(*isolated);
   if (machine.online_cpus) text += " of " + *machine.online_cpus;
-  return isolated->empty() ? cpus.limiting(text, "every program may run on any CPU", kRemedy)
+  return isolated->empty() ? cpus.limiting(text, "every program may run on any CPU", remedy_text)
                            : cpus.granted(text);
 }
 

@@ -18,15 +18,15 @@
 namespace maploop::runtime {
 namespace {
 
-constexpr std::size_t kKilobyte = 1024;
-constexpr std::size_t kMegabyte = 1024 * kKilobyte;
+constexpr std::size_t kilobyte = 1024;
+constexpr std::size_t megabyte = 1024 * kilobyte;
 
 std::size_t page_size() {
   return static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
 std::string kilobytes(std::size_t bytes) {
-  return std::to_string(bytes / kKilobyte) + " kB";
+  return std::to_string(bytes / kilobyte) + " kB";
 }
 
 // Writes each page from the high end down, as a stack grows. The write is volatile because the
@@ -74,7 +74,7 @@ RealtimeSetting prepare_heap(int mb, int arenas) {
   const RealtimeRequest heap{"heap", std::to_string(mb) + " MB mapped and kept"};
   const bool tuned = mallopt(M_TRIM_THRESHOLD, -1) == 1 && mallopt(M_MMAP_MAX, 0) == 1 &&
                      mallopt(M_ARENA_MAX, arenas) == 1;
-  const std::size_t bytes = static_cast<std::size_t>(mb) * kMegabyte;
+  const std::size_t bytes = static_cast<std::size_t>(mb) * megabyte;
   std::size_t mapped = 0;
   if (auto* memory = static_cast<std::byte*>(std::malloc(bytes))) {
     touch(memory, bytes);
@@ -82,8 +82,7 @@ RealtimeSetting prepare_heap(int mb, int arenas) {
     std::free(memory);
   }
   const std::size_t kept = std::min(mapped, static_cast<std::size_t>(mallinfo2().fordblks));
-  const std::string text =
-      std::to_string((kept + kMegabyte / 2) / kMegabyte) + " MB mapped and kept";
+  const std::string text = std::to_string((kept + megabyte / 2) / megabyte) + " MB mapped and kept";
   // Less than a page at either end may be shared with other data.
   if (kept + 2 * page_size() >= bytes) return heap.granted(text);
   if (!tuned || mapped + 2 * page_size() >= bytes) {
@@ -97,7 +96,7 @@ RealtimeSetting prepare_heap(int mb, int arenas) {
 
 RealtimeSetting lock_memory(const Privileges& privileges) {
   const RealtimeRequest memory{"locked memory", "all, and what comes"};
-  const bool unlimited = privileges.ipc_lock || privileges.memlock == Privileges::kUnlimited;
+  const bool unlimited = privileges.ipc_lock || privileges.memlock == Privileges::no_limit;
   int error = mlockall(MCL_CURRENT) == 0 ? 0 : errno;
   if (unlimited && error == 0) {
     error = mlockall(MCL_FUTURE | MCL_ONFAULT) == 0 ? 0 : errno;
@@ -134,11 +133,11 @@ std::vector<RealtimeSetting> prepare_memory(const MemoryParameters& parameters,
 
 RealtimeSetting prefault_stack(const std::string& name, int kb) {
   // This remains for the functions and frames called meanwhile, and for signals.
-  constexpr std::size_t kMargin = 64 * kKilobyte;
+  constexpr std::size_t kept_free = 64 * kilobyte;
   const RealtimeRequest stack{name + ": stack", std::to_string(kb) + " kB mapped"};
-  const std::size_t asked = static_cast<std::size_t>(std::max(kb, 0)) * kKilobyte;
+  const std::size_t asked = static_cast<std::size_t>(std::max(kb, 0)) * kilobyte;
   const std::size_t left = stack_left();
-  const std::size_t bytes = std::min(asked, left > kMargin ? left - kMargin : 0);
+  const std::size_t bytes = std::min(asked, left > kept_free ? left - kept_free : 0);
   const std::size_t mapped = bytes > 0 ? touch_stack(bytes) : 0;
   // mincore counts whole pages, so the two at the ends may be missing.
   const std::size_t granted = mapped + 2 * page_size() >= bytes ? bytes : mapped;
@@ -147,7 +146,7 @@ RealtimeSetting prefault_stack(const std::string& name, int kb) {
   return stack.refused(text,
                        kb < 0 ? "a size must not be negative"
                               : "the stack has " + kilobytes(left) + " left, of which " +
-                                    kilobytes(kMargin) + " are kept free",
+                                    kilobytes(kept_free) + " are kept free",
                        "lower prefaulted_stack_kb, or raise the stack limit (ulimit -s)");
 }
 

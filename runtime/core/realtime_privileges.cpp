@@ -14,7 +14,7 @@ namespace {
 std::uint64_t soft_limit(__rlimit_resource resource) {
   rlimit limit{};
   if (getrlimit(resource, &limit) != 0) return 0;
-  return limit.rlim_cur == RLIM_INFINITY ? Privileges::kUnlimited : limit.rlim_cur;
+  return limit.rlim_cur == RLIM_INFINITY ? Privileges::no_limit : limit.rlim_cur;
 }
 
 }  // namespace

@@ -27,8 +27,8 @@ struct SchedulingAttributes {
   std::uint64_t deadline = 0;
   std::uint64_t period = 0;
 };
-constexpr std::uint32_t kDeadline = 6;       // SCHED_DEADLINE
-constexpr std::uint64_t kResetOnFork = 0x1;  // SCHED_FLAG_RESET_ON_FORK
+constexpr std::uint32_t deadline_policy = 6;  // SCHED_DEADLINE
+constexpr std::uint64_t reset_on_fork = 0x1;  // SCHED_FLAG_RESET_ON_FORK
 
 // Both apply to the calling thread and return 0 or errno.
 int set_attributes(const SchedulingAttributes& attributes) {
@@ -58,7 +58,7 @@ std::string policy_text(const SchedulingAttributes& a) {
       return "batch";
     case SCHED_IDLE:
       return "idle";
-    case kDeadline:
+    case deadline_policy:
       return fmt::format("deadline {}/{}/{} ms", ms(a.runtime), ms(a.deadline), ms(a.period));
     default:
       return fmt::format("policy {}", a.policy);
@@ -99,8 +99,8 @@ SchedulingAttributes attributes_of(const Scheduling& s, const SchedulingAttribut
       a.priority = static_cast<std::uint32_t>(s.priority);
       break;
     case SchedulingPolicy::deadline:
-      a.policy = kDeadline;
-      a.flags = kResetOnFork;  // without it the thread could not start others
+      a.policy = deadline_policy;
+      a.flags = reset_on_fork;  // without it the thread could not start others
       a.runtime = static_cast<std::uint64_t>(s.runtime.count());
       a.deadline = static_cast<std::uint64_t>(s.deadline.count());
       a.period = static_cast<std::uint64_t>(s.period.count());
@@ -194,7 +194,7 @@ std::string to_string(const Scheduling& scheduling) {
 
 std::pair<std::string, std::string> explain_refusal(const Scheduling& scheduling, int error,
                                                     const Privileges& privileges) {
-  constexpr const char* kCapability =
+  constexpr const char* needed_capability =
       "run as root, or give the program the capability: setcap cap_sys_nice+ep PROGRAM";
   const bool fixed =
       scheduling.policy == SchedulingPolicy::fifo || scheduling.policy == SchedulingPolicy::rr;
@@ -216,7 +216,7 @@ std::pair<std::string, std::string> explain_refusal(const Scheduling& scheduling
               "add '@GROUP - rtprio 99' to a file in /etc/security/limits.d and log in again; or "
               "run as root"};
     }
-    if (deadline) return {"deadline scheduling needs CAP_SYS_NICE", kCapability};
+    if (deadline) return {"deadline scheduling needs CAP_SYS_NICE", needed_capability};
     return {"no CAP_SYS_NICE, and RLIMIT_NICE allows nice values from " +
                 std::to_string(lowest_nice(privileges)),
             "add '@GROUP - nice -20' to a file in /etc/security/limits.d and log in again; or run "
@@ -249,7 +249,7 @@ std::vector<RealtimeSetting> apply_scheduling(const std::string& name,
 
 RealtimeSetting assess_time_limit(const Privileges& privileges) {
   const RealtimeRequest request{"real-time CPU time", "unlimited"};
-  if (privileges.realtime_time == Privileges::kUnlimited) return request.granted("unlimited");
+  if (privileges.realtime_time == Privileges::no_limit) return request.granted("unlimited");
   return request.limiting(
       std::to_string(privileges.realtime_time) + " us",
       "RLIMIT_RTTIME: the kernel ends a process whose real-time thread runs that long without "

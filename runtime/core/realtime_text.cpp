@@ -7,20 +7,20 @@
 namespace maploop::runtime {
 namespace {
 
-constexpr int kHighestCpu = 1 << 16;  // far above any machine; limits the length of a made-up range
+constexpr int highest_cpu = 1 << 16;  // far above any machine; limits the length of a made-up range
 
 std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(kBlanks);
+  constexpr std::string_view blank_characters = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(blank_characters);
   if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+  return text.substr(first, text.find_last_not_of(blank_characters) - first + 1);
 }
 
 // Takes a CPU's number off the beginning of the text.
 std::optional<int> take_cpu(std::string_view& text) {
   int cpu = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), cpu);
-  if (error != std::errc{} || cpu < 0 || cpu > kHighestCpu) return {};
+  if (error != std::errc{} || cpu < 0 || cpu > highest_cpu) return {};
   text.remove_prefix(static_cast<std::size_t>(end - text.data()));
   return cpu;
 }

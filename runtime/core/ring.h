@@ -42,8 +42,8 @@ template <typename T>
 class Ring {
  public:
   // Makes a ring that never refuses an item while it holds fewer than `capacity`. Below
-  // kSmallestBatchedCapacity it refuses exactly at `capacity`; above, the slots of one batch are
-  // added (at most an eighth, at most kLargestBatch - 1), and it may hold that many more. Each slot
+  // smallest_batched_capacity it refuses exactly at `capacity`; above, the slots of one batch are
+  // added (at most an eighth, at most largest_batch - 1), and it may hold that many more. Each slot
   // starts as T(). Throws std::invalid_argument if the capacity is 0, and std::length_error or
   // std::bad_alloc if the memory is too small.
   explicit Ring(std::size_t capacity) requires std::default_initializable<T>
@@ -135,28 +135,28 @@ class Ring {
   std::uint64_t popped() const { return consumer_.head.load(std::memory_order_acquire); }
 
   // Rings shorter than this give each slot back at once.
-  static constexpr std::size_t kSmallestBatchedCapacity = 64;
+  static constexpr std::size_t smallest_batched_capacity = 64;
   // This is the maximum number of slots given back together: 256 slots are 32 cache lines of 8-byte
   // items, and more brought no measurable gain.
-  static constexpr std::size_t kLargestBatch = 256;
+  static constexpr std::size_t largest_batch = 256;
 
  private:
   // An item of a cache line or more gets lines of its own; smaller ones are packed.
-  static constexpr std::size_t kSlotAlignment =
-      std::max(alignof(T), sizeof(T) >= kCacheLine ? kCacheLine : std::size_t{1});
-  struct alignas(kSlotAlignment) Slot {
+  static constexpr std::size_t slot_alignment =
+      std::max(alignof(T), sizeof(T) >= cache_line ? cache_line : std::size_t{1});
+  struct alignas(slot_alignment) Slot {
     T value{};
   };
   using Slots = std::vector<Slot, PrefaultedAllocator<Slot>>;
 
   // All counts start at 0 and do not wrap in the life of any machine; slot = count modulo the
   // number of slots, kept as a pointer.
-  struct alignas(kNoSharing) Producer {
+  struct alignas(no_sharing) Producer {
     std::uint64_t tail = 0;   // published so far
     std::uint64_t limit = 0;  // tail may go up to here, as far as known: slots freed + slots
     Slot* slot = nullptr;     // of tail
   };
-  struct alignas(kNoSharing) Consumer {
+  struct alignas(no_sharing) Consumer {
     std::atomic<std::uint64_t> head{0};  // taken so far; read by monitors, not by the producer
     std::uint64_t seen = 0;              // published, as far as known
     std::uint64_t next_free = 0;         // freed_ is stored when head reaches this
@@ -173,7 +173,7 @@ class Ring {
   }
 
   static std::size_t batch_for(std::size_t capacity) {
-    return capacity < kSmallestBatchedCapacity ? 1 : std::min(kLargestBatch, capacity / 8);
+    return capacity < smallest_batched_capacity ? 1 : std::min(largest_batch, capacity / 8);
   }
   // Up to batch - 1 slots are free without the producer knowing it, so they are added.
   static std::size_t slots_for(std::size_t capacity) {
@@ -193,8 +193,8 @@ class Ring {
   Producer producer_;
   Consumer consumer_;
   // The two sides communicate through these two lines.
-  alignas(kNoSharing) std::atomic<std::uint64_t> published_{0};
-  alignas(kNoSharing) std::atomic<std::uint64_t> freed_{0};
+  alignas(no_sharing) std::atomic<std::uint64_t> published_{0};
+  alignas(no_sharing) std::atomic<std::uint64_t> freed_{0};
 };
 
 }  // namespace maploop::runtime

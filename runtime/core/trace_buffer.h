@@ -35,7 +35,7 @@ class TraceBuffer {
 
   // Each of these returns the event, or nullptr if it was dropped.
   TraceEvent* begin(TraceName name) {
-    return append(TraceEvent::Kind::span, name, TraceEvent::kOpen);
+    return append(TraceEvent::Kind::span, name, TraceEvent::open_payload);
   }
   TraceEvent* instant(TraceName name) { return append(TraceEvent::Kind::instant, name, 0); }
   TraceEvent* counter(TraceName name, double value) {
@@ -81,7 +81,7 @@ class TraceBuffer {
   std::string name_;
   std::vector<TraceEvent, PrefaultedAllocator<TraceEvent>> events_;
   // These are written at each event, so they lie apart from the other threads' buffers.
-  alignas(kNoSharing) std::atomic<std::size_t> recorded_{0};
+  alignas(no_sharing) std::atomic<std::size_t> recorded_{0};
   std::atomic<std::uint64_t> dropped_{0};
   MonotonicTime first_dropped_{};  // ordered by dropped_
 };

@@ -52,7 +52,7 @@ struct TraceFlow {
 // This is one slot of a buffer: half a cache line.
 struct TraceEvent {
   enum class Kind : std::uint64_t { span, instant, counter, flow_start, flow_step, flow_end };
-  static constexpr std::int64_t kOpen = -1;  // payload of a span that has not ended
+  static constexpr std::int64_t open_payload = -1;  // payload of a span that has not ended
 
   const char* name = nullptr;  // for a flow, its source
   MonotonicTime time{};        // for a span, its start

@@ -84,7 +84,7 @@ class TraceJson {
     switch (event.kind) {
       case Kind::span: {
         const Duration limit = end_ - event.time;
-        const bool unfinished = payload == TraceEvent::kOpen || Duration(payload) > limit;
+        const bool unfinished = payload == TraceEvent::open_payload || Duration(payload) > limit;
         start('X');
         put_time("dur", unfinished ? limit : Duration(payload));
         if (unfinished) file_.write(R"(,"args":{"unfinished":true})");

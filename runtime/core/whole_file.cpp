@@ -45,7 +45,7 @@ WholeFile::WholeFile(const std::filesystem::path& file)
     : file_(is_replaced(file) ? behind_links(file) : file),
       written_(file_.string() + (is_replaced(file_) ? ".part" : "")),
       descriptor_(open(written_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)),
-      buffer_(std::make_unique<std::array<char, kBytes>>()) {
+      buffer_(std::make_unique<std::array<char, chunk_bytes>>()) {
   if (descriptor_ < 0) fail(errno);
 }
 

@@ -30,13 +30,13 @@ class WholeFile {
   void flush();
   [[noreturn]] void fail(int error) const;
 
-  static constexpr std::size_t kBytes = std::size_t{64} * 1024;
+  static constexpr std::size_t chunk_bytes = std::size_t{64} * 1024;
 
   std::filesystem::path file_;
   std::filesystem::path written_;  // equals file_ if that is not a regular file
   int descriptor_ = -1;
   std::size_t used_ = 0;
-  std::unique_ptr<std::array<char, kBytes>> buffer_;
+  std::unique_ptr<std::array<char, chunk_bytes>> buffer_;
 };
 
 // Writes all bytes at once.

@@ -161,11 +161,7 @@ BagRecording::BagRecording(const std::filesystem::path& path, const BagParameter
                            std::optional<StereoRig> cameras)
     : raw_cameras_(std::move(cameras)) {
   Opening opening{summarize(path), {}};
-  try {
-    choice_ = choose_topics(opening.bag, parameters.topics);
-  } catch (const std::runtime_error& e) {
-    throw std::runtime_error("the recording '" + path.string() + "': " + e.what());
-  }
+  choice_ = choose_topics(path, opening.bag, parameters.topics);
   notes_ = choice_.notes;
   BagSettings settings{path, parameters, delays, limits, true, {}, 1.0};
   for (const BagSensor sensor : {BagSensor::camera_left, BagSensor::lidar, BagSensor::imu,
@@ -279,19 +275,25 @@ void BagRecording::find_span(const Opening& opening) {
   const Topic& topic = *choice_.find(*used);
   const TopicSummary& summary = summary_of(opening.bag, topic);
   frame_count_ = summary.messages;
-  constexpr Duration margin = std::chrono::seconds(2);
-  bool any = false;
-  const auto take = [&](const RecordedMessage& message) {
-    const Time stamp = settings_->header_stamps ? header_of(message).stamp : message.received;
-    if (!any) first_stamp_ = last_stamp_ = stamp;
-    any = true;
-    first_stamp_ = std::min(first_stamp_, stamp);
-    last_stamp_ = std::max(last_stamp_, stamp);
-    return true;
+  const auto stamp_of = [&](const RecordedMessage& message) {
+    return settings_->header_stamps ? header_of(message).stamp : message.received;
   };
-  read_first(settings_->path, {topic.name}, Time::min(),
-             [&](const RecordedMessage& message) { return take(message) && false; });
-  read_first(settings_->path, {topic.name}, summary.last - margin, take);
+  read_first(settings_->path, {topic.name}, Time::min(), [&](const RecordedMessage& message) {
+    first_stamp_ = last_stamp_ = stamp_of(message);
+    return false;
+  });
+  // The index may put the last message later than it is.
+  bool found = false;
+  for (const Duration before : {Duration(std::chrono::seconds(2)),
+                                Duration(std::chrono::minutes(2)), summary.last - summary.first}) {
+    read_first(settings_->path, {topic.name}, summary.last - before,
+               [&](const RecordedMessage& message) {
+                 found = true;
+                 last_stamp_ = std::max(last_stamp_, stamp_of(message));
+                 return true;
+               });
+    if (found) return;
+  }
 }
 
 std::unique_ptr<Source<StereoPair>> BagRecording::camera(Time passed) const {

@@ -193,15 +193,20 @@ void Chooser::look_for_calibration(BagSensor camera, BagSensor info) {
 
 }  // namespace
 
-TopicChoice choose_topics(const BagSummary& bag, const std::vector<std::string>& given) {
+TopicChoice choose_topics(const std::filesystem::path& path, const BagSummary& bag,
+                          const std::vector<std::string>& given) {
   Chooser chooser(bag);
-  for (const std::string& text : given) chooser.take_given(text);
-  chooser.look_for_cameras();
-  chooser.look_for_calibration(BagSensor::camera_left, BagSensor::camera_left_info);
-  chooser.look_for_calibration(BagSensor::camera_right, BagSensor::camera_right_info);
-  chooser.look_for<RosPointCloud>(BagSensor::lidar);
-  chooser.look_for<RosImu>(BagSensor::imu);
-  chooser.look_for<RosFix>(BagSensor::gnss);
+  try {
+    for (const std::string& text : given) chooser.take_given(text);
+    chooser.look_for_cameras();
+    chooser.look_for_calibration(BagSensor::camera_left, BagSensor::camera_left_info);
+    chooser.look_for_calibration(BagSensor::camera_right, BagSensor::camera_right_info);
+    chooser.look_for<RosPointCloud>(BagSensor::lidar);
+    chooser.look_for<RosImu>(BagSensor::imu);
+    chooser.look_for<RosFix>(BagSensor::gnss);
+  } catch (const std::runtime_error& e) {
+    throw std::runtime_error("the recording '" + path.string() + "': " + e.what());
+  }
   return chooser.done();
 }
 

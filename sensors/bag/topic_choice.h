@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -39,8 +40,8 @@ struct TopicChoice {
   }
 };
 
-// Chooses a topic for each sensor. `given` has texts SENSOR=TOPIC; with the topic "none" the sensor
-// is not used. The rules, for what is not given:
+// Chooses a topic for each sensor of the recording at `path`. `given` has texts SENSOR=TOPIC; with
+// the topic "none" the sensor is not used. The rules, for what is not given:
 // - The LiDAR, the inertial unit and the receiver's fixes are the only topic of their type.
 // - The cameras are two topics of images whose names differ by left and right, or by 0 and 1, only.
 //   Where there are more such pairs, rectified ones are preferred to raw ones, and grey ones to
@@ -48,9 +49,10 @@ struct TopicChoice {
 // - An image's calibration is the topic camera_info beside it.
 // - gnss.velocity (east north up) and wheel (forward speed: x of the vehicle) are used only if they
 //   are given, because the type of their messages does not tell what they are.
-// Throws std::runtime_error that lists the candidates and states what to do if several topics could
-// be a sensor, and if a given text is none of these or names a topic that is not there or that
-// cannot be decoded.
-TopicChoice choose_topics(const BagSummary& bag, const std::vector<std::string>& given);
+// Throws std::runtime_error that names the recording, lists the candidates and states what to do if
+// several topics could be a sensor, and if a given text is none of these or names a topic that is
+// not there or that cannot be decoded.
+TopicChoice choose_topics(const std::filesystem::path& path, const BagSummary& bag,
+                          const std::vector<std::string>& given);
 
 }  // namespace maploop::sensors

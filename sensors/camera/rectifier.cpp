@@ -11,7 +11,7 @@
 namespace maploop::sensors {
 namespace {
 
-constexpr int kOne = 256;  // weight 1, in steps of 1/256 px
+constexpr int unit_weight = 256;  // weight 1, in steps of 1/256 px
 
 // Holds the raw pixel above and left of the place that a rectified pixel looks at, and how far the
 // place lies to the right of it and below it.
@@ -28,8 +28,8 @@ Place place_of(const Eigen::Vector2d& pixel, int width, int height) {
   // On the last row and column the previous one is `first`, and its neighbour gets the full weight.
   const int x = std::min(static_cast<int>(pixel.x()), width - 2);
   const int y = std::min(static_cast<int>(pixel.y()), height - 2);
-  return {y * width + x, static_cast<std::uint16_t>(std::lround((pixel.x() - x) * kOne)),
-          static_cast<std::uint16_t>(std::lround((pixel.y() - y) * kOne))};
+  return {y * width + x, static_cast<std::uint16_t>(std::lround((pixel.x() - x) * unit_weight)),
+          static_cast<std::uint16_t>(std::lround((pixel.y() - y) * unit_weight))};
 }
 
 Map make_map(const CameraModel& camera, const Eigen::Matrix3d& R_rect, const StereoRig& rig) {
@@ -57,9 +57,11 @@ void look_up(const GreyImage& raw, const Map& map, GreyImage& rectified) {
     if (place.first >= 0) {
       const std::uint8_t* up = pixels + place.first;
       const std::uint8_t* low = up + raw.width;
-      const int upper = up[0] * (kOne - place.right) + up[1] * place.right;
-      const int lower = low[0] * (kOne - place.right) + low[1] * place.right;
-      value = (upper * (kOne - place.down) + lower * place.down + kOne * kOne / 2) / (kOne * kOne);
+      const int upper = up[0] * (unit_weight - place.right) + up[1] * place.right;
+      const int lower = low[0] * (unit_weight - place.right) + low[1] * place.right;
+      value = (upper * (unit_weight - place.down) + lower * place.down +
+               unit_weight * unit_weight / 2) /
+              (unit_weight * unit_weight);
     }
     *out++ = static_cast<std::uint8_t>(value);
   }

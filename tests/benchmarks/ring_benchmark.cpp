@@ -24,7 +24,7 @@
 
 namespace {
 
-constexpr std::size_t kCapacity = 1024;
+constexpr std::size_t ring_capacity = 1024;
 
 void pin_to_core(int core) {
   cpu_set_t cores;
@@ -33,8 +33,8 @@ void pin_to_core(int core) {
   pthread_setaffinity_np(pthread_self(), sizeof cores, &cores);
 }
 
-template <std::size_t kBytes>
-using Item = std::array<std::uint64_t, kBytes / sizeof(std::uint64_t)>;
+template <std::size_t item_bytes>
+using Item = std::array<std::uint64_t, item_bytes / sizeof(std::uint64_t)>;
 
 // All queues in one form: put(value) fills an item with it, take(sum) adds an item's words up.
 template <typename T>
@@ -63,7 +63,7 @@ class Ours {
   }
 
  private:
-  maploop::runtime::Ring<T> ring_{kCapacity};
+  maploop::runtime::Ring<T> ring_{ring_capacity};
 };
 
 template <typename T>
@@ -79,7 +79,7 @@ class Boost {
   }
 
  private:
-  boost::lockfree::spsc_queue<T> queue_{kCapacity};
+  boost::lockfree::spsc_queue<T> queue_{ring_capacity};
 };
 
 template <typename T>
@@ -99,7 +99,7 @@ class Moodycamel {
   }
 
  private:
-  moodycamel::ReaderWriterQueue<T> queue_{kCapacity};
+  moodycamel::ReaderWriterQueue<T> queue_{ring_capacity};
 };
 
 template <typename Queue>
@@ -113,13 +113,13 @@ void fill_and_empty(Queue& queue) {
   }
 }
 
-template <template <typename> class Queue, std::size_t kBytes>
+template <template <typename> class Queue, std::size_t item_bytes>
 void Throughput(benchmark::State& state) {
-  constexpr std::uint64_t kItems = 20'000'000 / (kBytes / 8 + 3);
-  constexpr std::uint64_t kWords = kBytes / 8;
+  constexpr std::uint64_t item_count = 20'000'000 / (item_bytes / 8 + 3);
+  constexpr std::uint64_t word_count = item_bytes / 8;
   pin_to_core(0);
   for (auto _ : state) {
-    Queue<Item<kBytes>> queue;
+    Queue<Item<item_bytes>> queue;
     fill_and_empty(queue);
     std::atomic<bool> ready{false}, go{false};
     std::uint64_t wrong = 0;
@@ -128,18 +128,18 @@ void Throughput(benchmark::State& state) {
       ready = true;
       while (!go) {
       }
-      for (std::uint64_t i = 0; i < kItems; ++i) {
+      for (std::uint64_t i = 0; i < item_count; ++i) {
         std::uint64_t sum = 0;
         while (!queue.take(sum)) {
         }
-        wrong += sum != i * kWords ? 1 : 0;
+        wrong += sum != i * word_count ? 1 : 0;
       }
     });
     while (!ready) {
     }
     const auto start = std::chrono::steady_clock::now();
     go = true;
-    for (std::uint64_t i = 0; i < kItems; ++i) {
+    for (std::uint64_t i = 0; i < item_count; ++i) {
       while (!queue.put(i)) {
       }
     }
@@ -148,13 +148,13 @@ void Throughput(benchmark::State& state) {
     state.SetIterationTime(std::chrono::duration<double>(end - start).count());
     if (wrong != 0) state.SkipWithError("items were lost, torn or out of order");
   }
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(kItems));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(item_count));
 }
 
-template <template <typename> class Queue, std::size_t kBytes>
+template <template <typename> class Queue, std::size_t item_bytes>
 void RoundTrip(benchmark::State& state) {
-  constexpr std::uint64_t kWords = kBytes / 8;
-  Queue<Item<kBytes>> there, back;
+  constexpr std::uint64_t word_count = item_bytes / 8;
+  Queue<Item<item_bytes>> there, back;
   fill_and_empty(there);
   fill_and_empty(back);
   std::atomic<bool> done{false};
@@ -165,7 +165,7 @@ void RoundTrip(benchmark::State& state) {
       while (!there.take(sum)) {
         if (done) return;
       }
-      while (!back.put(sum / kWords)) {
+      while (!back.put(sum / word_count)) {
       }
     }
   });
@@ -176,7 +176,7 @@ void RoundTrip(benchmark::State& state) {
     }
     while (!back.take(sum)) {
     }
-    wrong += sum != i++ * kWords ? 1 : 0;
+    wrong += sum != i++ * word_count ? 1 : 0;
   }
   done = true;
   echo.join();

@@ -20,7 +20,7 @@ using maploop::runtime::TraceBuffer;
 using maploop::runtime::Tracer;
 using maploop::runtime::TraceSpan;
 
-constexpr int kEvents = 1 << 18;
+constexpr int event_count = 1 << 18;
 
 // The compiler must not know whether tracing is on.
 TraceBuffer* hidden(TraceBuffer* buffer) {
@@ -45,9 +45,9 @@ class Recording {
 
  private:
   void renew() {
-    tracer_.emplace(maploop::runtime::TraceParameters{kEvents});
+    tracer_.emplace(maploop::runtime::TraceParameters{event_count});
     buffer_ = hidden(&tracer_->thread("benchmark"));
-    left_ = kEvents;
+    left_ = event_count;
   }
 
   benchmark::State& state_;
@@ -117,11 +117,11 @@ BENCHMARK(SpanFull);
 
 // Of a whole buffer, to a file that keeps nothing.
 void Write(benchmark::State& state) {
-  Tracer tracer({.events_per_thread = kEvents});
+  Tracer tracer({.events_per_thread = event_count});
   TraceBuffer* buffer = &tracer.thread("benchmark");
-  for (int i = 0; i < kEvents; ++i) TraceSpan span(buffer, "span");
+  for (int i = 0; i < event_count; ++i) TraceSpan span(buffer, "span");
   for (auto _ : state) tracer.write("/dev/null");
-  state.SetItemsProcessed(state.iterations() * kEvents);
+  state.SetItemsProcessed(state.iterations() * event_count);
 }
 BENCHMARK(Write)->Unit(benchmark::kMillisecond);
 

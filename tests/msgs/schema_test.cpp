@@ -263,9 +263,9 @@ TEST(DecodedMessage, HostileSizesAreRefusedByName) {
     bytes.resize(bytes.size() - cut);
     return refusal(type, bytes);
   };
-  constexpr std::uint64_t kMinusOne = ~std::uint64_t{0};
-  EXPECT_EQ(reason("a", {kMinusOne, 1}), "'x': 'n' gives it the size -1");
-  EXPECT_EQ(reason("a", {1, kMinusOne}), "'x': 'm' gives it the size -1");
+  constexpr std::uint64_t minus_one = ~std::uint64_t{0};
+  EXPECT_EQ(reason("a", {minus_one, 1}), "'x': 'n' gives it the size -1");
+  EXPECT_EQ(reason("a", {1, minus_one}), "'x': 'm' gives it the size -1");
   for (const std::uint64_t huge : {1ULL << 31, 1ULL << 32, 1ULL << 33, 1ULL << 62}) {
     EXPECT_NE(reason("a", {huge, huge}), "");
     EXPECT_NE(reason("a", {huge, 1}), "");

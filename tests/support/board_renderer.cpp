@@ -10,7 +10,7 @@
 namespace maploop::testing {
 namespace {
 
-constexpr int kRays = 4;  // per pixel, each way
+constexpr int rays_each_way = 4;  // per pixel, each way
 
 cv::Mat camera_matrix(const RenderedCamera& c) {
   return (cv::Mat_<double>(3, 3) << c.fx, 0.0, c.cx, 0.0, c.fy, c.cy, 0.0, 0.0, 1.0);
@@ -49,9 +49,9 @@ BoardRenderer::BoardRenderer(const RenderedRig& rig) : rig_(rig) {}
 
 std::vector<float> BoardRenderer::rays_of(const RenderedCamera& camera) const {
   std::vector<cv::Point2d> pixels, undistorted;
-  for (int v = 0; v < rig_.height * kRays; ++v)
-    for (int u = 0; u < rig_.width * kRays; ++u)
-      pixels.emplace_back((u + 0.5) / kRays - 0.5, (v + 0.5) / kRays - 0.5);
+  for (int v = 0; v < rig_.height * rays_each_way; ++v)
+    for (int u = 0; u < rig_.width * rays_each_way; ++u)
+      pixels.emplace_back((u + 0.5) / rays_each_way - 0.5, (v + 0.5) / rays_each_way - 0.5);
   cv::undistortPoints(pixels, undistorted, camera_matrix(camera), coefficients(camera),
                       cv::noArray(), cv::noArray(),
                       {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 50, 1e-10});
@@ -76,15 +76,15 @@ GreyImage BoardRenderer::render(const std::vector<float>& rays, const RenderedBo
   for (int v = 0; v < rig_.height; ++v)
     for (int u = 0; u < rig_.width; ++u) {
       float sum = 0.0F;
-      for (int i = 0; i < kRays; ++i)
-        for (int k = 0; k < kRays; ++k) {
-          const auto at = 2 * (static_cast<std::size_t>(v * kRays + i) *
-                                   static_cast<std::size_t>(rig_.width * kRays) +
-                               static_cast<std::size_t>(u * kRays + k));
+      for (int i = 0; i < rays_each_way; ++i)
+        for (int k = 0; k < rays_each_way; ++k) {
+          const auto at = 2 * (static_cast<std::size_t>(v * rays_each_way + i) *
+                                   static_cast<std::size_t>(rig_.width * rays_each_way) +
+                               static_cast<std::size_t>(u * rays_each_way + k));
           const Eigen::Vector3d on_board = to_board * Eigen::Vector3d(rays[at], rays[at + 1], 1.0);
           sum += brightness(board, on_board.x() / on_board.z(), on_board.y() / on_board.z());
         }
-      mean.at<float>(v, u) = sum / (kRays * kRays);
+      mean.at<float>(v, u) = sum / (rays_each_way * rays_each_way);
     }
   if (quality.blur > 0.0) cv::GaussianBlur(mean, mean, {0, 0}, quality.blur);
   std::mt19937 random(seed);

@@ -10,12 +10,12 @@ namespace maploop::calibrate {
 namespace {
 
 using sensors::CameraModel;
-using CommonMatrix = Eigen::Matrix<double, kCommonParameters, kCommonParameters>;
+using CommonMatrix = Eigen::Matrix<double, common_parameter_count, common_parameter_count>;
 using PoseVector = Eigen::Matrix<double, 6, 1>;  // rotation about the frame's axes, translation
 using PoseMatrix = Eigen::Matrix<double, 6, 6>;
-using MixedMatrix = Eigen::Matrix<double, kCommonParameters, 6>;
+using MixedMatrix = Eigen::Matrix<double, common_parameter_count, 6>;
 
-constexpr int kRight = kCameraParameters, kExtrinsics = 2 * kCameraParameters;
+constexpr int right_camera_at = camera_parameter_count, extrinsics_at = 2 * camera_parameter_count;
 
 Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
   Eigen::Matrix3d m;
@@ -42,15 +42,15 @@ Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, const PoseVector& by) {
   return result;
 }
 
-CameraModel moved(CameraModel camera, const Eigen::Matrix<double, kCameraParameters, 1>& by) {
+CameraModel moved(CameraModel camera, const Eigen::Matrix<double, camera_parameter_count, 1>& by) {
   const auto numbers = numbers_of(camera);
   for (std::size_t i = 0; i < numbers.size(); ++i) *numbers[i] += by[static_cast<Eigen::Index>(i)];
   return camera;
 }
 
 Cameras moved(const Cameras& cameras, const CommonVector& by) {
-  return {moved(cameras.left, by.head<kCameraParameters>()),
-          moved(cameras.right, by.segment<kCameraParameters>(kRight)),
+  return {moved(cameras.left, by.head<camera_parameter_count>()),
+          moved(cameras.right, by.segment<camera_parameter_count>(right_camera_at)),
           moved(cameras.T_right_left, by.tail<6>())};
 }
 
@@ -63,7 +63,7 @@ struct Normals {
   CommonVector Atr = CommonVector::Zero();
   PoseVector Btr = PoseVector::Zero();
 
-  void add(const Eigen::Matrix<double, 2, kCommonParameters>& a,
+  void add(const Eigen::Matrix<double, 2, common_parameter_count>& a,
            const Eigen::Matrix<double, 2, 6>& b, const Eigen::Vector2d& r) {
     AtA += a.transpose() * a;
     AtB += a.transpose() * b;
@@ -83,16 +83,16 @@ Normals normals_of(const Board& board, const View& view, const Cameras& cameras,
     const Eigen::Vector3d in_left = rotated + T_left_board.translation();
     const Eigen::Matrix<double, 3, 6> by_board = by_pose(rotated);
 
-    Eigen::Matrix<double, 2, kCommonParameters> a = decltype(a)::Zero();
+    Eigen::Matrix<double, 2, common_parameter_count> a = decltype(a)::Zero();
     const Projection left = project_with_derivatives(cameras.left, in_left);
-    a.leftCols<kCameraParameters>() = left.by_camera;
+    a.leftCols<camera_parameter_count>() = left.by_camera;
     n.add(a, left.by_point * by_board, view.left[i] - left.pixel);
 
     const Eigen::Vector3d turned = cameras.T_right_left.linear() * in_left;
     const Projection right =
         project_with_derivatives(cameras.right, turned + cameras.T_right_left.translation());
     a.setZero();
-    a.middleCols<kCameraParameters>(kRight) = right.by_camera;
+    a.middleCols<camera_parameter_count>(right_camera_at) = right.by_camera;
     a.rightCols<6>() = right.by_point * by_pose(turned);
     n.add(a, right.by_point * cameras.T_right_left.linear() * by_board,
           view.right[i] - right.pixel);
@@ -252,7 +252,7 @@ Adjustment adjust(const Board& board, const std::vector<View>& views, const Came
 
   const std::size_t corners = 2 * views.size() * board.points().size();
   const auto redundancy = static_cast<double>(2 * corners) -
-                          (kCommonParameters + 6.0 * static_cast<double>(views.size()));
+                          (common_parameter_count + 6.0 * static_cast<double>(views.size()));
   const CommonMatrix inverse = scaled_inverse(reduce(normals_of(board, views, result), 0.0).S);
   result.sigma = (inverse.diagonal() * squares / redundancy).cwiseSqrt();
   result.rms = mean_distance(squares, corners);

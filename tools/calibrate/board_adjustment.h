@@ -21,12 +21,12 @@ struct View {
 // The parameters common to all views, in the order of Adjustment::sigma: left fx fy cx cy k1 k2 p1
 // p2 k3, the same for right, rotation of the right camera about its own x y z (rad), t_right_left
 // (m).
-constexpr int kCameraParameters = 9, kCommonParameters = 2 * kCameraParameters + 6;
-using CommonVector = Eigen::Matrix<double, kCommonParameters, 1>;
-constexpr std::array<const char*, kCameraParameters> kCameraParameterNames = {
+constexpr int camera_parameter_count = 9, common_parameter_count = 2 * camera_parameter_count + 6;
+using CommonVector = Eigen::Matrix<double, common_parameter_count, 1>;
+constexpr std::array<const char*, camera_parameter_count> camera_parameter_names = {
     "fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3"};
 // Returns the numbers of a camera that have these names.
-inline std::array<double*, kCameraParameters> numbers_of(sensors::CameraModel& c) {
+inline std::array<double*, camera_parameter_count> numbers_of(sensors::CameraModel& c) {
   sensors::Distortion& d = c.distortion;
   return {&c.fx, &c.fy, &c.cx, &c.cy, &d.k1, &d.k2, &d.p1, &d.p2, &d.k3};
 }
@@ -67,7 +67,7 @@ Adjustment adjust(const Board& board, const std::vector<View>& views, const Came
 // the point in the camera's frame (m).
 struct Projection {
   Eigen::Vector2d pixel;
-  Eigen::Matrix<double, 2, kCameraParameters> by_camera;
+  Eigen::Matrix<double, 2, camera_parameter_count> by_camera;
   Eigen::Matrix<double, 2, 3> by_point;
 };
 Projection project_with_derivatives(const sensors::CameraModel& camera,

@@ -14,7 +14,7 @@
 namespace maploop::calibrate {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double radians_per_degree = std::numbers::pi / 180.0;
 
 std::string shown(double value, int digits = 2) {
   return fmt::format("{:.{}f}", value, digits);
@@ -37,12 +37,13 @@ TiltSpread tilt_spread(const std::vector<Eigen::Isometry3d>& T_left_board) {
 // If all boards are parallel, a nearer board with a shorter focal length looks the same as a
 // farther board with a longer one.
 void require_different_tilts(const StereoResult& r) {
-  constexpr double least_tilt = 4.0 * kDegree, most_sigma = 0.02;
+  constexpr double least_tilt = 4.0 * radians_per_degree, most_sigma = 0.02;
   const double f_sigma = r.adjustment.sigma[0] / r.adjustment.cameras.left.fx;
   if (r.tilt.most > least_tilt && f_sigma < most_sigma) return;
   throw std::runtime_error(
       "the boards of all " + std::to_string(r.adjustment.T_left_board.size()) +
-      " views are too nearly parallel (their tilts scatter by " + shown(r.tilt.most / kDegree, 1) +
+      " views are too nearly parallel (their tilts scatter by " +
+      shown(r.tilt.most / radians_per_degree, 1) +
       " deg): focal length and distance cannot be told apart; tilt the board by 20 to 40 deg, to "
       "the left, right, front and back");
 }
@@ -55,7 +56,7 @@ std::vector<BadView> take_out_bad(const Residuals& residuals, int round, double 
   for (const auto& of_view : residuals) rms.push_back(rms_of_view(of_view));
   const double limit = std::max(factor * tools::median(rms), floor);
   std::vector<BadView> bad;
-  while (views.size() > kMinViews) {
+  while (views.size() > fewest_views) {
     const auto worst = std::max_element(rms.begin(), rms.end()) - rms.begin();
     const auto at = static_cast<std::size_t>(worst);
     if (!(rms[at] > limit)) break;
@@ -113,13 +114,13 @@ std::vector<std::string> warnings_of(const StereoResult& r) {
                        " px from where the cameras should see them: is the board flat and its "
                        "square size true, and did both cameras expose at one moment?");
   const double f_sigma = std::max(r.adjustment.sigma[0] / r.rig.left.fx,
-                                  r.adjustment.sigma[kCameraParameters] / r.rig.right.fx);
+                                  r.adjustment.sigma[camera_parameter_count] / r.rig.right.fx);
   if (f_sigma > 0.003)
     warnings.push_back("the focal length is known to " + shown(100.0 * f_sigma) +
                        " % only: tilt the board more");
-  if (r.tilt.across < 4.0 * kDegree)
+  if (r.tilt.across < 4.0 * radians_per_degree)
     warnings.push_back("the board is tilted about one axis only (about the other by " +
-                       shown(r.tilt.across / kDegree, 1) +
+                       shown(r.tilt.across / radians_per_degree, 1) +
                        " deg): tilt it to the sides as well as to the front and back");
   for (std::size_t side = 0; side < 2; ++side) {
     const std::string name = side == 0 ? "left" : "right";
@@ -164,10 +165,10 @@ std::vector<std::string> Coverage::empty_corners() const {
 }
 
 StereoResult calibrate(const Board& board, std::vector<View> views, int width, int height) {
-  if (views.size() < kMinViews) {
+  if (views.size() < fewest_views) {
     throw std::runtime_error("too few views: the board is found in both images of " +
                              std::to_string(views.size()) + " pairs, and " +
-                             std::to_string(kMinViews) + " are needed (20 to 40 are good)");
+                             std::to_string(fewest_views) + " are needed (20 to 40 are good)");
   }
   StereoResult result;
   result.board = board;

@@ -10,7 +10,7 @@
 
 namespace maploop::calibrate {
 
-constexpr std::size_t kMinViews = 6;
+constexpr std::size_t fewest_views = 6;
 
 struct ViewResult {
   View view;
@@ -60,7 +60,7 @@ struct StereoResult {
 
 // Makes at most five adjustments. Before the first and after each but the last, views are left out,
 // the worst first, whose root mean square distance exceeds both 2.5 times the median of all views
-// and 0.2 px (before the first: 5 px); at least kMinViews remain. Throws std::runtime_error that
+// and 0.2 px (before the first: 5 px); at least fewest_views remain. Throws std::runtime_error that
 // names the problem: too few views, boards all parallel, parameters that the views do not
 // determine, left and right swapped.
 StereoResult calibrate(const Board& board, std::vector<View> views, int width, int height);

@@ -10,7 +10,7 @@
 namespace maploop::calibrate {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
 
 std::string board_text(const Board& board) {
   return fmt::format("{}x{} inner corners, squares of {:g} m", board.columns, board.rows,
@@ -91,12 +91,13 @@ std::vector<Parameter> parameters_of(const StereoResult& r) {
     sensors::CameraModel camera = is_left ? r.rig.left : r.rig.right;
     const auto numbers = numbers_of(camera);
     for (std::size_t i = 0; i < numbers.size(); ++i)
-      add(std::string(is_left ? "left." : "right.") + kCameraParameterNames[i], i < 4 ? "px" : "",
+      add(std::string(is_left ? "left." : "right.") + camera_parameter_names[i], i < 4 ? "px" : "",
           *numbers[i]);
   }
   const Eigen::Vector3d turn = turn_of(r.rig), t = r.rig.T_right_left.translation();
   for (const int i : {0, 1, 2})
-    add(std::string("rotation_right_left.") + "xyz"[i], "deg", turn[i] * kDegrees, kDegrees);
+    add(std::string("rotation_right_left.") + "xyz"[i], "deg", turn[i] * degrees_per_radian,
+        degrees_per_radian);
   for (const int i : {0, 1, 2}) add(std::string("t_right_left.") + "xyz"[i], "m", t[i]);
   return all;
 }
@@ -135,8 +136,8 @@ std::string to_toml(const StereoResult& r) {
   }
   const CommonVector& s = r.adjustment.sigma;
   comments["extrinsics.R_right_left"] =
-      fmt::format("sigma {:.2g} {:.2g} {:.2g} deg about x y z", s[18] * kDegrees, s[19] * kDegrees,
-                  s[20] * kDegrees);
+      fmt::format("sigma {:.2g} {:.2g} {:.2g} deg about x y z", s[18] * degrees_per_radian,
+                  s[19] * degrees_per_radian, s[20] * degrees_per_radian);
   comments["extrinsics.t_right_left"] =
       fmt::format("m, sigma {:.2g} {:.2g} {:.2g}", s[21], s[22], s[23]);
   comments["rectification.baseline"] = "m";

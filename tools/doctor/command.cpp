@@ -51,8 +51,8 @@ std::vector<RealtimeSetting> ask_for_bus(const std::string& url) {
 }
 
 void examine_recording(const DoctorOptions& options, vehicle::VehicleConfig config) {
-  vehicle::fit_to_recording(config, options.recording);
   config.bag.topics.insert(config.bag.topics.end(), options.topics.begin(), options.topics.end());
+  vehicle::fit_to_recording(config, options.recording);
   const vehicle::Recording recording = vehicle::open_recording(options.recording, config);
   const std::vector<SensorHealth> sensors = examine(recording);
   std::vector<std::string> sentences = recording.notes;

@@ -100,7 +100,7 @@ Evaluation evaluate(Matched matched, const std::vector<double>& lengths_m) {
   e.kitti = kitti_odometry_error(estimate, truth);
   for (const double length : lengths_m) {
     e.raw = score(estimate, truth, length);
-    e.common_rotation_removed = score(estimate, truth, length, CommonRotation::kRemove);
+    e.common_rotation_removed = score(estimate, truth, length, CommonRotation::remove);
     e.lengths.push_back({length, e.raw.segment, e.common_rotation_removed.segment});
   }
   return e;

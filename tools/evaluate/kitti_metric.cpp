@@ -10,8 +10,8 @@
 namespace maploop::evaluation {
 namespace {
 
-constexpr double kCommonRotationLength = 25.0;  // m
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double common_rotation_length = 25.0;  // m
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 // The general inverse is used like in the devkit, because a rounded pose from a file is not an
 // exact rotation.
@@ -70,7 +70,7 @@ class MeanError {
     });
   }
   SegmentError mean() const {
-    if (segments_ == 0) return {kNaN, kNaN, 0};
+    if (segments_ == 0) return {not_a_number, not_a_number, 0};
     return {percent_ / segments_, deg_per_m_ / segments_, segments_};
   }
 
@@ -82,7 +82,7 @@ class MeanError {
 
 Eigen::Matrix3d fit_rotation(const Pair& pair) {
   Eigen::Matrix3d correlation = Eigen::Matrix3d::Zero();
-  for_each_segment(pair, kCommonRotationLength, 1, [&](const auto& estimate, const auto& truth) {
+  for_each_segment(pair, common_rotation_length, 1, [&](const auto& estimate, const auto& truth) {
     correlation += estimate.translation() * truth.translation().transpose();
   });
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(correlation,
@@ -112,7 +112,7 @@ Score score(const Trajectory& estimate, const Trajectory& truth, double length_m
             CommonRotation common_rotation) {
   if (!(length_m > 0.0)) throw std::invalid_argument("the length of a segment must be positive");
   Pair pair = aligned(estimate, truth);
-  if (common_rotation == CommonRotation::kRemove) {
+  if (common_rotation == CommonRotation::remove) {
     const Eigen::Isometry3d rotation(fit_rotation(pair));
     for (Eigen::Isometry3d& pose : pair.estimate) pose = rotation * pose * rotation.inverse();
   }
@@ -121,7 +121,7 @@ Score score(const Trajectory& estimate, const Trajectory& truth, double length_m
   result.distance_m = pair.distance.back();
   result.end_point_m = between(pair.estimate.back(), pair.truth.back()).translation().norm();
   result.end_point_percent =
-      result.distance_m > 0.0 ? 100.0 * result.end_point_m / result.distance_m : kNaN;
+      result.distance_m > 0.0 ? 100.0 * result.end_point_m / result.distance_m : not_a_number;
   MeanError error;
   error.add(pair, length_m, 1);
   result.segment = error.mean();
@@ -129,10 +129,10 @@ Score score(const Trajectory& estimate, const Trajectory& truth, double length_m
 }
 
 SegmentError kitti_odometry_error(const Trajectory& estimate, const Trajectory& truth) {
-  constexpr std::size_t kEvery = 10;
+  constexpr std::size_t start_every = 10;
   const Pair pair = aligned(estimate, truth);
   MeanError error;
-  for (int length = 100; length <= 800; length += 100) error.add(pair, length, kEvery);
+  for (int length = 100; length <= 800; length += 100) error.add(pair, length, start_every);
   return error.mean();
 }
 

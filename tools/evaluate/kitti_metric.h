@@ -15,7 +15,7 @@ namespace maploop::evaluation {
 
 // What to do with a constant rotation between the two body frames (an error of extrinsics or of the
 // truth's own azimuth, not of the odometry).
-enum class CommonRotation { kKeep, kRemove };
+enum class CommonRotation { keep, remove };
 
 struct SegmentError {
   double percent = 0.0;    // mean translation error, % of the length; NaN without a segment
@@ -37,7 +37,7 @@ std::vector<double> distances(const Trajectory& trajectory);
 // Scores segments of one length (m), starting at every frame. Throws std::invalid_argument if a
 // trajectory has fewer than two poses or the length is not positive.
 Score score(const Trajectory& estimate, const Trajectory& truth, double length_m,
-            CommonRotation common_rotation = CommonRotation::kKeep);
+            CommonRotation common_rotation = CommonRotation::keep);
 
 // Returns the benchmark's own figure: lengths 100, 200, ..., 800 m, from every tenth frame, the
 // plain mean over all segments. Throws like score().

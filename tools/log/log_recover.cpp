@@ -20,7 +20,7 @@ struct Loss {
   // because one of the numbers is then damaged. The difference of unsigned numbers cannot overflow.
   std::uint64_t events() const {
     const auto missing = static_cast<std::uint64_t>(after) - static_cast<std::uint64_t>(before) - 1;
-    return after_us && missing <= bytes.bytes() / (kHeaderBytes + 1) ? missing : 0;
+    return after_us && missing <= bytes.bytes() / (header_bytes + 1) ? missing : 0;
   }
 
   std::string text() const {
@@ -64,7 +64,7 @@ Recovery recover(const path& log, const schema::Schema& schema, const path& outp
   };
   const auto take = [&](const LogEvent& event) {
     if (const auto why = why_undecodable(event, schema)) {
-      const auto size = kHeaderBytes + event.channel.size() + event.data.size();
+      const auto size = header_bytes + event.channel.size() + event.data.size();
       return lose({event.offset, event.offset + size, *why});
     }
     if (open) {

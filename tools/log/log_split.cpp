@@ -54,7 +54,7 @@ class Pieces {
   bool begins_piece(const LogEvent& event) {
     const PieceLimit& limit = *parameters_.every;
     if (!limit.is_time) {
-      const auto bytes = kHeaderBytes + event.channel.size() + event.data.size();
+      const auto bytes = header_bytes + event.channel.size() + event.data.size();
       return static_cast<double>(writer_->bytes() + bytes) > limit.most;
     }
     // Whole microseconds are used, because 0.3 s / 0.1 s is slightly less than 3 in doubles.

@@ -9,8 +9,8 @@
 namespace maploop::lcm_log {
 
 void LogWriter::write(const LogEvent& event) {
-  std::array<std::uint8_t, kHeaderBytes> header{};
-  const LogHeader values{.sync = kSyncWord,
+  std::array<std::uint8_t, header_bytes> header{};
+  const LogHeader values{.sync = sync_word,
                          .number = static_cast<std::int64_t>(events_++),
                          .time_us = event.time_us,
                          .channel_bytes = static_cast<std::int32_t>(event.channel.size()),

@@ -10,8 +10,8 @@
 namespace maploop::odometry {
 namespace {
 
-constexpr double kTruthPosition = 0.03;  // m
-constexpr double kTruthAttitude = 0.05;  // deg
+constexpr double truth_position = 0.03;  // m
+constexpr double truth_attitude = 0.05;  // deg
 
 Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
   Eigen::Matrix3d m;
@@ -65,8 +65,8 @@ Consistency consistency(std::span<const RelativeMotion> motions,
                         const evaluation::StampedTrajectory& truth, double seconds) {
   const auto poses = turned_truth(motions, T_body_cam, truth);
   Eigen::Matrix<double, 6, 1> own;
-  own << Eigen::Vector3d::Constant(kTruthPosition),
-      Eigen::Vector3d::Constant(radians(kTruthAttitude));
+  own << Eigen::Vector3d::Constant(truth_position),
+      Eigen::Vector3d::Constant(radians(truth_attitude));
   const Matrix6 of_truth = own.cwiseAbs2().asDiagonal();
 
   Consistency result;

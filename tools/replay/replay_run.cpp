@@ -45,12 +45,12 @@ vehicle::VehicleConfig config_of(const ReplayOptions& options) {
   vehicle::VehicleConfig config;
   if (!options.config.empty()) config = vehicle::load_vehicle_config(options.config);
   if (options.seed) config.gnss.seed = config.wheel.seed = config.imu_seed = *options.seed;
+  config.bag.topics.insert(config.bag.topics.end(), options.topics.begin(), options.topics.end());
   vehicle::fit_to_recording(config, options.drive);
   const std::string configuration = configuration_of(options, config);
   if (configuration != config.configuration) set_configuration(config, configuration);
   if (!options.gnss_outage.empty()) config.gnss_outage = options.gnss_outage;
   if (!options.odometry_poses.empty()) config.odometry_poses.file = options.odometry_poses;
-  config.bag.topics.insert(config.bag.topics.end(), options.topics.begin(), options.topics.end());
   if (!options.imu.empty()) {
     config.imu_noise = options.imu;
     if (options.imu == "mems") set_imu_grade(config, "mems");

@@ -66,8 +66,8 @@ std::optional<Accuracy> TrajectoryCollector::score(const Reference& reference,
   }
   if (estimate.size() < 2) return std::nullopt;
   using evaluation::CommonRotation;
-  return Accuracy{evaluation::score(estimate, truth, segment_m, CommonRotation::kKeep),
-                  evaluation::score(estimate, truth, segment_m, CommonRotation::kRemove)};
+  return Accuracy{evaluation::score(estimate, truth, segment_m, CommonRotation::keep),
+                  evaluation::score(estimate, truth, segment_m, CommonRotation::remove)};
 }
 
 RoadMoment road_moment(const MapMatch& match) {

@@ -9,10 +9,11 @@
 
 namespace maploop::lcm_log {
 
-inline constexpr std::uint32_t kSyncWord = 0xEDA1DA01;
-inline constexpr std::size_t kHeaderBytes = 28;
-inline constexpr std::int32_t kMaximumChannelBytes = 999;   // LCM's own limit
-inline constexpr std::int32_t kMaximumDataBytes = 1 << 26;  // 64 MB, more than any sensor's message
+inline constexpr std::uint32_t sync_word = 0xEDA1DA01;
+inline constexpr std::size_t header_bytes = 28;
+inline constexpr std::int32_t maximum_channel_bytes = 999;  // LCM's own limit
+inline constexpr std::int32_t maximum_data_bytes = 1
+                                                   << 26;  // 64 MB, more than any sensor's message
 
 struct LogHeader {
   std::uint32_t sync = 0;
@@ -22,14 +23,14 @@ struct LogHeader {
   std::int32_t data_bytes = 0;
 
   std::size_t event_bytes() const {
-    return kHeaderBytes + static_cast<std::size_t>(channel_bytes) +
+    return header_bytes + static_cast<std::size_t>(channel_bytes) +
            static_cast<std::size_t>(data_bytes);
   }
 };
 
-// Precondition: `bytes` has at least kHeaderBytes.
+// Precondition: `bytes` has at least header_bytes.
 LogHeader read_header(std::span<const std::uint8_t> bytes);
-void write_header(const LogHeader& header, std::span<std::uint8_t, kHeaderBytes> bytes);
+void write_header(const LogHeader& header, std::span<std::uint8_t, header_bytes> bytes);
 
 // Returns why no event can begin like this; nullopt if one can.
 std::optional<std::string> implausible(const LogHeader& header);

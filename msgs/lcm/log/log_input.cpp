@@ -10,18 +10,18 @@
 namespace maploop::lcm_log {
 namespace {
 
-constexpr std::size_t kReadBytes = std::size_t{256} * 1024;
+constexpr std::size_t read_size = std::size_t{256} * 1024;
 
 }  // namespace
 
 LogInput::LogInput(const std::filesystem::path& file)
-    : stream_(gzopen(file.c_str(), "rb"), gzclose_r), window_(2 * kReadBytes) {
+    : stream_(gzopen(file.c_str(), "rb"), gzclose_r), window_(2 * read_size) {
   const bool folder = std::filesystem::is_directory(file);
   if (!stream_ || folder) {
     throw std::runtime_error("cannot read the log '" + file.string() +
                              "': " + (folder ? "it is a folder" : std::strerror(errno)));
   }
-  gzbuffer(stream_.get(), kReadBytes);
+  gzbuffer(stream_.get(), read_size);
   std::error_code unknown;
   if (std::filesystem::is_regular_file(file))
     file_size_ = std::filesystem::file_size(file, unknown);
@@ -42,12 +42,12 @@ void LogInput::read_more(std::size_t size) {
   while (end_ - begin_ < size && !at_end_) {
     // The window grows as bytes arrive, so a hostile size in a small file allocates nothing. Bytes
     // are moved only if at least a third as many were skipped, so that reading stays linear.
-    if (window_.size() - end_ < kReadBytes && begin_ > window_.size() / 4) {
+    if (window_.size() - end_ < read_size && begin_ > window_.size() / 4) {
       std::copy(window_.begin() + static_cast<std::ptrdiff_t>(begin_),
                 window_.begin() + static_cast<std::ptrdiff_t>(end_), window_.begin());
       end_ -= begin_;
       begin_ = 0;
-    } else if (window_.size() - end_ < kReadBytes) {
+    } else if (window_.size() - end_ < read_size) {
       window_.resize(2 * window_.size());
     }
     const int got =

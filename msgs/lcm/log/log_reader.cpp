@@ -6,7 +6,7 @@
 namespace maploop::lcm_log {
 namespace {
 
-constexpr int kMaximumInside = 64;  // headers checked inside one event
+constexpr int maximum_inside = 64;  // headers checked inside one event
 
 bool is_channel_name(std::string_view name) {
   return std::none_of(name.begin(), name.end(), [](char c) {
@@ -18,10 +18,10 @@ bool is_channel_name(std::string_view name) {
 // Returns whether a plausible header begins inside an event: the one with the next number, or any.
 bool next_event_inside(std::span<const std::uint8_t> bytes, const LogHeader& header,
                        bool any_number) {
-  bytes = bytes.first(std::min(bytes.size(), header.event_bytes() + kHeaderBytes - 1));
+  bytes = bytes.first(std::min(bytes.size(), header.event_bytes() + header_bytes - 1));
   int checked = 0;
   for (std::size_t at = find_sync(bytes, 1);
-       at + kHeaderBytes <= bytes.size() && checked < kMaximumInside;
+       at + header_bytes <= bytes.size() && checked < maximum_inside;
        at = find_sync(bytes, at + 1)) {
     const LogHeader inside = read_header(bytes.subspan(at));
     if (implausible(inside)) continue;
@@ -59,18 +59,18 @@ LogReader::Item LogReader::next() {
 
 // Checks whether an event begins at the input's position; stores it in event_, or returns why not.
 std::optional<std::string> LogReader::check() {
-  std::span<const std::uint8_t> bytes = input_.peek(kHeaderBytes);
+  std::span<const std::uint8_t> bytes = input_.peek(header_bytes);
   if (!begins_with_sync(bytes)) return "no event begins here";
-  if (bytes.size() < kHeaderBytes) return "the log ends inside the header of an event";
+  if (bytes.size() < header_bytes) return "the log ends inside the header of an event";
   const LogHeader header = read_header(bytes);
   const std::string name = "event " + std::to_string(header.number) + ": ";
   if (const auto wrong = implausible(header)) return name + *wrong;
-  bytes = input_.peek(header.event_bytes() + kHeaderBytes);
+  bytes = input_.peek(header.event_bytes() + header_bytes);
   if (bytes.size() < header.event_bytes()) {
     return name + "the log ends " + std::to_string(header.event_bytes() - bytes.size()) +
            " bytes before the event does";
   }
-  const auto content = bytes.subspan(kHeaderBytes);
+  const auto content = bytes.subspan(header_bytes);
   const auto channel_bytes = static_cast<std::size_t>(header.channel_bytes);
   event_ = {.number = header.number,
             .time_us = header.time_us,
@@ -87,7 +87,7 @@ std::optional<std::string> LogReader::check_what_follows(std::span<const std::ui
                                                          const LogHeader& header) {
   const auto after = bytes.subspan(header.event_bytes());
   const bool followed = begins_with_sync(after);
-  if (followed && after.size() >= kHeaderBytes && read_header(after).number == header.number + 1) {
+  if (followed && after.size() >= header_bytes && read_header(after).number == header.number + 1) {
     return std::nullopt;
   }
   if (next_event_inside(bytes, header, !followed)) return "another event begins inside it";
@@ -99,11 +99,11 @@ std::optional<std::string> LogReader::check_what_follows(std::span<const std::ui
 
 void LogReader::skip_to_sync() {
   while (true) {
-    const auto bytes = input_.peek(kHeaderBytes);
+    const auto bytes = input_.peek(header_bytes);
     const std::size_t at = find_sync(bytes, 0);
     if (at < bytes.size()) return input_.skip(at);
     // The last bytes may be the start of a sync word, unless the log ends with them.
-    if (bytes.size() < kHeaderBytes) return input_.skip(bytes.size());
+    if (bytes.size() < header_bytes) return input_.skip(bytes.size());
     input_.skip(bytes.size() - 3);
   }
 }

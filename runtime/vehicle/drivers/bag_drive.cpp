@@ -9,6 +9,15 @@ namespace maploop::vehicle {
 
 using sensors::BagSensor;
 
+FusedSensors fused_sensors_of_bag(const std::filesystem::path& path,
+                                  const sensors::BagParameters& parameters) {
+  const sensors::TopicChoice choice =
+      sensors::choose_topics(path, sensors::summarize(path), parameters.topics);
+  const auto has = [&](BagSensor sensor) { return choice.find(sensor) != nullptr; };
+  return {has(BagSensor::camera_left) || has(BagSensor::lidar) || has(BagSensor::wheel),
+          has(BagSensor::imu)};
+}
+
 Recording open_bag(const std::filesystem::path& path, const VehicleConfig& config) {
   const VehicleDescription& d = config.vehicle;
   const sensors::BagDelays delays{d.camera.time.delay, d.lidar.time.delay, d.imu.time.delay,

@@ -7,6 +7,16 @@
 
 namespace maploop::vehicle {
 
+// Says what there is to combine with fixes.
+struct FusedSensors {
+  bool motion = false;  // of a camera, a LiDAR or wheels
+  bool inertial = false;
+};
+
+// Reads the index of the bag. Throws std::runtime_error naming what is wrong.
+FusedSensors fused_sensors_of_bag(const std::filesystem::path& path,
+                                  const sensors::BagParameters& parameters);
+
 // Which topic is which sensor is said by sensors/bag/topic_choice.h. Throws std::runtime_error
 // naming what is wrong.
 Recording open_bag(const std::filesystem::path& path, const VehicleConfig& config);

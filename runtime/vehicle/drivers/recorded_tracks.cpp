@@ -16,8 +16,8 @@ namespace maploop::vehicle {
 namespace {
 
 // The meta file does not contain the size of the images; this is KITTI's.
-constexpr int kWidth = 1242;
-constexpr int kHeight = 375;
+constexpr int image_width = 1242;
+constexpr int image_height = 375;
 
 Eigen::Isometry3d to_pose(const nlohmann::json& rows) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -30,8 +30,8 @@ Eigen::Isometry3d to_pose(const nlohmann::json& rows) {
 
 StereoCalibration to_calibration(const nlohmann::json& meta) {
   StereoCalibration calibration;
-  calibration.width = kWidth;
-  calibration.height = kHeight;
+  calibration.width = image_width;
+  calibration.height = image_height;
   calibration.fx = meta.at("fx");
   calibration.fy = meta.at("fy");
   calibration.cx = meta.at("cu");

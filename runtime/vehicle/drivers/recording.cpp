@@ -240,11 +240,14 @@ Recording open_recording(const std::filesystem::path& path, const VehicleConfig&
 }
 
 void fit_to_recording(VehicleConfig& config, const std::filesystem::path& path) {
-  if (!sensors::TableRecording::is_named(path)) return;
-  const bool inertial = sensors::existing_table(path / "imu.csv").has_value();
-  if (!config.given.contains(".configuration"))
-    set_configuration(config, inertial ? "GNSS+RI" : "GNSS");
-  if (!config.given.contains(".imu_grade")) set_imu_grade(config, "mems");
+  const bool tables = sensors::TableRecording::is_named(path);
+  if (!tables && !sensors::is_bag(path)) return;
+  const FusedSensors there =
+      tables ? FusedSensors{false, sensors::existing_table(path / "imu.csv").has_value()}
+             : fused_sensors_of_bag(path, config.bag);
+  if (!there.motion && !config.is_given("", "configuration"))
+    set_configuration(config, there.inertial ? "GNSS+RI" : "GNSS");
+  if (!config.is_given("", "imu_grade")) set_imu_grade(config, "mems");
 }
 
 fusion::KnownStart start_from_reference(const Recording& recording) {

@@ -63,9 +63,9 @@ std::shared_ptr<const sensors::KittiDrive> open_drive(const std::filesystem::pat
 //   computed from them.
 Recording open_recording(const std::filesystem::path& path, const VehicleConfig& config);
 
-// Chooses what the recording needs, where the configuration file has not said otherwise: tables
-// have no odometry, so they are run as GNSS+RI, or as GNSS without imu.csv, and as a unit of grade
-// mems. Other recordings need nothing.
+// Chooses what tables and bags need, where the configuration file has not said otherwise: without
+// odometry and wheels they are run as GNSS+RI, or as GNSS without an inertial unit, which is of
+// grade mems. Other recordings need nothing. Throws as open_recording() does.
 void fit_to_recording(VehicleConfig& config, const std::filesystem::path& path);
 
 // Returns the outages that the configuration asks for. Throws std::runtime_error if it does not use

@@ -22,9 +22,9 @@ namespace {
 constexpr auto write_every = std::chrono::milliseconds(100);
 
 void append(LogBatch& batch, std::int64_t number, const Message& message) {
-  std::array<std::uint8_t, lcm_log::kHeaderBytes> header{};
+  std::array<std::uint8_t, lcm_log::header_bytes> header{};
   lcm_log::write_header(
-      {.sync = lcm_log::kSyncWord,
+      {.sync = lcm_log::sync_word,
        .number = number,
        .time_us =
            std::chrono::floor<std::chrono::microseconds>(message.time).time_since_epoch().count(),

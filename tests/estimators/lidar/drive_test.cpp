@@ -89,7 +89,7 @@ class LidarDriveTest : public ::testing::Test {
   }
 
   static evaluation::Score error(const DriveResult& run) {
-    return evaluation::score(run.camera, truth(), 100.0, evaluation::CommonRotation::kRemove);
+    return evaluation::score(run.camera, truth(), 100.0, evaluation::CommonRotation::remove);
   }
 
   static std::vector<VisualMotion> visual_;

@@ -34,7 +34,7 @@ TEST(Consistency, HalvesOfTheFeaturesDifferOverASecondByNoMoreThanTheirCovarianc
   parameters.features_per_bucket = 4;
   parameters.sigma_disparity_offset = 0.0;  // the offset is equal in both halves
 
-  constexpr int kSecond = 10;  // pairs
+  constexpr int pairs_a_second = 10;  // pairs
   StereoFrame before, now;
   std::array<JoinedMotion, 2> halves;
   double nees = 0.0;
@@ -55,7 +55,7 @@ TEST(Consistency, HalvesOfTheFeaturesDifferOverASecondByNoMoreThanTheirCovarianc
         ASSERT_EQ(motion.status, OdometryStatus::ok) << "pair " << k;
         halves[half].append(motion.T_previous_current, motion.covariance);
       }
-      if (k % kSecond == 0) {
+      if (k % pairs_a_second == 0) {
         const auto difference = odometry::pose_difference(halves[0].pose, halves[1].pose);
         const odometry::Matrix6 covariance = halves[0].covariance + halves[1].covariance;
         nees += difference.dot(covariance.ldlt().solve(difference)) / 6.0;

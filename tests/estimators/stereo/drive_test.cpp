@@ -70,7 +70,7 @@ TEST_F(DriveTest, FollowsTheReferenceBetterThanLibviso2) {
   EXPECT_LT(raw.segment.deg_per_m, 0.0030);
   // The reference's own azimuth differs by 0.5 to 0.75 degrees from every camera and LiDAR
   // odometry.
-  const auto aligned = evaluation::score(run.camera, truth, 100.0, CommonRotation::kRemove);
+  const auto aligned = evaluation::score(run.camera, truth, 100.0, CommonRotation::remove);
   EXPECT_GT(aligned.segment.segments, 40);
   EXPECT_LT(aligned.segment.percent, 0.60);  // reached 0.49; libviso2 0.86
   EXPECT_LT(aligned.end_point_m, 0.6);       // reached 0.36
@@ -112,7 +112,7 @@ TEST_F(DriveTest, LosingEveryOtherPairCostsLittle) {
   const DriveResult run = drive(camera_, kept);
   for (std::size_t i = 1; i < run.motions.size(); ++i)
     EXPECT_EQ(run.motions[i].status, OdometryStatus::ok) << "pair " << i;
-  const auto aligned = evaluation::score(run.camera, kept_truth, 100.0, CommonRotation::kRemove);
+  const auto aligned = evaluation::score(run.camera, kept_truth, 100.0, CommonRotation::remove);
   EXPECT_LT(aligned.segment.percent, 1.2);
 }
 

@@ -16,7 +16,7 @@ namespace {
 using maploop::testing::small_camera;
 using maploop::testing::TexturedWall;
 
-constexpr int kWidth = 640, kHeight = 240;
+constexpr int image_width = 640, image_height = 240;
 
 StereoFrame frame_of(const StereoPair& pair, const StereoParameters& parameters) {
   StereoFrame frame;
@@ -34,11 +34,12 @@ std::vector<cv::Point2f> corners_of(const StereoFrame& frame, const StereoParame
 
 TEST(CornerDetector, FillsBucketsWithoutExceedingThemAndKeepsItsDistance) {
   const StereoParameters parameters;
-  const StereoFrame frame = frame_of(TexturedWall().pair(kWidth, kHeight, 0.0, 20.0), parameters);
+  const StereoFrame frame =
+      frame_of(TexturedWall().pair(image_width, image_height, 0.0, 20.0), parameters);
   const auto corners = corners_of(frame, parameters);
   EXPECT_GT(corners.size(), 100u);
   const auto distance = static_cast<float>(parameters.min_feature_distance);
-  const BucketGrid grid(kWidth, kHeight, parameters.bucket_size);
+  const BucketGrid grid(image_width, image_height, parameters.bucket_size);
   std::map<std::size_t, int> held;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     ++held[grid.bucket_of(static_cast<int>(corners[i].x), static_cast<int>(corners[i].y))];
@@ -51,7 +52,8 @@ TEST(CornerDetector, FillsBucketsWithoutExceedingThemAndKeepsItsDistance) {
 
 TEST(CornerDetector, OnlyRefillsBucketsThatLostFeatures) {
   const StereoParameters parameters;
-  const StereoFrame frame = frame_of(TexturedWall().pair(kWidth, kHeight, 0.0, 20.0), parameters);
+  const StereoFrame frame =
+      frame_of(TexturedWall().pair(image_width, image_height, 0.0, 20.0), parameters);
   const std::vector<cv::Point2f> taken = {{110.0f, 110.0f}, {125.0f, 125.0f}, {140.0f, 140.0f}};
   for (const cv::Point2f& corner : corners_of(frame, parameters, taken))
     EXPECT_FALSE(corner.x >= 100.0f && corner.x < 150.0f && corner.y >= 100.0f &&
@@ -60,17 +62,18 @@ TEST(CornerDetector, OnlyRefillsBucketsThatLostFeatures) {
 
 TEST(CornerDetector, FindsNothingOnAFlatImage) {
   StereoPair pair;
-  pair.left.resize(kWidth, kHeight);
+  pair.left.resize(image_width, image_height);
   pair.right = pair.left;
   EXPECT_TRUE(corners_of(frame_of(pair, {}), {}).empty());
 }
 
 TEST(CornerResponse, IsHighAtACornerAndNoneAlongAnEdge) {
   StereoPair pair;
-  pair.left.resize(kWidth, kHeight);
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x)
-      pair.left.pixels[static_cast<std::size_t>(y * kWidth + x)] = x >= 100 && y >= 100 ? 200 : 50;
+  pair.left.resize(image_width, image_height);
+  for (int y = 0; y < image_height; ++y)
+    for (int x = 0; x < image_width; ++x)
+      pair.left.pixels[static_cast<std::size_t>(y * image_width + x)] =
+          x >= 100 && y >= 100 ? 200 : 50;
   pair.right = pair.left;
   const StereoFrame frame = frame_of(pair, {});
   EXPECT_GT(corner_response(frame.left.gradient(0), 100, 100), 200.0);
@@ -78,7 +81,7 @@ TEST(CornerResponse, IsHighAtACornerAndNoneAlongAnEdge) {
 }
 
 TEST(RowSearch, FindsTheShiftOfATexturedPatchAndRefusesRepeatingOnes) {
-  const StereoPair pair = TexturedWall().pair(kWidth, kHeight, 0.0, 23.0);
+  const StereoPair pair = TexturedWall().pair(image_width, image_height, 0.0, 23.0);
   const auto view = [](const GreyImage& image) {
     return PixelView{image.pixels.data(), image.width, image.width, image.height};
   };
@@ -86,16 +89,17 @@ TEST(RowSearch, FindsTheShiftOfATexturedPatchAndRefusesRepeatingOnes) {
   EXPECT_EQ(search.best_disparity(view(pair.left), view(pair.right), 200, 100, 60, 0.8), 23);
   EXPECT_LT(search.best_disparity(view(pair.left), view(pair.right), 2, 100, 60, 0.8), 0) << "rim";
   GreyImage fence = pair.left;
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x)
-      fence.pixels[static_cast<std::size_t>(y * kWidth + x)] =
+  for (int y = 0; y < image_height; ++y)
+    for (int x = 0; x < image_width; ++x)
+      fence.pixels[static_cast<std::size_t>(y * image_width + x)] =
           static_cast<std::uint8_t>(128 + (x % 12 < 6 ? 60 : -60) + y % 7);
   EXPECT_LT(search.best_disparity(view(fence), view(fence), 200, 100, 60, 0.8), 0);
 }
 
 TEST(StereoMatch, MeasuresASubpixelDisparity) {
   const StereoParameters parameters;
-  const StereoFrame frame = frame_of(TexturedWall().pair(kWidth, kHeight, 0.0, 20.3), parameters);
+  const StereoFrame frame =
+      frame_of(TexturedWall().pair(image_width, image_height, 0.0, 20.3), parameters);
   std::vector<StereoObservation> matched;
   match_new_corners(frame, parameters, corners_of(frame, parameters), &matched);
   ASSERT_GT(matched.size(), 100u);
@@ -111,7 +115,7 @@ TEST(StereoMatch, LeavesOutDisparitiesBeyondTheLimits) {
   const StereoParameters parameters;
   for (const double disparity : {-20.0, 0.4, 180.0}) {
     const StereoFrame frame =
-        frame_of(TexturedWall().pair(kWidth, kHeight, 0.0, disparity), parameters);
+        frame_of(TexturedWall().pair(image_width, image_height, 0.0, disparity), parameters);
     const auto corners = corners_of(frame, parameters);
     std::vector<StereoObservation> matched;
     match_new_corners(frame, parameters, corners, &matched);
@@ -124,8 +128,10 @@ TEST(Track, ClosesTheCircleWithAndWithoutAnExpectedMotion) {
   const StereoCalibration camera = small_camera();
   const TexturedWall wall;
   const double disparity = 20.0, moved = 7.4;  // px to the left
-  const StereoFrame before = frame_of(wall.pair(kWidth, kHeight, 0.0, disparity), parameters);
-  const StereoFrame after = frame_of(wall.pair(kWidth, kHeight, moved, disparity), parameters);
+  const StereoFrame before =
+      frame_of(wall.pair(image_width, image_height, 0.0, disparity), parameters);
+  const StereoFrame after =
+      frame_of(wall.pair(image_width, image_height, moved, disparity), parameters);
   std::vector<StereoObservation> matched;
   match_new_corners(before, parameters, corners_of(before, parameters), &matched);
   std::vector<Feature> features;

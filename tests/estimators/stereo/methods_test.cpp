@@ -49,15 +49,15 @@ TEST(PointAlignment, CovarianceAgreesWithTheErrors) {
   parameters.correlated_pairs = 1.0;
   parameters.sigma_match = 0.0;  // the method assumes independent errors at both epochs
   double nees = 0.0;
-  constexpr int kScenes = 200;
-  for (unsigned seed = 0; seed < kScenes; ++seed) {
+  constexpr int scene_count = 200;
+  for (unsigned seed = 0; seed < scene_count; ++seed) {
     const auto tracks =
         synthetic_tracks(small_camera(), driving_motion(), 100,
                          {parameters.sigma_track, parameters.sigma_disparity}, seed);
     const Refinement refined = refine_alignment(small_camera(), parameters, tracks, all_of(tracks));
     ASSERT_TRUE(refined.ok);
     const auto error = pose_error(refined.T_previous_current, driving_motion());
-    nees += error.dot(refined.covariance.ldlt().solve(error)) / 6.0 / kScenes;
+    nees += error.dot(refined.covariance.ldlt().solve(error)) / 6.0 / scene_count;
   }
   EXPECT_GT(nees, 0.5);  // the previous left position has no error in these scenes
   EXPECT_LT(nees, 1.3);

@@ -45,8 +45,8 @@ TEST(Refine, CovarianceAgreesWithTheErrorsOverManyNoisyScenes) {
   StereoParameters parameters;
   parameters.correlated_pairs = 1.0;  // the errors of these scenes are independent
   double nees = 0.0, variance_factor = 0.0;
-  constexpr int kScenes = 300;
-  for (unsigned seed = 0; seed < kScenes; ++seed) {
+  constexpr int scene_count = 300;
+  for (unsigned seed = 0; seed < scene_count; ++seed) {
     const auto tracks =
         synthetic_tracks(small_camera(), driving_motion(), 100, modelled_noise(parameters), seed);
     const Refinement refined =
@@ -54,8 +54,8 @@ TEST(Refine, CovarianceAgreesWithTheErrorsOverManyNoisyScenes) {
     ASSERT_TRUE(refined.ok);
     const Eigen::Matrix<double, 6, 1> error =
         pose_error(refined.T_previous_current, driving_motion());
-    nees += error.dot(refined.covariance.ldlt().solve(error)) / 6.0 / kScenes;
-    variance_factor += refined.variance_factor / kScenes;
+    nees += error.dot(refined.covariance.ldlt().solve(error)) / 6.0 / scene_count;
+    variance_factor += refined.variance_factor / scene_count;
   }
   // With 1800 degrees of freedom, 0.87 to 1.13 is four standard deviations of chi-square.
   EXPECT_GT(nees, 0.87);

@@ -13,11 +13,11 @@ namespace {
 using maploop::testing::small_camera;
 using maploop::testing::TexturedWall;
 
-constexpr double kDisparity = 20.0;  // px, the wall is 10 m away
+constexpr double wall_disparity = 20.0;  // px, the wall is 10 m away
 
 class StereoOdometryTest : public ::testing::Test {
  protected:
-  StereoPair at(int tenths, double moved, double disparity = kDisparity) const {
+  StereoPair at(int tenths, double moved, double disparity = wall_disparity) const {
     StereoPair pair = wall_.pair(640, 240, moved, disparity);
     pair.stamp = Time(std::chrono::seconds(1000) + std::chrono::milliseconds(100 * tenths));
     pair.available = pair.stamp + std::chrono::milliseconds(20);
@@ -41,7 +41,7 @@ class StereoOdometryTest : public ::testing::Test {
   // Moving the wall one pixel to the left is equivalent to moving the camera B / d to the right.
   static void expect_sideways(const RelativeMotion& result, double pixels) {
     ASSERT_EQ(result.status, OdometryStatus::ok) << to_string(result.status);
-    const Eigen::Vector3d expected(pixels * 0.5 / kDisparity, 0.0, 0.0);
+    const Eigen::Vector3d expected(pixels * 0.5 / wall_disparity, 0.0, 0.0);
     EXPECT_LT((result.translation - expected).norm(), 0.02) << result.translation.transpose();
     EXPECT_GT(result.covariance.diagonal().minCoeff(), 0.0);
     EXPECT_TRUE(result.covariance.allFinite());
@@ -146,7 +146,7 @@ TEST_F(StereoOdometryTest, LongPauseStartsAnew) {
 
 TEST_F(StereoOdometryTest, WrongSizeEmptyAndCutImagesAreRefused) {
   odometry_.process(at(0, 0.0));
-  StereoPair smaller = wall_.pair(320, 240, 0.0, kDisparity);
+  StereoPair smaller = wall_.pair(320, 240, 0.0, wall_disparity);
   smaller.stamp = at(1, 0.0).stamp;
   expect_refused(odometry_.process(smaller), OdometryStatus::bad_input);
   StereoPair empty;

@@ -27,18 +27,18 @@ class TexturedWall {
   }
 
  private:
-  static constexpr int kSide = 512;        // grid points per side, then the texture repeats
-  static constexpr double kSpacing = 5.0;  // px between grid points
+  static constexpr int grid_side = 512;        // grid points per side, then the texture repeats
+  static constexpr double grid_spacing = 5.0;  // px between grid points
 
   float at(int x, int y) const {
-    return grid_[static_cast<std::size_t>((y & 511) * kSide + (x & 511))];
+    return grid_[static_cast<std::size_t>((y & 511) * grid_side + (x & 511))];
   }
 
   void draw(int width, int height, double shift, GreyImage* image) const {
     image->resize(width, height);
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) {
-        const double gx = (x + shift + 10000.0) / kSpacing, gy = y / kSpacing;
+        const double gx = (x + shift + 10000.0) / grid_spacing, gy = y / grid_spacing;
         const int ix = static_cast<int>(gx), iy = static_cast<int>(gy);
         const double fx = smooth(gx - ix), fy = smooth(gy - iy);
         const double top = at(ix, iy) * (1.0 - fx) + at(ix + 1, iy) * fx;
@@ -50,7 +50,7 @@ class TexturedWall {
 
   static double smooth(double t) { return t * t * (3.0 - 2.0 * t); }
 
-  std::vector<float> grid_ = std::vector<float>(kSide * kSide);
+  std::vector<float> grid_ = std::vector<float>(grid_side * grid_side);
 };
 
 }  // namespace maploop::testing

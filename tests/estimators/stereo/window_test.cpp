@@ -19,10 +19,10 @@ using maploop::testing::pose_error;
 using maploop::testing::small_camera;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr double kPeriod = 0.1;  // s
+constexpr double frame_period = 0.1;  // s
 
 Time at(int frame) {
-  return Time(from_seconds(100.0 + kPeriod * frame));
+  return Time(from_seconds(100.0 + frame_period * frame));
 }
 
 Eigen::Isometry3d true_pose(int frame) {
@@ -80,7 +80,7 @@ TEST(VelocityChange, JacobiansAgreeWithNumericalDerivatives) {
   poses[2].translation() += Eigen::Vector3d(0.1, -0.05, 0.2);
   const std::array<double, 2> seconds{0.1, 0.13};
   const VelocityChange change = velocity_change(poses, seconds);
-  constexpr double kStep = 1e-6;
+  constexpr double difference_step = 1e-6;
   for (std::size_t pose = 0; pose < 3; ++pose)
     for (int i = 0; i < 6; ++i) {
       auto moved = [&](double by) {
@@ -88,7 +88,8 @@ TEST(VelocityChange, JacobiansAgreeWithNumericalDerivatives) {
         p[pose] = perturbed(p[pose], by * Vector6::Unit(i));
         return velocity_change(p, seconds).value;
       };
-      const Vector6 numerical = (moved(kStep) - moved(-kStep)) / (2.0 * kStep);
+      const Vector6 numerical =
+          (moved(difference_step) - moved(-difference_step)) / (2.0 * difference_step);
       EXPECT_LT((change.by_pose[pose].col(i) - numerical).norm(), 1e-5) << pose << ", " << i;
     }
 }
@@ -98,18 +99,24 @@ TEST(View, JacobiansAgreeWithNumericalDerivatives) {
   const Eigen::Vector3d point(3.0, -1.0, 14.0);
   const View view = view_point(camera, true_pose(3), point);
   ASSERT_TRUE(view.in_front);
-  constexpr double kStep = 1e-6;
+  constexpr double difference_step = 1e-6;
   for (int i = 0; i < 6; ++i) {
     const auto image = [&](double by) {
       return view_point(camera, perturbed(true_pose(3), by * Vector6::Unit(i)), point).image;
     };
-    EXPECT_LT((view.by_pose.col(i) - (image(kStep) - image(-kStep)) / (2.0 * kStep)).norm(), 1e-4);
+    EXPECT_LT((view.by_pose.col(i) -
+               (image(difference_step) - image(-difference_step)) / (2.0 * difference_step))
+                  .norm(),
+              1e-4);
   }
   for (int i = 0; i < 3; ++i) {
     const auto image = [&](double by) {
       return view_point(camera, true_pose(3), point + by * Eigen::Vector3d::Unit(i)).image;
     };
-    EXPECT_LT((view.by_point.col(i) - (image(kStep) - image(-kStep)) / (2.0 * kStep)).norm(), 1e-4);
+    EXPECT_LT((view.by_point.col(i) -
+               (image(difference_step) - image(-difference_step)) / (2.0 * difference_step))
+                  .norm(),
+              1e-4);
   }
 }
 
@@ -159,8 +166,9 @@ struct Smoothness {
       const T s = v.squaredNorm() / T(4.0);
       return Vector(v * (T(1.0) + s / T(6.0) + s * s * T(3.0 / 40.0)));
     };
-    const Vector linear = (b.conjugate() * (tc - tb) - a.conjugate() * (tb - ta)) / T(kPeriod);
-    const Vector angular = (rotation(b.conjugate() * c) - rotation(a.conjugate() * b)) / T(kPeriod);
+    const Vector linear = (b.conjugate() * (tc - tb) - a.conjugate() * (tb - ta)) / T(frame_period);
+    const Vector angular =
+        (rotation(b.conjugate() * c) - rotation(a.conjugate() * b)) / T(frame_period);
     for (int i = 0; i < 3; ++i) {
       residual[i] = T(weight[i]) * linear[i];
       residual[i + 3] = T(weight[i + 3]) * angular[i];
@@ -207,8 +215,8 @@ TEST(BundleAdjustment, FindsTheMinimumThatCeresFinds) {
                              nullptr, &match_error[i]);
   }
   Vector6 weight;
-  weight << Eigen::Vector3d::Constant(1.0 / (p.sigma_acceleration * kPeriod)),
-      Eigen::Vector3d::Constant(1.0 / (p.sigma_turn_acceleration * kPeriod));
+  weight << Eigen::Vector3d::Constant(1.0 / (p.sigma_acceleration * frame_period)),
+      Eigen::Vector3d::Constant(1.0 / (p.sigma_turn_acceleration * frame_period));
   for (std::size_t k = 0; k + 2 < q.size(); ++k)
     problem.AddResidualBlock(
         new ceres::AutoDiffCostFunction<Smoothness, 6, 4, 3, 4, 3, 4, 3>(new Smoothness{weight}),
@@ -264,7 +272,7 @@ TEST(Window, StandingStillKeepsTheOldPosesAndItsBounds) {
     EXPECT_LE(scene.window.poses.size(), 6u);
   }
   EXPECT_EQ(scene.window.points.size(), 40u);
-  EXPECT_LE(scene.window.poses.front().stamp, oldest + from_seconds(2 * kPeriod));
+  EXPECT_LE(scene.window.poses.front().stamp, oldest + from_seconds(2 * frame_period));
   EXPECT_EQ(scene.window.newest().stamp, at(29));
 }
 

@@ -11,10 +11,10 @@ namespace {
 
 TEST(HistogramConcurrent, ReadersSeeSoundFiguresWhileOneRecords) {
   Histogram histogram;
-  constexpr std::uint64_t kValues = 400000;
+  constexpr std::uint64_t value_count = 400000;
   std::atomic<bool> done{false};
   std::thread writer([&] {
-    for (std::uint64_t i = 0; i < kValues; ++i) {
+    for (std::uint64_t i = 0; i < value_count; ++i) {
       histogram.record(Duration(static_cast<std::int64_t>(1000 + i % 1000)));
     }
     done = true;
@@ -33,7 +33,7 @@ TEST(HistogramConcurrent, ReadersSeeSoundFiguresWhileOneRecords) {
     EXPECT_LE(summary.p99, summary.max);
   }
   writer.join();
-  EXPECT_EQ(histogram.count(), kValues);
+  EXPECT_EQ(histogram.count(), value_count);
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ TEST(Histogram, PercentilesAtTheEdgesOfTheOctaves) {
   for (int power = 0; power <= 36; ++power) {
     for (std::int64_t step : {-1, 0, 1}) values.push_back((std::int64_t{1} << power) + step);
   }
-  values.push_back(Histogram::kHighest.count());
+  values.push_back(Histogram::highest_duration.count());
   expect_close_to_exact(values);
   for (std::int64_t value : values) expect_close_to_exact({value});
 }
@@ -93,12 +93,12 @@ TEST(Histogram, EmptyAnswersZero) {
 
 TEST(Histogram, BeyondTheRangeIsCountedAndItsMaximumKept) {
   Histogram histogram;
-  histogram.record(Histogram::kHighest);
-  histogram.record(Histogram::kHighest + Duration(1));
+  histogram.record(Histogram::highest_duration);
+  histogram.record(Histogram::highest_duration + Duration(1));
   histogram.record(Duration::max());
   EXPECT_EQ(histogram.count(), 3u);
   EXPECT_EQ(histogram.above_range(), 2u);
-  EXPECT_EQ(histogram.percentile(0.3), Histogram::kHighest);
+  EXPECT_EQ(histogram.percentile(0.3), Histogram::highest_duration);
   EXPECT_EQ(histogram.percentile(0.5), Duration::max());
   EXPECT_EQ(histogram.max(), Duration::max());
 }
@@ -188,7 +188,7 @@ TEST(Histogram, DataThatAreNoHistogramAreRefusedWhole) {
   for (const Buckets& buckets :
        {Buckets{{Duration(257), 1}}, Buckets{{Duration(-1), 1}}, Buckets{{Duration(4), 0}},
         Buckets{{Duration(4), 1}, {Duration(4), 1}}, Buckets{{Duration(5), 1}, {Duration(4), 1}},
-        Buckets{{Histogram::kHighest + Duration(1), 1}}, Buckets{{Duration(4), ~0ULL}}}) {
+        Buckets{{Histogram::highest_duration + Duration(1), 1}}, Buckets{{Duration(4), ~0ULL}}}) {
     HistogramData data;
     data.buckets = buckets;
     EXPECT_THROW(histogram.merge(data), std::invalid_argument);

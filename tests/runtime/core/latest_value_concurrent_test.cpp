@@ -13,11 +13,11 @@ namespace {
 using Value = std::array<std::uint64_t, 16>;
 
 TEST(LatestValueConcurrent, NeverTornAndNeverOld) {
-  constexpr std::uint64_t kValues = 300000;
+  constexpr std::uint64_t value_count = 300000;
   LatestValue<Value> cell;
   std::atomic<bool> done{false};
   std::thread writer([&] {
-    for (std::uint64_t i = 1; i <= kValues; ++i) {
+    for (std::uint64_t i = 1; i <= value_count; ++i) {
       cell.back().fill(i);
       cell.publish();
       if (i % 64 == 0) std::this_thread::yield();
@@ -35,7 +35,7 @@ TEST(LatestValueConcurrent, NeverTornAndNeverOld) {
   }
   writer.join();
   EXPECT_EQ(wrong, 0u);
-  EXPECT_EQ(last, kValues) << "the newest is never lost";
+  EXPECT_EQ(last, value_count) << "the newest is never lost";
 }
 
 }  // namespace

@@ -67,10 +67,10 @@ inline std::string as_ordinary_user(const ChildLimits& limits,
         !limit(RLIMIT_MEMLOCK, limits.memlock)) {
       return "limits refused";
     }
-    constexpr unsigned kNobody = 65534;
+    constexpr unsigned nobody_id = 65534;
     if (geteuid() == 0 &&
-        (setgroups(0, nullptr) != 0 || setresgid(kNobody, kNobody, kNobody) != 0 ||
-         setresuid(kNobody, kNobody, kNobody) != 0)) {
+        (setgroups(0, nullptr) != 0 || setresgid(nobody_id, nobody_id, nobody_id) != 0 ||
+         setresuid(nobody_id, nobody_id, nobody_id) != 0)) {
       return "user refused";
     }
     return body();

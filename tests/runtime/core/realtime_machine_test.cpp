@@ -182,10 +182,10 @@ TEST(RealtimeText, CpuListsAreReadAsTheKernelWritesThem) {
 }
 
 TEST(RealtimeText, ALineIsFoundByItsWholeKey) {
-  constexpr std::string_view kStatus = "VmLckX:\t 1 kB\nVmLck:\t  12 kB\nVmSize\t: 3 kB";
-  EXPECT_EQ(line_value(kStatus, "VmLck"), "12 kB");
-  EXPECT_EQ(line_value(kStatus, "VmSize"), "3 kB");
-  EXPECT_FALSE(line_value(kStatus, "VmRSS").has_value());
+  constexpr std::string_view status_text = "VmLckX:\t 1 kB\nVmLck:\t  12 kB\nVmSize\t: 3 kB";
+  EXPECT_EQ(line_value(status_text, "VmLck"), "12 kB");
+  EXPECT_EQ(line_value(status_text, "VmSize"), "3 kB");
+  EXPECT_FALSE(line_value(status_text, "VmRSS").has_value());
   EXPECT_FALSE(line_value("", "VmRSS").has_value());
 }
 

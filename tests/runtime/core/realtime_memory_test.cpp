@@ -51,12 +51,12 @@ TEST(RealtimeMemory, TheHeapIsMappedAndKept) {
               // Buffers allocated and freed afterwards use these pages, on other threads too.
               long faults = 0;
               std::thread([&faults] {
-                constexpr std::size_t kImage = 4 << 20;
+                constexpr std::size_t image_bytes = 4 << 20;
                 std::free(std::malloc(64));
                 const long before = minor_faults();
                 for (int i = 0; i < 10; ++i) {
-                  auto* image = static_cast<volatile char*>(std::malloc(kImage));
-                  for (std::size_t byte = 0; byte < kImage; byte += 4096) image[byte] = 1;
+                  auto* image = static_cast<volatile char*>(std::malloc(image_bytes));
+                  for (std::size_t byte = 0; byte < image_bytes; byte += 4096) image[byte] = 1;
                   std::free(const_cast<char*>(image));
                 }
                 faults = minor_faults() - before;
@@ -90,12 +90,13 @@ TEST(RealtimeMemory, AsRootAllIsLockedAndWhatComesTooAsItIsTouched) {
               const auto settings = prepare_memory(
                   {.lock_memory = true, .heap_mb = 8, .malloc_arenas = 1}, read_privileges());
               const std::int64_t before = locked_kb();
-              constexpr std::size_t kBytes = 16 << 20;
-              void* later =
-                  mmap(nullptr, kBytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+              constexpr std::size_t tested_bytes = 16 << 20;
+              void* later = mmap(nullptr, tested_bytes, PROT_READ | PROT_WRITE,
+                                 MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
               unsigned char first_page = 1;
               mincore(later, 4096, &first_page);
-              const bool future = locked_kb() - before >= static_cast<std::int64_t>(kBytes / 1024);
+              const bool future =
+                  locked_kb() - before >= static_cast<std::int64_t>(tested_bytes / 1024);
               return std::string(to_string(settings.at(1).verdict)) +
                      (before >= 8 * 1024 ? " locked" : " not locked") +
                      (future ? " future" : " not future") +

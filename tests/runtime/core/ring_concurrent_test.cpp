@@ -88,16 +88,16 @@ TEST(RingConcurrent, BuffersSwapInAndOut) {
 TEST(RingConcurrent, PingPongNeedsNoFurtherCall) {
   for (std::size_t capacity : {1u, 64u, 1000u}) {
     Ring<int> there(capacity), back(capacity);
-    constexpr int kRounds = 5000;
+    constexpr int round_count = 5000;
     std::thread echo([&] {
-      for (int i = 0; i < kRounds; ++i) {
+      for (int i = 0; i < round_count; ++i) {
         int item = 0;
         while (!there.pop(item)) std::this_thread::yield();
         while (!back.push(item)) std::this_thread::yield();
       }
     });
     int wrong = 0;
-    for (int i = 0; i < kRounds; ++i) {
+    for (int i = 0; i < round_count; ++i) {
       int item = -1;
       while (!there.push(i)) std::this_thread::yield();
       while (!back.pop(item)) std::this_thread::yield();

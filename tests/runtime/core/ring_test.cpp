@@ -48,7 +48,7 @@ TEST(Ring, RefusesExactlyAtCapacityWhereShort) {
 TEST(Ring, NeverRefusesBelowCapacityWhereBatched) {
   for (std::size_t capacity : {64u, 100u, 1000u, 5000u}) {
     Ring<std::uint32_t> ring(capacity);
-    const std::size_t most = capacity + std::min(capacity / 8, ring.kLargestBatch) - 1;
+    const std::size_t most = capacity + std::min(capacity / 8, ring.largest_batch) - 1;
     std::mt19937 random(7);
     std::size_t held = 0;
     std::uint32_t in = 0, out = 0;
@@ -181,7 +181,7 @@ TEST(Ring, ItemsOfACacheLineOrMoreShareNone) {
   };
   Ring<Item> ring(4);
   for (int i = 0; i < 4; ++i) {
-    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(ring.claim()) % kCacheLine, 0u);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(ring.claim()) % cache_line, 0u);
     ring.publish();
   }
 }
@@ -204,9 +204,9 @@ TEST(Ring, CapacityZeroIsRefused) {
 
 TEST(Ring, CapacityBeyondMemoryIsRefused) {
   using Page = std::array<char, 4096>;
-  constexpr auto kMost = static_cast<std::size_t>(-1);
-  EXPECT_THROW(Ring<Page>{kMost / 2}, std::length_error);
-  EXPECT_THROW(Ring<char>{kMost}, std::length_error) << "also where a batch on top would wrap";
+  constexpr auto most_slots = static_cast<std::size_t>(-1);
+  EXPECT_THROW(Ring<Page>{most_slots / 2}, std::length_error);
+  EXPECT_THROW(Ring<char>{most_slots}, std::length_error) << "also where a batch on top would wrap";
 }
 
 // The constructor of this type does not write its bytes, so only the ring itself can have mapped
@@ -217,16 +217,16 @@ struct Untouched {
 };
 
 TEST(Ring, FirstLapFaultsNoPage) {
-  constexpr std::size_t kSlots = 4096;  // 16 MiB
-  Ring<Untouched> ring(kSlots);
+  constexpr std::size_t slot_count = 4096;  // 16 MiB
+  Ring<Untouched> ring(slot_count);
   rusage before{}, after{};
   getrusage(RUSAGE_SELF, &before);
-  for (std::size_t i = 0; i < kSlots; ++i) {
+  for (std::size_t i = 0; i < slot_count; ++i) {
     ring.claim()->bytes[0] = 1;
     ring.publish();
   }
   getrusage(RUSAGE_SELF, &after);
-  EXPECT_LT(after.ru_minflt - before.ru_minflt, 64) << "of " << kSlots << " pages";
+  EXPECT_LT(after.ru_minflt - before.ru_minflt, 64) << "of " << slot_count << " pages";
 }
 
 #ifndef NDEBUG

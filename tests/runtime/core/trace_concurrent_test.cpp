@@ -30,13 +30,13 @@ void expect_nested(const TraceDocument& trace) {
 }
 
 TEST(TraceConcurrent, EveryEventOfManyThreadsIsRecordedOrCounted) {
-  constexpr int kThreads = 4, kTurns = 1'000, kEventsATurn = 4, kCapacity = 2'400;
-  Tracer tracer({.events_per_thread = kCapacity});
+  constexpr int thread_count = 4, turn_count = 1'000, events_aturn = 4, buffer_capacity = 2'400;
+  Tracer tracer({.events_per_thread = buffer_capacity});
   std::vector<std::thread> threads;
-  for (int i = 0; i < kThreads; ++i) {
+  for (int i = 0; i < thread_count; ++i) {
     threads.emplace_back([&tracer, i] {
       TraceBuffer* buffer = &tracer.thread("thread " + std::to_string(i));
-      for (int turn = 0; turn < kTurns; ++turn) {
+      for (int turn = 0; turn < turn_count; ++turn) {
         TraceSpan outer(buffer, "outer");
         TraceSpan inner(buffer, "inner");
         trace_instant(buffer, "instant");
@@ -45,10 +45,10 @@ TEST(TraceConcurrent, EveryEventOfManyThreadsIsRecordedOrCounted) {
     });
   }
   for (std::thread& thread : threads) thread.join();
-  EXPECT_EQ(tracer.recorded(), kThreads * kCapacity);
-  EXPECT_EQ(tracer.dropped(), kThreads * (kTurns * kEventsATurn - kCapacity));
+  EXPECT_EQ(tracer.recorded(), thread_count * buffer_capacity);
+  EXPECT_EQ(tracer.dropped(), thread_count * (turn_count * events_aturn - buffer_capacity));
   const TraceDocument trace(tracer);
-  EXPECT_EQ(trace.events("C").size(), kThreads * kCapacity / kEventsATurn);
+  EXPECT_EQ(trace.events("C").size(), thread_count * buffer_capacity / events_aturn);
   expect_nested(trace);
 }
 
@@ -79,12 +79,12 @@ TEST(TraceConcurrent, WrittenWhileThreadsRecordATraceIsWholeAndNested) {
 }
 
 TEST(TraceConcurrent, EveryFlowThroughARingPointsForward) {
-  constexpr std::uint64_t kSamples = 500;
+  constexpr std::uint64_t sample_count = 500;
   Tracer tracer({});
   Ring<std::uint64_t> ring(16);
   std::thread producer([&] {
     TraceBuffer* buffer = &tracer.thread("camera");
-    for (std::uint64_t i = 0; i < kSamples; ++i) {
+    for (std::uint64_t i = 0; i < sample_count; ++i) {
       TraceSpan span(buffer, "release");
       span.start_flow({"camera", i});
       while (!ring.push(i)) std::this_thread::yield();
@@ -92,7 +92,7 @@ TEST(TraceConcurrent, EveryFlowThroughARingPointsForward) {
   });
   std::thread consumer([&] {
     TraceBuffer* buffer = &tracer.thread("stereo");
-    for (std::uint64_t i = 0; i < kSamples; ++i) {
+    for (std::uint64_t i = 0; i < sample_count; ++i) {
       TraceSpan span(buffer, "process");
       std::uint64_t sample = 0;
       while (!ring.pop(sample)) std::this_thread::yield();
@@ -111,7 +111,7 @@ TEST(TraceConcurrent, EveryFlowThroughARingPointsForward) {
   for (const json& start : trace.events("s")) {
     EXPECT_TRUE(left.emplace(start.at("id").get<std::string>(), start_of(start)).second);
   }
-  ASSERT_EQ(left.size(), kSamples);
+  ASSERT_EQ(left.size(), sample_count);
   for (const json& end : trace.events("f")) {
     const auto start = left.find(end.at("id").get<std::string>());
     ASSERT_NE(start, left.end());

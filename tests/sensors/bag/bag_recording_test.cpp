@@ -167,7 +167,8 @@ BagSummary summary_of(std::initializer_list<Topic> topics) {
 TEST(TopicChoice, PairsCamerasByName) {
   const Topic info{"/cam0/camera_info", "sensor_msgs/CameraInfo", "cdr", ""};
   const TopicChoice choice =
-      choose_topics(summary_of({image("/cam0/image_raw"), info, image("/cam1/image_raw"),
+      choose_topics("a.bag",
+                    summary_of({image("/cam0/image_raw"), info, image("/cam1/image_raw"),
                                 image("/cam2/image_raw")}),
                     {});
   ASSERT_NE(choice.find(BagSensor::camera_left), nullptr);
@@ -180,7 +181,8 @@ TEST(TopicChoice, PairsCamerasByName) {
 
 TEST(TopicChoice, PrefersRectifiedAndGreyImages) {
   const TopicChoice choice =
-      choose_topics(summary_of({image("/left/image_raw"), image("/left/image_rect"),
+      choose_topics("a.bag",
+                    summary_of({image("/left/image_raw"), image("/left/image_rect"),
                                 image("/left/image_rect_color"), image("/right/image_raw"),
                                 image("/right/image_rect"), image("/right/image_rect_color")}),
                     {});
@@ -191,15 +193,16 @@ TEST(TopicChoice, PrefersRectifiedAndGreyImages) {
 TEST(TopicChoice, AsksWhereSeveralTopicsCanBeASensor) {
   const Topic a{"/imu/data", "sensor_msgs/Imu", "ros1", ""}, b{"/imu/raw", a.type, "ros1", ""};
   try {
-    choose_topics(summary_of({a, b}), {});
+    choose_topics("a.bag", summary_of({a, b}), {});
     ADD_FAILURE() << "was not asked for";
   } catch (const std::runtime_error& e) {
-    EXPECT_THAT(e.what(), HasSubstr("several topics can be the sensor imu: /imu/data, /imu/raw; "
-                                    "choose one with --topic imu=/imu/data"));
+    EXPECT_THAT(e.what(),
+                HasSubstr("'a.bag': several topics can be the sensor imu: /imu/data, /imu/raw; "
+                          "choose one with --topic imu=/imu/data"));
   }
-  EXPECT_EQ(choose_topics(summary_of({a, b}), {"imu=/imu/raw"}).find(BagSensor::imu)->name,
+  EXPECT_EQ(choose_topics("a.bag", summary_of({a, b}), {"imu=/imu/raw"}).find(BagSensor::imu)->name,
             "/imu/raw");
-  EXPECT_EQ(choose_topics(summary_of({a, b}), {"imu=none"}).find(BagSensor::imu), nullptr);
+  EXPECT_EQ(choose_topics("a.bag", summary_of({a, b}), {"imu=none"}).find(BagSensor::imu), nullptr);
 }
 
 Eigen::Isometry3d shifted(double x, double y, double z) {

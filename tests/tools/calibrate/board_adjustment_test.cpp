@@ -44,7 +44,7 @@ TEST(Projection, DerivativesAreThoseOfDifferences) {
                                   (2.0 * step);
     EXPECT_LT((slope - at.by_point.col(axis)).norm(), 1e-5) << "axis " << axis;
   }
-  for (int i = 0; i < kCameraParameters; ++i) {
+  for (int i = 0; i < camera_parameter_count; ++i) {
     const auto changed = [&](double by) {
       sensors::CameraModel c = camera;
       *numbers_of(c).at(static_cast<std::size_t>(i)) += by;
@@ -77,7 +77,7 @@ TEST_F(Adjusting, StandardDeviationsAgreeWithTheErrors) {
     ASSERT_TRUE(result.adjustment.converged);
     EXPECT_NEAR(result.adjustment.rms, 0.1 * std::sqrt(2.0), 0.01);
     const CommonVector error = error_of(result.rig, rig);
-    sum += error.cwiseQuotient(result.adjustment.sigma).squaredNorm() / kCommonParameters;
+    sum += error.cwiseQuotient(result.adjustment.sigma).squaredNorm() / common_parameter_count;
   }
   std::cout << "mean square of error / sigma: " << sum / sets << '\n';
   EXPECT_GT(sum / sets, 0.6);

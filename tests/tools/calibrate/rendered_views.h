@@ -51,13 +51,13 @@ inline View found_view(testing::BoardRenderer& renderer, const Board& board,
 inline CommonVector error_of(const sensors::StereoRig& rig, const testing::RenderedRig& truth) {
   CommonVector error;
   const auto put = [&](int at, sensors::CameraModel found, sensors::CameraModel true_camera) {
-    for (std::size_t i = 0; i < kCameraParameters; ++i)
+    for (std::size_t i = 0; i < camera_parameter_count; ++i)
       error[at + static_cast<int>(i)] = *numbers_of(found)[i] - *numbers_of(true_camera)[i];
   };
   put(0, rig.left, as_model(truth.left));
-  put(kCameraParameters, rig.right, as_model(truth.right));
+  put(camera_parameter_count, rig.right, as_model(truth.right));
   const Eigen::AngleAxisd turn(rig.T_right_left.linear() * truth.T_right_left.linear().transpose());
-  error.segment<3>(2 * kCameraParameters) = turn.angle() * turn.axis();
+  error.segment<3>(2 * camera_parameter_count) = turn.angle() * turn.axis();
   error.tail<3>() = rig.T_right_left.translation() - truth.T_right_left.translation();
   return error;
 }

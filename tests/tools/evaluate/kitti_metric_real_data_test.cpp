@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The system's python3 has Debian's python3-numpy; another python3 in the PATH does not.
-const std::string kPython = "/usr/bin/python3";
+const std::string python_interpreter = "/usr/bin/python3";
 
 std::string quoted(const fs::path& path) {
   return std::string("'").append(path.string()).append("'");
@@ -55,10 +55,10 @@ class KittiMetricOnRealData : public ::testing::Test {
   void expect_same_as_script(const fs::path& estimate, const fs::path& truth, double length,
                              CommonRotation rotation) const {
     SCOPED_TRACE(estimate.string() + " at " + std::to_string(length));
-    const bool remove = rotation == CommonRotation::kRemove;
-    std::istringstream printed(output_of(kPython + " " + quoted(script()) + " " + quoted(estimate) +
-                                         " " + quoted(truth) + " " + std::to_string(length) +
-                                         (remove ? " --common-rotation" : "")));
+    const bool remove = rotation == CommonRotation::remove;
+    std::istringstream printed(output_of(
+        python_interpreter + " " + quoted(script()) + " " + quoted(estimate) + " " + quoted(truth) +
+        " " + std::to_string(length) + (remove ? " --common-rotation" : "")));
     double end_percent = 0, end_m = 0, percent = 0, deg_per_m = 0;
     int frames = 0;
     ASSERT_TRUE(printed >> end_percent >> end_m >> percent >> deg_per_m >> frames);
@@ -75,7 +75,7 @@ class KittiMetricOnRealData : public ::testing::Test {
 
   bool script_runs() const {
     return fs::exists(script()) &&
-           std::system((kPython + " -c 'import numpy' 2>/dev/null").c_str()) == 0;
+           std::system((python_interpreter + " -c 'import numpy' 2>/dev/null").c_str()) == 0;
   }
 
   maploop::testing::TemporaryFolder folder_;
@@ -88,7 +88,7 @@ TEST_F(KittiMetricOnRealData, AgreesWithScorePoses) {
   const fs::path drive = data() / "kitti" / "drive_0013_truth";
   const fs::path peer_10 = unpacked("peers/10_unnamed_LeoQLi.txt");
   const fs::path truth_10 = unpacked("poses/10.txt");
-  for (const auto rotation : {CommonRotation::kKeep, CommonRotation::kRemove}) {
+  for (const auto rotation : {CommonRotation::keep, CommonRotation::remove}) {
     for (const double length : {25.0, 100.0}) {
       expect_same_as_script(drive / "velocity_integrated.txt", drive / "time_corrected.txt", length,
                             rotation);

@@ -9,7 +9,7 @@
 namespace maploop::evaluation {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180.0;
+constexpr double radians_per_degree = std::numbers::pi / 180.0;
 
 Eigen::Isometry3d pose_at(double x, double z, double yaw) {
   Eigen::Isometry3d pose(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitY()));
@@ -52,7 +52,8 @@ TEST(KittiMetric, SegmentEndsAtTheFirstFramePastItsLength) {
 
 TEST(KittiMetric, TurnErrorIsInDegreesAMetre) {
   Trajectory estimate;  // does not move, turns 0.02 degrees in each frame
-  for (int i = 0; i < 200; ++i) estimate.push_back(pose_at(0.0, 0.0, 0.02 * kRadians * i));
+  for (int i = 0; i < 200; ++i)
+    estimate.push_back(pose_at(0.0, 0.0, 0.02 * radians_per_degree * i));
   const Score result = score(estimate, straight(200, 1.0), 50.0);
   EXPECT_NEAR(result.segment.deg_per_m, 51 * 0.02 / 50.0, 1e-9);
   EXPECT_NEAR(result.segment.percent, 102.0, 1e-9);
@@ -80,16 +81,16 @@ TEST(KittiMetric, StartOfEitherTrajectoryDoesNotMatter) {
 
 TEST(KittiMetric, CommonRotationIsRemovedAndNothingElse) {
   const Eigen::Isometry3d mount(
-      Eigen::AngleAxisd(0.7 * kRadians, Eigen::Vector3d(1, 5, 2).normalized()));
+      Eigen::AngleAxisd(0.7 * radians_per_degree, Eigen::Vector3d(1, 5, 2).normalized()));
   const Trajectory truth = winding(200);
   Trajectory estimate = truth;
   for (Eigen::Isometry3d& pose : estimate) pose = mount * pose * mount.inverse();
   EXPECT_GT(score(estimate, truth, 100.0).segment.percent, 0.5);
-  EXPECT_NEAR(score(estimate, truth, 100.0, CommonRotation::kRemove).segment.percent, 0.0, 1e-9);
+  EXPECT_NEAR(score(estimate, truth, 100.0, CommonRotation::remove).segment.percent, 0.0, 1e-9);
   EXPECT_TRUE(fit_common_rotation(estimate, truth).isApprox(mount.linear().transpose(), 1e-9));
 
   for (Eigen::Isometry3d& pose : estimate) pose.translation() *= 1.02;  // a scale error remains
-  const double with_scale = score(estimate, truth, 100.0, CommonRotation::kRemove).segment.percent;
+  const double with_scale = score(estimate, truth, 100.0, CommonRotation::remove).segment.percent;
   for (Eigen::Isometry3d& pose : estimate) pose = mount.inverse() * pose * mount;
   EXPECT_NEAR(with_scale, score(estimate, truth, 100.0).segment.percent, 1e-6);
 }
@@ -106,7 +107,7 @@ TEST(KittiMetric, MirroredTrajectoryIsNotRotatedAway) {
 }
 
 TEST(KittiMetric, DriveShorterThanTheLengthHasNoSegment) {
-  const Score result = score(straight(11, 1.01), straight(11, 1.0), 100.0, CommonRotation::kRemove);
+  const Score result = score(straight(11, 1.01), straight(11, 1.0), 100.0, CommonRotation::remove);
   EXPECT_EQ(result.segment.segments, 0);
   EXPECT_TRUE(std::isnan(result.segment.percent));
   EXPECT_TRUE(std::isnan(result.segment.deg_per_m));

@@ -116,7 +116,7 @@ TEST(Match, PairsPosesByTheirStampsAndLeavesTheOthersOut) {
   EXPECT_TRUE(match(estimate, truth, std::chrono::milliseconds(1)).truth.empty());
 }
 
-const std::string kIdentity = "1 0 0 0 0 1 0 0 0 0 1 0\n";
+const std::string identity_rows = "1 0 0 0 0 1 0 0 0 0 1 0\n";
 
 class KittiPoses : public File {
  protected:
@@ -127,8 +127,8 @@ class KittiPoses : public File {
 };
 
 TEST_F(KittiPoses, ReadsRowByRow) {
-  const Trajectory poses = read_kitti_poses(
-      file_with("0 -1 0 1.5e+00 1 0 0 -2 0 0 1 3\r\n\n" + kIdentity));  // a quarter turn, with CRLF
+  const Trajectory poses = read_kitti_poses(file_with("0 -1 0 1.5e+00 1 0 0 -2 0 0 1 3\r\n\n" +
+                                                      identity_rows));  // a quarter turn, with CRLF
   ASSERT_EQ(poses.size(), 2u);
   EXPECT_EQ(poses[0].translation(), Eigen::Vector3d(1.5, -2, 3));
   EXPECT_EQ(poses[0] * Eigen::Vector3d::UnitX(), Eigen::Vector3d(1.5, -1, 3));
@@ -149,10 +149,10 @@ TEST_F(KittiPoses, WrittenPosesComeBackBitForBit) {
 }
 
 TEST_F(KittiPoses, ErrorsNameFileAndLine) {
-  expect_error(kIdentity + "1 0 0\n", ":2:", "this line has 3");
+  expect_error(identity_rows + "1 0 0\n", ":2:", "this line has 3");
   expect_error("0.0 1 2 3 0 0 0 1\n", ":1:", "this line has 8");  // a TUM file
-  expect_error("0 " + kIdentity, ":1:", "this line has 13");      // with a frame number
-  expect_error("\n" + kIdentity + "1 0 0 0 0 1x 0 0 0 0 1 0\n", ":3:", "'1x'");
+  expect_error("0 " + identity_rows, ":1:", "this line has 13");  // with a frame number
+  expect_error("\n" + identity_rows + "1 0 0 0 0 1x 0 0 0 0 1 0\n", ":3:", "'1x'");
   expect_error("1 0 0 nan 0 1 0 0 0 0 1 0\n", ":1:", "'nan'");
   expect_error("1 0 0 1e999 0 1 0 0 0 0 1 0\n", ":1:", "'1e999'");
   expect_error("2 0 0 0 0 2 0 0 0 0 2 0\n", ":1:", "rotation");   // a scaled camera

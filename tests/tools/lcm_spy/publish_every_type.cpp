@@ -13,7 +13,7 @@
 namespace maploop {
 namespace {
 
-constexpr double kMaximumSeconds = 600.0;
+constexpr double maximum_seconds = 600.0;
 
 template <typename T>
 T sample(int tick) {
@@ -114,7 +114,7 @@ int main(int argc, char** argv) {
     const std::string_view text = argv[1];
     std::from_chars(text.data(), text.data() + text.size(), seconds);
   }
-  if (!(seconds > 0.0 && seconds <= maploop::kMaximumSeconds)) {
+  if (!(seconds > 0.0 && seconds <= maploop::maximum_seconds)) {
     std::fprintf(stderr, "usage: publish_every_type SECONDS [LCM_URL], at most 600 s\n");
     return 2;
   }

@@ -33,7 +33,7 @@ TEST_F(LogDiffTest, SameMessagesAtOtherTimesInAnotherOrderOfChannelsAreTheSame) 
   std::stable_sort(events.begin(), events.end(),
                    [](const auto& a, const auto& b) { return a.channel < b.channel; });
   for (TestEvent& e : events) e.time_us += 5;
-  events.push_back({"LCM_SELF_TEST", kTestStart, {1, 2, 3}});  // LCM sends it to itself
+  events.push_back({"LCM_SELF_TEST", test_start, {1, 2, 3}});  // LCM sends it to itself
   EXPECT_TRUE(same_as(events));
   EXPECT_EQ(said_.str(),
             "CAMERA_TRIGGER: same, 4 messages\nHEALTH: same, 4 messages\nIMU: same, 4 messages\n"
@@ -59,7 +59,7 @@ TEST_F(LogDiffTest, MissingMessagesAndChannels) {
   auto events = drive_;
   events.pop_back();  // the last message of X
   std::erase_if(events, [](const auto& e) { return e.channel == "IMU"; });
-  events.push_back({"NEW", kTestStart, {1}});
+  events.push_back({"NEW", test_start, {1}});
   EXPECT_FALSE(same_as(events));
   EXPECT_TRUE(says("X: different: 4 and 3 messages, 0 of them differ\n  message 3\n" +
                    side(log_, "2011-09-26 13:10:51.230000") + side(out_, "has no such message")))

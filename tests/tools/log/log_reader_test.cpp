@@ -26,7 +26,7 @@ Reading read_all(const path& file) {
     if (item == LogReader::Item::event) {
       const LogEvent& e = reader.event();
       EXPECT_EQ(e.offset, position);
-      position += kHeaderBytes + e.channel.size() + e.data.size();
+      position += header_bytes + e.channel.size() + e.data.size();
       all.events.push_back({std::string(e.channel), e.time_us, {e.data.begin(), e.data.end()}});
     } else {
       EXPECT_EQ(reader.damage().begin, position);
@@ -80,7 +80,7 @@ TEST_F(LogReaderTest, CutAtEveryByte) {
 // time or the channel's name leaves the event readable.
 TEST_F(LogReaderTest, EverySingleBitOfEveryHeader) {
   for (std::size_t event = 0; event < drive_.size(); ++event) {
-    for (std::size_t bit = 0; bit < 8 * kHeaderBytes; ++bit) {
+    for (std::size_t bit = 0; bit < 8 * header_bytes; ++bit) {
       const std::size_t byte = bit / 8;
       Bytes bytes = whole_;
       bytes[offsets_[event] + byte] ^= static_cast<std::uint8_t>(1U << bit % 8);
@@ -179,11 +179,11 @@ TEST_F(LogReaderTest, DamagedCompressedLogGivesWhatComesBefore) {
 // Each header declares the most data, which begin in the next header: the reader must not spend
 // time or memory on them.
 TEST_F(LogReaderTest, HeadersThatPromiseTheMost) {
-  LogHeader header{.sync = kSyncWord, .channel_bytes = 999, .data_bytes = kMaximumDataBytes};
+  LogHeader header{.sync = sync_word, .channel_bytes = 999, .data_bytes = maximum_data_bytes};
   EXPECT_FALSE(implausible(header));
-  Bytes bytes(20'000 * kHeaderBytes);
-  for (std::size_t at = 0; at < bytes.size(); at += kHeaderBytes, ++header.number) {
-    write_header(header, std::span<std::uint8_t, kHeaderBytes>(bytes.data() + at, kHeaderBytes));
+  Bytes bytes(20'000 * header_bytes);
+  for (std::size_t at = 0; at < bytes.size(); at += header_bytes, ++header.number) {
+    write_header(header, std::span<std::uint8_t, header_bytes>(bytes.data() + at, header_bytes));
   }
   const Reading all = read(bytes);
   EXPECT_TRUE(all.events.empty());

@@ -111,7 +111,7 @@ TEST_F(LogPieces, SplitOfADamagedLogSaysSo) {
 
 TEST_F(LogPieces, MergeIsByTimeAndStable) {
   const auto event = [](const char* name, std::int64_t ms) {
-    return TestEvent{name, kTestStart + 1000 * ms, {1, 2, 3}};
+    return TestEvent{name, test_start + 1000 * ms, {1, 2, 3}};
   };
   const path a = folder_.path() / "1.lcmlog", b = folder_.path() / "2.lcmlog";
   record(a, {event("A1", 0), event("A2", 10), event("A3", 10), event("A4", 30)});

@@ -44,15 +44,15 @@ class LogTools : public LogToolsTest {
 TEST_F(LogTools, InfoOfAChannelByHand) {
   std::vector<TestEvent> events;
   for (const std::int64_t ms : {0, 100, 210, 300, 400, 800, 900}) {
-    events.push_back({"NAV_STATE", kTestStart + 1000 * ms, nav_state_bytes(0.0)});
+    events.push_back({"NAV_STATE", test_start + 1000 * ms, nav_state_bytes(0.0)});
   }
-  events.push_back({"RAW", kTestStart + 900'000, unknown_bytes(20, 1)});
+  events.push_back({"RAW", test_start + 900'000, unknown_bytes(20, 1)});
   record(log_, events);
   const std::string text = table(out_);
   const auto all = nlohmann::json::parse(std::ifstream(out_));
   EXPECT_EQ(all["events"], 8);
-  EXPECT_EQ(all["first_us"], kTestStart);
-  EXPECT_EQ(all["last_us"], kTestStart + 900'000);
+  EXPECT_EQ(all["first_us"], test_start);
+  EXPECT_EQ(all["last_us"], test_start + 900'000);
   const auto& c = all["channels"]["NAV_STATE"];
   EXPECT_EQ(c["count"], 7);
   EXPECT_EQ(c["bytes"], 7 * nav_state_bytes(0.0).size());
@@ -63,7 +63,7 @@ TEST_F(LogTools, InfoOfAChannelByHand) {
   EXPECT_NEAR(c["interval_median_s"], 0.1, 0.0008);
   EXPECT_NEAR(c["interval_jitter_s"], std::sqrt(75'200.0 / 5) * 1e-3, 1e-9);
   EXPECT_NEAR(c["interval_longest_s"], 0.4, 1e-9);
-  EXPECT_EQ(c["interval_longest_from_us"], kTestStart + 400'000);
+  EXPECT_EQ(c["interval_longest_from_us"], test_start + 400'000);
   EXPECT_EQ(c["gaps"], 1);
   EXPECT_TRUE(all["channels"]["RAW"]["types"][0]["name"].is_null());
   EXPECT_EQ(all["channels"]["RAW"]["rate_hz"], 0.0);
@@ -89,8 +89,8 @@ TEST_F(LogTools, TimesBeyondReason) {
     const LogHeader header = read_header(std::span(bytes).subspan(offsets_[event]));
     LogHeader changed = header;
     changed.time_us = time;
-    write_header(changed, std::span<std::uint8_t, kHeaderBytes>(bytes.data() + offsets_[event],
-                                                                kHeaderBytes));
+    write_header(changed, std::span<std::uint8_t, header_bytes>(bytes.data() + offsets_[event],
+                                                                header_bytes));
   }
   write_bytes(log_, bytes);
   EXPECT_TRUE(contains(table(), "9223372036854775807 us"));
@@ -101,7 +101,7 @@ TEST(LogText, SizesAndTimes) {
   EXPECT_EQ(size_text(999), "999 B");
   EXPECT_EQ(size_text(1'410'107), "1.4 MB");
   EXPECT_EQ(size_text(999'999), "1.0 MB");
-  EXPECT_EQ(time_text(kTestStart + 5), "2011-09-26 13:10:51.000005");
+  EXPECT_EQ(time_text(test_start + 5), "2011-09-26 13:10:51.000005");
   EXPECT_EQ(time_text(-1), "-1 us");
 }
 
@@ -114,7 +114,7 @@ TEST_F(LogTools, VerifyFindsNothingInASoundLog) {
 }
 
 TEST_F(LogTools, VerifyNamesOffsetEventAndReason) {
-  const std::size_t name_length = offsets_[7] + kHeaderBytes + 6 + 8 + 8 + 4;  // threads[0].name
+  const std::size_t name_length = offsets_[7] + header_bytes + 6 + 8 + 8 + 4;  // threads[0].name
   const auto byte = [&](std::size_t event) { return "byte " + std::to_string(offsets_[event]); };
   const std::vector<std::tuple<std::size_t, std::uint8_t, std::string>> cases{
       {offsets_[3], 0x01, byte(3) + ": 902 bytes are not an event"},
@@ -131,16 +131,16 @@ TEST_F(LogTools, VerifyNamesOffsetEventAndReason) {
 
 TEST_F(LogTools, VerifyAllowsThreadsToDifferButNotWithinAChannel) {
   const auto state = nav_state_bytes(0.0);
-  record(log_, {{"A", kTestStart + 1000, state}, {"B", kTestStart, state}});
+  record(log_, {{"A", test_start + 1000, state}, {"B", test_start, state}});
   EXPECT_EQ(verified().findings, 0U);
-  record(log_, {{"A", kTestStart + 1000, state}, {"A", kTestStart, state}});
+  record(log_, {{"A", test_start + 1000, state}, {"A", test_start, state}});
   EXPECT_EQ(verified().findings, 1U);
   EXPECT_TRUE(says(", event 1: time of A goes back by 0.001000 s")) << said_.str();
 }
 
 TEST_F(LogTools, VerifyCountsMoreFindingsThanItPrints) {
   std::vector<TestEvent> events;
-  for (int i = 0; i < 1003; ++i) events.push_back({"A", kTestStart - i, {}});
+  for (int i = 0; i < 1003; ++i) events.push_back({"A", test_start - i, {}});
   record(log_, events);
   EXPECT_EQ(verified().findings, 1002U);
   EXPECT_TRUE(says("... 2 more\n"));
@@ -196,7 +196,7 @@ TEST_F(LogTools, RecoverOfASoundLogIsTheLog) {
 }
 
 TEST_F(LogTools, RecoverLeavesOutWhatDoesNotDecode) {
-  damage(offsets_[7] + kHeaderBytes + 6 + 8 + 8, 0x40);  // a million more threads
+  damage(offsets_[7] + header_bytes + 6 + 8 + 8, 0x40);  // a million more threads
   const Recovery r = recovered();
   EXPECT_EQ(r.losses, 1U);
   EXPECT_EQ(r.lost_events, 1U);

@@ -36,7 +36,7 @@ std::vector<std::uint8_t> unknown_bytes(std::size_t size, std::uint8_t seed) {
 std::vector<TestEvent> small_drive() {
   std::vector<TestEvent> events;
   const auto add = [&](const char* channel, std::vector<std::uint8_t> data) {
-    events.push_back({channel, kTestStart + 10'000 * std::ssize(events), std::move(data)});
+    events.push_back({channel, test_start + 10'000 * std::ssize(events), std::move(data)});
   };
   for (int i = 0; i < 24; i += 6) {
     add("NAV_STATE", nav_state_bytes(0.1 * i));

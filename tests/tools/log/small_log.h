@@ -25,7 +25,7 @@ struct TestEvent {
 };
 
 // 2011-09-26 13:10:51
-inline constexpr std::int64_t kTestStart = 1'317'042'651'000'000;
+inline constexpr std::int64_t test_start = 1'317'042'651'000'000;
 
 // Returns 24 messages of five types (fixed and variable size; one type unknown), 10 ms apart.
 std::vector<TestEvent> small_drive();

@@ -61,16 +61,16 @@ TEST_P(RecordedTracksTest, EndsNearerToTheTruthThanAPlainOdometryFromFrameToFram
   EXPECT_LT(GetParam().end_point, GetParam().frame_to_frame);
 }
 
-constexpr std::size_t kAll = 10000;
+constexpr std::size_t every_frame = 10000;
 INSTANTIATE_TEST_SUITE_P(Drives, RecordedTracksTest,
                          ::testing::Values(
                              // The results are 1.99, 3.15, 0.64, 2.09, 2.34, 0.76, 3.22.
-                             Case{"2011_09_26_drive_0001", kAll, 2.4, 2.64},
-                             Case{"2011_09_26_drive_0027", kAll, 4.0, 9.30},
-                             Case{"2011_09_26_drive_0035", kAll, 0.70, 0.76},
-                             Case{"2011_09_26_drive_0036", kAll, 2.4, 3.35},
-                             Case{"2011_09_26_drive_0051", kAll, 2.8, 5.17},
-                             Case{"2011_09_30_drive_0020", kAll, 1.0, 2.19},
+                             Case{"2011_09_26_drive_0001", every_frame, 2.4, 2.64},
+                             Case{"2011_09_26_drive_0027", every_frame, 4.0, 9.30},
+                             Case{"2011_09_26_drive_0035", every_frame, 0.70, 0.76},
+                             Case{"2011_09_26_drive_0036", every_frame, 2.4, 3.35},
+                             Case{"2011_09_26_drive_0051", every_frame, 2.8, 5.17},
+                             Case{"2011_09_30_drive_0020", every_frame, 1.0, 2.19},
                              Case{"2011_10_03_drive_0042", 199, 3.38, 3.39}),
                          [](const auto& param) { return std::string(param.param.drive); });
 
