@@ -210,6 +210,7 @@ std::optional<std::vector<TopicSummary>> SqliteReader::index_summary() {
       topic->second.messages = static_cast<std::uint64_t>(sqlite3_column_int64(rows.get(), 1));
       topic->second.first = time_of_column(rows.get(), 2);
       topic->second.last = time_of_column(rows.get(), 3);
+      if (topic->second.last < topic->second.first) throw Malformed("times that are no numbers");
     }
     for (auto& [id, topic] : found) topics.push_back(std::move(topic));
   } catch (const Malformed&) {
