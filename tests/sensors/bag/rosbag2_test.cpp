@@ -152,6 +152,16 @@ TEST_F(Rosbag2, LosesOnlyTheMessagesOfADamagedPage) {
   EXPECT_EQ(part.messages.size() + part.damage.size(), 2000U);
 }
 
+TEST_F(Rosbag2, IsReadUpToATimeThatIsNoNumber) {
+  const auto file =
+      database("text.db3", 2, "INSERT INTO messages VALUES(3, 1, 'noon', x'00010000');");
+  EXPECT_EQ(read_bag(file).messages.size(), 2U);
+  const BagSummary summary = summarize(file);
+  ASSERT_EQ(summary.damage.size(), 1U);
+  EXPECT_THAT(summary.damage[0].reason, HasSubstr("not in order"));
+  EXPECT_EQ(summary.topics.at(0).messages, 2U);
+}
+
 TEST_F(Rosbag2, SaysThatAJournalWasNotRead) {
   const auto file = database("crashed.db3", 2);
   write("crashed.db3-wal", "messages");
