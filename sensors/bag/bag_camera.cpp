@@ -50,7 +50,7 @@ class PairMaker {
                                SourceReport& report) {
     const auto found = [&](auto image) -> std::optional<Time> {
       if (!stream_.decoded(message, image, report)) return std::nullopt;
-      return stream_.stamp(image.header, message, stream_.settings().delays.camera);
+      return stream_.stamp(image.header, message, stream_.settings().vehicle.camera_delay);
     };
     return is_compressed(camera.topic) ? found(RosCompressedImage()) : found(RosImage());
   }

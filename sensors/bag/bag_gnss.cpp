@@ -21,7 +21,8 @@ class FixMaker {
         RosTwist twist;
         if (!stream_.decoded(*message, twist, report)) continue;
         velocity_ = twist.linear;
-        velocity_stamp_ = stream_.stamp(twist.header, *message, stream_.settings().delays.gnss);
+        velocity_stamp_ =
+            stream_.stamp(twist.header, *message, stream_.settings().vehicle.gnss_delay);
         continue;
       }
       RosFix from;
@@ -36,7 +37,7 @@ class FixMaker {
         continue;
       }
       fix.stamp = fix.available =
-          stream_.stamp(from.header, *message, stream_.settings().delays.gnss);
+          stream_.stamp(from.header, *message, stream_.settings().vehicle.gnss_delay);
       fix.sequence = fixes_++;
       if (!stream_.follows(gnss_, fix, report)) continue;
       set_position(from, fix);

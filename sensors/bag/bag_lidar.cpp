@@ -2,6 +2,8 @@
 
 #include "sensors/bag/cloud_messages.h"
 #include "sensors/bag/topic_stream.h"
+#include "sensors/velodyne/data_packet.h"
+#include "sensors/velodyne/velodyne_decoder.h"
 
 namespace maploop::sensors {
 namespace {
@@ -32,7 +34,8 @@ class ScanMaker {
   bool read(const RecordedMessage& message, LidarScan& scan, SourceReport& report) {
     if (!stream_.decoded(message, cloud_message_, report)) return false;
     const BagSettings& s = stream_.settings();
-    cloud_message_.header.stamp = stream_.stamp(cloud_message_.header, message, s.delays.lidar);
+    cloud_message_.header.stamp =
+        stream_.stamp(cloud_message_.header, message, s.vehicle.lidar_delay);
     try {
       read_cloud(cloud_message_, cloud_);
     } catch (const std::invalid_argument& e) {
@@ -85,10 +88,81 @@ class ScanMaker {
   bool timed_ = false, ended_ = false;
 };
 
+// Decodes the packets of a Velodyne scanner, whose model the first of them states.
+class PacketScanMaker {
+ public:
+  PacketScanMaker(SharedBagSettings settings, const Topic& lidar)
+      : stream_(std::move(settings), {lidar.name}), topic_(lidar) {}
+
+  bool next(LidarScan& scan, SourceReport& report) {
+    while (true) {
+      for (; at_ < message_.packets.size();) {
+        const RosVelodynePacket& packet = message_.packets[at_++];
+        if (!take(packet, scan, report) || !stream_.follows(topic_, scan, report)) continue;
+        return true;
+      }
+      const RecordedMessage* message = stream_.next(report);
+      at_ = 0;
+      message_.packets.clear();
+      if (message == nullptr) return end(report);
+      if (!stream_.decoded(*message, message_, report)) message_.packets.clear();
+      received_ = message->received;
+    }
+  }
+
+ private:
+  // Returns whether the packet ended a turn.
+  bool take(const RosVelodynePacket& packet, LidarScan& scan, SourceReport& report) {
+    if (!decoder_ && !begin(packet, report)) return false;
+    const BagSettings& s = stream_.settings();
+    const Time arrival = s.header_stamps ? packet.stamp : received_;
+    last_ = std::max(last_, arrival - from_seconds(s.vehicle.lidar_delay));
+    return decoder_->add(packet.data, last_, scan);
+  }
+
+  bool begin(const RosVelodynePacket& packet, SourceReport& report) {
+    if (refused_) return false;
+    PacketFault fault{};
+    const DataPacket first = DataPacket::check(packet.data, fault);
+    const auto model = fault == PacketFault::none ? first.model() : std::nullopt;
+    if (!model) return false;
+    const BagSettings& s = stream_.settings();
+    try {
+      decoder_.emplace(*model,
+                       s.vehicle.lidar_calibration.empty()
+                           ? factory_lasers(*model)
+                           : read_velodyne_calibration(s.vehicle.lidar_calibration, *model),
+                       from_seconds(s.limits.max_turn));
+      return true;
+    } catch (const std::exception& e) {
+      refused_ = true;
+      stream_.refuse(topic_, std::string(e.what()) + " ([vehicle.lidar] calibration)", report);
+      return false;
+    }
+  }
+
+  bool end(SourceReport& report) {
+    if (!decoder_ && !refused_)
+      stream_.refuse(topic_, "there is no data packet of a known Velodyne scanner", report);
+    refused_ = true;
+    return false;
+  }
+
+  TopicStream stream_;
+  Topic topic_;
+  RosVelodyneScan message_;
+  std::size_t at_ = 0;
+  Time received_{}, last_{};
+  std::optional<VelodyneDecoder> decoder_;
+  bool refused_ = false;
+};
+
 }  // namespace
 
 std::unique_ptr<Source<LidarScan>> make_bag_lidar(SharedBagSettings settings, const Topic& lidar,
                                                   Time passed) {
+  if (lidar.type == ros_types<RosVelodyneScan>()[0])
+    return made_by<LidarScan>(PacketScanMaker(std::move(settings), lidar));
   return made_by<LidarScan>(ScanMaker(std::move(settings), lidar, passed));
 }
 

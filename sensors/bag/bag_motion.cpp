@@ -25,7 +25,7 @@ std::unique_ptr<Source<T>> make_plain(SharedBagSettings settings, const Topic& t
 }  // namespace
 
 std::unique_ptr<Source<SixAxisSample>> make_bag_imu(SharedBagSettings settings, const Topic& imu) {
-  const double delay = settings->delays.imu, scale = settings->force_scale;
+  const double delay = settings->vehicle.imu_delay, scale = settings->force_scale;
   return make_plain<SixAxisSample, RosImu>(std::move(settings), imu, delay,
                                            [scale](const RosImu& from, SixAxisSample& sample) {
                                              sample.rate = from.angular_velocity;

@@ -157,13 +157,12 @@ struct BagRecording::Opening {
 BagRecording::~BagRecording() = default;
 
 BagRecording::BagRecording(const std::filesystem::path& path, const BagParameters& parameters,
-                           const BagDelays& delays, const BagLimits& limits,
-                           std::optional<StereoRig> cameras)
-    : raw_cameras_(std::move(cameras)) {
+                           const BagVehicle& vehicle, const BagLimits& limits)
+    : raw_cameras_(vehicle.cameras) {
   Opening opening{summarize(path), {}};
   choice_ = choose_topics(path, opening.bag, parameters.topics);
   notes_ = choice_.notes;
-  BagSettings settings{path, parameters, delays, limits, true, {}, 1.0};
+  BagSettings settings{path, parameters, vehicle, limits, true, {}, 1.0};
   for (const BagSensor sensor : {BagSensor::camera_left, BagSensor::lidar, BagSensor::imu,
                                  BagSensor::gnss, BagSensor::wheel})
     if (const Topic* topic = choice_.find(sensor))

@@ -22,9 +22,12 @@
 
 namespace maploop::sensors {
 
-// These are the times from a measurement to its stamp, s.
-struct BagDelays {
-  double camera = 0.0, lidar = 0.0, imu = 0.0, gnss = 0.0;
+// What is known of the vehicle in place of, or beyond, what the recording states.
+struct BagVehicle {
+  // These are the times from a measurement to its stamp, s.
+  double camera_delay = 0.0, lidar_delay = 0.0, imu_delay = 0.0, gnss_delay = 0.0;
+  std::optional<StereoRig> cameras;         // of raw images
+  std::filesystem::path lidar_calibration;  // of a scanner's packets; empty: that of its model
 };
 
 // These are the limits of a drive, as of KittiDriveParameters.
@@ -48,7 +51,7 @@ class BagRecording {
   // of the recording (or all of it where there is none) and the first messages of the chosen
   // topics. Throws std::runtime_error that names the recording and states what to do.
   BagRecording(const std::filesystem::path& path, const BagParameters& parameters,
-               const BagDelays& delays, const BagLimits& limits, std::optional<StereoRig> cameras);
+               const BagVehicle& vehicle, const BagLimits& limits);
   ~BagRecording();
 
   const VehicleCalibration& calibration() const { return calibration_; }

@@ -20,7 +20,7 @@ namespace maploop::sensors {
 struct BagSettings {
   std::filesystem::path path;
   BagParameters parameters;
-  BagDelays delays;
+  BagVehicle vehicle;
   BagLimits limits;
   bool header_stamps = true;
   Duration turn{};           // of the LiDAR, from one cloud to the next

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "sensors/velodyne/data_packet.h"
+
 namespace maploop::sensors {
 namespace {
 
@@ -29,6 +31,8 @@ constexpr std::array fields<RosPointCloud>{
     "header header;uint32 height;uint32 width;pointfield[] fields;bool is_bigendian;uint32 "
     "point_step;"
     "uint32 row_step;uint8[] data;bool is_dense;"sv};
+template <>
+constexpr std::array fields<RosVelodyneScan>{"header header;velodynepacket[] packets;"sv};
 template <>
 constexpr std::array fields<RosImu>{
     "header header;quaternion orientation;float64[9] orientation_covariance;vector3 "
@@ -55,6 +59,8 @@ template <>
 constexpr std::array types<RosCameraInfo>{"sensor_msgs/CameraInfo"sv};
 template <>
 constexpr std::array types<RosPointCloud>{"sensor_msgs/PointCloud2"sv};
+template <>
+constexpr std::array types<RosVelodyneScan>{"velodyne_msgs/VelodyneScan"sv};
 template <>
 constexpr std::array types<RosImu>{"sensor_msgs/Imu"sv};
 template <>
@@ -145,6 +151,16 @@ void read(RosCursor& c, RosPointCloud& to, std::string_view) {
   to.point_step = c.number<std::uint32_t>();
   to.row_step = c.number<std::uint32_t>();
   to.data = c.byte_sequence();
+}
+
+void read(RosCursor& c, RosVelodyneScan& to, std::string_view) {
+  to.header = read_header(c);
+  constexpr std::size_t stamp_bytes = 8;
+  to.packets.resize(c.count(stamp_bytes + velodyne_data_size));
+  for (RosVelodynePacket& packet : to.packets) {
+    packet.stamp = c.time();
+    packet.data = c.bytes(velodyne_data_size);
+  }
 }
 
 void read(RosCursor& c, RosImu& to, std::string_view) {
@@ -245,6 +261,7 @@ MAPLOOP_ROS_TYPE(RosImage)
 MAPLOOP_ROS_TYPE(RosCompressedImage)
 MAPLOOP_ROS_TYPE(RosCameraInfo)
 MAPLOOP_ROS_TYPE(RosPointCloud)
+MAPLOOP_ROS_TYPE(RosVelodyneScan)
 MAPLOOP_ROS_TYPE(RosImu)
 MAPLOOP_ROS_TYPE(RosFix)
 MAPLOOP_ROS_TYPE(RosTwist)

@@ -1,8 +1,8 @@
 // This file defines the messages of ROS 1 and ROS 2 that contain what sensors measure.
 //
-// Fields and their order are those of the packages std_msgs, sensor_msgs, geometry_msgs, nav_msgs
-// and tf2_msgs, which ROS 2 kept, but for the number in ROS 1's header. Texts and bytes are parts
-// of the message that was decoded, and are valid as long as it is.
+// Fields and their order are those of the packages std_msgs, sensor_msgs, geometry_msgs, nav_msgs,
+// tf2_msgs and velodyne_msgs, which ROS 2 kept, but for the number in ROS 1's header. Texts and
+// bytes are parts of the message that was decoded, and are valid as long as it is.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -61,6 +61,16 @@ struct RosPointCloud {  // sensor_msgs/PointCloud2
   bool big_endian = false;
   std::uint32_t point_step = 0, row_step = 0;  // bytes
   std::span<const std::uint8_t> data;
+};
+
+struct RosVelodynePacket {
+  Time stamp{};
+  std::span<const std::uint8_t> data;
+};
+
+struct RosVelodyneScan {  // velodyne_msgs/VelodyneScan
+  RosHeader header;
+  std::vector<RosVelodynePacket> packets;
 };
 
 struct RosImu {  // sensor_msgs/Imu

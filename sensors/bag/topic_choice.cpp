@@ -30,7 +30,9 @@ std::string problem_as(BagSensor sensor, const Topic& topic) {
                                             : problem_of<RosImage>(topic);
   if (sensor == BagSensor::camera_left_info || sensor == BagSensor::camera_right_info)
     return problem_of<RosCameraInfo>(topic);
-  if (sensor == BagSensor::lidar) return problem_of<RosPointCloud>(topic);
+  if (sensor == BagSensor::lidar)
+    return is_of<RosVelodyneScan>(topic) ? problem_of<RosVelodyneScan>(topic)
+                                         : problem_of<RosPointCloud>(topic);
   if (sensor == BagSensor::imu) return problem_of<RosImu>(topic);
   if (sensor == BagSensor::gnss) return problem_of<RosFix>(topic);
   return problem_of<RosTwist>(topic);
@@ -90,6 +92,7 @@ class Chooser {
     if (names.size() > 1) ask_for(sensor, names);
   }
 
+  bool has(BagSensor sensor) const { return choice_.find(sensor) != nullptr; }
   void look_for_cameras();
   void look_for_calibration(BagSensor camera, BagSensor info);
 
@@ -202,6 +205,7 @@ TopicChoice choose_topics(const std::filesystem::path& path, const BagSummary& b
     chooser.look_for_calibration(BagSensor::camera_left, BagSensor::camera_left_info);
     chooser.look_for_calibration(BagSensor::camera_right, BagSensor::camera_right_info);
     chooser.look_for<RosPointCloud>(BagSensor::lidar);
+    if (!chooser.has(BagSensor::lidar)) chooser.look_for<RosVelodyneScan>(BagSensor::lidar);
     chooser.look_for<RosImu>(BagSensor::imu);
     chooser.look_for<RosFix>(BagSensor::gnss);
   } catch (const std::runtime_error& e) {

@@ -67,6 +67,10 @@ void use(unsigned type, const char* encoding, Bytes message) {
     case 6:
       decoded<RosTwist>(encoding, message);
       return;
+    case 7:
+      for (const RosVelodynePacket& packet : decoded<RosVelodyneScan>(encoding, message).packets)
+        fuzz::require(!packet.data.empty());
+      return;
     default:
       for (const RosTransform& t : decoded<RosTransforms>(encoding, message).transforms)
         fuzz::require(t.T_parent_child.matrix().allFinite());
@@ -78,7 +82,7 @@ void use(unsigned type, const char* encoding, Bytes message) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   try {
-    use(data[0] % 8U, data[0] & 8U ? "ros1" : "cdr", {data + 1, size - 1});
+    use(data[0] % 16U, data[0] & 16U ? "ros1" : "cdr", {data + 1, size - 1});
   } catch (const std::invalid_argument&) {
   } catch (const std::runtime_error&) {  // of an image's file
   }

@@ -90,11 +90,11 @@ int odometry_alone(const OdometryOptions& options) {
 void add_odometry(CLI::App& app, Command& command) {
   auto options = std::make_shared<OdometryOptions>();
   CLI::App* sub = app.add_subcommand(
-      "odometry",
-      "Visual odometry alone, from a drive's images or from recorded tracks; or LiDAR odometry");
+      "odometry", "Visual odometry alone, from recorded images or tracks; or LiDAR odometry");
   sub->add_option("DRIVE", options->input,
-                  "Folder of a KITTI raw drive, or recorded tracks (<drive>.csv[.gz] with its "
-                  "<drive>.meta.json); with --lidar also a folder of scans")
+                  "A KITTI raw drive, a bag or whatever else with images maploop replay takes, or "
+                  "recorded tracks (<drive>.csv[.gz] with its <drive>.meta.json); with --lidar "
+                  "also a recording with scans alone, or a folder of scans")
       ->required()
       ->check(existing_path());
   sub->add_option("--config", options->config,

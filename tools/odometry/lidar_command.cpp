@@ -8,9 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "runtime/vehicle/config/vehicle_config.h"
 #include "runtime/vehicle/drivers/recording.h"
-#include "sensors/bag/message_reader.h"
 #include "sensors/replay/files.h"
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
@@ -29,52 +27,47 @@ namespace {
 using evaluation::StampedTrajectory;
 using odometry::LidarRun, odometry::LidarStep, odometry::Method;
 
-// A drive; a bag, whose camera is the scanner; or a folder of scans, whose body is it too.
+// A recording; one without a pair of cameras has the path of the scanner. Or a folder of scans,
+// whose body is the scanner too.
 class LidarInput {
  public:
   LidarInput(const LidarOdometryOptions& options, const OdometryFiles& files,
              odometry::FrameRange frames) {
     using enum odometry::LidarSeed;
     vehicle::VehicleConfig config;
-    if (!files.config.empty()) config = vehicle::load_vehicle_config(files.config);
-    if (sensors::is_bag(files.input)) {
-      open_bag(files.input, config);
-    } else if (!std::filesystem::is_directory(files.input)) {
-      throw std::runtime_error("'" + files.input.string() +
-                               "' is no bag and no folder of a drive or of scans, and recorded "
-                               "tracks have no scans");
-    } else if (std::filesystem::is_directory(files.input / "image_00") ||
-               !sensors::ScanFolder::is(files.input)) {
-      drive_ = vehicle::open_drive(files.input, config);
-      describe_car(config, drive_->calibration());
-      T_body_velo = drive_->calibration().T_body_velo;
-      T_body_cam = drive_->calibration().stereo.T_body_cam;
+    if (std::filesystem::is_directory(files.input / "image_00") ||
+        !sensors::ScanFolder::is(files.input)) {
+      config = odometry::open_recording(files.input, files.config, &recording_);
+      T_body_velo = T_body_cam = recording_.calibration.T_body_velo;
+      images_ = recording_.sensors(Time::max()).camera != nullptr;
+      if (images_) T_body_cam = recording_.calibration.stereo.T_body_cam;
     } else {
+      if (!files.config.empty()) config = vehicle::load_vehicle_config(files.config);
       folder_ = files.input;
       stamps_ = options.stamps;
     }
     if (folder_.empty() && !options.stamps.empty())
       throw std::runtime_error("'" + files.input.string() +
                                "' has the stamps of its scans: leave --stamps out");
-    if (!drive_ && options.seed == vo)
-      throw std::runtime_error("'" + files.input.string() +
-                               "' is no drive with images for --seed vo");
-    parameters = {config.stereo, config.lidar, options.seed.value_or(drive_ ? vo : motion),
+    if (!images_ && options.seed == vo)
+      throw std::runtime_error("'" + files.input.string() + "' has no images for --seed vo");
+    parameters = {config.stereo, config.lidar, options.seed.value_or(images_ ? vo : motion),
                   options.every, frames};
   }
 
   // Begins anew.
   LidarRun run(Method method) {
     parameters.method = method;
-    if (drive_) return {drive_frames(*drive_, parameters), T_body_velo, parameters};
-    if (bag_.sensors != nullptr) {
-      return {scan_frames(bag_.sensors(Time::min()).velodyne, parameters), T_body_velo, parameters};
+    if (images_) return {drive_frames(recording_, parameters), T_body_velo, parameters};
+    if (folder_.empty()) {
+      return {scan_frames(recording_.sensors(Time::min()).velodyne, parameters), T_body_velo,
+              parameters};
     }
     scans_ = std::make_shared<sensors::ScanFolder>(folder_, stamps_);
     return {folder_frames(scans_, parameters), T_body_velo, parameters};
   }
 
-  bool is_drive() const { return drive_ != nullptr; }
+  bool is_drive() const { return images_; }
   std::string remarks() const { return scans_ ? scans_->remarks() : ""; }
 
   Eigen::Isometry3d T_body_velo = Eigen::Isometry3d::Identity();
@@ -82,17 +75,8 @@ class LidarInput {
   odometry::LidarRunParameters parameters;
 
  private:
-  void open_bag(const std::filesystem::path& file, vehicle::VehicleConfig& config) {
-    bag_ = vehicle::open_recording(file, config);
-    for (const std::string& note : bag_.notes) std::cerr << "maploop: " << note << '\n';
-    if (bag_.sensors(Time::max()).velodyne == nullptr)
-      throw std::runtime_error("'" + file.string() + "' has no clouds of a LiDAR that can be used");
-    describe_car(config, bag_.calibration);
-    T_body_velo = T_body_cam = bag_.calibration.T_body_velo;
-  }
-
-  std::shared_ptr<const sensors::KittiDrive> drive_;
-  vehicle::Recording bag_;  // empty: the input is another one
+  vehicle::Recording recording_;
+  bool images_ = false;
   std::filesystem::path folder_, stamps_;
   std::shared_ptr<sensors::ScanFolder> scans_;
 };

@@ -1,5 +1,6 @@
 #include "tools/odometry/lidar_run.h"
 
+#include <stdexcept>
 #include <utility>
 
 #include "estimators/stereo/stereo_odometry.h"
@@ -15,7 +16,8 @@ lidar::LidarParameters seeded(const LidarRunParameters& parameters) {
 
 }  // namespace
 
-LidarFrames drive_frames(const sensors::KittiDrive& drive, const LidarRunParameters& parameters) {
+LidarFrames drive_frames(const vehicle::Recording& recording,
+                         const LidarRunParameters& parameters) {
   struct State {
     std::unique_ptr<sensors::Source<StereoPair>> camera;
     FrameScans scans;
@@ -24,10 +26,15 @@ LidarFrames drive_frames(const sensors::KittiDrive& drive, const LidarRunParamet
     std::optional<std::size_t> first;
   };
   const bool visual = parameters.seed == LidarSeed::vo;
+  // Without a visual seed no pixel is read.
+  vehicle::Sensors sensors = recording.sensors(Time::min());
+  if (!visual) sensors.camera = recording.sensors(Time::max()).camera;
+  if (sensors.camera == nullptr)
+    throw std::runtime_error("the recording has no images of a pair of cameras");
   auto state = std::make_shared<State>(
-      State{drive.camera(visual ? Time::min() : Time::max()),
-            FrameScans(drive),
-            stereo::StereoOdometry(drive.calibration().stereo, parameters.stereo),
+      State{std::move(sensors.camera),
+            FrameScans(std::move(sensors.velodyne)),
+            stereo::StereoOdometry(recording.calibration.stereo, parameters.stereo),
             {},
             {}});
   return [state, visual, range = parameters.frames, every = parameters.every](LidarFrame* frame) {
@@ -45,13 +52,14 @@ LidarFrames drive_frames(const sensors::KittiDrive& drive, const LidarRunParamet
       frame->visual->status = OdometryStatus::too_few_features;
     }
     const bool used = (frame->number - *state->first) % every == 0;
-    frame->scan = used ? state->scans.of(frame->number) : nullptr;
+    frame->scan = used ? state->scans.of(pair.stamp) : nullptr;
     return true;
   };
 }
 
 LidarFrames scan_frames(std::shared_ptr<sensors::Source<LidarScan>> scans,
                         const LidarRunParameters& parameters) {
+  if (scans == nullptr) throw std::runtime_error("the recording has no scans of a LiDAR");
   return [scans, range = parameters.frames, every = parameters.every,
           scan = std::make_shared<LidarScan>()](LidarFrame* frame) {
     do

@@ -17,7 +17,6 @@
 #include "msgs/odometry.h"
 #include "msgs/visual_motion.h"
 #include "sensors/cloud/scan_folder.h"
-#include "sensors/replay/kitti_drive.h"
 #include "tools/odometry/registration_method.h"
 #include "tools/odometry/stereo_runs.h"
 
@@ -48,10 +47,10 @@ struct LidarFrame {
 // Fills the next frame; returns false at the end.
 using LidarFrames = std::function<bool(LidarFrame*)>;
 
-// Returns the image pairs of a drive, each with the scan taken during the same turn if there is
-// one. Without a visual seed their motion has only the stamp. `drive` must outlive them. Throws
-// std::runtime_error if it has no scans.
-LidarFrames drive_frames(const sensors::KittiDrive& drive, const LidarRunParameters& parameters);
+// Returns the image pairs of a recording, each with the scan taken during the same turn if there is
+// one. Without a visual seed their motion has only the stamp. Throws std::runtime_error if it has
+// no images or no scans.
+LidarFrames drive_frames(const vehicle::Recording& recording, const LidarRunParameters& parameters);
 LidarFrames scan_frames(std::shared_ptr<sensors::Source<LidarScan>> scans,
                         const LidarRunParameters& parameters);
 LidarFrames folder_frames(std::shared_ptr<sensors::ScanFolder> folder,

@@ -1,25 +1,28 @@
 #include "tools/odometry/odometry_input.h"
 
+#include <iostream>
 #include <optional>
 #include <stdexcept>
 
-#include "runtime/vehicle/config/vehicle_config.h"
-#include "runtime/vehicle/drivers/recording.h"
 #include "sensors/replay/reference_trajectory.h"
 
 namespace maploop::odometry {
 namespace {
 
-Input open_drive(const std::filesystem::path& folder, const std::filesystem::path& file,
-                 FrameRange frames, Disparities disparities, const Adjust& adjust) {
-  vehicle::VehicleConfig config;
-  if (!file.empty()) config = vehicle::load_vehicle_config(file);
+bool are_tracks(const std::filesystem::path& input) {
+  std::filesystem::path name = input.filename();
+  if (name.extension() == ".gz") name.replace_extension();
+  return name.extension() == ".csv";
+}
+
+Input open_images(const std::filesystem::path& input, const std::filesystem::path& file,
+                  FrameRange frames, Disparities disparities, const Adjust& adjust) {
+  vehicle::Recording recording;
+  vehicle::VehicleConfig config = open_recording(input, file, &recording);
   adjust(config.stereo);
-  const auto drive = vehicle::open_drive(folder, config);
-  describe_car(config, drive->calibration());
   std::optional<lidar::LidarParameters> depth;
   if (disparities == Disparities::lidar) depth = config.lidar;
-  return {stereo_run(*drive, config.stereo, frames, depth), drive->calibration().stereo, drive};
+  return {stereo_run(recording, config.stereo, frames, depth), recording.calibration.stereo};
 }
 
 Input open_tracks(const std::filesystem::path& file, const std::filesystem::path& config,
@@ -28,23 +31,26 @@ Input open_tracks(const std::filesystem::path& file, const std::filesystem::path
       config.empty() ? for_recorded_tracks() : vehicle::load_vehicle_config(config).stereo;
   adjust(parameters);
   auto tracks = std::make_shared<const RecordedTracks>(read_recorded_tracks(file));
-  return {tracks_run(tracks, parameters, frames), tracks->calibration, tracks};
+  return {tracks_run(tracks, parameters, frames), tracks->calibration};
 }
 
-evaluation::StampedTrajectory truth_of_drive(const std::filesystem::path& folder,
-                                             const std::filesystem::path& file) {
-  const auto drive = vehicle::open_drive(
-      folder, file.empty() ? vehicle::VehicleConfig{} : vehicle::load_vehicle_config(file));
-  const auto rows = sensors::read_rows(drive->reference());
-  if (rows.size() < 2) throw std::runtime_error(folder.string() + " has no oxts to score against");
+evaluation::StampedTrajectory truth_of_recording(const std::filesystem::path& input,
+                                                 const std::filesystem::path& file) {
+  vehicle::Recording recording;
+  open_recording(input, file, &recording);
+  const vehicle::Sensors sensors = recording.sensors(Time::max());
+  const auto rows = sensors::read_rows(recording.sensors(Time::max()).reference);
+  if (rows.size() < 2 || sensors.camera == nullptr) {
+    throw std::runtime_error(input.string() +
+                             " has no reference (KITTI: the folder oxts) to score images against");
+  }
   const sensors::ReferenceTrajectory reference(rows, LocalFrame(rows.front().position));
   evaluation::StampedTrajectory truth;
-  const auto camera = drive->camera();
-  for (StereoPair pair; camera->next(pair);) {
+  for (StereoPair pair; sensors.camera->next(pair);) {
     const auto T_enu_body = reference.pose(pair.stamp);
     if (!T_enu_body) continue;
     truth.stamps.push_back(pair.stamp);
-    truth.poses.push_back(*T_enu_body * drive->calibration().stereo.T_body_cam);
+    truth.poses.push_back(*T_enu_body * recording.calibration.stereo.T_body_cam);
   }
   return truth;
 }
@@ -60,25 +66,35 @@ evaluation::StampedTrajectory truth_of_tracks(const std::filesystem::path& file)
 
 }  // namespace
 
+vehicle::VehicleConfig open_recording(const std::filesystem::path& input,
+                                      const std::filesystem::path& file,
+                                      vehicle::Recording* recording) {
+  vehicle::VehicleConfig config;
+  if (!file.empty()) config = vehicle::load_vehicle_config(file);
+  config.ppp.observations = false;  // odometry does not need them
+  *recording = vehicle::open_recording(input, config);
+  for (const std::string& note : recording->notes) std::cerr << "maploop: " << note << '\n';
+  describe_car(config, recording->calibration);
+  return config;
+}
+
 Input open_input(const std::filesystem::path& input, const std::filesystem::path& config,
                  FrameRange frames, Disparities disparities, const Adjust& adjust) {
   const Adjust with_offset = [&](stereo::StereoParameters& parameters) {
     adjust(parameters);
     if (disparities == Disparities::none) parameters.sigma_disparity_offset = 0.0;
   };
-  if (std::filesystem::is_directory(input))
-    return open_drive(input, config, frames, disparities, with_offset);
+  if (!are_tracks(input)) return open_images(input, config, frames, disparities, with_offset);
   if (disparities == Disparities::lidar)
     throw std::runtime_error("'" + input.string() +
-                             "' is no folder of a drive, and recorded tracks have no scans; leave "
-                             "--disparity lidar out");
+                             "' are recorded tracks, which have no scans; leave --disparity lidar "
+                             "out");
   return open_tracks(input, config, frames, with_offset);
 }
 
 evaluation::StampedTrajectory read_truth(const std::filesystem::path& input,
                                          const std::filesystem::path& config) {
-  return std::filesystem::is_directory(input) ? truth_of_drive(input, config)
-                                              : truth_of_tracks(input);
+  return are_tracks(input) ? truth_of_tracks(input) : truth_of_recording(input, config);
 }
 
 void CameraPath::add(const RelativeMotion& motion) {

@@ -3,9 +3,10 @@
 
 #include <filesystem>
 #include <functional>
-#include <memory>
 
 #include "msgs/calibration.h"
+#include "runtime/vehicle/config/vehicle_config.h"
+#include "runtime/vehicle/drivers/recording.h"
 #include "tools/evaluate/motion_chain.h"
 #include "tools/evaluate/trajectory_file.h"
 #include "tools/odometry/stereo_runs.h"
@@ -18,17 +19,23 @@ using Adjust = std::function<void(stereo::StereoParameters&)>;
 struct Input {
   Run run;
   StereoCalibration camera;
-  std::shared_ptr<const void> owner;  // keeps alive the data that `run` reads
 };
 
-// `input` is the folder of a KITTI raw drive or <drive>.csv[.gz] with its .meta.json. Without a
-// `config` file (empty path) recorded tracks get for_recorded_tracks(). Throws std::runtime_error
-// and std::invalid_argument naming file, key or value, or if there are no scans for
-// Disparities::lidar.
+// Opens whatever maploop replay takes, and tells the user what was assumed about it. Returns the
+// configuration of the file (empty path: the defaults), which the recording completes.
+vehicle::VehicleConfig open_recording(const std::filesystem::path& input,
+                                      const std::filesystem::path& config,
+                                      vehicle::Recording* recording);
+
+// `input` is a recording with images, or recorded tracks: <drive>.csv[.gz] with its .meta.json.
+// Without a `config` file (empty path) recorded tracks get for_recorded_tracks(). Throws
+// std::runtime_error and std::invalid_argument naming file, key or value, or if there are no scans
+// for Disparities::lidar.
 Input open_input(const std::filesystem::path& input, const std::filesystem::path& config,
                  FrameRange frames, Disparities disparities, const Adjust& adjust);
 
-// Reads the left camera's truth that belongs to the input: a drive's OXTS at its images' stamps, or
+// Reads the left camera's truth that belongs to the input: a recording's reference at its images'
+// stamps, or
 // the <drive>.truth.csv[.gz] beside recorded tracks. Throws std::runtime_error if there is none.
 evaluation::StampedTrajectory read_truth(const std::filesystem::path& input,
                                          const std::filesystem::path& config = {});

@@ -3,6 +3,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "estimators/lidar/visual_lidar_odometer.h"
 #include "estimators/stereo/back_end.h"
@@ -46,15 +47,20 @@ double processor_milliseconds() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-const LidarScan* FrameScans::of(std::size_t frame) {
-  while (!ended_ && (!loaded_ || scan_.sequence < frame)) {
-    loaded_ = velodyne_->next(scan_);
-    ended_ = !loaded_;
-  }
-  return loaded_ && scan_.sequence == frame ? &scan_ : nullptr;
+FrameScans::FrameScans(std::unique_ptr<sensors::Source<LidarScan>> scans)
+    : scans_(std::move(scans)) {
+  if (scans_ == nullptr) throw std::runtime_error("the recording has no scans of a LiDAR");
 }
 
-Run stereo_run(const sensors::KittiDrive& drive, const stereo::StereoParameters& parameters,
+const LidarScan* FrameScans::of(Time stamp) {
+  while (!ended_ && (!loaded_ || scan_.end <= stamp)) {
+    loaded_ = scans_->next(scan_);
+    ended_ = !loaded_;
+  }
+  return loaded_ && scan_.start <= stamp ? &scan_ : nullptr;
+}
+
+Run stereo_run(const vehicle::Recording& recording, const stereo::StereoParameters& parameters,
                FrameRange frames, const std::optional<lidar::LidarParameters>& depth) {
   struct Depth {
     FrameScans scans;
@@ -66,11 +72,15 @@ Run stereo_run(const sensors::KittiDrive& drive, const stereo::StereoParameters&
     std::optional<Depth> depth;
     StereoPair pair;
   };
-  const VehicleCalibration calibration = drive.calibration();
-  auto state =
-      std::make_shared<State>(State{{calibration.stereo, parameters}, drive.camera(), {}, {}});
+  const VehicleCalibration& calibration = recording.calibration;
+  vehicle::Sensors sensors = recording.sensors(Time::min());
+  if (sensors.camera == nullptr)
+    throw std::runtime_error("the recording has no images of a pair of cameras");
+  auto state = std::make_shared<State>(
+      State{{calibration.stereo, parameters}, std::move(sensors.camera), {}, {}});
   if (depth) {
-    state->depth.emplace(Depth{FrameScans(drive), {calibration.T_body_velo, *depth}});
+    state->depth.emplace(
+        Depth{FrameScans(std::move(sensors.velodyne)), {calibration.T_body_velo, *depth}});
   }
   return [state, frames]() -> std::optional<Step> {
     do
@@ -85,7 +95,7 @@ Run stereo_run(const sensors::KittiDrive& drive, const stereo::StereoParameters&
     if (state->depth) {
       Depth& known = *state->depth;
       step.motion = known.odometer.correction().correct(motion);
-      known.odometer.process(known.scans.of(step.frame), &motion);
+      known.odometer.process(known.scans.of(state->pair.stamp), &motion);
     }
     const auto tracks = state->odometry.tracks();
     step.tracks.assign(tracks.begin(), tracks.end());

@@ -17,7 +17,7 @@
 #include "estimators/stereo/tracks.h"
 #include "msgs/odometry.h"
 #include "runtime/vehicle/drivers/recorded_tracks.h"
-#include "sensors/replay/kitti_drive.h"
+#include "runtime/vehicle/drivers/recording.h"
 
 namespace maploop::odometry {
 
@@ -49,18 +49,18 @@ struct Step {
   std::vector<stereo::StereoTrack> tracks;  // the tracks that the motion was estimated from
 };
 
-// Finds the scan that belongs to each image pair of a drive.
+// Finds the scan during which each image pair was taken.
 class FrameScans {
  public:
-  // Throws std::runtime_error if the drive has no scans.
-  explicit FrameScans(const sensors::KittiDrive& drive) : velodyne_(drive.velodyne()) {}
+  // Throws std::runtime_error if there are no scans (nullptr).
+  explicit FrameScans(std::unique_ptr<sensors::Source<LidarScan>> scans);
 
-  // Returns the scan of this frame, or null if the drive does not have it. Frames must be requested
-  // in ascending order. The scan is valid until the next call.
-  const LidarScan* of(std::size_t frame);
+  // Returns the scan of this moment, or null if there is none. Moments must be requested in
+  // ascending order. The scan is valid until the next call.
+  const LidarScan* of(Time stamp);
 
  private:
-  std::unique_ptr<sensors::Source<LidarScan>> velodyne_;
+  std::unique_ptr<sensors::Source<LidarScan>> scans_;
   LidarScan scan_;
   bool loaded_ = false;
   bool ended_ = false;
@@ -72,10 +72,10 @@ double processor_milliseconds();
 // Returns the next step, or nothing at the end.
 using Run = std::function<std::optional<Step>()>;
 
-// Returns visual odometry from a drive's images. With `depth`, the lengths of its motions are
-// corrected with the LiDAR odometry of the drive's scans so far (lidar/disparity_correction.h).
-// `drive` must outlive the run.
-Run stereo_run(const sensors::KittiDrive& drive, const stereo::StereoParameters& parameters,
+// Returns visual odometry from the images of a recording. With `depth`, the lengths of its motions
+// are corrected with the LiDAR odometry of the scans so far (lidar/disparity_correction.h). Throws
+// std::runtime_error if the recording has no images, or no scans for `depth`.
+Run stereo_run(const vehicle::Recording& recording, const stereo::StereoParameters& parameters,
                FrameRange frames, const std::optional<lidar::LidarParameters>& depth = {});
 
 // Returns the same from recorded tracks: frames before first_good_frame are skipped.

@@ -20,12 +20,11 @@ FusedSensors fused_sensors_of_bag(const std::filesystem::path& path,
 
 Recording open_bag(const std::filesystem::path& path, const VehicleConfig& config) {
   const VehicleDescription& d = config.vehicle;
-  const sensors::BagDelays delays{d.camera.time.delay, d.lidar.time.delay, d.imu.time.delay,
-                                  d.antenna.time.delay};
+  const sensors::BagVehicle vehicle{d.camera.time.delay,  d.lidar.time.delay,  d.imu.time.delay,
+                                    d.antenna.time.delay, raw_cameras(config), d.lidar.calibration};
   const sensors::BagLimits limits{config.replay.camera_readout, config.replay.max_pair_skew,
                                   config.replay.max_turn};
-  const auto bag = std::make_shared<sensors::BagRecording>(path, config.bag, delays, limits,
-                                                           raw_cameras(config));
+  const auto bag = std::make_shared<sensors::BagRecording>(path, config.bag, vehicle, limits);
   Recording recording;
   recording.calibration = bag->calibration();
   recording.first_stamp = bag->first_stamp();

@@ -59,6 +59,14 @@ std::shared_ptr<const GnssDrive> observations_of(const sensors::KittiDrive& driv
   return std::make_shared<const GnssDrive>(gnss, config);
 }
 
+std::shared_ptr<const sensors::KittiDrive> open_drive(const std::filesystem::path& folder,
+                                                      const VehicleConfig& config) {
+  const auto drive =
+      std::make_shared<sensors::KittiDrive>(folder, config.replay, raw_cameras(config));
+  drive->set_calibration(described(config, drive->calibration()));
+  return drive;
+}
+
 Recording open_folder(const std::filesystem::path& folder, const VehicleConfig& config) {
   auto drive = open_drive(folder, config);
   auto epochs = observations_of(*drive, config);
@@ -214,14 +222,6 @@ std::optional<sensors::StereoRig> raw_cameras(const VehicleConfig& config) {
 sensors::MountParameters mount_of(const VehicleConfig& config) {
   const SensorRotation& r = config.vehicle.imu.rotation;
   return {has_pose(config, "vehicle.imu"), r.roll, -r.pitch, r.yaw};
-}
-
-std::shared_ptr<const sensors::KittiDrive> open_drive(const std::filesystem::path& folder,
-                                                      const VehicleConfig& config) {
-  const auto drive =
-      std::make_shared<sensors::KittiDrive>(folder, config.replay, raw_cameras(config));
-  drive->set_calibration(described(config, drive->calibration()));
-  return drive;
 }
 
 Recording open_recording(const std::filesystem::path& path, const VehicleConfig& config) {

@@ -41,10 +41,6 @@ struct Recording {
   std::vector<std::string> notes;  // sentences for the user: what is not used, what was assumed
 };
 
-// Opens a KITTI raw drive, with the calibration of raw cameras that the configuration may name.
-std::shared_ptr<const sensors::KittiDrive> open_drive(const std::filesystem::path& folder,
-                                                      const VehicleConfig& config);
-
 // Opens a recording. Throws std::runtime_error naming what is wrong with it. `path` is one of
 // these:
 // - A KITTI raw drive is a folder. driven_links.csv beside it contains its labels. A receiver's

@@ -7,7 +7,10 @@
 
 #include "sensors/bag/body_frame.h"
 #include "sensors/replay/kitti_drive.h"
+#include "sensors/velodyne/capture_source.h"
+#include "sensors/velodyne/data_packet.h"
 #include "tests/sensors/bag/bag_contents.h"
+#include "tests/sensors/bag/made_mcap.h"
 
 namespace maploop::sensors {
 namespace {
@@ -19,7 +22,7 @@ using testing::kitti_bag;
 using testing::recorded_bag;
 
 BagRecording open(const std::filesystem::path& path, const BagParameters& parameters = {}) {
-  return {path, parameters, {}, {}, {}};
+  return {path, parameters, {}, {}};
 }
 
 template <class T>
@@ -152,6 +155,52 @@ TEST(BagRecording, DerivesTheVelocityOfFixes) {
   }
   const double seconds = to_seconds(fixes.back().stamp - fixes.front().stamp);
   EXPECT_NEAR(static_cast<double>(known), seconds - 2.0, 2.0);
+}
+
+// A capture of a real scanner, as messages of five packets each.
+TEST(BagRecording, OfPacketsHasTheScansOfTheCapture) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  using namespace made_mcap;
+  const auto capture_file = testing::real_data() / "velodyne/vlp16_moving_car.pcap";
+  const auto number = [](std::int64_t n) { return field(static_cast<std::uint32_t>(n)); };
+  const auto stamp = [&](std::int64_t ns) {
+    return number(ns / 1'000'000'000) + number(ns % 1'000'000'000);
+  };
+  std::string records = schema(1, "velodyne_msgs/msg/VelodyneScan", "ros1msg",
+                               "Header header\nVelodynePacket[] packets\n") +
+                        channel(1, "/velodyne_packets", "ros1");
+  std::vector<std::string> packets;
+  std::int64_t last = 0;
+  const auto flush = [&] {
+    std::string data = number(0) + stamp(last) + text("velodyne") +
+                       number(static_cast<std::int64_t>(packets.size()));
+    for (const std::string& packet : packets) data += packet;
+    records += message(1, static_cast<std::uint64_t>(last), data);
+    packets.clear();
+  };
+  CaptureReader reader(capture_file);
+  for (CapturedPacket packet; reader.next(packet);) {
+    if (packet.payload.size() != velodyne_data_size) continue;
+    last = to_nanoseconds(packet.time);
+    packets.push_back(stamp(last) + std::string(packet.payload.begin(), packet.payload.end()));
+    if (packets.size() == 5) flush();
+  }
+  flush();
+  const testing::TemporaryFolder folder;
+  const auto made = testing::write_bytes(folder.path() / "packets.mcap", file(records));
+  const auto scans = all_of(open(made).lidar(Time::min()));
+  VelodyneCapture capture(capture_file, {});
+  std::size_t same = 0;
+  for (LidarScan scan; capture.next(scan); ++same) {
+    ASSERT_LT(same, scans.size());
+    EXPECT_EQ(scans[same].stamp, scan.stamp);
+    EXPECT_EQ(scans[same].end, scan.end);
+    ASSERT_EQ(scans[same].points.size(), scan.points.size());
+    EXPECT_EQ(0, std::memcmp(scans[same].points.data(), scan.points.data(),
+                             scan.points.size() * sizeof(LidarPoint)));
+  }
+  EXPECT_EQ(same, scans.size());
+  EXPECT_GE(same, 2U);
 }
 
 Topic image(const char* name) {

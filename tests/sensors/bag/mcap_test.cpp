@@ -5,41 +5,20 @@
 #include <zlib.h>
 
 #include "tests/sensors/bag/bag_contents.h"
+#include "tests/sensors/bag/made_mcap.h"
 
 namespace maploop::sensors {
 namespace {
 
 using ::testing::HasSubstr;
 
-template <class Number>
-std::string field(Number value) {
-  return {reinterpret_cast<const char*>(&value), sizeof value};
-}
-std::string text(const std::string& value) {
-  return field(static_cast<std::uint32_t>(value.size())) + value;
-}
-std::string record(char op, const std::string& content) {
-  return op + field(std::uint64_t{content.size()}) + content;
-}
-std::string channel(std::uint16_t id, const std::string& topic, const std::string& encoding) {
-  return record(4, field(id) + field(id) + text(topic) + text(encoding) + text(""));
-}
-std::string schema(std::uint16_t id, const std::string& name, const std::string& encoding) {
-  return record(3, field(id) + text(name) + text(encoding) + text("the definition"));
-}
-std::string message(std::uint16_t channel, std::uint64_t time, const std::string& data) {
-  return record(5, field(channel) + field(std::uint32_t{0}) + field(time) + field(time) + data);
-}
+using namespace made_mcap;
+
 std::string chunk(const std::string& plain, const std::string& compression,
                   const std::string& packed, std::uint32_t crc = 0) {
   return record(6, field(std::uint64_t{0}) + field(std::uint64_t{0}) +
                        field(std::uint64_t{plain.size()}) + field(crc) + text(compression) +
                        field(std::uint64_t{packed.size()}) + packed);
-}
-std::string file(const std::string& records) {
-  const std::string magic = "\x89MCAP0\r\n";
-  return magic + record(1, text("") + text("maker")) + records + record(15, std::string(4, '\0')) +
-         record(2, std::string(20, '\0')) + magic;
 }
 std::string lz4(const std::string& plain) {
   std::string packed(LZ4F_compressFrameBound(plain.size(), nullptr), '\0');

@@ -74,12 +74,16 @@ TEST(ReplayOfABag, HasAPosition) {
   EXPECT_THAT(result.error, HasSubstr("/velocity"));
 }
 
-TEST(OdometryOfABag, RunsOnItsClouds) {
+TEST(OdometryOfABag, RunsOnItsImagesAndClouds) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const ProcessResult result =
       run({maploop_command(), "odometry", bag("kitti_0013/kitti13_ros1_bz2.bag"), "--lidar"});
   EXPECT_EQ(result.status, 0) << result.error;
   EXPECT_THAT(result.out, HasSubstr("ok: 2"));
+  const ProcessResult visual =
+      run({maploop_command(), "odometry", bag("kitti_0013/kitti13_ros1_bz2.bag")});
+  EXPECT_EQ(visual.status, 0) << visual.error;
+  EXPECT_THAT(visual.out, HasSubstr("ok: 2"));
   const ProcessResult none =
       run({maploop_command(), "odometry", bag("recorded/pj_tilt_laser.bag"), "--lidar"});
   EXPECT_EQ(none.status, 1);
