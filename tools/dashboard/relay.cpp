@@ -12,7 +12,7 @@
 #include "msgs/lcm/checked_decode.h"
 #include "msgs/lcm/conversions.h"
 #include "msgs/lcm/decoded_message.h"
-#include "tools/dashboard/message_json.h"
+#include "tools/log/message_json.h"
 
 namespace maploop::dashboard {
 namespace {
@@ -60,7 +60,7 @@ void Relay::take_player(std::span<const std::uint8_t> data, Duration now) {
   if (!schema::checked_decode(schema::own_schema(), data, state)) return;
   const std::vector<vehicle::Run> runs = runs_.present(now);
   if (state.kind == Control::STATE && std::any_of(runs.begin(), runs.end(), with_id(state.run))) {
-    players_[state.run] = to_json(*try_decode(schema::own_schema(), data));
+    players_[state.run] = lcm_log::to_json(*try_decode(schema::own_schema(), data));
   }
 }
 
@@ -102,7 +102,7 @@ void Relay::pass_on(Duration now) {
   for (auto& [channel, data] : waiting_) {
     if (data.empty()) continue;
     if (const auto message = try_decode(schema::own_schema(), data)) {
-      channels_.put(channel, to_json(*message));
+      channels_.put(channel, lcm_log::to_json(*message));
     } else {
       ++not_understood_;
     }

@@ -58,6 +58,10 @@ int merge(const LogOptions& o) {
   return report_damage(lcm_log::merge(o.logs, o.schema(), o.output, std::cout));
 }
 
+int convert(const LogOptions& o) {
+  return report_damage(lcm_log::convert(o.log, o.schema(), o.output, std::cout));
+}
+
 int recover(const LogOptions& o) {
   lcm_log::recover(o.log, o.schema(), o.output, std::cout);
   return 0;
@@ -86,7 +90,8 @@ int or_failed(const LogOptions& o) {
 
 void add_log(CLI::App& app, Command& command) {
   auto options = std::make_shared<LogOptions>();
-  CLI::App* log = app.add_subcommand("log", "Look into, check, cut, join, rescue and compare logs");
+  CLI::App* log =
+      app.add_subcommand("log", "Look into, check, cut, join, convert, rescue and compare logs");
   log->require_subcommand(1);
   CLI::App* sub = nullptr;
   const auto add = [&](const char* name, const char* what, int (*run)(const LogOptions&)) {
@@ -126,6 +131,10 @@ void add_log(CLI::App& app, Command& command) {
   add("merge", "Join logs to one, by time", merge);
   sub->add_option("LOGS", options->logs, "LCM logs, plain or .gz")->required();
   add_output("Log to write (.gz: compressed)");
+
+  add("convert", "Write a log as an MCAP file for Foxglove or PlotJuggler", convert);
+  add_log("LOG", options->log);
+  add_output("MCAP file to write");
 
   add("recover", "Write everything readable of a damaged log", recover);
   add_log("LOG", options->log);

@@ -72,6 +72,12 @@ struct SplitParameters {
 LogSummary split(const path& log, const schema::Schema& schema, const SplitParameters& parameters,
                  std::ostream& out);
 
+// Writes the messages of known type as an MCAP file that Foxglove and PlotJuggler open: each
+// channel as JSON, and the positions and poses once more in Foxglove's schemas
+// (foxglove_messages.h). Times are those of the log. Throws if no message can be converted.
+LogSummary convert(const path& log, const schema::Schema& schema, const path& output,
+                   std::ostream& out);
+
 // Writes always the earliest of the logs' next events; among equally early ones that of the log
 // named first. The order inside each log is therefore kept, even if its own times go back. Damage
 // is left out.

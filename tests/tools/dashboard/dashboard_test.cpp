@@ -12,7 +12,7 @@
 #include "msgs/lcm/checked_decode.h"
 #include "msgs/lcm/conversions.h"
 #include "tools/dashboard/live_channels.h"
-#include "tools/dashboard/message_json.h"
+#include "tools/log/message_json.h"
 #include "tools/dashboard/relay.h"
 
 namespace maploop::dashboard {
@@ -24,7 +24,7 @@ using std::chrono::milliseconds;
 using schema::encoded;
 
 json as_json(const std::vector<std::uint8_t>& bytes) {
-  return json::parse(to_json(try_decode(schema::own_schema(), bytes).value()));
+  return json::parse(lcm_log::to_json(try_decode(schema::own_schema(), bytes).value()));
 }
 
 NavState state_at(int seconds) {

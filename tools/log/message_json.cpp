@@ -1,4 +1,4 @@
-#include "tools/dashboard/message_json.h"
+#include "tools/log/message_json.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -7,7 +7,7 @@
 
 #include "msgs/base64.h"
 
-namespace maploop::dashboard {
+namespace maploop::lcm_log {
 namespace {
 
 using nlohmann::json;
@@ -54,10 +54,39 @@ json tree(const schema::Field& field) {
   return all;
 }
 
+json schema_of(const schema::Type& type);
+
+json schema_of(const schema::Member& member) {
+  const auto of_one = [&]() -> json {
+    if (member.type != nullptr) return schema_of(*member.type);
+    if (member.kind == Kind::string) return {{"type", "string"}};
+    if (member.kind == Kind::boolean) return {{"type", "boolean"}};
+    const bool real = member.kind == Kind::float32 || member.kind == Kind::float64;
+    return {{"type", real ? "number" : "integer"}};
+  };
+  if (!member.dimensions.empty() && member.kind == Kind::byte)
+    return {{"type", "string"}, {"contentEncoding", "base64"}};
+  json schema = of_one();
+  for (std::size_t i = 0; i < member.dimensions.size(); ++i)
+    schema = {{"type", "array"}, {"items", std::move(schema)}};
+  return schema;
+}
+
+json schema_of(const schema::Type& type) {
+  json properties = json::object();
+  for (const schema::Member& member : type.members)
+    if (member.type_name != left_out) properties[member.name] = schema_of(member);
+  return {{"type", "object"}, {"title", type.name}, {"properties", std::move(properties)}};
+}
+
 }  // namespace
+
+std::string json_schema(const schema::Type& type) {
+  return schema_of(type).dump();
+}
 
 std::string to_json(const schema::Field& message) {
   return tree(message).dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
-}  // namespace maploop::dashboard
+}  // namespace maploop::lcm_log
