@@ -42,17 +42,14 @@ class PairMaker {
   };
   static constexpr std::size_t most_waiting = 8;
 
-  static bool is_compressed(const Topic& topic) {
-    return topic.type == ros_types<RosCompressedImage>()[0];
-  }
-
   std::optional<Time> stamp_of(const Camera& camera, const RecordedMessage& message,
                                SourceReport& report) {
     const auto found = [&](auto image) -> std::optional<Time> {
       if (!stream_.decoded(message, image, report)) return std::nullopt;
       return stream_.stamp(image.header, message, stream_.settings().vehicle.camera_delay);
     };
-    return is_compressed(camera.topic) ? found(RosCompressedImage()) : found(RosImage());
+    return is_of<RosCompressedImage>(camera.topic) ? found(RosCompressedImage())
+                                                   : found(RosImage());
   }
 
   void drop(Camera& camera, SourceReport& report) {
@@ -91,7 +88,7 @@ class PairMaker {
       to_grey(image, to);
     };
     try {
-      if (is_compressed(camera.topic)) {
+      if (is_of<RosCompressedImage>(camera.topic)) {
         converted(RosCompressedImage());
       } else {
         converted(RosImage());

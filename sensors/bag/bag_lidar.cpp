@@ -96,10 +96,9 @@ class PacketScanMaker {
 
   bool next(LidarScan& scan, SourceReport& report) {
     while (true) {
-      for (; at_ < message_.packets.size();) {
-        const RosVelodynePacket& packet = message_.packets[at_++];
-        if (!take(packet, scan, report) || !stream_.follows(topic_, scan, report)) continue;
-        return true;
+      while (at_ < message_.packets.size()) {
+        const bool ended = take(message_.packets[at_++], scan, report);
+        if (ended && stream_.follows(topic_, scan, report)) return true;
       }
       const RecordedMessage* message = stream_.next(report);
       at_ = 0;
@@ -161,7 +160,7 @@ class PacketScanMaker {
 
 std::unique_ptr<Source<LidarScan>> make_bag_lidar(SharedBagSettings settings, const Topic& lidar,
                                                   Time passed) {
-  if (lidar.type == ros_types<RosVelodyneScan>()[0])
+  if (is_of<RosVelodyneScan>(lidar))
     return made_by<LidarScan>(PacketScanMaker(std::move(settings), lidar));
   return made_by<LidarScan>(ScanMaker(std::move(settings), lidar, passed));
 }

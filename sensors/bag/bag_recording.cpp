@@ -19,14 +19,6 @@
 namespace maploop::sensors {
 namespace {
 
-std::set<std::string> topics_of_type(const BagSummary& bag,
-                                     std::span<const std::string_view> types) {
-  std::set<std::string> names;
-  for (const TopicSummary& summary : bag.topics)
-    if (std::ranges::count(types, summary.topic.type) > 0) names.insert(summary.topic.name);
-  return names;
-}
-
 // Calls use(message) for the messages of some topics that can be read, until it returns false.
 void read_first(const std::filesystem::path& path, std::set<std::string> topics, Time begin,
                 const std::function<bool(const RecordedMessage&)>& use) {
@@ -71,16 +63,18 @@ FirstMessages first_messages(const std::filesystem::path& path, const Topic& top
 // recordings repeat constant ones there.
 FrameTree read_frames(const std::filesystem::path& path, const BagSummary& bag) {
   constexpr std::size_t enough = 1000;  // messages
+  std::set<std::string> topics;
+  for (const TopicSummary& summary : bag.topics)
+    if (problem_of<RosTransforms>(summary.topic).empty()) topics.insert(summary.topic.name);
   FrameTree tree;
   std::size_t count = 0;
-  read_first(path, topics_of_type(bag, ros_types<RosTransforms>()), Time::min(),
-             [&](const RecordedMessage& message) {
-               RosTransforms transforms;
-               decode(*message.topic, message.data, transforms);
-               for (const RosTransform& t : transforms.transforms)
-                 tree.add(t.parent, t.child, t.T_parent_child);
-               return ++count < enough;
-             });
+  read_first(path, std::move(topics), Time::min(), [&](const RecordedMessage& message) {
+    RosTransforms transforms;
+    decode(*message.topic, message.data, transforms);
+    for (const RosTransform& t : transforms.transforms)
+      tree.add(t.parent, t.child, t.T_parent_child);
+    return ++count < enough;
+  });
   return tree;
 }
 

@@ -11,66 +11,64 @@
 namespace maploop::sensors {
 namespace {
 
-using std::string_view_literals::operator""sv;
+// A type whose messages are decoded, and what its definition lists, in the form of field_list().
+struct RosForm {
+  std::string_view type, fields;
+};
 
-// What the definition of each type lists, in the form of field_list().
-template <class T>
-constexpr std::array<std::string_view, 0> fields{};
-template <>
-constexpr std::array fields<RosImage>{
-    "header header;uint32 height;uint32 width;string encoding;uint8 is_bigendian;uint32 step;uint8[] data;"sv};
-template <>
-constexpr std::array fields<RosCompressedImage>{"header header;string format;uint8[] data;"sv};
-template <>
-constexpr std::array fields<RosCameraInfo>{
-    "header header;uint32 height;uint32 width;string distortion_model;float64[] d;float64[9] "
-    "k;float64[9] r;"
-    "float64[12] p;uint32 binning_x;uint32 binning_y;regionofinterest roi;"sv};
-template <>
-constexpr std::array fields<RosPointCloud>{
-    "header header;uint32 height;uint32 width;pointfield[] fields;bool is_bigendian;uint32 "
-    "point_step;"
-    "uint32 row_step;uint8[] data;bool is_dense;"sv};
-template <>
-constexpr std::array fields<RosVelodyneScan>{"header header;velodynepacket[] packets;"sv};
-template <>
-constexpr std::array fields<RosImu>{
-    "header header;quaternion orientation;float64[9] orientation_covariance;vector3 "
-    "angular_velocity;"
-    "float64[9] angular_velocity_covariance;vector3 linear_acceleration;float64[9] linear_acceleration_covariance;"sv};
-template <>
-constexpr std::array fields<RosFix>{
-    "header header;navsatstatus status;float64 latitude;float64 longitude;float64 altitude;"
-    "float64[9] position_covariance;uint8 position_covariance_type;"sv};
-template <>
-constexpr std::array fields<RosTwist>{
-    "header header;twist twist;"sv, "header header;twistwithcovariance twist;"sv,
-    "header header;string child_frame_id;posewithcovariance pose;twistwithcovariance twist;"sv};
-template <>
-constexpr std::array fields<RosTransforms>{"transformstamped[] transforms;"sv};
+constexpr std::string_view transforms = "transformstamped[] transforms;";
 
 template <class T>
-constexpr std::array<std::string_view, 1> types{};
+constexpr std::array<RosForm, 1> forms{};
 template <>
-constexpr std::array types<RosImage>{"sensor_msgs/Image"sv};
+constexpr std::array forms<RosImage>{
+    RosForm{"sensor_msgs/Image",
+            "header header;uint32 height;uint32 width;string encoding;uint8 is_bigendian;"
+            "uint32 step;uint8[] data;"}};
 template <>
-constexpr std::array types<RosCompressedImage>{"sensor_msgs/CompressedImage"sv};
+constexpr std::array forms<RosCompressedImage>{
+    RosForm{"sensor_msgs/CompressedImage", "header header;string format;uint8[] data;"}};
 template <>
-constexpr std::array types<RosCameraInfo>{"sensor_msgs/CameraInfo"sv};
+constexpr std::array forms<RosCameraInfo>{
+    RosForm{"sensor_msgs/CameraInfo",
+            "header header;uint32 height;uint32 width;string distortion_model;float64[] d;"
+            "float64[9] k;float64[9] r;float64[12] p;uint32 binning_x;uint32 binning_y;"
+            "regionofinterest roi;"}};
 template <>
-constexpr std::array types<RosPointCloud>{"sensor_msgs/PointCloud2"sv};
+constexpr std::array forms<RosPointCloud>{
+    RosForm{"sensor_msgs/PointCloud2",
+            "header header;uint32 height;uint32 width;pointfield[] fields;bool is_bigendian;"
+            "uint32 point_step;uint32 row_step;uint8[] data;bool is_dense;"}};
 template <>
-constexpr std::array types<RosVelodyneScan>{"velodyne_msgs/VelodyneScan"sv};
+constexpr std::array forms<RosVelodyneScan>{
+    RosForm{"velodyne_msgs/VelodyneScan", "header header;velodynepacket[] packets;"}};
 template <>
-constexpr std::array types<RosImu>{"sensor_msgs/Imu"sv};
+constexpr std::array forms<RosImu>{
+    RosForm{"sensor_msgs/Imu",
+            "header header;quaternion orientation;float64[9] orientation_covariance;"
+            "vector3 angular_velocity;float64[9] angular_velocity_covariance;"
+            "vector3 linear_acceleration;float64[9] linear_acceleration_covariance;"}};
 template <>
-constexpr std::array types<RosFix>{"sensor_msgs/NavSatFix"sv};
+constexpr std::array forms<RosFix>{
+    RosForm{"sensor_msgs/NavSatFix",
+            "header header;navsatstatus status;float64 latitude;float64 longitude;"
+            "float64 altitude;float64[9] position_covariance;uint8 position_covariance_type;"}};
 template <>
-constexpr std::array types<RosTwist>{"geometry_msgs/TwistStamped"sv,
-                                     "geometry_msgs/TwistWithCovarianceStamped"sv,
-                                     "nav_msgs/Odometry"sv};
+constexpr std::array forms<RosTwist>{
+    RosForm{"geometry_msgs/TwistStamped", "header header;twist twist;"},
+    RosForm{"geometry_msgs/TwistWithCovarianceStamped", "header header;twistwithcovariance twist;"},
+    RosForm{"nav_msgs/Odometry",
+            "header header;string child_frame_id;posewithcovariance pose;"
+            "twistwithcovariance twist;"}};
 template <>
-constexpr std::array types<RosTransforms>{"tf2_msgs/TFMessage"sv, "tf/tfMessage"sv};
+constexpr std::array forms<RosTransforms>{RosForm{"tf2_msgs/TFMessage", transforms},
+                                          RosForm{"tf/tfMessage", transforms}};
+
+template <class T>
+const RosForm* form_of(std::string_view type) {
+  const auto* found = std::ranges::find(forms<T>, type, &RosForm::type);
+  return found == forms<T>.end() ? nullptr : found;
+}
 
 // Returns "type name;" of each field of the first type in the text, in lower case and without the
 // names of packages, constants and default values.
@@ -226,24 +224,21 @@ RosHeader read_header(RosCursor& c) {
 }
 
 template <class T>
-std::span<const std::string_view> ros_types() {
-  return types<T>;
+bool is_of(const Topic& topic) {
+  return form_of<T>(topic.type) != nullptr;
 }
 
 template <class T>
 std::string problem_of(const Topic& topic) {
-  const auto found = std::find(types<T>.begin(), types<T>.end(), topic.type);
-  if (found == types<T>.end())
-    return "its type is " + topic.type + ", not " + std::string(types<T>[0]);
+  const RosForm* form = form_of<T>(topic.type);
+  if (form == nullptr)
+    return "its type is " + topic.type + ", not " + std::string(forms<T>.front().type);
   if (topic.encoding != "ros1" && topic.encoding != "cdr")
     return "its encoding '" + topic.encoding + "' is not ros1 or cdr";
-  const std::string listed = field_list(topic.definition);
   // A definition as IDL lists no fields in this form, and is taken for the usual one.
   if (topic.definition.empty() || topic.definition.find("module ") != std::string::npos) return {};
-  constexpr std::size_t forms = fields<T>.size();
-  const auto i =
-      std::min<std::size_t>(static_cast<std::size_t>(found - types<T>.begin()), forms - 1);
-  if (listed == fields<T>[i]) return {};
+  const std::string listed = field_list(topic.definition);
+  if (listed == form->fields) return {};
   return "its definition of " + topic.type + " has other fields: " + listed;
 }
 
@@ -253,9 +248,9 @@ void decode(const Topic& topic, std::span<const std::uint8_t> message, T& to) {
   read(cursor, to, topic.type);
 }
 
-#define MAPLOOP_ROS_TYPE(T)                                  \
-  template std::span<const std::string_view> ros_types<T>(); \
-  template std::string problem_of<T>(const Topic&);          \
+#define MAPLOOP_ROS_TYPE(T)                         \
+  template bool is_of<T>(const Topic&);             \
+  template std::string problem_of<T>(const Topic&); \
   template void decode(const Topic&, std::span<const std::uint8_t>, T&);
 MAPLOOP_ROS_TYPE(RosImage)
 MAPLOOP_ROS_TYPE(RosCompressedImage)

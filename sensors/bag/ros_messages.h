@@ -105,9 +105,9 @@ struct RosTransforms {  // tf2_msgs/TFMessage
 // Reads the header with which every message of a sensor begins.
 RosHeader read_header(RosCursor& cursor);
 
-// Names the types that are decoded into T.
+// Returns whether the messages of a topic are of a type that is decoded into T.
 template <class T>
-std::span<const std::string_view> ros_types();
+bool is_of(const Topic& topic);
 
 // Returns why the messages of a topic cannot be decoded into T, or nothing: they are of another
 // type or encoding, or the definition that is stored with them has other fields.

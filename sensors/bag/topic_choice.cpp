@@ -14,11 +14,6 @@ namespace {
 
 constexpr std::string_view none = "none", compressed = "/compressed";
 
-template <class T>
-bool is_of(const Topic& topic) {
-  return std::ranges::count(ros_types<T>(), topic.type) > 0;
-}
-
 bool is_image(const Topic& topic) {
   return is_of<RosImage>(topic) || is_of<RosCompressedImage>(topic);
 }

@@ -18,7 +18,7 @@ using Bytes = std::span<const std::uint8_t>;
 template <class T>
 T decoded(const char* encoding, Bytes message) {
   T to;
-  decode({"/topic", std::string(ros_types<T>()[0]), encoding, ""}, message, to);
+  decode({"/topic", "", encoding, ""}, message, to);
   return to;
 }
 
