@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,10 @@ struct BagContents {
   std::map<std::string, std::vector<ReadMessage>> by_topic() const;
   std::map<std::string, std::size_t> counts() const;
 };
+
+inline std::span<const std::uint8_t> as_bytes(const std::string& text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
 
 BagContents read_bag(const std::filesystem::path& path,
                      const sensors::MessageSelection& selection = {});
