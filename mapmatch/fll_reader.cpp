@@ -77,9 +77,10 @@ class Parser {
       block_ = Block::engine;
     } else if (key == "InputVariable") {
       const auto found = std::find(inputs_.begin(), inputs_.end(), value);
-      if (found == inputs_.end())
+      if (found == inputs_.end()) {
         fail("'" + value +
              "' is not one of the input variables of this rule base:" + list(inputs_));
+      }
       variable_ = static_cast<std::size_t>(found - inputs_.begin());
       if (defined_[variable_]) fail("the variable '" + value + "' is defined twice");
       defined_[variable_] = true;
@@ -131,9 +132,10 @@ class Parser {
 
   std::vector<double> numbers(const std::vector<std::string>& given, std::size_t first,
                               std::size_t count) const {
-    if (given.size() != first + count)
+    if (given.size() != first + count) {
       fail(std::to_string(count) + " numbers are needed, but " +
            std::to_string(given.size() - std::min(first, given.size())) + " are given");
+    }
     std::vector<double> values;
     for (std::size_t i = first; i < given.size(); ++i) {
       double value = 0.0;

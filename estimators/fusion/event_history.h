@@ -37,7 +37,8 @@ struct EventKey {
   EventKind kind = EventKind::start;
   std::uint64_t sequence = 0;
 
-  auto operator<=>(const EventKey&) const = default;
+  auto operator<=>(const EventKey&) const =
+      default;  // NOLINT(modernize-use-nullptr): none is there
 };
 
 template <class Archive>

@@ -101,10 +101,11 @@ double BundleAdjustment::cost(const Window& window) const {
     for (std::size_t i = 0; i < window.poses.size(); ++i)
       if (point.sights[i].seen) sum += robust_cost(square(window, point, i));
   }
-  for (std::size_t i = 0; i + 2 < window.poses.size(); ++i)
+  for (std::size_t i = 0; i + 2 < window.poses.size(); ++i) {
     // (11) of METHOD.md
     sum += change_at(window, i).value.cwiseProduct(change_weight_).squaredNorm() /
            std::pow(seconds_of_change(window, i), 2);
+  }
   return sum;
 }
 
@@ -133,9 +134,10 @@ void BundleAdjustment::add_velocity_changes(const Window& window) {
     for (std::size_t a = first == 0 ? 1 : 0; a < 3; ++a) {
       const int row = row_of(first + a);
       gradient_.segment<6>(row) += change.by_pose[a].transpose() * change.value;
-      for (std::size_t b = first == 0 ? 1 : 0; b < 3; ++b)
+      for (std::size_t b = first == 0 ? 1 : 0; b < 3; ++b) {
         information_.block<6, 6>(row, row_of(first + b)) +=
             change.by_pose[a].transpose() * change.by_pose[b];
+      }
     }
   }
 }
@@ -177,9 +179,10 @@ void BundleAdjustment::eliminate_points(const Window& window, double damping) {
       if (!sights[i].seen) continue;
       const Eigen::Matrix<double, 6, 4> gain = own.coupling[i] * inverse;
       gradient_.segment<6>(row_of(i)) -= gain * own.gradient;
-      for (std::size_t j = 1; j < window.poses.size(); ++j)
+      for (std::size_t j = 1; j < window.poses.size(); ++j) {
         if (sights[j].seen)
           information_.block<6, 6>(row_of(i), row_of(j)) -= gain * own.coupling[j].transpose();
+      }
     }
   }
 }

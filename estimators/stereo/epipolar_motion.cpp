@@ -148,10 +148,11 @@ Refinement epipolar_motion(const StereoCalibration& camera, const StereoParamete
   if (!five_point(camera, parameters, tracks, &pose, &agreed) || agreed.size() < 6 ||
       !gauss_newton(camera, parameters, tracks, agreed, &pose, &result.iterations))
     return result;
-  for (int i = 0; i < static_cast<int>(tracks.size()); ++i)
+  for (int i = 0; i < static_cast<int>(tracks.size()); ++i) {
     if (std::abs(sampson_distance(camera, pose, tracks[static_cast<std::size_t>(i)])) <
         parameters.outlier_sigmas * parameters.sigma_track)
       result.inliers.push_back(i);
+  }
   if (result.inliers.size() < 6 ||
       !gauss_newton(camera, parameters, tracks, result.inliers, &pose, &result.iterations))
     return result;

@@ -30,7 +30,7 @@ template <class Enough>
 Refinement find_motion(const StereoCalibration& camera, const StereoParameters& parameters,
                        const Guess& guess, const Enough& enough, const StageListener& stage) {
   if (parameters.motion == MotionMethod::image_to_image) {
-    const Refinement found = epipolar_motion(camera, parameters, guess.tracks, 1.0);
+    Refinement found = epipolar_motion(camera, parameters, guess.tracks, 1.0);
     notify(stage, "epipolar");
     return found;
   }
@@ -39,7 +39,7 @@ Refinement find_motion(const StereoCalibration& camera, const StereoParameters& 
   const Consensus consensus = ransac_motion(camera, parameters, guess.tracks, guess.seed, expected);
   notify(stage, "consensus");
   if (!enough(consensus.inliers)) return {};
-  const Refinement refined =
+  Refinement refined =
       parameters.motion == MotionMethod::points_to_points
           ? refine_alignment(camera, parameters, guess.tracks, consensus.inliers, guess.prior)
           : refine_motion(camera, parameters, guess.tracks, consensus.inliers,
@@ -73,7 +73,7 @@ CameraMotion estimate_motion(const StereoCalibration& camera, const StereoParame
            static_cast<double>(inliers.size()) >= parameters.min_inlier_ratio * motion.tracked;
   };
   motion.status = OdometryStatus::too_few_inliers;
-  const Refinement refined =
+  Refinement refined =
       find_motion(camera, parameters, {good, seed, offset.sigma(), prior}, enough, stage);
   if (!refined.ok || !enough(refined.inliers)) return motion;
 
@@ -93,9 +93,10 @@ void lengthen(CameraMotion* motion, double length) {
   motion->T_previous_current.translation() *= length;
   motion->covariance.topRows<3>() *= length;
   motion->covariance.leftCols<3>() *= length;
-  if (length == 0.0)
+  if (length == 0.0) {
     motion->covariance.topLeftCorner<3, 3>() =
         standing_sigma * standing_sigma * Eigen::Matrix3d::Identity();
+  }
 }
 
 namespace {

@@ -105,9 +105,10 @@ std::vector<int> judge_tracks(const Adjustment& adjustment, const Eigen::Isometr
                               int count, double outlier_sigmas) {
   std::vector<int> inliers;
   double disparity = 0.0;
-  for (int i = 0; i < count; ++i)
+  for (int i = 0; i < count; ++i) {
     if (adjustment.settle(pose, i, &disparity) < outlier_sigmas * outlier_sigmas)
       inliers.push_back(i);
+  }
   return inliers;
 }
 

@@ -53,9 +53,10 @@ void RowSearch::correlate(const PixelView& left, const PixelView& right, int x, 
   for (std::size_t d = 0; d < static_cast<std::size_t>(count); ++d) {
     const std::size_t first = static_cast<std::size_t>(count) - 1 - d;
     std::int32_t products = 0, right_sum = 0, right_squares = 0;
-    for (std::size_t row = 0; row < patch_side; ++row)
+    for (std::size_t row = 0; row < patch_side; ++row) {
       for (std::size_t i = 0; i < patch_side; ++i)
         products += patch[row * patch_side + i] * strip_[row * columns + first + i];
+    }
     for (std::size_t i = 0; i < patch_side; ++i) {
       right_sum += sums_[first + i];
       right_squares += squares_[first + i];
@@ -75,10 +76,11 @@ int RowSearch::best_disparity(const PixelView& left, const PixelView& right, int
   const auto best = std::max_element(correlation_.begin(), correlation_.end());
   if (*best < min_correlation) return -1;
   const auto disparity = static_cast<int>(best - correlation_.begin());
-  for (int d = 0; d < count; ++d)
+  for (int d = 0; d < count; ++d) {
     if (std::abs(d - disparity) > elsewhere_from &&
         correlation_[static_cast<std::size_t>(d)] > rival_share * *best)
       return -1;
+  }
   return disparity;
 }
 

@@ -14,7 +14,7 @@ cv::Point2f point(double u, double v) {
 // Returns where the feature should be seen, or its previous position if no motion is known.
 ImagePoint foresee(const StereoCalibration& camera, const StereoObservation& seen,
                    const std::optional<Eigen::Isometry3d>& expected) {
-  const ImagePoint old = image_of(seen);
+  ImagePoint old = image_of(seen);
   if (!expected) return old;
   const Eigen::Vector3d p_current = *expected * triangulate(camera, old);
   return p_current.z() > nearest_in_view ? project(camera, p_current) : old;

@@ -80,9 +80,10 @@ void Window::remove_pose(std::size_t index) {
 double Window::flow_of_newest() const {
   flows_.clear();
   const std::size_t last = poses.size() - 1;
-  for (const WindowPoint& point : points)
+  for (const WindowPoint& point : points) {
     if (point.sights[last].seen && point.sights[last - 1].seen)
       flows_.push_back((point.sights[last].image - point.sights[last - 1].image).head<2>().norm());
+  }
   if (flows_.empty()) return min_flow_;
   const auto middle = flows_.begin() + static_cast<std::ptrdiff_t>(flows_.size() / 2);
   std::nth_element(flows_.begin(), middle, flows_.end());

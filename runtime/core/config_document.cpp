@@ -98,7 +98,9 @@ void collect_unknown(const ConfigState& state, const ConfigNode& node,
       advice = (near.empty() ? "" : "did you mean " + near + "? ") + known_in(node);
     }
     const toml::source_position at = key.source().begin;
-    all.push_back({at, place(state.file, at) + name + ": unknown key; " + advice});
+    std::string what = place(state.file, at);
+    what.append(name).append(": unknown key; ").append(advice);
+    all.push_back({at, std::move(what)});
   }
 }
 

@@ -4,11 +4,11 @@
 //   build/release/bin/ring_benchmark --benchmark_repetitions=9
 //     --benchmark_enable_random_interleaving=true --benchmark_report_aggregates_only=true
 //
-// Two threads, each pinned to a core of its own; every queue has room for 1024 items (Throughput)
+// Two threads, each pinned to a core of its own; every queue has room for 1024 items (throughput)
 // and has been filled and emptied before the clock starts, so that its pages are mapped and its
 // indices wrap. Every item is written whole, read whole and checked. Ours and moodycamel are read
-// in place; boost, which offers that too by consume_one, as well. Throughput is items a second;
-// RoundTrip is the time of one item there and back through two queues.
+// in place; boost, which offers that too by consume_one, as well. throughput is items a second;
+// round_trip is the time of one item there and back through two queues.
 #include <benchmark/benchmark.h>
 #include <pthread.h>
 #include <readerwriterqueue/readerwriterqueue.h>
@@ -114,7 +114,7 @@ void fill_and_empty(Queue& queue) {
 }
 
 template <template <typename> class Queue, std::size_t item_bytes>
-void Throughput(benchmark::State& state) {
+void throughput(benchmark::State& state) {
   constexpr std::uint64_t item_count = 20'000'000 / (item_bytes / 8 + 3);
   constexpr std::uint64_t word_count = item_bytes / 8;
   pin_to_core(0);
@@ -152,7 +152,7 @@ void Throughput(benchmark::State& state) {
 }
 
 template <template <typename> class Queue, std::size_t item_bytes>
-void RoundTrip(benchmark::State& state) {
+void round_trip(benchmark::State& state) {
   constexpr std::uint64_t word_count = item_bytes / 8;
   Queue<Item<item_bytes>> there, back;
   fill_and_empty(there);
@@ -184,12 +184,12 @@ void RoundTrip(benchmark::State& state) {
 }
 
 #define MAPLOOP_COMPARE(bytes)                               \
-  BENCHMARK(Throughput<Ours, bytes>)->UseManualTime();       \
-  BENCHMARK(Throughput<Boost, bytes>)->UseManualTime();      \
-  BENCHMARK(Throughput<Moodycamel, bytes>)->UseManualTime(); \
-  BENCHMARK(RoundTrip<Ours, bytes>)->UseRealTime();          \
-  BENCHMARK(RoundTrip<Boost, bytes>)->UseRealTime();         \
-  BENCHMARK(RoundTrip<Moodycamel, bytes>)->UseRealTime()
+  BENCHMARK(throughput<Ours, bytes>)->UseManualTime();       \
+  BENCHMARK(throughput<Boost, bytes>)->UseManualTime();      \
+  BENCHMARK(throughput<Moodycamel, bytes>)->UseManualTime(); \
+  BENCHMARK(round_trip<Ours, bytes>)->UseRealTime();         \
+  BENCHMARK(round_trip<Boost, bytes>)->UseRealTime();        \
+  BENCHMARK(round_trip<Moodycamel, bytes>)->UseRealTime()
 
 MAPLOOP_COMPARE(8);
 MAPLOOP_COMPARE(64);
