@@ -41,10 +41,11 @@ Metadata read_metadata(const fs::path& file) {
   for (std::string_view left = text; !left.empty();) {
     const std::string_view line = trimmed(left.substr(0, left.find('\n')));
     left.remove_prefix(std::min(left.find('\n'), left.size() - 1) + 1);
-    if (in_files && line.starts_with("- "))
+    if (in_files && line.starts_with("- ")) {
       found.files.push_back(fs::path(trimmed(line.substr(2))).filename());
-    else
+    } else {
       in_files = line == files_key;
+    }
     if (line.starts_with(format_key)) found.compression = trimmed(line.substr(format_key.size()));
   }
   return found;
@@ -86,9 +87,10 @@ std::vector<fs::path> recording_files(const fs::path& path) {
   std::vector<fs::path> files;
   if (const fs::path yaml = path / "metadata.yaml"; fs::exists(yaml)) {
     const Metadata metadata = read_metadata(yaml);
-    if (!metadata.compression.empty() && metadata.compression != "zstd")
+    if (!metadata.compression.empty() && metadata.compression != "zstd") {
       throw FileError(yaml, "the compression '" + metadata.compression +
                                 "' is not known: convert the recording to zstd or none");
+    }
     for (const std::string& name : metadata.files) files.push_back(path / name);
   }
   if (files.empty()) files = files_of_folder(path);

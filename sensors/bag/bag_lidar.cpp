@@ -70,11 +70,12 @@ class ScanMaker {
   }
 
   bool end(SourceReport& report) {
-    if (timed_ && turns_.counts().complete == 0 && !ended_)
+    if (timed_ && turns_.counts().complete == 0 && !ended_) {
       stream_.refuse(topic_,
                      "the times of the points do not make a single turn that is clockwise seen "
                      "from above; other scanners are not supported",
                      report);
+    }
     ended_ = true;
     return false;
   }

@@ -102,15 +102,16 @@ void BagRecording::open_camera(const std::filesystem::path& path) {
     calibration_.stereo = raw_cameras_->rectified;
     return;
   }
-  if (choice_.find(BagSensor::camera_left_info) == nullptr ||
-      choice_.find(BagSensor::camera_right_info) == nullptr) {
+  const Topic* left_info = choice_.find(BagSensor::camera_left_info);
+  const Topic* right_info = choice_.find(BagSensor::camera_right_info);
+  if (left_info == nullptr || right_info == nullptr) {
     leave_out(
         "there is no calibration of both cameras (topics camera_info); "
         "[vehicle.camera] calibration of the configuration can state it.");
     return;
   }
   try {
-    RosStereo stereo = read_stereo(path, choice_, are_rectified(*left));
+    RosStereo stereo = read_stereo(path, *left_info, *right_info, are_rectified(*left));
     calibration_.stereo = stereo.rectified;
     raw_cameras_ = std::move(stereo.raw);
   } catch (const std::invalid_argument& e) {

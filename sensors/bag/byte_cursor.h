@@ -38,9 +38,10 @@ class ByteCursor {
     return value;
   }
   Bytes bytes(std::uint64_t count) {
-    if (count > left_.size())
+    if (count > left_.size()) {
       throw Malformed("a field of " + std::to_string(count) + " bytes is followed by only " +
                       std::to_string(left_.size()));
+    }
     const Bytes taken = left_.first(count);
     left_ = left_.subspan(count);
     return taken;
@@ -56,9 +57,10 @@ class ByteCursor {
 // Returns nanoseconds since 1970 as a time. Throws Malformed if it is later than the year 2200.
 inline Time checked_time(std::uint64_t nanoseconds) {
   constexpr std::uint64_t year_2200 = 7'258'118'400'000'000'000;
-  if (nanoseconds > year_2200)
+  if (nanoseconds > year_2200) {
     throw Malformed(std::to_string(nanoseconds) +
                     " ns since 1970 are not a time between 1970 and 2200");
+  }
   return from_nanoseconds(static_cast<std::int64_t>(nanoseconds));
 }
 

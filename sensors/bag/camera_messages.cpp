@@ -13,8 +13,6 @@
 namespace maploop::sensors {
 namespace {
 
-using std::string_view_literals::operator""sv;
-
 enum class Layout : std::uint8_t { grey, colour, bayer };
 
 struct Encoding {
@@ -25,20 +23,20 @@ struct Encoding {
       blue;  // byte of each in a pixel; of grey and Bayer: the byte that is read
 };
 
-constexpr std::array encodings{Encoding{"mono8"sv, Layout::grey, 1, 0, 0, 0},
-                               Encoding{"8UC1"sv, Layout::grey, 1, 0, 0, 0},
-                               Encoding{"mono16"sv, Layout::grey, 2, 1, 1, 1},
-                               Encoding{"16UC1"sv, Layout::grey, 2, 1, 1, 1},
-                               Encoding{"rgb8"sv, Layout::colour, 3, 0, 1, 2},
-                               Encoding{"bgr8"sv, Layout::colour, 3, 2, 1, 0},
-                               Encoding{"rgba8"sv, Layout::colour, 4, 0, 1, 2},
-                               Encoding{"bgra8"sv, Layout::colour, 4, 2, 1, 0},
-                               Encoding{"8UC3"sv, Layout::colour, 3, 2, 1, 0},
-                               Encoding{"8UC4"sv, Layout::colour, 4, 2, 1, 0},
-                               Encoding{"bayer_rggb8"sv, Layout::bayer, 1, 0, 0, 0},
-                               Encoding{"bayer_bggr8"sv, Layout::bayer, 1, 0, 0, 0},
-                               Encoding{"bayer_gbrg8"sv, Layout::bayer, 1, 0, 0, 0},
-                               Encoding{"bayer_grbg8"sv, Layout::bayer, 1, 0, 0, 0}};
+constexpr std::array encodings{Encoding{"mono8", Layout::grey, 1, 0, 0, 0},
+                               Encoding{"8UC1", Layout::grey, 1, 0, 0, 0},
+                               Encoding{"mono16", Layout::grey, 2, 1, 1, 1},
+                               Encoding{"16UC1", Layout::grey, 2, 1, 1, 1},
+                               Encoding{"rgb8", Layout::colour, 3, 0, 1, 2},
+                               Encoding{"bgr8", Layout::colour, 3, 2, 1, 0},
+                               Encoding{"rgba8", Layout::colour, 4, 0, 1, 2},
+                               Encoding{"bgra8", Layout::colour, 4, 2, 1, 0},
+                               Encoding{"8UC3", Layout::colour, 3, 2, 1, 0},
+                               Encoding{"8UC4", Layout::colour, 4, 2, 1, 0},
+                               Encoding{"bayer_rggb8", Layout::bayer, 1, 0, 0, 0},
+                               Encoding{"bayer_bggr8", Layout::bayer, 1, 0, 0, 0},
+                               Encoding{"bayer_gbrg8", Layout::bayer, 1, 0, 0, 0},
+                               Encoding{"bayer_grbg8", Layout::bayer, 1, 0, 0, 0}};
 
 std::uint8_t luma(const std::uint8_t* pixel, const Encoding& e) {
   return static_cast<std::uint8_t>(
@@ -106,9 +104,10 @@ Eigen::Matrix3d rectification_of(const RosCameraInfo& info) {
 
 void to_grey(const RosImage& image, GreyImage& grey) {
   const auto e = std::ranges::find(encodings, image.encoding, &Encoding::name);
-  if (e == encodings.end())
+  if (e == encodings.end()) {
     throw std::invalid_argument("its encoding '" + std::string(image.encoding) +
                                 "' is not supported");
+  }
   check_size(image.width, image.height);
   const std::size_t row = image.width * e->bytes;
   if (image.step < row || image.data.size() / image.step < image.height) {

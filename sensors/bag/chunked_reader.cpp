@@ -14,14 +14,16 @@ namespace {
 constexpr std::uint64_t largest_record = input_limits::chunk + input_limits::mebibyte;
 
 void require_loaded(const Record& record) {
-  if (record.size > largest_record)
+  if (record.size > largest_record) {
     throw Malformed("a record of " + std::to_string(record.size) + " bytes is larger than the " +
                     std::to_string(largest_record) + " that are expected");
+  }
 }
 
 }  // namespace
 
-ChunkedReader::ChunkedReader(Opening opening) : RecordingReader(opening), bytes_(opening.path) {}
+ChunkedReader::ChunkedReader(const Opening& opening)
+    : RecordingReader(opening), bytes_(opening.path) {}
 
 // Records that are skipped are not loaded: an attachment may have any size.
 Record ChunkedReader::record_at(std::uint64_t offset) {
@@ -65,9 +67,10 @@ void ChunkedReader::read_next_record() {
   const Use use = use_of(record.op);
   if (use == Use::end) return;
   const bool cut = record.size > bytes_.size() - offset_;
-  if (cut && use != Use::chunk)
+  if (cut && use != Use::chunk) {
     throw Malformed("the file ends inside a record of at least " + std::to_string(record.size) +
                     " bytes");
+  }
   if (use == Use::none)
     throw Malformed("there is no record here: what follows is not read, for its place is unknown");
   if (!cut) {
@@ -152,9 +155,10 @@ void ChunkedReader::take_messages(const Chunk& chunk, Bytes content) {
     }
     left = left.subspan(record.size);
   }
-  if (malformed > 0)
+  if (malformed > 0) {
     add_damage(offset_,
                std::to_string(malformed) + " records of this chunk are left out: " + first);
+  }
   const auto earlier = [](const Waiting& a, const Waiting& b) { return a.received < b.received; };
   if (!std::is_sorted(waiting_.begin(), waiting_.end(), earlier))
     std::stable_sort(waiting_.begin(), waiting_.end(), earlier);

@@ -44,7 +44,7 @@ class ChunkedReader : public RecordingReader {
     std::vector<std::uint32_t> channels;  // that have messages in it; empty: not known
   };
 
-  explicit ChunkedReader(Opening opening);
+  explicit ChunkedReader(const Opening& opening);
 
   // Divides off the record that these bytes begin with. Does not throw.
   virtual Record split(Bytes bytes) const = 0;

@@ -135,10 +135,11 @@ bool is_zstd(Bytes bytes) {
 
 Inflated inflate(std::string_view compression, Bytes packed, InflatedSize size,
                  std::vector<std::uint8_t>& buffer) {
-  if (size.exact && size.stated > input_limits::chunk)
+  if (size.exact && size.stated > input_limits::chunk) {
     return {{},
             "its " + bytes_text(size.stated) + " are more than the " +
                 bytes_text(input_limits::chunk) + " that are expected"};
+  }
   if (compression.empty() || compression == "none") {
     if (!size.exact || packed.size() == size.stated) return {packed, ""};
     return {packed,

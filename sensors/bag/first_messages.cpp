@@ -68,10 +68,9 @@ Eigen::Vector3d mean_force(const std::filesystem::path& path, const Topic& topic
   return count > 0 ? Eigen::Vector3d(sum / count) : sum;
 }
 
-RosStereo read_stereo(const std::filesystem::path& path, const TopicChoice& choice,
-                      bool images_are_rectified) {
-  const Topic* topics[] = {choice.find(BagSensor::camera_left_info),
-                           choice.find(BagSensor::camera_right_info)};
+RosStereo read_stereo(const std::filesystem::path& path, const Topic& left_info,
+                      const Topic& right_info, bool images_are_rectified) {
+  const std::array<const Topic*, 2> topics{&left_info, &right_info};
   // Their texts are parts of messages, which are kept.
   std::array<std::vector<std::uint8_t>, 2> messages;
   for (std::size_t i = 0; i < 2; ++i) {

@@ -12,7 +12,6 @@
 #include "sensors/bag/frame_tree.h"
 #include "sensors/bag/message_reader.h"
 #include "sensors/bag/ros_messages.h"
-#include "sensors/bag/topic_choice.h"
 
 namespace maploop::sensors {
 

@@ -23,7 +23,7 @@ constexpr std::size_t footer_size = record_head + 20;
 
 }  // namespace
 
-McapReader::McapReader(Opening opening) : ChunkedReader(std::move(opening)) {
+McapReader::McapReader(const Opening& opening) : ChunkedReader(opening) {
   if (as_text(bytes_.at(0, mcap_magic.size())) != mcap_magic)
     throw FileError(file_, "not an MCAP file of version 0");
   bool indexed = false;
@@ -112,9 +112,10 @@ Chunk McapReader::chunk_of(const Record& record) const {
   const auto packed_size = fields.number<std::uint64_t>();
   const Bytes rest = fields.rest();
   chunk.cut = record.data.size() < record.size - record_head;
-  if (packed_size > rest.size() && !chunk.cut)
+  if (packed_size > rest.size() && !chunk.cut) {
     throw Malformed("a chunk of " + std::to_string(packed_size) + " bytes is in a record with " +
                     std::to_string(rest.size()));
+  }
   chunk.data = rest.first(std::min<std::uint64_t>(packed_size, rest.size()));
   return chunk;
 }

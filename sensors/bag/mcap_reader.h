@@ -17,7 +17,7 @@ constexpr std::string_view mcap_magic = "\x89MCAP0\r\n";
 class McapReader final : public ChunkedReader {
  public:
   // Throws FileError.
-  explicit McapReader(Opening opening);
+  explicit McapReader(const Opening& opening);
 
  private:
   struct Schema {

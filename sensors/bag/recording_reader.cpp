@@ -31,10 +31,8 @@ std::string ros1_type(std::string_view type) {
   return name;
 }
 
-RecordingReader::RecordingReader(Opening opening)
-    : file_(std::move(opening.file)),
-      selection_(std::move(opening.selection)),
-      topics_(std::move(opening.topics)) {}
+RecordingReader::RecordingReader(const Opening& opening)
+    : file_(opening.file), selection_(opening.selection), topics_(opening.topics) {}
 
 MessageReader::Item RecordingReader::next() {
   for (;;) {

@@ -58,7 +58,7 @@ class RecordingReader : public MessageReader {
     Bytes data;
   };
 
-  explicit RecordingReader(Opening opening);
+  explicit RecordingReader(const Opening& opening);
 
   // Adds damage, or messages, or nothing. Returns false at the end. Everything that was added
   // before has been delivered. It may throw Malformed, which becomes damage at offset_.

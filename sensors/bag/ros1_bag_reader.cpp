@@ -52,7 +52,7 @@ std::uint64_t time_of(Bytes fields, std::string_view name) {
 
 }  // namespace
 
-Ros1BagReader::Ros1BagReader(Opening opening) : ChunkedReader(std::move(opening)) {
+Ros1BagReader::Ros1BagReader(const Opening& opening) : ChunkedReader(opening) {
   if (const auto line = as_text(bytes_.at(0, first_line.size())); line != first_line)
     throw FileError(file_, "not a ROS bag of version 2.0: 'rosbag fix' converts older ones");
   offset_ = first_line.size();
@@ -76,9 +76,10 @@ void Ros1BagReader::read_bag_index(const Record& head) {
   if (index == 0) throw Malformed("the bag was not closed");
   if (index > bytes_.size()) throw Malformed("the file is cut before it");
   read_index(index, bytes_.size());
-  if (chunks_.size() != stated)
+  if (chunks_.size() != stated) {
     throw Malformed("it has " + std::to_string(chunks_.size()) + " of " + std::to_string(stated) +
                     " chunks");
+  }
 }
 
 Record Ros1BagReader::split(Bytes bytes) const {

@@ -14,7 +14,7 @@ constexpr std::string_view ros1_bag_magic = "#ROSBAG V";
 class Ros1BagReader final : public ChunkedReader {
  public:
   // Throws FileError.
-  explicit Ros1BagReader(Opening opening);
+  explicit Ros1BagReader(const Opening& opening);
 
  private:
   Record split(Bytes bytes) const override;

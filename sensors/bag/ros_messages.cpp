@@ -81,7 +81,7 @@ std::string field_list(const std::string& definition) {
     std::string type, name;
     if (!(words >> type >> name) || line.find('=') != std::string::npos) continue;
     type.erase(0, type.rfind('/') + 1);
-    list += type + ' ' + name + ';';
+    list.append(type).append(1, ' ').append(name).append(1, ';');
   }
   std::transform(list.begin(), list.end(), list.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -248,6 +248,7 @@ void decode(const Topic& topic, std::span<const std::uint8_t> message, T& to) {
   read(cursor, to, topic.type);
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type cannot be in parentheses
 #define MAPLOOP_ROS_TYPE(T)                         \
   template bool is_of<T>(const Topic&);             \
   template std::string problem_of<T>(const Topic&); \
@@ -262,5 +263,6 @@ MAPLOOP_ROS_TYPE(RosFix)
 MAPLOOP_ROS_TYPE(RosTwist)
 MAPLOOP_ROS_TYPE(RosTransforms)
 #undef MAPLOOP_ROS_TYPE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace maploop::sensors

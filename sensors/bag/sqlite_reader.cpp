@@ -19,10 +19,11 @@ std::string immutable_uri(const std::filesystem::path& path) {
   std::string uri = "file:";
   for (const char c : path.string()) {
     const auto byte = static_cast<unsigned char>(c);
-    if (std::isalnum(byte) != 0 || as_they_are.find(c) != std::string_view::npos)
+    if (std::isalnum(byte) != 0 || as_they_are.find(c) != std::string_view::npos) {
       uri += c;
-    else
+    } else {
       uri += {'%', digits[byte >> 4U], digits[byte & 15U]};
+    }
   }
   return uri + "?mode=ro&immutable=1";
 }
@@ -53,7 +54,7 @@ void SqliteReader::Close::operator()(sqlite3_stmt* statement) const {
   sqlite3_finalize(statement);
 }
 
-SqliteReader::SqliteReader(Opening opening) : RecordingReader(opening) {
+SqliteReader::SqliteReader(const Opening& opening) : RecordingReader(opening) {
   try {
     open(opening.path);
     const bool cut = is_cut(opening.path);
@@ -115,9 +116,10 @@ void SqliteReader::report_journals() {
     journal += ending;
     std::error_code missing;
     const auto size = std::filesystem::file_size(journal, missing);
-    if (!missing && size > 0)
+    if (!missing && size > 0) {
       add_damage(0, "messages in " + journal.filename().string() +
                         " are not read: open the database once with sqlite3 to bring them back");
+    }
   }
 }
 

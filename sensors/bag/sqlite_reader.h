@@ -25,7 +25,7 @@ constexpr std::string_view sqlite_magic = "SQLite format 3";
 class SqliteReader final : public RecordingReader {
  public:
   // Throws FileError.
-  explicit SqliteReader(Opening opening);
+  explicit SqliteReader(const Opening& opening);
 
   std::optional<std::vector<TopicSummary>> index_summary() override;
 

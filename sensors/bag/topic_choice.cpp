@@ -20,14 +20,16 @@ bool is_image(const Topic& topic) {
 
 // Returns why a topic cannot be this sensor, or nothing.
 std::string problem_as(BagSensor sensor, const Topic& topic) {
-  if (sensor == BagSensor::camera_left || sensor == BagSensor::camera_right)
+  if (sensor == BagSensor::camera_left || sensor == BagSensor::camera_right) {
     return is_of<RosCompressedImage>(topic) ? problem_of<RosCompressedImage>(topic)
                                             : problem_of<RosImage>(topic);
+  }
   if (sensor == BagSensor::camera_left_info || sensor == BagSensor::camera_right_info)
     return problem_of<RosCameraInfo>(topic);
-  if (sensor == BagSensor::lidar)
+  if (sensor == BagSensor::lidar) {
     return is_of<RosVelodyneScan>(topic) ? problem_of<RosVelodyneScan>(topic)
                                          : problem_of<RosPointCloud>(topic);
+  }
   if (sensor == BagSensor::imu) return problem_of<RosImu>(topic);
   if (sensor == BagSensor::gnss) return problem_of<RosFix>(topic);
   return problem_of<RosTwist>(topic);
@@ -64,9 +66,10 @@ class Chooser {
       throw std::runtime_error("the recording has no topic '" + name + "' for " +
                                std::string(to_string(sensor)) + "; it has " + joined(there));
     }
-    if (const std::string problem = problem_as(sensor, **found); !problem.empty())
+    if (const std::string problem = problem_as(sensor, **found); !problem.empty()) {
       throw std::runtime_error("the topic '" + name + "' cannot be " +
                                std::string(to_string(sensor)) + ": " + problem);
+    }
     choice_.topics[sensor] = **found;
   }
 

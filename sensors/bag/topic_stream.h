@@ -92,8 +92,9 @@ class TopicStream {
 // Makes the samples of a source by an object with next(sample, report).
 template <class T, class Maker>
 std::unique_ptr<Source<T>> made_by(Maker maker) {
-  return made<T>([maker = std::make_unique<Maker>(std::move(maker))](
-                     T& sample, SourceReport& report) { return maker->next(sample, report); });
+  return made<T>([maker = std::move(maker)](T& sample, SourceReport& report) mutable {
+    return maker.next(sample, report);
+  });
 }
 
 }  // namespace maploop::sensors

@@ -44,15 +44,17 @@ class TemporaryOutput {
 
   void write(const void* data, std::size_t size) {
     written_ += size;
-    if (written_ > input_limits::unpacked_bag)
+    if (written_ > input_limits::unpacked_bag) {
       fail("too large: more than " + std::to_string(input_limits::unpacked_bag) +
            " bytes when decompressed");
+    }
     for (const char* at = static_cast<const char*>(data); size > 0;) {
       const ssize_t done = ::write(file_, at, size);
       if (done < 0 && errno == EINTR) continue;
-      if (done <= 0)
+      if (done <= 0) {
         fail("cannot be decompressed into " + path_.parent_path().string() + ": " +
              std::strerror(errno) + "; set TMPDIR to a folder with more space");
+      }
       at += done;
       size -= static_cast<std::size_t>(done);
     }

@@ -62,9 +62,10 @@ std::vector<float> from_middle(const std::vector<double>& times) {
   if (times.empty() || *first == *last) return {};
   const double middle = 0.5 * (*first + *last);
   const auto unit = time_unit(*last - *first);
-  if (!unit)
+  if (!unit) {
     throw std::runtime_error("the times of its points span " + std::to_string(*last - *first) +
                              ", which is no scan of 0.5 to 500 ms in s, ms, us or ns");
+  }
   std::vector<float> seconds;
   for (const double time : times) seconds.push_back(static_cast<float>((time - middle) * *unit));
   return seconds;
@@ -89,9 +90,10 @@ ScanFolder::ScanFolder(const path& folder, path stamps) : files_(scans_in(folder
   if (stamped_) stamps_ = read_stamps(stamps);
   for (std::size_t i = 0; !stamped_ && i < files_.size(); ++i)
     stamps_.emplace_back(turn * static_cast<std::int64_t>(i));
-  if (stamps_.size() != files_.size())
+  if (stamps_.size() != files_.size()) {
     throw std::runtime_error(scans + ", but " + stamps.string() + " has " +
                              std::to_string(stamps_.size()) + " stamps: each scan needs a line");
+  }
 }
 
 bool ScanFolder::next(LidarScan& scan) {

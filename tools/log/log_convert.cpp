@@ -22,9 +22,10 @@ LogSummary convert(const path& log, const schema::Schema& schema, const path& ou
   const auto channel = [&](const std::string& topic, const std::string& type, auto schema_of) {
     const auto found = channels.find({topic, type});
     if (found != channels.end()) return found->second;
-    if (channels.size() == most_channels)
+    if (channels.size() == most_channels) {
       throw std::runtime_error("'" + log.string() + "' has more than " +
                                std::to_string(most_channels) + " channels");
+    }
     return channels[{topic, type}] = writer.add_channel(topic, type, schema_of());
   };
   std::uint64_t unknown = 0;
@@ -45,10 +46,11 @@ LogSummary convert(const path& log, const schema::Schema& schema, const path& ou
       writer.write(channel(shown.topic, shown.schema_name, schema_of), time, shown.json);
     });
   });
-  if (writer.messages() == 0)
+  if (writer.messages() == 0) {
     throw std::runtime_error("'" + log.string() +
                              "' has no message of a known type; --types "
                              "names the files of others");
+  }
   writer.close();
   fmt::print(out, "{}: {} messages of {} channels", output.string(), writer.messages(),
              channels.size());

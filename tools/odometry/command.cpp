@@ -73,9 +73,10 @@ int odometry_alone(const OdometryOptions& options) {
     steps.push_back(std::move(*step));
   }
   const evaluation::StampedTrajectory& trajectory = path.trajectory();
-  if (steps.empty())
+  if (steps.empty()) {
     throw std::runtime_error(options.input.string() +
                              " has no frame between --first and --last that can be read");
+  }
   if (!options.poses.empty()) evaluation::write_kitti_poses(options.poses, trajectory.poses);
   if (!options.tum.empty()) evaluation::write_tum(options.tum, trajectory);
   if (!options.csv.empty()) odometry::write_csv(options.csv, steps);

@@ -46,9 +46,10 @@ class LidarInput {
       folder_ = files.input;
       stamps_ = options.stamps;
     }
-    if (folder_.empty() && !options.stamps.empty())
+    if (folder_.empty() && !options.stamps.empty()) {
       throw std::runtime_error("'" + files.input.string() +
                                "' has the stamps of its scans: leave --stamps out");
+    }
     if (!images_ && options.seed == vo)
       throw std::runtime_error("'" + files.input.string() + "' has no images for --seed vo");
     parameters = {config.stereo, config.lidar, options.seed.value_or(images_ ? vo : motion),
@@ -133,14 +134,17 @@ std::vector<Method> methods_of(const std::vector<std::string>& names) {
 int compare(const LidarOdometryOptions& options, const OdometryFiles& files, LidarInput& input,
             const std::vector<Method>& methods) {
   for (const auto* file :
-       {&files.poses, &files.tum, &files.csv, &options.cloud, &options.map, &options.scans})
-    if (!file->empty())
+       {&files.poses, &files.tum, &files.csv, &options.cloud, &options.map, &options.scans}) {
+    if (!file->empty()) {
       throw std::runtime_error("'" + file->string() +
                                "' is written by one method without --truth; name one");
-  if (options.truth.empty() && !input.is_drive())
+    }
+  }
+  if (options.truth.empty() && !input.is_drive()) {
     throw std::runtime_error(
         "methods are scored against a truth, which a folder of scans does not "
         "have: name it with --truth");
+  }
   const StampedTrajectory truth = options.truth.empty()
                                       ? odometry::read_truth(files.input, files.config)
                                       : evaluation::read_trajectory(options.truth);
@@ -156,9 +160,10 @@ int compare(const LidarOdometryOptions& options, const OdometryFiles& files, Lid
     comparison.methods.push_back(run_method(method, input, files, truth));
   }
   std::cout << to_text(comparison) << input.remarks();
-  if (!options.html.empty())
+  if (!options.html.empty()) {
     evaluation::write_text(
         options.html, to_html(comparison, "LiDAR odometry on " + files.input.filename().string()));
+  }
   return 0;
 }
 
@@ -196,11 +201,12 @@ class Outputs {
     if (!options_.map.empty()) write_cloud(options_.map, odometry::table_of(map));
     if (!options_.scans.empty())
       evaluation::write_text(options_.scans / "timestamps.txt", scan_stamps_);
-    if (!options_.html.empty())
+    if (!options_.html.empty()) {
       evaluation::write_text(
           options_.html,
           odometry::lidar_page("LiDAR odometry on " + files_.input.filename().string(), steps_,
                                *cloud_));
+    }
     std::cout << odometry::summary(steps_);
     if (cloud_) std::cout << "cloud: " << cloud_->size() << " points\n";
     if (!options_.map.empty()) std::cout << "local map: " << map.size() << " points\n";

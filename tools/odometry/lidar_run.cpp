@@ -39,9 +39,9 @@ LidarFrames drive_frames(const vehicle::Recording& recording,
             {}});
   return [state, visual, range = parameters.frames, every = parameters.every](LidarFrame* frame) {
     StereoPair& pair = state->pair;
-    do
+    do {
       if (!state->camera->next(pair)) return false;
-    while (pair.sequence < range.first);
+    } while (pair.sequence < range.first);
     if (pair.sequence > range.last) return false;
     if (!state->first) state->first = pair.sequence;
     frame->number = pair.sequence;
@@ -62,9 +62,9 @@ LidarFrames scan_frames(std::shared_ptr<sensors::Source<LidarScan>> scans,
   if (scans == nullptr) throw std::runtime_error("the recording has no scans of a LiDAR");
   return [scans, range = parameters.frames, every = parameters.every,
           scan = std::make_shared<LidarScan>()](LidarFrame* frame) {
-    do
+    do {
       if (!scans->next(*scan)) return false;
-    while (scan->sequence < range.first || (scan->sequence - range.first) % every != 0);
+    } while (scan->sequence < range.first || (scan->sequence - range.first) % every != 0);
     *frame = {scan->sequence, scan.get(), {}, {}};
     return scan->sequence <= range.last;
   };

@@ -85,10 +85,11 @@ Input open_input(const std::filesystem::path& input, const std::filesystem::path
     if (disparities == Disparities::none) parameters.sigma_disparity_offset = 0.0;
   };
   if (!are_tracks(input)) return open_images(input, config, frames, disparities, with_offset);
-  if (disparities == Disparities::lidar)
+  if (disparities == Disparities::lidar) {
     throw std::runtime_error("'" + input.string() +
                              "' are recorded tracks, which have no scans; leave --disparity lidar "
                              "out");
+  }
   return open_tracks(input, config, frames, with_offset);
 }
 

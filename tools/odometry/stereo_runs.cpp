@@ -83,9 +83,9 @@ Run stereo_run(const vehicle::Recording& recording, const stereo::StereoParamete
         Depth{FrameScans(std::move(sensors.velodyne)), {calibration.T_body_velo, *depth}});
   }
   return [state, frames]() -> std::optional<Step> {
-    do
+    do {
       if (!state->camera->next(state->pair)) return std::nullopt;
-    while (state->pair.sequence < frames.first);
+    } while (state->pair.sequence < frames.first);
     if (state->pair.sequence > frames.last) return std::nullopt;
     Step step;
     step.frame = state->pair.sequence;

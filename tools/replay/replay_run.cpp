@@ -115,10 +115,11 @@ class Replay {
 void Replay::look_ahead() const {
   const vehicle::Sensors sensors = recording_.sensors(Time::max());
   for (const std::filesystem::path& file : {options_.poses, options_.tum}) {
-    if (!file.empty() && sensors.camera == nullptr && sensors.odometry == nullptr)
+    if (!file.empty() && sensors.camera == nullptr && sensors.odometry == nullptr) {
       throw std::runtime_error("'" + file.string() +
                                "' would be empty: the recording has no images, and so no poses of "
                                "a camera; --csv and --nmea write the fused state without images");
+    }
   }
   GnssFix fix;
   if (map_ == nullptr || sensors.gnss == nullptr || !sensors.gnss->next(fix)) return;

@@ -88,9 +88,10 @@ TEST_F(DamagedBag, LosesOnlyTheChunkWithAFlippedByte) {
   EXPECT_GT(part.damage[0].offset, 0U);
   EXPECT_LT(part.messages.size(), whole.messages.size());
   EXPECT_GT(part.messages.size(), whole.messages.size() / 4);
-  for (const auto& message : part.messages)
+  for (const auto& message : part.messages) {
     EXPECT_NE(std::find(whole.messages.begin(), whole.messages.end(), message),
               whole.messages.end());
+  }
 }
 
 TEST_F(DamagedBag, WithADamagedIndexIsReadFromFrontToBack) {
