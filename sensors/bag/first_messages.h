@@ -39,9 +39,9 @@ FrameTree read_frames(const std::filesystem::path& path, const BagSummary& bag);
 // Returns the mean of the first samples of an inertial unit, in its axes; zero if there is none.
 Eigen::Vector3d mean_force(const std::filesystem::path& path, const Topic& topic);
 
-// Returns the first calibration of the two chosen cameras. Throws std::invalid_argument whose text
-// is the reason.
-RosStereo read_stereo(const std::filesystem::path& path, const TopicChoice& choice,
-                      bool images_are_rectified);
+// Returns the first calibration of two cameras. Throws std::invalid_argument whose text is the
+// reason.
+RosStereo read_stereo(const std::filesystem::path& path, const Topic& left_info,
+                      const Topic& right_info, bool images_are_rectified);
 
 }  // namespace maploop::sensors
