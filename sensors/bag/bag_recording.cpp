@@ -64,9 +64,10 @@ BagRecording::BagRecording(const std::filesystem::path& path, const BagParameter
   notes_ = choice_.notes;
   BagSettings settings{path, parameters, vehicle, limits, true, {}, 1.0};
   for (const BagSensor sensor : {BagSensor::camera_left, BagSensor::lidar, BagSensor::imu,
-                                 BagSensor::gnss, BagSensor::wheel})
+                                 BagSensor::gnss, BagSensor::wheel}) {
     if (const Topic* topic = choice_.find(sensor))
       opening.first[sensor] = first_messages(path, *topic);
+  }
   std::erase_if(opening.first, [](const auto& item) { return item.second.headers.empty(); });
   set_stamp_rule(opening, settings);
   open_camera(path);

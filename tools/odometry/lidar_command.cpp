@@ -39,7 +39,10 @@ class LidarInput {
         !sensors::ScanFolder::is(files.input)) {
       config = odometry::open_recording(files.input, files.config, &recording_);
       T_body_velo = T_body_cam = recording_.calibration.T_body_velo;
-      images_ = recording_.sensors(Time::max()).camera != nullptr;
+      const vehicle::Sensors sensors = recording_.sensors(Time::max());
+      if (sensors.velodyne == nullptr)
+        throw std::runtime_error("'" + files.input.string() + "' has no scans of a LiDAR");
+      images_ = sensors.camera != nullptr;
       if (images_) T_body_cam = recording_.calibration.stereo.T_body_cam;
     } else {
       if (!files.config.empty()) config = vehicle::load_vehicle_config(files.config);

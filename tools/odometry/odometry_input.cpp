@@ -19,6 +19,10 @@ Input open_images(const std::filesystem::path& input, const std::filesystem::pat
                   FrameRange frames, Disparities disparities, const Adjust& adjust) {
   vehicle::Recording recording;
   vehicle::VehicleConfig config = open_recording(input, file, &recording);
+  if (recording.sensors(Time::max()).camera == nullptr) {
+    throw std::runtime_error("'" + input.string() +
+                             "' has no images of a pair of cameras; --lidar uses its scans");
+  }
   adjust(config.stereo);
   std::optional<lidar::LidarParameters> depth;
   if (disparities == Disparities::lidar) depth = config.lidar;
