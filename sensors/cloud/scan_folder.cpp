@@ -67,6 +67,7 @@ std::vector<float> from_middle(const std::vector<double>& times) {
                              ", which is no scan of 0.5 to 500 ms in s, ms, us or ns");
   }
   std::vector<float> seconds;
+  seconds.reserve(times.size());
   for (const double time : times) seconds.push_back(static_cast<float>((time - middle) * *unit));
   return seconds;
 }

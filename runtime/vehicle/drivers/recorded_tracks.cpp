@@ -21,10 +21,12 @@ constexpr int image_height = 375;
 
 Eigen::Isometry3d to_pose(const nlohmann::json& rows) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 4; ++column)
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) {
       pose(row, column) =
           rows.at(static_cast<std::size_t>(row)).at(static_cast<std::size_t>(column));
+    }
+  }
   return pose;
 }
 
@@ -63,14 +65,16 @@ void read_rows(const std::filesystem::path& file, const std::set<std::int64_t>& 
     if (line.empty() || (number == 1 && line.starts_with("frame"))) continue;
     std::array<double, 6> row{};
     const bool numbers = parse(line, row);
-    if (!numbers || !(row[0] >= 0.0 && row[0] < static_cast<double>(recorded->frames.size())))
+    if (!numbers || !(row[0] >= 0.0 && row[0] < static_cast<double>(recorded->frames.size()))) {
       throw std::runtime_error(file.string() + ":" + std::to_string(number) +
                                (numbers ? ": the frame has no timestamp in the .meta.json"
                                         : ": the columns must be frame,track,uL,vL,uR,vR"));
+    }
     const auto id = static_cast<std::int64_t>(row[1]);
-    if (!suspect.contains(id))
+    if (!suspect.contains(id)) {
       recorded->frames[static_cast<std::size_t>(row[0])].push_back(
           {id, {row[2], row[3], row[4], row[5]}});
+    }
   }
   for (auto& frame : recorded->frames)
     std::sort(frame.begin(), frame.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
@@ -110,10 +114,11 @@ std::vector<stereo::StereoTrack> RecordedTracks::between(std::size_t previous,
 
 std::filesystem::path meta_beside(std::filesystem::path file) {
   if (file.extension() == ".gz") file.replace_extension();
-  if (file.extension() != ".csv")
+  if (file.extension() != ".csv") {
     throw std::runtime_error(file.string() +
                              ": not the folder of a drive, and not recorded tracks, which are a "
                              ".csv or .csv.gz with its .meta.json");
+  }
   return file.replace_extension(".meta.json");
 }
 

@@ -34,7 +34,7 @@ class Rosbag2 : public ::testing::Test {
   // A database with messages 1, 2, ... at 10, 20, ... ns, all of the topic /a. Returns its name.
   std::filesystem::path database(const std::string& name, int messages,
                                  const std::string& more_sql = "") const {
-    const auto file = folder_.path() / name;
+    auto file = folder_.path() / name;
     sqlite3* db = nullptr;
     EXPECT_EQ(sqlite3_open(file.c_str(), &db), SQLITE_OK);
     std::string sql =
