@@ -12,8 +12,8 @@
 #include "msgs/lcm/checked_decode.h"
 #include "msgs/lcm/conversions.h"
 #include "tools/dashboard/live_channels.h"
-#include "tools/log/message_json.h"
 #include "tools/dashboard/relay.h"
+#include "tools/log/message_json.h"
 
 namespace maploop::dashboard {
 namespace {
