@@ -90,6 +90,7 @@ TEST(LiveChannels, EachOfSeveralBrowsersSeesTheLastMessage) {
   LiveChannels channels;
   std::vector<std::string> last(3);
   std::vector<std::thread> browsers;
+  browsers.reserve(last.size());
   for (std::string& mine : last) {
     browsers.emplace_back([&channels, &mine] {
       std::uint64_t seen = 0;
