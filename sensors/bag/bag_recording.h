@@ -22,7 +22,7 @@
 
 namespace maploop::sensors {
 
-// What is known of the vehicle in place of, or beyond, what the recording states.
+// Describes the vehicle where the recording does not, or where something else is to be used.
 struct BagVehicle {
   // These are the times from a measurement to its stamp, s.
   double camera_delay = 0.0, lidar_delay = 0.0, imu_delay = 0.0, gnss_delay = 0.0;
@@ -47,16 +47,13 @@ struct BagSettings;  // bag_sources.h
 // sensor without a transform is taken to look forward from the body's origin, and a note says so.
 class BagRecording {
  public:
-  // `cameras`: the calibration of raw cameras, in place of that of the recording. Reads the index
-  // of the recording (or all of it where there is none) and the first messages of the chosen
-  // topics. Throws std::runtime_error that names the recording and states what to do.
+  // Reads the index of the recording (or all of it where there is none) and the first messages of
+  // the chosen topics. Throws std::runtime_error that names the recording and states what to do.
   BagRecording(const std::filesystem::path& path, const BagParameters& parameters,
                const BagVehicle& vehicle, const BagLimits& limits);
   ~BagRecording();
 
   const VehicleCalibration& calibration() const { return calibration_; }
-  // Replaces the recording's own, with which it must share the size of the images.
-  void set_calibration(const VehicleCalibration& calibration) { calibration_ = calibration; }
 
   // These are sentences for the user: what is not used and why, and what was assumed.
   const std::vector<std::string>& notes() const { return notes_; }

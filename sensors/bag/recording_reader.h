@@ -33,7 +33,7 @@ class TopicTable {
 // Returns the name as ROS 1 writes it: "sensor_msgs/Image" for "sensor_msgs/msg/Image".
 std::string ros1_type(std::string_view type);
 
-// Is what a reader of one file is opened with.
+// Holds what the reader of one file needs to open it.
 struct Opening {
   std::filesystem::path file;  // as messages name it
   std::filesystem::path path;  // what is opened: the same, or that file decompressed

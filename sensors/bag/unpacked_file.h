@@ -20,7 +20,7 @@ class UnpackedFile {
   UnpackedFile(const UnpackedFile&) = delete;
   UnpackedFile& operator=(const UnpackedFile&) = delete;
 
-  // What can be opened as long as this object lives.
+  // Returns the file that can be opened as long as this object lives.
   const std::filesystem::path& path() const { return path_; }
 
  private:

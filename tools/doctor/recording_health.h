@@ -1,4 +1,4 @@
-// What a recording contains, sensor by sensor, and how sound it is.
+// This file says what a recording contains, sensor by sensor, and how sound it is.
 #pragma once
 
 #include <cstdint>
