@@ -67,6 +67,12 @@ void Process::send_signal(int signal) const {
   kill(id_, signal);
 }
 
+bool Process::runs() const {
+  siginfo_t ended{};
+  waitid(P_PID, static_cast<id_t>(id_), &ended, WEXITED | WNOHANG | WNOWAIT);
+  return ended.si_pid == 0;
+}
+
 ProcessResult Process::wait() {
   int status = 0;
   waitpid(id_, &status, 0);

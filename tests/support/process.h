@@ -26,6 +26,7 @@ class Process {
   Process& operator=(const Process&) = delete;
 
   void send_signal(int signal) const;
+  bool runs() const;  // until it has ended; wait() returns its result
   ProcessResult wait();
 
  private:

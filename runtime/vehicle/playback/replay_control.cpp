@@ -19,6 +19,8 @@ namespace {
 using Control = maploop_lcm::replay_control_t;
 
 constexpr Duration position_every = std::chrono::milliseconds(200);
+// A program that joins late, or lost a message, learns the state of a paused run within this time.
+constexpr Duration state_every = std::chrono::seconds(1);
 
 const std::string channel(channel_names::replay_control);
 
@@ -102,7 +104,7 @@ void ReplayControl::say() {
   if (now != said_ || answer_due_ || at - said_at_ >= position_every) {
     now.position = player_.position();
   }
-  if (now == said_ && !answer_due_) return;
+  if (now == said_ && !answer_due_ && at - said_at_ < state_every) return;
   Control state{};
   state.utime =
       std::chrono::floor<std::chrono::microseconds>(now.position).time_since_epoch().count();

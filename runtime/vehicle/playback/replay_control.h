@@ -16,8 +16,8 @@ namespace maploop::vehicle {
 
 // Obeys the commands that name its run, and ignores those that name another. A command that cannot
 // be obeyed, or names no run, is refused, and the next state contains the reason. A state is sent
-// on each change and after each command, and five times a second while the position changes. Only
-// the player's thread may use this; `lcm` and `player` must outlive it.
+// on each change and after each command, five times a second while the position changes, and once a
+// second otherwise. Only the player's thread may use this; `lcm` and `player` must outlive it.
 class ReplayControl {
  public:
   // `run` is the id of the run (runs.h).
