@@ -143,10 +143,9 @@ void BagRecording::open_body(const std::filesystem::path& path, const Opening& o
     calibration_.stereo.T_body_cam = mounted(*raw_cameras_, T_body_left).T_body_cam;
   }
   if (!body.R_body_imu) return;
-  const Eigen::Matrix3d& R = *body.R_body_imu;
-  mount_ = {true, degrees(std::atan2(R(2, 1), R(2, 2))),
-            degrees(-std::asin(std::clamp(R(2, 0), -1.0, 1.0))),
-            degrees(std::atan2(R(1, 0), R(0, 0)))};
+  const Attitude mount = attitude_from_rotation(*body.R_body_imu);
+  mount_ = {true, degrees(mount.roll), -degrees(mount.pitch),
+            degrees(yaw_from_azimuth(mount.azimuth))};
 }
 
 void BagRecording::set_turn(const TopicSummary& clouds, BagSettings& settings) {

@@ -21,8 +21,7 @@ void read_first(const std::filesystem::path& path, std::set<std::string> topics,
 }
 
 RosHeader header_of(const RecordedMessage& message) {
-  const Topic& topic = *message.topic;
-  RosCursor cursor(message.data, topic.encoding == "cdr" ? RosEncoding::cdr : RosEncoding::ros1);
+  RosCursor cursor = cursor_of(*message.topic, message.data);
   return read_header(cursor);
 }
 

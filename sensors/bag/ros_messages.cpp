@@ -242,9 +242,13 @@ std::string problem_of(const Topic& topic) {
   return "its definition of " + topic.type + " has other fields: " + listed;
 }
 
+RosCursor cursor_of(const Topic& topic, std::span<const std::uint8_t> message) {
+  return {message, topic.encoding == "cdr" ? RosEncoding::cdr : RosEncoding::ros1};
+}
+
 template <class T>
 void decode(const Topic& topic, std::span<const std::uint8_t> message, T& to) {
-  RosCursor cursor(message, topic.encoding == "cdr" ? RosEncoding::cdr : RosEncoding::ros1);
+  RosCursor cursor = cursor_of(topic, message);
   read(cursor, to, topic.type);
 }
 

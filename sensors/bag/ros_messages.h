@@ -114,6 +114,10 @@ bool is_of(const Topic& topic);
 template <class T>
 std::string problem_of(const Topic& topic);
 
+// Returns a cursor at the start of a message, in its topic's encoding. Throws std::invalid_argument
+// if the message's header is of another form.
+RosCursor cursor_of(const Topic& topic, std::span<const std::uint8_t> message);
+
 // Decodes a message of a topic without a problem; buffers of `to` keep their capacity. Throws
 // std::invalid_argument whose text is the reason.
 template <class T>
