@@ -21,8 +21,7 @@ CLI::Option* add_lcm_url(CLI::App* sub, std::string& url);
 CLI::Option* add_config(CLI::App* sub, std::filesystem::path& file,
                         const char* what = "TOML file of parameters");
 
-// --topic SENSOR=TOPIC, more than once, of a bag or an MCAP file; as [bag] topics, which they
-// follow.
+// --topic SENSOR=TOPIC, more than once, of a bag or an MCAP file.
 CLI::Option* add_topics(CLI::App* sub, std::vector<std::string>& topics);
 
 // A file that is written at the end of the work.

@@ -1,7 +1,4 @@
 // maploop doctor: how ready this machine is for real time, or how sound a recording is.
-#include <fmt/format.h>
-
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -51,7 +48,6 @@ std::vector<RealtimeSetting> ask_for_bus(const std::string& url) {
 }
 
 void examine_recording(const DoctorOptions& options, vehicle::VehicleConfig config) {
-  config.bag.topics.insert(config.bag.topics.end(), options.topics.begin(), options.topics.end());
   vehicle::fit_to_recording(config, options.recording);
   const vehicle::Recording recording = vehicle::open_recording(options.recording, config);
   const std::vector<SensorHealth> sensors = examine(recording);
@@ -61,13 +57,7 @@ void examine_recording(const DoctorOptions& options, vehicle::VehicleConfig conf
   std::cout << options.recording.string() << " begins at " << format_time(recording.first_stamp)
             << " UTC, and takes "
             << web::shown(to_seconds(recording.last_stamp - recording.first_stamp), 1) << " s\n\n";
-  for (const auto& column : sensor_health_columns) {
-    const int width = std::abs(column.width);
-    std::cout << (column.width < 0   ? fmt::format(" {:<{}}", column.heading, width)
-                  : column.width > 0 ? fmt::format(" {:>{}}", column.heading, width)
-                                     : std::string());
-  }
-  std::cout << '\n';
+  std::cout << web::heading_text(sensor_health_columns) << '\n';
   for (const SensorHealth& s : sensors) std::cout << web::to_text(sensor_health_columns, s) << '\n';
   std::cout << '\n';
   for (const std::string& sentence : sentences) std::cout << sentence << '\n';
@@ -79,8 +69,7 @@ void examine_recording(const DoctorOptions& options, vehicle::VehicleConfig conf
 }
 
 int doctor(const DoctorOptions& options) {
-  vehicle::VehicleConfig config;
-  if (!options.config.empty()) config = vehicle::load_vehicle_config(options.config);
+  vehicle::VehicleConfig config = vehicle::load_vehicle_config(options.config, options.topics);
   if (!options.recording.empty()) {
     examine_recording(options, std::move(config));
     return 0;

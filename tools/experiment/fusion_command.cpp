@@ -245,8 +245,7 @@ struct FusionOptions {
 };
 
 int compare_fusion(const FusionOptions& options) {
-  vehicle::VehicleConfig config;
-  if (!options.config.empty()) config = vehicle::load_vehicle_config(options.config);
+  vehicle::VehicleConfig config = vehicle::load_vehicle_config(options.config);
   const auto cases = fusion_cases(options.folder, options.seeds);
   const auto results = run_all(
       cases, [](const FusionCase& c) { return "sequence " + c.sequence + ", " + c.configuration; },

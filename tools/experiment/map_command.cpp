@@ -42,7 +42,7 @@ std::string samples_csv(const std::vector<experiments::MapResult>& results) {
 
 int compare_modes(const MapOptions& options) {
   experiments::MapSetting setting;
-  if (!options.config.empty()) setting.config = vehicle::load_vehicle_config(options.config);
+  setting.config = vehicle::load_vehicle_config(options.config);
   setting.folder = options.folder;
   experiments::set_parameters(setting, options.set);
   mapmatch::MapExtract map;

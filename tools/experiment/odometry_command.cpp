@@ -18,15 +18,15 @@ struct Options {
 };
 
 int compare_odometry(const Options& options) {
-  const auto truth = options.truth.empty() ? odometry::read_truth(options.input, options.config)
+  const odometry::InputFiles files{options.input, options.config, {}};
+  const auto truth = options.truth.empty() ? odometry::read_truth(files)
                                            : evaluation::read_trajectory(options.truth);
   odometry::Comparison comparison = odometry::stereo_comparison();
   for (const odometry::Variant& variant :
        odometry::variants(std::filesystem::is_directory(options.input),
                           std::filesystem::is_directory(options.input / "velodyne_points"))) {
     std::cerr << variant.name << " ...\n";
-    comparison.methods.push_back(
-        odometry::run_variant(variant, options.input, options.config, options.frames, truth));
+    comparison.methods.push_back(odometry::run_variant(variant, files, options.frames, truth));
   }
   std::cout << to_text(comparison);
   if (!options.html.empty())

@@ -203,8 +203,7 @@ struct OutageOptions {
 };
 
 int compare_outages(const OutageOptions& options) {
-  vehicle::VehicleConfig config;
-  if (!options.config.empty()) config = vehicle::load_vehicle_config(options.config);
+  vehicle::VehicleConfig config = vehicle::load_vehicle_config(options.config);
   std::vector<TableDrive> drives = drives_in(options.folder);
   if (!options.half.empty()) {
     std::erase_if(drives, [&](const TableDrive& drive) { return drive.half != options.half; });

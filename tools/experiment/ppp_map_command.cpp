@@ -56,8 +56,7 @@ std::vector<experiments::PppDriveFiles> drives_of(const PppMapCommand& command) 
 
 int compare(const PppMapCommand& command) {
   experiments::PppMapOptions options = command.options;
-  vehicle::VehicleConfig config;
-  if (!command.config.empty()) config = vehicle::load_vehicle_config(command.config);
+  const vehicle::VehicleConfig config = vehicle::load_vehicle_config(command.config);
   options.setup.parameters = config.ppp.filter;
   if (!command.systems.empty()) options.setup.parameters.systems = command.systems;
   options.match = config.mapmatch;

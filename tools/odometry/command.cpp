@@ -24,7 +24,8 @@ namespace maploop::tools {
 namespace {
 
 struct OdometryOptions {
-  std::filesystem::path input, config, poses, tum, csv, tracks;
+  OdometryFiles files;
+  std::filesystem::path tracks;
   odometry::FrameRange frames;
   std::optional<stereo::Matching> matching;
   std::optional<stereo::MotionMethod> motion;
@@ -58,13 +59,10 @@ odometry::RecordedTracks recorded(const StereoCalibration& camera,
 
 int odometry_alone(const OdometryOptions& options) {
   if (options.lidar.wanted) {
-    return lidar_odometry_alone(
-        options.lidar, {options.input, options.config, options.poses, options.tum, options.csv},
-        options.frames);
+    return lidar_odometry_alone(options.lidar, options.files, options.frames);
   }
   const odometry::Input input = odometry::open_input(
-      options.input, options.config, options.frames,
-      options.disparities.value_or(odometry::Disparities::own),
+      options.files.in, options.frames, options.disparities.value_or(odometry::Disparities::own),
       [&options](stereo::StereoParameters& parameters) { adjust(options, parameters); });
   std::vector<odometry::Step> steps;
   odometry::CameraPath path(input.camera.T_body_cam);
@@ -74,12 +72,13 @@ int odometry_alone(const OdometryOptions& options) {
   }
   const evaluation::StampedTrajectory& trajectory = path.trajectory();
   if (steps.empty()) {
-    throw std::runtime_error(options.input.string() +
+    throw std::runtime_error(options.files.in.input.string() +
                              " has no frame between --first and --last that can be read");
   }
-  if (!options.poses.empty()) evaluation::write_kitti_poses(options.poses, trajectory.poses);
-  if (!options.tum.empty()) evaluation::write_tum(options.tum, trajectory);
-  if (!options.csv.empty()) odometry::write_csv(options.csv, steps);
+  if (!options.files.poses.empty())
+    evaluation::write_kitti_poses(options.files.poses, trajectory.poses);
+  if (!options.files.tum.empty()) evaluation::write_tum(options.files.tum, trajectory);
+  if (!options.files.csv.empty()) odometry::write_csv(options.files.csv, steps);
   if (!options.tracks.empty())
     odometry::write_recorded_tracks(options.tracks, recorded(input.camera, steps));
   std::cout << odometry::summary(steps);
@@ -92,25 +91,26 @@ void add_odometry(CLI::App& app, Command& command) {
   auto options = std::make_shared<OdometryOptions>();
   CLI::App* sub = app.add_subcommand(
       "odometry", "Visual odometry alone, from recorded images or tracks; or LiDAR odometry");
-  sub->add_option("DRIVE", options->input,
+  sub->add_option("DRIVE", options->files.in.input,
                   "A KITTI raw drive, a bag or whatever else with images maploop replay takes, or "
                   "recorded tracks (<drive>.csv[.gz] with its <drive>.meta.json); with --lidar "
                   "also a recording with scans alone, or a folder of scans")
       ->required()
       ->check(existing_path());
-  sub->add_option("--config", options->config,
+  sub->add_option("--config", options->files.in.config,
                   "TOML file of parameters; without it recorded tracks get lower thresholds")
       ->check(existing_file());
+  add_topics(sub, options->files.in.topics);
   sub->add_option("--first", options->frames.first, "Number of the first frame")
       ->check(whole_number());
   sub->add_option("--last", options->frames.last, "Number of the last frame")
       ->check(whole_number());
-  sub->add_option("--poses", options->poses,
+  sub->add_option("--poses", options->files.poses,
                   "Write the left camera's poses to this file in KITTI's format")
       ->check(writable_file());
-  sub->add_option("--tum", options->tum, "The same in TUM's format, with stamps")
+  sub->add_option("--tum", options->files.tum, "The same in TUM's format, with stamps")
       ->check(writable_file());
-  sub->add_option("--csv", options->csv, "Write every motion to this file, one line a frame")
+  sub->add_option("--csv", options->files.csv, "Write every motion to this file, one line a frame")
       ->check(writable_file());
   CLI::Option* lidar = add_lidar_options(*sub, options->lidar);
   add_choice(sub, "--matching", options->matching,

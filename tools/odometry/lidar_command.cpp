@@ -8,16 +8,15 @@
 #include <stdexcept>
 #include <string>
 
-#include "runtime/vehicle/drivers/recording.h"
 #include "sensors/replay/files.h"
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
 #include "tools/evaluate/text_file.h"
 #include "tools/evaluate/trajectory_file.h"
 #include "tools/odometry/comparison.h"
+#include "tools/odometry/lidar_input.h"
 #include "tools/odometry/lidar_page.h"
 #include "tools/odometry/motion_csv.h"
-#include "tools/odometry/odometry_input.h"
 #include "tools/odometry/point_cloud.h"
 #include "tools/odometry/summary.h"
 
@@ -25,65 +24,7 @@ namespace maploop::tools {
 namespace {
 
 using evaluation::StampedTrajectory;
-using odometry::LidarRun, odometry::LidarStep, odometry::Method;
-
-// A recording; one without a pair of cameras has the path of the scanner. Or a folder of scans,
-// whose body is the scanner too.
-class LidarInput {
- public:
-  LidarInput(const LidarOdometryOptions& options, const OdometryFiles& files,
-             odometry::FrameRange frames) {
-    using enum odometry::LidarSeed;
-    vehicle::VehicleConfig config;
-    if (std::filesystem::is_directory(files.input / "image_00") ||
-        !sensors::ScanFolder::is(files.input)) {
-      config = odometry::open_recording(files.input, files.config, &recording_);
-      T_body_velo = T_body_cam = recording_.calibration.T_body_velo;
-      const vehicle::Sensors sensors = recording_.sensors(Time::max());
-      if (sensors.velodyne == nullptr)
-        throw std::runtime_error("'" + files.input.string() + "' has no scans of a LiDAR");
-      images_ = sensors.camera != nullptr;
-      if (images_) T_body_cam = recording_.calibration.stereo.T_body_cam;
-    } else {
-      if (!files.config.empty()) config = vehicle::load_vehicle_config(files.config);
-      folder_ = files.input;
-      stamps_ = options.stamps;
-    }
-    if (folder_.empty() && !options.stamps.empty()) {
-      throw std::runtime_error("'" + files.input.string() +
-                               "' has the stamps of its scans: leave --stamps out");
-    }
-    if (!images_ && options.seed == vo)
-      throw std::runtime_error("'" + files.input.string() + "' has no images for --seed vo");
-    parameters = {config.stereo, config.lidar, options.seed.value_or(images_ ? vo : motion),
-                  options.every, frames};
-  }
-
-  // Begins anew.
-  LidarRun run(Method method) {
-    parameters.method = method;
-    if (images_) return {drive_frames(recording_, parameters), T_body_velo, parameters};
-    if (folder_.empty()) {
-      return {scan_frames(recording_.sensors(Time::min()).velodyne, parameters), T_body_velo,
-              parameters};
-    }
-    scans_ = std::make_shared<sensors::ScanFolder>(folder_, stamps_);
-    return {folder_frames(scans_, parameters), T_body_velo, parameters};
-  }
-
-  bool is_drive() const { return images_; }
-  std::string remarks() const { return scans_ ? scans_->remarks() : ""; }
-
-  Eigen::Isometry3d T_body_velo = Eigen::Isometry3d::Identity();
-  Eigen::Isometry3d T_body_cam = Eigen::Isometry3d::Identity();
-  odometry::LidarRunParameters parameters;
-
- private:
-  vehicle::Recording recording_;
-  bool images_ = false;
-  std::filesystem::path folder_, stamps_;
-  std::shared_ptr<sensors::ScanFolder> scans_;
-};
+using odometry::LidarInput, odometry::LidarRun, odometry::LidarStep, odometry::Method;
 
 // The camera's path in its first frame.
 void add_pose(const LidarStep& step, const Eigen::Isometry3d& T_body_cam, StampedTrajectory* path) {
@@ -92,7 +33,7 @@ void add_pose(const LidarStep& step, const Eigen::Isometry3d& T_body_cam, Stampe
 }
 
 [[noreturn]] void fail_without_frames(const OdometryFiles& files, const LidarInput& input) {
-  throw std::runtime_error(files.input.string() +
+  throw std::runtime_error(files.in.input.string() +
                            " has no frame between --first and --last that can be read\n" +
                            input.remarks());
 }
@@ -149,7 +90,7 @@ int compare(const LidarOdometryOptions& options, const OdometryFiles& files, Lid
         "have: name it with --truth");
   }
   const StampedTrajectory truth = options.truth.empty()
-                                      ? odometry::read_truth(files.input, files.config)
+                                      ? odometry::read_truth(files.in)
                                       : evaluation::read_trajectory(options.truth);
   odometry::Comparison comparison{
       {"method", "100 m turned, %", "turned, deg/m", "end point, m", "ms a scan p50", "p95",
@@ -165,7 +106,8 @@ int compare(const LidarOdometryOptions& options, const OdometryFiles& files, Lid
   std::cout << to_text(comparison) << input.remarks();
   if (!options.html.empty()) {
     evaluation::write_text(
-        options.html, to_html(comparison, "LiDAR odometry on " + files.input.filename().string()));
+        options.html,
+        to_html(comparison, "LiDAR odometry on " + files.in.input.filename().string()));
   }
   return 0;
 }
@@ -207,7 +149,7 @@ class Outputs {
     if (!options_.html.empty()) {
       evaluation::write_text(
           options_.html,
-          odometry::lidar_page("LiDAR odometry on " + files_.input.filename().string(), steps_,
+          odometry::lidar_page("LiDAR odometry on " + files_.in.input.filename().string(), steps_,
                                *cloud_));
     }
     std::cout << odometry::summary(steps_);
@@ -293,7 +235,7 @@ CLI::Option* add_lidar_options(CLI::App& odometry, LidarOdometryOptions& options
 
 int lidar_odometry_alone(const LidarOdometryOptions& options, const OdometryFiles& files,
                          odometry::FrameRange frames) {
-  LidarInput input(options, files, frames);
+  LidarInput input(files.in, options.stamps, {options.seed, options.every, frames});
   const std::vector<Method> methods = methods_of(options.methods);
   if (methods.size() > 1 || !options.truth.empty()) return compare(options, files, input, methods);
   Outputs outputs(options, files, input);

@@ -9,6 +9,7 @@
 
 #include "sensors/cloud/cloud_file.h"
 #include "tools/odometry/lidar_run.h"
+#include "tools/odometry/odometry_input.h"
 
 namespace maploop::tools {
 
@@ -26,7 +27,8 @@ CLI::Option* add_lidar_options(CLI::App& odometry, LidarOdometryOptions& options
 
 // What visual odometry has as well.
 struct OdometryFiles {
-  std::filesystem::path input, config, poses, tum, csv;
+  odometry::InputFiles in;
+  std::filesystem::path poses, tum, csv;
 };
 
 int lidar_odometry_alone(const LidarOdometryOptions& options, const OdometryFiles& files,

@@ -15,12 +15,12 @@ bool are_tracks(const std::filesystem::path& input) {
   return name.extension() == ".csv";
 }
 
-Input open_images(const std::filesystem::path& input, const std::filesystem::path& file,
-                  FrameRange frames, Disparities disparities, const Adjust& adjust) {
+Input open_images(const InputFiles& files, FrameRange frames, Disparities disparities,
+                  const Adjust& adjust) {
   vehicle::Recording recording;
-  vehicle::VehicleConfig config = open_recording(input, file, &recording);
+  vehicle::VehicleConfig config = open_recording(files, &recording);
   if (recording.sensors(Time::max()).camera == nullptr) {
-    throw std::runtime_error("'" + input.string() +
+    throw std::runtime_error("'" + files.input.string() +
                              "' has no images of a pair of cameras; --lidar uses its scans");
   }
   adjust(config.stereo);
@@ -29,23 +29,22 @@ Input open_images(const std::filesystem::path& input, const std::filesystem::pat
   return {stereo_run(recording, config.stereo, frames, depth), recording.calibration.stereo};
 }
 
-Input open_tracks(const std::filesystem::path& file, const std::filesystem::path& config,
-                  FrameRange frames, const Adjust& adjust) {
-  stereo::StereoParameters parameters =
-      config.empty() ? for_recorded_tracks() : vehicle::load_vehicle_config(config).stereo;
+Input open_tracks(const InputFiles& files, FrameRange frames, const Adjust& adjust) {
+  stereo::StereoParameters parameters = files.config.empty()
+                                            ? for_recorded_tracks()
+                                            : vehicle::load_vehicle_config(files.config).stereo;
   adjust(parameters);
-  auto tracks = std::make_shared<const RecordedTracks>(read_recorded_tracks(file));
+  auto tracks = std::make_shared<const RecordedTracks>(read_recorded_tracks(files.input));
   return {tracks_run(tracks, parameters, frames), tracks->calibration};
 }
 
-evaluation::StampedTrajectory truth_of_recording(const std::filesystem::path& input,
-                                                 const std::filesystem::path& file) {
+evaluation::StampedTrajectory truth_of_recording(const InputFiles& files) {
   vehicle::Recording recording;
-  open_recording(input, file, &recording);
+  open_recording(files, &recording);
   const vehicle::Sensors sensors = recording.sensors(Time::max());
   const auto rows = sensors::read_rows(recording.sensors(Time::max()).reference);
   if (rows.size() < 2 || sensors.camera == nullptr) {
-    throw std::runtime_error(input.string() +
+    throw std::runtime_error(files.input.string() +
                              " has no reference (KITTI: the folder oxts) to score images against");
   }
   const sensors::ReferenceTrajectory reference(rows, LocalFrame(rows.front().position));
@@ -70,36 +69,32 @@ evaluation::StampedTrajectory truth_of_tracks(const std::filesystem::path& file)
 
 }  // namespace
 
-vehicle::VehicleConfig open_recording(const std::filesystem::path& input,
-                                      const std::filesystem::path& file,
-                                      vehicle::Recording* recording) {
-  vehicle::VehicleConfig config;
-  if (!file.empty()) config = vehicle::load_vehicle_config(file);
+vehicle::VehicleConfig open_recording(const InputFiles& files, vehicle::Recording* recording) {
+  vehicle::VehicleConfig config = vehicle::load_vehicle_config(files.config, files.topics);
   config.ppp.observations = false;  // odometry does not need them
-  *recording = vehicle::open_recording(input, config);
+  *recording = vehicle::open_recording(files.input, config);
   for (const std::string& note : recording->notes) std::cerr << "maploop: " << note << '\n';
   describe_car(config, recording->calibration);
   return config;
 }
 
-Input open_input(const std::filesystem::path& input, const std::filesystem::path& config,
-                 FrameRange frames, Disparities disparities, const Adjust& adjust) {
+Input open_input(const InputFiles& files, FrameRange frames, Disparities disparities,
+                 const Adjust& adjust) {
   const Adjust with_offset = [&](stereo::StereoParameters& parameters) {
     adjust(parameters);
     if (disparities == Disparities::none) parameters.sigma_disparity_offset = 0.0;
   };
-  if (!are_tracks(input)) return open_images(input, config, frames, disparities, with_offset);
+  if (!are_tracks(files.input)) return open_images(files, frames, disparities, with_offset);
   if (disparities == Disparities::lidar) {
-    throw std::runtime_error("'" + input.string() +
+    throw std::runtime_error("'" + files.input.string() +
                              "' are recorded tracks, which have no scans; leave --disparity lidar "
                              "out");
   }
-  return open_tracks(input, config, frames, with_offset);
+  return open_tracks(files, frames, with_offset);
 }
 
-evaluation::StampedTrajectory read_truth(const std::filesystem::path& input,
-                                         const std::filesystem::path& config) {
-  return are_tracks(input) ? truth_of_tracks(input) : truth_of_recording(input, config);
+evaluation::StampedTrajectory read_truth(const InputFiles& files) {
+  return are_tracks(files.input) ? truth_of_tracks(files.input) : truth_of_recording(files);
 }
 
 void CameraPath::add(const RelativeMotion& motion) {

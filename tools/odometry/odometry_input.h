@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "msgs/calibration.h"
 #include "runtime/vehicle/config/vehicle_config.h"
@@ -13,6 +15,13 @@
 
 namespace maploop::odometry {
 
+// Names the input and what is known of it.
+struct InputFiles {
+  std::filesystem::path input;
+  std::filesystem::path config;     // empty: the defaults
+  std::vector<std::string> topics;  // of a bag, SENSOR=TOPIC
+};
+
 // Final changes to the parameters, which are those of a file or the defaults.
 using Adjust = std::function<void(stereo::StereoParameters&)>;
 
@@ -22,23 +31,19 @@ struct Input {
 };
 
 // Opens whatever maploop replay takes, and tells the user what was assumed about it. Returns the
-// configuration of the file (empty path: the defaults), which the recording completes.
-vehicle::VehicleConfig open_recording(const std::filesystem::path& input,
-                                      const std::filesystem::path& config,
-                                      vehicle::Recording* recording);
+// configuration, which the recording completes.
+vehicle::VehicleConfig open_recording(const InputFiles& files, vehicle::Recording* recording);
 
-// `input` is a recording with images, or recorded tracks: <drive>.csv[.gz] with its .meta.json.
-// Without a `config` file (empty path) recorded tracks get for_recorded_tracks(). Throws
-// std::runtime_error and std::invalid_argument naming file, key or value, or if there are no scans
-// for Disparities::lidar.
-Input open_input(const std::filesystem::path& input, const std::filesystem::path& config,
-                 FrameRange frames, Disparities disparities, const Adjust& adjust);
+// The input is a recording with images, or recorded tracks: <drive>.csv[.gz] with its .meta.json.
+// Without a configuration, recorded tracks get for_recorded_tracks(). Throws std::runtime_error and
+// std::invalid_argument naming file, key or value, or if there are no scans for Disparities::lidar.
+Input open_input(const InputFiles& files, FrameRange frames, Disparities disparities,
+                 const Adjust& adjust);
 
 // Reads the left camera's truth that belongs to the input: a recording's reference at its images'
-// stamps, or
-// the <drive>.truth.csv[.gz] beside recorded tracks. Throws std::runtime_error if there is none.
-evaluation::StampedTrajectory read_truth(const std::filesystem::path& input,
-                                         const std::filesystem::path& config = {});
+// stamps, or the <drive>.truth.csv[.gz] beside recorded tracks. Throws std::runtime_error if there
+// is none.
+evaluation::StampedTrajectory read_truth(const InputFiles& files);
 
 // Accumulates the left camera's path in its first frame.
 class CameraPath {

@@ -70,10 +70,9 @@ Comparison stereo_comparison() {
           "of images."};
 }
 
-Compared run_variant(const Variant& variant, const std::filesystem::path& input,
-                     const std::filesystem::path& config, FrameRange frames,
+Compared run_variant(const Variant& variant, const InputFiles& files, FrameRange frames,
                      const StampedTrajectory& truth) {
-  const Input opened = open_input(input, config, frames, variant.disparities,
+  const Input opened = open_input(files, frames, variant.disparities,
                                   [&variant](stereo::StereoParameters& parameters) {
                                     parameters.matching = variant.matching;
                                     parameters.motion = variant.motion;
@@ -102,7 +101,7 @@ Compared run_variant(const Variant& variant, const std::filesystem::path& input,
       ratios += static_cast<double>(motion.inliers) / motion.tracked;
     }
   }
-  if (pairs == 0) throw std::runtime_error(input.string() + " has no two frames to compare");
+  if (pairs == 0) throw std::runtime_error(files.input.string() + " has no two frames to compare");
   const evaluation::Evaluation score = scored(path.trajectory(), truth);
   const evaluation::LengthError& longer = score.lengths.back();
   const evaluation::SegmentError& turned = longer.common_rotation_removed;

@@ -8,6 +8,7 @@
 
 #include "estimators/stereo/methods.h"
 #include "tools/odometry/comparison.h"
+#include "tools/odometry/odometry_input.h"
 #include "tools/odometry/stereo_runs.h"
 
 namespace maploop::odometry {
@@ -29,11 +30,10 @@ std::vector<Variant> variants(bool images, bool scans);
 // is tracked; inliers, of the pairs that were not refused; errors; NEES of increments of a second.
 Comparison stereo_comparison();
 
-// Runs one variant; the other parameters come from `config`. One camera cannot observe the length
-// of its motions: they are scaled to the lengths of `truth`, and only their directions are
+// Runs one variant; the other parameters come from the configuration. One camera cannot observe the
+// length of its motions: they are scaled to the lengths of `truth`, and only their directions are
 // estimated.
-Compared run_variant(const Variant& variant, const std::filesystem::path& input,
-                     const std::filesystem::path& config, FrameRange frames,
+Compared run_variant(const Variant& variant, const InputFiles& files, FrameRange frames,
                      const evaluation::StampedTrajectory& truth);
 
 }  // namespace maploop::odometry

@@ -47,8 +47,7 @@ ppp::GpsTime moment(const std::string& text, const std::string& option, ppp::Gps
 
 // What the command line does not say is the configuration's.
 vehicle::VehicleConfig config_of(const PppOptions& options) {
-  vehicle::VehicleConfig config;
-  if (!options.config.empty()) config = vehicle::load_vehicle_config(options.config);
+  vehicle::VehicleConfig config = vehicle::load_vehicle_config(options.config);
   vehicle::PppConfig& p = config.ppp;
   if (!options.mode.empty()) {
     p.filter.motion = options.mode == "static" ? ppp::Motion::fixed : ppp::Motion::kinematic;

@@ -266,9 +266,7 @@ class Sending {
 }  // namespace
 
 int send(const SendOptions& options) {
-  const vehicle::VehicleConfig config = options.config.empty()
-                                            ? vehicle::VehicleConfig{}
-                                            : vehicle::load_vehicle_config(options.config);
+  const vehicle::VehicleConfig config = vehicle::load_vehicle_config(options.config);
   const vehicle::Recording recording = vehicle::open_recording(options.drive, config);
   vehicle::Sensors s = recording.sensors(Time::min());
   Sending sending(options, recording);

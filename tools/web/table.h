@@ -36,18 +36,32 @@ struct Column {
 template <class Item>
 using Columns = std::vector<Column<Item>>;
 
-// Returns the text of one item, with a blank before each column.
+// Returns one line of text of the columns that have a width, with a blank before each.
 template <class Item>
-std::string to_text(const Columns<Item>& columns, const Item& item) {
+std::string text_line(const Columns<Item>& columns,
+                      const std::function<std::string(const Column<Item>&)>& cell) {
   std::string text;
   for (const Column<Item>& c : columns) {
     if (c.width == 0) continue;
-    const std::string value = shown(c.value(item), c.digits);
+    const std::string value = cell(c);
     const auto width = static_cast<std::size_t>(std::abs(c.width));
     const std::string blanks(width - std::min(width, value.size()), ' ');
     text += ' ' + (c.width > 0 ? blanks + value : value + blanks);
   }
   return text;
+}
+
+// Returns the text of one item.
+template <class Item>
+std::string to_text(const Columns<Item>& columns, const Item& item) {
+  return text_line<Item>(columns,
+                         [&](const Column<Item>& c) { return shown(c.value(item), c.digits); });
+}
+
+// Returns the headings above such texts.
+template <class Item>
+std::string heading_text(const Columns<Item>& columns) {
+  return text_line<Item>(columns, [](const Column<Item>& c) { return c.heading; });
 }
 
 template <class Item>

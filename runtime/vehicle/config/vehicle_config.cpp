@@ -116,6 +116,30 @@ void read_names(const runtime::ConfigTable& root, VehicleConfig& config) {
   set("imu_grade", config.imu_grade, set_imu_grade);
 }
 
+VehicleConfig read_vehicle_config(const std::filesystem::path& file) {
+  VehicleConfig config;
+  const runtime::ConfigDocument document = runtime::ConfigDocument::load(file);
+  const runtime::ConfigTable root = document.root();
+  read_names(root, config);
+  const std::filesystem::path folder = file.parent_path();
+  read_vehicle_file(root, folder, config);
+  each_part(config,
+            [&](const auto& table, auto& values) { read_part(root, table, values, config.given); });
+  for (const ScheduledThread& thread : scheduled_threads()) {
+    read(root.table("scheduling"), thread.key, config.scheduling.*thread.scheduling);
+  }
+  document.reject_unknown(moved_keys);
+  each_part(config,
+            [&](const auto& table, const auto& values) { check_part(root, table, values); });
+  place_paths(root, folder, config.vehicle);
+  for (std::string* path : {&config.odometry_poses.file, &config.map.file, &config.map.rules})
+    if (!path->empty()) *path = (folder / *path).string();
+  for (std::string& product : config.ppp.products) product = (folder / product).string();
+  config.vehicle_file.clear();  // all of it is in `vehicle`
+  describe_car(config, {});
+  return config;
+}
+
 }  // namespace
 
 VehicleConfig::VehicleConfig() {
@@ -138,27 +162,10 @@ void set_imu_grade(VehicleConfig& config, const std::string& name) {
   config.imu_grade = name;
 }
 
-VehicleConfig load_vehicle_config(const std::filesystem::path& file) {
-  VehicleConfig config;
-  const runtime::ConfigDocument document = runtime::ConfigDocument::load(file);
-  const runtime::ConfigTable root = document.root();
-  read_names(root, config);
-  const std::filesystem::path folder = file.parent_path();
-  read_vehicle_file(root, folder, config);
-  each_part(config,
-            [&](const auto& table, auto& values) { read_part(root, table, values, config.given); });
-  for (const ScheduledThread& thread : scheduled_threads()) {
-    read(root.table("scheduling"), thread.key, config.scheduling.*thread.scheduling);
-  }
-  document.reject_unknown(moved_keys);
-  each_part(config,
-            [&](const auto& table, const auto& values) { check_part(root, table, values); });
-  place_paths(root, folder, config.vehicle);
-  for (std::string* path : {&config.odometry_poses.file, &config.map.file, &config.map.rules})
-    if (!path->empty()) *path = (folder / *path).string();
-  for (std::string& product : config.ppp.products) product = (folder / product).string();
-  config.vehicle_file.clear();  // all of it is in `vehicle`
-  describe_car(config, {});
+VehicleConfig load_vehicle_config(const std::filesystem::path& file,
+                                  const std::vector<std::string>& topics) {
+  VehicleConfig config = file.empty() ? VehicleConfig{} : read_vehicle_config(file);
+  config.bag.topics.insert(config.bag.topics.end(), topics.begin(), topics.end());
   return config;
 }
 

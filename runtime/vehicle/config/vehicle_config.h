@@ -121,11 +121,12 @@ VehicleCalibration described(const VehicleConfig& config, VehicleCalibration rec
 // [feedback] and the delay of OXTS rows by it; a key that the file gives in these tables holds.
 void describe_car(VehicleConfig& config, const VehicleCalibration& recorded);
 
-// Reads a TOML file; absent keys keep their defaults. Throws runtime::ConfigError naming file, line
-// and key for anything wrong: unknown keys, with the place of those that have moved, and values out
-// of their range.
-// runtime/vehicle/config/maploop.toml lists every key.
-VehicleConfig load_vehicle_config(const std::filesystem::path& file);
+// Reads a TOML file; absent keys keep their defaults, and so do all without a file (empty). Throws
+// runtime::ConfigError naming file, line and key for anything wrong: unknown keys, with the place
+// of those that have moved, and values out of their range. runtime/vehicle/config/maploop.toml
+// lists every key. `topics` (of --topic) follow [bag] topics.
+VehicleConfig load_vehicle_config(const std::filesystem::path& file,
+                                  const std::vector<std::string>& topics = {});
 
 // Returns every key with its value, as load_vehicle_config() reads it back, but for users and
 // passwords (without_secrets() of sensors/live/endpoint.h).
