@@ -83,6 +83,25 @@ struct Deadlines {
   void archive(auto& ar) { ar(stamp, threads, paths, wake_up, execution, period_jitter); }
 };
 
+// Describes one property of the car or of a sensor that the filter estimates while it runs.
+struct EstimatedProperty {
+  std::string name;
+  std::string unit;
+  double value = 0.0;
+  double sigma = 0.0;
+  double sigma_at_start = 0.0;  // before any measurement
+  bool observed = false;        // the motion has shown it: the sigma is below half of that
+
+  void archive(auto& ar) { ar(name, unit, value, sigma, sigma_at_start, observed); }
+};
+
+struct SelfCalibration {
+  Time stamp{};
+  std::vector<EstimatedProperty> properties;  // none before the filter has started
+
+  void archive(auto& ar) { ar(stamp, properties); }
+};
+
 struct RingHealth {
   std::string name;
   std::uint64_t pushed = 0, popped = 0, lost = 0, held = 0, capacity = 0;

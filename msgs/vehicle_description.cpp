@@ -31,6 +31,9 @@ void known_pose(const Eigen::Vector3d& position, SensorPosition& p, SensorRotati
 ParameterTable<CarDescription> parameter_table(const CarDescription&) {
   using P = CarDescription;
   static constexpr auto table = std::to_array<Parameter<P>>({
+      {"name", &P::name, usual,
+       "Name of the car. What maploop replay and maploop live keep of a car (--state) is used only "
+       "on a car of the same name."},
       {"side_of_road", one_of<&P::side_of_road>, usual,
        "Side on which traffic keeps. With \"left\" [feedback] lane_share is negative."},
       {"rear_axle_distance", &P::rear_axle_distance, -5.0, 5.0, "m", usual,

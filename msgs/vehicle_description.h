@@ -39,6 +39,7 @@ constexpr std::array<std::string_view, 2> names_of(RoadSide) {
 }
 
 struct CarDescription {
+  std::string name;  // what --state keeps of one car is not used on another
   RoadSide side_of_road = RoadSide::right;
   double rear_axle_distance = 0.0, rear_axle_distance_sigma = 1.0;  // m, axle to origin, forward
   double rear_axle_height = 0.0, rear_axle_height_sigma = 1.0;      // m, axle above the origin

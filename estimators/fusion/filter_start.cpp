@@ -41,6 +41,7 @@ Outcome ReducedImuFilter::start_with(Reason reason, Time stamp, const Geodetic& 
   while (history_.size() > 0 && history_[0].key < key) drop_oldest();
   EventHistory::Past& past = history_.past;
   past.state = make_state();
+  fusion::recall(past.state, remembered_, sigmas_at_start_);
   past.key = key;
   if (past.sample) past.state.imu_stamp = past.sample->stamp;
   initialized_ = true;

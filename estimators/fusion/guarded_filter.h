@@ -35,6 +35,7 @@ class GuardedFilter {
   // misled it.
   Outcome add(const MapFeedback& feedback);
 
+  void recall(const RememberedCalibration& remembered) { aided_.recall(remembered); }
   Outcome start(const KnownStart& known) { return aided_.start(known); }
   const ReducedImuFilter& aided() const { return aided_; }
   FilterStatus status() const { return aided_.status(); }

@@ -88,6 +88,9 @@ class ReducedImuFilter {
   Outcome add(const GnssFix& fix);
   Outcome add(const MapFeedback& feedback);
 
+  // Uses what an earlier drive has estimated of the car, from the next start on.
+  void recall(const RememberedCalibration& remembered) { remembered_ = remembered; }
+
   // Starts the filter from given values.
   Outcome start(const KnownStart& known);
 
@@ -154,6 +157,7 @@ class ReducedImuFilter {
 
   FusionParameters parameters_;
   StateVector sigmas_at_start_;
+  RememberedCalibration remembered_;
   bool has_origin_ = false;
   LocalFrame frame_;
   LocalEarth earth_;

@@ -24,6 +24,7 @@ inline constexpr std::string_view calibration = "CALIBRATION";
 inline constexpr std::string_view replay_control = "REPLAY_CONTROL";
 inline constexpr std::string_view run = "RUN";
 inline constexpr std::string_view deadlines = "DEADLINES";
+inline constexpr std::string_view self_calibration = "SELF_CALIBRATION";
 inline constexpr std::string_view health = "HEALTH";
 
 }  // namespace maploop::channel_names

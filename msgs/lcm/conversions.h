@@ -17,6 +17,7 @@
 #include <maploop_lcm/preview_t.hpp>
 #include <maploop_lcm/reference_pose_t.hpp>
 #include <maploop_lcm/relative_motion_t.hpp>
+#include <maploop_lcm/self_calibration_t.hpp>
 #include <maploop_lcm/stereo_pair_t.hpp>
 #include <maploop_lcm/wheel_speed_t.hpp>
 
@@ -51,6 +52,7 @@ maploop_lcm::map_match_t to_lcm(const MapMatch& match, const MapMatchWords& word
 maploop_lcm::map_feedback_t to_lcm(const MapFeedback& feedback);
 maploop_lcm::preview_t to_lcm(const Preview& preview);
 maploop_lcm::deadlines_t to_lcm(const Deadlines& deadlines);
+maploop_lcm::self_calibration_t to_lcm(const SelfCalibration& calibration);
 maploop_lcm::health_t to_lcm(const Health& health);
 maploop_lcm::calibration_t to_lcm(const VehicleCalibration& calibration);  // the caller sets utime
 maploop_lcm::stereo_pair_t to_lcm(const StereoPair& pair);
@@ -71,6 +73,7 @@ MapMatch from_lcm(const maploop_lcm::map_match_t& message);
 MapFeedback from_lcm(const maploop_lcm::map_feedback_t& message);
 Preview from_lcm(const maploop_lcm::preview_t& message);
 Deadlines from_lcm(const maploop_lcm::deadlines_t& message);
+SelfCalibration from_lcm(const maploop_lcm::self_calibration_t& message);
 Health from_lcm(const maploop_lcm::health_t& message);
 VehicleCalibration from_lcm(const maploop_lcm::calibration_t& message);
 // The output's buffers are reused.

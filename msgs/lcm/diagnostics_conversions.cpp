@@ -52,6 +52,21 @@ void convert(auto copy, Is<Deadlines> auto& deadlines, auto& m) {
 }
 MAPLOOP_CONVERSIONS(Deadlines, maploop_lcm::deadlines_t)
 
+void convert(auto copy, Is<EstimatedProperty> auto& p, auto& m) {
+  copy(p.name, m.name);
+  copy(p.unit, m.unit);
+  copy(p.value, m.value);
+  copy(p.sigma, m.sigma);
+  copy(p.sigma_at_start, m.sigma_at_start);
+  copy(p.observed, m.observed);
+}
+
+void convert(auto copy, Is<SelfCalibration> auto& calibration, auto& m) {
+  copy.utime(calibration.stamp, m.utime);
+  copy.each(calibration.properties, m.properties, m.property_count);
+}
+MAPLOOP_CONVERSIONS(SelfCalibration, maploop_lcm::self_calibration_t)
+
 void convert(auto copy, Is<ThreadHealth> auto& t, auto& m) {
   copy(t.name, m.name);
   copy(t.scheduling, m.scheduling);

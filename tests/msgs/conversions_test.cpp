@@ -29,6 +29,9 @@ void make_valid(auto&) {}
 void make_valid(Deadlines& d) {
   d.stamp = std::chrono::floor<std::chrono::microseconds>(d.stamp);
 }
+void make_valid(SelfCalibration& c) {
+  c.stamp = std::chrono::floor<std::chrono::microseconds>(c.stamp);
+}
 void make_valid(Health& h) {
   h.stamp = std::chrono::floor<std::chrono::microseconds>(h.stamp);
 }
@@ -92,7 +95,7 @@ class Message : public ::testing::Test {};
 using Messages =
     ::testing::Types<NavState, OdomState, RelativeMotion, LidarMotion, ImuSample, WheelSpeed,
                      GnssFix, ReferencePose, MapMatch, MapFeedback, PppState, Preview, Deadlines,
-                     Health, VehicleCalibration, StereoPair, LidarScan>;
+                     SelfCalibration, Health, VehicleCalibration, StereoPair, LidarScan>;
 TYPED_TEST_SUITE(Message, Messages);
 
 template <class T>

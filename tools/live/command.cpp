@@ -65,14 +65,15 @@ vehicle::Observer observer_of(const LiveOptions& options, RunPass& pass, LiveSta
 
 // Feeds the service manager's watchdog as long as the fusion ticks.
 void wait_for_end(const vehicle::Vehicle& vehicle, double seconds, const LiveStatus& status,
-                  vehicle::RunPresence* presence) {
+                  RunOutput& output) {
   constexpr auto look_every = std::chrono::milliseconds(20);
   constexpr int show_every = 10;
   constexpr Duration tell_every = std::chrono::seconds(1);
   Time told = vehicle.position();
   const bool visible = is_screen(STDERR_FILENO);
   for (int i = 0; vehicle.running() && !interrupted(); ++i) {
-    if (presence != nullptr) presence->update();
+    if (output.presence() != nullptr) output.presence()->update();
+    output.update_car_state();
     const Time position = vehicle.position();
     if (position - told >= tell_every) {
       tell_service_manager("WATCHDOG=1");
@@ -104,15 +105,18 @@ int live(const LiveOptions& options) {
   RunPass pass;
   LiveStatus status;
   note_interrupts();
+  vehicle::Observer observer = observer_of(options, pass, status);
+  output.keep_car_state(observer);
   vehicle::Vehicle vehicle(config, calibration, std::move(sensors), runtime::DataClock::live(),
                            output.sinks(pass, vehicle::LogRecorder::WhenBehind::drop),
-                           observer_of(options, pass, status), output.new_tracer(), map);
+                           std::move(observer), output.new_tracer(), map);
   vehicle.prepared(readiness);
+  output.recall(vehicle);
   vehicle.start();
   std::cerr << (options.verbose ? to_text(vehicle.readiness())
                                 : to_short_text(vehicle.readiness()));
   tell_service_manager("READY=1");
-  wait_for_end(vehicle, options.seconds, status, output.presence());
+  wait_for_end(vehicle, options.seconds, status, output);
   tell_service_manager("STOPPING=1");
   vehicle.stop();
   vehicle.wait();

@@ -42,10 +42,8 @@ std::string configuration_of(const ReplayOptions& options, const vehicle::Vehicl
 }
 
 vehicle::VehicleConfig config_of(const ReplayOptions& options) {
-  vehicle::VehicleConfig config;
-  if (!options.config.empty()) config = vehicle::load_vehicle_config(options.config);
+  vehicle::VehicleConfig config = vehicle::load_vehicle_config(options.config, options.topics);
   if (options.seed) config.gnss.seed = config.wheel.seed = config.imu_seed = *options.seed;
-  config.bag.topics.insert(config.bag.topics.end(), options.topics.begin(), options.topics.end());
   vehicle::fit_to_recording(config, options.drive);
   const std::string configuration = configuration_of(options, config);
   if (configuration != config.configuration) set_configuration(config, configuration);
@@ -162,6 +160,7 @@ std::unique_ptr<vehicle::Vehicle> Replay::make_vehicle(const vehicle::Snapshot* 
 
 // Puts a new vehicle where it goes on, or where it starts.
 void Replay::place(vehicle::Vehicle& vehicle, const vehicle::Snapshot* from) {
+  output_.recall(vehicle);
   if (from != nullptr) {
     vehicle.resume(*from);
   } else if (resumed_) {

@@ -7,7 +7,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "runtime/core/data_clock.h"
 #include "runtime/core/whole_file.h"
+#include "runtime/vehicle/config/car_state.h"
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
 #include "tools/replay/nav_files.h"
@@ -62,6 +64,9 @@ void add_run_options(CLI::App* sub, RunOptions& options) {
   add_output(sub, "--trace", options.trace,
              "Write what each thread did when to this file, for ui.perfetto.dev (of a replay that "
              "went back: since then)");
+  add_output(sub, "--state", options.state,
+             "Start from what this file says of the car, if it exists, and keep there what is "
+             "estimated of the car: mounts, axle, antenna, scales, biases");
   add_output(sub, "--poses", options.poses,
              "Write the fused left-camera poses to this file in KITTI's format");
   add_output(sub, "--tum", options.tum, "The same in TUM's format, with stamps");
@@ -91,6 +96,36 @@ std::vector<RealtimeSetting> RunOutput::open_bus() {
   });
   std::cerr << "Run " << run_.id << " at " << url << '\n';
   return bus_->settings();
+}
+
+void RunOutput::recall(vehicle::Vehicle& vehicle) const {
+  if (options_.state.empty()) return;
+  if (const auto known = vehicle::read_car_state(options_.state, config_.vehicle.car.name))
+    vehicle.recall(*known);
+}
+
+void RunOutput::keep_car_state(vehicle::Observer& observer) {
+  if (options_.state.empty()) return;
+  car_state_written_ = runtime::monotonic_now();
+  observer.calibration = [this](Time at, const fusion::SelfCalibrations& estimated) {
+    const std::lock_guard lock(car_state_mutex_);
+    car_state_ = {at, estimated};
+  };
+}
+
+void RunOutput::update_car_state() {
+  constexpr Duration every = std::chrono::minutes(1);
+  if (options_.state.empty() || runtime::monotonic_now() - car_state_written_ < every) return;
+  car_state_written_ = runtime::monotonic_now();
+  std::optional<CarState> state;
+  {
+    const std::lock_guard lock(car_state_mutex_);
+    state = std::exchange(car_state_, std::nullopt);
+  }
+  if (!state) return;
+  attempt([&] {
+    vehicle::write_car_state(options_.state, config_.vehicle.car.name, state->at, state->estimated);
+  });
 }
 
 std::vector<vehicle::MessageSink*> RunOutput::sinks(RunPass& pass,
@@ -138,6 +173,17 @@ bool RunOutput::write(const ReplayResult& result, const RunPass& pass,
   if (!options_.json.empty()) all &= attempt([&] { write_json(options_.json, result); });
   if (result.end)
     all &= attempt([&] { write_states(options_, pass, calibration.stereo.T_body_cam); });
+  if (!options_.state.empty()) {
+    all &= attempt([&] {
+      const std::size_t kept =
+          vehicle::write_car_state(options_.state, config_.vehicle.car.name, result.vehicle.last,
+                                   result.vehicle.calibration);
+      if (kept == 0) {
+        std::cerr << "maploop: '" << options_.state.string()
+                  << "' is not written, because nothing of the car has been observed\n";
+      }
+    });
+  }
   if (!options_.report.empty()) {
     all &= attempt([&] {
       report::write_report(options_.report, {result, pass, std::move(reference), config_,

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -38,6 +39,7 @@ struct RunOptions {
   bool no_lcm = false;
   std::string lcm_url;  // empty: vehicle::bus_url() chooses one
   std::filesystem::path json, report, trace;
+  std::filesystem::path state;                  // what is kept of the car
   std::filesystem::path poses, tum, csv, nmea;  // of the fused state
   std::optional<OutputFrame> frame;             // of poses and tum; map without it
   std::filesystem::path map;
@@ -65,6 +67,16 @@ class RunOutput {
   vehicle::LcmBus* bus() { return bus_.get(); }
   vehicle::RunPresence* presence() { return presence_ ? &*presence_ : nullptr; }
 
+  // Tells the vehicle what an earlier drive has estimated of the car (--state); before start().
+  // Throws std::runtime_error if the file cannot be used.
+  void recall(vehicle::Vehicle& vehicle) const;
+
+  // Writes what has been estimated of the car since, once a minute: a vehicle's computer is often
+  // switched off without a warning. `observer` takes note of it; update() writes it, and reports
+  // the first failure on standard error.
+  void keep_car_state(vehicle::Observer& observer);
+  void update_car_state();
+
   // Returns the sinks of the run's messages: the hashes, the bus and the log.
   std::vector<vehicle::MessageSink*> sinks(RunPass& pass, vehicle::LogRecorder::WhenBehind behind);
   // Returns a new tracer, which replaces the one before; nullptr without --trace. Throws
@@ -87,6 +99,14 @@ class RunOutput {
   std::unique_ptr<vehicle::LcmBus> bus_;
   std::optional<vehicle::RunPresence> presence_;
   std::unique_ptr<runtime::Tracer> tracer_;
+
+  struct CarState {
+    Time at{};
+    fusion::SelfCalibrations estimated;
+  };
+  std::mutex car_state_mutex_;
+  std::optional<CarState> car_state_;  // not yet written
+  MonotonicTime car_state_written_{};
 };
 
 }  // namespace maploop::tools

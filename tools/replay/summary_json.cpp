@@ -83,7 +83,7 @@ void add_scores(json& j, const ReplayResult& r) {
   j["links"] = r.links ? match::to_json(*r.links) : json(nullptr);
   if (const auto& late = r.vehicle.imu_delay; late.known())
     j["imu_delay_left"] = {{"s", late.delay()}, {"sigma_s", late.sigma()}};
-  for (const fusion::SelfCalibration& c : r.vehicle.calibration) {
+  for (const fusion::CalibratedProperty& c : r.vehicle.calibration) {
     if (c.sigma == 0.0) continue;
     j["calibration"].push_back({{"name", c.name},
                                 {"unit", c.unit},

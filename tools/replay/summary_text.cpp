@@ -105,7 +105,7 @@ void append_channels(std::string& text,
 void append_calibration(std::string& text, const fusion::SelfCalibrations& calibration) {
   if (calibration.front().sigma == 0.0) return;
   text += "\nEstimated on the way\n";
-  for (const fusion::SelfCalibration& c : calibration) {
+  for (const fusion::CalibratedProperty& c : calibration) {
     text += fmt::format("  {:42} {:9.3f} +- {:.3f} {}{}\n", c.name, c.value, c.sigma, c.unit,
                         c.observed() ? "" : ", not observed yet");
   }

@@ -95,11 +95,14 @@ inline constexpr ChannelSpec deadlines = of_run(channel_names::deadlines, "deadl
 inline constexpr ChannelSpec health =
     of_run(channel_names::health, "health_t", "health",
            "threads, rings, rates, losses, refusals, real-time settings, degraded modes", "1 Hz");
+inline constexpr ChannelSpec self_calibration =
+    of_run(channel_names::self_calibration, "self_calibration_t", "health",
+           "what the filter has estimated of the car and its sensors", "1 Hz");
 
-inline constexpr std::array all{nav_state,      odom_state, visual_odometry, lidar_odometry,
-                                odometry,       map_match,  map_feedback,    imu,
-                                gnss_fix,       ppp_state,  wheel_speed,     truth,
-                                camera,         velodyne,   preview,         calibration,
-                                replay_control, run,        deadlines,       health};
+inline constexpr std::array all{
+    nav_state,    odom_state, visual_odometry, lidar_odometry, odometry,       map_match,
+    map_feedback, imu,        gnss_fix,        ppp_state,      wheel_speed,    truth,
+    camera,       velodyne,   preview,         calibration,    replay_control, run,
+    deadlines,    health,     self_calibration};
 }  // namespace channels
 }  // namespace maploop::vehicle

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "estimators/fusion/self_calibration.h"
 #include "msgs/diagnostics.h"
 #include "msgs/gnss.h"
 #include "msgs/image.h"
@@ -34,6 +35,7 @@ namespace maploop::vehicle {
 struct RuntimeReport : Sample {
   Health health;
   Deadlines deadlines;
+  fusion::SelfCalibrations calibration;  // each sigma is 0 before the filter has started
 };
 
 // A ring exists in a vehicle that has both of its ends, and if this holds as well.

@@ -27,6 +27,10 @@ void Vehicle::slow_down(StageDelays delays) {
   }
 }
 
+void Vehicle::recall(const fusion::RememberedCalibration& remembered) {
+  graph_->fusion->recall(remembered);
+}
+
 void Vehicle::start_from(const fusion::KnownStart& known) {
   const fusion::Outcome outcome = graph_->fusion->start_from(known);
   if (outcome.refused()) {

@@ -40,6 +40,10 @@ class Vehicle {
   // Slows stages down or ends them, for tests of what happens then; before start().
   void slow_down(StageDelays delays);
 
+  // The filter uses what an earlier drive has estimated of the car; before start_from() and
+  // start().
+  void recall(const fusion::RememberedCalibration& remembered);
+
   // The filter starts from these values instead of a fix; before start(). Throws
   // std::invalid_argument where they cannot be.
   void start_from(const fusion::KnownStart& known);

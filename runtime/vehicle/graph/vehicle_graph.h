@@ -116,8 +116,6 @@ struct Vehicle::Graph {
   double cpu_at_start = 0.0;
   double cpu = 0.0;
   // These are known after wait().
-  fusion::FilterStatus last_filter;
-  fusion::SelfCalibrations last_calibration;
   RuntimeReport last_report;  // of the whole run
 };
 

@@ -28,10 +28,11 @@ VehicleReport Vehicle::Graph::report() const {
   r.lateness = lateness.summarize("all sensors");
   r.health = last_report.health;
   r.deadlines = last_report.deadlines;
-  r.imu_delay = last_filter.imu_delay;
-  r.calibration = last_calibration;
+  r.imu_delay = fusion->filter_report().status.imu_delay;
+  r.calibration = fusion->filter_report().calibration;
   r.stalls = clock.stalls();
   r.stalled = clock.stalled();
+  r.last = fusion->position();
   r.data_seconds = to_seconds(fusion->position() - begin);
   r.wall_seconds = to_seconds(wall);
   r.cpu_seconds = cpu;
@@ -65,7 +66,7 @@ void Vehicle::Graph::look_at_sensors(Health& health) {
 void Vehicle::Graph::look_at_imu_delay(Health& health) {
   constexpr double harmless = 0.02;  // s: a third of a degree in the sharpest bend
   constexpr double certain = 5.0;    // sigmas
-  const fusion::DelayEstimate estimate = fusion->filter_status().imu_delay;
+  const fusion::DelayEstimate estimate = fusion->filter_report().status.imu_delay;
   if (!estimate.known()) return;
   const double delay = estimate.delay();
   if (std::abs(delay) < std::max(harmless, certain * estimate.sigma())) return;
@@ -88,6 +89,7 @@ RuntimeReport Vehicle::Graph::look(Duration elapsed) {
     report.health.refusals.insert(report.health.refusals.end(), refused.begin(), refused.end());
   }
   report.deadlines = monitor.deadlines(stamp);
+  report.calibration = fusion->filter_report().calibration;
   look_at_imu_delay(report.health);
   if (host_clock != nullptr) look_at_sensors(report.health);
   return report;

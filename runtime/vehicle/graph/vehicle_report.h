@@ -27,6 +27,7 @@ struct VehicleReport {
   fusion::SelfCalibrations calibration;  // what the filter has estimated of the vehicle
   std::uint64_t stalls = 0;              // how often the data clock had to wait for the graph
   Duration stalled{};
+  Time last{};                // data time of the fusion's last tick
   double data_seconds = 0.0;  // length of the drive that was replayed
   double wall_seconds = 0.0;
   double cpu_seconds = 0.0;

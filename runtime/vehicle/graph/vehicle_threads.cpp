@@ -179,8 +179,6 @@ void Vehicle::Graph::wait() {
     wall = runtime::monotonic_now() - started;
     cpu = process_cpu_seconds() - cpu_at_start;
     monitor.restart_rates();
-    last_filter = fusion->filter_status();
-    last_calibration = fusion->calibration();
     last_report = look(fusion->position() - begin);
   }
 }

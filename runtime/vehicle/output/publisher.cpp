@@ -13,6 +13,16 @@
 namespace maploop::vehicle {
 namespace {
 
+SelfCalibration message_of(const fusion::SelfCalibrations& estimated, Time stamp) {
+  SelfCalibration message{stamp, {}};
+  if (estimated.front().sigma == 0.0) return message;
+  for (const fusion::CalibratedProperty& p : estimated) {
+    message.properties.push_back({std::string(p.name), std::string(p.unit), p.value, p.sigma,
+                                  p.sigma_at_start, p.observed()});
+  }
+  return message;
+}
+
 constexpr auto look_every = std::chrono::milliseconds(1);
 
 bool reaches(const ChannelSpec& channel, const MessageSink& sink) {
@@ -125,7 +135,10 @@ void Publisher::send_reports() {
     const runtime::TraceSpan span(trace_, trace_name<channels::health>);
     send(channels::health, report->available, to_lcm(report->health));
     send(channels::deadlines, report->available, to_lcm(report->deadlines));
+    send(channels::self_calibration, report->available,
+         to_lcm(message_of(report->calibration, report->stamp)));
     observer_.health(report->health);
+    observer_.calibration(report->stamp, report->calibration);
     reports_->pop();
   }
 }

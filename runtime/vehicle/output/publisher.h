@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "estimators/fusion/self_calibration.h"
 #include "msgs/calibration.h"
 #include "msgs/diagnostics.h"
 #include "msgs/gnss.h"
@@ -43,6 +44,9 @@ struct Observer {
   std::function<void(const MapMatch&)> map_match = [](const MapMatch&) {};
   std::function<void(const MapFeedback&)> map_feedback = [](const MapFeedback&) {};
   std::function<void(const Health&)> health = [](const Health&) {};
+  // At data time `at`.
+  std::function<void(Time at, const fusion::SelfCalibrations&)> calibration =
+      [](Time, const fusion::SelfCalibrations&) {};
 };
 
 // What a match means in words.

@@ -132,8 +132,8 @@ bool FusionStage::tick(const runtime::Tick& tick, runtime::DataClock& clock,
   const MonotonicTime computed = runtime::monotonic_now();
   send(state, stop);
   sent_states_.push_back(state);
-  filter_status_.back() = filter_.status();
-  filter_status_.publish();
+  filter_reports_.back() = {filter_.status(), filter_.calibration()};
+  filter_reports_.publish();
   runtime::trace_counter(trace(), "fusion -> publisher",
                          static_cast<double>(states_.rings().front()->held()));
 
@@ -182,7 +182,7 @@ std::vector<RefusalCount> FusionStage::refusals() {
   const auto add = [&](std::string_view reason, std::uint64_t count) {
     if (count > 0) all.push_back({std::string(spec().name), std::string(reason), count});
   };
-  const fusion::FilterStatus& filter = filter_status();
+  const fusion::FilterStatus& filter = filter_report().status;
   for (std::size_t i = 1; i < fusion::reason_count; ++i) {
     const auto reason = static_cast<fusion::Reason>(i);
     add(to_string(reason), filter.refused_for(reason));

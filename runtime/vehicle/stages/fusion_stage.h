@@ -35,7 +35,8 @@ class FusionStage final : public GraphStage {
   }
   std::vector<RefusalCount> refusals() override;
 
-  // Before run().
+  // Before run(); what is remembered before a start.
+  void recall(const fusion::RememberedCalibration& remembered) { filter_.recall(remembered); }
   fusion::Outcome start_from(const fusion::KnownStart& known) { return filter_.start(known); }
 
   // Data time of the last tick; any thread may ask.
@@ -44,13 +45,15 @@ class FusionStage final : public GraphStage {
   const Meter& camera_path() const { return camera_path_; }  // from the image's stamp to the state
   const Meter& imu_path() const { return imu_path_; }        // from the IMU's stamp to the state
 
-  // After run().
-  fusion::SelfCalibrations calibration() const { return filter_.calibration(); }
-
-  // The filter's at the end of the last tick; one thread at a time may ask, also while it runs.
-  const fusion::FilterStatus& filter_status() {
-    if (const fusion::FilterStatus* status = filter_status_.latest()) known_status_ = status;
-    return *known_status_;
+  // What the filter says of itself at the end of a tick.
+  struct FilterReport {
+    fusion::FilterStatus status;
+    fusion::SelfCalibrations calibration;  // each sigma is 0 before the start
+  };
+  // That of the last tick; one thread at a time may ask, also while it runs.
+  const FilterReport& filter_report() {
+    if (const FilterReport* report = filter_reports_.latest()) known_report_ = report;
+    return *known_report_;
   }
 
  private:
@@ -85,9 +88,9 @@ class FusionStage final : public GraphStage {
   UseWatch odometry_use_;
   Meter camera_path_;
   Meter imu_path_;
-  runtime::LatestValue<fusion::FilterStatus> filter_status_;
-  const fusion::FilterStatus* known_status_ = &no_status_;  // the reader's
-  fusion::FilterStatus no_status_;
+  runtime::LatestValue<FilterReport> filter_reports_;
+  const FilterReport* known_report_ = &no_report_;  // the reader's
+  FilterReport no_report_;
 };
 
 }  // namespace maploop::vehicle

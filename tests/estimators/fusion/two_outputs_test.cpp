@@ -139,10 +139,10 @@ class Misdescribed : public ::testing::Test {
     return all;
   }
 
-  SelfCalibration find(const ReducedImuFilter& filter, std::string_view name) const {
+  CalibratedProperty find(const ReducedImuFilter& filter, std::string_view name) const {
     const SelfCalibrations all = filter.calibration();
     return *std::find_if(all.begin(), all.end(),
-                         [&](const SelfCalibration& c) { return c.name.starts_with(name); });
+                         [&](const CalibratedProperty& c) { return c.name.starts_with(name); });
   }
 
   SyntheticDrive drive_;
@@ -152,14 +152,61 @@ class Misdescribed : public ::testing::Test {
 TEST_F(Misdescribed, TheFilterLearnsTheAxleAndTheDirectionOfTravel) {
   ReducedImuFilter filter(configured("VO-RI"), test_origin());
   add_as_available(filter, measurements());
-  const SelfCalibration course = find(filter, "odometry points to the right");
+  const CalibratedProperty course = find(filter, "odometry points to the right");
   EXPECT_TRUE(course.observed());
   EXPECT_NEAR(course.value, 2.0, 0.2) << "deg";
   EXPECT_LT(course.sigma, 0.3);
-  const SelfCalibration axle = find(filter, "rear axle");
+  const CalibratedProperty axle = find(filter, "rear axle");
   EXPECT_TRUE(axle.observed());
   EXPECT_NEAR(axle.value, 1.2, 0.15) << "m";
   EXPECT_FALSE(find(filter, "GNSS antenna, forward").observed()) << "no fix after the start";
+}
+
+// Returns what the filter knows, as if it were `age` before the start of the drive.
+RememberedCalibration remembered(const ReducedImuFilter& filter, Duration age) {
+  RememberedCalibration all{SyntheticDrive::at(0.0) - age, {}, {}};
+  const SelfCalibrations estimated = filter.calibration();
+  for (std::size_t i = 0; i < estimated.size(); ++i) {
+    if (!estimated[i].observed()) continue;
+    all.value[i] = estimated[i].value;
+    all.sigma[i] = estimated[i].sigma;
+  }
+  return all;
+}
+
+TEST_F(Misdescribed, AnotherDriveBeginsWithWhatTheFirstHasTaught) {
+  const std::vector<Measurement> all = measurements();
+  ReducedImuFilter first(configured("VO-RI"), test_origin());
+  add_as_available(first, all);
+  const auto begin_after = [&](Duration age) {
+    ReducedImuFilter filter(configured("VO-RI"), test_origin());
+    filter.recall(remembered(first, age));
+    for (const Measurement& m : all)
+      if (!filter.initialized() && std::holds_alternative<GnssFix>(m)) add(filter, m);
+    EXPECT_TRUE(filter.initialized());
+    return filter;
+  };
+  const ReducedImuFilter soon = begin_after(std::chrono::hours(1));
+  EXPECT_NEAR(find(soon, "odometry points").value, 2.0, 0.25) << "deg, before any odometry";
+  EXPECT_TRUE(find(soon, "odometry points").observed());
+  EXPECT_NEAR(find(soon, "rear axle").value, 1.2, 0.2) << "m";
+  EXPECT_FALSE(find(soon, "GNSS antenna, forward").observed()) << "the first drive did not teach it";
+  const ReducedImuFilter late = begin_after(std::chrono::hours(24 * 3 * 365));
+  EXPECT_FALSE(find(late, "odometry points").observed()) << "it may have been mounted anew";
+  EXPECT_GT(find(late, "odometry points").sigma, find(soon, "odometry points").sigma);
+}
+
+TEST_F(Misdescribed, WhatContradictsTheDescriptionIsNotRemembered) {
+  FusionParameters described = configured("VO-RI");
+  described.rear_axle_distance = 0.2;
+  described.rear_axle_sigma = 0.01;
+  ReducedImuFilter first(configured("VO-RI"), test_origin());
+  add_as_available(first, measurements());
+  ReducedImuFilter filter(described, test_origin());
+  filter.recall(remembered(first, std::chrono::hours(1)));
+  for (const Measurement& m : measurements())
+    if (!filter.initialized() && std::holds_alternative<GnssFix>(m)) add(filter, m);
+  EXPECT_NEAR(find(filter, "rear axle").value, 0.2, 1e-9) << "m: the axle of another car";
 }
 
 TEST_F(Misdescribed, ADriveOnAKnownAxleTeachesNothingWhileItGoesStraight) {

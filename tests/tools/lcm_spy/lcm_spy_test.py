@@ -34,6 +34,7 @@ CHANNELS = {
     "ODOMETRY": ("relative_motion_t", "translation"),
     "PPP_STATE": ("ppp_state_t", "latitude"),
     "PREVIEW": ("preview_t", "track_count"),
+    "SELF_CALIBRATION": ("self_calibration_t", "sigma_at_start"),
     "TRUTH": ("reference_pose_t", "azimuth"),
     "WHEEL_SPEED": ("wheel_speed_t", "sigma"),
     "VO": ("relative_motion_t", "translation"),

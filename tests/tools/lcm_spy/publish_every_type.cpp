@@ -83,6 +83,8 @@ bool publish_all(lcm::LCM& lcm, int tick) {
   publish("TRUTH", sample<ReferencePose>(tick));
   publish("DEADLINES", deadlines(state.stamp));
   publish("HEALTH", health(state.stamp));
+  publish("SELF_CALIBRATION",
+          SelfCalibration{state.stamp, {{"rear axle", "m", 0.8, 0.1, 0.5, true}}});
   return sent;
 }
 

@@ -79,6 +79,30 @@ TEST_F(FirstSeconds, AnotherSeedIsAnotherDraw) {
   EXPECT_THAT(other.out, HasSubstr("GNSS_FIX: different"));
 }
 
+// Returns the calibration of that name.
+json calibrated(const json& result, const std::string& name) {
+  for (const json& one : result["calibration"])
+    if (one["name"] == name) return one;
+  return {};
+}
+
+TEST_F(FirstSeconds, WhatWasLearntOfTheCarIsKeptAndUsed) {
+  const Words options{"--lockstep", "--end", end, "--state", file("car.state")};
+  const json first = replay(drive(), options);
+  EXPECT_EQ(hashes(first), hashes(lockstep().result)) << "there was no state yet";
+  EXPECT_THAT(read_file(file("car.state")), HasSubstr("\nsigma = "));
+  const json second = replay(drive(), options);
+  EXPECT_NE(hashes(second).at("NAV_STATE"), hashes(first).at("NAV_STATE"));
+  int better = 0;
+  for (const json& c : first["calibration"]) {
+    if (c["observed"]) better += calibrated(second, c["name"])["sigma"] < c["sigma"] ? 1 : 0;
+  }
+  EXPECT_GT(better, 0);
+  EXPECT_THAT(refusal(drive(), {"--state", file("car.state"), "--config",
+                                write("golf.toml", "[vehicle]\nname = \"golf\"\n")}),
+              AllOf(HasSubstr("car.state"), HasSubstr("golf")));
+}
+
 TEST_F(FirstSeconds, ALogTakesSnapshotsFaultsAndMomentsAsADriveDoes) {
   const std::string log = lockstep().log();
   const json whole = replay(log, {"--lockstep", "--snapshot", "3:" + file("s")});

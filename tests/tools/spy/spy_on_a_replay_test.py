@@ -60,15 +60,16 @@ def for_scripts():
     rows = {line.split()[0]: dict(zip(columns, line.split()))
             for line in lines[1:] if not line.startswith("#")}
     steady = {"DEADLINES", "GNSS_FIX", "HEALTH", "IMU", "LIDAR_ODOMETRY", "NAV_STATE",
-              "ODOMETRY", "ODOM_STATE", "TRUTH", "VO"}
+              "ODOMETRY", "ODOM_STATE", "SELF_CALIBRATION", "TRUTH", "VO"}
     now_and_then = {"CALIBRATION", "PREVIEW", "REPLAY_CONTROL", "RUN"}
     check("the channels", steady <= set(rows) <= steady | now_and_then, table)
     types = {"NAV_STATE": "nav_state_t", "VO": "relative_motion_t", "IMU": "imu_t",
              "GNSS_FIX": "gnss_fix_t", "TRUTH": "reference_pose_t", "HEALTH": "health_t",
              "DEADLINES": "deadlines_t", "LIDAR_ODOMETRY": "lidar_motion_t",
-             "ODOMETRY": "relative_motion_t", "ODOM_STATE": "odom_state_t"}
+             "ODOMETRY": "relative_motion_t", "ODOM_STATE": "odom_state_t",
+             "SELF_CALIBRATION": "self_calibration_t"}
     rates = {"NAV_STATE": 100, "ODOM_STATE": 100, "VO": 10, "IMU": 10, "TRUTH": 10, "GNSS_FIX": 1, "HEALTH": 1,
-             "DEADLINES": 1, "LIDAR_ODOMETRY": 10, "ODOMETRY": 10}
+             "DEADLINES": 1, "LIDAR_ODOMETRY": 10, "ODOMETRY": 10, "SELF_CALIBRATION": 1}
     for name in sorted(steady):
         row = rows[name]
         check(f"{name}: type", row["TYPE"] == "maploop_lcm." + types[name], table)
@@ -78,7 +79,7 @@ def for_scripts():
         check(f"{name}: age of years-old data", 0.0 <= float(row["AGE_S"]) < 1.5, table)
         check(f"{name}: silence", 0.0 <= float(row["SILENT_S"]) < 1.5, table)
         check(f"{name}: bytes", int(row["BYTES"]) > 50, table)
-        numbered = name not in ("HEALTH", "DEADLINES")
+        numbered = name not in ("HEALTH", "DEADLINES", "SELF_CALIBRATION")
         check(f"{name}: losses", row["LOST"].isdigit() == numbered, table)
         check(f"{name}: nothing bad", row["BAD"] == "0", table)
     for said in ("# rings: ", "# deadlines: stereo missed"):
