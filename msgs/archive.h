@@ -115,9 +115,9 @@ Bytes read_sealed(const std::filesystem::path& file, std::size_t limit);
 // Returns a number as a message shows it, with as many digits as it needs.
 template <class T>
 requires std::is_arithmetic_v<T> std::string shown(T value) {
-  if constexpr (std::is_same_v<T, bool>)
+  if constexpr (std::is_same_v<T, bool>) {
     return value ? "true" : "false";
-  else {
+  } else {
     std::array<char, 32> text{};
     return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
   }
@@ -213,10 +213,11 @@ requires(std::same_as<Sequence, std::string> ||
     length = ar.length();
     const std::size_t at_once = ar.bytes_left() / sizeof(Value);
     if (as_bytes && length > at_once) ar.fail("a length that the archive cannot hold");
-    if constexpr (as_bytes)
+    if constexpr (as_bytes) {
       values.resize(length);
-    else
+    } else {
       values.reserve(std::min(length, at_once));
+    }
   } else {
     ar(std::uint64_t{length});
   }

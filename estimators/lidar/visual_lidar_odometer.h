@@ -22,8 +22,8 @@ class VisualLidarOdometer {
   VisualLidarOdometer(const Eigen::Isometry3d& T_body_velo, const LidarParameters& parameters)
       : VisualLidarOdometer(LidarOdometry(T_body_velo, parameters),
                             DisparityCorrection(parameters)) {}
-  VisualLidarOdometer(LidarOdometry odometry, DisparityCorrection correction)
-      : odometry_(std::move(odometry)), correction_(std::move(correction)) {}
+  VisualLidarOdometer(LidarOdometry odometry, const DisparityCorrection& correction)
+      : odometry_(std::move(odometry)), correction_(correction) {}
 
   // One step; nullptr: there is no scan, or no visual motion. With a scan, a visual motion is an
   // independent measurement and is used uncorrected. Without one it is corrected and, if it begins
