@@ -1,9 +1,8 @@
 #include <cmath>
-#include <deque>
 
 #include "msgs/frames.h"
-#include "msgs/local_frame.h"
 #include "sensors/bag/topic_stream.h"
+#include "sensors/gnss/velocity_from_positions.h"
 
 namespace maploop::sensors {
 namespace {
@@ -68,10 +67,7 @@ class FixMaker {
   void set_velocity(GnssFix& fix) {
     const double sigma = stream_.settings().parameters.gnss_velocity_sigma;
     constexpr Duration oldest = std::chrono::milliseconds(500);
-    constexpr double unknown = 100.0;  // m/s
-    fix.velocity_stamp = fix.stamp;
-    fix.velocity_enu.setZero();
-    fix.velocity_covariance = unknown * unknown * Eigen::Matrix3d::Identity();
+    VelocityFromPositions::set_unknown(fix);
     if (has_velocity_) {
       if (!velocity_ || !input_limits::within(oldest, velocity_stamp_, fix.stamp)) return;
       fix.velocity_enu = *velocity_;
@@ -79,42 +75,15 @@ class FixMaker {
       fix.velocity_covariance = sigma * sigma * Eigen::Matrix3d::Identity();
       return;
     }
-    take_difference(fix);
+    derivative_.set_velocity(fix);
   }
-
-  // Takes the derivative of the parabola through this fix and those a second and two before.
-  void take_difference(GnssFix& fix) {
-    constexpr Duration step = std::chrono::milliseconds(900), longest = std::chrono::seconds(4);
-    if (earlier_.empty() || fix.stamp - earlier_.front().stamp >= step) {
-      if (earlier_.size() == 2) {
-        const Eigen::Vector3d a = LocalFrame(fix.position).to_enu(earlier_[0].position);
-        const Eigen::Vector3d b = LocalFrame(fix.position).to_enu(earlier_[1].position);
-        const double t = to_seconds(fix.stamp - earlier_[0].stamp);
-        const double u = to_seconds(fix.stamp - earlier_[1].stamp);
-        const double of_a = u / (t * (u - t)), of_b = t / (u * (u - t));
-        if (fix.stamp - earlier_[1].stamp <= longest) {
-          fix.velocity_enu = of_b * b - of_a * a;
-          constexpr double noise = 0.2;  // m, of a fix against those of the seconds before it
-          const double sigma = noise * Eigen::Vector3d(1.0 / t + 1.0 / u, of_a, of_b).norm();
-          fix.velocity_covariance = sigma * sigma * Eigen::Matrix3d::Identity();
-        }
-        earlier_.pop_back();
-      }
-      earlier_.push_front({fix.stamp, fix.position});
-    }
-  }
-
-  struct EarlierFix {
-    Time stamp{};
-    Geodetic position;
-  };
 
   TopicStream stream_;
   Topic gnss_;
   bool has_velocity_;
   std::optional<Eigen::Vector3d> velocity_;
   Time velocity_stamp_{};
-  std::deque<EarlierFix> earlier_;  // the last one first
+  VelocityFromPositions derivative_;
   std::uint64_t fixes_ = 0;
 };
 

@@ -64,11 +64,11 @@ class Chooser {
       std::vector<std::string> there;
       for (const Topic* topic : topics_) there.push_back(topic->name);
       throw std::runtime_error("the recording has no topic '" + name + "' for " +
-                               std::string(to_string(sensor)) + "; it has " + joined(there));
+                               std::string(maploop::to_string(sensor)) + "; it has " + joined(there));
     }
     if (const std::string problem = problem_as(sensor, **found); !problem.empty()) {
       throw std::runtime_error("the topic '" + name + "' cannot be " +
-                               std::string(to_string(sensor)) + ": " + problem);
+                               std::string(maploop::to_string(sensor)) + ": " + problem);
     }
     choice_.topics[sensor] = **found;
   }
@@ -112,7 +112,7 @@ class Chooser {
 
  private:
   [[noreturn]] static void ask_for(BagSensor which, const std::vector<std::string>& names) {
-    const std::string sensor(to_string(which));
+    const std::string sensor(maploop::to_string(which));
     throw std::runtime_error("several topics can be the sensor " + sensor + ": " + joined(names) +
                              "; choose one with --topic " + sensor + "=" + names.front() +
                              ", or none with --topic " + sensor +

@@ -1,16 +1,17 @@
 #include "sensors/cloud/scan_folder.h"
 
 #include <algorithm>
-#include <cstring>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "msgs/input_file.h"
 #include "msgs/input_limits.h"
+#include "sensors/bag/cloud_messages.h"
 #include "sensors/cloud/cloud_file.h"
 #include "sensors/cloud/time_unit.h"
-#include "sensors/replay/files.h"
+#include "sensors/folder/stamps.h"
 #include "sensors/replay/velodyne_source.h"
 
 namespace maploop::sensors {
@@ -25,35 +26,9 @@ path kind_of(const path& file) {
 
 std::vector<path> scans_in(const path& folder) {
   std::vector<path> files;
-  std::error_code error;
-  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    const path kind = kind_of(entry->path());
-    if (kind == ".pcd" || kind == ".ply" || kind == ".bin") files.push_back(entry->path());
-  }
-  std::sort(files.begin(), files.end(), [](const path& a, const path& b) {
-    return strverscmp(a.filename().c_str(), b.filename().c_str()) < 0;
-  });
+  for (const std::string& name : files_of_kind(folder, {".pcd", ".ply", ".bin"}))
+    files.push_back(folder / name);
   return files;
-}
-
-std::vector<Time> read_stamps(const path& file) {
-  const std::string text = read_text(file);
-  std::vector<Time> stamps;
-  for (const std::string_view line : split_lines(text)) {
-    const std::string place = file.string() + ':' + std::to_string(stamps.size() + 1) + ": ";
-    try {
-      stamps.push_back(line.find(':') != std::string_view::npos
-                           ? parse_time(line)
-                           : Time(checked_seconds(parse_numbers(line).at(0))));
-    } catch (const std::logic_error&) {
-      throw std::runtime_error(place + quoted(line) +
-                               " is neither seconds nor YYYY-MM-DD hh:mm:ss.fraction");
-    }
-    if (stamps.size() > 1 && stamps.back() <= stamps[stamps.size() - 2])
-      throw std::runtime_error(place + "the stamps do not increase");
-  }
-  return stamps;
 }
 
 // Returns the times in seconds after their middle.
@@ -79,20 +54,35 @@ bool ScanFolder::is(const path& folder) {
 }
 
 ScanFolder::ScanFolder(const path& folder, path stamps) : files_(scans_in(folder)) {
-  constexpr Duration turn = std::chrono::milliseconds(100);
   const std::string scans = "'" + folder.string() + "' has " + std::to_string(files_.size()) +
                             " scans (.pcd, .ply, .bin)";
   if (files_.empty() || files_.size() > input_limits::frames)
     throw std::runtime_error(scans + " in place of 1 to " + std::to_string(input_limits::frames));
-  std::error_code ignored;
-  if (stamps.empty() && std::filesystem::exists(folder / "timestamps.txt", ignored))
-    stamps = folder / "timestamps.txt";
-  stamped_ = !stamps.empty();
-  if (stamped_) stamps_ = read_stamps(stamps);
+  find_stamps(folder, std::move(stamps));
+}
+
+void ScanFolder::find_stamps(const path& folder, path file) {
+  constexpr Duration turn = std::chrono::milliseconds(100);
+  if (file.empty()) file = times_file(folder).value_or(path());
+  if (file.empty()) {
+    const auto above = times_file(std::filesystem::absolute(folder).parent_path());
+    if (above && read_times(*above).size() == files_.size()) file = *above;
+  }
+  if (!file.empty()) stamps_ = read_times(file);
+  stamped_ = !file.empty();
+  if (!stamped_) {
+    std::vector<std::string> names;
+    for (const path& scan : files_) names.push_back(scan.filename().string());
+    if (auto stamps = stamps_in_names(names)) {
+      stamps_ = std::move(*stamps);
+      stamped_ = true;
+    }
+  }
   for (std::size_t i = 0; !stamped_ && i < files_.size(); ++i)
     stamps_.emplace_back(turn * static_cast<std::int64_t>(i));
   if (stamps_.size() != files_.size()) {
-    throw std::runtime_error(scans + ", but " + stamps.string() + " has " +
+    throw std::runtime_error("'" + folder.string() + "' has " + std::to_string(files_.size()) +
+                             " scans (.pcd, .ply, .bin), but " + file.string() + " has " +
                              std::to_string(stamps_.size()) + " stamps: each scan needs a line");
   }
 }
@@ -101,7 +91,7 @@ bool ScanFolder::next(LidarScan& scan) {
   while (next_ < files_.size()) {
     const std::size_t i = next_++;
     try {
-      read(files_[i], scan.points);
+      if (stamps_[i] > passed_) read(files_[i], scan.points);
     } catch (const FileError& error) {
       report_.refuse({files_[i].string(), 0, error.reason()});
       continue;
@@ -132,14 +122,65 @@ void ScanFolder::read(const path& file, std::vector<LidarPoint>& points) {
   points = std::move(cloud.points);
 }
 
+std::string ScanFolder::assumption() const {
+  return stamped_ ? "" : "Scans are taken to be 0.1 s apart: no file has their stamps.";
+}
+
 std::string ScanFolder::remarks() const {
   std::string text = timed_ ? "Points are corrected for the motion by the time of each.\n"
                             : "Points are not corrected for the motion during a scan, because they "
                               "have no field of times.\n";
-  if (!stamped_) text += "Scans are taken to be 0.1 s apart: no file has their stamps.\n";
+  if (!stamped_) text += assumption() + '\n';
   for (const Finding& refused : report_.refusals)
     text += refused.file + ": left out: " + refused.reason + '\n';
   return text;
+}
+
+namespace {
+
+class ScanSource final : public Source<LidarScan> {
+ public:
+  ScanSource(const path& folder, Duration max_turn, Time passed)
+      : scans_(folder), turns_(max_turn) {
+    scans_.pass_until(passed);
+  }
+
+  bool next(LidarScan& scan) override {
+    while (true) {
+      if (turns_.next(scan)) {
+        scan.available = scan.end;
+        if (scan.stamp > last_) break;
+        continue;
+      }
+      if (!scans_.next(scan_)) return false;
+      if (scans_.times().empty()) {
+        std::swap(scan, scan_);
+        break;
+      }
+      timed_.points = scan_.points;
+      timed_.times.clear();
+      for (const float time : scans_.times())
+        timed_.times.push_back(scan_.stamp + from_seconds(static_cast<double>(time)));
+      turns_.add(timed_);
+    }
+    last_ = scan.stamp;
+    return true;
+  }
+  const SourceReport& report() const override { return scans_.report(); }
+
+ private:
+  ScanFolder scans_;
+  CloudTurns turns_;
+  LidarScan scan_;
+  TimedCloud timed_;
+  Time last_ = Time::min();
+};
+
+}  // namespace
+
+std::unique_ptr<Source<LidarScan>> make_scan_source(const path& folder, Duration max_turn,
+                                                    Time passed) {
+  return std::make_unique<ScanSource>(folder, max_turn, passed);
 }
 
 }  // namespace maploop::sensors

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,9 +23,9 @@ class ScanFolder final : public Source<LidarScan> {
  public:
   static bool is(const std::filesystem::path& folder);  // contains a scan
 
-  // A file of stamps has a line for each scan: a number of seconds, or KITTI's time stamp
-  // (replay/timestamps.h). If none is named (empty path), it is timestamps.txt in the folder, and
-  // without that, scans are 0.1 s apart. Throws std::runtime_error that names the folder without a
+  // A file of stamps has a line for each scan (folder/stamps.h). If none is named (empty path), it
+  // is timestamps.txt or times.txt in the folder or in the one above it; without that the names of
+  // the scans are their stamps; and if they are not, scans are 0.1 s apart. Throws std::runtime_error that names the folder without a
   // scan, or the file of stamps and what is wrong in which line.
   explicit ScanFolder(const std::filesystem::path& folder, std::filesystem::path stamps = {});
 
@@ -37,18 +38,32 @@ class ScanFolder final : public Source<LidarScan> {
   // 0.5 to 500 ms.
   std::span<const float> times() const { return times_; }
 
+  const std::vector<Time>& stamps() const { return stamps_; }
+  // Scans with a stamp up to this one are delivered without points, and are not read.
+  void pass_until(Time passed) { passed_ = passed; }
+
+  // Says how the scans are stamped, if that is assumed; an empty text if it is known.
+  std::string assumption() const;
+
   // Returns sentences about the stamps, the times and the unreadable scans so far.
   std::string remarks() const;
 
  private:
   void read(const std::filesystem::path& file, std::vector<LidarPoint>& points);
+  void find_stamps(const std::filesystem::path& folder, std::filesystem::path file);
 
   std::vector<std::filesystem::path> files_;
   std::vector<Time> stamps_;
+  Time passed_ = Time::min();
   std::size_t next_ = 0;
   std::vector<float> times_;
   bool stamped_ = false, timed_ = false;
   SourceReport report_;
 };
+
+// Returns the scans of a folder as a vehicle takes them. If the points have times, turns from rear
+// to rear are assembled of them, as from a bag's clouds (bag/cloud_messages.h).
+std::unique_ptr<Source<LidarScan>> make_scan_source(const std::filesystem::path& folder,
+                                                    Duration max_turn, Time passed);
 
 }  // namespace maploop::sensors

@@ -40,6 +40,9 @@ struct CalibrationFiles {
   void read_cameras() { text.cam_to_cam = cameras = read_calibration_text(text.cam_to_cam_file); }
   void read_mounting() {
     text.velo_to_cam = camera_mounting = read_calibration_text(text.velo_to_cam_file);
+    read_scanner();
+  }
+  void read_scanner() {
     text.imu_to_velo = scanner_mounting = read_calibration_text(text.imu_to_velo_file);
   }
 
@@ -113,6 +116,15 @@ VehicleCalibration read_kitti_calibration(const std::filesystem::path& folder) {
   files.read_cameras();
   files.read_mounting();
   return parse_kitti_calibration(files.text);
+}
+
+VehicleCalibration read_kitti_mounting(const std::filesystem::path& folder) {
+  CalibrationFiles files(folder);
+  files.read_scanner();
+  VehicleCalibration calibration;
+  calibration.T_body_velo = body_velo(files.text);
+  if (is_kitti_car(files.text)) describe_kitti_car(calibration);
+  return calibration;
 }
 
 VehicleCalibration read_kitti_calibration(const std::filesystem::path& folder, const StereoRig& rig,

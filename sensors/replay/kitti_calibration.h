@@ -52,6 +52,9 @@ VehicleCalibration read_kitti_calibration(const std::filesystem::path& folder);
 VehicleCalibration read_kitti_calibration(const std::filesystem::path& folder, const StereoRig& rig,
                                           bool with_velodyne);
 
+// Reads the mounting of the scanner alone: calib_imu_to_velo.txt.
+VehicleCalibration read_kitti_mounting(const std::filesystem::path& folder);
+
 // Returns the raw grey cameras of calib_cam_to_cam.txt (S, K, D, R, T of 00 and 01) and their
 // rectification, without a mounting. Throws as above; `file` names the text.
 StereoRig parse_kitti_rig(std::string_view cam_to_cam, const std::filesystem::path& file);

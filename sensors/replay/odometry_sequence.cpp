@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "sensors/replay/csv_table.h"
+#include "sensors/folder/number_table.h"
 #include "sensors/replay/files.h"
 #include "sensors/replay/kitti_calibration.h"
 #include "sensors/replay/sequence_files.h"
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 // Refuses the rows inside each gap. The rows at its ends are real, except for a first row at the
 // start of the recording.
 void leave_out_gaps(const fs::path& file, OxtsRows& rows) {
-  const CsvTable gaps(file);
+  const NumberTable gaps(file);
   const std::size_t first_row = gaps.column("first_row"), last_row = gaps.column("last_row");
   const auto number = [&rows](double cell) {
     return static_cast<std::size_t>(std::clamp(cell, 0.0, static_cast<double>(rows.rows.size())));
@@ -33,7 +33,7 @@ void leave_out_gaps(const fs::path& file, OxtsRows& rows) {
 }
 
 OxtsRows read_rows(const fs::path& file, Time start) {
-  const CsvTable table(file);
+  const NumberTable table(file);
   if (table.column("t") != 0 || table.column("orimode") != 30) {
     throw std::runtime_error(file.string() + ": the columns must be t and the 30 of OXTS");
   }
@@ -56,7 +56,7 @@ OxtsRows read_rows(const fs::path& file, Time start) {
 
 // Only the inertial columns of these rows are filled.
 OxtsRows read_imu_rows(const fs::path& file, Time start) {
-  const CsvTable table(file);
+  const NumberTable table(file);
   const std::size_t t = table.column("t"), ax = table.column("ax"), ay = table.column("ay"),
                     wz = table.column("wz"), interpolated = table.column("interpolated");
   OxtsRows result;

@@ -84,7 +84,10 @@ OxtsRow oxts_row(std::span<const double> value) {
 }
 
 OxtsRows read_oxts(const std::filesystem::path& folder) {
-  Timestamps timestamps = read_timestamps(folder / "timestamps.txt");
+  return read_oxts(folder, read_timestamps(folder / "timestamps.txt"));
+}
+
+OxtsRows read_oxts(const std::filesystem::path& folder, Timestamps timestamps) {
   OxtsRows result;
   result.rows.resize(timestamps.size());
   result.verdicts = std::move(timestamps.verdicts);

@@ -45,5 +45,6 @@ struct OxtsRows {
 // Reads all rows of the folder `oxts` of a drive. Throws std::runtime_error if its timestamps.txt
 // is missing or empty; a row that is missing or unusable gets a verdict.
 OxtsRows read_oxts(const std::filesystem::path& folder);
+OxtsRows read_oxts(const std::filesystem::path& folder, Timestamps timestamps);
 
 }  // namespace maploop::sensors

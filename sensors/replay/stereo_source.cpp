@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "msgs/input_limits.h"
+#include "sensors/image/jpeg.h"
 #include "sensors/image/png.h"
 #include "sensors/replay/frame_source.h"
 
@@ -45,7 +47,8 @@ StereoFrames judge(const ImageFolder& left_folder, const ImageFolder& right_fold
   refuse_out_of_order(frames.stamps, left.file, frames.list.verdicts);
   refuse_out_of_order(frames.list.available, right.file, frames.list.verdicts);
   for (const ImageFolder* folder : {&left_folder, &right_folder}) {
-    auto found = files_without_stamp(folder->data, count);
+    auto found = folder->names.empty() ? files_without_stamp(folder->data, count)
+                                       : folder->unpaired;
     frames.list.unstamped.insert(frames.list.unstamped.end(), found.begin(), found.end());
   }
   return frames;
@@ -53,8 +56,8 @@ StereoFrames judge(const ImageFolder& left_folder, const ImageFolder& right_fold
 
 class StereoSource final : public FrameSource<StereoPair> {
  public:
-  StereoSource(std::filesystem::path left, std::filesystem::path right, StereoFrames frames,
-               int width, int height, Time passed)
+  StereoSource(ImageFolder left, ImageFolder right, StereoFrames frames, int width, int height,
+               Time passed)
       : FrameSource(std::move(frames.list), passed),
         left_(std::move(left)),
         right_(std::move(right)),
@@ -69,13 +72,20 @@ class StereoSource final : public FrameSource<StereoPair> {
 
   void set_stamps(std::size_t i, StereoPair& pair) const override { pair.stamp = stamps_[i]; }
 
-  bool read_image(const std::filesystem::path& folder, std::size_t i, GreyImage& image) {
-    return read_and_parse(
-        folder / numbered_file(i, ".png"), input_limits::picture,
-        [&](const std::vector<char>& bytes) { decode_grey_png(bytes, width_, height_, image); });
+  bool read_image(const ImageFolder& folder, std::size_t i, GreyImage& image) {
+    const auto file =
+        folder.data / (folder.names.empty() ? numbered_file(i, ".png") : folder.names[i]);
+    return read_and_parse(file, input_limits::picture, [&](const std::vector<char>& bytes) {
+      if (!folder.any_kind) return decode_grey_png(bytes, width_, height_, image);
+      image = is_png(bytes) ? decode_any_png(bytes) : decode_grey_jpeg(bytes);
+      if (image.width == width_ && image.height == height_) return;
+      throw std::runtime_error("the image is " + std::to_string(image.width) + " x " +
+                               std::to_string(image.height) + ", but the calibration states " +
+                               std::to_string(width_) + " x " + std::to_string(height_));
+    });
   }
 
-  std::filesystem::path left_, right_;
+  ImageFolder left_, right_;
   std::vector<Time> stamps_;
   int width_, height_;
 };
@@ -86,8 +96,8 @@ std::unique_ptr<Source<StereoPair>> make_stereo_source(ImageFolder left, ImageFo
                                                        int width, int height, Duration readout,
                                                        Duration max_skew, Time passed) {
   StereoFrames frames = judge(left, right, readout, max_skew);
-  return std::make_unique<StereoSource>(std::move(left.data), std::move(right.data),
-                                        std::move(frames), width, height, passed);
+  return std::make_unique<StereoSource>(std::move(left), std::move(right), std::move(frames), width,
+                                        height, passed);
 }
 
 }  // namespace maploop::sensors

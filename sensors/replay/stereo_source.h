@@ -1,8 +1,10 @@
-// This file reads the stereo pairs of a KITTI drive from their files.
+// This file reads the stereo pairs of a drive from their files.
 #pragma once
 
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "msgs/image.h"
 #include "sensors/replay/timestamps.h"
@@ -10,10 +12,13 @@
 
 namespace maploop::sensors {
 
-// This is one camera's folder of numbered images.
+// This is one camera's folder of images.
 struct ImageFolder {
   std::filesystem::path data;
   Timestamps timestamps;
+  std::vector<std::string> names = {};  // of the files, relative to `data`; empty: numbered PNG
+  bool any_kind = false;                // also colour, 16 bits and JPEG
+  std::vector<Finding> unpaired = {};   // images that are in no pair
 };
 
 // Pairs left and right images by number. One trigger exposes both, and the host stamps each a

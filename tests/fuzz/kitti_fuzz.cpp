@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "msgs/input_limits.h"
-#include "sensors/replay/csv_table.h"
+#include "sensors/folder/number_table.h"
 #include "sensors/replay/kitti_calibration.h"
 #include "sensors/replay/oxts.h"
 #include "sensors/replay/packed_scan.h"
@@ -72,7 +72,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         read_calibration(text);
         break;
       case 3:
-        (void)CsvTable(file.path());
+        (void)NumberTable(file.path());
         break;
       case 4:
         (void)read_camera_poses(file.path());

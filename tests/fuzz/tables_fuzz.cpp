@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "msgs/input_limits.h"
-#include "sensors/replay/table_recording.h"
+#include "sensors/folder/table_recording.h"
 #include "tests/fuzz/fuzz_input.h"
 
 using namespace maploop;

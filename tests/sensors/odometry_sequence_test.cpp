@@ -7,7 +7,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "sensors/replay/csv_table.h"
+#include "sensors/folder/number_table.h"
 #include "sensors/replay/imu_noise.h"
 #include "tests/sensors/small_drive.h"
 #include "tests/support/error_of.h"
@@ -279,16 +279,16 @@ TEST(ImuNoise, OfAMemsUnitIsOfItsGradeAndTheSameForASeed) {
   for (std::size_t i = 0; i < once.size(); ++i) ASSERT_EQ(once[i].yaw_rate, again[i].yaw_rate);
 }
 
-TEST(CsvTable, NamesFileLineAndWhatIsWrong) {
+TEST(NumberTable, NamesFileLineAndWhatIsWrong) {
   const auto write = [](const std::string& text) {
     const fs::path file = fs::path(::testing::TempDir()) / "table.csv";
     std::ofstream(file) << text;
     return file;
   };
   const auto refusal = [&](const std::string& text) {
-    return error_of([&] { CsvTable table(write(text)); });
+    return error_of([&] { NumberTable table(write(text)); });
   };
-  const CsvTable good(write("a,b\n1,2\r\n3,-4e-1\n"));
+  const NumberTable good(write("a,b\n1,2\r\n3,-4e-1\n"));
   EXPECT_EQ(good.size(), 2u);
   EXPECT_EQ(good.row(1)[good.column("b")], -0.4);
   EXPECT_THROW(good.column("c"), std::runtime_error);
@@ -297,14 +297,14 @@ TEST(CsvTable, NamesFileLineAndWhatIsWrong) {
   EXPECT_THAT(refusal(""), HasSubstr("no heading"));
 }
 
-TEST(CsvTable, ReportsDamagedGzipData) {
+TEST(NumberTable, ReportsDamagedGzipData) {
   const fs::path file = fs::path(::testing::TempDir()) / "cut.csv.gz";
   const gzFile out = gzopen(file.c_str(), "wb");
   const std::string text = "a,b\n" + std::string(1000, '1') + ",2\n";
   gzwrite(out, text.data(), static_cast<unsigned>(text.size()));
   gzclose(out);
   fs::resize_file(file, fs::file_size(file) - 6);
-  EXPECT_THAT(error_of([&] { CsvTable table(file); }), HasSubstr("damaged or cut"));
+  EXPECT_THAT(error_of([&] { NumberTable table(file); }), HasSubstr("damaged or cut"));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // These tests replay drives that are tables of fixes and inertial samples.
-#include "sensors/replay/table_recording.h"
+#include "sensors/folder/table_recording.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 #include "msgs/frames.h"
 #include "msgs/input_file.h"
-#include "sensors/replay/csv_table.h"
+#include "sensors/folder/number_table.h"
 #include "sensors/replay/sequence_files.h"
 #include "tests/sensors/small_drive.h"
 #include "tests/support/error_of.h"
@@ -211,7 +211,7 @@ TEST(OakvilleDrives, TheMountAgreesWithTheReceivers) {
     const std::string name = entry.path().filename();
     found[name] = mount.R_body_unit;
     if (name == never_aligned) continue;
-    const CsvTable peers(*existing_table(entry.path() / "reference_mount.csv"));
+    const NumberTable peers(*existing_table(entry.path() / "reference_mount.csv"));
     const auto row = peers.row(peers.size() - 1);
     const auto radians_of = [&](const char* name) { return radians(row[peers.column(name)]); };
     const Eigen::Matrix3d peer =

@@ -1,5 +1,5 @@
 // Least squares adjustment of both cameras, their relative pose and the pose of the board in each
-// view; its starting values, and the rectified cameras that follow from it.
+// view; and its starting values.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -82,12 +82,5 @@ struct StartingValues {
 // for the pose between the cameras. Throws std::runtime_error if no camera fits.
 StartingValues starting_values(const Board& board, const std::vector<View>& views, int width,
                                int height);
-
-// Each camera is turned by half of the rotation between them, then both are turned so that x points
-// from the left to the right one (Bouguet). The rectified image has the raw image's size and the
-// largest field of view in which the raw cameras see every pixel of both images. Throws
-// std::runtime_error if the right camera is not to the right of the left one, or if no such field
-// remains.
-sensors::StereoRig rectify(const Cameras& cameras, int width, int height);
 
 }  // namespace maploop::calibrate

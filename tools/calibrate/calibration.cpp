@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sensors/camera/rectification.h"
 #include "tools/command/median.h"
 
 namespace maploop::calibrate {
@@ -193,7 +194,8 @@ StereoResult calibrate(const Board& board, std::vector<View> views, int width, i
   }
   result.tilt = tilt_spread(result.adjustment.T_left_board);
   require_different_tilts(result);
-  result.rig = rectify(result.adjustment.cameras, width, height);
+  const Cameras& cameras = result.adjustment.cameras;
+  result.rig = sensors::rectify(cameras.left, cameras.right, cameras.T_right_left, width, height);
   for (std::size_t v = 0; v < views.size(); ++v)
     result.views.push_back(
         {views[v], result.adjustment.residuals[v], result.adjustment.T_left_board[v]});

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "msgs/frames.h"
-#include "sensors/replay/csv_table.h"
+#include "sensors/folder/number_table.h"
 #include "sensors/replay/sequence_files.h"
-#include "sensors/replay/table_recording.h"
+#include "sensors/folder/table_recording.h"
 #include "tools/command/median.h"
 #include "tools/command/option_checks.h"
 #include "tools/experiment/experiments.h"
@@ -76,7 +76,7 @@ std::string apart(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
 std::optional<Eigen::Matrix3d> receivers_mount(const fs::path& folder) {
   const auto file = sensors::existing_table(folder / "reference_mount.csv");
   if (!file) return std::nullopt;
-  const sensors::CsvTable table(*file);
+  const sensors::NumberTable table(*file);
   if (table.size() == 0) return std::nullopt;
   const auto row = table.row(table.size() - 1);
   return rotation(row[table.column("roll_deg")], row[table.column("pitch_deg")],

@@ -1,10 +1,25 @@
-#include "sensors/replay/files.h"
-#include "sensors/replay/keyed_text.h"
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "sensors/folder/euroc.h"
+#include "sensors/folder/kitti_360.h"
 #include "sensors/replay/kitti_calibration.h"
 #include "tools/vehicle/vehicle_tool.h"
 
 namespace maploop::vehicle_tool {
+namespace {
+
 namespace fs = std::filesystem;
+
+// Says which axis of B an axis of the body is, such as "-y".
+std::string axis_name(const Eigen::RowVector3d& axis) {
+  Eigen::Index i = 0;
+  axis.cwiseAbs().maxCoeff(&i);
+  return std::string(axis[i] < 0.0 ? "-" : "") + "xyz"[i];
+}
+
+}  // namespace
 
 Converted from_kitti(const fs::path& folder) {
   std::error_code ignored;
@@ -21,27 +36,34 @@ Converted from_kitti_360(const fs::path& given) {
   std::error_code ignored;
   const fs::path folder =
       fs::is_directory(given / "calibration", ignored) ? given / "calibration" : given;
-  const std::string perspective_text = sensors::read_calibration_text(folder / "perspective.txt");
-  const std::string pose_text = sensors::read_calibration_text(folder / "calib_cam_to_pose.txt");
-  // This file has numbers without a key.
-  const std::string velo_text =
-      "cam_to_velo: " + sensors::read_calibration_text(folder / "calib_cam_to_velo.txt");
-  const sensors::KeyedText perspective(perspective_text, folder / "perspective.txt");
-  const sensors::KeyedText pose(pose_text, folder / "calib_cam_to_pose.txt");
-  const sensors::KeyedText velo(velo_text, folder / "calib_cam_to_velo.txt");
-
-  Eigen::Isometry3d T_body_imu = Eigen::Isometry3d::Identity();
-  T_body_imu.linear() = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
-  const Eigen::Isometry3d T_body_raw = T_body_imu * pose.rigid("image_00");
-  VehicleCalibration calibration;
-  calibration.stereo = sensors::parse_rectified_pair(perspective);
-  calibration.stereo.T_body_cam =
-      T_body_raw * Eigen::Isometry3d(perspective.rotation("R_rect_00")).inverse();
-  calibration.T_body_velo = T_body_raw * velo.rigid("cam_to_velo").inverse();
-  Converted converted{description_of(calibration),
+  Converted converted{description_of(sensors::read_kitti_360_calibration(folder)),
                       {},
                       "KITTI-360's IMU has x forward, y right, z down: y and z are reversed here."};
   converted.description.lidar.model = "HDL-64E";
+  return converted;
+}
+
+Converted from_euroc(const fs::path& given) {
+  std::error_code ignored;
+  const fs::path folder = fs::is_directory(given / "mav0", ignored) ? given / "mav0" : given;
+  if (!fs::exists(folder / "imu0/sensor.yaml", ignored))
+    throw std::runtime_error("'" + folder.string() + "' has no imu0/sensor.yaml");
+  const sensors::EurocCalibration found = sensors::read_euroc_calibration(folder);
+  Converted converted;
+  VehicleDescription& d = converted.description;
+  converted.cameras = found.cameras;
+  set_camera_pose(
+      *found.cameras.T_body_left * Eigen::Isometry3d(found.cameras.R_rect_left).inverse(),
+      d.camera.position, d.camera.rotation);
+  d.camera.position.forward_sigma = d.camera.position.left_sigma = d.camera.position.up_sigma =
+      0.005;
+  d.camera.rotation.roll_sigma = d.camera.rotation.pitch_sigma = d.camera.rotation.yaw_sigma = 0.2;
+  SensorPosition origin;
+  set_sensor_pose(Eigen::Isometry3d(found.R_body_imu), origin, d.imu.rotation);
+  d.imu.rotation.roll_sigma = d.imu.rotation.pitch_sigma = d.imu.rotation.yaw_sigma = 0.5;
+  const Eigen::Matrix3d& R = found.R_body_B;
+  converted.note = "The body's x, y, z are " + axis_name(R.row(0)) + ", " + axis_name(R.row(1)) +
+                   ", " + axis_name(R.row(2)) + " of EuRoC's B.";
   return converted;
 }
 

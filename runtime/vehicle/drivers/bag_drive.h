@@ -11,6 +11,8 @@ namespace maploop::vehicle {
 struct FusedSensors {
   bool motion = false;  // of a camera, a LiDAR or wheels
   bool inertial = false;
+  bool wheels = false;  // their speed is the only motion
+  bool mems = true;     // the grade of the inertial unit is not known
 };
 
 // Reads the index of the bag. Throws std::runtime_error naming what is wrong.

@@ -9,6 +9,7 @@
 #include "msgs/lcm/channel_names.h"
 #include "runtime/vehicle/drivers/bag_drive.h"
 #include "runtime/vehicle/drivers/capture_drive.h"
+#include "runtime/vehicle/drivers/folder_recording.h"
 #include "runtime/vehicle/drivers/gnss_drive.h"
 #include "runtime/vehicle/drivers/recorded_tracks.h"
 #include "runtime/vehicle/drivers/stereo_rig_file.h"
@@ -17,12 +18,10 @@
 #include "runtime/vehicle/graph/graph.h"
 #include "sensors/bag/message_reader.h"
 #include "sensors/replay/imu_noise.h"
-#include "sensors/replay/kitti_drive.h"
 #include "sensors/replay/log_recording.h"
 #include "sensors/replay/odometry_sequence.h"
 #include "sensors/replay/pose_odometry.h"
 #include "sensors/replay/sequence_files.h"
-#include "sensors/replay/table_recording.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -49,46 +48,6 @@ std::optional<sensors::WheelOdometerParameters> wheel_of(const VehicleConfig& co
 void use_observations(Sensors& s, const std::shared_ptr<const GnssDrive>& drive) {
   s.epochs = GnssDrive::epochs(drive);
   s.ppp = {drive, &drive->setup()};  // this pointer keeps the drive alive
-}
-
-// Returns a receiver's observations beside the drive's other sensors; nullptr if there are none.
-std::shared_ptr<const GnssDrive> observations_of(const sensors::KittiDrive& drive,
-                                                 const VehicleConfig& config) {
-  const std::filesystem::path gnss = drive.folder() / "gnss";
-  if (!config.ppp.observations || !is_gnss_drive(gnss)) return nullptr;
-  return std::make_shared<const GnssDrive>(gnss, config);
-}
-
-std::shared_ptr<const sensors::KittiDrive> open_drive(const std::filesystem::path& folder,
-                                                      const VehicleConfig& config) {
-  const auto drive =
-      std::make_shared<sensors::KittiDrive>(folder, config.replay, raw_cameras(config));
-  drive->set_calibration(described(config, drive->calibration()));
-  return drive;
-}
-
-Recording open_folder(const std::filesystem::path& folder, const VehicleConfig& config) {
-  auto drive = open_drive(folder, config);
-  auto epochs = observations_of(*drive, config);
-  Recording recording = make_recording(
-      *drive, [drive, epochs, gnss = config.gnss, wheel = wheel_of(config)](Time passed) {
-        Sensors s;
-        s.camera = drive->camera(passed);
-        if (drive->has_velodyne()) s.velodyne = drive->velodyne(passed);
-        if (drive->has_oxts()) {
-          s.imu = drive->imu();
-          if (epochs == nullptr) s.gnss = drive->gnss(gnss);
-          if (wheel) s.wheel = drive->wheel(*wheel);
-          s.reference = drive->reference();
-        }
-        if (epochs != nullptr) use_observations(s, epochs);
-        return s;
-      });
-  std::error_code ignored;
-  const auto labels = drive->folder().parent_path() / "driven_links.csv";
-  if (std::filesystem::exists(labels, ignored))
-    recording.driven_links = {labels, drive->image_stamps()};
-  return recording;
 }
 
 Recording open_sequence(const std::filesystem::path& path, const VehicleConfig& config) {
@@ -180,7 +139,7 @@ Recording open_any(const std::filesystem::path& path, const VehicleConfig& confi
   }
   if (sensors::is_bag(path)) return open_bag(path, config);
   if (is_capture(path)) return open_capture(path, config);
-  if (sensors::TableRecording::is_named(path)) return open_tables(path, config);
+  if (is_table_drive(path)) return open_tables(path, config);
   if (is_gnss_drive(path)) return open_gnss(path, config);
   return std::filesystem::is_regular_file(path, ignored) ? open_log(path)
                                                          : open_folder(path, config);
@@ -240,14 +199,19 @@ Recording open_recording(const std::filesystem::path& path, const VehicleConfig&
 }
 
 void fit_to_recording(VehicleConfig& config, const std::filesystem::path& path) {
-  const bool tables = sensors::TableRecording::is_named(path);
-  if (!tables && !sensors::is_bag(path)) return;
-  const FusedSensors there =
-      tables ? FusedSensors{false, sensors::existing_table(path / "imu.csv").has_value()}
-             : fused_sensors_of_bag(path, config.bag);
-  if (!there.motion && !config.is_given("", "configuration"))
-    set_configuration(config, there.inertial ? "GNSS+RI" : "GNSS");
-  if (!config.is_given("", "imu_grade")) set_imu_grade(config, "mems");
+  std::optional<FusedSensors> there;
+  if (sensors::is_bag(path)) {
+    there = fused_sensors_of_bag(path, config.bag);
+  } else if (is_table_drive(path)) {
+    there = fused_sensors_of(*find_table_mapping(path));
+  } else {
+    there = fused_sensors_of_folder(path);
+  }
+  if (!there) return;
+  if (!there->motion && !config.is_given("", "configuration")) {
+    set_configuration(config, !there->inertial ? "GNSS" : there->wheels ? "GNSS+RISS" : "GNSS+RI");
+  }
+  if (there->mems && !config.is_given("", "imu_grade")) set_imu_grade(config, "mems");
 }
 
 fusion::KnownStart start_from_reference(const Recording& recording) {

@@ -1,5 +1,5 @@
-// This file replays a drive given as tables: a GNSS receiver's fixes, and the samples of an
-// inertial unit in any mount.
+// This file replays a drive given as tables: fixes, inertial samples in any mount, wheel speeds,
+// and a reference.
 #pragma once
 
 #include <cstddef>
@@ -8,19 +8,16 @@
 
 #include "msgs/gnss.h"
 #include "msgs/reference.h"
+#include "msgs/wheel_speed.h"
+#include "sensors/folder/table_mapping.h"
+#include "sensors/folder/table_rows.h"
 #include "sensors/imu/aligned_imu.h"
 #include "sensors/source.h"
 
 namespace maploop::sensors {
 
-// Holds the samples of one table, and what is wrong with each.
-template <class T>
-struct TableRows;
-
-// sensors/FORMATS.md describes the files, each plain or .gz: gnss.csv, and optionally imu.csv,
-// reference_position.csv and reference_attitude.csv. All are read at once; the sources may outlive
-// the recording. Everything is available at its own stamp. A row with a wrong value or stamp is
-// left out and reported by its source.
+// All tables are read at once; the sources may outlive the recording. Everything is available at
+// its own stamp. A row with a wrong value or stamp is left out and reported by its source.
 class TableRecording {
  public:
   // Returns whether the path is a folder with gnss.csv or imu.csv.
@@ -29,17 +26,24 @@ class TableRecording {
   // Throws std::runtime_error that names file and line: a needed file or column is missing, a line
   // is not the numbers of the heading, or no row of a table can be used (the reference's excepted:
   // a receiver may never have started it).
+  explicit TableRecording(const TableMapping& mapping);
+  // Reads plain_tables(folder), of which gnss.csv is needed.
   explicit TableRecording(const std::filesystem::path& folder);
 
+  bool has_gnss() const { return gnss_ != nullptr; }
   bool has_imu() const { return imu_ != nullptr; }
+  bool has_wheel() const { return wheel_ != nullptr; }
   bool has_reference() const { return reference_ != nullptr; }
+  bool has_anything() const { return has_gnss() || has_imu() || has_wheel(); }
+
+  // These are of the usable fixes; if there are none, of the wheel speeds or inertial samples.
   std::size_t fix_count() const;
-  Time first_stamp() const;  // of the usable fixes
+  Time first_stamp() const;
   Time last_stamp() const;
 
-  // Each call returns a new source from the start of the recording.
-
+  // Each call returns a new source from the start of the recording; nullptr: it has no such table.
   std::unique_ptr<Source<GnssFix>> gnss() const;
+  std::unique_ptr<Source<WheelSpeed>> wheel() const;
   // Finds the unit's mount with `fixes`, which are those that the vehicle has. Throws
   // std::runtime_error if the recording has no inertial samples.
   std::unique_ptr<AlignedImu> imu(std::unique_ptr<Source<GnssFix>> fixes,
@@ -49,15 +53,16 @@ class TableRecording {
   // where nothing else is known.
   static constexpr double cabin_ahead = 1.5;  // m
 
-  // The receiver's own fusion; the accuracy that it states for each row is `reference_accuracy`,
-  // because the tables state none.
   std::unique_ptr<Source<ReferencePose>> reference() const;
-  static constexpr double reference_accuracy = 1.0;  // m
 
  private:
-  std::shared_ptr<const TableRows<GnssFix>> gnss_;
-  std::shared_ptr<const TableRows<SixAxisSample>> imu_;        // nullptr: none were recorded
-  std::shared_ptr<const TableRows<ReferencePose>> reference_;  // nullptr: there is none
+  template <class F>
+  auto of_main_table(F f) const;
+
+  std::shared_ptr<const TableRows<GnssFix>> gnss_;  // nullptr: there is none
+  std::shared_ptr<const TableRows<SixAxisSample>> imu_;
+  std::shared_ptr<const TableRows<WheelSpeed>> wheel_;
+  std::shared_ptr<const TableRows<ReferencePose>> reference_;
 };
 
 }  // namespace maploop::sensors

@@ -1,12 +1,12 @@
-// Computes the rectified cameras for a pair of raw cameras.
+#include "sensors/camera/rectification.h"
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
-#include "tools/calibrate/board_adjustment.h"
-
-namespace maploop::calibrate {
+namespace maploop::sensors {
 namespace {
 
 constexpr int steps = 200;      // samples along a border
@@ -22,10 +22,10 @@ struct Field {
 
 // Shrinks the field to the inside of a raw image's border. Border pixels without a ray, which lie
 // beyond the range where the lens was measured, do not restrict it.
-void cut(Field& field, const sensors::CameraModel& camera, const Eigen::Matrix3d& R_rect, int width,
+void cut(Field& field, const CameraModel& camera, const Eigen::Matrix3d& R_rect, int width,
          int height) {
   const auto ray = [&](double u, double v, double otherwise) -> Eigen::Vector2d {
-    const auto raw = sensors::ray_of(camera, {u, v});
+    const auto raw = ray_of(camera, {u, v});
     if (!raw) return Eigen::Vector2d::Constant(otherwise);
     const Eigen::Vector3d turned = R_rect * raw->homogeneous();
     if (!(turned.z() > 0.0)) return Eigen::Vector2d::Constant(otherwise);
@@ -42,15 +42,15 @@ void cut(Field& field, const sensors::CameraModel& camera, const Eigen::Matrix3d
 }
 
 // Whether a raw camera sees the whole border of its rectified image.
-bool sees(const sensors::CameraModel& camera, const Eigen::Matrix3d& R_rect,
-          const sensors::StereoRig& rig) {
+bool sees(const CameraModel& camera, const Eigen::Matrix3d& R_rect,
+          const StereoRig& rig) {
   const StereoCalibration& r = rig.rectified;
   const auto is_seen = [&](double u, double v) {
     constexpr double rounding = 1e-3;  // px
     const Eigen::Vector3d ray =
         R_rect.transpose() * Eigen::Vector3d((u - r.cx) / r.fx, (v - r.cy) / r.fy, 1.0);
     if (!(ray.z() > 0.0)) return false;
-    const auto at = sensors::project(camera, ray.hnormalized());
+    const auto at = project(camera, ray.hnormalized());
     return at && at->minCoeff() > -rounding && at->x() < rig.width - 1.0 + rounding &&
            at->y() < rig.height - 1.0 + rounding;
   };
@@ -70,17 +70,18 @@ Eigen::Matrix3d half(const Eigen::Matrix3d& rotation) {
 
 }  // namespace
 
-sensors::StereoRig rectify(const Cameras& cameras, int width, int height) {
-  sensors::StereoRig rig;
+StereoRig rectify(const CameraModel& left, const CameraModel& right,
+                  const Eigen::Isometry3d& T_right_left, int width, int height) {
+  StereoRig rig;
   rig.width = width;
   rig.height = height;
-  rig.left = cameras.left;
-  rig.right = cameras.right;
-  rig.T_right_left = cameras.T_right_left;
+  rig.left = left;
+  rig.right = right;
+  rig.T_right_left = T_right_left;
 
-  const Eigen::Matrix3d R_half = half(cameras.T_right_left.linear());
+  const Eigen::Matrix3d R_half = half(T_right_left.linear());
   // The vector from the left to the right camera, in the frame half way between their rotations.
-  const Eigen::Vector3d to_right = -(R_half.transpose() * cameras.T_right_left.translation());
+  const Eigen::Vector3d to_right = -(R_half.transpose() * T_right_left.translation());
   if (!(to_right.x() > 0.7 * to_right.norm())) {
     throw std::runtime_error(
         "the right camera does not stand to the right of the left one, but at x " +
@@ -117,4 +118,4 @@ sensors::StereoRig rectify(const Cameras& cameras, int width, int height) {
   return rig;
 }
 
-}  // namespace maploop::calibrate
+}  // namespace maploop::sensors

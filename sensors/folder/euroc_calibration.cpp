@@ -1,17 +1,20 @@
-// Reads sensor.yaml of EuRoC's format: "key: value", "key: [numbers]", and T_BS with data: [16
+// Reads sensor.yaml: "key: value", "key: [numbers]", and T_BS with data: [16
 // numbers] over several lines.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
 
+#include "msgs/vehicle_description.h"
+#include "sensors/camera/rectification.h"
+#include "sensors/folder/euroc.h"
 #include "sensors/replay/files.h"
 #include "sensors/replay/keyed_text.h"
-#include "tools/calibrate/board_adjustment.h"
-#include "tools/vehicle/vehicle_tool.h"
 
-namespace maploop::vehicle_tool {
+namespace maploop::sensors {
 namespace {
 
 namespace fs = std::filesystem;
@@ -19,7 +22,7 @@ namespace fs = std::filesystem;
 class SensorYaml {
  public:
   explicit SensorYaml(const fs::path& file)
-      : file_(file), text_(sensors::read_calibration_text(file)) {
+      : file_(file), text_(read_calibration_text(file)) {
     // Comments are blanked.
     for (std::size_t at = text_.find('#'); at != std::string::npos; at = text_.find('#', at)) {
       const std::size_t end = std::min(text_.find('\n', at), text_.size());
@@ -44,12 +47,12 @@ class SensorYaml {
         list.begin(), list.end(), [](char c) { return c == ',' || c == '\n' || c == '\r'; }, ' ');
     std::vector<double> values;
     try {
-      values = sensors::parse_numbers(list);
+      values = parse_numbers(list);
     } catch (const std::invalid_argument& error) {
       fail(key, error.what());
     }
     if (values.size() != count)
-      fail(key, fmt::format("has {} numbers instead of {}", values.size(), count));
+      fail(key, "has " + std::to_string(values.size()) + " numbers instead of " + std::to_string(count));
     return values;
   }
 
@@ -64,15 +67,15 @@ class SensorYaml {
     const std::vector<double> all = numbers("T_BS", 16);
     const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> printed(all.data());
     const Eigen::Matrix3d rotation = printed.topLeftCorner<3, 3>();
-    const auto nearest = sensors::nearest_rotation(rotation);
-    if (!nearest) fail("T_BS", sensors::why_no_rotation(rotation));
+    const auto nearest = nearest_rotation(rotation);
+    if (!nearest) fail("T_BS", why_no_rotation(rotation));
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
     T.linear() = *nearest;
     T.translation() = printed.topRightCorner<3, 1>();
     return T;
   }
 
-  sensors::CameraModel camera() const {
+  CameraModel camera() const {
     must_be("camera_model", "pinhole");
     must_be("distortion_model", "radial-tangential");
     const std::vector<double> k = numbers("intrinsics", 4);
@@ -112,47 +115,30 @@ Eigen::Matrix3d body_axes(const SensorYaml& yaml, const Eigen::Matrix3d& R_B_cam
   return R_body_B;
 }
 
-// Says which axis of B an axis of the body is, such as "-y".
-std::string axis_name(const Eigen::RowVector3d& axis) {
-  Eigen::Index i = 0;
-  axis.cwiseAbs().maxCoeff(&i);
-  return std::string(axis[i] < 0.0 ? "-" : "") + "xyz"[i];
-}
-
 }  // namespace
 
-Converted from_euroc(const fs::path& given) {
-  std::error_code ignored;
-  const fs::path folder = fs::is_directory(given / "mav0", ignored) ? given / "mav0" : given;
+EurocCalibration read_euroc_calibration(const fs::path& folder) {
   const SensorYaml left(folder / "cam0/sensor.yaml"), right(folder / "cam1/sensor.yaml");
-  const SensorYaml imu(folder / "imu0/sensor.yaml");
+  std::error_code ignored;
+  const fs::path imu_file = folder / "imu0/sensor.yaml";
+  const Eigen::Isometry3d T_B_imu = fs::exists(imu_file, ignored) ? SensorYaml(imu_file).pose()
+                                                                  : Eigen::Isometry3d::Identity();
   const std::vector<double> size = left.numbers("resolution", 2);
   if (right.numbers("resolution", 2) != size) right.fail("resolution", "differs from cam0's");
   for (const double side : size)
     if (!(side >= 16.0 && side <= 16384.0)) left.fail("resolution", "is not 16 to 16384 px");
   const Eigen::Isometry3d T_B_left = left.pose();
-  const Eigen::Matrix3d R_body_B = body_axes(left, T_B_left.linear());
 
-  Converted converted;
-  VehicleDescription& d = converted.description;
-  converted.cameras =
-      calibrate::rectify({left.camera(), right.camera(), right.pose().inverse() * T_B_left},
-                         static_cast<int>(size[0]), static_cast<int>(size[1]));
-  // The body's origin is the inertial unit.
+  EurocCalibration calibration;
+  calibration.R_body_B = body_axes(left, T_B_left.linear());
+  calibration.cameras =
+      rectify(left.camera(), right.camera(), right.pose().inverse() * T_B_left,
+              static_cast<int>(size[0]), static_cast<int>(size[1]));
   const Eigen::Isometry3d T_body_B =
-      Eigen::Isometry3d(R_body_B) * Eigen::Translation3d(-imu.pose().translation());
-  set_camera_pose(T_body_B * T_B_left * Eigen::Isometry3d(converted.cameras->R_rect_left).inverse(),
-                  d.camera.position, d.camera.rotation);
-  d.camera.position.forward_sigma = d.camera.position.left_sigma = d.camera.position.up_sigma =
-      0.005;
-  d.camera.rotation.roll_sigma = d.camera.rotation.pitch_sigma = d.camera.rotation.yaw_sigma = 0.2;
-  SensorPosition origin;
-  set_sensor_pose(T_body_B * imu.pose(), origin, d.imu.rotation);
-  d.imu.rotation.roll_sigma = d.imu.rotation.pitch_sigma = d.imu.rotation.yaw_sigma = 0.5;
-  converted.note =
-      fmt::format("The body's x, y, z are {}, {}, {} of EuRoC's B.", axis_name(R_body_B.row(0)),
-                  axis_name(R_body_B.row(1)), axis_name(R_body_B.row(2)));
-  return converted;
+      Eigen::Isometry3d(calibration.R_body_B) * Eigen::Translation3d(-T_B_imu.translation());
+  calibration.cameras.T_body_left = T_body_B * T_B_left;
+  calibration.R_body_imu = T_body_B.linear() * T_B_imu.linear();
+  return calibration;
 }
 
-}  // namespace maploop::vehicle_tool
+}  // namespace maploop::sensors
