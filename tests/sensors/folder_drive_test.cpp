@@ -4,12 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <functional>
+#include <cstring>
+#include <optional>
 
 #include "sensors/cloud/scan_folder.h"
 #include "sensors/folder/euroc.h"
 #include "sensors/folder/image_lists.h"
 #include "sensors/folder/kitti_360.h"
+#include "sensors/folder/stamps.h"
 #include "tests/sensors/folder_forms.h"
 #include "tests/sensors/small_drive.h"
 #include "tests/support/error_of.h"
@@ -20,6 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using maploop::testing::error_of;
+using maploop::testing::write_as_euroc;
+using maploop::testing::write_as_kitti_360;
+using maploop::testing::write_as_lists;
 using maploop::testing::write_text;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
