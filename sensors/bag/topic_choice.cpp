@@ -64,7 +64,8 @@ class Chooser {
       std::vector<std::string> there;
       for (const Topic* topic : topics_) there.push_back(topic->name);
       throw std::runtime_error("the recording has no topic '" + name + "' for " +
-                               std::string(maploop::to_string(sensor)) + "; it has " + joined(there));
+                               std::string(maploop::to_string(sensor)) + "; it has " +
+                               joined(there));
     }
     if (const std::string problem = problem_as(sensor, **found); !problem.empty()) {
       throw std::runtime_error("the topic '" + name + "' cannot be " +

@@ -42,8 +42,7 @@ void cut(Field& field, const CameraModel& camera, const Eigen::Matrix3d& R_rect,
 }
 
 // Whether a raw camera sees the whole border of its rectified image.
-bool sees(const CameraModel& camera, const Eigen::Matrix3d& R_rect,
-          const StereoRig& rig) {
+bool sees(const CameraModel& camera, const Eigen::Matrix3d& R_rect, const StereoRig& rig) {
   const StereoCalibration& r = rig.rectified;
   const auto is_seen = [&](double u, double v) {
     constexpr double rounding = 1e-3;  // px

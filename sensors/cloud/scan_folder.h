@@ -25,8 +25,9 @@ class ScanFolder final : public Source<LidarScan> {
 
   // A file of stamps has a line for each scan (folder/stamps.h). If none is named (empty path), it
   // is timestamps.txt or times.txt in the folder or in the one above it; without that the names of
-  // the scans are their stamps; and if they are not, scans are 0.1 s apart. Throws std::runtime_error that names the folder without a
-  // scan, or the file of stamps and what is wrong in which line.
+  // the scans are their stamps; and if they are not, scans are 0.1 s apart. Throws
+  // std::runtime_error that names the folder without a scan, or the file of stamps and what is
+  // wrong in which line.
   explicit ScanFolder(const std::filesystem::path& folder, std::filesystem::path stamps = {});
 
   bool next(LidarScan& scan) override;

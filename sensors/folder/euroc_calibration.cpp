@@ -21,8 +21,7 @@ namespace fs = std::filesystem;
 
 class SensorYaml {
  public:
-  explicit SensorYaml(const fs::path& file)
-      : file_(file), text_(read_calibration_text(file)) {
+  explicit SensorYaml(const fs::path& file) : file_(file), text_(read_calibration_text(file)) {
     // Comments are blanked.
     for (std::size_t at = text_.find('#'); at != std::string::npos; at = text_.find('#', at)) {
       const std::size_t end = std::min(text_.find('\n', at), text_.size());
@@ -52,7 +51,8 @@ class SensorYaml {
       fail(key, error.what());
     }
     if (values.size() != count)
-      fail(key, "has " + std::to_string(values.size()) + " numbers instead of " + std::to_string(count));
+      fail(key,
+           "has " + std::to_string(values.size()) + " numbers instead of " + std::to_string(count));
     return values;
   }
 
@@ -121,8 +121,8 @@ EurocCalibration read_euroc_calibration(const fs::path& folder) {
   const SensorYaml left(folder / "cam0/sensor.yaml"), right(folder / "cam1/sensor.yaml");
   std::error_code ignored;
   const fs::path imu_file = folder / "imu0/sensor.yaml";
-  const Eigen::Isometry3d T_B_imu = fs::exists(imu_file, ignored) ? SensorYaml(imu_file).pose()
-                                                                  : Eigen::Isometry3d::Identity();
+  const Eigen::Isometry3d T_B_imu =
+      fs::exists(imu_file, ignored) ? SensorYaml(imu_file).pose() : Eigen::Isometry3d::Identity();
   const std::vector<double> size = left.numbers("resolution", 2);
   if (right.numbers("resolution", 2) != size) right.fail("resolution", "differs from cam0's");
   for (const double side : size)
@@ -131,9 +131,8 @@ EurocCalibration read_euroc_calibration(const fs::path& folder) {
 
   EurocCalibration calibration;
   calibration.R_body_B = body_axes(left, T_B_left.linear());
-  calibration.cameras =
-      rectify(left.camera(), right.camera(), right.pose().inverse() * T_B_left,
-              static_cast<int>(size[0]), static_cast<int>(size[1]));
+  calibration.cameras = rectify(left.camera(), right.camera(), right.pose().inverse() * T_B_left,
+                                static_cast<int>(size[0]), static_cast<int>(size[1]));
   const Eigen::Isometry3d T_body_B =
       Eigen::Isometry3d(calibration.R_body_B) * Eigen::Translation3d(-T_B_imu.translation());
   calibration.cameras.T_body_left = T_body_B * T_B_left;

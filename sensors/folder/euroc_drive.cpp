@@ -30,8 +30,8 @@ TableFile table_of(const fs::path& file, std::vector<std::string> columns) {
 
 TableMapping tables_of(const fs::path& folder, const EurocCalibration& calibration) {
   TableMapping m;
-  static_cast<TableFile&>(m.imu) = table_of(folder / "imu0/data.csv",
-                                            {"timestamp", "wx", "wy", "wz", "ax", "ay", "az"});
+  static_cast<TableFile&>(m.imu) =
+      table_of(folder / "imu0/data.csv", {"timestamp", "wx", "wy", "wz", "ax", "ay", "az"});
   m.imu.gyro = {{"wx", "wy", "wz"}};
   m.imu.accelerometer = {{"ax", "ay", "az"}};
   ReferenceTable& truth = m.reference;
@@ -54,7 +54,8 @@ TableMapping tables_of(const fs::path& folder, const EurocCalibration& calibrati
 
 std::optional<fs::path> find_euroc(const fs::path& path) {
   for (const fs::path& folder : {path / "mav0", path})
-    if (is_there(folder / "cam0/sensor.yaml") || is_there(folder / "imu0/sensor.yaml")) return folder;
+    if (is_there(folder / "cam0/sensor.yaml") || is_there(folder / "imu0/sensor.yaml"))
+      return folder;
   return std::nullopt;
 }
 

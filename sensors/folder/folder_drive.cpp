@@ -16,9 +16,10 @@ FolderDrive::FolderDrive(DriveParts parts, const KittiDriveParameters& parameter
       parameters_(parameters) {
   validate_parameters(parameters_);
   if (!parts_.images && !has_velodyne() && !parts_.oxts) {
-    throw std::runtime_error("the folder '" + parts_.folder.string() +
-                             "' has neither images of a pair of cameras nor scans nor oxts rows, of "
-                             "which a drive needs one (sensors/FORMATS.md)");
+    throw std::runtime_error(
+        "the folder '" + parts_.folder.string() +
+        "' has neither images of a pair of cameras nor scans nor oxts rows, of "
+        "which a drive needs one (sensors/FORMATS.md)");
   }
   set_rows(parts_.oxts, parts_.oxts);
   take_stamps();
@@ -52,7 +53,8 @@ Time FolderDrive::last_stamp() const {
 
 std::unique_ptr<Source<StereoPair>> FolderDrive::camera(Time passed) const {
   if (!parts_.images)
-    throw std::runtime_error("drive '" + folder().string() + "' has no images of a pair of cameras");
+    throw std::runtime_error("drive '" + folder().string() +
+                             "' has no images of a pair of cameras");
   const Duration readout = from_seconds(parameters_.camera_readout);
   const Duration max_skew = from_seconds(parameters_.max_pair_skew);
   const auto& [left, right] = *parts_.images;

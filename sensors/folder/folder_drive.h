@@ -43,8 +43,8 @@ struct DriveParts {
   std::filesystem::path clouds = {};  // in place of them, a folder of clouds; empty: none
   std::shared_ptr<const OxtsRows> oxts = {};
   std::shared_ptr<const TableRecording> tables = {};  // nullptr: there are none
-  MountParameters mount = {};                    // of the tables' inertial unit
-  std::vector<std::string> notes = {};  // sentences for the user: what was assumed
+  MountParameters mount = {};                         // of the tables' inertial unit
+  std::vector<std::string> notes = {};                // sentences for the user: what was assumed
 };
 
 // The parts hold stamps and rows; each source reads its images or scans one at a time. Sources may

@@ -134,12 +134,12 @@ ImageFolder parse_image_list(std::string_view text, const fs::path& file) {
     any = any || !t.verdicts.back();
     if (t.size() > input_limits::frames) {
       throw std::runtime_error("'" + file.string() + "' has more than " +
-                               std::to_string(input_limits::frames) +
-                               " images; cut the recording");
+                               std::to_string(input_limits::frames) + " images; cut the recording");
     }
   }
   if (!any)
-    throw std::runtime_error("'" + file.string() + "' has no line with a stamp and an image's name");
+    throw std::runtime_error("'" + file.string() +
+                             "' has no line with a stamp and an image's name");
   return images;
 }
 
@@ -189,8 +189,10 @@ ImagePair paired(const ImageFolder& left, const ImageFolder& right, Duration max
 std::optional<ImagePair> find_images(const fs::path& folder, Duration max_skew) {
   for (const auto& [left, right] : camera_names) {
     const bool has_left = has_camera(folder, left), has_right = has_camera(folder, right);
-    if (has_left && has_right)
-      return paired(open_camera(folder, left), open_camera(folder, right), max_skew);
+    if (has_left && has_right) {
+      const ImageFolder of_left = open_camera(folder, left);
+      return paired(of_left, open_camera(folder, right), max_skew);
+    }
     if (has_left || has_right) {
       throw std::runtime_error("'" + folder.string() + "' has the images of one camera, '" +
                                (has_left ? left : right) + "', and none of '" +
@@ -208,7 +210,8 @@ std::optional<ImagePair> find_images(const fs::path& folder, Duration max_skew) 
 }
 
 bool has_images(const fs::path& folder) {
-  return is_plain_file(folder / "rgb.txt") || std::ranges::any_of(camera_names, [&](const auto& names) {
+  return is_plain_file(folder / "rgb.txt") ||
+         std::ranges::any_of(camera_names, [&](const auto& names) {
            return has_camera(folder, names.first) || has_camera(folder, names.second);
          });
 }

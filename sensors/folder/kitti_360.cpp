@@ -12,8 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr auto parts_of_set = std::to_array<const char*>({"data_2d_raw", "data_3d_raw",
-                                                          "data_poses"});
+constexpr auto parts_of_set =
+    std::to_array<const char*>({"data_2d_raw", "data_3d_raw", "data_poses"});
 
 bool has_folder(const fs::path& path) {
   std::error_code ignored;

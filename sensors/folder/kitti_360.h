@@ -23,8 +23,8 @@ struct Kitti360Name {
 std::optional<Kitti360Name> find_kitti_360(const std::filesystem::path& path);
 
 // Reads perspective.txt, calib_cam_to_pose.txt and calib_cam_to_velo.txt. KITTI-360's IMU has x
-// forward, y right, z down, of which the body reverses y and z. Throws std::runtime_error that names
-// file and key.
+// forward, y right, z down, of which the body reverses y and z. Throws std::runtime_error that
+// names file and key.
 VehicleCalibration read_kitti_360_calibration(const std::filesystem::path& folder);
 
 // Reads, where they are there: image_00 and image_01 (data_rect/%010d.png, timestamps.txt) in

@@ -47,7 +47,7 @@ NpyField npy_field(std::string_view name, std::string_view type) {
                      (*size == 4 || *size == 8 || (!is_float && (*size == 1 || *size == 2)));
   if (!known) {
     refuse_npy("has the type '" + std::string(type.substr(0, 20)) +
-         "' in place of f4, f8, i1 to i8 or u1 to u8: save the array as numbers");
+               "' in place of f4, f8, i1 to i8 or u1 to u8: save the array as numbers");
   }
   field.kind = rest[0];
   field.size = *size;
@@ -167,13 +167,14 @@ NumberCells parse_npy(std::string_view content, const NumberTableOptions& option
   const std::vector<std::size_t> shape = npy_shape(header.text);
   const bool structured = !fields[0].name.empty() || fields.size() > 1;
   if (shape.size() != (structured ? 1U : 2U))
-    refuse_npy("has " + std::to_string(shape.size()) +
-         " dimensions: a table is an array of rows and columns, or of rows with named fields");
+    refuse_npy(
+        "has " + std::to_string(shape.size()) +
+        " dimensions: a table is an array of rows and columns, or of rows with named fields");
   const std::size_t rows = shape[0];
   if (!structured) {
     if (options.columns.size() != shape[1]) {
       refuse_npy("has " + std::to_string(shape[1]) + " columns, but `columns` names " +
-           std::to_string(options.columns.size()));
+                 std::to_string(options.columns.size()));
     }
     const NpyField field = fields[0];
     fields.assign(options.columns.size(), field);
@@ -182,8 +183,9 @@ NumberCells parse_npy(std::string_view content, const NumberTableOptions& option
   std::size_t width = 0;
   for (const NpyField& field : fields) width += field.size;
   if (rows > input_limits::frames || rows * width > header.data.size()) {
-    refuse_npy("has " + std::to_string(rows) + " rows, which are not all in the file or more than " +
-         std::to_string(input_limits::frames));
+    refuse_npy("has " + std::to_string(rows) +
+               " rows, which are not all in the file or more than " +
+               std::to_string(input_limits::frames));
   }
   const std::string_view order = npy_value(header.text, "fortran_order");
   const bool by_column = !structured && order.substr(0, order.find(',')).find("True") != order.npos;

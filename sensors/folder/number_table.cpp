@@ -78,7 +78,9 @@ void NumberTable::read_text_table(std::string text, const NumberTableOptions& op
   const std::vector<std::string_view> lines = split_lines(text);
   const bool headed = cells_.columns.empty();
   if (lines.empty()) fail(1, headed ? "has no heading" : "is empty");
-  const char separator = separator_of(lines[0]);
+  const auto row = std::ranges::find_if(
+      lines, [headed](std::string_view line) { return headed || !line.starts_with('#'); });
+  const char separator = separator_of(row == lines.end() ? lines[0] : *row);
   std::vector<std::string_view> cells;
   if (headed) {
     std::string_view heading = lines[0];
@@ -102,8 +104,8 @@ void NumberTable::read_text_table(std::string text, const NumberTableOptions& op
     for (std::size_t k = 0; k < cells.size(); ++k) {
       const auto number = number_of(cells[k]);
       if (!number || (std::isnan(*number) && !options.missing)) {
-        fail(i + 1, "column " + std::to_string(k + 1) + " is not a finite number: " +
-                        quoted(cells[k]));
+        fail(i + 1,
+             "column " + std::to_string(k + 1) + " is not a finite number: " + quoted(cells[k]));
       }
       cells_.values.push_back(*number);
       if (k == exact) cells_.whole.push_back(parse_number<std::int64_t>(cells[k]).value_or(none));

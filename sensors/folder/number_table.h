@@ -42,8 +42,12 @@ class NumberTable {
     return std::span(cells_.values).subspan(i * cells_.columns.size(), cells_.columns.size());
   }
   // Returns the whole number in the column of times, or none.
-  std::int64_t whole(std::size_t i) const { return i < cells_.whole.size() ? cells_.whole[i] : none; }
-  std::size_t line(std::size_t i) const { return i < lines_.size() ? lines_[i] : i + 1; }  // in the file
+  std::int64_t whole(std::size_t i) const {
+    return i < cells_.whole.size() ? cells_.whole[i] : none;
+  }
+  std::size_t line(std::size_t i) const {
+    return i < lines_.size() ? lines_[i] : i + 1;
+  }  // in the file
   bool has(std::string_view name) const;
   // Throws std::runtime_error that names the file if it has no such column.
   std::size_t column(const std::string& name) const;

@@ -29,8 +29,7 @@ std::vector<std::string> heading_of(std::string_view comment) {
   const auto words = words_of(comment.substr(1));
   if (words.size() < 4 || (words[0] != "GPST" && words[0] != "UTC")) return {};
   std::vector<std::string> columns;
-  for (const std::string_view word : words)
-    columns.emplace_back(word.substr(0, word.find('(')));
+  for (const std::string_view word : words) columns.emplace_back(word.substr(0, word.find('(')));
   if (comment.find("(d'\")") != std::string_view::npos)
     throw std::invalid_argument("has angles in degrees, minutes and seconds: write degrees");
   return columns;

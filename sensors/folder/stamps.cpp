@@ -34,8 +34,7 @@ std::optional<Time> whole_stamp(std::string_view text) {
   const auto number = parse_number<std::int64_t>(text);
   if (!number || *number < 100'000'000) return std::nullopt;
   std::int64_t unit = 1;  // ns
-  for (const std::int64_t least :
-       {100'000'000'000'000'000, 100'000'000'000'000, 100'000'000'000}) {
+  for (const std::int64_t least : {100'000'000'000'000'000, 100'000'000'000'000, 100'000'000'000}) {
     if (*number >= least) break;
     unit *= 1000;
   }

@@ -40,8 +40,8 @@ struct Columns {
 };
 
 struct TableFile {
-  std::filesystem::path file = {};         // .csv, .npy or .pos, plain or .gz; empty: none
-  std::vector<std::string> columns = {};   // names, where the file has no heading
+  std::filesystem::path file = {};        // .csv, .npy or .pos, plain or .gz; empty: none
+  std::vector<std::string> columns = {};  // names, where the file has no heading
   std::vector<std::string> time = {"time"};
   TimeUnit time_unit = TimeUnit::s;
   bool gps_time = false;  // no leap seconds
@@ -55,13 +55,13 @@ struct ImuTable : TableFile {
 
 struct GnssTable : TableFile {
   PositionForm form = PositionForm::geodetic;
-  Columns position;                         // latitude, longitude (deg), height (m); or x, y, z
-  Columns velocity;                         // without them, they follow from the positions
+  Columns position;  // latitude, longitude (deg), height (m); or x, y, z
+  Columns velocity;  // without them, they follow from the positions
   VelocityAxes velocity_axes = VelocityAxes::ned;
-  Columns position_sigma, velocity_sigma;   // of north, east, and down or up
-  double default_position_sigma = 3.0;      // m, of each axis, without columns; heights 1.5 times
-  double default_velocity_sigma = 0.3;      // m/s
-  Columns quality;                          // rows with 0 are not fixes
+  Columns position_sigma, velocity_sigma;  // of north, east, and down or up
+  double default_position_sigma = 3.0;     // m, of each axis, without columns; heights 1.5 times
+  double default_velocity_sigma = 0.3;     // m/s
+  Columns quality;                         // rows with 0 are not fixes
 };
 
 struct WheelTable : TableFile {
@@ -77,9 +77,9 @@ struct ReferenceTable : TableFile {
   // Of the body: roll, pitch, yaw in degrees (axes forward, right, down; yaw from north); or the
   // quaternion w, x, y, z that takes the unit's axes to east, north, up.
   Columns attitude, quaternion;
-  TableFile attitude_file;                                        // where they are in another one
-  Eigen::Matrix3d R_unit_body = Eigen::Matrix3d::Identity();      // of the quaternion's axes
-  double accuracy = 1.0;                                          // m
+  TableFile attitude_file;                                    // where they are in another one
+  Eigen::Matrix3d R_unit_body = Eigen::Matrix3d::Identity();  // of the quaternion's axes
+  double accuracy = 1.0;                                      // m
   bool peer = true;  // it is a fusion of the same sensors, which may leap
 };
 

@@ -9,10 +9,14 @@ namespace {
 
 constexpr double seconds_of(TimeUnit unit) {
   switch (unit) {
-    case TimeUnit::ms: return 1e-3;
-    case TimeUnit::us: return 1e-6;
-    case TimeUnit::ns: return 1e-9;
-    default: return 1.0;
+    case TimeUnit::ms:
+      return 1e-3;
+    case TimeUnit::us:
+      return 1e-6;
+    case TimeUnit::ns:
+      return 1e-9;
+    default:
+      return 1.0;
   }
 }
 

@@ -18,8 +18,9 @@ namespace maploop::sensors {
 // Values in SI units or degrees, in the order in which they are wanted.
 using TableValues = std::span<const double>;
 
-// Names a column, its unit, and the least and the most that a value in that unit's SI may be: beyond
-// what a vehicle or its sensors can do, so that a damaged number does not pass for a measurement.
+// Names a column, its unit, and the least and the most that a value in that unit's SI may be:
+// beyond what a vehicle or its sensors can do, so that a damaged number does not pass for a
+// measurement.
 struct WantedColumn {
   std::string name;
   double unit, least, most;

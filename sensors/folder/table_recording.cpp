@@ -22,12 +22,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double fastest = 515.0;       // m/s, where receivers stop
-constexpr double most_sigma = 1e6;      // m, m/s
-constexpr double most_rate = 40.0;      // rad/s
-constexpr double most_force = 400.0;    // m/s^2
-constexpr double most_height = 20e3;    // m
-constexpr double most_radius = 6.5e6;   // m from the Earth's centre
+constexpr double fastest = 515.0;      // m/s, where receivers stop
+constexpr double most_sigma = 1e6;     // m, m/s
+constexpr double most_rate = 40.0;     // rad/s
+constexpr double most_force = 400.0;   // m/s^2
+constexpr double most_height = 20e3;   // m
+constexpr double most_radius = 6.5e6;  // m from the Earth's centre
 
 // Appends the columns of a position.
 void add_position(std::vector<WantedColumn>& wanted, PositionForm form, const Columns& c) {
@@ -189,7 +189,8 @@ void add_attitude(std::vector<WantedColumn>& wanted, const ReferenceTable& t) {
 void set_attitude(const ReferenceTable& t, TableValues v, ReferencePose& pose) {
   if (t.quaternion.given()) {
     const Eigen::Quaterniond q(v[0], v[1], v[2], v[3]);
-    if (std::abs(q.norm() - 1.0) > 0.01) throw std::invalid_argument("the quaternion is not a unit");
+    if (std::abs(q.norm() - 1.0) > 0.01)
+      throw std::invalid_argument("the quaternion is not a unit");
     pose.attitude = attitude_from_rotation(q.normalized().toRotationMatrix() * t.R_unit_body);
     return;
   }

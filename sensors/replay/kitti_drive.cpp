@@ -118,8 +118,9 @@ VehicleCalibration mounting_of(const std::filesystem::path& day, std::vector<std
   std::error_code ignored;
   if (std::filesystem::exists(day / "calib_imu_to_velo.txt", ignored))
     return read_kitti_mounting(day);
-  notes.emplace_back("There is no calib_imu_to_velo.txt beside the drive: the scanner is taken to "
-                     "stand at the body's origin.");
+  notes.emplace_back(
+      "There is no calib_imu_to_velo.txt beside the drive: the scanner is taken to "
+      "stand at the body's origin.");
   return {};
 }
 
@@ -136,27 +137,28 @@ DriveParts kitti_parts(const std::filesystem::path& given, std::optional<StereoR
     parts.raw_cameras.reset();
     parts.calibration = mounting_of(day, parts.notes);
   } else {
-    parts.calibration = parts.raw_cameras ? read_kitti_calibration(day, *parts.raw_cameras,
-                                                                   is_folder(velodyne))
-                                          : read_kitti_calibration(day);
+    parts.calibration = parts.raw_cameras
+                            ? read_kitti_calibration(day, *parts.raw_cameras, is_folder(velodyne))
+                            : read_kitti_calibration(day);
   }
   const DriveStamps stamps({left, right, velodyne, oxts});
-  if (stamps.made()) parts.notes.emplace_back("No file has stamps: frames are taken to be 0.1 s apart.");
+  if (stamps.made())
+    parts.notes.emplace_back("No file has stamps: frames are taken to be 0.1 s apart.");
   if (is_folder(left)) {
     const char* name = "timestamps.txt";
-    parts.images = ImagePair{{left / "data", stamps.of(left, name)},
-                             {right / "data", stamps.of(right, name)}};
+    parts.images =
+        ImagePair{{left / "data", stamps.of(left, name)}, {right / "data", stamps.of(right, name)}};
   }
   if (is_folder(velodyne)) {
     constexpr Duration half_turn = std::chrono::milliseconds(50);
-    parts.scans = VelodyneFolder{velodyne / "data",
-                                 stamps.of(velodyne, "timestamps_start.txt", -half_turn),
-                                 stamps.of(velodyne, "timestamps.txt"),
-                                 stamps.of(velodyne, "timestamps_end.txt", half_turn)};
+    parts.scans =
+        VelodyneFolder{velodyne / "data", stamps.of(velodyne, "timestamps_start.txt", -half_turn),
+                       stamps.of(velodyne, "timestamps.txt"),
+                       stamps.of(velodyne, "timestamps_end.txt", half_turn)};
   }
   if (is_folder(oxts)) {
-    parts.oxts = std::make_shared<const OxtsRows>(
-        read_oxts(oxts, stamps.of(oxts, "timestamps.txt")));
+    parts.oxts =
+        std::make_shared<const OxtsRows>(read_oxts(oxts, stamps.of(oxts, "timestamps.txt")));
   }
   return parts;
 }

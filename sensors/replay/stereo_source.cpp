@@ -47,8 +47,8 @@ StereoFrames judge(const ImageFolder& left_folder, const ImageFolder& right_fold
   refuse_out_of_order(frames.stamps, left.file, frames.list.verdicts);
   refuse_out_of_order(frames.list.available, right.file, frames.list.verdicts);
   for (const ImageFolder* folder : {&left_folder, &right_folder}) {
-    auto found = folder->names.empty() ? files_without_stamp(folder->data, count)
-                                       : folder->unpaired;
+    auto found =
+        folder->names.empty() ? files_without_stamp(folder->data, count) : folder->unpaired;
     frames.list.unstamped.insert(frames.list.unstamped.end(), found.begin(), found.end());
   }
   return frames;

@@ -46,9 +46,9 @@ void read_table(std::span<const std::uint8_t> bytes, unsigned form) {
   const auto source = recording.gnss();
   Time last = Time::min();
   for (GnssFix fix; source->next(fix); last = fix.stamp) {
-    fuzz::require(last == Time::min() ||
-                  (fix.stamp > last &&
-                   input_limits::within(input_limits::longest_gap, last, fix.stamp)));
+    fuzz::require(
+        last == Time::min() ||
+        (fix.stamp > last && input_limits::within(input_limits::longest_gap, last, fix.stamp)));
   }
 }
 
@@ -79,12 +79,24 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   try {
     switch (kind % 6U) {
-      case 0: check(parse_npy(text, {{"a", "b", "c"}, "a", true})); break;
-      case 1: check(parse_pos(text)); break;
-      case 2: read_list(text); break;
-      case 3: read_table(bytes, kind / 6U); break;
-      case 4: read_times_of(bytes); break;
-      default: read_euroc(bytes); break;
+      case 0:
+        check(parse_npy(text, {{"a", "b", "c"}, "a", true}));
+        break;
+      case 1:
+        check(parse_pos(text));
+        break;
+      case 2:
+        read_list(text);
+        break;
+      case 3:
+        read_table(bytes, kind / 6U);
+        break;
+      case 4:
+        read_times_of(bytes);
+        break;
+      default:
+        read_euroc(bytes);
+        break;
     }
   } catch (const std::runtime_error&) {
   } catch (const std::invalid_argument&) {

@@ -78,8 +78,7 @@ class FolderForms : public ::testing::Test {
 
 TEST_F(FolderForms, Kitti360HasTheBitsOfKitti) {
   write_as_kitti_360(*kitti_, folder_.path(), frames);
-  const fs::path drive_folder =
-      folder_.path() / "data_3d_raw/2013_05_28_drive_0000_sync";
+  const fs::path drive_folder = folder_.path() / "data_3d_raw/2013_05_28_drive_0000_sync";
   for (const fs::path& path : {folder_.path(), drive_folder, drive_folder / ""}) {
     const auto name = find_kitti_360(path);
     ASSERT_TRUE(name) << path;
@@ -209,8 +208,8 @@ TEST_F(Lists, StampsAreReadFromNamesAndTexts) {
   EXPECT_EQ(stamp_of("1403636579"), Time(nanoseconds(1403636579000000000)));
   EXPECT_EQ(stamp_of("0.1"), Time(nanoseconds(100000000)));
   EXPECT_EQ(stamp_of("2000-01-01 00:00:00"), parse_time("2000-01-01 00:00:00"));
-  for (const char* no : {"", "000012", "12", "-1.5", "1.", ".5", "1e9", "scan", "99999999999999999999",
-                         "1.5x", "9999999999.0"})
+  for (const char* no : {"", "000012", "12", "-1.5", "1.", ".5", "1e9", "scan",
+                         "99999999999999999999", "1.5x", "9999999999.0"})
     EXPECT_EQ(stamp_of(no), std::nullopt) << no;
 }
 
@@ -234,10 +233,11 @@ TEST_F(Lists, ImagesWithoutPartnerAreLeftOutAndReported) {
 }
 
 TEST_F(Lists, TimesOfImagesMayBeInAFileForBothCameras) {
-  for (const char* name : {"image_0/000000.png", "image_0/000001.png", "image_1/000000.png",
-                           "image_1/000001.png"})
+  for (const char* name :
+       {"image_0/000000.png", "image_0/000001.png", "image_1/000000.png", "image_1/000001.png"})
     image(name);
-  EXPECT_THAT(refusal(), AllOf(HasSubstr("image_0"), HasSubstr("no stamps"), HasSubstr("times.txt")));
+  EXPECT_THAT(refusal(),
+              AllOf(HasSubstr("image_0"), HasSubstr("no stamps"), HasSubstr("times.txt")));
   write_text(folder() / "times.txt", "0.000000e+00\n");
   EXPECT_THAT(refusal(), HasSubstr("has 2 images, but"));
   write_text(folder() / "times.txt", "0.000000e+00\n1.036224e-01\n");

@@ -74,9 +74,9 @@ void write_as_euroc(const sensors::KittiDrive& drive, const fs::path& root, std:
            mav0 / camera / "data" / name);
     }
     write_text(mav0 / camera / "data.csv", list);
-    write_text(mav0 / camera / "sensor.yaml",
-               camera_yaml(right == 0 ? stereo.T_body_cam : stereo.T_body_cam * T_left_right,
-                           stereo));
+    write_text(
+        mav0 / camera / "sensor.yaml",
+        camera_yaml(right == 0 ? stereo.T_body_cam : stereo.T_body_cam * T_left_right, stereo));
   }
   std::string rows =
       "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],"
@@ -141,7 +141,8 @@ void write_as_kitti_360(const sensors::KittiDrive& drive, const fs::path& root,
 }
 
 void write_as_lists(const sensors::KittiDrive& drive, const fs::path& root, std::size_t frames) {
-  for (const auto& [list, kitti] : {std::pair("left", "image_00"), std::pair("right", "image_01")}) {
+  for (const auto& [list, kitti] :
+       {std::pair("left", "image_00"), std::pair("right", "image_01")}) {
     const auto stamps = stamps_of(drive, kitti);
     std::string text = "# timestamp filename\n";
     for (std::size_t i = 0; i < frames; ++i) {

@@ -42,8 +42,8 @@ class Mapped : public ::testing::Test {
   }
   std::vector<ImuSample> samples() {
     mapping_.gnss.file.clear();
-    return read_all(std::unique_ptr<Source<ImuSample>>(
-        TableRecording(mapping_).imu(nullptr, {true}, 0.0)));
+    return read_all(
+        std::unique_ptr<Source<ImuSample>>(TableRecording(mapping_).imu(nullptr, {true}, 0.0)));
   }
 
   maploop::testing::TemporaryFolder folder_;
@@ -151,12 +151,11 @@ TEST(RtklibsSolutions, HaveTheColumnsOfTheirHeading) {
   ASSERT_EQ(cells.columns.size(), 14U);
   EXPECT_EQ(cells.columns[0], "GPST");
   EXPECT_EQ(cells.columns[3], "height");
-  EXPECT_EQ(cells.values[0],
-            to_seconds(parse_time("2019-06-08 08:03:55.5").time_since_epoch()));
+  EXPECT_EQ(cells.values[0], to_seconds(parse_time("2019-06-08 08:03:55.5").time_since_epoch()));
   EXPECT_EQ(cells.values[8], 0.03);
   const std::string text = pos_text;
-  const auto week = text.substr(0, text.find("2019")) + "2056 547435.5" +
-                    text.substr(text.find(".500  ") + 4);
+  const auto week =
+      text.substr(0, text.find("2019")) + "2056 547435.5" + text.substr(text.find(".500  ") + 4);
   EXPECT_EQ(parse_pos(week).values[0], cells.values[0]);
   const auto refusal = [](const std::string& content) {
     return error_of<std::invalid_argument>([&] { parse_pos(content); });
@@ -164,9 +163,9 @@ TEST(RtklibsSolutions, HaveTheColumnsOfTheirHeading) {
   EXPECT_THAT(refusal("1 2 3\n"), HasSubstr("line 1: has no heading"));
   EXPECT_THAT(refusal("%\n"), HasSubstr("no heading of RTKLIB"));
   EXPECT_THAT(refusal(text + "2019/06/08 08:03:56.500 47.0\n"), HasSubstr("line 5: has 3 words"));
-  EXPECT_THAT(refusal(text.substr(0, text.find("2019")) + "x y" +
-                      text.substr(text.find(".500  ") + 4)),
-              HasSubstr("neither a date"));
+  EXPECT_THAT(
+      refusal(text.substr(0, text.find("2019")) + "x y" + text.substr(text.find(".500  ") + 4)),
+      HasSubstr("neither a date"));
 }
 
 // ---- NumPy
@@ -222,12 +221,15 @@ TEST(NumpysArrays, BrokenOnesAreNamed) {
            {header("{'descr': '|O', 'fortran_order': False, 'shape': (1, 2), }"), "the type '|O'"},
            {header("{'descr': '<f8', 'fortran_order': False, 'shape': (1, 3), }"), "3 columns"},
            {header("{'descr': '<f8', 'fortran_order': False, 'shape': (9, 2), }"), "9 rows"},
-           {header("{'descr': '<f8', 'fortran_order': False, 'shape': (99999999999, 2), }"), "rows"},
+           {header("{'descr': '<f8', 'fortran_order': False, 'shape': (99999999999, 2), }"),
+            "rows"},
            {header("{'descr': '<f8', 'fortran_order': False, 'shape': (x, 2), }"), "not numbers"},
            {header("{'descr': [('a', '<f8', (3,))], 'fortran_order': False, 'shape': (1,), }"),
             "'a' is an array"},
            {header("{'fortran_order': False, 'shape': (1, 2), }"), "no 'descr'"}}) {
-    EXPECT_THAT(error_of<std::invalid_argument>([&] { parse_npy(c.content, {{"a", "b"}, {}, true}); }),
+    EXPECT_THAT(error_of<std::invalid_argument>([&] {
+                  parse_npy(c.content, {{"a", "b"}, {}, true});
+                }),
                 HasSubstr(c.says));
   }
 }

@@ -125,10 +125,12 @@ std::vector<std::string> advice(const std::vector<SensorHealth>& sensors, const 
   for (const SensorHealth& s : sensors) add_findings(s, sentences);
   const bool lidar = find(sensors, "lidar") != nullptr;
   if (find(sensors, "gnss") == nullptr && find(sensors, "epochs") == nullptr) {
-    sentences.push_back("No GNSS gives a position to start from, so that a replay has none." +
-                        (lidar ? " The path of the LiDAR alone: maploop odometry " + path +
-                                     " --lidar --tum path.tum"
-                               : std::string()));
+    const std::string command = ": maploop odometry " + path;
+    std::string sentence = "No GNSS gives a position to start from, so that a replay has none.";
+    if (find(sensors, "camera") != nullptr)
+      sentence += " The path of the cameras" + command + " --tum path.tum";
+    if (lidar) sentence += " The path of the LiDAR alone" + command + " --lidar --tum path.tum";
+    sentences.push_back(std::move(sentence));
     return sentences;
   }
   std::string used;

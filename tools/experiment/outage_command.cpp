@@ -14,8 +14,8 @@
 
 #include "msgs/frames.h"
 #include "sensors/folder/number_table.h"
-#include "sensors/replay/sequence_files.h"
 #include "sensors/folder/table_recording.h"
+#include "sensors/replay/sequence_files.h"
 #include "tools/command/median.h"
 #include "tools/command/option_checks.h"
 #include "tools/experiment/experiments.h"

@@ -13,16 +13,17 @@ namespace maploop::tools {
 void add_replay(CLI::App& app, Command& command) {
   const auto [sub, options] = add_command(
       app, command, "replay",
-      "Replay a KITTI raw drive, a KITTI odometry sequence, a GNSS receiver's "
-      "observations, a ROS bag, an MCAP file, a folder of tables, a capture of a Velodyne "
-      "scanner or a log of our own through the graph",
+      "Replay a KITTI raw drive, a KITTI odometry sequence, KITTI-360, EuRoC, a folder of images, "
+      "clouds or tables, a GNSS receiver's observations, a ROS bag, an MCAP file, a capture of a "
+      "Velodyne scanner or a log of our own through the graph",
       replay);
   sub->add_option(
          "DRIVE", options.drive,
          "Folder such as 2011_09_26/2011_09_26_drive_0013_sync, a table of OXTS rows such as "
          "kitti_odometry/oxts/06.csv.gz, RINEX observations with their products beside "
          "them (or a folder of both; [ppp] products), a ROS 1 bag, a rosbag2 folder or an MCAP "
-         "file, a folder with gnss.csv, a capture (.pcap), or a log (--record); one "
+         "file, a folder with gnss.csv or maploop.tables.toml, a capture (.pcap), or a log "
+         "(--record); one "
          "without images is replayed from its odometry (sensors/FORMATS.md)")
       ->required();
   auto* speed = sub->add_option("--speed", options.speed, "Times real time")

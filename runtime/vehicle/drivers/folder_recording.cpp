@@ -40,8 +40,8 @@ sensors::DriveParts open_plain(const fs::path& folder, const VehicleConfig& conf
   sensors::DriveParts parts;
   parts.folder = fs::absolute(folder).lexically_normal();
   parts.images = sensors::find_images(folder, from_seconds(config.replay.max_pair_skew));
-  parts.clouds = sensors::ScanFolder::is(folder) ? folder
-                                                 : sensors::find_scans(folder).value_or(fs::path());
+  parts.clouds =
+      sensors::ScanFolder::is(folder) ? folder : sensors::find_scans(folder).value_or(fs::path());
   parts.raw_cameras = raw_cameras(config);
   parts.calibration.stereo.T_body_cam = camera_pose({}, {});
   std::error_code ignored;
@@ -69,8 +69,8 @@ std::shared_ptr<sensors::FolderDrive> open_layout(const fs::path& folder,
     return std::make_shared<sensors::FolderDrive>(std::move(parts), config.replay);
   };
   if (const auto mav0 = sensors::find_euroc(folder)) {
-    return of(sensors::open_euroc(*mav0, from_seconds(config.replay.max_pair_skew),
-                                  raw_cameras(config)));
+    return of(
+        sensors::open_euroc(*mav0, from_seconds(config.replay.max_pair_skew), raw_cameras(config)));
   }
   if (const auto name = sensors::find_kitti_360(folder)) return of(sensors::open_kitti_360(*name));
   if (is_plain(folder)) return of(open_plain(folder, config));

@@ -43,14 +43,16 @@ struct Recording {
 
 // Opens a recording. Throws std::runtime_error naming what is wrong with it. `path` is one of
 // these:
-// - A folder of images, scans and rows is in EuRoC's format, KITTI-360's, lists of images and clouds,
+// - A folder of images, scans and rows is in EuRoC's format, KITTI-360's, lists of images and
+// clouds,
 //   or a KITTI raw drive (sensors/FORMATS.md).
 // - A KITTI raw drive is a folder. driven_links.csv beside it contains its labels. A receiver's
 //   observations in a folder `gnss` in it replace its GNSS, unless [ppp] observations is false.
 // - A capture of a Velodyne scanner is .pcap or .pcapng, plain or .gz; that of an HDL-64E needs
 //   [vehicle.lidar] calibration.
 // - RINEX observations are read with their products (gnss_drive.h).
-// - Tables are a folder with gnss.csv or maploop.tables.toml, or a .pos file. [vehicle.imu] may state how
+// - Tables are a folder with gnss.csv or maploop.tables.toml, or a .pos file. [vehicle.imu] may
+// state how
 //   the unit is mounted; otherwise it is found on the way.
 // - A ROS 1 bag, a rosbag2 folder or an MCAP file has the topics that [bag] names, or those that
 //   are found by their types (sensors/bag/bag_recording.h).
