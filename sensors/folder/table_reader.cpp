@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "msgs/frames.h"
 #include "sensors/replay/sequence_files.h"
 
 namespace maploop::sensors {
@@ -20,16 +21,52 @@ constexpr double seconds_of(TimeUnit unit) {
   }
 }
 
+constexpr double most_height = 20e3;   // m
+constexpr double most_radius = 6.5e6;  // m from the Earth's centre
+
+Eigen::Vector3d vector_of(TableValues v) {
+  return {v[0], v[1], v[2]};
+}
+
 }  // namespace
 
 void want(std::vector<WantedColumn>& wanted, const Columns& columns, double least, double most) {
   for (const std::string& name : columns.names) wanted.push_back({name, columns.unit, least, most});
 }
 
-NumberTable open_table(const TableFile& file) {
-  // The tables of sensors/FORMATS.md have a number in each cell.
-  return NumberTable(file.file, {file.columns, file.time.at(0), file.time.at(0) != "t_s"});
+void want_position(std::vector<WantedColumn>& wanted, PositionForm form, const Columns& c) {
+  if (form == PositionForm::geodetic) {
+    wanted.push_back({c.names[0], c.unit, -90.0, 90.0});
+    wanted.push_back({c.names[1], c.unit, -180.0, 180.0});
+    wanted.push_back({c.names[2], 1.0, -most_height, most_height});
+  } else {
+    want(wanted, c, -most_radius, most_radius);
+  }
 }
+
+Geodetic place(PositionForm form, TableValues v) {
+  // At the equator's zero, east, north and up are Earth's y, z and x.
+  constexpr double equator = 6378137.0;  // m
+  if (form == PositionForm::local) return LocalFrame().to_geodetic(vector_of(v));
+  if (form == PositionForm::geodetic) return {radians(v[0]), radians(v[1]), v[2]};
+  if (vector_of(v).norm() < 6.3e6) throw std::invalid_argument("the position is not on Earth");
+  return LocalFrame().to_geodetic({v[1], v[2], v[0] - equator});
+}
+
+Eigen::Vector3d velocity_enu(VelocityAxes axes, TableValues v, const Geodetic& at) {
+  if (axes == VelocityAxes::ned) return {v[1], v[0], -v[2]};
+  if (axes == VelocityAxes::enu) return vector_of(v);
+  const double sp = std::sin(at.latitude), cp = std::cos(at.latitude);
+  const double sl = std::sin(at.longitude), cl = std::cos(at.longitude);
+  Eigen::Matrix3d R_enu_ecef;
+  R_enu_ecef << -sl, cl, 0.0, -sp * cl, -sp * sl, cp, cp * cl, cp * sl, sp;
+  return R_enu_ecef * vector_of(v);
+}
+
+// The tables of sensors/FORMATS.md have a number in each cell.
+OpenedTable::OpenedTable(const TableFile& file, const TableMapping& mapping)
+    : table(file.file, {file.columns, file.time.at(0), file.time.at(0) != "t_s"}),
+      clock(table, file, mapping.utc_of_gps) {}
 
 TableClock::TableClock(const NumberTable& table, const TableFile& file, Time (*utc_of_gps)(Time))
     : table_(table), file_(file), utc_of_gps_(utc_of_gps) {

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "msgs/input_limits.h"
+#include "msgs/local_frame.h"
+#include "msgs/reference.h"
 #include "sensors/folder/number_table.h"
 #include "sensors/folder/table_mapping.h"
 #include "sensors/folder/table_rows.h"
@@ -48,7 +51,27 @@ class TableClock {
   std::vector<std::size_t> columns_;
 };
 
-NumberTable open_table(const TableFile& file);
+// The columns of a position, and the position that their values are. place() throws
+// std::invalid_argument if it is not on Earth.
+void want_position(std::vector<WantedColumn>& wanted, PositionForm form, const Columns& columns);
+Geodetic place(PositionForm form, TableValues values);
+
+constexpr double fastest_receiver = 515.0;  // m/s, where receivers stop
+Eigen::Vector3d velocity_enu(VelocityAxes axes, TableValues values, const Geodetic& at);
+
+// Opens a table. Throws std::runtime_error.
+struct OpenedTable {
+  OpenedTable(const TableFile& file, const TableMapping& mapping);
+  OpenedTable(const OpenedTable&) = delete;
+
+  NumberTable table;
+  TableClock clock;
+};
+
+// Reads the reference. `start` is that of the first table, or becomes that of this one. Returns
+// nullptr if the receiver never started its fusion.
+std::shared_ptr<const TableRows<ReferencePose>> read_reference(const TableMapping& mapping,
+                                                               std::optional<Time>& start);
 
 // Reads the wanted columns; fill(values, sample) makes a sample, which has its stamps, of the
 // values in their order, or throws std::invalid_argument.

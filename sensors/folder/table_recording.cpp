@@ -1,18 +1,12 @@
 #include "sensors/folder/table_recording.h"
 
-#include <Eigen/Geometry>
-#include <algorithm>
 #include <array>
-#include <chrono>
-#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "msgs/frames.h"
-#include "msgs/input_limits.h"
 #include "sensors/folder/table_reader.h"
 #include "sensors/gnss/velocity_from_positions.h"
 #include "sensors/replay/sequence_files.h"
@@ -22,46 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double fastest = 515.0;      // m/s, where receivers stop
-constexpr double most_sigma = 1e6;     // m, m/s
-constexpr double most_rate = 40.0;     // rad/s
-constexpr double most_force = 400.0;   // m/s^2
-constexpr double most_height = 20e3;   // m
-constexpr double most_radius = 6.5e6;  // m from the Earth's centre
-
-// Appends the columns of a position.
-void add_position(std::vector<WantedColumn>& wanted, PositionForm form, const Columns& c) {
-  if (form == PositionForm::geodetic) {
-    wanted.push_back({c.names[0], c.unit, -90.0, 90.0});
-    wanted.push_back({c.names[1], c.unit, -180.0, 180.0});
-    wanted.push_back({c.names[2], 1.0, -most_height, most_height});
-  } else {
-    want(wanted, c, -most_radius, most_radius);
-  }
-}
-
-Eigen::Vector3d vector_of(TableValues v) {
-  return {v[0], v[1], v[2]};
-}
-
-Geodetic place(PositionForm form, TableValues v) {
-  // At the equator's zero, east, north and up are Earth's y, z and x.
-  constexpr double equator = 6378137.0;  // m
-  if (form == PositionForm::local) return LocalFrame().to_geodetic(vector_of(v));
-  if (form == PositionForm::geodetic) return {radians(v[0]), radians(v[1]), v[2]};
-  if (vector_of(v).norm() < 6.3e6) throw std::invalid_argument("the position is not on Earth");
-  return LocalFrame().to_geodetic({v[1], v[2], v[0] - equator});
-}
-
-Eigen::Vector3d velocity_enu(VelocityAxes axes, TableValues v, const Geodetic& at) {
-  if (axes == VelocityAxes::ned) return {v[1], v[0], -v[2]};
-  if (axes == VelocityAxes::enu) return vector_of(v);
-  const double sp = std::sin(at.latitude), cp = std::cos(at.latitude);
-  const double sl = std::sin(at.longitude), cl = std::cos(at.longitude);
-  Eigen::Matrix3d R_enu_ecef;
-  R_enu_ecef << -sl, cl, 0.0, -sp * cl, -sp * sl, cp, cp * cl, cp * sl, sp;
-  return R_enu_ecef * vector_of(v);
-}
+constexpr double most_sigma = 1e6;    // m, m/s
+constexpr double most_rate = 40.0;    // rad/s
+constexpr double most_force = 400.0;  // m/s^2
 
 Eigen::Matrix3d covariance(TableValues north_east_down) {
   return Eigen::Vector3d(north_east_down[1], north_east_down[0], -north_east_down[2])
@@ -69,18 +26,11 @@ Eigen::Matrix3d covariance(TableValues north_east_down) {
       .asDiagonal();
 }
 
-struct OpenedTable {
-  OpenedTable(const TableFile& file, const TableMapping& mapping)
-      : table(open_table(file)), clock(table, file, mapping.utc_of_gps) {}
-  NumberTable table;
-  TableClock clock;
-};
-
 std::shared_ptr<TableRows<GnssFix>> read_fixes(const OpenedTable& opened, const GnssTable& t,
                                                Time start) {
   std::vector<WantedColumn> wanted;
-  add_position(wanted, t.form, t.position);
-  want(wanted, t.velocity, -fastest, fastest);
+  want_position(wanted, t.form, t.position);
+  want(wanted, t.velocity, -fastest_receiver, fastest_receiver);
   want(wanted, t.position_sigma, 0.0, most_sigma);
   want(wanted, t.velocity_sigma, 0.0, most_sigma);
   want(wanted, t.quality, -1e9, 1e9);
@@ -127,110 +77,12 @@ std::shared_ptr<TableRows<SixAxisSample>> read_imu(const OpenedTable& opened, co
 std::shared_ptr<TableRows<WheelSpeed>> read_wheel(const OpenedTable& opened, const WheelTable& t,
                                                   Time start) {
   std::vector<WantedColumn> wanted;
-  want(wanted, t.speed, -fastest, fastest);
+  want(wanted, t.speed, -fastest_receiver, fastest_receiver);
   return read_rows<WheelSpeed>(opened.table, opened.clock, start, wanted,
                                [&t](TableValues v, WheelSpeed& sample) {
                                  sample.speed = v[0];
                                  sample.sigma = t.sigma;
                                });
-}
-
-// Refuses positions that no vehicle can come from and go on to.
-void leave_out_leaps(TableRows<ReferencePose>& rows, const NumberTable& table) {
-  constexpr double fastest_car = 100.0, noise = 10.0;  // m/s, m
-  const auto leaps = [&](const ReferencePose& a, const ReferencePose& b) {
-    const double way = LocalFrame(a.position).to_enu(b.position).head<2>().norm();
-    return way > noise + fastest_car * std::abs(to_seconds(b.stamp - a.stamp));
-  };
-  for (std::size_t i = 1; i + 1 < rows.samples.size(); ++i) {
-    const ReferencePose& pose = rows.samples[i];
-    const bool judged = !rows.verdicts[i - 1] && !rows.verdicts[i] && !rows.verdicts[i + 1];
-    if (judged && leaps(rows.samples[i - 1], pose) && leaps(pose, rows.samples[i + 1])) {
-      rows.verdicts[i] =
-          Finding{rows.file.string(), table.line(i), "the position leaps there and back"};
-    }
-  }
-}
-
-// Gives each position the attitude of its time.
-void join(TableRows<ReferencePose>& poses, const NumberTable& table,
-          const TableRows<ReferencePose>& attitudes) {
-  constexpr Duration apart = std::chrono::milliseconds(20);  // at most
-  std::vector<const ReferencePose*> known;
-  for (std::size_t i = 0; i < attitudes.samples.size(); ++i) {
-    if (!attitudes.verdicts[i]) known.push_back(&attitudes.samples[i]);
-  }
-  const auto earlier = [](const ReferencePose* a, Time t) { return a->stamp < t; };
-  for (std::size_t i = 0; i < poses.samples.size(); ++i) {
-    if (poses.verdicts[i]) continue;
-    ReferencePose& pose = poses.samples[i];
-    const auto after = std::lower_bound(known.begin(), known.end(), pose.stamp, earlier);
-    const auto is_near = [&](const ReferencePose* a) {
-      return input_limits::within(apart, a->stamp, pose.stamp);
-    };
-    if (after != known.end() && is_near(*after)) {
-      pose.attitude = (*after)->attitude;
-    } else if (after != known.begin() && is_near(*(after - 1))) {
-      pose.attitude = (*(after - 1))->attitude;
-    } else {
-      poses.verdicts[i] =
-          Finding{poses.file.string(), table.line(i), "has no attitude at its time"};
-    }
-  }
-}
-
-void add_attitude(std::vector<WantedColumn>& wanted, const ReferenceTable& t) {
-  if (t.quaternion.given()) return want(wanted, t.quaternion, -1.01, 1.01);
-  constexpr std::array<double, 3> most{180.0, 90.0, 360.0};
-  for (std::size_t k = 0; k < t.attitude.names.size(); ++k)
-    wanted.push_back({t.attitude.names[k], t.attitude.unit, -most[k], most[k]});
-}
-
-void set_attitude(const ReferenceTable& t, TableValues v, ReferencePose& pose) {
-  if (t.quaternion.given()) {
-    const Eigen::Quaterniond q(v[0], v[1], v[2], v[3]);
-    if (std::abs(q.norm() - 1.0) > 0.01)
-      throw std::invalid_argument("the quaternion is not a unit");
-    pose.attitude = attitude_from_rotation(q.normalized().toRotationMatrix() * t.R_unit_body);
-    return;
-  }
-  // A receiver that has not aligned its unit states zeros.
-  if (v[0] == 0.0 && v[2] == 0.0) throw std::invalid_argument("the receiver had not aligned yet");
-  pose.attitude = {wrap_angle(radians(v[2])), radians(v[1]), radians(v[0])};
-}
-
-// Returns nullptr if the receiver never started its fusion.
-std::shared_ptr<const TableRows<ReferencePose>> read_reference(const TableMapping& mapping,
-                                                               std::optional<Time>& start) {
-  const ReferenceTable& t = mapping.reference;
-  const OpenedTable opened(t, mapping);
-  if (!start) start = opened.clock.start();
-  const bool joined = t.attitude_file.given();
-  std::vector<WantedColumn> wanted, turned;
-  add_position(wanted, t.form, t.position);
-  want(wanted, t.velocity, -fastest, fastest);
-  add_attitude(joined ? turned : wanted, t);
-  const auto fill = [&](TableValues v, ReferencePose& pose) {
-    pose.position = place(t.form, v);
-    v = v.subspan(3);
-    pose.velocity_stamp = pose.stamp;
-    pose.position_accuracy = t.accuracy;
-    if (t.velocity.given()) {
-      pose.velocity_enu = velocity_enu(t.velocity_axes, v, pose.position);
-      v = v.subspan(3);
-    }
-    if (!joined) set_attitude(t, v, pose);
-  };
-  const auto poses = read_rows<ReferencePose>(opened.table, opened.clock, *start, wanted, fill);
-  if (t.peer) leave_out_leaps(*poses, opened.table);
-  if (joined) {
-    const OpenedTable attitudes(t.attitude_file, mapping);
-    join(*poses, opened.table,
-         *read_rows<ReferencePose>(
-             attitudes.table, attitudes.clock, *start, turned,
-             [&](TableValues v, ReferencePose& pose) { set_attitude(t, v, pose); }));
-  }
-  return poses->first() != nullptr ? poses : nullptr;
 }
 
 // The reason is that of the first row, which the others mostly share.
