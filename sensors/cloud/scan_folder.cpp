@@ -143,6 +143,11 @@ class ScanSource final : public Source<LidarScan> {
   ScanSource(const path& folder, Duration max_turn, Time passed)
       : scans_(folder), turns_(max_turn) {
     scans_.pass_until(passed);
+    const std::vector<Time>& stamps = scans_.stamps();
+    if (stamps.size() < 2) return;
+    const Duration mean =
+        (stamps.back() - stamps.front()) / static_cast<std::int64_t>(stamps.size() - 1);
+    if (mean <= max_turn) half_turn_ = mean / 2;
   }
 
   bool next(LidarScan& scan) override {
@@ -155,6 +160,8 @@ class ScanSource final : public Source<LidarScan> {
       if (!scans_.next(scan_)) return false;
       if (scans_.times().empty()) {
         std::swap(scan, scan_);
+        scan.start = scan.stamp - half_turn_;
+        scan.end = scan.available = scan.stamp + half_turn_;
         break;
       }
       timed_.points = scan_.points;
@@ -173,6 +180,7 @@ class ScanSource final : public Source<LidarScan> {
   CloudTurns turns_;
   LidarScan scan_;
   TimedCloud timed_;
+  Duration half_turn_ = std::chrono::milliseconds(50);
   Time last_ = Time::min();
 };
 

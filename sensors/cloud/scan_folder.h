@@ -62,8 +62,9 @@ class ScanFolder final : public Source<LidarScan> {
   SourceReport report_;
 };
 
-// Returns the scans of a folder as a vehicle takes them. If the points have times, turns from rear
-// to rear are assembled of them, as from a bag's clouds (bag/cloud_messages.h).
+// Returns the scans of a folder as a vehicle takes them, in the same way as a bag's clouds. If the
+// points have times, turns from rear to rear are assembled of them (bag/cloud_messages.h);
+// otherwise a scan is a turn, whose stamp is its middle.
 std::unique_ptr<Source<LidarScan>> make_scan_source(const std::filesystem::path& folder,
                                                     Duration max_turn, Time passed);
 
