@@ -46,9 +46,9 @@ Converted from_kitti_360(const fs::path& given) {
 Converted from_euroc(const fs::path& given) {
   std::error_code ignored;
   const fs::path folder = fs::is_directory(given / "mav0", ignored) ? given / "mav0" : given;
+  const sensors::EurocCalibration found = sensors::read_euroc_calibration(folder);
   if (!fs::exists(folder / "imu0/sensor.yaml", ignored))
     throw std::runtime_error("'" + folder.string() + "' has no imu0/sensor.yaml");
-  const sensors::EurocCalibration found = sensors::read_euroc_calibration(folder);
   Converted converted;
   VehicleDescription& d = converted.description;
   converted.cameras = found.cameras;
