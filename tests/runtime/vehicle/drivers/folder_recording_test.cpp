@@ -127,6 +127,8 @@ TEST_F(Folders, ImagesNeedTheirCalibrationUnlessThereAreClouds) {
   camera.height = 24;
   camera.fx = camera.fy = 30.0;
   camera.baseline = 0.5;
+  for (const char* key : {"width", "height", "fx", "fy", "cx", "cy", "baseline"})
+    config_.given.insert(std::string("vehicle.camera.") + key);
   const Recording recording = open_recording(folder(), config_);
   EXPECT_EQ(recording.images, 2U);
   StereoPair pair;
