@@ -7,7 +7,7 @@ namespace {
 
 constexpr double semi_major_axis = 6378137.0;  // m
 constexpr double eccentricity_squared = 0.00669437999014;
-constexpr double earth_rate = 7.2921151467e-5;  // rad/s
+constexpr double earth_spin = 7.2921151467e-5;  // rad/s
 
 double flattening_term(double latitude) {
   const double s = std::sin(latitude);
@@ -33,7 +33,8 @@ double meridian_radius(double latitude) {
 LocalEarth::LocalEarth(const Geodetic& origin)
     : latitude_(origin.latitude),
       height_(origin.height),
-      earth_rate_up_(earth_rate * std::sin(origin.latitude)),
+      earth_rate_(0.0, earth_spin * std::cos(origin.latitude),
+                  earth_spin * std::sin(origin.latitude)),
       curvature_(1.0 / (prime_vertical_radius(origin.latitude) + origin.height),
                  1.0 / (meridian_radius(origin.latitude) + origin.height)) {}
 

@@ -22,8 +22,9 @@ class LocalEarth {
  public:
   explicit LocalEarth(const Geodetic& origin);
 
-  double earth_rate_up() const { return earth_rate_up_; }  // rad/s about the origin's up
-  double gravity(double up) const;                         // m/s^2 at height `up` in the frame
+  double earth_rate_up() const { return earth_rate_.z(); }           // rad/s about the origin's up
+  const Eigen::Vector3d& earth_rate() const { return earth_rate_; }  // rad/s, enu at the origin
+  double gravity(double up) const;  // m/s^2 at height `up` in the frame
   // Returns the local vertical in enu at a position (m), to first order in the distance from the
   // origin.
   Eigen::Vector3d vertical(double east, double north) const {
@@ -35,7 +36,7 @@ class LocalEarth {
  private:
   double latitude_;
   double height_;
-  double earth_rate_up_;
+  Eigen::Vector3d earth_rate_;
   Eigen::Vector2d curvature_;
 };
 

@@ -29,10 +29,11 @@ void apply_sample(FilterState& state, const ImuSample& sample, const ImuSample& 
                   const LocalEarth& earth, const FusionParameters& p) {
   const double interval = to_seconds(sample.stamp - before.stamp);
   if (interval <= 0.0) return;
+  const bool six = sample.six_axes && p.uses_six_axes();
   if (const auto roll = roll_innovation(state, sample, interval, earth, p)) {
     // A body leans in turns; the effect on the measured force must not change turning, nor the
     // speed where a sensor measures it. Wide curves are banked, so they do not show the speed.
-    const bool turns = std::abs(sample.yaw_rate - state.x[index::gyro_bias]) > tight_turn;
+    const bool turns = six || std::abs(sample.yaw_rate - state.x[index::gyro_bias]) > tight_turn;
     // A state that is listed twice is considered once.
     const int speed = p.speed_from_turns && turns ? index::speed_scale : index::speed;
     joseph_update(
@@ -42,6 +43,13 @@ void apply_sample(FilterState& state, const ImuSample& sample, const ImuSample& 
   if (!stands(state, sample, interval, p) || !p.use_zero_velocity) return;
   joseph_update(state.x, state.P, zero_velocity_innovation(state, interval, p));
   joseph_update(state.x, state.P, zero_rate_innovation(state, sample, interval, earth, p));
+  if (six) {
+    for (const int axis : {0, 1}) {
+      joseph_update(state.x, state.P,
+                    zero_tilt_rate_innovation(state, sample, axis, interval, earth, p));
+    }
+    joseph_update(state.x, state.P, up_innovation(state, sample, interval, earth, p));
+  }
   state.zero_velocity_stamp = sample.stamp;
 }
 

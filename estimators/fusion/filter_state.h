@@ -16,14 +16,19 @@ namespace index {
 enum : int {
   east,
   north,
-  up,               // m, enu
-  speed,            // m/s along the path, as the speed sensor measures it; negative in reverse
-  azimuth,          // rad, in (-pi, pi]
-  pitch,            // rad
-  roll,             // rad
-  gyro_bias,        // rad/s, adds to the measured yaw rate
-  forward_bias,     // m/s^2, adds to the measured forward specific force
-  left_bias,        // m/s^2, adds to the measured left specific force
+  up,            // m, enu
+  speed,         // m/s along the path, as the speed sensor measures it; negative in reverse
+  azimuth,       // rad, in (-pi, pi]
+  pitch,         // rad
+  roll,          // rad
+  gyro_bias,     // rad/s, adds to the measured yaw rate
+  forward_bias,  // m/s^2, adds to the measured forward specific force
+  left_bias,     // m/s^2, adds to the measured left specific force
+  // These four belong to a unit of six axes.
+  roll_gyro_bias,   // rad/s, adds to the measured rate about body x
+  pitch_gyro_bias,  // rad/s, adds to the measured rate about body y
+  unit_course,      // rad, the unit points to the left of the direction of travel
+  up_bias,          // m/s^2, adds to the measured upward specific force
   climb_offset,     // rad, direction of travel above body x, from mounting and load
   odometry_course,  // rad, odometry's motions point to the right of the travel, from its mounting
   axle_distance,    // m, from the rear axle forward to the origin of the body
@@ -82,6 +87,10 @@ struct Stillness {
   double left_variance = 1.0;
   double mean_rate = 0.0;
   double rate_variance = 1.0;
+  double mean_roll_rate = 0.0;  // of the other rates of a full unit, the same
+  double roll_rate_variance = 1.0;
+  double mean_pitch_rate = 0.0;
+  double pitch_rate_variance = 1.0;
   // These are the newest times at which odometry or the wheels showed a standing or a moving
   // vehicle.
   Time seen_standing{};
@@ -91,6 +100,7 @@ struct Stillness {
 template <class Archive>
 void archive(Archive& ar, Stillness& s) {
   ar(s.mean_force, s.force_variance, s.mean_left, s.left_variance, s.mean_rate, s.rate_variance,
+     s.mean_roll_rate, s.roll_rate_variance, s.mean_pitch_rate, s.pitch_rate_variance,
      s.seen_standing, s.seen_moving);
 }
 

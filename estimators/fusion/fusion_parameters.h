@@ -2,7 +2,22 @@
 // its sensors; parameter_table.cpp describes each.
 #pragma once
 
+#include <cstdint>
+
+#include "msgs/named_enum.h"
+
 namespace maploop::fusion {
+
+// Which axes of the inertial unit the filter uses, where a sample has all six.
+enum class InertialAxes : std::uint8_t {
+  automatic,  // six where neither odometry nor wheels measure the speed, else three
+  three,      // the reduced unit: forward and left force, yaw rate
+  six,
+};
+
+constexpr auto names_of(InertialAxes) {
+  return names_up_to<InertialAxes::six>({"auto", "three", "six"});
+}
 
 struct FusionParameters {
   // Which measurements correct the state. A named configuration (configuration.h) sets these.
@@ -14,6 +29,7 @@ struct FusionParameters {
   bool use_zero_velocity = true;
   bool still_by_inertia = false;
   bool speed_from_turns = false;
+  InertialAxes inertial_axes = InertialAxes::automatic;
 
   // History and time.
   double history_length = 3.0;  // s
@@ -72,6 +88,13 @@ struct FusionParameters {
   double odometry_course_sigma = 0.035;  // rad (2 deg)
   double odometry_course_walk = 1e-4;    // rad/sqrt(s)
   double max_tilt = 0.8;                 // rad
+
+  // A unit of six axes.
+  double tilt_rate_noise = 1e-4;              // rad/sqrt(s) (0.3 deg/sqrt(h))
+  double levelled_acceleration_noise = 0.03;  // m/s/sqrt(s)
+  double levelled_tilt_sigma = 0.015;         // rad (0.9 deg)
+  double cross_axis_sigma = 0.002;
+  double unit_course_sigma = 0.02;  // rad (1 deg)
 
   // Levelling by the accelerometers.
   double tilt_sigma = 0.0175;             // rad (1 deg)
@@ -133,6 +156,12 @@ struct FusionParameters {
   int recover_after = 10;
   double recovery_speed_sigma = 5.0;      // m/s
   double recovery_rotation_sigma = 0.05;  // rad (3 deg)
+
+  bool uses_six_axes() const {
+    const bool no_speed_sensor = !use_odometry_speed && !use_wheel_speed;
+    return inertial_axes == InertialAxes::six ||
+           (inertial_axes == InertialAxes::automatic && no_speed_sensor);
+  }
 };
 
 }  // namespace maploop::fusion

@@ -6,15 +6,36 @@
 namespace maploop::fusion {
 namespace {
 
-bool repeats(const ImuSample& a, const ImuSample& b) {
-  return a.specific_force_forward == b.specific_force_forward &&
-         a.specific_force_left == b.specific_force_left && a.yaw_rate == b.yaw_rate;
+// Axes that are not used do not count.
+bool repeats(const ImuSample& a, const ImuSample& b, const FusionParameters& parameters) {
+  return parameters.uses_six_axes()
+             ? a.values() == b.values()
+             : a.specific_force_forward == b.specific_force_forward &&
+                   a.specific_force_left == b.specific_force_left && a.yaw_rate == b.yaw_rate;
+}
+
+// Sets the input to the values between `a` (weight 0) and `b` (1).
+void interpolate(const InertialValues& a, const InertialValues& b, double weight,
+                 const FusionParameters& parameters, InertialInput& input) {
+  const auto between = [&](double InertialValues::*value) {
+    return a.*value + weight * (b.*value - a.*value);
+  };
+  using V = InertialValues;
+  input.inertial = true;
+  input.forward_force = between(&V::specific_force_forward);
+  input.yaw_rate = between(&V::yaw_rate);
+  input.six_axes = a.six_axes && b.six_axes && parameters.uses_six_axes();
+  if (!input.six_axes) return;
+  input.left_force = between(&V::specific_force_left);
+  input.roll_rate = between(&V::roll_rate);
+  input.pitch_rate = between(&V::pitch_rate);
 }
 
 bool neighbours(const InertialSamples& samples, const FusionParameters& parameters) {
   return samples.before != nullptr && samples.after != nullptr &&
          samples.after->stamp - samples.before->stamp <= from_seconds(parameters.imu_bridge) &&
-         !frozen(samples.repeated, parameters) && !repeats(*samples.before, *samples.after);
+         !frozen(samples.repeated, parameters) &&
+         !repeats(*samples.before, *samples.after, parameters);
 }
 
 Time measured(const InertialSamples& samples) {
@@ -25,7 +46,7 @@ Time measured(const InertialSamples& samples) {
 
 Duration repetition(const InertialSamples& samples, const ImuSample& sample, double speed,
                     const FusionParameters& parameters) {
-  if (samples.before == nullptr || !repeats(*samples.before, sample)) return {};
+  if (samples.before == nullptr || !repeats(*samples.before, sample, parameters)) return {};
   if (std::abs(speed) < parameters.repeat_speed && !frozen(samples.repeated, parameters)) return {};
   return samples.repeated + (sample.stamp - samples.before->stamp);
 }
@@ -57,10 +78,7 @@ InertialInput inertial_input(const InertialSamples& samples, Time from, Time to,
     const ImuSample& b = *samples.after;
     const double gap = to_seconds(b.stamp - a.stamp);
     const double weight = to_seconds((from - a.stamp) + (to - a.stamp)) / (2.0 * gap);
-    input.inertial = true;
-    input.forward_force =
-        a.specific_force_forward + weight * (b.specific_force_forward - a.specific_force_forward);
-    input.yaw_rate = a.yaw_rate + weight * (b.yaw_rate - a.yaw_rate);
+    interpolate(a, b, weight, parameters, input);
     input.unseen_change = gap * gap * gap * input.duration / 64.0;  // (1) of METHOD.md
     return input;
   }
@@ -69,9 +87,7 @@ InertialInput inertial_input(const InertialSamples& samples, Time from, Time to,
   const double age_to = to_seconds(to - measured(samples));
   if (to - measured(samples) > from_seconds(parameters.imu_hold)) return input;
   // The unseen deviation is a ramp that starts at the sample: age^2 / 2.
-  input.inertial = true;
-  input.forward_force = a.specific_force_forward;
-  input.yaw_rate = a.yaw_rate;
+  interpolate(a, a, 0.0, parameters, input);
   input.unseen_change = (std::pow(age_to, 4) - std::pow(age_from, 4)) / 4.0;  // (2) of METHOD.md
   return input;
 }

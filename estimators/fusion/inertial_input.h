@@ -11,6 +11,10 @@ struct InertialInput {
   bool inertial = false;       // false: the IMU is silent, the rest is zero
   double forward_force = 0.0;  // m/s^2, mean over the stretch
   double yaw_rate = 0.0;       // rad/s, mean over the stretch
+  // The other values are means, too, of a full unit that the filter uses as one.
+  bool six_axes = false;
+  double left_force = 0.0;                   // m/s^2
+  double roll_rate = 0.0, pitch_rate = 0.0;  // rad/s about body x and y
   // This is the variance (s^4) of the integral over the stretch if the integrand changes
   // unobserved, between or after the samples, with a rate of sigma 1 per second.
   double unseen_change = 0.0;

@@ -20,7 +20,9 @@ void follow(double& mean, double& variance, double value, double share) {
 }
 
 // Even on a smooth road the tyres and the engine shake a moving vehicle more than this.
-bool is_quiet(const Stillness& s, const FusionParameters& p) {
+bool is_quiet(const Stillness& s, bool six, const FusionParameters& p) {
+  if (six && s.roll_rate_variance + s.pitch_rate_variance > 2.0 * p.quiet_rate * p.quiet_rate)
+    return false;
   return s.force_variance + s.left_variance < p.quiet_force * p.quiet_force &&
          s.rate_variance < p.quiet_rate * p.quiet_rate;
 }
@@ -46,6 +48,7 @@ std::optional<Innovation<1>> roll_innovation(const FilterState& state, const Imu
   const Vector3d vertical = earth.vertical(x[east], x[north]);
   const Eigen::Matrix3d R = rotation_enu_body(state.attitude());
   const double rate = sample.yaw_rate - x[gyro_bias];
+  const bool six = sample.six_axes && parameters.uses_six_axes();
   const double acceleration =
       sample.specific_force_forward - x[forward_bias] - g * vertical.dot(R.col(0));
   if (std::abs(acceleration) > parameters.max_acceleration ||
@@ -55,7 +58,7 @@ std::optional<Innovation<1>> roll_innovation(const FilterState& state, const Imu
 
   const Vector3d left = R.col(1);
   const Eigen::Matrix3d axes = attitude_rate_axes(state.attitude());
-  const double sigma = g * parameters.tilt_sigma;
+  const double sigma = g * (six ? parameters.levelled_tilt_sigma : parameters.tilt_sigma);
   // (20) of METHOD.md
   Innovation<1> innovation(
       sample.specific_force_left - (ground * rate + g * vertical.dot(left) + x[left_bias]),
@@ -68,6 +71,32 @@ std::optional<Innovation<1>> roll_innovation(const FilterState& state, const Imu
   innovation.H[left_bias] = 1.0;
   for (int i = 0; i < 3; ++i) {
     innovation.H[azimuth + i] = g * vertical.dot(axes.col(i).cross(left));
+  }
+  if (!six) return innovation;
+  // (33) of METHOD.md
+  innovation.residual[0] += x[unit_course] * sample.specific_force_forward;
+  innovation.H[unit_course] = -sample.specific_force_forward;
+  return innovation;
+}
+
+Innovation<1> up_innovation(const FilterState& state, const ImuSample& sample, double interval,
+                            const LocalEarth& earth, const FusionParameters& parameters) {
+  using namespace index;
+  using Eigen::Vector3d;
+  const StateVector& x = state.x;
+  const double g = earth.gravity(x[up]);
+  const Vector3d vertical = earth.vertical(x[east], x[north]);
+  const Vector3d above = rotation_enu_body(state.attitude()).col(2);
+  const Eigen::Matrix3d axes = attitude_rate_axes(state.attitude());
+  const double sigma = g * parameters.levelled_tilt_sigma;
+  // (34) of METHOD.md
+  Innovation<1> innovation(sample.specific_force_up - (g * vertical.dot(above) + x[up_bias]),
+                           sigma * sigma * std::max(1.0, parameters.tilt_time / interval));
+  innovation.H[east] = g * earth.curvature().x() * above.x();
+  innovation.H[north] = g * earth.curvature().y() * above.y();
+  innovation.H[up_bias] = 1.0;
+  for (int i = 0; i < 3; ++i) {
+    innovation.H[azimuth + i] = g * vertical.dot(axes.col(i).cross(above));
   }
   return innovation;
 }
@@ -90,10 +119,15 @@ bool stands(FilterState& state, const ImuSample& sample, double interval,
   follow(s.mean_force, s.force_variance, sample.specific_force_forward, share);
   follow(s.mean_left, s.left_variance, sample.specific_force_left, share);
   follow(s.mean_rate, s.rate_variance, sample.yaw_rate, share);
+  const bool six = sample.six_axes && p.uses_six_axes();
+  if (six) {
+    follow(s.mean_roll_rate, s.roll_rate_variance, sample.roll_rate, share);
+    follow(s.mean_pitch_rate, s.pitch_rate_variance, sample.pitch_rate, share);
+  }
 
   const double rate_margin = p.still_rate + 3.0 * std::sqrt(state.P(gyro_bias, gyro_bias));
   if (std::abs(sample.yaw_rate - state.x[gyro_bias]) > rate_margin) return false;
-  if (p.still_by_inertia && is_quiet(s, p)) return near_zero(state);
+  if (p.still_by_inertia && is_quiet(s, six, p)) return near_zero(state);
   if (s.force_variance > p.still_force * p.still_force) return false;
   const Time recent = sample.stamp - from_seconds(memory);
   if (std::max(s.seen_standing, s.seen_moving) > recent) return s.seen_standing > s.seen_moving;
@@ -120,6 +154,21 @@ Innovation<1> zero_rate_innovation(const FilterState& state, const ImuSample& sa
           earth.earth_rate_up() * std::cos(state.x[pitch]) * std::cos(state.x[roll]),
       p.gyro_noise * p.gyro_noise / interval + p.zero_rate_sigma * p.zero_rate_sigma / interval);
   innovation.H[gyro_bias] = 1.0;
+  return innovation;
+}
+
+Innovation<1> zero_tilt_rate_innovation(const FilterState& state, const ImuSample& sample, int axis,
+                                        double interval, const LocalEarth& earth,
+                                        const FusionParameters& p) {
+  using namespace index;
+  const int bias = axis == 0 ? roll_gyro_bias : pitch_gyro_bias;
+  const double rate = axis == 0 ? sample.roll_rate : sample.pitch_rate;
+  const double own = rotation_enu_body(state.attitude()).col(axis).dot(earth.earth_rate());
+  // (24) of METHOD.md
+  Innovation<1> innovation(
+      rate - state.x[bias] - own,
+      p.gyro_noise * p.gyro_noise / interval + p.zero_rate_sigma * p.zero_rate_sigma / interval);
+  innovation.H[bias] = 1.0;
   return innovation;
 }
 

@@ -22,6 +22,12 @@ std::optional<Innovation<1>> roll_innovation(const FilterState& state, const Imu
                                              double interval, const LocalEarth& earth,
                                              const FusionParameters& parameters);
 
+// z = upward specific force of a full unit that stands, m/s^2; h = g (cos p cos r) + bias. While
+// the vehicle moves, its springs would pass for errors of pitch and speed. The weight is that of
+// the roll.
+Innovation<1> up_innovation(const FilterState& state, const ImuSample& sample, double interval,
+                            const LocalEarth& earth, const FusionParameters& parameters);
+
 // Records whether odometry or the wheels show a standing vehicle.
 void note_motion(Stillness& stillness, const RelativeMotion& motion, const FusionParameters& p);
 void note_motion(Stillness& stillness, const WheelSpeed& sample, const FusionParameters& p);
@@ -42,5 +48,9 @@ Innovation<1> zero_velocity_innovation(const FilterState& state, double interval
 Innovation<1> zero_rate_innovation(const FilterState& state, const ImuSample& sample,
                                    double interval, const LocalEarth& earth,
                                    const FusionParameters& parameters);
+// z = the rates about body x (axis 0) and y (axis 1), rad/s, of a full unit; h is the same.
+Innovation<1> zero_tilt_rate_innovation(const FilterState& state, const ImuSample& sample, int axis,
+                                        double interval, const LocalEarth& earth,
+                                        const FusionParameters& parameters);
 
 }  // namespace maploop::fusion

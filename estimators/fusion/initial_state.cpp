@@ -31,6 +31,12 @@ void add_unknown_sensors(FilterState& state, const FusionParameters& p) {
   add(gyro_bias, p.gyro_turn_on_sigma);
   add(forward_bias, p.accelerometer_turn_on_sigma);
   add(left_bias, p.accelerometer_turn_on_sigma);
+  if (p.uses_six_axes()) {
+    add(roll_gyro_bias, p.gyro_turn_on_sigma);
+    add(pitch_gyro_bias, p.gyro_turn_on_sigma);
+    add(unit_course, p.unit_course_sigma);
+    add(up_bias, p.accelerometer_turn_on_sigma);
+  }
   // The speed over ground is given, but the state holds the speed as the sensor measures it.
   const double scale_variance = p.speed_scale_sigma * p.speed_scale_sigma;
   state.P(speed_scale, speed_scale) = scale_variance;

@@ -1,5 +1,6 @@
 #include "estimators/fusion/measurement_check.h"
 
+#include <Eigen/Core>
 #include <cmath>
 
 #include "estimators/fusion/covariance_check.h"
@@ -13,13 +14,15 @@ bool stamped_after_delivery(const Sample& sample, const FusionParameters& parame
 }
 
 Reason check_sample(const ImuSample& sample, const FusionParameters& parameters) {
-  if (!std::isfinite(sample.specific_force_forward) || !std::isfinite(sample.specific_force_left) ||
-      !std::isfinite(sample.yaw_rate)) {
-    return Reason::not_finite;
+  Eigen::Vector3d force(sample.specific_force_forward, sample.specific_force_left, 0.0);
+  Eigen::Vector3d rate(0.0, 0.0, sample.yaw_rate);
+  if (sample.six_axes && parameters.uses_six_axes()) {
+    force.z() = sample.specific_force_up;
+    rate.head<2>() << sample.roll_rate, sample.pitch_rate;
   }
-  if (std::abs(sample.specific_force_forward) > parameters.max_specific_force ||
-      std::abs(sample.specific_force_left) > parameters.max_specific_force ||
-      std::abs(sample.yaw_rate) > parameters.max_yaw_rate) {
+  if (!force.allFinite() || !rate.allFinite()) return Reason::not_finite;
+  if (force.cwiseAbs().maxCoeff() > parameters.max_specific_force ||
+      rate.cwiseAbs().maxCoeff() > parameters.max_yaw_rate) {
     return Reason::out_of_range;
   }
   return stamped_after_delivery(sample, parameters) ? Reason::after_delivery : Reason::none;

@@ -11,12 +11,11 @@ double squared(double v) {
   return v * v;
 }
 
-// Returns F P F^T. Only the rows of position, speed, azimuth and distance of F have entries off the
+// Returns F P F^T. Only the first `dense` rows of F, and that of distance, have entries off the
 // diagonal, so this takes a third of the full product's operations.
+template <int dense>
 StateMatrix propagated(const StateMatrix& P, const StateMatrix& F) {
   using namespace index;
-  static_assert(east == 0 && azimuth == 4);
-  constexpr int dense = azimuth + 1;
   const auto diagonal = F.diagonal();
   StateMatrix FP = diagonal.asDiagonal() * P;
   FP.topRows<dense>().noalias() = F.topRows<dense>() * P;
@@ -27,41 +26,54 @@ StateMatrix propagated(const StateMatrix& P, const StateMatrix& F) {
   return 0.5 * (result + result.transpose());
 }
 
+struct Acceleration {
+  double value = 0.0;  // m/s^2, of the speed
+  Eigen::Matrix<double, 1, index::count> by_state = Eigen::Matrix<double, 1, index::count>::Zero();
+};
+
+Acceleration acceleration_of(const StateVector& x, const InertialInput& input,
+                             const LocalEarth& earth) {
+  using namespace index;
+  const double sA = std::sin(x[azimuth]), cA = std::cos(x[azimuth]);
+  const double sp = std::sin(x[pitch]), cp = std::cos(x[pitch]);
+  const double g = earth.gravity(x[up]);
+  const Vector3d vertical = earth.vertical(x[east], x[north]);
+  const Vector3d forward(sA * cp, cA * cp, sp);
+  Acceleration a;
+  // (3) of METHOD.md
+  a.value = input.forward_force - x[forward_bias] - g * vertical.dot(forward);
+  a.by_state[east] = -g * earth.curvature().x() * forward.x();
+  a.by_state[north] = -g * earth.curvature().y() * forward.y();
+  a.by_state[azimuth] = -g * vertical.dot(Vector3d(cA * cp, -sA * cp, 0.0));
+  a.by_state[pitch] = -g * vertical.dot(Vector3d(-sA * sp, -cA * sp, cp));
+  a.by_state[forward_bias] = -1.0;
+  if (!input.six_axes) return a;
+  // (31) of METHOD.md
+  const double rate = input.yaw_rate - x[gyro_bias];
+  a.value += x[axle_distance] * rate * rate - x[unit_course] * input.left_force;
+  a.by_state[axle_distance] = rate * rate;
+  a.by_state[gyro_bias] = -2.0 * x[axle_distance] * rate;
+  a.by_state[unit_course] = -input.left_force;
+  return a;
+}
+
 }  // namespace
 
 Step mechanize(const StateVector& x, const InertialInput& input, const LocalEarth& earth,
                const FusionParameters& parameters) {
   using namespace index;
   const double dt = input.duration;
-  const double sA = std::sin(x[azimuth]), cA = std::cos(x[azimuth]);
-  const double sp = std::sin(x[pitch]), cp = std::cos(x[pitch]);
-  const double sr = std::sin(x[roll]), cr = std::cos(x[roll]);
-
-  // These are azimuth rate and acceleration, and their derivatives with respect to the state (row
-  // vectors).
-  double rate = 0.0;  // rad/s about body up
-  double azimuth_rate = 0.0;
-  double acceleration = 0.0;
-  Eigen::Matrix<double, 1, count> azimuth_rate_by = Eigen::Matrix<double, 1, count>::Zero();
-  Eigen::Matrix<double, 1, count> acceleration_by = Eigen::Matrix<double, 1, count>::Zero();
+  const double rate = input.inertial ? input.yaw_rate - x[gyro_bias] : 0.0;  // rad/s, body up
+  AttitudeRates turning;
+  Acceleration forward;
   if (input.inertial) {
-    rate = input.yaw_rate - x[gyro_bias];
-    azimuth_rate = -(rate / (cp * cr) - earth.earth_rate_up());  // (3) of METHOD.md
-    azimuth_rate_by[pitch] = -rate * sp / (cp * cp * cr);
-    azimuth_rate_by[roll] = -rate * sr / (cp * cr * cr);
-    azimuth_rate_by[gyro_bias] = 1.0 / (cp * cr);
-
-    const double g = earth.gravity(x[up]);
-    const Vector3d vertical = earth.vertical(x[east], x[north]);
-    const Vector3d forward(sA * cp, cA * cp, sp);
-    // (3) of METHOD.md
-    acceleration = input.forward_force - x[forward_bias] - g * vertical.dot(forward);
-    acceleration_by[east] = -g * earth.curvature().x() * forward.x();
-    acceleration_by[north] = -g * earth.curvature().y() * forward.y();
-    acceleration_by[azimuth] = -g * vertical.dot(Vector3d(cA * cp, -sA * cp, 0.0));
-    acceleration_by[pitch] = -g * vertical.dot(Vector3d(-sA * sp, -cA * sp, cp));
-    acceleration_by[forward_bias] = -1.0;
+    turning = attitude_rates(x, input, earth);
+    forward = acceleration_of(x, input, earth);
   }
+  const double azimuth_rate = turning.value[0];
+  const auto azimuth_rate_by = turning.by_state.row(0);
+  const double acceleration = forward.value;
+  const auto& acceleration_by = forward.by_state;
 
   const double mid_azimuth = x[azimuth] + 0.5 * dt * azimuth_rate;
   // Speed and distance are those of the speed sensor; dividing by its scale gives the path over
@@ -85,6 +97,7 @@ Step mechanize(const StateVector& x, const InertialInput& input, const LocalEart
   step.x.segment<3>(east) += dt * swing * left;
   step.x[speed] += dt * acceleration;
   step.x[azimuth] = wrap_angle(x[azimuth] + dt * azimuth_rate);
+  step.x.segment<2>(pitch) += dt * turning.value.tail<2>();
   step.x[distance] += dt * sensed_speed;
 
   StateMatrix& F = step.F;
@@ -102,7 +115,7 @@ Step mechanize(const StateVector& x, const InertialInput& input, const LocalEart
   F.block<3, 1>(east, azimuth) += dt * swing * left_by_azimuth;
   if (input.inertial) F.block<3, 1>(east, gyro_bias) -= dt * x[axle_distance] * left;
   F.row(speed) += dt * acceleration_by;
-  F.row(azimuth) += dt * azimuth_rate_by;
+  F.middleRows<3>(azimuth) += dt * turning.by_state;
   F.row(distance) += 0.5 * dt * dt * acceleration_by;
   F(distance, speed) += dt;
   const auto decay = [&](int i, double time, double mean = 0.0) {
@@ -121,13 +134,39 @@ Step mechanize(const StateVector& x, const InertialInput& input, const LocalEart
   step.acceleration_effect.segment<3>(east) = 0.5 * dt * dt * to_ground * travel;
   step.acceleration_effect[speed] = dt;
   step.acceleration_effect[distance] = 0.5 * dt * dt;
+  step.gyro_effect = dt * turning.by_gyro;
   step.yaw_rate_effect.setZero();
-  step.yaw_rate_effect[azimuth] = -dt / (cp * cr);
+  if (input.six_axes) {
+    step.yaw_rate_effect = -F.col(gyro_bias);
+    step.yaw_rate_effect[gyro_bias] = 0.0;
+    return step;
+  }
+  step.yaw_rate_effect[azimuth] = -dt / turning.level;
   step.yaw_rate_effect.segment<3>(east) =
-      -0.5 * dt * dt / (cp * cr) * (mid_speed * travel_by_azimuth + swing * left_by_azimuth) +
+      -0.5 * dt * dt / turning.level * (mid_speed * travel_by_azimuth + swing * left_by_azimuth) +
       dt * x[axle_distance] * left;
   return step;
 }
+
+namespace {
+
+// The gyros about body x and y have their own noise, and see a share of the turning, which stays
+// the same for a turn.
+void add_tilt_noise(StateMatrix& Q, const Step& step, const InertialInput& input,
+                    const FusionParameters& p) {
+  // (32) of METHOD.md
+  const double dt = input.duration;
+  const double share = squared(p.cross_axis_sigma * input.yaw_rate) * p.turn_time;
+  const double variance = (dt * (squared(p.tilt_rate_noise) + share) +
+                           input.unseen_change * squared(p.yaw_acceleration)) /
+                          (dt * dt);
+  for (int i = 0; i < 2; ++i) {
+    Q.block<3, 3>(index::azimuth, index::azimuth) +=
+        variance * step.gyro_effect.col(i) * step.gyro_effect.col(i).transpose();
+  }
+}
+
+}  // namespace
 
 StateMatrix process_noise(const StateVector& x, const Step& step, const InertialInput& input,
                           const FusionParameters& p) {
@@ -139,7 +178,8 @@ StateMatrix process_noise(const StateVector& x, const Step& step, const Inertial
   double speed_variance = dt * squared(p.silent_speed_noise);  // (5) and (6) of METHOD.md
   double azimuth_variance = dt * squared(p.silent_yaw_noise);
   if (input.inertial) {
-    speed_variance = dt * squared(p.acceleration_noise) + input.unseen_change * squared(p.jerk);
+    const double noise = input.six_axes ? p.levelled_acceleration_noise : p.acceleration_noise;
+    speed_variance = dt * squared(noise) + input.unseen_change * squared(p.jerk);
     azimuth_variance =
         dt * (squared(p.gyro_noise) + squared(p.gyro_scale_sigma * input.yaw_rate) * p.turn_time) +
         input.unseen_change * squared(p.yaw_acceleration);
@@ -148,8 +188,12 @@ StateMatrix process_noise(const StateVector& x, const Step& step, const Inertial
        (speed_variance / (dt * dt));
   Q += step.yaw_rate_effect * step.yaw_rate_effect.transpose() * (azimuth_variance / (dt * dt));
 
-  Q(pitch, pitch) += dt * squared(p.pitch_noise);
-  Q(roll, roll) += dt * squared(p.roll_noise);
+  if (input.six_axes) {
+    add_tilt_noise(Q, step, input, p);
+  } else {
+    Q(pitch, pitch) += dt * squared(p.pitch_noise);
+    Q(roll, roll) += dt * squared(p.roll_noise);
+  }
 
   // This random walk departs from a constant by sigma in half of `time`.
   const auto walk = [&](int i, double sigma, double time) {  // (9) of METHOD.md
@@ -158,6 +202,12 @@ StateMatrix process_noise(const StateVector& x, const Step& step, const Inertial
   walk(gyro_bias, p.gyro_bias_sigma, p.gyro_bias_time);
   walk(forward_bias, p.accelerometer_bias_sigma, p.accelerometer_bias_time);
   walk(left_bias, p.accelerometer_bias_sigma, p.accelerometer_bias_time);
+  if (input.six_axes) {
+    walk(roll_gyro_bias, p.gyro_bias_sigma, p.gyro_bias_time);
+    walk(pitch_gyro_bias, p.gyro_bias_sigma, p.gyro_bias_time);
+    walk(unit_course, 0.1 * p.unit_course_sigma, p.accelerometer_bias_time);
+    walk(up_bias, p.accelerometer_bias_sigma, p.accelerometer_bias_time);
+  }
   walk(lidar_scale, p.lidar_scale_sigma, p.lidar_error_time);
   walk(lidar_turn, p.lidar_turn_sigma, p.lidar_error_time);
   Q(speed_scale, speed_scale) += dt * squared(p.speed_scale_walk);
@@ -185,7 +235,9 @@ StateMatrix process_noise(const StateVector& x, const Step& step, const Inertial
 void predict(FilterState& state, const InertialInput& input, const LocalEarth& earth,
              const FusionParameters& parameters) {
   const Step step = mechanize(state.x, input, earth, parameters);
-  state.P = propagated(state.P, step.F);  // (4) of METHOD.md
+  static_assert(index::east == 0 && index::azimuth == 4 && index::roll == 6);
+  state.P = input.six_axes ? propagated<index::roll + 1>(state.P, step.F)
+                           : propagated<index::azimuth + 1>(state.P, step.F);  // (4) of METHOD.md
   state.P += process_noise(state.x, step, input, parameters);
   state.x = step.x;
 }

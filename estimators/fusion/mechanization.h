@@ -3,6 +3,7 @@
 // angle is its pitch plus the offset between body x and the direction of travel.
 #pragma once
 
+#include "estimators/fusion/attitude_rates.h"
 #include "estimators/fusion/earth.h"
 #include "estimators/fusion/filter_state.h"
 #include "estimators/fusion/fusion_parameters.h"
@@ -16,6 +17,7 @@ struct Step {
   StateMatrix F;                    // derivative of x with respect to the state before
   StateVector acceleration_effect;  // of x per constant acceleration error, 1/(m/s^2)
   StateVector yaw_rate_effect;      // of x per constant yaw rate error, 1/(rad/s)
+  Eigen::Matrix3d gyro_effect;      // of the attitude per error of the rate about body x, y, z
 };
 
 // Returns the state `input.duration` later by the midpoint rule. The specific forces contain

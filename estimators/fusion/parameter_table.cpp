@@ -32,6 +32,10 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
       {"speed_from_turns", &P::speed_from_turns, expert,
        "Whether the centripetal force of a turn corrects the speed. `configuration` sets it where "
        "neither odometry nor wheels give a speed."},
+      {"inertial_axes", one_of<&P::inertial_axes>, usual,
+       "Axes of the inertial unit that are used where it has six. \"three\": two horizontal "
+       "accelerometers and the vertical gyro, as in the thesis; \"auto\": six where neither "
+       "odometry nor wheels give a speed, else three."},
 
       {"history_length", &P::history_length, 0.01, 60.0, "s", expert,
        "Age up to which late data is applied. Odometry is less than 0.3 s late."},
@@ -158,6 +162,24 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
        "Random walk of that angle."},
       {"max_tilt", &P::max_tilt, 0.1, 1.5, "rad", expert,
        "A correction to more roll or pitch is refused, because no road vehicle leans so far."},
+
+      {"tilt_rate_noise", &P::tilt_rate_noise, tiny, 1.0, "rad/sqrt(s)", usual,
+       "Random walk of pitch and roll where all six axes are used (inertial_axes).",
+       six_axes_choice},
+      {"levelled_acceleration_noise", &P::levelled_acceleration_noise, tiny, large, "m/s/sqrt(s)",
+       usual,
+       "The same as acceleration_noise where all six axes are used, because then no road is in it.",
+       six_axes_choice},
+      {"levelled_tilt_sigma", &P::levelled_tilt_sigma, tiny, 1.0, "rad", expert,
+       "The same as tilt_sigma where all six axes are used, because then no suspension is in it.",
+       six_axes_choice},
+      {"cross_axis_sigma", &P::cross_axis_sigma, 0.0, 1.0, "1", usual,
+       "Standard deviation of the share of the yaw rate that the gyros of roll and pitch see.",
+       six_axes_choice},
+      {"unit_course_sigma", &P::unit_course_sigma, 0.0, 1.0, "rad", usual,
+       "Standard deviation of the angle by which a unit of six axes points to the left of the "
+       "travel, and ten times that of its change in half of accelerometer_bias_time.",
+       six_axes_choice},
 
       {"tilt_sigma", &P::tilt_sigma, tiny, 1.0, "rad", expert,
        "Standard deviation of the roll seen in one independent accelerometer sample."},

@@ -38,6 +38,13 @@ const std::array<Property, calibrated_count> all{{
     {index::gyro_bias, "gyro_bias", "bias of the gyro", "deg/h", degrees(3600.0), bias},
     {index::forward_bias, "forward_bias", "bias of the forward accelerometer", "m/s^2", 1.0, bias},
     {index::left_bias, "left_bias", "bias of the left accelerometer", "m/s^2", 1.0, bias},
+    {index::roll_gyro_bias, "roll_gyro_bias", "bias of the gyro about the forward axis", "deg/h",
+     degrees(3600.0), bias},
+    {index::pitch_gyro_bias, "pitch_gyro_bias", "bias of the gyro about the left axis", "deg/h",
+     degrees(3600.0), bias},
+    {index::up_bias, "up_bias", "bias of the upward accelerometer", "m/s^2", 1.0, bias},
+    {index::unit_course, "unit_course", "inertial unit points to the left by", "deg", degrees(1.0),
+     mount},
 }};
 
 }  // namespace
@@ -72,7 +79,7 @@ void recall(FilterState& state, const RememberedCalibration& remembered,
         remembered_sigma(i, remembered.sigma[i], p.per_unit * sigmas_at_start[p.state],
                          state.stamp - remembered.at) /
         p.per_unit;
-    // (30) of METHOD.md
+    // (35) of METHOD.md
     Innovation<1> innovation(remembered.value[i] / p.per_unit - state.x[p.state], sigma * sigma);
     innovation.H(p.state) = 1.0;
     constexpr double gate = 25.0;  // five sigmas: it is not the car that is described

@@ -24,7 +24,7 @@ struct CalibratedProperty {
   bool observed() const { return sigma > 0.0 && sigma < 0.5 * sigma_at_start; }
 };
 
-inline constexpr std::size_t calibrated_count = 11;
+inline constexpr std::size_t calibrated_count = 15;
 using SelfCalibrations = std::array<CalibratedProperty, calibrated_count>;
 
 // `sigmas_at_start` are those of the states before any measurement, as they were given.
@@ -49,7 +49,7 @@ void archive(Archive& ar, RememberedCalibration& r) {
 // sigma at the start is added, which grows with time until nothing is left of what was remembered.
 double remembered_sigma(std::size_t property, double sigma, double sigma_at_start, Duration age);
 
-// Corrects a first state by the remembered properties, (30) of METHOD.md, as by a measurement of
+// Corrects a first state by the remembered properties, (35) of METHOD.md, as by a measurement of
 // each.
 void recall(FilterState& state, const RememberedCalibration& remembered,
             const StateVector& sigmas_at_start);

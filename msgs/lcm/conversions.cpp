@@ -72,6 +72,10 @@ void convert(auto copy, Is<ImuSample> auto& sample, auto& m) {
   copy(sample.specific_force_forward, m.specific_force_forward);
   copy(sample.specific_force_left, m.specific_force_left);
   copy(sample.yaw_rate, m.yaw_rate);
+  copy(sample.six_axes, m.six_axes);
+  copy(sample.specific_force_up, m.specific_force_up);
+  copy(sample.roll_rate, m.roll_rate);
+  copy(sample.pitch_rate, m.pitch_rate);
 }
 MAPLOOP_CONVERSIONS(ImuSample, maploop_lcm::imu_t)
 

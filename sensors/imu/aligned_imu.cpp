@@ -17,7 +17,7 @@ bool AlignedImu::next(ImuSample& sample) {
   SixAxisSample six;
   while (take(six)) {
     if (alignment_.mount().known()) {
-      sample = alignment_.reduced(six);
+      sample = alignment_.aligned(six);
       ++report_.delivered;
       return true;
     }

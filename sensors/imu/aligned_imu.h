@@ -1,4 +1,4 @@
-// This file makes the reduced samples in the vehicle's axes from those of a unit in any mount.
+// This file makes the samples in the vehicle's axes from those of a unit in any mount.
 #pragma once
 
 #include <cstdint>

@@ -209,17 +209,15 @@ void MountAlignment::settle() {
   mount_.status = MountStatus::found;
   if (rest_ >= enough_rest) return;
   const Vector3d up = mount_.R_body_unit.row(2).transpose();  // of the body, in the unit's axes
-  mount_.gyro_bias = (up.dot(turned_) - course_turned_) / weights_ * up;
+  mount_.gyro_bias = (turned_ - course_turned_ * up) / weights_;
 }
 
-ImuSample MountAlignment::reduced(const SixAxisSample& sample) const {
+ImuSample MountAlignment::aligned(const SixAxisSample& sample) const {
   const Vector3d force = mount_.R_body_unit * sample.force;
   const Vector3d rate = mount_.R_body_unit * (sample.rate - mount_.gyro_bias);
   ImuSample result;
   static_cast<Sample&>(result) = sample;
-  result.specific_force_forward = force.x();
-  result.specific_force_left = force.y();
-  result.yaw_rate = rate.z();
+  result.values() = {force.x(), force.y(), rate.z(), true, force.z(), rate.x(), rate.y()};
   return result;
 }
 

@@ -67,8 +67,8 @@ class MountAlignment {
 
   const Mount& mount() const { return mount_; }
 
-  // Returns the reduced sample in the body's axes, without the gyro's bias.
-  ImuSample reduced(const SixAxisSample& sample) const;
+  // Returns the sample in the body's axes, without the gyros' bias.
+  ImuSample aligned(const SixAxisSample& sample) const;
 
  private:
   // These are the rate, the force, and the square of the rate.

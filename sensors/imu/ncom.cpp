@@ -38,14 +38,16 @@ std::optional<NcomSample> parse_ncom(std::span<const std::uint8_t> bytes, NcomFa
   if (status == structure_b || status < sensors_run || status > last_status) return {};
   NcomSample s;
   s.minute_ms = static_cast<std::uint16_t>(bytes[1] | bytes[2] << 8);
-  s.specific_force_forward = force_unit * i24(bytes, 3);
-  s.specific_force_left = -force_unit * i24(bytes, 6);
-  s.yaw_rate = -rate_unit * i24(bytes, 18);
+  const auto force = [&](std::size_t at) { return force_unit * i24(bytes, at); };
+  const auto rate = [&](std::size_t at) { return rate_unit * i24(bytes, at); };
+  s.values = {force(3), -force(6), -rate(18), true, -force(9), rate(12), -rate(15)};
   fault = NcomFault::out_of_range;
-  if (s.minute_ms >= minute || std::fabs(s.specific_force_forward) > max_force ||
-      std::fabs(s.specific_force_left) > max_force || std::fabs(s.yaw_rate) > max_rate) {
-    return {};
-  }
+  const InertialValues& v = s.values;
+  for (const double f : {v.specific_force_forward, v.specific_force_left, v.specific_force_up})
+    if (std::fabs(f) > max_force) return {};
+  for (const double w : {v.roll_rate, v.pitch_rate, v.yaw_rate})
+    if (std::fabs(w) > max_rate) return {};
+  if (s.minute_ms >= minute) return {};
   fault = NcomFault::none;
   return s;
 }

@@ -15,10 +15,8 @@ constexpr std::size_t ncom_size = 72;  // bytes
 
 // This is the first batch of a packet of structure A: what the inertial sensors measure.
 struct NcomSample {
-  std::uint16_t minute_ms = 0;          // ms since the start of the minute of GPS time
-  double specific_force_forward = 0.0;  // m/s^2
-  double specific_force_left = 0.0;     // m/s^2
-  double yaw_rate = 0.0;                // rad/s, positive when turning left
+  std::uint16_t minute_ms = 0;  // ms since the start of the minute of GPS time
+  InertialValues values;
 };
 
 enum class NcomFault : std::uint8_t {

@@ -11,10 +11,9 @@ namespace maploop::sensors {
 
 using NcomBytes = std::array<std::uint8_t, ncom_size>;
 
-// Makes a packet of a unit whose status is locked. Specific forces are in m/s^2, the yaw rate in
-// rad/s; axes are forward, left, up. Values are rounded to 1e-4 m/s^2 and 1e-5 rad/s.
-inline NcomBytes ncom_packet(std::uint16_t minute_ms, double forward, double left,
-                             double yaw_rate) {
+// Makes a packet of a unit whose status is locked. Values are rounded to 1e-4 m/s^2 and 1e-5 rad/s.
+// NCOM has no way to leave out an axis: one that is not measured is at rest and level.
+inline NcomBytes ncom_packet(std::uint16_t minute_ms, const InertialValues& values) {
   NcomBytes bytes{};
   const auto put_i24 = [&bytes](std::size_t at, double value) {
     const auto v = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(value)));
@@ -23,10 +22,12 @@ inline NcomBytes ncom_packet(std::uint16_t minute_ms, double forward, double lef
   bytes[0] = 0xe7;
   bytes[1] = static_cast<std::uint8_t>(minute_ms);
   bytes[2] = static_cast<std::uint8_t>(minute_ms >> 8);
-  put_i24(3, forward * 1e4);
-  put_i24(6, -left * 1e4);
-  put_i24(9, -9.81 * 1e4);
-  put_i24(18, -yaw_rate * 1e5);
+  put_i24(3, values.specific_force_forward * 1e4);
+  put_i24(6, -values.specific_force_left * 1e4);
+  put_i24(9, -(values.six_axes ? values.specific_force_up : 9.81) * 1e4);
+  put_i24(12, values.roll_rate * 1e5);
+  put_i24(15, -values.pitch_rate * 1e5);
+  put_i24(18, -values.yaw_rate * 1e5);
   bytes[21] = 4;
   unsigned sum = 0;
   for (std::size_t i = 1; i < 71; ++i) {

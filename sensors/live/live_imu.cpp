@@ -22,12 +22,9 @@ class LiveImu : public StreamSource<ImuSample> {
       : StreamSource(std::make_unique<Connection>(std::move(endpoint)), clock), delay_(delay) {}
 
  protected:
-  void deliver(Time stamp, Time arrival, double forward, double left, double yaw_rate,
-               ImuSample& sample) {
+  void deliver(Time stamp, Time arrival, const InertialValues& values, ImuSample& sample) {
     StreamSource::deliver(stamp - delay_, arrival, sample);
-    sample.specific_force_forward = forward;
-    sample.specific_force_left = left;
-    sample.yaw_rate = yaw_rate;
+    sample.values() = values;
   }
   bool is_later(Time stamp) const { return stamp - delay_ > last_stamp(); }
 
@@ -50,8 +47,7 @@ class LiveImuLines final : public LiveImu {
       offset_.add(said->time, arrival);
       const Time stamp = offset_.to_host(said->time);
       if (is_later(stamp)) {
-        deliver(stamp, arrival, said->specific_force_forward, said->specific_force_left,
-                said->yaw_rate, sample);
+        deliver(stamp, arrival, said->values, sample);
         return true;
       }
       ++repeated_;
@@ -94,8 +90,7 @@ class LiveNcom final : public LiveImu {
       ++repeated_;
       return false;
     }
-    deliver(*stamp, arrival, packet->specific_force_forward, packet->specific_force_left,
-            packet->yaw_rate, sample);
+    deliver(*stamp, arrival, packet->values, sample);
     return true;
   }
   void describe(LiveReport& report) const override {
@@ -124,8 +119,10 @@ class LiveXsens final : public LiveImu {
       }
       last_time_ = said.time;
       offset_.add(said.time, arrival);
-      deliver(offset_.to_host(said.time), arrival, said.specific_force[0], said.specific_force[1],
-              said.rate[2], sample);
+      const auto& [forward, left, up] = said.specific_force;
+      const auto& [roll, pitch, yaw] = said.rate;
+      deliver(offset_.to_host(said.time), arrival, {forward, left, yaw, true, up, roll, pitch},
+              sample);
       return true;
     }
     return false;

@@ -37,13 +37,41 @@ class NoisyImu {
                       p_.gyro_white / std::sqrt(dt) * normal.next();
     sample.specific_force_forward += forward_bias_;
     sample.specific_force_left += left_bias_;
+    if (sample.six_axes) disturb_other_axes(normal, dt, sample);
     last_ = sample.stamp;
     return true;
   }
 
  private:
+  // These draws come last, so that a unit without these axes has the same noise in the others.
+  void disturb_other_axes(NormalGenerator& normal, double dt, ImuSample& sample) {
+    if (!last_) {
+      up_bias_ = p_.accelerometer_turn_on * normal.next();
+      for (Gyro* gyro : {&roll_, &pitch_}) {
+        gyro->bias = p_.gyro_turn_on * normal.next();
+        gyro->scale = p_.gyro_scale * normal.next();
+        gyro->drift = p_.gyro_instability * normal.next();
+      }
+    }
+    const double kept = std::exp(-dt / p_.instability_time);
+    for (const auto& [gyro, rate] :
+         {std::pair(&roll_, &sample.roll_rate), std::pair(&pitch_, &sample.pitch_rate)}) {
+      gyro->drift =
+          kept * gyro->drift + p_.gyro_instability * std::sqrt(1.0 - kept * kept) * normal.next();
+      *rate = (1.0 + gyro->scale) * *rate + gyro->bias + gyro->drift +
+              p_.gyro_white / std::sqrt(dt) * normal.next();
+    }
+    sample.specific_force_up += up_bias_;
+  }
+
+  struct Gyro {
+    double bias = 0.0, scale = 0.0, drift = 0.0;
+  };
+
   ImuNoiseParameters p_;
   std::optional<Time> last_;
+  Gyro roll_, pitch_;
+  double up_bias_ = 0.0;
   double gyro_bias_ = 0.0, scale_ = 0.0, drift_ = 0.0;
   double forward_bias_ = 0.0, left_bias_ = 0.0;
 };

@@ -59,14 +59,19 @@ OxtsRows read_imu_rows(const fs::path& file, Time start) {
   const NumberTable table(file);
   const std::size_t t = table.column("t"), ax = table.column("ax"), ay = table.column("ay"),
                     wz = table.column("wz"), interpolated = table.column("interpolated");
+  const bool six = table.has("az") && table.has("wx") && table.has("wy");
   OxtsRows result;
   for (std::size_t i = 0; i < table.size(); ++i) {
     const auto values = table.row(i);
     result.stamps.push_back(start);
     OxtsRow& row = result.rows.emplace_back();
-    row.specific_force_forward = values[ax];
-    row.specific_force_left = values[ay];
-    row.yaw_rate = values[wz];
+    row.inertial = {values[ax], values[ay], values[wz]};
+    if (six) {
+      row.inertial.six_axes = true;
+      row.inertial.specific_force_up = values[table.column("az")];
+      row.inertial.roll_rate = values[table.column("wx")];
+      row.inertial.pitch_rate = values[table.column("wy")];
+    }
     result.verdicts.emplace_back();
     try {
       result.stamps.back() += checked_seconds(values[t]);

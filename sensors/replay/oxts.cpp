@@ -27,6 +27,9 @@ enum Column : std::size_t {
   vu = 10,
   ax = 11,
   ay = 12,
+  az = 13,
+  wx = 17,
+  wy = 18,
   wz = 19,
   pos_accuracy = 23
 };
@@ -40,7 +43,7 @@ struct Range {
   const char* name;
   double largest;  // in magnitude
 };
-constexpr std::array<Range, 13> ranges{{{lat, "lat", 90.0},
+constexpr std::array<Range, 16> ranges{{{lat, "lat", 90.0},
                                         {lon, "lon", 180.0},
                                         {alt, "alt", 20000.0},
                                         {roll, "roll", half_turn},
@@ -52,6 +55,9 @@ constexpr std::array<Range, 13> ranges{{{lat, "lat", 90.0},
                                         {vu, "vu", 515.0},
                                         {ax, "ax", 100.0},
                                         {ay, "ay", 100.0},
+                                        {az, "az", 100.0},
+                                        {wx, "wx", 10.0},
+                                        {wy, "wy", 10.0},
                                         {wz, "wz", 10.0}}};
 
 }  // namespace
@@ -75,9 +81,7 @@ OxtsRow oxts_row(std::span<const double> value) {
   row.position = {radians(value[lat]), radians(value[lon]), value[alt]};
   row.attitude = {azimuth_from_yaw(value[yaw]), -value[pitch], value[roll]};
   row.velocity_enu = {value[ve], value[vn], value[vu]};
-  row.specific_force_forward = value[ax];
-  row.specific_force_left = value[ay];
-  row.yaw_rate = value[wz];
+  row.inertial = {value[ax], value[ay], value[wz], true, value[az], value[wx], value[wy]};
   row.forward_speed = std::copysign(std::hypot(value[vf], value[vu]), value[vf]);
   row.position_accuracy = value[pos_accuracy];
   return row;

@@ -9,23 +9,22 @@
 #include <vector>
 
 #include "msgs/frames.h"
+#include "msgs/imu.h"
 #include "msgs/local_frame.h"
 #include "sensors/replay/timestamps.h"
 
 namespace maploop::sensors {
 
 // These are the values used of a row. Only rates and accelerations about the body's own axes (ax,
-// ay, wz) are taken: af, al and wu are levelled with the unit's own attitude, and would leak the
-// reference into the estimate.
+// ay, az, wx, wy, wz) are taken: af, al and wu are levelled with the unit's own attitude, and would
+// leak the reference into the estimate.
 struct OxtsRow {
   Geodetic position;
   Attitude attitude;
   Eigen::Vector3d velocity_enu = Eigen::Vector3d::Zero();  // m/s
-  double specific_force_forward = 0.0;                     // m/s^2, ax
-  double specific_force_left = 0.0;                        // m/s^2, ay
-  double yaw_rate = 0.0;                                   // rad/s, wz
-  double forward_speed = 0.0;                              // m/s along-track, of vf and vu
-  double position_accuracy = 0.0;                          // m
+  InertialValues inertial;
+  double forward_speed = 0.0;      // m/s along-track, of vf and vu
+  double position_accuracy = 0.0;  // m
 };
 
 // Parses the columns that the drive's oxts/dataformat.txt lists. KITTI's attitude is R_enu_imu =

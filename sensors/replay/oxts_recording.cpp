@@ -34,9 +34,7 @@ std::unique_ptr<Source<ImuSample>> OxtsRecording::imu() const {
   return source<ImuSample>(inertial_,
                            [delay = delay_](const OxtsRow& row, Time stamp, ImuSample& sample) {
                              sample.stamp = stamp - delay;
-                             sample.specific_force_forward = row.specific_force_forward;
-                             sample.specific_force_left = row.specific_force_left;
-                             sample.yaw_rate = row.yaw_rate;
+                             sample.values() = row.inertial;
                              return true;
                            });
 }
@@ -53,8 +51,8 @@ std::unique_ptr<Source<WheelSpeed>> OxtsRecording::wheel(
     const WheelOdometerParameters& parameters) const {
   return source<WheelSpeed>(rows_, [delay = delay_, odometer = WheelOdometer(parameters)](
                                        const OxtsRow& row, Time stamp, WheelSpeed& sample) {
-    odometer.measure(stamp - delay, row.forward_speed, row.specific_force_forward, row.position,
-                     sample);
+    odometer.measure(stamp - delay, row.forward_speed, row.inertial.specific_force_forward,
+                     row.position, sample);
     return true;
   });
 }

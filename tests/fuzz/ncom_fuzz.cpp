@@ -28,7 +28,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     packet[71] = static_cast<std::uint8_t>(sum);
     const auto sample = parse_ncom(packet, fault);
     if (!sample) continue;
-    fuzz::require(std::isfinite(sample->yaw_rate));
+    fuzz::require(std::isfinite(sample->values.yaw_rate));
     if (const auto stamp = clock.stamp(sample->minute_ms, arrival)) {
       fuzz::require(*stamp > last);
       last = *stamp;

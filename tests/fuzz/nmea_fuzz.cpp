@@ -19,8 +19,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto take = [&](std::string_view line) {
     arrival += std::chrono::milliseconds(70);
     if (const auto sample = parse_imu_line(line))
-      fuzz::require(std::abs(sample->specific_force_forward) <= 500.0 &&
-                    std::abs(sample->yaw_rate) <= 100.0);
+      fuzz::require(std::abs(sample->values.specific_force_up) <= 500.0 &&
+                    std::abs(sample->values.yaw_rate) <= 100.0 &&
+                    std::abs(sample->values.pitch_rate) <= 100.0);
     if (!fixes.add(line, arrival, fix)) return;
     fuzz::require(fix.stamp > last && fix.position_covariance.allFinite() &&
                   fix.velocity_enu.allFinite() && std::isfinite(fix.position.height));

@@ -158,6 +158,7 @@ TEST_F(RealDrive, ImuBelongsSixtyMillisecondsBeforeItsRow) {
   EXPECT_EQ(imu[0].specific_force_forward, -0.43999459306673);
   EXPECT_EQ(imu[0].specific_force_left, 0.088955239453583);
   EXPECT_EQ(imu[0].yaw_rate, 0.0062110895146255);
+  EXPECT_TRUE(imu[0].six_axes);
   EXPECT_EQ(imu[143].available, parse_time("2011-09-26 13:11:05.986181190"));
 }
 

@@ -113,7 +113,7 @@ TEST(MountAlignment, ReducedSamplesAreThoseOfAUnitAlongTheBody) {
   car.gyro_bias = {0.005, -0.009, 0.006};
   MountAlignment alignment{{}};
   drive(alignment, car, 60.0);
-  const ImuSample reduced = alignment.reduced(car.sample(60.0));
+  const ImuSample reduced = alignment.aligned(car.sample(60.0));
   MadeDrive along;
   const SixAxisSample truth = along.sample(60.0);
   EXPECT_EQ(reduced.stamp, truth.stamp);
@@ -147,7 +147,7 @@ TEST(MountAlignment, AConstantBiasAndAScaleAreSmallTilts) {
   EXPECT_LT(angle_between(mount.R_body_unit, car.R_body_unit), degrees(0.25 / gravity) + 0.3);
   MountAlignment alignment{{}};
   drive(alignment, car, 60.0);
-  const ImuSample standing = alignment.reduced(car.sample(0.0));
+  const ImuSample standing = alignment.aligned(car.sample(0.0));
   EXPECT_NEAR(standing.specific_force_forward, 0.0, 0.05);  // the tilt takes the bias away
   EXPECT_NEAR(standing.specific_force_left, 0.0, 0.05);
 }

@@ -28,9 +28,9 @@ std::string numbered_row(const std::string& roll, const std::string& pitch,
 
 TEST(OxtsRow, TakesTheBodysOwnAxesAndNeverTheLevelledOnes) {
   const OxtsRow row = parse_oxts_row(numbered_row("0", "0", "0"));
-  EXPECT_EQ(row.specific_force_forward, 11 / 16.0);  // ax, not af (14)
-  EXPECT_EQ(row.specific_force_left, 12 / 16.0);     // ay, not al (15)
-  EXPECT_EQ(row.yaw_rate, 19 / 16.0);                // wz, not wu (22)
+  // ax, ay, wz, az, wx, wy; not af, al, au (14 to 16) and wf, wl, wu (20 to 22)
+  const InertialValues own{11 / 16.0, 12 / 16.0, 19 / 16.0, true, 13 / 16.0, 17 / 16.0, 18 / 16.0};
+  EXPECT_EQ(row.inertial, own);
 }
 
 TEST(OxtsRow, PositionVelocityAndAccuracy) {

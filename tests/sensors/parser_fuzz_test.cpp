@@ -70,7 +70,8 @@ TEST(DamagedText, OxtsRow) {
   const Tally tally = feed<std::invalid_argument>(text, 8000, [](const std::string& row_text) {
     const OxtsRow row = parse_oxts_row(row_text);
     EXPECT_TRUE(row.velocity_enu.allFinite());
-    EXPECT_TRUE(std::isfinite(row.yaw_rate) && std::isfinite(row.specific_force_forward));
+    EXPECT_TRUE(std::isfinite(row.inertial.yaw_rate) && std::isfinite(row.inertial.roll_rate) &&
+                std::isfinite(row.inertial.specific_force_forward));
     EXPECT_TRUE(rotation_enu_body(row.attitude).allFinite());
   });
   EXPECT_GT(tally.refused, 3000);

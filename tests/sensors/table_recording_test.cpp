@@ -93,6 +93,7 @@ TEST_F(Tables, AGivenMountTurnsTheSamplesAndAnUnknownOneKeepsThemBack) {
   ASSERT_EQ(along.size(), 2u);
   EXPECT_NEAR(along[0].specific_force_forward, -2.0, 1e-12);  // the unit's x points to the left
   EXPECT_NEAR(along[0].specific_force_left, 1.0, 1e-12);
+  EXPECT_TRUE(along[0].six_axes);
   const auto unknown = imu({});
   ImuSample sample;
   EXPECT_FALSE(unknown->next(sample));

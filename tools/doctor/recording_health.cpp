@@ -23,8 +23,7 @@ bool repeats(const Sample&, const Sample&) {
 }
 
 bool repeats(const ImuSample& a, const ImuSample& b) {
-  return a.specific_force_forward == b.specific_force_forward &&
-         a.specific_force_left == b.specific_force_left && a.yaw_rate == b.yaw_rate;
+  return a.values() == b.values();
 }
 
 template <class T>

@@ -120,10 +120,8 @@ void send_imu(sensors::Source<ImuSample>& samples, const sensors::DatagramSender
     // The unit stamps what it sends with now, though its filters are late.
     const Time now = schedule.shifted(s.available);
     const auto ms = std::chrono::round<milliseconds>(now.time_since_epoch()) % 60'000;
-    sent.add(
-        to.send(sensors::ncom_packet(static_cast<std::uint16_t>(ms.count()),
-                                     s.specific_force_forward, s.specific_force_left, s.yaw_rate)),
-        schedule.late(s.available));
+    sent.add(to.send(sensors::ncom_packet(static_cast<std::uint16_t>(ms.count()), s.values())),
+             schedule.late(s.available));
   }
 }
 

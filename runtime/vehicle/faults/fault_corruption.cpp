@@ -24,7 +24,8 @@ void fill_with_nan(LidarScan& scan) {
 }
 
 void fill_with_nan(ImuSample& sample) {
-  sample.specific_force_forward = sample.specific_force_left = sample.yaw_rate = nan;
+  const double other = sample.six_axes ? nan : 0.0;
+  sample.values() = {nan, nan, nan, sample.six_axes, other, other, other};
 }
 
 void fill_with_nan(GnssFix& fix) {
@@ -41,9 +42,7 @@ void fill_with_nan(GnssEpoch& epoch) {
 }
 
 void repeat(ImuSample& sample, const ImuSample& other) {
-  sample.specific_force_forward = other.specific_force_forward;
-  sample.specific_force_left = other.specific_force_left;
-  sample.yaw_rate = other.yaw_rate;
+  sample.values() = other.values();
 }
 
 void repeat(GnssFix& fix, const GnssFix& other) {

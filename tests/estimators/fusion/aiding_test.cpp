@@ -268,6 +268,36 @@ TEST(StandingStill, ShowsTheGyrosBiasAndIsNotSeenOnASmoothRoad) {
   EXPECT_EQ(filter.state_at(SyntheticDrive::at(19.5))->zero_velocity_stamp, Time{});
 }
 
+// Hills look like acceleration to the forward force alone.
+TEST(SixAxes, TellTheForwardForceFromTheGrade) {
+  MotionProfile hills = town();
+  hills.pitch = [](double t) { return 0.05 * std::sin(0.11 * t); };
+  hills.roll = [](double t) { return 0.03 * std::sin(0.07 * t); };
+  constexpr double end = 149.0;
+  const SyntheticDrive drive(hills, end + 1.0, test_origin());
+  std::mt19937 random(5);
+  std::vector<Measurement> all;
+  append(all, drive.imu(100.0, {.gyro_bias = 5e-4,
+                                .tilt_gyro_bias = 4e-4,
+                                .gyro_density = 8.7e-5,
+                                .force_sigma = 0.2}));
+  for (int i = 0; i <= 90; ++i) all.push_back(fix(drive, i, &random));
+  const auto run = [&](InertialAxes axes) {
+    FusionParameters p = configured("GNSS+RI");
+    apply_grade("mems", p);
+    p.inertial_axes = axes;
+    ReducedImuFilter filter(p, test_origin());
+    add_as_available(filter, all);
+    return *filter.state_at(SyntheticDrive::at(end));
+  };
+  const NavState three = run(InertialAxes::three), six = run(InertialAxes::automatic);
+  EXPECT_GT(horizontal_error(three, drive, end), 3.0 * horizontal_error(six, drive, end));
+  EXPECT_LT(horizontal_error(six, drive, end), 15.0);
+  EXPECT_NEAR(six.attitude.pitch, drive.pitch(end), radians(0.3));
+  EXPECT_NEAR(six.attitude.roll, drive.roll(end), radians(0.5));
+  EXPECT_GT(std::abs(three.attitude.pitch - drive.pitch(end)), radians(0.5));
+}
+
 // The speed before the stop is wrong by what a wrong accelerometer adds up to.
 TEST(StandingStill, IsSeenByInertialSamplesAloneUnlessTheyAreShaken) {
   MotionProfile stop;

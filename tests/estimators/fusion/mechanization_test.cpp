@@ -27,12 +27,22 @@ InertialInput some_input(bool inertial = true) {
   return input;
 }
 
-class Jacobian : public ::testing::TestWithParam<bool> {};
+// Of a full unit, in a bend that goes over a crest.
+InertialInput full_input() {
+  InertialInput input = some_input();
+  input.six_axes = true;
+  input.left_force = 3.1;
+  input.roll_rate = -0.2;
+  input.pitch_rate = 0.15;
+  return input;
+}
+
+class Jacobian : public ::testing::TestWithParam<InertialInput> {};
 
 TEST_P(Jacobian, AgreesWithNumericalDerivative) {
   const LocalEarth earth(test_origin());
   const FusionParameters parameters;
-  const InertialInput input = some_input(GetParam());
+  const InertialInput input = GetParam();
   const StateVector x = busy_state();
   const Step step = mechanize(x, input, earth, parameters);
   const auto numerical = numerical_jacobian(
@@ -41,13 +51,15 @@ TEST_P(Jacobian, AgreesWithNumericalDerivative) {
   EXPECT_LT((step.F - numerical).cwiseAbs().maxCoeff(), 1e-8) << step.F - numerical;
 }
 
-TEST(Mechanization, EffectOfNoiseAgreesWithNumericalDerivative) {
+class EffectOfNoise : public ::testing::TestWithParam<InertialInput> {};
+
+TEST_P(EffectOfNoise, AgreesWithNumericalDerivative) {
   const LocalEarth earth(test_origin());
   const FusionParameters parameters;
   const StateVector x = busy_state();
-  const Step step = mechanize(x, some_input(), earth, parameters);
+  const Step step = mechanize(x, GetParam(), earth, parameters);
   const auto with = [&](double force, double rate) {
-    InertialInput input = some_input();
+    InertialInput input = GetParam();
     input.forward_force += force;
     input.yaw_rate += rate;
     return mechanize(x, input, earth, parameters).x;
@@ -59,7 +71,29 @@ TEST(Mechanization, EffectOfNoiseAgreesWithNumericalDerivative) {
   EXPECT_LT((step.yaw_rate_effect - by_rate).cwiseAbs().maxCoeff(), 1e-8);
 }
 
-INSTANTIATE_TEST_SUITE_P(Mechanization, Jacobian, ::testing::Values(true, false));
+INSTANTIATE_TEST_SUITE_P(Mechanization, Jacobian,
+                         ::testing::Values(some_input(true), some_input(false), full_input()));
+INSTANTIATE_TEST_SUITE_P(Mechanization, EffectOfNoise,
+                         ::testing::Values(some_input(), full_input()));
+
+TEST(AttitudeRates, OfThreeGyrosAreThoseOfTheRotation) {
+  const LocalEarth earth(test_origin());
+  InertialInput input = full_input();
+  const StateVector x = busy_state();
+  const AttitudeRates rates = attitude_rates(x, input, earth);
+  const Eigen::Matrix3d R = rotation_enu_body({x[index::azimuth], x[index::pitch], x[index::roll]});
+  const Eigen::Vector3d gyros(input.roll_rate - x[index::roll_gyro_bias],
+                              input.pitch_rate - x[index::pitch_gyro_bias],
+                              input.yaw_rate - x[index::gyro_bias]);
+  const Eigen::Vector3d turning = R * gyros - earth.earth_rate();  // enu, against the Earth
+  const auto rotated = [&](double dt) {
+    const Eigen::AngleAxisd turn(dt * turning.norm(), turning.normalized());
+    const Attitude a = attitude_from_rotation(turn.toRotationMatrix() * R);
+    return Eigen::Vector3d(a.azimuth, a.pitch, a.roll);
+  };
+  constexpr double h = 1e-4;
+  EXPECT_LT((rates.value - (rotated(h) - rotated(-h)) / (2 * h)).norm(), 1e-8);
+}
 
 TEST(Mechanization, ConstantTurnIsACircle) {
   const LocalEarth earth(test_origin());
@@ -138,12 +172,12 @@ TEST(ProcessNoise, IsPositiveSemiDefiniteAndGrowsWhenSilent) {
   const FusionParameters parameters;
   const LocalEarth earth(test_origin());
   const StateVector x = busy_state();
-  const auto noise = [&](bool inertial) {
-    const InertialInput input = some_input(inertial);
+  const auto noise = [&](const InertialInput& input) {
     return process_noise(x, mechanize(x, input, earth, parameters), input, parameters);
   };
-  const StateMatrix heard = noise(true), silent = noise(false);
+  const StateMatrix heard = noise(some_input()), silent = noise(some_input(false));
   EXPECT_GE(least_eigenvalue(heard), -1e-15);
+  EXPECT_GE(least_eigenvalue(noise(full_input())), -1e-15);
   EXPECT_GT(silent(index::azimuth, index::azimuth), 100.0 * heard(index::azimuth, index::azimuth));
   EXPECT_GT(silent(index::speed, index::speed), 10.0 * heard(index::speed, index::speed));
 }

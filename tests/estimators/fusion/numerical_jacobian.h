@@ -38,6 +38,10 @@ inline fusion::StateVector busy_state() {
   x[gyro_bias] = 2e-3;
   x[forward_bias] = 0.04;
   x[left_bias] = -0.03;
+  x[roll_gyro_bias] = -1e-3;
+  x[pitch_gyro_bias] = 3e-3;
+  x[unit_course] = 0.03;
+  x[up_bias] = 0.1;
   x[climb_offset] = 0.012;
   x[odometry_course] = -0.02;
   x[axle_distance] = 0.9;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "estimators/fusion/measurement_check.h"
 #include "tests/estimators/fusion/filter_run.h"
 #include "tests/estimators/fusion/synthetic_drive.h"
 
@@ -67,6 +68,16 @@ TEST_F(Refusals, OfInertialSamples) {
     expect_refused(spoil(field, nan), Reason::not_finite);
     expect_refused(spoil(field, infinity), Reason::not_finite);
     expect_refused(spoil(field, 1e3), Reason::out_of_range);
+  }
+  // Axes that the filter does not use cannot spoil it.
+  sample_.six_axes = true;
+  EXPECT_EQ(check_sample(spoil(&ImuSample::pitch_rate, nan), {}), Reason::none);
+  FusionParameters six;
+  six.inertial_axes = InertialAxes::six;
+  for (const auto field :
+       {&ImuSample::specific_force_up, &ImuSample::roll_rate, &ImuSample::pitch_rate}) {
+    EXPECT_EQ(check_sample(spoil(field, nan), six), Reason::not_finite);
+    EXPECT_EQ(check_sample(spoil(field, 1e3), six), Reason::out_of_range);
   }
 }
 

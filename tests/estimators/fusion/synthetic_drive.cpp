@@ -94,6 +94,10 @@ std::vector<ImuSample> SyntheticDrive::imu(double rate, const SensorNoise& noise
     // Even an excellent sensor never repeats its values exactly.
     s.yaw_rate = 0.5 * (turn(1, 0) - turn(0, 1)) + R.col(2).dot(earth) + noise.gyro_bias +
                  1e-9 * (i % 2) + noise.gyro_density * std::sqrt(rate) * normal(random);
+    s.six_axes = true;
+    s.specific_force_up = force.z();
+    s.roll_rate = 0.5 * (turn(2, 1) - turn(1, 2)) + R.col(0).dot(earth) + noise.tilt_gyro_bias;
+    s.pitch_rate = 0.5 * (turn(0, 2) - turn(2, 0)) + R.col(1).dot(earth) - noise.tilt_gyro_bias;
     samples.push_back(s);
   }
   return samples;

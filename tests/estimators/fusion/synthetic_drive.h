@@ -24,6 +24,7 @@ struct MotionProfile {
 
 struct SensorNoise {
   double gyro_bias = 0.0;                // rad/s
+  double tilt_gyro_bias = 0.0;           // rad/s about body x, and less about body y
   double gyro_density = 0.0;             // rad/sqrt(s)
   double force_sigma = 0.0;              // m/s^2 per sample
   double odometry_speed_sigma = 0.0;     // m/s over one interval

@@ -190,7 +190,8 @@ TEST_F(Misdescribed, AnotherDriveBeginsWithWhatTheFirstHasTaught) {
   EXPECT_NEAR(find(soon, "odometry points").value, 2.0, 0.25) << "deg, before any odometry";
   EXPECT_TRUE(find(soon, "odometry points").observed());
   EXPECT_NEAR(find(soon, "rear axle").value, 1.2, 0.2) << "m";
-  EXPECT_FALSE(find(soon, "GNSS antenna, forward").observed()) << "the first drive did not teach it";
+  EXPECT_FALSE(find(soon, "GNSS antenna, forward").observed())
+      << "the first drive did not teach it";
   const ReducedImuFilter late = begin_after(std::chrono::hours(24 * 3 * 365));
   EXPECT_FALSE(find(late, "odometry points").observed()) << "it may have been mounted anew";
   EXPECT_GT(find(late, "odometry points").sigma, find(soon, "odometry points").sigma);

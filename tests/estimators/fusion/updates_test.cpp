@@ -192,6 +192,22 @@ TEST(RollJacobian, AgreesWithNumericalDerivative) {
   // The analytical derivative neglects the change of gravity with height (1.5e-7 here).
   expect_jacobian<1>(
       state, [&](const FilterState& f) { return *roll_innovation(f, s, 0.1, earth, {}); }, 2e-7);
+  s.six_axes = true;
+  FusionParameters full;
+  full.inertial_axes = InertialAxes::six;
+  expect_jacobian<1>(
+      state, [&](const FilterState& f) { return *roll_innovation(f, s, 0.1, earth, full); }, 2e-7);
+  s.specific_force_up = 9.6;  // Gravity changes by 3.1e-6 a metre of height.
+  expect_jacobian<1>(
+      state, [&](const FilterState& f) { return up_innovation(f, s, 0.1, earth, full); }, 4e-6);
+  for (const int axis : {0, 1}) {
+    expect_jacobian<1>(
+        state,
+        [&](const FilterState& f) {
+          return zero_tilt_rate_innovation(f, s, axis, 0.1, earth, full);
+        },
+        1e-4);
+  }
 }
 
 TEST(Roll, IsNotTakenFromHardDriving) {

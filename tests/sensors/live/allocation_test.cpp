@@ -30,7 +30,7 @@ TEST(Allocation, TheDecodersOfLiveSensorsMakeNone) {
       scans += velodyne.add(data_packet(std::fmod(477.757 * i, 36000.0), 39.8, us), arrival, scan);
       NcomFault fault{};
       const auto sample =
-          parse_ncom(ncom_packet(static_cast<std::uint16_t>(10 * i % 60'000), 1, 0, 0), fault);
+          parse_ncom(ncom_packet(static_cast<std::uint16_t>(10 * i % 60'000), {1.0}), fault);
       stamps += sample && imu.stamp(sample->minute_ms, arrival);
       gnss.add("$GNGGA,101801.00,4858.95,N,00823.42,E,1,12,0.8,115.2,M,47.9,M,,*7F", arrival, fix);
     }

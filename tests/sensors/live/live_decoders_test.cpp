@@ -193,20 +193,26 @@ TEST(NmeaFixes, JoinsTheSentencesOfAnEpoch) {
 
 TEST(Ncom, RefusesInvalidPacketsWithTheReason) {
   NcomFault fault{};
-  const NcomBytes good = ncom_packet(59'999, -3.0, 2.0, -0.5);
+  const InertialValues values{-3.0, 2.0, -0.5, true, 9.75, 0.25, -0.125};
+  const NcomBytes good = ncom_packet(59'999, values);
   const auto sample = parse_ncom(good, fault);
   ASSERT_TRUE(sample);
   EXPECT_EQ(sample->minute_ms, 59'999);
-  EXPECT_NEAR(sample->specific_force_left, 2.0, 1e-4);
-  EXPECT_NEAR(sample->yaw_rate, -0.5, 1e-5);
+  EXPECT_EQ(sample->values, values);
   const auto fault_of = [](const NcomBytes& bytes, std::size_t size = ncom_size) {
     NcomFault found{};
     EXPECT_FALSE(parse_ncom(std::span(bytes).first(size), found));
     return found;
   };
   EXPECT_EQ(fault_of(good, 71), NcomFault::wrong_size);
-  EXPECT_EQ(fault_of(ncom_packet(60'000, 0, 0, 0)), NcomFault::out_of_range);
-  EXPECT_EQ(fault_of(ncom_packet(0, 150, 0, 0)), NcomFault::out_of_range);
+  EXPECT_EQ(fault_of(ncom_packet(60'000, {})), NcomFault::out_of_range);
+  for (const InertialValues& large : {InertialValues{150.0},
+                                      {0.0, -150.0},
+                                      {0.0, 0.0, 11.0},
+                                      {0.0, 0.0, 0.0, true, 150.0},
+                                      {0.0, 0.0, 0.0, true, 9.8, 11.0},
+                                      {0.0, 0.0, 0.0, true, 9.8, 0.0, -11.0}})
+    EXPECT_EQ(fault_of(ncom_packet(0, large)), NcomFault::out_of_range);
   for (std::size_t i = 0; i < ncom_size; ++i) {
     NcomBytes bad = good;
     bad[i] ^= 0x10;

@@ -178,7 +178,7 @@ TEST(LiveVehicle, GoesOnThroughUnpluggingAndAFloodOfGarbage) {
   for (int plugged = 0; plugged < 2; ++plugged) {
     const maploop::testing::PseudoTerminal line(device);
     for (int i = 0; i < 60; ++i) {
-      unit.send(sensors::ncom_packet(ms += 10, 0.0, 0.0, 0.0));
+      unit.send(sensors::ncom_packet(ms += 10, {}));
       for (int k = 0; k < 50; ++k) unit.send(garbage);
       if (i % 30 == 25) line.send("garbage\r\n" + maploop::testing::epoch(10 * plugged + i / 30));
       std::this_thread::sleep_for(milliseconds(10));
