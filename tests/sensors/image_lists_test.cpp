@@ -19,7 +19,7 @@ using maploop::testing::write_text;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-constexpr Duration skew = std::chrono::milliseconds(20);
+constexpr Duration widest_skew = std::chrono::milliseconds(20);
 
 class Lists : public ::testing::Test {
  protected:
@@ -29,7 +29,7 @@ class Lists : public ::testing::Test {
   }
   fs::path folder() const { return folder_.path(); }
   std::string refusal() const {
-    return error_of([&] { find_images(folder(), skew); });
+    return error_of([&] { find_images(folder(), widest_skew); });
   }
   SmallDrive small_;
   maploop::testing::TemporaryFolder folder_;
@@ -55,7 +55,7 @@ TEST_F(Lists, ImagesWithoutPartnerAreLeftOutAndReported) {
     image(name);
   DriveParts parts;
   parts.folder = folder();
-  parts.images = find_images(folder(), skew);
+  parts.images = find_images(folder(), widest_skew);
   parts.calibration.stereo.width = SmallDrive::width;
   parts.calibration.stereo.height = SmallDrive::height;
   const FolderDrive drive(parts, {});
@@ -77,7 +77,7 @@ TEST_F(Lists, TimesOfImagesMayBeInAFileForBothCameras) {
   write_text(folder() / "times.txt", "0.000000e+00\n");
   EXPECT_THAT(refusal(), HasSubstr("has 2 images, but"));
   write_text(folder() / "times.txt", "0.000000e+00\n1.036224e-01\n");
-  const auto pair = find_images(folder(), skew);
+  const auto pair = find_images(folder(), widest_skew);
   ASSERT_TRUE(pair);
   EXPECT_EQ(pair->right.timestamps.stamps[1], Time(from_seconds(0.1036224)));
   write_text(folder() / "times.txt", "0.2\n0.1\n");
@@ -85,7 +85,7 @@ TEST_F(Lists, TimesOfImagesMayBeInAFileForBothCameras) {
   write_text(folder() / "times.txt", "0 1403636579.5 20\nx y z\n");
   EXPECT_THAT(refusal(), AllOf(HasSubstr("times.txt:2"), HasSubstr("neither seconds")));
   write_text(folder() / "times.txt", "0 1403636579.5 20\n1 1403636579.6 20\n");
-  EXPECT_EQ(find_images(folder(), skew)->left.timestamps.stamps[1],
+  EXPECT_EQ(find_images(folder(), widest_skew)->left.timestamps.stamps[1],
             Time(std::chrono::milliseconds(1403636579600)));
 }
 
