@@ -104,7 +104,8 @@ ParameterTable<LiveParameters> parameter_table(const LiveParameters&) {
        "Endpoint of the inertial unit, such as udp://:3000. With \"ncom\" it must be udp."},
       {"imu_protocol", &P::imu_protocol, usual,
        "\"ncom\": an OXTS unit; \"xsens\": MTData2 with acceleration, rate of turn and "
-       "SampleTimeFine; \"lines\": text $PIMU,s,m/s^2 forward,m/s^2 left,rad/s*checksum",
+       "SampleTimeFine; \"lines\": text $PIMU,s,m/s^2 forward,m/s^2 left,rad/s*checksum, or with "
+       "the other three axes (sensors/README.md)",
        imu_protocols},
       {"gnss", &P::gnss, usual,
        "Endpoint of a receiver: serial:///dev/gnss?baud=115200, tcp:// or udp://; of observations "

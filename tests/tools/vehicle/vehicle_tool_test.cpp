@@ -79,9 +79,10 @@ TEST(VehicleDescription, AnglesAreThoseOfTheRotationEvenStraightUp) {
 const std::string no_sensors = "n\nn\nn\nn\n";
 
 TEST(Questions, AnswersAreWrittenWithTheirStandardDeviation) {
-  std::istringstream in("left\n1.2 0.1\n\n0.33\n\n0.01 0.002\n" + no_sensors);
+  std::istringstream in("golf\nleft\n1.2 0.1\n\n0.33\n\n0.01 0.002\n" + no_sensors);
   std::ostringstream out;
   const VehicleDescription d = ask(in, out);
+  EXPECT_EQ(d.car.name, "golf");
   EXPECT_EQ(d.car.side_of_road, RoadSide::left);
   EXPECT_EQ(d.car.rear_axle_distance, 1.2);
   EXPECT_EQ(d.car.rear_axle_distance_sigma, 0.1);
@@ -92,7 +93,7 @@ TEST(Questions, AnswersAreWrittenWithTheirStandardDeviation) {
 }
 
 TEST(Questions, AWrongAnswerIsAskedForAgain) {
-  std::istringstream in("middle\nright\n99\n1.2 -1\nfar\n1.2\n\n\n\n\n" + no_sensors);
+  std::istringstream in("\nmiddle\nright\n99\n1.2 -1\nfar\n1.2\n\n\n\n\n" + no_sensors);
   std::ostringstream out;
   const VehicleDescription d = ask(in, out);
   EXPECT_EQ(d.car.rear_axle_distance, 1.2);
@@ -106,13 +107,13 @@ TEST(Questions, AWrongAnswerIsAskedForAgain) {
 
 TEST(Questions, OnlyTheSensorsThatAreThereAreAskedFor) {
   std::istringstream in(
-      "\n\n\n\n\n\nn\nperhaps\ny\nHDL-32E\n\n\n0.5 0.01\n\n1.5 0.01\n\n\n\n\nn\nn\n");
+      "\n\n\n\n\n\n\nn\nperhaps\ny\nHDL-32E\n\n\n0.5 0.01\n\n1.5 0.01\n\n\n\n\nn\nn\n");
   std::ostringstream out;
   const VehicleDescription d = ask(in, out);
   EXPECT_EQ(d.lidar.model, "HDL-32E");
   EXPECT_EQ(d.lidar.position.up, 1.5);
   EXPECT_THAT(out.str(), Not(HasSubstr("baseline")));
-  std::istringstream ends("right\n1.0\n");
+  std::istringstream ends("\nright\n1.0\n");
   EXPECT_THAT(error_of([&] { ask(ends, out); }),
               HasSubstr("the answers end before 'rear_axle_height' of [vehicle]"));
 }

@@ -108,7 +108,7 @@ TEST(FusionStageAllocation, TheWholeThreadAllocatesNothing) {
   EXPECT_GE(states, static_cast<std::uint64_t>(seconds * 100));
   EXPECT_GT(images, 0u);
   EXPECT_EQ(status, NavStatus::aided);
-  EXPECT_EQ(stage.filter_status().refused_for(fusion::Reason::odometry_not_ok), 20u);
+  EXPECT_EQ(stage.filter_report().status.refused_for(fusion::Reason::odometry_not_ok), 20u);
   EXPECT_GT(trace.recorded(), 5 * states / 2);
   EXPECT_EQ(trace.dropped(), 0u);
 }
