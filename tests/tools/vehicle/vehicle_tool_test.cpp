@@ -52,16 +52,17 @@ TEST(VehicleDescription, WhatIsWrittenIsReadBack) {
   const VehicleDescription read = load(to_toml(written)).vehicle;
   each_table(
       [&](const auto& table, const auto& own, const auto& other) {
-        for (const auto& parameter : table.parameters)
+        for (const auto& parameter : table.parameters) {
           EXPECT_EQ(parameter.value_in(own), parameter.value_in(other))
               << table.name << '.' << parameter.key;
+        }
       },
       written, read);
   EXPECT_EQ(to_toml(VehicleDescription{}), "");
 }
 
 TEST(VehicleDescription, AnglesAreThoseOfTheRotationEvenStraightUp) {
-  for (const double pitch : {-90.0, -30.0, 0.0, 89.9, 90.0})
+  for (const double pitch : {-90.0, -30.0, 0.0, 89.9, 90.0}) {
     for (const double roll : {-170.0, 0.0, 20.0, 180.0}) {
       const Eigen::Isometry3d T = camera_pose({1.0, 2.0, 3.0}, {roll, pitch, 70.0});
       SensorPosition position;
@@ -69,6 +70,7 @@ TEST(VehicleDescription, AnglesAreThoseOfTheRotationEvenStraightUp) {
       set_camera_pose(T, position, rotation);
       EXPECT_TRUE(camera_pose(position, rotation).isApprox(T, 1e-12)) << pitch << ' ' << roll;
     }
+  }
   // To the left, then nose up.
   const Eigen::Vector3d forward = sensor_pose({}, {0.0, 30.0, 90.0}) * Eigen::Vector3d::UnitX();
   EXPECT_TRUE(forward.isApprox(Eigen::Vector3d(0.0, std::sqrt(0.75), 0.5), 1e-12));
