@@ -14,6 +14,7 @@
 #include <typeinfo>
 #include <vector>
 
+#include "msgs/imu.h"
 #include "msgs/named_enum.h"
 #include "msgs/sample.h"
 
@@ -39,6 +40,17 @@ constexpr std::size_t members_of() {
   } else {
     return sizeof...(Members);
   }
+}
+
+// Returns how many values the archive of a type lists: its members, each base class being one.
+template <class T>
+constexpr std::size_t archived_values() {
+  return members_of<T>();
+}
+// It lists the values of its second base one by one.
+template <>
+constexpr std::size_t archived_values<ImuSample>() {
+  return 1 + members_of<InertialValues>();
 }
 
 struct MemberCounter {
@@ -106,7 +118,7 @@ class RandomFill {
   void fill(T& value) {
     MemberCounter counter;
     value.archive(counter);
-    EXPECT_EQ(counter.count, members_of<T>()) << typeid(T).name() << "::archive";
+    EXPECT_EQ(counter.count, archived_values<T>()) << typeid(T).name() << "::archive";
     value.archive(*this);
   }
 
