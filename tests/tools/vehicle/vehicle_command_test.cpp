@@ -11,9 +11,10 @@ using VehicleCommand = CommandTest;
 using KittisVehicle = DriveTest;
 
 TEST_F(VehicleCommand, NewAsksAndDoesNotOverwrite) {
-  const Words ask{"/bin/sh", "-c",
-                  "printf '\\n1.4 0.05\\n\\n\\n\\n\\nn\\nn\\nn\\nn\\n' | \"$0\" vehicle new \"$1\"",
-                  maploop_command(), file("car.toml")};
+  const Words ask{
+      "/bin/sh", "-c",
+      "printf '\\n\\n1.4 0.05\\n\\n\\n\\n\\nn\\nn\\nn\\nn\\n' | \"$0\" vehicle new \"$1\"",
+      maploop_command(), file("car.toml")};
   EXPECT_EQ(run(ask).status, 0);
   EXPECT_THAT(read_file(file("car.toml")),
               AllOf(HasSubstr("[vehicle]\nrear_axle_distance = 1.4  # m. "),
