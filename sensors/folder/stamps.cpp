@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::int64_t latest = 7258118400;  // s, the year 2200
+
 // Seconds with a point, digit by digit: a double of a stamp of today is exact to 0.2 us only.
 std::optional<Time> exact_seconds(std::string_view text) {
   const std::size_t point = text.find('.');
@@ -22,7 +24,6 @@ std::optional<Time> exact_seconds(std::string_view text) {
   const auto whole = parse_number<std::int64_t>(text.substr(0, point));
   std::string fraction(text.substr(point + 1, 9));
   const std::string_view all = text.substr(point + 1);
-  constexpr std::int64_t latest = 7258118400;  // 2200
   if (!whole || *whole < 0 || text.starts_with('-') || *whole > latest || all.empty() ||
       all.find_first_not_of("0123456789") != std::string_view::npos)
     return std::nullopt;
@@ -38,6 +39,7 @@ std::optional<Time> whole_stamp(std::string_view text) {
     if (*number >= least) break;
     unit *= 1000;
   }
+  if (*number > latest * 1'000'000'000 / unit) return std::nullopt;
   return Time(Duration(*number * unit));
 }
 
