@@ -17,10 +17,11 @@ enum class PppStatus : std::uint8_t {
   none,        // no position: the message states why
   converging,  // the ambiguities have not converged yet
   converged,   // horizontal standard deviation below 0.1 m
+  fixed,       // the same, and its ambiguities are integers
 };
 
 constexpr auto names_of(PppStatus) {
-  return names_up_to<PppStatus::converged>({"none", "converging", "converged"});
+  return names_up_to<PppStatus::fixed>({"none", "converging", "converged", "fixed"});
 }
 
 // States why a satellite, or a part of its measurements, was not used.

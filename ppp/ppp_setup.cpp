@@ -1,6 +1,7 @@
 #include "ppp/ppp_setup.h"
 
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 
 namespace maploop::ppp {
@@ -34,6 +35,19 @@ bool has_one_frequency(const Observations& o) {
     }
   }
   return one > 2 * two;
+}
+
+std::set<Satellite> satellites_of(const std::vector<OrbitFile>& orbits) {
+  std::set<Satellite> satellites;
+  for (const OrbitFile& file : orbits) {
+    for (const auto& [satellite, points] : file.points) satellites.insert(satellite);
+  }
+  return satellites;
+}
+
+// Of the last file, which also contains the observations where there are files of days around it.
+GpsTime first_time(const std::vector<OrbitFile>& orbits) {
+  return orbits.empty() || orbits.back().epochs.empty() ? GpsTime{} : orbits.back().epochs.front();
 }
 
 }  // namespace
@@ -88,11 +102,47 @@ void PppSetup::fill_inputs(const GnssFiles& files, const SetupOptions& options,
     missing_models_.push_back(
         "no ANTEX file: satellites' phase centres are taken to be their centres of mass");
   }
+  if (precise()) note_lacks_of_integers(files);
   if (header.approximate_position) {
     inputs_.ocean_loading =
         nearest_station(files.ocean_loading, *header.approximate_position, header.marker);
   }
   if (one_frequency_) choose_ionosphere();
+}
+
+// States why ambiguities stay real numbers, and what makes integers wrong.
+void PppSetup::note_lacks_of_integers(const GnssFiles& files) {
+  if (!one_frequency_ && parameters_.integers && !precise_->has_phase_biases()) {
+    missing_models_.push_back(
+        "no biases of phases: ambiguities stay real numbers, which is less accurate and takes "
+        "longer; add Bias-SINEX with phases (OSB of L1C, ...), or clocks of CNES/CLS with wide "
+        "lanes");
+  }
+  std::string unknown;
+  for (const Satellite satellite : satellites_of(files.orbits)) {
+    const bool used = parameters_.systems.find(letter(satellite.system)) != std::string::npos;
+    const bool known = files.antennas.empty() ||
+                       satellite_antenna(files.antennas, satellite, first_time(files.orbits));
+    if (used && !known) unknown += ' ' + to_string(satellite);
+  }
+  if (!unknown.empty()) {
+    missing_models_.push_back(
+        "the antennas of these satellites are in no ANTEX file:" + unknown +
+        "; a mean height is assumed, and their ambiguities stay real numbers");
+  }
+  std::string names;
+  int count = 0;
+  for (const AntennaFile& file : files.antennas) {
+    if (std::none_of(file.antennas.begin(), file.antennas.end(),
+                     [](const Antenna& a) { return a.satellite.has_value(); }))
+      continue;
+    names += (count++ > 0 ? ", " : "") + file.file;
+  }
+  if (count > 1) {
+    missing_models_.push_back(std::to_string(count) + " files contain antennas of satellites (" +
+                              names +
+                              "): of each satellite, the calibration that began last is used");
+  }
 }
 
 void PppSetup::choose_products(const GnssFiles& files, const SetupOptions& options) {

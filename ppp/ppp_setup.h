@@ -48,6 +48,7 @@ class PppSetup {
   // Returns the navigation messages of the files; nullptr if there are none and the setup is not
   // live.
   const BroadcastEphemeris* broadcast() const { return broadcast_.get(); }
+  const PppParameters& parameters() const { return parameters_; }
   const Ephemeris& ephemeris() const { return *inputs_.ephemeris; }
   bool precise() const { return precise_ != nullptr; }
   bool one_frequency() const { return one_frequency_; }
@@ -62,6 +63,7 @@ class PppSetup {
   void fill_inputs(const GnssFiles& files, const SetupOptions& options,
                    const ObservationHeader& header);
   void choose_ionosphere();
+  void note_lacks_of_integers(const GnssFiles& files);
 
   PppParameters parameters_;
   const Observations* observations_ = nullptr;

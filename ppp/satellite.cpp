@@ -79,4 +79,18 @@ double carrier_frequency(System system, char band, std::optional<int> channel) {
   }
 }
 
+std::array<char, 2> bands_of(System system) {
+  switch (system) {
+    case System::galileo:
+      return {'1', '5'};
+    case System::beidou:
+      return {'2', '6'};
+    case System::sbas:
+    case System::navic:
+      return {'1', '5'};
+    default:
+      return {'1', '2'};
+  }
+}
+
 }  // namespace maploop::ppp

@@ -1,6 +1,7 @@
 // Defines satellite systems, satellites and carrier frequencies.
 #pragma once
 
+#include <array>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -43,6 +44,9 @@ void archive(Archive& ar, Satellite& s) {
 // Parses "G05". As in old files, a blank letter stands for GPS and a blank tens digit for zero.
 std::optional<Satellite> parse_satellite(std::string_view text);
 std::string to_string(Satellite satellite);
+
+// Returns the bands of a system's ionosphere-free pair, which its precise products refer to.
+std::array<char, 2> bands_of(System system);
 
 // Returns the frequency (Hz) of a RINEX 3 band ('1' to '9'); 0 if the system does not have the
 // band, or the GLONASS channel is needed and unknown.

@@ -36,6 +36,7 @@ class EpochRows {
   std::vector<Row>& make(const std::vector<Tracked>& tracked, int reference_system,
                          const UnobstructedCn0& strength, FilterState& state,
                          std::vector<SatelliteReport>& reports);
+  const std::vector<Row>& rows() const { return rows_; }
 
  private:
   // `factor` scales the satellite's variances relative to the zenith.

@@ -49,6 +49,7 @@ Carrier carrier_of(Satellite satellite, char band, std::span<const Signal> signa
   c.cn0 = code->cn0;
   if (phase) {
     c.phase = phase->phase * c.wavelength;
+    c.phase_attribute = phase->attribute;
     c.lost_lock = phase->lost_lock;
     c.doppler = phase->doppler;
     c.cn0 = phase->cn0 > 0.0 ? phase->cn0 : c.cn0;
@@ -84,20 +85,6 @@ double Measurement::noise_factor() const {
   return std::hypot(weight1(), weight2());
 }
 
-std::array<char, 2> bands_of(System system) {
-  switch (system) {
-    case System::galileo:
-      return {'1', '5'};
-    case System::beidou:
-      return {'2', '6'};
-    case System::sbas:
-    case System::navic:
-      return {'1', '5'};
-    default:
-      return {'1', '2'};
-  }
-}
-
 std::optional<Measurement> measure(Satellite satellite, std::span<const Signal> signals,
                                    const std::array<std::optional<int>, 100>& glonass_channels,
                                    const Ephemeris& ephemeris, GpsTime t, bool allow_single) {
@@ -119,6 +106,14 @@ std::optional<Measurement> measure(Satellite satellite, std::span<const Signal> 
     if (c->frequency > 0.0) {
       c->code -= ephemeris.code_bias(satellite, c->band, c->attribute, t);
     }
+  }
+  if (!m.dual() || m.phase() == 0.0) return m;
+  const auto bias1 = ephemeris.phase_bias(satellite, m.first.band, m.first.phase_attribute, t);
+  const auto bias2 = ephemeris.phase_bias(satellite, m.second.band, m.second.phase_attribute, t);
+  m.integer = bias1 && bias2;
+  if (m.integer) {
+    m.first.phase -= *bias1;
+    m.second.phase -= *bias2;
   }
   return m;
 }

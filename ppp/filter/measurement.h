@@ -14,18 +14,20 @@ inline constexpr int position_unknowns = 4;
 
 struct Carrier {
   char band = 0, attribute = 0;  // those of the code
-  double frequency = 0.0;        // Hz
-  double wavelength = 0.0;       // m
-  double code = 0.0;             // m, biases removed; 0: not measured
-  double phase = 0.0;            // m; 0: not measured
-  double doppler = 0.0;          // Hz
-  double cn0 = 0.0;              // dB-Hz; 0: not given
+  char phase_attribute = 0;
+  double frequency = 0.0;   // Hz
+  double wavelength = 0.0;  // m
+  double code = 0.0;        // m, biases removed; 0: not measured
+  double phase = 0.0;       // m; 0: not measured
+  double doppler = 0.0;     // Hz
+  double cn0 = 0.0;         // dB-Hz; 0: not given
   bool lost_lock = false;
 };
 
 struct Measurement {
   Satellite satellite;
   Carrier first, second;   // second.frequency is 0 with one frequency
+  bool integer = false;    // the biases of both phases are removed: their ambiguities are integers
   std::size_t report = 0;  // index into the epoch's reports
 
   bool dual() const { return second.frequency > 0.0; }
@@ -36,9 +38,6 @@ struct Measurement {
   double phase() const;         // m, likewise; 0: not measured
   double noise_factor() const;  // the combination's noise relative to one carrier's
 };
-
-// Returns the bands of a system's ionosphere-free pair, which its precise products refer to.
-std::array<char, 2> bands_of(System system);
 
 // Selects code and phase of each band. The second carrier is empty if its code is missing and
 // `allow_single` is set. Returns nothing if a required carrier has no code or no known frequency;

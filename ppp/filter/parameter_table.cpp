@@ -180,6 +180,29 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
       {"single_phase_sigma", &P::single_phase_sigma, smallest, any_sigma, "m", expert,
        "phase_sigma of a receiver of one frequency."},
 
+      {"integers", &P::integers, usual,
+       "Whether ambiguities are resolved to integers where the products contain the biases of the "
+       "phases."},
+      {"integer_elevation", &P::integer_elevation, 0.0, 90.0, "deg", expert,
+       "Ambiguities of satellites at a lower elevation are not resolved."},
+      {"wide_lane_sigma", &P::wide_lane_sigma, smallest, 10.0, "cycles", expert,
+       "Largest standard deviation of a wide lane that is resolved."},
+      {"wide_lane_fraction", &P::wide_lane_fraction, 0.0, 0.5, "cycles", expert,
+       "Largest distance of such a wide lane from an integer."},
+      {"integer_variance_factor", &P::integer_variance_factor, smallest, 1000.0, "1", expert,
+       "Factor on the covariance of the ambiguities, whose errors last longer than the filter "
+       "assumes."},
+      {"integer_success", &P::integer_success, 0.0, 1.0, "1", expert,
+       "Least probability, by that covariance, that the integers are right."},
+      {"integer_ratio", &P::integer_ratio, 1.0, any_gate, "1", expert,
+       "Least ratio of the squared distances of the second best integers and the best."},
+      {"integer_misfit", &P::integer_misfit, smallest, any_gate, "1", expert,
+       "Largest squared distance of the best integers, for each of them, in variances."},
+      {"integer_fewest", &P::integer_fewest, 1, 100, "1", expert,
+       "Fewest integers that are used together."},
+      {"integer_confirmation", &P::integer_confirmation, 0.0, long_time, "s", expert,
+       "Time for which the integers must not have changed before they are used."},
+
       {"map_useful_share", &P::map_useful_share, 0.0, 1000.0, "1", expert,
        "Ratio of the standard deviation across the road without the map to that of the map from "
        "which the map is used. A map is good to metres, a converged position to decimetres."},

@@ -79,6 +79,18 @@ struct PppParameters {
   double single_code_sigma = 1.0;     // m
   double single_phase_sigma = 0.005;  // m
 
+  // --- Integers
+  bool integers = true;
+  double integer_elevation = 10.0;  // deg
+  double wide_lane_sigma = 0.15;    // cycles
+  double wide_lane_fraction = 0.25;
+  double integer_variance_factor = 2.0;
+  double integer_success = 0.999;
+  double integer_ratio = 3.0;
+  double integer_misfit = 3.0;
+  int integer_fewest = 4;
+  double integer_confirmation = 30.0;  // s
+
   // --- The road that map matching has found
   double map_useful_share = 0.3;
   double map_gate = 6.63;

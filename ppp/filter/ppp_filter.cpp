@@ -26,6 +26,7 @@ PppFilter::PppFilter(const PppParameters& parameters, const RangeInputs& inputs,
     : parameters_(parameters),
       model_(inputs, std::move(earth)),
       unobstructed_cn0_(parameters),
+      integers_(parameters),
       rows_(parameters),
       update_(parameters),
       map_dx_(FilterState::capacity) {}
@@ -40,6 +41,7 @@ void PppFilter::reset() {
   restarts_ = 0;
   has_map_ = false;
   lasting_ = {};
+  integers_.reset();
   solution_.status = PppStatus::none;
 }
 
@@ -63,7 +65,7 @@ const PppSolution& PppFilter::process(const Epoch& epoch) {
   const bool agrees = update(tracked);
   levels_.end_epoch(interval > 0.0 ? interval : first_interval, parameters_.code_level_time);
   satellites_.forget_absent(parameters_.longest_gap, state_);
-  report();
+  report(tracked);
 
   bad_epochs_ = agrees ? 0 : bad_epochs_ + 1;
   if (bad_epochs_ >= parameters_.restart_epochs) restart();
@@ -122,16 +124,21 @@ bool PppFilter::update(const std::vector<Tracked>& tracked) {
   return !disagree(rows, update_.dx(), tracked, parameters_);
 }
 
-void PppFilter::report() {
-  const auto x = state_.x();
-  const auto P = state_.P();
+void PppFilter::report(const std::vector<Tracked>& tracked) {
+  const FilterState* const fixed = parameters_.integers
+                                       ? integers_.resolve(state_, tracked, rows_.rows(), time_,
+                                                           solution_.integers, solution_.satellites)
+                                       : nullptr;
+  const FilterState& state = fixed != nullptr ? *fixed : state_;
+  const auto x = state.x();
+  const auto P = state.P();
   const Eigen::Vector3d& shift = lasting_.unmodelled_ionosphere_shift;
   solution_.position = x.segment<3>(S::position);
   solution_.covariance =
       P.block<3, 3>(S::position, S::position) +
       parameters_.model_sigma * parameters_.model_sigma * Eigen::Matrix3d::Identity() +
       shift * shift.transpose();
-  if (has_map_) add_lasting_error(state_, model_.R_enu_ecef(), solution_);
+  if (has_map_) add_lasting_error(state, model_.R_enu_ecef(), solution_);
   solution_.velocity = x.segment<3>(S::velocity);
   solution_.velocity_covariance = P.block<3, 3>(S::velocity, S::velocity);
   solution_.clock = x[S::clock];
@@ -149,7 +156,9 @@ void PppFilter::report() {
   const Eigen::Matrix3d& R = model_.R_enu_ecef();
   const Eigen::Matrix3d enu = R * solution_.covariance * R.transpose();
   const bool small = std::sqrt(enu(0, 0) + enu(1, 1)) < converged_sigma;
-  solution_.status = small ? PppStatus::converged : PppStatus::converging;
+  solution_.status = !small             ? PppStatus::converging
+                     : fixed != nullptr ? PppStatus::fixed
+                                        : PppStatus::converged;
 }
 
 void PppFilter::restart() {

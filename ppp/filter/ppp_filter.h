@@ -1,5 +1,6 @@
-// Implements precise point positioning with float ambiguities (ppp/METHOD.md), one epoch at a time.
-// It is single-threaded, and its results depend on the epochs and the feedback alone.
+// Implements precise point positioning (ppp/METHOD.md), one epoch at a time. Its ambiguities are
+// real numbers; where the products allow it, the solution is the one given their integers. It is
+// single-threaded, and its results depend on the epochs and the feedback alone.
 #pragma once
 
 #include "msgs/parameter_archive.h"
@@ -14,6 +15,7 @@
 #include "ppp/filter/robust_update.h"
 #include "ppp/filter/satellite_tracker.h"
 #include "ppp/filter/unobstructed_cn0.h"
+#include "ppp/integers/integer_fix.h"
 
 namespace maploop::ppp {
 
@@ -39,13 +41,13 @@ class PppFilter {
   // This is the largest size of an archive, bytes.
   static constexpr std::size_t largest_archive =
       (FilterState::capacity + 1) * FilterState::capacity * sizeof(double) + satellite_slots * 160 +
-      4096;
+      IntegerFix::largest_archive + 4096;
 
   // Saves and loads the filter's state. Loading refuses an archive of a filter with other
   // parameters, and the filter then stays as it was.
   template <class Archive>
   void archive(Archive& ar) {
-    ar.section("ppp", 7);
+    ar.section("ppp", 8);
     archive_same_parameters(ar, parameters_);
     if constexpr (Archive::loading) {
       PppFilter loaded = *this;
@@ -60,7 +62,7 @@ class PppFilter {
   template <class Archive>
   void archive_state(Archive& ar) {
     ar(state_, satellites_, levels_, unobstructed_cn0_, clock_steps_, clocks_, started_,
-       started_at_, time_, bad_epochs_, restarts_, lasting_, has_map_, solution_.status,
+       started_at_, time_, bad_epochs_, restarts_, lasting_, integers_, has_map_, solution_.status,
        solution_.position, solution_.covariance, solution_.restarts);
   }
 
@@ -69,7 +71,7 @@ class PppFilter {
   void learn_strengths(const std::vector<Tracked>& tracked);
   void learn_lasting_error(const std::vector<Tracked>& tracked);
   bool update(const std::vector<Tracked>& tracked);
-  void report();
+  void report(const std::vector<Tracked>& tracked);
   void restart();
 
   PppParameters parameters_;
@@ -85,6 +87,7 @@ class PppFilter {
   int bad_epochs_ = 0;  // number of epochs in a row whose measurements disagree with the position
   std::uint64_t restarts_ = 0;
   LastingError lasting_;
+  IntegerFix integers_;
   bool has_map_ = false;  // whether the map's states are part of the solution
   PppSolution solution_;
 

@@ -27,6 +27,10 @@ double shapiro_delay(double satellite_radius, double receiver_radius, double dis
 
 void RangeModel::begin(GpsTime t, const Eigen::Vector3d& marker) {
   time_ = t;
+  if (assumed_.empty() && inputs_.antennas != nullptr) {
+    for (int s = 0; s < system_count; ++s)
+      assumed_.push_back(assumed_antenna(*inputs_.antennas, static_cast<System>(s), t));
+  }
   site_ = geodetic_from_ecef(marker);
   R_enu_ecef_ = rotation_enu_ecef(site_);
   bodies_ = earth_.at(t);
@@ -97,12 +101,18 @@ void RangeModel::add_phase_centres(const Measurement& m, const Eigen::Matrix3d& 
   const System system = m.satellite.system;
   const bool of_satellites = inputs_.ephemeris->centre_of_mass() &&
                              inputs_.models.satellite_antenna && inputs_.antennas != nullptr;
-  const Antenna* antenna =
-      of_satellites ? satellite_antenna(*inputs_.antennas, m.satellite, time_) : nullptr;
-  if (antenna != nullptr) {
+  if (of_satellites) {
+    const AssumedAntenna& assumed = assumed_[static_cast<std::size_t>(system)];
+    const Antenna* own = satellite_antenna(*inputs_.antennas, m.satellite, time_);
+    p.calibrated = own != nullptr && own->carrier(system, m.first.band) != nullptr &&
+                   (!m.dual() || own->carrier(system, m.second.band) != nullptr);
+    if (own == nullptr) p.satellite.sigma = std::hypot(p.satellite.sigma, assumed.sigma);
+    const Antenna& antenna = own != nullptr ? *own : assumed.antenna;
     p.range += combined(m, [&](const Carrier& c) {
-      return satellite_phase_centre(*antenna, system, c.band, attitude, -p.to_satellite);
+      return satellite_phase_centre(antenna, system, c.band, attitude, -p.to_satellite);
     });
+  } else {
+    p.calibrated = !inputs_.ephemeris->centre_of_mass();
   }
   if (inputs_.models.receiver_antenna && inputs_.receiver != nullptr) {
     p.range += combined(m, [&](const Carrier& c) {

@@ -43,6 +43,7 @@ struct PredictedRange {
   IonosphericDelay ionosphere;  // m on the first carrier; 0 with two carriers
   double wet_mapping = 0.0;
   bool in_shadow = false;
+  bool calibrated = false;  // the satellite's phase centres are those of its own antenna
 };
 
 class RangeModel {
@@ -66,6 +67,7 @@ class RangeModel {
                          const Eigen::Vector3d& to_satellite_enu, PredictedRange& p) const;
 
   RangeInputs inputs_;
+  std::vector<AssumedAntenna> assumed_;  // by system, from the first epoch on
   Earth earth_;
   GpsTime time_{};
   Eigen::Vector3d receiver_{0, 0, 0};  // m, earth-fixed: antenna reference point with tides

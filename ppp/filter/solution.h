@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "msgs/named_enum.h"
 #include "msgs/ppp_state.h"
 #include "ppp/gps_time.h"
 #include "ppp/satellite.h"
@@ -17,9 +18,34 @@ struct SatelliteReport {
   double azimuth = 0.0, elevation = 0.0;  // rad
   double cn0 = 0.0;                       // dB-Hz
   bool code_used = false, phase_used = false;
+  bool integer = false;                              // its ambiguity is an integer in this solution
   double code_residual = 0.0, phase_residual = 0.0;  // m, after the update
   PppSlip slip = PppSlip::none;                      // why its ambiguity restarted
   PppRefusal refused = PppRefusal::none;             // why it was not used completely
+};
+
+// States whether an epoch's ambiguities are resolved to integers, and otherwise why not.
+enum class IntegerOutcome : std::uint8_t {
+  too_few,       // ambiguities that can be integers, and whose wide lane is known
+  uncertain,     // their covariance is too large
+  not_distinct,  // other integers fit nearly as well
+  misfit,        // they contradict the real-valued ambiguities
+  unconfirmed,   // they have changed recently
+  used,
+};
+
+constexpr auto names_of(IntegerOutcome) {
+  return names_up_to<IntegerOutcome::used>(
+      {"too few", "uncertain", "not distinct", "misfit", "unconfirmed", "used"});
+}
+
+struct IntegerReport {
+  IntegerOutcome outcome = IntegerOutcome::too_few;
+  int candidates = 0;         // differences of ambiguities whose wide lane is known
+  int used = 0;               // satellites whose integer is used
+  double success_rate = 0.0;  // probability that the integers are right, by the covariance
+  double ratio = 0.0;         // squared distance of the second best integers to that of the best
+  double misfit = 0.0;        // squared distance of the best for each ambiguity, in variances
 };
 
 struct PppSolution {
@@ -35,6 +61,7 @@ struct PppSolution {
   double running_for = 0.0;                             // s since the filter started or restarted
   std::uint64_t restarts = 0;                           // number of restarts
   int satellites_used = 0;
+  IntegerReport integers;
   std::vector<SatelliteReport> satellites;  // all that were measured
 };
 

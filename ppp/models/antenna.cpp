@@ -14,6 +14,11 @@ double in_row(const std::vector<double>& row, double place) {
   return row[i] + (p - static_cast<double>(i)) * (row[k] - row[i]);
 }
 
+// A calibration without a beginning was made for the data that it comes with.
+GpsTime began(const Antenna& a) {
+  return a.valid_from == GpsTime::min() ? GpsTime::max() : a.valid_from;
+}
+
 }  // namespace
 
 double phase_variation(const Antenna& antenna, const PhaseCentre& carrier, double zenith,
@@ -58,12 +63,36 @@ double satellite_phase_centre(const Antenna& antenna, System system, char band,
 
 const Antenna* satellite_antenna(const std::vector<AntennaFile>& files, Satellite satellite,
                                  GpsTime t) {
+  const Antenna* latest = nullptr;
   for (const AntennaFile& file : files) {
     for (const Antenna& a : file.antennas) {
-      if (a.satellite == satellite && t >= a.valid_from && t < a.valid_until) return &a;
+      const bool begun = a.satellite == satellite && t >= a.valid_from;
+      if (begun && (latest == nullptr || began(a) > began(*latest))) latest = &a;
     }
   }
-  return nullptr;
+  return latest != nullptr && t < latest->valid_until ? latest : nullptr;
+}
+
+AssumedAntenna assumed_antenna(const std::vector<AntennaFile>& files, System system, GpsTime t) {
+  constexpr std::uint8_t last_number = 99;
+  AssumedAntenna result;
+  for (const char band : bands_of(system)) {
+    double sum = 0.0, squares = 0.0;
+    int count = 0;
+    for (std::uint8_t n = 1; n <= last_number; ++n) {
+      const Antenna* antenna = satellite_antenna(files, {system, n}, t);
+      const PhaseCentre* centre = antenna != nullptr ? antenna->carrier(system, band) : nullptr;
+      if (centre == nullptr) continue;
+      sum += centre->offset.z();
+      squares += centre->offset.z() * centre->offset.z();
+      ++count;
+    }
+    if (count == 0) continue;
+    const double mean = sum / count;
+    result.antenna.carriers.push_back({system, band, {0.0, 0.0, mean}, {0.0}, {}});
+    result.sigma = std::sqrt(std::max(0.0, squares / count - mean * mean));
+  }
+  return result;
 }
 
 const Antenna* receiver_antenna(const std::vector<AntennaFile>& files, const std::string& type,

@@ -24,9 +24,18 @@ double satellite_phase_centre(const Antenna& antenna, System system, char band,
                               const Eigen::Matrix3d& R_ecef_body,
                               const Eigen::Vector3d& to_receiver);
 
-// Returns the antenna of a satellite at a time; nullptr if no file contains it.
+// Returns the antenna of a satellite at a time: of all calibrations that have begun, the one that
+// began last, because an old file does not know that another satellite has taken the number; one
+// without a beginning counts as the last.
+// Returns nullptr if there is none, or if it has ended.
 const Antenna* satellite_antenna(const std::vector<AntennaFile>& files, Satellite satellite,
                                  GpsTime t);
+// A satellite whose antenna is not known is given the mean height of its system's phase centres.
+struct AssumedAntenna {
+  Antenna antenna;     // no carriers: none of the system is known
+  double sigma = 0.0;  // m, standard deviation of the heights
+};
+AssumedAntenna assumed_antenna(const std::vector<AntennaFile>& files, System system, GpsTime t);
 // Returns the antenna of a type with its radome, or with radome NONE if that combination was not
 // calibrated; nullptr if no file contains either.
 const Antenna* receiver_antenna(const std::vector<AntennaFile>& files, const std::string& type,

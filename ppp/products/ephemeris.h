@@ -35,6 +35,10 @@ class Ephemeris {
   // Returns what must be subtracted from the code of a carrier to make it consistent with the
   // clock, m.
   virtual double code_bias(Satellite satellite, char band, char attribute, GpsTime t) const = 0;
+  // Returns the same for the phase of a carrier, m. With the biases of two carriers their
+  // ambiguities are integers, apart from what all satellites of a system have in common. Returns
+  // nothing if it is unknown.
+  virtual std::optional<double> phase_bias(Satellite, char, char, GpsTime) const { return {}; }
   // Returns the random walk of the errors of orbit and clock, which the ambiguity absorbs,
   // m/sqrt(s).
   virtual double error_walk(Satellite satellite) const = 0;

@@ -34,6 +34,17 @@ double walk_of(const std::vector<ClockFile::Point>& clock) {
   return speed_of_light * sigma_of_median * *middle;
 }
 
+// A wide lane is stated for the day around its time.
+constexpr Duration half_a_day = std::chrono::hours(12);
+
+// Returns the biases of two phases, m, whose ionosphere-free combination is zero, because the
+// clocks contain it, and whose wide lane is the given one (Melbourne-Wuebbena without codes).
+std::array<double, 2> biases_of_wide_lane(double cycles, double f1, double f2) {
+  const double weight1 = f1 * f1 / (f1 * f1 - f2 * f2), weight2 = 1.0 - weight1;
+  const double second = cycles * speed_of_light / (f1 * weight2 / weight1 + f2);
+  return {-second * weight2 / weight1, second};
+}
+
 }  // namespace
 
 PreciseEphemeris::PreciseEphemeris(const std::vector<OrbitFile>& orbits,
@@ -60,6 +71,10 @@ PreciseEphemeris::PreciseEphemeris(const std::vector<OrbitFile>& orbits,
       auto& clock = clocks_[satellite.slot()];
       clock.insert(clock.end(), points.begin(), points.end());
     }
+    for (const ClockFile::WideLane& w : file.wide_lanes) {
+      wide_lanes_[w.satellite.slot()].push_back(w);
+      has_phase_biases_ = true;
+    }
   }
   const auto in_order = [](auto& list) {
     const auto before = [](const auto& a, const auto& b) { return a.time < b.time; };
@@ -74,7 +89,10 @@ PreciseEphemeris::PreciseEphemeris(const std::vector<OrbitFile>& orbits,
   for (auto& list : clocks_) in_order(list);
   std::transform(clocks_.begin(), clocks_.end(), clock_walk_.begin(), walk_of);
   for (const BiasFile& file : biases) {
-    for (const CodeBias& bias : file.biases) biases_[bias.satellite.slot()].push_back(bias);
+    for (const SignalBias& bias : file.biases) {
+      biases_[bias.satellite.slot()].push_back(bias);
+      has_phase_biases_ |= bias.signal[0] == 'L';
+    }
   }
 }
 
@@ -165,7 +183,7 @@ double PreciseEphemeris::code_bias(Satellite satellite, char band, char attribut
                                    GpsTime t) const {
   const char name[3] = {'C', band, attribute};
   const std::string_view wanted(name, 3);
-  for (const CodeBias& bias : biases_[satellite.slot()]) {
+  for (const SignalBias& bias : biases_[satellite.slot()]) {
     if (t < bias.from || t >= bias.until) continue;
     if (bias.second.empty() && bias.signal == wanted) return bias.metres;
     // GPS's clocks refer to P(Y): another code of the carrier differs from it by their differential
@@ -176,6 +194,24 @@ double PreciseEphemeris::code_bias(Satellite satellite, char band, char attribut
     if (same_band && bias.signal == wanted && bias.second[2] == 'W') return bias.metres;
   }
   return 0.0;
+}
+
+std::optional<double> PreciseEphemeris::phase_bias(Satellite satellite, char band, char attribute,
+                                                   GpsTime t) const {
+  const char name[3] = {'L', band, attribute};
+  for (const SignalBias& bias : biases_[satellite.slot()]) {
+    if (bias.signal == std::string_view(name, 3) && t >= bias.from && t < bias.until)
+      return bias.metres;
+  }
+  const auto bands = bands_of(satellite.system);
+  const std::size_t carrier = band == bands[0] ? 0 : 1;
+  if (band != bands[carrier]) return {};
+  for (const ClockFile::WideLane& w : wide_lanes_[satellite.slot()]) {
+    if (t - w.time > half_a_day || w.time - t > half_a_day) continue;
+    return biases_of_wide_lane(w.cycles, carrier_frequency(satellite.system, bands[0]),
+                               carrier_frequency(satellite.system, bands[1]))[carrier];
+  }
+  return {};
 }
 
 std::string PreciseEphemeris::missing(Satellite satellite, GpsTime t) const {

@@ -22,9 +22,13 @@ class PreciseEphemeris : public Ephemeris {
   std::optional<SatelliteState> at(Satellite satellite, GpsTime t) const override;
   std::optional<double> clock(Satellite satellite, GpsTime t) const override;
   double code_bias(Satellite satellite, char band, char attribute, GpsTime t) const override;
+  // The biases are those of files, or those that the wide lanes of clock files imply.
+  std::optional<double> phase_bias(Satellite satellite, char band, char attribute,
+                                   GpsTime t) const override;
   // Returns the error of linear interpolation between clocks that are minutes apart; zero if they
   // are at most a minute apart.
   double error_walk(Satellite satellite) const override;
+  bool has_phase_biases() const { return has_phase_biases_; }
   bool centre_of_mass() const override { return true; }
   std::string missing(Satellite satellite, GpsTime t) const override;
 
@@ -38,7 +42,9 @@ class PreciseEphemeris : public Ephemeris {
 
   std::array<std::vector<OrbitPoint>, satellite_slots> orbits_;
   std::array<std::vector<ClockFile::Point>, satellite_slots> clocks_;
-  std::array<std::vector<CodeBias>, satellite_slots> biases_;
+  std::array<std::vector<SignalBias>, satellite_slots> biases_;
+  std::array<std::vector<ClockFile::WideLane>, satellite_slots> wide_lanes_;
+  bool has_phase_biases_ = false;
   Duration orbit_interval_{0};
   std::array<double, satellite_slots> clock_walk_{};  // m/sqrt(s)
 };

@@ -147,6 +147,8 @@ std::string describe(const ClockFile& c) {
   std::string text = row("agency", c.agency) + row("clocks", std::to_string(points)) +
                      row("satellites", per_system(keys(c.points)));
   if (points > 0) text += row("time", span(first, last));
+  if (!c.wide_lanes.empty())
+    text += row("wide lanes", std::to_string(c.wide_lanes.size()) + ", for integer ambiguities");
   return text + refusals(c.refused, std::vector<std::string>{});
 }
 
@@ -175,7 +177,8 @@ std::string describe(const BiasFile& b) {
   std::string list;
   for (const auto& [name, count] : signals) list += name + " (" + std::to_string(count) + ") ";
   return row("agency", b.agency) + row("satellites", per_system(satellites)) + row("biases", list) +
-         row("passed over", std::to_string(b.skipped) + " of stations and phases");
+         row("passed over",
+             std::to_string(b.skipped) + " of stations, between phases and between systems");
 }
 
 std::string describe(const EarthRotationFile& e) {

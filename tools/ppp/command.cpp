@@ -1,11 +1,8 @@
 // maploop ppp: positions from GNSS files.
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 
@@ -19,6 +16,7 @@
 #include "tools/evaluate/text_file.h"
 #include "tools/ppp/page.h"
 #include "tools/ppp/run.h"
+#include "tools/ppp/summary.h"
 
 namespace maploop::tools {
 namespace {
@@ -81,56 +79,9 @@ gnss::RunOptions run_options(const PppOptions& options, const vehicle::PppConfig
   return run;
 }
 
-nlohmann::json to_json(const gnss::Accuracy& a, std::optional<double> below) {
-  return {
-      {"epochs", a.with_truth},
-      {"solved", a.solved},
-      {"coverage", a.coverage()},
-      {"horizontal_rmse_m", a.horizontal_rmse},
-      {"horizontal_95_m", a.horizontal_95},
-      {"across_rmse_m", a.across_rmse},
-      {"up_rmse_m", a.up_rmse},
-      {"mean_enu_m", {a.mean_enu.x(), a.mean_enu.y(), a.mean_enu.z()}},
-      {"horizontal_rmse_without_mean_m", a.horizontal_rmse_without_mean},
-      {"last_3d_m", a.three_d_last},
-      {"nees", a.nees},
-      {"seconds_to_stay_below_0.1_m", below ? nlohmann::json(*below) : nlohmann::json(nullptr)}};
-}
-
-nlohmann::json to_json(const ppp::MapAidedFilter& filter, std::size_t matched) {
-  nlohmann::json feedback;
-  for (std::size_t i = 0; i < ppp::map_use_count; ++i) {
-    const auto use = static_cast<ppp::MapUse>(i);
-    feedback[std::string(to_string(use))] = filter.count(use);
-  }
-  return {{"matched", matched},
-          {"feedback", std::move(feedback)},
-          {"restorations", filter.restorations()}};
-}
-
-std::string map_line(const ppp::MapAidedFilter& filter, std::size_t matched, std::size_t epochs) {
-  std::string line = fmt::format("{} of {} epochs on a road of the map; fed back: {} used", matched,
-                                 epochs, filter.count(ppp::MapUse::used));
-  for (std::size_t i = 1; i < ppp::map_use_count; ++i) {
-    const auto use = static_cast<ppp::MapUse>(i);
-    if (use != ppp::MapUse::nothing_fed_back && filter.count(use) > 0)
-      line += fmt::format(", {} {}", filter.count(use), to_string(use));
-  }
-  return line + fmt::format("; forgotten as a wrong road's: {}", filter.restorations());
-}
-
-// What a run gives to its texts and files.
-struct PppResult {
-  gnss::Solutions solutions;
-  std::size_t solved = 0, matched = 0;
-  std::unique_ptr<gnss::Truth> truth;
-  std::unique_ptr<gnss::Score> score, without_map;  // where there is a truth; the second: and a map
-  std::optional<ppp::GpsTime> scored_from;
-};
-
-PppResult process(gnss::PppRun& run, const PppOptions& options, double integrity_risk, bool on_map,
-                  ppp::GpsTime first) {
-  PppResult r;
+gnss::PppResult process(gnss::PppRun& run, const PppOptions& options, double integrity_risk,
+                        bool on_map, ppp::GpsTime first) {
+  gnss::PppResult r;
   if (!options.truth.empty()) {
     r.truth = std::make_unique<gnss::Truth>(options.truth, first);
     r.score = std::make_unique<gnss::Score>(*r.truth, integrity_risk);
@@ -150,66 +101,7 @@ PppResult process(gnss::PppRun& run, const PppOptions& options, double integrity
   return r;
 }
 
-void append_score(std::vector<std::string>& lines, const PppResult& r, double integrity_risk) {
-  lines.push_back("against the truth: " + to_text(r.score->accuracy(r.scored_from)));
-  lines.push_back(
-      fmt::format("{} of {} errors along, across and up are beyond their protection level "
-                  "(integrity risk {:g})",
-                  r.score->misleading(), 3 * r.score->errors().size(), integrity_risk));
-  if (r.without_map)
-    lines.push_back("the same without the map: " + to_text(r.without_map->accuracy(r.scored_from)));
-  const auto below = r.score->time_to_stay_below(0.1);
-  lines.push_back(below ? fmt::format("3-D error stays below 0.1 m after {:.1f} min", *below / 60)
-                        : "3-D error does not stay below 0.1 m");
-}
-
-std::vector<std::string> summary_of(const gnss::PppRun& run, const PppResult& r,
-                                    const vehicle::PppConfig& config, bool on_map,
-                                    const ppp::GnssFiles& files) {
-  const std::size_t epochs = r.solutions.size();
-  std::vector<std::string> lines{
-      fmt::format("{} orbits and clocks, {}, {}, systems {}",
-                  run.setup().precise() ? "precise" : "broadcast",
-                  run.setup().one_frequency() ? "one frequency" : "two frequencies",
-                  to_string(config.filter.motion), config.filter.systems),
-      fmt::format("{} of {} epochs have a position ({:.1f} %); filter {:.3f} s, {:.3f} ms an epoch",
-                  r.solved, epochs,
-                  100.0 * static_cast<double>(r.solved) / static_cast<double>(epochs),
-                  run.seconds(), 1e3 * run.seconds() / static_cast<double>(epochs))};
-  if (run.setup().never_converges())
-    lines.push_back(
-        "on one frequency with broadcast orbits the position cannot converge to 0.1 m: metres "
-        "remain");
-  if (r.score) append_score(lines, r, config.integrity_risk);
-  if (on_map) lines.push_back(map_line(run.filter(), r.matched, epochs));
-  for (const auto& line : run.setup().missing_models()) lines.push_back(line);
-  for (const auto& line : run.missing_products()) lines.push_back(line);
-  for (const auto& o : files.observations) {
-    if (o.refused > 0)
-      lines.push_back(
-          fmt::format("{}: {} refused, first: {}", o.file, o.refused, o.refusals.front()));
-  }
-  if (leap_seconds(r.solutions.back().time).out_of_date)
-    lines.push_back("the table of leap seconds ends before these data: UTC may be a second off");
-  return lines;
-}
-
-nlohmann::json to_json(const gnss::PppRun& run, const PppResult& r, bool on_map) {
-  nlohmann::json json = {{"epochs", r.solutions.size()},
-                         {"solved", r.solved},
-                         {"filter_seconds", run.seconds()},
-                         {"missing_products", run.missing_products()},
-                         {"lacks", run.setup().missing_models()}};
-  const auto scored = [&](const gnss::Score& score) {
-    return to_json(score.accuracy(r.scored_from), score.time_to_stay_below(0.1));
-  };
-  if (r.score) json["truth"] = scored(*r.score);
-  if (on_map) json["map"] = to_json(run.filter(), r.matched);
-  if (r.without_map) json["map"]["truth_without_map"] = scored(*r.without_map);
-  return json;
-}
-
-void write_files(const PppOptions& options, const gnss::PppRun& run, const PppResult& r,
+void write_files(const PppOptions& options, const gnss::PppRun& run, const gnss::PppResult& r,
                  const std::vector<std::string>& summary, double integrity_risk, bool on_map) {
   const auto write = [](const std::filesystem::path& path, auto&& content) {
     if (!path.empty()) evaluation::write_text(path, content());
@@ -224,7 +116,7 @@ void write_files(const PppOptions& options, const gnss::PppRun& run, const PppRe
     return gnss::to_page("PPP of " + std::filesystem::path(name).filename().string(), summary,
                          r.solutions, r.score.get(), r.without_map.get(), integrity_risk);
   });
-  if (!options.json.empty()) write_json_file(options.json, to_json(run, r, on_map));
+  if (!options.json.empty()) write_json_file(options.json, gnss::to_json(run, r, on_map));
 }
 
 int positions(const PppOptions& options) {
@@ -239,8 +131,9 @@ int positions(const PppOptions& options) {
                                  : files.observations[0].epochs[0].time;
   gnss::PppRun run(files, run_options(options, config, map_of(vehicle_config, map.get()), first));
   const bool on_map = map != nullptr;
-  const PppResult result = process(run, options, config.integrity_risk, on_map, first);
-  const std::vector<std::string> summary = summary_of(run, result, config, on_map, files);
+  const gnss::PppResult result = process(run, options, config.integrity_risk, on_map, first);
+  const std::vector<std::string> summary =
+      gnss::summary_lines(run, result, config.integrity_risk, on_map, files);
   for (const auto& line : summary) std::cout << line << '\n';
   write_files(options, run, result, summary, config.integrity_risk, on_map);
   return result.solved > 0 ? 0 : 1;

@@ -104,12 +104,13 @@ Plot deviations(const Solutions& solutions, GpsTime first) {
 
 Plot satellites(const Solutions& solutions, GpsTime first) {
   Plot plot{"Satellites", "minutes", "number", {}, false};
-  Line used{"used", {}, {}}, measured{"measured", {}, {}};
+  Line used{"used", {}, {}}, measured{"measured", {}, {}}, integers{"integer ambiguities", {}, {}};
   for (const PppSolution& s : solutions) {
     add(used, minutes(s.time, first), s.satellites_used);
+    add(integers, minutes(s.time, first), s.integers.used);
     add(measured, minutes(s.time, first), static_cast<double>(s.satellites.size()));
   }
-  plot.lines = {used, measured};
+  plot.lines = {used, measured, integers};
   return plot;
 }
 

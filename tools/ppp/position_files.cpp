@@ -31,6 +31,16 @@ LocalSolution local(const PppSolution& s) {
   return {place, R * s.covariance * R.transpose(), R * s.velocity};
 }
 
+// RTKLIB's quality: 1 for integer ambiguities, 6 for PPP without.
+int quality(const PppSolution& s) {
+  return s.status == PppStatus::fixed ? 1 : 6;
+}
+
+// RTKLIB's ratio, which its columns limit.
+double ratio(const PppSolution& s) {
+  return s.status == PppStatus::fixed ? std::min(s.integers.ratio, 999.9) : 0.0;
+}
+
 std::string pos_stamp(GpsTime t) {
   std::string stamp = format_gps_time(t);
   stamp[4] = stamp[7] = '/';
@@ -71,17 +81,17 @@ std::string to_pos(const Solutions& solutions, bool ecef, const std::string& obs
       text += fmt::format(
           "{} {:14.4f} {:14.4f} {:14.4f} {:3} {:3} {:8.4f} {:8.4f} {:8.4f} {:8.4f} {:8.4f} {:8.4f} "
           "{:6.2f} {:6.1f}\n",
-          stamp, s.position.x(), s.position.y(), s.position.z(), 6, s.satellites_used,
+          stamp, s.position.x(), s.position.y(), s.position.z(), quality(s), s.satellites_used,
           std::sqrt(P(0, 0)), std::sqrt(P(1, 1)), std::sqrt(P(2, 2)), signed_root(P(0, 1)),
-          signed_root(P(1, 2)), signed_root(P(2, 0)), 0.0, 0.0);
+          signed_root(P(1, 2)), signed_root(P(2, 0)), 0.0, ratio(s));
     } else {
       const auto& P = l.covariance;
       text += fmt::format(
           "{} {:14.9f} {:14.9f} {:10.4f} {:3} {:3} {:8.4f} {:8.4f} {:8.4f} {:8.4f} {:8.4f} {:8.4f} "
           "{:6.2f} {:6.1f}\n",
-          stamp, degrees(l.place.latitude), degrees(l.place.longitude), l.place.height, 6,
+          stamp, degrees(l.place.latitude), degrees(l.place.longitude), l.place.height, quality(s),
           s.satellites_used, std::sqrt(P(1, 1)), std::sqrt(P(0, 0)), std::sqrt(P(2, 2)),
-          signed_root(P(1, 0)), signed_root(P(0, 2)), signed_root(P(2, 1)), 0.0, 0.0);
+          signed_root(P(1, 0)), signed_root(P(0, 2)), signed_root(P(2, 1)), 0.0, ratio(s));
     }
   });
   return text;
@@ -93,8 +103,8 @@ std::string to_nmea(const Solutions& solutions) {
     const auto [clock, date] = nmea_stamp(s.time);
     const std::string place = nmea_angle_fields(l.place.latitude, 2, "NS") + ',' +
                               nmea_angle_fields(l.place.longitude, 3, "EW");
-    // 5: float.
-    text += nmea_sentence(fmt::format("GNGGA,{},{},5,{:02},,{:.4f},M,,M,,", clock, place,
+    const int mode = s.status == PppStatus::fixed ? 4 : 5;  // integer, float
+    text += nmea_sentence(fmt::format("GNGGA,{},{},{},{:02},,{:.4f},M,,M,,", clock, place, mode,
                                       std::min(99, s.satellites_used), l.place.height));
     const double knots = l.velocity.head<2>().norm() / 0.514444;
     double course = degrees(std::atan2(l.velocity.x(), l.velocity.y()));
@@ -141,14 +151,15 @@ std::string to_kml(const Solutions& solutions) {
 
 std::string to_residual_csv(const Solutions& solutions) {
   std::string text =
-      "gps_time,satellite,azimuth_deg,elevation_deg,cn0_dbhz,code_used,phase_used,code_residual_m,"
+      "gps_time,satellite,azimuth_deg,elevation_deg,cn0_dbhz,code_used,phase_used,integer,code_"
+      "residual_m,"
       "phase_residual_m,slip,refused\n";
   for (const PppSolution& s : solutions) {
     const std::string stamp = format_gps_time(s.time);
     for (const SatelliteReport& r : s.satellites) {
-      text += fmt::format("{},{},{:.2f},{:.2f},{:.1f},{:d},{:d},{:.4f},{:.5f},{},{}\n", stamp,
+      text += fmt::format("{},{},{:.2f},{:.2f},{:.1f},{:d},{:d},{:d},{:.4f},{:.5f},{},{}\n", stamp,
                           to_string(r.satellite), degrees(r.azimuth), degrees(r.elevation), r.cn0,
-                          r.code_used, r.phase_used, r.code_residual, r.phase_residual,
+                          r.code_used, r.phase_used, r.integer, r.code_residual, r.phase_residual,
                           to_string(r.slip), to_string(r.refused));
     }
   }

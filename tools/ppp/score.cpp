@@ -11,6 +11,12 @@ namespace maploop::gnss {
 
 using namespace maploop::ppp;
 
+namespace {
+
+constexpr double wrong = 0.1;  // m: an epoch with integers that is this far off had wrong ones
+
+}  // namespace
+
 void Score::add(const PppSolution& solution) {
   const auto truth = truth_.at(solution.time);
   if (!truth) return;
@@ -26,6 +32,7 @@ void Score::add(const PppSolution& solution) {
                      enu,
                      P.diagonal().cwiseMax(0.0).cwiseSqrt(),
                      e.dot(solution.covariance.ldlt().solve(e)),
+                     solution.status == PppStatus::fixed,
                      axes.known,
                      {axes.along.dot(enu.head<2>()), axes.across.dot(enu.head<2>()), enu.z()},
                      {levels.along, levels.across, levels.up}});
@@ -56,6 +63,8 @@ Accuracy Score::accuracy(std::optional<GpsTime> from) const {
       ++moving;
     }
     a.three_d_last = e.enu.norm();
+    a.fixed += e.fixed;
+    a.wrongly_fixed += e.fixed && a.three_d_last > wrong;
   }
   a.solved = horizontal.size();
   if (a.solved == 0) return a;
@@ -90,10 +99,12 @@ std::string to_text(const Accuracy& a) {
       "{} of {} epochs ({:.1f} %): horizontal RMSE {:.3f} m, 95 % {:.3f} m; across the way {:.3f} "
       "m; "
       "up RMSE {:.3f} m; mean east {:.3f}, north {:.3f}, up {:.3f} m; horizontal about its mean "
-      "{:.3f} m; last 3-D {:.3f} m; NEES {:.2f} of 3",
+      "{:.3f} m; last 3-D {:.3f} m; NEES {:.2f} of 3; {} epochs with integer ambiguities, {} of "
+      "them more "
+      "than 0.1 m off",
       a.solved, a.with_truth, 100.0 * a.coverage(), a.horizontal_rmse, a.horizontal_95,
       a.across_rmse, a.up_rmse, a.mean_enu.x(), a.mean_enu.y(), a.mean_enu.z(),
-      a.horizontal_rmse_without_mean, a.three_d_last, a.nees);
+      a.horizontal_rmse_without_mean, a.three_d_last, a.nees, a.fixed, a.wrongly_fixed);
 }
 
 }  // namespace maploop::gnss

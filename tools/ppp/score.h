@@ -17,6 +17,7 @@ struct ErrorAt {
   Eigen::Vector3d enu{0, 0, 0};         // m
   Eigen::Vector3d sigma{0, 0, 0};       // m, formal
   double nees = 0.0;                    // of three dimensions
+  bool fixed = false;                   // with integer ambiguities
   bool moves = false;                   // else there is no direction of travel
   Eigen::Vector3d travel{0, 0, 0};      // m, along and across the direction of travel, and up
   Eigen::Vector3d protection{0, 0, 0};  // m, levels of the same
@@ -29,6 +30,8 @@ struct Accuracy {
   Eigen::Vector3d mean_enu{0, 0, 0};        // m
   double horizontal_rmse_without_mean = 0;  // m: one constant offset removed
   double nees = 0;                          // mean; 3 where the covariance is right
+  std::size_t fixed = 0;                    // epochs with integer ambiguities
+  std::size_t wrongly_fixed = 0;            // of them, those whose 3-D error is above 0.1 m
 
   double coverage() const {
     return with_truth > 0 ? static_cast<double>(solved) / static_cast<double>(with_truth) : 0.0;

@@ -52,7 +52,7 @@ struct PppEpochs {
   explicit PppEpochs(const std::map<Time, PppState>& states) {
     for (const auto& [stamp, state] : states) {
       ++by_status[static_cast<std::size_t>(state.status)];
-      if (state.status == PppStatus::converged && converged_after < 0.0)
+      if (state.status >= PppStatus::converged && converged_after < 0.0)
         converged_after = state.converging_for;
     }
   }

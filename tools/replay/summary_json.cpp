@@ -43,7 +43,8 @@ json to_json(const std::map<std::string, vehicle::ChannelSummary>& channels) {
 }
 
 json to_json(const PppEpochs& e) {
-  return {{"converged", e.of(PppStatus::converged)},
+  return {{"converged", e.of(PppStatus::converged) + e.of(PppStatus::fixed)},
+          {"fixed", e.of(PppStatus::fixed)},
           {"converging", e.of(PppStatus::converging)},
           {"none", e.of(PppStatus::none)},
           {"never_converges", e.never_converges},

@@ -17,9 +17,12 @@ void append_accuracy(std::string& text, const char* name, const std::optional<Ac
 }
 
 void append_ppp(std::string& text, const PppEpochs& e) {
+  const std::size_t fixed = e.of(PppStatus::fixed);
   text += fmt::format(
-      "\nPrecise point positioning: {} epochs converged, {} converging, {} without a position",
-      e.of(PppStatus::converged), e.of(PppStatus::converging), e.of(PppStatus::none));
+      "\nPrecise point positioning: {} epochs converged{}, {} converging, {} without a position",
+      e.of(PppStatus::converged) + fixed,
+      fixed > 0 ? fmt::format(" ({} with integer ambiguities)", fixed) : "",
+      e.of(PppStatus::converging), e.of(PppStatus::none));
   if (e.converged_after >= 0.0)
     text += fmt::format("; converged after {:.0f} s", e.converged_after);
   if (e.never_converges)

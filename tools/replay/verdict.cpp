@@ -69,7 +69,7 @@ std::string how_good(const ReplayResult& r) {
         "Horizontal error {:.{}f} m RMS, {:.{}f} m at most, against {}the reference.", e.rmse,
         digits, e.max, digits, share);
   }
-  if (r.ppp && r.ppp->never_converges && r.ppp->of(PppStatus::converged) == 0)
+  if (r.ppp && r.ppp->never_converges && r.ppp->converged_after < 0.0)
     return "PPP cannot converge on one frequency with broadcast orbits: metres remain.";
   if (r.ppp && r.ppp->converged_after >= 0.0)
     return fmt::format("PPP converged after {:.0f} s; there is no reference to score against.",

@@ -40,7 +40,7 @@ std::vector<EpochError> errors_of(const Scene& scene) {
     EpochError e;
     e.second = scene.second(stamp);
     e.sigma = state.position_covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-    e.converged = state.status == PppStatus::converged;
+    e.converged = state.status >= PppStatus::converged;
     if (const auto pose = scene.truth ? scene.truth->pose(stamp) : std::nullopt) {
       e.enu = scene.frame.to_enu(state.position) - *pose * antenna;
       e.nees = e.enu.dot(state.position_covariance.ldlt().solve(e.enu));
@@ -80,16 +80,19 @@ std::string coverage(const States& states) {
   double used = 0.0;
   for (const auto& [stamp, state] : states) used += state.satellites_used;
   const auto n = static_cast<double>(states.size());
-  const std::size_t converged = epochs.of(PppStatus::converged),
+  const std::size_t fixed = epochs.of(PppStatus::fixed),
+                    converged = epochs.of(PppStatus::converged) + fixed,
                     converging = epochs.of(PppStatus::converging);
-  return paragraph(fmt::format(
-      "{} epochs, {:.1f} % with a position: {} converged, {} converging{}. {:.1f} satellites used "
-      "on average.",
-      states.size(), 100.0 * static_cast<double>(converged + converging) / n, converged, converging,
-      epochs.converged_after < 0.0
-          ? ""
-          : fmt::format("; converged after {:.0f} s", epochs.converged_after),
-      used / n));
+  return paragraph(
+      fmt::format("{} epochs, {:.1f} % with a position: {} converged{}, {} converging{}. {:.1f} "
+                  "satellites used "
+                  "on average.",
+                  states.size(), 100.0 * static_cast<double>(converged + converging) / n, converged,
+                  fixed > 0 ? fmt::format(" ({} with integer ambiguities)", fixed) : "", converging,
+                  epochs.converged_after < 0.0
+                      ? ""
+                      : fmt::format("; converged after {:.0f} s", epochs.converged_after),
+                  used / n));
 }
 
 std::string accuracy(const std::vector<EpochError>& errors) {

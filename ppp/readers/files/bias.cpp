@@ -27,7 +27,8 @@ void read_bias(const Lines& lines, BiasFile& result) {
   const auto satellite = parse_satellite(lines.column(11, 3));
   const auto signal = trimmed(lines.column(25, 4));
   const auto second = trimmed(lines.column(30, 4));
-  if (!satellite || !blank(lines.column(15, 9)) || signal.empty() || signal[0] != 'C') {
+  const bool phase = absolute && signal.starts_with('L');
+  if (!satellite || !blank(lines.column(15, 9)) || !(phase || signal.starts_with('C'))) {
     ++result.skipped;
     return;
   }
@@ -35,8 +36,8 @@ void read_bias(const Lines& lines, BiasFile& result) {
     lines.fail("'" + std::string(signal) + "' and '" + std::string(second) +
                "' are not the signals of a bias");
   }
-  if (trimmed(lines.column(65, 4)) != "ns") lines.fail("the unit of a code bias must be ns");
-  CodeBias bias;
+  if (trimmed(lines.column(65, 4)) != "ns") lines.fail("the unit of a bias must be ns");
+  SignalBias bias;
   bias.satellite = *satellite;
   bias.signal = std::string(signal);
   bias.second = std::string(second);
@@ -77,7 +78,7 @@ BiasFile parse_bias_sinex(std::string_view text, const std::string& file) {
     }
   }
   if (!ended) lines.fail("the file ends before -BIAS/SOLUTION");
-  if (result.biases.empty()) lines.fail("the file contains no code bias of a satellite");
+  if (result.biases.empty()) lines.fail("the file contains no bias of a satellite");
   return result;
 }
 
@@ -119,7 +120,7 @@ BiasFile parse_dcb(std::string_view text, const std::string& file) {
     if (year < 1980 || year > 2200 || month < 1 || month > 12) {
       lines.fail("the title does not contain the year and month");
     }
-    CodeBias bias{*satellite,
+    SignalBias bias{*satellite,
                   first,
                   second,
                   gps_time({year, month, 1, 0, 0, 0.0}),

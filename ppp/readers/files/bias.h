@@ -1,5 +1,5 @@
-// Reads biases of codes from Bias-SINEX 1.00 (absolute OSB and differential DSB) and CODE's DCB
-// files.
+// Reads biases of codes and phases from Bias-SINEX 1.00 (absolute OSB and differential DSB), and
+// those of codes from CODE's DCB files.
 #pragma once
 
 #include <vector>
@@ -9,19 +9,19 @@
 
 namespace maploop::ppp {
 
-// A CodeBias is the bias of one signal, or that of the first minus that of the second. It must be
-// subtracted from a measurement.
-struct CodeBias {
+// A SignalBias is the bias of one signal, or that of the first minus that of the second. It must be
+// subtracted from a measurement. With the biases of both carriers' phases, ambiguities are integers.
+struct SignalBias {
   Satellite satellite;
-  std::string signal, second;  // such as "C1W"; second is empty for an absolute bias
+  std::string signal, second;  // such as "C1W" or "L1C"; second is empty for an absolute bias
   GpsTime from{}, until{};
   double metres = 0.0;
 };
 
 struct BiasFile {
   std::string file, agency;
-  std::vector<CodeBias> biases;  // code biases of satellites only
-  int skipped = 0;               // biases of stations and phases, and intersystem biases
+  std::vector<SignalBias> biases;  // of satellites
+  int skipped = 0;                 // biases of stations, between phases and between systems
 };
 
 BiasFile parse_bias_sinex(std::string_view text, const std::string& file);

@@ -3,6 +3,20 @@
 #include <cmath>
 
 namespace maploop::ppp {
+namespace {
+
+// Reads "WL G01  2020  6 25 12  0  0.000000  1   -0.110300E+01  0102 COMMENT". Other comments are
+// no wide lanes.
+void read_wide_lane(const Lines& lines, ClockFile& result) {
+  if (lines.column(0, 3) != "WL ") return;
+  const auto satellite = parse_satellite(lines.column(3, 3));
+  if (!satellite) return;
+  const double cycles = lines.number(39, 16, "wide lane");
+  if (std::abs(cycles) > 100.0) lines.fail("a wide lane's bias must be within 100 cycles");
+  result.wide_lanes.push_back({*satellite, parse_stamp(lines, lines.column(8, 26)), cycles});
+}
+
+}  // namespace
 
 ClockFile parse_clock(std::string_view text, const std::string& file) {
   ClockFile result;
@@ -25,6 +39,7 @@ ClockFile parse_clock(std::string_view text, const std::string& file) {
     if (line.find("ANALYSIS CENTER", 60) != std::string_view::npos) {
       result.agency = std::string(trimmed(lines.column(0, 3)));
     }
+    if (line.find("COMMENT", 60) != std::string_view::npos) read_wide_lane(lines, result);
     const auto at = line.find("TIME SYSTEM ID", 60);
     if (at != std::string_view::npos && trimmed(lines.column(0, 9)) != "GPS") {
       lines.fail("clocks in a time system other than GPS are not supported");

@@ -80,10 +80,10 @@ TEST(PreciseEphemeris, ReportsWhatIsMissing) {
 }
 
 TEST(PreciseEphemeris, BiasesAreSubtractedBySignal) {
-  CodeBias osb{{System::gps, 5}, "C1C", "", GpsTime::min(), GpsTime::max(), -0.33};
-  CodeBias dcb{{System::gps, 6}, "C1W", "C1C", GpsTime::min(), GpsTime::max(), 0.40};
-  CodeBias dsb{{System::gps, 7}, "C1C", "C1W", GpsTime::min(), GpsTime::max(), 0.20};
-  CodeBias between_bands{{System::gps, 6}, "C1W", "C2W", GpsTime::min(), GpsTime::max(), 2.0};
+  SignalBias osb{{System::gps, 5}, "C1C", "", GpsTime::min(), GpsTime::max(), -0.33};
+  SignalBias dcb{{System::gps, 6}, "C1W", "C1C", GpsTime::min(), GpsTime::max(), 0.40};
+  SignalBias dsb{{System::gps, 7}, "C1C", "C1W", GpsTime::min(), GpsTime::max(), 0.20};
+  SignalBias between_bands{{System::gps, 6}, "C1W", "C2W", GpsTime::min(), GpsTime::max(), 2.0};
   BiasFile file;
   file.biases = {osb, dcb, dsb, between_bands};
   const PreciseEphemeris precise({}, {}, {file});

@@ -72,7 +72,7 @@ export interface Satellite {
 
 export interface PppState {
   header: Header;
-  status: number; // 0 none, 1 converging, 2 converged
+  status: number; // 0 none, 1 converging, 2 converged, 3 fixed
   message: string;
   position_covariance: number[][];
   protection_along: number;

@@ -63,7 +63,7 @@ export function showRoad(panel: HTMLElement, m: MapMatch): void {
   panel.prepend(p);
 }
 
-const solutions = ["no position", "converging", "converged"];
+const solutions = ["no position", "converging", "converged", "fixed"];
 const maps = ["says nothing yet", "corrects it across the road", "is left out for a while: it was a wrong road"];
 
 export function showPpp(panel: HTMLElement, p: PppState): void {

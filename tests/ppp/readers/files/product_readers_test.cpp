@@ -124,7 +124,7 @@ TEST(ProductReaders, BiasesOfCode) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const BiasFile b =
       read_product("kamakura_kinematic/COD0MGXFIN_20212650000_01D_01D_OSB.BIA.gz").biases.at(0);
-  const auto at = std::find_if(b.biases.begin(), b.biases.end(), [](const CodeBias& bias) {
+  const auto at = std::find_if(b.biases.begin(), b.biases.end(), [](const SignalBias& bias) {
     return bias.satellite == Satellite{System::gps, 5} && bias.signal == "C1C";
   });
   ASSERT_NE(at, b.biases.end());

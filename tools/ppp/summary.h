@@ -1,0 +1,29 @@
+// Tells how a run of precise point positioning went, as lines of text and as JSON.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/ppp/page.h"
+#include "tools/ppp/run.h"
+#include "tools/ppp/score.h"
+
+namespace maploop::gnss {
+
+// What a run gives to its texts and files.
+struct PppResult {
+  Solutions solutions;
+  std::size_t solved = 0, matched = 0;
+  std::unique_ptr<Truth> truth;
+  std::unique_ptr<Score> score, without_map;  // where there is a truth; the second: and a map
+  std::optional<ppp::GpsTime> scored_from;
+};
+
+std::vector<std::string> summary_lines(const PppRun& run, const PppResult& r, double integrity_risk,
+                                       bool on_map, const ppp::GnssFiles& files);
+nlohmann::json to_json(const PppRun& run, const PppResult& r, bool on_map);
+
+}  // namespace maploop::gnss
