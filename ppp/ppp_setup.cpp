@@ -139,9 +139,9 @@ void PppSetup::note_lacks_of_integers(const GnssFiles& files) {
     names += (count++ > 0 ? ", " : "") + file.file;
   }
   if (count > 1) {
-    missing_models_.push_back(std::to_string(count) + " files contain antennas of satellites (" +
-                              names +
-                              "): of each satellite, the calibration that began last is used");
+    missing_models_.push_back(
+        std::to_string(count) + " files contain antennas of satellites (" + names +
+        "): a file of satellites only is used, or else the calibration that began last");
   }
 }
 

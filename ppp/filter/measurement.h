@@ -14,14 +14,14 @@ inline constexpr int position_unknowns = 4;
 
 struct Carrier {
   char band = 0, attribute = 0;  // those of the code
-  char phase_attribute = 0;
-  double frequency = 0.0;   // Hz
-  double wavelength = 0.0;  // m
-  double code = 0.0;        // m, biases removed; 0: not measured
-  double phase = 0.0;       // m; 0: not measured
-  double doppler = 0.0;     // Hz
-  double cn0 = 0.0;         // dB-Hz; 0: not given
+  double frequency = 0.0;        // Hz
+  double wavelength = 0.0;       // m
+  double code = 0.0;             // m, biases removed; 0: not measured
+  double phase = 0.0;            // m; 0: not measured
+  double doppler = 0.0;          // Hz
+  double cn0 = 0.0;              // dB-Hz; 0: not given
   bool lost_lock = false;
+  char phase_attribute = 0;  // of the phase, which may be of another signal than the code
 };
 
 struct Measurement {

@@ -14,11 +14,6 @@ double in_row(const std::vector<double>& row, double place) {
   return row[i] + (p - static_cast<double>(i)) * (row[k] - row[i]);
 }
 
-// A calibration without a beginning was made for the data that it comes with.
-GpsTime began(const Antenna& a) {
-  return a.valid_from == GpsTime::min() ? GpsTime::max() : a.valid_from;
-}
-
 }  // namespace
 
 double phase_variation(const Antenna& antenna, const PhaseCentre& carrier, double zenith,
@@ -63,14 +58,19 @@ double satellite_phase_centre(const Antenna& antenna, System system, char band,
 
 const Antenna* satellite_antenna(const std::vector<AntennaFile>& files, Satellite satellite,
                                  GpsTime t) {
-  const Antenna* latest = nullptr;
+  const Antenna* best = nullptr;
+  bool best_is_special = false;
   for (const AntennaFile& file : files) {
+    if (best_is_special && !file.satellites_only) continue;
     for (const Antenna& a : file.antennas) {
-      const bool begun = a.satellite == satellite && t >= a.valid_from;
-      if (begun && (latest == nullptr || began(a) > began(*latest))) latest = &a;
+      if (a.satellite != satellite || t < a.valid_from) continue;
+      const bool more_special = file.satellites_only && !best_is_special;
+      if (best != nullptr && !more_special && a.valid_from <= best->valid_from) continue;
+      best = &a;
+      best_is_special = file.satellites_only;
     }
   }
-  return latest != nullptr && t < latest->valid_until ? latest : nullptr;
+  return best != nullptr && t < best->valid_until ? best : nullptr;
 }
 
 AssumedAntenna assumed_antenna(const std::vector<AntennaFile>& files, System system, GpsTime t) {

@@ -24,10 +24,10 @@ double satellite_phase_centre(const Antenna& antenna, System system, char band,
                               const Eigen::Matrix3d& R_ecef_body,
                               const Eigen::Vector3d& to_receiver);
 
-// Returns the antenna of a satellite at a time: of all calibrations that have begun, the one that
-// began last, because an old file does not know that another satellite has taken the number; one
-// without a beginning counts as the last.
-// Returns nullptr if there is none, or if it has ended.
+// Returns the antenna of a satellite at a time. Of several calibrations that have begun, one of a
+// file of satellites only counts, and of these the one that began last, because an old file does
+// not know that another satellite has taken the number. Returns nullptr if there is none, or if it
+// has ended.
 const Antenna* satellite_antenna(const std::vector<AntennaFile>& files, Satellite satellite,
                                  GpsTime t);
 // A satellite whose antenna is not known is given the mean height of its system's phase centres.

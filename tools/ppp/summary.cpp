@@ -110,10 +110,10 @@ std::vector<std::string> summary_lines(const PppRun& run, const PppResult& r, do
 
 json to_json(const PppRun& run, const PppResult& r, bool on_map) {
   json all = {{"epochs", r.solutions.size()},
-               {"solved", r.solved},
-               {"filter_seconds", run.seconds()},
-               {"missing_products", run.missing_products()},
-               {"lacks", run.setup().missing_models()}};
+              {"solved", r.solved},
+              {"filter_seconds", run.seconds()},
+              {"missing_products", run.missing_products()},
+              {"lacks", run.setup().missing_models()}};
   const auto scored = [&](const Score& score) {
     return to_json(score.accuracy(r.scored_from), score.time_to_stay_below(0.1));
   };

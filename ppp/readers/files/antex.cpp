@@ -1,5 +1,6 @@
 #include "ppp/readers/files/antex.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace maploop::ppp {
@@ -151,6 +152,8 @@ AntennaFile parse_antex(std::string_view text, const std::string& file) {
     }
   }
   if (result.antennas.empty()) lines.fail("the file contains no antenna");
+  result.satellites_only = std::all_of(result.antennas.begin(), result.antennas.end(),
+                                       [](const Antenna& a) { return a.satellite.has_value(); });
   return result;
 }
 

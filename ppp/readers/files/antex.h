@@ -35,6 +35,7 @@ struct Antenna {
 struct AntennaFile {
   std::string file;
   bool absolute = true;
+  bool satellites_only = false;  // it contains no receiver's antenna
   std::vector<Antenna> antennas;
   int refused = 0;  // antennas without END OF ANTENNA
 };

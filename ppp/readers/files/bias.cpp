@@ -121,11 +121,11 @@ BiasFile parse_dcb(std::string_view text, const std::string& file) {
       lines.fail("the title does not contain the year and month");
     }
     SignalBias bias{*satellite,
-                  first,
-                  second,
-                  gps_time({year, month, 1, 0, 0, 0.0}),
-                  gps_time({month == 12 ? year + 1 : year, month % 12 + 1, 1, 0, 0, 0.0}),
-                  0.0};
+                    first,
+                    second,
+                    gps_time({year, month, 1, 0, 0, 0.0}),
+                    gps_time({month == 12 ? year + 1 : year, month % 12 + 1, 1, 0, 0, 0.0}),
+                    0.0};
     if (satellite->system == System::glonass) {
       for (std::string* name : {&bias.signal, &bias.second}) {
         std::replace(name->begin(), name->end(), 'W', 'P');

@@ -10,7 +10,8 @@
 namespace maploop::ppp {
 
 // A SignalBias is the bias of one signal, or that of the first minus that of the second. It must be
-// subtracted from a measurement. With the biases of both carriers' phases, ambiguities are integers.
+// subtracted from a measurement. With the biases of both carriers' phases, ambiguities are
+// integers.
 struct SignalBias {
   Satellite satellite;
   std::string signal, second;  // such as "C1W" or "L1C"; second is empty for an absolute bias

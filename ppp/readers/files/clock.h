@@ -15,8 +15,8 @@ struct ClockFile {
     double offset = 0.0;  // s
   };
   // The fractional part of a satellite's wide lane, which CNES/CLS state in comments of the header;
-  // with it, and with these clocks, ambiguities are integers (Laurichesse et al., "Integer ambiguity
-  // resolution on undifferenced GPS phase measurements", Navigation 56, 2009).
+  // with it, and with these clocks, ambiguities are integers (Laurichesse et al., "Integer
+  // ambiguity resolution on undifferenced GPS phase measurements", Navigation 56, 2009).
   struct WideLane {
     Satellite satellite;
     GpsTime time{};  // the middle of its day
