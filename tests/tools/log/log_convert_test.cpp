@@ -90,6 +90,7 @@ TEST_F(LogConvert, EveryToolReadsAndWritesMcapFiles) {
 
 TEST_F(LogConvert, RecoversWhatACutFileHas) {
   std::vector<TestEvent> events;
+  events.reserve(10);
   for (int i = 0; i < 10; ++i)
     events.push_back({"X", test_start + 500'000 * i, unknown_bytes(20'000, std::uint8_t(i))});
   record(log_, events);
