@@ -8,6 +8,7 @@
 
 #include "msgs/input_file.h"
 #include "msgs/input_limits.h"
+#include "sensors/bag/mcap_format.h"
 #include "sensors/bag/mcap_reader.h"
 #include "sensors/bag/ros1_bag_reader.h"
 #include "sensors/bag/sqlite_reader.h"
@@ -74,9 +75,21 @@ bool is_recording(std::string_view head) {
 
 }  // namespace
 
+bool is_own_recording(const fs::path& file) {
+  // Magic, opcode and length of the header, length of the profile.
+  constexpr std::size_t profile_at = mcap_magic.size() + 1 + 8 + 4;
+  try {
+    const std::string head = unpacked_head(file);
+    return head.starts_with(mcap_magic) && head.size() > profile_at &&
+           std::string_view(head).substr(profile_at).starts_with(mcap_profile);
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+}
+
 bool is_recording_file(const fs::path& file) {
   try {
-    return is_recording(unpacked_head(file));
+    return is_recording(unpacked_head(file)) && !is_own_recording(file);
   } catch (const std::runtime_error&) {
     return false;
   }

@@ -9,8 +9,12 @@
 
 namespace maploop::sensors::bag {
 
-// Returns whether the file begins as one of the formats, also if it is compressed. Does not throw.
+// Returns whether the file begins as one of the formats, also if it is compressed, and is none of
+// our own recordings. Does not throw.
 bool is_recording_file(const std::filesystem::path& file);
+
+// Returns whether the file is an MCAP file of our own profile, also compressed. Does not throw.
+bool is_own_recording(const std::filesystem::path& file);
 
 // Returns the files of a recording in their order: the file itself, what metadata.yaml names, or
 // the recordings of a folder in the natural order of their names. Throws std::runtime_error: none,

@@ -56,10 +56,11 @@ struct BagRecording::Opening {
 
 BagRecording::~BagRecording() = default;
 
-BagRecording::BagRecording(const std::filesystem::path& path, const BagParameters& parameters,
-                           const BagVehicle& vehicle, const BagLimits& limits)
+BagRecording::BagRecording(const std::filesystem::path& path, BagSummary summary,
+                           const BagParameters& parameters, const BagVehicle& vehicle,
+                           const BagLimits& limits)
     : raw_cameras_(vehicle.cameras) {
-  Opening opening{summarize(path), {}};
+  Opening opening{std::move(summary), {}};
   choice_ = choose_topics(path, opening.bag, parameters.topics);
   notes_ = choice_.notes;
   BagSettings settings{path, parameters, vehicle, limits, true, {}, 1.0};

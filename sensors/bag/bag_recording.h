@@ -47,10 +47,10 @@ struct BagSettings;  // bag_sources.h
 // sensor without a transform is taken to look forward from the body's origin, and a note says so.
 class BagRecording {
  public:
-  // Reads the index of the recording (or all of it where there is none) and the first messages of
-  // the chosen topics. Throws std::runtime_error that names the recording and states what to do.
-  BagRecording(const std::filesystem::path& path, const BagParameters& parameters,
-               const BagVehicle& vehicle, const BagLimits& limits);
+  // Reads the first messages of the chosen topics; `summary` is that of the recording
+  // (summarize()). Throws std::runtime_error that names the recording and states what to do.
+  BagRecording(const std::filesystem::path& path, BagSummary summary,
+               const BagParameters& parameters, const BagVehicle& vehicle, const BagLimits& limits);
   ~BagRecording();
 
   const VehicleCalibration& calibration() const { return calibration_; }

@@ -1,7 +1,5 @@
 #include "sensors/bag/chunked_reader.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -107,7 +105,7 @@ void ChunkedReader::follow_index() {
   std::stable_sort(chunks_.begin(), chunks_.end(), by_offset);
   chunks_.erase(std::unique(chunks_.begin(), chunks_.end(), same_offset), chunks_.end());
   std::erase_if(chunks_, [&](const ChunkPlace& place) { return !may_contain(place); });
-  std::stable_sort(chunks_.begin(), chunks_.end(), by_time);
+  if (!selection_.as_written) std::stable_sort(chunks_.begin(), chunks_.end(), by_time);
   indexed_ = true;
 }
 
@@ -129,8 +127,7 @@ void ChunkedReader::read_chunk(const Record& record) {
     add_damage(offset_, "the file ends inside a chunk: what it contains up to there is read");
   } else if (!inflated.error.empty()) {
     throw Malformed("a chunk is left out: " + inflated.error);
-  } else if (chunk.crc != 0 &&
-             chunk.crc != crc32_z(0, inflated.bytes.data(), inflated.bytes.size())) {
+  } else if (chunk.crc != 0 && chunk.crc != crc_of(inflated.bytes)) {
     throw Malformed("a chunk is left out: its checksum (CRC) is wrong");
   }
   take_messages(chunk, inflated.bytes);
@@ -160,7 +157,7 @@ void ChunkedReader::take_messages(const Chunk& chunk, Bytes content) {
                std::to_string(malformed) + " records of this chunk are left out: " + first);
   }
   const auto earlier = [](const Waiting& a, const Waiting& b) { return a.received < b.received; };
-  if (!std::is_sorted(waiting_.begin(), waiting_.end(), earlier))
+  if (!selection_.as_written && !std::is_sorted(waiting_.begin(), waiting_.end(), earlier))
     std::stable_sort(waiting_.begin(), waiting_.end(), earlier);
 }
 

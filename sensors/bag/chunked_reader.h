@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "sensors/bag/decompress.h"
+#include "sensors/bag/compression.h"
 #include "sensors/bag/file_bytes.h"
 #include "sensors/bag/recording_reader.h"
 

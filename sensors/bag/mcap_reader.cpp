@@ -1,22 +1,15 @@
 #include "sensors/bag/mcap_reader.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <limits>
 #include <utility>
 
 #include "msgs/input_file.h"
 #include "msgs/input_limits.h"
+#include "sensors/bag/mcap_format.h"
 
 namespace maploop::sensors::bag {
 namespace {
-
-// These tell the kinds of records apart.
-namespace mcap_op {
-constexpr std::uint8_t footer = 0x02, schema = 0x03, channel = 0x04, message = 0x05, chunk = 0x06,
-                       chunk_index = 0x08, statistics = 0x0b, data_end = 0x0f;
-}  // namespace mcap_op
 
 constexpr std::size_t record_head = 9;  // opcode, length
 constexpr std::size_t footer_size = record_head + 20;
@@ -60,11 +53,11 @@ bool McapReader::read_summary() {
 }
 
 bool McapReader::has_crc(std::uint64_t begin, std::uint64_t end, std::uint32_t crc) {
-  uLong sum = 0;
+  std::uint32_t sum = 0;
   while (begin < end) {
     const Bytes part = bytes_.at(begin, std::min(input_limits::mebibyte, std::size_t{end - begin}));
     if (part.empty()) return false;
-    sum = crc32_z(sum, part.data(), part.size());
+    sum = crc_of(part, sum);
     begin += part.size();
   }
   return sum == crc;

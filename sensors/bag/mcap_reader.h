@@ -5,13 +5,10 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <string_view>
 
 #include "sensors/bag/chunked_reader.h"
 
 namespace maploop::sensors::bag {
-
-constexpr std::string_view mcap_magic = "\x89MCAP0\r\n";
 
 // Follows the chunk index of the summary section; a file without one is read from front to back.
 class McapReader final : public ChunkedReader {

@@ -58,6 +58,7 @@ struct BagDamage {
 struct MessageSelection {
   std::set<std::string> topics;  // empty: all
   Time begin = Time::min();      // messages that were received earlier are left out
+  bool as_written = false;  // bags and MCAP files: in the order of the file, whatever the times
 };
 
 class MessageReader {
@@ -83,7 +84,8 @@ class MessageReader {
 
 // Returns whether the path is a file that begins as one of these formats does, also compressed as a
 // whole, or a folder with such a file: named by metadata.yaml of rosbag2, or *.bag, *.db3, *.mcap.
-// Any SQLite database begins as one of rosbag2. Does not throw.
+// Any SQLite database begins as one of rosbag2; our own recordings (sensors/replay/log_events.h)
+// are none. Does not throw.
 bool is_bag(const std::filesystem::path& path);
 
 // Opens a file, or all files of a folder one after the other: those that metadata.yaml of rosbag2

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "msgs/input_limits.h"
-#include "sensors/bag/decompress.h"
+#include "sensors/bag/compression.h"
 
 namespace maploop::sensors::bag {
 

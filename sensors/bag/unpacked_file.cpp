@@ -14,12 +14,13 @@
 
 #include "msgs/input_file.h"
 #include "msgs/input_limits.h"
-#include "sensors/bag/decompress.h"
+#include "sensors/bag/compression.h"
 
 namespace maploop::sensors::bag {
 namespace {
 
-constexpr std::size_t head_bytes = 16;  // as many as the longest magic of a format
+constexpr std::size_t head_bytes =
+    32;  // MCAP's up to its profile; longer than other formats' magic
 constexpr std::string_view gzip_magic = "\x1f\x8b";
 
 Bytes as_bytes(std::string_view text) {

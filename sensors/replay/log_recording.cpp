@@ -12,12 +12,10 @@
 #include "msgs/lcm/channel_names.h"
 #include "msgs/lcm/checked_decode.h"
 #include "msgs/lcm/conversions.h"
-#include "msgs/lcm/log/log_reader.h"
+#include "sensors/replay/log_events.h"
 
 namespace maploop::sensors {
 namespace {
-
-using lcm_log::LogReader;
 
 using input_limits::longest_gap;
 using input_limits::longest_pause;
@@ -31,13 +29,13 @@ class LogSource final : public Source<T> {
 
  public:
   LogSource(const std::filesystem::path& log, std::string_view channel)
-      : log_(log), channel_(channel), reader_(log, own_schema()) {}
+      : log_(log), channel_(channel), reader_(open_log(log, own_schema(), channel)) {}
 
   bool next(T& sample) override {
-    for (auto item = reader_.next(); item != LogReader::Item::end; item = reader_.next()) {
+    for (auto item = reader_->next(); item != LogEvents::Item::end; item = reader_->next()) {
       // The constructor of LogRecording refused damage; a log that has changed since is read as far
       // as possible.
-      if (item != LogReader::Item::event || reader_.event().channel != channel_) continue;
+      if (item != LogEvents::Item::event || reader_->event().channel != channel_) continue;
       if (!read(sample)) continue;
       ++report_.delivered;
       return true;
@@ -50,11 +48,12 @@ class LogSource final : public Source<T> {
  private:
   bool read(T& sample) {
     const auto refuse = [&](const std::string& why) {
-      report_.refuse({log_.string(), 0,
-                      channel_ + ", event " + std::to_string(reader_.event().number) + ": " + why});
+      report_.refuse(
+          {log_.string(), 0,
+           channel_ + ", event " + std::to_string(reader_->event().number) + ": " + why});
       return false;
     };
-    if (!checked_decode(own_schema(), reader_.event().data, message_)) {
+    if (!checked_decode(own_schema(), reader_->event().data, message_)) {
       return refuse("not a message of type " + std::string(Lcm::getTypeName()) +
                     " of this version");
     }
@@ -78,7 +77,7 @@ class LogSource final : public Source<T> {
 
   std::filesystem::path log_;
   std::string channel_;
-  LogReader reader_;
+  std::unique_ptr<LogEvents> reader_;
   Lcm message_{};
   Time last_ = Time::min();
   SourceReport report_;
@@ -116,16 +115,16 @@ LogRecording::LogRecording(const std::filesystem::path& log) : log_(log) {
   };
   std::map<std::string_view, Seen> seen;
   bool calibrated = false, of_another_version = false;
-  LogReader reader(log, own_schema());
-  for (auto item = reader.next(); item != LogReader::Item::end; item = reader.next()) {
-    if (item == LogReader::Item::damage) {
-      if (reader.damage().begin == 0) {
+  const auto reader = open_log(log, own_schema());
+  for (auto item = reader->next(); item != LogEvents::Item::end; item = reader->next()) {
+    if (item == LogEvents::Item::damage) {
+      if (reader->damage().begin == 0) {
         refuse("it is not a log, a table of t and the 30 columns of OXTS, or RINEX observations");
       }
-      refuse("it is damaged at byte " + std::to_string(reader.damage().begin) + " (" +
-             reader.damage().reason + "); 'maploop log recover' writes a sound copy of it");
+      refuse("it is damaged at byte " + std::to_string(reader->damage().begin) + " (" +
+             reader->damage().reason + "); 'maploop log recover' writes a sound copy of it");
     }
-    const lcm_log::LogEvent& event = reader.event();
+    const lcm_log::LogEvent& event = reader->event();
     if (event.channel == channel_names::calibration && !calibrated) {
       maploop_lcm::calibration_t message{};
       calibrated = checked_decode(own_schema(), event.data, message);

@@ -1,4 +1,5 @@
-// This file replays one of our own LCM logs: its channels contain what the sensors delivered.
+// This file replays one of our own recordings (LCM log or MCAP): its channels contain what the
+// sensors delivered.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +20,7 @@
 
 namespace maploop::sensors {
 
-// Reads a log that `maploop replay --record` wrote, plain or .gz: IMU, GNSS_FIX, WHEEL_SPEED,
+// Reads a log that `maploop replay --record` wrote, also compressed: IMU, GNSS_FIX, WHEEL_SPEED,
 // TRUTH, ODOMETRY, VO, LIDAR_ODOMETRY, and CAMERA and VELODYNE if raw sensors were recorded. Each
 // sample has the stamps and the bits it had. Sources may outlive the recording, and each may run on
 // its own thread.

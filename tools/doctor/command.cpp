@@ -48,8 +48,8 @@ std::vector<RealtimeSetting> ask_for_bus(const std::string& url) {
 }
 
 void examine_recording(const DoctorOptions& options, vehicle::VehicleConfig config) {
-  vehicle::fit_to_recording(config, options.recording);
-  const vehicle::Recording recording = vehicle::open_recording(options.recording, config);
+  const vehicle::KnownContents contents = vehicle::fit_to_recording(config, options.recording);
+  const vehicle::Recording recording = vehicle::open_recording(options.recording, config, contents);
   const std::vector<SensorHealth> sensors = examine(recording);
   std::vector<std::string> sentences = recording.notes;
   for (std::string& sentence : advice(sensors, options.recording.string()))

@@ -1,55 +1,21 @@
 #include "tools/log/foxglove_messages.h"
 
-#include <Eigen/Geometry>
-#include <nlohmann/json.hpp>
+#include <array>
 #include <optional>
-#include <string_view>
+#include <stdexcept>
+#include <vector>
 
 #include "msgs/lcm/channel_names.h"
 #include "msgs/lcm/checked_decode.h"
 #include "msgs/lcm/conversions.h"
+#include "sensors/image/jpeg.h"
+#include "tools/log/foxglove_schemas.h"
 
 namespace maploop::lcm_log {
 namespace {
 
+using namespace foxglove;
 using nlohmann::json;
-
-constexpr const char *location = "foxglove.LocationFix", *pose_in_frame = "foxglove.PoseInFrame",
-                     *transform = "foxglove.FrameTransform";
-
-json time_of(Time stamp) {
-  const std::int64_t ns = to_nanoseconds(stamp);
-  constexpr std::int64_t second = 1'000'000'000;
-  return {{"sec", ns / second}, {"nsec", ns % second}};
-}
-
-json vector_of(const Eigen::Vector3d& v) {
-  return {{"x", v.x()}, {"y", v.y()}, {"z", v.z()}};
-}
-
-json rotation_of(const Attitude& attitude) {
-  const Eigen::Quaterniond q(rotation_enu_body(attitude));
-  return {{"x", q.x()}, {"y", q.y()}, {"z", q.z()}, {"w", q.w()}};
-}
-
-json fix_of(Time stamp, const Geodetic& place, const Eigen::Matrix3d& covariance) {
-  constexpr int known = 3;
-  return {{"timestamp", time_of(stamp)},
-          {"frame_id", "map"},
-          {"latitude", degrees(place.latitude)},
-          {"longitude", degrees(place.longitude)},
-          {"altitude", place.height},
-          {"position_covariance",
-           std::vector<double>(covariance.data(), covariance.data() + covariance.size())},
-          {"position_covariance_type", known}};
-}
-
-json pose_of(Time stamp, const char* frame, const Eigen::Vector3d& position,
-             const Attitude& attitude) {
-  return {{"timestamp", time_of(stamp)},
-          {"frame_id", frame},
-          {"pose", {{"position", vector_of(position)}, {"orientation", rotation_of(attitude)}}}};
-}
 
 // Returns the message of an event, if it is a message of this type with sound values.
 template <class Lcm>
@@ -64,71 +30,115 @@ auto message_of(const LogEvent& event, const schema::Schema& schema)
   }
 }
 
+Pose pose_of(const Eigen::Vector3d& position, const Attitude& attitude) {
+  return {position, Eigen::Quaterniond(rotation_enu_body(attitude))};
+}
+
+Pose pose_of(const Eigen::Isometry3d& T) {
+  return {T.translation(), Eigen::Quaterniond(T.linear())};
+}
+
+// Shows one event.
+class Viewed {
+ public:
+  Viewed(const LogEvent& event, const schema::Schema& schema,
+         const std::function<void(const FoxgloveMessage&)>& use)
+      : event_(event), schema_(schema), use_(use) {}
+
+  void nav_state() const {
+    const auto s = message_of<maploop_lcm::nav_state_t>(event_, schema_);
+    if (!s || s->status == NavStatus::uninitialized) return;
+    const Geodetic place = LocalFrame(s->origin).to_geodetic(s->position_enu);
+    const Pose pose = pose_of(s->position_enu, s->attitude);
+    show("/map/fix", LocationFix{s->stamp, place, s->covariance.topLeftCorner<3, 3>()});
+    show("/map/pose", PoseInFrame{s->stamp, "map", pose});
+    show("/tf", FrameTransform{s->stamp, "map", "body", pose});
+  }
+  void odom_state() const {
+    const auto s = message_of<maploop_lcm::odom_state_t>(event_, schema_);
+    if (!s || s->status == NavStatus::uninitialized) return;
+    show("/odom/pose", PoseInFrame{s->stamp, "odom", pose_of(s->position, s->attitude)});
+  }
+  void gnss_fix() const {
+    const auto fix = message_of<maploop_lcm::gnss_fix_t>(event_, schema_);
+    if (fix) show("/gnss/fix", LocationFix{fix->stamp, fix->position, fix->position_covariance});
+  }
+  void truth() const {
+    const auto pose = message_of<maploop_lcm::reference_pose_t>(event_, schema_);
+    if (!pose) return;
+    const double variance = pose->position_accuracy * pose->position_accuracy;
+    show("/truth/fix",
+         LocationFix{pose->stamp, pose->position, variance * Eigen::Matrix3d::Identity()});
+  }
+  void calibration() const {
+    const auto c = message_of<maploop_lcm::calibration_t>(event_, schema_);
+    if (!c) return;
+    const Time stamp = from_nanoseconds(1000 * event_.time_us);
+    show("/tf", FrameTransform{stamp, "body", "cam", pose_of(c->stereo.T_body_cam)});
+    show("/tf", FrameTransform{stamp, "body", "velo", pose_of(c->T_body_velo)});
+  }
+  void camera() const {
+    maploop_lcm::stereo_pair_t pair{};
+    if (!schema::checked_decode(schema_, event_.data, pair)) return;
+    image("/camera/left", pair, pair.left);
+    image("/camera/right", pair, pair.right);
+  }
+  void velodyne() const {
+    maploop_lcm::lidar_scan_t scan{};
+    if (!schema::checked_decode(schema_, event_.data, scan)) return;
+    show("/velodyne", PointCloud{from_nanoseconds(scan.header.stamp_ns), "velo", scan.points});
+  }
+
+ private:
+  template <class T>
+  void show(std::string_view topic, const T& shown) const {
+    use_({topic, T::name, T::object().of(shown).dump()});
+  }
+  void image(std::string_view topic, const maploop_lcm::stereo_pair_t& pair,
+             const std::vector<std::uint8_t>& pixels) const {
+    constexpr int quality = 80;
+    std::vector<std::uint8_t> jpeg;
+    try {
+      sensors::encode_jpeg(pixels, pair.width, pair.height, quality, jpeg);
+    } catch (const std::runtime_error&) {
+      return;  // of a size that is none
+    }
+    show(topic, CompressedImage{from_nanoseconds(pair.header.stamp_ns), "cam", jpeg});
+  }
+
+  const LogEvent& event_;
+  const schema::Schema& schema_;
+  const std::function<void(const FoxgloveMessage&)>& use_;
+};
+
+constexpr std::array shown_channels{
+    std::pair(channel_names::nav_state, &Viewed::nav_state),
+    std::pair(channel_names::odom_state, &Viewed::odom_state),
+    std::pair(channel_names::gnss_fix, &Viewed::gnss_fix),
+    std::pair(channel_names::truth, &Viewed::truth),
+    std::pair(channel_names::calibration, &Viewed::calibration),
+    std::pair(channel_names::camera, &Viewed::camera),
+    std::pair(channel_names::velodyne, &Viewed::velodyne),
+};
+
+template <class... T>
+json schema_among(std::string_view name) {
+  json schema;
+  (static_cast<void>(name == T::name ? schema = T::object().schema() : json()), ...);
+  return schema;
+}
+
 }  // namespace
 
 void show_in_foxglove(const LogEvent& event, const schema::Schema& schema,
                       const std::function<void(const FoxgloveMessage&)>& use) {
-  if (event.channel == channel_names::nav_state) {
-    const auto s = message_of<maploop_lcm::nav_state_t>(event, schema);
-    if (!s || s->status == NavStatus::uninitialized) return;
-    const Geodetic place = LocalFrame(s->origin).to_geodetic(s->position_enu);
-    use({"/map/fix", location,
-         fix_of(s->stamp, place, s->covariance.topLeftCorner<3, 3>()).dump()});
-    use({"/map/pose", pose_in_frame,
-         pose_of(s->stamp, "map", s->position_enu, s->attitude).dump()});
-    const json tf = {{"timestamp", time_of(s->stamp)},
-                     {"parent_frame_id", "map"},
-                     {"child_frame_id", "body"},
-                     {"translation", vector_of(s->position_enu)},
-                     {"rotation", rotation_of(s->attitude)}};
-    use({"/tf", transform, tf.dump()});
-  } else if (event.channel == channel_names::odom_state) {
-    const auto s = message_of<maploop_lcm::odom_state_t>(event, schema);
-    if (!s || s->status == NavStatus::uninitialized) return;
-    use({"/odom/pose", pose_in_frame, pose_of(s->stamp, "odom", s->position, s->attitude).dump()});
-  } else if (event.channel == channel_names::gnss_fix) {
-    const auto fix = message_of<maploop_lcm::gnss_fix_t>(event, schema);
-    if (!fix) return;
-    use({"/gnss/fix", location,
-         fix_of(fix->stamp, fix->position, fix->position_covariance).dump()});
-  } else if (event.channel == channel_names::truth) {
-    const auto pose = message_of<maploop_lcm::reference_pose_t>(event, schema);
-    if (!pose) return;
-    const double variance = pose->position_accuracy * pose->position_accuracy;
-    use({"/truth/fix", location,
-         fix_of(pose->stamp, pose->position, variance * Eigen::Matrix3d::Identity()).dump()});
-  }
+  for (const auto& [channel, show] : shown_channels)
+    if (event.channel == channel) (Viewed(event, schema, use).*show)();
 }
 
-std::string foxglove_schema(const std::string& schema_name) {
-  const json number = {{"type", "number"}}, text = {{"type", "string"}},
-             integer = {{"type", "integer"}};
-  const auto object = [](json properties) {
-    return json{{"type", "object"}, {"properties", std::move(properties)}};
-  };
-  const json time = object({{"sec", integer}, {"nsec", integer}});
-  const json vector = object({{"x", number}, {"y", number}, {"z", number}});
-  const json rotation = object({{"x", number}, {"y", number}, {"z", number}, {"w", number}});
-  json schema;
-  if (schema_name == location) {
-    schema = object({{"timestamp", time},
-                     {"frame_id", text},
-                     {"latitude", number},
-                     {"longitude", number},
-                     {"altitude", number},
-                     {"position_covariance", {{"type", "array"}, {"items", number}}},
-                     {"position_covariance_type", integer}});
-  } else if (schema_name == pose_in_frame) {
-    schema = object({{"timestamp", time},
-                     {"frame_id", text},
-                     {"pose", object({{"position", vector}, {"orientation", rotation}})}});
-  } else {
-    schema = object({{"timestamp", time},
-                     {"parent_frame_id", text},
-                     {"child_frame_id", text},
-                     {"translation", vector},
-                     {"rotation", rotation}});
-  }
+std::string foxglove_schema(std::string_view schema_name) {
+  json schema = schema_among<LocationFix, PoseInFrame, FrameTransform, CompressedImage, PointCloud>(
+      schema_name);
   schema["title"] = schema_name;
   return schema.dump();
 }

@@ -10,8 +10,8 @@
 #include "msgs/input_file.h"
 #include "msgs/input_limits.h"
 #include "msgs/lcm/decoded_message.h"
-#include "msgs/lcm/log/log_reader.h"
 #include "msgs/time.h"
+#include "sensors/replay/log_events.h"
 
 namespace maploop::lcm_log {
 
@@ -49,21 +49,21 @@ void Progress::show(std::uint64_t bytes_done) {
 LogSummary read_log(const std::filesystem::path& file, const schema::Schema& schema,
                     const std::function<void(const LogEvent&)>& event,
                     const std::function<void(const Damage&)>& damage) {
-  LogReader reader(file, schema);
-  Progress progress(reader.input().file_size());
+  const auto log = sensors::open_log(file, schema);
+  Progress progress(log->file_size());
   LogSummary summary;
-  for (auto item = reader.next(); item != LogReader::Item::end; item = reader.next()) {
-    progress.at(reader.input().file_position());
-    if (item == LogReader::Item::event) {
+  for (auto item = log->next(); item != sensors::LogEvents::Item::end; item = log->next()) {
+    progress.at(log->file_position());
+    if (item == sensors::LogEvents::Item::event) {
       ++summary.events;
-      event(reader.event());
+      event(log->event());
     } else {
       ++summary.damages;
-      summary.damaged_bytes += reader.damage().bytes();
-      if (damage) damage(reader.damage());
+      summary.damaged_bytes += log->damage().bytes();
+      if (damage) damage(log->damage());
     }
   }
-  summary.bytes = reader.input().position();
+  summary.bytes = log->position();
   return summary;
 }
 

@@ -5,7 +5,7 @@
 #include <ostream>
 #include <vector>
 
-#include "msgs/lcm/log/log_reader.h"
+#include "sensors/replay/log_events.h"
 #include "tools/log/log_tools.h"
 #include "tools/log/log_writer.h"
 
@@ -15,23 +15,24 @@ LogSummary merge(std::span<const path> logs, const schema::Schema& schema, const
                  std::ostream& out) {
   LogSummary result;
   // Advances to the reader's next event; returns false at the end of its log.
-  const auto advance = [&](LogReader& reader) {
-    for (auto item = reader.next(); item != LogReader::Item::end; item = reader.next()) {
-      if (item == LogReader::Item::event) return true;
+  const auto advance = [&](sensors::LogEvents& reader) {
+    for (auto item = reader.next(); item != sensors::LogEvents::Item::end; item = reader.next()) {
+      if (item == sensors::LogEvents::Item::event) return true;
       ++result.damages;
       result.damaged_bytes += reader.damage().bytes();
     }
     return false;
   };
-  std::vector<std::unique_ptr<LogReader>> waiting;  // each at an event, in the order of `logs`
+  std::vector<std::unique_ptr<sensors::LogEvents>>
+      waiting;  // each at an event, in the order of `logs`
   std::uint64_t all_bytes = 0;
   for (const path& log : logs) {
     refuse_same_file(log, output);
-    auto reader = std::make_unique<LogReader>(log, schema);
-    all_bytes += reader->input().file_size();
+    auto reader = sensors::open_log(log, schema);
+    all_bytes += reader->file_size();
     if (advance(*reader)) waiting.push_back(std::move(reader));
   }
-  LogWriter writer(output);
+  LogWriter writer(output, schema);
   Progress progress(all_bytes);
   while (!waiting.empty()) {
     const auto earliest = std::min_element(

@@ -44,7 +44,7 @@ struct Loss {
 Recovery recover(const path& log, const schema::Schema& schema, const path& output,
                  std::ostream& out) {
   refuse_same_file(log, output);
-  LogWriter writer(output);
+  LogWriter writer(output, schema);
   Recovery result;
   std::optional<Loss> open;  // the event after it is not known yet
   Loss next;                 // what is known of a loss that begins now

@@ -27,7 +27,8 @@ path piece_name(path output, std::size_t number) {
 
 class Pieces {
  public:
-  Pieces(const SplitParameters& parameters, const path& log) : parameters_(parameters), log_(log) {}
+  Pieces(const SplitParameters& parameters, const path& log, const schema::Schema& schema)
+      : parameters_(parameters), log_(log), schema_(schema) {}
 
   void write(const LogEvent& event) {
     if (!writer_) {
@@ -73,11 +74,12 @@ class Pieces {
     files_.push_back(parameters_.every ? piece_name(parameters_.output, files_.size())
                                        : parameters_.output);
     refuse_same_file(log_, files_.back());
-    writer_ = std::make_unique<LogWriter>(files_.back());
+    writer_ = std::make_unique<LogWriter>(files_.back(), schema_);
   }
 
   const SplitParameters& parameters_;
   const path& log_;
+  const schema::Schema& schema_;
   std::unique_ptr<LogWriter> writer_;
   std::vector<path> files_;
   std::uint64_t events_ = 0;
@@ -107,7 +109,7 @@ PieceLimit parse_piece_limit(const std::string& text) {
 LogSummary split(const path& log, const schema::Schema& schema, const SplitParameters& parameters,
                  std::ostream& out) {
   refuse_same_file(log, parameters.output);
-  Pieces pieces(parameters, log);
+  Pieces pieces(parameters, log, schema);
   std::optional<std::int64_t> first_us;
   const LogSummary read = read_log(log, schema, [&](const LogEvent& event) {
     if (!first_us) first_us = event.time_us;

@@ -8,6 +8,20 @@
 
 namespace maploop::lcm_log {
 
+bool is_mcap_name(const std::filesystem::path& file) {
+  return file.extension() == ".mcap";
+}
+
+LogWriter::LogWriter(const std::filesystem::path& file, const schema::Schema& schema)
+    : file_(file), compressed_(file.extension() == ".gz") {
+  if (!is_mcap_name(file)) return;
+  const auto append = [this](std::string_view part) {
+    file_.write(part);
+    return true;
+  };
+  mcap_ = std::make_unique<McapLog>(append, schema);
+}
+
 void LogWriter::write(const LogEvent& event) {
   std::array<std::uint8_t, header_bytes> header{};
   const LogHeader values{.sync = sync_word,
@@ -15,8 +29,9 @@ void LogWriter::write(const LogEvent& event) {
                          .time_us = event.time_us,
                          .channel_bytes = static_cast<std::int32_t>(event.channel.size()),
                          .data_bytes = static_cast<std::int32_t>(event.data.size())};
-  write_header(values, header);
   bytes_ += values.event_bytes();
+  if (mcap_) return mcap_->write(event);
+  write_header(values, header);
   pending_.append(header.begin(), header.end());
   pending_ += event.channel;
   pending_.append(event.data.begin(), event.data.end());
@@ -31,7 +46,7 @@ void LogWriter::flush() {
 }
 
 void LogWriter::close() {
-  flush();
+  mcap_ ? static_cast<void>(mcap_->close()) : flush();
   file_.keep();
 }
 

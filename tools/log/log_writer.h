@@ -1,35 +1,43 @@
-// Writes an LCM log, plain or (if its name ends in .gz) compressed.
+// Writes an LCM log, plain or compressed, or an MCAP file.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "msgs/lcm/log/log_event.h"
+#include "msgs/lcm/schema.h"
 #include "runtime/core/whole_file.h"
+#include "tools/log/mcap_log.h"
 
 namespace maploop::lcm_log {
 
-// The log gets its name in close(). Until then, and if close() is never called, a former file of
-// that name stays. Events are numbered from 0, like those of LCM's own writer.
+// Returns whether a file of this name is written as an MCAP file.
+bool is_mcap_name(const std::filesystem::path& file);
+
+// The name says the format: .mcap (mcap_log.h), .gz for a compressed LCM log, else an LCM log. The
+// file gets its name in close(). Until then, and if close() is never called, a former file of that
+// name stays. Events are numbered from 0, like those of LCM's own writer.
 class LogWriter {
  public:
   // This and the functions below throw std::runtime_error naming the file if it cannot be written.
-  explicit LogWriter(const std::filesystem::path& file)
-      : file_(file), compressed_(file.extension() == ".gz") {}
+  // The schema must outlive this.
+  LogWriter(const std::filesystem::path& file, const schema::Schema& schema);
 
   void write(const LogEvent& event);
   void close();
 
   std::uint64_t events() const { return events_; }
-  std::uint64_t bytes() const { return bytes_; }  // before compression
+  std::uint64_t bytes() const { return bytes_; }  // as an LCM log, before compression
 
  private:
   void flush();
 
   runtime::WholeFile file_;
   bool compressed_;
-  std::string pending_;  // whole events
+  std::unique_ptr<McapLog> mcap_;  // nullptr: an LCM log
+  std::string pending_;            // whole events of an LCM log
   std::uint64_t events_ = 0;
   std::uint64_t bytes_ = 0;
 };

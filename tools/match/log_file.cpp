@@ -10,26 +10,25 @@
 #include "msgs/lcm/channel_names.h"
 #include "msgs/lcm/checked_decode.h"
 #include "msgs/lcm/conversions.h"
-#include "msgs/lcm/log/log_reader.h"
+#include "sensors/replay/log_events.h"
 #include "tools/match/match_score.h"
 
 namespace maploop::match {
 namespace {
 
 using lcm_log::LogEvent;
-using lcm_log::LogReader;
 
 // Reads a plain or .gz file. Throws std::runtime_error naming the file if it cannot be read or is
 // damaged.
 void visit_log(const std::filesystem::path& file,
                const std::function<void(const LogEvent&)>& visit) {
-  LogReader reader(file, schema::own_schema());
-  for (auto item = reader.next(); item != LogReader::Item::end; item = reader.next()) {
-    if (item == LogReader::Item::damage)
-      throw std::runtime_error(
-          file.string() + " is damaged at byte " + std::to_string(reader.damage().begin) + " (" +
-          reader.damage().reason + "); 'maploop log recover' makes a sound one of it");
-    visit(reader.event());
+  const auto log = sensors::open_log(file, schema::own_schema());
+  for (auto item = log->next(); item != sensors::LogEvents::Item::end; item = log->next()) {
+    if (item == sensors::LogEvents::Item::damage)
+      throw std::runtime_error(file.string() + " is damaged at byte " +
+                               std::to_string(log->damage().begin) + " (" + log->damage().reason +
+                               "); 'maploop log recover' makes a sound one of it");
+    visit(log->event());
   }
 }
 
@@ -79,7 +78,7 @@ bool is_lcm_log(const std::filesystem::path& file) {
   constexpr std::string_view sync = "\xed\xa1\xda\x01";
   std::string begin(sync.size(), '\0');
   std::ifstream(file, std::ios::binary).read(begin.data(), std::ssize(begin));
-  return begin == sync || file.string().ends_with(".lcmlog.gz");
+  return begin == sync || file.string().ends_with(".lcmlog.gz") || sensors::is_mcap_log(file);
 }
 
 Track read_log_track(const std::filesystem::path& file) {

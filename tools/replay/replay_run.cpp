@@ -41,10 +41,10 @@ std::string configuration_of(const ReplayOptions& options, const vehicle::Vehicl
   return adds_fixes ? "GNSS+" + name : name;
 }
 
-vehicle::VehicleConfig config_of(const ReplayOptions& options) {
+vehicle::VehicleConfig config_of(const ReplayOptions& options, vehicle::KnownContents& contents) {
   vehicle::VehicleConfig config = vehicle::load_vehicle_config(options.config, options.topics);
   if (options.seed) config.gnss.seed = config.wheel.seed = config.imu_seed = *options.seed;
-  vehicle::fit_to_recording(config, options.drive);
+  contents = vehicle::fit_to_recording(config, options.drive);
   const std::string configuration = configuration_of(options, config);
   if (configuration != config.configuration) set_configuration(config, configuration);
   if (!options.gnss_outage.empty()) config.gnss_outage = options.gnss_outage;
@@ -62,10 +62,10 @@ class Replay {
  public:
   explicit Replay(const ReplayOptions& options)
       : options_(options),
-        config_(config_of(options)),
+        config_(config_of(options, contents_)),
         readiness_(options.lockstep ? runtime::RealtimeReport{}
                                     : runtime::prepare_process(config_.memory)),
-        recording_(vehicle::open_recording(options.drive, config_)),
+        recording_(vehicle::open_recording(options.drive, config_, contents_)),
         end_(options.end > 0.0 ? recording_.first_stamp + from_seconds(options.end) : Time::max()),
         map_(vehicle::load_road_map(config_.map)),
         faults_(options.faults, recording_.first_stamp),
@@ -95,6 +95,7 @@ class Replay {
   int status(const ReplayResult& result, bool written) const;
 
   const ReplayOptions& options_;
+  vehicle::KnownContents contents_;
   vehicle::VehicleConfig config_;
   runtime::RealtimeReport readiness_;
   vehicle::Recording recording_;

@@ -13,6 +13,7 @@
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
 #include "tools/replay/nav_files.h"
+#include "tools/replay/recorder.h"
 #include "tools/report/report.h"
 
 namespace maploop::tools {
@@ -52,7 +53,8 @@ void add_run_options(CLI::App* sub, RunOptions& options) {
   sub->add_flag("--verbose", options.verbose,
                 "End with the tables of accuracy, sensors, losses, latencies and hashes, and say "
                 "of every real-time setting what was granted");
-  auto* record = add_output(sub, "--record", options.record, "Write every message to this LCM log");
+  auto* record = add_output(sub, "--record", options.record,
+                            "Write every message to this LCM log, or MCAP file (.mcap)");
   sub->add_flag("--record-raw", options.record_raw,
                 "With the images and scans, for a replay of the whole graph (30 MB/s)")
       ->needs(record);
@@ -133,9 +135,7 @@ std::vector<vehicle::MessageSink*> RunOutput::sinks(RunPass& pass,
   std::vector<vehicle::MessageSink*> sinks{&pass.hashes};
   if (bus_) sinks.push_back(bus_.get());
   if (!options_.record.empty()) {
-    if (!pass.recorder)
-      pass.recorder =
-          std::make_unique<vehicle::LogRecorder>(options_.record, options_.record_raw, behind);
+    if (!pass.recorder) pass.recorder = make_recorder(options_.record, options_.record_raw, behind);
     sinks.push_back(pass.recorder.get());
   }
   return sinks;

@@ -10,21 +10,24 @@ namespace maploop::vehicle {
 using sensors::BagSensor;
 
 FusedSensors fused_sensors_of_bag(const std::filesystem::path& path,
+                                  const sensors::BagSummary& contents,
                                   const sensors::BagParameters& parameters) {
-  const sensors::TopicChoice choice =
-      sensors::choose_topics(path, sensors::summarize(path), parameters.topics);
+  const sensors::TopicChoice choice = sensors::choose_topics(path, contents, parameters.topics);
   const auto has = [&](BagSensor sensor) { return choice.find(sensor) != nullptr; };
   return {has(BagSensor::camera_left) || has(BagSensor::lidar) || has(BagSensor::wheel),
           has(BagSensor::imu)};
 }
 
-Recording open_bag(const std::filesystem::path& path, const VehicleConfig& config) {
+Recording open_bag(const std::filesystem::path& path, const VehicleConfig& config,
+                   const KnownContents& contents) {
   const VehicleDescription& d = config.vehicle;
   const sensors::BagVehicle vehicle{d.camera.time.delay,  d.lidar.time.delay,  d.imu.time.delay,
                                     d.antenna.time.delay, raw_cameras(config), d.lidar.calibration};
   const sensors::BagLimits limits{config.replay.camera_readout, config.replay.max_pair_skew,
                                   config.replay.max_turn};
-  const auto bag = std::make_shared<sensors::BagRecording>(path, config.bag, vehicle, limits);
+  const auto bag = std::make_shared<sensors::BagRecording>(
+      path, contents != nullptr ? *contents : sensors::summarize(path), config.bag, vehicle,
+      limits);
   Recording recording;
   recording.calibration = bag->calibration();
   recording.first_stamp = bag->first_stamp();

@@ -15,12 +15,14 @@ struct FusedSensors {
   bool mems = true;     // the grade of the inertial unit is not known
 };
 
-// Reads the index of the bag. Throws std::runtime_error naming what is wrong.
+// Throws std::runtime_error naming what is wrong with the choice of topics.
 FusedSensors fused_sensors_of_bag(const std::filesystem::path& path,
+                                  const sensors::BagSummary& contents,
                                   const sensors::BagParameters& parameters);
 
-// Which topic is which sensor is said by sensors/bag/topic_choice.h. Throws std::runtime_error
-// naming what is wrong.
-Recording open_bag(const std::filesystem::path& path, const VehicleConfig& config);
+// Which topic is which sensor is said by sensors/bag/topic_choice.h. Reads the contents if they are
+// nullptr. Throws std::runtime_error naming what is wrong.
+Recording open_bag(const std::filesystem::path& path, const VehicleConfig& config,
+                   const KnownContents& contents);
 
 }  // namespace maploop::vehicle

@@ -125,7 +125,8 @@ Recording open_gnss(const std::filesystem::path& path, const VehicleConfig& conf
   return recording;
 }
 
-Recording open_any(const std::filesystem::path& path, const VehicleConfig& config) {
+Recording open_any(const std::filesystem::path& path, const VehicleConfig& config,
+                   const KnownContents& contents) {
   if (sensors::OdometrySequence::is_named(path)) return open_sequence(path, config);
   if (!config.odometry_poses.file.empty()) {
     throw std::runtime_error(
@@ -137,7 +138,7 @@ Recording open_any(const std::filesystem::path& path, const VehicleConfig& confi
     throw std::runtime_error("there is no file or folder '" + path.string() +
                              "'; 'maploop replay --help' lists what can be replayed");
   }
-  if (sensors::is_bag(path)) return open_bag(path, config);
+  if (sensors::is_bag(path)) return open_bag(path, config, contents);
   if (is_capture(path)) return open_capture(path, config);
   if (is_table_drive(path)) return open_tables(path, config);
   if (is_gnss_drive(path)) return open_gnss(path, config);
@@ -183,8 +184,9 @@ sensors::MountParameters mount_of(const VehicleConfig& config) {
   return {has_pose(config, "vehicle.imu"), r.roll, -r.pitch, r.yaw};
 }
 
-Recording open_recording(const std::filesystem::path& path, const VehicleConfig& config) {
-  Recording recording = open_any(path, config);
+Recording open_recording(const std::filesystem::path& path, const VehicleConfig& config,
+                         const KnownContents& contents) {
+  Recording recording = open_any(path, config, contents);
   recording.calibration = described(config, recording.calibration);
   recording.outages = outages_of(config, recording);
   recording.sensors = [plain = std::move(recording.sensors), outages = recording.outages,
@@ -198,20 +200,23 @@ Recording open_recording(const std::filesystem::path& path, const VehicleConfig&
   return recording;
 }
 
-void fit_to_recording(VehicleConfig& config, const std::filesystem::path& path) {
+KnownContents fit_to_recording(VehicleConfig& config, const std::filesystem::path& path) {
   std::optional<FusedSensors> there;
+  KnownContents contents;
   if (sensors::is_bag(path)) {
-    there = fused_sensors_of_bag(path, config.bag);
+    contents = std::make_shared<const sensors::BagSummary>(sensors::summarize(path));
+    there = fused_sensors_of_bag(path, *contents, config.bag);
   } else if (is_table_drive(path)) {
     there = fused_sensors_of(*find_table_mapping(path));
   } else {
     there = fused_sensors_of_folder(path);
   }
-  if (!there) return;
+  if (!there) return contents;
   if (!there->motion && !config.is_given("", "configuration")) {
     set_configuration(config, !there->inertial ? "GNSS" : there->wheels ? "GNSS+RISS" : "GNSS+RI");
   }
   if (there->mems && !config.is_given("", "imu_grade")) set_imu_grade(config, "mems");
+  return contents;
 }
 
 fusion::KnownStart start_from_reference(const Recording& recording) {

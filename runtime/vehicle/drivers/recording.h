@@ -16,7 +16,15 @@
 #include "sensors/camera/stereo_rig.h"
 #include "sensors/imu/mount_alignment.h"
 
+namespace maploop::sensors {
+struct BagSummary;
+}
+
 namespace maploop::vehicle {
+
+// What was found in a recording before it is opened, so that a bag without an index is not read for
+// it twice; nullptr: nothing.
+using KnownContents = std::shared_ptr<const sensors::BagSummary>;
 
 // DrivenLinksFile names the file of the road links that were really driven.
 struct DrivenLinksFile {
@@ -59,14 +67,17 @@ struct Recording {
 // - A table of OXTS rows is, for example, a sequence of KITTI's odometry benchmark
 //   (sensors/replay/sequence_files.h). The stereo back end computes its odometry from its recorded
 //   tracks.
-// - Any other file is a log of maploop. A log without images contains the odometry that was
+// - Any other file is a log of maploop, LCM or MCAP. A log without images contains the odometry
+// that was
 //   computed from them.
-Recording open_recording(const std::filesystem::path& path, const VehicleConfig& config);
+Recording open_recording(const std::filesystem::path& path, const VehicleConfig& config,
+                         const KnownContents& contents = nullptr);
 
 // Chooses what tables and bags need, where the configuration file has not said otherwise: without
 // odometry and wheels they are run as GNSS+RI, or as GNSS without an inertial unit, which is of
-// grade mems. Other recordings need nothing. Throws as open_recording() does.
-void fit_to_recording(VehicleConfig& config, const std::filesystem::path& path);
+// grade mems. Other recordings need nothing. Returns what open_recording() of the same path can
+// use. Throws as that does.
+KnownContents fit_to_recording(VehicleConfig& config, const std::filesystem::path& path);
 
 // Returns the outages that the configuration asks for. Throws std::runtime_error if it does not use
 // GNSS.

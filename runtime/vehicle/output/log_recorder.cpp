@@ -1,16 +1,7 @@
 #include "runtime/vehicle/output/log_recorder.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <algorithm>
 #include <array>
-#include <cerrno>
 #include <chrono>
-#include <cstring>
-#include <stdexcept>
 #include <utility>
 
 #include "msgs/lcm/log/log_header.h"
@@ -37,67 +28,30 @@ void append(LogBatch& batch, std::int64_t number, const Message& message) {
   batch.ends.push_back(batch.bytes.size());
 }
 
-}  // namespace
-
-class LogRecorder::File {
+class LcmLogFormat final : public LogFormat {
  public:
-  explicit File(const std::string& path)
-      : descriptor_(open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666)) {
-    if (descriptor_ < 0) {
-      throw std::runtime_error("cannot write the log '" + path + "': " + std::strerror(errno) +
-                               "; check that its folder exists and may be written");
-    }
-    struct stat status {};
-    if (fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) return;  // such as /dev/null
-    // Two recordings into one file would be mixed. The lock lasts as long as the descriptor.
-    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-      close(descriptor_);
-      throw std::runtime_error("cannot write the log '" + path +
-                               "': another run is recording to it; name another file (--record)");
-    }
-    if (ftruncate(descriptor_, 0) != 0) {
-      close(descriptor_);
-      throw std::runtime_error("cannot empty the log '" + path + "': " + std::strerror(errno));
-    }
-  }
-  ~File() { close(descriptor_); }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
+  explicit LcmLogFormat(RecordedFile& file) : file_(file) {}
 
-  // Returns how many of the events were written.
-  std::size_t write(const LogBatch& batch) {
-    const std::size_t written = put(batch.bytes);
-    if (written == batch.bytes.size()) {
-      size_ += static_cast<off_t>(written);
-      return batch.ends.size();
-    }
-    // The file is cut after its last whole event; a device cannot be cut.
-    const auto cut = std::upper_bound(batch.ends.begin(), batch.ends.end(), written);
-    if (cut != batch.ends.begin()) size_ += static_cast<off_t>(*(cut - 1));
-    if (ftruncate(descriptor_, size_) == 0) lseek(descriptor_, size_, SEEK_SET);
-    return static_cast<std::size_t>(cut - batch.ends.begin());
+  std::size_t write(const LogBatch& batch) override {
+    return batch.ends.size() - file_.append(batch.bytes, batch.ends);
   }
-
-  void sync() { fsync(descriptor_); }
+  std::size_t flush() override { return 0; }
+  std::size_t finish() override { return 0; }
 
  private:
-  std::size_t put(const std::vector<std::uint8_t>& bytes) {
-    std::size_t done = 0;
-    while (done < bytes.size()) {
-      const ssize_t written = ::write(descriptor_, bytes.data() + done, bytes.size() - done);
-      if (written < 0 && errno == EINTR) continue;
-      if (written <= 0) break;
-      done += static_cast<std::size_t>(written);
-    }
-    return done;
-  }
-
-  int descriptor_;
-  off_t size_ = 0;  // bytes of whole events
+  RecordedFile& file_;
 };
 
-LogRecorder::LogRecorder(const std::string& path, bool raw, WhenBehind when_behind)
-    : file_(std::make_unique<File>(path)),
+}  // namespace
+
+std::unique_ptr<LogFormat> lcm_log_format(RecordedFile& file) {
+  return std::make_unique<LcmLogFormat>(file);
+}
+
+LogRecorder::LogRecorder(const std::string& path, bool raw, WhenBehind when_behind,
+                         const LogFormatOf& format)
+    : file_(path),
+      format_(format(file_)),
       raw_(raw),
       when_behind_(when_behind),
       writer_(
@@ -107,7 +61,8 @@ LogRecorder::LogRecorder(const std::string& path, bool raw, WhenBehind when_behi
 LogRecorder::~LogRecorder() {
   end_.request_stop();
   writer_.join();
-  file_->sync();
+  unsend(format_->finish());
+  file_.sync();
 }
 
 bool LogRecorder::take(const Message& message) {
@@ -129,7 +84,8 @@ void LogRecorder::flush() {
   changed_.wait(lock, [this] { return filling_.ends.empty() && !writing_; });
   flushing_ = false;
   lock.unlock();
-  file_->sync();
+  unsend(format_->flush());  // the other thread has nothing to write
+  file_.sync();
 }
 
 // Two batches alternate, so that their memory is reused.
@@ -149,7 +105,7 @@ void LogRecorder::write_batches(const std::stop_token& end) {
     writing_ = true;
     changed_.notify_all();
     lock.unlock();
-    unsend(batch.ends.size() - file_->write(batch));
+    unsend(format_->write(batch));
     batch.bytes.clear();
     batch.ends.clear();
     lock.lock();

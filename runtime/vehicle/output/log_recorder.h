@@ -1,4 +1,4 @@
-// Writes messages to a standard LCM log, which every LCM tool can read.
+// Writes messages to a file: a standard LCM log, or another form of it.
 #pragma once
 
 #include <condition_variable>
@@ -8,23 +8,17 @@
 #include <mutex>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "runtime/core/thread.h"
+#include "runtime/vehicle/output/log_format.h"
 #include "runtime/vehicle/output/message_sink.h"
 
 namespace maploop::vehicle {
 
-// A LogBatch contains whole events in memory that are to be written to the disk.
-struct LogBatch {
-  std::vector<std::uint8_t> bytes;
-  std::vector<std::size_t> ends;  // end of each event in `bytes`
-};
-
 // Events carry the data's time, so that logs of the same drive have the same bytes at any speed,
 // except for DEADLINES and HEALTH. A separate thread writes to the disk, so that the sender does
-// not wait for the disk until the memory for pending events is full. The file always ends with a
-// whole event: one that does not fit on the disk is removed again and counted as unsent.
+// not wait for the disk until the memory for pending events is full. An event that does not fit on
+// the disk is counted as unsent.
 class LogRecorder final : public MessageSink {
  public:
   // WhenBehind states what happens to a message when the memory for pending events is full.
@@ -36,11 +30,12 @@ class LogRecorder final : public MessageSink {
   // scans.
   static constexpr std::size_t max_pending_bytes = std::size_t{64} << 20;
 
-  // Replaces the file. With `raw` the log also contains the images and scans, so that the whole
-  // graph can be replayed from it. Throws std::runtime_error naming the file if it cannot be
-  // written, or if another recorder, of any process, is writing it.
+  // Replaces the file (recorded_file.h). With `raw` the log also contains the images and scans, so
+  // that the whole graph can be replayed from it. Throws std::runtime_error naming the file if it
+  // cannot be written, or if another recorder, of any process, is writing it.
   explicit LogRecorder(const std::string& path, bool raw = false,
-                       WhenBehind when_behind = WhenBehind::wait);
+                       WhenBehind when_behind = WhenBehind::wait,
+                       const LogFormatOf& format = lcm_log_format);
   ~LogRecorder() override;
 
   std::string_view name() const override { return "log"; }
@@ -50,12 +45,11 @@ class LogRecorder final : public MessageSink {
   void flush() override;
 
  private:
-  class File;
-
   bool take(const Message& message) override;
   void write_batches(const std::stop_token& end);
 
-  std::unique_ptr<File> file_;
+  RecordedFile file_;
+  std::unique_ptr<LogFormat> format_;
   bool raw_;
   WhenBehind when_behind_;
 

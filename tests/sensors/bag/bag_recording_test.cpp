@@ -22,7 +22,7 @@ using testing::kitti_bag;
 using testing::recorded_bag;
 
 BagRecording open(const std::filesystem::path& path, const BagParameters& parameters = {}) {
-  return {path, parameters, {}, {}};
+  return {path, summarize(path), parameters, {}, {}};
 }
 
 template <class T>

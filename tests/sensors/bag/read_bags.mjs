@@ -4,7 +4,8 @@
 //
 // {"FILE": {"seconds": ..., "bytes": ..., "topics": {"/imu": {"type": ..., "encoding": ..., "messages": ...,
 // "first": "ns", "last": "ns", "sha256": ...}}}}. The hash is over the stamp (8 bytes, little-endian, ns) and the
-// data of each message of the topic, in their order.
+// data of each message of the topic, in their order. A topic in one of Foxglove's schemas also has "strange": how one
+// of its messages is not what Foxglove itself says of the schema; "" if it is.
 import { createHash } from "node:crypto";
 import { open, readFile } from "node:fs/promises";
 import { createRequire } from "node:module";
@@ -15,6 +16,7 @@ const require = createRequire(import.meta.url);
 const { Bag } = require("@foxglove/rosbag");
 const { FileReader } = require("@foxglove/rosbag/node");
 const { SqliteSqljs } = require("@foxglove/rosbag2-web");
+const foxglove = require("@foxglove/schemas/jsonschema");
 const sqlite = require.resolve("@foxglove/sql.js");
 await SqliteSqljs.Initialize({ wasmBinary: await readFile(sqlite.replace(/\.js$/, ".wasm")) });
 const decompress = await loadDecompressHandlers();
@@ -78,6 +80,24 @@ function frameSize(frame) {
   }
 }
 
+// Returns the first property that a value lacks, or has against its schema; "" if there is none.
+function strange(value, schema, path = "") {
+  if (schema.oneOf) return schema.oneOf.some((one) => one.const === value) ? "" : `${path} is ${value}`;
+  const type = Array.isArray(value) ? "array" : Number.isInteger(value) ? "integer" : typeof value;
+  if (type !== schema.type && !(type === "integer" && schema.type === "number")) return `${path} is ${type}`;
+  if (type === "array") return value.map((item) => strange(item, schema.items, `${path}[]`)).find(Boolean) ?? "";
+  if (type !== "object") return "";
+  const names = new Set([...Object.keys(value), ...Object.keys(schema.properties)]);
+  for (const name of names) {
+    if (!(name in value) && !schema.required.includes(name)) continue;
+    if (!(name in value)) return `${path}.${name} is missing`;
+    if (!(name in schema.properties)) return `${path}.${name} is not known`;
+    const found = strange(value[name], schema.properties[name], `${path}.${name}`);
+    if (found) return found;
+  }
+  return "";
+}
+
 const result = {};
 for (const file of process.argv.slice(2)) {
   const read = file.endsWith(".bag") ? readRos1 : file.endsWith(".mcap") ? readMcap : readSqlite;
@@ -91,6 +111,9 @@ for (const file of process.argv.slice(2)) {
     }
     const topic = topics.get(name);
     topic.messages += 1;
+    if (type.startsWith("foxglove.") && encoding === "json") {
+      topic.strange ||= strange(JSON.parse(Buffer.from(data)), foxglove[type.slice("foxglove.".length)]);
+    }
     topic.last = `${time}`;
     stamp.writeBigInt64LE(time);
     if (!process.env.WITHOUT_HASH) topic.hash.update(stamp).update(data);

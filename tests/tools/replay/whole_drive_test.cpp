@@ -93,6 +93,18 @@ TEST_F(WholeDrive, ALogOfRawSensorsGivesTheHashesOfTheDrive) {
   EXPECT_EQ(without_images["replay"]["images"], 144);
 }
 
+TEST_F(WholeDrive, AnMcapFileOfRawSensorsGivesTheHashesOfTheDrive) {
+  const json& expected = lockstep().result;
+  const ProcessResult converted =
+      run_maploop({"log", "convert", lockstep().in("raw.lcmlog"), "-o", file("raw.mcap")});
+  ASSERT_EQ(converted.status, 0) << converted.error;
+  const json mcap = replay(file("raw.mcap"), {"--lockstep", "--record", file("derived.mcap")});
+  EXPECT_EQ(hashes(mcap), hashes(expected));
+  EXPECT_EQ(mcap["fused"], expected["fused"]) << "scored alike: calibration and truth came along";
+  EXPECT_EQ(hashes(replay(file("derived.mcap"), {"--lockstep"})), hashes(expected))
+      << "the recorded odometry is fused";
+}
+
 TEST_F(WholeDrive, AResumedRunHasTheHashesAndTheLogOfTheWholeRunFromThereOn) {
   const json& snapshot = lockstep().result["snapshot"];
   const auto expected = hashes(snapshot);

@@ -1,9 +1,6 @@
 // Tests the log, the bus and the hashes, each against LCM's own library.
 #include <gtest/gtest.h>
 
-#include <sys/resource.h>
-
-#include <csignal>
 #include <filesystem>
 #include <lcm/lcm-cpp.hpp>
 #include <optional>
@@ -17,11 +14,13 @@
 #include "runtime/vehicle/output/log_recorder.h"
 #include "tests/support/error_of.h"
 #include "tests/support/real_data.h"
+#include "tests/support/small_disk.h"
 
 namespace maploop::vehicle {
 namespace {
 
 using maploop::testing::error_of;
+using maploop::testing::SmallDisk;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
@@ -74,27 +73,6 @@ TEST_F(LogFile, IsOfOneRecording) {
   const LogRecorder again(file);  // this is allowed once the first has ended
   const LogRecorder nowhere("/dev/null"), nowhere_else("/dev/null");
 }
-
-// A SmallDisk makes the disk full at a limit that the kernel sets for this process alone.
-class SmallDisk {
- public:
-  explicit SmallDisk(rlim_t bytes) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-    handler_ = std::signal(SIGXFSZ, SIG_IGN);
-  }
-  ~SmallDisk() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-
- private:
-  rlimit before_{};
-  void (*handler_)(int) = nullptr;
-};
 
 TEST_F(LogFile, OnAFullDiskHoldsEveryEventThatIsNotCountedAsUnsent) {
   LogRecorder recorder(file);

@@ -1,7 +1,8 @@
-#include "sensors/bag/decompress.h"
+#include "sensors/bag/compression.h"
 
 #include <bzlib.h>
 #include <lz4frame.h>
+#include <zlib.h>
 #include <zstd.h>
 
 #include <algorithm>
@@ -152,6 +153,19 @@ Inflated inflate(std::string_view compression, Bytes packed, InflatedSize size,
     return inflate_by(std::ref(decoder), packed, size, buffer);
   }
   return {{}, "its compression is not none, bz2, lz4 or zstd"};
+}
+
+std::string pack_zstd(std::string_view plain) {
+  std::string packed(ZSTD_compressBound(plain.size()), '\0');
+  const std::size_t size =
+      ZSTD_compress(packed.data(), packed.size(), plain.data(), plain.size(), ZSTD_CLEVEL_DEFAULT);
+  if (ZSTD_isError(size) != 0U) throw std::bad_alloc();  // nothing else can happen with that room
+  packed.resize(size);
+  return packed;
+}
+
+std::uint32_t crc_of(Bytes bytes, std::uint32_t before) {
+  return static_cast<std::uint32_t>(crc32_z(before, bytes.data(), bytes.size()));
 }
 
 }  // namespace maploop::sensors::bag

@@ -1,5 +1,5 @@
 // This file inflates the parts of a recording that were compressed by bzip2, LZ4 (frames) or
-// Zstandard.
+// Zstandard, compresses by the last, and has the checksum of parts.
 #pragma once
 
 #include <array>
@@ -32,5 +32,11 @@ struct InflatedSize {
 // error.
 Inflated inflate(std::string_view compression, Bytes packed, InflatedSize size,
                  std::vector<std::uint8_t>& buffer);
+
+// Compresses to one frame of Zstandard. Throws std::bad_alloc.
+std::string pack_zstd(std::string_view plain);
+
+// Returns the CRC-32 of zlib; `before` is that of the bytes in front of these.
+std::uint32_t crc_of(Bytes bytes, std::uint32_t before = 0);
 
 }  // namespace maploop::sensors::bag

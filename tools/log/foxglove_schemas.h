@@ -1,0 +1,97 @@
+// The messages of Foxglove that maploop writes, in JSON
+// (docs.foxglove.dev/docs/visualization/message-schemas): one table each says both what a message
+// looks like and what is in it.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "msgs/local_frame.h"
+#include "msgs/time.h"
+
+namespace maploop::foxglove {
+
+// One property of the JSON object that shows a T.
+template <class T>
+struct Property {
+  std::string name;
+  nlohmann::json schema;
+  std::function<nlohmann::json(const T&)> value;
+};
+
+// The JSON object that shows a T.
+template <class T>
+class Object {
+ public:
+  Object(std::initializer_list<Property<T>> properties) : properties_(properties) {}
+
+  nlohmann::json schema() const {
+    nlohmann::json all = nlohmann::json::object();
+    for (const Property<T>& p : properties_) all[p.name] = p.schema;
+    return {{"type", "object"}, {"properties", std::move(all)}};
+  }
+  nlohmann::json of(const T& shown) const {
+    nlohmann::json object = nlohmann::json::object();
+    for (const Property<T>& p : properties_) object[p.name] = p.value(shown);
+    return object;
+  }
+
+ private:
+  std::vector<Property<T>> properties_;
+};
+
+struct Pose {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+};
+
+struct LocationFix {
+  static constexpr std::string_view name = "foxglove.LocationFix";
+  static const Object<LocationFix>& object();
+  Time stamp;
+  Geodetic place;
+  Eigen::Matrix3d covariance;  // east, north, up (m^2)
+};
+
+struct PoseInFrame {
+  static constexpr std::string_view name = "foxglove.PoseInFrame";
+  static const Object<PoseInFrame>& object();
+  Time stamp;
+  std::string_view frame;
+  Pose pose;
+};
+
+struct FrameTransform {
+  static constexpr std::string_view name = "foxglove.FrameTransform";
+  static const Object<FrameTransform>& object();
+  Time stamp;
+  std::string_view parent, child;
+  Pose pose;
+};
+
+struct CompressedImage {
+  static constexpr std::string_view name = "foxglove.CompressedImage";
+  static const Object<CompressedImage>& object();
+  Time stamp;
+  std::string_view frame;
+  std::span<const std::uint8_t> jpeg;
+};
+
+// Of points with x, y, z (m) and reflectance, four float32 each.
+struct PointCloud {
+  static constexpr std::string_view name = "foxglove.PointCloud";
+  static const Object<PointCloud>& object();
+  Time stamp;
+  std::string_view frame;
+  std::span<const std::uint8_t> points;
+};
+
+}  // namespace maploop::foxglove
