@@ -36,6 +36,9 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
       "PPP between houses, seeds 1 to 20; PPP of the three receivers"};
   constexpr DataChoice ambiguity_walk_choice{
       "ESBC station", "from changes of post-fit phase residuals over 10 minutes", "PPP of ESBC"};
+  constexpr DataChoice wide_lane_sigma_choice{"ESBC station, 00:00 to 12:00",
+                                              "among 0.15 to 0.6 cycles, without effect",
+                                              "PPP of ESBC before 12:00"};
   static constexpr auto table = std::to_array<Parameter<P>>({
       {"motion", one_of<&P::motion>, usual, "Whether the receiver moves."},
       {"systems", &P::systems, usual,
@@ -186,7 +189,7 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
       {"integer_elevation", &P::integer_elevation, 0.0, 90.0, "deg", expert,
        "Ambiguities of satellites at a lower elevation are not resolved."},
       {"wide_lane_sigma", &P::wide_lane_sigma, smallest, 10.0, "cycles", expert,
-       "Largest standard deviation of a wide lane that is resolved."},
+       "Largest standard deviation of a wide lane that is resolved.", wide_lane_sigma_choice},
       {"wide_lane_fraction", &P::wide_lane_fraction, 0.0, 0.5, "cycles", expert,
        "Largest distance of such a wide lane from an integer."},
       {"integer_variance_factor", &P::integer_variance_factor, smallest, 1000.0, "1", expert,

@@ -20,7 +20,7 @@ std::vector<std::string> ppp_of_the_car() {
   return {maploop::testing::maploop_command(),
           "ppp",
           car("SEPT265G.21O.gz"),
-          car("satellites_check_only.atx.gz"),
+          car("../models/igs14_rebuilt_GE.atx.gz"),
           car("COD0MGXFIN_20212650000_01D_05M_ORB.SP3.gz"),
           car("SEPT2650.21P.gz"),
           car("COD0MGXFIN_20212650000_01D_01D_OSB.BIA.gz"),

@@ -26,13 +26,16 @@ GnssFiles folder(const std::string& name) {
   const auto data = maploop::testing::real_data() / "gnss";
   for (const auto& entry : std::filesystem::directory_iterator(data / name)) {
     const std::string file = entry.path().filename();
-    // These are results of other programs, and the base station of a pair.
-    if (file.find(".pos") != std::string::npos || file.find(".conf") != std::string::npos ||
-        file.find(".csv") != std::string::npos || file.starts_with("3034265G")) {
+    // These are results of other programs, the base station of a pair, and antennas that are not
+    // those of the products.
+    if (file.find("check_only") != std::string::npos || file.find(".pos") != std::string::npos ||
+        file.find(".conf") != std::string::npos || file.find(".csv") != std::string::npos ||
+        file.starts_with("3034265G")) {
       continue;
     }
     read_into(entry.path(), files);
   }
+  read_into(data / "models/igs14_rebuilt_GE.atx.gz", files);
   read_into(data / "models/igs05_receivers.atx.gz", files);
   return files;
 }

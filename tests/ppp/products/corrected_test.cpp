@@ -32,9 +32,10 @@ std::filesystem::path kamakura_folder() {
 const GnssFiles& kamakura() {
   static const GnssFiles files = [] {
     GnssFiles f;
-    for (const char* name : {"SEPT265G.21O.gz", "SEPT2650.21P.gz", "satellites_check_only.atx.gz",
-                             "COD0MGXFIN_20212650000_01D_05M_ORB.SP3.gz",
-                             "COD0MGXFIN_20212650000_01D_01D_OSB.BIA.gz"}) {
+    for (const char* name :
+         {"SEPT265G.21O.gz", "SEPT2650.21P.gz", "../models/igs14_rebuilt_GE.atx.gz",
+          "COD0MGXFIN_20212650000_01D_05M_ORB.SP3.gz",
+          "COD0MGXFIN_20212650000_01D_01D_OSB.BIA.gz"}) {
       read_into(kamakura_folder() / name, f);
     }
     return f;

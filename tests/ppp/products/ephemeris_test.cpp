@@ -94,5 +94,32 @@ TEST(PreciseEphemeris, BiasesAreSubtractedBySignal) {
   EXPECT_DOUBLE_EQ(precise.code_bias({System::gps, 6}, '2', 'W', {}), 0.0);
 }
 
+TEST(PreciseEphemeris, PhasesHaveBiasesOfTheirOwn) {
+  BiasFile file;
+  file.biases = {{{System::gps, 5}, "L1C", "", GpsTime::min(), GpsTime::max(), 0.12}};
+  const PreciseEphemeris precise({}, {}, {file});
+  EXPECT_TRUE(precise.has_phase_biases());
+  EXPECT_EQ(precise.phase_bias({System::gps, 5}, '1', 'C', {}), 0.12);
+  EXPECT_FALSE(precise.phase_bias({System::gps, 5}, '1', 'W', {}));
+  EXPECT_FALSE(precise.phase_bias({System::gps, 6}, '1', 'C', {}));
+}
+
+// CNES/CLS add the bias to the wide lane; the clocks contain that of the ionosphere-free phase.
+TEST(PreciseEphemeris, WideLanesOfClocksAreBiasesOfPhases) {
+  const GpsTime noon = gps_time({2020, 6, 25, 12, 0, 0.0});
+  ClockFile file;
+  file.wide_lanes = {{{System::galileo, 3}, noon, -0.09}};
+  const PreciseEphemeris precise({}, {file}, {});
+  const auto b1 = precise.phase_bias({System::galileo, 3}, '1', 'C', noon);
+  const auto b2 = precise.phase_bias({System::galileo, 3}, '5', 'Q', noon);
+  ASSERT_TRUE(b1 && b2);
+  const double f1 = carrier_frequency(System::galileo, '1');
+  const double f2 = carrier_frequency(System::galileo, '5');
+  EXPECT_NEAR(f1 * f1 * *b1 - f2 * f2 * *b2, 0.0, 1e-12 * f1 * f1);
+  EXPECT_NEAR((f1 * *b1 - f2 * *b2) / speed_of_light, 0.09, 1e-12);
+  EXPECT_FALSE(precise.phase_bias({System::galileo, 3}, '7', 'Q', noon));
+  EXPECT_FALSE(precise.phase_bias({System::galileo, 3}, '1', 'C', noon + std::chrono::hours(13)));
+}
+
 }  // namespace
 }  // namespace maploop::ppp

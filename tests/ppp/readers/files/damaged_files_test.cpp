@@ -86,7 +86,7 @@ TEST(DamagedGnssFile, Products) {
 
 TEST(DamagedGnssFile, Models) {
   MAPLOOP_REQUIRE_REAL_DATA();
-  feed("kamakura_kinematic/satellites_check_only.atx.gz", 20000, 600);
+  feed("models/igs14_rebuilt_GE.atx.gz", 20000, 600);
   feed("parser_samples/igs14_small.atx.gz", 20000, 400);
   feed("models/OLOAD_GO.BLQ.gz", 10000, 600);
 }

@@ -2,10 +2,12 @@
 // with values of real files.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
 #include "ppp/gnss_files.h"
+#include "ppp/models/antenna.h"
 #include "tests/support/real_data.h"
 
 namespace maploop::ppp {
@@ -98,12 +100,12 @@ TEST(ProductReaders, IonosphereOfAnOldHeader) {
 
 TEST(ProductReaders, AntennasOfSatellitesAndReceivers) {
   MAPLOOP_REQUIRE_REAL_DATA();
-  const AntennaFile satellites =
-      read_product("esbc_static/satellites_check_only.atx.gz").antennas.at(0);
-  EXPECT_EQ(satellites.antennas.size(), 59U);
-  EXPECT_EQ(satellites.antennas.front().satellite, (Satellite{System::gps, 2}));
-  EXPECT_DOUBLE_EQ(satellites.antennas.front().carriers.at(0).offset.z(), 0.614);
+  const AntennaFile satellites = read_product("models/igs14_rebuilt_GE.atx.gz").antennas.at(0);
+  EXPECT_TRUE(satellites.satellites_only);
+  EXPECT_EQ(satellites.antennas.front().satellite, (Satellite{System::gps, 1}));
+  EXPECT_DOUBLE_EQ(satellites.antennas.front().carriers.at(0).offset.z(), 1.5018);
   const AntennaFile receivers = read_product("models/igs05_receivers.atx.gz").antennas.at(0);
+  EXPECT_FALSE(receivers.satellites_only);
   bool found = false;
   for (const Antenna& a : receivers.antennas) {
     if (a.type != "ASH701945E_M    SCIS") continue;
@@ -130,6 +132,53 @@ TEST(ProductReaders, BiasesOfCode) {
   ASSERT_NE(at, b.biases.end());
   EXPECT_DOUBLE_EQ(at->metres, -1.1046e-9 * speed_of_light);
   EXPECT_EQ(at->from, gps_time({2021, 9, 22, 0, 0, 0.0}));
+}
+
+TEST(ProductReaders, BiasesOfPhases) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const BiasFile b =
+      read_product("kamakura_kinematic/COD0MGXFIN_20212650000_01D_01D_OSB.BIA.gz").biases.at(0);
+  const auto at = std::find_if(b.biases.begin(), b.biases.end(), [](const SignalBias& bias) {
+    return bias.satellite == Satellite{System::galileo, 1} && bias.signal == "L5Q";
+  });
+  ASSERT_NE(at, b.biases.end());
+  EXPECT_DOUBLE_EQ(at->metres, 1.21097e-9 * speed_of_light);
+}
+
+TEST(ProductReaders, WideLanesOfCnesClocks) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const ClockFile c =
+      read_product("esbc_static/GRG0MGXFIN_20201770000_01D_30S_CLK.CLK.gz").clocks.at(0);
+  const auto at = std::find_if(c.wide_lanes.begin(), c.wide_lanes.end(), [](const auto& w) {
+    return w.satellite == Satellite{System::gps, 2};
+  });
+  ASSERT_NE(at, c.wide_lanes.end());
+  EXPECT_DOUBLE_EQ(at->cycles, -1.257);
+  EXPECT_EQ(at->time, gps_time({2020, 6, 25, 12, 0, 0.0}));
+}
+
+// A file of satellites only goes before a general one, and a later beginning before an earlier.
+TEST(ProductReaders, OfSeveralAntennasTheRightOneIsUsed) {
+  const Satellite satellite{System::gps, 18};
+  const auto antenna = [&](int from, int until) {
+    Antenna a;
+    a.satellite = satellite;
+    a.valid_from = gps_time({from, 1, 1, 0, 0, 0.0});
+    a.valid_until = until > 0 ? gps_time({until, 1, 1, 0, 0, 0.0}) : GpsTime::max();
+    return a;
+  };
+  AntennaFile old, recent, special;
+  old.antennas = {antenna(1993, 0)};
+  recent.antennas = {antenna(2001, 2019)};
+  special.antennas = {antenna(1990, 0)};
+  special.satellites_only = true;
+  const GpsTime t = gps_time({2018, 6, 1, 0, 0, 0.0}), later = gps_time({2020, 6, 1, 0, 0, 0.0});
+  const std::vector<AntennaFile> general{old, recent}, all{old, special, recent};
+  EXPECT_EQ(satellite_antenna(general, satellite, t), &general[1].antennas[0]);
+  EXPECT_EQ(satellite_antenna(general, satellite, later), nullptr)
+      << "the old file does not know that the number is another satellite's";
+  EXPECT_EQ(satellite_antenna(all, satellite, later), &all[1].antennas[0]);
+  EXPECT_EQ(satellite_antenna(general, satellite, gps_time({1992, 1, 1, 0, 0, 0.0})), nullptr);
 }
 
 TEST(ProductReaders, OceanLoadingOfStations) {
