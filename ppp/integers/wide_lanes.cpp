@@ -21,8 +21,8 @@ void WideLanes::add(const Measurement& m, double code_variance, double inflation
   mean.samples += 1.0 / inflation;
 }
 
-// The assumed noise counts as much as a few samples, the measured one as much as there are: (25) of
-// METHOD.md.
+// (25) of METHOD.md: the assumed noise counts as much as a few samples, the measured one as much as
+// there are.
 double WideLanes::Mean::variance() const {
   constexpr double assumed = 2.0;
   return (assumed + squares) / (assumed + samples) / weight;
