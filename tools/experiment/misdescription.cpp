@@ -1,0 +1,154 @@
+#include "tools/experiment/misdescription.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <string>
+#include <utility>
+
+#include "msgs/frames.h"
+#include "sensors/source.h"
+
+namespace maploop::experiments {
+namespace {
+
+using Eigen::AngleAxisd;
+using Eigen::Vector3d;
+
+// Changes each sample of a source, if it is there.
+template <class T, class Change>
+void change_each(std::unique_ptr<sensors::Source<T>>& source, Change change) {
+  if (source == nullptr) return;
+  source = sensors::derived(std::move(source), [change](sensors::Source<T>& all, T& sample) {
+    if (!all.next(sample)) return false;
+    change(sample);
+    return true;
+  });
+}
+
+// A stamp that is late by itself comes late as well: it is that of the arrival.
+void shift(Sample& sample, Duration by) {
+  sample.stamp += by;
+  sample.available += std::max(by, Duration::zero());
+}
+
+void turn(ImuSample& sample, const Eigen::Matrix3d& R) {
+  constexpr double gravity = 9.81;  // m/s^2, what a reduced unit does not measure
+  const Vector3d force = R * Vector3d(sample.specific_force_forward, sample.specific_force_left,
+                                      sample.six_axes ? sample.specific_force_up : gravity);
+  const Vector3d rate = R * Vector3d(sample.roll_rate, sample.pitch_rate, sample.yaw_rate);
+  sample.specific_force_forward = force.x();
+  sample.specific_force_left = force.y();
+  sample.yaw_rate = rate.z();
+  if (!sample.six_axes) return;
+  sample.specific_force_up = force.z();
+  sample.roll_rate = rate.x();
+  sample.pitch_rate = rate.y();
+}
+
+// X turns and moves the right pose of the camera, in the body's axes, to the described one.
+void move(RelativeMotion& motion, const Eigen::Isometry3d& X) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = motion.rotation.toRotationMatrix();
+  T.translation() = motion.translation;
+  T = X * T * X.inverse();
+  motion.rotation = Eigen::Quaterniond(T.linear()).normalized();
+  motion.translation = T.translation();
+}
+
+}  // namespace
+
+Misdescription misdescription(Property property, std::int64_t seed) {
+  constexpr double place = 0.5;           // m
+  constexpr double angle = radians(1.0);  // rad
+  constexpr auto late = std::chrono::milliseconds(30);
+  std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+  const auto sign = [&] { return (random() >> 63) != 0 ? 1 : -1; };
+  const auto horizontal = [&] {
+    const double a = std::ldexp(static_cast<double>(random() >> 11), -53) * 2.0 * std::numbers::pi;
+    return Vector3d(std::cos(a), std::sin(a), 0.0);
+  };
+  Misdescription all;
+  all.antenna = place * horizontal();
+  all.camera_place = place * horizontal();
+  all.mount = (AngleAxisd(sign() * angle, Vector3d::UnitZ()) *
+               AngleAxisd(sign() * angle, Vector3d::UnitY()) *
+               AngleAxisd(sign() * angle, Vector3d::UnitX()))
+                  .toRotationMatrix();
+  all.camera_yaw = sign() * angle;
+  all.axle = sign() * place;
+  all.imu_stamps = sign() * late;
+  all.gnss_stamps = sign() * late;
+  all.camera_stamps = sign() * late;
+  Misdescription one;
+  switch (property) {
+    case Property::nothing:
+      return one;
+    case Property::everything:
+      return all;
+    case Property::antenna:
+      one.antenna = all.antenna;
+      break;
+    case Property::mount:
+      one.mount = all.mount;
+      break;
+    case Property::camera:
+      one.camera_place = all.camera_place;
+      one.camera_yaw = all.camera_yaw;
+      break;
+    case Property::axle:
+      one.axle = all.axle;
+      break;
+    case Property::imu_stamps:
+      one.imu_stamps = all.imu_stamps;
+      break;
+    case Property::gnss_stamps:
+      one.gnss_stamps = all.gnss_stamps;
+      break;
+    case Property::camera_stamps:
+      one.camera_stamps = all.camera_stamps;
+      break;
+  }
+  return one;
+}
+
+void misdescribe(vehicle::VehicleConfig& config, const Misdescription& wrong) {
+  SensorPosition& antenna = config.vehicle.antenna.position;
+  antenna.forward += wrong.antenna.x();
+  antenna.left += wrong.antenna.y();
+  antenna.up += wrong.antenna.z();
+  config.vehicle.car.rear_axle_distance += wrong.axle;
+  for (const std::string key : {"vehicle.antenna.forward", "vehicle.antenna.left",
+                                "vehicle.antenna.up", "vehicle.rear_axle_distance"}) {
+    config.given.insert(key);
+    config.given.erase(key + "_sigma");
+  }
+}
+
+void misdescribe(vehicle::Sensors& sensors, const Misdescription& wrong,
+                 const VehicleCalibration& calibration) {
+  change_each(sensors.imu, [wrong](ImuSample& sample) {
+    turn(sample, wrong.mount);
+    shift(sample, wrong.imu_stamps);
+  });
+  change_each(sensors.gnss, [wrong](GnssFix& fix) {
+    shift(fix, wrong.gnss_stamps);
+    fix.velocity_stamp += wrong.gnss_stamps;
+  });
+  const Vector3d camera = calibration.stereo.T_body_cam.translation();
+  const Eigen::Isometry3d X = Eigen::Translation3d(camera + wrong.camera_place) *
+                              AngleAxisd(wrong.camera_yaw, Vector3d::UnitZ()) *
+                              Eigen::Translation3d(-camera);
+  const auto change = [X, by = wrong.camera_stamps](RelativeMotion& motion) {
+    move(motion, X);
+    shift(motion, by);
+    motion.from += by;
+  };
+  change_each(sensors.odometry, change);
+  change_each(sensors.visual, change);
+}
+
+}  // namespace maploop::experiments

@@ -1,0 +1,58 @@
+// A car that its owner has measured badly: what its description says, against what its recording
+// shows.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "msgs/calibration.h"
+#include "runtime/vehicle/config/vehicle_config.h"
+#include "runtime/vehicle/graph/sensors.h"
+
+namespace maploop::experiments {
+
+// What is described wrongly.
+enum class Property : std::uint8_t {
+  nothing,
+  antenna,        // its place by 0.5 m, in a horizontal direction
+  mount,          // the axes of the inertial unit by 1 deg about each
+  camera,         // the pose of what odometry is from: 0.5 m horizontally, 1 deg of yaw
+  axle,           // the rear axle by 0.5 m
+  imu_stamps,     // 30 ms early or late
+  gnss_stamps,    // the same
+  camera_stamps,  // the same
+  everything,
+};
+constexpr auto names_of(Property) {
+  return std::to_array<std::string_view>({"nothing", "antenna", "inertial mount", "camera",
+                                          "rear axle", "inertial stamps", "GNSS stamps",
+                                          "camera stamps", "everything"});
+}
+
+// How far the description is from the car. Every value is zero where it is right.
+struct Misdescription {
+  Eigen::Vector3d antenna = Eigen::Vector3d::Zero();       // m, body
+  Eigen::Matrix3d mount = Eigen::Matrix3d::Identity();     // turns what the unit measures
+  Eigen::Vector3d camera_place = Eigen::Vector3d::Zero();  // m, body
+  double camera_yaw = 0.0;                                 // rad
+  double axle = 0.0;                                       // m
+  Duration imu_stamps{}, gnss_stamps{}, camera_stamps{};   // late
+};
+
+// Signs and directions depend on the seed alone, so that of `everything` each part is that of the
+// property alone.
+Misdescription misdescription(Property property, std::int64_t seed);
+
+// Adds it to config.vehicle, which has all that is known of the car. The places of antenna and axle
+// then count as given without a standard deviation, also where nothing is wrong, so that the right
+// description differs from the wrong one in its values alone.
+void misdescribe(vehicle::VehicleConfig& config, const Misdescription& wrong);
+
+// Makes of the sensors of a recording what a vehicle with that description would take from them.
+// Odometry is that of recorded motions; there must be no images and no scans.
+void misdescribe(vehicle::Sensors& sensors, const Misdescription& wrong,
+                 const VehicleCalibration& calibration);
+
+}  // namespace maploop::experiments
