@@ -35,7 +35,8 @@ class McapRecorder : public ::testing::Test {
   // Sends a message of a type that nothing shows, a tenth of a second after the one before.
   void send(LogRecorder& to, std::size_t size) {
     std::vector<std::uint8_t> data(size);
-    for (std::uint8_t& byte : data) byte = static_cast<std::uint8_t>((random_ = random_ * 69069 + 1) >> 24U);
+    for (std::uint8_t& byte : data)
+      byte = static_cast<std::uint8_t>((random_ = random_ * 69069 + 1) >> 24U);
     to.send({"RAW", from_nanoseconds(start + 100'000'000 * sent_++), data, true});
     data_.push_back(data);
   }
