@@ -55,7 +55,8 @@ class MatchLog : public ::testing::Test {
 
   TemporaryFolder folder;
   std::filesystem::path file = folder.path() / "a.lcmlog";
-  lcm_log::LogWriter writer{file};
+  schema::Schema types{schema::own_types()};
+  lcm_log::LogWriter writer{file, types};
 };
 
 TEST_F(MatchLog, ItsStatesAreATrackOfTenFixesASecond) {
