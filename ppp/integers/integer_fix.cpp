@@ -65,12 +65,12 @@ void IntegerFix::take(const FilterState& state, const std::vector<Tracked>& trac
     const Tracked& t = tracked[row.tracked];
     const Measurement& m = t.measurement;
     if (row.kind == RowKind::code) code = &row;
-    if (row.kind != RowKind::phase || !m.integer) continue;
+    if (row.kind != RowKind::phase) continue;
     if (row.new_ambiguity || !row.active) {
       wide_lanes_.restart(m.satellite);
       known_[m.satellite.slot()] = {};
     }
-    if (!row.active || row.doubtful) continue;
+    if (!m.integer || !row.active || row.doubtful) continue;
     const double size = code->sigma * code->sigma;
     wide_lanes_.add(m, size / (m.noise_factor() * m.noise_factor()), code->variance / size);
     IntegerCandidate c;

@@ -88,7 +88,7 @@ std::vector<std::string> summary_lines(const PppRun& run, const PppResult& r, do
                   r.solved, epochs,
                   100.0 * static_cast<double>(r.solved) / static_cast<double>(epochs),
                   run.seconds(), 1e3 * run.seconds() / static_cast<double>(epochs))};
-  if (run.setup().precise() && !run.setup().one_frequency())
+  if (run.setup().parameters().integers && run.setup().precise() && !run.setup().one_frequency())
     lines.push_back(integer_line(r.solutions));
   if (run.setup().never_converges())
     lines.push_back(
