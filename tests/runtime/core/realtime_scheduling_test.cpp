@@ -145,8 +145,8 @@ TEST(RealtimeScheduling, AnOrdinaryUserIsRefusedAndToldWhy) {
                 "|no CAP_SYS_NICE, and RLIMIT_RTPRIO is 0|add '@GROUP - rtprio 99' "
                 "to a file in /etc/security/limits.d and log in again; or run as root");
   EXPECT_EQ(
-      as_ordinary_user(limits, [] { return first_item(nice(-5)); }),
-      "refused|other nice -5|" + inherited +
+      as_ordinary_user(limits, [] { return first_item(nice(-20)); }),
+      "refused|other nice -20|" + inherited +
           "|no CAP_SYS_NICE, and RLIMIT_NICE allows nice values from "
           "19|add '@GROUP - nice -20' to a file in /etc/security/limits.d and log in again; or "
           "run as root");
