@@ -36,7 +36,8 @@ class McapWriter {
   // `nanoseconds` are since 1970 and not negative.
   void write(std::uint16_t channel, std::int64_t nanoseconds, std::string_view data);
 
-  // What a chunk has so far, uncompressed, and the time between the first and the last message.
+  // These return the uncompressed size of the current chunk, and the time between its first and its
+  // last message.
   std::size_t chunk_bytes() const { return in_chunk_.empty() ? 0 : chunk_.size(); }
   std::uint64_t chunk_nanoseconds() const { return last_ - first_; }
 

@@ -85,7 +85,7 @@ struct CompressedImage {
   std::span<const std::uint8_t> jpeg;
 };
 
-// Of points with x, y, z (m) and reflectance, four float32 each.
+// The points are LidarPoints: x, y, z (m) and reflectance, a float32 each.
 struct PointCloud {
   static constexpr std::string_view name = "foxglove.PointCloud";
   static const Object<PointCloud>& object();

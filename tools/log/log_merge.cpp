@@ -23,8 +23,8 @@ LogSummary merge(std::span<const path> logs, const schema::Schema& schema, const
     }
     return false;
   };
-  std::vector<std::unique_ptr<sensors::LogEvents>>
-      waiting;  // each at an event, in the order of `logs`
+  // Each reader is at an event; they are in the order of `logs`.
+  std::vector<std::unique_ptr<sensors::LogEvents>> waiting;
   std::uint64_t all_bytes = 0;
   for (const path& log : logs) {
     refuse_same_file(log, output);

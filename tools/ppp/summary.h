@@ -13,7 +13,8 @@
 
 namespace maploop::gnss {
 
-// What a run gives to its texts and files.
+// A PppResult contains the solutions of a run and their score, from which its texts and files are
+// made.
 struct PppResult {
   Solutions solutions;
   std::size_t solved = 0, matched = 0;

@@ -22,8 +22,8 @@ struct BagSummary;
 
 namespace maploop::vehicle {
 
-// What was found in a recording before it is opened, so that a bag without an index is not read for
-// it twice; nullptr: nothing.
+// KnownContents is the summary of a bag that was read before the bag is opened. It spares a bag
+// without an index a second reading. It is nullptr for other recordings.
 using KnownContents = std::shared_ptr<const sensors::BagSummary>;
 
 // DrivenLinksFile names the file of the road links that were really driven.
@@ -68,8 +68,8 @@ struct Recording {
 //   (sensors/replay/sequence_files.h). The stereo back end computes its odometry from its recorded
 //   tracks.
 // - Any other file is a log of maploop, LCM or MCAP. A log without images contains the odometry
-// that was
-//   computed from them.
+// that
+//   was computed from them.
 Recording open_recording(const std::filesystem::path& path, const VehicleConfig& config,
                          const KnownContents& contents = nullptr);
 
