@@ -27,7 +27,8 @@ void read_bias(const Lines& lines, BiasFile& result) {
   const auto satellite = parse_satellite(lines.column(11, 3));
   const auto signal = trimmed(lines.column(25, 4));
   const auto second = trimmed(lines.column(30, 4));
-  const bool phase = absolute && signal.starts_with('L');
+  const bool in_ns = trimmed(lines.column(65, 4)) == "ns";
+  const bool phase = absolute && in_ns && signal.size() == 3 && signal.starts_with('L');
   if (!satellite || !blank(lines.column(15, 9)) || !(phase || signal.starts_with('C'))) {
     ++result.skipped;
     return;
@@ -36,7 +37,7 @@ void read_bias(const Lines& lines, BiasFile& result) {
     lines.fail("'" + std::string(signal) + "' and '" + std::string(second) +
                "' are not the signals of a bias");
   }
-  if (trimmed(lines.column(65, 4)) != "ns") lines.fail("the unit of a bias must be ns");
+  if (!in_ns) lines.fail("the unit of a bias must be ns");
   SignalBias bias;
   bias.satellite = *satellite;
   bias.signal = std::string(signal);

@@ -22,7 +22,7 @@ struct SignalBias {
 struct BiasFile {
   std::string file, agency;
   std::vector<SignalBias> biases;  // of satellites
-  int skipped = 0;                 // biases of stations, between phases and between systems
+  int skipped = 0;                 // of stations, between phases or systems, of phases in cycles
 };
 
 BiasFile parse_bias_sinex(std::string_view text, const std::string& file);

@@ -145,6 +145,23 @@ TEST(ProductReaders, BiasesOfPhases) {
   EXPECT_DOUBLE_EQ(at->metres, 1.21097e-9 * speed_of_light);
 }
 
+TEST(ProductReaders, BiasesOfPhasesInCyclesArePassedOver) {
+  const std::string text =
+      "%=BIA 1.00 COD 2021:274:20048 MGX 2021:265:00000 2021:266:00000 A 00000002\n"
+      "+BIAS/SOLUTION\n"
+      " OSB  G063 G01           C1C       2021:265:00000 2021:266:00000 ns                 -1.4777 "
+      "  "
+      "   0.0062\n"
+      " OSB  G063 G01           L1C       2021:265:00000 2021:266:00000 cyc                 0.2500 "
+      "  "
+      "   0.0062\n"
+      "-BIAS/SOLUTION\n";
+  const BiasFile b = parse_bias_sinex(text, "cycles.BIA");
+  ASSERT_EQ(b.biases.size(), 1U);
+  EXPECT_EQ(b.biases[0].signal, "C1C");
+  EXPECT_EQ(b.skipped, 1);
+}
+
 TEST(ProductReaders, WideLanesOfCnesClocks) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const ClockFile c =
