@@ -45,7 +45,8 @@ std::set<Satellite> satellites_of(const std::vector<OrbitFile>& orbits) {
   return satellites;
 }
 
-// Of the last file, which also contains the observations where there are files of days around it.
+// Returns the first epoch of the last file. Where there are also files of the days before and
+// after, the observations are near it.
 GpsTime first_time(const std::vector<OrbitFile>& orbits) {
   return orbits.empty() || orbits.back().epochs.empty() ? GpsTime{} : orbits.back().epochs.front();
 }
@@ -110,7 +111,7 @@ void PppSetup::fill_inputs(const GnssFiles& files, const SetupOptions& options,
   if (one_frequency_) choose_ionosphere();
 }
 
-// States why ambiguities stay real numbers, and what makes integers wrong.
+// States what keeps ambiguities real numbers, and which of several antennas counts.
 void PppSetup::note_lacks_of_integers(const GnssFiles& files) {
   if (!one_frequency_ && parameters_.integers && !precise_->has_phase_biases()) {
     missing_models_.push_back(
@@ -118,12 +119,12 @@ void PppSetup::note_lacks_of_integers(const GnssFiles& files) {
         "longer; add Bias-SINEX with phases (OSB of L1C, ...), or clocks of CNES/CLS with wide "
         "lanes");
   }
+  if (files.antennas.empty()) return;
+  const SatelliteAntennas antennas(files.antennas, first_time(files.orbits));
   std::string unknown;
   for (const Satellite satellite : satellites_of(files.orbits)) {
     const bool used = parameters_.systems.find(letter(satellite.system)) != std::string::npos;
-    const bool known = files.antennas.empty() ||
-                       satellite_antenna(files.antennas, satellite, first_time(files.orbits));
-    if (used && !known) unknown += ' ' + to_string(satellite);
+    if (used && antennas.of(satellite) == nullptr) unknown += ' ' + to_string(satellite);
   }
   if (!unknown.empty()) {
     missing_models_.push_back(
@@ -133,10 +134,10 @@ void PppSetup::note_lacks_of_integers(const GnssFiles& files) {
   std::string names;
   int count = 0;
   for (const AntennaFile& file : files.antennas) {
-    if (std::none_of(file.antennas.begin(), file.antennas.end(),
-                     [](const Antenna& a) { return a.satellite.has_value(); }))
-      continue;
-    names += (count++ > 0 ? ", " : "") + file.file;
+    const bool of_satellites =
+        std::any_of(file.antennas.begin(), file.antennas.end(),
+                    [](const Antenna& a) { return a.satellite.has_value(); });
+    if (of_satellites) names += (count++ > 0 ? ", " : "") + file.file;
   }
   if (count > 1) {
     missing_models_.push_back(

@@ -85,6 +85,17 @@ double Measurement::noise_factor() const {
   return std::hypot(weight1(), weight2());
 }
 
+double Measurement::wide_lane() const {
+  // (18) of METHOD.md
+  const double f1 = first.frequency, f2 = second.frequency;
+  return (f1 * first.phase - f2 * second.phase) / (f1 - f2) -
+         (f1 * first.code + f2 * second.code) / (f1 + f2);
+}
+
+double Measurement::wide_lane_length() const {
+  return speed_of_light / (first.frequency - second.frequency);
+}
+
 std::optional<Measurement> measure(Satellite satellite, std::span<const Signal> signals,
                                    const std::array<std::optional<int>, 100>& glonass_channels,
                                    const Ephemeris& ephemeris, GpsTime t, bool allow_single) {

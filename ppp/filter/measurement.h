@@ -37,6 +37,10 @@ struct Measurement {
   double code() const;          // m, ionosphere-free, or of the first carrier
   double phase() const;         // m, likewise; 0: not measured
   double noise_factor() const;  // the combination's noise relative to one carrier's
+  // These are Melbourne's and Wuebbena's combination of two carriers' codes and phases, m, and the
+  // length of its cycle, the wide lane.
+  double wide_lane() const;
+  double wide_lane_length() const;
 };
 
 // Selects code and phase of each band. The second carrier is empty if its code is missing and

@@ -27,9 +27,10 @@ double shapiro_delay(double satellite_radius, double receiver_radius, double dis
 
 void RangeModel::begin(GpsTime t, const Eigen::Vector3d& marker) {
   time_ = t;
-  if (assumed_.empty() && inputs_.antennas != nullptr) {
-    for (int s = 0; s < system_count; ++s)
-      assumed_.push_back(assumed_antenna(*inputs_.antennas, static_cast<System>(s), t));
+  const auto day = std::chrono::floor<std::chrono::days>(t);
+  if (inputs_.antennas != nullptr && (!antennas_ || day != antennas_day_)) {
+    antennas_.emplace(*inputs_.antennas, t);
+    antennas_day_ = day;
   }
   site_ = geodetic_from_ecef(marker);
   R_enu_ecef_ = rotation_enu_ecef(site_);
@@ -102,8 +103,8 @@ void RangeModel::add_phase_centres(const Measurement& m, const Eigen::Matrix3d& 
   const bool of_satellites = inputs_.ephemeris->centre_of_mass() &&
                              inputs_.models.satellite_antenna && inputs_.antennas != nullptr;
   if (of_satellites) {
-    const AssumedAntenna& assumed = assumed_[static_cast<std::size_t>(system)];
-    const Antenna* own = satellite_antenna(*inputs_.antennas, m.satellite, time_);
+    const AssumedAntenna& assumed = antennas_->assumed(system);
+    const Antenna* own = antennas_->of(m.satellite);
     p.calibrated = own != nullptr && own->carrier(system, m.first.band) != nullptr &&
                    (!m.dual() || own->carrier(system, m.second.band) != nullptr);
     if (own == nullptr) p.satellite.sigma = std::hypot(p.satellite.sigma, assumed.sigma);

@@ -67,7 +67,8 @@ class RangeModel {
                          const Eigen::Vector3d& to_satellite_enu, PredictedRange& p) const;
 
   RangeInputs inputs_;
-  std::vector<AssumedAntenna> assumed_;  // by system, from the first epoch on
+  std::optional<SatelliteAntennas> antennas_;                            // those of `antennas_day_`
+  std::chrono::time_point<GpsClock, std::chrono::days> antennas_day_{};  // they change with a day
   Earth earth_;
   GpsTime time_{};
   Eigen::Vector3d receiver_{0, 0, 0};  // m, earth-fixed: antenna reference point with tides

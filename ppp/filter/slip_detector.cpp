@@ -37,7 +37,7 @@ PppSlip SlipDetector::next(const Measurement& m, double interval, double elevati
                            const PppParameters& parameters) {
   PppSlip slip = m.first.lost_lock || m.second.lost_lock ? PppSlip::lost_lock : PppSlip::none;
   if (m.dual()) {
-    const Combinations now = combine(m);
+    const Combinations now{m.first.phase - m.second.phase, m.wide_lane(), m.wide_lane_length()};
     if (slip == PppSlip::none && started_) slip = compare(now, interval, elevation, parameters);
     learn(now, slip == PppSlip::none && started_, interval);
   } else if (slip == PppSlip::none && started_) {
@@ -46,15 +46,6 @@ PppSlip SlipDetector::next(const Measurement& m, double interval, double elevati
   phase_ = m.first.phase;
   doppler_ = m.first.doppler;
   return std::exchange(started_, true) ? slip : PppSlip::none;
-}
-
-SlipDetector::Combinations SlipDetector::combine(const Measurement& m) {
-  // (18) of METHOD.md
-  const double f1 = m.first.frequency, f2 = m.second.frequency;
-  return {m.first.phase - m.second.phase,
-          (f1 * m.first.phase - f2 * m.second.phase) / (f1 - f2) -
-              (f1 * m.first.code + f2 * m.second.code) / (f1 + f2),
-          speed_of_light / (f1 - f2)};
 }
 
 // The rate of the ionosphere is assumed to be constant.

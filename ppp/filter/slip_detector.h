@@ -33,7 +33,6 @@ class SlipDetector {
     double geometry_free, wide_lane;  // m
     double wide_lane_length;          // m
   };
-  static Combinations combine(const Measurement& m);
   PppSlip compare(const Combinations& now, double interval, double elevation,
                   const PppParameters& parameters) const;
   void learn(const Combinations& now, bool goes_on, double interval);

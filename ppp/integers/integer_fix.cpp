@@ -113,32 +113,34 @@ const IntegerCandidate& IntegerFix::reference_of(const IntegerCandidate& c) cons
   return candidates_[c.reference];
 }
 
-IntegerFix::Difference IntegerFix::difference(const FilterState& state,
-                                              const IntegerCandidate& c) const {
+// Returns how far an ambiguity is beyond its reference, narrow lanes.
+double IntegerFix::difference(const FilterState& state, const IntegerCandidate& c) const {
   const IntegerCandidate& r = reference_of(c);
   const auto x = state.x();
-  const auto P = state.P();
   // (24) of METHOD.md
-  return {(x[c.index] - x[r.index]) / c.length - c.wide_factor * (c.wide_lane - r.wide_lane),
-          (P(c.index, c.index) - 2.0 * P(c.index, r.index) + P(r.index, r.index)) /
-              (c.length * c.length)};
+  return (x[c.index] - x[r.index]) / c.length - c.wide_factor * (c.wide_lane - r.wide_lane);
+}
+
+// Returns the covariance of two such differences, narrow lanes^2.
+double IntegerFix::covariance(const FilterState& state, const IntegerCandidate& a,
+                              const IntegerCandidate& b) const {
+  const IntegerCandidate &ra = reference_of(a), &rb = reference_of(b);
+  const auto P = state.P();
+  return (P(a.index, b.index) - P(a.index, rb.index) - P(ra.index, b.index) +
+          P(ra.index, rb.index)) /
+         (a.length * b.length);
 }
 
 void IntegerFix::fill_differences(const FilterState& state) {
   const auto n = static_cast<Eigen::Index>(differenced_.size());
-  const auto P = state.P();
   real_.resize(n);
   covariance_.resize(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const IntegerCandidate& a = candidates_[differenced_[static_cast<std::size_t>(i)]];
-    const IntegerCandidate& ra = reference_of(a);
-    real_[i] = difference(state, a).value;
+    real_[i] = difference(state, a);
     for (Eigen::Index k = 0; k <= i; ++k) {
       const IntegerCandidate& b = candidates_[differenced_[static_cast<std::size_t>(k)]];
-      const IntegerCandidate& rb = reference_of(b);
-      covariance_(i, k) = covariance_(k, i) = (P(a.index, b.index) - P(a.index, rb.index) -
-                                               P(ra.index, b.index) + P(ra.index, rb.index)) /
-                                              (a.length * b.length);
+      covariance_(i, k) = covariance_(k, i) = covariance(state, a, b);
     }
   }
 }
@@ -193,9 +195,9 @@ void IntegerFix::condition(const FilterState& state, int count) {
 void IntegerFix::find_own_integers() {
   for (const std::size_t i : differenced_) {
     IntegerCandidate& c = candidates_[i];
-    const Difference d = difference(fixed_, c);
-    const double nearest = std::round(d.value);
-    if (d.variance > own_sigma * own_sigma || std::abs(d.value - nearest) > own_distance) continue;
+    const double real = difference(fixed_, c), nearest = std::round(real);
+    if (covariance(fixed_, c, c) > own_sigma * own_sigma || std::abs(real - nearest) > own_distance)
+      continue;
     c.own = nearest;
     candidates_[c.reference].own = 0.0;
   }

@@ -41,16 +41,13 @@ class IntegerFix {
       ar(known, narrow, wide);
     }
   };
-  // A difference of two ambiguities in narrow lanes.
-  struct Difference {
-    double value = 0.0, variance = 0.0;  // cycles, cycles^2
-  };
-
   void take(const FilterState& state, const std::vector<Tracked>& tracked,
             const std::vector<Row>& rows);
   void choose_references(const FilterState& state);
   const IntegerCandidate& reference_of(const IntegerCandidate& c) const;
-  Difference difference(const FilterState& state, const IntegerCandidate& c) const;
+  double difference(const FilterState& state, const IntegerCandidate& c) const;
+  double covariance(const FilterState& state, const IntegerCandidate& a,
+                    const IntegerCandidate& b) const;
   void fill_differences(const FilterState& state);
   int search(IntegerReport& report);
   void condition(const FilterState& state, int count);

@@ -6,11 +6,8 @@ namespace maploop::ppp {
 
 void WideLanes::add(const Measurement& m, double code_variance, double inflation) {
   const double f1 = m.first.frequency, f2 = m.second.frequency;
-  const double length = speed_of_light / (f1 - f2);
-  // (18) of METHOD.md
-  const double cycles = ((f1 * m.first.phase - f2 * m.second.phase) / (f1 - f2) -
-                         (f1 * m.first.code + f2 * m.second.code) / (f1 + f2)) /
-                        length;
+  const double length = m.wide_lane_length();
+  const double cycles = m.wide_lane() / length;
   const double factor = std::hypot(f1, f2) / (f1 + f2) / length;
   Mean& mean = means_[m.satellite.slot()];
   const double weight = 1.0 / (code_variance * factor * factor * inflation);

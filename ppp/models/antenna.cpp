@@ -14,6 +14,27 @@ double in_row(const std::vector<double>& row, double place) {
   return row[i] + (p - static_cast<double>(i)) * (row[k] - row[i]);
 }
 
+AssumedAntenna assumed_antenna(const std::vector<const Antenna*>& antennas, System system) {
+  AssumedAntenna result;
+  for (const char band : bands_of(system)) {
+    double sum = 0.0, squares = 0.0;
+    int count = 0;
+    for (const Antenna* antenna : antennas) {
+      if (antenna == nullptr || antenna->satellite->system != system) continue;
+      const PhaseCentre* centre = antenna->carrier(system, band);
+      if (centre == nullptr) continue;
+      sum += centre->offset.z();
+      squares += centre->offset.z() * centre->offset.z();
+      ++count;
+    }
+    if (count == 0) continue;
+    const double mean = sum / count;
+    result.antenna.carriers.push_back({system, band, {0.0, 0.0, mean}, {0.0}, {}});
+    result.sigma = std::sqrt(std::max(0.0, squares / count - mean * mean));
+  }
+  return result;
+}
+
 }  // namespace
 
 double phase_variation(const Antenna& antenna, const PhaseCentre& carrier, double zenith,
@@ -56,43 +77,28 @@ double satellite_phase_centre(const Antenna& antenna, System system, char band,
                                                       std::atan2(body.x(), body.y()));
 }
 
-const Antenna* satellite_antenna(const std::vector<AntennaFile>& files, Satellite satellite,
-                                 GpsTime t) {
-  const Antenna* best = nullptr;
-  bool best_is_special = false;
-  for (const AntennaFile& file : files) {
-    if (best_is_special && !file.satellites_only) continue;
-    for (const Antenna& a : file.antennas) {
-      if (a.satellite != satellite || t < a.valid_from) continue;
-      const bool more_special = file.satellites_only && !best_is_special;
-      if (best != nullptr && !more_special && a.valid_from <= best->valid_from) continue;
-      best = &a;
-      best_is_special = file.satellites_only;
+SatelliteAntennas::SatelliteAntennas(const std::vector<AntennaFile>& files, GpsTime t)
+    : own_(satellite_slots) {
+  // Those of general files come first, so that a file of satellites only replaces them.
+  for (const bool satellites_only : {false, true}) {
+    std::vector<const Antenna*> latest(satellite_slots);
+    for (const AntennaFile& file : files) {
+      if (file.satellites_only != satellites_only) continue;
+      for (const Antenna& a : file.antennas) {
+        if (!a.satellite || t < a.valid_from) continue;
+        const Antenna*& known = latest[a.satellite->slot()];
+        if (known == nullptr || a.valid_from > known->valid_from) known = &a;
+      }
+    }
+    for (std::size_t i = 0; i < own_.size(); ++i) {
+      if (latest[i] != nullptr) own_[i] = latest[i];
     }
   }
-  return best != nullptr && t < best->valid_until ? best : nullptr;
-}
-
-AssumedAntenna assumed_antenna(const std::vector<AntennaFile>& files, System system, GpsTime t) {
-  constexpr std::uint8_t last_number = 99;
-  AssumedAntenna result;
-  for (const char band : bands_of(system)) {
-    double sum = 0.0, squares = 0.0;
-    int count = 0;
-    for (std::uint8_t n = 1; n <= last_number; ++n) {
-      const Antenna* antenna = satellite_antenna(files, {system, n}, t);
-      const PhaseCentre* centre = antenna != nullptr ? antenna->carrier(system, band) : nullptr;
-      if (centre == nullptr) continue;
-      sum += centre->offset.z();
-      squares += centre->offset.z() * centre->offset.z();
-      ++count;
-    }
-    if (count == 0) continue;
-    const double mean = sum / count;
-    result.antenna.carriers.push_back({system, band, {0.0, 0.0, mean}, {0.0}, {}});
-    result.sigma = std::sqrt(std::max(0.0, squares / count - mean * mean));
+  for (const Antenna*& antenna : own_) {
+    if (antenna != nullptr && t >= antenna->valid_until) antenna = nullptr;
   }
-  return result;
+  for (int s = 0; s < system_count; ++s)
+    assumed_[static_cast<std::size_t>(s)] = assumed_antenna(own_, static_cast<System>(s));
 }
 
 const Antenna* receiver_antenna(const std::vector<AntennaFile>& files, const std::string& type,

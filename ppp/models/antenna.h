@@ -1,6 +1,9 @@
 // Computes by how much a measured range exceeds that to an antenna's reference point, m.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "ppp/readers/files/antex.h"
 
 namespace maploop::ppp {
@@ -24,18 +27,32 @@ double satellite_phase_centre(const Antenna& antenna, System system, char band,
                               const Eigen::Matrix3d& R_ecef_body,
                               const Eigen::Vector3d& to_receiver);
 
-// Returns the antenna of a satellite at a time. Of several calibrations that have begun, one of a
-// file of satellites only counts, and of these the one that began last, because an old file does
-// not know that another satellite has taken the number. Returns nullptr if there is none, or if it
-// has ended.
-const Antenna* satellite_antenna(const std::vector<AntennaFile>& files, Satellite satellite,
-                                 GpsTime t);
 // A satellite whose antenna is not known is given the mean height of its system's phase centres.
 struct AssumedAntenna {
   Antenna antenna;     // no carriers: none of the system is known
   double sigma = 0.0;  // m, standard deviation of the heights
 };
-AssumedAntenna assumed_antenna(const std::vector<AntennaFile>& files, System system, GpsTime t);
+
+// The antennas of all satellites at a time. The files must outlive this.
+//
+// Of several calibrations of a satellite that have begun, one of a file of satellites only counts,
+// and of these the one that began last, because an old file does not know that another satellite
+// has taken the number.
+class SatelliteAntennas {
+ public:
+  SatelliteAntennas(const std::vector<AntennaFile>& files, GpsTime t);
+
+  // Returns nullptr if no file contains the satellite's antenna, or if its calibration has ended.
+  const Antenna* of(Satellite satellite) const { return own_[satellite.slot()]; }
+  const AssumedAntenna& assumed(System system) const {
+    return assumed_[static_cast<std::size_t>(system)];
+  }
+
+ private:
+  std::vector<const Antenna*> own_;  // by Satellite::slot()
+  std::array<AssumedAntenna, system_count> assumed_;
+};
+
 // Returns the antenna of a type with its radome, or with radome NONE if that combination was not
 // calibrated; nullptr if no file contains either.
 const Antenna* receiver_antenna(const std::vector<AntennaFile>& files, const std::string& type,

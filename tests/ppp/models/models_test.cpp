@@ -198,5 +198,29 @@ TEST(Attitude, SolarPanelsAreAcrossTheSun) {
   EXPECT_FALSE(in_shadow(2.6e7 * sun.normalized(), sun));
 }
 
+// A file of satellites only goes before a general one, and a later beginning before an earlier.
+TEST(SatelliteAntennas, OfSeveralTheRightOneIsUsed) {
+  const Satellite satellite{System::gps, 18};
+  const auto antenna = [&](int from, int until) {
+    Antenna a;
+    a.satellite = satellite;
+    a.valid_from = gps_time({from, 1, 1, 0, 0, 0.0});
+    a.valid_until = until > 0 ? gps_time({until, 1, 1, 0, 0, 0.0}) : GpsTime::max();
+    return a;
+  };
+  AntennaFile old, recent, special;
+  old.antennas = {antenna(1993, 0)};
+  recent.antennas = {antenna(2001, 2019)};
+  special.antennas = {antenna(1990, 0)};
+  special.satellites_only = true;
+  const GpsTime t = gps_time({2018, 6, 1, 0, 0, 0.0}), later = gps_time({2020, 6, 1, 0, 0, 0.0});
+  const std::vector<AntennaFile> general{old, recent}, all{old, special, recent};
+  EXPECT_EQ(SatelliteAntennas(general, t).of(satellite), &general[1].antennas[0]);
+  EXPECT_EQ(SatelliteAntennas(general, later).of(satellite), nullptr)
+      << "the old file does not know that the number is another satellite's";
+  EXPECT_EQ(SatelliteAntennas(all, later).of(satellite), &all[1].antennas[0]);
+  EXPECT_EQ(SatelliteAntennas(general, gps_time({1992, 1, 1, 0, 0, 0.0})).of(satellite), nullptr);
+}
+
 }  // namespace
 }  // namespace maploop::ppp

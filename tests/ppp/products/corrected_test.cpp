@@ -82,7 +82,7 @@ class Caster {
 
   // Returns the phase centre of the ionosphere-free combination, which codes and clocks refer to.
   Eigen::Vector3d phase_centre(Satellite satellite, const Eigen::Vector3d& mass, GpsTime t) const {
-    const Antenna* antenna = satellite_antenna(kamakura().antennas, satellite, t);
+    const Antenna* antenna = SatelliteAntennas(kamakura().antennas, t).of(satellite);
     if (antenna == nullptr) return mass;
     const Eigen::Matrix3d attitude = nominal_attitude(mass, earth_.at(t).sun);
     const auto bands = bands_of(satellite.system);

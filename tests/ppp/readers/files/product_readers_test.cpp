@@ -7,7 +7,6 @@
 #include <cstdio>
 
 #include "ppp/gnss_files.h"
-#include "ppp/models/antenna.h"
 #include "tests/support/real_data.h"
 
 namespace maploop::ppp {
@@ -172,30 +171,6 @@ TEST(ProductReaders, WideLanesOfCnesClocks) {
   ASSERT_NE(at, c.wide_lanes.end());
   EXPECT_DOUBLE_EQ(at->cycles, -1.257);
   EXPECT_EQ(at->time, gps_time({2020, 6, 25, 12, 0, 0.0}));
-}
-
-// A file of satellites only goes before a general one, and a later beginning before an earlier.
-TEST(ProductReaders, OfSeveralAntennasTheRightOneIsUsed) {
-  const Satellite satellite{System::gps, 18};
-  const auto antenna = [&](int from, int until) {
-    Antenna a;
-    a.satellite = satellite;
-    a.valid_from = gps_time({from, 1, 1, 0, 0, 0.0});
-    a.valid_until = until > 0 ? gps_time({until, 1, 1, 0, 0, 0.0}) : GpsTime::max();
-    return a;
-  };
-  AntennaFile old, recent, special;
-  old.antennas = {antenna(1993, 0)};
-  recent.antennas = {antenna(2001, 2019)};
-  special.antennas = {antenna(1990, 0)};
-  special.satellites_only = true;
-  const GpsTime t = gps_time({2018, 6, 1, 0, 0, 0.0}), later = gps_time({2020, 6, 1, 0, 0, 0.0});
-  const std::vector<AntennaFile> general{old, recent}, all{old, special, recent};
-  EXPECT_EQ(satellite_antenna(general, satellite, t), &general[1].antennas[0]);
-  EXPECT_EQ(satellite_antenna(general, satellite, later), nullptr)
-      << "the old file does not know that the number is another satellite's";
-  EXPECT_EQ(satellite_antenna(all, satellite, later), &all[1].antennas[0]);
-  EXPECT_EQ(satellite_antenna(general, satellite, gps_time({1992, 1, 1, 0, 0, 0.0})), nullptr);
 }
 
 TEST(ProductReaders, OceanLoadingOfStations) {
