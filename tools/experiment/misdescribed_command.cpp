@@ -171,8 +171,7 @@ double pooled(const std::vector<Pair>& pairs, MisdescribedResult Pair::*which,
 Table loss_table(const std::vector<Pair>& pairs) {
   Groups<std::vector<Pair>> groups;
   for (const Pair& p : pairs) {
-    const std::string property(
-        names_of(Property{})[static_cast<std::size_t>(p.wrong_case.property)]);
+    const std::string property(to_string(p.wrong_case.property));
     groups[{property, p.wrong_case.drive.stem().stem().string()}].push_back(p);
     groups[{property, "pooled"}].push_back(p);
   }
@@ -197,7 +196,8 @@ Table loss_table(const std::vector<Pair>& pairs) {
   return table;
 }
 
-// What the filter said in the end of all that the wrong description made it find otherwise.
+// Lists the properties of the car that the filter has estimated differently with the wrong
+// description, with their last values.
 Table calibration_table(const std::vector<Pair>& pairs) {
   constexpr double otherwise = 1.0;  // sigmas
   Table table{"What the filter has estimated, where it differs by more than its sigma",
@@ -211,11 +211,10 @@ Table calibration_table(const std::vector<Pair>& pairs) {
       if (std::abs(wrong.value - right.value) <= otherwise * std::max(right.sigma, wrong.sigma))
         continue;
       table.rows.push_back(
-          {std::string(names_of(Property{})[static_cast<std::size_t>(p.wrong_case.property)]),
-           p.wrong_case.drive.stem().stem().string(), std::to_string(p.wrong_case.seed),
-           std::string(right.name), std::string(right.unit), number(right.value, 3),
-           number(right.sigma, 3), number(wrong.value, 3), number(wrong.sigma, 3),
-           wrong.observed() ? "yes" : "not yet"});
+          {std::string(to_string(p.wrong_case.property)), p.wrong_case.drive.stem().stem().string(),
+           std::to_string(p.wrong_case.seed), std::string(right.name), std::string(right.unit),
+           number(right.value, 3), number(right.sigma, 3), number(wrong.value, 3),
+           number(wrong.sigma, 3), wrong.observed() ? "yes" : "not yet"});
     }
   }
   return table;
@@ -233,7 +232,7 @@ std::vector<MisdescribedCase> cases_of(const MisdescribedOptions& options,
     const vehicle::Recording recording = vehicle::open_recording(drive, config);
     const bool odometry = recording.sensors(Time::max()).odometry != nullptr;
     for (const std::int64_t seed : options.seeds) {
-      for (std::size_t i = 0; i < names_of(Property{}).size(); ++i) {
+      for (std::size_t i = 0; i < count_of<Property>; ++i) {
         const auto property = static_cast<Property>(i);
         if (odometry || !is_of_camera(property)) cases.push_back({drive, property, seed});
       }
@@ -248,8 +247,7 @@ int compare_descriptions(const MisdescribedOptions& options) {
   const auto results = run_all(
       cases,
       [](const MisdescribedCase& c) {
-        return c.drive.filename().string() + ", " +
-               std::string(names_of(Property{})[static_cast<std::size_t>(c.property)]);
+        return c.drive.filename().string() + ", " + std::string(to_string(c.property));
       },
       [&](const MisdescribedCase& c) { return run(c, options, config); });
   std::vector<Pair> pairs;

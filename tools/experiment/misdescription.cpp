@@ -1,6 +1,7 @@
 #include "tools/experiment/misdescription.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -71,48 +72,34 @@ Misdescription misdescription(Property property, std::int64_t seed) {
     const double a = std::ldexp(static_cast<double>(random() >> 11), -53) * 2.0 * std::numbers::pi;
     return Vector3d(std::cos(a), std::sin(a), 0.0);
   };
-  Misdescription all;
-  all.antenna = place * horizontal();
-  all.camera_place = place * horizontal();
-  all.mount = (AngleAxisd(sign() * angle, Vector3d::UnitZ()) *
-               AngleAxisd(sign() * angle, Vector3d::UnitY()) *
-               AngleAxisd(sign() * angle, Vector3d::UnitX()))
-                  .toRotationMatrix();
-  all.camera_yaw = sign() * angle;
-  all.axle = sign() * place;
-  all.imu_stamps = sign() * late;
-  all.gnss_stamps = sign() * late;
-  all.camera_stamps = sign() * late;
-  Misdescription one;
-  switch (property) {
-    case Property::nothing:
-      return one;
-    case Property::everything:
-      return all;
-    case Property::antenna:
-      one.antenna = all.antenna;
-      break;
-    case Property::mount:
-      one.mount = all.mount;
-      break;
-    case Property::camera:
-      one.camera_place = all.camera_place;
-      one.camera_yaw = all.camera_yaw;
-      break;
-    case Property::axle:
-      one.axle = all.axle;
-      break;
-    case Property::imu_stamps:
-      one.imu_stamps = all.imu_stamps;
-      break;
-    case Property::gnss_stamps:
-      one.gnss_stamps = all.gnss_stamps;
-      break;
-    case Property::camera_stamps:
-      one.camera_stamps = all.camera_stamps;
-      break;
+  Misdescription wrong;
+  wrong.antenna = place * horizontal();
+  wrong.camera_place = place * horizontal();
+  const std::array yaw_pitch_roll{sign() * angle, sign() * angle, sign() * angle};
+  wrong.mount = (AngleAxisd(yaw_pitch_roll[0], Vector3d::UnitZ()) *
+                 AngleAxisd(yaw_pitch_roll[1], Vector3d::UnitY()) *
+                 AngleAxisd(yaw_pitch_roll[2], Vector3d::UnitX()))
+                    .toRotationMatrix();
+  wrong.camera_yaw = sign() * angle;
+  wrong.axle = sign() * place;
+  wrong.imu_stamps = sign() * late;
+  wrong.gnss_stamps = sign() * late;
+  wrong.camera_stamps = sign() * late;
+  const Misdescription right;
+  const auto is_right = [property](Property of) {
+    return property != of && property != Property::everything;
+  };
+  if (is_right(Property::antenna)) wrong.antenna = right.antenna;
+  if (is_right(Property::mount)) wrong.mount = right.mount;
+  if (is_right(Property::camera)) {
+    wrong.camera_place = right.camera_place;
+    wrong.camera_yaw = right.camera_yaw;
   }
-  return one;
+  if (is_right(Property::axle)) wrong.axle = right.axle;
+  if (is_right(Property::imu_stamps)) wrong.imu_stamps = right.imu_stamps;
+  if (is_right(Property::gnss_stamps)) wrong.gnss_stamps = right.gnss_stamps;
+  if (is_right(Property::camera_stamps)) wrong.camera_stamps = right.camera_stamps;
+  return wrong;
 }
 
 void misdescribe(vehicle::VehicleConfig& config, const Misdescription& wrong) {

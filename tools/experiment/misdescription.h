@@ -3,17 +3,16 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 #include <cstdint>
-#include <string_view>
 
 #include "msgs/calibration.h"
+#include "msgs/named_enum.h"
 #include "runtime/vehicle/config/vehicle_config.h"
 #include "runtime/vehicle/graph/sensors.h"
 
 namespace maploop::experiments {
 
-// What is described wrongly.
+// A Property is what the description of the car states wrongly.
 enum class Property : std::uint8_t {
   nothing,
   antenna,        // its place by 0.5 m, in a horizontal direction
@@ -26,9 +25,9 @@ enum class Property : std::uint8_t {
   everything,
 };
 constexpr auto names_of(Property) {
-  return std::to_array<std::string_view>({"nothing", "antenna", "inertial mount", "camera",
-                                          "rear axle", "inertial stamps", "GNSS stamps",
-                                          "camera stamps", "everything"});
+  return names_up_to<Property::everything>({"nothing", "antenna", "inertial mount", "camera",
+                                            "rear axle", "inertial stamps", "GNSS stamps",
+                                            "camera stamps", "everything"});
 }
 
 // How far the description is from the car. Every value is zero where it is right.
