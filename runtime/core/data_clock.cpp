@@ -80,17 +80,20 @@ MonotonicTime DataClock::due(Time t) const {
   return keeps_time(t) ? scheduled(t) + stalled() : monotonic_now();
 }
 
-Time DataClock::now() const {
+Time DataClock::running() const {
   const Schedule s = schedule();
-  return std::min(s.data + scaled(monotonic_now() - s.wall - stalled(), s.speed),
-                  from_nanoseconds(pause_at_.load(std::memory_order_relaxed)));
+  return s.data + scaled(monotonic_now() - s.wall - stalled(), s.speed);
+}
+
+Time DataClock::now() const {
+  return std::min(running(), from_nanoseconds(pause_at_.load(std::memory_order_relaxed)));
 }
 
 bool DataClock::sleep_until(Time t, const std::stop_token& stop) const {
   while (!stop.stop_requested()) {
-    const bool held = to_nanoseconds(t) > pause_at_.load(std::memory_order_acquire);
     const MonotonicTime target = due(t);
     const MonotonicTime now = monotonic_now();
+    const bool held = to_nanoseconds(t) > pause_at_.load();  // after `now`: see pause()
     if (!held && now >= target) return true;
     sleep_until_monotonic(held ? now + longest_sleep : std::min(target, now + longest_sleep));
   }
@@ -126,8 +129,14 @@ void DataClock::arrive(Time t) {
   skip_to_.store(to_nanoseconds(Time::min()), std::memory_order_release);
 }
 
+// The controlling thread may be preempted between reading the time and storing it, and samples are
+// released meanwhile. The first store stops them: whoever has not seen it has read the time before
+// it, and so releases nothing that is later than the second.
 void DataClock::pause() {
-  pause_at_.store(to_nanoseconds(now()), std::memory_order_release);
+  const Time last = from_nanoseconds(pause_at_.load(std::memory_order_relaxed));
+  const Time held = now();
+  pause_at_.store(to_nanoseconds(held));
+  pause_at_.store(to_nanoseconds(std::min(last, std::max(held, running()))));
 }
 
 void DataClock::resume_until(Time t) {

@@ -95,6 +95,7 @@ class DataClock {
   Schedule schedule() const;
   void set_schedule(const Schedule& schedule);
   MonotonicTime scheduled(Time t) const;  // without the stalls
+  Time running() const;                   // the data time that is due now, if no pause holds it
 
   bool paced_;
   bool live_;

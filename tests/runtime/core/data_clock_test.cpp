@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -10,6 +11,7 @@
 namespace maploop::runtime {
 namespace {
 
+using std::chrono::microseconds;
 using std::chrono::milliseconds;
 
 const Time t0 = from_nanoseconds(1'317'042'651'000'000'000);
@@ -103,6 +105,26 @@ TEST(DataClock, GoesFromAPauseToTheNextAndNoFurther) {
   EXPECT_TRUE(clock.paused());
   clock.resume();
   EXPECT_TRUE(clock.sleep_until(next + milliseconds(10), {}));
+}
+
+// The pausing thread may be preempted at any place; so it pauses often, and beside a busy thread.
+TEST(DataClock, NothingThatWasReleasedIsLaterThanThePause) {
+  DataClock clock = DataClock::paced(1.0);
+  const Time first = t0;
+  clock.start(first);
+  std::atomic<Time> released{first};
+  std::jthread driver([&](const std::stop_token& stop) {
+    for (Time t = first; clock.sleep_until(t, stop); t += microseconds(10)) released = t;
+  });
+  for (int i = 0; i < 2000; ++i) {
+    clock.pause();
+    EXPECT_TRUE(clock.pause_set());
+    const Time held = clock.now();
+    std::this_thread::yield();
+    ASSERT_LE(released.load(), held) << "at pause " << i;
+    clock.resume();
+    std::this_thread::yield();
+  }
 }
 
 TEST(DataClock, AStallNoticedAfterAPauseDoesNotUnsetIt) {
