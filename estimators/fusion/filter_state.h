@@ -31,6 +31,7 @@ enum : int {
   up_bias,          // m/s^2, adds to the measured upward specific force
   climb_offset,     // rad, direction of travel above body x, from mounting and load
   odometry_course,  // rad, odometry's motions point to the right of the travel, from its mounting
+  odometry_left,    // m, the place that odometry is from is described too far to the left
   axle_distance,    // m, from the rear axle forward to the origin of the body
   lever_forward,    // m, the GNSS antenna from the origin of the body
   lever_left,

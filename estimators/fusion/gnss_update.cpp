@@ -33,7 +33,7 @@ void restart_from(FilterState& state, GnssFix fix, const LocalFrame& frame,
   state.x = fresh.x;
   state.P = fresh.P;
   for (const int i : {gyro_bias, forward_bias, left_bias, climb_offset, odometry_course,
-                      axle_distance, lidar_scale, lidar_turn}) {
+                      odometry_left, axle_distance, lidar_scale, lidar_turn}) {
     state.x[i] = x[i];
     state.P.row(i).setZero();
     state.P.col(i).setZero();

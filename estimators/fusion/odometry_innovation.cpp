@@ -48,7 +48,7 @@ Arc arc(const RelativeMotion& motion) {
     // (12) of METHOD.md
     to_arc = half / std::sin(half) * Eigen::AngleAxisd(-half, turn.normalized()).toRotationMatrix();
   }
-  return {to_arc * motion.translation, to_arc};
+  return {to_arc * motion.translation, to_arc, turn};
 }
 
 Innovation<6> motion_innovation(const FilterState& state, const RelativeMotion& motion,
@@ -78,6 +78,10 @@ Innovation<6> motion_innovation(const FilterState& state, const RelativeMotion& 
     innovation.H.block<2, 1>(1, clone_azimuth + i) =
         (to_arc * moved.cross(axes_of_clone.col(i))).tail<2>();
   }
+  // (36) of METHOD.md
+  const Vector3d by_left = Vector3d::UnitY().cross(travelled.turn);
+  innovation.residual.head<3>() -= by_left * state.x[odometry_left];
+  innovation.H.block<3, 1>(0, odometry_left) = by_left;
   // (15) of METHOD.md
   const Matrix3d predicted = R_clone_enu * rotation_enu_body(now);
   innovation.residual.tail<3>() = rotation_vector(

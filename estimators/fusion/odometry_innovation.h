@@ -15,6 +15,7 @@ namespace maploop::fusion {
 struct Arc {
   Eigen::Vector3d displacement;  // m
   Eigen::Matrix3d to_arc;        // turns and scales the translation to it
+  Eigen::Vector3d turn;          // rad, the rotation vector
 };
 Arc arc(const RelativeMotion& motion);
 
@@ -24,7 +25,8 @@ Arc arc(const RelativeMotion& motion);
 //               for a LiDAR's motion it has the LiDAR's scale instead
 //   across, up  h = displacement of the position, turned like the arc
 // The last three are the rotation as a rotation vector (rad) in the body frame at `from`: h =
-// R(clone)^T R(now), which for a LiDAR's motion is turned further by its turning error.
+// R(clone)^T R(now), which for a LiDAR's motion is turned further by its turning error. The
+// displacement is that of the body with the error of odometry's place, which swings in turns.
 Innovation<6> motion_innovation(const FilterState& state, const RelativeMotion& motion,
                                 const FusionParameters& parameters);
 

@@ -160,6 +160,9 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
        "right of the vehicle's own, from the mounting of camera and LiDAR."},
       {"odometry_course_walk", &P::odometry_course_walk, 0.0, 1.0, "rad/sqrt(s)", expert,
        "Random walk of that angle."},
+      {"odometry_lever_sigma", &P::odometry_lever_sigma, tiny, 100.0, "m", usual,
+       "Standard deviation of the place to the left from which odometry is, the camera's or the "
+       "LiDAR's."},
       {"max_tilt", &P::max_tilt, 0.1, 1.5, "rad", expert,
        "A correction to more roll or pitch is refused, because no road vehicle leans so far."},
 

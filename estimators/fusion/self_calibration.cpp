@@ -26,6 +26,8 @@ struct Property {
 const std::array<Property, calibrated_count> all{{
     {index::odometry_course, "odometry_course", "odometry points to the right by", "deg",
      degrees(1.0), mount},
+    {index::odometry_left, "odometry_left", "odometry described too far to the left by", "m", 1.0,
+     mount},
     {index::climb_offset, "climb_offset", "direction of travel above body x", "deg", degrees(1.0),
      load},
     {index::axle_distance, "axle_distance", "rear axle behind the origin", "m", 1.0, mount},

@@ -271,9 +271,8 @@ void add_misdescribed_experiment(CLI::App& experiment, Command& command) {
   CLI::App* sub = experiment.add_subcommand(
       "misdescribed", "A car described 0.5 m, 1 degree, 30 ms wrong: loss by each property");
   sub->add_option("DRIVE", options->drives,
-                  "Drives without images: tables of OXTS rows, logs of an odometry")
-      ->required()
-      ->check(existing_path());
+                  "Drives without images: sequences as FOLDER/NAME, logs of an odometry")
+      ->required();
   sub->add_option("--configuration", options->configuration, "Of the filter")
       ->capture_default_str();
   sub->add_option("--seeds", options->seeds, "Of what is wrong, and of the simulated noise")

@@ -113,6 +113,8 @@ void misdescribe(vehicle::VehicleConfig& config, const Misdescription& wrong) {
     config.given.insert(key);
     config.given.erase(key + "_sigma");
   }
+  if (!config.is_given("fusion", "gnss_lever_sigma"))
+    config.fusion.gnss_lever_sigma = fusion::FusionParameters{}.gnss_lever_sigma;
 }
 
 void misdescribe(vehicle::Sensors& sensors, const Misdescription& wrong,

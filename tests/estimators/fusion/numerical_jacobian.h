@@ -44,6 +44,7 @@ inline fusion::StateVector busy_state() {
   x[up_bias] = 0.1;
   x[climb_offset] = 0.012;
   x[odometry_course] = -0.02;
+  x[odometry_left] = -0.2;
   x[axle_distance] = 0.9;
   x.segment<3>(lever_forward) << 1.2, -0.4, 0.9;
   x[speed_scale] = -0.008;

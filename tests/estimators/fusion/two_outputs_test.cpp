@@ -162,6 +162,27 @@ TEST_F(Misdescribed, TheFilterLearnsTheAxleAndTheDirectionOfTravel) {
   EXPECT_FALSE(find(filter, "GNSS antenna, forward").observed()) << "no fix after the start";
 }
 
+TEST_F(Misdescribed, TheFilterLearnsThatOdometryIsFromFurtherToTheLeft) {
+  const Eigen::Translation3d wrong(0.0, 0.5, 0.0);  // m
+  std::vector<Measurement> all;
+  append(all, drive_.imu(100.0));
+  for (GnssFix f : fixes(drive_, Vector3d::Zero(), 0.0)) {
+    f.velocity_covariance *= 0.01;
+    all.push_back(f);
+  }
+  for (RelativeMotion m : drive_.odometry(10.0)) {
+    const Eigen::Isometry3d T = wrong * m.T_from_to() * wrong.inverse();
+    m.translation = T.translation();
+    all.push_back(m);
+  }
+  ReducedImuFilter filter(configured("GNSS+VO-RI"), test_origin());
+  const std::vector<FusedState> out = states(filter, all);
+  const CalibratedProperty place = find(filter, "odometry described too far to the left");
+  EXPECT_GT(place.value, 0.25) << "m";
+  EXPECT_NEAR(place.value, 0.5, 2.0 * place.sigma) << "m";
+  EXPECT_LT(place.sigma, 0.2) << "m, of 0.3 at the start";
+}
+
 // Returns what the filter knows, as if it were `age` before the start of the drive.
 RememberedCalibration remembered(const ReducedImuFilter& filter, Duration age) {
   RememberedCalibration all{SyntheticDrive::at(0.0) - age, {}, {}};

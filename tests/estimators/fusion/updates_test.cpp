@@ -43,6 +43,8 @@ RelativeMotion agreeing_motion(const FilterState& state) {
   const Vector3d chord = rotation_enu_body(state.clone_attitude()).transpose() * state.moved();
   Vector3d displacement = half / std::sin(half) * (Eigen::AngleAxisd(-half, turn.axis()) * chord);
   displacement.x() = state.x[index::distance];
+  const Vector3d place(0.0, state.x[index::odometry_left], 0.0);
+  displacement -= turn.angle() * turn.axis().cross(place);
   displacement.y() -= displacement.x() * state.x[index::odometry_course];
   m.translation = std::sin(half) / half * (Eigen::AngleAxisd(half, turn.axis()) * displacement);
   m.covariance.diagonal() << 1e-4, 2e-4, 3e-4, 1e-7, 2e-7, 3e-7;
@@ -317,8 +319,8 @@ TEST_F(ApplyOdometry, GatesSpeedAndRotationApart) {
   FilterState state = state_;
   EXPECT_EQ(apply_odometry(state, fast, parameters_), refused(Reason::speed_gate));
   RelativeMotion turned = motion_;
-  turned.rotation = Eigen::AngleAxisd(0.3, Vector3d::UnitZ()) * motion_.rotation;
-  turned.translation = Eigen::AngleAxisd(0.15, Vector3d::UnitZ()) * motion_.translation;
+  turned.rotation = Eigen::AngleAxisd(0.1, Vector3d::UnitZ()) * motion_.rotation;
+  turned.translation = Eigen::AngleAxisd(0.05, Vector3d::UnitZ()) * motion_.translation;
   state = state_;
   EXPECT_EQ(apply_odometry(state, turned, parameters_), refused(Reason::rotation_gate));
   EXPECT_EQ(state.gated_in_a_row, 1);
