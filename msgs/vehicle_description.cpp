@@ -55,6 +55,10 @@ ParameterTable<CarDescription> parameter_table(const CarDescription&) {
        "inertial unit."},
       {"climb_offset_sigma", &P::climb_offset_sigma, 1e-9, 1.0, "rad", usual,
        "Its standard deviation."},
+      {"rear_slip", &P::rear_slip, 0.0, 0.1, "rad/(m/s^2)", usual,
+       "Slip angle of the rear tyres by lateral acceleration: passenger cars have 0.003 to 0.009."},
+      {"rear_slip_sigma", &P::rear_slip_sigma, 1e-9, 0.1, "rad/(m/s^2)", usual,
+       "Its standard deviation."},
   });
   return {"vehicle",
           "The car. What neither this file nor the recording knows has a neutral value and a wide "

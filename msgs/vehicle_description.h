@@ -46,6 +46,8 @@ struct CarDescription {
   double wheel_radius = 0.32, wheel_radius_sigma = 0.05;            // m
   double track = 1.5, track_sigma = 0.2;                            // m
   double climb_offset = 0.0, climb_offset_sigma = 0.0175;  // rad, direction of travel above body x
+  // rad/(m/s^2), slip angle of the rear tyres by lateral acceleration
+  double rear_slip = 0.005, rear_slip_sigma = 0.003;
 };
 
 // The intrinsics are those of rectified images; the pose is that of the left camera.

@@ -33,6 +33,7 @@ enum : int {
   odometry_course,  // rad, odometry's motions point to the right of the travel, from its mounting
   odometry_left,    // m, the place that odometry is from is described too far to the left
   axle_distance,    // m, from the rear axle forward to the origin of the body
+  rear_slip,        // rad/(m/s^2), slip angle of the rear tyres by lateral acceleration
   lever_forward,    // m, the GNSS antenna from the origin of the body
   lever_left,
   lever_up,

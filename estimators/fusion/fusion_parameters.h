@@ -78,6 +78,8 @@ struct FusionParameters {
   double pitch_noise = 0.0175;           // rad/sqrt(s) (1 deg)
   double roll_noise = 0.0175;            // rad/sqrt(s) (1 deg)
   double rear_axle_distance = 0.0;       // m
+  double rear_slip = 0.005;              // rad/(m/s^2), 2.8 deg at 1 g
+  double rear_slip_sigma = 0.003;        // rad/(m/s^2)
   double rear_axle_sigma = 0.5;          // m
   double slip_sigma = 0.005;             // rad (0.3 deg)
   double heave_sigma = 0.02;             // rad (1.1 deg)

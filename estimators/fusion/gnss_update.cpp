@@ -4,6 +4,7 @@
 
 #include "estimators/fusion/fix_error.h"
 #include "estimators/fusion/initial_state.h"
+#include "estimators/fusion/swing.h"
 
 namespace maploop::fusion {
 namespace {
@@ -29,11 +30,12 @@ void restart_from(FilterState& state, GnssFix fix, const LocalFrame& frame,
   FusionParameters learnt = p;
   learnt.climb_offset = x[climb_offset];
   learnt.rear_axle_distance = x[axle_distance];
+  learnt.rear_slip = x[rear_slip];
   const FilterState fresh = initial_state(fix, frame, learnt, state.yaw_rate - x[gyro_bias]);
   state.x = fresh.x;
   state.P = fresh.P;
   for (const int i : {gyro_bias, forward_bias, left_bias, climb_offset, odometry_course,
-                      odometry_left, axle_distance, lidar_scale, lidar_turn}) {
+                      odometry_left, axle_distance, rear_slip, lidar_scale, lidar_turn}) {
     state.x[i] = x[i];
     state.P.row(i).setZero();
     state.P.col(i).setZero();
@@ -74,8 +76,8 @@ Innovation<3> velocity_innovation(const FilterState& state, const GnssFix& fix, 
   const double sc = std::sin(state.climb()), cc = std::cos(state.climb());
   const double ground = state.ground_speed();
   const Vector3d travel(sA * cc, cA * cc, sc);
-  // The antenna rotates about the rear axle.
-  const Vector3d arm = state.gnss_lever() + Vector3d(x[axle_distance], 0.0, 0.0);
+  // The antenna rotates about the point that moves along the azimuth.
+  const Vector3d arm = state.gnss_lever() + Vector3d(swing_arm(x), 0.0, 0.0);
   const Matrix3d R = rotation_enu_body(state.attitude());
   const double rate = yaw_rate - x[gyro_bias];
   const Vector3d swing = R * Vector3d(0.0, 0.0, rate).cross(arm);
@@ -89,7 +91,7 @@ Innovation<3> velocity_innovation(const FilterState& state, const GnssFix& fix, 
   innovation.H.col(climb_offset) = ground * Vector3d(-sA * sc, -cA * sc, cc);
   innovation.H.col(pitch) += innovation.H.col(climb_offset);
   innovation.H.col(gyro_bias) = -(R * Vector3d::UnitZ().cross(arm));
-  innovation.H.col(axle_distance) = rate * R.col(1);
+  add_swing_derivatives(x, rate * R.col(1), innovation.H);
   innovation.H.col(lever_forward) = rate * R.col(1);
   innovation.H.col(lever_left) = -rate * R.col(0);
   const double slip = p.slip_sigma * ground;

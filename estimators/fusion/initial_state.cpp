@@ -7,6 +7,7 @@
 #include "estimators/fusion/fix_error.h"
 #include "estimators/fusion/measurement_check.h"
 #include "estimators/fusion/stamp_guard.h"
+#include "estimators/fusion/swing.h"
 
 namespace maploop::fusion {
 namespace {
@@ -15,7 +16,8 @@ namespace {
 // The body's axes, which the swing needs, follow from the velocity itself.
 Eigen::Vector3d velocity_of_axle(const Eigen::Vector3d& antenna, double yaw_rate,
                                  const FusionParameters& p) {
-  const Eigen::Vector3d arm(p.gnss_lever_forward + p.rear_axle_distance, p.gnss_lever_left, 0.0);
+  const double swing = swing_arm(p.rear_axle_distance, p.rear_slip, antenna.norm());
+  const Eigen::Vector3d arm(p.gnss_lever_forward + swing, p.gnss_lever_left, 0.0);
   Eigen::Vector3d axle = antenna;
   for (int i = 0; i < 3; ++i) {
     const Attitude level{std::atan2(axle.x(), axle.y()), 0.0, 0.0};
@@ -46,6 +48,8 @@ void add_unknown_sensors(FilterState& state, const FusionParameters& p) {
   add(odometry_left, p.odometry_lever_sigma);
   state.x[axle_distance] = p.rear_axle_distance;
   add(axle_distance, p.rear_axle_sigma);
+  state.x[rear_slip] = p.rear_slip;
+  add(rear_slip, p.rear_slip_sigma);
   state.x.segment<3>(lever_forward) << p.gnss_lever_forward, p.gnss_lever_left, p.gnss_lever_up;
   for (int i = lever_forward; i <= lever_up; ++i) add(i, p.gnss_lever_sigma);
   add(lidar_scale, p.lidar_scale_sigma);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "estimators/fusion/swing.h"
+
 namespace maploop::fusion {
 namespace {
 
@@ -91,9 +93,9 @@ Step mechanize(const StateVector& x, const InertialInput& input, const LocalEart
   Step step;
   step.x = x;
   step.x.segment<3>(east) += dt * mid_speed * travel;  // (3) of METHOD.md
-  // The rear axle rolls without side slip; the origin ahead of it swings out in turns.
   const Vector3d left(-std::cos(mid_azimuth), std::sin(mid_azimuth), 0.0);
-  const double swing = rate * x[axle_distance];
+  const double arm = swing_arm(x);
+  const double swing = rate * arm;
   step.x.segment<3>(east) += dt * swing * left;
   step.x[speed] += dt * acceleration;
   step.x[azimuth] = wrap_angle(x[azimuth] + dt * azimuth_rate);
@@ -109,11 +111,11 @@ Step mechanize(const StateVector& x, const InertialInput& input, const LocalEart
   F.block<3, 1>(east, azimuth) += dt * mid_speed * travel_by_azimuth;
   F.block<3, 1>(east, pitch) += dt * mid_speed * travel_by_climb;
   F.block<3, 1>(east, climb_offset) += dt * mid_speed * travel_by_climb;
-  F.block<3, 1>(east, axle_distance) += dt * rate * left;
+  add_swing_derivatives(x, dt * rate * left, F.middleRows<3>(east));
   const Vector3d left_by_azimuth(std::sin(mid_azimuth), std::cos(mid_azimuth), 0.0);
   F.middleRows<3>(east) += dt * swing * left_by_azimuth * (0.5 * dt * azimuth_rate_by);
   F.block<3, 1>(east, azimuth) += dt * swing * left_by_azimuth;
-  if (input.inertial) F.block<3, 1>(east, gyro_bias) -= dt * x[axle_distance] * left;
+  if (input.inertial) F.block<3, 1>(east, gyro_bias) -= dt * arm * left;
   F.row(speed) += dt * acceleration_by;
   F.middleRows<3>(azimuth) += dt * turning.by_state;
   F.row(distance) += 0.5 * dt * dt * acceleration_by;
@@ -144,7 +146,7 @@ Step mechanize(const StateVector& x, const InertialInput& input, const LocalEart
   step.yaw_rate_effect[azimuth] = -dt / turning.level;
   step.yaw_rate_effect.segment<3>(east) =
       -0.5 * dt * dt / turning.level * (mid_speed * travel_by_azimuth + swing * left_by_azimuth) +
-      dt * x[axle_distance] * left;
+      dt * arm * left;
   return step;
 }
 

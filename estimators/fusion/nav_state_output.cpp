@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimators/fusion/swing.h"
+
 namespace maploop::fusion {
 namespace {
 
@@ -33,10 +35,11 @@ Eigen::Matrix<double, 9, index::count> nav_state_jacobian(const FilterState& sta
   J.block<3, 1>(3, pitch) << -ground * sA * sc, -ground * cA * sc, ground * cc;
   J.block<3, 1>(3, climb_offset) = J.block<3, 1>(3, pitch);
   const double rate = state.yaw_rate - x[gyro_bias];
-  J.block<3, 1>(3, axle_distance) = rate * left_of(x);
-  J.block<3, 1>(3, gyro_bias) = -x[axle_distance] * left_of(x);
+  const double arm = swing_arm(x);
+  add_swing_derivatives(x, rate * left_of(x), J.middleRows<3>(3));
+  J.block<3, 1>(3, gyro_bias) = -arm * left_of(x);
   J.block<2, 1>(3, azimuth) +=
-      rate * x[axle_distance] * Eigen::Vector2d(std::sin(x[azimuth]), std::cos(x[azimuth]));
+      rate * arm * Eigen::Vector2d(std::sin(x[azimuth]), std::cos(x[azimuth]));
   J.block<3, 3>(6, azimuth).setIdentity();
   return J;
 }
@@ -59,8 +62,7 @@ NavState nav_state(const FilterState& state, const Geodetic& origin,
   const Eigen::Matrix<double, 9, index::count> J = nav_state_jacobian(state);
   const Eigen::Vector3d travel = direction_of_travel(state.x);
   nav.velocity_enu = nav.forward_speed * travel + (state.yaw_rate - state.x[index::gyro_bias]) *
-                                                      state.x[index::axle_distance] *
-                                                      left_of(state.x);
+                                                      swing_arm(state.x) * left_of(state.x);
   const Eigen::Matrix<double, 9, 9> covariance = J * state.P * J.transpose();
   nav.covariance = 0.5 * (covariance + covariance.transpose());
   const double slip = parameters.slip_sigma * nav.forward_speed;

@@ -141,6 +141,11 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
        "value of its car, which holds where this key is absent."},
       {"rear_axle_sigma", &P::rear_axle_sigma, 0.0, 5.0, "m", usual,
        "Standard deviation of rear_axle_distance, which the filter estimates in turns."},
+      {"rear_slip", &P::rear_slip, 0.0, 0.1, "rad/(m/s^2)", usual,
+       "Slip angle of the rear tyres by lateral acceleration (cornering compliance), which turns a "
+       "cornering vehicle's nose into the turn."},
+      {"rear_slip_sigma", &P::rear_slip_sigma, 0.0, 0.1, "rad/(m/s^2)", usual,
+       "Standard deviation of rear_slip, which the filter estimates in turns."},
       {"slip_sigma", &P::slip_sigma, tiny, 1.0, "rad", expert,
        "Standard deviation of the angle between the direction of travel and the body's axis."},
       {"heave_sigma", &P::heave_sigma, tiny, 1.0, "rad", expert,

@@ -31,6 +31,8 @@ const std::array<Property, calibrated_count> all{{
     {index::climb_offset, "climb_offset", "direction of travel above body x", "deg", degrees(1.0),
      load},
     {index::axle_distance, "axle_distance", "rear axle behind the origin", "m", 1.0, mount},
+    {index::rear_slip, "rear_slip", "slip angle of the rear tyres at 1 m/s^2", "deg", degrees(1.0),
+     tyres},
     {index::lever_forward, "antenna_forward", "GNSS antenna, forward", "m", 1.0, mount},
     {index::lever_left, "antenna_left", "GNSS antenna, to the left", "m", 1.0, mount},
     {index::speed_scale, "speed_scale", "scale of odometry or wheels", "%", 100.0, tyres},

@@ -92,7 +92,7 @@ VehicleCalibration parse_kitti_calibration(const KittiCalibrationText& text) {
 }
 
 void describe_kitti_car(VehicleCalibration& calibration) {
-  calibration.rear_axle_distance = 0.25;
+  calibration.rear_axle_distance = -0.28;
   calibration.climb_offset = 0.0084;
   calibration.climb_offset_sigma = 0.0087;
   calibration.beam_elevation = 0.00357792;
@@ -102,8 +102,10 @@ void describe_kitti_car(const VehicleCalibration& calibration, VehicleDescriptio
   VehicleCalibration kitti;
   describe_kitti_car(kitti);
   if (calibration.rear_axle_distance == kitti.rear_axle_distance)
-    description.car.rear_axle_distance_sigma = 0.03;
+    description.car.rear_axle_distance_sigma = 0.1;
   if (calibration.beam_elevation != kitti.beam_elevation) return;
+  description.car.rear_slip = 0.0085;
+  description.car.rear_slip_sigma = 0.0015;
   description.lidar.model = "HDL-64E";
   description.lidar.beam_elevation_sigma = 0.0005;
   description.imu.time = {0.06, 0.005};

@@ -56,7 +56,7 @@ TEST(KittiCalibration, ChainsTheThreeFilesAsPrinted) {
 
 TEST(KittiCalibration, RecognizesOnlyTheCarOfKitti) {
   const VehicleCalibration kitti = parse({});
-  EXPECT_EQ(kitti.rear_axle_distance, 0.25);
+  EXPECT_EQ(kitti.rear_axle_distance, -0.28);
   EXPECT_EQ(kitti.climb_offset, 0.0084);
   EXPECT_EQ(kitti.climb_offset_sigma, 0.0087);
   EXPECT_EQ(kitti.beam_elevation, 0.00357792);

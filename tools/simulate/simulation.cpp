@@ -50,11 +50,13 @@ void write_inertial(const Drive& drive, const fs::path& out, const SimulationOpt
 }
 
 // Returns what is known of the car. Its origin is above the rear axle and moves along body x,
-// except for the motion of its springs (vehicle_motion.h).
+// except for the motion of its springs (vehicle_motion.h); its tyres do not slip sideways.
 VehicleDescription description(const VehicleCalibration& car, Scanner scanner) {
   VehicleDescription d = description_of(car);
   d.car.rear_axle_distance_sigma = 0.01;
   d.car.climb_offset_sigma = 0.0087;
+  d.car.rear_slip = 0.0;
+  d.car.rear_slip_sigma = 0.0005;
   d.lidar.model = scanner == Scanner::vlp_16 ? "VLP-16" : "HDL-64E";
   // The float is rounded to the decimals that it stands for.
   const auto elevation = static_cast<double>(lidar_parameters(scanner).elevation_error);

@@ -79,6 +79,8 @@ void describe_car(VehicleConfig& config, const VehicleCalibration& recorded) {
   take("fusion", "rear_axle_distance", p.rear_axle_distance, d.car.rear_axle_distance);
   take("fusion", "climb_offset", p.climb_offset, d.car.climb_offset);
   take("fusion", "climb_offset_sigma", p.climb_offset_sigma, d.car.climb_offset_sigma);
+  take("fusion", "rear_slip", p.rear_slip, d.car.rear_slip);
+  take("fusion", "rear_slip_sigma", p.rear_slip_sigma, d.car.rear_slip_sigma);
   take("lidar", "elevation_correction", config.lidar.elevation_correction, d.lidar.beam_elevation);
   // No recording knows these.
   const SensorPosition& antenna = d.antenna.position;

@@ -46,6 +46,7 @@ inline fusion::StateVector busy_state() {
   x[odometry_course] = -0.02;
   x[odometry_left] = -0.2;
   x[axle_distance] = 0.9;
+  x[rear_slip] = 0.007;
   x.segment<3>(lever_forward) << 1.2, -0.4, 0.9;
   x[speed_scale] = -0.008;
   x[lidar_scale] = 0.003;

@@ -76,8 +76,10 @@ TEST(Truth, ConstantTurnIsKeptAtEveryRateOfTheImu) {
   MotionProfile circle;
   circle.yaw_rate = [](double) { return 0.25; };
   const SyntheticDrive drive(circle, 60.0, test_origin());
+  FusionParameters parameters;
+  parameters.rear_slip = 0.0;  // of this vehicle
   for (const double rate : {10.0, 50.0, 100.0}) {
-    ReducedImuFilter filter({}, test_origin());
+    ReducedImuFilter filter(parameters, test_origin());
     const Errors e = largest_errors(drive, run(drive, rate, {}, filter));
     EXPECT_LT(e.position, 0.05) << rate;
     EXPECT_LT(degrees(e.azimuth), 0.01) << rate;

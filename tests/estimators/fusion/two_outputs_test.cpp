@@ -183,6 +183,43 @@ TEST_F(Misdescribed, TheFilterLearnsThatOdometryIsFromFurtherToTheLeft) {
   EXPECT_LT(place.sigma, 0.2) << "m, of 0.3 at the start";
 }
 
+// The nose of this car points into a turn by 0.009 rad for each m/s^2 of lateral acceleration.
+TEST(RearSlip, IsLearntInTurnsOfSeveralSpeeds) {
+  constexpr double rear_slip = 0.009;  // rad/(m/s^2)
+  MotionProfile turns;
+  turns.speed = [](double t) { return 9.0 + 5.0 * std::sin(t / 11.0); };
+  turns.yaw_rate = [](double t) { return 0.3 * std::sin(t / 3.0); };
+  const SyntheticDrive drive(turns, 120.0, test_origin());
+  const auto nose = [&](double t) { return rear_slip * turns.speed(t) * turns.yaw_rate(t); };
+  const auto pose = [&](double t) -> Eigen::Isometry3d {
+    return drive.pose(t) * Eigen::AngleAxisd(nose(t), Vector3d::UnitZ());
+  };
+  const auto time_of = [](Time t) { return to_seconds(t - SyntheticDrive::at(0.0)); };
+
+  std::vector<Measurement> all;
+  for (ImuSample sample : drive.imu(100.0)) {
+    const double t = time_of(sample.stamp);
+    sample.yaw_rate += (nose(t + 0.01) - nose(t - 0.01)) / 0.02;
+    all.push_back(sample);
+  }
+  for (RelativeMotion m : drive.odometry(10.0)) {
+    const Eigen::Isometry3d T = pose(time_of(m.from)).inverse() * pose(time_of(m.stamp));
+    m.translation = T.translation();
+    m.rotation = Eigen::Quaterniond(T.rotation());
+    all.push_back(m);
+  }
+  all.push_back(drive.fix(0.0));
+  ReducedImuFilter filter(configured("VO-RI"), test_origin());
+  add_as_available(filter, all);
+  const SelfCalibrations learnt = filter.calibration();
+  const auto slip = std::find_if(learnt.begin(), learnt.end(),
+                                 [](const CalibratedProperty& c) { return c.key == "rear_slip"; });
+  ASSERT_NE(slip, learnt.end());
+  EXPECT_TRUE(slip->observed());
+  EXPECT_NEAR(slip->value, degrees(rear_slip), 2.0 * slip->sigma) << "deg at 1 m/s^2";
+  EXPECT_LT(slip->sigma, degrees(0.001));
+}
+
 // Returns what the filter knows, as if it were `age` before the start of the drive.
 RememberedCalibration remembered(const ReducedImuFilter& filter, Duration age) {
   RememberedCalibration all{SyntheticDrive::at(0.0) - age, {}, {}};
