@@ -22,8 +22,8 @@ namespace maploop::fusion {
 
 // Events with equal stamps are processed in this order.
 enum class EventKind : std::uint8_t {
-  start,
   imu,
+  start,
   wheel,
   gnss_velocity,
   gnss_position,

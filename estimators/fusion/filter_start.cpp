@@ -10,11 +10,16 @@ namespace maploop::fusion {
 Outcome ReducedImuFilter::start(const GnssFix& fix) {
   const Reason reason = check_fix(fix, parameters_);
   if (reason == Reason::too_slow) status_.phase = Phase::waiting_for_motion;
-  const Time begin = start_stamp(fix);
-  const ImuSample* sample = history_.samples_around(history_.position_after(begin)).before;
-  const double yaw_rate = sample == nullptr ? 0.0 : sample->yaw_rate;
-  return start_with(reason, begin, fix.position,
-                    [&] { return initial_state(fix, frame_, parameters_, yaw_rate); });
+  const Outcome outcome =
+      start_with(reason, start_stamp(fix), fix.position, [&] { return state_from(fix); });
+  if (!outcome.refused()) started_from_ = fix;
+  return outcome;
+}
+
+// The yaw rate is that of the last sample before the start, which may still be to come.
+FilterState ReducedImuFilter::state_from(const GnssFix& fix) const {
+  const double yaw_rate = history_.past.sample ? history_.past.sample->yaw_rate : 0.0;
+  return initial_state(fix, frame_, parameters_, yaw_rate);
 }
 
 Outcome ReducedImuFilter::start(const KnownStart& known) {
@@ -41,6 +46,7 @@ Outcome ReducedImuFilter::start_with(Reason reason, Time stamp, const Geodetic& 
   while (history_.size() > 0 && history_[0].key < key) drop_oldest();
   EventHistory::Past& past = history_.past;
   past.state = make_state();
+  started_from_.reset();
   fusion::recall(past.state, remembered_, sigmas_at_start_);
   past.key = key;
   if (past.sample) past.state.imu_stamp = past.sample->stamp;
@@ -62,7 +68,8 @@ void ReducedImuFilter::restart() {
   ++status_.restarts;
 }
 
-// The interpolation of the first stretch begins at the last sample before the start.
+// The interpolation of the first stretch begins at the last sample before the start, and the start
+// from a fix depends on its yaw rate.
 Outcome ReducedImuFilter::add_before_start(const ImuSample& sample) {
   const auto order = [](const ImuSample& s) { return std::pair(s.stamp, s.sequence); };
   EventHistory::Past& past = history_.past;
@@ -70,6 +77,10 @@ Outcome ReducedImuFilter::add_before_start(const ImuSample& sample) {
     return count(refused(Reason::before_start));
   }
   past.sample = sample;
+  if (started_from_) {
+    past.state = state_from(*started_from_);
+    fusion::recall(past.state, remembered_, sigmas_at_start_);
+  }
   past.state.imu_stamp = sample.stamp;
   roll_forward(0);
   accept_stamp(sample.stamp);

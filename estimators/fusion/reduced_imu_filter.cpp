@@ -201,8 +201,8 @@ void ReducedImuFilter::describe(Archive& ar, Filter& f) {
   ar.section("reduced-IMU filter", 5);
   archive_same_parameters(ar, f.parameters_);
   Geodetic origin = f.frame_.origin();
-  ar(f.remembered_, f.has_origin_, origin, f.guard_, f.imu_clock_, f.history_, f.initialized_,
-     f.status_);
+  ar(f.remembered_, f.has_origin_, origin, f.guard_, f.imu_clock_, f.history_, f.started_from_,
+     f.initialized_, f.status_);
   if constexpr (Archive::loading) {
     f.frame_ = LocalFrame(origin);
     f.earth_ = LocalEarth(origin);

@@ -145,6 +145,7 @@ class ReducedImuFilter {
   }
 
   Outcome start(const GnssFix& fix);
+  FilterState state_from(const GnssFix& fix) const;
   template <class MakeState>
   Outcome start_with(Reason reason, Time stamp, const Geodetic& position, MakeState make_state);
   void restart();
@@ -164,6 +165,7 @@ class ReducedImuFilter {
   StampGuard guard_;
   SensorClock imu_clock_;
   EventHistory history_;
+  std::optional<GnssFix> started_from_;
   bool initialized_ = false;
   FilterStatus status_;
 };

@@ -84,9 +84,9 @@ TEST_P(TightOnTurns, StaysNearTheTruthAndOnTheLink) {
 
 INSTANTIATE_TEST_SUITE_P(
     Sequences, TightOnTurns,
-    ::testing::Values(Reached{"00", 2.2, 4.5, 0.99}, Reached{"02", 2.6, 7.0, 0.99},
-                      Reached{"06", 1.8, 3.5, 0.99}, Reached{"08", 3.8, 12.5, 0.99},
-                      Reached{"10", 2.2, 4.2, 0.99}),
+    ::testing::Values(Reached{"00", 1.5, 5.0, 0.99}, Reached{"02", 2.0, 5.6, 0.99},
+                      Reached{"06", 1.8, 3.5, 0.99}, Reached{"08", 1.9, 3.6, 0.99},
+                      Reached{"10", 2.7, 4.0, 0.99}),
     [](const auto& reached) { return std::string("Of") + reached.param.sequence; });
 
 // The recorder's speed contradicts its positions by 4 m in the first 40 s of 08: after an unlucky

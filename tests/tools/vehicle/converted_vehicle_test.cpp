@@ -92,7 +92,7 @@ TEST(Converted, KittiIsTheCarOfItsSketch) {
   EXPECT_NEAR(d.camera.rotation.yaw, 0.0, 1.0);
   EXPECT_NEAR(d.camera.baseline, 0.5372, 1e-4);
   EXPECT_EQ(d.car.rear_axle_distance, -0.28);
-  EXPECT_EQ(d.car.rear_axle_distance_sigma, 0.03);
+  EXPECT_EQ(d.car.rear_axle_distance_sigma, 0.1);
   EXPECT_EQ(d.imu.time.delay, 0.06);
   EXPECT_EQ(d.lidar.model, "HDL-64E");
 }

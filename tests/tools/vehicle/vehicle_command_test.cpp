@@ -13,7 +13,7 @@ using KittisVehicle = DriveTest;
 TEST_F(VehicleCommand, NewAsksAndDoesNotOverwrite) {
   const Words ask{
       "/bin/sh", "-c",
-      "printf '\\n\\n1.4 0.05\\n\\n\\n\\n\\nn\\nn\\nn\\nn\\n' | \"$0\" vehicle new \"$1\"",
+      "printf '\\n\\n1.4 0.05\\n\\n\\n\\n\\n\\nn\\nn\\nn\\nn\\n' | \"$0\" vehicle new \"$1\"",
       maploop_command(), file("car.toml")};
   EXPECT_EQ(run(ask).status, 0);
   EXPECT_THAT(read_file(file("car.toml")),

@@ -77,11 +77,11 @@ TEST(VehicleDescription, AnglesAreThoseOfTheRotationEvenStraightUp) {
   EXPECT_TRUE(camera_pose({}, {}).linear().col(2).isApprox(Eigen::Vector3d::UnitX()));
 }
 
-// The last answers about a car without sensors, after six about the car itself.
+// The last answers about a car without sensors, after seven about the car itself.
 const std::string no_sensors = "n\nn\nn\nn\n";
 
 TEST(Questions, AnswersAreWrittenWithTheirStandardDeviation) {
-  std::istringstream in("golf\nleft\n1.2 0.1\n\n0.33\n\n0.01 0.002\n" + no_sensors);
+  std::istringstream in("golf\nleft\n1.2 0.1\n\n0.33\n\n0.01 0.002\n\n" + no_sensors);
   std::ostringstream out;
   const VehicleDescription d = ask(in, out);
   EXPECT_EQ(d.car.name, "golf");
@@ -95,7 +95,7 @@ TEST(Questions, AnswersAreWrittenWithTheirStandardDeviation) {
 }
 
 TEST(Questions, AWrongAnswerIsAskedForAgain) {
-  std::istringstream in("\nmiddle\nright\n99\n1.2 -1\nfar\n1.2\n\n\n\n\n" + no_sensors);
+  std::istringstream in("\nmiddle\nright\n99\n1.2 -1\nfar\n1.2\n\n\n\n\n\n" + no_sensors);
   std::ostringstream out;
   const VehicleDescription d = ask(in, out);
   EXPECT_EQ(d.car.rear_axle_distance, 1.2);
@@ -109,7 +109,7 @@ TEST(Questions, AWrongAnswerIsAskedForAgain) {
 
 TEST(Questions, OnlyTheSensorsThatAreThereAreAskedFor) {
   std::istringstream in(
-      "\n\n\n\n\n\n\nn\nperhaps\ny\nHDL-32E\n\n\n0.5 0.01\n\n1.5 0.01\n\n\n\n\nn\nn\n");
+      "\n\n\n\n\n\n\n\nn\nperhaps\ny\nHDL-32E\n\n\n0.5 0.01\n\n1.5 0.01\n\n\n\n\nn\nn\n");
   std::ostringstream out;
   const VehicleDescription d = ask(in, out);
   EXPECT_EQ(d.lidar.model, "HDL-32E");
