@@ -1,6 +1,6 @@
 #include "runtime/core/data_clock.h"
 
-#include <time.h>
+#include <ctime>
 
 #include <algorithm>
 #include <cmath>

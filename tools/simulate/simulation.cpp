@@ -28,6 +28,7 @@ void write_frame_stamps(const Drive& drive, const fs::path& folder,
                         const SimulatedSensors& sensors) {
   const auto write = [&](const char* file, const std::vector<double>& times, double later) {
     std::vector<Time> stamps;
+    stamps.reserve(times.size());
     for (const double t : times) stamps.push_back(drive.start + from_seconds(t + later));
     write_timestamps(folder / file, stamps);
   };
@@ -44,9 +45,10 @@ void write_frame_stamps(const Drive& drive, const fs::path& folder,
 void write_inertial(const Drive& drive, const fs::path& out, const SimulationOptions& options) {
   constexpr double fast_interval = 0.01;  // s between rows of the 100 Hz recording
   for (const auto& [name, interval] :
-       {std::pair("town_sync", Drive::frame_interval), std::pair("town_extract", fast_interval)})
+       {std::pair("town_sync", Drive::frame_interval), std::pair("town_extract", fast_interval)}) {
     write_oxts(out / name / "oxts", drive.motion, drive.frame, drive.start, options.seconds,
                interval, imu_parameters(options.imu), options.seed);
+  }
 }
 
 // Returns what is known of the car. Its origin is above the rear axle and moves along body x,
@@ -105,9 +107,10 @@ bool write_drive(const fs::path& out, const SimulationOptions& options,
   write_calibration(out);
   write_frame_stamps(drive, sync, sensors);
   if (sensors.imu) write_inertial(drive, out, options);
-  if (sensors.gnss)
+  if (sensors.gnss) {
     write_gnss(sync, {drive.motion, drive.traffic, *drive.world, drive.frame, drive.start,
                       options.seconds, options.gnss_rate, options.seed});
+  }
   write_road_map(out / "map.osm", drive.streets, drive.frame, options.seed);
   write_configuration(out / "vehicle.toml", drive, options);
   write_driven_links(out / "driven_links.csv", drive.streets, drive.motion, drive.times);
@@ -122,17 +125,19 @@ bool simulate_drive(const fs::path& out, const SimulationOptions& options,
                     const FrameDone& frame_done) {
   if (!(options.seconds >= 1.0 && options.seconds <= 3600.0))
     throw std::invalid_argument("a simulated drive takes 1 to 3600 s");
-  if (fs::exists(out))
+  if (fs::exists(out)) {
     throw std::runtime_error("'" + out.string() +
                              "' exists already: name another folder, or remove it");
+  }
   fs::path partial = out;
   partial += ".partial";
   std::error_code error;
   fs::remove_all(partial, error);
   fs::create_directories(partial, error);
-  if (error)
+  if (error) {
     throw std::runtime_error("cannot make the folder '" + partial.string() +
                              "': " + error.message() + "; name a place that can be written");
+  }
   bool complete = false;
   try {
     complete = write_drive(partial, options, frame_done);

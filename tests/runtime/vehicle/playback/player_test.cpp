@@ -37,8 +37,8 @@ class PlayerTest : public ::testing::Test {
     parameters.last = testing::drive_start + from_seconds(drive_seconds);
     player_ = std::make_unique<Player>(
         [this](const Snapshot* from) {
-          if (from != nullptr) resumed_at.push_back(from->at);
-          auto vehicle = make_vehicle(tapes.emplace_back());
+          if (from != nullptr) resumed_at_.push_back(from->at);
+          auto vehicle = make_vehicle(tapes_.emplace_back());
           if (from != nullptr) vehicle->resume(*from);
           return vehicle;
         },
@@ -48,7 +48,7 @@ class PlayerTest : public ::testing::Test {
   // Starts again with other parameters.
   void start_again(const PlayerParameters& parameters) {
     player_.reset();
-    tapes.clear();
+    tapes_.clear();
     start(parameters);
   }
 
@@ -81,8 +81,8 @@ class PlayerTest : public ::testing::Test {
     }
   }
 
-  std::deque<MessageTape> tapes;  // one for each vehicle
-  std::vector<Time> resumed_at;
+  std::deque<MessageTape> tapes_;  // one for each vehicle
+  std::vector<Time> resumed_at_;
 
  private:
   std::unique_ptr<Player> player_;
@@ -100,7 +100,7 @@ TEST_F(PlayerTest, PauseHoldsTimeAndResumeChangesNoBit) {
   player().set_speed(20.0);
   play_to_end();
   EXPECT_GT(vehicle().position(), held);
-  EXPECT_EQ(tapes.back().all(), driven_at_once());
+  EXPECT_EQ(tapes_.back().all(), driven_at_once());
 }
 
 TEST_F(PlayerTest, AStepGoesToTheNextSampleOrImageAndNoFurther) {
@@ -133,7 +133,7 @@ TEST_F(PlayerTest, SeekArrivesWithTheStateOfHavingDrivenThere) {
   EXPECT_FALSE(player().seek(player().last() + milliseconds(1))) << "after the drive";
   player().set_speed(20.0);
   play_to_end();
-  EXPECT_EQ(tapes.back().all(), driven_at_once());
+  EXPECT_EQ(tapes_.back().all(), driven_at_once());
 }
 
 TEST_F(PlayerTest, SeekWhilePausedIsPausedOnArrival) {
@@ -184,10 +184,10 @@ TEST_F(PlayerTest, SeekBackGoesOnFromTheSnapshotBeforeAsIfItHadComeThereDirectly
   arrive();
   EXPECT_GE(vehicle().position() + milliseconds(10), target);
   EXPECT_LT(vehicle().position(), target + milliseconds(500));
-  ASSERT_EQ(resumed_at, std::vector<Time>{player().first() + milliseconds(1000)});
+  ASSERT_EQ(resumed_at_, std::vector<Time>{player().first() + milliseconds(1000)});
   player().set_speed(20.0);
   play_to_end();
-  EXPECT_EQ(tapes.back().all(), after(driven_at_once(), resumed_at.back()));
+  EXPECT_EQ(tapes_.back().all(), after(driven_at_once(), resumed_at_.back()));
 }
 
 TEST_F(PlayerTest, SeekBackWithoutASnapshotStartsAgain) {
@@ -198,11 +198,11 @@ TEST_F(PlayerTest, SeekBackWithoutASnapshotStartsAgain) {
   arrive();
   ASSERT_TRUE(player().seek(player().first() + milliseconds(300)));
   arrive();
-  EXPECT_TRUE(resumed_at.empty());
-  EXPECT_EQ(tapes.size(), 2u);
+  EXPECT_TRUE(resumed_at_.empty());
+  EXPECT_EQ(tapes_.size(), 2u);
   player().set_speed(20.0);
   play_to_end();
-  EXPECT_EQ(tapes.back().all(), driven_at_once());
+  EXPECT_EQ(tapes_.back().all(), driven_at_once());
 }
 
 TEST_F(PlayerTest, SeekBackKeepsPauseAndSpeed) {
@@ -228,9 +228,9 @@ TEST_F(PlayerTest, EachPassHasTheSameBits) {
   player().set_speed(20.0);
   play_to_end();
   EXPECT_EQ(player().speed(), 20.0);
-  ASSERT_EQ(tapes.size(), 3u);
+  ASSERT_EQ(tapes_.size(), 3u);
   const auto reference = driven_at_once();
-  for (const MessageTape& tape : tapes) EXPECT_EQ(tape.all(), reference);
+  for (const MessageTape& tape : tapes_) EXPECT_EQ(tape.all(), reference);
 }
 
 TEST_F(PlayerTest, EachPassGoesToItsStartAsFastAsItCan) {
@@ -240,9 +240,9 @@ TEST_F(PlayerTest, EachPassGoesToItsStartAsFastAsItCan) {
   start_again(parameters);
   EXPECT_TRUE(player().seeking());
   play_to_end();
-  ASSERT_EQ(tapes.size(), 2u);
+  ASSERT_EQ(tapes_.size(), 2u);
   const auto reference = driven_at_once();
-  for (const MessageTape& tape : tapes) EXPECT_EQ(tape.all(), reference);
+  for (const MessageTape& tape : tapes_) EXPECT_EQ(tape.all(), reference);
 }
 
 TEST_F(PlayerTest, QuitEndsAllPasses) {
@@ -252,7 +252,7 @@ TEST_F(PlayerTest, QuitEndsAllPasses) {
   play_until(player().first() + milliseconds(200));
   player().quit();
   play_to_end();
-  EXPECT_EQ(tapes.size(), 1u);
+  EXPECT_EQ(tapes_.size(), 1u);
 }
 
 TEST(SnapshotRing, KeepsToItsSizeAndReachesOverTheWholeDrive) {
