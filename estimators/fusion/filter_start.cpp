@@ -74,7 +74,8 @@ Outcome ReducedImuFilter::add_before_start(const ImuSample& sample) {
   const auto order = [](const ImuSample& s) { return std::pair(s.stamp, s.sequence); };
   EventHistory::Past& past = history_.past;
   if (past.sample && order(sample) <= order(*past.sample)) {
-    return count(refused(Reason::before_start));
+    const bool known = order(sample) == order(*past.sample);
+    return count(refused(known ? Reason::duplicate : Reason::before_start));
   }
   past.sample = sample;
   if (started_from_) {

@@ -119,6 +119,16 @@ TEST_F(Refusals, OfStamps) {
   expect_refused(odometry_[95], Reason::duplicate);
 }
 
+TEST_F(Refusals, OfTheStartsOwnInertialSampleThatComesTwice) {
+  ReducedImuFilter filter({}, test_origin());
+  filter.add(imu_[100]);
+  GnssFix fix = drive_.fix(0.0);
+  fix.stamp = fix.velocity_stamp = fix.available = imu_[100].stamp;
+  ASSERT_FALSE(filter.add(fix).refused());
+  EXPECT_EQ(filter.add(imu_[100]), refused(Reason::duplicate));
+  EXPECT_EQ(filter.add(imu_[99]), refused(Reason::before_start));
+}
+
 TEST_F(Refusals, OfWhatIsStampedLaterThanItWasDelivered) {
   for (const double ahead : {0.06, 1.5, 3.0, 3600.0}) {
     ImuSample sample = sample_;
