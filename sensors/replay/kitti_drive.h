@@ -37,4 +37,8 @@ class KittiDrive : public FolderDrive {
                       std::optional<StereoRig> raw_cameras = {});
 };
 
+// Returns the folder that holds a drive's images and scans: the `..._sync` beside an `..._extract`
+// if there is one, or else the drive's own folder.
+std::filesystem::path kitti_image_folder(const std::filesystem::path& drive);
+
 }  // namespace maploop::sensors

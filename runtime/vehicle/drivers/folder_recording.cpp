@@ -108,8 +108,11 @@ void use_tables(Sensors& s, const sensors::FolderDrive& drive, const VehicleConf
 bool has_oxts_alone(const fs::path& folder) {
   std::error_code ignored;
   if (fs::is_directory(folder / "oxts", ignored)) {
-    return !fs::is_directory(folder / "image_00", ignored) &&
-           !fs::is_directory(folder / "velodyne_points", ignored);
+    const auto has = [&](const char* sensor) {
+      return fs::is_directory(folder / sensor, ignored) ||
+             fs::is_directory(sensors::kitti_image_folder(folder) / sensor, ignored);
+    };
+    return !has("image_00") && !has("velodyne_points");
   }
   if (!fs::is_directory(folder, ignored)) return false;
   const auto name = sensors::find_kitti_360(folder);

@@ -36,6 +36,10 @@ TEST(SimulatedReplay, ObservationsTakeThePlaceOfTheReferencesGnss) {
     EXPECT_TRUE(config.given.contains(key)) << key;
   }
 
+  vehicle::fit_to_recording(config, drive / "town_extract");
+  EXPECT_EQ(config.configuration, "auto") << "images and scans are in the folder beside it";
+  EXPECT_EQ(config.odometry, "visual-lidar");
+
   const vehicle::Recording recording = vehicle::open_recording(drive / "town_extract", config);
   vehicle::Sensors sensors = recording.sensors(Time::max());
   EXPECT_EQ(sensors.gnss, nullptr);
