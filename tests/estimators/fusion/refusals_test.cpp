@@ -236,8 +236,8 @@ TEST(Start, WaitsForAFixThatMovesAndKeepsWhatArrivesMeanwhile) {
   EXPECT_FALSE(filter.state_at(drive.at(0.0)));
   int started_at = -1;
   for (int second = 0; second < 40 && started_at < 0; ++second) {
-    for (int i = 0; i < 100; ++i) {
-      const ImuSample& s = imu[static_cast<std::size_t>(100 * second + i)];
+    for (std::size_t i = 0; i < 100; ++i) {
+      const ImuSample& s = imu[100 * static_cast<std::size_t>(second) + i];
       EXPECT_EQ(filter.add(s), (Outcome{Disposition::held, Reason::none}));
     }
     const Outcome outcome = filter.add(drive.fix(second));
