@@ -245,29 +245,38 @@ const Solved& solved(const fs::path& folder) {
   return result;
 }
 
-// The errors are 0.10, 0.27 and 0.30 m after five minutes; on one frequency 2.0, 2.4 and 1.7 m,
-// mostly up.
+// The bounds are a little above what is reached: 0.08, 0.22 and 0.26 m after five minutes; on one
+// frequency 3.1, 2.9 and 3.1 m, mostly up.
 TEST(GnssOnlyDrive, OpenSkyConvergesToDecimetres) {
-  for (const std::uint64_t seed : {1U, 2U, 3U}) {
-    const fs::path drive = gnss_drive(Environment::open, seed);
+  struct Bound {
+    std::uint64_t seed;
+    double dual, single;
+  };
+  for (const Bound& bound : {Bound{1, 0.09, 3.3}, {2, 0.25, 3.1}, {3, 0.29, 3.3}}) {
+    const fs::path drive = gnss_drive(Environment::open, bound.seed);
     EXPECT_FALSE(fs::exists(drive / "image_00"));
     const Solved& dual = solved(drive / "gnss");
     EXPECT_EQ(dual.solved, 300U);
-    EXPECT_LT(dual.error, 0.45);
+    EXPECT_LT(dual.error, bound.dual);
     const Solved& single = solved(drive / "gnss_one_frequency");
     EXPECT_EQ(single.solved, 300U);
-    EXPECT_LT(single.error, 3.5);
+    EXPECT_LT(single.error, bound.single);
   }
 }
 
-// Between houses codes are wrong by tens of metres and several phases slip at a time: 4.6, 5.2 and
-// 6.3 m horizontally, NEES 9.7, 3.3 and 3.4 (expected 3).
+// Between houses codes are wrong by tens of metres and several phases slip at a time. The bounds
+// are a little above what is reached: 3.3, 5.4 and 6.8 m horizontally, NEES 4.4, 3.5 and 3.9
+// (expected 3).
 TEST(GnssOnlyDrive, InStreetCanyonsItIsMetresOffAndSaysSo) {
-  for (const std::uint64_t seed : {1U, 2U, 3U}) {
-    const Solved& canyon = solved(gnss_drive(Environment::urban, seed) / "gnss");
+  struct Bound {
+    std::uint64_t seed;
+    double horizontal_rmse, nees;
+  };
+  for (const Bound& bound : {Bound{1, 3.6, 4.8}, {2, 5.8, 3.8}, {3, 7.2, 4.3}}) {
+    const Solved& canyon = solved(gnss_drive(Environment::urban, bound.seed) / "gnss");
     EXPECT_GE(canyon.solved, 299U);
-    EXPECT_LT(canyon.accuracy.horizontal_rmse, 8.0);
-    EXPECT_LT(canyon.accuracy.nees, 12.0);
+    EXPECT_LT(canyon.accuracy.horizontal_rmse, bound.horizontal_rmse);
+    EXPECT_LT(canyon.accuracy.nees, bound.nees);
   }
 }
 
