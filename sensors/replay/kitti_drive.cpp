@@ -170,9 +170,9 @@ KittiDrive::KittiDrive(const std::filesystem::path& folder, const KittiDrivePara
     : FolderDrive(kitti_parts(folder, std::move(raw_cameras)), parameters) {}
 
 std::filesystem::path kitti_image_folder(const std::filesystem::path& drive) {
-  const std::filesystem::path folder = normal(drive);
+  std::filesystem::path folder = normal(drive);
   if (!is_unsynced(folder)) return folder;
-  const std::filesystem::path synced = synced_beside(folder);
+  std::filesystem::path synced = synced_beside(folder);
   return is_folder(synced) ? synced : folder;
 }
 

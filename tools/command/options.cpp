@@ -17,6 +17,15 @@ CLI::Option* add_config(CLI::App* sub, std::filesystem::path& file, const char* 
   return sub->add_option("--config", file, what)->check(existing_file());
 }
 
+CLI::Option* add_settings(CLI::App* sub, std::vector<std::string>& settings) {
+  return sub
+      ->add_option(
+          "--set", settings,
+          "TABLE.KEY=VALUE of a parameter, such as fusion.use_gnss=false, in place of what "
+          "--config says")
+      ->allow_extra_args(false);
+}
+
 CLI::Option* add_topics(CLI::App* sub, std::vector<std::string>& topics) {
   return sub
       ->add_option("--topic", topics,

@@ -21,6 +21,9 @@ CLI::Option* add_lcm_url(CLI::App* sub, std::string& url);
 CLI::Option* add_config(CLI::App* sub, std::filesystem::path& file,
                         const char* what = "TOML file of parameters");
 
+// --set TABLE.KEY=VALUE, more than once, in place of what the file says.
+CLI::Option* add_settings(CLI::App* sub, std::vector<std::string>& settings);
+
 // --topic SENSOR=TOPIC, more than once, of a bag or an MCAP file.
 CLI::Option* add_topics(CLI::App* sub, std::vector<std::string>& topics);
 

@@ -26,7 +26,7 @@ struct DoctorOptions {
   std::filesystem::path json;
   std::string lcm_url;
   std::filesystem::path recording;  // empty: the machine is examined
-  std::vector<std::string> topics;
+  std::vector<std::string> settings, topics;
 };
 
 // Asks the kernel for each thread of the graph as a paced replay would.
@@ -69,7 +69,8 @@ void examine_recording(const DoctorOptions& options, vehicle::VehicleConfig conf
 }
 
 int doctor(const DoctorOptions& options) {
-  vehicle::VehicleConfig config = vehicle::load_vehicle_config(options.config, options.topics);
+  vehicle::VehicleConfig config =
+      vehicle::load_vehicle_config(options.config, options.settings, options.topics);
   if (!options.recording.empty()) {
     examine_recording(options, std::move(config));
     return 0;
@@ -97,6 +98,7 @@ void add_doctor(CLI::App& app, Command& command) {
                   "Whatever maploop replay takes. Without it, the machine is examined");
   add_topics(sub, options.topics);
   add_config(sub, options.config);
+  add_settings(sub, options.settings);
   add_lcm_url(sub, options.lcm_url);
   add_output(sub, "--json", options.json, "Write the report to this file as JSON");
 }

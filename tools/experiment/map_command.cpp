@@ -18,7 +18,7 @@ namespace {
 struct MapOptions {
   std::filesystem::path map, folder, config, html, csv;
   experiments::MapCases cases;
-  std::vector<std::string> set;
+  std::vector<std::string> settings;
   bool faults = false;
 };
 
@@ -42,9 +42,8 @@ std::string samples_csv(const std::vector<experiments::MapResult>& results) {
 
 int compare_modes(const MapOptions& options) {
   experiments::MapSetting setting;
-  setting.config = vehicle::load_vehicle_config(options.config);
+  setting.config = vehicle::load_vehicle_config(options.config, options.settings);
   setting.folder = options.folder;
-  experiments::set_parameters(setting, options.set);
   mapmatch::MapExtract map;
   if (options.faults) map = mapmatch::read_osm(options.map);
   setting.extract = &map;
@@ -107,8 +106,7 @@ void add_map_experiment(CLI::App& experiment, Command& command) {
   sub->add_flag("--faults", options->faults, "On wrong maps, too");
   sub->add_option("--config", options->config, "TOML file of the other parameters")
       ->check(existing_file());
-  sub->add_option("--set", options->set,
-                  "NAME=VALUE of a parameter of matching, feedback or guard");
+  add_settings(sub, options->settings);
   sub->add_option("--html", options->html, "Write a page with tables and pictures to this file");
   sub->add_option("--csv", options->csv, "Write every tick of every run to this file");
   sub->callback([options, &command] { command = [options] { return compare_modes(*options); }; });

@@ -14,7 +14,6 @@
 #include "runtime/vehicle/graph/graph.h"
 #include "sensors/replay/reference_trajectory.h"
 #include "tools/match/map_faults.h"
-#include "tools/match/parameter_settings.h"
 
 namespace maploop::experiments {
 namespace {
@@ -96,11 +95,6 @@ const std::vector<std::string>& map_faults() {
   static const std::vector<std::string> names{"missing", "shifted 5 m", "shifted 10 m", "reversed",
                                               "parallel 12 m"};
   return names;
-}
-
-void set_parameters(MapSetting& setting, const std::vector<std::string>& settings) {
-  vehicle::VehicleConfig& config = setting.config;
-  match::apply_settings(settings, config.mapmatch, config.feedback, config.guard, config.fusion);
 }
 
 std::vector<MapCase> map_cases(const MapCases& wanted) {

@@ -70,10 +70,6 @@ struct MapResult {
   std::uint64_t restorations = 0;  // times what the map had led to was undone
 };
 
-// Each is NAME=VALUE of a parameter of matching, feedback, guard or fusion. Throws
-// std::runtime_error naming what is wrong.
-void set_parameters(MapSetting& setting, const std::vector<std::string>& settings);
-
 // What is to be compared: every combination that there is data for.
 struct MapCases {
   std::vector<std::string> sequences{"00", "01", "02", "03", "04", "06", "08", "10"};

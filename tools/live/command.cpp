@@ -50,7 +50,7 @@ void tell_service_manager(std::string_view state) {
 }
 
 vehicle::VehicleConfig config_of(const LiveOptions& options) {
-  vehicle::VehicleConfig config = vehicle::load_vehicle_config(options.config);
+  vehicle::VehicleConfig config = vehicle::load_vehicle_config(options.config, options.settings);
   set_map(config.map, options.map, options.map_mode);
   return config;
 }

@@ -70,7 +70,7 @@ evaluation::StampedTrajectory truth_of_tracks(const std::filesystem::path& file)
 }  // namespace
 
 vehicle::VehicleConfig open_recording(const InputFiles& files, vehicle::Recording* recording) {
-  vehicle::VehicleConfig config = vehicle::load_vehicle_config(files.config, files.topics);
+  vehicle::VehicleConfig config = vehicle::load_vehicle_config(files.config, {}, files.topics);
   config.ppp.observations = false;  // odometry does not need them
   *recording = vehicle::open_recording(files.input, config);
   for (const std::string& note : recording->notes) std::cerr << "maploop: " << note << '\n';

@@ -27,6 +27,7 @@ struct PppOptions {
   std::optional<vehicle::MapMode> map_mode;
   std::optional<double> mask;
   bool broadcast = false, ecef = false;
+  std::vector<std::string> settings;
   std::filesystem::path map, config, pos, nmea, geojson, kml, residuals, html, json;
 };
 
@@ -45,7 +46,7 @@ ppp::GpsTime moment(const std::string& text, const std::string& option, ppp::Gps
 
 // What the command line does not say is the configuration's.
 vehicle::VehicleConfig config_of(const PppOptions& options) {
-  vehicle::VehicleConfig config = vehicle::load_vehicle_config(options.config);
+  vehicle::VehicleConfig config = vehicle::load_vehicle_config(options.config, options.settings);
   vehicle::PppConfig& p = config.ppp;
   if (!options.mode.empty()) {
     p.filter.motion = options.mode == "static" ? ppp::Motion::fixed : ppp::Motion::kinematic;
@@ -163,6 +164,7 @@ void add_ppp(CLI::App& app, Command& command) {
          "--config", options->config,
          "TOML file whose [ppp], [map], [mapmatch] and [feedback] set what these options do not")
       ->check(existing_file());
+  add_settings(sub, options->settings);
   sub->add_option("--start", options->start, "First epoch: [YYYY-MM-DD ]HH:MM:SS of GPS time");
   sub->add_option("--end", options->end, "Last epoch, the same way");
   sub->add_option("--map", options->map,

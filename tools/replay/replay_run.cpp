@@ -42,7 +42,8 @@ std::string configuration_of(const ReplayOptions& options, const vehicle::Vehicl
 }
 
 vehicle::VehicleConfig config_of(const ReplayOptions& options, vehicle::KnownContents& contents) {
-  vehicle::VehicleConfig config = vehicle::load_vehicle_config(options.config, options.topics);
+  vehicle::VehicleConfig config =
+      vehicle::load_vehicle_config(options.config, options.settings, options.topics);
   if (options.seed) config.gnss.seed = config.wheel.seed = config.imu_seed = *options.seed;
   contents = vehicle::fit_to_recording(config, options.drive);
   const std::string configuration = configuration_of(options, config);

@@ -50,6 +50,7 @@ bool attempt(const std::function<void()>& write) {
 }  // namespace
 
 void add_run_options(CLI::App* sub, RunOptions& options) {
+  add_settings(sub, options.settings);
   sub->add_flag("--verbose", options.verbose,
                 "End with the tables of accuracy, sensors, losses, latencies and hashes, and say "
                 "of every real-time setting what was granted");

@@ -33,7 +33,8 @@ constexpr auto names_of(OutputFrame) {
 
 struct RunOptions {
   std::filesystem::path config;
-  bool verbose = false;  // the tables at the end, and every real-time setting
+  std::vector<std::string> settings;  // TABLE.KEY=VALUE
+  bool verbose = false;               // the tables at the end, and every real-time setting
   std::filesystem::path record;
   bool record_raw = false;
   bool no_lcm = false;

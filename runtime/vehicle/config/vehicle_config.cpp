@@ -75,22 +75,35 @@ void check_part(const runtime::ConfigTable& root, const auto& table, const auto&
     table_in(root, table.name).fail(problem->key, problem->text);
 }
 
-// Makes the paths that a file gives in the vehicle's tables start from its folder.
+// Makes a path that a text gives start from the text's folder.
+void place_path(const runtime::ConfigTable& root, const std::filesystem::path& folder,
+                const char* table, const char* key, std::string& path) {
+  if (table_in(root, table).has(key) && !path.empty()) path = (folder / path).string();
+}
+
 void place_paths(const runtime::ConfigTable& root, const std::filesystem::path& folder,
                  VehicleDescription& vehicle) {
-  for (const auto& [table, path] : {std::pair("vehicle.camera", &vehicle.camera.calibration),
-                                    std::pair("vehicle.lidar", &vehicle.lidar.calibration)}) {
-    if (table_in(root, table).has("calibration") && !path->empty())
-      *path = (folder / *path).string();
-  }
+  place_path(root, folder, "vehicle.camera", "calibration", vehicle.camera.calibration);
+  place_path(root, folder, "vehicle.lidar", "calibration", vehicle.lidar.calibration);
+}
+
+void place_paths(const runtime::ConfigTable& root, const std::filesystem::path& folder,
+                 VehicleConfig& config) {
+  place_paths(root, folder, config.vehicle);
+  place_path(root, folder, "odometry_poses", "file", config.odometry_poses.file);
+  place_path(root, folder, "map", "file", config.map.file);
+  place_path(root, folder, "map", "rules", config.map.rules);
+  if (!root.table("ppp").has("products")) return;
+  for (std::string& product : config.ppp.products) product = (folder / product).string();
 }
 
 // Reads the file that [vehicle] names, which has the tables of the vehicle alone.
 void read_vehicle_file(const runtime::ConfigTable& root, const std::filesystem::path& folder,
                        VehicleConfig& config) {
-  root.table("vehicle").read("file", config.vehicle_file);
-  if (config.vehicle_file.empty()) return;
-  const std::filesystem::path file = folder / config.vehicle_file;
+  std::string name;
+  root.table("vehicle").read("file", name);
+  if (name.empty()) return;
+  const std::filesystem::path file = folder / name;
   const runtime::ConfigDocument document = runtime::ConfigDocument::load(file);
   const runtime::ConfigTable in_file = document.root();
   each_table(
@@ -102,42 +115,61 @@ void read_vehicle_file(const runtime::ConfigTable& root, const std::filesystem::
   place_paths(in_file, file.parent_path(), config.vehicle);
 }
 
+// A text of parameters, with the folder from which its paths start.
+struct Layer {
+  runtime::ConfigDocument document;
+  std::filesystem::path folder;
+};
+
 // The names are read first, and the keys that they set may then differ from them.
-void read_names(const runtime::ConfigTable& root, VehicleConfig& config) {
-  const auto set = [&](const char* key, std::string name, auto set_by_name) {
-    root.read(key, name);
+void read_names(const std::vector<Layer>& layers, VehicleConfig& config) {
+  const auto set = [&](const char* key, auto set_by_name) {
+    const Layer* last = nullptr;
+    std::string name;
+    for (const Layer& layer : layers) {
+      const runtime::ConfigTable root = layer.document.root();
+      root.read(key, name);
+      if (root.has(key)) last = &layer;
+    }
+    if (last == nullptr) return;
     try {
       set_by_name(config, name);
     } catch (const std::invalid_argument& e) {
-      root.fail(key, e.what());
+      last->document.root().fail(key, e.what());
     }
   };
-  set("configuration", config.configuration, set_configuration);
-  set("imu_grade", config.imu_grade, set_imu_grade);
+  set("configuration", set_configuration);
+  set("imu_grade", set_imu_grade);
 }
 
-VehicleConfig read_vehicle_config(const std::filesystem::path& file) {
-  VehicleConfig config;
-  const runtime::ConfigDocument document = runtime::ConfigDocument::load(file);
-  const runtime::ConfigTable root = document.root();
-  read_names(root, config);
-  const std::filesystem::path folder = file.parent_path();
-  read_vehicle_file(root, folder, config);
+void read_layer(const Layer& layer, VehicleConfig& config) {
+  const runtime::ConfigTable root = layer.document.root();
+  read_vehicle_file(root, layer.folder, config);
   each_part(config,
             [&](const auto& table, auto& values) { read_part(root, table, values, config.given); });
   for (const ScheduledThread& thread : scheduled_threads()) {
     read(root.table("scheduling"), thread.key, config.scheduling.*thread.scheduling);
   }
-  document.reject_unknown(moved_keys);
+  layer.document.reject_unknown(moved_keys);
   each_part(config,
             [&](const auto& table, const auto& values) { check_part(root, table, values); });
-  place_paths(root, folder, config.vehicle);
-  for (std::string* path : {&config.odometry_poses.file, &config.map.file, &config.map.rules})
-    if (!path->empty()) *path = (folder / *path).string();
-  for (std::string& product : config.ppp.products) product = (folder / product).string();
-  config.vehicle_file.clear();  // all of it is in `vehicle`
-  describe_car(config, {});
-  return config;
+  place_paths(root, layer.folder, config);
+}
+
+// TABLE.KEY=VALUE is TOML, unless the quotes of a text are left out.
+runtime::ConfigDocument parse_setting(const std::string& setting) {
+  const std::string name = "--set " + setting;
+  const std::size_t equal = setting.find('=');
+  if (equal == std::string::npos)
+    throw runtime::ConfigError(name +
+                               ": write TABLE.KEY=VALUE, as in --set fusion.gyro_noise=1e-4");
+  try {
+    return runtime::ConfigDocument::parse(setting, name);
+  } catch (const runtime::ConfigError&) {
+    const std::size_t text = std::min(setting.find_first_not_of(' ', equal + 1), setting.size());
+    return runtime::ConfigDocument::parse(
+        setting.substr(0, equal + 1) + '\'' + setting.substr(text) + '\'', name);
+  }
 }
 
 }  // namespace
@@ -163,8 +195,16 @@ void set_imu_grade(VehicleConfig& config, const std::string& name) {
 }
 
 VehicleConfig load_vehicle_config(const std::filesystem::path& file,
+                                  const std::vector<std::string>& settings,
                                   const std::vector<std::string>& topics) {
-  VehicleConfig config = file.empty() ? VehicleConfig{} : read_vehicle_config(file);
+  std::vector<Layer> layers;
+  if (!file.empty()) layers.push_back({runtime::ConfigDocument::load(file), file.parent_path()});
+  for (const std::string& setting : settings) layers.push_back({parse_setting(setting), {}});
+  VehicleConfig config;
+  read_names(layers, config);
+  for (const Layer& layer : layers) read_layer(layer, config);
+  if (!layers.empty()) describe_car(config, {});
+  config.vehicle_file.clear();  // all of it is in `vehicle`
   config.bag.topics.insert(config.bag.topics.end(), topics.begin(), topics.end());
   return config;
 }

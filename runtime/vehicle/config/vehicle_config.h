@@ -124,8 +124,11 @@ void describe_car(VehicleConfig& config, const VehicleCalibration& recorded);
 // Reads a TOML file; absent keys keep their defaults, and so do all without a file (empty). Throws
 // runtime::ConfigError naming file, line and key for anything wrong: unknown keys, with the place
 // of those that have moved, and values out of their range. runtime/vehicle/config/maploop.toml
-// lists every key. `topics` (of --topic) follow [bag] topics.
+// lists every key. `settings` (of --set) are texts TABLE.KEY=VALUE, which are read as if they stood
+// at the end of the file; the quotes of a text may be left out. Paths in them start from the
+// current folder. `topics` (of --topic) follow [bag] topics.
 VehicleConfig load_vehicle_config(const std::filesystem::path& file,
+                                  const std::vector<std::string>& settings = {},
                                   const std::vector<std::string>& topics = {});
 
 // Returns every key with its value, as load_vehicle_config() reads it back, but for users and

@@ -161,13 +161,5 @@ INSTANTIATE_TEST_SUITE_P(Faults, WrongMaps,
                            return name;
                          });
 
-TEST(MapExperiment, SaysWhatIsWrongWithASetting) {
-  MapSetting setting;
-  EXPECT_THROW(set_parameters(setting, {"spacing"}), std::runtime_error);
-  EXPECT_THROW(set_parameters(setting, {"no_such_thing=1"}), std::runtime_error);
-  set_parameters(setting, {"spacing=5"});
-  EXPECT_EQ(setting.config.feedback.spacing, 5.0);
-}
-
 }  // namespace
 }  // namespace maploop::experiments

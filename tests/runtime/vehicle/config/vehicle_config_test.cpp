@@ -52,6 +52,44 @@ TEST(VehicleConfig, TheShippedFileHasEveryKeyWithItsDefault) {
   EXPECT_EQ(keys(text.str()), keys(to_toml(VehicleConfig{})));
 }
 
+TEST(VehicleConfigSetting, StandsInPlaceOfTheFile) {
+  const maploop::testing::TemporaryFolder folder;
+  const auto file = folder.path() / "test.toml";
+  std::ofstream(file) << "configuration = \"GNSS+RISS\"\nimu_grade = \"mems\"\n"
+                         "[fusion]\nmin_course_speed = 3.0\n[map]\nfile = \"roads.osm\"\n";
+  const VehicleConfig config = load_vehicle_config(
+      file, {"configuration=GNSS+VO-RI", "imu_grade = tactical", "fusion.min_course_speed=2",
+             "fusion.gyro_noise=1e-3", "map.rules=rules", "vehicle.camera.forward=1.5"});
+  EXPECT_EQ(config.configuration, "GNSS+VO-RI");
+  EXPECT_TRUE(config.fusion.use_odometry_speed);
+  EXPECT_FALSE(config.fusion.use_wheel_speed);
+  EXPECT_EQ(config.fusion.accelerometer_turn_on_sigma,
+            fusion::FusionParameters{}.accelerometer_turn_on_sigma)
+      << "the file's grade leaves nothing behind";
+  EXPECT_EQ(config.fusion.min_course_speed, 2.0);
+  EXPECT_EQ(config.fusion.gyro_noise, 1e-3);
+  EXPECT_EQ(config.map.file, (folder.path() / "roads.osm").string());
+  EXPECT_EQ(config.map.rules, "rules") << "from the current folder";
+  EXPECT_TRUE(config.is_given("vehicle.camera", "forward"));
+}
+
+TEST(VehicleConfigSetting, NeedsNoFile) {
+  EXPECT_EQ(load_vehicle_config({}, {"gnss.seed=7"}).gnss.seed, 7u);
+}
+
+TEST(VehicleConfigSetting, ThatIsWrongIsNamed) {
+  const auto said = [](const char* setting) {
+    return error_of<runtime::ConfigError>([&] { load_vehicle_config({}, {setting}); });
+  };
+  EXPECT_THAT(said("fusion.gyro_noise"),
+              HasSubstr("--set fusion.gyro_noise: write TABLE.KEY=VALUE"));
+  EXPECT_THAT(said("fusion.gyro_nose=1"), HasSubstr("gyro_noise"));
+  EXPECT_THAT(said("fusion.gyro_noise=-1"), HasSubstr("fusion.gyro_noise"));
+  EXPECT_THAT(said("configuration=all"), HasSubstr("no configuration is called 'all'"));
+  EXPECT_THAT(said("=3"), HasSubstr("--set =3"));
+  EXPECT_THAT(said("fusion.gyro_noise='"), HasSubstr("--set fusion.gyro_noise='"));
+}
+
 TEST(VehicleConfig, WhatIsWrittenHasNoPasswords) {
   VehicleConfig config;
   config.live.gnss = "ntrip://me:secret@host/RECEIVER";
