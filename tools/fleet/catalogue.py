@@ -1,0 +1,153 @@
+"""Reads a catalogue and makes the list of its runs (README.md describes both)."""
+import hashlib
+import itertools
+import json
+import os
+import re
+import shlex
+import tomllib
+from pathlib import Path
+
+import jsonschema
+
+from metrics import METRICS
+
+HERE = Path(__file__).parent
+MEGABYTES = 600  # of one run; a run that is killed is repeated with twice as much
+
+
+class Wrong(Exception):
+    """What is wrong with a catalogue, with file and line."""
+
+
+def line_of(text, where):
+    """The line of ("experiment", 1, "seeds") in a TOML text: that of the key, or else that of its table."""
+    line, lines = 0, text.splitlines()
+    if len(where) >= 2:
+        heads = [i for i, each in enumerate(lines) if each.strip() == f"[[{where[0]}]]"]
+        line = heads[where[1]] if where[1] < len(heads) else 0
+    for key in (step for step in where[2:] if isinstance(step, str)):
+        for i in range(line + 1, len(lines)):
+            if lines[i].startswith("[["):
+                break
+            if re.match(rf'\s*"?{re.escape(key)}"?\s*=', lines[i]):
+                line = i
+                break
+    return line + 1
+
+
+def load(path):
+    text = Path(path).read_text(encoding="utf-8")
+    try:
+        catalogue = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise Wrong(f"{path}: {error}") from None
+    schema = json.loads((HERE / "catalogue.schema.json").read_text())
+
+    def fail(where, what):
+        name = "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in where).lstrip(".")
+        raise Wrong(f"{path}:{line_of(text, where)}: {name}: {what}")
+
+    for error in jsonschema.Draft7Validator(schema).iter_errors(catalogue):
+        what = error.message if error.validator != "oneOf" else "a recording has either 'path' or 'simulate'"
+        fail(list(error.absolute_path), what)
+    for kind in ("recording", "experiment"):
+        names = [each["name"] for each in catalogue[kind]]
+        for i, name in enumerate(names):
+            if name in names[:i]:
+                fail([kind, i, "name"], f"'{name}' is there twice")
+    known = {r["name"] for r in catalogue["recording"]} | {t for r in catalogue["recording"] for t in r.get("tags", [])}
+    for i, experiment in enumerate(catalogue["experiment"]):
+        for name in experiment["recordings"]:
+            if name not in known:
+                fail(["experiment", i, "recordings"], f"no recording has the name or tag '{name}'")
+        for name in experiment["metrics"]:
+            if name not in METRICS:
+                fail(["experiment", i, "metrics"], f"there is no metric '{name}'; there are {', '.join(METRICS)}")
+    for i, recording in enumerate(catalogue["recording"]):
+        if "path" in recording:
+            missing = [v for v in re.findall(r"\$(\w+)", recording["path"]) if v not in os.environ]
+            if missing:
+                fail(["recording", i, "path"], f"the environment does not have {missing[0]}")
+            recording["path"] = str(Path(path).parent.resolve() / os.path.expandvars(recording["path"]))
+            if not os.path.exists(recording["path"]):
+                fail(["recording", i, "path"], f"there is nothing at {recording['path']}")
+    return catalogue
+
+
+def fingerprint(path):
+    """Names, sizes and times of a recording's files: what changes when it is another one."""
+    root = Path(path)
+    files = [root] if root.is_file() else sorted(p for p in root.rglob("*") if p.is_file())
+    return [(str(p.relative_to(root)), s.st_size, s.st_mtime_ns) for p in files for s in [p.stat()]]
+
+
+def digest(*what):
+    return hashlib.sha256(json.dumps(what, sort_keys=True).encode()).hexdigest()[:16]
+
+
+def file_hash(path):
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()[:16]
+
+
+def varied(vary):
+    """Every combination of the values of the varied parameters."""
+    keys = list(vary)
+    return [dict(zip(keys, values)) for values in itertools.product(*(vary[k] for k in keys))]
+
+
+def text_of(value):
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def variant_of(run):
+    parts = [run["configuration"], run["fault"], *(f"{k}={text_of(v)}" for k, v in run["set"].items())]
+    return ", ".join(p for p in parts if p) or "default"
+
+
+def make_plan(catalogue, made, only=()):
+    """The runs of a catalogue. `made` is the folder of made recordings; `only` names experiments, all without any."""
+    recordings = {r["name"]: dict(r) for r in catalogue["recording"]}
+    for r in recordings.values():
+        if "simulate" in r:
+            r["make"] = ["simulate", *shlex.split(r["simulate"])]
+            r["folder"] = str(Path(made) / (r["name"] + "-" + digest(r["make"])))
+            r["path"] = str(Path(r["folder"]) / r.get("open", ""))
+            r["identity"] = r["make"]
+            if "config" in r:
+                r["config"] = str(Path(r["folder"]) / r["config"])
+        else:
+            r["identity"] = fingerprint(r["path"])
+            if "config" in r:
+                r["identity"].append(file_hash(r["config"]))
+    runs = {}
+    for experiment in catalogue["experiment"]:
+        if only and experiment["name"] not in only:
+            continue
+        chosen = [r for r in recordings.values() if {r["name"], *r.get("tags", [])} & set(experiment["recordings"])]
+        for r, configuration, seed, fault, setting in itertools.product(
+                chosen, experiment.get("configurations", [""]), experiment.get("seeds", [0]),
+                experiment.get("faults", [""]), varied(experiment.get("vary", {}))):
+            arguments = [*r.get("arguments", []), *experiment.get("arguments", [])]
+            if configuration:
+                arguments += ["--configuration", configuration]
+            if seed:
+                arguments += ["--seed", str(seed)]
+            if fault:
+                arguments += ["--fault", fault]
+            for key, value in setting.items():
+                arguments += ["--set", f"{key}={text_of(value)}"]
+            if "config" in r:
+                arguments += ["--config", r["config"]]
+            run = {"experiment": experiment["name"], "recording": r["name"], "split": r.get("split", ""),
+                   "tags": r.get("tags", []), "configuration": configuration, "seed": seed, "fault": fault,
+                   "set": setting, "arguments": [r["path"], *arguments], "seconds": r.get("seconds", 600.0),
+                   "megabytes": MEGABYTES}
+            run["variant"] = variant_of(run)
+            runs[digest(experiment["name"], run["arguments"], r["identity"])] = run
+    used = {run["recording"] for run in runs.values()}
+    return {"experiments": {e["name"]: e for e in catalogue["experiment"]},
+            "made": {n: {"folder": r["folder"], "command": r["make"]} for n, r in recordings.items()
+                     if "make" in r and n in used},
+            "runs": runs}

@@ -1,0 +1,70 @@
+#!/usr/bin/python3
+"""Makes one recording, or one run, of a plan. The file of its result appears whole or not at all.
+
+    job.py make PLAN NAME
+    job.py run PLAN KEY RESULT LAST     LAST is 1 at the last attempt
+
+A run that ends with an error has a result that says so. One that was killed has none, so that it is tried again with
+more memory and time; at the last attempt it has a result, too.
+"""
+import json
+import os
+import platform
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+PATIENCE = 20.0  # times the recording's length, and a minute
+
+
+def make(plan, name):
+    made = plan["made"][name]
+    folder = Path(made["folder"])
+    partial = folder.with_name(folder.name + ".partial")
+    shutil.rmtree(partial, ignore_errors=True)
+    partial.parent.mkdir(parents=True, exist_ok=True)
+    subprocess.run([plan["binary"], *made["command"], "--out", partial], check=True, stdout=subprocess.DEVNULL)
+    shutil.rmtree(folder, ignore_errors=True)
+    os.rename(partial, folder)
+
+
+def processor():
+    for line in Path("/proc/cpuinfo").read_text().splitlines():
+        if line.startswith("flags"):
+            return sorted(set(line.split()) & {"avx2", "avx512f", "fma", "sse4_2"})
+    return [platform.machine()]
+
+
+def run(plan, key, result, last):
+    setup = plan["runs"][key]
+    with tempfile.TemporaryDirectory() as scratch:
+        output = Path(scratch) / "output.json"
+        command = [plan["binary"], "replay", "--lockstep", "--no-lcm", "--json", str(output), *setup["arguments"]]
+        began = time.monotonic()
+        limit = PATIENCE * setup["seconds"] + 60.0
+        try:
+            done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, timeout=limit,
+                                  errors="replace")
+            status, said = done.returncode, done.stderr
+        except subprocess.TimeoutExpired:
+            status, said = -9, f"it did not end within {limit:.0f} s"
+        if status < 0 and not last:
+            sys.exit(f"{key}: killed by signal {-status}; it is tried again")
+        record = {"schema": 1, "key": key, **setup, "code": plan["code"], "machine": processor(),
+                  "status": status, "error": said.strip()[-500:] if status else "",
+                  "wall_s": round(time.monotonic() - began, 3),
+                  "output": json.loads(output.read_text()) if output.exists() else None}
+    partial = Path(result + f".{os.getpid()}.partial")
+    partial.write_text(json.dumps(record))
+    os.replace(partial, result)
+
+
+if __name__ == "__main__":
+    plan_of = json.loads(Path(sys.argv[2]).read_text())
+    if sys.argv[1] == "make":
+        make(plan_of, sys.argv[3])
+    else:
+        run(plan_of, sys.argv[3], sys.argv[4], sys.argv[5] == "1")

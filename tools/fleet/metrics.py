@@ -1,0 +1,105 @@
+"""The figures of a run: one function each, of what `maploop replay --json` wrote."""
+from dataclasses import dataclass
+from typing import Callable
+
+
+@dataclass
+class Metric:
+    unit: str
+    of: Callable
+    about: str
+    less_is_better: bool
+
+
+METRICS = {}
+
+
+def metric(unit, less_is_better=True):
+    def add(function):
+        METRICS[function.__name__] = Metric(unit, function, function.__doc__, less_is_better)
+        return function
+    return add
+
+
+def value(name, output):
+    """The metric of a run's output; None where the run has nothing to make it of."""
+    try:
+        return float(METRICS[name].of(output))
+    except (KeyError, TypeError, ZeroDivisionError, ValueError):
+        return None
+
+
+def over_100_m(output, part):
+    return output[part]["common_rotation_removed"]["segment_100m_percent"]
+
+
+@metric("m")
+def position_rms(output):
+    """Horizontal error of the map output, root mean square."""
+    return output["navigation"]["rmse_m"]
+
+
+@metric("m")
+def position_largest(output):
+    """Largest horizontal error of the map output."""
+    return output["navigation"]["max_m"]
+
+
+@metric("deg")
+def azimuth_rms(output):
+    """Error of the azimuth, root mean square."""
+    return output["navigation"]["azimuth_rms_deg"]
+
+
+@metric("%")
+def drift(output):
+    """Error at the end without the error at the start, of the way."""
+    return output["navigation"]["drift_percent"]
+
+
+@metric("1", less_is_better=False)
+def nees(output):
+    """Squared error of the position by its covariance: 2 if the covariance is right."""
+    return output["navigation"]["nees_mean"]
+
+
+@metric("%")
+def odom(output):
+    """Error of the odom output over 100 m, one rotation removed."""
+    return over_100_m(output, "odom")
+
+
+@metric("%")
+def map_motion(output):
+    """Error of the map output over 100 m, one rotation removed."""
+    return over_100_m(output, "fused")
+
+
+@metric("%")
+def lidar(output):
+    """Error of LiDAR odometry over 100 m, one rotation removed."""
+    return over_100_m(output, "lidar")
+
+
+@metric("%")
+def stereo(output):
+    """Error of stereo odometry over 100 m, one rotation removed."""
+    return over_100_m(output, "vo")
+
+
+@metric("1")
+def odom_to_best(output):
+    """Error of the odom output over that of the best odometry."""
+    return odom(output) / min(over_100_m(output, part) for part in ("lidar", "vo") if part in output)
+
+
+@metric("1")
+def processor(output):
+    """Processor time a second of the recording."""
+    return output["replay"]["cpu_s"] / output["replay"]["data_s"]
+
+
+@metric("MB")
+def memory(output):
+    """Peak memory."""
+    return output["replay"]["peak_memory_bytes"] / 1e6

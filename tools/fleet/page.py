@@ -1,0 +1,86 @@
+#!/usr/bin/python3
+"""Writes the page of a database of runs: one file that needs only a browser.
+
+    page.py DATABASE PAGE
+"""
+import html
+import json
+import math
+import os
+import sys
+from pathlib import Path
+
+import numpy
+
+import results
+from statistics_of_pairs import paired, ratio
+
+HERE = Path(__file__).resolve().parent
+SAME = ("recording", "seed")
+
+
+def number(value, digits=3):
+    if value is None or not math.isfinite(value):
+        return "–"
+    return f"{value:.{digits}g}" if abs(value) < 1000 else f"{value:.0f}"
+
+
+def ratio_cell(old, new, less_is_better):
+    r = ratio(old, new)
+    if r is None:
+        return "<td>–</td>"
+    kind = "" if not (r.significant and less_is_better) else ' class="missed"' if r.value > 1.0 else ' class="better"'
+    return f'<td{kind} title="{r.low:.3f} to {r.high:.3f} (95 %), {r.pairs} pairs">{r.value:.3f}</td>'
+
+
+def experiment_part(name, experiment, runs, metrics):
+    """A table of one row a variant and metric; ratios are to the first variant."""
+    variants = list(dict.fromkeys(r["variant"] for r in runs))
+    of_variant = {v: [r for r in runs if r["variant"] == v] for v in variants}
+    failed = sum(r["status"] != 0 for r in runs)
+    rows = []
+    for metric in experiment["metrics"].split():
+        for variant in variants:
+            values = [r[metric] for r in of_variant[variant] if r[metric] is not None]
+            if not values:
+                continue
+            pairs = paired(of_variant[variants[0]], of_variant[variant], metric, SAME)
+            rows.append(
+                f'<tr data-metric="{metric}"><td>{metric}, {metrics[metric]["unit"]}</td><td>{html.escape(variant)}</td>'
+                f"<td>{len(values)}</td>" +
+                "".join(f"<td>{number(v)}</td>" for v in (numpy.mean(values), *numpy.quantile(values, [0.5, 0.95]), max(values))) +
+                ("<td>1</td>" if variant == variants[0] else ratio_cell(*pairs, metrics[metric]["less_is_better"])) + "</tr>")
+    return f"""<section data-experiment="{name}"><h2>{html.escape(name)}</h2><p>{html.escape(experiment["about"])}
+{len(runs)} runs, {failed} of them failed. The ratio of the means is to the first variant, by pairs of one recording and seed;
+it is coloured where its bounds of 95 % (bootstrap over five or more pairs) leave out 1.</p>
+<table><thead><tr><th>metric</th><th>variant</th><th>runs</th><th>mean</th><th>median</th><th>95 %</th><th>largest</th>
+<th>ratio</th></tr></thead><tbody>{"".join(rows)}</tbody></table>
+<div class="plots"></div></section>"""
+
+
+def write(database, page):
+    runs, experiments, metrics = results.read(database)
+    shown = [n for n in metrics if any(r[n] is not None for r in runs)]
+    parts = [experiment_part(n, e, [r for r in runs if r["experiment"] == n], metrics) for n, e in experiments.items()
+             if any(r["experiment"] == n for r in runs)]
+    texts = ("experiment", "recording", "split", "variant", "error", "key")
+    data = {"metrics": [{"name": n, **{k: metrics[n][k] for k in ("unit", "about")}} for n in shown],
+            "texts": texts,
+            "of": {n: e["metrics"].split() for n, e in experiments.items()},
+            "rows": [[*(r[t] for t in texts), int(r["seed"]),
+                      *(None if r[n] is None else float(f"{r[n]:.5g}") for n in shown)] for r in runs]}
+    failed = sum(r["status"] != 0 for r in runs)
+    text = (HERE / "page.html").read_text()
+    for place, what in (("STYLE", (HERE.parent / "web/src/page.css").read_text()),
+                        ("SUMMARY", f"{len(runs)} runs of {len({r['recording'] for r in runs})} recordings by the "
+                                    f"binary {html.escape(runs[0]['code'])}; {failed} failed."),
+                        ("PARTS", "\n".join(parts)),
+                        ("DATA", json.dumps(data, separators=(",", ":")).replace("</", "<\\/"))):
+        text = text.replace(f"<!--{place}-->", what)
+    partial = Path(str(page) + ".partial")
+    partial.write_text(text, encoding="utf-8")
+    os.replace(partial, page)
+
+
+if __name__ == "__main__":
+    write(sys.argv[1], sys.argv[2])

@@ -1,0 +1,61 @@
+#!/usr/bin/python3
+"""Collects the results of a plan in one SQLite file, a row a run; a spreadsheet, DuckDB or pandas opens it.
+
+    results.py PLAN DATABASE
+"""
+import json
+import os
+import sqlite3
+import sys
+from pathlib import Path
+
+from metrics import METRICS, value
+
+TEXTS = ("key", "experiment", "recording", "split", "tags", "variant", "configuration", "fault", "settings", "error",
+         "code", "hash")
+NUMBERS = ("seed", "status", "wall_s")
+
+
+def row_of(record):
+    output = record["output"] or {}
+    texts = {**record, "tags": " ".join(record["tags"]), "settings": json.dumps(record["set"]),
+             "hash": output.get("channels", {}).get("NAV_STATE", {}).get("hash", "")}
+    return ([texts[name] for name in TEXTS] + [record[name] for name in NUMBERS] +
+            [value(name, output) for name in METRICS])
+
+
+def collect(plan, database):
+    partial = Path(str(database) + ".partial")
+    partial.unlink(missing_ok=True)
+    db = sqlite3.connect(partial)
+    columns = [f"{n} TEXT" for n in TEXTS] + [f"{n} REAL" for n in (*NUMBERS, *METRICS)]
+    db.execute(f"CREATE TABLE runs ({', '.join(columns)}, PRIMARY KEY (key))")
+    db.execute("CREATE TABLE experiments (name TEXT PRIMARY KEY, about TEXT, metrics TEXT)")
+    db.execute("CREATE TABLE metrics (name TEXT PRIMARY KEY, unit TEXT, about TEXT, less_is_better INTEGER)")
+    for name, e in plan["experiments"].items():
+        db.execute("INSERT INTO experiments VALUES (?, ?, ?)", (name, e.get("about", ""), " ".join(e["metrics"])))
+    db.executemany("INSERT INTO metrics VALUES (?, ?, ?, ?)", ((n, m.unit, m.about, m.less_is_better) for n, m in METRICS.items()))
+    marks = ", ".join("?" * len(columns))
+    for key in plan["runs"]:
+        record = json.loads((Path(plan["out"]) / "results" / f"{key}.json").read_text())
+        db.execute(f"INSERT INTO runs VALUES ({marks})", row_of(record))
+    db.commit()
+    db.close()
+    os.replace(partial, database)
+
+
+def read(database):
+    """The rows of a database as dictionaries, with the tables of experiments and metrics."""
+    if not os.path.exists(database):
+        raise FileNotFoundError(f"there is no database at {database}: tools/fleet/run makes one")
+    db = sqlite3.connect(f"file:{database}?mode=ro", uri=True)
+    db.row_factory = sqlite3.Row
+
+    def table(name):
+        return [dict(row) for row in db.execute(f"SELECT * FROM {name}")]
+
+    return table("runs"), {e["name"]: e for e in table("experiments")}, {m["name"]: m for m in table("metrics")}
+
+
+if __name__ == "__main__":
+    collect(json.loads(Path(sys.argv[1]).read_text()), sys.argv[2])
