@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "mapmatch/network_file.h"
 #include "msgs/lcm/channel_names.h"
@@ -14,6 +15,8 @@
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
 #include "tools/command/terminal.h"
+#include "tools/dashboard/foxglove_bridge.h"
+#include "tools/dashboard/foxglove_server.h"
 #include "tools/dashboard/live_channels.h"
 #include "tools/dashboard/relay.h"
 #include "tools/dashboard/server.h"
@@ -33,10 +36,18 @@ Duration now() {
   return Clock::now().time_since_epoch();
 }
 
+std::int64_t wall_us() {
+  return std::chrono::duration_cast<std::chrono::microseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
 struct DashboardOptions {
   std::string lcm_url;
   std::string address = "127.0.0.1";
   int port = 8080;
+  std::optional<int> foxglove;
+  std::vector<std::string> origins;
   double seconds = 0.0;  // 0: until interrupted
   std::filesystem::path map;
 };
@@ -69,18 +80,30 @@ int run(const DashboardOptions& options) {
   if (!options.map.empty()) network.emplace(mapmatch::open_network(options.map));
   dashboard::LiveChannels channels;
   dashboard::Relay relay(channels);
-  BusListener bus(vehicle::bus_url(options.lcm_url), ".*",
-                  [&](auto channel, auto data) { relay.take(channel, data, now()); });
+  std::optional<dashboard::FoxgloveBridge> foxglove;
+  BusListener bus(vehicle::bus_url(options.lcm_url), ".*", [&](auto channel, auto data) {
+    relay.take(channel, data, now());
+    if (foxglove) foxglove->take({.time_us = wall_us(), .channel = channel, .data = data});
+  });
+  const auto control = [&](const std::string& run, const std::string& kind, double value) {
+    return send_command(bus, run, kind, value);
+  };
+  std::optional<dashboard::FoxgloveServer> viewers;
+  if (options.foxglove) {
+    viewers.emplace(options.address, *options.foxglove, options.origins, control);
+    foxglove.emplace(*viewers);
+  }
   const dashboard::Server server(
       options.address, options.port, channels,
-      {[&] { return relay.trail(); },
-       [&](const std::string& run, const std::string& kind, double value) {
-         return send_command(bus, run, kind, value);
-       },
+      {[&] { return relay.trail(); }, control,
        [&](const Geodetic& origin) { return roads_about(network ? &*network : nullptr, origin); }});
   note_interrupts();
   std::cout << "http://" << options.address << ':' << server.port() << "/  (Ctrl-C ends it)"
             << std::endl;
+  if (viewers) {
+    std::cout << "ws://" << options.address << ':' << viewers->port() << "  for Foxglove"
+              << std::endl;
+  }
   const auto end = Clock::now() + from_seconds(options.seconds);
   auto next = Clock::now();
   while (!interrupted() && (options.seconds == 0.0 || Clock::now() < end)) {
@@ -88,6 +111,10 @@ int run(const DashboardOptions& options) {
     if (Clock::now() < next) continue;
     relay.pass_on(now());
     next = Clock::now() + pass_on_every;
+  }
+  if (viewers && viewers->lost() > 0) {
+    std::cerr << "maploop: viewers of Foxglove were too slow for " << viewers->lost()
+              << " messages\n";
   }
   if (relay.not_understood() > 0) {
     std::cerr << "maploop: " << relay.not_understood()
@@ -111,6 +138,15 @@ void add_dashboard(CLI::App& app, Command& command) {
   sub->add_option("--port", options->port, "Port to listen at, 0: any that is free")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
+  auto* foxglove = sub->add_option("--foxglove", options->foxglove,
+                                   "Serve Foxglove as well, at this port (8765 is its own), 0: any "
+                                   "that is free")
+                       ->check(CLI::Range(0, 65535));
+  sub->add_option("--origin", options->origins,
+                  "Let a web page of this origin connect to --foxglove, such as "
+                  "https://app.foxglove.dev")
+      ->needs(foxglove)
+      ->allow_extra_args(false);
   sub->add_option("--map", options->map,
                   "OpenStreetMap file, or a network file: draw its roads under the way")
       ->check(existing_file());

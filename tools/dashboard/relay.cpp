@@ -4,7 +4,6 @@
 #include <array>
 #include <maploop_lcm/replay_control_t.hpp>
 #include <maploop_lcm/run_t.hpp>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include "msgs/lcm/checked_decode.h"
 #include "msgs/lcm/conversions.h"
 #include "msgs/lcm/decoded_message.h"
+#include "tools/dashboard/json_text.h"
 #include "tools/log/message_json.h"
 
 namespace maploop::dashboard {
@@ -21,11 +21,6 @@ using Control = maploop_lcm::replay_control_t;
 
 constexpr std::size_t most_channels = 64;
 constexpr std::size_t longest_verdict = 400;
-
-// Texts may come from any sender, so that invalid UTF-8 is replaced.
-std::string text_of(const nlohmann::json& value) {
-  return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
 
 auto with_id(const std::string& id) {
   return [&id](const vehicle::Run& run) { return run.id == id; };
@@ -50,9 +45,9 @@ void Relay::take_run(std::span<const std::uint8_t> data, Duration now) {
   if (!schema::checked_decode(schema::own_schema(), data, run)) return;
   runs_.take(run, now);
   if (run.ended == 0 || run.verdict.empty()) return;
-  channels_.put("VERDICT", text_of({{"id", run.id},
-                                    {"what", run.what},
-                                    {"lines", run.verdict.substr(0, longest_verdict)}}));
+  channels_.put("VERDICT", json_text({{"id", run.id},
+                                      {"what", run.what},
+                                      {"lines", run.verdict.substr(0, longest_verdict)}}));
 }
 
 void Relay::take_player(std::span<const std::uint8_t> data, Duration now) {
@@ -91,7 +86,7 @@ void Relay::pass_on_runs(Duration now) {
                    {"player", player == players_.end() ? nlohmann::json()
                                                        : nlohmann::json::parse(player->second)}});
   }
-  std::string text = text_of(all);
+  std::string text = json_text(all);
   if (text == said_runs_) return;
   channels_.put("RUNS", text);
   said_runs_ = std::move(text);

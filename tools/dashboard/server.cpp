@@ -5,11 +5,11 @@
 
 #include <atomic>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <thread>
 #include <utility>
 
+#include "tools/dashboard/json_text.h"
 #include "tools/web/bundle.h"
 
 namespace maploop::dashboard {
@@ -64,9 +64,7 @@ void own_port(int socket) {
 
 void refuse(httplib::Response& response, int status, const std::string& why) {
   response.status = status;
-  response.set_content(nlohmann::json{{"refused", why}}.dump(
-                           -1, ' ', false, nlohmann::json::error_handler_t::replace),
-                       "application/json");
+  response.set_content(json_text({{"refused", why}}), "application/json");
 }
 
 }  // namespace

@@ -74,8 +74,8 @@ class Viewed {
     const auto c = message_of<maploop_lcm::calibration_t>(event_, schema_);
     if (!c) return;
     const Time stamp = from_nanoseconds(1000 * event_.time_us);
-    show("/tf", FrameTransform{stamp, "body", "cam", pose_of(c->stereo.T_body_cam)});
-    show("/tf", FrameTransform{stamp, "body", "velo", pose_of(c->T_body_velo)});
+    show("/tf_static", FrameTransform{stamp, "body", "cam", pose_of(c->stereo.T_body_cam)});
+    show("/tf_static", FrameTransform{stamp, "body", "velo", pose_of(c->T_body_velo)});
   }
   void camera() const {
     maploop_lcm::stereo_pair_t pair{};
@@ -111,14 +111,19 @@ class Viewed {
   const std::function<void(const FoxgloveMessage&)>& use_;
 };
 
+struct ChannelView {
+  std::string_view channel;
+  void (Viewed::*show)() const;
+  std::size_t messages;  // at most
+};
 constexpr std::array shown_channels{
-    std::pair(channel_names::nav_state, &Viewed::nav_state),
-    std::pair(channel_names::odom_state, &Viewed::odom_state),
-    std::pair(channel_names::gnss_fix, &Viewed::gnss_fix),
-    std::pair(channel_names::truth, &Viewed::truth),
-    std::pair(channel_names::calibration, &Viewed::calibration),
-    std::pair(channel_names::camera, &Viewed::camera),
-    std::pair(channel_names::velodyne, &Viewed::velodyne),
+    ChannelView{channel_names::nav_state, &Viewed::nav_state, 3},
+    ChannelView{channel_names::odom_state, &Viewed::odom_state, 1},
+    ChannelView{channel_names::gnss_fix, &Viewed::gnss_fix, 1},
+    ChannelView{channel_names::truth, &Viewed::truth, 1},
+    ChannelView{channel_names::calibration, &Viewed::calibration, 2},
+    ChannelView{channel_names::camera, &Viewed::camera, 2},
+    ChannelView{channel_names::velodyne, &Viewed::velodyne, 1},
 };
 
 template <class... T>
@@ -132,8 +137,14 @@ json schema_among(std::string_view name) {
 
 void show_in_foxglove(const LogEvent& event, const schema::Schema& schema,
                       const std::function<void(const FoxgloveMessage&)>& use) {
-  for (const auto& [channel, show] : shown_channels)
-    if (event.channel == channel) (Viewed(event, schema, use).*show)();
+  for (const ChannelView& view : shown_channels)
+    if (event.channel == view.channel) (Viewed(event, schema, use).*view.show)();
+}
+
+std::size_t foxglove_topics(std::string_view channel) {
+  for (const ChannelView& view : shown_channels)
+    if (channel == view.channel) return view.messages;
+  return 0;
 }
 
 std::string foxglove_schema(std::string_view schema_name) {

@@ -1,6 +1,7 @@
 // Converts what the vehicle sends to messages that Foxglove shows on its map and in its scene.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -22,12 +23,15 @@ struct FoxgloveMessage {
 //   ODOM_STATE   /odom/pose PoseInFrame "odom"
 //   GNSS_FIX     /gnss/fix LocationFix
 //   TRUTH        /truth/fix LocationFix
-//   CALIBRATION  /tf FrameTransform from "body" to "cam" and to "velo"
+//   CALIBRATION  /tf_static FrameTransform from "body" to "cam" and to "velo"
 //   CAMERA       /camera/left and /camera/right CompressedImage (JPEG)
 //   VELODYNE     /velodyne PointCloud
 // An event that is none of these, or that has no position yet, shows nothing.
 void show_in_foxglove(const LogEvent& event, const schema::Schema& schema,
                       const std::function<void(const FoxgloveMessage&)>& use);
+
+// Returns how many messages at most show an event of a channel.
+std::size_t foxglove_topics(std::string_view channel);
 
 // Returns the JSON schema of one of these names.
 std::string foxglove_schema(std::string_view schema_name);

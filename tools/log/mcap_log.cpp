@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "msgs/lcm/channel_names.h"
-#include "msgs/lcm/decoded_message.h"
 #include "sensors/replay/log_events.h"
-#include "tools/log/foxglove_messages.h"
 #include "tools/log/log_files.h"
-#include "tools/log/message_json.h"
+#include "tools/log/shown_event.h"
 
 namespace maploop::lcm_log {
 namespace {
@@ -49,16 +46,8 @@ void McapLog::write(const LogEvent& event) {
   const std::string raw = std::string(sensors::lcm_topics).append(event.channel);
   writer_.write(channel(raw, {}, {}), time, as_text(event.data));
   ++in_chunk_;
-  const schema::Type* type = schema_.find(schema::fingerprint_of(event.data));
-  const bool pictured =
-      event.channel == channel_names::camera || event.channel == channel_names::velodyne;
-  if (const auto message = pictured ? std::nullopt : schema::try_decode(schema_, event.data)) {
-    const auto json = [&] { return json_schema(*type); };
-    writer_.write(channel(event.channel, type->name, json), time, to_json(*message));
-  }
-  show_in_foxglove(event, schema_, [&](const FoxgloveMessage& shown) {
-    const auto json = [&] { return foxglove_schema(shown.schema_name); };
-    writer_.write(channel(shown.topic, shown.schema_name, json), time, shown.json);
+  show(event, schema_, [&](const ShownMessage& shown) {
+    writer_.write(channel(shown.topic, shown.schema_name, shown.schema), time, shown.json());
   });
   if (alone || writer_.chunk_bytes() >= chunk_bytes ||
       writer_.chunk_nanoseconds() >= chunk_nanoseconds)

@@ -1,7 +1,5 @@
 // Writes the events of an LCM log as an MCAP file: each unchanged, as maploop reads it back
-// (sensors/replay/log_events.h), and once more as viewers show it: those of known types in JSON,
-// under the channel's own name, and positions, poses, images and clouds in Foxglove's schemas
-// (foxglove_messages.h). Channels of images and clouds are not in JSON.
+// (sensors/replay/log_events.h), and once more as viewers show it (shown_event.h).
 #pragma once
 
 #include <cstddef>

@@ -128,7 +128,7 @@ TEST_F(LogConvert, IsReadByOthersWhoFindFoxglovesSchemas) {
   }
   EXPECT_EQ(topics.size(), ours.size());
   for (const char* shown : {"/camera/left", "/camera/right", "/gnss/fix", "/map/fix", "/map/pose",
-                            "/tf", "/truth/fix", "/velodyne"})
+                            "/tf", "/tf_static", "/truth/fix", "/velodyne"})
     EXPECT_EQ(topics[shown]["strange"], "") << shown;
 }
 
