@@ -42,6 +42,9 @@ struct Extrinsics {
   VehicleDescription description;      // with the observed values in it
 };
 
+// Returns why an alignment found nothing, for a sentence.
+std::string reason(const RateAlignment& alignment);
+
 // Measured beforehand, so that it can be made up in tests.
 struct Measurements {
   SensorMotions camera, lidar;

@@ -36,6 +36,8 @@ Vector3d angle_sigmas(const Matrix3d& R_body_sensor, bool is_camera, const Matri
   return (J * covariance * J.transpose()).diagonal().cwiseSqrt();
 }
 
+}  // namespace
+
 std::string reason(const RateAlignment& r) {
   switch (r.status) {
     case AlignmentStatus::too_short:
@@ -48,8 +50,6 @@ std::string reason(const RateAlignment& r) {
           r.correlation);
   }
 }
-
-}  // namespace
 
 FoundValues::FoundValues(const VehicleDescription& described) {
   found_.description = described;
