@@ -1,4 +1,4 @@
-// maploop calibrate: two cameras from images of a chessboard.
+// maploop calibrate: two cameras from images of a chessboard; with extrinsics, the sensors' places.
 #include <unistd.h>
 
 #include <cstdio>
@@ -123,20 +123,20 @@ int calibrate_cameras(const CalibrateOptions& options) {
 void add_calibrate(CLI::App& app, Command& command) {
   auto options = std::make_shared<CalibrateOptions>();
   CLI::App* sub = app.add_subcommand(
-      "calibrate", "Calibrate a pair of cameras from their images of a chessboard");
-  sub->add_option(
-         "IMAGES", options->images,
-         "A folder with folders left and right (or cam0 and cam1, image_00 and image_01) or "
-         "with files left* and right*; or two patterns in quotes, 'left*.png' "
-         "'right*.png'. The same name, or the same part in place of *, makes a pair")
-      ->required();
-  sub->add_option("--board", options->board,
-                  "Inner corners of the board, COLUMNSxROWS: 9x6 has 10 x 7 squares")
-      ->required()
-      ->check(valid_board, "COLUMNSxROWS");
-  sub->add_option("--square", options->square, "Side of a square in metres")
-      ->required()
-      ->check(number_in(0.001, 1.0));
+      "calibrate",
+      "Calibrate a pair of cameras from their images of a chessboard, or where the sensors of a "
+      "recorded drive are");
+  auto* images = sub->add_option(
+      "IMAGES", options->images,
+      "A folder with folders left and right (or cam0 and cam1, image_00 and image_01) or "
+      "with files left* and right*; or two patterns in quotes, 'left*.png' "
+      "'right*.png'. The same name, or the same part in place of *, makes a pair");
+  auto* board = sub->add_option("--board", options->board,
+                                "Inner corners of the board, COLUMNSxROWS: 9x6 has 10 x 7 squares")
+                    ->check(valid_board, "COLUMNSxROWS");
+  auto* square = sub->add_option("--square", options->square, "Side of a square in metres")
+                     ->check(number_in(0.001, 1.0));
+  add_calibrate_extrinsics(*sub, command);
   sub->add_option(
          "--toml", options->toml,
          "Write the calibration to this file, which [vehicle.camera] calibration of --config names")
@@ -148,8 +148,12 @@ void add_calibrate(CLI::App& app, Command& command) {
       ->check(writable_file());
   sub->add_option("--html", options->html, "Write a page with pictures to this file")
       ->check(writable_file());
-  sub->callback(
-      [options, &command] { command = [options] { return calibrate_cameras(*options); }; });
+  sub->callback([=, &command] {
+    if (!sub->get_subcommands().empty()) return;
+    for (const CLI::Option* needed : {images, board, square})
+      if (needed->empty()) throw CLI::RequiredError(needed->get_name());
+    command = [options] { return calibrate_cameras(*options); };
+  });
 }
 
 }  // namespace maploop::tools

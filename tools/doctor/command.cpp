@@ -16,6 +16,8 @@
 #include "tools/command/json_output.h"
 #include "tools/command/options.h"
 #include "tools/doctor/recording_health.h"
+#include "tools/doctor/saturation.h"
+#include "tools/doctor/time_offsets.h"
 #include "tools/replay/figures.h"
 
 namespace maploop::tools {
@@ -47,6 +49,27 @@ std::vector<RealtimeSetting> ask_for_bus(const std::string& url) {
   }
 }
 
+// Adds what is measured over 20 s, and what stands in the way of it.
+std::vector<TimeOffset> compare_stamps(const vehicle::Recording& recording,
+                                       const vehicle::VehicleConfig& config,
+                                       const std::string& path,
+                                       std::vector<std::string>& sentences) {
+  const auto add = [&sentences](std::vector<std::string> more) {
+    for (std::string& sentence : more) sentences.push_back(std::move(sentence));
+  };
+  add(cut_off_axes(recording));
+  try {
+    const extrinsics::Stretch stretch = turning_stretch(recording);
+    add(cut_off_images(recording, stretch));
+    const std::vector<TimeOffset> offsets = time_offsets(recording, config, stretch);
+    add(advice(offsets, path));
+    return offsets;
+  } catch (const std::invalid_argument& e) {
+    sentences.push_back(std::string("Stamps are not compared: ") + e.what() + '.');
+    return {};
+  }
+}
+
 void examine_recording(const DoctorOptions& options, vehicle::VehicleConfig config) {
   const vehicle::KnownContents contents = vehicle::fit_to_recording(config, options.recording);
   const vehicle::Recording recording = vehicle::open_recording(options.recording, config, contents);
@@ -54,16 +77,21 @@ void examine_recording(const DoctorOptions& options, vehicle::VehicleConfig conf
   std::vector<std::string> sentences = recording.notes;
   for (std::string& sentence : advice(sensors, options.recording.string()))
     sentences.push_back(std::move(sentence));
+  const std::vector<TimeOffset> offsets =
+      compare_stamps(recording, config, options.recording.string(), sentences);
   std::cout << options.recording.string() << " begins at " << format_time(recording.first_stamp)
             << " UTC, and takes "
             << web::shown(to_seconds(recording.last_stamp - recording.first_stamp), 1) << " s\n\n";
   std::cout << web::heading_text(sensor_health_columns) << '\n';
   for (const SensorHealth& s : sensors) std::cout << web::to_text(sensor_health_columns, s) << '\n';
+  if (!offsets.empty()) std::cout << '\n' << web::heading_text(time_offset_columns) << '\n';
+  for (const TimeOffset& o : offsets) std::cout << web::to_text(time_offset_columns, o) << '\n';
   std::cout << '\n';
   for (const std::string& sentence : sentences) std::cout << sentence << '\n';
   if (!options.json.empty()) {
     write_json_file(options.json, {{"begins", format_time(recording.first_stamp)},
                                    {"sensors", web::list(sensor_health_columns, sensors)},
+                                   {"offsets", web::list(time_offset_columns, offsets)},
                                    {"sentences", sentences}});
   }
 }

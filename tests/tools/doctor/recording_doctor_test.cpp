@@ -90,5 +90,27 @@ TEST(OdometryOfABag, RunsOnItsImagesAndClouds) {
   EXPECT_THAT(none.error, HasSubstr("pj_tilt_laser.bag' has no scans of a LiDAR"));
 }
 
+using DoctorOfADrive = DriveTest;
+
+TEST_F(DoctorOfADrive, StampsOfAllSensorsAgree) {
+  const json report = report_of(drive());
+  ASSERT_EQ(report.at("offsets").size(), 3U) << "of camera, LiDAR and inertial unit";
+  for (const json& offset : report.at("offsets")) {
+    EXPECT_TRUE(offset["found"].get<bool>()) << offset;
+    EXPECT_LT(std::abs(offset["offset_ms"].get<double>()), 15.0) << offset;
+    EXPECT_GT(offset["correlation"].get<double>(), 0.9) << offset;
+  }
+  EXPECT_THAT(report.at("sentences").dump(), Not(HasSubstr("The stamps of")));
+  EXPECT_THAT(report.at("sentences").dump(), Not(HasSubstr("cut off")));
+}
+
+TEST_F(DoctorOfADrive, AUnitWhoseDelayIsWrongIsEarlier) {
+  const std::string config = write("a.toml", "[vehicle.imu]\ndelay = 0.2\n");
+  const json report = report_of(drive(), {"--config", config});
+  EXPECT_NEAR(report.at("offsets").at(0)["offset_ms"].get<double>(), -140.0, 20.0);
+  EXPECT_THAT(report.at("sentences").dump(), HasSubstr("ms earlier than those of camera"));
+  EXPECT_THAT(report.at("sentences").dump(), HasSubstr("maploop calibrate extrinsics"));
+}
+
 }  // namespace
 }  // namespace maploop

@@ -1,0 +1,164 @@
+#include "tools/calibrate/extrinsics/found_values.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "msgs/frames.h"
+#include "tools/calibrate/extrinsics/small_turn.h"
+
+namespace maploop::extrinsics {
+namespace {
+
+using Eigen::Matrix3d, Eigen::Vector3d;
+
+// Returns roll, pitch and yaw, deg.
+Vector3d angles_of(const Matrix3d& R_body_sensor, bool is_camera) {
+  SensorPosition ignored;
+  SensorRotation r;
+  const Eigen::Isometry3d T(R_body_sensor);
+  is_camera ? set_camera_pose(T, ignored, r) : set_sensor_pose(T, ignored, r);
+  return {r.roll, r.pitch, r.yaw};
+}
+
+// Returns the standard deviations of the three angles, deg, by how they change with small turns.
+Vector3d angle_sigmas(const Matrix3d& R_body_sensor, bool is_camera, const Matrix3d& covariance) {
+  constexpr double small = 1e-5;  // rad
+  Matrix3d J;
+  for (int i = 0; i < 3; ++i) {
+    const Vector3d turn = small * Vector3d::Unit(i);
+    const Vector3d more = angles_of(rotation_of(turn) * R_body_sensor, is_camera);
+    const Vector3d less = angles_of(rotation_of(-turn) * R_body_sensor, is_camera);
+    for (int k = 0; k < 3; ++k)
+      J(k, i) = degrees(wrap_angle(radians(more[k] - less[k]))) / (2.0 * small);
+  }
+  return (J * covariance * J.transpose()).diagonal().cwiseSqrt();
+}
+
+}  // namespace
+
+std::string reason(const RateAlignment& r) {
+  switch (r.status) {
+    case AlignmentStatus::too_short:
+      return "fewer than 6 s, or fewer than 20 motions, were measured by both";
+    case AlignmentStatus::no_turning:
+      return "the vehicle hardly turns";
+    default:
+      return fmt::format(
+          "their rates of turn have a correlation of {:.2f} only, at any delay up to 0.5 s",
+          r.correlation);
+  }
+}
+
+FoundValues::FoundValues(const VehicleDescription& described) {
+  found_.description = described;
+}
+
+void FoundValues::add(const SensorPair& pair) {
+  found_.pairs.push_back(pair);
+  if (pair.rates.status != AlignmentStatus::ok)
+    say("Nothing is found of the " + pair.a + " against the " + pair.b + ": " + reason(pair.rates) +
+        ".");
+}
+
+void FoundValues::put(const std::string& sensor, const char* unit, double limit, const Change& c) {
+  const bool observed = c.new_sigma <= limit;
+  found_.values.push_back(
+      {"vehicle." + sensor, c.key, unit, c.value, c.new_value, c.new_sigma, observed});
+  if (!observed) {
+    say(
+        fmt::format("The {} of [vehicle.{}] is not observable on this recording (1 sigma {:.2g} "
+                    "{}), and is not written.",
+                    c.key, sensor, c.new_sigma, unit));
+    return;
+  }
+  c.value = c.new_value;
+  c.sigma = c.new_sigma;
+}
+
+void FoundValues::put_rotation(const std::string& sensor, SensorRotation& r,
+                               const Matrix3d& R_body_sensor, const Matrix3d& covariance,
+                               bool is_camera) {
+  const Vector3d angles = angles_of(R_body_sensor, is_camera);
+  const Vector3d sigmas = angle_sigmas(R_body_sensor, is_camera, covariance);
+  put(sensor, "deg", observed_angle, {"roll", r.roll, r.roll_sigma, angles[0], sigmas[0]});
+  put(sensor, "deg", observed_angle, {"pitch", r.pitch, r.pitch_sigma, angles[1], sigmas[1]});
+  put(sensor, "deg", observed_angle, {"yaw", r.yaw, r.yaw_sigma, angles[2], sigmas[2]});
+}
+
+void FoundValues::set_camera_rotation(const JointRotation& rotation) {
+  put_rotation("camera", found_.description.camera.rotation, rotation.R_body_camera,
+               rotation.covariance.topLeftCorner<3, 3>(), true);
+  found_.contradiction = rotation.contradiction;
+}
+
+void FoundValues::set_lidar_rotation(const JointRotation& rotation) {
+  put_rotation("lidar", found_.description.lidar.rotation, rotation.R_body_lidar,
+               rotation.covariance.bottomRightCorner<3, 3>(), false);
+  found_.contradiction = rotation.contradiction;
+}
+
+void FoundValues::put_delay(const std::string& sensor, SensorTime& time, double more,
+                            double sigma) {
+  double delay = time.delay + more;
+  if (delay < 0.0 && delay > -2.0 * sigma) delay = 0.0;
+  if (delay >= 0.0 || sigma > observed_delay) {
+    put(sensor, "s", observed_delay, {"delay", time.delay, time.delay_sigma, delay, sigma});
+    return;
+  }
+  found_.values.push_back({"vehicle." + sensor, "delay", "s", time.delay, delay, sigma, false});
+  say(fmt::format(
+      "The stamps of [vehicle.{}] are {:.1f} +-{:.1f} ms too early against the others', which no "
+      "delay of this sensor expresses: it is not written, and those of the others are too late.",
+      sensor, -1e3 * delay, 1e3 * sigma));
+}
+
+void FoundValues::set_unit_delay(double more, double sigma) {
+  put_delay("imu", found_.description.imu.time, more, sigma);
+}
+
+void FoundValues::set_lidar_delay(double more, double sigma) {
+  put_delay("lidar", found_.description.lidar.time, more, sigma);
+}
+
+void FoundValues::set_forward(const std::string& sensor, const Travel& travel) {
+  if (!travel.found) return;
+  const CarDescription& car = found_.description.car;
+  VehicleDescription& d = found_.description;
+  SensorPosition& p = sensor == "camera" ? d.camera.position : d.lidar.position;
+  put(sensor, "m", observed_position,
+      {"forward", p.forward, p.forward_sigma, travel.axle_distance - car.rear_axle_distance,
+       std::hypot(travel.axle_distance_sigma, car.rear_axle_distance_sigma)});
+}
+
+void FoundValues::set_lidar_position(const HandEye& eye, const JointRotation& rotation) {
+  const SensorPosition& c = found_.description.camera.position;
+  const Matrix3d& R = rotation.R_body_camera;
+  const Vector3d at = Vector3d(c.forward, c.left, c.up) + R * eye.T_a_b.translation();
+  const Matrix3d spread = R * eye.position_sigma.cwiseAbs2().asDiagonal() * R.transpose();
+  const Vector3d sigma =
+      (spread.diagonal() + Vector3d(c.forward_sigma, c.left_sigma, c.up_sigma).cwiseAbs2())
+          .cwiseSqrt();
+  SensorPosition& p = found_.description.lidar.position;
+  put("lidar", "m", observed_position, {"forward", p.forward, p.forward_sigma, at.x(), sigma.x()});
+  put("lidar", "m", observed_position, {"left", p.left, p.left_sigma, at.y(), sigma.y()});
+  put("lidar", "m", observed_position, {"up", p.up, p.up_sigma, at.z(), sigma.z()});
+}
+
+void FoundValues::set_mount(const sensors::Mount& mount) {
+  if (mount.status != sensors::MountStatus::found) {
+    say("How the inertial unit is turned in the vehicle is not found: that needs a minute of "
+        "driving with turns and braking, and the fixes of a GNSS receiver.");
+    return;
+  }
+  // The level is known about the vehicle's horizontal axes, the forward direction about its third.
+  // A constant error of the accelerometers looks like a slope.
+  constexpr double accelerometer_error = 0.01;  // of gravity, 0.1 m/s^2 of a unit of chips
+  const double level = std::hypot(mount.level_sigma, accelerometer_error);
+  const Vector3d sigma(level, level, mount.forward_sigma);
+  put_rotation("imu", found_.description.imu.rotation, mount.R_body_unit,
+               sigma.cwiseAbs2().asDiagonal(), false);
+}
+
+}  // namespace maploop::extrinsics
