@@ -44,7 +44,7 @@ extrinsics::Progress progress_of(const vehicle::Recording& recording) {
 }
 
 int calibrate_extrinsics(const ExtrinsicsOptions& options) {
-  vehicle::VehicleConfig config = vehicle::load_vehicle_config(options.config, options.topics);
+  vehicle::VehicleConfig config = vehicle::load_vehicle_config(options.config, {}, options.topics);
   config.ppp.observations = false;  // they say nothing of where the sensors are
   forget_mount(config);
   const vehicle::KnownContents contents = vehicle::fit_to_recording(config, options.recording);
