@@ -58,10 +58,11 @@ class Search {
         camera_ = align_pair("inertial unit", unit, "camera", camera, start_.R_body_camera, bias);
       if (lidar.samples > 0)
         lidar_ = align_pair("inertial unit", unit, "LiDAR", lidar, start_.R_body_lidar, bias);
-      if (rates.vertical_alone && (camera_ || lidar_))
+      if (rates.vertical_alone && (camera_ || lidar_)) {
         found_.say(
             "The unit has one gyro: about its vertical axis the other sensors' rotation is not "
             "observable by it, and yaw is that of the direction of travel alone.");
+      }
     }
     if (camera.samples == 0 || lidar.samples == 0) return;
     both_ = align_pair("camera", RotationStream::of_motions(camera.motions), "LiDAR", lidar,
@@ -73,10 +74,12 @@ class Search {
 
   void join_rotations() {
     std::vector<MeasuredRotation> all;
-    for (const auto& [part, aligned] : {std::pair(Part::camera, &camera_), {Part::lidar, &lidar_}})
-      if (*aligned)
-        all.push_back(
-            {Part::body, part, (*aligned)->R_a_b, (*aligned)->covariance.topLeftCorner<3, 3>()});
+    for (const auto& [part, aligned] :
+         {std::pair(Part::camera, &camera_), {Part::lidar, &lidar_}}) {
+      if (!*aligned) continue;
+      all.push_back(
+          {Part::body, part, (*aligned)->R_a_b, (*aligned)->covariance.topLeftCorner<3, 3>()});
+    }
     if (both_)
       all.push_back({Part::camera, Part::lidar, eye_.T_a_b.linear(), eye_.rotation_covariance});
     // Without gyros the LiDAR is found from where the camera is described to be.

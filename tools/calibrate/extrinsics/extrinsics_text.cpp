@@ -43,9 +43,10 @@ std::string table_text(const web::Columns<Item>& columns, const std::vector<Item
 std::string to_text(const Extrinsics& found) {
   std::string text =
       table_text(pair_columns, found.pairs) + table_text(value_columns, found.values);
-  if (found.contradiction > 0.0)
+  if (found.contradiction > 0.0) {
     text += fmt::format("Contradiction between the pairs' rotations: {:.1f} (1 is expected).\n",
                         found.contradiction);
+  }
   for (const std::string& sentence : found.sentences) text += sentence + '\n';
   return text;
 }

@@ -57,9 +57,9 @@ FoundValues::FoundValues(const VehicleDescription& described) {
 
 void FoundValues::add(const SensorPair& pair) {
   found_.pairs.push_back(pair);
-  if (pair.rates.status != AlignmentStatus::ok)
-    say("Nothing is found of the " + pair.a + " against the " + pair.b + ": " + reason(pair.rates) +
-        ".");
+  if (pair.rates.status == AlignmentStatus::ok) return;
+  say("Nothing is found of the " + pair.a + " against the " + pair.b + ": " + reason(pair.rates) +
+      ".");
 }
 
 void FoundValues::put(const std::string& sensor, const char* unit, double limit, const Change& c) {

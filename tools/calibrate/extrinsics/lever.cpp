@@ -31,9 +31,9 @@ std::vector<Window> windows_of(std::span<const SensorMotion> a, std::span<const 
   for (const SensorMotion& m : b) {
     const Time end = m.from + from_seconds(window);
     const auto B = chain_b.motion(m.from, end, 0.0), A = chain_a.motion(m.from, end, delay);
-    if (A && B)
-      windows.push_back(
-          {*A, *B, static_cast<int>(to_seconds(m.from - b.front().from) / window_block)});
+    if (!A || !B) continue;
+    const double begin = to_seconds(m.from - b.front().from);
+    windows.push_back({*A, *B, static_cast<int>(begin / window_block)});
   }
   return windows;
 }

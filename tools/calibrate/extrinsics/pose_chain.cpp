@@ -11,9 +11,10 @@ PoseChain::PoseChain(std::span<const SensorMotion> motions) {
   origin_ = motions.front().from;
   for (const SensorMotion& m : motions) {
     const double begin = to_seconds(m.from - origin_), end = to_seconds(m.to - origin_);
-    if (knots_.empty() || knots_.back().t != begin)
+    if (knots_.empty() || knots_.back().t != begin) {
       knots_.push_back({begin, Isometry3d::Identity(), m.T_from_to.translation() / (end - begin),
                         knots_.empty() ? 0 : knots_.back().piece + 1});
+    }
     Knot& last = knots_.back();
     const Vector3d mean = last.pose.linear() * m.T_from_to.translation() / (end - begin);
     const bool inside = knots_.size() > 1 && (knots_.end() - 2)->piece == last.piece;
