@@ -111,19 +111,30 @@ class Viewed {
   const std::function<void(const FoxgloveMessage&)>& use_;
 };
 
+constexpr std::array nav_topics{FoxgloveTopic{"/map/fix", LocationFix::name},
+                                FoxgloveTopic{"/map/pose", PoseInFrame::name},
+                                FoxgloveTopic{"/tf", FrameTransform::name}};
+constexpr std::array odom_topics{FoxgloveTopic{"/odom/pose", PoseInFrame::name}};
+constexpr std::array gnss_topics{FoxgloveTopic{"/gnss/fix", LocationFix::name}};
+constexpr std::array truth_topics{FoxgloveTopic{"/truth/fix", LocationFix::name}};
+constexpr std::array calibration_topics{FoxgloveTopic{"/tf_static", FrameTransform::name}};
+constexpr std::array camera_topics{FoxgloveTopic{"/camera/left", CompressedImage::name},
+                                   FoxgloveTopic{"/camera/right", CompressedImage::name}};
+constexpr std::array velodyne_topics{FoxgloveTopic{"/velodyne", PointCloud::name}};
+
 struct ChannelView {
   std::string_view channel;
   void (Viewed::*show)() const;
-  std::size_t messages;  // at most
+  std::span<const FoxgloveTopic> topics;
 };
 constexpr std::array shown_channels{
-    ChannelView{channel_names::nav_state, &Viewed::nav_state, 3},
-    ChannelView{channel_names::odom_state, &Viewed::odom_state, 1},
-    ChannelView{channel_names::gnss_fix, &Viewed::gnss_fix, 1},
-    ChannelView{channel_names::truth, &Viewed::truth, 1},
-    ChannelView{channel_names::calibration, &Viewed::calibration, 2},
-    ChannelView{channel_names::camera, &Viewed::camera, 2},
-    ChannelView{channel_names::velodyne, &Viewed::velodyne, 1},
+    ChannelView{channel_names::nav_state, &Viewed::nav_state, nav_topics},
+    ChannelView{channel_names::odom_state, &Viewed::odom_state, odom_topics},
+    ChannelView{channel_names::gnss_fix, &Viewed::gnss_fix, gnss_topics},
+    ChannelView{channel_names::truth, &Viewed::truth, truth_topics},
+    ChannelView{channel_names::calibration, &Viewed::calibration, calibration_topics},
+    ChannelView{channel_names::camera, &Viewed::camera, camera_topics},
+    ChannelView{channel_names::velodyne, &Viewed::velodyne, velodyne_topics},
 };
 
 template <class... T>
@@ -141,10 +152,10 @@ void show_in_foxglove(const LogEvent& event, const schema::Schema& schema,
     if (event.channel == view.channel) (Viewed(event, schema, use).*view.show)();
 }
 
-std::size_t foxglove_topics(std::string_view channel) {
+std::span<const FoxgloveTopic> foxglove_topics(std::string_view channel) {
   for (const ChannelView& view : shown_channels)
-    if (channel == view.channel) return view.messages;
-  return 0;
+    if (channel == view.channel) return view.topics;
+  return {};
 }
 
 std::string foxglove_schema(std::string_view schema_name) {

@@ -1,8 +1,8 @@
 // Converts what the vehicle sends to messages that Foxglove shows on its map and in its scene.
 #pragma once
 
-#include <cstddef>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -30,8 +30,12 @@ struct FoxgloveMessage {
 void show_in_foxglove(const LogEvent& event, const schema::Schema& schema,
                       const std::function<void(const FoxgloveMessage&)>& use);
 
-// Returns how many messages at most show an event of a channel.
-std::size_t foxglove_topics(std::string_view channel);
+struct FoxgloveTopic {
+  std::string_view name, schema_name;
+};
+
+// Returns the topics that show the events of a channel; none for most channels.
+std::span<const FoxgloveTopic> foxglove_topics(std::string_view channel);
 
 // Returns the JSON schema of one of these names.
 std::string foxglove_schema(std::string_view schema_name);

@@ -29,7 +29,7 @@ void show(const LogEvent& event, const schema::Schema& schema,
 }
 
 std::size_t most_shown(std::string_view channel) {
-  return foxglove_topics(channel) + (is_pictured(channel) ? 0U : 1U);
+  return foxglove_topics(channel).size() + (is_pictured(channel) ? 0U : 1U);
 }
 
 }  // namespace maploop::lcm_log

@@ -23,7 +23,7 @@ struct ShownMessage {
 void show(const LogEvent& event, const schema::Schema& schema,
           const std::function<void(const ShownMessage&)>& use);
 
-// Returns how many messages an event of a channel is shown by, if it shows all that it can.
+// Returns by how many topics an event of a channel is shown, if it shows all that it can.
 std::size_t most_shown(std::string_view channel);
 
 }  // namespace maploop::lcm_log
