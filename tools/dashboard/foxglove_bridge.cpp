@@ -33,7 +33,7 @@ void FoxgloveBridge::take(const lcm_log::LogEvent& event) {
   if (!rare && !unknown && !is_wanted(known)) return;
   known.looked_at_us = event.time_us;
   std::size_t shown = 0;
-  lcm_log::show(event, schema::own_schema(), [&](lcm_log::ShownMessage message) {
+  lcm_log::show(event, schema::own_schema(), [&](const lcm_log::ShownMessage& message) {
     ++shown;
     std::pair key(std::string(message.topic), std::string(message.schema_name));
     const auto [found, is_new] = channels_.try_emplace(key, -1);

@@ -114,10 +114,11 @@ void FoxgloveViewer::take_request(bool full) {
   const std::string origin(view(request_[http::field::origin]));
   if (!beast::websocket::is_upgrade(request_))
     return refuse(status::upgrade_required, "this is a WebSocket for Foxglove, and no page");
-  if (!origin.empty() && !server_.allows(origin))
+  if (!origin.empty() && !server_.allows(origin)) {
     return refuse(
         status::forbidden,
         "pages of " + origin + " may not connect: maploop dashboard --origin allows them");
+  }
   if (!offers_protocol(view(request_[http::field::sec_websocket_protocol])))
     return refuse(status::bad_request, "the protocol is " + std::string(protocol));
   if (full) return refuse(status::service_unavailable, "there are too many viewers already");

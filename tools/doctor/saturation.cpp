@@ -62,10 +62,11 @@ std::vector<std::string> cut_off_axes(const vehicle::Recording& recording) {
     for (std::size_t i = 0; i < axes.size(); ++i) values[i].push_back(sample.*axes[i].value);
   }
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    if ((six_axes || !axes[i].of_six) && is_cut_off(std::move(values[i])))
+    if ((six_axes || !axes[i].of_six) && is_cut_off(std::move(values[i]))) {
       sentences.push_back(
           fmt::format("The {} of imu is cut off at the end of its range: what is larger is lost.",
                       axes[i].name));
+    }
   }
   return sentences;
 }
@@ -86,9 +87,10 @@ std::vector<std::string> cut_off_images(const vehicle::Recording& recording,
   std::vector<std::string> sentences;
   const auto judge = [&](std::uint64_t count, const char* what, const char* remedy) {
     const double share = static_cast<double>(count) / static_cast<double>(all);
-    if (share > 0.25)
+    if (share > 0.25) {
       sentences.push_back(fmt::format("{:.0f} % of the pixels of camera are entirely {}: {}.",
                                       100.0 * share, what, remedy));
+    }
   };
   judge(white, "white", "expose shorter");
   judge(black, "black", "expose longer, or light the scene");

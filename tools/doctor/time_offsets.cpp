@@ -88,9 +88,10 @@ std::vector<std::string> advice(const std::vector<TimeOffset>& offsets, const st
                                       o.b));
     }
   }
-  if (late)
+  if (late) {
     sentences.push_back("maploop calibrate extrinsics " + path +
                         " writes the delays to a file for --config.");
+  }
   return sentences;
 }
 

@@ -29,13 +29,14 @@ std::string samples_csv(const std::vector<experiments::MapResult>& results) {
       "azimuth_error,sigma,nees,p_link,feedback\n";
   for (const experiments::MapResult& r : results) {
     const experiments::MapCase& c = r.setup;
-    for (const experiments::MapSample& s : r.samples)
+    for (const experiments::MapSample& s : r.samples) {
       text += fmt::format(
           "{},{},{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{}"
           "\n",
           c.sequence, c.configuration, c.unit(), c.outages, c.fault, to_string(c.mode), c.seed,
           s.time, s.truth.x(), s.truth.y(), s.error.x(), s.error.y(), s.azimuth_error, s.sigma,
           s.nees, s.probability, to_string(s.reason));
+    }
   }
   return text;
 }

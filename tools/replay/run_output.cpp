@@ -24,11 +24,12 @@ void write_states(const RunOptions& options, const RunPass& pass,
   const evaluation::StampedTrajectory fused =
       (options.frame == OutputFrame::odom ? pass.odom : pass.fused).poses(T_body_cam);
   for (const std::filesystem::path& file : {options.poses, options.tum}) {
-    if (!file.empty() && fused.poses.empty())
+    if (!file.empty() && fused.poses.empty()) {
       throw std::runtime_error(
           "'" + file.string() +
           "' is not written: no image has a fused pose; --csv and --nmea write "
           "the fused state without images");
+    }
   }
   if (!options.poses.empty()) evaluation::write_kitti_poses(options.poses, fused.poses);
   if (!options.tum.empty()) evaluation::write_tum(options.tum, fused);

@@ -160,9 +160,10 @@ void read_layer(const Layer& layer, VehicleConfig& config) {
 runtime::ConfigDocument parse_setting(const std::string& setting) {
   const std::string name = "--set " + setting;
   const std::size_t equal = setting.find('=');
-  if (equal == std::string::npos)
+  if (equal == std::string::npos) {
     throw runtime::ConfigError(name +
                                ": write TABLE.KEY=VALUE, as in --set fusion.gyro_noise=1e-4");
+  }
   try {
     return runtime::ConfigDocument::parse(setting, name);
   } catch (const runtime::ConfigError&) {

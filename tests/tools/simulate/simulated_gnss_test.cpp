@@ -303,10 +303,11 @@ TEST(GnssOnlyDrive, WithTheRoadOnOneFrequencyTheCovarianceIsOne) {
 
 TEST(GnssOnlyDrive, AnotherSeedGivesOtherBytes) {
   for (const char* name : {"gnss/observations.rnx", "gnss/orbits.sp3", "gnss/truth.csv",
-                           "gnss_one_frequency/observations.rnx"})
+                           "gnss_one_frequency/observations.rnx"}) {
     EXPECT_NE(content(gnss_drive(Environment::open, 1) / name),
               content(gnss_drive(Environment::open, 2) / name))
         << name;
+  }
 }
 
 TEST(GnssOnlyDrive, HousesTakeAwaySatellites) {
