@@ -142,8 +142,8 @@ def make_plan(catalogue, made, only=()):
                 arguments += ["--config", r["config"]]
             run = {"experiment": experiment["name"], "recording": r["name"], "split": r.get("split", ""),
                    "tags": r.get("tags", []), "configuration": configuration, "seed": seed, "fault": fault,
-                   "set": setting, "arguments": [r["path"], *arguments], "seconds": r.get("seconds", 600.0),
-                   "megabytes": MEGABYTES}
+                   "set": setting, "arguments": [r["path"], *arguments], "report": experiment.get("report", False),
+                   "seconds": r.get("seconds", 600.0), "megabytes": MEGABYTES}
             run["variant"] = variant_of(run)
             runs[digest(experiment["name"], run["arguments"], r["identity"])] = run
     used = {run["recording"] for run in runs.values()}

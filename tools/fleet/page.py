@@ -63,7 +63,7 @@ def write(database, page):
     shown = [n for n in metrics if any(r[n] is not None for r in runs)]
     parts = [experiment_part(n, e, [r for r in runs if r["experiment"] == n], metrics) for n, e in experiments.items()
              if any(r["experiment"] == n for r in runs)]
-    texts = ("experiment", "recording", "split", "variant", "error", "key")
+    texts = ("experiment", "recording", "split", "variant", "error", "report")
     data = {"metrics": [{"name": n, **{k: metrics[n][k] for k in ("unit", "about")}} for n in shown],
             "texts": texts,
             "of": {n: e["metrics"].split() for n, e in experiments.items()},

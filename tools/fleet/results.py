@@ -12,7 +12,7 @@ from pathlib import Path
 from metrics import METRICS, value
 
 TEXTS = ("key", "experiment", "recording", "split", "tags", "variant", "configuration", "fault", "settings", "error",
-         "code", "hash")
+         "code", "hash", "report")
 NUMBERS = ("seed", "status", "wall_s")
 
 
@@ -34,7 +34,8 @@ def collect(plan, database):
     db.execute("CREATE TABLE metrics (name TEXT PRIMARY KEY, unit TEXT, about TEXT, less_is_better INTEGER)")
     for name, e in plan["experiments"].items():
         db.execute("INSERT INTO experiments VALUES (?, ?, ?)", (name, e.get("about", ""), " ".join(e["metrics"])))
-    db.executemany("INSERT INTO metrics VALUES (?, ?, ?, ?)", ((n, m.unit, m.about, m.less_is_better) for n, m in METRICS.items()))
+    db.executemany("INSERT INTO metrics VALUES (?, ?, ?, ?)",
+                   ((n, m.unit, m.about, m.less_is_better) for n, m in METRICS.items()))
     marks = ", ".join("?" * len(columns))
     for key in plan["runs"]:
         record = json.loads((Path(plan["out"]) / "results" / f"{key}.json").read_text())

@@ -37,6 +37,8 @@ if fault == "lost":
 if fault == "killed" or (fault == "killed-once" and not (folder / fault).exists()):
     (folder / fault).touch()
     os.kill(os.getpid(), signal.SIGKILL)
+if option("--report"):
+    Path(option("--report")).write_text("a page")
 scale = float(option("--set", "scale=1").partition("=")[2])
 percent = {"common_rotation_removed": {"segment_100m_percent": 0.5}}
 Path(option("--json")).write_text(json.dumps({
