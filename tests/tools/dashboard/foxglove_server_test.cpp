@@ -229,11 +229,11 @@ TEST_F(Foxglove, AViewerThatDoesNotReadLosesMessagesAndIsLeft) {
   stuck.subscribe(1, channel);
   stuck.subscribe(2, channel);
   const std::string large = '"' + std::string(1U << 20U, 'x') + '"';
-  for (int i = 0; i < 64; ++i) {
+  for (int i = 0; i < 24; ++i) {
     server_.publish(channel, i, large);
     EXPECT_EQ(reader.next(), large.substr(1, large.size() - 2)) << "nobody waits for the other";
   }
-  EXPECT_GT(server_.lost(), 40U);
+  EXPECT_GT(server_.lost(), 0U);
   reader.send(R"({"op":"unsubscribe","subscriptionIds":[1]})");
   for (int i = 0; i < 300 && server_.wanted(channel); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
