@@ -43,7 +43,7 @@ def run(plan, key, result, last):
     with tempfile.TemporaryDirectory() as scratch:
         output = Path(scratch) / "output.json"
         command = [plan["binary"], "replay", "--lockstep", "--no-lcm", "--json", str(output), *setup["arguments"]]
-        report = Path(plan["out"]) / "reports" / f"{key}.html"
+        report = Path(plan["results"]).with_name("reports") / f"{key}.html"
         if setup["report"]:
             report.parent.mkdir(exist_ok=True)
             command += ["--report", str(report)]
@@ -60,7 +60,7 @@ def run(plan, key, result, last):
         record = {"schema": 1, "key": key, **setup, "code": plan["code"], "machine": processor(),
                   "status": status, "error": said.strip()[-500:] if status else "",
                   "wall_s": round(time.monotonic() - began, 3),
-                  "report": f"reports/{key}.html" if report.exists() else "",
+                  "report": f"../reports/{key}.html" if report.exists() else "",
                   "output": json.loads(output.read_text()) if output.exists() else None}
     partial = Path(result + f".{os.getpid()}.partial")
     partial.write_text(json.dumps(record))

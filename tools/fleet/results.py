@@ -38,7 +38,7 @@ def collect(plan, database):
                    ((n, m.unit, m.about, m.less_is_better) for n, m in METRICS.items()))
     marks = ", ".join("?" * len(columns))
     for key in plan["runs"]:
-        record = json.loads((Path(plan["out"]) / "results" / f"{key}.json").read_text())
+        record = json.loads((Path(plan["results"]) / f"{key}.json").read_text())
         db.execute(f"INSERT INTO runs VALUES ({marks})", row_of(record))
     db.commit()
     db.close()

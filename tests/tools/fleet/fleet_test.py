@@ -174,19 +174,19 @@ class Fleet(Folder):
         return sum(call.startswith("replay") for call in self.calls())
 
     def rows(self, code="new"):
-        return results.read(self.folder / "out" / code / "runs.sqlite")[0]
+        return results.read(self.folder / "out" / code / "c/runs.sqlite")[0]
 
     def test_a_page_is_made_and_what_is_there_is_not_made_again(self):
         done = self.run_fleet(TEXT.replace("metrics", "report = true\nmetrics"))
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("24 runs, 0 of them are there", done.stdout)
         self.assertEqual(len(self.calls()), 25, "24 runs and one recording")
-        page = (self.folder / "out/new/page.html").read_text()
+        page = (self.folder / "out/new/c/page.html").read_text()
         self.assertNotIn("<!--", page)
         data = json.loads(re.search(r'id="data">(.*?)</script>', page, re.DOTALL)[1])
         self.assertEqual(len(data["rows"]), 24)
         report = data["rows"][0][data["texts"].index("report")]
-        self.assertEqual((self.folder / "out/new" / report).read_text(), "a page")
+        self.assertEqual((self.folder / "out/new/c" / report).read_text(), "a page")
         twice = next(row for row in page.splitlines() if "scale=2" in row)
         self.assertRegex(twice, r'class="missed" title="2.000 to 2.000 \(95 %\), 6 pairs">2.000')
         self.assertEqual(self.run_fleet().returncode, 0)
@@ -235,13 +235,13 @@ class Fleet(Folder):
         self.assertEqual(len(rows), 24)
         text = io.StringIO()
         with contextlib.redirect_stdout(text):
-            status = compare().main([str(self.folder / "out/old"), str(self.folder / "out/old")])
+            status = compare().main([str(self.folder / "out/old/c"), str(self.folder / "out/old/c")])
         self.assertEqual(status, 0)
         self.assertIn("seeds: 24 runs in both, 24 with the same bits", text.getvalue())
         module = compare()
         old = [r for r in rows if r["variant"].endswith("scale=1")]
         new = [{**r, "variant": r["variant"] + ", scale=1"} for r in self.rows()]
-        _, experiments, metrics = results.read(self.folder / "out/new/runs.sqlite")
+        _, experiments, metrics = results.read(self.folder / "out/new/c/runs.sqlite")
         lines, is_worse = module.lines_of(old, new, experiments, metrics)
         self.assertTrue(is_worse)
         self.assertRegex("\n".join(lines), r"position_rms +1\.2 -> +1\.8 m +x 1\.500 .*12 pairs: worse")

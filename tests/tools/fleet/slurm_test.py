@@ -149,7 +149,7 @@ def fleet(folder, out, *more, **environment):
 
 
 def rows(folder, out):
-    db = sqlite3.connect(folder / out / "x/runs.sqlite")
+    db = sqlite3.connect(folder / out / "x/c/runs.sqlite")
     return db.execute("SELECT key, status, hash, position_rms FROM runs ORDER BY key").fetchall()
 
 
