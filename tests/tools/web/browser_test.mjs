@@ -177,10 +177,12 @@ test("a page of another site cannot control the replay", async () => {
   const dashboard = start("dashboard", "--port", "0");
   const url = (await firstLine(dashboard)).split(" ")[0];
   const post = (headers, body) => fetch(`${url}control`, { method: "POST", headers, body });
-  const pause = JSON.stringify({ kind: "pause" });
+  const command = (kind) => JSON.stringify({ run: "0123abcd", kind });
+  const pause = command("pause");
   assert.equal((await post({ Origin: "http://elsewhere.example" }, pause)).status, 403);
   assert.equal((await post({}, pause)).status, 200);
   assert.equal((await post({}, "nonsense")).status, 400);
-  assert.equal((await post({}, JSON.stringify({ kind: "explode" }))).status, 400);
+  assert.equal((await post({}, JSON.stringify({ kind: "pause" }))).status, 400, "of no run");
+  assert.equal((await post({}, command("explode"))).status, 400);
   await stop(dashboard);
 });
