@@ -79,7 +79,7 @@ class MadeMotion {
     return from_nanoseconds(1'600'000'000'000'000'000) + from_seconds(t);
   }
   const Eigen::Isometry3d& pose(double t) const {
-    return poses_.at(static_cast<std::size_t>(t / step + 0.5));
+    return poses_.at(static_cast<std::size_t>(std::lround(t / step)));
   }
 
   MadeDrive drive_;

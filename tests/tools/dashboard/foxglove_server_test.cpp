@@ -19,8 +19,8 @@
 #include <utility>
 
 #include "msgs/lcm/channel_names.h"
+#include "msgs/lcm/checked_decode.h"
 #include "msgs/lcm/conversions.h"
-#include "msgs/lcm/schema.h"
 #include "tools/dashboard/foxglove_bridge.h"
 
 namespace maploop::dashboard {
@@ -189,9 +189,10 @@ TEST_F(Foxglove, WhatAViewerAsksWronglyIsAnswered) {
   EXPECT_THAT(warned(R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":9}]})"),
               HasSubstr("there is no channel 9"));
   for (const char* wrong : {R"([{"id":-1,"channelId":0}])", R"([{"id":1e30,"channelId":0}])",
-                            R"([7])", R"([{"id":1,"channelId":"0"}])"})
+                            R"([7])", R"([{"id":1,"channelId":"0"}])"}) {
     EXPECT_THAT(warned(R"({"op":"subscribe","subscriptions":)" + std::string(wrong) + "}"),
                 HasSubstr("no number"));
+  }
   EXPECT_THAT(warned(R"({"op":"unsubscribe","subscriptionIds":[3]})"),
               HasSubstr("there is no subscription 3"));
   viewer.subscribe(1, channel);
