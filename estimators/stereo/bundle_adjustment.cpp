@@ -9,6 +9,7 @@
 #include "estimators/stereo/adjustment.h"
 #include "estimators/stereo/residual.h"
 #include "estimators/stereo/velocity_change.h"
+#include "msgs/small_turn.h"
 
 namespace maploop::stereo {
 namespace {

@@ -7,6 +7,7 @@
 #include <opencv2/calib3d.hpp>
 
 #include "estimators/stereo/residual.h"
+#include "msgs/small_turn.h"
 
 namespace maploop::stereo {
 namespace {

@@ -9,6 +9,7 @@
 #include "estimators/stereo/refine.h"
 #include "estimators/stereo/residual.h"
 #include "estimators/stereo/stereo_match.h"
+#include "msgs/small_turn.h"
 
 namespace maploop::stereo {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "estimators/stereo/residual.h"
 #include "estimators/stereo/triangulate.h"
+#include "msgs/small_turn.h"
 
 namespace maploop::stereo {
 namespace {

@@ -1,5 +1,7 @@
 #include "estimators/stereo/residual.h"
 
+#include "msgs/small_turn.h"
+
 namespace maploop::stereo {
 namespace {
 

@@ -37,11 +37,4 @@ Prediction predict(const StereoCalibration& camera, const Eigen::Isometry3d& T_p
 Eigen::Isometry3d perturbed(const Eigen::Isometry3d& pose,
                             const Eigen::Matrix<double, 6, 1>& perturbation);
 
-// Returns [v]x, whose product with w is v x w.
-inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
-}
-
 }  // namespace maploop::stereo

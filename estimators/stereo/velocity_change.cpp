@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "estimators/stereo/residual.h"
+#include "msgs/small_turn.h"
 
 namespace maploop::stereo {
 namespace {

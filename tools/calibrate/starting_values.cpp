@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "msgs/small_turn.h"
 #include "tools/calibrate/board_adjustment.h"
 #include "tools/command/median.h"
 
@@ -23,7 +24,7 @@ std::vector<cv::Point2f> as_points(const Corners& corners) {
 Eigen::Isometry3d as_pose(const cv::Mat& turn, const cv::Mat& t) {
   const Eigen::Vector3d axis(turn.at<double>(0), turn.at<double>(1), turn.at<double>(2));
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  if (axis.norm() > 0.0) pose.linear() = Eigen::AngleAxisd(axis.norm(), axis.normalized()).matrix();
+  pose.linear() = rotation_of(axis);
   pose.translation() << t.at<double>(0), t.at<double>(1), t.at<double>(2);
   return pose;
 }
@@ -94,8 +95,7 @@ Eigen::Isometry3d median_pose(const std::vector<Eigen::Isometry3d>& poses) {
     shift[axis] = tools::median(std::move(shifts));
   }
   Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  if (turn.norm() > 0.0)
-    result.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).matrix();
+  result.linear() = rotation_of(turn);
   result.translation() = shift;
   return result;
 }

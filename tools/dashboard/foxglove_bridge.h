@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,15 +26,15 @@ class FoxgloveBridge {
 
  private:
   struct Known {
-    std::map<std::pair<std::string, std::string>, int> channels;  // by topic and schema
+    std::set<int> channels;  // of the server
     bool complete = false, kept = false;
     std::int64_t last_us = 0, looked_at_us = 0;
   };
   bool is_wanted(const Known& known) const;
 
   FoxgloveServer& server_;
-  std::map<std::pair<std::string, std::string>, int> channels_;
-  std::map<std::string, Known, std::less<>> known_;  // by bus channel
+  std::map<std::pair<std::string, std::string>, int> channels_;  // by topic and schema
+  std::map<std::string, Known, std::less<>> known_;              // by bus channel
 };
 
 }  // namespace maploop::dashboard

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "msgs/frames.h"
+#include "msgs/small_turn.h"
 #include "tools/evaluate/kitti_metric.h"
 #include "tools/odometry/odometry_input.h"
 
@@ -12,12 +13,6 @@ namespace {
 
 constexpr double truth_position = 0.03;  // m
 constexpr double truth_attitude = 0.05;  // deg
-
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
-}
 
 // Returns the poses of the truth's body by stamp, turned by the common rotation.
 std::map<Time, Eigen::Isometry3d> turned_truth(std::span<const RelativeMotion> motions,

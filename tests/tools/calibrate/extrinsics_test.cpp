@@ -31,7 +31,7 @@ VehicleDescription true_car() {
   return d;
 }
 
-// What the sensors of that car measure, if their stamps are not corrected.
+// Returns what the sensors of that car measure if their stamps are not corrected.
 Measurements measured(const MadeMotion& motion) {
   const VehicleDescription d = true_car();
   Measurements m;

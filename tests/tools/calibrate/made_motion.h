@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
+#include "msgs/small_turn.h"
 #include "tools/calibrate/extrinsics/rotation_stream.h"
-#include "tools/calibrate/extrinsics/small_turn.h"
 
 namespace maploop::extrinsics {
 

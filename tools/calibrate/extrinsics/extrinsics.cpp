@@ -17,7 +17,7 @@ constexpr double mounted_sigma = 0.005;  // rad, of x along the travel: [fusion]
 
 using Aligned = std::optional<RateAlignment>;
 
-// What the pairs of sensors were found to be, as far as their alignments succeeded.
+// These are the alignments of the pairs of sensors that succeeded.
 class Search {
  public:
   Search(const Measurements& measured, const VehicleDescription& described)

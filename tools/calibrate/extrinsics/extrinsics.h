@@ -20,14 +20,14 @@ inline constexpr double observed_angle = 1.0;      // deg
 inline constexpr double observed_delay = 0.02;     // s
 inline constexpr double observed_position = 0.15;  // m
 
-// What was found of one key of the vehicle description.
+// This is the value that was found for one key of the vehicle description.
 struct FoundValue {
   std::string table, key, unit;  // as in "vehicle.camera", "yaw", "deg"
   double before = 0.0, value = 0.0, sigma = 0.0;
   bool observed = false;
 };
 
-// What two sensors say of each other: "inertial unit" and "camera", for example.
+// This is the alignment of two sensors, such as "inertial unit" and "camera".
 struct SensorPair {
   std::string a, b;
   RateAlignment rates;  // of a against b

@@ -1,4 +1,4 @@
-// What was found of the sensors' places, as text and JSON.
+// This file writes the extrinsics that were found as text, JSON and TOML.
 #pragma once
 
 #include <nlohmann/json.hpp>

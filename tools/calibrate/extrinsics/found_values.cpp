@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "msgs/frames.h"
-#include "tools/calibrate/extrinsics/small_turn.h"
+#include "msgs/small_turn.h"
 
 namespace maploop::extrinsics {
 namespace {

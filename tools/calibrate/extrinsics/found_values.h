@@ -21,7 +21,8 @@ class FoundValues {
   void set_camera_lidar(const HandEye& eye) { found_.camera_lidar = eye; }
   void set_camera_rotation(const JointRotation& rotation);
   void set_lidar_rotation(const JointRotation& rotation);
-  // Of the stamps, against those of the camera; s, added to what is described.
+  // These delays are of a sensor's stamps against the camera's; `more` (s) is added to the delay
+  // that is described.
   void set_unit_delay(double more, double sigma);
   void set_lidar_delay(double more, double sigma);
   void set_forward(const std::string& sensor, const Travel& travel);  // "camera", "lidar"

@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "tools/calibrate/extrinsics/small_turn.h"
+#include "msgs/small_turn.h"
 
 namespace maploop::extrinsics {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "msgs/small_turn.h"
 #include "tools/calibrate/extrinsics/pose_chain.h"
 #include "tools/calibrate/extrinsics/robust_fit.h"
-#include "tools/calibrate/extrinsics/small_turn.h"
 
 namespace maploop::extrinsics {
 namespace {

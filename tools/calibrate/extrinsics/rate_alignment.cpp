@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "msgs/small_turn.h"
 #include "tools/calibrate/extrinsics/robust_fit.h"
-#include "tools/calibrate/extrinsics/small_turn.h"
 
 namespace maploop::extrinsics {
 namespace {

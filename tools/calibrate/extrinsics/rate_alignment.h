@@ -28,7 +28,7 @@ struct RateCorrelation {
 std::vector<RateCorrelation> correlate(const RotationStream& a, std::span<const SensorMotion> b,
                                        double most, double step = 0.01);
 
-// What was known before.
+// This is what is known of the two sensors before the alignment.
 struct AlignmentStart {
   Eigen::Matrix3d R_a_b = Eigen::Matrix3d::Identity();
   double rotation_sigma = 0.17;  // rad, of each axis: ten degrees
@@ -51,7 +51,7 @@ struct RateAlignment {
   double delay = 0.0;                               // s, by which a's stamps are later than b's
   Eigen::Vector3d bias = Eigen::Vector3d::Zero();   // rad/s, of a
   Eigen::Vector3d noise = Eigen::Vector3d::Zero();  // rad/s, 1 sigma of a motion's residual
-  // Of a rotation vector in a's axes that turns R_a_b (rad), the delay (s) and the bias.
+  // The order is: rotation vector in a's axes that turns R_a_b (rad), delay (s), bias (rad/s).
   Eigen::Matrix<double, 7, 7> covariance = Eigen::Matrix<double, 7, 7>::Zero();
 
   Eigen::Vector3d rotation_sigma() const { return covariance.diagonal().head<3>().cwiseSqrt(); }

@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-namespace maploop::extrinsics {
+namespace maploop {
 
 // Returns [v]x, for which [v]x w = v x w.
 inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
@@ -23,4 +23,4 @@ inline Eigen::Vector3d turn_of(const Eigen::Matrix3d& rotation) {
   return turn.angle() * turn.axis();
 }
 
-}  // namespace maploop::extrinsics
+}  // namespace maploop
