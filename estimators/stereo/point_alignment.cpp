@@ -138,9 +138,10 @@ std::optional<Eigen::Isometry3d> align_points(const StereoCalibration& camera,
   previous_centre /= all;
   current_centre /= all;
   Matrix3d spread = Matrix3d::Zero();
-  for (std::size_t i = 0; i < weights.size(); ++i)
+  for (std::size_t i = 0; i < weights.size(); ++i) {
     spread += weights[i] / all * (previous[i] - previous_centre) *
               (current[i] - current_centre).transpose();
+  }
   const Eigen::JacobiSVD<Matrix3d> svd(spread, Eigen::ComputeFullU | Eigen::ComputeFullV);
   if (!(svd.singularValues()[1] > 1e-9 * svd.singularValues()[0])) return std::nullopt;
   const double handedness = (svd.matrixU() * svd.matrixV().transpose()).determinant();
@@ -168,10 +169,11 @@ Refinement refine_alignment(const StereoCalibration& camera, const StereoParamet
                         &result.T_previous_current, &result.iterations);
   };
   if (!adjust(inliers)) return result;
-  for (int i = 0; i < static_cast<int>(tracks.size()); ++i)
+  for (int i = 0; i < static_cast<int>(tracks.size()); ++i) {
     if (alignment.linearize(result.T_previous_current, i).residual.norm() <
         parameters.outlier_sigmas)
       result.inliers.push_back(i);
+  }
   if (!adjust(result.inliers)) return result;
 
   const double freedom = 3.0 * static_cast<double>(result.inliers.size()) - 6.0;

@@ -38,9 +38,11 @@ OneCamera calibrate_one(const Board& board, const std::vector<View>& views, Corn
                         int width, int height) {
   std::vector<std::vector<cv::Point3f>> on_board(views.size());
   std::vector<std::vector<cv::Point2f>> in_image;
-  for (auto& points : on_board)
+  for (auto& points : on_board) {
     for (const Eigen::Vector2d& p : board.points())
       points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()), 0.0F);
+  }
+  in_image.reserve(views.size());
   for (const View& view : views) in_image.push_back(as_points(view.*side));
   // OpenCV's own guess of the focal length assumes no distortion, and for strongly distorting
   // lenses it leads to false minima. Therefore focal length and k1 alone are fitted from several

@@ -26,10 +26,11 @@ std::map<Time, Eigen::Isometry3d> turned_truth(std::span<const RelativeMotion> m
   // R t_estimate ~ t_truth, so that R^T turns the truth into the estimate's axes.
   const Eigen::Isometry3d common(
       evaluation::fit_common_rotation(matched.estimate, matched.truth).transpose());
-  for (std::size_t i = 0; i < matched.truth.size(); ++i)
+  for (std::size_t i = 0; i < matched.truth.size(); ++i) {
     poses[matched.stamps[i]] = T_body_cam * common *
                                (matched.truth.front().inverse() * matched.truth[i]) *
                                common.inverse() * T_body_cam.inverse();
+  }
   return poses;
 }
 
