@@ -146,7 +146,7 @@ TEST(WatchdogInTheGraph, NamesSilentStaleAndMissingSensorsAndTheRestGoesOn) {
   testing::MemoryBus bus;
   testing::drive({.sensors = std::move(sensors),
                   .speed = 4.0,
-                  .faults = {"lost@imu:2:4", "lost@gnss:0:20"},
+                  .faults = {"lost@imu:2:5", "lost@gnss:0:20"},
                   .sinks = {&bus}});
   const std::vector<Sentences> messages = degraded(bus);
   ASSERT_GE(messages.size(), 9U);
