@@ -145,7 +145,7 @@ TEST(WatchdogInTheGraph, NamesSilentStaleAndMissingSensorsAndTheRestGoesOn) {
   sensors.velodyne = nullptr;
   testing::MemoryBus bus;
   testing::drive({.sensors = std::move(sensors),
-                  .speed = 4.0,
+                  .speed = 2.0,
                   .faults = {"lost@imu:2:5", "lost@gnss:0:20"},
                   .sinks = {&bus}});
   const std::vector<Sentences> messages = degraded(bus);
