@@ -38,7 +38,7 @@ MapMatch& NavMatcher::add(const NavState& state) {
   match_.covariance = state.covariance.topLeftCorner<2, 2>();
   match_.vehicle_azimuth = state.attitude.azimuth;
   match_.speed = state.forward_speed;
-  if (state.status == NavStatus::uninitialized) {
+  if (state.status == NavStatus::uninitialized || state.status == NavStatus::without_course) {
     match_.refusal = FixRefusal::no_position;
     return match_;
   }

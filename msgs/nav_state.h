@@ -12,13 +12,15 @@
 namespace maploop {
 
 enum class NavStatus : std::uint8_t {
-  uninitialized,  // no first fix yet; everything else is zero
-  aided,          // odometry is being applied
-  coasting,       // inertial only, for longer than the filter's limit
+  uninitialized,   // no first fix yet; everything else is zero
+  aided,           // odometry is being applied
+  coasting,        // inertial only, for longer than the filter's limit
+  without_course,  // a fix alone, too slow to show a direction: the azimuth is unknown
 };
 
 constexpr auto names_of(NavStatus) {
-  return names_up_to<NavStatus::coasting>({"uninitialized", "aided", "coasting"});
+  return names_up_to<NavStatus::without_course>(
+      {"uninitialized", "aided", "coasting", "without course"});
 }
 
 struct NavState : Sample {

@@ -12,7 +12,8 @@ namespace maploop {
 // This is the pose in the frame of odometry (`odom` of REP 105): it agrees with enu at the filter's
 // start, moves only by relative motions, never jumps, and drifts away from enu without bound.
 struct OdomState : Sample {
-  NavStatus status = NavStatus::uninitialized;              // as in the NavState of the same stamp
+  // As in the NavState of the same stamp, but uninitialized as long as that is without a course.
+  NavStatus status = NavStatus::uninitialized;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();       // m, the IMU's
   Attitude attitude;                                        // azimuth clockwise from odom's y axis
   Eigen::Vector3d velocity_body = Eigen::Vector3d::Zero();  // m/s

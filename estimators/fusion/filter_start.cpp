@@ -3,17 +3,36 @@
 #include <utility>
 
 #include "estimators/fusion/initial_state.h"
+#include "estimators/fusion/nav_state_output.h"
 #include "estimators/fusion/reduced_imu_filter.h"
 
 namespace maploop::fusion {
 
 Outcome ReducedImuFilter::start(const GnssFix& fix) {
   const Reason reason = check_fix(fix, parameters_);
-  if (reason == Reason::too_slow) status_.phase = Phase::waiting_for_motion;
+  if (reason == Reason::too_slow) {
+    status_.phase = Phase::waiting_for_motion;
+    if (!slow_fix_ || slow_fix_->stamp < fix.stamp) slow_fix_ = fix;
+    if (!has_origin_) set_origin(fix.position);
+  }
   const Outcome outcome =
       start_with(reason, start_stamp(fix), fix.position, [&] { return state_from(fix); });
   if (!outcome.refused()) started_from_ = fix;
   return outcome;
+}
+
+void ReducedImuFilter::set_origin(const Geodetic& origin) {
+  frame_ = LocalFrame(origin);
+  earth_ = LocalEarth(origin);
+  has_origin_ = true;
+}
+
+std::optional<FusedState> ReducedImuFilter::state_without_course_at(Time t) const {
+  if (initialized_ || !slow_fix_ || t < slow_fix_->stamp ||
+      t > slow_fix_->stamp + from_seconds(parameters_.max_gap)) {
+    return std::nullopt;
+  }
+  return state_without_course(*slow_fix_, t, frame_, parameters_);
 }
 
 // The yaw rate is that of the last sample before the start, which may still be to come.
@@ -38,11 +57,7 @@ Outcome ReducedImuFilter::start_with(Reason reason, Time stamp, const Geodetic& 
     return count(refused(Reason::too_far_from_origin));
   }
 
-  if (!has_origin_) {
-    frame_ = LocalFrame(position);
-    earth_ = LocalEarth(position);
-    has_origin_ = true;
-  }
+  if (!has_origin_) set_origin(position);
   while (history_.size() > 0 && history_[0].key < key) drop_oldest();
   EventHistory::Past& past = history_.past;
   past.state = make_state();
@@ -62,6 +77,7 @@ void ReducedImuFilter::restart() {
   history_.clear();
   history_.past = {};
   initialized_ = false;
+  slow_fix_.reset();
   guard_.reset();
   imu_clock_ = {};
   status_.phase = Phase::waiting_for_fix;

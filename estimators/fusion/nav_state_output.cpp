@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "estimators/fusion/swing.h"
 
@@ -92,6 +93,39 @@ FusedState fused_state(const FilterState& state, const Geodetic& origin,
   fused.odom.velocity_body = rotation_enu_body(fused.attitude).transpose() * fused.velocity_enu;
   fused.odom.yaw_rate = state.yaw_rate - state.x[index::gyro_bias];
   return fused;
+}
+
+FusedState state_without_course(const GnssFix& fix, Time t, const LocalFrame& frame,
+                                const FusionParameters& p) {
+  const double age = to_seconds(t - fix.stamp);
+  const Eigen::Matrix3d velocity_covariance =
+      fix.velocity_covariance +
+      p.min_velocity_sigma * p.min_velocity_sigma * Eigen::Matrix3d::Identity();
+  const double moved = 0.5 * p.start_acceleration * age * age;
+
+  FusedState state;
+  state.stamp = state.available = t;
+  state.status = NavStatus::without_course;
+  state.origin = frame.origin();
+  state.position_enu = frame.to_enu(fix.position) + age * fix.velocity_enu -
+                       p.gnss_lever_up * Eigen::Vector3d::UnitZ();
+  state.velocity_enu = fix.velocity_enu;
+  state.forward_speed = fix.velocity_enu.norm();
+  auto position = state.covariance.topLeftCorner<3, 3>();
+  position = fix.position_covariance + age * age * velocity_covariance;
+  position.diagonal().array() += p.min_position_sigma * p.min_position_sigma + moved * moved;
+  const double arm = std::hypot(p.gnss_lever_forward, p.gnss_lever_left);
+  position.diagonal().head<2>().array() += 0.5 * arm * arm;
+  state.covariance.block<3, 3>(3, 3) = velocity_covariance;
+  const double accelerated = p.start_acceleration * age;
+  state.covariance.diagonal().segment<3>(3).array() += accelerated * accelerated;
+  constexpr double any_direction = std::numbers::pi / std::numbers::sqrt3;  // rad, sigma
+  const Eigen::Vector3d angles(any_direction, std::hypot(p.start_slope_sigma, p.climb_offset_sigma),
+                               p.start_roll_sigma);
+  state.covariance.diagonal().tail<3>() = angles.cwiseAbs2();
+  state.gnss_stamp = fix.stamp;
+  static_cast<Sample&>(state.odom) = state;
+  return state;
 }
 
 }  // namespace maploop::fusion

@@ -3,6 +3,8 @@
 
 #include "estimators/fusion/filter_state.h"
 #include "estimators/fusion/fusion_parameters.h"
+#include "msgs/gnss.h"
+#include "msgs/local_frame.h"
 #include "msgs/odom_state.h"
 
 namespace maploop::fusion {
@@ -20,5 +22,11 @@ NavState nav_state(const FilterState& state, const Geodetic& origin,
 // Adds the pose in the frame of odometry.
 FusedState fused_state(const FilterState& state, const Geodetic& origin,
                        const FusionParameters& parameters);
+
+// Returns what a fix that is too slow to show a direction says of the vehicle at `t`, which is not
+// before the fix: its position and velocity. The azimuth is unknown, so that the antenna may be on
+// any side of the vehicle. The frame of odometry has not begun.
+FusedState state_without_course(const GnssFix& fix, Time t, const LocalFrame& frame,
+                                const FusionParameters& parameters);
 
 }  // namespace maploop::fusion

@@ -111,6 +111,10 @@ class ReducedImuFilter {
   // after its end.
   std::optional<FusedState> state_at(Time t) const;
 
+  // Before the start, returns what the last fix says of the vehicle if only its course is missing,
+  // for at most `max_gap` after it.
+  std::optional<FusedState> state_without_course_at(Time t) const;
+
   // Returns the stamp of the newest measurement, or of the start; epoch 0 if there is no
   // measurement.
   Time newest() const { return guard_.newest(); }
@@ -145,6 +149,7 @@ class ReducedImuFilter {
   }
 
   Outcome start(const GnssFix& fix);
+  void set_origin(const Geodetic& origin);
   FilterState state_from(const GnssFix& fix) const;
   template <class MakeState>
   Outcome start_with(Reason reason, Time stamp, const Geodetic& position, MakeState make_state);
@@ -166,6 +171,7 @@ class ReducedImuFilter {
   SensorClock imu_clock_;
   EventHistory history_;
   std::optional<GnssFix> started_from_;
+  std::optional<GnssFix> slow_fix_;  // the last one from before the start that shows no course
   bool initialized_ = false;
   FilterStatus status_;
 };

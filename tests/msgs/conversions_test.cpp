@@ -175,6 +175,7 @@ TEST(LcmConversions, ValuesThatAStructCannotHoldAreRefused) {
 TEST(LcmConversions, ConstantsAgree) {
   EXPECT_EQ(static_cast<int>(NavStatus::coasting), +maploop_lcm::nav_state_t::COASTING);
   EXPECT_EQ(static_cast<int>(NavStatus::aided), +maploop_lcm::nav_state_t::AIDED);
+  EXPECT_EQ(static_cast<int>(NavStatus::without_course), +maploop_lcm::nav_state_t::WITHOUT_COURSE);
   EXPECT_EQ(static_cast<int>(OdometryStatus::ok), +maploop_lcm::relative_motion_t::OK);
   EXPECT_EQ(static_cast<int>(OdometryStatus::implausible),
             +maploop_lcm::relative_motion_t::IMPLAUSIBLE);

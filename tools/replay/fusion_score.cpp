@@ -19,7 +19,8 @@ struct Sample {
   Time stamp;
   Eigen::Vector2d truth;     // m, enu
   Eigen::Vector2d position;  // m, error
-  double azimuth;            // rad, error
+  bool has_course;
+  double azimuth;  // rad, error
   double nees;
   double accuracy;  // m, of the reference
 };
@@ -37,11 +38,13 @@ Errors errors_between(const std::vector<Sample>& samples, Time begin, Time end, 
   const auto last = std::lower_bound(first, samples.end(), end, before);
   const auto n = static_cast<double>(last - first);
   if (last - first < 2) return e;
+  const auto directed =
+      static_cast<double>(std::count_if(first, last, [](const Sample& s) { return s.has_course; }));
   for (auto s = first; s != last; ++s) {
     const double error = s->position.norm();
     if (s != first) e.distance += (s->truth - std::prev(s)->truth).norm();
     e.rmse += error * error / n;
-    e.azimuth_rms += s->azimuth * s->azimuth / n;
+    if (s->has_course) e.azimuth_rms += s->azimuth * s->azimuth / directed;
     e.nees_mean += s->nees / n;
     e.max = std::max(e.max, error);
   }
@@ -77,6 +80,7 @@ std::optional<Score> score(const NavTrack& track, const std::vector<ReferencePos
     s.stamp = state.stamp;
     s.truth = pose->translation().head<2>();
     s.position = state.position_enu.head<2>() - s.truth;
+    s.has_course = state.status != NavStatus::without_course;
     s.azimuth =
         wrap_angle(state.attitude.azimuth - attitude_from_rotation(pose->rotation()).azimuth);
     s.accuracy = truth.accuracy(state.stamp);

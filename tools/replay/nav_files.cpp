@@ -68,11 +68,10 @@ std::string sentences(const NavState& state) {
                                    std::sqrt(mean + half), std::sqrt(std::max(mean - half, 0.0)),
                                    positive_degrees(orientation), std::sqrt(C(1, 1)),
                                    std::sqrt(C(0, 0)), std::sqrt(C(2, 2)))) +
-         nmea_sentence(fmt::format("GNHDT,{:.3f},T", positive_degrees(state.attitude.azimuth)));
-}
-
-const char* status_name(NavStatus status) {
-  return status == NavStatus::aided ? "aided" : "coasting";
+         (state.status == NavStatus::without_course
+              ? std::string()
+              : nmea_sentence(
+                    fmt::format("GNHDT,{:.3f},T", positive_degrees(state.attitude.azimuth))));
 }
 
 }  // namespace
@@ -107,7 +106,7 @@ void write_nav_csv(const std::filesystem::path& file, const fusion_score::NavTra
     const double speed_variance = along.dot(C.block<2, 2>(3, 3) * along);
     const std::int64_t ns = to_nanoseconds(s.stamp);
     text +=
-        fmt::format("{}.{:09},{},", ns / 1'000'000'000, ns % 1'000'000'000, status_name(s.status));
+        fmt::format("{}.{:09},{},", ns / 1'000'000'000, ns % 1'000'000'000, to_string(s.status));
     text += fmt::format("{:.9f},{:.9f},{:.3f},{:.3f},{:.3f},{:.3f},", degrees(g.latitude),
                         degrees(g.longitude), g.height, s.position_enu.x(), s.position_enu.y(),
                         s.position_enu.z());

@@ -144,11 +144,6 @@ std::string why_no_position(const ReplayResult& r) {
            "with --start-from-reference where the recording has a reference";
   }
   const RefusalCount* most = most_refused(r);
-  if (most != nullptr && most->reason == to_string(fusion::Reason::too_slow)) {
-    return head +
-           "the vehicle never moved fast enough for a course to start from ([fusion] "
-           "min_course_speed); 'maploop ppp' gives the positions of a receiver that stands";
-  }
   return head + "the filter never started from the GNSS that came" +
          (most != nullptr ? " (most often: " + most->reason + ")" : "") +
          "; --verbose shows what each stage did not use";

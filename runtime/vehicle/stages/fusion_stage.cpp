@@ -1,5 +1,6 @@
 #include "runtime/vehicle/stages/fusion_stage.h"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -127,7 +128,10 @@ bool FusionStage::tick(const runtime::Tick& tick, runtime::DataClock& clock,
   position_.store(to_nanoseconds(k), std::memory_order_relaxed);
   delay(k);
   intake_.take_until(k);
-  FusedState state = filter_.aided().state_at(k).value_or(FusedState{});
+  const fusion::ReducedImuFilter& filter = filter_.aided();
+  std::optional<FusedState> known = filter.state_at(k);
+  if (!known) known = filter.state_without_course_at(k);
+  FusedState state = known.value_or(FusedState{});
   stamp(state, k, k + spec().budget, ticks_++);
   const MonotonicTime computed = runtime::monotonic_now();
   send(state, stop);

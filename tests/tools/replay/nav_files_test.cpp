@@ -53,6 +53,18 @@ TEST(Nmea, SentencesSayPlaceTimeCourseAndErrors) {
   EXPECT_TRUE(lines[7].starts_with("$GNHDT,323.130,T*")) << lines[7];
 }
 
+TEST(Nmea, AHeadingThatIsUnknownIsLeftOut) {
+  NavState state = short_track().states().front();
+  state.status = NavStatus::without_course;
+  fusion_score::NavTrack track;
+  track.add(state);
+  const auto file = std::filesystem::path(::testing::TempDir()) / "standing.nmea";
+  write_nmea(file, track);
+  const auto lines = lines_of(file);
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_TRUE(lines[2].starts_with("$GNGST")) << lines[2];
+}
+
 TEST(NavCsv, HasAColumnForEachHeading) {
   const auto file = std::filesystem::path(::testing::TempDir()) / "track.csv";
   write_nav_csv(file, short_track());

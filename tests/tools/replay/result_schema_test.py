@@ -26,7 +26,7 @@ if not data.exists():
 runs = [[data / "kitti_odometry/oxts/06.csv.gz", "--end", "60", "--gnss-outage", "20:20", "--map-mode", "tight",
          "--map", data / "maps/karlsruhe_2012-04.osm.pbf", "--fault", "lost@imu:5:1"],
         [data / "gnss/riverside_drive", "--end", "60"],
-        [data / "bags/recorded/rviz_satellite_sample.bag"]]
+        [data / "kitti_odometry/oxts/06.csv.gz", "--end", "5", "--fault", "lost@gnss:0:end"]]
 validator = jsonschema.Draft7Validator(json.loads(Path(schema).read_text()))
 seen, wrong = set(), []
 with tempfile.TemporaryDirectory() as folder:

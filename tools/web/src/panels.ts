@@ -12,7 +12,7 @@ import {
 } from "./live";
 import { stateColours } from "./views";
 
-const statuses = ["waiting for a first fix", "aided", "coasting"];
+const statuses = ["waiting for a first fix", "aided", "coasting", "position only, no course yet"];
 
 function degrees(radians: number): number {
   return (radians * 180) / Math.PI;
