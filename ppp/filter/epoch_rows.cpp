@@ -52,7 +52,8 @@ std::vector<Row>& EpochRows::make(const std::vector<Tracked>& tracked, int refer
     const Tracked& t = tracked[i];
     if (!t.code_good) continue;
     const double factor = variance_factor(t, strength);
-    const Row code = code_row(i, t, factor, reference_system, state);
+    Row code = code_row(i, t, factor, reference_system, state);
+    code.y -= code.delay;
     rows_.push_back(code);
     if (t.phase_good) add_phase_row(t, factor, code, state, reports);
     if (!use_doppler || !has_doppler(t)) continue;
@@ -104,11 +105,13 @@ Row EpochRows::code_row(std::size_t i, const Tracked& t, double factor, int refe
       m.satellite.system == System::glonass ? parameters_.glonass_code_factor : 1.0;
   const double sigma = parameters_.code_sigma * m.noise_factor() * glonass;
   row.y = t.code_offset - predicted;  // (7) of METHOD.md
-  const double usual = sigma * sigma * factor;
+  const double sine = std::sin(t.predicted.elevation);
+  const double direct = sigma * sigma / (sine * sine), all = sigma * sigma * factor * t.level;
   const double rest = lasting_variance(t.predicted);
   // (11) of METHOD.md
-  row.variance = usual * (t.code_inflation + (t.level - 1.0) * t.level_inflation) + rest;
-  row.sigma = std::sqrt(usual * t.level + rest);
+  row.variance = all * t.code_inflation + rest;
+  row.sigma = std::sqrt(all + rest);
+  row.delay = std::sqrt(std::max(0.0, all - direct) / 2.0);
   return row;
 }
 
@@ -121,9 +124,9 @@ void EpochRows::add_phase_row(const Tracked& t, double factor, const Row& code, 
   const double phase = m.phase() - t.predicted.phase_extra - t.predicted.range;
   constexpr double code_share = 0.5;  // the sum of code and phase is half of both
   // (2) of METHOD.md
-  const double y = graphic ? code_share * (phase + m.code() - t.predicted.range)
+  const double y = graphic ? code_share * (phase + m.code() - code.delay - t.predicted.range)
                            : phase + t.predicted.ionosphere.value;
-  const double predicted = t.code_offset - code.y;  // clocks, wet delay, gradients
+  const double predicted = t.code_offset - code.y - code.delay;  // clocks, wet delay, gradients
   int index = state.ambiguity(m.satellite);
   const bool is_new = index < 0;
   if (is_new) {

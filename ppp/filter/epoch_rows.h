@@ -21,6 +21,7 @@ struct Row : LinearRow {
   RowKind kind = RowKind::code;
   std::size_t tracked = 0;  // index into the epoch's tracked satellites
   double sigma = 0.0;
+  double delay = 0.0;  // m, by which y has been shortened, because a reflection is expected
   bool active = true;
   bool new_ambiguity = false;  // on a phase: its ambiguity is new, so it carries no information yet
   bool doubtful = false;       // it is not active, but other phases may be the wrong ones instead

@@ -23,8 +23,9 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
                                                         "PPP of Kamakura"};
   constexpr DataChoice glonass_code_correlation_choice{"ESBC station", "as `code_correlation`",
                                                        "PPP of ESBC with GLONASS"};
-  constexpr DataChoice reflection_time_choice{"simulated canyons, seeds 1 to 6", "by the scores",
-                                              "PPP between houses, seeds 1 to 6"};
+  constexpr DataChoice outlier_sigmas_choice{"simulated canyons, seeds 1 to 10",
+                                             "among 2.5 to 6 by the scores",
+                                             "PPP between houses, seeds 1 to 10"};
   constexpr DataChoice full_cn0_choice{"receivers of ESBC, Kamakura and Riverside",
                                        "the weakest 5 % of signals under open sky",
                                        "PPP of ESBC, Kamakura and Riverside"};
@@ -72,10 +73,6 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
       {"code_level_time", &P::code_level_time, 0.1, long_time, "s", expert,
        "Time for which a satellite's code residuals are remembered. Larger residuals than expected "
        "come from reflections and enlarge the variance."},
-      {"reflection_time", &P::reflection_time, 0.1, long_time, "s", expert,
-       "Correlation time of reflections, for an antenna at rest.", reflection_time_choice},
-      {"reflection_distance", &P::reflection_distance, 0.1, 1e6, "m", expert,
-       "Way of the antenna over which reflections are correlated."},
       {"full_cn0", &P::full_cn0, 0.0, 100.0, "dB-Hz", expert,
        "Carrier-to-noise density of a signal without obstacles at the zenith; 5 % of the signals "
        "of three receivers under open sky are weaker. Below it the variance doubles every 1.5 dB. "
@@ -129,7 +126,8 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
        "Standard deviation per axis of the errors of antennas, tides and frames that are common to "
        "all satellites, which no residual shows. It is added to the reported covariance."},
       {"outlier_sigmas", &P::outlier_sigmas, 0.1, any_gate, "1", expert,
-       "Post-fit residual in standard deviations beyond which a measurement is an outlier."},
+       "Post-fit residual in standard deviations beyond which a measurement is an outlier.",
+       outlier_sigmas_choice},
       {"outlier_rejections", &P::outlier_rejections, 0, 100, "rows", expert,
        "Measurements of an epoch that are left out one at a time at most."},
       {"doubtful_phase_sigma", &P::doubtful_phase_sigma, 0.0, any_sigma, "m", expert,

@@ -28,8 +28,6 @@ struct PppParameters {
   double code_correlation_distance = 50.0;   // m
   double glonass_code_correlation = 7200.0;  // s
   double code_level_time = 100.0;            // s
-  double reflection_time = 600.0;            // s
-  double reflection_distance = 500.0;        // m
   double full_cn0 = 47.0;                    // dB-Hz
   double full_cn0_drop = 14.5;               // dB
   double full_cn0_margin = 4.0;              // dB
@@ -50,7 +48,7 @@ struct PppParameters {
   double position_sigma = 60.0;          // m
   double velocity_sigma = 10.0;          // m/s
   double model_sigma = 0.01;             // m
-  double outlier_sigmas = 4.0;
+  double outlier_sigmas = 3.0;
   int outlier_rejections = 8;
   double doubtful_phase_sigma = 1.0;  // m
   double code_gate = 30.0;            // m

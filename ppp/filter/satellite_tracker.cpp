@@ -17,8 +17,6 @@ void weigh_later_code(Tracked& tracked, double since, double speed,
                       const PppParameters& parameters) {
   // (14) of METHOD.md
   const auto inflation = [since](double rate) { return 1.0 / std::tanh(0.5 * since * rate); };
-  tracked.level_inflation =
-      inflation(1.0 / parameters.reflection_time + speed / parameters.reflection_distance);
   if (tracked.measurement.satellite.system == System::glonass) {
     tracked.code_inflation = inflation(1.0 / parameters.glonass_code_correlation);
   } else if (parameters.code_correlation > 0.0) {

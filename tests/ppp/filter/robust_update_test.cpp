@@ -94,7 +94,7 @@ TEST_F(NineSatellites, ThreeSlipsOfNineAreTheOnesLeftOut) {
 }
 
 TEST_F(NineSatellites, ACodeIsJudgedByItsSize) {
-  code(2).y += 3.0;
+  code(2).y += 1.5;
   code(5).y += 6.0;
   update.apply(state, rows);
   EXPECT_EQ(left_out(), std::vector<int>{10});
