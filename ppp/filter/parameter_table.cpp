@@ -244,9 +244,10 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
   const auto rules = [](const P& p) -> std::optional<ParameterProblem> {
     if (p.systems.empty()) return {{"systems", "is empty; allowed are the letters G R E C J S I"}};
     for (const char letter : p.systems) {
-      if (!system_of(letter))
+      if (!system_of(letter)) {
         return {
             {"systems", "is \"" + p.systems + "\"; '" + letter + "' is not one of G R E C J S I"}};
+      }
     }
     return std::nullopt;
   };

@@ -27,6 +27,7 @@ struct Sample {
 
 double median_accuracy(const std::vector<Sample>& samples) {
   std::vector<double> values;
+  values.reserve(samples.size());
   for (const Sample& s : samples) values.push_back(s.accuracy);
   return tools::median(values);
 }

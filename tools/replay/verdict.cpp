@@ -71,9 +71,10 @@ std::string how_good(const ReplayResult& r) {
   }
   if (r.ppp && r.ppp->never_converges && r.ppp->converged_after < 0.0)
     return "PPP cannot converge on one frequency with broadcast orbits: metres remain.";
-  if (r.ppp && r.ppp->converged_after >= 0.0)
+  if (r.ppp && r.ppp->converged_after >= 0.0) {
     return fmt::format("PPP converged after {:.0f} s; there is no reference to score against.",
                        r.ppp->converged_after);
+  }
   if (r.ppp) return "PPP has not converged yet; there is no reference to score against.";
   if (r.live) return "Not scored: a live run has no reference.";
   return r.end ? "Not scored: the recording has no reference to score against."
@@ -176,9 +177,10 @@ std::optional<std::string> why_empty(const ReplayResult& r) {
     if (lidar_alone) return std::nullopt;
     return why_no_position(r);
   }
-  if (r.map && r.map->elsewhere)
+  if (r.map && r.map->elsewhere) {
     return "no position was on a road of the map, which covers " + r.map->area +
            "; give --map a map of the place of the drive, or leave it out";
+  }
   return std::nullopt;
 }
 
