@@ -52,8 +52,7 @@ std::vector<Row>& EpochRows::make(const std::vector<Tracked>& tracked, int refer
     const Tracked& t = tracked[i];
     if (!t.code_good) continue;
     const double factor = variance_factor(t, strength);
-    Row code = code_row(i, t, factor, reference_system, state);
-    code.y -= code.delay;
+    const Row code = code_row(i, t, factor, reference_system, state);
     rows_.push_back(code);
     if (t.phase_good) add_phase_row(t, factor, code, state, reports);
     if (!use_doppler || !has_doppler(t)) continue;
@@ -104,7 +103,6 @@ Row EpochRows::code_row(std::size_t i, const Tracked& t, double factor, int refe
   const double glonass =
       m.satellite.system == System::glonass ? parameters_.glonass_code_factor : 1.0;
   const double sigma = parameters_.code_sigma * m.noise_factor() * glonass;
-  row.y = t.code_offset - predicted;  // (7) of METHOD.md
   const double sine = std::sin(t.predicted.elevation);
   const double direct = sigma * sigma / (sine * sine), all = sigma * sigma * factor * t.level;
   const double rest = lasting_variance(t.predicted);
@@ -112,6 +110,7 @@ Row EpochRows::code_row(std::size_t i, const Tracked& t, double factor, int refe
   row.variance = all * t.code_inflation + rest;
   row.sigma = std::sqrt(all + rest);
   row.delay = std::sqrt(std::max(0.0, all - direct) / 2.0);
+  row.y = t.code_offset - predicted - row.delay;  // (7) of METHOD.md
   return row;
 }
 
