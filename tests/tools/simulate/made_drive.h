@@ -18,7 +18,7 @@ namespace maploop::simulate {
 // Returns the folder of a drive with these options, which is made once per process and name.
 inline std::filesystem::path made(const std::string& name, const SimulationOptions& options) {
   static const maploop::testing::TemporaryFolder temporary;
-  const std::filesystem::path folder = temporary.path() / name;
+  std::filesystem::path folder = temporary.path() / name;
   if (!std::filesystem::exists(folder)) {
     EXPECT_TRUE(simulate_drive(folder, options));
   }

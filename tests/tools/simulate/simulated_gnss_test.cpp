@@ -1,21 +1,14 @@
 // Tests the simulated satellites with the readers and models of ppp, and signals in simple scenes.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
-#include <map>
 #include <string>
 
-#include "mapmatch/network_file.h"
 #include "msgs/frames.h"
-#include "msgs/named_enum.h"
 #include "ppp/gnss_files.h"
 #include "ppp/models/troposphere.h"
-#include "ppp/ppp_setup.h"
-#include "tests/tools/simulate/made_drive.h"
-#include "tools/ppp/run.h"
-#include "tools/ppp/score.h"
-#include "tools/ppp/truth.h"
+#include "ppp/products/broadcast.h"
+#include "ppp/products/precise.h"
 #include "tools/simulate/gnss/atmosphere.h"
 #include "tools/simulate/gnss/product_text.h"
 #include "tools/simulate/gnss/signal_paths.h"
@@ -23,8 +16,6 @@
 
 namespace maploop::simulate {
 namespace {
-
-namespace fs = std::filesystem;
 
 const ProductSpan span{ppp::from_utc(parse_time("2026-05-04 08:00:00.0")), 600.0};
 
@@ -192,129 +183,6 @@ TEST(SignalTracker, AReflectionPullsTheCodeEitherWayAndAloneTakesItAlong) {
   EXPECT_NEAR(mean_code({direct, against}), -0.3 * 0.5 * 0.1 * 293.05, 0.5);
   EXPECT_NEAR(mean_code({reflected}), in_phase, 0.3);
   EXPECT_FALSE(SignalTracker(shape, 1, 1).track({}, 1.2, 1.0).has_value());
-}
-
-// Makes a drive with GNSS alone and returns the folder of its sensors.
-fs::path gnss_drive(Environment environment, std::uint64_t seed) {
-  SimulationOptions options;
-  options.seconds = 300.0;
-  options.seed = seed;
-  options.environment = environment;
-  options.sensors = {false, false, false, true};
-  return made(std::string(to_string(environment)) + std::to_string(seed), options) / "town_sync";
-}
-
-struct Solved {
-  double error = 0.0;  // m, at the end
-  gnss::Accuracy accuracy;
-  std::size_t epochs = 0, solved = 0, satellites = 0;
-};
-
-ppp::GnssFiles files_of(const fs::path& folder) {
-  ppp::GnssFiles files;
-  ppp::read_into(folder / "observations.rnx", files);
-  ppp::read_products(folder, files);
-  return files;
-}
-
-const Solved& solved(const fs::path& folder) {
-  static std::map<fs::path, Solved> known;
-  const auto [at, is_new] = known.try_emplace(folder);
-  Solved& result = at->second;
-  if (!is_new) return result;
-  const ppp::GnssFiles files = files_of(folder);
-  EXPECT_EQ(files.observations.at(0).refused, 0);
-  const ppp::PppSetup setup(files, {});
-  // The simulated products have no biases of phases; nothing else is missing.
-  for (const std::string& lack : setup.missing_models()) {
-    EXPECT_TRUE(setup.one_frequency() || lack.starts_with("no biases of phases")) << lack;
-  }
-  ppp::PppFilter filter = setup.make_filter();
-  const gnss::Truth truth((folder / "truth.csv").string(), setup.observations().epochs[0].time);
-  gnss::Score score(truth, 1e-4);
-  for (const ppp::Epoch& epoch : setup.observations().epochs) {
-    const ppp::PppSolution& s = filter.process(epoch);
-    score.add(s);
-    ++result.epochs;
-    result.satellites += epoch.satellites.size();
-    if (s.status == PppStatus::none) continue;
-    ++result.solved;
-    result.error = (s.position - truth.at(s.time).value()).norm();
-  }
-  result.accuracy = score.accuracy();
-  return result;
-}
-
-// The bounds are a little above what is reached: 0.08, 0.22 and 0.37 m after five minutes; on one
-// frequency 3.1, 2.9 and 3.1 m, mostly up.
-TEST(GnssOnlyDrive, OpenSkyConvergesToDecimetres) {
-  struct Bound {
-    std::uint64_t seed;
-    double dual, single;
-  };
-  for (const Bound& bound : {Bound{1, 0.09, 3.3}, {2, 0.25, 3.1}, {3, 0.40, 3.3}}) {
-    const fs::path drive = gnss_drive(Environment::open, bound.seed);
-    EXPECT_FALSE(fs::exists(drive / "image_00"));
-    const Solved& dual = solved(drive / "gnss");
-    EXPECT_EQ(dual.solved, 300U);
-    EXPECT_LT(dual.error, bound.dual);
-    const Solved& single = solved(drive / "gnss_one_frequency");
-    EXPECT_EQ(single.solved, 300U);
-    EXPECT_LT(single.error, bound.single);
-  }
-}
-
-// Between houses codes are wrong by tens of metres and several phases slip at a time. The bounds
-// are a little above what is reached: 2.7, 1.9 and 2.9 m horizontally, NEES 5.0, 4.1 and 3.6
-// (expected 3).
-TEST(GnssOnlyDrive, InStreetCanyonsItIsMetresOffAndSaysSo) {
-  struct Bound {
-    std::uint64_t seed;
-    double horizontal_rmse, nees;
-  };
-  for (const Bound& bound : {Bound{1, 2.8, 5.3}, {2, 2.0, 4.3}, {3, 3.1, 3.9}}) {
-    const Solved& canyon = solved(gnss_drive(Environment::urban, bound.seed) / "gnss");
-    EXPECT_GE(canyon.solved, 299U);
-    EXPECT_LT(canyon.accuracy.horizontal_rmse, bound.horizontal_rmse);
-    EXPECT_LT(canyon.accuracy.nees, bound.nees);
-  }
-}
-
-// The errors common to all satellites are estimated together with the position, and neither is
-// known without the other: one epoch in sixteen had a matrix that was not a valid covariance.
-TEST(GnssOnlyDrive, WithTheRoadOnOneFrequencyTheCovarianceIsOne) {
-  const fs::path drive = gnss_drive(Environment::urban, 1);
-  const ppp::GnssFiles files = files_of(drive / "gnss_one_frequency");
-  const mapmatch::RoadNetwork network(mapmatch::open_network(drive.parent_path() / "map.osm"));
-  const mapmatch::RuleBases rules = mapmatch::read_rule_bases(mapmatch::default_rules());
-  gnss::RunOptions options;
-  options.map = gnss::MapOptions{&network, &rules, {}, {}, true};
-  gnss::PppRun run(files, options);
-  int aided = 0, indefinite = 0;
-  run.process([&](const ppp::PppSolution& s) {
-    if (s.status == PppStatus::none) return;
-    aided += run.filter().aided();
-    indefinite +=
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(s.covariance).eigenvalues()[0] <= 0.0;
-  });
-  EXPECT_GT(aided, 200);
-  EXPECT_EQ(indefinite, 0);
-}
-
-TEST(GnssOnlyDrive, AnotherSeedGivesOtherBytes) {
-  for (const char* name : {"gnss/observations.rnx", "gnss/orbits.sp3", "gnss/truth.csv",
-                           "gnss_one_frequency/observations.rnx"}) {
-    EXPECT_NE(content(gnss_drive(Environment::open, 1) / name),
-              content(gnss_drive(Environment::open, 2) / name))
-        << name;
-  }
-}
-
-TEST(GnssOnlyDrive, HousesTakeAwaySatellites) {
-  const Solved& open = solved(gnss_drive(Environment::open, 1) / "gnss");
-  const Solved& urban = solved(gnss_drive(Environment::urban, 1) / "gnss");
-  EXPECT_LT(urban.satellites, 8 * open.satellites / 10);
-  EXPECT_GT(urban.satellites, 2 * open.satellites / 10);
 }
 
 }  // namespace
