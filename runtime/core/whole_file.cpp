@@ -77,6 +77,17 @@ void WholeFile::flush() {
   used_ = 0;
 }
 
+void WholeFile::replace_head(std::string_view bytes) {
+  flush();
+  for (off_t at = 0; !bytes.empty();) {
+    const ssize_t written = pwrite(descriptor_, bytes.data(), bytes.size(), at);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail(errno);
+    at += written;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
 void WholeFile::keep() {
   flush();
   const bool replaces = written_ != file_;

@@ -24,6 +24,7 @@ class WholeFile {
   WholeFile& operator=(const WholeFile&) = delete;
 
   void write(std::string_view bytes);
+  void replace_head(std::string_view bytes);  // of what was written; not of a pipe
   void keep();
 
  private:

@@ -46,7 +46,7 @@ class PairMaker {
                                SourceReport& report) {
     const auto found = [&](auto image) -> std::optional<Time> {
       if (!stream_.decoded(message, image, report)) return std::nullopt;
-      return stream_.stamp(image.header, message, stream_.settings().vehicle.camera_delay);
+      return stream_.stamp(image.header, message);
     };
     return is_of<RosCompressedImage>(camera.topic) ? found(RosCompressedImage())
                                                    : found(RosImage());

@@ -10,6 +10,7 @@
 #include "msgs/input_limits.h"
 #include "sensors/bag/mcap_format.h"
 #include "sensors/bag/mcap_reader.h"
+#include "sensors/bag/ros1_bag_format.h"
 #include "sensors/bag/ros1_bag_reader.h"
 #include "sensors/bag/sqlite_reader.h"
 #include "sensors/bag/unpacked_file.h"
@@ -78,10 +79,15 @@ bool is_recording(std::string_view head) {
 bool is_own_recording(const fs::path& file) {
   // Magic, opcode and length of the header, length of the profile.
   constexpr std::size_t profile_at = mcap_magic.size() + 1 + 8 + 4;
+  constexpr std::size_t field_at = ros1_bag_line.size() + 4 + 4;  // lengths of all fields and of it
+  const auto has = [](std::string_view head, std::string_view magic, std::size_t at,
+                      std::string_view mark) {
+    return head.starts_with(magic) && head.size() > at && head.substr(at).starts_with(mark);
+  };
   try {
     const std::string head = unpacked_head(file);
-    return head.starts_with(mcap_magic) && head.size() > profile_at &&
-           std::string_view(head).substr(profile_at).starts_with(mcap_profile);
+    return has(head, mcap_magic, profile_at, mcap_profile) ||
+           has(head, ros1_bag_line, field_at, ros1_own_field);
   } catch (const std::runtime_error&) {
     return false;
   }

@@ -20,8 +20,7 @@ class FixMaker {
         RosTwist twist;
         if (!stream_.decoded(*message, twist, report)) continue;
         velocity_ = twist.linear;
-        velocity_stamp_ =
-            stream_.stamp(twist.header, *message, stream_.settings().vehicle.gnss_delay);
+        velocity_stamp_ = stream_.stamp(twist.header, *message);
         continue;
       }
       RosFix from;
@@ -35,8 +34,7 @@ class FixMaker {
         stream_.refuse(gnss_, "its position is not one on Earth", report);
         continue;
       }
-      fix.stamp = fix.available =
-          stream_.stamp(from.header, *message, stream_.settings().vehicle.gnss_delay);
+      fix.stamp = fix.available = stream_.stamp(from.header, *message);
       fix.sequence = fixes_++;
       if (!stream_.follows(gnss_, fix, report)) continue;
       set_position(from, fix);

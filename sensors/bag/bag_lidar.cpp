@@ -34,8 +34,7 @@ class ScanMaker {
   bool read(const RecordedMessage& message, LidarScan& scan, SourceReport& report) {
     if (!stream_.decoded(message, cloud_message_, report)) return false;
     const BagSettings& s = stream_.settings();
-    cloud_message_.header.stamp =
-        stream_.stamp(cloud_message_.header, message, s.vehicle.lidar_delay);
+    cloud_message_.header.stamp = stream_.stamp(cloud_message_.header, message);
     try {
       read_cloud(cloud_message_, cloud_);
     } catch (const std::invalid_argument& e) {
@@ -115,8 +114,7 @@ class PacketScanMaker {
   bool take(const RosVelodynePacket& packet, LidarScan& scan, SourceReport& report) {
     if (!decoder_ && !begin(packet, report)) return false;
     const BagSettings& s = stream_.settings();
-    const Time arrival = s.header_stamps ? packet.stamp : received_;
-    last_ = std::max(last_, arrival - from_seconds(s.vehicle.lidar_delay));
+    last_ = std::max(last_, s.header_stamps ? packet.stamp : received_);
     return decoder_->add(packet.data, last_, scan);
   }
 

@@ -5,14 +5,13 @@ namespace {
 
 // Makes a sample from each message of type M: fill(message, sample).
 template <class T, class M, class Fill>
-std::unique_ptr<Source<T>> make_plain(SharedBagSettings settings, const Topic& topic, double delay,
-                                      Fill fill) {
-  return made<T>([stream = TopicStream(std::move(settings), {topic.name}), topic, delay, fill](
+std::unique_ptr<Source<T>> make_plain(SharedBagSettings settings, const Topic& topic, Fill fill) {
+  return made<T>([stream = TopicStream(std::move(settings), {topic.name}), topic, fill](
                      T& sample, SourceReport& report) mutable {
     M message;
     while (const RecordedMessage* recorded = stream.next(report)) {
       if (!stream.decoded(*recorded, message, report)) continue;
-      sample.stamp = sample.available = stream.stamp(message.header, *recorded, delay);
+      sample.stamp = sample.available = stream.stamp(message.header, *recorded);
       sample.sequence = stream.number() - 1;
       if (!stream.follows(topic, sample, report)) continue;
       fill(message, sample);
@@ -25,8 +24,8 @@ std::unique_ptr<Source<T>> make_plain(SharedBagSettings settings, const Topic& t
 }  // namespace
 
 std::unique_ptr<Source<SixAxisSample>> make_bag_imu(SharedBagSettings settings, const Topic& imu) {
-  const double delay = settings->vehicle.imu_delay, scale = settings->force_scale;
-  return make_plain<SixAxisSample, RosImu>(std::move(settings), imu, delay,
+  const double scale = settings->force_scale;
+  return make_plain<SixAxisSample, RosImu>(std::move(settings), imu,
                                            [scale](const RosImu& from, SixAxisSample& sample) {
                                              sample.rate = from.angular_velocity;
                                              sample.force = scale * from.linear_acceleration;
@@ -35,7 +34,7 @@ std::unique_ptr<Source<SixAxisSample>> make_bag_imu(SharedBagSettings settings, 
 
 std::unique_ptr<Source<WheelSpeed>> make_bag_wheel(SharedBagSettings settings, const Topic& wheel) {
   const double sigma = settings->parameters.wheel_sigma;
-  return make_plain<WheelSpeed, RosTwist>(std::move(settings), wheel, 0.0,
+  return make_plain<WheelSpeed, RosTwist>(std::move(settings), wheel,
                                           [sigma](const RosTwist& from, WheelSpeed& sample) {
                                             sample.speed = from.linear.x();
                                             sample.sigma = sigma;

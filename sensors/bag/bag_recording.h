@@ -24,8 +24,6 @@ namespace maploop::sensors {
 
 // Describes the vehicle where the recording does not, or where something else is to be used.
 struct BagVehicle {
-  // These are the times from a measurement to its stamp, s.
-  double camera_delay = 0.0, lidar_delay = 0.0, imu_delay = 0.0, gnss_delay = 0.0;
   std::optional<StereoRig> cameras;         // of raw images
   std::filesystem::path lidar_calibration;  // of a scanner's packets; empty: that of its model
 };

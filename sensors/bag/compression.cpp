@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <memory>
 #include <new>
+#include <stdexcept>
 
 #include "msgs/input_limits.h"
 
@@ -155,11 +156,38 @@ Inflated inflate(std::string_view compression, Bytes packed, InflatedSize size,
   return {{}, "its compression is not none, bz2, lz4 or zstd"};
 }
 
-std::string pack_zstd(std::string_view plain) {
-  std::string packed(ZSTD_compressBound(plain.size()), '\0');
-  const std::size_t size =
-      ZSTD_compress(packed.data(), packed.size(), plain.data(), plain.size(), ZSTD_CLEVEL_DEFAULT);
-  if (ZSTD_isError(size) != 0U) throw std::bad_alloc();  // nothing else can happen with that room
+// Nothing but a lack of memory can happen with the room that each is given.
+std::string pack(std::string_view compression, std::string_view plain) {
+  if (compression == "none") return std::string(plain);
+  std::string packed;
+  std::size_t size = 0;
+  bool failed = false;
+  if (compression == "zstd") {
+    packed.resize(ZSTD_compressBound(plain.size()));
+    size = ZSTD_compress(packed.data(), packed.size(), plain.data(), plain.size(),
+                         ZSTD_CLEVEL_DEFAULT);
+    failed = ZSTD_isError(size) != 0U;
+  } else if (compression == "lz4") {
+    LZ4F_preferences_t preferences{};  // the form of frames that ROS reads
+    preferences.frameInfo.blockMode = LZ4F_blockIndependent;
+    preferences.frameInfo.contentChecksumFlag = LZ4F_contentChecksumEnabled;
+    packed.resize(LZ4F_compressFrameBound(plain.size(), &preferences));
+    size =
+        LZ4F_compressFrame(packed.data(), packed.size(), plain.data(), plain.size(), &preferences);
+    failed = LZ4F_isError(size) != 0U;
+  } else if (compression == "bz2") {
+    constexpr int block = 9, quiet = 0, usual_effort = 0;
+    auto bytes = static_cast<unsigned>(plain.size() + plain.size() / 100 + 600);
+    packed.resize(bytes);
+    failed = BZ2_bzBuffToBuffCompress(packed.data(), &bytes, const_cast<char*>(plain.data()),
+                                      static_cast<unsigned>(plain.size()), block, quiet,
+                                      usual_effort) != BZ_OK;
+    size = bytes;
+  } else {
+    throw std::invalid_argument("'" + std::string(compression) +
+                                "' is not a compression; use none, lz4, bz2 or zstd");
+  }
+  if (failed) throw std::bad_alloc();
   packed.resize(size);
   return packed;
 }

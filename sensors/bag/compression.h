@@ -1,5 +1,5 @@
-// This file inflates the parts of a recording that were compressed by bzip2, LZ4 (frames) or
-// Zstandard, compresses by the last, and has the checksum of parts.
+// This file inflates the parts of a recording that are compressed by bzip2, LZ4 (frames) or
+// Zstandard, compresses them, and has the checksum of parts.
 #pragma once
 
 #include <array>
@@ -33,8 +33,9 @@ struct InflatedSize {
 Inflated inflate(std::string_view compression, Bytes packed, InflatedSize size,
                  std::vector<std::uint8_t>& buffer);
 
-// Compresses to one frame of Zstandard. Throws std::bad_alloc.
-std::string pack_zstd(std::string_view plain);
+// Compresses to one frame: "none", "bz2", "lz4" or "zstd". Throws std::invalid_argument for another
+// compression, and std::bad_alloc.
+std::string pack(std::string_view compression, std::string_view plain);
 
 // Returns the CRC-32 of zlib; `before` is that of the bytes in front of these.
 std::uint32_t crc_of(Bytes bytes, std::uint32_t before = 0);

@@ -1,29 +1,18 @@
 #include "sensors/bag/mcap_writer.h"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 #include <stdexcept>
 
 #include "sensors/bag/compression.h"
 #include "sensors/bag/mcap_format.h"
+#include "sensors/bag/written_bytes.h"
 
 namespace maploop::sensors::bag {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "MCAP is little endian");
-
 constexpr std::string_view zstd = "zstd";
 constexpr std::uint64_t footer_bytes = 20;
-
-template <class Number>
-std::string number(Number value) {
-  return {reinterpret_cast<const char*>(&value), sizeof value};
-}
-
-std::string text(std::string_view value) {
-  return number(static_cast<std::uint32_t>(value.size())) + std::string(value);
-}
 
 void append_record(std::string& to, std::uint8_t op, std::string_view fields,
                    std::string_view data = {}) {
@@ -93,7 +82,7 @@ void McapWriter::write(std::uint16_t channel, std::int64_t nanoseconds, std::str
 
 bool McapWriter::end_chunk() {
   if (in_chunk_.empty()) return true;
-  const std::string packed = pack_zstd(chunk_);
+  const std::string packed = pack(zstd, chunk_);
   std::string part;
   append_record(part, mcap_op::chunk,
                 number(first_) + number(last_) + number(std::uint64_t{chunk_.size()}) +

@@ -6,17 +6,10 @@
 #include <utility>
 
 #include "msgs/input_file.h"
+#include "sensors/bag/ros1_bag_format.h"
 
 namespace maploop::sensors::bag {
 namespace {
-
-constexpr std::string_view first_line = "#ROSBAG V2.0\n";
-
-// These are the values of the field `op`.
-namespace bag_op {
-constexpr std::uint8_t message = 0x02, bag_header = 0x03, index_data = 0x04, chunk = 0x05,
-                       chunk_info = 0x06, connection = 0x07;
-}  // namespace bag_op
 
 // Returns the value of the field "name=value"; nothing if there is none. Each follows its length.
 std::optional<Bytes> find_field(Bytes fields, std::string_view name) {
@@ -53,9 +46,9 @@ std::uint64_t time_of(Bytes fields, std::string_view name) {
 }  // namespace
 
 Ros1BagReader::Ros1BagReader(const Opening& opening) : ChunkedReader(opening) {
-  if (const auto line = as_text(bytes_.at(0, first_line.size())); line != first_line)
+  if (const auto line = as_text(bytes_.at(0, ros1_bag_line.size())); line != ros1_bag_line)
     throw FileError(file_, "not a ROS bag of version 2.0: 'rosbag fix' converts older ones");
-  offset_ = first_line.size();
+  offset_ = ros1_bag_line.size();
   read_from(offset_);
   try {
     const Record head = record_at(offset_);

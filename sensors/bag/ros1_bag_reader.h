@@ -2,13 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
 
 #include "sensors/bag/chunked_reader.h"
 
 namespace maploop::sensors::bag {
-
-constexpr std::string_view ros1_bag_magic = "#ROSBAG V";
 
 // Follows the index at the end; a bag that was not closed, or is cut, is read from front to back.
 class Ros1BagReader final : public ChunkedReader {

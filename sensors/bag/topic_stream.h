@@ -54,8 +54,8 @@ class TopicStream {
     }
   }
 
-  Time stamp(const RosHeader& header, const RecordedMessage& message, double delay) const {
-    return (settings_->header_stamps ? header.stamp : message.received) - from_seconds(delay);
+  Time stamp(const RosHeader& header, const RecordedMessage& message) const {
+    return settings_->header_stamps ? header.stamp : message.received;
   }
 
   // Returns whether a sample follows the previous one; refuses it otherwise.

@@ -19,8 +19,8 @@
 namespace maploop::sensors::bag {
 namespace {
 
-constexpr std::size_t head_bytes =
-    32;  // MCAP's up to its profile; longer than other formats' magic
+// A bag or MCAP file up to the profile of our own recordings; longer than other formats' magic.
+constexpr std::size_t head_bytes = 64;
 constexpr std::string_view gzip_magic = "\x1f\x8b";
 
 Bytes as_bytes(std::string_view text) {

@@ -7,7 +7,7 @@
 namespace maploop::sensors::bag {
 
 // Returns the first bytes of a file after decompression (.zstd, .gz; detected by content); fewer
-// than 32 if the file is shorter. Throws FileError.
+// than 64 if the file is shorter. Throws FileError.
 std::string unpacked_head(const std::filesystem::path& file);
 
 // An UnpackedFile is a file as it can be read in place. If the file is compressed, this is a

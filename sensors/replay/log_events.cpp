@@ -1,5 +1,8 @@
 #include "sensors/replay/log_events.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -28,9 +31,9 @@ class LcmLog final : public LogEvents {
   LogReader reader_;
 };
 
-class McapLogEvents final : public LogEvents {
+class RecordedEvents final : public LogEvents {
  public:
-  McapLogEvents(const std::filesystem::path& file, std::string_view channel) {
+  RecordedEvents(const std::filesystem::path& file, std::string_view channel) {
     MessageSelection selection;
     selection.as_written = true;
     if (!channel.empty()) selection.topics.insert(std::string(lcm_topics).append(channel));
@@ -57,14 +60,19 @@ class McapLogEvents final : public LogEvents {
  private:
   bool take(const RecordedMessage& message) {
     const std::string_view topic = message.topic->name;
-    if (message.topic->encoding != lcm_encoding || !topic.starts_with(lcm_topics)) return false;
+    std::span<const std::uint8_t> data = message.data;
+    const bool in_ros = message.topic->type == lcm_ros_type;
+    constexpr std::size_t length_bytes = 4;
+    if (in_ros) data = data.subspan(std::min(length_bytes, data.size()));
+    if ((message.topic->encoding != lcm_encoding && !in_ros) || !topic.starts_with(lcm_topics))
+      return false;
     constexpr std::int64_t nanoseconds = 1000;
     event_ = {.number = events_++,
               .time_us = to_nanoseconds(message.received) / nanoseconds,
               .channel = topic.substr(lcm_topics.size()),
-              .data = message.data,
+              .data = data,
               .offset = position_};
-    position_ += message.data.size();
+    position_ += data.size();
     return true;
   }
 
@@ -77,13 +85,13 @@ class McapLogEvents final : public LogEvents {
 
 }  // namespace
 
-bool is_mcap_log(const std::filesystem::path& file) {
+bool is_own_recording(const std::filesystem::path& file) {
   return bag::is_own_recording(file);
 }
 
 std::unique_ptr<LogEvents> open_log(const std::filesystem::path& file, const schema::Schema& schema,
                                     std::string_view channel) {
-  if (is_mcap_log(file)) return std::make_unique<McapLogEvents>(file, channel);
+  if (is_own_recording(file)) return std::make_unique<RecordedEvents>(file, channel);
   return std::make_unique<LcmLog>(file, schema);
 }
 

@@ -1,9 +1,10 @@
 // This file reads the messages that a vehicle's run recorded: an LCM log, or the same messages in
-// an MCAP file.
+// an MCAP file or a bag of ROS 1.
 //
-// Such an MCAP file names the profile "maploop". Each LCM channel is a topic: its name behind
-// `lcm_topics`, of encoding `lcm_encoding`, without a schema, for the messages state their type
-// themselves (msgs/lcm). Other topics repeat them for viewers, and are not read here.
+// Such a file names the profile "maploop". Each LCM channel is a topic: its name behind
+// `lcm_topics`. In an MCAP file it is of encoding `lcm_encoding`, without a schema, for the
+// messages state their type themselves (msgs/lcm); in a bag it is of type `lcm_ros_type`, whose
+// only field are the bytes. Other topics repeat them for viewers, and are not read here.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +18,11 @@
 
 namespace maploop::sensors {
 
-constexpr std::string_view lcm_topics = "/lcm/", lcm_encoding = "lcm";
+constexpr std::string_view lcm_topics = "/lcm/", lcm_encoding = "lcm",
+                           lcm_ros_type = "maploop/LcmMessage";
 
 // Used as LogReader is. Events come in the order in which they were recorded, those of an MCAP file
-// numbered from 0; its damage has a place, but no length.
+// or a bag numbered from 0; its damage has a place, but no length.
 class LogEvents {
  public:
   using Item = lcm_log::LogReader::Item;
@@ -43,11 +45,12 @@ class LogEvents {
   virtual std::uint64_t file_position() const = 0;
 };
 
-// Returns whether the file is an MCAP file of the profile above, also compressed. Does not throw.
-bool is_mcap_log(const std::filesystem::path& file);
+// Returns whether the file is an MCAP file or a bag of the profile above, also compressed. Does not
+// throw.
+bool is_own_recording(const std::filesystem::path& file);
 
-// Opens either; what is neither is an LCM log that is all damage. The schema must outlive the
-// result. From an MCAP file only events of `channel` are read, unless it is empty. Throws
+// Opens any of them; what is none is an LCM log that is all damage. The schema must outlive the
+// result. From an MCAP file or a bag only events of `channel` are read, unless it is empty. Throws
 // std::runtime_error that names the file if it cannot be opened.
 std::unique_ptr<LogEvents> open_log(const std::filesystem::path& file, const schema::Schema& schema,
                                     std::string_view channel = {});

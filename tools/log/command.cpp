@@ -26,6 +26,7 @@ struct LogOptions {
   path output, json;
   std::optional<double> start, end;
   std::optional<std::string> channels, every;
+  std::string compression = "lz4";
 
   schema::Schema schema() const { return lcm_log::load_types(types); }
 };
@@ -59,7 +60,7 @@ int merge(const LogOptions& o) {
 }
 
 int convert(const LogOptions& o) {
-  return report_damage(lcm_log::convert(o.log, o.schema(), o.output, std::cout));
+  return report_damage(lcm_log::convert(o.log, o.schema(), o.output, o.compression, std::cout));
 }
 
 int recover(const LogOptions& o) {
@@ -133,9 +134,13 @@ void add_log(CLI::App& app, Command& command) {
   sub->add_option("LOGS", options->logs, "LCM logs, plain or .gz")->required();
   add_output("Log to write (.gz: compressed)");
 
-  add("convert", "Write a log as an MCAP file for Foxglove or PlotJuggler", convert);
+  add("convert", "Write a log as an MCAP file for Foxglove or PlotJuggler, or as a bag of ROS 1",
+      convert);
   add_log("LOG", options->log);
-  add_output("MCAP file to write");
+  add_output("File to write: .mcap, .bag, or a log");
+  sub->add_option("--compression", options->compression, "Of a bag: none, lz4 or bz2")
+      ->check(CLI::IsMember({"none", "lz4", "bz2"}))
+      ->capture_default_str();
 
   add("recover", "Write everything readable of a damaged log", recover);
   add_log("LOG", options->log);

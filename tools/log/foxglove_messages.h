@@ -17,16 +17,7 @@ struct FoxgloveMessage {
   std::string json;
 };
 
-// Calls use(message) for each message that shows what an event contains:
-//   NAV_STATE    /map/fix LocationFix of the inertial unit, /map/pose PoseInFrame "map" (east,
-//                north, up from the drive's origin), and /tf FrameTransform from "map" to "body"
-//   ODOM_STATE   /odom/pose PoseInFrame "odom"
-//   GNSS_FIX     /gnss/fix LocationFix
-//   TRUTH        /truth/fix LocationFix
-//   CALIBRATION  /tf_static FrameTransform from "body" to "cam" and to "velo"
-//   CAMERA       /camera/left and /camera/right CompressedImage (JPEG)
-//   VELODYNE     /velodyne PointCloud
-// An event that is none of these, or that has no position yet, shows nothing.
+// Calls use(message) for each view of an event (event_views.h) that has a schema of Foxglove.
 void show_in_foxglove(const LogEvent& event, const schema::Schema& schema,
                       const std::function<void(const FoxgloveMessage&)>& use);
 

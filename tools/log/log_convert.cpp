@@ -11,9 +11,9 @@
 namespace maploop::lcm_log {
 
 LogSummary convert(const path& log, const schema::Schema& schema, const path& output,
-                   std::ostream& out) {
+                   const std::string& bag_compression, std::ostream& out) {
   refuse_same_file(log, output);
-  LogWriter writer(output, schema);
+  LogWriter writer(output, schema, bag_compression);
   std::set<std::string, std::less<>> channels;
   std::uint64_t unknown = 0;
   const LogSummary read = read_log(log, schema, [&](const LogEvent& event) {
@@ -26,7 +26,7 @@ LogSummary convert(const path& log, const schema::Schema& schema, const path& ou
   writer.close();
   fmt::print(out, "{}: {} messages of {} channels", output.string(), writer.events(),
              channels.size());
-  if (unknown > 0 && is_mcap_name(output)) {
+  if (unknown > 0 && (is_mcap_name(output) || is_bag_name(output))) {
     fmt::print(out, "; {} of unknown types cannot be shown (--types names the files of theirs)",
                unknown);
   }

@@ -72,11 +72,10 @@ struct SplitParameters {
 LogSummary split(const path& log, const schema::Schema& schema, const SplitParameters& parameters,
                  std::ostream& out);
 
-// Writes the messages of known type as an MCAP file that Foxglove and PlotJuggler open: each
-// channel as JSON, and the positions and poses once more in Foxglove's schemas
-// (foxglove_messages.h). Times are those of the log. Throws if no message can be converted.
+// Writes the messages in the format that the name of the output says (log_writer.h); a bag is
+// compressed by "none", "lz4" or "bz2". Times are those of the log. Throws if there is no message.
 LogSummary convert(const path& log, const schema::Schema& schema, const path& output,
-                   std::ostream& out);
+                   const std::string& bag_compression, std::ostream& out);
 
 // Writes always the earliest of the logs' next events; among equally early ones that of the log
 // named first. The order inside each log is therefore kept, even if its own times go back. Damage

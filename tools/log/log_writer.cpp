@@ -12,14 +12,19 @@ bool is_mcap_name(const std::filesystem::path& file) {
   return file.extension() == ".mcap";
 }
 
-LogWriter::LogWriter(const std::filesystem::path& file, const schema::Schema& schema)
+bool is_bag_name(const std::filesystem::path& file) {
+  return file.extension() == ".bag";
+}
+
+LogWriter::LogWriter(const std::filesystem::path& file, const schema::Schema& schema,
+                     const std::string& bag_compression)
     : file_(file), compressed_(file.extension() == ".gz") {
-  if (!is_mcap_name(file)) return;
   const auto append = [this](std::string_view part) {
     file_.write(part);
     return true;
   };
-  mcap_ = std::make_unique<McapLog>(append, schema);
+  if (is_mcap_name(file)) mcap_ = std::make_unique<McapLog>(append, schema);
+  if (is_bag_name(file)) bag_ = std::make_unique<BagLog>(append, bag_compression, schema);
 }
 
 void LogWriter::write(const LogEvent& event) {
@@ -31,6 +36,7 @@ void LogWriter::write(const LogEvent& event) {
                          .data_bytes = static_cast<std::int32_t>(event.data.size())};
   bytes_ += values.event_bytes();
   if (mcap_) return mcap_->write(event);
+  if (bag_) return bag_->write(event);
   write_header(values, header);
   pending_.append(header.begin(), header.end());
   pending_ += event.channel;
@@ -46,7 +52,13 @@ void LogWriter::flush() {
 }
 
 void LogWriter::close() {
-  mcap_ ? static_cast<void>(mcap_->close()) : flush();
+  if (mcap_) {
+    mcap_->close();
+  } else if (bag_) {
+    file_.replace_head(bag_->close());
+  } else {
+    flush();
+  }
   file_.keep();
 }
 

@@ -3,24 +3,13 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "sensors/bag/byte_cursor.h"
 #include "sensors/replay/log_events.h"
+#include "tools/log/log_chunks.h"
 #include "tools/log/log_files.h"
 #include "tools/log/shown_event.h"
 
 namespace maploop::lcm_log {
-namespace {
-
-constexpr std::size_t chunk_bytes = std::size_t{1} << 20U;
-constexpr std::uint64_t chunk_nanoseconds = 1'000'000'000;
-// An event of so many bytes has a chunk of its own, which those who read other channels skip.
-constexpr std::size_t large_event = std::size_t{1} << 16U;
-
-std::string_view as_text(std::span<const std::uint8_t> bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-}  // namespace
-
 std::uint16_t McapLog::channel(std::string_view topic, std::string_view schema_name,
                                const std::function<std::string()>& json_schema) {
   const auto [place, is_new] =
@@ -39,19 +28,17 @@ std::uint16_t McapLog::channel(std::string_view topic, std::string_view schema_n
 }
 
 void McapLog::write(const LogEvent& event) {
-  const bool alone = event.data.size() >= large_event;
+  const bool alone = is_alone(event.data.size());
   if (alone) flush();
   constexpr std::int64_t most_us = std::int64_t{1} << 53;
   const std::int64_t time = 1000 * std::clamp<std::int64_t>(event.time_us, 0, most_us);
   const std::string raw = std::string(sensors::lcm_topics).append(event.channel);
-  writer_.write(channel(raw, {}, {}), time, as_text(event.data));
+  writer_.write(channel(raw, {}, {}), time, sensors::bag::as_text(event.data));
   ++in_chunk_;
   show(event, schema_, [&](const ShownMessage& shown) {
     writer_.write(channel(shown.topic, shown.schema_name, shown.schema), time, shown.json());
   });
-  if (alone || writer_.chunk_bytes() >= chunk_bytes ||
-      writer_.chunk_nanoseconds() >= chunk_nanoseconds)
-    flush();
+  if (alone || is_full(writer_.chunk_bytes(), writer_.chunk_nanoseconds())) flush();
 }
 
 void McapLog::flush() {

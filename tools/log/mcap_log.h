@@ -21,7 +21,7 @@ class McapLog {
   McapLog(sensors::bag::McapWriter::Append append, const schema::Schema& schema)
       : writer_(std::move(append)), schema_(schema) {}
 
-  // An event is in one chunk, which ends at a mebibyte, or a second of the events' time. Throws
+  // An event is in one chunk (log_chunks.h). Throws
   // std::runtime_error for too many channels.
   void write(const LogEvent& event);
 

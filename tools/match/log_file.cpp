@@ -78,7 +78,7 @@ bool is_lcm_log(const std::filesystem::path& file) {
   constexpr std::string_view sync = "\xed\xa1\xda\x01";
   std::string begin(sync.size(), '\0');
   std::ifstream(file, std::ios::binary).read(begin.data(), std::ssize(begin));
-  return begin == sync || file.string().ends_with(".lcmlog.gz") || sensors::is_mcap_log(file);
+  return begin == sync || file.string().ends_with(".lcmlog.gz") || sensors::is_own_recording(file);
 }
 
 Track read_log_track(const std::filesystem::path& file) {

@@ -20,9 +20,7 @@ FusedSensors fused_sensors_of_bag(const std::filesystem::path& path,
 
 Recording open_bag(const std::filesystem::path& path, const VehicleConfig& config,
                    const KnownContents& contents) {
-  const VehicleDescription& d = config.vehicle;
-  const sensors::BagVehicle vehicle{d.camera.time.delay,  d.lidar.time.delay,  d.imu.time.delay,
-                                    d.antenna.time.delay, raw_cameras(config), d.lidar.calibration};
+  const sensors::BagVehicle vehicle{raw_cameras(config), config.vehicle.lidar.calibration};
   const sensors::BagLimits limits{config.replay.camera_readout, config.replay.max_pair_skew,
                                   config.replay.max_turn};
   const auto bag = std::make_shared<sensors::BagRecording>(
@@ -34,17 +32,19 @@ Recording open_bag(const std::filesystem::path& path, const VehicleConfig& confi
   recording.last_stamp = bag->last_stamp();
   recording.images = bag->frame_count();
   recording.notes = bag->notes();
+  recording.delays = delays_of(config);
   VehicleConfig car = config;
   describe_car(car, recording.calibration);
-  recording.sensors = [bag, car, outages = outages_of(config, recording)](Time passed) {
+  recording.sensors = [bag, car, delays = recording.delays,
+                       outages = outages_of(config, recording)](Time passed) {
     Sensors s;
     if (bag->has(BagSensor::camera_left)) s.camera = bag->camera(passed);
     if (bag->has(BagSensor::lidar)) s.velodyne = bag->lidar(passed);
     const bool fixes = bag->has(BagSensor::gnss);
     if (fixes) s.gnss = bag->gnss();
     if (bag->has(BagSensor::imu)) {
-      s.imu = bag->imu(fixes ? with_outages(bag->gnss(), outages) : nullptr, mount_of(car),
-                       car.fusion.rear_axle_distance);
+      s.imu = bag->imu(fixes ? on_the_units_clock(bag->gnss(), outages, delays) : nullptr,
+                       mount_of(car), car.fusion.rear_axle_distance);
     }
     if (bag->has(BagSensor::wheel)) s.wheel = bag->wheel();
     return s;

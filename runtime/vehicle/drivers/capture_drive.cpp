@@ -20,6 +20,7 @@ Recording open_capture(const std::filesystem::path& path, const VehicleConfig& c
   };
   Recording recording;
   recording.calibration = live_calibration(config);
+  recording.delays = delays_of(config);
   const auto capture = open();
   for (LidarScan scan; capture->next(scan); ++recording.images) {
     if (recording.images == 0) recording.first_stamp = scan.stamp;

@@ -93,13 +93,13 @@ void use_oxts(Sensors& s, const sensors::FolderDrive& drive, const VehicleConfig
 }
 
 void use_tables(Sensors& s, const sensors::FolderDrive& drive, const VehicleConfig& car,
-                const std::vector<GnssOutage>& outages) {
+                const SensorDelays& delays, const std::vector<GnssOutage>& outages) {
   const sensors::TableRecording& tables = *drive.tables();
   s.gnss = tables.gnss();
   const sensors::MountParameters given = mount_of(car);
   if (tables.has_imu()) {
-    s.imu = tables.imu(with_outages(tables.gnss(), outages), given.given ? given : drive.mount(),
-                       car.fusion.rear_axle_distance);
+    s.imu = tables.imu(on_the_units_clock(tables.gnss(), outages, delays),
+                       given.given ? given : drive.mount(), car.fusion.rear_axle_distance);
   }
   s.wheel = tables.wheel();
   s.reference = tables.reference();
@@ -138,14 +138,16 @@ Recording open_folder(const fs::path& folder, const VehicleConfig& config) {
   recording.last_stamp = drive->last_stamp();
   recording.images = drive->frame_count();
   recording.notes = drive->notes();
+  recording.delays = drive->has_oxts() ? delays_of_oxts(config) : delays_of(config);
   VehicleConfig car = config;
   if (drive->tables() != nullptr) describe_car(car, recording.calibration);
-  recording.sensors = [drive, epochs, car, outages = outages_of(config, recording)](Time passed) {
+  recording.sensors = [drive, epochs, car, delays = recording.delays,
+                       outages = outages_of(config, recording)](Time passed) {
     Sensors s;
     if (drive->has_images()) s.camera = drive->camera(passed);
     if (drive->has_velodyne()) s.velodyne = drive->velodyne(passed);
     if (drive->has_oxts()) use_oxts(s, *drive, car);
-    if (drive->tables() != nullptr) use_tables(s, *drive, car, outages);
+    if (drive->tables() != nullptr) use_tables(s, *drive, car, delays, outages);
     if (epochs != nullptr) {
       s.gnss = nullptr;
       s.epochs = GnssDrive::epochs(epochs);

@@ -17,6 +17,7 @@
 #include "runtime/vehicle/drivers/track_odometry.h"
 #include "runtime/vehicle/graph/graph.h"
 #include "sensors/bag/message_reader.h"
+#include "sensors/delayed.h"
 #include "sensors/replay/imu_noise.h"
 #include "sensors/replay/log_recording.h"
 #include "sensors/replay/odometry_sequence.h"
@@ -33,6 +34,7 @@ Recording make_recording(const Opened& opened, std::function<Sensors(Time)> sens
           opened.last_stamp(),
           opened.frame_count(),
           std::move(sensors),
+          {},
           {},
           {},
           false,
@@ -82,12 +84,14 @@ Recording open_sequence(const std::filesystem::path& path, const VehicleConfig& 
     }
     return s;
   });
+  recording.delays = delays_of_oxts(config);
   if (const auto& labels = sequence->labels_file())
     recording.driven_links = {*labels, sequence->image_stamps()};
   if (tracks != nullptr) recording.calibration.stereo = tracks->calibration;
   return recording;
 }
 
+// Its stamps are without delays: they are those that the recording vehicle used.
 Recording open_log(const std::filesystem::path& file) {
   auto log = std::make_shared<const sensors::LogRecording>(file);
   return make_recording(*log, [log](Time) {
@@ -190,13 +194,22 @@ Recording open_recording(const std::filesystem::path& path, const VehicleConfig&
   recording.calibration = described(config, recording.calibration);
   recording.outages = outages_of(config, recording);
   recording.sensors = [plain = std::move(recording.sensors), outages = recording.outages,
-                       noise = noise_of(config)](Time passed) {
+                       delays = recording.delays, noise = noise_of(config)](Time passed) {
     Sensors s = plain(passed);
+    take_delays(s, delays);
     s.gnss = with_outages(std::move(s.gnss), outages);
     s.epochs = with_outages(std::move(s.epochs), outages);
     if (noise && s.imu != nullptr) s.imu = sensors::with_noise(std::move(s.imu), *noise);
     return s;
   };
+  const Duration camera = recording.delays.camera, antenna = recording.delays.antenna;
+  if (recording.driven_links)
+    for (Time& stamp : recording.driven_links->stamps) stamp -= camera;
+  if (recording.fixes) {
+    recording.fixes = [recorded = std::move(recording.fixes), antenna] {
+      return sensors::delayed(recorded(), antenna);
+    };
+  }
   return recording;
 }
 

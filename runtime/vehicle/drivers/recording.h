@@ -12,6 +12,7 @@
 #include "msgs/calibration.h"
 #include "runtime/vehicle/config/vehicle_config.h"
 #include "runtime/vehicle/drivers/gnss_outage.h"
+#include "runtime/vehicle/drivers/sensor_delays.h"
 #include "runtime/vehicle/graph/vehicle.h"
 #include "sensors/camera/stereo_rig.h"
 #include "sensors/imu/mount_alignment.h"
@@ -34,12 +35,13 @@ struct DrivenLinksFile {
 
 struct Recording {
   VehicleCalibration calibration;
-  Time first_stamp{};  // of the images; if there are none, of epochs or scans
+  Time first_stamp{};  // as recorded, of the images; if there are none, of epochs or scans
   Time last_stamp{};
   std::size_t images = 0;  // number of images; if there are none, of epochs or scans
   // Returns new sources of the sensors that were recorded, each from the start. Pixels and points
   // of samples that are available up to `passed` may be missing, which saves reading them.
   std::function<Sensors(Time passed)> sensors;
+  SensorDelays delays{};            // that its stamps contain; `sensors` takes them off
   std::vector<GnssOutage> outages;  // as configured; `sensors` applies them
   // Returns every fix, also those that the outages take away, to score with. Null: they are made
   // from the reference, which scores better.

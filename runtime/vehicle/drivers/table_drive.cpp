@@ -27,13 +27,15 @@ Recording open_tables(const std::filesystem::path& folder, const VehicleConfig& 
   recording.peer_reference = mapping->reference.peer;
   if (tables->has_gnss()) recording.fixes = [tables] { return tables->gnss(); };
   recording.calibration.rear_axle_distance = sensors::TableRecording::cabin_ahead;
+  recording.delays = delays_of(config);
   VehicleConfig car = config;
   describe_car(car, recording.calibration);
-  recording.sensors = [tables, car, outages = outages_of(config, recording)](Time) {
+  recording.sensors = [tables, car, delays = recording.delays,
+                       outages = outages_of(config, recording)](Time) {
     Sensors s;
     s.gnss = tables->gnss();
     if (tables->has_imu() && fusion::configuration(car.configuration).inertial) {
-      s.imu = tables->imu(with_outages(tables->gnss(), outages), mount_of(car),
+      s.imu = tables->imu(on_the_units_clock(tables->gnss(), outages, delays), mount_of(car),
                           car.fusion.rear_axle_distance);
     }
     s.wheel = tables->wheel();

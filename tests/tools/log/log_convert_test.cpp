@@ -22,7 +22,7 @@ class LogConvert : public LogToolsTest {
  protected:
   std::string converted() {
     std::ostringstream said;
-    convert(log_, types_, mcap_, said);
+    convert(log_, types_, mcap_, "lz4", said);
     return said.str();
   }
 
@@ -59,7 +59,7 @@ TEST_F(LogConvert, GivesTheSameLogBack) {
   converted();
   std::ostringstream said;
   const path back = folder_.path() / "back.lcmlog";
-  EXPECT_EQ(convert(mcap_, types_, back, said).events, drive_.size());
+  EXPECT_EQ(convert(mcap_, types_, back, "lz4", said).events, drive_.size());
   EXPECT_TRUE(contains(said.str(), "24 messages of 5 channels\n")) << said.str();
   EXPECT_EQ(read_bytes(back), read_bytes(log_));
 }
@@ -71,7 +71,7 @@ TEST_F(LogConvert, KeepsTheOrderOfALogWhoseTimeGoesBack) {
   record(log_, events);
   converted();
   std::ostringstream said;
-  convert(mcap_, types_, out_, said);
+  convert(mcap_, types_, out_, "lz4", said);
   EXPECT_EQ(read_with_lcm(out_), events);
 }
 
@@ -135,7 +135,7 @@ TEST_F(LogConvert, IsReadByOthersWhoFindFoxglovesSchemas) {
 TEST_F(LogConvert, AnMcapFileIsReplayedAsTheLogIs) {
   const path sensors_log = maploop::testing::source("tests/fuzz/corpus/recording/sensors.lcmlog");
   std::ostringstream said;
-  convert(sensors_log, types_, mcap_, said);
+  convert(sensors_log, types_, mcap_, "lz4", said);
   EXPECT_FALSE(sensors::is_bag(mcap_)) << "its sensors are not in ROS's types";
   const sensors::LogRecording ours(mcap_), log(sensors_log);
   EXPECT_EQ(ours.frame_count(), log.frame_count());

@@ -75,7 +75,7 @@ TEST_F(McapRecorder, HoldsWhatWasSent) {
     EXPECT_EQ(read().second, 1) << "which it lacks";
     send(*to, 10);
   }
-  EXPECT_TRUE(sensors::is_mcap_log(file));
+  EXPECT_TRUE(sensors::is_own_recording(file));
   EXPECT_EQ(read().first.size(), 51U);
   EXPECT_EQ(read().second, 0);
 }
