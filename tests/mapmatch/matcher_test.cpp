@@ -279,12 +279,12 @@ TEST(Matcher, ALinkNotReachedAlongTheMapIsDoubtedUntilItHasFittedForAWhile) {
   }
 }
 
-// A wide turn at walking pace lasts for dozens of fixes that fit neither street well.
+// A wide turn at walking pace lasts for many seconds in which neither street fits well.
 TEST(Matcher, ASlowWideTurnIsNotOffTheRoad) {
   const RoadNetwork network = crossing().network();
   Matcher matcher(network, rules(), {});
   ways(matcher, drive({{-150, -3}, {-12, -3}}, 8.0, 10.0));
-  auto fixes = drive({{-12, -3}, {-5, 1}, {-2, 6}, {-3, 14}, {-3, 40}}, 0.8, 10.0);
+  auto fixes = drive({{-12, -3}, {-11, 6}, {-9, 14}, {-3, 20}, {-3, 40}}, 1.2, 10.0);
   for (VehicleFix& fix : fixes) {
     fix.stamp += std::chrono::seconds(60);
     EXPECT_NE(matcher.add(fix).phase, MatchPhase::off_road);
