@@ -14,6 +14,9 @@ ParameterTable<MatchParameters> parameter_table(const MatchParameters&) {
   constexpr DataChoice trust_choice{
       "KITTI 01, 06 and 10", "what is said where the map lacks the road",
       "matching on 01, 06, 10, and their part of the reliability diagram"};
+  constexpr DataChoice hop_trust_choice{"KITTI 00, 02, 03 and 04",
+                                        "time sure of a wrong link where a driven way is missing",
+                                        "wrong maps of these drives"};
   constexpr DataChoice trust_slope_choice{"KITTI 01, 06 and 10", "as `trust`", "as `trust`"};
   constexpr DataChoice doubt_slope_choice{"KITTI odometry sequences, all eight",
                                           "the reliability diagram", "the reliability diagram"};
@@ -68,7 +71,7 @@ ParameterTable<MatchParameters> parameter_table(const MatchParameters&) {
       {"trust", &P::trust, 0.0, 1000.0, "nat", expert, "Log odds of a link that fits perfectly.",
        trust_choice},
       {"hop_trust", &P::hop_trust, -1000.0, 1000.0, "nat", expert,
-       "The same of a link that was not reached along the roads of the map."},
+       "The same of a link that was not reached along the roads of the map.", hop_trust_choice},
       {"trust_distance", &P::trust_distance, 0.01, 100000.0, "m", expert,
        "Distance over which a link that fits regains `trust`."},
       {"trust_slope", &P::trust_slope, 0.0, 1000.0, "nat", expert,
