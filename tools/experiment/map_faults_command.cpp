@@ -83,7 +83,8 @@ std::vector<WrongMap> wrong_maps(const mapmatch::MapExtract& map,
                                  int seeds) {
   std::vector<WrongMap> maps;
   const auto add = [&](const char* fault, mapmatch::NetworkData data) -> WrongMap& {
-    return maps.emplace_back(fault, mapmatch::RoadNetwork(std::move(data)));
+    maps.push_back({fault, mapmatch::RoadNetwork(std::move(data))});
+    return maps.back();
   };
   add("as it is", network);
   for (const double azimuth : {0.0, 90.0, 180.0, 270.0})
@@ -131,7 +132,7 @@ int fault_experiment(const RecordedDriveOptions& options) {
     const auto maps = wrong_maps(map, network, drive, options.seeds);
     for (std::size_t c = 0; c < conditions.size(); ++c) {
       const auto tracks = conditions[c].realizations(drive, options.seeds);
-      for (std::size_t i = 0; i < tracks.size(); ++i)
+      for (std::size_t i = 0; i < tracks.size(); ++i) {
         for (const WrongMap& wrong : maps) {
           if (wrong.seed > 0 && tracks.size() > 1 && wrong.seed != i + 1) continue;
           mapmatch::Matcher matcher(wrong.network, rules, parameters);
@@ -143,24 +144,25 @@ int fault_experiment(const RecordedDriveOptions& options) {
           for (const std::size_t row : {c, conditions.size()})
             of_fault[row].add(score, drive, wrong.way, i + 1);
         }
+      }
     }
   }
   experiments::Table table{"Map matching on wrong maps",
                            {"map", "fixes", "drives", "longest s", "> 3 s", "recovery m", "> 150",
                             "said %", "sure %", "P", "longest of"},
                            {}};
-  for (const auto& [fault, of_fault] : scores)
+  for (const auto& [fault, of_fault] : scores) {
     for (std::size_t c = 0; c < of_fault.size(); ++c) {
       experiments::Row& row = table.rows.emplace_back(fault);
       row.push_back(c < conditions.size() ? conditions[c].name : "all");
       for (const std::string& cell : of_fault[c].cells()) row.push_back(cell);
     }
+  }
   std::cerr << '\n';
   std::cout << as_text(table)
             << "longest: a wrong link with P above 0.9, without a break; recovery: distance driven "
                "without the right link where the map has it\non the missing way: share of fixes "
-               "with a link "
-               "(which is wrong), with P above 0.9, and its mean P\n";
+               "with a link (which is wrong), with P above 0.9, and its mean P\n";
   return 0;
 }
 

@@ -179,10 +179,9 @@ FaultScore score_fault(const std::vector<MatchedFix>& matched, const NoisyTrack&
       score.missing_sure += is_sure ? 1 : 0;
       score.missing_p_sum += fix.way_id ? fix.p_link : 0.0;
     }
-    if (right || is_missing || i == 0)
-      lost = 0.0;
-    else
-      lost += track[i].speed * to_seconds(track[i].stamp - track[i - 1].stamp);
+    lost = right || is_missing || i == 0
+               ? 0.0
+               : lost + track[i].speed * to_seconds(track[i].stamp - track[i - 1].stamp);
     score.recovery = std::max(score.recovery, lost);
     if (is_sure && !right) {
       if (wrong_since < 0.0) wrong_since = t;
