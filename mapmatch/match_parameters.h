@@ -31,11 +31,13 @@ struct MatchParameters {
   // --- Off the road
   double misfit = 12.0;
   double wrong_way_misfit = 6.0;
-  double misfit_rate = 0.5;  // 1/s
-  double trust = 5.0;        // log odds
-  double trust_slope = 0.8;  // log odds
+  double misfit_rate = 0.5;       // 1/s
+  double trust = 5.0;             // log odds
+  double hop_trust = 0.0;         // log odds
+  double trust_distance = 150.0;  // m
+  double trust_slope = 0.8;       // log odds
   double doubt_slope = 0.15;
-  double off_road_rate = 1.0;  // 1/s
+  double off_road_rate = 0.1;  // 1/m
 
   // --- Fuzzy process
   double fuzzy_weight = 0.3;

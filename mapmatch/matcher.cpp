@@ -108,13 +108,14 @@ MatchCandidate* Matcher::candidate_of(DirectedLink link) {
 // Lists the links of the path hypotheses and those near the fix.
 void Matcher::list_candidates(const RuleContext& c) {
   result_.candidate_count = 0;
-  const double on_road = (1.0 - paths_.off_road()) * (1.0 - paths_.unmapped());
+  const double on_road = 1.0 - paths_.off_road();
   std::array<double, MatchResult::max_candidates> shares{};  // of the likeliest path on each link
   for (const PathHypothesis& h : paths_.hypotheses()) {
     const PathPoint at = place_on_path(*network_, h, h.s);
     MatchCandidate* candidate = candidate_of(at.link);
     if (!candidate) continue;
-    const double share = on_road * paths_.share(h);  // (11) of METHOD.md
+    const double share =
+        on_road * (1.0 - paths_.unmapped(h)) * paths_.share(h);  // (11) of METHOD.md
     double& likeliest = shares[static_cast<std::size_t>(candidate - result_.candidates.data())];
     if (candidate->probability == 0.0 || share > likeliest) {
       candidate->along = std::clamp(at.s, 0.0, network_->link(at.link.link).length);

@@ -14,6 +14,9 @@ ParameterTable<MatchParameters> parameter_table(const MatchParameters&) {
   constexpr DataChoice trust_choice{
       "KITTI 01, 06 and 10", "what is said where the map lacks the road",
       "matching on 01, 06, 10, and their part of the reliability diagram"};
+  constexpr DataChoice hop_trust_choice{"KITTI 00, 02, 03 and 04",
+                                        "time sure of a wrong link where a driven way is missing",
+                                        "wrong maps of these drives"};
   constexpr DataChoice trust_slope_choice{"KITTI 01, 06 and 10", "as `trust`", "as `trust`"};
   constexpr DataChoice doubt_slope_choice{"KITTI odometry sequences, all eight",
                                           "the reliability diagram", "the reliability diagram"};
@@ -67,13 +70,17 @@ ParameterTable<MatchParameters> parameter_table(const MatchParameters&) {
        "Weight of offsets as evidence between links."},
       {"trust", &P::trust, 0.0, 1000.0, "nat", expert, "Log odds of a link that fits perfectly.",
        trust_choice},
+      {"hop_trust", &P::hop_trust, -1000.0, 1000.0, "nat", expert,
+       "The same of a link that was not reached along the roads of the map.", hop_trust_choice},
+      {"trust_distance", &P::trust_distance, 0.01, 100000.0, "m", expert,
+       "Distance over which a link that fits regains `trust`."},
       {"trust_slope", &P::trust_slope, 0.0, 1000.0, "nat", expert,
        "Log odds that a unit of misfit takes away (from the reliability diagram).",
        trust_slope_choice},
       {"doubt_slope", &P::doubt_slope, 0.0, 1000.0, "1", expert,
        "Slope of the log odds below those of 0.9, which do not fall faster.", doubt_slope_choice},
-      {"off_road_rate", &P::off_road_rate, 0.0, 1000.0, "1/s", expert,
-       "Evidence per unit of misfit that the vehicle is off the road."},
+      {"off_road_rate", &P::off_road_rate, 0.0, 1000.0, "1/m", expert,
+       "Evidence per unit of misfit and metre driven that the vehicle is off the road."},
 
       {"fuzzy_weight", &P::fuzzy_weight, 0.0, 1000.0, "1", expert,
        "Weight of ln(L/100) of the fuzzy rules beside ln P of the paths."},

@@ -13,6 +13,7 @@ constexpr double off_road_low = -6.0;   // log odds are bounded so that they can
 constexpr double off_road_high = 5.0;
 constexpr double turn_misfit = 8.0;  // sigmas squared of azimuth, limit during a turn
 constexpr double turning = radians(120.0);
+constexpr double most_at_once = 30.0;        // m of evidence, whatever the gap between fixes
 constexpr double sure_odds = 2.197;          // log odds of 0.9
 constexpr double in_a_turn = radians(20.0);  // within a second
 
@@ -147,6 +148,7 @@ void PathFilter::be_born(const PathEvidence& e, const NearLinks& near) {
                         return o.link == h.link && std::abs(o.s - h.s) < 5.0 + 2.0 * o.sigma();
                       }))
         continue;
+      h.trust = start ? parameters_->trust : parameters_->hop_trust;
       h.log_weight = -cost - cost_of(h.link);
       kalman_.begin(h, candidate.point, e);
       if (start || h.log_weight > -parameters_->prune) add(h);
@@ -154,9 +156,9 @@ void PathFilter::be_born(const PathEvidence& e, const NearLinks& near) {
   }
 }
 
-// Updates the odds of being off the road, which rise if even the best hypotheses do not fit.
+// Updates the odds of being off the road, which rise if even the best hypotheses do not fit. Only
+// driving shows that, however fast: the evidence is counted over the distance.
 void PathFilter::judge_road(const PathEvidence& e) {
-  if (e.motion.speed < parameters_->min_speed && e.motion.interval > 0.0 && count_ > 0) return;
   double misfit = count_ == 0 ? 2.0 * parameters_->misfit : 0.0;
   surprise_ = misfit;
   // Vehicles cut corners and U-turns are wide, so a turn alone does not show that the road was
@@ -171,13 +173,13 @@ void PathFilter::judge_road(const PathEvidence& e) {
   }
   // (9) of METHOD.md
   off_road_ += parameters_->off_road_rate * 0.5 * (misfit - parameters_->misfit) *
-               std::min(e.motion.interval, 1.0);
+               std::min(e.motion.distance, most_at_once);
   off_road_ = std::clamp(off_road_, off_road_low, off_road_high);
 }
 
-double PathFilter::unmapped() const {
+double PathFilter::unmapped(const PathHypothesis& h) const {
   // (10) of METHOD.md
-  const double odds = parameters_->trust - parameters_->trust_slope * surprise_;
+  const double odds = h.trust - parameters_->trust_slope * surprise_;
   // A link with a bad fit is usually still the correct one.
   const double doubt = parameters_->doubt_slope * (sure_odds - odds);
   return 1.0 / (1.0 + std::exp(odds > sure_odds ? odds : sure_odds - doubt));

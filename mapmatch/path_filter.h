@@ -36,9 +36,10 @@ class PathFilter {
   double share(const PathHypothesis& h) const { return std::exp(h.log_weight); }
   double off_road() const { return 1.0 / (1.0 + std::exp(-off_road_)); }
 
-  // Returns P that the vehicle is on a road that the map does not contain, from the present misfit
-  // of the likely links. off_road() reacts more slowly and more reliably.
-  double unmapped() const;
+  // Returns P that the vehicle is on a road beside the hypothesis's that the map does not contain,
+  // from its trust and the present misfit of the likely links. off_road() reacts more slowly and
+  // more reliably.
+  double unmapped(const PathHypothesis& h) const;
 
   template <class Archive>
   void archive(Archive& ar);

@@ -21,6 +21,7 @@ struct PathHypothesis {
   Eigen::Vector2d offset = Eigen::Vector2d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   double log_weight = 0.0;  // log of its share among all hypotheses
+  double trust = 0.0;       // -ln odds that this is a road that the map lacks, if the link fits
   // These are its misfits at the last fix, in sigmas squared.
   double offset_misfit = 0.0, azimuth_misfit = 0.0;
 
@@ -30,7 +31,7 @@ struct PathHypothesis {
 template <class Archive>
 void archive(Archive& ar, PathHypothesis& h) {
   ar(h.link, h.previous, h.next, h.has_previous, h.has_next, h.turned_round, h.s, h.offset,
-     h.covariance, h.log_weight, h.offset_misfit, h.azimuth_misfit);
+     h.covariance, h.log_weight, h.trust, h.offset_misfit, h.azimuth_misfit);
 }
 
 // This is a place on a hypothesis's path: on its link or, outside it, on the previous or next link

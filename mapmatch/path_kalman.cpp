@@ -60,6 +60,8 @@ Eigen::Matrix2d PathKalman::fast_covariance(const PathEvidence& e) const {
 void PathKalman::predict(PathHypothesis& h, const PathEvidence& e) const {
   const double keep = std::exp(-e.motion.interval / parameters_->correlation_time);
   h.s += e.motion.distance;  // (4) of METHOD.md
+  const double gained = parameters_->trust * e.motion.distance / parameters_->trust_distance;
+  h.trust = std::min(parameters_->trust, h.trust + gained);
   h.offset *= keep;
   h.covariance.block<1, 2>(0, 1) *= keep;
   h.covariance.block<2, 1>(1, 0) *= keep;

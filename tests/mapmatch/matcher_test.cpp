@@ -258,6 +258,39 @@ TEST(Matcher, AOneWayStreetAgainstItsDirectionIsDoubtedAndSaidSo) {
   EXPECT_THAT(said, ::testing::Contains("against its one-way direction"));
 }
 
+// The street ends, the vehicle goes on, and another street begins beside it that the map does not
+// join to the first one.
+TEST(Matcher, ALinkNotReachedAlongTheMapIsDoubtedUntilItHasFittedForAWhile) {
+  SmallMap map;
+  map.node(1, -300, 0).node(2, 0, 0).node(3, 60, 0).node(4, 700, 0);
+  map.way(10, {1, 2}).way(20, {3, 4});
+  const RoadNetwork network = map.network();
+  Matcher matcher(network, rules(), {});
+  for (const VehicleFix& fix : drive({{-250, 0}, {650, 0}}, 10.0, 1.0)) {
+    const MatchResult& r = matcher.add(fix);
+    const double past = network.to_local(fix.position).x() - network.vertex(2).position().x();
+    if (way_of(matcher, r) == 20 && past < 50.0) {
+      EXPECT_LT(r.probability, 0.9) << past;
+    }
+    if (past > 200.0) {
+      EXPECT_EQ(way_of(matcher, r), 20) << past;
+      EXPECT_GT(r.probability, 0.9) << past;
+    }
+  }
+}
+
+// A wide turn at walking pace lasts for many seconds in which neither street fits well.
+TEST(Matcher, ASlowWideTurnIsNotOffTheRoad) {
+  const RoadNetwork network = crossing().network();
+  Matcher matcher(network, rules(), {});
+  ways(matcher, drive({{-150, -3}, {-12, -3}}, 8.0, 10.0));
+  auto fixes = drive({{-12, -3}, {-11, 6}, {-9, 14}, {-3, 20}, {-3, 40}}, 1.2, 10.0);
+  for (VehicleFix& fix : fixes) {
+    fix.stamp += std::chrono::seconds(60);
+    EXPECT_NE(matcher.add(fix).phase, MatchPhase::off_road);
+  }
+}
+
 TEST(Matcher, OnlyPositionsAreEnough) {
   const RoadNetwork network = crossing().network();
   Matcher matcher(network, rules(), {});

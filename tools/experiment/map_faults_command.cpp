@@ -2,13 +2,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <memory>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "mapmatch/osm_reader.h"
+#include "msgs/frames.h"
 #include "tools/command/recorded_drive_options.h"
 #include "tools/experiment/experiments.h"
 #include "tools/experiment/table.h"
@@ -20,11 +23,13 @@ namespace {
 
 using match::RecordedDrive;
 
-// A map, and the way that it lacks.
+// A map, the way that is wrong in it, and the way that it lacks.
 struct WrongMap {
   const char* fault;
   mapmatch::RoadNetwork network;
+  std::int64_t way = 0;
   std::int64_t missing = 0;
+  std::size_t seed = 0;  // of the drawn error; 0: none is drawn
 };
 
 struct FaultScores {
@@ -38,7 +43,7 @@ struct FaultScores {
            std::size_t seed) {
     ++cases;
     over += score.longest_sure_wrong > 3.0 ? 1 : 0;
-    late += score.recovery > 50.0 ? 1 : 0;
+    late += score.recovery > 150.0 ? 1 : 0;
     recovery = std::max(recovery, score.recovery);
     fixes += score.missing_fixes;
     said += score.missing_said;
@@ -69,19 +74,47 @@ struct FaultScores {
   }
 };
 
+Eigen::Vector2d heading(double azimuth) {
+  return {std::sin(azimuth), std::cos(azimuth)};
+}
+
 std::vector<WrongMap> wrong_maps(const mapmatch::MapExtract& map,
-                                 const mapmatch::NetworkData& network, const RecordedDrive& drive) {
+                                 const mapmatch::NetworkData& network, const RecordedDrive& drive,
+                                 int seeds) {
   std::vector<WrongMap> maps;
-  const auto add = [&](const char* fault, mapmatch::NetworkData data, std::int64_t way = 0) {
-    maps.push_back({fault, mapmatch::RoadNetwork(std::move(data)), way});
+  const auto add = [&](const char* fault, mapmatch::NetworkData data) -> WrongMap& {
+    maps.push_back({fault, mapmatch::RoadNetwork(std::move(data))});
+    return maps.back();
   };
   add("as it is", network);
-  for (const Eigen::Vector2d& metres : {Eigen::Vector2d(5, 0), Eigen::Vector2d(-5, 0),
-                                        Eigen::Vector2d(0, 5), Eigen::Vector2d(0, -5)})
-    add("shifted by 5 m", match::shifted(network, metres));
+  for (const double azimuth : {0.0, 90.0, 180.0, 270.0})
+    add("shifted by 5 m", match::shifted(network, 5.0 * heading(radians(azimuth))));
+  const mapmatch::RoadNetwork right(network);
+  for (int seed = 1; seed <= seeds; ++seed) {
+    std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+    const auto draw = [&](double least, double most) {
+      return least + (most - least) * std::generate_canonical<double, 53>(random);
+    };
+    const Eigen::Vector2d shift = draw(5.0, 20.0) * heading(draw(0.0, radians(360.0)));
+    add("shifted by 5 to 20 m", match::shifted(network, shift)).seed =
+        static_cast<std::size_t>(seed);
+    const double angle = radians(draw(-1.0, 1.0));
+    const Eigen::Vector2d start = right.to_local(drive.track.front().position);
+    add("turned by up to 1 degree", match::turned(network, start, angle)).seed =
+        static_cast<std::size_t>(seed);
+  }
   add("one-way reversed", match::one_way_reversed(network));
-  for (const std::int64_t way : match::driven_ways(drive.labels))
-    add("a driven way missing", match::without_way(map, way), way);
+  const auto divided =
+      mapmatch::build_network(match::with_opposite_carriageways(map, drive.labels, 12.0));
+  add("opposite carriageways", divided);
+  add("opposite carriageways reversed", match::one_way_reversed(divided));
+  for (const std::int64_t way : match::driven_ways(drive.labels)) {
+    add("a driven way's direction wrong",
+        mapmatch::build_network(match::direction_wrong(map, drive.labels, way)))
+        .way = way;
+    WrongMap& less = add("a driven way missing", match::without_way(map, way));
+    less.way = less.missing = way;
+  }
   return maps;
 }
 
@@ -96,36 +129,40 @@ int fault_experiment(const RecordedDriveOptions& options) {
   for (const std::string& name : options.sequences) {
     std::cerr << "\rsequence " << name << std::flush;
     const RecordedDrive drive = match::read_recorded_drive(options.data, name);
-    const auto maps = wrong_maps(map, network, drive);
+    const auto maps = wrong_maps(map, network, drive, options.seeds);
     for (std::size_t c = 0; c < conditions.size(); ++c) {
       const auto tracks = conditions[c].realizations(drive, options.seeds);
-      for (std::size_t i = 0; i < tracks.size(); ++i)
+      for (std::size_t i = 0; i < tracks.size(); ++i) {
         for (const WrongMap& wrong : maps) {
+          if (wrong.seed > 0 && tracks.size() > 1 && wrong.seed != i + 1) continue;
           mapmatch::Matcher matcher(wrong.network, rules, parameters);
           const auto matched = match::match_track(matcher, tracks[i].track);
+          const match::FaultScore score =
+              match::score_fault(matched, tracks[i], drive.labels, wrong.missing);
           auto& of_fault = scores[{wrong.fault}];
-          of_fault.resize(conditions.size());
-          of_fault[c].add(match::score_fault(matched, tracks[i], drive.labels, wrong.missing),
-                          drive, wrong.missing, i + 1);
+          of_fault.resize(conditions.size() + 1);
+          for (const std::size_t row : {c, conditions.size()})
+            of_fault[row].add(score, drive, wrong.way, i + 1);
         }
+      }
     }
   }
   experiments::Table table{"Map matching on wrong maps",
-                           {"map", "fixes", "drives", "longest s", "> 3 s", "recovery m", "> 50",
+                           {"map", "fixes", "drives", "longest s", "> 3 s", "recovery m", "> 150",
                             "said %", "sure %", "P", "longest of"},
                            {}};
-  for (const auto& [fault, of_fault] : scores)
-    for (std::size_t c = 0; c < conditions.size(); ++c) {
+  for (const auto& [fault, of_fault] : scores) {
+    for (std::size_t c = 0; c < of_fault.size(); ++c) {
       experiments::Row& row = table.rows.emplace_back(fault);
-      row.push_back(conditions[c].name);
+      row.push_back(c < conditions.size() ? conditions[c].name : "all");
       for (const std::string& cell : of_fault[c].cells()) row.push_back(cell);
     }
+  }
   std::cerr << '\n';
-  std::cout
-      << as_text(table)
-      << "longest: a wrong link with P above 0.9, without a break; recovery: from where the map "
-         "is right again to the right link\non the missing way: share of fixes with a link "
-         "(which is wrong), with P above 0.9, and its mean P\n";
+  std::cout << as_text(table)
+            << "longest: a wrong link with P above 0.9, without a break; recovery: distance driven "
+               "without the right link where the map has it\non the missing way: share of fixes "
+               "with a link (which is wrong), with P above 0.9, and its mean P\n";
   return 0;
 }
 
@@ -135,8 +172,9 @@ void add_map_fault_experiment(CLI::App& experiment, Command& command) {
   auto options = std::make_shared<RecordedDriveOptions>();
   CLI::App* sub = experiment.add_subcommand(
       "map-faults",
-      "Map matching on wrong maps: shifted, one-way streets reversed, each driven way missing; "
-      "without noise, with white and with Gauss-Markov noise, at 1 and 10 Hz");
+      "Map matching on wrong maps: shifted, turned, one-way streets and opposite carriageways "
+      "reversed, each driven way's direction wrong, each driven way missing; without noise, with "
+      "white and with Gauss-Markov noise, at 1 and 10 Hz");
   add_recorded_drive_options(*sub, *options, "OpenStreetMap file");
   sub->callback(
       [options, &command] { command = [options] { return fault_experiment(*options); }; });

@@ -1,15 +1,35 @@
 #include "tools/match/map_faults.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <utility>
 
 #include "msgs/frames.h"
 
 namespace maploop::match {
+namespace {
+
+// Returns whether the vehicle drove the way from its first node towards its last; nothing if it
+// drove it both ways or not at all.
+std::optional<bool> driven_forward(const mapmatch::MapWay& way, const Labels& labels) {
+  std::set<bool> directions;
+  for (const auto& [row, label] : labels) {
+    if (label.way_id != way.road.way_id) continue;
+    for (std::size_t i = 0; i + 1 < way.nodes.size(); ++i) {
+      if (way.nodes[i] == label.node_a && way.nodes[i + 1] == label.node_b) directions.insert(true);
+      if (way.nodes[i] == label.node_b && way.nodes[i + 1] == label.node_a)
+        directions.insert(false);
+    }
+  }
+  return directions.size() == 1 ? std::optional(*directions.begin()) : std::nullopt;
+}
+
+}  // namespace
 
 std::set<std::int64_t> driven_ways(const Labels& labels) {
   std::set<std::int64_t> ways;
@@ -49,6 +69,17 @@ mapmatch::NetworkData bent(mapmatch::NetworkData network, double metres, double 
     }
     v.east += off.x();
     v.north += off.y();
+  }
+  return network;
+}
+
+mapmatch::NetworkData turned(mapmatch::NetworkData network, const Eigen::Vector2d& centre,
+                             double angle) {
+  const Eigen::Rotation2Dd clockwise(-angle);
+  for (mapmatch::Vertex& v : network.vertices) {
+    const Eigen::Vector2d p = centre + clockwise * (v.position() - centre);
+    v.east = p.x();
+    v.north = p.y();
   }
   return network;
 }
@@ -93,6 +124,34 @@ mapmatch::MapExtract with_parallels(const mapmatch::MapExtract& map,
   return more;
 }
 
+mapmatch::MapExtract direction_wrong(const mapmatch::MapExtract& map, const Labels& labels,
+                                     std::int64_t way_id) {
+  mapmatch::MapExtract wrong = map;
+  for (mapmatch::MapWay& way : wrong.ways) {
+    if (way.road.way_id != way_id) continue;
+    const auto forward = driven_forward(way, labels);
+    if (!forward) continue;
+    way.road.forward = !*forward;
+    way.road.backward = *forward;
+  }
+  return wrong;
+}
+
+mapmatch::MapExtract with_opposite_carriageways(const mapmatch::MapExtract& map,
+                                                const Labels& labels, double metres) {
+  mapmatch::MapExtract divided = map;
+  for (std::size_t i = 0; i < map.ways.size(); ++i) {
+    const auto forward = driven_forward(map.ways[i], labels);
+    if (!forward) continue;
+    const std::size_t before = divided.ways.size();
+    divided = with_parallels(divided, {map.ways[i].road.way_id}, *forward ? -metres : metres);
+    if (divided.ways.size() == before) continue;
+    divided.ways[i].road.forward = divided.ways.back().road.backward = *forward;
+    divided.ways[i].road.backward = divided.ways.back().road.forward = !*forward;
+  }
+  return divided;
+}
+
 mapmatch::NetworkData without_way(const mapmatch::MapExtract& map, std::int64_t way_id) {
   mapmatch::MapExtract less = map;
   std::erase_if(less.ways, [&](const mapmatch::MapWay& w) { return w.road.way_id == way_id; });
@@ -105,30 +164,25 @@ FaultScore score_fault(const std::vector<MatchedFix>& matched, const NoisyTrack&
   const Track& track = noisy.track;
   FaultScore score;
   double wrong_since = -1.0;
-  double way = 0.0, right_again = -1.0;
-  bool was_missing = false;
+  double lost = 0.0;
   for (std::size_t i = 0; i < matched.size(); ++i) {
     const auto label = labels.find(noisy.rows[i]);
     if (label == labels.end()) continue;
     const MatchedFix& fix = matched[i];
     const double t = to_seconds(track[i].stamp - track.front().stamp);
-    if (i > 0) way += track[i].speed * to_seconds(track[i].stamp - track[i - 1].stamp);
     const bool is_missing = label->second.way_id == missing;
     const bool right = fix.way_id == label->second.way_id;
     const bool is_sure = fix.way_id && fix.p_link > sure;
-    if (was_missing && !is_missing) right_again = way;
     if (is_missing) {
-      right_again = -1.0;
       ++score.missing_fixes;
       score.missing_said += fix.way_id ? 1 : 0;
       score.missing_sure += is_sure ? 1 : 0;
       score.missing_p_sum += fix.way_id ? fix.p_link : 0.0;
     }
-    was_missing = is_missing;
-    if (right_again >= 0.0) {
-      score.recovery = std::max(score.recovery, way - right_again);
-      if (right) right_again = -1.0;
-    }
+    lost = right || is_missing || i == 0
+               ? 0.0
+               : lost + track[i].speed * to_seconds(track[i].stamp - track[i - 1].stamp);
+    score.recovery = std::max(score.recovery, lost);
     if (is_sure && !right) {
       if (wrong_since < 0.0) wrong_since = t;
       if (t - wrong_since > score.longest_sure_wrong) {

@@ -17,8 +17,19 @@ std::set<std::int64_t> driven_ways(const Labels& labels);
 mapmatch::NetworkData bent(mapmatch::NetworkData network, double metres, double length,
                            std::uint64_t seed);
 mapmatch::NetworkData shifted(mapmatch::NetworkData network, const Eigen::Vector2d& metres);
+// Turns every vertex about `centre` (m), clockwise by `angle` (rad).
+mapmatch::NetworkData turned(mapmatch::NetworkData network, const Eigen::Vector2d& centre,
+                             double angle);
 // Reverses every one-way street.
 mapmatch::NetworkData one_way_reversed(mapmatch::NetworkData network);
+// Makes the driven way a one-way street against the direction in which it was driven. A way that
+// was driven in both directions, or is one without its nodes' labels, stays as it is.
+mapmatch::MapExtract direction_wrong(const mapmatch::MapExtract& map, const Labels& labels,
+                                     std::int64_t way_id);
+// Makes every way that was driven in one direction the right carriageway of a road whose other
+// carriageway, an invented one, is `metres` to its left.
+mapmatch::MapExtract with_opposite_carriageways(const mapmatch::MapExtract& map,
+                                                const Labels& labels, double metres);
 // Adds an invented road `metres` to the right of each of these ways; it branches off at one end of
 // the way and rejoins it at the other.
 mapmatch::MapExtract with_parallels(const mapmatch::MapExtract& map,
@@ -28,7 +39,7 @@ mapmatch::NetworkData without_way(const mapmatch::MapExtract& map, std::int64_t 
 // The score of one drive on a wrong map.
 struct FaultScore {
   double longest_sure_wrong = 0.0;  // s, longest uninterrupted wrong link of P above 0.9
-  double recovery = 0.0;  // m, longest distance from where the map is right again to the right link
+  double recovery = 0.0;  // m, longest distance without the right way where the map has it
   // Fixes on the missing way, those of them with a link, those with a link of P above 0.9, and the
   // sum of P.
   std::size_t missing_fixes = 0, missing_said = 0, missing_sure = 0;
