@@ -139,9 +139,10 @@ void Matcher::list_candidates(const RuleContext& c) {
   for (std::size_t i = 0; i < result_.candidate_count; ++i) {
     MatchCandidate& candidate = result_.candidates[i];
     if (candidate.link == last_.link && last_.there && candidate.probability == 0.0 &&
-        candidate.along == 0.0)
+        candidate.along == 0.0) {
       candidate.along =
           std::clamp(last_.along + c.travelled, 0.0, network_->link(candidate.link.link).length);
+    }
     const LinkPoint point = network_->at(candidate.link, candidate.along);
     candidate.distance = (point.position - c.place).norm();
     candidate.way_id = network_->road_at(point.vertex).way_id;
@@ -233,9 +234,10 @@ void Matcher::settle(const MatchCandidate& chosen) {
 
 double Matcher::margin_of(const MatchCandidate& chosen) const {
   double second = 0.0;
-  for (std::size_t i = 0; i < result_.candidate_count; ++i)
+  for (std::size_t i = 0; i < result_.candidate_count; ++i) {
     if (!(result_.candidates[i].link == chosen.link))
       second = std::max(second, result_.candidates[i].probability);
+  }
   return chosen.probability - second;
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -60,6 +61,11 @@ class McapFormat final : public vehicle::LogFormat {
 
 std::unique_ptr<vehicle::LogRecorder> make_recorder(const std::filesystem::path& file, bool raw,
                                                     vehicle::LogRecorder::WhenBehind when_behind) {
+  if (lcm_log::is_bag_name(file)) {
+    throw std::runtime_error("'" + file.string() +
+                             "': a run is not recorded as a bag; record a log or an .mcap file, "
+                             "and convert it with 'maploop log convert'");
+  }
   if (!lcm_log::is_mcap_name(file))
     return std::make_unique<vehicle::LogRecorder>(file.string(), raw, when_behind);
   return std::make_unique<vehicle::LogRecorder>(

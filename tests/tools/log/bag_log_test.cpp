@@ -79,7 +79,8 @@ TEST_P(BagLogTest, IsReadByOthers) {
 TEST_P(BagLogTest, IsReadByRos) {
   converted(GetParam());
   const auto ros = maploop::testing::run(
-      {"python3", maploop::testing::source("tests/tools/log/read_rosbag.py"), bag_.string()});
+      {"/usr/bin/python3", maploop::testing::source("tests/tools/log/read_rosbag.py"),
+       bag_.string()});
   if (ros.status == 77) GTEST_SKIP() << ros.error;
   ASSERT_EQ(ros.status, 0) << ros.error;
   const json read = json::parse(ros.out);

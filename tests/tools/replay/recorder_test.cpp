@@ -130,5 +130,11 @@ TEST_F(McapRecorder, IsOfOneRecording) {
               AllOf(HasSubstr("a.mcap"), HasSubstr("another run")));
 }
 
+TEST(Recorder, ABagIsRefusedWithWhatToDo) {
+  EXPECT_THAT(maploop::testing::error_of(
+                  [] { make_recorder("a.bag", false, LogRecorder::WhenBehind::wait); }),
+              AllOf(HasSubstr("a.bag"), HasSubstr("maploop log convert")));
+}
+
 }  // namespace
 }  // namespace maploop::tools

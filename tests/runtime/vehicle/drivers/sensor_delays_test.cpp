@@ -66,17 +66,19 @@ class ShiftedDrive {
  public:
   ShiftedDrive() {
     const fs::path from = maploop::testing::drive_0013();
-    for (const auto& entry : fs::directory_iterator(from.parent_path()))
+    for (const auto& entry : fs::directory_iterator(from.parent_path())) {
       if (entry.is_regular_file())
         fs::create_symlink(entry.path(), folder_.path() / entry.path().filename());
+    }
     fs::create_directory(path());
     fs::create_symlink(from / "oxts", path() / "oxts");
     for (const char* sensor : {"image_00", "image_01", "velodyne_points"}) {
       fs::create_directory(path() / sensor);
       fs::create_symlink(from / sensor / "data", path() / sensor / "data");
-      for (const auto& entry : fs::directory_iterator(from / sensor))
+      for (const auto& entry : fs::directory_iterator(from / sensor)) {
         if (entry.is_regular_file())
           shift(entry.path(), path() / sensor, sensor[0] == 'i' ? camera : lidar);
+      }
     }
   }
   fs::path path() const { return folder_.path() / "2011_09_26_drive_0013_sync"; }

@@ -72,20 +72,20 @@ TEST(VehicleMapMatch, MatchesEveryTenthStateAndSaysItInNumbersAndWords) {
               stages::fusion.budget + stages::mapmatch.budget)
         << "the state of the tick just before";
   }
-  const MapMatch& last = run.matches.at(55);
+  const MapMatch& last = run.matches.at(45);
   ASSERT_TRUE(last.on_road);
   EXPECT_EQ(last.way_id, 10);
   EXPECT_EQ(last.phase, MatchPhase::along_link);
   EXPECT_GT(last.probability, 0.9);
 
-  const auto& data = run.messages.at("MAP_MATCH").at(55).data;
+  const auto& data = run.messages.at("MAP_MATCH").at(45).data;
   maploop_lcm::map_match_t message;
   ASSERT_GT(message.decode(data.data(), 0, static_cast<int>(data.size())), 0);
   EXPECT_THAT(message.explanation, ::testing::StartsWith("way 10, P "));
   ASSERT_GE(message.candidate_count, 1);
   EXPECT_EQ(message.candidates[0].road, "way 10");
   EXPECT_GE(message.candidates[0].rule_count, 1);
-  EXPECT_EQ(from_lcm(message).cross_track, run.matches.at(55).cross_track);
+  EXPECT_EQ(from_lcm(message).cross_track, run.matches.at(45).cross_track);
 }
 
 TEST(VehicleMapMatch, ChangesNoBitOfTheRestAndIsTheSameInRealTime) {
