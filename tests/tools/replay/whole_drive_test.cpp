@@ -74,6 +74,17 @@ TEST_F(WholeDrive, RealTimeHasTheBitsOfLockstepAndLosesNothing) {
   EXPECT_GT(real_time["channels"]["HEALTH"]["count"], 10);
 }
 
+// The C library and OpenCV choose functions by what the processor has. It is said to have less
+// here.
+TEST_F(WholeDrive, AnOlderProcessorGivesTheSameBits) {
+  const ProcessResult process =
+      run({"env", "GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-AVX2,-AVX512F",
+           "OPENCV_CPU_DISABLE=AVX512-SKX,AVX2,FMA3,AVX,FP16", maploop_command(), "replay", drive(),
+           "--no-lcm", "--lockstep", "--json", file("result.json")});
+  ASSERT_EQ(process.status, 0) << process.error;
+  EXPECT_EQ(hashes(read_json(file("result.json"))), hashes(lockstep().result));
+}
+
 TEST_F(WholeDrive, ALogOfRawSensorsGivesTheHashesOfTheDrive) {
   const json& expected = lockstep().result;
   const std::string raw = lockstep().in("raw.lcmlog");
