@@ -1,4 +1,5 @@
-// This file defines one turn of a spinning LiDAR.
+// This file defines one scan of a LiDAR: a turn of a spinning one, or what another one saw
+// meanwhile.
 #pragma once
 
 #include <vector>
@@ -14,13 +15,17 @@ struct LidarPoint {
   void archive(auto& ar) { ar(x, y, z, reflectance); }
 };
 
-// `stamp` is the middle of the turn, when the LiDAR faces forward; buffers keep their capacity.
+// `stamp` is the middle of the scan; of a turn, when the LiDAR faces forward. Buffers keep their
+// capacity.
 struct LidarScan : Sample {
   Time start{};
   Time end{};
   std::vector<LidarPoint> points;
+  // When each point was measured, in s after `stamp`. Empty: the LiDAR turned clockwise, seen from
+  // above, from the rear at `start` to the rear at `end`, so that azimuths are times.
+  std::vector<float> times;
 
-  void archive(auto& ar) { ar(static_cast<Sample&>(*this), start, end, points); }
+  void archive(auto& ar) { ar(static_cast<Sample&>(*this), start, end, points, times); }
 };
 
 }  // namespace maploop

@@ -66,12 +66,14 @@ FileKind read_into(const std::filesystem::path& path, GnssFiles& files) {
   return parse_into(read_file(path), path.string(), files);
 }
 
-void read_products(const std::filesystem::path& path, GnssFiles& files) {
+void read_products(const std::filesystem::path& path, GnssFiles& files,
+                   const std::filesystem::path& except) {
   if (!std::filesystem::is_directory(path)) {
     read_into(path, files);
     return;
   }
   for (const std::filesystem::path& file : files_in(path)) {
+    if (file == except) continue;
     const FileKind kind = kind_of_file(file);
     if (kind != FileKind::unknown && kind != FileKind::observation) read_into(file, files);
   }

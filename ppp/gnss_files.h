@@ -39,8 +39,9 @@ FileKind parse_into(std::string_view text, const std::string& name, GnssFiles& f
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder);
 
 // Reads products: one file, or the files of a folder sorted by name. In a folder, RINEX
-// observations and files of unknown kind are skipped. Throws as read_into() does, and
-// std::filesystem::filesystem_error.
-void read_products(const std::filesystem::path& path, GnssFiles& files);
+// observations, files of unknown kind and the file `except` are skipped. Throws as read_into()
+// does, and std::filesystem::filesystem_error.
+void read_products(const std::filesystem::path& path, GnssFiles& files,
+                   const std::filesystem::path& except = {});
 
 }  // namespace maploop::ppp

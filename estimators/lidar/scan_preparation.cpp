@@ -58,6 +58,19 @@ float turn_fraction(float x, float y) {
   return std::clamp(0.5f - angle * (0.5f / pi), 0.0f, 1.0f);
 }
 
+PointTimes::PointTimes(const LidarScan& scan, Time from)
+    : scan_(scan),
+      middle_(static_cast<float>(to_seconds(scan.stamp - from))),
+      first_half_(static_cast<float>(to_seconds(scan.stamp - scan.start))),
+      second_half_(static_cast<float>(to_seconds(scan.end - scan.stamp))) {}
+
+float PointTimes::operator()(std::size_t i) const {
+  if (!scan_.times.empty()) return middle_ + scan_.times[i];
+  const LidarPoint& p = scan_.points[i];
+  const float turn = 2.0f * turn_fraction(p.x, p.y) - 1.0f;
+  return middle_ + turn * (turn < 0.0f ? first_half_ : second_half_);
+}
+
 Vector3f with_elevation(const Vector3f& point, float cosine, float sine) {
   const float range = std::sqrt(point.x() * point.x() + point.y() * point.y());
   if (!(range > 0.0f)) return point;
@@ -77,9 +90,7 @@ void ScanPreparation::prepare(const LidarScan& scan, Time stamp, const Twist& mo
   prepared->cropped = 0;
   moments_.clear();
 
-  const auto first_half = static_cast<float>(to_seconds(scan.stamp - scan.start));
-  const auto second_half = static_cast<float>(to_seconds(scan.end - scan.stamp));
-  const auto middle = static_cast<float>(to_seconds(scan.stamp - stamp));
+  const PointTimes time_of(scan, stamp);
   const Vector3f velocity = motion.velocity.cast<float>(), rate = motion.rate.cast<float>();
   const auto cosine = static_cast<float>(std::cos(parameters_.elevation_correction));
   const auto sine = static_cast<float>(std::sin(parameters_.elevation_correction));
@@ -96,8 +107,7 @@ void ScanPreparation::prepare(const LidarScan& scan, Time stamp, const Twist& mo
       ++prepared->cropped;
       continue;
     }
-    const float turn = 2.0f * turn_fraction(raw.x, raw.y) - 1.0f;
-    const float t = middle + turn * (turn < 0.0f ? first_half : second_half);
+    const float t = time_of(i);
     const Vector3f seen = T_body_velo_ * with_elevation({raw.x, raw.y, raw.z}, cosine, sine);
     // This is the body's motion over t to second order; the third order is 0.2 mm at 80 m and 0.5
     // rad/s.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <vector>
 
 #include "estimators/lidar/parameters.h"
@@ -32,12 +33,24 @@ void archive(Archive& ar, Twist& twist) {
 // to the rear (1). The error is at most 2e-5 of a turn (2 us).
 float turn_fraction(float x, float y);
 
+// Gives the time of each point of a scan, in seconds after `from`: its own, or that of its azimuth.
+class PointTimes {
+ public:
+  // The scan must outlive this.
+  PointTimes(const LidarScan& scan, Time from);
+  float operator()(std::size_t i) const;
+
+ private:
+  const LidarScan& scan_;
+  float middle_, first_half_, second_half_;
+};
+
 // Returns the point with a correction added to its elevation and its range unchanged; `cosine` and
 // `sine` are those of the correction.
 Eigen::Vector3f with_elevation(const Eigen::Vector3f& point, float cosine, float sine);
 
-// Crops by range, corrects the elevation, derives the time of each point from its azimuth, deskews,
-// and takes one sample per voxel with the normal of its neighbourhood. The same points in any order
+// Crops by range, corrects the elevation, deskews by the time of each point, and takes one sample
+// per voxel with the normal of its neighbourhood. The same points in any order
 // give the same bits. Not thread-safe, since it keeps its buffers.
 class ScanPreparation {
  public:

@@ -83,6 +83,8 @@ maploop_lcm::lidar_scan_t to_lcm(const LidarScan& scan) {
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(scan.points.data());
   m.points.assign(bytes, bytes + scan.points.size() * sizeof(LidarPoint));
   m.size = static_cast<std::int32_t>(m.points.size());
+  m.times = scan.times;
+  m.time_count = static_cast<std::int32_t>(m.times.size());
   return m;
 }
 
@@ -91,11 +93,17 @@ void from_lcm(const maploop_lcm::lidar_scan_t& m, LidarScan& scan) {
     throw std::invalid_argument("lidar_scan_t holds " + std::to_string(m.points.size()) +
                                 " bytes, no multiple of " + std::to_string(sizeof(LidarPoint)));
   }
+  const std::size_t points = m.points.size() / sizeof(LidarPoint);
+  if (!m.times.empty() && m.times.size() != points) {
+    throw std::invalid_argument("lidar_scan_t holds " + std::to_string(m.times.size()) +
+                                " times of " + std::to_string(points) + " points");
+  }
   const FieldCopy<false> copy;
   copy.header(scan, m.header);
   copy(scan.start, m.start_ns);
   copy(scan.end, m.end_ns);
-  scan.points.resize(m.points.size() / sizeof(LidarPoint));
+  scan.times = m.times;
+  scan.points.resize(points);
   if (!m.points.empty()) std::memcpy(scan.points.data(), m.points.data(), m.points.size());
 }
 

@@ -1,4 +1,6 @@
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "msgs/frames.h"
 #include "sensors/bag/topic_stream.h"
@@ -85,11 +87,56 @@ class FixMaker {
   std::uint64_t fixes_ = 0;
 };
 
+// Puts a payload into the frame in which the receiver sent it.
+template <class Message>
+void append_frame(const Message& message, std::string& ubx) {
+  constexpr std::uint8_t rxm = 0x02;
+  const auto size = static_cast<std::uint16_t>(message.head.size() + message.list.size());
+  std::string frame{static_cast<char>(rxm), static_cast<char>(Message::id),
+                    static_cast<char>(size & 0xffU), static_cast<char>(size >> 8U)};
+  for (const auto part : {message.head, message.list}) frame.append(part.begin(), part.end());
+  std::uint8_t a = 0, b = 0;
+  for (const char c : frame) {
+    a = static_cast<std::uint8_t>(a + static_cast<std::uint8_t>(c));
+    b = static_cast<std::uint8_t>(b + a);
+  }
+  ubx += "\xb5\x62";
+  ubx += frame;
+  ubx += {static_cast<char>(a), static_cast<char>(b)};
+}
+
 }  // namespace
 
 std::unique_ptr<Source<GnssFix>> make_bag_gnss(SharedBagSettings settings, const Topic& gnss,
                                                const Topic* velocity) {
   return made_by<GnssFix>(FixMaker(std::move(settings), gnss, velocity));
+}
+
+std::string read_bag_ubx(const BagSettings& settings, const Topic& raw, const Topic* subframes) {
+  MessageSelection selection;
+  selection.topics.insert(raw.name);
+  if (subframes != nullptr) selection.topics.insert(subframes->name);
+  std::string ubx;
+  const auto reader = open_messages(settings.path, selection);
+  for (auto item = reader->next(); item != MessageReader::Item::end; item = reader->next()) {
+    if (item == MessageReader::Item::damage) continue;
+    const RecordedMessage& message = reader->message();
+    const auto take = [&](auto decoded) {
+      decode(*message.topic, message.data, decoded);
+      append_frame(decoded, ubx);
+    };
+    try {
+      message.topic->name == raw.name ? take(RosRawx{}) : take(RosSubframe{});
+    } catch (const std::invalid_argument&) {
+      continue;
+    }
+    if (ubx.size() > input_limits::gnss_file) {
+      throw std::runtime_error("'" + settings.path.string() + "' has more observations than " +
+                               std::to_string(input_limits::gnss_file) +
+                               " bytes; cut the recording into shorter ones");
+    }
+  }
+  return ubx;
 }
 
 }  // namespace maploop::sensors

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "sensors/bag/cloud_messages.h"
+#include "sensors/bag/cloud_scans.h"
 #include "sensors/bag/topic_stream.h"
 #include "sensors/velodyne/data_packet.h"
 #include "sensors/velodyne/velodyne_decoder.h"
@@ -14,23 +14,22 @@ class ScanMaker {
       : stream_(std::move(settings), {lidar.name}),
         topic_(lidar),
         passed_(passed),
-        turns_(from_seconds(stream_.settings().limits.max_turn)) {}
+        scans_(from_seconds(stream_.settings().limits.max_turn)) {}
 
   bool next(LidarScan& scan, SourceReport& report) {
     while (true) {
-      if (turns_.next(scan)) {
-        scan.available = scan.end;
+      if (scans_.next(scan)) {
         if (stream_.follows(topic_, scan, report)) return true;
         continue;
       }
       const RecordedMessage* message = stream_.next(report);
-      if (message == nullptr) return end(report);
-      if (read(*message, scan, report)) return true;
+      if (message == nullptr && !scans_.end()) return false;
+      if (message != nullptr && read(*message, scan, report)) return true;
     }
   }
 
  private:
-  // Returns whether the message is a scan by itself.
+  // Returns whether the message is a scan without times.
   bool read(const RecordedMessage& message, LidarScan& scan, SourceReport& report) {
     if (!stream_.decoded(message, cloud_message_, report)) return false;
     const BagSettings& s = stream_.settings();
@@ -47,12 +46,12 @@ class ScanMaker {
                        std::to_string(cloud_.dropped) + " points are not finite and were dropped"});
     }
     if (!cloud_.times.empty()) {
-      timed_ = true;
-      turns_.add(cloud_);
+      scans_.add(cloud_);
       return false;
     }
     set_stamps(cloud_message_.header.stamp, s, scan);
     scan.sequence = stream_.number() - 1;
+    scan.times.clear();
     if (!stream_.follows(topic_, scan, report)) return false;
     if (scan.available > passed_) std::swap(scan.points, cloud_.points);
     return true;
@@ -68,24 +67,12 @@ class ScanMaker {
     scan.end = scan.available = scan.stamp + half;
   }
 
-  bool end(SourceReport& report) {
-    if (timed_ && turns_.counts().complete == 0 && !ended_) {
-      stream_.refuse(topic_,
-                     "the times of the points do not make a single turn that is clockwise seen "
-                     "from above; other scanners are not supported",
-                     report);
-    }
-    ended_ = true;
-    return false;
-  }
-
   TopicStream stream_;
   Topic topic_;
   Time passed_;
   RosPointCloud cloud_message_;
   TimedCloud cloud_;
-  CloudTurns turns_;
-  bool timed_ = false, ended_ = false;
+  CloudScans scans_;
 };
 
 // Decodes the packets of a Velodyne scanner, whose model the first of them states.

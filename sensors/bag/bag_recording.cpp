@@ -160,6 +160,14 @@ void BagRecording::find_span(const Opening& opening) {
   constexpr std::array order{BagSensor::camera_left, BagSensor::lidar, BagSensor::gnss,
                              BagSensor::imu};
   const auto* used = std::ranges::find_if(order, [&](BagSensor sensor) { return has(sensor); });
+  const bool imu_alone = used != order.end() && *used == BagSensor::imu;
+  if (has(BagSensor::gnss_raw) && (used == order.end() || imu_alone)) {
+    const TopicSummary& raw = summary_of(opening.bag, *choice_.find(BagSensor::gnss_raw));
+    frame_count_ = raw.messages;
+    first_stamp_ = raw.first;
+    last_stamp_ = raw.last;
+    return;
+  }
   if (opening.first.empty() || used == order.end()) {
     std::string topics;
     for (const TopicSummary& s : opening.bag.topics)
@@ -168,7 +176,7 @@ void BagRecording::find_span(const Opening& opening) {
                              "' has no messages of a sensor that can be used: " +
                              (topics.empty() ? "it is empty" : "it has " + topics));
   }
-  if (*used == BagSensor::imu) {
+  if (imu_alone) {
     throw std::runtime_error("the recording '" + settings_->path.string() +
                              "' has only an inertial unit, " + choice_.find(*used)->name +
                              ": record the fixes of a GNSS receiver, images or clouds with it");
@@ -211,6 +219,11 @@ std::unique_ptr<Source<LidarScan>> BagRecording::lidar(Time passed) const {
 std::unique_ptr<Source<GnssFix>> BagRecording::gnss() const {
   return make_bag_gnss(settings_, *choice_.find(BagSensor::gnss),
                        choice_.find(BagSensor::gnss_velocity));
+}
+
+std::string BagRecording::observations() const {
+  return read_bag_ubx(*settings_, *choice_.find(BagSensor::gnss_raw),
+                      choice_.find(BagSensor::gnss_subframes));
 }
 
 std::unique_ptr<Source<WheelSpeed>> BagRecording::wheel() const {

@@ -59,7 +59,7 @@ class BagRecording {
   bool has(BagSensor sensor) const { return choice_.find(sensor) != nullptr; }
 
   // These are those of the images; if there are none, of the first that is there of clouds, fixes
-  // and inertial samples.
+  // and observations, whose times are those at which they were received.
   std::size_t frame_count() const { return frame_count_; }
   Time first_stamp() const { return first_stamp_; }
   Time last_stamp() const { return last_stamp_; }
@@ -71,6 +71,10 @@ class BagRecording {
   std::unique_ptr<Source<LidarScan>> lidar(Time passed) const;
   std::unique_ptr<Source<GnssFix>> gnss() const;
   std::unique_ptr<Source<WheelSpeed>> wheel() const;
+
+  // Returns the receiver's observations, with the subframes if there are any, as UBX.
+  std::string observations() const;
+
   // The unit's mount is `given`, or else that of the transforms, or else found with `fixes`.
   std::unique_ptr<Source<ImuSample>> imu(std::unique_ptr<Source<GnssFix>> fixes,
                                          const MountParameters& given,

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "msgs/gnss.h"
 #include "msgs/image.h"
@@ -42,6 +43,10 @@ std::unique_ptr<Source<SixAxisSample>> make_bag_imu(SharedBagSettings settings, 
 // before it. Other fixes have a velocity of zero with a standard deviation of 100 m/s.
 std::unique_ptr<Source<GnssFix>> make_bag_gnss(SharedBagSettings settings, const Topic& gnss,
                                                const Topic* velocity);
+
+// Returns a receiver's observations and subframes as the stream of UBX frames that it sent.
+// Messages that cannot be decoded are left out.
+std::string read_bag_ubx(const BagSettings& settings, const Topic& raw, const Topic* subframes);
 
 std::unique_ptr<Source<WheelSpeed>> make_bag_wheel(SharedBagSettings settings, const Topic& wheel);
 

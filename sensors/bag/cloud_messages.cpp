@@ -6,11 +6,9 @@
 #include <cstring>
 #include <initializer_list>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
-#include "msgs/frames.h"
 #include "msgs/input_limits.h"
 #include "sensors/cloud/time_unit.h"
 
@@ -142,29 +140,6 @@ void read_cloud(const RosPointCloud& m, TimedCloud& cloud) {
   }
   if (cloud.points.empty()) throw std::invalid_argument("it has no finite point");
   if (time) set_times(raw, m.header.stamp, cloud.times);
-}
-
-void CloudTurns::add(TimedCloud& cloud) {
-  cloud_ = &cloud;
-  at_ = 0;
-  order_.resize(cloud.points.size());
-  std::iota(order_.begin(), order_.end(), 0U);
-  const auto earlier = [&](std::uint32_t a, std::uint32_t b) {
-    return cloud.times[a] < cloud.times[b];
-  };
-  if (!std::ranges::is_sorted(cloud.times)) std::ranges::stable_sort(order_, earlier);
-}
-
-bool CloudTurns::next(LidarScan& scan) {
-  while (cloud_ != nullptr && at_ < order_.size()) {
-    const std::uint32_t i = order_[at_++];
-    const LidarPoint& p = cloud_->points[i];
-    const double clockwise = degrees(std::atan2(-p.y, p.x));
-    const FiredPoint fired{p, 100.0 * (clockwise < 0.0 ? clockwise + 360.0 : clockwise),
-                           Duration{}};
-    if (assembler_.add(fired, cloud_->times[i], scan)) return true;
-  }
-  return false;
 }
 
 }  // namespace maploop::sensors

@@ -1,14 +1,12 @@
-// This file makes the turns of a spinning LiDAR from the clouds of points of ROS.
+// This file reads the clouds of points of ROS.
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "msgs/lidar_scan.h"
+#include "msgs/time.h"
 #include "sensors/bag/ros_messages.h"
-#include "sensors/velodyne/turn_assembler.h"
 
 namespace maploop::sensors {
 
@@ -24,24 +22,5 @@ struct TimedCloud {
 // unit is found (cloud/time_unit.h). Throws std::invalid_argument whose text is the reason: no
 // field x, y or z, too few bytes, a field beyond its point, no finite point.
 void read_cloud(const RosPointCloud& message, TimedCloud& cloud);
-
-// Assembles turns from rear to rear (turn_assembler.h) of clouds that begin anywhere, by the times
-// of their points. The scanner must turn clockwise, seen from above. One thread at a time.
-class CloudTurns {
- public:
-  explicit CloudTurns(Duration max_turn) : assembler_(max_turn) {}
-
-  // Takes a cloud with times. Call next() until it returns false before the next cloud.
-  void add(TimedCloud& cloud);
-  bool next(LidarScan& scan);
-
-  const TurnCounts& counts() const { return assembler_.counts(); }
-
- private:
-  TurnAssembler assembler_;
-  const TimedCloud* cloud_ = nullptr;
-  std::vector<std::uint32_t> order_;
-  std::size_t at_ = 0;
-};
 
 }  // namespace maploop::sensors

@@ -16,6 +16,9 @@ struct RosForm {
   std::string_view type, fields;
 };
 
+constexpr std::string_view livox_fields =
+    "header header;uint64 timebase;uint32 pointnum;uint8 lidarid;uint8[3] rsvd;"
+    "custompoint[] points;";
 constexpr std::string_view transforms = "transformstamped[] transforms;";
 
 template <class T>
@@ -23,7 +26,7 @@ constexpr std::array<RosForm, 1> forms{};
 template <>
 constexpr std::array forms<RosImage>{
     RosForm{"sensor_msgs/Image",
-            "header header;uint32 height;uint32 width;string encoding;uint8 is_bigendian;"
+            "header header;uint32 height;uint32 width;string encoding;uint8 isbigendian;"
             "uint32 step;uint8[] data;"}};
 template <>
 constexpr std::array forms<RosCompressedImage>{
@@ -31,38 +34,51 @@ constexpr std::array forms<RosCompressedImage>{
 template <>
 constexpr std::array forms<RosCameraInfo>{
     RosForm{"sensor_msgs/CameraInfo",
-            "header header;uint32 height;uint32 width;string distortion_model;float64[] d;"
-            "float64[9] k;float64[9] r;float64[12] p;uint32 binning_x;uint32 binning_y;"
+            "header header;uint32 height;uint32 width;string distortionmodel;float64[] d;"
+            "float64[9] k;float64[9] r;float64[12] p;uint32 binningx;uint32 binningy;"
             "regionofinterest roi;"}};
 template <>
 constexpr std::array forms<RosPointCloud>{
     RosForm{"sensor_msgs/PointCloud2",
-            "header header;uint32 height;uint32 width;pointfield[] fields;bool is_bigendian;"
-            "uint32 point_step;uint32 row_step;uint8[] data;bool is_dense;"}};
+            "header header;uint32 height;uint32 width;pointfield[] fields;bool isbigendian;"
+            "uint32 pointstep;uint32 rowstep;uint8[] data;bool isdense;"},
+    RosForm{"livox_ros_driver2/CustomMsg", livox_fields},
+    RosForm{"livox_ros_driver/CustomMsg", livox_fields}};
 template <>
 constexpr std::array forms<RosVelodyneScan>{
     RosForm{"velodyne_msgs/VelodyneScan", "header header;velodynepacket[] packets;"}};
 template <>
 constexpr std::array forms<RosImu>{
     RosForm{"sensor_msgs/Imu",
-            "header header;quaternion orientation;float64[9] orientation_covariance;"
-            "vector3 angular_velocity;float64[9] angular_velocity_covariance;"
-            "vector3 linear_acceleration;float64[9] linear_acceleration_covariance;"}};
+            "header header;quaternion orientation;float64[9] orientationcovariance;"
+            "vector3 angularvelocity;float64[9] angularvelocitycovariance;"
+            "vector3 linearacceleration;float64[9] linearaccelerationcovariance;"}};
 template <>
 constexpr std::array forms<RosFix>{
     RosForm{"sensor_msgs/NavSatFix",
             "header header;navsatstatus status;float64 latitude;float64 longitude;"
-            "float64 altitude;float64[9] position_covariance;uint8 position_covariance_type;"}};
+            "float64 altitude;float64[9] positioncovariance;uint8 positioncovariancetype;"}};
 template <>
 constexpr std::array forms<RosTwist>{
     RosForm{"geometry_msgs/TwistStamped", "header header;twist twist;"},
     RosForm{"geometry_msgs/TwistWithCovarianceStamped", "header header;twistwithcovariance twist;"},
     RosForm{"nav_msgs/Odometry",
-            "header header;string child_frame_id;posewithcovariance pose;"
+            "header header;string childframeid;posewithcovariance pose;"
             "twistwithcovariance twist;"}};
 template <>
 constexpr std::array forms<RosTransforms>{RosForm{"tf2_msgs/TFMessage", transforms},
                                           RosForm{"tf/tfMessage", transforms}};
+
+template <>
+constexpr std::array forms<RosRawx>{
+    RosForm{"ublox_msgs/RxmRAWX",
+            "float64 rcvtow;uint16 week;int8 leaps;uint8 nummeas;uint8 recstat;uint8 version;"
+            "uint8[2] reserved1;rxmrawxmeas[] meas;"}};
+template <>
+constexpr std::array forms<RosSubframe>{
+    RosForm{"ublox_msgs/RxmSFRBX",
+            "uint8 gnssid;uint8 svid;uint8 reserved0;uint8 freqid;uint8 numwords;uint8 chn;"
+            "uint8 version;uint8 reserved1;uint32[] dwrd;"}};
 
 template <class T>
 const RosForm* form_of(std::string_view type) {
@@ -70,8 +86,8 @@ const RosForm* form_of(std::string_view type) {
   return found == forms<T>.end() ? nullptr : found;
 }
 
-// Returns "type name;" of each field of the first type in the text, in lower case and without the
-// names of packages, constants and default values.
+// Returns "type name;" of each field of the first type in the text, in lower case and without
+// underscores, the names of packages, constants and default values.
 std::string field_list(const std::string& definition) {
   std::string list;
   std::istringstream lines(definition);
@@ -83,6 +99,7 @@ std::string field_list(const std::string& definition) {
     type.erase(0, type.rfind('/') + 1);
     list.append(type).append(1, ' ').append(name).append(1, ';');
   }
+  std::erase(list, '_');
   std::transform(list.begin(), list.end(), list.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return list;
@@ -133,8 +150,33 @@ void read(RosCursor& c, RosCameraInfo& to, std::string_view) {
   c.numbers(to.p);
 }
 
-void read(RosCursor& c, RosPointCloud& to, std::string_view) {
+// Its points are those of a PointCloud2 of one row. In cdr each but the last is padded to 20 bytes;
+// the last one, which has no bytes to read behind it, is left out there.
+void read_livox(RosCursor& c, RosPointCloud& to) {
+  constexpr std::uint8_t byte = 2, uint32 = 6, float32 = 7;
+  constexpr std::uint32_t least_point = 19;  // bytes
+  c.number<std::uint64_t>();                 // when the points' times begin; the header says so too
+  c.number<std::uint32_t>();                 // the number of points
+  std::uint8_t id[4];                        // of the scanner, and what is reserved
+  c.numbers(id);
+  const bool padded = c.encoding() == RosEncoding::cdr;
+  const std::size_t count = c.count(least_point);
+  to.fields = {{"offset_time", 0, uint32, 1},
+               {"x", 4, float32, 1},
+               {"y", 8, float32, 1},
+               {"z", 12, float32, 1},
+               {"reflectivity", 16, byte, 1}};
+  to.height = 1;
+  to.point_step = least_point + (padded ? 1 : 0);
+  to.width = static_cast<std::uint32_t>(count - (padded && count > 0 ? 1 : 0));
+  to.row_step = to.width * to.point_step;
+  to.big_endian = false;
+  to.data = c.bytes(to.row_step);
+}
+
+void read(RosCursor& c, RosPointCloud& to, std::string_view type) {
   to.header = read_header(c);
+  if (type.ends_with("CustomMsg")) return read_livox(c, to);
   to.height = c.number<std::uint32_t>();
   to.width = c.number<std::uint32_t>();
   constexpr std::size_t least_field = 13;  // bytes
@@ -213,6 +255,27 @@ void read(RosCursor& c, RosTransforms& to, std::string_view) {
   }
 }
 
+// The fields are those of the payload, whose numbers are little endian, too; CDR aligns the list.
+void read_payload(RosCursor& c, std::size_t head, std::size_t element, std::size_t alignment,
+                  RosUblox& to) {
+  to.head = c.bytes(head);
+  const std::size_t count = c.count(element);
+  constexpr std::size_t count_bytes = 4;
+  const bool gap = c.encoding() == RosEncoding::cdr && (head + count_bytes) % alignment != 0;
+  if (gap && count > 0) c.bytes(count_bytes);
+  to.list = c.bytes(count * element);
+}
+
+void read(RosCursor& c, RosRawx& to, std::string_view) {
+  constexpr std::size_t head = 16, measurement = 32;
+  read_payload(c, head, measurement, sizeof(double), to);
+}
+
+void read(RosCursor& c, RosSubframe& to, std::string_view) {
+  constexpr std::size_t head = 8, word = 4;
+  read_payload(c, head, word, word, to);
+}
+
 }  // namespace
 
 RosHeader read_header(RosCursor& c) {
@@ -266,6 +329,8 @@ MAPLOOP_ROS_TYPE(RosImu)
 MAPLOOP_ROS_TYPE(RosFix)
 MAPLOOP_ROS_TYPE(RosTwist)
 MAPLOOP_ROS_TYPE(RosTransforms)
+MAPLOOP_ROS_TYPE(RosRawx)
+MAPLOOP_ROS_TYPE(RosSubframe)
 #undef MAPLOOP_ROS_TYPE
 // NOLINTEND(bugprone-macro-parentheses)
 

@@ -1,8 +1,9 @@
 // This file defines the messages of ROS 1 and ROS 2 that contain what sensors measure.
 //
 // Fields and their order are those of the packages std_msgs, sensor_msgs, geometry_msgs, nav_msgs,
-// tf2_msgs and velodyne_msgs, which ROS 2 kept, but for the number in ROS 1's header. Texts and
-// bytes are parts of the message that was decoded, and are valid as long as it is.
+// tf2_msgs, velodyne_msgs and ublox_msgs, which ROS 2 kept, but for the number in ROS 1's header
+// and for the form of names. Texts and bytes are parts of the message that was decoded, and are
+// valid as long as it is.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -54,7 +55,7 @@ struct RosPointField {
   std::uint32_t count = 0;
 };
 
-struct RosPointCloud {  // sensor_msgs/PointCloud2
+struct RosPointCloud {  // sensor_msgs/PointCloud2, livox_ros_driver2/CustomMsg
   RosHeader header;
   std::uint32_t height = 0, width = 0;  // points
   std::vector<RosPointField> fields;
@@ -100,6 +101,17 @@ struct RosTransform {  // geometry_msgs/TransformStamped
 
 struct RosTransforms {  // tf2_msgs/TFMessage
   std::vector<RosTransform> transforms;
+};
+
+// A message of u-blox's class RXM. Its payload is the head, followed by the list.
+struct RosUblox {
+  std::span<const std::uint8_t> head, list;
+};
+struct RosRawx : RosUblox {  // ublox_msgs/RxmRAWX
+  static constexpr std::uint8_t id = 0x15;
+};
+struct RosSubframe : RosUblox {  // ublox_msgs/RxmSFRBX
+  static constexpr std::uint8_t id = 0x13;
 };
 
 // Reads the header with which every message of a sensor begins.

@@ -32,6 +32,8 @@ std::string problem_as(BagSensor sensor, const Topic& topic) {
   }
   if (sensor == BagSensor::imu) return problem_of<RosImu>(topic);
   if (sensor == BagSensor::gnss) return problem_of<RosFix>(topic);
+  if (sensor == BagSensor::gnss_raw) return problem_of<RosRawx>(topic);
+  if (sensor == BagSensor::gnss_subframes) return problem_of<RosSubframe>(topic);
   return problem_of<RosTwist>(topic);
 }
 
@@ -207,6 +209,8 @@ TopicChoice choose_topics(const std::filesystem::path& path, const BagSummary& b
     if (!chooser.has(BagSensor::lidar)) chooser.look_for<RosVelodyneScan>(BagSensor::lidar);
     chooser.look_for<RosImu>(BagSensor::imu);
     chooser.look_for<RosFix>(BagSensor::gnss);
+    chooser.look_for<RosRawx>(BagSensor::gnss_raw);
+    chooser.look_for<RosSubframe>(BagSensor::gnss_subframes);
   } catch (const std::runtime_error& e) {
     throw std::runtime_error("the recording '" + path.string() + "': " + e.what());
   }

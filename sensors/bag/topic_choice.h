@@ -21,13 +21,15 @@ enum class BagSensor : std::uint8_t {
   imu,
   gnss,
   gnss_velocity,
+  gnss_raw,        // a receiver's observations
+  gnss_subframes,  // the messages of satellites that it passes on
   wheel
 };
 
 constexpr auto names_of(BagSensor) {
   return names_up_to<BagSensor::wheel>({"camera.left", "camera.right", "camera.left_info",
                                         "camera.right_info", "lidar", "imu", "gnss",
-                                        "gnss.velocity", "wheel"});
+                                        "gnss.velocity", "gnss.raw", "gnss.subframes", "wheel"});
 }
 
 struct TopicChoice {
@@ -42,7 +44,8 @@ struct TopicChoice {
 
 // Chooses a topic for each sensor of the recording at `path`. `given` has texts SENSOR=TOPIC; with
 // the topic "none" the sensor is not used. The rules, for what is not given:
-// - The LiDAR, the inertial unit and the receiver's fixes are the only topic of their type. The
+// - The LiDAR, the inertial unit, the receiver's fixes, observations and subframes are the only
+// topic of their type. The
 //   packets of a Velodyne scanner are taken where there are no clouds.
 // - The cameras are two topics of images whose names differ by left and right, or by 0 and 1, only.
 //   Where there are more such pairs, rectified ones are preferred to raw ones, and grey ones to

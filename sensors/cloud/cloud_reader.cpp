@@ -23,7 +23,7 @@ static_assert(std::endian::native == std::endian::little, "numbers are copied as
 
 using Words = std::vector<std::string_view>;
 
-struct Field {
+struct CloudField {
   std::string_view name;
   std::pair<char, std::size_t> type;   // F, I or U as in PCD, and bytes
   std::size_t count = 1;               // values in a point
@@ -31,7 +31,7 @@ struct Field {
 };
 
 struct Layout {
-  std::vector<Field> fields;
+  std::vector<CloudField> fields;
   std::size_t points = 0, row = 0, columns = 0;  // number; bytes and values of each
   CloudEncoding encoding = CloudEncoding::ascii;
 };
@@ -145,7 +145,7 @@ Layout ply_layout(Lines& lines) {
 // Completes the layout. Every number of points is checked against the bytes that follow.
 void place_fields(const Lines& lines, Layout& layout) {
   constexpr std::size_t longest_row = 1U << 16U;  // bytes
-  for (Field& field : layout.fields) {
+  for (CloudField& field : layout.fields) {
     const auto [type, size] = field.type;
     const bool integer = (type == 'I' || type == 'U') && (size == 1 || size == 2);
     const bool known =
@@ -212,9 +212,9 @@ Cloud parse_cloud(std::string_view content) {
   Lines lines(content);
   Layout layout = content.starts_with("ply") ? ply_layout(lines) : pcd_layout(lines);
   place_fields(lines, layout);
-  const auto find = [&](std::initializer_list<std::string_view> names) -> const Field* {
+  const auto find = [&](std::initializer_list<std::string_view> names) -> const CloudField* {
     for (const std::string_view name : names)
-      for (const Field& field : layout.fields)
+      for (const CloudField& field : layout.fields)
         if (field.name == name) return &field;
     return nullptr;
   };
@@ -239,7 +239,7 @@ Cloud parse_cloud(std::string_view content) {
     std::array<double, fields.size()> v{};  // 0 for a field that the file does not have
     for (std::size_t k = 0; k < fields.size(); ++k) {
       if (fields[k] == nullptr) continue;
-      const Field& f = *fields[k];
+      const CloudField& f = *fields[k];
       v[k] = ascii ? lines.number<double>(words, f.column)
                    : load(f.type,
                           data + (by_field ? f.offset * layout.points + i * f.count * f.type.second

@@ -8,7 +8,7 @@
 
 #include "msgs/input_file.h"
 #include "msgs/input_limits.h"
-#include "sensors/bag/cloud_messages.h"
+#include "sensors/bag/cloud_scans.h"
 #include "sensors/cloud/cloud_file.h"
 #include "sensors/cloud/time_unit.h"
 #include "sensors/folder/stamps.h"
@@ -45,6 +45,11 @@ std::vector<float> from_middle(const std::vector<double>& times) {
   seconds.reserve(times.size());
   for (const double time : times) seconds.push_back(static_cast<float>((time - middle) * *unit));
   return seconds;
+}
+
+// Times from the middle are as far before it as after it.
+Duration half_of(const std::vector<float>& times) {
+  return from_seconds(static_cast<double>(*std::ranges::max_element(times)));
 }
 
 }  // namespace
@@ -91,7 +96,9 @@ bool ScanFolder::next(LidarScan& scan) {
   while (next_ < files_.size()) {
     const std::size_t i = next_++;
     try {
-      if (stamps_[i] > passed_) read(files_[i], scan.points);
+      scan.points.clear();
+      scan.times.clear();
+      if (stamps_[i] > passed_) read(files_[i], scan);
     } catch (const FileError& error) {
       report_.refuse({files_[i].string(), 0, error.reason()});
       continue;
@@ -100,8 +107,9 @@ bool ScanFolder::next(LidarScan& scan) {
       continue;
     }
     scan.stamp = scan.available = stamps_[i];
-    scan.start = stamps_[i] - Duration(1);
-    scan.end = stamps_[i] + Duration(1);
+    const auto half = scan.times.empty() ? Duration(1) : half_of(scan.times);
+    scan.start = stamps_[i] - half;
+    scan.end = stamps_[i] + half;
     scan.sequence = i;
     ++report_.delivered;
     return true;
@@ -109,17 +117,16 @@ bool ScanFolder::next(LidarScan& scan) {
   return false;
 }
 
-void ScanFolder::read(const path& file, std::vector<LidarPoint>& points) {
-  times_.clear();
+void ScanFolder::read(const path& file, LidarScan& scan) {
   if (kind_of(file) == ".bin") {
     const std::string content = maploop::read_text(file, input_limits::cloud);
-    parse_velodyne_points({content.begin(), content.end()}, points);
+    parse_velodyne_points({content.begin(), content.end()}, scan.points);
     return;
   }
   Cloud cloud = read_cloud(file);
-  times_ = from_middle(cloud.times);
-  timed_ = timed_ || !times_.empty();
-  points = std::move(cloud.points);
+  scan.times = from_middle(cloud.times);
+  timed_ = timed_ || !scan.times.empty();
+  scan.points = std::move(cloud.points);
 }
 
 std::string ScanFolder::assumption() const {
@@ -141,9 +148,9 @@ namespace {
 class ScanSource final : public Source<LidarScan> {
  public:
   ScanSource(const path& folder, Duration max_turn, Time passed)
-      : scans_(folder), turns_(max_turn) {
-    scans_.pass_until(passed);
-    const std::vector<Time>& stamps = scans_.stamps();
+      : folder_(folder), scans_(max_turn) {
+    folder_.pass_until(passed);
+    const std::vector<Time>& stamps = folder_.stamps();
     if (stamps.size() < 2) return;
     const Duration mean =
         (stamps.back() - stamps.front()) / static_cast<std::int64_t>(stamps.size() - 1);
@@ -152,33 +159,35 @@ class ScanSource final : public Source<LidarScan> {
 
   bool next(LidarScan& scan) override {
     while (true) {
-      if (turns_.next(scan)) {
-        scan.available = scan.end;
+      if (scans_.next(scan)) {
         if (scan.stamp > last_) break;
         continue;
       }
-      if (!scans_.next(scan_)) return false;
-      if (scans_.times().empty()) {
-        std::swap(scan, scan_);
+      if (!folder_.next(file_)) {
+        if (!scans_.end()) return false;
+        continue;
+      }
+      if (file_.times.empty()) {
+        std::swap(scan, file_);
         scan.start = scan.stamp - half_turn_;
         scan.end = scan.available = scan.stamp + half_turn_;
         break;
       }
-      timed_.points = scan_.points;
+      timed_.points.swap(file_.points);
       timed_.times.clear();
-      for (const float time : scans_.times())
-        timed_.times.push_back(scan_.stamp + from_seconds(static_cast<double>(time)));
-      turns_.add(timed_);
+      for (const float time : file_.times)
+        timed_.times.push_back(file_.stamp + from_seconds(static_cast<double>(time)));
+      scans_.add(timed_);
     }
     last_ = scan.stamp;
     return true;
   }
-  const SourceReport& report() const override { return scans_.report(); }
+  const SourceReport& report() const override { return folder_.report(); }
 
  private:
-  ScanFolder scans_;
-  CloudTurns turns_;
-  LidarScan scan_;
+  ScanFolder folder_;
+  CloudScans scans_;
+  LidarScan file_;
   TimedCloud timed_;
   Duration half_turn_ = std::chrono::milliseconds(50);
   Time last_ = Time::min();

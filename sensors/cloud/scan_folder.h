@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -16,9 +15,10 @@ namespace maploop::sensors {
 // Delivers the scans in the order of their names, in which numbers count as numbers: scan9.pcd is
 // before scan10.pcd. Each may also be .gz. Scans that cannot be read are left out and reported.
 //
-// The points of a scan count as measured at its stamp, so `start` and `end` are a nanosecond before
-// and after it: an estimator that derives times from azimuths does not move the points. Whoever
-// corrects them for the vehicle's motion does it with times().
+// A file's times may count from anywhere, in s, ms, us or ns: the unit is the one in which the scan
+// takes 0.5 to 500 ms, and their middle is the scan's stamp. Without times, or with one time only,
+// the points count as measured at the stamp: `start` and `end` are a nanosecond before and after
+// it, so that azimuths do not move them.
 class ScanFolder final : public Source<LidarScan> {
  public:
   static bool is(const std::filesystem::path& folder);  // contains a scan
@@ -33,12 +33,6 @@ class ScanFolder final : public Source<LidarScan> {
   bool next(LidarScan& scan) override;
   const SourceReport& report() const override { return report_; }
 
-  // Returns when each point of the last scan was measured, in seconds after its stamp, which counts
-  // as the middle of these times; empty if the file has no field of times, or only one time. The
-  // file may count from anywhere, in s, ms, us or ns: the unit is the one in which the scan takes
-  // 0.5 to 500 ms.
-  std::span<const float> times() const { return times_; }
-
   const std::vector<Time>& stamps() const { return stamps_; }
   // Scans with a stamp up to this one are delivered without points, and are not read.
   void pass_until(Time passed) { passed_ = passed; }
@@ -50,21 +44,20 @@ class ScanFolder final : public Source<LidarScan> {
   std::string remarks() const;
 
  private:
-  void read(const std::filesystem::path& file, std::vector<LidarPoint>& points);
+  void read(const std::filesystem::path& file, LidarScan& scan);
   void find_stamps(const std::filesystem::path& folder, std::filesystem::path file);
 
   std::vector<std::filesystem::path> files_;
   std::vector<Time> stamps_;
   Time passed_ = Time::min();
   std::size_t next_ = 0;
-  std::vector<float> times_;
   bool stamped_ = false, timed_ = false;
   SourceReport report_;
 };
 
-// Returns the scans of a folder as a vehicle takes them, in the same way as a bag's clouds. If the
-// points have times, turns from rear to rear are assembled of them (bag/cloud_messages.h);
-// otherwise a scan is a turn, whose stamp is its middle.
+// Returns the scans of a folder as a vehicle takes them, in the same way as a bag's clouds: as
+// bag/cloud_scans.h says if the points have times; otherwise a scan is a turn, whose stamp is its
+// middle.
 std::unique_ptr<Source<LidarScan>> make_scan_source(const std::filesystem::path& folder,
                                                     Duration max_turn, Time passed);
 

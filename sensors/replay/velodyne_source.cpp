@@ -78,6 +78,7 @@ class VelodyneSource final : public FrameSource<LidarScan> {
   }
 
   void set_stamps(std::size_t i, LidarScan& scan) const override {
+    scan.times.clear();
     scan.stamp = folder_.middle.stamps[i];
     scan.start = folder_.start.stamps[i];
     scan.end = folder_.end.stamps[i];

@@ -24,6 +24,7 @@ void TurnAssembler::interrupt() {
 
 void TurnAssembler::begin_turn(Time start) {
   turn_.points.clear();
+  turn_.times.clear();
   turn_.start = start;
   inside_ = true;
   stamped_ = false;

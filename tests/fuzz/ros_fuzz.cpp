@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "sensors/bag/camera_messages.h"
-#include "sensors/bag/cloud_messages.h"
+#include "sensors/bag/cloud_scans.h"
 #include "sensors/bag/ros_messages.h"
 #include "tests/fuzz/fuzz_input.h"
 
@@ -28,9 +28,12 @@ void use_cloud(const RosPointCloud& message) {
   fuzz::require(!cloud.points.empty());
   fuzz::require(cloud.times.empty() || cloud.times.size() == cloud.points.size());
   if (cloud.times.empty()) return;
-  CloudTurns turns(std::chrono::milliseconds(250));
-  turns.add(cloud);
-  for (LidarScan scan; turns.next(scan);) fuzz::require(scan.start <= scan.end);
+  CloudScans scans(std::chrono::milliseconds(250));
+  scans.add(cloud);
+  for (LidarScan scan; scans.next(scan) || scans.end();) {
+    fuzz::require(scan.start <= scan.end);
+    fuzz::require(scan.times.empty() || scan.times.size() == scan.points.size());
+  }
 }
 
 template <class T>

@@ -131,7 +131,7 @@ class Outputs {
     if (!options_.scans.empty()) add_scan(run.frame());
     if (cloud_ && step.lidar.status == OdometryStatus::ok) {
       const RelativeMotion& m = step.lidar;
-      cloud_->add(run.scan(), m.stamp,
+      cloud_->add(*run.frame().scan, m.stamp,
                   lidar::Twist::of(m.T_from_to(), to_seconds(m.stamp - m.from)), step.pose);
     }
   }
@@ -169,7 +169,7 @@ class Outputs {
 
   void add_scan(const odometry::LidarFrame& frame) {
     write_cloud(options_.scans / sensors::numbered_file(frame.number, ".pcd"),
-                odometry::table_of(*frame.scan, frame.times));
+                odometry::table_of(*frame.scan));
     scan_stamps_ += format_time(frame.scan->stamp) + '\n';
   }
 

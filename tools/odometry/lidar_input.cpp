@@ -37,7 +37,7 @@ LidarRun LidarInput::run(Method method) {
             parameters};
   }
   scans_ = std::make_shared<sensors::ScanFolder>(folder_, stamps_);
-  return {folder_frames(scans_, parameters), T_body_velo, parameters};
+  return {scan_frames(scans_, parameters), T_body_velo, parameters};
 }
 
 }  // namespace maploop::odometry

@@ -41,7 +41,6 @@ struct LidarRunParameters {
 struct LidarFrame {
   std::size_t number = 0;
   const LidarScan* scan = nullptr;     // raw; nullptr: none was taken, or it is not used
-  std::span<const float> times;        // of its points, s after its stamp; empty: from azimuths
   std::optional<VisualMotion> visual;  // of the image pair taken during the scan
 };
 // Fills the next frame; returns false at the end.
@@ -53,8 +52,6 @@ using LidarFrames = std::function<bool(LidarFrame*)>;
 LidarFrames drive_frames(const vehicle::Recording& recording, const LidarRunParameters& parameters);
 LidarFrames scan_frames(std::shared_ptr<sensors::Source<LidarScan>> scans,
                         const LidarRunParameters& parameters);
-LidarFrames folder_frames(std::shared_ptr<sensors::ScanFolder> folder,
-                          const LidarRunParameters& parameters);
 
 struct LidarStep {
   std::size_t frame = 0;
@@ -73,32 +70,14 @@ class LidarRun {
 
   std::optional<LidarStep> next();
 
-  // These are valid until the next step: what the last step was made from; its scan with the points
-  // moved to its stamp, if they have times (precondition: there was a scan); the map.
+  // These are valid until the next step: what the last step was made from; the map.
   const LidarFrame& frame() const { return frame_; }
-  const LidarScan& scan() const { return frame_.times.empty() ? *frame_.scan : deskewed_; }
   const lidar::LocalMap& local_map() const { return odometer_.odometry().local_map(); }
 
  private:
-  // A scan whose points have times of their own.
-  struct TimedScan {
-    LidarScan scan;
-    std::vector<float> times;
-  };
-  lidar::VisualLidarOdometer new_odometer() const;
-  lidar::OdometerResult process(const TimedScan& timed);
-  lidar::OdometerResult process_timed();
-
   LidarFrames frames_;
-  Eigen::Isometry3d T_body_velo_;
-  Method method_;
-  lidar::LidarParameters parameters_;
   lidar::VisualLidarOdometer odometer_;
   LidarFrame frame_;
-  // Of points with times of their own:
-  std::optional<lidar::Twist> twist_;  // the last motion
-  TimedScan before_;                   // until the motion is known
-  LidarScan deskewed_;
 };
 
 }  // namespace maploop::odometry

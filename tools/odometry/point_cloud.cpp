@@ -41,21 +41,15 @@ sensors::CloudTable table_of(const std::vector<lidar::SurfacePoint>& points) {
   return table;
 }
 
-sensors::CloudTable table_of(const LidarScan& scan, std::span<const float> times) {
+sensors::CloudTable table_of(const LidarScan& scan) {
   sensors::CloudTable table{{"x", "y", "z", "intensity"}, {}};
-  const auto before = static_cast<float>(to_seconds(scan.stamp - scan.start));
-  const auto after = static_cast<float>(to_seconds(scan.end - scan.stamp));
-  const bool turned = before > 1e-6F && after > 1e-6F;
-  if (turned || !times.empty()) table.fields.emplace_back("time");
+  const lidar::PointTimes time_of(scan, scan.stamp);
+  const bool timed = to_seconds(scan.end - scan.start) > 1e-6;
+  if (timed) table.fields.emplace_back("time");
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const LidarPoint& p = scan.points[i];
     table.values.insert(table.values.end(), {p.x, p.y, p.z, p.reflectance});
-    const float turn = 2.0F * lidar::turn_fraction(p.x, p.y) - 1.0F;
-    if (!times.empty()) {
-      table.values.push_back(times[i]);
-    } else if (turned) {
-      table.values.push_back(turn * (turn < 0.0F ? before : after));
-    }
+    if (timed) table.values.push_back(time_of(i));
   }
   return table;
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <span>
 #include <unordered_set>
 #include <vector>
 
@@ -36,6 +35,6 @@ sensors::CloudTable table_of(const std::vector<lidar::SurfacePoint>& points);
 
 // Returns x y z (m) and intensity of a scan's raw points, and their time (s, from the scan's stamp)
 // if it is known: from `times`, or else from their azimuths, if the scan has a start and an end.
-sensors::CloudTable table_of(const LidarScan& scan, std::span<const float> times);
+sensors::CloudTable table_of(const LidarScan& scan);
 
 }  // namespace maploop::odometry

@@ -1,8 +1,12 @@
 #include "runtime/vehicle/drivers/bag_drive.h"
 
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "runtime/vehicle/drivers/gnss_drive.h"
 #include "sensors/bag/bag_recording.h"
 
 namespace maploop::vehicle {
@@ -17,6 +21,26 @@ FusedSensors fused_sensors_of_bag(const std::filesystem::path& path,
   return {has(BagSensor::camera_left) || has(BagSensor::lidar) || has(BagSensor::wheel),
           has(BagSensor::imu)};
 }
+
+namespace {
+
+// Returns nullptr, with a note, if there are no observations, or none that can be used.
+std::shared_ptr<const GnssDrive> observations_of(const sensors::BagRecording& bag,
+                                                 const std::filesystem::path& path,
+                                                 const VehicleConfig& config,
+                                                 std::vector<std::string>& notes) {
+  if (!bag.has(BagSensor::gnss_raw) || !config.ppp.observations) return nullptr;
+  try {
+    return std::make_shared<const GnssDrive>(path, bag.observations(), config);
+  } catch (const std::runtime_error& e) {
+    if (!bag.has(BagSensor::gnss)) throw;
+    notes.push_back(std::string("The receiver's observations are not used, but its fixes: ") +
+                    e.what() + ".");
+    return nullptr;
+  }
+}
+
+}  // namespace
 
 Recording open_bag(const std::filesystem::path& path, const VehicleConfig& config,
                    const KnownContents& contents) {
@@ -33,9 +57,10 @@ Recording open_bag(const std::filesystem::path& path, const VehicleConfig& confi
   recording.images = bag->frame_count();
   recording.notes = bag->notes();
   recording.delays = delays_of(config);
+  const auto epochs = observations_of(*bag, path, config, recording.notes);
   VehicleConfig car = config;
   describe_car(car, recording.calibration);
-  recording.sensors = [bag, car, delays = recording.delays,
+  recording.sensors = [bag, epochs, car, delays = recording.delays,
                        outages = outages_of(config, recording)](Time passed) {
     Sensors s;
     if (bag->has(BagSensor::camera_left)) s.camera = bag->camera(passed);
@@ -47,6 +72,7 @@ Recording open_bag(const std::filesystem::path& path, const VehicleConfig& confi
                        mount_of(car), car.fusion.rear_axle_distance);
     }
     if (bag->has(BagSensor::wheel)) s.wheel = bag->wheel();
+    if (epochs != nullptr) use_observations(s, epochs);
     return s;
   };
   return recording;

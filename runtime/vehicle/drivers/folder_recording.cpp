@@ -148,11 +148,7 @@ Recording open_folder(const fs::path& folder, const VehicleConfig& config) {
     if (drive->has_velodyne()) s.velodyne = drive->velodyne(passed);
     if (drive->has_oxts()) use_oxts(s, *drive, car);
     if (drive->tables() != nullptr) use_tables(s, *drive, car, delays, outages);
-    if (epochs != nullptr) {
-      s.gnss = nullptr;
-      s.epochs = GnssDrive::epochs(epochs);
-      s.ppp = {epochs, &epochs->setup()};  // this pointer keeps the drive alive
-    }
+    if (epochs != nullptr) use_observations(s, epochs);
     return s;
   };
   std::error_code ignored;

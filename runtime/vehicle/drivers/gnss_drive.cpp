@@ -17,6 +17,16 @@ bool is_observations(const fs::path& file) {
          ppp::kind_of_file(file) == ppp::FileKind::observation;
 }
 
+// A receiver's stream counts as its observations only if it is named: in a folder it can be that of
+// the satellites' messages.
+bool is_receivers_file(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) return false;
+  const ppp::FileKind kind = ppp::kind_of_file(file);
+  return kind == ppp::FileKind::observation || kind == ppp::FileKind::ubx ||
+         kind == ppp::FileKind::rtcm3;
+}
+
 fs::path observations_of(const fs::path& path) {
   if (!fs::is_directory(path)) return path;
   std::vector<fs::path> found;
@@ -35,7 +45,7 @@ fs::path observations_of(const fs::path& path) {
 
 bool is_gnss_drive(const fs::path& path) {
   std::error_code ignored;
-  if (!fs::is_directory(path, ignored)) return is_observations(path);
+  if (!fs::is_directory(path, ignored)) return is_receivers_file(path);
   if (fs::is_directory(path / "image_00", ignored)) return false;
   const std::vector<fs::path> files = ppp::files_in(path);
   return std::any_of(files.begin(), files.end(), is_observations);
@@ -45,8 +55,19 @@ GnssDrive::GnssDrive(const fs::path& path, const VehicleConfig& config)
     : latency_(from_seconds(config.ppp.latency)) {
   const fs::path observations = observations_of(path);
   ppp::read_into(observations, files_);
+  read_products(observations, config);
+}
+
+GnssDrive::GnssDrive(const fs::path& recording, const std::string& observations,
+                     const VehicleConfig& config)
+    : latency_(from_seconds(config.ppp.latency)) {
+  ppp::parse_into(observations, recording.string(), files_);
+  read_products(recording, config);
+}
+
+void GnssDrive::read_products(const fs::path& observations, const VehicleConfig& config) {
   const fs::path beside = fs::absolute(observations).parent_path();
-  if (config.ppp.products.empty()) ppp::read_products(beside, files_);
+  if (config.ppp.products.empty()) ppp::read_products(beside, files_, observations);
   for (const fs::path product : config.ppp.products) ppp::read_products(product, files_);
   setup_ = std::make_unique<ppp::PppSetup>(
       files_, ppp::SetupOptions{config.ppp.filter, {}, config.ppp.broadcast});
@@ -86,6 +107,12 @@ std::unique_ptr<sensors::Source<GnssEpoch>> GnssDrive::epochs(
     }
     return false;
   });
+}
+
+void use_observations(Sensors& s, const std::shared_ptr<const GnssDrive>& drive) {
+  s.gnss = nullptr;
+  s.epochs = GnssDrive::epochs(drive);
+  s.ppp = {drive, &drive->setup()};  // this pointer keeps the drive alive
 }
 
 }  // namespace maploop::vehicle

@@ -4,11 +4,13 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "ppp/gnss_files.h"
 #include "ppp/ppp_setup.h"
 #include "runtime/vehicle/config/vehicle_config.h"
 #include "runtime/vehicle/drivers/gnss_epoch.h"
+#include "runtime/vehicle/graph/sensors.h"
 #include "sensors/source.h"
 
 namespace maploop::vehicle {
@@ -24,6 +26,10 @@ class GnssDrive {
   // In folders, files that are not GNSS files and the observations of other receivers are skipped.
   // Throws std::runtime_error (ppp::ReadError) that names the file and what to do.
   GnssDrive(const std::filesystem::path& path, const VehicleConfig& config);
+  // Does the same for the observations of a recording, which have been read already; the products
+  // may be files beside it.
+  GnssDrive(const std::filesystem::path& recording, const std::string& observations,
+            const VehicleConfig& config);
   GnssDrive(const GnssDrive&) = delete;
   GnssDrive& operator=(const GnssDrive&) = delete;
 
@@ -36,9 +42,14 @@ class GnssDrive {
   static std::unique_ptr<sensors::Source<GnssEpoch>> epochs(std::shared_ptr<const GnssDrive> drive);
 
  private:
+  void read_products(const std::filesystem::path& observations, const VehicleConfig& config);
+
   ppp::GnssFiles files_;
   std::unique_ptr<ppp::PppSetup> setup_;
   Duration latency_;
 };
+
+// The epochs of `drive` take the place of fixes.
+void use_observations(Sensors& sensors, const std::shared_ptr<const GnssDrive>& drive);
 
 }  // namespace maploop::vehicle

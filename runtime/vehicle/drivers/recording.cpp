@@ -47,11 +47,6 @@ std::optional<sensors::WheelOdometerParameters> wheel_of(const VehicleConfig& co
   return config.fusion.use_wheel_speed ? std::optional(config.wheel) : std::nullopt;
 }
 
-void use_observations(Sensors& s, const std::shared_ptr<const GnssDrive>& drive) {
-  s.epochs = GnssDrive::epochs(drive);
-  s.ppp = {drive, &drive->setup()};  // this pointer keeps the drive alive
-}
-
 Recording open_sequence(const std::filesystem::path& path, const VehicleConfig& config) {
   auto sequence = std::make_shared<const sensors::OdometrySequence>(path, config.replay);
   std::shared_ptr<const RecordedTracks> tracks;

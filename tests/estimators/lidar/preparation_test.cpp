@@ -68,6 +68,19 @@ TEST(Twist, IsTheMotionItWasMadeOf) {
   EXPECT_TRUE((half * half).isApprox(T, 1e-12));
 }
 
+TEST(PointTimes, AreTheirOwnOrThoseOfTheirAzimuths) {
+  LidarScan scan = empty_scan();
+  const Time from = scan.stamp - from_seconds(0.02);
+  scan.points = {{0.0f, 5.0f, 0.0f, 0.0f}, {5.0f, 0.0f, 0.0f, 0.0f}};  // to the left, ahead
+  const PointTimes of_azimuths(scan, from);
+  EXPECT_NEAR(of_azimuths(0), -0.005f, 1e-6f);  // a quarter of a turn of 0.1 s before
+  EXPECT_NEAR(of_azimuths(1), 0.02f, 1e-6f);
+  scan.times = {0.01f, -0.03f};
+  const PointTimes own(scan, from);
+  EXPECT_NEAR(own(0), 0.03f, 1e-6f);
+  EXPECT_NEAR(own(1), -0.01f, 1e-6f);
+}
+
 // A wall seen from a moving vehicle is bent; after deskewing it is flat and at its position at the
 // stamp.
 TEST(ScanPreparation, WallSeenFromAMovingVehicleIsFlatAndWhereItWas) {

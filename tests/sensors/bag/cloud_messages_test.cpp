@@ -1,11 +1,11 @@
-// Clouds of points, and the turns that are made of them.
+// Tests the reading of clouds of points.
 #include "sensors/bag/cloud_messages.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstring>
-#include <numbers>
 
 #include "tests/sensors/bag/bag_contents.h"
 
@@ -112,30 +112,45 @@ TEST(CloudMessage, RefusesWhatDoesNotFit) {
               HasSubstr("rows of 4294967295 bytes"));
 }
 
-// A scanner that begins to the left, and takes 0.1 s a turn.
-TEST(CloudTurns, GoFromRearToRearWhereverTheCloudsBegin) {
-  CloudTurns turns(std::chrono::milliseconds(250));
-  const Time begin = from_nanoseconds(1'700'000'000'000'000'000);
-  std::vector<LidarScan> scans;
-  for (int cloud_number = 0; cloud_number < 3; ++cloud_number) {
-    TimedCloud cloud;
-    for (int i = 3599; i >= 0; --i) {  // in an order that is not that of time
-      const double share = i / 3600.0;
-      const double angle = std::numbers::pi / 2.0 - 2.0 * std::numbers::pi * share;
-      cloud.points.push_back({static_cast<float>(10.0 * std::cos(angle)),
-                              static_cast<float>(10.0 * std::sin(angle)), 0.0F, 0.0F});
-      cloud.times.push_back(begin + from_seconds(0.1 * (cloud_number + share)));
+// What a driver of Livox's scanners sends: points of 19 bytes, padded to 20 in ROS 2.
+TEST(CloudMessage, OfLivoxIsReadInBothEncodings) {
+  for (const std::string encoding : {"ros1", "cdr"}) {
+    SCOPED_TRACE(encoding);
+    const bool cdr = encoding == "cdr";
+    std::string bytes = cdr ? std::string("\0\1\0\0", 4) : std::string();
+    const auto put = [&](auto value) {
+      const std::size_t begin = cdr ? 4 : 0;
+      while (cdr && (bytes.size() - begin) % sizeof value != 0) bytes.push_back('\0');
+      bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    if (!cdr) put(std::uint32_t{0});    // number
+    put(std::uint32_t{1'700'000'000});  // stamp
+    put(std::uint32_t{0});
+    put(std::uint32_t{cdr ? 2U : 1U});  // frame
+    bytes += cdr ? std::string("l\0", 2) : "l";
+    put(std::uint64_t{1'700'000'000'000'000'000});
+    put(std::uint32_t{3});
+    for (int i = 0; i < 4; ++i) put(std::uint8_t{0});
+    put(std::uint32_t{3});
+    for (int i = 0; i < 3; ++i) {
+      put(static_cast<std::uint32_t>(i * 50'000'000));
+      for (const float v : {1.0F + static_cast<float>(i), 2.0F, 3.0F}) put(v);
+      for (const int v : {200, 16, 1}) put(static_cast<std::uint8_t>(v));
     }
-    turns.add(cloud);
-    for (LidarScan scan; turns.next(scan);) scans.push_back(scan);
-  }
-  ASSERT_EQ(scans.size(), 2U);
-  for (std::size_t i = 0; i < 2; ++i) {
-    const double turn = static_cast<double>(i);
-    EXPECT_NEAR(to_seconds(scans[i].start - begin), 0.1 * turn + 0.075, 1e-4);
-    EXPECT_NEAR(to_seconds(scans[i].stamp - begin), 0.1 * turn + 0.125, 1e-4);
-    EXPECT_NEAR(to_seconds(scans[i].end - begin), 0.1 * turn + 0.175, 1e-4);
-    EXPECT_EQ(scans[i].points.size(), 3600U);
+    RosPointCloud message;
+    decode({"/livox/lidar", "livox_ros_driver2/CustomMsg", encoding, ""}, testing::as_bytes(bytes),
+           message);
+    TimedCloud cloud;
+    read_cloud(message, cloud);
+    ASSERT_EQ(cloud.points.size(), cdr ? 2U : 3U) << "cdr's last point is not padded";
+    ASSERT_EQ(cloud.times.size(), cloud.points.size());
+    EXPECT_EQ(cloud.points[1].x, 2.0F);
+    EXPECT_EQ(cloud.points[1].reflectance, 200.0F);
+    EXPECT_EQ(cloud.times[1] - cloud.times[0], std::chrono::milliseconds(50));
+    bytes.resize(bytes.size() - 21);
+    EXPECT_THROW(decode({"/l", "livox_ros_driver2/CustomMsg", encoding, ""},
+                        testing::as_bytes(bytes), message),
+                 std::invalid_argument);
   }
 }
 

@@ -52,7 +52,7 @@ TEST_F(ScanFolderTest, DeliversAllFormatsInTheNaturalOrderOfTheirNames) {
     EXPECT_EQ(scan.stamp, Time(from_seconds(0.1 * static_cast<double>(i))));
     EXPECT_LT(scan.start, scan.stamp);
     EXPECT_LT(scan.stamp, scan.end);
-    EXPECT_TRUE(folder.times().empty());
+    EXPECT_TRUE(scan.times.empty());
   }
   EXPECT_FALSE(folder.next(scan));
   EXPECT_NE(folder.remarks().find("0.1 s apart"), std::string::npos);
@@ -85,13 +85,14 @@ TEST_F(ScanFolderTest, TimesAreSecondsFromTheirMiddleWhateverTheirUnitAndStart) 
   LidarScan scan;
   for (int i = 0; i < 3; ++i) {
     ASSERT_TRUE(folder.next(scan));
-    ASSERT_EQ(folder.times().size(), 3U);
-    EXPECT_NEAR(folder.times()[0], -0.05F, 1e-6F);
-    EXPECT_NEAR(folder.times()[1], -0.03F, 1e-6F);
-    EXPECT_NEAR(folder.times()[2], 0.05F, 1e-6F);
+    ASSERT_EQ(scan.times.size(), 3U);
+    EXPECT_NEAR(scan.times[0], -0.05F, 1e-6F);
+    EXPECT_NEAR(scan.times[1], -0.03F, 1e-6F);
+    EXPECT_NEAR(scan.times[2], 0.05F, 1e-6F);
+    EXPECT_NEAR(to_seconds(scan.end - scan.start), 0.1, 1e-6);
   }
   ASSERT_TRUE(folder.next(scan));
-  EXPECT_TRUE(folder.times().empty());
+  EXPECT_TRUE(scan.times.empty());
   EXPECT_FALSE(folder.next(scan));
   EXPECT_NE(folder.remarks().find("which is no scan of 0.5 to 500 ms"), std::string::npos);
 }
