@@ -69,9 +69,10 @@ class Lines {
     const std::string_view word = i < words.size() ? words[i] : std::string_view();
     Number value{};
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size())
+    if (error != std::errc() || end != word.data() + word.size()) {
       fail(quoted(word) + " in place " + std::to_string(i + 1) +
            " is not a number that fits there");
+    }
     return value;
   }
 
@@ -161,10 +162,11 @@ void place_fields(const Lines& lines, Layout& layout) {
   // Each value of a text is followed by a blank or a line's end, except for the last.
   const bool ascii = layout.encoding == CloudEncoding::ascii;
   const std::size_t least = layout.points * (ascii ? 2 * layout.columns : layout.row);
-  if (layout.encoding != CloudEncoding::compressed && least > lines.left.size() + ascii)
+  if (layout.encoding != CloudEncoding::compressed && least > lines.left.size() + ascii) {
     lines.fail("the file is cut: " + std::to_string(layout.points) +
                " points have more than the following " + std::to_string(lines.left.size()) +
                " bytes");
+  }
 }
 
 // Returns the points of a compressed file, which are stored field by field.
@@ -172,10 +174,11 @@ std::string decompressed(const Lines& lines, const Layout& layout) {
   const std::size_t size = layout.points * layout.row;
   std::array<Count, 2> sizes{};  // compressed and not
   if (lines.left.size() >= sizeof sizes) std::memcpy(sizes.data(), lines.left.data(), sizeof sizes);
-  if (size > input_limits::cloud || sizes[1] != size)
+  if (size > input_limits::cloud || sizes[1] != size) {
     lines.fail("the compressed data are of " + std::to_string(sizes[1]) +
                " bytes, but the points of " + std::to_string(size) + " (at most " +
                std::to_string(input_limits::cloud) + ")");
+  }
   std::string plain(size, '\0');
   if (size > 0 && (sizes[0] > lines.left.size() - sizeof sizes ||
                    lzf_decompress(lines.left.data() + sizeof sizes, sizes[0], plain.data(),
@@ -213,9 +216,10 @@ Cloud parse_cloud(std::string_view content) {
   Layout layout = content.starts_with("ply") ? ply_layout(lines) : pcd_layout(lines);
   place_fields(lines, layout);
   const auto find = [&](std::initializer_list<std::string_view> names) -> const CloudField* {
-    for (const std::string_view name : names)
+    for (const std::string_view name : names) {
       for (const CloudField& field : layout.fields)
         if (field.name == name) return &field;
+    }
     return nullptr;
   };
   const std::array fields{find({"x"}), find({"y"}), find({"z"}),
@@ -232,10 +236,11 @@ Cloud parse_cloud(std::string_view content) {
   cloud.points.reserve(layout.points);
   for (std::size_t i = 0; i < layout.points; ++i) {
     const Words words = ascii ? lines.next() : Words();
-    if (ascii && words.size() != layout.columns)
+    if (ascii && words.size() != layout.columns) {
       lines.fail("point " + std::to_string(i + 1) + " of " + std::to_string(layout.points) +
                  " has " + std::to_string(words.size()) + " values in place of " +
                  std::to_string(layout.columns));
+    }
     std::array<double, fields.size()> v{};  // 0 for a field that the file does not have
     for (std::size_t k = 0; k < fields.size(); ++k) {
       if (fields[k] == nullptr) continue;

@@ -39,7 +39,7 @@ class LidarDriveTest : public ::testing::Test {
   static void SetUpTestSuite() {
     if (drive_0013().empty()) return;
     cv::setNumThreads(1);
-    visual_ = visual_motions({});
+    every_visual = visual_motions({});
   }
   void SetUp() override {
     MAPLOOP_REQUIRE_DRIVE();
@@ -91,8 +91,8 @@ class LidarDriveTest : public ::testing::Test {
     DriveResult result;
     const auto velodyne = drive.velodyne();
     LidarScan scan;
-    for (std::size_t i = 0; i < visual_.size() && velodyne->next(scan); ++i) {
-      RelativeMotion visual = visual_[i];
+    for (std::size_t i = 0; i < every_visual.size() && velodyne->next(scan); ++i) {
+      RelativeMotion visual = every_visual[i];
       if (seed != Seed::visual) visual.status = OdometryStatus::too_few_features;
       const bool used = i % every == 0;
       const LidarScan& seen = ahead ? seen_ahead(scan) : scan;
@@ -114,10 +114,10 @@ class LidarDriveTest : public ::testing::Test {
     return evaluation::score(run.camera, truth(), 100.0, evaluation::CommonRotation::remove);
   }
 
-  static std::vector<VisualMotion> visual_;
+  static std::vector<VisualMotion> every_visual;
 };
 
-std::vector<VisualMotion> LidarDriveTest::visual_;
+std::vector<VisualMotion> LidarDriveTest::every_visual;
 
 TEST_F(LidarDriveTest, FollowsTheReferenceWithEverySeed) {
   std::array<int, 3> iterations{};
@@ -189,7 +189,7 @@ TEST_F(LidarDriveTest, GivesVisualMotionsItsLength) {
     return std::pair(raw / of_scans, corrected / of_scans);
   };
 
-  const auto [raw, corrected] = length_learnt(visual_);
+  const auto [raw, corrected] = length_learnt(every_visual);
   EXPECT_LT(raw, 0.998);                // 0.9971
   EXPECT_NEAR(corrected, 1.0, 0.0015);  // reached 0.9996
 
@@ -212,7 +212,7 @@ TEST_F(LidarDriveTest, CovarianceIsWhatHalvesOfThePointsDifferBy) {
                            maploop::testing::lidar_parameters(drive));
     const auto velodyne = drive.velodyne();
     LidarScan scan;
-    for (std::size_t i = 0; i < visual_.size() && velodyne->next(scan); ++i) {
+    for (std::size_t i = 0; i < every_visual.size() && velodyne->next(scan); ++i) {
       // The halves are blocks of 2 m, as on a chess board.
       std::erase_if(scan.points, [&](const LidarPoint& p) {
         const auto block = [](float x) { return static_cast<int>(std::floor(x / 2.0f)); };
@@ -223,7 +223,7 @@ TEST_F(LidarDriveTest, CovarianceIsWhatHalvesOfThePointsDifferBy) {
   }
   double nees = 0.0;
   int windows = 0;
-  for (std::size_t begin = 20; begin + 10 <= visual_.size(); begin += 10) {
+  for (std::size_t begin = 20; begin + 10 <= every_visual.size(); begin += 10) {
     std::array<Eigen::Isometry3d, 2> T{Eigen::Isometry3d::Identity(),
                                        Eigen::Isometry3d::Identity()};
     Matrix6d covariance = Matrix6d::Zero();

@@ -92,8 +92,8 @@ TEST(ScanPreparation, WallSeenFromAMovingVehicleIsFlatAndWhereItWas) {
   for (int i = 0; i < 20000; ++i) {
     // In the body at `stamp` there is a wall at y = 12; its earlier position when its beam saw it
     // is computed.
-    const Eigen::Vector3d wall(-20.0 + 40.0 * (i % 400) / 400.0, 12.0,
-                               -1.0 + 4.0 * (i / 400) / 50.0);
+    const int row = i / 400;
+    const Eigen::Vector3d wall(-20.0 + 40.0 * (i % 400) / 400.0, 12.0, -1.0 + 4.0 * row / 50.0);
     Eigen::Vector3d seen = wall;
     for (int round = 0; round < 20; ++round) {
       const double turn =
