@@ -47,6 +47,9 @@ void make_valid(MapMatch& match) {
     match.candidates[i] = {};
   }
 }
+void make_valid(LidarScan& scan) {
+  scan.times.resize(scan.points.size());
+}
 void make_valid(StereoPair& pair) {
   pair.right.pixels.resize(pair.left.pixels.size());
   pair.left.width = pair.right.width = static_cast<int>(pair.left.pixels.size());
