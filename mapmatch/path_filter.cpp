@@ -43,7 +43,7 @@ void PathFilter::step(const PathEvidence& e, const NearLinks& near) {
   normalize();
   since_birth_ += e.motion.interval;
   if (count_ == 0 || since_birth_ >= birth_interval - 1e-3) {
-    be_born(e, near);
+    begin_paths(e, near);
     since_birth_ = 0.0;
     normalize();
   }
@@ -133,7 +133,7 @@ void PathFilter::turn_round(const PathEvidence& e) {
   }
 }
 
-void PathFilter::be_born(const PathEvidence& e, const NearLinks& near) {
+void PathFilter::begin_paths(const PathEvidence& e, const NearLinks& near) {
   const bool start = count_ == 0;
   // Off the road, links are as likely as those that the vehicle left.
   const double cost = start ? 0.0 : parameters_->birth * (1.0 - off_road()) + 1.0 * off_road();

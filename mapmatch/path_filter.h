@@ -49,7 +49,7 @@ class PathFilter {
   void take_exits(const PathHypothesis& h);
   void add_exit(const PathHypothesis& h, DirectedLink exit, double cost);
   void turn_round(const PathEvidence& e);
-  void be_born(const PathEvidence& e, const NearLinks& near);
+  void begin_paths(const PathEvidence& e, const NearLinks& near);
   void judge_road(const PathEvidence& e);
   void merge();
   void normalize();

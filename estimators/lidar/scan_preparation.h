@@ -50,8 +50,8 @@ class PointTimes {
 Eigen::Vector3f with_elevation(const Eigen::Vector3f& point, float cosine, float sine);
 
 // Crops by range, corrects the elevation, deskews by the time of each point, and takes one sample
-// per voxel with the normal of its neighbourhood. The same points in any order
-// give the same bits. Not thread-safe, since it keeps its buffers.
+// per voxel with the normal of its neighbourhood. The same points in any order give the same bits.
+// Not thread-safe, since it keeps its buffers.
 class ScanPreparation {
  public:
   ScanPreparation(const Eigen::Isometry3d& T_body_velo, const LidarParameters& parameters);

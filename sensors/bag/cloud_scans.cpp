@@ -11,14 +11,17 @@
 namespace maploop::sensors {
 namespace {
 
-// No scanner that is sold turns faster than 30 times a second: other patterns seem to.
+// Scanners turn at most 30 times a second; a pattern that seems to turn faster is another one.
 constexpr Duration least_turn = std::chrono::milliseconds(20);
 
 }  // namespace
 
 void CloudScans::add(TimedCloud& cloud) {
-  if (scanner_ != Scanner::turning) waiting_.push_back(cloud);
-  if (scanner_ == Scanner::other) return;
+  if (scanner_ == Scanner::other) {
+    waiting_.push_back(std::move(cloud));
+    return;
+  }
+  if (scanner_ == Scanner::not_known) waiting_.push_back(cloud);
   if (first_ == Time{}) first_ = *std::ranges::min_element(cloud.times);
   std::swap(cloud_, cloud);
   at_ = 0;

@@ -22,7 +22,7 @@ class CloudScans {
   // A turn that lasts longer than `max_turn` is none.
   explicit CloudScans(Duration max_turn) : max_turn_(max_turn), assembler_(max_turn) {}
 
-  // Takes a cloud with times; its buffers may be exchanged. Call next() until it returns false
+  // Takes a cloud with times; its buffers are taken. Call next() until it returns false
   // before the next cloud.
   void add(TimedCloud& cloud);
   // No cloud follows. Returns whether next() has clouds that waited.

@@ -45,8 +45,7 @@ struct TopicChoice {
 // Chooses a topic for each sensor of the recording at `path`. `given` has texts SENSOR=TOPIC; with
 // the topic "none" the sensor is not used. The rules, for what is not given:
 // - The LiDAR, the inertial unit, the receiver's fixes, observations and subframes are the only
-// topic of their type. The
-//   packets of a Velodyne scanner are taken where there are no clouds.
+//   topic of their type. The packets of a Velodyne scanner are taken where there are no clouds.
 // - The cameras are two topics of images whose names differ by left and right, or by 0 and 1, only.
 //   Where there are more such pairs, rectified ones are preferred to raw ones, and grey ones to
 //   colours.

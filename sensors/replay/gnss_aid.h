@@ -34,7 +34,7 @@ struct GnssErrors {
 // white_velocity, markov_time within 5 to 600 s, all log-uniform, and a share of steps of 0 to 5 %.
 // Positions are then off by 1.1 to 3.4 m an axis. The lower end is a data sheet's 1.5 m CEP under
 // open sky (u-blox M10: 1.3 m an axis), the upper end what PPP on one frequency leaves between high
-// houses (tools/simulate/FIGURES.md). The times are those of code multipath over 50 m of travel,
+// houses (tools/simulate/FIGURES.md). The times are those of code multipath over 50 m of travel
 // ([ppp] code_correlation_distance) and of reflections at an antenna at rest. Shares and sizes of
 // steps are assumed.
 GnssErrors errors_of(const GnssAidParameters& parameters);

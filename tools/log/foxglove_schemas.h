@@ -69,7 +69,8 @@ struct PoseInFrame {
   Pose pose;  // of the body
   // Foxglove has no place for these.
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, in the body's axes
-  // Of position (m) and rotation vector (rad) in the frame's axes; zero: it is not known.
+  // This is that of position (m) and rotation vector (rad) in the frame's axes. Zero means that it
+  // is not known.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 

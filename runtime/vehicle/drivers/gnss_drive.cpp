@@ -11,18 +11,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_observations(const fs::path& file) {
+ppp::FileKind kind_of(const fs::path& path) {
   std::error_code ignored;
-  return fs::is_regular_file(file, ignored) &&
-         ppp::kind_of_file(file) == ppp::FileKind::observation;
+  return fs::is_regular_file(path, ignored) ? ppp::kind_of_file(path) : ppp::FileKind::unknown;
+}
+
+bool is_observations(const fs::path& file) {
+  return kind_of(file) == ppp::FileKind::observation;
 }
 
 // A receiver's stream counts as its observations only if it is named: in a folder it can be that of
 // the satellites' messages.
 bool is_receivers_file(const fs::path& file) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(file, ignored)) return false;
-  const ppp::FileKind kind = ppp::kind_of_file(file);
+  const ppp::FileKind kind = kind_of(file);
   return kind == ppp::FileKind::observation || kind == ppp::FileKind::ubx ||
          kind == ppp::FileKind::rtcm3;
 }

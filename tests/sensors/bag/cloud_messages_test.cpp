@@ -112,7 +112,7 @@ TEST(CloudMessage, RefusesWhatDoesNotFit) {
               HasSubstr("rows of 4294967295 bytes"));
 }
 
-// What a driver of Livox's scanners sends: points of 19 bytes, padded to 20 in ROS 2.
+// A driver of Livox's scanners sends points of 19 bytes, which ROS 2 pads to 20.
 TEST(CloudMessage, OfLivoxIsReadInBothEncodings) {
   for (const std::string encoding : {"ros1", "cdr"}) {
     SCOPED_TRACE(encoding);

@@ -55,7 +55,7 @@ TEST(CloudScans, AreTurnsFromRearToRearWhereverTheCloudsBegin) {
   }
 }
 
-// What is true of the clouds of each scanner that does not turn clockwise.
+// Expects that each cloud is a scan, whose points keep their times.
 void expect_each_cloud(const std::vector<LidarScan>& scans, int clouds, std::size_t points) {
   ASSERT_EQ(scans.size(), static_cast<std::size_t>(clouds)) << "none is lost before it is known";
   for (std::size_t i = 0; i < scans.size(); ++i) {
