@@ -30,6 +30,7 @@ std::int64_t way_of(const Matcher& matcher, const MatchResult& r) {
 // Returns the way of each fix; 0 if there is none.
 std::vector<std::int64_t> ways(Matcher& matcher, const std::vector<VehicleFix>& fixes) {
   std::vector<std::int64_t> found;
+  found.reserve(fixes.size());
   for (const VehicleFix& fix : fixes) found.push_back(way_of(matcher, matcher.add(fix)));
   return found;
 }
@@ -297,10 +298,11 @@ TEST(Matcher, OnlyPositionsAreEnough) {
   auto fixes = drive({{-250, 0}, {0, 0}, {0, 250}}, 10.0, 1.0);
   for (VehicleFix& fix : fixes) fix.speed = fix.azimuth = unknown;
   const auto found = ways(matcher, fixes);
-  for (std::size_t i = 3; i < found.size(); ++i)
+  for (std::size_t i = 3; i < found.size(); ++i) {
     if (i < 23 || i > 28) {
       EXPECT_EQ(found[i], i < 25 ? 10 : 20) << i;
     }
+  }
 }
 
 TEST(Matcher, FixesThatCannotBeUsedAreRefusedWithAReasonAndChangeNothing) {
@@ -346,10 +348,11 @@ TEST(Matcher, TheRulesAloneFollowAStreetAndATurn) {
   parameters.paths = false;
   Matcher matcher(network, rules(), parameters);
   const auto found = ways(matcher, drive({{-250, 0}, {0, 0}, {0, 250}}, 10.0, 1.0));
-  for (std::size_t i = 4; i < found.size(); ++i)
+  for (std::size_t i = 4; i < found.size(); ++i) {
     if (i < 23 || i > 30) {
       EXPECT_EQ(found[i], i < 25 ? 10 : 20) << i;
     }
+  }
 }
 
 TEST(Matcher, GoesOnAfterLoadingAsIfNothingHadHappened) {

@@ -27,7 +27,7 @@ class ScanFolderTest : public ::testing::Test {
   }
   std::string error(const std::filesystem::path& stamps) const {
     try {
-      ScanFolder(folder_.path(), stamps);
+      const ScanFolder folder(folder_.path(), stamps);
       return "";
     } catch (const std::runtime_error& e) {
       return e.what();

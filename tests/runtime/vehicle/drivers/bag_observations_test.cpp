@@ -33,9 +33,10 @@ class BagObservations : public ::testing::Test {
     bytes_ = read_text(maploop::testing::real_data() / "gnss/parser_samples/F9T-L2-5min.ubx.gz",
                        std::size_t{1} << 30U);
     ppp::UbxFrames frames(bytes_);
-    for (ppp::UbxFrame frame; frames.next(frame);)
+    for (ppp::UbxFrame frame; frames.next(frame);) {
       if (frame.message_class == rxm && (frame.id == rawx || frame.id == sfrbx))
         frames_.push_back(frame);
+    }
     ASSERT_GT(frames_.size(), 250U);
     frames_.push_back({rxm, sfrbx, subframe_, 0});
   }

@@ -139,9 +139,10 @@ TEST(VehicleMapMatch, VisualOdometryIsAskedTooWithTheSameBitsInEachRun) {
 
 TEST(VehicleMapMatch, VisualOdometryThatContradictsTheStateIsNotAsked) {
   const Driven run = drive(with_map(with_visual_odometry(radians(20.0))));
-  for (const MapMatch& match : run.matches)
+  for (const MapMatch& match : run.matches) {
     for (std::size_t i = 0; i < match.candidate_count; ++i)
       ASSERT_NE(match.candidates[i].rules, RuleBase::along_visual) << match.sequence;
+  }
 }
 
 TEST(VehicleMapMatch, ASnapshotWithoutAMapIsRefusedWhereThereIsOne) {
