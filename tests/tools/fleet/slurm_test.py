@@ -5,6 +5,7 @@
 
 The rows must be those of the same catalogue without Slurm. Skipped without the packages of [slurm] and [fleet].
 """
+import contextlib
 import getpass
 import os
 import shutil
@@ -117,15 +118,14 @@ class Cluster:
 
     def lose(self, node):
         """Kills a node's daemon and the steps that it started, which have left its session."""
-        steps = self.ask("pgrep", "-f", "slurmstepd").split()
+        steps = [line.split(" ", 1) for line in self.ask("pgrep", "-af", "slurmstepd").splitlines()]
         daemon = self.daemons.pop(node)
         mine = {job for job, where in self.jobs() if where == node}
-        for step in steps:
-            words = Path(f"/proc/{step}/cmdline").read_bytes().decode().replace("\0", " ")
+        for step, words in steps:
             if any(f"[{job}." in words for job in mine):
-                for child in self.ask("pgrep", "-P", step).split():
-                    os.kill(int(child), signal.SIGKILL)
-                os.kill(int(step), signal.SIGKILL)
+                for process in (*self.ask("pgrep", "-P", step).split(), step):
+                    with contextlib.suppress(ProcessLookupError):  # it has ended meanwhile
+                        os.kill(int(process), signal.SIGKILL)
         os.killpg(daemon.pid, signal.SIGKILL)
         daemon.wait()
 
