@@ -69,7 +69,7 @@ class Replay {
         recording_(vehicle::open_recording(options.drive, config_, contents_)),
         end_(options.end > 0.0 ? recording_.first_stamp + from_seconds(options.end) : Time::max()),
         map_(vehicle::load_road_map(config_.map)),
-        faults_(options.faults, recording_.first_stamp),
+        faults_(options.faults, recording_.first_stamp, recording_.calibration.stereo.fx),
         output_(options, config_, "replay of " + drive_name(options)) {
     describe_car(config_, recording_.calibration);              // for the report and the snapshots
     config_.vehicle.imu.time.delay = config_.replay.imu_delay;  // as the recording was read
