@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "estimators/fusion/contradiction.h"
 #include "msgs/named_enum.h"
 
 namespace maploop::fusion {
@@ -119,6 +120,11 @@ struct FusionParameters {
   double gnss_lever_up = 0.0;               // m
   double gnss_lever_sigma = 0.2;            // m
 
+  // Lasting contradictions, for HEALTH alone (contradiction.h).
+  double doubt_memory = 10.0;  // s
+  double doubt_fix_gate = 20.0;
+  double doubt_motion_gate = 50.0;
+
   // Map feedback.
   double map_position_gate = 10.83;
   double map_azimuth_gate = 6.63;
@@ -160,6 +166,9 @@ struct FusionParameters {
   double recovery_speed_sigma = 5.0;      // m/s
   double recovery_rotation_sigma = 0.05;  // rad (3 deg)
 
+  double doubt_gate(Witness witness) const {
+    return witness <= Witness::fix_velocity ? doubt_fix_gate : doubt_motion_gate;
+  }
   bool uses_six_axes() const {
     const bool no_speed_sensor = !use_odometry_speed && !use_wheel_speed;
     return inertial_axes == InertialAxes::six ||

@@ -221,6 +221,15 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
       {"fix_hold", &P::fix_hold, 0.0, large, "s", expert,
        "Time after a fix for which odometry or wheels that contradict the speed are taken to be at "
        "fault, not the prediction."},
+      {"doubt_memory", &P::doubt_memory, 0.1, large, "s", expert,
+       "Time over which HEALTH looks for lasting contradictions between an aid and the rest."},
+      {"doubt_fix_gate", &P::doubt_fix_gate, tiny, large, "1", expert,
+       "Lasting contradiction of fixes beyond which HEALTH says so (chi-square, 2 degrees of "
+       "freedom, if errors were independent).",
+       doubt_choice},
+      {"doubt_motion_gate", &P::doubt_motion_gate, tiny, large, "1", expert,
+       "The same of odometry's lengths and turns, and of wheels (1 degree of freedom).",
+       doubt_choice},
       {"gnss_lever_forward", &P::gnss_lever_forward, -50.0, 50.0, "m", usual,
        "Position of the antenna from the body's origin, forward."},
       {"gnss_lever_left", &P::gnss_lever_left, -50.0, 50.0, "m", usual,

@@ -132,6 +132,9 @@ void write_json(const std::filesystem::path& file, const ReplayResult& r) {
          {"realtime", web::list(setting_columns, health.settings)},
          {"faults", web::list(fault_columns, r.faults)},
          {"channels", to_json(r.channels)}};
+  j["named"] = json::array();
+  for (const vehicle::Naming& naming : r.vehicle.named)
+    j["named"].push_back({{"what", naming.what}, {"at_s", to_seconds(naming.at - r.begin)}});
   add_scores(j, r);
   add_sensors(j, r.vehicle);
   for (const RefusalCount& refusal : health.refusals)

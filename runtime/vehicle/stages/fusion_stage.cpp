@@ -18,6 +18,9 @@ constexpr Duration furthest_behind = 5 * stages::fusion.period;
 // Memory taken beforehand; more, such as after a delay of the camera, is no error.
 constexpr std::size_t most_images_a_tick = 8;
 
+// The statistics that are judged have a memory of their own.
+constexpr Duration doubt_interval = std::chrono::seconds(1);
+
 // What does not speak against the sensor: the configuration has no use for the measurement, now or
 // at all, or it has it already.
 bool wanted(fusion::Reason reason) {
@@ -54,6 +57,10 @@ FusionStage::FusionStage(Rings& rings, fusion::GuardedFilter filter, Duration od
       gnss_use_(stages::fusion.name, "GNSS fixes", Watchdog::patience(stages::gnss)),
       wheel_use_(stages::fusion.name, "wheel speeds", Watchdog::patience(stages::imu)),
       odometry_use_(stages::fusion.name, "motions", Watchdog::patience(stages::odometry)),
+      imu_doubt_(stages::fusion.name, "inertial samples", doubt_interval, doubts),
+      gnss_doubt_(stages::fusion.name, "GNSS fixes", doubt_interval, doubts),
+      wheel_doubt_(stages::fusion.name, "wheel speeds", doubt_interval, doubts),
+      odometry_doubt_(stages::fusion.name, "motions", doubt_interval, doubts),
       camera_path_(paths::camera.name, paths::camera.deadline),
       imu_path_(paths::imu.name, paths::imu.deadline) {
   sent_states_.reserve(1);
@@ -69,11 +76,13 @@ FusionStage::FusionStage(Rings& rings, fusion::GuardedFilter filter, Duration od
       runtime::TraceSpan span(trace(), "gnss");
       span.step_flow(flow_of(fix));
       note(gnss_use_, fix, filter_.add(fix));
+      judge_fix(fix.available);
     });
   }
   GraphStage::take(intake_, rings::wheel_fusion, [this](const WheelSpeed& sample) {
     const runtime::TraceSpan span(trace(), "wheel");
     note(wheel_use_, sample, filter_.add(sample));
+    judge_wheel(sample.available);
   });
   for (const auto* motions :
        {&rings::lidar_fusion, &rings::stereo_fusion, &rings::odometry_fusion}) {
@@ -155,12 +164,54 @@ void FusionStage::take(const RelativeMotion& motion) {
   runtime::TraceSpan span(trace(), "odometry");
   span.step_flow(flow_of(motion));
   note(odometry_use_, motion, filter_.add(motion));
+  judge_motion(motion.available);
   if (motion.status == OdometryStatus::ok) odometry_taken_ = motion;
   std::optional<FusedState> state = filter_.aided().state_at(motion.stamp);
   if (!state) return;
   stamp(*state, motion.stamp, tick_ + spec().budget, images_++);
   image_states_.push(*state, stop_);
   sent_image_states_.push_back(*state);
+}
+
+#include <cstdio>
+#include <cstdlib>
+static void dbg(const fusion::Contradictions& all, Time t, const char* who) {  // TEMPORARY
+  static const bool on = std::getenv("DOUBT_DEBUG") != nullptr;
+  if (!on) return;
+  std::fprintf(stderr, "DBG %s %.2f", who, to_seconds(t.time_since_epoch()));
+  for (const auto& m : all.means) std::fprintf(stderr, " %.1f", m.statistic());
+  std::fprintf(stderr, "\n");
+}
+bool FusionStage::contradicts(const fusion::Contradictions& all, fusion::Witness witness) const {
+  return all.of(witness).statistic() > filter_.aided().parameters().doubt_gate(witness);
+}
+
+// Where odometry and the inertial unit contradict each other, a fix is no third witness.
+void FusionStage::judge_fix(Time available) {
+  using enum fusion::Witness;
+  const fusion::Contradictions all = filter_.aided().contradictions();
+  dbg(all, available, "fix");
+  const char* reason = nullptr;
+  if (contradicts(all, fix_position)) reason = "positions contradict the rest for seconds";
+  if (contradicts(all, fix_velocity)) reason = "velocities contradict the rest for seconds";
+  const bool others_agree = !contradicts(all, motion_length) && !contradicts(all, motion_turn);
+  gnss_doubt_.note(available, others_agree ? reason : nullptr);
+}
+
+void FusionStage::judge_wheel(Time available) {
+  const bool apart = contradicts(filter_.aided().contradictions(), fusion::Witness::wheel_speed);
+  wheel_doubt_.note(available, apart ? "speeds contradict the rest for seconds" : nullptr);
+}
+
+// A camera or a LiDAR that errs for long errs in length, too; a gyro does not.
+void FusionStage::judge_motion(Time available) {
+  using enum fusion::Witness;
+  const fusion::Contradictions all = filter_.aided().contradictions();
+  dbg(all, available, "mot");
+  const bool length = contradicts(all, motion_length);
+  const bool turn = !length && contradicts(all, motion_turn);
+  odometry_doubt_.note(available, length ? "lengths contradict the rest for seconds" : nullptr);
+  imu_doubt_.note(available, turn ? "turning contradicts odometry's for seconds" : nullptr);
 }
 
 void FusionStage::send(const FusedState& state, const std::stop_token& stop) {
