@@ -25,10 +25,12 @@ enum class Witness : std::uint8_t {
   count
 };
 
-// The mean over the last seconds of innovations in units of their own standard deviation.
-struct LastingMean {
+// Mean and scatter of innovations over the last seconds, in units of their own standard deviation.
+struct LastingError {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  double weight = 0.0;
+  double squares = 0.0;   // sum of the squared lengths
+  double count = 0.0;     // of innovations, each by its weight
+  double variance = 0.0;  // of each component of the sum
   Time stamp{};
 
   // `whitened` has the components that the aid has; a missing one is 0. A single outlier counts as
@@ -37,30 +39,36 @@ struct LastingMean {
     constexpr double most = 4.0;
     const double length = whitened.norm();
     if (length > most) whitened *= most / length;
-    const double kept = weight > 0.0 ? std::exp(-to_seconds(t - stamp) / memory) : 0.0;
+    const double kept = count > 0.0 ? std::exp(-to_seconds(t - stamp) / memory) : 0.0;
     sum = kept * sum + whitened;  // (37) of METHOD.md
-    weight = kept * kept * weight + 1.0;
+    variance = kept * kept * variance + 1.0;
+    squares = kept * squares + whitened.squaredNorm();
+    count = kept * count + 1.0;
     stamp = t;
   }
-  // Chi-square distributed, with a degree of freedom for each component, if the aid agrees.
-  double statistic() const { return weight > 0.0 ? sum.squaredNorm() / weight : 0.0; }
+  // Chi-square distributed, with a degree of freedom for each component, if the innovations are
+  // white.
+  double mean() const { return variance > 0.0 ? sum.squaredNorm() / variance : 0.0; }
+  // The mean of the squared lengths: 1 for each component if the covariance is right. 0 before
+  // there are a few.
+  double scatter() const { return count > 4.0 ? squares / count : 0.0; }
 };
 
 template <class Archive>
-void archive(Archive& ar, LastingMean& m) {
-  ar(m.sum, m.weight, m.stamp);
+void archive(Archive& ar, LastingError& e) {
+  ar(e.sum, e.squares, e.count, e.variance, e.stamp);
 }
 
 struct Contradictions {
-  std::array<LastingMean, static_cast<std::size_t>(Witness::count)> means;
+  std::array<LastingError, static_cast<std::size_t>(Witness::count)> errors;
 
-  LastingMean& of(Witness w) { return means[static_cast<std::size_t>(w)]; }
-  const LastingMean& of(Witness w) const { return means[static_cast<std::size_t>(w)]; }
+  LastingError& of(Witness w) { return errors[static_cast<std::size_t>(w)]; }
+  const LastingError& of(Witness w) const { return errors[static_cast<std::size_t>(w)]; }
 };
 
 template <class Archive>
 void archive(Archive& ar, Contradictions& c) {
-  ar(c.means);
+  ar(c.errors);
 }
 
 }  // namespace maploop::fusion

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 
-#include "estimators/fusion/contradiction.h"
 #include "msgs/named_enum.h"
 
 namespace maploop::fusion {
@@ -122,8 +121,9 @@ struct FusionParameters {
 
   // Lasting contradictions, for HEALTH alone (contradiction.h).
   double doubt_memory = 10.0;  // s
-  double doubt_fix_gate = 20.0;
-  double doubt_motion_gate = 50.0;
+  double doubt_gate = 25.0;
+  double doubt_motion_gate = 15.0;
+  double doubt_scatter = 3.0;
 
   // Map feedback.
   double map_position_gate = 10.83;
@@ -166,9 +166,6 @@ struct FusionParameters {
   double recovery_speed_sigma = 5.0;      // m/s
   double recovery_rotation_sigma = 0.05;  // rad (3 deg)
 
-  double doubt_gate(Witness witness) const {
-    return witness <= Witness::fix_velocity ? doubt_fix_gate : doubt_motion_gate;
-  }
   bool uses_six_axes() const {
     const bool no_speed_sensor = !use_odometry_speed && !use_wheel_speed;
     return inertial_axes == InertialAxes::six ||

@@ -81,6 +81,12 @@ def azimuth_beyond(output):
     return output["navigation"]["azimuth_beyond_3_sigma_s"]
 
 
+@metric("s")
+def unsaid(output):
+    """Longest time of either before HEALTH named anything."""
+    return output["navigation"]["unsaid_s"]
+
+
 # What HEALTH may say of a fault of each sensor.
 SAID_OF = {"camera": ("camera", "image pairs", "motions"), "velodyne": ("velodyne", "scans", "motions"),
            "imu": ("imu", "inertial samples"), "gyro": ("imu", "inertial samples"),

@@ -93,7 +93,8 @@ void NavTrack::add(const NavState& state) {
 }
 
 std::optional<Score> score(const NavTrack& track, const std::vector<ReferencePose>& reference,
-                           const std::vector<vehicle::GnssOutage>& outages, Time origin) {
+                           const std::vector<vehicle::GnssOutage>& outages, Time origin,
+                           Time named) {
   if (reference.size() < 2 || track.states().empty()) return std::nullopt;
   const sensors::ReferenceTrajectory truth(reference, LocalFrame(track.states().front().origin));
 
@@ -130,6 +131,8 @@ std::optional<Score> score(const NavTrack& track, const std::vector<ReferencePos
   result.reference_accuracy = median_accuracy(samples);
   result.whole =
       errors_between(samples, Time::min(), Time::max(), static_cast<double>(track.states().size()));
+  const Errors before = errors_between(samples, Time::min(), named, 0.0);
+  result.unsaid = std::max(before.beyond, before.azimuth_beyond);
   const Time last = samples.back().stamp;
   for (const vehicle::GnssOutage& o : outages) {
     const Time end = std::min(o.end, last);

@@ -58,12 +58,15 @@ struct Score {
   double reference_accuracy = 0.0;  // m, median of what the reference says where it is scored
   Errors whole;
   std::vector<OutageErrors> outages;  // those that lie in the drive
+  // Longest time for which position or azimuth was beyond three sigmas before anything was named.
+  double unsaid = 0.0;  // s
 };
 
 // Nothing where the track or the reference is too short. A reference that is nowhere better than
-// worst_reference is taken as it is.
+// worst_reference is taken as it is. `named` is when HEALTH first said that something was wrong.
 std::optional<Score> score(const NavTrack& track, const std::vector<ReferencePose>& reference,
-                           const std::vector<vehicle::GnssOutage>& outages, Time origin);
+                           const std::vector<vehicle::GnssOutage>& outages, Time origin,
+                           Time named = Time::max());
 
 // Some lines for a terminal.
 std::string to_text(const Score& score);

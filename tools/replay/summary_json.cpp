@@ -12,6 +12,7 @@ using nlohmann::json;
 json to_json(const fusion_score::Score& s) {
   json j = web::to_json(error_columns, s.whole);
   j["reference_accuracy_m"] = s.reference_accuracy;
+  j["unsaid_s"] = s.unsaid;
   j["outages"] = json::array();
   for (const fusion_score::OutageErrors& o : s.outages) {
     json& one = j["outages"].emplace_back(web::to_json(error_columns, o.errors));

@@ -44,8 +44,8 @@ std::string UseWatch::sentence(Time origin) {
   const std::string from = seconds(last.begin - origin);
   const bool goes_on = received_.goes_on;
   return fmt::format(
-      "{} {} {} of {}{} {} {}{}: {}", stage_, goes_on ? verb_.now : verb_.then, last.wrong,
-      goes_on ? "the last " : "", last.all, what_,
+      "{} {} {} of {}{} {} {}{}: {}", stage_, goes_on ? judgement_.now : judgement_.then,
+      last.wrong, goes_on ? "the last " : "", last.all, what_,
       goes_on ? "since " + from : "from " + from + " to " + seconds(last.end - origin),
       before(received_), last.reason);
 }
@@ -53,7 +53,7 @@ std::string UseWatch::sentence(Time origin) {
 std::optional<Naming> UseWatch::naming() {
   if (const Episodes* news = published_.latest()) received_ = *news;
   if (received_.named == Time{}) return std::nullopt;
-  return Naming{fmt::format("{} {} {}", stage_, verb_.now, what_), received_.named};
+  return Naming{fmt::format("{} {} {}", stage_, judgement_.now, what_), received_.named};
 }
 
 std::string outage_sentence(std::string_view sensor, const Episodes& outages, Time origin) {

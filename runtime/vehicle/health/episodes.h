@@ -98,12 +98,15 @@ class ArrivalWatch {
   Episodes received_;  // owned by the reader's thread
 };
 
-// The words for what an estimator does with samples: "STAGE refuses N of M WHAT".
-struct Verb {
+// The words for what an estimator does with samples, "STAGE refuses N of M WHAT", and how many
+// samples a judgement needs at least.
+struct Judgement {
   std::string_view now = "refuses";
   std::string_view then = "refused";
+  std::uint64_t fewest = 3;
 };
-inline constexpr Verb doubts{"doubts", "doubted"};
+// What is judged by a memory of its own needs no more samples.
+inline constexpr Judgement doubts{"doubts", "doubted", 1};
 
 // When HEALTH could name a sensor, or what an estimator makes of it, for the first time.
 struct Naming {
@@ -117,15 +120,16 @@ struct Naming {
 class UseWatch {
  public:
   // `stage` and `what` are the words of "STAGE refuses N of M WHAT", and must outlive the watch. A
-  // judgement covers at least `interval` of data time and at least three samples.
-  UseWatch(std::string_view stage, std::string_view what, Duration interval, Verb verb = {})
-      : stage_(stage), what_(what), interval_(interval), verb_(verb) {}
+  // judgement covers at least `interval` of data time and at least `fewest` samples.
+  UseWatch(std::string_view stage, std::string_view what, Duration interval,
+           Judgement judgement = {})
+      : stage_(stage), what_(what), interval_(interval), judgement_(judgement) {}
 
   // `refused_for` is the reason of a refusal as a string literal, or nullptr if the sample was
   // used.
   void note(Time t, const char* refused_for) {
     if (all_ == 0) begin_ = t;
-    if (t - begin_ >= interval_ && all_ >= fewest) judge(t);
+    if (t - begin_ >= interval_ && all_ >= judgement_.fewest) judge(t);
     ++all_;
     if (refused_for != nullptr) count(refused_for);
   }
@@ -139,7 +143,6 @@ class UseWatch {
   std::optional<Naming> naming();
 
  private:
-  static constexpr std::uint64_t fewest = 3;
   struct Tally {
     const char* reason = nullptr;
     std::uint64_t count = 0;
@@ -157,7 +160,7 @@ class UseWatch {
   std::string_view stage_;
   std::string_view what_;
   Duration interval_;
-  Verb verb_;
+  Judgement judgement_;
   // The estimator's thread owns these counts of the current interval, and refusals_.
   Time begin_{};
   std::uint64_t all_ = 0;

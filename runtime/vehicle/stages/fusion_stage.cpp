@@ -1,5 +1,6 @@
 #include "runtime/vehicle/stages/fusion_stage.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -82,7 +83,7 @@ FusionStage::FusionStage(Rings& rings, fusion::GuardedFilter filter, Duration od
   GraphStage::take(intake_, rings::wheel_fusion, [this](const WheelSpeed& sample) {
     const runtime::TraceSpan span(trace(), "wheel");
     note(wheel_use_, sample, filter_.add(sample));
-    judge_wheel(sample.available);
+    wheel_doubt_.note(sample.available, doubt_of(fusion::Witness::wheel_speed, 1));
   });
   for (const auto* motions :
        {&rings::lidar_fusion, &rings::stereo_fusion, &rings::odometry_fusion}) {
@@ -179,39 +180,44 @@ static void dbg(const fusion::Contradictions& all, Time t, const char* who) {  /
   static const bool on = std::getenv("DOUBT_DEBUG") != nullptr;
   if (!on) return;
   std::fprintf(stderr, "DBG %s %.2f", who, to_seconds(t.time_since_epoch()));
-  for (const auto& m : all.means) std::fprintf(stderr, " %.1f", m.statistic());
+  for (const auto& m : all.errors) std::fprintf(stderr, " %.1f", m.mean());
+  for (const auto& m : all.errors) std::fprintf(stderr, " %.2f", m.scatter());
   std::fprintf(stderr, "\n");
 }
-bool FusionStage::contradicts(const fusion::Contradictions& all, fusion::Witness witness) const {
-  return all.of(witness).statistic() > filter_.aided().parameters().doubt_gate(witness);
+// Returns what is wrong with the fixes or the wheels, or nullptr.
+const char* FusionStage::doubt_of(fusion::Witness witness, int components) const {
+  const fusion::LastingError& error = filter_.aided().contradictions().of(witness);
+  const fusion::FusionParameters& p = filter_.aided().parameters();
+  if (error.scatter() > components * p.doubt_scatter)
+    return "they scatter more than they say of themselves";
+  if (error.mean() > p.doubt_gate) return "they have contradicted the rest for seconds";
+  return nullptr;
+}
+
+// An odometry that is wrong errs by much, so its motions scatter; where they err by a little, all
+// in one direction, it is the inertial unit.
+void FusionStage::judge_motion(Time available) {
+  using enum fusion::Witness;
+  const fusion::FusionParameters& p = filter_.aided().parameters();
+  const fusion::LastingError& length = filter_.aided().contradictions().of(motion_length);
+  const fusion::LastingError& turn = filter_.aided().contradictions().of(motion_turn);
+  dbg(filter_.aided().contradictions(), available, "mot");
+  const bool scatter = std::max(length.scatter(), turn.scatter()) > p.doubt_scatter;
+  const bool apart = std::max(length.mean(), turn.mean()) > p.doubt_motion_gate;
+  odometry_doubt_.note(available,
+                       scatter ? "they scatter more than they say of themselves" : nullptr);
+  imu_doubt_.note(available,
+                  apart && !scatter ? "they have contradicted odometry for seconds" : nullptr);
+  others_agree_ = !scatter && !apart;
 }
 
 // Where odometry and the inertial unit contradict each other, a fix is no third witness.
 void FusionStage::judge_fix(Time available) {
   using enum fusion::Witness;
-  const fusion::Contradictions all = filter_.aided().contradictions();
-  dbg(all, available, "fix");
-  const char* reason = nullptr;
-  if (contradicts(all, fix_position)) reason = "positions contradict the rest for seconds";
-  if (contradicts(all, fix_velocity)) reason = "velocities contradict the rest for seconds";
-  const bool others_agree = !contradicts(all, motion_length) && !contradicts(all, motion_turn);
-  gnss_doubt_.note(available, others_agree ? reason : nullptr);
-}
-
-void FusionStage::judge_wheel(Time available) {
-  const bool apart = contradicts(filter_.aided().contradictions(), fusion::Witness::wheel_speed);
-  wheel_doubt_.note(available, apart ? "speeds contradict the rest for seconds" : nullptr);
-}
-
-// A camera or a LiDAR that errs for long errs in length, too; a gyro does not.
-void FusionStage::judge_motion(Time available) {
-  using enum fusion::Witness;
-  const fusion::Contradictions all = filter_.aided().contradictions();
-  dbg(all, available, "mot");
-  const bool length = contradicts(all, motion_length);
-  const bool turn = !length && contradicts(all, motion_turn);
-  odometry_doubt_.note(available, length ? "lengths contradict the rest for seconds" : nullptr);
-  imu_doubt_.note(available, turn ? "turning contradicts odometry's for seconds" : nullptr);
+  dbg(filter_.aided().contradictions(), available, "fix");
+  const char* position = doubt_of(fix_position, 2);
+  const char* doubt = position != nullptr ? position : doubt_of(fix_velocity, 2);
+  gnss_doubt_.note(available, others_agree_ ? doubt : nullptr);
 }
 
 void FusionStage::send(const FusedState& state, const std::stop_token& stop) {

@@ -60,11 +60,10 @@ class FusionStage final : public GraphStage {
  private:
   bool tick(const runtime::Tick& tick, runtime::DataClock& clock, const std::stop_token& stop);
   void take(const RelativeMotion& motion);
-  // Looks for lasting contradictions after a fix, a wheel speed or a motion has been added.
+  // Look for lasting contradictions after a fix or a motion has been added.
   void judge_fix(Time available);
-  void judge_wheel(Time available);
   void judge_motion(Time available);
-  bool contradicts(const fusion::Contradictions& all, fusion::Witness witness) const;
+  const char* doubt_of(fusion::Witness witness, int components) const;
   void send(const FusedState& state, const std::stop_token& stop);
   void save_until(Time t, const std::stop_token& stop);
   void load(ArchiveReader& ar) override { archive(ar); }
@@ -96,6 +95,7 @@ class FusionStage final : public GraphStage {
   UseWatch gnss_doubt_;
   UseWatch wheel_doubt_;
   UseWatch odometry_doubt_;
+  bool others_agree_ = true;  // odometry and the inertial unit
   Meter camera_path_;
   Meter imu_path_;
   runtime::LatestValue<FilterReport> filter_reports_;

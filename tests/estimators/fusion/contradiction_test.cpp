@@ -24,49 +24,66 @@ constexpr double memory = 10.0;  // s
 double largest(double mean) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
-  LastingMean lasting;
+  LastingError lasting;
   double most = 0.0;
   for (int i = 0; i < 10'000; ++i) {
     lasting.add({normal(random) + mean, 0.0}, start + i * milliseconds(100), memory);
-    most = std::max(most, lasting.statistic());
+    most = std::max(most, lasting.mean());
   }
   return most;
 }
 
-TEST(LastingMean, IsChiSquareOfInnovationsWithoutAMean) {
+TEST(LastingError, IsChiSquareOfInnovationsWithoutAMean) {
   EXPECT_LT(largest(0.0), 16.0) << "a tail of 6e-5, and about 100 independent values";
 }
 
-TEST(LastingMean, GrowsWhereEveryInnovationIsALittleWrong) {
+TEST(LastingError, GrowsWhereEveryInnovationIsALittleWrong) {
   EXPECT_GT(largest(0.7), 50.0) << "0.49 of each of 200 samples";
 }
 
-TEST(LastingMean, ForgetsWithItsMemory) {
-  LastingMean lasting;
-  for (int i = 0; i < 100; ++i)
-    lasting.add({2.0, 0.0}, start + i * milliseconds(100), memory);
-  EXPECT_GT(lasting.statistic(), 200.0);
-  for (int i = 100; i < 1100; ++i)
-    lasting.add({0.0, 0.0}, start + i * milliseconds(100), memory);
-  EXPECT_LT(lasting.statistic(), 1e-3);
+TEST(LastingError, ForgetsWithItsMemory) {
+  LastingError lasting;
+  for (int i = 0; i < 100; ++i) lasting.add({2.0, 0.0}, start + i * milliseconds(100), memory);
+  EXPECT_GT(lasting.mean(), 200.0);
+  for (int i = 100; i < 1100; ++i) lasting.add({0.0, 0.0}, start + i * milliseconds(100), memory);
+  EXPECT_LT(lasting.mean(), 1e-3);
 }
 
-TEST(LastingMean, OneOutlierIsNotLasting) {
-  LastingMean lasting;
+TEST(LastingError, OneOutlierIsNotLasting) {
+  LastingError lasting;
   for (int i = 0; i < 100; ++i)
     lasting.add({i == 50 ? 1e9 : 0.0, 0.0}, start + i * milliseconds(100), memory);
-  EXPECT_LT(lasting.statistic(), 1.0);
+  EXPECT_LT(lasting.mean(), 1.0);
 }
 
-TEST(LastingMean, OppositeErrorsOfTwoAxesDoNotCancel) {
-  LastingMean lasting;
-  for (int i = 0; i < 20; ++i)
-    lasting.add({1.5, -1.5}, start + i * milliseconds(1000), memory);
-  EXPECT_GT(lasting.statistic(), 50.0);
+TEST(LastingError, OppositeErrorsOfTwoAxesDoNotCancel) {
+  LastingError lasting;
+  for (int i = 0; i < 20; ++i) lasting.add({1.5, -1.5}, start + i * milliseconds(1000), memory);
+  EXPECT_GT(lasting.mean(), 50.0);
 }
 
-TEST(LastingMean, BeforeTheFirstSampleNothingContradicts) {
-  EXPECT_EQ(LastingMean{}.statistic(), 0.0);
+TEST(LastingError, NoiseThatIsLargerThanItsCovarianceScatters) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  LastingError honest, noisy;
+  for (int i = 0; i < 1000; ++i) {
+    const Eigen::Vector2d u(normal(random), normal(random));
+    honest.add(u, start + i * milliseconds(100), memory);
+    noisy.add(3.0 * u, start + i * milliseconds(100), memory);
+  }
+  EXPECT_NEAR(honest.scatter(), 2.0, 0.5);
+  EXPECT_GT(noisy.scatter(), 6.0);
+  EXPECT_LT(noisy.mean(), 30.0);
+}
+
+TEST(LastingError, AFewInnovationsAreNoScatter) {
+  LastingError error;
+  for (int i = 0; i < 4; ++i) error.add({4.0, 0.0}, start + i * milliseconds(100), memory);
+  EXPECT_EQ(error.scatter(), 0.0);
+}
+
+TEST(LastingError, BeforeTheFirstSampleNothingContradicts) {
+  EXPECT_EQ(LastingError{}.mean(), 0.0);
 }
 
 using namespace maploop::testing;
@@ -92,7 +109,9 @@ class LittleLie : public ::testing::Test {
     std::vector<Witness> those;
     for (int i = 0; i < static_cast<int>(Witness::count); ++i) {
       const auto witness = static_cast<Witness>(i);
-      if (filter.contradictions().of(witness).statistic() > parameters.doubt_gate(witness))
+      const bool motion = witness == Witness::motion_length || witness == Witness::motion_turn;
+      if (filter.contradictions().of(witness).mean() >
+          (motion ? parameters.doubt_motion_gate : parameters.doubt_gate))
         those.push_back(witness);
     }
     return those;

@@ -103,6 +103,14 @@ TEST(FusionScore, TheLongestTimeBeyondThreeSigmasIsInOneGo) {
   EXPECT_NEAR(score->whole.beyond, 9.9, 1e-9);
   EXPECT_NEAR(score->whole.nees_max, 25.0 / 1.04, 1e-3);
   EXPECT_EQ(score->whole.azimuth_beyond, 0.0);
+  EXPECT_NEAR(score->unsaid, 9.9, 1e-9);
+}
+
+TEST(FusionScore, WhatWasNamedIsNotUnsaidAnyMore) {
+  const auto named = score(track(), reference(0.2), {}, start, start + from_seconds(4.0));
+  ASSERT_TRUE(named);
+  EXPECT_NEAR(named->unsaid, 3.9, 1e-9);
+  EXPECT_NEAR(named->whole.beyond, 9.9, 1e-9);
 }
 
 }  // namespace
