@@ -174,16 +174,6 @@ void FusionStage::take(const RelativeMotion& motion) {
   sent_image_states_.push_back(*state);
 }
 
-#include <cstdio>
-#include <cstdlib>
-static void dbg(const fusion::Contradictions& all, Time t, const char* who) {  // TEMPORARY
-  static const bool on = std::getenv("DOUBT_DEBUG") != nullptr;
-  if (!on) return;
-  std::fprintf(stderr, "DBG %s %.2f", who, to_seconds(t.time_since_epoch()));
-  for (const auto& m : all.errors) std::fprintf(stderr, " %.1f", m.mean());
-  for (const auto& m : all.errors) std::fprintf(stderr, " %.2f", m.scatter());
-  std::fprintf(stderr, "\n");
-}
 // Returns what is wrong with the fixes or the wheels, or nullptr.
 const char* FusionStage::doubt_of(fusion::Witness witness, int components) const {
   const fusion::LastingError& error = filter_.aided().contradictions().of(witness);
@@ -201,7 +191,6 @@ void FusionStage::judge_motion(Time available) {
   const fusion::FusionParameters& p = filter_.aided().parameters();
   const fusion::LastingError& length = filter_.aided().contradictions().of(motion_length);
   const fusion::LastingError& turn = filter_.aided().contradictions().of(motion_turn);
-  dbg(filter_.aided().contradictions(), available, "mot");
   const bool scatter = std::max(length.scatter(), turn.scatter()) > p.doubt_scatter;
   const bool apart = std::max(length.mean(), turn.mean()) > p.doubt_motion_gate;
   odometry_doubt_.note(available,
@@ -214,7 +203,6 @@ void FusionStage::judge_motion(Time available) {
 // Where odometry and the inertial unit contradict each other, a fix is no third witness.
 void FusionStage::judge_fix(Time available) {
   using enum fusion::Witness;
-  dbg(filter_.aided().contradictions(), available, "fix");
   const char* position = doubt_of(fix_position, 2);
   const char* doubt = position != nullptr ? position : doubt_of(fix_velocity, 2);
   gnss_doubt_.note(available, others_agree_ ? doubt : nullptr);
