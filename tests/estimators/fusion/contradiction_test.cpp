@@ -146,9 +146,12 @@ TEST_F(LittleLie, SensorsThatAgreeContradictNothing) {
   EXPECT_TRUE(contradicting().empty());
 }
 
-TEST_F(LittleLie, OfAGyroThatGetsABiasShowsInTheTurningAlone) {
+TEST_F(LittleLie, OfAGyroThatGetsABiasShowsInTheTurningAndNotInTheLength) {
   for (ImuSample& s : imu_) s.yaw_rate += lies(s) ? radians(0.5) : 0.0;
-  EXPECT_EQ(contradicting(), std::vector{Witness::motion_turn});
+  const auto those = contradicting();
+  const auto has = [&](Witness w) { return std::count(those.begin(), those.end(), w) > 0; };
+  EXPECT_TRUE(has(Witness::motion_turn));
+  EXPECT_FALSE(has(Witness::motion_length));
 }
 
 TEST_F(LittleLie, OfAReceiverThatIsPulledAwayShowsInItsFixesAlone) {
