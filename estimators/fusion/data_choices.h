@@ -26,6 +26,10 @@ inline constexpr DataChoice six_axes_choice{
     "five drives of the car in Oakville (1, 3, 5, 7, 9)",
     "outages of 10, 30 and 60 s, whose median error changes by a third within a factor of two",
     "none; outages are scored on the other five"};
+inline constexpr DataChoice doubt_choice{
+    "simulated towns 1 to 3, KITTI 00, 02, 03, 04 and five drives of the car in Oakville",
+    "above what sensors without a fault reach, but for one parking lot",
+    "none; the fault matrix is scored on town 13 and drive 0013"};
 inline constexpr DataChoice overconfidence_choice{
     "KITTI odometry sequences, 60 s without GNSS", "mean NEES of 2.9 to 4 where 2 is expected",
     "the map in the loop, also on wrong maps, on KITTI"};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "estimators/fusion/contradiction.h"
 #include "msgs/frames.h"
 #include "msgs/time.h"
 
@@ -153,6 +154,7 @@ struct FilterState {
   double yaw_rate = 0.0;        // rad/s, measured by the gyro at this time
   double clone_yaw_rate = 0.0;  // rad/s, measured by the gyro at the time of the clone
   DelayEstimate imu_delay;
+  Contradictions contradictions;
 
   double ground_speed() const { return x[index::speed] / (1.0 + x[index::speed_scale]); }
   Attitude attitude() const { return {x[index::azimuth], x[index::pitch], x[index::roll]}; }
@@ -177,7 +179,7 @@ void archive(Archive& ar, FilterState& s) {
      s.odometry_applied, s.odometry_refused, s.gated_in_a_row, s.gnss_gated_in_a_row,
      s.velocity_gated_in_a_row, s.wheel_gated_in_a_row, s.map_gated_in_a_row, s.recoveries,
      s.reinitializations, s.chained_azimuth, s.stillness, s.imu_repeated, s.yaw_rate,
-     s.clone_yaw_rate, s.imu_delay);
+     s.clone_yaw_rate, s.imu_delay, s.contradictions);
 }
 
 // Returns the unit vector in enu at an azimuth and an elevation (rad).

@@ -119,6 +119,12 @@ struct FusionParameters {
   double gnss_lever_up = 0.0;               // m
   double gnss_lever_sigma = 0.2;            // m
 
+  // Lasting contradictions, for HEALTH alone (contradiction.h).
+  double doubt_memory = 10.0;  // s
+  double doubt_gate = 25.0;
+  double doubt_motion_gate = 15.0;
+  double doubt_scatter = 3.0;
+
   // Map feedback.
   double map_position_gate = 10.83;
   double map_azimuth_gate = 6.63;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "estimators/fusion/fix_error.h"
+#include "estimators/fusion/follow_innovation.h"
 #include "estimators/fusion/initial_state.h"
 #include "estimators/fusion/swing.h"
 
@@ -107,6 +108,7 @@ Outcome apply_gnss_position(FilterState& state, const GnssFix& fix, const LocalF
     return apply_gated(state, position_innovation(state, fix, frame, p), p.gnss_position_gate,
                        Reason::position_gate);
   };
+  follow(state, Witness::fix_position, position_innovation(state, fix, frame, p), p);
   Outcome outcome = correct();
   if (outcome.refused()) {
     ++state.gnss_gated_in_a_row;
@@ -133,6 +135,7 @@ Outcome apply_gnss_velocity(FilterState& state, const GnssFix& fix, double yaw_r
     return apply_gated(state, velocity_innovation(state, fix, yaw_rate, p), p.gnss_velocity_gate,
                        Reason::velocity_gate);
   };
+  follow(state, Witness::fix_velocity, velocity_innovation(state, fix, yaw_rate, p), p);
   Outcome outcome = correct();
   if (outcome.refused() && ++state.velocity_gated_in_a_row == p.gnss_recover_after) {
     doubt_with_clone(state, index::azimuth, p.gnss_recovery_course_sigma);

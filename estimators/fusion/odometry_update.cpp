@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "estimators/fusion/follow_innovation.h"
 #include "estimators/fusion/gnss_update.h"
 #include "estimators/fusion/odometry_innovation.h"
 
@@ -182,6 +183,9 @@ Outcome apply_odometry(FilterState& state, const RelativeMotion& motion,
   } else if (state.clone_stamp != motion.from) {
     outcome = refused(Reason::interval_unknown);
   } else {
+    const Innovation<6> rows = motion_innovation(state, motion, parameters);
+    follow(state, Witness::motion_length, rows.part<1>(0), parameters);
+    follow(state, Witness::motion_turn, rows.part<1>(5), parameters);
     outcome = correct(state, motion, parameters);
     if (!outcome.refused()) {
       state.gated_in_a_row = 0;

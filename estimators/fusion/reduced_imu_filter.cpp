@@ -198,7 +198,7 @@ void ReducedImuFilter::take_over(const ReducedImuFilter& other) {
 
 template <class Archive, class Filter>
 void ReducedImuFilter::describe(Archive& ar, Filter& f) {
-  ar.section("reduced-IMU filter", 6);
+  ar.section("reduced-IMU filter", 7);
   archive_same_parameters(ar, f.parameters_);
   Geodetic origin = f.frame_.origin();
   ar(f.remembered_, f.has_origin_, origin, f.guard_, f.imu_clock_, f.history_, f.started_from_,

@@ -99,6 +99,8 @@ class ReducedImuFilter {
   // default frame.
   const LocalFrame& frame() const { return frame_; }
   FilterStatus status() const;
+  const Contradictions& contradictions() const { return newest_state().contradictions; }
+  const FusionParameters& parameters() const { return parameters_; }
   // Returns what the filter has estimated of the vehicle; each sigma is 0 before the start.
   SelfCalibrations calibration() const;
 

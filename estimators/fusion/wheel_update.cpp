@@ -1,5 +1,7 @@
 #include "estimators/fusion/wheel_update.h"
 
+#include "estimators/fusion/follow_innovation.h"
+
 #include "estimators/fusion/gnss_update.h"
 
 namespace maploop::fusion {
@@ -18,6 +20,7 @@ Outcome apply_wheel(FilterState& state, const WheelSpeed& sample, const FusionPa
   const auto correct = [&] {
     return apply_gated(state, wheel_innovation(state, sample, p), p.speed_gate, Reason::wheel_gate);
   };
+  follow(state, Witness::wheel_speed, wheel_innovation(state, sample, p), p);
   Outcome outcome = correct();
   if (outcome.refused() && ++state.wheel_gated_in_a_row % p.recover_after == 0 &&
       !held_by_fix(state, p)) {

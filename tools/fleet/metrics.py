@@ -63,6 +63,56 @@ def nees(output):
     return output["navigation"]["nees_mean"]
 
 
+@metric("1")
+def nees_largest(output):
+    """Largest squared error of the position by its covariance."""
+    return output["navigation"]["nees_max"]
+
+
+@metric("s")
+def beyond(output):
+    """Longest time for which the position was wrong by more than 3 of its own sigmas."""
+    return output["navigation"]["beyond_3_sigma_s"]
+
+
+@metric("s")
+def azimuth_beyond(output):
+    """The same of the azimuth."""
+    return output["navigation"]["azimuth_beyond_3_sigma_s"]
+
+
+@metric("s")
+def unsaid(output):
+    """Longest time of either before HEALTH named anything."""
+    return output["navigation"]["unsaid_s"]
+
+
+# What HEALTH may say of a fault of each sensor.
+SAID_OF = {"camera": ("camera", "image pairs", "motions"), "velodyne": ("velodyne", "scans", "motions"),
+           "imu": ("imu", "inertial samples"), "gyro": ("imu", "inertial samples"),
+           "accelerometer": ("imu", "inertial samples"), "gnss": ("gnss", "GNSS fixes", "epochs"),
+           "wheel": ("wheel", "wheel speeds")}
+
+
+def namings(output, right):
+    """Seconds from the first fault on after which its own sensor was named, or (not `right`) another one."""
+    target, start = (output["faults"][0]["fault"].split("@")[1].split(",")[0].split(":") + ["0"])[:2]
+    return [each["at_s"] - float(start) for each in output["named"]
+            if each["what"].endswith(SAID_OF[target]) == right]
+
+
+@metric("s")
+def named_after(output):
+    """Time after which HEALTH named the sensor that is at fault."""
+    return min(namings(output, True))
+
+
+@metric("1")
+def named_others(output):
+    """How many others were named."""
+    return len(namings(output, False)) if output["faults"] else len(output["named"])
+
+
 @metric("%")
 def odom(output):
     """Error of the odom output over 100 m, one rotation removed."""

@@ -3,6 +3,7 @@
 
 #include "estimators/fusion/configuration.h"
 #include "runtime/vehicle/drivers/gnss_outage.h"
+#include "runtime/vehicle/faults/fault_rules.h"
 #include "tools/command/commands.h"
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
@@ -90,8 +91,9 @@ void add_replay(CLI::App& app, Command& command) {
          [&faults = options.faults](const std::vector<std::string>& texts) {
            for (const std::string& text : texts) faults.push_back(vehicle::parse_fault(text));
          },
-         "Inject KIND@TARGET[:START[:LENGTH]][,key=value...]; more than once for more faults "
-         "(tools/README.md: Faults)")
+         "Inject KIND@TARGET[:START[:LENGTH]][,key=value...]; more than once for more faults. "
+         "Kinds: " +
+             vehicle::fault_kinds() + " (runtime/vehicle/FAULTS.md)")
       ->allow_extra_args(false)
       ->check(parsed_by(vehicle::parse_fault, "FAULT"));
   sub->footer(

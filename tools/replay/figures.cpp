@@ -51,6 +51,9 @@ const web::Columns<Errors> error_columns{
     {"azimuth_end_deg", "", 6, 3, &Errors::azimuth_end},
     {"nees_mean", "NEES", 5, 1, &Errors::nees_mean},
     {"nees_end", "", 6, 1, &Errors::nees_end},
+    {"nees_max", "", 0, 0, &Errors::nees_max},
+    {"beyond_3_sigma_s", "beyond 3 sigma, s", 0, 0, &Errors::beyond},
+    {"azimuth_beyond_3_sigma_s", "", 0, 0, &Errors::azimuth_beyond},
     {"covered", "", 0, 0, &Errors::covered},
     {"", "covered, %", 0, 0, [](const Errors& e) { return 100.0 * e.covered; }},
 };

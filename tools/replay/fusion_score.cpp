@@ -22,6 +22,7 @@ struct Sample {
   bool has_course;
   double azimuth;  // rad, error
   double nees;
+  double azimuth_sigma;  // rad, of the state
   double accuracy;  // m, of the reference
 };
 
@@ -30,6 +31,23 @@ double median_accuracy(const std::vector<Sample>& samples) {
   values.reserve(samples.size());
   for (const Sample& s : samples) values.push_back(s.accuracy);
   return tools::median(values);
+}
+
+// The longest time for which all successive samples are bad. Two samples further apart than
+// `neighbours` are not successive.
+template <class Iterator, class Bad>
+double longest(Iterator first, Iterator last, Bad bad) {
+  constexpr Duration neighbours = std::chrono::milliseconds(500);
+  Duration most{};
+  Time since{};
+  for (auto s = first; s != last; ++s) {
+    const bool goes_on =
+        s != first && bad(*std::prev(s)) && s->stamp - std::prev(s)->stamp <= neighbours;
+    if (!bad(*s)) continue;
+    if (!goes_on) since = s->stamp;
+    most = std::max(most, s->stamp - since);
+  }
+  return to_seconds(most);
 }
 
 Errors errors_between(const std::vector<Sample>& samples, Time begin, Time end, double states) {
@@ -48,7 +66,13 @@ Errors errors_between(const std::vector<Sample>& samples, Time begin, Time end, 
     if (s->has_course) e.azimuth_rms += s->azimuth * s->azimuth / directed;
     e.nees_mean += s->nees / n;
     e.max = std::max(e.max, error);
+    e.nees_max = std::max(e.nees_max, s->nees);
   }
+  constexpr double three_sigmas = 11.83;  // chi-square, two degrees of freedom
+  e.beyond = longest(first, last, [](const Sample& s) { return s.nees > three_sigmas; });
+  e.azimuth_beyond = longest(first, last, [](const Sample& s) {
+    return s.has_course && std::abs(s.azimuth) > 3.0 * s.azimuth_sigma;
+  });
   e.rmse = std::sqrt(e.rmse);
   e.azimuth_rms = degrees(std::sqrt(e.azimuth_rms));
   e.azimuth_end = degrees(std::prev(last)->azimuth);
@@ -69,7 +93,8 @@ void NavTrack::add(const NavState& state) {
 }
 
 std::optional<Score> score(const NavTrack& track, const std::vector<ReferencePose>& reference,
-                           const std::vector<vehicle::GnssOutage>& outages, Time origin) {
+                           const std::vector<vehicle::GnssOutage>& outages, Time origin,
+                           Time named) {
   if (reference.size() < 2 || track.states().empty()) return std::nullopt;
   const sensors::ReferenceTrajectory truth(reference, LocalFrame(track.states().front().origin));
 
@@ -84,6 +109,7 @@ std::optional<Score> score(const NavTrack& track, const std::vector<ReferencePos
     s.has_course = state.status != NavStatus::without_course;
     s.azimuth =
         wrap_angle(state.attitude.azimuth - attitude_from_rotation(pose->rotation()).azimuth);
+    s.azimuth_sigma = std::sqrt(state.covariance(6, 6));
     s.accuracy = truth.accuracy(state.stamp);
     const Eigen::Matrix2d C = state.covariance.topLeftCorner<2, 2>() +
                               s.accuracy * s.accuracy * Eigen::Matrix2d::Identity();
@@ -105,6 +131,8 @@ std::optional<Score> score(const NavTrack& track, const std::vector<ReferencePos
   result.reference_accuracy = median_accuracy(samples);
   result.whole =
       errors_between(samples, Time::min(), Time::max(), static_cast<double>(track.states().size()));
+  const Errors before = errors_between(samples, Time::min(), named, 0.0);
+  result.unsaid = std::max(before.beyond, before.azimuth_beyond);
   const Time last = samples.back().stamp;
   for (const vehicle::GnssOutage& o : outages) {
     const Time end = std::min(o.end, last);

@@ -33,6 +33,11 @@ struct Errors {
   double azimuth_end = 0.0;  // deg
   double nees_mean = 0.0;
   double nees_end = 0.0;
+  double nees_max = 0.0;
+  // Longest time in one go in which the error was beyond three sigmas of the filter's own (position:
+  // a NEES beyond a tail of 0.27 %).
+  double beyond = 0.0;          // s
+  double azimuth_beyond = 0.0;  // s
   double covered = 0.0;  // 1, share of the stretch where there is a reference that is good enough
 
   // Of the way: the drift, and the root of the mean error squared.
@@ -53,12 +58,15 @@ struct Score {
   double reference_accuracy = 0.0;  // m, median of what the reference says where it is scored
   Errors whole;
   std::vector<OutageErrors> outages;  // those that lie in the drive
+  // Longest time for which position or azimuth was beyond three sigmas before anything was named.
+  double unsaid = 0.0;  // s
 };
 
 // Nothing where the track or the reference is too short. A reference that is nowhere better than
-// worst_reference is taken as it is.
+// worst_reference is taken as it is. `named` is when HEALTH first said that something was wrong.
 std::optional<Score> score(const NavTrack& track, const std::vector<ReferencePose>& reference,
-                           const std::vector<vehicle::GnssOutage>& outages, Time origin);
+                           const std::vector<vehicle::GnssOutage>& outages, Time origin,
+                           Time named = Time::max());
 
 // Some lines for a terminal.
 std::string to_text(const Score& score);

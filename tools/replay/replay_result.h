@@ -89,6 +89,7 @@ struct ReplayResult {
   std::map<std::string, vehicle::ChannelSummary> channels;
   std::optional<SnapshotResult> snapshot;
   std::vector<vehicle::FaultCount> faults;
+  Time begin{};  // of the drive
   std::optional<TraceSummary> trace;
   vehicle::VehicleReport vehicle;
 

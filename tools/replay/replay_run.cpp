@@ -69,7 +69,7 @@ class Replay {
         recording_(vehicle::open_recording(options.drive, config_, contents_)),
         end_(options.end > 0.0 ? recording_.first_stamp + from_seconds(options.end) : Time::max()),
         map_(vehicle::load_road_map(config_.map)),
-        faults_(options.faults, recording_.first_stamp),
+        faults_(options.faults, recording_.first_stamp, recording_.calibration.stereo.fx),
         output_(options, config_, "replay of " + drive_name(options)) {
     describe_car(config_, recording_.calibration);              // for the report and the snapshots
     config_.vehicle.imu.time.delay = config_.replay.imu_delay;  // as the recording was read
@@ -215,6 +215,7 @@ ReplayResult Replay::result(PlaybackEnd end, const std::vector<ReferencePose>& r
   result.interrupted = end == PlaybackEnd::interrupted;
   result.images = recording_.images;
   result.faults = faults_.counts();
+  result.begin = recording_.first_stamp;
   if (snapshot_taken_) {
     result.snapshot = {options_.snapshot->file.string(),
                        to_seconds(cut_ - player_->vehicle().first()),

@@ -156,6 +156,7 @@ ReplayResult RunOutput::result(const vehicle::Vehicle& vehicle, const RunPass& p
   result.configuration = config_.configuration;
   result.end = pass.end;
   result.vehicle = vehicle.report();
+  result.begin = vehicle.first();
   result.channels = pass.hashes.summary();
   if (!pass.ppp_states.empty()) result.ppp.emplace(pass.ppp_states);
   if (tracer_) {

@@ -123,8 +123,10 @@ void score(ReplayResult& result, const RunPass& pass, const vehicle::Recording& 
   result.lidar = accuracy(pass.lidar);
   result.fused = accuracy(pass.fused);
   result.odom = accuracy(pass.odom);
+  Time named = Time::max();
+  for (const vehicle::Naming& naming : result.vehicle.named) named = std::min(named, naming.at);
   result.navigation =
-      fusion_score::score(pass.track, reference, recording.outages, recording.first_stamp);
+      fusion_score::score(pass.track, reference, recording.outages, recording.first_stamp, named);
 }
 
 }  // namespace maploop::tools

@@ -12,6 +12,7 @@ using nlohmann::json;
 json to_json(const fusion_score::Score& s) {
   json j = web::to_json(error_columns, s.whole);
   j["reference_accuracy_m"] = s.reference_accuracy;
+  j["unsaid_s"] = s.unsaid;
   j["outages"] = json::array();
   for (const fusion_score::OutageErrors& o : s.outages) {
     json& one = j["outages"].emplace_back(web::to_json(error_columns, o.errors));
@@ -132,6 +133,9 @@ void write_json(const std::filesystem::path& file, const ReplayResult& r) {
          {"realtime", web::list(setting_columns, health.settings)},
          {"faults", web::list(fault_columns, r.faults)},
          {"channels", to_json(r.channels)}};
+  j["named"] = json::array();
+  for (const vehicle::Naming& naming : r.vehicle.named)
+    j["named"].push_back({{"what", naming.what}, {"at_s", to_seconds(naming.at - r.begin)}});
   add_scores(j, r);
   add_sensors(j, r.vehicle);
   for (const RefusalCount& refusal : health.refusals)

@@ -5,52 +5,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <stdexcept>
 #include <vector>
 
+#include "runtime/vehicle/faults/fault_rules.h"
 #include "sensors/number.h"
 
 namespace maploop::vehicle {
 namespace {
 
-constexpr std::array<std::string_view, 10> target_names{
-    "camera", "velodyne", "imu", "gnss", "stereo", "lidar", "ppp", "fusion", "mapmatch", "cpu"};
-
-using enum FaultTarget;
-constexpr std::array all_sensors{camera, velodyne, imu, gnss};
-constexpr std::array numeric_sensors{velodyne, imu, gnss};
-constexpr std::array row_sensors{imu, gnss};
-constexpr std::array only_camera{camera};
-constexpr std::array stages{stereo, lidar, ppp, fusion, mapmatch};
-constexpr std::array machine{cpu};
-
-constexpr double longest_drive = 1e6;  // s; far below the range of int64 nanoseconds
-
-// A Rule states what may be written about a kind. The key `by` exists if largest_by is above 0.
-struct Rule {
-  std::string_view name;
-  std::span<const FaultTarget> targets;
-  double default_by = 0.0;  // s
-  double largest_by = 0.0;
-  bool signed_by = false;
-};
-
-// The rules are in the order of FaultKind.
-constexpr std::array<Rule, 12> rules{{
-    {"late", all_sensors, 0.2, 10.0},
-    {"lost", all_sensors},
-    {"duplicated", all_sensors, 0.001, 1.0},
-    {"reordered", all_sensors},
-    {"jump", all_sensors, 1.0, longest_drive, true},
-    {"nan", numeric_sensors},
-    {"frozen", row_sensors},
-    {"black", only_camera},
-    {"garbage", only_camera},
-    {"slow", stages, 0.1, 1.0},
-    {"broken", stages},
-    {"hog", machine},
-}};
+constexpr std::array<std::string_view, 13> target_names{
+    "camera", "velodyne", "imu", "gyro",   "accelerometer", "gnss", "wheel",
+    "stereo", "lidar",    "ppp", "fusion", "mapmatch",      "cpu"};
 
 template <class Names>
 std::string listed(const Names& names) {
@@ -77,9 +43,11 @@ class Parser {
     std::string_view keys = text_;
     std::string_view place = cut(keys, ',');
     const bool has_keys = text_.find(',') != std::string_view::npos;
-    parse_kind(cut(place, '@'));
+    kind_ = cut(place, '@');
+    check_kind();
     parse_place(place);
-    fault_.by = from_seconds(rule().default_by);
+    fault_.kind = rule_->kind;
+    fault_.by = rule_->default_by;
     if (kind_is(FaultKind::hog)) fault_.threads = 2;
     for (bool more = has_keys; more;) {
       more = keys.find(',') != std::string_view::npos;
@@ -94,22 +62,17 @@ class Parser {
     throw std::invalid_argument("fault '" + std::string(text_) + "': " + what);
   }
 
-  const Rule& rule() const { return rules[static_cast<std::size_t>(fault_.kind)]; }
   bool kind_is(FaultKind kind) const { return fault_.kind == kind; }
   bool strikes_samples() const { return fault_.kind < FaultKind::slow; }
 
-  void parse_kind(std::string_view name) {
-    const auto found =
-        std::find_if(rules.begin(), rules.end(), [&](const Rule& r) { return r.name == name; });
-    if (found == rules.end()) {
-      std::vector<std::string_view> names;
-      for (const Rule& r : rules) names.push_back(r.name);
-      fail("'" + std::string(name) +
-           "' is not a kind of fault; write KIND@TARGET[:START[:LENGTH]]"
-           "[,key=value...] with one of the kinds " +
-           listed(names));
+  void check_kind() const {
+    for (const FaultRule& rule : fault_rules::all) {
+      if (rule.name == kind_) return;
     }
-    fault_.kind = static_cast<FaultKind>(found - rules.begin());
+    fail("'" + std::string(kind_) +
+         "' is not a kind of fault; write KIND@TARGET[:START[:LENGTH]]"
+         "[,key=value...] with one of the kinds " +
+         fault_kinds());
   }
 
   void parse_place(std::string_view place) {
@@ -127,14 +90,18 @@ class Parser {
 
   void parse_target(std::string_view name) {
     std::vector<std::string_view> allowed;
-    for (const FaultTarget target : rule().targets) {
-      if (target_name(target) == name) {
-        fault_.target = target;
-        return;
+    for (const FaultRule& rule : fault_rules::all) {
+      if (rule.name != kind_) continue;
+      for (const FaultTarget target : rule.targets) {
+        if (target_name(target) == name) {
+          fault_.target = target;
+          rule_ = &rule;
+          return;
+        }
+        allowed.push_back(target_name(target));
       }
-      allowed.push_back(target_name(target));
     }
-    fail("'" + std::string(rule().name) + "' cannot be applied to '" + std::string(name) +
+    fail("'" + std::string(kind_) + "' cannot be applied to '" + std::string(name) +
          "'; it applies to " + listed(allowed));
   }
 
@@ -142,11 +109,11 @@ class Parser {
     std::string_view value = pair;
     const std::string_view key = cut(value, '=');
     std::vector<std::string_view> allowed;
-    if (rule().largest_by > 0.0) allowed.push_back("by");
+    if (rule_->largest_by > 0.0) allowed.push_back("by");
     if (strikes_samples()) allowed.insert(allowed.end(), {"share", "seed"});
     if (kind_is(FaultKind::hog)) allowed.push_back("threads");
     if (std::find(allowed.begin(), allowed.end(), key) == allowed.end()) {
-      fail("'" + std::string(rule().name) + "' has no key '" + std::string(key) + "'; it has " +
+      fail("'" + std::string(kind_) + "' has no key '" + std::string(key) + "'; it has " +
            listed(allowed));
     }
     if (std::find(seen_.begin(), seen_.end(), key) != seen_.end()) {
@@ -154,9 +121,9 @@ class Parser {
     }
     seen_.push_back(key);
     if (key == "by") {
-      const double largest = rule().largest_by;
-      fault_.by = from_seconds(number("by", value, rule().signed_by ? -largest : 0.0, largest));
-      if (fault_.by == Duration::zero()) fail("'by' must not be 0 s");
+      const double largest = rule_->largest_by;
+      fault_.by = number("by", value, rule_->signed_by ? -largest : 0.0, largest);
+      if (fault_.by == 0.0) fail("'by' must not be 0");
     } else if (key == "share") {
       fault_.share = number("share", value, 0.0, 1.0);
       if (fault_.share == 0.0) fail("'share' must be above 0");
@@ -188,6 +155,8 @@ class Parser {
   }
 
   std::string_view text_;
+  std::string_view kind_;
+  const FaultRule* rule_ = nullptr;  // known once the target is
   std::vector<std::string_view> seen_;
   Fault fault_;
 };

@@ -2,24 +2,12 @@
 //
 //   KIND@TARGET[:START[:LENGTH]][,key=value...]
 //
-//   late        camera velodyne imu gnss   a sample arrives `by` later; none overtakes it
-//   lost        camera velodyne imu gnss   a sample never arrives
-//   duplicated  camera velodyne imu gnss   a sample arrives again, `by` later
-//   reordered   camera velodyne imu gnss   a sample arrives after its successor
-//   jump        camera velodyne imu gnss   the stamps are wrong by `by`; the arrival is unchanged
-//   nan         velodyne imu gnss          every number of a sample is NaN
-//   frozen      imu gnss                   a sample's numbers are those of the first one struck
-//   black       camera                     both images are black
-//   garbage     camera                     both images are noise
-//   slow        stereo lidar ppp fusion mapmatch   the stage sleeps `by` at each image, scan, ...
-//   broken      stereo lidar ppp fusion mapmatch   the stage ends with an error
-//   hog         cpu                        `threads` threads are busy for LENGTH (required)
+// fault_rules.h has every kind with its targets, and the default, unit and bound of `by`; FAULTS.md
+// shows them.
 //
 // START and LENGTH are seconds of data time, and LENGTH may be `end`; without them the fault lasts
 // all the time. START counts from the drive's first image, and 0 means from the very first sample
-// on. These are the keys with their defaults:
-//   by       s. late 0.2 (up to 10), duplicated 0.001 (up to 1), slow 0.1 (up to 1), jump 1 (up to
-//            1e6, either sign); never 0
+// on. These are the other keys with their defaults:
 //   share    share of the samples that are struck, above 0 up to 1, drawn by `seed` and stamp: 1
 //   seed     whole number from 0: 1
 //   threads  1 to 16: 2
@@ -44,6 +32,17 @@ enum class FaultKind : std::uint8_t {
   frozen,
   black,
   garbage,
+  bias,
+  drift,
+  scale,
+  noise,
+  spoofed,
+  bumped,
+  skewed,
+  blurred,
+  dimmed,
+  blocked,
+  rain,
   slow,
   broken,
   hog,
@@ -53,7 +52,10 @@ enum class FaultTarget : std::uint8_t {
   camera,
   velodyne,
   imu,
+  gyro,           // of the imu
+  accelerometer,  // of the imu
   gnss,
+  wheel,
   stereo,
   lidar,
   ppp,
@@ -71,7 +73,7 @@ struct Fault {
   FaultTarget target = FaultTarget::camera;
   Duration start{};                // from the drive's first image; 0: from the first sample on
   std::optional<Duration> length;  // nullopt: to the end
-  Duration by{};
+  double by = 0.0;                 // in the unit of its rule
   double share = 1.0;
   std::uint64_t seed = 1;
   int threads = 0;

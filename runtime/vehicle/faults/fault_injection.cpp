@@ -1,6 +1,8 @@
 #include "runtime/vehicle/faults/fault_injection.h"
 
 #include <chrono>
+#include <concepts>
+#include <stdexcept>
 #include <stop_token>
 #include <utility>
 
@@ -13,6 +15,16 @@ namespace {
 void compute_nothing() {
   constexpr int steps = 100'000;
   for (int i = 0; i < steps; ++i) std::atomic_signal_fence(std::memory_order_seq_cst);
+}
+
+// A part of a sensor is struck where the sensor is.
+FaultTarget sensor_of(FaultTarget target) {
+  const bool of_imu = target == FaultTarget::gyro || target == FaultTarget::accelerometer;
+  return of_imu ? FaultTarget::imu : target;
+}
+
+bool is_of_fixes(FaultKind kind) {
+  return kind == FaultKind::bias || kind == FaultKind::drift || kind == FaultKind::spoofed;
 }
 
 void be_busy(const std::stop_token& stop, ActiveFault& active,
@@ -31,10 +43,11 @@ void be_busy(const std::stop_token& stop, ActiveFault& active,
 
 }  // namespace
 
-FaultInjection::FaultInjection(std::vector<Fault> faults, Time origin) {
+FaultInjection::FaultInjection(std::vector<Fault> faults, Time origin, double focal_length) {
   for (Fault& fault : faults) {
     ActiveFault& active = faults_.emplace_back();
     active.window = window(fault, origin);
+    active.focal_length = focal_length;
     active.fault = std::move(fault);
   }
 }
@@ -43,7 +56,13 @@ Sensors FaultInjection::inject(Sensors sensors) {
   for (ActiveFault& active : faults_) {
     const auto strike = [&]<class T>(FaultTarget target,
                                      std::unique_ptr<sensors::Source<T>>& source) {
-      if (source == nullptr || active.fault.target != target) return;
+      if (source == nullptr || sensor_of(active.fault.target) != target) return;
+      if (std::same_as<T, GnssEpoch> && is_of_fixes(active.fault.kind)) {
+        throw std::invalid_argument(
+            "fault '" + active.fault.text +
+            "': the recording has observations, which have no position to strike; --set "
+            "ppp.observations=false replays fixes in their place");
+      }
       source = std::make_unique<FaultySource<T>>(std::move(source), active);
     };
     strike(FaultTarget::camera, sensors.camera);
@@ -51,6 +70,7 @@ Sensors FaultInjection::inject(Sensors sensors) {
     strike(FaultTarget::imu, sensors.imu);
     strike(FaultTarget::gnss, sensors.gnss);
     strike(FaultTarget::gnss, sensors.epochs);
+    strike(FaultTarget::wheel, sensors.wheel);
   }
   return sensors;
 }
@@ -62,7 +82,7 @@ StageDelays FaultInjection::delays() {
     if (!slows && active.fault.kind != FaultKind::broken) continue;
     StageDelay& delay = delays[std::string(target_name(active.fault.target))];
     if (slows) {
-      delay.add(active.window, active.fault.by, active.struck);
+      delay.add(active.window, from_seconds(active.fault.by), active.struck);
     } else {
       delay.add_end(active.window, active.struck);
     }

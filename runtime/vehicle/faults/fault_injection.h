@@ -24,11 +24,12 @@ struct FaultCount {
 // counts().
 class FaultInjection {
  public:
-  // `origin` is the stamp of the drive's first image.
-  FaultInjection(std::vector<Fault> faults, Time origin);
+  // `origin` is the stamp of the drive's first image; `focal_length` (px) is that of the cameras.
+  FaultInjection(std::vector<Fault> faults, Time origin, double focal_length);
 
   // Returns the given sensors with their faults. Several faults on one sensor are applied in their
-  // order. A sensor that is missing stays missing.
+  // order. A sensor that is missing stays missing. Throws std::invalid_argument for a fault of
+  // fixes (bias, drift, spoofed) where the sensors have observations in their place.
   Sensors inject(Sensors sensors);
 
   // Returns the delays for Vehicle::slow_down().

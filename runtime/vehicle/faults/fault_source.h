@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <concepts>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -16,6 +15,8 @@
 
 #include "runtime/vehicle/faults/fault.h"
 #include "runtime/vehicle/faults/fault_corruption.h"
+#include "runtime/vehicle/faults/image_faults.h"
+#include "runtime/vehicle/faults/scan_faults.h"
 #include "sensors/source.h"
 
 namespace maploop::vehicle {
@@ -24,6 +25,7 @@ namespace maploop::vehicle {
 struct ActiveFault {
   Fault fault;
   FaultWindow window;
+  double focal_length = 0.0;  // px, of the cameras
   std::atomic<std::uint64_t> struck{0};
 };
 
@@ -71,7 +73,7 @@ class FaultySource final : public sensors::Source<T> {
           continue;
         case FaultKind::duplicated:
           held_ = sample;
-          held_.available += fault().by;
+          held_.available += from_seconds(fault().by);
           holds_ = true;
           return true;
         case FaultKind::reordered:
@@ -93,7 +95,7 @@ class FaultySource final : public sensors::Source<T> {
   bool strikes(const T& sample) {
     // The kind changes the seed, so that faults of different kinds with the same seed are
     // independent.
-    const std::uint64_t seed = fault().seed * 16 + static_cast<std::uint64_t>(fault().kind);
+    const std::uint64_t seed = fault().seed * 32 + static_cast<std::uint64_t>(fault().kind);
     if (!active_.window.contains(sample.available) || !drawn(fault().share, seed, sample.stamp)) {
       return false;
     }
@@ -103,18 +105,22 @@ class FaultySource final : public sensors::Source<T> {
 
   // For the kinds that only change samples.
   void alter(T& sample) {
-    const FaultKind kind = fault().kind;
-    if (kind == FaultKind::late) {
-      sample.available += fault().by;
-    } else if (kind == FaultKind::jump) {
-      shift_stamps(sample, fault().by);
-    } else if constexpr (std::same_as<T, StereoPair>) {
-      kind == FaultKind::black ? blacken(sample) : scramble(sample, fault().seed);
-    } else if (kind == FaultKind::nan) {
-      fill_with_nan(sample);
-    } else if constexpr (requires { repeat(sample, sample); }) {
-      if (!first_) first_ = sample;
-      repeat(sample, *first_);
+    if (!begun_) begun_ = sample.available;
+    const double elapsed = to_seconds(sample.available - *begun_);
+    switch (fault().kind) {
+      case FaultKind::late:
+        sample.available += from_seconds(fault().by);
+        return;
+      case FaultKind::jump:
+        return shift_stamps(sample, from_seconds(fault().by));
+      case FaultKind::skewed:
+        return shift_stamps(sample, from_seconds(1e-6 * fault().by * elapsed));
+      case FaultKind::frozen:
+        if (!first_) first_ = sample;
+        return repeat(sample, *first_);
+      default:
+        distort(sample, {fault().kind, fault().target, fault().by, elapsed, fault().seed,
+                         active_.focal_length});
     }
   }
 
@@ -122,7 +128,8 @@ class FaultySource final : public sensors::Source<T> {
   ActiveFault& active_;
   T held_{};  // is delivered next, if holds_
   bool holds_ = false;
-  std::optional<T> first_;  // the first one struck
+  std::optional<T> first_;     // the first one struck by `frozen`
+  std::optional<Time> begun_;  // when the first altered one was available
   Time last_ = Time::min();
   std::uint64_t delivered_ = 0;
   sensors::SourceReport lost_;

@@ -117,6 +117,7 @@ struct Vehicle::Graph {
   double cpu = 0.0;
   // These are known after wait().
   RuntimeReport last_report;  // of the whole run
+  std::vector<Naming> named;  // by HEALTH, known at the end
 };
 
 }  // namespace maploop::vehicle

@@ -27,6 +27,7 @@ VehicleReport Vehicle::Graph::report() const {
   }
   r.lateness = lateness.summarize("all sensors");
   r.health = last_report.health;
+  r.named = named;
   r.deadlines = last_report.deadlines;
   r.imu_delay = fusion->filter_report().status.imu_delay;
   r.calibration = fusion->filter_report().calibration;

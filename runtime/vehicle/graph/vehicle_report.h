@@ -8,6 +8,7 @@
 #include "estimators/fusion/filter_state.h"
 #include "estimators/fusion/self_calibration.h"
 #include "msgs/diagnostics.h"
+#include "runtime/vehicle/health/episodes.h"
 #include "sensors/source.h"
 
 namespace maploop::vehicle {
@@ -23,6 +24,7 @@ struct VehicleReport {
   LatencySummary lateness;  // of release, all sensors together
   Deadlines deadlines;
   Health health;
+  std::vector<Naming> named;             // of sensors, in data time
   fusion::DelayEstimate imu_delay;       // left in the inertial stamps, against odometry
   fusion::SelfCalibrations calibration;  // what the filter has estimated of the vehicle
   std::uint64_t stalls = 0;              // how often the data clock had to wait for the graph

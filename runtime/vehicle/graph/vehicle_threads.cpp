@@ -180,6 +180,7 @@ void Vehicle::Graph::wait() {
     cpu = process_cpu_seconds() - cpu_at_start;
     monitor.restart_rates();
     last_report = look(fusion->position() - begin);
+    named = monitor.namings(fusion->position());
   }
 }
 

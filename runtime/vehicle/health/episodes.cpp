@@ -25,6 +25,7 @@ void UseWatch::judge(Time t) {
                          [](const Tally& a, const Tally& b) { return a.count < b.count; });
     const Episode episode{begin_, t, wrong_, all_, most->reason};
     refusals_.goes_on ? refusals_.extend(episode) : refusals_.begin(episode);
+    if (refusals_.named == Time{}) refusals_.named = t;
   }
   if (bad || refusals_.goes_on) {
     refusals_.goes_on = bad;
@@ -43,10 +44,16 @@ std::string UseWatch::sentence(Time origin) {
   const std::string from = seconds(last.begin - origin);
   const bool goes_on = received_.goes_on;
   return fmt::format(
-      "{} {} {} of {}{} {} {}{}: {}", stage_, goes_on ? "refuses" : "refused", last.wrong,
-      goes_on ? "the last " : "", last.all, what_,
+      "{} {} {} of {}{} {} {}{}: {}", stage_, goes_on ? judgement_.now : judgement_.then,
+      last.wrong, goes_on ? "the last " : "", last.all, what_,
       goes_on ? "since " + from : "from " + from + " to " + seconds(last.end - origin),
       before(received_), last.reason);
+}
+
+std::optional<Naming> UseWatch::naming() {
+  if (const Episodes* news = published_.latest()) received_ = *news;
+  if (received_.named == Time{}) return std::nullopt;
+  return Naming{fmt::format("{} {} {}", stage_, judgement_.now, what_), received_.named};
 }
 
 std::string outage_sentence(std::string_view sensor, const Episodes& outages, Time origin) {

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -33,6 +34,7 @@ struct Episodes {
   Duration total{};
   Episode last;
   bool goes_on = false;  // the last one has not ended yet
+  Time named{};          // when the first one was judged; epoch 0: there was none
 
   void begin(const Episode& episode) {
     ++count;
@@ -65,6 +67,7 @@ class ArrivalWatch {
     last_.store(to_nanoseconds(std::max(last, available)), std::memory_order_relaxed);
     if (patience_ == Duration::zero() || available - last <= patience_) return;
     outages_.begin({last, available});
+    if (outages_.named == Time{}) outages_.named = last + patience_;
     outages_.goes_on = false;
     published_.back() = outages_;
     published_.publish();
@@ -73,6 +76,13 @@ class ArrivalWatch {
   // Returns when the newest sample became available, or the start if there has been none. Any
   // thread may call this.
   Time last() const { return from_nanoseconds(last_.load(std::memory_order_relaxed)); }
+
+  // Returns when the first outage was noticed, also one that has not ended `now`; epoch 0: there
+  // was none. On the thread of outages().
+  Time named(Time now, Duration patience) {
+    if (outages().named != Time{}) return outages().named;
+    return now - last() > patience ? last() + patience : Time{};
+  }
 
   // Returns the outages that have ended.
   const Episodes& outages() {
@@ -88,21 +98,38 @@ class ArrivalWatch {
   Episodes received_;  // owned by the reader's thread
 };
 
+// The words for what an estimator does with samples, "STAGE refuses N of M WHAT", and how many
+// samples a judgement needs at least.
+struct Judgement {
+  std::string_view now = "refuses";
+  std::string_view then = "refused";
+  std::uint64_t fewest = 3;
+};
+// What is judged by a memory of its own needs no more samples.
+inline constexpr Judgement doubts{"doubts", "doubted", 1};
+
+// When HEALTH could name a sensor, or what an estimator makes of it, for the first time.
+struct Naming {
+  std::string what;  // "gnss"; "fusion doubts GNSS fixes"
+  Time at{};
+};
+
 // UseWatch finds the periods in which an estimator refuses more than half of its samples. The
 // estimator's thread calls note() for each sample; one other thread at a time calls sentence().
 // Neither call blocks, and note() does not allocate.
 class UseWatch {
  public:
   // `stage` and `what` are the words of "STAGE refuses N of M WHAT", and must outlive the watch. A
-  // judgement covers at least `interval` of data time and at least three samples.
-  UseWatch(std::string_view stage, std::string_view what, Duration interval)
-      : stage_(stage), what_(what), interval_(interval) {}
+  // judgement covers at least `interval` of data time and at least `fewest` samples.
+  UseWatch(std::string_view stage, std::string_view what, Duration interval,
+           Judgement judgement = {})
+      : stage_(stage), what_(what), interval_(interval), judgement_(judgement) {}
 
   // `refused_for` is the reason of a refusal as a string literal, or nullptr if the sample was
   // used.
   void note(Time t, const char* refused_for) {
     if (all_ == 0) begin_ = t;
-    if (t - begin_ >= interval_ && all_ >= fewest) judge(t);
+    if (t - begin_ >= interval_ && all_ >= judgement_.fewest) judge(t);
     ++all_;
     if (refused_for != nullptr) count(refused_for);
   }
@@ -111,8 +138,11 @@ class UseWatch {
   // times are in seconds since `origin`.
   std::string sentence(Time origin);
 
+  // Returns when the first period of refusals was noticed; nothing if there was none. On the
+  // reader's thread, as sentence().
+  std::optional<Naming> naming();
+
  private:
-  static constexpr std::uint64_t fewest = 3;
   struct Tally {
     const char* reason = nullptr;
     std::uint64_t count = 0;
@@ -130,6 +160,7 @@ class UseWatch {
   std::string_view stage_;
   std::string_view what_;
   Duration interval_;
+  Judgement judgement_;
   // The estimator's thread owns these counts of the current interval, and refusals_.
   Time begin_{};
   std::uint64_t all_ = 0;

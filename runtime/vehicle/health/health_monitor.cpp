@@ -108,6 +108,20 @@ Health HealthMonitor::health(Time stamp, Duration elapsed, const runtime::DataCl
   return health;
 }
 
+std::vector<Naming> HealthMonitor::namings(Time now) {
+  std::vector<Naming> all;
+  for (const Watched& watched : threads_) {
+    if (watched.driver == nullptr || watched.driver->spec().min_rate <= 0.0) continue;
+    const Duration patience = Watchdog::patience(watched.driver->spec());
+    if (const Time named = watched.driver->arrivals().named(now, patience); named != Time{})
+      all.push_back({watched.thread->name(), named});
+  }
+  for (UseWatch* use : uses_) {
+    if (auto naming = use->naming()) all.push_back(std::move(*naming));
+  }
+  return all;
+}
+
 void HealthMonitor::restart_rates() {
   for (Watched& watched : threads_) watched.seen = 0;
 }

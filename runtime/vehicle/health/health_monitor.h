@@ -49,6 +49,9 @@ class HealthMonitor {
   void restart_rates();
   Deadlines deadlines(Time stamp) const;
 
+  // What was named so far, and when: sensors that were silent, and what estimators refuse or doubt.
+  std::vector<Naming> namings(Time now);
+
  private:
   struct Watched {
     const runtime::Thread* thread;

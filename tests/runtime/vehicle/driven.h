@@ -88,7 +88,7 @@ inline void expect_end(Vehicle& vehicle) {
 inline Driven drive(Drive d) {
   std::vector<Fault> faults;
   for (const std::string& text : d.faults) faults.push_back(parse_fault(text));
-  FaultInjection injection(std::move(faults), d.faults_from);
+  FaultInjection injection(std::move(faults), d.faults_from, d.calibration.stereo.fx);
   const auto clock =
       d.speed > 0.0 ? runtime::DataClock::paced(d.speed) : runtime::DataClock::virtual_time();
   Driven driven;

@@ -96,5 +96,22 @@ TEST(FusionScore, TheReferencesVarianceIsThatOfTheMoment) {
   EXPECT_NEAR(score->whole.nees_mean, (100.0 * 25.0 / 1.04 + 101.0 / 1.01) / 201.0, 1e-6);
 }
 
+TEST(FusionScore, TheLongestTimeBeyondThreeSigmasIsInOneGo) {
+  const auto score = score_against(0.2);
+  ASSERT_TRUE(score);
+  // The NEES is 24 for the first ten seconds, and 1 after.
+  EXPECT_NEAR(score->whole.beyond, 9.9, 1e-9);
+  EXPECT_NEAR(score->whole.nees_max, 25.0 / 1.04, 1e-3);
+  EXPECT_EQ(score->whole.azimuth_beyond, 0.0);
+  EXPECT_NEAR(score->unsaid, 9.9, 1e-9);
+}
+
+TEST(FusionScore, WhatWasNamedIsNotUnsaidAnyMore) {
+  const auto named = score(track(), reference(0.2), {}, start, start + from_seconds(4.0));
+  ASSERT_TRUE(named);
+  EXPECT_NEAR(named->unsaid, 3.9, 1e-9);
+  EXPECT_NEAR(named->whole.beyond, 9.9, 1e-9);
+}
+
 }  // namespace
 }  // namespace maploop::fusion_score

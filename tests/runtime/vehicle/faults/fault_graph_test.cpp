@@ -73,7 +73,13 @@ TEST(FaultOfSamples, HasTheSameBitsAtEverySpeed) {
                                   "frozen@gnss:1",
                                   "nan@velodyne",
                                   "black@camera:1:1",
-                                  "garbage@camera:1:1"}) {
+                                  "garbage@camera:1:1",
+                                  "bias@gyro:1",
+                                  "noise@accelerometer:1",
+                                  "spoofed@gnss:1",
+                                  "bumped@camera:1",
+                                  "skewed@imu:1",
+                                  "rain@velodyne:1"}) {
     SCOPED_TRACE(fault);
     const Driven first = with_faults({fault});
     expect_healthy(first);

@@ -1,12 +1,15 @@
 // Tests how a fault is written, and the error of one that is written wrongly.
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "runtime/vehicle/faults/fault.h"
+#include "runtime/vehicle/faults/fault_rules.h"
 #include "tests/support/error_of.h"
+#include "tests/support/real_data.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -33,27 +36,58 @@ TEST(FaultParse, StartLengthAndKeys) {
   EXPECT_EQ(f.target, FaultTarget::imu);
   EXPECT_EQ(f.start, milliseconds(2500));
   EXPECT_EQ(f.length, milliseconds(750));
-  EXPECT_EQ(f.by, milliseconds(50));
+  EXPECT_EQ(f.by, 0.05);
   EXPECT_EQ(f.share, 0.25);
   EXPECT_EQ(f.seed, 7u);
 }
 
 TEST(FaultParse, EveryKindHasItsTargetsAndDefaults) {
-  EXPECT_EQ(parse_fault("late@velodyne").by, milliseconds(200));
-  EXPECT_EQ(parse_fault("duplicated@gnss").by, milliseconds(1));
+  EXPECT_EQ(parse_fault("late@velodyne").by, 0.2);
+  EXPECT_EQ(parse_fault("duplicated@gnss").by, 0.001);
   EXPECT_EQ(parse_fault("reordered@camera:1:end").length, std::nullopt);
-  EXPECT_EQ(parse_fault("jump@imu,by=-3600").by, -seconds(3600));
-  EXPECT_EQ(parse_fault("jump@imu").by, seconds(1));
+  EXPECT_EQ(parse_fault("jump@imu,by=-3600").by, -3600.0);
+  EXPECT_EQ(parse_fault("jump@imu").by, 1.0);
   EXPECT_EQ(parse_fault("nan@velodyne").kind, FaultKind::nan);
   EXPECT_EQ(parse_fault("frozen@imu:15:2").kind, FaultKind::frozen);
   EXPECT_EQ(parse_fault("black@camera").kind, FaultKind::black);
   EXPECT_EQ(parse_fault("garbage@camera").kind, FaultKind::garbage);
-  EXPECT_EQ(parse_fault("slow@stereo").by, milliseconds(100));
+  EXPECT_EQ(parse_fault("slow@stereo").by, 0.1);
   EXPECT_EQ(parse_fault("slow@fusion:1").target, FaultTarget::fusion);
   EXPECT_EQ(parse_fault("slow@ppp").target, FaultTarget::ppp);
   EXPECT_EQ(parse_fault("broken@mapmatch:1").kind, FaultKind::broken);
   EXPECT_EQ(parse_fault("hog@cpu:1:2").threads, 2);
   EXPECT_EQ(parse_fault("hog@cpu:1:2,threads=4").threads, 4);
+}
+
+TEST(FaultParse, TheDefaultOfAKindIsThatOfItsTarget) {
+  EXPECT_EQ(parse_fault("bias@gyro").by, 0.5);
+  EXPECT_EQ(parse_fault("bias@gnss").by, 10.0);
+  EXPECT_EQ(parse_fault("noise@velodyne").by, 0.2);
+  EXPECT_EQ(parse_fault("spoofed@gnss:5,by=-2").by, -2.0);
+  EXPECT_EQ(parse_fault("skewed@imu").by, 200.0);
+  EXPECT_EQ(parse_fault("scale@wheel").target, FaultTarget::wheel);
+  EXPECT_EQ(parse_fault("drift@accelerometer:3").target, FaultTarget::accelerometer);
+}
+
+TEST(FaultParse, EveryRuleOfTheTableIsUnderstood) {
+  for (const FaultRule& rule : fault_rules::all) {
+    for (const FaultTarget target : rule.targets) {
+      const std::string text =
+          std::string(rule.name) + '@' + std::string(target_name(target)) + ":1:2";
+      const Fault fault = parse_fault(text);
+      EXPECT_EQ(fault.kind, rule.kind) << text;
+      EXPECT_EQ(fault.target, target) << text;
+      EXPECT_EQ(fault.by, rule.default_by) << text;
+      EXPECT_LE(rule.default_by, rule.largest_by) << text;
+    }
+  }
+}
+
+TEST(FaultParse, ThePageIsMadeFromTheTable) {
+  std::ostringstream page;
+  page << std::ifstream(maploop::testing::source("runtime/vehicle/FAULTS.md")).rdbuf();
+  EXPECT_EQ(page.str(), fault_page()) << "write fault_page() to runtime/vehicle/FAULTS.md:\n"
+                                      << fault_page();
 }
 
 TEST(FaultParse, WhatIsWrongIsNamedWithWhatIsAllowed) {
@@ -99,6 +133,12 @@ TEST(FaultParse, WhatIsWrongIsNamedWithWhatIsAllowed) {
            {"slow@stereo,by=2", "from 0 to 1"},
            {"broken@camera", "stereo, lidar, ppp, fusion, mapmatch"},
            {"broken@stereo,share=0.5", "no key 'share'"},
+           {"bias@imu", "it applies to gyro, accelerometer, gnss"},
+           {"noise@camera", "it applies to gyro, accelerometer, gnss, velodyne"},
+           {"scale@wheel,by=11", "from -10 to 10"},
+           {"rain@velodyne,by=-0.1", "from 0 to 1"},
+           {"dimmed@camera,by=1.1", "from 0 to 1"},
+           {"bumped@imu", "it applies to camera, velodyne"},
            {"hog@cpu", "needs START:LENGTH"},
            {"hog@cpu:1:end", "needs START:LENGTH"},
            {"hog@cpu:1:61", "at most 60 s"},

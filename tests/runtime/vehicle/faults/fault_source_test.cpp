@@ -17,10 +17,12 @@ using std::chrono::milliseconds;
 using testing::drive_start;
 using testing::fake_sensors;
 
+const double focal_length = testing::fake_calibration().stereo.fx;
+
 // Stream contains what the IMU delivers at 100 Hz with the given faults.
 struct Stream {
   explicit Stream(const std::vector<std::string>& faults, double seconds = 2.0)
-      : injection(parsed(faults), drive_start) {
+      : injection(parsed(faults), drive_start, focal_length) {
     Sensors sensors = injection.inject(fake_sensors(seconds));
     for (ImuSample s; sensors.imu->next(s);) samples.push_back(s);
     report = sensors.imu->report();
@@ -127,7 +129,7 @@ TEST(FaultSource, NanInEveryNumber) {
   EXPECT_TRUE(std::isnan(s.samples[50].yaw_rate));
   EXPECT_NEAR(s.samples[60].yaw_rate, 0.01, 1e-6);
 
-  FaultInjection injection(Stream::parsed({"nan@gnss", "nan@velodyne"}), drive_start);
+  FaultInjection injection(Stream::parsed({"nan@gnss", "nan@velodyne"}), drive_start, focal_length);
   Sensors sensors = injection.inject(fake_sensors(2.0));
   GnssFix fix;
   ASSERT_TRUE(sensors.gnss->next(fix));
@@ -150,7 +152,7 @@ TEST(FaultSource, AFrozenSensorRepeatsTheFirstNumbersWithStampsThatGoOn) {
     EXPECT_EQ(s.samples[i].stamp, healthy.samples[i].stamp) << i;
   }
 
-  FaultInjection injection(Stream::parsed({"frozen@gnss"}), drive_start);
+  FaultInjection injection(Stream::parsed({"frozen@gnss"}), drive_start, focal_length);
   Sensors sensors = injection.inject(fake_sensors(3.0));
   GnssFix first, later;
   ASSERT_TRUE(sensors.gnss->next(first) && sensors.gnss->next(later));
@@ -182,7 +184,7 @@ TEST(FaultSource, AFrozenReceiverRepeatsItsSatellitesWithTheirSignals) {
 
 TEST(FaultSource, ImagesTurnBlackOrToNoise) {
   FaultInjection injection(Stream::parsed({"black@camera:0:0.15", "garbage@camera:0.15:0.15"}),
-                           drive_start);
+                           drive_start, focal_length);
   Sensors sensors = injection.inject(fake_sensors(2.0));
   StereoPair pair;
   ASSERT_TRUE(sensors.camera->next(pair));
@@ -209,7 +211,7 @@ TEST(FaultSource, AFaultOutsideOfTheDriveStrikesNothingAndChangesNothing) {
 }
 
 TEST(FaultSource, ASensorThatIsNotThereStaysAway) {
-  FaultInjection injection(Stream::parsed({"lost@camera"}), drive_start);
+  FaultInjection injection(Stream::parsed({"lost@camera"}), drive_start, focal_length);
   EXPECT_EQ(injection.inject({}).camera, nullptr);
 }
 

@@ -39,7 +39,7 @@ TEST(Soak, MemoryStaysFlatAndLossesBalance) {
         "nan@imu,share=0.02", "garbage@camera,share=0.02", "late@gnss,share=0.2,by=0.5"}) {
     faults.push_back(parse_fault(fault));
   }
-  FaultInjection injection(std::move(faults), drive_start);
+  FaultInjection injection(std::move(faults), drive_start, testing::fake_calibration().stereo.fx);
   ChannelHashes hashes;
   // These are the least bytes in use, because what threads hold for a moment varies with the
   // machine's load.

@@ -86,5 +86,34 @@ TEST_F(UseWatchTest, JudgesNothingByFewerThanThree) {
   EXPECT_NE(watch_.sentence(origin), "");
 }
 
+TEST_F(UseWatchTest, ItsNamingIsWhenItWasFirstNoticed) {
+  EXPECT_FALSE(watch_.naming());
+  note(0, 300, nullptr);
+  note(300, 650, gate);
+  note(650, 2000, nullptr);
+  note(2000, 2500, gate);
+  ASSERT_TRUE(watch_.naming());
+  EXPECT_EQ(watch_.naming()->what, "fusion refuses inertial samples");
+  EXPECT_EQ(watch_.naming()->at, origin + seconds(4)) << "after a second of refusals";
+}
+
+TEST(DoubtWatch, SaysThatItDoubtsWhatItUses) {
+  UseWatch watch("fusion", "GNSS fixes", seconds(1), doubts);
+  for (int i = 0; i < 8; ++i) watch.note(origin + seconds(i), i < 2 ? nullptr : gate);
+  EXPECT_EQ(watch.sentence(origin).rfind("fusion doubts ", 0), 0u);
+  EXPECT_EQ(watch.naming()->what, "fusion doubts GNSS fixes");
+}
+
+TEST(ArrivalWatch, ASilenceIsNamedAlsoBeforeItsEnd) {
+  ArrivalWatch watch;
+  watch.start(origin, seconds(1));
+  watch.arrived(origin + milliseconds(500));
+  EXPECT_EQ(watch.named(origin + seconds(1), seconds(1)), Time{});
+  EXPECT_EQ(watch.named(origin + seconds(3), seconds(1)), origin + milliseconds(1500));
+  watch.arrived(origin + seconds(4));
+  watch.arrived(origin + milliseconds(4500));
+  EXPECT_EQ(watch.named(origin + seconds(5), seconds(1)), origin + milliseconds(1500));
+}
+
 }  // namespace
 }  // namespace maploop::vehicle
