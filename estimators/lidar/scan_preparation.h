@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "estimators/lidar/parameters.h"
+#include "estimators/lidar/scan_view.h"
 #include "estimators/lidar/surface_normals.h"
 #include "estimators/lidar/surface_point.h"
 #include "estimators/lidar/voxel_moments.h"
-#include "msgs/lidar_scan.h"
 
 namespace maploop::lidar {
 
@@ -46,7 +46,7 @@ class ScanPreparation {
   // Moves the points to their positions at `stamp`, the time of the pose that the registration will
   // find. `motion` is the vehicle's during the scan. Precondition: start < middle < end. Points
   // that are not finite are cropped.
-  void prepare(const LidarScan& scan, Time stamp, const Twist& motion, PreparedScan* prepared);
+  void prepare(const ScanView& scan, Time stamp, const Twist& motion, PreparedScan* prepared);
 
  private:
   Eigen::Isometry3f T_body_velo_;

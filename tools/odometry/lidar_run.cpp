@@ -82,16 +82,11 @@ LidarFrames folder_frames(std::shared_ptr<sensors::ScanFolder> folder,
 LidarRun::LidarRun(LidarFrames frames, const Eigen::Isometry3d& T_body_velo,
                    const LidarRunParameters& parameters)
     : frames_(std::move(frames)),
-      T_body_velo_(T_body_velo),
-      method_(parameters.method),
-      parameters_(seeded(parameters)),
-      odometer_(new_odometer()) {}
-
-lidar::VisualLidarOdometer LidarRun::new_odometer() const {
-  return {lidar::LidarOdometry(T_body_velo_, parameters_, nullptr,
-                               registration_of(method_, parameters_)),
-          lidar::DisparityCorrection(parameters_)};
-}
+      odometer_([T_body_velo, method = parameters.method, used = seeded(parameters)] {
+        return lidar::VisualLidarOdometer(
+            lidar::LidarOdometry(T_body_velo, used, nullptr, registration_of(method, used)),
+            lidar::DisparityCorrection(used));
+      }) {}
 
 std::optional<LidarStep> LidarRun::next() {
   if (!frames_(&frame_)) return std::nullopt;
@@ -100,48 +95,13 @@ std::optional<LidarStep> LidarRun::next() {
   step.with_scan = frame_.scan != nullptr;
   const double begin = processor_milliseconds();
   const lidar::OdometerResult result =
-      frame_.times.empty()
-          ? odometer_.process(frame_.scan, frame_.visual ? &*frame_.visual : nullptr)
-          : process_timed();
+      odometer_.process(lidar::view_of(frame_.scan), frame_.times,
+                        frame_.visual ? &*frame_.visual : nullptr);
   step.milliseconds = processor_milliseconds() - begin;
   step.lidar = result.lidar;
   step.odometry = result.odometry;
-  step.pose = odometer_.odometry().pose();
+  step.pose = odometer_.odometer().odometry().pose();
   return step;
-}
-
-// The motion is known only after two scans; then both are processed again with it.
-lidar::OdometerResult LidarRun::process_timed() {
-  TimedScan now{*frame_.scan, {frame_.times.begin(), frame_.times.end()}};
-  const bool known = twist_.has_value();
-  lidar::OdometerResult result = process(now);
-  if (!known && twist_) {
-    odometer_ = new_odometer();
-    process(before_);
-    result = process(now);
-  }
-  if (!twist_) before_ = std::move(now);
-  return result;
-}
-
-// Moves the points to the scan's stamp by the last motion to second order, as ScanPreparation does
-// with times derived from azimuths.
-lidar::OdometerResult LidarRun::process(const TimedScan& timed) {
-  const lidar::Twist motion = twist_.value_or(lidar::Twist{});
-  const Eigen::Vector3f v = motion.velocity.cast<float>(), w = motion.rate.cast<float>();
-  deskewed_ = timed.scan;
-  for (std::size_t i = 0; i < deskewed_.points.size(); ++i) {
-    LidarPoint& p = deskewed_.points[i];
-    const float t = timed.times[i];
-    const Eigen::Vector3f x(p.x, p.y, p.z);
-    const Eigen::Vector3f moved = x + t * (v + w.cross(x + (0.5F * t) * (w.cross(x) + v)));
-    p = {moved.x(), moved.y(), moved.z(), p.reflectance};
-  }
-  const lidar::OdometerResult result = odometer_.process(&deskewed_, nullptr);
-  const LidarMotion& m = result.lidar;
-  if (m.status == OdometryStatus::ok)
-    twist_ = lidar::Twist::of(m.T_from_to(), to_seconds(m.stamp - m.from));
-  return result;
 }
 
 }  // namespace maploop::odometry

@@ -9,15 +9,14 @@
 #include <optional>
 #include <span>
 #include <string_view>
-#include <vector>
 
-#include "estimators/lidar/scan_preparation.h"
-#include "estimators/lidar/visual_lidar_odometer.h"
+#include "estimators/lidar/parameters.h"
 #include "estimators/stereo/parameters.h"
 #include "msgs/odometry.h"
 #include "msgs/visual_motion.h"
 #include "sensors/cloud/scan_folder.h"
 #include "tools/odometry/registration_method.h"
+#include "tools/odometry/scan_odometer.h"
 #include "tools/odometry/stereo_runs.h"
 
 namespace maploop::odometry {
@@ -76,29 +75,13 @@ class LidarRun {
   // These are valid until the next step: what the last step was made from; its scan with the points
   // moved to its stamp, if they have times (precondition: there was a scan); the map.
   const LidarFrame& frame() const { return frame_; }
-  const LidarScan& scan() const { return frame_.times.empty() ? *frame_.scan : deskewed_; }
-  const lidar::LocalMap& local_map() const { return odometer_.odometry().local_map(); }
+  const LidarScan& scan() const { return frame_.times.empty() ? *frame_.scan : odometer_.deskewed(); }
+  const lidar::LocalMap& local_map() const { return odometer_.odometer().odometry().local_map(); }
 
  private:
-  // A scan whose points have times of their own.
-  struct TimedScan {
-    LidarScan scan;
-    std::vector<float> times;
-  };
-  lidar::VisualLidarOdometer new_odometer() const;
-  lidar::OdometerResult process(const TimedScan& timed);
-  lidar::OdometerResult process_timed();
-
   LidarFrames frames_;
-  Eigen::Isometry3d T_body_velo_;
-  Method method_;
-  lidar::LidarParameters parameters_;
-  lidar::VisualLidarOdometer odometer_;
+  ScanOdometer odometer_;
   LidarFrame frame_;
-  // Of points with times of their own:
-  std::optional<lidar::Twist> twist_;  // the last motion
-  TimedScan before_;                   // until the motion is known
-  LidarScan deskewed_;
 };
 
 }  // namespace maploop::odometry
