@@ -1,6 +1,8 @@
 // The fused filter without threads.
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <array>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -57,9 +59,8 @@ class PythonFilter {
   fusion::ReducedImuFilter filter_;
 };
 
-template <std::size_t n>
-void copy(const Eigen::Matrix<double, n, 1>& from, double (&to)[n]) {
-  Eigen::Map<Eigen::Matrix<double, n, 1>>(to) = from;
+void copy(const Eigen::Vector3d& from, double (&to)[3]) {
+  std::copy(from.begin(), from.end(), to);
 }
 
 }  // namespace
@@ -72,15 +73,15 @@ StateRecord record_of(const FusedState& s) {
   r.latitude = place.latitude;
   r.longitude = place.longitude;
   r.height = place.height;
-  copy<3>(s.position_enu, r.position_enu);
-  copy<3>(s.velocity_enu, r.velocity_enu);
+  copy(s.position_enu, r.position_enu);
+  copy(s.velocity_enu, r.velocity_enu);
   r.azimuth = s.attitude.azimuth;
   r.pitch = s.attitude.pitch;
   r.roll = s.attitude.roll;
   r.forward_speed = s.forward_speed;
   r.gyro_bias = s.gyro_bias;
   Eigen::Map<Eigen::Matrix<double, 9, 9>>(&r.covariance[0][0]) = s.covariance;
-  copy<3>(s.odom.position, r.odom_position);
+  copy(s.odom.position, r.odom_position);
   r.odom_azimuth = s.odom.attitude.azimuth;
   r.odometry_stamp = to_nanoseconds(s.odometry_stamp);
   r.gnss_stamp = to_nanoseconds(s.gnss_stamp);

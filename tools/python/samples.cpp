@@ -203,6 +203,9 @@ otherwise status tells why not.)")
           "T", [](const RelativeMotion& m) { return Eigen::Matrix4d(m.T_from_to().matrix()); },
           "(4, 4)")
       .def_readonly("covariance", &RelativeMotion::covariance, "(6, 6)")
+      .def_property_readonly(
+          "source", [](const RelativeMotion& m) { return to_string(m.source); },
+          "visual, lidar or visual-lidar")
       .def_readonly("tracked", &RelativeMotion::tracked, "features, or points of surfaces, offered")
       .def_readonly("inliers", &RelativeMotion::inliers, "those that agree");
   py::class_<VisualMotion, RelativeMotion, std::shared_ptr<VisualMotion>>(
