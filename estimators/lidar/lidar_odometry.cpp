@@ -83,8 +83,8 @@ void LidarOdometry::begin(const Sample& sample, LidarMotion* motion) const {
 
 // Returns whether the step is in order. After max_stale_scans old stamps the odometry restarts.
 bool LidarOdometry::in_order(const std::optional<ScanView>& scan, Time stamp) {
-  if (scan && !(scan->start < scan->stamp && scan->stamp < scan->end &&
-                           scan->start <= stamp && stamp <= scan->end)) {
+  if (scan && !(scan->start < scan->stamp && scan->stamp < scan->end && scan->start <= stamp &&
+                stamp <= scan->end)) {
     return false;
   }
   if (started_ && stamp <= stamp_) {

@@ -106,8 +106,8 @@ void ScanPreparation::prepare(const ScanView& scan, Time stamp, const Twist& mot
     if (!moments_.add(seen + turned + t * velocity)) ++left_out;
   }
   prepared->left_out =
-      left_out + static_cast<int>(scan.count - (scan.count + stride - 1) /
-                                                           std::max<std::size_t>(stride, 1));
+      left_out +
+      static_cast<int>(scan.count - (scan.count + stride - 1) / std::max<std::size_t>(stride, 1));
   moments_.sort();
   surface_points(moments_, parameters_.min_surface_points, &prepared->points);
 }

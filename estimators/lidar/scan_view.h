@@ -19,7 +19,8 @@ struct ScanView : Sample {
         first(reinterpret_cast<const float*>(scan.points.data())),
         count(scan.points.size()),
         stride(sizeof(LidarPoint) / sizeof(float)) {}
-  ScanView(const Sample& sample, Time begins, Time ends) : Sample(sample), start(begins), end(ends) {}
+  ScanView(const Sample& sample, Time begins, Time ends)
+      : Sample(sample), start(begins), end(ends) {}
 
   Eigen::Vector3f operator[](std::size_t i) const {
     const float* point = first + i * stride;

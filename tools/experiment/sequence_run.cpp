@@ -37,8 +37,8 @@ RecordingRun run_recording(vehicle::Recording recording, const vehicle::VehicleC
     also(state);
   };
   vehicle::Vehicle vehicle(config, drive.calibration, std::move(sensors),
-                           runtime::DataClock::virtual_time(), options.sinks, std::move(observer), nullptr,
-                           std::move(map));
+                           runtime::DataClock::virtual_time(), options.sinks, std::move(observer),
+                           nullptr, std::move(map));
   if (options.from_reference) vehicle.start_from(vehicle::start_from_reference(drive));
   vehicle.start();
   while (options.go_on && vehicle.running()) {

@@ -75,7 +75,9 @@ class LidarRun {
   // These are valid until the next step: what the last step was made from; its scan with the points
   // moved to its stamp, if they have times (precondition: there was a scan); the map.
   const LidarFrame& frame() const { return frame_; }
-  const LidarScan& scan() const { return frame_.times.empty() ? *frame_.scan : odometer_.deskewed(); }
+  const LidarScan& scan() const {
+    return frame_.times.empty() ? *frame_.scan : odometer_.deskewed();
+  }
   const lidar::LocalMap& local_map() const { return odometer_.odometer().odometry().local_map(); }
 
  private:

@@ -44,8 +44,7 @@ py::array_t<T> array_of(std::vector<T> elements) {
   auto kept = std::make_unique<std::vector<T>>(std::move(elements));
   const auto size = static_cast<py::ssize_t>(kept->size());
   T* first = kept->data();
-  const py::capsule owner(kept.release(),
-                          [](void* p) { delete static_cast<std::vector<T>*>(p); });
+  const py::capsule owner(kept.release(), [](void* p) { delete static_cast<std::vector<T>*>(p); });
   return py::array_t<T>({size}, first, owner);
 }
 

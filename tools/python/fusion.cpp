@@ -21,9 +21,9 @@ using Origin = std::optional<std::array<double, 3>>;
 class PythonFilter {
  public:
   PythonFilter(const VehicleConfig& config, const Origin& origin)
-      : filter_(config.fusion, origin ? std::optional(Geodetic{(*origin)[0], (*origin)[1],
-                                                               (*origin)[2]})
-                                      : std::nullopt) {}
+      : filter_(config.fusion,
+                origin ? std::optional(Geodetic{(*origin)[0], (*origin)[1], (*origin)[2]})
+                       : std::nullopt) {}
 
   // Returns "applied", "held until the filter starts", or the reason of the refusal.
   template <class Measurement>
@@ -97,7 +97,8 @@ void add_fusion(py::module_& module) {
                        zero_velocity_stamp);
   module.attr("state_dtype") = py::dtype::of<StateRecord>();
   module.attr("NAV_STATUS") = names_tuple<NavStatus>();
-  const char* added = "Returns \"applied\", \"held until the filter starts\", or why it is refused.";
+  const char* added =
+      "Returns \"applied\", \"held until the filter starts\", or why it is refused.";
   py::class_<PythonFilter>(module, "FusionFilter", R"(The extended Kalman filter of the vehicle.
 
 config: [fusion] of a Config; that of a Recording describes its car, too. origin: latitude,
@@ -110,9 +111,10 @@ names a parameter which is out of its range.)")
       .def("add", &PythonFilter::add<RelativeMotion>, py::arg("sample"), added)
       .def("add", &PythonFilter::add<WheelSpeed>, py::arg("sample"), added)
       .def("add", &PythonFilter::add<GnssFix>, py::arg("sample"), added)
-      .def("start", &PythonFilter::start, py::arg("stamp"), py::arg("latitude"),
-           py::arg("longitude"), py::arg("height"), py::arg("azimuth"), py::arg("speed") = 0.0,
-           R"(Starts at a known place (rad, rad, m), azimuth (rad) and speed (m/s); returns as add().)")
+      .def(
+          "start", &PythonFilter::start, py::arg("stamp"), py::arg("latitude"),
+          py::arg("longitude"), py::arg("height"), py::arg("azimuth"), py::arg("speed") = 0.0,
+          R"(Starts at a known place (rad, rad, m), azimuth (rad) and speed (m/s); returns as add().)")
       .def("state_at", &PythonFilter::state_at, py::arg("stamp"),
            "Returns the state at stamp (ns), an element of state_dtype, or None if there is none.")
       .def_property_readonly("initialized", &PythonFilter::initialized);

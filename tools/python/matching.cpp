@@ -108,9 +108,9 @@ class PythonMatcher {
  public:
   PythonMatcher(std::shared_ptr<const RoadNetwork> network, const VehicleConfig& config)
       : network_(std::move(network)),
-        rules_(mapmatch::read_rule_bases(config.map.rules.empty() ? mapmatch::default_rules()
-                                                                  : std::filesystem::path(
-                                                                        config.map.rules))),
+        rules_(mapmatch::read_rule_bases(config.map.rules.empty()
+                                             ? mapmatch::default_rules()
+                                             : std::filesystem::path(config.map.rules))),
         matcher_(*network_, rules_, config.mapmatch) {}
 
   py::array match(const py::array& fixes) {
@@ -182,8 +182,9 @@ void add_dtypes(py::module_& module) {
 
 void add_matching(py::module_& module) {
   add_dtypes(module);
-  py::class_<RoadNetwork, std::shared_ptr<RoadNetwork>>(module, "RoadNetwork",
-                                                        R"(The roads of a map, as links from junction to junction.
+  py::class_<RoadNetwork, std::shared_ptr<RoadNetwork>>(
+      module, "RoadNetwork",
+      R"(The roads of a map, as links from junction to junction.
 
 file: .osm.pbf, .osm (also .gz, .bz2), or a network file of `maploop map build`.
 box: west, south, east, north in degrees: only this part. Raises RuntimeError that names the file.)")

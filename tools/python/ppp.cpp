@@ -105,10 +105,10 @@ files: one file of RINEX observations and its products (navigation, SP3, clocks,
 earth rotation, ocean loading), in any order. config: [ppp] of a Config.
 Iterating gives the position of one epoch after the other, elements of position_dtype. Raises
 RuntimeError that names the file, or what is missing.)")
-      .def(py::init([](const std::vector<std::filesystem::path>& files,
-                       const VehicleConfig& config) {
-             return std::make_unique<PythonPpp>(files, config);
-           }),
+      .def(py::init(
+               [](const std::vector<std::filesystem::path>& files, const VehicleConfig& config) {
+                 return std::make_unique<PythonPpp>(files, config);
+               }),
            py::arg("files"), py::arg("config") = VehicleConfig())
       .def("__len__", &PythonPpp::size, "Returns the number of epochs.")
       .def("__iter__", [](const py::object& self) { return self; })

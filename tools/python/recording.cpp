@@ -81,13 +81,13 @@ template <class T = void>
 std::unique_ptr<Samples> samples(const OpenedRecording& opened) {
   const py::gil_scoped_release released;
   std::vector<std::unique_ptr<Stream>> streams;
-  opened.recording.sensors(Time::min()).each_source([&]<class S>(
-                                                        std::unique_ptr<sensors::Source<S>>& s) {
-    // The observations of a receiver are PppFilter's.
-    if constexpr (!std::is_same_v<S, vehicle::GnssEpoch> &&
-                  (std::is_void_v<T> || std::is_same_v<S, T>))
-      streams.push_back(std::make_unique<StreamOf<S>>(std::move(s)));
-  });
+  opened.recording.sensors(Time::min())
+      .each_source([&]<class S>(std::unique_ptr<sensors::Source<S>>& s) {
+        // The observations of a receiver are PppFilter's.
+        if constexpr (!std::is_same_v<S, vehicle::GnssEpoch> &&
+                      (std::is_void_v<T> || std::is_same_v<S, T>))
+          streams.push_back(std::make_unique<StreamOf<S>>(std::move(s)));
+      });
   return std::make_unique<Samples>(std::move(streams));
 }
 
@@ -106,7 +106,8 @@ void add_recording(py::module_& module) {
   py::class_<Samples>(module, "Samples", "Iterates over samples of a recording.")
       .def("__iter__", [](const py::object& self) { return self; })
       .def("__next__", &Samples::next);
-  py::class_<OpenedRecording>(module, "Recording", R"(A recorded drive in any form that maploop opens.
+  py::class_<OpenedRecording>(module, "Recording",
+                              R"(A recorded drive in any form that maploop opens.
 
 path: a KITTI drive, KITTI-360, EuRoC, a folder of images, clouds or tables, a ROS bag, an MCAP
 file, a capture of a Velodyne scanner, or a log (sensors/FORMATS.md).

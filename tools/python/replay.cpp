@@ -92,7 +92,8 @@ PythonReplay run(const OpenedRecording& opened, const std::filesystem::path& map
   result.configuration = config.configuration;
   result.lockstep = true;
   tools::score(result, pass, run.recording, run.reference, roads.get());
-  replay.json = tools::to_json(result).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  replay.json =
+      tools::to_json(result).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   replay.verdict = tools::verdict_text(result);
   return replay;
 }
@@ -103,7 +104,8 @@ py::object replay(const OpenedRecording& recording, const std::filesystem::path&
   std::optional<vehicle::MapMode> mode;
   if (map_mode) {
     mode = value_named<vehicle::MapMode>(*map_mode);
-    if (!mode) throw py::value_error("map_mode is none, loose, tight or hard-reset, not " + *map_mode);
+    if (!mode)
+      throw py::value_error("map_mode is none, loose, tight or hard-reset, not " + *map_mode);
   }
   StateCallback callback(on_state);
   PythonReplay done = run(recording, map, mode, end, keep_states, callback);
@@ -118,8 +120,8 @@ py::object replay(const OpenedRecording& recording, const std::filesystem::path&
 
 void add_replay(py::module_& module) {
   module.def("replay", &replay, py::arg("recording"), py::kw_only(), py::arg("map") = "",
-             py::arg("map_mode") = py::none(), py::arg("end") = 0.0,
-             py::arg("keep_states") = true, py::arg("on_state") = py::none(),
+             py::arg("map_mode") = py::none(), py::arg("end") = 0.0, py::arg("keep_states") = true,
+             py::arg("on_state") = py::none(),
              R"(Replays a Recording through the vehicle, as `maploop replay --lockstep` does.
 
 map: an OpenStreetMap or network file. map_mode: none, loose, tight or hard-reset.

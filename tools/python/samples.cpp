@@ -23,8 +23,7 @@ template <class T>
 Class<T> sample(py::module_& module, const char* name, const char* says) {
   return Class<T>(module, name, says)
       .def_property_readonly(
-          "stamp", [](const T& s) { return to_nanoseconds(s.stamp); },
-          "ns, when it was measured")
+          "stamp", [](const T& s) { return to_nanoseconds(s.stamp); }, "ns, when it was measured")
       .def_property_readonly(
           "available", [](const T& s) { return to_nanoseconds(s.available); },
           "ns, when the sensor delivers it")
@@ -62,8 +61,8 @@ width, height, fx, fy, cx, cy: px. baseline: m, from the left camera to the righ
 T_body_cam: (4, 4), from the left camera to the body.)")
       .def(py::init([](int width, int height, double fx, double fy, double cx, double cy,
                        double baseline, const Eigen::Matrix4d& T_body_cam) {
-             return StereoCalibration{
-                 width, height, fx, fy, cx, cy, baseline, rigid(T_body_cam, "T_body_cam")};
+             return StereoCalibration{width, height, fx,       fy,
+                                      cx,    cy,     baseline, rigid(T_body_cam, "T_body_cam")};
            }),
            py::kw_only(), py::arg("width"), py::arg("height"), py::arg("fx"), py::arg("fy"),
            py::arg("cx"), py::arg("cy"), py::arg("baseline"),
@@ -106,7 +105,8 @@ six_axes: whether force up, roll and pitch rate are measured; otherwise they are
       .def(py::init([](std::int64_t stamp, const Eigen::Vector3d& force,
                        const Eigen::Vector3d& rate, bool six_axes, std::uint64_t sequence) {
              auto s = stamped<ImuSample>(stamp, sequence);
-             s->values() = {force.x(), force.y(), rate.z(), six_axes, force.z(), rate.x(), rate.y()};
+             s->values() = {force.x(), force.y(), rate.z(), six_axes,
+                            force.z(), rate.x(),  rate.y()};
              if (!six_axes) s->specific_force_up = s->roll_rate = s->pitch_rate = 0.0;
              return s;
            }),
@@ -121,9 +121,7 @@ six_axes: whether force up, roll and pitch rate are measured; otherwise they are
           "(3,) m/s^2, body")
       .def_property_readonly(
           "angular_rate",
-          [](const ImuSample& s) {
-            return Eigen::Vector3d(s.roll_rate, s.pitch_rate, s.yaw_rate);
-          },
+          [](const ImuSample& s) { return Eigen::Vector3d(s.roll_rate, s.pitch_rate, s.yaw_rate); },
           "(3,) rad/s, body")
       .def_property_readonly("six_axes", [](const ImuSample& s) { return s.six_axes; });
   sample<WheelSpeed>(module, "WheelSpeed", "Speed along the path and its standard deviation, m/s.")
@@ -143,10 +141,12 @@ six_axes: whether force up, roll and pitch rate are measured; otherwise they are
 template <class T>
 Class<T> place(Class<T> of) {
   return of
-      .def_property_readonly("latitude", [](const T& s) { return s.position.latitude; }, "rad")
-      .def_property_readonly("longitude", [](const T& s) { return s.position.longitude; }, "rad")
-      .def_property_readonly("height", [](const T& s) { return s.position.height; },
-                             "m above the ellipsoid")
+      .def_property_readonly(
+          "latitude", [](const T& s) { return s.position.latitude; }, "rad")
+      .def_property_readonly(
+          "longitude", [](const T& s) { return s.position.longitude; }, "rad")
+      .def_property_readonly(
+          "height", [](const T& s) { return s.position.height; }, "m above the ellipsoid")
       .def_readonly("velocity_enu", &T::velocity_enu, "(3,) m/s")
       .def_property_readonly(
           "velocity_stamp", [](const T& s) { return to_nanoseconds(s.velocity_stamp); }, "ns");
@@ -158,9 +158,8 @@ void add_places(py::module_& module) {
 latitude, longitude: rad, WGS84. height: m above the ellipsoid. velocity_enu: (3,) m/s.
 position_covariance: (3, 3) m^2, east north up. velocity_covariance: (3, 3) m^2/s^2.)"))
       .def(py::init([](std::int64_t stamp, double latitude, double longitude, double height,
-                       const Eigen::Matrix3d& position_covariance,
-                       const Eigen::Vector3d& velocity, const Eigen::Matrix3d& velocity_covariance,
-                       std::uint64_t sequence) {
+                       const Eigen::Matrix3d& position_covariance, const Eigen::Vector3d& velocity,
+                       const Eigen::Matrix3d& velocity_covariance, std::uint64_t sequence) {
              auto s = stamped<GnssFix>(stamp, sequence);
              s->position = {latitude, longitude, height};
              s->position_covariance = position_covariance;

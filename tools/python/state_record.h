@@ -18,8 +18,8 @@ struct StateRecord {
   double forward_speed;                // m/s
   double gyro_bias;                    // rad/s
   double covariance[9][9];
-  double odom_position[3];  // m
-  double odom_azimuth;      // rad
+  double odom_position[3];                                                    // m
+  double odom_azimuth;                                                        // rad
   std::int64_t odometry_stamp, gnss_stamp, wheel_stamp, zero_velocity_stamp;  // ns
 };
 
