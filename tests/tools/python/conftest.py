@@ -49,5 +49,8 @@ def motions(three_seconds):
     """The motions of that log: visual ones, and those of LiDAR."""
     samples = list(maploop.Recording(three_seconds[0] / "run.lcmlog"))
     lidar = [m for m in samples if isinstance(m, maploop.LidarMotion)]
-    visual = [m for m in samples if type(m) is maploop.RelativeMotion and m.source == "visual"]
-    return visual, lidar
+    visual = {}
+    for m in samples:  # what the fusion has used comes later
+        if type(m) is maploop.RelativeMotion:
+            visual.setdefault(m.stamp, m)
+    return list(visual.values()), lidar

@@ -19,7 +19,9 @@ def test_a_vehicle_that_drives_straight_on_goes_north():
     assert f.add(fix(START)) == "applied" and f.initialized
     for k in range(1, 101):
         stamp = START + k * SECOND // 100
-        assert f.add(maploop.ImuSample(stamp, [0.0, 0.0, 9.8], [0.0, 0.0, 0.0], six_axes=False, sequence=k)) == "applied"
+        noise = 1e-6 * k  # a sensor that says the same for long is taken to be stuck
+        sample = maploop.ImuSample(stamp, [noise, 0.0, 9.8], [0.0, 0.0, 0.0], six_axes=False, sequence=k)
+        assert f.add(sample) == "applied"
     state = f.state_at(START + SECOND)
     assert state["position_enu"] == pytest.approx([0.0, 10.0, 0.0], abs=0.1)
     assert state["azimuth"] == pytest.approx(0.0, abs=1e-3)
@@ -31,7 +33,8 @@ def test_a_refusal_has_its_reason():
     f = maploop.FusionFilter()
     assert f.add(fix(START, north_speed=0.0)) == "too slow for a course"
     assert f.add(fix(START + 1, position_covariance=-np.eye(3))) == "invalid covariance"
-    assert f.add(maploop.WheelSpeed(START, float("nan"), 0.1)) == "a value is not finite"
+    assert f.add(maploop.WheelSpeed(START, 1.0, 0.1)) == "not used by the configuration"
+    assert f.add(maploop.ImuSample(START, [float("nan"), 0.0, 0.0], [0.0, 0.0, 0.0])) == "a value is not finite"
 
 
 def test_a_known_place_starts_it_too():

@@ -33,7 +33,9 @@ def test_a_matcher_goes_on_where_it_stopped(data, roads):
     fixes = maploop.read_track(data / "kitti_odometry/oxts/04.csv.gz")
     whole = maploop.Matcher(roads).match(fixes)
     matcher = maploop.Matcher(roads)
-    assert np.concatenate([matcher.match(fixes[:20]), matcher.match(fixes[20:])]).tobytes() == whole.tobytes()
+    parts = np.concatenate([matcher.match(fixes[:20]), matcher.match(fixes[20:])])
+    for name in whole.dtype.names:
+        np.testing.assert_array_equal(parts[name], whole[name])
 
 
 def test_a_track_of_ones_own(roads):

@@ -23,13 +23,13 @@ def test_samples_of_a_drive_come_in_the_order_of_their_delivery(drive):
 
 @pytest.mark.parametrize("name", ["kitti13_ros1_bz2.bag", "kitti13_ros2_zstd_message", "kitti13_zstd.mcap"])
 def test_a_bag_has_the_samples_that_it_was_made_of(data, drive, name):
-    bag = maploop.Recording(data / "bags/kitti_0013" / name)
-    pairs, scans = list(bag.images()), list(bag.scans())
+    samples = list(maploop.Recording(data / "bags/kitti_0013" / name))
+    pairs, scans, imu = ([s for s in samples if isinstance(s, kind)]
+                         for kind in (maploop.StereoPair, maploop.LidarScan, maploop.ImuSample))
     assert len(pairs) == 3 and len(scans) >= 2
     originals = {p.left.tobytes() for p in islice(maploop.Recording(drive).images(), 40)}
     assert sum(p.left.tobytes() in originals for p in pairs) >= 1
     assert all(s.points.shape[1] == 4 and len(s.points) > 50_000 for s in scans[:2])
-    imu = list(bag.imu())
     assert imu and all(abs(np.linalg.norm(s.specific_force) - 9.8) < 3.0 for s in imu)
 
 
