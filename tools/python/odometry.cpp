@@ -131,9 +131,10 @@ class PythonLidar {
   static ScanView view(const py::array& points, std::int64_t stamp,
                        std::optional<std::int64_t> start, std::optional<std::int64_t> end) {
     require_array<float>(points, "points", 2);
-    if (points.shape(1) != 3 && points.shape(1) != 4)
+    if (points.shape(1) != 3 && points.shape(1) != 4) {
       throw py::value_error("points has " + std::to_string(points.shape(1)) +
                             " columns; it must have x, y, z, or these and the reflectance");
+    }
     if (points.shape(0) == 0) throw py::value_error("points is empty: the scan has no point");
     const py::ssize_t row = points.strides(0), one = sizeof(float);
     if (points.strides(1) != one || row < 3 * one || row % one != 0) {
