@@ -1,9 +1,9 @@
 #include "mapmatch/rule_bases.h"
 
 #include <cstdlib>
-#include <system_error>
 
 #include "mapmatch/fll_reader.h"
+#include "msgs/shared_folder.h"
 
 namespace maploop::mapmatch {
 
@@ -16,9 +16,7 @@ RuleBases read_rule_bases(const std::filesystem::path& folder) {
 
 std::filesystem::path default_rules() {
   if (const char* folder = std::getenv("MAPLOOP_RULES")) return folder;
-  std::error_code unreadable;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", unreadable);
-  return program.parent_path().parent_path() / "share/maploop/rules";
+  return shared_folder() / "rules";
 }
 
 }  // namespace maploop::mapmatch

@@ -31,8 +31,7 @@ struct RuleBases {
 // Throws FllError.
 RuleBases read_rule_bases(const std::filesystem::path& folder);
 
-// Returns the folder of the rules: MAPLOOP_RULES, or share/maploop/rules beside the program's
-// folder, both when installed and in a build folder.
+// Returns the folder of the rules: MAPLOOP_RULES, or the folder rules of shared_folder().
 std::filesystem::path default_rules();
 
 }  // namespace maploop::mapmatch

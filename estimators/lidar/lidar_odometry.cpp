@@ -45,12 +45,17 @@ LidarOdometry::LidarOdometry(const Isometry3d& T_body_velo, const LidarParameter
 }
 
 OdometerResult LidarOdometry::process(const LidarScan* scan, const RelativeMotion* visual) {
+  return process(view_of(scan), visual);
+}
+
+OdometerResult LidarOdometry::process(const std::optional<ScanView>& scan,
+                                      const RelativeMotion* visual) {
   OdometerResult result;
   result.lidar.source = OdometrySource::lidar;
   result.lidar.status = OdometryStatus::bad_input;
   if (visual != nullptr) result.odometry = *visual;
   if (visual != nullptr && visual->status == OdometryStatus::bad_input) visual = nullptr;
-  if (scan == nullptr && visual == nullptr) return result;
+  if (!scan && visual == nullptr) return result;
   begin(visual != nullptr ? static_cast<const Sample&>(*visual) : *scan, &result.lidar);
   if (!in_order(scan, result.lidar.stamp) || (visual == nullptr && too_late(*scan))) {
     if (visual == nullptr) result.odometry = result.lidar;
@@ -59,7 +64,7 @@ OdometerResult LidarOdometry::process(const LidarScan* scan, const RelativeMotio
 
   const Prediction prediction = predict(result.lidar.stamp, visual);
   Isometry3d T_from_to = prediction.T_from_to;
-  if (scan != nullptr) {
+  if (scan) {
     register_scan(*scan, prediction, &result.lidar);
     if (result.lidar.status == OdometryStatus::ok) T_from_to = result.lidar.T_from_to();
   }
@@ -67,7 +72,7 @@ OdometerResult LidarOdometry::process(const LidarScan* scan, const RelativeMotio
     result.odometry = result.lidar;
   }
   advance(T_from_to, result);
-  if (scan != nullptr) learn(*scan, result.lidar.status);
+  if (scan) learn(*scan, result.lidar.status);
   return result;
 }
 
@@ -77,9 +82,9 @@ void LidarOdometry::begin(const Sample& sample, LidarMotion* motion) const {
 }
 
 // Returns whether the step is in order. After max_stale_scans old stamps the odometry restarts.
-bool LidarOdometry::in_order(const LidarScan* scan, Time stamp) {
-  if (scan != nullptr && !(scan->start < scan->stamp && scan->stamp < scan->end &&
-                           scan->start <= stamp && stamp <= scan->end)) {
+bool LidarOdometry::in_order(const std::optional<ScanView>& scan, Time stamp) {
+  if (scan && !(scan->start < scan->stamp && scan->stamp < scan->end && scan->start <= stamp &&
+                stamp <= scan->end)) {
     return false;
   }
   if (started_ && stamp <= stamp_) {
@@ -93,7 +98,7 @@ bool LidarOdometry::in_order(const LidarScan* scan, Time stamp) {
 
 // A scan without visual motion is too late if a step within its turn was already taken: its
 // visual motion was processed without it.
-bool LidarOdometry::too_late(const LidarScan& scan) const {
+bool LidarOdometry::too_late(const ScanView& scan) const {
   return started_ && scan.start < stamp_;
 }
 
@@ -126,7 +131,7 @@ LidarOdometry::Prediction LidarOdometry::predict(Time stamp, const RelativeMotio
 }
 
 // Prepares, aligns and judges the scan. On refusal it sets the status and diagnostics only.
-void LidarOdometry::register_scan(const LidarScan& scan, const Prediction& prediction,
+void LidarOdometry::register_scan(const ScanView& scan, const Prediction& prediction,
                                   LidarMotion* motion) {
   preparation_.prepare(scan, motion->stamp, twist_.value_or(Twist{}), &prepared_);
   motion->tracked = static_cast<int>(prepared_.points.size());
@@ -196,7 +201,7 @@ void LidarOdometry::advance(const Isometry3d& T_from_to, const OdometerResult& r
 }
 
 // Adds the scan to the map, or starts the map with it.
-void LidarOdometry::learn(const LidarScan& scan, OdometryStatus status) {
+void LidarOdometry::learn(const ScanView& scan, OdometryStatus status) {
   if (status == OdometryStatus::first_frame) {
     map_.insert(prepared_, T_map_body_);
     map_is_sharp_ = twist_.has_value();

@@ -54,6 +54,8 @@ class LidarOdometry {
   //                     outside the scan's turn; a scan alone, if a step within its turn was
   //                     already processed
   OdometerResult process(const LidarScan* scan, const RelativeMotion* visual);
+  // The same for points that the caller keeps.
+  OdometerResult process(const std::optional<ScanView>& scan, const RelativeMotion* visual);
 
   // Returns the last prepared scan, in the body frame at its `stamp`; for displays.
   const PreparedScan& prepared() const { return prepared_; }
@@ -79,16 +81,16 @@ class LidarOdometry {
   template <class Archive, class Odometry>
   static void describe(Archive& ar, Odometry& odometry);
   void begin(const Sample& sample, LidarMotion* motion) const;
-  bool in_order(const LidarScan* scan, Time stamp);
-  bool too_late(const LidarScan& scan) const;
+  bool in_order(const std::optional<ScanView>& scan, Time stamp);
+  bool too_late(const ScanView& scan) const;
   void restart();
   Prediction predict(Time stamp, const RelativeMotion* visual);
-  void register_scan(const LidarScan& scan, const Prediction& prediction, LidarMotion* motion);
+  void register_scan(const ScanView& scan, const Prediction& prediction, LidarMotion* motion);
   OdometryStatus judge(const Eigen::Isometry3d& T_from_to, const Prediction& prediction,
                        const LidarMotion& motion) const;
   Matrix6d covariance(const Alignment& alignment) const;
   void advance(const Eigen::Isometry3d& T_from_to, const OdometerResult& result);
-  void learn(const LidarScan& scan, OdometryStatus status);
+  void learn(const ScanView& scan, OdometryStatus status);
 
   Eigen::Isometry3d T_body_velo_;
   LidarParameters parameters_;

@@ -58,16 +58,16 @@ float turn_fraction(float x, float y) {
   return std::clamp(0.5f - angle * (0.5f / pi), 0.0f, 1.0f);
 }
 
-PointTimes::PointTimes(const LidarScan& scan, Time from)
+PointTimes::PointTimes(const ScanView& scan, Time from)
     : scan_(scan),
       middle_(static_cast<float>(to_seconds(scan.stamp - from))),
       first_half_(static_cast<float>(to_seconds(scan.stamp - scan.start))),
       second_half_(static_cast<float>(to_seconds(scan.end - scan.stamp))) {}
 
 float PointTimes::operator()(std::size_t i) const {
-  if (!scan_.times.empty()) return middle_ + scan_.times[i];
-  const LidarPoint& p = scan_.points[i];
-  const float turn = 2.0f * turn_fraction(p.x, p.y) - 1.0f;
+  if (scan_.times != nullptr) return middle_ + scan_.times[i];
+  const Vector3f p = scan_[i];
+  const float turn = 2.0f * turn_fraction(p.x(), p.y()) - 1.0f;
   return middle_ + turn * (turn < 0.0f ? first_half_ : second_half_);
 }
 
@@ -84,7 +84,7 @@ ScanPreparation::ScanPreparation(const Eigen::Isometry3d& T_body_velo,
       parameters_(parameters),
       moments_(static_cast<float>(parameters.sample_voxel), parameters.max_samples) {}
 
-void ScanPreparation::prepare(const LidarScan& scan, Time stamp, const Twist& motion,
+void ScanPreparation::prepare(const ScanView& scan, Time stamp, const Twist& motion,
                               PreparedScan* prepared) {
   prepared->stamp = stamp;
   prepared->cropped = 0;
@@ -97,18 +97,18 @@ void ScanPreparation::prepare(const LidarScan& scan, Time stamp, const Twist& mo
   const auto nearest = static_cast<float>(parameters_.min_range * parameters_.min_range);
   const auto furthest = static_cast<float>(parameters_.max_range * parameters_.max_range);
   const std::size_t most = static_cast<std::size_t>(parameters_.max_points);
-  const std::size_t stride = (scan.points.size() + most - 1) / most;
+  const std::size_t stride = (scan.count + most - 1) / most;
 
   int left_out = 0;
-  for (std::size_t i = 0; i < scan.points.size(); i += stride) {
-    const LidarPoint& raw = scan.points[i];
-    const float square = raw.x * raw.x + raw.y * raw.y + raw.z * raw.z;
+  for (std::size_t i = 0; i < scan.count; i += stride) {
+    const Vector3f raw = scan[i];
+    const float square = raw.x() * raw.x() + raw.y() * raw.y() + raw.z() * raw.z();
     if (!(square >= nearest && square <= furthest)) {  // false for NaN too
       ++prepared->cropped;
       continue;
     }
     const float t = time_of(i);
-    const Vector3f seen = T_body_velo_ * with_elevation({raw.x, raw.y, raw.z}, cosine, sine);
+    const Vector3f seen = T_body_velo_ * with_elevation(raw, cosine, sine);
     // This is the body's motion over t to second order; the third order is 0.2 mm at 80 m and 0.5
     // rad/s.
     // (2) of METHOD.md
@@ -116,8 +116,8 @@ void ScanPreparation::prepare(const LidarScan& scan, Time stamp, const Twist& mo
     if (!moments_.add(seen + turned + t * velocity)) ++left_out;
   }
   prepared->left_out =
-      left_out + static_cast<int>(scan.points.size() - (scan.points.size() + stride - 1) /
-                                                           std::max<std::size_t>(stride, 1));
+      left_out +
+      static_cast<int>(scan.count - (scan.count + stride - 1) / std::max<std::size_t>(stride, 1));
   moments_.sort();
   surface_points(moments_, parameters_.min_surface_points, &prepared->points);
 }

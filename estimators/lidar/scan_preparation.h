@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "estimators/lidar/parameters.h"
+#include "estimators/lidar/scan_view.h"
 #include "estimators/lidar/surface_normals.h"
 #include "estimators/lidar/surface_point.h"
 #include "estimators/lidar/voxel_moments.h"
-#include "msgs/lidar_scan.h"
 
 namespace maploop::lidar {
 
@@ -36,12 +36,12 @@ float turn_fraction(float x, float y);
 // Gives the time of each point of a scan, in seconds after `from`: its own, or that of its azimuth.
 class PointTimes {
  public:
-  // The scan must outlive this.
-  PointTimes(const LidarScan& scan, Time from);
+  // The points must outlive this.
+  PointTimes(const ScanView& scan, Time from);
   float operator()(std::size_t i) const;
 
  private:
-  const LidarScan& scan_;
+  ScanView scan_;
   float middle_, first_half_, second_half_;
 };
 
@@ -59,7 +59,7 @@ class ScanPreparation {
   // Moves the points to their positions at `stamp`, the time of the pose that the registration will
   // find. `motion` is the vehicle's during the scan. Precondition: start < middle < end. Points
   // that are not finite are cropped.
-  void prepare(const LidarScan& scan, Time stamp, const Twist& motion, PreparedScan* prepared);
+  void prepare(const ScanView& scan, Time stamp, const Twist& motion, PreparedScan* prepared);
 
  private:
   Eigen::Isometry3f T_body_velo_;

@@ -18,11 +18,11 @@ RelativeMotion begun_at(Time from, RelativeMotion motion) {
 
 }  // namespace
 
-OdometerResult VisualLidarOdometer::process(const LidarScan* scan, const VisualMotion* visual) {
+OdometerResult VisualLidarOdometer::process(const std::optional<ScanView>& scan,
+                                            const VisualMotion* visual) {
   if (visual == nullptr) return odometry_.process(scan, nullptr);
   const RelativeMotion corrected = correction_.correct(*visual);
-  const RelativeMotion& used =
-      scan != nullptr ? static_cast<const RelativeMotion&>(*visual) : corrected;
+  const RelativeMotion& used = scan ? static_cast<const RelativeMotion&>(*visual) : corrected;
   OdometerResult result = odometry_.process(scan, &used);
   if (result.lidar.status == OdometryStatus::ok) {
     correction_.learn(*visual, result.lidar);

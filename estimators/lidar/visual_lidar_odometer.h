@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "estimators/lidar/disparity_correction.h"
@@ -28,7 +29,11 @@ class VisualLidarOdometer {
   // One step; nullptr: there is no scan, or no visual motion. With a scan, a visual motion is an
   // independent measurement and is used uncorrected. Without one it is corrected and, if it begins
   // before the end of the last step, shortened to begin there, because the motions must join.
-  OdometerResult process(const LidarScan* scan, const VisualMotion* visual);
+  OdometerResult process(const LidarScan* scan, const VisualMotion* visual) {
+    return process(view_of(scan), visual);
+  }
+  // The same for points that the caller keeps.
+  OdometerResult process(const std::optional<ScanView>& scan, const VisualMotion* visual);
 
   const LidarOdometry& odometry() const { return odometry_; }
   const DisparityCorrection& correction() const { return correction_; }

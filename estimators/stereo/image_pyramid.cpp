@@ -4,10 +4,9 @@
 
 namespace maploop::stereo {
 
-void ImagePyramid::build(const GreyImage& image, const StereoParameters& parameters) {
+void ImagePyramid::build(const ImageView& image, const StereoParameters& parameters) {
   // OpenCV offers no view of constant pixels; here it only reads them.
-  const cv::Mat view(image.height, image.width, CV_8UC1,
-                     const_cast<unsigned char*>(image.pixels.data()));
+  const cv::Mat view(image.height, image.width, CV_8UC1, const_cast<unsigned char*>(image.pixels));
   cv::buildOpticalFlowPyramid(view, levels_, cv::Size(parameters.window, parameters.window),
                               parameters.pyramid_levels, true, cv::BORDER_REFLECT_101,
                               cv::BORDER_CONSTANT, false);

@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "estimators/stereo/image_view.h"
 #include "estimators/stereo/parameters.h"
 #include "msgs/image.h"
 
@@ -13,7 +14,7 @@ namespace maploop::stereo {
 // flows that start or end here. Building again reuses the buffers.
 class ImagePyramid {
  public:
-  void build(const GreyImage& image, const StereoParameters& parameters);
+  void build(const ImageView& image, const StereoParameters& parameters);
 
   // Copies out the image from which the pyramid was built.
   void copy_image(GreyImage* image) const;

@@ -37,10 +37,8 @@ void validate(const StereoCalibration& calibration) {
   require_positive("calibration baseline (m, right camera to the right)", calibration.baseline);
 }
 
-bool has_size(const GreyImage& image, const StereoCalibration& calibration) {
-  return image.width == calibration.width && image.height == calibration.height &&
-         image.pixels.size() ==
-             static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+bool has_size(const ImageView& image, const StereoCalibration& calibration) {
+  return image.width == calibration.width && image.height == calibration.height;
 }
 
 // Returns the front end that parameters.matching selects.
@@ -61,18 +59,18 @@ class StereoOdometry::Implementation {
         front_end_(make_front_end(calibration, parameters)),
         back_end_(calibration, parameters) {}
 
-  VisualMotion process(const StereoPair& pair) {
+  VisualMotion process(const Sample& pair, const ImageView& left, const ImageView& right) {
     VisualMotion result;
     result.stamp = pair.stamp;
     result.available = pair.available;
     result.sequence = pair.sequence;
     tracks_.clear();
-    if (!acceptable(pair)) {
+    if (!acceptable(pair.stamp, left, right)) {
       result.status = OdometryStatus::bad_input;
       return result;
     }
-    current_.left.build(pair.left, parameters_);
-    current_.right.build(pair.right, parameters_);
+    current_.left.build(left, parameters_);
+    current_.right.build(right, parameters_);
     notify(stage_, "pyramids");
 
     std::span<const int> agreeing;
@@ -144,9 +142,9 @@ class StereoOdometry::Implementation {
     }
   }
 
-  bool acceptable(const StereoPair& pair) {
-    if (!has_size(pair.left, camera_) || !has_size(pair.right, camera_)) return false;
-    if (has_reference_ && pair.stamp <= reference_stamp_) {
+  bool acceptable(Time stamp, const ImageView& left, const ImageView& right) {
+    if (!has_size(left, camera_) || !has_size(right, camera_)) return false;
+    if (has_reference_ && stamp <= reference_stamp_) {
       if (++stale_pairs_ < parameters_.max_stale_pairs) return false;
       has_reference_ = false;
     }
@@ -175,7 +173,7 @@ class StereoOdometry::Implementation {
   }
 
   // A pair without features of its own (black, covered, swapped) must not replace a good one.
-  void adopt_reference(const StereoPair& pair, int features, RelativeMotion* result) {
+  void adopt_reference(const Sample& pair, int features, RelativeMotion* result) {
     if (features < parameters_.min_tracks && result->status != OdometryStatus::ok) {
       result->status = why_few_features(current_, parameters_);
       return;
@@ -229,7 +227,12 @@ double StereoOdometry::disparity_offset() const {
 }
 
 VisualMotion StereoOdometry::process(const StereoPair& pair) {
-  return implementation_->process(pair);
+  return implementation_->process(pair, pair.left, pair.right);
+}
+
+VisualMotion StereoOdometry::process(const Sample& sample, const ImageView& left,
+                                     const ImageView& right) {
+  return implementation_->process(sample, left, right);
 }
 
 std::size_t StereoOdometry::largest_archive() const {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "estimators/stereo/image_view.h"
 #include "estimators/stereo/parameters.h"
 #include "estimators/stereo/stage_listener.h"
 #include "estimators/stereo/tracks.h"
@@ -54,6 +55,8 @@ class StereoOdometry {
   // A pair is usable if it shows enough stereo features itself or its motion is ok. The next pair
   // is then compared with it, even if its own motion was refused.
   VisualMotion process(const StereoPair& pair);
+  // The same for images that the caller keeps; `sample` is the stamp of the pair.
+  VisualMotion process(const Sample& sample, const ImageView& left, const ImageView& right);
 
   // Sets the listener that is called at the end of each stage, from the next call of process() on.
   void on_stage(StageListener listener);

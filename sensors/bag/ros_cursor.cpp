@@ -61,6 +61,7 @@ void RosCursor::numbers(T (&to)[size]) {
   for (T& value : to) value = number<T>();
 }
 
+template void RosCursor::numbers(std::uint8_t (&)[4]);
 template void RosCursor::numbers(double (&)[3]);
 template void RosCursor::numbers(double (&)[4]);
 template void RosCursor::numbers(double (&)[9]);

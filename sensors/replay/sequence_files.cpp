@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "msgs/shared_folder.h"
 #include "sensors/replay/files.h"
 #include "sensors/replay/timestamps.h"
 
@@ -88,11 +89,9 @@ std::optional<Listed> find_in(const fs::path& list, std::string_view name) {
   return std::nullopt;
 }
 
-// Returns the list of KITTI's own sequences in the program's folder share/maploop.
+// Returns the installed list of KITTI's own sequences.
 fs::path own_list() {
-  std::error_code unreadable;
-  const auto program = fs::read_symlink("/proc/self/exe", unreadable);
-  return program.parent_path().parent_path() / "share/maploop/kitti_sequences.csv";
+  return shared_folder() / "kitti_sequences.csv";
 }
 
 std::optional<fs::path> table_at(const fs::path& path) {

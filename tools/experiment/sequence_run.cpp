@@ -1,6 +1,8 @@
 #include "tools/experiment/sequence_run.h"
 
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 #include "runtime/core/data_clock.h"
@@ -35,10 +37,14 @@ RecordingRun run_recording(vehicle::Recording recording, const vehicle::VehicleC
     also(state);
   };
   vehicle::Vehicle vehicle(config, drive.calibration, std::move(sensors),
-                           runtime::DataClock::virtual_time(), {}, std::move(observer), nullptr,
-                           std::move(map));
+                           runtime::DataClock::virtual_time(), options.sinks, std::move(observer),
+                           nullptr, std::move(map));
   if (options.from_reference) vehicle.start_from(vehicle::start_from_reference(drive));
   vehicle.start();
+  while (options.go_on && vehicle.running()) {
+    if (!options.go_on()) vehicle.stop();
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
   vehicle.wait();
   run.report = vehicle.report();
   return run;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -60,6 +61,9 @@ struct SequenceRun : RecordingRun {
 struct RunOptions {
   bool from_reference = false;  // the filter starts from the reference, not from a fix
   double end = 0.0;             // s into the drive; 0: the whole
+  std::vector<vehicle::MessageSink*> sinks{};
+  // Asked every few milliseconds, where it is set; false ends the run.
+  std::function<bool()> go_on{};
 };
 
 // Runs any recording, which was opened with `config`.

@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -132,7 +133,10 @@ std::optional<std::string> why_empty(const ReplayResult& result);
 // For a person, on a terminal: everything that was measured.
 std::string format_table(const ReplayResult& result);
 
-// The same for a program. Throws std::runtime_error naming the file when it cannot be written.
+// The same for a program; numbers that are not finite become null.
+nlohmann::json to_json(const ReplayResult& result);
+
+// Throws std::runtime_error naming the file when it cannot be written.
 void write_json(const std::filesystem::path& file, const ReplayResult& result);
 
 }  // namespace maploop::tools

@@ -213,7 +213,6 @@ ReplayResult Replay::result(PlaybackEnd end, const std::vector<ReferencePose>& r
   result.lockstep = options_.lockstep;
   result.speed = options_.speed;
   result.interrupted = end == PlaybackEnd::interrupted;
-  result.images = recording_.images;
   result.faults = faults_.counts();
   result.begin = recording_.first_stamp;
   if (snapshot_taken_) {
@@ -221,9 +220,6 @@ ReplayResult Replay::result(PlaybackEnd end, const std::vector<ReferencePose>& r
                        to_seconds(cut_ - player_->vehicle().first()),
                        pass_->hashes_after.summary()};
   }
-  const vehicle::Sensors sensors = recording_.sensors(Time::max());
-  result.has_gnss = sensors.gnss != nullptr || sensors.epochs != nullptr;
-  if (result.ppp && sensors.ppp) result.ppp->never_converges = sensors.ppp->never_converges();
   score(result, *pass_, recording_, reference, map_.get());
   return result;
 }

@@ -151,14 +151,9 @@ runtime::Tracer* RunOutput::new_tracer() {
 }
 
 ReplayResult RunOutput::result(const vehicle::Vehicle& vehicle, const RunPass& pass) const {
-  ReplayResult result;
+  ReplayResult result = result_of(pass, vehicle.report());
   result.run = run_.id;
   result.configuration = config_.configuration;
-  result.end = pass.end;
-  result.vehicle = vehicle.report();
-  result.begin = vehicle.first();
-  result.channels = pass.hashes.summary();
-  if (!pass.ppp_states.empty()) result.ppp.emplace(pass.ppp_states);
   if (tracer_) {
     result.trace = {options_.trace.string(), tracer_->recorded(), tracer_->dropped()};
   }

@@ -106,8 +106,21 @@ vehicle::Observer RunPass::end_observer() {
   return o;
 }
 
+ReplayResult result_of(const RunPass& pass, const vehicle::VehicleReport& report) {
+  ReplayResult result;
+  result.end = pass.end;
+  result.vehicle = report;
+  result.channels = pass.hashes.summary();
+  if (!pass.ppp_states.empty()) result.ppp.emplace(pass.ppp_states);
+  return result;
+}
+
 void score(ReplayResult& result, const RunPass& pass, const vehicle::Recording& recording,
            const std::vector<ReferencePose>& reference, const vehicle::RoadMap* map) {
+  result.images = recording.images;
+  const vehicle::Sensors sensors = recording.sensors(Time::max());
+  result.has_gnss = sensors.gnss != nullptr || sensors.epochs != nullptr;
+  if (result.ppp && sensors.ppp) result.ppp->never_converges = sensors.ppp->never_converges();
   if (map != nullptr && result.end) result.map = map_use(*result.end, pass, map->network);
   if (map != nullptr && recording.driven_links)
     result.links = links_score(pass, *recording.driven_links, map->network);

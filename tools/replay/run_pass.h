@@ -78,10 +78,13 @@ std::vector<fusion_score::OutageEnd> outage_ends(const fusion_score::NavTrack& t
                                                  const vehicle::Recording& recording,
                                                  const std::vector<ReferencePose>& reference);
 
+// Fills what the result of any run contains.
+ReplayResult result_of(const RunPass& pass, const vehicle::VehicleReport& report);
+
 constexpr double far_from_map = 5'000.0;  // m
 
-// Adds the accuracy against `reference`, the links against those driven, and whether the run was on
-// its map, to the result. `map` is nullptr without a map.
+// Adds what the recording contains, the accuracy against `reference`, the links against those
+// driven, and whether the run was on its map, to the result. `map` is nullptr without a map.
 void score(ReplayResult& result, const RunPass& pass, const vehicle::Recording& recording,
            const std::vector<ReferencePose>& reference, const vehicle::RoadMap* map);
 

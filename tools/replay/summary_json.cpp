@@ -113,7 +113,7 @@ void add_sensors(json& j, const vehicle::VehicleReport& v) {
 
 }  // namespace
 
-void write_json(const std::filesystem::path& file, const ReplayResult& r) {
+json to_json(const ReplayResult& r) {
   const Health& health = r.vehicle.health;
   const auto why = why_empty(r);
   json j{{"run", r.run},
@@ -146,7 +146,11 @@ void write_json(const std::filesystem::path& file, const ReplayResult& r) {
                      {"channels", to_json(r.snapshot->channels)}};
   }
   if (r.trace) j["trace"] = {{"recorded", r.trace->recorded}, {"dropped", r.trace->dropped}};
-  write_json_file(file, j);
+  return j;
+}
+
+void write_json(const std::filesystem::path& file, const ReplayResult& result) {
+  write_json_file(file, to_json(result));
 }
 
 }  // namespace maploop::tools

@@ -24,6 +24,19 @@ void set_range(LidarPoint& p, double range) {
   p.z *= factor;
 }
 
+// Takes away the points for which `lost` is true, and their times.
+void erase_points(LidarScan& scan, const auto& lost) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    if (lost(scan.points[i])) continue;
+    scan.points[kept] = scan.points[i];
+    if (!scan.times.empty()) scan.times[kept] = scan.times[i];
+    ++kept;
+  }
+  scan.points.resize(kept);
+  if (!scan.times.empty()) scan.times.resize(kept);
+}
+
 }  // namespace
 
 void fill_with_nan(LidarScan& scan) {
@@ -48,7 +61,7 @@ void turn(LidarScan& scan, double angle) {
 }
 
 void block(LidarScan& scan, double width) {
-  std::erase_if(scan.points, [width](const LidarPoint& p) {
+  erase_points(scan, [width](const LidarPoint& p) {
     return std::abs(std::atan2(p.y, p.x)) <= static_cast<float>(0.5 * width);
   });
 }
@@ -56,7 +69,7 @@ void block(LidarScan& scan, double width) {
 void rain_on(LidarScan& scan, double drops, std::uint64_t seed) {
   constexpr double nearest = 1.0, farthest = 6.0, far = 20.0;  // m
   sensors::NormalGenerator random(seed, scan.stamp);
-  std::erase_if(scan.points, [&](LidarPoint& p) {
+  erase_points(scan, [&](LidarPoint& p) {
     const double range = range_of(p);
     if (random.uniform(0.0, 1.0) < drops) {
       set_range(p, std::min(range, random.uniform(nearest, farthest)));
