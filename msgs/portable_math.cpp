@@ -22,6 +22,8 @@
     return Sleef_cinz_##name##f1_u10purec(x, y); \
   }
 
+#pragma GCC visibility push(default)  // in programs whose other names are hidden, too
+
 extern "C" {
 
 int maploop_portable_math = 1;  // the linker is asked for this name (CMakeLists.txt)
@@ -59,3 +61,5 @@ void sincosf(float x, float* sine, float* cosine) {
 }
 
 }  // extern "C"
+
+#pragma GCC visibility pop

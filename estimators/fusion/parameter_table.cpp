@@ -224,17 +224,15 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
       {"doubt_memory", &P::doubt_memory, 0.1, large, "s", expert,
        "Time over which HEALTH looks for lasting contradictions between an aid and the rest."},
       {"doubt_gate", &P::doubt_gate, tiny, large, "1", expert,
-       "Mean error of fixes or wheels over that time beyond which HEALTH doubts them (chi-square, "
-       "a "
-       "degree of freedom for each component, if errors were white).",
+       "Mean error of fixes or wheels over that time beyond which HEALTH doubts them "
+       "(chi-square, a degree of freedom for each component, if errors were white).",
        doubt_choice},
       {"doubt_motion_gate", &P::doubt_motion_gate, tiny, large, "1", expert,
        "The same of odometry's lengths and turns, beyond which HEALTH doubts the inertial unit.",
        doubt_choice},
       {"doubt_scatter", &P::doubt_scatter, 1.0, large, "1", expert,
        "Mean square of an aid's innovations over that time, relative to their variance, beyond "
-       "which "
-       "HEALTH doubts the aid.",
+       "which HEALTH doubts the aid.",
        doubt_choice},
       {"gnss_lever_forward", &P::gnss_lever_forward, -50.0, 50.0, "m", usual,
        "Position of the antenna from the body's origin, forward."},

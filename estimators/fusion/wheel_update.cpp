@@ -1,7 +1,6 @@
 #include "estimators/fusion/wheel_update.h"
 
 #include "estimators/fusion/follow_innovation.h"
-
 #include "estimators/fusion/gnss_update.h"
 
 namespace maploop::fusion {

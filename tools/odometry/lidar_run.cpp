@@ -83,12 +83,12 @@ std::optional<LidarStep> LidarRun::next() {
   step.frame = frame_.number;
   step.with_scan = frame_.scan != nullptr;
   const double begin = processor_milliseconds();
-  const lidar::OdometerResult result = odometer_.process(
-      lidar::view_of(frame_.scan), frame_.visual ? &*frame_.visual : nullptr);
+  const lidar::OdometerResult result =
+      odometer_.process(lidar::view_of(frame_.scan), frame_.visual ? &*frame_.visual : nullptr);
   step.milliseconds = processor_milliseconds() - begin;
   step.lidar = result.lidar;
   step.odometry = result.odometry;
-  step.pose = odometer_.odometer().odometry().pose();
+  step.pose = odometer_.odometry().pose();
   return step;
 }
 

@@ -9,8 +9,10 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
-#include "estimators/lidar/parameters.h"
+#include "estimators/lidar/scan_preparation.h"
+#include "estimators/lidar/visual_lidar_odometer.h"
 #include "estimators/stereo/parameters.h"
 #include "msgs/odometry.h"
 #include "msgs/visual_motion.h"

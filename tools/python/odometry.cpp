@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "estimators/lidar/visual_lidar_odometer.h"
 #include "estimators/stereo/stereo_odometry.h"
 #include "runtime/vehicle/config/vehicle_config.h"
 #include "tools/python/arrays.h"
@@ -108,8 +109,7 @@ class PythonLidar {
   }
 
   Eigen::Matrix4d pose() {
-    return alone(mutex_,
-                 [&] { return Eigen::Matrix4d(odometer_.odometry().pose().matrix()); });
+    return alone(mutex_, [&] { return Eigen::Matrix4d(odometer_.odometry().pose().matrix()); });
   }
 
   Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> local_map() {
@@ -196,7 +196,7 @@ visual: the VisualMotion of the image pair taken during the scan. scan: None if 
 
 points: (n, 3) or (n, 4) float32, m, velo; they are not copied. stamp: ns, the middle of the turn.
 start, end: ns, of a turn from rear to rear, clockwise from above: times come from azimuths.
-times: (n,) float32, s after stamp, of each point (the points are then copied to be moved).
+times: (n,) float32, s after stamp, of each point.
 Without start, end and times all points count as measured at stamp. Raises TypeError or ValueError
 for arrays of another type or shape, and for no points.)")
       .def_property_readonly("pose", &PythonLidar::pose,

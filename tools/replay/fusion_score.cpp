@@ -23,7 +23,7 @@ struct Sample {
   double azimuth;  // rad, error
   double nees;
   double azimuth_sigma;  // rad, of the state
-  double accuracy;  // m, of the reference
+  double accuracy;       // m, of the reference
 };
 
 double median_accuracy(const std::vector<Sample>& samples) {

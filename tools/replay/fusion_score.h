@@ -34,8 +34,8 @@ struct Errors {
   double nees_mean = 0.0;
   double nees_end = 0.0;
   double nees_max = 0.0;
-  // Longest time in one go in which the error was beyond three sigmas of the filter's own (position:
-  // a NEES beyond a tail of 0.27 %).
+  // Longest time in one go in which the error was beyond three sigmas of the filter's own
+  // (position: a NEES beyond a tail of 0.27 %).
   double beyond = 0.0;          // s
   double azimuth_beyond = 0.0;  // s
   double covered = 0.0;  // 1, share of the stretch where there is a reference that is good enough

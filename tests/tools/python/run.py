@@ -16,7 +16,7 @@ try:
 
     import maploop  # noqa: F401
 except ImportError as error:
-    print(f"SKIPPED, NOT TESTED: {error}; tools/install-packages python test")
+    print(f"SKIPPED, NOT TESTED: {error}; tools/install-packages build test")
     sys.exit(77)
 
 

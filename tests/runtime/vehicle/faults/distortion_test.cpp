@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -18,14 +19,14 @@ namespace {
 using testing::drive_start;
 using testing::fake_source;
 
-constexpr double focal_length = 200.0;  // px
+constexpr double made_up_focal_length = 200.0;  // px
 
 // What a sensor delivers with these faults; take(sensors) gives its source.
 template <class T, class Take>
 std::vector<T> with_faults(const std::vector<std::string>& texts, Sensors sensors, Take take) {
   std::vector<Fault> faults;
   for (const std::string& text : texts) faults.push_back(parse_fault(text));
-  FaultInjection injection(std::move(faults), drive_start, focal_length);
+  FaultInjection injection(std::move(faults), drive_start, made_up_focal_length);
   sensors = injection.inject(std::move(sensors));
   std::vector<T> samples;
   for (T sample; take(sensors)->next(sample);) samples.push_back(sample);
@@ -52,16 +53,22 @@ Eigen::Vector3d moved(const GnssFix& fix) {
   return LocalFrame({radians(49.0), radians(8.4), 110.0}).to_enu(fix.position);
 }
 
-std::vector<LidarPoint> scanned(const std::string& fault, const std::vector<LidarPoint>& points) {
+// A scan of these points, each of which has its index as its time.
+LidarScan timed_scan(const std::string& fault, const std::vector<LidarPoint>& points) {
   Sensors sensors;
   sensors.velodyne = fake_source<LidarScan>(1, [&](std::uint64_t, LidarScan& scan) {
     scan.stamp = scan.available = drive_start;
     scan.points = points;
+    scan.times.resize(points.size());
+    std::iota(scan.times.begin(), scan.times.end(), 0.0F);
   });
   return with_faults<LidarScan>({fault}, std::move(sensors),
                                 [](Sensors& s) { return s.velodyne.get(); })
-      .at(0)
-      .points;
+      .at(0);
+}
+
+std::vector<LidarPoint> scanned(const std::string& fault, const std::vector<LidarPoint>& points) {
+  return timed_scan(fault, points).points;
 }
 
 // One pair whose images hold this grey value at each (column, row).
@@ -141,7 +148,7 @@ TEST(GnssFault, ASpoofedReceiverIsPulledAwayWithVelocitiesThatAgree) {
 }
 
 TEST(GnssFault, ObservationsHaveNoPositionToStrike) {
-  FaultInjection injection({parse_fault("spoofed@gnss")}, drive_start, focal_length);
+  FaultInjection injection({parse_fault("spoofed@gnss")}, drive_start, made_up_focal_length);
   Sensors sensors;
   sensors.epochs = fake_source<GnssEpoch>(1, [](std::uint64_t, GnssEpoch&) {});
   EXPECT_NE(maploop::testing::error_of<std::invalid_argument>([&] {
@@ -188,6 +195,11 @@ TEST(ScanFault, ABlockedSectorAheadHasNoPoints) {
                               {{10, 0, 0, 1}, {10, 9, 0, 1}, {10, 11, 0, 1}, {-10, 0, 0, 1}});
   ASSERT_EQ(points.size(), 2u);
   EXPECT_EQ(points[0].y, 11.0F);
+}
+
+TEST(ScanFault, ThePointsThatAreLeftKeepTheirTimes) {
+  const LidarScan scan = timed_scan("blocked@velodyne,by=90", {{10, 0, 0, 1}, {10, 11, 0, 1}});
+  EXPECT_EQ(scan.times, std::vector<float>({1.0F}));
 }
 
 TEST(ScanFault, RainMakesShortReturnsAndLosesFarOnes) {
