@@ -1,7 +1,7 @@
-// The Python module maploop.
+// The compiled part of the Python package maploop.
 #include "tools/python/module.h"
 
-PYBIND11_MODULE(maploop, module) {
+PYBIND11_MODULE(_maploop, module) {
   using namespace maploop::python;
   module.doc() = R"(Vehicle localization that closes the loop through the road map.
 

@@ -1,4 +1,4 @@
-"""Builds the module by CMake in build/release, and packs it for pip (README.md)."""
+"""Builds the package by CMake in build/release, and packs it for pip (README.md)."""
 import glob
 import os
 import shutil
@@ -13,15 +13,13 @@ ROOT = os.path.join("..", "..")
 
 class BuildByCMake(build_ext):
     def run(self):
-        built = os.path.join(ROOT, "build", "release", "python")
+        built = os.path.join(ROOT, "build", "release", "python", "maploop")
         subprocess.run(["cmake", "--preset", "release"], cwd=ROOT, check=True)
         subprocess.run(["cmake", "--build", "--preset", "release", "--target", "maploop_python"], cwd=ROOT, check=True)
-        modules = glob.glob(os.path.join(built, "maploop.*.so"))
+        modules = glob.glob(os.path.join(built, "_maploop.*.so"))
         if len(modules) != 1:
             raise RuntimeError(f"{built} has {len(modules)} modules in place of one; remove those of other interpreters")
-        os.makedirs(self.build_lib, exist_ok=True)
-        for file in [*modules, "maploop.pyi"]:
-            shutil.copy(file, self.build_lib)
+        shutil.copytree(built, os.path.join(self.build_lib, "maploop"), dirs_exist_ok=True)
 
 
 class HasModule(Distribution):

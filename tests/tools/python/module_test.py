@@ -5,7 +5,7 @@ from pathlib import Path
 
 import maploop
 
-STUB = Path(os.environ["MAPLOOP_SOURCE"]) / "tools/python/maploop.pyi"
+STUB = Path(os.environ["MAPLOOP_SOURCE"]) / "tools/python/__init__.pyi"
 CLASSES = {node.name: node for node in ast.parse(STUB.read_text()).body if isinstance(node, ast.ClassDef)}
 
 
