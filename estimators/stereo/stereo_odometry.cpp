@@ -17,9 +17,10 @@ namespace maploop::stereo {
 namespace {
 
 void require(bool holds, const char* what, const char* must, double value) {
-  if (!holds)
+  if (!holds) {
     throw std::invalid_argument("stereo odometry: " + std::string(what) + " must be " + must +
                                 ", not " + std::to_string(value));
+  }
 }
 
 void require_positive(const char* what, double value) {

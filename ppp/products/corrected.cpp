@@ -8,11 +8,11 @@ namespace maploop::ppp {
 void CorrectedEphemeris::add(const SsrUpdate& u) {
   Corrections& c = corrections_[u.satellite.slot()];
   const auto part = [&](auto value) {
-    return Part<decltype(value)>{value, u.time, u.interval, u.solution, u.issue};
+    return SsrPart<decltype(value)>{value, u.time, u.interval, u.solution, u.issue};
   };
   if (u.orbit) {
-    const bool replaces = c.orbit && c.orbit->value.issue == u.orbit->issue &&
-                          c.orbit->solution == u.solution && c.orbit->issue == u.issue;
+    const bool replaces =
+        c.orbit && c.orbit->value.issue == u.orbit->issue && c.orbit->same_solution(u);
     if (!replaces) c.orbit_before = c.orbit;
     c.orbit = part(*u.orbit);
   }
@@ -26,7 +26,7 @@ void CorrectedEphemeris::add(const SsrUpdate& u) {
 }
 
 template <class Value>
-bool CorrectedEphemeris::fresh(const std::optional<Part<Value>>& part) const {
+bool CorrectedEphemeris::fresh(const std::optional<SsrPart<Value>>& part) const {
   return part && std::chrono::abs(now_ - part->time) <= part->interval / 2 + longest_age;
 }
 
@@ -73,7 +73,7 @@ std::optional<SatelliteState> CorrectedEphemeris::at(Satellite satellite, GpsTim
     if (used_[static_cast<std::size_t>(satellite.system)]) return {};
     return broadcast_.at(satellite, t);
   }
-  const Part<SsrOrbit>& orbit = *current_one->orbit;
+  const SsrPart<SsrOrbit>& orbit = *current_one->orbit;
   const Corrections& c = *current_one->all;
   auto state = broadcast_.at_issue(satellite, orbit.value.issue, t);
   if (!state) return {};

@@ -13,6 +13,19 @@
 
 namespace maploop::ppp {
 
+// A part of a satellite's corrections, and the message that brought it.
+template <class Value>
+struct SsrPart {
+  Value value;
+  GpsTime time{};
+  Duration interval{};
+  std::uint32_t solution = 0;
+  int issue = 0;  // issue of the solution
+  bool same_solution(const auto& other) const {
+    return solution == other.solution && issue == other.issue;
+  }
+};
+
 // The corrections are those of RTCM 10403.3, section 3.5.12. A satellite is corrected if orbit and
 // clock of one solution are available and recent, and so is the broadcast message that they refer
 // to. Corrected clocks count from another origin than broadcast ones: if at least four satellites
@@ -48,33 +61,22 @@ class CorrectedEphemeris : public Ephemeris {
   std::optional<Duration> age() const;
 
  private:
-  template <class Value>
-  struct Part {
-    Value value;
-    GpsTime time{};
-    Duration interval{};
-    std::uint32_t solution = 0;
-    int issue = 0;  // issue of the solution
-    bool same_solution(const auto& other) const {
-      return solution == other.solution && issue == other.issue;
-    }
-  };
   struct Corrections {
     // These are the newest two, because an orbit arrives before its clock.
-    std::optional<Part<SsrOrbit>> orbit, orbit_before;
-    std::optional<Part<SsrClock>> clock;
-    std::optional<Part<double>> high_rate;
+    std::optional<SsrPart<SsrOrbit>> orbit, orbit_before;
+    std::optional<SsrPart<SsrClock>> clock;
+    std::optional<SsrPart<double>> high_rate;
     double sigma = 0.05;  // m, if no message gives it
     std::vector<SsrBias> biases;
   };
   struct Current {
-    const Part<SsrOrbit>* orbit;
+    const SsrPart<SsrOrbit>* orbit;
     const Corrections* all;
   };
   std::optional<Current> available(Satellite satellite) const;
   std::optional<Current> current(Satellite satellite) const;  // if its system is corrected
   template <class Value>
-  bool fresh(const std::optional<Part<Value>>& part) const;
+  bool fresh(const std::optional<SsrPart<Value>>& part) const;
 
   BroadcastEphemeris broadcast_;
   GpsTime now_{};
