@@ -39,7 +39,7 @@ std::uint8_t between(const GreyImage& image, double column, double row) {
   const double a = column - u, b = row - v;
   const double upper = (1.0 - a) * p[0] + a * p[1];
   const double lower = (1.0 - a) * p[width] + a * p[width + 1];
-  return static_cast<std::uint8_t>((1.0 - b) * upper + b * lower + 0.5);
+  return static_cast<std::uint8_t>(std::lround((1.0 - b) * upper + b * lower));
 }
 
 GreyImage turned(const GreyImage& image, double angle, double focal_length) {
