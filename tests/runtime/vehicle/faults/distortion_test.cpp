@@ -25,6 +25,7 @@ constexpr double made_up_focal_length = 200.0;  // px
 template <class T, class Take>
 std::vector<T> with_faults(const std::vector<std::string>& texts, Sensors sensors, Take take) {
   std::vector<Fault> faults;
+  faults.reserve(texts.size());
   for (const std::string& text : texts) faults.push_back(parse_fault(text));
   FaultInjection injection(std::move(faults), drive_start, made_up_focal_length);
   sensors = injection.inject(std::move(sensors));
@@ -80,9 +81,10 @@ StereoPair seen(const std::string& fault, Grey grey) {
     for (GreyImage* image : {&pair.left, &pair.right}) {
       image->resize(41, 21);
       for (int v = 0; v < 21; ++v) {
-        for (int u = 0; u < 41; ++u)
-          image->pixels[static_cast<std::size_t>(41 * v + u)] =
-              static_cast<std::uint8_t>(grey(u, v));
+        for (int u = 0; u < 41; ++u) {
+          image->pixels[std::size_t{41} * static_cast<std::size_t>(v) +
+                        static_cast<std::size_t>(u)] = static_cast<std::uint8_t>(grey(u, v));
+        }
       }
     }
   });
@@ -92,7 +94,8 @@ StereoPair seen(const std::string& fault, Grey grey) {
 }
 
 int at(const GreyImage& image, int u, int v) {
-  return image.pixels[static_cast<std::size_t>(image.width * v + u)];
+  return image.pixels[static_cast<std::size_t>(image.width) * static_cast<std::size_t>(v) +
+                      static_cast<std::size_t>(u)];
 }
 
 double norm(const LidarPoint& p) {
