@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "estimators/fusion/contradiction.h"
+#include "estimators/fusion/refused_fixes.h"
 #include "msgs/frames.h"
 #include "msgs/time.h"
 
@@ -140,10 +141,10 @@ struct FilterState {
   std::uint64_t odometry_refused = 0;
   // These count the consecutive measurements of each kind that a gate refused.
   int gated_in_a_row = 0;
-  int gnss_gated_in_a_row = 0;
   int velocity_gated_in_a_row = 0;
   int wheel_gated_in_a_row = 0;
   int map_gated_in_a_row = 0;
+  RefusedFixes refused_fixes;
   std::uint64_t recoveries = 0;
   std::uint64_t reinitializations = 0;
   // This azimuth is chained from odometry's rotations alone, at the time of the clone; only
@@ -176,7 +177,7 @@ template <class Archive>
 void archive(Archive& ar, FilterState& s) {
   ar(s.stamp, s.x, s.P, s.clone_stamp, s.odom_at_clone, s.start, s.imu_stamp, s.odometry_stamp,
      s.gnss_stamp, s.wheel_stamp, s.zero_velocity_stamp, s.map_stamp, s.speed_fixed,
-     s.odometry_applied, s.odometry_refused, s.gated_in_a_row, s.gnss_gated_in_a_row,
+     s.odometry_applied, s.odometry_refused, s.gated_in_a_row, s.refused_fixes,
      s.velocity_gated_in_a_row, s.wheel_gated_in_a_row, s.map_gated_in_a_row, s.recoveries,
      s.reinitializations, s.chained_azimuth, s.stillness, s.imu_repeated, s.yaw_rate,
      s.clone_yaw_rate, s.imu_delay, s.contradictions);

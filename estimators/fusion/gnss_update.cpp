@@ -1,5 +1,6 @@
 #include "estimators/fusion/gnss_update.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "estimators/fusion/fix_error.h"
@@ -110,20 +111,24 @@ Outcome apply_gnss_position(FilterState& state, const GnssFix& fix, const LocalF
   };
   follow(state, Witness::fix_position, position_innovation(state, fix, frame, p), p);
   Outcome outcome = correct();
+  RefusedFixes& row = state.refused_fixes;
   if (outcome.refused()) {
-    ++state.gnss_gated_in_a_row;
-    if (state.gnss_gated_in_a_row == p.gnss_recover_after) {
+    const double variance = fix.position_covariance.diagonal().head<2>().maxCoeff() +
+                            p.min_position_sigma * p.min_position_sigma;
+    row.add(fix.stamp, frame.to_enu(fix.position).head<2>(), variance,
+            state.odom().position.head<2>(), std::max(state.odometry_stamp, state.wheel_stamp),
+            p.gnss_position_gate);
+    if (row.count == p.gnss_recover_after) {
       inflate_position(state, p);
       ++state.recoveries;
       outcome = correct();
-    } else if (state.gnss_gated_in_a_row >= 2 * p.gnss_recover_after &&
-               check_fix(fix, p) == Reason::none) {
+    } else if (row.count >= 2 * p.gnss_recover_after && check_fix(fix, p) == Reason::none) {
       restart_from(state, fix, frame, p);
       outcome = {};
     }
   }
   if (!outcome.refused()) {
-    state.gnss_gated_in_a_row = 0;
+    row = {};
     state.gnss_stamp = fix.stamp;
   }
   return outcome;
@@ -137,7 +142,8 @@ Outcome apply_gnss_velocity(FilterState& state, const GnssFix& fix, double yaw_r
   };
   follow(state, Witness::fix_velocity, velocity_innovation(state, fix, yaw_rate, p), p);
   Outcome outcome = correct();
-  if (outcome.refused() && ++state.velocity_gated_in_a_row == p.gnss_recover_after) {
+  if (outcome.refused() && !state.refused_fixes.astray &&
+      ++state.velocity_gated_in_a_row == p.gnss_recover_after) {
     doubt_with_clone(state, index::azimuth, p.gnss_recovery_course_sigma);
     ++state.recoveries;
     outcome = correct();

@@ -57,7 +57,7 @@ LidarFrames drive_frames(const vehicle::Recording& recording,
   };
 }
 
-LidarFrames scan_frames(std::shared_ptr<sensors::Source<LidarScan>> scans,
+LidarFrames scan_frames(const std::shared_ptr<sensors::Source<LidarScan>>& scans,
                         const LidarRunParameters& parameters) {
   if (scans == nullptr) throw std::runtime_error("the recording has no scans of a LiDAR");
   return [scans, range = parameters.frames, every = parameters.every,

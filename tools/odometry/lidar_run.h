@@ -50,7 +50,7 @@ using LidarFrames = std::function<bool(LidarFrame*)>;
 // one. Without a visual seed their motion has only the stamp. Throws std::runtime_error if it has
 // no images or no scans.
 LidarFrames drive_frames(const vehicle::Recording& recording, const LidarRunParameters& parameters);
-LidarFrames scan_frames(std::shared_ptr<sensors::Source<LidarScan>> scans,
+LidarFrames scan_frames(const std::shared_ptr<sensors::Source<LidarScan>>& scans,
                         const LidarRunParameters& parameters);
 
 struct LidarStep {

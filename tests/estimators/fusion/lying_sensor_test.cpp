@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
 
 #include "tests/estimators/fusion/filter_run.h"
@@ -38,6 +39,12 @@ class LyingSensor : public ::testing::Test {
   SyntheticDrive drive_{bend(), 40.0, test_origin()};
   std::vector<ImuSample> imu_ = drive_.imu(100.0, noise);
   std::vector<RelativeMotion> odometry_ = drive_.odometry(10.0, noise);
+  std::function<void(int, GnssFix&)> spoil_;  // changes the fix of a second
+
+  void move(GnssFix& fix, const Eigen::Vector3d& by) const {
+    const LocalFrame frame(test_origin());
+    fix.position = frame.to_geodetic(frame.to_enu(fix.position) + by);
+  }
 
   static bool within(const Sample& s, double from, double to) {
     return s.stamp >= SyntheticDrive::at(from) && s.stamp < SyntheticDrive::at(to);
@@ -49,6 +56,7 @@ class LyingSensor : public ::testing::Test {
     for (int i = 1; fixes && i < 40; ++i) {
       GnssFix fix = drive_.fix(i);
       fix.sequence = static_cast<std::uint64_t>(i);
+      if (spoil_) spoil_(i, fix);
       all.push_back(fix);
     }
     sort_as_available(all);
@@ -86,6 +94,40 @@ TEST_F(LyingSensor, ALastingContradictionOfTheTurningIsFollowedAndDoubtsTheAzimu
   EXPECT_LT(worst.azimuth, radians(40.0));
   EXPECT_LT(worst.azimuth_in_sigmas, 4.0);
   EXPECT_GE(filter.status().recoveries, 1u);
+}
+
+TEST_F(LyingSensor, AReceiverThatRepeatsAnOldFixMovesNothingUntilItIsWellAgain) {
+  spoil_ = [this](int second, GnssFix& fix) {
+    if (second < 12 || second > 30) return;
+    const GnssFix old = drive_.fix(12);
+    fix.position = old.position;
+    fix.velocity_enu = old.velocity_enu;
+  };
+  ReducedImuFilter filter(configured("GNSS+VO-RI"), test_origin());
+  EXPECT_LT(run(filter, true).position, 3.0);
+  EXPECT_EQ(filter.status().recoveries, 0u);
+  EXPECT_EQ(filter.state_at(SyntheticDrive::at(39.5))->gnss_stamp, SyntheticDrive::at(39.0));
+}
+
+TEST_F(LyingSensor, FixesThatScatterByMoreThanTheySayMoveNothing) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> metres(0.0, 30.0);
+  spoil_ = [&](int second, GnssFix& fix) {
+    if (second >= 12) move(fix, {metres(random), metres(random), 0.0});
+  };
+  ReducedImuFilter filter(configured("GNSS+VO-RI"), test_origin());
+  EXPECT_LT(run(filter, true).position, 3.0);
+}
+
+TEST_F(LyingSensor, FixesThatMoveWithTheVehicleAreBelievedInTheEnd) {
+  spoil_ = [&](int second, GnssFix& fix) {
+    if (second >= 12) move(fix, {60.0, 80.0, 0.0});
+  };
+  ReducedImuFilter filter(configured("GNSS+VO-RI"), test_origin());
+  run(filter, true);
+  EXPECT_GE(filter.status().recoveries, 1u);
+  const auto end = filter.state_at(SyntheticDrive::at(39.5));
+  EXPECT_NEAR((end->position_enu - drive_.pose(39.5).translation()).head<2>().norm(), 100.0, 3.0);
 }
 
 class FrozenImu : public LyingSensor, public ::testing::WithParamInterface<double> {};

@@ -34,6 +34,7 @@ struct Stream {
 
   static std::vector<Fault> parsed(const std::vector<std::string>& texts) {
     std::vector<Fault> faults;
+    faults.reserve(texts.size());
     for (const std::string& text : texts) faults.push_back(parse_fault(text));
     return faults;
   }
@@ -164,9 +165,10 @@ TEST(FaultSource, AFrozenSensorRepeatsTheFirstNumbersWithStampsThatGoOn) {
 GnssEpoch epoch_of(int count, double code) {
   GnssEpoch made;
   made.stamp = drive_start + milliseconds(count);
-  for (std::uint8_t n = 1; n <= count; ++n) {
-    made.epoch.satellites.push_back(
-        {{ppp::System::gps, n}, static_cast<std::uint32_t>(made.epoch.signals.size()), 1});
+  for (int n = 1; n <= count; ++n) {
+    made.epoch.satellites.push_back({{ppp::System::gps, static_cast<std::uint8_t>(n)},
+                                     static_cast<std::uint32_t>(made.epoch.signals.size()),
+                                     1});
     made.epoch.signals.push_back({.band = '1', .attribute = 'C', .code = code});
   }
   return made;
