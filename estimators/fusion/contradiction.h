@@ -2,7 +2,8 @@
 //
 // A gate judges one innovation, so an error that grows slowly, or that is small at each sample,
 // passes it and moves the state. Such an error gives innovations whose mean over seconds is not
-// zero. These statistics decide nothing in the filter: they are for HEALTH.
+// zero: that is for HEALTH. Errors that scatter by more than their sensor says pass it often: such
+// a sensor loses weight, too.
 #pragma once
 
 #include <Eigen/Core>
@@ -52,6 +53,12 @@ struct LastingError {
   // The mean of the squared lengths: 1 for each component if the covariance is right. 0 before
   // there are a few.
   double scatter() const { return count > 4.0 ? squares / count : 0.0; }
+  // How many times too small the covariance of innovations of so many components is; 1 if it is not
+  // too small by more than `most`.
+  double excess(int components, double most) const {
+    const double times = scatter() / components;
+    return times > most ? times : 1.0;
+  }
 };
 
 template <class Archive>

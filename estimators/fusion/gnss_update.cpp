@@ -105,9 +105,10 @@ Innovation<3> velocity_innovation(const FilterState& state, const GnssFix& fix, 
 
 Outcome apply_gnss_position(FilterState& state, const GnssFix& fix, const LocalFrame& frame,
                             const FusionParameters& p) {
+  LastingError& witness = state.contradictions.of(Witness::fix_position);
   const auto correct = [&] {
     return apply_gated(state, position_innovation(state, fix, frame, p), p.gnss_position_gate,
-                       Reason::position_gate);
+                       Reason::position_gate, {}, witness.excess(2, p.doubt_scatter));
   };
   follow(state, Witness::fix_position, position_innovation(state, fix, frame, p), p);
   Outcome outcome = correct();
@@ -120,10 +121,12 @@ Outcome apply_gnss_position(FilterState& state, const GnssFix& fix, const LocalF
             p.gnss_position_gate);
     if (row.count == p.gnss_recover_after) {
       inflate_position(state, p);
+      witness = {};
       ++state.recoveries;
       outcome = correct();
     } else if (row.count >= 2 * p.gnss_recover_after && check_fix(fix, p) == Reason::none) {
       restart_from(state, fix, frame, p);
+      witness = {};
       outcome = {};
     }
   }

@@ -63,11 +63,13 @@ void joseph_update(StateVector& x, StateMatrix& P, const Innovation<rows>& innov
 
 // Applies one measurement of any kind at the state's stamp. If it contradicts the prediction by
 // more than `gate` (chi-square, `rows` degrees of freedom), it is refused with `reason` and the
-// state does not change.
+// state does not change. If the sensor's innovations have lately been larger than their covariance
+// by the factor `excess`, a measurement is judged as it is, but has less weight.
 template <int rows>
-Outcome apply_gated(FilterState& state, const Innovation<rows>& innovation, double gate,
-                    Reason reason, Considered considered = {}) {
+Outcome apply_gated(FilterState& state, Innovation<rows> innovation, double gate, Reason reason,
+                    Considered considered = {}, double excess = 1.0) {
   if (!(innovation.nis(state.P) <= gate)) return refused(reason);  // (10) of METHOD.md
+  if (excess > 1.0) innovation.R += (excess - 1.0) * innovation.covariance(state.P);
   joseph_update(state.x, state.P, innovation, considered);
   return {};
 }

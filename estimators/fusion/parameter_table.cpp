@@ -232,7 +232,7 @@ ParameterTable<FusionParameters> parameter_table(const FusionParameters&) {
        doubt_choice},
       {"doubt_scatter", &P::doubt_scatter, 1.0, large, "1", expert,
        "Mean square of an aid's innovations over that time, relative to their variance, beyond "
-       "which HEALTH doubts the aid.",
+       "which HEALTH doubts the aid; fixes then lose weight.",
        doubt_choice},
       {"gnss_lever_forward", &P::gnss_lever_forward, -50.0, 50.0, "m", usual,
        "Position of the antenna from the body's origin, forward."},

@@ -178,7 +178,7 @@ void FusionStage::take(const RelativeMotion& motion) {
 const char* FusionStage::doubt_of(fusion::Witness witness, int components) const {
   const fusion::LastingError& error = filter_.aided().contradictions().of(witness);
   const fusion::FusionParameters& p = filter_.aided().parameters();
-  if (error.scatter() > components * p.doubt_scatter)
+  if (error.excess(components, p.doubt_scatter) > 1.0)
     return "they scatter more than they say of themselves";
   if (error.mean() > p.doubt_gate) return "they have contradicted the rest for seconds";
   return nullptr;

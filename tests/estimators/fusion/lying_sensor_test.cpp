@@ -111,7 +111,7 @@ TEST_F(LyingSensor, AReceiverThatRepeatsAnOldFixMovesNothingUntilItIsWellAgain) 
 
 TEST_F(LyingSensor, FixesThatScatterByMoreThanTheySayMoveNothing) {
   std::mt19937 random(5);
-  std::normal_distribution<double> metres(0.0, 30.0);
+  std::normal_distribution<double> metres(0.0, 10.0);
   spoil_ = [&](int second, GnssFix& fix) {
     if (second >= 12) move(fix, {metres(random), metres(random), 0.0});
   };
