@@ -111,7 +111,7 @@ void convert(auto copy, Is<SensorHealth> auto& s, auto& m) {
   if constexpr (copy.to_message) {
     m.utc_ahead_s = s.clock.utc_ahead ? to_seconds(*s.clock.utc_ahead) : std::nan("");
   } else if (std::isfinite(m.utc_ahead_s)) {
-    s.clock.utc_ahead = from_seconds(m.utc_ahead_s);
+    s.clock.utc_ahead = checked_seconds(m.utc_ahead_s);
   }
   copy(s.clock.drift, m.clock_drift);
   copy.seconds(s.clock.delay, m.clock_delay_s);

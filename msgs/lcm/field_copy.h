@@ -140,7 +140,7 @@ struct FieldCopy {
     if constexpr (to_message) {
       us = static_cast<double>(duration.count()) * 1e-3;
     } else {
-      duration = from_seconds(us * 1e-6);
+      duration = checked_seconds(us * 1e-6);
     }
   }
 
@@ -148,7 +148,7 @@ struct FieldCopy {
     if constexpr (to_message) {
       s = to_seconds(duration);
     } else {
-      duration = from_seconds(s);
+      duration = checked_seconds(s);
     }
   }
 

@@ -160,6 +160,9 @@ TEST(LcmConversions, ValuesThatAStructCannotHoldAreRefused) {
   expect_refused(MapMatch{}, [](auto& m) { m.candidates.resize(MapMatch::max_candidates + 1); });
   expect_refused(Health{}, [](auto& m) { m.settings.resize(1), m.settings[0].verdict = 9; });
   expect_refused(Health{}, [](auto& m) { m.utime = std::numeric_limits<std::int64_t>::max(); });
+  Deadlines deadlines;
+  deadlines.threads.resize(1);
+  expect_refused(deadlines, [](auto& m) { m.threads[0].p99_us = 1e40; });
   PppState ppp;
   ppp.satellites.resize(1);
   expect_refused(ppp, [](auto& m) { m.map = 3; });
