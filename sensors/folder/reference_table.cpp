@@ -12,19 +12,32 @@
 namespace maploop::sensors {
 namespace {
 
-// Refuses positions that no vehicle can come from and go on to.
+// Refuses positions that no vehicle can come from and go on to: one, or all between a leap and the
+// leap back.
 void leave_out_leaps(TableRows<ReferencePose>& rows, const NumberTable& table) {
   constexpr double fastest_car = 100.0, noise = 10.0;  // m/s, m
-  const auto leaps = [&](const ReferencePose& a, const ReferencePose& b) {
+  constexpr Duration longest = std::chrono::seconds(10);
+  std::vector<std::size_t> known;
+  known.reserve(rows.samples.size());
+  for (std::size_t i = 0; i < rows.samples.size(); ++i) {
+    if (!rows.verdicts[i]) known.push_back(i);
+  }
+  const auto leaps = [&](std::size_t from, std::size_t to) {
+    const ReferencePose& a = rows.samples[known[from]];
+    const ReferencePose& b = rows.samples[known[to]];
     const double way = LocalFrame(a.position).to_enu(b.position).head<2>().norm();
-    return way > noise + fastest_car * std::abs(to_seconds(b.stamp - a.stamp));
+    return way > noise + fastest_car * to_seconds(b.stamp - a.stamp);
   };
-  for (std::size_t i = 1; i + 1 < rows.samples.size(); ++i) {
-    const ReferencePose& pose = rows.samples[i];
-    const bool judged = !rows.verdicts[i - 1] && !rows.verdicts[i] && !rows.verdicts[i + 1];
-    if (judged && leaps(rows.samples[i - 1], pose) && leaps(pose, rows.samples[i + 1])) {
-      rows.verdicts[i] =
-          Finding{rows.file.string(), table.line(i), "the position leaps there and back"};
+  for (std::size_t k = 1; k < known.size(); ++k) {
+    if (!leaps(k - 1, k)) continue;
+    const Time end = rows.samples[known[k - 1]].stamp + longest;
+    std::size_t back = k + 1;
+    const auto near = [&] { return back < known.size() && rows.samples[known[back]].stamp <= end; };
+    while (near() && leaps(k - 1, back)) ++back;
+    if (!near()) continue;
+    for (; k < back; ++k) {
+      rows.verdicts[known[k]] =
+          Finding{rows.file.string(), table.line(known[k]), "the position leaps there and back"};
     }
   }
 }

@@ -161,12 +161,14 @@ TEST_F(Tables, TheReferenceIsJoinedAndItsWildAndUnalignedRowsAreLeftOut) {
                                       "0,43.5,-79.7,100,1,2,-3,0\n"
                                       "1,43.5,-79.7,100,1,2,-3,0\n"
                                       "2,43.6,-79.7,100,1,2,-3,0\n"
+                                      "2.5,43.6,-79.7,100,1,2,-3,0\n"
                                       "3,43.5,-79.7,100,1,2,-3,0\n"
                                       "4,43.5,-79.7,100,1,2,-3,0\n");
   write("reference_attitude.csv", std::string(attitude_heading) +
                                       "0,0,0.1,0\n"
                                       "1.01,1,2,270\n"
                                       "2,1,2,270\n"
+                                      "2.5,1,2,270\n"
                                       "3,1,2,270\n"
                                       "4.1,1,2,270\n");
   const TableRecording tables = opened();
@@ -177,7 +179,7 @@ TEST_F(Tables, TheReferenceIsJoinedAndItsWildAndUnalignedRowsAreLeftOut) {
   EXPECT_NEAR(degrees(poses[0].attitude.azimuth), -90.0, 1e-9);
   EXPECT_NEAR(degrees(poses[0].attitude.pitch), 2.0, 1e-9);
   EXPECT_NEAR(degrees(poses[0].attitude.roll), 1.0, 1e-9);
-  EXPECT_EQ(source->report().refused, 3u);
+  EXPECT_EQ(source->report().refused, 4u);
 }
 
 TEST_F(Tables, AReceiverThatNeverAlignedIsNoReference) {
