@@ -119,7 +119,7 @@ struct FusionParameters {
   double gnss_lever_up = 0.0;               // m
   double gnss_lever_sigma = 0.2;            // m
 
-  // Lasting contradictions, for HEALTH alone (contradiction.h).
+  // Lasting contradictions (contradiction.h): for HEALTH, and for the weight of fixes.
   double doubt_memory = 10.0;  // s
   double doubt_gate = 25.0;
   double doubt_motion_gate = 15.0;

@@ -106,12 +106,13 @@ Innovation<3> velocity_innovation(const FilterState& state, const GnssFix& fix, 
 Outcome apply_gnss_position(FilterState& state, const GnssFix& fix, const LocalFrame& frame,
                             const FusionParameters& p) {
   LastingError& witness = state.contradictions.of(Witness::fix_position);
-  const auto correct = [&] {
-    return apply_gated(state, position_innovation(state, fix, frame, p), p.gnss_position_gate,
-                       Reason::position_gate, {}, witness.excess(2, p.doubt_scatter));
+  const auto correct = [&](const Innovation<3>& innovation) {
+    return apply_gated(state, innovation, p.gnss_position_gate, Reason::position_gate, {},
+                       witness.excess(2, p.doubt_scatter));
   };
-  follow(state, Witness::fix_position, position_innovation(state, fix, frame, p), p);
-  Outcome outcome = correct();
+  const Innovation<3> innovation = position_innovation(state, fix, frame, p);
+  follow(state, Witness::fix_position, innovation, p);
+  Outcome outcome = correct(innovation);
   RefusedFixes& row = state.refused_fixes;
   if (outcome.refused()) {
     const double variance = fix.position_covariance.diagonal().head<2>().maxCoeff() +
@@ -123,7 +124,7 @@ Outcome apply_gnss_position(FilterState& state, const GnssFix& fix, const LocalF
       inflate_position(state, p);
       witness = {};
       ++state.recoveries;
-      outcome = correct();
+      outcome = correct(position_innovation(state, fix, frame, p));
     } else if (row.count >= 2 * p.gnss_recover_after && check_fix(fix, p) == Reason::none) {
       restart_from(state, fix, frame, p);
       witness = {};
@@ -139,17 +140,17 @@ Outcome apply_gnss_position(FilterState& state, const GnssFix& fix, const LocalF
 
 Outcome apply_gnss_velocity(FilterState& state, const GnssFix& fix, double yaw_rate,
                             const FusionParameters& p) {
-  const auto correct = [&] {
-    return apply_gated(state, velocity_innovation(state, fix, yaw_rate, p), p.gnss_velocity_gate,
-                       Reason::velocity_gate);
+  const auto correct = [&](const Innovation<3>& innovation) {
+    return apply_gated(state, innovation, p.gnss_velocity_gate, Reason::velocity_gate);
   };
-  follow(state, Witness::fix_velocity, velocity_innovation(state, fix, yaw_rate, p), p);
-  Outcome outcome = correct();
+  const Innovation<3> innovation = velocity_innovation(state, fix, yaw_rate, p);
+  follow(state, Witness::fix_velocity, innovation, p);
+  Outcome outcome = correct(innovation);
   if (outcome.refused() && !state.refused_fixes.astray &&
       ++state.velocity_gated_in_a_row == p.gnss_recover_after) {
     doubt_with_clone(state, index::azimuth, p.gnss_recovery_course_sigma);
     ++state.recoveries;
-    outcome = correct();
+    outcome = correct(velocity_innovation(state, fix, yaw_rate, p));
   }
   if (!outcome.refused()) state.velocity_gated_in_a_row = 0;
   const double sigma = std::sqrt(fix.velocity_covariance.diagonal().head<2>().maxCoeff());

@@ -66,11 +66,16 @@ void joseph_update(StateVector& x, StateMatrix& P, const Innovation<rows>& innov
 // state does not change. If the sensor's innovations have lately been larger than their covariance
 // by the factor `excess`, a measurement is judged as it is, but has less weight.
 template <int rows>
-Outcome apply_gated(FilterState& state, Innovation<rows> innovation, double gate, Reason reason,
-                    Considered considered = {}, double excess = 1.0) {
+Outcome apply_gated(FilterState& state, const Innovation<rows>& innovation, double gate,
+                    Reason reason, Considered considered = {}, double excess = 1.0) {
   if (!(innovation.nis(state.P) <= gate)) return refused(reason);  // (10) of METHOD.md
-  if (excess > 1.0) innovation.R += (excess - 1.0) * innovation.covariance(state.P);
-  joseph_update(state.x, state.P, innovation, considered);
+  if (excess > 1.0) {
+    Innovation<rows> weaker = innovation;
+    weaker.R += (excess - 1.0) * innovation.covariance(state.P);
+    joseph_update(state.x, state.P, weaker, considered);
+  } else {
+    joseph_update(state.x, state.P, innovation, considered);
+  }
   return {};
 }
 

@@ -96,11 +96,11 @@ Outcome correct_pose(FilterState& state, Innovation<6> rows, const FusionParamet
 }
 
 // Applies all corrections or leaves the state unchanged.
-Outcome correct(FilterState& state, const RelativeMotion& motion, const FusionParameters& p) {
+Outcome correct(FilterState& state, const RelativeMotion& motion, const Innovation<6>& rows,
+                const FusionParameters& p) {
   const StateVector x = state.x;
   const StateMatrix P = state.P;
   const double chained = state.chained_azimuth;
-  const Innovation<6> rows = motion_innovation(state, motion, p);
   const double turning_variance = rows.part<1>(5).covariance(P)(0, 0);
   Outcome outcome = correct_pose(state, rows, p);
   if (!outcome.refused() && p.use_odometry_azimuth && p.chain_odometry_azimuth) {
@@ -164,7 +164,7 @@ Outcome recover(FilterState& state, const RelativeMotion& motion, Outcome outcom
     return outcome;
   }
   doubt_rotation(state, motion, p);
-  outcome = correct(state, motion, p);
+  outcome = correct(state, motion, motion_innovation(state, motion, p), p);
   if (outcome.refused()) {
     state = before;
   } else {
@@ -186,7 +186,7 @@ Outcome apply_odometry(FilterState& state, const RelativeMotion& motion,
     const Innovation<6> rows = motion_innovation(state, motion, parameters);
     follow(state, Witness::motion_length, rows.part<1>(0), parameters);
     follow(state, Witness::motion_turn, rows.part<1>(5), parameters);
-    outcome = correct(state, motion, parameters);
+    outcome = correct(state, motion, rows, parameters);
     if (!outcome.refused()) {
       state.gated_in_a_row = 0;
     } else if (++state.gated_in_a_row >= parameters.recover_after) {

@@ -16,10 +16,11 @@ Innovation<1> wheel_innovation(const FilterState& state, const WheelSpeed& sampl
 }
 
 Outcome apply_wheel(FilterState& state, const WheelSpeed& sample, const FusionParameters& p) {
+  const Innovation<1> innovation = wheel_innovation(state, sample, p);
   const auto correct = [&] {
-    return apply_gated(state, wheel_innovation(state, sample, p), p.speed_gate, Reason::wheel_gate);
+    return apply_gated(state, innovation, p.speed_gate, Reason::wheel_gate);
   };
-  follow(state, Witness::wheel_speed, wheel_innovation(state, sample, p), p);
+  follow(state, Witness::wheel_speed, innovation, p);
   Outcome outcome = correct();
   if (outcome.refused() && ++state.wheel_gated_in_a_row % p.recover_after == 0 &&
       !held_by_fix(state, p)) {

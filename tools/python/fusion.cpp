@@ -1,7 +1,6 @@
 // The fused filter without threads.
 #include <pybind11/stl.h>
 
-#include <algorithm>
 #include <array>
 #include <mutex>
 #include <optional>
@@ -59,10 +58,6 @@ class PythonFilter {
   fusion::ReducedImuFilter filter_;
 };
 
-void copy(const Eigen::Vector3d& from, double (&to)[3]) {
-  std::copy(from.begin(), from.end(), to);
-}
-
 }  // namespace
 
 StateRecord record_of(const FusedState& s) {
@@ -73,15 +68,15 @@ StateRecord record_of(const FusedState& s) {
   r.latitude = place.latitude;
   r.longitude = place.longitude;
   r.height = place.height;
-  copy(s.position_enu, r.position_enu);
-  copy(s.velocity_enu, r.velocity_enu);
+  Eigen::Map<Eigen::Vector3d>(r.position_enu) = s.position_enu;
+  Eigen::Map<Eigen::Vector3d>(r.velocity_enu) = s.velocity_enu;
   r.azimuth = s.attitude.azimuth;
   r.pitch = s.attitude.pitch;
   r.roll = s.attitude.roll;
   r.forward_speed = s.forward_speed;
   r.gyro_bias = s.gyro_bias;
   Eigen::Map<Eigen::Matrix<double, 9, 9>>(&r.covariance[0][0]) = s.covariance;
-  copy(s.odom.position, r.odom_position);
+  Eigen::Map<Eigen::Vector3d>(r.odom_position) = s.odom.position;
   r.odom_azimuth = s.odom.attitude.azimuth;
   r.odometry_stamp = to_nanoseconds(s.odometry_stamp);
   r.gnss_stamp = to_nanoseconds(s.gnss_stamp);

@@ -1,4 +1,5 @@
-// What sensors deliver and odometries find, as objects whose arrays are views of the C++ samples.
+// Binds the samples of sensors and the motions of odometries. Their arrays are views of the C++
+// samples.
 #include <memory>
 #include <string>
 

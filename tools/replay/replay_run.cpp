@@ -214,7 +214,6 @@ ReplayResult Replay::result(PlaybackEnd end, const std::vector<ReferencePose>& r
   result.speed = options_.speed;
   result.interrupted = end == PlaybackEnd::interrupted;
   result.faults = faults_.counts();
-  result.begin = recording_.first_stamp;
   if (snapshot_taken_) {
     result.snapshot = {options_.snapshot->file.string(),
                        to_seconds(cut_ - player_->vehicle().first()),

@@ -154,6 +154,7 @@ ReplayResult RunOutput::result(const vehicle::Vehicle& vehicle, const RunPass& p
   ReplayResult result = result_of(pass, vehicle.report());
   result.run = run_.id;
   result.configuration = config_.configuration;
+  result.begin = vehicle.first();
   if (tracer_) {
     result.trace = {options_.trace.string(), tracer_->recorded(), tracer_->dropped()};
   }

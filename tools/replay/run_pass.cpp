@@ -117,6 +117,7 @@ ReplayResult result_of(const RunPass& pass, const vehicle::VehicleReport& report
 
 void score(ReplayResult& result, const RunPass& pass, const vehicle::Recording& recording,
            const std::vector<ReferencePose>& reference, const vehicle::RoadMap* map) {
+  result.begin = recording.first_stamp;
   result.images = recording.images;
   const vehicle::Sensors sensors = recording.sensors(Time::max());
   result.has_gnss = sensors.gnss != nullptr || sensors.epochs != nullptr;

@@ -56,6 +56,7 @@ void repeat(StereoPair& pair, const StereoPair& other) {
 
 void repeat(LidarScan& scan, const LidarScan& other) {
   scan.points = other.points;
+  scan.times = other.times;
 }
 
 void repeat(ImuSample& sample, const ImuSample& other) {

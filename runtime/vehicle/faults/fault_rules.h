@@ -1,5 +1,5 @@
-// What may be written about each kind of fault: the table from which the parser, the help and the
-// page FAULTS.md are made.
+// This table states what may be written about each kind of fault. The parser, the help and the page
+// FAULTS.md are made from it.
 #pragma once
 
 #include <array>

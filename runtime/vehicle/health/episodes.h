@@ -105,7 +105,7 @@ struct Judgement {
   std::string_view then = "refused";
   std::uint64_t fewest = 3;
 };
-// What is judged by a memory of its own needs no more samples.
+// One sample is enough where the judged statistic already covers many.
 inline constexpr Judgement doubts{"doubts", "doubted", 1};
 
 // When HEALTH could name a sensor, or what an estimator makes of it, for the first time.

@@ -49,7 +49,8 @@ class HealthMonitor {
   void restart_rates();
   Deadlines deadlines(Time stamp) const;
 
-  // What was named so far, and when: sensors that were silent, and what estimators refuse or doubt.
+  // Returns when each sensor was first found silent, and when each estimator was first found to
+  // refuse or doubt its samples.
   std::vector<Naming> namings(Time now);
 
  private:

@@ -22,6 +22,8 @@ constexpr std::size_t most_images_a_tick = 8;
 // The statistics that are judged have a memory of their own.
 constexpr Duration doubt_interval = std::chrono::seconds(1);
 
+constexpr const char* scattering = "they scatter more than they say of themselves";
+
 // What does not speak against the sensor: the configuration has no use for the measurement, now or
 // at all, or it has it already.
 bool wanted(fusion::Reason reason) {
@@ -178,8 +180,7 @@ void FusionStage::take(const RelativeMotion& motion) {
 const char* FusionStage::doubt_of(fusion::Witness witness, int components) const {
   const fusion::LastingError& error = filter_.aided().contradictions().of(witness);
   const fusion::FusionParameters& p = filter_.aided().parameters();
-  if (error.excess(components, p.doubt_scatter) > 1.0)
-    return "they scatter more than they say of themselves";
+  if (error.excess(components, p.doubt_scatter) > 1.0) return scattering;
   if (error.mean() > p.doubt_gate) return "they have contradicted the rest for seconds";
   return nullptr;
 }
@@ -193,8 +194,7 @@ void FusionStage::judge_motion(Time available) {
   const fusion::LastingError& turn = filter_.aided().contradictions().of(motion_turn);
   const bool scatter = std::max(length.scatter(), turn.scatter()) > p.doubt_scatter;
   const bool apart = std::max(length.mean(), turn.mean()) > p.doubt_motion_gate;
-  odometry_doubt_.note(available,
-                       scatter ? "they scatter more than they say of themselves" : nullptr);
+  odometry_doubt_.note(available, scatter ? scattering : nullptr);
   imu_doubt_.note(available,
                   apart && !scatter ? "they have contradicted odometry for seconds" : nullptr);
   others_agree_ = !scatter && !apart;

@@ -21,7 +21,7 @@ using testing::fake_source;
 
 constexpr double made_up_focal_length = 200.0;  // px
 
-// What a sensor delivers with these faults; take(sensors) gives its source.
+// Returns the samples that a sensor delivers with these faults; take(sensors) gives its source.
 template <class T, class Take>
 std::vector<T> with_faults(const std::vector<std::string>& texts, Sensors sensors, Take take) {
   std::vector<Fault> faults;
@@ -203,6 +203,20 @@ TEST(ScanFault, ABlockedSectorAheadHasNoPoints) {
 TEST(ScanFault, ThePointsThatAreLeftKeepTheirTimes) {
   const LidarScan scan = timed_scan("blocked@velodyne,by=90", {{10, 0, 0, 1}, {10, 11, 0, 1}});
   EXPECT_EQ(scan.times, std::vector<float>({1.0F}));
+}
+
+TEST(ScanFault, AFrozenScanHasTheTimesOfThePointsThatItRepeats) {
+  Sensors sensors;
+  sensors.velodyne = fake_source<LidarScan>(2, [](std::uint64_t i, LidarScan& scan) {
+    scan.stamp = scan.available = drive_start + i * milliseconds(100);
+    scan.points.assign(i + 1, {10, 0, 0, 1});
+    scan.times.assign(i + 1, static_cast<float>(i));
+  });
+  const auto scans = with_faults<LidarScan>({"frozen@velodyne"}, std::move(sensors),
+                                            [](Sensors& s) { return s.velodyne.get(); });
+  ASSERT_EQ(scans.size(), 2u);
+  EXPECT_EQ(scans[1].points.size(), 1u);
+  EXPECT_EQ(scans[1].times, scans[0].times);
 }
 
 TEST(ScanFault, RainMakesShortReturnsAndLosesFarOnes) {
