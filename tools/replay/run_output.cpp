@@ -146,7 +146,7 @@ std::vector<vehicle::MessageSink*> RunOutput::sinks(RunPass& pass,
 runtime::Tracer* RunOutput::new_tracer() {
   if (options_.trace.empty()) return nullptr;
   tracer_ = std::make_unique<runtime::Tracer>(config_.trace);
-  runtime::WholeFile(options_.trace);  // fails before the drive rather than after it
+  const runtime::WholeFile writable(options_.trace);  // fails before the drive, not after it
   return tracer_.get();
 }
 
