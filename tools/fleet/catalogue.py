@@ -6,6 +6,7 @@ import os
 import re
 import shlex
 import tomllib
+from functools import lru_cache
 from pathlib import Path
 
 import jsonschema
@@ -64,17 +65,44 @@ def load(path):
         for name in experiment["metrics"]:
             if name not in METRICS:
                 fail(["experiment", i, "metrics"], f"there is no metric '{name}'; there are {', '.join(METRICS)}")
+        for recording in chosen_of(catalogue, experiment):
+            for word in sorted(words(experiment) - set(recording.get("values", {}))):
+                fail(["experiment", i, "arguments"], f"the recording '{recording['name']}' has no value '{word}'")
+
+    def expanded(text, where):
+        missing = [v for v in re.findall(r"\$(\w+)", text) if v not in os.environ]
+        if missing:
+            fail(where, f"the environment does not have {missing[0]}")
+        return os.path.expandvars(text)
+
     for i, recording in enumerate(catalogue["recording"]):
         if "path" in recording:
-            missing = [v for v in re.findall(r"\$(\w+)", recording["path"]) if v not in os.environ]
-            if missing:
-                fail(["recording", i, "path"], f"the environment does not have {missing[0]}")
-            recording["path"] = str(Path(path).parent.resolve() / os.path.expandvars(recording["path"]))
+            recording["path"] = str(Path(path).parent.resolve() / expanded(recording["path"], ["recording", i, "path"]))
             if not os.path.exists(recording["path"]):
                 fail(["recording", i, "path"], f"there is nothing at {recording['path']}")
+        for name, value in recording.get("values", {}).items():
+            recording["values"][name] = expanded(value, ["recording", i, "values"])
+    for i, experiment in enumerate(catalogue["experiment"]):
+        experiment["arguments"] = [expanded(a, ["experiment", i, "arguments"]) for a in experiment.get("arguments", [])]
+        experiment.setdefault("variants", {"": []})
     return catalogue
 
 
+def chosen_of(catalogue, experiment):
+    return [r for r in catalogue["recording"] if {r["name"], *r.get("tags", [])} & set(experiment["recordings"])]
+
+
+def words(experiment):
+    """The {words} of its arguments, for which each recording has a value."""
+    groups = [experiment.get("arguments", []), *experiment.get("variants", {}).values()]
+    return {word for arguments in groups for each in arguments for word in re.findall(r"\{(\w+)\}", each)}
+
+
+def with_values(arguments, recording):
+    return [re.sub(r"\{(\w+)\}", lambda word: recording["values"][word[1]], each) for each in arguments]
+
+
+@lru_cache(maxsize=None)
 def fingerprint(path):
     """Names, sizes and times of a recording's files: what changes when it is another one."""
     root = Path(path)
@@ -102,12 +130,13 @@ def text_of(value):
 
 
 def variant_of(run):
-    parts = [run["configuration"], run["fault"], *(f"{k}={text_of(v)}" for k, v in run["set"].items())]
+    parts = [run["configuration"], run["named"], run["fault"], *(f"{k}={text_of(v)}" for k, v in run["set"].items())]
     return ", ".join(p for p in parts if p) or "default"
 
 
 def make_plan(catalogue, made, only=()):
     """The runs of a catalogue. `made` is the folder of made recordings; `only` names experiments, all without any."""
+    fingerprint.cache_clear()
     recordings = {r["name"]: dict(r) for r in catalogue["recording"]}
     for r in recordings.values():
         if "simulate" in r:
@@ -118,18 +147,19 @@ def make_plan(catalogue, made, only=()):
             if "config" in r:
                 r["config"] = str(Path(r["folder"]) / r["config"])
         else:
-            r["identity"] = fingerprint(r["path"])
+            r["identity"] = list(fingerprint(r["path"]))
             if "config" in r:
                 r["identity"].append(file_hash(r["config"]))
     runs = {}
     for experiment in catalogue["experiment"]:
         if only and experiment["name"] not in only:
             continue
-        chosen = [r for r in recordings.values() if {r["name"], *r.get("tags", [])} & set(experiment["recordings"])]
-        for r, configuration, seed, fault, setting in itertools.product(
-                chosen, experiment.get("configurations", [""]), experiment.get("seeds", [0]),
+        chosen = [recordings[r["name"]] for r in chosen_of(catalogue, experiment)]
+        for r, configuration, named, seed, fault, setting in itertools.product(
+                chosen, experiment.get("configurations", [""]), experiment["variants"], experiment.get("seeds", [0]),
                 experiment.get("faults", [""]), varied(experiment.get("vary", {}))):
-            arguments = [*r.get("arguments", []), *experiment.get("arguments", [])]
+            own = with_values([*experiment["arguments"], *experiment["variants"][named]], r)
+            arguments = [*r.get("arguments", []), *own]
             if configuration:
                 arguments += ["--configuration", configuration]
             if seed:
@@ -141,11 +171,12 @@ def make_plan(catalogue, made, only=()):
             if "config" in r:
                 arguments += ["--config", r["config"]]
             run = {"experiment": experiment["name"], "recording": r["name"], "split": r.get("split", ""),
-                   "tags": r.get("tags", []), "configuration": configuration, "seed": seed, "fault": fault,
-                   "set": setting, "arguments": [r["path"], *arguments], "report": experiment.get("report", False),
+                   "tags": r.get("tags", []), "configuration": configuration, "named": named, "seed": seed,
+                   "fault": fault, "set": setting, "arguments": [r["path"], *arguments], "report": experiment.get("report", False),
                    "seconds": r.get("seconds", 600.0), "megabytes": MEGABYTES}
             run["variant"] = variant_of(run)
-            runs[digest(experiment["name"], run["arguments"], r["identity"])] = run
+            files = [fingerprint(a) for a in own if os.path.isfile(a)]  # such as a map
+            runs[digest(experiment["name"], run["arguments"], r["identity"], *files)] = run
     used = {run["recording"] for run in runs.values()}
     return {"experiments": {e["name"]: e for e in catalogue["experiment"]},
             "made": {n: {"folder": r["folder"], "command": r["make"]} for n, r in recordings.items()

@@ -21,64 +21,60 @@ def metric(unit, less_is_better=True):
     return add
 
 
-def value(name, output):
-    """The metric of a run's output; None where the run has nothing to make it of."""
+def values(name, output):
+    """The metric of a run's output, once for each part that it is of; none where the run has nothing to make it of."""
     try:
-        return float(METRICS[name].of(output))
+        made = METRICS[name].of(output)
+        return [float(each) for each in (made if isinstance(made, list) else [made])]
     except (KeyError, TypeError, ZeroDivisionError, ValueError):
-        return None
+        return []
+
+
+def value(name, output):
+    """The metric of a whole run: the mean of its parts, or None."""
+    made = values(name, output)
+    return sum(made) / len(made) if made else None
 
 
 def over_100_m(output, part):
     return output[part]["common_rotation_removed"]["segment_100m_percent"]
 
 
-@metric("m")
-def position_rms(output):
-    """Horizontal error of the map output, root mean square."""
-    return output["navigation"]["rmse_m"]
+# What the reference says of the map output: of the whole run, and of each outage.
+NAVIGATION = {
+    "position_rms": ("m", "rmse_m", "Horizontal error of the map output, root mean square."),
+    "position_largest": ("m", "max_m", "Largest horizontal error of the map output."),
+    "position_share": ("%", "rmse_percent", "Horizontal error of the map output, root mean square, of the way."),
+    "drift_m": ("m", "drift_m", "Error at the end without the error at the start."),
+    "drift": ("%", "drift_percent", "Error at the end without the error at the start, of the way."),
+    "azimuth_rms": ("deg", "azimuth_rms_deg", "Error of the azimuth, root mean square."),
+    "azimuth_end": ("deg", "azimuth_end_deg", "Error of the azimuth at the end, without its sign."),
+    "nees": ("1", "nees_mean", "Squared error of the position by its covariance: 2 if the covariance is right."),
+    "nees_end": ("1", "nees_end", "Squared error of the position by its covariance at the end."),
+    "nees_largest": ("1", "nees_max", "Largest squared error of the position by its covariance."),
+    "beyond": ("s", "beyond_3_sigma_s", "Longest time for which the position was wrong by more than 3 of its own sigmas."),
+    "azimuth_beyond": ("s", "azimuth_beyond_3_sigma_s", "The same time of the azimuth."),
+    "way": ("m", "distance_m", "Way driven."),
+}
+COVERED = 0.97  # of an outage; in others the reference itself was silent
 
 
-@metric("m")
-def position_largest(output):
-    """Largest horizontal error of the map output."""
-    return output["navigation"]["max_m"]
+def add_navigation(name, unit, key, about):
+    less_is_better = name not in ("way", "nees", "nees_end")
+
+    def whole(output):
+        return abs(output["navigation"][key])
+
+    def outages(output):
+        scored = [o for o in output["navigation"]["outages"] if o["covered"] > COVERED]
+        return [abs(o[key]) for o in scored if o[key] is not None]
+
+    METRICS[name] = Metric(unit, whole, about, less_is_better)
+    METRICS[f"outage_{name}"] = Metric(unit, outages, f"{about} In each outage.", less_is_better)
 
 
-@metric("deg")
-def azimuth_rms(output):
-    """Error of the azimuth, root mean square."""
-    return output["navigation"]["azimuth_rms_deg"]
-
-
-@metric("%")
-def drift(output):
-    """Error at the end without the error at the start, of the way."""
-    return output["navigation"]["drift_percent"]
-
-
-@metric("1", less_is_better=False)
-def nees(output):
-    """Squared error of the position by its covariance: 2 if the covariance is right."""
-    return output["navigation"]["nees_mean"]
-
-
-@metric("1")
-def nees_largest(output):
-    """Largest squared error of the position by its covariance."""
-    return output["navigation"]["nees_max"]
-
-
-@metric("s")
-def beyond(output):
-    """Longest time for which the position was wrong by more than 3 of its own sigmas."""
-    return output["navigation"]["beyond_3_sigma_s"]
-
-
-@metric("s")
-def azimuth_beyond(output):
-    """The same of the azimuth."""
-    return output["navigation"]["azimuth_beyond_3_sigma_s"]
+for navigation_name, how in NAVIGATION.items():
+    add_navigation(navigation_name, *how)
 
 
 @metric("s")

@@ -25,8 +25,9 @@ sys.path.insert(0, str(FLEET))
 sys.dont_write_bytecode = True
 try:
     import catalogue
+    import page
     import results
-    from metrics import METRICS, value
+    from metrics import METRICS, value, values
     from statistics_of_pairs import paired, ratio
 except ImportError as error:
     print(f"SKIPPED, NOT TESTED: {error}; tools/install-packages test")
@@ -98,6 +99,24 @@ class Catalogue(Folder):
         (self.folder / "a.csv").write_text("1\n2\n")
         self.assertEqual(len(before & set(self.plan()["runs"])), 12)
 
+    def test_arguments_have_variants_and_a_value_of_each_recording(self):
+        (self.folder / "map.osm").write_text("1\n")
+        text = TEXT.replace('tags = ["short"]', 'values = { from = "20" }')
+        text = text.replace('split = "score"', 'values = { from = "30" }').replace("[1, 2, 3]", "[1]")
+        text = text.replace("metrics", 'arguments = ["--map", "$MADE_UP_MAPS/map.osm"]\n'
+                            'variants = { whole = [], out = ["--gnss-outage", "{from}:10"] }\nmetrics')
+        os.environ["MADE_UP_MAPS"] = str(self.folder)
+        self.addCleanup(os.environ.pop, "MADE_UP_MAPS")
+        plan = self.plan(text)["runs"]
+        self.assertEqual(len(plan), 2 * 2 * 2 * 2)
+        outages = {(r["recording"], r["arguments"][r["arguments"].index("--gnss-outage") + 1])
+                   for r in plan.values() if r["variant"] == "auto, out, scale=1"}
+        self.assertEqual(outages, {("a", "20:10"), ("made", "30:10")})
+        (self.folder / "map.osm").write_text("another\n")
+        self.assertEqual(set(plan) & set(self.plan(text)["runs"]), set(), "another map makes other runs")
+        with self.assertRaisesRegex(catalogue.Wrong, "the recording 'a' has no value 'from'"):
+            self.plan(text.replace("from = \"20\"", "to = \"20\""))
+
     def test_what_is_wrong_is_named_with_file_and_line(self):
         self.assertIn("c.toml:17: experiment[0].seeds: 'x' is not of type 'array'", self.said("[1, 2, 3]", '"x"'))
         self.assertIn("c.toml:15: experiment[0].recordings: no recording has the name or tag 'b'",
@@ -126,9 +145,36 @@ class Metrics(unittest.TestCase):
         part = {"common_rotation_removed": {"segment_100m_percent": 0.5}}
         self.assertEqual(value("odom_to_best", {"odom": part, "vo": part}), 1.0)
 
+    def test_outages_are_parts_of_a_run_where_the_reference_covers_them(self):
+        outages = [{"drift_percent": d, "covered": c} for d, c in ((1.0, 1.0), (9.0, 0.5), (3.0, 0.98))]
+        output = {"navigation": {"outages": outages, "drift_percent": 0.5}}
+        self.assertEqual(values("outage_drift", output), [1.0, 3.0])
+        self.assertEqual(value("outage_drift", output), 2.0)
+        self.assertEqual(values("drift", output), [0.5])
+        self.assertEqual(values("outage_azimuth_end", output), [])
+
     def test_every_metric_says_what_it_is(self):
         for name, metric in METRICS.items():
             self.assertTrue(metric.unit and metric.about, name)
+
+
+class Page(Folder):
+    def test_a_table_pools_the_outages_of_all_runs_and_of_each_recording(self):
+        experiment = {"metrics": ["outage_drift"], "by": "recording"}
+        plan = {"experiments": {"e": experiment}, "results": str(self.folder), "runs": ["a", "b"]}
+        for key, drifts in (("a", [1.0, 2.0]), ("b", [9.0])):
+            outages = [{"drift_percent": d, "covered": 1.0} for d in drifts]
+            record = {**dict.fromkeys(results.TEXTS, ""), "key": key, "experiment": "e", "recording": "drive-" + key,
+                      "tags": [], "set": {}, "seed": 1, "status": 0, "wall_s": 1.0, "variant": "x",
+                      "output": {"navigation": {"outages": outages}}}
+            (self.folder / f"{key}.json").write_text(json.dumps(record))
+        results.collect(plan, self.folder / "runs.sqlite")
+        runs, experiments, metrics = results.read(self.folder / "runs.sqlite")
+        self.assertEqual([r["outage_drift"] for r in runs], [1.5, 9.0])
+        rows = re.findall(r"<tr data.*?</tr>", page.experiment_part("e", experiments["e"], runs, metrics))
+        cells = [re.findall(r"<td>(.*?)</td>", row)[1:] for row in rows]
+        self.assertEqual(cells[0][:5], ["x", "3", "4", "5.35", "2"], "name, values, mean, rms, median")
+        self.assertEqual([row[:3] for row in cells[1:]], [["drive-a: x", "2", "1.5"], ["drive-b: x", "1", "9"]])
 
 
 class Pairs(unittest.TestCase):
