@@ -68,6 +68,7 @@ void add_replay(CLI::App& app, Command& command) {
       ->check(parsed_by(fusion::configuration, "NAME"));
   sub->add_option("--gnss-outage", options.gnss_outage,
                   "START:LENGTH[,...] in seconds into the drive, LENGTH may be end; "
+                  "repeated:START:LENGTH for one after another, with a minute between; "
                   "random:COUNT:LENGTH for some that the seed draws")
       ->check(vehicle::check_outages, "OUTAGES");
   sub->add_option("--odometry-poses", options.odometry_poses,
