@@ -17,7 +17,7 @@ import results
 from statistics_of_pairs import paired, ratio
 
 HERE = Path(__file__).resolve().parent
-SAME = ("recording", "seed")
+SAME = ("recording", "seed", "repeat")
 
 
 def number(value, digits=3):
@@ -52,7 +52,9 @@ def experiment_part(name, experiment, runs, metrics):
     """A table of one row a metric and variant, and each recording or split if `by` asks for it."""
     variants = list(dict.fromkeys(r["variant"] for r in runs))
     by = experiment["rows_by"]
-    groups = [("", runs)] + ([(g, [r for r in runs if r[by] == g]) for g in dict.fromkeys(r[by] for r in runs)] if by else [])
+    groups = [("", runs)]
+    if by:
+        groups += [(g, [r for r in runs if r[by] == g]) for g in dict.fromkeys(r[by] for r in runs)]
     failed = sum(r["status"] != 0 for r in runs)
     rows = []
     for metric, (group, its_runs), variant in itertools.product(experiment["metrics"].split(), groups, variants):
@@ -62,7 +64,7 @@ def experiment_part(name, experiment, runs, metrics):
         rows.append(row(metric, metrics[metric]["unit"], f"{group}: {variant}" if group else variant, own, cell))
     return f"""<section data-experiment="{name}"><h2>{html.escape(name)}</h2><p>{html.escape(experiment["about"])}
 {len(runs)} runs, {failed} of them failed. The values are those of the runs, or of their parts, such as outages. The ratio
-of the means of runs is to the first variant, by pairs of one recording and seed; it is coloured where its bounds of 95 %
+of the means of runs is to the first variant, by pairs of one recording, seed and repeat; it is coloured where its bounds of 95 %
 (bootstrap over five or more pairs) leave out 1.</p>
 <table><thead><tr><th>metric</th><th>variant</th><th>values</th><th>mean</th><th>rms</th><th>median</th><th>95 %</th>
 <th>largest</th><th>ratio</th></tr></thead><tbody>{"".join(rows)}</tbody></table>

@@ -13,7 +13,7 @@ from metrics import METRICS, value, values
 
 TEXTS = ("key", "experiment", "recording", "split", "tags", "variant", "configuration", "fault", "settings", "error",
          "code", "hash", "report")
-NUMBERS = ("seed", "status", "wall_s")
+NUMBERS = ("seed", "repeat", "status", "wall_s")
 
 
 def row_of(record):

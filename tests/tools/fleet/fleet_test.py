@@ -92,6 +92,27 @@ class Catalogue(Folder):
         self.assertIn("--config", made["arguments"])
         self.assertEqual(made["arguments"][made["arguments"].index("--seed") + 1], "2")
 
+    def test_seeds_of_a_made_recording_and_repeats_are_runs_of_one_variant(self):
+        text = TEXT.replace('name = "made"\nsimulate = "--seed 3"', 'name = "made-{seed}"\nsimulate = "--seed {seed}"\nseeds = [3, 4]')
+        text = text.replace('["a", "made"]', '["made-3", "made-4"]').replace("seeds = [1, 2, 3]", 'command = "ppp"\n'
+                            'repeats = [["--start", "0"], ["--start", "60", "--map", "{folder}/map.osm"]]')
+        plan = self.plan(text)
+        self.assertEqual({n: m["command"] for n, m in plan["made"].items()},
+                         {"made-3": ["simulate", "--seed", "3"], "made-4": ["simulate", "--seed", "4"]})
+        runs = [r for r in plan["runs"].values() if r["variant"] == "auto, scale=1"]
+        self.assertEqual({(r["recording"], r["repeat"], r["command"]) for r in runs},
+                         {(n, i, "ppp") for n in ("made-3", "made-4") for i in (0, 1)})
+        maps = {r["arguments"][4] for r in runs if r["repeat"] == 1}
+        self.assertEqual(maps, {m["folder"] + "/map.osm" for m in plan["made"].values()})
+
+    def test_the_log_of_a_made_recording_can_take_its_place(self):
+        plan = self.plan(TEXT.replace('config = "vehicle.toml"', 'config = "vehicle.toml"\nlog = true'))
+        made = plan["made"]["made"]
+        self.assertEqual(made["record"][:4], ["replay", ".", "--config", "vehicle.toml"])
+        self.assertNotEqual(made["folder"], self.plan()["made"]["made"]["folder"])
+        runs = [r for r in plan["runs"].values() if r["recording"] == "made"]
+        self.assertEqual({r["arguments"][0] for r in runs}, {made["folder"] + "/odometry.lcmlog"})
+
     def test_a_run_has_another_name_when_its_recording_or_its_arguments_change(self):
         before = set(self.plan()["runs"])
         self.assertEqual(before, set(self.plan()["runs"]))
@@ -165,7 +186,7 @@ class Page(Folder):
         for key, drifts in (("a", [1.0, 2.0]), ("b", [9.0])):
             outages = [{"drift_percent": d, "covered": 1.0} for d in drifts]
             record = {**dict.fromkeys(results.TEXTS, ""), "key": key, "experiment": "e", "recording": "drive-" + key,
-                      "tags": [], "set": {}, "seed": 1, "status": 0, "wall_s": 1.0, "variant": "x",
+                      "tags": [], "set": {}, "seed": 1, "repeat": 0, "status": 0, "wall_s": 1.0, "variant": "x",
                       "output": {"navigation": {"outages": outages}}}
             (self.folder / f"{key}.json").write_text(json.dumps(record))
         results.collect(plan, self.folder / "runs.sqlite")
