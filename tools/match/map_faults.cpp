@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <random>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "msgs/frames.h"
@@ -27,6 +30,14 @@ std::optional<bool> driven_forward(const mapmatch::MapWay& way, const Labels& la
     }
   }
   return directions.size() == 1 ? std::optional(*directions.begin()) : std::nullopt;
+}
+
+std::int64_t way_driven_longest(const Labels& labels) {
+  std::map<std::int64_t, std::size_t> rows;
+  for (const auto& [row, label] : labels) ++rows[label.way_id];
+  return std::max_element(rows.begin(), rows.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
 }
 
 }  // namespace
@@ -156,6 +167,28 @@ mapmatch::NetworkData without_way(const mapmatch::MapExtract& map, std::int64_t 
   mapmatch::MapExtract less = map;
   std::erase_if(less.ways, [&](const mapmatch::MapWay& w) { return w.road.way_id == way_id; });
   return mapmatch::build_network(less);
+}
+
+mapmatch::NetworkData with_fault(const mapmatch::MapExtract& map, const Labels& labels,
+                                 MapFault fault) {
+  if (labels.empty() && (fault == MapFault::missing || fault == MapFault::parallel)) {
+    throw std::runtime_error("--map-fault " + std::string(to_string(fault)) +
+                             " needs labels of the roads driven, which are not there "
+                             "(sensors/FORMATS.md); the other faults do not");
+  }
+  switch (fault) {
+    case MapFault::missing:
+      return without_way(map, way_driven_longest(labels));
+    case MapFault::shifted_5:
+      return shifted(mapmatch::build_network(map), {5.0, 0.0});
+    case MapFault::shifted_10:
+      return shifted(mapmatch::build_network(map), {10.0, 0.0});
+    case MapFault::reversed:
+      return one_way_reversed(mapmatch::build_network(map));
+    case MapFault::parallel:
+      break;
+  }
+  return mapmatch::build_network(with_parallels(map, driven_ways(labels), 12.0));
 }
 
 FaultScore score_fault(const std::vector<MatchedFix>& matched, const NoisyTrack& noisy,

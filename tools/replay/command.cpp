@@ -97,6 +97,15 @@ void add_replay(CLI::App& app, Command& command) {
              vehicle::fault_kinds() + " (runtime/vehicle/FAULTS.md)")
       ->allow_extra_args(false)
       ->check(parsed_by(vehicle::parse_fault, "FAULT"));
+  sub->add_option("--score-from", options.score_from,
+                  "Score the drive from so many seconds into it; outages are scored as they are")
+      ->check(number_from_zero());
+  add_choice(sub, "--map-fault", options.map_fault,
+             "A map that is wrong: the way driven longest is missing, all is shifted to the east, "
+             "one-way streets are reversed, or each road driven has a second one to its right");
+  add_choice(sub, "--misdescribe", options.misdescribed,
+             "Describe the car wrongly, by 0.5 m, 1 degree or 30 ms, to a side that --seed draws; "
+             "nothing: rightly, with places that are as certain");
   sub->footer(
       "Examples:\n"
       "    maploop replay 2011_09_26/2011_09_26_drive_0013_sync  # as it was driven\n"

@@ -1,4 +1,4 @@
-#include "tools/experiment/misdescription.h"
+#include "tools/replay/misdescription.h"
 
 #include <algorithm>
 #include <array>
@@ -7,13 +7,14 @@
 #include <memory>
 #include <numbers>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "msgs/frames.h"
 #include "sensors/source.h"
 
-namespace maploop::experiments {
+namespace maploop::tools {
 namespace {
 
 using Eigen::AngleAxisd;
@@ -102,7 +103,17 @@ Misdescription misdescription(Property property, std::int64_t seed) {
   return wrong;
 }
 
-void misdescribe(vehicle::VehicleConfig& config, const Misdescription& wrong) {
+void misdescribe(vehicle::VehicleConfig& config, vehicle::Recording& recording,
+                 const Misdescription& wrong) {
+  const vehicle::Sensors recorded = recording.sensors(Time::max());
+  if (recorded.camera != nullptr || recorded.velodyne != nullptr) {
+    throw std::runtime_error(
+        "--misdescribe: the recording has images or scans; replay the log of its odometry, which "
+        "'maploop replay DRIVE --record FILE' writes");
+  }
+  vehicle::VehicleConfig known = config;
+  describe_car(known, recording.calibration);
+  config.vehicle = known.vehicle;
   SensorPosition& antenna = config.vehicle.antenna.position;
   antenna.forward += wrong.antenna.x();
   antenna.left += wrong.antenna.y();
@@ -115,6 +126,12 @@ void misdescribe(vehicle::VehicleConfig& config, const Misdescription& wrong) {
   }
   if (!config.is_given("fusion", "gnss_lever_sigma"))
     config.fusion.gnss_lever_sigma = fusion::FusionParameters{}.gnss_lever_sigma;
+  recording.sensors = [right = std::move(recording.sensors), wrong,
+                       calibration = recording.calibration](Time passed) {
+    vehicle::Sensors sensors = right(passed);
+    misdescribe(sensors, wrong, calibration);
+    return sensors;
+  };
 }
 
 void misdescribe(vehicle::Sensors& sensors, const Misdescription& wrong,
@@ -140,4 +157,4 @@ void misdescribe(vehicle::Sensors& sensors, const Misdescription& wrong,
   change_each(sensors.visual, change);
 }
 
-}  // namespace maploop::experiments
+}  // namespace maploop::tools
