@@ -10,7 +10,6 @@ void add_experiment(CLI::App& app, Command& command) {
   add_map_fault_experiment(*experiment, command);
   add_match_experiment(*experiment, command);
   add_odometry_experiment(*experiment, command);
-  add_ppp_map_experiment(*experiment, command);
 }
 
 }  // namespace maploop::tools

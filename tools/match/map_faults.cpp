@@ -2,12 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
-#include <random>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -52,34 +49,6 @@ mapmatch::NetworkData shifted(mapmatch::NetworkData network, const Eigen::Vector
   for (mapmatch::Vertex& v : network.vertices) {
     v.east += metres.x();
     v.north += metres.y();
-  }
-  return network;
-}
-
-// A sum of plane waves whose wave vectors are normally distributed has a Gaussian correlation.
-mapmatch::NetworkData bent(mapmatch::NetworkData network, double metres, double length,
-                           std::uint64_t seed) {
-  constexpr std::size_t waves = 64;
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal;
-  std::uniform_real_distribution<double> phase(0.0, 2.0 * std::numbers::pi);
-  struct Wave {
-    Eigen::Vector2d vector, phases;
-  };
-  std::array<Wave, waves> all;
-  for (Wave& wave : all) {
-    wave.vector = Eigen::Vector2d(normal(random), normal(random)) / length;
-    wave.phases = {phase(random), phase(random)};
-  }
-  const double amplitude = metres * std::sqrt(2.0 / static_cast<double>(waves));
-  for (mapmatch::Vertex& v : network.vertices) {
-    Eigen::Vector2d off(0.0, 0.0);
-    for (const Wave& wave : all) {
-      const double along = wave.vector.x() * v.east + wave.vector.y() * v.north;
-      off += amplitude * (wave.phases.array() + along).cos().matrix();
-    }
-    v.east += off.x();
-    v.north += off.y();
   }
   return network;
 }

@@ -13,10 +13,6 @@ namespace maploop::match {
 // Returns the ways that were driven.
 std::set<std::int64_t> driven_ways(const Labels& labels);
 
-// Displaces every vertex by a smooth error: `metres` rms on each axis, with a correlation length of
-// `length` metres.
-mapmatch::NetworkData bent(mapmatch::NetworkData network, double metres, double length,
-                           std::uint64_t seed);
 mapmatch::NetworkData shifted(mapmatch::NetworkData network, const Eigen::Vector2d& metres);
 // Turns every vertex about `centre` (m), clockwise by `angle` (rad).
 mapmatch::NetworkData turned(mapmatch::NetworkData network, const Eigen::Vector2d& centre,
