@@ -7,6 +7,5 @@ namespace maploop::tools {
 
 void add_map_fault_experiment(CLI::App& experiment, Command& command);
 void add_match_experiment(CLI::App& experiment, Command& command);
-void add_odometry_experiment(CLI::App& experiment, Command& command);
 
 }  // namespace maploop::tools
