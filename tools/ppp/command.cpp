@@ -144,8 +144,16 @@ void read(const std::filesystem::path& path, ppp::GnssFiles& files) {
     ppp::read_into(path, files);
     return;
   }
-  for (const std::filesystem::path& file : ppp::files_in(path))
-    if (ppp::kind_of_file(file) != ppp::FileKind::unknown) ppp::read_into(file, files);
+  bool any = false;
+  for (const std::filesystem::path& file : ppp::files_in(path)) {
+    if (ppp::kind_of_file(file) == ppp::FileKind::unknown) continue;
+    ppp::read_into(file, files);
+    any = true;
+  }
+  if (!any) {
+    throw std::runtime_error("the folder '" + path.string() +
+                             "' has no GNSS files: observations and their products are needed");
+  }
 }
 
 int positions(const PppOptions& options) {

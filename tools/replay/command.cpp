@@ -103,9 +103,13 @@ void add_replay(CLI::App& app, Command& command) {
   add_choice(sub, "--map-fault", options.map_fault,
              "A map that is wrong: the way driven longest is missing, all is shifted to the east, "
              "one-way streets are reversed, or each road driven has a second one to its right");
-  add_choice(sub, "--misdescribe", options.misdescribed,
-             "Describe the car wrongly, by 0.5 m, 1 degree or 30 ms, to a side that --seed draws; "
-             "nothing: rightly, with places that are as certain");
+  sub->add_option_function<std::string>(
+         "--misdescribe",
+         [&wrong = options.misdescribed](const std::string& name) { wrong = property_named(name); },
+         "Describe the car wrongly, by 0.5 m, 1 degree or 30 ms, to a side that --seed draws: "
+         "antenna, inertial-mount, camera, rear-axle, inertial-stamps, gnss-stamps, "
+         "camera-stamps or everything; nothing: rightly, with places that are as certain")
+      ->check(parsed_by(property_named, "PROPERTY"));
   sub->footer(
       "Examples:\n"
       "    maploop replay 2011_09_26/2011_09_26_drive_0013_sync  # as it was driven\n"

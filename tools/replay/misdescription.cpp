@@ -9,6 +9,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "msgs/frames.h"
@@ -62,6 +63,14 @@ void move(RelativeMotion& motion, const Eigen::Isometry3d& X) {
 }
 
 }  // namespace
+
+Property property_named(const std::string& name) {
+  if (const auto property = value_named<Property>(name)) return *property;
+  std::string all;
+  for (const std::string_view known : enum_names<Property>)
+    all += (all.empty() ? "" : ", ") + std::string(known);
+  throw std::invalid_argument("no property of the car is called '" + name + "'; there are " + all);
+}
 
 Misdescription misdescription(Property property, std::int64_t seed) {
   constexpr double place = 0.5;           // m

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <string>
 
 #include "msgs/calibration.h"
 #include "msgs/named_enum.h"
@@ -30,6 +31,9 @@ constexpr auto names_of(Property) {
                                             "rear-axle", "inertial-stamps", "gnss-stamps",
                                             "camera-stamps", "everything"});
 }
+
+// Throws std::invalid_argument with all names if there is no such property.
+Property property_named(const std::string& name);
 
 // How far the description is from the car. Every value is zero where it is right.
 struct Misdescription {
