@@ -26,7 +26,7 @@ def values(name, output):
     try:
         made = METRICS[name].of(output)
         return [float(each) for each in (made if isinstance(made, list) else [made])]
-    except (KeyError, TypeError, ZeroDivisionError, ValueError):
+    except (LookupError, TypeError, ZeroDivisionError, ValueError):
         return []
 
 

@@ -163,6 +163,7 @@ class Metrics(unittest.TestCase):
     def test_a_run_without_what_a_metric_needs_has_none(self):
         self.assertIsNone(value("position_rms", {"navigation": None}))
         self.assertIsNone(value("odom_to_best", {}))
+        self.assertIsNone(value("named_after", {"faults": [], "named": []}))
         part = {"common_rotation_removed": {"segment_100m_percent": 0.5}}
         self.assertEqual(value("odom_to_best", {"odom": part, "vo": part}), 1.0)
 
