@@ -69,6 +69,15 @@ TEST(PppCommand, StartAndEndCutTheEpochs) {
   EXPECT_NE(result.out.find("60 of 60 epochs"), std::string::npos) << result.out;
 }
 
+TEST(PppCommand, TakesSecondsForTimesAndLeavesOutTheEpochsOfAnOutage) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  auto command = ppp_of_the_car();
+  command.insert(command.end(), {"--start", "60", "--end", "119", "--gnss-outage", "80:10"});
+  const auto result = run(command);
+  EXPECT_EQ(result.status, 0) << result.error;
+  EXPECT_NE(result.out.find("50 of 50 epochs"), std::string::npos) << result.out;
+}
+
 TEST(PppCommand, AccuracyCanBeThatBehindTheConvergence) {
   MAPLOOP_REQUIRE_REAL_DATA();
   auto command = ppp_of_the_car();

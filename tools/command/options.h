@@ -66,23 +66,4 @@ CLI::Option* add_choice(CLI::App* sub, const char* flag, std::optional<Enum>& va
       ->check(CLI::IsMember(choices<Enum>()));
 }
 
-// Names of an enumeration, separated by commas; `values` contains the default.
-template <NamedEnum Enum>
-CLI::Option* add_choices(CLI::App* sub, const char* flag, std::vector<Enum>& values,
-                         const char* what) {
-  std::vector<std::string> names;
-  for (const Enum value : values) names.emplace_back(to_string(value));
-  return sub
-      ->add_option_function<std::vector<std::string>>(
-          flag,
-          [&values](const std::vector<std::string>& given) {
-            values.clear();
-            for (const std::string& name : given) values.push_back(*value_named<Enum>(name));
-          },
-          what)
-      ->delimiter(',')
-      ->check(CLI::IsMember(choices<Enum>()))
-      ->default_str(CLI::detail::join(names));
-}
-
 }  // namespace maploop::tools

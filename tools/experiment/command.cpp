@@ -7,14 +7,8 @@ void add_experiment(CLI::App& app, Command& command) {
   CLI::App* experiment =
       app.add_subcommand("experiment", "Comparisons of methods on recorded drives");
   experiment->require_subcommand(1);
-  add_fusion_experiment(*experiment, command);
-  add_map_experiment(*experiment, command);
   add_map_fault_experiment(*experiment, command);
   add_match_experiment(*experiment, command);
-  add_misdescribed_experiment(*experiment, command);
-  add_odometry_experiment(*experiment, command);
-  add_outage_experiment(*experiment, command);
-  add_ppp_map_experiment(*experiment, command);
 }
 
 }  // namespace maploop::tools

@@ -5,13 +5,7 @@
 
 namespace maploop::tools {
 
-void add_fusion_experiment(CLI::App& experiment, Command& command);
-void add_map_experiment(CLI::App& experiment, Command& command);
 void add_map_fault_experiment(CLI::App& experiment, Command& command);
 void add_match_experiment(CLI::App& experiment, Command& command);
-void add_misdescribed_experiment(CLI::App& experiment, Command& command);
-void add_odometry_experiment(CLI::App& experiment, Command& command);
-void add_outage_experiment(CLI::App& experiment, Command& command);
-void add_ppp_map_experiment(CLI::App& experiment, Command& command);
 
 }  // namespace maploop::tools

@@ -3,10 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "tools/web/html.h"
-#include "tools/web/page.h"
-#include "tools/web/table.h"
-
 namespace maploop::experiments {
 
 std::string number(double value, int digits) {
@@ -30,10 +26,6 @@ std::string as_text(const Table& table) {
   line(table.heading);
   for (const Row& row : table.rows) line(row);
   return text;
-}
-
-std::string as_html(const Table& table) {
-  return "<h2>" + web::escaped(table.title) + "</h2>\n" + web::table(table.heading, table.rows);
 }
 
 }  // namespace maploop::experiments

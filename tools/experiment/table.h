@@ -1,4 +1,4 @@
-// A table of an experiment, for the terminal and for a page.
+// A table of an experiment, for the terminal.
 #pragma once
 
 #include <string>
@@ -17,7 +17,6 @@ struct Table {
 
 std::string number(double value, int digits);
 std::string as_text(const Table& table);
-std::string as_html(const Table& table);
 
 // Groups values by their cells and keeps the order in which the cells first came.
 template <class Value>

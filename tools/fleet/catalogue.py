@@ -6,6 +6,7 @@ import os
 import re
 import shlex
 import tomllib
+from functools import lru_cache
 from pathlib import Path
 
 import jsonschema
@@ -13,6 +14,7 @@ import jsonschema
 from metrics import METRICS
 
 HERE = Path(__file__).parent
+LOG = "odometry.lcmlog"  # in the folder of a made recording
 MEGABYTES = 600  # of one run; a run that is killed is repeated with twice as much
 
 
@@ -52,11 +54,15 @@ def load(path):
         what = error.message if error.validator != "oneOf" else "a recording has either 'path' or 'simulate'"
         fail(list(error.absolute_path), what)
     for kind in ("recording", "experiment"):
-        names = [each["name"] for each in catalogue[kind]]
-        for i, name in enumerate(names):
-            if name in names[:i]:
-                fail([kind, i, "name"], f"'{name}' is there twice")
-    known = {r["name"] for r in catalogue["recording"]} | {t for r in catalogue["recording"] for t in r.get("tags", [])}
+        names = set()
+        for i, each in enumerate(catalogue[kind]):
+            own = [of_seed["name"] for of_seed in of_each_seed(each)] if kind == "recording" else [each["name"]]
+            for name in own:
+                if name in names:
+                    fail([kind, i, "name"], f"'{name}' is there twice")
+                names.add(name)
+    everything = [each for r in catalogue["recording"] for each in of_each_seed(r)]
+    known = {r["name"] for r in everything} | {t for r in everything for t in r.get("tags", [])}
     for i, experiment in enumerate(catalogue["experiment"]):
         for name in experiment["recordings"]:
             if name not in known:
@@ -64,17 +70,54 @@ def load(path):
         for name in experiment["metrics"]:
             if name not in METRICS:
                 fail(["experiment", i, "metrics"], f"there is no metric '{name}'; there are {', '.join(METRICS)}")
+        for recording in chosen_of(everything, experiment):
+            has = {*recording.get("values", {}), *(["folder"] if "simulate" in recording else [])}
+            for word in sorted(words(experiment) - has):
+                fail(["experiment", i, "arguments"], f"the recording '{recording['name']}' has no value '{word}'")
+
+    def expanded(text, where):
+        missing = [v for v in re.findall(r"\$(\w+)", text) if v not in os.environ]
+        if missing:
+            fail(where, f"the environment does not have {missing[0]}")
+        return os.path.expandvars(text)
+
     for i, recording in enumerate(catalogue["recording"]):
         if "path" in recording:
-            missing = [v for v in re.findall(r"\$(\w+)", recording["path"]) if v not in os.environ]
-            if missing:
-                fail(["recording", i, "path"], f"the environment does not have {missing[0]}")
-            recording["path"] = str(Path(path).parent.resolve() / os.path.expandvars(recording["path"]))
+            recording["path"] = str(Path(path).parent.resolve() / expanded(recording["path"], ["recording", i, "path"]))
             if not os.path.exists(recording["path"]):
                 fail(["recording", i, "path"], f"there is nothing at {recording['path']}")
+        for name, value in recording.get("values", {}).items():
+            recording["values"][name] = expanded(value, ["recording", i, "values"])
+    for i, experiment in enumerate(catalogue["experiment"]):
+        experiment["arguments"] = [expanded(a, ["experiment", i, "arguments"]) for a in experiment.get("arguments", [])]
+        experiment.setdefault("variants", {"": []})
+    catalogue["recording"] = [each for r in catalogue["recording"] for each in of_each_seed(r)]
     return catalogue
 
 
+def of_each_seed(recording):
+    """A made recording that has seeds, once for each: {seed} stands for it in name and options."""
+    keys = ("name", "simulate")
+    return [{**recording, **{k: recording[k].replace("{seed}", str(seed)) for k in keys if k in recording}}
+            for seed in recording.get("seeds", [0])]
+
+
+def chosen_of(recordings, experiment):
+    return [r for r in recordings if {r["name"], *r.get("tags", [])} & set(experiment["recordings"])]
+
+
+def words(experiment):
+    """The {words} of its arguments, for which each recording has a value."""
+    groups = [experiment.get("arguments", []), *experiment.get("variants", {}).values(), *experiment.get("repeats", [])]
+    return {word for arguments in groups for each in arguments for word in re.findall(r"\{(\w+)\}", each)}
+
+
+def with_values(arguments, recording):
+    of = {"folder": recording.get("folder"), **recording.get("values", {})}
+    return [re.sub(r"\{(\w+)\}", lambda word: of[word[1]], each) for each in arguments]
+
+
+@lru_cache(maxsize=None)
 def fingerprint(path):
     """Names, sizes and times of a recording's files: what changes when it is another one."""
     root = Path(path)
@@ -102,34 +145,41 @@ def text_of(value):
 
 
 def variant_of(run):
-    parts = [run["configuration"], run["fault"], *(f"{k}={text_of(v)}" for k, v in run["set"].items())]
+    parts = [run["configuration"], run["named"], run["fault"], *(f"{k}={text_of(v)}" for k, v in run["set"].items())]
     return ", ".join(p for p in parts if p) or "default"
 
 
 def make_plan(catalogue, made, only=()):
     """The runs of a catalogue. `made` is the folder of made recordings; `only` names experiments, all without any."""
+    fingerprint.cache_clear()
     recordings = {r["name"]: dict(r) for r in catalogue["recording"]}
     for r in recordings.values():
         if "simulate" in r:
             r["make"] = ["simulate", *shlex.split(r["simulate"])]
-            r["folder"] = str(Path(made) / (r["name"] + "-" + digest(r["make"])))
-            r["path"] = str(Path(r["folder"]) / r.get("open", ""))
             r["identity"] = r["make"]
+            if r.get("log"):
+                config = ["--config", r["config"]] if "config" in r else []
+                r["record"] = ["replay", r.get("open", "."), *config, "--lockstep", "--no-lcm", "--record", LOG]
+                r["identity"] = [*r["make"], *r["record"]]
+            r["folder"] = str(Path(made) / (r["name"] + "-" + digest(r["identity"])))
+            r["path"] = str(Path(r["folder"]) / (LOG if r.get("log") else r.get("open", "")))
             if "config" in r:
                 r["config"] = str(Path(r["folder"]) / r["config"])
         else:
-            r["identity"] = fingerprint(r["path"])
+            r["identity"] = list(fingerprint(r["path"]))
             if "config" in r:
                 r["identity"].append(file_hash(r["config"]))
     runs = {}
     for experiment in catalogue["experiment"]:
         if only and experiment["name"] not in only:
             continue
-        chosen = [r for r in recordings.values() if {r["name"], *r.get("tags", [])} & set(experiment["recordings"])]
-        for r, configuration, seed, fault, setting in itertools.product(
-                chosen, experiment.get("configurations", [""]), experiment.get("seeds", [0]),
-                experiment.get("faults", [""]), varied(experiment.get("vary", {}))):
-            arguments = [*r.get("arguments", []), *experiment.get("arguments", [])]
+        repeats = experiment.get("repeats", [[]])
+        for r, configuration, named, seed, fault, setting, repeat in itertools.product(
+                chosen_of(recordings.values(), experiment), experiment.get("configurations", [""]),
+                experiment["variants"], experiment.get("seeds", [0]), experiment.get("faults", [""]),
+                varied(experiment.get("vary", {})), range(len(repeats))):
+            own = with_values([*experiment["arguments"], *experiment["variants"][named], *repeats[repeat]], r)
+            arguments = [*r.get("arguments", []), *own]
             if configuration:
                 arguments += ["--configuration", configuration]
             if seed:
@@ -141,13 +191,13 @@ def make_plan(catalogue, made, only=()):
             if "config" in r:
                 arguments += ["--config", r["config"]]
             run = {"experiment": experiment["name"], "recording": r["name"], "split": r.get("split", ""),
-                   "tags": r.get("tags", []), "configuration": configuration, "seed": seed, "fault": fault,
-                   "set": setting, "arguments": [r["path"], *arguments], "report": experiment.get("report", False),
+                   "command": experiment.get("command", "replay"), "tags": r.get("tags", []), "configuration": configuration, "named": named, "seed": seed,
+                   "repeat": repeat, "fault": fault, "set": setting, "arguments": [r["path"], *arguments], "report": experiment.get("report", False),
                    "seconds": r.get("seconds", 600.0), "megabytes": MEGABYTES}
             run["variant"] = variant_of(run)
-            runs[digest(experiment["name"], run["arguments"], r["identity"])] = run
+            files = [fingerprint(a) for a in own if os.path.isfile(a)]  # such as a map
+            runs[digest(experiment["name"], run["arguments"], r["identity"], *files)] = run
     used = {run["recording"] for run in runs.values()}
-    return {"experiments": {e["name"]: e for e in catalogue["experiment"]},
-            "made": {n: {"folder": r["folder"], "command": r["make"]} for n, r in recordings.items()
-                     if "make" in r and n in used},
-            "runs": runs}
+    made_of = {n: {"folder": r["folder"], "command": r["make"], "record": r.get("record", [])}
+               for n, r in recordings.items() if "make" in r and n in used}
+    return {"experiments": {e["name"]: e for e in catalogue["experiment"]}, "made": made_of, "runs": runs}

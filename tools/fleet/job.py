@@ -27,6 +27,8 @@ def make(plan, name):
     shutil.rmtree(partial, ignore_errors=True)
     partial.parent.mkdir(parents=True, exist_ok=True)
     subprocess.run([plan["binary"], *made["command"], "--out", partial], check=True, stdout=subprocess.DEVNULL)
+    if made["record"]:
+        subprocess.run([plan["binary"], *made["record"]], check=True, cwd=partial, stdout=subprocess.DEVNULL)
     shutil.rmtree(folder, ignore_errors=True)
     os.rename(partial, folder)
 
@@ -42,7 +44,8 @@ def run(plan, key, result, last):
     setup = plan["runs"][key]
     with tempfile.TemporaryDirectory() as scratch:
         output = Path(scratch) / "output.json"
-        command = [plan["binary"], "replay", "--lockstep", "--no-lcm", "--json", str(output), *setup["arguments"]]
+        lockstep = ["--lockstep", "--no-lcm"] if setup["command"] == "replay" else []
+        command = [plan["binary"], setup["command"], *lockstep, "--json", str(output), *setup["arguments"]]
         report = Path(plan["results"]).with_name("reports") / f"{key}.html"
         if setup["report"]:
             report.parent.mkdir(exist_ok=True)

@@ -4,6 +4,7 @@
     page.py DATABASE PAGE
 """
 import html
+import itertools
 import json
 import math
 import os
@@ -16,7 +17,7 @@ import results
 from statistics_of_pairs import paired, ratio
 
 HERE = Path(__file__).resolve().parent
-SAME = ("recording", "seed")
+SAME = ("recording", "seed", "repeat")
 
 
 def number(value, digits=3):
@@ -33,28 +34,40 @@ def ratio_cell(old, new, less_is_better):
     return f'<td{kind} title="{r.low:.3f} to {r.high:.3f} (95 %), {r.pairs} pairs">{r.value:.3f}</td>'
 
 
+def values_of(runs, metric):
+    return [v for r in runs for v in r["parts"].get(metric, [r[metric]]) if v is not None]
+
+
+def row(metric, unit, name, runs, ratio_to_first):
+    values = values_of(runs, metric)
+    if not values:
+        return ""
+    squares = numpy.square(values)
+    cells = (numpy.mean(values), numpy.sqrt(numpy.mean(squares)), *numpy.quantile(values, [0.5, 0.95]), max(values))
+    return (f'<tr data-metric="{metric}"><td>{metric}, {unit}</td><td>{html.escape(name)}</td><td>{len(values)}</td>' +
+            "".join(f"<td>{number(v)}</td>" for v in cells) + ratio_to_first + "</tr>")
+
+
 def experiment_part(name, experiment, runs, metrics):
-    """A table of one row a variant and metric; ratios are to the first variant."""
+    """A table of one row a metric and variant, and each recording or split if `by` asks for it."""
     variants = list(dict.fromkeys(r["variant"] for r in runs))
-    of_variant = {v: [r for r in runs if r["variant"] == v] for v in variants}
+    by = experiment["rows_by"]
+    groups = [("", runs)]
+    if by:
+        groups += [(g, [r for r in runs if r[by] == g]) for g in dict.fromkeys(r[by] for r in runs)]
     failed = sum(r["status"] != 0 for r in runs)
     rows = []
-    for metric in experiment["metrics"].split():
-        for variant in variants:
-            values = [r[metric] for r in of_variant[variant] if r[metric] is not None]
-            if not values:
-                continue
-            pairs = paired(of_variant[variants[0]], of_variant[variant], metric, SAME)
-            rows.append(
-                f'<tr data-metric="{metric}"><td>{metric}, {metrics[metric]["unit"]}</td><td>{html.escape(variant)}</td>'
-                f"<td>{len(values)}</td>" +
-                "".join(f"<td>{number(v)}</td>" for v in (numpy.mean(values), *numpy.quantile(values, [0.5, 0.95]), max(values))) +
-                ("<td>1</td>" if variant == variants[0] else ratio_cell(*pairs, metrics[metric]["less_is_better"])) + "</tr>")
+    for metric, (group, its_runs), variant in itertools.product(experiment["metrics"].split(), groups, variants):
+        first, own = ([r for r in its_runs if r["variant"] == v] for v in (variants[0], variant))
+        less_is_better = metrics[metric]["less_is_better"]
+        cell = "<td>1</td>" if variant == variants[0] else ratio_cell(*paired(first, own, metric, SAME), less_is_better)
+        rows.append(row(metric, metrics[metric]["unit"], f"{group}: {variant}" if group else variant, own, cell))
     return f"""<section data-experiment="{name}"><h2>{html.escape(name)}</h2><p>{html.escape(experiment["about"])}
-{len(runs)} runs, {failed} of them failed. The ratio of the means is to the first variant, by pairs of one recording and seed;
-it is coloured where its bounds of 95 % (bootstrap over five or more pairs) leave out 1.</p>
-<table><thead><tr><th>metric</th><th>variant</th><th>runs</th><th>mean</th><th>median</th><th>95 %</th><th>largest</th>
-<th>ratio</th></tr></thead><tbody>{"".join(rows)}</tbody></table>
+{len(runs)} runs, {failed} of them failed. The values are those of the runs, or of their parts, such as outages. The ratio
+of the means of runs is to the first variant, by pairs of one recording, seed and repeat; it is coloured where its bounds of 95 %
+(bootstrap over five or more pairs) leave out 1.</p>
+<table><thead><tr><th>metric</th><th>variant</th><th>values</th><th>mean</th><th>rms</th><th>median</th><th>95 %</th>
+<th>largest</th><th>ratio</th></tr></thead><tbody>{"".join(rows)}</tbody></table>
 <div class="plots"></div></section>"""
 
 

@@ -9,11 +9,11 @@ import sqlite3
 import sys
 from pathlib import Path
 
-from metrics import METRICS, value
+from metrics import METRICS, value, values
 
 TEXTS = ("key", "experiment", "recording", "split", "tags", "variant", "configuration", "fault", "settings", "error",
          "code", "hash", "report")
-NUMBERS = ("seed", "status", "wall_s")
+NUMBERS = ("seed", "repeat", "status", "wall_s")
 
 
 def row_of(record):
@@ -30,23 +30,32 @@ def collect(plan, database):
     db = sqlite3.connect(partial)
     columns = [f"{n} TEXT" for n in TEXTS] + [f"{n} REAL" for n in (*NUMBERS, *METRICS)]
     db.execute(f"CREATE TABLE runs ({', '.join(columns)}, PRIMARY KEY (key))")
-    db.execute("CREATE TABLE experiments (name TEXT PRIMARY KEY, about TEXT, metrics TEXT)")
+    db.execute("CREATE TABLE parts (key TEXT, metric TEXT, value REAL)")  # of metrics that are of parts of a run
+    db.execute("CREATE TABLE experiments (name TEXT PRIMARY KEY, about TEXT, metrics TEXT, rows_by TEXT)")
     db.execute("CREATE TABLE metrics (name TEXT PRIMARY KEY, unit TEXT, about TEXT, less_is_better INTEGER)")
     for name, e in plan["experiments"].items():
-        db.execute("INSERT INTO experiments VALUES (?, ?, ?)", (name, e.get("about", ""), " ".join(e["metrics"])))
+        db.execute("INSERT INTO experiments VALUES (?, ?, ?, ?)",
+                   (name, e.get("about", ""), " ".join(e["metrics"]), e.get("by", "")))
     db.executemany("INSERT INTO metrics VALUES (?, ?, ?, ?)",
                    ((n, m.unit, m.about, m.less_is_better) for n, m in METRICS.items()))
     marks = ", ".join("?" * len(columns))
     for key in plan["runs"]:
         record = json.loads((Path(plan["results"]) / f"{key}.json").read_text())
         db.execute(f"INSERT INTO runs VALUES ({marks})", row_of(record))
+        for name in plan["experiments"][record["experiment"]]["metrics"]:
+            parts = values(name, record["output"] or {})
+            if len(parts) > 1:
+                db.executemany("INSERT INTO parts VALUES (?, ?, ?)", ((key, name, part) for part in parts))
     db.commit()
     db.close()
     os.replace(partial, database)
 
 
 def read(database):
-    """The rows of a database as dictionaries, with the tables of experiments and metrics."""
+    """The rows of a database as dictionaries, with the tables of experiments and metrics.
+
+    `parts` of a row has the values of each metric that is of several parts of the run.
+    """
     if not os.path.exists(database):
         raise FileNotFoundError(f"there is no database at {database}: tools/fleet/run makes one")
     db = sqlite3.connect(f"file:{database}?mode=ro", uri=True)
@@ -55,7 +64,10 @@ def read(database):
     def table(name):
         return [dict(row) for row in db.execute(f"SELECT * FROM {name}")]
 
-    return table("runs"), {e["name"]: e for e in table("experiments")}, {m["name"]: m for m in table("metrics")}
+    runs = {r["key"]: {**r, "parts": {}} for r in table("runs")}
+    for part in table("parts"):
+        runs[part["key"]]["parts"].setdefault(part["metric"], []).append(part["value"])
+    return list(runs.values()), {e["name"]: e for e in table("experiments")}, {m["name"]: m for m in table("metrics")}
 
 
 if __name__ == "__main__":

@@ -2,11 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
+#include <map>
 #include <optional>
-#include <random>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "msgs/frames.h"
@@ -29,6 +29,14 @@ std::optional<bool> driven_forward(const mapmatch::MapWay& way, const Labels& la
   return directions.size() == 1 ? std::optional(*directions.begin()) : std::nullopt;
 }
 
+std::int64_t way_driven_longest(const Labels& labels) {
+  std::map<std::int64_t, std::size_t> rows;
+  for (const auto& [row, label] : labels) ++rows[label.way_id];
+  return std::max_element(rows.begin(), rows.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
+}
+
 }  // namespace
 
 std::set<std::int64_t> driven_ways(const Labels& labels) {
@@ -41,34 +49,6 @@ mapmatch::NetworkData shifted(mapmatch::NetworkData network, const Eigen::Vector
   for (mapmatch::Vertex& v : network.vertices) {
     v.east += metres.x();
     v.north += metres.y();
-  }
-  return network;
-}
-
-// A sum of plane waves whose wave vectors are normally distributed has a Gaussian correlation.
-mapmatch::NetworkData bent(mapmatch::NetworkData network, double metres, double length,
-                           std::uint64_t seed) {
-  constexpr std::size_t waves = 64;
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal;
-  std::uniform_real_distribution<double> phase(0.0, 2.0 * std::numbers::pi);
-  struct Wave {
-    Eigen::Vector2d vector, phases;
-  };
-  std::array<Wave, waves> all;
-  for (Wave& wave : all) {
-    wave.vector = Eigen::Vector2d(normal(random), normal(random)) / length;
-    wave.phases = {phase(random), phase(random)};
-  }
-  const double amplitude = metres * std::sqrt(2.0 / static_cast<double>(waves));
-  for (mapmatch::Vertex& v : network.vertices) {
-    Eigen::Vector2d off(0.0, 0.0);
-    for (const Wave& wave : all) {
-      const double along = wave.vector.x() * v.east + wave.vector.y() * v.north;
-      off += amplitude * (wave.phases.array() + along).cos().matrix();
-    }
-    v.east += off.x();
-    v.north += off.y();
   }
   return network;
 }
@@ -156,6 +136,28 @@ mapmatch::NetworkData without_way(const mapmatch::MapExtract& map, std::int64_t 
   mapmatch::MapExtract less = map;
   std::erase_if(less.ways, [&](const mapmatch::MapWay& w) { return w.road.way_id == way_id; });
   return mapmatch::build_network(less);
+}
+
+mapmatch::NetworkData with_fault(const mapmatch::MapExtract& map, const Labels& labels,
+                                 MapFault fault) {
+  if (labels.empty() && (fault == MapFault::missing || fault == MapFault::parallel)) {
+    throw std::runtime_error("--map-fault " + std::string(to_string(fault)) +
+                             " needs labels of the roads driven, which are not there "
+                             "(sensors/FORMATS.md); the other faults do not");
+  }
+  switch (fault) {
+    case MapFault::missing:
+      return without_way(map, way_driven_longest(labels));
+    case MapFault::shifted_5:
+      return shifted(mapmatch::build_network(map), {5.0, 0.0});
+    case MapFault::shifted_10:
+      return shifted(mapmatch::build_network(map), {10.0, 0.0});
+    case MapFault::reversed:
+      return one_way_reversed(mapmatch::build_network(map));
+    case MapFault::parallel:
+      break;
+  }
+  return mapmatch::build_network(with_parallels(map, driven_ways(labels), 12.0));
 }
 
 FaultScore score_fault(const std::vector<MatchedFix>& matched, const NoisyTrack& noisy,

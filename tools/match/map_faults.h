@@ -5,6 +5,7 @@
 #include <set>
 
 #include "mapmatch/network_builder.h"
+#include "msgs/named_enum.h"
 #include "tools/match/recorded_drives.h"
 
 namespace maploop::match {
@@ -12,10 +13,6 @@ namespace maploop::match {
 // Returns the ways that were driven.
 std::set<std::int64_t> driven_ways(const Labels& labels);
 
-// Displaces every vertex by a smooth error: `metres` rms on each axis, with a correlation length of
-// `length` metres.
-mapmatch::NetworkData bent(mapmatch::NetworkData network, double metres, double length,
-                           std::uint64_t seed);
 mapmatch::NetworkData shifted(mapmatch::NetworkData network, const Eigen::Vector2d& metres);
 // Turns every vertex about `centre` (m), clockwise by `angle` (rad).
 mapmatch::NetworkData turned(mapmatch::NetworkData network, const Eigen::Vector2d& centre,
@@ -35,6 +32,22 @@ mapmatch::MapExtract with_opposite_carriageways(const mapmatch::MapExtract& map,
 mapmatch::MapExtract with_parallels(const mapmatch::MapExtract& map,
                                     const std::set<std::int64_t>& ways, double metres);
 mapmatch::NetworkData without_way(const mapmatch::MapExtract& map, std::int64_t way_id);
+
+// A MapFault is what --map-fault of `maploop replay` and `maploop ppp` makes wrong in a map.
+enum class MapFault : std::uint8_t {
+  missing,     // the way driven longest
+  shifted_5,   // everything by 5 m to the east
+  shifted_10,  // the same by 10 m
+  reversed,    // one-way streets
+  parallel,    // a second road 12 m to the right of each way driven
+};
+constexpr auto names_of(MapFault) {
+  return names_up_to<MapFault::parallel>(
+      {"missing", "shifted-5-m", "shifted-10-m", "reversed", "parallel-12-m"});
+}
+// Throws std::runtime_error if a fault of driven ways has no labels of them.
+mapmatch::NetworkData with_fault(const mapmatch::MapExtract& map, const Labels& labels,
+                                 MapFault fault);
 
 // The score of one drive on a wrong map.
 struct FaultScore {

@@ -104,6 +104,10 @@ void MatchScore::add(const std::vector<MatchedFix>& matched, const std::vector<s
     };
     count(all);
     if (label->second.certain) count(certain);
+    if (!label->second.link) {
+      ++lacking_fixes;
+      lacking_p_sum += matched[i].p_link;
+    }
     if (!matched[i].way_id) continue;
     const auto bin = std::min<std::size_t>(9, static_cast<std::size_t>(10.0 * matched[i].p_link));
     ++reliability.fixes[bin];

@@ -84,6 +84,9 @@ struct Reliability {
 struct MatchScore {
   Tally all, certain;
   Reliability reliability;
+  // On links that the network lacks, of labels that were looked up in it.
+  std::size_t lacking_fixes = 0;
+  double lacking_p_sum = 0.0;
 
   // `rows` are the track's row numbers of the fixes; fixes without a label do not count.
   void add(const std::vector<MatchedFix>& matched, const std::vector<std::size_t>& rows,

@@ -11,12 +11,14 @@
 
 #include "runtime/vehicle/drivers/recorded_tracks.h"
 #include "tools/command/commands.h"
+#include "tools/command/json_output.h"
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
 #include "tools/evaluate/trajectory_file.h"
 #include "tools/odometry/lidar_command.h"
 #include "tools/odometry/motion_csv.h"
 #include "tools/odometry/odometry_input.h"
+#include "tools/odometry/stereo_figures.h"
 #include "tools/odometry/summary.h"
 #include "tools/odometry/track_writer.h"
 
@@ -25,7 +27,7 @@ namespace {
 
 struct OdometryOptions {
   OdometryFiles files;
-  std::filesystem::path tracks;
+  std::filesystem::path tracks, json;
   odometry::FrameRange frames;
   std::optional<stereo::Matching> matching;
   std::optional<stereo::MotionMethod> motion;
@@ -64,9 +66,17 @@ int odometry_alone(const OdometryOptions& options) {
   const odometry::Input input = odometry::open_input(
       options.files.in, options.frames, options.disparities.value_or(odometry::Disparities::own),
       [&options](stereo::StereoParameters& parameters) { adjust(options, parameters); });
+  std::optional<evaluation::StampedTrajectory> truth;
+  if (!options.json.empty()) {
+    truth = options.lidar.truth.empty() ? odometry::read_truth(options.files.in)
+                                        : evaluation::read_trajectory(options.lidar.truth);
+  }
   std::vector<odometry::Step> steps;
   odometry::CameraPath path(input.camera.T_body_cam);
   while (auto step = input.run()) {
+    if (truth && options.motion == stereo::MotionMethod::image_to_image &&
+        step->motion.status == OdometryStatus::ok)
+      odometry::give_true_length(input.camera, *truth, step->motion);
     path.add(step->motion);
     steps.push_back(std::move(*step));
   }
@@ -81,6 +91,10 @@ int odometry_alone(const OdometryOptions& options) {
   if (!options.files.csv.empty()) odometry::write_csv(options.files.csv, steps);
   if (!options.tracks.empty())
     odometry::write_recorded_tracks(options.tracks, recorded(input.camera, steps));
+  if (truth) {
+    write_json_file(options.json,
+                    odometry::stereo_figures(steps, trajectory, input.camera, *truth));
+  }
   std::cout << odometry::summary(steps);
   return 0;
 }
@@ -131,6 +145,11 @@ void add_odometry(CLI::App& app, Command& command) {
                   "which can be read in place of a drive")
       ->check(writable_file())
       ->excludes(lidar);
+  sub->add_option("--json", options->json,
+                  "Write figures against the truth to this file; motions of 2d-2d get the truth's "
+                  "lengths")
+      ->check(writable_file())
+      ->excludes(lidar);
   sub->footer(
       "Examples:\n"
       "    maploop odometry DRIVE --poses est.txt              # stereo cameras\n"
@@ -139,7 +158,11 @@ void add_odometry(CLI::App& app, Command& command) {
       ".bin\n"
       "    maploop odometry DRIVE --lidar --method all         # registration methods, in a table\n"
       "    maploop evaluate est.txt truth.txt --lengths 100    # then score it");
-  sub->callback([options, &command] { command = [options] { return odometry_alone(*options); }; });
+  sub->callback([options, &command] {
+    if (!options->lidar.truth.empty() && options->json.empty() && !options->lidar.wanted)
+      throw CLI::RequiredError("--truth scores --json or --lidar: one of them");
+    command = [options] { return odometry_alone(*options); };
+  });
 }
 
 }  // namespace maploop::tools

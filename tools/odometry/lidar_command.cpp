@@ -208,10 +208,11 @@ CLI::Option* add_lidar_options(CLI::App& odometry, LidarOdometryOptions& options
                         const CLI::Validator& check) {
     odometry.add_option(flag, path, what)->check(check)->needs(lidar);
   };
-  file("--truth", options.truth,
-       "Print that table, scored against this truth of the left camera (TUM, KITTI, *.truth.csv); "
-       "without it several methods are scored against the drive's own",
-       existing_file());
+  odometry
+      .add_option("--truth", options.truth,
+                  "Score --json, or with --lidar that table, against this truth of the left camera "
+                  "(TUM, KITTI, *.truth.csv); without it they are scored against the drive's own")
+      ->check(existing_file());
   file("--stamps", options.stamps,
        "Stamps of a folder's scans, a line each: seconds, or YYYY-MM-DD hh:mm:ss.fraction; without "
        "it timestamps.txt in the folder, or 0.1 s apart",

@@ -8,39 +8,46 @@
 
 #include "ppp/filter/parameter_table.h"
 #include "runtime/vehicle/config/vehicle_config.h"
-#include "runtime/vehicle/stages/road_map.h"
+#include "runtime/vehicle/drivers/gnss_outage.h"
 #include "tools/command/commands.h"
 #include "tools/command/json_output.h"
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
 #include "tools/evaluate/text_file.h"
+#include "tools/evaluate/text_lines.h"
 #include "tools/ppp/page.h"
 #include "tools/ppp/run.h"
 #include "tools/ppp/summary.h"
+#include "tools/replay/wrong_road_map.h"
 
 namespace maploop::tools {
 namespace {
 
 struct PppOptions {
   std::vector<std::filesystem::path> files;
-  std::string mode, systems, start, end, truth, score_start;
+  std::string mode, systems, start, end, truth, score_start, gnss_outage;
   std::optional<vehicle::MapMode> map_mode;
+  std::optional<match::MapFault> map_fault;
   std::optional<double> mask;
   bool broadcast = false, ecef = false;
   std::vector<std::string> settings;
   std::filesystem::path map, config, pos, nmea, geojson, kml, residuals, html, json;
 };
 
-// "2020-06-25 01:00:00" of GPS time, or "01:00:00" of the first epoch's day.
+// "2020-06-25 01:00:00" of GPS time, or "01:00:00" of the first epoch's day, or seconds since then.
 ppp::GpsTime moment(const std::string& text, const std::string& option, ppp::GpsTime first) {
+  if (const auto seconds = evaluation::number_of<double>(text))
+    return first + from_seconds(*seconds);
   const std::string whole =
       text.find('-') == std::string::npos ? format_gps_time(first).substr(0, 11) + text : text;
   try {
     // GPS time's calendar has no leap seconds, as the parser's.
     return ppp::GpsTime(parse_time(whole) - Time(ppp::gps_epoch_day));
   } catch (const std::invalid_argument&) {
-    throw std::runtime_error(option + ": '" + text +
-                             "' is neither YYYY-MM-DD HH:MM:SS nor HH:MM:SS of GPS time");
+    throw std::runtime_error(
+        option + ": '" + text +
+        "' is neither YYYY-MM-DD HH:MM:SS nor HH:MM:SS of GPS time, nor seconds "
+        "since the first epoch");
   }
 }
 
@@ -70,13 +77,21 @@ std::optional<gnss::MapOptions> map_of(const vehicle::VehicleConfig& config,
 }
 
 gnss::RunOptions run_options(const PppOptions& options, const vehicle::PppConfig& config,
-                             const std::optional<gnss::MapOptions>& map, ppp::GpsTime first) {
+                             const std::optional<gnss::MapOptions>& map, ppp::GpsTime first,
+                             ppp::GpsTime last) {
   gnss::RunOptions run;
   run.parameters = config.filter;
   run.broadcast = config.broadcast;
   run.map = map;
   if (!options.start.empty()) run.start = moment(options.start, "--start", first);
   if (!options.end.empty()) run.end = moment(options.end, "--end", first);
+  if (options.gnss_outage.empty()) return run;
+  constexpr std::int64_t seed = 1;
+  for (const auto& o :
+       vehicle::parse_outages(options.gnss_outage, Time{}, Time{} + (last - first), seed)) {
+    const ppp::GpsTime end = o.end == Time::max() ? ppp::GpsTime::max() : first + (o.end - Time{});
+    run.outages.emplace_back(first + (o.begin - Time{}), end);
+  }
   return run;
 }
 
@@ -90,11 +105,14 @@ gnss::PppResult process(gnss::PppRun& run, const PppOptions& options, double int
   }
   if (!options.score_start.empty())
     r.scored_from = moment(options.score_start, "--score-start", first);
+  if (on_map && r.truth)
+    r.comparison = std::make_unique<gnss::MapComparison>(*r.truth, r.scored_from);
   run.process([&](const ppp::PppSolution& s) {
     if (!s.message.empty()) std::cerr << format_gps_time(s.time) << ": " << s.message << '\n';
     r.solved += s.status != PppStatus::none;
     if (r.score) r.score->add(s);
     if (r.without_map) r.without_map->add(run.filter().map_free());
+    if (r.comparison) r.comparison->add(s, run.filter().map_free());
     r.matched += run.map_step().way_id.has_value();
     r.solutions.push_back(s);
   });
@@ -120,17 +138,36 @@ void write_files(const PppOptions& options, const gnss::PppRun& run, const gnss:
   if (!options.json.empty()) write_json_file(options.json, gnss::to_json(run, r, on_map));
 }
 
+// Of a folder, what is known of its files.
+void read(const std::filesystem::path& path, ppp::GnssFiles& files) {
+  if (!std::filesystem::is_directory(path)) {
+    ppp::read_into(path, files);
+    return;
+  }
+  bool any = false;
+  for (const std::filesystem::path& file : ppp::files_in(path)) {
+    if (ppp::kind_of_file(file) == ppp::FileKind::unknown) continue;
+    ppp::read_into(file, files);
+    any = true;
+  }
+  if (!any) {
+    throw std::runtime_error("the folder '" + path.string() +
+                             "' has no GNSS files: observations and their products are needed");
+  }
+}
+
 int positions(const PppOptions& options) {
   const vehicle::VehicleConfig vehicle_config = config_of(options);
   const vehicle::PppConfig& config = vehicle_config.ppp;
-  const auto map = vehicle::load_road_map(vehicle_config.map);
+  const auto map = load_road_map(vehicle_config.map, options.map_fault, {});
   ppp::GnssFiles files;
-  for (const auto& file : options.files) ppp::read_into(file, files);
+  for (const auto& file : options.files) read(file, files);
   for (const auto& product : config.products) ppp::read_products(product, files);
-  const ppp::GpsTime first = files.observations.empty() || files.observations[0].epochs.empty()
-                                 ? ppp::GpsTime{}
-                                 : files.observations[0].epochs[0].time;
-  gnss::PppRun run(files, run_options(options, config, map_of(vehicle_config, map.get()), first));
+  const bool any = !files.observations.empty() && !files.observations[0].epochs.empty();
+  const ppp::GpsTime first = any ? files.observations[0].epochs.front().time : ppp::GpsTime{};
+  const ppp::GpsTime last = any ? files.observations[0].epochs.back().time : first;
+  gnss::PppRun run(files,
+                   run_options(options, config, map_of(vehicle_config, map.get()), first, last));
   const bool on_map = map != nullptr;
   const gnss::PppResult result = process(run, options, config.integrity_risk, on_map, first);
   const std::vector<std::string> summary =
@@ -148,7 +185,8 @@ void add_ppp(CLI::App& app, Command& command) {
       "ppp",
       "Precise point positioning: one observation file and its products (navigation, SP3, clocks, "
       "ANTEX, biases, ERP, BLQ), in any order, plain or .gz");
-  sub->add_option("FILES", options->files, "The files, told apart by content")->required();
+  sub->add_option("FILES", options->files, "The files, told apart by content, or folders of them")
+      ->required();
   sub->add_option("--mode", options->mode,
                   "static or kinematic (with a vehicle's dynamics; the default)")
       ->check(CLI::IsMember({"static", "kinematic"}));
@@ -165,14 +203,21 @@ void add_ppp(CLI::App& app, Command& command) {
          "TOML file whose [ppp], [map], [mapmatch] and [feedback] set what these options do not")
       ->check(existing_file());
   add_settings(sub, options->settings);
-  sub->add_option("--start", options->start, "First epoch: [YYYY-MM-DD ]HH:MM:SS of GPS time");
+  sub->add_option(
+      "--start", options->start,
+      "First epoch: [YYYY-MM-DD ]HH:MM:SS of GPS time, or seconds since the first in the files");
   sub->add_option("--end", options->end, "Last epoch, the same way");
+  sub->add_option("--gnss-outage", options->gnss_outage,
+                  "Leave out epochs, as maploop replay does: START:LENGTH[,...] in seconds")
+      ->check(vehicle::check_outages, "OUTAGES");
   sub->add_option("--map", options->map,
                   "OpenStreetMap file, or a network file of `maploop map build`")
       ->check(existing_file());
   add_choice(sub, "--map-mode", options->map_mode,
              "none; loose, the default where there is a map: matched, and nothing fed back; "
              "tight: the road corrects the filter");
+  add_choice(sub, "--map-fault", options->map_fault,
+             "A map that is wrong, as of maploop replay; there are no labels of the roads driven");
   sub->add_flag("--broadcast", options->broadcast, "Broadcast orbits even where SP3 is given");
   sub->add_option("--truth", options->truth,
                   "X,Y,Z in metres, latitude,longitude,height, or a file: RTKLIB's .pos in XYZ, or "

@@ -1,5 +1,6 @@
 #include "tools/ppp/run.h"
 
+#include <algorithm>
 #include <chrono>
 
 namespace maploop::gnss {
@@ -15,6 +16,10 @@ void PppRun::process(const std::function<void(const PppSolution&)>& sink) {
   for (const Epoch& epoch : setup_.observations().epochs) {
     if (options_.start && epoch.time < *options_.start) continue;
     if (options_.end && epoch.time > *options_.end) break;
+    const bool lost =
+        std::any_of(options_.outages.begin(), options_.outages.end(),
+                    [&](const auto& o) { return epoch.time >= o.first && epoch.time < o.second; });
+    if (lost) continue;
     const auto begin = std::chrono::steady_clock::now();
     const PppSolution* solution = nullptr;
     if (options_.change) {

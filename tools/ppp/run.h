@@ -16,6 +16,7 @@ namespace maploop::gnss {
 struct RunOptions : ppp::SetupOptions {
   std::optional<ppp::GpsTime> start, end;
   std::optional<MapOptions> map;
+  std::vector<std::pair<ppp::GpsTime, ppp::GpsTime>> outages;  // begins and ends; without epochs
   std::function<void(ppp::Epoch&)> change;  // where it is set, what happens to each epoch before
 };
 

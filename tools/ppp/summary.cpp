@@ -38,6 +38,17 @@ json to_json(const MapAidedFilter& filter, std::size_t matched) {
           {"restorations", filter.restorations()}};
 }
 
+json to_json(const MapComparison& comparison) {
+  const auto errors = [](const MapComparison::Errors& e) -> json {
+    return {{"across_rmse_m", e.across_rmse},
+            {"horizontal_rmse_m", e.horizontal_rmse},
+            {"across_stays_below_1.5_m_after_s", e.stays_below_after}};
+  };
+  return {{"epochs", comparison.epochs()},
+          {"with", errors(comparison.aided())},
+          {"without", errors(comparison.free())}};
+}
+
 std::string map_line(const MapAidedFilter& filter, std::size_t matched, std::size_t epochs) {
   std::string line = fmt::format("{} of {} epochs on a road of the map; fed back: {} used", matched,
                                  epochs, filter.count(MapUse::used));
@@ -120,6 +131,7 @@ json to_json(const PppRun& run, const PppResult& r, bool on_map) {
   if (r.score) all["truth"] = scored(*r.score);
   if (on_map) all["map"] = to_json(run.filter(), r.matched);
   if (r.without_map) all["map"]["truth_without_map"] = scored(*r.without_map);
+  if (r.comparison) all["map"]["comparison"] = to_json(*r.comparison);
   return all;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/ppp/map_comparison.h"
 #include "tools/ppp/page.h"
 #include "tools/ppp/run.h"
 #include "tools/ppp/score.h"
@@ -20,6 +21,7 @@ struct PppResult {
   std::size_t solved = 0, matched = 0;
   std::unique_ptr<Truth> truth;
   std::unique_ptr<Score> score, without_map;  // where there is a truth; the second: and a map
+  std::unique_ptr<MapComparison> comparison;  // as the second
   std::optional<ppp::GpsTime> scored_from;
 };
 

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "tools/command/options.h"
-#include "tools/experiment/sequence_run.h"
 #include "tools/python/arrays.h"
 #include "tools/python/opened_recording.h"
 #include "tools/python/state_record.h"
+#include "tools/replay/recording_run.h"
 #include "tools/replay/run_pass.h"
 
 namespace maploop::python {
@@ -81,12 +81,12 @@ PythonReplay run(const OpenedRecording& opened, const std::filesystem::path& map
     if (keep_states) replay.states.push_back(record);
     callback.call(record);
   };
-  experiments::RunOptions options;
+  tools::RecordingRunOptions options;
   options.end = end;
   options.sinks = {&pass.hashes};
   options.go_on = [&] { return callback.go_on(); };
-  const experiments::RecordingRun run =
-      experiments::run_recording(opened.recording, config, options, std::move(observer), roads);
+  const tools::RecordingRun run =
+      tools::run_recording(opened.recording, config, options, std::move(observer), roads);
   tools::ReplayResult result = tools::result_of(pass, run.report);
   result.drive = opened.path.filename().string();
   result.configuration = config.configuration;

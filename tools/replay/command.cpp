@@ -68,6 +68,7 @@ void add_replay(CLI::App& app, Command& command) {
       ->check(parsed_by(fusion::configuration, "NAME"));
   sub->add_option("--gnss-outage", options.gnss_outage,
                   "START:LENGTH[,...] in seconds into the drive, LENGTH may be end; "
+                  "repeated:START:LENGTH for one after another, with a minute between; "
                   "random:COUNT:LENGTH for some that the seed draws")
       ->check(vehicle::check_outages, "OUTAGES");
   sub->add_option("--odometry-poses", options.odometry_poses,
@@ -96,6 +97,19 @@ void add_replay(CLI::App& app, Command& command) {
              vehicle::fault_kinds() + " (runtime/vehicle/FAULTS.md)")
       ->allow_extra_args(false)
       ->check(parsed_by(vehicle::parse_fault, "FAULT"));
+  sub->add_option("--score-from", options.score_from,
+                  "Score the drive from so many seconds into it; outages are scored as they are")
+      ->check(number_from_zero());
+  add_choice(sub, "--map-fault", options.map_fault,
+             "A map that is wrong: the way driven longest is missing, all is shifted to the east, "
+             "one-way streets are reversed, or each road driven has a second one to its right");
+  sub->add_option_function<std::string>(
+         "--misdescribe",
+         [&wrong = options.misdescribed](const std::string& name) { wrong = property_named(name); },
+         "Describe the car wrongly, by 0.5 m, 1 degree or 30 ms, to a side that --seed draws: "
+         "antenna, inertial-mount, camera, rear-axle, inertial-stamps, gnss-stamps, "
+         "camera-stamps or everything; nothing: rightly, with places that are as certain")
+      ->check(parsed_by(property_named, "PROPERTY"));
   sub->footer(
       "Examples:\n"
       "    maploop replay 2011_09_26/2011_09_26_drive_0013_sync  # as it was driven\n"

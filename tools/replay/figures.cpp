@@ -7,6 +7,7 @@ namespace {
 
 using evaluation::Score;
 using fusion_score::Errors;
+using fusion_score::OutageEnd;
 using nlohmann::json;
 
 double percent(const Score& s) {
@@ -56,6 +57,16 @@ const web::Columns<Errors> error_columns{
     {"azimuth_beyond_3_sigma_s", "", 0, 0, &Errors::azimuth_beyond},
     {"covered", "", 0, 0, &Errors::covered},
     {"", "covered, %", 0, 0, [](const Errors& e) { return 100.0 * e.covered; }},
+};
+
+const web::Columns<OutageEnd> outage_end_columns{
+    {"start_s", "", 0, 0, &OutageEnd::start},
+    {"length_s", "", 0, 0, &OutageEnd::length},
+    {"distance_m", "", 0, 0, &OutageEnd::distance},
+    {"error_m", "", 0, 0, &OutageEnd::error},
+    {"error_percent", "", 0, 0, &OutageEnd::percent},
+    {"sigma_m", "", 0, 0, &OutageEnd::sigma},
+    {"reference_error_m", "", 0, 0, [](const auto& o) { return o.peer ? json(*o.peer) : json(); }},
 };
 
 const web::Columns<vehicle::SensorReport> sensor_columns{

@@ -84,17 +84,18 @@ Errors errors_between(const std::vector<Sample>& samples, Time begin, Time end, 
 
 }  // namespace
 
-void NavTrack::add(const NavState& state) {
+bool NavTrack::add(const NavState& state) {
   constexpr std::uint64_t every = 10;
-  if (state.status == NavStatus::uninitialized || state.sequence % every != 0) return;
+  if (state.status == NavStatus::uninitialized || state.sequence % every != 0) return false;
   // A replay may go back.
   while (!states_.empty() && states_.back().stamp >= state.stamp) states_.pop_back();
   states_.push_back(state);
+  return true;
 }
 
 std::optional<Score> score(const NavTrack& track, const std::vector<ReferencePose>& reference,
-                           const std::vector<vehicle::GnssOutage>& outages, Time origin,
-                           Time named) {
+                           const std::vector<vehicle::GnssOutage>& outages, Time origin, Time named,
+                           Time from) {
   if (reference.size() < 2 || track.states().empty()) return std::nullopt;
   const sensors::ReferenceTrajectory truth(reference, LocalFrame(track.states().front().origin));
 
@@ -129,9 +130,8 @@ std::optional<Score> score(const NavTrack& track, const std::vector<ReferencePos
   };
   Score result;
   result.reference_accuracy = median_accuracy(samples);
-  result.whole =
-      errors_between(samples, Time::min(), Time::max(), static_cast<double>(track.states().size()));
-  const Errors before = errors_between(samples, Time::min(), named, 0.0);
+  result.whole = errors_between(samples, from, Time::max(), states_in(from, Time::max()));
+  const Errors before = errors_between(samples, from, named, 0.0);
   result.unsaid = std::max(before.beyond, before.azimuth_beyond);
   const Time last = samples.back().stamp;
   for (const vehicle::GnssOutage& o : outages) {

@@ -15,7 +15,8 @@ namespace maploop::fusion_score {
 // had come. add() on one thread, the rest afterwards.
 class NavTrack {
  public:
-  void add(const NavState& state);
+  // Returns whether it is kept.
+  bool add(const NavState& state);
   const std::vector<NavState>& states() const { return states_; }
 
  private:
@@ -60,13 +61,17 @@ struct Score {
   std::vector<OutageErrors> outages;  // those that lie in the drive
   // Longest time for which position or azimuth was beyond three sigmas before anything was named.
   double unsaid = 0.0;  // s
+  // Mean error of the continuous output over 100 m, %, after one rotation of the body is removed;
+  // not a number where no stretch of the reference is that long.
+  double odom_percent = 0.0;
 };
 
 // Nothing where the track or the reference is too short. A reference that is nowhere better than
 // worst_reference is taken as it is. `named` is when HEALTH first said that something was wrong.
+// `whole` and `unsaid` are of the time from `from` on.
 std::optional<Score> score(const NavTrack& track, const std::vector<ReferencePose>& reference,
                            const std::vector<vehicle::GnssOutage>& outages, Time origin,
-                           Time named = Time::max());
+                           Time named = Time::max(), Time from = Time::min());
 
 // Some lines for a terminal.
 std::string to_text(const Score& score);

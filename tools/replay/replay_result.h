@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "msgs/map_feedback.h"
 #include "msgs/nav_state.h"
 #include "msgs/ppp_state.h"
 #include "runtime/vehicle/faults/fault_injection.h"
@@ -87,6 +88,7 @@ struct ReplayResult {
   bool peer_reference = false;                       // of vehicle::Recording
   std::vector<fusion_score::OutageEnd> outage_ends;  // where the recording has fixes to score with
   std::optional<match::MatchScore> links;            // of MAP_MATCH, where the links are known
+  std::array<std::uint64_t, count_of<FeedbackReason>> feedbacks{};  // of the map, by reason
   std::map<std::string, vehicle::ChannelSummary> channels;
   std::optional<SnapshotResult> snapshot;
   std::vector<vehicle::FaultCount> faults;

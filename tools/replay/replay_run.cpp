@@ -22,6 +22,7 @@
 #include "tools/command/terminal.h"
 #include "tools/log/log_files.h"
 #include "tools/replay/run_output.h"
+#include "tools/replay/wrong_road_map.h"
 
 namespace maploop::tools {
 namespace {
@@ -59,6 +60,13 @@ vehicle::VehicleConfig config_of(const ReplayOptions& options, vehicle::KnownCon
   return config;
 }
 
+// Returns the roads that were driven, if the map is to have a fault.
+match::Labels driven_roads(const ReplayOptions& options, const vehicle::Recording& recording) {
+  return options.map_fault && recording.driven_links
+             ? match::read_labels(recording.driven_links->file)
+             : match::Labels{};
+}
+
 class Replay {
  public:
   explicit Replay(const ReplayOptions& options)
@@ -68,7 +76,7 @@ class Replay {
                                     : runtime::prepare_process(config_.memory)),
         recording_(vehicle::open_recording(options.drive, config_, contents_)),
         end_(options.end > 0.0 ? recording_.first_stamp + from_seconds(options.end) : Time::max()),
-        map_(vehicle::load_road_map(config_.map)),
+        map_(load_road_map(config_.map, options.map_fault, driven_roads(options, recording_))),
         faults_(options.faults, recording_.first_stamp, recording_.calibration.stereo.fx),
         output_(options, config_, "replay of " + drive_name(options)) {
     describe_car(config_, recording_.calibration);              // for the report and the snapshots
@@ -77,6 +85,10 @@ class Replay {
     for (const std::string& note : recording_.notes) std::cerr << "maploop: " << note << '\n';
     look_ahead();
     runtime::append(readiness_, output_.open_bus());
+    if (options.misdescribed) {
+      misdescribe(config_, recording_,
+                  misdescription(*options.misdescribed, options.seed.value_or(1)));
+    }
     if (!options.resume.empty()) resumed_ = vehicle::read_snapshot(options.resume, config_);
     if (options.snapshot) {
       cut_ = runtime::first_tick(recording_.first_stamp + from_seconds(options.snapshot->seconds),
@@ -219,7 +231,7 @@ ReplayResult Replay::result(PlaybackEnd end, const std::vector<ReferencePose>& r
                        to_seconds(cut_ - player_->vehicle().first()),
                        pass_->hashes_after.summary()};
   }
-  score(result, *pass_, recording_, reference, map_.get());
+  score(result, *pass_, recording_, reference, map_.get(), from_seconds(options_.score_from));
   return result;
 }
 

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "runtime/vehicle/faults/fault.h"
+#include "tools/match/map_faults.h"
+#include "tools/replay/misdescription.h"
 #include "tools/replay/replay_console.h"
 #include "tools/replay/run_output.h"
 
@@ -35,6 +37,9 @@ struct ReplayOptions : RunOptions {
   bool start_from_reference = false;
   std::optional<std::int64_t> seed;
   std::vector<vehicle::Fault> faults;
+  std::optional<match::MapFault> map_fault;
+  std::optional<Property> misdescribed;
+  double score_from = 0.0;  // s into the drive
   std::optional<SnapshotRequest> snapshot;
   std::filesystem::path resume;
   PlaybackOptions playback;

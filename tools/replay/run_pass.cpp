@@ -1,6 +1,8 @@
 #include "tools/replay/run_pass.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 
 #include "mapmatch/map_area.h"
 #include "msgs/frames.h"
@@ -8,6 +10,8 @@
 
 namespace maploop::tools {
 namespace {
+
+constexpr double segment_m = 100.0;
 
 MapUse map_use(const NavState& end, const RunPass& pass, const mapmatch::RoadNetwork& network) {
   const mapmatch::GeographicBox area = mapmatch::area_of(network);
@@ -18,12 +22,46 @@ MapUse map_use(const NavState& end, const RunPass& pass, const mapmatch::RoadNet
 }
 
 match::MatchScore links_score(const RunPass& pass, const vehicle::DrivenLinksFile& driven,
-                              const mapmatch::RoadNetwork& network) {
+                              const mapmatch::RoadNetwork& network, Time from) {
   std::vector<match::TimedMatch> matches;
-  for (const auto& [stamp, match] : pass.matches) matches.push_back(match);
+  for (const auto& [stamp, match] : pass.matches)
+    if (stamp >= from) matches.push_back(match);
   auto labels = match::read_labels(driven.file);
   match::SegmentLinks(network).look_up(labels);
   return match::score_matches(matches, driven.stamps, labels);
+}
+
+// Returns the mean error over 100 m, after one rotation of the body for each stretch without a gap
+// of the reference: which axes the body has is only what its description says.
+double odom_percent(const evaluation::StampedTrajectory& odom,
+                    const sensors::ReferenceTrajectory& reference, Time from) {
+  constexpr auto gap = std::chrono::milliseconds(500);
+  double sum = 0.0;
+  int segments = 0;
+  evaluation::Trajectory estimate, truth;
+  const auto score_stretch = [&] {
+    if (estimate.size() > 1) {
+      const auto error =
+          evaluation::score(estimate, truth, segment_m, evaluation::CommonRotation::remove).segment;
+      if (error.segments > 0) sum += error.percent * error.segments;
+      segments += error.segments;
+    }
+    estimate.clear();
+    truth.clear();
+  };
+  Time last{};
+  for (std::size_t i = 0; i < odom.stamps.size(); ++i) {
+    const Time stamp = odom.stamps[i];
+    const auto pose = reference.pose(stamp);
+    if (stamp < from || !pose || reference.accuracy(stamp) > fusion_score::worst_reference)
+      continue;
+    if (stamp - last > gap) score_stretch();
+    last = stamp;
+    estimate.push_back(odom.poses[i]);
+    truth.push_back(*pose);
+  }
+  score_stretch();
+  return segments > 0 ? sum / segments : NAN;
 }
 
 }  // namespace
@@ -56,7 +94,6 @@ evaluation::StampedTrajectory TrajectoryCollector::poses(
 
 std::optional<Accuracy> TrajectoryCollector::score(const Reference& reference,
                                                    const Eigen::Isometry3d& T_body_cam) const {
-  constexpr double segment_m = 100.0;
   evaluation::Trajectory estimate, truth;
   for (const auto& [stamp, body] : poses_) {
     if (const auto T_enu_body = reference(stamp)) {
@@ -89,11 +126,14 @@ vehicle::Observer RunPass::observer() {
   };
   o.ppp = [this](const PppState& state) { ppp_states[state.stamp] = state; };
   o.nav_state = [this, last = o.nav_state](const FusedState& state) {
-    track.add(state);
+    if (track.add(state)) odom_track.add(state.stamp, state.odom.position, state.odom.attitude);
     last(state);
   };
   o.map_match = [this](const MapMatch& match) {
     if (match.refusal != FixRefusal::no_position) matches[match.stamp] = road_moment(match);
+  };
+  o.map_feedback = [this](const MapFeedback& back) {
+    ++feedbacks[static_cast<std::size_t>(back.reason)];
   };
   return o;
 }
@@ -111,12 +151,15 @@ ReplayResult result_of(const RunPass& pass, const vehicle::VehicleReport& report
   result.end = pass.end;
   result.vehicle = report;
   result.channels = pass.hashes.summary();
+  result.feedbacks = pass.feedbacks;
   if (!pass.ppp_states.empty()) result.ppp.emplace(pass.ppp_states);
   return result;
 }
 
 void score(ReplayResult& result, const RunPass& pass, const vehicle::Recording& recording,
-           const std::vector<ReferencePose>& reference, const vehicle::RoadMap* map) {
+           const std::vector<ReferencePose>& reference, const vehicle::RoadMap* map,
+           Duration after) {
+  const Time from = after > Duration::zero() ? recording.first_stamp + after : Time::min();
   result.begin = recording.first_stamp;
   result.images = recording.images;
   const vehicle::Sensors sensors = recording.sensors(Time::max());
@@ -124,13 +167,13 @@ void score(ReplayResult& result, const RunPass& pass, const vehicle::Recording& 
   if (result.ppp && sensors.ppp) result.ppp->never_converges = sensors.ppp->never_converges();
   if (map != nullptr && result.end) result.map = map_use(*result.end, pass, map->network);
   if (map != nullptr && recording.driven_links)
-    result.links = links_score(pass, *recording.driven_links, map->network);
+    result.links = links_score(pass, *recording.driven_links, map->network, from);
   result.peer_reference = recording.peer_reference;
   result.outage_ends = outage_ends(pass.track, recording, reference);
   if (reference.size() < 2) return;
   const sensors::ReferenceTrajectory truth(reference, LocalFrame(reference.front().position));
   const auto accuracy = [&](const TrajectoryCollector& trajectory) {
-    return trajectory.score([&](Time t) { return truth.pose(t); },
+    return trajectory.score([&](Time t) { return t < from ? std::nullopt : truth.pose(t); },
                             recording.calibration.stereo.T_body_cam);
   };
   result.vo = accuracy(pass.odometry);
@@ -139,8 +182,10 @@ void score(ReplayResult& result, const RunPass& pass, const vehicle::Recording& 
   result.odom = accuracy(pass.odom);
   Time named = Time::max();
   for (const vehicle::Naming& naming : result.vehicle.named) named = std::min(named, naming.at);
-  result.navigation =
-      fusion_score::score(pass.track, reference, recording.outages, recording.first_stamp, named);
+  result.navigation = fusion_score::score(pass.track, reference, recording.outages,
+                                          recording.first_stamp, named, from);
+  if (result.navigation)
+    result.navigation->odom_percent = odom_percent(pass.odom_track.poses(), truth, from);
 }
 
 }  // namespace maploop::tools

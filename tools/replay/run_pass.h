@@ -2,12 +2,15 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "msgs/map_feedback.h"
 #include "runtime/vehicle/drivers/recording.h"
 #include "runtime/vehicle/output/channel_hashes.h"
 #include "runtime/vehicle/output/log_recorder.h"
@@ -67,10 +70,12 @@ struct RunPass {
   vehicle::ChannelHashes hashes_after;               // of messages after the cut
   std::unique_ptr<vehicle::LogRecorder> recorder;    // nullptr: no log was asked for
   TrajectoryCollector odometry, lidar, fused, odom;  // at images
+  TrajectoryCollector odom_track;                    // at the states of `track`
   fusion_score::NavTrack track;
   std::optional<NavState> end;  // the last fused state
   std::map<Time, PppState> ppp_states;
   std::map<Time, RoadMoment> matches;
+  std::array<std::uint64_t, count_of<FeedbackReason>> feedbacks{};
 };
 
 // Scores the outages of a recording that has fixes to score with; nothing for another one.
@@ -84,8 +89,10 @@ ReplayResult result_of(const RunPass& pass, const vehicle::VehicleReport& report
 constexpr double far_from_map = 5'000.0;  // m
 
 // Adds what the recording contains, the accuracy against `reference`, the links against those
-// driven, and whether the run was on its map, to the result. `map` is nullptr without a map.
+// driven, and whether the run was on its map, to the result. `map` is nullptr without a map. What
+// comes less than `after` the drive's begin is not scored.
 void score(ReplayResult& result, const RunPass& pass, const vehicle::Recording& recording,
-           const std::vector<ReferencePose>& reference, const vehicle::RoadMap* map);
+           const std::vector<ReferencePose>& reference, const vehicle::RoadMap* map,
+           Duration after = {});
 
 }  // namespace maploop::tools

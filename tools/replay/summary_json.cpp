@@ -13,6 +13,7 @@ json to_json(const fusion_score::Score& s) {
   json j = web::to_json(error_columns, s.whole);
   j["reference_accuracy_m"] = s.reference_accuracy;
   j["unsaid_s"] = s.unsaid;
+  j["odom_100m_percent"] = s.odom_percent;
   j["outages"] = json::array();
   for (const fusion_score::OutageErrors& o : s.outages) {
     json& one = j["outages"].emplace_back(web::to_json(error_columns, o.errors));
@@ -82,7 +83,16 @@ void add_scores(json& j, const ReplayResult& r) {
   j["odom"] = accuracy(r.odom);
   if (r.ppp) j["ppp"] = to_json(*r.ppp);
   j["navigation"] = r.navigation ? to_json(*r.navigation) : json(nullptr);
+  j["outage_ends"] = web::list(outage_end_columns, r.outage_ends);
   j["links"] = r.links ? match::to_json(*r.links) : json(nullptr);
+  if (r.links && r.links->lacking_fixes > 0) {
+    const auto fixes = static_cast<double>(r.links->lacking_fixes);
+    j["links"]["lacking"] = {{"fixes", r.links->lacking_fixes},
+                             {"p_said", r.links->lacking_p_sum / fixes}};
+  }
+  for (std::size_t i = 0; i < r.feedbacks.size(); ++i)
+    if (r.feedbacks[i] > 0)
+      j["map_feedback"][std::string(to_string(static_cast<FeedbackReason>(i)))] = r.feedbacks[i];
   if (const auto& late = r.vehicle.imu_delay; late.known())
     j["imu_delay_left"] = {{"s", late.delay()}, {"sigma_s", late.sigma()}};
   for (const fusion::CalibratedProperty& c : r.vehicle.calibration) {

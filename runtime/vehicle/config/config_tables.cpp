@@ -39,7 +39,8 @@ ParameterTable<VehicleConfig> gnss_outage_table() {
   static constexpr auto table = std::to_array<Parameter<P>>({
       {"outage", &P::gnss_outage, usual,
        "Times without fixes: START:LENGTH[,...] in seconds from the start of the drive, where "
-       "LENGTH may be \"end\"; or random:COUNT:LENGTH. Empty: none."},
+       "LENGTH may be \"end\"; repeated:START:LENGTH, with a minute between; or "
+       "random:COUNT:LENGTH. Empty: none."},
   });
   return {"gnss", "", table};
 }

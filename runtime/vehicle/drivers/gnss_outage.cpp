@@ -14,8 +14,8 @@ namespace {
 
 [[noreturn]] void refuse(std::string_view part, const std::string& why) {
   throw std::invalid_argument("outage '" + std::string(part) + "': " + why +
-                              "; write START:LENGTH in seconds, where LENGTH may be 'end', or "
-                              "random:COUNT:LENGTH");
+                              "; write START:LENGTH in seconds, where LENGTH may be 'end', "
+                              "repeated:START:LENGTH or random:COUNT:LENGTH");
 }
 
 double number(std::string_view part, std::string_view text, const char* what) {
@@ -40,13 +40,15 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   }
 }
 
-// A Part is one element of the list; `count` is 0 if its start is given.
+// A Part is one element of the list; `count` is 0 if its start is given, that of the first one if
+// it is repeated.
 struct Part {
   std::string_view text;
   double start = 0.0;
   double length = 0.0;
   bool to_end = false;
   int count = 0;
+  bool repeated = false;
 };
 
 Part parse_part(std::string_view text) {
@@ -56,12 +58,15 @@ Part parse_part(std::string_view text) {
   if (words.size() == 3 && words[0] == "random") {
     part.count = static_cast<int>(number(text, words[1], "a count"));
     if (part.count < 1 || part.count > 1000) refuse(text, "the count must be 1 to 1000");
+  } else if (words.size() == 3 && words[0] == "repeated") {
+    part.repeated = true;
+    part.start = seconds(text, words[1]);
   } else if (words.size() == 2) {
     part.start = seconds(text, words[0]);
   } else {
     refuse(text, "has an unknown form");
   }
-  part.to_end = words.back() == "end" && part.count == 0;
+  part.to_end = words.back() == "end" && part.count == 0 && !part.repeated;
   if (!part.to_end) {
     part.length = seconds(text, words.back());
     if (part.length == 0.0) refuse(text, "the length must not be zero");
@@ -102,6 +107,17 @@ void add_random(const Part& part, Time first, Time last, std::int64_t seed,
   if (left > 0) refuse(part.text, too_short(part));
 }
 
+// Between two of them the filter has the time to settle again.
+void add_repeated(const Part& part, Time first, Time last, std::vector<GnssOutage>& outages) {
+  const double duration = to_seconds(last - first);
+  if (part.start + part.length >= duration)
+    refuse(part.text, "the drive ends before the first of them does");
+  for (double start = part.start; start + part.length < duration; start += part.length + settled) {
+    const Time begin = first + from_seconds(start);
+    outages.push_back({begin, begin + from_seconds(part.length)});
+  }
+}
+
 }  // namespace
 
 std::vector<GnssOutage> parse_outages(const std::string& text, Time first, Time last,
@@ -111,6 +127,8 @@ std::vector<GnssOutage> parse_outages(const std::string& text, Time first, Time 
     const Part part = parse_part(word);
     if (part.count > 0) {
       add_random(part, first, last, seed, outages);
+    } else if (part.repeated) {
+      add_repeated(part, first, last, outages);
     } else {
       const Time begin = first + from_seconds(part.start);
       outages.push_back({begin, part.to_end ? Time::max() : begin + from_seconds(part.length)});

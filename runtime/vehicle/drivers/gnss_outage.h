@@ -18,13 +18,14 @@ struct GnssOutage {
   Time begin, end;
 };
 
-// `text` is a list, separated by commas, of START:LENGTH and random:COUNT:LENGTH. START and LENGTH
-// are seconds into the drive and of the outage; LENGTH may be `end` for the rest of the drive. The
-// second form adds COUNT outages of that length at moments drawn by `seed`, which begin a minute
-// into the drive or later and do not overlap an outage listed before. `first` and `last` are the
-// stamps of the drive's first and last image. The result is ordered by `begin`. Throws
-// std::invalid_argument naming the part that is wrong, also if the drive is too short for the
-// random outages.
+// `text` is a list, separated by commas, of START:LENGTH, repeated:START:LENGTH and
+// random:COUNT:LENGTH. START and LENGTH are seconds into the drive and of the outage; LENGTH may be
+// `end` for the rest of the drive in the first form. The second form adds one outage after another
+// from START on, with a minute between them, as many as end in the drive. The third form adds COUNT
+// outages of that length at moments drawn by `seed`, which begin a minute into the drive or later
+// and do not overlap an outage listed before. `first` and `last` are the stamps of the drive's
+// first and last image. The result is ordered by `begin`. Throws std::invalid_argument naming the
+// part that is wrong, also if the drive is too short for it.
 std::vector<GnssOutage> parse_outages(const std::string& text, Time first, Time last,
                                       std::int64_t seed);
 

@@ -17,7 +17,7 @@ MAPLOOP = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 else sys.exit(__
 READERS = ["replay FILE --lockstep --no-lcm", "odometry FILE", "odometry FILE --lidar", "match FILE track.csv", "ppp FILE",
            "gnss info FILE", "evaluate FILE FILE", "map info FILE", "map build FILE out.net", "log info FILE",
            "log split FILE -o out", "log merge FILE -o out", "log recover FILE -o out", "profile FILE",
-           "spy FILE --once", "sensors pcap FILE", "experiment odometry FILE", "experiment fusion FILE", "experiment outages FILE",
+           "spy FILE --once", "sensors pcap FILE", "odometry FILE --json x.json",
            "calibrate FILE --board 9x6 --square 0.1", "doctor --config FILE", "replay FILE --config FILE",
            "evaluate match FILE FILE", "vehicle check FILE", "vehicle draw FILE out.svg"]
 # What takes a missing or empty log for one without an event.

@@ -25,8 +25,9 @@ sys.path.insert(0, str(FLEET))
 sys.dont_write_bytecode = True
 try:
     import catalogue
+    import page
     import results
-    from metrics import METRICS, value
+    from metrics import METRICS, value, values
     from statistics_of_pairs import paired, ratio
 except ImportError as error:
     print(f"SKIPPED, NOT TESTED: {error}; tools/install-packages test")
@@ -91,12 +92,51 @@ class Catalogue(Folder):
         self.assertIn("--config", made["arguments"])
         self.assertEqual(made["arguments"][made["arguments"].index("--seed") + 1], "2")
 
+    def test_seeds_of_a_made_recording_and_repeats_are_runs_of_one_variant(self):
+        text = TEXT.replace('name = "made"\nsimulate = "--seed 3"', 'name = "made-{seed}"\nsimulate = "--seed {seed}"\nseeds = [3, 4]')
+        text = text.replace('["a", "made"]', '["made-3", "made-4"]').replace("seeds = [1, 2, 3]", 'command = "ppp"\n'
+                            'repeats = [["--start", "0"], ["--start", "60", "--map", "{folder}/map.osm"]]')
+        plan = self.plan(text)
+        self.assertEqual({n: m["command"] for n, m in plan["made"].items()},
+                         {"made-3": ["simulate", "--seed", "3"], "made-4": ["simulate", "--seed", "4"]})
+        runs = [r for r in plan["runs"].values() if r["variant"] == "auto, scale=1"]
+        self.assertEqual({(r["recording"], r["repeat"], r["command"]) for r in runs},
+                         {(n, i, "ppp") for n in ("made-3", "made-4") for i in (0, 1)})
+        maps = {r["arguments"][4] for r in runs if r["repeat"] == 1}
+        self.assertEqual(maps, {m["folder"] + "/map.osm" for m in plan["made"].values()})
+
+    def test_the_log_of_a_made_recording_can_take_its_place(self):
+        plan = self.plan(TEXT.replace('config = "vehicle.toml"', 'config = "vehicle.toml"\nlog = true'))
+        made = plan["made"]["made"]
+        self.assertEqual(made["record"][:4], ["replay", ".", "--config", "vehicle.toml"])
+        self.assertNotEqual(made["folder"], self.plan()["made"]["made"]["folder"])
+        runs = [r for r in plan["runs"].values() if r["recording"] == "made"]
+        self.assertEqual({r["arguments"][0] for r in runs}, {made["folder"] + "/odometry.lcmlog"})
+
     def test_a_run_has_another_name_when_its_recording_or_its_arguments_change(self):
         before = set(self.plan()["runs"])
         self.assertEqual(before, set(self.plan()["runs"]))
         self.assertEqual(len(before & set(self.plan(TEXT.replace("[1, 2, 3]", "[2, 3, 4]"))["runs"])), 16)
         (self.folder / "a.csv").write_text("1\n2\n")
         self.assertEqual(len(before & set(self.plan()["runs"])), 12)
+
+    def test_arguments_have_variants_and_a_value_of_each_recording(self):
+        (self.folder / "map.osm").write_text("1\n")
+        text = TEXT.replace('tags = ["short"]', 'values = { from = "20" }')
+        text = text.replace('split = "score"', 'values = { from = "30" }').replace("[1, 2, 3]", "[1]")
+        text = text.replace("metrics", 'arguments = ["--map", "$MADE_UP_MAPS/map.osm"]\n'
+                            'variants = { whole = [], out = ["--gnss-outage", "{from}:10"] }\nmetrics')
+        os.environ["MADE_UP_MAPS"] = str(self.folder)
+        self.addCleanup(os.environ.pop, "MADE_UP_MAPS")
+        plan = self.plan(text)["runs"]
+        self.assertEqual(len(plan), 2 * 2 * 2 * 2)
+        outages = {(r["recording"], r["arguments"][r["arguments"].index("--gnss-outage") + 1])
+                   for r in plan.values() if r["variant"] == "auto, out, scale=1"}
+        self.assertEqual(outages, {("a", "20:10"), ("made", "30:10")})
+        (self.folder / "map.osm").write_text("another\n")
+        self.assertEqual(set(plan) & set(self.plan(text)["runs"]), set(), "another map makes other runs")
+        with self.assertRaisesRegex(catalogue.Wrong, "the recording 'a' has no value 'from'"):
+            self.plan(text.replace("from = \"20\"", "to = \"20\""))
 
     def test_what_is_wrong_is_named_with_file_and_line(self):
         self.assertIn("c.toml:17: experiment[0].seeds: 'x' is not of type 'array'", self.said("[1, 2, 3]", '"x"'))
@@ -123,12 +163,40 @@ class Metrics(unittest.TestCase):
     def test_a_run_without_what_a_metric_needs_has_none(self):
         self.assertIsNone(value("position_rms", {"navigation": None}))
         self.assertIsNone(value("odom_to_best", {}))
+        self.assertIsNone(value("named_after", {"faults": [], "named": []}))
         part = {"common_rotation_removed": {"segment_100m_percent": 0.5}}
         self.assertEqual(value("odom_to_best", {"odom": part, "vo": part}), 1.0)
+
+    def test_outages_are_parts_of_a_run_where_the_reference_covers_them(self):
+        outages = [{"drift_percent": d, "covered": c} for d, c in ((1.0, 1.0), (9.0, 0.5), (3.0, 0.98))]
+        output = {"navigation": {"outages": outages, "drift_percent": 0.5}}
+        self.assertEqual(values("outage_drift", output), [1.0, 3.0])
+        self.assertEqual(value("outage_drift", output), 2.0)
+        self.assertEqual(values("drift", output), [0.5])
+        self.assertEqual(values("outage_azimuth_end", output), [])
 
     def test_every_metric_says_what_it_is(self):
         for name, metric in METRICS.items():
             self.assertTrue(metric.unit and metric.about, name)
+
+
+class Page(Folder):
+    def test_a_table_pools_the_outages_of_all_runs_and_of_each_recording(self):
+        experiment = {"metrics": ["outage_drift"], "by": "recording"}
+        plan = {"experiments": {"e": experiment}, "results": str(self.folder), "runs": ["a", "b"]}
+        for key, drifts in (("a", [1.0, 2.0]), ("b", [9.0])):
+            outages = [{"drift_percent": d, "covered": 1.0} for d in drifts]
+            record = {**dict.fromkeys(results.TEXTS, ""), "key": key, "experiment": "e", "recording": "drive-" + key,
+                      "tags": [], "set": {}, "seed": 1, "repeat": 0, "status": 0, "wall_s": 1.0, "variant": "x",
+                      "output": {"navigation": {"outages": outages}}}
+            (self.folder / f"{key}.json").write_text(json.dumps(record))
+        results.collect(plan, self.folder / "runs.sqlite")
+        runs, experiments, metrics = results.read(self.folder / "runs.sqlite")
+        self.assertEqual([r["outage_drift"] for r in runs], [1.5, 9.0])
+        rows = re.findall(r"<tr data.*?</tr>", page.experiment_part("e", experiments["e"], runs, metrics))
+        cells = [re.findall(r"<td>(.*?)</td>", row)[1:] for row in rows]
+        self.assertEqual(cells[0][:5], ["x", "3", "4", "5.35", "2"], "name, values, mean, rms, median")
+        self.assertEqual([row[:3] for row in cells[1:]], [["drive-a: x", "2", "1.5"], ["drive-b: x", "1", "9"]])
 
 
 class Pairs(unittest.TestCase):

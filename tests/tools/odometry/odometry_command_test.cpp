@@ -88,19 +88,24 @@ TEST(OdometryCommand, AWayItDoesNotKnowIsRefusedByName) {
   EXPECT_NE(run.error.find("--motion"), std::string::npos) << run.error;
 }
 
-TEST(ExperimentCommand, ComparesTheWaysOnTheSameFrames) {
-  MAPLOOP_REQUIRE_DRIVE();
+TEST(OdometryCommand, WritesItsFiguresAgainstTheTruth) {
+  MAPLOOP_REQUIRE_REAL_DATA();
   const TemporaryFolder folder;
-  const std::string html = (folder.path() / "page.html").string();
-  const ProcessResult run = maploop(
-      {"experiment", "odometry", testing::drive_0013().string(), "--last", "8", "--html", html});
-  ASSERT_EQ(run.status, 0) << run.error;
-  for (const char* way : {"KLT, 3D-2D ", "window of 6", "KLT, 3D-3D", "KLT, 2D-2D", "SIFT, 3D-2D"})
-    EXPECT_NE(run.out.find(way), std::string::npos) << way << '\n' << run.out;
-  std::ostringstream page;
-  page << std::ifstream(html).rdbuf();
-  EXPECT_NE(page.str().find("<figure data-plot"), std::string::npos);
-  EXPECT_NE(page.str().find("SIFT, 3D-3D"), std::string::npos);
+  const std::string json = (folder.path() / "figures.json").string();
+  const auto tracks = testing::real_data() / "kitti_odometry/tracks/2011_09_26_drive_0001.csv.gz";
+  const auto figures = [&](const char* motion) {
+    const ProcessResult run =
+        maploop({"odometry", tracks.string(), "--motion", motion, "--window", "0", "--json", json});
+    EXPECT_EQ(run.status, 0) << run.error;
+    return nlohmann::json::parse(std::ifstream(json));
+  };
+  const nlohmann::json both = figures("3d-2d"), left = figures("2d-2d");
+  EXPECT_EQ(both["tracks_a_pair"], left["tracks_a_pair"]) << "the same frames";
+  EXPECT_LT(both["segment_100m_percent"], 3.0);
+  EXPECT_LT(left["segment_100m_percent"], 20.0) << "it has the lengths of the truth";
+  EXPECT_GT(both["inliers_percent"], 80.0);
+  EXPECT_EQ(maploop({"odometry", tracks.string(), "--truth", tracks.string()}).status, 2)
+      << "of what, without --json";
 }
 
 TEST(EvaluateCommand, FirstLastTumAndCsv) {

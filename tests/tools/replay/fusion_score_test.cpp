@@ -66,6 +66,18 @@ TEST(OutageEnds, AreWhereTheStateIsAtTheLastFixThatWasTakenAway) {
   EXPECT_FALSE(outage_ends(track(), fixes, {}, {{at(5.0), at(8.0)}}, start)[0].peer);
 }
 
+TEST(FusionScore, BeginsWhereItIsToldTo) {
+  const std::vector<vehicle::GnssOutage> outages{
+      {start + from_seconds(2), start + from_seconds(4)}};
+  const auto score = fusion_score::score(track(), reference(0.1), outages, start, Time::max(),
+                                         start + from_seconds(10));
+  ASSERT_TRUE(score);
+  EXPECT_NEAR(score->whole.rmse, 1.0, 1e-3);
+  EXPECT_NEAR(score->whole.distance, 100.0, 1e-3);
+  EXPECT_NEAR(score->whole.covered, 1.0, 1e-9);
+  EXPECT_NEAR(score->outages.at(0).errors.rmse, 5.0, 1e-3) << "as they are";
+}
+
 std::optional<Score> score_against(double accuracy) {
   return score(track(), reference(accuracy), {}, start);
 }

@@ -25,6 +25,10 @@ if not data.exists():
     sys.exit(77)
 runs = [[data / "kitti_odometry/oxts/06.csv.gz", "--end", "60", "--gnss-outage", "20:20", "--map-mode", "tight",
          "--map", data / "maps/karlsruhe_2012-04.osm.pbf", "--fault", "lost@imu:5:1"],
+        [data / "kitti_odometry/oxts/06.csv.gz", "--end", "60", "--gnss-outage", "20:20", "--map-mode", "tight",
+         "--map", data / "maps/karlsruhe_2012-04.osm.pbf", "--map-fault", "missing", "--misdescribe", "everything",
+         "--score-from", "20"],
+        [data / "cars/oakville/urban-short-turn-loop-nominal-001", "--gnss-outage", "repeated:60:30"],
         [data / "gnss/riverside_drive", "--end", "60"],
         [data / "kitti_odometry/oxts/06.csv.gz", "--end", "5", "--fault", "lost@gnss:0:end"]]
 validator = jsonschema.Draft7Validator(json.loads(Path(schema).read_text()))
@@ -42,7 +46,7 @@ with tempfile.TemporaryDirectory() as folder:
         seen |= {key for key, value in result.items() if value}
         for error in validator.iter_errors(result):
             wrong.append(f"{run[0]}: {'.'.join(map(str, error.absolute_path))}: {error.message[:300]}")
-if not {"navigation", "ppp", "links", "calibration", "empty"} <= seen:
+if not {"navigation", "ppp", "links", "calibration", "empty", "map_feedback", "outage_ends"} <= seen:
     wrong.append(f"the drives do not show everything: {sorted(seen)}")
 print("\n".join(wrong) or f"{len(runs)} results are as the schema says")
 sys.exit(bool(wrong))

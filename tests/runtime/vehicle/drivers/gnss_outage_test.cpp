@@ -43,15 +43,26 @@ TEST(GnssOutages, DrawnAtRandomDependOnTheSeedAndDoNotMeet) {
   EXPECT_NE(once[0].begin, other[0].begin);
 }
 
+TEST(GnssOutages, ThatAreRepeatedLieAMinuteApartAndEndInTheDrive) {
+  const auto outages = parse_outages("repeated:50:30", first, last, 1);
+  std::vector<double> begins;
+  for (const GnssOutage& o : outages) {
+    begins.push_back(begin_of(o));
+    EXPECT_EQ(to_seconds(o.end - o.begin), 30.0);
+  }
+  EXPECT_EQ(begins, (std::vector<double>{50, 140, 230, 320}));
+}
+
 TEST(GnssOutages, ThatAreInvalidNameTheWrongPart) {
-  for (const char* text :
-       {"", "20", "a:3", "20:-1", "20:0", "20:30:40", "random:0:60", "random:3:end", "1:2,,3:4"}) {
+  for (const char* text : {"", "20", "a:3", "20:-1", "20:0", "20:30:40", "random:0:60",
+                           "random:3:end", "repeated:3:end", "repeated:3", "1:2,,3:4"}) {
     EXPECT_NE(check_outages(text), "") << text;
   }
   EXPECT_THAT(check_outages("random:a:60"), HasSubstr("'a' is not a count"));
   EXPECT_THAT(check_outages("20:b"), HasSubstr("'b' is not a number of seconds"));
   EXPECT_EQ(check_outages("20:30,random:2:60,300:end"), "");
   EXPECT_THROW(parse_outages("random:1:390", first, last, 1), std::invalid_argument);
+  EXPECT_THROW(parse_outages("repeated:350:50", first, last, 1), std::invalid_argument);
   EXPECT_THROW(parse_outages("random:9:60", first, last, 1), std::invalid_argument);
 }
 

@@ -1,5 +1,5 @@
 // Tests what a wrong description of a car makes of its sensors.
-#include "tools/experiment/misdescription.h"
+#include "tools/replay/misdescription.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "msgs/frames.h"
 
-namespace maploop::experiments {
+namespace maploop::tools {
 namespace {
 
 template <class T>
@@ -84,4 +84,4 @@ TEST(Misdescription, AStampThatIsLateComesLate) {
 }
 
 }  // namespace
-}  // namespace maploop::experiments
+}  // namespace maploop::tools

@@ -4,13 +4,15 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <string>
 
 #include "msgs/calibration.h"
 #include "msgs/named_enum.h"
 #include "runtime/vehicle/config/vehicle_config.h"
+#include "runtime/vehicle/drivers/recording.h"
 #include "runtime/vehicle/graph/sensors.h"
 
-namespace maploop::experiments {
+namespace maploop::tools {
 
 // A Property is what the description of the car states wrongly.
 enum class Property : std::uint8_t {
@@ -25,10 +27,13 @@ enum class Property : std::uint8_t {
   everything,
 };
 constexpr auto names_of(Property) {
-  return names_up_to<Property::everything>({"nothing", "antenna", "inertial mount", "camera",
-                                            "rear axle", "inertial stamps", "GNSS stamps",
-                                            "camera stamps", "everything"});
+  return names_up_to<Property::everything>({"nothing", "antenna", "inertial-mount", "camera",
+                                            "rear-axle", "inertial-stamps", "gnss-stamps",
+                                            "camera-stamps", "everything"});
 }
+
+// Throws std::invalid_argument with all names if there is no such property.
+Property property_named(const std::string& name);
 
 // How far the description is from the car. Every value is zero where it is right.
 struct Misdescription {
@@ -44,14 +49,17 @@ struct Misdescription {
 // property alone.
 Misdescription misdescription(Property property, std::int64_t seed);
 
-// Adds it to config.vehicle, which has all that is known of the car. The places of antenna and axle
-// then count as given without a standard deviation, also where nothing is wrong, so that the right
-// description differs from the wrong one in its values alone.
-void misdescribe(vehicle::VehicleConfig& config, const Misdescription& wrong);
+// Adds it to what is known of the car by config.vehicle and the recording, which was opened with
+// the right description. The places of antenna and axle then count as given without a standard
+// deviation, also where nothing is wrong, so that the right description differs from the wrong one
+// in its values alone. Throws std::runtime_error if the recording has images or scans, whose
+// motions cannot be changed.
+void misdescribe(vehicle::VehicleConfig& config, vehicle::Recording& recording,
+                 const Misdescription& wrong);
 
 // Makes of the sensors of a recording what a vehicle with that description would take from them.
-// Odometry is that of recorded motions; there must be no images and no scans.
+// Odometry is that of recorded motions.
 void misdescribe(vehicle::Sensors& sensors, const Misdescription& wrong,
                  const VehicleCalibration& calibration);
 
-}  // namespace maploop::experiments
+}  // namespace maploop::tools

@@ -1,4 +1,4 @@
-#include "tools/experiment/misdescription.h"
+#include "tools/replay/misdescription.h"
 
 #include <algorithm>
 #include <array>
@@ -7,13 +7,15 @@
 #include <memory>
 #include <numbers>
 #include <random>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "msgs/frames.h"
 #include "sensors/source.h"
 
-namespace maploop::experiments {
+namespace maploop::tools {
 namespace {
 
 using Eigen::AngleAxisd;
@@ -62,6 +64,14 @@ void move(RelativeMotion& motion, const Eigen::Isometry3d& X) {
 
 }  // namespace
 
+Property property_named(const std::string& name) {
+  if (const auto property = value_named<Property>(name)) return *property;
+  std::string all;
+  for (const std::string_view known : enum_names<Property>)
+    all += (all.empty() ? "" : ", ") + std::string(known);
+  throw std::invalid_argument("no property of the car is called '" + name + "'; there are " + all);
+}
+
 Misdescription misdescription(Property property, std::int64_t seed) {
   constexpr double place = 0.5;           // m
   constexpr double angle = radians(1.0);  // rad
@@ -102,7 +112,17 @@ Misdescription misdescription(Property property, std::int64_t seed) {
   return wrong;
 }
 
-void misdescribe(vehicle::VehicleConfig& config, const Misdescription& wrong) {
+void misdescribe(vehicle::VehicleConfig& config, vehicle::Recording& recording,
+                 const Misdescription& wrong) {
+  const vehicle::Sensors recorded = recording.sensors(Time::max());
+  if (recorded.camera != nullptr || recorded.velodyne != nullptr) {
+    throw std::runtime_error(
+        "--misdescribe: the recording has images or scans; replay the log of its odometry, which "
+        "'maploop replay DRIVE --record FILE' writes");
+  }
+  vehicle::VehicleConfig known = config;
+  describe_car(known, recording.calibration);
+  config.vehicle = known.vehicle;
   SensorPosition& antenna = config.vehicle.antenna.position;
   antenna.forward += wrong.antenna.x();
   antenna.left += wrong.antenna.y();
@@ -115,6 +135,12 @@ void misdescribe(vehicle::VehicleConfig& config, const Misdescription& wrong) {
   }
   if (!config.is_given("fusion", "gnss_lever_sigma"))
     config.fusion.gnss_lever_sigma = fusion::FusionParameters{}.gnss_lever_sigma;
+  recording.sensors = [right = std::move(recording.sensors), wrong,
+                       calibration = recording.calibration](Time passed) {
+    vehicle::Sensors sensors = right(passed);
+    misdescribe(sensors, wrong, calibration);
+    return sensors;
+  };
 }
 
 void misdescribe(vehicle::Sensors& sensors, const Misdescription& wrong,
@@ -140,4 +166,4 @@ void misdescribe(vehicle::Sensors& sensors, const Misdescription& wrong,
   change_each(sensors.visual, change);
 }
 
-}  // namespace maploop::experiments
+}  // namespace maploop::tools
