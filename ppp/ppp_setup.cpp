@@ -108,7 +108,7 @@ void PppSetup::fill_inputs(const GnssFiles& files, const SetupOptions& options,
     inputs_.ocean_loading =
         nearest_station(files.ocean_loading, *header.approximate_position, header.marker);
   }
-  if (one_frequency_) choose_ionosphere();
+  choose_ionosphere();
 }
 
 // States what keeps ambiguities real numbers, and which of several antennas counts.
@@ -153,16 +153,15 @@ void PppSetup::choose_products(const GnssFiles& files, const SetupOptions& optio
   if (!files.orbits.empty() && !options.broadcast) {
     precise_ = std::make_unique<PreciseEphemeris>(files.orbits, files.clocks, files.biases);
     inputs_.ephemeris = precise_.get();
+    precise_->use_group_delays(broadcast_.get());
   } else if (broadcast_) {
     inputs_.ephemeris = broadcast_.get();
   }
 }
 
 void PppSetup::choose_ionosphere() {
-  parameters_ = for_one_frequency(parameters_);
-  inputs_.one_frequency = true;
   if (broadcast_) inputs_.ionosphere = &broadcast_->ionosphere();
-  if (live()) return;  // the coefficients may still be received
+  if (live() || !one_frequency_) return;  // the coefficients may still be received
   const GpsTime first = observations_->epochs.front().time;
   const std::string lack =
       ionosphere_lack(broadcast_ ? broadcast_->ionosphere().age(first) : std::nullopt);

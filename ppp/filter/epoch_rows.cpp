@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ppp/filter/lasting_error.h"
 #include "ppp/filter/median.h"
 
 namespace maploop::ppp {
@@ -52,9 +51,8 @@ std::vector<Row>& EpochRows::make(const std::vector<Tracked>& tracked, int refer
     const Tracked& t = tracked[i];
     if (!t.code_good) continue;
     const double factor = variance_factor(t, strength);
-    const Row code = code_row(i, t, factor, reference_system, state);
-    rows_.push_back(code);
-    if (t.phase_good) add_phase_row(t, factor, code, state, reports);
+    rows_.push_back(code_row(i, t, factor, reference_system, state));
+    if (t.phase_good) add_phase_row(i, t, factor, reference_system, state, reports);
     if (!use_doppler || !has_doppler(t)) continue;
     Row doppler;
     doppler.kind = RowKind::doppler;
@@ -78,21 +76,31 @@ void EpochRows::set_drift(const std::vector<Tracked>& tracked, FilterState& stat
   state.set(S::clock_drift, drifts_.empty() ? 0.0 : median(drifts_), parameters_.drift_sigma);
 }
 
-Row EpochRows::code_row(std::size_t i, const Tracked& t, double factor, int reference_system,
-                        const FilterState& state) const {
+// Makes the row of a code (`sign` 1), which the ionosphere delays, or of a phase (-1), which it
+// advances; y lacks what was measured.
+Row EpochRows::range_row(std::size_t i, const Tracked& t, double sign, int reference_system,
+                         const FilterState& state) const {
   const Measurement& m = t.measurement;
+  const PredictedRange& p = t.predicted;
   const int system = static_cast<int>(m.satellite.system);
   Row row;
-  row.kind = RowKind::code;
   row.tracked = i;
-  for (int k = 0; k < 3; ++k) row.add(S::position + k, -t.predicted.to_satellite[k]);
+  for (int k = 0; k < 3; ++k) row.add(S::position + k, -p.to_satellite[k]);
   row.add(S::clock, 1.0);
   if (system != reference_system) row.add(S::system_offset + system, 1.0);
-  row.add(S::zenith_wet, t.predicted.wet_mapping);
+  row.add(S::zenith_wet, p.wet_mapping);
   if (parameters_.gradients) {
-    const double slope = t.predicted.wet_mapping / std::tan(t.predicted.elevation);
-    row.add(S::gradient_north, slope * std::cos(t.predicted.azimuth));
-    row.add(S::gradient_east, slope * std::sin(t.predicted.azimuth));
+    const double slope = p.wet_mapping / std::tan(p.elevation);
+    row.add(S::gradient_north, slope * std::cos(p.azimuth));
+    row.add(S::gradient_east, slope * std::sin(p.azimuth));
+  }
+  if (const int error = state.find(m.satellite, Part::range_error); error >= 0) row.add(error, 1.0);
+  if (!m.dual()) {
+    const double own = sign * ionosphere_factor(m.first), slant = own * p.ionosphere_slant;
+    row.add(S::zenith_ionosphere, slant);
+    row.add(S::ionosphere_north, slant * p.ionosphere_distance * std::cos(p.azimuth));
+    row.add(S::ionosphere_east, slant * p.ionosphere_distance * std::sin(p.azimuth));
+    row.add(state.find(m.satellite, Part::ionosphere), own);
   }
   // This is what the state predicts besides the geometric range, which is already computed at the
   // state's own position.
@@ -100,55 +108,52 @@ Row EpochRows::code_row(std::size_t i, const Tracked& t, double factor, int refe
   for (std::size_t k = 3; k < static_cast<std::size_t>(row.count); ++k) {
     predicted += row.h[k] * state.x()[row.indices[k]];
   }
-  const double glonass =
-      m.satellite.system == System::glonass ? parameters_.glonass_code_factor : 1.0;
-  const double sigma = parameters_.code_sigma * m.noise_factor() * glonass;
-  const double sine = std::sin(t.predicted.elevation);
-  const double direct = sigma * sigma / (sine * sine), all = sigma * sigma * factor * t.level;
-  const double rest = lasting_variance(t.predicted);
-  // (11) of METHOD.md
-  row.variance = all * t.code_inflation + rest;
-  row.sigma = std::sqrt(all + rest);
-  row.delay = std::sqrt(std::max(0.0, all - direct) / 2.0);
-  row.y = t.code_offset - predicted - row.delay;  // (7) of METHOD.md
+  row.y = -predicted - (sign > 0.0 ? p.code(m) : p.phase(m));
   return row;
 }
 
-// Adds the row of the phase, or on one frequency of GRAPHIC: half the sum of code and phase is free
-// of the ionosphere and contains half the ambiguity (here a separate state, in metres).
-void EpochRows::add_phase_row(const Tracked& t, double factor, const Row& code, FilterState& state,
-                              std::vector<SatelliteReport>& reports) {
+Row EpochRows::code_row(std::size_t i, const Tracked& t, double factor, int reference_system,
+                        const FilterState& state) const {
   const Measurement& m = t.measurement;
-  const bool graphic = !m.dual() && parameters_.graphic;
-  const double phase = m.phase() - t.predicted.phase_extra - t.predicted.range;
-  constexpr double code_share = 0.5;  // the sum of code and phase is half of both
-  // (2) of METHOD.md
-  const double y = graphic ? code_share * (phase + m.code() - code.delay - t.predicted.range)
-                           : phase + t.predicted.ionosphere.value;
-  const double predicted = t.code_offset - code.y - code.delay;  // clocks, wet delay, gradients
-  int index = state.ambiguity(m.satellite);
-  const bool is_new = index < 0;
-  if (is_new) {
-    index = state.add_ambiguity(m.satellite, y - predicted, parameters_.ambiguity_sigma);
+  Row row = range_row(i, t, 1.0, reference_system, state);
+  row.kind = RowKind::code;
+  const double glonass =
+      m.satellite.system == System::glonass ? parameters_.glonass_code_factor : 1.0;
+  const double one =
+      m.dual() ? parameters_.code_sigma * m.noise_factor() : parameters_.single_code_sigma;
+  const double sigma = one * glonass;
+  const double sine = std::sin(t.predicted.elevation);
+  const double direct = sigma * sigma / (sine * sine), all = sigma * sigma * factor * t.level;
+  row.variance = all * t.code_inflation;  // (11) of METHOD.md
+  row.sigma = std::sqrt(all);
+  row.delay = std::sqrt(std::max(0.0, all - direct) / 2.0);
+  row.y += m.code() - row.delay;  // (7) of METHOD.md
+  return row;
+}
+
+void EpochRows::add_phase_row(std::size_t i, const Tracked& t, double factor, int reference_system,
+                              FilterState& state, std::vector<SatelliteReport>& reports) {
+  const Measurement& m = t.measurement;
+  Row row = range_row(i, t, -1.0, reference_system, state);
+  row.kind = RowKind::phase;
+  row.y += m.phase();
+  int index = state.find(m.satellite, Part::ambiguity);
+  row.new_ambiguity = index < 0;
+  if (row.new_ambiguity) {
+    index = state.add(m.satellite, Part::ambiguity, row.y, parameters_.ambiguity_sigma);
     if (index < 0) {
       reports[m.report].refused = PppRefusal::too_many;
       return;
     }
   }
-  Row row = code;
-  row.kind = RowKind::phase;
-  row.new_ambiguity = is_new;
   row.add(index, 1.0);
-  row.y = y - predicted - state.x()[index];  // (8) of METHOD.md
-  const double sigma = parameters_.phase_sigma * m.noise_factor();
+  row.y -= state.x()[index];  // (8) of METHOD.md
   const double shadow = t.predicted.in_shadow ? parameters_.shadow_phase_factor : 1.0;
-  // (12) of METHOD.md
-  row.variance = sigma * sigma * factor * t.level * (shadow * shadow);
+  const double one =
+      m.dual() ? parameters_.phase_sigma * m.noise_factor() : parameters_.single_phase_sigma;
+  const double sigma = one * shadow;
+  row.variance = sigma * sigma * factor * t.level;  // (12) of METHOD.md
   row.sigma = std::sqrt(row.variance);
-  if (graphic) {
-    row.variance += code_share * code_share * code.variance;
-    row.sigma = std::hypot(row.sigma, code_share * code.sigma);
-  }
   rows_.push_back(row);
 }
 

@@ -41,10 +41,12 @@ class EpochRows {
 
  private:
   // `factor` scales the satellite's variances relative to the zenith.
+  Row range_row(std::size_t i, const Tracked& t, double sign, int reference_system,
+                const FilterState& state) const;
   Row code_row(std::size_t i, const Tracked& t, double factor, int reference_system,
                const FilterState& state) const;
-  void add_phase_row(const Tracked& t, double factor, const Row& code, FilterState& state,
-                     std::vector<SatelliteReport>& reports);
+  void add_phase_row(std::size_t i, const Tracked& t, double factor, int reference_system,
+                     FilterState& state, std::vector<SatelliteReport>& reports);
   void set_drift(const std::vector<Tracked>& tracked, FilterState& state);
 
   PppParameters parameters_;

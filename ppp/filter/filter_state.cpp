@@ -5,10 +5,17 @@
 namespace maploop::ppp {
 
 void FilterState::clear() {
-  ambiguities_.clear();
-  ambiguities_.reserve(max_ambiguities);
+  entries_.clear();
+  entries_.reserve(max_entries);
   x_.setZero();
   P_.setZero();
+}
+
+FilterState& FilterState::operator=(const FilterState& other) {
+  entries_ = other.entries_;
+  x() = other.x();
+  P() = other.P();
+  return *this;
 }
 
 void FilterState::set(int index, double value, double sigma) {
@@ -18,20 +25,27 @@ void FilterState::set(int index, double value, double sigma) {
   P_(index, index) = sigma * sigma;
 }
 
-int FilterState::ambiguity(Satellite satellite) const {
-  const auto at = std::find(ambiguities_.begin(), ambiguities_.end(), satellite);
-  return at == ambiguities_.end() ? -1 : fixed + static_cast<int>(at - ambiguities_.begin());
+void FilterState::forget(int index, double keep, double variance) {
+  x_[index] *= keep;
+  P_.row(index).head(size()) *= keep;
+  P_.col(index).head(size()) *= keep;
+  P_(index, index) += (1.0 - keep * keep) * variance;
 }
 
-int FilterState::add_ambiguity(Satellite satellite, double value, double sigma) {
-  if (ambiguities_.size() == max_ambiguities) return -1;
-  ambiguities_.push_back(satellite);
+int FilterState::find(Satellite satellite, Part part) const {
+  const auto at = std::find(entries_.begin(), entries_.end(), SatelliteEntry{satellite, part});
+  return at == entries_.end() ? -1 : fixed + static_cast<int>(at - entries_.begin());
+}
+
+int FilterState::add(Satellite satellite, Part part, double value, double sigma) {
+  if (entries_.size() == max_entries) return -1;
+  entries_.push_back({satellite, part});
   set(size() - 1, value, sigma);
   return size() - 1;
 }
 
-void FilterState::remove_ambiguity(Satellite satellite) {
-  const int at = ambiguity(satellite);
+void FilterState::remove(Satellite satellite, Part part) {
+  const int at = find(satellite, part);
   if (at < 0) return;
   const int last = size() - 1;
   if (at != last) {
@@ -40,9 +54,9 @@ void FilterState::remove_ambiguity(Satellite satellite) {
     P_.row(at).head(size()) = P_.row(last).head(size()).eval();
     P_.col(at).head(size()) = P_.row(at).head(size()).transpose().eval();
     P_(at, at) = variance;
-    ambiguities_[static_cast<std::size_t>(at - fixed)] = ambiguities_.back();
+    entries_[static_cast<std::size_t>(at - fixed)] = entries_.back();
   }
-  ambiguities_.pop_back();
+  entries_.pop_back();
 }
 
 void FilterState::update(std::span<const int> indices, std::span<const double> h, double y,

@@ -11,8 +11,8 @@ namespace maploop::ppp {
 struct LinearRow {
   double y = 0.0, variance = 0.0;
   int count = 0;
-  std::array<int, 12> indices{};
-  std::array<double, 12> h{};
+  std::array<int, 16> indices{};
+  std::array<double, 16> h{};
 
   void add(int index, double value) {
     indices[static_cast<std::size_t>(count)] = index;

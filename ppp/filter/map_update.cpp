@@ -15,15 +15,6 @@ Eigen::Vector3d right_of(const MapFeedback& f) {
   return rotation_enu_ecef(f.point).topRows<2>().transpose() * right_of_line(f);
 }
 
-// Lets a first-order Gauss-Markov error of this variance decay: the share `keep` of it remains.
-void forget(FilterState& state, int index, double keep, double variance) {
-  state.x()[index] *= keep;
-  auto P = state.P();
-  P.row(index) *= keep;
-  P.col(index) *= keep;
-  P(index, index) += (1.0 - keep * keep) * variance;
-}
-
 // `own` and `map` are the total variances of the filter and of the map.
 MapUse apply(FilterState& state, const LinearRow& row, double own, double map,
              const PppParameters& parameters, Eigen::VectorXd& dx) {
@@ -69,12 +60,11 @@ LinearRow line_row(const FilterState& state, const MapFeedback& feedback, double
   for (int i = 0; i < 3; ++i) row.add(S::position + i, right[i]);
   for (int i = 0; i < 3; ++i) row.add(S::velocity + i, since * right[i]);
   const Eigen::Vector2d level = right_of_line(feedback);
-  for (int i = 0; i < 2; ++i) row.add(S::lasting_error + i, level[i]);
   for (int i = 0; i < 2; ++i) row.add(S::map_datum + i, -level[i]);
   row.add(S::lane_offset, -feedback.lane_sigma);
   // (21) of METHOD.md
-  row.y = feedback.lane_sigma * x[S::lane_offset] - right.dot(off) -
-          level.dot(x.segment<2>(S::lasting_error) - x.segment<2>(S::map_datum));
+  row.y = feedback.lane_sigma * x[S::lane_offset] - right.dot(off) +
+          level.dot(x.segment<2>(S::map_datum));
   const double white = feedback.cross_sigma * feedback.cross_sigma;
   const double all = white + feedback.lane_sigma * feedback.lane_sigma;
   row.variance = white + all * (1.0 / feedback.probability - 1.0);
@@ -92,25 +82,18 @@ LinearRow direction_row(const FilterState& state, const MapFeedback& feedback, d
   return row;
 }
 
-void begin_map_states(FilterState& state, const Eigen::Vector2d& lasting,
-                      const PppParameters& parameters) {
-  for (int i = 0; i < 2; ++i) {
-    state.set(S::lasting_error + i, 0.0, std::sqrt(lasting[i]));
-    state.set(S::map_datum + i, 0.0, parameters.map_datum_sigma);
-  }
+void begin_map_states(FilterState& state, const PppParameters& parameters) {
+  for (int i = 0; i < 2; ++i) state.set(S::map_datum + i, 0.0, parameters.map_datum_sigma);
   state.set(S::lane_offset, 0.0, 1.0);
 }
 
-void predict_map_states(FilterState& state, double interval, const Eigen::Vector2d& lasting,
-                        const PppParameters& parameters) {
+void predict_map_states(FilterState& state, double interval, const PppParameters& parameters) {
   const double way = interval * state.x().segment<3>(S::velocity).norm();
-  forget(state, S::lane_offset, std::exp(-way / parameters.map_lane_length), 1.0);
-  const double keep = std::exp(-interval / parameters.map_lasting_time);
-  for (int i = 0; i < 2; ++i) forget(state, S::lasting_error + i, keep, lasting[i]);
+  state.forget(S::lane_offset, std::exp(-way / parameters.map_lane_length), 1.0);
 }
 
 void enter_road(FilterState& state, const PppParameters& parameters) {
-  forget(state, S::lane_offset, parameters.map_lane_lasting, 1.0);
+  state.forget(S::lane_offset, parameters.map_lane_lasting, 1.0);
 }
 
 double map_variance(const MapFeedback& feedback) {

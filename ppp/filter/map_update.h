@@ -46,22 +46,18 @@ constexpr std::string_view to_string(MapUse use) {
   return "unknown";
 }
 
-// The row is 0 = n (p + e - d + v since - m) - lane_sigma b + noise: n points to the right of the
-// line through m, p is the position from satellites, e its lasting error, d the map's datum, b the
-// lane offset, and `since` is the feedback's stamp minus the state's, s. Only the direction across
-// the line is used: along it, a projection contains nothing that the filter did not know before.
+// The row is 0 = n (p - d + v since - m) - lane_sigma b + noise: n points to the right of the
+// line through m, p is the position, d the map's datum, b the lane offset, and `since` is the
+// feedback's stamp minus the state's, s. Only the direction across the line is used: along it, a
+// projection contains nothing that the filter did not know before.
 LinearRow line_row(const FilterState& state, const MapFeedback& feedback, double since);
 // The row is 0 = n v + noise: the vehicle moves along the line. `slip` is in m/s.
 LinearRow direction_row(const FilterState& state, const MapFeedback& feedback, double slip);
 
-// Resets the states that only a map observes. `lasting` is the position's variance, east and north,
-// due to errors of orbits, clocks and ionosphere, m^2.
-void begin_map_states(FilterState& state, const Eigen::Vector2d& lasting,
-                      const PppParameters& parameters);
-// Lets the lane offset decay with the distance driven, and the lasting error with time. `interval`
-// is in s.
-void predict_map_states(FilterState& state, double interval, const Eigen::Vector2d& lasting,
-                        const PppParameters& parameters);
+// Resets the states that only a map observes.
+void begin_map_states(FilterState& state, const PppParameters& parameters);
+// Lets the lane offset decay with the distance driven. `interval` is in s.
+void predict_map_states(FilterState& state, double interval, const PppParameters& parameters);
 // Changes to another road: its lane offset is new except for the share that lasts.
 void enter_road(FilterState& state, const PppParameters& parameters);
 

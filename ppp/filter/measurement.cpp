@@ -62,6 +62,11 @@ Carrier carrier_of(Satellite satellite, char band, std::span<const Signal> signa
 
 }  // namespace
 
+double ionosphere_factor(const Carrier& carrier) {
+  const double ratio = carrier_frequency(System::gps, '1') / carrier.frequency;
+  return ratio * ratio;
+}
+
 double Measurement::weight1() const {
   if (!dual()) return 1.0;
   const double a = first.frequency * first.frequency, b = second.frequency * second.frequency;
@@ -98,7 +103,7 @@ double Measurement::wide_lane_length() const {
 
 std::optional<Measurement> measure(Satellite satellite, std::span<const Signal> signals,
                                    const std::array<std::optional<int>, 100>& glonass_channels,
-                                   const Ephemeris& ephemeris, GpsTime t, bool allow_single) {
+                                   const Ephemeris& ephemeris, GpsTime t) {
   const auto bands = bands_of(satellite.system);
   std::optional<int> channel;
   if (satellite.system == System::glonass) {
@@ -112,12 +117,12 @@ std::optional<Measurement> measure(Satellite satellite, std::span<const Signal> 
   m.second = carrier_of(satellite, bands[1], signals,
                         carrier_frequency(satellite.system, bands[1], channel));
   if (m.first.frequency == 0.0) return {};
-  if (m.second.frequency == 0.0 && !allow_single) return {};
   for (Carrier* c : {&m.first, &m.second}) {
     if (c->frequency > 0.0) {
       c->code -= ephemeris.code_bias(satellite, c->band, c->attribute, t);
     }
   }
+  m.ionosphere_bias = ephemeris.ionosphere_bias(satellite, t);
   if (!m.dual() || m.phase() == 0.0) return m;
   const auto bias1 = ephemeris.phase_bias(satellite, m.first.band, m.first.phase_attribute, t);
   const auto bias2 = ephemeris.phase_bias(satellite, m.second.band, m.second.phase_attribute, t);

@@ -24,13 +24,19 @@ struct Carrier {
   char phase_attribute = 0;  // of the phase, which may be of another signal than the code
 };
 
+// Returns the ionosphere's delay of a carrier's code relative to that on GPS L1.
+double ionosphere_factor(const Carrier& carrier);
+
 struct Measurement {
   Satellite satellite;
-  Carrier first, second;   // second.frequency is 0 with one frequency
+  Carrier first, second;                  // second.frequency is 0 with one frequency
+  std::optional<double> ionosphere_bias;  // m on GPS L1, that of the codes (Ephemeris)
   bool integer = false;    // the biases of both phases are removed: their ambiguities are integers
   std::size_t report = 0;  // index into the epoch's reports
 
   bool dual() const { return second.frequency > 0.0; }
+  std::size_t carriers() const { return dual() ? 2 : 1; }
+  const Carrier& carrier(std::size_t k) const { return k == 0 ? first : second; }
   // These are the weights of the ionosphere-free combination.
   double weight1() const;
   double weight2() const;
@@ -43,11 +49,10 @@ struct Measurement {
   double wide_lane_length() const;
 };
 
-// Selects code and phase of each band. The second carrier is empty if its code is missing and
-// `allow_single` is set. Returns nothing if a required carrier has no code or no known frequency;
-// its phase may be missing.
+// Selects code and phase of each band. The second carrier is empty if its code is missing.
+// Returns nothing if the first has no code or no known frequency; its phase may be missing.
 std::optional<Measurement> measure(Satellite satellite, std::span<const Signal> signals,
                                    const std::array<std::optional<int>, 100>& glonass_channels,
-                                   const Ephemeris& ephemeris, GpsTime t, bool allow_single);
+                                   const Ephemeris& ephemeris, GpsTime t);
 
 }  // namespace maploop::ppp

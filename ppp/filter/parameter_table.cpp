@@ -40,6 +40,12 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
   constexpr DataChoice wide_lane_sigma_choice{"ESBC station, 00:00 to 12:00",
                                               "among 0.15 to 0.6 cycles, without effect",
                                               "PPP of ESBC before 12:00"};
+  constexpr DataChoice range_error_time_choice{"ESBC station with broadcast orbits, 00:00 to 12:00",
+                                               "among 1, 4 and 12 hours by the errors",
+                                               "PPP of ESBC before 12:00 with broadcast orbits"};
+  constexpr DataChoice single_phase_sigma_choice{"simulated canyons, seeds 1 to 6",
+                                                 "among 0.005, 0.01 and 0.03 m by the errors",
+                                                 "PPP between houses, seeds 1 to 6"};
   static constexpr auto table = std::to_array<Parameter<P>>({
       {"motion", one_of<&P::motion>, usual, "Whether the receiver moves."},
       {"systems", &P::systems, usual,
@@ -102,6 +108,18 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
        "Power spectral density of the white horizontal acceleration of a moving receiver."},
       {"vertical_acceleration", &P::vertical_acceleration, 0.0, 1e4, "m^2/s^3", usual,
        "Power spectral density of the white vertical acceleration of a moving receiver."},
+      {"ionosphere_walk", &P::ionosphere_walk, 0.0, 1.0, "m/sqrt(s)", expert,
+       "Random walk of the error of the ionosphere's model at the zenith."},
+      {"slant_ionosphere_walk", &P::slant_ionosphere_walk, 0.0, 1.0, "m/sqrt(s)", expert,
+       "Random walk of a satellite's own error of the ionosphere's model."},
+      {"slant_ionosphere_share", &P::slant_ionosphere_share, smallest, 1.0, "1", expert,
+       "Share of the standard deviation of the ionosphere's model that is each satellite's own."},
+      {"ionosphere_gradient_share", &P::ionosphere_gradient_share, smallest, 100.0, "1", expert,
+       "Standard deviation of the change of the error at the zenith over 1000 km, of its own."},
+      {"unknown_bias_sigma", &P::unknown_bias_sigma, smallest, 1e3, "m", expert,
+       "Standard deviation of the ionosphere that products without biases of codes add."},
+      {"range_error_time", &P::range_error_time, 0.1, long_time, "s", expert,
+       "Correlation time of the errors of broadcast orbits and clocks.", range_error_time_choice},
       {"ambiguity_sigma", &P::ambiguity_sigma, smallest, 1e6, "m", expert,
        "Standard deviation of an ambiguity at the start."},
       {"ambiguity_walk", &P::ambiguity_walk, 0.0, 1.0, "m/sqrt(s)", expert,
@@ -138,9 +156,6 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
       {"code_gate_sigmas", &P::code_gate_sigmas, 0.0, 1000.0, "1", expert,
        "Standard deviations of the position by which this gate is wider: after a gap the position "
        "is wrong for all codes."},
-      {"graphic", &P::graphic, expert,
-       "Whether a receiver of one frequency uses half the sum of code and phase, which is free of "
-       "the ionosphere."},
       {"longest_gap", &P::longest_gap, 0, 1e6, "epochs", expert,
        "Epochs for which a satellite may be missing and keep its ambiguity."},
       {"restart_epochs", &P::restart_epochs, 1, 1e6, "epochs", expert,
@@ -177,9 +192,9 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
       {"start_largest_residual", &P::start_largest_residual, 0.1, any_gate, "1", expert,
        "Residual in standard deviations beyond which there is no first position."},
       {"single_code_sigma", &P::single_code_sigma, smallest, any_sigma, "m", expert,
-       "code_sigma of a receiver of one frequency, which is mostly a cheap one."},
+       "code_sigma of a satellite that is measured on one frequency, mostly by a cheap receiver."},
       {"single_phase_sigma", &P::single_phase_sigma, smallest, any_sigma, "m", expert,
-       "phase_sigma of a receiver of one frequency."},
+       "phase_sigma of a satellite that is measured on one frequency.", single_phase_sigma_choice},
 
       {"integers", &P::integers, usual,
        "Whether ambiguities are resolved to integers where the products contain the biases of the "
@@ -216,10 +231,6 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
        "Largest time between an epoch and the stamp of the feedback."},
       {"map_datum_sigma", &P::map_datum_sigma, 0.0, 1000.0, "m", usual,
        "Standard deviation per axis of the whole map against the frame of the orbits."},
-      {"map_lasting_time", &P::map_lasting_time, 0.1, long_time, "s", expert,
-       "Correlation time of the errors of broadcast orbits, clocks and ionosphere."},
-      {"map_lasting_share", &P::map_lasting_share, 0.0, 1.0, "1", expert,
-       "Share of the position's variance that comes from these errors at most."},
       {"map_lane_length", &P::map_lane_length, 0.1, 1e6, "m", expert,
        "Way over which the lane and the error of the map change."},
       {"map_lane_lasting", &P::map_lane_lasting, 0.0, 1.0, "1", expert,

@@ -39,21 +39,26 @@ struct PppParameters {
   double gradient_walk = 3e-6;           // m/sqrt(s)
   double horizontal_acceleration = 2.0;  // m^2/s^3
   double vertical_acceleration = 0.2;    // m^2/s^3
-  double ambiguity_sigma = 60.0;         // m
-  double ambiguity_walk = 1.1e-4;        // m/sqrt(s)
-  double system_offset_walk = 1e-3;      // m/sqrt(s)
-  double source_change_sigma = 2.0;      // m
-  double clock_sigma = 100.0;            // m
-  double drift_sigma = 100.0;            // m/s
-  double position_sigma = 60.0;          // m
-  double velocity_sigma = 10.0;          // m/s
-  double model_sigma = 0.01;             // m
+  double ionosphere_walk = 1e-3;         // m/sqrt(s), at the zenith
+  double slant_ionosphere_walk = 3e-3;   // m/sqrt(s)
+  double slant_ionosphere_share = 0.5;
+  double ionosphere_gradient_share = 0.5;  // for each 1000 km
+  double unknown_bias_sigma = 5.0;         // m
+  double range_error_time = 43200.0;       // s
+  double ambiguity_sigma = 60.0;           // m
+  double ambiguity_walk = 1.1e-4;          // m/sqrt(s)
+  double system_offset_walk = 1e-3;        // m/sqrt(s)
+  double source_change_sigma = 2.0;        // m
+  double clock_sigma = 100.0;              // m
+  double drift_sigma = 100.0;              // m/s
+  double position_sigma = 60.0;            // m
+  double velocity_sigma = 10.0;            // m/s
+  double model_sigma = 0.01;               // m
   double outlier_sigmas = 3.0;
   int outlier_rejections = 8;
   double doubtful_phase_sigma = 1.0;  // m
   double code_gate = 30.0;            // m
   double code_gate_sigmas = 4.0;
-  bool graphic = true;
   int longest_gap = 10;
   int restart_epochs = 5;
   double restart_variance = 9.0;
@@ -73,9 +78,9 @@ struct PppParameters {
   double start_outlier_share = 0.25;
   double start_largest_residual = 10.0;
 
-  // --- Receivers of one frequency
-  double single_code_sigma = 1.0;     // m
-  double single_phase_sigma = 0.005;  // m
+  // --- Satellites of one frequency
+  double single_code_sigma = 1.0;    // m
+  double single_phase_sigma = 0.01;  // m
 
   // --- Integers
   bool integers = true;
@@ -92,11 +97,9 @@ struct PppParameters {
   // --- The road that map matching has found
   double map_useful_share = 0.3;
   double map_gate = 6.63;
-  double map_slip = 0.1;             // m/s
-  double map_reach = 0.5;            // s
-  double map_datum_sigma = 1.0;      // m
-  double map_lasting_time = 3600.0;  // s
-  double map_lasting_share = 0.8;
+  double map_slip = 0.1;           // m/s
+  double map_reach = 0.5;          // s
+  double map_datum_sigma = 1.0;    // m
   double map_lane_length = 300.0;  // m
   double map_lane_lasting = 0.3;
   double map_difference_gate = 9.21;
@@ -107,11 +110,5 @@ struct PppParameters {
   int map_pause_doublings = 4;
   double map_trusted_again = 300.0;  // s
 };
-
-inline PppParameters for_one_frequency(PppParameters p) {
-  p.code_sigma = p.single_code_sigma;
-  p.phase_sigma = p.single_phase_sigma;
-  return p;
-}
 
 }  // namespace maploop::ppp

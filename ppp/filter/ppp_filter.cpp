@@ -39,8 +39,6 @@ void PppFilter::reset() {
   started_ = false;
   bad_epochs_ = 0;
   restarts_ = 0;
-  has_map_ = false;
-  lasting_ = {};
   integers_.reset();
   solution_.status = PppStatus::none;
 }
@@ -53,14 +51,13 @@ const PppSolution& PppFilter::process(const Epoch& epoch) {
   clock_steps_.repair(measured_);
   if (!started_ && !start(measured_, epoch.time)) return solution_;
 
-  if (interval > 0.0)
-    predict_state(state_, interval, lasting_.variance, model_.ephemeris(), parameters_);
+  if (interval > 0.0) predict_state(state_, interval, model_.ephemeris(), parameters_);
   time_ = epoch.time;
   model_.begin(time_, state_.x().segment<3>(S::position));
   std::vector<Tracked>& tracked =
       satellites_.track(measured_, time_, interval, model_, levels_, parameters_, state_, reports);
   clocks_.set(tracked, parameters_, state_, reports);
-  learn_lasting_error(tracked);
+  set_zenith_ionosphere(tracked);
   learn_strengths(tracked);
   const bool agrees = update(tracked);
   levels_.end_epoch(interval > 0.0 ? interval : first_interval, parameters_.code_level_time);
@@ -82,7 +79,10 @@ void PppFilter::begin_solution(GpsTime t) {
 
 // Starts at a position by code.
 bool PppFilter::start(const std::vector<Measurement>& measured, GpsTime t) {
-  const double sigma = std::max(parameters_.start_code_sigma, parameters_.code_sigma);
+  const bool dual =
+      std::any_of(measured.begin(), measured.end(), [](const auto& m) { return m.dual(); });
+  const double usual = dual ? parameters_.code_sigma : parameters_.single_code_sigma;
+  const double sigma = std::max(parameters_.start_code_sigma, usual);
   const SinglePoint point = solve_single_point(measured, t, state_.x().segment<3>(S::position),
                                                sigma, parameters_, model_);
   if (!point.failure.empty()) {
@@ -90,18 +90,28 @@ bool PppFilter::start(const std::vector<Measurement>& measured, GpsTime t) {
     return false;
   }
   begin_state(state_, point.position, parameters_);
-  const double ratio = sigma / parameters_.code_sigma;
+  const double ratio = sigma / usual;
   levels_.begin(point.residual_level * ratio * ratio);
   started_ = true;
   started_at_ = t;
   return true;
 }
 
-void PppFilter::learn_lasting_error(const std::vector<Tracked>& tracked) {
-  const auto lasting = lasting_error_of(tracked, model_, state_, parameters_);
-  if (!lasting) return;
-  if (lasting_.variance.isZero()) begin_map_states(state_, lasting->variance, parameters_);
-  lasting_ = *lasting;
+// Opens the state of the ionosphere at the zenith at the first epoch: what the satellites' errors
+// have in common.
+void PppFilter::set_zenith_ionosphere(const std::vector<Tracked>& tracked) {
+  if (state_.P()(S::zenith_ionosphere, S::zenith_ionosphere) > 0.0 || tracked.empty()) return;
+  double sum = 0.0;
+  for (const Tracked& t : tracked) {
+    sum += t.predicted.ionosphere.sigma / t.predicted.ionosphere_slant;
+  }
+  const double own = parameters_.slant_ionosphere_share;
+  const double share = std::sqrt(1.0 - own * own);
+  const double sigma = share * sum / static_cast<double>(tracked.size());
+  state_.set(S::zenith_ionosphere, 0.0, sigma);
+  for (const int i : {S::ionosphere_north, S::ionosphere_east}) {
+    state_.set(i, 0.0, parameters_.ionosphere_gradient_share * sigma);
+  }
 }
 
 void PppFilter::learn_strengths(const std::vector<Tracked>& tracked) {
@@ -132,13 +142,10 @@ void PppFilter::report(const std::vector<Tracked>& tracked) {
   const FilterState& state = fixed != nullptr ? *fixed : state_;
   const auto x = state.x();
   const auto P = state.P();
-  const Eigen::Vector3d& shift = lasting_.unmodelled_ionosphere_shift;
   solution_.position = x.segment<3>(S::position);
-  solution_.covariance =
-      P.block<3, 3>(S::position, S::position) +
-      parameters_.model_sigma * parameters_.model_sigma * Eigen::Matrix3d::Identity() +
-      shift * shift.transpose();
-  if (has_map_) add_lasting_error(state, model_.R_enu_ecef(), solution_);
+  solution_.covariance = P.block<3, 3>(S::position, S::position) + parameters_.model_sigma *
+                                                                       parameters_.model_sigma *
+                                                                       Eigen::Matrix3d::Identity();
   solution_.velocity = x.segment<3>(S::velocity);
   solution_.velocity_covariance = P.block<3, 3>(S::velocity, S::velocity);
   solution_.clock = x[S::clock];
@@ -173,9 +180,7 @@ MapUse PppFilter::add(const MapFeedback& feedback) {
   if (solution_.status == PppStatus::none) return MapUse::no_position;
   const double since = to_seconds(feedback.stamp - to_utc(time_));
   if (!(std::abs(since) <= parameters_.map_reach)) return MapUse::not_of_this_epoch;
-  const MapUse use = apply_map(state_, feedback, since, level_covariance(), parameters_, map_dx_);
-  has_map_ |= use == MapUse::used;
-  return use;
+  return apply_map(state_, feedback, since, level_covariance(), parameters_, map_dx_);
 }
 
 Eigen::Matrix2d PppFilter::level_covariance() const {

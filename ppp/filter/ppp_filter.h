@@ -8,7 +8,6 @@
 #include "ppp/filter/code_levels.h"
 #include "ppp/filter/epoch_rows.h"
 #include "ppp/filter/filter_state.h"
-#include "ppp/filter/lasting_error.h"
 #include "ppp/filter/map_update.h"
 #include "ppp/filter/parameter_table.h"
 #include "ppp/filter/receiver_clocks.h"
@@ -47,7 +46,7 @@ class PppFilter {
   // parameters, and the filter then stays as it was.
   template <class Archive>
   void archive(Archive& ar) {
-    ar.section("ppp", 8);
+    ar.section("ppp", 9);
     archive_same_parameters(ar, parameters_);
     if constexpr (Archive::loading) {
       PppFilter loaded = *this;
@@ -62,14 +61,14 @@ class PppFilter {
   template <class Archive>
   void archive_state(Archive& ar) {
     ar(state_, satellites_, levels_, unobstructed_cn0_, clock_steps_, clocks_, started_,
-       started_at_, time_, bad_epochs_, restarts_, lasting_, integers_, has_map_, solution_.status,
-       solution_.position, solution_.covariance, solution_.restarts);
+       started_at_, time_, bad_epochs_, restarts_, integers_, solution_.status, solution_.position,
+       solution_.covariance, solution_.restarts);
   }
 
   void begin_solution(GpsTime t);
   bool start(const std::vector<Measurement>& measured, GpsTime t);
   void learn_strengths(const std::vector<Tracked>& tracked);
-  void learn_lasting_error(const std::vector<Tracked>& tracked);
+  void set_zenith_ionosphere(const std::vector<Tracked>& tracked);
   bool update(const std::vector<Tracked>& tracked);
   void report(const std::vector<Tracked>& tracked);
   void restart();
@@ -86,9 +85,7 @@ class PppFilter {
   GpsTime started_at_{}, time_{};
   int bad_epochs_ = 0;  // number of epochs in a row whose measurements disagree with the position
   std::uint64_t restarts_ = 0;
-  LastingError lasting_;
   IntegerFix integers_;
-  bool has_map_ = false;  // whether the map's states are part of the solution
   PppSolution solution_;
 
   // These belong to one call and are members only to reuse their memory.

@@ -8,14 +8,6 @@ namespace {
 constexpr double earth_gravity = 3.986004418e14;  // m^3/s^2, WGS84
 constexpr double lowest_with_models = 0.01;       // rad; below it the models are not valid
 
-// Returns the sum over a measurement's carriers with their weights in its combination.
-template <class Value>
-double combined(const Measurement& m, Value&& of_carrier) {
-  double sum = m.weight1() * of_carrier(m.first);
-  if (m.dual()) sum += m.weight2() * of_carrier(m.second);
-  return sum;
-}
-
 // The delay of light in the earth's gravity (Shapiro), m; all distances are in m.
 double shapiro_delay(double satellite_radius, double receiver_radius, double distance) {
   constexpr double twice_mass = 2.0 * earth_gravity / (speed_of_light * speed_of_light);
@@ -24,6 +16,19 @@ double shapiro_delay(double satellite_radius, double receiver_radius, double dis
 }
 
 }  // namespace
+
+double PredictedRange::code(const Measurement& m) const {
+  const double common = range + m.weight1() * antennas[0];
+  return m.dual() ? common + m.weight2() * antennas[1]
+                  : common + ionosphere_factor(m.first) * ionosphere.value;
+}
+
+double PredictedRange::phase(const Measurement& m) const {
+  const double turn = m.weight1() * m.first.wavelength + m.weight2() * m.second.wavelength;
+  const double common =
+      range + m.weight1() * antennas[0] + m.weight2() * antennas[1] + wind_up * turn;
+  return m.dual() ? common : common - ionosphere_factor(m.first) * ionosphere.value;
+}
 
 void RangeModel::begin(GpsTime t, const Eigen::Vector3d& marker) {
   time_ = t;
@@ -85,14 +90,12 @@ std::optional<PredictedRange> RangeModel::predict(const Measurement& m,
   add_phase_centres(m, attitude, local, p);
   if (use.wind_up) {
     wind_up_cycles = wind_up(attitude, R_enu_ecef_, difference, wind_up_cycles);
-    p.phase_extra = wind_up_cycles * combined(m, [](const Carrier& c) { return c.wavelength; });
+    p.wind_up = wind_up_cycles;
   }
   p.in_shadow = masses && in_shadow(s, bodies_.sun);
-  if (!m.dual()) {
-    const double ratio = carrier_frequency(System::gps, '1') / m.first.frequency;
-    const auto on_l1 = ionospheric_delay(coefficients_, site_, p.azimuth, p.elevation, time_);
-    p.ionosphere = {ratio * ratio * on_l1.value, ratio * ratio * on_l1.sigma};
-  }
+  p.ionosphere = ionospheric_delay(coefficients_, site_, p.azimuth, p.elevation, time_);
+  p.ionosphere_slant = ionospheric_slant(p.elevation);
+  p.ionosphere_distance = ionospheric_distance(p.elevation);
   return p;
 }
 
@@ -109,16 +112,18 @@ void RangeModel::add_phase_centres(const Measurement& m, const Eigen::Matrix3d& 
                    (!m.dual() || own->carrier(system, m.second.band) != nullptr);
     if (own == nullptr) p.satellite.sigma = std::hypot(p.satellite.sigma, assumed.sigma);
     const Antenna& antenna = own != nullptr ? *own : assumed.antenna;
-    p.range += combined(m, [&](const Carrier& c) {
-      return satellite_phase_centre(antenna, system, c.band, attitude, -p.to_satellite);
-    });
+    for (std::size_t k = 0; k < m.carriers(); ++k) {
+      p.antennas[k] +=
+          satellite_phase_centre(antenna, system, m.carrier(k).band, attitude, -p.to_satellite);
+    }
   } else {
     p.calibrated = !inputs_.ephemeris->centre_of_mass();
   }
   if (inputs_.models.receiver_antenna && inputs_.receiver != nullptr) {
-    p.range += combined(m, [&](const Carrier& c) {
-      return receiver_phase_centre(*inputs_.receiver, system, c.band, to_satellite_enu);
-    });
+    for (std::size_t k = 0; k < m.carriers(); ++k) {
+      p.antennas[k] +=
+          receiver_phase_centre(*inputs_.receiver, system, m.carrier(k).band, to_satellite_enu);
+    }
   }
 }
 

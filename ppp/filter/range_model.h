@@ -1,6 +1,8 @@
 // Predicts the range that a receiver at a given place should measure to a satellite.
 #pragma once
 
+#include <array>
+
 #include "ppp/filter/measurement.h"
 #include "ppp/models/antenna.h"
 #include "ppp/models/atmosphere.h"
@@ -27,8 +29,7 @@ struct RangeInputs {
   const Antenna* receiver = nullptr;  // nullptr: the phase centre is taken at the reference point
   Eigen::Vector3d marker_to_antenna_enu{0, 0, 0};  // m; the solution is the marker's position
   const OceanLoading* ocean_loading = nullptr;
-  bool one_frequency = false;  // allows single frequencies, with a model of the ionosphere
-  const BroadcastIonosphere* ionosphere = nullptr;  // coefficients of that model; nullptr: none
+  const BroadcastIonosphere* ionosphere = nullptr;  // coefficients of its model; nullptr: none
   std::array<std::optional<int>, 100> glonass_channels{};
   Models models;
 };
@@ -37,13 +38,22 @@ struct PredictedRange {
   SatelliteState satellite;
   Eigen::Vector3d to_satellite{0, 0, 0};  // unit vector, earth-fixed
   double azimuth = 0.0, elevation = 0.0;  // rad
-  // The range, m, lacks receiver clock, ionosphere, ambiguity and the correction of the wet delay.
+  // The range, m, lacks receiver clock, ionosphere, ambiguity, the correction of the wet delay and
+  // the antennas, whose share differs between the carriers.
   double range = 0.0;
-  double phase_extra = 0.0;     // m, added to the phase only: wind-up
-  IonosphericDelay ionosphere;  // m on the first carrier; 0 with two carriers
+  std::array<double, 2> antennas{};  // m
+  double wind_up = 0.0;              // cycles
+  IonosphericDelay ionosphere;       // m on GPS L1
+  double ionosphere_slant = 1.0;     // relative to the zenith
+  double ionosphere_distance = 0.0;  // of the place that the signal crosses it, 1000 km
   double wet_mapping = 0.0;
   bool in_shadow = false;
   bool calibrated = false;  // the satellite's phase centres are those of its own antenna
+
+  // Returns the range of the measurement's code and phase, m; of two carriers, of their
+  // ionosphere-free combination, otherwise with the model's ionosphere.
+  double code(const Measurement& m) const;
+  double phase(const Measurement& m) const;
 };
 
 class RangeModel {
@@ -77,7 +87,7 @@ class RangeModel {
   SunAndMoon bodies_;
   ZenithDelay zenith_;
   GlobalMapping mapping_;
-  std::optional<NearestIonosphere> coefficients_;  // used on one frequency only
+  std::optional<NearestIonosphere> coefficients_;
 };
 
 }  // namespace maploop::ppp

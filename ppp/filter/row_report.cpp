@@ -22,7 +22,7 @@ void report_rows(const std::vector<Row>& rows, const Eigen::VectorXd& dx,
         report.phase_used = row.active;
         if (row.active) break;
         report.refused = PppRefusal::phase_misfit;
-        if (!row.doubtful) state.remove_ambiguity(t.measurement.satellite);
+        if (!row.doubtful) state.remove(t.measurement.satellite, Part::ambiguity);
         break;
       case RowKind::doppler:
         if (!row.active) report.refused = PppRefusal::doppler_misfit;

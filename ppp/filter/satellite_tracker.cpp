@@ -27,7 +27,28 @@ void weigh_later_code(Tracked& tracked, double since, double speed,
 
 // The ambiguity has absorbed the errors of the old source.
 void open_ambiguity(FilterState& state, Satellite satellite, double sigma) {
-  if (const int at = state.ambiguity(satellite); at >= 0) state.P()(at, at) += sigma * sigma;
+  const int at = state.find(satellite, Part::ambiguity);
+  if (at >= 0) state.P()(at, at) += sigma * sigma;
+}
+
+// Adds the states of the satellite's ionosphere and of its orbit and clock, or predicts the latter
+// over `since` s. Returns false if there is no room.
+bool set_range_states(FilterState& state, const Tracked& t, double since, bool new_message,
+                      const PppParameters& parameters) {
+  const Satellite satellite = t.measurement.satellite;
+  const PredictedRange& p = t.predicted;
+  if (!t.measurement.dual() && state.find(satellite, Part::ionosphere) < 0) {
+    const double own = parameters.slant_ionosphere_share * p.ionosphere.sigma;
+    const std::optional<double> bias = t.measurement.ionosphere_bias;
+    const double sigma = std::hypot(own, bias ? 0.0 : parameters.unknown_bias_sigma);
+    if (state.add(satellite, Part::ionosphere, bias.value_or(0.0), sigma) < 0) return false;
+  }
+  const double sigma = p.satellite.sigma;
+  const int error = state.find(satellite, Part::range_error);
+  if (error < 0) return sigma == 0.0 || state.add(satellite, Part::range_error, 0.0, sigma) >= 0;
+  state.forget(error, std::exp(-since / parameters.range_error_time), sigma * sigma);
+  if (new_message) state.set(error, state.x()[error], sigma);
+  return true;
 }
 
 }  // namespace
@@ -56,13 +77,20 @@ std::vector<Tracked>& SatelliteTracker::track(const std::vector<Measurement>& me
       continue;
     }
     Tracked tracked{m, *predicted};
-    tracked.code_offset = m.code() - predicted->range - predicted->ionosphere.value;
+    tracked.code_offset = m.code() - predicted->code(m);
     tracked.level = levels.of(m.satellite);
+    double since = 0.0;
     if (memory.last_code) {
-      weigh_later_code(tracked, to_seconds(t - *memory.last_code), speed, parameters);
+      since = to_seconds(t - *memory.last_code);
+      weigh_later_code(tracked, since, speed, parameters);
       tracked.new_source = memory.source != predicted->satellite.source;
     }
     if (tracked.new_source) open_ambiguity(state, m.satellite, parameters.source_change_sigma);
+    const bool new_message = memory.message != predicted->satellite.message;
+    if (!set_range_states(state, tracked, since, new_message, parameters)) {
+      report.refused = PppRefusal::too_many;
+      continue;
+    }
     memory.source = predicted->satellite.source;
     memory.last_code = t;
     tracked.phase_good = m.phase() != 0.0;
@@ -78,7 +106,7 @@ std::vector<Tracked>& SatelliteTracker::track(const std::vector<Measurement>& me
     if (!step.slipped) continue;
     const Measurement& m = tracked_[step.tracked].measurement;
     reports[m.report].slip = PppSlip::phase_step;
-    state.remove_ambiguity(m.satellite);
+    state.remove(m.satellite, Part::ambiguity);
   }
   return tracked_;
 }
@@ -90,11 +118,15 @@ PppSlip SatelliteTracker::look_for_slip(const Tracked& tracked, double interval,
   Memory& memory = memory_[m.satellite.slot()];
   const double since = interval * std::max(1, memory.epochs_away);
   const bool away_for_long = memory.epochs_away > parameters.longest_gap;
-  if (away_for_long) memory.slips.reset();
+  const bool other_carriers = memory.dual != m.dual();
+  if (away_for_long || other_carriers) memory.slips.reset();
+  memory.dual = m.dual();
   const PppSlip slip = memory.slips.next(m, since, p.elevation, parameters);
-  if (slip != PppSlip::none || away_for_long) state.remove_ambiguity(m.satellite);
-  const double phase_less_range = m.phase() - p.phase_extra - p.range;
-  const bool goes_on = memory.epochs_away == 1 && memory.message == p.satellite.message;
+  if (slip != PppSlip::none || away_for_long || other_carriers)
+    state.remove(m.satellite, Part::ambiguity);
+  const double phase_less_range = m.phase() - p.phase(m);
+  const bool goes_on =
+      memory.epochs_away == 1 && memory.message == p.satellite.message && !other_carriers;
   if (goes_on && slip == PppSlip::none && !m.dual() && interval > 0.0) {
     const double limit = slip_limit(parameters.slip_phase_step, interval, p.elevation, parameters);
     phase_steps_.push_back({tracked_.size(), p.to_satellite,
@@ -107,9 +139,9 @@ PppSlip SatelliteTracker::look_for_slip(const Tracked& tracked, double interval,
 }
 
 void SatelliteTracker::forget_absent(int longest_gap, FilterState& state) const {
-  for (std::size_t i = state.ambiguities().size(); i-- > 0;) {
-    const Satellite satellite = state.ambiguities()[i];
-    if (memory_[satellite.slot()].epochs_away > longest_gap) state.remove_ambiguity(satellite);
+  for (std::size_t i = state.entries().size(); i-- > 0;) {
+    const auto [satellite, part] = state.entries()[i];
+    if (memory_[satellite.slot()].epochs_away > longest_gap) state.remove(satellite, part);
   }
 }
 

@@ -55,6 +55,7 @@ class SatelliteTracker {
  private:
   struct Memory {  // one satellite's
     SlipDetector slips;
+    bool dual = false;  // the phase was that of two carriers
     double wind_up = 0.0;
     int epochs_away = 0;
     std::optional<GpsTime> last_code;
@@ -63,7 +64,7 @@ class SatelliteTracker {
     double phase_less_range{};  // m, at the last epoch with a phase
     template <class Archive>
     void archive(Archive& ar) {
-      ar(slips, wind_up, epochs_away, last_code, source, message, phase_less_range);
+      ar(slips, dual, wind_up, epochs_away, last_code, source, message, phase_less_range);
     }
   };
   PppSlip look_for_slip(const Tracked& tracked, double interval, const PppParameters& parameters,

@@ -10,8 +10,8 @@ void choose_signals(const Epoch& epoch, const RangeInputs& inputs, const PppPara
     if (parameters.systems.find(letter(s.satellite.system)) == std::string::npos) continue;
     SatelliteReport& report = reports.emplace_back();
     report.satellite = s.satellite;
-    auto m = measure(s.satellite, epoch.of(s), inputs.glonass_channels, *inputs.ephemeris,
-                     epoch.time, inputs.one_frequency);
+    auto m =
+        measure(s.satellite, epoch.of(s), inputs.glonass_channels, *inputs.ephemeris, epoch.time);
     if (!m) {
       report.refused = PppRefusal::no_signals;
       continue;

@@ -128,10 +128,10 @@ class CodePositioning {
     const Measurement& m = measured_[i];
     const int system = static_cast<int>(m.satellite.system);
     const double noise = m.noise_factor() * code_sigma_ / std::sin(p.elevation);
+    const double ionosphere = m.dual() ? 0.0 : p.ionosphere.sigma;
     const double variance = noise * noise + p.satellite.sigma * p.satellite.sigma +
-                            p.ionosphere.sigma * p.ionosphere.sigma +
-                            parameters_.start_model_variance;
-    const double y = m.code() - p.range - p.ionosphere.value - clocks_[system];
+                            ionosphere * ionosphere + parameters_.start_model_variance;
+    const double y = m.code() - p.code(m) - clocks_[system];
     Unknowns h = Unknowns::Zero();
     h.head<3>() = -p.to_satellite;
     h[3 + system] = 1.0;

@@ -42,14 +42,14 @@ void begin_state(FilterState& state, const Eigen::Vector3d& position,
     state.set(S::gradient_north, 0.0, parameters.gradient_sigma);
     state.set(S::gradient_east, 0.0, parameters.gradient_sigma);
   }
-  begin_map_states(state, Eigen::Vector2d::Zero(), parameters);
+  begin_map_states(state, parameters);
 }
 
-void predict_state(FilterState& state, double interval, const Eigen::Vector2d& lasting,
-                   const Ephemeris& ephemeris, const PppParameters& parameters) {
+void predict_state(FilterState& state, double interval, const Ephemeris& ephemeris,
+                   const PppParameters& parameters) {
   if (parameters.motion == Motion::kinematic) {
     move(state, interval, parameters);
-    predict_map_states(state, interval, lasting, parameters);
+    predict_map_states(state, interval, parameters);
   }
   auto P = state.P();
   const auto walk = [&](int index, double density) {
@@ -60,13 +60,18 @@ void predict_state(FilterState& state, double interval, const Eigen::Vector2d& l
     walk(S::gradient_north, parameters.gradient_walk);
     walk(S::gradient_east, parameters.gradient_walk);
   }
-  // Only the offsets that are in use have a variance (receiver_clocks.h).
-  for (int i = S::system_offset; i < S::system_offset + system_count; ++i) {
+  for (const int i : {S::zenith_ionosphere, S::ionosphere_north, S::ionosphere_east}) {
+    walk(i, parameters.ionosphere_walk);
+  }
+  // Only those that are in use have a variance.
+  for (int i = S::system_offset; i < S::fixed; ++i) {
     if (P(i, i) > 0.0) walk(i, parameters.system_offset_walk);
   }
   for (int i = S::fixed; i < state.size(); ++i) {
-    const Satellite satellite = state.ambiguities()[static_cast<std::size_t>(i - S::fixed)];
-    walk(i, std::hypot(parameters.ambiguity_walk, ephemeris.error_walk(satellite)));
+    const auto [satellite, part] = state.entries()[static_cast<std::size_t>(i - S::fixed)];
+    if (part == Part::ionosphere) walk(i, parameters.slant_ionosphere_walk);
+    if (part == Part::ambiguity)
+      walk(i, std::hypot(parameters.ambiguity_walk, ephemeris.error_walk(satellite)));
   }
 }
 

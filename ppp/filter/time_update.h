@@ -12,9 +12,9 @@ void begin_state(FilterState& state, const Eigen::Vector3d& position,
                  const PppParameters& parameters);
 
 // Predicts over `interval` s. A kinematic receiver moves with constant velocity under white
-// acceleration; delays, clock offsets and ambiguities are random walks. `lasting` is the variance
-// of the position, east and north, due to lasting errors, m^2.
-void predict_state(FilterState& state, double interval, const Eigen::Vector2d& lasting,
-                   const Ephemeris& ephemeris, const PppParameters& parameters);
+// acceleration; delays, clock offsets and ambiguities are random walks. The errors of orbits are
+// predicted where their size is known (satellite_tracker.h).
+void predict_state(FilterState& state, double interval, const Ephemeris& ephemeris,
+                   const PppParameters& parameters);
 
 }  // namespace maploop::ppp

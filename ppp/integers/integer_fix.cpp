@@ -20,8 +20,8 @@ constexpr double own_sigma = 0.05, own_distance = 0.15;
 
 IntegerFix::IntegerFix(const PppParameters& parameters)
     : parameters_(parameters), known_(satellite_slots), dx_(FilterState::capacity) {
-  candidates_.reserve(FilterState::max_ambiguities);
-  differenced_.reserve(FilterState::max_ambiguities);
+  candidates_.reserve(satellite_slots);
+  differenced_.reserve(satellite_slots);
 }
 
 void IntegerFix::reset() {
@@ -76,7 +76,7 @@ void IntegerFix::take(const FilterState& state, const std::vector<Tracked>& trac
     IntegerCandidate c;
     c.satellite = m.satellite;
     c.tracked = row.tracked;
-    c.index = state.ambiguity(m.satellite);
+    c.index = state.find(m.satellite, Part::ambiguity);
     c.length = speed_of_light / (m.first.frequency + m.second.frequency);
     c.wide_factor = m.second.frequency / (m.first.frequency - m.second.frequency);
     if (c.index >= 0 && t.predicted.calibrated && !t.predicted.in_shadow &&
@@ -117,7 +117,7 @@ const IntegerCandidate& IntegerFix::reference_of(const IntegerCandidate& c) cons
 double IntegerFix::difference(const FilterState& state, const IntegerCandidate& c) const {
   const IntegerCandidate& r = reference_of(c);
   const auto x = state.x();
-  // (24) of METHOD.md
+  // (23) of METHOD.md
   return (x[c.index] - x[r.index]) / c.length - c.wide_factor * (c.wide_lane - r.wide_lane);
 }
 

@@ -38,15 +38,19 @@ double delay(const Klobuchar& klobuchar, const Geodetic& site, double azimuth, d
   return speed_of_light * slant * (5e-9 + bump);
 }
 
+// Returns the angle at the earth's centre between the receiver and the crossing, rad.
+double pierce_angle(double elevation) {
+  return pi / 2.0 - elevation -
+         std::asin(earth_radius / (earth_radius + shell_height) * std::cos(elevation));
+}
+
 // A PiercePoint is where a ray crosses the shell, rad.
 struct PiercePoint {
   double latitude, longitude;
 };
 
 PiercePoint pierce_point(const Geodetic& site, double azimuth, double elevation) {
-  const double angle =
-      pi / 2.0 - elevation -
-      std::asin(earth_radius / (earth_radius + shell_height) * std::cos(elevation));
+  const double angle = pierce_angle(elevation);
   const double latitude = std::asin(std::sin(site.latitude) * std::cos(angle) +
                                     std::cos(site.latitude) * std::sin(angle) * std::cos(azimuth));
   const double sine = std::sin(angle) * std::sin(azimuth) / std::cos(latitude);
@@ -100,6 +104,10 @@ double delay(const IonisationLevel& level, const Geodetic& site, double azimuth,
 }
 
 }  // namespace
+
+double ionospheric_distance(double elevation) {
+  return 1e-3 * earth_radius * pierce_angle(elevation);
+}
 
 double ionospheric_slant(double elevation) {
   const double sine =

@@ -13,6 +13,9 @@ namespace maploop::ppp {
 double ionospheric_delay(const IonosphereCoefficients& coefficients, const Geodetic& site,
                          double azimuth, double elevation, GpsTime t);
 
+// Returns how far from the receiver the signal crosses that shell, 1000 km along the ground.
+double ionospheric_distance(double elevation);
+
 // Returns the slant delay relative to the vertical one, for a thin shell at 450 km as in NTCM-G.
 double ionospheric_slant(double elevation);
 

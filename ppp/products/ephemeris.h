@@ -35,6 +35,10 @@ class Ephemeris {
   // Returns what must be subtracted from the code of a carrier to make it consistent with the
   // clock, m.
   virtual double code_bias(Satellite satellite, char band, char attribute, GpsTime t) const = 0;
+  // These biases may leave an error that vanishes in the ionosphere-free combination of the codes
+  // of the system's two bands. Returns how much ionosphere it amounts to, m on GPS L1, or nothing
+  // if it is unknown.
+  virtual std::optional<double> ionosphere_bias(Satellite, GpsTime) const { return 0.0; }
   // Returns the same for the phase of a carrier, m. With the biases of two carriers their
   // ambiguities are integers, apart from what all satellites of a system have in common. Returns
   // nothing if it is unknown.

@@ -196,6 +196,29 @@ double PreciseEphemeris::code_bias(Satellite satellite, char band, char attribut
   return 0.0;
 }
 
+// Files that keep the clocks' own codes at zero contain only what other codes of the same carrier
+// differ by.
+std::optional<double> PreciseEphemeris::ionosphere_bias(Satellite satellite, GpsTime t) const {
+  const auto of_code = [](const SignalBias& bias) {
+    return bias.signal[0] == 'C' && bias.second.empty();
+  };
+  const auto& biases = biases_[satellite.slot()];
+  const bool known = std::any_of(biases.begin(), biases.end(), of_code) &&
+                     std::none_of(biases.begin(), biases.end(), [&](const SignalBias& bias) {
+                       return of_code(bias) && bias.metres == 0.0;
+                     });
+  if (known) return 0.0;
+  if (messages_ == nullptr || !messages_->at(satellite, t)) return {};
+  const auto [band1, band2] = bands_of(satellite.system);
+  const double f1 = carrier_frequency(satellite.system, band1);
+  const double f2 = carrier_frequency(satellite.system, band2);
+  if (f1 == 0.0 || f2 == 0.0) return {};
+  const double difference = messages_->code_bias(satellite, band1, ' ', t) -
+                            messages_->code_bias(satellite, band2, ' ', t);
+  const double l1 = carrier_frequency(System::gps, '1');
+  return difference / (l1 * l1 * (1.0 / (f1 * f1) - 1.0 / (f2 * f2)));
+}
+
 std::optional<double> PreciseEphemeris::phase_bias(Satellite satellite, char band, char attribute,
                                                    GpsTime t) const {
   const char name[3] = {'L', band, attribute};

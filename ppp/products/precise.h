@@ -18,6 +18,9 @@ class PreciseEphemeris : public Ephemeris {
   // The clocks of SP3 are used only if there are no clock files.
   PreciseEphemeris(const std::vector<OrbitFile>& orbits, const std::vector<ClockFile>& clocks,
                    const std::vector<BiasFile>& biases);
+  // The messages' group delays are used where the files do not tell how the codes of two bands
+  // differ. They must outlive this object.
+  void use_group_delays(const Ephemeris* messages) { messages_ = messages; }
 
   std::optional<SatelliteState> at(Satellite satellite, GpsTime t) const override;
   std::optional<double> clock(Satellite satellite, GpsTime t) const override;
@@ -28,6 +31,7 @@ class PreciseEphemeris : public Ephemeris {
   // Returns the error of linear interpolation between clocks that are minutes apart; zero if they
   // are at most a minute apart.
   double error_walk(Satellite satellite) const override;
+  std::optional<double> ionosphere_bias(Satellite satellite, GpsTime t) const override;
   bool has_phase_biases() const { return has_phase_biases_; }
   bool centre_of_mass() const override { return true; }
   std::string missing(Satellite satellite, GpsTime t) const override;
@@ -45,6 +49,7 @@ class PreciseEphemeris : public Ephemeris {
   std::array<std::vector<SignalBias>, satellite_slots> biases_;
   std::array<std::vector<ClockFile::WideLane>, satellite_slots> wide_lanes_;
   bool has_phase_biases_ = false;
+  const Ephemeris* messages_ = nullptr;
   Duration orbit_interval_{0};
   std::array<double, satellite_slots> clock_walk_{};  // m/sqrt(s)
 };

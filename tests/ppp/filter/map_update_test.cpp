@@ -45,7 +45,7 @@ FilterState state_at(const Eigen::Vector3d& enu = {0, 0, 0},
     state.set(S::position + i, p[i], 2.0);
     state.set(S::velocity + i, v[i], 1.0);
   }
-  begin_map_states(state, Eigen::Vector2d::Constant(0.5), {});
+  begin_map_states(state, {});
   return state;
 }
 
@@ -54,11 +54,10 @@ Eigen::Vector3d position_enu(const FilterState& state) {
   return rotation_enu_ecef(place) * (p - ecef_from_geodetic(place));
 }
 
-// Returns the covariance of the position with its lasting error, east and north.
+// Returns the covariance of the position, east and north.
 Eigen::Matrix2d covariance(const FilterState& state) {
   Eigen::Matrix<double, 2, S::fixed> H = Eigen::Matrix<double, 2, S::fixed>::Zero();
   H.middleCols<3>(S::position) = rotation_enu_ecef(place).topRows<2>();
-  H.middleCols<2>(S::lasting_error).setIdentity();
   return H * state.P().topLeftCorner<S::fixed, S::fixed>() * H.transpose();
 }
 
@@ -88,8 +87,8 @@ void expect_numerical_derivative(const FilterState& state, MakeRow&& make) {
 
 TEST(MapRows, AgreeWithNumericalDerivatives) {
   FilterState state = state_at({3, -4, 1}, {6, 7, 0.2});
-  state.add_ambiguity({System::gps, 5}, 3.0, 60.0);
-  for (int i = S::lasting_error; i <= S::lane_offset; ++i) state.x()[i] = 0.1 * i;
+  state.add({System::gps, 5}, Part::ambiguity, 3.0, 60.0);
+  for (int i = S::map_datum; i <= S::lane_offset; ++i) state.x()[i] = 0.1 * i;
   const MapFeedback f = road(2.2);
   expect_numerical_derivative(state, [&](const FilterState& s) { return line_row(s, f, -0.3); });
   expect_numerical_derivative(state,
@@ -120,10 +119,8 @@ TEST(MapUpdate, ManyLinesOfOneRoadAreNoBetterThanItsLaneAndTheDatum) {
   PppParameters p;
   FilterState state = state_at({3, 0, 0});
   for (int i = 0; i < 1000; ++i) apply(state, road(), p);
-  // This is the information of the prior (2 m, and 0.7 m lasting) and of the parts that are
-  // constant along the road.
-  const double known =
-      1.0 / (4.0 + 0.5) + 1.0 / (1.7 * 1.7 + p.map_datum_sigma * p.map_datum_sigma);
+  // This is the information of the prior (2 m) and of the parts that are constant along the road.
+  const double known = 1.0 / 4.0 + 1.0 / (1.7 * 1.7 + p.map_datum_sigma * p.map_datum_sigma);
   EXPECT_GT(sigma_east(state), 0.999 * std::sqrt(1.0 / known));
   EXPECT_LT(sigma_east(state), 1.01 * std::sqrt(1.0 / known));
 }
@@ -139,28 +136,24 @@ TEST(MapUpdate, AnotherRoadHasAnotherLaneButTheSameDatum) {
   }
   EXPECT_LT(sigma_east(other), 0.8 * sigma_east(same));
   const double with_datum =
-      std::sqrt(1.0 / (1.0 / 4.5 + 1.0 / (p.map_datum_sigma * p.map_datum_sigma)));
+      std::sqrt(1.0 / (1.0 / 4.0 + 1.0 / (p.map_datum_sigma * p.map_datum_sigma)));
   EXPECT_GT(sigma_east(other), with_datum);
 }
 
-TEST(MapUpdate, TheLaneIsForgottenWithTheWayAndTheLastingErrorWithTime) {
+TEST(MapUpdate, TheLaneIsForgottenWithTheWayAndNotWithTime) {
   PppParameters p;
   FilterState state = state_at({1, 0, 0});
   for (int i = 0; i < 100; ++i) apply(state, road(), p);
-  const double lane = state.x()[S::lane_offset], error = state.x()[S::lasting_error];
+  const double lane = state.x()[S::lane_offset];
   ASSERT_GT(std::abs(lane), 0.01);
-  ASSERT_GT(std::abs(error), 0.01);
-  const Eigen::Vector2d lasting(0.5, 0.5);
   FilterState standing = state;
   standing.x().segment<3>(S::velocity).setZero();
-  predict_map_states(standing, 60.0, lasting, p);
+  predict_map_states(standing, 60.0, p);
   EXPECT_EQ(standing.x()[S::lane_offset], lane);
-  predict_map_states(state, p.map_lane_length / state.x().segment<3>(S::velocity).norm(), lasting,
-                     p);
+  const double speed = state.x().segment<3>(S::velocity).norm();
+  predict_map_states(state, p.map_lane_length / speed, p);
   EXPECT_NEAR(state.x()[S::lane_offset] / lane, std::exp(-1.0), 1e-9);
-  for (int i = 0; i < 20; ++i) predict_map_states(state, p.map_lasting_time, lasting, p);
-  EXPECT_NEAR(state.x()[S::lasting_error], 0.0, 1e-6);
-  EXPECT_NEAR(state.P()(S::lasting_error, S::lasting_error), 0.5, 1e-6) << "as before any map";
+  for (int i = 0; i < 20; ++i) predict_map_states(state, p.map_lane_length / speed, p);
   EXPECT_NEAR(state.P()(S::lane_offset, S::lane_offset), 1.0, 1e-6);
 }
 

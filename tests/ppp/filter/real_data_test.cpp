@@ -131,13 +131,14 @@ TEST(PppFilter, OneFrequencyWithBroadcastOrbits) {
   const auto truth = maploop::testing::real_data() / "gnss/riverside_drive/groundtruth.csv.gz";
   const Accuracy a = score(riverside_drive(), options, truth.string(), 0.0);
   EXPECT_GE(a.coverage(), 0.99);
-  EXPECT_LT(a.horizontal_rmse, 0.85);
-  EXPECT_LT(a.horizontal_rmse_without_mean, 0.37);
-  EXPECT_LT(std::abs(a.mean_enu.x()), 0.15) << "west is what a wrong ionosphere looked like";
-  EXPECT_LT(a.nees, 4.0);
+  EXPECT_LT(a.horizontal_rmse, 0.25);
+  EXPECT_LT(a.horizontal_rmse_without_mean, 0.19);
+  EXPECT_LT(std::abs(a.mean_enu.y()), 0.10) << "the ionosphere is thicker to the south";
+  EXPECT_LT(a.up_rmse, 0.40);
+  EXPECT_LT(a.nees, 3.0);
 }
 
-// The ionosphere stays in the codes, so the height is too high, and the covariance accounts for it.
+// Then the whole ionosphere is estimated, and not only its difference from a model.
 TEST(PppFilter, ReportsMissingIonosphericCoefficientsOnOneFrequency) {
   MAPLOOP_REQUIRE_REAL_DATA();
   RunOptions options;
@@ -150,7 +151,8 @@ TEST(PppFilter, ReportsMissingIonosphericCoefficientsOnOneFrequency) {
     return line.find("no ionospheric coefficients") != std::string::npos;
   }));
   const Accuracy a = score(files, options, truth.string(), 0.0);
-  EXPECT_LT(a.horizontal_rmse, 1.15);
+  EXPECT_LT(a.horizontal_rmse, 0.33);
+  EXPECT_LT(a.up_rmse, 0.60);
   EXPECT_LT(a.nees, 3.0);
 }
 

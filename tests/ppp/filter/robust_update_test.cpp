@@ -25,7 +25,7 @@ class NineSatellites : public ::testing::Test {
     for (int i = 0; i < 3; ++i) state_.set(S::position + i, 0.0, 1.0);
     state_.set(S::clock, 0.0, 100.0);
     for (int s = 0; s < satellites; ++s) {
-      state_.add_ambiguity(gps(s + 1), 0.0, 0.01);
+      state_.add(gps(s + 1), Part::ambiguity, 0.0, 0.01);
       Eigen::Vector3d to_satellite(std::cos(0.7 * s), std::sin(0.7 * s), 0.3 + 0.2 * (s % 5));
       to_satellite.normalize();
       Row code;
@@ -37,7 +37,7 @@ class NineSatellites : public ::testing::Test {
       code.variance = 80.0;
       Row phase = code;
       phase.kind = RowKind::phase;
-      phase.add(state_.ambiguity(gps(s + 1)), 1.0);
+      phase.add(state_.find(gps(s + 1), Part::ambiguity), 1.0);
       phase.y = 7.0 - to_satellite.dot(moved) + 0.01 * normal_(random_);
       phase.sigma = 0.01;
       phase.variance = 1e-4;
@@ -104,7 +104,7 @@ TEST_F(NineSatellites, ACodeIsJudgedByItsSize) {
 // lost.
 TEST_F(NineSatellites, PhasesWithoutRedundancyMoveItLittleAndAreKept) {
   for (int lost = 5; lost < satellites; ++lost) {
-    state_.set(state_.ambiguity(gps(lost + 1)), 0.0, 60.0);
+    state_.set(state_.find(gps(lost + 1), Part::ambiguity), 0.0, 60.0);
     phase(lost).new_ambiguity = true;
   }
   phase(0).y += 8.0;
@@ -119,11 +119,11 @@ TEST_F(NineSatellites, PhasesWithoutRedundancyMoveItLittleAndAreKept) {
 
 // A phase with a new ambiguity cannot contradict the state.
 TEST_F(NineSatellites, ANewAmbiguityIsNeverAMisfit) {
-  state_.set(state_.ambiguity(gps(4)), 0.0, 60.0);
+  state_.set(state_.find(gps(4), Part::ambiguity), 0.0, 60.0);
   phase(3).y += 50.0;
   update_.apply(state_, rows_);
   EXPECT_EQ(left_out(), std::vector<int>{});
-  EXPECT_NEAR(state_.x()[state_.ambiguity(gps(4))], 50.0, 0.1);
+  EXPECT_NEAR(state_.x()[state_.find(gps(4), Part::ambiguity)], 50.0, 0.1);
 }
 
 }  // namespace
