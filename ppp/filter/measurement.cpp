@@ -68,7 +68,7 @@ double ionosphere_factor(const Carrier& carrier) {
 }
 
 double Measurement::weight1() const {
-  if (!dual()) return 1.0;
+  if (!dual()) return 1.0;  // (2) of METHOD.md
   const double a = first.frequency * first.frequency, b = second.frequency * second.frequency;
   return a / (a - b);  // (1) of METHOD.md
 }
