@@ -3,8 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
-#include "ppp/models/geodesy.h"
-
 namespace maploop::ppp {
 
 const PppSolution& MapAidedFilter::process(const Epoch& epoch) {
@@ -47,13 +45,13 @@ MapUse MapAidedFilter::apply(const MapFeedback& feedback) {
 // Returns the squared distance in standard deviations of the filter without the map, or nothing if
 // either filter has no position. The standard deviation of the difference itself is smaller
 // (Hausman, "Specification tests in econometrics", Econometrica 46, 1978), but almost zero in
-// directions about which the map has contributed little.
+// directions about which the map has contributed little. A wrong road may show in the height first:
+// it is what the ranges have most in common with.
 std::optional<double> MapAidedFilter::distance() const {
   const PppSolution &a = aided_.solution(), &f = map_free_.solution();
   if (a.status == PppStatus::none || f.status == PppStatus::none) return {};
-  const Eigen::Vector2d apart =
-      rotation_enu_ecef(geodetic_from_ecef(f.position)).topRows<2>() * (a.position - f.position);
-  return apart.dot(map_free_.level_covariance().inverse() * apart);
+  const Eigen::Vector3d apart = a.position - f.position;
+  return apart.dot(f.covariance.inverse() * apart);
 }
 
 // Lines contradict the filter, and it is unknown which side is wrong. What was learnt from the map

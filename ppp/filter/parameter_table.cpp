@@ -237,14 +237,14 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
        "Share of that error that persists after a turn: the side of the road that is driven on."},
       {"map_difference_gate", &P::map_difference_gate, 0.0, any_gate, "1", expert,
        "Distance of the position with the map from the one without beyond which the road may be "
-       "wrong (chi-square, 2 degrees of freedom); the default has a tail of 1 %."},
+       "wrong (chi-square, 3 degrees of freedom); the default has a tail of 1 %."},
       {"map_patience", &P::map_patience, 0.0, long_time, "s", expert,
        "Time for which the two positions are that far apart until the road is taken to be wrong."},
       {"map_most_gated", &P::map_most_gated, 1, 1e6, "lines", expert,
        "Road lines gated in a row after which the road is taken to be wrong."},
       {"map_agreement_gate", &P::map_agreement_gate, 0.0, any_gate, "1", expert,
        "Distance of the two positions up to which, if lines contradict the filter, only the map is "
-       "paused (chi-square, 2 degrees of freedom); the default contains 68 %."},
+       "paused (chi-square, 3 degrees of freedom); the default contains 68 %."},
       {"map_pause", &P::map_pause, 0.0, long_time, "s", expert,
        "Time without the map after a wrong road. It is doubled each time."},
       {"map_pause_doublings", &P::map_pause_doublings, 0, 20, "1", expert,

@@ -102,10 +102,10 @@ struct PppParameters {
   double map_datum_sigma = 1.0;    // m
   double map_lane_length = 300.0;  // m
   double map_lane_lasting = 0.3;
-  double map_difference_gate = 9.21;
+  double map_difference_gate = 11.34;
   double map_patience = 5.0;  // s
   int map_most_gated = 5;
-  double map_agreement_gate = 2.3;
+  double map_agreement_gate = 3.5;
   double map_pause = 10.0;  // s
   int map_pause_doublings = 4;
   double map_trusted_again = 300.0;  // s

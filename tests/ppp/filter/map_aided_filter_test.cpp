@@ -115,7 +115,7 @@ TEST(MapAidedFilter, AWrongRoadThatPassesEveryGateIsForgottenAtOnce) {
   EXPECT_EQ(filter.restorations(), 1U);
   EXPECT_TRUE(equal);
   EXPECT_GT(farthest, 1.0) << "or nothing was recovered from";
-  EXPECT_LT(farthest, 5.0);
+  EXPECT_LT(farthest, 7.5) << "mostly up: across the road it is 2 m";
 }
 
 TEST(MapAidedFilter, BehindAWrongRoadTheMapPausesAndComesBack) {
