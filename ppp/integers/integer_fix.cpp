@@ -70,7 +70,7 @@ void IntegerFix::take(const FilterState& state, const std::vector<Tracked>& trac
       wide_lanes_.restart(m.satellite);
       known_[m.satellite.slot()] = {};
     }
-    if (!m.integer || !row.active || row.doubtful) continue;
+    if (!m.integer || !row.active || row.doubtful || code == nullptr) continue;
     const double size = code->sigma * code->sigma;
     wide_lanes_.add(m, size / (m.noise_factor() * m.noise_factor()), code->variance / size);
     IntegerCandidate c;
