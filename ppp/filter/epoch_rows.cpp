@@ -124,8 +124,10 @@ Row EpochRows::code_row(std::size_t i, const Tracked& t, double factor, int refe
   const double sigma = one * glonass;
   const double sine = std::sin(t.predicted.elevation);
   const double direct = sigma * sigma / (sine * sine), all = sigma * sigma * factor * t.level;
-  row.variance = all * t.code_inflation;  // (11) of METHOD.md
-  row.sigma = std::sqrt(all);
+  const double noise =
+      state.find(m.satellite, Part::range_error) < 0 ? t.predicted.satellite.sigma : 0.0;
+  row.variance = all * t.code_inflation + noise * noise;  // (11) of METHOD.md
+  row.sigma = std::sqrt(all + noise * noise);
   row.delay = std::sqrt(std::max(0.0, all - direct) / 2.0);
   row.y += m.code() - row.delay;  // (7) of METHOD.md
   return row;

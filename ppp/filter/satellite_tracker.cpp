@@ -45,6 +45,11 @@ bool set_range_states(FilterState& state, const Tracked& t, double since, bool n
   }
   const double sigma = p.satellite.sigma;
   const int error = state.find(satellite, Part::range_error);
+  // Corrections of a stream are renewed all the time: what is left of the error is noise.
+  if (p.satellite.source != 0) {
+    state.remove(satellite, Part::range_error);
+    return true;
+  }
   if (error < 0) return sigma == 0.0 || state.add(satellite, Part::range_error, 0.0, sigma) >= 0;
   state.forget(error, std::exp(-since / parameters.range_error_time), sigma * sigma);
   if (new_message) state.set(error, state.x()[error], sigma);
