@@ -122,7 +122,6 @@ std::optional<Measurement> measure(Satellite satellite, std::span<const Signal> 
       c->code -= ephemeris.code_bias(satellite, c->band, c->attribute, t);
     }
   }
-  m.ionosphere_bias = ephemeris.ionosphere_bias(satellite, t);
   if (!m.dual() || m.phase() == 0.0) return m;
   const auto bias1 = ephemeris.phase_bias(satellite, m.first.band, m.first.phase_attribute, t);
   const auto bias2 = ephemeris.phase_bias(satellite, m.second.band, m.second.phase_attribute, t);

@@ -29,8 +29,7 @@ double ionosphere_factor(const Carrier& carrier);
 
 struct Measurement {
   Satellite satellite;
-  Carrier first, second;                  // second.frequency is 0 with one frequency
-  std::optional<double> ionosphere_bias;  // m on GPS L1, that of the codes (Ephemeris)
+  Carrier first, second;   // second.frequency is 0 with one frequency
   bool integer = false;    // the biases of both phases are removed: their ambiguities are integers
   std::size_t report = 0;  // index into the epoch's reports
 

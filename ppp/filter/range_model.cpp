@@ -18,16 +18,20 @@ double shapiro_delay(double satellite_radius, double receiver_radius, double dis
 }  // namespace
 
 double PredictedRange::code(const Measurement& m) const {
-  const double common = range + m.weight1() * antennas[0];
-  return m.dual() ? common + m.weight2() * antennas[1]
-                  : common + ionosphere_factor(m.first) * ionosphere.value;
+  return with_antennas(m) + ionosphere_of(m);
 }
 
 double PredictedRange::phase(const Measurement& m) const {
   const double turn = m.weight1() * m.first.wavelength + m.weight2() * m.second.wavelength;
-  const double common =
-      range + m.weight1() * antennas[0] + m.weight2() * antennas[1] + wind_up * turn;
-  return m.dual() ? common : common - ionosphere_factor(m.first) * ionosphere.value;
+  return with_antennas(m) + wind_up * turn - ionosphere_of(m);
+}
+
+double PredictedRange::with_antennas(const Measurement& m) const {
+  return range + m.weight1() * antennas[0] + m.weight2() * antennas[1];
+}
+
+double PredictedRange::ionosphere_of(const Measurement& m) const {
+  return m.dual() ? 0.0 : ionosphere_factor(m.first) * ionosphere.value;
 }
 
 void RangeModel::begin(GpsTime t, const Eigen::Vector3d& marker) {

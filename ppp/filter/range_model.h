@@ -54,6 +54,10 @@ struct PredictedRange {
   // ionosphere-free combination, otherwise with the model's ionosphere.
   double code(const Measurement& m) const;
   double phase(const Measurement& m) const;
+
+ private:
+  double with_antennas(const Measurement& m) const;
+  double ionosphere_of(const Measurement& m) const;
 };
 
 class RangeModel {

@@ -33,23 +33,24 @@ void open_ambiguity(FilterState& state, Satellite satellite, double sigma) {
 
 // Adds the states of the satellite's ionosphere and of its orbit and clock, or predicts the latter
 // over `since` s. Returns false if there is no room.
-bool set_range_states(FilterState& state, const Tracked& t, double since, bool new_message,
+bool set_range_states(FilterState& state, const Tracked& tracked, GpsTime t, double since,
+                      bool new_message, const Ephemeris& ephemeris,
                       const PppParameters& parameters) {
-  const Satellite satellite = t.measurement.satellite;
-  const PredictedRange& p = t.predicted;
-  if (!t.measurement.dual() && state.find(satellite, Part::ionosphere) < 0) {
+  const Satellite satellite = tracked.measurement.satellite;
+  const PredictedRange& p = tracked.predicted;
+  if (!tracked.measurement.dual() && state.find(satellite, Part::ionosphere) < 0) {
     const double own = parameters.slant_ionosphere_share * p.ionosphere.sigma;
-    const std::optional<double> bias = t.measurement.ionosphere_bias;
+    const std::optional<double> bias = ephemeris.ionosphere_bias(satellite, t);
     const double sigma = std::hypot(own, bias ? 0.0 : parameters.unknown_bias_sigma);
     if (state.add(satellite, Part::ionosphere, bias.value_or(0.0), sigma) < 0) return false;
   }
-  const double sigma = p.satellite.sigma;
-  const int error = state.find(satellite, Part::range_error);
   // Corrections of a stream are renewed all the time: what is left of the error is noise.
   if (p.satellite.source != 0) {
     state.remove(satellite, Part::range_error);
     return true;
   }
+  const double sigma = p.satellite.sigma;
+  const int error = state.find(satellite, Part::range_error);
   if (error < 0) return sigma == 0.0 || state.add(satellite, Part::range_error, 0.0, sigma) >= 0;
   state.forget(error, std::exp(-since / parameters.range_error_time), sigma * sigma);
   if (new_message) state.set(error, state.x()[error], sigma);
@@ -92,7 +93,7 @@ std::vector<Tracked>& SatelliteTracker::track(const std::vector<Measurement>& me
     }
     if (tracked.new_source) open_ambiguity(state, m.satellite, parameters.source_change_sigma);
     const bool new_message = memory.message != predicted->satellite.message;
-    if (!set_range_states(state, tracked, since, new_message, parameters)) {
+    if (!set_range_states(state, tracked, t, since, new_message, model.ephemeris(), parameters)) {
       report.refused = PppRefusal::too_many;
       continue;
     }

@@ -138,7 +138,7 @@ void write_files(const PppOptions& options, const gnss::PppRun& run, const gnss:
   if (!options.json.empty()) write_json_file(options.json, gnss::to_json(run, r, on_map));
 }
 
-// Of a folder, what is known of its files.
+// Reads a file, or those files of a folder whose kind is known.
 void read(const std::filesystem::path& path, ppp::GnssFiles& files) {
   if (!std::filesystem::is_directory(path)) {
     ppp::read_into(path, files);
