@@ -28,7 +28,7 @@ class NorthwardDrive : public ::testing::Test {
 
   static ppp::GpsTime at(int second) { return ppp::gps_week_time(2100, week_second + second); }
   static Eigen::Vector3d place(int second) {
-    return origin_ + R_.transpose() * Eigen::Vector3d(0.0, 10.0 * second, 0.0);
+    return origin + R_.transpose() * Eigen::Vector3d(0.0, 10.0 * second, 0.0);
   }
   static ppp::PppSolution solution(int second, double east, double sigma) {
     ppp::PppSolution s;
@@ -39,8 +39,8 @@ class NorthwardDrive : public ::testing::Test {
     return s;
   }
 
-  static inline const Eigen::Vector3d origin_{3582104.7678, 532590.1740, 5232755.1436};
-  static inline const Eigen::Matrix3d R_ = ppp::rotation_enu_ecef(ppp::geodetic_from_ecef(origin_));
+  static inline const Eigen::Vector3d origin{3582104.7678, 532590.1740, 5232755.1436};
+  static inline const Eigen::Matrix3d R_ = ppp::rotation_enu_ecef(ppp::geodetic_from_ecef(origin));
   const maploop::testing::TemporaryFolder folder_;
 };
 

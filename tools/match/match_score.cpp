@@ -59,9 +59,10 @@ Labels read_labels(const std::filesystem::path& file) {
 SegmentLinks::SegmentLinks(const mapmatch::RoadNetwork& network) {
   for (std::uint32_t link = 0; link < network.size(); ++link) {
     const std::uint32_t first = network.link(link).first_vertex;
-    for (std::uint32_t v = first; v + 1 < first + network.link(link).vertex_count; ++v)
+    for (std::uint32_t v = first; v + 1 < first + network.link(link).vertex_count; ++v) {
       for (const bool forward : {true, false})
         links_[network.nodes({link, forward}, v)] = {link, forward};
+    }
   }
 }
 

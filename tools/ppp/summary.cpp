@@ -79,9 +79,10 @@ std::string integer_line(const Solutions& solutions) {
   for (const PppSolution& s : solutions) ++counts[static_cast<std::size_t>(s.integers.outcome)];
   std::string line =
       fmt::format("integer ambiguities in {} of {} epochs;", counts.back(), solutions.size());
-  for (std::size_t i = 0; i + 1 < counts.size(); ++i)
+  for (std::size_t i = 0; i + 1 < counts.size(); ++i) {
     line += fmt::format("{} {} {}", i > 0 ? "," : "", counts[i],
                         to_string(static_cast<IntegerOutcome>(i)));
+  }
   return line;
 }
 
@@ -101,18 +102,20 @@ std::vector<std::string> summary_lines(const PppRun& run, const PppResult& r, do
                   run.seconds(), 1e3 * run.seconds() / static_cast<double>(epochs))};
   if (run.setup().parameters().integers && run.setup().precise() && !run.setup().one_frequency())
     lines.push_back(integer_line(r.solutions));
-  if (run.setup().never_converges())
+  if (run.setup().never_converges()) {
     lines.push_back(
         "on one frequency with broadcast orbits the position cannot converge to 0.1 m: metres "
         "remain");
+  }
   if (r.score) append_score(lines, r, integrity_risk);
   if (on_map) lines.push_back(map_line(run.filter(), r.matched, epochs));
   for (const auto& line : run.setup().missing_models()) lines.push_back(line);
   for (const auto& line : run.missing_products()) lines.push_back(line);
   for (const auto& o : files.observations) {
-    if (o.refused > 0)
+    if (o.refused > 0) {
       lines.push_back(
           fmt::format("{}: {} refused, first: {}", o.file, o.refused, o.refusals.front()));
+    }
   }
   if (leap_seconds(r.solutions.back().time).out_of_date)
     lines.push_back("the table of leap seconds ends before these data: UTC may be a second off");

@@ -90,9 +90,10 @@ void add_scores(json& j, const ReplayResult& r) {
     j["links"]["lacking"] = {{"fixes", r.links->lacking_fixes},
                              {"p_said", r.links->lacking_p_sum / fixes}};
   }
-  for (std::size_t i = 0; i < r.feedbacks.size(); ++i)
+  for (std::size_t i = 0; i < r.feedbacks.size(); ++i) {
     if (r.feedbacks[i] > 0)
       j["map_feedback"][std::string(to_string(static_cast<FeedbackReason>(i)))] = r.feedbacks[i];
+  }
   if (const auto& late = r.vehicle.imu_delay; late.known())
     j["imu_delay_left"] = {{"s", late.delay()}, {"sigma_s", late.sigma()}};
   for (const fusion::CalibratedProperty& c : r.vehicle.calibration) {

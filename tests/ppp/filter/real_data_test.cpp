@@ -256,7 +256,7 @@ TEST(PppRun, ReportsWhatIsMissing) {
   files.orbits.clear();
   files.navigation.clear();
   try {
-    PppRun(files, {});
+    const PppRun run(files, {});
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("no orbits: add an SP3"), std::string::npos);
