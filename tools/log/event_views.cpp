@@ -9,6 +9,7 @@
 #include "msgs/lcm/checked_decode.h"
 #include "msgs/lcm/conversions.h"
 #include "sensors/image/jpeg.h"
+#include "tools/log/match_scene.h"
 
 namespace maploop::lcm_log {
 namespace {
@@ -63,12 +64,20 @@ class Viewed {
                                   rotation_enu_body(s->attitude).transpose() * s->velocity_enu,
                                   pose_covariance(*s)});
     show("/tf", FrameTransform{s->stamp, "map", "body", pose});
+    show("/tf", FrameTransform{s->stamp, "map", "body_enu", {.position = s->position_enu}});
   }
   void odom_state() const {
     const auto s = message_of<maploop_lcm::odom_state_t>(event_, schema_);
     if (!s || s->status == NavStatus::uninitialized) return;
     show("/odom/pose",
          PoseInFrame{s->stamp, "odom", pose_of(s->position, s->attitude), s->velocity_body});
+  }
+  void map_match() const {
+    maploop_lcm::map_match_t match{};
+    if (schema::checked_decode(schema_, event_.data, match) &&
+        match.refusal == maploop_lcm::map_match_t::NONE) {
+      show("/map/road", match_scene(match));
+    }
   }
   void gnss_fix() const {
     const auto fix = message_of<maploop_lcm::gnss_fix_t>(event_, schema_);
@@ -129,6 +138,7 @@ struct ChannelView {
 constexpr std::array shown_channels{
     ChannelView{channel_names::nav_state, &Viewed::nav_state},
     ChannelView{channel_names::odom_state, &Viewed::odom_state},
+    ChannelView{channel_names::map_match, &Viewed::map_match},
     ChannelView{channel_names::gnss_fix, &Viewed::gnss_fix},
     ChannelView{channel_names::truth, &Viewed::truth},
     ChannelView{channel_names::imu, &Viewed::imu},

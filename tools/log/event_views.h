@@ -13,14 +13,17 @@
 
 namespace maploop::lcm_log {
 
-using View = std::variant<foxglove::LocationFix, foxglove::PoseInFrame, foxglove::FrameTransform,
-                          foxglove::CompressedImage, foxglove::PointCloud, ImuSample>;
+using View =
+    std::variant<foxglove::LocationFix, foxglove::PoseInFrame, foxglove::FrameTransform,
+                 foxglove::CompressedImage, foxglove::PointCloud, foxglove::SceneUpdate, ImuSample>;
 
 // Calls use(topic, view) for each topic that shows what an event contains; the view is valid during
 // the call:
 //   NAV_STATE    /map/fix LocationFix of the inertial unit, /map/pose PoseInFrame "map" (east,
 //                north, up from the drive's origin), and /tf FrameTransform from "map" to "body"
+//                and to "body_enu", which is at the body and has the axes of "map"
 //   ODOM_STATE   /odom/pose PoseInFrame "odom"
+//   MAP_MATCH    /map/road SceneUpdate (match_scene.h)
 //   GNSS_FIX     /gnss/fix LocationFix
 //   TRUTH        /truth/fix LocationFix
 //   IMU          /imu ImuSample

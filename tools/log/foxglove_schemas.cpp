@@ -12,9 +12,10 @@ namespace {
 using nlohmann::json;
 
 const json number = {{"type", "number"}}, text = {{"type", "string"}},
-           integer = {{"type", "integer"}};
-constexpr int float32 = 7;           // a number of PointCloud
-constexpr int known_covariance = 3;  // a number of LocationFix
+           integer = {{"type", "integer"}}, yes_or_no = {{"type", "boolean"}};
+constexpr int float32 = 7;                    // a number of PointCloud
+constexpr int known_covariance = 3;           // a number of LocationFix
+constexpr int line_strip = 0, line_loop = 1;  // numbers of SceneUpdate
 const json bytes = {{"type", "string"}, {"contentEncoding", "base64"}};
 
 json list_of(json item) {
@@ -97,6 +98,86 @@ json point_fields() {
   return fields;
 }
 
+template <class T>
+Property<T> constant(std::string name, json schema, json value) {
+  return {std::move(name), std::move(schema),
+          [value = std::move(value)](const T&) { return value; }};
+}
+
+// A list of which there is no entry.
+template <class T>
+Property<T> none(std::string name) {
+  return constant<T>(std::move(name), list_of({{"type", "object"}}), json::array());
+}
+
+const Object<SceneColor>& color_object() {
+  static const Object<SceneColor> object{
+      {"r", number, [](const SceneColor& c) { return json(c.red); }},
+      {"g", number, [](const SceneColor& c) { return json(c.green); }},
+      {"b", number, [](const SceneColor& c) { return json(c.blue); }},
+      constant<SceneColor>("a", number, 1.0)};
+  return object;
+}
+
+const Object<SceneLine>& line_object() {
+  static const Object<SceneLine> object{
+      {"type", integer,
+       [](const SceneLine& line) { return json(line.closed ? line_loop : line_strip); }},
+      constant<SceneLine>("pose", pose_object().schema(), pose_object().of({})),
+      constant<SceneLine>("thickness", number, scene_line_width),
+      constant<SceneLine>("scale_invariant", yes_or_no, false),
+      {"points", list_of(vector_object().schema()),
+       [](const SceneLine& line) {
+         json points = json::array();
+         for (const Eigen::Vector3d& p : line.points) points.push_back(vector_object().of(p));
+         return points;
+       }},
+      part<SceneLine, SceneColor>(
+          "color", color_object(), [](const SceneLine& line) -> auto& { return line.color; }),
+      none<SceneLine>("colors"),
+      none<SceneLine>("indices")};
+  return object;
+}
+
+const Object<SceneText>& text_object() {
+  static const SceneColor grey{0.5, 0.5, 0.5};
+  static const Object<SceneText> object{
+      {"pose", pose_object().schema(),
+       [](const SceneText& t) { return pose_object().of({.position = t.place}); }},
+      constant<SceneText>("billboard", yes_or_no, true),
+      constant<SceneText>("font_size", number, scene_text_height),
+      constant<SceneText>("scale_invariant", yes_or_no, false),
+      constant<SceneText>("color", color_object().schema(), color_object().of(grey)),
+      {"text", text, [](const SceneText& t) { return json(t.text); }}};
+  return object;
+}
+
+const Object<SceneUpdate>& entity_object() {
+  using Scene = SceneUpdate;
+  static const Object<Scene> object{
+      timestamp<Scene>(),
+      frame_id<Scene>(),
+      {"id", text, [](const Scene& s) { return json(s.id); }},
+      constant<Scene>("lifetime", time_object().schema(), time_object().of(Time{})),
+      constant<Scene>("frame_locked", yes_or_no, false),
+      none<Scene>("metadata"),
+      none<Scene>("arrows"),
+      none<Scene>("cubes"),
+      none<Scene>("spheres"),
+      none<Scene>("cylinders"),
+      none<Scene>("triangles"),
+      none<Scene>("models"),
+      {"lines", list_of(line_object().schema()),
+       [](const Scene& s) {
+         json lines = json::array();
+         for (const SceneLine& line : s.lines) lines.push_back(line_object().of(line));
+         return lines;
+       }},
+      {"texts", list_of(text_object().schema()),
+       [](const Scene& s) { return json::array({text_object().of(s.text)}); }}};
+  return object;
+}
+
 }  // namespace
 
 const Object<LocationFix>& LocationFix::object() {
@@ -159,6 +240,14 @@ const Object<PointCloud>& PointCloud::object() {
       {"fields", list_of(point_field_object().schema()),
        [](const Cloud&) { return point_fields(); }},
       {"data", bytes, [](const Cloud& c) { return json(base64(c.points)); }}};
+  return object;
+}
+
+const Object<SceneUpdate>& SceneUpdate::object() {
+  static const Object<SceneUpdate> object{
+      none<SceneUpdate>("deletions"),
+      {"entities", list_of(entity_object().schema()),
+       [](const SceneUpdate& s) { return json::array({entity_object().of(s)}); }}};
   return object;
 }
 

@@ -99,4 +99,32 @@ struct PointCloud {
   std::span<const std::uint8_t> points;
 };
 
+struct SceneColor {
+  double red = 0.0, green = 0.0, blue = 0.0;  // 0 to 1
+};
+
+struct SceneLine {
+  std::vector<Eigen::Vector3d> points;  // m
+  SceneColor color;
+  bool closed = false;  // whether the last point is joined to the first
+};
+
+struct SceneText {
+  Eigen::Vector3d place;  // m
+  std::string text;       // faces the viewer
+};
+
+// This is one entity, which replaces the one of that id that was sent before.
+struct SceneUpdate {
+  static constexpr std::string_view name = "foxglove.SceneUpdate";
+  static const Object<SceneUpdate>& object();
+  Time stamp;
+  std::string_view frame, id;
+  std::vector<SceneLine> lines;
+  SceneText text;
+};
+
+inline constexpr double scene_line_width = 0.15;  // m
+inline constexpr double scene_text_height = 0.8;  // m
+
 }  // namespace maploop::foxglove

@@ -98,6 +98,47 @@ struct Written<PointCloud> {
 };
 
 template <>
+struct Written<SceneUpdate> {
+  static const RosType& type() { return markers_type; }
+  static std::string message(const SceneUpdate& scene) {
+    std::string markers = number(static_cast<std::uint32_t>(scene.lines.size() + 1));
+    std::int32_t id = 0;
+    for (const SceneLine& line : scene.lines) markers += of_line(scene, line, id++);
+    constexpr SceneColor grey{0.5, 0.5, 0.5};
+    constexpr std::int32_t text_view_facing = 9;
+    return markers + start(scene, id, text_view_facing, scene.text.place, scene_text_height, grey) +
+           number(none) + number(none) + text(scene.text.text) + end();
+  }
+
+ private:
+  static constexpr std::uint32_t none = 0;  // entries of a list
+  static std::string of_line(const SceneUpdate& scene, const SceneLine& line, std::int32_t id) {
+    constexpr std::int32_t line_strip = 4;
+    std::string points;
+    for (const Eigen::Vector3d& p : line.points) points += numbers(p);
+    if (line.closed && !line.points.empty()) points += numbers(line.points.front());
+    const auto count = static_cast<std::uint32_t>(points.size() / sizeof(Eigen::Vector3d));
+    return start(scene, id, line_strip, Eigen::Vector3d::Zero(), scene_line_width, line.color) +
+           number(count) + points + number(none) + text("") + end();
+  }
+  // From the header to whether the frame is locked; `scale` is a line's width or a text's height.
+  static std::string start(const SceneUpdate& scene, std::int32_t id, std::int32_t type,
+                           const Eigen::Vector3d& place, double scale, const SceneColor& color) {
+    constexpr std::int32_t add = 0;
+    constexpr std::uint8_t no = 0;
+    std::string rgba;
+    for (const double part : {color.red, color.green, color.blue, 1.0})
+      rgba += number(static_cast<float>(part));
+    return header(scene.stamp, scene.frame) + text(scene.id) + number(id) + number(type) +
+           number(add) + numbers(place) + rotation(Eigen::Quaterniond::Identity()) +
+           numbers(Eigen::Vector3d::Constant(scale).eval()) + rgba + number(std::int64_t{0}) +
+           number(no);
+  }
+  // Neither a mesh nor its materials.
+  static std::string end() { return text("") + number(std::uint8_t{0}); }
+};
+
+template <>
 struct Written<ImuSample> {
   static const RosType& type() { return imu_type; }
   static std::string message(const ImuSample& s) {

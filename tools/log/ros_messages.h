@@ -11,7 +11,7 @@
 namespace maploop::lcm_log {
 
 // Returns the type in which a view is written: NavSatFix, Odometry, TFMessage, CompressedImage,
-// PointCloud2 or Imu.
+// PointCloud2, MarkerArray or Imu.
 const RosType& ros_type(const View& view);
 
 // Returns the message. Angular velocity and specific force that a reduced inertial unit does not

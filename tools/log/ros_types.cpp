@@ -12,6 +12,10 @@ namespace maploop::lcm_log {
   MAPLOOP_ROS_TYPE("geometry_msgs/Vector3") "float64 x\nfloat64 y\nfloat64 z\n"
 #define MAPLOOP_ROS_QUATERNION \
   MAPLOOP_ROS_TYPE("geometry_msgs/Quaternion") "float64 x\nfloat64 y\nfloat64 z\nfloat64 w\n"
+#define MAPLOOP_ROS_POSE                                                                   \
+  MAPLOOP_ROS_TYPE("geometry_msgs/Pose")                                                   \
+  "geometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n" MAPLOOP_ROS_TYPE( \
+      "geometry_msgs/Point") "float64 x\nfloat64 y\nfloat64 z\n" MAPLOOP_ROS_QUATERNION
 
 const RosType lcm_message_type{"maploop/LcmMessage", "f43a8e1b362b75baa741461b46adc7e0",
                                "uint8[] data\n"};
@@ -34,10 +38,7 @@ const RosType odometry_type{
     "geometry_msgs/TwistWithCovariance twist\n" MAPLOOP_ROS_HEADER
     MAPLOOP_ROS_TYPE("geometry_msgs/PoseWithCovariance")
     "geometry_msgs/Pose pose\nfloat64[36] covariance\n"
-    MAPLOOP_ROS_TYPE("geometry_msgs/Pose")
-    "geometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n"
-    MAPLOOP_ROS_TYPE("geometry_msgs/Point") "float64 x\nfloat64 y\nfloat64 z\n"
-    MAPLOOP_ROS_QUATERNION MAPLOOP_ROS_TYPE("geometry_msgs/TwistWithCovariance")
+    MAPLOOP_ROS_POSE MAPLOOP_ROS_TYPE("geometry_msgs/TwistWithCovariance")
     "geometry_msgs/Twist twist\nfloat64[36] covariance\n"
     MAPLOOP_ROS_TYPE("geometry_msgs/Twist")
     "geometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n" MAPLOOP_ROS_VECTOR};
@@ -64,6 +65,21 @@ const RosType point_cloud_type{
     "uint8 FLOAT32=7\nuint8 FLOAT64=8\nstring name\nuint32 offset\nuint8 datatype\n"
     "uint32 count\n"};
 
+const RosType markers_type{
+    "visualization_msgs/MarkerArray", "d155b9ce5188fbaf89745847fd5882d7",
+    "visualization_msgs/Marker[] markers\n"
+    MAPLOOP_ROS_TYPE("visualization_msgs/Marker")
+    "uint8 ARROW=0\nuint8 CUBE=1\nuint8 SPHERE=2\nuint8 CYLINDER=3\nuint8 LINE_STRIP=4\n"
+    "uint8 LINE_LIST=5\nuint8 CUBE_LIST=6\nuint8 SPHERE_LIST=7\nuint8 POINTS=8\n"
+    "uint8 TEXT_VIEW_FACING=9\nuint8 MESH_RESOURCE=10\nuint8 TRIANGLE_LIST=11\nuint8 ADD=0\n"
+    "uint8 MODIFY=0\nuint8 DELETE=2\nuint8 DELETEALL=3\nstd_msgs/Header header\nstring ns\n"
+    "int32 id\nint32 type\nint32 action\ngeometry_msgs/Pose pose\ngeometry_msgs/Vector3 scale\n"
+    "std_msgs/ColorRGBA color\nduration lifetime\nbool frame_locked\n"
+    "geometry_msgs/Point[] points\nstd_msgs/ColorRGBA[] colors\nstring text\n"
+    "string mesh_resource\nbool mesh_use_embedded_materials\n" MAPLOOP_ROS_HEADER
+    MAPLOOP_ROS_POSE MAPLOOP_ROS_VECTOR
+    MAPLOOP_ROS_TYPE("std_msgs/ColorRGBA") "float32 r\nfloat32 g\nfloat32 b\nfloat32 a\n"};
+
 const RosType imu_type{
     "sensor_msgs/Imu", "6a62c6daae103f4ff57a132d6f95cec2",
     "std_msgs/Header header\ngeometry_msgs/Quaternion orientation\n"
@@ -76,5 +92,6 @@ const RosType imu_type{
 #undef MAPLOOP_ROS_HEADER
 #undef MAPLOOP_ROS_VECTOR
 #undef MAPLOOP_ROS_QUATERNION
+#undef MAPLOOP_ROS_POSE
 
 }  // namespace maploop::lcm_log

@@ -15,6 +15,6 @@ struct RosType {
 extern const RosType lcm_message_type;
 
 extern const RosType nav_sat_fix_type, odometry_type, transforms_type, compressed_image_type,
-    point_cloud_type, imu_type;
+    point_cloud_type, markers_type, imu_type;
 
 }  // namespace maploop::lcm_log

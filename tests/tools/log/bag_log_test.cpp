@@ -24,14 +24,17 @@ namespace {
 using nlohmann::json;
 using sensors::MessageReader;
 
-// The log has one message of every sensor, also an image and a cloud, and one of an unknown type.
+// The log has one message of every sensor, also an image and a cloud, one of the map matcher, and
+// one of an unknown type.
 class BagLogTest : public LogToolsTest, public ::testing::WithParamInterface<const char*> {
  protected:
   BagLogTest() {
     const path sensors_log = maploop::testing::source("tests/fuzz/corpus/recording/sensors.lcmlog");
     std::ostringstream said;
-    const std::vector<path> both{log_, sensors_log};
-    merge(both, types_, all_, said);
+    const path match_log = folder_.path() / "match.lcmlog";
+    record(match_log, {{"MAP_MATCH", test_start, map_match_bytes()}});
+    const std::vector<path> logs{log_, sensors_log, match_log};
+    merge(logs, types_, all_, said);
   }
   std::string converted(const std::string& compression = "lz4") {
     std::ostringstream said;
@@ -95,6 +98,7 @@ TEST_P(BagLogTest, IsReadByRos) {
     EXPECT_EQ(theirs["md5"], theirs["stated"]);
   }
   EXPECT_TRUE(contains(read["topics"]["/tf_static"]["text"], "child_frame_id: \"velo\""));
+  EXPECT_TRUE(contains(read["topics"]["/map/road"]["text"], "Main Street, way 7: 0.75"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Compressions, BagLogTest, ::testing::Values("none", "lz4", "bz2"));
@@ -139,7 +143,8 @@ TEST_F(BagLogTest, ShowsWhatWasSentInTheTypesOfRos) {
       EXPECT_EQ(decoded(sensors::RosTwist{}).header.frame, "map");
     } else if (m.topic->name == "/tf") {
       const auto transform = decoded(sensors::RosTransforms{}).transforms.at(0);
-      EXPECT_EQ(transform.parent + " " + transform.child, "map body");
+      EXPECT_EQ(transform.parent + " " + transform.child,
+                seen["/tf"] % 2 == 1 ? "map body" : "map body_enu");
       EXPECT_EQ(transform.T_parent_child.translation().z(), 3.0);
     } else if (m.topic->name == "/camera/left") {
       EXPECT_EQ(decoded(sensors::RosCompressedImage{}).format, "jpeg");

@@ -24,7 +24,7 @@ std::map<std::string, std::string> written_topics() {
                                             {"MAP_MATCH", "maploop_lcm.map_match_t"}};
   for (const auto channel :
        {channel_names::nav_state, channel_names::odom_state, channel_names::gnss_fix,
-        channel_names::truth, channel_names::velodyne}) {
+        channel_names::truth, channel_names::velodyne, channel_names::map_match}) {
     for (const FoxgloveTopic& topic : foxglove_topics(channel))
       topics.emplace(topic.name, topic.schema_name);
   }

@@ -109,12 +109,14 @@ TEST_F(LogConvert, RecoversWhatACutFileHas) {
   for (std::size_t i = 0; i < read.size(); ++i) EXPECT_EQ(read[i], events[i]);
 }
 
-// It has one message of every sensor, also an image and a cloud.
+// It has one message of every sensor, also an image and a cloud, and one of the map matcher.
 TEST_F(LogConvert, IsReadByOthersWhoFindFoxglovesSchemas) {
   const path sensors_log = maploop::testing::source("tests/fuzz/corpus/recording/sensors.lcmlog");
   std::ostringstream said;
-  const std::vector<path> both{log_, sensors_log};
-  merge(both, types_, mcap_, said);
+  const path match_log = folder_.path() / "match.lcmlog";
+  record(match_log, {{"MAP_MATCH", test_start, map_match_bytes()}});
+  const std::vector<path> logs{log_, sensors_log, match_log};
+  merge(logs, types_, mcap_, said);
   const auto others = maploop::testing::run(
       {maploop::testing::source("tests/sensors/bag/other-readers"), mcap_.string()});
   if (others.status == 77) GTEST_SKIP() << others.error;
@@ -129,7 +131,7 @@ TEST_F(LogConvert, IsReadByOthersWhoFindFoxglovesSchemas) {
   }
   EXPECT_EQ(topics.size(), ours.size());
   for (const char* shown : {"/camera/left", "/camera/right", "/gnss/fix", "/map/fix", "/map/pose",
-                            "/tf", "/tf_static", "/truth/fix", "/velodyne"})
+                            "/map/road", "/tf", "/tf_static", "/truth/fix", "/velodyne"})
     EXPECT_EQ(topics[shown]["strange"], "") << shown;
 }
 

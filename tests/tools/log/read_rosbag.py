@@ -3,7 +3,7 @@
   python3 read_rosbag.py FILE
 
 {"compression": ..., "topics": {"/imu": {"type": ..., "messages": ..., "md5": ..., "first": "ns", "text": ...}}}:
-"md5" is that of the definition in the bag, as ROS computes it; "text" is a part of its last message. A bag without an
+"md5" is that of the definition in the bag, as ROS computes it; "text" is its last message, without the middle of a long one. A bag without an
 index is refused. Exit status 77: skipped, with the reason.
 """
 
@@ -29,6 +29,7 @@ with rosbag.Bag(sys.argv[1], "r", allow_unindexed=False) as bag:
         known = topics[topic]
         known.setdefault("first", str(time.to_nsec()))
         known["messages"] += 1
-        known["text"] = str(message)[:2000]
+        text = str(message)
+        known["text"] = text if len(text) < 4000 else text[:2000] + "..." + text[-2000:]
     compression = bag.get_compression_info().compression
     print(json.dumps({"compression": compression, "topics": topics}))

@@ -20,6 +20,21 @@ std::vector<std::uint8_t> nav_state_bytes(double east) {
   return encoded(to_lcm(state));
 }
 
+std::vector<std::uint8_t> map_match_bytes() {
+  MapMatch match;
+  match.stamp = from_nanoseconds(1000 * test_start);
+  match.on_road = true;
+  match.vehicle_enu = {10.0, 20.0};
+  match.covariance = Eigen::Vector2d(4.0, 1.0).asDiagonal();
+  match.matched_enu = {13.0, 20.0};
+  match.half_width = 2.5;
+  match.bend = 0.2;
+  match.candidate_count = 1;
+  match.candidates[0].probability = 0.75;
+  return encoded(
+      to_lcm(match, {.explanation = "", .candidates = {{"Main Street, way 7", {}, {}}}}));
+}
+
 std::vector<std::uint8_t> health_bytes(int threads) {
   Health health;
   health.threads.resize(static_cast<std::size_t>(threads));
