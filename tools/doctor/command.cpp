@@ -16,8 +16,10 @@
 #include "tools/command/json_output.h"
 #include "tools/command/options.h"
 #include "tools/doctor/recording_health.h"
+#include "tools/doctor/recording_report.h"
 #include "tools/doctor/saturation.h"
 #include "tools/doctor/time_offsets.h"
+#include "tools/evaluate/text_file.h"
 #include "tools/replay/figures.h"
 
 namespace maploop::tools {
@@ -25,7 +27,7 @@ namespace {
 
 struct DoctorOptions {
   std::filesystem::path config;
-  std::filesystem::path json;
+  std::filesystem::path json, html;
   std::string lcm_url;
   std::filesystem::path recording;  // empty: the machine is examined
   std::vector<std::string> settings, topics;
@@ -49,20 +51,21 @@ std::vector<RealtimeSetting> ask_for_bus(const std::string& url) {
   }
 }
 
+void append(std::vector<std::string>& sentences, std::vector<std::string> more) {
+  for (std::string& sentence : more) sentences.push_back(std::move(sentence));
+}
+
 // Adds what is measured over 20 s, and what stands in the way of it.
 std::vector<TimeOffset> compare_stamps(const vehicle::Recording& recording,
                                        const vehicle::VehicleConfig& config,
                                        const std::string& path,
                                        std::vector<std::string>& sentences) {
-  const auto add = [&sentences](std::vector<std::string> more) {
-    for (std::string& sentence : more) sentences.push_back(std::move(sentence));
-  };
-  add(cut_off_axes(recording));
+  append(sentences, cut_off_axes(recording));
   try {
     const extrinsics::Stretch stretch = turning_stretch(recording);
-    add(cut_off_images(recording, stretch));
+    append(sentences, cut_off_images(recording, stretch));
     const std::vector<TimeOffset> offsets = time_offsets(recording, config, stretch);
-    add(advice(offsets, path));
+    append(sentences, advice(offsets, path));
     return offsets;
   } catch (const std::invalid_argument& e) {
     sentences.push_back(std::string("Stamps are not compared: ") + e.what() + '.');
@@ -73,27 +76,14 @@ std::vector<TimeOffset> compare_stamps(const vehicle::Recording& recording,
 void examine_recording(const DoctorOptions& options, vehicle::VehicleConfig config) {
   const vehicle::KnownContents contents = vehicle::fit_to_recording(config, options.recording);
   const vehicle::Recording recording = vehicle::open_recording(options.recording, config, contents);
-  const std::vector<SensorHealth> sensors = examine(recording);
-  std::vector<std::string> sentences = recording.notes;
-  for (std::string& sentence : advice(sensors, options.recording.string()))
-    sentences.push_back(std::move(sentence));
-  const std::vector<TimeOffset> offsets =
-      compare_stamps(recording, config, options.recording.string(), sentences);
-  std::cout << options.recording.string() << " begins at " << format_time(recording.first_stamp)
-            << " UTC, and takes "
-            << web::shown(to_seconds(recording.last_stamp - recording.first_stamp), 1) << " s\n\n";
-  std::cout << web::heading_text(sensor_health_columns) << '\n';
-  for (const SensorHealth& s : sensors) std::cout << web::to_text(sensor_health_columns, s) << '\n';
-  if (!offsets.empty()) std::cout << '\n' << web::heading_text(time_offset_columns) << '\n';
-  for (const TimeOffset& o : offsets) std::cout << web::to_text(time_offset_columns, o) << '\n';
-  std::cout << '\n';
-  for (const std::string& sentence : sentences) std::cout << sentence << '\n';
-  if (!options.json.empty()) {
-    write_json_file(options.json, {{"begins", format_time(recording.first_stamp)},
-                                   {"sensors", web::list(sensor_health_columns, sensors)},
-                                   {"offsets", web::list(time_offset_columns, offsets)},
-                                   {"sentences", sentences}});
-  }
+  RecordingReport report{options.recording.string(), recording.first_stamp, recording.last_stamp};
+  report.sensors = examine(recording);
+  report.sentences = recording.notes;
+  append(report.sentences, advice(report.sensors, report.name));
+  report.offsets = compare_stamps(recording, config, report.name, report.sentences);
+  std::cout << to_text(report);
+  if (!options.json.empty()) write_json_file(options.json, to_json(report));
+  if (!options.html.empty()) evaluation::write_text(options.html, to_html(report));
 }
 
 int doctor(const DoctorOptions& options) {
@@ -122,13 +112,17 @@ void add_doctor(CLI::App& app, Command& command) {
                   "Say what a recording contains and how sound it is; or ask this machine for all "
                   "that a replay in real time asks for, and say what it grants, what not, and why",
                   doctor);
-  sub->add_option("RECORDING", options.recording,
-                  "Whatever maploop replay takes. Without it, the machine is examined");
+  CLI::Option* recording =
+      sub->add_option("RECORDING", options.recording,
+                      "Whatever maploop replay takes. Without it, the machine is examined");
   add_topics(sub, options.topics);
   add_config(sub, options.config);
   add_settings(sub, options.settings);
   add_lcm_url(sub, options.lcm_url);
   add_output(sub, "--json", options.json, "Write the report to this file as JSON");
+  add_output(sub, "--html", options.html,
+             "Write a page with the time lines of the recording's sensors to this file")
+      ->needs(recording);
 }
 
 }  // namespace maploop::tools

@@ -29,8 +29,10 @@ bool repeats(const ImuSample& a, const ImuSample& b) {
 template <class T>
 std::optional<SensorHealth> examine_sensor(const char* name,
                                            const std::unique_ptr<sensors::Source<T>>& source,
-                                           Time first) {
+                                           const vehicle::Recording& recording) {
   if (source == nullptr) return std::nullopt;
+  const Time first = recording.first_stamp;
+  const double part = std::max(to_seconds(recording.last_stamp - first), 1e-3) / SampleTimes::parts;
   SensorHealth health;
   health.name = name;
   std::vector<double> periods, delays;
@@ -46,6 +48,12 @@ std::optional<SensorHealth> examine_sensor(const char* name,
       health.repeated += repeats(sample, previous) ? 1 : 0;
     }
     delays.push_back(1e3 * to_seconds(sample.available - sample.stamp));
+    const double at = to_seconds(sample.stamp - first) / part;
+    if (at >= 0.0 && at < SampleTimes::parts) {
+      const auto i = static_cast<std::size_t>(at);
+      ++health.times.samples[i];
+      health.times.delay[i] = std::max(health.times.delay[i], delays.back());
+    }
     std::swap(sample, previous);
   }
   const double median = quantile(periods, 0.5);
@@ -105,8 +113,7 @@ std::vector<SensorHealth> examine(const vehicle::Recording& recording) {
   const vehicle::Sensors s = recording.sensors(Time::max());
   std::vector<SensorHealth> all;
   const auto add = [&](const char* name, const auto& source) {
-    if (auto health = examine_sensor(name, source, recording.first_stamp))
-      all.push_back(std::move(*health));
+    if (auto health = examine_sensor(name, source, recording)) all.push_back(std::move(*health));
   };
   add("camera", s.camera);
   add("lidar", s.velodyne);

@@ -10,6 +10,13 @@
 
 namespace maploop::tools {
 
+// Counts a sensor's samples in parts of equal length from the recording's first stamp to its last.
+struct SampleTimes {
+  static constexpr std::size_t parts = 300;
+  std::vector<std::uint32_t> samples = std::vector<std::uint32_t>(parts);
+  std::vector<double> delay = std::vector<double>(parts);  // ms, the longest; 0 without a sample
+};
+
 // Describes one sensor's samples from first to last.
 struct SensorHealth {
   std::string name;
@@ -21,6 +28,7 @@ struct SensorHealth {
   double delay = 0.0;          // ms, median time from the stamp to the delivery
   std::uint64_t repeated = 0;  // inertial samples whose values are those of the one before
   std::string finding;         // the first reason for leaving out a sample
+  SampleTimes times;
 };
 
 extern const web::Columns<SensorHealth> sensor_health_columns;

@@ -57,6 +57,32 @@ TEST(DoctorOfARecording, NamesPausesAndSamplesThatAreLeftOut) {
   EXPECT_THAT(sentences(report), Contains(HasSubstr("reference pauses for 18.51 s")));
 }
 
+TEST(DoctorOfARecording, WritesAPageWithTimeLines) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  const TemporaryFolder folder;
+  const std::string page = folder.path() / "page.html";
+  report_of(real_data() / "cars/oakville/parking-lot-figure8-nominal-001", {"--html", page});
+  const std::string html = read_file(page);
+  EXPECT_THAT(html, HasSubstr("reference pauses for 18.51 s"));
+  const auto begin = html.find('[', html.find("id=\"plots\""));
+  const json plots = json::parse(html.substr(begin, html.find("</script>", begin) - begin));
+  ASSERT_EQ(plots.size(), 2U);
+  const json& lines = plots[0].at("lines");
+  ASSERT_EQ(lines.at(0).at("name"), "imu");
+  const auto& imu = lines[0].at("y");
+  ASSERT_EQ(imu.size(), 300U);
+  EXPECT_EQ(imu[100], 0.0) << "Its mount is not yet known.";
+  for (std::size_t i = 260; i < 295; ++i) EXPECT_NEAR(imu[i].get<double>(), 100.0, 10.0) << i;
+  EXPECT_THAT(lines.back().at("name"), "reference");
+  EXPECT_THAT(lines.back().at("y"), Contains(0.0)) << "It pauses.";
+}
+
+TEST(DoctorOfARecording, APageOfNoRecordingIsRefused) {
+  const ProcessResult result = run({maploop_command(), "doctor", "--html", "page.html"});
+  EXPECT_NE(result.status, 0);
+  EXPECT_THAT(result.error, HasSubstr("--html requires RECORDING"));
+}
+
 TEST(DoctorOfARecording, FailsWithTheReason) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const ProcessResult result =
