@@ -72,25 +72,33 @@ void check_size(std::uint64_t width, std::uint64_t height) {
   }
 }
 
-void check_model(const RosCameraInfo& info) {
-  const auto zero = [](double d) { return d == 0.0; };
-  constexpr std::size_t plumb_bob = 5;
-  const bool rational =
-      info.d.size() > plumb_bob && !std::all_of(info.d.begin() + plumb_bob, info.d.end(), zero);
-  const bool same = std::all_of(info.d.begin(), info.d.end(), zero);
-  if (!same && (rational || (info.distortion_model != "plumb_bob" &&
-                             info.distortion_model != "rational_polynomial"))) {
-    throw std::invalid_argument("its distortion '" + std::string(info.distortion_model) + "' of " +
-                                std::to_string(info.d.size()) +
-                                " coefficients is not plumb_bob; rectify the images, or calibrate "
-                                "the cameras with maploop calibrate");
+// A list of coefficients may go on with zeros, which is what a lens without them has.
+Distortion distortion_of(const RosCameraInfo& info) {
+  std::array<double, 8> d{};
+  const auto zero = [](double coefficient) { return coefficient == 0.0; };
+  const auto listed = std::min(info.d.size(), d.size());
+  const bool longer =
+      !std::all_of(info.d.begin() + static_cast<std::ptrdiff_t>(listed), info.d.end(), zero);
+  std::copy_n(info.d.begin(), listed, d.begin());
+  const std::string_view model = info.distortion_model;
+  if (!longer && (model == "equidistant" || model == "fisheye") &&
+      std::all_of(d.begin() + 4, d.end(), zero)) {
+    return {.k1 = d[0], .k2 = d[1], .k3 = d[2], .k4 = d[3], .lens = Lens::equidistant};
   }
+  const bool plain = std::all_of(d.begin() + 5, d.end(), zero);
+  if (!longer && (model == "rational_polynomial" || (model == "plumb_bob" && plain) ||
+                  std::all_of(d.begin(), d.end(), zero))) {
+    return {d[0], d[1], d[2], d[3], d[4], d[5], d[6], d[7]};
+  }
+  throw std::invalid_argument("its distortion '" + std::string(model) + "' of " +
+                              std::to_string(info.d.size()) +
+                              " coefficients is not plumb_bob, rational_polynomial of 8, or "
+                              "equidistant of 4; rectify the images, or calibrate the cameras with "
+                              "maploop calibrate");
 }
 
 CameraModel model_of(const RosCameraInfo& info) {
-  std::array<double, 5> d{};
-  std::copy_n(info.d.begin(), std::min(d.size(), info.d.size()), d.begin());
-  return {info.k[0], info.k[4], info.k[2], info.k[5], {d[0], d[1], d[2], d[3], d[4]}};
+  return {info.k[0], info.k[4], info.k[2], info.k[5], distortion_of(info)};
 }
 
 Eigen::Matrix3d rectification_of(const RosCameraInfo& info) {
@@ -164,11 +172,9 @@ RosStereo stereo_of(const RosCameraInfo& left, const RosCameraInfo& right,
   s.baseline = baseline;
   const auto plain = [](const RosCameraInfo& info) {
     return std::ranges::all_of(info.d, [](double d) { return d == 0.0; }) &&
-           rectification_of(info).isIdentity();
+           distortion_of(info).lens != Lens::equidistant && rectification_of(info).isIdentity();
   };
   if (images_are_rectified || (plain(left) && plain(right))) return stereo;
-  check_model(left);
-  check_model(right);
   StereoRig rig;
   rig.width = s.width;
   rig.height = s.height;

@@ -8,17 +8,6 @@
 namespace maploop::sensors {
 namespace {
 
-// Returns whether the distorted radius grows all the way from the axis to `x`.
-bool is_lens(const Distortion& d, const Eigen::Vector2d& x) {
-  constexpr int steps = 8;
-  const double r2 = x.squaredNorm();
-  for (int i = 1; i <= steps; ++i) {
-    const double s = r2 * i / steps;
-    if (!(1.0 + s * (3.0 * d.k1 + s * (5.0 * d.k2 + s * 7.0 * d.k3)) > 0.0)) return false;
-  }
-  return true;
-}
-
 std::vector<Eigen::Vector2d> pixel_grid(int width, int height) {
   constexpr int cells = 40;
   std::vector<Eigen::Vector2d> grid;

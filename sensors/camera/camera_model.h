@@ -22,8 +22,7 @@ struct CameraModel {
 };
 
 // Returns the pixel at which the undistorted ray (x, y, 1) meets the image. Returns nothing where
-// the model is no longer a valid lens: far outside of the image the polynomial turns back, and
-// would show a second time what is already visible.
+// the model is no longer a valid lens (is_lens).
 std::optional<Eigen::Vector2d> project(const CameraModel& camera, const Eigen::Vector2d& ray);
 
 // Returns the undistorted ray (x, y, at unit depth) of a pixel by Newton's method, or nothing if no

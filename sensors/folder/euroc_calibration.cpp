@@ -56,11 +56,9 @@ class SensorYaml {
     return values;
   }
 
-  void must_be(const std::string& key, std::string_view wanted) const {
+  bool is(const std::string& key, std::string_view wanted) const {
     const std::string_view rest = std::string_view(text_).substr(value(key));
-    const std::string_view line = rest.substr(0, rest.find('\n'));
-    if (line.find(wanted) == std::string_view::npos)
-      fail(key, "is not " + std::string(wanted) + ", the only model that is understood");
+    return rest.substr(0, rest.find('\n')).find(wanted) != std::string_view::npos;
   }
 
   Eigen::Isometry3d pose() const {
@@ -76,11 +74,20 @@ class SensorYaml {
   }
 
   CameraModel camera() const {
-    must_be("camera_model", "pinhole");
-    must_be("distortion_model", "radial-tangential");
+    if (!is("camera_model", "pinhole"))
+      fail("camera_model", "is not pinhole, the only model that is understood");
     const std::vector<double> k = numbers("intrinsics", 4);
     const std::vector<double> d = numbers("distortion_coefficients", 4);
-    return {k[0], k[1], k[2], k[3], {d[0], d[1], d[2], d[3], 0.0}};
+    CameraModel camera{k[0], k[1], k[2], k[3], {}};
+    if (is("distortion_model", maploop::to_string(Lens::radial_tangential))) {
+      camera.distortion = {.k1 = d[0], .k2 = d[1], .p1 = d[2], .p2 = d[3]};
+    } else if (is("distortion_model", maploop::to_string(Lens::equidistant))) {
+      camera.distortion = {
+          .k1 = d[0], .k2 = d[1], .k3 = d[2], .k4 = d[3], .lens = Lens::equidistant};
+    } else {
+      fail("distortion_model", "is neither radial-tangential nor equidistant");
+    }
+    return camera;
   }
 
   [[noreturn]] void fail(const std::string& key, const std::string& problem) const {

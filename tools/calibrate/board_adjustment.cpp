@@ -166,12 +166,12 @@ CommonMatrix scaled_inverse(const CommonMatrix& S) {
 Projection project_with_derivatives(const CameraModel& camera, const Eigen::Vector3d& point) {
   const Eigen::Vector2d x = point.hnormalized();
   const sensors::DistortedPoint distorted = sensors::apply(camera.distortion, x);
+  const auto by_coefficients = sensors::by_coefficients(x);
   const Eigen::DiagonalMatrix<double, 2> f(camera.fx, camera.fy);
   Projection out;
   out.pixel = camera.pixel(distorted.point);
-  out.by_camera << distorted.point.x(), 0.0, 1.0, 0.0,
-      f.diagonal()[0] * distorted.by_coefficients.row(0), 0.0, distorted.point.y(), 0.0, 1.0,
-      f.diagonal()[1] * distorted.by_coefficients.row(1);
+  out.by_camera << distorted.point.x(), 0.0, 1.0, 0.0, f.diagonal()[0] * by_coefficients.row(0),
+      0.0, distorted.point.y(), 0.0, 1.0, f.diagonal()[1] * by_coefficients.row(1);
   Eigen::Matrix<double, 2, 3> by_depth;
   by_depth << 1.0, 0.0, -x.x(), 0.0, 1.0, -x.y();
   out.by_point = f * distorted.by_point * by_depth / point.z();

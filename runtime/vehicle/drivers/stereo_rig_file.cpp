@@ -37,6 +37,10 @@ void each_value(Rig& rig, To& to) {
     to.number("p1", camera->distortion.p1);
     to.number("p2", camera->distortion.p2);
     to.number("k3", camera->distortion.k3);
+    to.optional("k4", camera->distortion.k4);
+    to.optional("k5", camera->distortion.k5);
+    to.optional("k6", camera->distortion.k6);
+    to.lens(camera->distortion.lens);
     to.direction(*camera, rig);
   }
   to.table("extrinsics");
@@ -65,6 +69,14 @@ class Reader {
     table_.read(key, value);
   }
 
+  void optional(const char* key, double& value) { table_.read(key, value); }
+
+  void lens(sensors::Lens& lens) {
+    std::string name(to_string(lens));
+    table_.read_one_of("lens", name, enum_names<sensors::Lens>);
+    lens = *value_named<sensors::Lens>(name);
+  }
+
   void vector(const char* key, auto&& value) {
     Eigen::Vector3d read;
     number(key, std::span<double>(read.data(), 3));
@@ -83,6 +95,9 @@ class Reader {
     std::string direction(to_distorted);
     table_.read_one_of("direction", direction, directions);
     if (direction == to_distorted) return;
+    const sensors::Distortion& d = camera.distortion;
+    if (d.lens != sensors::Lens::radial_tangential || d.k4 != 0.0 || d.k5 != 0.0 || d.k6 != 0.0)
+      table_.fail("direction", "is for a radial-tangential lens without k4, k5 and k6");
     if (!(camera.fx > 0.0 && camera.fy > 0.0)) table_.fail("fx", "must be above 0");
     const auto converted = sensors::from_reversed(camera, rig.width, rig.height);
     constexpr double most = 0.5;  // px
@@ -108,6 +123,12 @@ class Writer {
     text += "\n[" + name + "]\n";
   }
   void number(const std::string& key, double value) { line(key, runtime::shortest_text(value)); }
+  void optional(const std::string& key, double value) {
+    if (value != 0.0) number(key, value);
+  }
+  void lens(sensors::Lens lens) {
+    if (lens != sensors::Lens{}) line("lens", '"' + std::string(to_string(lens)) + '"');
+  }
   void vector(const std::string& key, const Eigen::Vector3d& v) { line(key, v.data(), 3); }
   void rotation(const std::string& key, const RowMajor& m) { line(key, m.data(), 9); }
   void direction(const sensors::CameraModel&, const sensors::StereoRig&) {

@@ -91,6 +91,26 @@ TEST(StereoMessages, GiveTheRigOfRawImages) {
   EXPECT_FALSE(stereo_of(info_of(camera, R_left, 0), info_of(camera, R_right, -60), true).raw);
 }
 
+TEST(StereoMessages, GiveTheLensThatTheirModelNames) {
+  const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
+  RosCameraInfo left = info_of({300, 300, 318, 243, {}}, I, 0);
+  RosCameraInfo right = info_of({300, 300, 318, 243, {}}, I, -60);
+  left.distortion_model = right.distortion_model = "equidistant";
+  left.d = {0.01, 0.02, -0.01, 0.001};
+  right.d = {0, 0, 0, 0};
+  const auto wide = stereo_of(left, right, false).raw;
+  ASSERT_TRUE(wide);
+  EXPECT_EQ(wide->left.distortion.lens, Lens::equidistant);
+  EXPECT_EQ(wide->left.distortion.k4, 0.001);
+  EXPECT_EQ(wide->right.distortion.lens, Lens::equidistant);
+  left.distortion_model = right.distortion_model = "rational_polynomial";
+  left.d = {0.3, 0.1, 0, 0, 0.01, 0.6, 0.2, 0.02};
+  const auto rational = stereo_of(left, right, false).raw;
+  ASSERT_TRUE(rational);
+  EXPECT_EQ(rational->left.distortion.lens, Lens::radial_tangential);
+  EXPECT_EQ(rational->left.distortion.k6, 0.02);
+}
+
 TEST(StereoMessages, AreRefusedWithTheReason) {
   const CameraModel camera{510, 512, 318, 243, {-0.3, 0.1, 0.001, -0.002, 0.0}};
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
@@ -107,8 +127,12 @@ TEST(StereoMessages, AreRefusedWithTheReason) {
   EXPECT_THAT(refused(left, left), HasSubstr("not calibrated as a pair"));
   EXPECT_THAT(refused(RosCameraInfo(), right), HasSubstr("not calibrated"));
   RosCameraInfo fisheye = right;
-  fisheye.distortion_model = "equidistant";
-  EXPECT_THAT(refused(left, fisheye), HasSubstr("'equidistant'"));
+  fisheye.distortion_model = "omnidirectional";
+  EXPECT_THAT(refused(left, fisheye), HasSubstr("'omnidirectional'"));
+  RosCameraInfo prism = right;
+  prism.distortion_model = "rational_polynomial";
+  prism.d = {0.1, 0, 0, 0, 0, 0, 0, 0, 0.001, 0, 0, 0};
+  EXPECT_THAT(refused(left, prism), HasSubstr("of 12 coefficients"));
   RosCameraInfo small = right;
   small.width = 320;
   EXPECT_THAT(refused(left, small), HasSubstr("different sizes"));

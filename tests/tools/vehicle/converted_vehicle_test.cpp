@@ -167,8 +167,8 @@ TEST(Converted, EveryErrorNamesFileAndKey) {
   EXPECT_THAT(euroc([](Euroc& e) { e.left = replaced(e.left, "[458.654", "458.654"); }),
               in("cam0/sensor.yaml", "intrinsics", "has no list of numbers"));
   EXPECT_THAT(
-      euroc([](Euroc& e) { e.left = replaced(e.left, "radial-tangential", "equidistant"); }),
-      in("cam0/sensor.yaml", "distortion_model", "is not radial-tangential"));
+      euroc([](Euroc& e) { e.left = replaced(e.left, "radial-tangential", "omnidirectional"); }),
+      in("cam0/sensor.yaml", "distortion_model", "is neither radial-tangential nor equidistant"));
   EXPECT_THAT(euroc([](Euroc& e) { e.right = replaced(e.right, "752", "640"); }),
               in("cam1/sensor.yaml", "resolution", "differs from cam0's"));
   EXPECT_THAT(euroc([](Euroc& e) {

@@ -46,6 +46,16 @@ TEST(StereoRigFile, WhatIsWrittenIsReadBackBitForBit) {
   EXPECT_EQ(to_toml(read(to_toml(written, {{"left.fx", "sigma 0.1 px"}}))), to_toml(written));
 }
 
+TEST(StereoRigFile, OtherLensesAreReadBackBitForBit) {
+  sensors::StereoRig wide = rig();
+  wide.left.distortion = {.k1 = 0.01, .k4 = 0.001, .lens = sensors::Lens::equidistant};
+  wide.right.distortion = {.k1 = 0.1, .k4 = 0.3, .k5 = 0.02, .k6 = 0.004};
+  const std::string text = to_toml(wide);
+  EXPECT_EQ(to_toml(read(text)), text);
+  EXPECT_EQ(read(text).left.distortion.lens, sensors::Lens::equidistant);
+  EXPECT_EQ(read(text).right.distortion.k6, 0.004);
+}
+
 TEST(StereoRigFile, EveryErrorNamesTheKey) {
   const std::string good = to_toml(rig());
   const std::pair<std::string, std::string> wrong[] = {
@@ -58,6 +68,10 @@ TEST(StereoRigFile, EveryErrorNamesTheKey) {
       {replaced(good, "baseline = 0.5", "baseline = 0.6"), "does not fit"},
       {replaced(good, "fx = 500", "fx = -500"), "focal length"},
       {replaced(good, "undistorted_to_distorted", "sideways"), "direction"},
+      {replaced(good, "direction =", "lens = \"wide\"\ndirection ="), "lens"},
+      {replaced(replaced(good, "undistorted_to_distorted", "distorted_to_undistorted"),
+                "direction =", "k5 = 0.1\ndirection ="),
+       "without k4, k5 and k6"},
       {good + "\n[quality]\nviews = 3\n", "quality"},
   };
   for (const auto& [text, said] : wrong) {
