@@ -112,24 +112,17 @@ std::unique_ptr<Source<GnssFix>> make_bag_gnss(SharedBagSettings settings, const
   return made_by<GnssFix>(FixMaker(std::move(settings), gnss, velocity));
 }
 
-std::string read_bag_ubx(const BagSettings& settings, const Topic& raw, const Topic* subframes) {
-  MessageSelection selection;
-  selection.topics.insert(raw.name);
-  if (subframes != nullptr) selection.topics.insert(subframes->name);
+std::string read_bag_ubx(const BagSettings& settings, const Topic& raw, const Topic* subframes,
+                         SourceReport& report) {
+  std::set<std::string> topics{raw.name};
+  if (subframes != nullptr) topics.insert(subframes->name);
+  TopicStream stream(std::make_shared<const BagSettings>(settings), std::move(topics));
   std::string ubx;
-  const auto reader = open_messages(settings.path, selection);
-  for (auto item = reader->next(); item != MessageReader::Item::end; item = reader->next()) {
-    if (item == MessageReader::Item::damage) continue;
-    const RecordedMessage& message = reader->message();
+  while (const RecordedMessage* message = stream.next(report)) {
     const auto take = [&](auto decoded) {
-      decode(*message.topic, message.data, decoded);
-      append_frame(decoded, ubx);
+      if (stream.decoded(*message, decoded, report)) append_frame(decoded, ubx);
     };
-    try {
-      message.topic->name == raw.name ? take(RosRawx{}) : take(RosSubframe{});
-    } catch (const std::invalid_argument&) {
-      continue;
-    }
+    message->topic->name == raw.name ? take(RosRawx{}) : take(RosSubframe{});
     if (ubx.size() > input_limits::gnss_file) {
       throw std::runtime_error("'" + settings.path.string() + "' has more observations than " +
                                std::to_string(input_limits::gnss_file) +

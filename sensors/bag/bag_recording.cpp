@@ -221,9 +221,16 @@ std::unique_ptr<Source<GnssFix>> BagRecording::gnss() const {
                        choice_.find(BagSensor::gnss_velocity));
 }
 
-std::string BagRecording::observations() const {
-  return read_bag_ubx(*settings_, *choice_.find(BagSensor::gnss_raw),
-                      choice_.find(BagSensor::gnss_subframes));
+std::string BagRecording::observations(std::vector<std::string>& notes) const {
+  SourceReport report;
+  std::string ubx = read_bag_ubx(*settings_, *choice_.find(BagSensor::gnss_raw),
+                                 choice_.find(BagSensor::gnss_subframes), report);
+  if (report.refused > 0) {
+    notes.push_back(std::to_string(report.refused) +
+                    " of the receiver's raw messages are not used, the first because: " +
+                    report.refusals.front().reason + ".");
+  }
+  return ubx;
 }
 
 std::unique_ptr<Source<WheelSpeed>> BagRecording::wheel() const {

@@ -72,8 +72,9 @@ class BagRecording {
   std::unique_ptr<Source<GnssFix>> gnss() const;
   std::unique_ptr<Source<WheelSpeed>> wheel() const;
 
-  // Returns the receiver's observations, with the subframes if there are any, as UBX.
-  std::string observations() const;
+  // Returns the receiver's observations, with the subframes if there are any, as UBX. Adds a note
+  // if messages were left out.
+  std::string observations(std::vector<std::string>& notes) const;
 
   // The unit's mount is `given`, or else that of the transforms, or else found with `fixes`.
   std::unique_ptr<Source<ImuSample>> imu(std::unique_ptr<Source<GnssFix>> fixes,

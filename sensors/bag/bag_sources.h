@@ -45,8 +45,9 @@ std::unique_ptr<Source<GnssFix>> make_bag_gnss(SharedBagSettings settings, const
                                                const Topic* velocity);
 
 // Returns a receiver's observations and subframes as the stream of UBX frames that it sent.
-// Messages that cannot be decoded are left out.
-std::string read_bag_ubx(const BagSettings& settings, const Topic& raw, const Topic* subframes);
+// Damage and messages that cannot be decoded are left out and reported.
+std::string read_bag_ubx(const BagSettings& settings, const Topic& raw, const Topic* subframes,
+                         SourceReport& report);
 
 std::unique_ptr<Source<WheelSpeed>> make_bag_wheel(SharedBagSettings settings, const Topic& wheel);
 

@@ -31,7 +31,7 @@ std::shared_ptr<const GnssDrive> observations_of(const sensors::BagRecording& ba
                                                  std::vector<std::string>& notes) {
   if (!bag.has(BagSensor::gnss_raw) || !config.ppp.observations) return nullptr;
   try {
-    return std::make_shared<const GnssDrive>(path, bag.observations(), config);
+    return std::make_shared<const GnssDrive>(path, bag.observations(notes), config);
   } catch (const std::runtime_error& e) {
     if (!bag.has(BagSensor::gnss)) throw;
     notes.push_back(std::string("The receiver's observations are not used, but its fixes: ") +

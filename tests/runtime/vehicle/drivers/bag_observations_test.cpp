@@ -74,6 +74,7 @@ class BagObservations : public ::testing::Test {
                                  is_cdr ? "ros2msg" : "ros1msg", "") +
                           channel(2, "/ublox/rxmsfrb", encoding);
     std::uint64_t time = start;
+    if (cut_message_) records += message(1, time, "too short");
     for (const ppp::UbxFrame& frame : frames_) {
       if (only_subframes && frame.id == rawx) continue;
       records +=
@@ -82,11 +83,15 @@ class BagObservations : public ::testing::Test {
     return write("a.mcap", file(records));
   }
 
-  static std::vector<Time> epochs_of(const std::filesystem::path& path) {
+  static Recording opened(const std::filesystem::path& path) {
     VehicleConfig config;  // the ephemerides of another day are enough to open it
     config.ppp.products = {
         (maploop::testing::real_data() / "gnss/kamakura_kinematic/SEPT2650.21P.gz").string()};
-    const Recording recording = open_recording(path, config);
+    return open_recording(path, config);
+  }
+
+  static std::vector<Time> epochs_of(const std::filesystem::path& path) {
+    const Recording recording = opened(path);
     const Sensors sensors = recording.sensors(Time::min());
     std::vector<Time> stamps;
     if (sensors.epochs == nullptr) return stamps;
@@ -100,6 +105,7 @@ class BagObservations : public ::testing::Test {
   std::string bytes_;
   const std::string subframe_ = std::string(8 + 10 * 4, '\0');  // the file has none
   std::vector<ppp::UbxFrame> frames_;
+  bool cut_message_ = false;  // whether the recording begins with one
   maploop::testing::TemporaryFolder folder_;
 };
 
@@ -108,6 +114,18 @@ TEST_F(BagObservations, AreThoseOfTheReceiversFile) {
   ASSERT_GT(expected.size(), 250U);
   for (const char* encoding : {"ros1", "cdr"})
     EXPECT_EQ(epochs_of(mcap(encoding)), expected) << encoding;
+}
+
+TEST_F(BagObservations, AMessageThatCannotBeDecodedIsCounted) {
+  using ::testing::Contains, ::testing::Not;
+  EXPECT_THAT(opened(mcap("ros1")).notes, Not(Contains(HasSubstr("raw messages"))));
+  cut_message_ = true;
+  const auto path = mcap("ros1");
+  EXPECT_THAT(
+      opened(path).notes,
+      Contains(HasSubstr("1 of the receiver's raw messages are not used, the first because: "
+                         "/ublox/rxmraw, message 1: ")));
+  EXPECT_GT(epochs_of(path).size(), 250U);
 }
 
 TEST_F(BagObservations, SubframesAloneAreRefusedWithWhatIsMissing) {
