@@ -86,6 +86,7 @@ std::optional<std::string> LogReader::check() {
 std::optional<std::string> LogReader::check_what_follows(std::span<const std::uint8_t> bytes,
                                                          const LogHeader& header) {
   const auto after = bytes.subspan(header.event_bytes());
+  if (after.empty()) return std::nullopt;  // a wrong length hardly ends where the log does
   const bool followed = begins_with_sync(after);
   if (followed && after.size() >= header_bytes && read_header(after).number == header.number + 1) {
     return std::nullopt;

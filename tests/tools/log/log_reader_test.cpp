@@ -159,10 +159,12 @@ TEST_F(LogReaderTest, BitsAnywhereNeverCrash) {
 }
 
 TEST_F(LogReaderTest, LogInsideAMessageIsData) {
-  auto events = drive_;
-  events[7].data = whole_;
-  record(log_, events);
-  EXPECT_EQ(read_all(log_).events, events);
+  for (const std::size_t event : {std::size_t{7}, drive_.size() - 1}) {
+    auto events = drive_;
+    events[event].data = whole_;
+    record(log_, events);
+    EXPECT_EQ(read_all(log_).events, events) << event;
+  }
 }
 
 TEST_F(LogReaderTest, DamagedCompressedLogGivesWhatComesBefore) {
