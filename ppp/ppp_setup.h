@@ -53,7 +53,7 @@ class PppSetup {
   bool precise() const { return precise_ != nullptr; }
   bool one_frequency() const { return one_frequency_; }
   // On one frequency, the errors of broadcast orbits, clocks and ionosphere last longer than the
-  // filter can average them out: the position error stays at metres.
+  // filter can average them out: decimetres of error remain, between houses metres.
   bool never_converges() const { return one_frequency_ && !precise() && !live(); }
   // Lists what the models lack, such as "no calibration of antenna X".
   const std::vector<std::string>& missing_models() const { return missing_models_; }

@@ -51,7 +51,7 @@ const PppSolution& PppFilter::process(const Epoch& epoch) {
   clock_steps_.repair(measured_);
   if (!started_ && !start(measured_, epoch.time)) return solution_;
 
-  if (interval > 0.0) predict_state(state_, interval, model_.ephemeris(), parameters_);
+  if (interval != 0.0) predict_state(state_, interval, model_.ephemeris(), parameters_);
   time_ = epoch.time;
   model_.begin(time_, state_.x().segment<3>(S::position));
   std::vector<Tracked>& tracked =
@@ -60,7 +60,8 @@ const PppSolution& PppFilter::process(const Epoch& epoch) {
   set_zenith_ionosphere(tracked);
   learn_strengths(tracked);
   const bool agrees = update(tracked);
-  levels_.end_epoch(interval > 0.0 ? interval : first_interval, parameters_.code_level_time);
+  levels_.end_epoch(interval != 0.0 ? std::abs(interval) : first_interval,
+                    parameters_.code_level_time);
   satellites_.forget_absent(parameters_.longest_gap, state_);
   report(tracked);
 
@@ -149,7 +150,7 @@ void PppFilter::report(const std::vector<Tracked>& tracked) {
   solution_.velocity = x.segment<3>(S::velocity);
   solution_.velocity_covariance = P.block<3, 3>(S::velocity, S::velocity);
   solution_.clock = x[S::clock];
-  solution_.running_for = to_seconds(time_ - started_at_);
+  solution_.running_for = std::abs(to_seconds(time_ - started_at_));
   const ZenithDelay& guess = model_.zenith();
   solution_.zenith_delay = guess.hydrostatic + guess.wet + x[S::zenith_wet];
   solution_.zenith_delay_sigma = std::sqrt(P(S::zenith_wet, S::zenith_wet));

@@ -22,9 +22,9 @@ class PppFilter {
  public:
   PppFilter(const PppParameters& parameters, const RangeInputs& inputs, Earth earth);
 
-  // Epochs must come in the order of time. The solution is valid until the next call. The work is
-  // bounded by the number of satellites: the rows of an epoch are applied at most 9 times, and once
-  // more for each of `outlier_rejections`.
+  // Epochs must come in the order of time, or all in the opposite order (smoothing.h). The solution
+  // is valid until the next call. The work is bounded by the number of satellites: the rows of an
+  // epoch are applied at most 9 times, and once more for each of `outlier_rejections`.
   const PppSolution& process(const Epoch& epoch);
 
   // Applies the road of a feedback, at the feedback's stamp, to the state of the last epoch. If the

@@ -87,7 +87,7 @@ std::vector<Tracked>& SatelliteTracker::track(const std::vector<Measurement>& me
     tracked.level = levels.of(m.satellite);
     double since = 0.0;
     if (memory.last_code) {
-      since = to_seconds(t - *memory.last_code);
+      since = std::abs(to_seconds(t - *memory.last_code));
       weigh_later_code(tracked, since, speed, parameters);
       tracked.new_source = memory.source != predicted->satellite.source;
     }
@@ -133,7 +133,7 @@ PppSlip SatelliteTracker::look_for_slip(const Tracked& tracked, double interval,
   const double phase_less_range = m.phase() - p.phase(m);
   const bool goes_on =
       memory.epochs_away == 1 && memory.message == p.satellite.message && !other_carriers;
-  if (goes_on && slip == PppSlip::none && !m.dual() && interval > 0.0) {
+  if (goes_on && slip == PppSlip::none && !m.dual() && interval != 0.0) {
     const double limit = slip_limit(parameters.slip_phase_step, interval, p.elevation, parameters);
     phase_steps_.push_back({tracked_.size(), p.to_satellite,
                             phase_less_range - memory.phase_less_range, limit, false});

@@ -33,8 +33,8 @@ class SatelliteTracker {
   void reset() { memory_.assign(satellite_slots, {}); }
 
   // Returns the satellites that have an orbit and are above the mask; they are valid until the next
-  // call. The model has begun at time `t`, `interval` s after the last epoch (0 at the first).
-  // Ambiguities of slipped phases are removed from the state.
+  // call. The model has begun at time `t`, `interval` s after the last epoch (0 at the first, and
+  // negative backward in time). Ambiguities of slipped phases are removed from the state.
   std::vector<Tracked>& track(const std::vector<Measurement>& measured, GpsTime t, double interval,
                               const RangeModel& model, const CodeLevels& levels,
                               const PppParameters& parameters, FilterState& state,

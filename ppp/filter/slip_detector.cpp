@@ -29,7 +29,7 @@ bool is_low(double elevation, const PppParameters& parameters) {
 
 double slip_limit(double at_once, double interval, double elevation,
                   const PppParameters& parameters) {
-  return (at_once + parameters.slip_growth * std::min(interval, longest_growth)) *
+  return (at_once + parameters.slip_growth * std::min(std::abs(interval), longest_growth)) *
          (is_low(elevation, parameters) ? low_factor : 1.0);
 }
 
@@ -84,13 +84,13 @@ void SlipDetector::learn(const Combinations& now, bool goes_on, double interval)
 
 PppSlip SlipDetector::compare_with_doppler(const Measurement& m, double interval,
                                            const PppParameters& parameters) const {
-  if (doppler_ == 0.0 || m.first.doppler == 0.0 || interval >= longest_doppler)
+  if (doppler_ == 0.0 || m.first.doppler == 0.0 || std::abs(interval) >= longest_doppler)
     return PppSlip::none;
   const double expected = -0.5 * (doppler_ + m.first.doppler) * m.first.wavelength * interval;
   // Whole milliseconds are removed, by which the receiver may have stepped its clock.
   // (19) of METHOD.md
   const double off = std::remainder(m.first.phase - phase_ - expected, millisecond_range);
-  const double limit = parameters.slip_doppler + parameters.slip_doppler * interval;
+  const double limit = parameters.slip_doppler + parameters.slip_doppler * std::abs(interval);
   return std::abs(off) > limit ? PppSlip::doppler : PppSlip::none;
 }
 

@@ -10,7 +10,7 @@
 namespace maploop::ppp {
 
 // Returns how much phases may differ without a slip, m: `at_once` (m) plus `slip_growth` for each
-// second of `interval` up to 30 s, and twice that below `slip_low_elevation`.
+// second of `interval` (either way) up to 30 s, and twice that below `slip_low_elevation`.
 double slip_limit(double at_once, double interval, double elevation,
                   const PppParameters& parameters);
 

@@ -21,10 +21,11 @@ void move(FilterState& state, double t, const PppParameters& parameters) {
                                 parameters.vertical_acceleration);
   const Eigen::Matrix3d R = rotation_enu_ecef(geodetic_from_ecef(x.segment<3>(S::position)));
   const Eigen::Matrix3d Q = R.transpose() * density.asDiagonal() * R;
-  P.block<3, 3>(S::position, S::position) += Q * (t * t * t / 3.0);
-  P.block<3, 3>(S::position, S::velocity) += Q * (t * t / 2.0);
-  P.block<3, 3>(S::velocity, S::position) += Q * (t * t / 2.0);
-  P.block<3, 3>(S::velocity, S::velocity) += Q * t;
+  const double elapsed = std::abs(t);
+  P.block<3, 3>(S::position, S::position) += Q * (elapsed * elapsed * elapsed / 3.0);
+  P.block<3, 3>(S::position, S::velocity) += Q * (t * elapsed / 2.0);
+  P.block<3, 3>(S::velocity, S::position) += Q * (t * elapsed / 2.0);
+  P.block<3, 3>(S::velocity, S::velocity) += Q * elapsed;
 }
 
 }  // namespace
@@ -49,11 +50,11 @@ void predict_state(FilterState& state, double interval, const Ephemeris& ephemer
                    const PppParameters& parameters) {
   if (parameters.motion == Motion::kinematic) {
     move(state, interval, parameters);
-    predict_map_states(state, interval, parameters);
+    predict_map_states(state, std::abs(interval), parameters);
   }
   auto P = state.P();
   const auto walk = [&](int index, double density) {
-    P(index, index) += density * density * interval;
+    P(index, index) += density * density * std::abs(interval);
   };
   walk(S::zenith_wet, parameters.zenith_wet_walk);
   if (parameters.gradients) {

@@ -11,9 +11,9 @@ namespace maploop::ppp {
 void begin_state(FilterState& state, const Eigen::Vector3d& position,
                  const PppParameters& parameters);
 
-// Predicts over `interval` s. A kinematic receiver moves with constant velocity under white
-// acceleration; delays, clock offsets and ambiguities are random walks. The errors of orbits are
-// predicted where their size is known (satellite_tracker.h).
+// Predicts over `interval` s, which are negative backward in time. A kinematic receiver moves with
+// constant velocity under white acceleration; delays, clock offsets and ambiguities are random
+// walks. The errors of orbits are predicted where their size is known (satellite_tracker.h).
 void predict_state(FilterState& state, double interval, const Ephemeris& ephemeris,
                    const PppParameters& parameters);
 

@@ -230,7 +230,7 @@ bool IntegerFix::confirmed(GpsTime t) {
     const Shift& shift = shifts[static_cast<std::size_t>(c.satellite.system)];
     if (c.own) known_[c.satellite.slot()] = {true, *c.own + shift.narrow, c.wide_lane + shift.wide};
   }
-  return t - *unchanged_since_ >= from_seconds(parameters_.integer_confirmation);
+  return std::chrono::abs(t - *unchanged_since_) >= from_seconds(parameters_.integer_confirmation);
 }
 
 }  // namespace maploop::ppp

@@ -28,6 +28,25 @@ std::vector<std::string> ppp_of_the_car() {
           "GE"};
 }
 
+TEST(PppCommand, SmoothesARecordingButNotOnAMap) {
+  MAPLOOP_REQUIRE_REAL_DATA();
+  auto command = ppp_of_the_car();
+  command.insert(command.end(), {"--direction", "smoothed"});
+  const auto smoothed = run(command);
+  EXPECT_EQ(smoothed.status, 0) << smoothed.error;
+  EXPECT_NE(smoothed.out.find("kinematic, smoothed, systems GE"), std::string::npos)
+      << smoothed.out;
+  const maploop::testing::TemporaryFolder folder;
+  const std::string map = folder.path() / "road.osm";
+  std::ofstream(map) << "<osm version=\"0.6\"><node id=\"1\" lat=\"35.3\" lon=\"139.5\"/>"
+                        "<node id=\"2\" lat=\"35.31\" lon=\"139.5\"/><way id=\"3\"><nd ref=\"1\"/>"
+                        "<nd ref=\"2\"/><tag k=\"highway\" v=\"primary\"/></way></osm>";
+  command.insert(command.end(), {"--map", map});
+  const auto on_map = run(command);
+  EXPECT_EQ(on_map.status, 1);
+  EXPECT_NE(on_map.error.find("leave out --direction"), std::string::npos) << on_map.error;
+}
+
 TEST(PppCommand, WritesEveryFormat) {
   MAPLOOP_REQUIRE_REAL_DATA();
   const maploop::testing::TemporaryFolder folder;

@@ -26,6 +26,7 @@ namespace {
 struct PppOptions {
   std::vector<std::filesystem::path> files;
   std::string mode, systems, start, end, truth, score_start, gnss_outage;
+  std::optional<gnss::Direction> direction;
   std::optional<vehicle::MapMode> map_mode;
   std::optional<match::MapFault> map_fault;
   std::optional<double> mask;
@@ -83,6 +84,11 @@ gnss::RunOptions run_options(const PppOptions& options, const vehicle::PppConfig
   run.parameters = config.filter;
   run.broadcast = config.broadcast;
   run.map = map;
+  run.direction = options.direction.value_or(gnss::Direction::forward);
+  if (map && run.direction != gnss::Direction::forward) {
+    throw std::runtime_error(
+        "with a map the filter runs forward only: leave out --direction, or --map and [map] file");
+  }
   if (!options.start.empty()) run.start = moment(options.start, "--start", first);
   if (!options.end.empty()) run.end = moment(options.end, "--end", first);
   if (options.gnss_outage.empty()) return run;
@@ -190,6 +196,9 @@ void add_ppp(CLI::App& app, Command& command) {
   sub->add_option("--mode", options->mode,
                   "static or kinematic (with a vehicle's dynamics; the default)")
       ->check(CLI::IsMember({"static", "kinematic"}));
+  add_choice(sub, "--direction", options->direction,
+             "The order in which epochs are taken: forward, as live (the default); backward; or "
+             "smoothed, both ways combined, the most accurate for a recording");
   sub->add_option("--systems", options->systems, "Letters of G R E C J S I; GREC without it")
       ->check([](const std::string& text) {
         return text.find_first_not_of("GRECJSI") == std::string::npos && !text.empty()

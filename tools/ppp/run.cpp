@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
+
+#include "ppp/smoothing.h"
 
 namespace maploop::gnss {
 
@@ -13,6 +16,26 @@ PppRun::PppRun(const GnssFiles& files, const RunOptions& options)
 }
 
 void PppRun::process(const std::function<void(const PppSolution&)>& sink) {
+  const std::vector<Epoch> epochs = chosen_epochs();
+  std::vector<PppSolution> backward;  // the last epoch first
+  if (options_.direction != Direction::forward) backward = run_backward(epochs);
+  for (const Epoch& epoch : epochs) {
+    PppSolution solution;
+    if (options_.direction == Direction::backward) {
+      solution = std::move(backward.back());
+    } else {
+      solution = step(filter_, epoch);
+      step_ = map_ ? map_->close(filter_) : MapStep{};
+    }
+    if (options_.direction == Direction::smoothed) solution = combined(solution, backward.back());
+    if (!backward.empty()) backward.pop_back();
+    count_missing(solution);
+    sink(solution);
+  }
+}
+
+std::vector<Epoch> PppRun::chosen_epochs() const {
+  std::vector<Epoch> epochs;
   for (const Epoch& epoch : setup_.observations().epochs) {
     if (options_.start && epoch.time < *options_.start) continue;
     if (options_.end && epoch.time > *options_.end) break;
@@ -20,24 +43,31 @@ void PppRun::process(const std::function<void(const PppSolution&)>& sink) {
         std::any_of(options_.outages.begin(), options_.outages.end(),
                     [&](const auto& o) { return epoch.time >= o.first && epoch.time < o.second; });
     if (lost) continue;
-    const auto begin = std::chrono::steady_clock::now();
-    const PppSolution* solution = nullptr;
-    if (options_.change) {
-      Epoch changed = epoch;
-      options_.change(changed);
-      solution = &filter_.process(changed);
-    } else {
-      solution = &filter_.process(epoch);
-    }
-    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    for (const SatelliteReport& s : solution->satellites) {
-      if (s.refused == PppRefusal::no_ephemeris) {
-        auto& [count, why] = missing_[s.satellite];
-        if (count++ == 0) why = setup_.ephemeris().missing(s.satellite, epoch.time);
-      }
-    }
-    step_ = map_ ? map_->close(filter_) : MapStep{};
-    sink(*solution);
+    epochs.push_back(epoch);
+    if (options_.change) options_.change(epochs.back());
+  }
+  return epochs;
+}
+
+std::vector<PppSolution> PppRun::run_backward(const std::vector<Epoch>& epochs) {
+  MapAidedFilter filter = setup_.make_map_aided_filter();
+  std::vector<PppSolution> solutions;
+  for (const Epoch& epoch : reversed(epochs)) solutions.push_back(step(filter, epoch));
+  return solutions;
+}
+
+const PppSolution& PppRun::step(MapAidedFilter& filter, const Epoch& epoch) {
+  const auto begin = std::chrono::steady_clock::now();
+  const PppSolution& solution = filter.process(epoch);
+  seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return solution;
+}
+
+void PppRun::count_missing(const PppSolution& solution) {
+  for (const SatelliteReport& s : solution.satellites) {
+    if (s.refused != PppRefusal::no_ephemeris) continue;
+    auto& [count, why] = missing_[s.satellite];
+    if (count++ == 0) why = setup_.ephemeris().missing(s.satellite, solution.time);
   }
 }
 

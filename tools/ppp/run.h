@@ -1,6 +1,7 @@
 // A run of the PPP filter over files.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -8,14 +9,23 @@
 #include <utility>
 #include <vector>
 
+#include "msgs/named_enum.h"
 #include "ppp/ppp_setup.h"
 #include "tools/ppp/map_loop.h"
 
 namespace maploop::gnss {
 
+// The order of time in which the filter takes the epochs; smoothed: both ways (ppp/smoothing.h).
+enum class Direction : std::uint8_t { forward, backward, smoothed };
+
+constexpr auto names_of(Direction) {
+  return names_up_to<Direction::smoothed>({"forward", "backward", "smoothed"});
+}
+
 struct RunOptions : ppp::SetupOptions {
   std::optional<ppp::GpsTime> start, end;
-  std::optional<MapOptions> map;
+  Direction direction = Direction::forward;
+  std::optional<MapOptions> map;                               // only forward
   std::vector<std::pair<ppp::GpsTime, ppp::GpsTime>> outages;  // begins and ends; without epochs
   std::function<void(ppp::Epoch&)> change;  // where it is set, what happens to each epoch before
 };
@@ -25,19 +35,26 @@ class PppRun {
   // Throws as PppSetup; the files must outlive the run.
   PppRun(const ppp::GnssFiles& files, const RunOptions& options);
 
-  // Every epoch between start and end, in the order of time.
+  // Calls the sink for every epoch between start and end, in the order of time.
   void process(const std::function<void(const ppp::PppSolution&)>& sink);
 
-  // Of the epoch that the sink is given.
+  // Of the epoch that the sink is given; `filter` is the one that runs forward.
   const MapStep& map_step() const { return step_; }
   const ppp::MapAidedFilter& filter() const { return filter_; }
 
+  Direction direction() const { return options_.direction; }
   const ppp::PppSetup& setup() const { return setup_; }
   // Why satellites had no orbit or clock, with the number of epochs.
   std::vector<std::string> missing_products() const;
   double seconds() const { return seconds_; }  // spent in the filter
 
  private:
+  // Returns the epochs between start and end that are no outage, in the order of time.
+  std::vector<ppp::Epoch> chosen_epochs() const;
+  std::vector<ppp::PppSolution> run_backward(const std::vector<ppp::Epoch>& epochs);
+  const ppp::PppSolution& step(ppp::MapAidedFilter& filter, const ppp::Epoch& epoch);
+  void count_missing(const ppp::PppSolution& solution);
+
   RunOptions options_;
   ppp::PppSetup setup_;
   ppp::MapAidedFilter filter_;

@@ -92,10 +92,11 @@ std::vector<std::string> summary_lines(const PppRun& run, const PppResult& r, do
                                        bool on_map, const GnssFiles& files) {
   const std::size_t epochs = r.solutions.size();
   std::vector<std::string> lines{
-      fmt::format("{} orbits and clocks, {}, {}, systems {}",
+      fmt::format("{} orbits and clocks, {}, {}, {}, systems {}",
                   run.setup().precise() ? "precise" : "broadcast",
                   run.setup().one_frequency() ? "one frequency" : "two frequencies",
-                  to_string(run.setup().parameters().motion), run.setup().parameters().systems),
+                  to_string(run.setup().parameters().motion), to_string(run.direction()),
+                  run.setup().parameters().systems),
       fmt::format("{} of {} epochs have a position ({:.1f} %); filter {:.3f} s, {:.3f} ms an epoch",
                   r.solved, epochs,
                   100.0 * static_cast<double>(r.solved) / static_cast<double>(epochs),
@@ -104,8 +105,8 @@ std::vector<std::string> summary_lines(const PppRun& run, const PppResult& r, do
     lines.push_back(integer_line(r.solutions));
   if (run.setup().never_converges()) {
     lines.push_back(
-        "on one frequency with broadcast orbits the position cannot converge to 0.1 m: metres "
-        "remain");
+        "on one frequency with broadcast orbits the position does not converge to 0.1 m: "
+        "decimetres to metres remain");
   }
   if (r.score) append_score(lines, r, integrity_risk);
   if (on_map) lines.push_back(map_line(run.filter(), r.matched, epochs));
@@ -125,6 +126,7 @@ std::vector<std::string> summary_lines(const PppRun& run, const PppResult& r, do
 json to_json(const PppRun& run, const PppResult& r, bool on_map) {
   json all = {{"epochs", r.solutions.size()},
               {"solved", r.solved},
+              {"direction", to_string(run.direction())},
               {"filter_seconds", run.seconds()},
               {"missing_products", run.missing_products()},
               {"lacks", run.setup().missing_models()}};

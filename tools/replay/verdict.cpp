@@ -70,7 +70,7 @@ std::string how_good(const ReplayResult& r) {
         digits, e.max, digits, share);
   }
   if (r.ppp && r.ppp->never_converges && r.ppp->converged_after < 0.0)
-    return "PPP cannot converge on one frequency with broadcast orbits: metres remain.";
+    return "PPP does not converge to 0.1 m on one frequency with broadcast orbits.";
   if (r.ppp && r.ppp->converged_after >= 0.0) {
     return fmt::format("PPP converged after {:.0f} s; there is no reference to score against.",
                        r.ppp->converged_after);

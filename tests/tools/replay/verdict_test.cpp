@@ -79,7 +79,7 @@ TEST(Verdict, OfAReceiverSaysWhereItCannotConverge) {
   r.ppp->by_status[static_cast<std::size_t>(PppStatus::converging)] = 3810;
   EXPECT_THAT(verdict(r)[1], StartsWith("PPP has not converged yet"));
   r.ppp->never_converges = true;
-  EXPECT_THAT(verdict(r)[1], StartsWith("PPP cannot converge on one frequency"));
+  EXPECT_THAT(verdict(r)[1], StartsWith("PPP does not converge to 0.1 m on one frequency"));
 }
 
 TEST(Verdict, AReferenceThatIsAPeerIsCalledSoAndOutagesAreScoredAtTheFixes) {
