@@ -35,6 +35,9 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
       "simulated canyons, seeds 1 to 20, and the three receivers",
       "among 3 to 6 dB with the scores in sight",
       "PPP between houses, seeds 1 to 20; PPP of the three receivers"};
+  constexpr DataChoice full_cn0_first_step_choice{
+      "simulated canyons, seeds 1 to 6, and towns, seeds 1 to 3",
+      "among 0, 2, 4 and 8 dB by the errors", "PPP of these seeds"};
   constexpr DataChoice ambiguity_walk_choice{
       "ESBC station", "from changes of post-fit phase residuals over 10 minutes", "PPP of ESBC"};
   constexpr DataChoice wide_lane_sigma_choice{"ESBC station, 00:00 to 12:00",
@@ -94,6 +97,10 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
        full_cn0_margin_choice},
       {"full_cn0_step", &P::full_cn0_step, 0.0, 10.0, "dB", expert,
        "Change of that level per signal; it follows the signals of the last minutes."},
+      {"full_cn0_first_step", &P::full_cn0_first_step, 0.0, 20.0, "dB", expert,
+       "The same for the first signal at an elevation, half of it for the second, a third for the "
+       "third, and so on: a receiver that starts between houses must know its level at once.",
+       full_cn0_first_step_choice},
       {"zenith_wet_sigma", &P::zenith_wet_sigma, 0.0, 10.0, "m", expert,
        "Standard deviation of the zenith wet delay about the climatology."},
       {"zenith_wet_walk", &P::zenith_wet_walk, 0.0, 1.0, "m/sqrt(s)", expert,

@@ -32,6 +32,7 @@ struct PppParameters {
   double full_cn0_drop = 14.5;               // dB
   double full_cn0_margin = 4.0;              // dB
   double full_cn0_step = 0.1;                // dB
+  double full_cn0_first_step = 4.0;          // dB
   double zenith_wet_sigma = 0.06;            // m
   double zenith_wet_walk = 1e-4;             // m/sqrt(s)
   bool gradients = true;

@@ -95,7 +95,9 @@ void RobustUpdate::readmit(FilterState& state, std::vector<Row>& rows) {
 }
 
 // If no more phases fit than there are unknowns (position and clock), any other choice of as many
-// would fit equally well: it is unknown which of them have slipped.
+// would fit equally well: it is unknown which of them have slipped. Those that do not fit keep
+// their ambiguities, but are no longer certain of them: otherwise two that slipped would move the
+// position once those that fit have lost lock.
 void RobustUpdate::distrust_phases(FilterState& state, std::vector<Row>& rows) {
   int fit = 0, left_out = 0;
   for (const Row& row : rows) {
@@ -108,6 +110,12 @@ void RobustUpdate::distrust_phases(FilterState& state, std::vector<Row>& rows) {
     row.variance += doubtful_variance_;
   }
   reapply(state, rows);
+  for (const Row& row : rows) {
+    if (!row.doubtful) continue;
+    const int ambiguity = row.indices[static_cast<std::size_t>(row.count) - 1];
+    const double misfit = row.residual_after(dx_);
+    state.P()(ambiguity, ambiguity) += misfit * misfit;
+  }
 }
 
 void RobustUpdate::apply(FilterState& state, std::vector<Row>& rows) {

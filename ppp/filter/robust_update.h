@@ -29,7 +29,7 @@ class RobustUpdate {
   //
   // With four or fewer fitting phases, any other four might fit equally well: every phase then gets
   // additional noise for this epoch (`doubtful_phase_sigma`), and the misfits are marked as
-  // doubtful, so that their ambiguities are kept.
+  // doubtful, so that their ambiguities are kept, with the variance of the misfit added.
   void apply(FilterState& state, std::vector<Row>& rows);
 
   // Returns the correction in the units of the state; valid until the next update.

@@ -8,7 +8,8 @@ UnobstructedCn0::UnobstructedCn0(const PppParameters& parameters)
     : zenith_(parameters.full_cn0),
       drop_(parameters.full_cn0_drop),
       margin_(parameters.full_cn0_margin),
-      step_(parameters.full_cn0_step) {
+      step_(parameters.full_cn0_step),
+      first_step_(parameters.full_cn0_first_step) {
   quartile_.fill(margin_);
 }
 
@@ -31,8 +32,10 @@ double UnobstructedCn0::of(double sine) const {
 // Monro, "A stochastic approximation method", Annals of Mathematical Statistics 22, 1951).
 void UnobstructedCn0::add(double sine, double cn0) {
   constexpr double quartile_share = 0.75;  // of the strengths are below the upper quartile
-  double& quartile = quartile_[band(sine)];
-  quartile += step_ * (cn0 - of_all(sine) > quartile ? quartile_share : quartile_share - 1.0);
+  const std::size_t b = band(sine);
+  const double step = std::max(step_, first_step_ / ++count_[b]);
+  double& quartile = quartile_[b];
+  quartile += step * (cn0 - of_all(sine) > quartile ? quartile_share : quartile_share - 1.0);
 }
 
 }  // namespace maploop::ppp

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "ppp/filter/parameters.h"
 
@@ -21,15 +22,16 @@ class UnobstructedCn0 {
 
   template <class Archive>
   void archive(Archive& ar) {
-    ar(quartile_);
+    ar(quartile_, count_);
   }
 
  private:
   double of_all(double sine) const;
   static std::size_t band(double sine);
 
-  double zenith_, drop_, margin_, step_;
-  std::array<double, 4> quartile_;  // dB above of_all(), the upper quartile by elevation band
+  double zenith_, drop_, margin_, step_, first_step_;
+  std::array<double, 4> quartile_;        // dB above of_all(), the upper quartile by elevation band
+  std::array<std::uint32_t, 4> count_{};  // of the signals of each band
 };
 
 }  // namespace maploop::ppp

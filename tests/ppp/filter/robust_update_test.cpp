@@ -112,6 +112,10 @@ TEST_F(NineSatellites, PhasesWithoutRedundancyMoveItLittleAndAreKept) {
   int kept = 0;
   for (int known = 0; known < 5; ++known) kept += phase(known).active || phase(known).doubtful;
   EXPECT_EQ(kept, 5);
+  for (int known = 0; known < 5; ++known) {
+    const int ambiguity = state_.find(gps(known + 1), Part::ambiguity);
+    EXPECT_EQ(std::sqrt(state_.P()(ambiguity, ambiguity)) > 1.0, phase(known).doubtful) << known;
+  }
   EXPECT_LT(error(), 1.5);
   const auto P = state_.P().block<3, 3>(S::position, S::position);
   EXPECT_GT(std::sqrt(P.trace()), 0.5);  // the covariance accounts for it

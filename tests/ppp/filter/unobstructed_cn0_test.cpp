@@ -30,6 +30,13 @@ TEST(UnobstructedCn0, IsBelowTheUpperQuartileOfAStrongReceiver) {
   EXPECT_DOUBLE_EQ(strength.of(zenith), 47.0);  // other elevations are unaffected
 }
 
+// The first positions of a drive between houses depend on it.
+TEST(UnobstructedCn0, IsKnownAfterAFewSignals) {
+  UnobstructedCn0 strength{PppParameters{}};
+  for (int i = 0; i < 4; ++i) strength.add(half_way, 46.0);
+  EXPECT_NEAR(strength.of(half_way), 46.0 - 4.0, 1.0);
+}
+
 // Between houses most signals are weak, but they must not count as unobstructed.
 TEST(UnobstructedCn0, IsNotLoweredForAWeakReceiver) {
   UnobstructedCn0 strength{PppParameters{}};
