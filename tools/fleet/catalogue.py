@@ -86,6 +86,7 @@ def load(path):
             recording["path"] = str(Path(path).parent.resolve() / expanded(recording["path"], ["recording", i, "path"]))
             if not os.path.exists(recording["path"]):
                 fail(["recording", i, "path"], f"there is nothing at {recording['path']}")
+        recording["arguments"] = [expanded(a, ["recording", i, "arguments"]) for a in recording.get("arguments", [])]
         for name, value in recording.get("values", {}).items():
             recording["values"][name] = expanded(value, ["recording", i, "values"])
     for i, experiment in enumerate(catalogue["experiment"]):
@@ -179,7 +180,7 @@ def make_plan(catalogue, made, only=()):
                 experiment["variants"], experiment.get("seeds", [0]), experiment.get("faults", [""]),
                 varied(experiment.get("vary", {})), range(len(repeats))):
             own = with_values([*experiment["arguments"], *experiment["variants"][named], *repeats[repeat]], r)
-            arguments = [*r.get("arguments", []), *own]
+            arguments = [*r["arguments"], *own]
             if configuration:
                 arguments += ["--configuration", configuration]
             if seed:

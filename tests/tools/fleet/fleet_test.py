@@ -122,7 +122,7 @@ class Catalogue(Folder):
 
     def test_arguments_have_variants_and_a_value_of_each_recording(self):
         (self.folder / "map.osm").write_text("1\n")
-        text = TEXT.replace('tags = ["short"]', 'values = { from = "20" }')
+        text = TEXT.replace('tags = ["short"]', 'values = { from = "20" }\narguments = ["--odometry-poses", "$MADE_UP_MAPS/poses"]')
         text = text.replace('split = "score"', 'values = { from = "30" }').replace("[1, 2, 3]", "[1]")
         text = text.replace("metrics", 'arguments = ["--map", "$MADE_UP_MAPS/map.osm"]\n'
                             'variants = { whole = [], out = ["--gnss-outage", "{from}:10"] }\nmetrics')
@@ -133,6 +133,8 @@ class Catalogue(Folder):
         outages = {(r["recording"], r["arguments"][r["arguments"].index("--gnss-outage") + 1])
                    for r in plan.values() if r["variant"] == "auto, out, scale=1"}
         self.assertEqual(outages, {("a", "20:10"), ("made", "30:10")})
+        poses = {(r["recording"], str(self.folder / "poses") in r["arguments"]) for r in plan.values()}
+        self.assertEqual(poses, {("a", True), ("made", False)})
         (self.folder / "map.osm").write_text("another\n")
         self.assertEqual(set(plan) & set(self.plan(text)["runs"]), set(), "another map makes other runs")
         with self.assertRaisesRegex(catalogue.Wrong, "the recording 'a' has no value 'from'"):
@@ -271,6 +273,7 @@ class Fleet(Folder):
         rows = {r["fault"]: r for r in self.rows()}
         self.assertEqual({f: r["status"] for f, r in rows.items()}, {"": 0, "lost": 1, "killed": -9, "killed-once": 0})
         self.assertEqual(rows["lost"]["error"], "maploop: there is no position")
+        self.assertRegex(done.stderr, "fleet: 2 runs ended with an error, the first of a .*: maploop: there is no position")
         self.assertIsNone(rows["lost"]["position_rms"])
         self.assertAlmostEqual(rows["killed-once"]["position_rms"], 1.1)
         self.assertEqual(sum("killed " in call for call in self.calls()), 3)
