@@ -50,9 +50,10 @@ class SensorYaml {
     } catch (const std::invalid_argument& error) {
       fail(key, error.what());
     }
-    if (values.size() != count)
+    if (values.size() != count) {
       fail(key,
            "has " + std::to_string(values.size()) + " numbers instead of " + std::to_string(count));
+    }
     return values;
   }
 

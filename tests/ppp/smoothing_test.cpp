@@ -77,10 +77,10 @@ class SmoothedRun : public ::testing::Test {
     gnss::RunOptions options;
     options.parameters.systems = "GE";
     options.direction = direction;
-    options.start = start;
-    options.end = end;
-    gnss::PppRun run(files, options);
-    const gnss::Truth truth(place, files.observations[0].epochs.front().time);
+    options.start = start_;
+    options.end = end_;
+    gnss::PppRun run(files_, options);
+    const gnss::Truth truth(place_, files_.observations[0].epochs.front().time);
     gnss::Score score(truth, 1e-4);
     GpsTime last{};
     run.process([&](const PppSolution& s) {
@@ -92,12 +92,12 @@ class SmoothedRun : public ::testing::Test {
   }
   void read(const std::vector<std::string>& names) {
     for (const std::string& name : names)
-      read_into(maploop::testing::real_data() / "gnss" / name, files);
+      read_into(maploop::testing::real_data() / "gnss" / name, files_);
   }
 
-  GnssFiles files;
-  std::string place;
-  std::optional<GpsTime> start, end;
+  GnssFiles files_;
+  std::string place_;
+  std::optional<GpsTime> start_, end_;
 };
 
 // A cold start at noon: forward, the first quarter of an hour is metres off.
@@ -107,9 +107,9 @@ TEST_F(SmoothedRun, HasNoConvergence) {
         "esbc_static/GRG0MGXFIN_20201770000_01D_15M_ORB.SP3.gz",
         "esbc_static/GRG0MGXFIN_20201770000_01D_30S_CLK.CLK.gz", "models/igs14_rebuilt_GE.atx.gz",
         "models/igs05_receivers.atx.gz"});
-  place = "3582104.7678,532590.1740,5232755.1436";
-  start = gps_time({2020, 6, 25, 12, 0, 0.0});
-  end = gps_time({2020, 6, 25, 13, 0, 0.0});
+  place_ = "3582104.7678,532590.1740,5232755.1436";
+  start_ = gps_time({2020, 6, 25, 12, 0, 0.0});
+  end_ = gps_time({2020, 6, 25, 13, 0, 0.0});
   const auto forward = accuracy(Direction::forward);
   const auto backward = accuracy(Direction::backward);
   const auto smoothed = accuracy(Direction::smoothed);
@@ -127,7 +127,7 @@ TEST_F(SmoothedRun, OfACarAgreesWithItsReferenceAboutTheMean) {
   read({car + "SEPT265G.21O.gz", car + "SEPT2650.21P.gz",
         car + "COD0MGXFIN_20212650000_01D_05M_ORB.SP3.gz",
         car + "COD0MGXFIN_20212650000_01D_01D_OSB.BIA.gz", "models/igs14_rebuilt_GE.atx.gz"});
-  place = (maploop::testing::real_data() / "gnss" / car / "rtk_reference.pos.gz").string();
+  place_ = (maploop::testing::real_data() / "gnss" / car / "rtk_reference.pos.gz").string();
   EXPECT_GT(accuracy(Direction::forward).horizontal_rmse_without_mean, 0.15);
   const auto smoothed = accuracy(Direction::smoothed);
   EXPECT_LT(smoothed.horizontal_rmse_without_mean, 0.06);

@@ -64,7 +64,7 @@ std::vector<TimeOffset> compare_stamps(const vehicle::Recording& recording,
   try {
     const extrinsics::Stretch stretch = turning_stretch(recording);
     append(sentences, cut_off_images(recording, stretch));
-    const std::vector<TimeOffset> offsets = time_offsets(recording, config, stretch);
+    std::vector<TimeOffset> offsets = time_offsets(recording, config, stretch);
     append(sentences, advice(offsets, path));
     return offsets;
   } catch (const std::invalid_argument& e) {
