@@ -11,9 +11,10 @@ namespace {
 std::vector<Eigen::Vector2d> pixel_grid(int width, int height) {
   constexpr int cells = 40;
   std::vector<Eigen::Vector2d> grid;
-  for (int i = 0; i <= cells; ++i)
+  for (int i = 0; i <= cells; ++i) {
     for (int k = 0; k <= cells; ++k)
       grid.emplace_back((width - 1.0) * k / cells, (height - 1.0) * i / cells);
+  }
   return grid;
 }
 
@@ -60,9 +61,10 @@ ReversedDistortion reversed(const CameraModel& camera, int width, int height) {
     distorted.push_back(camera.normalized(pixel));
     undistorted.push_back(*ray);
   }
-  if (2 * distorted.size() < pixels.size())
+  if (2 * distorted.size() < pixels.size()) {
     throw std::runtime_error(
         "the distortion is not that of a lens: it folds back in most of the image");
+  }
   const Distortion fitted = fit_distortion(distorted, undistorted);
   return {fitted, largest_distance(camera, fitted, distorted, undistorted)};
 }

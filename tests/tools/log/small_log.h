@@ -31,8 +31,8 @@ inline constexpr std::int64_t test_start = 1'317'042'651'000'000;
 std::vector<TestEvent> small_drive();
 
 // Return one message each: NAV_STATE with its position east, MAP_MATCH on a road "Main Street, way
-// 7" to the north that bends to the right, 3 m east of the state, HEALTH with `threads` threads, and
-// one of an unknown type.
+// 7" to the north that bends to the right, 3 m east of the state, HEALTH with `threads` threads,
+// and one of an unknown type.
 std::vector<std::uint8_t> nav_state_bytes(double east);
 std::vector<std::uint8_t> map_match_bytes();
 std::vector<std::uint8_t> health_bytes(int threads);
