@@ -55,21 +55,21 @@ Cameras moved(const Cameras& cameras, const CommonVector& by) {
 }
 
 // The normal equations of one view: residuals r, and derivatives A by the common parameters, B by
-// the board's pose.
+// the board's pose. A_B is the product of A transposed and B.
 struct Normals {
-  CommonMatrix AtA = CommonMatrix::Zero();
-  MixedMatrix AtB = MixedMatrix::Zero();
-  PoseMatrix BtB = PoseMatrix::Zero();
-  CommonVector Atr = CommonVector::Zero();
-  PoseVector Btr = PoseVector::Zero();
+  CommonMatrix A_A = CommonMatrix::Zero();
+  MixedMatrix A_B = MixedMatrix::Zero();
+  PoseMatrix B_B = PoseMatrix::Zero();
+  CommonVector A_r = CommonVector::Zero();
+  PoseVector B_r = PoseVector::Zero();
 
   void add(const Eigen::Matrix<double, 2, common_parameter_count>& a,
            const Eigen::Matrix<double, 2, 6>& b, const Eigen::Vector2d& r) {
-    AtA += a.transpose() * a;
-    AtB += a.transpose() * b;
-    BtB += b.transpose() * b;
-    Atr += a.transpose() * r;
-    Btr += b.transpose() * r;
+    A_A += a.transpose() * a;
+    A_B += a.transpose() * b;
+    B_B += b.transpose() * b;
+    A_r += a.transpose() * r;
+    B_r += b.transpose() * r;
   }
 };
 
@@ -110,9 +110,10 @@ std::vector<Normals> normals_of(const Board& board, const std::vector<View>& vie
 
 double sum_of_squares(const Residuals& residuals) {
   double sum = 0.0;
-  for (const auto& view : residuals)
+  for (const auto& view : residuals) {
     for (const Corners& side : view)
       for (const Eigen::Vector2d& r : side) sum += r.squaredNorm();
+  }
   return sum;
 }
 
@@ -136,11 +137,11 @@ PoseMatrix damped_inverse(const PoseMatrix& m, double damping) {
 Reduced reduce(const std::vector<Normals>& views, double damping) {
   Reduced reduced;
   for (const Normals& n : views) {
-    const MixedMatrix gain = n.AtB * damped_inverse(n.BtB, damping);
-    CommonMatrix damped = n.AtA;
+    const MixedMatrix gain = n.A_B * damped_inverse(n.B_B, damping);
+    CommonMatrix damped = n.A_A;
     damped.diagonal() *= 1.0 + damping;
-    reduced.S += damped - gain * n.AtB.transpose();
-    reduced.s += n.Atr - gain * n.Btr;
+    reduced.S += damped - gain * n.A_B.transpose();
+    reduced.s += n.A_r - gain * n.B_r;
   }
   return reduced;
 }
@@ -182,7 +183,7 @@ Residuals residuals_at(const Board& board, const std::vector<View>& views, const
                        const std::vector<Eigen::Isometry3d>& T_left_board) {
   Residuals residuals(views.size());
   const auto points = board.points();
-  for (std::size_t v = 0; v < views.size(); ++v)
+  for (std::size_t v = 0; v < views.size(); ++v) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Eigen::Vector3d in_left =
           T_left_board[v] * Eigen::Vector3d(points[i].x(), points[i].y(), 0.0);
@@ -192,6 +193,7 @@ Residuals residuals_at(const Board& board, const std::vector<View>& views, const
       residuals[v][1].push_back(views[v].right[i] -
                                 project_with_derivatives(cameras.right, in_right).pixel);
     }
+  }
   return residuals;
 }
 
@@ -230,8 +232,8 @@ Adjustment adjust(const Board& board, const std::vector<View>& views, const Came
       std::vector<Eigen::Isometry3d> poses;
       for (std::size_t v = 0; v < views.size(); ++v) {
         const Normals& n = normals[v];
-        poses.push_back(moved(result.T_left_board[v], damped_inverse(n.BtB, damping) *
-                                                          (n.Btr - n.AtB.transpose() * common)));
+        poses.push_back(moved(result.T_left_board[v], damped_inverse(n.B_B, damping) *
+                                                          (n.B_r - n.A_B.transpose() * common)));
       }
       Residuals residuals = residuals_at(board, views, cameras, poses);
       const double now = sum_of_squares(residuals);
