@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <opencv2/calib3d.hpp>
+#include <ostream>
 #include <string>
 
 #include "sensors/camera/camera_model.h"
@@ -45,6 +46,11 @@ struct Case {
   Distortion lens;
   double most;  // of x and y of the rays
 };
+
+// The name of a test must be the same in each process.
+void PrintTo(const Case& lens, std::ostream* out) {
+  *out << lens.name;
+}
 
 class Lenses : public ::testing::TestWithParam<Case> {};
 
