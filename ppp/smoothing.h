@@ -15,11 +15,10 @@ namespace maploop::ppp {
 std::vector<Epoch> reversed(const std::vector<Epoch>& epochs);
 
 // Returns the combination of the solutions of one epoch by a filter that ran forward and one that
-// ran backward; the other one if one has no position. Both contain this epoch, the models' errors
-// and what is known before the first epoch, to an unknown degree. So the covariances are
-// intersected
-// ((25) of METHOD.md), which is right however much the two have in common. The satellites' reports
-// are those of the more accurate one.
+// ran backward. If one of them has no position, the other one is returned. Both contain this epoch,
+// the models' errors and what is known before the first epoch, to an unknown degree. So the
+// covariances are intersected ((25) of METHOD.md), which is right however much the two have in
+// common. The satellites' reports are those of the more accurate one.
 PppSolution combined(const PppSolution& forward, const PppSolution& backward);
 
 }  // namespace maploop::ppp

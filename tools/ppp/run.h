@@ -38,7 +38,8 @@ class PppRun {
   // Calls the sink for every epoch between start and end, in the order of time.
   void process(const std::function<void(const ppp::PppSolution&)>& sink);
 
-  // Of the epoch that the sink is given; `filter` is the one that runs forward.
+  // The sink may call these two for the epoch that it is given. filter() is the filter that runs
+  // forward.
   const MapStep& map_step() const { return step_; }
   const ppp::MapAidedFilter& filter() const { return filter_; }
 
