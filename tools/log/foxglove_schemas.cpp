@@ -140,14 +140,13 @@ const Object<SceneLine>& line_object() {
 }
 
 const Object<SceneText>& text_object() {
-  static const SceneColor grey{0.5, 0.5, 0.5};
   static const Object<SceneText> object{
       {"pose", pose_object().schema(),
        [](const SceneText& t) { return pose_object().of({.position = t.place}); }},
       constant<SceneText>("billboard", yes_or_no, true),
       constant<SceneText>("font_size", number, scene_text_height),
       constant<SceneText>("scale_invariant", yes_or_no, false),
-      constant<SceneText>("color", color_object().schema(), color_object().of(grey)),
+      constant<SceneText>("color", color_object().schema(), color_object().of(scene_text_color)),
       {"text", text, [](const SceneText& t) { return json(t.text); }}};
   return object;
 }

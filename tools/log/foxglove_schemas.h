@@ -126,5 +126,6 @@ struct SceneUpdate {
 
 inline constexpr double scene_line_width = 0.15;  // m
 inline constexpr double scene_text_height = 0.8;  // m
+inline constexpr SceneColor scene_text_color{0.5, 0.5, 0.5};
 
 }  // namespace maploop::foxglove

@@ -104,9 +104,10 @@ struct Written<SceneUpdate> {
     std::string markers = number(static_cast<std::uint32_t>(scene.lines.size() + 1));
     std::int32_t id = 0;
     for (const SceneLine& line : scene.lines) markers += of_line(scene, line, id++);
-    constexpr SceneColor grey{0.5, 0.5, 0.5};
     constexpr std::int32_t text_view_facing = 9;
-    return markers + start(scene, id, text_view_facing, scene.text.place, scene_text_height, grey) +
+    return markers +
+           start(scene, id, text_view_facing, scene.text.place, scene_text_height,
+                 scene_text_color) +
            number(none) + number(none) + text(scene.text.text) + end();
   }
 
