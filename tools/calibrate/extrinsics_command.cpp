@@ -79,8 +79,8 @@ void add_calibrate_extrinsics(CLI::App& calibrate, Command& command) {
   const auto [sub, options] = add_command(
       calibrate, command, "extrinsics",
       "Find how cameras, LiDAR and inertial unit of a recorded drive are turned against each "
-      "other, how late their stamps are, and where they are as far as turns show it, each with "
-      "its standard deviation",
+      "other, how late their stamps are, and where they are as far as the drive shows it, each "
+      "with its standard deviation",
       calibrate_extrinsics);
   sub->add_option("RECORDING", options.recording,
                   "Whatever maploop replay takes: some minutes of driving with turns")

@@ -161,14 +161,27 @@ TEST(Extrinsics, WithoutAnyImageTheUnitIsLateAgainstTheLidar) {
   expect(found, "lidar", "roll", -0.5, 0.2);
 }
 
-TEST(Extrinsics, StampsThatComeTooEarlyAreSaidAndNotWritten) {
+TEST(Extrinsics, NoSensorStampsBeforeItMeasuresSoTheOthersAreLate) {
   const MadeMotion motion({.axle = axle});
   Measurements m = measured(motion);
   m.inertial.samples = motion.of_gyros(-0.05, 1e-4);
   const Extrinsics found = find_extrinsics(m, wrong_car());
-  EXPECT_FALSE(value(found, "imu", "delay").observed);
-  EXPECT_NEAR(value(found, "imu", "delay").value, -0.05, 0.003);
-  EXPECT_THAT(found.sentences, Contains(HasSubstr("too early")));
+  expect(found, "camera", "delay", 0.05, 0.003);
+  expect(found, "lidar", "delay", 0.065, 0.003);
+  EXPECT_EQ(value(found, "imu", "delay").value, 0.0);
+  EXPECT_TRUE(value(found, "imu", "delay").observed);
+}
+
+TEST(Extrinsics, TheCameraMovesIfTheLidarIsDescribedBetter) {
+  VehicleDescription car = wrong_car();
+  car.lidar.position = true_car().lidar.position;
+  car.lidar.position.left_sigma = 0.01;
+  car.camera.position.left = 0.0;
+  car.camera.position.left_sigma = 0.5;
+  const Extrinsics found = find_extrinsics(measured(MadeMotion({.turns = 0.6, .axle = axle})), car);
+  expect(found, "camera", "left", 0.3, 0.1);
+  EXPECT_EQ(found.description.lidar.position.left, -0.1);
+  expect(found, "lidar", "forward", 0.4, 0.1);
 }
 
 TEST(Extrinsics, AMountThatIsFoundIsWritten) {

@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "msgs/frames.h"
+#include "tools/calibrate/extrinsics/edge_alignment.h"
 #include "tools/calibrate/extrinsics/found_values.h"
+#include "tools/calibrate/extrinsics/ground_alignment.h"
 
 namespace maploop::extrinsics {
 namespace {
@@ -14,6 +16,15 @@ using Eigen::Matrix3d, Eigen::Vector3d;
 
 constexpr double compared = 0.09;  // s, least duration of the motions whose rates are compared
 constexpr double mounted_sigma = 0.005;  // rad, of x along the travel: [fusion] slip_sigma
+
+double mean_speed(const std::vector<SensorMotion>& motions) {
+  double way = 0.0, time = 1e-9;  // m, s
+  for (const SensorMotion& m : motions) {
+    way += m.T_from_to.translation().norm();
+    time += to_seconds(m.to - m.from);
+  }
+  return way / time;
+}
 
 using Aligned = std::optional<RateAlignment>;
 
@@ -30,8 +41,9 @@ class Search {
 
   Extrinsics result() && {
     pair_sensors();
-    join_rotations();
     find_delays();
+    if (both_) refine_by_views();
+    join_rotations();
     find_positions();
     if (measured_.inertial.mount) found_.set_mount(*measured_.inertial.mount);
     return found_.take();
@@ -43,6 +55,7 @@ class Search {
     AlignmentStart start;
     start.R_a_b = R_a_b;
     start.bias_sigma = bias_sigma;
+    start.delay_by_third_axis = &b == &measured_.lidar;
     const RateAlignment r = align(a, joined(b.motions, compared), start);
     found_.add({a_name, b_name, r});
     return r.status == AlignmentStatus::ok ? Aligned(r) : std::nullopt;
@@ -50,7 +63,8 @@ class Search {
 
   void pair_sensors() {
     const InertialRates& rates = measured_.inertial;
-    const SensorMotions &camera = measured_.camera, &lidar = measured_.lidar;
+    const CameraMotions& camera = measured_.camera;
+    const LidarMotions& lidar = measured_.lidar;
     if (!rates.samples.empty()) {
       const RotationStream unit = RotationStream::of_rates(rates.samples, rates.vertical_alone);
       const double bias = AlignmentStart().bias_sigma;
@@ -69,6 +83,29 @@ class Search {
                        start_.R_body_camera.transpose() * start_.R_body_lidar, 0.0);
     if (!both_) return;
     eye_ = hand_eye(camera.motions, lidar.motions, *both_);
+  }
+
+  // Refines the LiDAR's pose against the camera by what both see, where turns do not show the place
+  // beginning at the one that is described.
+  void refine_by_views() {
+    const CameraMotions& camera = measured_.camera;
+    const LidarMotions& lidar = measured_.lidar;
+    const std::vector<ViewPair> views =
+        pair_views(camera.views, lidar.views, lidar.motions, -lidar_delay_);
+    const auto& [car, by_camera, by_lidar, imu, antenna] = described_;
+    const Vector3d described = (camera_pose(by_camera.position, by_camera.rotation).inverse() *
+                                sensor_pose(by_lidar.position, by_lidar.rotation))
+                                   .translation();
+    HandEye start = eye_;
+    for (int i = 0; i < 3; ++i) {
+      if (eye_.position_sigma[i] > observed_position) start.T_a_b.translation()[i] = described[i];
+    }
+    for (int round = 0; round < 3; ++round) {  // each takes the other's part as it is
+      if (const auto found = align_ground(views, camera.calibration, start)) start = eye_ = *found;
+      if (const auto found = align_edges(views, camera.calibration, start)) start = eye_ = *found;
+    }
+    eye_.position_sigma.z() =
+        std::hypot(eye_.position_sigma.z(), lidar_delay_sigma_ * mean_speed(lidar.motions));
     found_.set_camera_lidar(eye_);
   }
 
@@ -101,8 +138,8 @@ class Search {
   std::optional<MeasuredTravel> travel() const {
     const Aligned& by = camera_ ? camera_ : lidar_;
     if (!by) return std::nullopt;
-    const Travel t = travel_of((camera_ ? measured_.camera : measured_.lidar).motions, by->R_a_b,
-                               car_.rear_slip, car_.rear_slip_sigma);
+    const Travel t = travel_of(camera_ ? measured_.camera.motions : measured_.lidar.motions,
+                               by->R_a_b, car_.rear_slip, car_.rear_slip_sigma);
     if (!t.found) return std::nullopt;
     return MeasuredTravel{camera_ ? Part::camera : Part::lidar,
                           Vector3d(1.0, 0.0, std::tan(car_.climb_offset)).normalized(),
@@ -137,8 +174,14 @@ class Search {
       contradiction = std::max(1.0, squares);
     }
     const Eigen::Vector2d sigma = (contradiction * normal.inverse().diagonal()).cwiseSqrt();
-    if (camera_ || lidar_) found_.set_unit_delay(delays[0], sigma[0]);
-    if (of_lidar) found_.set_lidar_delay(delays[1], sigma[1]);
+    std::vector<FoundValues::MoreDelay> found;
+    if (camera_ || lidar_) found.push_back({"imu", delays[0], sigma[0]});
+    if (of_lidar) {
+      lidar_delay_ = delays[1];
+      lidar_delay_sigma_ = sigma[1];
+      found.push_back({"lidar", lidar_delay_, lidar_delay_sigma_});
+    }
+    found_.set_delays(camera_ || of_lidar ? "camera" : "lidar", found);
   }
 
   void find_positions() {
@@ -158,8 +201,9 @@ class Search {
   VehicleDescription described_;
   FoundValues found_;
   JointRotation start_, rotations_;
-  Aligned camera_, lidar_;  // against the unit
-  Aligned both_;            // the camera against the LiDAR
+  Aligned camera_, lidar_;                              // against the unit
+  Aligned both_;                                        // the camera against the LiDAR
+  double lidar_delay_ = 0.0, lidar_delay_sigma_ = 0.0;  // s, against the camera
   HandEye eye_;
 };
 

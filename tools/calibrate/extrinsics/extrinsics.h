@@ -47,7 +47,8 @@ std::string reason(const RateAlignment& alignment);
 
 // Measured beforehand, so that it can be made up in tests.
 struct Measurements {
-  SensorMotions camera, lidar;
+  CameraMotions camera;
+  LidarMotions lidar;
   InertialRates inertial;
 };
 

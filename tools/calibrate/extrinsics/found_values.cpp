@@ -62,10 +62,11 @@ void FoundValues::add(const SensorPair& pair) {
       ".");
 }
 
-void FoundValues::put(const std::string& sensor, const char* unit, double limit, const Change& c) {
-  const bool observed = c.new_sigma <= limit;
-  found_.values.push_back(
-      {"vehicle." + sensor, c.key, unit, c.value, c.new_value, c.new_sigma, observed});
+void FoundValues::put(const std::string& sensor, const char* unit, bool observed, const Change& c) {
+  const std::string table = "vehicle." + sensor;
+  std::erase_if(found_.values,
+                [&](const FoundValue& v) { return v.table == table && v.key == c.key; });
+  found_.values.push_back({table, c.key, unit, c.value, c.new_value, c.new_sigma, observed});
   if (!observed) {
     say(
         fmt::format("The {} of [vehicle.{}] is not observable on this recording (1 sigma {:.2g} "
@@ -82,9 +83,12 @@ void FoundValues::put_rotation(const std::string& sensor, SensorRotation& r,
                                bool is_camera) {
   const Vector3d angles = angles_of(R_body_sensor, is_camera);
   const Vector3d sigmas = angle_sigmas(R_body_sensor, is_camera, covariance);
-  put(sensor, "deg", observed_angle, {"roll", r.roll, r.roll_sigma, angles[0], sigmas[0]});
-  put(sensor, "deg", observed_angle, {"pitch", r.pitch, r.pitch_sigma, angles[1], sigmas[1]});
-  put(sensor, "deg", observed_angle, {"yaw", r.yaw, r.yaw_sigma, angles[2], sigmas[2]});
+  const auto put_angle = [&](const char* key, double& value, double& sigma, int i) {
+    put(sensor, "deg", sigmas[i] <= observed_angle, {key, value, sigma, angles[i], sigmas[i]});
+  };
+  put_angle("roll", r.roll, r.roll_sigma, 0);
+  put_angle("pitch", r.pitch, r.pitch_sigma, 1);
+  put_angle("yaw", r.yaw, r.yaw_sigma, 2);
 }
 
 void FoundValues::set_camera_rotation(const JointRotation& rotation) {
@@ -99,27 +103,29 @@ void FoundValues::set_lidar_rotation(const JointRotation& rotation) {
   found_.contradiction = rotation.contradiction;
 }
 
-void FoundValues::put_delay(const std::string& sensor, SensorTime& time, double more,
-                            double sigma) {
-  double delay = time.delay + more;
-  if (delay < 0.0 && delay > -2.0 * sigma) delay = 0.0;
-  if (delay >= 0.0 || sigma > observed_delay) {
-    put(sensor, "s", observed_delay, {"delay", time.delay, time.delay_sigma, delay, sigma});
-    return;
+SensorTime& FoundValues::time_of(const std::string& sensor) {
+  VehicleDescription& d = found_.description;
+  return sensor == "camera" ? d.camera.time : sensor == "lidar" ? d.lidar.time : d.imu.time;
+}
+
+void FoundValues::set_delays(const std::string& compared_with,
+                             const std::vector<MoreDelay>& found) {
+  double negative = 0.0, sigma = 0.0;
+  for (const MoreDelay& f : found) {
+    const double delay = time_of(f.sensor).delay + f.more;
+    if (f.sigma > observed_delay || delay > std::min(negative, -2.0 * f.sigma)) continue;
+    negative = delay;
+    sigma = f.sigma;
   }
-  found_.values.push_back({"vehicle." + sensor, "delay", "s", time.delay, delay, sigma, false});
-  say(fmt::format(
-      "The stamps of [vehicle.{}] are {:.1f} +-{:.1f} ms too early against the others', which no "
-      "delay of this sensor expresses: it is not written, and those of the others are too late.",
-      sensor, -1e3 * delay, 1e3 * sigma));
-}
-
-void FoundValues::set_unit_delay(double more, double sigma) {
-  put_delay("imu", found_.description.imu.time, more, sigma);
-}
-
-void FoundValues::set_lidar_delay(double more, double sigma) {
-  put_delay("lidar", found_.description.lidar.time, more, sigma);
+  if (negative < 0.0) {
+    SensorTime& t = time_of(compared_with);
+    put(compared_with, "s", true, {"delay", t.delay, t.delay_sigma, t.delay - negative, sigma});
+  }
+  for (const MoreDelay& f : found) {
+    SensorTime& t = time_of(f.sensor);
+    put(f.sensor, "s", f.sigma <= observed_delay,
+        {"delay", t.delay, t.delay_sigma, std::max(0.0, t.delay + f.more - negative), f.sigma});
+  }
 }
 
 void FoundValues::set_forward(const std::string& sensor, const Travel& travel) {
@@ -127,23 +133,31 @@ void FoundValues::set_forward(const std::string& sensor, const Travel& travel) {
   const CarDescription& car = found_.description.car;
   VehicleDescription& d = found_.description;
   SensorPosition& p = sensor == "camera" ? d.camera.position : d.lidar.position;
-  put(sensor, "m", observed_position,
+  const double sigma = std::hypot(travel.axle_distance_sigma, car.rear_axle_distance_sigma);
+  put(sensor, "m", sigma <= observed_position,
       {"forward", p.forward, p.forward_sigma, travel.axle_distance - car.rear_axle_distance,
-       std::hypot(travel.axle_distance_sigma, car.rear_axle_distance_sigma)});
+       sigma});
 }
 
 void FoundValues::set_lidar_position(const HandEye& eye, const JointRotation& rotation) {
-  const SensorPosition& c = found_.description.camera.position;
+  SensorPosition &camera = found_.description.camera.position,
+                 &lidar = found_.description.lidar.position;
   const Matrix3d& R = rotation.R_body_camera;
-  const Vector3d at = Vector3d(c.forward, c.left, c.up) + R * eye.T_a_b.translation();
+  const Vector3d apart = R * eye.T_a_b.translation();
   const Matrix3d spread = R * eye.position_sigma.cwiseAbs2().asDiagonal() * R.transpose();
-  const Vector3d sigma =
-      (spread.diagonal() + Vector3d(c.forward_sigma, c.left_sigma, c.up_sigma).cwiseAbs2())
-          .cwiseSqrt();
-  SensorPosition& p = found_.description.lidar.position;
-  put("lidar", "m", observed_position, {"forward", p.forward, p.forward_sigma, at.x(), sigma.x()});
-  put("lidar", "m", observed_position, {"left", p.left, p.left_sigma, at.y(), sigma.y()});
-  put("lidar", "m", observed_position, {"up", p.up, p.up_sigma, at.z(), sigma.z()});
+  const auto put_axis = [&](const char* key, double SensorPosition::*value,
+                            double SensorPosition::*value_sigma, int axis) {
+    const bool camera_moves = lidar.*value_sigma < camera.*value_sigma;
+    SensorPosition &stays = camera_moves ? lidar : camera, &moves = camera_moves ? camera : lidar;
+    const double sigma = std::sqrt(spread(axis, axis));
+    put(camera_moves ? "camera" : "lidar", "m", sigma <= observed_position,
+        {key, moves.*value, moves.*value_sigma,
+         stays.*value + (camera_moves ? -1.0 : 1.0) * apart[axis],
+         std::hypot(sigma, stays.*value_sigma)});
+  };
+  put_axis("forward", &SensorPosition::forward, &SensorPosition::forward_sigma, 0);
+  put_axis("left", &SensorPosition::left, &SensorPosition::left_sigma, 1);
+  put_axis("up", &SensorPosition::up, &SensorPosition::up_sigma, 2);
 }
 
 void FoundValues::set_mount(const sensors::Mount& mount) {

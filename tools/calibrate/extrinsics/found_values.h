@@ -21,12 +21,17 @@ class FoundValues {
   void set_camera_lidar(const HandEye& eye) { found_.camera_lidar = eye; }
   void set_camera_rotation(const JointRotation& rotation);
   void set_lidar_rotation(const JointRotation& rotation);
-  // These delays are of a sensor's stamps against the camera's; `more` (s) is added to the delay
-  // that is described.
-  void set_unit_delay(double more, double sigma);
-  void set_lidar_delay(double more, double sigma);
+  // What is added to the described delay of a sensor, against the camera or, without one, the
+  // LiDAR.
+  struct MoreDelay {
+    std::string sensor;
+    double more = 0.0, sigma = 0.0;  // s
+  };
+  // No sensor stamps before it measures: if a delay would be negative, that of the sensor which
+  // the others are compared with is made longer, and the others' too.
+  void set_delays(const std::string& compared_with, const std::vector<MoreDelay>& found);
   void set_forward(const std::string& sensor, const Travel& travel);  // "camera", "lidar"
-  // From the camera's place, which is described.
+  // Of camera and LiDAR, the one whose place is described better stays where it is.
   void set_lidar_position(const HandEye& eye, const JointRotation& rotation);
   void set_mount(const sensors::Mount& mount);
 
@@ -36,11 +41,11 @@ class FoundValues {
     double &value, &sigma;  // in the description
     double new_value, new_sigma;
   };
-  void put(const std::string& sensor, const char* unit, double limit, const Change& change);
+  void put(const std::string& sensor, const char* unit, bool observed, const Change& change);
   void put_rotation(const std::string& sensor, SensorRotation& rotation,
                     const Eigen::Matrix3d& R_body_sensor, const Eigen::Matrix3d& covariance,
                     bool looks_forward);
-  void put_delay(const std::string& sensor, SensorTime& time, double more, double sigma);
+  SensorTime& time_of(const std::string& sensor);  // "camera", "lidar", "imu"
 
   Extrinsics found_;
 };

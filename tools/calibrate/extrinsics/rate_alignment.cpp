@@ -84,7 +84,7 @@ double turning(std::span<const SensorMotion> b) {
 // The residual is in b's axes, those of the noisier sensor: its noise then has the same weights
 // whatever the rotation, and does not pull it. A vertical rate alone can only be compared in a's.
 std::vector<Equation> equations_at(const RotationStream& a, std::span<const SensorMotion> b,
-                                   const RateAlignment& now) {
+                                   const RateAlignment& now, bool delay_by_third_axis) {
   std::vector<Equation> equations;
   for (const SensorMotion& m : b) {
     const auto rate = a.mean_rate(m.from, m.to, now.delay);
@@ -101,7 +101,9 @@ std::vector<Equation> equations_at(const RotationStream& a, std::span<const Sens
       equations.push_back({J.bottomRows<1>(), residual.tail<1>(), block});
     } else {
       const Matrix3d R_b_a = now.R_a_b.transpose();
-      equations.push_back({R_b_a * J, R_b_a * residual, block});
+      J = R_b_a * J;
+      if (delay_by_third_axis) J.col(3).head<2>().setZero();
+      equations.push_back({J, R_b_a * residual, block});
     }
   }
   return equations;
@@ -115,7 +117,7 @@ double settle(const RotationStream& a, std::span<const SensorMotion> b, const Al
       Vector3d::Constant(std::max(1e-9, start.bias_sigma));
   Fit fit;
   for (int i = 0; i < iterations; ++i) {
-    const std::vector<Equation> equations = equations_at(a, b, now);
+    const std::vector<Equation> equations = equations_at(a, b, now, start.delay_by_third_axis);
     now.motions = static_cast<int>(equations.size());
     if (now.motions < least_motions) return std::numeric_limits<double>::infinity();
     Eigen::VectorXd from_prior(7);

@@ -1,8 +1,13 @@
 #include "tools/calibrate/extrinsics/sensor_motions.h"
 
+#include <algorithm>
+
+#include "estimators/lidar/scan_preparation.h"
 #include "estimators/lidar/visual_lidar_odometer.h"
 #include "estimators/stereo/stereo_odometry.h"
 #include "sensors/imu/aligned_imu.h"
+#include "tools/calibrate/extrinsics/depth_edges.h"
+#include "tools/calibrate/extrinsics/image_edges.h"
 
 namespace maploop::extrinsics {
 namespace {
@@ -26,33 +31,78 @@ void each_sample(const std::unique_ptr<sensors::Source<T>>& source, const Stretc
   }
 }
 
+// The moments of which is kept what sensors saw: the first samples after equal steps of time.
+class Moments {
+ public:
+  explicit Moments(const vehicle::Recording& recording, const Stretch& stretch)
+      : next_(std::max(recording.first_stamp, stretch.from)),
+        step_(std::max(from_seconds(0.5),
+                       (std::min(recording.last_stamp, stretch.to) - next_) / most)) {}
+
+  bool due(Time stamp) {
+    if (stamp < next_) return false;
+    while (next_ <= stamp) next_ += step_;
+    return true;
+  }
+
+ private:
+  static constexpr int most = 240;
+  Time next_;
+  Duration step_;
+};
+
+// Surfaces close by, finer than those of odometry.
+lidar::LidarParameters surface_parameters(lidar::LidarParameters parameters) {
+  parameters.max_range = std::min(parameters.max_range, 40.0);
+  parameters.sample_voxel = 0.5;
+  return parameters;
+}
+
 }  // namespace
 
-SensorMotions camera_motions(const vehicle::Recording& recording,
+CameraMotions camera_motions(const vehicle::Recording& recording,
                              const vehicle::VehicleConfig& config, const Stretch& stretch,
                              const Progress& progress) {
-  SensorMotions result;
+  CameraMotions result;
+  result.calibration = recording.calibration.stereo;
   const auto camera = recording.sensors(stretch.from).camera;
   if (camera == nullptr) return result;
   const CameraDescription& described = config.vehicle.camera;
   const Eigen::Isometry3d T_body_camera = camera_pose(described.position, described.rotation);
   stereo::StereoOdometry odometry(recording.calibration.stereo, config.stereo);
-  each_sample(camera, stretch, progress,
-              [&](const StereoPair& pair) { add(odometry.process(pair), T_body_camera, result); });
+  Moments moments(recording, stretch);
+  each_sample(camera, stretch, progress, [&](const StereoPair& pair) {
+    add(odometry.process(pair), T_body_camera, result);
+    if (!moments.due(pair.stamp)) return;
+    CameraView& view = result.views.emplace_back(pair.stamp);
+    for (const stereo::StereoTrack& track : odometry.tracks())
+      view.points.push_back(stereo::image_of(track.current));
+    view.edges = vertical_edges(pair.left);
+  });
   return result;
 }
 
-SensorMotions lidar_motions(const vehicle::Recording& recording,
-                            const vehicle::VehicleConfig& config, const Stretch& stretch,
-                            const Progress& progress) {
-  SensorMotions result;
+LidarMotions lidar_motions(const vehicle::Recording& recording,
+                           const vehicle::VehicleConfig& config, const Stretch& stretch,
+                           const Progress& progress) {
+  LidarMotions result;
   const auto scans = recording.sensors(stretch.from).velodyne;
   if (scans == nullptr) return result;
   const LidarDescription& described = config.vehicle.lidar;
   const Eigen::Isometry3d T_body_lidar = sensor_pose(described.position, described.rotation);
   lidar::VisualLidarOdometer odometer(recording.calibration.T_body_velo, config.lidar);
+  lidar::ScanPreparation preparation(Eigen::Isometry3d::Identity(),
+                                     surface_parameters(config.lidar));
+  Moments moments(recording, stretch);
   each_sample(scans, stretch, progress, [&](const LidarScan& scan) {
+    const std::size_t before = result.motions.size();
     add(odometer.process(&scan, nullptr).lidar, T_body_lidar, result);
+    if (result.motions.size() == before || !moments.due(scan.stamp)) return;
+    const SensorMotion& m = result.motions.back();
+    const auto twist = lidar::Twist::of(m.T_from_to, to_seconds(m.to - m.from));
+    LidarView& view = result.views.emplace_back();
+    preparation.prepare(scan, scan.stamp, twist, &view.surfaces);
+    view.edges = depth_edges(scan, twist, config.lidar.elevation_correction);
   });
   return result;
 }

@@ -9,6 +9,7 @@
 #include "runtime/vehicle/drivers/recording.h"
 #include "sensors/imu/mount_alignment.h"
 #include "tools/calibrate/extrinsics/rotation_stream.h"
+#include "tools/calibrate/extrinsics/sensor_views.h"
 
 namespace maploop::extrinsics {
 
@@ -24,18 +25,27 @@ struct SensorMotions {
   int samples = 0;                    // images or scans
 };
 
+// What a camera or a LiDAR saw is kept now and then, of at most a few hundred moments.
+struct CameraMotions : SensorMotions {
+  StereoCalibration calibration;
+  std::vector<CameraView> views;
+};
+struct LidarMotions : SensorMotions {
+  std::vector<LidarView> views;
+};
+
 // Called with the stamp of each image or scan.
 using Progress = std::function<void(Time)>;
 
 // Stereo odometry, in the axes of the left camera; LiDAR odometry that no image helps, in the
 // scanner's, as config.vehicle describes them (vehicle::describe_car()). There is no sample of a
 // sensor that the recording lacks.
-SensorMotions camera_motions(const vehicle::Recording& recording,
+CameraMotions camera_motions(const vehicle::Recording& recording,
                              const vehicle::VehicleConfig& config, const Stretch& stretch,
                              const Progress& progress);
-SensorMotions lidar_motions(const vehicle::Recording& recording,
-                            const vehicle::VehicleConfig& config, const Stretch& stretch,
-                            const Progress& progress);
+LidarMotions lidar_motions(const vehicle::Recording& recording,
+                           const vehicle::VehicleConfig& config, const Stretch& stretch,
+                           const Progress& progress);
 
 struct InertialRates {
   std::vector<RateSample> samples;      // in the body's axes
