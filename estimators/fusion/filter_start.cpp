@@ -1,7 +1,8 @@
-// This file starts the filter, takes an inertial sample from before the start, and restarts the
-// filter when the clock of its data has jumped.
+// This file starts the filter, takes an inertial sample from before the start, restarts the filter
+// when the clock of its data has jumped, and judges the place where the vehicle was left.
 #include <utility>
 
+#include "estimators/fusion/gnss_update.h"
 #include "estimators/fusion/initial_state.h"
 #include "estimators/fusion/nav_state_output.h"
 #include "estimators/fusion/reduced_imu_filter.h"
@@ -46,6 +47,67 @@ Outcome ReducedImuFilter::start(const KnownStart& known) {
                     known.position, [&] { return initial_state(known, frame_, parameters_); });
 }
 
+void ReducedImuFilter::recall(const LastPlace& place) {
+  last_place_ = place;
+  status_.place = PlaceUse::remembered;
+}
+
+void ReducedImuFilter::start_where_left(Time first) {
+  if (initialized_ || status_.place != PlaceUse::remembered) return;
+  const PlaceStart known = start_at(last_place_, first, parameters_);
+  status_.place = known.use;
+  if (known.use != PlaceUse::started) return;
+  if (start(known.start).refused()) {
+    status_.place = PlaceUse::too_uncertain;
+  } else {
+    accept_stamp(first);  // the gap before it is known
+  }
+}
+
+bool ReducedImuFilter::moved_by(const GnssFix& fix) {
+  if (!initialized_ || (status_.place != PlaceUse::started && status_.place != PlaceUse::seen))
+    return false;
+  const Reason reason = check_fix(fix, parameters_);
+  if (reason != Reason::none && reason != Reason::too_slow) return false;
+  const auto at_position = predicted(fix.stamp), at_velocity = predicted(fix.velocity_stamp);
+  if (!at_position || !at_velocity) return false;
+  if (status_.place == PlaceUse::started) {
+    const double apart =
+        position_innovation(*at_position, fix, frame_, parameters_).nis(at_position->P);
+    if (!(apart <= parameters_.gnss_position_gate)) return true;
+    status_.place = PlaceUse::seen;
+  }
+  if (reason == Reason::too_slow) return false;
+  const double apart = velocity_innovation(*at_velocity, fix, at_velocity->yaw_rate, parameters_)
+                           .nis(at_velocity->P);
+  if (!(apart <= parameters_.gnss_velocity_gate)) return true;
+  status_.place = PlaceUse::confirmed;
+  return false;
+}
+
+// The first speed that odometry or the wheels measure shows whether the vehicle still stands, or
+// still drives, as it was left.
+Outcome ReducedImuFilter::moved_by(Outcome of_speed) {
+  const FilterState& state = newest_state();
+  const bool contradicts =
+      of_speed.reason == Reason::speed_gate || of_speed.reason == Reason::wheel_gate;
+  if (initialized_ && status_.place == PlaceUse::started && contradicts &&
+      state.odometry_applied == 0 && state.wheel_stamp == Time{}) {
+    forget_place(state.stamp);
+  }
+  return of_speed;
+}
+
+// The measurements from `from` on stay, as for a filter that has not started.
+void ReducedImuFilter::forget_place(Time from) {
+  while (history_.size() > 0 && history_[0].key.stamp < from) drop_oldest();
+  status_.place = PlaceUse::moved;
+  status_.phase = Phase::waiting_for_fix;
+  initialized_ = false;
+  // The origin that came from the place may be too far from where the vehicle is.
+  if (frame_.origin() == last_place_.position) has_origin_ = false;
+}
+
 template <class MakeState>
 Outcome ReducedImuFilter::start_with(Reason reason, Time stamp, const Geodetic& position,
                                      MakeState make_state) {
@@ -80,6 +142,7 @@ void ReducedImuFilter::restart() {
   slow_fix_.reset();
   guard_.reset();
   imu_clock_ = {};
+  if (!dropped(status_.place)) status_.place = PlaceUse::none;  // it was of the old clock
   status_.phase = Phase::waiting_for_fix;
   ++status_.restarts;
 }

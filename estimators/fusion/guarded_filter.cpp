@@ -66,6 +66,12 @@ void GuardedFilter::copy_to(Copy& copy, Time t) {
   copy.way = 0.0;
 }
 
+// The copies forget the last place too.
+void GuardedFilter::follow(Time t) {
+  for (Copy& copy : copies_)
+    if (copy.filter) copy_to(copy, t);
+}
+
 double GuardedFilter::distance_to(const Copy& copy, const NavState& aided, Time t) const {
   const auto free = copy.filter->state_at(t);
   if (!free || lost(*free)) return 0.0;

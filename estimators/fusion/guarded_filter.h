@@ -28,7 +28,10 @@ class GuardedFilter {
   Outcome add(const Measurement& measurement) {
     for (Copy& copy : copies_)
       if (copy.filter) copy.filter->add(measurement);
-    return aided_.add(measurement);
+    const PlaceUse before = aided_.place();
+    const Outcome outcome = aided_.add(measurement);
+    if (aided_.place() != before && aided_.place() == PlaceUse::moved) follow(measurement.stamp);
+    return outcome;
   }
   // Passes the feedback to the aided filter only. The filters are compared at every feedback's
   // stamp, even if it feeds nothing back, and the older copy replaces the aided filter if the map
@@ -36,6 +39,7 @@ class GuardedFilter {
   Outcome add(const MapFeedback& feedback);
 
   void recall(const RememberedCalibration& remembered) { aided_.recall(remembered); }
+  void recall(const LastPlace& place) { aided_.recall(place); }
   Outcome start(const KnownStart& known) { return aided_.start(known); }
   const ReducedImuFilter& aided() const { return aided_; }
   FilterStatus status() const { return aided_.status(); }
@@ -57,6 +61,7 @@ class GuardedFilter {
   static void describe(Archive& ar, Filter& filter);
   bool lost(const NavState& state) const;
   void copy_to(Copy& copy, Time t);
+  void follow(Time t);
   double distance_to(const Copy& copy, const NavState& aided, Time t) const;
   void restore(Time t);
 

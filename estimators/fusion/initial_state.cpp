@@ -63,7 +63,8 @@ void add_unknown_sensors(FilterState& state, const FusionParameters& p) {
 Reason check_start(const KnownStart& k) {
   const Eigen::Vector3d position(k.position.latitude, k.position.longitude, k.position.height);
   const Eigen::Vector3d attitude(k.attitude.azimuth, k.attitude.pitch, k.attitude.roll);
-  const Eigen::Vector4d sigmas(k.position_sigma, k.azimuth_sigma, k.tilt_sigma, k.speed_sigma);
+  const Eigen::Matrix<double, 5, 1> sigmas{k.position_sigma, k.up_sigma, k.azimuth_sigma,
+                                           k.tilt_sigma, k.speed_sigma};
   if (!position.allFinite() || !attitude.allFinite() || !sigmas.allFinite() ||
       !std::isfinite(k.speed)) {
     return Reason::not_finite;
@@ -86,7 +87,8 @@ FilterState initial_state(const KnownStart& k, const LocalFrame& frame, const Fu
   state.x[roll] = k.attitude.roll;
   state.x[climb_offset] = p.climb_offset;
   const auto add = [&](int i, double sigma) { state.P(i, i) += sigma * sigma; };
-  for (int i = east; i <= up; ++i) add(i, std::max(k.position_sigma, 1e-3));
+  for (int i = east; i <= north; ++i) add(i, std::max(k.position_sigma, 1e-3));
+  add(up, std::max(k.up_sigma, 1e-3));
   add(speed, std::max(k.speed_sigma, 1e-3));
   add(azimuth, std::max(k.azimuth_sigma, 1e-5));
   add(pitch, std::max(k.tilt_sigma, 1e-4));

@@ -15,7 +15,8 @@ struct KnownStart {
   Geodetic position;
   Attitude attitude;
   double speed = 0.0;             // m/s, negative in reverse
-  double position_sigma = 0.1;    // m, on each axis
+  double position_sigma = 0.1;    // m, east and north
+  double up_sigma = 0.1;          // m
   double azimuth_sigma = 0.0017;  // rad (0.1 deg)
   double tilt_sigma = 0.0087;     // rad (0.5 deg), pitch and roll
   double speed_sigma = 0.05;      // m/s

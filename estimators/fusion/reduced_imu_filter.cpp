@@ -37,6 +37,7 @@ Outcome ReducedImuFilter::add(const ImuSample& sample) {
   if (const Reason reason = check_sample(sample, parameters_); reason != Reason::none) {
     return count(refused(reason));
   }
+  start_where_left(sample.stamp);
   const EventKey key{sample.stamp, EventKind::imu, sample.sequence};
   if (const Reason reason = check_stamp(key); reason != Reason::none) return refuse_stamp(reason);
   if (const Reason reason = imu_clock_.check(sample); reason != Reason::none) {
@@ -73,7 +74,7 @@ Outcome ReducedImuFilter::add(const RelativeMotion& motion) {
                        history_[place - 1].key.kind >= EventKind::odometry;
     if (!taken) redo = history_.insert(clone, CloneRequest{});
   }
-  return insert_and_roll(key, motion, redo);
+  return moved_by(insert_and_roll(key, motion, redo));
 }
 
 Outcome ReducedImuFilter::add(const WheelSpeed& sample) {
@@ -81,7 +82,7 @@ Outcome ReducedImuFilter::add(const WheelSpeed& sample) {
   const Reason reason =
       parameters_.use_wheel_speed ? check_wheel(sample, parameters_) : Reason::not_configured;
   if (const auto refusal = refuse(reason, {key}, 1)) return *refusal;
-  return insert_and_roll(key, sample, history_.position_after(key));
+  return moved_by(insert_and_roll(key, sample, history_.position_after(key)));
 }
 
 Outcome ReducedImuFilter::add(const MapFeedback& feedback) {
@@ -91,6 +92,8 @@ Outcome ReducedImuFilter::add(const MapFeedback& feedback) {
 }
 
 Outcome ReducedImuFilter::add(const GnssFix& fix) {
+  start_where_left(start_stamp(fix));
+  if (moved_by(fix)) forget_place(start_stamp(fix));
   if (!initialized_) return start(fix);
   Reason reason = parameters_.use_gnss ? check_fix(fix, parameters_) : Reason::already_started;
   if (reason == Reason::too_slow) reason = Reason::none;  // only a start needs a course
@@ -104,6 +107,7 @@ Outcome ReducedImuFilter::add(const GnssFix& fix) {
 std::optional<Outcome> ReducedImuFilter::refuse(Reason reason, std::initializer_list<EventKey> keys,
                                                 std::size_t events) {
   if (reason != Reason::none) return count(refused(reason));
+  start_where_left(std::min(keys).stamp);
   for (const EventKey& key : keys) {
     if (const Reason stamp = check_stamp(key); stamp != Reason::none) return refuse_stamp(stamp);
     if (before_start(key)) return count(refused(Reason::before_start));
@@ -179,6 +183,12 @@ SelfCalibrations ReducedImuFilter::calibration() const {
 }
 
 std::optional<FusedState> ReducedImuFilter::state_at(Time t) const {
+  const std::optional<FilterState> state = predicted(t);
+  if (!state) return std::nullopt;
+  return fused_state(*state, frame_.origin(), parameters_);
+}
+
+std::optional<FilterState> ReducedImuFilter::predicted(Time t) const {
   if (!initialized_ || t < history_.past.state.stamp ||
       t > guard_.newest() + from_seconds(parameters_.max_gap)) {
     return std::nullopt;
@@ -186,7 +196,7 @@ std::optional<FusedState> ReducedImuFilter::state_at(Time t) const {
   const std::size_t position = history_.position_after(t);
   FilterState state = history_.state_before(position);
   advance(state, history_.samples_around(position), t, earth_, parameters_);
-  return fused_state(state, frame_.origin(), parameters_);
+  return state;
 }
 
 void ReducedImuFilter::take_over(const ReducedImuFilter& other) {
@@ -198,11 +208,11 @@ void ReducedImuFilter::take_over(const ReducedImuFilter& other) {
 
 template <class Archive, class Filter>
 void ReducedImuFilter::describe(Archive& ar, Filter& f) {
-  ar.section("reduced-IMU filter", 7);
+  ar.section("reduced-IMU filter", 8);
   archive_same_parameters(ar, f.parameters_);
   Geodetic origin = f.frame_.origin();
-  ar(f.remembered_, f.has_origin_, origin, f.guard_, f.imu_clock_, f.history_, f.started_from_,
-     f.slow_fix_, f.initialized_, f.status_);
+  ar(f.remembered_, f.last_place_, f.has_origin_, origin, f.guard_, f.imu_clock_, f.history_,
+     f.started_from_, f.slow_fix_, f.initialized_, f.status_);
   if constexpr (Archive::loading) {
     f.frame_ = LocalFrame(origin);
     f.earth_ = LocalEarth(origin);

@@ -11,6 +11,7 @@
 #include "estimators/fusion/event_history.h"
 #include "estimators/fusion/fusion_parameters.h"
 #include "estimators/fusion/initial_state.h"
+#include "estimators/fusion/last_place.h"
 #include "estimators/fusion/outcome.h"
 #include "estimators/fusion/self_calibration.h"
 #include "estimators/fusion/sensor_clock.h"
@@ -47,6 +48,7 @@ struct FilterStatus {
   // what the filter does with a measurement; NavState counts those that a state includes.)
   std::uint64_t applied = 0;
   std::uint64_t held = 0;
+  PlaceUse place = PlaceUse::none;
   std::array<std::uint64_t, reason_count> refused{};  // by Reason
 
   std::uint64_t refused_for(Reason reason) const {
@@ -57,7 +59,7 @@ struct FilterStatus {
 template <class Archive>
 void archive(Archive& ar, FilterStatus& s) {
   ar(s.phase, s.recoveries, s.reinitializations, s.imu_delay, s.restarts, s.shortened,
-     s.restorations, s.unused, s.applied, s.held, s.refused);
+     s.restorations, s.unused, s.applied, s.held, s.place, s.refused);
 }
 
 // Not thread-safe. Reads no clock, and allocates nothing after construction.
@@ -90,6 +92,10 @@ class ReducedImuFilter {
 
   // Uses what an earlier drive has estimated of the car, from the next start on.
   void recall(const RememberedCalibration& remembered) { remembered_ = remembered; }
+  // The first measurement starts the filter where the vehicle was left (start_at). If the first
+  // fix, the first fix of the moving vehicle or the first speed contradicts this, the filter
+  // forgets it at once, and starts from a fix as without it (PlaceUse::moved).
+  void recall(const LastPlace& place);
 
   // Starts the filter from given values.
   Outcome start(const KnownStart& known);
@@ -99,6 +105,7 @@ class ReducedImuFilter {
   // default frame.
   const LocalFrame& frame() const { return frame_; }
   FilterStatus status() const;
+  PlaceUse place() const { return status_.place; }
   const Contradictions& contradictions() const { return newest_state().contradictions; }
   const FusionParameters& parameters() const { return parameters_; }
   // Returns what the filter has estimated of the vehicle; each sigma is 0 before the start.
@@ -156,6 +163,12 @@ class ReducedImuFilter {
   template <class MakeState>
   Outcome start_with(Reason reason, Time stamp, const Geodetic& position, MakeState make_state);
   void restart();
+  void start_where_left(Time first);
+  // Returns whether the fix contradicts the last place; if it does not, notes that it agrees.
+  bool moved_by(const GnssFix& fix);
+  Outcome moved_by(Outcome of_speed);
+  void forget_place(Time from);
+  std::optional<FilterState> predicted(Time t) const;
   void make_room(std::size_t events);
   void drop_oldest();
   template <class Measurement>
@@ -166,6 +179,7 @@ class ReducedImuFilter {
   FusionParameters parameters_;
   StateVector sigmas_at_start_;
   RememberedCalibration remembered_;
+  LastPlace last_place_;  // if status_.place says so
   bool has_origin_ = false;
   LocalFrame frame_;
   LocalEarth earth_;

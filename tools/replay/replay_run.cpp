@@ -157,9 +157,11 @@ std::unique_ptr<vehicle::Vehicle> Replay::make_vehicle(const vehicle::Snapshot* 
   if (options_.snapshot) sinks.push_back(&pass_->hashes_after);
   const auto clock = options_.lockstep ? runtime::DataClock::virtual_time()
                                        : runtime::DataClock::paced(options_.speed);
+  vehicle::Observer observer = pass_->observer();
+  output_.keep_car_state(observer);
   auto vehicle = std::make_unique<vehicle::Vehicle>(
       config_, recording_.calibration, faults_.inject(std::move(sensors)), clock, std::move(sinks),
-      pass_->observer(), output_.new_tracer(), map_);
+      std::move(observer), output_.new_tracer(), map_);
   vehicle->slow_down(faults_.delays());
   vehicle->prepared(readiness_);
   if (options_.snapshot) {

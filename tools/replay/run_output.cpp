@@ -9,7 +9,6 @@
 
 #include "runtime/core/data_clock.h"
 #include "runtime/core/whole_file.h"
-#include "runtime/vehicle/config/car_state.h"
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
 #include "tools/replay/nav_files.h"
@@ -35,6 +34,12 @@ void write_states(const RunOptions& options, const RunPass& pass,
   if (!options.tum.empty()) evaluation::write_tum(options.tum, fused);
   if (!options.csv.empty()) write_nav_csv(options.csv, pass.track);
   if (!options.nmea.empty()) write_nmea(options.nmea, pass.track);
+}
+
+// A fix without a course is no place to start from.
+std::optional<fusion::LastPlace> place_of(const NavState& state) {
+  const bool has_course = state.status == NavStatus::aided || state.status == NavStatus::coasting;
+  return has_course ? std::optional(fusion::last_place(state)) : std::nullopt;
 }
 
 // Returns whether it succeeded.
@@ -69,8 +74,8 @@ void add_run_options(CLI::App* sub, RunOptions& options) {
              "Write what each thread did when to this file, for ui.perfetto.dev (of a replay that "
              "went back: since then)");
   add_output(sub, "--state", options.state,
-             "Start from what this file says of the car, if it exists, and keep there what is "
-             "estimated of the car: mounts, axle, antenna, scales, biases");
+             "Start from what this file says of the car, if it exists, and keep there where the "
+             "car is, and what is estimated of it: mounts, axle, antenna, scales, biases");
   add_output(sub, "--poses", options.poses,
              "Write the fused left-camera poses to this file in KITTI's format");
   add_output(sub, "--tum", options.tum, "The same in TUM's format, with stamps");
@@ -102,10 +107,20 @@ std::vector<RealtimeSetting> RunOutput::open_bus() {
   return bus_->settings();
 }
 
-void RunOutput::recall(vehicle::Vehicle& vehicle) const {
+void RunOutput::recall(vehicle::Vehicle& vehicle) {
   if (options_.state.empty()) return;
-  if (const auto known = vehicle::read_car_state(options_.state, config_.vehicle.car.name))
-    vehicle.recall(*known);
+  const auto known = vehicle::read_car_state(options_.state, config_.vehicle.car.name);
+  if (!known) return;
+  remembered_ = known->calibration;
+  vehicle.recall(known->calibration);
+  if (known->place) vehicle.recall(*known->place);
+}
+
+void RunOutput::say_place(fusion::PlaceUse use) {
+  if (!fusion::dropped(use) || use == place_said_) return;
+  place_said_ = use;
+  std::cerr << "maploop: " << to_string(use) << ", so '" << options_.state.string()
+            << "' gives no position to start from; the first fix does\n";
 }
 
 void RunOutput::keep_car_state(vehicle::Observer& observer) {
@@ -113,23 +128,34 @@ void RunOutput::keep_car_state(vehicle::Observer& observer) {
   car_state_written_ = runtime::monotonic_now();
   observer.calibration = [this](Time at, const fusion::SelfCalibrations& estimated) {
     const std::lock_guard lock(car_state_mutex_);
-    car_state_ = {at, estimated};
+    car_state_.at = at;
+    car_state_.calibration = estimated;
+  };
+  observer.place = [this](fusion::PlaceUse use) {
+    const std::lock_guard lock(car_state_mutex_);
+    place_use_ = use;
+  };
+  observer.nav_state = [this, observe = observer.nav_state](const FusedState& state) {
+    observe(state);
+    const std::lock_guard lock(car_state_mutex_);
+    car_state_.place = place_of(state);
   };
 }
 
 void RunOutput::update_car_state() {
-  constexpr Duration every = std::chrono::minutes(1);
+  constexpr Duration every = std::chrono::seconds(2);
   if (options_.state.empty() || runtime::monotonic_now() - car_state_written_ < every) return;
   car_state_written_ = runtime::monotonic_now();
-  std::optional<CarState> state;
+  vehicle::CarEstimate state;
+  fusion::PlaceUse use{};
   {
     const std::lock_guard lock(car_state_mutex_);
-    state = std::exchange(car_state_, std::nullopt);
+    state = car_state_;
+    use = place_use_;
   }
-  if (!state) return;
-  attempt([&] {
-    vehicle::write_car_state(options_.state, config_.vehicle.car.name, state->at, state->estimated);
-  });
+  say_place(use);
+  state.before = remembered_;
+  attempt([&] { vehicle::write_car_state(options_.state, config_.vehicle.car.name, state); });
 }
 
 std::vector<vehicle::MessageSink*> RunOutput::sinks(RunPass& pass,
@@ -173,13 +199,14 @@ bool RunOutput::write(const ReplayResult& result, const RunPass& pass,
   if (result.end)
     all &= attempt([&] { write_states(options_, pass, calibration.stereo.T_body_cam); });
   if (!options_.state.empty()) {
+    say_place(place_use_);
     all &= attempt([&] {
-      const std::size_t kept =
-          vehicle::write_car_state(options_.state, config_.vehicle.car.name, result.vehicle.last,
-                                   result.vehicle.calibration);
-      if (kept == 0) {
+      const vehicle::CarEstimate state{result.vehicle.last, result.vehicle.calibration,
+                                       result.end ? place_of(*result.end) : std::nullopt,
+                                       remembered_};
+      if (vehicle::write_car_state(options_.state, config_.vehicle.car.name, state) == 0) {
         std::cerr << "maploop: '" << options_.state.string()
-                  << "' is not written, because nothing of the car has been observed\n";
+                  << "' is not written, because there was no position\n";
       }
     });
   }

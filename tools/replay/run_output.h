@@ -9,12 +9,12 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "msgs/named_enum.h"
 #include "runtime/core/realtime.h"
 #include "runtime/core/trace.h"
+#include "runtime/vehicle/config/car_state.h"
 #include "runtime/vehicle/config/vehicle_config.h"
 #include "runtime/vehicle/graph/vehicle.h"
 #include "runtime/vehicle/output/lcm_bus.h"
@@ -68,13 +68,14 @@ class RunOutput {
   vehicle::LcmBus* bus() { return bus_.get(); }
   vehicle::RunPresence* presence() { return presence_ ? &*presence_ : nullptr; }
 
-  // Tells the vehicle what an earlier drive has estimated of the car (--state); before start().
-  // Throws std::runtime_error if the file cannot be used.
-  void recall(vehicle::Vehicle& vehicle) const;
+  // Tells the vehicle where the car was, and what an earlier drive has estimated of it (--state);
+  // before start(). Throws std::runtime_error if the file cannot be used.
+  void recall(vehicle::Vehicle& vehicle);
 
-  // Writes what has been estimated of the car since, once a minute: a vehicle's computer is often
-  // switched off without a warning. `observer` takes note of it; update() writes it, and reports
-  // the first failure on standard error.
+  // Writes where the car is, and what has been estimated of it since, every two seconds: a
+  // vehicle's computer is often switched off without a warning. `observer` takes note of it on the
+  // publisher's thread; update() writes it on the caller's, and says on standard error what failed,
+  // and that the place in the file is not used.
   void keep_car_state(vehicle::Observer& observer);
   void update_car_state();
 
@@ -101,12 +102,14 @@ class RunOutput {
   std::optional<vehicle::RunPresence> presence_;
   std::unique_ptr<runtime::Tracer> tracer_;
 
-  struct CarState {
-    Time at{};
-    fusion::SelfCalibrations estimated;
-  };
+  void say_place(fusion::PlaceUse use);
+
   std::mutex car_state_mutex_;
-  std::optional<CarState> car_state_;  // not yet written
+  vehicle::CarEstimate car_state_;
+  fusion::PlaceUse place_use_{};
+  // The caller's alone.
+  fusion::RememberedCalibration remembered_;
+  fusion::PlaceUse place_said_{};
   MonotonicTime car_state_written_{};
 };
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "estimators/fusion/last_place.h"
 #include "estimators/fusion/self_calibration.h"
 #include "msgs/diagnostics.h"
 #include "msgs/gnss.h"
@@ -36,6 +37,7 @@ struct RuntimeReport : Sample {
   Health health;
   Deadlines deadlines;
   fusion::SelfCalibrations calibration;  // each sigma is 0 before the filter has started
+  fusion::PlaceUse place{};
 };
 
 // A ring exists in a vehicle that has both of its ends, and if this holds as well.

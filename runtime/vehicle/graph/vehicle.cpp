@@ -31,6 +31,10 @@ void Vehicle::recall(const fusion::RememberedCalibration& remembered) {
   graph_->fusion->recall(remembered);
 }
 
+void Vehicle::recall(const fusion::LastPlace& place) {
+  graph_->fusion->recall(place);
+}
+
 void Vehicle::start_from(const fusion::KnownStart& known) {
   const fusion::Outcome outcome = graph_->fusion->start_from(known);
   if (outcome.refused()) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "estimators/fusion/initial_state.h"
+#include "estimators/fusion/last_place.h"
 #include "msgs/calibration.h"
 #include "runtime/core/data_clock.h"
 #include "runtime/core/realtime_setting.h"
@@ -43,6 +44,10 @@ class Vehicle {
   // The filter uses what an earlier drive has estimated of the car; before start_from() and
   // start().
   void recall(const fusion::RememberedCalibration& remembered);
+
+  // The filter starts where the last run ended, unless this is too long ago, and forgets it if the
+  // first fix contradicts it (fusion::PlaceUse); before start().
+  void recall(const fusion::LastPlace& place);
 
   // The filter starts from these values instead of a fix; before start(). Throws
   // std::invalid_argument where they cannot be.

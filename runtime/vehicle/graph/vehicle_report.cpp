@@ -91,6 +91,7 @@ RuntimeReport Vehicle::Graph::look(Duration elapsed) {
   }
   report.deadlines = monitor.deadlines(stamp);
   report.calibration = fusion->filter_report().calibration;
+  report.place = fusion->filter_report().status.place;
   look_at_imu_delay(report.health);
   if (host_clock != nullptr) look_at_sensors(report.health);
   return report;

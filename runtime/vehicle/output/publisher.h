@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "estimators/fusion/last_place.h"
 #include "estimators/fusion/self_calibration.h"
 #include "msgs/calibration.h"
 #include "msgs/diagnostics.h"
@@ -47,6 +48,7 @@ struct Observer {
   // At data time `at`.
   std::function<void(Time at, const fusion::SelfCalibrations&)> calibration =
       [](Time, const fusion::SelfCalibrations&) {};
+  std::function<void(fusion::PlaceUse)> place = [](fusion::PlaceUse) {};
 };
 
 // What a match means in words.

@@ -241,6 +241,7 @@ std::vector<RefusalCount> FusionStage::refusals() {
   add("begun anew at a fix", filter.reinitializations);
   add("restart: the clock jumped", filter.restarts);
   add("undone: the map had led astray", filter.restorations);
+  add(to_string(filter.place), fusion::dropped(filter.place) ? 1 : 0);
   return all;
 }
 

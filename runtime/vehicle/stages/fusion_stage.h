@@ -38,6 +38,7 @@ class FusionStage final : public GraphStage {
 
   // Before run(); what is remembered before a start.
   void recall(const fusion::RememberedCalibration& remembered) { filter_.recall(remembered); }
+  void recall(const fusion::LastPlace& place) { filter_.recall(place); }
   fusion::Outcome start_from(const fusion::KnownStart& known) { return filter_.start(known); }
 
   // Data time of the last tick; any thread may ask.

@@ -1,0 +1,74 @@
+// Where the vehicle was when the last run ended, and what that says at the next start.
+#pragma once
+
+#include <cstdint>
+
+#include "estimators/fusion/initial_state.h"
+#include "msgs/named_enum.h"
+#include "msgs/nav_state.h"
+
+namespace maploop::fusion {
+
+// Holds a pose from the end of a run, each standard deviation on its axis.
+struct LastPlace {
+  Time stamp{};
+  Geodetic position;
+  Attitude attitude;
+  double speed = 0.0;             // m/s over ground, negative in reverse
+  double horizontal_sigma = 0.0;  // m, east and north
+  double up_sigma = 0.0;          // m
+  double azimuth_sigma = 0.0;     // rad
+  double tilt_sigma = 0.0;        // rad, pitch and roll
+  double speed_sigma = 0.0;       // m/s
+};
+
+template <class Archive>
+void archive(Archive& ar, LastPlace& p) {
+  ar(p.stamp, p.position, p.attitude, p.speed, p.horizontal_sigma, p.up_sigma, p.azimuth_sigma,
+     p.tilt_sigma, p.speed_sigma);
+}
+
+// Precondition: the state has a course (NavStatus::aided or coasting).
+LastPlace last_place(const NavState& state);
+
+// What a filter has done with the last place. The filter moves on from `remembered` at its first
+// measurement, and from `started` by fixes.
+enum class PlaceUse : std::uint8_t {
+  none,         // no place is known
+  remembered,   // no measurement has come yet
+  started,      // the filter started there; no fix has been compared with it
+  seen,         // a fix has agreed with the position
+  confirmed,    // a fix of the moving vehicle has agreed with position and course
+  from_future,  // the rest are why it is not used
+  too_old,
+  too_uncertain,
+  moved,
+};
+
+constexpr auto names_of(PlaceUse) {
+  return names_up_to<PlaceUse::moved>(
+      {"no last place is known", "the last place waits for the first sample",
+       "started at the last place", "a fix has agreed with the last place",
+       "fixes have agreed with the last place and azimuth",
+       "the last place is from the future: another clock has stamped it",
+       "the last place is too old", "the last place is too uncertain or implausible",
+       "the car is not where it was left"});
+}
+
+// Whether a place was known and is not used.
+constexpr bool dropped(PlaceUse use) {
+  return use >= PlaceUse::from_future;
+}
+
+struct PlaceStart {
+  PlaceUse use = PlaceUse::none;
+  KnownStart start;  // if `use` is `started`
+};
+
+// Returns how a filter starts whose first measurement has the stamp `first`. A vehicle that stood
+// is where it was, and is less certain for having been away. A vehicle that drove starts at its own
+// stamp, and the filter carries it on as one whose inertial unit is silent, (5) to (7) of
+// METHOD.md; beyond `max_gap` this says nothing of its azimuth.
+PlaceStart start_at(const LastPlace& place, Time first, const FusionParameters& parameters);
+
+}  // namespace maploop::fusion
