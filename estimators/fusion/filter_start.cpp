@@ -52,6 +52,10 @@ void ReducedImuFilter::recall(const LastPlace& place) {
   status_.place = PlaceUse::remembered;
 }
 
+std::optional<LastPlace> ReducedImuFilter::here() const {
+  return initialized_ ? std::optional(fusion::last_place(newest_state(), frame_)) : std::nullopt;
+}
+
 void ReducedImuFilter::start_where_left(Time first) {
   if (initialized_ || status_.place != PlaceUse::remembered) return;
   const PlaceStart known = start_at(last_place_, first, parameters_);

@@ -63,16 +63,18 @@ void add_unknown_sensors(FilterState& state, const FusionParameters& p) {
 Reason check_start(const KnownStart& k) {
   const Eigen::Vector3d position(k.position.latitude, k.position.longitude, k.position.height);
   const Eigen::Vector3d attitude(k.attitude.azimuth, k.attitude.pitch, k.attitude.roll);
-  const Eigen::Matrix<double, 5, 1> sigmas{k.position_sigma, k.up_sigma, k.azimuth_sigma,
-                                           k.tilt_sigma, k.speed_sigma};
+  Eigen::Matrix<double, 9, 1> sigmas;
+  sigmas << k.position_sigma, k.fix_offset_sigma, k.azimuth_sigma, k.tilt_sigma, k.speed_sigma;
   if (!position.allFinite() || !attitude.allFinite() || !sigmas.allFinite() ||
-      !std::isfinite(k.speed)) {
+      !std::isfinite(k.speed) || !k.fix_offset.allFinite() ||
+      !k.fix_offset_correlation.allFinite()) {
     return Reason::not_finite;
   }
   const bool possible = plausible_stamp(k.stamp) &&
                         std::abs(k.position.latitude) <= radians(89.0) &&
                         std::abs(k.attitude.pitch) < 1.0 && std::abs(k.attitude.roll) < 1.0 &&
-                        std::abs(k.speed) <= 100.0 && sigmas.minCoeff() >= 0.0;
+                        std::abs(k.speed) <= 100.0 && sigmas.minCoeff() >= 0.0 &&
+                        k.fix_offset_correlation.cwiseAbs().maxCoeff() <= 1.0;
   return possible ? Reason::none : Reason::out_of_range;
 }
 
@@ -87,14 +89,21 @@ FilterState initial_state(const KnownStart& k, const LocalFrame& frame, const Fu
   state.x[roll] = k.attitude.roll;
   state.x[climb_offset] = p.climb_offset;
   const auto add = [&](int i, double sigma) { state.P(i, i) += sigma * sigma; };
-  for (int i = east; i <= north; ++i) add(i, std::max(k.position_sigma, 1e-3));
-  add(up, std::max(k.up_sigma, 1e-3));
+  for (int i = east; i <= up; ++i) add(i, std::max(k.position_sigma[i], 1e-3));
   add(speed, std::max(k.speed_sigma, 1e-3));
   add(azimuth, std::max(k.azimuth_sigma, 1e-5));
   add(pitch, std::max(k.tilt_sigma, 1e-4));
   add(roll, std::max(k.tilt_sigma, 1e-4));
   add(climb_offset, p.climb_offset_sigma);
   add_unknown_sensors(state, p);
+  for (int i = east; i <= up; ++i) {
+    const int offset = gnss_offset_east + i;
+    const double sigma = k.fix_offset_sigma[i];
+    state.x[offset] = k.fix_offset[i];
+    state.P(offset, offset) = sigma * sigma;
+    state.P(i, offset) = state.P(offset, i) =
+        k.fix_offset_correlation[i] * sigma * std::sqrt(state.P(i, i));
+  }
   start_clone(state);
   return state;
 }

@@ -14,12 +14,16 @@ struct KnownStart {
   Time stamp{};
   Geodetic position;
   Attitude attitude;
-  double speed = 0.0;             // m/s, negative in reverse
-  double position_sigma = 0.1;    // m, east and north
-  double up_sigma = 0.1;          // m
-  double azimuth_sigma = 0.0017;  // rad (0.1 deg)
-  double tilt_sigma = 0.0087;     // rad (0.5 deg), pitch and roll
-  double speed_sigma = 0.05;      // m/s
+  double speed = 0.0;                                               // m/s, negative in reverse
+  Eigen::Vector3d position_sigma = Eigen::Vector3d::Constant(0.1);  // m, east, north, up
+  double azimuth_sigma = 0.0017;                                    // rad (0.1 deg)
+  double tilt_sigma = 0.0087;                                       // rad (0.5 deg), pitch and roll
+  double speed_sigma = 0.05;                                        // m/s
+  // If the position comes from fixes: the lasting part of their error (o of METHOD.md), and how it
+  // correlates with the position of the same axis, from -1 to 1.
+  Eigen::Vector3d fix_offset = Eigen::Vector3d::Zero();
+  Eigen::Vector3d fix_offset_sigma = Eigen::Vector3d::Ones();
+  Eigen::Vector3d fix_offset_correlation = Eigen::Vector3d::Zero();
 };
 
 // Returns Reason::none, out_of_range or not_finite.

@@ -27,21 +27,52 @@ double days(Duration age) {
   return to_seconds(age) / 86400.0;
 }
 
+// Grows the uncertainty of a vehicle that has stood for so long.
+void stand(KnownStart& k, Duration age, const FusionParameters& p) {
+  const double growth = 1.0 + std::sqrt(days(age));
+  // (8) of METHOD.md
+  const double kept = std::exp(-to_seconds(age) / p.gnss_offset_time);
+  k.stamp += age;
+  k.speed = 0.0;
+  k.speed_sigma = standing_speed_sigma;
+  for (int i = 0; i < 3; ++i) {
+    const double sigma = std::hypot(k.position_sigma[i], settled_place * growth);
+    const double offset = kept * k.fix_offset_sigma[i];
+    const double now = std::sqrt(offset * offset + 1.0 - kept * kept);
+    if (now > 0.0) k.fix_offset_correlation[i] *= k.position_sigma[i] / sigma * offset / now;
+    k.position_sigma[i] = sigma;
+    k.fix_offset[i] *= kept;
+    k.fix_offset_sigma[i] = now;
+  }
+  k.azimuth_sigma = std::hypot(k.azimuth_sigma, settled_azimuth * growth);
+  k.tilt_sigma = std::hypot(k.tilt_sigma, settled_tilt);
+}
+
 }  // namespace
 
-LastPlace last_place(const NavState& s) {
-  const auto sigma = [&](int i) { return std::sqrt(std::max(0.0, s.covariance(i, i))); };
+LastPlace last_place(const FilterState& state, const LocalFrame& frame) {
+  using namespace index;
+  const auto sigma = [&](int i) { return std::sqrt(std::max(0.0, state.P(i, i))); };
   LastPlace place;
-  place.stamp = s.stamp;
-  place.position = LocalFrame(s.origin).to_geodetic(s.position_enu);
-  place.attitude = s.attitude;
-  place.speed = s.forward_speed;
-  place.horizontal_sigma = std::max(sigma(0), sigma(1));
-  place.up_sigma = sigma(2);
-  const Eigen::Vector3d travel = s.velocity_enu.normalized();
-  place.speed_sigma = std::sqrt(std::max(0.0, travel.dot(s.covariance.block<3, 3>(3, 3) * travel)));
-  place.azimuth_sigma = sigma(6);
-  place.tilt_sigma = std::max(sigma(7), sigma(8));
+  place.stamp = state.stamp;
+  place.position = frame.to_geodetic(state.x.segment<3>(east));
+  place.attitude = state.attitude();
+  place.speed = state.ground_speed();
+  // Of V / (1 + s).
+  const double scaled = state.P(speed, speed) - 2.0 * place.speed * state.P(speed, speed_scale) +
+                        place.speed * place.speed * state.P(speed_scale, speed_scale);
+  place.speed_sigma = std::sqrt(std::max(0.0, scaled)) / std::abs(1.0 + state.x[speed_scale]);
+  place.azimuth_sigma = sigma(azimuth);
+  place.tilt_sigma = std::max(sigma(pitch), sigma(roll));
+  for (int i = east; i <= up; ++i) {
+    const int offset = gnss_offset_east + i;
+    place.position_sigma[i] = sigma(i);
+    place.fix_offset[i] = state.x[offset];
+    place.fix_offset_sigma[i] = sigma(offset);
+    const double product = sigma(i) * sigma(offset);
+    if (product > 0.0)
+      place.fix_offset_correlation[i] = std::clamp(state.P(i, offset) / product, -1.0, 1.0);
+  }
   return place;
 }
 
@@ -52,30 +83,22 @@ PlaceStart start_at(const LastPlace& place, Time first, const FusionParameters& 
   const bool stands = std::abs(place.speed) < standing_speed;
   if (age > (stands ? longest_standing : from_seconds(parameters.max_gap)))
     return {PlaceUse::too_old, {}};
-  if (!(place.horizontal_sigma <= most_horizontal_sigma &&
+  if (!(place.position_sigma.head<2>().maxCoeff() <= most_horizontal_sigma &&
         place.azimuth_sigma <= most_azimuth_sigma)) {
     return {PlaceUse::too_uncertain, {}};
   }
-  KnownStart k;
-  k.stamp = place.stamp;
-  k.position = place.position;
-  k.attitude = place.attitude;
-  k.speed = place.speed;
-  k.position_sigma = place.horizontal_sigma;
-  k.up_sigma = place.up_sigma;
-  k.azimuth_sigma = place.azimuth_sigma;
-  k.tilt_sigma = place.tilt_sigma;
-  k.speed_sigma = place.speed_sigma;
-  if (stands) {
-    const double growth = 1.0 + std::sqrt(days(age));
-    k.stamp += age;
-    k.speed = 0.0;
-    k.position_sigma = std::hypot(place.horizontal_sigma, settled_place * growth);
-    k.up_sigma = std::hypot(place.up_sigma, settled_place * growth);
-    k.azimuth_sigma = std::hypot(place.azimuth_sigma, settled_azimuth * growth);
-    k.tilt_sigma = std::hypot(place.tilt_sigma, settled_tilt);
-    k.speed_sigma = standing_speed_sigma;
-  }
+  KnownStart k{place.stamp,
+               place.position,
+               place.attitude,
+               place.speed,
+               place.position_sigma,
+               place.azimuth_sigma,
+               place.tilt_sigma,
+               place.speed_sigma,
+               place.fix_offset,
+               place.fix_offset_sigma,
+               place.fix_offset_correlation};
+  if (stands) stand(k, age, parameters);
   return check_start(k) == Reason::none ? PlaceStart{PlaceUse::started, k}
                                         : PlaceStart{PlaceUse::too_uncertain, {}};
 }

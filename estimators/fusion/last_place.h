@@ -5,7 +5,6 @@
 
 #include "estimators/fusion/initial_state.h"
 #include "msgs/named_enum.h"
-#include "msgs/nav_state.h"
 
 namespace maploop::fusion {
 
@@ -14,22 +13,32 @@ struct LastPlace {
   Time stamp{};
   Geodetic position;
   Attitude attitude;
-  double speed = 0.0;             // m/s over ground, negative in reverse
-  double horizontal_sigma = 0.0;  // m, east and north
-  double up_sigma = 0.0;          // m
-  double azimuth_sigma = 0.0;     // rad
-  double tilt_sigma = 0.0;        // rad, pitch and roll
-  double speed_sigma = 0.0;       // m/s
+  double speed = 0.0;                                        // m/s over ground, negative in reverse
+  Eigen::Vector3d position_sigma = Eigen::Vector3d::Zero();  // m, east, north, up
+  double azimuth_sigma = 0.0;                                // rad
+  double tilt_sigma = 0.0;                                   // rad, pitch and roll
+  double speed_sigma = 0.0;                                  // m/s
+  // As in KnownStart. Without it the filter would take the next fixes, whose error is still the
+  // same, for independent ones.
+  Eigen::Vector3d fix_offset = Eigen::Vector3d::Zero();
+  Eigen::Vector3d fix_offset_sigma = Eigen::Vector3d::Ones();
+  Eigen::Vector3d fix_offset_correlation = Eigen::Vector3d::Zero();
+
+  // Forgets that: the next fixes are from another receiver or filter.
+  void forget_fixes() {
+    fix_offset = fix_offset_correlation = Eigen::Vector3d::Zero();
+    fix_offset_sigma = Eigen::Vector3d::Ones();
+  }
 };
 
 template <class Archive>
 void archive(Archive& ar, LastPlace& p) {
-  ar(p.stamp, p.position, p.attitude, p.speed, p.horizontal_sigma, p.up_sigma, p.azimuth_sigma,
-     p.tilt_sigma, p.speed_sigma);
+  ar(p.stamp, p.position, p.attitude, p.speed, p.position_sigma, p.azimuth_sigma, p.tilt_sigma,
+     p.speed_sigma, p.fix_offset, p.fix_offset_sigma, p.fix_offset_correlation);
 }
 
-// Precondition: the state has a course (NavStatus::aided or coasting).
-LastPlace last_place(const NavState& state);
+// `frame` is that of the state.
+LastPlace last_place(const FilterState& state, const LocalFrame& frame);
 
 // What a filter has done with the last place. The filter moves on from `remembered` at its first
 // measurement, and from `started` by fixes.

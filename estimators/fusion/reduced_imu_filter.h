@@ -106,6 +106,9 @@ class ReducedImuFilter {
   const LocalFrame& frame() const { return frame_; }
   FilterStatus status() const;
   PlaceUse place() const { return status_.place; }
+  // Returns where the vehicle is by the newest measurement, for the next run; nothing before the
+  // start.
+  std::optional<LastPlace> here() const;
   const Contradictions& contradictions() const { return newest_state().contradictions; }
   const FusionParameters& parameters() const { return parameters_; }
   // Returns what the filter has estimated of the vehicle; each sigma is 0 before the start.

@@ -36,12 +36,6 @@ void write_states(const RunOptions& options, const RunPass& pass,
   if (!options.nmea.empty()) write_nmea(options.nmea, pass.track);
 }
 
-// A fix without a course is no place to start from.
-std::optional<fusion::LastPlace> place_of(const NavState& state) {
-  const bool has_course = state.status == NavStatus::aided || state.status == NavStatus::coasting;
-  return has_course ? std::optional(fusion::last_place(state)) : std::nullopt;
-}
-
 // Returns whether it succeeded.
 bool attempt(const std::function<void()>& write) {
   try {
@@ -131,14 +125,10 @@ void RunOutput::keep_car_state(vehicle::Observer& observer) {
     car_state_.at = at;
     car_state_.calibration = estimated;
   };
-  observer.place = [this](fusion::PlaceUse use) {
+  observer.place = [this](fusion::PlaceUse use, const std::optional<fusion::LastPlace>& here) {
     const std::lock_guard lock(car_state_mutex_);
     place_use_ = use;
-  };
-  observer.nav_state = [this, observe = observer.nav_state](const FusedState& state) {
-    observe(state);
-    const std::lock_guard lock(car_state_mutex_);
-    car_state_.place = place_of(state);
+    car_state_.place = here;
   };
 }
 
@@ -199,11 +189,10 @@ bool RunOutput::write(const ReplayResult& result, const RunPass& pass,
   if (result.end)
     all &= attempt([&] { write_states(options_, pass, calibration.stereo.T_body_cam); });
   if (!options_.state.empty()) {
-    say_place(place_use_);
+    say_place(result.vehicle.place);
     all &= attempt([&] {
       const vehicle::CarEstimate state{result.vehicle.last, result.vehicle.calibration,
-                                       result.end ? place_of(*result.end) : std::nullopt,
-                                       remembered_};
+                                       result.vehicle.here, remembered_};
       if (vehicle::write_car_state(options_.state, config_.vehicle.car.name, state) == 0) {
         std::cerr << "maploop: '" << options_.state.string()
                   << "' is not written, because there was no position\n";

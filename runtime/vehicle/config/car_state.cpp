@@ -5,10 +5,13 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
-#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "msgs/frames.h"
 #include "msgs/input_file.h"
@@ -61,38 +64,50 @@ Time read_time(const runtime::ConfigTable& table, std::string_view key) {
   }
 }
 
-// Keys of [place] with the values and how many of the value's own unit a unit of the file is.
-template <class Place>
-auto numbers_of(Place& p) {
-  struct Number {
-    std::string_view key, unit;
-    decltype(&p.speed) value;
-    double per_unit;
-  };
+// A key of [place]: its numbers, and how many of their own unit a unit of the file is.
+template <class Number>
+struct PlaceKey {
+  std::string_view key, unit;
+  std::span<Number> values;
+  double per_unit = 1.0;
+};
+
+template <class Place,
+          class Number = std::remove_pointer_t<decltype(&std::declval<Place&>().speed)>>
+std::vector<PlaceKey<Number>> keys_of(Place& p) {
+  const auto one = [](Number& n) { return std::span(&n, 1); };
+  const auto three = [](auto& v) { return std::span(v.data(), 3); };
   const double degree = radians(1.0);
-  return std::to_array<Number>({
-      {"latitude", "deg", &p.position.latitude, degree},
-      {"longitude", "deg", &p.position.longitude, degree},
-      {"height", "m above the ellipsoid", &p.position.height, 1.0},
-      {"azimuth", "deg, clockwise from north", &p.attitude.azimuth, degree},
-      {"pitch", "deg, nose up", &p.attitude.pitch, degree},
-      {"roll", "deg, right side down", &p.attitude.roll, degree},
-      {"speed", "m/s, negative in reverse", &p.speed, 1.0},
-      {"horizontal_sigma", "m, east and north", &p.horizontal_sigma, 1.0},
-      {"up_sigma", "m", &p.up_sigma, 1.0},
-      {"azimuth_sigma", "deg", &p.azimuth_sigma, degree},
-      {"tilt_sigma", "deg, pitch and roll", &p.tilt_sigma, degree},
-      {"speed_sigma", "m/s", &p.speed_sigma, 1.0},
-  });
+  return {
+      {"latitude", "deg", one(p.position.latitude), degree},
+      {"longitude", "deg", one(p.position.longitude), degree},
+      {"height", "m above the ellipsoid", one(p.position.height)},
+      {"azimuth", "deg, clockwise from north", one(p.attitude.azimuth), degree},
+      {"pitch", "deg, nose up", one(p.attitude.pitch), degree},
+      {"roll", "deg, right side down", one(p.attitude.roll), degree},
+      {"speed", "m/s, negative in reverse", one(p.speed)},
+      {"position_sigma", "m, east, north, up", three(p.position_sigma)},
+      {"azimuth_sigma", "deg", one(p.azimuth_sigma), degree},
+      {"tilt_sigma", "deg, pitch and roll", one(p.tilt_sigma), degree},
+      {"speed_sigma", "m/s", one(p.speed_sigma)},
+      {"fix_offset", "lasting error of fixes, in their own standard deviation",
+       three(p.fix_offset)},
+      {"fix_offset_sigma", "the same", three(p.fix_offset_sigma)},
+      {"fix_offset_correlation", "with the position", three(p.fix_offset_correlation)},
+  };
 }
 
 fusion::LastPlace read_place(const runtime::ConfigTable& table) {
   fusion::LastPlace place;
   place.stamp = read_time(table, "stamp");
-  for (const auto& number : numbers_of(place)) {
-    if (!table.has(number.key)) table.fail(number.key, "is missing");
-    table.read(number.key, *number.value);
-    *number.value *= number.per_unit;
+  for (const auto& key : keys_of(place)) {
+    if (!table.has(key.key)) table.fail(key.key, "is missing");
+    if (key.values.size() == 1) {
+      table.read(key.key, key.values.front());
+    } else {
+      table.read(key.key, key.values);
+    }
+    for (double& value : key.values) value *= key.per_unit;
   }
   return place;
 }
@@ -100,9 +115,12 @@ fusion::LastPlace read_place(const runtime::ConfigTable& table) {
 std::string text_of(const fusion::LastPlace& place) {
   std::string text = "\n[place]  # of the body's origin, where this run ended or was last\n";
   text += "stamp = " + toml_text(format_time(place.stamp)) + '\n';
-  for (const auto& number : numbers_of(place)) {
-    text += fmt::format("{} = {}  # {}\n", number.key,
-                        runtime::shortest_text(*number.value / number.per_unit), number.unit);
+  for (const auto& key : keys_of(place)) {
+    std::string numbers;
+    for (const double value : key.values)
+      numbers += (numbers.empty() ? "" : ", ") + runtime::shortest_text(value / key.per_unit);
+    if (key.values.size() > 1) numbers = '[' + numbers + ']';
+    text += fmt::format("{} = {}  # {}\n", key.key, numbers, key.unit);
   }
   return text;
 }

@@ -38,6 +38,7 @@ struct RuntimeReport : Sample {
   Deadlines deadlines;
   fusion::SelfCalibrations calibration;  // each sigma is 0 before the filter has started
   fusion::PlaceUse place{};
+  std::optional<fusion::LastPlace> here;
 };
 
 // A ring exists in a vehicle that has both of its ends, and if this holds as well.

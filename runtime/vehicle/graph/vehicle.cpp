@@ -32,7 +32,10 @@ void Vehicle::recall(const fusion::RememberedCalibration& remembered) {
 }
 
 void Vehicle::recall(const fusion::LastPlace& place) {
-  graph_->fusion->recall(place);
+  fusion::LastPlace known = place;
+  // The filter of PPP starts anew, and so do the errors of its fixes.
+  if (graph_->rings.has(stages::ppp)) known.forget_fixes();
+  graph_->fusion->recall(known);
 }
 
 void Vehicle::start_from(const fusion::KnownStart& known) {

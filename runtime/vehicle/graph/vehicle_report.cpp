@@ -31,6 +31,8 @@ VehicleReport Vehicle::Graph::report() const {
   r.deadlines = last_report.deadlines;
   r.imu_delay = fusion->filter_report().status.imu_delay;
   r.calibration = fusion->filter_report().calibration;
+  r.place = fusion->filter_report().status.place;
+  r.here = fusion->filter_report().here;
   r.stalls = clock.stalls();
   r.stalled = clock.stalled();
   r.last = fusion->position();
@@ -92,6 +94,7 @@ RuntimeReport Vehicle::Graph::look(Duration elapsed) {
   report.deadlines = monitor.deadlines(stamp);
   report.calibration = fusion->filter_report().calibration;
   report.place = fusion->filter_report().status.place;
+  report.here = fusion->filter_report().here;
   look_at_imu_delay(report.health);
   if (host_clock != nullptr) look_at_sensors(report.health);
   return report;

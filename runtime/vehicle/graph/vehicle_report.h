@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "estimators/fusion/filter_state.h"
+#include "estimators/fusion/last_place.h"
 #include "estimators/fusion/self_calibration.h"
 #include "msgs/diagnostics.h"
 #include "runtime/vehicle/health/episodes.h"
@@ -27,7 +29,9 @@ struct VehicleReport {
   std::vector<Naming> named;             // of sensors, in data time
   fusion::DelayEstimate imu_delay;       // left in the inertial stamps, against odometry
   fusion::SelfCalibrations calibration;  // what the filter has estimated of the vehicle
-  std::uint64_t stalls = 0;              // how often the data clock had to wait for the graph
+  fusion::PlaceUse place{};              // what became of the last place
+  std::optional<fusion::LastPlace> here;
+  std::uint64_t stalls = 0;  // how often the data clock had to wait for the graph
   Duration stalled{};
   Time last{};                // data time of the fusion's last tick
   double data_seconds = 0.0;  // length of the drive that was replayed

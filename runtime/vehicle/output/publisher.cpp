@@ -139,7 +139,7 @@ void Publisher::send_reports() {
          to_lcm(message_of(report->calibration, report->stamp)));
     observer_.health(report->health);
     observer_.calibration(report->stamp, report->calibration);
-    observer_.place(report->place);
+    observer_.place(report->place, report->here);
     reports_->pop();
   }
 }

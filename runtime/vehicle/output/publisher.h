@@ -48,7 +48,9 @@ struct Observer {
   // At data time `at`.
   std::function<void(Time at, const fusion::SelfCalibrations&)> calibration =
       [](Time, const fusion::SelfCalibrations&) {};
-  std::function<void(fusion::PlaceUse)> place = [](fusion::PlaceUse) {};
+  // What became of the last place, and where the vehicle is for the next run.
+  std::function<void(fusion::PlaceUse, const std::optional<fusion::LastPlace>&)> place =
+      [](fusion::PlaceUse, const std::optional<fusion::LastPlace>&) {};
 };
 
 // What a match means in words.

@@ -148,7 +148,7 @@ bool FusionStage::tick(const runtime::Tick& tick, runtime::DataClock& clock,
   const MonotonicTime computed = runtime::monotonic_now();
   send(state, stop);
   sent_states_.push_back(state);
-  filter_reports_.back() = {filter_.status(), filter_.calibration()};
+  filter_reports_.back() = {filter_.status(), filter_.calibration(), filter.here()};
   filter_reports_.publish();
   runtime::trace_counter(trace(), "fusion -> publisher",
                          static_cast<double>(states_.rings().front()->held()));

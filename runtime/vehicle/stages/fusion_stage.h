@@ -51,6 +51,7 @@ class FusionStage final : public GraphStage {
   struct FilterReport {
     fusion::FilterStatus status;
     fusion::SelfCalibrations calibration;  // each sigma is 0 before the start
+    std::optional<fusion::LastPlace> here;
   };
   // That of the last tick; one thread at a time may ask, also while it runs.
   const FilterReport& filter_report() {

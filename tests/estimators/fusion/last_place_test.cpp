@@ -25,8 +25,7 @@ LastPlace place_at(const SyntheticDrive& drive, double t) {
   place.position = LocalFrame(test_origin()).to_geodetic(drive.pose(t).translation());
   place.attitude = {drive.azimuth(t), drive.pitch(t), drive.roll(t)};
   place.speed = drive.speed(t);
-  place.horizontal_sigma = 1.0;
-  place.up_sigma = 2.0;
+  place.position_sigma = {1.0, 1.0, 2.0};
   place.azimuth_sigma = radians(0.5);
   place.tilt_sigma = radians(0.5);
   place.speed_sigma = 0.1;
@@ -95,12 +94,12 @@ TEST(LastPlace, OfAVehicleThatStoodHoldsAndIsLessCertainTheLongerItIsAway) {
   EXPECT_EQ(soon.start.stamp, place.stamp + seconds(3));
   EXPECT_EQ(soon.start.position, place.position);
   EXPECT_EQ(soon.start.attitude.azimuth, place.attitude.azimuth);
-  EXPECT_NEAR(soon.start.position_sigma, std::hypot(1.0, 0.5), 0.01);
-  EXPECT_NEAR(soon.start.up_sigma, std::hypot(2.0, 0.5), 0.01);
+  EXPECT_NEAR(soon.start.position_sigma.x(), std::hypot(1.0, 0.5), 0.01);
+  EXPECT_NEAR(soon.start.position_sigma.z(), std::hypot(2.0, 0.5), 0.01);
   EXPECT_NEAR(degrees(soon.start.azimuth_sigma), std::hypot(0.5, 1.0), 0.01);
   ASSERT_EQ(month.use, PlaceUse::started);
-  EXPECT_GT(month.start.position_sigma, 3.0);
-  EXPECT_LT(month.start.position_sigma, 4.0);
+  EXPECT_GT(month.start.position_sigma.y(), 3.0);
+  EXPECT_LT(month.start.position_sigma.y(), 4.0);
   EXPECT_EQ(after(hours(24 * 366)).use, PlaceUse::too_old);
 }
 
@@ -122,7 +121,7 @@ TEST(LastPlace, ThatIsUncertainOrImpossibleIsNotUsed) {
     spoil(spoilt);
     return start_at(spoilt, place.stamp, {}).use;
   };
-  EXPECT_EQ(use([](LastPlace& p) { p.horizontal_sigma = 60.0; }), PlaceUse::too_uncertain);
+  EXPECT_EQ(use([](LastPlace& p) { p.position_sigma.y() = 60.0; }), PlaceUse::too_uncertain);
   EXPECT_EQ(use([](LastPlace& p) { p.azimuth_sigma = 0.6; }), PlaceUse::too_uncertain);
   EXPECT_EQ(use([](LastPlace& p) { p.azimuth_sigma = NAN; }), PlaceUse::too_uncertain);
   EXPECT_EQ(use([](LastPlace& p) { p.position.latitude = 2.0; }), PlaceUse::too_uncertain);
@@ -134,13 +133,27 @@ TEST(LastPlace, IsThatOfTheState) {
   const SyntheticDrive drive = driving();
   ReducedImuFilter filter(configured("GNSS+RISS"), test_origin());
   for (const Measurement& m : measured(drive, 0.0, 8.0)) add(filter, m);
-  const NavState nav = *filter.state_at(drive.at(8.0));
-  const LastPlace place = last_place(nav);
+  const LastPlace place = filter.here().value();
+  const NavState nav = *filter.state_at(place.stamp);
   EXPECT_LT((LocalFrame(test_origin()).to_enu(place.position) - nav.position_enu).norm(), 1e-6);
-  EXPECT_NEAR(place.speed, 10.0, 0.1);
+  EXPECT_EQ(place.speed, nav.forward_speed);
   EXPECT_GT(place.speed_sigma, 0.0);
   EXPECT_LT(place.speed_sigma, 0.3);
   EXPECT_EQ(place.azimuth_sigma, std::sqrt(nav.covariance(6, 6)));
+  EXPECT_LT(place.fix_offset_correlation.x(), -0.5) << "both are known by their sum";
+  // A start from it has the covariance of the state, and the correlation fades with the error.
+  const PlaceStart start = start_at(place, place.stamp, {});
+  ReducedImuFilter next(configured("GNSS+RISS"));
+  ASSERT_FALSE(next.start(start.start).refused());
+  const LastPlace again = next.here().value();
+  EXPECT_NEAR((again.position_sigma - place.position_sigma).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((again.fix_offset - place.fix_offset).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((again.fix_offset_correlation - place.fix_offset_correlation).norm(), 0.0, 1e-9);
+  LastPlace left = place;
+  left.speed = 0.0;
+  const KnownStart tomorrow = start_at(left, place.stamp + hours(24), {}).start;
+  EXPECT_NEAR(tomorrow.fix_offset_sigma.x(), 1.0, 1e-9);
+  EXPECT_NEAR(tomorrow.fix_offset_correlation.norm(), 0.0, 1e-9);
 }
 
 TEST(WarmStart, GivesAPositionWithAzimuthAtTheFirstSample) {

@@ -76,8 +76,17 @@ TEST_F(CarStateFile, WhatTheDriveBeganWithIsKeptWhereItHasNotObservedIt) {
 TEST_F(CarStateFile, ThePlaceComesBack) {
   CarEstimate estimate;
   estimate.at = at_;
-  estimate.place = {
-      at_, {0.8550, -0.1466, 110.25}, {-2.5, 0.03, -0.02}, -1.25, 1.5, 2.5, 0.01, 0.02, 0.3};
+  estimate.place = {at_,
+                    {0.8550, -0.1466, 110.25},
+                    {-2.5, 0.03, -0.02},
+                    -1.25,
+                    {1.5, 1.25, 2.5},
+                    0.01,
+                    0.02,
+                    0.3,
+                    {0.5, -0.5, 0.25},
+                    {0.75, 1.0, 0.5},
+                    {-0.75, -0.5, 0.0}};
   EXPECT_EQ(write_car_state(file(), "golf", estimate), 1u);
   const auto known = read_car_state(file(), "golf");
   ASSERT_TRUE(known && known->place);
@@ -90,8 +99,10 @@ TEST_F(CarStateFile, ThePlaceComesBack) {
   EXPECT_NEAR(read.attitude.pitch, wrote.attitude.pitch, 1e-15);
   EXPECT_NEAR(read.attitude.roll, wrote.attitude.roll, 1e-15);
   EXPECT_EQ(read.speed, wrote.speed);
-  EXPECT_EQ(read.horizontal_sigma, wrote.horizontal_sigma);
-  EXPECT_EQ(read.up_sigma, wrote.up_sigma);
+  EXPECT_EQ(read.position_sigma, wrote.position_sigma);
+  EXPECT_EQ(read.fix_offset, wrote.fix_offset);
+  EXPECT_EQ(read.fix_offset_sigma, wrote.fix_offset_sigma);
+  EXPECT_EQ(read.fix_offset_correlation, wrote.fix_offset_correlation);
   EXPECT_NEAR(read.azimuth_sigma, wrote.azimuth_sigma, 1e-15);
   EXPECT_NEAR(read.tilt_sigma, wrote.tilt_sigma, 1e-15);
   EXPECT_EQ(read.speed_sigma, wrote.speed_sigma);
