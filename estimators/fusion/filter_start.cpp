@@ -1,5 +1,6 @@
 // This file starts the filter, takes an inertial sample from before the start, restarts the filter
 // when the clock of its data has jumped, and judges the place where the vehicle was left.
+#include <cmath>
 #include <utility>
 
 #include "estimators/fusion/gnss_update.h"
@@ -8,6 +9,15 @@
 #include "estimators/fusion/reduced_imu_filter.h"
 
 namespace maploop::fusion {
+namespace {
+
+// Returns whether the filter is linear in the error of the azimuth.
+bool knows_course(const FilterState& state) {
+  constexpr double linear = 0.1;  // rad
+  return state.P(index::azimuth, index::azimuth) <= linear * linear;
+}
+
+}  // namespace
 
 Outcome ReducedImuFilter::start(const GnssFix& fix) {
   const Reason reason = check_fix(fix, parameters_);
@@ -82,11 +92,33 @@ bool ReducedImuFilter::moved_by(const GnssFix& fix) {
     status_.place = PlaceUse::seen;
   }
   if (reason == Reason::too_slow) return false;
-  const double apart = velocity_innovation(*at_velocity, fix, at_velocity->yaw_rate, parameters_)
-                           .nis(at_velocity->P);
-  if (!(apart <= parameters_.gnss_velocity_gate)) return true;
+  const bool course = knows_course(*at_velocity);
+  const auto apart = [&] {
+    return velocity_innovation(*at_velocity, fix, at_velocity->yaw_rate, parameters_)
+        .nis(at_velocity->P);
+  };
+  if (course && !(apart() <= parameters_.gnss_velocity_gate)) return true;
   status_.place = PlaceUse::confirmed;
+  if (!course) take_course(fix);
   return false;
+}
+
+// A vehicle that was carried over a gap may have turned there by more than the filter is linear in.
+// So it starts once more, where it is, with the course of the fix, which corrects it afterwards.
+void ReducedImuFilter::take_course(const GnssFix& fix) {
+  constexpr double unknown = 0.3;  // rad: more than the uncertainty of the fix, and still linear
+  const Time now = start_stamp(fix);
+  const auto state = predicted(now);
+  if (!state) return;
+  KnownStart known = known_start(fusion::last_place(*state, frame_));
+  const Eigen::Vector2d travel = (known.speed < 0.0 ? -1.0 : 1.0) * fix.velocity_enu.head<2>();
+  known.attitude.azimuth = std::atan2(travel.x(), travel.y());
+  known.azimuth_sigma = unknown;
+  while (history_.size() > 0 && history_[0].key.stamp < now) drop_oldest();
+  initialized_ = false;
+  if (start(known).refused()) return;
+  history_.past.state.odom_at_clone = state->odom();
+  roll_forward(0);
 }
 
 // The first speed that odometry or the wheels measure shows whether the vehicle still stands, or

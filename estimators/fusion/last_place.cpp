@@ -76,6 +76,20 @@ LastPlace last_place(const FilterState& state, const LocalFrame& frame) {
   return place;
 }
 
+KnownStart known_start(const LastPlace& place) {
+  return {place.stamp,
+          place.position,
+          place.attitude,
+          place.speed,
+          place.position_sigma,
+          place.azimuth_sigma,
+          place.tilt_sigma,
+          place.speed_sigma,
+          place.fix_offset,
+          place.fix_offset_sigma,
+          place.fix_offset_correlation};
+}
+
 PlaceStart start_at(const LastPlace& place, Time first, const FusionParameters& parameters) {
   if (!plausible_stamp(place.stamp) || !plausible_stamp(first)) return {PlaceUse::too_old, {}};
   if (first < place.stamp - most_ahead) return {PlaceUse::from_future, {}};
@@ -87,17 +101,7 @@ PlaceStart start_at(const LastPlace& place, Time first, const FusionParameters& 
         place.azimuth_sigma <= most_azimuth_sigma)) {
     return {PlaceUse::too_uncertain, {}};
   }
-  KnownStart k{place.stamp,
-               place.position,
-               place.attitude,
-               place.speed,
-               place.position_sigma,
-               place.azimuth_sigma,
-               place.tilt_sigma,
-               place.speed_sigma,
-               place.fix_offset,
-               place.fix_offset_sigma,
-               place.fix_offset_correlation};
+  KnownStart k = known_start(place);
   if (stands) stand(k, age, parameters);
   return check_start(k) == Reason::none ? PlaceStart{PlaceUse::started, k}
                                         : PlaceStart{PlaceUse::too_uncertain, {}};

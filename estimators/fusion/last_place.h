@@ -69,6 +69,9 @@ constexpr bool dropped(PlaceUse use) {
   return use >= PlaceUse::from_future;
 }
 
+// Returns a start at the place's own stamp.
+KnownStart known_start(const LastPlace& place);
+
 struct PlaceStart {
   PlaceUse use = PlaceUse::none;
   KnownStart start;  // if `use` is `started`

@@ -170,6 +170,7 @@ class ReducedImuFilter {
   // Returns whether the fix contradicts the last place; if it does not, notes that it agrees.
   bool moved_by(const GnssFix& fix);
   Outcome moved_by(Outcome of_speed);
+  void take_course(const GnssFix& fix);
   void forget_place(Time from);
   std::optional<FilterState> predicted(Time t) const;
   void make_room(std::size_t events);

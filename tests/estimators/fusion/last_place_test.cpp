@@ -186,6 +186,23 @@ TEST(WarmStart, CarriesAVehicleThatDroveOverTheGap) {
   EXPECT_GT(std::sqrt(first.covariance(6, 6)), 0.3) << "it may have turned";
 }
 
+TEST(WarmStart, ATurnInTheGapIsSeenByTheFirstFixOfTheMovingVehicle) {
+  MotionProfile turns;
+  turns.yaw_rate = [](double t) { return t > 5.0 && t < 8.0 ? 0.35 : 0.0; };
+  const SyntheticDrive drive(turns, 20.0, test_origin());
+  const LastPlace place = place_at(drive, 5.0);
+  const ReducedImuFilter before = started(place, measured(drive, 8.2, 8.9));
+  const ReducedImuFilter after = started(place, measured(drive, 8.2, 9.1));
+  ASSERT_EQ(after.place(), PlaceUse::confirmed);
+  const Time t = drive.at(9.0);
+  const FusedState was = *before.state_at(t), is = *after.state_at(t);
+  EXPECT_GT(std::abs(was.attitude.azimuth - drive.azimuth(9.0)), 1.0) << "60 degrees";
+  EXPECT_NEAR(is.attitude.azimuth, drive.azimuth(9.0), 3.0 * std::sqrt(is.covariance(6, 6)));
+  EXPECT_NEAR(is.attitude.azimuth, drive.azimuth(9.0), radians(3.0));
+  EXPECT_LT((is.odom.position - was.odom.position).norm(), 0.1) << "odometry goes on";
+  EXPECT_LT(error(is, drive, 9.0), 3.0);
+}
+
 TEST(WarmStart, FixesThatAgreeKeepItAndConfirmIt) {
   for (const SyntheticDrive& drive : {standing(), driving()}) {
     const bool stands = drive.speed(0.0) == 0.0;

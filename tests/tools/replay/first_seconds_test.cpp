@@ -103,6 +103,42 @@ TEST_F(FirstSeconds, WhatWasLearntOfTheCarIsKeptAndUsed) {
               AllOf(HasSubstr("car.state"), HasSubstr("golf")));
 }
 
+TEST_F(FirstSeconds, ARestartHasItsPositionAtOnceAndNamesAPlaceThatIsWrong) {
+  const auto part = [this](const char* name, Words options) {
+    options.insert(options.begin(), {"log", "split", lockstep().log(), "-o", file(name)});
+    EXPECT_EQ(run_maploop(options).status, 0);
+    return file(name);
+  };
+  const std::string before = part("before.lcmlog", {"--end", "3.05"});
+  const std::string rest =
+      part("rest.lcmlog", {"--start", "4.05", "--channels", "IMU|GNSS_FIX|ODOMETRY|VO"});
+  const std::string car = part("car.lcmlog", {"--channels", "CALIBRATION"});
+  const std::string after = file("after.lcmlog"), state = file("car.state");
+  ASSERT_EQ(run_maploop({"log", "merge", car, rest, "-o", after}).status, 0);
+  replay(before, {"--lockstep", "--state", state});
+  const std::string kept = read_file(state);
+  EXPECT_THAT(kept, AllOf(HasSubstr("[place]"), HasSubstr("azimuth_sigma = ")));
+
+  const auto first_row = [&](const Words& options) {
+    const ProcessResult run = run_maploop([&] {
+      Words words{"replay", after, "--no-lcm", "--lockstep", "--end", "0.8", "--csv", file("csv")};
+      words.insert(words.end(), options.begin(), options.end());
+      return words;
+    }());
+    std::istringstream rows(run.status == 0 ? read_file(file("csv")) : "\n");
+    std::string row;
+    std::getline(rows, row);
+    std::getline(rows, row);
+    return row + run.error;
+  };
+  EXPECT_THAT(first_row({}), Not(HasSubstr("aided"))) << "no fix comes in this second";
+  const std::string warm = first_row({"--state", state});
+  EXPECT_THAT(warm, AnyOf(HasSubstr(",aided,"), HasSubstr(",coasting,")));
+  EXPECT_THAT(warm, Not(HasSubstr("maploop: ")));
+  EXPECT_THAT(run_maploop({"replay", before, "--no-lcm", "--lockstep", "--state", state}).error,
+              HasSubstr("from the future"));
+}
+
 TEST_F(FirstSeconds, ALogTakesSnapshotsFaultsAndMomentsAsADriveDoes) {
   const std::string log = lockstep().log();
   const json whole = replay(log, {"--lockstep", "--snapshot", "3:" + file("s")});
