@@ -11,9 +11,9 @@
 namespace maploop::fusion {
 namespace {
 
-// Returns whether the filter is linear in the error of the azimuth.
+// Returns whether the filter is linear enough in the error of the azimuth, as after a gap of 1 s.
 bool knows_course(const FilterState& state) {
-  constexpr double linear = 0.1;  // rad
+  constexpr double linear = 0.35;  // rad
   return state.P(index::azimuth, index::azimuth) <= linear * linear;
 }
 
