@@ -26,5 +26,6 @@ inline constexpr std::string_view run = "RUN";
 inline constexpr std::string_view deadlines = "DEADLINES";
 inline constexpr std::string_view self_calibration = "SELF_CALIBRATION";
 inline constexpr std::string_view health = "HEALTH";
+inline constexpr std::string_view snapshot = "SNAPSHOT";  // in black boxes: a snapshot's file
 
 }  // namespace maploop::channel_names

@@ -112,6 +112,7 @@ int live(const LiveOptions& options) {
                            std::move(observer), output.new_tracer(), map);
   vehicle.prepared(readiness);
   output.recall(vehicle);
+  output.fill_black_box(vehicle, pass);
   vehicle.start();
   std::cerr << (options.verbose ? to_text(vehicle.readiness())
                                 : to_short_text(vehicle.readiness()));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "msgs/lcm/channel_names.h"
+#include "runtime/vehicle/output/black_box.h"
 #include "tools/command/commands.h"
 #include "tools/command/option_checks.h"
 #include "tools/log/log_tools.h"
@@ -27,6 +28,7 @@ struct LogOptions {
   std::optional<double> start, end;
   std::optional<std::string> channels, every;
   std::string compression = "lz4";
+  bool freeze = false;
 
   schema::Schema schema() const { return lcm_log::load_types(types); }
 };
@@ -65,6 +67,17 @@ int convert(const LogOptions& o) {
 
 int recover(const LogOptions& o) {
   lcm_log::recover(o.log, o.schema(), o.output, std::cout);
+  return 0;
+}
+
+int black_box(const LogOptions& o) {
+  if (o.freeze) {
+    vehicle::ask_to_freeze(o.log);
+    std::cout << o.log.string() << ": its run writes it for ten seconds more\n";
+    return 0;
+  }
+  if (o.output.empty()) throw std::invalid_argument("either --output or --freeze is needed");
+  lcm_log::black_box(o.log, o.schema(), o.output, std::cout);
   return 0;
 }
 
@@ -145,6 +158,20 @@ void add_log(CLI::App& app, Command& command) {
   add("recover", "Write everything readable of a damaged log", recover);
   add_log("LOG", options->log);
   add_output("Log to write (.gz: compressed)");
+
+  add("blackbox",
+      "Write what a run's black box (--black-box) holds as a log, with the snapshot from which it "
+      "is replayed; or ask the run to freeze it",
+      black_box);
+  sub->add_option("BOX", options->log, "Black box, also of a run that goes on")
+      ->required()
+      ->check(existing_file());
+  auto* box_log = sub->add_option("-o,--output", options->output,
+                                  "Log to write; the snapshot has the same name with .snapshot")
+                      ->check(writable_file());
+  sub->add_flag("--freeze", options->freeze,
+                "Let the run write it for ten seconds more, and then no longer")
+      ->excludes(box_log);
 
   add("diff", "Compare the messages of two logs; status 1: different, 2: cannot be compared",
       or_failed<diff>);

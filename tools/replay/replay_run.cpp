@@ -170,6 +170,7 @@ std::unique_ptr<vehicle::Vehicle> Replay::make_vehicle(const vehicle::Snapshot* 
       snapshot_taken_ = true;
     });
   }
+  output_.fill_black_box(*vehicle, *pass_);
   place(*vehicle, from);
   return vehicle;
 }

@@ -7,8 +7,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "msgs/lcm/channel_names.h"
 #include "runtime/core/data_clock.h"
 #include "runtime/core/whole_file.h"
+#include "runtime/vehicle/output/black_box.h"
 #include "tools/command/option_checks.h"
 #include "tools/command/options.h"
 #include "tools/replay/nav_files.h"
@@ -59,6 +61,13 @@ void add_run_options(CLI::App* sub, RunOptions& options) {
   sub->add_flag("--record-raw", options.record_raw,
                 "With the images and scans, for a replay of the whole graph (30 MB/s)")
       ->needs(record);
+  auto* box = add_output(sub, "--black-box", options.black_box,
+                         "Keep the newest of all messages, images and scans in this file of fixed "
+                         "size, which survives whatever ends the run ('maploop log blackbox')");
+  sub->add_option("--black-box-size", options.black_box_size, "Its size in MB")
+      ->check(CLI::Range(1.0, 1e6))
+      ->capture_default_str()
+      ->needs(box);
   auto* no_lcm = sub->add_flag("--no-lcm", options.no_lcm, "Publish nothing on LCM");
   add_lcm_url(sub, options.lcm_url)->excludes(no_lcm);
   add_output(sub, "--json", options.json, "Write all figures of the run to this file as JSON");
@@ -156,7 +165,24 @@ std::vector<vehicle::MessageSink*> RunOutput::sinks(RunPass& pass,
     if (!pass.recorder) pass.recorder = make_recorder(options_.record, options_.record_raw, behind);
     sinks.push_back(pass.recorder.get());
   }
+  if (!options_.black_box.empty()) {
+    if (!pass.black_box) {
+      const auto bytes = static_cast<std::uint64_t>(1e6 * options_.black_box_size);
+      pass.black_box = std::make_unique<vehicle::LogRecorder>(
+          options_.black_box.string(), true, behind, vehicle::black_box_format(bytes));
+    }
+    sinks.push_back(pass.black_box.get());
+  }
   return sinks;
+}
+
+void RunOutput::fill_black_box(vehicle::Vehicle& vehicle, RunPass& pass) const {
+  constexpr Duration every = std::chrono::seconds(10);
+  if (!pass.black_box) return;
+  vehicle.take_snapshots(every, [this, &box = *pass.black_box](const vehicle::Snapshot& snapshot) {
+    const Bytes bytes = vehicle::snapshot_bytes(snapshot, config_);
+    box.send({channel_names::snapshot, snapshot.at, bytes, false});
+  });
 }
 
 runtime::Tracer* RunOutput::new_tracer() {

@@ -37,6 +37,8 @@ struct RunOptions {
   bool verbose = false;               // the tables at the end, and every real-time setting
   std::filesystem::path record;
   bool record_raw = false;
+  std::filesystem::path black_box;
+  double black_box_size = 1000.0;  // MB
   bool no_lcm = false;
   std::string lcm_url;  // empty: vehicle::bus_url() chooses one
   std::filesystem::path json, report, trace;
@@ -81,6 +83,9 @@ class RunOutput {
 
   // Returns the sinks of the run's messages: the hashes, the bus and the log.
   std::vector<vehicle::MessageSink*> sinks(RunPass& pass, vehicle::LogRecorder::WhenBehind behind);
+  // Lets the vehicle save itself in the black box of this pass, if one was asked for; before
+  // start().
+  void fill_black_box(vehicle::Vehicle& vehicle, RunPass& pass) const;
   // Returns a new tracer, which replaces the one before; nullptr without --trace. Throws
   // std::runtime_error if its file cannot be written.
   runtime::Tracer* new_tracer();

@@ -69,6 +69,7 @@ struct RunPass {
   vehicle::ChannelHashes hashes;
   vehicle::ChannelHashes hashes_after;               // of messages after the cut
   std::unique_ptr<vehicle::LogRecorder> recorder;    // nullptr: no log was asked for
+  std::unique_ptr<vehicle::LogRecorder> black_box;   // the same
   TrajectoryCollector odometry, lidar, fused, odom;  // at images
   TrajectoryCollector odom_track;                    // at the states of `track`
   fusion_score::NavTrack track;

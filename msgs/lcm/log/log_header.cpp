@@ -39,6 +39,16 @@ void write_header(const LogHeader& header, std::span<std::uint8_t, header_bytes>
   put_big_endian(static_cast<std::uint32_t>(header.data_bytes), bytes.subspan(24, 4));
 }
 
+LogEvent whole_event(std::span<const std::uint8_t> bytes) {
+  const LogHeader header = read_header(bytes);
+  const auto channel_bytes = static_cast<std::size_t>(header.channel_bytes);
+  const auto content = bytes.subspan(header_bytes);
+  return {.number = header.number,
+          .time_us = header.time_us,
+          .channel = {reinterpret_cast<const char*>(content.data()), channel_bytes},
+          .data = content.subspan(channel_bytes)};
+}
+
 std::optional<std::string> implausible(const LogHeader& header) {
   if (header.sync != sync_word) return "no event begins here";
   if (header.channel_bytes < 1 || header.channel_bytes > maximum_channel_bytes) {

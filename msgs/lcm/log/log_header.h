@@ -7,6 +7,8 @@
 #include <span>
 #include <string>
 
+#include "msgs/lcm/log/log_event.h"
+
 namespace maploop::lcm_log {
 
 inline constexpr std::uint32_t sync_word = 0xEDA1DA01;
@@ -31,6 +33,9 @@ struct LogHeader {
 // Precondition: `bytes` has at least header_bytes.
 LogHeader read_header(std::span<const std::uint8_t> bytes);
 void write_header(const LogHeader& header, std::span<std::uint8_t, header_bytes> bytes);
+
+// Returns the event that the bytes are, from its header to its last byte. Precondition: they are.
+LogEvent whole_event(std::span<const std::uint8_t> bytes);
 
 // Returns why no event can begin like this; nullopt if one can.
 std::optional<std::string> implausible(const LogHeader& header);

@@ -48,7 +48,7 @@ class GraphStage {
   // Before run().
   void trace_to(runtime::TraceBuffer* buffer) { trace_ = buffer; }
   void slow_down(StageDelay delay) { delay_ = std::move(delay); }
-  void save_at(std::vector<Time> moments, runtime::Edge<StageSnapshot>& ring) {
+  void save_at(SnapshotMoments moments, runtime::Edge<StageSnapshot>& ring) {
     cuts_.set(std::move(moments), ring);
   }
   // Restores what was saved; throws ArchiveError if it is from another version or configuration.

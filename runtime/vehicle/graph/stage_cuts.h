@@ -1,14 +1,13 @@
 // One stage's side of a snapshot: when to save itself, and whom to give it to.
 #pragma once
 
-#include <cstddef>
 #include <stop_token>
 #include <utility>
-#include <vector>
 
 #include "runtime/core/data_clock.h"
 #include "runtime/core/edge.h"
 #include "runtime/vehicle/playback/snapshot.h"
+#include "runtime/vehicle/playback/snapshot_moments.h"
 
 namespace maploop::vehicle {
 
@@ -16,22 +15,23 @@ namespace maploop::vehicle {
 // files are somebody else's work. Without any cut it costs one comparison.
 class StageCuts {
  public:
-  // Before the run; `moments` increase.
-  void set(std::vector<Time> moments, runtime::Edge<StageSnapshot>& edge) {
+  // Before the run.
+  void set(SnapshotMoments moments, runtime::Edge<StageSnapshot>& edge) {
     moments_ = std::move(moments);
     edge_ = &edge;
   }
 
   // The next cut; Time::max(): there is none.
-  Time next() const { return next_ < moments_.size() ? moments_[next_] : Time::max(); }
+  Time next() const { return moments_.next(); }
 
   // Calls save(ArchiveWriter&, cut) for each cut up to t that is still to come. For a stage that
   // has taken all inputs up to each of these cuts, and none after it. Before each, promise(cut): a
   // stage that is far ahead waits here for those behind it, and they must not wait for its outputs.
   template <class Promise, class Save>
   void save_until(Time t, const std::stop_token& stop, Promise&& promise, Save&& save) {
-    for (; next_ < moments_.size() && moments_[next_] <= t; ++next_) {
-      const Time cut = moments_[next_];
+    if (t == Time::max()) moments_.end_period();  // the stage's inputs have ended
+    for (Time cut = next(); cut <= t && cut != Time::max(); cut = next()) {
+      moments_.pass(cut);
       promise(cut);
       edge_->push(stop, [&](StageSnapshot& slot) {
         slot.stamp = slot.available = cut;
@@ -61,8 +61,7 @@ class StageCuts {
   }
 
  private:
-  std::vector<Time> moments_;
-  std::size_t next_ = 0;
+  SnapshotMoments moments_;
   runtime::Edge<StageSnapshot>* edge_ = nullptr;
   MonotonicTime saved_{};  // last
 };

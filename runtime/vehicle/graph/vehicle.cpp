@@ -48,7 +48,13 @@ void Vehicle::start_from(const fusion::KnownStart& known) {
 
 void Vehicle::take_snapshots(std::vector<Time> moments, SnapshotHandler handler) {
   for (Time& t : moments) t = runtime::first_tick(t, stages::fusion.period);
-  graph_->snapshot_requests.push_back({{moments.begin(), moments.end()}, std::move(handler)});
+  graph_->snapshot_requests.push_back({{moments.begin(), moments.end()}, {}, std::move(handler)});
+}
+
+void Vehicle::take_snapshots(Duration every, SnapshotHandler handler) {
+  const Duration tick = stages::fusion.period;
+  graph_->snapshot_requests.push_back(
+      {{}, (every + tick - Duration(1)) / tick * tick, std::move(handler)});
 }
 
 void Vehicle::resume(const Snapshot& snapshot) {

@@ -57,6 +57,8 @@ class Vehicle {
   // fusion. Those before the start or after the end are never taken. Before start(); more
   // than one may ask.
   void take_snapshots(std::vector<Time> moments, SnapshotHandler handler);
+  // The same at all multiples of a period since 1970. Only one may ask for that.
+  void take_snapshots(Duration every, SnapshotHandler handler);
 
   // Goes on from a snapshot of the same recording: what is sent from then on has the bits of a run
   // that came there from the start. Before start(). Throws ArchiveError that says what does not

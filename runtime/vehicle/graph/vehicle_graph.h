@@ -28,7 +28,13 @@ namespace maploop::vehicle {
 
 struct SnapshotRequest {
   std::set<Time> moments;
+  Duration every{};  // 0: at these moments only
   SnapshotHandler handler;
+
+  bool wants(Time at) const {
+    return moments.contains(at) ||
+           (every > Duration(0) && at.time_since_epoch() % every == Duration(0));
+  }
 };
 
 struct Vehicle::Graph {

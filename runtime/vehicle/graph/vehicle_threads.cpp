@@ -52,16 +52,14 @@ void Vehicle::Graph::find_first() {
   }
   begin = first;
   if (!resumed) return;
-  if (resumed->first != first) {
+  // A part of the recording will do if it begins before the snapshot.
+  if (first < resumed->first || resumed->at < first) {
     throw std::runtime_error(fmt::format(
-        "the snapshot is of another recording: its first sample is from {}, and here it is from {}",
-        format_time(resumed->first), format_time(first)));
+        "the snapshot is of another recording: it was taken at {}, from {} on, and the first "
+        "sample here is from {}",
+        format_time(resumed->at), format_time(resumed->first), format_time(first)));
   }
-  if (resumed->at < first) {
-    throw std::runtime_error(fmt::format(
-        "the snapshot is damaged: it says that it was taken at {}, before the recording begins",
-        format_time(resumed->at)));
-  }
+  first = resumed->first;
   begin = resumed->at + Duration(1);  // its tick is done
   for (const auto& driver : drivers) driver->skip_until(resumed->at);
 }
@@ -103,12 +101,15 @@ void Vehicle::Graph::start_stages() {
 void Vehicle::Graph::start_snapshots() {
   if (snapshot_requests.empty()) return;
   std::set<Time> moments;
-  for (const SnapshotRequest& request : snapshot_requests)
+  Duration every{};
+  for (const SnapshotRequest& request : snapshot_requests) {
     moments.insert(request.moments.begin(), request.moments.end());
-  const std::vector<Time> cuts(moments.upper_bound(begin), moments.end());
+    every = std::max(every, request.every);
+  }
+  const SnapshotMoments cuts({moments.begin(), moments.end()}, every, begin);
   snapshots = std::make_unique<SnapshotStage>(stages, cuts, [this](const Snapshot& snapshot) {
     for (const SnapshotRequest& request : snapshot_requests) {
-      if (request.moments.contains(snapshot.at)) request.handler(snapshot);
+      if (request.wants(snapshot.at)) request.handler(snapshot);
     }
   });
   for (const runtime::EdgeBase* ring : snapshots->rings()) monitor.watch(*ring);

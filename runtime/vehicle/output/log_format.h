@@ -5,9 +5,8 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
-
-#include "runtime/vehicle/output/recorded_file.h"
 
 namespace maploop::vehicle {
 
@@ -27,14 +26,14 @@ class LogFormat {
   LogFormat& operator=(const LogFormat&) = delete;
 
   virtual std::size_t write(const LogBatch& batch) = 0;
-  virtual std::size_t flush() = 0;   // all that was given is in the file, or counted
-  virtual std::size_t finish() = 0;  // the last call
+  virtual std::size_t flush() = 0;   // all that was given is on the disk, or counted
+  virtual std::size_t finish() = 0;  // the same; the last call
 };
 
-// Makes the format of a file, which outlives it.
-using LogFormatOf = std::function<std::unique_ptr<LogFormat>(RecordedFile&)>;
+// Opens the file of that name. Throws std::runtime_error naming it if it cannot be written.
+using LogFormatOf = std::function<std::unique_ptr<LogFormat>(const std::string& file)>;
 
 // A standard LCM log, which every LCM tool can read.
-std::unique_ptr<LogFormat> lcm_log_format(RecordedFile& file);
+std::unique_ptr<LogFormat> lcm_log_format(const std::string& file);
 
 }  // namespace maploop::vehicle

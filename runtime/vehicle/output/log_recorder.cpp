@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "msgs/lcm/log/log_header.h"
+#include "runtime/vehicle/output/recorded_file.h"
 
 namespace maploop::vehicle {
 namespace {
@@ -30,28 +31,30 @@ void append(LogBatch& batch, std::int64_t number, const Message& message) {
 
 class LcmLogFormat final : public LogFormat {
  public:
-  explicit LcmLogFormat(RecordedFile& file) : file_(file) {}
+  explicit LcmLogFormat(const std::string& file) : file_(file) {}
 
   std::size_t write(const LogBatch& batch) override {
     return batch.ends.size() - file_.append(batch.bytes, batch.ends);
   }
-  std::size_t flush() override { return 0; }
-  std::size_t finish() override { return 0; }
+  std::size_t flush() override {
+    file_.sync();
+    return 0;
+  }
+  std::size_t finish() override { return flush(); }
 
  private:
-  RecordedFile& file_;
+  RecordedFile file_;
 };
 
 }  // namespace
 
-std::unique_ptr<LogFormat> lcm_log_format(RecordedFile& file) {
+std::unique_ptr<LogFormat> lcm_log_format(const std::string& file) {
   return std::make_unique<LcmLogFormat>(file);
 }
 
 LogRecorder::LogRecorder(const std::string& path, bool raw, WhenBehind when_behind,
                          const LogFormatOf& format)
-    : file_(path),
-      format_(format(file_)),
+    : format_(format(path)),
       raw_(raw),
       when_behind_(when_behind),
       writer_(
@@ -62,7 +65,6 @@ LogRecorder::~LogRecorder() {
   end_.request_stop();
   writer_.join();
   unsend(format_->finish());
-  file_.sync();
 }
 
 bool LogRecorder::take(const Message& message) {
@@ -85,7 +87,6 @@ void LogRecorder::flush() {
   flushing_ = false;
   lock.unlock();
   unsend(format_->flush());  // the other thread has nothing to write
-  file_.sync();
 }
 
 // Two batches alternate, so that their memory is reused.

@@ -48,7 +48,6 @@ class LogRecorder final : public MessageSink {
   bool take(const Message& message) override;
   void write_batches(const std::stop_token& end);
 
-  RecordedFile file_;
   std::unique_ptr<LogFormat> format_;
   bool raw_;
   WhenBehind when_behind_;

@@ -19,7 +19,8 @@ struct Message {
   bool from_data;                      // false for messages about this run: DEADLINES, HEALTH
 };
 
-// Only the publisher thread sends; any thread may read the name and the counts.
+// Only the publisher thread sends, except that a LogRecorder takes messages from any thread; any
+// thread may read the name and the counts.
 class MessageSink {
  public:
   virtual ~MessageSink() = default;

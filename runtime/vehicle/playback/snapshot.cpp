@@ -39,11 +39,15 @@ void describe(Archive& ar, S& snapshot, const VehicleConfig& config) {
 
 }  // namespace
 
-void write_snapshot(const std::filesystem::path& file, const Snapshot& snapshot,
-                    const VehicleConfig& config) {
+Bytes snapshot_bytes(const Snapshot& snapshot, const VehicleConfig& config) {
   ArchiveWriter writer;
   describe(writer, snapshot, config);
-  const Bytes sealed = seal(writer.content());
+  return seal(writer.content());
+}
+
+void write_snapshot(const std::filesystem::path& file, const Snapshot& snapshot,
+                    const VehicleConfig& config) {
+  const Bytes sealed = snapshot_bytes(snapshot, config);
   runtime::write_whole_file(file, {reinterpret_cast<const char*>(sealed.data()), sealed.size()});
 }
 

@@ -41,7 +41,10 @@ struct Snapshot {
   }
 };
 
-// Some 1.5 MB, and 3 more with a LiDAR's map. The file has its name once it is whole; what was
+// Returns the content of a snapshot's file: some 1.5 MB, and 3 more with a LiDAR's map.
+Bytes snapshot_bytes(const Snapshot& snapshot, const VehicleConfig& config);
+
+// The file has its name once it is whole; what was
 // there before stays until then. Throws std::runtime_error naming the file.
 void write_snapshot(const std::filesystem::path& file, const Snapshot& snapshot,
                     const VehicleConfig& config);

@@ -27,7 +27,7 @@ SnapshotStage::Part::Part(const GraphStage& saved, runtime::Doorbell* bell)
            prototype(saved.saved_bytes())) {}
 
 SnapshotStage::SnapshotStage(const std::vector<std::unique_ptr<GraphStage>>& stages,
-                             const std::vector<Time>& cuts, SnapshotHandler handler)
+                             const SnapshotMoments& cuts, SnapshotHandler handler)
     : handler_(std::move(handler)), meter_(stages::snapshot) {
   for (const auto& stage : stages) {
     parts_.emplace_back(*stage, &bell_);

@@ -11,6 +11,7 @@
 #include "runtime/vehicle/graph/graph_stage.h"
 #include "runtime/vehicle/health/thread_meter.h"
 #include "runtime/vehicle/playback/snapshot.h"
+#include "runtime/vehicle/playback/snapshot_moments.h"
 
 namespace maploop::vehicle {
 
@@ -21,7 +22,7 @@ class SnapshotStage {
  public:
   // Makes the stages save themselves at each of these moments, which increase.
   SnapshotStage(const std::vector<std::unique_ptr<GraphStage>>& stages,
-                const std::vector<Time>& cuts, SnapshotHandler handler);
+                const SnapshotMoments& cuts, SnapshotHandler handler);
 
   // Runs until all rings are finished and empty; a cut that not every stage reached is dropped. An
   // exception of the handler is thrown at the end, because the stages must not be held up. `first`:

@@ -1,5 +1,9 @@
 // Tests that whatever is done with the recorded drive, its results have the bits of one replay in
 // lockstep, and are as accurate as they were.
+#include <chrono>
+#include <csignal>
+#include <thread>
+
 #include "tests/support/command_test.h"
 #include "tools/evaluate/trajectory_file.h"
 
@@ -72,6 +76,36 @@ TEST_F(WholeDrive, RealTimeHasTheBitsOfLockstepAndLosesNothing) {
   EXPECT_EQ(real_time["channels"]["IMU"]["count"], 144);
   EXPECT_EQ(real_time["channels"]["TRUTH"]["count"], 144);
   EXPECT_GT(real_time["channels"]["HEALTH"]["count"], 10);
+}
+
+// The snapshot is of 13:11:00, 8.824 s after the first sample; a second of messages is compared.
+TEST_F(WholeDrive, ABlackBoxOfAKilledRunGivesItsBits) {
+  Process run({maploop_command(), "replay", drive(), "--no-lcm", "--speed", "3", "--black-box",
+               file("box"), "--black-box-size", "300"});
+  Words extract{"log", "blackbox", file("box"), "-o", file("box.lcmlog")};
+  ProcessResult box;
+  for (int i = 0; i < 60 && box.out.find("--resume") == std::string::npos; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    box = run_maploop(extract);
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  run.send_signal(SIGKILL);
+  run.wait();
+  box = run_maploop(extract);
+  ASSERT_THAT(box.out, HasSubstr("--resume")) << box.error;
+  replay(file("box.lcmlog"),
+         {"--lockstep", "--resume", file("box.snapshot"), "--record", file("again.lcmlog")});
+  for (const char* log : {"box", "again"}) {
+    const std::string name = file(log);
+    const ProcessResult part = run_maploop({"log", "split", name + ".lcmlog", "--start", "8.8242",
+                                            "--end", "9.8", "-o", name + ".part.lcmlog"});
+    EXPECT_EQ(part.status, 0) << part.error;
+  }
+  const ProcessResult same =
+      run_maploop({"log", "diff", file("box.part.lcmlog"), file("again.part.lcmlog"), "--channels",
+                   "NAV_STATE|ODOM_STATE|VO|LIDAR_ODOMETRY|ODOMETRY|IMU"});
+  EXPECT_EQ(same.status, 0) << same.out << same.error;
+  EXPECT_THAT(same.out, HasSubstr("NAV_STATE: same, 97 messages"));
 }
 
 // The C library and OpenCV choose functions by what the processor has. It is said to have less
