@@ -48,9 +48,10 @@ struct Recovery {
 Recovery recover(const path& log, const schema::Schema& schema, const path& output,
                  std::ostream& out);
 
-// Writes the events of a black box (--black-box), from the first snapshot on that has enough of them
-// before it, and that snapshot beside the log, from which a replay goes on with the run's own bits.
-// The whole log, if the run's first event is there. Prints what it wrote, and how to replay it.
+// Writes the events of a black box (--black-box), from the first snapshot on that has enough of
+// them before it, and that snapshot beside the log, from which a replay goes on with the run's own
+// bits. The whole log, if the run's first event is there. Prints what it wrote, and how to replay
+// it.
 void black_box(const path& box, const schema::Schema& schema, const path& output,
                std::ostream& out);
 

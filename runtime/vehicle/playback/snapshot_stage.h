@@ -21,8 +21,8 @@ using SnapshotHandler = std::function<void(const Snapshot&)>;
 class SnapshotStage {
  public:
   // Makes the stages save themselves at each of these moments, which increase.
-  SnapshotStage(const std::vector<std::unique_ptr<GraphStage>>& stages,
-                const SnapshotMoments& cuts, SnapshotHandler handler);
+  SnapshotStage(const std::vector<std::unique_ptr<GraphStage>>& stages, const SnapshotMoments& cuts,
+                SnapshotHandler handler);
 
   // Runs until all rings are finished and empty; a cut that not every stage reached is dropped. An
   // exception of the handler is thrown at the end, because the stages must not be held up. `first`:
