@@ -117,9 +117,11 @@ std::string text_of(const fusion::LastPlace& place) {
   text += "stamp = " + toml_text(format_time(place.stamp)) + '\n';
   for (const auto& key : keys_of(place)) {
     std::string numbers;
-    for (const double value : key.values)
-      numbers += (numbers.empty() ? "" : ", ") + runtime::shortest_text(value / key.per_unit);
-    if (key.values.size() > 1) numbers = '[' + numbers + ']';
+    for (const double value : key.values) {
+      if (!numbers.empty()) numbers += ", ";
+      numbers += runtime::shortest_text(value / key.per_unit);
+    }
+    if (key.values.size() > 1) numbers = fmt::format("[{}]", numbers);
     text += fmt::format("{} = {}  # {}\n", key.key, numbers, key.unit);
   }
   return text;

@@ -21,9 +21,9 @@ Vehicle::Vehicle(const VehicleConfig& config, const VehicleCalibration& calibrat
 
 Vehicle::~Vehicle() = default;
 
-void Vehicle::slow_down(StageDelays delays) {
-  for (auto& [name, delay] : delays) {
-    if (GraphStage* stage = graph_->stage(name)) stage->slow_down(std::move(delay));
+void Vehicle::slow_down(const StageDelays& delays) {
+  for (const auto& [name, delay] : delays) {
+    if (GraphStage* stage = graph_->stage(name)) stage->slow_down(delay);
   }
 }
 

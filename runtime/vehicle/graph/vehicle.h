@@ -39,7 +39,7 @@ class Vehicle {
   ~Vehicle();  // stops and waits
 
   // Slows stages down or ends them, for tests of what happens then; before start().
-  void slow_down(StageDelays delays);
+  void slow_down(const StageDelays& delays);
 
   // The filter uses what an earlier drive has estimated of the car; before start_from() and
   // start().

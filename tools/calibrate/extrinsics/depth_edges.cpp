@@ -77,8 +77,8 @@ std::vector<Vector3f> depth_edges(const lidar::ScanView& scan, const lidar::Twis
   const std::vector<RangedPoint> points = ranged_points(scan, motion, elevation);
   const std::vector<Cell> cells = cells_of(points);
   const auto cell_at = [&](int row, int column) -> const Cell& {
-    return cells[static_cast<std::size_t>(row * grid_columns +
-                                          (column + grid_columns) % grid_columns)];
+    const int around = (column + grid_columns) % grid_columns;
+    return cells[static_cast<std::size_t>(row) * grid_columns + static_cast<std::size_t>(around)];
   };
   std::vector<Vector3f> edges;
   for (int row = 0; row < grid_rows; ++row) {

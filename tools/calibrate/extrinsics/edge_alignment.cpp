@@ -66,15 +66,17 @@ Vector3d climb(std::span<const ViewPair> views, const StereoCalibration& camera,
     return true;
   };
   while (step > last_step) {
-    const Vector3d before = best;
-    for (int i = 0; i < 3; ++i)
+    Vector3d together = -best;
+    for (int i = 0; i < 3; ++i) {
       if (!try_step(step * Vector3d::Unit(i))) try_step(-step * Vector3d::Unit(i));
-    const Vector3d together = best - before;
-    if (together.isZero())
+    }
+    together += best;
+    if (together.isZero()) {
       step /= 2.0;
-    else
-      while (try_step(together)) {
-      }
+      continue;
+    }
+    while (try_step(together)) {
+    }
   }
   return best;
 }

@@ -34,9 +34,10 @@ GreyImage vertical_edges(const GreyImage& image) {
   change = cv::abs(change);
   const double full = std::max(1.0, strong * cv::mean(change)[0]);
   change = cv::min(change / full, 1.0);
-  for (int y = 0; y < image.height; ++y)
+  for (int y = 0; y < image.height; ++y) {
     spread(change.ptr<float>(y), image.width,
            result.pixels.data() + static_cast<std::ptrdiff_t>(y) * image.width);
+  }
   return result;
 }
 

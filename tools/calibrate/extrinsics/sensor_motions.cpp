@@ -74,7 +74,8 @@ CameraMotions camera_motions(const vehicle::Recording& recording,
   each_sample(camera, stretch, progress, [&](const StereoPair& pair) {
     add(odometry.process(pair), T_body_camera, result);
     if (!moments.due(pair.stamp)) return;
-    CameraView& view = result.views.emplace_back(pair.stamp);
+    CameraView& view = result.views.emplace_back();
+    view.stamp = pair.stamp;
     for (const stereo::StereoTrack& track : odometry.tracks())
       view.points.push_back(stereo::image_of(track.current));
     view.edges = vertical_edges(pair.left);

@@ -84,7 +84,7 @@ VehicleReport drive(MemoryBus& bus, LiveSensors live, Duration length, std::size
   Sensors sensors;
   sensors.live = std::move(live);
   Vehicle vehicle({}, {}, std::move(sensors), runtime::DataClock::live(), {&bus}, {});
-  vehicle.slow_down(std::move(delays));
+  vehicle.slow_down(delays);
   vehicle.start();
   std::this_thread::sleep_for(length);
   EXPECT_TRUE(bus.wait_for("NAV_STATE", states));
