@@ -119,17 +119,19 @@ Beginning beginning_of(const BoxEvents& events) {
 // Writes the log and the snapshot. Returns the seconds that the log covers.
 double write_log(const BoxEvents& events, const Beginning& begins, LogWriter& log,
                  const path& snapshot) {
-  if (!begins.calibration.empty())
+  if (!begins.calibration.empty()) {
     log.write({.time_us = begins.calibration_us,
                .channel = channel_names::calibration,
                .data = begins.calibration});
+  }
   std::int64_t first_us = std::numeric_limits<std::int64_t>::max(), last_us = 0;
   events.each([&](const LogEvent& e) {
     if (e.channel == channel_names::calibration) return;
     if (e.channel == channel_names::snapshot) {
-      if (e.time_us == begins.snapshot_us)
+      if (e.time_us == begins.snapshot_us) {
         runtime::write_whole_file(snapshot,
                                   {reinterpret_cast<const char*>(e.data.data()), e.data.size()});
+      }
       return;
     }
     if (begins.snapshot_us && e.time_us < *begins.snapshot_us - before_snapshot_us) return;
@@ -166,9 +168,10 @@ void black_box(const path& box, const schema::Schema& schema, const path& output
   writer.close();
   fmt::print(out, "{} ({}): {} events of {:.1f} s written to {}\n", box.string(),
              end_of(file.head()), writer.events(), seconds, output.string());
-  if (events.missing() > 0)
+  if (events.missing() > 0) {
     fmt::print(out, "{} blocks of {} bytes are damaged and were left out\n", events.missing(),
                vehicle::black_box::block_bytes);
+  }
   if (begins.snapshot_us) {
     fmt::print(out, "replay it with 'maploop replay {} --resume {}'\n", output.string(),
                snapshot.string());

@@ -69,7 +69,7 @@ TEST(VerticalEdges, FadeToBothSidesOfAChangeOfGrey) {
   for (int i = 0; i < 64 * 8; ++i)
     image.pixels[static_cast<std::size_t>(i)] = i % 64 < 32 ? 40 : 200;
   const GreyImage edges = vertical_edges(image);
-  const auto at = [&](int x) { return edges.pixels[static_cast<std::size_t>(4 * 64 + x)]; };
+  const auto at = [&](int x) { return edges.pixels[4 * 64 + static_cast<std::size_t>(x)]; };
   EXPECT_EQ(at(31), 255);
   EXPECT_GT(at(40), at(50));
   EXPECT_EQ(at(31 - 10), at(32 + 10)) << "symmetric";
@@ -112,9 +112,10 @@ class Alignment : public ::testing::Test {
   void see_ground() {
     for (LidarView& scan : scans_) {
       for (double x = -8.0; x < 8.0; x += 0.4) {
-        for (double z = 3.0; z < 30.0; z += 0.4)
+        for (double z = 3.0; z < 30.0; z += 0.4) {
           scan.surfaces.points.push_back(
               {in_lidar({x, ground(x), z}), truth_.linear().row(1).cast<float>()});
+        }
       }
     }
     for (CameraView& image : images_) {
@@ -141,9 +142,10 @@ class Alignment : public ::testing::Test {
         const auto column = static_cast<int>(camera_.cx + camera_.fx * x / z);
         const int bright = pole % 2 == 0 ? 30 : 230;
         for (int y = 0; y < camera_.height; ++y) {
-          for (int u = column; u < std::min(column + 6, camera_.width); ++u)
-            grey.pixels[static_cast<std::size_t>(y * camera_.width + u)] =
-                static_cast<std::uint8_t>(bright);
+          for (int u = column; u < std::min(column + 6, camera_.width); ++u) {
+            const int at = y * camera_.width + u;
+            grey.pixels[static_cast<std::size_t>(at)] = static_cast<std::uint8_t>(bright);
+          }
         }
         for (double y = -1.0; y < 1.5; y += 0.2) scans_[i].edges.push_back(in_lidar({x, y, z}));
       }

@@ -80,7 +80,7 @@ LiveSensors live_sensors(Time (*utc)() = sensors::HostClock::machine_utc) {
 
 // Drives until so many states have been sent, at least for `length`.
 VehicleReport drive(MemoryBus& bus, LiveSensors live, Duration length, std::size_t states,
-                    StageDelays delays = {}) {
+                    const StageDelays& delays = {}) {
   Sensors sensors;
   sensors.live = std::move(live);
   Vehicle vehicle({}, {}, std::move(sensors), runtime::DataClock::live(), {&bus}, {});
