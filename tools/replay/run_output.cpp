@@ -65,7 +65,7 @@ void add_run_options(CLI::App* sub, RunOptions& options) {
                          "Keep the newest of all messages, images and scans in this file of fixed "
                          "size, which survives whatever ends the run ('maploop log blackbox')");
   sub->add_option("--black-box-size", options.black_box_size, "Its size in MB")
-      ->check(CLI::Range(1.0, 1e6))
+      ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str()
       ->needs(box);
   auto* no_lcm = sub->add_flag("--no-lcm", options.no_lcm, "Publish nothing on LCM");
@@ -167,7 +167,7 @@ std::vector<vehicle::MessageSink*> RunOutput::sinks(RunPass& pass,
   }
   if (!options_.black_box.empty()) {
     if (!pass.black_box) {
-      const auto bytes = static_cast<std::uint64_t>(1e6 * options_.black_box_size);
+      const std::uint64_t bytes = 1'000'000 * options_.black_box_size;
       pass.black_box = std::make_unique<vehicle::LogRecorder>(
           options_.black_box.string(), true, behind, vehicle::black_box_format(bytes));
     }

@@ -38,7 +38,7 @@ struct RunOptions {
   std::filesystem::path record;
   bool record_raw = false;
   std::filesystem::path black_box;
-  double black_box_size = 1000.0;  // MB
+  std::uint64_t black_box_size = 1000;  // MB
   bool no_lcm = false;
   std::string lcm_url;  // empty: vehicle::bus_url() chooses one
   std::filesystem::path json, report, trace;
