@@ -187,8 +187,8 @@ void MountAlignment::learn_motion(const Motion& motion) {
   const double weight =
       mount_.known() ? 1.0 / (1.0 + residual().squaredNorm() / (robust_force * robust_force)) : 1.0;
   profile_ += weight * motion.body_force * motion.force.transpose();
-  turned_ += weight * motion.rate;
-  course_turned_ += weight * motion.course_rate;
+  turning_.add(motion.rate, motion.course_rate, weight);
+  mount_.turning = turning_.line();
   mount_.R_body_unit = closest_rotation(profile_);
 
   weights_ += weight;
@@ -208,8 +208,7 @@ void MountAlignment::learn_motion(const Motion& motion) {
 void MountAlignment::settle() {
   mount_.status = MountStatus::found;
   if (rest_ >= enough_rest) return;
-  const Vector3d up = mount_.R_body_unit.row(2).transpose();  // of the body, in the unit's axes
-  mount_.gyro_bias = (turned_ - course_turned_ * up) / weights_;
+  mount_.gyro_bias = turning_.bias(mount_.R_body_unit.row(2).transpose());
 }
 
 ImuSample MountAlignment::aligned(const SixAxisSample& sample) const {

@@ -10,6 +10,7 @@
 #include "msgs/gnss.h"
 #include "msgs/imu.h"
 #include "msgs/named_enum.h"
+#include "sensors/imu/turning_axis.h"
 
 namespace maploop::sensors {
 
@@ -40,7 +41,8 @@ struct Mount {
   double level_sigma = 3.2;
   double forward_sigma = 3.2;
   Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();  // rad/s, in the unit's axes
-  std::uint64_t intervals = 0;                          // of motion that it was found from
+  TurningAxis::Line turning;    // the vertical of the unit by its gyros; the level does not use it
+  std::uint64_t intervals = 0;  // of motion that it was found from
 
   bool known() const { return status != MountStatus::searching; }
 };
@@ -96,8 +98,7 @@ class MountAlignment {
 
   double rest_ = 0.0;                                  // s
   Eigen::Matrix3d profile_ = Eigen::Matrix3d::Zero();  // weighted sum of body times unit force
-  Eigen::Vector3d turned_ = Eigen::Vector3d::Zero();   // weighted sum of the gyros' rates, rad/s
-  double course_turned_ = 0.0;                         // weighted sum of the course's, rad/s
+  TurningAxis turning_;
   double weights_ = 0.0, residuals_ = 0.0, horizontal_ = 0.0;  // weighted sums, 1 and m^2/s^4
 };
 

@@ -152,6 +152,28 @@ TEST(MountAlignment, AConstantBiasAndAScaleAreSmallTilts) {
   EXPECT_NEAR(standing.specific_force_left, 0.0, 0.05);
 }
 
+TEST(MountAlignment, TheGyrosShowTheVerticalThatABiasTilts) {
+  MadeDrive car;
+  car.R_body_unit = rotation(-2.0, 3.0, 263.0);
+  car.force_bias = {0.3, -0.3, 0.0};
+  car.gyro_bias = {0.005, -0.009, 0.006};
+  const Mount mount = mount_after(car, 60.0);
+  const Vector3d up = car.R_body_unit.row(2).transpose();
+  const auto angle_to_up = [&](const Vector3d& v) {
+    return degrees(v.cross(up).norm() / v.norm());
+  };
+  EXPECT_GT(angle_to_up(mount.R_body_unit.row(2).transpose()), 2.0);
+  EXPECT_LT(angle_to_up(mount.turning.axis), 0.05);
+  EXPECT_NEAR(mount.turning.axis.norm(), 1.0, 0.02);
+  EXPECT_LT(mount.turning.sigma, radians(0.1));
+}
+
+TEST(MountAlignment, AStraightRoadShowsNoVerticalByTheGyros) {
+  MadeDrive car;
+  car.turning = 0.0;
+  EXPECT_GT(mount_after(car, 60.0).turning.sigma, 3.0);
+}
+
 TEST(MountAlignment, WrongVelocitiesDoNotTurnIt) {
   MadeDrive car;
   car.R_body_unit = rotation(10.0, -20.0, 100.0);

@@ -198,6 +198,10 @@ TEST(Extrinsics, AMountThatIsFoundIsWritten) {
   expect(found, "imu", "yaw", -90.0, 1e-6);
   EXPECT_NEAR(value(found, "imu", "yaw").sigma, 0.5, 1e-3);
   EXPECT_NEAR(found.description.imu.rotation.roll_sigma, 0.58, 0.01) << "accelerometers";
+  EXPECT_THAT(found.sentences, Not(Contains(HasSubstr("gyros")))) << "no turns, no axis of them";
+  mount.turning = {{0.0, std::sin(radians(1.5)), std::cos(radians(1.5))}, radians(0.2)};
+  EXPECT_THAT(find_extrinsics(m, {}).sentences,
+              Contains(HasSubstr("roll is 1.5 and pitch 0.0 deg (sigma 0.2), 1.5 deg from")));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <utility>
 
@@ -173,6 +174,22 @@ void FoundValues::set_mount(const sensors::Mount& mount) {
   const Vector3d sigma(level, level, mount.forward_sigma);
   put_rotation("imu", found_.description.imu.rotation, mount.R_body_unit,
                sigma.cwiseAbs2().asDiagonal(), false);
+  say_turning_axis(mount);
+}
+
+// The level by the gyros alone is compared with that by gravity.
+void FoundValues::say_turning_axis(const sensors::Mount& mount) {
+  const sensors::TurningAxis::Line& turning = mount.turning;
+  if (turning.sigma > radians(observed_angle)) return;
+  const Vector3d level = mount.R_body_unit.row(2).transpose();
+  const auto between = Eigen::Quaterniond::FromTwoVectors(turning.axis, level);
+  const double angle = 2.0 * std::atan2(between.vec().norm(), std::abs(between.w()));
+  const Vector3d angles = angles_of(mount.R_body_unit * between, false);
+  say(fmt::format(
+      "By the axis about which the gyros turn, roll is {:.1f} and pitch {:.1f} deg (sigma {:.1f}), "
+      "{:.1f} deg from the level that gravity shows. The latter contains a constant error of the "
+      "accelerometers ({:.2f} m/s^2 would be that much) and is what is written.",
+      angles[0], angles[1], degrees(turning.sigma), degrees(angle), 9.81 * std::sin(angle)));
 }
 
 }  // namespace maploop::extrinsics

@@ -45,6 +45,7 @@ class FoundValues {
   void put_rotation(const std::string& sensor, SensorRotation& rotation,
                     const Eigen::Matrix3d& R_body_sensor, const Eigen::Matrix3d& covariance,
                     bool looks_forward);
+  void say_turning_axis(const sensors::Mount& mount);
   SensorTime& time_of(const std::string& sensor);  // "camera", "lidar", "imu"
 
   Extrinsics found_;
