@@ -14,6 +14,7 @@
 #include "sensors/folder/stamps.h"
 #include "sensors/image/jpeg.h"
 #include "sensors/image/png.h"
+#include "sensors/image/video_file.h"
 #include "sensors/replay/files.h"
 #include "sensors/replay/keyed_text.h"
 
@@ -37,17 +38,61 @@ std::optional<fs::path> files_of_camera(const fs::path& camera) {
   return std::nullopt;
 }
 
+// Returns the video of a camera; nothing if there is none.
+std::optional<fs::path> video_of_camera(const fs::path& folder, std::string_view name) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (has_video_name(entry.path()) && entry.path().stem() == name) return entry.path();
+  return std::nullopt;
+}
+
 bool has_camera(const fs::path& folder, const char* name) {
-  return is_plain_file(folder / (std::string(name) + ".txt")) || files_of_camera(folder / name);
+  return is_plain_file(folder / (std::string(name) + ".txt")) || files_of_camera(folder / name) ||
+         video_of_camera(folder, name);
 }
 
 bool is_inside(const fs::path& name) {
   return !name.empty() && name.is_relative() && *name.lexically_normal().begin() != "..";
 }
 
+ImageFolder open_video(const fs::path& video, const fs::path& stamps) {
+  ImageFolder images;
+  images.data = video;
+  Timestamps& t = images.timestamps;
+  t.file = stamps;
+  if (t.file.empty()) {
+    throw std::runtime_error("the images of the video '" + video.string() +
+                             "' have no stamps: write a line for each to '" +
+                             fs::path(video).replace_extension(".txt").string() + "'");
+  }
+  t.stamps = read_times(t.file);
+  t.verdicts.resize(t.stamps.size());
+  for (std::size_t i = 0; i < t.size(); ++i) images.names.push_back(std::to_string(i));
+  return images;
+}
+
+// Returns the first image of a camera, which has the size of all.
+GreyImage first_image(const ImageFolder& images) {
+  GreyImage first;
+  if (has_video_name(images.data)) {
+    try {
+      if (VideoFile(images.data).read(0, first)) return first;
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error("'" + images.data.string() + "': " + error.what());
+    }
+    throw std::runtime_error("the video '" + images.data.string() + "' has no image");
+  }
+  std::vector<char> bytes;
+  read_bytes(images.data / images.names.at(0), input_limits::picture, bytes);
+  return is_png(bytes) ? decode_any_png(bytes) : decode_grey_jpeg(bytes);
+}
+
 ImageFolder open_camera(const fs::path& folder, const char* name) {
   const fs::path list = folder / (std::string(name) + ".txt");
-  if (is_plain_file(list)) return read_image_list(list);
+  const bool has_list = is_plain_file(list);
+  if (const auto video = video_of_camera(folder, name))
+    return open_video(*video, has_list ? list : times_file(folder).value_or(fs::path()));
+  if (has_list) return read_image_list(list);
   const fs::path camera = folder / name;
   ImageFolder images;
   images.data = *files_of_camera(camera);
@@ -223,7 +268,7 @@ std::optional<fs::path> find_scans(const fs::path& folder) {
   return std::nullopt;
 }
 
-VehicleCalibration read_sequence_calibration(const fs::path& file, const fs::path& image) {
+VehicleCalibration read_sequence_calibration(const fs::path& file, const ImageFolder& images) {
   const std::string content = read_calibration_text(file);
   const KeyedText text(content, file);
   const std::vector<double> left = text.numbers("P0", 12), right = text.numbers("P1", 12);
@@ -239,9 +284,7 @@ VehicleCalibration read_sequence_calibration(const fs::path& file, const fs::pat
     text.fail("P0", "has a focal length outside 1 to 100000 pixels");
   if (!(stereo.baseline > 0.01 && stereo.baseline < 10.0))
     text.fail("P1", "gives a baseline outside 0.01 to 10 m");
-  std::vector<char> bytes;
-  read_bytes(image, input_limits::picture, bytes);
-  const GreyImage first = is_png(bytes) ? decode_any_png(bytes) : decode_grey_jpeg(bytes);
+  const GreyImage first = first_image(images);
   stereo.width = first.width;
   stereo.height = first.height;
   stereo.T_body_cam = maploop::camera_pose({}, {});

@@ -27,8 +27,10 @@ ImagePair paired(const ImageFolder& left, const ImageFolder& right, Duration max
 // Returns the images of a folder with left.txt and right.txt, or with two folders of images whose
 // names are one of left and right, cam0 and cam1, image_0 and image_1, image_left and image_right,
 // with PNG or JPEG files; their stamps are in data.csv (EuRoC), in times.txt or timestamps.txt in
-// the folder of the camera or in `folder`, or the files' names. Returns nothing if there are no
-// such images. Throws std::runtime_error that names what is missing: stamps, or one of the cameras.
+// the folder of the camera or in `folder`, or the files' names. A camera may also be a video, such
+// as left.mp4, with a stamp a line in left.txt, or for both cameras in times.txt or timestamps.txt.
+// Returns nothing if there are no such images. Throws std::runtime_error that names what is
+// missing: stamps, or one of the cameras.
 std::optional<ImagePair> find_images(const std::filesystem::path& folder, Duration max_skew);
 
 // Returns whether the folder has images of at least one camera that find_images() knows.
@@ -38,9 +40,9 @@ bool has_images(const std::filesystem::path& folder);
 std::optional<std::filesystem::path> find_scans(const std::filesystem::path& folder);
 
 // Reads calib.txt of KITTI's odometry benchmark: P0 and P1 of the rectified pair, and Tr, which
-// takes the scanner to the camera, if it is there. The body's origin is the left camera. `image` is
-// one of the images, which has their size. Throws std::runtime_error that names file and key.
+// takes the scanner to the camera, if it is there. The body's origin is the left camera. The size
+// is that of the first of `images`. Throws std::runtime_error that names file and key.
 VehicleCalibration read_sequence_calibration(const std::filesystem::path& file,
-                                             const std::filesystem::path& image);
+                                             const ImageFolder& images);
 
 }  // namespace maploop::sensors

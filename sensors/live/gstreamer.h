@@ -1,10 +1,12 @@
-// This file owns GStreamer's objects. Only the .cpp files of this folder include it.
+// This file owns GStreamer's objects. Only .cpp files include it.
 #pragma once
 
 #include <gst/gst.h>
 
 #include <memory>
 #include <string>
+
+#include "msgs/image.h"
 
 namespace maploop::sensors {
 
@@ -25,5 +27,8 @@ GstOwned<GstElement> parse_pipeline(const std::string& whole, const std::string&
 
 // Returns the text of an error message, without secrets.
 std::string error_text(GstMessage* message);
+
+// Copies the grey image of a sample; leaves `image` empty if there is none.
+void copy_grey(GstSample* sample, GreyImage& image);
 
 }  // namespace maploop::sensors

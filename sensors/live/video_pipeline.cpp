@@ -1,10 +1,8 @@
 #include "sensors/live/video_pipeline.h"
 
 #include <gst/app/gstappsink.h>
-#include <gst/video/video.h>
 
 #include <algorithm>
-#include <cstring>
 #include <thread>
 #include <utility>
 
@@ -112,25 +110,12 @@ void VideoPipeline::take(VideoFrame& frame, void* opaque) {
     ++state_.connection.opened;
     state_.connection.problem.clear();
   }
-  GstBuffer* buffer = gst_sample_get_buffer(sample);
-  GstVideoInfo info;
-  GstVideoFrame video;
-  frame.image.resize(0, 0);
-  if (buffer == nullptr || !gst_video_info_from_caps(&info, gst_sample_get_caps(sample)) ||
-      !gst_video_frame_map(&video, &info, buffer, GST_MAP_READ)) {
-    return;
-  }
-  frame.image.resize(GST_VIDEO_FRAME_WIDTH(&video), GST_VIDEO_FRAME_HEIGHT(&video));
-  const auto* row = static_cast<const std::uint8_t*>(GST_VIDEO_FRAME_PLANE_DATA(&video, 0));
-  const auto width = static_cast<std::size_t>(frame.image.width);
-  for (int y = 0; y < frame.image.height; ++y) {
-    std::memcpy(frame.image.pixels.data() + static_cast<std::size_t>(y) * width, row, width);
-    row += GST_VIDEO_FRAME_PLANE_STRIDE(&video, 0);
-  }
-  gst_video_frame_unmap(&video);
+  copy_grey(sample, frame.image);
+  if (frame.image.empty()) return;
   ++state_.frames;
   state_.connection.bytes += frame.image.pixels.size();
 
+  GstBuffer* buffer = gst_sample_get_buffer(sample);
   // The age of the image is the pipeline's clock now minus the time of the buffer.
   GstElement* pipeline = elements_->pipeline.get();
   const GstOwned<GstClock> clock(gst_element_get_clock(pipeline));

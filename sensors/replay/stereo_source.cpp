@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "msgs/input_limits.h"
 #include "sensors/image/jpeg.h"
 #include "sensors/image/png.h"
+#include "sensors/image/video_file.h"
 #include "sensors/replay/frame_source.h"
 
 namespace maploop::sensors {
@@ -54,38 +56,84 @@ StereoFrames judge(const ImageFolder& left_folder, const ImageFolder& right_fold
   return frames;
 }
 
+// Reads the images of one camera.
+struct Camera {
+  ImageFolder folder;
+  std::unique_ptr<VideoFile> video = nullptr;  // opened with its first image
+};
+
 class StereoSource final : public FrameSource<StereoPair> {
  public:
   StereoSource(ImageFolder left, ImageFolder right, StereoFrames frames, int width, int height,
                Time passed)
       : FrameSource(std::move(frames.list), passed),
-        left_(std::move(left)),
-        right_(std::move(right)),
+        left_{std::move(left)},
+        right_{std::move(right)},
         stamps_(std::move(frames.stamps)),
         width_(width),
         height_(height) {}
 
  private:
   bool read(std::size_t i, StereoPair& pair) override {
-    return read_image(left_, i, pair.left) && read_image(right_, i, pair.right);
+    if (!read_image(left_, i, pair.left) || !read_image(right_, i, pair.right)) return false;
+    if (i + 1 == stamps_.size())
+      for (Camera* camera : {&left_, &right_}) refuse_the_rest(*camera);
+    return true;
   }
 
   void set_stamps(std::size_t i, StereoPair& pair) const override { pair.stamp = stamps_[i]; }
 
-  bool read_image(const ImageFolder& folder, std::size_t i, GreyImage& image) {
+  bool read_image(Camera& camera, std::size_t i, GreyImage& image) {
+    const ImageFolder& folder = camera.folder;
+    if (has_video_name(folder.data)) return read_video(camera, i, image);
     const auto file =
         folder.data / (folder.names.empty() ? numbered_file(i, ".png") : folder.names[i]);
     return read_and_parse(file, input_limits::picture, [&](const std::vector<char>& bytes) {
       if (!folder.any_kind) return decode_grey_png(bytes, width_, height_, image);
       image = is_png(bytes) ? decode_any_png(bytes) : decode_grey_jpeg(bytes);
-      if (image.width == width_ && image.height == height_) return;
-      throw std::runtime_error("the image is " + std::to_string(image.width) + " x " +
-                               std::to_string(image.height) + ", but the calibration states " +
-                               std::to_string(width_) + " x " + std::to_string(height_));
+      require_size(image);
     });
   }
 
-  ImageFolder left_, right_;
+  bool read_video(Camera& camera, std::size_t i, GreyImage& image) {
+    const ImageFolder& folder = camera.folder;
+    try {
+      if (!camera.video) camera.video = std::make_unique<VideoFile>(folder.data);
+      if (!camera.video->read(std::stoul(folder.names[i]), image)) {
+        throw std::runtime_error("the video ended before this image, but '" +
+                                 folder.timestamps.file.string() + "' has a stamp for it");
+      }
+      require_size(image);
+      return true;
+    } catch (const std::exception& error) {
+      report_.refuse({(folder.data / folder.names[i]).string(), 0, error.what()});
+      return false;
+    }
+  }
+
+  // A video that goes on behind the last stamp was perhaps stamped by the list of another one.
+  void refuse_the_rest(Camera& camera) {
+    const ImageFolder& folder = camera.folder;
+    if (!camera.video || !folder.unpaired.empty()) return;
+    try {
+      GreyImage rest;
+      if (!camera.video->read(std::stoul(folder.names.back()) + 1, rest)) return;
+      report_.refuse({folder.data.string(), 0,
+                      "has more images than '" + folder.timestamps.file.string() +
+                          "' has stamps; check that the stamps belong to this video"});
+    } catch (const std::exception& error) {
+      report_.refuse({folder.data.string(), 0, error.what()});
+    }
+  }
+
+  void require_size(const GreyImage& image) const {
+    if (image.width == width_ && image.height == height_) return;
+    throw std::runtime_error("the image is " + std::to_string(image.width) + " x " +
+                             std::to_string(image.height) + ", but the calibration states " +
+                             std::to_string(width_) + " x " + std::to_string(height_));
+  }
+
+  Camera left_, right_;
   std::vector<Time> stamps_;
   int width_, height_;
 };

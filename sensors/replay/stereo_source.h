@@ -12,13 +12,15 @@
 
 namespace maploop::sensors {
 
-// This is one camera's folder of images.
+// These are the images of one camera: the files of a folder, or those of a video.
 struct ImageFolder {
-  std::filesystem::path data;
+  std::filesystem::path data;  // the folder, or the video (has_video_name())
   Timestamps timestamps;
-  std::vector<std::string> names = {};  // of the files, relative to `data`; empty: numbered PNG
-  bool any_kind = false;                // also colour, 16 bits and JPEG
-  std::vector<Finding> unpaired = {};   // images that are in no pair
+  // These are the files, relative to `data`, or the numbers of a video's images, from 0. If there
+  // are none, the files are numbered PNG.
+  std::vector<std::string> names = {};
+  bool any_kind = false;               // also colour, 16 bits and JPEG
+  std::vector<Finding> unpaired = {};  // images that are in no pair
 };
 
 // Pairs left and right images by number. One trigger exposes both, and the host stamps each a

@@ -94,16 +94,16 @@ TEST_F(Lists, TheBenchmarksCalibrationIsRead) {
   write_text(folder() / "calib.txt",
              "P0: 700 0 600 0 0 700 180 0 0 0 1 0\nP1: 700 0 600 -350 0 700 180 0 0 0 1 0\n"
              "Tr: 0 -1 0 0.1 0 0 -1 -0.2 1 0 0 -0.3\n");
-  const VehicleCalibration c =
-      read_sequence_calibration(folder() / "calib.txt", folder() / "image_0/000000.png");
+  ImageFolder images;
+  images.data = folder() / "image_0";
+  images.names = {"000000.png"};
+  const VehicleCalibration c = read_sequence_calibration(folder() / "calib.txt", images);
   EXPECT_EQ(c.stereo.width, SmallDrive::width);
   EXPECT_EQ(c.stereo.baseline, 0.5);
   EXPECT_TRUE(c.T_body_velo.translation().isApprox(Eigen::Vector3d(-0.3, -0.1, 0.2), 1e-12));
   EXPECT_TRUE(c.T_body_velo.linear().isIdentity(1e-12));
   write_text(folder() / "calib.txt", "P0: 700 0 600 0 0 700 180 0 0 0 1 0\n");
-  EXPECT_THAT(error_of([&] {
-                read_sequence_calibration(folder() / "calib.txt", folder() / "image_0/000000.png");
-              }),
+  EXPECT_THAT(error_of([&] { read_sequence_calibration(folder() / "calib.txt", images); }),
               AllOf(HasSubstr("calib.txt"), HasSubstr("P1")));
 }
 

@@ -49,9 +49,8 @@ sensors::DriveParts open_plain(const fs::path& folder, const VehicleConfig& conf
     parts.calibration.stereo = sensors::mounted(
         *parts.raw_cameras, parts.raw_cameras->T_body_left.value_or(camera_pose({}, {})));
   } else if (parts.images && fs::exists(folder / "calib.txt", ignored)) {
-    const sensors::ImageFolder& left = parts.images->left;
     parts.calibration =
-        sensors::read_sequence_calibration(folder / "calib.txt", left.data / left.names.at(0));
+        sensors::read_sequence_calibration(folder / "calib.txt", parts.images->left);
   }
   require_calibration(parts, config);
   if (!parts.clouds.empty()) {
