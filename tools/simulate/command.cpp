@@ -136,6 +136,9 @@ void add_simulate(CLI::App& app, Command& command) {
       ->check(CLI::IsMember({"camera", "lidar", "imu", "gnss"}))
       ->default_str("camera,lidar,imu,gnss");
   add_choice(sub, "--scanner", options->drive.scanner, "hdl-64e or vlp-16");
+  add_choice(sub, "--car", options->drive.car,
+             "standard: KITTI's mounting; drawn: sensors elsewhere, turned and late, by the seed, "
+             "and vehicle_rough.toml, which describes them roughly");
   sub->add_option_function<std::string>(
          "--scanner-clock",
          [options](const std::string& name) { options->drive.free_scanner = name == "free"; },

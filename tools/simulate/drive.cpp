@@ -5,7 +5,6 @@
 
 #include "tools/simulate/random.h"
 #include "tools/simulate/scene/town_scene.h"
-#include "tools/simulate/sensors/test_car.h"
 #include "tools/simulate/town/site.h"
 
 namespace maploop::simulate {
@@ -32,10 +31,12 @@ Drive::Drive(const SimulationOptions& options, Site site)
       terrain(options.seed),
       index(streets, 2.5),
       appearance(index),
-      car(test_car()),
+      car(simulated_car(options.car, options.seed)),
+      calibration(calibration_of(car)),
       errors(calibration_errors(options.seed)),
       motion(drive_along(streets, site.route, terrain, options.seconds, options.seed)),
       traffic(make_traffic(streets, terrain, motion, car_count, options.seconds, options.seed)) {
+  motion.set_body(car.T_car_body);
   std::vector<Mesh> shapes;
   Random random(options.seed, 16);
   for (std::size_t i = 0; i < traffic.size(); ++i)

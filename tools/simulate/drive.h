@@ -8,7 +8,8 @@
 #include "msgs/time.h"
 #include "tools/simulate/scene/appearance.h"
 #include "tools/simulate/scene/ray_scene.h"
-#include "tools/simulate/sensors/test_car.h"
+#include "tools/simulate/sensors/calibration_errors.h"
+#include "tools/simulate/sensors/simulated_car.h"
 #include "tools/simulate/sensors/vehicle_motion.h"
 #include "tools/simulate/simulation.h"
 #include "tools/simulate/town/site.h"
@@ -29,8 +30,9 @@ struct Drive {
   Terrain terrain;
   StreetIndex index;
   Appearance appearance;
-  VehicleCalibration car;
-  CalibrationErrors errors;  // of the car's calibration
+  SimulatedCar car;
+  VehicleCalibration calibration;  // of the car
+  CalibrationErrors errors;        // of the calibration
   VehicleMotion motion;
   std::vector<VehicleMotion> traffic;
   std::optional<World> world;

@@ -12,11 +12,10 @@
 #include "tools/evaluate/trajectory_file.h"
 #include "tools/simulate/drive.h"
 #include "tools/simulate/gnss/gnss_recording.h"
-#include "tools/simulate/gnss/receiver.h"
 #include "tools/simulate/output_file.h"
 #include "tools/simulate/sensors/frame_writer.h"
 #include "tools/simulate/sensors/inertial_unit.h"
-#include "tools/simulate/sensors/test_car.h"
+#include "tools/simulate/sensors/simulated_car.h"
 #include "tools/simulate/town/road_map.h"
 
 namespace maploop::simulate {
@@ -33,8 +32,8 @@ void write_frame_stamps(const Drive& drive, const fs::path& folder,
     write_timestamps(folder / file, stamps);
   };
   if (sensors.camera) {
-    write("image_00/timestamps.txt", drive.times, 0.0);
-    write("image_01/timestamps.txt", drive.times, 0.0);
+    write("image_00/timestamps.txt", drive.times, drive.car.camera_delay);
+    write("image_01/timestamps.txt", drive.times, drive.car.camera_delay);
   }
   if (!sensors.lidar) return;
   write("velodyne_points/timestamps.txt", drive.turns, 0.5 * drive.turn_time);
@@ -47,45 +46,30 @@ void write_inertial(const Drive& drive, const fs::path& out, const SimulationOpt
   for (const auto& [name, interval] :
        {std::pair("town_sync", Drive::frame_interval), std::pair("town_extract", fast_interval)}) {
     write_oxts(out / name / "oxts", drive.motion, drive.frame, drive.start, options.seconds,
-               interval, imu_parameters(options.imu), options.seed);
+               interval, imu_parameters(options.imu), drive.car.imu_delay, options.seed);
   }
 }
 
-// Returns what is known of the car. Its origin is above the rear axle and moves along body x,
-// except for the motion of its springs (vehicle_motion.h); its tyres do not slip sideways.
-VehicleDescription description(const VehicleCalibration& car, Scanner scanner) {
-  VehicleDescription d = description_of(car);
-  d.car.rear_axle_distance_sigma = 0.01;
-  d.car.climb_offset_sigma = 0.0087;
-  d.car.rear_slip = 0.0;
-  d.car.rear_slip_sigma = 0.0005;
-  d.lidar.model = scanner == Scanner::vlp_16 ? "VLP-16" : "HDL-64E";
+// Writes what a replay should know about the car.
+void write_configuration(const fs::path& file, VehicleDescription d,
+                         const SimulationOptions& options) {
+  d.lidar.model = options.scanner == Scanner::vlp_16 ? "VLP-16" : "HDL-64E";
   // The float is rounded to the decimals that it stands for.
-  const auto elevation = static_cast<double>(lidar_parameters(scanner).elevation_error);
+  const auto elevation = static_cast<double>(lidar_parameters(options.scanner).elevation_error);
   d.lidar.beam_elevation = std::round(1e8 * elevation) / 1e8;
   d.lidar.beam_elevation_sigma = 0.0005;
-  d.imu.time = {0.06, 0.005};
-  const Eigen::Vector3d& lever = Receiver::lever();
-  d.antenna.position = {lever.x(), lever.y(), lever.z(), 0.01, 0.01, 0.01};
-  return d;
-}
-
-// Writes what a replay should know about the car.
-void write_configuration(const fs::path& file, const Drive& drive,
-                         const SimulationOptions& options) {
   write_file(
       file, fmt::format("# The simulated car.\n\n"
                         "imu_grade = \"{}\"\n\n"
                         "[map]\nfile = \"map.osm\"\n\n"
                         "[wheel]\nerrors = \"drawn\"  # its tyres are worn and slip\nseed = {}\n{}",
-                        to_string(options.imu), options.seed % 1'000'000'000,
-                        to_toml(description(drive.car, options.scanner))));
+                        to_string(options.imu), options.seed % 1'000'000'000, to_toml(d)));
 }
 
 void write_truth(const Drive& drive, const fs::path& file) {
   evaluation::StampedTrajectory truth;
   for (const double t : drive.times) {
-    const Eigen::Isometry3d T_enu_cam = drive.motion.pose(t) * drive.car.stereo.T_body_cam;
+    const Eigen::Isometry3d T_enu_cam = drive.motion.pose(t) * drive.calibration.stereo.T_body_cam;
     truth.stamps.push_back(drive.start + from_seconds(t));
     truth.poses.push_back(T_enu_cam);
   }
@@ -104,15 +88,19 @@ bool write_drive(const fs::path& out, const SimulationOptions& options,
   for (const char* camera : {"image_00", "image_01"})
     if (sensors.camera) fs::create_directories(sync / camera / "data");
   if (sensors.lidar) fs::create_directories(sync / "velodyne_points/data");
-  write_calibration(out);
+  write_calibration(out, drive.car);
   write_frame_stamps(drive, sync, sensors);
   if (sensors.imu) write_inertial(drive, out, options);
   if (sensors.gnss) {
-    write_gnss(sync, {drive.motion, drive.traffic, *drive.world, drive.frame, drive.start,
-                      options.seconds, options.gnss_rate, options.seed});
+    write_gnss(sync, {drive.motion, drive.car.antenna, drive.traffic, *drive.world, drive.frame,
+                      drive.start, options.seconds, options.gnss_rate, options.seed});
   }
   write_road_map(out / "map.osm", drive.streets, drive.frame, options.seed);
-  write_configuration(out / "vehicle.toml", drive, options);
+  write_configuration(out / "vehicle.toml", description_of(drive.car), options);
+  if (options.car == CarKind::drawn) {
+    write_configuration(out / "vehicle_rough.toml", rough_description(drive.car, options.seed),
+                        options);
+  }
   write_driven_links(out / "driven_links.csv", drive.streets, drive.motion, drive.times);
   write_truth(drive, out / "truth.tum");
   const bool frames = sensors.camera || sensors.lidar;

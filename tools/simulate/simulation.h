@@ -11,6 +11,7 @@
 #include "tools/simulate/scene/town_scene.h"
 #include "tools/simulate/sensors/inertial_unit.h"
 #include "tools/simulate/sensors/lidar_turn.h"
+#include "tools/simulate/sensors/simulated_car.h"
 
 namespace maploop::simulate {
 
@@ -29,6 +30,7 @@ struct SimulationOptions {
   SimulatedSensors sensors;
   double gnss_rate = 1.0;  // Hz
   Scanner scanner = Scanner::hdl_64e;
+  CarKind car = CarKind::standard;
   // True if the scanner's turns are not synchronized with the images (calibration_errors.h);
   // otherwise each image is taken in the middle of a turn, as on KITTI's car.
   bool free_scanner = true;
@@ -52,7 +54,8 @@ using FrameDone = std::function<bool(std::size_t done, std::size_t all)>;
 //                      gnss_one_frequency (gnss/gnss_recording.h)
 //   town_extract       oxts at 100 Hz; a replay of it reads the other sensors from town_sync
 //   map.osm            the road map, with a mapper's errors (road_map.h)
-//   vehicle.toml       configuration of a replay: the map, and the parameters of the car
+//   vehicle.toml       configuration of a replay: the map, and all that there is to know of the car
+//   vehicle_rough.toml the same for a drawn car, with what its owner knows (rough_description())
 //   truth.tum          the left camera's poses, relative to its first one
 //   driven_links.csv   the segments of the map that were driven, by frame
 // The folder is complete or does not exist: its name has ".partial" appended until everything is

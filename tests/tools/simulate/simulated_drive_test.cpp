@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
 
+#include "msgs/frames.h"
 #include "sensors/replay/kitti_drive.h"
 #include "sensors/replay/velodyne_source.h"
 #include "tests/tools/simulate/made_drive.h"
@@ -111,6 +113,50 @@ TEST(SimulatedDrive, AFreeScannerTurnsBesideTheCameras) {
     EXPECT_NEAR(free.turns[i] - free.turns[i - 1], free.turn_time, 1e-9);
   for (std::size_t i = 0; i < triggered.turns.size(); ++i)
     EXPECT_NEAR(triggered.turns[i], triggered.times[i] - 0.05, 1e-9);
+}
+
+TEST(SimulatedDrive, ADrawnCarIsDescribedExactlyAndRoughly) {
+  SimulationOptions options = a_second(1);
+  options.car = CarKind::drawn;
+  const Drive drive(options);
+  const SimulatedCar& car = drive.car;
+  const VehicleDescription exact = description_of(car), rough = rough_description(car, 7);
+  // The rear axle moves along the car, not along the unit's own axes.
+  const VehicleState state = drive.motion.state(0.5);
+  const Eigen::Vector3d axle = car.T_car_body.inverse().translation();
+  const Eigen::Vector3d velocity =
+      state.T_enu_body.linear().transpose() * state.velocity_enu + state.rate_body.cross(axle);
+  const Eigen::Vector3d travel = car.T_car_body.linear().row(0).transpose();
+  EXPECT_LT(velocity.normalized().cross(travel).norm(), 0.02) << "springs and bumps";
+  EXPECT_NEAR(exact.car.climb_offset, std::asin(travel.z()), 1e-12);
+  EXPECT_LE(std::abs(exact.car.climb_offset), radians(1.01));
+  EXPECT_GT(exact.car.rear_axle_distance, 0.0);
+  EXPECT_LE(exact.car.rear_axle_distance, 2.0);
+  EXPECT_EQ(exact.imu.time.delay, car.imu_delay);
+  const auto apart = [](const SensorPosition& a, const SensorPosition& b) {
+    return std::hypot(a.forward - b.forward, a.left - b.left);
+  };
+  EXPECT_NEAR(apart(exact.antenna.position, rough.antenna.position), 0.5, 1e-9);
+  EXPECT_NEAR(apart(exact.camera.position, rough.camera.position), 0.5, 0.1);
+  EXPECT_NEAR(std::abs(exact.camera.rotation.yaw - rough.camera.rotation.yaw), 1.0, 0.1);
+  EXPECT_EQ(rough.car.rear_axle_distance, 0.0) << "its owner does not know it";
+  EXPECT_EQ(rough.imu.time.delay, 0.0);
+}
+
+TEST(SimulatedDrive, TheCalibrationOfADrawnCarIsReadAsItIs) {
+  SimulationOptions options = a_second(2);
+  options.car = CarKind::drawn;
+  options.sensors = {true, false, true, false};
+  const fs::path made_drive = made("drawn", options);
+  const sensors::KittiDrive drive(made_drive / "town_extract");
+  const SimulatedCar car = simulated_car(CarKind::drawn, options.seed);
+  EXPECT_TRUE(
+      drive.calibration().stereo.T_body_cam.isApprox(calibration_of(car).stereo.T_body_cam, 1e-12));
+  EXPECT_TRUE(fs::exists(made_drive / "vehicle_rough.toml"));
+  const auto camera = drive.camera();
+  StereoPair pair;
+  ASSERT_TRUE(camera->next(pair));
+  EXPECT_NEAR(to_seconds(pair.stamp - Drive(options).start), 0.1 + car.camera_delay, 1e-8);
 }
 
 TEST(SimulatedDrive, BrokenOffNothingIsLeft) {

@@ -9,10 +9,11 @@
 
 #include "msgs/frames.h"
 #include "tools/simulate/scene/town_scene.h"
+#include "tools/simulate/sensors/calibration_errors.h"
 #include "tools/simulate/sensors/camera_image.h"
 #include "tools/simulate/sensors/inertial_unit.h"
 #include "tools/simulate/sensors/lidar_turn.h"
-#include "tools/simulate/sensors/test_car.h"
+#include "tools/simulate/sensors/simulated_car.h"
 
 namespace maploop::simulate {
 namespace {
@@ -67,7 +68,7 @@ class HandMadeScene : public ::testing::Test {
   Appearance appearance_;
   World world_;
   RayScene scene_;
-  StereoCalibration camera_ = test_car().stereo;
+  StereoCalibration camera_ = calibration_of(simulated_car(CarKind::standard, 0)).stereo;
 };
 
 TEST_F(HandMadeScene, CamerasSeeASquareWhereItIsProjected) {

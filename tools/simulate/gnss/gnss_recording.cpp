@@ -90,8 +90,8 @@ class ObservationText {
 
 void write_gnss(const std::filesystem::path& folder, const GnssSetting& setting) {
   const Constellation constellation(setting.seconds, setting.seed);
-  Receiver receiver(constellation, setting.motion, setting.frame, setting.start, setting.seconds,
-                    setting.seed);
+  Receiver receiver(constellation, setting.motion, setting.antenna, setting.frame, setting.start,
+                    setting.seconds, setting.seed);
   RayScene scene(setting.world);
   const ppp::GpsTime start = ppp::from_utc(setting.start);
   const double interval = 1.0 / setting.rate;

@@ -14,6 +14,7 @@ namespace maploop::simulate {
 
 struct GnssSetting {
   const VehicleMotion& motion;
+  const Eigen::Vector3d& antenna;             // m, in the body frame
   const std::vector<VehicleMotion>& traffic;  // the moving bodies of `world`
   const World& world;
   const LocalFrame& frame;

@@ -69,15 +69,12 @@ std::array<ReceiveAntenna, 2> calibrated_antenna() {
   return antenna;
 }
 
-const Eigen::Vector3d& Receiver::lever() {
-  static const Eigen::Vector3d above(0.0, 0.0, 0.75);
-  return above;
-}
-
 Receiver::Receiver(const Constellation& constellation, const VehicleMotion& motion,
-                   const LocalFrame& frame, Time start, double seconds, std::uint64_t seed)
+                   const Eigen::Vector3d& lever, const LocalFrame& frame, Time start,
+                   double seconds, std::uint64_t seed)
     : constellation_(constellation),
       motion_(motion),
+      lever_(lever),
       frame_(frame),
       start_(ppp::from_utc(start)),
       earth_({}),
@@ -112,7 +109,7 @@ double Receiver::clock(double t) const {
 }
 
 Eigen::Vector3d Receiver::antenna_ecef(double t) const {
-  return ppp::ecef_from_geodetic(frame_.to_geodetic(motion_.pose(t) * lever()));
+  return ppp::ecef_from_geodetic(frame_.to_geodetic(motion_.pose(t) * lever_));
 }
 
 Receiver::Range Receiver::range(std::size_t satellite, double t,
@@ -140,8 +137,8 @@ Receiver::Range Receiver::range(std::size_t satellite, double t,
 std::vector<ObservedSatellite> Receiver::observe(double t, double interval, const RayScene& scene) {
   const VehicleState state = motion_.state(t - clock(t));
   const Eigen::Matrix3d& R = state.T_enu_body.linear();
-  const Eigen::Vector3d place = state.T_enu_body * lever();
-  const Eigen::Vector3d velocity = state.velocity_enu + R * state.rate_body.cross(lever());
+  const Eigen::Vector3d place = state.T_enu_body * lever_;
+  const Eigen::Vector3d velocity = state.velocity_enu + R * state.rate_body.cross(lever_);
   const ppp::SunAndMoon bodies = earth_.at(start_ + from_seconds(t));
   const Eigen::Vector3d point = antenna_ecef(t - clock(t));
   const Eigen::Vector3d tide = ppp::solid_earth_tide(point, bodies);

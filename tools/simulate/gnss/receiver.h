@@ -41,12 +41,11 @@ struct ObservedSatellite {
 
 class Receiver {
  public:
-  // Returns the antenna's position in the body frame, m.
-  static const Eigen::Vector3d& lever();
-
-  // The referenced objects must outlive the receiver. `start` is time 0.
-  Receiver(const Constellation& constellation, const VehicleMotion& motion, const LocalFrame& frame,
-           Time start, double seconds, std::uint64_t seed);
+  // The referenced objects must outlive the receiver. `lever` is the antenna's position in the
+  // body frame, m, and `start` is time 0.
+  Receiver(const Constellation& constellation, const VehicleMotion& motion,
+           const Eigen::Vector3d& lever, const LocalFrame& frame, Time start, double seconds,
+           std::uint64_t seed);
 
   // Observes at the receiver's own time stamp t (s); epochs are `interval` apart and in order. The
   // scene's bodies must already be at their poses of that time.
@@ -83,6 +82,7 @@ class Receiver {
 
   const Constellation& constellation_;
   const VehicleMotion& motion_;
+  Eigen::Vector3d lever_;
   LocalFrame frame_;
   ppp::GpsTime start_;
   ppp::Earth earth_;

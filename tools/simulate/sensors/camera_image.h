@@ -8,7 +8,7 @@
 #include "msgs/image.h"
 #include "tools/simulate/scene/appearance.h"
 #include "tools/simulate/scene/ray_scene.h"
-#include "tools/simulate/sensors/test_car.h"
+#include "tools/simulate/sensors/calibration_errors.h"
 
 namespace maploop::simulate {
 

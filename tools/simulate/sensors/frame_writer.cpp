@@ -55,7 +55,7 @@ void FrameWriter::write(std::size_t frame) {
 
 void FrameWriter::write_images(std::size_t frame, std::uint64_t seed) {
   const double t = drive_.times[frame];
-  const StereoCalibration& camera = drive_.car.stereo;
+  const StereoCalibration& camera = drive_.calibration.stereo;
   const CameraParameters parameters;
   const double half = 0.5 * parameters.exposure_time;
   scene_.move(
@@ -86,7 +86,8 @@ void FrameWriter::write_turn(std::size_t frame, std::uint64_t seed) {
   const sensors::RangeImage turn = take_turn(
       scene_, drive_.appearance,
       [&](double share) {
-        return drive_.motion.pose(begin + share * drive_.turn_time) * drive_.car.T_body_velo;
+        return drive_.motion.pose(begin + share * drive_.turn_time) *
+               drive_.calibration.T_body_velo;
       },
       mix(seed, 2), lidar_);
   const std::filesystem::path data = folder_ / "velodyne_points/data";

@@ -19,8 +19,7 @@ constexpr double degrees_per_hour(double value) {
   return radians(value) / 3600.0;
 }
 
-constexpr double gravity = 9.81;     // m/s^2
-constexpr double rate_delay = 0.06;  // s
+constexpr double gravity = 9.81;  // m/s^2
 
 constexpr const char* row_format =
     "lat: deg\nlon: deg\nalt: m\nroll: rad, left side up\npitch: rad, front down\n"
@@ -106,7 +105,7 @@ void write_timestamps(const std::filesystem::path& file, const std::vector<Time>
 
 void write_oxts(const std::filesystem::path& oxts, const VehicleMotion& motion,
                 const LocalFrame& frame, Time start, double seconds, double interval,
-                const ImuParameters& imu, std::uint64_t seed) {
+                const ImuParameters& imu, double delay, std::uint64_t seed) {
   std::filesystem::create_directories(oxts / "data");
   TriadErrors gyros(imu.gyros, interval, seed, 1);
   TriadErrors accelerometers(imu.accelerometers, interval, seed, 2);
@@ -116,7 +115,7 @@ void write_oxts(const std::filesystem::path& oxts, const VehicleMotion& motion,
     stamps.push_back(start + from_seconds(t));
     write_file(
         oxts / "data" / sensors::numbered_file(i, ".txt"),
-        oxts_row_text(motion.state(t), motion.state(t - rate_delay), frame, gyros, accelerometers));
+        oxts_row_text(motion.state(t), motion.state(t - delay), frame, gyros, accelerometers));
   }
   write_timestamps(oxts / "timestamps.txt", stamps);
   write_file(oxts / "dataformat.txt", row_format);

@@ -58,10 +58,10 @@ class TriadErrors {
 
 // Writes rows `interval` seconds apart, beginning at `start`, into the new folder `oxts`. Position
 // and attitude are exact at the row's stamp. Velocities (exact), accelerations and rates (with the
-// errors of `imu`) are those of 60 ms before it, as in KITTI's drives.
+// errors of `imu`) are those of `delay` seconds before it, as in KITTI's drives.
 void write_oxts(const std::filesystem::path& oxts, const VehicleMotion& motion,
                 const LocalFrame& frame, Time start, double seconds, double interval,
-                const ImuParameters& imu, std::uint64_t seed);
+                const ImuParameters& imu, double delay, std::uint64_t seed);
 
 // Writes stamps like KITTI's timestamps.txt, one a line.
 void write_timestamps(const std::filesystem::path& file, const std::vector<Time>& stamps);

@@ -29,7 +29,7 @@ VehicleMotion::VehicleMotion(std::shared_ptr<const LanePath> path,
   }
 }
 
-Eigen::Isometry3d VehicleMotion::pose(double t) const {
+Eigen::Isometry3d VehicleMotion::car_pose(double t) const {
   const double way = profile_->way(t), speed = profile_->speed(t);
   const Eigen::Vector2d p = path_->position(way), d = path_->derivative(way).normalized();
   const Eigen::Vector2d slope = terrain_.gradient(p), left(-d.y(), d.x());
@@ -42,11 +42,11 @@ Eigen::Isometry3d VehicleMotion::pose(double t) const {
     pitch += bump.pitch * std::cos(phase);
     roll += bump.roll * std::sin(1.1 * phase);
   }
-  Eigen::Isometry3d T_enu_body;
+  Eigen::Isometry3d T_enu_car;
   const Attitude attitude{azimuth_from_yaw(std::atan2(d.y(), d.x())), pitch, roll};
-  T_enu_body.linear() = rotation_enu_body(attitude);
-  T_enu_body.translation() << p, height;
-  return T_enu_body;
+  T_enu_car.linear() = rotation_enu_body(attitude);
+  T_enu_car.translation() << p, height;
+  return T_enu_car;
 }
 
 VehicleState VehicleMotion::state(double t) const {

@@ -1,19 +1,9 @@
-// The car that carries the simulated sensors, and the errors of its calibration files.
+// The errors that the calibration files of a simulated car have.
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
-
-#include "msgs/calibration.h"
 
 namespace maploop::simulate {
-
-// Returns KITTI's camera (1242 x 375 pixels, 0.537 m baseline) and mounting of 2011-09-26, rounded.
-VehicleCalibration test_car();
-
-// Writes the calibration as KITTI's three files into a folder. Throws std::runtime_error naming the
-// file.
-void write_calibration(const std::filesystem::path& folder);
 
 // Shift in px of an image column: middle + slope x + bowl x^2, with x from -1 at the left edge to 1
 // at the right edge. The mean over the columns is middle + bowl / 3.
