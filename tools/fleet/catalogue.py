@@ -70,6 +70,9 @@ def load(path):
         for name in experiment["metrics"]:
             if name not in METRICS:
                 fail(["experiment", i, "metrics"], f"there is no metric '{name}'; there are {', '.join(METRICS)}")
+        for j, grid in enumerate(experiment.get("grid", [])):
+            if grid["metric"] not in experiment["metrics"]:
+                fail(["experiment", i, "grid", j, "metric"], f"'{grid['metric']}' is not one of the experiment's metrics")
         for recording in chosen_of(everything, experiment):
             has = {*recording.get("values", {}), *(["folder"] if "simulate" in recording else [])}
             for word in sorted(words(experiment) - has):

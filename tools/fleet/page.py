@@ -68,7 +68,34 @@ of the means of runs is to the first variant, by pairs of one recording, seed an
 (bootstrap over five or more pairs) leave out 1.</p>
 <table><thead><tr><th>metric</th><th>variant</th><th>values</th><th>mean</th><th>rms</th><th>median</th><th>95 %</th>
 <th>largest</th><th>ratio</th></tr></thead><tbody>{"".join(rows)}</tbody></table>
+{"".join(grid_part(grid, runs, variants, metrics) for grid in json.loads(experiment["grids"]))}
 <div class="plots"></div></section>"""
+
+
+def grid_part(grid, runs, variants, metrics):
+    """A table of drives by variants; the last row pools all drives that have every variant."""
+    metric, inputs, unit = grid["metric"], grid.get("inputs", []), metrics[grid["metric"]]["unit"]
+    drives = list(dict.fromkeys(r["recording"] for r in runs))
+    of = {(d, v): values_of([r for r in runs if (r["recording"], r["variant"]) == (d, v)], metric) for d in drives for v in variants}
+    mean = {at: numpy.mean(values) if values else None for at, values in of.items()}
+    whole = [d for d in drives if all(mean[d, v] is not None for v in variants)]
+    for v in variants:
+        mean["all", v] = numpy.sqrt(numpy.mean([mean[d, v] ** 2 for d in whole])) if whole else None
+
+    def cell(drive, variant):
+        value = mean[drive, variant]
+        base = min((mean[drive, i] for i in inputs if mean.get((drive, i)) is not None), default=None) if inputs else 1.0
+        if value is None or not base:
+            return "<td>–</td>"
+        kind = ' class="missed"' if value / base > grid["limit"] else ""
+        return f'<td{kind} title="{number(value)} {unit}">{value / base:.2f}</td>'
+
+    rows = "".join(f"<tr><td>{html.escape(d)}</td>" + "".join(cell(d, v) for v in variants) + "</tr>" for d in [*drives, "all"])
+    what = f"over that of the best of {html.escape(', '.join(inputs))}" if inputs else f"({unit})"
+    return f"""<h3>{metric} of each drive</h3><p>{html.escape(metrics[metric]["about"])} A cell is the value {what}, and marked above
+{grid["limit"]}; the last row has the root mean square of the {len(whole)} drives that have all.</p>
+<div class="wide"><table data-grid="{metric}"><thead><tr><th>drive</th>{"".join(f"<th>{html.escape(v)}</th>" for v in variants)}</tr></thead>
+<tbody>{rows}</tbody></table></div>"""
 
 
 def write(database, page):

@@ -25,10 +25,7 @@ sys.path.insert(0, str(FLEET))
 sys.dont_write_bytecode = True
 try:
     import catalogue
-    import page
     import results
-    from metrics import METRICS, value, values
-    from statistics_of_pairs import paired, ratio
 except ImportError as error:
     print(f"SKIPPED, NOT TESTED: {error}; tools/install-packages test")
     sys.exit(77)
@@ -159,67 +156,6 @@ class Catalogue(Folder):
         began = time.monotonic()
         self.assertEqual(len(self.plan(TEXT.replace("[1, 2, 3]", seeds))["runs"]), 10000)
         print(f"\n10000 runs planned in {time.monotonic() - began:.1f} s", file=sys.stderr)
-
-
-class Metrics(unittest.TestCase):
-    def test_a_run_without_what_a_metric_needs_has_none(self):
-        self.assertIsNone(value("position_rms", {"navigation": None}))
-        self.assertIsNone(value("odom_to_best", {}))
-        self.assertIsNone(value("named_after", {"faults": [], "named": []}))
-        part = {"common_rotation_removed": {"segment_100m_percent": 0.5}}
-        self.assertEqual(value("odom_to_best", {"odom": part, "vo": part}), 1.0)
-
-    def test_outages_are_parts_of_a_run_where_the_reference_covers_them(self):
-        outages = [{"drift_percent": d, "covered": c} for d, c in ((1.0, 1.0), (9.0, 0.5), (3.0, 0.98))]
-        output = {"navigation": {"outages": outages, "drift_percent": 0.5}}
-        self.assertEqual(values("outage_drift", output), [1.0, 3.0])
-        self.assertEqual(value("outage_drift", output), 2.0)
-        self.assertEqual(values("drift", output), [0.5])
-        self.assertEqual(values("outage_azimuth_end", output), [])
-
-    def test_every_metric_says_what_it_is(self):
-        for name, metric in METRICS.items():
-            self.assertTrue(metric.unit and metric.about, name)
-
-
-class Page(Folder):
-    def test_a_table_pools_the_outages_of_all_runs_and_of_each_recording(self):
-        experiment = {"metrics": ["outage_drift"], "by": "recording"}
-        plan = {"experiments": {"e": experiment}, "results": str(self.folder), "runs": ["a", "b"]}
-        for key, drifts in (("a", [1.0, 2.0]), ("b", [9.0])):
-            outages = [{"drift_percent": d, "covered": 1.0} for d in drifts]
-            record = {**dict.fromkeys(results.TEXTS, ""), "key": key, "experiment": "e", "recording": "drive-" + key,
-                      "tags": [], "set": {}, "seed": 1, "repeat": 0, "status": 0, "wall_s": 1.0, "variant": "x",
-                      "output": {"navigation": {"outages": outages}}}
-            (self.folder / f"{key}.json").write_text(json.dumps(record))
-        results.collect(plan, self.folder / "runs.sqlite")
-        runs, experiments, metrics = results.read(self.folder / "runs.sqlite")
-        self.assertEqual([r["outage_drift"] for r in runs], [1.5, 9.0])
-        rows = re.findall(r"<tr data.*?</tr>", page.experiment_part("e", experiments["e"], runs, metrics))
-        cells = [re.findall(r"<td>(.*?)</td>", row)[1:] for row in rows]
-        self.assertEqual(cells[0][:5], ["x", "3", "4", "5.35", "2"], "name, values, mean, rms, median")
-        self.assertEqual([row[:3] for row in cells[1:]], [["drive-a: x", "2", "1.5"], ["drive-b: x", "1", "9"]])
-
-
-class Pairs(unittest.TestCase):
-    def test_a_change_in_each_pair_is_significant_and_noise_is_not(self):
-        old = [1.0 + 0.1 * i for i in range(20)]
-        doubled = ratio(old, [2.0 * x for x in old])
-        self.assertAlmostEqual(doubled.value, 2.0)
-        self.assertTrue(doubled.significant)
-        noisy = ratio(old, [x + (0.2 if i % 2 else -0.2) for i, x in enumerate(old)])
-        self.assertAlmostEqual(noisy.value, 1.0)
-        self.assertFalse(noisy.significant)
-
-    def test_one_pair_says_nothing(self):
-        self.assertIsNone(ratio([1.0], [2.0]))
-        self.assertIsNone(ratio([1.0, None], [2.0, 3.0]))
-        self.assertIsNone(ratio([0.0, 0.0], [1.0, 1.0]))
-
-    def test_only_runs_of_both_are_compared(self):
-        old = [{"seed": 1, "m": 1.0}, {"seed": 2, "m": 2.0}]
-        new = [{"seed": 2, "m": 4.0}, {"seed": 3, "m": 5.0}]
-        self.assertEqual(paired(old, new, "m", ["seed"]), ([2.0], [4.0]))
 
 
 @unittest.skipUnless(shutil.which("snakemake"), "SKIPPED, NOT TESTED: no Snakemake; tools/install-packages fleet")
