@@ -1,12 +1,11 @@
 #include "msgs/archive.h"
 
-#include <xxhash.h>
-
 #include <algorithm>
 
 #include <cstring>
 
 #include "msgs/input_file.h"
+#include "msgs/xxh3.h"
 
 namespace maploop {
 namespace {

@@ -1,5 +1,4 @@
 #include <fmt/ostream.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <functional>
@@ -8,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "msgs/xxh3.h"
 #include "tools/log/log_tools.h"
 
 namespace maploop::lcm_log {

@@ -1,7 +1,6 @@
 #include "runtime/vehicle/config/car_state.h"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include <array>
 #include <nlohmann/json.hpp>
@@ -16,6 +15,7 @@
 #include "msgs/frames.h"
 #include "msgs/input_file.h"
 #include "msgs/input_limits.h"
+#include "msgs/xxh3.h"
 #include "runtime/core/config.h"
 #include "runtime/core/number_text.h"
 #include "runtime/core/whole_file.h"

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <bit>
@@ -13,6 +12,8 @@
 #include <cstring>
 #include <iostream>
 #include <stdexcept>
+
+#include "msgs/xxh3.h"
 
 namespace maploop::vehicle::black_box {
 namespace {

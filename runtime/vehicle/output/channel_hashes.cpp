@@ -1,9 +1,10 @@
 #include "runtime/vehicle/output/channel_hashes.h"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include <new>
+
+#include "msgs/xxh3.h"
 
 namespace maploop::vehicle {
 
