@@ -2,8 +2,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <functional>
 #include <memory>
+
+namespace maploop::report {
+struct ReplayReport;
+}
 
 namespace maploop::tools {
 
@@ -14,10 +19,18 @@ using Command = std::function<int()>;
 using AddCommand = void(CLI::App& app, Command& command);
 
 AddCommand add_calibrate, add_dashboard, add_doctor, add_evaluate, add_experiment, add_gnss,
-    add_live, add_log, add_map, add_match, add_odometry, add_ppp, add_profile, add_replay, add_send,
-    add_sensors, add_simulate, add_spy, add_vehicle;
+    add_log, add_map, add_match, add_odometry, add_ppp, add_profile, add_send, add_sensors,
+    add_simulate, add_spy, add_vehicle;
 AddCommand add_evaluate_match;        // of `maploop evaluate`
 AddCommand add_calibrate_extrinsics;  // of `maploop calibrate`
+
+// Writes the page of a run. Throws std::runtime_error naming the file if it cannot be written.
+using WritePage = void(const std::filesystem::path& file, const report::ReplayReport& report);
+
+// Adds a subcommand that runs the vehicle's graph. It has no --report if `write_page` is nullptr.
+using AddRun = void(CLI::App& app, Command& command, WritePage* write_page);
+
+AddRun add_live, add_replay;
 
 template <class Options>
 struct Added {

@@ -136,7 +136,7 @@ int live(const LiveOptions& options) {
 
 }  // namespace
 
-void add_live(CLI::App& app, Command& command) {
+void add_live(CLI::App& app, Command& command, WritePage* write_page) {
   const auto [sub, options] = add_command(
       app, command, "live",
       "Run the graph on live sensors. Waits for none of them: what is missing is said and looked "
@@ -146,7 +146,7 @@ void add_live(CLI::App& app, Command& command) {
       ->required()
       ->check(existing_file());
   sub->add_option("--seconds", options.seconds, "End after so long")->check(positive_number());
-  add_run_options(sub, options);
+  add_run_options(sub, options, write_page);
 }
 
 }  // namespace maploop::tools

@@ -11,7 +11,7 @@
 
 namespace maploop::tools {
 
-void add_replay(CLI::App& app, Command& command) {
+void add_replay(CLI::App& app, Command& command, WritePage* write_page) {
   const auto [sub, options] = add_command(
       app, command, "replay",
       "Replay a KITTI raw drive, a KITTI odometry sequence, KITTI-360, EuRoC, a folder of images, "
@@ -48,7 +48,7 @@ void add_replay(CLI::App& app, Command& command) {
                   "last time")
       ->check(whole_number())
       ->capture_default_str();
-  add_run_options(sub, options);
+  add_run_options(sub, options, write_page);
   add_config(sub, options.config);
   sub->add_option_function<std::string>(
          "--snapshot",
@@ -113,8 +113,8 @@ void add_replay(CLI::App& app, Command& command) {
   sub->footer(
       "Examples:\n"
       "    maploop replay 2011_09_26/2011_09_26_drive_0013_sync  # as it was driven\n"
-      "    maploop replay DRIVE --lockstep --report drive.html   # as fast as it goes\n"
-      "    maploop replay DRIVE --map town.osm.pbf --record run.lcmlog");
+      "    maploop replay DRIVE --lockstep --json drive.json      # as fast as it goes\n"
+      "    maploop replay DRIVE --map town.net --record run.lcmlog");
 }
 
 }  // namespace maploop::tools

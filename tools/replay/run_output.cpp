@@ -51,7 +51,7 @@ bool attempt(const std::function<void()>& write) {
 
 }  // namespace
 
-void add_run_options(CLI::App* sub, RunOptions& options) {
+void add_run_options(CLI::App* sub, RunOptions& options, WritePage* write_page) {
   add_settings(sub, options.settings);
   sub->add_flag("--verbose", options.verbose,
                 "End with the tables of accuracy, sensors, losses, latencies and hashes, and say "
@@ -71,8 +71,11 @@ void add_run_options(CLI::App* sub, RunOptions& options) {
   auto* no_lcm = sub->add_flag("--no-lcm", options.no_lcm, "Publish nothing on LCM");
   add_lcm_url(sub, options.lcm_url)->excludes(no_lcm);
   add_output(sub, "--json", options.json, "Write all figures of the run to this file as JSON");
-  add_output(sub, "--report", options.report,
-             "Write a page with all of it to this file: way, errors, latencies, losses");
+  options.write_page = write_page;
+  if (write_page != nullptr) {
+    add_output(sub, "--report", options.report,
+               "Write a page with all of it to this file: way, errors, latencies, losses");
+  }
   add_output(sub, "--trace", options.trace,
              "Write what each thread did when to this file, for ui.perfetto.dev (of a replay that "
              "went back: since then)");
@@ -227,8 +230,8 @@ bool RunOutput::write(const ReplayResult& result, const RunPass& pass,
   }
   if (!options_.report.empty()) {
     all &= attempt([&] {
-      report::write_report(options_.report, {result, pass, std::move(reference), config_,
-                                             map != nullptr ? &map->network : nullptr});
+      options_.write_page(options_.report, {result, pass, std::move(reference), config_,
+                                            map != nullptr ? &map->network : nullptr});
     });
   }
   // The verdict comes last, because its reader may be gone.

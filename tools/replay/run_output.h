@@ -19,6 +19,7 @@
 #include "runtime/vehicle/graph/vehicle.h"
 #include "runtime/vehicle/output/lcm_bus.h"
 #include "runtime/vehicle/output/runs.h"
+#include "tools/command/commands.h"
 #include "tools/replay/run_pass.h"
 
 namespace maploop::tools {
@@ -42,6 +43,7 @@ struct RunOptions {
   bool no_lcm = false;
   std::string lcm_url;  // empty: vehicle::bus_url() chooses one
   std::filesystem::path json, report, trace;
+  WritePage* write_page = nullptr;              // that report is written by
   std::filesystem::path state;                  // what is kept of the car
   std::filesystem::path poses, tum, csv, nmea;  // of the fused state
   std::optional<OutputFrame> frame;             // of poses and tum; map without it
@@ -51,8 +53,8 @@ struct RunOptions {
   bool states() const { return !(poses.empty() && tum.empty() && csv.empty() && nmea.empty()); }
 };
 
-// Adds all of them but the configuration.
-void add_run_options(CLI::App* sub, RunOptions& options);
+// Adds all of them but the configuration; --report if there is `write_page`.
+void add_run_options(CLI::App* sub, RunOptions& options, WritePage* write_page);
 
 class RunOutput {
  public:
