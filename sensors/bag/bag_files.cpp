@@ -129,7 +129,7 @@ std::unique_ptr<RecordingReader> open_file(const fs::path& file,
   const Opening opening{file, unpacked.path(), topics, selection};
   if (head.starts_with(ros1_bag_magic)) return std::make_unique<Ros1BagReader>(opening);
   if (head.starts_with(mcap_magic)) return std::make_unique<McapReader>(opening);
-  return std::make_unique<SqliteReader>(opening);
+  return open_sqlite(opening);
 }
 
 }  // namespace maploop::sensors::bag

@@ -4,7 +4,12 @@
 
 #include <array>
 #include <cctype>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "msgs/input_file.h"
 #include "msgs/input_limits.h"
@@ -44,7 +49,39 @@ Time time_of_column(sqlite3_stmt* row, int column) {
   return checked_time(static_cast<std::uint64_t>(sqlite3_column_int64(row, column)));
 }
 
-}  // namespace
+class SqliteReader final : public RecordingReader {
+ public:
+  // Throws FileError.
+  explicit SqliteReader(const Opening& opening);
+
+  std::optional<std::vector<TopicSummary>> index_summary() override;
+
+ private:
+  struct Close {
+    void operator()(sqlite3* database) const;
+    void operator()(sqlite3_stmt* statement) const;
+  };
+  using Statement = std::unique_ptr<sqlite3_stmt, Close>;
+
+  bool read_more() override;
+
+  void open(const std::filesystem::path& path);
+  bool is_cut(const std::filesystem::path& path);
+  void report_journals();
+  void read_topics();
+  std::map<std::string, std::string> read_definitions();
+  void start_reading(bool cut);
+  // Throws Malformed with SQLite's reason.
+  Statement prepare(const std::string& sql);
+  bool step(sqlite3_stmt* statement);
+
+  std::unique_ptr<sqlite3, Close> database_;  // closed after the statements below
+  std::map<std::int64_t, const Topic*> topics_;
+  std::uint64_t steps_left_ = 0;  // of SQLite's machine, in thousands
+  Statement ids_;                 // of the messages in their order
+  std::pair<std::int64_t, std::int64_t> last_place_{INT64_MIN, INT64_MIN};  // in that order
+  Statement row_;  // the message of an id, if it is selected
+};
 
 void SqliteReader::Close::operator()(sqlite3* database) const {
   sqlite3_close_v2(database);
@@ -233,6 +270,12 @@ bool SqliteReader::step(sqlite3_stmt* statement) {
   if (result != SQLITE_ROW && result != SQLITE_DONE)
     throw Malformed(sqlite3_errmsg(database_.get()));
   return result == SQLITE_ROW;
+}
+
+}  // namespace
+
+std::unique_ptr<RecordingReader> open_sqlite(const Opening& opening) {
+  return std::make_unique<SqliteReader>(opening);
 }
 
 }  // namespace maploop::sensors::bag
