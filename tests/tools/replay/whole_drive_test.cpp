@@ -121,6 +121,14 @@ TEST_F(WholeDrive, AnOlderProcessorGivesTheSameBits) {
   EXPECT_EQ(hashes(read_json(file("result.json"))), hashes(lockstep().result));
 }
 
+// It contains another copy of OpenCV.
+TEST_F(WholeDrive, TheProgramOnAVehicleHasTheSameBits) {
+  const ProcessResult process = run({maploop_command() + "-vehicle", "replay", drive(), "--no-lcm",
+                                     "--lockstep", "--json", file("result.json")});
+  ASSERT_EQ(process.status, 0) << process.error;
+  EXPECT_EQ(hashes(read_json(file("result.json"))), hashes(lockstep().result));
+}
+
 TEST_F(WholeDrive, ALogOfRawSensorsGivesTheHashesOfTheDrive) {
   const json& expected = lockstep().result;
   const std::string raw = lockstep().in("raw.lcmlog");
