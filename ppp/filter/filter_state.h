@@ -45,7 +45,10 @@ class FilterState {
   // the vehicle's offset from the map's line in standard deviations (MapFeedback::lane_sigma).
   static constexpr int map_datum = 14;  // m
   static constexpr int lane_offset = 16;
-  static constexpr int system_offset = 17;  // m, of each system's clock against the reference's
+  // Only a carried motion observes these: its direction is too far to the left, and it is too long.
+  static constexpr int carried_turn = 17;   // rad
+  static constexpr int carried_scale = 18;  // 1
+  static constexpr int system_offset = 19;  // m, of each system's clock against the reference's
   static constexpr int fixed = system_offset + system_count;
   static constexpr int max_entries = 160;
   static constexpr int capacity = fixed + max_entries;

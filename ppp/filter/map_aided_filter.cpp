@@ -5,11 +5,11 @@
 
 namespace maploop::ppp {
 
-const PppSolution& MapAidedFilter::process(const Epoch& epoch) {
-  map_free_.process(epoch);
+const PppSolution& MapAidedFilter::process(const Epoch& epoch, const CarriedMotion* carried) {
+  map_free_.process(epoch, carried);
   time_ = epoch.time;
   if (aiding_) {
-    aided_.process(epoch);
+    aided_.process(epoch, carried);
     compare();
   }
   return solution();

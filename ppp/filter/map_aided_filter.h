@@ -24,7 +24,7 @@ class MapAidedFilter {
 
   // Works as PppFilter::process() does. Returns the solution with the map, if the map contributes
   // to it.
-  const PppSolution& process(const Epoch& epoch);
+  const PppSolution& process(const Epoch& epoch, const CarriedMotion* carried = nullptr);
   // Applies feedback to the state of the last epoch; it shows in the next solution.
   MapUse add(const MapFeedback& feedback);
 

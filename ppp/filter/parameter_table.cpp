@@ -23,6 +23,9 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
                                                         "PPP of Kamakura"};
   constexpr DataChoice glonass_code_correlation_choice{"ESBC station", "as `code_correlation`",
                                                        "PPP of ESBC with GLONASS"};
+  constexpr DataChoice carried_choice{"simulated canyons, seeds 1, 2, 4 and 5",
+                                      "among four sets by the errors with slipping wheels",
+                                      "PPP carried by motion, of these seeds"};
   constexpr DataChoice outlier_sigmas_choice{"simulated canyons, seeds 1 to 10",
                                              "among 2.5 to 6 by the scores",
                                              "PPP between houses, seeds 1 to 10"};
@@ -115,6 +118,24 @@ ParameterTable<PppParameters> parameter_table(const PppParameters&) {
        "Power spectral density of the white horizontal acceleration of a moving receiver."},
       {"vertical_acceleration", &P::vertical_acceleration, 0.0, 1e4, "m^2/s^3", usual,
        "Power spectral density of the white vertical acceleration of a moving receiver."},
+      {"carried_by_motion", &P::carried_by_motion, usual,
+       "Whether a replay's or a vehicle's own motion (odometry, wheels, inertial unit) moves the "
+       "position from epoch to epoch, in place of a constant velocity."},
+      {"carried_walk", &P::carried_walk, smallest, any_sigma, "m/sqrt(s)", expert,
+       "White error of such a motion, along each axis.", carried_choice},
+      {"carried_velocity_sigma", &P::carried_velocity_sigma, smallest, any_sigma, "m/s", expert,
+       "White error of its velocity.", carried_choice},
+      {"carried_speed_share", &P::carried_speed_share, 0.0, 1.0, "1", expert,
+       "Standard deviation of the speed's error in an interval, as a share of it: wheels slip.",
+       carried_choice},
+      {"carried_turn_sigma", &P::carried_turn_sigma, 0.0, 1.0, "rad", expert,
+       "Least standard deviation of the lasting error of its direction."},
+      {"carried_turn_time", &P::carried_turn_time, smallest, long_time, "s", expert,
+       "Correlation time of this error."},
+      {"carried_scale_sigma", &P::carried_scale_sigma, 0.0, 1.0, "1", expert,
+       "Standard deviation of the lasting error of its length, as a share of it."},
+      {"carried_scale_time", &P::carried_scale_time, smallest, long_time, "s", expert,
+       "Correlation time of this error."},
       {"ionosphere_walk", &P::ionosphere_walk, 0.0, 1.0, "m/sqrt(s)", expert,
        "Random walk of the error of the ionosphere's model at the zenith."},
       {"slant_ionosphere_walk", &P::slant_ionosphere_walk, 0.0, 1.0, "m/sqrt(s)", expert,

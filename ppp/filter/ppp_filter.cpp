@@ -20,6 +20,13 @@ constexpr double first_interval = 1.0;  // s, in place of the interval before th
 // This is the definition of PppStatus::converged: m, horizontal standard deviation.
 constexpr double converged_sigma = 0.1;
 
+// Whether the motion is that of this interval, by clocks that differ a little.
+bool fits(const CarriedMotion& motion, double interval) {
+  constexpr double most = 0.05;  // of the interval
+  return std::abs(motion.interval - interval) <= most * std::abs(interval) &&
+         motion.displacement.allFinite() && motion.velocity.allFinite();
+}
+
 }  // namespace
 
 PppFilter::PppFilter(const PppParameters& parameters, const RangeInputs& inputs, Earth earth)
@@ -43,7 +50,7 @@ void PppFilter::reset() {
   solution_.status = PppStatus::none;
 }
 
-const PppSolution& PppFilter::process(const Epoch& epoch) {
+const PppSolution& PppFilter::process(const Epoch& epoch, const CarriedMotion* carried) {
   const double interval = started_ ? to_seconds(epoch.time - time_) : 0.0;
   begin_solution(epoch.time);
   std::vector<SatelliteReport>& reports = solution_.satellites;
@@ -51,7 +58,8 @@ const PppSolution& PppFilter::process(const Epoch& epoch) {
   clock_steps_.repair(measured_);
   if (!started_ && !start(measured_, epoch.time)) return solution_;
 
-  if (interval != 0.0) predict_state(state_, interval, model_.ephemeris(), parameters_);
+  if (carried != nullptr && !fits(*carried, interval)) carried = nullptr;
+  if (interval != 0.0) predict_state(state_, interval, carried, model_.ephemeris(), parameters_);
   time_ = epoch.time;
   model_.begin(time_, state_.x().segment<3>(S::position));
   std::vector<Tracked>& tracked =

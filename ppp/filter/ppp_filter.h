@@ -4,6 +4,7 @@
 #pragma once
 
 #include "msgs/parameter_archive.h"
+#include "ppp/carried_motion.h"
 #include "ppp/filter/clock_steps.h"
 #include "ppp/filter/code_levels.h"
 #include "ppp/filter/epoch_rows.h"
@@ -25,7 +26,8 @@ class PppFilter {
   // Epochs must come in the order of time, or all in the opposite order (smoothing.h). The solution
   // is valid until the next call. The work is bounded by the number of satellites: the rows of an
   // epoch are applied at most 9 times, and once more for each of `outlier_rejections`.
-  const PppSolution& process(const Epoch& epoch);
+  // A motion that is not of the interval since the epoch before is ignored.
+  const PppSolution& process(const Epoch& epoch, const CarriedMotion* carried = nullptr);
 
   // Applies the road of a feedback, at the feedback's stamp, to the state of the last epoch. If the
   // feedback is refused, the state keeps what it had.
@@ -46,7 +48,7 @@ class PppFilter {
   // parameters, and the filter then stays as it was.
   template <class Archive>
   void archive(Archive& ar) {
-    ar.section("ppp", 10);
+    ar.section("ppp", 11);
     archive_same_parameters(ar, parameters_);
     if constexpr (Archive::loading) {
       PppFilter loaded = *this;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "ppp/filter/carry.h"
 #include "ppp/filter/map_update.h"
 #include "ppp/models/geodesy.h"
 
@@ -46,10 +47,14 @@ void begin_state(FilterState& state, const Eigen::Vector3d& position,
   begin_map_states(state, parameters);
 }
 
-void predict_state(FilterState& state, double interval, const Ephemeris& ephemeris,
-                   const PppParameters& parameters) {
+void predict_state(FilterState& state, double interval, const CarriedMotion* carried,
+                   const Ephemeris& ephemeris, const PppParameters& parameters) {
   if (parameters.motion == Motion::kinematic) {
-    move(state, interval, parameters);
+    if (carried != nullptr) {
+      carry(state, *carried, parameters);
+    } else {
+      move(state, interval, parameters);
+    }
     predict_map_states(state, std::abs(interval), parameters);
   }
   auto P = state.P();

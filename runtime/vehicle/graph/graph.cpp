@@ -53,6 +53,8 @@ std::string condition(const RingSpec<T>& spec) {
       return "the map feeds back";
     case RingNeeds::ppp_feedback:
       return "the map feeds back, `tight`";
+    case RingNeeds::carried:
+      return "`[ppp] carried_by_motion`";
     case RingNeeds::both_ends:
       break;
   }

@@ -44,9 +44,10 @@ struct RuntimeReport : Sample {
 // A ring exists in a vehicle that has both of its ends, and if this holds as well.
 enum class RingNeeds {
   both_ends,
-  raw_log,      // a log of raw images and scans is written
-  feedback,     // the map feeds back to the fusion
-  ppp_feedback  // the map feeds back to PPP as well
+  raw_log,       // a log of raw images and scans is written
+  feedback,      // the map feeds back to the fusion
+  ppp_feedback,  // the map feeds back to PPP as well
+  carried        // the vehicle's motion carries PPP
 };
 
 // One ring of samples of type T: single producer, single consumer. A replay loses nothing: a full
@@ -96,6 +97,8 @@ inline constexpr RingSpec<MapFeedback> mapmatch_fusion{
     .from = mapmatch, .to = fusion, .capacity = 16, .needs = RingNeeds::feedback};
 inline constexpr RingSpec<MapFeedback> mapmatch_ppp{
     .from = mapmatch, .to = stages::ppp, .capacity = 16, .needs = RingNeeds::ppp_feedback};
+inline constexpr RingSpec<FusedState> fusion_ppp{
+    .from = fusion, .to = stages::ppp, .capacity = 256, .needs = RingNeeds::carried};
 inline constexpr RingSpec<StereoPair> camera_publisher{
     .from = stages::camera, .to = publisher, .capacity = 4, .needs = RingNeeds::raw_log};
 inline constexpr RingSpec<LidarScan> velodyne_publisher{
@@ -140,9 +143,9 @@ inline constexpr std::size_t snapshot_capacity = 2;
 inline constexpr auto all = std::tie(
     camera_stereo, velodyne_lidar, stereo_lidar, imu_fusion, gnss_fusion, gnss_ppp, corrections_ppp,
     ppp_fusion, wheel_fusion, lidar_fusion, stereo_fusion, odometry_fusion, fusion_mapmatch,
-    stereo_mapmatch, visual_log_mapmatch, mapmatch_fusion, mapmatch_ppp, camera_publisher,
-    velodyne_publisher, imu_publisher, gnss_publisher, ppp_fix_publisher, wheel_publisher,
-    reference_publisher, stereo_publisher, visual_log_publisher, lidar_publisher,
+    stereo_mapmatch, visual_log_mapmatch, mapmatch_fusion, mapmatch_ppp, fusion_ppp,
+    camera_publisher, velodyne_publisher, imu_publisher, gnss_publisher, ppp_fix_publisher,
+    wheel_publisher, reference_publisher, stereo_publisher, visual_log_publisher, lidar_publisher,
     lidar_log_publisher, lidar_odometry_publisher, stereo_odometry_publisher, odometry_publisher,
     ppp_publisher, fusion_publisher, image_states, mapmatch_publisher, feedback_publisher,
     preview_publisher, health_publisher);

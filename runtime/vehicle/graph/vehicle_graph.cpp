@@ -83,6 +83,7 @@ std::set<RingNeeds> needs_met(const VehicleConfig& config, const std::vector<Mes
   if (feeds_back(config)) met.insert(RingNeeds::feedback);
   // Only the fusion can be reset hard.
   if (config.map.mode == MapMode::tight) met.insert(RingNeeds::ppp_feedback);
+  if (config.ppp.filter.carried_by_motion) met.insert(RingNeeds::carried);
   return met;
 }
 
@@ -239,7 +240,8 @@ void Vehicle::Graph::make_stages(const VehicleCalibration& calibration,
         add_stage<LidarStage>(lidar::VisualLidarOdometer(calibration.T_body_velo, config.lidar));
     if (preview) lidar.show_to(preview->scan(), static_cast<std::size_t>(config.preview.points));
   }
-  if (rings.has(stages::ppp)) add_stage<PppStage>(products, config.ppp.integrity_risk);
+  if (rings.has(stages::ppp))
+    add_stage<PppStage>(products, config.ppp.integrity_risk, config.fusion);
   const Duration odometry_budget =
       stages::stereo.budget + (rings.has(stages::lidar) ? stages::lidar.budget : Duration::zero());
   fusion = &add_stage<FusionStage>(

@@ -52,7 +52,7 @@ void note(UseWatch& use, const Sample& sample, const fusion::Outcome& outcome) {
 FusionStage::FusionStage(Rings& rings, fusion::GuardedFilter filter, Duration odometry_budget)
     : GraphStage(stages::fusion, rings),
       filter_(std::move(filter)),
-      states_(outputs(rings::fusion_publisher)),
+      states_(outputs(rings::fusion_publisher, rings::fusion_ppp)),
       states_to_match_(outputs(rings::fusion_mapmatch)),
       image_states_(outputs(rings::image_states)),
       odometry_budget_(odometry_budget),

@@ -25,7 +25,8 @@ std::optional<ppp::CorrectedEphemeris> grows(const ppp::PppSetup& setup) {
 
 }  // namespace
 
-PppStage::PppStage(Rings& rings, std::shared_ptr<const ppp::PppSetup> setup, double integrity_risk)
+PppStage::PppStage(Rings& rings, std::shared_ptr<const ppp::PppSetup> setup, double integrity_risk,
+                   const fusion::FusionParameters& antenna)
     : GraphStage(stages::ppp, rings),
       setup_(std::move(setup)),
       received_(grows(*setup_)),
@@ -33,9 +34,11 @@ PppStage::PppStage(Rings& rings, std::shared_ptr<const ppp::PppSetup> setup, dou
       integrity_risk_(integrity_risk),
       epochs_(*input(rings::gnss_ppp)),
       feedback_(input(rings::mapmatch_ppp)),
+      motion_(input(rings::fusion_ppp)),
       corrections_(input(rings::corrections_ppp)),
       states_(outputs(rings::ppp_publisher)),
-      fixes_(outputs(rings::ppp_fusion, rings::ppp_fix_publisher)) {
+      fixes_(outputs(rings::ppp_fusion, rings::ppp_fix_publisher)),
+      track_(antenna) {
   state_.satellites.reserve(usual_satellites);
   free_state_.satellites.reserve(usual_satellites);
   held_.reserve(rings::mapmatch_ppp.capacity);
@@ -47,9 +50,9 @@ void PppStage::run(runtime::DataClock& clock, Time, const std::stop_token& stop)
     const std::uint32_t heard = bell().listen();
     // Promises before the rings: see EdgeBase::promised().
     const Time promised = epochs_.promised();
-    const bool waits = feedback_ != nullptr && !clock.is_live();
-    const Time known = waits ? feedback_->promised() : Time::max();
+    const Time known = clock.is_live() ? Time::max() : this->known();
     hold_feedback();
+    hold_motion();
     take_corrections();
     const GnssEpoch* epoch = epochs_.front();
     if (epoch != nullptr && known >= epoch->available) {
@@ -70,7 +73,7 @@ void PppStage::run(runtime::DataClock& clock, Time, const std::stop_token& stop)
     }
     bell().wait(heard);
   }
-  drain_feedback(stop);
+  drain_inputs(stop);
 }
 
 void PppStage::take(const GnssEpoch& epoch, const runtime::DataClock& clock,
@@ -88,6 +91,22 @@ void PppStage::hold_feedback() {
     if (f->position || f->azimuth || f->reason == FeedbackReason::inconsistent) held_.push_back(*f);
     feedback_->pop();
   }
+}
+
+void PppStage::hold_motion() {
+  if (motion_ == nullptr) return;
+  while (const FusedState* state = motion_->front()) {
+    track_.add(*state);
+    motion_->pop();
+  }
+}
+
+// Up to which moment everything that comes back from other stages is here.
+Time PppStage::known() const {
+  Time known = Time::max();
+  if (feedback_ != nullptr) known = std::min(known, feedback_->promised());
+  if (motion_ != nullptr) known = std::min(known, motion_->promised());
+  return known;
 }
 
 // On the road alone: whatever has come by now.
@@ -149,13 +168,15 @@ std::string PppStage::degraded() const {
   return what;
 }
 
-// There are no more epochs; the matcher must not wait for a full ring.
-void PppStage::drain_feedback(const std::stop_token& stop) {
+// There are no more epochs; neither matcher nor fusion must wait for a full ring.
+void PppStage::drain_inputs(const std::stop_token& stop) {
   promise(Time::max());
-  while (feedback_ != nullptr && !stop.stop_requested()) {
+  while (!stop.stop_requested()) {
     const std::uint32_t heard = bell().listen();
-    const Time known = feedback_->promised();
-    while (feedback_->front() != nullptr) feedback_->pop();
+    const Time known = this->known();
+    hold_feedback();
+    held_.clear();
+    hold_motion();
     if (known == Time::max()) return;
     bell().wait(heard);
   }
@@ -182,7 +203,8 @@ void PppStage::process(const GnssEpoch& epoch, const std::stop_token& stop) {
     received_->add(epoch.heard);
     received_->begin(epoch.epoch.time);
   }
-  ppp::describe(filter_.process(epoch.epoch), integrity_risk_, state_);
+  const std::optional<ppp::CarriedMotion> motion = track_.motion_to(epoch.stamp, epoch.available);
+  ppp::describe(filter_.process(epoch.epoch, motion ? &*motion : nullptr), integrity_risk_, state_);
   ppp::describe_map(filter_, state_);
   ppp::describe(filter_.map_free(), integrity_risk_, free_state_);
   last_epoch_ = epoch.stamp;
@@ -231,7 +253,7 @@ void PppStage::save_until(Time t, const std::stop_token& stop) {
 // matcher that resumes sends the feedback that becomes available after the cut.
 template <class Archive>
 void PppStage::archive(Archive& ar, Time cut) {
-  ar.section(spec().name, 3);
+  ar.section(spec().name, 4);
   const auto number = [&ar](std::atomic<std::uint64_t>& value) {
     std::uint64_t saved = value;
     ar(saved);
@@ -245,11 +267,13 @@ void PppStage::archive(Archive& ar, Time cut) {
   number(counts_.restarts);
   number(counts_.forgotten_roads);
   ar(sent_, held, last_epoch_);
+  track_.archive(ar, cut);
   if constexpr (Archive::loading) held_ = std::move(held);
 }
 
 std::size_t PppStage::saved_bytes() const {
-  return ppp::MapAidedFilter::largest_archive + 2 * usual_satellites * sizeof(PppSatellite) + 4096;
+  return ppp::MapAidedFilter::largest_archive + AntennaTrack::largest_archive +
+         2 * usual_satellites * sizeof(PppSatellite) + 4096;
 }
 
 std::vector<RefusalCount> PppStage::refusals() {

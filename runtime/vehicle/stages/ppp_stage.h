@@ -19,16 +19,20 @@
 #include "runtime/vehicle/graph/graph_stage.h"
 #include "runtime/vehicle/health/reason_counts.h"
 #include "runtime/vehicle/health/watchdog.h"
+#include "runtime/vehicle/stages/antenna_track.h"
 
 namespace maploop::vehicle {
 
 // Sends the state of each epoch, and a fix of each epoch that has a position. The fix comes from
 // the filter without the map: its consumers receive the map's feedback themselves, and a fix with
 // it would make them count it twice. An epoch takes the feedback that is available by then; on a
-// live clock, the feedback that has arrived.
+// live clock, the feedback that has arrived. So it does with the fused motion that carries the
+// position from epoch to epoch.
 class PppStage final : public GraphStage {
  public:
-  PppStage(Rings& rings, std::shared_ptr<const ppp::PppSetup> setup, double integrity_risk);
+  // `antenna` has the place of the antenna, for the motion that carries the position.
+  PppStage(Rings& rings, std::shared_ptr<const ppp::PppSetup> setup, double integrity_risk,
+           const fusion::FusionParameters& antenna);
 
   void run(runtime::DataClock& clock, Time begin, const std::stop_token& stop) override;
   std::size_t saved_bytes() const override;
@@ -52,11 +56,13 @@ class PppStage final : public GraphStage {
 
   void take(const GnssEpoch& epoch, const runtime::DataClock& clock, const std::stop_token& stop);
   void hold_feedback();
+  void hold_motion();
+  Time known() const;
   void take_corrections();
   void say_corrections();
   std::string wrong_with_corrections() const;
   void look_at_ionosphere(ppp::GpsTime t);
-  void drain_feedback(const std::stop_token& stop);
+  void drain_inputs(const std::stop_token& stop);
   void use_feedback(Time until);
   void process(const GnssEpoch& epoch, const std::stop_token& stop);
   void count(const PppState& state);
@@ -84,6 +90,7 @@ class PppStage final : public GraphStage {
   double integrity_risk_;
   runtime::Edge<GnssEpoch>& epochs_;
   runtime::Edge<MapFeedback>* feedback_;         // nullptr: the map does not feed back
+  runtime::Edge<FusedState>* motion_;            // nullptr: nothing carries the position
   runtime::Edge<GnssCorrections>* corrections_;  // nullptr: no stream of corrections
   Outputs<PppState> states_;
   Outputs<GnssFix> fixes_;
@@ -91,6 +98,7 @@ class PppStage final : public GraphStage {
   PppState state_, free_state_;    // of the last epoch, to reuse their memory
   std::vector<Sent> sent_;         // those that were not yet available at the last epoch
   std::vector<MapFeedback> held_;  // not yet used
+  AntennaTrack track_;
   Time last_epoch_ = Time::min();  // its stamp
   Duration receiver_ahead_{};      // its clock before that of stamps
   Counts counts_;
