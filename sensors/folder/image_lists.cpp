@@ -90,8 +90,9 @@ GreyImage first_image(const ImageFolder& images) {
 ImageFolder open_camera(const fs::path& folder, const char* name) {
   const fs::path list = folder / (std::string(name) + ".txt");
   const bool has_list = is_plain_file(list);
-  if (const auto video = video_of_camera(folder, name))
+  if (const auto video = video_of_camera(folder, name)) {
     return open_video(*video, has_list ? list : times_file(folder).value_or(fs::path()));
+  }
   if (has_list) return read_image_list(list);
   const fs::path camera = folder / name;
   ImageFolder images;
@@ -262,9 +263,10 @@ bool has_images(const fs::path& folder) {
 }
 
 std::optional<fs::path> find_scans(const fs::path& folder) {
-  for (const char* name : {"velodyne", "lidar", "scans", "clouds"})
+  for (const char* name : {"velodyne", "lidar", "scans", "clouds"}) {
     for (const fs::path& scans : {folder / name, folder / name / "data"})
       if (ScanFolder::is(scans)) return scans;
+  }
   return std::nullopt;
 }
 

@@ -29,8 +29,15 @@ const Eigen::Isometry3d& MotionChain::add(const RelativeMotion& motion) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   if (next != poses_.begin()) pose = std::prev(next)->second;
   if (motion.status == OdometryStatus::ok) {
+    const Eigen::Isometry3d T_from_to = motion.T_from_to();
     const auto from = poses_.find(motion.from);
-    pose = (from == poses_.end() ? pose : from->second) * motion.T_from_to();
+    if (from != poses_.end()) {
+      pose = from->second;
+    } else if (next != poses_.begin() && motion.from > std::prev(next)->first) {
+      pose = pose * scaled(T_from_to, to_seconds(motion.from - std::prev(next)->first) /
+                                          to_seconds(motion.stamp - motion.from));
+    }
+    pose = pose * T_from_to;
   } else if (next != poses_.begin()) {
     pose = pose * gone_on(next, motion.stamp);
   }

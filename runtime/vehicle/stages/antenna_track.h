@@ -13,6 +13,21 @@
 
 namespace maploop::vehicle {
 
+// Where the antenna was, and how it moved, by one fused state.
+struct AntennaMoment {
+  Time stamp{}, available{};
+  Geodetic origin;
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();     // m, of the antenna in the odometry frame
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, the same
+  Eigen::Matrix3d R_enu_odom = Eigen::Matrix3d::Identity();
+  double azimuth = 0.0;        // rad, in the odometry frame
+  double azimuth_sigma = 0.0;  // rad, in enu
+
+  void archive(auto& ar) {
+    ar(stamp, available, origin, place, velocity, R_enu_odom, azimuth, azimuth_sigma);
+  }
+};
+
 // Says how the antenna moved from one epoch of the receiver to the next one by the odometry frame,
 // which fixes do not move, turned as the map frame is at the later epoch. There is no motion where
 // neither odometry nor wheels nor a standstill have been measured for half a second: the fused
@@ -45,21 +60,8 @@ class AntennaTrack {
   }
 
  private:
+  using Moment = AntennaMoment;
   static constexpr std::size_t capacity = 256;
-
-  struct Moment {
-    Time stamp{}, available{};
-    Geodetic origin;
-    Eigen::Vector3d place = Eigen::Vector3d::Zero();     // m, of the antenna in the odometry frame
-    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, the same
-    Eigen::Matrix3d R_enu_odom = Eigen::Matrix3d::Identity();
-    double azimuth = 0.0, azimuth_sigma = 0.0;  // rad, in the odometry frame; in enu
-    template <class Archive>
-    friend void archive(Archive& ar, Moment& m) {
-      ar(m.stamp, m.available, m.origin, m.place, m.velocity, m.R_enu_odom, m.azimuth,
-         m.azimuth_sigma);
-    }
-  };
 
   std::optional<Moment> at(Time stamp, Time available) const;
 

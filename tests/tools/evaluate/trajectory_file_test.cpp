@@ -224,6 +224,21 @@ TEST(Evaluate, AlignmentTakesAwayAnyRigidMotion) {
   EXPECT_LT(e.raw.end_point_m, 1e-9);
 }
 
+TEST(MotionChain, TheTimeBetweenTwoMotionsIsDrivenAsTheSecond) {
+  MotionChain chain;
+  RelativeMotion motion;
+  motion.status = OdometryStatus::first_frame;
+  chain.add(motion);
+  motion.status = OdometryStatus::ok;
+  motion.rotation = Eigen::AngleAxisd(0.06, Eigen::Vector3d::UnitZ());
+  for (int i = 1; i <= 10; ++i) {  // a scan each 0.1 s takes 60 ms
+    motion.from = Time(std::chrono::milliseconds(100 * i - 60));
+    motion.stamp = Time(std::chrono::milliseconds(100 * i));
+    const Eigen::AngleAxisd turned(chain.add(motion).linear());
+    EXPECT_NEAR(turned.angle(), 0.1 * i, 1e-9);
+  }
+}
+
 TEST(MotionChain, AMotionThatSpansARefusedOneTakesItsPlace) {
   MotionChain chain;
   RelativeMotion motion;
