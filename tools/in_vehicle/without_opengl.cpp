@@ -1,6 +1,7 @@
 // OpenCV asks these for a picture that is in a graphics card. A vehicle has none: they say so, in
 // place of GLX and the seven libraries of X11 behind it.
 extern "C" {
+// NOLINTBEGIN(readability-identifier-naming): GLX has these names
 
 void* glXGetCurrentContext() {
   return nullptr;
@@ -13,4 +14,6 @@ void* glXGetCurrentDisplay() {
 void* glXGetProcAddressARB(const unsigned char*) {
   return nullptr;
 }
+
+// NOLINTEND(readability-identifier-naming)
 }

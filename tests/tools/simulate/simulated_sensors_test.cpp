@@ -45,14 +45,18 @@ class HandMadeScene : public ::testing::Test {
     const GreyImage image = take_image(scene_, appearance_, camera_,
                                        {{T_enu_cam, T_enu_cam}, shift}, 0.5F, 1.0F, 1, parameters);
     double sum = 0.0, x = 0.0, y = 0.0;
-    for (int v = 0; v < image.height; ++v)
+    for (int v = 0; v < image.height; ++v) {
       for (int u = 0; u < image.width; ++u) {
         const double light = std::clamp(
-            image.pixels[static_cast<std::size_t>(v * image.width + u)] - 30.0, 0.0, 70.0);
+            image.pixels[static_cast<std::size_t>(v) * static_cast<std::size_t>(image.width) +
+                         static_cast<std::size_t>(u)] -
+                30.0,
+            0.0, 70.0);
         sum += light;
         x += light * u;
         y += light * v;
       }
+    }
     return Eigen::Vector2d(x, y) / sum;
   }
 
