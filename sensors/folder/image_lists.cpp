@@ -183,9 +183,10 @@ ImageFolder parse_image_list(std::string_view text, const fs::path& file) {
                                std::to_string(input_limits::frames) + " images; cut the recording");
     }
   }
-  if (!any)
+  if (!any) {
     throw std::runtime_error("'" + file.string() +
                              "' has no line with a stamp and an image's name");
+  }
   return images;
 }
 
