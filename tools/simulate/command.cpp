@@ -84,9 +84,10 @@ int simulate_command(const SimulateOptions& options) {
   const auto drive = options.out / "town_extract", config = options.out / "vehicle.toml";
   std::cout << "wrote " << options.out.string();
   const simulate::SimulatedSensors& made = options.drive.sensors;
-  if (made.camera && made.imu)
+  if (made.camera && made.imu) {
     std::cout << "; to see it:\n  maploop replay " << drive.string() << " --config "
               << config.string();
+  }
   std::cout << '\n';
   return 0;
 }

@@ -39,9 +39,10 @@ Drive::Drive(const SimulationOptions& options, Site site)
   motion.set_body(car.T_car_body);
   std::vector<Mesh> shapes;
   Random random(options.seed, 16);
-  for (std::size_t i = 0; i < traffic.size(); ++i)
+  for (std::size_t i = 0; i < traffic.size(); ++i) {
     shapes.push_back(make_car(static_cast<float>(random.uniform(0.05, 0.7)),
                               static_cast<std::uint32_t>(1000 + i)));
+  }
   world.emplace(make_town_scene(streets, index, terrain, options.seed, options.environment),
                 std::move(shapes));
   for (double t = first_frame; t + 0.5 * frame_interval <= options.seconds; t += frame_interval)

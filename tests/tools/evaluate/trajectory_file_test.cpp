@@ -83,8 +83,10 @@ TEST_F(TrajectoryFile, SaysFileAndLineOfWhatItCannotRead) {
            {good + "2.0 0 0 0 0 0 0 2\n", "length one"},
            {good + good, "t.txt:2: its stamp"},
            {"# nothing\n", "holds no pose"},
-           {"t,cam_x\n1,2\n", "no column 'cam_y'"}})
-    EXPECT_THAT(refusal([&] { read_trajectory(file_with(text)); }), HasSubstr(said));
+           {"t,cam_x\n1,2\n", "no column 'cam_y'"}}) {
+    EXPECT_THAT(refusal([&, &content = text] { read_trajectory(file_with(content)); }),
+                HasSubstr(said));
+  }
 }
 
 TEST_F(TrajectoryFile, ACutCompressedFileIsNamed) {

@@ -24,10 +24,11 @@ void add_signal(std::string& line, const std::optional<ObservedSignal>& s) {
     return;
   }
   add(s->code);
-  if (s->phase)
+  if (s->phase) {
     add(*s->phase, s->lost_lock);
-  else
+  } else {
     line.append(column, ' ');
+  }
   add(s->doppler);
   add(s->cn0);
 }

@@ -22,9 +22,10 @@ constexpr std::array<double, 2> receiver_bias{4.2, 7.9};  // m, of the codes of 
 // Signals in order: L1 C/A, L2C; E1, E5a.
 SignalShape shape_of(ppp::System system, std::size_t carrier) {
   const double frequency = ppp::carrier_frequency(system, bands(system)[carrier]);
-  if (carrier == 0)
+  if (carrier == 0) {
     return system == ppp::System::gps ? SignalShape{frequency, 293.05, 0.1, 50.0}
                                       : SignalShape{frequency, 146.5, 0.2, 50.5};
+  }
   return system == ppp::System::gps ? SignalShape{frequency, 293.05, 0.1, 47.0}
                                     : SignalShape{frequency, 29.3, 0.6, 51.0};
 }
@@ -59,13 +60,14 @@ std::array<ReceiveAntenna, 2> calibrated_antenna() {
   std::array<ReceiveAntenna, 2> antenna;
   antenna[0].offset = {0.0006, -0.0011, 0.0627};
   antenna[1].offset = {-0.0004, 0.0009, 0.0589};
-  for (std::size_t carrier = 0; carrier < 2; ++carrier)
+  for (std::size_t carrier = 0; carrier < 2; ++carrier) {
     for (std::size_t i = 0; i < 19; ++i) {
       const double zenith = radians(5.0 * static_cast<double>(i));
       const double size = carrier == 0 ? 0.006 : 0.004;
       const double bend = std::sin(1.7 * zenith);
       antenna[carrier].variation[i] = 1e-5 * std::round(-1e5 * size * bend * bend);
     }
+  }
   return antenna;
 }
 
@@ -99,9 +101,10 @@ Receiver::Receiver(const Constellation& constellation, const VehicleMotion& moti
                          Scatterers(seed, i),
                          {0.12 * random.normal(), 0.12 * random.normal()}});
   }
-  for (Eigen::Vector3d& pattern : code_pattern_)
+  for (Eigen::Vector3d& pattern : code_pattern_) {
     pattern = {random.uniform(0.05, 0.15), random.uniform(0.0, 2.0 * std::numbers::pi),
                random.uniform(0.0, 2.0 * std::numbers::pi)};
+  }
 }
 
 double Receiver::clock(double t) const {
@@ -155,7 +158,7 @@ std::vector<ObservedSatellite> Receiver::observe(double t, double interval, cons
   std::vector<ObservedSatellite> all;
   for (std::size_t i = 0; i < trackers_.size(); ++i) {
     ObservedSatellite s = observe(i, now);
-    if (s.signals[0] || s.signals[1]) all.push_back(std::move(s));
+    if (s.signals[0] || s.signals[1]) all.push_back(s);
   }
   return all;
 }

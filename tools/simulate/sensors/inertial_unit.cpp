@@ -60,9 +60,10 @@ std::string oxts_row_text(const VehicleState& now, const VehicleState& before,
 
 ImuParameters imu_parameters(ImuGrade grade) {
   const double root_hour = radians(1.0) / 60.0;  // deg/sqrt(h) in rad/sqrt(s)
-  if (grade == ImuGrade::tactical)
+  if (grade == ImuGrade::tactical) {
     return {{degrees_per_hour(2.0), degrees_per_hour(2.0), 0.2 * root_hour, 5e-4, 2e-4},
             {1.0 * milli_g, 0.05 * milli_g, 1e-3, 5e-4, 2e-4}};
+  }
   return {{degrees_per_hour(300.0), degrees_per_hour(10.0), 0.3 * root_hour, 2e-3, 2e-3},
           {20.0 * milli_g, 0.2 * milli_g, 2e-3, 2e-3, 2e-3}};
 }
@@ -73,10 +74,12 @@ TriadErrors::TriadErrors(const TriadParameters& parameters, double interval, std
       interval_(interval),
       random_(seed, from_nanoseconds(static_cast<std::int64_t>(stream))) {
   turn_on_ = parameters_.turn_on * normal();
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column)
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
       shape_(row, column) = row == column ? 1.0 + parameters_.scale * random_.next()
                                           : parameters_.misalignment * random_.next();
+    }
+  }
   for (Eigen::Vector3d& process : flicker_)
     process = parameters_.instability / std::sqrt(3.0) * normal();
 }
