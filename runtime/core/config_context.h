@@ -1,9 +1,10 @@
 // This file finds the key that a syntax error concerns; users of the configuration do not need it.
 #pragma once
 
-#include <toml++/toml.h>
 #include <string>
 #include <string_view>
+
+#include "runtime/core/toml.h"
 
 namespace maploop::runtime::detail {
 

@@ -2,12 +2,13 @@
 // configuration do not need it.
 #pragma once
 
-#include <toml++/toml.h>
 #include <algorithm>
 #include <deque>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "runtime/core/toml.h"
 
 namespace maploop::runtime::detail {
 
