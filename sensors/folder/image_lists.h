@@ -6,7 +6,6 @@
 #include <string>
 #include <string_view>
 
-#include "msgs/calibration.h"
 #include "msgs/time.h"
 #include "sensors/folder/folder_drive.h"
 #include "sensors/replay/stereo_source.h"
@@ -38,11 +37,5 @@ bool has_images(const std::filesystem::path& folder);
 
 // Returns a folder below `folder` with scans alone (scan_folder.h); nothing: there is none.
 std::optional<std::filesystem::path> find_scans(const std::filesystem::path& folder);
-
-// Reads calib.txt of KITTI's odometry benchmark: P0 and P1 of the rectified pair, and Tr, which
-// takes the scanner to the camera, if it is there. The body's origin is the left camera. The size
-// is that of the first of `images`. Throws std::runtime_error that names file and key.
-VehicleCalibration read_sequence_calibration(const std::filesystem::path& file,
-                                             const ImageFolder& images);
 
 }  // namespace maploop::sensors

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "sensors/folder/sequence_calibration.h"
 #include "sensors/folder/stamps.h"
 #include "tests/sensors/folder_forms.h"
 #include "tests/sensors/small_drive.h"

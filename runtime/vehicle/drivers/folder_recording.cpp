@@ -11,6 +11,7 @@
 #include "sensors/folder/euroc.h"
 #include "sensors/folder/image_lists.h"
 #include "sensors/folder/kitti_360.h"
+#include "sensors/folder/sequence_calibration.h"
 #include "sensors/replay/kitti_drive.h"
 
 namespace maploop::vehicle {
