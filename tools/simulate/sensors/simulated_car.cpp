@@ -6,7 +6,6 @@
 #include <numbers>
 #include <string>
 
-#include "msgs/frames.h"
 #include "sensors/replay/kitti_calibration.h"
 #include "tools/simulate/output_file.h"
 #include "tools/simulate/random.h"
@@ -14,7 +13,7 @@
 namespace maploop::simulate {
 namespace {
 
-using Eigen::AngleAxisd, Eigen::Isometry3d, Eigen::Matrix3d, Eigen::Vector3d;
+using Eigen::Isometry3d, Eigen::Matrix3d, Eigen::Vector3d;
 
 constexpr const char* cam_to_cam =
     R"(calib_time: simulated
@@ -35,20 +34,6 @@ std::string rigid_text(const Isometry3d& T) {
                      t.y(), t.z());
 }
 
-Matrix3d turned(double roll, double pitch, double yaw) {  // deg
-  return (AngleAxisd(radians(yaw), Vector3d::UnitZ()) *
-          AngleAxisd(radians(pitch), Vector3d::UnitY()) *
-          AngleAxisd(radians(roll), Vector3d::UnitX()))
-      .toRotationMatrix();
-}
-
-Isometry3d pose(const Vector3d& place, const Matrix3d& R) {
-  Isometry3d T = Isometry3d::Identity();
-  T.linear() = R;
-  T.translation() = place;
-  return T;
-}
-
 Vector3d horizontal(Random& random, double length) {
   const double azimuth = random.uniform(0.0, 2.0 * std::numbers::pi);
   return {length * std::cos(azimuth), length * std::sin(azimuth), 0.0};
@@ -65,30 +50,31 @@ SimulatedCar standard_car() {
 // Turns and moves a sensor by up to `angle` deg about each axis and `way` m along each.
 Isometry3d moved(Random& random, const Isometry3d& T_car_sensor, double angle, double way) {
   const auto to = [&](double most) { return random.uniform(-most, most); };
-  const double roll = to(angle), pitch = to(angle), yaw = to(angle);
+  const double roll = to(angle), pitch = -to(angle), yaw = to(angle);
   const double forward = to(way), left = to(way), up = 0.2 * to(way);
-  return pose(T_car_sensor.translation() + Vector3d(forward, left, up),
-              turned(roll, pitch, yaw) * T_car_sensor.linear());
+  const Isometry3d by = sensor_pose({forward, left, up}, {roll, pitch, yaw});
+  Isometry3d T = T_car_sensor;
+  T.linear() = by.linear() * T.linear();
+  T.translation() += by.translation();
+  return T;
 }
 
 SimulatedCar drawn_car(std::uint64_t seed) {
   Random random(seed, 33);
-  const SimulatedCar standard = standard_car();
-  SimulatedCar car = standard;
+  SimulatedCar car = standard_car();
+  const Isometry3d T_car_velo_standard = car.T_velo_body.inverse();
+  const Isometry3d T_car_cam_standard = T_car_velo_standard * car.T_cam_velo.inverse();
   const double axle = random.uniform(0.0, 2.0);
   const double roll = random.uniform(-3.0, 3.0), climb = random.uniform(-1.0, 1.0);
   const double yaw = random.uniform(-3.0, 3.0);
-  car.T_car_body = pose({axle, 0.0, 0.0}, turned(roll, climb, yaw));
-  const Isometry3d T_car_velo =
-      moved(random, standard.T_car_body * standard.T_velo_body.inverse(), 2.0, 0.5);
-  const Isometry3d T_car_cam = moved(
-      random, standard.T_car_body * standard.T_velo_body.inverse() * standard.T_cam_velo.inverse(),
-      2.0, 0.5);
+  car.T_car_body = sensor_pose({axle, 0.0, 0.0}, {roll, -climb, yaw});
+  const Isometry3d T_car_velo = moved(random, T_car_velo_standard, 2.0, 0.5);
+  const Isometry3d T_car_cam = moved(random, T_car_cam_standard, 2.0, 0.5);
   car.T_cam_velo = T_car_cam.inverse() * T_car_velo;
   car.T_velo_body = T_car_velo.inverse() * car.T_car_body;
-  const Vector3d T_car_antenna =
+  const Vector3d antenna_in_car =
       Vector3d(axle, 0.0, 0.75) + horizontal(random, random.uniform(0.0, 1.0));
-  car.antenna = car.T_car_body.inverse() * T_car_antenna;
+  car.antenna = car.T_car_body.inverse() * antenna_in_car;
   car.imu_delay = random.uniform(0.0, 0.05);
   car.camera_delay = random.uniform(0.0, 0.05);
   return car;
@@ -132,8 +118,9 @@ VehicleDescription rough_description(const SimulatedCar& car, std::uint64_t seed
   constexpr double place = 0.5, place_sigma = 0.4;  // m
   const auto degree = [&] { return random.chance(0.5) ? 1.0 : -1.0; };
   SimulatedCar believed = car;
-  const double roll = degree(), pitch = degree(), yaw = degree();
-  const Isometry3d X = pose(horizontal(random, place), turned(roll, pitch, yaw));
+  const double roll = degree(), pitch = -degree(), yaw = degree();
+  const Vector3d by = horizontal(random, place);
+  const Isometry3d X = sensor_pose({by.x(), by.y(), 0.0}, {roll, pitch, yaw});
   believed.T_velo_body = car.T_velo_body * X.inverse();
   believed.antenna += horizontal(random, place);
   VehicleDescription d = description_of(calibration_of(believed));
